@@ -1,0 +1,21 @@
+// From a GUF file to the typed configuration that every role reads.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "lib/failure/error.hpp"
+#include "lib/radar/configuration.hpp"
+
+namespace yars::config {
+
+struct LoadedConfiguration {
+  radar::RadarConfiguration radar;
+  std::vector<std::string> warnings;  // old spellings, unknown forms that fell back, slots nobody reads
+};
+
+// An empty path gives the built-in defaults. Errors carry file, line, column and what was expected.
+failure::Expected<LoadedConfiguration> load_configuration(const std::filesystem::path& path);
+
+}  // namespace yars::config

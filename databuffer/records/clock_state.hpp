@@ -1,0 +1,23 @@
+// The session's clock: sim time [ns] = base + rate x (CLOCK_MONOTONIC - base), while it runs.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+namespace yars::databuffer {
+
+struct ClockState {
+  std::int64_t base_sim_ns;        // [ns]
+  std::int64_t base_monotonic_ns;  // [ns]
+  double rate;                     // [0, 10]
+  std::uint32_t running;           // 1 runs, 0 frozen
+  std::uint32_t epoch;             // raised by each reset or repositioning
+  double reposition_latitude_deg;  // [deg] of the last repositioning; NaN = none in this epoch
+  double reposition_longitude_deg;
+  double reposition_altitude_m;    // [m] MSL
+  double reposition_heading_deg;   // [deg] true
+  std::uint64_t reserved[4];
+};
+static_assert(sizeof(ClockState) == 96 && std::is_trivially_copyable_v<ClockState>);
+
+}  // namespace yars::databuffer

@@ -1,0 +1,75 @@
+// One session: the shared segment yars.UID.SESSION with its layout, and what a process may claim in it.
+// Only shells (*_main.cpp, *_shell.*) use it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "databuffer/session_layout.hpp"
+#include "lib/failure/error.hpp"
+
+namespace yars::databuffer {
+
+// Writers of which a session has one; the number is the byte of the segment file that its holder locks.
+enum class Role : std::uint8_t { radar_model = 1, state_machine = 2, recorder = 3, clock = 4 };
+std::string_view name_of(Role role);
+
+// A byte lock held; the kernel frees it when the process dies. Moving it moves the lock.
+class Claim {
+ public:
+  Claim() = default;
+  Claim(Claim&& other) noexcept;
+  Claim& operator=(Claim&& other) noexcept;
+  ~Claim();
+  int lane() const { return lane_; }  // index of the ownship or input lane; -1 for a role
+
+ private:
+  friend class Session;
+  struct Hold;
+  std::unique_ptr<Hold> hold_;
+  int lane_ = -1;
+};
+
+class Session {
+ public:
+  // Attaches to the session, or creates it. `process_name` goes into the process table, for people.
+  static failure::Expected<Session> open(const std::string& name, std::string_view process_name);
+  // For readers that come and go: maps read-only, is not in the process table, holds no lock.
+  static failure::Expected<Session> open_read_only(const std::string& name);
+
+  Session(Session&&) noexcept;
+  Session& operator=(Session&&) noexcept;
+  ~Session();  // who leaves last unlinks the segment
+
+  SessionLayout& layout();
+  const SessionLayout& layout() const;
+
+  failure::Expected<Claim> claim(Role role);  // an error names the holder's pid and program
+  failure::Expected<Claim> claim_ownship_lane(std::uint32_t priority);  // higher wins; clears what a dead writer left
+  failure::Expected<Claim> claim_input_lane(std::string_view source);
+
+  bool role_is_held(Role role) const;  // by any process, this one included
+  void heartbeat();  // shows in `yars status`; call about once a second or each tick (it is one store)
+
+  // Session clock: sim time [ns] of this moment; the state behind it.
+  ClockState clock() const;
+  std::int64_t sim_time_ns() const;
+  // Takes the clock's byte for the moment of the change.
+  failure::Expected<void> set_clock(const ClockState& state);
+
+  // A line into the flight recorder (also counted): refusals, restarts, losses, late ticks.
+  void note(NoteKind kind, std::string_view text);
+
+ private:
+  struct State;
+  explicit Session(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+std::int64_t monotonic_ns();  // [ns] CLOCK_MONOTONIC
+// Sim time [ns] at a moment of CLOCK_MONOTONIC: base + rate x elapsed while running.
+std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns);
+
+}  // namespace yars::databuffer

@@ -1,0 +1,88 @@
+// What lies in the segment of a session. The order is the layout; a change raises kLayoutVersion.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+#include "databuffer/records/clock_state.hpp"
+#include "databuffer/records/model_records.hpp"
+#include "databuffer/records/ownship.hpp"
+#include "databuffer/records/radar_state.hpp"
+#include "shm/broadcast_ring.hpp"
+#include "shm/input_lanes.hpp"
+#include "shm/latest_value.hpp"
+#include "shm/segment.hpp"
+
+namespace yars::databuffer {
+
+inline constexpr std::uint32_t kLayoutVersion = 1;
+inline constexpr std::size_t kOwnshipLanes = 4;
+inline constexpr std::size_t kInputLanes = 16;
+inline constexpr std::size_t kInputLaneDepth = 128;
+inline constexpr std::size_t kProcesses = 32;
+inline constexpr std::size_t kNotes = 1000;
+inline constexpr std::size_t kPatchSlots = 8;
+
+// Lines of the flight recorder.
+enum class NoteKind : std::uint32_t { restart = 0, refusal = 1, loss = 2, late_tick = 3, supervision = 4 };
+inline constexpr std::size_t kNoteKinds = 5;
+
+// For people: who is here. Presence is decided by locks, not by this table.
+struct ProcessEntry {
+  std::atomic<std::int64_t> heartbeat_ns;  // CLOCK_MONOTONIC
+  std::atomic<std::int32_t> pid;           // 0 = free
+  std::atomic<std::uint32_t> reserved;
+  std::array<std::atomic<std::uint64_t>, 3> name;  // 23 characters and a zero
+};
+
+struct Note {
+  std::int64_t monotonic_ns;
+  std::int64_t sim_time_ns;
+  std::int32_t pid;
+  std::uint32_t kind;   // NoteKind
+  char process[16];
+  char text[88];
+};
+static_assert(sizeof(Note) == 128);
+
+// Who steps when the session runs in lockstep: each role waits until its predecessor in the chain has done the tick.
+inline constexpr std::size_t kLockstepRoles = 5;  // flight-model, input-monitor, state-machine, radar-model, radar-display
+struct Lockstep {
+  std::atomic<std::uint32_t> enabled;              // set by the creator before anyone else attaches
+  std::atomic<std::uint32_t> roles;                // bit n: role n takes part
+  std::atomic<std::int64_t> end_tick;              // all stop cleanly after this tick; -1 = none
+  std::array<std::atomic<std::int64_t>, kLockstepRoles> done_tick;  // last tick done; -1 = none
+  std::array<std::atomic<std::uint32_t>, kLockstepRoles> wake;      // futex words, count up with done_tick
+  std::uint32_t padding;
+};
+
+struct PatchSlot {
+  std::atomic<std::uint64_t> id;                   // 0 = empty
+  std::atomic<std::uint32_t> epoch;
+  std::atomic<std::uint32_t> progress_permille;
+  std::array<std::atomic<std::uint64_t>, 32> georeference;  // layout comes with the patch maps
+  std::array<std::atomic<std::uint64_t>, 1024 * 1024 / 8> pixels;
+};
+
+struct SessionLayout {
+  shm::SegmentHeader header;
+  Lockstep lockstep;
+  shm::LatestValue<ClockState> clock;
+  std::array<std::atomic<std::uint32_t>, kOwnshipLanes> ownship_priority;
+  std::array<shm::LatestValue<Ownship>, kOwnshipLanes> ownship;
+  std::array<shm::LatestValue<Nav>, kOwnshipLanes> nav;
+  shm::LatestValue<RadarState> radar_state;
+  shm::LatestValue<ModelStatus> model_status;
+  shm::BroadcastRing<ModelTick, 1024> model_ticks;
+  shm::BroadcastRing<AppliedEvent, 1024> applied_events;
+  shm::BroadcastRing<Sweep, 1024> sweeps;
+  shm::InputLanes<InputEvent, kInputLanes, kInputLaneDepth> input;
+  std::array<ProcessEntry, kProcesses> processes;
+  std::array<std::atomic<std::uint64_t>, kNoteKinds> note_counts;
+  shm::NoteRing<Note, kNotes> notes;               // many writers; a writer that dies loses its own line only
+  std::array<PatchSlot, kPatchSlots> patches;
+};
+
+}  // namespace yars::databuffer

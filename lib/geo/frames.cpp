@@ -1,0 +1,36 @@
+#include "lib/geo/frames.hpp"
+
+#include <GeographicLib/Constants.hpp>
+#include <GeographicLib/Geocentric.hpp>
+#include <cmath>
+
+namespace yars::geo {
+
+Vector3 ecef_from_geodetic(GeoPoint point, HeightAboveEllipsoid height) {
+  Vector3 ecef;
+  GeographicLib::Geocentric::WGS84().Forward(point.latitude_deg, point.longitude_deg, height.metres(), ecef.x, ecef.y,
+                                             ecef.z);
+  return ecef;
+}
+
+LocalTangentFrame::LocalTangentFrame(GeoPoint origin, HeightAboveEllipsoid height)
+    : origin_(ecef_from_geodetic(origin, height)) {
+  const double sin_lat = std::sin(origin.latitude_deg * kRadiansPerDegree);
+  const double cos_lat = std::cos(origin.latitude_deg * kRadiansPerDegree);
+  const double sin_lon = std::sin(origin.longitude_deg * kRadiansPerDegree);
+  const double cos_lon = std::cos(origin.longitude_deg * kRadiansPerDegree);
+  rows_ = {Vector3{-sin_lon, cos_lon, 0.0}, Vector3{-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat},
+           Vector3{cos_lat * cos_lon, cos_lat * sin_lon, sin_lat}};
+}
+
+Vector3 LocalTangentFrame::enu_from_ecef(Vector3 ecef) const {
+  const Vector3 d{ecef.x - origin_.x, ecef.y - origin_.y, ecef.z - origin_.z};
+  const auto along = [&d](const Vector3& row) { return row.x * d.x + row.y * d.y + row.z * d.z; };
+  return {along(rows_[0]), along(rows_[1]), along(rows_[2])};
+}
+
+Vector3 LocalTangentFrame::enu_from_geodetic(GeoPoint point, HeightAboveEllipsoid height) const {
+  return enu_from_ecef(ecef_from_geodetic(point, height));
+}
+
+}  // namespace yars::geo

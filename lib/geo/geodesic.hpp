@@ -1,0 +1,50 @@
+// Geodesics on WGS84; the only caller of GeographicLib. Accuracy: 15 nm (Karney 2013, J. Geodesy 87, 43-55).
+#pragma once
+
+#include <memory>
+
+#include "lib/geo/bearing.hpp"
+#include "lib/geo/quantity.hpp"
+
+namespace yars::geo {
+
+// Where on the ellipsoid: geodetic latitude [-90, 90], longitude [-180, 180], degrees, WGS84.
+struct GeoPoint {
+  double latitude_deg = 0.0;
+  double longitude_deg = 0.0;
+};
+
+struct GeodesicInverse {
+  Length distance;
+  Bearing azimuth_at_start;
+  Bearing azimuth_at_end;
+};
+
+GeodesicInverse geodesic_inverse(GeoPoint from, GeoPoint to);
+GeoPoint geodesic_direct(GeoPoint from, Bearing azimuth, Length distance);
+
+// A ray from one point along one azimuth; positions along it are exact and cheap (one series each).
+class GeodesicRay {
+ public:
+  GeodesicRay(GeoPoint start, Bearing azimuth);
+  ~GeodesicRay();
+  GeodesicRay(GeodesicRay&&) noexcept;
+  GeodesicRay& operator=(GeodesicRay&&) noexcept;
+
+  GeoPoint position(Length distance) const;
+  // Position and the azimuth of the ray there.
+  struct Place {
+    GeoPoint point;
+    Bearing azimuth;
+  };
+  Place place(Length distance) const;
+
+ private:
+  struct Line;
+  std::unique_ptr<Line> line_;
+};
+
+// Radius of curvature of the ellipsoid at a latitude along an azimuth (Euler): the earth radius that a ray feels.
+Length radius_of_curvature(double latitude_deg, Bearing azimuth);
+
+}  // namespace yars::geo

@@ -1,0 +1,101 @@
+// Quantities with a unit: one double, SI inside, named factories and getters. In a hot loop unwrap once
+// (`const double range_m = range.metres()`).
+#pragma once
+
+#include <compare>
+#include <numbers>
+
+namespace yars::geo {
+
+// What every quantity can do: add, subtract, scale, compare, and a ratio of two is a number.
+template <class Derived>
+class Quantity {
+ public:
+  constexpr Quantity() = default;
+  friend constexpr Derived operator+(Derived a, Derived b) { return Derived::from_si(a.si_ + b.si_); }
+  friend constexpr Derived operator-(Derived a, Derived b) { return Derived::from_si(a.si_ - b.si_); }
+  friend constexpr Derived operator-(Derived a) { return Derived::from_si(-a.si_); }
+  friend constexpr Derived operator*(Derived a, double factor) { return Derived::from_si(a.si_ * factor); }
+  friend constexpr Derived operator*(double factor, Derived a) { return Derived::from_si(a.si_ * factor); }
+  friend constexpr Derived operator/(Derived a, double divisor) { return Derived::from_si(a.si_ / divisor); }
+  friend constexpr double operator/(Derived a, Derived b) { return a.si_ / b.si_; }
+  friend constexpr auto operator<=>(Derived a, Derived b) { return a.si_ <=> b.si_; }
+  friend constexpr bool operator==(Derived a, Derived b) { return a.si_ == b.si_; }
+
+ protected:
+  constexpr explicit Quantity(double si) : si_(si) {}
+  double si_ = 0.0;
+};
+
+inline constexpr double kMetresPerNauticalMile = 1852.0;  // [m] exact, 1929 convention; ranges and NM readouts scale by it
+inline constexpr double kMetresPerFoot = 0.3048;          // [m] exact, international foot
+inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+
+class Length : public Quantity<Length> {
+ public:
+  constexpr Length() = default;
+  static constexpr Length from_si(double metres) { return Length(metres); }
+  static constexpr Length metres(double value) { return Length(value); }
+  static constexpr Length feet(double value) { return Length(value * kMetresPerFoot); }
+  static constexpr Length nautical_miles(double value) { return Length(value * kMetresPerNauticalMile); }
+  constexpr double metres() const { return si_; }
+  constexpr double feet() const { return si_ / kMetresPerFoot; }
+  constexpr double nautical_miles() const { return si_ / kMetresPerNauticalMile; }
+
+ private:
+  constexpr explicit Length(double si) : Quantity(si) {}
+};
+
+// A difference of directions, or a rotation. Not wrapped: 370 degrees stay 370 degrees.
+class Angle : public Quantity<Angle> {
+ public:
+  constexpr Angle() = default;
+  static constexpr Angle from_si(double radians) { return Angle(radians); }
+  static constexpr Angle radians(double value) { return Angle(value); }
+  static constexpr Angle degrees(double value) { return Angle(value * kRadiansPerDegree); }
+  constexpr double radians() const { return si_; }
+  constexpr double degrees() const { return si_ / kRadiansPerDegree; }
+
+ private:
+  constexpr explicit Angle(double si) : Quantity(si) {}
+};
+
+class Speed : public Quantity<Speed> {
+ public:
+  constexpr Speed() = default;
+  static constexpr Speed from_si(double value) { return Speed(value); }
+  static constexpr Speed metres_per_second(double value) { return Speed(value); }
+  static constexpr Speed knots(double value) { return Speed(value * kMetresPerNauticalMile / 3600.0); }
+  constexpr double metres_per_second() const { return si_; }
+  constexpr double knots() const { return si_ * 3600.0 / kMetresPerNauticalMile; }
+
+ private:
+  constexpr explicit Speed(double si) : Quantity(si) {}
+};
+
+class Duration : public Quantity<Duration> {
+ public:
+  constexpr Duration() = default;
+  static constexpr Duration from_si(double value) { return Duration(value); }
+  static constexpr Duration seconds(double value) { return Duration(value); }
+  constexpr double seconds() const { return si_; }
+
+ private:
+  constexpr explicit Duration(double si) : Quantity(si) {}
+};
+
+// A power ratio, 10 log10.
+class Decibels : public Quantity<Decibels> {
+ public:
+  constexpr Decibels() = default;
+  static constexpr Decibels from_si(double value) { return Decibels(value); }
+  static constexpr Decibels of(double value) { return Decibels(value); }
+  static Decibels from_ratio(double power_ratio);
+  constexpr double decibels() const { return si_; }
+  double ratio() const;
+
+ private:
+  constexpr explicit Decibels(double si) : Quantity(si) {}
+};
+
+}  // namespace yars::geo

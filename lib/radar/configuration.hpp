@@ -1,0 +1,95 @@
+// What a configuration file settles about one radar: pure values, defaults are the APG-70's. config/ fills it
+// from GUF; every role reads the same structure.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lib/geo/geodesic.hpp"
+#include "lib/radar/modes.hpp"
+
+namespace yars::radar {
+
+// Servo of the dish. Source: tables of the 1996 report and spec pvi.md rule 2.
+struct AntennaConfiguration {
+  double azimuth_rate_dps = 110.0;       // [deg/s] scanning; FULL (100 deg) then takes 0.91 s + turn-around = 1 s
+  double elevation_rate_dps = 110.0;     // [deg/s]
+  double azimuth_limit_deg = 60.0;       // [deg] gimbal, either side of the nose
+  double elevation_limit_deg = 60.0;     // [deg] gimbal
+  double tolerance_deg = 0.1;            // [deg] a commanded position counts as reached within this
+  double drift_limit_deg = 10.0;         // [deg] the scan follows the ground track up to this drift
+  double azimuth_beamwidth_deg = 2.5;    // [deg] two-way 3 dB
+  double elevation_beamwidth_deg = 2.5;  // [deg] two-way 3 dB
+  bool circular_scan = false;            // goes round instead of back and forth
+  int scan_bars = 1;                     // 1-4 elevation bars
+};
+
+// Glass geometry: fractions of the selected range. Slots of RbmDisplay.
+struct ViewConfiguration {
+  double width_min = -0.6, width_max = 0.6;
+  double height_min = -0.1, height_max = 1.1;
+  int size_pixels = 480;
+};
+
+enum class EarthModel : std::uint8_t { flat = 0, sphere = 1, ellipsoid = 2 };
+enum class BeamPattern : std::uint8_t { hard_edge = 0, gaussian = 1, cosecant_squared = 2 };
+enum class Algorithm : std::uint8_t { standard = 0, reference = 1 };
+
+// The trade of speed against accuracy, by name or knob by knob.
+struct Fidelity {
+  std::string name = "standard";
+  Algorithm algorithm = Algorithm::standard;
+  EarthModel earth = EarthModel::ellipsoid;
+  double earth_radius_factor = 4.0 / 3.0;  // k; 1 = no refraction
+  int samples = 480;                       // a sweep, 1..4096
+  bool slant_range = false;                // samples even in slant instead of ground range
+  bool cross_track_slope = false;
+  bool noise = true;
+  bool azimuth_smear = true;
+  bool pulse_smear = true;
+  BeamPattern beam = BeamPattern::gaussian;
+};
+
+// Receiver and land/sea return; spec physics.md "Power and video".
+struct ReceiverConfiguration {
+  double frequency_ghz = 9.6;
+  double stc_exponent = 3.0;          // sensitivity time control (R/R0)^n
+  double dynamic_range_db = 45.0;     // [dB] of the log receiver, black to white at gain 3
+  double gain_step_db = 8.0;          // [dB] a step of GAIN 3..0
+  double noise_floor_db = -38.0;      // [dB] thermal noise below full scale
+  double land_gamma_db = -14.0;       // [dB] sigma0 = gamma sin(psi)
+  double sea_gamma_db = -30.0;        // [dB] until the sea model of a later issue
+  int looks = 4;                      // of land and sea speckle
+};
+
+struct TerrainConfiguration {
+  std::string directory;              // empty: the built-in analytic hills
+  bool missing_cell_is_sea = true;    // an absent cell is sea at 0 m; false: void
+};
+
+// One point of the route; names as in pvi.md rule 11.
+struct RoutePoint {
+  std::string name;                   // "2", "2.", "2.1", "2.01"
+  PointKind kind = PointKind::steer;
+  geo::GeoPoint place;
+  double elevation_m = 0.0;           // [m] MSL; NaN = unknown
+};
+
+struct RadarConfiguration {
+  std::string name = "APG-70";
+  std::vector<double> ranges_nm{4.7, 10, 20, 40, 80, 160};
+  std::vector<double> scan_widths_deg{100, 50, 25};   // FULL, HALF, QTR
+  std::vector<double> windows_nm{0.67, 1.3, 3.3, 4.7, 10, 20, 40, 80};
+  std::vector<double> pulse_us{0.26, 0.5, 1, 2, 4, 6};  // by range; the last serves whatever lies beyond
+  AntennaConfiguration antenna;
+  ViewConfiguration view;
+  Fidelity fidelity;
+  ReceiverConfiguration receiver;
+  TerrainConfiguration terrain;
+  std::vector<RoutePoint> route;
+  std::uint64_t seed = 1;
+  double magnetic_variation_deg = 0.0;  // [deg] east positive
+};
+
+}  // namespace yars::radar

@@ -1,0 +1,42 @@
+// The radar model as one pure step: configuration, terrain, seed and the ticks up to now decide every sweep.
+// The live process, `yars scan`, the tests and the benchmarks drive this same kernel.
+#pragma once
+
+#include <memory>
+
+#include "databuffer/records/model_records.hpp"
+#include "lib/radar/configuration.hpp"
+#include "model/terrain/terrain_view.hpp"
+
+namespace yars::model::kernel {
+
+class RadarKernel {
+ public:
+  explicit RadarKernel(const radar::RadarConfiguration& configuration);
+  ~RadarKernel();
+  RadarKernel(RadarKernel&&) noexcept;
+  RadarKernel& operator=(RadarKernel&&) noexcept;
+
+  // Takes up servo, scan and sweep numbers where a predecessor's status left them.
+  void resume(const databuffer::ModelStatus& status);
+
+  // The region that the command needs at this place, for prepare(); nothing while no video is made.
+  struct Need {
+    bool video = false;
+    terrain::TerrainRegion region;
+  };
+  Need need(const databuffer::ModelTick& tick) const;
+
+  // Advances by one tick of 5 ms. Writes `sweep` and returns true when this tick completes a sweep. No allocation
+  // after the first call of a sample count; no clock, file, log or global.
+  bool step(const databuffer::ModelTick& tick, const terrain::TerrainView& terrain, databuffer::Sweep& sweep);
+
+  // Fills all but load, terrain_bytes, late_ticks, refused: those are the shell's.
+  void describe(const terrain::TerrainView& terrain, databuffer::ModelStatus& status) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace yars::model::kernel

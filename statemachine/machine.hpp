@@ -1,0 +1,38 @@
+// The state machine as one pure step: state and inputs in, next state out.
+#pragma once
+
+#include <span>
+
+#include "databuffer/records/model_records.hpp"
+#include "databuffer/records/ownship.hpp"
+#include "databuffer/records/radar_state.hpp"
+#include "lib/radar/configuration.hpp"
+
+namespace yars::statemachine {
+
+// What the machine sees in a tick besides the events.
+struct Surroundings {
+  std::int64_t tick = 0;
+  std::uint32_t epoch = 0;
+  bool ownship_valid = false;
+  bool recorder_writing = false;
+  databuffer::Ownship ownship{};
+  databuffer::Nav nav{};
+  databuffer::ModelStatus model{};
+};
+
+// A session's first state: power off.
+databuffer::RadarState initial_state(const radar::RadarConfiguration& configuration);
+
+// Applies one event. True when it did something; false when it is dead here.
+bool apply(databuffer::RadarState& state, const databuffer::InputEvent& event, const Surroundings& surroundings,
+           const radar::RadarConfiguration& configuration);
+
+// What passes with time, once a tick after the events: cursor slew, messages that end, the points drawn, legends.
+void advance(databuffer::RadarState& state, const Surroundings& surroundings,
+             const radar::RadarConfiguration& configuration);
+
+// The part that the model acts on.
+databuffer::RadarCommand command_of(const databuffer::RadarState& state);
+
+}  // namespace yars::statemachine

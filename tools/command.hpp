@@ -1,0 +1,35 @@
+// The `yars` command: each subcommand is one source file that adds itself to the application. A callback that
+// fails throws CommandFailed; yars_main prints its message as one line and returns its code.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "lib/failure/error.hpp"
+
+namespace yars::tools {
+
+struct CommandFailed {
+  std::string message;
+  int code = 1;  // 1 failure, 2 bad usage
+};
+
+[[noreturn]] inline void give_up(const failure::Error& error, int code = 1) { throw CommandFailed{error.message(), code}; }
+
+// Options of every command, parsed before a callback runs.
+struct CommonOptions {
+  std::string session = "default";
+  std::string config;  // GUF file; empty: built-in defaults
+};
+
+void add_scan_command(CLI::App& app, const CommonOptions& common);
+void add_terrain_command(CLI::App& app, const CommonOptions& common);
+void add_config_command(CLI::App& app, const CommonOptions& common);
+void add_sim_command(CLI::App& app, const CommonOptions& common);
+void add_inject_command(CLI::App& app, const CommonOptions& common);
+void add_status_command(CLI::App& app, const CommonOptions& common);
+void add_watch_command(CLI::App& app, const CommonOptions& common);
+void add_record_command(CLI::App& app, const CommonOptions& common);
+void add_replay_command(CLI::App& app, const CommonOptions& common);
+
+}  // namespace yars::tools
