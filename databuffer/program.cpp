@@ -1,0 +1,100 @@
+#include "databuffer/program.hpp"
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+#include "config/load.hpp"
+#include "databuffer/log.hpp"
+
+namespace yars::databuffer {
+
+namespace {
+
+volatile std::sig_atomic_t stop_flag = 0;
+
+void on_signal(int) {
+  stop_flag = 1;
+}
+
+void install_signal_handlers() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;  // no SA_RESTART: a sleep or a poll ends at once
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+void print_line(const std::string& program, const std::string& text) {
+  std::fprintf(stderr, "%s: %s\n", program.c_str(), text.c_str());
+}
+
+// Marks an Error as the command line's fault; it does not belong to the message.
+constexpr const char* kUsageMark = "\x01usage";
+
+}  // namespace
+
+void add_common_options(CLI::App& app, ProgramOptions& options, bool is_role) {
+  if (const char* session = std::getenv("YARS_SESSION"); session != nullptr && *session != '\0')
+    options.session = session;
+  app.set_version_flag("--version", std::string(YARS_VERSION));
+  app.add_option("--session", options.session, "session to join or make (else $YARS_SESSION, else 'default')");
+  app.add_option("--config", options.config, "GUF configuration file (else the built-in APG-70)");
+  app.add_option("--log-level", options.log_level, "trace, debug, info, warning, error or off");
+  if (is_role)
+    app.add_option("--lockstep", options.lockstep,
+                   "roles that step together on sim time, ROLE,ROLE,...[@END_TICK]; the same for all of them");
+}
+
+int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& options, const ProgramBody& body) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    print_line(app.get_name(), std::string(error.what()) + "; see " + app.get_name() + " --help");
+    return kExitUsage;
+  }
+  if (!start_log(app.get_name(), options.log_level)) {
+    print_line(app.get_name(),
+               "--log-level: expected trace, debug, info, warning, error or off, found '" + options.log_level + "'");
+    return kExitUsage;
+  }
+  install_signal_handlers();
+  try {
+    if (auto outcome = body(); !outcome) {
+      const bool usage = outcome.error().action.ends_with(kUsageMark);
+      auto error = outcome.error();
+      if (usage) error.action.resize(error.action.size() - std::string_view(kUsageMark).size());
+      print_line(app.get_name(), error.message());
+      return usage ? kExitUsage : kExitFailure;
+    }
+  } catch (const std::exception& problem) {
+    print_line(app.get_name(), std::string("stopped by ") + problem.what());
+    return kExitFailure;
+  }
+  return 0;
+}
+
+failure::Error usage_error(std::string subject, std::string expected, std::string found, std::string action) {
+  return {std::move(subject), std::move(expected), std::move(found), std::move(action) + kUsageMark};
+}
+
+bool stop_requested() {
+  return stop_flag != 0;
+}
+
+void request_stop() {
+  stop_flag = 1;
+}
+
+failure::Expected<radar::RadarConfiguration> load_program_configuration(const ProgramOptions& options) {
+  auto loaded = config::load_configuration(options.config);
+  if (!loaded) return tl::unexpected(loaded.error());
+  for (const auto& warning : loaded->warnings) log_warning(warning);
+  return std::move(loaded->radar);
+}
+
+}  // namespace yars::databuffer

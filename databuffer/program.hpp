@@ -1,0 +1,43 @@
+// What all programs of the set share: options, exit codes, signals.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "lib/failure/error.hpp"
+#include "lib/radar/configuration.hpp"
+
+namespace yars::databuffer {
+
+struct ProgramOptions {
+  std::string session = "default";  // --session, else YARS_SESSION, else "default"
+  std::string config;               // --config; empty = built-in defaults
+  std::string log_level = "info";
+  std::string lockstep;  // --lockstep ROLE,ROLE,...[@END_TICK]; empty = live
+};
+
+inline constexpr int kExitFailure = 1;
+inline constexpr int kExitUsage = 2;
+
+// Adds --session, --config, --log-level, --version (and --lockstep for a role). The application's name is the
+// program's.
+void add_common_options(CLI::App& app, ProgramOptions& options, bool is_role);
+
+// Parses, starts the log, installs the handlers of SIGINT and SIGTERM and runs the body; the body's error becomes
+// one line on standard error and exit code 1. Bad usage is one line and exit code 2.
+using ProgramBody = std::function<failure::Expected<void>()>;
+int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& options, const ProgramBody& body);
+
+// An error that the user's command line caused: exit code 2 instead of 1.
+failure::Error usage_error(std::string subject, std::string expected, std::string found, std::string action = {});
+
+// True after SIGINT, SIGTERM or request_stop().
+bool stop_requested();
+void request_stop();
+
+// Loads the configuration and logs its warnings.
+failure::Expected<radar::RadarConfiguration> load_program_configuration(const ProgramOptions& options);
+
+}  // namespace yars::databuffer
