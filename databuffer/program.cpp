@@ -31,9 +31,6 @@ void print_line(const std::string& program, const std::string& text) {
   std::fprintf(stderr, "%s: %s\n", program.c_str(), text.c_str());
 }
 
-// Marks an Error as the command line's fault; it does not belong to the message.
-constexpr const char* kUsageMark = "\x01usage";
-
 }  // namespace
 
 void add_common_options(CLI::App& app, ProgramOptions& options, bool is_role) {
@@ -65,11 +62,8 @@ int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& opti
   install_signal_handlers();
   try {
     if (auto outcome = body(); !outcome) {
-      const bool usage = outcome.error().action.ends_with(kUsageMark);
-      auto error = outcome.error();
-      if (usage) error.action.resize(error.action.size() - std::string_view(kUsageMark).size());
-      print_line(app.get_name(), error.message());
-      return usage ? kExitUsage : kExitFailure;
+      print_line(app.get_name(), outcome.error().message());
+      return outcome.error().bad_usage ? kExitUsage : kExitFailure;
     }
   } catch (const std::exception& problem) {
     print_line(app.get_name(), std::string("stopped by ") + problem.what());
@@ -79,7 +73,7 @@ int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& opti
 }
 
 failure::Error usage_error(std::string subject, std::string expected, std::string found, std::string action) {
-  return {std::move(subject), std::move(expected), std::move(found), std::move(action) + kUsageMark};
+  return {std::move(subject), std::move(expected), std::move(found), std::move(action), true};
 }
 
 bool stop_requested() {

@@ -8,10 +8,11 @@
 namespace yars::failure {
 
 struct Error {
-  std::string subject;   // what it is about: a path, an option, a record
-  std::string expected;  // what would have been right
-  std::string found;     // what was there
-  std::string action;    // what the reader can do; may be empty
+  std::string subject;     // what it is about: a path, an option, a record
+  std::string expected;    // what would have been right
+  std::string found;       // what was there
+  std::string action;      // what the reader can do; may be empty
+  bool bad_usage = false;  // the command line caused it: exit code 2 instead of 1
 
   std::string message() const;
 };
@@ -22,7 +23,7 @@ using Expected = tl::expected<T, Error>;
 inline tl::unexpected<Error> fail(std::string subject, std::string expected, std::string found,
                                   std::string action = {}) {
   return tl::unexpected<Error>(
-      Error{std::move(subject), std::move(expected), std::move(found), std::move(action)});
+      Error{std::move(subject), std::move(expected), std::move(found), std::move(action), false});
 }
 
 }  // namespace yars::failure

@@ -1,0 +1,25 @@
+#include "databuffer/records/radar_command.hpp"
+
+namespace yars::databuffer {
+
+RadarCommand command_from_state(const RadarState& state) {
+  RadarCommand command{};
+  command.range_nm = state.range_nm;
+  command.scan_width_deg = state.scan_width_deg;
+  command.antenna_elevation_deg = state.antenna_elevation_deg;
+  command.cursor_latitude_deg = state.cursor_latitude_deg;
+  command.cursor_longitude_deg = state.cursor_longitude_deg;
+  command.window_nm = state.window_nm;
+  command.scan_restart = state.scan_restart;
+  command.flags = state.flags & (kFreeze | kSniff | kMultiLook2 | kProgressive | kCursorValid);
+  command.power = state.power;
+  command.mode = state.mode;
+  command.scan = state.scan;
+  command.gain = state.gain;
+  command.range_index = state.range_index;
+  command.channel = state.channel;
+  command.band = state.band;
+  return command;
+}
+
+}  // namespace yars::databuffer
