@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "lib/geo/geodesic.hpp"
 
@@ -51,6 +53,10 @@ class TerrainStore {
   // A view that holds all that exists within the region; posts outside may be dropped from memory.
   // The same view (same generation) is returned while nothing has to change.
   virtual TerrainViewPointer prepare(const TerrainRegion& region) = 0;
+
+  // What prepare() has met since the last call and a person should know: unreadable cells, odd files. Each once,
+  // a sentence each; same thread as prepare().
+  virtual std::vector<std::string> take_problems() { return {}; }
 };
 
 }  // namespace yars::model::terrain

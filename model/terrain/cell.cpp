@@ -1,0 +1,37 @@
+#include "model/terrain/cell.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lib/failure/require.hpp"
+
+namespace yars::model::terrain {
+
+CellPlace cell_holding(geo::GeoPoint point) {
+  const double latitude_deg = std::clamp(point.latitude_deg, -90.0, 90.0);
+  const double longitude_deg = geo::wrapped_degrees(point.longitude_deg);
+  // The pole itself belongs to the last row; rounding may lift a longitude just below 180 to 180.
+  return {std::min(static_cast<int>(std::floor(latitude_deg)), 89),
+          std::min(static_cast<int>(std::floor(longitude_deg)), 179)};
+}
+
+Cell::Cell(CellPlace place, int rows, int columns, std::vector<std::int16_t> posts)
+    : place_(place), rows_(rows), columns_(columns), posts_(std::move(posts)) {
+  YARS_REQUIRE(rows, >=, 2);
+  YARS_REQUIRE(columns, >=, 2);
+  YARS_REQUIRE(posts_.size(), ==, static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+  bool any = false;
+  for (const std::int16_t post_m : posts_) {
+    if (post_m == kVoidPost) {
+      ++voids_;
+      continue;
+    }
+    if (post_m == 0) ++sea_posts_;
+    lowest_m_ = any ? std::min(lowest_m_, post_m) : post_m;
+    highest_m_ = any ? std::max(highest_m_, post_m) : post_m;
+    any = true;
+  }
+}
+
+}  // namespace yars::model::terrain

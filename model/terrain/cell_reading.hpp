@@ -1,0 +1,31 @@
+// What a reader of elevation files hands back: the cell, and what was odd about the file without spoiling it.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lib/failure/error.hpp"
+#include "model/terrain/cell.hpp"
+
+namespace yars::model::terrain {
+
+struct CellReading {
+  Cell cell;
+  std::vector<std::string> warnings;  // one sentence each, without the file's name
+};
+
+// A whole file in memory. Fails on a file that cannot be opened or is larger than `limit_bytes`.
+failure::Expected<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::size_t limit_bytes);
+
+// Big-endian words of elevation files; the caller has checked that two (four) bytes are there.
+inline std::uint16_t big_endian_16(const std::byte* bytes) {
+  return static_cast<std::uint16_t>(std::to_integer<unsigned>(bytes[0]) << 8U | std::to_integer<unsigned>(bytes[1]));
+}
+inline std::uint32_t big_endian_32(const std::byte* bytes) {
+  return static_cast<std::uint32_t>(big_endian_16(bytes)) << 16U | big_endian_16(bytes + 2);
+}
+
+}  // namespace yars::model::terrain

@@ -1,0 +1,85 @@
+#include "model/terrain/cell_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "lib/failure/require.hpp"
+#include "model/terrain/bilinear.hpp"
+
+namespace yars::model::terrain {
+
+namespace {
+
+bool finite(double latitude_deg, double longitude_deg) {
+  return std::isfinite(latitude_deg) && std::isfinite(longitude_deg);
+}
+
+}  // namespace
+
+CellView::CellView(std::uint64_t generation, Absence elsewhere) : generation_(generation) {
+  table_.fill(static_cast<std::uint16_t>(elsewhere));
+}
+
+void CellView::set_absence(CellPlace place, Absence absence) {
+  table_[slot_of(place)] = static_cast<std::uint16_t>(absence);
+}
+
+void CellView::add(std::shared_ptr<const Cell> cell) {
+  table_[slot_of(cell->place())] = static_cast<std::uint16_t>(kFirstCell + cells_.size());
+  resident_bytes_ += cell->bytes();
+  cells_.push_back(std::move(cell));
+}
+
+double CellView::elevation_m(geo::GeoPoint place) const {
+  constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
+  if (!finite(place.latitude_deg, place.longitude_deg)) return kNoHeight;
+  const CellPlace corner = cell_holding(place);
+  const std::uint16_t what = entry(corner);
+  if (what == static_cast<std::uint16_t>(Absence::sea)) return 0.0;
+  if (what < kFirstCell) return kNoHeight;
+  return interpolate(*cells_[what - kFirstCell], place.latitude_deg - corner.south_deg,
+                     geo::wrapped_degrees(place.longitude_deg) - corner.west_deg)
+      .elevation_m;
+}
+
+std::size_t CellView::elevations(std::span<const double> latitude_deg, std::span<const double> longitude_deg,
+                                 std::span<float> elevation_m, std::span<float> water) const {
+  const std::size_t places = latitude_deg.size();
+  YARS_REQUIRE(longitude_deg.size(), ==, places);
+  YARS_REQUIRE(elevation_m.size(), ==, places);
+  YARS_REQUIRE(water.size(), ==, places);
+  std::size_t not_loaded = 0;
+  for (std::size_t start = 0; start < places;) {
+    std::size_t end = start + 1;
+    std::uint16_t what = static_cast<std::uint16_t>(Absence::none);
+    double shift_deg = 0.0;
+    if (finite(latitude_deg[start], longitude_deg[start])) {
+      const CellPlace corner = cell_holding({latitude_deg[start], longitude_deg[start]});
+      what = entry(corner);
+      // Whole turns that bring this run's longitudes beside the cell.
+      shift_deg = 360.0 * std::round((corner.west_deg + 0.5 - longitude_deg[start]) / 360.0);
+      const double west_deg = corner.west_deg - shift_deg;
+      while (end < places && latitude_deg[end] >= corner.south_deg && latitude_deg[end] < corner.south_deg + 1 &&
+             longitude_deg[end] >= west_deg && longitude_deg[end] < west_deg + 1)
+        ++end;
+    }
+    const std::size_t count = end - start;
+    if (what >= kFirstCell) {
+      interpolate_run(*cells_[what - kFirstCell], shift_deg, latitude_deg.subspan(start, count),
+                      longitude_deg.subspan(start, count), elevation_m.subspan(start, count),
+                      water.subspan(start, count));
+    } else {
+      const bool sea = what == static_cast<std::uint16_t>(Absence::sea);
+      std::fill_n(elevation_m.begin() + static_cast<std::ptrdiff_t>(start), count,
+                  sea ? 0.0F : std::numeric_limits<float>::quiet_NaN());
+      std::fill_n(water.begin() + static_cast<std::ptrdiff_t>(start), count, sea ? 1.0F : 0.0F);
+      if (what == static_cast<std::uint16_t>(Absence::not_loaded)) not_loaded += count;
+    }
+    start = end;
+  }
+  return not_loaded;
+}
+
+}  // namespace yars::model::terrain

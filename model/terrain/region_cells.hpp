@@ -1,0 +1,14 @@
+// The one-degree cells that a disc on the earth touches; a few that it only nears may be among them.
+// Works across the antimeridian and over the poles. Result in ascending slot order, each once.
+#pragma once
+
+#include <vector>
+
+#include "model/terrain/cell.hpp"
+#include "model/terrain/terrain_view.hpp"
+
+namespace yars::model::terrain {
+
+std::vector<CellPlace> cells_within(const TerrainRegion& region);
+
+}  // namespace yars::model::terrain

@@ -1,0 +1,18 @@
+// Where the real elevation cells lie, for tests that use them; skip with a clear word where they are absent.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace yars::test {
+
+inline std::filesystem::path shared_data() {
+  return std::filesystem::path(YARS_SOURCE_DIR).parent_path() / "shared" / "data";
+}
+
+}  // namespace yars::test
+
+#define YARS_NEEDS_SHARED_DATA()                                   \
+  if (!std::filesystem::is_directory(::yars::test::shared_data())) \
+  GTEST_SKIP() << "needs ../shared/data, which is absent here"
