@@ -6,6 +6,7 @@ Prints one line a finding, `file:line: rule: what was found, what is allowed`; e
 Long files are only warned of. The rules are the tables below; a new folder or a new third-party header gets a row.
 """
 import argparse
+import os
 import pathlib
 import re
 import subprocess
@@ -76,7 +77,8 @@ CLOCKS = re.compile(r"\b(std::chrono::\w+_clock|clock_gettime|gettimeofday|clock
 CLOCK_FOLDERS = ["databuffer", "tools", "tests", "shm", "shells"]
 
 # Only readers (and what writes a picture or a terminal) open files.
-OPENING = re.compile(r"\b(std::[io]?fstream|fopen|::open|::openat|::mmap|std::filesystem::(recursive_)?directory_iterator)\b")
+OPENING = re.compile(r"\bstd::[io]?fstream\b|\bfopen\b|(?<![\w>])::(open|openat|mmap)\b"
+                     r"|\bstd::filesystem::(recursive_)?directory_iterator\b")
 READERS = [re.compile(pattern) for pattern in (
     r"_(reader|reading|index|writer)\.cpp$", r"^shm/", r"^databuffer/", r"^tools/", r"^tests/", r"_(main|shell)\.[ch]pp$",
 )]
@@ -95,13 +97,15 @@ REGISTRIES = re.compile(r"\b(" + "|".join(
 
 def tracked_files(root):
     """Every file of the project: what git knows or would add; without git, all but build/."""
-    listed = subprocess.run(["git", "-C", str(root), "ls-files", "-co", "--exclude-standard"], capture_output=True,
-                            text=True, check=False)
-    if listed.returncode == 0:
-        names = listed.stdout.splitlines()
-    else:
-        names = [str(path.relative_to(root)) for path in root.rglob("*") if path.is_file()]
-    return sorted(name for name in names if (root / name).is_file() and not name.startswith(("build/", ".git/")))
+    try:
+        names = subprocess.run(["git", "-C", str(root), "ls-files", "-co", "--exclude-standard"], capture_output=True,
+                               text=True, check=True).stdout.splitlines()
+    except (FileNotFoundError, subprocess.CalledProcessError):
+        names = []
+        for folder, folders, files in os.walk(root):
+            folders[:] = [name for name in folders if name not in ("build", ".git", "__pycache__")]
+            names += [str(pathlib.Path(folder, name).relative_to(root)) for name in files]
+    return sorted(name for name in names if (root / name).is_file())
 
 
 def folder_of(name):
