@@ -32,7 +32,4 @@ bool apply(databuffer::RadarState& state, const databuffer::InputEvent& event, c
 void advance(databuffer::RadarState& state, const Surroundings& surroundings,
              const radar::RadarConfiguration& configuration);
 
-// The part that the model acts on.
-databuffer::RadarCommand command_of(const databuffer::RadarState& state);
-
 }  // namespace yars::statemachine

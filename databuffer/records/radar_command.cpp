@@ -1,5 +1,7 @@
 #include "databuffer/records/radar_command.hpp"
 
+#include "lib/radar/modes.hpp"
+
 namespace yars::databuffer {
 
 RadarCommand command_from_state(const RadarState& state) {
@@ -13,7 +15,9 @@ RadarCommand command_from_state(const RadarState& state) {
   command.scan_restart = state.scan_restart;
   command.flags = state.flags & (kFreeze | kSniff | kMultiLook2 | kProgressive | kCursorValid);
   command.power = state.power;
-  command.mode = state.mode;
+  // Under the main menu the radar keeps running in the mode below it.
+  const bool menu = state.mode == static_cast<std::uint8_t>(radar::Mode::menu);
+  command.mode = menu ? state.resume_mode : state.mode;
   command.scan = state.scan;
   command.gain = state.gain;
   command.range_index = state.range_index;

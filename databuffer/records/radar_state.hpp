@@ -13,69 +13,74 @@ namespace yars::databuffer {
 struct DrawnPoint {
   double latitude_deg;
   double longitude_deg;
-  double elevation_m;           // [m] MSL; NaN = unknown
-  char name[8];                 // "2.01", zero terminated
-  std::uint8_t kind;            // radar::PointKind
-  std::uint8_t selected;        // 1: the selected sequence point
+  double elevation_m;     // [m] MSL; NaN = unknown
+  char name[8];           // "2.01", zero terminated
+  std::uint8_t kind;      // radar::PointKind
+  std::uint8_t selected;  // 1: the selected sequence point
   std::uint8_t reserved[6];
 };
 static_assert(sizeof(DrawnPoint) == 40);
 
 // Bits of RadarState::flags.
 inline constexpr std::uint32_t kDeclutter = 1U << 0;
-inline constexpr std::uint32_t kFreeze = 1U << 1;          // commanded by the pilot; the scan stops at its end
+inline constexpr std::uint32_t kFreeze = 1U << 1;  // commanded by the pilot; the scan stops at its end
 inline constexpr std::uint32_t kSniff = 1U << 2;
 inline constexpr std::uint32_t kIpvu = 1U << 3;
 inline constexpr std::uint32_t kVtr = 1U << 4;
 inline constexpr std::uint32_t kSet = 1U << 5;
 inline constexpr std::uint32_t kMenu = 1U << 6;
 inline constexpr std::uint32_t kMultiLook2 = 1U << 7;
-inline constexpr std::uint32_t kProgressive = 1U << 8;     // PROG; else STAB
+inline constexpr std::uint32_t kProgressive = 1U << 8;  // PROG; else STAB
 inline constexpr std::uint32_t kAltimeterFailed = 1U << 9;
 inline constexpr std::uint32_t kCursorValid = 1U << 10;
 inline constexpr std::uint32_t kTdcPressed = 1U << 11;
 inline constexpr std::uint32_t kFrozenByHrmExit = 1U << 12;
-inline constexpr std::uint32_t kRangeSet = 1U << 13;       // the range rule has been applied since power-up
+inline constexpr std::uint32_t kRangeSet = 1U << 13;  // the range rule has been applied since power-up
 
 struct RadarState {
-  std::int64_t tick;                    // tick of the last change
-  double range_nm;                      // [NM] selected range
-  double scan_width_deg;                // [deg] whole width
-  double antenna_elevation_deg;         // [deg] [-60, 60] commanded, against the horizon
-  double cursor_latitude_deg;           // [deg] the cursor's ground point
+  std::int64_t tick;             // tick of the last change
+  double range_nm;               // [NM] selected range
+  double scan_width_deg;         // [deg] whole width
+  double antenna_elevation_deg;  // [deg] [-60, 60] commanded, against the horizon
+  double cursor_latitude_deg;    // [deg] the cursor's ground point
   double cursor_longitude_deg;
-  double cursor_elevation_m;            // [m] MSL; NaN = unknown
-  double cursor_bearing_deg;            // [deg] magnetic, from the aircraft
-  double cursor_range_nm;               // [NM] ground range from the aircraft
-  double tdc_x, tdc_y;                  // [-1, 1] held deflection
-  double window_nm;                     // [NM]; 0 = blank
-  std::uint64_t events_applied;         // since the session began
+  double cursor_elevation_m;     // [m] MSL; NaN = unknown
+  double cursor_bearing_deg;     // [deg] magnetic, from the aircraft
+  double cursor_range_nm;        // [NM] ground range from the aircraft
+  double tdc_x, tdc_y;           // [-1, 1] held deflection
+  double window_nm;              // [NM]; 0 = blank
+  std::uint64_t events_applied;  // since the session began
   std::uint32_t epoch;
-  std::uint32_t flags;                  // kDeclutter...
-  std::uint32_t scan_restart;           // counts up when the scan has to start anew (range, mode, width changed)
-  std::uint32_t boxed;                  // bit n: legend of PB n is boxed
-  std::uint8_t power;                   // radar::Power
-  std::uint8_t mode;                    // radar::Mode as shown (RBM, ..., MENU)
-  std::uint8_t master;                  // radar::Master
-  std::uint8_t resume_mode;             // radar::Mode to go back to from menu, A/A, ranging
+  std::uint32_t flags;         // kDeclutter...
+  std::uint32_t scan_restart;  // counts up when the scan has to start anew (range, mode, width changed)
+  std::uint32_t boxed;         // bit n: legend of PB n is boxed
+  std::uint8_t power;          // radar::Power
+  std::uint8_t mode;           // radar::Mode as shown (RBM, ..., MENU)
+  std::uint8_t master;         // radar::Master
+  std::uint8_t resume_mode;    // radar::Mode that runs; equal to mode but under the menu
   std::uint8_t range_index;
-  std::uint8_t scan;                    // radar::ScanWidth
-  std::uint8_t gain;                    // 0..3
-  std::uint8_t brightness;              // 0..15
-  std::uint8_t contrast;                // 0..15
-  std::uint8_t cursor_function;         // radar::CursorFunction
-  std::uint8_t navigator;               // radar::Navigator
-  std::uint8_t channel;                 // 1..8
-  std::uint8_t band;                    // 0..4: A..E
-  std::uint8_t points_drawn;            // entries of points
-  std::uint8_t window_index;            // into the configuration's windows; 255 = blank
-  std::uint8_t recall;                  // radar::Recall
-  char sequence_point[8];               // name of the selected one, zero terminated
-  char message[32];                     // for the pilot, zero terminated; empty = none
-  std::int64_t message_until_tick;      // the message goes at this tick
+  std::uint8_t scan;                // radar::ScanWidth
+  std::uint8_t gain;                // 0..3
+  std::uint8_t brightness;          // 0..15
+  std::uint8_t contrast;            // 0..15
+  std::uint8_t cursor_function;     // radar::CursorFunction
+  std::uint8_t navigator;           // radar::Navigator
+  std::uint8_t channel;             // 1..8
+  std::uint8_t band;                // 0..4: A..E
+  std::uint8_t points_drawn;        // entries of points
+  std::uint8_t window_index;        // into the configuration's windows; 255 = blank
+  std::uint8_t recall;              // radar::Recall
+  char sequence_point[8];           // name of the selected one, zero terminated
+  char message[32];                 // for the pilot, zero terminated; empty = none
+  std::int64_t message_until_tick;  // the message goes at this tick
   DrawnPoint points[radar::kMaxPointsDrawn];
   char legends[radar::kBezelButtons + 1][8];  // [n]: legend of PB n, zero terminated, empty = none; [0] unused
-  std::uint64_t reserved[16];
+  double frame_latitude_deg;   // [deg] apex of the frame in which the cursor is slewed: the aircraft, or where it
+  double frame_longitude_deg;  // was when the picture froze
+  double frame_track_deg;      // [deg] [0, 360) true ground track of that frame, up on the glass
+  std::uint8_t ground_mode;    // radar::Mode to go back to from A/A and ranging
+  std::uint8_t reserved_bytes[7];
+  std::uint64_t reserved[12];
 };
 static_assert(sizeof(RadarState) % 8 == 0 && std::is_trivially_copyable_v<RadarState>);
 static_assert(offsetof(RadarState, power) == 120);

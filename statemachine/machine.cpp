@@ -1,0 +1,66 @@
+#include "statemachine/machine.hpp"
+
+#include <cstring>
+
+#include "statemachine/cursor.hpp"
+#include "statemachine/legends.hpp"
+#include "statemachine/modes.hpp"
+#include "statemachine/scanning.hpp"
+#include "statemachine/sequence_points.hpp"
+#include "statemachine/transition_table.hpp"
+
+namespace yars::statemachine {
+
+namespace {
+
+using databuffer::RadarState;
+
+// 0.1 s: the aircraft flies 50 m meanwhile, which decides nothing about which points are near; each tick would cost
+// a geodesic for every point of the route.
+constexpr std::int64_t kTicksBetweenPoints = 20;
+
+// A jump in place or time leaves nothing for the cursor, the scan and a message's end to stand on.
+void enter_epoch(RadarState& state, std::uint32_t epoch) {
+  state.epoch = epoch;
+  ++state.scan_restart;
+  set_flag(state, databuffer::kCursorValid, false);
+  state.message_until_tick = 0;
+}
+
+void end_message(RadarState& state, std::int64_t tick) {
+  if (state.message[0] == '\0' || tick < state.message_until_tick) return;
+  std::memset(state.message, 0, sizeof(state.message));
+  state.message_until_tick = 0;
+}
+
+}  // namespace
+
+RadarState initial_state(const radar::RadarConfiguration& configuration) {
+  return power_up_settings(configuration);
+}
+
+bool apply(RadarState& state, const databuffer::InputEvent& event, const Surroundings& surroundings,
+           const radar::RadarConfiguration& configuration) {
+  const Action action = action_for(state, event);
+  if (!action) return false;
+  const RadarState before = state;
+  Step step{state, event, surroundings, configuration};
+  action(step);
+  if (std::memcmp(&before, &state, sizeof(state)) == 0) return false;
+  draw_points(state, surroundings, configuration);
+  return true;
+}
+
+void advance(RadarState& state, const Surroundings& surroundings, const radar::RadarConfiguration& configuration) {
+  if (state.epoch != surroundings.epoch) enter_epoch(state, surroundings.epoch);
+  if (power_of(state) != radar::Power::off && surroundings.ownship_valid) {
+    if (!has(state, databuffer::kRangeSet)) set_range_by_height(state, surroundings, configuration);
+    advance_cursor(state, surroundings, configuration);
+  }
+  if (!surroundings.recorder_writing) set_flag(state, databuffer::kVtr, false);
+  if (surroundings.tick % kTicksBetweenPoints == 0) draw_points(state, surroundings, configuration);
+  end_message(state, surroundings.tick);
+  write_legends(state);
+}
+
+}  // namespace yars::statemachine

@@ -1,0 +1,122 @@
+#include "statemachine/scanning.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/geo/geodesic.hpp"
+#include "lib/radar/ranges.hpp"
+#include "lib/radar/windows.hpp"
+
+namespace yars::statemachine {
+
+namespace {
+
+using databuffer::RadarState;
+using geo::Length;
+
+constexpr std::uint8_t kBlankWindow = 255;  // of window_index
+constexpr double kElevationStep_deg = 0.5;  // pvi.md, hands-on controls: the keys [ and ]
+
+void choose_range(Step& step, std::size_t index) {
+  set_flag(step.state, databuffer::kRangeSet, true);
+  set_range_index(step.state, index, step.configuration);
+}
+
+void put_window(RadarState& state, std::optional<std::size_t> index, const radar::RadarConfiguration& configuration) {
+  state.window_index = index ? static_cast<std::uint8_t>(*index) : kBlankWindow;
+  state.window_nm = index ? configuration.windows_nm[*index] : 0.0;
+}
+
+void put_elevation(Step& step, double elevation_deg) {
+  if (!std::isfinite(elevation_deg)) return;
+  const double limit_deg = step.configuration.antenna.elevation_limit_deg;
+  step.state.antenna_elevation_deg = std::clamp(elevation_deg, -limit_deg, limit_deg);
+}
+
+// Elevation of the sequence point nearest to the aircraft, for a height without an altimeter.
+std::optional<double> nearest_point_elevation_m(const databuffer::Ownship& ownship,
+                                                const radar::RadarConfiguration& configuration) {
+  const geo::GeoPoint aircraft{ownship.latitude_deg, ownship.longitude_deg};
+  const radar::RoutePoint* nearest = nullptr;
+  Length least;
+  for (const radar::RoutePoint& point : configuration.route) {
+    const Length distance = geo::geodesic_inverse(aircraft, point.place).distance;
+    if (nearest && distance >= least) continue;
+    nearest = &point;
+    least = distance;
+  }
+  if (!nearest || std::isnan(nearest->elevation_m)) return std::nullopt;
+  return nearest->elevation_m;
+}
+
+Length height_for_range(const RadarState& state, const databuffer::Ownship& ownship,
+                        const radar::RadarConfiguration& configuration) {
+  const bool altimeter = !has(state, databuffer::kAltimeterFailed) && !std::isnan(ownship.radar_altitude_m);
+  if (altimeter) return Length::metres(ownship.radar_altitude_m);
+  const double ground_m = nearest_point_elevation_m(ownship, configuration).value_or(0.0);
+  return Length::metres(ownship.altitude_msl_m - ground_m);
+}
+
+}  // namespace
+
+void range_up(Step& step) {
+  const std::size_t next = step.state.range_index + std::size_t{1};
+  if (next < step.configuration.ranges_nm.size()) choose_range(step, next);
+}
+
+void range_down(Step& step) {
+  if (step.state.range_index > 0) choose_range(step, step.state.range_index - std::size_t{1});
+}
+
+void next_scan_width(Step& step) {
+  constexpr int kWidths = 3;
+  set_scan_width(step.state, static_cast<radar::ScanWidth>((step.state.scan + 1) % kWidths), step.configuration);
+}
+
+void step_window(Step& step) {
+  const bool blank = step.state.window_index == kBlankWindow;
+  const int present = blank ? -1 : step.state.window_index;
+  const int wanted = std::max(-1, present + std::clamp<int>(step.event.argument, -1, 1));
+  if (wanted < 0) return put_window(step.state, std::nullopt, step.configuration);
+  const auto largest =
+      radar::largest_window_that_fits(Length::nautical_miles(step.state.range_nm), step.configuration.windows_nm);
+  if (largest) put_window(step.state, std::min(static_cast<std::size_t>(wanted), *largest), step.configuration);
+}
+
+void set_elevation(Step& step) {
+  put_elevation(step, step.event.x);
+}
+
+void step_elevation(Step& step) {
+  put_elevation(step, step.state.antenna_elevation_deg + kElevationStep_deg * step.event.argument);
+}
+
+void set_range_index(RadarState& state, std::size_t index, const radar::RadarConfiguration& configuration) {
+  const double range_nm = configuration.ranges_nm[index];
+  if (range_nm != state.range_nm) ++state.scan_restart;
+  state.range_index = static_cast<std::uint8_t>(index);
+  state.range_nm = range_nm;
+  if (state.window_nm > range_nm) select_window(state, Length::nautical_miles(range_nm), configuration);
+}
+
+void set_scan_width(RadarState& state, radar::ScanWidth scan, const radar::RadarConfiguration& configuration) {
+  state.scan = static_cast<std::uint8_t>(scan);
+  state.scan_width_deg = configuration.scan_widths_deg[state.scan];
+  ++state.scan_restart;
+}
+
+void select_window(RadarState& state, Length window, const radar::RadarConfiguration& configuration) {
+  const Length limit = std::min(window, Length::nautical_miles(state.range_nm));
+  put_window(state, radar::largest_window_that_fits(limit, configuration.windows_nm), configuration);
+}
+
+void set_range_by_height(RadarState& state, const Surroundings& surroundings,
+                         const radar::RadarConfiguration& configuration) {
+  if (!surroundings.ownship_valid) return;
+  const Length height = height_for_range(state, surroundings.ownship, configuration);
+  set_range_index(state, radar::range_index_for(radar::range_by_height(height), configuration.ranges_nm),
+                  configuration);
+  set_flag(state, databuffer::kRangeSet, true);
+}
+
+}  // namespace yars::statemachine

@@ -1,0 +1,100 @@
+#include "statemachine/switches.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <string_view>
+
+#include "statemachine/modes.hpp"
+
+namespace yars::statemachine {
+
+namespace {
+
+constexpr int kGreatestLevel = 15;  // brightness and contrast; the record and the glass scale by it
+constexpr std::uint8_t kGreatestGain = 3;
+constexpr std::uint8_t kChannels = 8;
+constexpr std::uint8_t kBands = 5;
+// 3 s: long enough to read two words, short enough not to hide the next; a shorter one is missed in a scan of the
+// panel.
+constexpr std::int64_t kMessageTicks = 600;
+
+void toggle(Step& step, std::uint32_t flag) {
+  step.state.flags ^= flag;
+}
+
+void step_level(std::uint8_t& level, int by) {
+  level = static_cast<std::uint8_t>(std::clamp(level + by, 0, kGreatestLevel));
+}
+
+}  // namespace
+
+void toggle_declutter(Step& step) {
+  toggle(step, databuffer::kDeclutter);
+}
+void toggle_looks(Step& step) {
+  toggle(step, databuffer::kMultiLook2);
+}
+void toggle_stabilizing(Step& step) {
+  toggle(step, databuffer::kProgressive);
+}
+void toggle_ipvu(Step& step) {
+  toggle(step, databuffer::kIpvu);
+}
+
+void cycle_gain(Step& step) {
+  std::uint8_t& gain = step.state.gain;
+  gain = gain == 0 ? kGreatestGain : static_cast<std::uint8_t>(gain - 1);
+}
+
+void brightness_up(Step& step) {
+  step_level(step.state.brightness, 1);
+}
+void brightness_down(Step& step) {
+  step_level(step.state.brightness, -1);
+}
+void step_contrast(Step& step) {
+  step_level(step.state.contrast, std::clamp<int>(step.event.argument, -1, 1));
+}
+
+void toggle_recorder(Step& step) {
+  if (step.surroundings.recorder_writing) {
+    toggle(step, databuffer::kVtr);
+  } else {
+    show_message(step, "NO RECORDER");
+  }
+}
+
+void toggle_sniff(Step& step) {
+  toggle(step, databuffer::kSniff);
+  freeze_silent_hrm(step.state);
+}
+
+void next_channel(Step& step) {
+  step.state.channel = static_cast<std::uint8_t>(step.state.channel % kChannels + 1);
+}
+
+void next_band(Step& step) {
+  step.state.band = static_cast<std::uint8_t>((step.state.band + 1) % kBands);
+}
+
+void select_navigator(Step& step) {
+  constexpr std::int16_t kToggle = -1;
+  const std::int16_t argument = step.event.argument;
+  if (argument == kToggle) {
+    step.state.navigator ^= 1U;
+  } else if (argument >= 0 && argument <= static_cast<std::int16_t>(radar::Navigator::ins)) {
+    step.state.navigator = static_cast<std::uint8_t>(argument);
+  }
+}
+
+void switch_altimeter(Step& step) {
+  set_flag(step.state, databuffer::kAltimeterFailed, step.event.argument == 0);
+}
+
+void show_message(Step& step, std::string_view text) {
+  std::memset(step.state.message, 0, sizeof(step.state.message));
+  text.copy(step.state.message, sizeof(step.state.message) - 1);
+  step.state.message_until_tick = step.surroundings.tick + kMessageTicks;
+}
+
+}  // namespace yars::statemachine

@@ -1,0 +1,141 @@
+#include "statemachine/transition_table.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "statemachine/cursor.hpp"
+#include "statemachine/legends.hpp"
+#include "statemachine/modes.hpp"
+#include "statemachine/scanning.hpp"
+#include "statemachine/sequence_points.hpp"
+#include "statemachine/switches.hpp"
+
+namespace yars::statemachine {
+
+namespace {
+
+using databuffer::EventKind;
+using databuffer::kDeclutter;
+using databuffer::kIpvu;
+using databuffer::kSniff;
+using databuffer::kVtr;
+
+constexpr Columns kBothHrm = kHrm | kPatch;
+constexpr Columns kAllGround = kRbm | kHrm | kPatch | kBcn | kPvu;
+constexpr Columns kRadar = kAllGround | kRanging;  // power is on; hands-on controls do not know the menu
+constexpr Conditions kRangeFree = kThawed | kWithMap;
+
+// pvi.md, "Bezel buttons". PB 10, 15 and, in ranging, PB 18 need a map and come with the patch maps.
+constexpr std::array kButtons{
+    ButtonRow{2, kAllGround | kRanging, kAlways, toggle_declutter, "DCL", kAlways, kDeclutter},
+    ButtonRow{3, kRbm | kBcn, kAlways, cycle_gain, gain_legend, kAlways, 0},
+    ButtonRow{3, kBothHrm, kAlways, toggle_looks, looks_legend, kAlways, 0},
+    ButtonRow{4, kRbm | kBcn | kPvu | kRanging, kAlways, brightness_up, "BRT+", kAlways, 0},
+    ButtonRow{4, kBothHrm, kFrozen, brightness_up, "BRT+", kFrozen, 0},
+    ButtonRow{5, kRbm | kBcn | kPvu | kRanging, kAlways, brightness_down, "BRT-", kAlways, 0},
+    ButtonRow{5, kBothHrm, kFrozen, brightness_down, "BRT-", kFrozen, 0},
+    ButtonRow{6, kAllGround, kThawed, next_mode, mode_legend, kAlways, 0},
+    ButtonRow{6, kMenu, kAlways, close_menu, "A/G RDR", kAlways, 0},
+    ButtonRow{7, kRbm | kBothHrm | kBcn | kRanging, kAlways, next_cursor_function, cursor_function_legend, kAlways, 0},
+    ButtonRow{8, kPatch, kAlways, toggle_stabilizing, stabilizing_legend, kAlways, 0},
+    ButtonRow{9, kRbm | kHrm | kBcn, kThawed, next_scan_width, scan_legend, kAlways, 0},
+    ButtonRow{11, kAllGround | kRanging, kAlways, open_menu, "M", kAlways, 0},
+    ButtonRow{12, kAllGround | kRanging, kAlways, toggle_recorder, "VTR", kAlways, kVtr},
+    ButtonRow{13, kRbm | kHrm | kBcn, kRangeFree, range_up, "^", kAlways, 0},
+    ButtonRow{14, kRbm | kHrm | kBcn, kRangeFree, range_down, "v", kAlways, 0},
+    ButtonRow{14, kPatch, kThawed, leave_patch, "PPI", kAlways, 0},
+    ButtonRow{16, kRbm | kBothHrm | kBcn, kAlways, toggle_ipvu, "IPVU", kAlways, kIpvu},
+    ButtonRow{17, kAllGround | kRanging, kAlways, next_sequence_point, sequence_point_legend, kAlways, 0},
+    ButtonRow{18, kAllGround, kAlways, toggle_sniff, "SNIFF", kAlways, kSniff},
+    ButtonRow{19, kAllGround, kAlways, next_channel, channel_legend, kAlways, 0},
+    ButtonRow{20, kAllGround, kAlways, next_band, band_legend, kAlways, 0},
+};
+
+// pvi.md, "Hands-on and other controls". The TDC's release acts by cursor function; that comes with the maps and
+// designations. The deflection is taken also where no cursor is slewed, so that letting go is never missed.
+constexpr std::array kControls{
+    ControlRow{EventKind::tdc, kRadar, kAlways, deflect},
+    ControlRow{EventKind::coolie_up, kRadar, kAlways, next_sequence_point},
+    ControlRow{EventKind::acquisition, kRbm | kBothHrm, kWithMap, step_window},
+    ControlRow{EventKind::freeze, kRbm | kBcn, kAlways, toggle_freeze},
+    ControlRow{EventKind::freeze, kBothHrm, kSniffOff, toggle_freeze},
+    ControlRow{EventKind::elevation, kRbm | kBcn | kPvu | kRanging, kAlways, set_elevation},
+    ControlRow{EventKind::elevation_step, kRbm | kBcn | kPvu | kRanging, kAlways, step_elevation},
+    ControlRow{EventKind::master_mode, kRadar, kAlways, select_master},
+    ControlRow{EventKind::radar_mode, kAllGround, kThawed, select_mode},
+    ControlRow{EventKind::power, kRadar | kOff, kAlways, switch_power},
+    ControlRow{EventKind::navigator, kRadar, kAlways, select_navigator},
+    ControlRow{EventKind::sequence_point, kRadar, kAlways, select_sequence_point},
+    ControlRow{EventKind::altimeter, kRadar, kAlways, switch_altimeter},
+    ControlRow{EventKind::contrast, kRadar, kAlways, step_contrast},
+};
+
+Columns column_of(radar::Mode mode) {
+  switch (mode) {
+    case radar::Mode::rbm:
+      return kRbm;
+    case radar::Mode::hrm:
+      return kHrm;
+    case radar::Mode::patch:
+      return kPatch;
+    case radar::Mode::beacon:
+      return kBcn;
+    case radar::Mode::pvu:
+      return kPvu;
+    case radar::Mode::air_to_air:
+    case radar::Mode::ranging:
+      return kRanging;
+    case radar::Mode::menu:
+      return kMenu;
+  }
+  return kOff;
+}
+
+}  // namespace
+
+std::span<const ButtonRow> button_rows() {
+  return kButtons;
+}
+std::span<const ControlRow> control_rows() {
+  return kControls;
+}
+
+Columns button_column(const databuffer::RadarState& state) {
+  if (power_of(state) == radar::Power::off) return kOff;
+  if (has(state, databuffer::kMenu)) return kMenu;
+  const Columns column = column_of(running_mode(state));
+  // Rule 18: in standby the buttons are live as in RBM; A/A and ranging have no radar page to go back to.
+  return power_of(state) == radar::Power::standby && column != kRanging ? kRbm : column;
+}
+
+Columns control_column(const databuffer::RadarState& state) {
+  return power_of(state) == radar::Power::off ? kOff : column_of(running_mode(state));
+}
+
+bool hold(Conditions conditions, const databuffer::RadarState& state) {
+  const bool frozen = has(state, databuffer::kFreeze);
+  Conditions present = frozen ? kFrozen : kThawed;
+  if (state.cursor_function == static_cast<std::uint8_t>(radar::CursorFunction::map)) present |= kWithMap;
+  if (!has(state, kSniff)) present |= kSniffOff;
+  return (conditions & ~present) == 0;
+}
+
+Action action_for(const databuffer::RadarState& state, const databuffer::InputEvent& event) {
+  const auto live_in = [&state](Columns column) {
+    return [&state, column](const auto& row) { return (row.columns & column) != 0 && hold(row.live_when, state); };
+  };
+  if (event.kind == static_cast<std::uint16_t>(EventKind::push_button)) {
+    const auto live = live_in(button_column(state));
+    const auto row = std::find_if(kButtons.begin(), kButtons.end(), [&](const ButtonRow& candidate) {
+      return candidate.button == event.argument && live(candidate);
+    });
+    return row == kButtons.end() ? nullptr : row->action;
+  }
+  const auto live = live_in(control_column(state));
+  const auto row = std::find_if(kControls.begin(), kControls.end(), [&](const ControlRow& candidate) {
+    return static_cast<std::uint16_t>(candidate.kind) == event.kind && live(candidate);
+  });
+  return row == kControls.end() ? nullptr : row->action;
+}
+
+}  // namespace yars::statemachine

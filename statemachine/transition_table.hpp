@@ -1,0 +1,72 @@
+// The transition table: which button and which control does what in which mode, and which legend a button bears.
+// transition_table.cpp holds it as data, in the order of spec pvi.md, to be checked against it row by row.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "statemachine/step.hpp"
+
+namespace yars::statemachine {
+
+// Columns of the spec's table; a row names those in which it holds.
+using Columns = std::uint16_t;
+inline constexpr Columns kRbm = 1U << 0;
+inline constexpr Columns kHrm = 1U << 1;    // HRM PPI
+inline constexpr Columns kPatch = 1U << 2;  // HRM patch map
+inline constexpr Columns kBcn = 1U << 3;
+inline constexpr Columns kPvu = 1U << 4;
+inline constexpr Columns kRanging = 1U << 5;  // A/A and A/G ranging
+inline constexpr Columns kMenu = 1U << 6;
+inline constexpr Columns kOff = 1U << 7;
+
+// What must hold besides the column; all bits of a row together.
+using Conditions = std::uint16_t;
+inline constexpr Conditions kAlways = 0;
+inline constexpr Conditions kThawed = 1U << 0;
+inline constexpr Conditions kFrozen = 1U << 1;
+inline constexpr Conditions kWithMap = 1U << 2;  // cursor function MAP
+inline constexpr Conditions kSniffOff = 1U << 3;
+
+using Action = void (*)(Step&);
+
+// A legend is fixed, or it follows the state.
+struct Legend {
+  constexpr Legend(const char* text) : fixed(text) {}
+  constexpr Legend(std::string_view (*text)(const databuffer::RadarState&)) : changing(text) {}
+  std::string_view of(const databuffer::RadarState& state) const { return changing ? changing(state) : fixed; }
+  std::string_view fixed;
+  std::string_view (*changing)(const databuffer::RadarState&) = nullptr;
+};
+
+struct ButtonRow {
+  int button;  // 1..20
+  Columns columns;
+  Conditions live_when;
+  Action action;
+  Legend legend;
+  Conditions shown_when;   // of the legend
+  std::uint32_t boxed_by;  // flag of RadarState that boxes the legend; 0 = never
+};
+
+struct ControlRow {
+  databuffer::EventKind kind;
+  Columns columns;
+  Conditions live_when;
+  Action action;
+};
+
+std::span<const ButtonRow> button_rows();
+std::span<const ControlRow> control_rows();
+
+// The column that the bezel follows, and the one that hands-on and other controls follow.
+Columns button_column(const databuffer::RadarState& state);
+Columns control_column(const databuffer::RadarState& state);
+
+bool hold(Conditions conditions, const databuffer::RadarState& state);
+
+// What the event does in this state; nullptr when it is dead.
+Action action_for(const databuffer::RadarState& state, const databuffer::InputEvent& event);
+
+}  // namespace yars::statemachine
