@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "databuffer/session_layout.hpp"
 #include "lib/failure/error.hpp"
@@ -16,10 +17,24 @@ namespace yars::databuffer {
 enum class Role : std::uint8_t { radar_model = 1, state_machine = 2, recorder = 3, clock = 4 };
 std::string_view name_of(Role role);
 
+// Lock bytes of the segment file: roles at their number, then a block for each kind of lane and for the table.
+inline constexpr std::size_t kFirstOwnshipByte = 8;
+inline constexpr std::size_t kFirstInputByte = 16;
+inline constexpr std::size_t kFirstProcessByte = 32;
+static_assert(kFirstOwnshipByte + kOwnshipLanes <= kFirstInputByte);
+static_assert(kFirstInputByte + kInputLanes <= kFirstProcessByte);
+static_assert(kFirstProcessByte + kProcesses <= shm::kLockBytes);
+
+struct ProcessHere {
+  std::int32_t pid;
+  std::string name;
+  std::int64_t heartbeat_ns;  // CLOCK_MONOTONIC of the last heartbeat
+};
+
 // A byte lock held; the kernel frees it when the process dies. Moving it moves the lock.
 class Claim {
  public:
-  Claim() = default;
+  Claim();
   Claim(Claim&& other) noexcept;
   Claim& operator=(Claim&& other) noexcept;
   ~Claim();
@@ -36,21 +51,26 @@ class Session {
  public:
   // Attaches to the session, or creates it. `process_name` goes into the process table, for people.
   static failure::Expected<Session> open(const std::string& name, std::string_view process_name);
-  // For readers that come and go: maps read-only, is not in the process table, holds no lock.
+  // For readers that come and go: maps read-only, is not in the process table, holds no lock. Claims and changes of
+  // the clock are refused, heartbeats and notes go nowhere.
   static failure::Expected<Session> open_read_only(const std::string& name);
 
+  bool created() const;  // this call made the session
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;
   ~Session();  // who leaves last unlinks the segment
 
-  SessionLayout& layout();
+  SessionLayout& layout();  // only of a session opened for writing
   const SessionLayout& layout() const;
 
-  failure::Expected<Claim> claim(Role role);  // an error names the holder's pid and program
+  failure::Expected<Claim> claim(Role role);                            // an error names the holder's pid and program
   failure::Expected<Claim> claim_ownship_lane(std::uint32_t priority);  // higher wins; clears what a dead writer left
   failure::Expected<Claim> claim_input_lane(std::string_view source);
 
   bool role_is_held(Role role) const;  // by any process, this one included
+  bool ownship_lane_is_held(std::size_t lane) const;
+  bool input_lane_is_held(std::size_t lane) const;
+  std::vector<ProcessHere> processes() const;  // who takes part, dead entries left out
   void heartbeat();  // shows in `yars status`; call about once a second or each tick (it is one store)
 
   // Session clock: sim time [ns] of this moment; the state behind it.

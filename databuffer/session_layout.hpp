@@ -13,6 +13,7 @@
 #include "shm/broadcast_ring.hpp"
 #include "shm/input_lanes.hpp"
 #include "shm/latest_value.hpp"
+#include "shm/note_ring.hpp"
 #include "shm/segment.hpp"
 
 namespace yars::databuffer {
@@ -41,25 +42,26 @@ struct Note {
   std::int64_t monotonic_ns;
   std::int64_t sim_time_ns;
   std::int32_t pid;
-  std::uint32_t kind;   // NoteKind
+  std::uint32_t kind;  // NoteKind
   char process[16];
   char text[88];
 };
 static_assert(sizeof(Note) == 128);
 
 // Who steps when the session runs in lockstep: each role waits until its predecessor in the chain has done the tick.
-inline constexpr std::size_t kLockstepRoles = 5;  // flight-model, input-monitor, state-machine, radar-model, radar-display
+inline constexpr std::size_t kLockstepRoles =
+    5;  // flight-model, input-monitor, state-machine, radar-model, radar-display
 struct Lockstep {
-  std::atomic<std::uint32_t> enabled;              // set by the creator before anyone else attaches
-  std::atomic<std::uint32_t> roles;                // bit n: role n takes part
-  std::atomic<std::int64_t> end_tick;              // all stop cleanly after this tick; -1 = none
+  std::atomic<std::uint32_t> enabled;                               // set by the creator before anyone else attaches
+  std::atomic<std::uint32_t> roles;                                 // bit n: role n takes part
+  std::atomic<std::int64_t> end_tick;                               // all stop cleanly after this tick; -1 = none
   std::array<std::atomic<std::int64_t>, kLockstepRoles> done_tick;  // last tick done; -1 = none
   std::array<std::atomic<std::uint32_t>, kLockstepRoles> wake;      // futex words, count up with done_tick
   std::uint32_t padding;
 };
 
 struct PatchSlot {
-  std::atomic<std::uint64_t> id;                   // 0 = empty
+  std::atomic<std::uint64_t> id;  // 0 = empty
   std::atomic<std::uint32_t> epoch;
   std::atomic<std::uint32_t> progress_permille;
   std::array<std::atomic<std::uint64_t>, 32> georeference;  // layout comes with the patch maps
@@ -81,7 +83,7 @@ struct SessionLayout {
   shm::InputLanes<InputEvent, kInputLanes, kInputLaneDepth> input;
   std::array<ProcessEntry, kProcesses> processes;
   std::array<std::atomic<std::uint64_t>, kNoteKinds> note_counts;
-  shm::NoteRing<Note, kNotes> notes;               // many writers; a writer that dies loses its own line only
+  shm::NoteRing<Note, kNotes> notes;  // many writers; a writer that dies loses its own line only
   std::array<PatchSlot, kPatchSlots> patches;
 };
 

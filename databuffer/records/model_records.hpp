@@ -1,6 +1,7 @@
 // What the radar model publishes: each tick what it latched, each sweep, and its own status.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -86,6 +87,11 @@ struct Sweep {
 };
 static_assert(offsetof(Sweep, video) == 144 && sizeof(Sweep) == 144 + radar::kMaxSamples);
 static_assert(std::is_trivially_copyable_v<Sweep>);
+
+// Bytes of a sweep that travel through the ring: the fields and the samples used.
+inline std::size_t used_bytes(const Sweep& sweep) {
+  return offsetof(Sweep, video) + std::min<std::size_t>(sweep.samples, radar::kMaxSamples);
+}
 
 inline constexpr std::uint32_t kModelFrozen = 1U;        // the scan has stopped at its end
 inline constexpr std::uint32_t kModelScanning = 2U;

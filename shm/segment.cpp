@@ -1,0 +1,305 @@
+#include "shm/segment.hpp"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cinttypes>
+#include <cstdio>
+#include <cstring>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "lib/failure/require.hpp"
+#include "shm/creation_step.hpp"
+#include "shm/segment_file.hpp"
+
+namespace yars::shm {
+
+thread_local CreationStep creation_step = nullptr;
+
+namespace {
+
+using failure::Expected;
+using failure::fail;
+
+constexpr std::string_view kFolder = "/dev/shm/";  // where glibc's shm_open and Boost keep their objects
+constexpr int kAttempts = 2000;                    // of 1 ms: others arrive and leave in far less
+constexpr std::size_t kParticipation = 0;          // the byte that every participant read-locks
+
+void step(const char* what) {
+  if (creation_step != nullptr) creation_step(what);
+}
+
+void wait_a_moment() {
+  const timespec pause{0, 1'000'000};
+  nanosleep(&pause, nullptr);
+}
+
+std::string file_name_of(const std::string& name) {
+  return "yars." + std::to_string(geteuid()) + "." + name;
+}
+std::string path_of(const std::string& file_name) {
+  return std::string(kFolder) + file_name;
+}
+std::string temporary_of(const std::string& file_name) {
+  return file_name + "." + std::to_string(getpid()) + ".tmp";
+}
+
+// Removes what creators that died left behind: a temporary that nobody locks, or a second name of the segment itself.
+void remove_dead_temporaries(const std::string& file_name) {
+  DIR* folder = opendir(std::string(kFolder).c_str());
+  if (folder == nullptr) return;
+  const std::string prefix = file_name + ".";
+  while (const dirent* entry = readdir(folder)) {
+    const std::string found = entry->d_name;
+    if (!found.starts_with(prefix) || !found.ends_with(".tmp")) continue;
+    auto file = SegmentFile::open(found, SegmentFile::Access::read_write);
+    if (!file) continue;
+    if (file->is_at(path_of(file_name)) || (file->lock(kParticipation, LockKind::write) && file->is_at(path_of(found))))
+      unlink(path_of(found).c_str());
+  }
+  closedir(folder);
+}
+
+std::string text_of(const LayoutIdentity& layout) {
+  std::array<char, 96> text;
+  std::snprintf(text.data(), text.size(), "layout version %" PRIu32 ", %" PRIu64 " bytes, record hash %016" PRIx64,
+                layout.version, layout.size, layout.hash);
+  return text.data();
+}
+
+Expected<void> check_owner(const SegmentFile& file, const std::string& file_name) {
+  const struct stat status = file.status();
+  if (status.st_uid == geteuid()) return {};
+  return fail(path_of(file_name), "a file of user " + std::to_string(geteuid()),
+              "a file of user " + std::to_string(status.st_uid),
+              "ask that user to remove it, or choose another --session");
+}
+
+// The header must match before anything behind it is touched.
+Expected<void> check_layout(const SegmentFile& file, const std::string& file_name, const LayoutIdentity& wanted) {
+  const std::string what_to_do = "end the programs of the other build, or choose another --session";
+  if (file.size() < sizeof(SegmentHeader))
+    return fail(path_of(file_name), text_of(wanted), std::to_string(file.size()) + " bytes without a header",
+                what_to_do);
+  const auto* header = static_cast<const SegmentHeader*>(file.memory());
+  if (header->magic.load(std::memory_order_acquire) != kSegmentMagic)
+    return fail(path_of(file_name), text_of(wanted), "a file that is no YARS segment", what_to_do);
+  const LayoutIdentity found{header->layout_version.load(), header->size.load(), header->hash.load()};
+  if (found.version == wanted.version && found.size == wanted.size && found.hash == wanted.hash &&
+      file.size() >= wanted.size)
+    return {};
+  return fail(path_of(file_name), text_of(wanted),
+              text_of(found) + " in a file of " + std::to_string(file.size()) + " bytes", what_to_do);
+}
+
+tl::unexpected<failure::Error> system_failure(const std::string& file_name, std::string expected, int error) {
+  const bool full = error == ENOSPC || error == ENOMEM;
+  return fail(path_of(file_name), std::move(expected), std::strerror(error),
+              full ? "free space in /dev/shm (df /dev/shm), or give it more (mount -o remount,size=256M /dev/shm)"
+                   : "check the permissions of /dev/shm");
+}
+
+void write_header(void* memory, const LayoutIdentity& layout) {
+  auto* header = static_cast<SegmentHeader*>(memory);
+  header->size.store(layout.size);
+  step("header size");
+  header->hash.store(layout.hash);
+  step("header hash");
+  header->layout_version.store(layout.version);
+  step("header version");
+  header->magic.store(kSegmentMagic, std::memory_order_release);
+  step("header magic");
+}
+
+// Ends participation. Several may leave at once: each gives up its read lock first, so that the last one to ask for
+// the write lock gets it and takes the segment away. True: this was the last one.
+bool leave(SegmentFile& file, const std::string& file_name) {
+  file.lock(kParticipation, LockKind::none);
+  step("participation given up");
+  const bool last = file.lock(kParticipation, LockKind::write) && file.is_at(path_of(file_name));
+  step("alone");
+  if (last) unlink(path_of(file_name).c_str());
+  step("unlinked");
+  return last;
+}
+
+using Attempt = Expected<std::optional<SegmentFile>>;  // nullopt: try again
+
+// Attaches to what lies at the name; a leftover, which nobody else locks, is taken away.
+Attempt attach(const std::string& file_name, const LayoutIdentity& layout) {
+  auto file = SegmentFile::open(file_name, SegmentFile::Access::read_write);
+  if (!file) {
+    if (errno == ENOENT) return std::nullopt;
+    return system_failure(file_name, "a segment that can be opened", errno);
+  }
+  if (const auto owned = check_owner(*file, file_name); !owned) return tl::unexpected(owned.error());
+  if (file->lock(kParticipation, LockKind::write)) {
+    step("leftover locked");
+    if (file->is_at(path_of(file_name))) unlink(path_of(file_name).c_str());
+    step("leftover unlinked");
+    return std::nullopt;
+  }
+  // Somebody takes part; or, for a moment, somebody else is judging the same leftover.
+  if (!file->lock(kParticipation, LockKind::read) || !file->is_at(path_of(file_name))) {
+    wait_a_moment();
+    return std::nullopt;
+  }
+  const auto usable = file->map() ? check_layout(*file, file_name, layout)
+                                  : Expected<void>(system_failure(file_name, "a segment that can be mapped", errno));
+  if (usable) return file;
+  leave(*file, file_name);
+  return tl::unexpected(usable.error());
+}
+
+// Takes the memory, maps it and fills it.
+Expected<void> build(SegmentFile& file, const std::string& file_name, const LayoutIdentity& layout,
+                     Segment::Initialize initialize) {
+  const int error = file.allocate(layout.size);
+  step("allocated");
+  if (error != 0) return system_failure(file_name, std::to_string(layout.size) + " bytes of shared memory", error);
+  if (!file.map()) return system_failure(file_name, "shared memory that can be mapped", errno);
+  step("mapped");
+  initialize(file.memory());
+  step("initialized");
+  write_header(file.memory(), layout);
+  return {};
+}
+
+// Builds the segment under a name of its own and links it to the session's; nullopt when somebody else was faster.
+Attempt create(const std::string& file_name, const LayoutIdentity& layout, Segment::Initialize initialize) {
+  const std::string temporary = temporary_of(file_name);
+  auto file = SegmentFile::create(temporary);
+  if (!file && errno == EEXIST) {
+    remove_dead_temporaries(file_name);
+    wait_a_moment();
+    return std::nullopt;
+  }
+  if (!file) return system_failure(temporary, "a new file in /dev/shm", errno);
+  step("created");
+  const bool locked = file->lock(kParticipation, LockKind::read);
+  step("locked");
+  const auto built = locked ? build(*file, temporary, layout, initialize) : Expected<void>{};
+  const bool linked = locked && built && link(path_of(temporary).c_str(), path_of(file_name).c_str()) == 0;
+  step("linked");
+  unlink(path_of(temporary).c_str());
+  step("temporary unlinked");
+  if (!built) return tl::unexpected(built.error());
+  if (!linked) return std::nullopt;
+  return file;
+}
+
+}  // namespace
+
+struct Segment::Core {
+  std::string file_name;
+  SegmentFile file;
+  bool writable;
+  bool created;
+  std::atomic<std::uint64_t> held_bytes{0};  // bit n: this object holds byte n (the kernel lets it lock twice)
+
+  SegmentHeader& header() { return *static_cast<SegmentHeader*>(file.memory()); }
+};
+
+std::string segment_path(const std::string& name) {
+  return path_of(file_name_of(name));
+}
+
+Segment::Segment(std::unique_ptr<Core> core) : core_(std::move(core)) {}
+Segment::Segment(Segment&&) noexcept = default;
+Segment& Segment::operator=(Segment&& other) noexcept {
+  std::swap(core_, other.core_);
+  return *this;
+}
+
+Expected<Segment> Segment::open(const std::string& name, const LayoutIdentity& layout, Initialize initialize) {
+  const std::string file_name = file_name_of(name);
+  remove_dead_temporaries(file_name);
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    for (const bool creating : {false, true}) {
+      Attempt result = creating ? create(file_name, layout, initialize) : attach(file_name, layout);
+      if (!result) return tl::unexpected(result.error());
+      if (*result) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**result), true, creating}));
+    }
+  }
+  return fail(path_of(file_name), "a segment to attach to or to create", "others creating and leaving it all the time",
+              "end the programs that use this session, or choose another --session");
+}
+
+Expected<Segment> Segment::open_read_only(const std::string& name, const LayoutIdentity& layout) {
+  const std::string file_name = file_name_of(name);
+  auto file = SegmentFile::open(file_name, SegmentFile::Access::read_only);
+  if (!file && errno != ENOENT) return system_failure(file_name, "a segment that can be read", errno);
+  if (!file)
+    return fail("session " + name, "a running session", "none of that name",
+                "start it (scripts/start --session " + name + "), or name another with --session");
+  if (const auto owned = check_owner(*file, file_name); !owned) return tl::unexpected(owned.error());
+  if (file->could_write_lock(kParticipation))
+    return fail("session " + name, "a running session", "a leftover: all its programs have died",
+                "start it again; the leftover is then replaced");
+  if (!file->map()) return system_failure(file_name, "a segment that can be mapped", errno);
+  if (const auto matches = check_layout(*file, file_name, layout); !matches) return tl::unexpected(matches.error());
+  return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(*file), false, false}));
+}
+
+Segment::~Segment() {
+  if (!core_ || !core_->writable) return;
+  for (std::size_t byte = 1; byte < kLockBytes; ++byte) unlock(byte);
+  const std::string file_name = core_->file_name;
+  const bool last = leave(core_->file, file_name);
+  core_.reset();
+  if (last) remove_dead_temporaries(file_name);
+}
+
+void* Segment::memory() {
+  YARS_REQUIRE(core_->writable, ==, true);
+  return core_->file.memory();
+}
+const void* Segment::memory() const {
+  return core_->file.memory();
+}
+bool Segment::writable() const {
+  return core_->writable;
+}
+bool Segment::created() const {
+  return core_->created;
+}
+
+bool Segment::try_lock(std::size_t byte) {
+  YARS_REQUIRE(byte, <, kLockBytes);
+  if (!core_->writable) return false;
+  const std::uint64_t bit = std::uint64_t{1} << byte;
+  if ((core_->held_bytes.fetch_or(bit) & bit) != 0) return false;
+  if (!core_->file.lock(byte, LockKind::write)) {
+    core_->held_bytes.fetch_and(~bit);
+    return false;
+  }
+  core_->header().holder_pid[byte].store(getpid(), std::memory_order_release);
+  return true;
+}
+
+void Segment::unlock(std::size_t byte) {
+  const std::uint64_t bit = std::uint64_t{1} << byte;
+  if ((core_->held_bytes.load() & bit) == 0) return;
+  core_->header().holder_pid[byte].store(0, std::memory_order_release);
+  core_->file.lock(byte, LockKind::none);
+  core_->held_bytes.fetch_and(~bit);
+}
+
+bool Segment::is_locked(std::size_t byte) const {
+  YARS_REQUIRE(byte, <, kLockBytes);
+  const bool ours = ((core_->held_bytes.load() >> byte) & 1U) != 0;
+  return ours || !core_->file.could_write_lock(byte);
+}
+
+std::int32_t Segment::holder_pid(std::size_t byte) const {
+  return static_cast<const SegmentHeader*>(core_->file.memory())->holder_pid[byte].load(std::memory_order_acquire);
+}
+
+}  // namespace yars::shm

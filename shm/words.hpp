@@ -1,0 +1,93 @@
+// Records travel through shared memory as 64-bit atomic words, so that a reader who meets a writer has no data race.
+// Publishing order: a slot's sequence goes odd, words (release), sequence even (release). A reader loads words with
+// acquire: whoever has seen one new word also sees the odd sequence in front of it. No fences: ThreadSanitizer
+// understands this. `Stores` is how a container writes; tests put a counting one in its place and stop the writer
+// after every single store. A record whose length varies declares, in its own namespace,
+// `std::size_t used_bytes(const Record&)`: only these leading bytes travel.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace yars::shm {
+
+inline constexpr std::size_t kCacheLine = 64;  // [bytes] cursors of writer and reader lie on lines of their own
+
+using Word = std::uint64_t;
+using AtomicWord = std::atomic<Word>;
+static_assert(AtomicWord::is_always_lock_free && sizeof(AtomicWord) == sizeof(Word));
+
+struct PlainStores {
+  static void store(AtomicWord& word, Word value, std::memory_order order) { word.store(value, order); }
+  static Word fetch_add(AtomicWord& word, Word value, std::memory_order order) { return word.fetch_add(value, order); }
+};
+
+template <class T>
+concept Record = std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(Word) == 0;
+
+template <class T>
+concept PartlyUsedRecord = Record<T> && requires(const T& record) {
+  { used_bytes(record) } -> std::convertible_to<std::size_t>;
+};
+
+template <Record T>
+inline constexpr std::size_t kWordsOf = sizeof(T) / sizeof(Word);
+
+// Words of a record that travel: all of them, unless the record says how much of it is used.
+template <Record T>
+std::size_t used_words(const T& record) {
+  if constexpr (PartlyUsedRecord<T>)
+    return std::min<std::size_t>((used_bytes(record) + sizeof(Word) - 1) / sizeof(Word), kWordsOf<T>);
+  else
+    return kWordsOf<T>;
+}
+
+// What a writer that takes over from a dead one puts into a slot: the next higher odd number.
+constexpr Word next_odd(Word sequence) {
+  return (sequence + 1) | 1U;
+}
+
+template <class Stores>
+void store_words(AtomicWord* words, const void* record, std::size_t count) {
+  const auto* bytes = static_cast<const std::byte*>(record);
+  for (std::size_t i = 0; i < count; ++i) {
+    Word word;
+    std::memcpy(&word, bytes + i * sizeof(Word), sizeof(Word));
+    Stores::store(words[i], word, std::memory_order_release);
+  }
+}
+
+inline void load_words(const AtomicWord* words, void* record, std::size_t count) {
+  auto* bytes = static_cast<std::byte*>(record);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Word word = words[i].load(std::memory_order_acquire);
+    std::memcpy(bytes + i * sizeof(Word), &word, sizeof(Word));
+  }
+}
+
+// A name for people, in `count` words: what is too long is cut, the last byte is zero.
+template <class Stores = PlainStores>
+void store_text(AtomicWord* words, std::size_t count, std::string_view text) {
+  for (std::size_t i = 0; i < count; ++i) {
+    std::array<char, sizeof(Word)> piece{};
+    const std::size_t begin = std::min(i * sizeof(Word), text.size());
+    text.substr(begin).copy(piece.data(), i + 1 == count ? piece.size() - 1 : piece.size());
+    store_words<Stores>(&words[i], piece.data(), 1);
+  }
+}
+
+inline std::string load_text(const AtomicWord* words, std::size_t count) {
+  std::string text(count * sizeof(Word), '\0');
+  load_words(words, text.data(), count);
+  return text.substr(0, std::min(text.find('\0'), text.size() - 1));
+}
+
+}  // namespace yars::shm
