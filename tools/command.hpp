@@ -14,7 +14,9 @@ struct CommandFailed {
   int code = 1;  // 1 failure, 2 bad usage
 };
 
-[[noreturn]] inline void give_up(const failure::Error& error, int code = 1) { throw CommandFailed{error.message(), code}; }
+[[noreturn]] inline void give_up(const failure::Error& error) {
+  throw CommandFailed{error.message(), error.bad_usage ? 2 : 1};
+}
 
 // Options of every command, parsed before a callback runs.
 struct CommonOptions {

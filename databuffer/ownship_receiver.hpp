@@ -1,0 +1,48 @@
+// What a consumer latches once a tick: the ownship and nav of the lane that select_ownship picks. Records that do
+// not validate are refused and counted; the last good value of their lane stands.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "databuffer/records/select_ownship.hpp"
+#include "databuffer/session_layout.hpp"
+
+namespace yars::databuffer {
+
+inline constexpr std::uint32_t kNoLane = 0xffffffffU;
+
+class OwnshipReceiver {
+ public:
+  struct Selected {
+    bool valid = false;  // a fresh lane was found
+    std::uint32_t lane = kNoLane;
+    Ownship ownship{};  // of the lane; the last one used when none is fresh
+    Nav nav{};
+  };
+  // `sim_time_ns` is the time of the tick: receipt is judged by it, so that lockstep and live agree.
+  const Selected& refresh(const SessionLayout& layout, std::int64_t sim_time_ns);
+
+  std::uint64_t refused() const { return refused_; }
+  const std::string& last_refusal() const { return last_refusal_; }  // why; empty = none yet
+
+ private:
+  void receive(const SessionLayout& layout, std::size_t lane);
+
+  struct Lane {
+    std::uint64_t version = 0;  // newest one looked at
+    std::uint64_t nav_version = 0;
+    std::uint64_t accepted = 0;  // counts good ownships: what select_ownship sees as the version
+    Ownship ownship{};
+    Nav nav{};
+    bool has_nav = false;
+  };
+  std::array<Lane, kOwnshipLanes> lanes_;
+  OwnshipSelection selection_;
+  Selected selected_;
+  std::uint64_t refused_ = 0;
+  std::string last_refusal_;
+};
+
+}  // namespace yars::databuffer

@@ -1,0 +1,121 @@
+#include "model/radar_model_shell.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <ctime>
+#include <string>
+
+#include "databuffer/log.hpp"
+#include "databuffer/records/radar_command.hpp"
+#include "databuffer/records/validation.hpp"
+
+namespace yars::model {
+
+namespace {
+
+// Share of the newest tick in the smoothed load: time constant 1 s, so that `yars status` reads steadily.
+constexpr double kLoadSmoothing = radar::kTickSeconds / 1.0;
+
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+RadarModelShell::RadarModelShell(databuffer::Session& session, const radar::RadarConfiguration& configuration,
+                                 TerrainLoader& terrain)
+    : session_(&session), configuration_(&configuration), terrain_(&terrain), kernel_(configuration) {
+  resume();
+}
+
+void RadarModelShell::resume() {
+  databuffer::ModelStatus left{};
+  if (!session_->layout().model_status.read(left)) return;
+  kernel_.resume(left);
+  status_.sweeps = left.sweeps;
+  status_.late_ticks = left.late_ticks;
+  refused_ = left.refused;
+  session_->note(databuffer::NoteKind::restart, "radar-model resumes at scan " + std::to_string(left.scan));
+  databuffer::log_info("resumes at scan " + std::to_string(left.scan));
+}
+
+void RadarModelShell::step(const databuffer::TickLoop::Due& due, std::uint64_t late_ticks) {
+  const double begin_s = thread_seconds();
+  latch(due);
+  run_kernel();
+  load_ += kLoadSmoothing * ((thread_seconds() - begin_s) / radar::kTickSeconds - load_);
+  publish_status(late_ticks);
+  first_tick_ = false;
+}
+
+void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
+  const databuffer::Ownship before = tick_.ownship;
+  const databuffer::RadarCommand command_before = tick_.command;
+  const auto& selected = ownship_.refresh(session_->layout(), due.sim_time_ns);
+  tick_.tick = due.tick;
+  tick_.sim_time_ns = due.sim_time_ns;
+  tick_.epoch = due.clock.epoch;
+  tick_.ownship = selected.ownship;
+  tick_.ownship_lane = selected.lane;
+  status_.nav = selected.nav;
+  if (ownship_.refused() > ownship_refused_) {
+    ownship_refused_ = ownship_.refused();
+    session_->note(databuffer::NoteKind::refusal, ownship_.last_refusal());
+  }
+  latch_command();
+  tick_.flags = selected.valid ? databuffer::kTickOwnshipValid : 0U;
+  if (first_tick_) tick_.flags |= databuffer::kTickRestart;
+  if (first_tick_ || std::memcmp(&before, &tick_.ownship, sizeof before) != 0)
+    tick_.flags |= databuffer::kTickOwnshipChanged;
+  if (first_tick_ || std::memcmp(&command_before, &tick_.command, sizeof command_before) != 0)
+    tick_.flags |= databuffer::kTickCommandChanged;
+  tick_.samples = static_cast<std::uint32_t>(configuration_->fidelity.samples);
+  configuration_->fidelity.name.copy(tick_.fidelity, sizeof tick_.fidelity - 1);
+}
+
+void RadarModelShell::latch_command() {
+  auto& slot = session_->layout().radar_state;
+  if (slot.version() == state_version_) return;
+  databuffer::RadarState state{};
+  const auto version = slot.read(state);
+  if (!version) return;
+  state_version_ = *version;
+  if (const auto reason = databuffer::why_refused(state)) {
+    ++refused_;
+    session_->note(databuffer::NoteKind::refusal, "radar state: " + std::string(*reason));
+    return;
+  }
+  tick_.command = databuffer::command_from_state(state);
+}
+
+void RadarModelShell::run_kernel() {
+  const auto need = kernel_.need(tick_);
+  if (need.video) terrain_->request(need.region);
+  const auto view = terrain_->view();
+  tick_.terrain_generation = view->generation();
+  // The tick goes out before its sweep, so that a log cut short never holds a sweep without its cause.
+  session_->layout().model_ticks.publish(tick_);
+  if (kernel_.step(tick_, *view, sweep_)) {
+    session_->layout().sweeps.publish(sweep_);
+    ++status_.sweeps;
+  }
+  kernel_.describe(*view, status_);
+  status_.terrain_bytes = view->resident_bytes();
+  status_.terrain_generation = view->generation();
+}
+
+void RadarModelShell::publish_status(std::uint64_t late_ticks) {
+  status_.ownship = tick_.ownship;
+  status_.ownship_lane = tick_.ownship_lane;
+  status_.load = std::round(load_ * 1000.0) / 1000.0;
+  status_.late_ticks = late_ticks;
+  status_.refused = refused_ + ownship_.refused();
+  status_.tick = tick_.tick;
+  status_.sim_time_ns = tick_.sim_time_ns;
+  status_.epoch = tick_.epoch;
+  session_->layout().model_status.publish(status_);
+}
+
+}  // namespace yars::model

@@ -1,0 +1,44 @@
+// The radar model as a process: once a tick it latches ownship and radar state, publishes what it latched, drives
+// the kernel and publishes sweeps and status.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "databuffer/ownship_receiver.hpp"
+#include "databuffer/session.hpp"
+#include "databuffer/tick_loop.hpp"
+#include "lib/radar/configuration.hpp"
+#include "model/kernel/radar_kernel.hpp"
+#include "model/terrain_loader_shell.hpp"
+
+namespace yars::model {
+
+class RadarModelShell {
+ public:
+  RadarModelShell(databuffer::Session& session, const radar::RadarConfiguration& configuration, TerrainLoader& terrain);
+  void step(const databuffer::TickLoop::Due& due, std::uint64_t late_ticks);
+
+ private:
+  void resume();
+  void latch(const databuffer::TickLoop::Due& due);
+  void latch_command();
+  void run_kernel();
+  void publish_status(std::uint64_t late_ticks);
+
+  databuffer::Session* session_;
+  const radar::RadarConfiguration* configuration_;
+  TerrainLoader* terrain_;
+  kernel::RadarKernel kernel_;
+  databuffer::OwnshipReceiver ownship_;
+  databuffer::ModelTick tick_{};
+  databuffer::ModelStatus status_{};
+  databuffer::Sweep sweep_{};
+  std::uint64_t state_version_ = 0;
+  std::uint64_t refused_ = 0;          // radar states
+  std::uint64_t ownship_refused_ = 0;  // ownships and navs already noted
+  double load_ = 0.0;
+  bool first_tick_ = true;
+};
+
+}  // namespace yars::model

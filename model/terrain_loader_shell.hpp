@@ -1,0 +1,41 @@
+// Keeps the terrain that the scan needs in memory: prepare() on a thread of its own while live, at once when the
+// caller may wait (lockstep, replay).
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "model/terrain/terrain_view.hpp"
+
+namespace yars::model {
+
+class TerrainLoader {
+ public:
+  TerrainLoader(std::unique_ptr<terrain::TerrainStore> store, bool may_wait);
+  ~TerrainLoader();
+  TerrainLoader(const TerrainLoader&) = delete;
+  TerrainLoader& operator=(const TerrainLoader&) = delete;
+
+  // Asks for a region; a newer request replaces one that has not begun. Waits for it if the loader may.
+  void request(const terrain::TerrainRegion& region);
+  // The latest view; never null once the first request of a waiting loader, or wait_for_first(), is through.
+  terrain::TerrainViewPointer view() const;
+
+ private:
+  void serve();
+
+  std::unique_ptr<terrain::TerrainStore> store_;
+  bool may_wait_;
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::optional<terrain::TerrainRegion> wanted_;
+  std::optional<terrain::TerrainRegion> asked_;
+  terrain::TerrainViewPointer view_;
+  bool ending_ = false;
+  std::thread thread_;
+};
+
+}  // namespace yars::model

@@ -1,0 +1,101 @@
+#include "statemachine/state_machine_shell.hpp"
+
+#include <cstring>
+#include <string>
+
+#include "databuffer/log.hpp"
+#include "databuffer/records/event_text.hpp"
+#include "databuffer/records/validation.hpp"
+
+namespace yars::statemachine {
+
+namespace {
+
+// [ns] An event older than this when a restarted consumer finds it is not what the pilot wants any more.
+constexpr std::int64_t kOldestEvent_ns = 1'000'000'000;
+
+}  // namespace
+
+StateMachineShell::StateMachineShell(databuffer::Session& session, const radar::RadarConfiguration& configuration,
+                                     bool lockstep)
+    : session_(&session),
+      configuration_(&configuration),
+      drop_old_events_(!lockstep),
+      state_(initial_state(configuration)),
+      published_{} {
+  databuffer::RadarState left{};
+  if (!session.layout().radar_state.read(left)) return;
+  if (const auto reason = databuffer::why_refused(left)) {
+    session.note(databuffer::NoteKind::refusal, "radar state left behind: " + std::string(*reason));
+    databuffer::log_warning("radar state left behind is refused, starting anew: " + std::string(*reason));
+    return;
+  }
+  state_ = left;
+  published_ = left;
+  nothing_published_ = false;
+  session.note(databuffer::NoteKind::restart, "state-machine resumes");
+  databuffer::log_info("resumes from the radar state in the segment");
+}
+
+void StateMachineShell::step(const databuffer::TickLoop::Due& due) {
+  latch(due);
+  take_events(due.tick);
+  advance(state_, surroundings_, *configuration_);
+  publish_if_changed(due.tick);
+  drop_old_events_ = false;
+}
+
+void StateMachineShell::latch(const databuffer::TickLoop::Due& due) {
+  const auto& selected = ownship_.refresh(session_->layout(), due.sim_time_ns);
+  surroundings_.tick = due.tick;
+  surroundings_.epoch = due.clock.epoch;
+  surroundings_.ownship_valid = selected.valid;
+  surroundings_.ownship = selected.ownship;
+  surroundings_.nav = selected.nav;
+  surroundings_.recorder_writing = session_->role_is_held(databuffer::Role::recorder);
+  session_->layout().model_status.read(surroundings_.model);
+}
+
+void StateMachineShell::take_events(std::int64_t tick) {
+  auto& input = session_->layout().input;
+  databuffer::InputEvent event{};
+  std::uint64_t too_old = 0;
+  const std::int64_t now_ns = drop_old_events_ ? databuffer::monotonic_ns() : 0;
+  for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) {
+    while (input.pop(lane, event)) {
+      if (drop_old_events_ && now_ns - event.monotonic_ns > kOldestEvent_ns)
+        ++too_old;
+      else
+        take(event, lane, tick);
+    }
+  }
+  if (too_old > 0) session_->note(databuffer::NoteKind::loss, std::to_string(too_old) + " events over 1 s old dropped");
+}
+
+void StateMachineShell::take(const databuffer::InputEvent& event, std::size_t lane, std::int64_t tick) {
+  if (const auto reason = databuffer::why_refused(event)) {
+    session_->note(databuffer::NoteKind::refusal, "event: " + std::string(*reason));
+    return;
+  }
+  databuffer::AppliedEvent applied{};
+  applied.effective = apply(state_, event, surroundings_, *configuration_) ? 1 : 0;
+  ++state_.events_applied;
+  applied.tick = tick;
+  applied.monotonic_ns = databuffer::monotonic_ns();
+  applied.event = event;
+  applied.lane = static_cast<std::uint32_t>(lane);
+  session_->layout().applied_events.publish(applied);
+  databuffer::log_debug(databuffer::text_of(event) + (applied.effective != 0 ? "" : " (dead here)"));
+}
+
+void StateMachineShell::publish_if_changed(std::int64_t tick) {
+  state_.epoch = surroundings_.epoch;
+  state_.tick = published_.tick;
+  if (!nothing_published_ && std::memcmp(&state_, &published_, sizeof state_) == 0) return;
+  state_.tick = tick;
+  session_->layout().radar_state.publish(state_);
+  published_ = state_;
+  nothing_published_ = false;
+}
+
+}  // namespace yars::statemachine

@@ -1,0 +1,116 @@
+// `yars record`: the recorder. Reads the rings only, writes the tick log.
+#include <cstdio>
+#include <ctime>
+#include <optional>
+
+#include "databuffer/log.hpp"
+#include "databuffer/program.hpp"
+#include "databuffer/session.hpp"
+#include "tools/command.hpp"
+#include "tools/tick_log.hpp"
+
+namespace yars::tools {
+
+namespace {
+
+using databuffer::Session;
+
+constexpr std::int64_t kPause_ns = 50'000'000;  // [ns] between looks; the rings hold 5 s
+
+struct RecordOptions {
+  std::string file;
+  std::string terrain;
+};
+
+class Recorder {
+ public:
+  Recorder(Session& session, TickLogWriter& writer) : session_(&session), writer_(&writer) {
+    const auto& layout = session.layout();
+    tick_cursor_ = layout.model_ticks.next();
+    event_cursor_ = layout.applied_events.next();
+    sweep_cursor_ = layout.sweeps.next();
+    // The status may be of a later tick than the cursor: ticks up to it are not written.
+    StartingPoint start{};
+    if (layout.model_status.read(start.status)) {
+      writer.write(start);
+      from_tick_ = start.status.tick + 1;
+    }
+  }
+
+  void drain() {
+    Gap gap{};
+    databuffer::ModelTick tick{};
+    const auto& layout = session_->layout();
+    while (take(layout.model_ticks, tick_cursor_, tick, gap.ticks))
+      if (!from_tick_ || tick.tick >= *from_tick_ || (tick.flags & databuffer::kTickRestart) != 0U) {
+        from_tick_.reset();
+        writer_->write(tick);
+        ++ticks_;
+      }
+    databuffer::AppliedEvent event{};
+    while (take(layout.applied_events, event_cursor_, event, gap.events)) writer_->write(event);
+    while (take(layout.sweeps, sweep_cursor_, sweep_, gap.sweeps)) {
+      writer_->write(SweepMark{sweep_.tick, sweep_.hash, sweep_.epoch, sweep_.number, sweep_.flags, 0});
+      ++sweeps_;
+    }
+    if (gap.ticks + gap.events + gap.sweeps == 0) return;
+    writer_->write(gap);
+    session_->note(databuffer::NoteKind::loss, "recorder fell behind by " + std::to_string(gap.ticks) + " ticks");
+  }
+
+  std::uint64_t ticks() const { return ticks_; }
+  std::uint64_t sweeps() const { return sweeps_; }
+
+ private:
+  template <class Ring, class Record>
+  static bool take(const Ring& ring, std::uint64_t& cursor, Record& record, std::uint64_t& lost) {
+    const auto outcome = ring.read(cursor, record);
+    lost += outcome.lost;
+    return outcome.delivered;
+  }
+
+  Session* session_;
+  TickLogWriter* writer_;
+  std::uint64_t tick_cursor_ = 0, event_cursor_ = 0, sweep_cursor_ = 0;
+  std::optional<std::int64_t> from_tick_;
+  databuffer::Sweep sweep_{};
+  std::uint64_t ticks_ = 0, sweeps_ = 0;
+};
+
+void record(const CommonOptions& common, const RecordOptions& options) {
+  auto session = Session::open(common.session, "recorder");
+  if (!session) give_up(session.error());
+  auto role = session->claim(databuffer::Role::recorder);
+  if (!role) give_up(role.error());
+  auto writer = TickLogWriter::create(options.file, {common.config, options.terrain});
+  if (!writer) give_up(writer.error());
+  Recorder recorder(*session, *writer);
+  databuffer::log_info("records session " + common.session + " to " + options.file);
+  bool whole = true;
+  while (whole && !databuffer::stop_requested()) {
+    recorder.drain();
+    whole = writer->flush();
+    session->heartbeat();
+    const timespec pause{0, kPause_ns};
+    nanosleep(&pause, nullptr);
+  }
+  recorder.drain();
+  whole = writer->flush() && whole;
+  std::printf("%llu ticks, %llu sweeps, %llu bytes in %s\n", static_cast<unsigned long long>(recorder.ticks()),
+              static_cast<unsigned long long>(recorder.sweeps()), static_cast<unsigned long long>(writer->bytes()),
+              options.file.c_str());
+  if (!whole)
+    give_up({options.file, "room on the disk", "a write that failed", "the recording ends where it is", false});
+}
+
+}  // namespace
+
+void add_record_command(CLI::App& app, const CommonOptions& common) {
+  auto* command = app.add_subcommand("record", "record the session's ticks and events until Ctrl-C");
+  auto options = std::make_shared<RecordOptions>();
+  command->add_option("FILE", options->file, "recording to write")->required();
+  command->add_option("--terrain", options->terrain, "the directory that radar-model was given, for the replay");
+  command->callback([&common, options] { record(common, *options); });
+}
+
+}  // namespace yars::tools

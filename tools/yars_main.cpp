@@ -1,0 +1,49 @@
+// The `yars` command: one program, many subcommands; each runs while the command line is parsed.
+#include "databuffer/program.hpp"
+#include "tools/command.hpp"
+
+namespace {
+
+using namespace yars;
+
+void add_commands(CLI::App& app, const tools::CommonOptions& common) {
+  tools::add_scan_command(app, common);
+  tools::add_terrain_command(app, common);
+  tools::add_config_command(app, common);
+  tools::add_sim_command(app, common);
+  tools::add_inject_command(app, common);
+  tools::add_status_command(app, common);
+  tools::add_watch_command(app, common);
+  tools::add_record_command(app, common);
+  tools::add_replay_command(app, common);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("YARS: an open air-to-ground radar simulation", "yars");
+  app.require_subcommand(1);
+  app.fallthrough();
+  databuffer::ProgramOptions options;
+  databuffer::add_common_options(app, options, false);
+  tools::CommonOptions common;
+  // Runs when all is parsed and before the subcommand's own callback.
+  app.parse_complete_callback([&] {
+    if (auto error = databuffer::begin_program("yars", options)) tools::give_up(*error);
+    common.session = options.session;
+    common.config = options.config;
+  });
+  add_commands(app, common);
+  try {
+    app.parse(argc, argv);
+    return 0;
+  } catch (const CLI::ParseError& outcome) {
+    return databuffer::report_parse_outcome(app, outcome);
+  } catch (const tools::CommandFailed& failed) {
+    databuffer::print_failure("yars", failed.message);
+    return failed.code;
+  } catch (const std::exception& problem) {
+    databuffer::print_failure("yars", std::string("stopped by ") + problem.what());
+    return databuffer::kExitFailure;
+  }
+}
