@@ -1,0 +1,211 @@
+#include "databuffer/records/event_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <optional>
+#include <vector>
+
+#include "databuffer/records/validation.hpp"
+#include "lib/radar/modes.hpp"
+
+namespace yars::databuffer {
+
+namespace {
+
+using failure::Expected;
+using Words = std::vector<std::string>;
+
+// What stands behind the verb.
+enum class Operand { none, word, steps, integer, number, pair, name };
+
+struct Form {
+  std::string_view verb;
+  Operand operand;
+  std::string_view word;  // word and steps: the word itself; else how the operand is shown to people
+  EventKind kind;
+  int argument;  // word and steps: what the word means
+};
+
+template <class Enum>
+constexpr int code(Enum value) {
+  return static_cast<int>(value);
+}
+
+constexpr std::array kForms{
+    Form{"pb", Operand::integer, "1..20", EventKind::push_button, 0},
+    Form{"tdc", Operand::pair, "X Y (-1..1)", EventKind::tdc, 0},
+    Form{"tdc", Operand::word, "press", EventKind::tdc_press, 0},
+    Form{"tdc", Operand::word, "release", EventKind::tdc_release, 0},
+    Form{"coolie", Operand::word, "up", EventKind::coolie_up, 0},
+    Form{"acq", Operand::word, "fwd", EventKind::acquisition, 1},
+    Form{"acq", Operand::word, "aft", EventKind::acquisition, -1},
+    Form{"freeze", Operand::none, "", EventKind::freeze, 0},
+    Form{"elevation", Operand::number, "DEGREES (-60..60)", EventKind::elevation, 0},
+    Form{"elevation", Operand::steps, "up", EventKind::elevation_step, 1},
+    Form{"elevation", Operand::steps, "down", EventKind::elevation_step, -1},
+    Form{"mode", Operand::word, "ag", EventKind::master_mode, code(radar::Master::air_to_ground)},
+    Form{"mode", Operand::word, "aa", EventKind::master_mode, code(radar::Master::air_to_air)},
+    Form{"mode", Operand::word, "agr", EventKind::master_mode, code(radar::Master::ranging)},
+    Form{"radar", Operand::word, "rbm", EventKind::radar_mode, code(radar::Mode::rbm)},
+    Form{"radar", Operand::word, "hrm", EventKind::radar_mode, code(radar::Mode::hrm)},
+    Form{"radar", Operand::word, "bcn", EventKind::radar_mode, code(radar::Mode::beacon)},
+    Form{"radar", Operand::word, "pvu", EventKind::radar_mode, code(radar::Mode::pvu)},
+    Form{"power", Operand::word, "off", EventKind::power, code(radar::Power::off)},
+    Form{"power", Operand::word, "stby", EventKind::power, code(radar::Power::standby)},
+    Form{"power", Operand::word, "opr", EventKind::power, code(radar::Power::operate)},
+    Form{"nav", Operand::word, "mn", EventKind::navigator, code(radar::Navigator::mission)},
+    Form{"nav", Operand::word, "ins", EventKind::navigator, code(radar::Navigator::ins)},
+    Form{"nav", Operand::word, "toggle", EventKind::navigator, -1},
+    Form{"sp", Operand::name, "NAME (like 2, 2., 2.1, 2.01)", EventKind::sequence_point, 0},
+    Form{"altimeter", Operand::word, "ok", EventKind::altimeter, 1},
+    Form{"altimeter", Operand::word, "fail", EventKind::altimeter, 0},
+    Form{"contrast", Operand::word, "up", EventKind::contrast, 1},
+    Form{"contrast", Operand::word, "down", EventKind::contrast, -1},
+};
+
+Words words_of(std::string_view text) {
+  Words words;
+  bool inside = false;
+  for (const char character : text) {
+    const auto byte = static_cast<unsigned char>(character);
+    const bool blank = std::isspace(byte) != 0;
+    if (!blank && !inside) words.emplace_back();
+    if (!blank) words.back() += static_cast<char>(std::tolower(byte));
+    inside = !blank;
+  }
+  return words;
+}
+
+template <class Number>
+std::optional<Number> number_of(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  Number value{};
+  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (problem != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+std::string text_of_number(double value) {
+  std::array<char, 32> buffer{};
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
+}
+
+std::string expected_forms(std::string_view verb) {
+  const bool known = std::ranges::any_of(kForms, [verb](const Form& form) { return form.verb == verb; });
+  std::string list;
+  for (const Form& form : kForms) {
+    if (known && form.verb != verb) continue;
+    if (!list.empty()) list += " | ";
+    list += form.verb;
+    if (!form.word.empty()) list += ' ' + std::string(form.word);
+    if (form.operand == Operand::steps) list += " [STEPS]";
+  }
+  return list;
+}
+
+// A count that does not fit the record is no number of it.
+bool put_argument(InputEvent& event, std::optional<std::int16_t> value) {
+  if (value) event.argument = *value;
+  return value.has_value();
+}
+
+bool put_steps(InputEvent& event, const Form& form, const Words& words) {
+  if (words.size() < 2 || words.size() > 3 || words[1] != form.word) return false;
+  const auto count = words.size() == 3 ? number_of<std::int16_t>(words[2]) : std::int16_t{1};
+  if (!count || *count < 1) return false;
+  return put_argument(event, static_cast<std::int16_t>(*count * form.argument));
+}
+
+bool put_numbers(InputEvent& event, const Words& words) {
+  const auto x = number_of<double>(words[1]);
+  const auto y = words.size() == 3 ? number_of<double>(words[2]) : 0.0;
+  if (!x || !y) return false;
+  event.x = *x;
+  event.y = *y;
+  return true;
+}
+
+// Fills the event from the words; false when they do not have this form.
+bool read_form(InputEvent& event, const Form& form, const Words& words) {
+  event.kind = static_cast<std::uint16_t>(form.kind);
+  event.argument = static_cast<std::int16_t>(form.argument);
+  switch (form.operand) {
+    case Operand::none:
+      return words.size() == 1;
+    case Operand::word:
+      return words.size() == 2 && words[1] == form.word;
+    case Operand::steps:
+      return put_steps(event, form, words);
+    case Operand::integer:
+      return words.size() == 2 && put_argument(event, number_of<std::int16_t>(words[1]));
+    case Operand::number:
+      return words.size() == 2 && put_numbers(event, words);
+    case Operand::pair:
+      return words.size() == 3 && put_numbers(event, words);
+    case Operand::name:
+      if (words.size() == 2) set_text(event, words[1]);
+      return words.size() == 2;
+  }
+  return false;
+}
+
+// Whether the form is the one that writes this event.
+bool writes(const Form& form, const InputEvent& event) {
+  if (static_cast<std::uint16_t>(form.kind) != event.kind) return false;
+  if (form.operand == Operand::word) return event.argument == form.argument;
+  if (form.operand == Operand::steps) return event.argument * form.argument > 0;
+  return true;
+}
+
+std::string operand_text(const Form& form, const InputEvent& event) {
+  const int steps = event.argument * form.argument;
+  switch (form.operand) {
+    case Operand::none:
+      return {};
+    case Operand::word:
+      return ' ' + std::string(form.word);
+    case Operand::steps:
+      return ' ' + std::string(form.word) + (steps == 1 ? "" : ' ' + std::to_string(steps));
+    case Operand::integer:
+      return ' ' + std::to_string(event.argument);
+    case Operand::number:
+      return ' ' + text_of_number(event.x);
+    case Operand::pair:
+      return ' ' + text_of_number(event.x) + ' ' + text_of_number(event.y);
+    case Operand::name:
+      return ' ' + std::string(event.text, std::find(event.text, event.text + sizeof event.text, '\0'));
+  }
+  return {};
+}
+
+}  // namespace
+
+void set_text(InputEvent& event, std::string_view name) {
+  std::fill_n(event.text, sizeof event.text, '\0');
+  std::copy_n(name.data(), std::min(name.size(), sizeof event.text), event.text);
+}
+
+Expected<InputEvent> event_from_text(std::string_view text) {
+  const Words words = words_of(text);
+  for (const Form& form : kForms) {
+    InputEvent event{};
+    if (words.empty() || form.verb != words[0] || !read_form(event, form, words)) continue;
+    // The border's own rules hold here too, so that a text never makes an event that is refused later.
+    if (why_refused(event)) break;
+    return event;
+  }
+  const std::string_view verb = words.empty() ? std::string_view() : std::string_view(words[0]);
+  return failure::fail("event", expected_forms(verb), '"' + std::string(text) + '"');
+}
+
+std::string text_of(const InputEvent& event) {
+  const auto form = std::ranges::find_if(kForms, [&event](const Form& candidate) { return writes(candidate, event); });
+  if (form == kForms.end())
+    return "unknown event (kind " + std::to_string(event.kind) + ", argument " + std::to_string(event.argument) + ')';
+  return std::string(form->verb) + operand_text(*form, event);
+}
+
+}  // namespace yars::databuffer

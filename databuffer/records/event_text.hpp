@@ -1,0 +1,26 @@
+// Events as people write them: in scripts, by `yars inject`, in logs. One table serves both directions.
+//   pb 13 | tdc 0.5 0 | tdc press | tdc release | coolie up | acq fwd|aft | freeze | elevation -5 |
+//   elevation up|down [STEPS] (0.5 deg each, project choice) | mode ag|aa|agr | radar rbm|hrm|bcn|pvu |
+//   power off|stby|opr | nav mn|ins|toggle | sp 2.1 | altimeter ok|fail | contrast up|down
+// Words are separated by blanks, letters of either case. Source: spec pvi.md "Hands-on and other controls".
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "databuffer/records/input_event.hpp"
+#include "lib/failure/error.hpp"
+
+namespace yars::databuffer {
+
+// The event without times and number (zero). An error lists the forms that would have been right.
+failure::Expected<InputEvent> event_from_text(std::string_view text);
+
+// The shortest text that event_from_text turns back into the same event; an event outside pvi.md gives a text
+// that says so and that event_from_text refuses.
+std::string text_of(const InputEvent& event);
+
+// Sets the name of a sequence point, as `sp NAME` does; a longer name is cut, and validation then refuses it.
+void set_text(InputEvent& event, std::string_view name);
+
+}  // namespace yars::databuffer

@@ -1,0 +1,26 @@
+// The border: whether a record that another process wrote can be believed. Each function gives nothing for a good
+// record, else the first fault as text: field, what was expected, what was found. Nothing is repaired: the reader
+// keeps its last good value and counts the refusal.
+// Ranges are those written in the records. Both ends of a circle belong to it: heading 360 and longitude +-180 are
+// what rounding makes of 0 and of the antimeridian, and every user of them wraps; 360.0001 is refused.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "databuffer/records/clock_state.hpp"
+#include "databuffer/records/input_event.hpp"
+#include "databuffer/records/ownship.hpp"
+#include "databuffer/records/radar_state.hpp"
+
+namespace yars::databuffer {
+
+using Refusal = std::optional<std::string>;
+
+Refusal why_refused(const Ownship& ownship);
+Refusal why_refused(const Nav& nav);
+Refusal why_refused(const RadarState& state);
+Refusal why_refused(const InputEvent& event);
+Refusal why_refused(const ClockState& clock);
+
+}  // namespace yars::databuffer

@@ -1,0 +1,204 @@
+#include "databuffer/records/event_text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "databuffer/records/validation.hpp"
+
+namespace yars::databuffer {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Written {
+  const char* text;
+  EventKind kind;
+  int argument;
+};
+
+// Every event of the pilot's interface that carries no number.
+const std::vector<Written> kWords{
+    {"tdc press", EventKind::tdc_press, 0},
+    {"tdc release", EventKind::tdc_release, 0},
+    {"coolie up", EventKind::coolie_up, 0},
+    {"acq fwd", EventKind::acquisition, 1},
+    {"acq aft", EventKind::acquisition, -1},
+    {"freeze", EventKind::freeze, 0},
+    {"elevation up", EventKind::elevation_step, 1},
+    {"elevation down", EventKind::elevation_step, -1},
+    {"elevation down 3", EventKind::elevation_step, -3},
+    {"mode ag", EventKind::master_mode, 0},
+    {"mode aa", EventKind::master_mode, 1},
+    {"mode agr", EventKind::master_mode, 2},
+    {"radar rbm", EventKind::radar_mode, 0},
+    {"radar hrm", EventKind::radar_mode, 1},
+    {"radar bcn", EventKind::radar_mode, 3},
+    {"radar pvu", EventKind::radar_mode, 4},
+    {"power off", EventKind::power, 0},
+    {"power stby", EventKind::power, 1},
+    {"power opr", EventKind::power, 2},
+    {"nav mn", EventKind::navigator, 0},
+    {"nav ins", EventKind::navigator, 1},
+    {"nav toggle", EventKind::navigator, -1},
+    {"altimeter ok", EventKind::altimeter, 1},
+    {"altimeter fail", EventKind::altimeter, 0},
+    {"contrast up", EventKind::contrast, 1},
+    {"contrast down", EventKind::contrast, -1},
+    {"pb 1", EventKind::push_button, 1},
+    {"pb 20", EventKind::push_button, 20},
+};
+
+std::string refusal_of(const std::string& text) {
+  const auto event = event_from_text(text);
+  return event ? "accepted" : event.error().message();
+}
+
+TEST(EventText, EveryWordOfTheInterfaceIsReadAndWritten) {
+  for (const auto& [text, kind, argument] : kWords) {
+    const auto event = event_from_text(text);
+    ASSERT_TRUE(event) << text << ": " << event.error().message();
+    EXPECT_EQ(event->kind, static_cast<std::uint16_t>(kind)) << text;
+    EXPECT_EQ(event->argument, argument) << text;
+    EXPECT_EQ(text_of(*event), text);
+  }
+}
+
+TEST(EventText, TdcDeflectionHasTwoNumbers) {
+  const auto event = event_from_text("tdc 0.5 -1");
+  ASSERT_TRUE(event);
+  EXPECT_EQ(event->kind, static_cast<std::uint16_t>(EventKind::tdc));
+  EXPECT_EQ(event->x, 0.5);
+  EXPECT_EQ(event->y, -1.0);
+  EXPECT_EQ(text_of(*event), "tdc 0.5 -1");
+}
+
+TEST(EventText, ElevationIsAbsoluteDegrees) {
+  const auto event = event_from_text("elevation -5");
+  ASSERT_TRUE(event);
+  EXPECT_EQ(event->kind, static_cast<std::uint16_t>(EventKind::elevation));
+  EXPECT_EQ(event->x, -5.0);
+}
+
+TEST(EventText, ASequencePointIsNamed) {
+  const auto event = event_from_text("sp 2.01");
+  ASSERT_TRUE(event);
+  EXPECT_STREQ(event->text, "2.01");
+  EXPECT_EQ(text_of(*event), "sp 2.01");
+}
+
+TEST(EventText, BlanksAndCaseDoNotMatter) {
+  const auto event = event_from_text("  PB\t13 ");
+  ASSERT_TRUE(event);
+  EXPECT_EQ(text_of(*event), "pb 13");
+}
+
+TEST(EventText, AWrongOperandNamesTheFormsOfItsVerbOnly) {
+  const std::string message = refusal_of("power maybe");
+  EXPECT_THAT(message, HasSubstr("power off | power stby | power opr"));
+  EXPECT_THAT(message, HasSubstr("\"power maybe\""));
+  EXPECT_EQ(message.find("coolie"), std::string::npos);
+}
+
+TEST(EventText, AnUnknownVerbNamesAllForms) {
+  const std::string message = refusal_of("fire");
+  for (const auto* verb : {"pb", "tdc", "coolie", "acq", "freeze", "elevation", "mode", "radar", "power", "nav", "sp",
+                           "altimeter", "contrast"})
+    EXPECT_THAT(message, HasSubstr(verb));
+}
+
+TEST(EventText, WhatIsOutOfRangeOrMalformedIsRefused) {
+  for (const auto* text : {"",
+                           "   ",
+                           "pb",
+                           "pb 0",
+                           "pb 21",
+                           "pb -1",
+                           "pb 1.5",
+                           "pb 13 14",
+                           "pb 99999",
+                           "tdc",
+                           "tdc 1",
+                           "tdc 1.01 0",
+                           "tdc nan 0",
+                           "tdc 0 inf",
+                           "elevation 60.1",
+                           "elevation nan",
+                           "elevation up 0",
+                           "elevation up -1",
+                           "elevation up 241",
+                           "elevation sideways",
+                           "freeze now",
+                           "radar patch",
+                           "radar aa",
+                           "sp",
+                           "sp 0",
+                           "sp 101",
+                           "sp 2.00",
+                           "sp 2.100",
+                           "sp two",
+                           "sp 22222222222222222222",
+                           "acq",
+                           "contrast 3"})
+    EXPECT_NE(refusal_of(text), "accepted") << text;
+}
+
+TEST(EventText, AnEventOutsideTheInterfaceHasATextThatIsRefused) {
+  InputEvent event{};
+  event.kind = 99;
+  EXPECT_THAT(text_of(event), HasSubstr("99"));
+  EXPECT_NE(refusal_of(text_of(event)), "accepted");
+}
+
+bool same_content(const InputEvent& a, const InputEvent& b) {
+  return a.kind == b.kind && a.argument == b.argument && a.x == b.x && a.y == b.y &&
+         std::memcmp(a.text, b.text, sizeof a.text) == 0;
+}
+
+// A random event that fills only what its kind uses.
+InputEvent random_event(std::mt19937& random) {
+  InputEvent event{};
+  event.kind = static_cast<std::uint16_t>(std::uniform_int_distribution(0, 17)(random));
+  const auto kind = static_cast<EventKind>(event.kind);
+  std::uniform_real_distribution<double> deflection(-1.0, 1.0);
+  if (kind == EventKind::tdc) {
+    event.x = deflection(random);
+    event.y = deflection(random) * std::pow(10.0, std::uniform_int_distribution(-300, 0)(random));
+  } else if (kind == EventKind::elevation) {
+    event.x = 61.0 * deflection(random);
+  } else if (kind == EventKind::sequence_point) {
+    std::string name = std::to_string(std::uniform_int_distribution(1, 101)(random));
+    const int shape = std::uniform_int_distribution(0, 3)(random);
+    if (shape > 0) name += '.';
+    if (shape > 1) name += std::to_string(std::uniform_int_distribution(0, 100)(random));
+    set_text(event, name);
+  } else if (kind != EventKind::tdc_press && kind != EventKind::tdc_release && kind != EventKind::coolie_up &&
+             kind != EventKind::freeze) {
+    event.argument = static_cast<std::int16_t>(std::uniform_int_distribution(-3, 21)(random));
+  }
+  return event;
+}
+
+TEST(EventText, WhatTheBorderAcceptsSurvivesTextAndBack) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  int valid = 0;
+  for (int round = 0; round < 20'000; ++round) {
+    const InputEvent event = random_event(random);
+    const auto again = event_from_text(text_of(event));
+    ASSERT_EQ(again.has_value(), !why_refused(event).has_value()) << text_of(event);
+    if (!again) continue;
+    ASSERT_TRUE(same_content(event, *again)) << text_of(event);
+    ++valid;
+  }
+  EXPECT_GT(valid, 5'000);
+}
+
+}  // namespace
+}  // namespace yars::databuffer

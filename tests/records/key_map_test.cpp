@@ -1,0 +1,127 @@
+#include "databuffer/records/key_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+#include <vector>
+
+#include "databuffer/records/event_text.hpp"
+#include "databuffer/records/validation.hpp"
+
+namespace yars::databuffer {
+namespace {
+
+std::string texts_of(const std::vector<InputEvent>& events) {
+  std::string texts;
+  for (const InputEvent& event : events) texts += (texts.empty() ? "" : ", ") + text_of(event);
+  return texts;
+}
+
+std::string typed(Key key) {
+  KeyboardState keyboard;
+  const std::string down = texts_of(keyboard.change(key, true));
+  const std::string up = texts_of(keyboard.change(key, false));
+  return up.empty() ? down : down + " / " + up;
+}
+
+TEST(KeyMap, DigitsAndLettersAreTheButtonsOfTheirRow) {
+  const std::string keys = "23456789abcdefghijk";
+  for (std::size_t index = 0; index < keys.size(); ++index)
+    EXPECT_EQ(typed(key_of_character(keys[index])), "pb " + std::to_string(index + 2)) << keys[index];
+}
+
+TEST(KeyMap, EachNamedKeyDoesWhatTheInterfaceSays) {
+  EXPECT_EQ(typed(Key::enter), "tdc press / tdc release");
+  EXPECT_EQ(typed(Key::tab), "coolie up");
+  EXPECT_EQ(typed(Key::page_up), "acq fwd");
+  EXPECT_EQ(typed(Key::page_down), "acq aft");
+  EXPECT_EQ(typed(Key::space), "freeze");
+  EXPECT_EQ(typed(key_of_character('[')), "elevation down");
+  EXPECT_EQ(typed(key_of_character(']')), "elevation up");
+  EXPECT_EQ(typed(Key::f1), "mode ag");
+  EXPECT_EQ(typed(Key::f2), "mode aa");
+  EXPECT_EQ(typed(Key::f3), "mode agr");
+  EXPECT_EQ(typed(Key::f4), "nav toggle");
+  EXPECT_EQ(typed(Key::up), "tdc 0 1 / tdc 0 0");
+  EXPECT_EQ(typed(Key::down), "tdc 0 -1 / tdc 0 0");
+  EXPECT_EQ(typed(Key::left), "tdc -1 0 / tdc 0 0");
+  EXPECT_EQ(typed(Key::right), "tdc 1 0 / tdc 0 0");
+}
+
+TEST(KeyMap, KeysWithoutAMeaningDoNothing) {
+  for (const char character : std::string("01lmzx-=")) EXPECT_EQ(typed(key_of_character(character)), "") << character;
+  EXPECT_EQ(typed(Key::escape), "");
+  EXPECT_EQ(typed(Key::none), "");
+}
+
+TEST(KeyMap, CapitalLettersAreTheSameKeys) {
+  EXPECT_EQ(key_of_character('K'), key_of_character('k'));
+  EXPECT_EQ(key_of_character('\x1b'), Key::none);
+  EXPECT_EQ(key_of_character('\xe9'), Key::none);
+}
+
+TEST(KeyboardState, TwoArrowsCombineAndReleaseOneByOne) {
+  KeyboardState keyboard;
+  EXPECT_EQ(texts_of(keyboard.change(Key::up, true)), "tdc 0 1");
+  EXPECT_EQ(texts_of(keyboard.change(Key::right, true)), "tdc 1 1");
+  EXPECT_EQ(texts_of(keyboard.change(Key::up, false)), "tdc 1 0");
+  EXPECT_EQ(texts_of(keyboard.change(Key::right, false)), "tdc 0 0");
+}
+
+TEST(KeyboardState, OppositeArrowsCancel) {
+  KeyboardState keyboard;
+  keyboard.change(Key::left, true);
+  EXPECT_EQ(texts_of(keyboard.change(Key::right, true)), "tdc 0 0");
+  EXPECT_EQ(texts_of(keyboard.change(Key::left, false)), "tdc 1 0");
+}
+
+TEST(KeyboardState, AutoRepeatIsNoNewStroke) {
+  KeyboardState keyboard;
+  EXPECT_EQ(texts_of(keyboard.change(Key::space, true)), "freeze");
+  EXPECT_EQ(texts_of(keyboard.change(Key::space, true)), "");
+  EXPECT_EQ(texts_of(keyboard.change(Key::space, false)), "");
+  EXPECT_EQ(texts_of(keyboard.change(Key::space, true)), "freeze");
+}
+
+TEST(KeyboardState, AReleaseWithoutAPressSaysNothing) {
+  KeyboardState keyboard;
+  EXPECT_EQ(texts_of(keyboard.change(Key::enter, false)), "");
+  EXPECT_EQ(texts_of(keyboard.change(Key::up, false)), "");
+}
+
+TEST(KeyboardState, LosingTheKeyboardLetsGoOfTdcAndItsSwitch) {
+  KeyboardState keyboard;
+  keyboard.change(Key::up, true);
+  keyboard.change(Key::enter, true);
+  EXPECT_EQ(texts_of(keyboard.release_all()), "tdc 0 0, tdc release");
+  EXPECT_EQ(texts_of(keyboard.release_all()), "");
+  EXPECT_EQ(texts_of(keyboard.change(Key::enter, true)), "tdc press");
+}
+
+TEST(KeyboardState, WhateverIsTypedIsValidAndEndsAtRest) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  KeyboardState keyboard;
+  InputEvent deflection{};
+  int presses = 0;
+  const auto follow = [&](const std::vector<InputEvent>& events) {
+    for (const InputEvent& event : events) {
+      ASSERT_FALSE(why_refused(event)) << *why_refused(event);
+      if (event.kind == static_cast<std::uint16_t>(EventKind::tdc)) deflection = event;
+      if (event.kind == static_cast<std::uint16_t>(EventKind::tdc_press)) ++presses;
+      if (event.kind == static_cast<std::uint16_t>(EventKind::tdc_release)) --presses;
+      ASSERT_TRUE(presses == 0 || presses == 1);
+    }
+  };
+  for (int round = 0; round < 20'000; ++round)
+    follow(keyboard.change(static_cast<Key>(random() % 256), random() % 2 == 0));
+  follow(keyboard.release_all());
+  EXPECT_EQ(deflection.x, 0.0);
+  EXPECT_EQ(deflection.y, 0.0);
+  EXPECT_EQ(presses, 0);
+}
+
+}  // namespace
+}  // namespace yars::databuffer

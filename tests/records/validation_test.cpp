@@ -1,0 +1,269 @@
+#include "databuffer/records/validation.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+
+namespace yars::databuffer {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kDenormal = std::numeric_limits<double>::denorm_min();
+
+Ownship good_ownship() {
+  Ownship ownship{};
+  ownship.latitude_deg = 38.0;
+  ownship.longitude_deg = -123.1;
+  ownship.altitude_msl_m = 4572.0;
+  ownship.heading_deg = 160.0;
+  ownship.velocity_north_mps = 200.0;
+  ownship.radar_altitude_m = kNan;
+  std::strcpy(ownship.source, "route");
+  return ownship;
+}
+
+Nav good_nav() {
+  Nav nav{};
+  nav.mission_latitude_deg = nav.ins_latitude_deg = 38.0;
+  nav.mission_longitude_deg = nav.ins_longitude_deg = -123.1;
+  nav.magnetic_variation_deg = kNan;
+  return nav;
+}
+
+RadarState good_state() {
+  RadarState state{};
+  state.range_nm = 40.0;
+  state.scan_width_deg = 100.0;
+  state.window_nm = 4.7;
+  state.channel = 1;
+  state.cursor_elevation_m = kNan;
+  state.flags = kCursorValid;
+  return state;
+}
+
+ClockState good_clock() {
+  ClockState clock{};
+  clock.rate = 1.0;
+  clock.running = 1;
+  clock.reposition_latitude_deg = clock.reposition_longitude_deg = kNan;
+  clock.reposition_altitude_m = clock.reposition_heading_deg = kNan;
+  return clock;
+}
+
+InputEvent event_of(EventKind kind, int argument, double x = 0.0, double y = 0.0) {
+  InputEvent event{};
+  event.kind = static_cast<std::uint16_t>(kind);
+  event.argument = static_cast<std::int16_t>(argument);
+  event.x = x;
+  event.y = y;
+  return event;
+}
+
+template <class Record>
+bool accepts(Record record, double Record::*field, double value) {
+  record.*field = value;
+  return !why_refused(record);
+}
+
+// The ends belong to the range, the next number outside does not, and nothing that is no number does.
+template <class Record>
+void expect_range(const Record& good, double Record::*field, double least, double most) {
+  EXPECT_TRUE(accepts(good, field, least)) << least;
+  EXPECT_TRUE(accepts(good, field, most)) << most;
+  EXPECT_TRUE(accepts(good, field, least + kDenormal));
+  EXPECT_FALSE(accepts(good, field, std::nextafter(least, -kInfinity))) << least;
+  EXPECT_FALSE(accepts(good, field, std::nextafter(most, kInfinity))) << most;
+  EXPECT_FALSE(accepts(good, field, kInfinity));
+  EXPECT_FALSE(accepts(good, field, -kInfinity));
+}
+
+template <class Record>
+void expect_range_without_nan(const Record& good, double Record::*field, double least, double most) {
+  expect_range(good, field, least, most);
+  EXPECT_FALSE(accepts(good, field, kNan));
+  EXPECT_FALSE(accepts(good, field, -kNan));
+}
+
+TEST(Validation, GoodRecordsPass) {
+  EXPECT_EQ(why_refused(good_ownship()), std::nullopt);
+  EXPECT_EQ(why_refused(good_nav()), std::nullopt);
+  EXPECT_EQ(why_refused(good_state()), std::nullopt);
+  EXPECT_EQ(why_refused(good_clock()), std::nullopt);
+  EXPECT_EQ(why_refused(event_of(EventKind::freeze, 0)), std::nullopt);
+}
+
+TEST(Validation, OwnshipHoldsItsRanges) {
+  expect_range_without_nan(good_ownship(), &Ownship::latitude_deg, -90.0, 90.0);
+  expect_range_without_nan(good_ownship(), &Ownship::longitude_deg, -180.0, 180.0);
+  expect_range_without_nan(good_ownship(), &Ownship::altitude_msl_m, -1'000.0, 200'000.0);
+  expect_range_without_nan(good_ownship(), &Ownship::heading_deg, 0.0, 360.0);
+  expect_range_without_nan(good_ownship(), &Ownship::pitch_deg, -90.0, 90.0);
+  expect_range_without_nan(good_ownship(), &Ownship::roll_deg, -180.0, 180.0);
+  for (auto field : {&Ownship::velocity_north_mps, &Ownship::velocity_east_mps, &Ownship::velocity_down_mps})
+    expect_range_without_nan(good_ownship(), field, -10'000.0, 10'000.0);
+  expect_range(good_ownship(), &Ownship::radar_altitude_m, 0.0, 200'000.0);
+}
+
+TEST(Validation, DenormalsAndMinusZeroAreNumbers) {
+  EXPECT_TRUE(accepts(good_ownship(), &Ownship::latitude_deg, kDenormal));
+  EXPECT_TRUE(accepts(good_ownship(), &Ownship::velocity_down_mps, -kDenormal));
+  EXPECT_TRUE(accepts(good_ownship(), &Ownship::heading_deg, -0.0));
+  EXPECT_FALSE(accepts(good_ownship(), &Ownship::heading_deg, -kDenormal));
+}
+
+TEST(Validation, AMissingRadarAltimeterIsNoFault) {
+  EXPECT_TRUE(accepts(good_ownship(), &Ownship::radar_altitude_m, kNan));
+}
+
+TEST(Validation, TheFirstFaultIsNamedWithBothValues) {
+  Ownship ownship = good_ownship();
+  ownship.latitude_deg = 91.5;
+  EXPECT_EQ(why_refused(ownship), "latitude_deg: expected [-90, 90], found 91.5");
+  ownship.heading_deg = kNan;
+  EXPECT_EQ(why_refused(ownship), "latitude_deg: expected [-90, 90], found 91.5");
+}
+
+TEST(Validation, ATextWithoutItsZeroIsRefused) {
+  Ownship ownship = good_ownship();
+  std::memset(ownship.source, 'x', sizeof ownship.source);
+  EXPECT_THAT(why_refused(ownship).value_or(""), HasSubstr("source: expected a zero at its end"));
+}
+
+TEST(Validation, ControlCharactersDoNotReachATerminal) {
+  Ownship ownship = good_ownship();
+  std::strcpy(ownship.source, "\x1b[2J");
+  EXPECT_THAT(why_refused(ownship).value_or(""), HasSubstr("printable"));
+}
+
+TEST(Validation, NavHoldsItsRanges) {
+  for (auto field : {&Nav::mission_latitude_deg, &Nav::ins_latitude_deg})
+    expect_range_without_nan(good_nav(), field, -90.0, 90.0);
+  for (auto field : {&Nav::mission_longitude_deg, &Nav::ins_longitude_deg})
+    expect_range_without_nan(good_nav(), field, -180.0, 180.0);
+  for (auto field : {&Nav::velocity_north_mps, &Nav::velocity_east_mps, &Nav::velocity_down_mps})
+    expect_range_without_nan(good_nav(), field, -10'000.0, 10'000.0);
+  expect_range(good_nav(), &Nav::magnetic_variation_deg, -180.0, 180.0);
+  EXPECT_TRUE(accepts(good_nav(), &Nav::magnetic_variation_deg, kNan));
+}
+
+TEST(Validation, RadarStateHoldsItsRanges) {
+  expect_range_without_nan(good_state(), &RadarState::antenna_elevation_deg, -60.0, 60.0);
+  expect_range_without_nan(good_state(), &RadarState::tdc_x, -1.0, 1.0);
+  expect_range_without_nan(good_state(), &RadarState::tdc_y, -1.0, 1.0);
+  expect_range_without_nan(good_state(), &RadarState::scan_width_deg, 0.0, 360.0);
+  expect_range_without_nan(good_state(), &RadarState::cursor_latitude_deg, -90.0, 90.0);
+  expect_range_without_nan(good_state(), &RadarState::cursor_longitude_deg, -180.0, 180.0);
+  expect_range_without_nan(good_state(), &RadarState::frame_latitude_deg, -90.0, 90.0);
+  expect_range_without_nan(good_state(), &RadarState::frame_longitude_deg, -180.0, 180.0);
+  expect_range_without_nan(good_state(), &RadarState::frame_track_deg, 0.0, 360.0);
+  EXPECT_FALSE(accepts(good_state(), &RadarState::range_nm, kNan));
+  EXPECT_FALSE(accepts(good_state(), &RadarState::window_nm, kInfinity));
+}
+
+TEST(Validation, WithoutACursorItsPlaceMayBeMissing) {
+  RadarState state = good_state();
+  state.cursor_latitude_deg = kNan;
+  EXPECT_TRUE(why_refused(state));
+  state.flags = 0;
+  EXPECT_EQ(why_refused(state), std::nullopt);
+}
+
+TEST(Validation, EachSwitchStopsAtItsLastPosition) {
+  struct Switch {
+    std::uint8_t RadarState::*field;
+    int least, most;
+  };
+  for (const Switch& position :
+       {Switch{&RadarState::power, 0, 2}, Switch{&RadarState::mode, 0, 7}, Switch{&RadarState::master, 0, 2},
+        Switch{&RadarState::scan, 0, 2}, Switch{&RadarState::gain, 0, 3}, Switch{&RadarState::brightness, 0, 15},
+        Switch{&RadarState::contrast, 0, 15}, Switch{&RadarState::cursor_function, 0, 4},
+        Switch{&RadarState::navigator, 0, 1}, Switch{&RadarState::channel, 1, 8}, Switch{&RadarState::band, 0, 4},
+        Switch{&RadarState::points_drawn, 0, radar::kMaxPointsDrawn}, Switch{&RadarState::recall, 0, 3}}) {
+    for (int value = 0; value < 256; ++value) {
+      RadarState state = good_state();
+      state.*position.field = static_cast<std::uint8_t>(value);
+      EXPECT_EQ(!why_refused(state), value >= position.least && value <= position.most) << value;
+    }
+  }
+}
+
+TEST(Validation, DrawnPointsAreInspectedAndTheRestIsNot) {
+  RadarState state = good_state();
+  state.points[0].latitude_deg = 91.0;
+  EXPECT_EQ(why_refused(state), std::nullopt);
+  state.points_drawn = 1;
+  EXPECT_TRUE(why_refused(state));
+}
+
+TEST(Validation, LegendsAndMessageEndWithZero) {
+  RadarState state = good_state();
+  std::memset(state.legends[20], 'A', sizeof state.legends[20]);
+  EXPECT_TRUE(why_refused(state));
+  state = good_state();
+  std::memset(state.message, 'A', sizeof state.message);
+  EXPECT_TRUE(why_refused(state));
+}
+
+TEST(Validation, EventsHoldTheirArguments) {
+  EXPECT_TRUE(why_refused(event_of(EventKind::none, 0)));
+  EXPECT_TRUE(why_refused(event_of(static_cast<EventKind>(17), 0)));
+  for (int argument = -300; argument <= 300; ++argument) {
+    const auto valid = [argument](EventKind kind) { return !why_refused(event_of(kind, argument)); };
+    EXPECT_EQ(valid(EventKind::push_button), argument >= 1 && argument <= 20);
+    EXPECT_EQ(valid(EventKind::acquisition), argument == 1 || argument == -1);
+    EXPECT_EQ(valid(EventKind::contrast), argument == 1 || argument == -1);
+    EXPECT_EQ(valid(EventKind::elevation_step), argument != 0 && std::abs(argument) <= 240);
+    EXPECT_EQ(valid(EventKind::master_mode), argument >= 0 && argument <= 2);
+    EXPECT_EQ(valid(EventKind::radar_mode), argument == 0 || argument == 1 || argument == 3 || argument == 4);
+    EXPECT_EQ(valid(EventKind::power), argument >= 0 && argument <= 2);
+    EXPECT_EQ(valid(EventKind::navigator), argument >= -1 && argument <= 1);
+    EXPECT_EQ(valid(EventKind::altimeter), argument == 0 || argument == 1);
+  }
+}
+
+TEST(Validation, TdcAndElevationAreFiniteAndInRange) {
+  expect_range_without_nan(event_of(EventKind::tdc, 0), &InputEvent::x, -1.0, 1.0);
+  expect_range_without_nan(event_of(EventKind::tdc, 0), &InputEvent::y, -1.0, 1.0);
+  expect_range_without_nan(event_of(EventKind::elevation, 0), &InputEvent::x, -60.0, 60.0);
+}
+
+TEST(Validation, ASequencePointNeedsAName) {
+  InputEvent event = event_of(EventKind::sequence_point, 0);
+  EXPECT_TRUE(why_refused(event));
+  std::strcpy(event.text, "100.99");
+  EXPECT_EQ(why_refused(event), std::nullopt);
+  std::memset(event.text, '1', sizeof event.text);
+  EXPECT_TRUE(why_refused(event));
+}
+
+TEST(Validation, ClockHoldsItsRanges) {
+  expect_range_without_nan(good_clock(), &ClockState::rate, 0.0, 10.0);
+  ClockState clock = good_clock();
+  clock.running = 2;
+  EXPECT_TRUE(why_refused(clock));
+  clock = good_clock();
+  clock.base_sim_ns = -1;
+  EXPECT_TRUE(why_refused(clock));
+}
+
+TEST(Validation, ARepositioningIsWholeOrNone) {
+  ClockState clock = good_clock();
+  clock.reposition_latitude_deg = 38.0;
+  EXPECT_TRUE(why_refused(clock));
+  clock.reposition_longitude_deg = -180.0;
+  clock.reposition_altitude_m = 4572.0;
+  clock.reposition_heading_deg = 360.0;
+  EXPECT_EQ(why_refused(clock), std::nullopt);
+  clock.reposition_heading_deg = 361.0;
+  EXPECT_TRUE(why_refused(clock));
+}
+
+}  // namespace
+}  // namespace yars::databuffer
