@@ -27,10 +27,6 @@ void install_signal_handlers() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
-void print_line(const std::string& program, const std::string& text) {
-  std::fprintf(stderr, "%s: %s\n", program.c_str(), text.c_str());
-}
-
 }  // namespace
 
 void add_common_options(CLI::App& app, ProgramOptions& options, bool is_role) {
@@ -45,31 +41,46 @@ void add_common_options(CLI::App& app, ProgramOptions& options, bool is_role) {
                    "roles that step together on sim time, ROLE,ROLE,...[@END_TICK]; the same for all of them");
 }
 
+void print_failure(const std::string& program, const std::string& message) {
+  std::fprintf(stderr, "%s: %s\n", program.c_str(), message.c_str());
+}
+
+int report_parse_outcome(const CLI::App& app, const CLI::ParseError& outcome) {
+  if (outcome.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(outcome);
+  print_failure(app.get_name(), std::string(outcome.what()) + "; see " + app.get_name() + " --help");
+  return kExitUsage;
+}
+
+std::optional<failure::Error> begin_program(const std::string& name, const ProgramOptions& options) {
+  if (!start_log(name, options.log_level))
+    return usage_error("--log-level", "trace, debug, info, warning, error or off", "'" + options.log_level + "'");
+  install_signal_handlers();
+  return std::nullopt;
+}
+
 int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& options, const ProgramBody& body) {
   try {
     app.parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    print_line(app.get_name(), std::string(error.what()) + "; see " + app.get_name() + " --help");
-    return kExitUsage;
+  } catch (const CLI::ParseError& outcome) {
+    return report_parse_outcome(app, outcome);
   }
-  if (!start_log(app.get_name(), options.log_level)) {
-    print_line(app.get_name(),
-               "--log-level: expected trace, debug, info, warning, error or off, found '" + options.log_level + "'");
-    return kExitUsage;
-  }
-  install_signal_handlers();
   try {
-    if (auto outcome = body(); !outcome) {
-      print_line(app.get_name(), outcome.error().message());
-      return outcome.error().bad_usage ? kExitUsage : kExitFailure;
+    auto error = begin_program(app.get_name(), options);
+    if (!error) {
+      if (auto outcome = body(); !outcome) error = outcome.error();
     }
+    if (!error) return 0;
+    print_failure(app.get_name(), error->message());
+    return error->bad_usage ? kExitUsage : kExitFailure;
   } catch (const std::exception& problem) {
-    print_line(app.get_name(), std::string("stopped by ") + problem.what());
+    print_failure(app.get_name(), std::string("stopped by ") + problem.what());
     return kExitFailure;
   }
-  return 0;
+}
+
+failure::Error usage_error(failure::Error error) {
+  error.bad_usage = true;
+  return error;
 }
 
 failure::Error usage_error(std::string subject, std::string expected, std::string found, std::string action) {

@@ -30,7 +30,13 @@ void add_common_options(CLI::App& app, ProgramOptions& options, bool is_role);
 using ProgramBody = std::function<failure::Expected<void>()>;
 int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& options, const ProgramBody& body);
 
+// The parts of run_program, for a program whose subcommands run while it parses.
+int report_parse_outcome(const CLI::App& app, const CLI::ParseError& outcome);  // prints help or one line; exit code
+std::optional<failure::Error> begin_program(const std::string& name, const ProgramOptions& options);  // log, signals
+void print_failure(const std::string& program, const std::string& message);
+
 // An error that the user's command line caused: exit code 2 instead of 1.
+failure::Error usage_error(failure::Error error);
 failure::Error usage_error(std::string subject, std::string expected, std::string found, std::string action = {});
 
 // True after SIGINT, SIGTERM or request_stop().

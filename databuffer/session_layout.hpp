@@ -49,15 +49,14 @@ struct Note {
 static_assert(sizeof(Note) == 128);
 
 // Who steps when the session runs in lockstep: each role waits until its predecessor in the chain has done the tick.
-inline constexpr std::size_t kLockstepRoles =
-    5;  // flight-model, input-monitor, state-machine, radar-model, radar-display
+// flight-model, input-monitor, state-machine, radar-model, radar-display, recorder
+inline constexpr std::size_t kLockstepRoles = 6;
 struct Lockstep {
   std::atomic<std::uint32_t> enabled;                               // set by the creator before anyone else attaches
   std::atomic<std::uint32_t> roles;                                 // bit n: role n takes part
   std::atomic<std::int64_t> end_tick;                               // all stop cleanly after this tick; -1 = none
   std::array<std::atomic<std::int64_t>, kLockstepRoles> done_tick;  // last tick done; -1 = none
   std::array<std::atomic<std::uint32_t>, kLockstepRoles> wake;      // futex words, count up with done_tick
-  std::uint32_t padding;
 };
 
 struct PatchSlot {

@@ -24,7 +24,7 @@ constexpr std::int64_t kPartnerPatience_ns =
 constexpr std::int64_t kPartnerCheck_ns = 100'000'000;  // [ns] between looks at the stop flag while waiting
 
 constexpr std::array<std::string_view, kLockstepRoles> kRoleNames{"flight-model", "input-monitor", "state-machine",
-                                                                  "radar-model", "radar-display"};
+                                                                  "radar-model",  "radar-display", "recorder"};
 
 void sleep_until(std::int64_t deadline_ns) {
   const timespec deadline{static_cast<time_t>(deadline_ns / 1'000'000'000),
@@ -52,7 +52,7 @@ failure::Expected<LockstepPlan> parse_plan(const std::string& text) {
   const auto bad = [&text] {
     return tl::unexpected(usage_error("--lockstep",
                                       "ROLE,ROLE,...[@END_TICK] of flight-model, input-monitor, "
-                                      "state-machine, radar-model, radar-display",
+                                      "state-machine, radar-model, radar-display, recorder",
                                       "'" + text + "'"));
   };
   LockstepPlan plan;

@@ -1,6 +1,6 @@
 // The beat of a role: one call a tick of 5 ms sim time. Live, it sleeps until a tick is due, catches up at most
 // kMostTicksBehind late ticks and skips the rest. In lockstep it waits until the role before it in the chain
-// (flight-model, input-monitor, state-machine, radar-model, radar-display, round again) has done its part.
+// (flight-model, input-monitor, state-machine, radar-model, radar-display, recorder, round again) has done its part.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,8 @@ enum class LockstepRole : std::uint8_t {
   input_monitor = 1,
   state_machine = 2,
   radar_model = 3,
-  radar_display = 4
+  radar_display = 4,
+  recorder = 5
 };
 
 inline constexpr std::int64_t kMostTicksBehind = 20;  // [ticks] 0.1 s: more would make a hiccup visible as a burst

@@ -30,7 +30,7 @@ failure::Expected<void> run(const databuffer::ProgramOptions& options, const Mod
   auto session = databuffer::Session::open(options.session, "radar-model");
   if (!session) return tl::unexpected(session.error());
   auto role = session->claim(databuffer::Role::radar_model);
-  if (!role) return tl::unexpected(role.error());
+  if (!role) return tl::unexpected(databuffer::usage_error(role.error()));
   auto loop = databuffer::TickLoop::create(*session, databuffer::LockstepRole::radar_model, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
   model::TerrainLoader terrain(std::move(*store), loop->lockstep());

@@ -13,7 +13,7 @@ failure::Expected<void> run(const databuffer::ProgramOptions& options) {
   auto session = databuffer::Session::open(options.session, "state-machine");
   if (!session) return tl::unexpected(session.error());
   auto role = session->claim(databuffer::Role::state_machine);
-  if (!role) return tl::unexpected(role.error());
+  if (!role) return tl::unexpected(databuffer::usage_error(role.error()));
   auto loop = databuffer::TickLoop::create(*session, databuffer::LockstepRole::state_machine, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
   statemachine::StateMachineShell shell(*session, *configuration, loop->lockstep());

@@ -6,6 +6,7 @@
 #include "databuffer/log.hpp"
 #include "databuffer/program.hpp"
 #include "databuffer/session.hpp"
+#include "databuffer/tick_loop.hpp"
 #include "tools/command.hpp"
 #include "tools/tick_log.hpp"
 
@@ -20,6 +21,7 @@ constexpr std::int64_t kPause_ns = 50'000'000;  // [ns] between looks; the rings
 struct RecordOptions {
   std::string file;
   std::string terrain;
+  std::string lockstep;
 };
 
 class Recorder {
@@ -77,25 +79,41 @@ class Recorder {
   std::uint64_t ticks_ = 0, sweeps_ = 0;
 };
 
-void record(const CommonOptions& common, const RecordOptions& options) {
-  auto session = Session::open(common.session, "recorder");
-  if (!session) give_up(session.error());
-  auto role = session->claim(databuffer::Role::recorder);
-  if (!role) give_up(role.error());
-  auto writer = TickLogWriter::create(options.file, {common.config, options.terrain});
-  if (!writer) give_up(writer.error());
-  Recorder recorder(*session, *writer);
-  databuffer::log_info("records session " + common.session + " to " + options.file);
+// Live it looks now and then; in lockstep it is the last of each tick, so that nothing is lost at any speed.
+bool record_live(Session& session, Recorder& recorder, TickLogWriter& writer) {
   bool whole = true;
   while (whole && !databuffer::stop_requested()) {
     recorder.drain();
-    whole = writer->flush();
-    session->heartbeat();
+    whole = writer.flush();
+    session.heartbeat();
     const timespec pause{0, kPause_ns};
     nanosleep(&pause, nullptr);
   }
   recorder.drain();
-  whole = writer->flush() && whole;
+  return writer.flush() && whole;
+}
+
+bool record_in_lockstep(Session& session, Recorder& recorder, TickLogWriter& writer, const std::string& lockstep) {
+  auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::recorder, lockstep);
+  if (!loop) give_up(loop.error());
+  while (const auto due = loop->wait()) {
+    recorder.drain();
+    loop->done(*due);
+  }
+  return writer.flush();
+}
+
+void record(const CommonOptions& common, const RecordOptions& options) {
+  auto session = Session::open(common.session, "recorder");
+  if (!session) give_up(session.error());
+  auto role = session->claim(databuffer::Role::recorder);
+  if (!role) give_up(databuffer::usage_error(role.error()));
+  auto writer = TickLogWriter::create(options.file, {common.config, options.terrain});
+  if (!writer) give_up(writer.error());
+  Recorder recorder(*session, *writer);
+  databuffer::log_info("records session " + common.session + " to " + options.file);
+  const bool whole = options.lockstep.empty() ? record_live(*session, recorder, *writer)
+                                              : record_in_lockstep(*session, recorder, *writer, options.lockstep);
   std::printf("%llu ticks, %llu sweeps, %llu bytes in %s\n", static_cast<unsigned long long>(recorder.ticks()),
               static_cast<unsigned long long>(recorder.sweeps()), static_cast<unsigned long long>(writer->bytes()),
               options.file.c_str());
@@ -110,6 +128,7 @@ void add_record_command(CLI::App& app, const CommonOptions& common) {
   auto options = std::make_shared<RecordOptions>();
   command->add_option("FILE", options->file, "recording to write")->required();
   command->add_option("--terrain", options->terrain, "the directory that radar-model was given, for the replay");
+  command->add_option("--lockstep", options->lockstep, "the set's plan, when it runs in lockstep");
   command->callback([&common, options] { record(common, *options); });
 }
 

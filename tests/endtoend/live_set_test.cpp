@@ -1,0 +1,175 @@
+// The set live: a button travels bezel -> state -> legend, a sweep travels model -> segment -> glass -> PNG; killed
+// roles come back as they were; nothing is left behind.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <random>
+
+#include "lib/imageio/png.hpp"
+#include "tests/endtoend/process_set.hpp"
+
+namespace yars::endtoend {
+namespace {
+
+// Pixels whose green is bright enough to be seen.
+std::size_t lit_pixels(const std::filesystem::path& path) {
+  const auto image = imageio::read_png(path);
+  if (!image) return 0;
+  std::size_t lit = 0;
+  for (std::size_t i = 1; i < image->pixels.size(); i += static_cast<std::size_t>(image->channels))
+    lit += image->pixels[i] > 40 ? 1 : 0;
+  return lit;
+}
+
+std::filesystem::path newest_frame(const std::filesystem::path& folder) {
+  std::filesystem::path newest;
+  if (!std::filesystem::exists(folder)) return newest;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".png" && entry.path() > newest) newest = entry.path();
+  return newest;
+}
+
+class LiveSet : public ::testing::Test {
+ protected:
+  LiveSet() : set_("live"), frames_(set_.folder() / "frames") { std::filesystem::create_directories(frames_); }
+
+  void start(const std::string& role) {
+    if (role == "state-machine" || role == "radar-model") set_.start(role, {role});
+    if (role == "flight-model") set_.start(role, {role, "--source", "fixed:37.5,-123.0,15000,90,480"});
+    if (role == "radar-display") set_.start(role, {role, "--headless", "--frames", frames_.string(), "--every", "0.5"});
+  }
+
+  void start_all() {
+    for (const auto* role : {"state-machine", "radar-model", "flight-model", "radar-display"}) start(role);
+    ASSERT_TRUE(set_.wait_until([](const auto& watch) {
+      return watch["processes"].size() >= 4 && !watch["ownship"].is_null();
+    })) << set_.watch().dump();
+  }
+
+  void inject(const std::vector<std::string>& events) {
+    std::vector<std::string> arguments{"inject"};
+    arguments.insert(arguments.end(), events.begin(), events.end());
+    const auto finished = set_.yars(arguments);
+    ASSERT_EQ(finished.code, 0) << finished.errors;
+  }
+
+  ProcessSet set_;
+  std::filesystem::path frames_;
+};
+
+TEST_F(LiveSet, AButtonReachesTheLegendAndASweepReachesTheFrame) {
+  start_all();
+  EXPECT_EQ(set_.watch()["power"], "OFF");
+  inject({"power opr"});
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["mode"] == "RBM" && watch["sweeps"] > 300; }));
+  const double before_nm = set_.watch()["range_nm"];
+  inject({"pb 13"});
+  EXPECT_GT(set_.watch()["range_nm"].get<double>(), before_nm);
+  EXPECT_EQ(set_.watch()["legends"]["9"], "FULL");
+  inject({"pb 9"});
+  EXPECT_EQ(set_.watch()["legends"]["9"], "HALF");
+  ASSERT_TRUE(eventually([&] { return lit_pixels(newest_frame(frames_)) > 5000; }, 20.0))
+      << newest_frame(frames_) << set_.log_of("radar-display");
+  for (const auto& [role, code] : set_.end_all()) EXPECT_EQ(code, 0) << role << ": " << set_.log_of(role);
+  EXPECT_FALSE(set_.segment_exists());
+}
+
+TEST_F(LiveSet, ASecondInstanceOfAOneWriterRoleEndsWithCodeTwoAndNamesTheHolder) {
+  start_all();
+  set_.start("second", {"radar-model"});
+  EXPECT_EQ(set_.wait("second"), 2);
+  EXPECT_NE(set_.log_of("second").find(std::to_string(set_.pid("radar-model"))), std::string::npos)
+      << set_.log_of("second");
+}
+
+TEST_F(LiveSet, WhatIsKilledComesBackAsItWas) {
+  start_all();
+  inject({"power opr", "pb 9", "pb 3", "pb 3", "freeze"});  // HALF, GAIN 1, frozen
+  const auto as_set = [](const nlohmann::json& watch) {
+    return watch["scan"] == "HALF" && watch["gain"] == 1 && watch["freeze"] == true && watch["power"] == "OPR";
+  };
+  ASSERT_TRUE(set_.wait_until(as_set));
+  constexpr unsigned kSeed = 20260101;
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  std::mt19937 random(kSeed);
+  const std::vector<std::string> roles{"state-machine", "radar-model", "flight-model", "radar-display"};
+  for (int kill = 0; kill < 8; ++kill) {
+    const auto& role = roles[random() % roles.size()];
+    SCOPED_TRACE(role);
+    set_.kill(role, SIGKILL);
+    EXPECT_EQ(set_.wait(role), 128 + SIGKILL);
+    for (const auto& other : roles)
+      if (other != role) EXPECT_TRUE(set_.runs(other)) << other << set_.log_of(other);
+    start(role);
+    ASSERT_TRUE(set_.wait_until([&](const auto& watch) {
+      return watch["processes"].contains(role) && !watch["ownship"].is_null() && as_set(watch);
+    })) << set_.watch().dump();
+  }
+  inject({"freeze"});
+  const std::uint64_t sweeps = set_.watch()["sweeps"];
+  EXPECT_TRUE(set_.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps + 100; }));
+  for (const auto& [role, code] : set_.end_all()) EXPECT_EQ(code, 0) << role << ": " << set_.log_of(role);
+  EXPECT_FALSE(set_.segment_exists());
+}
+
+TEST_F(LiveSet, WhatARunLoggedMakesTheSameSweepsOffline) {
+  for (const auto* role : {"state-machine", "flight-model"}) start(role);
+  const auto recording = (set_.folder() / "run.yars").string();
+  set_.start("recorder", {"yars", "record", recording});
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].contains("recorder"); }));
+  start("radar-model");
+  inject({"power opr"});
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["sweeps"] > 400; }));
+  inject({"pb 9", "pb 13", "elevation -3"});
+  const std::uint64_t sweeps = set_.watch()["sweeps"];
+  ASSERT_TRUE(set_.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps + 300; }));
+  set_.kill("recorder", SIGTERM);
+  EXPECT_EQ(set_.wait("recorder"), 0);
+  const auto replay = set_.yars({"replay", "--events", recording});
+  ASSERT_EQ(replay.code, 0) << replay.output << replay.errors;
+  const auto result = nlohmann::json::parse(replay.output);
+  EXPECT_EQ(result["different"], 0);
+  EXPECT_GT(result["equal"], 600);
+  EXPECT_GE(result["events"], 4);
+}
+
+TEST_F(LiveSet, TheClockFreezesStepsAndRepositions) {
+  start_all();
+  inject({"power opr"});
+  ASSERT_EQ(set_.yars({"sim", "freeze"}).code, 0);
+  const auto frozen = set_.watch();
+  EXPECT_EQ(frozen["running"], false);
+  EXPECT_EQ(set_.watch()["sim_time"], frozen["sim_time"]);
+  ASSERT_EQ(set_.yars({"sim", "step", "40"}).code, 0);
+  const double stepped_s = set_.watch()["sim_time"].get<double>() - frozen["sim_time"].get<double>();
+  EXPECT_NEAR(stepped_s, 0.2, 0.0051);
+  EXPECT_TRUE(set_.wait_until([&](const auto& watch) { return watch["tick"] >= frozen["tick"].get<int>() + 39; }));
+  EXPECT_EQ(set_.watch()["late_ticks"], frozen["late_ticks"]);
+  ASSERT_EQ(set_.yars({"sim", "run"}).code, 0);
+  ASSERT_EQ(set_.yars({"sim", "reposition", "36.5", "-122.5", "20000", "45"}).code, 0);
+  EXPECT_TRUE(set_.wait_until([](const auto& watch) {
+    return !watch["ownship"].is_null() && std::abs(watch["ownship"]["lat"].template get<double>() - 36.5) < 0.05;
+  })) << set_.watch().dump();
+}
+
+TEST(Usage, BadArgumentsEndWithCodeTwoAndOneLine) {
+  for (const auto& command : std::vector<std::vector<std::string>>{{"radar-model", "--samples", "0"},
+                                                                   {"flight-model", "--source", "nonsense"},
+                                                                   {"state-machine", "--no-such-option"},
+                                                                   {"yars", "inject", "pb 21"},
+                                                                   {"yars", "sim", "rate", "11"}}) {
+    SCOPED_TRACE(command.front() + " " + command[1]);
+    const auto finished = run_program(command);
+    EXPECT_EQ(finished.code, 2) << finished.errors;
+    EXPECT_EQ(std::count(finished.errors.begin(), finished.errors.end(), '\n'), 1) << finished.errors;
+  }
+}
+
+TEST(Usage, ASessionThatDoesNotRunIsSaidPlainly) {
+  const auto finished = run_program({"yars", "--session", "nobody-here", "status"});
+  EXPECT_EQ(finished.code, 1);
+  EXPECT_NE(finished.errors.find("nobody-here"), std::string::npos) << finished.errors;
+}
+
+}  // namespace
+}  // namespace yars::endtoend

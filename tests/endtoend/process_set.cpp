@@ -1,0 +1,160 @@
+#include "tests/endtoend/process_set.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+namespace yars::endtoend {
+
+namespace {
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+int code_of(int status) {
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+pid_t spawn(const std::vector<std::string>& command, const std::filesystem::path& output,
+            const std::filesystem::path& errors) {
+  const std::string program = std::string(YARS_BIN_DIR) + "/" + command.front();
+  std::vector<char*> arguments;
+  for (const auto& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  const pid_t child = fork();
+  if (child != 0) return child;
+  const int in = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  const int out = open(output.c_str(), O_CREAT | O_WRONLY | O_APPEND | O_CLOEXEC, 0600);
+  const int err = open(errors.c_str(), O_CREAT | O_WRONLY | O_APPEND | O_CLOEXEC, 0600);
+  dup2(in, 0);
+  dup2(out, 1);
+  dup2(err, 2);
+  execv(program.c_str(), arguments.data());
+  _exit(127);
+}
+
+// -1: the watchdog had to kill it.
+int wait_for(pid_t child, double patience_s) {
+  int status = 0;
+  if (eventually([&] { return waitpid(child, &status, WNOHANG) == child; }, patience_s)) return code_of(status);
+  ::kill(child, SIGKILL);
+  waitpid(child, &status, 0);
+  return -1;
+}
+
+std::filesystem::path fresh_folder(const std::string& name) {
+  static int counter = 0;
+  auto folder = std::filesystem::temp_directory_path() /
+                ("yars_test_" + name + "_" + std::to_string(getpid()) + "_" + std::to_string(++counter));
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+}  // namespace
+
+bool eventually(const std::function<bool()>& condition, double patience_s) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience_s);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return true;
+}
+
+Finished run_program(const std::vector<std::string>& command, double patience_s) {
+  const auto folder = fresh_folder("run");
+  const pid_t child = spawn(command, folder / "output", folder / "errors");
+  Finished finished;
+  finished.code = wait_for(child, patience_s);
+  finished.output = read_file(folder / "output");
+  finished.errors = read_file(folder / "errors");
+  std::filesystem::remove_all(folder);
+  return finished;
+}
+
+ProcessSet::ProcessSet(const std::string& session)
+    : session_(session + "-" + std::to_string(getpid())), folder_(fresh_folder(session)) {}
+
+ProcessSet::~ProcessSet() {
+  for (const auto& [name, pid] : pids_) ::kill(pid, SIGKILL);
+  for (const auto& [name, pid] : pids_) waitpid(pid, nullptr, 0);
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_, ignored);
+  std::filesystem::remove("/dev/shm/yars." + std::to_string(getuid()) + "." + session_, ignored);
+}
+
+void ProcessSet::start(const std::string& name, std::vector<std::string> arguments) {
+  std::vector<std::string> command{arguments.front(), "--session", session_};
+  command.insert(command.end(), arguments.begin() + 1, arguments.end());
+  pids_[name] = spawn(command, folder_ / (name + ".out"), folder_ / (name + ".log"));
+}
+
+void ProcessSet::kill(const std::string& name, int signal) {
+  ::kill(pids_.at(name), signal);
+}
+
+int ProcessSet::wait(const std::string& name, double patience_s) {
+  const int code = wait_for(pids_.at(name), patience_s);
+  pids_.erase(name);
+  return code;
+}
+
+bool ProcessSet::runs(const std::string& name) {
+  const auto found = pids_.find(name);
+  if (found == pids_.end()) return false;
+  siginfo_t info{};
+  // WNOWAIT: the end stays to be collected by wait().
+  return waitid(P_PID, static_cast<id_t>(found->second), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0;
+}
+
+std::string ProcessSet::log_of(const std::string& name) const {
+  return read_file(folder_ / (name + ".log"));
+}
+
+std::map<std::string, int> ProcessSet::end_all() {
+  for (const auto& [name, pid] : pids_) ::kill(pid, SIGTERM);
+  std::map<std::string, int> codes;
+  for (const auto& [name, pid] : pids_) codes[name] = wait_for(pid, 20.0);
+  pids_.clear();
+  return codes;
+}
+
+Finished ProcessSet::yars(std::vector<std::string> arguments, double patience_s) const {
+  arguments.insert(arguments.begin(), {"yars", "--session", session_});
+  return run_program(arguments, patience_s);
+}
+
+nlohmann::json ProcessSet::watch() const {
+  const auto finished = yars({"watch", "--json", "--once"});
+  return finished.code == 0 ? nlohmann::json::parse(finished.output) : nlohmann::json();
+}
+
+bool ProcessSet::wait_until(const std::function<bool(const nlohmann::json&)>& condition, double patience_s) const {
+  return eventually(
+      [&] {
+        const auto object = watch();
+        return !object.is_null() && condition(object);
+      },
+      patience_s);
+}
+
+bool ProcessSet::segment_exists() const {
+  return std::filesystem::exists("/dev/shm/yars." + std::to_string(getuid()) + "." + session_);
+}
+
+std::filesystem::path shared_data() {
+  const std::filesystem::path data = std::filesystem::path(YARS_SOURCE_DIR) / ".." / "shared" / "data";
+  return std::filesystem::exists(data) ? std::filesystem::canonical(data) : std::filesystem::path();
+}
+
+}  // namespace yars::endtoend
