@@ -1,0 +1,129 @@
+#include "shm/broadcast_ring.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/shm/child_process.hpp"
+#include "tests/shm/counted_stores.hpp"
+#include "tests/shm/numbered_record.hpp"
+
+namespace yars::shm {
+namespace {
+
+using testing::CountedStores;
+using testing::SharedMemory;
+using testing::survives;
+using testing::VaryingRecord;
+using Record = testing::NumberedRecord<5>;
+using Ring = BroadcastRing<Record, 8, CountedStores>;
+
+template <class R>
+void publish_numbers(R& ring, std::uint64_t first, std::uint64_t end) {
+  for (std::uint64_t n = first; n < end; ++n) EXPECT_EQ(ring.publish(Record::make(n)), n);
+}
+
+// Reads all there is; every record must be whole and bear the number of its place.
+std::uint64_t read_all(const Ring& ring, std::uint64_t& cursor, std::uint64_t& lost) {
+  std::uint64_t delivered = 0;
+  for (Record out{};;) {
+    const RingRead result = ring.read(cursor, out);
+    lost += result.lost;
+    if (!result.delivered) return delivered;
+    EXPECT_EQ(out.number + 1, cursor);
+    EXPECT_TRUE(out.is_whole());
+    ++delivered;
+  }
+}
+
+TEST(BroadcastRing, ZeroFilledMemoryIsEmpty) {
+  SharedMemory<Ring> ring;
+  std::uint64_t cursor = 0;
+  Record out{};
+  const RingRead result = ring->read(cursor, out);
+  EXPECT_FALSE(result.delivered);
+  EXPECT_EQ(result.lost, 0u);
+  EXPECT_EQ(ring->next(), 0u);
+  EXPECT_EQ(ring->oldest(), 0u);
+}
+
+TEST(BroadcastRing, EveryReaderGetsEveryRecordInOrder) {
+  SharedMemory<Ring> ring;
+  std::uint64_t cursors[2] = {0, 0};
+  std::uint64_t lost = 0;
+  for (std::uint64_t round = 0; round < 10; ++round) {
+    publish_numbers(*ring, round * 7, round * 7 + 7);
+    for (std::uint64_t& cursor : cursors) EXPECT_EQ(read_all(*ring, cursor, lost), 7u);
+  }
+  EXPECT_EQ(lost, 0u);
+}
+
+TEST(BroadcastRing, AReaderThatFellBehindIsToldHowManyItLost) {
+  SharedMemory<Ring> ring;
+  publish_numbers(*ring, 0, 100);
+  std::uint64_t cursor = 10;
+  std::uint64_t lost = 0;
+  EXPECT_EQ(ring->oldest(), 93u) << "depth 8, and the slot behind the newest may be in work";
+  EXPECT_EQ(read_all(*ring, cursor, lost), 7u);
+  EXPECT_EQ(lost, 83u);
+  EXPECT_EQ(cursor, 100u);
+}
+
+TEST(BroadcastRing, ACursorFromAnotherLifeIsBroughtBackToTheEnd) {
+  SharedMemory<Ring> ring;
+  publish_numbers(*ring, 0, 3);
+  std::uint64_t cursor = 5000;
+  std::uint64_t lost = 0;
+  EXPECT_EQ(read_all(*ring, cursor, lost), 0u);
+  EXPECT_EQ(cursor, 3u);
+}
+
+TEST(BroadcastRing, AProducerKilledAfterAnyStoreLeavesWholeRecordsAndTheNextGoesOn) {
+  long stores = 0;
+  for (bool alive = false; !alive; ++stores) {
+    SharedMemory<Ring> ring;
+    publish_numbers(*ring, 0, 20);
+    alive = survives(stores, [&] { ring->publish(Record::make(20)); });
+    std::uint64_t cursor = 0;
+    std::uint64_t lost = 0;
+    const std::uint64_t there = alive ? 21 : 20;
+    EXPECT_EQ(read_all(*ring, cursor, lost), 7u) << "killed after " << stores << " stores";
+    EXPECT_EQ(cursor, there);
+    EXPECT_EQ(lost, there - 7);
+    publish_numbers(*ring, there, there + 5);
+    EXPECT_EQ(read_all(*ring, cursor, lost), 5u);
+    EXPECT_EQ(lost, there - 7);
+  }
+  EXPECT_EQ(stores - 1, 4 + 6) << "sequence, length, 6 words, sequence, next";
+}
+
+TEST(BroadcastRing, OnlyTheUsedPartOfARecordTravels) {
+  using VaryingRing = BroadcastRing<VaryingRecord, 4, CountedStores>;
+  SharedMemory<VaryingRing> ring;
+  std::uint64_t cursor = 0;
+  for (std::uint64_t n = 0; n < 40; ++n) {
+    const VaryingRecord sent = VaryingRecord::make(n);
+    long stores = 0;
+    for (; !survives(stores, [&] { ring->publish(sent); }); ++stores) {
+    }
+    EXPECT_EQ(stores, static_cast<long>(4 + 2 + sent.used)) << "two words and the used ones";
+    VaryingRecord out{};
+    std::fill_n(out.words, VaryingRecord::kMost, 0xabadcafeU);
+    EXPECT_TRUE(ring->read(cursor, out).delivered);
+    EXPECT_TRUE(out.is_whole());
+    for (std::size_t i = out.used; i < VaryingRecord::kMost; ++i) EXPECT_EQ(out.words[i], 0xabadcafeU);
+  }
+}
+
+TEST(BroadcastRing, ALengthBeyondTheRecordIsNotBelieved) {
+  SharedMemory<Ring> ring;
+  publish_numbers(*ring, 0, 1);
+  auto* bytes = reinterpret_cast<std::byte*>(&*ring);
+  reinterpret_cast<AtomicWord*>(bytes + Ring::slots_offset() + sizeof(Word))->store(1000);
+  std::uint64_t cursor = 0;
+  Record out{};
+  EXPECT_FALSE(ring->read(cursor, out).delivered);
+}
+
+}  // namespace
+}  // namespace yars::shm

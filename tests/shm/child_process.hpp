@@ -1,0 +1,82 @@
+// Real processes for tests: a forked child that runs one function, memory shared with it, waits with a watchdog.
+#pragma once
+
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <new>
+#include <utility>
+
+namespace yars::shm::testing {
+
+inline constexpr std::chrono::seconds kWatchdog{30};
+
+template <class Predicate>
+bool wait_until(Predicate done) {
+  const auto deadline = std::chrono::steady_clock::now() + kWatchdog;
+  while (!done()) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+    const timespec pause{0, 200'000};
+    nanosleep(&pause, nullptr);
+  }
+  return true;
+}
+
+class ChildProcess {
+ public:
+  // `body` returns the exit code; no destructor of the parent's objects runs in the child.
+  template <class Body>
+  explicit ChildProcess(Body body) : pid_(fork()) {
+    if (pid_ == 0) _exit(body());
+  }
+  ChildProcess(ChildProcess&& other) noexcept : pid_(std::exchange(other.pid_, -1)) {}
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+  ~ChildProcess() {
+    if (pid_ > 0) kill_now();
+  }
+
+  pid_t pid() const { return pid_; }
+  void send(int signal_number) const { kill(pid_, signal_number); }
+  void kill_now() {
+    send(SIGKILL);
+    wait();
+  }
+  // The exit code, or minus the signal that ended it; a child that outlasts the watchdog is killed.
+  int wait() {
+    int status = 0;
+    const bool ended = wait_until([&] { return waitpid(pid_, &status, WNOHANG) == pid_; });
+    if (!ended) {
+      send(SIGKILL);
+      waitpid(pid_, &status, 0);
+    }
+    pid_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+ private:
+  pid_t pid_;
+};
+
+// One zeroed T that parent and children share.
+template <class T>
+class SharedMemory {
+ public:
+  SharedMemory() : memory_(mmap(nullptr, sizeof(T), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) {
+    if (memory_ == MAP_FAILED) throw std::bad_alloc();
+  }
+  SharedMemory(const SharedMemory&) = delete;
+  SharedMemory& operator=(const SharedMemory&) = delete;
+  ~SharedMemory() { munmap(memory_, sizeof(T)); }
+  T& operator*() { return *static_cast<T*>(memory_); }
+  T* operator->() { return static_cast<T*>(memory_); }
+
+ private:
+  void* memory_;
+};
+
+}  // namespace yars::shm::testing
