@@ -1,4 +1,4 @@
-// `yars record`: the recorder. Reads the rings only, writes the tick log.
+// `yars record`: the recorder. Reads rings and the latest radar state, writes the tick log.
 #include <cstdio>
 #include <ctime>
 #include <optional>
@@ -26,7 +26,8 @@ struct RecordOptions {
 
 class Recorder {
  public:
-  Recorder(Session& session, TickLogWriter& writer) : session_(&session), writer_(&writer) {
+  Recorder(Session& session, TickLogWriter& writer)
+      : session_(&session), writer_(&writer), state_(session.layout().radar_state) {
     const auto& layout = session.layout();
     tick_cursor_ = layout.model_ticks.next();
     event_cursor_ = layout.applied_events.next();
@@ -51,6 +52,8 @@ class Recorder {
       }
     databuffer::AppliedEvent event{};
     while (take(layout.applied_events, event_cursor_, event, gap.events)) writer_->write(event);
+    // The latest state, not a ring: live, a state that lasted less than a look is passed over.
+    if (state_.refresh()) writer_->write(StateChange{state_.value()});
     while (take(layout.sweeps, sweep_cursor_, sweep_, gap.sweeps)) {
       writer_->write(SweepMark{sweep_.tick, sweep_.hash, sweep_.epoch, sweep_.number, sweep_.flags, 0});
       ++sweeps_;
@@ -75,6 +78,7 @@ class Recorder {
   TickLogWriter* writer_;
   std::uint64_t tick_cursor_ = 0, event_cursor_ = 0, sweep_cursor_ = 0;
   std::optional<std::int64_t> from_tick_;
+  shm::LatestReader<databuffer::RadarState> state_;
   databuffer::Sweep sweep_{};
   std::uint64_t ticks_ = 0, sweeps_ = 0;
 };

@@ -1,4 +1,5 @@
-// `yars replay --events`: runs the kernel again over the ticks of a recording and compares every sweep.
+// `yars replay`: --events runs the kernel again over the ticks of a recording and compares every sweep; --print
+// says what happened.
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -6,10 +7,12 @@
 
 #include "config/load.hpp"
 #include "databuffer/program.hpp"
+#include "databuffer/records/event_text.hpp"
 #include "model/kernel/radar_kernel.hpp"
 #include "model/terrain/open_terrain.hpp"
 #include "tools/command.hpp"
 #include "tools/tick_log.hpp"
+#include "tools/watch_json.hpp"
 
 namespace yars::tools {
 
@@ -21,6 +24,7 @@ struct ReplayOptions {
   std::string file;
   std::string terrain;
   bool events = false;
+  bool print = false;
 };
 
 // Sweeps made here against sweeps recorded, by epoch and number of the sweep.
@@ -102,9 +106,30 @@ radar::RadarConfiguration configuration_of(const CommonOptions& common, const Ti
   return std::move(loaded->radar);
 }
 
+void print_entries(TickLogReader& reader) {
+  while (const auto entry = reader.next()) {
+    nlohmann::ordered_json object;
+    if (const auto* event = std::get_if<databuffer::AppliedEvent>(&*entry)) {
+      object["tick"] = event->tick;
+      object["event"] = databuffer::text_of(event->event);
+      object["effective"] = event->effective != 0;
+    } else if (const auto* change = std::get_if<StateChange>(&*entry)) {
+      object["tick"] = change->state.tick;
+      add_radar_state(object["state"], change->state);
+    } else {
+      continue;
+    }
+    std::printf("%s\n", object.dump().c_str());
+  }
+}
+
 void replay(const CommonOptions& common, const ReplayOptions& options) {
   auto reader = TickLogReader::open(options.file);
   if (!reader) give_up(reader.error());
+  if (options.print) {
+    print_entries(*reader);
+    return;
+  }
   auto configuration = configuration_of(common, reader->header(), options);
   auto store = model::terrain::open_terrain(configuration.terrain);
   if (!store) give_up(store.error());
@@ -123,7 +148,7 @@ void replay(const CommonOptions& common, const ReplayOptions& options) {
       run->start(*start);
     } else if (const auto* gap = std::get_if<Gap>(&*entry)) {
       lost += gap->ticks;
-    } else {
+    } else if (std::holds_alternative<databuffer::AppliedEvent>(*entry)) {
       ++events;
     }
   }
@@ -148,9 +173,15 @@ void add_replay_command(CLI::App& app, const CommonOptions& common) {
   auto* command = app.add_subcommand("replay", "make the sweeps of a recording again and compare them");
   auto options = std::make_shared<ReplayOptions>();
   command->add_option("FILE", options->file, "recording made by yars record")->required();
-  command->add_flag("--events", options->events, "from the recorded ticks, offline")->required();
+  auto* events = command->add_flag("--events", options->events, "from the recorded ticks, offline");
+  auto* print = command->add_flag("--print", options->print, "print the events and radar states, a JSON object a line");
+  events->excludes(print);
   command->add_option("--terrain", options->terrain, "terrain directory (else the recording's)");
-  command->callback([&common, options] { replay(common, *options); });
+  command->callback([&common, options] {
+    if (!options->events && !options->print)
+      give_up(databuffer::usage_error("replay", "--events or --print", "neither"));
+    replay(common, *options);
+  });
 }
 
 }  // namespace yars::tools

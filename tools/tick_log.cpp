@@ -16,7 +16,7 @@ constexpr std::uint32_t kVersion = 1;
 constexpr std::uint32_t kLargestText = 1U << 16;     // [bytes] of a path in the header
 constexpr std::uint32_t kLargestPayload = 1U << 16;  // [bytes] of a chunk: a larger one is damage
 
-enum ChunkKind : std::uint32_t { kTick = 1, kEvent = 2, kSweep = 3, kStart = 4, kGap = 5 };
+enum ChunkKind : std::uint32_t { kTick = 1, kEvent = 2, kSweep = 3, kStart = 4, kGap = 5, kState = 6 };
 enum TickParts : std::uint32_t { kOwnshipPart = 1, kCommandPart = 2 };
 
 // The part of a tick that changes every time.
@@ -34,7 +34,8 @@ struct Preamble {
   std::array<char, 8> magic = kMagic;
   std::uint32_t version = kVersion;
   std::uint32_t sizes = sizeof(TickHead) + 7 * sizeof(databuffer::Ownship) + 11 * sizeof(databuffer::RadarCommand) +
-                        13 * sizeof(AppliedEvent) + 17 * sizeof(SweepMark) + 19 * sizeof(databuffer::ModelStatus);
+                        13 * sizeof(AppliedEvent) + 17 * sizeof(SweepMark) + 19 * sizeof(databuffer::ModelStatus) +
+                        23 * sizeof(databuffer::RadarState);
   std::uint32_t configuration_bytes = 0;
   std::uint32_t terrain_bytes = 0;
 };
@@ -108,6 +109,9 @@ void TickLogWriter::write(const SweepMark& mark) {
 void TickLogWriter::write(const StartingPoint& start) {
   chunk(kStart, &start, sizeof start);
 }
+void TickLogWriter::write(const StateChange& change) {
+  chunk(kState, &change, sizeof change);
+}
 void TickLogWriter::write(const Gap& gap) {
   chunk(kGap, &gap, sizeof gap);
 }
@@ -180,6 +184,9 @@ std::optional<TickLogEntry> TickLogReader::next() {
           break;
         case kStart:
           entry = whole<StartingPoint>(payload);
+          break;
+        case kState:
+          entry = whole<StateChange>(payload);
           break;
         case kGap:
           entry = whole<Gap>(payload);

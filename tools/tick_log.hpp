@@ -35,6 +35,11 @@ struct StartingPoint {
   databuffer::ModelStatus status;
 };
 
+// The radar state after a change; state.tick says when.
+struct StateChange {
+  databuffer::RadarState state;
+};
+
 // Records that the recorder was too slow for.
 struct Gap {
   std::uint64_t ticks;
@@ -42,7 +47,8 @@ struct Gap {
   std::uint64_t sweeps;
 };
 
-using TickLogEntry = std::variant<databuffer::ModelTick, databuffer::AppliedEvent, SweepMark, StartingPoint, Gap>;
+using TickLogEntry =
+    std::variant<databuffer::ModelTick, databuffer::AppliedEvent, SweepMark, StartingPoint, StateChange, Gap>;
 
 class TickLogWriter {
  public:
@@ -52,6 +58,7 @@ class TickLogWriter {
   void write(const databuffer::AppliedEvent& event);
   void write(const SweepMark& mark);
   void write(const StartingPoint& start);
+  void write(const StateChange& change);
   void write(const Gap& gap);
   // False once the disk refused something: the file then ends at its last whole chunk.
   bool flush();

@@ -83,12 +83,10 @@ ordered_json recall_word(const RadarState& state) {
   }
 }
 
-void add_map(ordered_json& object, const RadarState& state, const ModelStatus& model) {
+void add_map(ordered_json& object, const RadarState& state) {
   object["window_nm"] = state.window_nm > 0.0 ? ordered_json(state.window_nm) : ordered_json(nullptr);
   object["multi_look"] = has(state, databuffer::kMultiLook2) ? "ML2" : "ML1";
   object["stabilizing"] = has(state, databuffer::kProgressive) ? "PROG" : "STAB";
-  object["map_timer_s"] = number_or_null(model.map_timer_s);
-  object["map_progress"] = number_or_null(model.map_progress);
   object["recall"] = recall_word(state);
   object["message"] = text_of(state.message);
 }
@@ -153,6 +151,14 @@ void add_health(ordered_json& object, const databuffer::Session& session, const 
 
 }  // namespace
 
+void add_radar_state(ordered_json& object, const RadarState& state) {
+  add_switches(object, state);
+  add_cursor(object, state);
+  add_map(object, state);
+  add_navigation(object, state);
+  add_legends(object, state);
+}
+
 nlohmann::ordered_json watch_object(const databuffer::Session& session) {
   RadarState state{};
   ModelStatus model{};
@@ -163,12 +169,10 @@ nlohmann::ordered_json watch_object(const databuffer::Session& session) {
   layout.model_status.read(model);
   ordered_json object;
   add_clock(object, session, model);
-  add_switches(object, state);
-  add_cursor(object, state);
-  add_map(object, state, model);
-  add_navigation(object, state);
+  add_radar_state(object, state);
+  object["map_timer_s"] = number_or_null(model.map_timer_s);
+  object["map_progress"] = number_or_null(model.map_progress);
   add_ownship(object, model, session.sim_time_ns());
-  add_legends(object, state);
   add_health(object, session, model);
   return object;
 }

@@ -7,6 +7,9 @@
 
 namespace yars::tools {
 
+// The fields that come from the radar state alone.
+void add_radar_state(nlohmann::ordered_json& object, const databuffer::RadarState& state);
+
 nlohmann::ordered_json watch_object(const databuffer::Session& session);
 
 }  // namespace yars::tools
