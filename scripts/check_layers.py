@@ -29,7 +29,7 @@ LAYERS = {
     "shm": ["lib/failure"],
     "config": RADAR,
     "databuffer/records": RECORDS,
-    "databuffer/flight": RECORDS + ["config"],
+    "databuffer/flight": RECORDS,
     "databuffer": SEGMENT,
     "model/terrain": RADAR,
     "model/antenna": RADAR,

@@ -1,0 +1,56 @@
+// Any bytes as a DTED cell: a reading or an error, in memory that the file's length bears out. The input is laid over
+// a cell that is well formed, in pieces of (offset, length, bytes), so that the reader gets past its header.
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include "model/terrain/dted_reader.hpp"
+
+using namespace yars::model::terrain;
+
+namespace {
+
+constexpr std::size_t kHeaders = 80 + 648 + 2700;  // [bytes] UHL, DSI, ACC
+constexpr std::size_t kPosts = 121;                // a side: level 0
+constexpr std::size_t kRecord = 12 + 2 * kPosts;   // [bytes] of a column
+
+std::vector<std::byte> well_formed_cell() {
+  std::vector<std::byte> file(kHeaders + kPosts * kRecord);
+  const auto put = [&file](std::size_t offset, std::string_view text) {
+    std::memcpy(file.data() + offset, text.data(), text.size());
+  };
+  put(0, "UHL11200000W0350000N03000300");
+  put(47, "01210121");
+  put(80, "DSI");
+  put(728, "ACC");
+  for (std::size_t column = 0; column < kPosts; ++column) {
+    std::byte* record = file.data() + kHeaders + column * kRecord;
+    record[0] = std::byte{0xAA};
+    record[3] = static_cast<std::byte>(column);
+    record[5] = static_cast<std::byte>(column);
+  }
+  return file;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const std::vector<std::byte> cell = well_formed_cell();
+  std::vector<std::byte> file = cell;
+  const std::uint8_t* const end = data + size;
+  if (size >= 2) {
+    file.resize(file.size() * (256U - data[0]) / 256U + data[1]);
+    data += 2;
+  }
+  while (end - data >= 3 && !file.empty()) {
+    const std::size_t offset = (data[0] * 256U + data[1]) % file.size();
+    const std::size_t length =
+        std::min({std::size_t{data[2]}, static_cast<std::size_t>(end - data - 3), file.size() - offset});
+    std::memcpy(file.data() + offset, data + 3, length);
+    data += 3 + length;
+  }
+  (void)parse_dted(file, "fuzz", CellPlace{.south_deg = 35, .west_deg = -120});
+  return 0;
+}

@@ -1,0 +1,20 @@
+// Any line of a script: either an error, or an event that the border accepts and whose text gives the same event.
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+
+#include "databuffer/records/event_text.hpp"
+#include "databuffer/records/validation.hpp"
+#include "lib/failure/require.hpp"
+
+using namespace yars::databuffer;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto event = event_from_text({reinterpret_cast<const char*>(data), size});
+  if (!event) return 0;
+  YARS_REQUIRE(why_refused(*event).has_value(), ==, false);
+  const auto again = event_from_text(text_of(*event));
+  YARS_REQUIRE(again.has_value(), ==, true);
+  YARS_REQUIRE(std::memcmp(&*again, &*event, sizeof(*event)), ==, 0);
+  return 0;
+}

@@ -1,0 +1,18 @@
+// Any bytes in an input lane: the border and the text survive them, and a text that reads back is of the same kind.
+#include <cstdint>
+#include <cstring>
+
+#include "databuffer/records/event_text.hpp"
+#include "databuffer/records/validation.hpp"
+#include "lib/failure/require.hpp"
+
+using namespace yars::databuffer;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  InputEvent event{};
+  if (size < sizeof(event)) return 0;
+  std::memcpy(&event, data, sizeof(event));
+  (void)why_refused(event);
+  if (const auto again = event_from_text(text_of(event))) YARS_REQUIRE(again->kind, ==, event.kind);
+  return 0;
+}
