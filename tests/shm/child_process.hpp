@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <new>
+#include <type_traits>
 #include <utility>
 
 namespace yars::shm::testing {
@@ -28,10 +29,16 @@ bool wait_until(Predicate done) {
 
 class ChildProcess {
  public:
-  // `body` returns the exit code; no destructor of the parent's objects runs in the child.
+  // `body` returns the exit code, if anything; no destructor of the parent's objects runs in the child.
   template <class Body>
   explicit ChildProcess(Body body) : pid_(fork()) {
-    if (pid_ == 0) _exit(body());
+    if (pid_ != 0) return;
+    if constexpr (std::is_void_v<decltype(body())>) {
+      body();
+      _exit(0);
+    } else {
+      _exit(body());
+    }
   }
   ChildProcess(ChildProcess&& other) noexcept : pid_(std::exchange(other.pid_, -1)) {}
   ChildProcess(const ChildProcess&) = delete;
