@@ -32,12 +32,15 @@ class Comparison {
  public:
   void made(const databuffer::Sweep& sweep) { settle(made_, recorded_, key(sweep.epoch, sweep.number), sweep.hash); }
   void recorded(const SweepMark& mark) {
+    // FNV-1a over the hashes in their order: one number for a whole run.
+    for (int byte = 0; byte < 8; ++byte) run_hash = (run_hash ^ (mark.hash >> (8 * byte) & 0xffU)) * 0x100000001b3ULL;
     // A sweep over posts that were still loading is not a function of the ticks.
     if ((mark.flags & databuffer::kSweepNotReady) != 0U)
       ++not_ready;
     else
       settle(recorded_, made_, key(mark.epoch, mark.number), mark.hash);
   }
+  std::uint64_t run_hash = 0xcbf29ce484222325ULL;
   std::uint64_t equal = 0, different = 0, not_ready = 0;
 
  private:
@@ -159,6 +162,7 @@ void replay(const CommonOptions& common, const ReplayOptions& options) {
                                       {"equal", run->comparison.equal},
                                       {"different", run->comparison.different},
                                       {"not_ready", run->comparison.not_ready},
+                                      {"run_hash", run->comparison.run_hash},
                                       {"ticks_lost", lost},
                                       {"cut_short", reader->cut_short()}};
   std::printf("%s\n", object.dump().c_str());
