@@ -1,0 +1,172 @@
+// Writer and readers as threads on one mapping, as fast as they can: what arrives must be whole, in order and
+// accounted for. ThreadSanitizer sees every access here (preset tsan).
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "shm/broadcast_ring.hpp"
+#include "shm/input_lanes.hpp"
+#include "shm/latest_value.hpp"
+#include "shm/note_ring.hpp"
+#include "tests/shm/child_process.hpp"
+#include "tests/shm/numbered_record.hpp"
+
+namespace yars::shm {
+namespace {
+
+using testing::SharedMemory;
+using testing::VaryingRecord;
+using Record = testing::NumberedRecord<31>;
+
+constexpr std::uint64_t kRecords = 300'000;
+
+// Runs the bodies at once; they start together.
+template <class... Bodies>
+void run_together(Bodies... bodies) {
+  std::atomic<int> waiting{sizeof...(Bodies)};
+  std::vector<std::thread> threads;
+  const auto start = [&](auto body) {
+    threads.emplace_back([&waiting, body] {
+      --waiting;
+      while (waiting > 0) std::this_thread::yield();
+      body();
+    });
+  };
+  (start(bodies), ...);
+  for (std::thread& thread : threads) thread.join();
+}
+
+TEST(ContainersStress, EveryValueReadIsWholeAndNewerThanTheOneBefore) {
+  SharedMemory<LatestValue<Record>> value;
+  std::atomic<std::uint64_t> seen{0}, lost{0};
+  const auto read = [&] {
+    LatestReader<Record> reader(*value);
+    std::uint64_t last = 0;
+    while (last < kRecords) {
+      if (!reader.refresh()) {
+        std::this_thread::yield();
+        continue;
+      }
+      ASSERT_TRUE(reader.value().is_whole());
+      ASSERT_EQ(reader.value().number, reader.version()) << "the version belongs to the value";
+      ASSERT_GT(reader.version(), last);
+      last = reader.version();
+      ++seen;
+    }
+    lost += reader.lost();
+  };
+  run_together(
+      [&] {
+        for (std::uint64_t n = 1; n <= kRecords; ++n) value->publish(Record::make(n));
+      },
+      read, read);
+  std::printf("values seen %lu, reads given up %lu\n", seen.load(), lost.load());
+}
+
+template <class Ring>
+void stress_ring() {
+  SharedMemory<Ring> ring;
+  using RingRecord = decltype([] {
+    if constexpr (requires(Ring & r, const VaryingRecord& v) { r.publish(v); })
+      return VaryingRecord{};
+    else
+      return Record{};
+  }());
+  std::atomic<std::uint64_t> all_lost{0};
+  const auto read = [&] {
+    auto out = std::make_unique<RingRecord>();
+    std::uint64_t cursor = 0, delivered = 0, lost = 0;
+    while (cursor < kRecords) {
+      const RingRead result = ring->read(cursor, *out);
+      lost += result.lost;
+      if (!result.delivered) {
+        std::this_thread::yield();
+        continue;
+      }
+      ++delivered;
+      ASSERT_TRUE(out->is_whole());
+      ASSERT_EQ(out->number + 1, cursor);
+      ASSERT_EQ(delivered + lost, cursor) << "each record is either delivered or counted as lost";
+    }
+    all_lost += lost;
+  };
+  run_together(
+      [&] {
+        for (std::uint64_t n = 0; n < kRecords; ++n) ring->publish(RingRecord::make(n));
+      },
+      read, read);
+  std::printf("records lost by two readers of %lu: %lu\n", kRecords, all_lost.load());
+}
+
+TEST(ContainersStress, ARingDeliversWholeRecordsInOrderAndCountsTheRest) {
+  stress_ring<BroadcastRing<Record, 64>>();
+}
+TEST(ContainersStress, ASmallRingThatOvertakesItsReadersTearsNothing) {
+  stress_ring<BroadcastRing<Record, 2>>();
+}
+TEST(ContainersStress, ARingOfVaryingRecordsTearsNothing) {
+  stress_ring<BroadcastRing<VaryingRecord, 4>>();
+}
+
+TEST(ContainersStress, LanesDeliverEverythingOnceAndInOrder) {
+  using Lanes = InputLanes<Record, 2, 16>;
+  SharedMemory<Lanes> lanes;
+  const auto feed = [&](std::size_t lane) {
+    return [&lanes, lane] {
+      for (std::uint64_t n = 0; n < kRecords;) {
+        if (lanes->push(lane, Record::make(n)))
+          ++n;
+        else
+          std::this_thread::yield();
+      }
+    };
+  };
+  run_together(feed(0), feed(1), [&] {
+    std::uint64_t next[2] = {0, 0};
+    Record out{};
+    while (next[0] < kRecords || next[1] < kRecords) {
+      bool any = false;
+      for (std::size_t lane = 0; lane < 2; ++lane) {
+        if (!lanes->pop(lane, out)) continue;
+        any = true;
+        ASSERT_TRUE(out.is_whole());
+        ASSERT_EQ(out.number, next[lane]++);
+      }
+      if (!any) std::this_thread::yield();
+    }
+  });
+  EXPECT_TRUE(lanes->empty(0) && lanes->empty(1));
+}
+
+TEST(ContainersStress, NotesOfManyWritersAreWholeAndNumberedOnce) {
+  using Ring = NoteRing<Record, 256>;
+  constexpr std::uint64_t kLines = kRecords / 4;
+  SharedMemory<Ring> ring;
+  std::atomic<int> writing{3};
+  const auto write = [&](std::uint64_t first) {
+    return [&, first] {
+      for (std::uint64_t n = 0; n < kLines; ++n) ring->append(Record::make(first + n));
+      --writing;
+    };
+  };
+  std::atomic<std::uint64_t> whole{0};
+  run_together(write(0), write(1'000'000), write(2'000'000), [&] {
+    Record out{};
+    while (writing > 0)
+      for (std::uint64_t line = ring->oldest(); line < ring->total(); ++line)
+        if (ring->read(line, out)) {
+          ASSERT_TRUE(out.is_whole());
+          ++whole;
+        }
+  });
+  EXPECT_EQ(ring->total(), 3 * kLines);
+  Record out{};
+  for (std::uint64_t line = ring->oldest(); line < ring->total(); ++line) EXPECT_TRUE(ring->read(line, out)) << line;
+  std::printf("lines read whole while three wrote: %lu\n", whole.load());
+}
+
+}  // namespace
+}  // namespace yars::shm
