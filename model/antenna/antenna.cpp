@@ -1,0 +1,109 @@
+#include "model/antenna/antenna.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/radar/limits.hpp"
+
+namespace yars::model::antenna {
+
+using geo::Angle;
+using geo::Bearing;
+
+namespace {
+// How fast the scan centre follows a jump of the ground track [deg/s]: faster than aircraft turn, slower than the
+// scan, so that a sweep never runs backwards.
+constexpr double kCentreRateDps = 30.0;
+
+AxisLimits azimuth_limits(const radar::AntennaConfiguration& antenna) {
+  return {antenna.azimuth_rate_dps, antenna.circular_scan ? 180.0 : antenna.azimuth_limit_deg, antenna.tolerance_deg};
+}
+
+AxisLimits elevation_limits(const radar::AntennaConfiguration& antenna) {
+  return {antenna.elevation_rate_dps, antenna.elevation_limit_deg, antenna.tolerance_deg};
+}
+}  // namespace
+
+Antenna::Antenna(const radar::AntennaConfiguration& configuration)
+    : configuration_(configuration),
+      pattern_(make_scan_pattern(configuration, 0.0)),
+      azimuth_(azimuth_limits(configuration)),
+      elevation_(elevation_limits(configuration)) {}
+
+void Antenna::resume(double azimuth_deg, double elevation_deg) {
+  azimuth_.place(azimuth_deg);
+  elevation_.place(elevation_deg);
+}
+
+void Antenna::restart(double width_deg) {
+  pattern_ = make_scan_pattern(configuration_, width_deg);
+  phase_ = Phase::slewing;
+  tick_ = 0;
+  centre_known_ = false;
+}
+
+void Antenna::park() {
+  phase_ = Phase::parked;
+  tick_ = 0;
+  azimuth_.freeze();
+  elevation_.freeze();
+}
+
+AntennaStep Antenna::step(const Platform& platform, Angle commanded_elevation) {
+  AntennaStep step;
+  step.phase = phase_;
+  step.bar = tick_ / pattern_.pass_ticks();
+  if (phase_ != Phase::parked) {
+    elevation_.command_position(commanded_elevation.degrees() + pattern_.bar_deg(step.bar));
+    elevation_.step();
+  }
+  step.elevation = Angle::degrees(elevation_.position_deg());
+  if (phase_ == Phase::slewing) slew(platform);
+  else if (phase_ != Phase::parked) scan(platform, step);
+  step.azimuth = platform.heading + Angle::degrees(azimuth_.position_deg());
+  return step;
+}
+
+void Antenna::slew(const Platform& platform) {
+  const double centre_deg = (scan_centre(platform, configuration_) - platform.heading).degrees();
+  if (!centre_known_) direction_ = azimuth_.position_deg() > centre_deg && !pattern_.circular ? -1 : 1;
+  centre_known_ = true;
+  azimuth_.command_position(centre_deg + pattern_.edge_deg(0, direction_));
+  azimuth_.step();
+  if (!azimuth_.reached()) return;
+  phase_ = Phase::sweeping;
+  centre_ = scan_centre(platform, configuration_);
+}
+
+void Antenna::scan(const Platform& platform, AntennaStep& step) {
+  const Bearing centre_before = centre_;
+  const double lag_deg = (scan_centre(platform, configuration_) - centre_).degrees();
+  const double most_deg = kCentreRateDps * radar::kTickSeconds;
+  centre_ = centre_ + Angle::degrees(std::clamp(lag_deg, -most_deg, most_deg));
+
+  const int in_pass = tick_ % pattern_.pass_ticks();
+  const int next = in_pass + 1;
+  step.direction = direction_;
+  Bearing pointing;
+  if (in_pass < pattern_.sweep_ticks) {
+    step.phase = Phase::sweeping;
+    const Bearing from = centre_before + Angle::degrees(pattern_.edge_deg(in_pass, direction_));
+    pointing = centre_ + Angle::degrees(pattern_.edge_deg(next, direction_));
+    step.left = direction_ > 0 ? from : pointing;
+    step.right = direction_ > 0 ? pointing : from;
+    step.reachable = within_gimbal(platform, configuration_, from, step.elevation) &&
+                     within_gimbal(platform, configuration_, pointing, step.elevation);
+    step.scan_start = tick_ == 0;
+    step.scan_end = in_pass == pattern_.sweep_ticks - 1 && step.bar == pattern_.bars - 1;
+  } else {
+    step.phase = Phase::turning;
+    pointing = centre_ + Angle::degrees(pattern_.turn_deg(next - pattern_.sweep_ticks, direction_));
+  }
+  azimuth_.place((pointing - platform.heading).degrees());
+
+  if (next == pattern_.pass_ticks() && !pattern_.circular) direction_ = -direction_;
+  tick_ = (tick_ + 1) % pattern_.scan_ticks();
+  phase_ = tick_ % pattern_.pass_ticks() < pattern_.sweep_ticks ? Phase::sweeping : Phase::turning;
+}
+
+}  // namespace yars::model::antenna

@@ -1,0 +1,65 @@
+// The dish: goes to an edge of its sector, then scans it, held in space about the ground track. Pure: one call a
+// tick of 5 ms, the platform and the commanded elevation in, what the beam swept during the tick out. The pointing
+// within a scan comes from the tick number alone and is exactly periodic; edges of neighbouring sweeps are equal,
+// also while the aircraft turns, so that wedges tile without gaps.
+#pragma once
+
+#include <cstdint>
+
+#include "lib/radar/configuration.hpp"
+#include "model/antenna/axis.hpp"
+#include "model/antenna/scan_pattern.hpp"
+#include "model/antenna/stabilization.hpp"
+
+namespace yars::model::antenna {
+
+enum class Phase : std::uint8_t { parked, slewing, sweeping, turning };
+
+// What happened in one tick.
+struct AntennaStep {
+  Phase phase = Phase::parked;
+  geo::Bearing left;           // of the sweep, true; meaningful while sweeping
+  geo::Bearing right;
+  geo::Bearing azimuth;        // where the dish points at the end of the tick, true
+  geo::Angle elevation;        // against the horizon
+  int direction = 1;           // +1 clockwise
+  int bar = 0;
+  bool reachable = true;       // false: the gimbal cannot point there, the sweep is blank
+  bool scan_start = false;     // first sweep of the scan
+  bool scan_end = false;       // last sweep of the scan
+};
+
+class Antenna {
+ public:
+  explicit Antenna(const radar::AntennaConfiguration& configuration);
+
+  // Takes up a pointing [deg against nose and horizon].
+  void resume(double azimuth_deg, double elevation_deg);
+  // Goes to the nearer edge of a sector of this width and scans from there.
+  void restart(double width_deg);
+  // Holds still until the next restart.
+  void park();
+
+  AntennaStep step(const Platform& platform, geo::Angle commanded_elevation);
+
+  bool between_scans() const { return tick_ == 0; }               // parked, slewing, or a scan has just ended
+  double azimuth_deg() const { return azimuth_.position_deg(); }                 // [deg] against the nose
+  double elevation_deg() const { return elevation_.position_deg(); }             // [deg] against the horizon
+  const ScanPattern& pattern() const { return pattern_; }
+
+ private:
+  void slew(const Platform& platform);
+  void scan(const Platform& platform, AntennaStep& step);
+
+  radar::AntennaConfiguration configuration_;
+  ScanPattern pattern_;
+  Axis azimuth_;
+  Axis elevation_;
+  geo::Bearing centre_;        // of the scan, true, at the end of the last tick
+  Phase phase_ = Phase::parked;
+  int tick_ = 0;               // within the scan
+  int direction_ = 1;          // of the pass under way
+  bool centre_known_ = false;
+};
+
+}  // namespace yars::model::antenna

@@ -1,0 +1,57 @@
+#include "model/antenna/stabilization.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/radar/configuration.hpp"
+
+namespace yars::model::antenna {
+
+using geo::Angle;
+using geo::Bearing;
+
+namespace {
+constexpr double kStandstillMps = 1.0;  // [m/s]
+}
+
+Bearing ground_track(double velocity_north_mps, double velocity_east_mps, Bearing heading) {
+  if (!(std::hypot(velocity_north_mps, velocity_east_mps) >= kStandstillMps)) return heading;
+  return Bearing::radians(std::atan2(velocity_east_mps, velocity_north_mps));
+}
+
+Bearing scan_centre(const Platform& platform, const radar::AntennaConfiguration& antenna) {
+  const double drift_deg = (platform.ground_track - platform.heading).degrees();
+  const double followed_deg = std::clamp(drift_deg, -antenna.drift_limit_deg, antenna.drift_limit_deg);
+  return platform.heading + Angle::degrees(followed_deg);
+}
+
+GimbalAngles gimbal_from_space(const Platform& platform, Bearing azimuth, Angle elevation) {
+  const double relative_rad = (azimuth - platform.heading).radians();
+  const double sin_elevation = std::sin(elevation.radians());
+  const double cos_elevation = std::cos(elevation.radians());
+  // Heading axes: forward, right, down.
+  const double forward = cos_elevation * std::cos(relative_rad);
+  const double right = cos_elevation * std::sin(relative_rad);
+  const double down = -sin_elevation;
+  const double sin_pitch = std::sin(platform.pitch.radians());
+  const double cos_pitch = std::cos(platform.pitch.radians());
+  const double sin_roll = std::sin(platform.roll.radians());
+  const double cos_roll = std::cos(platform.roll.radians());
+  // Pitch about the right axis, then roll about the nose.
+  const double nose = cos_pitch * forward - sin_pitch * down;
+  const double pitched_down = sin_pitch * forward + cos_pitch * down;
+  const double wing = cos_roll * right + sin_roll * pitched_down;
+  const double belly = -sin_roll * right + cos_roll * pitched_down;
+  return {Angle::radians(std::atan2(wing, nose)), Angle::radians(std::asin(std::clamp(-belly, -1.0, 1.0)))};
+}
+
+bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& antenna, Bearing azimuth,
+                   Angle elevation) {
+  const GimbalAngles gimbal = gimbal_from_space(platform, azimuth, elevation);
+  const bool azimuth_reached =
+      antenna.circular_scan || std::abs(gimbal.azimuth.degrees()) <= antenna.azimuth_limit_deg + antenna.tolerance_deg;
+  return azimuth_reached &&
+         std::abs(gimbal.elevation.degrees()) <= antenna.elevation_limit_deg + antenna.tolerance_deg;
+}
+
+}  // namespace yars::model::antenna

@@ -1,0 +1,25 @@
+#include "model/rbm/algorithm.hpp"
+
+#include <algorithm>
+
+#include "lib/radar/limits.hpp"
+#include "model/rbm/reference.hpp"
+#include "model/rbm/standard.hpp"
+
+namespace yars::model::rbm {
+
+std::unique_ptr<Algorithm> make_algorithm(const radar::RadarConfiguration& configuration) {
+  switch (configuration.fidelity.algorithm) {
+    case radar::Algorithm::reference:
+      return std::make_unique<Reference>(configuration);
+    case radar::Algorithm::standard:
+      break;
+  }
+  return std::make_unique<Standard>(configuration);
+}
+
+std::size_t sample_count(const radar::RadarConfiguration& configuration) {
+  return static_cast<std::size_t>(std::clamp(configuration.fidelity.samples, 1, radar::kMaxSamples));
+}
+
+}  // namespace yars::model::rbm

@@ -1,0 +1,38 @@
+// One way of computing the real beam map, in two halves: measure() turns terrain into power, develop() turns power
+// into video. An instance has scratch memory: one thread at a time. No allocation after construction.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "lib/radar/configuration.hpp"
+#include "model/rbm/look.hpp"
+#include "model/terrain/terrain_view.hpp"
+
+namespace yars::model::rbm {
+
+class Algorithm {
+ public:
+  Algorithm() = default;
+  Algorithm(const Algorithm&) = delete;
+  Algorithm& operator=(const Algorithm&) = delete;
+  virtual ~Algorithm() = default;
+
+  // Fills `power` (near to far, samples of the fidelity): 1 = full scale, after sensitivity time control and pulse
+  // smear, without noise; never NaN, never negative. Returns how many samples met terrain that is not loaded yet.
+  virtual std::size_t measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) = 0;
+
+  // Azimuth smear, noise, log receiver and gain (0..3): 8-bit video, as long as the power.
+  virtual void develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
+                       std::span<std::uint8_t> video) = 0;
+};
+
+// The algorithm that the fidelity names. Samples are clamped to [1, kMaxSamples].
+std::unique_ptr<Algorithm> make_algorithm(const radar::RadarConfiguration& configuration);
+
+// Samples of a sweep that the configuration gives, clamped.
+std::size_t sample_count(const radar::RadarConfiguration& configuration);
+
+}  // namespace yars::model::rbm

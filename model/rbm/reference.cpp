@@ -1,0 +1,157 @@
+#include "model/rbm/reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/rbm/noise.hpp"
+
+namespace yars::model::rbm {
+
+namespace {
+// Side rays for the slope across the sweep lie this share of the beam width either side: within the beam, and far
+// enough apart to see the slope that the beam sees.
+constexpr double kSideShare = 0.25;
+
+// Mean 1, variance 1/looks: the mean of `looks` exponential variates, each from 16 random bits.
+double speckle(NoiseState state, std::uint32_t cell, int looks) {
+  double sum = 0.0;
+  for (int look = 0; look < looks; ++look) {
+    const std::uint32_t bits = noise_bits(state, cell, static_cast<std::uint32_t>(look / 2));
+    const std::uint32_t half = look % 2 == 0 ? bits >> 16U : bits & 0xffffU;
+    sum -= std::log((half + 0.5) / 65536.0);
+  }
+  return sum / looks;
+}
+}  // namespace
+
+Reference::Reference(const radar::RadarConfiguration& configuration)
+    : configuration_(configuration),
+      samples_(sample_count(configuration)),
+      distance_m_(samples_.size()),
+      latitude_deg_(samples_.size()),
+      longitude_deg_(samples_.size()),
+      elevation_m_(samples_.size()),
+      water_(samples_.size()) {}
+
+std::size_t Reference::measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) {
+  const EffectiveEarth earth = effective_earth(configuration_.fidelity, look.apex, look.azimuth);
+  const Receiver receiver = make_receiver(configuration_, look.range);
+  sample_distances(configuration_.fidelity, earth, look, terrain, distance_m_);
+  const std::size_t pending = read_terrain(look, terrain);
+  if (configuration_.fidelity.cross_track_slope) read_cross_slopes(look, terrain);
+  cast_shadows(earth, look.altitude.metres());
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    samples_[i].power = samples_[i].lit ? cell_power(receiver, earth, look, i) : 0.0;
+  }
+  smear_pulse(receiver, look.range.metres() / static_cast<double>(samples_.size()), power);
+  return pending;
+}
+
+std::size_t Reference::read_terrain(const Look& look, const terrain::TerrainView& terrain) {
+  const geo::GeodesicRay ray(look.apex, look.azimuth);
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    Sample& sample = samples_[i];
+    sample = Sample{};
+    sample.distance_m = distance_m_[i];
+    const bool hole = std::isnan(sample.distance_m);
+    sample.place = hole ? look.apex : ray.position(geo::Length::metres(sample.distance_m));
+    sample.height_m = hole ? std::numeric_limits<double>::quiet_NaN() : terrain.elevation_m(sample.place);
+    latitude_deg_[i] = sample.place.latitude_deg;
+    longitude_deg_[i] = sample.place.longitude_deg;
+  }
+  // The span gives what elevation_m() does not tell: water, and what is still being loaded.
+  const std::size_t pending = terrain.elevations(latitude_deg_, longitude_deg_, elevation_m_, water_);
+  for (std::size_t i = 0; i < samples_.size(); ++i) samples_[i].water = static_cast<double>(water_[i]);
+  return pending;
+}
+
+void Reference::read_cross_slopes(const Look& look, const terrain::TerrainView& terrain) {
+  const double side_rad = kSideShare * configuration_.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
+  const geo::GeodesicRay left(look.apex, look.azimuth - geo::Angle::radians(side_rad));
+  const geo::GeodesicRay right(look.apex, look.azimuth + geo::Angle::radians(side_rad));
+  for (Sample& sample : samples_) {
+    if (std::isnan(sample.distance_m)) continue;
+    const geo::Length distance = geo::Length::metres(sample.distance_m);
+    const double rise_m = terrain.elevation_m(right.position(distance)) - terrain.elevation_m(left.position(distance));
+    sample.cross_slope = std::isnan(rise_m) ? 0.0 : rise_m / (2.0 * side_rad * sample.distance_m);
+  }
+}
+
+void Reference::cast_shadows(const EffectiveEarth& earth, double altitude_m) {
+  // Every terrain sample raises the horizon, also one outside the beam; a void neither raises it nor returns.
+  double horizon = -std::numeric_limits<double>::infinity();
+  for (Sample& sample : samples_) {
+    if (std::isnan(sample.height_m)) continue;
+    const double tangent = earth.sight(altitude_m, sample.distance_m, sample.height_m).tangent;
+    sample.lit = tangent > horizon;
+    horizon = std::max(horizon, tangent);
+  }
+}
+
+double Reference::along_slope(std::size_t index) const {
+  // Central difference; towards a void or an end, the difference to the other side alone.
+  const bool near_known = index > 0 && !std::isnan(samples_[index - 1].height_m);
+  const bool far_known = index + 1 < samples_.size() && !std::isnan(samples_[index + 1].height_m);
+  const Sample& near = samples_[near_known ? index - 1 : index];
+  const Sample& far = samples_[far_known ? index + 1 : index];
+  const double run_m = far.distance_m - near.distance_m;
+  return run_m > 0.0 ? (far.height_m - near.height_m) / run_m : 0.0;
+}
+
+double Reference::cell_power(const Receiver& receiver, const EffectiveEarth& earth, const Look& look,
+                             std::size_t index) const {
+  const Sample& sample = samples_[index];
+  const Sight sight = earth.sight(look.altitude.metres(), sample.distance_m, sample.height_m);
+  // The facet's normal against the direction to the radar, which lies in the plane of the sweep.
+  const double slope = along_slope(index);
+  const double normal = std::sqrt(1.0 + slope * slope + sample.cross_slope * sample.cross_slope);
+  const double sin_local = std::clamp((slope * sight.cos_grazing + sight.sin_grazing) / normal, 0.0, 1.0);
+  const double gamma = receiver.land_gamma + (receiver.sea_gamma - receiver.land_gamma) * sample.water;
+  const double area_m2 = illuminated_area_m2(receiver, sight.slant_range_m, sin_local);
+  const double gain = two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad,
+                                   look.elevation.radians(), sight.elevation_rad);
+  const double control = std::pow(sight.slant_range_m / receiver.stc_range_m, receiver.stc_exponent);
+  return returned_power(gamma * sin_local * area_m2, gain, sight.slant_range_m) * control / receiver.full_scale;
+}
+
+void Reference::smear_pulse(const Receiver& receiver, double spacing_m, std::span<float> power) const {
+  const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
+  const PulseSmear smear = make_pulse_smear(pulse_samples);
+  const auto count = static_cast<int>(samples_.size());
+  for (int i = 0; i < count; ++i) {
+    double sum = 0.0;
+    for (int offset = -smear.reach; offset <= smear.reach; ++offset) {
+      const int neighbour = i + offset;
+      if (neighbour < 0 || neighbour >= count) continue;
+      sum += smear.weights[static_cast<std::size_t>(offset + smear.reach)] *
+             samples_[static_cast<std::size_t>(neighbour)].power;
+    }
+    power[static_cast<std::size_t>(i)] = static_cast<float>(sum);
+  }
+}
+
+void Reference::develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
+                        std::span<std::uint8_t> video) {
+  const Receiver receiver = make_receiver(configuration_, range);
+  const NoiseState state = make_noise_state(key);
+  const double spacing_m = range.metres() / static_cast<double>(video.size());
+  const float cells = cells_per_sample(spacing_m, receiver.pulse_length_m);
+  const double gain_db = (gain - kFullGain) * receiver.gain_step_db;
+  for (std::size_t i = 0; i < video.size(); ++i) {
+    double power = static_cast<double>(window.centre[i]);
+    if (configuration_.fidelity.azimuth_smear) {
+      power = kAzimuthWeights[0] * static_cast<double>(window.before[i]) + kAzimuthWeights[1] * power +
+              kAzimuthWeights[2] * static_cast<double>(window.after[i]);
+    }
+    // Clutter and thermal noise add as voltages, so their sum fluctuates as one.
+    double total = power + receiver.noise;
+    if (configuration_.fidelity.noise) {
+      total *= speckle(state, resolution_cell(static_cast<std::uint32_t>(i), cells), receiver.looks);
+    }
+    const double level = 1.0 + (10.0 * std::log10(total) + gain_db) / receiver.decibels_per_scale;
+    video[i] = static_cast<std::uint8_t>(std::clamp(255.0 * level, 0.0, 255.0) + 0.5);
+  }
+}
+
+}  // namespace yars::model::rbm

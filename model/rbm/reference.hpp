@@ -1,0 +1,49 @@
+// The oracle: plain double precision, an exact geodesic and exact earth curvature at every sample, one loop a step,
+// written to be read. Tests hold the faster algorithms against it; `yars trade` measures by it.
+// Accuracy: that of double; power is handed over as float (6e-8 relative).
+#pragma once
+
+#include <vector>
+
+#include "lib/radar/configuration.hpp"
+#include "model/rbm/algorithm.hpp"
+#include "model/rbm/earth.hpp"
+#include "model/rbm/receiver.hpp"
+
+namespace yars::model::rbm {
+
+class Reference : public Algorithm {
+ public:
+  explicit Reference(const radar::RadarConfiguration& configuration);
+
+  std::size_t measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) override;
+  void develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
+               std::span<std::uint8_t> video) override;
+
+  // What the last measure() found for a sample; for tests and `yars trade`.
+  struct Sample {
+    double distance_m = 0.0;      // over ground; NaN = nothing is that near
+    geo::GeoPoint place;
+    double height_m = 0.0;        // MSL; NaN = void
+    double water = 0.0;           // share [0, 1]
+    double cross_slope = 0.0;     // across the sweep, dimensionless
+    bool lit = false;
+    double power = 0.0;           // before the pulse smear
+  };
+  std::span<const Sample> samples() const { return samples_; }
+
+ private:
+  std::size_t read_terrain(const Look& look, const terrain::TerrainView& terrain);
+  void read_cross_slopes(const Look& look, const terrain::TerrainView& terrain);
+  void cast_shadows(const EffectiveEarth& earth, double altitude_m);
+  double along_slope(std::size_t index) const;
+  double cell_power(const Receiver& receiver, const EffectiveEarth& earth, const Look& look, std::size_t index) const;
+  void smear_pulse(const Receiver& receiver, double spacing_m, std::span<float> power) const;
+
+  radar::RadarConfiguration configuration_;
+  std::vector<Sample> samples_;
+  std::vector<double> distance_m_, latitude_deg_, longitude_deg_;
+  std::vector<float> elevation_m_, water_;
+};
+
+}  // namespace yars::model::rbm
