@@ -1,0 +1,17 @@
+// `yars terrain`: makes elevation databases and looks into them.
+#include "tools/command.hpp"
+#include "tools/terrain_commands.hpp"
+
+namespace yars::tools {
+
+void add_terrain_command(CLI::App& app, const CommonOptions& /*common*/) {
+  CLI::App* terrain = app.add_subcommand("terrain", "elevation databases: generate, info, image, profile, dump");
+  terrain->require_subcommand(1);
+  add_terrain_generate(*terrain);
+  add_terrain_info(*terrain);
+  add_terrain_image(*terrain);
+  add_terrain_profile(*terrain);
+  add_terrain_dump(*terrain);
+}
+
+}  // namespace yars::tools

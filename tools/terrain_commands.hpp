@@ -1,0 +1,15 @@
+// The subcommands of `yars terrain`: each is one source file that adds itself.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace yars::tools {
+
+void add_terrain_generate(CLI::App& terrain);
+void add_terrain_info(CLI::App& terrain);
+void add_terrain_image(CLI::App& terrain);
+void add_terrain_profile(CLI::App& terrain);
+void add_terrain_dump(CLI::App& terrain);
+
+}  // namespace yars::tools

@@ -1,0 +1,75 @@
+// `yars terrain image`: a hill-shaded map of a directory of elevation cells.
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "model/terrain/directory_index.hpp"
+#include "tools/command.hpp"
+#include "tools/terrain_commands.hpp"
+#include "tools/terrain_shade.hpp"
+
+namespace yars::tools {
+
+namespace {
+
+using namespace model::terrain;
+
+struct Options {
+  std::string directory;
+  std::string out;
+  std::optional<double> south_deg, north_deg, west_deg, east_deg;  // else what the directory covers
+  int width = 1024;
+};
+
+// Cell by cell: no more than one is in memory, whatever the region.
+void draw(const Options& options) {
+  const auto index = index_directory(options.directory);
+  if (!index) give_up(index.error());
+  CellPlace lowest{90, 180};
+  CellPlace highest{-90, -180};
+  for (const auto& [slot, file] : *index) {
+    const CellPlace place = place_of_slot(slot);
+    lowest = {std::min(lowest.south_deg, place.south_deg), std::min(lowest.west_deg, place.west_deg)};
+    highest = {std::max(highest.south_deg, place.south_deg), std::max(highest.west_deg, place.west_deg)};
+  }
+  const double south_deg = options.south_deg.value_or(lowest.south_deg);
+  const double north_deg = options.north_deg.value_or(highest.south_deg + 1);
+  const double west_deg = options.west_deg.value_or(lowest.west_deg);
+  const double east_deg = options.east_deg.value_or(highest.west_deg + 1);
+  if (south_deg >= north_deg || west_deg >= east_deg)
+    throw CommandFailed{"yars terrain image: expected south < north and west < east, found an empty region", 2};
+  const MapFrame frame = map_frame(south_deg, north_deg, west_deg, east_deg, options.width);
+  imageio::Image image = blank_map(frame);
+  for (const auto& [slot, file] : *index) {
+    const CellPlace place = place_of_slot(slot);
+    if (place.south_deg >= north_deg || place.south_deg + 1 <= south_deg || place.west_deg >= east_deg ||
+        place.west_deg + 1 <= west_deg)
+      continue;
+    const auto reading = read_cell(file, place);
+    if (reading)
+      paint_cell(reading->cell, frame, image);
+    else
+      std::fprintf(stderr, "problem: %s\n", reading.error().message().c_str());
+  }
+  if (const auto written = imageio::write_png(options.out, image); !written) give_up(written.error());
+}
+
+}  // namespace
+
+void add_terrain_image(CLI::App& terrain) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = terrain.add_subcommand("image", "hill-shaded map as PNG; sea blue, voids magenta");
+  command->add_option("--terrain", options->directory, "folder with DTED or HGT cells")->required();
+  command->add_option("--out", options->out, "PNG file")->required();
+  command->add_option("--south", options->south_deg, "[deg] edge of the map; else what the folder covers")
+      ->check(CLI::Range(-90.0, 90.0));
+  command->add_option("--north", options->north_deg, "[deg]")->check(CLI::Range(-90.0, 90.0));
+  command->add_option("--west", options->west_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
+  command->add_option("--east", options->east_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
+  command->add_option("--width", options->width, "[pixels]")->check(CLI::Range(16, 16384))->capture_default_str();
+  command->callback([options] { draw(*options); });
+}
+
+}  // namespace yars::tools

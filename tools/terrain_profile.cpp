@@ -1,0 +1,62 @@
+// `yars terrain profile`: elevation along a geodesic, as CSV.
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lib/geo/geodesic.hpp"
+#include "model/terrain/open_terrain.hpp"
+#include "tools/command.hpp"
+#include "tools/terrain_commands.hpp"
+
+namespace yars::tools {
+
+namespace {
+
+struct Options {
+  radar::TerrainConfiguration terrain;
+  std::vector<double> from_deg;  // latitude, longitude
+  std::vector<double> to_deg;
+  double step_m = 100.0;
+};
+
+void profile(const Options& options) {
+  auto store = model::terrain::open_terrain(options.terrain);
+  if (!store) give_up(store.error());
+  const geo::GeoPoint from{options.from_deg[0], options.from_deg[1]};
+  const geo::GeodesicInverse way = geo::geodesic_inverse(from, {options.to_deg[0], options.to_deg[1]});
+  const geo::GeodesicRay ray(from, way.azimuth_at_start);
+  const double length_m = way.distance.metres();
+  const auto steps = static_cast<long>(std::ceil(length_m / options.step_m));
+  std::printf("distance_m,latitude_deg,longitude_deg,elevation_m\n");
+  for (long step = 0; step <= steps; ++step) {
+    const double distance_m = std::min(length_m, static_cast<double>(step) * options.step_m);
+    const geo::GeoPoint place = ray.position(geo::Length::metres(distance_m));
+    const double elevation_m = (*store)->prepare({place, 0.0})->elevation_m(place);
+    std::printf("%.1f,%.7f,%.7f,", distance_m, place.latitude_deg, place.longitude_deg);
+    // A void is an empty field.
+    if (std::isnan(elevation_m))
+      std::printf("\n");
+    else
+      std::printf("%.2f\n", elevation_m);
+  }
+  for (const std::string& problem : (*store)->take_problems()) std::fprintf(stderr, "problem: %s\n", problem.c_str());
+}
+
+}  // namespace
+
+void add_terrain_profile(CLI::App& terrain) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = terrain.add_subcommand("profile", "elevation along the shortest way between two places, as CSV");
+  command->add_option("--terrain", options->terrain.directory,
+                      "folder with DTED or HGT cells; without it the built-in hills");
+  command->add_option("--from", options->from_deg, "[deg] latitude and longitude")->expected(2)->required();
+  command->add_option("--to", options->to_deg, "[deg] latitude and longitude")->expected(2)->required();
+  command->add_option("--step", options->step_m, "[m] between samples")
+      ->check(CLI::Range(0.1, 1e6))
+      ->capture_default_str();
+  command->callback([options] { profile(*options); });
+}
+
+}  // namespace yars::tools

@@ -1,0 +1,124 @@
+#include "tools/terrain_shade.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lib/geo/quantity.hpp"
+#include "model/terrain/bilinear.hpp"
+
+namespace yars::tools {
+
+namespace {
+
+using model::terrain::Cell;
+using Colour = std::array<double, 3>;
+
+constexpr double kMetresPerDegree = 111195.0;  // [m] of a sphere of 6371 km: a picture, no navigation
+constexpr double kExaggeration = 1.6;          // of slopes; more hides plains in the shade of hills
+constexpr Colour kSea{38, 66, 112};
+constexpr Colour kVoid{200, 60, 160};
+constexpr Colour kAbsent{24, 34, 56};
+
+struct Tint {
+  double height_m;
+  Colour colour;
+};
+constexpr Tint kTints[] = {{-500, {92, 128, 84}},  {0, {104, 142, 88}},     {300, {150, 162, 104}},
+                           {900, {186, 166, 118}}, {1800, {160, 134, 110}}, {2800, {206, 200, 196}},
+                           {4000, {250, 250, 250}}};
+
+Colour tint(double height_m) {
+  const Tint* above = std::begin(kTints);
+  while (above != std::end(kTints) && above->height_m < height_m) ++above;
+  if (above == std::begin(kTints)) return above->colour;
+  if (above == std::end(kTints)) return std::prev(above)->colour;
+  const Tint* below = std::prev(above);
+  const double t = (height_m - below->height_m) / (above->height_m - below->height_m);
+  Colour mixed{};
+  for (std::size_t i = 0; i < mixed.size(); ++i)
+    mixed[i] = below->colour[i] + t * (above->colour[i] - below->colour[i]);
+  return mixed;
+}
+
+// Lambert's cosine, light from the north-west 40 degrees up, with some light in the shade.
+double light(double slope_east, double slope_north) {
+  constexpr double kEast = -0.542, kNorth = 0.542, kUp = 0.643;
+  const double east = -slope_east * kExaggeration;
+  const double north = -slope_north * kExaggeration;
+  const double cosine = (east * kEast + north * kNorth + kUp) / std::sqrt(east * east + north * north + 1.0);
+  return 0.25 + 1.15 * std::max(0.0, cosine);
+}
+
+struct PixelStep {
+  double north_deg, east_deg;
+};
+
+Colour colour_at(const Cell& cell, double north_deg, double east_deg, PixelStep step, double east_m_per_deg) {
+  const model::terrain::Surface here = model::terrain::interpolate(cell, north_deg, east_deg);
+  if (std::isnan(here.elevation_m)) return kVoid;
+  if (here.water > 0.5) return kSea;
+  // Slope over two pixels or two posts, whichever is wider, inside the cell.
+  const double reach_north = std::max(step.north_deg, 1.0 / (cell.rows() - 1));
+  const double reach_east = std::max(step.east_deg, 1.0 / (cell.columns() - 1));
+  const double north = std::min(1.0, north_deg + reach_north);
+  const double south = std::max(0.0, north_deg - reach_north);
+  const double east = std::min(1.0, east_deg + reach_east);
+  const double west = std::max(0.0, east_deg - reach_east);
+  const auto rise = [&](double from_north, double from_east, double to_north, double to_east) {
+    const double difference = model::terrain::interpolate(cell, to_north, to_east).elevation_m -
+                              model::terrain::interpolate(cell, from_north, from_east).elevation_m;
+    return std::isnan(difference) ? 0.0 : difference;
+  };
+  const double shade = light(rise(north_deg, west, north_deg, east) / ((east - west) * east_m_per_deg),
+                             rise(south, east_deg, north, east_deg) / ((north - south) * kMetresPerDegree));
+  Colour colour = tint(here.elevation_m);
+  for (double& channel : colour) channel *= shade;
+  return colour;
+}
+
+void put(imageio::Image& image, int x, int y, const Colour& colour) {
+  std::uint8_t* pixel = &image.pixels[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                                           static_cast<std::size_t>(x))];
+  for (std::size_t i = 0; i < colour.size(); ++i)
+    pixel[i] = static_cast<std::uint8_t>(std::clamp(colour[i], 0.0, 255.0));
+}
+
+}  // namespace
+
+MapFrame map_frame(double south_deg, double north_deg, double west_deg, double east_deg, int width) {
+  const double middle = 0.5 * (south_deg + north_deg) * geo::kRadiansPerDegree;
+  const double shape = (north_deg - south_deg) / ((east_deg - west_deg) * std::max(0.05, std::cos(middle)));
+  return {south_deg, north_deg, west_deg,
+          east_deg,  width,     std::clamp(static_cast<int>(std::lround(width * shape)), 1, 16384)};
+}
+
+imageio::Image blank_map(const MapFrame& frame) {
+  imageio::Image image{frame.width, frame.height, 3, {}};
+  image.pixels.resize(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height) * 3);
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x) put(image, x, y, kAbsent);
+  return image;
+}
+
+void paint_cell(const Cell& cell, const MapFrame& frame, imageio::Image& image) {
+  const PixelStep step{(frame.north_deg - frame.south_deg) / frame.height,
+                       (frame.east_deg - frame.west_deg) / frame.width};
+  const double west_deg = cell.place().west_deg;
+  const double north_deg = cell.place().south_deg + 1.0;
+  const int left = std::max(0, static_cast<int>(std::ceil((west_deg - frame.west_deg) / step.east_deg - 0.5)));
+  const int top = std::max(0, static_cast<int>(std::ceil((frame.north_deg - north_deg) / step.north_deg - 0.5)));
+  for (int y = top; y < frame.height; ++y) {
+    const double latitude_deg = frame.north_deg - (y + 0.5) * step.north_deg;
+    if (latitude_deg < north_deg - 1.0) break;
+    const double east_m_per_deg = kMetresPerDegree * std::max(0.01, std::cos(latitude_deg * geo::kRadiansPerDegree));
+    for (int x = left; x < frame.width; ++x) {
+      const double longitude_deg = frame.west_deg + (x + 0.5) * step.east_deg;
+      if (longitude_deg >= west_deg + 1.0) break;
+      put(image, x, y,
+          colour_at(cell, latitude_deg - cell.place().south_deg, longitude_deg - west_deg, step, east_m_per_deg));
+    }
+  }
+}
+
+}  // namespace yars::tools
