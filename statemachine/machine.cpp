@@ -52,13 +52,20 @@ bool apply(RadarState& state, const databuffer::InputEvent& event, const Surroun
 }
 
 void advance(RadarState& state, const Surroundings& surroundings, const radar::RadarConfiguration& configuration) {
-  if (state.epoch != surroundings.epoch) enter_epoch(state, surroundings.epoch);
+  bool points_due = surroundings.tick % kTicksBetweenPoints == 0;
+  if (state.epoch != surroundings.epoch) {
+    enter_epoch(state, surroundings.epoch);
+    points_due = true;
+  }
   if (power_of(state) != radar::Power::off && surroundings.ownship_valid) {
-    if (!has(state, databuffer::kRangeSet)) set_range_by_height(state, surroundings, configuration);
+    if (!has(state, databuffer::kRangeSet)) {
+      set_range_by_height(state, surroundings, configuration);
+      points_due = true;
+    }
     advance_cursor(state, surroundings, configuration);
   }
   if (!surroundings.recorder_writing) set_flag(state, databuffer::kVtr, false);
-  if (surroundings.tick % kTicksBetweenPoints == 0) draw_points(state, surroundings, configuration);
+  if (points_due) draw_points(state, surroundings, configuration);
   end_message(state, surroundings.tick);
   write_legends(state);
 }

@@ -81,7 +81,7 @@ void switch_power(Step& step) {
   RadarState& state = step.state;
   const auto power = step.event.argument;
   if (power < 0 || power > static_cast<std::int16_t>(radar::Power::operate) || power == state.power) return;
-  // Losing power forgets; so does the first power of a session, which changes nothing.
+  // Losing power forgets: what comes on again is as new.
   if (power == static_cast<std::int16_t>(radar::Power::off)) state = forgotten(step);
   state.power = static_cast<std::uint8_t>(power);
   ++state.scan_restart;

@@ -69,8 +69,9 @@ void range_down(Step& step) {
 }
 
 void next_scan_width(Step& step) {
-  constexpr int kWidths = 3;
-  set_scan_width(step.state, static_cast<radar::ScanWidth>((step.state.scan + 1) % kWidths), step.configuration);
+  constexpr std::size_t kNamedWidths = 3;
+  const std::size_t widths = std::min(step.configuration.scan_widths_deg.size(), kNamedWidths);
+  set_scan_width(step.state, static_cast<radar::ScanWidth>((step.state.scan + 1U) % widths), step.configuration);
 }
 
 void step_window(Step& step) {
@@ -92,6 +93,8 @@ void step_elevation(Step& step) {
 }
 
 void set_range_index(RadarState& state, std::size_t index, const radar::RadarConfiguration& configuration) {
+  // A state taken over from a process with a longer table of ranges may point behind this one's end.
+  index = std::min(index, configuration.ranges_nm.size() - 1);
   const double range_nm = configuration.ranges_nm[index];
   if (range_nm != state.range_nm) ++state.scan_restart;
   state.range_index = static_cast<std::uint8_t>(index);

@@ -1,0 +1,154 @@
+// A pilot for the tests: sends events as text, lets ticks pass, and reads the state back in the words of `yars watch`.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <string>
+
+#include "databuffer/records/event_text.hpp"
+#include "lib/geo/geodesic.hpp"
+#include "lib/radar/modes.hpp"
+#include "statemachine/machine.hpp"
+
+namespace yars::statemachine::testing {
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+inline constexpr geo::GeoPoint kHome{36.0, -121.0};
+
+inline geo::GeoPoint place(double bearing_deg, double distance_nm) {
+  return geo::geodesic_direct(kHome, geo::Bearing::degrees(bearing_deg), geo::Length::nautical_miles(distance_nm));
+}
+
+inline radar::RoutePoint route_point(const std::string& name, radar::PointKind kind, geo::GeoPoint where,
+                                     double elevation_m = 100.0) {
+  return {name, kind, where, elevation_m};
+}
+
+class Pilot {
+ public:
+  // At 36 N 121 W, 15,000 ft, flying north at 200 m/s; the radar altimeter reads 200 m (656 ft).
+  Pilot() {
+    using radar::PointKind;
+    configuration.route = {route_point("1", PointKind::steer, place(10.0, 12.0)),
+                           route_point("1.1", PointKind::steer_offset, place(5.0, 14.0)),
+                           route_point("2", PointKind::initial, place(0.0, 18.0)),
+                           route_point("2.01", PointKind::target_offset, place(-10.0, 22.0)),
+                           route_point("3.", PointKind::target, place(15.0, 30.0))};
+    around.ownship_valid = true;
+    around.ownship.latitude_deg = kHome.latitude_deg;
+    around.ownship.longitude_deg = kHome.longitude_deg;
+    around.ownship.altitude_msl_m = 4572.0;
+    around.ownship.velocity_north_mps = 200.0;
+    around.ownship.radar_altitude_m = 200.0;
+    around.nav.magnetic_variation_deg = kNaN;
+    state = initial_state(configuration);
+  }
+
+  // True when the event did something. Dead or not, the event itself must be one.
+  bool send(const std::string& text) {
+    const auto event = databuffer::event_from_text(text);
+    EXPECT_TRUE(event.has_value()) << text;
+    return event && apply(state, *event, around, configuration);
+  }
+
+  void wait(int ticks = 1) {
+    for (int tick = 0; tick < ticks; ++tick) {
+      ++around.tick;
+      advance(state, around, configuration);
+    }
+  }
+
+  // Sends, and lets one tick pass.
+  bool press(const std::string& text) {
+    const bool did = send(text);
+    wait();
+    return did;
+  }
+
+  std::string legend(int button) const { return state.legends[button]; }
+  bool boxed(int button) const { return (state.boxed >> button & 1U) != 0; }
+  bool is(std::uint32_t flag) const { return (state.flags & flag) != 0; }
+
+  radar::RadarConfiguration configuration;
+  Surroundings around;
+  databuffer::RadarState state;
+};
+
+inline std::string words_of(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+// Name of the route point on which the cursor lies; "-" when on none.
+inline std::string point_under_cursor(const Pilot& pilot) {
+  for (const radar::RoutePoint& point : pilot.configuration.route) {
+    const bool here = (pilot.state.flags & databuffer::kCursorValid) != 0 &&
+                      point.place.latitude_deg == pilot.state.cursor_latitude_deg &&
+                      point.place.longitude_deg == pilot.state.cursor_longitude_deg;
+    if (here) return point.name;
+  }
+  return "-";
+}
+
+using Fields = std::map<std::string, std::string>;
+
+inline Fields fields_of(const Pilot& pilot) {
+  const databuffer::RadarState& state = pilot.state;
+  const auto flag = [&state](std::uint32_t bit) { return std::string((state.flags & bit) != 0 ? "true" : "false"); };
+  return {{"power", std::string(name_of(static_cast<radar::Power>(state.power)))},
+          {"mode", std::string(name_of(static_cast<radar::Mode>(state.mode)))},
+          {"running", std::string(name_of(static_cast<radar::Mode>(state.resume_mode)))},
+          {"master", std::string(name_of(static_cast<radar::Master>(state.master)))},
+          {"range_nm", words_of(state.range_nm)},
+          {"scan", std::string(name_of(static_cast<radar::ScanWidth>(state.scan)))},
+          {"gain", words_of(state.gain)},
+          {"brightness", words_of(state.brightness)},
+          {"contrast", words_of(state.contrast)},
+          {"declutter", flag(databuffer::kDeclutter)},
+          {"freeze", flag(databuffer::kFreeze)},
+          {"sniff", flag(databuffer::kSniff)},
+          {"ipvu", flag(databuffer::kIpvu)},
+          {"vtr", flag(databuffer::kVtr)},
+          {"menu", flag(databuffer::kMenu)},
+          {"cursor_function", std::string(name_of(static_cast<radar::CursorFunction>(state.cursor_function)))},
+          {"cursor_on", point_under_cursor(pilot)},
+          {"window_nm", words_of(state.window_nm)},
+          {"multi_look", flag(databuffer::kMultiLook2) == "true" ? "ML2" : "ML1"},
+          {"stabilizing", flag(databuffer::kProgressive) == "true" ? "PROG" : "STAB"},
+          {"channel", words_of(state.channel)},
+          {"band", std::string(1, static_cast<char>('A' + state.band))},
+          {"sequence_point", state.sequence_point},
+          {"nav_source", std::string(name_of(static_cast<radar::Navigator>(state.navigator)))},
+          {"altimeter", flag(databuffer::kAltimeterFailed) == "true" ? "FAIL" : "ok"},
+          {"elevation", words_of(state.antenna_elevation_deg)},
+          {"tdc", words_of(state.tdc_x) + "/" + words_of(state.tdc_y)},
+          {"message", state.message}};
+}
+
+// Brings a pilot into a mode, by events as far as events lead there; then the range is 40 NM (20 in PVU).
+inline void bring_into(Pilot& pilot, const std::string& mode, bool frozen) {
+  if (mode == "OFF") return;
+  pilot.press("power opr");
+  if (mode == "HRM" || mode == "PATCH") pilot.press("radar hrm");
+  if (mode == "BCN") pilot.press("radar bcn");
+  if (mode == "PVU") pilot.press("radar pvu");
+  if (mode != "PVU") pilot.press("pb 13");
+  if (mode == "PATCH") {
+    // Nothing leads to a patch map without patch maps; its column of the table holds all the same.
+    const auto patch = static_cast<std::uint8_t>(radar::Mode::patch);
+    pilot.state.mode = pilot.state.resume_mode = pilot.state.ground_mode = patch;
+  }
+  if (frozen) pilot.press("freeze");
+  if (mode == "AA") pilot.press("mode aa");
+  if (mode == "AGR") pilot.press("mode agr");
+  if (mode == "MENU") pilot.press("pb 11");
+  if (mode == "STBY") pilot.press("power stby");
+}
+
+}  // namespace yars::statemachine::testing

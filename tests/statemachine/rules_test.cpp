@@ -1,0 +1,423 @@
+// The rules of spec pvi.md as sentences, as far as they need no map and no designation.
+#include <gtest/gtest.h>
+
+#include "databuffer/records/radar_command.hpp"
+#include "tests/statemachine/pilot.hpp"
+
+namespace yars::statemachine::testing {
+namespace {
+
+using databuffer::kDeclutter;
+using databuffer::kFreeze;
+using databuffer::kIpvu;
+using databuffer::kSniff;
+
+class Rules : public ::testing::Test {
+ protected:
+  Rules() { pilot.press("power opr"); }
+  std::string field(const std::string& name) const { return fields_of(pilot).at(name); }
+  Pilot pilot;
+};
+
+TEST(PowerUp, ASessionBeginsOffWithNothingOnTheGlass) {
+  Pilot pilot;
+  pilot.wait();
+  EXPECT_EQ(fields_of(pilot).at("power"), "OFF");
+  for (int button = 1; button <= 20; ++button) EXPECT_EQ(pilot.legend(button), "");
+}
+
+TEST_F(Rules, PowerUpSetsWhatTheSpecLists) {
+  const Fields expected{
+      {"power", "OPR"},    {"mode", "RBM"},        {"running", "RBM"},      {"master", "AG"},
+      {"range_nm", "20"},  {"scan", "FULL"},       {"gain", "3"},           {"brightness", "8"},
+      {"contrast", "8"},   {"declutter", "false"}, {"freeze", "false"},     {"sniff", "false"},
+      {"ipvu", "false"},   {"vtr", "false"},       {"menu", "false"},       {"cursor_function", "MAP"},
+      {"cursor_on", "1"},  {"window_nm", "4.7"},   {"multi_look", "ML1"},   {"stabilizing", "STAB"},
+      {"channel", "1"},    {"band", "A"},          {"sequence_point", "1"}, {"nav_source", "MN"},
+      {"altimeter", "ok"}, {"elevation", "0"},     {"tdc", "0/0"},          {"message", ""}};
+  EXPECT_EQ(fields_of(pilot), expected);
+}
+
+TEST_F(Rules, OffForgetsEverythingAndTheNextPowerUpIsAsNew) {
+  const databuffer::RadarState fresh = pilot.state;
+  for (const char* event : {"pb 2", "pb 3", "pb 9", "pb 13", "pb 17", "pb 18", "freeze", "contrast up", "nav ins",
+                            "altimeter fail", "mode aa", "pb 11", "power off"})
+    pilot.press(event);
+  pilot.press("power opr");
+  databuffer::RadarState again = pilot.state;
+  // Counts that others compare go on.
+  EXPECT_GT(again.scan_restart, fresh.scan_restart);
+  again.scan_restart = fresh.scan_restart;
+  EXPECT_EQ(std::memcmp(&again, &fresh, sizeof again), 0);
+}
+
+TEST_F(Rules, StandbyKeepsTheStateAndOperateResumesIt) {
+  for (const char* event : {"pb 3", "pb 9", "pb 18", "radar bcn", "pb 13"}) pilot.press(event);
+  Fields expected = fields_of(pilot);
+  pilot.press("power stby");
+  expected["power"] = "STBY";
+  EXPECT_EQ(fields_of(pilot), expected);
+  pilot.press("power opr");
+  expected["power"] = "OPR";
+  EXPECT_EQ(fields_of(pilot), expected);
+}
+
+struct HeightCase {
+  double altimeter_ft;
+  double range_nm;
+};
+
+TEST(RangeByHeight, FollowsTheRadarAltimeter) {
+  for (const auto& [altimeter_ft, range_nm] :
+       {HeightCase{0, 10}, HeightCase{500, 10}, HeightCase{501, 20}, HeightCase{1000, 20}, HeightCase{1001, 40}}) {
+    Pilot pilot;
+    pilot.around.ownship.radar_altitude_m = altimeter_ft * 0.3048;
+    pilot.press("power opr");
+    EXPECT_EQ(pilot.state.range_nm, range_nm) << altimeter_ft << " ft";
+  }
+}
+
+// 900 ft over the nearest point at 1,000 m, where the altitude above sea level alone would say 40 NM.
+TEST(RangeByHeight, WithoutAltimeterTakesTheHeightOverTheNearestSequencePoint) {
+  Pilot pilot;
+  pilot.configuration.route = {route_point("1", radar::PointKind::steer, place(0.0, 30.0), 0.0),
+                               route_point("2", radar::PointKind::steer, place(180.0, 5.0), 1000.0)};
+  pilot.state = initial_state(pilot.configuration);
+  pilot.around.ownship.altitude_msl_m = 1000.0 + 900.0 * 0.3048;
+  pilot.around.ownship.radar_altitude_m = kNaN;
+  pilot.press("power opr");
+  EXPECT_EQ(pilot.state.range_nm, 20.0);
+}
+
+TEST(RangeByHeight, AFailedAltimeterIsNotBelieved) {
+  Pilot pilot;
+  pilot.around.ownship.radar_altitude_m = 100.0;
+  pilot.press("power opr");
+  EXPECT_EQ(pilot.state.range_nm, 10.0);
+  pilot.press("altimeter fail");
+  pilot.press("pb 6");
+  EXPECT_EQ(pilot.state.range_nm, 40.0);
+  pilot.press("altimeter ok");
+  pilot.press("pb 6");
+  EXPECT_EQ(pilot.state.range_nm, 10.0);
+}
+
+TEST(RangeByHeight, WithoutAltimeterAndPointElevationTakesTheHeightAboveTheSea) {
+  Pilot pilot;
+  pilot.around.ownship.radar_altitude_m = kNaN;
+  pilot.around.ownship.altitude_msl_m = 300.0;  // 984 ft
+  for (auto& point : pilot.configuration.route) point.elevation_m = kNaN;
+  pilot.press("power opr");
+  EXPECT_EQ(pilot.state.range_nm, 20.0);
+
+  Pilot without_route;
+  without_route.around = pilot.around;
+  without_route.configuration.route.clear();
+  without_route.state = initial_state(without_route.configuration);
+  without_route.press("power opr");
+  EXPECT_EQ(without_route.state.range_nm, 20.0);
+}
+
+TEST(RangeByHeight, WaitsForTheFirstOwnshipUnlessThePilotHasChosen) {
+  Pilot pilot;
+  pilot.around.ownship_valid = false;
+  pilot.press("power opr");
+  EXPECT_EQ(pilot.state.range_nm, 40.0);
+  Pilot chooser = pilot;
+  pilot.around.ownship_valid = true;
+  pilot.wait();
+  EXPECT_EQ(pilot.state.range_nm, 20.0);
+
+  chooser.press("pb 13");
+  chooser.around.ownship_valid = true;
+  chooser.wait();
+  EXPECT_EQ(chooser.state.range_nm, 80.0);
+}
+
+TEST_F(Rules, RangesStopAtBothEnds) {
+  for (const double range_nm : {40.0, 80.0, 160.0}) {
+    EXPECT_TRUE(pilot.press("pb 13"));
+    EXPECT_EQ(pilot.state.range_nm, range_nm);
+  }
+  EXPECT_FALSE(pilot.press("pb 13"));
+  for (const double range_nm : {80.0, 40.0, 20.0, 10.0, 4.7}) {
+    EXPECT_TRUE(pilot.press("pb 14"));
+    EXPECT_EQ(pilot.state.range_nm, range_nm);
+  }
+  EXPECT_FALSE(pilot.press("pb 14"));
+}
+
+TEST_F(Rules, RangeIsDeadOutsideCursorMap) {
+  for (const char* mode : {"rbm", "hrm", "bcn"}) {
+    pilot.press(std::string("radar ") + mode);
+    for (const char* function : {"UPDT", "CUE", "TGT", "MARK"}) {
+      pilot.press("pb 7");
+      ASSERT_EQ(field("cursor_function"), function);
+      EXPECT_FALSE(pilot.press("pb 13")) << mode << function;
+      EXPECT_FALSE(pilot.press("pb 14")) << mode << function;
+    }
+    pilot.press("pb 7");
+    EXPECT_TRUE(pilot.press("pb 13")) << mode;
+  }
+}
+
+TEST_F(Rules, GainGoesRoundDownwards) {
+  for (const char* legend : {"GAIN 2", "GAIN 1", "GAIN 0", "GAIN 3"}) {
+    pilot.press("pb 3");
+    EXPECT_EQ(pilot.legend(3), legend);
+  }
+}
+
+TEST_F(Rules, ScanGoesRoundAndItsWidthWithIt) {
+  const std::vector<std::pair<std::string, double>> widths{{"HALF", 50.0}, {"QTR", 25.0}, {"FULL", 100.0}};
+  for (const auto& [name, width_deg] : widths) {
+    pilot.press("pb 9");
+    EXPECT_EQ(pilot.legend(9), name);
+    EXPECT_EQ(pilot.state.scan_width_deg, width_deg);
+  }
+}
+
+TEST_F(Rules, CursorFunctionGoesRound) {
+  for (const char* legend : {"UPDT", "CUE", "TGT", "MARK", "MAP"}) {
+    pilot.press("pb 7");
+    EXPECT_EQ(pilot.legend(7), legend);
+  }
+}
+
+TEST_F(Rules, ChannelAndBandGoRound) {
+  for (const char* legend : {"2", "3", "4", "5", "6", "7", "8", "1"}) {
+    pilot.press("pb 19");
+    EXPECT_EQ(pilot.legend(19), legend);
+  }
+  for (const char* legend : {"B", "C", "D", "E", "A"}) {
+    pilot.press("pb 20");
+    EXPECT_EQ(pilot.legend(20), legend);
+  }
+}
+
+TEST_F(Rules, ModeGoesRound) {
+  for (const char* legend : {"HRM", "BCN", "PVU", "RBM"}) {
+    pilot.press("pb 6");
+    EXPECT_EQ(pilot.legend(6), legend);
+  }
+}
+
+TEST_F(Rules, BrightnessAndContrastStopAt0And15) {
+  const std::vector<std::array<std::string, 3>> levels{{"pb 4", "pb 5", "brightness"},
+                                                       {"contrast up", "contrast down", "contrast"}};
+  for (const auto& [up, down, name] : levels) {
+    for (int press = 8; press < 15; ++press) EXPECT_TRUE(pilot.press(up));
+    EXPECT_EQ(field(name), "15");
+    EXPECT_FALSE(pilot.press(up));
+    for (int press = 15; press > 0; --press) EXPECT_TRUE(pilot.press(down));
+    EXPECT_EQ(field(name), "0");
+    EXPECT_FALSE(pilot.press(down));
+  }
+}
+
+TEST_F(Rules, ALegendIsBoxedWhileItsFunctionIsOn) {
+  const std::vector<std::pair<int, std::uint32_t>> switches{{2, kDeclutter}, {16, kIpvu}, {18, kSniff}};
+  for (const auto& [button, flag] : switches) {
+    pilot.press("pb " + std::to_string(button));
+    EXPECT_TRUE(pilot.is(flag));
+    EXPECT_EQ(pilot.state.boxed, 1U << button);
+    pilot.press("pb " + std::to_string(button));
+    EXPECT_FALSE(pilot.is(flag));
+    EXPECT_EQ(pilot.state.boxed, 0U);
+  }
+}
+
+TEST_F(Rules, ElevationStopsAtSixtyDegrees) {
+  pilot.press("elevation 59.8");
+  pilot.press("elevation up");
+  EXPECT_EQ(pilot.state.antenna_elevation_deg, 60.0);
+  EXPECT_FALSE(pilot.press("elevation up"));
+  pilot.press("elevation -60");
+  EXPECT_FALSE(pilot.press("elevation down 10"));
+  EXPECT_EQ(pilot.state.antenna_elevation_deg, -60.0);
+}
+
+TEST_F(Rules, TheWindowStepsUpToTheRangeAndDownToBlank) {
+  pilot.press("pb 13");  // 40 NM
+  for (const double window_nm : {10.0, 20.0, 40.0}) {
+    EXPECT_TRUE(pilot.press("acq fwd"));
+    EXPECT_EQ(pilot.state.window_nm, window_nm);
+  }
+  EXPECT_FALSE(pilot.press("acq fwd"));
+  for (const double window_nm : {20.0, 10.0, 4.7, 3.3, 1.3, 0.67, 0.0}) {
+    EXPECT_TRUE(pilot.press("acq aft"));
+    EXPECT_EQ(pilot.state.window_nm, window_nm);
+  }
+  EXPECT_FALSE(pilot.press("acq aft"));
+  EXPECT_TRUE(pilot.press("acq fwd"));
+  EXPECT_EQ(pilot.state.window_nm, 0.67);
+}
+
+TEST_F(Rules, TheWindowStopsAt80At160Miles) {
+  for (int press = 0; press < 3; ++press) pilot.press("pb 13");
+  for (int press = 0; press < 4; ++press) EXPECT_TRUE(pilot.press("acq fwd"));
+  EXPECT_EQ(pilot.state.window_nm, 80.0);
+  EXPECT_FALSE(pilot.press("acq fwd"));
+}
+
+TEST_F(Rules, AWindowLargerThanTheRangeShrinksToTheLargestThatFits) {
+  pilot.press("acq fwd");
+  pilot.press("acq fwd");
+  ASSERT_EQ(pilot.state.window_nm, 20.0);
+  pilot.press("pb 14");
+  EXPECT_EQ(pilot.state.window_nm, 10.0);
+  pilot.press("pb 14");
+  EXPECT_EQ(pilot.state.window_nm, 4.7);
+  pilot.press("pb 13");
+  EXPECT_EQ(pilot.state.window_nm, 4.7);
+}
+
+TEST_F(Rules, ABlankWindowStaysBlankWhenTheRangeChanges) {
+  for (int press = 0; press < 4; ++press) pilot.press("acq aft");
+  ASSERT_EQ(pilot.state.window_nm, 0.0);
+  pilot.press("pb 14");
+  EXPECT_EQ(pilot.state.window_nm, 0.0);
+}
+
+TEST_F(Rules, TheAcquisitionSwitchStepsTheWindowInMapOnly) {
+  pilot.press("pb 7");
+  EXPECT_FALSE(pilot.press("acq fwd"));
+}
+
+TEST_F(Rules, SniffInHrmFreezesAndStaysFrozenWhenItEnds) {
+  pilot.press("radar hrm");
+  pilot.press("pb 18");
+  EXPECT_TRUE(pilot.is(kFreeze));
+  EXPECT_FALSE(pilot.press("freeze"));
+  pilot.press("pb 18");
+  EXPECT_TRUE(pilot.is(kFreeze));
+  EXPECT_TRUE(pilot.press("freeze"));
+  EXPECT_FALSE(pilot.is(kFreeze));
+}
+
+TEST_F(Rules, HrmEnteredWithSniffOnIsFrozenAtOnce) {
+  pilot.press("pb 18");
+  EXPECT_FALSE(pilot.is(kFreeze));
+  pilot.press("pb 6");
+  EXPECT_EQ(field("mode"), "HRM");
+  EXPECT_TRUE(pilot.is(kFreeze));
+}
+
+TEST_F(Rules, BackInAirToGroundTheRadarResumesTheModeItLeft) {
+  pilot.press("radar bcn");
+  pilot.press("pb 13");
+  pilot.press("mode aa");
+  pilot.press("mode agr");
+  EXPECT_EQ(field("mode"), "AGR");
+  pilot.press("mode ag");
+  EXPECT_EQ(field("mode"), "BCN");
+  EXPECT_EQ(pilot.state.range_nm, 40.0) << "rule 1 names no master mode";
+}
+
+TEST_F(Rules, TheRadarRunsOnUnderTheMenuAndHandsOnControlsWork) {
+  pilot.press("pb 11");
+  EXPECT_EQ(databuffer::command_from_state(pilot.state).mode, static_cast<std::uint8_t>(radar::Mode::rbm));
+  pilot.press("radar bcn");
+  EXPECT_EQ(field("mode"), "MENU");
+  EXPECT_EQ(databuffer::command_from_state(pilot.state).mode, static_cast<std::uint8_t>(radar::Mode::beacon));
+  pilot.press("pb 6");
+  EXPECT_EQ(field("mode"), "BCN");
+}
+
+TEST_F(Rules, AModeChangeKeepsWhatRule23Lists) {
+  for (const char* event : {"pb 17", "pb 2", "pb 3", "pb 4", "pb 9", "pb 16", "pb 19", "pb 20", "acq aft", "pb 7"})
+    ASSERT_TRUE(pilot.press(event)) << event;
+  Fields expected = fields_of(pilot);
+  for (const char* mode : {"HRM", "BCN", "PVU", "RBM"}) {
+    pilot.press("pb 6");
+    expected["mode"] = expected["running"] = mode;
+    EXPECT_EQ(fields_of(pilot), expected);
+  }
+}
+
+TEST_F(Rules, TheVtrIsBoxedOnlyWhileARecorderWrites) {
+  EXPECT_TRUE(pilot.press("pb 12"));
+  EXPECT_STREQ(pilot.state.message, "NO RECORDER");
+  EXPECT_FALSE(pilot.boxed(12));
+  pilot.around.recorder_writing = true;
+  pilot.press("pb 12");
+  EXPECT_TRUE(pilot.boxed(12));
+  pilot.around.recorder_writing = false;
+  pilot.wait();
+  EXPECT_FALSE(pilot.boxed(12));
+}
+
+TEST_F(Rules, AMessageGoesByItself) {
+  pilot.press("pb 12");
+  pilot.wait(500);
+  EXPECT_STREQ(pilot.state.message, "NO RECORDER");
+  pilot.wait(200);
+  EXPECT_STREQ(pilot.state.message, "");
+}
+
+TEST_F(Rules, TheScanRestartsWhenItsShapeChangesAndOnlyThen) {
+  for (const char* event : {"pb 9", "pb 13", "pb 14", "pb 6", "radar rbm", "mode aa", "mode ag", "power stby",
+                            "power opr", "power off", "power opr"}) {
+    const auto before = pilot.state.scan_restart;
+    ASSERT_TRUE(pilot.press(event)) << event;
+    EXPECT_GT(pilot.state.scan_restart, before) << event;
+  }
+  // PB 6 closes the menu that PB 11 has opened.
+  for (const char* event : {"pb 17", "acq aft", "pb 2", "pb 3", "pb 4", "pb 7", "pb 11", "pb 6", "freeze", "pb 16",
+                            "pb 18", "pb 19", "pb 20", "elevation -5", "contrast up", "nav ins", "tdc 1 0"}) {
+    const auto before = pilot.state.scan_restart;
+    ASSERT_TRUE(pilot.press(event)) << event;
+    EXPECT_EQ(pilot.state.scan_restart, before) << event;
+  }
+}
+
+TEST_F(Rules, ANewEpochRestartsTheScanAndPlacesTheCursorAnew) {
+  pilot.press("pb 17");
+  pilot.press("pb 12");
+  const auto before = pilot.state.scan_restart;
+  pilot.around.epoch = 7;
+  pilot.around.ownship.latitude_deg = 45.0;
+  pilot.wait();
+  EXPECT_GT(pilot.state.scan_restart, before);
+  EXPECT_EQ(pilot.state.epoch, 7U);
+  EXPECT_STREQ(pilot.state.message, "");
+  EXPECT_NEAR(pilot.state.cursor_range_nm, 0.5 * pilot.state.range_nm, 1e-6);
+}
+
+TEST_F(Rules, ARestartedProcessGoesOnFromTheState) {
+  for (const char* event : {"pb 9", "pb 3", "pb 3", "tdc 0.3 0.2", "freeze", "pb 11"}) pilot.press(event);
+  Pilot successor;
+  successor.around = pilot.around;
+  successor.state = pilot.state;
+  pilot.wait(50);
+  successor.wait(50);
+  EXPECT_EQ(std::memcmp(&pilot.state, &successor.state, sizeof pilot.state), 0);
+  EXPECT_EQ(fields_of(successor).at("scan"), "HALF");
+  EXPECT_EQ(fields_of(successor).at("gain"), "1");
+  EXPECT_EQ(fields_of(successor).at("freeze"), "true");
+}
+
+TEST_F(Rules, EventsWithNumbersThatMeanNothingAreDead) {
+  using databuffer::EventKind;
+  databuffer::InputEvent event{};
+  const databuffer::RadarState untouched = pilot.state;
+  for (const auto kind : {EventKind::push_button, EventKind::master_mode, EventKind::radar_mode, EventKind::power,
+                          EventKind::navigator}) {
+    for (const int argument : {-2, 0, 21, 300, 32767}) {
+      // 0 is a switch position of these, and the one in which they stand.
+      event.kind = static_cast<std::uint16_t>(kind);
+      event.argument = static_cast<std::int16_t>(argument);
+      if (kind == EventKind::power && argument == 0) continue;
+      EXPECT_FALSE(apply(pilot.state, event, pilot.around, pilot.configuration)) << event.kind << " " << argument;
+    }
+  }
+  event.x = kNaN;
+  for (const auto kind : {EventKind::elevation, EventKind::tdc}) {
+    event.kind = static_cast<std::uint16_t>(kind);
+    EXPECT_FALSE(apply(pilot.state, event, pilot.around, pilot.configuration));
+  }
+  EXPECT_EQ(std::memcmp(&pilot.state, &untouched, sizeof untouched), 0);
+}
+
+}  // namespace
+}  // namespace yars::statemachine::testing
