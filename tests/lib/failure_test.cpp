@@ -1,0 +1,43 @@
+// Errors tell a person what to do; a broken requirement names both values.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "lib/failure/error.hpp"
+#include "lib/failure/require.hpp"
+
+namespace yars::failure {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(Error, ItsMessageIsOneLineWithWhatWasExpectedAndFoundAndWhatToDo) {
+  const Error error{"route.csv:3", "a latitude", "\"north\"", "give degrees"};
+  const std::string message = error.message();
+  for (const char* part : {"route.csv:3", "a latitude", "\"north\"", "give degrees"})
+    EXPECT_THAT(message, HasSubstr(part));
+  EXPECT_THAT(message, Not(HasSubstr("\n")));
+}
+
+Expected<int> positive(int value) {
+  if (value <= 0) return fail("value", "above 0", std::to_string(value));
+  return value;
+}
+
+TEST(Expected, CarriesAValueOrAnError) {
+  EXPECT_EQ(positive(3).value(), 3);
+  ASSERT_FALSE(positive(-4));
+  EXPECT_EQ(positive(-4).error().found, "-4");
+}
+
+TEST(Require, PassesWhatHolds) {
+  YARS_REQUIRE(1 + 1, ==, 2);
+}
+
+TEST(RequireDeathTest, EndsTheProcessWithBothValues) {
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_DEATH(YARS_REQUIRE(40 + 1, ==, 42), "41 and 42");
+}
+
+}  // namespace
+}  // namespace yars::failure

@@ -1,0 +1,78 @@
+// What is written as PNG is read back the same; what is no PNG says so.
+#include "lib/imageio/png.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+namespace yars::imageio {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Png : public ::testing::Test {
+ protected:
+  Png() { std::filesystem::create_directories(folder_); }
+  ~Png() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path path(const std::string& name) const { return folder_ / name; }
+
+ private:
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() /
+      ("yars-png-" + std::to_string(getpid()) + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+Image noise(int width, int height, int channels) {
+  constexpr std::uint32_t kSeed = 70;
+  std::mt19937 random(kSeed);
+  std::uniform_int_distribution<int> byte(0, 255);
+  Image image{width, height, channels, {}};
+  image.pixels.resize(static_cast<std::size_t>(width * height * channels));
+  for (auto& pixel : image.pixels) pixel = static_cast<std::uint8_t>(byte(random));
+  return image;
+}
+
+TEST_F(Png, EveryPixelComesBack) {
+  for (const int channels : {1, 3, 4}) {
+    for (const auto& [width, height] : {std::pair{1, 1}, std::pair{7, 5}, std::pair{480, 481}}) {
+      const Image image = noise(width, height, channels);
+      ASSERT_TRUE(write_png(path("a.png"), image));
+      const auto back = read_png(path("a.png"));
+      ASSERT_TRUE(back) << back.error().message();
+      EXPECT_EQ(back->width, width);
+      EXPECT_EQ(back->height, height);
+      EXPECT_EQ(back->channels, channels);
+      EXPECT_TRUE(back->pixels == image.pixels) << channels << " channels, " << width << " x " << height;
+    }
+  }
+}
+
+TEST_F(Png, AFolderThatIsNotThereIsNamed) {
+  const auto written = write_png(path("nowhere/a.png"), noise(2, 2, 1));
+  ASSERT_FALSE(written);
+  EXPECT_THAT(written.error().message(), HasSubstr("nowhere"));
+}
+
+TEST_F(Png, AFileThatIsNotThereIsNamed) {
+  const auto read = read_png(path("missing.png"));
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.error().message(), HasSubstr("missing.png"));
+}
+
+TEST_F(Png, AFileThatIsNoPngIsRefused) {
+  std::ofstream(path("text.png")) << "this is a letter, not a picture";
+  EXPECT_FALSE(read_png(path("text.png")));
+}
+
+TEST_F(Png, AFileCutInTheMiddleIsRefused) {
+  ASSERT_TRUE(write_png(path("whole.png"), noise(64, 64, 3)));
+  std::filesystem::resize_file(path("whole.png"), std::filesystem::file_size(path("whole.png")) / 2);
+  EXPECT_FALSE(read_png(path("whole.png")));
+}
+
+}  // namespace
+}  // namespace yars::imageio

@@ -1,0 +1,152 @@
+// Facts of the radar: ranges by height, windows, names of points, words of the modes. Source: spec pvi.md rules 1,
+// 4, 11.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "lib/radar/configuration.hpp"
+#include "lib/radar/ground_track.hpp"
+#include "lib/radar/modes.hpp"
+#include "lib/radar/point_name.hpp"
+#include "lib/radar/ranges.hpp"
+#include "lib/radar/windows.hpp"
+
+namespace yars::radar {
+namespace {
+
+using geo::Length;
+
+double miles_by_feet(double height_ft) {
+  return range_by_height(Length::feet(height_ft)).nautical_miles();
+}
+
+TEST(RangeByHeight, IsTenTwentyOrFortyMiles) {
+  EXPECT_EQ(miles_by_feet(-50.0), 10.0);
+  EXPECT_EQ(miles_by_feet(500.0), 10.0);
+  EXPECT_EQ(miles_by_feet(500.1), 20.0);
+  EXPECT_EQ(miles_by_feet(1000.0), 20.0);
+  EXPECT_EQ(miles_by_feet(1000.1), 40.0);
+  EXPECT_EQ(miles_by_feet(std::numeric_limits<double>::quiet_NaN()), 40.0);
+}
+
+TEST(RangeIndexFor, TakesTheShortestThatIsNotBelow) {
+  const std::vector<double> apg70{4.7, 10, 20, 40, 80, 160};
+  EXPECT_EQ(range_index_for(Length::nautical_miles(10.0), apg70), 1U);
+  EXPECT_EQ(range_index_for(Length::nautical_miles(41.0), apg70), 4U);
+  EXPECT_EQ(range_index_for(Length::nautical_miles(400.0), apg70), 5U);
+  const std::vector<double> another{15, 30};
+  EXPECT_EQ(range_index_for(Length::nautical_miles(10.0), another), 0U);
+  EXPECT_EQ(range_index_for(Length::nautical_miles(40.0), another), 1U);
+}
+
+struct LimitsCase {
+  double window_nm, least_nm, greatest_nm;
+};
+
+TEST(CursorLimits, AreThoseOfTheTable) {
+  for (const auto& [window_nm, least_nm, greatest_nm] :
+       {LimitsCase{.67, 4.7, 20}, LimitsCase{1.3, 4.7, 40}, LimitsCase{3.3, 4.7, 50}, LimitsCase{4.7, 4.7, 80},
+        LimitsCase{10, 10, 160}, LimitsCase{20, 20, 160}, LimitsCase{40, 40, 160}, LimitsCase{80, 80, 160}}) {
+    const auto limits = cursor_limits(Length::nautical_miles(window_nm));
+    ASSERT_TRUE(limits) << window_nm;
+    EXPECT_EQ(limits->least.nautical_miles(), least_nm) << window_nm;
+    EXPECT_EQ(limits->greatest.nautical_miles(), greatest_nm) << window_nm;
+  }
+  EXPECT_FALSE(cursor_limits(Length::nautical_miles(5.0)));
+}
+
+TEST(CursorLimits, ContainBothEnds) {
+  const CursorLimits limits = *cursor_limits(Length::nautical_miles(10.0));
+  EXPECT_TRUE(limits.contains(Length::nautical_miles(10.0)));
+  EXPECT_TRUE(limits.contains(Length::nautical_miles(160.0)));
+  EXPECT_FALSE(limits.contains(Length::nautical_miles(9.99)));
+  EXPECT_FALSE(limits.contains(Length::nautical_miles(160.1)));
+}
+
+TEST(CursorLimits, KnowEveryWindowOfTheDefaultRadar) {
+  for (const double window_nm : RadarConfiguration{}.windows_nm)
+    EXPECT_TRUE(cursor_limits(Length::nautical_miles(window_nm))) << window_nm;
+}
+
+TEST(LargestWindowThatFits, IsNotLargerThanTheRange) {
+  const std::vector<double> windows = RadarConfiguration{}.windows_nm;
+  const auto fits = [&](double range_nm) {
+    const auto index = largest_window_that_fits(Length::nautical_miles(range_nm), windows);
+    return index ? windows[*index] : 0.0;
+  };
+  EXPECT_EQ(fits(160.0), 80.0);
+  EXPECT_EQ(fits(80.0), 80.0);
+  EXPECT_EQ(fits(40.0), 40.0);
+  EXPECT_EQ(fits(4.7), 4.7);
+  EXPECT_EQ(fits(4.69), 3.3);
+  EXPECT_EQ(fits(0.5), 0.0);
+}
+
+TEST(WindowWhileBlank, FollowsTheCursorsRange) {
+  const auto window_nm = [](double range_nm) {
+    const auto window = window_while_blank(Length::nautical_miles(range_nm));
+    return window ? window->nautical_miles() : 0.0;
+  };
+  EXPECT_EQ(window_nm(2.69), 0.0);
+  EXPECT_EQ(window_nm(2.7), 3.3);
+  EXPECT_EQ(window_nm(50.0), 3.3);
+  EXPECT_EQ(window_nm(50.01), 4.7);
+  EXPECT_EQ(window_nm(80.0), 4.7);
+  EXPECT_EQ(window_nm(80.01), 10.0);
+  EXPECT_EQ(window_nm(150.0), 10.0);
+  EXPECT_EQ(window_nm(150.01), 0.0);
+  EXPECT_EQ(window_nm(std::numeric_limits<double>::quiet_NaN()), 0.0);
+}
+
+TEST(PointName, TellsSteerPointsTargetsAndTheirOffsetsApart) {
+  EXPECT_EQ(point_name("2"), (PointName{2, 0, false}));
+  EXPECT_EQ(point_name("2."), (PointName{2, 0, true}));
+  EXPECT_EQ(point_name("2.1"), (PointName{2, 1, false}));
+  EXPECT_EQ(point_name("2.01"), (PointName{2, 1, true}));
+  EXPECT_EQ(point_name("100.99"), (PointName{100, 99, true}));
+}
+
+TEST(PointName, RefusesWhatIsNoName) {
+  for (const char* text : {"", ".", ".1", "0", "02", "101", "2.0", "2.00", "2.001", "2.1.1", "-2", "+2", "2 ", "two",
+                           "2.x", "99999999999"})
+    EXPECT_FALSE(point_name(text)) << text;
+}
+
+TEST(PointName, SortsByNumberEachPointBeforeItsOffsets) {
+  const std::vector<std::string> sorted{"1", "1.1", "2.", "2.01", "2.11", "10", "10.1", "100", "aim", "base"};
+  std::vector<std::string> shuffled{"base", "10.1", "2.11", "100", "1.1", "aim", "2.01", "10", "2.", "1"};
+  std::sort(shuffled.begin(), shuffled.end(), [](const auto& a, const auto& b) { return precedes(a, b); });
+  EXPECT_EQ(shuffled, sorted);
+}
+
+TEST(GroundTrack, IsTheDirectionOfTheVelocityOrTheHeadingAtRest) {
+  const auto track_deg = [](double north_mps, double east_mps) {
+    return ground_track(geo::Speed::metres_per_second(north_mps), geo::Speed::metres_per_second(east_mps),
+                        geo::Bearing::degrees(77.0))
+        .degrees();
+  };
+  EXPECT_NEAR(track_deg(100.0, 100.0), 45.0, 1e-9);
+  EXPECT_NEAR(track_deg(0.0, -100.0), 270.0, 1e-9);
+  EXPECT_EQ(track_deg(0.1, -0.1), 77.0);
+}
+
+TEST(Names, AreTheWordsOfWatch) {
+  EXPECT_EQ(name_of(Power::standby), "STBY");
+  EXPECT_EQ(name_of(Mode::air_to_air), "AA");
+  EXPECT_EQ(name_of(Mode::menu), "MENU");
+  EXPECT_EQ(name_of(Master::ranging), "AGR");
+  EXPECT_EQ(name_of(ScanWidth::quarter), "QTR");
+  EXPECT_EQ(name_of(CursorFunction::update), "UPDT");
+  EXPECT_EQ(name_of(Navigator::mission), "MN");
+}
+
+TEST(Names, OfAValueOutsideItsEnumerationIsAQuestionMark) {
+  EXPECT_EQ(name_of(static_cast<Mode>(200)), "?");
+}
+
+}  // namespace
+}  // namespace yars::radar
