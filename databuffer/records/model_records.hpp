@@ -129,7 +129,15 @@ struct ModelStatus {
   char fidelity[16];
   Ownship ownship;                   // the one used, for those who draw and log
   Nav nav;                           // goes with it
-  std::uint64_t reserved[16];
+  // What a restarted model, or a replay from the middle of a scan, needs to go on with the very next sweep.
+  double scan_centre_deg;            // [deg] true, at the end of the tick
+  double scan_width_deg;             // [deg] of the scan under way
+  double scan_range_m;               // [m] of the scan under way
+  std::uint32_t scan_tick;           // within the scan
+  std::uint8_t antenna_phase;        // antenna::Phase
+  std::uint8_t scan_noise_only;      // 1: SNIFF holds for the scan under way
+  std::uint8_t reserved0[2];
+  std::uint64_t reserved[12];
 };
 static_assert(sizeof(ModelStatus) % 8 == 0 && std::is_trivially_copyable_v<ModelStatus>);
 

@@ -4,6 +4,8 @@
 #include <GeographicLib/Geodesic.hpp>
 #include <GeographicLib/GeodesicLine.hpp>
 #include <cmath>
+#include <new>
+#include <type_traits>
 
 namespace yars::geo {
 
@@ -31,25 +33,30 @@ struct GeodesicRay::Line {
   GeographicLib::GeodesicLine line;
 };
 
-GeodesicRay::GeodesicRay(GeoPoint start, Bearing azimuth)
-    : line_(std::make_unique<Line>(
-          Line{wgs84().Line(start.latitude_deg, start.longitude_deg, azimuth.degrees(),
-                            GeographicLib::Geodesic::LATITUDE | GeographicLib::Geodesic::LONGITUDE |
-                                GeographicLib::Geodesic::AZIMUTH | GeographicLib::Geodesic::DISTANCE_IN)})) {}
-GeodesicRay::~GeodesicRay() = default;
-GeodesicRay::GeodesicRay(GeodesicRay&&) noexcept = default;
-GeodesicRay& GeodesicRay::operator=(GeodesicRay&&) noexcept = default;
+GeodesicRay::GeodesicRay(GeoPoint start, Bearing azimuth) {
+  static_assert(sizeof(Line) <= sizeof(storage_) && alignof(Line) <= alignof(std::max_align_t));
+  // Copied byte by byte and never destroyed: that is sound only for plain numbers.
+  static_assert(std::is_trivially_copyable_v<Line> && std::is_trivially_destructible_v<Line>);
+  ::new (storage_.data()) Line{wgs84().Line(start.latitude_deg, start.longitude_deg, azimuth.degrees(),
+                                            GeographicLib::Geodesic::LATITUDE | GeographicLib::Geodesic::LONGITUDE |
+                                                GeographicLib::Geodesic::AZIMUTH |
+                                                GeographicLib::Geodesic::DISTANCE_IN)};
+}
+
+const GeodesicRay::Line& GeodesicRay::line() const {
+  return *std::launder(reinterpret_cast<const Line*>(storage_.data()));
+}
 
 GeoPoint GeodesicRay::position(Length distance) const {
   GeoPoint point;
-  line_->line.Position(distance.metres(), point.latitude_deg, point.longitude_deg);
+  line().line.Position(distance.metres(), point.latitude_deg, point.longitude_deg);
   return point;
 }
 
 GeodesicRay::Place GeodesicRay::place(Length distance) const {
   GeoPoint point;
   double azimuth_deg = 0.0;
-  line_->line.Position(distance.metres(), point.latitude_deg, point.longitude_deg, azimuth_deg);
+  line().line.Position(distance.metres(), point.latitude_deg, point.longitude_deg, azimuth_deg);
   return {point, Bearing::degrees(azimuth_deg)};
 }
 

@@ -1,7 +1,8 @@
 // Geodesics on WGS84; the only caller of GeographicLib. Accuracy: 15 nm (Karney 2013, J. Geodesy 87, 43-55).
 #pragma once
 
-#include <memory>
+#include <array>
+#include <cstddef>
 
 #include "lib/geo/bearing.hpp"
 #include "lib/geo/quantity.hpp"
@@ -23,13 +24,11 @@ struct GeodesicInverse {
 GeodesicInverse geodesic_inverse(GeoPoint from, GeoPoint to);
 GeoPoint geodesic_direct(GeoPoint from, Bearing azimuth, Length distance);
 
-// A ray from one point along one azimuth; positions along it are exact and cheap (one series each).
+// A ray from one point along one azimuth; positions along it are exact and cheap (one series each). A value: making
+// one allocates nothing, for the radar kernel makes one a sweep.
 class GeodesicRay {
  public:
   GeodesicRay(GeoPoint start, Bearing azimuth);
-  ~GeodesicRay();
-  GeodesicRay(GeodesicRay&&) noexcept;
-  GeodesicRay& operator=(GeodesicRay&&) noexcept;
 
   GeoPoint position(Length distance) const;
   // Position and the azimuth of the ray there.
@@ -41,7 +40,8 @@ class GeodesicRay {
 
  private:
   struct Line;
-  std::unique_ptr<Line> line_;
+  const Line& line() const;
+  alignas(std::max_align_t) std::array<std::byte, 1024> storage_;  // a Line, which is plain numbers
 };
 
 // Radius of curvature of the ellipsoid at a latitude along an azimuth (Euler): the earth radius that a ray feels.

@@ -30,16 +30,32 @@ Antenna::Antenna(const radar::AntennaConfiguration& configuration)
       azimuth_(azimuth_limits(configuration)),
       elevation_(elevation_limits(configuration)) {}
 
-void Antenna::resume(double azimuth_deg, double elevation_deg) {
-  azimuth_.place(azimuth_deg);
-  elevation_.place(elevation_deg);
+Antenna::Memory Antenna::memory() const {
+  return {azimuth_.position_deg(),
+          elevation_.position_deg(),
+          centre_.degrees(),
+          pattern_.width_deg,
+          tick_,
+          direction_,
+          phase_};
+}
+
+void Antenna::resume(const Memory& memory) {
+  pattern_ = make_scan_pattern(configuration_, memory.width_deg);
+  azimuth_.place(memory.azimuth_deg);
+  elevation_.place(memory.elevation_deg);
+  centre_ = Bearing::degrees(std::isfinite(memory.centre_deg) ? memory.centre_deg : 0.0);
+  tick_ = std::clamp(memory.tick, 0, pattern_.scan_ticks() - 1);
+  direction_ = memory.direction < 0 && !pattern_.circular ? -1 : 1;
+  phase_ = memory.phase;
+  direction_known_ = true;
 }
 
 void Antenna::restart(double width_deg) {
   pattern_ = make_scan_pattern(configuration_, width_deg);
   phase_ = Phase::slewing;
   tick_ = 0;
-  centre_known_ = false;
+  direction_known_ = false;
 }
 
 void Antenna::park() {
@@ -58,16 +74,18 @@ AntennaStep Antenna::step(const Platform& platform, Angle commanded_elevation) {
     elevation_.step();
   }
   step.elevation = Angle::degrees(elevation_.position_deg());
-  if (phase_ == Phase::slewing) slew(platform);
-  else if (phase_ != Phase::parked) scan(platform, step);
+  if (phase_ == Phase::slewing)
+    slew(platform);
+  else if (phase_ != Phase::parked)
+    scan(platform, step);
   step.azimuth = platform.heading + Angle::degrees(azimuth_.position_deg());
   return step;
 }
 
 void Antenna::slew(const Platform& platform) {
   const double centre_deg = (scan_centre(platform, configuration_) - platform.heading).degrees();
-  if (!centre_known_) direction_ = azimuth_.position_deg() > centre_deg && !pattern_.circular ? -1 : 1;
-  centre_known_ = true;
+  if (!direction_known_) direction_ = azimuth_.position_deg() > centre_deg && !pattern_.circular ? -1 : 1;
+  direction_known_ = true;
   azimuth_.command_position(centre_deg + pattern_.edge_deg(0, direction_));
   azimuth_.step();
   if (!azimuth_.reached()) return;

@@ -18,23 +18,34 @@ enum class Phase : std::uint8_t { parked, slewing, sweeping, turning };
 // What happened in one tick.
 struct AntennaStep {
   Phase phase = Phase::parked;
-  geo::Bearing left;           // of the sweep, true; meaningful while sweeping
+  geo::Bearing left;  // of the sweep, true; meaningful while sweeping
   geo::Bearing right;
-  geo::Bearing azimuth;        // where the dish points at the end of the tick, true
-  geo::Angle elevation;        // against the horizon
-  int direction = 1;           // +1 clockwise
+  geo::Bearing azimuth;  // where the dish points at the end of the tick, true
+  geo::Angle elevation;  // against the horizon
+  int direction = 1;     // +1 clockwise
   int bar = 0;
-  bool reachable = true;       // false: the gimbal cannot point there, the sweep is blank
-  bool scan_start = false;     // first sweep of the scan
-  bool scan_end = false;       // last sweep of the scan
+  bool reachable = true;    // false: the gimbal cannot point there, the sweep is blank
+  bool scan_start = false;  // first sweep of the scan
+  bool scan_end = false;    // last sweep of the scan
 };
 
 class Antenna {
  public:
   explicit Antenna(const radar::AntennaConfiguration& configuration);
 
-  // Takes up a pointing [deg against nose and horizon].
-  void resume(double azimuth_deg, double elevation_deg);
+  // All that a successor needs to go on in the middle of a scan.
+  struct Memory {
+    double azimuth_deg = 0.0;    // against the nose
+    double elevation_deg = 0.0;  // against the horizon
+    double centre_deg = 0.0;     // of the scan, true
+    double width_deg = 0.0;
+    int tick = 0;  // within the scan
+    int direction = 1;
+    Phase phase = Phase::parked;
+  };
+  Memory memory() const;
+  // Values outside their range are taken as the nearest inside.
+  void resume(const Memory& memory);
   // Goes to the nearer edge of a sector of this width and scans from there.
   void restart(double width_deg);
   // Holds still until the next restart.
@@ -42,9 +53,9 @@ class Antenna {
 
   AntennaStep step(const Platform& platform, geo::Angle commanded_elevation);
 
-  bool between_scans() const { return tick_ == 0; }               // parked, slewing, or a scan has just ended
-  double azimuth_deg() const { return azimuth_.position_deg(); }                 // [deg] against the nose
-  double elevation_deg() const { return elevation_.position_deg(); }             // [deg] against the horizon
+  bool between_scans() const { return tick_ == 0; }                   // parked, slewing, or a scan has just ended
+  double azimuth_deg() const { return azimuth_.position_deg(); }      // [deg] against the nose
+  double elevation_deg() const { return elevation_.position_deg(); }  // [deg] against the horizon
   const ScanPattern& pattern() const { return pattern_; }
 
  private:
@@ -55,11 +66,11 @@ class Antenna {
   ScanPattern pattern_;
   Axis azimuth_;
   Axis elevation_;
-  geo::Bearing centre_;        // of the scan, true, at the end of the last tick
+  geo::Bearing centre_;  // of the scan, true, at the end of the last tick
   Phase phase_ = Phase::parked;
-  int tick_ = 0;               // within the scan
-  int direction_ = 1;          // of the pass under way
-  bool centre_known_ = false;
+  int tick_ = 0;                  // within the scan
+  int direction_ = 1;             // of the pass under way
+  bool direction_known_ = false;  // slewing: towards which edge
 };
 
 }  // namespace yars::model::antenna

@@ -10,9 +10,9 @@ namespace yars::model::antenna {
 enum class AxisMode : std::uint8_t { freeze, rate, position };
 
 struct AxisLimits {
-  double rate_dps = 110.0;      // [deg/s] greatest, either way
-  double position_deg = 60.0;   // [deg] either side of zero
-  double tolerance_deg = 0.1;   // [deg] a commanded position counts as reached within this
+  double rate_dps = 110.0;     // [deg/s] greatest, either way
+  double position_deg = 60.0;  // [deg] either side of zero
+  double tolerance_deg = 0.1;  // [deg] a commanded position counts as reached within this
 };
 
 class Axis {

@@ -10,15 +10,6 @@ namespace yars::model::antenna {
 using geo::Angle;
 using geo::Bearing;
 
-namespace {
-constexpr double kStandstillMps = 1.0;  // [m/s]
-}
-
-Bearing ground_track(double velocity_north_mps, double velocity_east_mps, Bearing heading) {
-  if (!(std::hypot(velocity_north_mps, velocity_east_mps) >= kStandstillMps)) return heading;
-  return Bearing::radians(std::atan2(velocity_east_mps, velocity_north_mps));
-}
-
 Bearing scan_centre(const Platform& platform, const radar::AntennaConfiguration& antenna) {
   const double drift_deg = (platform.ground_track - platform.heading).degrees();
   const double followed_deg = std::clamp(drift_deg, -antenna.drift_limit_deg, antenna.drift_limit_deg);
@@ -50,8 +41,7 @@ bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& 
   const GimbalAngles gimbal = gimbal_from_space(platform, azimuth, elevation);
   const bool azimuth_reached =
       antenna.circular_scan || std::abs(gimbal.azimuth.degrees()) <= antenna.azimuth_limit_deg + antenna.tolerance_deg;
-  return azimuth_reached &&
-         std::abs(gimbal.elevation.degrees()) <= antenna.elevation_limit_deg + antenna.tolerance_deg;
+  return azimuth_reached && std::abs(gimbal.elevation.degrees()) <= antenna.elevation_limit_deg + antenna.tolerance_deg;
 }
 
 }  // namespace yars::model::antenna

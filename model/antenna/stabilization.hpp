@@ -18,9 +18,6 @@ struct Platform {
   geo::Bearing ground_track;  // the heading where the aircraft hardly moves
 };
 
-// Ground track from a velocity [m/s]; below 1 m/s it is the heading, for the direction of a standstill is noise.
-geo::Bearing ground_track(double velocity_north_mps, double velocity_east_mps, geo::Bearing heading);
-
 // The scan centre: the ground track, but not further from the nose than the drift limit.
 geo::Bearing scan_centre(const Platform& platform, const radar::AntennaConfiguration& antenna);
 

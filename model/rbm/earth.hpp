@@ -20,7 +20,7 @@ struct Sight {
   double tangent;        // of the elevation angle, against the aircraft's horizontal
   double elevation_rad;  // the same as an angle
   double slant_range_m;
-  double sin_grazing;    // of the ray against the horizontal at the point; negative: from below
+  double sin_grazing;  // of the ray against the horizontal at the point; negative: from below
   double cos_grazing;
 };
 

@@ -17,9 +17,9 @@ namespace yars::model::rbm {
 struct Look {
   geo::GeoPoint apex;
   geo::AltitudeMsl altitude;
-  geo::Bearing azimuth;    // of the beam's centre, true
-  geo::Angle elevation;    // of the antenna, against the horizon
-  geo::Length range;       // far end of the last sample
+  geo::Bearing azimuth;  // of the beam's centre, true
+  geo::Angle elevation;  // of the antenna, against the horizon
+  geo::Length range;     // far end of the last sample
 };
 
 // Names the noise of a sweep: equal numbers, equal noise.

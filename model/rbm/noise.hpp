@@ -14,7 +14,7 @@ struct NoiseState {
   std::uint32_t second = 0;
 };
 
-inline constexpr int kLooksPerGroup = 4;    // two draws of 32 bits give four numbers; one logarithm serves them all
+inline constexpr int kLooksPerGroup = 4;  // two draws of 32 bits give four numbers; one logarithm serves them all
 inline constexpr std::uint32_t kDrawsPerCell = 8;
 
 NoiseState make_noise_state(const NoiseKey& key);

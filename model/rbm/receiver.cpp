@@ -11,7 +11,9 @@ constexpr double kMetresPerMicrosecond = 149.896229;  // [m] c/2 over 1 us: rang
 constexpr double kDefaultPulseUs = 1.0;               // where the configuration lists no pulse
 constexpr double kRangeSlack = 1.0 + 1e-9;            // a range that went through metres still counts as itself
 
-double ratio(double decibels) { return std::pow(10.0, 0.1 * decibels); }
+double ratio(double decibels) {
+  return std::pow(10.0, 0.1 * decibels);
+}
 
 double gaussian(double angle_rad, double beamwidth_rad) {
   const double share = angle_rad / beamwidth_rad;

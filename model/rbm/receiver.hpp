@@ -14,16 +14,16 @@ namespace yars::model::rbm {
 struct Receiver {
   double azimuth_beamwidth_rad = 0.0;
   double elevation_beamwidth_rad = 0.0;
-  double pulse_length_m = 0.0;     // [m] c tau / 2: what one pulse covers in range
-  double land_gamma = 0.0;         // power ratio
+  double pulse_length_m = 0.0;  // [m] c tau / 2: what one pulse covers in range
+  double land_gamma = 0.0;      // power ratio
   double sea_gamma = 0.0;
   double stc_exponent = 0.0;
-  double stc_range_m = 0.0;        // [m] R0, where the sensitivity time control is 1
-  double full_scale = 0.0;         // [1/m^2] power of returned_power() that counts as 1, see below
-  double noise = 0.0;              // thermal noise, full scale = 1
-  double decibels_per_scale = 0.0; // [dB] black to white
+  double stc_range_m = 0.0;         // [m] R0, where the sensitivity time control is 1
+  double full_scale = 0.0;          // [1/m^2] power of returned_power() that counts as 1, see below
+  double noise = 0.0;               // thermal noise, full scale = 1
+  double decibels_per_scale = 0.0;  // [dB] black to white
   double gain_step_db = 0.0;
-  int looks = 1;                   // 1..kMostLooks
+  int looks = 1;  // 1..kMostLooks
 };
 
 inline constexpr int kMostLooks = 16;
@@ -36,8 +36,8 @@ Receiver make_receiver(const radar::RadarConfiguration& configuration, geo::Leng
 // Pulse length c tau / 2 at a selected range: that of the smallest configured range which holds it.
 geo::Length pulse_length(const radar::RadarConfiguration& configuration, geo::Length range);
 
-// Ground lit at once [m^2]: pulse limited R theta (c tau / 2) / cos psi or beam limited R^2 theta_az theta_el / sin psi,
-// whichever is smaller. Grazing in (0, 90] degrees.
+// Ground lit at once [m^2]: pulse limited R theta (c tau / 2) / cos psi or beam limited R^2 theta_az theta_el / sin
+// psi, whichever is smaller. Grazing in (0, 90] degrees.
 double illuminated_area_m2(const Receiver& receiver, double slant_range_m, double sin_grazing);
 
 // Power of a target of this cross section under the two-way gain, before sensitivity time control: sigma G^2 / R^4.

@@ -22,13 +22,13 @@ class Reference : public Algorithm {
 
   // What the last measure() found for a sample; for tests and `yars trade`.
   struct Sample {
-    double distance_m = 0.0;      // over ground; NaN = nothing is that near
+    double distance_m = 0.0;  // over ground; NaN = nothing is that near
     geo::GeoPoint place;
-    double height_m = 0.0;        // MSL; NaN = void
-    double water = 0.0;           // share [0, 1]
-    double cross_slope = 0.0;     // across the sweep, dimensionless
+    double height_m = 0.0;     // MSL; NaN = void
+    double water = 0.0;        // share [0, 1]
+    double cross_slope = 0.0;  // across the sweep, dimensionless
     bool lit = false;
-    double power = 0.0;           // before the pulse smear
+    double power = 0.0;  // before the pulse smear
   };
   std::span<const Sample> samples() const { return samples_; }
 

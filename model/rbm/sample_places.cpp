@@ -51,9 +51,8 @@ inline double value_at(const Newton& form, double t) {
   return p * (t - form.knot[0]) + form.difference[0];
 }
 
-YARS_LANES void evaluate_geodetic(std::size_t count, const double* __restrict distance_m, double scale,
-                                  Newton latitude, Newton longitude, double* __restrict latitude_deg,
-                                  double* __restrict longitude_deg) {
+YARS_LANES void evaluate_geodetic(std::size_t count, const double* __restrict distance_m, double scale, Newton latitude,
+                                  Newton longitude, double* __restrict latitude_deg, double* __restrict longitude_deg) {
   for (std::size_t i = 0; i < count; ++i) {
     const double t = distance_m[i] * scale - 1.0;
     latitude_deg[i] = value_at(latitude, t);

@@ -41,7 +41,7 @@ Standard::Standard(const radar::RadarConfiguration& configuration)
 
 std::size_t Standard::measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) {
   const EffectiveEarth earth = effective_earth(configuration_.fidelity, look.apex, look.azimuth);
-  const Receiver receiver = make_receiver(configuration_, look.range);
+  const Receiver& receiver = receiver_at(look.range);
   sample_distances(configuration_.fidelity, earth, look, terrain, distance_m_);
   const std::size_t pending = read_terrain(look, terrain);
   if (configuration_.fidelity.cross_track_slope) read_cross_slopes(look, terrain);
@@ -65,6 +65,11 @@ std::size_t Standard::measure(const Look& look, const terrain::TerrainView& terr
     loops::add_weighted(count_, power_.data() + offset, weight, power.data());
   }
   return pending;
+}
+
+const Receiver& Standard::receiver_at(geo::Length range) {
+  if (receiver_.stc_range_m != range.metres()) receiver_ = make_receiver(configuration_, range);
+  return receiver_;
 }
 
 std::size_t Standard::read_terrain(const Look& look, const terrain::TerrainView& terrain) {
@@ -134,7 +139,7 @@ void Standard::apply_beam(const loops::SweepConstants& constants, const loops::S
 
 void Standard::develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
                        std::span<std::uint8_t> video) {
-  const Receiver receiver = make_receiver(configuration_, range);
+  const Receiver& receiver = receiver_at(range);
   const radar::Fidelity& fidelity = configuration_.fidelity;
   std::array<float, 3> weights{0.0F, 1.0F, 0.0F};
   if (fidelity.azimuth_smear) {

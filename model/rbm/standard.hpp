@@ -35,7 +35,10 @@ class Standard : public Algorithm {
   loops::SweepConstants sweep_constants(const Look& look, const EffectiveEarth& earth, const Receiver& receiver) const;
   void apply_beam(const loops::SweepConstants& constants, const loops::SightArrays& sights);
 
+  const Receiver& receiver_at(geo::Length range);
+
   radar::RadarConfiguration configuration_;
+  Receiver receiver_;  // of the range last asked for
   std::size_t count_;
   std::vector<double> distance_m_, latitude_deg_, longitude_deg_;
   Padded distance_, elevation_, water_, side_, cross_slope_;

@@ -8,12 +8,16 @@
 namespace yars::model::rbm::loops {
 
 namespace {
-constexpr std::size_t kBlock = 16;  // samples that four doubling steps of the running maximum cover
+constexpr std::size_t kBlock = 16;                 // samples that four doubling steps of the running maximum cover
 constexpr float kDecibelsPerOctave = 3.01029996F;  // 10 log10(2)
 constexpr float kLn2 = 0.693147181F;
 
-inline float larger(float a, float b) { return a > b ? a : b; }
-inline float smaller(float a, float b) { return a < b ? a : b; }
+inline float larger(float a, float b) {
+  return a > b ? a : b;
+}
+inline float smaller(float a, float b) {
+  return a < b ? a : b;
+}
 }  // namespace
 
 YARS_LANES void sight(std::size_t count, const SweepConstants& constants, const float* __restrict distance_m,
@@ -79,8 +83,8 @@ YARS_LANES void incidence(std::size_t count, const float* __restrict distance_m,
     const bool near_known = near_height == near_height;
     const bool far_known = far_height == far_height;
     const float rise = (far_known ? far_height : here) - (near_known ? near_height : here);
-    const float run = (far_known ? distance_m[i + 1] : distance_m[i]) -
-                      (near_known ? *(distance_m + i - 1) : distance_m[i]);
+    const float run =
+        (far_known ? distance_m[i + 1] : distance_m[i]) - (near_known ? *(distance_m + i - 1) : distance_m[i]);
     const float slope = run > 0.0F ? rise / run : 0.0F;
     const float across = cross_slope[i];
     const float normal = std::sqrt(1.0F + slope * slope + across * across);
@@ -166,8 +170,7 @@ YARS_LANES void add_weighted(std::size_t count, const float* __restrict power, f
 }
 
 YARS_LANES void join_sweeps(std::size_t count, const float* __restrict before, const float* __restrict centre,
-                            const float* __restrict after, const float* weights, float noise,
-                            float* __restrict power) {
+                            const float* __restrict after, const float* weights, float noise, float* __restrict power) {
   const float first = weights[0];
   const float second = weights[1];
   const float third = weights[2];

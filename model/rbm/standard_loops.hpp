@@ -9,26 +9,26 @@
 
 namespace yars::model::rbm::loops {
 
-inline constexpr std::size_t kPad = 64;          // entries; the longest pulse smear reaches 32, the horizon looks 16 back
-inline constexpr float kNoHorizon = -1.0e30F;    // tangent below every terrain
+inline constexpr std::size_t kPad = 64;        // entries; the longest pulse smear reaches 32, the horizon looks 16 back
+inline constexpr float kNoHorizon = -1.0e30F;  // tangent below every terrain
 
 // One sweep, unwrapped. Lengths [m], angles as sine and cosine.
 struct SweepConstants {
   float altitude_m = 0.0F;
-  float curvature = 0.0F;            // [1/m] of the effective earth, 0 = flat
+  float curvature = 0.0F;  // [1/m] of the effective earth, 0 = flat
   float land_gamma = 0.0F;
   float sea_less_land_gamma = 0.0F;
-  float pulse_inverse = 0.0F;        // [1/m] 1 / (c tau / 2)
-  float beam_inverse = 0.0F;         // 1 / theta_el
-  float scale = 0.0F;                // theta_az / (full scale R0^3)
-  float range_inverse = 0.0F;        // [1/m] 1 / R0
-  float range_power = 0.0F;          // of the sensitivity time control: exponent - 3
-  float sin_elevation = 0.0F;        // of the antenna
+  float pulse_inverse = 0.0F;  // [1/m] 1 / (c tau / 2)
+  float beam_inverse = 0.0F;   // 1 / theta_el
+  float scale = 0.0F;          // theta_az / (full scale R0^3)
+  float range_inverse = 0.0F;  // [1/m] 1 / R0
+  float range_power = 0.0F;    // of the sensitivity time control: exponent - 3
+  float sin_elevation = 0.0F;  // of the antenna
   float cos_elevation = 1.0F;
-  float sin_centre = 0.0F;           // of the csc^2 pattern's depression b
-  float sin_centre_tilt = 0.0F;      // sin and cos of b + antenna elevation
+  float sin_centre = 0.0F;       // of the csc^2 pattern's depression b
+  float sin_centre_tilt = 0.0F;  // sin and cos of b + antenna elevation
   float cos_centre_tilt = 1.0F;
-  float gaussian = 0.0F;             // 5.545 log2(e) / theta_el^2
+  float gaussian = 0.0F;  // 5.545 log2(e) / theta_el^2
   float sin_half_beam = 0.0F;
 };
 
@@ -38,7 +38,7 @@ struct SightArrays {
   float* range_inverse;  // [1/m] 1 / slant range
   float* sin_grazing;
   float* cos_grazing;
-  float* sin_sight;      // of the elevation angle
+  float* sin_sight;  // of the elevation angle
   float* cos_sight;
 };
 
@@ -66,8 +66,8 @@ void power(std::size_t count, const SweepConstants& constants, const float* wate
 void add_weighted(std::size_t count, const float* power, float weight, float* sum);
 
 // power = weighted sum of three sweeps + noise.
-void join_sweeps(std::size_t count, const float* before, const float* centre, const float* after,
-                 const float* weights, float noise, float* power);
+void join_sweeps(std::size_t count, const float* before, const float* centre, const float* after, const float* weights,
+                 float noise, float* power);
 
 // power *= gamma-distributed variate of mean 1 and `looks` looks, per resolution cell.
 void speckle(std::size_t count, NoiseState state, float cells, int looks, float* spare, float* power);

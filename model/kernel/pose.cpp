@@ -1,0 +1,43 @@
+#include "model/kernel/pose.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lib/radar/ground_track.hpp"
+#include "lib/radar/modes.hpp"
+
+namespace yars::model::kernel {
+
+namespace {
+constexpr double kLeastAltitudeM = -1000.0;  // [m] MSL, of the record
+constexpr double kGreatestAltitudeM = 200000.0;
+constexpr double kGreatestRangeNm = 1000.0;  // [NM] beyond it the series of the earth's curvature lose accuracy
+}  // namespace
+
+std::optional<Pose> pose_of(const databuffer::Ownship& ownship) {
+  const std::array<double, 9> values{ownship.latitude_deg,       ownship.longitude_deg,     ownship.altitude_msl_m,
+                                     ownship.heading_deg,        ownship.pitch_deg,         ownship.roll_deg,
+                                     ownship.velocity_north_mps, ownship.velocity_east_mps, ownship.velocity_down_mps};
+  if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) return {};
+  if (std::abs(ownship.latitude_deg) > 90.0 || std::abs(ownship.longitude_deg) > 180.0) return {};
+  if (ownship.altitude_msl_m < kLeastAltitudeM || ownship.altitude_msl_m > kGreatestAltitudeM) return {};
+  Pose pose;
+  pose.place = {ownship.latitude_deg, ownship.longitude_deg};
+  pose.altitude = geo::AltitudeMsl::metres(ownship.altitude_msl_m);
+  pose.platform.heading = geo::Bearing::degrees(ownship.heading_deg);
+  pose.platform.pitch = geo::Angle::degrees(ownship.pitch_deg);
+  pose.platform.roll = geo::Angle::degrees(ownship.roll_deg);
+  pose.platform.ground_track =
+      radar::ground_track(geo::Speed::metres_per_second(ownship.velocity_north_mps),
+                          geo::Speed::metres_per_second(ownship.velocity_east_mps), pose.platform.heading);
+  return pose;
+}
+
+bool asks_for_video(const databuffer::RadarCommand& command) {
+  return command.power == static_cast<std::uint8_t>(radar::Power::operate) &&
+         command.mode == static_cast<std::uint8_t>(radar::Mode::rbm) && command.range_nm > 0.0 &&
+         command.range_nm <= kGreatestRangeNm;
+}
+
+}  // namespace yars::model::kernel

@@ -1,0 +1,25 @@
+// An ownship record as the kernel uses it; nothing comes through that could make a number go astray.
+#pragma once
+
+#include <optional>
+
+#include "databuffer/records/model_records.hpp"
+#include "lib/geo/geodesic.hpp"
+#include "lib/geo/height.hpp"
+#include "model/antenna/stabilization.hpp"
+
+namespace yars::model::kernel {
+
+struct Pose {
+  geo::GeoPoint place;
+  geo::AltitudeMsl altitude;
+  antenna::Platform platform;
+};
+
+// Nothing if a value is not finite or outside the record's range.
+std::optional<Pose> pose_of(const databuffer::Ownship& ownship);
+
+// True if the command asks for ground video in this mode with a range that can be scanned, (0, 1000] NM.
+bool asks_for_video(const databuffer::RadarCommand& command);
+
+}  // namespace yars::model::kernel

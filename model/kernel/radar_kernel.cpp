@@ -1,0 +1,249 @@
+#include "model/kernel/radar_kernel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "lib/radar/modes.hpp"
+#include "model/antenna/antenna.hpp"
+#include "model/kernel/mappable.hpp"
+#include "model/kernel/pose.hpp"
+#include "model/kernel/sweep_chain.hpp"
+
+namespace yars::model::kernel {
+
+using databuffer::ModelStatus;
+using databuffer::ModelTick;
+
+namespace {
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+// Terrain a little beyond the range is wanted too: the aircraft moves on while it loads [m].
+constexpr double kRegionMarginM = 2000.0;
+constexpr std::uint8_t kFullGainStep = 3;
+
+bool frozen_by(const databuffer::RadarCommand& command) {
+  return (command.flags & databuffer::kFreeze) != 0U;
+}
+}  // namespace
+
+struct RadarKernel::State {
+  explicit State(const radar::RadarConfiguration& given) : configuration(given), antenna(given.antenna), chain(given) {}
+
+  bool follow_command(const ModelTick& tick, databuffer::Sweep& sweep);
+  void use_samples(std::uint32_t samples);
+  void restart(const databuffer::RadarCommand& command);
+  void start_scan(const databuffer::RadarCommand& command);
+  bool sweep_tick(const ModelTick& tick, const antenna::AntennaStep& step, const terrain::TerrainView& terrain,
+                  databuffer::Sweep& sweep);
+  void remember(ModelStatus& status) const;
+
+  radar::RadarConfiguration configuration;
+  antenna::Antenna antenna;
+  SweepChain chain;
+  std::optional<Pose> pose;  // the last good one
+  databuffer::RadarCommand command{};
+  std::int64_t tick = 0;
+  std::int64_t sim_time_ns = 0;
+  double scan_width_deg = 0.0;  // of the scan under way
+  double scan_range_m = 0.0;
+  std::uint32_t epoch = 0;
+  std::uint32_t scan = 0;
+  std::uint32_t next_sweep = 0;
+  std::uint32_t scan_restart = 0;  // the last one obeyed
+  bool started = false;            // has seen a tick, or a predecessor's status
+  bool scanning = false;
+  bool frozen = false;
+  bool noise_only = false;  // SNIFF, for the scan under way
+  bool pose_fresh = false;
+};
+
+RadarKernel::RadarKernel(const radar::RadarConfiguration& configuration)
+    : state_(std::make_unique<State>(configuration)) {}
+RadarKernel::~RadarKernel() = default;
+RadarKernel::RadarKernel(RadarKernel&&) noexcept = default;
+RadarKernel& RadarKernel::operator=(RadarKernel&&) noexcept = default;
+
+void RadarKernel::resume(const ModelStatus& status) {
+  State& state = *state_;
+  const auto phase = static_cast<antenna::Phase>(
+      std::min<std::uint8_t>(status.antenna_phase, static_cast<std::uint8_t>(antenna::Phase::turning)));
+  state.antenna.resume({status.antenna_azimuth_deg, status.antenna_elevation_deg, status.scan_centre_deg,
+                        status.scan_width_deg, static_cast<int>(std::min<std::uint32_t>(status.scan_tick, 1U << 20U)),
+                        status.scan_direction, phase});
+  state.chain.clear();
+  state.scan_width_deg = status.scan_width_deg;
+  state.scan_range_m = status.scan_range_m;
+  state.epoch = status.epoch;
+  state.scan = status.scan;
+  state.next_sweep = status.sweep;
+  state.scan_restart = status.scan_restart;
+  state.scanning = (status.flags & databuffer::kModelScanning) != 0U && phase != antenna::Phase::parked;
+  state.frozen = (status.flags & databuffer::kModelFrozen) != 0U;
+  state.noise_only = status.scan_noise_only != 0;
+  state.started = true;
+}
+
+RadarKernel::Need RadarKernel::need(const ModelTick& tick) const {
+  Need need;
+  const bool stays_frozen = state_->frozen && frozen_by(tick.command);
+  if (!asks_for_video(tick.command) || stays_frozen) return need;
+  const std::optional<Pose> pose = pose_of(tick.ownship);
+  if (!pose && !state_->pose) return need;
+  need.video = true;
+  need.region.centre = pose ? pose->place : state_->pose->place;
+  need.region.radius_m = geo::Length::nautical_miles(tick.command.range_nm).metres() + kRegionMarginM;
+  return need;
+}
+
+bool RadarKernel::step(const ModelTick& tick, const terrain::TerrainView& terrain, databuffer::Sweep& sweep) {
+  State& state = *state_;
+  state.tick = tick.tick;
+  state.sim_time_ns = tick.sim_time_ns;
+  state.pose_fresh = false;
+  if ((tick.flags & databuffer::kTickOwnshipValid) != 0U) {
+    if (const auto pose = pose_of(tick.ownship)) {
+      state.pose = pose;
+      state.pose_fresh = true;
+    }
+  }
+  state.use_samples(tick.samples);
+  if (!state.pose) {
+    state.command = tick.command;
+    return false;
+  }
+  const bool finished = state.follow_command(tick, sweep);
+  if (!state.scanning) return finished;
+  const antenna::AntennaStep beam =
+      state.antenna.step(state.pose->platform, geo::Angle::degrees(state.command.antenna_elevation_deg));
+  if (beam.phase == antenna::Phase::sweeping) return state.sweep_tick(tick, beam, terrain, sweep);
+  return state.chain.flush(sweep);
+}
+
+// Power, mode, freeze, restart: decides whether this tick scans. True if it ended a scan whose last sweep came out.
+bool RadarKernel::State::follow_command(const ModelTick& given, databuffer::Sweep& sweep) {
+  command = given.command;
+  const bool jumped = started && given.epoch != epoch;
+  epoch = given.epoch;
+  started = true;
+  if (!asks_for_video(command)) {
+    if (scanning) antenna.park();
+    scanning = false;
+    frozen = false;
+    chain.clear();
+    return false;
+  }
+  if (frozen_by(command)) {
+    if (frozen || !scanning || antenna.between_scans()) {
+      if (scanning) antenna.park();
+      scanning = false;
+      frozen = true;
+      return chain.flush(sweep);
+    }
+  } else if (frozen || !scanning) {
+    frozen = false;
+    restart(command);
+    return false;
+  }
+  if (jumped || command.scan_restart != scan_restart || command.scan_width_deg != scan_width_deg) restart(command);
+  return false;
+}
+
+void RadarKernel::State::use_samples(std::uint32_t samples) {
+  if (samples == 0 || samples == chain.samples() || samples > static_cast<std::uint32_t>(radar::kMaxSamples)) return;
+  configuration.fidelity.samples = static_cast<int>(samples);
+  chain = SweepChain(configuration);
+}
+
+void RadarKernel::State::restart(const databuffer::RadarCommand& given) {
+  scan_restart = given.scan_restart;
+  scan_width_deg = given.scan_width_deg;
+  scanning = true;
+  antenna.restart(scan_width_deg);
+  chain.clear();
+}
+
+// What holds for a whole scan.
+void RadarKernel::State::start_scan(const databuffer::RadarCommand& given) {
+  ++scan;
+  scan_range_m = geo::Length::nautical_miles(given.range_nm).metres();
+  noise_only = (given.flags & databuffer::kSniff) != 0U;
+}
+
+bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::AntennaStep& step,
+                                    const terrain::TerrainView& terrain, databuffer::Sweep& sweep) {
+  if (step.scan_start || scan_range_m <= 0.0) start_scan(given.command);
+  const SweepPlace place{pose->place,
+                         pose->altitude,
+                         step.left,
+                         step.right,
+                         pose->platform.ground_track,
+                         step.elevation,
+                         geo::Length::metres(scan_range_m),
+                         step.direction};
+  SweepChain::Labels labels;
+  labels.tick = given.tick;
+  labels.sim_time_ns = given.sim_time_ns;
+  labels.epoch = given.epoch;
+  labels.scan = scan;
+  labels.number = next_sweep++;
+  labels.mode = given.command.mode;
+  labels.gain = std::min(given.command.gain, kFullGainStep);
+  // A pose that is not a pose: the place is the last good one, and nothing is received.
+  const bool lost = !pose_fresh && (given.flags & databuffer::kTickOwnshipValid) != 0U;
+  if (!step.reachable || lost) labels.flags |= databuffer::kSweepBlank;
+  if (noise_only) labels.flags |= databuffer::kSweepNoiseOnly;
+  if (step.scan_start) labels.flags |= databuffer::kSweepScanStart;
+  if (step.scan_end) labels.flags |= databuffer::kSweepScanEnd;
+  return chain.advance(place, labels, terrain, sweep);
+}
+
+void RadarKernel::State::remember(ModelStatus& status) const {
+  const antenna::Antenna::Memory memory = antenna.memory();
+  status.antenna_azimuth_deg = memory.azimuth_deg;
+  status.antenna_elevation_deg = memory.elevation_deg;
+  status.scan_centre_deg = memory.centre_deg;
+  status.scan_width_deg = scan_width_deg;
+  status.scan_range_m = scan_range_m;
+  status.scan_tick = static_cast<std::uint32_t>(memory.tick);
+  status.antenna_phase = static_cast<std::uint8_t>(memory.phase);
+  status.scan_noise_only = noise_only ? 1 : 0;
+  status.scan_direction = static_cast<std::int8_t>(memory.direction);
+  status.scan_bar = static_cast<std::uint8_t>(memory.tick / antenna.pattern().pass_ticks());
+  status.epoch = epoch;
+  status.scan = scan;
+  status.sweep = next_sweep;
+  status.scan_restart = scan_restart;
+  status.flags = (frozen ? databuffer::kModelFrozen : 0U) | (scanning ? databuffer::kModelScanning : 0U) |
+                 (pose_fresh ? 0U : databuffer::kModelStale);
+}
+
+void RadarKernel::describe(const terrain::TerrainView& terrain, ModelStatus& status) const {
+  const State& state = *state_;
+  state.remember(status);
+  status.tick = state.tick;
+  status.sim_time_ns = state.sim_time_ns;
+  status.terrain_generation = terrain.generation();
+  status.posts_pending = state.chain.posts_pending();
+  status.mode = state.command.mode;
+  status.map_timer_s = kUnknown;
+  status.map_progress = kUnknown;
+  std::fill(std::begin(status.fidelity), std::end(status.fidelity), '\0');
+  state.configuration.fidelity.name.copy(status.fidelity, sizeof status.fidelity - 1);
+
+  const geo::GeoPoint cursor{state.command.cursor_latitude_deg, state.command.cursor_longitude_deg};
+  const bool cursor_known = std::isfinite(cursor.latitude_deg) && std::isfinite(cursor.longitude_deg);
+  status.cursor_ground_elevation_m = cursor_known ? terrain.elevation_m(cursor) : kUnknown;
+  status.ground_elevation_m = state.pose ? terrain.elevation_m(state.pose->place) : kUnknown;
+  status.height_above_ground_m = state.pose ? state.pose->altitude.metres() - status.ground_elevation_m : kUnknown;
+
+  std::fill(std::begin(status.why_not), std::end(status.why_not), '\0');
+  const auto reason =
+      !state.pose ? std::optional<std::string_view>("NO POSITION")
+                  : why_not_mappable(state.pose->platform, state.pose->place, cursor,
+                                     geo::Length::nautical_miles(state.command.window_nm), state.configuration.antenna);
+  status.mappable = reason ? 0 : 1;
+  if (reason) reason->copy(status.why_not, sizeof status.why_not - 1);
+}
+
+}  // namespace yars::model::kernel

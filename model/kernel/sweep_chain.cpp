@@ -1,0 +1,74 @@
+#include "model/kernel/sweep_chain.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace yars::model::kernel {
+
+namespace {
+constexpr std::uint32_t kNothingReceived = databuffer::kSweepBlank | databuffer::kSweepNoiseOnly;
+}  // namespace
+
+SweepChain::SweepChain(const radar::RadarConfiguration& configuration)
+    : seed_(configuration.seed),
+      samples_(rbm::sample_count(configuration)),
+      algorithm_(rbm::make_algorithm(configuration)) {
+  for (Measured& measured : measured_) measured.power.assign(samples_, 0.0F);
+}
+
+bool SweepChain::advance(const SweepPlace& place, const Labels& labels, const terrain::TerrainView& terrain,
+                         databuffer::Sweep& sweep) {
+  Measured& measured = measured_[next_];
+  next_ = (next_ + 1) % measured_.size();
+  measured.place = place;
+  measured.labels = labels;
+  if ((labels.flags & kNothingReceived) != 0U) {
+    std::fill(measured.power.begin(), measured.power.end(), 0.0F);
+  } else {
+    const std::size_t pending = algorithm_->measure(look_of(place), terrain, measured.power);
+    posts_pending_ += pending;
+    if (pending > 0) measured.labels.flags |= databuffer::kSweepNotReady;
+  }
+  const bool ready = held_ > 0;
+  if (ready) finish(held_ > 1 ? newest(2) : newest(1), newest(1), newest(0), sweep);
+  held_ = std::min<std::size_t>(held_ + 1, 2);
+  return ready;
+}
+
+bool SweepChain::flush(databuffer::Sweep& sweep) {
+  if (held_ == 0) return false;
+  finish(held_ > 1 ? newest(1) : newest(0), newest(0), newest(0), sweep);
+  held_ = 0;
+  return true;
+}
+
+void SweepChain::finish(const Measured& before, const Measured& centre, const Measured& after,
+                        databuffer::Sweep& sweep) {
+  Labels labels = centre.labels;
+  // Power of a neighbour that was not ready is in this sweep too.
+  labels.flags |= (before.labels.flags | after.labels.flags) & databuffer::kSweepNotReady;
+  finish_sweep(*algorithm_, seed_, centre.place, labels, {before.power, centre.power, after.power}, sweep);
+}
+
+void finish_sweep(rbm::Algorithm& algorithm, std::uint64_t seed, const SweepPlace& place,
+                  const SweepChain::Labels& labels, const rbm::PowerWindow& window, databuffer::Sweep& sweep) {
+  write_place(place, sweep);
+  sweep.tick = labels.tick;
+  sweep.sim_time_ns = labels.sim_time_ns;
+  sweep.epoch = labels.epoch;
+  sweep.scan = labels.scan;
+  sweep.number = labels.number;
+  sweep.samples = static_cast<std::uint32_t>(window.centre.size());
+  sweep.flags = labels.flags;
+  sweep.mode = labels.mode;
+  sweep.gain = labels.gain;
+  const std::span<std::uint8_t> video(sweep.video, window.centre.size());
+  if ((labels.flags & databuffer::kSweepBlank) != 0U) {
+    std::fill(video.begin(), video.end(), std::uint8_t{0});
+  } else {
+    algorithm.develop(window, place.range, labels.gain, {seed, labels.scan, labels.number}, video);
+  }
+  sweep.hash = sweep_hash(sweep);
+}
+
+}  // namespace yars::model::kernel

@@ -1,0 +1,33 @@
+// The record of a sweep but for its video, and its hash.
+#pragma once
+
+#include <cstdint>
+
+#include "databuffer/records/model_records.hpp"
+#include "model/antenna/antenna.hpp"
+#include "model/rbm/look.hpp"
+
+namespace yars::model::kernel {
+
+// Where and how one sweep was measured: the fields of its record, without video and hash.
+struct SweepPlace {
+  geo::GeoPoint apex;
+  geo::AltitudeMsl altitude;
+  geo::Bearing left;
+  geo::Bearing right;
+  geo::Bearing ground_track;
+  geo::Angle elevation;
+  geo::Length range;
+  int direction = 1;
+};
+
+// Fills all of `sweep` but video, hash, times, numbers and flags.
+void write_place(const SweepPlace& place, databuffer::Sweep& sweep);
+
+// What the beam's centre looks at: the middle of the wedge.
+rbm::Look look_of(const SweepPlace& place);
+
+// FNV-1a 64 over the record's fields before `hash` but for the times, then the used samples.
+std::uint64_t sweep_hash(const databuffer::Sweep& sweep);
+
+}  // namespace yars::model::kernel
