@@ -1,0 +1,97 @@
+// What is drawn over the video, as plain data: line segments, filled rectangles, steps of video, and the boxes
+// that text and scales take up (names of points are placed clear of them).
+// Coordinates are glass units, rounded to 1/8, so that a motion nobody sees leaves the list equal.
+// A list keeps its memory from one picture to the next.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "display/point.hpp"
+
+namespace yars::display {
+
+// Drawn one over the other, each with its plates below its strokes: range arcs and lines; symbols and legends;
+// notices, which nothing may write over.
+enum class Layer : std::uint8_t { grid, symbols, notices };
+inline constexpr std::size_t kLayers = 3;
+
+enum class Ink : std::uint8_t { bright, dim };  // symbols; lines of the grid below them
+
+struct Segment {
+  Point from, to;
+  float width = 0.0F;  // whole width
+  float halo = 0.0F;   // black margin on either side that parts the stroke from the video
+  Ink ink = Ink::bright;
+  friend bool operator==(const Segment&, const Segment&) = default;
+};
+
+// A field of the gray scale: shown as the video level would be.
+struct VideoStep {
+  Rect rect;
+  std::uint8_t video = 0;
+  friend bool operator==(const VideoStep&, const VideoStep&) = default;
+};
+
+struct LayerContent {
+  std::vector<Rect> plates;
+  std::vector<Segment> strokes;
+  friend bool operator==(const LayerContent&, const LayerContent&) = default;
+};
+
+struct OccupiedBox {
+  std::string name;  // the text itself, or what the scale is
+  Rect rect;
+  friend bool operator==(const OccupiedBox&, const OccupiedBox&) = default;
+};
+
+enum class Align : std::uint8_t { left, center, right };
+
+struct TextStyle {
+  float height = 10.0F;
+  Align align = Align::center;
+  bool boxed = false;
+  bool plate = false;  // black ground behind it, where lines would cross
+};
+
+class DrawList {
+ public:
+  void clear();
+  void draw_on(Layer layer) { layer_ = layer; }  // what follows; a cleared list draws on symbols
+
+  void line(Point from, Point to, Ink ink = Ink::bright);
+  void polyline(std::span<const Point> points, Ink ink = Ink::bright);
+  void circle(Point center, float radius, bool dashed = false);
+  // Dashed outlines go round the closed polygon.
+  void polygon(std::span<const Point> corners, bool dashed);
+  void thin_arc(Point center, float radius, float from_deg, float to_deg);  // degrees clockwise from up, dim
+  void video_step(const Rect& rect, std::uint8_t video);
+  void plate(const Rect& rect);
+
+  // Draws text with its middle height at `at.y`; returns the box taken up, frame included, and records it.
+  Rect text(std::string_view words, Point at, const TextStyle& style = {});
+  void occupy(std::string_view name, const Rect& rect);
+
+  const LayerContent& content(Layer layer) const { return layers_[static_cast<std::size_t>(layer)]; }
+  const std::vector<VideoStep>& video_steps() const { return video_steps_; }
+  const std::vector<OccupiedBox>& occupied() const { return occupied_; }
+  friend bool operator==(const DrawList&, const DrawList&) = default;
+
+ private:
+  LayerContent& current() { return layers_[static_cast<std::size_t>(layer_)]; }
+
+  Layer layer_ = Layer::symbols;
+  std::array<LayerContent, kLayers> layers_;
+  std::vector<VideoStep> video_steps_;
+  std::vector<OccupiedBox> occupied_;
+};
+
+// Where text would go, without drawing it.
+Rect text_box(std::string_view words, Point at, const TextStyle& style = {});
+
+}  // namespace yars::display

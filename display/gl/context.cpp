@@ -1,0 +1,20 @@
+#include "display/gl/context.hpp"
+
+#include <epoxy/gl.h>
+
+namespace yars::display::gl {
+
+namespace {
+
+std::string text_of(GLenum name) {
+  const GLubyte* text = glGetString(name);
+  return text == nullptr ? "?" : reinterpret_cast<const char*>(text);
+}
+
+}  // namespace
+
+std::string renderer_name() {
+  return text_of(GL_RENDERER) + ", " + text_of(GL_VERSION);
+}
+
+}  // namespace yars::display::gl

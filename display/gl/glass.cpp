@@ -1,0 +1,120 @@
+#include "display/gl/glass.hpp"
+
+#include <epoxy/gl.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "display/draw_list.hpp"
+#include "display/gl/framebuffer.hpp"
+#include "display/gl/overlay_pass.hpp"
+#include "display/gl/video_pass.hpp"
+#include "display/glass_geometry.hpp"
+#include "display/polar_store.hpp"
+#include "display/present_frame.hpp"
+#include "display/symbology.hpp"
+#include "display/video_levels.hpp"
+#include "display/wedge.hpp"
+
+namespace yars::display::gl {
+
+namespace {
+
+// [units] a shift of the video below it is not worth a redraw: a fifth of a pixel at 480.
+constexpr double kVisibleShift = 0.2;
+
+// Of what the picture in the framebuffer was made; the symbols are compared as drawn.
+struct Shown {
+  std::uint64_t video_version = 0;
+  bool video = false;
+  GlassFrame frame;
+  std::uint8_t brightness = 0, contrast = 0;
+  int size = 0;
+};
+
+}  // namespace
+
+struct Glass::State {
+  State(const radar::RadarConfiguration& configuration_used, int size, const ColorScheme& colors_used)
+      : configuration(configuration_used), colors(colors_used), view(configuration_used.view), framebuffer(size) {}
+
+  bool is_shown(const Shown& wanted) const {
+    return shown && shown->size == wanted.size && shown->video == wanted.video &&
+           shown->brightness == wanted.brightness && shown->contrast == wanted.contrast &&
+           (!wanted.video || (shown->video_version == wanted.video_version &&
+                              displacement_units(view, shown->frame, wanted.frame) < kVisibleShift)) &&
+           list == shown_list;
+  }
+
+  void render(const Shown& wanted) {
+    const std::array<float, 256> light = video_light(wanted.brightness, wanted.contrast);
+    framebuffer.bind();
+    glClearColor(colors.ground.red, colors.ground.green, colors.ground.blue, 1.0F);
+    glClear(GL_COLOR_BUFFER_BIT);
+    if (wanted.video) {
+      place_wedges(store, view, wanted.frame, wedges);
+      video_pass.set_light(light);
+      video_pass.draw(store, wedges, colors.video);
+    }
+    overlay_pass.draw(list, colors, light, static_cast<float>(framebuffer.size()) / kGlassUnits);
+  }
+
+  radar::RadarConfiguration configuration;
+  ColorScheme colors;
+  GlassView view;
+  Framebuffer framebuffer;
+  VideoPass video_pass;
+  OverlayPass overlay_pass;
+  PolarStore store;
+  DrawList list, shown_list;
+  std::vector<Wedge> wedges;
+  std::optional<Shown> shown;
+};
+
+Glass::Glass(const radar::RadarConfiguration& configuration, int size, const ColorScheme& colors)
+    : state_(std::make_unique<State>(configuration, size, colors)) {}
+Glass::~Glass() = default;
+Glass::Glass(Glass&&) noexcept = default;
+Glass& Glass::operator=(Glass&&) noexcept = default;
+
+void Glass::add(const databuffer::Sweep& sweep) {
+  state_->store.insert(sweep);
+}
+
+void Glass::resize(int size) {
+  state_->framebuffer.resize(size);
+}
+
+int Glass::size() const {
+  return state_->framebuffer.size();
+}
+
+bool Glass::draw(const GlassInput& input) {
+  State& state = *state_;
+  // Sweeps of another mode are no picture of this one.
+  const bool video = shows_video(input.state) && state.store.mode() == input.state.mode;
+  Shown wanted;
+  wanted.video_version = state.store.version();
+  wanted.video = video;
+  wanted.frame = present_frame(input, video ? state.store.newest() : nullptr);
+  wanted.brightness = input.state.brightness;
+  wanted.contrast = input.state.contrast;
+  wanted.size = state.framebuffer.size();
+  draw_symbology(input, state.configuration, state.view, wanted.frame, state.list);
+  if (state.is_shown(wanted)) return false;
+  state.render(wanted);
+  state.shown = wanted;
+  std::swap(state.list, state.shown_list);
+  return true;
+}
+
+imageio::Image Glass::read() const {
+  return state_->framebuffer.read();
+}
+
+void Glass::show(int window_width, int window_height) const {
+  state_->framebuffer.copy_to_window(window_width, window_height);
+}
+
+}  // namespace yars::display::gl

@@ -1,0 +1,40 @@
+// The glass: keeps the sweeps, and draws them with the symbols when something that shows has changed.
+// Draws into its own framebuffer, which is then read back or copied into a window's.
+// Needs a current context (headless_egl.hpp, window_glfw.hpp) for its lifetime; knows nothing of the session.
+#pragma once
+
+#include <memory>
+
+#include "databuffer/records/model_records.hpp"
+#include "display/color_scheme.hpp"
+#include "display/glass_input.hpp"
+#include "lib/imageio/png.hpp"
+#include "lib/radar/configuration.hpp"
+
+namespace yars::display::gl {
+
+class Glass {
+ public:
+  // `size`: pixels to the edge of the square.
+  Glass(const radar::RadarConfiguration& configuration, int size, const ColorScheme& colors = {});
+  ~Glass();
+  Glass(Glass&&) noexcept;
+  Glass& operator=(Glass&&) noexcept;
+
+  void add(const databuffer::Sweep& sweep);
+  void resize(int size);
+  int size() const;
+
+  // True when it drew; false when the picture already shows this input.
+  bool draw(const GlassInput& input);
+
+  imageio::Image read() const;  // RGB
+  // Copies the picture into the current window's framebuffer, centered; the rest becomes black.
+  void show(int window_width, int window_height) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace yars::display::gl

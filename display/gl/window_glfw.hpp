@@ -1,0 +1,42 @@
+// A window with the glass in it: a context, the keyboard, and clicks in glass units.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "databuffer/records/key_map.hpp"
+#include "display/gl/context.hpp"
+#include "display/point.hpp"
+#include "lib/failure/error.hpp"
+
+namespace yars::display::gl {
+
+struct KeyEdge {
+  databuffer::Key key = databuffer::Key::none;
+  bool pressed = false;
+};
+
+// What happened at the window since the last look.
+struct WindowInput {
+  std::vector<KeyEdge> keys;
+  std::vector<Point> clicks;
+  bool focus_lost = false;
+  bool redraw_needed = false;  // uncovered or resized
+};
+
+class Window : public Context {
+ public:
+  struct Pixels {
+    int width = 0, height = 0;
+  };
+  virtual Pixels pixels() const = 0;  // of the framebuffer
+  virtual bool should_close() const = 0;
+  virtual WindowInput take_input() = 0;  // looks for events, without waiting
+  virtual void present() = 0;            // shows what has been drawn; does not wait for the screen
+};
+
+// `size`: edge of the window. Without DISPLAY or WAYLAND_DISPLAY the error says to go headless.
+failure::Expected<std::unique_ptr<Window>> open_window(const std::string& title, int size);
+
+}  // namespace yars::display::gl

@@ -1,0 +1,136 @@
+#include "display/markers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <numbers>
+
+#include "display/present_frame.hpp"
+#include "lib/radar/limits.hpp"
+#include "lib/radar/modes.hpp"
+
+namespace yars::display {
+
+namespace {
+
+constexpr float kRadius = 6.0F;                   // [units] of a point's symbol
+constexpr float kGapInside = 7.0F, kArm = 16.0F;  // [units] of the plus: a point's symbol fits into its middle
+constexpr float kNameText = 9.0F;
+
+bool on_glass(Point at) {
+  return at.x >= 0.0F && at.y >= 0.0F && at.x <= kGlassUnits && at.y <= kGlassUnits;
+}
+
+void draw_square(Point at, bool dashed, DrawList& list) {
+  constexpr float r = kRadius - 0.5F;
+  const std::array<Point, 4> corners{Point{at.x - r, at.y - r}, Point{at.x + r, at.y - r}, Point{at.x + r, at.y + r},
+                                     Point{at.x - r, at.y + r}};
+  list.polygon(corners, dashed);
+}
+
+void draw_triangle(Point at, bool dashed, DrawList& list) {
+  constexpr float r = kRadius + 1.5F;
+  const float half = r * std::numbers::sqrt3_v<float> / 2.0F;
+  const std::array<Point, 3> corners{Point{at.x, at.y - r}, Point{at.x + half, at.y + r / 2.0F},
+                                     Point{at.x - half, at.y + r / 2.0F}};
+  list.polygon(corners, dashed);
+}
+
+std::string_view name_of(const databuffer::DrawnPoint& point) {
+  return {point.name, strnlen(point.name, sizeof point.name)};
+}
+
+// "3.2" belongs to point "3".
+bool is_offset_of_initial_point(std::string_view name, std::span<const radar::RoutePoint> route) {
+  const std::string_view base = name.substr(0, name.find('.'));
+  return std::ranges::any_of(route, [&](const radar::RoutePoint& point) {
+    return point.kind == radar::PointKind::initial && point.name == base;
+  });
+}
+
+void draw_symbol(const databuffer::DrawnPoint& point, std::span<const radar::RoutePoint> route, Point at,
+                 DrawList& list) {
+  switch (static_cast<radar::PointKind>(point.kind)) {
+    case radar::PointKind::steer:
+      list.circle(at, kRadius, false);
+      return;
+    case radar::PointKind::initial:
+      draw_square(at, false, list);
+      return;
+    case radar::PointKind::target:
+      draw_triangle(at, false, list);
+      return;
+    case radar::PointKind::steer_offset:
+      if (is_offset_of_initial_point(name_of(point), route)) {
+        draw_square(at, true, list);
+      } else {
+        list.circle(at, kRadius, true);
+      }
+      return;
+    case radar::PointKind::target_offset:
+      draw_triangle(at, true, list);
+      return;
+  }
+}
+
+void draw_name(std::string_view name, Point at, DrawList& list) {
+  struct Place {
+    float right, down;
+    Align align;
+  };
+  constexpr float side = kRadius + 4.0F;
+  constexpr float lift = 11.0F;
+  constexpr std::array places{Place{side, -lift, Align::left}, Place{side, lift, Align::left},
+                              Place{-side, -lift, Align::right}, Place{-side, lift, Align::right}};
+  const auto box_at = [&](const Place& place) {
+    return text_box(name, {at.x + place.right, at.y + place.down}, {kNameText, place.align});
+  };
+  const auto is_free = [&](const Place& place) {
+    const Rect box = box_at(place);
+    const bool inside = box.left >= 0.0F && box.top >= 0.0F && box.right <= kGlassUnits && box.bottom <= kGlassUnits;
+    return inside &&
+           std::ranges::none_of(list.occupied(), [&](const OccupiedBox& other) { return intersect(box, other.rect); });
+  };
+  const auto* chosen = std::ranges::find_if(places, is_free);
+  if (chosen == places.end()) chosen = places.begin();
+  list.text(name, {at.x + chosen->right, at.y + chosen->down}, {kNameText, chosen->align});
+}
+
+}  // namespace
+
+void draw_cursor(const GlassInput& input, const GlassView& view, const GlassFrame& frame, DrawList& list) {
+  if ((input.state.flags & databuffer::kCursorValid) == 0) return;
+  const geo::GeoPoint place{input.state.cursor_latitude_deg, input.state.cursor_longitude_deg};
+  const Point at = view.at_ground(frame, seen_through_navigator(input, place));
+  if (!on_glass(at)) return;
+  list.line({at.x - kArm, at.y}, {at.x - kGapInside, at.y});
+  list.line({at.x + kGapInside, at.y}, {at.x + kArm, at.y});
+  list.line({at.x, at.y - kArm}, {at.x, at.y - kGapInside});
+  list.line({at.x, at.y + kGapInside}, {at.x, at.y + kArm});
+}
+
+void draw_points(const GlassInput& input, std::span<const radar::RoutePoint> route, const GlassView& view,
+                 const GlassFrame& frame, DrawList& list) {
+  struct Shown {
+    const databuffer::DrawnPoint* point;
+    Point at;
+  };
+  std::array<Shown, radar::kMaxPointsDrawn> shown;
+  std::size_t count = 0;
+  const std::size_t given = std::min<std::size_t>(input.state.points_drawn, radar::kMaxPointsDrawn);
+  for (const databuffer::DrawnPoint& point : std::span(input.state.points).first(given)) {
+    const geo::GeoPoint place{point.latitude_deg, point.longitude_deg};
+    const Point at = view.at_ground(frame, seen_through_navigator(input, place));
+    if (!on_glass(at)) continue;
+    draw_symbol(point, route, at, list);
+    list.occupy("point", grown({at.x, at.y, at.x, at.y}, kRadius + 1.0F));
+    shown[count++] = {&point, at};
+  }
+  // Names after all symbols, so that none of them is written over.
+  for (const Shown& one : std::span(shown).first(count)) {
+    draw_name(name_of(*one.point), one.at, list);
+  }
+}
+
+}  // namespace yars::display

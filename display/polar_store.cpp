@@ -1,0 +1,140 @@
+#include "display/polar_store.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace yars::display {
+
+namespace {
+
+constexpr double kEdgeLength_m = 1000.0;  // [m] short enough that the chord along the geodesic is straight to 1e-8
+constexpr double kMostWidth_deg = 45.0;   // [deg] a wedge is drawn as one triangle
+
+geo::Vector3 on_ellipsoid(geo::GeoPoint point) {
+  return geo::ecef_from_geodetic(point, geo::HeightAboveEllipsoid::metres(0.0));
+}
+
+StoredSweep placed(const databuffer::Sweep& sweep) {
+  StoredSweep stored;
+  const geo::Bearing left = geo::Bearing::degrees(sweep.azimuth_left_deg);
+  const geo::Bearing right = geo::Bearing::degrees(sweep.azimuth_right_deg);
+  const geo::Length edge = geo::Length::metres(kEdgeLength_m);
+  stored.apex = {sweep.apex_latitude_deg, sweep.apex_longitude_deg};
+  stored.apex_ecef = on_ellipsoid(stored.apex);
+  stored.left_ecef = on_ellipsoid(geo::geodesic_direct(stored.apex, left, edge));
+  stored.right_ecef = on_ellipsoid(geo::geodesic_direct(stored.apex, right, edge));
+  stored.ground_track = geo::Bearing::degrees(sweep.ground_track_deg);
+  stored.half_width_rad = (right - left).radians() / 2.0;
+  stored.range_m = sweep.range_m;
+  return stored;
+}
+
+bool key_less(const StoredSweep& sweep, double key_deg) {
+  return sweep.azimuth_key_deg < key_deg;
+}
+
+}  // namespace
+
+PolarStore::PolarStore() : video_(static_cast<std::size_t>(kRows) * kRowSamples) {
+  sweeps_.reserve(kRows + 1);
+  clear();
+}
+
+void PolarStore::clear() {
+  sweeps_.clear();
+  free_rows_.resize(kRows);
+  for (int row = 0; row < kRows; ++row) free_rows_[static_cast<std::size_t>(row)] = kRows - 1 - row;
+  ++version_;
+}
+
+Insertion PolarStore::insert(const databuffer::Sweep& sweep) {
+  const geo::Bearing left = geo::Bearing::degrees(sweep.azimuth_left_deg);
+  const double width_deg = (geo::Bearing::degrees(sweep.azimuth_right_deg) - left).degrees();
+  if ((sweep.flags & databuffer::kSweepBlank) != 0 || sweep.samples == 0) return Insertion::ignored;
+  if (!(width_deg > 0.0 && width_deg <= kMostWidth_deg) || !(sweep.range_m > 0.0)) return Insertion::ignored;
+
+  if (!sweeps_.empty() && (sweep.epoch != epoch_ || sweep.mode != mode_)) clear();
+  const geo::Bearing middle = left + geo::Angle::degrees(width_deg / 2.0);
+  if (sweeps_.empty()) {
+    reference_ = middle;
+    epoch_ = sweep.epoch;
+    mode_ = sweep.mode;
+  }
+  const bool was_empty = sweeps_.empty();
+  const std::size_t covered = erase_covered((left - reference_).degrees(), width_deg);
+
+  StoredSweep stored = placed(sweep);
+  stored.azimuth_key_deg = (middle - reference_).degrees();
+  stored.serial = ++serial_;
+  stored.row = take_row();
+  store_video(sweep, stored);
+  const auto place = std::lower_bound(sweeps_.begin(), sweeps_.end(), stored.azimuth_key_deg, key_less);
+  const bool at_front = place == sweeps_.begin();
+  const bool at_back = place == sweeps_.end();
+  sweeps_.insert(place, stored);
+  ++version_;
+  if (was_empty) return Insertion::first;
+  if (covered > 0) return Insertion::replaced;
+  if (at_front) return Insertion::before_first;
+  return at_back ? Insertion::after_last : Insertion::between;
+}
+
+std::size_t PolarStore::erase_covered(double left_key_deg, double width_deg) {
+  const std::size_t before = sweeps_.size();
+  const double right_key_deg = left_key_deg + width_deg;
+  erase_between(left_key_deg, right_key_deg);
+  // A wedge over the seam of the keys goes on at their other end.
+  if (right_key_deg >= 180.0) erase_between(-180.0, right_key_deg - 360.0);
+  return before - sweeps_.size();
+}
+
+void PolarStore::erase_between(double first_key_deg, double last_key_deg) {
+  const auto begin = std::lower_bound(sweeps_.begin(), sweeps_.end(), first_key_deg, key_less);
+  auto end = begin;
+  while (end != sweeps_.end() && end->azimuth_key_deg <= last_key_deg) free_rows_.push_back((end++)->row);
+  sweeps_.erase(begin, end);
+}
+
+int PolarStore::take_row() {
+  if (free_rows_.empty()) {
+    const auto oldest = std::min_element(sweeps_.begin(), sweeps_.end(),
+                                         [](const auto& a, const auto& b) { return a.serial < b.serial; });
+    free_rows_.push_back(oldest->row);
+    sweeps_.erase(oldest);
+  }
+  const int row = free_rows_.back();
+  free_rows_.pop_back();
+  return row;
+}
+
+void PolarStore::store_video(const databuffer::Sweep& sweep, StoredSweep& stored) {
+  const std::size_t samples = std::min<std::size_t>(sweep.samples, radar::kMaxSamples);
+  const std::size_t merge = (samples + kRowSamples - 1) / kRowSamples;
+  std::uint8_t* row = &video_[static_cast<std::size_t>(stored.row) * kRowSamples];
+  stored.samples = static_cast<int>(samples / merge);
+  for (int i = 0; i < stored.samples; ++i) {
+    std::size_t sum = 0;
+    for (std::size_t j = 0; j < merge; ++j) sum += sweep.video[static_cast<std::size_t>(i) * merge + j];
+    row[i] = static_cast<std::uint8_t>((sum + merge / 2) / merge);
+  }
+  // Samples that do not fill a whole cell are left out; the wedge ends with the cells that remain.
+  stored.range_m = sweep.range_m * static_cast<double>(static_cast<std::size_t>(stored.samples) * merge) /
+                   static_cast<double>(samples);
+}
+
+const StoredSweep* PolarStore::newest() const {
+  if (sweeps_.empty()) return nullptr;
+  return &*std::max_element(sweeps_.begin(), sweeps_.end(),
+                            [](const auto& a, const auto& b) { return a.serial < b.serial; });
+}
+
+std::optional<std::uint8_t> PolarStore::mode() const {
+  if (sweeps_.empty()) return std::nullopt;
+  return mode_;
+}
+
+std::span<const std::uint8_t> PolarStore::video(int row) const {
+  return {&video_[static_cast<std::size_t>(row) * kRowSamples], static_cast<std::size_t>(kRowSamples)};
+}
+
+}  // namespace yars::display

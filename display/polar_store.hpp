@@ -1,0 +1,68 @@
+// The sweeps on the glass, each kept as the wedge in which it was measured until a later one sweeps its place.
+// Ordered by true azimuth; a new sweep enters in one of five ways: into an empty store, before the first, after
+// the last, between two, or in the place of those whose middle its wedge covers. Order runs from the direction
+// opposite to the first sweep of a picture.
+// Holds kRows sweeps; the oldest makes way. A sweep of another mode or epoch begins a new picture. Blank sweeps
+// carry no video and are ignored, as are wedges that are not 0-45 degrees wide.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "databuffer/records/model_records.hpp"
+#include "lib/geo/bearing.hpp"
+#include "lib/geo/frames.hpp"
+#include "lib/geo/geodesic.hpp"
+
+namespace yars::display {
+
+struct StoredSweep {
+  double azimuth_key_deg = 0.0;        // [deg] [-180, 180) of the wedge's middle, against the picture's first
+  std::uint64_t serial = 0;            // counts insertions: the order of drawing
+  int row = 0;                         // of the video
+  int samples = 0;                     // used entries of the row
+  geo::GeoPoint apex;                  // where it was measured
+  geo::Vector3 apex_ecef;              // [m]
+  geo::Vector3 left_ecef, right_ecef;  // [m] kEdgeLength_m from the apex along either edge
+  geo::Bearing ground_track;           // at the time
+  double half_width_rad = 0.0;
+  double range_m = 0.0;  // ground range of the far end
+};
+
+enum class Insertion : std::uint8_t { ignored, first, before_first, after_last, between, replaced };
+
+class PolarStore {
+ public:
+  static constexpr int kRows = 1024;        // as many as the ring holds
+  static constexpr int kRowSamples = 1024;  // finer sweeps are averaged down: a glass has fewer pixels along a range
+
+  PolarStore();
+  Insertion insert(const databuffer::Sweep& sweep);
+  void clear();
+
+  std::span<const StoredSweep> by_azimuth() const { return sweeps_; }
+  const StoredSweep* newest() const;
+  std::optional<std::uint8_t> mode() const;            // radar::Mode of the picture
+  std::span<const std::uint8_t> video(int row) const;  // kRowSamples values, near to far, `samples` of them used
+  std::uint64_t version() const { return version_; }   // changes with the content
+
+ private:
+  std::size_t erase_covered(double left_key_deg, double width_deg);
+  void erase_between(double first_key_deg, double last_key_deg);
+  int take_row();
+  void store_video(const databuffer::Sweep& sweep, StoredSweep& stored);
+
+  std::vector<StoredSweep> sweeps_;
+  std::vector<std::uint8_t> video_;
+  std::vector<int> free_rows_;
+  geo::Bearing reference_;
+  std::uint64_t serial_ = 0;
+  std::uint64_t version_ = 0;
+  std::uint32_t epoch_ = 0;
+  std::uint8_t mode_ = 0;
+};
+
+}  // namespace yars::display

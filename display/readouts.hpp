@@ -1,0 +1,22 @@
+// The words on the glass: legends beside the buttons, readouts between them, messages, and what has gone silent.
+#pragma once
+
+#include "display/draw_list.hpp"
+#include "display/glass_input.hpp"
+
+namespace yars::display {
+
+// As the radar state names them, boxed where it says so.
+void draw_legends(const databuffer::RadarState& state, DrawList& list);
+
+void draw_brightness(const databuffer::RadarState& state, DrawList& list);      // between PB 4 and 5
+void draw_range(const databuffer::RadarState& state, DrawList& list);           // between PB 13 and 14
+void draw_window_size(const databuffer::RadarState& state, DrawList& list);     // above PB 8; nothing while blank
+void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list);  // magnetic bearing, 0.1 NM
+void draw_map_timer(double seconds, DrawList& list);                            // nothing while NaN
+void draw_freeze(DrawList& list);
+void draw_message(const databuffer::RadarState& state, DrawList& list);
+void draw_banner(std::string_view words, DrawList& list);   // STBY, NO VIDEO
+void draw_silent(const GlassInput& input, DrawList& list);  // NO OWNSHIP, NO MODEL, NO STATE MACHINE
+
+}  // namespace yars::display

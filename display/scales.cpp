@@ -1,0 +1,129 @@
+#include "display/scales.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "display/video_levels.hpp"
+
+namespace yars::display {
+
+namespace {
+
+// Azimuth scale, along the bottom at the apex. The window size stands below it, the message above.
+constexpr float kAzimuthZero = 240.0F;  // [units] x of 0 deg
+constexpr float kAzimuthUnitsPerDegree = 2.0F;
+constexpr float kAzimuthTickTop = 438.0F, kAzimuthTickBottom = 445.0F;
+constexpr float kAzimuthTrack = 64.0F;  // [deg] the caret stops here
+
+// Elevation scale, in the column between the legends of the left side and the picture.
+constexpr float kElevationZero = 240.0F;  // [units] y of the horizon
+constexpr float kElevationUnitsPerDegree = 8.0F;
+constexpr float kElevationTickLeft = 68.0F;
+constexpr float kTrackTop = 46.0F, kTrackBottom = 434.0F;  // [units] carets and ball stop here
+constexpr float kBallColumn = 92.0F;
+constexpr float kBallRadius = 5.5F;
+constexpr float kWing = 5.0F;
+constexpr float kCaretLength = 8.0F, kCaretHalf = 4.0F;
+
+// Gray scale, in the lower right, where no beam of +-60 deg reaches.
+constexpr Rect kGrayScale{420.0F, 344.0F, 434.0F, 424.0F};
+
+constexpr float kSector = 60.0F;  // [deg] arcs reach to the gimbal limit
+constexpr std::array kArcs{0.25F, 0.50F, 0.75F, 1.00F};
+
+float on_track(double degrees) {
+  const float y = kElevationZero - kElevationUnitsPerDegree * static_cast<float>(degrees);
+  return std::clamp(y, kTrackTop, kTrackBottom);
+}
+
+float tick_length(int degrees) {
+  return degrees == 0 ? 12.0F : std::abs(degrees) >= 5 ? 8.0F : 5.0F;
+}
+
+}  // namespace
+
+void draw_azimuth_scale(double antenna_right_of_track_deg, DrawList& list) {
+  const auto x_of = [](float degrees) { return kAzimuthZero + kAzimuthUnitsPerDegree * degrees; };
+  for (const float degrees : {-60.0F, 0.0F, 60.0F}) {
+    list.line({x_of(degrees), kAzimuthTickTop}, {x_of(degrees), kAzimuthTickBottom});
+  }
+  const float x = x_of(std::clamp(static_cast<float>(antenna_right_of_track_deg), -kAzimuthTrack, kAzimuthTrack));
+  const float tip = kAzimuthTickTop - 1.0F;
+  const std::array<Point, 3> caret{Point{x - kCaretHalf, tip - kCaretLength}, Point{x, tip},
+                                   Point{x + kCaretHalf, tip - kCaretLength}};
+  list.polyline(caret);
+  list.occupy("azimuth scale", {x_of(-kAzimuthTrack) - kCaretHalf, tip - kCaretLength - 1.0F,
+                                x_of(kAzimuthTrack) + kCaretHalf, kAzimuthTickBottom + 1.0F});
+}
+
+void draw_elevation_scale(double antenna_deg, DrawList& list) {
+  for (const int degrees : {-10, -5, -2, -1, 0, 1, 2, 5, 10}) {
+    const float y = on_track(degrees);
+    list.line({kElevationTickLeft, y}, {kElevationTickLeft + tick_length(degrees), y});
+  }
+  const float y = on_track(antenna_deg);
+  const float tip = kElevationTickLeft - 1.0F;
+  const std::array<Point, 3> caret{Point{tip - kCaretLength, y - kCaretHalf}, Point{tip, y},
+                                   Point{tip - kCaretLength, y + kCaretHalf}};
+  list.polyline(caret);
+  list.occupy("elevation scale", {tip - kCaretLength, kTrackTop - kBallRadius - kWing,
+                                  kBallColumn + kBallRadius + kWing, kTrackBottom + kBallRadius});
+}
+
+void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, DrawList& list) {
+  const Point center{kBallColumn, on_track(pitch_deg)};
+  const float r = kBallRadius;
+  if (source == AttitudeSource::ahrs) {
+    const std::array<Point, 4> corners{Point{center.x - r, center.y - r}, Point{center.x + r, center.y - r},
+                                       Point{center.x + r, center.y + r}, Point{center.x - r, center.y + r}};
+    list.polygon(corners, false);
+  } else {
+    list.circle(center, r);
+  }
+  if (source == AttitudeSource::invalid) {
+    const float d = r + 2.0F;
+    list.line({center.x - d, center.y - d}, {center.x + d, center.y + d});
+    list.line({center.x - d, center.y + d}, {center.x + d, center.y - d});
+    return;
+  }
+  // Wings show the bank: right wing down, right stub down.
+  const auto cosine = static_cast<float>(std::cos(roll_deg * geo::kRadiansPerDegree));
+  const auto sine = static_cast<float>(std::sin(roll_deg * geo::kRadiansPerDegree));
+  for (const float side : {-1.0F, 1.0F}) {
+    const auto out = [&](float length) {
+      return Point{center.x + side * length * cosine, center.y + side * length * sine};
+    };
+    list.line(out(r), out(r + kWing));
+  }
+}
+
+void draw_range_arcs(const GlassView& view, DrawList& list) {
+  list.draw_on(Layer::grid);
+  for (const float fraction : kArcs) list.thin_arc(view.apex(), fraction * view.units_per_range(), -kSector, kSector);
+  list.draw_on(Layer::symbols);
+}
+
+void draw_zero_azimuth_line(const GlassView& view, DrawList& list) {
+  list.draw_on(Layer::grid);
+  list.line(view.apex(), view.at_polar(0.0, 1.0), Ink::dim);
+  list.draw_on(Layer::symbols);
+}
+
+void draw_gray_scale(DrawList& list) {
+  const float height = (kGrayScale.bottom - kGrayScale.top) / kGrays;
+  for (int gray = 0; gray < kGrays; ++gray) {
+    // The middle of the gray's eighth of the video's reach, black at the bottom.
+    const auto video = static_cast<std::uint8_t>((gray * 256 + 128) / kGrays);
+    const float bottom = kGrayScale.bottom - height * static_cast<float>(gray);
+    list.video_step({kGrayScale.left, bottom - height, kGrayScale.right, bottom}, video);
+  }
+  const std::array<Point, 5> frame{Point{kGrayScale.left, kGrayScale.top}, Point{kGrayScale.right, kGrayScale.top},
+                                   Point{kGrayScale.right, kGrayScale.bottom},
+                                   Point{kGrayScale.left, kGrayScale.bottom}, Point{kGrayScale.left, kGrayScale.top}};
+  list.polyline(frame, Ink::dim);
+  list.occupy("gray scale", kGrayScale);
+}
+
+}  // namespace yars::display

@@ -1,0 +1,23 @@
+// The fixed scales of every radar format and what moves along them: azimuth scale with antenna caret, elevation
+// scale with antenna caret and pitch ball, range arcs, zero azimuth line, gray scale.
+// Azimuths are against the ground track, elevations and pitch against the horizon; what runs off a scale stays at
+// the end of its track.
+#pragma once
+
+#include "display/draw_list.hpp"
+#include "display/glass_geometry.hpp"
+#include "display/glass_input.hpp"
+
+namespace yars::display {
+
+void draw_azimuth_scale(double antenna_right_of_track_deg, DrawList& list);
+void draw_elevation_scale(double antenna_deg, DrawList& list);
+
+enum class AttitudeSource : std::uint8_t { ins, ahrs, invalid };  // round, square, crossed out
+void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, DrawList& list);
+
+void draw_range_arcs(const GlassView& view, DrawList& list);
+void draw_zero_azimuth_line(const GlassView& view, DrawList& list);
+void draw_gray_scale(DrawList& list);
+
+}  // namespace yars::display

@@ -1,0 +1,20 @@
+// Everything that is drawn over the video, by power and mode: the table of spec pvi.md "Symbology".
+// OFF draws nothing; STBY legends and STBY; a mode without video its legends, its symbols and NO VIDEO. What has
+// gone silent is named, whatever the power, but for a radar that is off.
+// Pure: the same input gives the same list.
+#pragma once
+
+#include "display/draw_list.hpp"
+#include "display/glass_geometry.hpp"
+#include "display/glass_input.hpp"
+#include "lib/radar/configuration.hpp"
+
+namespace yars::display {
+
+// True when the mode shown has video of its own and the radar operates.
+bool shows_video(const databuffer::RadarState& state);
+
+void draw_symbology(const GlassInput& input, const radar::RadarConfiguration& configuration, const GlassView& view,
+                    const GlassFrame& frame, DrawList& list);
+
+}  // namespace yars::display

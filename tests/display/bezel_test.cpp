@@ -1,0 +1,44 @@
+#include "display/bezel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "lib/radar/limits.hpp"
+
+namespace yars::display {
+namespace {
+
+TEST(Bezel, ButtonsRunCounterClockwiseFromTheTopOfTheLeftSide) {
+  EXPECT_LT(legend_place(1).at.y, legend_place(5).at.y);
+  EXPECT_LT(legend_place(6).at.x, legend_place(10).at.x);
+  EXPECT_GT(legend_place(11).at.y, legend_place(15).at.y);
+  EXPECT_GT(legend_place(16).at.x, legend_place(20).at.x);
+  EXPECT_LT(legend_place(3).at.x, 240.0F);
+  EXPECT_GT(legend_place(8).at.y, 240.0F);
+  EXPECT_GT(legend_place(13).at.x, 240.0F);
+  EXPECT_LT(legend_place(18).at.y, 240.0F);
+}
+
+TEST(Bezel, AClickOnALegendIsAClickOnItsButton) {
+  for (int button = 1; button <= radar::kBezelButtons; ++button) EXPECT_EQ(button_at(legend_place(button).at), button);
+}
+
+TEST(Bezel, EveryButtonCanBeClickedAndTheMiddleAndTheCornersAreNone) {
+  std::set<int> found;
+  for (float x = 0.0F; x <= kGlassUnits; x += 4.0F) {
+    for (float y = 0.0F; y <= kGlassUnits; y += 4.0F) {
+      if (const auto button = button_at({x, y})) found.insert(*button);
+    }
+  }
+  EXPECT_EQ(found.size(), 20U);
+  EXPECT_EQ(button_at({240.0F, 240.0F}), std::nullopt);
+  EXPECT_EQ(button_at({2.0F, 2.0F}), std::nullopt);
+  EXPECT_EQ(button_at({478.0F, 2.0F}), std::nullopt);
+  EXPECT_EQ(button_at({2.0F, 478.0F}), std::nullopt);
+  EXPECT_EQ(button_at({-1.0F, 80.0F}), std::nullopt);
+  EXPECT_EQ(button_at({80.0F, 481.0F}), std::nullopt);
+}
+
+}  // namespace
+}  // namespace yars::display

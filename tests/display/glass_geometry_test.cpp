@@ -1,0 +1,146 @@
+#include "display/glass_geometry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "display/present_frame.hpp"
+#include "display/wedge.hpp"
+#include "tests/display/glass_states.hpp"
+
+namespace yars::display {
+namespace {
+
+using testing::at;
+using testing::kHome;
+
+const GlassView kView{radar::ViewConfiguration{}};
+
+GlassFrame frame_of(double up_deg, double range_nm) {
+  return {kHome, geo::Bearing::degrees(up_deg), range_nm * geo::kMetresPerNauticalMile};
+}
+
+TEST(GlassView, TheApexIsFortyUpInTheMiddleAndTheRangeFourHundred) {
+  EXPECT_FLOAT_EQ(kView.apex().x, 240.0F);
+  EXPECT_FLOAT_EQ(kView.apex().y, 440.0F);
+  EXPECT_FLOAT_EQ(kView.units_per_range(), 400.0F);
+}
+
+TEST(GlassView, AViewThatIsWiderThanHighIsCenteredAndKeepsCirclesRound) {
+  const GlassView wide(radar::ViewConfiguration{-1.0, 1.0, 0.0, 1.0, 480});
+  EXPECT_FLOAT_EQ(wide.units_per_range(), 240.0F);
+  EXPECT_FLOAT_EQ(wide.apex().x, 240.0F);
+  EXPECT_FLOAT_EQ(wide.apex().y, 360.0F);
+}
+
+TEST(GlassView, APointAtKnownBearingAndRangeLandsWhereTrigonometrySays) {
+  for (const double range_nm : {4.7, 10.0, 20.0, 40.0, 80.0, 160.0}) {
+    for (const double right_deg : {-50.0, -13.0, 0.0, 20.0, 60.0}) {
+      const double up_deg = 350.0;  // so that some bearings wrap
+      const double fraction = 0.8;
+      const Point found = kView.at_ground(frame_of(up_deg, range_nm), at(up_deg + right_deg, fraction * range_nm));
+      const double angle = right_deg * geo::kRadiansPerDegree;
+      EXPECT_NEAR(found.x, 240.0 + 320.0 * std::sin(angle), 0.01) << range_nm << ' ' << right_deg;
+      EXPECT_NEAR(found.y, 440.0 - 320.0 * std::cos(angle), 0.01) << range_nm << ' ' << right_deg;
+    }
+  }
+}
+
+TEST(GlassView, ItWorksAcrossTheAntimeridian) {
+  const GlassFrame frame{{10.0, 179.9}, geo::Bearing::degrees(90.0), 40.0 * geo::kMetresPerNauticalMile};
+  const geo::GeoPoint east =
+      geo::geodesic_direct(frame.apex, geo::Bearing::degrees(90.0), geo::Length::nautical_miles(20.0));
+  ASSERT_LT(east.longitude_deg, 0.0);
+  EXPECT_NEAR(kView.at_ground(frame, east).x, 240.0F, 0.01F);
+  EXPECT_NEAR(kView.at_ground(frame, east).y, 240.0F, 0.01F);
+}
+
+TEST(GlassView, DisplacementIsMeasuredAtTheOuterEdge) {
+  const GlassFrame drawn = frame_of(0.0, 40.0);
+  GlassFrame moved = drawn;
+  moved.apex = at(0.0, 0.4);
+  EXPECT_NEAR(displacement_units(kView, drawn, moved), 4.0, 1e-6);
+  EXPECT_NEAR(displacement_units(kView, drawn, frame_of(1.0, 40.0)), 400.0 * geo::kRadiansPerDegree, 1e-6);
+  EXPECT_GT(displacement_units(kView, drawn, frame_of(0.0, 80.0)), 1e9);
+}
+
+databuffer::Sweep sweep_at(geo::GeoPoint apex, double left_deg, double right_deg) {
+  databuffer::Sweep sweep{};
+  sweep.apex_latitude_deg = apex.latitude_deg;
+  sweep.apex_longitude_deg = apex.longitude_deg;
+  sweep.azimuth_left_deg = left_deg;
+  sweep.azimuth_right_deg = right_deg;
+  sweep.ground_track_deg = 77.0;
+  sweep.range_m = 40.0 * geo::kMetresPerNauticalMile;
+  sweep.samples = 10;
+  return sweep;
+}
+
+TEST(Wedges, ASweepLiesAtItsOwnApexAndItsOwnTrueAzimuth) {
+  PolarStore store;
+  store.insert(sweep_at(at(30.0, -2.0), 20.0, 21.0));
+  std::vector<Wedge> wedges;
+  place_wedges(store, kView, frame_of(30.0, 40.0), wedges);
+  ASSERT_EQ(wedges.size(), 1U);
+  // Two miles behind, along the track: 20 units below the present apex.
+  EXPECT_NEAR(wedges[0].apex.x, 240.0F, 0.01F);
+  EXPECT_NEAR(wedges[0].apex.y, 460.0F, 0.01F);
+  EXPECT_NEAR(wedges[0].range, 400.0F, 0.01F);
+  EXPECT_NEAR(wedges[0].left.x, std::sin(-10.0 * geo::kRadiansPerDegree), 1e-3);
+  EXPECT_NEAR(wedges[0].left.y, -std::cos(-10.0 * geo::kRadiansPerDegree), 1e-3);
+  EXPECT_NEAR(wedges[0].right.x, std::sin(-9.0 * geo::kRadiansPerDegree), 1e-3);
+  EXPECT_NEAR(wedges[0].half_width, 0.5 * geo::kRadiansPerDegree, 1e-6);
+}
+
+TEST(Wedges, ASweepOfAnotherRangeIsScaledIntoThePresentOne) {
+  PolarStore store;
+  store.insert(sweep_at(kHome, 20.0, 21.0));
+  std::vector<Wedge> wedges;
+  place_wedges(store, kView, frame_of(30.0, 80.0), wedges);
+  EXPECT_NEAR(wedges.at(0).range, 200.0F, 0.01F);
+}
+
+TEST(Wedges, TheyAreDrawnOldestFirstWhateverTheirAzimuth) {
+  PolarStore store;
+  for (const double left_deg : {30.0, 20.0, 40.0, 25.0}) store.insert(sweep_at(kHome, left_deg, left_deg + 1.0));
+  std::vector<Wedge> wedges;
+  place_wedges(store, kView, frame_of(30.0, 40.0), wedges);
+  ASSERT_EQ(wedges.size(), 4U);
+  for (std::size_t i = 1; i < wedges.size(); ++i) EXPECT_LT(wedges[i - 1].serial, wedges[i].serial);
+}
+
+TEST(PresentFrame, TheGroundTrackIsUpAndNotTheNose) {
+  const GlassInput input = testing::operating(radar::Mode::rbm, 40.0);
+  const GlassFrame frame = present_frame(input, nullptr);
+  EXPECT_NEAR(frame.up.degrees(), 30.0, 1e-9);
+  EXPECT_DOUBLE_EQ(frame.range_m, 74080.0);
+}
+
+TEST(PresentFrame, FrozenItIsTheLastSweeps) {
+  GlassInput input = testing::operating(radar::Mode::rbm, 40.0);
+  PolarStore store;
+  const geo::GeoPoint behind = at(30.0, -5.0);
+  store.insert(sweep_at(behind, 20.0, 21.0));
+  EXPECT_NEAR(present_frame(input, store.newest()).up.degrees(), 30.0, 1e-9) << "the pilot's word alone stops no scan";
+  input.model.flags = databuffer::kModelFrozen;
+  EXPECT_DOUBLE_EQ(present_frame(input, store.newest()).up.degrees(), 77.0);
+  EXPECT_DOUBLE_EQ(present_frame(input, store.newest()).apex.latitude_deg, behind.latitude_deg);
+}
+
+TEST(PresentFrame, SymbolsAreOffTheVideoByTheErrorOfTheNavigatorChosen) {
+  GlassInput input = testing::operating(radar::Mode::rbm, 40.0);
+  const geo::GeoPoint place = at(30.0, 20.0);
+  const geo::GeoPoint believed = at(120.0, 1.0);  // the INS is a mile to the right of the truth
+  input.nav.ins_latitude_deg = believed.latitude_deg;
+  input.nav.ins_longitude_deg = believed.longitude_deg;
+  const GlassFrame frame = present_frame(input, nullptr);
+  const Point by_mission = kView.at_ground(frame, seen_through_navigator(input, place));
+  input.state.navigator = static_cast<std::uint8_t>(radar::Navigator::ins);
+  const Point by_ins = kView.at_ground(frame, seen_through_navigator(input, place));
+  EXPECT_NEAR(by_mission.x, 240.0F, 0.01F);
+  EXPECT_NEAR(by_ins.x, 230.0F, 0.05F);
+  EXPECT_NEAR(by_ins.y, 240.0F, 0.05F);
+}
+
+}  // namespace
+}  // namespace yars::display

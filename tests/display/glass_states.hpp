@@ -1,0 +1,102 @@
+// States of the radar as the state machine would publish them, for the tests of the glass.
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "display/glass_input.hpp"
+#include "lib/geo/geodesic.hpp"
+#include "lib/radar/configuration.hpp"
+
+namespace yars::display::testing {
+
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+template <std::size_t N>
+void set_text(char (&field)[N], const std::string& text) {
+  std::snprintf(field, N, "%s", text.c_str());
+}
+
+inline std::map<int, std::string> legends_of(radar::Mode mode) {
+  using radar::Mode;
+  std::map<int, std::string> common{{11, "M"}, {12, "VTR"}, {16, "IPVU"}, {17, "2.01"}, {18, "SNIFF"},
+                                    {19, "1"}, {20, "A"},   {4, "BRT+"},  {5, "BRT-"},  {2, "DCL"}};
+  const auto with = [&](std::map<int, std::string> more) {
+    more.merge(common);
+    return more;
+  };
+  switch (mode) {
+    case Mode::rbm:
+      return with({{3, "GAIN 3"}, {6, "RBM"}, {7, "UPDT"}, {9, "FULL"}, {13, "^"}, {14, "v"}});
+    case Mode::hrm:
+      return with({{3, "ML1"}, {6, "HRM"}, {7, "MARK"}, {9, "HALF"}, {10, "STORE"}, {13, "^"}, {14, "v"}, {15, "STO"}});
+    case Mode::patch:
+      return with({{3, "ML2"}, {6, "HRM"}, {7, "MARK"}, {8, "STAB"}, {10, "STORE"}, {14, "PPI"}, {15, "STO"}});
+    case Mode::beacon:
+      return with({{3, "GAIN 0"}, {6, "BCN"}, {7, "CUE"}, {9, "QTR"}, {13, "^"}, {14, "v"}});
+    case Mode::pvu:
+      common.erase(16);
+      return with({{6, "PVU"}});
+    case Mode::air_to_air:
+    case Mode::ranging:
+      return {{2, "DCL"}, {4, "BRT+"}, {5, "BRT-"}, {7, "UPDT"}, {11, "M"}, {12, "VTR"}, {17, "2.01"}, {18, "SET"}};
+    case Mode::menu:
+      return {{6, "A/G RDR"}};
+  }
+  return {};
+}
+
+inline void put_legends(databuffer::RadarState& state, radar::Mode mode) {
+  for (const auto& [button, legend] : legends_of(mode)) set_text(state.legends[button], legend);
+}
+
+// Off Point Conception, 15,000 ft, flying 030 at 450 kt with 4 deg of drift to the right.
+inline constexpr geo::GeoPoint kHome{34.2, -120.6};
+
+inline GlassInput operating(radar::Mode mode, double range_nm) {
+  GlassInput input;
+  input.ownship.latitude_deg = kHome.latitude_deg;
+  input.ownship.longitude_deg = kHome.longitude_deg;
+  input.ownship.altitude_msl_m = 4572.0;
+  input.ownship.heading_deg = 26.0;
+  input.ownship.velocity_north_mps = 231.5 * std::cos(30.0 * geo::kRadiansPerDegree);
+  input.ownship.velocity_east_mps = 231.5 * std::sin(30.0 * geo::kRadiansPerDegree);
+  input.nav.mission_latitude_deg = input.nav.ins_latitude_deg = kHome.latitude_deg;
+  input.nav.mission_longitude_deg = input.nav.ins_longitude_deg = kHome.longitude_deg;
+  input.model.map_timer_s = input.model.map_progress = kNone;
+  databuffer::RadarState& state = input.state;
+  state.power = static_cast<std::uint8_t>(radar::Power::operate);
+  state.mode = static_cast<std::uint8_t>(mode);
+  state.range_nm = range_nm;
+  state.brightness = 8;
+  state.contrast = 8;
+  state.window_nm = 4.7;
+  put_legends(state, mode);
+  return input;
+}
+
+inline geo::GeoPoint at(double bearing_deg, double range_nm) {
+  return geo::geodesic_direct(kHome, geo::Bearing::degrees(bearing_deg), geo::Length::nautical_miles(range_nm));
+}
+
+inline void put_cursor(GlassInput& input, double bearing_deg, double range_nm) {
+  const geo::GeoPoint place = at(bearing_deg, range_nm);
+  input.state.flags |= databuffer::kCursorValid;
+  input.state.cursor_latitude_deg = place.latitude_deg;
+  input.state.cursor_longitude_deg = place.longitude_deg;
+  input.state.cursor_bearing_deg = bearing_deg;
+  input.state.cursor_range_nm = range_nm;
+}
+
+inline void add_point(GlassInput& input, const std::string& name, radar::PointKind kind, geo::GeoPoint place) {
+  databuffer::DrawnPoint& point = input.state.points[input.state.points_drawn++];
+  point.latitude_deg = place.latitude_deg;
+  point.longitude_deg = place.longitude_deg;
+  point.kind = static_cast<std::uint8_t>(kind);
+  set_text(point.name, name);
+}
+
+}  // namespace yars::display::testing

@@ -1,0 +1,270 @@
+#include "display/gl/glass.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "display/gl/headless_egl.hpp"
+#include "tests/display/glass_states.hpp"
+#include "tests/display_gl/made_up_sweeps.hpp"
+
+namespace yars::display::gl {
+namespace {
+
+using testing::kHome;
+
+constexpr double kRange_m = 40.0 * geo::kMetresPerNauticalMile;
+constexpr double kTrack_deg = 30.0;
+
+// A glass without a display. The tests are left out, with a word, where EGL gives no context.
+class GlassPictures : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto context = open_headless();
+    if (!context) GTEST_SKIP() << "no OpenGL without a display: " << context.error().message();
+    context_ = std::move(*context);
+  }
+
+  // The picture of an operating beam map without legends or symbols but the fixed scales.
+  static GlassInput bare_input() {
+    GlassInput input = testing::operating(radar::Mode::rbm, 40.0);
+    for (auto& legend : input.state.legends) legend[0] = '\0';
+    input.state.brightness = 15;
+    return input;
+  }
+
+  std::unique_ptr<Context> context_;
+};
+
+// Colors that tell video (red) from symbols (green, blue).
+ColorScheme test_colors() {
+  return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+}
+
+std::array<int, 3> pixel(const imageio::Image& image, int x, int y) {
+  const std::size_t at =
+      (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)) * 3;
+  return {image.pixels[at], image.pixels[at + 1], image.pixels[at + 2]};
+}
+
+// Light-weighted middle of the red that is left of, right of or on no line of the grid.
+struct Spot {
+  double x = 0.0, y = 0.0, light = 0.0;
+};
+
+Spot red_spot(const imageio::Image& image, const Rect& within) {
+  Spot spot;
+  for (int y = static_cast<int>(within.top); y < static_cast<int>(within.bottom); ++y) {
+    for (int x = static_cast<int>(within.left); x < static_cast<int>(within.right); ++x) {
+      const double red = pixel(image, x, y)[0];
+      spot.x += red * (x + 0.5);
+      spot.y += red * (y + 0.5);
+      spot.light += red;
+    }
+  }
+  if (spot.light > 0.0) {
+    spot.x /= spot.light;
+    spot.y /= spot.light;
+  }
+  return spot;
+}
+
+Rect inside(int size) {
+  // Clear of the gray scale, which is red as well.
+  const auto edge = static_cast<float>(size);
+  return {0.0F, 0.0F, edge, edge * 0.7F};
+}
+
+TEST_F(GlassPictures, ASingleBrightSampleLandsOnThePixelOfItsRangeAndAzimuth) {
+  for (const int size : {480, 1024}) {
+    Glass glass({}, size, test_colors());
+    for (const double right_deg : {-27.0, -8.0, 14.0, 31.0}) {
+      for (const int sample : {150, 290, 400}) {
+        databuffer::Sweep sweep =
+            testing::blank_sweep(kHome, kTrack_deg + right_deg - 0.3, kTrack_deg + right_deg + 0.3, kRange_m, 480);
+        sweep.video[sample] = 255;
+        sweep.mode = 0;
+        glass.add(sweep);
+        ASSERT_TRUE(glass.draw(bare_input()));
+        const Spot spot = red_spot(glass.read(), inside(size));
+        const double scale = size / 480.0;
+        const double radius = 400.0 * (sample + 0.5) / 480.0;
+        const double angle = right_deg * geo::kRadiansPerDegree;
+        EXPECT_GT(spot.light, 0.0);
+        EXPECT_NEAR(spot.x, scale * (240.0 + radius * std::sin(angle)), 1.0)
+            << size << ' ' << right_deg << ' ' << sample;
+        EXPECT_NEAR(spot.y, scale * (440.0 - radius * std::cos(angle)), 1.0)
+            << size << ' ' << right_deg << ' ' << sample;
+      }
+      glass = Glass({}, size, test_colors());
+    }
+  }
+}
+
+TEST_F(GlassPictures, NeighbouringWedgesLeaveNoCracks) {
+  Glass glass({}, 480, test_colors());
+  for (int i = 0; i < 160; ++i) {
+    // The aircraft flies on, a metre and a half a sweep, while it scans.
+    const geo::GeoPoint apex = testing::at(kTrack_deg, -0.15 + i * 0.0008);
+    const double left_deg = kTrack_deg - 40.0 + i * 0.5;
+    glass.add(testing::toned_sweep(apex, left_deg, left_deg + 0.5, kRange_m, 480, 255));
+  }
+  glass.draw(bare_input());
+  const imageio::Image image = glass.read();
+  for (double right_deg = -38.0; right_deg <= 38.0; right_deg += 0.1) {
+    for (double radius = 20.0; radius < 395.0; radius += 0.9) {
+      const double angle = right_deg * geo::kRadiansPerDegree;
+      const int x = static_cast<int>(240.0 + radius * std::sin(angle));
+      const int y = static_cast<int>(440.0 - radius * std::cos(angle));
+      if (x < 108 || x > 440) continue;  // the elevation scale and the range have black margins
+      const auto color = pixel(image, x, y);
+      EXPECT_TRUE(color[0] == 255 || color[1] + color[2] > 0) << x << ' ' << y;
+    }
+  }
+}
+
+TEST_F(GlassPictures, NothingIsDrawnBeyondTheSweepsRange) {
+  Glass glass({}, 480, test_colors());
+  glass.add(testing::toned_sweep(kHome, 10.0, 25.0, kRange_m / 2.0, 480, 255));
+  glass.draw(bare_input());
+  const imageio::Image image = glass.read();
+  const double angle = -12.5 * geo::kRadiansPerDegree;
+  const auto red_at = [&](double radius) {
+    return pixel(image, static_cast<int>(240.0 + radius * std::sin(angle)),
+                 static_cast<int>(440.0 - radius * std::cos(angle)))[0];
+  };
+  EXPECT_EQ(red_at(197.0), 255);
+  EXPECT_EQ(red_at(204.0), 0);
+}
+
+TEST_F(GlassPictures, TheNewerSweepCoversTheOlder) {
+  Glass glass({}, 480, test_colors());
+  glass.add(testing::toned_sweep(kHome, 10.0, 20.0, kRange_m, 480, 255));
+  glass.add(testing::toned_sweep(kHome, 17.0, 19.0, kRange_m, 480, 0));  // does not cover the older one's middle
+  glass.draw(bare_input());
+  const imageio::Image image = glass.read();
+  const auto red_at = [&](double bearing_deg) {
+    const double angle = (bearing_deg - kTrack_deg) * geo::kRadiansPerDegree;
+    return pixel(image, static_cast<int>(240.0 + 250.0 * std::sin(angle)),
+                 static_cast<int>(440.0 - 250.0 * std::cos(angle)))[0];
+  };
+  EXPECT_EQ(red_at(13.0), 255);
+  EXPECT_EQ(red_at(18.0), 0);
+}
+
+struct Sums {
+  long video = 0, symbols = 0;
+};
+
+Sums sums_of(const imageio::Image& image) {
+  Sums sums;
+  for (std::size_t i = 0; i < image.pixels.size(); i += 3) {
+    sums.video += image.pixels[i];
+    sums.symbols += image.pixels[i + 1];
+  }
+  return sums;
+}
+
+TEST_F(GlassPictures, BrightnessAndContrastChangeTheVideoAlone) {
+  GlassInput input = bare_input();
+  Glass glass({}, 480, test_colors());
+  glass.add(testing::toned_sweep(kHome, 10.0, 50.0, kRange_m, 480, 70));
+  input.state.brightness = 10;
+  glass.draw(input);
+  const Sums before = sums_of(glass.read());
+  // The level is a number on the glass: the same digits on both pictures keep the symbols equal.
+  input.state.contrast = 4;
+  ASSERT_TRUE(glass.draw(input));
+  const Sums flatter = sums_of(glass.read());
+  EXPECT_GT(flatter.video, before.video);
+  EXPECT_EQ(flatter.symbols, before.symbols);
+  input.state.contrast = 8;
+  input.state.brightness = 0;
+  glass.draw(input);
+  const Sums dark = sums_of(glass.read());
+  EXPECT_EQ(dark.video, 0);
+  EXPECT_GT(dark.symbols, before.symbols * 9 / 10);
+}
+
+TEST_F(GlassPictures, AnUnchangedGlassIsNotDrawnAgain) {
+  GlassInput input = bare_input();
+  Glass glass({}, 480);
+  glass.add(testing::toned_sweep(kHome, 10.0, 50.0, kRange_m, 480, 100));
+  EXPECT_TRUE(glass.draw(input));
+  EXPECT_FALSE(glass.draw(input));
+  input.state.tick += 1;
+  EXPECT_FALSE(glass.draw(input)) << "a tick alone is nothing drawn";
+  glass.add(testing::toned_sweep(kHome, 10.0, 50.0, kRange_m, 480, 90));
+  EXPECT_TRUE(glass.draw(input));
+  input.state.flags |= databuffer::kFreeze;
+  EXPECT_TRUE(glass.draw(input));
+  glass.resize(600);
+  EXPECT_TRUE(glass.draw(input));
+  EXPECT_EQ(glass.read().width, 600);
+}
+
+TEST_F(GlassPictures, AFrozenGlassStandsStillWhileTheAircraftFliesOn) {
+  GlassInput input = bare_input();
+  input.model.flags = databuffer::kModelFrozen;
+  Glass glass({}, 480);
+  glass.add(testing::toned_sweep(kHome, 10.0, 50.0, kRange_m, 480, 100));
+  glass.draw(input);
+  const auto before = glass.read().pixels;
+  const geo::GeoPoint ahead = testing::at(kTrack_deg, 3.0);
+  input.ownship.latitude_deg = input.nav.mission_latitude_deg = ahead.latitude_deg;
+  input.ownship.longitude_deg = input.nav.mission_longitude_deg = ahead.longitude_deg;
+  EXPECT_FALSE(glass.draw(input));
+  input.model.flags = databuffer::kModelScanning;
+  EXPECT_TRUE(glass.draw(input));
+  EXPECT_NE(glass.read().pixels, before);
+}
+
+TEST_F(GlassPictures, StandbyOffAndOtherModesShowNoVideo) {
+  Glass glass({}, 480, test_colors());
+  glass.add(testing::toned_sweep(kHome, 10.0, 50.0, kRange_m, 480, 255));
+  GlassInput input = bare_input();
+  glass.draw(input);
+  EXPECT_GT(red_spot(glass.read(), inside(480)).light, 0.0);
+  input.state.mode = static_cast<std::uint8_t>(radar::Mode::hrm);
+  glass.draw(input);
+  EXPECT_EQ(red_spot(glass.read(), inside(480)).light, 0.0);
+  input.state.mode = static_cast<std::uint8_t>(radar::Mode::rbm);
+  input.state.power = static_cast<std::uint8_t>(radar::Power::standby);
+  glass.draw(input);
+  EXPECT_EQ(red_spot(glass.read(), inside(480)).light, 0.0);
+  input.state.power = static_cast<std::uint8_t>(radar::Power::off);
+  glass.draw(input);
+  const auto picture = glass.read();
+  EXPECT_TRUE(std::ranges::all_of(picture.pixels, [](std::uint8_t value) { return value == 0; }));
+}
+
+TEST_F(GlassPictures, TheGrayScaleShowsEightStepsFromDarkToBright) {
+  Glass glass({}, 480, test_colors());
+  glass.draw(bare_input());
+  const imageio::Image image = glass.read();
+  int last = -1;
+  for (int gray = 0; gray < 8; ++gray) {
+    const int red = pixel(image, 427, 419 - gray * 10)[0];
+    EXPECT_GT(red, last) << gray;
+    last = red;
+  }
+  EXPECT_EQ(last, 255);
+}
+
+TEST_F(GlassPictures, AStrokeIsSoftAtItsEdgeAndWholeInItsMiddle) {
+  Glass glass({}, 960, test_colors());
+  glass.draw(bare_input());
+  const imageio::Image image = glass.read();
+  // The azimuth scale's tick at -60 deg: x 120 units, 2.7 pixels wide.
+  EXPECT_EQ(pixel(image, 240, 882)[1], 255);
+  EXPECT_EQ(pixel(image, 239, 882)[1], 255);
+  const int edge = pixel(image, 241, 882)[1];
+  EXPECT_GT(edge, 0);
+  EXPECT_LT(edge, 255);
+  EXPECT_EQ(pixel(image, 243, 882)[1], 0);
+}
+
+}  // namespace
+}  // namespace yars::display::gl
