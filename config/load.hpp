@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lib/failure/error.hpp"
@@ -17,5 +18,8 @@ struct LoadedConfiguration {
 
 // An empty path gives the built-in defaults. Errors carry file, line, column and what was expected.
 failure::Expected<LoadedConfiguration> load_configuration(const std::filesystem::path& path);
+
+// The same from a text in memory, which cannot include; `name` stands for it in messages.
+failure::Expected<LoadedConfiguration> load_configuration_text(std::string_view text, const std::string& name);
 
 }  // namespace yars::config

@@ -1,0 +1,31 @@
+// What the slots of GUF write into: the configuration, and the form in hand where forms come in numbers.
+#pragma once
+
+#include "lib/radar/configuration.hpp"
+
+namespace yars::config {
+
+// ( lat-long N 35 44 51 ) while it is read.
+struct SexagesimalAngle {
+  int direction = 0;  // index into N S E W
+  double degrees = 0.0;
+  double minutes = 0.0;
+  double seconds = 0.0;
+};
+
+inline constexpr int kKindByName = -1;  // the name alone tells what a point is
+
+struct Draft {
+  radar::RadarConfiguration radar{};
+  int window_height_pixels = radar::ViewConfiguration{}.size_pixels;  // equals the width: the glass is square
+  radar::RoutePoint point{};
+  int point_kind = kKindByName;  // a radar::PointKind when it is given
+  SexagesimalAngle angle{};
+};
+
+// A draft that stands for a finished configuration.
+inline Draft draft_of(const radar::RadarConfiguration& configuration) {
+  return {.radar = configuration, .window_height_pixels = configuration.view.size_pixels};
+}
+
+}  // namespace yars::config

@@ -1,0 +1,181 @@
+#include "config/form_reader.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "config/parser.hpp"
+#include "config/rejection.hpp"
+#include "config/slot_reader.hpp"
+
+namespace yars::config {
+namespace {
+
+// Refuses a second value for one slot of a form.
+template <class Assigned>
+void refuse_repetition(const std::vector<Assigned>& assigned, const SlotSchema& schema, const Slot& slot) {
+  for (const auto& earlier : assigned) {
+    if (earlier.schema != &schema) continue;
+    reject(slot.where, "the slot :" + std::string(schema.name) + " once in its form",
+           "it again, first at " + text_of(earlier.slot->where));
+  }
+}
+
+bool accepts(const FormSlot& kind, const FormSchema& schema) {
+  return std::find(kind.accepted.begin(), kind.accepted.end(), schema.name) != kind.accepted.end();
+}
+
+}  // namespace
+
+void FormReader::read_all(const std::vector<Slot>& arguments) {
+  for (const Slot& argument : arguments) {
+    const auto* form = std::get_if<Form>(&argument.value.data);
+    const bool bare = argument.name.empty() && argument.position == 0;
+    if (form == nullptr || !bare) {
+      reject(argument.where, "a form, as ( Apg70 ... )", bare ? description(argument.value) : "a slot");
+    }
+    if (form->name == "def-form") {
+      book_.define(*form, argument.where);
+    } else {
+      read_outermost(*form, argument.where);
+    }
+  }
+}
+
+void FormReader::read_outermost(const Form& form, const Location& where) {
+  const KnownForm known = book_.look_up(form.name);
+  if (known.schema == nullptr) {
+    warn(where, "the form " + form.name + " is unknown and ignored");
+    return;
+  }
+  if (known.schema->part_of_value) {
+    reject(where, "a form that configures something, as ( Apg70 ... )", "( " + form.name + " ... ) alone",
+           "it belongs into a slot");
+  }
+  read_form(form, where, known);
+}
+
+void FormReader::read_form(const Form& form, const Location& where, const KnownForm& known) {
+  const FormSchema& schema = *known.schema;
+  warn_spelling(where, form.name, schema.name, known.spelling);
+  if (known.defined_in_text) {
+    warn(where, "the form " + form.name + " is read as its base " + std::string(schema.name));
+  }
+  const auto assigned = assign(form, where, known);
+  if (schema.begin) schema.begin(draft_);
+  for (const bool first : {true, false}) {
+    for (const Assigned& one : assigned) {
+      if (one.schema->before_others == first) read_slot(*one.schema, one.slot->value, std::string(schema.name));
+    }
+  }
+  if (schema.check) {
+    if (const auto complaint = schema.check(draft_)) {
+      const auto given = std::find_if(assigned.begin(), assigned.end(),
+                                      [&](const Assigned& one) { return one.schema->name == complaint->slot; });
+      reject(given == assigned.end() ? where : given->slot->value.where,
+             complaint->expected + " for :" + std::string(complaint->slot), complaint->found);
+    }
+  }
+  if (schema.end) schema.end(draft_);
+}
+
+std::vector<FormReader::Assigned> FormReader::assign(const Form& form, const Location& where, const KnownForm& known) {
+  if (form.name == "def-form") reject(where, "def-form outside all other forms", "it inside one");
+  std::vector<Assigned> assigned;
+  int place = 0;
+  for (const Slot& slot : form.slots) {
+    const SlotSchema* schema = row_of(slot, ++place, form, known);
+    if (schema == nullptr) continue;
+    refuse_repetition(assigned, *schema, slot);
+    assigned.push_back({schema, &slot});
+  }
+  return assigned;
+}
+
+// The row of a slot; null for one that is read by nobody, after a warning.
+const SlotSchema* FormReader::row_of(const Slot& slot, int place, const Form& form, const KnownForm& known) {
+  const FormSchema& schema = *known.schema;
+  if (slot.name.empty()) {
+    const auto position = static_cast<std::size_t>(slot.position == 0 ? place : slot.position);
+    if (position <= schema.slots.size()) return &schema.slots[position - 1];
+    if (position > schema.slots.size() + known.own_slots.size()) {
+      reject(slot.where,
+             "at most " + std::to_string(schema.slots.size() + known.own_slots.size()) + " slots in " + form.name,
+             "position " + std::to_string(position));
+    }
+    warn(slot.where, ":" + known.own_slots[position - schema.slots.size() - 1] + " is read, not used");
+    return nullptr;
+  }
+  if (slot.name == "is=") reject(slot.where, "is= in a def-form only", "it in " + form.name);
+  const auto found = find_slot(schema, slot.name);
+  if (found.schema != nullptr) {
+    warn_spelling(slot.where, ":" + slot.name, ":" + std::string(found.schema->name), found.spelling);
+    return found.schema;
+  }
+  const auto own = std::find(known.own_slots.begin(), known.own_slots.end(), slot.name);
+  const std::string_view nearest = nearest_slot(schema, slot.name);
+  if (own != known.own_slots.end()) {
+    warn(slot.where, ":" + slot.name + " is read, not used");
+  } else if (nearest.empty()) {
+    warn(slot.where, "the form " + form.name + " has no slot :" + slot.name + "; it is ignored");
+  } else {
+    warn(slot.where, "the form " + form.name + " has no slot :" + slot.name +
+                         "; it is ignored; :" + std::string(nearest) + " is near");
+  }
+  return nullptr;
+}
+
+void FormReader::read_slot(const SlotSchema& schema, const Value& value, const std::string& form) {
+  const bool used = is_used(schema);
+  if (!used && !unused_) warn(value.where, ":" + std::string(schema.name) + " of " + form + " is read, not used");
+  const bool outer = std::exchange(unused_, unused_ || !used);
+  if (const auto* kind = std::get_if<FormSlot>(&schema.binding)) {
+    read_forms(schema, *kind, value);
+  } else if (std::holds_alternative<AngleSlot>(schema.binding) && std::holds_alternative<Form>(value.data)) {
+    const Form& angle = std::get<Form>(value.data);
+    const KnownForm known = book_.look_up(angle.name);
+    if (known.schema == nullptr || known.schema->name != "lat-long") {
+      reject(value.where, value_kind(schema) + " for :" + std::string(schema.name), description(value));
+    }
+    read_form(angle, value.where, known);
+    read_sexagesimal(draft_, schema, value.where);
+  } else {
+    read_simple(draft_, schema, value);
+  }
+  unused_ = outer;
+}
+
+void FormReader::read_forms(const SlotSchema& schema, const FormSlot& kind, const Value& value) {
+  const auto* list = std::get_if<List>(&value.data);
+  if (list == nullptr || !kind.many) {
+    read_form_of_slot(schema, kind, value, false);
+    return;
+  }
+  for (const Value& item : list->items) read_form_of_slot(schema, kind, item, true);
+}
+
+void FormReader::read_form_of_slot(const SlotSchema& schema, const FormSlot& kind, const Value& value, bool in_list) {
+  const auto* form = std::get_if<Form>(&value.data);
+  const KnownForm known = form == nullptr ? KnownForm{} : book_.look_up(form->name);
+  const bool unknown = form != nullptr && known.schema == nullptr;
+  if (unknown && in_list) {
+    warn(value.where, "the form " + form->name + " is unknown and ignored");
+    return;
+  }
+  if (form == nullptr || unknown || !accepts(kind, *known.schema)) {
+    reject(value.where, value_kind(schema) + " for :" + std::string(schema.name),
+           description(value) + (unknown ? ", which is unknown" : ""));
+  }
+  read_form(*form, value.where, known);
+}
+
+void FormReader::warn(const Location& where, const std::string& text) {
+  if (warnings_.size() < kMaxWarnings) warnings_.push_back(text_of(where) + ": " + text);
+}
+
+void FormReader::warn_spelling(const Location& where, const std::string& found, std::string_view modern,
+                               Spelling spelling) {
+  if (spelling == Spelling::exact) return;
+  warn(where, found + " is an old spelling; write " + std::string(modern));
+}
+
+}  // namespace yars::config

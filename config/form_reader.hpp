@@ -1,0 +1,41 @@
+// The tree of a configuration into a draft, by the schema.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/draft.hpp"
+#include "config/form_book.hpp"
+#include "config/value.hpp"
+
+namespace yars::config {
+
+// Reads forms in the order of the text; what comes later wins. Throws Rejection.
+class FormReader {
+ public:
+  FormReader(Draft& draft, std::vector<std::string>& warnings) : draft_(draft), warnings_(warnings) {}
+  void read_all(const std::vector<Slot>& arguments);
+
+ private:
+  // The slots of one form with the rows they belong to, ready to be read.
+  struct Assigned {
+    const SlotSchema* schema;
+    const Slot* slot;
+  };
+  void read_outermost(const Form& form, const Location& where);
+  void read_form(const Form& form, const Location& where, const KnownForm& known);
+  std::vector<Assigned> assign(const Form& form, const Location& where, const KnownForm& known);
+  const SlotSchema* row_of(const Slot& slot, int place, const Form& form, const KnownForm& known);
+  void read_slot(const SlotSchema& schema, const Value& value, const std::string& form);
+  void read_forms(const SlotSchema& schema, const FormSlot& kind, const Value& value);
+  void read_form_of_slot(const SlotSchema& schema, const FormSlot& kind, const Value& value, bool in_list);
+  void warn(const Location& where, const std::string& text);
+  void warn_spelling(const Location& where, const std::string& found, std::string_view modern, Spelling spelling);
+
+  Draft& draft_;
+  std::vector<std::string>& warnings_;
+  FormBook book_;
+  bool unused_ = false;  // inside a form that nobody uses: its slots need no word of their own
+};
+
+}  // namespace yars::config

@@ -1,0 +1,95 @@
+#include <array>
+
+#include "config/field.hpp"
+#include "config/forms.hpp"
+
+namespace yars::config {
+namespace {
+
+constexpr std::array<std::string_view, 2> kColourModes{"colormap", "rgb"};
+constexpr std::array<std::string_view, 4> kBufferModes{"doublebuffer", "singlebuffer", "double", "single"};
+
+std::vector<SlotSchema> view_slots() {
+  return {{.name = "width",
+           .unit = "ranges",
+           .lowest = -4,
+           .highest = 4,
+           .binding = SpanSlot{YARS_FIELD(radar.view.width_min), YARS_FIELD(radar.view.width_max), true},
+           .purpose = "left and right edge of the glass, the aircraft at 0"},
+          {.name = "height",
+           .unit = "ranges",
+           .lowest = -4,
+           .highest = 4,
+           .binding = SpanSlot{YARS_FIELD(radar.view.height_min), YARS_FIELD(radar.view.height_max), false},
+           .purpose = "bottom and top edge of the glass, the aircraft at 0"}};
+}
+
+std::vector<SlotSchema> unused_view_slots() {
+  return {{.name = "width", .lowest = -4, .highest = 4, .binding = SpanSlot{}, .purpose = "left and right edge"},
+          {.name = "height",
+           .lowest = -4,
+           .highest = 4,
+           .binding = SpanSlot{nullptr, nullptr, false},
+           .purpose = "bottom and top edge"}};
+}
+
+std::optional<Complaint> check_square(const Draft& draft) {
+  if (draft.window_height_pixels == draft.radar.view.size_pixels) return std::nullopt;
+  return Complaint{"height", "the width, " + std::to_string(draft.radar.view.size_pixels) + " (the glass is square)",
+                   std::to_string(draft.window_height_pixels)};
+}
+
+FormSchema window() {
+  return {.name = "Window",
+          .purpose = "the window of the glass",
+          .slots = {{.name = "width",
+                     .unit = "pixels",
+                     .lowest = 64,
+                     .highest = 4096,
+                     .binding = IntegerSlot{YARS_FIELD(radar.view.size_pixels)},
+                     .purpose = "width of the glass"},
+                    {.name = "height",
+                     .unit = "pixels",
+                     .lowest = 64,
+                     .highest = 4096,
+                     .binding = IntegerSlot{YARS_FIELD(window_height_pixels)},
+                     .purpose = "height of the glass, equal to the width"},
+                    {.name = "colorIndex",
+                     .lowest = 0,
+                     .highest = 4095,
+                     .binding = IntegerSlot{},
+                     .purpose = "first entry in the colour map of 1996"},
+                    {.name = "colors",
+                     .binding = FormSlot{{"rgb", "rgba", "hsv", "hsva"}, {}, true},
+                     .purpose = "colours of the 1996 glass"},
+                    {.name = "cmode", .binding = ChoiceSlot{kColourModes}, .purpose = "colour mode of 1996"},
+                    {.name = "bmode",
+                     .binding = ChoiceSlot{kBufferModes},
+                     .purpose = "buffer mode of 1996",
+                     .old_name = "mode"}},
+          .check = check_square};
+}
+
+}  // namespace
+
+std::vector<FormSchema> display_forms() {
+  return {
+      window(),
+      {.name = "Display", .purpose = "what part of the ground the glass shows", .slots = view_slots()},
+      {.name = "RbmDisplay",
+       .base = "Display",
+       .purpose = "the picture of the real beam map",
+       .slots = with_base(view_slots(), {{.name = "rangeRings",
+                                          .unit = "NM",
+                                          .lowest = 0,
+                                          .highest = 500,
+                                          .binding = ListSlot{nullptr, 0, 16},
+                                          .purpose = "range rings of 1996"}})},
+      {.name = "SarDisplay",
+       .base = "Display",
+       .purpose = "the picture of the high resolution map",
+       .slots = unused_view_slots()},
+      {.name = "MgDisplay", .base = "Display", .purpose = "the test picture of 1996", .slots = unused_view_slots()}};
+}
+
+}  // namespace yars::config

@@ -1,0 +1,106 @@
+#include <algorithm>
+#include <array>
+
+#include "config/fidelity_preset.hpp"
+#include "config/field.hpp"
+#include "config/forms.hpp"
+
+namespace yars::config {
+namespace {
+
+// In the order of the enumerations.
+constexpr std::array<std::string_view, 2> kAlgorithms{"standard", "reference"};
+constexpr std::array<std::string_view, 3> kEarthModels{"flat", "sphere", "ellipsoid"};
+constexpr std::array<std::string_view, 3> kBeams{"hard-edge", "gaussian", "cosecant-squared"};
+
+int preset_of(const Draft& draft) {
+  const auto names = fidelity_names();
+  const auto found = std::find(names.begin(), names.end(), draft.radar.fidelity.name);
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
+void set_preset(Draft& draft, int index) {
+  draft.radar.fidelity = *fidelity_preset(fidelity_names()[static_cast<std::size_t>(index)]);
+}
+
+SlotSchema flag(std::string_view name, bool& (*of)(Draft&), std::string_view purpose) {
+  return {.name = name, .binding = BooleanSlot{of}, .purpose = purpose};
+}
+
+std::vector<SlotSchema> fidelity_slots() {
+  return {
+      {.name = "preset",
+       .binding = ChoiceSlot{fidelity_names(), preset_of, set_preset},
+       .purpose = "sets all knobs; each can then be set alone",
+       .before_others = true},
+      {.name = "algorithm",
+       .binding = ChoiceSlot{kAlgorithms, [](const Draft& draft) { return int(draft.radar.fidelity.algorithm); },
+                             [](Draft& draft, int index) { draft.radar.fidelity.algorithm = radar::Algorithm(index); }},
+       .purpose = "reference: plain and exact, the ruler of the tests"},
+      {.name = "earth",
+       .binding = ChoiceSlot{kEarthModels, [](const Draft& draft) { return int(draft.radar.fidelity.earth); },
+                             [](Draft& draft, int index) { draft.radar.fidelity.earth = radar::EarthModel(index); }},
+       .purpose = "shape of the earth"},
+      {.name = "earthRadiusFactor",
+       .lowest = 0.5,
+       .highest = 10,
+       .binding = NumberSlot{YARS_FIELD(radar.fidelity.earth_radius_factor)},
+       .purpose = "refraction as an effective earth radius; 1 = none"},
+      {.name = "samples",
+       .lowest = 1,
+       .highest = 4096,
+       .binding = IntegerSlot{YARS_FIELD(radar.fidelity.samples)},
+       .purpose = "samples of a sweep"},
+      flag("slantRange", YARS_FIELD(radar.fidelity.slant_range), "samples even in slant instead of ground range"),
+      flag("crossTrackSlope", YARS_FIELD(radar.fidelity.cross_track_slope),
+           "incidence with the slope across the sweep"),
+      flag("noise", YARS_FIELD(radar.fidelity.noise), "thermal noise and speckle"),
+      flag("azimuthSmear", YARS_FIELD(radar.fidelity.azimuth_smear), "smear over the beam width"),
+      flag("pulseSmear", YARS_FIELD(radar.fidelity.pulse_smear), "smear over the pulse length"),
+      {.name = "beam",
+       .binding = ChoiceSlot{kBeams, [](const Draft& draft) { return int(draft.radar.fidelity.beam); },
+                             [](Draft& draft, int index) { draft.radar.fidelity.beam = radar::BeamPattern(index); }},
+       .purpose = "beam in elevation"}};
+}
+
+SlotSchema number(std::string_view name, std::string_view unit, double lowest, double highest, double& (*of)(Draft&),
+                  std::string_view purpose) {
+  return {
+      .name = name, .unit = unit, .lowest = lowest, .highest = highest, .binding = NumberSlot{of}, .purpose = purpose};
+}
+
+std::vector<SlotSchema> receiver_slots() {
+  return {number("frequency", "GHz", 1, 40, YARS_FIELD(radar.receiver.frequency_ghz), "carrier"),
+          number("stcExponent", "", 0, 6, YARS_FIELD(radar.receiver.stc_exponent),
+                 "sensitivity time control, power of range over its reference"),
+          number("dynamicRange", "dB", 10, 120, YARS_FIELD(radar.receiver.dynamic_range_db), "black to white"),
+          number("gainStep", "dB", 0, 40, YARS_FIELD(radar.receiver.gain_step_db), "a step of GAIN 3 to 0"),
+          number("landGamma", "dB", -60, 20, YARS_FIELD(radar.receiver.land_gamma_db),
+                 "return of land at vertical incidence"),
+          number("seaGamma", "dB", -80, 20, YARS_FIELD(radar.receiver.sea_gamma_db),
+                 "return of sea at vertical incidence")};
+}
+
+std::vector<SlotSchema> noise_slots() {
+  return {number("floor", "dB", -120, 0, YARS_FIELD(radar.receiver.noise_floor_db), "thermal noise below full scale"),
+          {.name = "looks",
+           .lowest = 1,
+           .highest = 64,
+           .binding = IntegerSlot{YARS_FIELD(radar.receiver.looks)},
+           .purpose = "independent looks that speckle is averaged over"},
+          {.name = "seed",
+           .lowest = 0,
+           .highest = 9'007'199'254'740'992.0,  // 2^53: every integer up to it is a double
+           .binding = CounterSlot{YARS_FIELD(radar.seed)},
+           .purpose = "equal seeds give equal noise"}};
+}
+
+}  // namespace
+
+std::vector<FormSchema> model_forms() {
+  return {{.name = "Fidelity", .purpose = "speed against accuracy", .slots = fidelity_slots()},
+          {.name = "Receiver", .purpose = "receiver and ground return", .slots = receiver_slots()},
+          {.name = "Noise", .purpose = "thermal noise and speckle", .slots = noise_slots()}};
+}
+
+}  // namespace yars::config

@@ -1,0 +1,111 @@
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "config/field.hpp"
+#include "config/forms.hpp"
+#include "config/value.hpp"
+#include "lib/radar/point_name.hpp"
+
+namespace yars::config {
+namespace {
+
+// In the order of radar::PointKind.
+constexpr std::array<std::string_view, 5> kKinds{"steer", "initial", "target", "steer-offset", "target-offset"};
+
+radar::PointKind kind_by_name(const radar::PointName& name) {
+  if (name.offset != 0) return name.target ? radar::PointKind::target_offset : radar::PointKind::steer_offset;
+  return name.target ? radar::PointKind::target : radar::PointKind::steer;
+}
+
+// Steer and initial points share a spelling; every other kind is told by the name.
+std::optional<Complaint> check_point(const Draft& draft) {
+  const auto name = radar::point_name(draft.point.name);
+  if (!name) {
+    return Complaint{"name", "a name of a sequence point: \"2\", \"2.\", \"2.1\" or \"2.01\", 1 to 100",
+                     quoted_text(draft.point.name)};
+  }
+  if (std::isnan(draft.point.place.latitude_deg)) return Complaint{"latitude", "a latitude", "none"};
+  if (std::isnan(draft.point.place.longitude_deg)) return Complaint{"longitude", "a longitude", "none"};
+  for (const auto& other : draft.radar.route) {
+    if (other.name == draft.point.name) return Complaint{"name", "a name once in a route", quoted_text(other.name)};
+  }
+  if (draft.point_kind == kKindByName) return std::nullopt;
+  const auto given = static_cast<radar::PointKind>(draft.point_kind);
+  const auto by_name = kind_by_name(*name);
+  if (given == by_name || (given == radar::PointKind::initial && by_name == radar::PointKind::steer)) {
+    return std::nullopt;
+  }
+  return Complaint{
+      "kind",
+      "the kind that the name " + draft.point.name + " has, " + std::string(kKinds[static_cast<std::size_t>(by_name)]),
+      std::string(kKinds[static_cast<std::size_t>(draft.point_kind)])};
+}
+
+void begin_point(Draft& draft) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  draft.point = {};
+  draft.point.place = {kUnknown, kUnknown};
+  draft.point.elevation_m = kUnknown;
+  draft.point_kind = kKindByName;
+}
+
+void end_point(Draft& draft) {
+  draft.point.kind = draft.point_kind == kKindByName ? kind_by_name(*radar::point_name(draft.point.name))
+                                                     : static_cast<radar::PointKind>(draft.point_kind);
+  draft.radar.route.push_back(draft.point);
+}
+
+FormSchema point() {
+  return {.name = "Point",
+          .purpose = "a sequence point",
+          .slots = {{.name = "name",
+                     .binding = TextSlot{YARS_FIELD(point.name)},
+                     .purpose = "\"2\", target \"2.\", offset \"2.1\", target offset \"2.01\""},
+                    {.name = "latitude",
+                     .unit = "deg",
+                     .lowest = -90,
+                     .highest = 90,
+                     .binding = AngleSlot{YARS_FIELD(point.place.latitude_deg), true},
+                     .purpose = "WGS84, north positive"},
+                    {.name = "longitude",
+                     .unit = "deg",
+                     .lowest = -180,
+                     .highest = 180,
+                     .binding = AngleSlot{YARS_FIELD(point.place.longitude_deg), false},
+                     .purpose = "WGS84, east positive"},
+                    {.name = "elevation",
+                     .unit = "ft",
+                     .lowest = -1500,
+                     .highest = 30'000,
+                     .binding = NumberSlot{YARS_FIELD(point.elevation_m), geo::kMetresPerFoot},
+                     .purpose = "above mean sea level; left out: unknown"},
+                    {.name = "kind",
+                     .binding = ChoiceSlot{kKinds, [](const Draft& draft) { return draft.point_kind; },
+                                           [](Draft& draft, int index) { draft.point_kind = index; }},
+                     .purpose = "left out: by the name; only initial needs it"}},
+          .part_of_value = true,
+          .begin = begin_point,
+          .check = check_point,
+          .end = end_point,
+          .count = [](const Draft& draft) { return draft.radar.route.size(); },
+          .select =
+              [](Draft& draft, std::size_t index) {
+                draft.point = draft.radar.route[index];
+                draft.point_kind = static_cast<int>(draft.point.kind);
+              }};
+}
+
+}  // namespace
+
+std::vector<FormSchema> route_forms() {
+  return {{.name = "Route",
+           .purpose = "the sequence points; replaces an earlier route",
+           .slots = {{.name = "points",
+                      .binding = FormSlot{{"Point"}, {"Point"}, true},
+                      .purpose = "at most 100 points and their offsets"}},
+           .begin = [](Draft& draft) { draft.radar.route.clear(); }},
+          point()};
+}
+
+}  // namespace yars::config

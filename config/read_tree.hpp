@@ -1,0 +1,17 @@
+// A GUF file and what it includes, as one tree. `( include "part.guf" )` stands for what is in that file: several
+// arguments where it is an argument by position, one value where it is the value of a slot. The path is relative to
+// the including file and stays inside the folder of the first file. Errors: file, cycle, depth, count, outside.
+#pragma once
+
+#include <filesystem>
+
+#include "config/parser.hpp"
+
+namespace yars::config {
+
+inline constexpr int kMaxIncludeDepth = 8;
+inline constexpr int kMaxIncludes = 64;  // files of one configuration, repetitions counted
+
+failure::Expected<ParsedText> read_tree(const std::filesystem::path& path);
+
+}  // namespace yars::config

@@ -1,0 +1,42 @@
+// What scanner and parser share while one text is read: the place, the limits, the result.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "config/parser.hpp"
+#include "config/rejection.hpp"
+
+namespace yars::config {
+
+struct ScanState {
+  Location next;        // where the next character stands
+  Location token;       // where the newest token begins
+  std::string spelled;  // the newest token's text, shortened, for messages
+  int depth = 0;
+  bool comma_seen = false;  // one warning a file is enough for commas
+  ParsedText result;
+
+  // Takes `text` as the newest token; counts lines and characters.
+  void advance(std::string_view text);
+  void open_bracket();
+  void close_bracket();
+  void warn_comma(const Location& where);
+  void warn_old_spelling(const Location& where, const std::string& old_form, const std::string& modern);
+};
+
+// Text of a token to its value; `state.token` is the place of a complaint.
+double number_of(std::string_view text, const ScanState& state);
+int position_of(std::string_view text, const ScanState& state);        // ":12"
+std::string string_of(std::string_view text, const ScanState& state);  // with quotes and escapes
+
+// A control or non-ASCII character as <0x07>, a long text shortened.
+std::string printable(std::string_view text);
+
+// The value of ( name arguments ): a list for `guf`.
+Value form_value(const Location& where, const std::string& name, std::vector<Slot> arguments);
+Value list_value(const Location& where, std::vector<Slot> arguments);
+// `{ 100, 50 }` and commas are read; the warning shows the list as it is written today.
+void warn_braces(ScanState& state, const Value& list);
+
+}  // namespace yars::config

@@ -1,0 +1,50 @@
+#include "config/value.hpp"
+
+#include <array>
+#include <charconv>
+
+namespace yars::config {
+namespace {
+
+struct Describer {
+  std::string operator()(double number) const { return "the number " + number_text(number); }
+  std::string operator()(bool flag) const { return flag ? "true" : "false"; }
+  std::string operator()(const std::string& text) const { return "the string " + quoted_text(text.substr(0, 40)); }
+  std::string operator()(const Identifier& identifier) const { return "the identifier " + identifier.name; }
+  std::string operator()(const List& list) const { return "a list of " + std::to_string(list.items.size()); }
+  std::string operator()(const Form& form) const { return "the form " + form.name; }
+};
+
+}  // namespace
+
+std::string text_of(const Location& where) {
+  const std::string file = where.file ? *where.file : std::string("text");
+  return file + ":" + std::to_string(where.line) + ":" + std::to_string(where.column);
+}
+
+std::string description(const Value& value) {
+  return std::visit(Describer{}, value.data);
+}
+
+std::string number_text(double value) {
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  return {digits.data(), end.ptr};
+}
+
+std::string quoted_text(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char letter : text) {
+    if (letter == '\n') {
+      quoted += "\\n";
+    } else if (letter == '\t') {
+      quoted += "\\t";
+    } else {
+      if (letter == '"' || letter == '\\') quoted += '\\';
+      quoted += letter;
+    }
+  }
+  return quoted + "\"";
+}
+
+}  // namespace yars::config
