@@ -199,8 +199,15 @@ def check_names(root, name):
         yield 1, "name", f"expected lower_snake, found '{path.name}'"
     # The commands' functions are declared together, in tools/*command*.hpp.
     unpaired = name.startswith(("tests/", "tools/")) or name.endswith(("_main.cpp", "_shell.cpp"))
-    if path.suffix == ".cpp" and not unpaired and not (root / path.with_suffix(".hpp")).is_file():
+    if path.suffix == ".cpp" and not unpaired and not has_header(root, path):
         yield 1, "pair", f"no header {path.stem}.hpp beside it"
+
+
+def has_header(root, source):
+    """A header of the source's name, or one whose sources are a family: forms.hpp has forms_antenna.cpp and others."""
+    words = source.stem.split("_")
+    stems = ["_".join(words[:count]) for count in range(len(words), 0, -1)]
+    return any((root / source.with_name(stem + ".hpp")).is_file() for stem in stems)
 
 
 def check_text(text):
