@@ -1,6 +1,8 @@
 #include "statemachine/machine.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <span>
 
 #include "statemachine/cursor.hpp"
 #include "statemachine/legends.hpp"
@@ -27,6 +29,11 @@ void enter_epoch(RadarState& state, std::uint32_t epoch) {
   state.message_until_tick = 0;
 }
 
+// Bytes, not values: NaN must equal itself, and whoever publishes compares bytes too.
+bool same_bytes(const RadarState& a, const RadarState& b) {
+  return std::ranges::equal(std::as_bytes(std::span(&a, 1)), std::as_bytes(std::span(&b, 1)));
+}
+
 void end_message(RadarState& state, std::int64_t tick) {
   if (state.message[0] == '\0' || tick < state.message_until_tick) return;
   std::memset(state.message, 0, sizeof(state.message));
@@ -46,7 +53,7 @@ bool apply(RadarState& state, const databuffer::InputEvent& event, const Surroun
   const RadarState before = state;
   Step step{state, event, surroundings, configuration};
   action(step);
-  if (std::memcmp(&before, &state, sizeof(state)) == 0) return false;
+  if (same_bytes(before, state)) return false;
   draw_points(state, surroundings, configuration);
   return true;
 }
