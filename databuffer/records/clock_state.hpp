@@ -14,8 +14,8 @@ struct ClockState {
   std::uint32_t epoch;             // raised by each reset or repositioning
   double reposition_latitude_deg;  // [deg] of the last repositioning; NaN = none in this epoch
   double reposition_longitude_deg;
-  double reposition_altitude_m;    // [m] MSL
-  double reposition_heading_deg;   // [deg] true
+  double reposition_altitude_m;   // [m] MSL
+  double reposition_heading_deg;  // [deg] true
   std::uint64_t reserved[4];
 };
 static_assert(sizeof(ClockState) == 96 && std::is_trivially_copyable_v<ClockState>);

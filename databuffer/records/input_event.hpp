@@ -9,12 +9,12 @@ namespace yars::databuffer {
 
 enum class EventKind : std::uint16_t {
   none = 0,
-  push_button = 1,      // argument: 1..20
-  tdc = 2,              // x, y: -1..1, held until changed
+  push_button = 1,  // argument: 1..20
+  tdc = 2,          // x, y: -1..1, held until changed
   tdc_press = 3,
   tdc_release = 4,
   coolie_up = 5,
-  acquisition = 6,      // argument: +1 fwd, -1 aft
+  acquisition = 6,  // argument: +1 fwd, -1 aft
   freeze = 7,
   elevation = 8,        // x: [deg] absolute
   elevation_step = 9,   // argument: steps of 0.5 deg, signed
@@ -34,8 +34,8 @@ struct InputEvent {
   double y;                      // TDC deflection up [-1, 1]
   std::uint16_t kind;            // EventKind
   std::int16_t argument;
-  std::uint32_t number;          // counts up per source; `yars inject` waits for its own
-  char text[16];                 // zero terminated
+  std::uint32_t number;  // counts up per source; `yars inject` waits for its own
+  char text[16];         // zero terminated
 };
 static_assert(sizeof(InputEvent) == 56 && std::is_trivially_copyable_v<InputEvent>);
 static_assert(offsetof(InputEvent, kind) == 32 && offsetof(InputEvent, text) == 40);

@@ -16,8 +16,12 @@ Bearing Bearing::degrees(double value) {
   return Bearing(turned >= 360.0 ? 0.0 : turned);
 }
 
-Bearing Bearing::radians(double value) { return degrees(value / kRadiansPerDegree); }
+Bearing Bearing::radians(double value) {
+  return degrees(value / kRadiansPerDegree);
+}
 
-Angle operator-(Bearing to, Bearing from) { return Angle::degrees(wrapped_degrees(to.degrees_ - from.degrees_)); }
+Angle operator-(Bearing to, Bearing from) {
+  return Angle::degrees(wrapped_degrees(to.degrees_ - from.degrees_));
+}
 
 }  // namespace yars::geo

@@ -10,7 +10,9 @@
 namespace yars::geo {
 
 namespace {
-const GeographicLib::Geodesic& wgs84() { return GeographicLib::Geodesic::WGS84(); }
+const GeographicLib::Geodesic& wgs84() {
+  return GeographicLib::Geodesic::WGS84();
+}
 }  // namespace
 
 GeodesicInverse geodesic_inverse(GeoPoint from, GeoPoint to) {
@@ -37,10 +39,10 @@ GeodesicRay::GeodesicRay(GeoPoint start, Bearing azimuth) {
   static_assert(sizeof(Line) <= sizeof(storage_) && alignof(Line) <= alignof(std::max_align_t));
   // Copied byte by byte and never destroyed: that is sound only for plain numbers.
   static_assert(std::is_trivially_copyable_v<Line> && std::is_trivially_destructible_v<Line>);
-  ::new (storage_.data()) Line{wgs84().Line(start.latitude_deg, start.longitude_deg, azimuth.degrees(),
-                                            GeographicLib::Geodesic::LATITUDE | GeographicLib::Geodesic::LONGITUDE |
-                                                GeographicLib::Geodesic::AZIMUTH |
-                                                GeographicLib::Geodesic::DISTANCE_IN)};
+  ::new (storage_.data())
+      Line{wgs84().Line(start.latitude_deg, start.longitude_deg, azimuth.degrees(),
+                        GeographicLib::Geodesic::LATITUDE | GeographicLib::Geodesic::LONGITUDE |
+                            GeographicLib::Geodesic::AZIMUTH | GeographicLib::Geodesic::DISTANCE_IN)};
 }
 
 const GeodesicRay::Line& GeodesicRay::line() const {

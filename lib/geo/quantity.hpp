@@ -27,8 +27,9 @@ class Quantity {
   double si_ = 0.0;
 };
 
-inline constexpr double kMetresPerNauticalMile = 1852.0;  // [m] exact, 1929 convention; ranges and NM readouts scale by it
-inline constexpr double kMetresPerFoot = 0.3048;          // [m] exact, international foot
+inline constexpr double kMetresPerNauticalMile =
+    1852.0;                                       // [m] exact, 1929 convention; ranges and NM readouts scale by it
+inline constexpr double kMetresPerFoot = 0.3048;  // [m] exact, international foot
 inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 class Length : public Quantity<Length> {

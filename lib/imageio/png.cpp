@@ -31,7 +31,8 @@ failure::Expected<void> write_png(const std::filesystem::path& path, const Image
   // Written beside and renamed, so that whoever watches the folder never reads half a picture.
   const std::string beside = path.string() + ".tmp";
   if (png_image_write_to_file(&png, beside.c_str(), 0, image.pixels.data(), 0, nullptr) == 0)
-    return failure::fail(path.string(), "a PNG file to be written", png.message, "check the folder and the space on the disk");
+    return failure::fail(path.string(), "a PNG file to be written", png.message,
+                         "check the folder and the space on the disk");
   std::error_code code;
   std::filesystem::rename(beside, path, code);
   if (code) return failure::fail(path.string(), "a file that can be replaced", code.message());
@@ -45,12 +46,14 @@ failure::Expected<Image> read_png(const std::filesystem::path& path) {
   if (png_image_begin_read_from_file(&png, path.c_str()) == 0)
     return failure::fail(path.string(), "a PNG file", png.message);
   Image image;
-  image.channels = (png.format & PNG_FORMAT_FLAG_ALPHA) != 0U ? 4 : ((png.format & PNG_FORMAT_FLAG_COLOR) != 0U ? 3 : 1);
+  image.channels =
+      (png.format & PNG_FORMAT_FLAG_ALPHA) != 0U ? 4 : ((png.format & PNG_FORMAT_FLAG_COLOR) != 0U ? 3 : 1);
   png.format = format_of(image.channels);
   constexpr png_uint_32 kLargestSide = 32768;  // [pixels] a larger picture is not one of ours; bounds the memory
   if (png.width > kLargestSide || png.height > kLargestSide) {
     png_image_free(&png);
-    return failure::fail(path.string(), "at most 32768 pixels a side", std::to_string(png.width) + " x " + std::to_string(png.height));
+    return failure::fail(path.string(), "at most 32768 pixels a side",
+                         std::to_string(png.width) + " x " + std::to_string(png.height));
   }
   image.width = static_cast<int>(png.width);
   image.height = static_cast<int>(png.height);

@@ -54,32 +54,32 @@ struct Fidelity {
 // Receiver and land/sea return; spec physics.md "Power and video".
 struct ReceiverConfiguration {
   double frequency_ghz = 9.6;
-  double stc_exponent = 3.0;          // sensitivity time control (R/R0)^n
-  double dynamic_range_db = 45.0;     // [dB] of the log receiver, black to white at gain 3
-  double gain_step_db = 8.0;          // [dB] a step of GAIN 3..0
-  double noise_floor_db = -38.0;      // [dB] thermal noise below full scale
-  double land_gamma_db = -14.0;       // [dB] sigma0 = gamma sin(psi)
-  double sea_gamma_db = -30.0;        // [dB] until the sea model of a later issue
-  int looks = 4;                      // of land and sea speckle
+  double stc_exponent = 3.0;       // sensitivity time control (R/R0)^n
+  double dynamic_range_db = 45.0;  // [dB] of the log receiver, black to white at gain 3
+  double gain_step_db = 8.0;       // [dB] a step of GAIN 3..0
+  double noise_floor_db = -38.0;   // [dB] thermal noise below full scale
+  double land_gamma_db = -14.0;    // [dB] sigma0 = gamma sin(psi)
+  double sea_gamma_db = -30.0;     // [dB] until the sea model of a later issue
+  int looks = 4;                   // of land and sea speckle
 };
 
 struct TerrainConfiguration {
-  std::string directory;              // empty: the built-in analytic hills
-  bool missing_cell_is_sea = true;    // an absent cell is sea at 0 m; false: void
+  std::string directory;            // empty: the built-in analytic hills
+  bool missing_cell_is_sea = true;  // an absent cell is sea at 0 m; false: void
 };
 
 // One point of the route; names as in pvi.md rule 11.
 struct RoutePoint {
-  std::string name;                   // "2", "2.", "2.1", "2.01"
+  std::string name;  // "2", "2.", "2.1", "2.01"
   PointKind kind = PointKind::steer;
   geo::GeoPoint place;
-  double elevation_m = 0.0;           // [m] MSL; NaN = unknown
+  double elevation_m = 0.0;  // [m] MSL; NaN = unknown
 };
 
 struct RadarConfiguration {
   std::string name = "APG-70";
   std::vector<double> ranges_nm{4.7, 10, 20, 40, 80, 160};
-  std::vector<double> scan_widths_deg{100, 50, 25};   // FULL, HALF, QTR
+  std::vector<double> scan_widths_deg{100, 50, 25};  // FULL, HALF, QTR
   std::vector<double> windows_nm{0.67, 1.3, 3.3, 4.7, 10, 20, 40, 80};
   std::vector<double> pulse_us{0.26, 0.5, 1, 2, 4, 6};  // by range; the last serves whatever lies beyond
   AntennaConfiguration antenna;

@@ -23,11 +23,23 @@ constexpr std::array<std::string_view, 2> kNavigator{"MN", "INS"};
 
 }  // namespace
 
-std::string_view name_of(Power power) { return look_up(kPower, power); }
-std::string_view name_of(Mode mode) { return look_up(kMode, mode); }
-std::string_view name_of(Master master) { return look_up(kMaster, master); }
-std::string_view name_of(ScanWidth scan) { return look_up(kScan, scan); }
-std::string_view name_of(CursorFunction function) { return look_up(kCursor, function); }
-std::string_view name_of(Navigator navigator) { return look_up(kNavigator, navigator); }
+std::string_view name_of(Power power) {
+  return look_up(kPower, power);
+}
+std::string_view name_of(Mode mode) {
+  return look_up(kMode, mode);
+}
+std::string_view name_of(Master master) {
+  return look_up(kMaster, master);
+}
+std::string_view name_of(ScanWidth scan) {
+  return look_up(kScan, scan);
+}
+std::string_view name_of(CursorFunction function) {
+  return look_up(kCursor, function);
+}
+std::string_view name_of(Navigator navigator) {
+  return look_up(kNavigator, navigator);
+}
 
 }  // namespace yars::radar

@@ -8,7 +8,16 @@
 namespace yars::radar {
 
 enum class Power : std::uint8_t { off = 0, standby = 1, operate = 2 };
-enum class Mode : std::uint8_t { rbm = 0, hrm = 1, patch = 2, beacon = 3, pvu = 4, air_to_air = 5, ranging = 6, menu = 7 };
+enum class Mode : std::uint8_t {
+  rbm = 0,
+  hrm = 1,
+  patch = 2,
+  beacon = 3,
+  pvu = 4,
+  air_to_air = 5,
+  ranging = 6,
+  menu = 7
+};
 enum class Master : std::uint8_t { air_to_ground = 0, air_to_air = 1, ranging = 2 };
 enum class ScanWidth : std::uint8_t { full = 0, half = 1, quarter = 2 };
 enum class CursorFunction : std::uint8_t { map = 0, update = 1, cue = 2, target = 3, mark = 4 };
