@@ -5,7 +5,7 @@
 
 #include "model/terrain/directory_index.hpp"
 #include "model/terrain/directory_store.hpp"
-#include "shared_data.hpp"
+#include "tests/terrain/shared_data.hpp"
 
 namespace yars::model::terrain {
 namespace {

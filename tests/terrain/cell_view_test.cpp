@@ -1,0 +1,189 @@
+#include "model/terrain/cell_view.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+namespace yars::model::terrain {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+std::shared_ptr<const Cell> cell(CellPlace place, int rows, int columns, const std::function<int(int, int)>& height) {
+  std::vector<std::int16_t> posts;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) posts.push_back(static_cast<std::int16_t>(height(row, column)));
+  return std::make_shared<const Cell>(place, rows, columns, std::move(posts));
+}
+
+struct Answer {
+  float elevation_m = 0;
+  float water = 0;
+  std::size_t not_loaded = 0;
+};
+Answer fast(const TerrainView& view, double latitude_deg, double longitude_deg) {
+  Answer answer;
+  answer.not_loaded =
+      view.elevations({&latitude_deg, 1}, {&longitude_deg, 1}, {&answer.elevation_m, 1}, {&answer.water, 1});
+  return answer;
+}
+
+TEST(CellView, BilinearIsExactOnAPlaneWhateverTheSpacing) {
+  CellView view(1, Absence::sea);
+  view.add(cell({50, 10}, 11, 6, [](int row, int column) { return 100 + 20 * row + 50 * column; }));
+  for (const double north : {0.0, 0.05, 0.37, 0.999})
+    for (const double east : {0.0, 0.1, 0.61, 0.999})
+      EXPECT_NEAR(view.elevation_m({50 + north, 10 + east}), 100 + 200 * north + 250 * east, 1e-9);
+}
+
+TEST(CellView, OppositeEdgesOfTheEarthMeet) {
+  CellView view(1, Absence::none);
+  view.add(cell({10, 179}, 2, 2, [](int, int) { return 5; }));
+  view.add(cell({10, -180}, 2, 2, [](int, int) { return 7; }));
+  EXPECT_EQ(view.elevation_m({10.5, 179.9}), 5);
+  EXPECT_EQ(view.elevation_m({10.5, 180.0}), 7);
+  EXPECT_EQ(view.elevation_m({10.5, 180.1}), 7);
+  EXPECT_EQ(view.elevation_m({10.5, -180.1}), 5);
+  EXPECT_EQ(fast(view, 10.5, 180.1).elevation_m, 7);
+  EXPECT_EQ(fast(view, 10.5, 539.9).elevation_m, 5);
+}
+
+TEST(CellView, ThePolesBelongToTheLastRowsAndLatitudeIsClamped) {
+  CellView view(1, Absence::none);
+  view.add(cell({89, 0}, 2, 2, [](int row, int) { return row == 1 ? 30 : 20; }));
+  view.add(cell({-90, 0}, 2, 2, [](int row, int) { return row == 0 ? 40 : 20; }));
+  EXPECT_EQ(view.elevation_m({90, 0.5}), 30);
+  EXPECT_EQ(view.elevation_m({91, 0.5}), 30);
+  EXPECT_EQ(view.elevation_m({-90, 0.5}), 40);
+  EXPECT_EQ(fast(view, 90, 0.5).elevation_m, 30);
+  EXPECT_EQ(fast(view, -95, 0.5).elevation_m, 40);
+}
+
+TEST(CellView, AVoidPostIsLeftOutAndTheOthersAreWeightedUp) {
+  CellView view(1, Absence::sea);
+  view.add(cell({0, 0}, 2, 2, [](int row, int column) {
+    return row == 0 && column == 0 ? int{kVoidPost} : 100 * row + 10 * column;
+  }));
+  // In the middle three posts of weight 1/4 remain: 10, 100, 110.
+  EXPECT_NEAR(view.elevation_m({0.5, 0.5}), (10 + 100 + 110) / 3.0, 1e-12);
+  EXPECT_NEAR(view.elevation_m({0.0, 0.25}), 10, 1e-12);
+  EXPECT_TRUE(std::isnan(view.elevation_m({0.0, 0.0})));
+}
+
+TEST(CellView, FourVoidsAreAVoid) {
+  CellView view(1, Absence::sea);
+  view.add(cell({0, 0}, 2, 2, [](int, int) { return int{kVoidPost}; }));
+  EXPECT_TRUE(std::isnan(view.elevation_m({0.5, 0.5})));
+  EXPECT_TRUE(std::isnan(fast(view, 0.5, 0.5).elevation_m));
+  EXPECT_EQ(fast(view, 0.5, 0.5).water, 0);
+}
+
+TEST(CellView, WaterIsTheShareOfPostsAtExactlyZero) {
+  CellView view(1, Absence::sea);
+  view.add(cell({0, 0}, 2, 2, [](int, int column) { return column == 0 ? 0 : 8; }));
+  EXPECT_NEAR(fast(view, 0.5, 0.25).water, 0.75, 1e-6);
+  EXPECT_NEAR(fast(view, 0.5, 0.25).elevation_m, 2, 1e-5);
+  EXPECT_EQ(fast(view, 0.3, 0.0).water, 1);
+}
+
+TEST(CellView, AnAbsentCellIsSeaVoidOrNotReady) {
+  CellView view(1, Absence::sea);
+  view.set_absence({1, 1}, Absence::none);
+  view.set_absence({2, 2}, Absence::not_loaded);
+  EXPECT_EQ(view.elevation_m({0.5, 0.5}), 0);
+  EXPECT_EQ(fast(view, 0.5, 0.5).water, 1);
+  EXPECT_EQ(fast(view, 0.5, 0.5).not_loaded, 0U);
+  EXPECT_TRUE(std::isnan(view.elevation_m({1.5, 1.5})));
+  EXPECT_EQ(fast(view, 1.5, 1.5).not_loaded, 0U);
+  EXPECT_TRUE(std::isnan(view.elevation_m({2.5, 2.5})));
+  EXPECT_TRUE(std::isnan(fast(view, 2.5, 2.5).elevation_m));
+  EXPECT_EQ(fast(view, 2.5, 2.5).not_loaded, 1U);
+}
+
+TEST(CellView, AnInvalidPlaceIsAVoid) {
+  const CellView view(1, Absence::sea);
+  for (const double bad : {kNan, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
+    EXPECT_TRUE(std::isnan(view.elevation_m({bad, 0})));
+    EXPECT_TRUE(std::isnan(view.elevation_m({0, bad})));
+    EXPECT_TRUE(std::isnan(fast(view, bad, 0).elevation_m));
+    EXPECT_TRUE(std::isnan(fast(view, 0, bad).elevation_m));
+  }
+}
+
+// Rough cells of unlike spacing, one with voids, one across the antimeridian.
+std::unique_ptr<CellView> rough_view(std::mt19937_64& random) {
+  auto view = std::make_unique<CellView>(1, Absence::sea);
+  const auto rough = [&](int, int) { return static_cast<int>(random() % 9000) - 500; };
+  const auto with_voids = [&](int, int) {
+    return random() % 4 == 0 ? int{kVoidPost} : static_cast<int>(random() % 3) * 700;
+  };
+  view->add(cell({0, 179}, 121, 121, rough));
+  view->add(cell({0, -180}, 121, 61, rough));
+  view->add(cell({1, 179}, 31, 31, with_voids));
+  return view;
+}
+
+TEST(CellView, TheFastPathKeepsItsBoundAgainstTheTruth) {
+  constexpr unsigned kSeed = 11;
+  std::mt19937_64 random(kSeed);
+  const auto view = rough_view(random);
+  std::uniform_real_distribution<double> latitude(-0.2, 2.2);
+  std::uniform_real_distribution<double> longitude(178.8, 181.2);
+  const std::size_t places = 20000;
+  std::vector<double> latitudes(places);
+  std::vector<double> longitudes(places);
+  // Half scattered, half along rays: both short and long runs in one cell.
+  for (std::size_t i = 0; i < places; ++i) {
+    const bool scattered = i % 2000 < 1000;
+    latitudes[i] = scattered ? latitude(random) : -0.2 + 2.4 * static_cast<double>(i % 1000) / 1000;
+    longitudes[i] = scattered ? longitude(random) : 178.8 + 2.4 * static_cast<double>((i * 7) % 1000) / 1000;
+  }
+  std::vector<float> elevation_m(places);
+  std::vector<float> water(places);
+  EXPECT_EQ(view->elevations(latitudes, longitudes, elevation_m, water), 0U);
+  for (std::size_t i = 0; i < places; ++i) {
+    const double truth_m = view->elevation_m({latitudes[i], longitudes[i]});
+    ASSERT_EQ(std::isnan(truth_m), std::isnan(elevation_m[i])) << "seed " << kSeed << ", place " << i;
+    if (!std::isnan(truth_m)) {
+      ASSERT_NEAR(elevation_m[i], truth_m, 0.05 + 1e-6 * 9000) << "seed " << kSeed << ", place " << i;
+    }
+    ASSERT_GE(water[i], 0.0F);
+    ASSERT_LE(water[i], 1.0F);
+  }
+}
+
+TEST(CellView, APlaceGetsTheSameBitsWhateverItsCompany) {
+  constexpr unsigned kSeed = 12;
+  std::mt19937_64 random(kSeed);
+  const auto view = rough_view(random);
+  std::uniform_real_distribution<double> latitude(0, 2);
+  std::vector<double> latitudes(999);
+  std::vector<double> longitudes(latitudes.size());
+  for (std::size_t i = 0; i < latitudes.size(); ++i) {
+    latitudes[i] = latitude(random);
+    longitudes[i] = 179.0 + static_cast<double>(i) / 500;
+  }
+  std::vector<float> elevation_m(latitudes.size());
+  std::vector<float> water(latitudes.size());
+  view->elevations(latitudes, longitudes, elevation_m, water);
+  for (std::size_t i = 0; i < latitudes.size(); ++i) {
+    const Answer alone = fast(*view, latitudes[i], longitudes[i]);
+    ASSERT_TRUE(alone.elevation_m == elevation_m[i] || (std::isnan(alone.elevation_m) && std::isnan(elevation_m[i])))
+        << "seed " << kSeed << ", place " << i;
+    ASSERT_EQ(alone.water, water[i]) << "seed " << kSeed << ", place " << i;
+  }
+}
+
+TEST(CellView, ResidentBytesCoverThePosts) {
+  CellView view(1, Absence::sea);
+  const std::uint64_t empty = view.resident_bytes();
+  view.add(cell({0, 0}, 121, 121, [](int, int) { return 1; }));
+  EXPECT_GE(view.resident_bytes() - empty, 2U * 121 * 121);
+}
+
+}  // namespace
+}  // namespace yars::model::terrain

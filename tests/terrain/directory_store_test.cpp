@@ -1,0 +1,158 @@
+#include "model/terrain/directory_store.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/terrain/open_terrain.hpp"
+#include "tests/terrain/dted_builder.hpp"
+
+namespace yars::model::terrain {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double kNear = 1000.0;  // [m]
+constexpr std::size_t kCell = sizeof(Cell) + 2 * test::kSmallSide * test::kSmallSide;
+
+// Cells far apart along the equator: heights 10, 20, 30, 40 at longitudes 0, 20, 40, 60.
+std::string name_at(int west_deg) {
+  char text[32];
+  std::snprintf(text, sizeof text, "e%03d/n00.dt0", west_deg);
+  return text;
+}
+void write_cells(const test::TemporaryFolder& folder) {
+  for (const int west : {0, 20, 40, 60})
+    folder.write(name_at(west), test::level_dted(0, west, static_cast<std::uint16_t>(10 + west / 2)).bytes());
+}
+geo::GeoPoint middle(int west_deg) {
+  return {0.5, west_deg + 0.5};
+}
+
+std::unique_ptr<DirectoryTerrainStore> store_over(const test::TemporaryFolder& folder,
+                                                  DirectoryStoreOptions options = {}) {
+  auto store = DirectoryTerrainStore::open(folder.path(), options);
+  EXPECT_TRUE(store.has_value()) << store.error().message();
+  return std::move(store.value());
+}
+
+TEST(DirectoryStore, PrepareLoadsWhatTheRegionNeeds) {
+  const test::TemporaryFolder folder;
+  write_cells(folder);
+  const auto store = store_over(folder);
+  const auto view = store->prepare({middle(20), kNear});
+  EXPECT_EQ(view->elevation_m(middle(20)), 20);
+  EXPECT_TRUE(std::isnan(view->elevation_m(middle(40)))) << "a cell outside the region is not loaded";
+  EXPECT_EQ(view->elevation_m(middle(100)), 0) << "a cell without a file is sea";
+}
+
+TEST(DirectoryStore, AMissingCellIsVoidWhenTheOptionSaysSo) {
+  const test::TemporaryFolder folder;
+  write_cells(folder);
+  const auto store = store_over(folder, {.missing_cell_is_sea = false});
+  EXPECT_TRUE(std::isnan(store->prepare({middle(20), kNear})->elevation_m(middle(100))));
+}
+
+TEST(DirectoryStore, TheSameViewComesBackWhileNothingChanges) {
+  const test::TemporaryFolder folder;
+  write_cells(folder);
+  const auto store = store_over(folder);
+  const auto first = store->prepare({middle(20), kNear});
+  EXPECT_EQ(store->prepare({middle(20), 2 * kNear}), first);
+  EXPECT_EQ(store->prepare({middle(100), kNear}), first) << "open sea changes nothing";
+  const auto second = store->prepare({middle(40), kNear});
+  EXPECT_GT(second->generation(), first->generation());
+  EXPECT_EQ(store->prepare({middle(20), kNear}), second) << "the first cell is still there";
+}
+
+TEST(DirectoryStore, AnOldViewStaysWholeAfterItsCellsAreDropped) {
+  const test::TemporaryFolder folder;
+  write_cells(folder);
+  const auto store = store_over(folder, {.resident_limit_bytes = kCell});
+  const auto first = store->prepare({middle(0), kNear});
+  store->prepare({middle(60), kNear});
+  EXPECT_EQ(first->elevation_m(middle(0)), 10);
+}
+
+TEST(DirectoryStore, TheLongestUnusedCellGoesFirst) {
+  const test::TemporaryFolder folder;
+  write_cells(folder);
+  const auto store = store_over(folder, {.resident_limit_bytes = 2 * kCell});
+  store->prepare({middle(0), kNear});
+  store->prepare({middle(20), kNear});
+  store->prepare({middle(0), kNear});
+  const auto view = store->prepare({middle(40), kNear});
+  EXPECT_EQ(view->elevation_m(middle(0)), 10);
+  EXPECT_TRUE(std::isnan(view->elevation_m(middle(20))));
+  EXPECT_EQ(view->elevation_m(middle(40)), 30);
+}
+
+TEST(DirectoryStore, ARegionIsHeldWholeEvenBeyondTheLimit) {
+  const test::TemporaryFolder folder;
+  for (const int west : {0, 1}) folder.write(name_at(west), test::level_dted(0, west, 7).bytes());
+  const auto store = store_over(folder, {.resident_limit_bytes = kCell});
+  const auto view = store->prepare({{0.5, 1.0}, kNear});
+  EXPECT_EQ(view->elevation_m({0.5, 0.9}), 7);
+  EXPECT_EQ(view->elevation_m({0.5, 1.1}), 7);
+  EXPECT_EQ(store->prepare({{0.5, 1.0}, kNear}), view);
+}
+
+TEST(DirectoryStore, AnUnreadableCellIsVoidAndReportedOnce) {
+  const test::TemporaryFolder folder;
+  write_cells(folder);
+  folder.write(name_at(20), std::vector<std::byte>(100));
+  const auto store = store_over(folder);
+  const auto view = store->prepare({middle(20), kNear});
+  EXPECT_TRUE(std::isnan(view->elevation_m(middle(20))));
+  EXPECT_THAT(store->take_problems(), ElementsAre(HasSubstr("e020")));
+  EXPECT_EQ(store->prepare({middle(20), kNear}), view);
+  EXPECT_THAT(store->take_problems(), IsEmpty());
+  EXPECT_EQ(store->prepare({middle(40), kNear})->elevation_m(middle(40)), 30) << "the rest goes on";
+}
+
+TEST(DirectoryStore, AnOddCellIsReportedAndUsed) {
+  const test::TemporaryFolder folder;
+  test::DtedFile odd = test::level_dted(0, 20, 5);
+  odd.columns[0].sum_error = 1;
+  folder.write(name_at(20), odd.bytes());
+  const auto store = store_over(folder);
+  EXPECT_EQ(store->prepare({middle(20), kNear})->elevation_m(middle(20)), 5);
+  EXPECT_THAT(store->take_problems(), ElementsAre(HasSubstr("checksum")));
+}
+
+TEST(OpenTerrain, WithoutADirectoryThereAreHills) {
+  const auto store = open_terrain({});
+  ASSERT_TRUE(store.has_value());
+  const auto view = (*store)->prepare({{37, -122}, 1e5});
+  double lowest_m = 1e9;
+  double highest_m = -1e9;
+  for (int i = 0; i < 1000; ++i) {
+    const double elevation_m = view->elevation_m({36.5 + 0.001 * i, -122.0 + 0.0007 * i});
+    lowest_m = std::min(lowest_m, elevation_m);
+    highest_m = std::max(highest_m, elevation_m);
+  }
+  EXPECT_GE(lowest_m, 0);
+  EXPECT_GT(highest_m - lowest_m, 300);
+  EXPECT_LE(highest_m, 1170);
+}
+
+TEST(OpenTerrain, TheConfiguredDirectoryIsServedOrRefused) {
+  const test::TemporaryFolder folder;
+  write_cells(folder);
+  radar::TerrainConfiguration configuration;
+  configuration.directory = folder.path().string();
+  configuration.missing_cell_is_sea = false;
+  const auto store = open_terrain(configuration);
+  ASSERT_TRUE(store.has_value());
+  const auto view = (*store)->prepare({middle(60), kNear});
+  EXPECT_EQ(view->elevation_m(middle(60)), 40);
+  EXPECT_TRUE(std::isnan(view->elevation_m(middle(100))));
+  configuration.directory += "/gone";
+  EXPECT_THAT(open_terrain(configuration).error().message(), HasSubstr("gone"));
+}
+
+}  // namespace
+}  // namespace yars::model::terrain

@@ -1,0 +1,217 @@
+// DTED files made byte by byte: every quirk that producers are known for, and files that lie.
+#include "model/terrain/dted_reader.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/terrain/dted_builder.hpp"
+
+namespace yars::model::terrain {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr CellPlace kPlace{50, 10};
+
+failure::Expected<CellReading> parse(const test::DtedFile& file) {
+  return parse_dted(file.bytes(), "small.dt0", kPlace);
+}
+
+TEST(DtedReader, ColumnsRunFromSouthToNorthAndFromWestToEast) {
+  const auto reading = parse(test::small_dted());
+  ASSERT_TRUE(reading.has_value()) << reading.error().message();
+  EXPECT_THAT(reading->warnings, IsEmpty());
+  for (int row = 0; row < 5; ++row)
+    for (int column = 0; column < 5; ++column) EXPECT_EQ(reading->cell.post(row, column), 100 * column + row);
+  EXPECT_EQ(reading->cell.place(), kPlace);
+  EXPECT_EQ(reading->cell.sea_posts(), 1U);
+}
+
+TEST(DtedReader, NegativeHeightsAreSignMagnitude) {
+  test::DtedFile file = test::small_dted();
+  file.columns[1].words[2] = 0x8000 | 42;
+  const auto reading = parse(file);
+  ASSERT_TRUE(reading.has_value());
+  EXPECT_EQ(reading->cell.post(2, 1), -42);
+  EXPECT_EQ(reading->cell.lowest_m(), -42);
+}
+
+TEST(DtedReader, MinusZeroIsZero) {
+  test::DtedFile file = test::small_dted();
+  file.columns[1].words[2] = 0x8000;
+  const auto reading = parse(file);
+  ASSERT_TRUE(reading.has_value());
+  EXPECT_EQ(reading->cell.post(2, 1), 0);
+}
+
+TEST(DtedReader, AllOnesIsAVoid) {
+  test::DtedFile file = test::small_dted();
+  file.columns[3].words[4] = 0xFFFF;
+  const auto reading = parse(file);
+  ASSERT_TRUE(reading.has_value());
+  EXPECT_EQ(reading->cell.post(4, 3), kVoidPost);
+  EXPECT_EQ(reading->cell.voids(), 1U);
+}
+
+TEST(DtedReader, AFileInTwosComplementIsReadAsSuchAndReported) {
+  test::DtedFile file = test::small_dted();
+  file.columns[0].words[1] = static_cast<std::uint16_t>(-42);
+  file.columns[0].words[2] = 0x8001;  // -32767: void in two's complement, -1 in sign-magnitude
+  file.columns[0].words[3] = 0xFFFF;
+  const auto reading = parse(file);
+  ASSERT_TRUE(reading.has_value());
+  EXPECT_EQ(reading->cell.post(1, 0), -42);
+  EXPECT_EQ(reading->cell.post(2, 0), kVoidPost);
+  EXPECT_EQ(reading->cell.post(3, 0), kVoidPost);
+  EXPECT_THAT(reading->warnings, ElementsAre(HasSubstr("two's complement")));
+}
+
+TEST(DtedReader, AWrongChecksumIsCountedAndTheHeightsStand) {
+  test::DtedFile file = test::small_dted();
+  file.columns[1].sum_error = 1;
+  file.columns[4].sum_error = -3;
+  const auto reading = parse(file);
+  ASSERT_TRUE(reading.has_value());
+  EXPECT_THAT(reading->warnings, ElementsAre("columns with a wrong checksum: 2; their heights are kept"));
+  EXPECT_EQ(reading->cell.post(3, 4), 403);
+}
+
+TEST(DtedReader, AbsentColumnsAreVoid) {
+  test::DtedFile file = test::small_dted();
+  file.columns.erase(file.columns.begin() + 1, file.columns.begin() + 3);
+  const auto reading = parse(file);
+  ASSERT_TRUE(reading.has_value());
+  EXPECT_EQ(reading->cell.post(0, 0), 0);
+  EXPECT_EQ(reading->cell.post(0, 1), kVoidPost);
+  EXPECT_EQ(reading->cell.post(4, 2), kVoidPost);
+  EXPECT_EQ(reading->cell.post(0, 3), 300);
+  EXPECT_THAT(reading->warnings, ElementsAre(HasSubstr("absent columns: 2")));
+}
+
+TEST(DtedReader, APartialColumnOfFullLengthBeginsAtItsLatitudeIndex) {
+  test::DtedFile file = test::small_dted();
+  file.columns[2].latitude_index = 3;
+  file.columns[2].words = {7, 8, 0xFFFF, 0xFFFF, 0xFFFF};
+  const auto reading = parse(file);
+  ASSERT_TRUE(reading.has_value());
+  EXPECT_EQ(reading->cell.post(2, 2), kVoidPost);
+  EXPECT_EQ(reading->cell.post(3, 2), 7);
+  EXPECT_EQ(reading->cell.post(4, 2), 8);
+  EXPECT_EQ(reading->cell.post(4, 3), 304);
+  EXPECT_THAT(reading->warnings, ElementsAre(HasSubstr("partial columns: 1")));
+}
+
+TEST(DtedReader, APartialColumnMayEndWithTheCell) {
+  test::DtedFile file = test::small_dted();
+  for (const int column : {1, 4}) {
+    file.columns[static_cast<std::size_t>(column)].latitude_index = 3;
+    file.columns[static_cast<std::size_t>(column)].words = {7, 8};
+  }
+  const auto reading = parse(file);
+  ASSERT_TRUE(reading.has_value()) << reading.error().message();
+  for (const int column : {1, 4}) {
+    EXPECT_EQ(reading->cell.post(2, column), kVoidPost);
+    EXPECT_EQ(reading->cell.post(3, column), 7);
+    EXPECT_EQ(reading->cell.post(4, column), 8);
+  }
+  EXPECT_EQ(reading->cell.post(4, 3), 304);
+}
+
+TEST(DtedReader, FewerColumnsThanRowsAreTakenFromTheHeader) {
+  test::DtedFile file = test::small_dted();
+  file.latitude_interval = "4500";
+  file.latitude_count = "0009";
+  for (test::DtedColumn& column : file.columns) column.words.resize(9, 12);
+  const auto reading = parse(file);
+  ASSERT_TRUE(reading.has_value()) << reading.error().message();
+  EXPECT_EQ(reading->cell.rows(), 9);
+  EXPECT_EQ(reading->cell.columns(), 5);
+  EXPECT_EQ(reading->cell.post(8, 4), 12);
+}
+
+TEST(DtedReader, TapeLabelsInFrontAreSkipped) {
+  test::DtedFile file = test::small_dted();
+  file.labels = "VOL1" + std::string(76, ' ') + "HDR1" + std::string(76, ' ');
+  const auto reading = parse(file);
+  ASSERT_TRUE(reading.has_value()) << reading.error().message();
+  EXPECT_EQ(reading->cell.post(1, 4), 401);
+}
+
+struct Broken {
+  const char* what;
+  void (*spoil)(test::DtedFile&);
+  const char* message;
+};
+
+class BrokenDted : public ::testing::TestWithParam<Broken> {};
+
+TEST_P(BrokenDted, IsRefusedWithTheReason) {
+  test::DtedFile file = test::small_dted();
+  GetParam().spoil(file);
+  const auto reading = parse(file);
+  ASSERT_FALSE(reading.has_value());
+  EXPECT_THAT(reading.error().message(), HasSubstr(GetParam().message));
+  EXPECT_THAT(reading.error().message(), HasSubstr("small.dt0"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    DtedReader, BrokenDted,
+    ::testing::Values(
+        Broken{"Magic", [](test::DtedFile& file) { file.magic = "UHL9"; }, "UHL1"},
+        Broken{"Digits", [](test::DtedFile& file) { file.latitude_count = "00x5"; }, "digits"},
+        Broken{"HalfDegree", [](test::DtedFile& file) { file.latitude = "0503000N"; }, "whole degrees"},
+        Broken{"Hemisphere", [](test::DtedFile& file) { file.longitude = "0100000X"; }, "whole degrees"},
+        Broken{"OtherPlace", [](test::DtedFile& file) { file.longitude = "0100000W"; }, "as the name says"},
+        Broken{"NoPosts", [](test::DtedFile& file) { file.latitude_count = "0000"; }, "span one degree"},
+        Broken{"HugeCounts", [](test::DtedFile& file) { file.latitude_count = file.longitude_count = "9999"; },
+               "span one degree"},
+        Broken{"HalfACell", [](test::DtedFile& file) { file.longitude_interval = "4500"; }, "span one degree"},
+        Broken{"CountBeyondTheFile",
+               [](test::DtedFile& file) { file.latitude_count = "3601", file.latitude_interval = "0010"; },
+               "truncated"},
+        Broken{"HeaderAlone", [](test::DtedFile& file) { file.columns.clear(); }, "truncated"},
+        Broken{"TornColumn", [](test::DtedFile& file) { file.columns.back().words.resize(2); }, "truncated"},
+        Broken{"Sentinel", [](test::DtedFile& file) { file.columns[2].sentinel = 0; }, "begins with AA"},
+        Broken{"LongitudeIndex", [](test::DtedFile& file) { file.columns[2].longitude_index = 5; }, "inside the cell"},
+        Broken{"LatitudeIndex", [](test::DtedFile& file) { file.columns[2].latitude_index = 5; }, "inside the cell"}),
+    [](const auto& information) { return std::string(information.param.what); });
+
+TEST(DtedReader, EveryCutOfAFileIsEitherRefusedOrLacksWholeColumns) {
+  const std::vector<std::byte> whole = test::small_dted().bytes();
+  const std::size_t record = 12 + 2 * test::kSmallSide;
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    const auto reading = parse_dted(std::span(whole).first(length), "cut.dt0", kPlace);
+    const bool at_boundary = length > 3428 && (length - 3428) % record == 0;
+    EXPECT_EQ(reading.has_value(), at_boundary) << "cut at " << length;
+  }
+}
+
+TEST(DtedReader, RandomDamageNeverReadsBeyondTheFile) {
+  constexpr unsigned kSeed = 20;
+  std::mt19937 random(kSeed);
+  const std::vector<std::byte> whole = test::small_dted().bytes();
+  // The bytes that steer the reader: the user header and the records.
+  std::vector<std::size_t> steering;
+  for (std::size_t at = 0; at < whole.size(); ++at)
+    if (at < 60 || at >= 3428) steering.push_back(at);
+  int refused = 0;
+  for (int round = 0; round < 4000; ++round) {
+    std::vector<std::byte> damaged = whole;
+    for (int hit = 0; hit < 3; ++hit) damaged[steering[random() % steering.size()]] = static_cast<std::byte>(random());
+    if (random() % 2 == 0) damaged.resize(random() % (damaged.size() + 1));
+    const auto reading = parse_dted(damaged, "damaged.dt0", kPlace);
+    if (!reading)
+      ++refused;
+    else
+      EXPECT_EQ(reading->cell.posts().size(), 25U) << "seed " << kSeed << ", round " << round;
+  }
+  EXPECT_GT(refused, 1000) << "seed " << kSeed;
+  EXPECT_LT(refused, 4000) << "seed " << kSeed;
+}
+
+}  // namespace
+}  // namespace yars::model::terrain

@@ -1,0 +1,51 @@
+#include "model/terrain/hgt_reader.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace yars::model::terrain {
+namespace {
+
+using ::testing::HasSubstr;
+
+void put(std::vector<std::byte>& bytes, std::size_t row, std::size_t column, std::size_t side, int height) {
+  const std::size_t at = 2 * (row * side + column);
+  bytes[at] = static_cast<std::byte>(static_cast<unsigned>(height) >> 8U & 0xFFU);
+  bytes[at + 1] = static_cast<std::byte>(static_cast<unsigned>(height) & 0xFFU);
+}
+
+class HgtOfSide : public ::testing::TestWithParam<int> {};
+
+TEST_P(HgtOfSide, RowsRunFromNorthToSouthInTwosComplement) {
+  const auto side = static_cast<std::size_t>(GetParam());
+  std::vector<std::byte> bytes(2 * side * side);
+  put(bytes, 0, 0, side, 111);                   // north-west
+  put(bytes, 0, side - 1, side, -42);            // north-east
+  put(bytes, side - 1, 0, side, 333);            // south-west
+  put(bytes, side - 1, side - 1, side, -32768);  // south-east: void
+  const auto reading = parse_hgt(bytes, "N36W122.hgt", {36, -122});
+  ASSERT_TRUE(reading.has_value()) << reading.error().message();
+  const Cell& cell = reading->cell;
+  const int last = GetParam() - 1;
+  EXPECT_EQ(cell.post(last, 0), 111);
+  EXPECT_EQ(cell.post(last, last), -42);
+  EXPECT_EQ(cell.post(0, 0), 333);
+  EXPECT_EQ(cell.post(0, last), kVoidPost);
+  EXPECT_EQ(cell.voids(), 1U);
+  EXPECT_EQ(cell.rows(), GetParam());
+  EXPECT_EQ(cell.columns(), GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(HgtReader, HgtOfSide, ::testing::Values(1201, 3601));
+
+TEST(HgtReader, AnyOtherLengthIsRefused) {
+  for (const std::size_t length :
+       {std::size_t{0}, std::size_t{1}, std::size_t{2 * 1201 * 1201 - 1}, std::size_t{2 * 1201 * 1201 + 2}}) {
+    const auto reading = parse_hgt(std::vector<std::byte>(length), "N36W122.hgt", {36, -122});
+    ASSERT_FALSE(reading.has_value()) << length;
+    EXPECT_THAT(reading.error().message(), HasSubstr(std::to_string(length) + " bytes"));
+  }
+}
+
+}  // namespace
+}  // namespace yars::model::terrain

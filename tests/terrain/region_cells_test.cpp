@@ -1,0 +1,59 @@
+#include "model/terrain/region_cells.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+namespace yars::model::terrain {
+namespace {
+
+std::set<std::size_t> slots(const TerrainRegion& region) {
+  std::set<std::size_t> result;
+  for (const CellPlace place : cells_within(region))
+    EXPECT_TRUE(result.insert(slot_of(place)).second) << "a cell came twice";
+  return result;
+}
+
+TEST(RegionCells, APointNeedsItsOwnCell) {
+  EXPECT_THAT(slots({{36.5, -121.5}, 0.0}), ::testing::Contains(slot_of({36, -122})));
+}
+
+TEST(RegionCells, TheAntimeridianIsNoEdge) {
+  const auto cells = slots({{10.5, 179.9}, 30e3});
+  EXPECT_THAT(cells, ::testing::IsSupersetOf({slot_of({10, 179}), slot_of({10, -180})}));
+}
+
+TEST(RegionCells, ADiscOverThePoleNeedsEveryMeridianThere) {
+  const auto cells = slots({{89.95, 20.0}, 20e3});
+  for (int west = -180; west < 180; ++west) EXPECT_EQ(cells.count(slot_of({89, west})), 1U) << west;
+}
+
+TEST(RegionCells, EveryPlaceWithinTheDiscHasItsCell) {
+  constexpr unsigned kSeed = 4;
+  std::mt19937_64 random(kSeed);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (int round = 0; round < 300; ++round) {
+    const TerrainRegion region{{uniform(-90, 90), uniform(-180, 180)}, uniform(0, 320e3)};
+    const auto cells = slots(region);
+    for (int sample = 0; sample < 100; ++sample) {
+      const double reach_m = sample % 2 == 0 ? region.radius_m : uniform(0, region.radius_m);
+      const geo::GeoPoint place =
+          geo::geodesic_direct(region.centre, geo::Bearing::degrees(uniform(0, 360)), geo::Length::metres(reach_m));
+      ASSERT_EQ(cells.count(slot_of(cell_holding(place))), 1U)
+          << "seed " << kSeed << ", round " << round << ": " << place.latitude_deg << ", " << place.longitude_deg
+          << " from " << region.centre.latitude_deg << ", " << region.centre.longitude_deg << " at " << reach_m << " m";
+    }
+  }
+}
+
+TEST(RegionCells, ADiscOf160NauticalMilesAtMidLatitudeNeedsFewCells) {
+  // The disc's area is 23 square degrees of latitude at 37 N, 29 cells; its rim touches some more.
+  EXPECT_LT(cells_within({{37.0, -122.0}, 160 * 1852.0}).size(), 60U);
+}
+
+}  // namespace
+}  // namespace yars::model::terrain
