@@ -39,10 +39,14 @@ TEST_F(Rules, PowerUpSetsWhatTheSpecLists) {
 }
 
 TEST_F(Rules, OffForgetsEverythingAndTheNextPowerUpIsAsNew) {
+  pilot.around.epoch = 3;
+  pilot.wait();
   const databuffer::RadarState fresh = pilot.state;
   for (const char* event : {"pb 2", "pb 3", "pb 9", "pb 13", "pb 17", "pb 18", "freeze", "contrast up", "nav ins",
-                            "altimeter fail", "mode aa", "pb 11", "power off"})
+                            "altimeter fail", "mode aa", "pb 11"})
     pilot.press(event);
+  pilot.send("power off");
+  EXPECT_EQ(pilot.state.epoch, fresh.epoch);
   pilot.press("power opr");
   databuffer::RadarState again = pilot.state;
   // Counts that others compare go on.
