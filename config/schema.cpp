@@ -87,9 +87,9 @@ struct KindText {
   }
   std::string operator()(const FirstSlot&) const { return "a whole number or a list of them" + range_text(slot); }
   std::string operator()(const PairSlot&) const { return "a list of 2 numbers" + range_text(slot); }
-  std::string operator()(const SpanSlot&) const { return "a list `( low high ) or a number" + range_text(slot); }
+  std::string operator()(const SpanSlot&) const { return "a list of low and high, or a number," + range_text(slot); }
   std::string operator()(const SymmetricSlot&) const {
-    return "a list `( -limit limit ), the limit" + range_text(slot);
+    return "a list of -limit and limit, the limit" + range_text(slot);
   }
   std::string operator()(const FormSlot& form) const {
     return (form.many ? "a list of the forms " : "a form: ") + joined(form.accepted);

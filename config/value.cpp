@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 
 namespace yars::config {
 namespace {
@@ -27,9 +28,13 @@ std::string description(const Value& value) {
 }
 
 std::string number_text(double value) {
+  const double size = std::abs(value);
+  const bool plain = size == 0.0 || (size >= 1e-4 && size < 1e16);  // 100000 instead of 1e+05
   std::array<char, 32> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-  return {digits.data(), end.ptr};
+  char* const begin = digits.data();
+  const auto end = plain ? std::to_chars(begin, begin + digits.size(), value, std::chars_format::fixed)
+                         : std::to_chars(begin, begin + digits.size(), value);
+  return {begin, end.ptr};
 }
 
 std::string quoted_text(const std::string& text) {
