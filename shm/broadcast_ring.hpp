@@ -16,7 +16,7 @@ struct RingRead {
   std::uint64_t lost;  // records skipped by this call because the producer overtook the reader
 };
 
-template <Record T, std::size_t N, class Stores = PlainStores>
+template <Record T, std::size_t N, class Access = PlainAccess>
 class BroadcastRing {
   static_assert(N >= 2 && (N & (N - 1)) == 0, "a power of two: the slot is found by a mask");
 
@@ -24,7 +24,7 @@ class BroadcastRing {
   // The number that the record got.
   std::uint64_t publish(const T& record);
   // The number that the next record will get = records published so far.
-  std::uint64_t next() const { return next_.load(std::memory_order_acquire); }
+  std::uint64_t next() const { return Access::load(next_, std::memory_order_acquire); }
   // The oldest record that can be read: the producer may be writing over the slot behind it.
   std::uint64_t oldest() const { return oldest_before(next()); }
   // Copies the record at `cursor` out and moves the cursor past it. Not delivered: nothing new (lost 0), or overtaken
@@ -52,32 +52,32 @@ class BroadcastRing {
   std::array<Slot, N> slots_;
 };
 
-template <Record T, std::size_t N, class Stores>
-std::uint64_t BroadcastRing<T, N, Stores>::publish(const T& record) {
-  const std::uint64_t number = next_.load(std::memory_order_relaxed);
+template <Record T, std::size_t N, class Access>
+std::uint64_t BroadcastRing<T, N, Access>::publish(const T& record) {
+  const std::uint64_t number = Access::load(next_, std::memory_order_relaxed);
   Slot& slot = slots_[number % N];
   const std::size_t used = used_words(record);
-  Stores::store(slot.sequence, 2 * number + 1, std::memory_order_relaxed);
-  Stores::store(slot.used, used, std::memory_order_release);
-  store_words<Stores>(slot.words.data(), &record, used);
-  Stores::store(slot.sequence, 2 * number + 2, std::memory_order_release);
-  Stores::store(next_, number + 1, std::memory_order_release);
+  Access::store(slot.sequence, 2 * number + 1, std::memory_order_relaxed);
+  Access::store(slot.used, used, std::memory_order_release);
+  store_words<Access>(slot.words.data(), &record, used);
+  Access::store(slot.sequence, 2 * number + 2, std::memory_order_release);
+  Access::store(next_, number + 1, std::memory_order_release);
   return number;
 }
 
-template <Record T, std::size_t N, class Stores>
-bool BroadcastRing<T, N, Stores>::copy_out(std::uint64_t number, T& out) const {
+template <Record T, std::size_t N, class Access>
+bool BroadcastRing<T, N, Access>::copy_out(std::uint64_t number, T& out) const {
   const Slot& slot = slots_[number % N];
   const Word whole = 2 * number + 2;
-  if (slot.sequence.load(std::memory_order_acquire) != whole) return false;
-  const Word used = slot.used.load(std::memory_order_acquire);
+  if (Access::load(slot.sequence, std::memory_order_acquire) != whole) return false;
+  const Word used = Access::load(slot.used, std::memory_order_acquire);
   if (used > kWordsOf<T>) return false;
-  load_words(slot.words.data(), &out, used);
-  return slot.sequence.load(std::memory_order_relaxed) == whole;
+  load_words<Access>(slot.words.data(), &out, used);
+  return Access::load(slot.sequence, std::memory_order_relaxed) == whole;
 }
 
-template <Record T, std::size_t N, class Stores>
-RingRead BroadcastRing<T, N, Stores>::read(std::uint64_t& cursor, T& out) const {
+template <Record T, std::size_t N, class Access>
+RingRead BroadcastRing<T, N, Access>::read(std::uint64_t& cursor, T& out) const {
   RingRead result{false, 0};
   for (int attempt = 0; attempt <= kRetries; ++attempt) {
     const std::uint64_t end = next();

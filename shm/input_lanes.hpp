@@ -11,7 +11,7 @@
 
 namespace yars::shm {
 
-template <Record T, std::size_t Lanes, std::size_t Depth, class Stores = PlainStores>
+template <Record T, std::size_t Lanes, std::size_t Depth, class Access = PlainAccess>
 class InputLanes {
   static_assert(Depth >= 2 && (Depth & (Depth - 1)) == 0, "a power of two: the slot is found by a mask");
 
@@ -22,13 +22,15 @@ class InputLanes {
   bool pop(std::size_t lane, T& out);
 
   bool empty(std::size_t lane) const { return pushed(lane) == popped(lane); }
-  std::uint64_t pushed(std::size_t lane) const { return lanes_[lane].pushed.load(std::memory_order_acquire); }
-  std::uint64_t popped(std::size_t lane) const { return lanes_[lane].popped.load(std::memory_order_acquire); }
-  std::uint64_t dropped(std::size_t lane) const { return lanes_[lane].dropped.load(std::memory_order_relaxed); }
+  std::uint64_t pushed(std::size_t lane) const { return Access::load(lanes_[lane].pushed, std::memory_order_acquire); }
+  std::uint64_t popped(std::size_t lane) const { return Access::load(lanes_[lane].popped, std::memory_order_acquire); }
+  std::uint64_t dropped(std::size_t lane) const {
+    return Access::load(lanes_[lane].dropped, std::memory_order_relaxed);
+  }
 
   // Who feeds the lane, for people: 23 characters are kept.
   void set_source(std::size_t lane, std::string_view source) {
-    store_text<Stores>(lanes_[lane].source.data(), kSourceWords, source);
+    store_text<Access>(lanes_[lane].source.data(), kSourceWords, source);
   }
   std::string source(std::size_t lane) const { return load_text(lanes_[lane].source.data(), kSourceWords); }
 
@@ -58,34 +60,34 @@ class InputLanes {
   std::array<Lane, Lanes> lanes_;
 };
 
-template <Record T, std::size_t Lanes, std::size_t Depth, class Stores>
-bool InputLanes<T, Lanes, Depth, Stores>::push(std::size_t lane, const T& record) {
+template <Record T, std::size_t Lanes, std::size_t Depth, class Access>
+bool InputLanes<T, Lanes, Depth, Access>::push(std::size_t lane, const T& record) {
   Lane& into = lanes_[lane];
-  const Word number = into.pushed.load(std::memory_order_relaxed);
-  if (number - into.popped_seen.load(std::memory_order_relaxed) >= Depth) {
-    const Word popped = into.popped.load(std::memory_order_acquire);
-    Stores::store(into.popped_seen, popped, std::memory_order_relaxed);
+  const Word number = Access::load(into.pushed, std::memory_order_relaxed);
+  if (number - Access::load(into.popped_seen, std::memory_order_relaxed) >= Depth) {
+    const Word popped = Access::load(into.popped, std::memory_order_acquire);
+    Access::store(into.popped_seen, popped, std::memory_order_relaxed);
     if (number - popped >= Depth) {
-      Stores::store(into.dropped, into.dropped.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+      Access::store(into.dropped, Access::load(into.dropped, std::memory_order_relaxed) + 1, std::memory_order_relaxed);
       return false;
     }
   }
-  store_words<Stores>(into.records[number % Depth].data(), &record, kWordsOf<T>);
-  Stores::store(into.pushed, number + 1, std::memory_order_release);
+  store_words<Access>(into.records[number % Depth].data(), &record, kWordsOf<T>);
+  Access::store(into.pushed, number + 1, std::memory_order_release);
   return true;
 }
 
-template <Record T, std::size_t Lanes, std::size_t Depth, class Stores>
-bool InputLanes<T, Lanes, Depth, Stores>::pop(std::size_t lane, T& out) {
+template <Record T, std::size_t Lanes, std::size_t Depth, class Access>
+bool InputLanes<T, Lanes, Depth, Access>::pop(std::size_t lane, T& out) {
   Lane& from = lanes_[lane];
-  const Word number = from.popped.load(std::memory_order_relaxed);
-  if (number == from.pushed_seen.load(std::memory_order_relaxed)) {
-    const Word pushed = from.pushed.load(std::memory_order_acquire);
-    Stores::store(from.pushed_seen, pushed, std::memory_order_relaxed);
+  const Word number = Access::load(from.popped, std::memory_order_relaxed);
+  if (number == Access::load(from.pushed_seen, std::memory_order_relaxed)) {
+    const Word pushed = Access::load(from.pushed, std::memory_order_acquire);
+    Access::store(from.pushed_seen, pushed, std::memory_order_relaxed);
     if (number == pushed) return false;
   }
-  load_words(from.records[number % Depth].data(), &out, kWordsOf<T>);
-  Stores::store(from.popped, number + 1, std::memory_order_release);
+  load_words<Access>(from.records[number % Depth].data(), &out, kWordsOf<T>);
+  Access::store(from.popped, number + 1, std::memory_order_release);
   return true;
 }
 

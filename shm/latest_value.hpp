@@ -12,7 +12,7 @@
 
 namespace yars::shm {
 
-template <Record T, class Stores = PlainStores>
+template <Record T, class Access = PlainAccess>
 class LatestValue {
  public:
   void publish(const T& value);
@@ -20,8 +20,8 @@ class LatestValue {
   void clear();
   // The version copied; nullopt: nothing there, or overtaken too often. `out` is then untouched.
   std::optional<std::uint64_t> read(T& out) const;
-  std::uint64_t version() const { return state_.load(std::memory_order_acquire) >> 1; }
-  bool has_value() const { return (state_.load(std::memory_order_acquire) & kPresent) != 0; }
+  std::uint64_t version() const { return Access::load(state_, std::memory_order_acquire) >> 1; }
+  bool has_value() const { return (Access::load(state_, std::memory_order_acquire) & kPresent) != 0; }
 
   // Where things lie, for databuffer/yars.h and `yars status --layout`.
   static constexpr std::size_t kSlots = 4;
@@ -43,38 +43,38 @@ class LatestValue {
   std::array<Slot, kSlots> slots_;
 };
 
-template <Record T, class Stores>
-void LatestValue<T, Stores>::publish(const T& value) {
-  const Word version = (state_.load(std::memory_order_relaxed) >> 1) + 1;
+template <Record T, class Access>
+void LatestValue<T, Access>::publish(const T& value) {
+  const Word version = (Access::load(state_, std::memory_order_relaxed) >> 1) + 1;
   Slot& slot = slots_[version % kSlots];
-  const Word odd = next_odd(slot.sequence.load(std::memory_order_relaxed));
-  Stores::store(slot.sequence, odd, std::memory_order_relaxed);
-  Stores::store(slot.version, version, std::memory_order_release);
-  store_words<Stores>(slot.words.data(), &value, kWordsOf<T>);
-  Stores::store(slot.sequence, odd + 1, std::memory_order_release);
-  Stores::store(state_, version << 1 | kPresent, std::memory_order_release);
+  const Word odd = next_odd(Access::load(slot.sequence, std::memory_order_relaxed));
+  Access::store(slot.sequence, odd, std::memory_order_relaxed);
+  Access::store(slot.version, version, std::memory_order_release);
+  store_words<Access>(slot.words.data(), &value, kWordsOf<T>);
+  Access::store(slot.sequence, odd + 1, std::memory_order_release);
+  Access::store(state_, version << 1 | kPresent, std::memory_order_release);
 }
 
-template <Record T, class Stores>
-void LatestValue<T, Stores>::clear() {
-  const Word version = (state_.load(std::memory_order_relaxed) >> 1) + 1;
-  Stores::store(state_, version << 1, std::memory_order_release);
+template <Record T, class Access>
+void LatestValue<T, Access>::clear() {
+  const Word version = (Access::load(state_, std::memory_order_relaxed) >> 1) + 1;
+  Access::store(state_, version << 1, std::memory_order_release);
 }
 
-template <Record T, class Stores>
-std::optional<std::uint64_t> LatestValue<T, Stores>::read(T& out) const {
+template <Record T, class Access>
+std::optional<std::uint64_t> LatestValue<T, Access>::read(T& out) const {
   for (int attempt = 0; attempt <= kRetries; ++attempt) {
-    const Word state = state_.load(std::memory_order_acquire);
+    const Word state = Access::load(state_, std::memory_order_acquire);
     if ((state & kPresent) == 0) return std::nullopt;
     const Word version = state >> 1;
     const Slot& slot = slots_[version % kSlots];
-    const Word before = slot.sequence.load(std::memory_order_acquire);
+    const Word before = Access::load(slot.sequence, std::memory_order_acquire);
     if (before % 2 != 0) continue;
     // A later value in the same slot may be one that its writer never lived to announce: only the announced one counts.
-    if (slot.version.load(std::memory_order_acquire) != version) continue;
+    if (Access::load(slot.version, std::memory_order_acquire) != version) continue;
     std::array<Word, kWordsOf<T>> copy;
-    load_words(slot.words.data(), copy.data(), kWordsOf<T>);
-    if (slot.sequence.load(std::memory_order_relaxed) != before) continue;
+    load_words<Access>(slot.words.data(), copy.data(), kWordsOf<T>);
+    if (Access::load(slot.sequence, std::memory_order_relaxed) != before) continue;
     std::memcpy(&out, copy.data(), sizeof(T));
     return version;
   }
@@ -82,10 +82,10 @@ std::optional<std::uint64_t> LatestValue<T, Stores>::read(T& out) const {
 }
 
 // One reader's view: the last value it got whole, its version, and how many reads it had to give up.
-template <Record T, class Stores = PlainStores>
+template <Record T, class Access = PlainAccess>
 class LatestReader {
  public:
-  explicit LatestReader(const LatestValue<T, Stores>& source) : source_(&source) {}
+  explicit LatestReader(const LatestValue<T, Access>& source) : source_(&source) {}
 
   // True when a value newer than the one held has come.
   bool refresh() {
@@ -107,7 +107,7 @@ class LatestReader {
   std::uint64_t lost() const { return lost_; }
 
  private:
-  const LatestValue<T, Stores>* source_;
+  const LatestValue<T, Access>* source_;
   T value_{};
   std::uint64_t version_ = 0;
   std::uint64_t lost_ = 0;

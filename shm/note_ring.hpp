@@ -10,13 +10,13 @@
 
 namespace yars::shm {
 
-template <Record T, std::size_t N, class Stores = PlainStores>
+template <Record T, std::size_t N, class Access = PlainAccess>
 class NoteRing {
  public:
   // The number that the line got.
   std::uint64_t append(const T& line);
   // Lines begun since the session began.
-  std::uint64_t total() const { return total_.load(std::memory_order_acquire); }
+  std::uint64_t total() const { return Access::load(total_, std::memory_order_acquire); }
   std::uint64_t oldest() const {
     const std::uint64_t end = total();
     return end < N ? 0 : end - N;
@@ -50,28 +50,28 @@ class NoteRing {
   alignas(kCacheLine) std::array<Slot, N> slots_;
 };
 
-template <Record T, std::size_t N, class Stores>
-std::uint64_t NoteRing<T, N, Stores>::append(const T& line) {
-  const std::uint64_t number = Stores::fetch_add(total_, 1, std::memory_order_acq_rel);
+template <Record T, std::size_t N, class Access>
+std::uint64_t NoteRing<T, N, Access>::append(const T& line) {
+  const std::uint64_t number = Access::fetch_add(total_, 1, std::memory_order_acq_rel);
   Slot& slot = slots_[number % N];
   Copy copy;
   std::memcpy(copy.data(), &line, sizeof(T));
-  Stores::store(slot.sequence, 2 * number + 1, std::memory_order_relaxed);
-  Stores::store(slot.checksum, checksum_of(number, copy), std::memory_order_release);
-  store_words<Stores>(slot.words.data(), copy.data(), kWordsOf<T>);
-  Stores::store(slot.sequence, 2 * number + 2, std::memory_order_release);
+  Access::store(slot.sequence, 2 * number + 1, std::memory_order_relaxed);
+  Access::store(slot.checksum, checksum_of(number, copy), std::memory_order_release);
+  store_words<Access>(slot.words.data(), copy.data(), kWordsOf<T>);
+  Access::store(slot.sequence, 2 * number + 2, std::memory_order_release);
   return number;
 }
 
-template <Record T, std::size_t N, class Stores>
-bool NoteRing<T, N, Stores>::read(std::uint64_t number, T& out) const {
+template <Record T, std::size_t N, class Access>
+bool NoteRing<T, N, Access>::read(std::uint64_t number, T& out) const {
   const Slot& slot = slots_[number % N];
   const Word whole = 2 * number + 2;
-  if (slot.sequence.load(std::memory_order_acquire) != whole) return false;
-  const Word checksum = slot.checksum.load(std::memory_order_acquire);
+  if (Access::load(slot.sequence, std::memory_order_acquire) != whole) return false;
+  const Word checksum = Access::load(slot.checksum, std::memory_order_acquire);
   Copy copy;
-  load_words(slot.words.data(), copy.data(), kWordsOf<T>);
-  if (slot.sequence.load(std::memory_order_relaxed) != whole) return false;
+  load_words<Access>(slot.words.data(), copy.data(), kWordsOf<T>);
+  if (Access::load(slot.sequence, std::memory_order_relaxed) != whole) return false;
   if (checksum_of(number, copy) != checksum) return false;
   std::memcpy(&out, copy.data(), sizeof(T));
   return true;

@@ -1,9 +1,9 @@
 // Records travel through shared memory as 64-bit atomic words, so that a reader who meets a writer has no data race.
 // Publishing order: a slot's sequence goes odd, words (release), sequence even (release). A reader loads words with
 // acquire: whoever has seen one new word also sees the odd sequence in front of it. No fences: ThreadSanitizer
-// understands this. `Stores` is how a container writes; tests put a counting one in its place and stop the writer
-// after every single store. A record whose length varies declares, in its own namespace,
-// `std::size_t used_bytes(const Record&)`: only these leading bytes travel.
+// understands this. `Access` is how a container reaches memory; tests put one in its place that stops the writer
+// after every single store, and lets a writer in before every single load. A record whose length varies declares, in
+// its own namespace, `std::size_t used_bytes(const Record&)`: only these leading bytes travel.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,9 @@ using Word = std::uint64_t;
 using AtomicWord = std::atomic<Word>;
 static_assert(AtomicWord::is_always_lock_free && sizeof(AtomicWord) == sizeof(Word));
 
-struct PlainStores {
+struct PlainAccess {
   static void store(AtomicWord& word, Word value, std::memory_order order) { word.store(value, order); }
+  static Word load(const AtomicWord& word, std::memory_order order) { return word.load(order); }
   static Word fetch_add(AtomicWord& word, Word value, std::memory_order order) { return word.fetch_add(value, order); }
 };
 
@@ -55,32 +56,33 @@ constexpr Word next_odd(Word sequence) {
   return (sequence + 1) | 1U;
 }
 
-template <class Stores>
+template <class Access>
 void store_words(AtomicWord* words, const void* record, std::size_t count) {
   const auto* bytes = static_cast<const std::byte*>(record);
   for (std::size_t i = 0; i < count; ++i) {
     Word word;
     std::memcpy(&word, bytes + i * sizeof(Word), sizeof(Word));
-    Stores::store(words[i], word, std::memory_order_release);
+    Access::store(words[i], word, std::memory_order_release);
   }
 }
 
-inline void load_words(const AtomicWord* words, void* record, std::size_t count) {
+template <class Access = PlainAccess>
+void load_words(const AtomicWord* words, void* record, std::size_t count) {
   auto* bytes = static_cast<std::byte*>(record);
   for (std::size_t i = 0; i < count; ++i) {
-    const Word word = words[i].load(std::memory_order_acquire);
+    const Word word = Access::load(words[i], std::memory_order_acquire);
     std::memcpy(bytes + i * sizeof(Word), &word, sizeof(Word));
   }
 }
 
 // A name for people, in `count` words: what is too long is cut, the last byte is zero.
-template <class Stores = PlainStores>
+template <class Access = PlainAccess>
 void store_text(AtomicWord* words, std::size_t count, std::string_view text) {
   for (std::size_t i = 0; i < count; ++i) {
     std::array<char, sizeof(Word)> piece{};
     const std::size_t begin = std::min(i * sizeof(Word), text.size());
     text.substr(begin).copy(piece.data(), i + 1 == count ? piece.size() - 1 : piece.size());
-    store_words<Stores>(&words[i], piece.data(), 1);
+    store_words<Access>(&words[i], piece.data(), 1);
   }
 }
 

@@ -5,18 +5,18 @@
 #include <algorithm>
 
 #include "tests/shm/child_process.hpp"
-#include "tests/shm/counted_stores.hpp"
+#include "tests/shm/hooked_access.hpp"
 #include "tests/shm/numbered_record.hpp"
 
 namespace yars::shm {
 namespace {
 
-using testing::CountedStores;
+using testing::HookedAccess;
 using testing::SharedMemory;
 using testing::survives;
 using testing::VaryingRecord;
 using Record = testing::NumberedRecord<5>;
-using Ring = BroadcastRing<Record, 8, CountedStores>;
+using Ring = BroadcastRing<Record, 8, HookedAccess>;
 
 template <class R>
 void publish_numbers(R& ring, std::uint64_t first, std::uint64_t end) {
@@ -97,8 +97,63 @@ TEST(BroadcastRing, AProducerKilledAfterAnyStoreLeavesWholeRecordsAndTheNextGoes
   EXPECT_EQ(stores - 1, 4 + 6) << "sequence, length, 6 words, sequence, next";
 }
 
+TEST(BroadcastRing, AReaderInterruptedAtAnyLoadByAnyNumberOfWritesTearsNothingAndCountsTheRest) {
+  for (std::uint64_t writes = 1; writes <= 20; ++writes) {
+    long load = 1;
+    for (bool interrupted = true; interrupted; ++load) {
+      SharedMemory<Ring> ring;
+      publish_numbers(*ring, 0, 20);
+      std::uint64_t cursor = 13;
+      Record out{};
+      RingRead result{};
+      interrupted = testing::interrupted_at(
+          load, [&] { publish_numbers(*ring, 20, 20 + writes); }, [&] { result = ring->read(cursor, out); });
+      ASSERT_TRUE(result.delivered);
+      EXPECT_TRUE(out.is_whole()) << writes << " writes before load " << load;
+      EXPECT_EQ(out.number, 13 + result.lost);
+      EXPECT_EQ(cursor, out.number + 1);
+    }
+    EXPECT_GE(load, 10) << "next, sequence, length, 6 words, sequence";
+  }
+}
+
+TEST(BroadcastRing, AReaderInterruptedAtAnyLoadByAProducerThatDiesAtAnyStoreTearsNothing) {
+  for (long stores = 0; stores < 10; ++stores) {
+    long load = 1;
+    for (bool interrupted = true; interrupted; ++load) {
+      SharedMemory<Ring> ring;
+      publish_numbers(*ring, 0, 20);
+      std::uint64_t cursor = 13;
+      Record out{};
+      RingRead result{};
+      const auto write = [&] {
+        ring->publish(Record::make(20));
+        EXPECT_FALSE(survives(stores, [&] { ring->publish(Record::make(21)); }));
+      };
+      interrupted = testing::interrupted_at(load, write, [&] { result = ring->read(cursor, out); });
+      ASSERT_TRUE(result.delivered);
+      EXPECT_TRUE(out.is_whole()) << stores << " stores before load " << load;
+      EXPECT_EQ(out.number, 13 + result.lost);
+    }
+  }
+}
+
+TEST(BroadcastRing, AReaderOvertakenAgainAndAgainEndsAndIsToldItsLosses) {
+  SharedMemory<Ring> ring;
+  publish_numbers(*ring, 0, 20);
+  std::uint64_t cursor = 13;
+  Record out{};
+  RingRead result{};
+  testing::interrupted_always([&] { publish_numbers(*ring, ring->next(), ring->next() + 9); },
+                              [&] { result = ring->read(cursor, out); });
+  EXPECT_FALSE(result.delivered);
+  EXPECT_EQ(cursor, 13 + result.lost);
+  EXPECT_GT(result.lost, 8u);
+  EXPECT_TRUE(ring->read(cursor, out).delivered) << "left alone it goes on";
+}
+
 TEST(BroadcastRing, OnlyTheUsedPartOfARecordTravels) {
-  using VaryingRing = BroadcastRing<VaryingRecord, 4, CountedStores>;
+  using VaryingRing = BroadcastRing<VaryingRecord, 4, HookedAccess>;
   SharedMemory<VaryingRing> ring;
   std::uint64_t cursor = 0;
   for (std::uint64_t n = 0; n < 40; ++n) {

@@ -1,9 +1,12 @@
 // A writer that dies after a given number of stores: the next one throws, so that nothing later reaches the memory.
 // Stores reach memory in program order (every store of the containers but the first of a slot is a release), hence
-// this leaves what a kill -9 at that place leaves.
+// this leaves what a kill -9 at that place leaves. And a reader that is interrupted before a given load, while
+// somebody else does something.
 #pragma once
 
+#include <functional>
 #include <limits>
+#include <utility>
 
 #include "shm/words.hpp"
 
@@ -11,9 +14,13 @@ namespace yars::shm::testing {
 
 struct WriterKilled {};
 
-struct CountedStores {
+struct HookedAccess {
   static constexpr long kForever = std::numeric_limits<long>::max();
   inline static thread_local long left = kForever;
+
+  inline static thread_local std::function<void()> interruption;  // what others do meanwhile; its own loads run through
+  inline static thread_local long loads_before = 0;
+  inline static thread_local bool interrupt_always = false;
 
   static void spend() {
     if (left == 0) throw WriterKilled{};
@@ -22,6 +29,14 @@ struct CountedStores {
   static void store(AtomicWord& word, Word value, std::memory_order order) {
     spend();
     word.store(value, order);
+  }
+  static Word load(const AtomicWord& word, std::memory_order order) {
+    if (interruption && (loads_before == 0 || --loads_before == 0)) {
+      auto action = std::exchange(interruption, nullptr);
+      action();
+      if (interrupt_always) interruption = std::move(action);
+    }
+    return word.load(order);
   }
   static Word fetch_add(AtomicWord& word, Word value, std::memory_order order) {
     spend();
@@ -32,15 +47,32 @@ struct CountedStores {
 // True: the action came to its end; false: its writer died after `stores` stores.
 template <class Action>
 bool survives(long stores, Action action) {
-  CountedStores::left = stores;
+  HookedAccess::left = stores;
   bool alive = true;
   try {
     action();
   } catch (const WriterKilled&) {
     alive = false;
   }
-  CountedStores::left = CountedStores::kForever;
+  HookedAccess::left = HookedAccess::kForever;
   return alive;
+}
+
+// Runs `read` while `action` happens once, before its load number `load` (from 1). False: it has fewer loads.
+template <class Read>
+bool interrupted_at(long load, std::function<void()> action, Read read) {
+  HookedAccess::loads_before = load;
+  HookedAccess::interruption = std::move(action);
+  read();
+  return !std::exchange(HookedAccess::interruption, nullptr);
+}
+
+// Runs `read` while `action` happens before each of its loads.
+template <class Read>
+void interrupted_always(std::function<void()> action, Read read) {
+  HookedAccess::interrupt_always = true;
+  interrupted_at(0, std::move(action), read);
+  HookedAccess::interrupt_always = false;
 }
 
 }  // namespace yars::shm::testing

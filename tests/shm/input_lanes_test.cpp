@@ -3,17 +3,17 @@
 #include <gtest/gtest.h>
 
 #include "tests/shm/child_process.hpp"
-#include "tests/shm/counted_stores.hpp"
+#include "tests/shm/hooked_access.hpp"
 #include "tests/shm/numbered_record.hpp"
 
 namespace yars::shm {
 namespace {
 
-using testing::CountedStores;
+using testing::HookedAccess;
 using testing::SharedMemory;
 using testing::survives;
 using Record = testing::NumberedRecord<3>;
-using Lanes = InputLanes<Record, 3, 8, CountedStores>;
+using Lanes = InputLanes<Record, 3, 8, HookedAccess>;
 
 void expect_next(Lanes& lanes, std::size_t lane, std::uint64_t number) {
   Record out{};

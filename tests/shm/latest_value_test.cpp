@@ -3,17 +3,17 @@
 #include <gtest/gtest.h>
 
 #include "tests/shm/child_process.hpp"
-#include "tests/shm/counted_stores.hpp"
+#include "tests/shm/hooked_access.hpp"
 #include "tests/shm/numbered_record.hpp"
 
 namespace yars::shm {
 namespace {
 
-using testing::CountedStores;
+using testing::HookedAccess;
 using testing::SharedMemory;
 using testing::survives;
 using Record = testing::NumberedRecord<7>;
-using Value = LatestValue<Record, CountedStores>;
+using Value = LatestValue<Record, HookedAccess>;
 
 std::uint64_t number_in(const Value& value) {
   Record record{};
@@ -94,7 +94,7 @@ TEST(LatestValue, AKilledClearLeavesEitherTheValueOrNothing) {
 
 TEST(LatestReader, KeepsItsValueUntilANewerOneComes) {
   SharedMemory<Value> value;
-  LatestReader<Record, CountedStores> reader(*value);
+  LatestReader<Record, HookedAccess> reader(*value);
   EXPECT_FALSE(reader.refresh());
   EXPECT_FALSE(reader.has_value());
   value->publish(Record::make(3));
@@ -111,24 +111,67 @@ TEST(LatestReader, KeepsItsValueUntilANewerOneComes) {
   EXPECT_FALSE(reader.withdrawn());
 }
 
-// A writer that goes round all slots between each of the reader's looks at the index and at the slot cannot be staged
-// from one thread; a slot left odd while the index names it has the same effect on the reader.
-TEST(LatestReader, CountsAReadGivenUpAndKeepsTheLastValue) {
+TEST(LatestReader, GivesUpAReadThatIsOvertakenAgainAndAgainAndKeepsWhatItHad) {
   SharedMemory<Value> value;
-  LatestReader<Record, CountedStores> reader(*value);
-  value->publish(Record::make(1));
+  LatestReader<Record, HookedAccess> reader(*value);
+  std::uint64_t published = 1;
+  value->publish(Record::make(published));
   ASSERT_TRUE(reader.refresh());
-  value->publish(Record::make(2));
-  auto* bytes = reinterpret_cast<std::byte*>(&*value);
-  auto* sequence = reinterpret_cast<AtomicWord*>(bytes + Value::slots_offset() + 2 * Value::slot_stride());
-  const Word even = sequence->load();
-  sequence->store(even + 1);
-  EXPECT_FALSE(reader.refresh());
+  value->publish(Record::make(++published));
+  testing::interrupted_always(
+      [&] {
+        for (std::size_t i = 0; i < Value::kSlots; ++i) value->publish(Record::make(++published));
+      },
+      [&] { EXPECT_FALSE(reader.refresh()); });
   EXPECT_EQ(reader.lost(), 1u);
   EXPECT_EQ(reader.value().number, 1u);
-  sequence->store(even + 2);
+  EXPECT_TRUE(reader.value().is_whole());
   EXPECT_TRUE(reader.refresh());
-  EXPECT_EQ(reader.value().number, 2u);
+  EXPECT_EQ(reader.value().number, published);
+}
+
+TEST(LatestValue, AReaderInterruptedAtAnyLoadByAnyNumberOfWritesGetsAWholeValue) {
+  for (std::uint64_t writes = 1; writes <= 9; ++writes) {
+    long load = 1;
+    for (bool interrupted = true; interrupted; ++load) {
+      SharedMemory<Value> value;
+      for (std::uint64_t n = 1; n <= 5; ++n) value->publish(Record::make(n));
+      const auto write = [&] {
+        for (std::uint64_t n = 0; n < writes; ++n) value->publish(Record::make(6 + n));
+      };
+      interrupted = testing::interrupted_at(load, write, [&] {
+        Record out{};
+        const auto version = value->read(out);
+        EXPECT_TRUE(out.is_whole()) << writes << " writes before load " << load;
+        EXPECT_EQ(version, out.number);
+        EXPECT_GE(out.number, 5u);
+      });
+    }
+    EXPECT_GE(load, 12) << "state, sequence, version, 8 words, sequence";
+  }
+}
+
+TEST(LatestValue, AReaderInterruptedAtAnyLoadByAWriterThatDiesAtAnyStoreGetsAWholeValue) {
+  for (std::uint64_t whole_writes = 0; whole_writes <= 4; ++whole_writes)
+    for (long stores = 0; stores < 12; ++stores) {
+      long load = 1;
+      for (bool interrupted = true; interrupted; ++load) {
+        SharedMemory<Value> value;
+        for (std::uint64_t n = 1; n <= 5; ++n) value->publish(Record::make(n));
+        const auto write = [&] {
+          for (std::uint64_t n = 0; n < whole_writes; ++n) value->publish(Record::make(6 + n));
+          EXPECT_FALSE(survives(stores, [&] { value->publish(Record::make(6 + whole_writes)); }));
+        };
+        interrupted = testing::interrupted_at(load, write, [&] {
+          Record out{};
+          const auto version = value->read(out);
+          ASSERT_TRUE(version.has_value());
+          EXPECT_TRUE(out.is_whole()) << whole_writes << " writes and " << stores << " stores before load " << load;
+          EXPECT_EQ(*version, out.number);
+          EXPECT_LE(out.number, 5 + whole_writes) << "a value never announced is not delivered";
+        });
+      }
+    }
 }
 
 }  // namespace
