@@ -59,6 +59,7 @@ void DrawList::clear() {
 }
 
 void DrawList::line(Point from, Point to, Ink ink) {
+  if (!std::isfinite(from.x + from.y + to.x + to.y)) return;
   const bool thin = ink == Ink::dim;
   current().strokes.push_back({rounded(from), rounded(to), thin ? kThin : kStroke, thin ? 0.0F : kHalo, ink});
 }

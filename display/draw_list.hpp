@@ -64,6 +64,7 @@ class DrawList {
   void clear();
   void draw_on(Layer layer) { layer_ = layer; }  // what follows; a cleared list draws on symbols
 
+  // A line to a place that is no number is left out: an antenna that tells nothing has no caret.
   void line(Point from, Point to, Ink ink = Ink::bright);
   void polyline(std::span<const Point> points, Ink ink = Ink::bright);
   void circle(Point center, float radius, bool dashed = false);

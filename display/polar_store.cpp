@@ -1,6 +1,7 @@
 #include "display/polar_store.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace yars::display {
@@ -51,6 +52,7 @@ Insertion PolarStore::insert(const databuffer::Sweep& sweep) {
   const geo::Bearing left = geo::Bearing::degrees(sweep.azimuth_left_deg);
   const double width_deg = (geo::Bearing::degrees(sweep.azimuth_right_deg) - left).degrees();
   if ((sweep.flags & databuffer::kSweepBlank) != 0 || sweep.samples == 0) return Insertion::ignored;
+  if (!std::isfinite(sweep.apex_latitude_deg) || !std::isfinite(sweep.apex_longitude_deg)) return Insertion::ignored;
   if (!(width_deg > 0.0 && width_deg <= kMostWidth_deg) || !(sweep.range_m > 0.0)) return Insertion::ignored;
 
   if (!sweeps_.empty() && (sweep.epoch != epoch_ || sweep.mode != mode_)) clear();

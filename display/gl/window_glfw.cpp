@@ -64,8 +64,12 @@ class GlfwWindow final : public Window {
     return pixels;
   }
   bool should_close() const override { return glfwWindowShouldClose(window_) != GLFW_FALSE; }
-  WindowInput take_input() override {
-    glfwPollEvents();
+  WindowInput take_input(double longest_wait_s) override {
+    if (longest_wait_s > 0.0) {
+      glfwWaitEventsTimeout(longest_wait_s);
+    } else {
+      glfwPollEvents();
+    }
     return std::exchange(input_, {});
   }
   void present() override { glfwSwapBuffers(window_); }

@@ -32,8 +32,9 @@ class Window : public Context {
   };
   virtual Pixels pixels() const = 0;  // of the framebuffer
   virtual bool should_close() const = 0;
-  virtual WindowInput take_input() = 0;  // looks for events, without waiting
-  virtual void present() = 0;            // shows what has been drawn; does not wait for the screen
+  // Waits for events up to so long [s]; returns at once when there are any.
+  virtual WindowInput take_input(double longest_wait_s) = 0;
+  virtual void present() = 0;  // shows what has been drawn; does not wait for the screen
 };
 
 // `size`: edge of the window. Without DISPLAY or WAYLAND_DISPLAY the error says to go headless.

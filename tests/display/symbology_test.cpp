@@ -283,6 +283,14 @@ TEST(Symbology, TheAntennaCaretPointsAtTheAzimuthAgainstTheGroundTrack) {
   EXPECT_NEAR((turned.left + turned.right) / 2.0F, 300.0F, 0.2F);
 }
 
+TEST(Symbology, AnAntennaThatTellsNothingHasNoCaretAndTheGlassStandsStill) {
+  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  const std::size_t with_carets = strokes(drawn(input));
+  input.model.antenna_azimuth_deg = input.model.antenna_elevation_deg = testing::kNone;
+  EXPECT_EQ(strokes(drawn(input)), with_carets - 4);
+  EXPECT_EQ(drawn(input), drawn(input));
+}
+
 TEST(Symbology, ThePitchBallStandsAgainstTheHorizonAndStopsAtTheEdge) {
   const auto ball_of = [](double pitch_deg) {
     GlassInput input = testing::operating(Mode::rbm, 40.0);

@@ -1,0 +1,100 @@
+#include "display/glass_feed_shell.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "databuffer/log.hpp"
+#include "databuffer/records/validation.hpp"
+#include "databuffer/tick_loop.hpp"
+
+namespace yars::display {
+
+namespace {
+
+constexpr std::int64_t kLookEvery_ns = 200'000'000;      // [ns] the table of processes costs a system call an entry
+constexpr std::int64_t kSilentAfter_ns = 1'000'000'000;  // [ns] without a heartbeat: stopped, though it keeps its lock
+
+bool takes_part(const databuffer::SessionLayout& layout, databuffer::LockstepRole role) {
+  return (layout.lockstep.roles.load(std::memory_order_relaxed) >> static_cast<unsigned>(role) & 1U) != 0;
+}
+
+}  // namespace
+
+GlassFeed::GlassFeed(databuffer::Session& session, bool lockstep, SweepSink sink)
+    : session_(&session),
+      lockstep_(lockstep),
+      sink_(std::move(sink)),
+      sweep_cursor_(std::as_const(session).layout().sweeps.oldest()) {}
+
+void GlassFeed::refresh(std::int64_t sim_time_ns) {
+  look_who_is_alive();
+  take_state();
+  take_model(sim_time_ns);
+  take_sweeps();
+}
+
+void GlassFeed::look_who_is_alive() {
+  if (lockstep_) {
+    input_.state_machine_alive = takes_part(session_->layout(), databuffer::LockstepRole::state_machine);
+    input_.model_alive = takes_part(session_->layout(), databuffer::LockstepRole::radar_model);
+    return;
+  }
+  const std::int64_t now_ns = databuffer::monotonic_ns();
+  if (now_ns < next_look_ns_) return;
+  next_look_ns_ = now_ns + kLookEvery_ns;
+  const auto processes = session_->processes();
+  const auto beats = [&](databuffer::Role role) {
+    return std::ranges::any_of(processes, [&](const databuffer::ProcessHere& process) {
+      return process.name == databuffer::name_of(role) && now_ns - process.heartbeat_ns < kSilentAfter_ns;
+    });
+  };
+  input_.state_machine_alive = beats(databuffer::Role::state_machine);
+  input_.model_alive = beats(databuffer::Role::radar_model);
+}
+
+void GlassFeed::take_state() {
+  const auto& latest = session_->layout().radar_state;
+  if (latest.version() == state_version_) return;
+  databuffer::RadarState state{};
+  const auto version = latest.read(state);
+  if (!version) return;
+  state_version_ = *version;
+  if (const auto reason = databuffer::why_refused(state)) {
+    session_->note(databuffer::NoteKind::refusal, "glass: radar state: " + *reason);
+    return;
+  }
+  input_.state = state;
+}
+
+void GlassFeed::take_model(std::int64_t sim_time_ns) {
+  // Kept warm while the model is alive, so that it can go on at once when the model dies.
+  const auto& selected = receiver_.refresh(session_->layout(), sim_time_ns);
+  const bool has_status = session_->layout().model_status.read(input_.model).has_value();
+  if (input_.model_alive && has_status) {
+    input_.ownship = input_.model.ownship;
+    input_.nav = input_.model.nav;
+    input_.ownship_fresh = (input_.model.flags & databuffer::kModelStale) == 0;
+  } else {
+    input_.ownship = selected.ownship;
+    input_.nav = selected.nav;
+    input_.ownship_fresh = selected.valid;
+  }
+}
+
+void GlassFeed::take_sweeps() {
+  const auto& ring = session_->layout().sweeps;
+  std::uint64_t lost = 0;
+  while (true) {
+    const auto read = ring.read(sweep_cursor_, sweep_);
+    lost += read.lost;
+    if (!read.delivered) break;
+    sink_(sweep_);
+  }
+  if (lost == 0) return;
+  const std::string text = "glass lost " + std::to_string(lost) + " sweeps";
+  session_->note(databuffer::NoteKind::loss, text);
+  databuffer::log_warning(text);
+}
+
+}  // namespace yars::display

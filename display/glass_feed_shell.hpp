@@ -1,0 +1,41 @@
+// Keeps a GlassInput and the glass's sweeps up to date with the session, by copies; waits for nobody.
+// A restarted glass reads the ring from its oldest sweep: it repaints at once, also when frozen.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "databuffer/ownship_receiver.hpp"
+#include "databuffer/session.hpp"
+#include "display/glass_input.hpp"
+
+namespace yars::display {
+
+class GlassFeed {
+ public:
+  using SweepSink = std::function<void(const databuffer::Sweep&)>;
+  // In lockstep a role counts as alive when it takes part: clocks of the wall must not show in a frame.
+  GlassFeed(databuffer::Session& session, bool lockstep, SweepSink sink);
+
+  // Takes over what is new. Times are those of the moment or of the tick.
+  void refresh(std::int64_t sim_time_ns);
+  const GlassInput& input() const { return input_; }
+
+ private:
+  void take_sweeps();
+  void take_state();
+  void take_model(std::int64_t sim_time_ns);
+  void look_who_is_alive();
+
+  databuffer::Session* session_;
+  bool lockstep_;
+  SweepSink sink_;
+  databuffer::OwnshipReceiver receiver_;
+  GlassInput input_;
+  databuffer::Sweep sweep_{};
+  std::uint64_t sweep_cursor_ = 0;
+  std::uint64_t state_version_ = 0;
+  std::int64_t next_look_ns_ = 0;  // CLOCK_MONOTONIC
+};
+
+}  // namespace yars::display
