@@ -48,7 +48,7 @@ struct Fidelity {
   bool noise = true;
   bool azimuth_smear = true;
   bool pulse_smear = true;
-  BeamPattern beam = BeamPattern::gaussian;
+  BeamPattern beam = BeamPattern::cosecant_squared;
 };
 
 // Receiver and land/sea return; spec physics.md "Power and video".

@@ -10,6 +10,7 @@
 #include "model/kernel/mappable.hpp"
 #include "model/kernel/pose.hpp"
 #include "model/kernel/sweep_chain.hpp"
+#include "model/rbm/receiver.hpp"
 
 namespace yars::model::kernel {
 
@@ -20,7 +21,6 @@ namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 // Terrain a little beyond the range is wanted too: the aircraft moves on while it loads [m].
 constexpr double kRegionMarginM = 2000.0;
-constexpr std::uint8_t kFullGainStep = 3;
 
 bool frozen_by(const databuffer::RadarCommand& command) {
   return (command.flags & databuffer::kFreeze) != 0U;
@@ -188,7 +188,7 @@ bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::Anten
   labels.scan = scan;
   labels.number = next_sweep++;
   labels.mode = given.command.mode;
-  labels.gain = std::min(given.command.gain, kFullGainStep);
+  labels.gain = std::min<std::uint8_t>(given.command.gain, rbm::kFullGain);
   // A pose that is not a pose: the place is the last good one, and nothing is received.
   const bool lost = !pose_fresh && (given.flags & databuffer::kTickOwnshipValid) != 0U;
   if (!step.reachable || lost) labels.flags |= databuffer::kSweepBlank;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "databuffer/records/model_records.hpp"
 #include "model/antenna/antenna.hpp"
@@ -29,5 +30,8 @@ rbm::Look look_of(const SweepPlace& place);
 
 // FNV-1a 64 over the record's fields before `hash` but for the times, then the used samples.
 std::uint64_t sweep_hash(const databuffer::Sweep& sweep);
+
+// One number for a scan: FNV-1a 64 over the hashes of its sweeps, in order.
+std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps);
 
 }  // namespace yars::model::kernel

@@ -1,0 +1,75 @@
+#include "model/kernel/offline_scan.hpp"
+
+#include <algorithm>
+#include <thread>
+
+#include "lib/radar/modes.hpp"
+#include "model/kernel/sweep_chain.hpp"
+#include "model/rbm/receiver.hpp"
+
+namespace yars::model::kernel {
+
+namespace {
+// Calls job(sweep, thread) for every sweep; thread t takes sweeps t, t + n, ...: which thread does which changes
+// nothing, for sweeps share nothing but what they read.
+template <class Job>
+void spread(std::size_t sweeps, std::size_t threads, const Job& job) {
+  const auto work = [&](std::size_t thread) {
+    for (std::size_t sweep = thread; sweep < sweeps; sweep += threads) job(sweep, thread);
+  };
+  std::vector<std::thread> helpers;
+  for (std::size_t thread = 1; thread < threads; ++thread) helpers.emplace_back(work, thread);
+  work(0);
+  for (std::thread& helper : helpers) helper.join();
+}
+}  // namespace
+
+OfflineScan::OfflineScan(const radar::RadarConfiguration& configuration, const ScanRequest& request, int threads)
+    : seed_(configuration.seed), gain_(request.gain), samples_(rbm::sample_count(configuration)) {
+  place_sweeps(configuration, request);
+  for (int thread = 0; thread < std::max(1, threads); ++thread) {
+    algorithms_.push_back(rbm::make_algorithm(configuration));
+  }
+  flags_.assign(places_.size(), 0U);
+  power_.assign(places_.size() * samples_, 0.0F);
+  sweeps_.resize(places_.size());
+}
+
+void OfflineScan::place_sweeps(const radar::RadarConfiguration& configuration, const ScanRequest& request) {
+  const antenna::ScanPattern pattern = antenna::make_scan_pattern(configuration.antenna, request.width.degrees());
+  const geo::Bearing centre = antenna::scan_centre(request.pose.platform, configuration.antenna);
+  constexpr int kClockwise = 1;
+  for (int i = 0; i < pattern.sweep_ticks; ++i) {
+    places_.push_back({request.pose.place, request.pose.altitude,
+                       centre + geo::Angle::degrees(pattern.edge_deg(i, kClockwise)),
+                       centre + geo::Angle::degrees(pattern.edge_deg(i + 1, kClockwise)),
+                       request.pose.platform.ground_track, request.elevation, request.range, kClockwise});
+  }
+}
+
+void OfflineScan::measure(const terrain::TerrainView& terrain) {
+  spread(places_.size(), algorithms_.size(), [&](std::size_t sweep, std::size_t thread) {
+    const std::size_t pending = algorithms_[thread]->measure(look_of(places_[sweep]), terrain, power_of(sweep));
+    flags_[sweep] = pending > 0 ? databuffer::kSweepNotReady : 0U;
+  });
+}
+
+void OfflineScan::develop() {
+  const std::size_t last = places_.size() - 1;
+  spread(places_.size(), algorithms_.size(), [&](std::size_t sweep, std::size_t thread) {
+    const std::size_t before = sweep > 0 ? sweep - 1 : 0;
+    const std::size_t after = std::min(sweep + 1, last);
+    SweepChain::Labels labels;
+    labels.scan = 1;
+    labels.number = static_cast<std::uint32_t>(sweep);
+    labels.gain = static_cast<std::uint8_t>(std::clamp(gain_, 0, rbm::kFullGain));
+    labels.mode = static_cast<std::uint8_t>(radar::Mode::rbm);
+    labels.flags = flags_[before] | flags_[sweep] | flags_[after];
+    if (sweep == 0) labels.flags |= databuffer::kSweepScanStart;
+    if (sweep == last) labels.flags |= databuffer::kSweepScanEnd;
+    finish_sweep(*algorithms_[thread], seed_, places_[sweep], labels,
+                 {power_of(before), power_of(sweep), power_of(after)}, sweeps_[sweep]);
+  });
+}
+
+}  // namespace yars::model::kernel

@@ -1,0 +1,51 @@
+// One scan from one place without processes: the same chain as the live kernel, spread over threads. Sweep i is what
+// the kernel makes of a hovering aircraft in its first scan: equal hashes, for any number of threads.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "databuffer/records/model_records.hpp"
+#include "lib/radar/configuration.hpp"
+#include "model/kernel/pose.hpp"
+#include "model/kernel/sweep_record.hpp"
+#include "model/rbm/algorithm.hpp"
+#include "model/terrain/terrain_view.hpp"
+
+namespace yars::model::kernel {
+
+struct ScanRequest {
+  Pose pose;
+  geo::Length range;
+  geo::Angle width;
+  geo::Angle elevation;  // of the antenna, against the horizon
+  int gain = 3;          // 0..3
+};
+
+class OfflineScan {
+ public:
+  OfflineScan(const radar::RadarConfiguration& configuration, const ScanRequest& request, int threads);
+
+  // Terrain to power, then power to video and hashes; the second needs the first. Each waits for all its threads.
+  void measure(const terrain::TerrainView& terrain);
+  void develop();
+
+  std::span<const databuffer::Sweep> sweeps() const { return sweeps_; }
+
+ private:
+  std::span<float> power_of(std::size_t sweep) { return {power_.data() + sweep * samples_, samples_}; }
+  void place_sweeps(const radar::RadarConfiguration& configuration, const ScanRequest& request);
+
+  std::uint64_t seed_;
+  int gain_;
+  std::size_t samples_;
+  std::vector<std::unique_ptr<rbm::Algorithm>> algorithms_;  // one a thread
+  std::vector<SweepPlace> places_;
+  std::vector<std::uint32_t> flags_;
+  std::vector<float> power_;  // sweep after sweep
+  std::vector<databuffer::Sweep> sweeps_;
+};
+
+}  // namespace yars::model::kernel

@@ -1,0 +1,188 @@
+// `yars scan`: one scan of the real beam map without processes, to a picture or to numbers; one JSON line says how
+// long it took. Source of the option names and of the line: spec commands.md.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "config/fidelity_preset.hpp"
+#include "config/load.hpp"
+#include "databuffer/program.hpp"
+#include "lib/imageio/png.hpp"
+#include "model/kernel/offline_scan.hpp"
+#include "model/terrain/open_terrain.hpp"
+#include "tools/command.hpp"
+#include "tools/scan_picture.hpp"
+
+namespace yars::tools {
+
+namespace {
+
+using Milliseconds = std::chrono::duration<double, std::milli>;
+
+struct ScanOptions {
+  std::string terrain, fidelity, out;
+  std::string color = "green";
+  double latitude_deg = 37.8, longitude_deg = -122.5, altitude_ft = 15000.0, heading_deg = 0.0;
+  double range_nm = 40.0, width_deg = 100.0, elevation_deg = 0.0;
+  int samples = 0, threads = 1, gain = 3, size = 0, repeat = 1;
+  std::int64_t seed = -1;
+};
+
+double milliseconds_since(std::chrono::steady_clock::time_point begin) {
+  return Milliseconds(std::chrono::steady_clock::now() - begin).count();
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+radar::RadarConfiguration configure(const CommonOptions& common, const ScanOptions& options) {
+  auto loaded = config::load_configuration(common.config);
+  if (!loaded) give_up(loaded.error());
+  radar::RadarConfiguration configuration = std::move(loaded->radar);
+  if (!options.fidelity.empty()) configuration.fidelity = *config::fidelity_preset(options.fidelity);
+  if (!options.terrain.empty()) configuration.terrain.directory = options.terrain;
+  if (options.samples > 0) configuration.fidelity.samples = options.samples;
+  if (options.size > 0) configuration.view.size_pixels = options.size;
+  if (options.seed >= 0) configuration.seed = static_cast<std::uint64_t>(options.seed);
+  return configuration;
+}
+
+model::kernel::ScanRequest request_of(const ScanOptions& options) {
+  model::kernel::ScanRequest request;
+  request.pose.place = {options.latitude_deg, options.longitude_deg};
+  request.pose.altitude = geo::AltitudeMsl::feet(options.altitude_ft);
+  request.pose.platform.heading = geo::Bearing::degrees(options.heading_deg);
+  request.pose.platform.ground_track = request.pose.platform.heading;
+  request.range = geo::Length::nautical_miles(options.range_nm);
+  request.width = geo::Angle::degrees(options.width_deg);
+  request.elevation = geo::Angle::degrees(options.elevation_deg);
+  request.gain = options.gain;
+  return request;
+}
+
+void write_csv(std::ofstream& file, std::span<const databuffer::Sweep> sweeps) {
+  file << "sweep,azimuth_left_deg,azimuth_right_deg,range_m,hash,video...\n";
+  file.precision(12);
+  for (const databuffer::Sweep& sweep : sweeps) {
+    file << sweep.number << ',' << sweep.azimuth_left_deg << ',' << sweep.azimuth_right_deg << ',' << sweep.range_m
+         << ',' << sweep.hash;
+    for (std::uint32_t i = 0; i < sweep.samples; ++i) file << ',' << static_cast<int>(sweep.video[i]);
+    file << '\n';
+  }
+}
+
+// Rows of little-endian floats, one sweep a row, video 0 to 255.
+void write_floats(std::ofstream& file, std::span<const databuffer::Sweep> sweeps) {
+  for (const databuffer::Sweep& sweep : sweeps) {
+    for (std::uint32_t i = 0; i < sweep.samples; ++i) {
+      const auto level = static_cast<float>(sweep.video[i]);
+      file.write(reinterpret_cast<const char*>(&level), sizeof level);
+    }
+  }
+}
+
+void write_result(const ScanOptions& options, const radar::ViewConfiguration& view,
+                  std::span<const databuffer::Sweep> sweeps) {
+  const std::filesystem::path path(options.out);
+  if (path.extension() == ".png") {
+    const ScanColor color = options.color == "gray" ? ScanColor::gray : ScanColor::green;
+    if (auto written = imageio::write_png(path, scan_picture(sweeps, view, color)); !written) give_up(written.error());
+    return;
+  }
+  if (path.extension() != ".csv" && path.extension() != ".f32") {
+    give_up(databuffer::usage_error("--out", "a name that ends in .png, .csv or .f32", options.out));
+  }
+  std::ofstream file(path, std::ios::binary);
+  if (path.extension() == ".csv") {
+    write_csv(file, sweeps);
+  } else {
+    write_floats(file, sweeps);
+  }
+  file.flush();
+  if (!file) give_up({options.out, "a file that can be written", "an error", "check the folder and the space left"});
+}
+
+void scan(const CommonOptions& common, const ScanOptions& options) {
+  const radar::RadarConfiguration configuration = configure(common, options);
+  const model::kernel::ScanRequest request = request_of(options);
+  auto store = model::terrain::open_terrain(configuration.terrain);
+  if (!store) give_up(store.error());
+  model::kernel::OfflineScan work(configuration, request, options.threads);
+
+  const auto begin = std::chrono::steady_clock::now();
+  const auto terrain = (*store)->prepare({request.pose.place, request.range.metres()});
+  std::vector<double> measure_ms, whole_ms;
+  double first_ms = 0.0;
+  for (int run = 0; run <= options.repeat; ++run) {
+    const auto run_begin = std::chrono::steady_clock::now();
+    work.measure(*terrain);
+    const double measured_ms = milliseconds_since(run_begin);
+    work.develop();
+    if (run == 0) {
+      first_ms = milliseconds_since(begin);
+      continue;
+    }
+    measure_ms.push_back(measured_ms);
+    whole_ms.push_back(milliseconds_since(run_begin));
+  }
+
+  const auto sweeps = work.sweeps();
+  const double kernel_ms = median(whole_ms);
+  const double samples = static_cast<double>(sweeps.size()) * sweeps.front().samples;
+  nlohmann::ordered_json line;
+  line["sweeps"] = sweeps.size();
+  line["samples"] = sweeps.front().samples;
+  line["kernel_ms"] = kernel_ms;
+  line["sweep_ms"] = median(measure_ms);
+  line["first_ms"] = first_ms;
+  line["samples_per_second"] = samples / (kernel_ms * 1e-3);
+  line["terrain_bytes"] = terrain->resident_bytes();
+  line["threads"] = options.threads;
+  line["fidelity"] = configuration.fidelity.name;
+  line["hash"] = model::kernel::scan_hash(sweeps);
+  if (!options.out.empty()) write_result(options, configuration.view, sweeps);
+  std::printf("%s\n", line.dump().c_str());
+}
+
+}  // namespace
+
+void add_scan_command(CLI::App& app, const CommonOptions& common) {
+  auto options = std::make_shared<ScanOptions>();
+  CLI::App* command = app.add_subcommand("scan", "one scan of the real beam map, without processes");
+  command->add_option("--terrain", options->terrain, "directory of DTED or HGT cells (else the configuration's)");
+  command->add_option("--lat", options->latitude_deg, "[deg]")->check(CLI::Range(-90.0, 90.0));
+  command->add_option("--lon", options->longitude_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
+  command->add_option("--alt-ft", options->altitude_ft, "[ft] above mean sea level")
+      ->check(CLI::Range(-3000.0, 600000.0));
+  command->add_option("--heading", options->heading_deg, "[deg] true; also the ground track")
+      ->check(CLI::Range(-360.0, 360.0));
+  command->add_option("--range-nm", options->range_nm, "[NM]")->check(CLI::Range(0.1, 1000.0));
+  command->add_option("--scan-width", options->width_deg, "[deg]")->check(CLI::Range(1.0, 120.0));
+  command->add_option("--elevation", options->elevation_deg, "[deg] of the antenna, against the horizon")
+      ->check(CLI::Range(-60.0, 60.0));
+  command->add_option("--fidelity", options->fidelity, "preset (else the configuration's)")
+      ->check(
+          CLI::IsMember(std::vector<std::string>(config::fidelity_names().begin(), config::fidelity_names().end())));
+  command->add_option("--samples", options->samples, "a sweep")->check(CLI::Range(1, radar::kMaxSamples));
+  command->add_option("--gain", options->gain, "0 to 3")->check(CLI::Range(0, 3));
+  command->add_option("--threads", options->threads)->check(CLI::Range(1, 256));
+  command->add_option("--seed", options->seed, "of the noise")->check(CLI::NonNegativeNumber);
+  command->add_option("--repeat", options->repeat, "warm scans to time; the first comes on top")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--size", options->size, "[pixels] of the picture")->check(CLI::Range(16, 8192));
+  command->add_option("--color", options->color)->check(CLI::IsMember({"green", "gray"}));
+  command->add_option("--out", options->out, "file: .png, .csv or .f32");
+  command->callback([options, &common] { scan(common, *options); });
+}
+
+}  // namespace yars::tools
