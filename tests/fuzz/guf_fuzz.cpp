@@ -1,0 +1,13 @@
+// Any text as a configuration: an error with its place, or a configuration.
+#include <cstdint>
+#include <string_view>
+
+#include "config/load.hpp"
+#include "lib/failure/require.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto loaded = yars::config::load_configuration_text({reinterpret_cast<const char*>(data), size}, "fuzz");
+  if (loaded) return 0;
+  YARS_REQUIRE(loaded.error().message().find("fuzz"), !=, std::string::npos);
+  return 0;
+}
