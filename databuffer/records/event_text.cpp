@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "databuffer/records/plain_text.hpp"
 #include "databuffer/records/validation.hpp"
 #include "lib/radar/modes.hpp"
 
@@ -15,7 +16,7 @@ namespace yars::databuffer {
 namespace {
 
 using failure::Expected;
-using Words = std::vector<std::string>;
+using Words = std::vector<std::string_view>;
 
 // What stands behind the verb.
 enum class Operand { none, word, steps, integer, number, pair, name };
@@ -65,32 +66,17 @@ constexpr std::array kForms{
     Form{"contrast", Operand::word, "down", EventKind::contrast, -1},
 };
 
-Words words_of(std::string_view text) {
-  Words words;
-  bool inside = false;
-  for (const char character : text) {
-    const auto byte = static_cast<unsigned char>(character);
-    const bool blank = std::isspace(byte) != 0;
-    if (!blank && !inside) words.emplace_back();
-    if (!blank) words.back() += static_cast<char>(std::tolower(byte));
-    inside = !blank;
-  }
-  return words;
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& character : lower) character = static_cast<char>(std::tolower(static_cast<unsigned char>(character)));
+  return lower;
 }
 
-template <class Number>
-std::optional<Number> number_of(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  Number value{};
+std::optional<std::int16_t> whole_number(std::string_view word) {
+  std::int16_t value = 0;
   const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (problem != std::errc{} || end != word.data() + word.size()) return std::nullopt;
   return value;
-}
-
-std::string text_of_number(double value) {
-  std::array<char, 32> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), result.ptr};
 }
 
 std::string expected_forms(std::string_view verb) {
@@ -114,14 +100,14 @@ bool put_argument(InputEvent& event, std::optional<std::int16_t> value) {
 
 bool put_steps(InputEvent& event, const Form& form, const Words& words) {
   if (words.size() < 2 || words.size() > 3 || words[1] != form.word) return false;
-  const auto count = words.size() == 3 ? number_of<std::int16_t>(words[2]) : std::int16_t{1};
+  const auto count = words.size() == 3 ? whole_number(words[2]) : std::int16_t{1};
   if (!count || *count < 1) return false;
   return put_argument(event, static_cast<std::int16_t>(*count * form.argument));
 }
 
 bool put_numbers(InputEvent& event, const Words& words) {
-  const auto x = number_of<double>(words[1]);
-  const auto y = words.size() == 3 ? number_of<double>(words[2]) : 0.0;
+  const auto x = finite_number(words[1]);
+  const auto y = words.size() == 3 ? finite_number(words[2]) : 0.0;
   if (!x || !y) return false;
   event.x = *x;
   event.y = *y;
@@ -140,7 +126,7 @@ bool read_form(InputEvent& event, const Form& form, const Words& words) {
     case Operand::steps:
       return put_steps(event, form, words);
     case Operand::integer:
-      return words.size() == 2 && put_argument(event, number_of<std::int16_t>(words[1]));
+      return words.size() == 2 && put_argument(event, whole_number(words[1]));
     case Operand::number:
       return words.size() == 2 && put_numbers(event, words);
     case Operand::pair:
@@ -184,12 +170,14 @@ std::string operand_text(const Form& form, const InputEvent& event) {
 }  // namespace
 
 void set_text(InputEvent& event, std::string_view name) {
+  name = name.substr(0, name.find('\0'));  // a zero inside would leave bytes behind the end that readers see
   std::fill_n(event.text, sizeof event.text, '\0');
   std::copy_n(name.data(), std::min(name.size(), sizeof event.text), event.text);
 }
 
 Expected<InputEvent> event_from_text(std::string_view text) {
-  const Words words = words_of(text);
+  const std::string lower = lower_case(text);
+  const Words words = words_of(lower);
   for (const Form& form : kForms) {
     InputEvent event{};
     if (words.empty() || form.verb != words[0] || !read_form(event, form, words)) continue;
@@ -197,7 +185,7 @@ Expected<InputEvent> event_from_text(std::string_view text) {
     if (why_refused(event)) break;
     return event;
   }
-  const std::string_view verb = words.empty() ? std::string_view() : std::string_view(words[0]);
+  const std::string_view verb = words.empty() ? std::string_view() : words[0];
   return failure::fail("event", expected_forms(verb), '"' + std::string(text) + '"');
 }
 

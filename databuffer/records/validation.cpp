@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <span>
 #include <string_view>
 
+#include "databuffer/records/plain_text.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/radar/point_name.hpp"
 
@@ -21,12 +21,6 @@ constexpr double kLargestRange = 10'800.0;
 // [m] MSL: below the deepest sea floor, above the highest mountain.
 constexpr double kLowestGround = -12'000.0;
 constexpr double kHighestGround = 10'000.0;
-
-std::string text_of_number(double value) {
-  std::array<char, 32> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), result.ptr};
-}
 
 enum class Missing { refused, allowed };  // whether NaN stands for "none"
 
@@ -236,10 +230,8 @@ Refusal why_refused(const ClockState& clock) {
   if (clock.base_sim_ns < 0) inspection.fault("base_sim_ns", "0 or more", std::to_string(clock.base_sim_ns));
   if (clock.base_monotonic_ns < 0)
     inspection.fault("base_monotonic_ns", "0 or more", std::to_string(clock.base_monotonic_ns));
-  // All four or none: half a place is no place.
-  const std::array place{clock.reposition_latitude_deg, clock.reposition_longitude_deg, clock.reposition_altitude_m,
-                         clock.reposition_heading_deg};
-  if (std::ranges::all_of(place, [](double value) { return std::isnan(value); })) return inspection.result();
+  // Without a latitude nothing was repositioned, whatever the other fields hold.
+  if (std::isnan(clock.reposition_latitude_deg)) return inspection.result();
   inspection.latitude("reposition_latitude_deg", clock.reposition_latitude_deg);
   inspection.longitude("reposition_longitude_deg", clock.reposition_longitude_deg);
   inspection.range("reposition_altitude_m", clock.reposition_altitude_m, -1'000.0, 200'000.0);

@@ -255,6 +255,8 @@ TEST(Validation, ClockHoldsItsRanges) {
 
 TEST(Validation, ARepositioningIsWholeOrNone) {
   ClockState clock = good_clock();
+  clock.reposition_heading_deg = 1e9;
+  EXPECT_EQ(why_refused(clock), std::nullopt);
   clock.reposition_latitude_deg = 38.0;
   EXPECT_TRUE(why_refused(clock));
   clock.reposition_longitude_deg = -180.0;

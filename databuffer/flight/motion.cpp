@@ -1,0 +1,56 @@
+#include "databuffer/flight/motion.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace yars::databuffer::flight {
+
+namespace {
+
+// R / (R + h): what a metre flown is on the ellipsoid.
+double surface_scale(const Motion& motion) {
+  const double radius_m = geo::radius_of_curvature(motion.point.latitude_deg, motion.track).metres();
+  return radius_m / (radius_m + motion.altitude.metres());
+}
+
+}  // namespace
+
+geo::Length surface_distance(const Motion& motion, geo::Length flown) {
+  return flown * surface_scale(motion);
+}
+
+geo::Speed speed_at_altitude(const Motion& motion, geo::Speed surface) {
+  return surface / surface_scale(motion);
+}
+
+Attitude coordinated_attitude(const Motion& motion, geo::Angle roll) {
+  const double climb_mps = motion.climb.metres_per_second();
+  const double along_mps = motion.ground_speed.metres_per_second();
+  return {motion.track, geo::Angle::radians(std::atan2(climb_mps, along_mps)), roll};
+}
+
+FlightSample sample_of(const Motion& motion, const Attitude& attitude, std::string_view source) {
+  FlightSample sample;
+  Ownship& ownship = sample.ownship;
+  ownship.latitude_deg = motion.point.latitude_deg;
+  ownship.longitude_deg = motion.point.longitude_deg;
+  ownship.altitude_msl_m = motion.altitude.metres();
+  ownship.heading_deg = attitude.heading.degrees();
+  ownship.pitch_deg = attitude.pitch.degrees();
+  ownship.roll_deg = attitude.roll.degrees();
+  ownship.velocity_north_mps = motion.ground_speed.metres_per_second() * std::cos(motion.track.radians());
+  ownship.velocity_east_mps = motion.ground_speed.metres_per_second() * std::sin(motion.track.radians());
+  ownship.velocity_down_mps = -motion.climb.metres_per_second();
+  ownship.radar_altitude_m = std::numeric_limits<double>::quiet_NaN();
+  source.copy(ownship.source, sizeof ownship.source - 1);
+  Nav& nav = sample.nav;
+  nav.mission_latitude_deg = nav.ins_latitude_deg = ownship.latitude_deg;
+  nav.mission_longitude_deg = nav.ins_longitude_deg = ownship.longitude_deg;
+  nav.velocity_north_mps = ownship.velocity_north_mps;
+  nav.velocity_east_mps = ownship.velocity_east_mps;
+  nav.velocity_down_mps = ownship.velocity_down_mps;
+  nav.magnetic_variation_deg = std::numeric_limits<double>::quiet_NaN();
+  return sample;
+}
+
+}  // namespace yars::databuffer::flight

@@ -1,0 +1,172 @@
+#include "databuffer/flight/route_flight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace yars::databuffer::flight {
+
+namespace {
+
+constexpr double kGravity = 9.80665;        // [m/s^2] standard; a turn's radius goes with its inverse
+constexpr double kLongestStep = 0.02;       // [s] longer ones would blunt roll-in and roll-out
+constexpr double kClimbGain = 0.1;          // [1/s] levels off within kAcceleration: gain x climb limit = 2 m/s^2
+constexpr double kLongestLead_deg = 120.0;  // [deg] of turn; beyond it the tangent runs away, to infinity at 180
+// Turns are planned with less than the full bank, so that the rest can mend what roll-in and speed changes spoil.
+constexpr geo::Angle kPlannedBank = geo::Angle::degrees(27.0);
+constexpr double kCaptureSeconds = 8.0;  // [s] near the leg the distance from it decays with this time constant
+constexpr double kTrackGain = 0.3;       // [1/s] turn rate for each unit of track error; a roll takes a fraction of it
+constexpr double kSteepestIntercept_deg = 90.0;  // [deg] towards the leg
+constexpr double kUncertainTurn_deg = 150.0;     // [deg] beyond it either side is as good: a turn begun goes on
+
+double turn_radius_m(double speed_mps) {
+  return speed_mps * speed_mps / (kGravity * std::tan(kPlannedBank.radians()));
+}
+
+double approach(double value, double target, double most) {
+  return value + std::clamp(target - value, -most, most);
+}
+
+Motion start_of(const Route& route, const Leg& leg) {
+  const Waypoint& first = route.waypoints.front();
+  return {first.point, first.altitude, leg.course_at_start(), first.ground_speed, {}};
+}
+
+}  // namespace
+
+RouteFlight::RouteFlight(Route route)
+    : route_(std::move(route)), leg_(route_.waypoints[0].point, route_.waypoints[1].point) {
+  reset();
+}
+
+void RouteFlight::reset() {
+  fly_to(1, route_.waypoints[0].point);
+  motion_ = start_of(route_, leg_);
+  roll_ = {};
+}
+
+bool RouteFlight::reposition(const Placement& placement) {
+  motion_.point = placement.point;
+  motion_.altitude = placement.altitude;
+  motion_.track = placement.heading;
+  motion_.climb = {};
+  roll_ = {};
+  fly_to(nearest_leg_end(placement.point), placement.point);
+  motion_.ground_speed = route_.waypoints[target_].ground_speed;
+  return true;
+}
+
+void RouteFlight::fly_to(std::size_t waypoint, geo::GeoPoint from) {
+  target_ = waypoint;
+  leg_ = Leg(from, route_.waypoints[waypoint].point);
+  const std::size_t following = route_.after(waypoint);
+  next_.reset();
+  if (following < route_.waypoints.size())
+    next_.emplace(route_.waypoints[waypoint].point, route_.waypoints[following].point);
+  fix_ = {};
+}
+
+std::size_t RouteFlight::nearest_leg_end(geo::GeoPoint place) const {
+  std::size_t best = 1;
+  double best_m = std::numeric_limits<double>::infinity();
+  for (std::size_t from = 0; from < route_.waypoints.size(); ++from) {
+    const std::size_t to = route_.after(from);
+    if (to == route_.waypoints.size()) break;
+    const Leg leg(route_.waypoints[from].point, route_.waypoints[to].point);
+    const auto along = std::clamp(leg.fix(place, {}).along, geo::Length(), leg.length());
+    const double distance_m = geo::geodesic_inverse(place, leg.point(along)).distance.metres();
+    // A leg whose end is here already cannot be flown to.
+    const bool at_end = geo::geodesic_inverse(place, route_.waypoints[to].point).distance.metres() < 1.0;
+    if (distance_m < best_m && !at_end) {
+      best = to;
+      best_m = distance_m;
+    }
+  }
+  return best;
+}
+
+FlightSample RouteFlight::step(geo::Duration dt) {
+  double remaining_s = dt.seconds();
+  while (remaining_s > 0.0) {
+    const double part_s = std::min(remaining_s, kLongestStep);
+    advance(part_s);
+    remaining_s -= part_s;
+  }
+  return sample_of(motion_, coordinated_attitude(motion_, roll_), "route");
+}
+
+void RouteFlight::advance(double dt_s) {
+  fix_ = leg_.fix(motion_.point, fix_.along);
+  change_leg_in_time();
+  const double bank_deg = commanded_bank().degrees();
+  roll_ = geo::Angle::degrees(approach(roll_.degrees(), bank_deg, kRollRate_dps * dt_s));
+  change_speeds(dt_s);
+  move(dt_s);
+}
+
+void RouteFlight::change_leg_in_time() {
+  if (!next_ || leg_.length() - fix_.along > lead()) return;
+  fly_to(route_.after(target_), route_.waypoints[target_].point);
+  fix_ = leg_.fix(motion_.point, {});
+}
+
+// How far before the waypoint the turn must begin: the tangent of the circle, and half the time of rolling in.
+geo::Length RouteFlight::lead() const {
+  const double speed_mps = motion_.ground_speed.metres_per_second();
+  const double turn_deg = std::abs((next_->course_at_start() - leg_.course_at_end()).degrees());
+  const double half_turn_rad = std::min(turn_deg, kLongestLead_deg) / 2.0 * geo::kRadiansPerDegree;
+  const double roll_in_s = std::min(turn_deg, kPlannedBank.degrees()) / kRollRate_dps;
+  const double tangent_m = turn_radius_m(speed_mps) * std::tan(half_turn_rad);
+  const auto wanted = geo::Length::metres(tangent_m + speed_mps * roll_in_s / 2.0);
+  // Never more than half of either leg, or short legs would be skipped whole.
+  return std::min({wanted, 0.5 * leg_.length(), 0.5 * next_->length()});
+}
+
+// The angle towards the leg, right positive: that of a circle tangent to a line beside the leg, and from where the
+// slopes meet proportional to the distance, so that it ends smoothly.
+geo::Angle RouteFlight::intercept() const {
+  const double speed_mps = motion_.ground_speed.metres_per_second();
+  const double radius_m = turn_radius_m(speed_mps);
+  const double capture_m = kCaptureSeconds * speed_mps;
+  const double across_m = std::abs(fix_.across.metres());
+  const double beside_m = capture_m * capture_m / (2.0 * radius_m);
+  const double angle_rad = across_m < 2.0 * beside_m ? across_m / capture_m
+                                                     : std::acos(std::max(0.0, 1.0 - (across_m - beside_m) / radius_m));
+  const auto angle = std::min(geo::Angle::radians(angle_rad), geo::Angle::degrees(kSteepestIntercept_deg));
+  return fix_.across > geo::Length() ? -angle : angle;
+}
+
+geo::Angle RouteFlight::commanded_bank() const {
+  geo::Angle error = fix_.course + intercept() - motion_.track;
+  if (std::abs(error.degrees()) > kUncertainTurn_deg && std::abs(roll_.degrees()) > 1.0)
+    error = geo::Angle::degrees(std::copysign(error.degrees(), roll_.degrees()));
+  const double speed_mps = motion_.ground_speed.metres_per_second();
+  const auto bank = geo::Angle::radians(std::atan(kTrackGain * error.radians() * speed_mps / kGravity));
+  return std::clamp(bank, -kBankLimit, kBankLimit);
+}
+
+void RouteFlight::change_speeds(double dt_s) {
+  const Waypoint& waypoint = route_.waypoints[target_];
+  const double most_mps = kAcceleration_mps2 * dt_s;
+  const double limit_mps = kClimbLimit.metres_per_second();
+  const double rise_m = (waypoint.altitude - motion_.altitude).metres();
+  const double climb_mps = std::clamp(kClimbGain * rise_m, -limit_mps, limit_mps);
+  motion_.climb = geo::Speed::metres_per_second(approach(motion_.climb.metres_per_second(), climb_mps, most_mps));
+  motion_.ground_speed = geo::Speed::metres_per_second(
+      approach(motion_.ground_speed.metres_per_second(), waypoint.ground_speed.metres_per_second(), most_mps));
+}
+
+void RouteFlight::move(double dt_s) {
+  const double speed_mps = motion_.ground_speed.metres_per_second();
+  const auto turn = geo::Angle::radians(kGravity * std::tan(roll_.radians()) / speed_mps * dt_s);
+  // Half the turn before the stretch and half behind it: the chord of the arc, to second order.
+  const geo::Length flown = geo::Length::metres(speed_mps * dt_s);
+  const geo::GeodesicRay chord(motion_.point, motion_.track + 0.5 * turn);
+  const auto place = chord.place(surface_distance(motion_, flown));
+  motion_.point = place.point;
+  motion_.track = place.azimuth + 0.5 * turn;
+  motion_.altitude = motion_.altitude + geo::Length::metres(motion_.climb.metres_per_second() * dt_s);
+}
+
+}  // namespace yars::databuffer::flight

@@ -1,0 +1,64 @@
+#include "databuffer/flight/source_reader.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "databuffer/flight/fixed_flight.hpp"
+#include "databuffer/flight/route_flight.hpp"
+#include "databuffer/flight/track_flight.hpp"
+#include "databuffer/records/text_file_reader.hpp"
+
+namespace yars::databuffer::flight {
+
+namespace {
+
+using failure::Error;
+using failure::Expected;
+
+constexpr std::string_view kForms = "route:FILE, fixed:LAT,LON,ALT_FT,HDG,KT or csv:FILE";
+
+tl::unexpected<Error> bad_usage(Error error) {
+  error.bad_usage = true;
+  return tl::unexpected(std::move(error));
+}
+
+Expected<FlightSource> open_fixed(std::string_view setting) {
+  auto parsed = parse_fixed(setting);
+  if (!parsed) return bad_usage(parsed.error());
+  return FlightSource{std::make_unique<FixedFlight>(*parsed), "fixed:" + std::string(setting)};
+}
+
+Expected<FlightSource> open_route(std::string_view file) {
+  const auto text = read_text_file(file);
+  if (!text) return tl::unexpected(text.error());
+  auto route = parse_route(*text, file);
+  if (!route) return tl::unexpected(route.error());
+  const std::string length = std::to_string(route->waypoints.size()) + " waypoints" + (route->loop ? ", looped" : "");
+  return FlightSource{std::make_unique<RouteFlight>(*std::move(route)), "route " + std::string(file) + ", " + length};
+}
+
+Expected<FlightSource> open_track(std::string_view file) {
+  const auto text = read_text_file(file);
+  if (!text) return tl::unexpected(text.error());
+  auto track = parse_track(*text, file);
+  if (!track) return tl::unexpected(track.error());
+  const std::string length = std::to_string(track->rows.size()) + " rows" + (track->loop ? ", looped" : "");
+  return FlightSource{std::make_unique<TrackFlight>(*std::move(track)), "track " + std::string(file) + ", " + length};
+}
+
+}  // namespace
+
+Expected<FlightSource> open_source(std::string_view text) {
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const std::string_view kind = text.substr(0, colon);
+  const std::string_view rest = text.substr(std::min(colon + 1, text.size()));
+  if (kind == "fixed") return open_fixed(rest);
+  if (kind == "route" && !rest.empty()) return open_route(rest);
+  if (kind == "csv" && !rest.empty()) return open_track(rest);
+  constexpr std::array<std::string_view, 4> kLater{"flightgear", "jsbsim", "xplane", "dis"};
+  const bool later = std::ranges::find(kLater, kind) != kLater.end();
+  return bad_usage({"--source", std::string(kForms), '"' + std::string(text) + '"',
+                    later ? std::string(kind) + " comes with a later release" : std::string(), true});
+}
+
+}  // namespace yars::databuffer::flight

@@ -1,0 +1,82 @@
+#include "databuffer/flight/track_flight.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace yars::databuffer::flight {
+
+namespace {
+
+// Part of the way from one angle to another, the shorter way round.
+geo::Angle between(geo::Angle from, geo::Angle to, double share) {
+  const double turn_deg = geo::wrapped_degrees(to.degrees() - from.degrees());
+  return geo::Angle::degrees(geo::wrapped_degrees(from.degrees() + share * turn_deg));
+}
+
+}  // namespace
+
+TrackFlight::Stretch TrackFlight::stretch_between(const TrackRow& from, const TrackRow& to) {
+  const auto inverse = geo::geodesic_inverse(from.point, to.point);
+  const geo::Angle at_start = from.attitude.heading - inverse.azimuth_at_start;
+  const geo::Angle at_end = to.attitude.heading - inverse.azimuth_at_end;
+  return {geo::GeodesicRay(from.point, inverse.azimuth_at_start), inverse.distance, at_start,
+          geo::Angle::degrees(geo::wrapped_degrees(at_end.degrees() - at_start.degrees()))};
+}
+
+TrackFlight::TrackFlight(Track track)
+    : track_(std::move(track)), stretch_(stretch_between(track_.rows[0], track_.rows[1])) {}
+
+void TrackFlight::reset() {
+  elapsed_ = {};
+  row_ = 0;
+  stretch_ = stretch_between(track_.rows[0], track_.rows[1]);
+}
+
+bool TrackFlight::reposition(const Placement&) {
+  return false;
+}
+
+// Moves on to the stretch in which the time elapsed lies.
+void TrackFlight::find_row() {
+  const auto start_of = [this](std::size_t row) { return track_.rows[row].time - track_.rows.front().time; };
+  const std::size_t before = row_;
+  while (row_ + 2 < track_.rows.size() && elapsed_ >= start_of(row_ + 1)) ++row_;
+  if (row_ != before) stretch_ = stretch_between(track_.rows[row_], track_.rows[row_ + 1]);
+}
+
+FlightSample TrackFlight::step(geo::Duration dt) {
+  elapsed_ = elapsed_ + dt;
+  const geo::Duration whole = track_.rows.back().time - track_.rows.front().time;
+  if (track_.loop && elapsed_ >= whole) {
+    const auto into_round = geo::Duration::seconds(std::fmod(elapsed_.seconds(), whole.seconds()));
+    reset();
+    elapsed_ = into_round;
+  }
+  if (elapsed_ >= whole) return sample_at_end();
+  find_row();
+  const geo::Duration start = track_.rows[row_].time - track_.rows.front().time;
+  const geo::Duration length = track_.rows[row_ + 1].time - track_.rows[row_].time;
+  return sample_between((elapsed_ - start) / length);
+}
+
+FlightSample TrackFlight::sample_between(double share) const {
+  const TrackRow& from = track_.rows[row_];
+  const TrackRow& to = track_.rows[row_ + 1];
+  const double seconds = (to.time - from.time).seconds();
+  const auto place = stretch_.ray.place(share * stretch_.length);
+  const geo::Length rise = to.altitude - from.altitude;
+  Motion motion{place.point, from.altitude + share * rise, place.azimuth, {}, {}};
+  motion.ground_speed = speed_at_altitude(motion, geo::Speed::metres_per_second(stretch_.length.metres() / seconds));
+  motion.climb = geo::Speed::metres_per_second(rise.metres() / seconds);
+  const Attitude attitude{place.azimuth + stretch_.nose_at_start + share * stretch_.nose_turn,
+                          from.attitude.pitch + share * (to.attitude.pitch - from.attitude.pitch),
+                          between(from.attitude.roll, to.attitude.roll, share)};
+  return sample_of(motion, attitude, "csv");
+}
+
+FlightSample TrackFlight::sample_at_end() const {
+  const TrackRow& last = track_.rows.back();
+  return sample_of({last.point, last.altitude, last.attitude.heading, {}, {}}, last.attitude, "csv");
+}
+
+}  // namespace yars::databuffer::flight

@@ -1,0 +1,67 @@
+#include "databuffer/flight_shell.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "databuffer/log.hpp"
+#include "databuffer/records/validation.hpp"
+
+namespace yars::databuffer {
+
+namespace {
+
+constexpr std::int64_t kTicksBetweenRecords = 4;  // 50 Hz: more changes no sweep, less shows as steps of the apex
+
+}  // namespace
+
+FlightShell::FlightShell(Session& session, flight::FlightSource source, int lane, bool every_tick)
+    : session_(&session), source_(std::move(source)), lane_(static_cast<std::size_t>(lane)), every_tick_(every_tick) {}
+
+void FlightShell::step(const TickLoop::Due& due) {
+  if (due.new_epoch) begin_epoch(due.clock);
+  const flight::FlightSample sample = source_.model->step(time_since_last(due));
+  const bool first = !started_ || due.new_epoch;
+  started_ = true;
+  last_tick_ = due.tick;
+  if (first || every_tick_ || due.tick - last_published_tick_ >= kTicksBetweenRecords) publish(due, sample);
+}
+
+// A new epoch's time has nothing to do with the one before; ticks that were skipped are flown all the same.
+geo::Duration FlightShell::time_since_last(const TickLoop::Due& due) const {
+  if (!started_ || due.new_epoch || due.tick <= last_tick_) return {};
+  return geo::Duration::seconds(static_cast<double>(due.tick - last_tick_) * radar::kTickSeconds);
+}
+
+void FlightShell::begin_epoch(const ClockState& clock) {
+  if (std::isnan(clock.reposition_latitude_deg)) {
+    source_.model->reset();
+    log_info("back at the start, epoch " + std::to_string(clock.epoch));
+    return;
+  }
+  if (const auto reason = why_refused(clock)) {
+    session_->note(NoteKind::refusal, "repositioning: " + *reason);
+    log_warning("repositioning is refused: " + *reason);
+    return;
+  }
+  const flight::Placement placement{{clock.reposition_latitude_deg, clock.reposition_longitude_deg},
+                                    geo::AltitudeMsl::metres(clock.reposition_altitude_m),
+                                    geo::Bearing::degrees(clock.reposition_heading_deg)};
+  if (source_.model->reposition(placement)) {
+    log_info("repositioned, epoch " + std::to_string(clock.epoch));
+    return;
+  }
+  session_->note(NoteKind::refusal, "repositioning: " + source_.description + " follows its file alone");
+  log_warning("repositioning is refused: " + source_.description + " follows its file alone");
+}
+
+void FlightShell::publish(const TickLoop::Due& due, flight::FlightSample sample) {
+  sample.ownship.source_time_ns = sample.nav.source_time_ns = due.sim_time_ns;
+  sample.ownship.epoch = sample.nav.epoch = due.clock.epoch;
+  SessionLayout& layout = session_->layout();
+  // Nav first: whoever sees the new ownship finds the nav that goes with it.
+  layout.nav[lane_].publish(sample.nav);
+  layout.ownship[lane_].publish(sample.ownship);
+  last_published_tick_ = due.tick;
+}
+
+}  // namespace yars::databuffer

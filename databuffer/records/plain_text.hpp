@@ -1,0 +1,31 @@
+// Plain text that people write, a record a line: routes, tracks, scripts. `#` begins a comment.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace yars::databuffer {
+
+struct NumberedLine {
+  int number = 0;         // from 1, as editors count
+  std::string_view text;  // without comment and outer blanks; never empty
+};
+
+// The lines that say something. They point into `text`, which must outlive them.
+std::vector<NumberedLine> numbered_lines(std::string_view text);
+
+// Without blanks (also carriage returns) at both ends.
+std::string_view trimmed(std::string_view text);
+// What stands between blanks.
+std::vector<std::string_view> words_of(std::string_view text);
+// What stands between separators, trimmed; an empty text is one empty field.
+std::vector<std::string_view> fields_of(std::string_view text, char separator);
+
+// A finite decimal number and nothing else; a sign of either kind may lead.
+std::optional<double> finite_number(std::string_view word);
+// The shortest text that reads back as the same number.
+std::string text_of_number(double value);
+
+}  // namespace yars::databuffer

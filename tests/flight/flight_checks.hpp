@@ -1,0 +1,67 @@
+// What every flight model must satisfy, whatever it flies: its records are valid and its velocity is the derivative
+// of its position.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "databuffer/flight/flight_model.hpp"
+#include "databuffer/records/validation.hpp"
+#include "lib/geo/frames.hpp"
+
+namespace yars::databuffer::flight {
+
+inline geo::GeoPoint point_of(const Ownship& ownship) {
+  return {ownship.latitude_deg, ownship.longitude_deg};
+}
+
+inline geo::Vector3 ecef_of(const Ownship& ownship) {
+  return geo::ecef_from_geodetic(point_of(ownship), geo::HeightAboveEllipsoid::metres(ownship.altitude_msl_m));
+}
+
+inline double ground_speed_of(const Ownship& ownship) {
+  return std::hypot(ownship.velocity_north_mps, ownship.velocity_east_mps);
+}
+
+inline double distance_m(geo::GeoPoint from, geo::GeoPoint to) {
+  return geo::geodesic_inverse(from, to).distance.metres();
+}
+
+inline bool same_sample(const FlightSample& a, const FlightSample& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+// Displacement over two steps of dt against the velocity in the middle, in the frame of the middle.
+inline double velocity_error_mps(const Ownship& before, const Ownship& middle, const Ownship& after, double dt_s) {
+  const geo::LocalTangentFrame frame(point_of(middle), geo::HeightAboveEllipsoid::metres(middle.altitude_msl_m));
+  const geo::Vector3 from = frame.enu_from_ecef(ecef_of(before));
+  const geo::Vector3 to = frame.enu_from_ecef(ecef_of(after));
+  const double east = (to.x - from.x) / (2.0 * dt_s) - middle.velocity_east_mps;
+  const double north = (to.y - from.y) / (2.0 * dt_s) - middle.velocity_north_mps;
+  const double up = (to.z - from.z) / (2.0 * dt_s) + middle.velocity_down_mps;
+  return std::sqrt(east * east + north * north + up * up);
+}
+
+// Flies for a while and holds each middle sample to its neighbours. Returns the last sample.
+inline FlightSample expect_consistent(FlightModel& model, double duration_s, double dt_s, double tolerance_mps) {
+  const auto dt = geo::Duration::seconds(dt_s);
+  FlightSample before = model.step({});
+  FlightSample middle = model.step(dt);
+  double worst_mps = 0.0;
+  for (double time_s = 2.0 * dt_s; time_s < duration_s; time_s += dt_s) {
+    const FlightSample after = model.step(dt);
+    const auto refusal = why_refused(after.ownship);
+    EXPECT_EQ(refusal, std::nullopt) << *refusal;
+    const auto nav_refusal = why_refused(after.nav);
+    EXPECT_EQ(nav_refusal, std::nullopt) << *nav_refusal;
+    worst_mps = std::max(worst_mps, velocity_error_mps(before.ownship, middle.ownship, after.ownship, dt_s));
+    before = middle;
+    middle = after;
+  }
+  EXPECT_LT(worst_mps, tolerance_mps);
+  return middle;
+}
+
+}  // namespace yars::databuffer::flight

@@ -1,0 +1,63 @@
+#include "databuffer/flight/leg.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+namespace yars::databuffer::flight {
+namespace {
+
+TEST(Leg, APlaceOnTheLegHasNoCrossTrack) {
+  const Leg leg({38.0, -123.0}, {40.0, -100.0});
+  for (const double along_m : {-50'000.0, 0.0, 1'000'000.0, leg.length().metres(), 3'000'000.0}) {
+    const auto fix = leg.fix(leg.point(geo::Length::metres(along_m)), {});
+    EXPECT_NEAR(fix.along.metres(), along_m, 1e-3);
+    EXPECT_NEAR(fix.across.metres(), 0.0, 1e-3);
+  }
+}
+
+TEST(Leg, OnTheEquatorAcrossIsTheMeridian) {
+  const Leg leg({0.0, 0.0}, {0.0, 10.0});
+  const auto north = leg.fix({0.5, 3.0}, {});
+  EXPECT_NEAR(north.along.metres(), 6'378'137.0 * 3.0 * geo::kRadiansPerDegree, 1e-2);
+  EXPECT_NEAR(north.across.metres(), -geo::geodesic_inverse({0.5, 3.0}, {0.0, 3.0}).distance.metres(), 1e-2);
+  EXPECT_GT(leg.fix({-0.5, 3.0}, {}).across.metres(), 0.0);
+}
+
+TEST(Leg, HoldsAcrossThePoleAndTheAntimeridian) {
+  const Leg pole({89.0, 0.0}, {89.0, 180.0});
+  EXPECT_NEAR(pole.fix({90.0, 77.0}, {}).along.metres(), pole.length().metres() / 2.0, 1e-2);
+  const Leg line({0.0, 179.0}, {0.0, -179.0});
+  const auto fix = line.fix({0.1, 180.0}, {});
+  EXPECT_NEAR(fix.along.metres(), line.length().metres() / 2.0, 1e-2);
+  EXPECT_LT(fix.across.metres(), 0.0);
+}
+
+TEST(Leg, NoPlaceOnTheLegIsNearerThanTheFoot) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> latitude(-89.0, 89.0);
+  std::uniform_real_distribution<double> longitude(-180.0, 180.0);
+  std::uniform_real_distribution<double> azimuth(0.0, 360.0);
+  std::uniform_real_distribution<double> distance(10e3, 500e3);
+  for (int round = 0; round < 200; ++round) {
+    const geo::GeoPoint from{latitude(random), longitude(random)};
+    const auto length = geo::Length::metres(distance(random));
+    const Leg leg(from, geo::geodesic_direct(from, geo::Bearing::degrees(azimuth(random)), length));
+    const auto place =
+        geo::geodesic_direct(from, geo::Bearing::degrees(azimuth(random)), geo::Length::metres(distance(random)));
+    const auto fix = leg.fix(place, {});
+    const auto to = [&](double offset_m) {
+      return geo::geodesic_inverse(place, leg.point(fix.along + geo::Length::metres(offset_m))).distance.metres();
+    };
+    ASSERT_NEAR(to(0.0), std::abs(fix.across.metres()), 1e-2);
+    ASSERT_LE(to(0.0), to(100.0) + 1e-6);
+    ASSERT_LE(to(0.0), to(-100.0) + 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace yars::databuffer::flight

@@ -1,0 +1,247 @@
+#include "databuffer/flight/route_flight.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "databuffer/records/text_file_reader.hpp"
+#include "tests/flight/flight_checks.hpp"
+
+namespace yars::databuffer::flight {
+namespace {
+
+constexpr double kStep = 0.02;  // [s]
+
+Route route_of(const std::string& text) {
+  return parse_route(text, "test").value();
+}
+
+// A corner: 60 km out along a geodesic, then a turn of so many degrees and 60 km more.
+Route corner_of(double turn_deg, double knots) {
+  const geo::GeoPoint start{38.0, -123.0};
+  const auto length = geo::Length::metres(60e3);
+  const geo::GeodesicRay out(start, geo::Bearing::degrees(30.0));
+  const auto corner = out.place(length);
+  const auto end = geo::geodesic_direct(corner.point, corner.azimuth + geo::Angle::degrees(turn_deg), length);
+  const auto altitude = geo::AltitudeMsl::feet(15'000);
+  Route route;
+  for (const geo::GeoPoint point : {start, corner.point, end})
+    route.waypoints.push_back({point, altitude, geo::Speed::knots(knots)});
+  return route;
+}
+
+struct Flown {
+  double largest_roll_deg = 0.0;
+  double largest_roll_rate_dps = 0.0;
+  double overshoot_m = 0.0;         // beyond the second leg, away from the first
+  double heading_change_deg = 0.0;  // summed, right positive
+  double cut_m = 1e9;               // nearest approach to the corner
+};
+
+// Flies a corner and looks at it from its second leg.
+Flown fly_corner(double turn_deg, double knots) {
+  const Route route = corner_of(turn_deg, knots);
+  const Leg second(route.waypoints[1].point, route.waypoints[2].point);
+  RouteFlight flight(route);
+  Ownship before = flight.step({}).ownship;
+  Flown flown;
+  geo::Length near;
+  const double duration_s = 115e3 / geo::Speed::knots(knots).metres_per_second();
+  for (double time_s = 0.0; time_s < duration_s; time_s += kStep) {
+    const Ownship now = flight.step(geo::Duration::seconds(kStep)).ownship;
+    flown.largest_roll_deg = std::max(flown.largest_roll_deg, std::abs(now.roll_deg));
+    flown.largest_roll_rate_dps =
+        std::max(flown.largest_roll_rate_dps, std::abs(now.roll_deg - before.roll_deg) / kStep);
+    flown.heading_change_deg += geo::wrapped_degrees(now.heading_deg - before.heading_deg);
+    flown.cut_m = std::min(flown.cut_m, distance_m(point_of(now), route.waypoints[1].point));
+    const auto fix = second.fix(point_of(now), near);
+    near = fix.along;
+    if (fix.along.metres() > 0.0)
+      flown.overshoot_m = std::max(flown.overshoot_m, std::copysign(1.0, -turn_deg) * fix.across.metres());
+    before = now;
+  }
+  const auto last = second.fix(point_of(before), near);
+  EXPECT_LT(std::abs(last.across.metres()), 1.0) << "not on the second leg";
+  return flown;
+}
+
+TEST(RouteFlight, StartsAtTheFirstWaypointTowardsTheSecond) {
+  RouteFlight flight(corner_of(60.0, 480.0));
+  const Ownship ownship = flight.step({}).ownship;
+  EXPECT_NEAR(ownship.latitude_deg, 38.0, 1e-12);
+  EXPECT_NEAR(ownship.longitude_deg, -123.0, 1e-12);
+  EXPECT_NEAR(ownship.heading_deg, 30.0, 1e-9);
+  EXPECT_NEAR(ground_speed_of(ownship), 480.0 * 1852.0 / 3600.0, 1e-9);
+  EXPECT_STREQ(ownship.source, "route");
+}
+
+TEST(RouteFlight, HoldsTheGreatCircle) {
+  const Route route = route_of("40 -120 30000 480\n50 -80 30000 480\n");
+  const Leg leg(route.waypoints[0].point, route.waypoints[1].point);
+  RouteFlight flight(route);
+  double worst_m = 0.0;
+  geo::Length near;
+  for (int second = 0; second < 7'200; ++second) {
+    const auto fix = leg.fix(point_of(flight.step(geo::Duration::seconds(1.0)).ownship), near);
+    near = fix.along;
+    worst_m = std::max(worst_m, std::abs(fix.across.metres()));
+  }
+  EXPECT_LT(worst_m, 0.1);
+  EXPECT_NEAR(near.metres(), 7'200.0 * 480.0 * 1852.0 / 3600.0 * 6'371e3 / (6'371e3 + 9'144.0), 500.0);
+}
+
+TEST(RouteFlight, ATurnIsCoordinatedAndRollsOutOnTheNextLeg) {
+  for (const double turn_deg : {-90.0, -45.0, 10.0, 30.0, 60.0, 90.0, 120.0}) {
+    SCOPED_TRACE("turn " + std::to_string(turn_deg));
+    const Flown flown = fly_corner(turn_deg, 480.0);
+    EXPECT_LE(flown.largest_roll_deg, 30.0 + 1e-9);
+    EXPECT_LE(flown.largest_roll_rate_dps, 15.0 + 1e-6);
+    EXPECT_LT(flown.overshoot_m, 100.0);
+    // The meridians converge by less than a degree or two on the way.
+    EXPECT_NEAR(flown.heading_change_deg, turn_deg, 5.0);
+  }
+}
+
+TEST(RouteFlight, TheTurnCutsTheCornerByWhatItsCircleNeeds) {
+  // Radius V^2 / (g tan 27) = 12.2 km at 480 kt: a square corner is missed by (sqrt 2 - 1) R = 5.05 km.
+  EXPECT_NEAR(fly_corner(90.0, 480.0).cut_m, 5'055.0, 450.0);
+  EXPECT_NEAR(fly_corner(90.0, 240.0).cut_m, 5'055.0 / 4.0, 150.0);
+}
+
+TEST(RouteFlight, AReversalComesBackOntoTheLeg) {
+  const Flown flown = fly_corner(180.0, 300.0);
+  EXPECT_NEAR(std::abs(flown.heading_change_deg), 180.0, 5.0);
+}
+
+TEST(RouteFlight, TurnRateIsThatOfTheBank) {
+  RouteFlight flight(corner_of(90.0, 480.0));
+  Ownship before = flight.step({}).ownship;
+  int checked = 0;
+  for (double time_s = 0.0; time_s < 450.0; time_s += kStep) {
+    const Ownship now = flight.step(geo::Duration::seconds(kStep)).ownship;
+    if (std::abs(now.roll_deg) > 29.999 && before.roll_deg == now.roll_deg) {
+      const double rate_dps = geo::wrapped_degrees(now.heading_deg - before.heading_deg) / kStep;
+      const double expected_dps =
+          9.80665 * std::tan(now.roll_deg * geo::kRadiansPerDegree) / ground_speed_of(now) / geo::kRadiansPerDegree;
+      // Besides the turn the meridian turns below, by V tan(latitude) / R: 0.002 deg/s here.
+      ASSERT_NEAR(rate_dps, expected_dps, 0.003);
+      ++checked;
+    }
+    before = now;
+  }
+  EXPECT_GT(checked, 1'000);
+}
+
+TEST(RouteFlight, VelocityIsTheDerivativeOfPositionInTurnsAndClimbs) {
+  RouteFlight flight(
+      route_of("38 -123 15000 480\n38.5 -123 20000 350\n38.5 -122 5000 600\n38 -122.5 15000 480\nloop\n"));
+  expect_consistent(flight, 2'400.0, kStep, 0.05);
+}
+
+TEST(RouteFlight, ClimbsWithinItsLimitsAndLevelsOff) {
+  RouteFlight flight(route_of("38 -123 5000 400\n40 -123 15000 400\n41 -123 15000 400\n"));
+  double steepest_mps = 0.0;
+  double highest_m = 0.0;
+  double pitch_error_deg = 0.0;
+  Ownship now{};
+  for (double time_s = 0.0; time_s < 600.0; time_s += kStep) {
+    now = flight.step(geo::Duration::seconds(kStep)).ownship;
+    steepest_mps = std::max(steepest_mps, -now.velocity_down_mps);
+    highest_m = std::max(highest_m, now.altitude_msl_m);
+    const double path_deg = std::atan2(-now.velocity_down_mps, ground_speed_of(now)) / geo::kRadiansPerDegree;
+    pitch_error_deg = std::max(pitch_error_deg, std::abs(path_deg - now.pitch_deg));
+  }
+  EXPECT_NEAR(steepest_mps, 20.0, 1e-6);
+  EXPECT_LT(highest_m, 4572.0 + 1.0);
+  EXPECT_NEAR(now.altitude_msl_m, 4572.0, 1.0);
+  EXPECT_LT(pitch_error_deg, 1e-9);
+}
+
+TEST(RouteFlight, AfterTheLastWaypointItGoesStraightOn) {
+  const Route route = route_of("38 -123 15000 480\n38.2 -123 15000 480\n");
+  RouteFlight flight(route);
+  Ownship now{};
+  for (int second = 0; second < 1'000; ++second) now = flight.step(geo::Duration::seconds(1.0)).ownship;
+  EXPECT_GT(now.latitude_deg, 39.0);
+  EXPECT_NEAR(now.longitude_deg, -123.0, 1e-6);
+  EXPECT_NEAR(geo::wrapped_degrees(now.heading_deg), 0.0, 1e-6);
+}
+
+TEST(RouteFlight, ALoopIsFlownRoundAndRound) {
+  const Route route = route_of("38 -123 15000 480\n39 -123 15000 480\n39 -122 15000 480\n38 -122 15000 480\nloop\n");
+  RouteFlight flight(route);
+  std::vector<int> passes(4, 0);
+  std::vector<bool> inside(4, false);
+  for (int second = 0; second < 7'200; ++second) {
+    const Ownship now = flight.step(geo::Duration::seconds(1.0)).ownship;
+    for (std::size_t index = 0; index < 4; ++index) {
+      const bool here = distance_m(point_of(now), route.waypoints[index].point) < 8'000.0;
+      if (here && !inside[index]) ++passes[index];
+      inside[index] = here;
+    }
+  }
+  for (const int count : passes) EXPECT_GE(count, 4);
+}
+
+TEST(RouteFlight, CrossesThePoleAndTheAntimeridian) {
+  RouteFlight pole(route_of("89 20 30000 480\n89 -160 30000 480\n88 -160 30000 480\n"));
+  expect_consistent(pole, 1'200.0, kStep, 0.05);
+  RouteFlight line(route_of("0 179.5 30000 480\n0 -179.5 30000 480\n0.5 -179 30000 480\n"));
+  expect_consistent(line, 900.0, kStep, 0.05);
+}
+
+TEST(RouteFlight, RepositionedItFliesToTheEndOfTheNearestLeg) {
+  const Route route = route_of("38 -123 15000 480\n39 -123 15000 480\n39 -120 15000 480\n");
+  RouteFlight flight(route);
+  flight.step(geo::Duration::seconds(10.0));
+  ASSERT_TRUE(flight.reposition({{39.3, -121.5}, geo::AltitudeMsl::feet(10'000), geo::Bearing::degrees(270)}));
+  const Ownship placed = flight.step({}).ownship;
+  EXPECT_EQ(placed.latitude_deg, 39.3);
+  EXPECT_EQ(placed.longitude_deg, -121.5);
+  EXPECT_NEAR(placed.heading_deg, 270.0, 1e-9);
+  EXPECT_EQ(placed.roll_deg, 0.0);
+  double nearest_m = 1e9;
+  for (int second = 0; second < 900; ++second)
+    nearest_m = std::min(nearest_m, distance_m(point_of(flight.step(geo::Duration::seconds(1.0)).ownship), {39, -120}));
+  EXPECT_LT(nearest_m, 500.0);
+}
+
+TEST(RouteFlight, ResetFliesTheSameFlightAgain) {
+  RouteFlight flight(corner_of(60.0, 480.0));
+  std::vector<FlightSample> first;
+  for (int second = 0; second < 400; ++second) first.push_back(flight.step(geo::Duration::seconds(1.0)));
+  flight.reset();
+  for (const FlightSample& sample : first) ASSERT_TRUE(same_sample(sample, flight.step(geo::Duration::seconds(1.0))));
+}
+
+TEST(RouteFlight, OneLongStepGoesWhereManyShortOnesGo) {
+  RouteFlight once(corner_of(60.0, 480.0));
+  RouteFlight often(corner_of(60.0, 480.0));
+  const Ownship far = once.step(geo::Duration::seconds(400.0)).ownship;
+  Ownship near{};
+  for (int tick = 0; tick < 80'000; ++tick) near = often.step(geo::Duration::seconds(0.005)).ownship;
+  EXPECT_LT(distance_m(point_of(far), point_of(near)), 20.0);
+}
+
+TEST(RouteFlight, TheShippedRouteStaysOffTheCoastAndComesRound) {
+  const auto text = read_text_file(std::string(YARS_SOURCE_DIR) + "/config/routes/california.route");
+  ASSERT_TRUE(text) << text.error().message();
+  const auto route = parse_route(*text, "california.route");
+  ASSERT_TRUE(route) << route.error().message();
+  EXPECT_TRUE(route->loop);
+  RouteFlight flight(*route);
+  double south_deg = 90.0;
+  double home_m = 1e9;
+  for (int second = 0; second < 3'600; ++second) {
+    const Ownship now = flight.step(geo::Duration::seconds(1.0)).ownship;
+    ASSERT_NEAR(now.altitude_msl_m, 4572.0, 1.0);
+    ASSERT_EQ(why_refused(now), std::nullopt);
+    south_deg = std::min(south_deg, now.latitude_deg);
+    if (second > 1'800) home_m = std::min(home_m, distance_m(point_of(now), route->waypoints[0].point));
+  }
+  EXPECT_LT(south_deg, 35.5);
+  EXPECT_LT(home_m, 10'000.0);
+}
+
+}  // namespace
+}  // namespace yars::databuffer::flight

@@ -1,0 +1,49 @@
+#include "databuffer/flight/source_reader.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace yars::databuffer::flight {
+namespace {
+
+using ::testing::HasSubstr;
+
+failure::Error refusal_of(const std::string& text) {
+  const auto source = open_source(text);
+  return source ? failure::Error{} : source.error();
+}
+
+TEST(FlightSource, AFixedCourseFlies) {
+  auto source = open_source("fixed:38,-123,15000,160,480");
+  ASSERT_TRUE(source) << source.error().message();
+  EXPECT_STREQ(source->model->step({}).ownship.source, "fixed");
+}
+
+TEST(FlightSource, TheShippedRouteFlies) {
+  auto source = open_source("route:" YARS_SOURCE_DIR "/config/routes/california.route");
+  ASSERT_TRUE(source) << source.error().message();
+  EXPECT_STREQ(source->model->step({}).ownship.source, "route");
+}
+
+TEST(FlightSource, WhatCannotBeReadAsASourceIsBadUsage) {
+  for (const auto* text : {"", "route:", "csv:", "fixed:", "fixed:1,2,3", "balloon:3", "route"}) {
+    const auto error = refusal_of(text);
+    EXPECT_TRUE(error.bad_usage) << text;
+    EXPECT_FALSE(error.expected.empty()) << text;
+  }
+}
+
+TEST(FlightSource, ABridgeOfALaterReleaseSaysSo) {
+  EXPECT_THAT(refusal_of("xplane:localhost:49000").message(), HasSubstr("later release"));
+}
+
+TEST(FlightSource, AMissingFileIsAFailureOfTheWorld) {
+  const auto error = refusal_of("route:/nonexistent/x.route");
+  EXPECT_FALSE(error.bad_usage);
+  EXPECT_THAT(error.message(), HasSubstr("/nonexistent/x.route"));
+}
+
+}  // namespace
+}  // namespace yars::databuffer::flight

@@ -1,0 +1,70 @@
+#include "databuffer/records/plain_text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "databuffer/records/text_file_reader.hpp"
+
+namespace yars::databuffer {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+TEST(PlainText, CommentsAndEmptyLinesCountButDoNotAppear) {
+  const auto lines = numbered_lines("# head\n\n  one 1 # tail\r\ntwo\n   # only\nthree");
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(lines[0].number, 3);
+  EXPECT_EQ(lines[0].text, "one 1");
+  EXPECT_EQ(lines[1].number, 4);
+  EXPECT_EQ(lines[2].number, 6);
+  EXPECT_EQ(lines[2].text, "three");
+}
+
+TEST(PlainText, NothingHasNoLines) {
+  EXPECT_TRUE(numbered_lines("").empty());
+  EXPECT_TRUE(numbered_lines("\n\n# x").empty());
+}
+
+TEST(PlainText, WordsStandBetweenBlanks) {
+  EXPECT_THAT(words_of("  a\tbc  d "), ElementsAre("a", "bc", "d"));
+  EXPECT_TRUE(words_of(" \t").empty());
+}
+
+TEST(PlainText, FieldsStandBetweenSeparators) {
+  EXPECT_THAT(fields_of("a, b ,,c,", ','), ElementsAre("a", "b", "", "c", ""));
+  EXPECT_THAT(fields_of("", ','), ElementsAre(""));
+}
+
+TEST(PlainText, OnlyWholeFiniteNumbersAreNumbers) {
+  EXPECT_EQ(finite_number("-12.5"), -12.5);
+  EXPECT_EQ(finite_number("+3e2"), 300.0);
+  for (const auto* word : {"", "+", "-", "1x", "x1", "nan", "inf", "-inf", "1e999", "+-1", "--1", "1 2", "0x10"})
+    EXPECT_EQ(finite_number(word), std::nullopt) << word;
+}
+
+TEST(PlainText, ANumberSurvivesItsText) {
+  for (const double value : {0.1, -1.0 / 3.0, 1e-300, 123456789.125, 5e-324}) {
+    EXPECT_EQ(finite_number(text_of_number(value)), value);
+  }
+}
+
+TEST(TextFile, IsReadWholeAndItsAbsenceIsNamed) {
+  const auto path = std::filesystem::temp_directory_path() / ("yars_text_file_test_" + std::to_string(::getpid()));
+  std::ofstream(path) << "one\ntwo\n";
+  EXPECT_EQ(read_text_file(path).value(), "one\ntwo\n");
+  std::filesystem::remove(path);
+  const auto absent = read_text_file(path);
+  ASSERT_FALSE(absent);
+  EXPECT_THAT(absent.error().message(), HasSubstr(path.string()));
+  const auto folder = read_text_file(std::filesystem::temp_directory_path());
+  ASSERT_FALSE(folder);
+  EXPECT_THAT(folder.error().message(), HasSubstr("folder"));
+}
+
+}  // namespace
+}  // namespace yars::databuffer
