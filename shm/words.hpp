@@ -17,6 +17,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "shm/wide_move.hpp"
+
 namespace yars::shm {
 
 inline constexpr std::size_t kCacheLine = 64;  // [bytes] cursors of writer and reader lie on lines of their own
@@ -25,7 +27,10 @@ using Word = std::uint64_t;
 using AtomicWord = std::atomic<Word>;
 static_assert(AtomicWord::is_always_lock_free && sizeof(AtomicWord) == sizeof(Word));
 
+inline constexpr std::size_t kWideWords = kWideBytes / sizeof(Word);
+
 struct PlainAccess {
+  static constexpr bool kWide = kWideMoves;
   static void store(AtomicWord& word, Word value, std::memory_order order) { word.store(value, order); }
   static Word load(const AtomicWord& word, std::memory_order order) { return word.load(order); }
   static Word fetch_add(AtomicWord& word, Word value, std::memory_order order) { return word.fetch_add(value, order); }
@@ -56,10 +61,17 @@ constexpr Word next_odd(Word sequence) {
   return (sequence + 1) | 1U;
 }
 
+// Few records are long enough for a loop's overhead not to count, hence the unrolling.
 template <class Access>
 void store_words(AtomicWord* words, const void* record, std::size_t count) {
   const auto* bytes = static_cast<const std::byte*>(record);
-  for (std::size_t i = 0; i < count; ++i) {
+  std::size_t i = 0;
+  if constexpr (Access::kWide) {
+#pragma GCC unroll 4
+    for (; i + kWideWords <= count; i += kWideWords) wide_move(&words[i], bytes + i * sizeof(Word));
+  }
+#pragma GCC unroll 8
+  for (; i < count; ++i) {
     Word word;
     std::memcpy(&word, bytes + i * sizeof(Word), sizeof(Word));
     Access::store(words[i], word, std::memory_order_release);
@@ -69,7 +81,13 @@ void store_words(AtomicWord* words, const void* record, std::size_t count) {
 template <class Access = PlainAccess>
 void load_words(const AtomicWord* words, void* record, std::size_t count) {
   auto* bytes = static_cast<std::byte*>(record);
-  for (std::size_t i = 0; i < count; ++i) {
+  std::size_t i = 0;
+  if constexpr (Access::kWide) {
+#pragma GCC unroll 4
+    for (; i + kWideWords <= count; i += kWideWords) wide_move(bytes + i * sizeof(Word), &words[i]);
+  }
+#pragma GCC unroll 8
+  for (; i < count; ++i) {
     const Word word = Access::load(words[i], std::memory_order_acquire);
     std::memcpy(bytes + i * sizeof(Word), &word, sizeof(Word));
   }

@@ -15,6 +15,7 @@ namespace yars::shm::testing {
 struct WriterKilled {};
 
 struct HookedAccess {
+  static constexpr bool kWide = false;  // word by word, so that none is left out
   static constexpr long kForever = std::numeric_limits<long>::max();
   inline static thread_local long left = kForever;
 
