@@ -16,15 +16,15 @@ namespace {
 
 using model::terrain::CellPlace;
 
-// The defaults are the database of scripts/start; config/routes/default.route flies along its coast.
 struct Options {
+  using Default = model::terrain::DefaultLandscape;
   std::string out;
-  int south_deg = 36;
-  int west_deg = -124;
-  int cells_latitude = 4;
-  int cells_longitude = 4;
+  int south_deg = Default::kSouthDeg;
+  int west_deg = Default::kWestDeg;
+  int cells_latitude = Default::kCellsNorth;
+  int cells_longitude = Default::kCellsEast;
   int level = 1;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = Default::kSeed;
 };
 
 void generate(const Options& options) {

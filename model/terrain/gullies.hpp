@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 namespace yars::model::terrain {
 
@@ -13,15 +14,22 @@ struct Slope {
   double north = 0.0;  // [m/m]
 };
 
+struct GullyOctave {
+  double wavelength_m;  // from gully to gully
+  double depth;         // [m] of relief to either side, per metre of wavelength and unit of slope
+};
+
 class Gullies {
  public:
-  explicit Gullies(std::uint32_t seed) : seed_(seed) {}
+  // `octaves` from coarse to fine; they outlive the object.
+  Gullies(std::uint32_t seed, std::span<const GullyOctave> octaves) : seed_(seed), octaves_(octaves) {}
 
-  // What to add to the base height [m], given the base's slope there. Latitude (-90, 90), any longitude [deg].
+  // What to add to the base height [m], given the base's slope there. Latitude (-90, 90), longitude [-180, 180) deg.
   double relief_m(double latitude_deg, double longitude_deg, Slope base) const;
 
  private:
   std::uint32_t seed_;
+  std::span<const GullyOctave> octaves_;
 };
 
 }  // namespace yars::model::terrain

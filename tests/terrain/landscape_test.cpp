@@ -33,7 +33,7 @@ void expect_equal_west_east(const Cell& west, const Cell& east) {
 }
 
 TEST(Landscape, NeighboursShareTheirEdges) {
-  const Landscape landscape(1);
+  const Landscape landscape(DefaultLandscape::kSeed);
   const Cell here = level_0(landscape, {38, -123});
   ASSERT_GT(here.highest_m() - here.lowest_m(), 500) << "a flat cell would prove nothing";
   expect_equal_west_east(here, level_0(landscape, {38, -122}));
@@ -41,12 +41,12 @@ TEST(Landscape, NeighboursShareTheirEdges) {
 }
 
 TEST(Landscape, TheAntimeridianHasNoSeam) {
-  const Landscape landscape(1);
+  const Landscape landscape(DefaultLandscape::kSeed);
   expect_equal_west_east(level_0(landscape, {10, 179}), level_0(landscape, {10, -180}));
 }
 
 TEST(Landscape, PostsAtAZoneBoundaryAreShared) {
-  const Landscape landscape(1);
+  const Landscape landscape(DefaultLandscape::kSeed);
   const Cell south = level_0(landscape, {49, 10});
   const Cell north = level_0(landscape, {50, 10});
   ASSERT_EQ(north.columns(), 61);
@@ -54,8 +54,8 @@ TEST(Landscape, PostsAtAZoneBoundaryAreShared) {
 }
 
 TEST(Landscape, LevelZeroIsEveryTenthPostOfLevelOne) {
-  const Landscape landscape(1);
-  const CellPlace place{37, -122};
+  const Landscape landscape(DefaultLandscape::kSeed);
+  const CellPlace place{38, -122};
   const Cell coarse = level_0(landscape, place);
   const Cell fine = landscape.cell(place, 1201, 1201);
   for (int row = 0; row < kRows; ++row)
@@ -65,28 +65,29 @@ TEST(Landscape, LevelZeroIsEveryTenthPostOfLevelOne) {
 
 TEST(Landscape, AnotherObjectMakesTheSameEarthAndAnotherSeedAnother) {
   const CellPlace place{37, -122};
-  const Cell first = level_0(Landscape(1), place);
-  const Cell again = level_0(Landscape(1), place);
-  const Cell other = level_0(Landscape(2), place);
+  const Cell first = level_0(Landscape(12), place);
+  const Cell again = level_0(Landscape(12), place);
+  const Cell other = level_0(Landscape(13), place);
   EXPECT_TRUE(std::equal(first.posts().begin(), first.posts().end(), again.posts().begin()));
   EXPECT_FALSE(std::equal(first.posts().begin(), first.posts().end(), other.posts().begin()));
 }
 
 TEST(Landscape, ThePolesAreMade) {
-  const Landscape landscape(1);
+  const Landscape landscape(DefaultLandscape::kSeed);
   EXPECT_EQ(level_0(landscape, {89, 0}).voids(), 0U);
   EXPECT_EQ(level_0(landscape, {-90, -180}).voids(), 0U);
 }
 
 TEST(Landscape, TheDefaultRegionHasSeaPlainAndMountains) {
-  const Landscape landscape(1);
+  const Landscape landscape(DefaultLandscape::kSeed);
   std::size_t sea = 0;
   std::size_t plain = 0;
   std::size_t posts = 0;
   int highest_m = 0;
-  for (int south = 36; south < 40; ++south)
-    for (int west = -124; west < -120; ++west) {
-      const Cell cell = level_0(landscape, {south, west});
+  using Default = DefaultLandscape;
+  for (int row = 0; row < Default::kCellsNorth; ++row)
+    for (int column = 0; column < Default::kCellsEast; ++column) {
+      const Cell cell = level_0(landscape, {Default::kSouthDeg + row, Default::kWestDeg + column});
       posts += cell.posts().size();
       sea += cell.sea_posts();
       plain += static_cast<std::size_t>(std::count_if(cell.posts().begin(), cell.posts().end(),
