@@ -52,7 +52,8 @@ class Storm {
     around.tick += pick(1, 40);
     around.recorder_writing = pick(0, 1) == 0;
     around.model.flags = pick(0, 1) == 0 ? databuffer::kModelFrozen : databuffer::kModelScanning;
-    around.ownship.latitude_deg += number(-0.01, 0.011);
+    // Drifts to the pole and stays about it; beyond, the border refuses the ownship.
+    around.ownship.latitude_deg = std::min(90.0, around.ownship.latitude_deg + number(-0.01, 0.012));
     around.ownship.longitude_deg = geo::wrapped_degrees(around.ownship.longitude_deg + number(-0.01, 0.012));
     around.ownship.velocity_east_mps = number(-300.0, 300.0);
     around.ownship.radar_altitude_m = pick(0, 3) == 0 ? kNaN : number(0.0, 500.0);
