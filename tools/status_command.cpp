@@ -114,7 +114,7 @@ void status(const CommonOptions& common, const StatusOptions& options) {
     std::printf("%s\n", databuffer::layout_json().c_str());
     return;
   }
-  auto session = databuffer::Session::open_read_only(common.session);
+  const auto session = databuffer::Session::open_read_only(common.session);
   if (!session) give_up(session.error());
   const auto object = status_object(*session, common.session);
   if (options.json)

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <ctime>
 
+#include "databuffer/log.hpp"
 #include "databuffer/program.hpp"
 #include "databuffer/session.hpp"
 #include "tools/command.hpp"
@@ -41,7 +42,7 @@ void print(const nlohmann::ordered_json& object, bool json) {
 }
 
 void watch(const CommonOptions& common, const WatchOptions& options) {
-  auto session = databuffer::Session::open_read_only(common.session);
+  const auto session = databuffer::Session::open_read_only(common.session);
   if (!session) give_up(session.error());
   std::uint64_t seen = ~0ULL;
   std::int64_t printed_ns = 0;
@@ -54,6 +55,10 @@ void watch(const CommonOptions& common, const WatchOptions& options) {
       print(watch_object(*session), options.json);
     }
     if (options.once) return;
+    if (session->processes().empty()) {
+      databuffer::log_info("session " + common.session + " has ended");
+      return;
+    }
     const timespec pause{0, kLook_ns};
     nanosleep(&pause, nullptr);
   }
