@@ -27,10 +27,10 @@ function(yars_program name)
   target_link_libraries(${name} PRIVATE ${ARG_DEPENDS})
 endfunction()
 
-# yars_test(FOLDER [SUPPORT sources] [PROGRAMS it runs] DEPENDS ...): one gtest binary from tests/FOLDER/*_test.cpp
-# and its support sources, found when ctest runs.
+# yars_test(FOLDER [ALONE] [SUPPORT sources] [PROGRAMS it runs] DEPENDS ...): one gtest binary from tests/FOLDER/*_test.cpp
+# and its support sources, found when ctest runs. ALONE: its tests have the machine to themselves.
 function(yars_test folder)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "DEPENDS;LABELS;SUPPORT;PROGRAMS" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE" "TIMEOUT" "DEPENDS;LABELS;SUPPORT;PROGRAMS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/${folder}/*_test.cpp)
   if(NOT sources)
     return()
@@ -48,5 +48,5 @@ function(yars_test folder)
     set(ARG_TIMEOUT 120)
   endif()
   gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${folder}." DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")
+    PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}" RUN_SERIAL ${ARG_ALONE})
 endfunction()
