@@ -60,7 +60,7 @@ void FormReader::read_form(const Form& form, const Location& where, const KnownF
   if (known.defined_in_text) {
     warn(where, "the form " + form.name + " is read as its base " + std::string(schema.name));
   }
-  const auto assigned = assign(form, where, known);
+  const auto assigned = assign(form, known);
   if (schema.begin) schema.begin(draft_);
   for (const bool first : {true, false}) {
     for (const Assigned& one : assigned) {
@@ -78,8 +78,7 @@ void FormReader::read_form(const Form& form, const Location& where, const KnownF
   if (schema.end) schema.end(draft_);
 }
 
-std::vector<FormReader::Assigned> FormReader::assign(const Form& form, const Location& where, const KnownForm& known) {
-  if (form.name == "def-form") reject(where, "def-form outside all other forms", "it inside one");
+std::vector<FormReader::Assigned> FormReader::assign(const Form& form, const KnownForm& known) {
   std::vector<Assigned> assigned;
   int place = 0;
   for (const Slot& slot : form.slots) {
@@ -155,6 +154,9 @@ void FormReader::read_forms(const SlotSchema& schema, const FormSlot& kind, cons
 
 void FormReader::read_form_of_slot(const SlotSchema& schema, const FormSlot& kind, const Value& value, bool in_list) {
   const auto* form = std::get_if<Form>(&value.data);
+  if (form != nullptr && form->name == "def-form") {
+    reject(value.where, "def-form outside all other forms", "it inside one");
+  }
   const KnownForm known = form == nullptr ? KnownForm{} : book_.look_up(form->name);
   const bool unknown = form != nullptr && known.schema == nullptr;
   if (unknown && in_list) {

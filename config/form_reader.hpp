@@ -24,7 +24,7 @@ class FormReader {
   };
   void read_outermost(const Form& form, const Location& where);
   void read_form(const Form& form, const Location& where, const KnownForm& known);
-  std::vector<Assigned> assign(const Form& form, const Location& where, const KnownForm& known);
+  std::vector<Assigned> assign(const Form& form, const KnownForm& known);
   const SlotSchema* row_of(const Slot& slot, int place, const Form& form, const KnownForm& known);
   void read_slot(const SlotSchema& schema, const Value& value, const std::string& form);
   void read_forms(const SlotSchema& schema, const FormSlot& kind, const Value& value);

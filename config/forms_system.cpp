@@ -1,5 +1,6 @@
 #include "config/field.hpp"
 #include "config/forms.hpp"
+#include "config/value.hpp"
 
 namespace yars::config {
 namespace {
@@ -9,8 +10,8 @@ std::optional<Complaint> check_widths_against_gimbal(const Draft& draft) {
   const double widest_deg = radar.scan_widths_deg.front();
   const double reach_deg = 2.0 * radar.antenna.azimuth_limit_deg;
   if (radar.antenna.circular_scan || widest_deg <= reach_deg) return std::nullopt;
-  return Complaint{"modes", "scan widths within the gimbal's " + std::to_string(reach_deg) + " deg",
-                   std::to_string(widest_deg) + " deg"};
+  return Complaint{"modes", "scan widths within the gimbal's " + number_text(reach_deg) + " deg",
+                   number_text(widest_deg) + " deg"};
 }
 
 // Positions 1 to 11 are the report's.

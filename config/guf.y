@@ -46,7 +46,7 @@ static yars::config::GufParser::symbol_type yylex(void* scanner) { return yars::
 %start text
 %%
 
-text: arguments END                     { state.result.arguments = $1; }
+text: arguments                         { state.result.arguments = $1; }
     ;
 
 arguments: %empty                       { }

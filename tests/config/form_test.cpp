@@ -1,0 +1,286 @@
+// From forms to the configuration: names, positions, fall-back, ranges.
+#include <gmock/gmock.h>
+
+#include "tests/config/support.hpp"
+
+namespace yars::config {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::DoubleEq;
+using ::testing::ElementsAre;
+using testing::fields;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::loaded;
+using testing::refusal;
+
+TEST(Slots, ByNameAndByPositionAreEqual) {
+  const auto named =
+      loaded("( AntennaServo :azimuthLimits `( -50 50 ) :elevationLimits `( -40 40 ) :maxRates `( 60 70 ) )");
+  const auto placed = loaded("( AntennaServo `( -50 50 ) `( -40 40 ) `( 60 70 ) )");
+  const auto numbered = loaded("( AntennaServo :3 `( 60 70 ) :1 `( -50 50 ) :2 `( -40 40 ) )");
+  EXPECT_EQ(named.radar.antenna.azimuth_limit_deg, 50.0);
+  EXPECT_EQ(named.radar.antenna.elevation_limit_deg, 40.0);
+  EXPECT_EQ(named.radar.antenna.azimuth_rate_dps, 60.0);
+  EXPECT_EQ(named.radar.antenna.elevation_rate_dps, 70.0);
+  EXPECT_EQ(fields(named.radar), fields(placed.radar));
+  EXPECT_EQ(fields(named.radar), fields(numbered.radar));
+}
+
+TEST(Slots, APositionCountsTheNamedOnesBeforeIt) {
+  const auto configuration = loaded("( AntennaServo :azimuthLimits `( -50 50 ) `( -40 40 ) )");
+  EXPECT_EQ(configuration.radar.antenna.elevation_limit_deg, 40.0);
+}
+
+TEST(Slots, OfTheReportKeepTheirPositions) {
+  // Apg70: samples is the 4th, ranges the 6th of the report's table 18; SarMode: patchSizes behind width.
+  const auto configuration = loaded("( Apg70 :4 256 :6 `( 5 15 ) :5 `( ( SarMode :6 `( 100 3200 ) ) ) )");
+  EXPECT_EQ(configuration.radar.fidelity.samples, 256);
+  EXPECT_THAT(configuration.radar.ranges_nm, ElementsAre(5, 15));
+  EXPECT_THAT(configuration.warnings, ElementsAre(AllOf(HasSubstr(":patchSizes of SarMode"), HasSubstr("not used"))));
+}
+
+TEST(Slots, LaterFormsWin) {
+  const auto configuration = loaded("( Apg70 :name \"first\" :seed 3 )\n( Apg70 :name \"second\" )");
+  EXPECT_EQ(configuration.radar.name, "second");
+}
+
+TEST(Slots, ThatNobodyKnowsWarnWithTheNearestName) {
+  const auto configuration = loaded("( Apg70 :rnages `( 1 2 ) )");
+  EXPECT_THAT(configuration.warnings,
+              ElementsAre("text.guf:1:9: the form Apg70 has no slot :rnages; it is ignored; :ranges is near"));
+  EXPECT_EQ(fields(configuration.radar), fields(radar::RadarConfiguration{}));
+}
+
+TEST(Slots, ThatNobodyUsesAreNamed) {
+  EXPECT_THAT(loaded("( Apg70 :rate 20 )").warnings, ElementsAre("text.guf:1:15: :rate of Apg70 is read, not used"));
+}
+
+TEST(Slots, ThatNobodyUsesAreCheckedAllTheSame) {
+  EXPECT_EQ(
+      refusal("( Window :colors `( ( rgb 0.5 1.5 0 ) ) )"),
+      "text.guf:1:31: expected a number in [0, 1] for :green, found the number 1.5; `yars config print --defaults` "
+      "explains every slot");
+}
+
+TEST(Slots, TwiceInAFormAreRefused) {
+  EXPECT_EQ(refusal("( Noise :looks 4\n :looks 5 )"),
+            "text.guf:2:2: expected the slot :looks once in its form, found it again, first at text.guf:1:9");
+  EXPECT_THAT(refusal("( Noise -38 :1 -40 )"), HasSubstr("text.guf:1:13: expected the slot :floor once"));
+}
+
+TEST(Slots, BeyondTheLastPositionAreRefused) {
+  EXPECT_EQ(refusal("( Noise -38 4 1 9 )"), "text.guf:1:17: expected at most 3 slots in Noise, found position 4");
+}
+
+TEST(Slots, InAnotherCaseAreReadWithAWarning) {
+  const auto configuration = loaded("( apg70 :Ranges `( 1 2 ) )");
+  EXPECT_THAT(configuration.radar.ranges_nm, ElementsAre(1, 2));
+  EXPECT_THAT(configuration.warnings, ElementsAre("text.guf:1:1: apg70 is an old spelling; write Apg70",
+                                                  "text.guf:1:9: :Ranges is an old spelling; write :ranges"));
+}
+
+struct WrongValue {
+  const char* text;
+  const char* message;  // up to the hint
+};
+
+class Values : public ::testing::TestWithParam<WrongValue> {};
+
+TEST_P(Values, OutsideTheirRangeOrKindAreRefusedAtTheirPlace) {
+  EXPECT_THAT(refusal(GetParam().text), HasSubstr(GetParam().message));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OfEachKind, Values,
+    ::testing::Values(
+        WrongValue{"( Noise :floor 3 )",
+                   "text.guf:1:16: expected a number in [-120, 0] dB for :floor, found the number 3"},
+        WrongValue{"( Noise :floor low )",
+                   "text.guf:1:16: expected a number in [-120, 0] dB for :floor, found the identifier low"},
+        WrongValue{"( Noise :looks 2.5 )",
+                   "text.guf:1:16: expected a whole number in [1, 64] for :looks, found the number 2.5"},
+        WrongValue{"( Noise :seed -1 )", "text.guf:1:15: expected a whole number in [0, 9007199254740992] for :seed"},
+        WrongValue{"( Fidelity :noise 1 )", "text.guf:1:19: expected true or false for :noise, found the number 1"},
+        WrongValue{"( Fidelity :beam wide )",
+                   "text.guf:1:18: expected one of hard-edge, gaussian, cosecant-squared for :beam, found the "
+                   "identifier wide"},
+        WrongValue{"( Apg70 :name 70 )", "text.guf:1:15: expected a string for :name, found the number 70"},
+        WrongValue{"( Terrain :directory true )",
+                   "text.guf:1:22: expected a string, a path relative to its file for :directory, found true"},
+        WrongValue{"( Apg70 :ranges `( 10 20 15 ) )",
+                   "text.guf:1:26: expected a list of 1 to 16 ascending numbers in [0.1, 500] NM for :ranges, found 15 "
+                   "after 20"},
+        WrongValue{"( Apg70 :ranges `( ) )", "text.guf:1:17: expected a list of 1 to 16 ascending numbers"},
+        WrongValue{"( Apg70 :ranges `( 0 ) )",
+                   "text.guf:1:20: expected a list of 1 to 16 ascending numbers in [0.1, 500] NM for :ranges, found "
+                   "the number 0"},
+        WrongValue{"( RbmAntenna :scanWidths `( 25 50 100 ) )",
+                   "text.guf:1:32: expected a list of 3 descending numbers"},
+        WrongValue{"( RbmAntenna :scanWidths `( 100 50 ) )",
+                   "text.guf:1:26: expected a list of 3 descending numbers in [1, 360] deg for :scanWidths, found a "
+                   "list of 2"},
+        WrongValue{"( RbmAntenna :scanBars `( 1 5 ) )",
+                   "text.guf:1:29: expected a whole number or a list of them in [1, 4] for :scanBars"},
+        WrongValue{"( AntennaServo :azimuthLimits `( -60 50 ) )", "text.guf:1:34: expected a list of -limit and limit"},
+        WrongValue{"( AntennaServo :maxRates `( 60 ) )",
+                   "text.guf:1:26: expected a list of 2 numbers in [1, 1000] deg/s for :maxRates, found a list of 1"},
+        WrongValue{"( RbmDisplay :width `( 1 -1 ) )",
+                   "text.guf:1:21: expected a list of low and high, or a number, in [-4, 4] ranges for :width, found 1 "
+                   "and -1"},
+        WrongValue{"( Window :height 500 )",
+                   "text.guf:1:18: expected the width, 480 (the glass is square) for :height, found 500"},
+        WrongValue{"( Apg70 :fidelity fine )",
+                   "text.guf:1:19: expected a form: Fidelity for :fidelity, found the identifier fine"},
+        WrongValue{"( Apg70 :fidelity ( Noise ) )",
+                   "text.guf:1:19: expected a form: Fidelity for :fidelity, found the form Noise"},
+        WrongValue{"( Apg70 :antenna ( Dish ) )",
+                   "text.guf:1:18: expected a form: AntennaServo, RbmAntenna for :antenna, found the form Dish, which "
+                   "is unknown"},
+        WrongValue{"( Apg70 :modes `( 1 ) )", "text.guf:1:19: expected a list of the forms Mode, OffMode"},
+        WrongValue{"( Apg70 :antenna ( AntennaServo `( -40 40 ) ) )",
+                   "text.guf:1:1: expected scan widths within the gimbal's 80 deg for :modes, found 100 deg"},
+        WrongValue{
+            "( rgb 1 1 1 )",
+            "text.guf:1:1: expected a form that configures something, as ( Apg70 ... ), found ( rgb ... ) alone"},
+        WrongValue{"480", "text.guf:1:1: expected a form, as ( Apg70 ... ), found the number 480"},
+        WrongValue{":name \"x\"", "text.guf:1:1: expected a form, as ( Apg70 ... ), found a slot"},
+        WrongValue{"( Apg70 is= System )", "text.guf:1:9: expected is= in a def-form only, found it in Apg70"}));
+
+TEST(Fidelity, APresetSetsEveryKnobAndEachCanThenBeSetAlone) {
+  const auto preset = loaded("( Fidelity :preset 1996 )").radar.fidelity;
+  EXPECT_EQ(preset.earth, radar::EarthModel::flat);
+  EXPECT_EQ(preset.earth_radius_factor, 1.0);
+  EXPECT_FALSE(preset.noise);
+  const auto changed = loaded("( Fidelity :noise true :samples 128 :preset 1996 )").radar.fidelity;
+  EXPECT_TRUE(changed.noise);
+  EXPECT_EQ(changed.samples, 128);
+  EXPECT_EQ(changed.earth, radar::EarthModel::flat);
+}
+
+TEST(LatLong, IsDegreesMinutesAndSecondsWithAHemisphere) {
+  const auto route =
+      loaded("( Route `( ( Point \"1\" ( lat-long N 35 44 51 ) ( lat-long west 121 30 2 ) ) ) )").radar.route;
+  ASSERT_EQ(route.size(), 1U);
+  EXPECT_THAT(route[0].place.latitude_deg, DoubleEq(35.0 + 44.0 / 60.0 + 51.0 / 3600.0));
+  EXPECT_THAT(route[0].place.longitude_deg, DoubleEq(-(121.0 + 30.0 / 60.0 + 2.0 / 3600.0)));
+}
+
+TEST(LatLong, OfTheWrongAxisOrBeyondThePoleIsRefused) {
+  EXPECT_EQ(refusal("( Database ( lat-long E 35 ) )"), "text.guf:1:12: expected N or S for a latitude, found E or W");
+  EXPECT_THAT(refusal("( Database ( lat-long N 90 1 ) )"), HasSubstr("[-90, 90] deg for :latitude"));
+}
+
+TEST(Route, TakesTheKindOfAPointFromItsName) {
+  const auto route = loaded(R"(( Route `(
+    ( Point "1" 36 -122 500 ) ( Point "2" 36.1 -122 :kind initial ) ( Point "3." 36.2 -122 )
+    ( Point "3.01" 36.2 -122.1 ) ( Point "1.1" 36 -122.1 ) ) ))")
+                         .radar.route;
+  ASSERT_EQ(route.size(), 5U);
+  EXPECT_EQ(route[0].kind, radar::PointKind::steer);
+  EXPECT_DOUBLE_EQ(route[0].elevation_m, 152.4);
+  EXPECT_EQ(route[1].kind, radar::PointKind::initial);
+  EXPECT_TRUE(std::isnan(route[1].elevation_m));
+  EXPECT_EQ(route[2].kind, radar::PointKind::target);
+  EXPECT_EQ(route[3].kind, radar::PointKind::target_offset);
+  EXPECT_EQ(route[4].kind, radar::PointKind::steer_offset);
+}
+
+TEST(Route, RefusesPointsThatContradictThemselves) {
+  EXPECT_THAT(refusal("( Route `( ( Point \"x\" 1 2 ) ) )"), HasSubstr("expected a name of a sequence point"));
+  EXPECT_THAT(refusal("( Route `( ( Point \"1\" 1 2 :kind target ) ) )"),
+              HasSubstr("text.guf:1:34: expected the kind that the name 1 has, steer for :kind, found target"));
+  EXPECT_THAT(refusal("( Route `( ( Point \"1\" 1 2 ) ( Point \"1\" 3 4 ) ) )"), HasSubstr("a name once in a route"));
+  EXPECT_THAT(refusal("( Route `( ( Point \"1\" 1 ) ) )"),
+              HasSubstr("expected a longitude for :longitude, found none"));
+}
+
+TEST(Route, ASecondReplacesTheFirst) {
+  const auto route = loaded("( Route `( ( Point \"1\" 1 2 ) ) )( Route `( ( Point \"7\" 3 4 ) ) )").radar.route;
+  ASSERT_EQ(route.size(), 1U);
+  EXPECT_EQ(route[0].name, "7");
+}
+
+TEST(UnknownForms, AreIgnoredWithAWarningWhereTheyCanBe) {
+  const auto configuration = loaded("( Weather :rain 3 )\n( Apg70 :modes `( ( GmtiMode ) ( RealBeamMode :4 256 ) ) )");
+  EXPECT_THAT(configuration.warnings, ElementsAre("text.guf:1:1: the form Weather is unknown and ignored",
+                                                  "text.guf:2:19: the form GmtiMode is unknown and ignored"));
+  EXPECT_EQ(configuration.radar.fidelity.samples, 256);
+}
+
+TEST(DefForm, AnUnknownFormFallsBackToItsBase) {
+  const auto configuration = loaded(
+      "( def-form NewBeamMode is= RealBeamMode 'sidelobes )\n"
+      "( Apg70 :modes `( ( NewBeamMode :scanWidths `( 90 60 30 ) :sidelobes 7 ) ) )");
+  EXPECT_THAT(configuration.radar.scan_widths_deg, ElementsAre(90, 60, 30));
+  EXPECT_THAT(configuration.warnings,
+              ElementsAre("text.guf:2:19: the form NewBeamMode is read as its base RealBeamMode",
+                          "text.guf:2:59: :sidelobes is read, not used"));
+}
+
+TEST(DefForm, FallsBackOverSeveralSteps) {
+  const auto configuration = loaded(
+      "( def-form A is= RbmAntenna `x )( def-form B is= A `y )\n"
+      "( Apg70 :antenna ( B :scanWidths `( 90 60 30 ) :x 1 :y 2 ) )");
+  EXPECT_THAT(configuration.radar.scan_widths_deg, ElementsAre(90, 60, 30));
+}
+
+TEST(DefForm, PutsItsSlotsBehindThoseOfItsBase) {
+  const std::string definition = "( def-form Loud is= Noise 'volume )";
+  EXPECT_THAT(loaded(definition + "( Loud -40 4 1 11 )").warnings, Contains(HasSubstr(":volume is read, not used")));
+  EXPECT_THAT(refusal(definition + "( Loud -40 4 1 11 12 )"), HasSubstr("expected at most 4 slots in Loud"));
+}
+
+TEST(DefForm, WithoutAKnownBaseLeavesAFormIgnored) {
+  EXPECT_THAT(loaded("( def-form Weather `rain ) ( Weather 3 )").warnings,
+              ElementsAre("text.guf:1:28: the form Weather is unknown and ignored"));
+}
+
+TEST(DefForm, OfABuiltInFormChangesNothing) {
+  const auto configuration =
+      loaded("( def-form DedDbase is= DataBase )( def-form rgb `red `green `blue )\n( Noise :floor -50 )");
+  EXPECT_THAT(configuration.warnings, IsEmpty());
+  EXPECT_EQ(configuration.radar.receiver.noise_floor_db, -50.0);
+}
+
+TEST(DefForm, ErrorsNameTheirPlace) {
+  EXPECT_EQ(refusal("( def-form A is= B )"),
+            "text.guf:1:18: expected a form that is known here after is=, found B; define it before this one");
+  EXPECT_THAT(refusal("( def-form )"), HasSubstr("text.guf:1:1: expected ( def-form name is= base 'slot ... )"));
+  EXPECT_THAT(refusal("( def-form 3 )"),
+              HasSubstr("text.guf:1:12: expected the name of the new form, found the number 3"));
+  EXPECT_THAT(refusal("( def-form A 3 )"), HasSubstr("text.guf:1:14: expected the name of a slot, as 'alpha"));
+  EXPECT_THAT(refusal("( Apg70 :modes `( ( def-form A is= Mode ) ( A ) ) )"),
+              HasSubstr("def-form outside all other forms"));
+}
+
+// The sample of the 1996 report's section on GUF, spelled as it is there.
+TEST(ReportSample, IsReadWithWarnings) {
+  const auto configuration = loaded(R"(( Radar
+  :display ( Window
+    width:      480
+    height:     480
+    mode: "doublebuffer"
+  )
+  :modes `(
+    ( RealBeamMode
+      :scanWidths { 100, 50, 25 }
+      :ranges { 4.7, 10, 20, 40, 80, 160 }
+      :Display ( RbmDisplay
+        width:      `( -0.6, 0.6 )
+        height:     `( -0.1, 1.1 )
+      )
+    )
+  )
+))");
+  EXPECT_EQ(fields(configuration.radar), fields(radar::RadarConfiguration{}));
+  EXPECT_THAT(configuration.warnings, Contains("text.guf:3:5: width: is the spelling of 1996; write :width"));
+  EXPECT_THAT(configuration.warnings, Contains("text.guf:9:19: { } is the spelling of 1996; write `( 100 50 25 )"));
+  EXPECT_THAT(configuration.warnings, Contains("text.guf:1:1: Radar is an old spelling; write System"));
+  EXPECT_THAT(configuration.warnings, Contains("text.guf:5:5: :mode is an old spelling; write :bmode"));
+}
+
+}  // namespace
+}  // namespace yars::config

@@ -1,0 +1,104 @@
+// No bytes whatever bring the reader down: texts that are right, changed at random, end in a configuration or in an
+// error with a place. The sanitizers of the dev build watch.
+#include <gmock/gmock.h>
+
+#include <array>
+#include <random>
+
+#include "config/print.hpp"
+#include "tests/config/support.hpp"
+
+namespace yars::config {
+namespace {
+
+using testing::fields;
+
+constexpr std::array kTexts{
+    std::string_view(
+        "( Radar :display ( Window width: 480 mode: \"doublebuffer\" ) :modes `( ( RealBeamMode :scanWidths "
+        "{ 100, 50, 25 } :Display ( RbmDisplay width: `( -0.6, 0.6 ) ) ) ) )"),
+    std::string_view(
+        "( def-form New is= RbmAntenna 'x `y ) ( Apg70 :antenna ( New :scanWidths ( guf 90 60 30 ) :x 1 ) )"),
+    std::string_view("; comment\n( AntennaServo '( -60 60 ) :3 `( 1e2 +.5e3 ) :4 `( 2.5 2.5 ) ) // end\n"),
+    std::string_view("( Route `( ( Point \"1.\" ( lat-long N 35 44 51 ) ( lat-long W 121 30 2 ) 500 ) ) )"),
+    std::string_view(
+        "( Apg70 :fidelity ( Fidelity :preset 1996 :noise true ) :seed 1 :name \"a\\\"b\\n\" ) ( include \"x\" )"),
+    std::string_view("( Window :colors `( ( rgb 0 1 0 ) ( hsva 360 1 1 0.5 ) ) :cmode rgb )")};
+
+constexpr std::array kPieces{std::string_view("("),          std::string_view(")"),   std::string_view("`("),
+                             std::string_view("{"),          std::string_view("}"),   std::string_view(":1 "),
+                             std::string_view("\""),         std::string_view("\\"),  std::string_view("is="),
+                             std::string_view("1e308"),      std::string_view("-"),   std::string_view(";"),
+                             std::string_view("def-form"),   std::string_view("guf"), std::string_view(":9999"),
+                             std::string_view("\xFF\x00", 2)};
+
+class Mutator {
+ public:
+  explicit Mutator(std::uint64_t seed) : random_(seed) {}
+
+  std::string next() {
+    std::string text(kTexts[random_() % kTexts.size()]);
+    const std::size_t changes = 1 + random_() % 6;
+    for (std::size_t i = 0; i < changes; ++i) change(text);
+    return text;
+  }
+
+ private:
+  void change(std::string& text) {
+    const std::size_t place = random_() % (text.size() + 1);
+    const std::size_t length = std::min<std::size_t>(random_() % 12, text.size() - place);
+    switch (random_() % 5) {
+      case 0:
+        text.erase(place, length);
+        break;
+      case 1:
+        text.insert(place, std::string(text.substr(random_() % (text.size() + 1), 20)));
+        break;
+      case 2:
+        text.insert(place, kPieces[random_() % kPieces.size()]);
+        break;
+      case 3:
+        if (place < text.size()) text[place] = static_cast<char>(random_());
+        break;
+      default:
+        text.replace(place, length, kPieces[random_() % kPieces.size()]);
+    }
+  }
+
+  std::mt19937_64 random_;
+};
+
+TEST(Mutations, AreReadOrRefusedWithAPlace) {
+  const std::uint64_t seed = 19960807;
+  RecordProperty("seed", std::to_string(seed));
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  Mutator mutator(seed);
+  int read = 0;
+  int refused = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    const std::string text = mutator.next();
+    const auto configuration = load_configuration_text(text, "m.guf");
+    ++(configuration ? read : refused);
+    if (configuration) continue;
+    ASSERT_TRUE(configuration.error().subject.starts_with("m.guf:")) << "input " << i << ": " << text;
+  }
+  EXPECT_GT(read, 1000);
+  EXPECT_GT(refused, 1000);
+}
+
+// What is read is valid throughout: it prints as a text that reads back without a word.
+TEST(Mutations, ThatAreReadPrintAndReadBackEqual) {
+  const std::uint64_t seed = 4;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  Mutator mutator(seed);
+  for (int i = 0; i < 2'000; ++i) {
+    const auto configuration = load_configuration_text(mutator.next(), "m.guf");
+    if (!configuration) continue;
+    const auto again = load_configuration_text(print_configuration(configuration->radar), "again.guf");
+    ASSERT_TRUE(again) << "input " << i << ": " << again.error().message();
+    ASSERT_EQ(fields(again->radar), fields(configuration->radar)) << "input " << i;
+  }
+}
+
+}  // namespace
+}  // namespace yars::config

@@ -1,0 +1,174 @@
+// What is printed reads back, and the files of config/ are the defaults.
+#include "config/print.hpp"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <random>
+
+#include "config/fidelity_preset.hpp"
+#include "config/schema.hpp"
+#include "config/slot_text.hpp"
+#include "tests/config/support.hpp"
+
+namespace yars::config {
+namespace {
+
+using testing::fields;
+using testing::Folder;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::loaded;
+
+LoadedConfiguration of_file(const std::string& name) {
+  const auto configuration = load_configuration(std::string(YARS_SOURCE_DIR) + "/config/" + name);
+  EXPECT_TRUE(configuration) << configuration.error().message();
+  return configuration ? *configuration : LoadedConfiguration{};
+}
+
+TEST(Defaults, AnEmptyPathIsTheBuiltInConfiguration) {
+  const auto configuration = load_configuration("");
+  ASSERT_TRUE(configuration);
+  EXPECT_EQ(fields(configuration->radar), fields(radar::RadarConfiguration{}));
+}
+
+TEST(Defaults, EqualTheFilesOfTheApg70) {
+  for (const char* name : {"apg70.guf", "apg70nd.guf", "apg70d.guf"}) {
+    const auto configuration = of_file(name);
+    EXPECT_EQ(fields(configuration.radar), fields(radar::RadarConfiguration{})) << name;
+    EXPECT_THAT(configuration.warnings, IsEmpty()) << name;
+  }
+}
+
+// Every number of the file is changed in turn; a slot that the file names must then show.
+TEST(Defaults, OfTheFileAreWrittenOutOneByOne) {
+  std::ifstream file(std::string(YARS_SOURCE_DIR) + "/config/apg70nd.guf");
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  const auto names_slot = [&](const SlotSchema& slot) {
+    return text.find(":" + std::string(slot.name) + " ") != std::string::npos;
+  };
+  std::ifstream display(std::string(YARS_SOURCE_DIR) + "/config/apg70d.guf");
+  const std::string glass(std::istreambuf_iterator<char>(display), {});
+  int slots = 0;
+  Draft draft;
+  for (const FormSchema& form : schema()) {
+    for (const SlotSchema& slot : form.slots) {
+      if (form.part_of_value || !slot.same_as.empty() || slot_text(draft, slot).empty()) continue;
+      ++slots;
+      EXPECT_TRUE(names_slot(slot) || glass.find(":" + std::string(slot.name) + " ") != std::string::npos)
+          << form.name << " :" << slot.name << " is missing in config/apg70nd.guf and apg70d.guf";
+    }
+  }
+  EXPECT_GT(slots, 30);
+}
+
+TEST(Print, OfTheDefaultsReadsBackEqual) {
+  const radar::RadarConfiguration defaults;
+  for (const std::string& text : {print_configuration(defaults), print_explained(defaults)}) {
+    const auto again = loaded(text);
+    EXPECT_EQ(fields(again.radar), fields(defaults));
+    EXPECT_THAT(again.warnings, IsEmpty());
+  }
+}
+
+class RandomConfiguration {
+ public:
+  explicit RandomConfiguration(std::uint64_t seed) : random_(seed) {}
+
+  radar::RadarConfiguration make() {
+    radar::RadarConfiguration made;
+    made.name = "radar \"" + std::to_string(random_()) + "\"\\\n";
+    made.ranges_nm = ascending(0.1, 500.0);
+    made.windows_nm = ascending(0.1, 500.0);
+    made.pulse_us = ascending(0.01, 100.0);
+    made.scan_widths_deg = {number(70, 100), number(40, 70), number(1, 40)};
+    made.antenna = {number(1, 1000), number(1, 1000), number(50, 180), number(1, 90), number(0.001, 5),
+                    number(0, 60),   number(0.1, 30), number(0.1, 30), coin(),        1 + int(random_() % 4)};
+    made.view = {number(-4, 0), number(0, 4), number(-4, 0), number(0, 4), 64 + int(random_() % 4000)};
+    made.fidelity = fidelity();
+    made.receiver = {number(1, 40),   number(0, 6),    number(10, 120), number(0, 40),
+                     number(-120, 0), number(-60, 20), number(-80, 20), 1 + int(random_() % 64)};
+    made.terrain = {coin() ? "" : "/data/de\"d", coin()};
+    made.seed = random_() >> 11U;  // below 2^53, the range of the slot
+    made.magnetic_variation_deg = number(-180, 180);
+    made.route = route();
+    return made;
+  }
+
+ private:
+  double number(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
+  bool coin() { return (random_() & 1U) != 0; }
+
+  std::vector<double> ascending(double low, double high) {
+    std::vector<double> numbers(1 + random_() % 16);
+    for (double& one : numbers) one = number(low, high);
+    std::sort(numbers.begin(), numbers.end());
+    return numbers;
+  }
+
+  radar::Fidelity fidelity() {
+    auto made = *fidelity_preset(fidelity_names()[random_() % fidelity_names().size()]);
+    made.earth = static_cast<radar::EarthModel>(random_() % 3);
+    made.beam = static_cast<radar::BeamPattern>(random_() % 3);
+    made.algorithm = static_cast<radar::Algorithm>(random_() % 2);
+    made.earth_radius_factor = number(0.5, 10);
+    made.samples = 1 + int(random_() % 4096);
+    made.slant_range = coin();
+    made.cross_track_slope = coin();
+    made.noise = coin();
+    made.azimuth_smear = coin();
+    made.pulse_smear = coin();
+    return made;
+  }
+
+  // Elevations as a file gives them, in feet; every third is unknown.
+  std::vector<radar::RoutePoint> route() {
+    std::vector<radar::RoutePoint> points;
+    const std::size_t count = random_() % 9;
+    for (std::size_t i = 0; i < count; ++i) {
+      radar::RoutePoint point;
+      point.name = std::to_string(i + 1) + (coin() ? "." : "");
+      const bool target = point.name.back() == '.';
+      point.kind = target ? radar::PointKind::target : coin() ? radar::PointKind::steer : radar::PointKind::initial;
+      point.place = {number(-90, 90), number(-180, 180)};
+      point.elevation_m = i % 3 == 2 ? std::numeric_limits<double>::quiet_NaN() : number(-1500, 30'000) * 0.3048;
+      points.push_back(point);
+    }
+    return points;
+  }
+
+  std::mt19937_64 random_;
+};
+
+TEST(Print, OfAnyConfigurationReadsBackEqual) {
+  const std::uint64_t seed = 70;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  RandomConfiguration random(seed);
+  for (int i = 0; i < 200; ++i) {
+    const auto made = random.make();
+    const std::string text = print_configuration(made);
+    const auto again = loaded(text);
+    ASSERT_EQ(fields(again.radar), fields(made)) << "configuration " << i << "\n" << text;
+  }
+}
+
+TEST(Print, ExplainsEverySlotOfTheSchema) {
+  const std::string text = print_explained({});
+  const std::string tables = print_markdown();
+  for (const FormSchema& form : schema()) {
+    EXPECT_THAT(tables, HasSubstr("### " + std::string(form.name)));
+    for (const SlotSchema& slot : form.slots) {
+      EXPECT_THAT(text, HasSubstr(":" + std::string(slot.name) + " (")) << form.name;
+      EXPECT_FALSE(slot.purpose.empty()) << form.name << " :" << slot.name;
+    }
+  }
+}
+
+TEST(Manual, HoldsTheTablesThatThePrinterMakes) {
+  std::ifstream file(std::string(YARS_SOURCE_DIR) + "/docs/configuration.md");
+  const std::string manual(std::istreambuf_iterator<char>(file), {});
+  EXPECT_THAT(manual, HasSubstr(print_markdown())) << "paste the output of `yars config print --markdown`";
+}
+
+}  // namespace
+}  // namespace yars::config

@@ -1,0 +1,94 @@
+// What the tests of config/ share: a folder for files, and every field of a configuration as one comparable tuple. A
+// field added to one of the structures stops the build here until it is compared too.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <tuple>
+
+#include "config/load.hpp"
+
+namespace yars::config::testing {
+
+inline auto fields(const radar::AntennaConfiguration& antenna) {
+  const auto& [az_rate, el_rate, az_limit, el_limit, tolerance, drift, az_beam, el_beam, circular, bars] = antenna;
+  return std::tuple(az_rate, el_rate, az_limit, el_limit, tolerance, drift, az_beam, el_beam, circular, bars);
+}
+
+inline auto fields(const radar::ViewConfiguration& view) {
+  const auto& [width_min, width_max, height_min, height_max, size] = view;
+  return std::tuple(width_min, width_max, height_min, height_max, size);
+}
+
+inline auto fields(const radar::Fidelity& fidelity) {
+  const auto& [name, algorithm, earth, factor, samples, slant, slope, noise, azimuth, pulse, beam] = fidelity;
+  return std::tuple(name, algorithm, earth, factor, samples, slant, slope, noise, azimuth, pulse, beam);
+}
+
+inline auto fields(const radar::ReceiverConfiguration& receiver) {
+  const auto& [frequency, stc, dynamic, step, floor, land, sea, looks] = receiver;
+  return std::tuple(frequency, stc, dynamic, step, floor, land, sea, looks);
+}
+
+inline auto fields(const radar::TerrainConfiguration& terrain) {
+  const auto& [directory, sea] = terrain;
+  return std::tuple(directory, sea);
+}
+
+// An unknown elevation, NaN, becomes a number that no elevation has, so that two unknown ones are equal.
+inline auto fields(const radar::RoutePoint& point) {
+  const auto& [name, kind, place, elevation] = point;
+  const auto& [latitude, longitude] = place;
+  return std::tuple(name, kind, latitude, longitude, std::isnan(elevation) ? -1e9 : elevation);
+}
+
+inline auto fields(const radar::RadarConfiguration& configuration) {
+  const auto& [name, ranges, widths, windows, pulses, antenna, view, fidelity, receiver, terrain, route, seed,
+               variation] = configuration;
+  std::vector<decltype(fields(route[0]))> points;
+  for (const auto& point : route) points.push_back(fields(point));
+  return std::tuple(name, ranges, widths, windows, pulses, fields(antenna), fields(view), fields(fidelity),
+                    fields(receiver), fields(terrain), points, seed, variation);
+}
+
+// The configuration of a text that must be right.
+inline LoadedConfiguration loaded(const std::string& text) {
+  auto configuration = load_configuration_text(text, "text.guf");
+  EXPECT_TRUE(configuration) << configuration.error().message();
+  return configuration ? *configuration : LoadedConfiguration{};
+}
+
+// The message about a text that must be wrong.
+inline std::string refusal(const std::string& text) {
+  const auto configuration = load_configuration_text(text, "text.guf");
+  EXPECT_FALSE(configuration) << text;
+  return configuration ? std::string() : configuration.error().message();
+}
+
+// A folder of its own, gone with the test.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "yars_config_XXXXXX").string();
+    path_ = ::mkdtemp(name.data());
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories((path_ / name).parent_path());
+    std::ofstream(path_ / name) << text;
+    return path_ / name;
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace yars::config::testing
