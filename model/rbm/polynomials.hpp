@@ -26,9 +26,10 @@ inline float log2(float value) {
   return static_cast<float>(exponent) + t * p;
 }
 
-// 2 to a power in [-126, 126]; below it 2^-126. Error 8e-8, relative.
+// 2 to a power, which is clamped to [-126, 126]; not a number counts as -126. Error 8e-8, relative.
 inline float exp2(float power) {
-  const float clamped = power < -126.0F ? -126.0F : power;
+  const float raised = power > -126.0F ? power : -126.0F;
+  const float clamped = raised < 126.0F ? raised : 126.0F;
   constexpr float kShift = 127.5F;  // makes truncation round to nearest for every input
   const std::int32_t whole = static_cast<std::int32_t>(clamped + kShift) - 127;
   const float t = clamped - static_cast<float>(whole);
@@ -41,14 +42,14 @@ inline float exp2(float power) {
   return std::bit_cast<float>(std::bit_cast<std::int32_t>(p) + (whole << 23));
 }
 
-// Angle [rad] in [0, pi] of a direction with this sine >= 0 and this cosine, not both zero. Error 8e-7.
+// Angle [rad] in [0, pi] of a direction with this sine >= 0 and this cosine; a right angle if both are zero. Error 8e-7.
 inline float angle(float sine, float cosine) {
   constexpr float kHalfPi = 1.57079633F;
   constexpr float kPi = 3.14159265F;
   const float across = cosine < 0.0F ? -cosine : cosine;
   const float small = sine < across ? sine : across;
   const float large = sine < across ? across : sine;
-  const float t = small / large;
+  const float t = small / (large > 1e-30F ? large : 1e-30F);
   const float y = t * t;
   float p = 0.00764835393F;
   p = p * y - 0.0363604309F;

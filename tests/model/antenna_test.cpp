@@ -1,0 +1,245 @@
+// The servo: rates, limits, modes, and the course of a scan.
+#include "model/antenna/antenna.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <vector>
+
+#include "lib/radar/limits.hpp"
+
+namespace yars::model::antenna {
+namespace {
+
+using geo::Angle;
+using geo::Bearing;
+
+Platform flying(double heading_deg, double drift_deg = 0.0) {
+  return {Bearing::degrees(heading_deg), Angle(), Angle(), Bearing::degrees(heading_deg + drift_deg)};
+}
+
+// Steps until the dish begins its first sweep; that step is returned.
+AntennaStep until_sweeping(Antenna& antenna, const Platform& platform) {
+  for (int tick = 0; tick < 2000; ++tick) {
+    const AntennaStep step = antenna.step(platform, Angle());
+    if (step.phase == Phase::sweeping) return step;
+  }
+  ADD_FAILURE() << "no sweep in 10 s";
+  return {};
+}
+
+TEST(Axis, MovesAtItsRateAndNoFaster) {
+  Axis axis({110.0, 60.0, 0.1});
+  axis.command_position(50.0);
+  axis.step();
+  EXPECT_DOUBLE_EQ(axis.position_deg(), 110.0 * radar::kTickSeconds);
+  axis.command_rate(-1000.0);
+  axis.step();
+  EXPECT_DOUBLE_EQ(axis.position_deg(), 0.0);
+}
+
+TEST(Axis, StopsAtItsLimits) {
+  Axis axis({110.0, 60.0, 0.1});
+  axis.command_position(500.0);
+  for (int tick = 0; tick < 1000; ++tick) axis.step();
+  EXPECT_DOUBLE_EQ(axis.position_deg(), 60.0);
+  axis.command_rate(-20.0);
+  for (int tick = 0; tick < 10000; ++tick) axis.step();
+  EXPECT_DOUBLE_EQ(axis.position_deg(), -60.0);
+}
+
+TEST(Axis, ReachesAPositionWithinATenthOfADegreeAndThenHoldsItExactly) {
+  Axis axis({110.0, 60.0, 0.1});
+  axis.command_position(-12.3);
+  EXPECT_FALSE(axis.reached());
+  for (int tick = 0; tick < 23; ++tick) axis.step();
+  EXPECT_TRUE(axis.reached());
+  EXPECT_EQ(axis.position_deg(), -12.3);
+}
+
+TEST(Axis, FrozenHolds) {
+  Axis axis({110.0, 60.0, 0.1});
+  axis.command_rate(50.0);
+  axis.step();
+  const double held_deg = axis.position_deg();
+  axis.freeze();
+  axis.step();
+  EXPECT_EQ(axis.position_deg(), held_deg);
+}
+
+TEST(Axis, IgnoresWhatIsNotANumber) {
+  Axis axis({110.0, 60.0, 0.1});
+  axis.command_position(std::nan(""));
+  axis.command_rate(std::nan(""));
+  axis.place(std::nan(""));
+  axis.step();
+  EXPECT_EQ(axis.position_deg(), 0.0);
+}
+
+TEST(ScanPattern, FullTakesOneSecondHalfAndQuarterInProportion) {
+  const radar::AntennaConfiguration antenna;
+  EXPECT_EQ(make_scan_pattern(antenna, 100.0).scan_ticks(), 200);
+  EXPECT_EQ(make_scan_pattern(antenna, 50.0).scan_ticks(), 100);
+  EXPECT_EQ(make_scan_pattern(antenna, 25.0).scan_ticks(), 50);
+}
+
+TEST(ScanPattern, NeverExceedsTheRate) {
+  const radar::AntennaConfiguration antenna;
+  for (const double width_deg : {100.0, 50.0, 25.0, 33.0}) {
+    const ScanPattern pattern = make_scan_pattern(antenna, width_deg);
+    EXPECT_LE(pattern.edge_deg(1, 1) - pattern.edge_deg(0, 1), 110.0 * radar::kTickSeconds + 1e-12) << width_deg;
+  }
+}
+
+TEST(ScanPattern, TheTurnAroundEndsWhereTheNextPassBegins) {
+  const ScanPattern pattern = make_scan_pattern({}, 100.0);
+  EXPECT_NEAR(pattern.turn_deg(pattern.turn_ticks, 1), pattern.edge_deg(0, -1), 1e-12);
+  EXPECT_GT(pattern.turn_deg(pattern.turn_ticks / 2, 1), pattern.edge_deg(pattern.sweep_ticks, 1));
+}
+
+TEST(Antenna, RepeatsEveryTwoHundredTicksToTheBit) {
+  Antenna antenna({});
+  antenna.restart(100.0);
+  const Platform platform = flying(33.0, 4.0);
+  until_sweeping(antenna, platform);
+  std::vector<std::uint64_t> first;
+  for (int tick = 0; tick < 400; ++tick) {
+    antenna.step(platform, Angle());
+    first.push_back(std::bit_cast<std::uint64_t>(antenna.azimuth_deg()));
+  }
+  for (int tick = 0; tick < 400 * 500; ++tick) {
+    antenna.step(platform, Angle());
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(antenna.azimuth_deg()), first[static_cast<std::size_t>(tick % 400)]);
+  }
+}
+
+TEST(Antenna, GoesBackAndForthBlankedInTheTurn) {
+  Antenna antenna({});
+  antenna.restart(100.0);
+  AntennaStep step = until_sweeping(antenna, flying(0.0));
+  EXPECT_TRUE(step.scan_start);
+  int sweeps = 1, turns = 0, ends = step.scan_end ? 1 : 0;
+  for (int tick = 1; tick < 200; ++tick) {
+    step = antenna.step(flying(0.0), Angle());
+    EXPECT_EQ(step.direction, 1);
+    ++(step.phase == Phase::sweeping ? sweeps : turns);
+    ends += step.scan_end ? 1 : 0;
+  }
+  EXPECT_EQ(sweeps, 182);
+  EXPECT_EQ(turns, 18);
+  EXPECT_EQ(ends, 1);
+  step = antenna.step(flying(0.0), Angle());
+  EXPECT_EQ(step.direction, -1);
+  EXPECT_TRUE(step.scan_start);
+  EXPECT_NEAR((step.right - Bearing::degrees(50.0)).degrees(), 0.0, 1e-9);
+}
+
+TEST(Antenna, WedgesTileWithoutGapsWhileTheAircraftTurns) {
+  Antenna antenna({});
+  antenna.restart(100.0);
+  double heading_deg = 350.0;
+  AntennaStep before = until_sweeping(antenna, flying(heading_deg));
+  for (int tick = 0; tick < 2000; ++tick) {
+    heading_deg += 20.0 * radar::kTickSeconds;
+    const AntennaStep step = antenna.step(flying(heading_deg), Angle());
+    if (step.phase == Phase::sweeping) {
+      EXPECT_GT((step.right - step.left).degrees(), 0.0);
+      if (before.phase == Phase::sweeping && !step.scan_start) {
+        ASSERT_EQ(step.direction > 0 ? step.left : step.right, before.direction > 0 ? before.right : before.left);
+      }
+    }
+    before = step;
+  }
+}
+
+TEST(Antenna, FollowsTheGroundTrackUpToTenDegreesOfDrift) {
+  const radar::AntennaConfiguration configuration;
+  EXPECT_NEAR((scan_centre(flying(100.0, 7.0), configuration) - Bearing::degrees(107.0)).degrees(), 0.0, 1e-9);
+  EXPECT_NEAR((scan_centre(flying(100.0, 25.0), configuration) - Bearing::degrees(110.0)).degrees(), 0.0, 1e-9);
+  EXPECT_NEAR((scan_centre(flying(5.0, -25.0), configuration) - Bearing::degrees(355.0)).degrees(), 0.0, 1e-9);
+}
+
+TEST(Antenna, ReachesTheWholeSectorAtTheDriftLimitAndInABank) {
+  Platform platform = flying(0.0, 10.0);
+  platform.roll = Angle::degrees(60.0);
+  Antenna antenna({});
+  antenna.restart(100.0);
+  EXPECT_TRUE(until_sweeping(antenna, platform).reachable);
+  for (int tick = 0; tick < 180; ++tick) EXPECT_TRUE(antenna.step(platform, Angle()).reachable) << tick;
+}
+
+TEST(Gimbal, SeesADirectionInTheAxesOfTheAirframe) {
+  Platform platform = flying(90.0);
+  platform.pitch = Angle::degrees(20.0);
+  // Straight ahead on the horizon is 20 degrees below a raised nose.
+  GimbalAngles gimbal = gimbal_from_space(platform, Bearing::degrees(90.0), Angle());
+  EXPECT_NEAR(gimbal.elevation.degrees(), -20.0, 1e-9);
+  EXPECT_NEAR(gimbal.azimuth.degrees(), 0.0, 1e-9);
+  // In a right bank, what lies level to the right is above the lowered wing.
+  platform.pitch = Angle();
+  platform.roll = Angle::degrees(30.0);
+  gimbal = gimbal_from_space(platform, Bearing::degrees(180.0), Angle());
+  EXPECT_NEAR(gimbal.elevation.degrees(), 30.0, 1e-9);
+}
+
+TEST(Gimbal, CannotLookBackwards) {
+  const radar::AntennaConfiguration configuration;
+  EXPECT_TRUE(within_gimbal(flying(0.0), configuration, Bearing::degrees(60.0), Angle()));
+  EXPECT_FALSE(within_gimbal(flying(0.0), configuration, Bearing::degrees(61.0), Angle()));
+  EXPECT_FALSE(within_gimbal(flying(0.0), configuration, Bearing::degrees(180.0), Angle()));
+}
+
+TEST(Antenna, FourBarsStepTheElevationFromTheTopDown) {
+  radar::AntennaConfiguration configuration;
+  configuration.scan_bars = 4;
+  Antenna antenna(configuration);
+  antenna.restart(50.0);
+  const Platform platform = flying(0.0);
+  AntennaStep step = until_sweeping(antenna, platform);
+  std::vector<double> elevations;
+  for (int tick = 0; tick < 400; ++tick) {
+    if (tick % 100 == 50) elevations.push_back(step.elevation.degrees());
+    step = antenna.step(platform, Angle());
+  }
+  EXPECT_THAT(elevations, testing::Pointwise(testing::DoubleNear(1e-12), {3.75, 1.25, -1.25, -3.75}));
+  EXPECT_TRUE(step.scan_start);
+}
+
+TEST(Antenna, ACircularScanGoesRoundAndNeverTurns) {
+  radar::AntennaConfiguration configuration;
+  configuration.circular_scan = true;
+  Antenna antenna(configuration);
+  antenna.restart(100.0);
+  AntennaStep before = until_sweeping(antenna, flying(0.0));
+  double turned_deg = 0.0;
+  for (int tick = 0; tick < 2 * antenna.pattern().scan_ticks(); ++tick) {
+    const AntennaStep step = antenna.step(flying(0.0), Angle());
+    ASSERT_EQ(step.phase, Phase::sweeping);
+    ASSERT_NEAR((step.left - before.right).degrees(), 0.0, 1e-9);
+    turned_deg += (step.right - step.left).degrees();
+    before = step;
+  }
+  EXPECT_NEAR(turned_deg, 720.0, 1e-6);
+}
+
+TEST(Antenna, ResumesInTheMiddleOfAScan) {
+  Antenna first({});
+  first.restart(100.0);
+  const Platform platform = flying(45.0);
+  for (int tick = 0; tick < 333; ++tick) first.step(platform, Angle::degrees(-3.0));
+  Antenna second({});
+  second.resume(first.memory());
+  for (int tick = 0; tick < 500; ++tick) {
+    const AntennaStep a = first.step(platform, Angle::degrees(-3.0));
+    const AntennaStep b = second.step(platform, Angle::degrees(-3.0));
+    ASSERT_EQ(a.left, b.left);
+    ASSERT_EQ(a.right, b.right);
+    ASSERT_EQ(a.elevation, b.elevation);
+    ASSERT_EQ(a.phase, b.phase);
+  }
+}
+
+}  // namespace
+}  // namespace yars::model::antenna

@@ -1,0 +1,49 @@
+// Looks, configurations and terrain that the tests of the radar model share.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "lib/geo/geodesic.hpp"
+#include "lib/radar/configuration.hpp"
+#include "model/rbm/reference.hpp"
+#include "model/terrain/analytic_terrain.hpp"
+
+namespace yars::test {
+
+inline constexpr geo::GeoPoint kMidLatitude{37.0, -122.0};
+
+// Everything off that is not under test: no noise, no smears, a beam so wide that it has no edge, flat earth.
+inline radar::RadarConfiguration bare_configuration(int samples) {
+  radar::RadarConfiguration configuration;
+  configuration.fidelity.algorithm = radar::Algorithm::reference;
+  configuration.fidelity.samples = samples;
+  configuration.fidelity.earth = radar::EarthModel::flat;
+  configuration.fidelity.noise = false;
+  configuration.fidelity.azimuth_smear = false;
+  configuration.fidelity.pulse_smear = false;
+  configuration.fidelity.beam = radar::BeamPattern::hard_edge;
+  configuration.antenna.elevation_beamwidth_deg = 180.0;
+  return configuration;
+}
+
+inline model::rbm::Look look_north(double altitude_m, double range_m, geo::GeoPoint apex = kMidLatitude) {
+  return {apex, geo::AltitudeMsl::metres(altitude_m), geo::Bearing::degrees(0.0), geo::Angle(),
+          geo::Length::metres(range_m)};
+}
+
+inline model::terrain::TerrainAxis axis_north(geo::GeoPoint origin = kMidLatitude) {
+  return {origin, geo::Bearing::degrees(0.0)};
+}
+
+// The reference's samples for one look.
+inline std::vector<model::rbm::Reference::Sample> seen_by_reference(const radar::RadarConfiguration& configuration,
+                                                                    const model::rbm::Look& look,
+                                                                    const model::terrain::TerrainView& terrain) {
+  model::rbm::Reference reference(configuration);
+  std::vector<float> power(static_cast<std::size_t>(configuration.fidelity.samples));
+  reference.measure(look, terrain, power);
+  return {reference.samples().begin(), reference.samples().end()};
+}
+
+}  // namespace yars::test

@@ -1,0 +1,205 @@
+// The standard algorithm against the reference, within the bounds that model/rbm/standard.hpp states.
+#include "model/rbm/standard.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "model/rbm/polynomials.hpp"
+#include "model/rbm/sample_places.hpp"
+#include "model/terrain/open_terrain.hpp"
+#include "tests/model/ground.hpp"
+#include "tests/terrain/shared_data.hpp"
+
+namespace yars::model::rbm {
+namespace {
+
+TEST(Polynomials, HoldTheirStatedErrors) {
+  for (float x = 1e-30F; x < 1e30F; x *= 1.0173F) {
+    const double exact = std::log2(static_cast<double>(x));
+    EXPECT_NEAR(static_cast<double>(polynomials::log2(x)), exact, 4e-7 + 6e-8 * std::abs(exact)) << x;
+  }
+  for (float x = -125.0F; x < 120.0F; x += 0.0137F) {
+    const double exact = std::exp2(static_cast<double>(x));
+    EXPECT_NEAR(static_cast<double>(polynomials::exp2(x)) / exact, 1.0, 3e-7) << x;
+  }
+  for (double x = -3.1415; x < 3.1415; x += 0.00137) {
+    EXPECT_NEAR(polynomials::arctangent(std::sin(x), std::cos(x)), x, 2e-12);
+    const auto angle = polynomials::angle(static_cast<float>(std::sin(std::abs(x))), static_cast<float>(std::cos(x)));
+    EXPECT_NEAR(static_cast<double>(angle), std::abs(x), 1.3e-6);
+  }
+}
+
+TEST(SamplePlaces, LieWithinHalfAMetreOfTheGeodesicAtEveryLatitude) {
+  constexpr std::size_t kCount = 161;
+  std::vector<double> distance_m(kCount), latitude_deg(kCount), longitude_deg(kCount);
+  double worst_m = 0.0;
+  for (const double range_nm : {10.0, 160.0}) {
+    const geo::Length range = geo::Length::nautical_miles(range_nm);
+    for (std::size_t i = 0; i < kCount; ++i) {
+      distance_m[i] = range.metres() * static_cast<double>(i) / static_cast<double>(kCount - 1);
+    }
+    for (const double latitude : {0.0, 37.0, -60.0, 70.0, 73.9, 74.1, 80.0, 88.0, 89.0, -89.9, 90.0}) {
+      for (double azimuth = 0.0; azimuth < 360.0; azimuth += 7.5) {
+        const geo::GeoPoint apex{latitude, 179.7};
+        sample_places(apex, geo::Bearing::degrees(azimuth), range, distance_m, latitude_deg, longitude_deg);
+        const geo::GeodesicRay ray(apex, geo::Bearing::degrees(azimuth));
+        for (std::size_t i = 0; i < kCount; i += 4) {
+          const geo::GeoPoint exact = ray.position(geo::Length::metres(distance_m[i]));
+          const double error_m = geo::geodesic_inverse(exact, {latitude_deg[i], longitude_deg[i]}).distance.metres();
+          worst_m = std::max(worst_m, error_m);
+          ASSERT_LT(error_m, 0.5) << "latitude " << latitude << ", azimuth " << azimuth << ", " << distance_m[i]
+                                  << " m";
+        }
+      }
+    }
+  }
+  RecordProperty("worst_m", std::to_string(worst_m));
+}
+
+constexpr float kNothing = 1e-8F;  // of full scale: far below the noise, and what float still tells from zero
+
+struct Difference {
+  double shadow_share = 0.0;  // of samples that one sees and the other does not
+  double rms = 0.0;           // of video, gray levels
+  double dark_share = 0.0;    // of samples without power: shows that there was shadow to compare
+};
+
+// Both algorithms over a fan of sweeps.
+Difference difference(radar::RadarConfiguration configuration, const Look& first, const terrain::TerrainView& terrain) {
+  configuration.fidelity.noise = false;
+  Reference reference(configuration);
+  Standard standard(configuration);
+  const std::size_t count = sample_count(configuration);
+  std::vector<float> exact(count), fast(count);
+  std::vector<std::uint8_t> exact_video(count), fast_video(count);
+  double squares = 0.0, mismatches = 0.0, dark = 0.0, total = 0.0;
+  for (double turn_deg = -50.0; turn_deg <= 50.0; turn_deg += 5.0) {
+    Look look = first;
+    look.azimuth = first.azimuth + geo::Angle::degrees(turn_deg);
+    reference.measure(look, terrain, exact);
+    standard.measure(look, terrain, fast);
+    reference.develop({exact, exact, exact}, look.range, 3, {}, exact_video);
+    standard.develop({fast, fast, fast}, look.range, 3, {}, fast_video);
+    for (std::size_t i = 0; i < count; ++i) {
+      mismatches += (exact[i] > kNothing) != (fast[i] > kNothing) ? 1.0 : 0.0;
+      dark += exact[i] > kNothing ? 0.0 : 1.0;
+      squares += std::pow(static_cast<double>(exact_video[i]) - static_cast<double>(fast_video[i]), 2.0);
+      total += 1.0;
+    }
+  }
+  return {mismatches / total, std::sqrt(squares / total), dark / total};
+}
+
+void expect_within_bounds(const Difference& found) {
+  EXPECT_LE(found.shadow_share, 0.001);
+  EXPECT_LE(found.rms, 1.0);
+  EXPECT_GT(found.dark_share, 0.02);
+}
+
+radar::RadarConfiguration sharp_configuration() {
+  radar::RadarConfiguration configuration;
+  configuration.fidelity.pulse_smear = false;  // so that a single sample in shadow shows
+  return configuration;
+}
+
+Look look_from(geo::GeoPoint apex, double azimuth_deg, double range_nm) {
+  return {apex, geo::AltitudeMsl::feet(15000.0), geo::Bearing::degrees(azimuth_deg), geo::Angle::degrees(-3.0),
+          geo::Length::nautical_miles(range_nm)};
+}
+
+TEST(Standard, AgreesWithTheReferenceOverHillsAtMidLatitude) {
+  const terrain::AnalyticTerrain hills(terrain::sine_hills(test::axis_north(), 600.0, 12000.0));
+  for (const double range_nm : {10.0, 40.0, 160.0}) {
+    SCOPED_TRACE(range_nm);
+    Look look = look_from(test::kMidLatitude, 20.0, range_nm);
+    look.altitude = geo::AltitudeMsl::metres(1500.0);
+    expect_within_bounds(difference(sharp_configuration(), look, hills));
+  }
+}
+
+TEST(Standard, AgreesWithTheReferenceOneDegreeFromThePole) {
+  const geo::GeoPoint apex{89.0, 30.0};
+  const terrain::AnalyticTerrain hills(terrain::sine_hills(test::axis_north(apex), 600.0, 12000.0));
+  expect_within_bounds(difference(sharp_configuration(), look_from(apex, 0.0, 160.0), hills));
+}
+
+TEST(Standard, AgreesWithTheReferenceAcrossTheAntimeridian) {
+  const geo::GeoPoint apex{-17.0, 179.5};
+  const terrain::AnalyticTerrain hills(terrain::sine_hills(test::axis_north(apex), 600.0, 12000.0));
+  expect_within_bounds(difference(sharp_configuration(), look_from(apex, 90.0, 160.0), hills));
+}
+
+TEST(Standard, AgreesWithTheReferenceOverRealGround) {
+  YARS_NEEDS_SHARED_DATA();
+  auto store = terrain::open_terrain({(test::shared_data() / "dted").string(), true});
+  ASSERT_TRUE(store) << store.error().message();
+  const geo::GeoPoint apex{37.6, -122.9};
+  for (const double range_nm : {10.0, 40.0, 80.0, 160.0}) {
+    SCOPED_TRACE(range_nm);
+    const Look look = look_from(apex, 60.0, range_nm);
+    const auto view = (*store)->prepare({apex, look.range.metres()});
+    const Difference found = difference(sharp_configuration(), look, *view);
+    EXPECT_LE(found.shadow_share, 0.001);
+    EXPECT_LE(found.rms, 1.0);
+  }
+}
+
+TEST(Standard, AgreesWithTheReferenceWhateverTheKnobs) {
+  const terrain::AnalyticTerrain hills(terrain::sine_hills(test::axis_north(), 600.0, 12000.0));
+  const Look look = look_from(test::kMidLatitude, 200.0, 40.0);
+  for (const auto beam :
+       {radar::BeamPattern::hard_edge, radar::BeamPattern::gaussian, radar::BeamPattern::cosecant_squared}) {
+    for (const auto earth : {radar::EarthModel::flat, radar::EarthModel::sphere}) {
+      radar::RadarConfiguration configuration;
+      configuration.fidelity.beam = beam;
+      configuration.fidelity.earth = earth;
+      configuration.fidelity.slant_range = true;
+      configuration.fidelity.cross_track_slope = true;
+      configuration.fidelity.samples = 333;
+      configuration.receiver.stc_exponent = 2.5;
+      const Difference found = difference(configuration, look, hills);
+      EXPECT_LE(found.shadow_share, 0.005) << static_cast<int>(beam);
+      EXPECT_LE(found.rms, 1.0) << static_cast<int>(beam);
+    }
+  }
+}
+
+TEST(Standard, DrawsTheSameNoiseAsTheReference) {
+  for (const int looks : {1, 2, 3, 4, 7, 16}) {
+    radar::RadarConfiguration configuration;
+    configuration.receiver.looks = looks;
+    Reference reference(configuration);
+    Standard standard(configuration);
+    const std::vector<float> power(480, 0.02F);
+    std::vector<std::uint8_t> exact(480), fast(480);
+    reference.develop({power, power, power}, geo::Length::nautical_miles(40.0), 3, {7, 3, 11}, exact);
+    standard.develop({power, power, power}, geo::Length::nautical_miles(40.0), 3, {7, 3, 11}, fast);
+    for (std::size_t i = 0; i < 480; ++i) ASSERT_NEAR(exact[i], fast[i], 1) << i << " of " << looks << " looks";
+  }
+}
+
+TEST(Standard, ReturnsNoNumberThatIsNotOne) {
+  const auto nan = std::numeric_limits<double>::quiet_NaN();
+  const terrain::AnalyticTerrain holes([nan](geo::GeoPoint place) {
+    return std::fmod(std::abs(place.latitude_deg) * 1000.0, 3.0) < 1.0 ? nan
+                                                                       : 3000.0 * std::sin(place.latitude_deg * 900.0);
+  });
+  const terrain::AnalyticTerrain nothing([nan](geo::GeoPoint) { return nan; });
+  for (const bool slant : {false, true}) {
+    radar::RadarConfiguration configuration;
+    configuration.fidelity.slant_range = slant;
+    Standard standard(configuration);
+    std::vector<float> power(480);
+    for (const double altitude_m : {-500.0, 0.0, 3000.0, 20000.0}) {
+      standard.measure(test::look_north(altitude_m, 50000.0), holes, power);
+      for (const float value : power) ASSERT_TRUE(std::isfinite(value) && value >= 0.0F) << altitude_m;
+      standard.measure(test::look_north(altitude_m, 50000.0), nothing, power);
+      for (const float value : power) ASSERT_EQ(value, 0.0F);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace yars::model::rbm
