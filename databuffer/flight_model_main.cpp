@@ -15,7 +15,7 @@ failure::Expected<void> run(const databuffer::ProgramOptions& options, const std
   auto session = databuffer::Session::open(options.session, "flight-model");
   if (!session) return tl::unexpected(session.error());
   auto lane = session->claim_ownship_lane(kPriority);
-  if (!lane) return tl::unexpected(databuffer::usage_error(lane.error()));
+  if (!lane) return tl::unexpected(lane.error());
   auto loop = databuffer::TickLoop::create(*session, databuffer::LockstepRole::flight_model, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
   databuffer::log_info("flies " + source->description + " in session " + options.session);

@@ -1,0 +1,78 @@
+#include "inputmonitor/terminal_source.hpp"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+
+#include "inputmonitor/keyboard.hpp"
+#include "inputmonitor/terminal_decoder.hpp"
+#include "inputmonitor/terminal_mode.hpp"
+
+namespace yars::inputmonitor {
+
+namespace {
+
+constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
+
+// True when the descriptor has bytes or has come to its end.
+bool readable_within(int descriptor, int milliseconds) {
+  pollfd wanted{descriptor, POLLIN, 0};
+  return poll(&wanted, 1, milliseconds) > 0;
+}
+
+class TerminalSource final : public EventSource {
+ public:
+  explicit TerminalSource(std::unique_ptr<TerminalMode> mode) : mode_(std::move(mode)) {}
+
+  void wait(const Moment& moment, int longest_ms) override {
+    if (const auto deadline_ns = decoder_.deadline_ns()) {
+      // Rounded up: a deadline met a little early would be asked for again at once.
+      const std::int64_t left_ms =
+          (*deadline_ns - moment.monotonic_ns + kNanosecondsPerMillisecond - 1) / kNanosecondsPerMillisecond;
+      longest_ms = static_cast<int>(std::clamp<std::int64_t>(left_ms, 0, longest_ms));
+    }
+    readable_within(STDIN_FILENO, longest_ms);
+  }
+
+  std::vector<databuffer::InputEvent> take(const Moment& moment) override {
+    apply(decoder_.advance(moment.monotonic_ns));
+    while (!keyboard_.ended() && readable_within(STDIN_FILENO, 0)) {
+      std::array<char, 256> bytes;
+      const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
+      // The terminal is gone.
+      if (count <= 0) keyboard_.end();
+      if (count > 0) apply(decoder_.feed({bytes.data(), static_cast<std::size_t>(count)}, moment.monotonic_ns));
+    }
+    return keyboard_.take();
+  }
+
+  std::vector<databuffer::InputEvent> release() override {
+    keyboard_.let_go();
+    return keyboard_.take();
+  }
+
+  bool ended() const override { return keyboard_.ended(); }
+  bool follows_sim_time() const override { return false; }
+  std::string description() const override { return std::string("this terminal; ") + kKeyHelp; }
+
+ private:
+  void apply(const std::vector<KeyChange>& changes) {
+    for (const KeyChange& change : changes) keyboard_.change(change.key, change.pressed);
+  }
+
+  std::unique_ptr<TerminalMode> mode_;
+  TerminalDecoder decoder_;
+  Keyboard keyboard_;
+};
+
+}  // namespace
+
+failure::Expected<std::unique_ptr<EventSource>> open_terminal_source() {
+  auto mode = TerminalMode::enter(STDIN_FILENO);
+  if (!mode) return tl::unexpected(mode.error());
+  return std::make_unique<TerminalSource>(std::move(*mode));
+}
+
+}  // namespace yars::inputmonitor
