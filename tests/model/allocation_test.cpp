@@ -1,0 +1,76 @@
+// The step of the kernel allocates nothing once it is warm: every operator new of this program counts.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "tests/model/cockpit.hpp"
+
+namespace {
+std::atomic<long> allocations{0};
+
+void* counted(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+}  // namespace
+
+void* operator new(std::size_t size) {
+  return counted(size);
+}
+void* operator new[](std::size_t size) {
+  return counted(size);
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace yars::model::kernel {
+namespace {
+
+// Steps over three scans with everything on; how many allocations they made.
+long allocations_of(radar::Algorithm algorithm) {
+  radar::RadarConfiguration configuration;
+  configuration.fidelity.algorithm = algorithm;
+  configuration.fidelity.cross_track_slope = true;
+  configuration.fidelity.samples = 64;
+  test::Cockpit cockpit(configuration);
+  databuffer::ModelStatus status{};
+  cockpit.run(50);
+  ++cockpit.tick.command.scan_restart;
+  const long before = allocations.load();
+  int sweeps = 0;
+  for (int tick = 0; tick < 700; ++tick) {
+    if (tick == 300) cockpit.tick.command.range_nm = 80.0;
+    cockpit.set_flag(databuffer::kFreeze, tick > 600);
+    if (cockpit.step() != nullptr) ++sweeps;
+    cockpit.kernel.describe(cockpit.terrain, status);
+  }
+  EXPECT_GT(sweeps, 400);
+  return allocations.load() - before;
+}
+
+TEST(Allocation, TheCounterCounts) {
+  const long before = allocations.load();
+  delete new int(1);
+  EXPECT_GT(allocations.load(), before);
+}
+
+TEST(Allocation, AWarmKernelAllocatesNothing) {
+  EXPECT_EQ(allocations_of(radar::Algorithm::standard), 0);
+  EXPECT_EQ(allocations_of(radar::Algorithm::reference), 0);
+}
+
+}  // namespace
+}  // namespace yars::model::kernel

@@ -1,0 +1,88 @@
+// A radar kernel with an aircraft and a pilot's command around it, stepped tick by tick.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "lib/radar/modes.hpp"
+#include "model/kernel/radar_kernel.hpp"
+#include "model/terrain/analytic_terrain.hpp"
+
+namespace yars::test {
+
+class Cockpit {
+ public:
+  explicit Cockpit(const radar::RadarConfiguration& configuration = {},
+                   model::terrain::AnalyticTerrain::Height height = model::terrain::flat(100.0))
+      : kernel(configuration), terrain(std::move(height)) {
+    tick.ownship.latitude_deg = 37.0;
+    tick.ownship.longitude_deg = -122.0;
+    tick.ownship.altitude_msl_m = 4572.0;
+    tick.ownship.heading_deg = 45.0;
+    tick.ownship.velocity_north_mps = 170.0;
+    tick.ownship.velocity_east_mps = 170.0;
+    tick.ownship.radar_altitude_m = std::numeric_limits<double>::quiet_NaN();
+    tick.flags = databuffer::kTickOwnshipValid;
+    tick.epoch = 1;
+    tick.command.power = static_cast<std::uint8_t>(radar::Power::operate);
+    tick.command.mode = static_cast<std::uint8_t>(radar::Mode::rbm);
+    tick.command.range_nm = 40.0;
+    tick.command.scan_width_deg = 100.0;
+    tick.command.antenna_elevation_deg = -4.0;
+    tick.command.gain = 3;
+    tick.command.cursor_latitude_deg = 37.3;
+    tick.command.cursor_longitude_deg = -122.0;
+    tick.command.window_nm = 4.7;
+  }
+
+  // One tick; the sweep that came out of it, if any.
+  const databuffer::Sweep* step() {
+    ++tick.tick;
+    tick.sim_time_ns = tick.tick * radar::kTickNanoseconds;
+    const bool came = kernel.step(tick, terrain, sweep);
+    return came ? &sweep : nullptr;
+  }
+
+  // Steps over this many ticks and keeps what comes out.
+  std::vector<databuffer::Sweep> run(int ticks) {
+    std::vector<databuffer::Sweep> sweeps;
+    for (int i = 0; i < ticks; ++i) {
+      if (const auto* came = step()) sweeps.push_back(*came);
+    }
+    return sweeps;
+  }
+
+  // Steps until a sweep comes out that satisfies the condition; nothing after 10 s of sim time.
+  template <class Condition>
+  std::optional<databuffer::Sweep> run_until(const Condition& condition) {
+    for (int i = 0; i < 2000; ++i) {
+      if (const auto* came = step(); came != nullptr && condition(*came)) return *came;
+    }
+    return std::nullopt;
+  }
+
+  databuffer::ModelStatus status() const {
+    databuffer::ModelStatus status{};
+    kernel.describe(terrain, status);
+    return status;
+  }
+
+  void set_flag(std::uint32_t flag, bool on) {
+    tick.command.flags = on ? tick.command.flags | flag : tick.command.flags & ~flag;
+  }
+
+  databuffer::ModelTick tick{};
+  model::kernel::RadarKernel kernel;
+  model::terrain::AnalyticTerrain terrain;
+  databuffer::Sweep sweep{};
+};
+
+inline bool is_scan_start(const databuffer::Sweep& sweep) {
+  return (sweep.flags & databuffer::kSweepScanStart) != 0U;
+}
+inline bool is_scan_end(const databuffer::Sweep& sweep) {
+  return (sweep.flags & databuffer::kSweepScanEnd) != 0U;
+}
+
+}  // namespace yars::test
