@@ -23,13 +23,10 @@ struct Options {
   int width = 1024;
 };
 
-// Cell by cell: no more than one is in memory, whatever the region.
-void draw(const Options& options) {
-  const auto index = index_directory(options.directory);
-  if (!index) give_up(index.error());
+MapFrame frame_of(const Options& options, const DirectoryIndex& index) {
   CellPlace lowest{90, 180};
   CellPlace highest{-90, -180};
-  for (const auto& [slot, file] : *index) {
+  for (const auto& [slot, file] : index) {
     const CellPlace place = place_of_slot(slot);
     lowest = {std::min(lowest.south_deg, place.south_deg), std::min(lowest.west_deg, place.west_deg)};
     highest = {std::max(highest.south_deg, place.south_deg), std::max(highest.west_deg, place.west_deg)};
@@ -40,14 +37,23 @@ void draw(const Options& options) {
   const double east_deg = options.east_deg.value_or(highest.west_deg + 1);
   if (south_deg >= north_deg || west_deg >= east_deg)
     throw CommandFailed{"yars terrain image: expected south < north and west < east, found an empty region", 2};
-  const MapFrame frame = map_frame(south_deg, north_deg, west_deg, east_deg, options.width);
+  return map_frame(south_deg, north_deg, west_deg, east_deg, options.width);
+}
+
+bool overlap(CellPlace place, const MapFrame& frame) {
+  return place.south_deg < frame.north_deg && place.south_deg + 1 > frame.south_deg &&
+         place.west_deg < frame.east_deg && place.west_deg + 1 > frame.west_deg;
+}
+
+// Cell by cell: no more than one is in memory, whatever the region.
+void draw(const Options& options) {
+  const auto index = index_directory(options.directory);
+  if (!index) give_up(index.error());
+  const MapFrame frame = frame_of(options, *index);
   imageio::Image image = blank_map(frame);
   for (const auto& [slot, file] : *index) {
-    const CellPlace place = place_of_slot(slot);
-    if (place.south_deg >= north_deg || place.south_deg + 1 <= south_deg || place.west_deg >= east_deg ||
-        place.west_deg + 1 <= west_deg)
-      continue;
-    const auto reading = read_cell(file, place);
+    if (!overlap(place_of_slot(slot), frame)) continue;
+    const auto reading = read_cell(file, place_of_slot(slot));
     if (reading)
       paint_cell(reading->cell, frame, image);
     else

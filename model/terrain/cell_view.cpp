@@ -44,6 +44,21 @@ double CellView::elevation_m(geo::GeoPoint place) const {
       .elevation_m;
 }
 
+CellView::Run CellView::run_at(std::span<const double> latitude_deg, std::span<const double> longitude_deg) const {
+  Run run;
+  if (!finite(latitude_deg[0], longitude_deg[0])) return run;
+  const CellPlace corner = cell_holding({latitude_deg[0], longitude_deg[0]});
+  run.what = entry(corner);
+  // Whole turns that bring this run's longitudes beside the cell.
+  run.shift_deg = 360.0 * std::round((corner.west_deg + 0.5 - longitude_deg[0]) / 360.0);
+  const double west_deg = corner.west_deg - run.shift_deg;
+  while (run.places < latitude_deg.size() && latitude_deg[run.places] >= corner.south_deg &&
+         latitude_deg[run.places] < corner.south_deg + 1 && longitude_deg[run.places] >= west_deg &&
+         longitude_deg[run.places] < west_deg + 1)
+    ++run.places;
+  return run;
+}
+
 std::size_t CellView::elevations(std::span<const double> latitude_deg, std::span<const double> longitude_deg,
                                  std::span<float> elevation_m, std::span<float> water) const {
   const std::size_t places = latitude_deg.size();
@@ -52,32 +67,19 @@ std::size_t CellView::elevations(std::span<const double> latitude_deg, std::span
   YARS_REQUIRE(water.size(), ==, places);
   std::size_t not_loaded = 0;
   for (std::size_t start = 0; start < places;) {
-    std::size_t end = start + 1;
-    std::uint16_t what = static_cast<std::uint16_t>(Absence::none);
-    double shift_deg = 0.0;
-    if (finite(latitude_deg[start], longitude_deg[start])) {
-      const CellPlace corner = cell_holding({latitude_deg[start], longitude_deg[start]});
-      what = entry(corner);
-      // Whole turns that bring this run's longitudes beside the cell.
-      shift_deg = 360.0 * std::round((corner.west_deg + 0.5 - longitude_deg[start]) / 360.0);
-      const double west_deg = corner.west_deg - shift_deg;
-      while (end < places && latitude_deg[end] >= corner.south_deg && latitude_deg[end] < corner.south_deg + 1 &&
-             longitude_deg[end] >= west_deg && longitude_deg[end] < west_deg + 1)
-        ++end;
-    }
-    const std::size_t count = end - start;
-    if (what >= kFirstCell) {
-      interpolate_run(*cells_[what - kFirstCell], shift_deg, latitude_deg.subspan(start, count),
-                      longitude_deg.subspan(start, count), elevation_m.subspan(start, count),
-                      water.subspan(start, count));
+    const Run run = run_at(latitude_deg.subspan(start), longitude_deg.subspan(start));
+    const std::span<float> heights_m = elevation_m.subspan(start, run.places);
+    const std::span<float> shares = water.subspan(start, run.places);
+    if (run.what >= kFirstCell) {
+      interpolate_run(*cells_[run.what - kFirstCell], run.shift_deg, latitude_deg.subspan(start, run.places),
+                      longitude_deg.subspan(start, run.places), heights_m, shares);
     } else {
-      const bool sea = what == static_cast<std::uint16_t>(Absence::sea);
-      std::fill_n(elevation_m.begin() + static_cast<std::ptrdiff_t>(start), count,
-                  sea ? 0.0F : std::numeric_limits<float>::quiet_NaN());
-      std::fill_n(water.begin() + static_cast<std::ptrdiff_t>(start), count, sea ? 1.0F : 0.0F);
-      if (what == static_cast<std::uint16_t>(Absence::not_loaded)) not_loaded += count;
+      const bool sea = run.what == static_cast<std::uint16_t>(Absence::sea);
+      std::fill(heights_m.begin(), heights_m.end(), sea ? 0.0F : std::numeric_limits<float>::quiet_NaN());
+      std::fill(shares.begin(), shares.end(), sea ? 1.0F : 0.0F);
+      if (run.what == static_cast<std::uint16_t>(Absence::not_loaded)) not_loaded += run.places;
     }
-    start = end;
+    start += run.places;
   }
   return not_loaded;
 }

@@ -37,6 +37,14 @@ class CellView final : public TerrainView {
  private:
   static constexpr std::uint16_t kFirstCell = 3;  // entries below are Absence values, from here on cells_
 
+  // The first places that one entry of the table serves; at least one.
+  struct Run {
+    std::uint16_t what = static_cast<std::uint16_t>(Absence::none);
+    std::size_t places = 1;
+    double shift_deg = 0.0;  // added to each longitude
+  };
+  Run run_at(std::span<const double> latitude_deg, std::span<const double> longitude_deg) const;
+
   std::uint16_t entry(CellPlace place) const { return table_[slot_of(place)]; }
 
   std::uint64_t generation_;

@@ -42,12 +42,12 @@ LandscapeLattice::LandscapeLattice(CellPlace place, const std::function<double(g
       row_m_(kNodes),
       row_change_m_(kNodes) {
   for (int row = 0; row < kNodes; ++row)
-    for (int column = 0; column < kNodes; ++column) height_at(row, column) = height_m(node(row, column));
+    for (int column = 0; column < kNodes; ++column) heights_m_[slot(row, column)] = height_m(node(row, column));
 }
 
 void LandscapeLattice::cut(const Gullies& gullies) {
   const std::vector<double> before = heights_m_;
-  const auto height = [&](int row, int column) { return before[static_cast<std::size_t>(row * kNodes + column)]; };
+  const auto height = [&](int row, int column) { return before[slot(row, column)]; };
   // The outermost nodes lack a neighbour; no post's spline reaches them.
   for (int row = 1; row < kNodes - 1; ++row)
     for (int column = 1; column < kNodes - 1; ++column) {
@@ -56,7 +56,7 @@ void LandscapeLattice::cut(const Gullies& gullies) {
       const Slope slope{
           (height(row, column + 1) - height(row, column - 1)) * half_steps / east_m_per_degree(at.latitude_deg),
           (height(row + 1, column) - height(row - 1, column)) * half_steps / kMetresPerDegree};
-      height_at(row, column) += gullies.relief_m(at.latitude_deg, at.longitude_deg, slope);
+      heights_m_[slot(row, column)] += gullies.relief_m(at.latitude_deg, at.longitude_deg, slope);
     }
 }
 
@@ -73,8 +73,8 @@ void LandscapeLattice::choose_row(int post, int intervals) {
     // On the cell's north edge the fourth tap has no weight and may stay inside.
     const int row = std::min(first + tap, kNodes - 1);
     for (int column = 0; column < kNodes; ++column) {
-      row_m_[column] += spline.value[tap] * height_at(row, column);
-      row_change_m_[column] += spline.change[tap] * height_at(row, column);
+      row_m_[column] += spline.value[tap] * heights_m_[slot(row, column)];
+      row_change_m_[column] += spline.change[tap] * heights_m_[slot(row, column)];
     }
   }
 }

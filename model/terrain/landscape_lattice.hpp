@@ -33,7 +33,9 @@ class LandscapeLattice {
   static constexpr int kMargin = 2;  // nodes beyond the cell: the spline's, and their neighbours
   static constexpr int kNodes = kPerDegree + 2 * kMargin + 1;  // a side
 
-  double& height_at(int row, int column) { return heights_m_[static_cast<std::size_t>(row * kNodes + column)]; }
+  static std::size_t slot(int row, int column) {
+    return static_cast<std::size_t>(row) * kNodes + static_cast<std::size_t>(column);
+  }
   geo::GeoPoint node(int row, int column) const;
 
   int first_row_;     // lattice row of the earth, from the south pole
