@@ -93,6 +93,10 @@ void RadarModelShell::latch_command() {
 void RadarModelShell::run_kernel() {
   const auto need = kernel_.need(tick_);
   if (need.video) terrain_->request(need.region);
+  for (const auto& problem : terrain_->take_problems()) {
+    session_->note(databuffer::NoteKind::refusal, problem);
+    databuffer::log_warning(problem);
+  }
   const auto view = terrain_->view();
   tick_.terrain_generation = view->generation();
   // The tick goes out before its sweep, so that a log cut short never holds a sweep without its cause.

@@ -1,5 +1,7 @@
 #include "model/terrain_loader_shell.hpp"
 
+#include <utility>
+
 #include "lib/geo/geodesic.hpp"
 
 namespace yars::model {
@@ -40,6 +42,7 @@ void TerrainLoader::request(const terrain::TerrainRegion& region) {
   asked_ = terrain::TerrainRegion{region.centre, region.radius_m + kSlack_m};
   if (may_wait_) {
     view_ = store_->prepare(*asked_);
+    collect_problems();
     return;
   }
   {
@@ -54,6 +57,15 @@ terrain::TerrainViewPointer TerrainLoader::view() const {
   return view_;
 }
 
+std::vector<std::string> TerrainLoader::take_problems() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(problems_, {});
+}
+
+void TerrainLoader::collect_problems() {
+  for (const auto& problem : store_->take_problems()) problems_.push_back(problem.message());
+}
+
 void TerrainLoader::serve() {
   std::unique_lock lock(mutex_);
   while (true) {
@@ -65,6 +77,7 @@ void TerrainLoader::serve() {
     auto view = store_->prepare(region);
     lock.lock();
     view_ = std::move(view);
+    collect_problems();
   }
 }
 

@@ -6,7 +6,9 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "model/terrain/terrain_view.hpp"
 
@@ -23,9 +25,12 @@ class TerrainLoader {
   void request(const terrain::TerrainRegion& region);
   // The latest view; never null once the first request of a waiting loader, or wait_for_first(), is through.
   terrain::TerrainViewPointer view() const;
+  // What went wrong with cells since the last call; each cell is named once.
+  std::vector<std::string> take_problems();
 
  private:
   void serve();
+  void collect_problems();  // the store's, by the thread that called prepare()
 
   std::unique_ptr<terrain::TerrainStore> store_;
   bool may_wait_;
@@ -34,6 +39,7 @@ class TerrainLoader {
   std::optional<terrain::TerrainRegion> wanted_;
   std::optional<terrain::TerrainRegion> asked_;
   terrain::TerrainViewPointer view_;
+  std::vector<std::string> problems_;
   bool ending_ = false;
   std::thread thread_;
 };
