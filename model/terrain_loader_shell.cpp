@@ -63,7 +63,7 @@ std::vector<std::string> TerrainLoader::take_problems() {
 }
 
 void TerrainLoader::collect_problems() {
-  for (const auto& problem : store_->take_problems()) problems_.push_back(problem.message());
+  for (auto& problem : store_->take_problems()) problems_.push_back(std::move(problem));
 }
 
 void TerrainLoader::serve() {
