@@ -1,0 +1,26 @@
+// A session name that no other test and no other run has; what a failed test leaves is taken away.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <string>
+
+#include "shm/segment.hpp"
+
+namespace yars::databuffer::testing {
+
+class SessionTest : public ::testing::Test {
+ protected:
+  SessionTest() : name_("t" + std::to_string(getpid()) + "-" + std::to_string(++count)) {}
+  ~SessionTest() override { unlink(path().c_str()); }
+  std::string path() const { return shm::segment_path(name_); }
+  bool file_exists() const { return access(path().c_str(), F_OK) == 0; }
+
+  const std::string name_;
+
+ private:
+  inline static int count = 0;
+};
+
+}  // namespace yars::databuffer::testing

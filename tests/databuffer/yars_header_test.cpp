@@ -1,0 +1,347 @@
+// databuffer/yars.h against the C++ records, word by word at compile time; then a C program against a live session.
+// An assertion that breaks here means: the layout has changed, so change yars.h with it (`yars status --layout`
+// prints the numbers).
+#include <gtest/gtest.h>
+#include <spawn.h>
+
+#include <array>
+#include <cmath>
+
+#include "databuffer/layout_identity.hpp"
+#include "databuffer/session.hpp"
+#include "databuffer/yars.h"
+#include "tests/databuffer/session_name.hpp"
+#include "tests/shm/child_process.hpp"
+
+namespace yars::databuffer {
+namespace {
+
+static_assert(YARS_MAGIC == shm::kSegmentMagic && YARS_LAYOUT_VERSION == kLayoutVersion);
+static_assert(YARS_LAYOUT_SIZE == kLayoutIdentity.size);
+static_assert(YARS_LAYOUT_HASH == kLayoutIdentity.hash);
+static_assert(YARS_AT_CLOCK == offsetof(SessionLayout, clock));
+static_assert(YARS_AT_OWNSHIP_PRIORITY == offsetof(SessionLayout, ownship_priority));
+static_assert(YARS_AT_OWNSHIP == offsetof(SessionLayout, ownship));
+static_assert(YARS_AT_NAV == offsetof(SessionLayout, nav));
+static_assert(YARS_AT_RADAR_STATE == offsetof(SessionLayout, radar_state));
+static_assert(YARS_AT_MODEL_STATUS == offsetof(SessionLayout, model_status));
+static_assert(YARS_AT_INPUT == offsetof(SessionLayout, input));
+static_assert(YARS_AT_PROCESSES == offsetof(SessionLayout, processes));
+static_assert(offsetof(shm::SegmentHeader, magic) == 0 && offsetof(shm::SegmentHeader, size) == 8);
+static_assert(offsetof(shm::SegmentHeader, hash) == 16 && offsetof(shm::SegmentHeader, layout_version) == 24);
+static_assert(offsetof(shm::SegmentHeader, holder_pid) == 32);
+static_assert(offsetof(ProcessEntry, heartbeat_ns) == 0 && offsetof(ProcessEntry, pid) == 8);
+static_assert(offsetof(ProcessEntry, name) == 16 && sizeof(ProcessEntry) == 40);
+
+static_assert(YARS_FIRST_OWNSHIP_BYTE == kFirstOwnshipByte && YARS_OWNSHIP_LANES == kOwnshipLanes);
+static_assert(YARS_FIRST_INPUT_BYTE == kFirstInputByte && YARS_INPUT_LANES == kInputLanes);
+static_assert(YARS_FIRST_PROCESS_BYTE == kFirstProcessByte && YARS_PROCESSES == kProcesses);
+
+template <class Record>
+constexpr bool kValueMatches =
+    shm::LatestValue<Record>::state_offset() == 0 &&
+    shm::LatestValue<Record>::slots_offset() == YARS_LINE&& shm::LatestValue<Record>::slot_stride() ==
+        YARS_SLOT_STRIDE(sizeof(Record)) &&
+    shm::LatestValue<Record>::kSlots == YARS_SLOTS &&
+    sizeof(shm::LatestValue<Record>) == YARS_VALUE_SIZE(sizeof(Record));
+static_assert(kValueMatches<ClockState> && kValueMatches<Ownship> && kValueMatches<Nav>);
+static_assert(kValueMatches<RadarState> && kValueMatches<ModelStatus>);
+
+using Input = decltype(SessionLayout::input);
+static_assert(Input::lane_stride() == YARS_INPUT_STRIDE && Input::kDepth == YARS_INPUT_DEPTH);
+static_assert(Input::pushed_offset() == 0 && Input::dropped_offset() == YARS_INPUT_DROPPED);
+static_assert(Input::source_offset() == YARS_INPUT_SOURCE && Input::popped_offset() == YARS_INPUT_POPPED);
+static_assert(Input::records_offset() == YARS_INPUT_RECORDS);
+
+// Same place and same type (an enumeration or a record of its own may stand for another of its size).
+#define SAME(c_record, record, field)                                   \
+  static_assert(offsetof(c_record, field) == offsetof(record, field) && \
+                sizeof(c_record::field) == sizeof(record::field))
+
+static_assert(sizeof(yars_clock) == sizeof(ClockState));
+SAME(yars_clock, ClockState, base_sim_ns);
+SAME(yars_clock, ClockState, base_monotonic_ns);
+SAME(yars_clock, ClockState, rate);
+SAME(yars_clock, ClockState, running);
+SAME(yars_clock, ClockState, epoch);
+SAME(yars_clock, ClockState, reposition_latitude_deg);
+SAME(yars_clock, ClockState, reposition_longitude_deg);
+SAME(yars_clock, ClockState, reposition_altitude_m);
+SAME(yars_clock, ClockState, reposition_heading_deg);
+SAME(yars_clock, ClockState, reserved);
+static_assert(sizeof(yars_ownship) == sizeof(Ownship));
+SAME(yars_ownship, Ownship, source_time_ns);
+SAME(yars_ownship, Ownship, latitude_deg);
+SAME(yars_ownship, Ownship, longitude_deg);
+SAME(yars_ownship, Ownship, altitude_msl_m);
+SAME(yars_ownship, Ownship, heading_deg);
+SAME(yars_ownship, Ownship, pitch_deg);
+SAME(yars_ownship, Ownship, roll_deg);
+SAME(yars_ownship, Ownship, velocity_north_mps);
+SAME(yars_ownship, Ownship, velocity_east_mps);
+SAME(yars_ownship, Ownship, velocity_down_mps);
+SAME(yars_ownship, Ownship, radar_altitude_m);
+SAME(yars_ownship, Ownship, epoch);
+SAME(yars_ownship, Ownship, flags);
+SAME(yars_ownship, Ownship, source);
+SAME(yars_ownship, Ownship, reserved);
+static_assert(sizeof(yars_nav) == sizeof(Nav));
+SAME(yars_nav, Nav, source_time_ns);
+SAME(yars_nav, Nav, mission_latitude_deg);
+SAME(yars_nav, Nav, mission_longitude_deg);
+SAME(yars_nav, Nav, ins_latitude_deg);
+SAME(yars_nav, Nav, ins_longitude_deg);
+SAME(yars_nav, Nav, velocity_north_mps);
+SAME(yars_nav, Nav, velocity_east_mps);
+SAME(yars_nav, Nav, velocity_down_mps);
+SAME(yars_nav, Nav, magnetic_variation_deg);
+SAME(yars_nav, Nav, epoch);
+SAME(yars_nav, Nav, flags);
+SAME(yars_nav, Nav, reserved);
+static_assert(sizeof(yars_input_event) == sizeof(InputEvent));
+SAME(yars_input_event, InputEvent, session_time_ns);
+SAME(yars_input_event, InputEvent, monotonic_ns);
+SAME(yars_input_event, InputEvent, x);
+SAME(yars_input_event, InputEvent, y);
+SAME(yars_input_event, InputEvent, kind);
+SAME(yars_input_event, InputEvent, argument);
+SAME(yars_input_event, InputEvent, number);
+SAME(yars_input_event, InputEvent, text);
+static_assert(sizeof(yars_drawn_point) == sizeof(DrawnPoint));
+SAME(yars_drawn_point, DrawnPoint, latitude_deg);
+SAME(yars_drawn_point, DrawnPoint, longitude_deg);
+SAME(yars_drawn_point, DrawnPoint, elevation_m);
+SAME(yars_drawn_point, DrawnPoint, name);
+SAME(yars_drawn_point, DrawnPoint, kind);
+SAME(yars_drawn_point, DrawnPoint, selected);
+SAME(yars_drawn_point, DrawnPoint, reserved);
+static_assert(sizeof(yars_radar_state) == sizeof(RadarState));
+SAME(yars_radar_state, RadarState, tick);
+SAME(yars_radar_state, RadarState, range_nm);
+SAME(yars_radar_state, RadarState, scan_width_deg);
+SAME(yars_radar_state, RadarState, antenna_elevation_deg);
+SAME(yars_radar_state, RadarState, cursor_latitude_deg);
+SAME(yars_radar_state, RadarState, cursor_longitude_deg);
+SAME(yars_radar_state, RadarState, cursor_elevation_m);
+SAME(yars_radar_state, RadarState, cursor_bearing_deg);
+SAME(yars_radar_state, RadarState, cursor_range_nm);
+SAME(yars_radar_state, RadarState, tdc_x);
+SAME(yars_radar_state, RadarState, tdc_y);
+SAME(yars_radar_state, RadarState, window_nm);
+SAME(yars_radar_state, RadarState, events_applied);
+SAME(yars_radar_state, RadarState, epoch);
+SAME(yars_radar_state, RadarState, flags);
+SAME(yars_radar_state, RadarState, scan_restart);
+SAME(yars_radar_state, RadarState, boxed);
+SAME(yars_radar_state, RadarState, power);
+SAME(yars_radar_state, RadarState, mode);
+SAME(yars_radar_state, RadarState, master);
+SAME(yars_radar_state, RadarState, resume_mode);
+SAME(yars_radar_state, RadarState, range_index);
+SAME(yars_radar_state, RadarState, scan);
+SAME(yars_radar_state, RadarState, gain);
+SAME(yars_radar_state, RadarState, brightness);
+SAME(yars_radar_state, RadarState, contrast);
+SAME(yars_radar_state, RadarState, cursor_function);
+SAME(yars_radar_state, RadarState, navigator);
+SAME(yars_radar_state, RadarState, channel);
+SAME(yars_radar_state, RadarState, band);
+SAME(yars_radar_state, RadarState, points_drawn);
+SAME(yars_radar_state, RadarState, window_index);
+SAME(yars_radar_state, RadarState, recall);
+SAME(yars_radar_state, RadarState, sequence_point);
+SAME(yars_radar_state, RadarState, message);
+SAME(yars_radar_state, RadarState, message_until_tick);
+SAME(yars_radar_state, RadarState, points);
+SAME(yars_radar_state, RadarState, legends);
+SAME(yars_radar_state, RadarState, frame_latitude_deg);
+SAME(yars_radar_state, RadarState, frame_longitude_deg);
+SAME(yars_radar_state, RadarState, frame_track_deg);
+SAME(yars_radar_state, RadarState, ground_mode);
+SAME(yars_radar_state, RadarState, reserved_bytes);
+SAME(yars_radar_state, RadarState, reserved);
+static_assert(sizeof(yars_model_status) == sizeof(ModelStatus));
+SAME(yars_model_status, ModelStatus, tick);
+SAME(yars_model_status, ModelStatus, sim_time_ns);
+SAME(yars_model_status, ModelStatus, antenna_azimuth_deg);
+SAME(yars_model_status, ModelStatus, antenna_elevation_deg);
+SAME(yars_model_status, ModelStatus, height_above_ground_m);
+SAME(yars_model_status, ModelStatus, ground_elevation_m);
+SAME(yars_model_status, ModelStatus, cursor_ground_elevation_m);
+SAME(yars_model_status, ModelStatus, map_timer_s);
+SAME(yars_model_status, ModelStatus, map_progress);
+SAME(yars_model_status, ModelStatus, load);
+SAME(yars_model_status, ModelStatus, terrain_generation);
+SAME(yars_model_status, ModelStatus, terrain_bytes);
+SAME(yars_model_status, ModelStatus, sweeps);
+SAME(yars_model_status, ModelStatus, late_ticks);
+SAME(yars_model_status, ModelStatus, refused);
+SAME(yars_model_status, ModelStatus, posts_pending);
+SAME(yars_model_status, ModelStatus, epoch);
+SAME(yars_model_status, ModelStatus, scan);
+SAME(yars_model_status, ModelStatus, sweep);
+SAME(yars_model_status, ModelStatus, flags);
+SAME(yars_model_status, ModelStatus, scan_restart);
+SAME(yars_model_status, ModelStatus, ownship_lane);
+SAME(yars_model_status, ModelStatus, scan_direction);
+SAME(yars_model_status, ModelStatus, mode);
+SAME(yars_model_status, ModelStatus, scan_bar);
+SAME(yars_model_status, ModelStatus, mappable);
+SAME(yars_model_status, ModelStatus, why_not);
+SAME(yars_model_status, ModelStatus, fidelity);
+SAME(yars_model_status, ModelStatus, ownship);
+SAME(yars_model_status, ModelStatus, nav);
+SAME(yars_model_status, ModelStatus, scan_centre_deg);
+SAME(yars_model_status, ModelStatus, scan_width_deg);
+SAME(yars_model_status, ModelStatus, scan_range_m);
+SAME(yars_model_status, ModelStatus, scan_tick);
+SAME(yars_model_status, ModelStatus, antenna_phase);
+SAME(yars_model_status, ModelStatus, scan_noise_only);
+SAME(yars_model_status, ModelStatus, reserved0);
+SAME(yars_model_status, ModelStatus, reserved);
+
+#undef SAME
+
+class YarsHeaderTest : public testing::SessionTest {};
+
+// The C program as a process of its own, with both ends of its standard streams.
+class CClient {
+ public:
+  CClient(const std::string& session, const char* mode) {
+    std::array<int, 2> in{}, out{};
+    if (pipe2(in.data(), O_CLOEXEC) != 0 || pipe2(out.data(), O_CLOEXEC) != 0) throw std::runtime_error("pipe");
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, in[0], 0);
+    posix_spawn_file_actions_adddup2(&actions, out[1], 1);
+    std::string program = YARS_C_CLIENT, name = session, how = mode;
+    char* arguments[] = {program.data(), name.data(), how.data(), nullptr};
+    if (posix_spawn(&pid_, YARS_C_CLIENT, &actions, nullptr, arguments, environ) != 0)
+      throw std::runtime_error("spawn");
+    posix_spawn_file_actions_destroy(&actions);
+    close(in[0]);
+    close(out[1]);
+    to_child_ = in[1];
+    from_child_ = out[0];
+  }
+  CClient(const CClient&) = delete;
+  CClient& operator=(const CClient&) = delete;
+  ~CClient() {
+    end();
+    close(from_child_);
+  }
+
+  pid_t pid() const { return pid_; }
+  // Blocks until the client has fed everything, or has ended.
+  std::string line() const {
+    std::string text;
+    for (char letter = 0; read(from_child_, &letter, 1) == 1 && letter != '\n';) text += letter;
+    return text;
+  }
+  int end() {
+    if (to_child_ >= 0) close(std::exchange(to_child_, -1));
+    int status = 0;
+    if (pid_ > 0) waitpid(std::exchange(pid_, -1), &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+ private:
+  pid_t pid_ = -1;
+  int to_child_ = -1, from_child_ = -1;
+};
+
+TEST_F(YarsHeaderTest, AProgramInCTakesPart) {
+  auto session = Session::open(name_, "tester");
+  ASSERT_TRUE(session);
+  ClockState clock = session->clock();
+  clock.epoch = 4;
+  clock.running = 0;
+  clock.base_sim_ns = 77;
+  ASSERT_TRUE(session->set_clock(clock));
+  RadarState state{};
+  state.range_nm = 40.0;
+  session->layout().radar_state.publish(state);
+
+  CClient client(name_, "stay");
+  EXPECT_EQ(client.line(), "77") << "the sim time as C reads it";
+  Ownship ownship{};
+  ASSERT_EQ(session->layout().ownship[0].read(ownship), 2u) << "cleared once, published once";
+  EXPECT_EQ(ownship.latitude_deg, 34.5);
+  EXPECT_EQ(ownship.altitude_msl_m, 40.0) << "taken from the radar state";
+  EXPECT_EQ(ownship.epoch, 4u);
+  EXPECT_STREQ(ownship.source, "c client");
+  EXPECT_EQ(session->layout().ownship_priority[0], 70u);
+  Nav nav{};
+  ASSERT_TRUE(session->layout().nav[0].read(nav));
+  EXPECT_EQ(nav.ins_longitude_deg, -120.25);
+  InputEvent event{};
+  ASSERT_TRUE(session->layout().input.pop(0, event));
+  EXPECT_EQ(event.kind, static_cast<std::uint16_t>(EventKind::push_button));
+  EXPECT_EQ(event.argument, 13);
+  EXPECT_EQ(event.number, 1u);
+  EXPECT_EQ(event.session_time_ns, 77);
+  EXPECT_STREQ(event.text, "from C");
+  EXPECT_EQ(session->layout().input.source(0), "c input");
+
+  EXPECT_TRUE(session->ownship_lane_is_held(0));
+  EXPECT_TRUE(session->input_lane_is_held(0));
+  EXPECT_EQ(session->claim_ownship_lane(1)->lane(), 1) << "C's lock counts";
+  ASSERT_EQ(session->processes().size(), 2u);
+  EXPECT_EQ(session->processes()[1].name, "c-client");
+  EXPECT_EQ(session->processes()[1].pid, client.pid());
+
+  EXPECT_EQ(client.end(), 0);
+  EXPECT_FALSE(session->ownship_lane_is_held(0));
+  EXPECT_FALSE(session->layout().ownship[0].has_value()) << "withdrawn";
+  EXPECT_EQ(session->processes().size(), 1u);
+  EXPECT_TRUE(file_exists());
+}
+
+TEST_F(YarsHeaderTest, TheProgramInCTakesTheSegmentAwayWhenItLeavesLast) {
+  auto session = std::make_unique<Session>(std::move(*Session::open(name_, "tester")));
+  session->layout().radar_state.publish(RadarState{});
+  CClient client(name_, "stay");
+  EXPECT_FALSE(client.line().empty());
+  session.reset();
+  EXPECT_TRUE(file_exists());
+  EXPECT_EQ(client.end(), 0);
+  EXPECT_FALSE(file_exists());
+}
+
+TEST_F(YarsHeaderTest, WithoutASessionTheProgramInCIsTold) {
+  yars_session s;
+  EXPECT_EQ(yars_attach(&s, name_.c_str(), "tester"), -1);
+  EXPECT_NE(std::string(s.error).find("no such session"), std::string::npos) << s.error;
+}
+
+TEST_F(YarsHeaderTest, AnotherLayoutIsRefusedInCToo) {
+  auto session = Session::open(name_, "tester");
+  ASSERT_TRUE(session);
+  session->layout().header.hash += 1;
+  yars_session s;
+  EXPECT_EQ(yars_attach(&s, name_.c_str(), "tester"), -1);
+  EXPECT_NE(std::string(s.error).find("expected layout version 1"), std::string::npos) << s.error;
+  EXPECT_TRUE(file_exists());
+}
+
+TEST_F(YarsHeaderTest, CDropsAndCountsWhenTheLaneIsFull) {
+  auto session = Session::open(name_, "tester");
+  yars_session s;
+  ASSERT_EQ(yars_attach(&s, name_.c_str(), "c"), 0) << s.error;
+  ASSERT_EQ(yars_claim_input_lane(&s, "c"), 0);
+  yars_input_event event{};
+  for (std::size_t n = 0; n < kInputLaneDepth; ++n) ASSERT_EQ(yars_push_event(&s, &event), 0);
+  EXPECT_EQ(yars_push_event(&s, &event), -1);
+  EXPECT_EQ(session->layout().input.dropped(0), 1u);
+  InputEvent out{};
+  for (std::size_t n = 0; n < kInputLaneDepth; ++n) {
+    ASSERT_TRUE(session->layout().input.pop(0, out));
+    EXPECT_EQ(out.number, n + 1);
+  }
+  EXPECT_FALSE(session->layout().input.pop(0, out));
+  EXPECT_EQ(yars_push_event(&s, &event), 0);
+  yars_detach(&s);
+}
+
+}  // namespace
+}  // namespace yars::databuffer
