@@ -1,0 +1,47 @@
+// A segment of its own for each test, with a mark in it that tells whether it was filled.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "shm/segment.hpp"
+
+namespace yars::shm::testing {
+
+inline constexpr LayoutIdentity kLayout{3, std::uint64_t{1} << 20, 0x1234abcdU};
+inline constexpr std::uint64_t kMark = 0x5157a7eU;
+
+inline std::uint64_t& mark_in(void* memory) {
+  return *reinterpret_cast<std::uint64_t*>(static_cast<char*>(memory) + 4096);
+}
+inline void set_mark(void* memory) {
+  mark_in(memory) = kMark;
+}
+
+inline std::vector<std::string> files_of(const std::string& name) {
+  std::vector<std::string> found;
+  const std::string prefix = segment_path(name);
+  for (const auto& entry : std::filesystem::directory_iterator("/dev/shm"))
+    if (entry.path().string().starts_with(prefix)) found.push_back(entry.path());
+  return found;
+}
+
+// Each test has a session name of its own and leaves nothing behind, whatever happens.
+class SegmentTest : public ::testing::Test {
+ protected:
+  SegmentTest()
+      : name_("shmtest-" + std::to_string(getpid()) + "-" +
+              ::testing::UnitTest::GetInstance()->current_test_info()->name()) {}
+  ~SegmentTest() override {
+    for (const std::string& file : files_of(name_)) std::filesystem::remove(file);
+  }
+  failure::Expected<Segment> open() const { return Segment::open(name_, kLayout, set_mark); }
+  const std::string name_;
+};
+
+}  // namespace yars::shm::testing
