@@ -53,10 +53,8 @@ class GlfwWindow final : public Window {
     glfwSetWindowRefreshCallback(window, [](GLFWwindow* from) { input_of(from).redraw_needed = true; });
     glfwSetFramebufferSizeCallback(window, [](GLFWwindow* from, int, int) { input_of(from).redraw_needed = true; });
   }
-  ~GlfwWindow() override {
-    glfwDestroyWindow(window_);
-    glfwTerminate();
-  }
+  // Does not end GLFW: that unloads the driver, which leaves memory behind that nobody can then name.
+  ~GlfwWindow() override { glfwDestroyWindow(window_); }
 
   Pixels pixels() const override {
     Pixels pixels;
