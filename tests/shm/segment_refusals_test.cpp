@@ -103,7 +103,10 @@ constexpr int kNotPermitted = 77;
 
 TEST_F(SegmentTest, AFullDevShmIsAnErrorAndLeavesNothing) {
   ChildProcess child([&] {
-    if (unshare(geteuid() == 0 ? CLONE_NEWNS : CLONE_NEWUSER | CLONE_NEWNS) != 0) return kNotPermitted;
+    const uid_t user = geteuid();
+    if (unshare(user == 0 ? CLONE_NEWNS : CLONE_NEWUSER | CLONE_NEWNS) != 0) return kNotPermitted;
+    // In a user namespace of its own a process has no number until it is given one.
+    if (user != 0) std::ofstream("/proc/self/uid_map") << user << " " << user << " 1";
     if (mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) return kNotPermitted;
     if (mount("tmpfs", "/dev/shm", "tmpfs", 0, "size=256k,mode=1777") != 0) return kNotPermitted;
     const auto refused = open();
