@@ -104,9 +104,14 @@ constexpr int kNotPermitted = 77;
 TEST_F(SegmentTest, AFullDevShmIsAnErrorAndLeavesNothing) {
   ChildProcess child([&] {
     const uid_t user = geteuid();
+    const gid_t group = getegid();
     if (unshare(user == 0 ? CLONE_NEWNS : CLONE_NEWUSER | CLONE_NEWNS) != 0) return kNotPermitted;
     // In a user namespace of its own a process has no number until it is given one.
-    if (user != 0) std::ofstream("/proc/self/uid_map") << user << " " << user << " 1";
+    if (user != 0) {
+      std::ofstream("/proc/self/setgroups") << "deny";
+      std::ofstream("/proc/self/uid_map") << user << " " << user << " 1";
+      std::ofstream("/proc/self/gid_map") << group << " " << group << " 1";
+    }
     if (mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) return kNotPermitted;
     if (mount("tmpfs", "/dev/shm", "tmpfs", 0, "size=256k,mode=1777") != 0) return kNotPermitted;
     const auto refused = open();
