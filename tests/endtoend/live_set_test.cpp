@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <random>
 
 #include "lib/imageio/png.hpp"
@@ -90,11 +91,13 @@ TEST_F(LiveSet, WhatIsKilledComesBackAsItWas) {
   };
   ASSERT_TRUE(set_.wait_until(as_set));
   constexpr unsigned kSeed = 20260101;
+  constexpr int kKillsOfEach = 20;
   SCOPED_TRACE("seed " + std::to_string(kSeed));
-  std::mt19937 random(kSeed);
   const std::vector<std::string> roles{"state-machine", "radar-model", "flight-model", "radar-display"};
-  for (int kill = 0; kill < 8; ++kill) {
-    const auto& role = roles[random() % roles.size()];
+  std::vector<std::string> order;
+  for (int round = 0; round < kKillsOfEach; ++round) order.insert(order.end(), roles.begin(), roles.end());
+  std::shuffle(order.begin(), order.end(), std::mt19937(kSeed));
+  for (const auto& role : order) {
     SCOPED_TRACE(role);
     set_.kill(role, SIGKILL);
     EXPECT_EQ(set_.wait(role), 128 + SIGKILL);

@@ -76,7 +76,7 @@ const std::vector<Step>& steps() {
       {"pb 6", true, "mode", "PVU"},
       {"pb 6", true, "mode", "RBM"},
       // A mode change by PB 6 sets the range by height.
-      {"radar rbm", true, "range_nm", 40.0},
+      {"radar rbm", false, "range_nm", 40.0},
       {"nav ins", true, "nav_source", "INS"},
       {"nav mn", true, "nav_source", "MN"},
       {"power stby", true, "power", "STBY"},
