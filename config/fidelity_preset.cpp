@@ -11,6 +11,7 @@ constexpr std::array<std::string_view, 5> kNames{"1996", "draft", "standard", "f
 // What the report computes: flat earth, no refraction, hard edges of the beam, three-sweep and three-post smear.
 radar::Fidelity of_1996() {
   radar::Fidelity fidelity;
+  fidelity.algorithm = radar::Algorithm::report_1996;
   fidelity.earth = radar::EarthModel::flat;
   fidelity.earth_radius_factor = 1.0;
   fidelity.noise = false;

@@ -9,7 +9,7 @@ namespace yars::config {
 namespace {
 
 // In the order of the enumerations.
-constexpr std::array<std::string_view, 2> kAlgorithms{"standard", "reference"};
+constexpr std::array<std::string_view, 3> kAlgorithms{"standard", "reference", "report-1996"};
 constexpr std::array<std::string_view, 3> kEarthModels{"flat", "sphere", "ellipsoid"};
 constexpr std::array<std::string_view, 3> kBeams{"hard-edge", "gaussian", "cosecant-squared"};
 

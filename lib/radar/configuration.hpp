@@ -34,7 +34,7 @@ struct ViewConfiguration {
 
 enum class EarthModel : std::uint8_t { flat = 0, sphere = 1, ellipsoid = 2 };
 enum class BeamPattern : std::uint8_t { hard_edge = 0, gaussian = 1, cosecant_squared = 2 };
-enum class Algorithm : std::uint8_t { standard = 0, reference = 1 };
+enum class Algorithm : std::uint8_t { standard = 0, reference = 1, report_1996 = 2 };
 
 // The trade of speed against accuracy, by name or knob by knob.
 struct Fidelity {

@@ -4,6 +4,7 @@
 
 #include "lib/radar/limits.hpp"
 #include "model/rbm/reference.hpp"
+#include "model/rbm/report_1996.hpp"
 #include "model/rbm/standard.hpp"
 
 namespace yars::model::rbm {
@@ -12,6 +13,8 @@ std::unique_ptr<Algorithm> make_algorithm(const radar::RadarConfiguration& confi
   switch (configuration.fidelity.algorithm) {
     case radar::Algorithm::reference:
       return std::make_unique<Reference>(configuration);
+    case radar::Algorithm::report_1996:
+      return std::make_unique<Report1996>(configuration);
     case radar::Algorithm::standard:
       break;
   }

@@ -42,7 +42,8 @@ inline float exp2(float power) {
   return std::bit_cast<float>(std::bit_cast<std::int32_t>(p) + (whole << 23));
 }
 
-// Angle [rad] in [0, pi] of a direction with this sine >= 0 and this cosine; a right angle if both are zero. Error 8e-7.
+// Angle [rad] in [0, pi] of a direction with this sine >= 0 and this cosine; a right angle if both are zero. Error
+// 8e-7.
 inline float angle(float sine, float cosine) {
   constexpr float kHalfPi = 1.57079633F;
   constexpr float kPi = 3.14159265F;

@@ -1,0 +1,83 @@
+#include "model/rbm/report_1996.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "model/rbm/sample_places.hpp"
+
+namespace yars::model::rbm {
+
+namespace {
+constexpr std::array<float, 3> kPostWeights{0.25F, 0.5F, 0.25F};
+constexpr float kNoHorizon = -1.0e30F;  // tangent below every terrain
+constexpr int kGainSteps = 4;
+
+// Weighted sum of a value and its neighbours; at an end the value stands in for the neighbour it lacks.
+float joined(float before, float centre, float after) {
+  return kPostWeights[0] * before + kPostWeights[1] * centre + kPostWeights[2] * after;
+}
+}  // namespace
+
+Report1996::Report1996(const radar::RadarConfiguration& configuration)
+    : half_beam_rad_(0.5 * configuration.antenna.elevation_beamwidth_deg * geo::kRadiansPerDegree),
+      distance_m_(sample_count(configuration)),
+      latitude_deg_(distance_m_.size()),
+      longitude_deg_(distance_m_.size()),
+      elevation_m_(distance_m_.size()),
+      water_(distance_m_.size()),
+      intensity_(distance_m_.size()) {}
+
+std::size_t Report1996::measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) {
+  const std::size_t count = distance_m_.size();
+  const double spacing_m = look.range.metres() / static_cast<double>(count);
+  for (std::size_t i = 0; i < count; ++i) distance_m_[i] = (static_cast<double>(i) + 0.5) * spacing_m;
+  sample_places(look.apex, look.azimuth, look.range, distance_m_, latitude_deg_, longitude_deg_);
+  const std::size_t pending = terrain.elevations(latitude_deg_, longitude_deg_, elevation_m_, water_);
+
+  // The report's Y_min and Y_max: tangents of the beam's lower and upper edge.
+  const auto lower = static_cast<float>(std::tan(look.elevation.radians() - half_beam_rad_));
+  const auto upper = static_cast<float>(std::tan(look.elevation.radians() + half_beam_rad_));
+  const auto altitude_m = static_cast<float>(look.altitude.metres());
+  float horizon = kNoHorizon;
+  for (std::size_t i = 0; i < count; ++i) {
+    intensity_[i] = 0.0F;
+    const auto distance_m = static_cast<float>(distance_m_[i]);
+    const float up_m = elevation_m_[i] - altitude_m;
+    const float tangent = up_m / distance_m;
+    const bool lit = tangent >= lower && tangent <= upper && tangent > horizon;  // a void compares false
+    if (!lit) continue;
+    horizon = tangent;
+    const float rise = slope(i, static_cast<float>(spacing_m));
+    const float normal = std::sqrt(1.0F + rise * rise);
+    const float cosine = (rise * distance_m - up_m) / (normal * std::sqrt(distance_m * distance_m + up_m * up_m));
+    intensity_[i] = std::max(0.0F, cosine);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t before = i > 0 ? i - 1 : i;
+    const std::size_t after = i + 1 < count ? i + 1 : i;
+    power[i] = joined(intensity_[before], intensity_[i], intensity_[after]);
+  }
+  return pending;
+}
+
+float Report1996::slope(std::size_t index, float spacing_m) const {
+  // Central difference; towards a void or an end, the difference to the other side alone.
+  const bool near_known = index > 0 && !std::isnan(elevation_m_[index - 1]);
+  const bool far_known = index + 1 < elevation_m_.size() && !std::isnan(elevation_m_[index + 1]);
+  const std::size_t near = near_known ? index - 1 : index;
+  const std::size_t far = far_known ? index + 1 : index;
+  if (near == far) return 0.0F;
+  return (elevation_m_[far] - elevation_m_[near]) / (static_cast<float>(far - near) * spacing_m);
+}
+
+void Report1996::develop(const PowerWindow& window, geo::Length /*range*/, int gain, const NoiseKey& /*key*/,
+                         std::span<std::uint8_t> video) {
+  const float scale = 255.0F * static_cast<float>(gain + 1) / static_cast<float>(kGainSteps);
+  for (std::size_t i = 0; i < video.size(); ++i) {
+    const float level = scale * joined(window.before[i], window.centre[i], window.after[i]) + 0.5F;
+    video[i] = static_cast<std::uint8_t>(std::min(level, 255.0F));
+  }
+}
+
+}  // namespace yars::model::rbm

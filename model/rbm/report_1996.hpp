@@ -1,0 +1,31 @@
+// The picture as the 1996 report makes it, where the report is silent as spec physics.md defines it: intensity is
+// the cosine between facet normal and direction to the radar, both in the plane of the sweep; flat earth, no
+// refraction; nothing outside half a beam width of the antenna's elevation; a horizon that lit posts alone raise;
+// weights 1/4 1/2 1/4 over three posts and over three sweeps; gain steps 1/4 1/2 3/4 1; no noise. Power is intensity,
+// 0 to 1, and video is proportional to it. Only samples and beam width are read from the configuration.
+#pragma once
+
+#include <vector>
+
+#include "lib/radar/configuration.hpp"
+#include "model/rbm/algorithm.hpp"
+
+namespace yars::model::rbm {
+
+class Report1996 : public Algorithm {
+ public:
+  explicit Report1996(const radar::RadarConfiguration& configuration);
+
+  std::size_t measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) override;
+  void develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
+               std::span<std::uint8_t> video) override;
+
+ private:
+  float slope(std::size_t index, float spacing_m) const;
+
+  double half_beam_rad_;
+  std::vector<double> distance_m_, latitude_deg_, longitude_deg_;
+  std::vector<float> elevation_m_, water_, intensity_;
+};
+
+}  // namespace yars::model::rbm

@@ -1,0 +1,86 @@
+// The preset `1996` as spec physics.md defines it.
+#include "model/rbm/report_1996.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/model/ground.hpp"
+
+namespace yars::model::rbm {
+namespace {
+
+constexpr double kAltitudeM = 2000.0;
+constexpr double kRangeM = 40000.0;
+constexpr std::size_t kSamples = 1000;
+constexpr double kSpacingM = kRangeM / kSamples;
+
+std::vector<float> intensity(const terrain::AnalyticTerrain::Height& height, double elevation_deg) {
+  radar::RadarConfiguration configuration;
+  configuration.fidelity.samples = static_cast<int>(kSamples);
+  Report1996 report(configuration);
+  Look look = test::look_north(kAltitudeM, kRangeM);
+  look.elevation = geo::Angle::degrees(elevation_deg);
+  std::vector<float> power(kSamples);
+  report.measure(look, terrain::AnalyticTerrain(height), power);
+  return power;
+}
+
+std::size_t sample_at(double distance_m) {
+  return static_cast<std::size_t>(distance_m / kSpacingM);
+}
+
+TEST(Report1996, AFlatPlaneReturnsTheSineOfItsDepressionWithinTheBeamAlone) {
+  const auto power = intensity(terrain::flat(0.0), -5.0);
+  for (std::size_t i = 1; i + 1 < kSamples; ++i) {
+    const double distance_m = (static_cast<double>(i) + 0.5) * kSpacingM;
+    const double depression_deg = std::atan(kAltitudeM / distance_m) / geo::kRadiansPerDegree;
+    const double sine = kAltitudeM / std::hypot(kAltitudeM, distance_m);
+    if (std::abs(depression_deg - 5.0) < 1.2) {
+      EXPECT_NEAR(static_cast<double>(power[i]), sine, 1e-3) << distance_m;
+    }
+    if (std::abs(depression_deg - 5.0) > 1.3) {
+      EXPECT_EQ(power[i], 0.0F) << distance_m;
+    }
+  }
+}
+
+TEST(Report1996, AMastAboveTheBeamCastsNoShadow) {
+  // The flaw of the report, kept: the reference casts it (Reference.ARidgeAboveTheBeamStillCastsItsShadow).
+  const auto power = intensity(
+      [](geo::GeoPoint place) {
+        const double distance_m = geo::geodesic_inverse(test::kMidLatitude, place).distance.metres();
+        return std::abs(distance_m - 10020.0) < 0.5 * kSpacingM ? 1800.0 : 0.0;
+      },
+      -5.71);
+  EXPECT_GT(power[sample_at(20000.0)], 0.0F);
+}
+
+TEST(Report1996, ARidgeInTheBeamCastsItsShadow) {
+  const auto power = intensity(terrain::ridge(test::axis_north(), 18000.0, 1000.0, 300.0), -5.71);
+  EXPECT_EQ(power[sample_at(19500.0)], 0.0F);
+  EXPECT_GT(power[sample_at(22000.0)], 0.0F);
+}
+
+TEST(Report1996, GainGoesInQuarters) {
+  Report1996 report{radar::RadarConfiguration{}};
+  const std::vector<float> power(4, 0.8F);
+  std::vector<std::uint8_t> video(4);
+  for (int gain = 0; gain <= 3; ++gain) {
+    report.develop({power, power, power}, geo::Length::metres(kRangeM), gain, {}, video);
+    EXPECT_NEAR(video[1], 255.0 * 0.8 * (gain + 1) / 4.0, 0.51);
+  }
+}
+
+TEST(Report1996, ThreeSweepsAreJoinedAsQuarterHalfQuarter) {
+  Report1996 report{radar::RadarConfiguration{}};
+  const std::vector<float> bright(4, 1.0F), dark(4, 0.0F);
+  std::vector<std::uint8_t> video(4);
+  report.develop({bright, dark, dark}, geo::Length::metres(kRangeM), 3, {}, video);
+  EXPECT_EQ(video[0], 64);
+  report.develop({dark, bright, dark}, geo::Length::metres(kRangeM), 3, {}, video);
+  EXPECT_EQ(video[0], 128);
+}
+
+}  // namespace
+}  // namespace yars::model::rbm
