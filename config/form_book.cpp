@@ -16,7 +16,8 @@ const std::string& identifier_of(const Value& value, const char* expected) {
 }  // namespace
 
 void FormBook::define(const Form& form, const Location& where) {
-  constexpr std::size_t kMostForms = 1000;  // a bound on the search; a person defines a handful
+  constexpr std::size_t kMostForms = 1000;  // bounds on the search; a person defines a handful
+  constexpr std::size_t kMostSlots = 1000;
   if (form.slots.empty()) reject(where, "( def-form name is= base 'slot ... )", "no name");
   if (definitions_.size() >= kMostForms) reject(where, "at most 1000 forms defined", "one more");
   Definition definition;
@@ -38,6 +39,7 @@ void FormBook::define(const Form& form, const Location& where) {
       reject(slot.where, "the name of a slot, as 'alpha", slot.name.empty() ? "a position" : ":" + slot.name);
     }
   }
+  if (definition.meaning.own_slots.size() > kMostSlots) reject(where, "at most 1000 new slots in a form", "more");
   if (find_form(definition.name).schema == nullptr) definitions_.push_back(std::move(definition));
 }
 

@@ -110,17 +110,20 @@ const SlotSchema* FormReader::row_of(const Slot& slot, int place, const Form& fo
     warn_spelling(slot.where, ":" + slot.name, ":" + std::string(found.schema->name), found.spelling);
     return found.schema;
   }
-  const auto own = std::find(known.own_slots.begin(), known.own_slots.end(), slot.name);
-  const std::string_view nearest = nearest_slot(schema, slot.name);
-  if (own != known.own_slots.end()) {
-    warn(slot.where, ":" + slot.name + " is read, not used");
-  } else if (nearest.empty()) {
-    warn(slot.where, "the form " + form.name + " has no slot :" + slot.name + "; it is ignored");
-  } else {
-    warn(slot.where, "the form " + form.name + " has no slot :" + slot.name +
-                         "; it is ignored; :" + std::string(nearest) + " is near");
-  }
+  warn_unread(slot, form, known);
   return nullptr;
+}
+
+// A slot without a row: one of a def-form, or nobody's.
+void FormReader::warn_unread(const Slot& slot, const Form& form, const KnownForm& known) {
+  if (warnings_.size() >= kMaxWarnings) return;
+  if (std::find(known.own_slots.begin(), known.own_slots.end(), slot.name) != known.own_slots.end()) {
+    warn(slot.where, ":" + slot.name + " is read, not used");
+    return;
+  }
+  const std::string_view nearest = nearest_slot(*known.schema, slot.name);
+  warn(slot.where, "the form " + form.name + " has no slot :" + slot.name + "; it is ignored" +
+                       (nearest.empty() ? "" : "; :" + std::string(nearest) + " is near"));
 }
 
 void FormReader::read_slot(const SlotSchema& schema, const Value& value, const std::string& form) {

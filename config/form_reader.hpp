@@ -29,6 +29,7 @@ class FormReader {
   void read_slot(const SlotSchema& schema, const Value& value, const std::string& form);
   void read_forms(const SlotSchema& schema, const FormSlot& kind, const Value& value);
   void read_form_of_slot(const SlotSchema& schema, const FormSlot& kind, const Value& value, bool in_list);
+  void warn_unread(const Slot& slot, const Form& form, const KnownForm& known);
   void warn(const Location& where, const std::string& text);
   void warn_spelling(const Location& where, const std::string& found, std::string_view modern, Spelling spelling);
 

@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 std::string text_of_file(const fs::path& path, const std::string& subject) {
   std::error_code problem;
   if (!fs::is_regular_file(path, problem)) {
-    throw Rejection{failure::fail(subject, "a GUF file", path.string() + " is none", "check the path").value()};
+    const std::string found = fs::exists(path, problem) ? " is no file" : " does not exist";
+    throw Rejection{failure::fail(subject, "a GUF file", path.string() + found, "check the path").value()};
   }
   if (fs::file_size(path, problem) > kMaxTextBytes) {
     throw Rejection{failure::fail(subject, "at most " + std::to_string(kMaxTextBytes) + " bytes of GUF",

@@ -256,6 +256,19 @@ TEST(DefForm, ErrorsNameTheirPlace) {
               HasSubstr("def-form outside all other forms"));
 }
 
+TEST(DefForm, HasAtMostAThousandSlotsOfItsOwn) {
+  std::string slots;
+  for (int i = 0; i < 1000; ++i) slots += " 's" + std::to_string(i);
+  EXPECT_TRUE(load_configuration_text("( def-form A" + slots + " )", "text.guf"));
+  EXPECT_THAT(refusal("( def-form A" + slots + " 'more )"), HasSubstr("text.guf:1:1: expected at most 1000 new slots"));
+}
+
+TEST(Warnings, StopAtTwoHundred) {
+  std::string slots;
+  for (int i = 0; i < 300; ++i) slots += " :unknown" + std::to_string(i) + " 1";
+  EXPECT_EQ(loaded("( Noise" + slots + " )").warnings.size(), 200U);
+}
+
 // The sample of the 1996 report's section on GUF, spelled as it is there.
 TEST(ReportSample, IsReadWithWarnings) {
   const auto configuration = loaded(R"(( Radar
