@@ -42,6 +42,7 @@ Expected<Script> parse_script(std::string_view text, std::string_view name) {
     if (*time_ns < previous_ns)
       return fail(place, "a time not before that of the line above", found,
                   "put the lines in the order of their times");
+    if (script.events.empty()) script.from_start = word.starts_with('+');
     previous_ns = *time_ns;
     const std::string_view rest = databuffer::trimmed(line.text.substr(word.size()));
     if (rest == "end") {

@@ -37,10 +37,10 @@ TEST(Script, TimesAreAbsoluteOrRelativeToTheLineAbove) {
   const auto script = parse_script("# power\n0.5 power opr\n+1.25 pb 13  # range\n\n3 tdc 0.5 0\n+0 tdc press\n", "x");
   ASSERT_TRUE(script) << script.error().message();
   ASSERT_EQ(script->events.size(), 4U);
-  EXPECT_EQ(script->events[0].sim_time_ns, 500'000'000);
-  EXPECT_EQ(script->events[1].sim_time_ns, 1'750'000'000);
-  EXPECT_EQ(script->events[2].sim_time_ns, 3'000'000'000);
-  EXPECT_EQ(script->events[3].sim_time_ns, 3'000'000'000);
+  EXPECT_EQ(script->events[0].time_ns, 500'000'000);
+  EXPECT_EQ(script->events[1].time_ns, 1'750'000'000);
+  EXPECT_EQ(script->events[2].time_ns, 3'000'000'000);
+  EXPECT_EQ(script->events[3].time_ns, 3'000'000'000);
   EXPECT_EQ(databuffer::text_of(script->events[1].event), "pb 13");
   EXPECT_EQ(script->end_ns, std::nullopt);
 }
@@ -100,6 +100,18 @@ TEST(ScriptSource, AfterAResetItPlaysAgainFromThere) {
   EXPECT_EQ(taken(source, kSecond / 2), "");
   EXPECT_EQ(taken(source, kSecond), "pb 3");
   EXPECT_EQ(taken(source, 0), "pb 2");
+}
+
+TEST(ScriptSource, AScriptThatBeginsWithPlusCountsFromItsStart) {
+  auto source = source_of("+0 pb 2\n+1 pb 3\n5 pb 4\n+1 end\n");
+  EXPECT_EQ(taken(source, 100 * kSecond), "pb 2");
+  EXPECT_EQ(taken(source, 101 * kSecond), "pb 3");
+  EXPECT_EQ(taken(source, 105 * kSecond), "pb 4");
+  EXPECT_FALSE(source.ended());
+  EXPECT_EQ(taken(source, 7 * kSecond), "pb 2");
+  EXPECT_EQ(taken(source, 8 * kSecond), "pb 3");
+  taken(source, 13 * kSecond);
+  EXPECT_TRUE(source.ended());
 }
 
 TEST(ScriptSource, TheShippedScriptSwitchesTheRadarOn) {
