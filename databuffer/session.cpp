@@ -170,6 +170,7 @@ void Session::State::enter_table() {
     ProcessEntry& entry = write().processes[i];
     shm::store_text(entry.name.data(), entry.name.size(), process_name);
     entry.heartbeat_ns = monotonic_ns();
+    entry.progress = 0;
     entry.pid.store(getpid(), std::memory_order_release);
     return;
   }
@@ -313,7 +314,8 @@ std::vector<ProcessHere> Session::processes() const {
   for (std::size_t i = 0; i < kProcesses; ++i) {
     const ProcessEntry& entry = layout().processes[i];
     if (entry.pid == 0 || !state_->segment->is_locked(kFirstProcessByte + i)) continue;
-    here.push_back({entry.pid, shm::load_text(entry.name.data(), entry.name.size()), entry.heartbeat_ns});
+    here.push_back(
+        {entry.pid, shm::load_text(entry.name.data(), entry.name.size()), entry.heartbeat_ns, entry.progress});
   }
   return here;
 }
@@ -322,6 +324,11 @@ void Session::heartbeat() {
   if (state_->table_byte == 0) return;
   state_->write().processes[state_->table_byte - kFirstProcessByte].heartbeat_ns.store(monotonic_ns(),
                                                                                        std::memory_order_relaxed);
+}
+
+void Session::show_progress(std::uint32_t progress) {
+  if (state_->table_byte == 0) return;
+  state_->write().processes[state_->table_byte - kFirstProcessByte].progress.store(progress, std::memory_order_release);
 }
 
 ClockState Session::clock() const {

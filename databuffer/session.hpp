@@ -29,6 +29,7 @@ struct ProcessHere {
   std::int32_t pid;
   std::string name;
   std::int64_t heartbeat_ns;  // CLOCK_MONOTONIC of the last heartbeat
+  std::uint32_t progress;     // see ProcessEntry
 };
 
 // A byte lock held; the kernel frees it when the process dies. Moving it moves the lock.
@@ -71,6 +72,8 @@ class Session {
   bool ownship_lane_is_held(std::size_t lane) const;
   bool input_lane_is_held(std::size_t lane) const;
   std::vector<ProcessHere> processes() const;  // who takes part, dead entries left out
+  // How far this process has come; what it means is the role's (see ProcessEntry).
+  void show_progress(std::uint32_t progress);
   void heartbeat();  // shows in `yars status`; call about once a second or each tick (it is one store)
 
   // Session clock: sim time [ns] of this moment; the state behind it.

@@ -32,9 +32,9 @@ inline constexpr std::size_t kNoteKinds = 5;
 
 // For people: who is here. Presence is decided by locks, not by this table.
 struct ProcessEntry {
-  std::atomic<std::int64_t> heartbeat_ns;  // CLOCK_MONOTONIC
-  std::atomic<std::int32_t> pid;           // 0 = free
-  std::atomic<std::uint32_t> reserved;
+  std::atomic<std::int64_t> heartbeat_ns;          // CLOCK_MONOTONIC
+  std::atomic<std::int32_t> pid;                   // 0 = free
+  std::atomic<std::uint32_t> progress;             // of a glass: the radar state's version (low 32 bits) that is on it
   std::array<std::atomic<std::uint64_t>, 3> name;  // 23 characters and a zero
 };
 

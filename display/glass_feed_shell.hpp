@@ -19,6 +19,8 @@ class GlassFeed {
 
   // Takes over what is new. Times are those of the moment or of the tick.
   void refresh(std::int64_t sim_time_ns);
+  // What is in input() is on the glass: others can measure how long a button takes.
+  void note_shown() { session_->show_progress(static_cast<std::uint32_t>(state_version_)); }
   const GlassInput& input() const { return input_; }
 
  private:

@@ -39,6 +39,7 @@ failure::Expected<void> run_headless_live(databuffer::Session& session, display:
     if (frames.is_due(sim_time_ns)) {
       glass.draw(feed.input());
       if (auto written = frames.write(glass.read()); !written) return written;
+      feed.note_shown();
     }
     std::this_thread::sleep_for(kHeadlessLook);
   }
@@ -58,6 +59,7 @@ failure::Expected<void> run_headless_lockstep(databuffer::TickLoop& loop, displa
     if (frames.is_due(last_ns)) {
       glass.draw(feed.input());
       if (auto written = frames.write(glass.read()); !written) return written;
+      feed.note_shown();
     }
     loop.done(*due);
   }
@@ -99,18 +101,20 @@ class WindowGlass {
     if (window_.should_close()) databuffer::request_stop();
   }
 
-  void redraw(const display::GlassInput& input) {
+  // True when what the input says is on the glass.
+  bool redraw(const display::GlassInput& input) {
     const std::int64_t now_ns = monotonic_ns();
-    if (now_ns < next_redraw_ns_) return;
+    if (now_ns < next_redraw_ns_) return false;
     next_redraw_ns_ = now_ns + kRedrawInterval_ns;
     const auto pixels = window_.pixels();
     const int size = std::min(pixels.width, pixels.height);
-    if (size <= 0) return;  // an icon
+    if (size <= 0) return false;  // an icon
     if (size != glass_.size()) glass_.resize(size);
-    if (!glass_.draw(input) && !stale_) return;
+    if (!glass_.draw(input) && !stale_) return true;
     glass_.show(pixels.width, pixels.height);
     window_.present();
     stale_ = false;
+    return true;
   }
 
  private:
@@ -137,7 +141,7 @@ failure::Expected<void> run_window(databuffer::Session& session, const radar::Ra
       session.heartbeat();
       shown.take_input(kRedrawInterval_ns);
       feed.refresh(session.sim_time_ns());
-      shown.redraw(feed.input());
+      if (shown.redraw(feed.input())) feed.note_shown();
     }
     pilot->release_all();
     return {};
@@ -147,7 +151,7 @@ failure::Expected<void> run_window(databuffer::Session& session, const radar::Ra
   while (const auto due = loop->wait()) {
     shown.take_input(0);
     feed.refresh(due->sim_time_ns);
-    shown.redraw(feed.input());
+    if (shown.redraw(feed.input())) feed.note_shown();
     loop->done(*due);
   }
   if (loop->failed()) return failure::fail("lockstep", "a partner that steps", "none");
