@@ -57,9 +57,9 @@ struct ReceiverConfiguration {
   double stc_exponent = 3.0;       // sensitivity time control (R/R0)^n
   double dynamic_range_db = 45.0;  // [dB] of the log receiver, black to white at gain 3
   double gain_step_db = 8.0;       // [dB] a step of GAIN 3..0
-  double noise_floor_db = -38.0;   // [dB] thermal noise below full scale
+  double noise_floor_db = -42.0;   // [dB] thermal noise below full scale
   double land_gamma_db = -14.0;    // [dB] sigma0 = gamma sin(psi)
-  double sea_gamma_db = -30.0;     // [dB] until the sea model of a later issue
+  double sea_gamma_db = -38.0;     // [dB] until the sea model of a later issue
   int looks = 4;                   // of land and sea speckle
 };
 
