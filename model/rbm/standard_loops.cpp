@@ -18,18 +18,12 @@ inline float larger(float a, float b) {
 inline float smaller(float a, float b) {
   return a < b ? a : b;
 }
-}  // namespace
 
-YARS_LANES void sight(std::size_t count, const SweepConstants& constants, const float* __restrict distance_m,
-                      const float* __restrict elevation_m, const SightArrays& out) {
-  const float altitude_m = constants.altitude_m;
-  const float curvature = constants.curvature;
-  float* __restrict tangent = out.tangent;
-  float* __restrict range_inverse = out.range_inverse;
-  float* __restrict sin_grazing = out.sin_grazing;
-  float* __restrict cos_grazing = out.cos_grazing;
-  float* __restrict sin_sight = out.sin_sight;
-  float* __restrict cos_sight = out.cos_sight;
+// Restrict holds for parameters only: without it eight arrays need more overlap checks than the compiler makes.
+YARS_LANES void sight_loop(std::size_t count, float altitude_m, float curvature, const float* __restrict distance_m,
+                           const float* __restrict elevation_m, float* __restrict tangent,
+                           float* __restrict range_inverse, float* __restrict sin_grazing,
+                           float* __restrict cos_grazing, float* __restrict sin_sight, float* __restrict cos_sight) {
   for (std::size_t i = 0; i < count; ++i) {
     const float elevation = elevation_m[i];
     const bool known = elevation == elevation;
@@ -54,6 +48,14 @@ YARS_LANES void sight(std::size_t count, const SweepConstants& constants, const 
     sin_sight[i] = up_m * inverse;
     cos_sight[i] = out_m * inverse;
   }
+}
+
+}  // namespace
+
+void sight(std::size_t count, const SweepConstants& constants, const float* distance_m, const float* elevation_m,
+           const SightArrays& out) {
+  sight_loop(count, constants.altitude_m, constants.curvature, distance_m, elevation_m, out.tangent, out.range_inverse,
+             out.sin_grazing, out.cos_grazing, out.sin_sight, out.cos_sight);
 }
 
 YARS_LANES void running_maximum(std::size_t count, const float* __restrict tangent, float* __restrict spare,
