@@ -118,13 +118,13 @@ double Reference::cell_power(const Receiver& receiver, const EffectiveEarth& ear
 void Reference::smear_pulse(const Receiver& receiver, double spacing_m, std::span<float> power) const {
   const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   const PulseSmear smear = make_pulse_smear(pulse_samples);
-  const auto count = static_cast<int>(samples_.size());
-  for (int i = 0; i < count; ++i) {
+  const auto count = static_cast<std::ptrdiff_t>(samples_.size());
+  const std::ptrdiff_t reach = smear.reach;
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
     double sum = 0.0;
-    for (int offset = -smear.reach; offset <= smear.reach; ++offset) {
-      const int neighbour = i + offset;
-      if (neighbour < 0 || neighbour >= count) continue;
-      sum += smear.weights[static_cast<std::size_t>(offset + smear.reach)] *
+    for (std::ptrdiff_t neighbour = std::max<std::ptrdiff_t>(i - reach, 0); neighbour <= std::min(i + reach, count - 1);
+         ++neighbour) {
+      sum += smear.weights[static_cast<std::size_t>(neighbour - i + reach)] *
              samples_[static_cast<std::size_t>(neighbour)].power;
     }
     power[static_cast<std::size_t>(i)] = static_cast<float>(sum);
@@ -150,7 +150,7 @@ void Reference::develop(const PowerWindow& window, geo::Length range, int gain, 
       total *= speckle(state, resolution_cell(static_cast<std::uint32_t>(i), cells), receiver.looks);
     }
     const double level = 1.0 + (10.0 * std::log10(total) + gain_db) / receiver.decibels_per_scale;
-    video[i] = static_cast<std::uint8_t>(std::clamp(255.0 * level, 0.0, 255.0) + 0.5);
+    video[i] = static_cast<std::uint8_t>(std::lround(std::clamp(255.0 * level, 0.0, 255.0)));
   }
 }
 

@@ -126,7 +126,7 @@ TEST(Reference, AVoidReturnsNothingAndHidesNothing) {
   }
 }
 
-TEST(Reference, WaterReturnsSixteenDecibelsLessThanLand) {
+TEST(Reference, WaterReturnsLessThanLandByTheRatioOfTheirGammas) {
   const auto sea = seen(terrain::flat(0.0));
   const auto land = seen(terrain::flat(0.001));
   const radar::ReceiverConfiguration receiver;
@@ -204,7 +204,10 @@ TEST(Reference, AGainStepTakesItsDecibelsOff) {
 }
 
 TEST(Reference, AVideoLevelIsALogarithmOfPower) {
-  Reference reference(bare_configuration(3));
+  radar::RadarConfiguration configuration = bare_configuration(3);
+  configuration.receiver.dynamic_range_db = 45.0;
+  configuration.receiver.noise_floor_db = -38.0;
+  Reference reference(configuration);
   const std::vector<float> power{1.0F, 0.1F, 0.0F};
   std::vector<std::uint8_t> video(3);
   reference.develop({power, power, power}, geo::Length::metres(kRangeM), 3, {}, video);
