@@ -1,6 +1,7 @@
 #include "databuffer/flight_shell.hpp"
 
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "databuffer/log.hpp"
@@ -10,6 +11,8 @@ namespace yars::databuffer {
 
 namespace {
 
+// [ns] After a longer gap it was not a restart but somebody who wants a flight from its start.
+constexpr std::int64_t kLongestGap_ns = 10'000'000'000;
 constexpr std::int64_t kTicksBetweenRecords = 4;  // 50 Hz: more changes no sweep, less shows as steps of the apex
 
 }  // namespace
@@ -18,6 +21,7 @@ FlightShell::FlightShell(Session& session, flight::FlightSource source, int lane
     : session_(&session), source_(std::move(source)), lane_(static_cast<std::size_t>(lane)), every_tick_(every_tick) {}
 
 void FlightShell::step(const TickLoop::Due& due) {
+  if (!started_ && !every_tick_) resume(due);
   if (due.new_epoch) begin_epoch(due.clock);
   const flight::FlightSample sample = source_.model->step(time_since_last(due));
   const bool first = !started_ || due.new_epoch;
@@ -52,6 +56,23 @@ void FlightShell::begin_epoch(const ClockState& clock) {
   }
   session_->note(NoteKind::refusal, "repositioning: " + source_.description + " follows its file alone");
   log_warning("repositioning is refused: " + source_.description + " follows its file alone");
+}
+
+void FlightShell::resume(const TickLoop::Due& due) {
+  ModelStatus model{};
+  if (!session_->layout().model_status.read(model) || why_refused(model.ownship)) return;
+  const Ownship& last = model.ownship;
+  const flight::FlightSample own = source_.model->step({});
+  const std::int64_t gap_ns = due.sim_time_ns - last.source_time_ns;
+  if (std::string_view(own.ownship.source) != last.source || last.epoch != due.clock.epoch || gap_ns < 0 ||
+      gap_ns > kLongestGap_ns)
+    return;
+  const flight::Placement placement{{last.latitude_deg, last.longitude_deg},
+                                    geo::AltitudeMsl::metres(last.altitude_msl_m),
+                                    geo::Bearing::degrees(last.heading_deg)};
+  if (!source_.model->reposition(placement)) return;
+  session_->note(NoteKind::restart, "flight-model resumes");
+  log_info("resumes where its predecessor was");
 }
 
 void FlightShell::publish(const TickLoop::Due& due, flight::FlightSample sample) {

@@ -35,7 +35,7 @@ class TickLoop {
     bool new_epoch = false;     // the clock's epoch differs from the call before
   };
   // Waits; nullopt = stop was requested, the last tick of a lockstep run is done, or a lockstep partner is gone
-  // (then failed() is true). Live and with nothing due it returns at least every `longest_wait_ms`.
+  // (then failed() is true). While the clock is frozen it does not return.
   std::optional<Due> wait();
   // Must follow each wait() that gave a tick, once all its outputs are published.
   void done(const Due& due);

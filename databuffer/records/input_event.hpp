@@ -1,4 +1,4 @@
-// One thing that a pilot's hand, a panel or a program did. Text forms: databuffer/event_text.hpp.
+// One thing that a pilot's hand, a panel or a program did. Text forms: databuffer/records/event_text.hpp.
 #pragma once
 
 #include <cstddef>

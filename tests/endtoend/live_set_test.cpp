@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "lib/imageio/png.hpp"
@@ -108,6 +109,11 @@ TEST_F(LiveSet, WhatIsKilledComesBackAsItWas) {
       return watch["processes"].contains(role) && !watch["ownship"].is_null() && as_set(watch);
     })) << set_.watch().dump();
   }
+  // The aircraft has flown on, through every death of its flight model: 480 kt east since sim time 0.
+  const auto flown = set_.watch();
+  const double expected_deg =
+      -123.0 + flown["sim_time"].get<double>() * 246.9 / (111320.0 * std::cos(37.5 * 0.0174533));
+  EXPECT_NEAR(flown["ownship"]["lon"].get<double>(), expected_deg, 0.06) << flown.dump();
   inject({"freeze"});
   const std::uint64_t sweeps = set_.watch()["sweeps"];
   EXPECT_TRUE(set_.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps + 100; }));
