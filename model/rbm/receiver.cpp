@@ -86,12 +86,13 @@ double two_way_gain(radar::BeamPattern pattern, double beamwidth_rad, double ant
 
 PulseSmear make_pulse_smear(double pulse_samples) {
   PulseSmear smear;
-  const double length = std::clamp(pulse_samples, 1.0, 2.0 * PulseSmear::kMostReach);
+  const double length = std::clamp(pulse_samples, 1.0, 2.0 * static_cast<double>(PulseSmear::kMostReach));
   const double half = 0.5 * length;
-  smear.reach = static_cast<int>(std::ceil(half - 0.5));
-  for (int offset = -smear.reach; offset <= smear.reach; ++offset) {
+  smear.reach = static_cast<std::ptrdiff_t>(std::ceil(half - 0.5));
+  for (std::ptrdiff_t offset = -smear.reach; offset <= smear.reach; ++offset) {
     // The share of the pulse that lies over this sample.
-    const double overlap = std::min(offset + 0.5, half) - std::max(offset - 0.5, -half);
+    const auto place = static_cast<double>(offset);
+    const double overlap = std::min(place + 0.5, half) - std::max(place - 0.5, -half);
     smear.weights[static_cast<std::size_t>(offset + smear.reach)] = std::max(0.0, overlap) / length;
   }
   return smear;

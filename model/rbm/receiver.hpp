@@ -55,8 +55,8 @@ inline constexpr double kTwoWayExponent = 5.545;
 // Pulse smear: weights over samples -reach..reach of a pulse of this many samples, sum 1. A pulse shorter than a
 // sample smears nothing.
 struct PulseSmear {
-  static constexpr int kMostReach = 32;  // samples; a longer pulse is cut
-  int reach = 0;
+  static constexpr std::ptrdiff_t kMostReach = 32;  // samples; a longer pulse is cut
+  std::ptrdiff_t reach = 0;
   std::array<double, 2 * kMostReach + 1> weights{};
 };
 PulseSmear make_pulse_smear(double pulse_samples);

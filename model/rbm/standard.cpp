@@ -60,7 +60,7 @@ std::size_t Standard::measure(const Look& look, const terrain::TerrainView& terr
   const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   const PulseSmear smear = make_pulse_smear(pulse_samples);
   std::fill(power.begin(), power.end(), 0.0F);
-  for (int offset = -smear.reach; offset <= smear.reach; ++offset) {
+  for (std::ptrdiff_t offset = -smear.reach; offset <= smear.reach; ++offset) {
     const auto weight = static_cast<float>(smear.weights[static_cast<std::size_t>(offset + smear.reach)]);
     loops::add_weighted(count_, power_.data() + offset, weight, power.data());
   }
