@@ -3,7 +3,9 @@
 
 #include "config/draft.hpp"
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a path of fields cannot stand in parentheses.
 #define YARS_FIELD(path)                       \
   [](::yars::config::Draft & draft) -> auto& { \
     return draft.path;                         \
   }
+// NOLINTEND(bugprone-macro-parentheses)

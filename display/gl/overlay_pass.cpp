@@ -60,6 +60,7 @@ void main() {
 void instance_attribute(GLuint location, int first_float) {
   glEnableVertexAttribArray(location);
   glVertexAttribPointer(location, 4, GL_FLOAT, GL_FALSE, kFloatsPerInstance * sizeof(float),
+                        // OpenGL takes an offset in the shape of a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
                         reinterpret_cast<const void*>(static_cast<std::size_t>(first_float) * sizeof(float)));
   glVertexAttribDivisor(location, 1);
 }

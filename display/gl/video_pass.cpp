@@ -65,6 +65,7 @@ std::uint32_t new_texture(GLint filter) {
 void instance_attribute(GLuint location, GLint components, int first_float) {
   glEnableVertexAttribArray(location);
   glVertexAttribPointer(location, components, GL_FLOAT, GL_FALSE, kFloatsPerWedge * sizeof(float),
+                        // OpenGL takes an offset in the shape of a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
                         reinterpret_cast<const void*>(static_cast<std::size_t>(first_float) * sizeof(float)));
   glVertexAttribDivisor(location, 1);
 }

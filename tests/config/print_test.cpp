@@ -15,7 +15,6 @@ namespace yars::config {
 namespace {
 
 using testing::fields;
-using testing::Folder;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::loaded;
