@@ -25,9 +25,9 @@ int code_of(int status) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-pid_t spawn(const std::vector<std::string>& command, const std::filesystem::path& output,
+// `program`: a path, or a name to be found by PATH.
+pid_t spawn(const std::string& program, const std::vector<std::string>& command, const std::filesystem::path& output,
             const std::filesystem::path& errors) {
-  const std::string program = std::string(YARS_BIN_DIR) + "/" + command.front();
   std::vector<char*> arguments;
   for (const auto& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
@@ -39,7 +39,7 @@ pid_t spawn(const std::vector<std::string>& command, const std::filesystem::path
   dup2(in, 0);
   dup2(out, 1);
   dup2(err, 2);
-  execv(program.c_str(), arguments.data());
+  execvp(program.c_str(), arguments.data());
   _exit(127);
 }
 
@@ -71,15 +71,35 @@ bool eventually(const std::function<bool()>& condition, double patience_s) {
   return true;
 }
 
-Finished run_program(const std::vector<std::string>& command, double patience_s) {
+namespace {
+
+std::string in_bin(const std::string& name) {
+  return std::string(YARS_BIN_DIR) + "/" + name;
+}
+
+Finished run(const std::string& program, const std::vector<std::string>& command, double patience_s) {
   const auto folder = fresh_folder("run");
-  const pid_t child = spawn(command, folder / "output", folder / "errors");
+  const pid_t child = spawn(program, command, folder / "output", folder / "errors");
   Finished finished;
   finished.code = wait_for(child, patience_s);
   finished.output = read_file(folder / "output");
   finished.errors = read_file(folder / "errors");
   std::filesystem::remove_all(folder);
   return finished;
+}
+
+}  // namespace
+
+Finished run_program(const std::vector<std::string>& command, double patience_s) {
+  return run(in_bin(command.front()), command, patience_s);
+}
+
+Finished run_tool(const std::vector<std::string>& command, double patience_s) {
+  return run(command.front(), command, patience_s);
+}
+
+bool tool_exists(const std::string& name) {
+  return run_tool({"sh", "-c", "command -v " + name}).code == 0;
 }
 
 ProcessSet::ProcessSet(const std::string& session)
@@ -96,7 +116,11 @@ ProcessSet::~ProcessSet() {
 void ProcessSet::start(const std::string& name, std::vector<std::string> arguments) {
   std::vector<std::string> command{arguments.front(), "--session", session_};
   command.insert(command.end(), arguments.begin() + 1, arguments.end());
-  pids_[name] = spawn(command, folder_ / (name + ".out"), folder_ / (name + ".log"));
+  pids_[name] = spawn(in_bin(command.front()), command, folder_ / (name + ".out"), folder_ / (name + ".log"));
+}
+
+void ProcessSet::start_tool(const std::string& name, const std::vector<std::string>& command) {
+  pids_[name] = spawn(command.front(), command, folder_ / (name + ".out"), folder_ / (name + ".log"));
 }
 
 void ProcessSet::kill(const std::string& name, int signal) {
@@ -119,6 +143,10 @@ bool ProcessSet::runs(const std::string& name) {
 
 std::string ProcessSet::log_of(const std::string& name) const {
   return read_file(folder_ / (name + ".log"));
+}
+
+std::string ProcessSet::output_of(const std::string& name) const {
+  return read_file(folder_ / (name + ".out"));
 }
 
 std::map<std::string, int> ProcessSet::end_all() {

@@ -21,6 +21,9 @@ struct Finished {
 
 // Runs a program of the bin folder to its end.
 Finished run_program(const std::vector<std::string>& command, double patience_s = 60.0);
+// Runs a program of the system, found by PATH.
+Finished run_tool(const std::vector<std::string>& command, double patience_s = 60.0);
+bool tool_exists(const std::string& name);
 
 class ProcessSet {
  public:
@@ -35,12 +38,15 @@ class ProcessSet {
 
   // Starts a role under its name; its standard error goes to folder()/NAME.log.
   void start(const std::string& name, std::vector<std::string> arguments);
+  // A program of the system that the test needs beside the set, found by PATH; no --session.
+  void start_tool(const std::string& name, const std::vector<std::string>& command);
   void kill(const std::string& name, int signal);
   // Waits for the end of one process; exit code as in Finished.
   int wait(const std::string& name, double patience_s = 60.0);
   bool runs(const std::string& name);
   pid_t pid(const std::string& name) const { return pids_.at(name); }
   std::string log_of(const std::string& name) const;
+  std::string output_of(const std::string& name) const;
   // Ends all with SIGTERM; gives the exit codes.
   std::map<std::string, int> end_all();
 
