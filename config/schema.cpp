@@ -100,8 +100,8 @@ struct UsedBy {
   bool operator()(const FormSlot& form) const {
     // A form is used when it can be of a kind that is: colours are not, yet.
     return std::any_of(form.accepted.begin(), form.accepted.end(), [](std::string_view name) {
-      const auto& slots = find_form(name).schema->slots;
-      return std::any_of(slots.begin(), slots.end(), is_used);
+      const FormSchema* accepted = find_form(name).schema;
+      return accepted != nullptr && std::any_of(accepted->slots.begin(), accepted->slots.end(), is_used);
     });
   }
   bool operator()(const ChoiceSlot& choice) const { return choice.set != nullptr; }
