@@ -1,0 +1,54 @@
+// The yardstick of shm_benchmark: the same ring, copied in and out by libc's memcpy. A benchmark's ring only: a torn
+// copy is found by its sequence, yet the copying itself is a data race in C++.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <cstring>
+
+#include "shm/broadcast_ring.hpp"
+
+namespace yars::benchmarks {
+
+template <class T, std::size_t N>
+class MemcpyRing {
+ public:
+  std::uint64_t publish(const T& record) {
+    const std::uint64_t number = next_.load(std::memory_order_relaxed);
+    Slot& slot = slots_[number % N];
+    const std::size_t used = shm::used_words(record) * sizeof(shm::Word);
+    slot.sequence.store(2 * number + 1, std::memory_order_relaxed);
+    std::atomic_thread_fence(std::memory_order_release);
+    slot.used = used;
+    std::memcpy(&slot.record, &record, used);
+    slot.sequence.store(2 * number + 2, std::memory_order_release);
+    next_.store(number + 1, std::memory_order_release);
+    return number;
+  }
+
+  std::uint64_t next() const { return next_.load(std::memory_order_acquire); }
+
+  shm::RingRead read(std::uint64_t& cursor, T& out) const {
+    if (cursor == next()) return {false, 0};
+    const Slot& slot = slots_[cursor % N];
+    const std::uint64_t whole = 2 * cursor + 2;
+    if (slot.sequence.load(std::memory_order_acquire) != whole) return {false, 0};
+    std::memcpy(&out, &slot.record, slot.used);
+    std::atomic_thread_fence(std::memory_order_acquire);
+    if (slot.sequence.load(std::memory_order_relaxed) != whole) return {false, 0};
+    ++cursor;
+    return {true, 0};
+  }
+
+ private:
+  struct alignas(shm::kCacheLine) Slot {
+    std::atomic<std::uint64_t> sequence;
+    std::size_t used;
+    T record;
+  };
+  alignas(shm::kCacheLine) std::atomic<std::uint64_t> next_;
+  std::array<Slot, N> slots_;
+};
+
+}  // namespace yars::benchmarks
