@@ -50,6 +50,7 @@ inline auto fields(const radar::RadarConfiguration& configuration) {
   const auto& [name, ranges, widths, windows, pulses, antenna, view, fidelity, receiver, terrain, route, seed,
                variation] = configuration;
   std::vector<decltype(fields(route[0]))> points;
+  points.reserve(route.size());
   for (const auto& point : route) points.push_back(fields(point));
   return std::tuple(name, ranges, widths, windows, pulses, fields(antenna), fields(view), fields(fidelity),
                     fields(receiver), fields(terrain), points, seed, variation);
