@@ -102,8 +102,7 @@ TEST_F(LiveSet, WhatIsKilledComesBackAsItWas) {
     SCOPED_TRACE(role);
     set_.kill(role, SIGKILL);
     EXPECT_EQ(set_.wait(role), 128 + SIGKILL);
-    for (const auto& other : roles)
-      if (other != role) EXPECT_TRUE(set_.runs(other)) << other << set_.log_of(other);
+    for (const auto& other : roles) EXPECT_EQ(set_.runs(other), other != role) << other << set_.log_of(other);
     start(role);
     ASSERT_TRUE(set_.wait_until([&](const auto& watch) {
       return watch["processes"].contains(role) && !watch["ownship"].is_null() && as_set(watch);
