@@ -2,8 +2,9 @@
 // x86-64 keeps loads in order among themselves and stores in order among themselves (Intel SDM vol. 3, 9.2.2), so a
 // block loaded is two acquire loads and a block stored two release stores; the clobber holds the compiler to it. A
 // block torn between its words is caught by the sequence around it like any other torn record. Words alone reach
-// 0.4 to 0.75 of a memcpy ring's speed on a whole sweep, blocks 0.97 and more (docs/decisions/0005). On other processors,
-// and under ThreadSanitizer, which understands the language's atomics only, kWideMoves is false and words travel.
+// 0.4 to 0.75 of a memcpy ring's speed on a whole sweep, blocks 0.97 and more (docs/decisions/0005). On other
+// processors, and under ThreadSanitizer, which understands the language's atomics only, kWideMoves is false and words
+// travel.
 #pragma once
 
 #include <cstddef>

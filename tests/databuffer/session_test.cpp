@@ -95,7 +95,7 @@ TEST(SimTime, FollowsRateAndFreeze) {
 
 TEST_F(SessionTest, NamesOutsideTheRuleAreRefused) {
   for (const std::string& bad : {std::string(), std::string("a.b"), std::string("a/b"), std::string("../x"),
-                                std::string("with space"), std::string("\xc3\xa4"), std::string(41, 'a')}) {
+                                 std::string("with space"), std::string("\xc3\xa4"), std::string(41, 'a')}) {
     EXPECT_FALSE(Session::open(bad, "tester")) << bad;
     EXPECT_FALSE(Session::open_read_only(bad)) << bad;
   }
