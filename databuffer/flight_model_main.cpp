@@ -26,8 +26,7 @@ failure::Expected<void> run(const databuffer::ProgramOptions& options, const std
     if (due->skipped > 0)
       session->note(databuffer::NoteKind::late_tick, "flight-model skipped " + std::to_string(due->skipped));
   }
-  if (loop->failed()) return failure::fail("lockstep", "a partner that steps", "none");
-  return {};
+  return loop->outcome();
 }
 
 }  // namespace

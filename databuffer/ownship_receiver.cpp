@@ -27,6 +27,9 @@ void OwnshipReceiver::receive(const SessionLayout& layout, std::size_t index) {
     ++refused_;
     last_refusal_ = std::string(record) + " in lane " + std::to_string(index) + ": " + reason;
   };
+  // A lane taken away holds nothing of its last writer for the next one.
+  if (!layout.ownship[index].has_value()) lane.accepted = 0;
+  if (!layout.nav[index].has_value()) lane.has_nav = false;
   if (layout.ownship[index].version() != lane.version) {
     Ownship ownship{};
     if (const auto version = layout.ownship[index].read(ownship)) {

@@ -24,7 +24,6 @@ void install_signal_handlers() {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  std::signal(SIGPIPE, SIG_IGN);
 }
 
 }  // namespace
@@ -66,6 +65,8 @@ int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& opti
   }
   try {
     auto error = begin_program(app.get_name(), options);
+    // A role outlives whoever reads its log.
+    std::signal(SIGPIPE, SIG_IGN);
     if (!error) {
       if (auto outcome = body(); !outcome) error = outcome.error();
     }
@@ -85,6 +86,11 @@ failure::Error usage_error(failure::Error error) {
 
 failure::Error usage_error(std::string subject, std::string expected, std::string found, std::string action) {
   return {std::move(subject), std::move(expected), std::move(found), std::move(action), true};
+}
+
+void let_signals_end_the_process() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
 }
 
 bool stop_requested() {

@@ -39,6 +39,9 @@ void print_failure(const std::string& program, const std::string& message);
 failure::Error usage_error(failure::Error error);
 failure::Error usage_error(std::string subject, std::string expected, std::string found, std::string action = {});
 
+// For a command that never looks at stop_requested(): SIGINT and SIGTERM end it at once again.
+void let_signals_end_the_process();
+
 // True after SIGINT, SIGTERM or request_stop().
 bool stop_requested();
 void request_stop();

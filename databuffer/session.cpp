@@ -36,7 +36,8 @@ bool name_is_valid(std::string_view name) {
 
 Expected<void> check_name(const std::string& name) {
   if (name_is_valid(name)) return {};
-  return fail("session name", "1 to 40 letters, digits, '-' or '_'", "\"" + name + "\"", "choose another --session");
+  return tl::unexpected(failure::Error{"session name", "1 to 40 letters, digits, '-' or '_'", "\"" + name + "\"",
+                                       "choose another --session", true});
 }
 
 void initialize(void* memory) {
@@ -338,12 +339,16 @@ std::int64_t Session::sim_time_ns() const {
   return sim_time_at(clock(), monotonic_ns());
 }
 
-Expected<void> Session::set_clock(const ClockState& clock) {
+Expected<void> Session::set_clock(const ClockState& state) {
+  return change_clock([&state](const ClockState&) { return state; });
+}
+
+Expected<void> Session::change_clock(const std::function<ClockState(const ClockState&)>& change) {
   constexpr auto kByte = static_cast<std::size_t>(Role::clock);
   if (!state_->segment->writable()) return fail_read_only("clock");
   for (int attempt = 0; attempt < kClockAttempts; ++attempt) {
     if (const auto claim = state_->take(kByte, -1)) {
-      layout().clock.publish(clock);
+      layout().clock.publish(change(state_->clock_now()));
       return {};
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -79,7 +80,8 @@ class Session {
   // Session clock: sim time [ns] of this moment; the state behind it.
   ClockState clock() const;
   std::int64_t sim_time_ns() const;
-  // Takes the clock's byte for the moment of the change.
+  // Takes the clock's byte for the moment of the change, so that of two changes at once none is lost.
+  failure::Expected<void> change_clock(const std::function<ClockState(const ClockState&)>& change);
   failure::Expected<void> set_clock(const ClockState& state);
 
   // A line into the flight recorder (also counted): refusals, restarts, losses, late ticks.

@@ -11,14 +11,15 @@
 #include <ctime>
 #include <string>
 
-#include "databuffer/log.hpp"
 #include "databuffer/program.hpp"
 
 namespace yars::databuffer {
 
 namespace {
 
-constexpr std::int64_t kLongestSleep_ns = 20'000'000;  // [ns] a change of the clock is seen within this
+// [ns] a change of the clock is seen within this: at the highest rate, 10, that is 10 ticks, fewer than are skipped.
+constexpr std::int64_t kLongestSleep_ns = 5'000'000;
+constexpr double kFarAhead_ns = 1e15;  // [ns] beyond it a deadline is only 'later'; keeps the cast in range
 constexpr std::int64_t kPartnerPatience_ns =
     60'000'000'000;                                     // [ns] a lockstep partner silent so long is taken for dead
 constexpr std::int64_t kPartnerCheck_ns = 100'000'000;  // [ns] between looks at the stop flag while waiting
@@ -89,7 +90,12 @@ failure::Expected<TickLoop> TickLoop::create(Session& session, LockstepRole role
   if ((plan->roles & (1U << loop.role_)) == 0U)
     return tl::unexpected(
         usage_error("--lockstep", "a list with this role, " + std::string(kRoleNames[loop.role_]), lockstep));
-  // All roles of a set are given the same plan, so it does not matter who writes it, or twice.
+  if (shared.enabled.load(std::memory_order_acquire) != 0 &&
+      (shared.roles.load(std::memory_order_relaxed) != plan->roles ||
+       shared.end_tick.load(std::memory_order_relaxed) != plan->end_tick))
+    return failure::fail("--lockstep", "the plan that the session runs by", "another one, " + lockstep,
+                         "give every role of a set the same --lockstep, or use another session");
+  // Every role of a set has the same plan, so it does not matter who writes it, or twice.
   shared.roles.store(plan->roles, std::memory_order_relaxed);
   shared.end_tick.store(plan->end_tick, std::memory_order_relaxed);
   shared.enabled.store(1, std::memory_order_release);
@@ -137,7 +143,8 @@ std::optional<TickLoop::Due> TickLoop::wait_live() {
     if (clock.running != 0 && clock.rate > 0.0) {
       const double ahead_ns =
           static_cast<double>(next_tick_ * radar::kTickNanoseconds - clock.base_sim_ns) / clock.rate;
-      wake_ns = std::min(wake_ns, clock.base_monotonic_ns + static_cast<std::int64_t>(ahead_ns) + 1);
+      wake_ns =
+          std::min(wake_ns, clock.base_monotonic_ns + static_cast<std::int64_t>(std::min(ahead_ns, kFarAhead_ns)) + 1);
     }
     sleep_until(std::max(wake_ns, now_ns + 1));
     session_->heartbeat();
@@ -158,8 +165,6 @@ std::optional<TickLoop::Due> TickLoop::wait_lockstep() {
     if (stop_requested()) return std::nullopt;
     if (monotonic_ns() > patience_ns) {
       failed_ = true;
-      log_error("lockstep: waited 60 s for " + std::string(kRoleNames[predecessor_]) + " to do tick " +
-                std::to_string(needed) + "; start it, or end the set");
       return std::nullopt;
     }
     futex_wait(word, seen, kPartnerCheck_ns);
@@ -174,6 +179,12 @@ std::optional<TickLoop::Due> TickLoop::wait_lockstep() {
   due.tick = next_tick_++;
   due.sim_time_ns = due.tick * radar::kTickNanoseconds;
   return due;
+}
+
+failure::Expected<void> TickLoop::outcome() const {
+  if (!failed_) return {};
+  return failure::fail("lockstep", std::string(kRoleNames[predecessor_]) + " to do tick " + std::to_string(next_tick_),
+                       "60 s of silence", "start it with the same --lockstep, or end the set");
 }
 
 void TickLoop::done(const Due& due) {

@@ -35,13 +35,14 @@ class TickLoop {
     bool new_epoch = false;     // the clock's epoch differs from the call before
   };
   // Waits; nullopt = stop was requested, the last tick of a lockstep run is done, or a lockstep partner is gone
-  // (then failed() is true). While the clock is frozen it does not return.
+  // (then outcome() says so). While the clock is frozen it returns only for a new epoch.
   std::optional<Due> wait();
   // Must follow each wait() that gave a tick, once all its outputs are published.
   void done(const Due& due);
 
   bool lockstep() const { return lockstep_; }
-  bool failed() const { return failed_; }
+  // What ended a lockstep run before its last tick; nothing after a clean end.
+  failure::Expected<void> outcome() const;
   std::uint64_t late_ticks() const { return late_ticks_; }  // skipped since the start
 
  private:
@@ -53,7 +54,7 @@ class TickLoop {
   Session* session_;
   std::size_t role_;
   bool lockstep_ = false;
-  bool failed_ = false;
+  bool failed_ = false;  // a partner was silent for too long
   bool started_ = false;
   std::size_t predecessor_ = 0;
   bool first_in_chain_ = false;

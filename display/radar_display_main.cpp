@@ -63,7 +63,7 @@ failure::Expected<void> run_headless_lockstep(databuffer::TickLoop& loop, displa
     }
     loop.done(*due);
   }
-  if (loop.failed()) return failure::fail("lockstep", "a partner that steps", "none");
+  if (auto outcome = loop.outcome(); !outcome) return outcome;
   glass.draw(feed.input());
   return frames.write_last(glass.read(), last_ns);
 }
@@ -154,8 +154,7 @@ failure::Expected<void> run_window(databuffer::Session& session, const radar::Ra
     if (shown.redraw(feed.input())) feed.note_shown();
     loop->done(*due);
   }
-  if (loop->failed()) return failure::fail("lockstep", "a partner that steps", "none");
-  return {};
+  return loop->outcome();
 }
 
 failure::Expected<void> run(const databuffer::ProgramOptions& options, const DisplayOptions& display_options) {

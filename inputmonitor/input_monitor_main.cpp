@@ -22,8 +22,7 @@ failure::Expected<void> run(const databuffer::ProgramOptions& options, const std
   databuffer::log_info("reads " + (*source)->description());
   inputmonitor::InputMonitorShell shell(*session, std::move(*source), lane->lane());
   shell.run(*loop);
-  if (loop->failed()) return failure::fail("lockstep", "a partner that steps", "none");
-  return {};
+  return loop->outcome();
 }
 
 }  // namespace

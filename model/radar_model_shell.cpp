@@ -35,7 +35,9 @@ void RadarModelShell::resume() {
   if (!session_->layout().model_status.read(left)) return;
   kernel_.resume(left);
   status_.sweeps = left.sweeps;
-  status_.late_ticks = left.late_ticks;
+  late_before_ = left.late_ticks;
+  tick_.ownship = left.ownship;
+  status_.nav = left.nav;
   refused_ = left.refused;
   session_->note(databuffer::NoteKind::restart, "radar-model resumes at scan " + std::to_string(left.scan));
   databuffer::log_info("resumes at scan " + std::to_string(left.scan));
@@ -57,9 +59,12 @@ void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
   tick_.tick = due.tick;
   tick_.sim_time_ns = due.sim_time_ns;
   tick_.epoch = due.clock.epoch;
-  tick_.ownship = selected.ownship;
+  // Without a fresh source the last one known stands, also a predecessor's.
+  if (selected.valid) {
+    tick_.ownship = selected.ownship;
+    status_.nav = selected.nav;
+  }
   tick_.ownship_lane = selected.lane;
-  status_.nav = selected.nav;
   if (ownship_.refused() > ownship_refused_) {
     ownship_refused_ = ownship_.refused();
     session_->note(databuffer::NoteKind::refusal, ownship_.last_refusal());
@@ -114,7 +119,7 @@ void RadarModelShell::publish_status(std::uint64_t late_ticks) {
   status_.ownship = tick_.ownship;
   status_.ownship_lane = tick_.ownship_lane;
   status_.load = std::round(load_ * 1000.0) / 1000.0;
-  status_.late_ticks = late_ticks;
+  status_.late_ticks = late_before_ + late_ticks;
   status_.refused = refused_ + ownship_.refused();
   status_.tick = tick_.tick;
   status_.sim_time_ns = tick_.sim_time_ns;

@@ -37,6 +37,7 @@ class RadarModelShell {
   std::uint64_t state_version_ = 0;
   std::uint64_t refused_ = 0;          // radar states
   std::uint64_t ownship_refused_ = 0;  // ownships and navs already noted
+  std::uint64_t late_before_ = 0;      // ticks that predecessors skipped
   double load_ = 0.0;
   bool first_tick_ = true;
 };

@@ -24,8 +24,7 @@ failure::Expected<void> run(const databuffer::ProgramOptions& options) {
     if (due->skipped > 0)
       session->note(databuffer::NoteKind::late_tick, "state-machine skipped " + std::to_string(due->skipped));
   }
-  if (loop->failed()) return failure::fail("lockstep", "a partner that steps", "none");
-  return {};
+  return loop->outcome();
 }
 
 }  // namespace

@@ -75,7 +75,14 @@ void inject(const CommonOptions& common, const std::vector<std::string>& argumen
     event.session_time_ns = session->sim_time_ns();
     event.monotonic_ns = databuffer::monotonic_ns();
     event.number = ++number;
-    if (!session->layout().input.push(static_cast<std::size_t>(lane->lane()), event))
+    const auto push = [&] { return session->layout().input.push(static_cast<std::size_t>(lane->lane()), event); };
+    const std::int64_t deadline_ns = event.monotonic_ns + kPatience_ns;
+    bool sent = push();
+    while (!sent && databuffer::monotonic_ns() < deadline_ns && !databuffer::stop_requested()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      sent = push();
+    }
+    if (!sent)
       give_up({"inject", "room in the input lane", "a full lane", "start state-machine, or send fewer events at once",
                false});
   }

@@ -1,6 +1,7 @@
 // `yars record`: the recorder. Reads rings and the latest radar state, writes the tick log.
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
 #include <optional>
 
 #include "databuffer/log.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 using databuffer::Session;
 
-constexpr std::int64_t kPause_ns = 50'000'000;  // [ns] between looks; the rings hold 5 s
+constexpr std::int64_t kPause_ns = 50'000'000;  // [ns] between looks; the rings hold 5 s of sim time
 
 struct RecordOptions {
   std::string file;
@@ -26,8 +27,10 @@ struct RecordOptions {
 
 class Recorder {
  public:
-  Recorder(Session& session, TickLogWriter& writer)
+  Recorder(Session& session, TickLogWriter& writer, bool from_the_begin)
       : session_(&session), writer_(&writer), state_(session.layout().radar_state) {
+    // From the first tick of a lockstep run: what was done before the recorder came is still in the rings.
+    if (from_the_begin) return;
     const auto& layout = session.layout();
     tick_cursor_ = layout.model_ticks.next();
     event_cursor_ = layout.applied_events.next();
@@ -37,6 +40,7 @@ class Recorder {
     if (layout.model_status.read(start.status)) {
       writer.write(start);
       from_tick_ = start.status.tick + 1;
+      from_epoch_ = start.status.epoch;
     }
   }
 
@@ -45,7 +49,8 @@ class Recorder {
     databuffer::ModelTick tick{};
     const auto& layout = session_->layout();
     while (take(layout.model_ticks, tick_cursor_, tick, gap.ticks))
-      if (!from_tick_ || tick.tick >= *from_tick_ || (tick.flags & databuffer::kTickRestart) != 0U) {
+      if (!from_tick_ || tick.tick >= *from_tick_ || tick.epoch != from_epoch_ ||
+          (tick.flags & databuffer::kTickRestart) != 0U) {
         from_tick_.reset();
         writer_->write(tick);
         ++ticks_;
@@ -78,6 +83,7 @@ class Recorder {
   TickLogWriter* writer_;
   std::uint64_t tick_cursor_ = 0, event_cursor_ = 0, sweep_cursor_ = 0;
   std::optional<std::int64_t> from_tick_;
+  std::uint32_t from_epoch_ = 0;
   shm::LatestReader<databuffer::RadarState> state_;
   databuffer::Sweep sweep_{};
   std::uint64_t ticks_ = 0, sweeps_ = 0;
@@ -104,7 +110,15 @@ bool record_in_lockstep(Session& session, Recorder& recorder, TickLogWriter& wri
     recorder.drain();
     loop->done(*due);
   }
-  return writer.flush();
+  recorder.drain();
+  const bool whole = writer.flush();
+  if (auto outcome = loop->outcome(); !outcome) give_up(outcome.error());
+  return whole;
+}
+
+// A recording may be replayed from another folder.
+std::string absolute(const std::string& path) {
+  return path.empty() ? path : std::filesystem::absolute(path).string();
 }
 
 void record(const CommonOptions& common, const RecordOptions& options) {
@@ -112,9 +126,12 @@ void record(const CommonOptions& common, const RecordOptions& options) {
   if (!session) give_up(session.error());
   auto role = session->claim(databuffer::Role::recorder);
   if (!role) give_up(databuffer::usage_error(role.error()));
-  auto writer = TickLogWriter::create(options.file, {common.config, options.terrain});
+  auto writer = TickLogWriter::create(options.file, {absolute(common.config), absolute(options.terrain)});
   if (!writer) give_up(writer.error());
-  Recorder recorder(*session, *writer);
+  const auto recorder_index = static_cast<std::size_t>(databuffer::LockstepRole::recorder);
+  const bool from_the_begin =
+      !options.lockstep.empty() && session->layout().lockstep.done_tick[recorder_index].load() < 0;
+  Recorder recorder(*session, *writer, from_the_begin);
   databuffer::log_info("records session " + common.session + " to " + options.file);
   const bool whole = options.lockstep.empty() ? record_live(*session, recorder, *writer)
                                               : record_in_lockstep(*session, recorder, *writer, options.lockstep);

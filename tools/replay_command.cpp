@@ -41,6 +41,10 @@ class Comparison {
       settle(recorded_, made_, key(mark.epoch, mark.number), mark.hash);
   }
   std::uint64_t run_hash = 0xcbf29ce484222325ULL;
+  // Recorded sweeps that were not made here, and the other way round.
+  std::uint64_t missing() const { return recorded_.size(); }
+  std::uint64_t extra() const { return made_.size(); }
+
   std::uint64_t equal = 0, different = 0, not_ready = 0;
 
  private:
@@ -111,6 +115,7 @@ radar::RadarConfiguration configuration_of(const CommonOptions& common, const Ti
 
 void print_entries(TickLogReader& reader) {
   while (const auto entry = reader.next()) {
+    if (databuffer::stop_requested()) return;
     nlohmann::ordered_json object;
     if (const auto* event = std::get_if<databuffer::AppliedEvent>(&*entry)) {
       object["tick"] = event->tick;
@@ -139,7 +144,8 @@ void replay(const CommonOptions& common, const ReplayOptions& options) {
   std::optional<Replay> run;
   std::uint64_t events = 0, lost = 0;
   while (auto entry = reader->next()) {
-    if (databuffer::stop_requested()) break;
+    if (databuffer::stop_requested())
+      give_up({options.file, "time to read it to its end", "a request to stop", "", false});
     if (const auto* tick = std::get_if<ModelTick>(&*entry)) {
       configuration.fidelity.samples = static_cast<int>(tick->samples);
       if (!run) run.emplace(configuration, **store);
@@ -161,6 +167,8 @@ void replay(const CommonOptions& common, const ReplayOptions& options) {
                                       {"sweeps", run->sweeps},
                                       {"equal", run->comparison.equal},
                                       {"different", run->comparison.different},
+                                      {"missing", run->comparison.missing()},
+                                      {"extra", run->comparison.extra()},
                                       {"not_ready", run->comparison.not_ready},
                                       {"run_hash", run->comparison.run_hash},
                                       {"ticks_lost", lost},
@@ -168,7 +176,11 @@ void replay(const CommonOptions& common, const ReplayOptions& options) {
   std::printf("%s\n", object.dump().c_str());
   if (run->comparison.different > 0)
     give_up({options.file, "the sweeps of the recording", std::to_string(run->comparison.different) + " different ones",
-             "replay with the same terrain and configuration", false});
+             lost > 0 ? std::to_string(lost) + " ticks are missing in the recording"
+                      : "replay with the same terrain and configuration",
+             false});
+  if (run->comparison.equal == 0 && run->comparison.missing() > 0)
+    give_up({options.file, "the sweeps of the recording", "none of them", "replay with the same configuration", false});
 }
 
 }  // namespace

@@ -99,9 +99,6 @@ void write_result(const ScanOptions& options, const radar::ViewConfiguration& vi
     if (auto written = imageio::write_png(path, scan_picture(sweeps, view, color)); !written) give_up(written.error());
     return;
   }
-  if (path.extension() != ".csv" && path.extension() != ".f32") {
-    give_up(databuffer::usage_error("--out", "a name that ends in .png, .csv or .f32", options.out));
-  }
   std::ofstream file(path, std::ios::binary);
   if (path.extension() == ".csv") {
     write_csv(file, sweeps);
@@ -112,7 +109,14 @@ void write_result(const ScanOptions& options, const radar::ViewConfiguration& vi
   if (!file) give_up({options.out, "a file that can be written", "an error", "check the folder and the space left"});
 }
 
+void check_output(const std::string& out) {
+  const auto suffix = std::filesystem::path(out).extension();
+  if (!out.empty() && suffix != ".png" && suffix != ".csv" && suffix != ".f32")
+    give_up(databuffer::usage_error("--out", "a name that ends in .png, .csv or .f32", out));
+}
+
 void scan(const CommonOptions& common, const ScanOptions& options) {
+  check_output(options.out);
   const radar::RadarConfiguration configuration = configure(common, options);
   const model::kernel::ScanRequest request = request_of(options);
   auto store = model::terrain::open_terrain(configuration.terrain);

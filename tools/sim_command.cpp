@@ -1,9 +1,11 @@
 // `yars sim`: the session's clock and the aircraft's place.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <thread>
+#include <utility>
 
 #include "databuffer/program.hpp"
 #include "databuffer/session.hpp"
@@ -23,6 +25,9 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 Session open_session(const CommonOptions& common) {
   auto running = Session::open_read_only(common.session);
   if (!running) give_up(running.error());
+  if (std::as_const(*running).layout().lockstep.enabled.load() != 0)
+    give_up(
+        {"yars sim", "a live session", "one in lockstep, whose time is its ticks", "use it on a live session", false});
   auto session = Session::open(common.session, "yars sim");
   if (!session) give_up(session.error());
   return std::move(*session);
@@ -36,8 +41,9 @@ ClockState rebased(const ClockState& clock) {
   return next;
 }
 
-void set_clock(Session& session, const ClockState& clock) {
-  if (auto outcome = session.set_clock(clock); !outcome) give_up(outcome.error());
+template <class Change>
+void change_clock(Session& session, const Change& change) {
+  if (auto outcome = session.change_clock(change); !outcome) give_up(outcome.error());
 }
 
 void report(const Session& session) {
@@ -48,9 +54,11 @@ void report(const Session& session) {
 
 void set_running(const CommonOptions& common, bool running) {
   auto session = open_session(common);
-  ClockState clock = rebased(session.clock());
-  clock.running = running ? 1 : 0;
-  set_clock(session, clock);
+  change_clock(session, [running](const ClockState& clock) {
+    ClockState next = rebased(clock);
+    next.running = running ? 1 : 0;
+    return next;
+  });
   report(session);
 }
 
@@ -58,40 +66,65 @@ void set_rate(const CommonOptions& common, double rate) {
   if (!std::isfinite(rate) || rate < 0.0 || rate > kFastestRate)
     give_up(databuffer::usage_error("rate", "0 to 10", std::to_string(rate)));
   auto session = open_session(common);
-  ClockState clock = rebased(session.clock());
-  clock.rate = rate;
-  set_clock(session, clock);
+  change_clock(session, [rate](const ClockState& clock) {
+    ClockState next = rebased(clock);
+    next.rate = rate;
+    return next;
+  });
   report(session);
 }
 
-// Frozen time is moved on in portions that no role has to skip.
+void pause_for_roles() {
+  std::this_thread::sleep_for(std::chrono::milliseconds(30));
+}
+
+// Frozen time is moved on in portions that no role has to skip; each from the clock as it then is.
 void step(const CommonOptions& common, std::int64_t ticks) {
   if (ticks < 1)
     give_up(databuffer::usage_error("step", "a number of ticks of 5 ms, 1 or more", std::to_string(ticks)));
   auto session = open_session(common);
-  ClockState clock = rebased(session.clock());
-  clock.running = 0;
-  // On a tick's edge, so that one step is one tick.
-  clock.base_sim_ns -= clock.base_sim_ns % radar::kTickNanoseconds;
+  const std::uint32_t epoch = session.clock().epoch;
   while (ticks > 0 && !databuffer::stop_requested()) {
     const std::int64_t portion = std::min(ticks, kStepsAtOnce);
-    clock.base_sim_ns += portion * radar::kTickNanoseconds;
-    set_clock(session, clock);
+    change_clock(session, [&](const ClockState& clock) {
+      ClockState next = rebased(clock);
+      next.running = 0;
+      if (clock.epoch != epoch) return next;
+      // On a tick's edge, so that one step is one tick.
+      next.base_sim_ns += portion * radar::kTickNanoseconds - next.base_sim_ns % radar::kTickNanoseconds;
+      return next;
+    });
+    if (session.clock().epoch != epoch)
+      give_up(
+          {"step", "the epoch in which it began", "a reset or repositioning by somebody else", "step again", false});
     ticks -= portion;
-    // Longer than the 20 ms in which a frozen role looks at the clock.
-    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    pause_for_roles();
   }
   report(session);
 }
 
+// A new epoch begins with one tick of each role in no order; another one, when frozen, lets all see all.
+void settle_when_frozen(Session& session) {
+  if (session.clock().running != 0) return;
+  pause_for_roles();
+  change_clock(session, [](const ClockState& clock) {
+    ClockState next = clock;
+    next.base_sim_ns += radar::kTickNanoseconds;
+    return next;
+  });
+}
+
 void reset(const CommonOptions& common) {
   auto session = open_session(common);
-  ClockState clock = session.clock();
-  clock.base_monotonic_ns = databuffer::monotonic_ns();
-  clock.base_sim_ns = 0;
-  ++clock.epoch;
-  clock.reposition_latitude_deg = kNaN;
-  set_clock(session, clock);
+  change_clock(session, [](const ClockState& clock) {
+    ClockState next = clock;
+    next.base_monotonic_ns = databuffer::monotonic_ns();
+    next.base_sim_ns = 0;
+    ++next.epoch;
+    next.reposition_latitude_deg = kNaN;
+    return next;
+  });
+  settle_when_frozen(session);
   report(session);
 }
 
@@ -106,13 +139,16 @@ void reposition(const CommonOptions& common, const Place& place) {
     give_up(databuffer::usage_error(
         "reposition", "LAT [-90, 90], LON [-180, 180], ALT_FT [-3000, 600000], HDG [0, 360]", "a value outside"));
   auto session = open_session(common);
-  ClockState clock = rebased(session.clock());
-  ++clock.epoch;
-  clock.reposition_latitude_deg = place.latitude_deg;
-  clock.reposition_longitude_deg = place.longitude_deg;
-  clock.reposition_altitude_m = place.altitude_ft * geo::kMetresPerFoot;
-  clock.reposition_heading_deg = std::fmod(place.heading_deg, 360.0);
-  set_clock(session, clock);
+  change_clock(session, [&place](const ClockState& clock) {
+    ClockState next = rebased(clock);
+    ++next.epoch;
+    next.reposition_latitude_deg = place.latitude_deg;
+    next.reposition_longitude_deg = place.longitude_deg;
+    next.reposition_altitude_m = place.altitude_ft * geo::kMetresPerFoot;
+    next.reposition_heading_deg = std::fmod(place.heading_deg, 360.0);
+    return next;
+  });
+  settle_when_frozen(session);
   report(session);
 }
 

@@ -118,7 +118,7 @@ void status(const CommonOptions& common, const StatusOptions& options) {
   if (!session) give_up(session.error());
   const auto object = status_object(*session, common.session);
   if (options.json)
-    std::printf("%s\n", object.dump(2).c_str());
+    std::printf("%s\n", object.dump(2, ' ', false, ordered_json::error_handler_t::replace).c_str());
   else
     print_for_people(object);
 }

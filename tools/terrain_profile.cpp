@@ -21,7 +21,15 @@ struct Options {
   double step_m = 100.0;
 };
 
+// Written so that a NaN does not pass.
+bool on_the_earth(const std::vector<double>& place_deg) {
+  return std::abs(place_deg[0]) <= 90.0 && std::abs(place_deg[1]) <= 360.0;
+}
+
 void profile(const Options& options) {
+  if (!on_the_earth(options.from_deg) || !on_the_earth(options.to_deg))
+    give_up({"terrain profile", "latitudes in [-90, 90] and longitudes in [-360, 360] degrees", "one outside",
+             "check --from and --to", true});
   auto store = model::terrain::open_terrain(options.terrain);
   if (!store) give_up(store.error());
   const geo::GeoPoint from{options.from_deg[0], options.from_deg[1]};

@@ -33,12 +33,13 @@ void print_line_for_people(const nlohmann::ordered_json& object) {
   std::printf("  sweeps %llu\n", static_cast<unsigned long long>(object["sweeps"].get<std::uint64_t>()));
 }
 
-void print(const nlohmann::ordered_json& object, bool json) {
+// False when nobody reads any more.
+bool print(const nlohmann::ordered_json& object, bool json) {
   if (json)
-    std::printf("%s\n", object.dump().c_str());
+    std::printf("%s\n", object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
   else
     print_line_for_people(object);
-  std::fflush(stdout);
+  return std::fflush(stdout) == 0;
 }
 
 void watch(const CommonOptions& common, const WatchOptions& options) {
@@ -52,7 +53,7 @@ void watch(const CommonOptions& common, const WatchOptions& options) {
     if (version != seen || now_ns - printed_ns >= kAtLeast_ns) {
       seen = version;
       printed_ns = now_ns;
-      print(watch_object(*session), options.json);
+      if (!print(watch_object(*session), options.json)) return;
     }
     if (options.once) return;
     if (session->processes().empty()) {

@@ -30,6 +30,9 @@ int main(int argc, char** argv) {
   // Runs when all is parsed and before the subcommand's own callback.
   app.parse_complete_callback([&] {
     if (auto error = databuffer::begin_program("yars", options)) tools::give_up(*error);
+    // These compute until they are done and never look at a stop flag.
+    for (const auto* command : {"scan", "terrain", "config"})
+      if (app.got_subcommand(command)) databuffer::let_signals_end_the_process();
     common.session = options.session;
     common.config = options.config;
   });
