@@ -52,7 +52,7 @@ static_assert(sizeof(Note) == 128);
 // flight-model, input-monitor, state-machine, radar-model, radar-display, recorder
 inline constexpr std::size_t kLockstepRoles = 6;
 struct Lockstep {
-  std::atomic<std::uint32_t> enabled;                               // set by the creator before anyone else attaches
+  std::atomic<std::uint32_t> enabled;                               // set by the first role that steps
   std::atomic<std::uint32_t> roles;                                 // bit n: role n takes part
   std::atomic<std::int64_t> end_tick;                               // all stop cleanly after this tick; -1 = none
   std::array<std::atomic<std::int64_t>, kLockstepRoles> done_tick;  // last tick done; -1 = none

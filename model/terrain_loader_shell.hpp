@@ -23,7 +23,7 @@ class TerrainLoader {
 
   // Asks for a region; a newer request replaces one that has not begun. Waits for it if the loader may.
   void request(const terrain::TerrainRegion& region);
-  // The latest view; never null once the first request of a waiting loader, or wait_for_first(), is through.
+  // The latest view; an empty one at first, never null.
   terrain::TerrainViewPointer view() const;
   // What went wrong with cells since the last call; each cell is named once.
   std::vector<std::string> take_problems();

@@ -60,7 +60,7 @@ class TickLogWriter {
   void write(const StartingPoint& start);
   void write(const StateChange& change);
   void write(const Gap& gap);
-  // False once the disk refused something: the file then ends at its last whole chunk.
+  // False once the disk refused something: the file then reads up to its last whole chunk.
   bool flush();
   std::uint64_t bytes() const { return bytes_; }
 

@@ -98,7 +98,7 @@ inline constexpr std::uint32_t kModelFrozen = 1U;  // the scan has stopped at it
 inline constexpr std::uint32_t kModelScanning = 2U;
 inline constexpr std::uint32_t kModelStale = 4U;  // no fresh ownship
 
-// Published every tick in which it changes. A restarted model resumes servo and scan number from it.
+// Published every tick. A restarted model resumes servo and scan number from it.
 struct ModelStatus {
   std::int64_t tick;
   std::int64_t sim_time_ns;
