@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <random>
 
 #include "lib/imageio/png.hpp"
@@ -38,6 +39,12 @@ class LiveSet : public ::testing::Test {
   void start(const std::string& role) {
     if (role == "state-machine" || role == "radar-model") set_.start(role, {role});
     if (role == "flight-model") set_.start(role, {role, "--source", "fixed:37.5,-123.0,15000,90,480"});
+    if (role == "recorder") set_.start(role, {"yars", "record", (set_.folder() / "recording").string()});
+    if (role == "input-monitor") {
+      // Has nothing to send within a test's life.
+      std::ofstream(set_.folder() / "script") << "100000 pb 1\n";
+      set_.start(role, {role, "--source", "script:" + (set_.folder() / "script").string()});
+    }
     if (role == "radar-display") set_.start(role, {role, "--headless", "--frames", frames_.string(), "--every", "0.5"});
   }
 
@@ -94,7 +101,10 @@ TEST_F(LiveSet, WhatIsKilledComesBackAsItWas) {
   constexpr unsigned kSeed = 20260101;
   constexpr int kKillsOfEach = 20;
   SCOPED_TRACE("seed " + std::to_string(kSeed));
-  const std::vector<std::string> roles{"state-machine", "radar-model", "flight-model", "radar-display"};
+  for (const auto* role : {"input-monitor", "recorder"}) start(role);
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() >= 6; })) << set_.watch().dump();
+  const std::vector<std::string> roles{"state-machine", "radar-model",   "flight-model",
+                                       "radar-display", "input-monitor", "recorder"};
   std::vector<std::string> order;
   for (int round = 0; round < kKillsOfEach; ++round) order.insert(order.end(), roles.begin(), roles.end());
   std::shuffle(order.begin(), order.end(), std::mt19937(kSeed));
