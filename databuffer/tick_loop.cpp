@@ -152,25 +152,39 @@ std::optional<TickLoop::Due> TickLoop::wait_live() {
   return std::nullopt;
 }
 
-std::optional<TickLoop::Due> TickLoop::wait_lockstep() {
+bool TickLoop::wait_for(std::size_t role, std::int64_t tick) {
   auto& shared = session_->layout().lockstep;
-  const std::int64_t end_tick = shared.end_tick.load(std::memory_order_relaxed);
-  if (end_tick >= 0 && next_tick_ > end_tick) return std::nullopt;
-  const std::int64_t needed = first_in_chain_ ? next_tick_ - 1 : next_tick_;
-  auto& word = shared.wake[predecessor_];
+  auto& word = shared.wake[role];
   const std::int64_t patience_ns = monotonic_ns() + kPartnerPatience_ns;
-  while (true) {
+  awaited_role_ = role;
+  awaited_tick_ = tick;
+  while (!stop_requested()) {
     const std::uint32_t seen = word.load(std::memory_order_acquire);
-    if (shared.done_tick[predecessor_].load(std::memory_order_acquire) >= needed) break;
-    if (stop_requested()) return std::nullopt;
+    if (shared.done_tick[role].load(std::memory_order_acquire) >= tick) return true;
     if (monotonic_ns() > patience_ns) {
       failed_ = true;
-      return std::nullopt;
+      return false;
     }
     futex_wait(word, seen, kPartnerCheck_ns);
     session_->heartbeat();
   }
-  if (stop_requested()) return std::nullopt;
+  return false;
+}
+
+// Who leaves takes its lane along: nobody goes before all have done the last tick.
+void TickLoop::wait_for_all(std::int64_t tick) {
+  const std::uint32_t roles = session_->layout().lockstep.roles.load(std::memory_order_relaxed);
+  for (std::size_t role = 0; role < kLockstepRoles; ++role)
+    if ((roles >> role & 1U) != 0U && !wait_for(role, tick)) return;
+}
+
+std::optional<TickLoop::Due> TickLoop::wait_lockstep() {
+  const std::int64_t end_tick = session_->layout().lockstep.end_tick.load(std::memory_order_relaxed);
+  if (end_tick >= 0 && next_tick_ > end_tick) {
+    wait_for_all(end_tick);
+    return std::nullopt;
+  }
+  if (!wait_for(predecessor_, first_in_chain_ ? next_tick_ - 1 : next_tick_)) return std::nullopt;
   Due due;
   due.clock = session_->clock();
   due.new_epoch = started_ && due.clock.epoch != epoch_;
@@ -183,7 +197,8 @@ std::optional<TickLoop::Due> TickLoop::wait_lockstep() {
 
 failure::Expected<void> TickLoop::outcome() const {
   if (!failed_) return {};
-  return failure::fail("lockstep", std::string(kRoleNames[predecessor_]) + " to do tick " + std::to_string(next_tick_),
+  return failure::fail("lockstep",
+                       std::string(kRoleNames[awaited_role_]) + " to do tick " + std::to_string(awaited_tick_),
                        "60 s of silence", "start it with the same --lockstep, or end the set");
 }
 

@@ -49,6 +49,9 @@ class TickLoop {
   TickLoop(Session& session, LockstepRole role) : session_(&session), role_(static_cast<std::size_t>(role)) {}
   std::optional<Due> wait_live();
   std::optional<Due> wait_lockstep();
+  // False: stop was requested, or that role was silent for too long.
+  bool wait_for(std::size_t role, std::int64_t tick);
+  void wait_for_all(std::int64_t tick);
   Due due_at(const ClockState& clock, std::int64_t newest);
 
   Session* session_;
@@ -58,6 +61,8 @@ class TickLoop {
   bool started_ = false;
   std::size_t predecessor_ = 0;
   bool first_in_chain_ = false;
+  std::size_t awaited_role_ = 0;
+  std::int64_t awaited_tick_ = 0;
   std::int64_t next_tick_ = 0;
   std::uint32_t epoch_ = 0;
   std::uint64_t late_ticks_ = 0;
