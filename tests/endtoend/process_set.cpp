@@ -8,6 +8,7 @@
 #include <chrono>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <thread>
 
 namespace yars::endtoend {
@@ -32,6 +33,8 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& command,
   for (const auto& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   const pid_t child = fork();
+  // A -1 handed on would make every kill() reach all processes there are.
+  if (child < 0) throw std::runtime_error("no process for " + program);
   if (child != 0) return child;
   const int in = open("/dev/null", O_RDONLY | O_CLOEXEC);
   const int out = open(output.c_str(), O_CREAT | O_WRONLY | O_APPEND | O_CLOEXEC, 0600);

@@ -7,8 +7,10 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <new>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -32,6 +34,8 @@ class ChildProcess {
   // `body` returns the exit code, if anything; no destructor of the parent's objects runs in the child.
   template <class Body>
   explicit ChildProcess(Body body) : pid_(fork()) {
+    if (pid_ < 0)
+      throw std::system_error(errno, std::generic_category(), "fork");  // kill(-1, ...) would fell everything
     if (pid_ != 0) return;
     if constexpr (std::is_void_v<decltype(body())>) {
       body();
