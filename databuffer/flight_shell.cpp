@@ -21,8 +21,9 @@ FlightShell::FlightShell(Session& session, flight::FlightSource source, int lane
     : session_(&session), source_(std::move(source)), lane_(static_cast<std::size_t>(lane)), every_tick_(every_tick) {}
 
 void FlightShell::step(const TickLoop::Due& due) {
-  if (!started_ && !every_tick_) resume(due);
-  if (due.new_epoch) begin_epoch(due.clock);
+  // A repositioning that came while nobody flew is this flight's too.
+  const bool placed_before = !started_ && !resume(due) && !std::isnan(due.clock.reposition_latitude_deg);
+  if (due.new_epoch || placed_before) begin_epoch(due.clock);
   const flight::FlightSample sample = source_.model->step(time_since_last(due));
   const bool first = !started_ || due.new_epoch;
   started_ = true;
@@ -58,21 +59,20 @@ void FlightShell::begin_epoch(const ClockState& clock) {
   log_warning("repositioning is refused: " + source_.description + " follows its file alone");
 }
 
-void FlightShell::resume(const TickLoop::Due& due) {
+// True if it took up where a predecessor of this epoch was.
+bool FlightShell::resume(const TickLoop::Due& due) {
   ModelStatus model{};
-  if (!session_->layout().model_status.read(model) || why_refused(model.ownship)) return;
+  if (every_tick_ || !session_->layout().model_status.read(model) || why_refused(model.ownship)) return false;
   const Ownship& last = model.ownship;
   const flight::FlightSample own = source_.model->step({});
   const std::int64_t gap_ns = due.sim_time_ns - last.source_time_ns;
   if (std::string_view(own.ownship.source) != last.source || last.epoch != due.clock.epoch || gap_ns < 0 ||
       gap_ns > kLongestGap_ns)
-    return;
-  const flight::Placement placement{{last.latitude_deg, last.longitude_deg},
-                                    geo::AltitudeMsl::metres(last.altitude_msl_m),
-                                    geo::Bearing::degrees(last.heading_deg)};
-  if (!source_.model->reposition(placement)) return;
+    return false;
+  if (!source_.model->resume(last, geo::Duration::seconds(1e-9 * static_cast<double>(gap_ns)))) return false;
   session_->note(NoteKind::restart, "flight-model resumes");
   log_info("resumes where its predecessor was");
+  return true;
 }
 
 void FlightShell::publish(const TickLoop::Due& due, flight::FlightSample sample) {

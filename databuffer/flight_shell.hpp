@@ -20,7 +20,7 @@ class FlightShell {
   geo::Duration time_since_last(const TickLoop::Due& due) const;
   void begin_epoch(const ClockState& clock);
   // Goes on where a flight model of the same source died a moment ago: the radar's status still shows it there.
-  void resume(const TickLoop::Due& due);
+  bool resume(const TickLoop::Due& due);
   void publish(const TickLoop::Due& due, flight::FlightSample sample);
 
   Session* session_;

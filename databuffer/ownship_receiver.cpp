@@ -71,6 +71,7 @@ const OwnshipReceiver::Selected& OwnshipReceiver::refresh(const SessionLayout& l
   const Lane& lane = lanes_[*selection_.lane];
   selected_.lane = static_cast<std::uint32_t>(*selection_.lane);
   selected_.ownship = lane.ownship;
+  selected_.received_ns = selection_.memory[*selection_.lane].received_ns.value_or(sim_time_ns);
   selected_.nav = lane.has_nav ? lane.nav : nav_from_truth(lane.ownship);
   return selected_;
 }

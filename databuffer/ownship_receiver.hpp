@@ -20,6 +20,7 @@ class OwnshipReceiver {
     std::uint32_t lane = kNoLane;
     Ownship ownship{};  // of the lane; the last one used when none is fresh
     Nav nav{};
+    std::int64_t received_ns = 0;  // [ns] sim time of the tick that met it first
   };
   // `sim_time_ns` is the time of the tick: receipt is judged by it, so that lockstep and live agree.
   const Selected& refresh(const SessionLayout& layout, std::int64_t sim_time_ns);

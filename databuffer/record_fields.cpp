@@ -41,6 +41,7 @@ constexpr std::array kOwnshipFields = {
     YARS_FIELD(Ownship, epoch),
     YARS_FIELD(Ownship, flags),
     YARS_FIELD(Ownship, source),
+    YARS_FIELD(Ownship, flight_time_s),
 };
 
 constexpr std::array kNavFields = {
@@ -140,7 +141,7 @@ constexpr std::array kModelTickFields = {
     YARS_FIELD(ModelTick, tick),     YARS_FIELD(ModelTick, sim_time_ns),        YARS_FIELD(ModelTick, ownship),
     YARS_FIELD(ModelTick, command),  YARS_FIELD(ModelTick, terrain_generation), YARS_FIELD(ModelTick, epoch),
     YARS_FIELD(ModelTick, flags),    YARS_FIELD(ModelTick, ownship_lane),       YARS_FIELD(ModelTick, samples),
-    YARS_FIELD(ModelTick, fidelity),
+    YARS_FIELD(ModelTick, fidelity), YARS_FIELD(ModelTick, resumed_tick),
 };
 
 constexpr std::array kAppliedEventFields = {
@@ -208,6 +209,7 @@ constexpr std::array kModelStatusFields = {
     YARS_FIELD(ModelStatus, scan_tick),
     YARS_FIELD(ModelStatus, antenna_phase),
     YARS_FIELD(ModelStatus, scan_noise_only),
+    YARS_FIELD(ModelStatus, ownship_received_ns),
 };
 
 constexpr std::array kNoteFields = {

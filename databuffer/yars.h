@@ -71,7 +71,8 @@ typedef struct {
   double velocity_north_mps, velocity_east_mps, velocity_down_mps, radar_altitude_m;
   uint32_t epoch, flags;
   char source[16];
-  uint64_t reserved[4];
+  double flight_time_s;
+  uint64_t reserved[3];
 } yars_ownship;
 
 typedef struct {
@@ -129,7 +130,8 @@ typedef struct {
   double scan_centre_deg, scan_width_deg, scan_range_m;
   uint32_t scan_tick;
   uint8_t antenna_phase, scan_noise_only, reserved0[2];
-  uint64_t reserved[12];
+  int64_t ownship_received_ns;
+  uint64_t reserved[11];
 } yars_model_status;
 
 /* ---- The session ---- */

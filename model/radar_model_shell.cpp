@@ -31,6 +31,7 @@ RadarModelShell::RadarModelShell(databuffer::Session& session, const radar::Rada
 }
 
 void RadarModelShell::resume() {
+  tick_.resumed_tick = -1;
   databuffer::ModelStatus left{};
   if (!session_->layout().model_status.read(left)) return;
   kernel_.resume(left);
@@ -38,6 +39,8 @@ void RadarModelShell::resume() {
   late_before_ = left.late_ticks;
   tick_.ownship = left.ownship;
   status_.nav = left.nav;
+  status_.ownship_received_ns = left.ownship_received_ns;
+  tick_.resumed_tick = left.tick;
   refused_ = left.refused;
   session_->note(databuffer::NoteKind::restart, "radar-model resumes at scan " + std::to_string(left.scan));
   databuffer::log_info("resumes at scan " + std::to_string(left.scan));
@@ -63,6 +66,7 @@ void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
   if (selected.valid) {
     tick_.ownship = selected.ownship;
     status_.nav = selected.nav;
+    status_.ownship_received_ns = selected.received_ns;
   }
   tick_.ownship_lane = selected.lane;
   if (ownship_.refused() > ownship_refused_) {

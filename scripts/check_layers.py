@@ -40,7 +40,8 @@ LAYERS = {
     "inputmonitor": ROLE,
     "display": ROLE,
     "display/gl": ROLE + ["display"],
-    "tools": SEGMENT + MODEL + ["statemachine", "display"],
+    "tools/recording": MODEL,
+    "tools": SEGMENT + ["tools/recording"] + MODEL + ["statemachine", "display"],
     "tests": None,  # None: everything
 }
 

@@ -9,7 +9,7 @@
 #include "databuffer/session.hpp"
 #include "databuffer/tick_loop.hpp"
 #include "tools/command.hpp"
-#include "tools/tick_log.hpp"
+#include "tools/recording/tick_log.hpp"
 
 namespace yars::tools {
 
@@ -27,7 +27,7 @@ struct RecordOptions {
 
 class Recorder {
  public:
-  Recorder(Session& session, TickLogWriter& writer, bool from_the_begin)
+  Recorder(Session& session, recording::TickLogWriter& writer, bool from_the_begin)
       : session_(&session), writer_(&writer), state_(session.layout().radar_state) {
     // From the first tick of a lockstep run: what was done before the recorder came is still in the rings.
     if (from_the_begin) return;
@@ -36,7 +36,7 @@ class Recorder {
     event_cursor_ = layout.applied_events.next();
     sweep_cursor_ = layout.sweeps.next();
     // The status may be of a later tick than the cursor: ticks up to it are not written.
-    StartingPoint start{};
+    recording::StartingPoint start{};
     if (layout.model_status.read(start.status)) {
       writer.write(start);
       from_tick_ = start.status.tick + 1;
@@ -45,7 +45,7 @@ class Recorder {
   }
 
   void drain() {
-    Gap gap{};
+    recording::Gap gap{};
     databuffer::ModelTick tick{};
     const auto& layout = session_->layout();
     while (take(layout.model_ticks, tick_cursor_, tick, gap.ticks))
@@ -58,9 +58,9 @@ class Recorder {
     databuffer::AppliedEvent event{};
     while (take(layout.applied_events, event_cursor_, event, gap.events)) writer_->write(event);
     // The latest state, not a ring: live, a state that lasted less than a look is passed over.
-    if (state_.refresh()) writer_->write(StateChange{state_.value()});
+    if (state_.refresh()) writer_->write(recording::StateChange{state_.value()});
     while (take(layout.sweeps, sweep_cursor_, sweep_, gap.sweeps)) {
-      writer_->write(SweepMark{sweep_.tick, sweep_.hash, sweep_.epoch, sweep_.number, sweep_.flags, 0});
+      writer_->write(recording::SweepMark{sweep_.tick, sweep_.hash, sweep_.epoch, sweep_.number, sweep_.flags, 0});
       ++sweeps_;
     }
     if (gap.ticks + gap.events + gap.sweeps == 0) return;
@@ -80,7 +80,7 @@ class Recorder {
   }
 
   Session* session_;
-  TickLogWriter* writer_;
+  recording::TickLogWriter* writer_;
   std::uint64_t tick_cursor_ = 0, event_cursor_ = 0, sweep_cursor_ = 0;
   std::optional<std::int64_t> from_tick_;
   std::uint32_t from_epoch_ = 0;
@@ -90,7 +90,7 @@ class Recorder {
 };
 
 // Live it looks now and then; in lockstep it is the last of each tick, so that nothing is lost at any speed.
-bool record_live(Session& session, Recorder& recorder, TickLogWriter& writer) {
+bool record_live(Session& session, Recorder& recorder, recording::TickLogWriter& writer) {
   bool whole = true;
   while (whole && !databuffer::stop_requested()) {
     recorder.drain();
@@ -103,7 +103,8 @@ bool record_live(Session& session, Recorder& recorder, TickLogWriter& writer) {
   return writer.flush() && whole;
 }
 
-bool record_in_lockstep(Session& session, Recorder& recorder, TickLogWriter& writer, const std::string& lockstep) {
+bool record_in_lockstep(Session& session, Recorder& recorder, recording::TickLogWriter& writer,
+                        const std::string& lockstep) {
   auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::recorder, lockstep);
   if (!loop) give_up(loop.error());
   while (const auto due = loop->wait()) {
@@ -126,7 +127,7 @@ void record(const CommonOptions& common, const RecordOptions& options) {
   if (!session) give_up(session.error());
   auto role = session->claim(databuffer::Role::recorder);
   if (!role) give_up(databuffer::usage_error(role.error()));
-  auto writer = TickLogWriter::create(options.file, {absolute(common.config), absolute(options.terrain)});
+  auto writer = recording::TickLogWriter::create(options.file, {absolute(common.config), absolute(options.terrain)});
   if (!writer) give_up(writer.error());
   const auto recorder_index = static_cast<std::size_t>(databuffer::LockstepRole::recorder);
   const bool from_the_begin =

@@ -121,7 +121,7 @@ void add_ownship(ordered_json& object, const ModelStatus& model, std::int64_t no
                        {"ground_speed_kt", geo::Speed::metres_per_second(speed_mps).knots()},
                        {"height_above_ground_ft", number_or_null(model.height_above_ground_m / geo::kMetresPerFoot)},
                        {"source", text_of(own.source)},
-                       {"age_ms", static_cast<double>(now_ns - model.sim_time_ns) * 1e-6}};
+                       {"age_ms", static_cast<double>(now_ns - model.ownship_received_ns) * 1e-6}};
 }
 
 void add_legends(ordered_json& object, const RadarState& state) {

@@ -33,6 +33,9 @@ class FlightModel {
   virtual void reset() = 0;
   // Goes on from another place. False: this source cannot, and flies on as it was.
   virtual bool reposition(const Placement& placement) = 0;
+  // Takes up where a predecessor of the same source was `gap` ago; false: this flight is not its. By default it is
+  // placed where the predecessor was.
+  virtual bool resume(const Ownship& last, geo::Duration gap);
 };
 
 }  // namespace yars::databuffer::flight

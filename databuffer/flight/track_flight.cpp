@@ -1,5 +1,6 @@
 #include "databuffer/flight/track_flight.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -36,6 +37,14 @@ bool TrackFlight::reposition(const Placement&) {
   return false;
 }
 
+bool TrackFlight::resume(const Ownship& last, geo::Duration gap) {
+  const geo::Duration whole = track_.rows.back().time - track_.rows.front().time;
+  if (!(last.flight_time_s > 0.0) || last.flight_time_s > whole.seconds()) return false;
+  reset();
+  elapsed_ = geo::Duration::seconds(last.flight_time_s) + gap;
+  return true;
+}
+
 // Moves on to the stretch in which the time elapsed lies.
 void TrackFlight::find_row() {
   const auto start_of = [this](std::size_t row) { return track_.rows[row].time - track_.rows.front().time; };
@@ -46,6 +55,13 @@ void TrackFlight::find_row() {
 
 FlightSample TrackFlight::step(geo::Duration dt) {
   elapsed_ = elapsed_ + dt;
+  FlightSample sample = present();
+  const geo::Duration whole = track_.rows.back().time - track_.rows.front().time;
+  sample.ownship.flight_time_s = std::min(elapsed_, whole).seconds();
+  return sample;
+}
+
+FlightSample TrackFlight::present() {
   const geo::Duration whole = track_.rows.back().time - track_.rows.front().time;
   if (track_.loop && elapsed_ >= whole) {
     const auto into_round = geo::Duration::seconds(std::fmod(elapsed_.seconds(), whole.seconds()));

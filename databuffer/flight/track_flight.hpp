@@ -1,6 +1,7 @@
 // Flies a recorded track: between two rows along the geodesic at a steady speed, attitude turned the shorter way
 // (heading with respect to the geodesic, so that it holds at the poles too); velocity is that of the rows' places.
-// At the end it stands where the last row is, or begins anew. It follows its file alone: it cannot be placed.
+// At the end it stands where the last row is, or begins anew. It follows its file alone: it cannot be placed, but
+// goes on from the time into the track that a predecessor told.
 #pragma once
 
 #include "databuffer/flight/flight_model.hpp"
@@ -15,6 +16,7 @@ class TrackFlight final : public FlightModel {
   FlightSample step(geo::Duration dt) override;
   void reset() override;
   bool reposition(const Placement& placement) override;
+  bool resume(const Ownship& last, geo::Duration gap) override;
 
  private:
   // Between a row and the next.
@@ -26,6 +28,7 @@ class TrackFlight final : public FlightModel {
   };
   static Stretch stretch_between(const TrackRow& from, const TrackRow& to);
 
+  FlightSample present();
   void find_row();
   FlightSample sample_between(double share) const;
   FlightSample sample_at_end() const;

@@ -46,7 +46,8 @@ struct ModelTick {
   std::uint32_t ownship_lane;  // which lane was selected; 0xffffffff = none
   std::uint32_t samples;       // a sweep, fidelity used
   char fidelity[16];
-  std::uint64_t reserved[4];
+  std::int64_t resumed_tick;  // with kTickRestart: tick of the status that the new kernel took up; -1 = none
+  std::uint64_t reserved[3];
 };
 static_assert(sizeof(ModelTick) == 16 + 144 + 88 + 8 + 16 + 16 + 32 && std::is_trivially_copyable_v<ModelTick>);
 
@@ -138,7 +139,8 @@ struct ModelStatus {
   std::uint8_t antenna_phase;    // antenna::Phase
   std::uint8_t scan_noise_only;  // 1: SNIFF holds for the scan under way
   std::uint8_t reserved0[2];
-  std::uint64_t reserved[12];
+  std::int64_t ownship_received_ns;  // [ns] sim time at which the ownship used came; staleness is judged by it
+  std::uint64_t reserved[11];
 };
 static_assert(sizeof(ModelStatus) % 8 == 0 && std::is_trivially_copyable_v<ModelStatus>);
 

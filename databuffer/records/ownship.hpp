@@ -25,7 +25,8 @@ struct Ownship {
   std::uint32_t epoch;          // session epoch that the writer knew; a new one makes a jump legal
   std::uint32_t flags;          // kOwnship...
   char source[16];              // "route", "fixed", "csv", "jsbsim": for people
-  std::uint64_t reserved[4];
+  double flight_time_s;         // [s] into the source's own recording, for its successor; 0 = not told
+  std::uint64_t reserved[3];
 };
 static_assert(sizeof(Ownship) == 144 && std::is_trivially_copyable_v<Ownship>);
 static_assert(offsetof(Ownship, latitude_deg) == 8 && offsetof(Ownship, epoch) == 88);

@@ -170,6 +170,29 @@ TEST_F(LiveSet, TheClockFreezesStepsAndRepositions) {
   })) << set_.watch().dump();
 }
 
+TEST_F(LiveSet, ARepositioningWhileNobodyFliesHoldsForWhoComes) {
+  start_all();
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return !watch["ownship"].is_null(); }));
+  set_.kill("flight-model", SIGKILL);
+  set_.wait("flight-model");
+  ASSERT_EQ(set_.yars({"sim", "reposition", "36.5", "-122.5", "20000", "45"}).code, 0);
+  start("flight-model");
+  EXPECT_TRUE(set_.wait_until([](const auto& watch) {
+    return !watch["ownship"].is_null() && std::abs(watch["ownship"]["lat"].template get<double>() - 36.5) < 0.05;
+  })) << set_.watch().dump();
+}
+
+TEST_F(LiveSet, TheAgeOfTheOwnshipIsThatOfItsRecord) {
+  start_all();
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return !watch["ownship"].is_null(); }));
+  set_.kill("flight-model", SIGSTOP);
+  // Half a second on it is stale; until then its age grows beyond what a model's tick could be old.
+  EXPECT_TRUE(set_.wait_until([](const auto& watch) {
+    return !watch["ownship"].is_null() && watch["ownship"]["age_ms"].template get<double>() > 150.0;
+  })) << set_.watch().dump();
+  set_.kill("flight-model", SIGCONT);
+}
+
 TEST(Usage, BadArgumentsEndWithCodeTwoAndOneLine) {
   for (const auto& command : std::vector<std::vector<std::string>>{{"radar-model", "--samples", "0"},
                                                                    {"flight-model", "--source", "nonsense"},

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <string>
 
 #include "tests/flight/flight_checks.hpp"
@@ -116,6 +117,29 @@ TEST(TrackFlight, ItFollowsItsFileAlone) {
   auto flight = flight_of("0,10,20,1000,0,0,0\n10,10.1,20,1000,0,0,0\n");
   EXPECT_FALSE(flight.reposition({{0, 0}, geo::AltitudeMsl::metres(0), {}}));
   EXPECT_NEAR(distance_m(point_of(after(flight, 0.0)), {10, 20}), 0.0, 1e-6);
+}
+
+TEST(TrackFlight, GoesOnFromTheTimeThatItsPredecessorTold) {
+  const std::string rows = "0,10,20,1000,0,0,0\n100,11,20,2000,0,0,0\n200,11,21,2000,90,0,0\n";
+  TrackFlight before = flight_of(rows);
+  const Ownship last = after(before, 130.0);
+  TrackFlight successor = flight_of(rows);
+  ASSERT_TRUE(successor.resume(last, geo::Duration::seconds(2.0)));
+  const Ownship resumed = after(successor, 0.0);
+  const Ownship flown_on = after(before, 2.0);
+  EXPECT_NEAR(resumed.latitude_deg, flown_on.latitude_deg, 1e-12);
+  EXPECT_NEAR(resumed.longitude_deg, flown_on.longitude_deg, 1e-12);
+  EXPECT_NEAR(resumed.flight_time_s, 132.0, 1e-9);
+}
+
+TEST(TrackFlight, DoesNotResumeWhatTellsNoTimeOfThisTrack) {
+  TrackFlight flight = flight_of("0,10,20,1000,0,0,0\n100,11,20,2000,0,0,0\n");
+  Ownship last{};
+  EXPECT_FALSE(flight.resume(last, {}));
+  last.flight_time_s = 101.0;
+  EXPECT_FALSE(flight.resume(last, {}));
+  last.flight_time_s = std::nan("");
+  EXPECT_FALSE(flight.resume(last, {}));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "databuffer/records/model_records.hpp"
 #include "lib/failure/error.hpp"
 
-namespace yars::tools {
+namespace yars::tools::recording {
 
 // With what the model ran; replay needs the same.
 struct TickLogHeader {
@@ -90,4 +90,4 @@ class TickLogReader {
   bool cut_short_ = false;
 };
 
-}  // namespace yars::tools
+}  // namespace yars::tools::recording

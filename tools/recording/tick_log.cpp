@@ -1,10 +1,10 @@
-#include "tools/tick_log.hpp"
+#include "tools/recording/tick_log.hpp"
 
 #include <array>
 #include <cstring>
 #include <type_traits>
 
-namespace yars::tools {
+namespace yars::tools::recording {
 
 namespace {
 
@@ -12,7 +12,7 @@ using databuffer::AppliedEvent;
 using databuffer::ModelTick;
 
 constexpr std::array<char, 8> kMagic{'Y', 'A', 'R', 'S', 'T', 'L', 'O', 'G'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::uint32_t kLargestText = 1U << 16;     // [bytes] of a path in the header
 constexpr std::uint32_t kLargestPayload = 1U << 16;  // [bytes] of a chunk: a larger one is damage
 
@@ -21,13 +21,13 @@ enum TickParts : std::uint32_t { kOwnshipPart = 1, kCommandPart = 2 };
 
 // The part of a tick that changes every time.
 struct TickHead {
-  std::int64_t tick;
+  std::int64_t tick, resumed_tick;
   std::uint64_t terrain_generation;
   std::uint32_t epoch, flags, ownship_lane, samples;
   char fidelity[16];
   std::uint32_t parts, reserved;
 };
-static_assert(sizeof(TickHead) == 56);
+static_assert(sizeof(TickHead) == 64);
 
 // Sizes of all that is written as it lies in memory: a log of another layout is refused, not misread.
 struct Preamble {
@@ -87,7 +87,16 @@ void TickLogWriter::chunk(std::uint32_t kind, const void* payload, std::size_t s
 }
 
 void TickLogWriter::write(const ModelTick& tick) {
-  TickHead head{tick.tick, tick.terrain_generation, tick.epoch, tick.flags, tick.ownship_lane, tick.samples, {}, 0, 0};
+  TickHead head{tick.tick,
+                tick.resumed_tick,
+                tick.terrain_generation,
+                tick.epoch,
+                tick.flags,
+                tick.ownship_lane,
+                tick.samples,
+                {},
+                0,
+                0};
   std::memcpy(head.fidelity, tick.fidelity, sizeof head.fidelity);
   if (first_ || std::memcmp(&tick.ownship, &last_.ownship, sizeof tick.ownship) != 0) head.parts |= kOwnshipPart;
   if (first_ || std::memcmp(&tick.command, &last_.command, sizeof tick.command) != 0) head.parts |= kCommandPart;
@@ -151,6 +160,7 @@ std::optional<TickLogEntry> TickLogReader::tick_from(const std::string& payload)
   ModelTick tick = last_;
   tick.tick = head.tick;
   tick.sim_time_ns = head.tick * radar::kTickNanoseconds;
+  tick.resumed_tick = head.resumed_tick;
   tick.terrain_generation = head.terrain_generation;
   tick.epoch = head.epoch;
   tick.flags = head.flags;
@@ -200,4 +210,4 @@ std::optional<TickLogEntry> TickLogReader::next() {
   return entry;
 }
 
-}  // namespace yars::tools
+}  // namespace yars::tools::recording

@@ -1,0 +1,41 @@
+// Runs the kernel again over the ticks of a recording and compares its sweeps with those recorded.
+#pragma once
+
+#include <cstdint>
+
+#include "lib/radar/configuration.hpp"
+#include "model/kernel/radar_kernel.hpp"
+#include "model/terrain/terrain_view.hpp"
+#include "tools/recording/comparison.hpp"
+#include "tools/recording/tick_log.hpp"
+
+namespace yars::tools::recording {
+
+class Replay {
+ public:
+  // Both must outlive it.
+  Replay(const radar::RadarConfiguration& configuration, model::terrain::TerrainStore& store);
+
+  void start(const StartingPoint& point);
+  void tick(const databuffer::ModelTick& tick);
+  void recorded(const SweepMark& mark) { comparison_.recorded(mark); }
+
+  std::uint64_t ticks() const { return ticks_; }
+  std::uint64_t sweeps() const { return sweeps_; }
+  const Comparison& comparison() const { return comparison_; }
+
+ private:
+  void restart(std::int64_t resumed_tick);
+
+  const radar::RadarConfiguration* configuration_;
+  model::terrain::TerrainStore* store_;
+  model::kernel::RadarKernel kernel_;
+  model::terrain::TerrainViewPointer view_;
+  databuffer::Sweep sweep_{};
+  databuffer::ModelStatus last_{}, before_last_{};  // after the newest tick and after the one before
+  Comparison comparison_;
+  std::uint64_t ticks_ = 0, sweeps_ = 0;
+  bool resumed_ = false;
+};
+
+}  // namespace yars::tools::recording
