@@ -59,6 +59,8 @@ SYSTEM_HEADERS = {
     "epoxy/": ["display/gl"],
     "EGL/": ["display/gl"],
     "glm/": ["display/gl"],
+    "xxhash.h": ["model/kernel"],
+    "hwy/": ["model/terrain", "model/rbm", "tests"],
     "GLFW/": ["display/gl", "inputmonitor/window_source.cpp"],
     "spdlog/": ["shells"],
     "CLI/": ["shells"],

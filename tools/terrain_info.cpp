@@ -24,20 +24,20 @@ struct Totals {
 
   void add(const Cell& cell) {
     ++cells;
-    posts += cell.posts().size();
+    posts += cell.post_count();
     voids += cell.voids();
     south_deg = std::min(south_deg, cell.place().south_deg);
     north_deg = std::max(north_deg, cell.place().south_deg + 1);
     west_deg = std::min(west_deg, cell.place().west_deg);
     east_deg = std::max(east_deg, cell.place().west_deg + 1);
-    if (cell.voids() == cell.posts().size()) return;
+    if (cell.voids() == cell.post_count()) return;
     lowest_m = std::min<int>(lowest_m, cell.lowest_m());
     highest_m = std::max<int>(highest_m, cell.highest_m());
   }
 };
 
 void print_cell(const Cell& cell, const CellFile& file) {
-  const double percent = 100.0 / static_cast<double>(cell.posts().size());
+  const double percent = 100.0 / static_cast<double>(cell.post_count());
   std::printf("%5d %6d %6d x %-5d %6d %6d %8zu %7.2f  %s\n", cell.place().south_deg, cell.place().west_deg,
               cell.columns(), cell.rows(), cell.lowest_m(), cell.highest_m(), cell.voids(),
               percent * static_cast<double>(cell.sea_posts()), file.path.c_str());

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lib/geo/quantity.hpp"
-#include "model/terrain/bilinear.hpp"
+#include "model/terrain/interpolation.hpp"
 
 namespace yars::tools {
 

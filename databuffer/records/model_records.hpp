@@ -77,7 +77,7 @@ struct Sweep {
   double ground_track_deg;     // [deg] true, at the time
   double elevation_deg;        // [deg] antenna, against the horizon
   double range_m;              // [m] ground range of the far end of the last sample
-  std::uint64_t hash;          // FNV-1a 64 of the used samples and of the fields above but for the times
+  std::uint64_t hash;          // XXH3 64 of the fields above but for the times, then of the used samples
   std::uint32_t epoch;
   std::uint32_t scan;                             // number of the scan, counts up
   std::uint32_t number;                           // of the sweep, counts up over all scans

@@ -34,6 +34,7 @@ struct ViewConfiguration {
 
 enum class EarthModel : std::uint8_t { flat = 0, sphere = 1, ellipsoid = 2 };
 enum class BeamPattern : std::uint8_t { hard_edge = 0, gaussian = 1, cosecant_squared = 2 };
+enum class Interpolation : std::uint8_t { nearest = 0, bilinear = 1, cubic = 2 };
 enum class Algorithm : std::uint8_t { standard = 0, reference = 1, report_1996 = 2 };
 
 // The trade of speed against accuracy, by name or knob by knob.
@@ -43,6 +44,8 @@ struct Fidelity {
   EarthModel earth = EarthModel::ellipsoid;
   double earth_radius_factor = 4.0 / 3.0;  // k; 1 = no refraction
   int samples = 480;                       // a sweep, 1..4096
+  int geodesic_knots = 5;                  // exact points a sweep, 2..9, between which places are interpolated; 0 = all
+  Interpolation interpolation = Interpolation::bilinear;
   bool slant_range = false;                // samples even in slant instead of ground range
   bool cross_track_slope = false;
   bool noise = true;

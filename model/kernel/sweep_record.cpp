@@ -1,23 +1,15 @@
 #include "model/kernel/sweep_record.hpp"
 
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
 #include <algorithm>
 #include <array>
-#include <bit>
 
 namespace yars::model::kernel {
 
 namespace {
-constexpr std::uint64_t kFnvOffset = 0xcbf29ce484222325ULL;
-constexpr std::uint64_t kFnvPrime = 0x100000001b3ULL;
-
-std::uint64_t absorb(std::uint64_t hash, std::uint8_t byte) {
-  return (hash ^ byte) * kFnvPrime;
-}
-
-std::uint64_t absorb_word(std::uint64_t hash, std::uint64_t word) {
-  for (unsigned shift = 0; shift < 64U; shift += 8U) hash = absorb(hash, static_cast<std::uint8_t>(word >> shift));
-  return hash;
-}
+constexpr XXH64_hash_t kSeed = 0;
 }  // namespace
 
 void write_place(const SweepPlace& place, databuffer::Sweep& sweep) {
@@ -41,16 +33,14 @@ std::uint64_t sweep_hash(const databuffer::Sweep& sweep) {
   const std::array<double, 8> fields{
       sweep.apex_latitude_deg, sweep.apex_longitude_deg, sweep.apex_altitude_msl_m, sweep.azimuth_left_deg,
       sweep.azimuth_right_deg, sweep.ground_track_deg,   sweep.elevation_deg,       sweep.range_m};
-  std::uint64_t hash = kFnvOffset;
-  for (const double field : fields) hash = absorb_word(hash, std::bit_cast<std::uint64_t>(field));
+  const std::uint64_t place = XXH3_64bits_withSeed(fields.data(), sizeof fields, kSeed);
   const std::size_t used = std::min<std::size_t>(sweep.samples, radar::kMaxSamples);
-  for (std::size_t i = 0; i < used; ++i) hash = absorb(hash, sweep.video[i]);
-  return hash;
+  return XXH3_64bits_withSeed(sweep.video, used, place);
 }
 
 std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps) {
-  std::uint64_t hash = kFnvOffset;
-  for (const databuffer::Sweep& sweep : sweeps) hash = absorb_word(hash, sweep.hash);
+  XXH64_hash_t hash = kSeed;
+  for (const databuffer::Sweep& sweep : sweeps) hash = XXH3_64bits_withSeed(&sweep.hash, sizeof sweep.hash, hash);
   return hash;
 }
 

@@ -28,10 +28,10 @@ void write_place(const SweepPlace& place, databuffer::Sweep& sweep);
 // What the beam's centre looks at: the middle of the wedge.
 rbm::Look look_of(const SweepPlace& place);
 
-// FNV-1a 64 over the record's fields before `hash` but for the times, then the used samples.
+// XXH3 64 over the record's fields before `hash` but for the times, then, seeded with that, over the used samples.
 std::uint64_t sweep_hash(const databuffer::Sweep& sweep);
 
-// One number for a scan: FNV-1a 64 over the hashes of its sweeps, in order.
+// One number for a scan: XXH3 64 over the hashes of its sweeps, in order, each seeded with the one before.
 std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps);
 
 }  // namespace yars::model::kernel

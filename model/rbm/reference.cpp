@@ -26,13 +26,7 @@ double speckle(NoiseState state, std::uint32_t cell, int looks) {
 }  // namespace
 
 Reference::Reference(const radar::RadarConfiguration& configuration)
-    : configuration_(configuration),
-      samples_(sample_count(configuration)),
-      distance_m_(samples_.size()),
-      latitude_deg_(samples_.size()),
-      longitude_deg_(samples_.size()),
-      elevation_m_(samples_.size()),
-      water_(samples_.size()) {}
+    : configuration_(configuration), samples_(sample_count(configuration)), distance_m_(samples_.size()) {}
 
 std::size_t Reference::measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) {
   const EffectiveEarth earth = effective_earth(configuration_.fidelity, look.apex, look.azimuth);
@@ -50,19 +44,20 @@ std::size_t Reference::measure(const Look& look, const terrain::TerrainView& ter
 
 std::size_t Reference::read_terrain(const Look& look, const terrain::TerrainView& terrain) {
   const geo::GeodesicRay ray(look.apex, look.azimuth);
+  std::size_t pending = 0;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     Sample& sample = samples_[i];
     sample = Sample{};
     sample.distance_m = distance_m_[i];
-    const bool hole = std::isnan(sample.distance_m);
-    sample.place = hole ? look.apex : ray.position(geo::Length::metres(sample.distance_m));
-    sample.height_m = hole ? std::numeric_limits<double>::quiet_NaN() : terrain.elevation_m(sample.place);
-    latitude_deg_[i] = sample.place.latitude_deg;
-    longitude_deg_[i] = sample.place.longitude_deg;
+    sample.height_m = std::numeric_limits<double>::quiet_NaN();
+    sample.place = look.apex;
+    if (std::isnan(sample.distance_m)) continue;
+    sample.place = ray.position(geo::Length::metres(sample.distance_m));
+    const terrain::Surface surface = terrain.surface_at(sample.place, configuration_.fidelity.interpolation);
+    sample.height_m = surface.elevation_m;
+    sample.water = surface.water;
+    if (!surface.loaded) ++pending;
   }
-  // The span gives what elevation_m() does not tell: water, and what is still being loaded.
-  const std::size_t pending = terrain.elevations(latitude_deg_, longitude_deg_, elevation_m_, water_);
-  for (std::size_t i = 0; i < samples_.size(); ++i) samples_[i].water = static_cast<double>(water_[i]);
   return pending;
 }
 
@@ -73,7 +68,10 @@ void Reference::read_cross_slopes(const Look& look, const terrain::TerrainView& 
   for (Sample& sample : samples_) {
     if (std::isnan(sample.distance_m)) continue;
     const geo::Length distance = geo::Length::metres(sample.distance_m);
-    const double rise_m = terrain.elevation_m(right.position(distance)) - terrain.elevation_m(left.position(distance));
+    const auto height_m = [&](const geo::GeodesicRay& ray) {
+      return terrain.surface_at(ray.position(distance), configuration_.fidelity.interpolation).elevation_m;
+    };
+    const double rise_m = height_m(right) - height_m(left);
     sample.cross_slope = std::isnan(rise_m) ? 0.0 : rise_m / (2.0 * side_rad * sample.distance_m);
   }
 }

@@ -42,8 +42,7 @@ class Reference : public Algorithm {
 
   radar::RadarConfiguration configuration_;
   std::vector<Sample> samples_;
-  std::vector<double> distance_m_, latitude_deg_, longitude_deg_;
-  std::vector<float> elevation_m_, water_;
+  std::vector<double> distance_m_;
 };
 
 }  // namespace yars::model::rbm

@@ -21,19 +21,23 @@ float joined(float before, float centre, float after) {
 
 Report1996::Report1996(const radar::RadarConfiguration& configuration)
     : half_beam_rad_(0.5 * configuration.antenna.elevation_beamwidth_deg * geo::kRadiansPerDegree),
-      distance_m_(sample_count(configuration)),
-      latitude_deg_(distance_m_.size()),
-      longitude_deg_(distance_m_.size()),
+      knots_(configuration.fidelity.geodesic_knots),
+      interpolation_(configuration.fidelity.interpolation),
+      count_(sample_count(configuration)),
+      distance_m_(count_ + terrain::kRunSlack),
+      places_(count_),
       elevation_m_(distance_m_.size()),
       water_(distance_m_.size()),
-      intensity_(distance_m_.size()) {}
+      intensity_(count_) {}
 
 std::size_t Report1996::measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) {
-  const std::size_t count = distance_m_.size();
+  const std::size_t count = count_;
   const double spacing_m = look.range.metres() / static_cast<double>(count);
-  for (std::size_t i = 0; i < count; ++i) distance_m_[i] = (static_cast<double>(i) + 0.5) * spacing_m;
-  sample_places(look.apex, look.azimuth, look.range, distance_m_, latitude_deg_, longitude_deg_);
-  const std::size_t pending = terrain.elevations(latitude_deg_, longitude_deg_, elevation_m_, water_);
+  for (std::size_t i = 0; i < count; ++i)
+    distance_m_[i] = static_cast<float>((static_cast<double>(i) + 0.5) * spacing_m);
+  sample_places(look.apex, look.azimuth, look.range, knots_, distance_m_.data(), places_);
+  const std::size_t pending =
+      terrain.surfaces(places_.run(), interpolation_, {{elevation_m_.data(), count}, {water_.data(), count}, {}, {}});
 
   // The report's Y_min and Y_max: tangents of the beam's lower and upper edge.
   const auto lower = static_cast<float>(std::tan(look.elevation.radians() - half_beam_rad_));
@@ -42,7 +46,7 @@ std::size_t Report1996::measure(const Look& look, const terrain::TerrainView& te
   float horizon = kNoHorizon;
   for (std::size_t i = 0; i < count; ++i) {
     intensity_[i] = 0.0F;
-    const auto distance_m = static_cast<float>(distance_m_[i]);
+    const float distance_m = distance_m_[i];
     const float up_m = elevation_m_[i] - altitude_m;
     const float tangent = up_m / distance_m;
     const bool lit = tangent >= lower && tangent <= upper && tangent > horizon;  // a void compares false
@@ -64,7 +68,7 @@ std::size_t Report1996::measure(const Look& look, const terrain::TerrainView& te
 float Report1996::slope(std::size_t index, float spacing_m) const {
   // Central difference; towards a void or an end, the difference to the other side alone.
   const bool near_known = index > 0 && !std::isnan(elevation_m_[index - 1]);
-  const bool far_known = index + 1 < elevation_m_.size() && !std::isnan(elevation_m_[index + 1]);
+  const bool far_known = index + 1 < count_ && !std::isnan(elevation_m_[index + 1]);
   const std::size_t near = near_known ? index - 1 : index;
   const std::size_t far = far_known ? index + 1 : index;
   if (near == far) return 0.0F;

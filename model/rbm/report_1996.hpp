@@ -9,6 +9,7 @@
 
 #include "lib/radar/configuration.hpp"
 #include "model/rbm/algorithm.hpp"
+#include "model/rbm/sample_places.hpp"
 
 namespace yars::model::rbm {
 
@@ -24,8 +25,12 @@ class Report1996 : public Algorithm {
   float slope(std::size_t index, float spacing_m) const;
 
   double half_beam_rad_;
-  std::vector<double> distance_m_, latitude_deg_, longitude_deg_;
-  std::vector<float> elevation_m_, water_, intensity_;
+  int knots_;
+  radar::Interpolation interpolation_;
+  std::size_t count_;
+  PlaceArrays places_;
+  std::vector<float> distance_m_, elevation_m_, water_;  // and terrain::kRunSlack more
+  std::vector<float> intensity_;
 };
 
 }  // namespace yars::model::rbm

@@ -1,113 +1,146 @@
 #include "model/rbm/sample_places.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "model/rbm/lanes.hpp"
+#include "model/rbm/place_lanes.hpp"
 #include "model/rbm/polynomials.hpp"
+#include "model/terrain/cell.hpp"
 
 namespace yars::model::rbm {
 
 namespace {
-constexpr std::size_t kKnots = 5;
 constexpr double kEarthRadiusM = 6371008.8;  // [m] only to judge how near the pole is
 // Interpolating latitude and longitude holds while the pole is this many half ranges from the apex: the error falls
-// with its fifth power. Smaller: metres lost at 75 degrees; greater: more sweeps take the slower way.
+// with its power of the knots. Smaller: metres lost at 75 degrees; greater: more sweeps take the slower way.
 constexpr double kPoleHalfRanges = 12.0;
+constexpr double kCrowdedHalfRanges = 40.0;  // and this many, for fewer knots to suffice
 
-using Knots = std::array<double, kKnots>;
+using Knots = std::array<double, kMostKnots>;
 
 // A polynomial through the knots in Newton's form, in t over [-1, 1].
 struct Newton {
+  int knots = 0;
   Knots knot{};
   Knots difference{};
+
+  double at(double t) const {
+    double p = difference[static_cast<std::size_t>(knots - 1)];
+    for (auto k = static_cast<std::size_t>(knots - 1); k-- > 0;) p = p * (t - knot[k]) + difference[k];
+    return p;
+  }
 };
 
-// Chebyshev points: the interpolation error is spread evenly over the ray.
-Knots chebyshev_points() {
-  Knots points{};
-  for (std::size_t k = 0; k < kKnots; ++k) {
-    points[k] = std::cos(std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(kKnots));
-  }
+// Chebyshev points of every number of knots: the interpolation error is spread evenly over the ray.
+std::array<Knots, kMostKnots + 1> chebyshev_points() {
+  std::array<Knots, kMostKnots + 1> points{};
+  for (int knots = kLeastKnots; knots <= kMostKnots; ++knots)
+    for (int k = 0; k < knots; ++k)
+      points[static_cast<std::size_t>(knots)][static_cast<std::size_t>(k)] =
+          std::cos(std::numbers::pi * (k + 0.5) / knots);
   return points;
 }
 
-Newton newton_form(const Knots& points, const Knots& values) {
-  Newton form{points, values};
-  for (std::size_t order = 1; order < kKnots; ++order) {
-    for (std::size_t k = kKnots - 1; k >= order; --k) {
-      form.difference[k] = (form.difference[k] - form.difference[k - 1]) / (points[k] - points[k - order]);
+// The error falls with the ray's length to the power of the knots: short rays need fewer for a tenth of what five leave
+// at 160 NM. [m]
+int knots_needed(int most, double range_m) {
+  constexpr double kThreeSufficeM = 40000.0;
+  constexpr double kFourSufficeM = 150000.0;
+  return std::min(most, range_m <= kThreeSufficeM ? 3 : range_m <= kFourSufficeM ? 4 : most);
+}
+
+Newton newton_form(int knots, const Knots& points, const Knots& values) {
+  Newton form{knots, points, values};
+  for (int order = 1; order < knots; ++order)
+    for (int k = knots - 1; k >= order; --k) {
+      const auto here = static_cast<std::size_t>(k);
+      form.difference[here] = (form.difference[here] - form.difference[here - 1]) /
+                              (points[here] - points[here - static_cast<std::size_t>(order)]);
     }
-  }
   return form;
 }
 
-inline double value_at(const Newton& form, double t) {
-  double p = form.difference[4];
-  p = p * (t - form.knot[3]) + form.difference[3];
-  p = p * (t - form.knot[2]) + form.difference[2];
-  p = p * (t - form.knot[1]) + form.difference[1];
-  return p * (t - form.knot[0]) + form.difference[0];
+// The same, counted from the corner.
+places::Curve curve_of(const Newton& form, int corner_deg) {
+  places::Curve curve{form.knots, form.knot, form.difference};
+  curve.difference[0] -= corner_deg;
+  return curve;
 }
 
-YARS_LANES void evaluate_geodetic(std::size_t count, const double* __restrict distance_m, double scale, Newton latitude,
-                                  Newton longitude, double* __restrict latitude_deg, double* __restrict longitude_deg) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double t = distance_m[i] * scale - 1.0;
-    latitude_deg[i] = value_at(latitude, t);
-    longitude_deg[i] = value_at(longitude, t);
-  }
+// Puts one place, whose longitude may be a turn off.
+void put(PlaceArrays& places, std::size_t i, geo::GeoPoint apex, geo::GeoPoint place) {
+  const double north_deg = place.latitude_deg - places.corner.south_deg;
+  // Unwrapped against the apex, so that the antimeridian is no jump.
+  const double east_deg =
+      apex.longitude_deg + geo::wrapped_degrees(place.longitude_deg - apex.longitude_deg) - places.corner.west_deg;
+  places.cells_north[i] = static_cast<float>(std::floor(north_deg));
+  places.cells_east[i] = static_cast<float>(std::floor(east_deg));
+  places.north_deg[i] = static_cast<float>(north_deg - std::floor(north_deg));
+  places.east_deg[i] = static_cast<float>(east_deg - std::floor(east_deg));
 }
 
-void evaluate_vector(std::span<const double> distance_m, double scale, const std::array<Newton, 3>& axis,
-                     double pole_longitude_deg, std::span<double> latitude_deg, std::span<double> longitude_deg) {
-  for (std::size_t i = 0; i < distance_m.size(); ++i) {
-    const double t = distance_m[i] * scale - 1.0;
-    const double x = value_at(axis[0], t);
-    const double y = value_at(axis[1], t);
-    const double z = value_at(axis[2], t);
+void place_by_vector(geo::GeoPoint apex, const float* distance_m, double scale, const std::array<Newton, 3>& axis,
+                     PlaceArrays& places) {
+  for (std::size_t i = 0; i < places.count; ++i) {
+    const double t = static_cast<double>(distance_m[i]) * scale - 1.0;
+    const double x = axis[0].at(t);
+    const double y = axis[1].at(t);
     const double level = std::sqrt(x * x + y * y);
-    latitude_deg[i] = polynomials::arctangent(z, level) / geo::kRadiansPerDegree;
     // On the pole itself any longitude is right.
-    longitude_deg[i] = level > 0.0 ? polynomials::arctangent(y, x) / geo::kRadiansPerDegree : pole_longitude_deg;
+    const double longitude_rad =
+        level > 0.0 ? polynomials::arctangent(y, x) : apex.longitude_deg * geo::kRadiansPerDegree;
+    put(places, i, apex,
+        {polynomials::arctangent(axis[2].at(t), level) / geo::kRadiansPerDegree,
+         longitude_rad / geo::kRadiansPerDegree});
   }
 }
 }  // namespace
 
-void sample_places(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, std::span<const double> distance_m,
-                   std::span<double> latitude_deg, std::span<double> longitude_deg) {
-  static const Knots points = chebyshev_points();
+void sample_places(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots, const float* distance_m,
+                   PlaceArrays& places) {
   const geo::GeodesicRay ray(apex, azimuth);
-  std::array<geo::GeoPoint, kKnots> places;
-  for (std::size_t k = 0; k < kKnots; ++k) places[k] = ray.position(0.5 * (points[k] + 1.0) * range);
-  const double scale = 2.0 / range.metres();
-
-  const double half_range_rad = 0.5 * range.metres() / kEarthRadiusM;
-  const double to_pole_rad = (90.0 - std::abs(apex.latitude_deg)) * geo::kRadiansPerDegree;
-  if (to_pole_rad > kPoleHalfRanges * half_range_rad) {
-    Knots latitude{};
-    Knots longitude{};
-    for (std::size_t k = 0; k < kKnots; ++k) {
-      latitude[k] = places[k].latitude_deg;
-      // Unwrapped against the apex, so that the antimeridian is no jump.
-      longitude[k] = apex.longitude_deg + geo::wrapped_degrees(places[k].longitude_deg - apex.longitude_deg);
-    }
-    evaluate_geodetic(distance_m.size(), distance_m.data(), scale, newton_form(points, latitude),
-                      newton_form(points, longitude), latitude_deg.data(), longitude_deg.data());
+  places.corner = terrain::cell_holding(apex);
+  if (knots == kExactPlaces) {
+    for (std::size_t i = 0; i < places.count; ++i)
+      put(places, i, apex, ray.position(geo::Length::metres(static_cast<double>(distance_m[i]))));
     return;
   }
-  std::array<Knots, 3> axis{};
-  for (std::size_t k = 0; k < kKnots; ++k) {
-    const double latitude_rad = places[k].latitude_deg * geo::kRadiansPerDegree;
-    const double longitude_rad = places[k].longitude_deg * geo::kRadiansPerDegree;
-    axis[0][k] = std::cos(latitude_rad) * std::cos(longitude_rad);
-    axis[1][k] = std::cos(latitude_rad) * std::sin(longitude_rad);
-    axis[2][k] = std::sin(latitude_rad);
+  static const std::array<Knots, kMostKnots + 1> points_of = chebyshev_points();
+  const double half_range_rad = 0.5 * range.metres() / kEarthRadiusM;
+  const double to_pole_rad = (90.0 - std::abs(apex.latitude_deg)) * geo::kRadiansPerDegree;
+  const bool near_pole = to_pole_rad <= kPoleHalfRanges * half_range_rad;
+  knots = std::clamp(knots, kLeastKnots, kMostKnots);
+  // Towards the poles the meridians' crowding outweighs the shortness.
+  if (to_pole_rad > kCrowdedHalfRanges * half_range_rad) knots = knots_needed(knots, range.metres());
+  const Knots& points = points_of[static_cast<std::size_t>(knots)];
+  const double scale = 2.0 / range.metres();
+  std::array<Knots, 3> value{};
+  for (int k = 0; k < knots; ++k) {
+    const auto here = static_cast<std::size_t>(k);
+    const geo::GeoPoint place = ray.position(0.5 * (points[here] + 1.0) * range);
+    if (near_pole) {
+      const double latitude_rad = place.latitude_deg * geo::kRadiansPerDegree;
+      const double longitude_rad = place.longitude_deg * geo::kRadiansPerDegree;
+      value[0][here] = std::cos(latitude_rad) * std::cos(longitude_rad);
+      value[1][here] = std::cos(latitude_rad) * std::sin(longitude_rad);
+      value[2][here] = std::sin(latitude_rad);
+    } else {
+      value[0][here] = place.latitude_deg;
+      value[1][here] = apex.longitude_deg + geo::wrapped_degrees(place.longitude_deg - apex.longitude_deg);
+    }
   }
-  evaluate_vector(distance_m, scale,
-                  {newton_form(points, axis[0]), newton_form(points, axis[1]), newton_form(points, axis[2])},
-                  apex.longitude_deg, latitude_deg, longitude_deg);
+  const Newton first = newton_form(knots, points, value[0]);
+  const Newton second = newton_form(knots, points, value[1]);
+  if (near_pole) {
+    place_by_vector(apex, distance_m, scale, {first, second, newton_form(knots, points, value[2])}, places);
+    return;
+  }
+  places::along_curves(
+      places.count, distance_m, scale, curve_of(first, places.corner.south_deg),
+      curve_of(second, places.corner.west_deg),
+      {places.cells_north.data(), places.cells_east.data(), places.north_deg.data(), places.east_deg.data()});
 }
 
 }  // namespace yars::model::rbm

@@ -1,18 +1,45 @@
-// Where the samples of a sweep lie, by interpolation between five exact points of the geodesic. Away from the poles
-// latitude and longitude are interpolated themselves; near them, where longitude turns quickly, the unit vector is.
-// Accuracy: 0.5 m against the geodesic for any ray of up to 160 NM from any latitude. Longitudes may leave
-// [-180, 180] by less than a turn: they run on across the antimeridian.
+// Where the samples of a sweep lie, by interpolation between a few exact points of the geodesic, in double. Away from
+// the poles latitude and longitude are interpolated themselves; near them, where longitude turns quickly, the unit
+// vector is. Accuracy with five knots: 0.5 m against the geodesic for any ray of up to 160 NM from any latitude,
+// millimetres at middle latitudes. Longitudes run on across the antimeridian.
 #pragma once
 
-#include <span>
+#include <cstddef>
+#include <vector>
 
 #include "lib/geo/bearing.hpp"
 #include "lib/geo/geodesic.hpp"
+#include "model/terrain/terrain_view.hpp"
 
 namespace yars::model::rbm {
 
-// Distances [m] in [0, range], finite; latitude and longitude [deg] as long as the distances.
-void sample_places(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, std::span<const double> distance_m,
-                   std::span<double> latitude_deg, std::span<double> longitude_deg);
+inline constexpr int kLeastKnots = 2;
+inline constexpr int kMostKnots = 9;
+inline constexpr int kExactPlaces = 0;  // as knots: the geodesic itself at every sample
+
+// Room for the places of a sweep, and the run that they make.
+struct PlaceArrays {
+  explicit PlaceArrays(std::size_t samples)
+      : count(samples),
+        cells_north(samples + terrain::kRunSlack),
+        cells_east(cells_north),
+        north_deg(cells_north),
+        east_deg(cells_north) {}
+  terrain::PlaceRun run() const {
+    return {corner,
+            {cells_north.data(), count},
+            {cells_east.data(), count},
+            {north_deg.data(), count},
+            {east_deg.data(), count}};
+  }
+
+  std::size_t count;
+  terrain::CellPlace corner;  // of the cell that holds the apex
+  std::vector<float> cells_north, cells_east, north_deg, east_deg;
+};
+
+// Distances [m] in [0, range], finite, as many as the places; terrain::kRunSlack entries more behind them are read.
+void sample_places(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots, const float* distance_m,
+                   PlaceArrays& places);
 
 }  // namespace yars::model::rbm

@@ -8,6 +8,7 @@
 
 #include "model/rbm/noise.hpp"
 #include "model/rbm/sample_places.hpp"
+#include "model/rbm/video_lanes.hpp"
 
 namespace yars::model::rbm {
 
@@ -20,50 +21,61 @@ Standard::Standard(const radar::RadarConfiguration& configuration)
     : configuration_(configuration),
       count_(sample_count(configuration)),
       distance_m_(count_),
-      latitude_deg_(count_),
-      longitude_deg_(count_),
       distance_(count_, 0.0F),
+      one_step_inverse_(count_, 0.0F),
+      two_step_inverse_(count_, 0.0F),
+      places_(count_),
       elevation_(count_, kVoid),
       water_(count_, 0.0F),
+      peak_(count_, kVoid),
       side_(count_, 0.0F),
       cross_slope_(count_, 0.0F),
-      tangent_(count_, loops::kNoHorizon),
-      spare_(count_, loops::kNoHorizon),
-      horizon_(count_, loops::kNoHorizon),
+      tangent_(count_, lanes::kNoHorizon),
+      peak_tangent_(count_, lanes::kNoHorizon),
+      spare_(count_, lanes::kNoHorizon),
+      horizon_(count_, lanes::kNoHorizon),
       range_inverse_(count_, 0.0F),
       sin_grazing_(count_, 0.0F),
       cos_grazing_(count_, 0.0F),
       sin_sight_(count_, 0.0F),
       cos_sight_(count_, 0.0F),
-      sin_local_(count_, 0.0F),
-      gain_(count_, 0.0F),
-      power_(count_, 0.0F) {}
+      power_(count_, 0.0F),
+      variate_(count_, 1.0F) {}
 
 std::size_t Standard::measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) {
   const EffectiveEarth earth = effective_earth(configuration_.fidelity, look.apex, look.azimuth);
   const Receiver& receiver = receiver_at(look.range);
-  sample_distances(configuration_.fidelity, earth, look, terrain, distance_m_);
+  place_samples(look, earth, terrain);
   const std::size_t pending = read_terrain(look, terrain);
   if (configuration_.fidelity.cross_track_slope) read_cross_slopes(look, terrain);
 
-  const loops::SweepConstants constants = sweep_constants(look, earth, receiver);
-  const loops::SightArrays sights{tangent_.data(),     range_inverse_.data(), sin_grazing_.data(),
+  const lanes::SweepConstants constants = sweep_constants(look, earth, receiver);
+  const lanes::SightArrays sights{tangent_.data(),     range_inverse_.data(), sin_grazing_.data(),
                                   cos_grazing_.data(), sin_sight_.data(),     cos_sight_.data()};
-  loops::sight(count_, constants, distance_.data(), elevation_.data(), sights);
-  loops::running_maximum(count_, tangent_.data(), spare_.data(), horizon_.data());
-  loops::incidence(count_, distance_.data(), elevation_.data(), cross_slope_.data(), tangent_.data(), horizon_.data(),
-                   sights, sin_local_.data());
-  apply_beam(constants, sights);
-  loops::power(count_, constants, water_.data(), sin_local_.data(), gain_.data(), sights, power_.data());
+  lanes::sight(count_, constants, distance_.data(), elevation_.data(), sights);
+  // Shadow is cast by the highest ground; where a coarser level stands in, that is not the mean that returns.
+  const bool peaks = terrain.has_peaks();
+  if (peaks) lanes::sight_tangent(count_, constants, distance_.data(), peak_.data(), peak_tangent_.data());
+  lanes::running_maximum(count_, peaks ? peak_tangent_.data() : tangent_.data(), spare_.data(), horizon_.data());
+  const lanes::PowerInputs inputs{elevation_.data(),
+                                  configuration_.fidelity.cross_track_slope ? cross_slope_.data() : nullptr,
+                                  water_.data(),
+                                  peaks ? peak_tangent_.data() : tangent_.data(),
+                                  horizon_.data(),
+                                  one_step_inverse_.data(),
+                                  two_step_inverse_.data(),
+                                  sights};
+  lanes::power(count_, constants, configuration_.fidelity.beam, inputs, power_.data());
+  // What the last vector wrote behind the sweep is no power.
+  std::fill_n(power_.data() + count_, lanes::kPad, 0.0F);
 
   const double spacing_m = look.range.metres() / static_cast<double>(count_);
   const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   const PulseSmear smear = make_pulse_smear(pulse_samples);
-  std::fill(power.begin(), power.end(), 0.0F);
-  for (std::ptrdiff_t offset = -smear.reach; offset <= smear.reach; ++offset) {
-    const auto weight = static_cast<float>(smear.weights[static_cast<std::size_t>(offset + smear.reach)]);
-    loops::add_weighted(count_, power_.data() + offset, weight, power.data());
-  }
+  std::array<float, 2 * PulseSmear::kMostReach + 1> weights{};
+  std::transform(smear.weights.begin(), smear.weights.end(), weights.begin(),
+                 [](double weight) { return static_cast<float>(weight); });
+  lanes::smear(count_, power_.data(), weights.data(), smear.reach, power.data());
   return pending;
 }
 
@@ -72,24 +84,42 @@ const Receiver& Standard::receiver_at(geo::Length range) {
   return receiver_;
 }
 
-std::size_t Standard::read_terrain(const Look& look, const terrain::TerrainView& terrain) {
+// Distances, and the inverse steps between them. Even in ground range they are a range scale's: computed once.
+void Standard::place_samples(const Look& look, const EffectiveEarth& earth, const terrain::TerrainView& terrain) {
+  const bool slant = configuration_.fidelity.slant_range;
+  if (!slant && spaced_range_m_ == look.range.metres()) return;
+  spaced_range_m_ = look.range.metres();
+  sample_distances(configuration_.fidelity, earth, look, terrain, distance_m_);
   // What is nearer than the ground is looked up below the aircraft and made a void afterwards.
-  std::size_t holes = 0;
-  while (holes < count_ && std::isnan(distance_m_[holes])) distance_m_[holes++] = 0.0;
-  sample_places(look.apex, look.azimuth, look.range, distance_m_, latitude_deg_, longitude_deg_);
-  const std::size_t pending =
-      terrain.elevations(latitude_deg_, longitude_deg_, {elevation_.data(), count_}, {water_.data(), count_});
-  std::fill_n(elevation_.data(), holes, kVoid);
+  holes_ = 0;
+  while (holes_ < count_ && std::isnan(distance_m_[holes_])) distance_m_[holes_++] = 0.0;
   for (std::size_t i = 0; i < count_; ++i) distance_.data()[i] = static_cast<float>(distance_m_[i]);
+  const auto inverse = [](double step_m) { return step_m > 0.0 ? static_cast<float>(1.0 / step_m) : 0.0F; };
+  for (std::size_t i = 0; i + 1 < count_; ++i) {
+    one_step_inverse_.data()[i] = inverse(distance_m_[i + 1] - distance_m_[i]);
+    if (i > 0) two_step_inverse_.data()[i] = inverse(distance_m_[i + 1] - distance_m_[i - 1]);
+  }
+}
+
+std::size_t Standard::read_terrain(const Look& look, const terrain::TerrainView& terrain) {
+  sample_places(look.apex, look.azimuth, look.range, configuration_.fidelity.geodesic_knots, distance_.data(), places_);
+  const bool peaks = terrain.has_peaks();
+  const terrain::SurfaceRun found{elevation_.first(count_), water_.first(count_), peak_.first(peaks ? count_ : 0), {}};
+  const std::size_t pending = terrain.surfaces(places_.run(), configuration_.fidelity.interpolation, found);
+  for (Padded* heights : {&elevation_, &peak_}) {
+    std::fill_n(heights->data(), holes_, kVoid);
+    std::fill_n(heights->data() + count_, terrain::kRunSlack, kVoid);
+  }
   return pending;
 }
 
 void Standard::read_cross_slopes(const Look& look, const terrain::TerrainView& terrain) {
   const double side_rad = kSideShare * configuration_.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
   const auto read = [&](double turn_rad, Padded& out) {
-    sample_places(look.apex, look.azimuth + geo::Angle::radians(turn_rad), look.range, distance_m_, latitude_deg_,
-                  longitude_deg_);
-    terrain.elevations(latitude_deg_, longitude_deg_, {out.data(), count_}, {spare_.data(), count_});
+    sample_places(look.apex, look.azimuth + geo::Angle::radians(turn_rad), look.range,
+                  configuration_.fidelity.geodesic_knots, distance_.data(), places_);
+    terrain.surfaces(places_.run(), configuration_.fidelity.interpolation,
+                     {out.first(count_), spare_.first(count_), {}, {}});
   };
   read(-side_rad, side_);
   read(side_rad, cross_slope_);
@@ -100,13 +130,13 @@ void Standard::read_cross_slopes(const Look& look, const terrain::TerrainView& t
   }
 }
 
-loops::SweepConstants Standard::sweep_constants(const Look& look, const EffectiveEarth& earth,
+lanes::SweepConstants Standard::sweep_constants(const Look& look, const EffectiveEarth& earth,
                                                 const Receiver& receiver) const {
   const double elevation_rad = look.elevation.radians();
   const double beam_rad = receiver.elevation_beamwidth_rad;
   const double centre_rad = std::max(-elevation_rad, 0.5 * beam_rad);
   const double range_m = receiver.stc_range_m;
-  loops::SweepConstants c;
+  lanes::SweepConstants c;
   c.altitude_m = static_cast<float>(look.altitude.metres());
   c.curvature = static_cast<float>(earth.curvature());
   c.land_gamma = static_cast<float>(receiver.land_gamma);
@@ -126,17 +156,6 @@ loops::SweepConstants Standard::sweep_constants(const Look& look, const Effectiv
   return c;
 }
 
-void Standard::apply_beam(const loops::SweepConstants& constants, const loops::SightArrays& sights) {
-  switch (configuration_.fidelity.beam) {
-    case radar::BeamPattern::hard_edge:
-      return loops::gain_hard_edge(count_, constants, sights, gain_.data());
-    case radar::BeamPattern::gaussian:
-      return loops::gain_gaussian(count_, constants, sights, gain_.data());
-    case radar::BeamPattern::cosecant_squared:
-      return loops::gain_cosecant_squared(count_, constants, sights, gain_.data());
-  }
-}
-
 void Standard::develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
                        std::span<std::uint8_t> video) {
   const Receiver& receiver = receiver_at(range);
@@ -147,16 +166,21 @@ void Standard::develop(const PowerWindow& window, geo::Length range, int gain, c
                    [](double weight) { return static_cast<float>(weight); });
   }
   const std::size_t count = video.size();
-  loops::join_sweeps(count, window.before.data(), window.centre.data(), window.after.data(), weights.data(),
-                     static_cast<float>(receiver.noise), power_.data());
+  lanes::VideoInputs inputs{};
+  inputs.before = window.before.data();
+  inputs.centre = window.centre.data();
+  inputs.after = window.after.data();
+  inputs.weights = weights.data();
+  inputs.noise = static_cast<float>(receiver.noise);
+  inputs.gain_db = static_cast<float>((gain - kFullGain) * receiver.gain_step_db);
+  inputs.decibels_per_scale = static_cast<float>(receiver.decibels_per_scale);
   if (fidelity.noise) {
-    const double spacing_m = range.metres() / static_cast<double>(count);
-    loops::speckle(count, make_noise_state(key), cells_per_sample(spacing_m, receiver.pulse_length_m), receiver.looks,
-                   spare_.data(), power_.data());
+    inputs.cells_per_sample = cells_per_sample(range.metres() / static_cast<double>(count), receiver.pulse_length_m);
+    const std::uint32_t last_cell = resolution_cell(static_cast<std::uint32_t>(count - 1), inputs.cells_per_sample);
+    lanes::speckle(last_cell + 1, make_noise_state(key), receiver.looks, variate_.data());
+    inputs.variate = variate_.data();
   }
-  const double gain_db = (gain - kFullGain) * receiver.gain_step_db;
-  loops::quantize(count, power_.data(), static_cast<float>(gain_db), static_cast<float>(receiver.decibels_per_scale),
-                  video.data());
+  lanes::develop(count, inputs, video.data());
 }
 
 }  // namespace yars::model::rbm

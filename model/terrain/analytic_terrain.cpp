@@ -34,21 +34,26 @@ AnalyticTerrain::Height along(TerrainAxis axis, Profile profile) {
 AnalyticTerrain::AnalyticTerrain(Height height_m, std::uint64_t generation)
     : height_m_(std::move(height_m)), generation_(generation) {}
 
-double AnalyticTerrain::elevation_m(geo::GeoPoint place) const {
+Surface AnalyticTerrain::surface_at(geo::GeoPoint place, Interpolation /*interpolation*/) const {
   if (!std::isfinite(place.latitude_deg) || !std::isfinite(place.longitude_deg))
-    return std::numeric_limits<double>::quiet_NaN();
-  return height_m_({std::clamp(place.latitude_deg, -90.0, 90.0), geo::wrapped_degrees(place.longitude_deg)});
+    return {std::numeric_limits<double>::quiet_NaN(), 0.0};
+  const double height_m =
+      height_m_({std::clamp(place.latitude_deg, -90.0, 90.0), geo::wrapped_degrees(place.longitude_deg)});
+  return {height_m, height_m == 0.0 ? 1.0 : 0.0};
 }
 
-std::size_t AnalyticTerrain::elevations(std::span<const double> latitude_deg, std::span<const double> longitude_deg,
-                                        std::span<float> elevation_m, std::span<float> water) const {
-  YARS_REQUIRE(longitude_deg.size(), ==, latitude_deg.size());
-  YARS_REQUIRE(elevation_m.size(), ==, latitude_deg.size());
-  YARS_REQUIRE(water.size(), ==, latitude_deg.size());
-  for (std::size_t i = 0; i < latitude_deg.size(); ++i) {
-    const double height_m = this->elevation_m({latitude_deg[i], longitude_deg[i]});
-    elevation_m[i] = static_cast<float>(height_m);
-    water[i] = height_m == 0.0 ? 1.0F : 0.0F;
+std::size_t AnalyticTerrain::surfaces(const PlaceRun& places, Interpolation interpolation,
+                                      const SurfaceRun& found) const {
+  const std::size_t count = places.north_deg.size();
+  YARS_REQUIRE(places.east_deg.size(), ==, count);
+  YARS_REQUIRE(found.elevation_m.size(), ==, count);
+  YARS_REQUIRE(found.water.size(), ==, count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Surface surface = surface_at(place_of(places, i), interpolation);
+    found.elevation_m[i] = static_cast<float>(surface.elevation_m);
+    found.water[i] = static_cast<float>(surface.water);
+    if (!found.peak_m.empty()) found.peak_m[i] = found.elevation_m[i];
+    if (!found.material.empty()) found.material[i] = surface.material;
   }
   return 0;
 }

@@ -20,9 +20,8 @@ class AnalyticTerrain final : public TerrainView {
 
   std::uint64_t generation() const override { return generation_; }
   std::uint64_t resident_bytes() const override { return sizeof(*this); }
-  double elevation_m(geo::GeoPoint place) const override;
-  std::size_t elevations(std::span<const double> latitude_deg, std::span<const double> longitude_deg,
-                         std::span<float> elevation_m, std::span<float> water) const override;
+  Surface surface_at(geo::GeoPoint place, Interpolation interpolation) const override;
+  std::size_t surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const override;
 
  private:
   Height height_m_;

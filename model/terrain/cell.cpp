@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-
-#include "lib/failure/require.hpp"
 
 namespace yars::model::terrain {
 
@@ -16,13 +13,10 @@ CellPlace cell_holding(geo::GeoPoint point) {
           std::min(static_cast<int>(std::floor(longitude_deg)), 179)};
 }
 
-Cell::Cell(CellPlace place, int rows, int columns, std::vector<std::int16_t> posts)
-    : place_(place), rows_(rows), columns_(columns), posts_(std::move(posts)) {
-  YARS_REQUIRE(rows, >=, 2);
-  YARS_REQUIRE(columns, >=, 2);
-  YARS_REQUIRE(posts_.size(), ==, static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+Cell::Cell(CellPlace place, int rows, int columns, const std::vector<std::int16_t>& posts)
+    : place_(place), rows_(rows), columns_(columns), blocks_(rows, columns, posts) {
   bool any = false;
-  for (const std::int16_t post_m : posts_) {
+  for (const std::int16_t post_m : posts) {
     if (post_m == kVoidPost) {
       ++voids_;
       continue;
@@ -32,6 +26,14 @@ Cell::Cell(CellPlace place, int rows, int columns, std::vector<std::int16_t> pos
     highest_m_ = any ? std::max(highest_m_, post_m) : post_m;
     any = true;
   }
+}
+
+std::vector<std::int16_t> Cell::posts() const {
+  std::vector<std::int16_t> posts;
+  posts.reserve(post_count());
+  for (int row = 0; row < rows_; ++row)
+    for (int column = 0; column < columns_; ++column) posts.push_back(blocks_.post(row, column));
+  return posts;
 }
 
 }  // namespace yars::model::terrain

@@ -6,15 +6,15 @@
 #include <utility>
 
 #include "lib/failure/require.hpp"
-#include "model/terrain/bilinear.hpp"
+#include "model/terrain/interpolation.hpp"
+#include "model/terrain/look_up.hpp"
 
 namespace yars::model::terrain {
 
 namespace {
 
-bool finite(double latitude_deg, double longitude_deg) {
-  return std::isfinite(latitude_deg) && std::isfinite(longitude_deg);
-}
+constexpr Surface kNothing{std::numeric_limits<double>::quiet_NaN(), 0.0};
+constexpr float kMostTurns = 1.0e6F;  // [deg] of longitude: more is no place, but must not overflow
 
 }  // namespace
 
@@ -26,60 +26,99 @@ void CellView::set_absence(CellPlace place, Absence absence) {
   table_[slot_of(place)] = static_cast<std::uint16_t>(absence);
 }
 
-void CellView::add(std::shared_ptr<const Cell> cell) {
-  table_[slot_of(cell->place())] = static_cast<std::uint16_t>(kFirstCell + cells_.size());
-  resident_bytes_ += cell->bytes();
+void CellView::add(TerrainCell cell) {
+  table_[slot_of(cell.heights->place())] = static_cast<std::uint16_t>(kFirstCell + cells_.size());
+  resident_bytes_ += cell.heights->bytes();
+  if (cell.peaks) {
+    resident_bytes_ += cell.peaks->bytes();
+    has_peaks_ = true;
+  }
   cells_.push_back(std::move(cell));
 }
 
-double CellView::elevation_m(geo::GeoPoint place) const {
-  constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
-  if (!finite(place.latitude_deg, place.longitude_deg)) return kNoHeight;
+Surface CellView::surface_at(geo::GeoPoint place, Interpolation interpolation) const {
+  if (!std::isfinite(place.latitude_deg) || !std::isfinite(place.longitude_deg)) return kNothing;
   const CellPlace corner = cell_holding(place);
   const std::uint16_t what = entry(corner);
-  if (what == static_cast<std::uint16_t>(Absence::sea)) return 0.0;
-  if (what < kFirstCell) return kNoHeight;
-  return interpolate(*cells_[what - kFirstCell], place.latitude_deg - corner.south_deg,
-                     geo::wrapped_degrees(place.longitude_deg) - corner.west_deg)
-      .elevation_m;
+  if (what == static_cast<std::uint16_t>(Absence::sea)) return {0.0, 1.0};
+  if (what < kFirstCell) {
+    Surface nothing = kNothing;
+    nothing.loaded = what != static_cast<std::uint16_t>(Absence::not_loaded);
+    return nothing;
+  }
+  return interpolate(*cells_[what - kFirstCell].heights, place.latitude_deg - corner.south_deg,
+                     geo::wrapped_degrees(place.longitude_deg) - corner.west_deg, interpolation);
 }
 
-CellView::Run CellView::run_at(std::span<const double> latitude_deg, std::span<const double> longitude_deg) const {
+CellView::Run CellView::run_at(const PlaceRun& places, std::size_t first) const {
   Run run;
-  if (!finite(latitude_deg[0], longitude_deg[0])) return run;
-  const CellPlace corner = cell_holding({latitude_deg[0], longitude_deg[0]});
-  run.what = entry(corner);
-  // Whole turns that bring this run's longitudes beside the cell.
-  run.shift_deg = 360.0 * std::round((corner.west_deg + 0.5 - longitude_deg[0]) / 360.0);
-  const double west_deg = corner.west_deg - run.shift_deg;
-  while (run.places < latitude_deg.size() && latitude_deg[run.places] >= corner.south_deg &&
-         latitude_deg[run.places] < corner.south_deg + 1 && longitude_deg[run.places] >= west_deg &&
-         longitude_deg[run.places] < west_deg + 1)
-    ++run.places;
+  run.first = first;
+  const float cells_north = places.cells_north[first];
+  const float cells_east = places.cells_east[first];
+  if (!(std::abs(cells_north) <= kMostTurns) || !(std::abs(cells_east) <= kMostTurns)) return run;
+  const int south = places.corner.south_deg + static_cast<int>(cells_north);
+  const int west = places.corner.west_deg + 180 + static_cast<int>(cells_east);
+  run.beyond_pole = south < -90 || south > 89;
+  run.what =
+      entry({std::clamp(south, -90, 89), (west % kCellColumns + kCellColumns) % kCellColumns - kCellColumns / 2});
+  run.places =
+      look_up::places_alike(&places.cells_north[first], &places.cells_east[first], places.cells_north.size() - first);
   return run;
 }
 
-std::size_t CellView::elevations(std::span<const double> latitude_deg, std::span<const double> longitude_deg,
-                                 std::span<float> elevation_m, std::span<float> water) const {
-  const std::size_t places = latitude_deg.size();
-  YARS_REQUIRE(longitude_deg.size(), ==, places);
-  YARS_REQUIRE(elevation_m.size(), ==, places);
-  YARS_REQUIRE(water.size(), ==, places);
+// What vectors do not do: cubic, and places on a pole, which belong to the cell before it.
+void CellView::look_up_singly(const Run& run, const PlaceRun& places, Interpolation interpolation,
+                              const SurfaceRun& found) const {
+  for (std::size_t i = run.first; i < run.first + run.places; ++i) {
+    const Surface surface = surface_at(place_of(places, i), interpolation);
+    found.elevation_m[i] = static_cast<float>(surface.elevation_m);
+    found.water[i] = static_cast<float>(surface.water);
+  }
+}
+
+void CellView::look_up_run(const Run& run, const PlaceRun& places, Interpolation interpolation,
+                           const SurfaceRun& found) const {
+  const TerrainCell& cell = cells_[run.what - kFirstCell];
+  const auto grid_of = [](const Cell& grid) {
+    return look_up::Grid{&grid.blocks(), grid.rows(), grid.columns(), grid.voids() > 0, grid.sea_posts() > 0};
+  };
+  const float* const north_deg = &places.north_deg[run.first];
+  const float* const east_deg = &places.east_deg[run.first];
+  const bool nearest = interpolation == Interpolation::nearest;
+  if (interpolation == Interpolation::cubic || run.beyond_pole)
+    look_up_singly(run, places, interpolation, found);
+  else
+    look_up::heights(grid_of(*cell.heights), north_deg, east_deg, run.places, nearest, &found.elevation_m[run.first],
+                     &found.water[run.first]);
+  if (found.peak_m.empty()) return;
+  if (cell.peaks)
+    look_up::heights(grid_of(*cell.peaks), north_deg, east_deg, run.places, nearest, &found.peak_m[run.first], nullptr);
+  else
+    std::copy_n(&found.elevation_m[run.first], run.places, &found.peak_m[run.first]);
+}
+
+std::size_t CellView::surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const {
+  const std::size_t count = places.north_deg.size();
+  YARS_REQUIRE(places.east_deg.size(), ==, count);
+  YARS_REQUIRE(places.cells_north.size(), ==, count);
+  YARS_REQUIRE(places.cells_east.size(), ==, count);
+  YARS_REQUIRE(found.elevation_m.size(), ==, count);
+  YARS_REQUIRE(found.water.size(), ==, count);
+  std::fill(found.material.begin(), found.material.end(), std::uint8_t{0});
   std::size_t not_loaded = 0;
-  for (std::size_t start = 0; start < places;) {
-    const Run run = run_at(latitude_deg.subspan(start), longitude_deg.subspan(start));
-    const std::span<float> heights_m = elevation_m.subspan(start, run.places);
-    const std::span<float> shares = water.subspan(start, run.places);
+  for (std::size_t first = 0; first < count;) {
+    const Run run = run_at(places, first);
     if (run.what >= kFirstCell) {
-      interpolate_run(*cells_[run.what - kFirstCell], run.shift_deg, latitude_deg.subspan(start, run.places),
-                      longitude_deg.subspan(start, run.places), heights_m, shares);
+      look_up_run(run, places, interpolation, found);
     } else {
       const bool sea = run.what == static_cast<std::uint16_t>(Absence::sea);
-      std::fill(heights_m.begin(), heights_m.end(), sea ? 0.0F : std::numeric_limits<float>::quiet_NaN());
-      std::fill(shares.begin(), shares.end(), sea ? 1.0F : 0.0F);
+      const float height_m = sea ? 0.0F : std::numeric_limits<float>::quiet_NaN();
+      std::fill_n(&found.elevation_m[first], run.places, height_m);
+      std::fill_n(&found.water[first], run.places, sea ? 1.0F : 0.0F);
+      if (!found.peak_m.empty()) std::fill_n(&found.peak_m[first], run.places, height_m);
       if (run.what == static_cast<std::uint16_t>(Absence::not_loaded)) not_loaded += run.places;
     }
-    start += run.places;
+    first += run.places;
   }
   return not_loaded;
 }

@@ -1,10 +1,11 @@
 // A view over a set of cells: what DirectoryTerrainStore hands out. Lookup is a table over all cells of the earth.
-// elevations() is plain C++ over runs of places in one cell; its result at a place does not depend on the others.
+// surfaces() goes by runs of places in one cell; its result at a place does not depend on the others.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "model/terrain/cell.hpp"
@@ -19,6 +20,12 @@ enum class Absence : std::uint8_t {
   not_loaded,  // a file exists but the view was made without it
 };
 
+// What stands for one cell: its heights and, at a coarser level, the highest ground about each post.
+struct TerrainCell {
+  std::shared_ptr<const Cell> heights;
+  std::shared_ptr<const Cell> peaks;  // null: the heights themselves
+};
+
 class CellView final : public TerrainView {
  public:
   // `elsewhere` holds where neither set_absence nor add says otherwise.
@@ -26,30 +33,35 @@ class CellView final : public TerrainView {
 
   // While building; afterwards the view is shared as const.
   void set_absence(CellPlace place, Absence absence);
-  void add(std::shared_ptr<const Cell> cell);
+  void add(std::shared_ptr<const Cell> cell) { add(TerrainCell{std::move(cell), nullptr}); }
+  void add(TerrainCell cell);
 
   std::uint64_t generation() const override { return generation_; }
   std::uint64_t resident_bytes() const override { return sizeof(*this) + resident_bytes_; }
-  double elevation_m(geo::GeoPoint place) const override;
-  std::size_t elevations(std::span<const double> latitude_deg, std::span<const double> longitude_deg,
-                         std::span<float> elevation_m, std::span<float> water) const override;
+  Surface surface_at(geo::GeoPoint place, Interpolation interpolation) const override;
+  bool has_peaks() const override { return has_peaks_; }
+  std::size_t surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const override;
 
  private:
   static constexpr std::uint16_t kFirstCell = 3;  // entries below are Absence values, from here on cells_
 
-  // The first places that one entry of the table serves; at least one.
+  // The next places that one entry of the table serves; at least one.
   struct Run {
     std::uint16_t what = static_cast<std::uint16_t>(Absence::none);
-    std::size_t places = 1;
-    double shift_deg = 0.0;  // added to each longitude
+    std::size_t first = 0, places = 1;
+    bool beyond_pole = false;
   };
-  Run run_at(std::span<const double> latitude_deg, std::span<const double> longitude_deg) const;
+  Run run_at(const PlaceRun& places, std::size_t first) const;
+  void look_up_run(const Run& run, const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const;
+  void look_up_singly(const Run& run, const PlaceRun& places, Interpolation interpolation,
+                      const SurfaceRun& found) const;
 
   std::uint16_t entry(CellPlace place) const { return table_[slot_of(place)]; }
 
   std::uint64_t generation_;
   std::uint64_t resident_bytes_ = 0;
-  std::vector<std::shared_ptr<const Cell>> cells_;
+  bool has_peaks_ = false;
+  std::vector<TerrainCell> cells_;
   std::array<std::uint16_t, static_cast<std::size_t>(kCellRows) * kCellColumns> table_;
 };
 

@@ -9,11 +9,48 @@
 #include <vector>
 
 #include "lib/geo/geodesic.hpp"
+#include "lib/radar/configuration.hpp"
+#include "model/terrain/cell_place.hpp"
 
 namespace yars::model::terrain {
 
+// The ground at one place.
+struct Surface {
+  double elevation_m = 0.0;   // [m] MSL; NaN = void
+  double water = 0.0;         // [0, 1] share of posts at exactly 0 m
+  std::uint8_t material = 0;  // surface material code of the nearest post; 0 = none given: land or sea by `water`
+  bool loaded = true;         // false: a file has it, but it is not in memory yet
+};
+
+// Places in a row for the fast path: which cell each lies in, counted from one of them, and where in it [0, 1] deg.
+// Float holds that to 0.004 m. Cells may run on beyond any multiple of a turn.
+struct PlaceRun {
+  CellPlace corner;
+  std::span<const float> cells_north, cells_east;  // whole numbers
+  std::span<const float> north_deg, east_deg;
+};
+
+inline geo::GeoPoint place_of(const PlaceRun& places, std::size_t i) {
+  return {
+      places.corner.south_deg + static_cast<double>(places.cells_north[i]) + static_cast<double>(places.north_deg[i]),
+      places.corner.west_deg + static_cast<double>(places.cells_east[i]) + static_cast<double>(places.east_deg[i])};
+}
+
+// Where the fast path puts what it finds, each as long as the places. `peak_m` and `material` may be empty: not asked.
+struct SurfaceRun {
+  std::span<float> elevation_m;  // [m] MSL; NaN = void
+  std::span<float> water;        // [0, 1]
+  std::span<float> peak_m;       // [m] highest ground about the place where a coarser level stands in, else elevation
+  std::span<std::uint8_t> material;
+};
+
+// Arrays of the fast path have this many entries more behind the last one, which may be read and overwritten.
+inline constexpr std::size_t kRunSlack = 16;
+
 class TerrainView {
  public:
+  using Interpolation = radar::Interpolation;
+
   TerrainView() = default;
   TerrainView(const TerrainView&) = delete;
   TerrainView& operator=(const TerrainView&) = delete;
@@ -23,15 +60,19 @@ class TerrainView {
   virtual std::uint64_t generation() const = 0;
   virtual std::uint64_t resident_bytes() const = 0;
 
-  // Bilinear elevation [m MSL] at one place; NaN = void. Any longitude (wrapped), latitude clamped to the poles.
-  // A void among the four posts is left out and the weights of the others are scaled; all four void = NaN.
-  virtual double elevation_m(geo::GeoPoint place) const = 0;
+  // The ground at one place, in double. Any longitude (wrapped), latitude clamped to the poles. A void among the posts
+  // is left out and the weights of the others are scaled; all void = NaN.
+  virtual Surface surface_at(geo::GeoPoint place, Interpolation interpolation = Interpolation::bilinear) const = 0;
+  double elevation_m(geo::GeoPoint place) const { return surface_at(place).elevation_m; }
 
-  // The same for a run of places, in float, NaN = void: the fast path. Error against elevation_m at most 0.05 m
-  // + 1e-6 of the cell's relief. `water` [0, 1] is the share of water (posts at exactly 0 m, absent cells) by the
-  // same weights. Returns how many places met a cell that is not loaded yet (their elevation is NaN).
-  virtual std::size_t elevations(std::span<const double> latitude_deg, std::span<const double> longitude_deg,
-                                 std::span<float> elevation_m, std::span<float> water) const = 0;
+  // True if peak_m may differ from elevation_m anywhere.
+  virtual bool has_peaks() const { return false; }
+  // True if a material other than 0 may be found anywhere.
+  virtual bool has_materials() const { return false; }
+
+  // The same for a run of places, in float: the fast path. Error against surface_at at most 0.05 m + 1e-6 of the
+  // cell's relief, for the same position. Returns how many places met a cell that is not loaded yet (NaN there).
+  virtual std::size_t surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const = 0;
 };
 
 using TerrainViewPointer = std::shared_ptr<const TerrainView>;

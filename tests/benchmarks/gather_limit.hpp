@@ -9,10 +9,9 @@
 
 namespace yars::benchmarks {
 
-// Reads for every offset the words at it and one row further; each word holds two neighbouring posts of 16 bits.
-// Returns a sum that depends on all of them. Offsets + row stay inside the words; their number is a multiple of 16.
-std::uint32_t gather_pairs(std::span<const std::uint32_t> words, std::span<const std::int32_t> offsets,
-                           std::int32_t row);
+// Reads for every entry the pair of posts at it and the pair `row` entries further, each pair as one word of 32 bits.
+// All must lie within the posts; the number of entries is a multiple of 16. Returns a sum that depends on all of them.
+std::uint32_t gather_pairs(const std::int16_t* posts, std::span<const std::int32_t> entries, std::int32_t row);
 
 // "avx512f", "avx2" or "scalar": what gather_pairs() uses here.
 std::string_view gather_width();

@@ -1,136 +1,154 @@
-// Real beam map: `reference` and `standard` in samples a second beside the gather limit, in one run. Medians over
-// interleaved rounds, thread CPU time; a round in which the hypervisor stole more than 2 % is repeated.
-// Usage: rbm_benchmark DIRECTORY [LAT LON HEADING] - a directory of DTED or HGT cells.
-#include <time.h>
-
-#include <algorithm>
+// Real beam map: samples a second of `standard` (with noise and without, kernel alone, cold) and `reference` beside the
+// gather limit of the same posts along the same rays, all in one run, at several ranges. Medians over interleaved
+// rounds. Usage: rbm_benchmark DIRECTORY [LAT LON HEADING] - a directory of DTED or HGT cells of one spacing.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "model/kernel/offline_scan.hpp"
 #include "model/terrain/open_terrain.hpp"
+#include "model/terrain/post_blocks.hpp"
 #include "tests/benchmarks/gather_limit.hpp"
+#include "tests/benchmarks/rbm_stages.hpp"
+#include "tests/benchmarks/timing.hpp"
 
 namespace {
 
 using namespace yars;
+using benchmarks::median;
+using benchmarks::timed;
 
-constexpr int kRounds = 31;
-constexpr int kMostRepeats = 10;  // of a round that was disturbed
-constexpr double kMostSteal = 0.02;
-constexpr int kGridSide = 2048;  // posts either way of the grid that the gathers read: 16 MiB of words
-constexpr double kRangeNm = 80.0;
+constexpr int kRounds = 15;
 constexpr int kSamples = 1024;
+constexpr std::size_t kCacheBytes = std::size_t{256} << 20;  // written over to make a scan cold
 
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-// Jiffies of all processors together, and of them what the hypervisor gave to others.
-struct Processors {
-  double all = 0.0, stolen = 0.0;
-};
-Processors processors() {
-  std::ifstream file("/proc/stat");
-  std::string word;
-  file >> word;
-  Processors result;
-  double value = 0.0;
-  for (int field = 0; field < 8 && file >> value; ++field) {
-    result.all += value;
-    if (field == 7) result.stolen = value;
-  }
-  return result;
-}
-
-template <class Work>
-double timed(const Work& work) {
-  double seconds = 0.0;
-  for (int attempt = 0; attempt < kMostRepeats; ++attempt) {
-    const Processors before = processors();
-    const double begin_s = thread_seconds();
-    work();
-    seconds = thread_seconds() - begin_s;
-    const Processors after = processors();
-    if (after.stolen - before.stolen <= kMostSteal * (after.all - before.all)) break;
-  }
-  return seconds;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
-radar::RadarConfiguration configured(radar::Algorithm algorithm) {
+radar::RadarConfiguration configured(radar::Algorithm algorithm, bool noise) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.algorithm = algorithm;
   configuration.fidelity.samples = kSamples;
+  configuration.fidelity.noise = noise;
   return configuration;
 }
 
-// Where the samples of the scan fall on a square grid about the aircraft: the same rays, the same order.
-std::vector<std::int32_t> ray_offsets(std::size_t sweeps, geo::Bearing heading) {
-  std::vector<std::int32_t> offsets;
-  for (std::size_t sweep = 0; sweep < sweeps; ++sweep) {
-    const double share = (static_cast<double>(sweep) + 0.5) / static_cast<double>(sweeps);
-    const double azimuth_rad = heading.radians() + (share - 0.5) * 100.0 * geo::kRadiansPerDegree;
+// The posts about the aircraft as one grid, in the blocks of the terrain's own look-up: four neighbours share a cache
+// line, the best that memory can do for a gather.
+struct Mosaic {
+  int south_deg, west_deg, posts_per_degree;
+  model::terrain::PostBlocks blocks;
+};
+
+Mosaic mosaic_about(geo::GeoPoint place, double radius_m, int posts_per_degree) {
+  const double reach_deg = radius_m / 111000.0;
+  const double wide_deg = reach_deg / std::cos(place.latitude_deg * geo::kRadiansPerDegree);
+  const int south = static_cast<int>(std::floor(place.latitude_deg - reach_deg));
+  const int west = static_cast<int>(std::floor(place.longitude_deg - wide_deg));
+  const int rows = (static_cast<int>(std::ceil(place.latitude_deg + reach_deg)) - south) * posts_per_degree + 1;
+  const int columns = (static_cast<int>(std::ceil(place.longitude_deg + wide_deg)) - west) * posts_per_degree + 1;
+  std::vector<std::int16_t> posts;
+  posts.reserve(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+  // What the heights are does not matter, that they are there does.
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) posts.push_back(static_cast<std::int16_t>((row ^ column) & 0xff));
+  return {south, west, posts_per_degree, model::terrain::PostBlocks(rows, columns, posts)};
+}
+
+// Entries of the posts south-west of every sample of the scan.
+std::vector<std::int32_t> ray_entries(const Mosaic& mosaic, const model::kernel::OfflineScan& scan, geo::Length range) {
+  std::vector<std::int32_t> entries;
+  for (const databuffer::Sweep& sweep : scan.sweeps()) {
+    const double middle_deg =
+        sweep.azimuth_left_deg + 0.5 * geo::wrapped_degrees(sweep.azimuth_right_deg - sweep.azimuth_left_deg);
+    const geo::GeodesicRay ray({sweep.apex_latitude_deg, sweep.apex_longitude_deg}, geo::Bearing::degrees(middle_deg));
     for (int i = 0; i < kSamples; ++i) {
-      const double way = 0.5 * (kGridSide - 4) * (i + 0.5) / kSamples;
-      const int column = static_cast<int>(0.5 * kGridSide + way * std::sin(azimuth_rad));
-      const int row = static_cast<int>(0.5 * kGridSide - way * std::cos(azimuth_rad));
-      offsets.push_back(row * kGridSide + column);
+      const geo::GeoPoint place = ray.position((i + 0.5) / kSamples * range);
+      const int row = static_cast<int>((place.latitude_deg - mosaic.south_deg) * mosaic.posts_per_degree);
+      const int column = static_cast<int>((place.longitude_deg - mosaic.west_deg) * mosaic.posts_per_degree);
+      using Blocks = model::terrain::PostBlocks;
+      const int block = row / Blocks::kRowStep * mosaic.blocks.block_columns() + column / Blocks::kColumnStep;
+      entries.push_back(block * static_cast<int>(Blocks::kPosts) + row % Blocks::kRowStep * Blocks::kColumns +
+                        column % Blocks::kColumnStep);
     }
   }
-  return offsets;
+  return entries;
+}
+
+struct Rates {
+  std::vector<double> gather, full, quiet, kernel, cold, reference, share, quiet_share;
+};
+
+void measure_range(const model::terrain::TerrainView& terrain, model::kernel::ScanRequest request, double range_nm,
+                   std::vector<char>& trash) {
+  request.range = geo::Length::nautical_miles(range_nm);
+  model::kernel::OfflineScan noisy(configured(radar::Algorithm::standard, true), request, 1);
+  model::kernel::OfflineScan quiet(configured(radar::Algorithm::standard, false), request, 1);
+  model::kernel::OfflineScan reference(configured(radar::Algorithm::reference, true), request, 1);
+  const auto scan = [&terrain](model::kernel::OfflineScan& which) {
+    which.measure(terrain);
+    which.develop();
+  };
+  scan(noisy);
+  scan(quiet);
+  scan(reference);
+  const double samples = static_cast<double>(noisy.sweeps().size()) * kSamples;
+  constexpr int kPostsPerDegree = 1200;
+  const Mosaic mosaic = mosaic_about(request.pose.place, request.range.metres(), kPostsPerDegree);
+  const std::vector<std::int32_t> entries = ray_entries(mosaic, noisy, request.range);
+  std::uint32_t sink = 0;
+  Rates rates;
+  for (int round = 0; round < kRounds; ++round) {
+    const auto gather = [&] {
+      sink += benchmarks::gather_pairs(mosaic.blocks.data(), entries, model::terrain::PostBlocks::kColumns);
+    };
+    gather();
+    const double gather_s = timed(gather);
+    noisy.measure(terrain);
+    const double kernel_s = timed([&] { noisy.measure(terrain); });
+    const double full_s = timed([&] { scan(noisy); });
+    scan(quiet);
+    const double quiet_s = timed([&] { scan(quiet); });
+    std::fill(trash.begin(), trash.end(), static_cast<char>(round));
+    const double cold_s = timed([&] { scan(noisy); });
+    const double reference_s = timed([&] { scan(reference); });
+    rates.gather.push_back(samples / gather_s);
+    rates.kernel.push_back(samples / kernel_s);
+    rates.full.push_back(samples / full_s);
+    rates.quiet.push_back(samples / quiet_s);
+    rates.cold.push_back(samples / cold_s);
+    rates.reference.push_back(samples / reference_s);
+    rates.share.push_back(gather_s / full_s);
+    rates.quiet_share.push_back(gather_s / quiet_s);
+  }
+  const auto mega = [](const std::vector<double>& values) { return median(values) * 1e-6; };
+  std::printf(
+      "{\"range_nm\":%.4g,\"sweeps\":%zu,\"samples\":%d,\"gather\":\"%s\",\"gather_limit_M\":%.1f,\"standard_M\":%.1f,"
+      "\"without_noise_M\":%.1f,\"kernel_M\":%.1f,\"cold_M\":%.1f,\"reference_M\":%.2f,\"of_limit\":%.3f,"
+      "\"without_noise_of_limit\":%.3f,\"of_reference\":%.1f,\"check\":%u}\n",
+      range_nm, noisy.sweeps().size(), kSamples, benchmarks::gather_width().data(), mega(rates.gather),
+      mega(rates.full), mega(rates.quiet), mega(rates.kernel), mega(rates.cold), mega(rates.reference),
+      median(rates.share), median(rates.quiet_share), median(rates.full) / median(rates.reference), sink);
+  benchmarks::print_stages(terrain, request, kSamples);
+  std::fflush(stdout);
 }
 
 int run(const std::string& directory, geo::GeoPoint place, geo::Bearing heading) {
-  auto store = model::terrain::open_terrain({directory, true});
+  radar::TerrainConfiguration configuration;
+  configuration.directory = directory;
+  auto store = model::terrain::open_terrain(configuration);
   if (!store) {
     std::fprintf(stderr, "rbm_benchmark: %s\n", store.error().message().c_str());
     return 1;
   }
   model::kernel::ScanRequest request;
   request.pose = {place, geo::AltitudeMsl::feet(15000.0), {heading, geo::Angle(), geo::Angle(), heading}};
-  request.range = geo::Length::nautical_miles(kRangeNm);
-  request.width = geo::Angle::degrees(100.0);
+  request.width = geo::Angle::degrees(110.0);  // 200 sweeps
   request.elevation = geo::Angle::degrees(-3.0);
-  const auto terrain = (*store)->prepare({place, request.range.metres()});
-  model::kernel::OfflineScan standard(configured(radar::Algorithm::standard), request, 1);
-  model::kernel::OfflineScan reference(configured(radar::Algorithm::reference), request, 1);
-  const std::size_t sweeps = standard.sweeps().size();
-  const double samples = static_cast<double>(sweeps) * kSamples;
-
-  const std::vector<std::uint32_t> words(static_cast<std::size_t>(kGridSide) * kGridSide, 0x00010001U);
-  const std::vector<std::int32_t> offsets = ray_offsets(sweeps, heading);
-  std::uint32_t sink = 0;
-  std::vector<double> gather_rate, sweep_rate, standard_rate, reference_rate, share;
-  for (int round = 0; round < kRounds; ++round) {
-    const double gather_s = timed([&] { sink += benchmarks::gather_pairs(words, offsets, kGridSide); });
-    const double sweep_s = timed([&] { standard.measure(*terrain); });
-    const double develop_s = timed([&] { standard.develop(); });
-    const double reference_s = timed([&] {
-      reference.measure(*terrain);
-      reference.develop();
-    });
-    gather_rate.push_back(samples / gather_s);
-    sweep_rate.push_back(samples / sweep_s);
-    standard_rate.push_back(samples / (sweep_s + develop_s));
-    reference_rate.push_back(samples / reference_s);
-    share.push_back(gather_s / (sweep_s + develop_s));
+  std::vector<char> trash(kCacheBytes);
+  for (const double range_nm : {10.0, 40.0, 80.0, 160.0}) {
+    const auto terrain = (*store)->prepare({place, geo::Length::nautical_miles(range_nm).metres()});
+    measure_range(*terrain, request, range_nm, trash);
   }
-  std::printf(
-      "{\"samples\":%.0f,\"gather\":\"%s\",\"gather_limit\":%.4g,\"standard\":%.4g,\"standard_sweep\":%.4g,"
-      "\"reference\":%.4g,\"standard_of_gather\":%.3f,\"check\":%u}\n",
-      samples, benchmarks::gather_width().data(), median(gather_rate), median(standard_rate), median(sweep_rate),
-      median(reference_rate), median(share), sink);
   return 0;
 }
 

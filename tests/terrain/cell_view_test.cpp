@@ -3,10 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <random>
+
+#include "tests/lanes/vector_targets.hpp"
+#include "tests/terrain/fast_path.hpp"
 
 namespace yars::model::terrain {
 namespace {
@@ -26,10 +30,8 @@ struct Answer {
   std::size_t not_loaded = 0;
 };
 Answer fast(const TerrainView& view, double latitude_deg, double longitude_deg) {
-  Answer answer;
-  answer.not_loaded =
-      view.elevations({&latitude_deg, 1}, {&longitude_deg, 1}, {&answer.elevation_m, 1}, {&answer.water, 1});
-  return answer;
+  const auto found = test::fast_path(view, {{latitude_deg, longitude_deg}});
+  return {found.elevation_m[0], found.water[0], found.not_loaded};
 }
 
 TEST(CellView, BilinearIsExactOnAPlaneWhateverTheSpacing) {
@@ -134,25 +136,27 @@ TEST(CellView, TheFastPathKeepsItsBoundAgainstTheTruth) {
   std::uniform_real_distribution<double> latitude(-0.2, 2.2);
   std::uniform_real_distribution<double> longitude(178.8, 181.2);
   const std::size_t places = 20000;
-  std::vector<double> latitudes(places);
-  std::vector<double> longitudes(places);
+  std::vector<geo::GeoPoint> at;
   // Half scattered, half along rays: both short and long runs in one cell.
   for (std::size_t i = 0; i < places; ++i) {
     const bool scattered = i % 2000 < 1000;
-    latitudes[i] = scattered ? latitude(random) : -0.2 + 2.4 * static_cast<double>(i % 1000) / 1000;
-    longitudes[i] = scattered ? longitude(random) : 178.8 + 2.4 * static_cast<double>((i * 7) % 1000) / 1000;
+    at.push_back({scattered ? latitude(random) : -0.2 + 2.4 * static_cast<double>(i % 1000) / 1000,
+                  scattered ? longitude(random) : 178.8 + 2.4 * static_cast<double>((i * 7) % 1000) / 1000});
   }
-  std::vector<float> elevation_m(places);
-  std::vector<float> water(places);
-  EXPECT_EQ(view->elevations(latitudes, longitudes, elevation_m, water), 0U);
-  for (std::size_t i = 0; i < places; ++i) {
-    const double truth_m = view->elevation_m({latitudes[i], longitudes[i]});
-    ASSERT_EQ(std::isnan(truth_m), std::isnan(elevation_m[i])) << "seed " << kSeed << ", place " << i;
-    if (!std::isnan(truth_m)) {
-      ASSERT_NEAR(elevation_m[i], truth_m, 0.05 + 1e-6 * 9000) << "seed " << kSeed << ", place " << i;
+  for (const auto interpolation :
+       {radar::Interpolation::nearest, radar::Interpolation::bilinear, radar::Interpolation::cubic}) {
+    const auto found = test::fast_path(*view, at, interpolation);
+    EXPECT_EQ(found.not_loaded, 0U);
+    for (std::size_t i = 0; i < places; ++i) {
+      const Surface truth = view->surface_at(found.places[i], interpolation);
+      ASSERT_EQ(std::isnan(truth.elevation_m), std::isnan(found.elevation_m[i]))
+          << "seed " << kSeed << ", place " << i << ", interpolation " << static_cast<int>(interpolation);
+      if (!std::isnan(truth.elevation_m)) {
+        ASSERT_NEAR(found.elevation_m[i], truth.elevation_m, 0.05 + 1e-6 * 9000)
+            << "seed " << kSeed << ", place " << i << ", interpolation " << static_cast<int>(interpolation);
+      }
+      ASSERT_NEAR(found.water[i], truth.water, 1e-4);
     }
-    ASSERT_GE(water[i], 0.0F);
-    ASSERT_LE(water[i], 1.0F);
   }
 }
 
@@ -161,20 +165,41 @@ TEST(CellView, APlaceGetsTheSameBitsWhateverItsCompany) {
   std::mt19937_64 random(kSeed);
   const auto view = rough_view(random);
   std::uniform_real_distribution<double> latitude(0, 2);
-  std::vector<double> latitudes(999);
-  std::vector<double> longitudes(latitudes.size());
-  for (std::size_t i = 0; i < latitudes.size(); ++i) {
-    latitudes[i] = latitude(random);
-    longitudes[i] = 179.0 + static_cast<double>(i) / 500;
-  }
-  std::vector<float> elevation_m(latitudes.size());
-  std::vector<float> water(latitudes.size());
-  view->elevations(latitudes, longitudes, elevation_m, water);
-  for (std::size_t i = 0; i < latitudes.size(); ++i) {
-    const Answer alone = fast(*view, latitudes[i], longitudes[i]);
-    ASSERT_TRUE(alone.elevation_m == elevation_m[i] || (std::isnan(alone.elevation_m) && std::isnan(elevation_m[i])))
+  std::vector<geo::GeoPoint> at;
+  for (std::size_t i = 0; i < 999; ++i) at.push_back({latitude(random), 179.0 + static_cast<double>(i) / 500});
+  at.front() = {0.5, 179.0};  // the corner of all is the corner of each alone
+  const auto found = test::fast_path(*view, at);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const auto pair = test::fast_path(*view, {at.front(), at[i]});
+    ASSERT_TRUE(pair.elevation_m[1] == found.elevation_m[i] ||
+                (std::isnan(pair.elevation_m[1]) && std::isnan(found.elevation_m[i])))
         << "seed " << kSeed << ", place " << i;
-    ASSERT_EQ(alone.water, water[i]) << "seed " << kSeed << ", place " << i;
+    ASSERT_EQ(pair.water[1], found.water[i]) << "seed " << kSeed << ", place " << i;
+  }
+}
+
+// Every set of instructions that this machine has, the plain version among them.
+TEST(CellView, EveryWidthOfVectorGivesTheSameBits) {
+  constexpr unsigned kSeed = 13;
+  std::mt19937_64 random(kSeed);
+  const auto view = rough_view(random);
+  std::uniform_real_distribution<double> latitude(-0.2, 2.2);
+  std::uniform_real_distribution<double> longitude(178.8, 181.2);
+  std::vector<geo::GeoPoint> at{{0.5, 179.0}};
+  for (int i = 0; i < 5000; ++i) at.push_back({latitude(random), longitude(random)});
+  for (int i = 0; i < 5000; ++i) at.push_back({0.0002 * i, 179.0 + 0.0003 * i});
+  const auto bits_of = [](const std::vector<float>& values) {
+    std::vector<std::uint32_t> bits;
+    for (const float value : values) bits.push_back(std::isnan(value) ? 1U : std::bit_cast<std::uint32_t>(value));
+    return bits;
+  };
+  for (const auto interpolation : {radar::Interpolation::nearest, radar::Interpolation::bilinear}) {
+    const auto expected = test::fast_path(*view, at, interpolation);
+    test::for_each_vector_target([&](const char* name) {
+      const auto found = test::fast_path(*view, at, interpolation);
+      EXPECT_EQ(bits_of(found.elevation_m), bits_of(expected.elevation_m)) << name;
+      EXPECT_EQ(bits_of(found.water), bits_of(expected.water)) << name;
+    });
   }
 }
 

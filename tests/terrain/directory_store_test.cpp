@@ -16,7 +16,10 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 constexpr double kNear = 1000.0;  // [m]
-constexpr std::size_t kCell = sizeof(Cell) + 2 * test::kSmallSide * test::kSmallSide;
+// Bytes of one of these cells in memory.
+const std::size_t kCell = Cell({0, 0}, test::kSmallSide, test::kSmallSide,
+                               std::vector<std::int16_t>(std::size_t{test::kSmallSide} * std::size_t{test::kSmallSide}))
+                              .bytes();
 
 // Cells far apart along the equator: heights 10, 20, 30, 40 at longitudes 0, 20, 40, 60.
 std::string name_at(int west_deg) {

@@ -207,7 +207,7 @@ TEST(DtedReader, RandomDamageNeverReadsBeyondTheFile) {
     if (!reading)
       ++refused;
     else
-      EXPECT_EQ(reading->cell.posts().size(), 25U) << "seed " << kSeed << ", round " << round;
+      EXPECT_EQ(reading->cell.post_count(), 25U) << "seed " << kSeed << ", round " << round;
   }
   EXPECT_GT(refused, 1000) << "seed " << kSeed;
   EXPECT_LT(refused, 4000) << "seed " << kSeed;

@@ -68,8 +68,8 @@ TEST(Landscape, AnotherObjectMakesTheSameEarthAndAnotherSeedAnother) {
   const Cell first = level_0(Landscape(12), place);
   const Cell again = level_0(Landscape(12), place);
   const Cell other = level_0(Landscape(13), place);
-  EXPECT_TRUE(std::equal(first.posts().begin(), first.posts().end(), again.posts().begin()));
-  EXPECT_FALSE(std::equal(first.posts().begin(), first.posts().end(), other.posts().begin()));
+  EXPECT_EQ(first.posts(), again.posts());
+  EXPECT_NE(first.posts(), other.posts());
 }
 
 TEST(Landscape, ThePolesAreMade) {
@@ -88,10 +88,11 @@ TEST(Landscape, TheDefaultRegionHasSeaPlainAndMountains) {
   for (int row = 0; row < Default::kCellsNorth; ++row)
     for (int column = 0; column < Default::kCellsEast; ++column) {
       const Cell cell = level_0(landscape, {Default::kSouthDeg + row, Default::kWestDeg + column});
-      posts += cell.posts().size();
+      const auto heights = cell.posts();
+      posts += heights.size();
       sea += cell.sea_posts();
-      plain += static_cast<std::size_t>(std::count_if(cell.posts().begin(), cell.posts().end(),
-                                                      [](std::int16_t post) { return post > 0 && post < 300; }));
+      plain += static_cast<std::size_t>(
+          std::count_if(heights.begin(), heights.end(), [](std::int16_t post) { return post > 0 && post < 300; }));
       highest_m = std::max<int>(highest_m, cell.highest_m());
       EXPECT_GE(cell.lowest_m(), 0);
       EXPECT_EQ(cell.voids(), 0U);
@@ -116,7 +117,7 @@ TEST(DtedWriter, WhatItWritesTheReaderReads) {
   const auto reading = read_dted(*path, place);
   ASSERT_TRUE(reading.has_value()) << reading.error().message();
   EXPECT_TRUE(reading->warnings.empty());
-  EXPECT_TRUE(std::equal(posts.begin(), posts.end(), reading->cell.posts().begin(), reading->cell.posts().end()));
+  EXPECT_EQ(reading->cell.posts(), posts);
 }
 
 TEST(DtedWriter, RecordsAreByteExact) {

@@ -1,0 +1,102 @@
+// Elementary functions for vectors of any width (Highway): no library call, no fused operation, the same bits on every
+// target. Coefficients: Chebyshev interpolation on the reduced interval. Errors are of the polynomial; rounding of
+// float comes on top. Included once for each target.
+#if defined(YARS_MODEL_RBM_POLYNOMIALS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef YARS_MODEL_RBM_POLYNOMIALS_INL
+#undef YARS_MODEL_RBM_POLYNOMIALS_INL
+#else
+#define YARS_MODEL_RBM_POLYNOMIALS_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstdint>
+
+HWY_BEFORE_NAMESPACE();
+namespace yars::model::rbm::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// p * t + c, each rounded: HWY's MulAdd would fuse where the target can.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V step(D d, V p, V t, float c) {
+  return hn::Add(hn::Mul(p, t), hn::Set(d, c));
+}
+
+// Base-2 logarithm of a positive, normal float. Error 4e-7.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V log2(D d, V value) {
+  const hn::RebindToSigned<D> di;
+  // Split off the exponent so that the rest lies in [0.75, 1.5), where it is near 1.
+  const auto bits = hn::BitCast(di, value);
+  const auto exponent = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(di, 0x3f400000)));
+  const auto t = hn::Sub(hn::BitCast(d, hn::Sub(bits, hn::ShiftLeft<23>(exponent))), hn::Set(d, 1.0F));
+  auto p = hn::Set(d, -0.0938960967F);
+  p = step(d, p, t, 0.202076588F);
+  p = step(d, p, t, -0.250414432F);
+  p = step(d, p, t, 0.290264516F);
+  p = step(d, p, t, -0.360368292F);
+  p = step(d, p, t, 0.480842665F);
+  p = step(d, p, t, -0.72135008F);
+  p = step(d, p, t, 1.44269527F);
+  return hn::Add(hn::ConvertTo(d, exponent), hn::Mul(t, p));
+}
+
+// 2 to a power in [-126, 126], else clamped. Error 8e-8, relative.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V exp2(D d, V power) {
+  const hn::RebindToSigned<D> di;
+  const auto most = hn::Set(d, 126.0F);
+  const auto clamped = hn::Min(hn::Max(power, hn::Neg(most)), most);
+  // The shift makes truncation round to nearest for every input.
+  const auto whole = hn::Sub(hn::ConvertTo(di, hn::Add(clamped, hn::Set(d, 127.5F))), hn::Set(di, 127));
+  const auto t = hn::Sub(clamped, hn::ConvertTo(d, whole));
+  auto p = hn::Set(d, 0.00133908634F);
+  p = step(d, p, t, 0.00967603192F);
+  p = step(d, p, t, 0.0555035711F);
+  p = step(d, p, t, 0.240221075F);
+  p = step(d, p, t, 0.693147188F);
+  p = step(d, p, t, 1.00000008F);
+  return hn::BitCast(d, hn::Add(hn::BitCast(di, p), hn::ShiftLeft<23>(whole)));
+}
+
+// Angle [rad] in [0, pi] of a direction with this sine >= 0 and this cosine; a right angle if both are zero. Error
+// 8e-7.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V angle(D d, V sine, V cosine) {
+  const auto half_pi = hn::Set(d, 1.57079633F);
+  const auto pi = hn::Set(d, 3.14159265F);
+  const auto across = hn::Abs(cosine);
+  const auto flat = hn::Lt(sine, across);
+  const auto small = hn::IfThenElse(flat, sine, across);
+  const auto large = hn::IfThenElse(flat, across, sine);
+  const auto t = hn::Div(small, hn::Max(large, hn::Set(d, 1e-30F)));
+  const auto y = hn::Mul(t, t);
+  auto p = hn::Set(d, 0.00764835393F);
+  p = step(d, p, y, -0.0363604309F);
+  p = step(d, p, y, 0.083126453F);
+  p = step(d, p, y, -0.134478641F);
+  p = step(d, p, y, 0.198720403F);
+  p = step(d, p, y, -0.33325678F);
+  p = step(d, p, y, 0.999999226F);
+  const auto reduced = hn::Mul(p, t);
+  const auto acute = hn::IfThenElse(flat, reduced, hn::Sub(half_pi, reduced));
+  return hn::IfThenElse(hn::Lt(cosine, hn::Zero(d)), hn::Sub(pi, acute), acute);
+}
+
+// 1 / sqrt of a positive, normal float by Newton steps from an integer guess: no unit of the machine has its own idea
+// of it. Error 5e-6, relative: 2e-5 dB. (Guess and first step: J. Kadlec's constants, a third of the classic error.)
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V inverse_root(D d, V value) {
+  const hn::RebindToSigned<D> di;
+  const auto y = hn::BitCast(d, hn::Sub(hn::Set(di, 0x5f1ffff9), hn::ShiftRight<1>(hn::BitCast(di, value))));
+  const auto better =
+      hn::Mul(hn::Mul(y, hn::Set(d, 0.703952253F)), hn::Sub(hn::Set(d, 2.38924456F), hn::Mul(hn::Mul(value, y), y)));
+  const auto half = hn::Mul(value, hn::Set(d, 0.5F));
+  return hn::Mul(better, hn::Sub(hn::Set(d, 1.5F), hn::Mul(hn::Mul(half, better), better)));
+}
+
+}  // namespace yars::model::rbm::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

@@ -1,0 +1,140 @@
+#include "model/rbm/video_lanes.hpp"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "model/rbm/video_lanes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// Behind highway.h, or it would have no target yet.
+#include "model/rbm/polynomials-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace yars::model::rbm::lanes::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+namespace polynomials = rbm::HWY_NAMESPACE;
+
+constexpr std::size_t kMostLanes = 16;
+using Tag = hn::CappedTag<float, kMostLanes>;
+using SignedTag = hn::RebindToSigned<Tag>;
+using BitsTag = hn::RebindToUnsigned<Tag>;
+using Floats = hn::Vec<Tag>;
+using Bits = hn::Vec<BitsTag>;
+
+constexpr float kDecibelsPerOctave = 3.01029996F;  // 10 log10(2)
+constexpr float kLn2 = 0.693147181F;
+
+// noise_bits() of noise.hpp for a vector of cells.
+HWY_INLINE Bits random_bits(NoiseState state, Bits cell, std::uint32_t draw) {
+  const BitsTag d;
+  auto x = hn::Xor(hn::Add(hn::Mul(cell, hn::Set(d, kDrawsPerCell)), hn::Set(d, draw)), hn::Set(d, state.first));
+  x = hn::Xor(x, hn::ShiftRight<16>(x));
+  x = hn::Mul(x, hn::Set(d, 0x7feb352dU));
+  x = hn::Xor(x, hn::ShiftRight<15>(x));
+  x = hn::Mul(x, hn::Set(d, 0x846ca68bU));
+  x = hn::Xor(x, hn::Xor(hn::ShiftRight<16>(x), hn::Set(d, state.second)));
+  x = hn::Mul(x, hn::Set(d, 0x9e3779b1U));
+  return hn::Xor(x, hn::ShiftRight<15>(x));
+}
+
+// A uniform variate in (0, 1) from 16 bits; beyond the looks it counts as 1.
+HWY_INLINE Floats uniform(Bits sixteen, bool counts) {
+  const Tag d;
+  if (!counts) return hn::Set(d, 1.0F);
+  constexpr float kStep = 1.0F / 65536.0F;
+  const auto number = hn::ConvertTo(d, hn::BitCast(SignedTag(), sixteen));
+  return hn::Add(hn::Mul(number, hn::Set(d, kStep)), hn::Set(d, 0.5F * kStep));
+}
+
+void speckle(std::size_t cells, NoiseState state, int looks, float* variate) {
+  const Tag d;
+  const BitsTag db;
+  const auto low = hn::Set(db, 0xffffU);
+  const auto scale = hn::Set(d, kLn2 / static_cast<float>(looks));
+  // Once: Iota goes through memory.
+  const auto lane = hn::Iota(db, 0U);
+  for (std::size_t i = 0; i < cells; i += hn::Lanes(d)) {
+    const auto cell = hn::Add(lane, hn::Set(db, static_cast<std::uint32_t>(i)));
+    auto sum = hn::Zero(d);
+    for (int first = 0; first < looks; first += kLooksPerGroup) {
+      // The logarithm of a product of up to four uniform variates.
+      const auto draw = static_cast<std::uint32_t>(first / 2);
+      const auto one = random_bits(state, cell, draw);
+      const auto two = random_bits(state, cell, draw + 1U);
+      const auto a = uniform(hn::ShiftRight<16>(one), true);
+      const auto b = uniform(hn::And(one, low), looks - first > 1);
+      const auto c = uniform(hn::ShiftRight<16>(two), looks - first > 2);
+      const auto e = uniform(hn::And(two, low), looks - first > 3);
+      sum = hn::Sub(sum, polynomials::log2(d, hn::Mul(hn::Mul(a, b), hn::Mul(c, e))));
+    }
+    hn::StoreU(hn::Mul(sum, scale), d, variate + i);
+  }
+}
+
+// Up to `left` entries; none is read behind the last.
+HWY_INLINE Floats load(const float* from, std::size_t left) {
+  const Tag d;
+  if (left >= hn::Lanes(d)) return hn::LoadU(d, from);
+  HWY_ALIGN float entries[kMostLanes] = {};
+  std::copy_n(from, left, entries);
+  return hn::Load(d, entries);
+}
+
+void develop(std::size_t count, const VideoInputs& in, std::uint8_t* video) {
+  const Tag d;
+  const SignedTag di;
+  const hn::Rebind<std::uint8_t, Tag> d8;
+  const auto first = hn::Set(d, in.weights[0]);
+  const auto second = hn::Set(d, in.weights[1]);
+  const auto third = hn::Set(d, in.weights[2]);
+  const auto slope = hn::Set(d, 255.0F * kDecibelsPerOctave / in.decibels_per_scale);
+  const auto base = hn::Set(d, 255.0F * (1.0F + in.gain_db / in.decibels_per_scale) + 0.5F);
+  const auto lane = hn::Iota(di, 0);
+  const bool each_its_own = in.cells_per_sample == 1.0F;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const std::size_t left = count - i;
+    const auto neighbours =
+        hn::Add(hn::Mul(first, load(in.before + i, left)), hn::Mul(second, load(in.centre + i, left)));
+    auto power = hn::Add(hn::Add(neighbours, hn::Mul(third, load(in.after + i, left))), hn::Set(d, in.noise));
+    if (in.variate != nullptr) {
+      if (each_its_own) {
+        power = hn::Mul(power, hn::LoadU(d, in.variate + i));
+      } else {
+        const auto sample = hn::ConvertTo(d, hn::Add(lane, hn::Set(di, static_cast<std::int32_t>(i))));
+        const auto place = hn::Mul(hn::Add(sample, hn::Set(d, 0.5F)), hn::Set(d, in.cells_per_sample));
+        power = hn::Mul(power, hn::GatherIndex(d, in.variate, hn::ConvertTo(di, place)));
+      }
+    }
+    // The least power keeps the logarithm's argument normal.
+    const auto level = hn::Add(base, hn::Mul(slope, polynomials::log2(d, hn::Max(power, hn::Set(d, 1.0e-30F)))));
+    const auto clipped = hn::Min(hn::Max(level, hn::Set(d, 0.5F)), hn::Set(d, 255.5F));
+    const auto bytes = hn::DemoteTo(d8, hn::ConvertTo(di, clipped));
+    if (left >= hn::Lanes(d)) {
+      hn::StoreU(bytes, d8, video + i);
+    } else {
+      HWY_ALIGN std::uint8_t last[kMostLanes];
+      hn::StoreU(bytes, d8, last);
+      std::copy_n(last, left, video + i);
+    }
+  }
+}
+
+}  // namespace yars::model::rbm::lanes::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace yars::model::rbm::lanes {
+
+HWY_EXPORT(speckle);
+HWY_EXPORT(develop);
+
+void speckle(std::size_t cells, NoiseState state, int looks, float* variate) {
+  HWY_DYNAMIC_DISPATCH(speckle)(cells, state, looks, variate);
+}
+void develop(std::size_t count, const VideoInputs& inputs, std::uint8_t* video) {
+  HWY_DYNAMIC_DISPATCH(develop)(count, inputs, video);
+}
+
+}  // namespace yars::model::rbm::lanes
+#endif  // HWY_ONCE

@@ -1,0 +1,174 @@
+#include "tests/benchmarks/rbm_stages.hpp"
+
+#include <array>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "model/rbm/earth.hpp"
+#include "model/rbm/receiver.hpp"
+#include "model/rbm/sample_places.hpp"
+#include "model/rbm/sweep_lanes.hpp"
+#include "model/rbm/video_lanes.hpp"
+#include "tests/benchmarks/timing.hpp"
+
+namespace yars::benchmarks {
+
+namespace {
+
+using namespace model::rbm;
+
+constexpr int kRounds = 15;
+constexpr int kSweeps = 200;
+
+class Stages {
+ public:
+  Stages(const model::terrain::TerrainView& terrain, const model::kernel::ScanRequest& request, int samples)
+      : terrain_(&terrain),
+        request_(request),
+        count_(static_cast<std::size_t>(samples)),
+        video_(count_),
+        places_(count_) {
+    for (auto& array : arrays_) array.assign(count_ + 2 * lanes::kPad, 0.0F);
+    for (const int padded : {kTangent, kSpare, kHorizon})
+      arrays_[padded].assign(arrays_[padded].size(), lanes::kNoHorizon);
+    receiver_ = make_receiver(configuration_, request.range);
+    const double spacing_m = request.range.metres() / samples;
+    for (std::size_t i = 0; i < count_; ++i) {
+      at(kDistance)[i] = static_cast<float>((static_cast<double>(i) + 0.5) * spacing_m);
+      at(kOneStep)[i] = static_cast<float>(1.0 / spacing_m);
+      at(kTwoSteps)[i] = static_cast<float>(0.5 / spacing_m);
+    }
+    constants_.altitude_m = static_cast<float>(request.pose.altitude.metres());
+    constants_.curvature = 1.0F / 8.5e6F;
+    constants_.land_gamma = static_cast<float>(receiver_.land_gamma);
+    constants_.pulse_inverse = static_cast<float>(1.0 / receiver_.pulse_length_m);
+    constants_.beam_inverse = static_cast<float>(1.0 / receiver_.elevation_beamwidth_rad);
+    constants_.scale = 1e-3F;
+    constants_.sin_elevation = -0.05F;
+    constants_.sin_centre = 0.05F;
+    constants_.gaussian = 4000.0F;
+    smear_ = make_pulse_smear(receiver_.pulse_length_m / spacing_m);
+    cells_ = cells_per_sample(spacing_m, receiver_.pulse_length_m);
+  }
+
+  void print() {
+    const lanes::SightArrays sights{at(kTangent),    at(kInverse),  at(kSinGrazing),
+                                    at(kCosGrazing), at(kSinSight), at(kCosSight)};
+    stage("places", {kDistance}, {kNorth, kEast, kNorth, kEast}, [&](int sweep) {
+      sample_places(request_.pose.place, azimuth(sweep), request_.range, 5, at(kDistance), places_);
+    });
+    stage("terrain", {kNorth, kEast, kNorth, kEast}, {kElevation, kWater}, [&](int) {
+      terrain_->surfaces(places_.run(), radar::Interpolation::bilinear,
+                         {{at(kElevation), count_}, {at(kWater), count_}, {}, {}});
+    });
+    stage("sight", {kDistance, kElevation}, {kTangent, kInverse, kSinGrazing, kCosGrazing, kSinSight, kCosSight},
+          [&](int) { lanes::sight(count_, constants_, at(kDistance), at(kElevation), sights); });
+    stage("shadow", {kTangent}, {kHorizon},
+          [&](int) { lanes::running_maximum(count_, at(kTangent), at(kSpare), at(kHorizon)); });
+    const lanes::PowerInputs inputs{at(kElevation), nullptr,      at(kWater),    at(kTangent),
+                                    at(kHorizon),   at(kOneStep), at(kTwoSteps), sights};
+    stage("power",
+          {kElevation, kWater, kTangent, kHorizon, kOneStep, kTwoSteps, kInverse, kSinGrazing, kCosGrazing, kSinSight,
+           kCosSight},
+          {kPower},
+          [&](int) { lanes::power(count_, constants_, radar::BeamPattern::cosecant_squared, inputs, at(kPower)); });
+    std::array<float, 2 * PulseSmear::kMostReach + 1> weights{};
+    for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = static_cast<float>(smear_.weights[i]);
+    stage("smear", {kPower}, {kSmeared},
+          [&](int) { lanes::smear(count_, at(kPower), weights.data(), smear_.reach, at(kSmeared)); });
+    const auto last_cell = resolution_cell(static_cast<std::uint32_t>(count_ - 1), cells_);
+    stage("speckle", {}, {kVariate}, [&](int sweep) {
+      lanes::speckle(last_cell + 1, make_noise_state({1, 1, static_cast<std::uint32_t>(sweep)}), 4, at(kVariate));
+    });
+    const std::array<float, 3> join{0.25F, 0.5F, 0.25F};
+    const lanes::VideoInputs video{at(kSmeared), at(kSmeared), at(kSmeared), join.data(), 1e-4F,
+                                   at(kVariate), cells_,       0.0F,         45.0F};
+    stage("video", {kSmeared, kVariate}, {kSpare}, [&](int) { lanes::develop(count_, video, video_.data()); });
+    std::printf("{\"stages_ns\":{%s},\"floors_ns\":{%s}}\n", stages_.c_str(), floors_.c_str());
+  }
+
+ private:
+  enum Array : int {
+    kDistance,
+    kNorth,
+    kEast,
+    kElevation,
+    kWater,
+    kTangent,
+    kSpare,
+    kHorizon,
+    kOneStep,
+    kTwoSteps,
+    kInverse,
+    kSinGrazing,
+    kCosGrazing,
+    kSinSight,
+    kCosSight,
+    kPower,
+    kSmeared,
+    kVariate,
+    kArrays
+  };
+
+  float* at(int array) { return arrays_[static_cast<std::size_t>(array)].data() + lanes::kPad; }
+  geo::Bearing azimuth(int sweep) const {
+    return request_.pose.platform.heading + geo::Angle::degrees(-50.0 + 0.5 * sweep);
+  }
+
+  void stage(const char* name, const std::vector<int>& reads, const std::vector<int>& writes,
+             const std::function<void(int)>& work) {
+    std::vector<double> times, floors;
+    for (int round = 0; round < kRounds; ++round) {
+      times.push_back(timed([&] {
+        for (int sweep = 0; sweep < kSweeps; ++sweep) work(sweep);
+      }));
+      floors.push_back(timed([&] {
+        for (int sweep = 0; sweep < kSweeps; ++sweep) touch(reads, writes);
+      }));
+    }
+    const double samples = static_cast<double>(count_) * kSweeps;
+    char text[64];
+    std::snprintf(text, sizeof text, "%s\"%s\":%.3f", stages_.empty() ? "" : ",", name, 1e9 * median(times) / samples);
+    stages_ += text;
+    std::snprintf(text, sizeof text, "%s\"%s\":%.3f", floors_.empty() ? "" : ",", name, 1e9 * median(floors) / samples);
+    floors_ += text;
+  }
+
+  // Reads and writes as many arrays, in one pass.
+  void touch(const std::vector<int>& reads, const std::vector<int>& writes) {
+    float sum = 0.0F;
+    for (const int array : reads) {
+      float* const from = at(array);
+      std::array<float, 16> lanes{};
+      for (std::size_t i = 0; i + 16 <= count_; i += 16)
+        for (std::size_t lane = 0; lane < 16; ++lane) lanes[lane] += from[i + lane];
+      sum += lanes[0];
+    }
+    for (std::size_t array = 0; array < writes.size(); ++array)
+      std::fill_n(scratch_.begin(), count_, sum + static_cast<float>(array));
+  }
+
+  radar::RadarConfiguration configuration_;
+  const model::terrain::TerrainView* terrain_;
+  model::kernel::ScanRequest request_;
+  std::size_t count_;
+  std::array<std::vector<float>, kArrays> arrays_;
+  std::vector<float> scratch_ = std::vector<float>(8192);
+  std::vector<std::uint8_t> video_;
+  Receiver receiver_;
+  lanes::SweepConstants constants_;
+  PulseSmear smear_;
+  float cells_ = 1.0F;
+  PlaceArrays places_;
+  std::string stages_, floors_;
+};
+
+}  // namespace
+
+void print_stages(const model::terrain::TerrainView& terrain, const model::kernel::ScanRequest& request, int samples) {
+  Stages(terrain, request, samples).print();
+}
+
+}  // namespace yars::benchmarks

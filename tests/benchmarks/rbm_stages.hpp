@@ -1,0 +1,13 @@
+// Where the time of `standard` goes: each stage alone over the sweeps of a scan, beside its floor, the time that it
+// takes to read and write the same arrays and do nothing with them.
+#pragma once
+
+#include "model/kernel/offline_scan.hpp"
+#include "model/terrain/terrain_view.hpp"
+
+namespace yars::benchmarks {
+
+// One JSON line: nanoseconds a sample of each stage and of its floor.
+void print_stages(const model::terrain::TerrainView& terrain, const model::kernel::ScanRequest& request, int samples);
+
+}  // namespace yars::benchmarks

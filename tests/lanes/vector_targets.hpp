@@ -1,0 +1,19 @@
+// Runs something on every set of vector instructions that this machine has, and on the plain version.
+#pragma once
+
+#include <hwy/targets.h>
+
+namespace yars::test {
+
+template <class Action>
+void for_each_vector_target(const Action& action) {
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(target);
+    action(hwy::TargetName(target));
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+}  // namespace yars::test
