@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <array>
 
-#include "config/fidelity_preset.hpp"
 #include "config/field.hpp"
 #include "config/forms.hpp"
+#include "lib/radar/fidelity_preset.hpp"
 
 namespace yars::config {
 namespace {
@@ -11,16 +11,17 @@ namespace {
 // In the order of the enumerations.
 constexpr std::array<std::string_view, 3> kAlgorithms{"standard", "reference", "report-1996"};
 constexpr std::array<std::string_view, 3> kEarthModels{"flat", "sphere", "ellipsoid"};
+constexpr std::array<std::string_view, 3> kInterpolations{"nearest", "bilinear", "cubic"};
 constexpr std::array<std::string_view, 3> kBeams{"hard-edge", "gaussian", "cosecant-squared"};
 
 int preset_of(const Draft& draft) {
-  const auto names = fidelity_names();
+  const auto names = radar::fidelity_names();
   const auto found = std::find(names.begin(), names.end(), draft.radar.fidelity.name);
   return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
 void set_preset(Draft& draft, int index) {
-  draft.radar.fidelity = *fidelity_preset(fidelity_names()[static_cast<std::size_t>(index)]);
+  draft.radar.fidelity = *radar::fidelity_preset(radar::fidelity_names()[static_cast<std::size_t>(index)]);
 }
 
 SlotSchema flag(std::string_view name, bool& (*of)(Draft&), std::string_view purpose) {
@@ -30,7 +31,7 @@ SlotSchema flag(std::string_view name, bool& (*of)(Draft&), std::string_view pur
 std::vector<SlotSchema> fidelity_slots() {
   return {
       {.name = "preset",
-       .binding = ChoiceSlot{fidelity_names(), preset_of, set_preset},
+       .binding = ChoiceSlot{radar::fidelity_names(), preset_of, set_preset},
        .purpose = "sets all knobs; each can then be set alone",
        .before_others = true},
       {.name = "algorithm",
@@ -51,6 +52,33 @@ std::vector<SlotSchema> fidelity_slots() {
        .highest = 4096,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.samples)},
        .purpose = "samples of a sweep"},
+      {.name = "geodesicKnots",
+       .lowest = 0,
+       .highest = 9,
+       .binding = IntegerSlot{YARS_FIELD(radar.fidelity.geodesic_knots)},
+       .purpose =
+           "exact points of the geodesic a sweep, at least 2, between which places are interpolated; 0 = all exact"},
+      {.name = "interpolation",
+       .binding = ChoiceSlot{
+           kInterpolations, [](const Draft& draft) { return int(draft.radar.fidelity.interpolation); },
+           [](Draft& draft, int index) { draft.radar.fidelity.interpolation = radar::Interpolation(index); }},
+       .purpose = "between posts of the terrain"},
+      {.name = "postsPerSample",
+       .lowest = 0,
+       .highest = 1000,
+       .binding = NumberSlot{YARS_FIELD(radar.fidelity.posts_per_sample)},
+       .purpose = "terrain with more posts a sample is read from a coarser level; 0 = always the finest"},
+      {.name = "subBeams",
+       .lowest = 1,
+       .highest = radar::kMostSubBeams,
+       .binding = IntegerSlot{YARS_FIELD(radar.fidelity.sub_beams)},
+       .purpose = "rays across the beam in azimuth; 1 = the middle alone"},
+      flag("automatic", YARS_FIELD(radar.fidelity.automatic), "the finest preset that holds coreShare is taken, live"),
+      {.name = "coreShare",
+       .lowest = 0.001,
+       .highest = 1,
+       .binding = NumberSlot{YARS_FIELD(radar.fidelity.core_share)},
+       .purpose = "of a core, for automatic"},
       flag("slantRange", YARS_FIELD(radar.fidelity.slant_range), "samples even in slant instead of ground range"),
       flag("crossTrackSlope", YARS_FIELD(radar.fidelity.cross_track_slope),
            "incidence with the slope across the sweep"),

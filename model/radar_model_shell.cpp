@@ -1,5 +1,6 @@
 #include "model/radar_model_shell.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <ctime>
@@ -8,6 +9,7 @@
 #include "databuffer/log.hpp"
 #include "databuffer/records/radar_command.hpp"
 #include "databuffer/records/validation.hpp"
+#include "lib/radar/fidelity_preset.hpp"
 
 namespace yars::model {
 
@@ -26,7 +28,12 @@ double thread_seconds() {
 
 RadarModelShell::RadarModelShell(databuffer::Session& session, const radar::RadarConfiguration& configuration,
                                  TerrainLoader& terrain)
-    : session_(&session), configuration_(&configuration), terrain_(&terrain), kernel_(configuration) {
+    : session_(&session),
+      configuration_(&configuration),
+      terrain_(&terrain),
+      kernel_(configuration),
+      governor_(configuration.fidelity.core_share),
+      picked_(configuration.fidelity) {
   resume();
 }
 
@@ -50,7 +57,9 @@ void RadarModelShell::step(const databuffer::TickLoop::Due& due, std::uint64_t l
   const double begin_s = thread_seconds();
   latch(due);
   run_kernel();
-  load_ += kLoadSmoothing * ((thread_seconds() - begin_s) / radar::kTickSeconds - load_);
+  const double seconds = thread_seconds() - begin_s;
+  load_ += kLoadSmoothing * (seconds / radar::kTickSeconds - load_);
+  if (configuration_->fidelity.automatic) govern(seconds, due.clock.rate);
   publish_status(late_ticks);
   first_tick_ = false;
 }
@@ -80,8 +89,27 @@ void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
     tick_.flags |= databuffer::kTickOwnshipChanged;
   if (first_tick_ || std::memcmp(&command_before, &tick_.command, sizeof command_before) != 0)
     tick_.flags |= databuffer::kTickCommandChanged;
-  tick_.samples = static_cast<std::uint32_t>(configuration_->fidelity.samples);
-  configuration_->fidelity.name.copy(tick_.fidelity, sizeof tick_.fidelity - 1);
+  latch_fidelity();
+}
+
+void RadarModelShell::latch_fidelity() {
+  tick_.samples = static_cast<std::uint32_t>(picked_.samples);
+  std::fill(std::begin(tick_.fidelity), std::end(tick_.fidelity), '\0');
+  picked_.name.copy(tick_.fidelity, sizeof tick_.fidelity - 1);
+}
+
+// Fidelity `automatic`: what a scan took decides on the next.
+void RadarModelShell::govern(double seconds, double rate) {
+  scan_seconds_ += seconds * rate;
+  ++scan_ticks_;
+  if (status_.scan == governed_scan_) return;
+  governed_scan_ = status_.scan;
+  governor_.scanned(scan_seconds_ / (scan_ticks_ * radar::kTickSeconds));
+  scan_seconds_ = 0.0;
+  scan_ticks_ = 0;
+  if (governor_.preset() == picked_.name) return;
+  picked_ = *radar::fidelity_preset(governor_.preset());
+  databuffer::log_info("fidelity " + picked_.name);
 }
 
 void RadarModelShell::latch_command() {

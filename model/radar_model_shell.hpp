@@ -9,6 +9,7 @@
 #include "databuffer/session.hpp"
 #include "databuffer/tick_loop.hpp"
 #include "lib/radar/configuration.hpp"
+#include "model/kernel/fidelity_governor.hpp"
 #include "model/kernel/radar_kernel.hpp"
 #include "model/terrain_loader_shell.hpp"
 
@@ -23,6 +24,8 @@ class RadarModelShell {
   void resume();
   void latch(const databuffer::TickLoop::Due& due);
   void latch_command();
+  void latch_fidelity();
+  void govern(double seconds, double rate);
   void run_kernel();
   void publish_status(std::uint64_t late_ticks);
 
@@ -39,6 +42,10 @@ class RadarModelShell {
   std::uint64_t ownship_refused_ = 0;  // ownships and navs already noted
   std::uint64_t late_before_ = 0;      // ticks that predecessors skipped
   double load_ = 0.0;
+  kernel::FidelityGovernor governor_;
+  radar::Fidelity picked_;     // the governor's, or the configuration's
+  double scan_seconds_ = 0.0;  // of processor time, in the scan under way
+  std::uint32_t scan_ticks_ = 0, governed_scan_ = 0;
   bool first_tick_ = true;
 };
 

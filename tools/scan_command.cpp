@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "config/fidelity_preset.hpp"
 #include "config/load.hpp"
 #include "databuffer/program.hpp"
 #include "lib/imageio/png.hpp"
+#include "lib/radar/fidelity_preset.hpp"
 #include "model/kernel/offline_scan.hpp"
 #include "model/terrain/open_terrain.hpp"
 #include "tools/command.hpp"
@@ -49,7 +49,7 @@ radar::RadarConfiguration configure(const CommonOptions& common, const ScanOptio
   auto loaded = config::load_configuration(common.config);
   if (!loaded) give_up(loaded.error());
   radar::RadarConfiguration configuration = std::move(loaded->radar);
-  if (!options.fidelity.empty()) configuration.fidelity = *config::fidelity_preset(options.fidelity);
+  if (!options.fidelity.empty()) configuration.fidelity = *radar::fidelity_preset(options.fidelity);
   if (!options.terrain.empty()) configuration.terrain.directory = options.terrain;
   if (options.samples > 0) configuration.fidelity.samples = options.samples;
   if (options.size > 0) configuration.view.size_pixels = options.size;
@@ -175,8 +175,7 @@ void add_scan_command(CLI::App& app, const CommonOptions& common) {
   command->add_option("--elevation", options->elevation_deg, "[deg] of the antenna, against the horizon")
       ->check(CLI::Range(-60.0, 60.0));
   command->add_option("--fidelity", options->fidelity, "preset (else the configuration's)")
-      ->check(
-          CLI::IsMember(std::vector<std::string>(config::fidelity_names().begin(), config::fidelity_names().end())));
+      ->check(CLI::IsMember(std::vector<std::string>(radar::fidelity_names().begin(), radar::fidelity_names().end())));
   command->add_option("--samples", options->samples, "a sweep")->check(CLI::Range(1, radar::kMaxSamples));
   command->add_option("--gain", options->gain, "0 to 3")->check(CLI::Range(0, 3));
   command->add_option("--threads", options->threads)->check(CLI::Range(1, 256));

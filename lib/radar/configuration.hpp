@@ -37,16 +37,24 @@ enum class BeamPattern : std::uint8_t { hard_edge = 0, gaussian = 1, cosecant_sq
 enum class Interpolation : std::uint8_t { nearest = 0, bilinear = 1, cubic = 2 };
 enum class Algorithm : std::uint8_t { standard = 0, reference = 1, report_1996 = 2 };
 
+inline constexpr int kMostSubBeams = 15;
+
 // The trade of speed against accuracy, by name or knob by knob.
 struct Fidelity {
   std::string name = "standard";
+  bool automatic = false;    // the finest preset that holds the share below; the knobs are what it begins with
+  double core_share = 0.25;  // of one core, (0, 1]
   Algorithm algorithm = Algorithm::standard;
   EarthModel earth = EarthModel::ellipsoid;
   double earth_radius_factor = 4.0 / 3.0;  // k; 1 = no refraction
   int samples = 480;                       // a sweep, 1..4096
   int geodesic_knots = 5;                  // exact points a sweep, 2..9, between which places are interpolated; 0 = all
   Interpolation interpolation = Interpolation::bilinear;
-  bool slant_range = false;                // samples even in slant instead of ground range
+  // Posts that one sample steps over at most: where the finest level has more, a coarser one serves. 0: always the
+  // finest.
+  double posts_per_sample = 4.0;
+  int sub_beams = 1;         // rays across the beam, joined by its pattern; 1 = the middle alone
+  bool slant_range = false;  // samples even in slant instead of ground range
   bool cross_track_slope = false;
   bool noise = true;
   bool azimuth_smear = true;

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <optional>
+#include <string_view>
 
+#include "lib/radar/fidelity_preset.hpp"
 #include "lib/radar/modes.hpp"
 #include "model/antenna/antenna.hpp"
 #include "model/kernel/mappable.hpp"
@@ -32,6 +35,7 @@ struct RadarKernel::State {
 
   bool follow_command(const ModelTick& tick, databuffer::Sweep& sweep);
   void use_samples(std::uint32_t samples);
+  void use_fidelity(const ModelTick& tick);
   void restart(const databuffer::RadarCommand& command);
   void start_scan(const databuffer::RadarCommand& command);
   bool sweep_tick(const ModelTick& tick, const antenna::AntennaStep& step, const terrain::TerrainView& terrain,
@@ -107,7 +111,7 @@ bool RadarKernel::step(const ModelTick& tick, const terrain::TerrainView& terrai
       state.pose_fresh = true;
     }
   }
-  state.use_samples(tick.samples);
+  if (!state.configuration.fidelity.automatic) state.use_samples(tick.samples);
   if (!state.pose) {
     state.command = tick.command;
     return false;
@@ -155,6 +159,20 @@ void RadarKernel::State::use_samples(std::uint32_t samples) {
   chain = SweepChain(configuration);
 }
 
+// The tick names the preset that was picked; it comes into force with a scan, so that no scan is half one, half
+// another.
+void RadarKernel::State::use_fidelity(const ModelTick& given) {
+  const std::string_view name(given.fidelity, strnlen(given.fidelity, sizeof given.fidelity));
+  if (name == configuration.fidelity.name) return;
+  const auto preset = radar::fidelity_preset(name);
+  if (!preset) return;
+  const radar::Fidelity before = configuration.fidelity;
+  configuration.fidelity = *preset;
+  configuration.fidelity.automatic = true;
+  configuration.fidelity.core_share = before.core_share;
+  chain = SweepChain(configuration);
+}
+
 void RadarKernel::State::restart(const databuffer::RadarCommand& given) {
   scan_restart = given.scan_restart;
   scan_width_deg = given.scan_width_deg;
@@ -172,7 +190,10 @@ void RadarKernel::State::start_scan(const databuffer::RadarCommand& given) {
 
 bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::AntennaStep& step,
                                     const terrain::TerrainView& terrain, databuffer::Sweep& sweep) {
-  if (step.scan_start || scan_range_m <= 0.0) start_scan(given.command);
+  if (step.scan_start || scan_range_m <= 0.0) {
+    if (configuration.fidelity.automatic) use_fidelity(given);
+    start_scan(given.command);
+  }
   const SweepPlace place{pose->place,
                          pose->altitude,
                          step.left,

@@ -1,15 +1,18 @@
 #include "model/rbm/algorithm.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "lib/radar/limits.hpp"
 #include "model/rbm/reference.hpp"
 #include "model/rbm/report_1996.hpp"
 #include "model/rbm/standard.hpp"
+#include "model/rbm/sub_beams.hpp"
 
 namespace yars::model::rbm {
 
-std::unique_ptr<Algorithm> make_algorithm(const radar::RadarConfiguration& configuration) {
+namespace {
+std::unique_ptr<Algorithm> make_ray(const radar::RadarConfiguration& configuration) {
   switch (configuration.fidelity.algorithm) {
     case radar::Algorithm::reference:
       return std::make_unique<Reference>(configuration);
@@ -19,6 +22,13 @@ std::unique_ptr<Algorithm> make_algorithm(const radar::RadarConfiguration& confi
       break;
   }
   return std::make_unique<Standard>(configuration);
+}
+}  // namespace
+
+std::unique_ptr<Algorithm> make_algorithm(const radar::RadarConfiguration& configuration) {
+  std::unique_ptr<Algorithm> ray = make_ray(configuration);
+  if (configuration.fidelity.sub_beams <= 1) return ray;
+  return std::make_unique<SubBeams>(std::move(ray), configuration);
 }
 
 std::size_t sample_count(const radar::RadarConfiguration& configuration) {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "config/fidelity_preset.hpp"
+#include "lib/radar/fidelity_preset.hpp"
 #include "config/schema.hpp"
 #include "config/slot_text.hpp"
 #include "tests/config/support.hpp"
@@ -104,12 +104,18 @@ class RandomConfiguration {
   }
 
   radar::Fidelity fidelity() {
-    auto made = *fidelity_preset(fidelity_names()[random_() % fidelity_names().size()]);
+    auto made = *radar::fidelity_preset(radar::fidelity_names()[random_() % radar::fidelity_names().size()]);
     made.earth = static_cast<radar::EarthModel>(random_() % 3);
     made.beam = static_cast<radar::BeamPattern>(random_() % 3);
     made.algorithm = static_cast<radar::Algorithm>(random_() % 2);
     made.earth_radius_factor = number(0.5, 10);
     made.samples = 1 + int(random_() % 4096);
+    made.geodesic_knots = int(random_() % 10);
+    made.interpolation = static_cast<radar::Interpolation>(random_() % 3);
+    made.posts_per_sample = number(0, 100);
+    made.sub_beams = 1 + int(random_() % 15);
+    made.automatic = coin();
+    made.core_share = number(0.001, 1);
     made.slant_range = coin();
     made.cross_track_slope = coin();
     made.noise = coin();

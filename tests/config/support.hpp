@@ -25,8 +25,10 @@ inline auto fields(const radar::ViewConfiguration& view) {
 }
 
 inline auto fields(const radar::Fidelity& fidelity) {
-  const auto& [name, algorithm, earth, factor, samples, slant, slope, noise, azimuth, pulse, beam] = fidelity;
-  return std::tuple(name, algorithm, earth, factor, samples, slant, slope, noise, azimuth, pulse, beam);
+  const auto& [name, automatic, share, algorithm, earth, factor, samples, knots, interpolation, posts, beams, slant,
+               slope, noise, azimuth, pulse, beam] = fidelity;
+  return std::tuple(name, automatic, share, algorithm, earth, factor, samples, knots, interpolation, posts, beams,
+                    slant, slope, noise, azimuth, pulse, beam);
 }
 
 inline auto fields(const radar::ReceiverConfiguration& receiver) {

@@ -7,11 +7,11 @@
 
 #include "lib/radar/configuration.hpp"
 
-namespace yars::config {
+namespace yars::radar {
 
 // "1996", "draft", "standard", "fine", "reference": from least to most work.
 std::span<const std::string_view> fidelity_names();
 
-std::optional<radar::Fidelity> fidelity_preset(std::string_view name);
+std::optional<Fidelity> fidelity_preset(std::string_view name);
 
-}  // namespace yars::config
+}  // namespace yars::radar

@@ -1,44 +1,52 @@
-#include "config/fidelity_preset.hpp"
+#include "lib/radar/fidelity_preset.hpp"
 
 #include <algorithm>
 #include <array>
 
-namespace yars::config {
+namespace yars::radar {
 namespace {
 
 constexpr std::array<std::string_view, 5> kNames{"1996", "draft", "standard", "fine", "reference"};
 
 // What the report computes: flat earth, no refraction, hard edges of the beam, three-sweep and three-post smear.
-radar::Fidelity of_1996() {
-  radar::Fidelity fidelity;
-  fidelity.algorithm = radar::Algorithm::report_1996;
-  fidelity.earth = radar::EarthModel::flat;
+Fidelity of_1996() {
+  Fidelity fidelity;
+  fidelity.algorithm = Algorithm::report_1996;
+  fidelity.earth = EarthModel::flat;
   fidelity.earth_radius_factor = 1.0;
   fidelity.noise = false;
-  fidelity.beam = radar::BeamPattern::hard_edge;
+  fidelity.beam = BeamPattern::hard_edge;
   return fidelity;
 }
 
 // Half the samples and no smear, on a sphere: for a slow machine or many radars.
-radar::Fidelity draft() {
-  radar::Fidelity fidelity;
-  fidelity.earth = radar::EarthModel::sphere;
+Fidelity draft() {
+  Fidelity fidelity;
+  fidelity.earth = EarthModel::sphere;
+  fidelity.geodesic_knots = 3;
+  fidelity.posts_per_sample = 1.0;
   fidelity.samples = 240;
   fidelity.azimuth_smear = false;
   fidelity.pulse_smear = false;
   return fidelity;
 }
 
-radar::Fidelity fine() {
-  radar::Fidelity fidelity;
+// Every effect that the model knows, on every post.
+Fidelity fine() {
+  Fidelity fidelity;
+  fidelity.geodesic_knots = 7;
+  fidelity.posts_per_sample = 0.0;
   fidelity.samples = 1024;
   fidelity.cross_track_slope = true;
+  fidelity.azimuth_smear = false;
+  fidelity.sub_beams = 5;
   return fidelity;
 }
 
-radar::Fidelity reference() {
-  radar::Fidelity fidelity = fine();
-  fidelity.algorithm = radar::Algorithm::reference;
+Fidelity reference() {
+  Fidelity fidelity = fine();
+  fidelity.algorithm = Algorithm::reference;
+  fidelity.geodesic_knots = 0;
   return fidelity;
 }
 
@@ -48,9 +56,9 @@ std::span<const std::string_view> fidelity_names() {
   return kNames;
 }
 
-std::optional<radar::Fidelity> fidelity_preset(std::string_view name) {
+std::optional<Fidelity> fidelity_preset(std::string_view name) {
   if (std::find(kNames.begin(), kNames.end(), name) == kNames.end()) return std::nullopt;
-  radar::Fidelity fidelity;
+  Fidelity fidelity;
   if (name == "1996") fidelity = of_1996();
   if (name == "draft") fidelity = draft();
   if (name == "fine") fidelity = fine();
@@ -59,4 +67,4 @@ std::optional<radar::Fidelity> fidelity_preset(std::string_view name) {
   return fidelity;
 }
 
-}  // namespace yars::config
+}  // namespace yars::radar

@@ -1,0 +1,47 @@
+#include "model/rbm/sub_beams.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "model/rbm/receiver.hpp"
+
+namespace yars::model::rbm {
+
+namespace {
+constexpr double kHalfSpan = 0.75;  // of the beam width: the two-way gain is below 5 % beyond
+}  // namespace
+
+SubBeams::SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfiguration& configuration)
+    : ray_(std::move(ray)), power_(sample_count(configuration)) {
+  const int count = std::clamp(configuration.fidelity.sub_beams, 1, radar::kMostSubBeams);
+  double sum = 0.0;
+  std::vector<double> weights;
+  for (int k = 0; k < count; ++k) {
+    // Middles of equal parts of the span.
+    const double share = kHalfSpan * ((2.0 * k + 1.0) / count - 1.0);
+    weights.push_back(std::exp(-kTwoWayExponent * share * share));
+    sum += weights.back();
+    rays_.push_back({geo::Angle::degrees(share * configuration.antenna.azimuth_beamwidth_deg), 0.0F});
+  }
+  for (std::size_t k = 0; k < rays_.size(); ++k) rays_[k].weight = static_cast<float>(weights[k] / sum);
+}
+
+std::size_t SubBeams::measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) {
+  std::fill(power.begin(), power.end(), 0.0F);
+  std::size_t pending = 0;
+  for (const Ray& ray : rays_) {
+    Look aside = look;
+    aside.azimuth = look.azimuth + ray.offset;
+    pending += ray_->measure(aside, terrain, power_);
+    for (std::size_t i = 0; i < power.size(); ++i) power[i] += ray.weight * power_[i];
+  }
+  return pending;
+}
+
+void SubBeams::develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
+                       std::span<std::uint8_t> video) {
+  ray_->develop(window, range, gain, key, video);
+}
+
+}  // namespace yars::model::rbm

@@ -1,0 +1,31 @@
+// Several rays across the beam in azimuth, joined by its two-way pattern: what the beam sees of ground that changes
+// within its width. Around any algorithm; its power is that of one ray of the joined gain, conserved over uniform
+// ground.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "model/rbm/algorithm.hpp"
+
+namespace yars::model::rbm {
+
+class SubBeams : public Algorithm {
+ public:
+  SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfiguration& configuration);
+
+  std::size_t measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) override;
+  void develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
+               std::span<std::uint8_t> video) override;
+
+ private:
+  struct Ray {
+    geo::Angle offset;  // from the beam's centre
+    float weight;       // their sum is 1
+  };
+  std::unique_ptr<Algorithm> ray_;
+  std::vector<Ray> rays_;
+  std::vector<float> power_;
+};
+
+}  // namespace yars::model::rbm

@@ -1,0 +1,63 @@
+#include "model/kernel/fidelity_governor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <map>
+#include <string>
+
+namespace yars::model::kernel {
+namespace {
+
+using Prices = std::map<std::string_view, double>;
+constexpr double kShare = 0.25;
+
+// After so many scans at these prices.
+FidelityGovernor settled(const Prices& prices, int scans = 50) {
+  FidelityGovernor governor(kShare);
+  for (int scan = 0; scan < scans; ++scan) governor.scanned(prices.at(governor.preset()));
+  return governor;
+}
+
+TEST(FidelityGovernor, TakesTheFinestThatHoldsTheShare) {
+  EXPECT_EQ(settled({{"draft", 1e-4}, {"standard", 1e-4}, {"fine", 1e-3}, {"reference", 0.01}}).preset(), "reference");
+  EXPECT_EQ(settled({{"draft", 1e-3}, {"standard", 4e-3}, {"fine", 0.1}, {"reference", 3.0}}).preset(), "fine");
+  EXPECT_EQ(settled({{"draft", 0.01}, {"standard", 0.2}, {"fine", 4.0}, {"reference", 90.0}}).preset(), "standard");
+  EXPECT_EQ(settled({{"draft", 0.2}, {"standard", 0.9}, {"fine", 9.0}, {"reference", 90.0}}).preset(), "draft");
+}
+
+TEST(FidelityGovernor, DoesNotGoBelowTheCoarsest) {
+  EXPECT_EQ(settled({{"draft", 5.0}, {"standard", 9.0}, {"fine", 90.0}, {"reference", 900.0}}).preset(), "draft");
+}
+
+TEST(FidelityGovernor, SettlesInsteadOfComingAndGoing) {
+  const Prices prices{{"draft", 0.001}, {"standard", 0.005}, {"fine", 0.30}, {"reference", 3.0}};
+  FidelityGovernor governor(kShare);
+  int changes = 0;
+  std::string_view before = governor.preset();
+  for (int scan = 0; scan < 100; ++scan) {
+    governor.scanned(prices.at(governor.preset()));
+    if (governor.preset() != before) ++changes;
+    before = governor.preset();
+  }
+  EXPECT_EQ(governor.preset(), "standard");
+  EXPECT_LE(changes, 2) << "tried the finer one once and came back";
+}
+
+TEST(FidelityGovernor, ComesBackToTheFinerOneWhenTheSceneHasBecomeCheap) {
+  FidelityGovernor governor(kShare);
+  for (int scan = 0; scan < 20; ++scan) governor.scanned(governor.preset() == "fine" ? 0.9 : 0.005);
+  EXPECT_EQ(governor.preset(), "standard");
+  for (int scan = 0; scan < 300; ++scan) governor.scanned(governor.preset() == "fine" ? 0.1 : 0.002);
+  EXPECT_EQ(governor.preset(), "fine");
+}
+
+TEST(FidelityGovernor, ALoadThatIsNoNumberChangesNothing) {
+  FidelityGovernor governor(kShare);
+  governor.scanned(std::numeric_limits<double>::quiet_NaN());
+  governor.scanned(std::numeric_limits<double>::infinity());
+  EXPECT_EQ(governor.preset(), "standard");
+}
+
+}  // namespace
+}  // namespace yars::model::kernel
