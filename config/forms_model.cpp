@@ -78,7 +78,7 @@ std::vector<SlotSchema> receiver_slots() {
           number("landGamma", "dB", -60, 20, YARS_FIELD(radar.receiver.land_gamma_db),
                  "return of land at vertical incidence"),
           number("seaGamma", "dB", -80, 20, YARS_FIELD(radar.receiver.sea_gamma_db),
-                 "return of sea at vertical incidence")};
+                 "return of sea at vertical incidence, where the algorithm has no sea model")};
 }
 
 std::vector<SlotSchema> noise_slots() {

@@ -180,7 +180,10 @@ bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::Anten
                          pose->platform.ground_track,
                          step.elevation,
                          geo::Length::metres(scan_range_m),
-                         step.direction};
+                         step.direction,
+                         geo::Duration::seconds(static_cast<double>(given.sim_time_ns) * 1e-9),
+                         given.command.band,
+                         given.command.channel};
   SweepChain::Labels labels;
   labels.tick = given.tick;
   labels.sim_time_ns = given.sim_time_ns;

@@ -20,6 +20,9 @@ struct SweepPlace {
   geo::Angle elevation;
   geo::Length range;
   int direction = 1;
+  geo::Duration sim_time;    // not part of the record's place
+  std::uint8_t band = 0;     // 0..4: A..E
+  std::uint8_t channel = 1;  // 1..8
 };
 
 // Fills all of `sweep` but video, hash, times, numbers and flags.

@@ -31,13 +31,15 @@ AnalyticTerrain::Height along(TerrainAxis axis, Profile profile) {
 
 }  // namespace
 
-AnalyticTerrain::AnalyticTerrain(Height height_m, std::uint64_t generation)
-    : height_m_(std::move(height_m)), generation_(generation) {}
+AnalyticTerrain::AnalyticTerrain(Height height_m, std::uint64_t generation, Material material)
+    : height_m_(std::move(height_m)), generation_(generation), material_(std::move(material)) {}
 
-double AnalyticTerrain::elevation_m(geo::GeoPoint place) const {
+Surface AnalyticTerrain::surface_at(geo::GeoPoint place) const {
   if (!std::isfinite(place.latitude_deg) || !std::isfinite(place.longitude_deg))
-    return std::numeric_limits<double>::quiet_NaN();
-  return height_m_({std::clamp(place.latitude_deg, -90.0, 90.0), geo::wrapped_degrees(place.longitude_deg)});
+    return {std::numeric_limits<double>::quiet_NaN(), 0.0, 0};
+  const geo::GeoPoint wrapped{std::clamp(place.latitude_deg, -90.0, 90.0), geo::wrapped_degrees(place.longitude_deg)};
+  const double height_m = height_m_(wrapped);
+  return {height_m, height_m == 0.0 ? 1.0 : 0.0, material_ ? material_(wrapped) : std::uint8_t{0}};
 }
 
 std::size_t AnalyticTerrain::elevations(std::span<const double> latitude_deg, std::span<const double> longitude_deg,
@@ -46,9 +48,9 @@ std::size_t AnalyticTerrain::elevations(std::span<const double> latitude_deg, st
   YARS_REQUIRE(elevation_m.size(), ==, latitude_deg.size());
   YARS_REQUIRE(water.size(), ==, latitude_deg.size());
   for (std::size_t i = 0; i < latitude_deg.size(); ++i) {
-    const double height_m = this->elevation_m({latitude_deg[i], longitude_deg[i]});
-    elevation_m[i] = static_cast<float>(height_m);
-    water[i] = height_m == 0.0 ? 1.0F : 0.0F;
+    const Surface surface = surface_at({latitude_deg[i], longitude_deg[i]});
+    elevation_m[i] = static_cast<float>(surface.elevation_m);
+    water[i] = static_cast<float>(surface.water);
   }
   return 0;
 }

@@ -16,17 +16,20 @@ namespace yars::model::terrain {
 class AnalyticTerrain final : public TerrainView {
  public:
   using Height = std::function<double(geo::GeoPoint)>;
-  explicit AnalyticTerrain(Height height_m, std::uint64_t generation = 1);
+  using Material = std::function<std::uint8_t(geo::GeoPoint)>;
+  // Without `material` there is none anywhere.
+  explicit AnalyticTerrain(Height height_m, std::uint64_t generation = 1, Material material = {});
 
   std::uint64_t generation() const override { return generation_; }
   std::uint64_t resident_bytes() const override { return sizeof(*this); }
-  double elevation_m(geo::GeoPoint place) const override;
+  Surface surface_at(geo::GeoPoint place) const override;
   std::size_t elevations(std::span<const double> latitude_deg, std::span<const double> longitude_deg,
                          std::span<float> elevation_m, std::span<float> water) const override;
 
  private:
   Height height_m_;
   std::uint64_t generation_;
+  Material material_;
 };
 
 // A store whose every region is served by one view.

@@ -87,8 +87,8 @@ Surface interpolate(const Cell& cell, double north_deg, double east_deg) {
       height_m += weight * post_m;
       if (post_m == 0) water += weight;
     }
-  if (total <= 0.0) return {std::numeric_limits<double>::quiet_NaN(), 0.0};
-  return {height_m / total, water / total};
+  if (total <= 0.0) return {std::numeric_limits<double>::quiet_NaN(), 0.0, 0};
+  return {height_m / total, water / total, 0};
 }
 
 void interpolate_run(const Cell& cell, double shift_deg, std::span<const double> latitude_deg,

@@ -5,13 +5,9 @@
 #include <span>
 
 #include "model/terrain/cell.hpp"
+#include "model/terrain/terrain_view.hpp"
 
 namespace yars::model::terrain {
-
-struct Surface {
-  double elevation_m = 0.0;  // [m] MSL; NaN where no post with weight has a height
-  double water = 0.0;        // [0, 1] share of posts at exactly 0 m by the same weights
-};
 
 // In double, at one place: the truth.
 Surface interpolate(const Cell& cell, double north_deg, double east_deg);

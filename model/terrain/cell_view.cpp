@@ -32,16 +32,15 @@ void CellView::add(std::shared_ptr<const Cell> cell) {
   cells_.push_back(std::move(cell));
 }
 
-double CellView::elevation_m(geo::GeoPoint place) const {
-  constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
-  if (!finite(place.latitude_deg, place.longitude_deg)) return kNoHeight;
+Surface CellView::surface_at(geo::GeoPoint place) const {
+  constexpr Surface kVoid{std::numeric_limits<double>::quiet_NaN(), 0.0, 0};
+  if (!finite(place.latitude_deg, place.longitude_deg)) return kVoid;
   const CellPlace corner = cell_holding(place);
   const std::uint16_t what = entry(corner);
-  if (what == static_cast<std::uint16_t>(Absence::sea)) return 0.0;
-  if (what < kFirstCell) return kNoHeight;
+  if (what == static_cast<std::uint16_t>(Absence::sea)) return {0.0, 1.0, 0};
+  if (what < kFirstCell) return kVoid;
   return interpolate(*cells_[what - kFirstCell], place.latitude_deg - corner.south_deg,
-                     geo::wrapped_degrees(place.longitude_deg) - corner.west_deg)
-      .elevation_m;
+                     geo::wrapped_degrees(place.longitude_deg) - corner.west_deg);
 }
 
 CellView::Run CellView::run_at(std::span<const double> latitude_deg, std::span<const double> longitude_deg) const {

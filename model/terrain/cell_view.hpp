@@ -30,7 +30,7 @@ class CellView final : public TerrainView {
 
   std::uint64_t generation() const override { return generation_; }
   std::uint64_t resident_bytes() const override { return sizeof(*this) + resident_bytes_; }
-  double elevation_m(geo::GeoPoint place) const override;
+  Surface surface_at(geo::GeoPoint place) const override;
   std::size_t elevations(std::span<const double> latitude_deg, std::span<const double> longitude_deg,
                          std::span<float> elevation_m, std::span<float> water) const override;
 

@@ -12,6 +12,13 @@
 
 namespace yars::model::terrain {
 
+// The ground at one place.
+struct Surface {
+  double elevation_m = 0.0;   // [m] MSL; NaN = void
+  double water = 0.0;         // [0, 1] share of posts at exactly 0 m
+  std::uint8_t material = 0;  // nearest surface material code; 0 = none given: land or sea by `water`
+};
+
 class TerrainView {
  public:
   TerrainView() = default;
@@ -23,9 +30,10 @@ class TerrainView {
   virtual std::uint64_t generation() const = 0;
   virtual std::uint64_t resident_bytes() const = 0;
 
-  // Bilinear elevation [m MSL] at one place; NaN = void. Any longitude (wrapped), latitude clamped to the poles.
+  // Bilinear elevation and share of water at one place. Any longitude (wrapped), latitude clamped to the poles.
   // A void among the four posts is left out and the weights of the others are scaled; all four void = NaN.
-  virtual double elevation_m(geo::GeoPoint place) const = 0;
+  virtual Surface surface_at(geo::GeoPoint place) const = 0;
+  double elevation_m(geo::GeoPoint place) const { return surface_at(place).elevation_m; }
 
   // The same for a run of places, in float, NaN = void: the fast path. Error against elevation_m at most 0.05 m
   // + 1e-6 of the cell's relief. `water` [0, 1] is the share of water (posts at exactly 0 m, absent cells) by the
