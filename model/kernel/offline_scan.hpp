@@ -23,7 +23,7 @@ struct ScanRequest {
   geo::Angle width;
   geo::Angle elevation;      // of the antenna, against the horizon
   int gain = 3;              // 0..3
-  geo::Duration sim_time;    // of the first sweep
+  geo::Duration sim_time{};  // of the first sweep
   std::uint8_t band = 0;     // 0..4: A..E
   std::uint8_t channel = 1;  // 1..8
 };

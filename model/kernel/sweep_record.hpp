@@ -20,7 +20,7 @@ struct SweepPlace {
   geo::Angle elevation;
   geo::Length range;
   int direction = 1;
-  geo::Duration sim_time;    // not part of the record's place
+  geo::Duration sim_time{};  // not part of the record's place
   std::uint8_t band = 0;     // 0..4: A..E
   std::uint8_t channel = 1;  // 1..8
 };

@@ -20,7 +20,7 @@ struct Look {
   geo::Bearing azimuth;  // of the beam's centre, true
   geo::Angle elevation;  // of the antenna, against the horizon
   geo::Length range;     // far end of the last sample
-  geo::Duration sim_time;
+  geo::Duration sim_time{};
   std::uint8_t band = 0;     // 0..4: A..E
   std::uint8_t channel = 1;  // 1..8
 };

@@ -1,6 +1,6 @@
 // The sea's sigma0 over the grazing angle as a table, for loops over the samples of a sweep: piecewise linear over the
-// sine, eight pieces an octave, found from the bits of the float alone. Within 0.02 dB of sea_sigma0() from 0.02 to 90
-// degrees. What does not depend on the look is computed once; a sweep costs one exp2 an entry.
+// sine, sixteen pieces an octave, found from the bits of the float alone. Within 0.03 dB of sea_sigma0() from 0.02 to
+// 90 degrees. What does not depend on the look is computed once; a sweep costs one exp2 an entry.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@ namespace yars::model::reflectivity {
 
 struct SeaTable {
   static constexpr std::uint32_t kFirst = (127U - 12U) << 23U;  // bits of 2^-12: 0.014 degrees; less returns its share
-  static constexpr std::uint32_t kShift = 20U;                  // eight pieces an octave
-  static constexpr std::size_t kPieces = 96;                    // twelve octaves, to the sine of 90 degrees
+  static constexpr std::uint32_t kShift = 19U;                  // sixteen pieces an octave
+  static constexpr std::size_t kPieces = 192;                   // twelve octaves, to the sine of 90 degrees
   std::array<float, kPieces + 1> sigma0{};
 
   // `sin_grazing` [0, 1].

@@ -155,7 +155,7 @@ TEST(RainPath, IsSeenAboveTheShadowOfARidge) {
   const std::size_t middle = 25000 / 40;
   EXPECT_FALSE(wet[middle].lit);
   EXPECT_GT(wet[middle].power, 0.0);
-  EXPECT_EQ(wet[500].power, 0.0) << "in the shadow before the rain";
+  EXPECT_EQ(wet[400].power, 0.0) << "in the shadow before the rain";
 }
 
 }  // namespace

@@ -72,6 +72,7 @@ Moments k_clutter(double shape, int looks) {
   configuration.fidelity.noise = true;
   configuration.receiver.dynamic_range_db = 120.0;
   configuration.receiver.noise_floor_db = -120.0;
+  configuration.receiver.gain_step_db = 10.0;  // at gain 0 nothing clips
   configuration.receiver.looks = looks;
   configuration.world.land.texture = shape;
   Look look = test::look_north(3000.0, 80000.0);
@@ -82,13 +83,13 @@ Moments k_clutter(double shape, int looks) {
   std::vector<float> power(250), mean(250);
   std::vector<std::uint8_t> video(250);
   double sum = 0.0, squares = 0.0, count = 0.0;
-  for (std::uint32_t sweep = 0; sweep < 400; ++sweep) {
-    look.azimuth = geo::Bearing::degrees(0.9 * sweep);
+  for (std::uint32_t sweep = 0; sweep < 1000; ++sweep) {
+    look.apex.longitude_deg = 0.36 * sweep - 180.0;  // other ground each time
     textured.measure(look, plain, power);
     even.measure(look, plain, mean);
-    textured.develop({power, power, power}, look.range, 3, {5, 1, sweep}, video);
+    textured.develop({power, power, power}, look.range, 0, {5, 1, sweep}, video);
     for (std::size_t i = 25; i < 250; ++i) {
-      const double relative = std::pow(10.0, 12.0 * (video[i] / 255.0 - 1.0)) / static_cast<double>(mean[i]);
+      const double relative = std::pow(10.0, 12.0 * (video[i] / 255.0 - 1.0) + 3.0) / static_cast<double>(mean[i]);
       sum += relative;
       squares += relative * relative;
       count += 1.0;
