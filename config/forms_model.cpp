@@ -54,7 +54,7 @@ std::vector<SlotSchema> fidelity_slots() {
       flag("slantRange", YARS_FIELD(radar.fidelity.slant_range), "samples even in slant instead of ground range"),
       flag("crossTrackSlope", YARS_FIELD(radar.fidelity.cross_track_slope),
            "incidence with the slope across the sweep"),
-      flag("noise", YARS_FIELD(radar.fidelity.noise), "thermal noise and speckle"),
+      flag("noise", YARS_FIELD(radar.fidelity.noise), "thermal noise, speckle and texture"),
       flag("azimuthSmear", YARS_FIELD(radar.fidelity.azimuth_smear), "smear over the beam width"),
       flag("pulseSmear", YARS_FIELD(radar.fidelity.pulse_smear), "smear over the pulse length"),
       {.name = "beam",

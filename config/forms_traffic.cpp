@@ -48,14 +48,14 @@ FormSchema jammer() {
                                            [](Draft& draft, int index) {
                                              draft.jammer.band = index == kAllBands ? radar::kEveryBand : index;
                                            }},
-                     .purpose = "band that it jams"},
+                     .purpose = "band that it jams; left out: all"},
                     {.name = "channels",
                      .lowest = 1,
                      .highest = 8,
                      .binding = ListSlot{YARS_FIELD(jammer.channels), 1, 8, Order::ascending},
-                     .purpose = "channels that it jams"},
+                     .purpose = "channels that it jams; left out: all"},
                     number_slot("power", "W", 0, 1e9, {YARS_FIELD(jammer.power_w)},
-                                "effective radiated, within the receiver's bandwidth")},
+                                "effective radiated, within the receiver's bandwidth; left out: 10")},
           .part_of_value = true,
           .begin =
               [](Draft& draft) {
@@ -76,28 +76,28 @@ std::optional<Complaint> check_mover(const Draft& draft) {
 
 FormSchema mover() {
   constexpr double kMetresPerSecondPerKnot = geo::kMetresPerNauticalMile / 3600.0;
-  return {
-      .name = "Mover",
-      .purpose = "a ship or a vehicle: a point on its great circle",
-      .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(mover.name)}, .purpose = "what people call it"},
-                latitude_slot(YARS_FIELD(mover.place.latitude_deg)),
-                longitude_slot(YARS_FIELD(mover.place.longitude_deg)),
-                number_slot("speed", "kt", 0, 1000, {YARS_FIELD(mover.speed_mps), kMetresPerSecondPerKnot},
-                            "over ground"),
-                number_slot("heading", "deg", 0, 360, {YARS_FIELD(mover.heading_deg)},
-                            "true, at sim time 0; later the great circle's"),
-                number_slot("crossSection", "m2", 0, 1e7, {YARS_FIELD(mover.cross_section_m2)}, "radar cross section"),
-                number_slot("height", "ft", 0, 1000, {YARS_FIELD(mover.height_m), geo::kMetresPerFoot},
-                            "of what returns, above the ground")},
-      .part_of_value = true,
-      .begin =
-          [](Draft& draft) {
-            draft.mover = {.name = {}, .place = {kNotGiven, kNotGiven}};
-          },
-      .check = check_mover,
-      .end = [](Draft& draft) { draft.radar.world.movers.push_back(draft.mover); },
-      .count = [](const Draft& draft) { return draft.radar.world.movers.size(); },
-      .select = [](Draft& draft, std::size_t index) { draft.mover = draft.radar.world.movers[index]; }};
+  return {.name = "Mover",
+          .purpose = "a ship or a vehicle: a point on its great circle",
+          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(mover.name)}, .purpose = "what people call it"},
+                    latitude_slot(YARS_FIELD(mover.place.latitude_deg)),
+                    longitude_slot(YARS_FIELD(mover.place.longitude_deg)),
+                    number_slot("speed", "kt", 0, 1000, {YARS_FIELD(mover.speed_mps), kMetresPerSecondPerKnot},
+                                "over ground; left out: 0"),
+                    number_slot("heading", "deg", 0, 360, {YARS_FIELD(mover.heading_deg)},
+                                "true, at sim time 0; later the great circle's"),
+                    number_slot("crossSection", "m2", 0, 1e7, {YARS_FIELD(mover.cross_section_m2)},
+                                "radar cross section; left out: 1000"),
+                    number_slot("height", "ft", 0, 1000, {YARS_FIELD(mover.height_m), geo::kMetresPerFoot},
+                                "of what returns, above the ground; left out: 20")},
+          .part_of_value = true,
+          .begin =
+              [](Draft& draft) {
+                draft.mover = {.name = {}, .place = {kNotGiven, kNotGiven}};
+              },
+          .check = check_mover,
+          .end = [](Draft& draft) { draft.radar.world.movers.push_back(draft.mover); },
+          .count = [](const Draft& draft) { return draft.radar.world.movers.size(); },
+          .select = [](Draft& draft, std::size_t index) { draft.mover = draft.radar.world.movers[index]; }};
 }
 
 }  // namespace

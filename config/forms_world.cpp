@@ -61,11 +61,12 @@ FormSchema material() {
                      .binding = IntegerSlot{YARS_FIELD(material.code)},
                      .purpose = "surface material code of the culture; 0 is land without, 6 water"},
                     {.name = "name", .binding = TextSlot{YARS_FIELD(material.name)}, .purpose = "what people call it"},
-                    number_slot("gamma", "dB", -60, 30, {YARS_FIELD(material.gamma_db)}, "its return"),
+                    number_slot("gamma", "dB", -60, 30, {YARS_FIELD(material.gamma_db)},
+                                "its return; left out: as it was, or 0"),
                     number_slot("cardinal", "dB", 0, 30, {YARS_FIELD(material.cardinal_db)},
-                                "more where its walls face the radar"),
+                                "more where its walls face the radar; left out: as it was, or 0"),
                     number_slot("texture", "", 0, 100, {YARS_FIELD(material.texture)},
-                                "shape of its texture; small = spiky, 0 = none")},
+                                "shape of its texture; small = spiky, 0 = none; left out: as it was, or 0")},
           .part_of_value = true,
           .begin =
               [](Draft& draft) {
@@ -118,24 +119,25 @@ std::optional<Complaint> check_rain_cell(const Draft& draft) {
 }
 
 FormSchema rain_cell() {
-  return {.name = "RainCell",
-          .purpose = "a shower: heaviest in the middle, nothing at the rim",
-          .slots = {latitude_slot(YARS_FIELD(rain_cell.place.latitude_deg)),
-                    longitude_slot(YARS_FIELD(rain_cell.place.longitude_deg)),
-                    number_slot("radius", "NM", 0.1, 100, {YARS_FIELD(rain_cell.radius_m), geo::kMetresPerNauticalMile},
-                                "of the rim"),
-                    number_slot("rate", "mm/h", 0.1, 300, {YARS_FIELD(rain_cell.rate_mmh)}, "in the middle"),
-                    number_slot("top", "ft", 500, 60'000, {YARS_FIELD(rain_cell.top_m), geo::kMetresPerFoot},
-                                "of the rain, above mean sea level")},
-          .part_of_value = true,
-          .begin =
-              [](Draft& draft) {
-                draft.rain_cell = {.place = {kNotGiven, kNotGiven}};
-              },
-          .check = check_rain_cell,
-          .end = [](Draft& draft) { draft.radar.world.rain.cells.push_back(draft.rain_cell); },
-          .count = [](const Draft& draft) { return draft.radar.world.rain.cells.size(); },
-          .select = [](Draft& draft, std::size_t index) { draft.rain_cell = draft.radar.world.rain.cells[index]; }};
+  return {
+      .name = "RainCell",
+      .purpose = "a shower: heaviest in the middle, nothing at the rim",
+      .slots = {latitude_slot(YARS_FIELD(rain_cell.place.latitude_deg)),
+                longitude_slot(YARS_FIELD(rain_cell.place.longitude_deg)),
+                number_slot("radius", "NM", 0.1, 100, {YARS_FIELD(rain_cell.radius_m), geo::kMetresPerNauticalMile},
+                            "of the rim; left out: 5"),
+                number_slot("rate", "mm/h", 0.1, 300, {YARS_FIELD(rain_cell.rate_mmh)}, "in the middle; left out: 10"),
+                number_slot("top", "ft", 500, 60'000, {YARS_FIELD(rain_cell.top_m), geo::kMetresPerFoot},
+                            "of the rain, above mean sea level; left out: 15,000")},
+      .part_of_value = true,
+      .begin =
+          [](Draft& draft) {
+            draft.rain_cell = {.place = {kNotGiven, kNotGiven}};
+          },
+      .check = check_rain_cell,
+      .end = [](Draft& draft) { draft.radar.world.rain.cells.push_back(draft.rain_cell); },
+      .count = [](const Draft& draft) { return draft.radar.world.rain.cells.size(); },
+      .select = [](Draft& draft, std::size_t index) { draft.rain_cell = draft.radar.world.rain.cells[index]; }};
 }
 
 FormSchema rain() {
@@ -149,7 +151,7 @@ FormSchema rain() {
                     number_slot("reflectivityExponent", "", 0.5, 3,
                                 {YARS_FIELD(radar.world.rain.reflectivity_exponent)}, "b of Z = a r^b"),
                     number_slot("dielectricFactor", "", 0, 1, {YARS_FIELD(radar.world.rain.dielectric_factor)},
-                                "|K|^2 of water; 0.2 is ice"),
+                                "K squared of water; 0.2 is ice"),
                     number_slot("attenuationFactor", "dB/km", 0, 10, {YARS_FIELD(radar.world.rain.attenuation_factor)},
                                 "k of k r^b, one way (ITU-R P.838-3, 9.6 GHz, horizontal)"),
                     number_slot("attenuationExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.attenuation_exponent)},

@@ -35,9 +35,10 @@ std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint place) {
   const double north_deg = place.latitude_deg + 90.0;
   const auto band = static_cast<std::size_t>(std::clamp(north_deg, 0.0, 179.0));
   const double turns = place.longitude_deg / 360.0 + 0.5;
-  const auto row = static_cast<std::uint32_t>(std::max(0.0, north_deg * grid.rows_per_degree));
-  const auto column = static_cast<std::uint32_t>((turns - std::floor(turns)) * grid.columns[band]);
-  return mixed(mixed(row) ^ column);
+  // By way of signed integers: those a loop converts many at a time.
+  const auto row = static_cast<std::int32_t>(std::max(0.0, north_deg * grid.rows_per_degree));
+  const auto column = static_cast<std::int32_t>((turns - std::floor(turns)) * grid.columns[band]);
+  return mixed(mixed(static_cast<std::uint32_t>(row)) ^ static_cast<std::uint32_t>(column));
 }
 
 }  // namespace yars::model::reflectivity

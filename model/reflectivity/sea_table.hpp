@@ -1,5 +1,5 @@
 // The sea's sigma0 over the grazing angle as a table, for loops over the samples of a sweep: piecewise linear over the
-// sine, sixteen pieces an octave, found from the bits of the float alone. Within 0.03 dB of sea_sigma0() from 0.02 to
+// sine, sixteen pieces an octave, found from the bits of the float alone. Within 0.04 dB of sea_sigma0() from 0.02 to
 // 90 degrees. What does not depend on the look is computed once; a sweep costs one exp2 an entry.
 #pragma once
 
