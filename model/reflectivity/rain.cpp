@@ -9,9 +9,10 @@ namespace yars::model::reflectivity {
 namespace {
 constexpr double kMeanEarthRadiusM = 6371008.8;  // [m] how a great circle passes a place: to 0.3 % of the distance
 
-// Antiderivative of depth - (x / radius)^2.
+// Antiderivative of (depth - (x / radius)^2)^2.
 double primitive(double depth, double radius_m, double x_m) {
-  return depth * x_m - x_m * x_m * x_m / (3.0 * radius_m * radius_m);
+  const double square = x_m * x_m / (radius_m * radius_m);
+  return x_m * (depth * depth - square * (2.0 / 3.0 * depth - square / 5.0));
 }
 }  // namespace
 
@@ -27,7 +28,8 @@ double rain_attenuation_db_per_m(const radar::RainConfiguration& rain, double ra
 
 double RainChord::profile(double distance_m) const {
   const double share = (distance_m - middle_m) / radius_m;
-  return half_m > 0.0 ? std::max(0.0, depth - share * share) : 0.0;
+  const double root = half_m > 0.0 ? std::max(0.0, depth - share * share) : 0.0;
+  return root * root;
 }
 
 double RainChord::integral_m(double from_m, double to_m) const {

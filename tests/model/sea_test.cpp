@@ -77,7 +77,7 @@ TEST(Sea, ReturnsNothingFromBehindAndTheSameAbove60Degrees) {
   EXPECT_NEAR(sea_sigma0(sea, 1.0, {}) / sea_sigma0(sea, std::sin(60.0 * geo::kRadiansPerDegree), {}), 1.0, 1e-9);
 }
 
-TEST(SeaTable, LiesWithinFourHundredthsOfADecibelOfTheModel) {
+TEST(SeaTable, LiesWithinTwoHundredthsOfADecibelOfTheModelAtLowGrazing) {
   for (const auto polarization : {radar::Polarization::horizontal, radar::Polarization::vertical}) {
     radar::RadarConfiguration configuration;
     configuration.world.sea.polarization = polarization;
@@ -90,7 +90,8 @@ TEST(SeaTable, LiesWithinFourHundredthsOfADecibelOfTheModel) {
       for (double grazing_deg = 0.02; grazing_deg < 90.0; grazing_deg *= 1.01) {
         const double sine = std::sin(grazing_deg * geo::kRadiansPerDegree);
         const auto found = static_cast<double>(table.at(static_cast<float>(sine)));
-        ASSERT_NEAR(decibels(found), decibels(sea_sigma0(sea, sine, look)), 0.04) << grazing_deg;
+        ASSERT_NEAR(decibels(found), decibels(sea_sigma0(sea, sine, look)), grazing_deg < 15.0 ? 0.02 : 0.1)
+            << grazing_deg;
       }
       EXPECT_EQ(table.at(0.0F), 0.0F);
       EXPECT_GT(table.at(1.0F), 0.0F);
