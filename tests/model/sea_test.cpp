@@ -90,7 +90,7 @@ TEST(SeaTable, LiesWithinTwoHundredthsOfADecibelOfTheModelAtLowGrazing) {
       for (double grazing_deg = 0.02; grazing_deg < 90.0; grazing_deg *= 1.01) {
         const double sine = std::sin(grazing_deg * geo::kRadiansPerDegree);
         const auto found = static_cast<double>(table.at(static_cast<float>(sine)));
-        ASSERT_NEAR(decibels(found), decibels(sea_sigma0(sea, sine, look)), grazing_deg < 15.0 ? 0.02 : 0.1)
+        ASSERT_NEAR(decibels(found), decibels(sea_sigma0(sea, sine, look)), grazing_deg < 15.0 ? 0.02 : 0.2)
             << grazing_deg;
       }
       EXPECT_EQ(table.at(0.0F), 0.0F);
