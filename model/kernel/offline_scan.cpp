@@ -45,11 +45,11 @@ void OfflineScan::place_sweeps(const radar::RadarConfiguration& configuration, c
   const geo::Bearing centre = antenna::scan_centre(request.pose.platform, configuration.antenna);
   constexpr int kClockwise = 1;
   for (int i = 0; i < pattern.sweep_ticks; ++i) {
-    places_.push_back(
-        {request.pose.place, request.pose.altitude, centre + geo::Angle::degrees(pattern.edge_deg(i, kClockwise)),
-         centre + geo::Angle::degrees(pattern.edge_deg(i + 1, kClockwise)), request.pose.platform.ground_track,
-         request.elevation, request.range, kClockwise,
-         request.sim_time + geo::Duration::seconds(i * radar::kTickSeconds), request.band, request.channel});
+    places_.push_back({request.pose.place, request.pose.altitude,
+                       centre + geo::Angle::degrees(pattern.edge_deg(i, kClockwise)),
+                       centre + geo::Angle::degrees(pattern.edge_deg(i + 1, kClockwise)),
+                       request.pose.platform.ground_track, request.elevation, request.range, kClockwise,
+                       sim_time_of(request.sim_time_ns + i * radar::kTickNanoseconds), request.band, request.channel});
   }
 }
 

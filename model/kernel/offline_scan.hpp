@@ -21,11 +21,11 @@ struct ScanRequest {
   Pose pose;
   geo::Length range;
   geo::Angle width;
-  geo::Angle elevation;      // of the antenna, against the horizon
-  int gain = 3;              // 0..3
-  geo::Duration sim_time{};  // of the first sweep
-  std::uint8_t band = 0;     // 0..4: A..E
-  std::uint8_t channel = 1;  // 1..8
+  geo::Angle elevation;          // of the antenna, against the horizon
+  int gain = 3;                  // 0..3
+  std::int64_t sim_time_ns = 0;  // [ns] of the first sweep
+  std::uint8_t band = 0;         // 0..4: A..E
+  std::uint8_t channel = 1;      // 1..8
 };
 
 class OfflineScan {

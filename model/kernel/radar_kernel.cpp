@@ -181,7 +181,7 @@ bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::Anten
                          step.elevation,
                          geo::Length::metres(scan_range_m),
                          step.direction,
-                         geo::Duration::seconds(static_cast<double>(given.sim_time_ns) * 1e-9),
+                         sim_time_of(given.sim_time_ns),
                          given.command.band,
                          given.command.channel};
   SweepChain::Labels labels;
