@@ -1,6 +1,7 @@
 // The sea's sigma0 over the grazing angle as a table, for loops over the samples of a sweep: piecewise linear over the
 // sine, sixteen pieces an octave, found from the bits of the float alone. Within 0.02 dB of sea_sigma0() from 0.02 to
-// 15 degrees, 0.2 dB to 90. What does not depend on the look is computed once; a sweep costs one exp2 an entry.
+// 15 degrees, 0.2 dB to 55, 0.4 dB where the model ends at 60. What does not depend on the look is computed once; a
+// sweep costs one exp2 an entry.
 #pragma once
 
 #include <array>
