@@ -21,6 +21,10 @@ struct Draft {
   radar::RoutePoint point{};
   int point_kind = kKindByName;  // a radar::PointKind when it is given
   SexagesimalAngle angle{};
+  radar::Material material{};
+  radar::RainCell rain_cell{};
+  radar::Jammer jammer{};
+  radar::Mover mover{};
 };
 
 // A draft that stands for a finished configuration.

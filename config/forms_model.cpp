@@ -82,7 +82,7 @@ std::vector<SlotSchema> fidelity_slots() {
       flag("slantRange", YARS_FIELD(radar.fidelity.slant_range), "samples even in slant instead of ground range"),
       flag("crossTrackSlope", YARS_FIELD(radar.fidelity.cross_track_slope),
            "incidence with the slope across the sweep"),
-      flag("noise", YARS_FIELD(radar.fidelity.noise), "thermal noise and speckle"),
+      flag("noise", YARS_FIELD(radar.fidelity.noise), "thermal noise, speckle and texture"),
       flag("azimuthSmear", YARS_FIELD(radar.fidelity.azimuth_smear), "smear over the beam width"),
       flag("pulseSmear", YARS_FIELD(radar.fidelity.pulse_smear), "smear over the pulse length"),
       {.name = "beam",
@@ -106,7 +106,7 @@ std::vector<SlotSchema> receiver_slots() {
           number("landGamma", "dB", -60, 20, YARS_FIELD(radar.receiver.land_gamma_db),
                  "return of land at vertical incidence"),
           number("seaGamma", "dB", -80, 20, YARS_FIELD(radar.receiver.sea_gamma_db),
-                 "return of sea at vertical incidence")};
+                 "return of sea at vertical incidence, where the algorithm has no sea model")};
 }
 
 std::vector<SlotSchema> noise_slots() {

@@ -97,7 +97,13 @@ std::vector<SlotSchema> system_slots() {
        {.name = "receiver", .binding = FormSlot{{"Receiver"}, {"Receiver"}}, .purpose = "receiver and ground return"},
        {.name = "noise", .binding = FormSlot{{"Noise"}, {"Noise"}}, .purpose = "thermal noise and speckle"},
        {.name = "terrain", .binding = FormSlot{{"Terrain"}, {"Terrain"}}, .purpose = "where the ground comes from"},
-       {.name = "route", .binding = FormSlot{{"Route"}, {"Route"}}, .purpose = "sequence points"}});
+       {.name = "route", .binding = FormSlot{{"Route"}, {"Route"}}, .purpose = "sequence points"},
+       {.name = "land", .binding = FormSlot{{"Land"}, {"Land"}}, .purpose = "what land returns"},
+       {.name = "materials", .binding = FormSlot{{"Materials"}, {"Materials"}}, .purpose = "what materials return"},
+       {.name = "sea", .binding = FormSlot{{"Sea"}, {"Sea"}}, .purpose = "what the sea returns"},
+       {.name = "rain", .binding = FormSlot{{"Rain"}, {"Rain"}}, .purpose = "showers"},
+       {.name = "jammers", .binding = FormSlot{{"Jammers"}, {"Jammers"}}, .purpose = "jammers"},
+       {.name = "movers", .binding = FormSlot{{"Movers"}, {"Movers"}}, .purpose = "ships and vehicles"}});
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ GEO = ["lib/failure", "lib/geo"]
 RADAR = GEO + ["lib/radar"]
 RECORDS = RADAR + ["databuffer/records"]
 ROLE = RECORDS + ["lib/imageio", "config"]
-MODEL = ROLE + ["model/terrain", "model/antenna", "model/rbm", "model/kernel"]
+MODEL = ROLE + ["model/terrain", "model/antenna", "model/reflectivity", "model/rbm", "model/kernel"]
 SEGMENT = ROLE + ["shm", "databuffer", "databuffer/flight"]
 
 # Folder -> folders whose headers it may include besides its own. model, statemachine, inputmonitor and display
@@ -33,7 +33,8 @@ LAYERS = {
     "databuffer": SEGMENT,
     "model/terrain": RADAR,
     "model/antenna": RADAR,
-    "model/rbm": RADAR + ["model/terrain", "model/antenna"],
+    "model/reflectivity": RADAR + ["model/terrain"],
+    "model/rbm": RADAR + ["model/terrain", "model/antenna", "model/reflectivity"],
     "model/kernel": MODEL,
     "model": MODEL,
     "statemachine": ROLE,

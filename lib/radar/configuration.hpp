@@ -8,6 +8,7 @@
 
 #include "lib/geo/geodesic.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/radar/world.hpp"
 
 namespace yars::radar {
 
@@ -70,7 +71,7 @@ struct ReceiverConfiguration {
   double gain_step_db = 8.0;       // [dB] a step of GAIN 3..0
   double noise_floor_db = -42.0;   // [dB] thermal noise below full scale
   double land_gamma_db = -14.0;    // [dB] sigma0 = gamma sin(psi)
-  double sea_gamma_db = -38.0;     // [dB] until the sea model of a later issue
+  double sea_gamma_db = -38.0;     // [dB] sea of the standard algorithm, until it has the sea model
   int looks = 4;                   // of land and sea speckle
 };
 
@@ -98,6 +99,7 @@ struct RadarConfiguration {
   Fidelity fidelity;
   ReceiverConfiguration receiver;
   TerrainConfiguration terrain;
+  WorldConfiguration world;
   std::vector<RoutePoint> route;
   std::uint64_t seed = 1;
   double magnetic_variation_deg = 0.0;  // [deg] east positive

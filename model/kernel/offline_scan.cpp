@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "lib/radar/limits.hpp"
 #include "lib/radar/modes.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "model/rbm/receiver.hpp"
@@ -25,12 +26,16 @@ void spread(std::size_t sweeps, std::size_t threads, const Job& job) {
 }  // namespace
 
 OfflineScan::OfflineScan(const radar::RadarConfiguration& configuration, const ScanRequest& request, int threads)
-    : seed_(configuration.seed), gain_(request.gain), samples_(rbm::sample_count(configuration)) {
+    : seed_(configuration.seed),
+      gain_(request.gain),
+      samples_(rbm::sample_count(configuration)),
+      strobes_(configuration) {
   place_sweeps(configuration, request);
   for (int thread = 0; thread < std::max(1, threads); ++thread) {
     algorithms_.push_back(rbm::make_algorithm(configuration));
   }
   flags_.assign(places_.size(), 0U);
+  jamming_.assign(places_.size(), 0.0);
   power_.assign(places_.size() * samples_, 0.0F);
   sweeps_.resize(places_.size());
 }
@@ -43,13 +48,16 @@ void OfflineScan::place_sweeps(const radar::RadarConfiguration& configuration, c
     places_.push_back({request.pose.place, request.pose.altitude,
                        centre + geo::Angle::degrees(pattern.edge_deg(i, kClockwise)),
                        centre + geo::Angle::degrees(pattern.edge_deg(i + 1, kClockwise)),
-                       request.pose.platform.ground_track, request.elevation, request.range, kClockwise});
+                       request.pose.platform.ground_track, request.elevation, request.range, kClockwise,
+                       sim_time_of(request.sim_time_ns + i * radar::kTickNanoseconds), request.band, request.channel});
   }
 }
 
 void OfflineScan::measure(const terrain::TerrainView& terrain) {
   spread(places_.size(), algorithms_.size(), [&](std::size_t sweep, std::size_t thread) {
-    const std::size_t pending = algorithms_[thread]->measure(look_of(places_[sweep]), terrain, power_of(sweep));
+    const rbm::Look look = look_of(places_[sweep]);
+    const std::size_t pending = algorithms_[thread]->measure(look, terrain, power_of(sweep));
+    jamming_[sweep] = strobes_.level(look, terrain);
     flags_[sweep] = pending > 0 ? databuffer::kSweepNotReady : 0U;
   });
 }
@@ -68,7 +76,7 @@ void OfflineScan::develop() {
     if (sweep == 0) labels.flags |= databuffer::kSweepScanStart;
     if (sweep == last) labels.flags |= databuffer::kSweepScanEnd;
     finish_sweep(*algorithms_[thread], seed_, places_[sweep], labels,
-                 {power_of(before), power_of(sweep), power_of(after)}, sweeps_[sweep]);
+                 {power_of(before), power_of(sweep), power_of(after), jamming_[sweep]}, sweeps_[sweep]);
   });
 }
 

@@ -12,6 +12,7 @@
 #include "model/kernel/pose.hpp"
 #include "model/kernel/sweep_record.hpp"
 #include "model/rbm/algorithm.hpp"
+#include "model/rbm/strobes.hpp"
 #include "model/terrain/terrain_view.hpp"
 
 namespace yars::model::kernel {
@@ -20,8 +21,11 @@ struct ScanRequest {
   Pose pose;
   geo::Length range;
   geo::Angle width;
-  geo::Angle elevation;  // of the antenna, against the horizon
-  int gain = 3;          // 0..3
+  geo::Angle elevation;          // of the antenna, against the horizon
+  int gain = 3;                  // 0..3
+  std::int64_t sim_time_ns = 0;  // [ns] of the first sweep
+  std::uint8_t band = 0;         // 0..4: A..E
+  std::uint8_t channel = 1;      // 1..8
 };
 
 class OfflineScan {
@@ -42,8 +46,10 @@ class OfflineScan {
   int gain_;
   std::size_t samples_;
   std::vector<std::unique_ptr<rbm::Algorithm>> algorithms_;  // one a thread
+  rbm::Strobes strobes_;
   std::vector<SweepPlace> places_;
   std::vector<std::uint32_t> flags_;
+  std::vector<double> jamming_;
   std::vector<float> power_;  // sweep after sweep
   std::vector<databuffer::Sweep> sweeps_;
 };

@@ -201,7 +201,10 @@ bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::Anten
                          pose->platform.ground_track,
                          step.elevation,
                          geo::Length::metres(scan_range_m),
-                         step.direction};
+                         step.direction,
+                         sim_time_of(given.sim_time_ns),
+                         given.command.band,
+                         given.command.channel};
   SweepChain::Labels labels;
   labels.tick = given.tick;
   labels.sim_time_ns = given.sim_time_ns;

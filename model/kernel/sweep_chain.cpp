@@ -12,7 +12,8 @@ constexpr std::uint32_t kNothingReceived = databuffer::kSweepBlank | databuffer:
 SweepChain::SweepChain(const radar::RadarConfiguration& configuration)
     : seed_(configuration.seed),
       samples_(rbm::sample_count(configuration)),
-      algorithm_(rbm::make_algorithm(configuration)) {
+      algorithm_(rbm::make_algorithm(configuration)),
+      strobes_(configuration) {
   for (Measured& measured : measured_) measured.power.assign(samples_, 0.0F);
 }
 
@@ -22,6 +23,8 @@ bool SweepChain::advance(const SweepPlace& place, const Labels& labels, const te
   next_ = (next_ + 1) % measured_.size();
   measured.place = place;
   measured.labels = labels;
+  const bool deaf = (labels.flags & databuffer::kSweepBlank) != 0U;
+  measured.jamming = deaf ? 0.0 : strobes_.level(look_of(place), terrain);
   if ((labels.flags & kNothingReceived) != 0U) {
     std::fill(measured.power.begin(), measured.power.end(), 0.0F);
   } else {
@@ -47,7 +50,8 @@ void SweepChain::finish(const Measured& before, const Measured& centre, const Me
   Labels labels = centre.labels;
   // Power of a neighbour that was not ready is in this sweep too.
   labels.flags |= (before.labels.flags | after.labels.flags) & databuffer::kSweepNotReady;
-  finish_sweep(*algorithm_, seed_, centre.place, labels, {before.power, centre.power, after.power}, sweep);
+  finish_sweep(*algorithm_, seed_, centre.place, labels, {before.power, centre.power, after.power, centre.jamming},
+               sweep);
 }
 
 void finish_sweep(rbm::Algorithm& algorithm, std::uint64_t seed, const SweepPlace& place,

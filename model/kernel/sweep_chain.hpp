@@ -13,6 +13,7 @@
 #include "lib/radar/configuration.hpp"
 #include "model/kernel/sweep_record.hpp"
 #include "model/rbm/algorithm.hpp"
+#include "model/rbm/strobes.hpp"
 
 namespace yars::model::kernel {
 
@@ -27,7 +28,7 @@ class SweepChain {
     std::uint32_t epoch = 0;
     std::uint32_t scan = 0;
     std::uint32_t number = 0;
-    std::uint32_t flags = 0;  // kSweep...; blank and noise-only sweeps read no terrain
+    std::uint32_t flags = 0;  // kSweep...; a blank sweep reads no terrain, one of noise only for what hides jammers
     std::uint8_t mode = 0;
     std::uint8_t gain = 3;
   };
@@ -47,6 +48,7 @@ class SweepChain {
   struct Measured {
     SweepPlace place;
     Labels labels;
+    double jamming = 0.0;  // full scale = 1
     std::vector<float> power;
   };
   void finish(const Measured& before, const Measured& centre, const Measured& after, databuffer::Sweep& sweep);
@@ -55,6 +57,7 @@ class SweepChain {
   std::uint64_t seed_;
   std::size_t samples_;
   std::unique_ptr<rbm::Algorithm> algorithm_;
+  rbm::Strobes strobes_;
   std::array<Measured, 3> measured_;
   std::size_t next_ = 0;  // slot that the next sweep takes
   std::size_t held_ = 0;  // newest ones that belong to this pass, at most 2

@@ -20,7 +20,15 @@ struct SweepPlace {
   geo::Angle elevation;
   geo::Length range;
   int direction = 1;
+  geo::Duration sim_time{};  // not part of the record's place
+  std::uint8_t band = 0;     // 0..4: A..E
+  std::uint8_t channel = 1;  // 1..8
 };
+
+// Sim time as movers go by it.
+inline geo::Duration sim_time_of(std::int64_t sim_time_ns) {
+  return geo::Duration::seconds(static_cast<double>(sim_time_ns) * 1e-9);
+}
 
 // Fills all of `sweep` but video, hash, times, numbers and flags.
 void write_place(const SweepPlace& place, databuffer::Sweep& sweep);

@@ -20,6 +20,9 @@ struct Look {
   geo::Bearing azimuth;  // of the beam's centre, true
   geo::Angle elevation;  // of the antenna, against the horizon
   geo::Length range;     // far end of the last sample
+  geo::Duration sim_time{};
+  std::uint8_t band = 0;     // 0..4: A..E
+  std::uint8_t channel = 1;  // 1..8
 };
 
 // Names the noise of a sweep: equal numbers, equal noise.
@@ -35,6 +38,7 @@ struct PowerWindow {
   std::span<const float> before;
   std::span<const float> centre;
   std::span<const float> after;
+  double jamming = 0.0;  // received by the centre one, at every range; full scale = 1
 };
 
 // Weights over three sweeps; their sum is 1, so that power is conserved. Source: the 1996 report.

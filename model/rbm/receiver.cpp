@@ -4,20 +4,43 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/reflectivity/decibels.hpp"
+#include "model/reflectivity/land.hpp"
+
 namespace yars::model::rbm {
+
+using reflectivity::ratio;
 
 namespace {
 constexpr double kMetresPerMicrosecond = 149.896229;  // [m] c/2 over 1 us: range resolution, hence brightness and smear
 constexpr double kDefaultPulseUs = 1.0;               // where the configuration lists no pulse
 constexpr double kRangeSlack = 1.0 + 1e-9;            // a range that went through metres still counts as itself
 
-double ratio(double decibels) {
-  return std::pow(10.0, 0.1 * decibels);
-}
-
 double gaussian(double angle_rad, double beamwidth_rad) {
   const double share = angle_rad / beamwidth_rad;
   return std::exp(-kTwoWayExponent * share * share);
+}
+
+// The gaussian's integral from its centre to an angle.
+double gaussian_integral(double angle_rad, double beamwidth_rad) {
+  const double root = std::sqrt(kTwoWayExponent) / beamwidth_rad;
+  return 0.5 * std::sqrt(std::numbers::pi) / root * std::erf(root * angle_rad);
+}
+
+// The pattern's integral from its centre to an angle below it (negative: above it).
+double integral_below(radar::BeamPattern pattern, double beamwidth_rad, double centre_rad, double below_rad) {
+  switch (pattern) {
+    case radar::BeamPattern::hard_edge:
+      return std::clamp(below_rad, -0.5 * beamwidth_rad, 0.5 * beamwidth_rad);
+    case radar::BeamPattern::gaussian:
+      return gaussian_integral(below_rad, beamwidth_rad);
+    case radar::BeamPattern::cosecant_squared:
+      break;
+  }
+  if (below_rad < 0.0) return gaussian_integral(below_rad, beamwidth_rad);
+  const double sine = std::sin(centre_rad);
+  const double lowest_rad = std::min(centre_rad + below_rad, std::numbers::pi - centre_rad);
+  return sine * std::cos(centre_rad) - sine * sine * std::cos(lowest_rad) / std::sin(lowest_rad);
 }
 }  // namespace
 
@@ -38,7 +61,8 @@ Receiver make_receiver(const radar::RadarConfiguration& configuration, geo::Leng
   receiver.azimuth_beamwidth_rad = configuration.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
   receiver.elevation_beamwidth_rad = configuration.antenna.elevation_beamwidth_deg * geo::kRadiansPerDegree;
   receiver.pulse_length_m = pulse_length(configuration, range).metres();
-  receiver.land_gamma = ratio(given.land_gamma_db);
+  const double frequency_db = reflectivity::frequency_term_db(configuration.world.land, given.frequency_ghz);
+  receiver.land_gamma = ratio(given.land_gamma_db + frequency_db);
   receiver.sea_gamma = ratio(given.sea_gamma_db);
   receiver.stc_exponent = given.stc_exponent;
   receiver.stc_range_m = range.metres();
@@ -84,9 +108,30 @@ double two_way_gain(radar::BeamPattern pattern, double beamwidth_rad, double ant
   return share * share;
 }
 
+double beam_integral(radar::BeamPattern pattern, double beamwidth_rad, double antenna_elevation_rad, double from_rad,
+                     double to_rad) {
+  const double centre_rad = std::max(-antenna_elevation_rad, 0.5 * beamwidth_rad);
+  const auto below = [&](double elevation_rad) {
+    return integral_below(pattern, beamwidth_rad, centre_rad, antenna_elevation_rad - elevation_rad);
+  };
+  return to_rad > from_rad ? below(from_rad) - below(to_rad) : 0.0;
+}
+
+double azimuth_gain(double beamwidth_rad, double off_rad) {
+  return gaussian(off_rad, beamwidth_rad);
+}
+
+double received(const Receiver& receiver, double power, double slant_range_m) {
+  return power * std::pow(slant_range_m / receiver.stc_range_m, receiver.stc_exponent) / receiver.full_scale;
+}
+
+double point_rise(double pulse_samples) {
+  return std::clamp(pulse_samples, 1.0, 2.0 * static_cast<double>(PulseSmear::kMostReach));
+}
+
 PulseSmear make_pulse_smear(double pulse_samples) {
   PulseSmear smear;
-  const double length = std::clamp(pulse_samples, 1.0, 2.0 * static_cast<double>(PulseSmear::kMostReach));
+  const double length = point_rise(pulse_samples);
   const double half = 0.5 * length;
   smear.reach = static_cast<std::ptrdiff_t>(std::ceil(half - 0.5));
   for (std::ptrdiff_t offset = -smear.reach; offset <= smear.reach; ++offset) {

@@ -49,6 +49,16 @@ double returned_power(double cross_section_m2, double two_way_gain, double slant
 double two_way_gain(radar::BeamPattern pattern, double beamwidth_rad, double antenna_elevation_rad,
                     double elevation_rad);
 
+// Its integral over elevation [rad] between two elevations, from -90 degrees on: how much of the beam a volume fills.
+double beam_integral(radar::BeamPattern pattern, double beamwidth_rad, double antenna_elevation_rad, double from_rad,
+                     double to_rad);
+
+// Two-way gain at an azimuth off the beam's centre: gaussian in every pattern.
+double azimuth_gain(double beamwidth_rad, double off_rad);
+
+// What sensitivity time control and full scale make of a power from this slant range.
+double received(const Receiver& receiver, double power, double slant_range_m);
+
 // Exponent of the two-way gaussian, 8 ln 2: a quarter (-6 dB, both ways) at half a beam width from the centre.
 inline constexpr double kTwoWayExponent = 5.545;
 
@@ -60,5 +70,9 @@ struct PulseSmear {
   std::array<double, 2 * kMostReach + 1> weights{};
 };
 PulseSmear make_pulse_smear(double pulse_samples);
+
+// By how much a point has to be raised before the smear: it is seen whole for as long as the pulse covers it, while
+// ground fills the pulse. At least 1.
+double point_rise(double pulse_samples);
 
 }  // namespace yars::model::rbm

@@ -26,7 +26,12 @@ double speckle(NoiseState state, std::uint32_t cell, int looks) {
 }  // namespace
 
 Reference::Reference(const radar::RadarConfiguration& configuration)
-    : configuration_(configuration), samples_(sample_count(configuration)), distance_m_(samples_.size()) {}
+    : configuration_(configuration),
+      surface_(configuration),
+      rain_(configuration),
+      movers_(configuration),
+      samples_(sample_count(configuration)),
+      distance_m_(samples_.size()) {}
 
 std::size_t Reference::measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) {
   const EffectiveEarth earth = effective_earth(configuration_.fidelity, look.apex, look.azimuth);
@@ -35,27 +40,36 @@ std::size_t Reference::measure(const Look& look, const terrain::TerrainView& ter
   const std::size_t pending = read_terrain(look, terrain);
   if (configuration_.fidelity.cross_track_slope) read_cross_slopes(look, terrain);
   cast_shadows(earth, look.altitude.metres());
+  const double spacing_m = look.range.metres() / static_cast<double>(samples_.size());
+  const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
+  surface_.use_resolution(receiver.pulse_length_m, spacing_m);
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     samples_[i].power = samples_[i].lit ? cell_power(receiver, earth, look, i) : 0.0;
   }
-  smear_pulse(receiver, look.range.metres() / static_cast<double>(samples_.size()), power);
+  add_movers(movers_.echoes(look, receiver, earth, terrain), pulse_samples);
+  rain_.enter(look);
+  if (!rain_.dry()) add_rain(receiver, earth, look);
+  smear_pulse(pulse_samples, power);
   return pending;
 }
 
 std::size_t Reference::read_terrain(const Look& look, const terrain::TerrainView& terrain) {
+  constexpr terrain::Surface kHole{std::numeric_limits<double>::quiet_NaN(), 0.0, 0};
   const geo::GeodesicRay ray(look.apex, look.azimuth);
   std::size_t pending = 0;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     Sample& sample = samples_[i];
     sample = Sample{};
     sample.distance_m = distance_m_[i];
-    sample.height_m = std::numeric_limits<double>::quiet_NaN();
-    sample.place = look.apex;
-    if (std::isnan(sample.distance_m)) continue;
-    sample.place = ray.position(geo::Length::metres(sample.distance_m));
-    const terrain::Surface surface = terrain.surface_at(sample.place, configuration_.fidelity.interpolation);
+    const bool hole = std::isnan(sample.distance_m);
+    const auto there = ray.place(geo::Length::metres(hole ? 0.0 : sample.distance_m));
+    const terrain::Surface surface =
+        hole ? kHole : terrain.surface_at(there.point, configuration_.fidelity.interpolation);
+    sample.place = there.point;
+    sample.azimuth = there.azimuth;
     sample.height_m = surface.elevation_m;
     sample.water = surface.water;
+    sample.material = surface.material;
     if (!surface.loaded) ++pending;
   }
   return pending;
@@ -80,10 +94,12 @@ void Reference::cast_shadows(const EffectiveEarth& earth, double altitude_m) {
   // Every terrain sample raises the horizon, also one outside the beam; a void neither raises it nor returns.
   double horizon = -std::numeric_limits<double>::infinity();
   for (Sample& sample : samples_) {
-    if (std::isnan(sample.height_m)) continue;
-    const double tangent = earth.sight(altitude_m, sample.distance_m, sample.height_m).tangent;
-    sample.lit = tangent > horizon;
-    horizon = std::max(horizon, tangent);
+    if (!std::isnan(sample.height_m)) {
+      const double tangent = earth.sight(altitude_m, sample.distance_m, sample.height_m).tangent;
+      sample.lit = tangent > horizon;
+      horizon = std::max(horizon, tangent);
+    }
+    sample.horizon = horizon;
   }
 }
 
@@ -105,16 +121,37 @@ double Reference::cell_power(const Receiver& receiver, const EffectiveEarth& ear
   const double slope = along_slope(index);
   const double normal = std::sqrt(1.0 + slope * slope + sample.cross_slope * sample.cross_slope);
   const double sin_local = std::clamp((slope * sight.cos_grazing + sight.sin_grazing) / normal, 0.0, 1.0);
-  const double gamma = receiver.land_gamma + (receiver.sea_gamma - receiver.land_gamma) * sample.water;
-  const double area_m2 = illuminated_area_m2(receiver, sight.slant_range_m, sin_local);
+  const double cross_section_m2 = surface_.cross_section_m2(
+      receiver,
+      {sample.place, sample.azimuth, sight.slant_range_m, sin_local, sight.sin_grazing, sample.water, sample.material});
   const double gain = two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad,
                                    look.elevation.radians(), sight.elevation_rad);
-  const double control = std::pow(sight.slant_range_m / receiver.stc_range_m, receiver.stc_exponent);
-  return returned_power(gamma * sin_local * area_m2, gain, sight.slant_range_m) * control / receiver.full_scale;
+  return received(receiver, returned_power(cross_section_m2, gain, sight.slant_range_m), sight.slant_range_m);
 }
 
-void Reference::smear_pulse(const Receiver& receiver, double spacing_m, std::span<float> power) const {
-  const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
+void Reference::add_movers(std::span<const Echo> echoes, double pulse_samples) {
+  for (const Echo& echo : echoes) {
+    const std::size_t index = nearest_sample(distance_m_, echo.distance_m);
+    if (index >= samples_.size()) continue;
+    const bool hidden = index > 0 && echo.tangent <= samples_[index - 1].horizon;
+    if (!hidden) samples_[index].power += point_rise(pulse_samples) * echo.power;
+  }
+}
+
+void Reference::add_rain(const Receiver& receiver, const EffectiveEarth& earth, const Look& look) {
+  const double altitude_m = look.altitude.metres();
+  for (Sample& sample : samples_) {
+    if (std::isnan(sample.distance_m)) continue;
+    // Over a void the rain is seen down to the horizon so far, through the ray to sea level.
+    const double height_m = std::isnan(sample.height_m) ? 0.0 : sample.height_m;
+    const double slant_range_m = earth.sight(altitude_m, sample.distance_m, height_m).slant_range_m;
+    const double rain = rain_.power(receiver, earth, look, sample.distance_m, std::atan(sample.horizon));
+    const double loss = rain_.two_way_loss(earth, altitude_m, sample.distance_m, height_m, slant_range_m);
+    sample.power = (sample.power + received(receiver, rain, slant_range_m)) * loss;
+  }
+}
+
+void Reference::smear_pulse(double pulse_samples, std::span<float> power) const {
   const PulseSmear smear = make_pulse_smear(pulse_samples);
   const auto count = static_cast<std::ptrdiff_t>(samples_.size());
   const std::ptrdiff_t reach = smear.reach;
@@ -142,8 +179,8 @@ void Reference::develop(const PowerWindow& window, geo::Length range, int gain, 
       power = kAzimuthWeights[0] * static_cast<double>(window.before[i]) + kAzimuthWeights[1] * power +
               kAzimuthWeights[2] * static_cast<double>(window.after[i]);
     }
-    // Clutter and thermal noise add as voltages, so their sum fluctuates as one.
-    double total = power + receiver.noise;
+    // Clutter, thermal noise and jamming add as voltages, so their sum fluctuates as one.
+    double total = power + receiver.noise + window.jamming;
     if (configuration_.fidelity.noise) {
       total *= speckle(state, resolution_cell(static_cast<std::uint32_t>(i), cells), receiver.looks);
     }

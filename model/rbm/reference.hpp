@@ -8,7 +8,10 @@
 #include "lib/radar/configuration.hpp"
 #include "model/rbm/algorithm.hpp"
 #include "model/rbm/earth.hpp"
+#include "model/rbm/movers.hpp"
+#include "model/rbm/rain_path.hpp"
 #include "model/rbm/receiver.hpp"
+#include "model/rbm/surface_return.hpp"
 
 namespace yars::model::rbm {
 
@@ -24,9 +27,12 @@ class Reference : public Algorithm {
   struct Sample {
     double distance_m = 0.0;  // over ground; NaN = nothing is that near
     geo::GeoPoint place;
-    double height_m = 0.0;     // MSL; NaN = void
-    double water = 0.0;        // share [0, 1]
-    double cross_slope = 0.0;  // across the sweep, dimensionless
+    geo::Bearing azimuth;       // of the ray there
+    double height_m = 0.0;      // MSL; NaN = void
+    double water = 0.0;         // share [0, 1]
+    std::uint8_t material = 0;  // code
+    double cross_slope = 0.0;   // across the sweep, dimensionless
+    double horizon = 0.0;       // greatest tangent of an elevation angle up to here, this one included
     bool lit = false;
     double power = 0.0;  // before the pulse smear
   };
@@ -38,9 +44,14 @@ class Reference : public Algorithm {
   void cast_shadows(const EffectiveEarth& earth, double altitude_m);
   double along_slope(std::size_t index) const;
   double cell_power(const Receiver& receiver, const EffectiveEarth& earth, const Look& look, std::size_t index) const;
-  void smear_pulse(const Receiver& receiver, double spacing_m, std::span<float> power) const;
+  void add_movers(std::span<const Echo> echoes, double pulse_samples);
+  void add_rain(const Receiver& receiver, const EffectiveEarth& earth, const Look& look);
+  void smear_pulse(double pulse_samples, std::span<float> power) const;
 
   radar::RadarConfiguration configuration_;
+  SurfaceReturn surface_;
+  RainPath rain_;
+  Movers movers_;
   std::vector<Sample> samples_;
   std::vector<double> distance_m_;
 };

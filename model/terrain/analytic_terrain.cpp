@@ -31,15 +31,15 @@ AnalyticTerrain::Height along(TerrainAxis axis, Profile profile) {
 
 }  // namespace
 
-AnalyticTerrain::AnalyticTerrain(Height height_m, std::uint64_t generation)
-    : height_m_(std::move(height_m)), generation_(generation) {}
+AnalyticTerrain::AnalyticTerrain(Height height_m, std::uint64_t generation, Material material)
+    : height_m_(std::move(height_m)), generation_(generation), material_(std::move(material)) {}
 
 Surface AnalyticTerrain::surface_at(geo::GeoPoint place, Interpolation /*interpolation*/) const {
   if (!std::isfinite(place.latitude_deg) || !std::isfinite(place.longitude_deg))
     return {std::numeric_limits<double>::quiet_NaN(), 0.0};
-  const double height_m =
-      height_m_({std::clamp(place.latitude_deg, -90.0, 90.0), geo::wrapped_degrees(place.longitude_deg)});
-  return {height_m, height_m == 0.0 ? 1.0 : 0.0};
+  const geo::GeoPoint wrapped{std::clamp(place.latitude_deg, -90.0, 90.0), geo::wrapped_degrees(place.longitude_deg)};
+  const double height_m = height_m_(wrapped);
+  return {height_m, height_m == 0.0 ? 1.0 : 0.0, material_ ? material_(wrapped) : std::uint8_t{0}};
 }
 
 std::size_t AnalyticTerrain::surfaces(const PlaceRun& places, Interpolation interpolation,

@@ -16,16 +16,20 @@ namespace yars::model::terrain {
 class AnalyticTerrain final : public TerrainView {
  public:
   using Height = std::function<double(geo::GeoPoint)>;
-  explicit AnalyticTerrain(Height height_m, std::uint64_t generation = 1);
+  using Material = std::function<std::uint8_t(geo::GeoPoint)>;
+  // Without `material` there is none anywhere.
+  explicit AnalyticTerrain(Height height_m, std::uint64_t generation = 1, Material material = {});
 
   std::uint64_t generation() const override { return generation_; }
   std::uint64_t resident_bytes() const override { return sizeof(*this); }
   Surface surface_at(geo::GeoPoint place, Interpolation interpolation) const override;
+  bool has_materials() const override { return static_cast<bool>(material_); }
   std::size_t surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const override;
 
  private:
   Height height_m_;
   std::uint64_t generation_;
+  Material material_;
 };
 
 // A store whose every region is served by one view.

@@ -89,6 +89,7 @@ class RandomConfiguration {
     made.seed = random_() >> 11U;  // below 2^53, the range of the slot
     made.magnetic_variation_deg = number(-180, 180);
     made.route = route();
+    made.world = world();
     return made;
   }
 
@@ -121,6 +122,44 @@ class RandomConfiguration {
     made.noise = coin();
     made.azimuth_smear = coin();
     made.pulse_smear = coin();
+    return made;
+  }
+
+  geo::GeoPoint place() { return {number(-90, 90), number(-180, 180)}; }
+  std::vector<double> five() { return {number(-200, 200), number(-200, 200), 0, 1, number(-1, 1)}; }
+
+  // Lengths as a file gives them, in feet and nautical miles; what may be left out sometimes is.
+  radar::WorldConfiguration world() {
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    radar::WorldConfiguration made;
+    radar::LandConfiguration& land = made.land;
+    land.frequency_slope_db = number(-20, 20);
+    land.reference_frequency_ghz = number(1, 40);
+    land.street_width_deg = number(0.1, 45);
+    land.texture = number(0, 100);
+    land.materials[1 + random_() % 9].gamma_db = number(-60, 30);
+    if (coin()) land.materials.push_back({31, "kelp", number(-60, 30), number(0, 30), number(0, 100)});
+    made.sea = {coin() ? kUnknown : number(0, 6),
+                number(0, 120) * (1852.0 / 3600.0),
+                number(0, 360),
+                radar::Polarization(random_() % 2),
+                five(),
+                five(),
+                number(0, 2),
+                number(0, 100)};
+    made.rain = {number(0, 2000), number(0.5, 3), number(0, 1), number(0, 10), number(0.5, 3), {}};
+    made.jamming = {number(0, 120), number(-80, 0), {}};
+    for (std::size_t i = random_() % 4; i > 0; --i) {
+      made.rain.cells.push_back({place(), number(0.1, 100) * 1852.0, number(0.1, 300), number(500, 60'000) * 0.3048});
+      made.jamming.jammers.push_back({"J",
+                                      place(),
+                                      coin() ? kUnknown : number(0, 90'000) * 0.3048,
+                                      static_cast<int>(random_() % 6) - 1,
+                                      {1, 7},
+                                      number(0, 1e9)});
+      made.movers.push_back({"M", place(), number(0, 1000) * (1852.0 / 3600.0), number(0, 360), number(0, 1e7),
+                             number(0, 1000) * 0.3048});
+    }
     return made;
   }
 

@@ -48,14 +48,61 @@ inline auto fields(const radar::RoutePoint& point) {
   return std::tuple(name, kind, latitude, longitude, std::isnan(elevation) ? -1e9 : elevation);
 }
 
+inline double comparable(double value) {
+  return std::isnan(value) ? -1e9 : value;
+}
+
+inline auto fields(const radar::Material& material) {
+  const auto& [code, name, gamma, cardinal, texture] = material;
+  return std::tuple(code, name, gamma, cardinal, texture);
+}
+
+inline auto fields(const radar::RainCell& cell) {
+  const auto& [place, radius, rate, top] = cell;
+  const auto& [latitude, longitude] = place;
+  return std::tuple(latitude, longitude, radius, rate, top);
+}
+
+inline auto fields(const radar::Jammer& jammer) {
+  const auto& [name, place, altitude, band, channels, power] = jammer;
+  const auto& [latitude, longitude] = place;
+  return std::tuple(name, latitude, longitude, comparable(altitude), band, channels, power);
+}
+
+inline auto fields(const radar::Mover& mover) {
+  const auto& [name, place, speed, heading, section, height] = mover;
+  const auto& [latitude, longitude] = place;
+  return std::tuple(name, latitude, longitude, speed, heading, section, height);
+}
+
+template <class Record>
+auto fields_of_all(const std::vector<Record>& records) {
+  std::vector<decltype(fields(records[0]))> all;
+  all.reserve(records.size());
+  for (const Record& record : records) all.push_back(fields(record));
+  return all;
+}
+
+inline auto fields(const radar::WorldConfiguration& world) {
+  const auto& [land, sea, rain, jamming, movers] = world;
+  const auto& [slope, reference, street, land_texture, materials] = land;
+  const auto& [state, wind, from, polarization, horizontal, vertical, factor, sea_texture] = sea;
+  const auto& [a, b, dielectric, k, exponent, cells] = rain;
+  const auto& [radar_power, sidelobes, jammers] = jamming;
+  return std::tuple(std::tuple(slope, reference, street, land_texture, fields_of_all(materials)),
+                    std::tuple(comparable(state), wind, from, polarization, horizontal, vertical, factor, sea_texture),
+                    std::tuple(a, b, dielectric, k, exponent, fields_of_all(cells)),
+                    std::tuple(radar_power, sidelobes, fields_of_all(jammers)), fields_of_all(movers));
+}
+
 inline auto fields(const radar::RadarConfiguration& configuration) {
-  const auto& [name, ranges, widths, windows, pulses, antenna, view, fidelity, receiver, terrain, route, seed,
+  const auto& [name, ranges, widths, windows, pulses, antenna, view, fidelity, receiver, terrain, world, route, seed,
                variation] = configuration;
   std::vector<decltype(fields(route[0]))> points;
   points.reserve(route.size());
   for (const auto& point : route) points.push_back(fields(point));
   return std::tuple(name, ranges, widths, windows, pulses, fields(antenna), fields(view), fields(fidelity),
-                    fields(receiver), fields(terrain), points, seed, variation);
+                    fields(receiver), fields(terrain), fields(world), points, seed, variation);
 }
 
 // The configuration of a text that must be right.

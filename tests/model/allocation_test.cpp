@@ -45,6 +45,9 @@ long allocations_of(radar::Algorithm algorithm) {
   configuration.fidelity.algorithm = algorithm;
   configuration.fidelity.cross_track_slope = true;
   configuration.fidelity.samples = 64;
+  configuration.world.rain.cells.push_back({{37.2, -121.8}, 9000.0, 10.0, 5000.0});
+  configuration.world.jamming.jammers.push_back({"jammer", {37.4, -121.6}});
+  configuration.world.movers.push_back({"mover", {37.2, -121.8}, 10.0});
   test::Cockpit cockpit(configuration);
   databuffer::ModelStatus status{};
   cockpit.run(50);

@@ -9,6 +9,8 @@
 #include <limits>
 
 #include "model/rbm/noise.hpp"
+#include "model/reflectivity/land.hpp"
+#include "model/reflectivity/sea.hpp"
 #include "tests/model/ground.hpp"
 
 namespace yars::model::rbm {
@@ -126,12 +128,15 @@ TEST(Reference, AVoidReturnsNothingAndHidesNothing) {
   }
 }
 
-TEST(Reference, WaterReturnsLessThanLandByTheRatioOfTheirGammas) {
+TEST(Reference, WaterReturnsAsTheSeaModelSaysAndLandByItsGamma) {
   const auto sea = seen(terrain::flat(0.0));
   const auto land = seen(terrain::flat(0.001));
-  const radar::ReceiverConfiguration receiver;
-  EXPECT_NEAR(10.0 * std::log10(sea[500].power / land[500].power), receiver.sea_gamma_db - receiver.land_gamma_db,
-              0.01);
+  const radar::RadarConfiguration configuration = bare_configuration(kSamples);
+  const double sine = kAltitudeM / std::hypot(kAltitudeM, sea[500].distance_m);
+  const double sea_sigma0 =
+      reflectivity::sea_sigma0(reflectivity::make_sea_return(configuration), sine, geo::Bearing::degrees(0.0));
+  const double land_sigma0 = reflectivity::make_land_return(configuration).gamma[0] * sine;
+  EXPECT_NEAR(10.0 * std::log10(sea[500].power / land[500].power), 10.0 * std::log10(sea_sigma0 / land_sigma0), 0.01);
 }
 
 TEST(Reference, ASlopeAcrossTheSweepTurnsTheFaceAway) {

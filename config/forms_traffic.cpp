@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "config/field.hpp"
+#include "config/forms.hpp"
+#include "config/value.hpp"
+
+namespace yars::config {
+namespace {
+
+constexpr std::array<std::string_view, 6> kBands{"A", "B", "C", "D", "E", "all"};
+constexpr int kAllBands = 5;  // index of "all"
+constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
+
+std::optional<Complaint> check_place(geo::GeoPoint place) {
+  if (std::isnan(place.latitude_deg)) return Complaint{"latitude", "a latitude", "none"};
+  if (std::isnan(place.longitude_deg)) return Complaint{"longitude", "a longitude", "none"};
+  return std::nullopt;
+}
+
+std::optional<Complaint> check_jammer(const Draft& draft) {
+  const auto& channels = draft.jammer.channels;
+  const auto broken =
+      std::find_if(channels.begin(), channels.end(), [](double channel) { return channel != std::floor(channel); });
+  if (broken != channels.end()) return Complaint{"channels", "whole numbers", number_text(*broken)};
+  if (draft.radar.world.jamming.jammers.size() >= radar::kMostJammers) {
+    return Complaint{"latitude", "at most " + std::to_string(radar::kMostJammers) + " jammers", "one more"};
+  }
+  return check_place(draft.jammer.place);
+}
+
+FormSchema jammer() {
+  return {.name = "Jammer",
+          .purpose = "a transmitter of noise, seen as a strobe",
+          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(jammer.name)}, .purpose = "what people call it"},
+                    latitude_slot(YARS_FIELD(jammer.place.latitude_deg)),
+                    longitude_slot(YARS_FIELD(jammer.place.longitude_deg)),
+                    number_slot("altitude", "ft", -1500, 100'000, {YARS_FIELD(jammer.altitude_m), geo::kMetresPerFoot},
+                                "above mean sea level; left out: a mast of 10 m on the ground"),
+                    {.name = "band",
+                     .binding = ChoiceSlot{kBands,
+                                           [](const Draft& draft) {
+                                             return draft.jammer.band == radar::kEveryBand ? kAllBands
+                                                                                           : draft.jammer.band;
+                                           },
+                                           [](Draft& draft, int index) {
+                                             draft.jammer.band = index == kAllBands ? radar::kEveryBand : index;
+                                           }},
+                     .purpose = "band that it jams; left out: all"},
+                    {.name = "channels",
+                     .lowest = 1,
+                     .highest = 8,
+                     .binding = ListSlot{YARS_FIELD(jammer.channels), 1, 8, Order::ascending},
+                     .purpose = "channels that it jams; left out: all"},
+                    number_slot("power", "W", 0, 1e9, {YARS_FIELD(jammer.power_w)},
+                                "effective radiated, within the receiver's bandwidth; left out: 10")},
+          .part_of_value = true,
+          .begin =
+              [](Draft& draft) {
+                draft.jammer = {.name = {}, .place = {kNotGiven, kNotGiven}};
+              },
+          .check = check_jammer,
+          .end = [](Draft& draft) { draft.radar.world.jamming.jammers.push_back(draft.jammer); },
+          .count = [](const Draft& draft) { return draft.radar.world.jamming.jammers.size(); },
+          .select = [](Draft& draft, std::size_t index) { draft.jammer = draft.radar.world.jamming.jammers[index]; }};
+}
+
+std::optional<Complaint> check_mover(const Draft& draft) {
+  if (draft.radar.world.movers.size() >= radar::kMostMovers) {
+    return Complaint{"latitude", "at most " + std::to_string(radar::kMostMovers) + " movers", "one more"};
+  }
+  return check_place(draft.mover.place);
+}
+
+FormSchema mover() {
+  constexpr double kMetresPerSecondPerKnot = geo::kMetresPerNauticalMile / 3600.0;
+  return {.name = "Mover",
+          .purpose = "a ship or a vehicle: a point on its great circle",
+          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(mover.name)}, .purpose = "what people call it"},
+                    latitude_slot(YARS_FIELD(mover.place.latitude_deg)),
+                    longitude_slot(YARS_FIELD(mover.place.longitude_deg)),
+                    number_slot("speed", "kt", 0, 1000, {YARS_FIELD(mover.speed_mps), kMetresPerSecondPerKnot},
+                                "over ground; left out: 0"),
+                    number_slot("heading", "deg", 0, 360, {YARS_FIELD(mover.heading_deg)},
+                                "true, at sim time 0; later the great circle's"),
+                    number_slot("crossSection", "m2", 0, 1e7, {YARS_FIELD(mover.cross_section_m2)},
+                                "radar cross section; left out: 1000"),
+                    number_slot("height", "ft", 0, 1000, {YARS_FIELD(mover.height_m), geo::kMetresPerFoot},
+                                "of what returns, above the ground; left out: 20")},
+          .part_of_value = true,
+          .begin =
+              [](Draft& draft) {
+                draft.mover = {.name = {}, .place = {kNotGiven, kNotGiven}};
+              },
+          .check = check_mover,
+          .end = [](Draft& draft) { draft.radar.world.movers.push_back(draft.mover); },
+          .count = [](const Draft& draft) { return draft.radar.world.movers.size(); },
+          .select = [](Draft& draft, std::size_t index) { draft.mover = draft.radar.world.movers[index]; }};
+}
+
+}  // namespace
+
+std::vector<FormSchema> traffic_forms() {
+  return {
+      {.name = "Jammers",
+       .purpose = "jammers, and the radar that they are measured by; replaces earlier ones",
+       .slots = {{.name = "jammers",
+                  .binding = FormSlot{{"Jammer"}, {"Jammer"}, true},
+                  .purpose = "at most 16 jammers"},
+                 number_slot("radarPower", "dBW", 0, 120, {YARS_FIELD(radar.world.jamming.radar_power_dbw)},
+                             "the radar's effective radiated peak power"),
+                 number_slot("sidelobes", "dB", -80, 0, {YARS_FIELD(radar.world.jamming.sidelobe_db)},
+                             "least gain of the antenna one way, below the beam's centre")},
+       .begin = [](Draft& draft) { draft.radar.world.jamming.jammers.clear(); }},
+      jammer(),
+      {.name = "Movers",
+       .purpose = "ships and vehicles; replaces earlier ones",
+       .slots = {{.name = "movers", .binding = FormSlot{{"Mover"}, {"Mover"}, true}, .purpose = "at most 64 movers"}},
+       .begin = [](Draft& draft) { draft.radar.world.movers.clear(); }},
+      mover()};
+}
+
+}  // namespace yars::config

@@ -1,0 +1,60 @@
+#include "model/rbm/movers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace yars::model::rbm {
+
+namespace {
+constexpr double kBeamsAside = 2.0;             // [beam widths] beyond it a point is 96 dB down
+constexpr double kMetresPerDegree = 110'500.0;  // [m] the shortest degree of latitude: no mover in range is missed
+}  // namespace
+
+Movers::Movers(const radar::RadarConfiguration& configuration) : beam_(configuration.fidelity.beam) {
+  for (const radar::Mover& mover : configuration.world.movers) {
+    tracks_.push_back({geo::GeodesicRay(mover.place, geo::Bearing::degrees(mover.heading_deg)), mover.speed_mps,
+                       mover.cross_section_m2, mover.height_m});
+  }
+  echoes_.reserve(tracks_.size());
+}
+
+geo::GeoPoint Movers::place(std::size_t mover, geo::Duration sim_time) const {
+  const Track& track = tracks_[mover];
+  return track.way.position(geo::Length::metres(track.speed_mps * sim_time.seconds()));
+}
+
+std::span<const Echo> Movers::echoes(const Look& look, const Receiver& receiver, const EffectiveEarth& earth,
+                                     const terrain::TerrainView& terrain) {
+  echoes_.clear();
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const geo::GeoPoint there = place(i, look.sim_time);
+    if (std::abs(there.latitude_deg - look.apex.latitude_deg) * kMetresPerDegree > look.range.metres()) continue;
+    const geo::GeodesicInverse way = geo::geodesic_inverse(look.apex, there);
+    const double off_rad = (way.azimuth_at_start - look.azimuth).radians();
+    const double distance_m = way.distance.metres();
+    if (distance_m >= look.range.metres() || distance_m <= 0.0) continue;
+    if (std::abs(off_rad) > kBeamsAside * receiver.azimuth_beamwidth_rad) continue;
+    const double ground_m = terrain.elevation_m(there);
+    const double height_m = (std::isnan(ground_m) ? 0.0 : ground_m) + tracks_[i].height_m;
+    const Sight sight = earth.sight(look.altitude.metres(), distance_m, height_m);
+    const double gain =
+        azimuth_gain(receiver.azimuth_beamwidth_rad, off_rad) *
+        two_way_gain(beam_, receiver.elevation_beamwidth_rad, look.elevation.radians(), sight.elevation_rad);
+    const double power = returned_power(tracks_[i].cross_section_m2, gain, sight.slant_range_m);
+    echoes_.push_back({distance_m, sight.tangent, received(receiver, power, sight.slant_range_m)});
+  }
+  return echoes_;
+}
+
+std::size_t nearest_sample(std::span<const double> distance_m, double wanted_m) {
+  const auto behind = std::partition_point(distance_m.begin(), distance_m.end(),
+                                           [wanted_m](double centre_m) { return !(centre_m >= wanted_m); });
+  auto index = static_cast<std::size_t>(behind - distance_m.begin());
+  if (index > 0 && !std::isnan(distance_m[index - 1])) {
+    const bool nearer = index == distance_m.size() || wanted_m - distance_m[index - 1] < distance_m[index] - wanted_m;
+    if (nearer) --index;
+  }
+  return index;
+}
+
+}  // namespace yars::model::rbm

@@ -1,0 +1,49 @@
+// Ships and vehicles as a sweep sees them: points that go their geodesics with sim time, on the ground where they are.
+// Shadow is the caller's: it knows the horizon. Source: spec physics.md; power by the radar equation of a point.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lib/radar/configuration.hpp"
+#include "model/rbm/earth.hpp"
+#include "model/rbm/look.hpp"
+#include "model/rbm/receiver.hpp"
+
+namespace yars::model::rbm {
+
+// What comes back from one mover, if nothing hides it.
+struct Echo {
+  double distance_m = 0.0;  // over ground
+  double tangent = 0.0;     // of its elevation angle
+  double power = 0.0;       // full scale = 1, after sensitivity time control; gain in azimuth and elevation in it
+};
+
+class Movers {
+ public:
+  explicit Movers(const radar::RadarConfiguration& configuration);
+
+  geo::GeoPoint place(std::size_t mover, geo::Duration sim_time) const;
+
+  // The movers within the range and two beam widths of the beam. Valid until the next call; allocates nothing.
+  std::span<const Echo> echoes(const Look& look, const Receiver& receiver, const EffectiveEarth& earth,
+                               const terrain::TerrainView& terrain);
+
+ private:
+  struct Track {
+    geo::GeodesicRay way;
+    double speed_mps = 0.0;
+    double cross_section_m2 = 0.0;
+    double height_m = 0.0;
+  };
+
+  radar::BeamPattern beam_;
+  std::vector<Track> tracks_;
+  std::vector<Echo> echoes_;
+};
+
+// The sample that holds a distance over ground: the one whose centre is nearest. Centres ascend, NaN first; no samples
+// or only NaN: the number of samples.
+std::size_t nearest_sample(std::span<const double> distance_m, double wanted_m);
+
+}  // namespace yars::model::rbm

@@ -1,0 +1,112 @@
+// Materials, sea, rain, jammers and movers in GUF.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/config/support.hpp"
+
+namespace yars::config {
+namespace {
+
+using testing::fields;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::loaded;
+using testing::refusal;
+
+TEST(Materials, AddToThoseThatAreBuiltIn) {
+  const auto defaults = radar::LandConfiguration{}.materials;
+  const auto materials =
+      loaded("( Materials `( ( Material :code 20 :name \"vineyard\" :gamma -11 ) ) )").radar.world.land.materials;
+  ASSERT_EQ(materials.size(), defaults.size() + 1);
+  EXPECT_EQ(fields(materials.back()), fields(radar::Material{20, "vineyard", -11.0, 0.0, 0.0}));
+}
+
+TEST(Materials, ChangeWhatTheyNameAndLeaveTheRest) {
+  const auto materials = loaded("( Materials `( ( Material :code 13 :gamma -18 ) ( Material :cardinal 9 :code 13 ) ) )")
+                             .radar.world.land.materials;
+  ASSERT_EQ(materials.size(), radar::LandConfiguration{}.materials.size());
+  EXPECT_EQ(fields(materials.back()), fields(radar::Material{13, "snow and ice", -18.0, 9.0, 0.0}));
+}
+
+TEST(Materials, StayInTheOrderOfTheirCodes) {
+  const auto materials =
+      loaded("( Materials `( ( Material 31 ) ( Material 14 ) ( Material 20 ) ) )").radar.world.land.materials;
+  for (std::size_t i = 1; i < materials.size(); ++i) EXPECT_LT(materials[i - 1].code, materials[i].code);
+}
+
+TEST(Materials, LeaveWaterToTheSea) {
+  EXPECT_THAT(
+      refusal("( Materials `( ( Material :code 6 :gamma -30 ) ) )"),
+      HasSubstr("text.guf:1:33: expected any code but water's (Sea says what water returns) for :code, found 6"));
+  EXPECT_THAT(refusal("( Materials `( ( Material :gamma -30 ) ) )"), HasSubstr("expected a code of 1 to 31"));
+  EXPECT_THAT(refusal("( Materials `( ( Material :code 32 ) ) )"), HasSubstr("a whole number in [1, 31] for :code"));
+}
+
+TEST(Sea, TakesAStateOrAWind) {
+  EXPECT_TRUE(std::isnan(loaded("( Sea :windSpeed 20 )").radar.world.sea.state));
+  const auto sea = loaded("( Sea :state 3 :polarization vertical :windFrom 180 )").radar.world.sea;
+  EXPECT_EQ(sea.state, 3.0);
+  EXPECT_EQ(sea.polarization, radar::Polarization::vertical);
+  EXPECT_EQ(sea.wind_from_deg, 180.0);
+  EXPECT_THAT(refusal("( Sea :state 7 )"), HasSubstr("a number in [0, 6] for :state"));
+  EXPECT_THAT(refusal("( Sea :vertical `( 1 2 3 4 ) )"), HasSubstr("a list of 5 numbers"));
+}
+
+TEST(Rain, IsAListOfShowersThatReplacesAnEarlierOne) {
+  const auto cells =
+      loaded(
+          "( Rain :cells `( ( RainCell 10 20 ) ) )\n"
+          "( Rain :cells `( ( RainCell 37.5 -123 5 20 15000 ) ( RainCell :latitude 38 :longitude 0 ) ) )")
+          .radar.world.rain.cells;
+  ASSERT_EQ(cells.size(), 2U);
+  EXPECT_EQ(fields(cells[0]), fields(radar::RainCell{{37.5, -123.0}, 9260.0, 20.0, 4572.0}));
+  EXPECT_EQ(fields(cells[1]), fields(radar::RainCell{{38.0, 0.0}, 9260.0, 10.0, 4572.0}));
+}
+
+TEST(Rain, WithoutAPlaceIsRefused) {
+  EXPECT_THAT(refusal("( Rain :cells `( ( RainCell :radius 5 ) ) )"), HasSubstr("expected a latitude for :latitude"));
+  std::string many = "( Rain :cells `( ";
+  for (int i = 0; i < 65; ++i) many += "( RainCell 10 20 ) ";
+  EXPECT_THAT(refusal(many + ") )"), HasSubstr("expected at most 64 showers"));
+}
+
+TEST(Jammers, HaveBandChannelsAndPower) {
+  const auto jammers = loaded(
+                           "( Jammers `( ( Jammer \"SA\" 37.7 -122.4 :band B :channels `( 3 4 ) :power 50 )\n"
+                           "( Jammer :latitude 1 :longitude 2 :altitude 1000 ) ) )")
+                           .radar.world.jamming.jammers;
+  ASSERT_EQ(jammers.size(), 2U);
+  EXPECT_EQ(jammers[0].band, 1);
+  EXPECT_EQ(jammers[0].channels, (std::vector<double>{3, 4}));
+  EXPECT_EQ(jammers[0].power_w, 50.0);
+  EXPECT_TRUE(std::isnan(jammers[0].altitude_m));
+  EXPECT_EQ(jammers[1].band, radar::kEveryBand);
+  EXPECT_EQ(jammers[1].channels.size(), 8U);
+  EXPECT_DOUBLE_EQ(jammers[1].altitude_m, 304.8);
+  EXPECT_THAT(refusal("( Jammers `( ( Jammer :latitude 1 :longitude 2 :channels `( 1.5 ) ) ) )"),
+              HasSubstr("expected whole numbers for :channels, found 1.5"));
+}
+
+TEST(Movers, HaveAPlaceASpeedAndAHeading) {
+  const auto movers = loaded("( Movers `( ( Mover \"ship\" 37.6 -122.9 15 300 5000 60 ) ) )").radar.world.movers;
+  ASSERT_EQ(movers.size(), 1U);
+  EXPECT_DOUBLE_EQ(movers[0].speed_mps, 15.0 * 1852.0 / 3600.0);
+  EXPECT_EQ(movers[0].cross_section_m2, 5000.0);
+  EXPECT_DOUBLE_EQ(movers[0].height_m, 18.288);
+  EXPECT_THAT(refusal("( Movers `( ( Mover :name \"x\" ) ) )"), HasSubstr("expected a latitude"));
+}
+
+TEST(World, IsReadFromTheSlotsOfTheRadarWithoutWarning) {
+  const auto configuration = loaded(
+      "( Apg70 :sea ( Sea :state 1 ) :land ( Land :texture 5 ) :rain ( Rain :cells `( ( RainCell 1 2 ) ) )\n"
+      ":jammers ( Jammers :sidelobes -40 ) :movers ( Movers `( ( Mover \"m\" 1 2 ) ) ) )");
+  EXPECT_THAT(configuration.warnings, IsEmpty());
+  EXPECT_EQ(configuration.radar.world.sea.state, 1.0);
+  EXPECT_EQ(configuration.radar.world.land.texture, 5.0);
+  EXPECT_EQ(configuration.radar.world.jamming.sidelobe_db, -40.0);
+  EXPECT_EQ(configuration.radar.world.movers.size(), 1U);
+}
+
+}  // namespace
+}  // namespace yars::config

@@ -1,0 +1,122 @@
+// What land returns: gamma, materials, frequency, walls; and where texture lies.
+#include "model/reflectivity/land.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "model/reflectivity/ground_grid.hpp"
+#include "model/reflectivity/street_grid.hpp"
+#include "model/reflectivity/texture.hpp"
+
+namespace yars::model::reflectivity {
+namespace {
+
+double decibels(double ratio) {
+  return 10.0 * std::log10(ratio);
+}
+
+TEST(Land, ReturnsFiveDecibelsMoreADecadeOfFrequency) {
+  const radar::LandConfiguration land;
+  EXPECT_NEAR(frequency_term_db(land, 10.0), 0.0, 1e-12);
+  EXPECT_NEAR(frequency_term_db(land, 1.0), -5.0, 1e-12);
+  EXPECT_NEAR(frequency_term_db(land, 35.0), 2.72, 0.005);
+}
+
+TEST(Land, HasTheGammasOfItsMaterialsAndLandsOwnElsewhere) {
+  radar::RadarConfiguration configuration;
+  configuration.receiver.frequency_ghz = 10.0;
+  const LandReturn land = make_land_return(configuration);
+  // Source: spec physics.md, start table by surface material code.
+  const double gamma_db[] = {-14, 5, 2, 0, -3, -8, -14, -22, -8, -28, -17, -16, -12, -20, -14};
+  for (std::size_t code = 0; code < std::size(gamma_db); ++code) {
+    EXPECT_NEAR(decibels(land.gamma[code]), gamma_db[code], 1e-9) << code;
+  }
+  EXPECT_NEAR(decibels(1.0 + land.cardinal[1]), 12.0, 1e-9);
+  EXPECT_EQ(land.cardinal[0], 0.0);
+}
+
+TEST(Land, ShinesWhereWallsFaceTheRadarWithinAFewDegrees) {
+  const double cardinal = std::pow(10.0, 1.2) - 1.0;
+  EXPECT_NEAR(decibels(cardinal_gain(cardinal, 0.0, 6.0)), 12.0, 1e-9);
+  EXPECT_NEAR(cardinal_gain(cardinal, 3.0, 6.0), 1.0 + 0.5 * cardinal, 1e-9);
+  EXPECT_NEAR(decibels(cardinal_gain(cardinal, 15.0, 6.0)), 0.0, 0.01);
+}
+
+TEST(Land, HasWallsAlongAndAcrossItsStreets) {
+  EXPECT_NEAR(off_street_deg(33.0, 30.0), 3.0, 1e-9);
+  EXPECT_NEAR(off_street_deg(123.0, 30.0), 3.0, 1e-9);
+  EXPECT_NEAR(off_street_deg(208.0, 30.0), -2.0, 1e-9);
+  EXPECT_NEAR(off_street_deg(-61.0, 30.0), -1.0, 1e-9);
+  EXPECT_NEAR(std::abs(off_street_deg(75.0, 30.0)), 45.0, 1e-9);
+}
+
+TEST(StreetGrid, IsOneBearingATownAndAnotherInTheNext) {
+  std::set<double> bearings;
+  for (int town = 0; town < 50; ++town) {
+    const double latitude_deg = 37.0 + 0.1 * town;
+    const double here_deg = street_bearing_deg({latitude_deg, -122.0});
+    EXPECT_GE(here_deg, 0.0);
+    EXPECT_LT(here_deg, 90.0);
+    EXPECT_EQ(street_bearing_deg({latitude_deg, 238.0}), here_deg) << "a whole turn away";
+    bearings.insert(here_deg);
+  }
+  EXPECT_EQ(bearings.size(), 50U);
+}
+
+TEST(GroundGrid, HasCellsOfItsSizeAtEveryLatitude) {
+  const GroundGrid grid = make_ground_grid(500.0);
+  for (const double latitude_deg : {0.2, 37.6, -45.3, 60.4}) {
+    // Along a parallel, bits change once a cell.
+    const double metres_per_degree = 111'195.0 * std::cos(latitude_deg * geo::kRadiansPerDegree);
+    int changes = 0;
+    std::uint32_t last = ground_bits(grid, {latitude_deg, 10.0});
+    for (double east_m = 0.0; east_m < 200'000.0; east_m += 50.0) {
+      const std::uint32_t here = ground_bits(grid, {latitude_deg, 10.0 + east_m / metres_per_degree});
+      changes += here != last ? 1 : 0;
+      last = here;
+    }
+    EXPECT_NEAR(changes, 400, 12) << latitude_deg;
+  }
+}
+
+TEST(GroundGrid, TakesEveryPlaceOnEarth) {
+  const GroundGrid grid = make_ground_grid(64.0);
+  EXPECT_EQ(ground_bits(grid, {12.3, 180.0}), ground_bits(grid, {12.3, -180.0}));
+  EXPECT_EQ(ground_bits(grid, {12.3, 187.5}), ground_bits(grid, {12.3, -172.5}));
+  for (const double latitude_deg : {-90.0, 90.0}) (void)ground_bits(grid, {latitude_deg, 0.0});
+}
+
+TEST(IncompleteGamma, AgreesWithItsClosedForms) {
+  for (double x = 0.01; x < 30.0; x *= 1.3) {
+    EXPECT_NEAR(incomplete_gamma(1.0, x), 1.0 - std::exp(-x), 1e-12) << x;
+    EXPECT_NEAR(incomplete_gamma(2.0, x), 1.0 - std::exp(-x) * (1.0 + x), 1e-12) << x;
+    EXPECT_NEAR(incomplete_gamma(0.5, x), std::erf(std::sqrt(x)), 1e-12) << x;
+  }
+  EXPECT_EQ(incomplete_gamma(3.0, 0.0), 0.0);
+}
+
+TEST(Texture, HasMeanOneAndTheVarianceOfItsShape) {
+  for (const double shape : {0.3, 0.5, 1.0, 2.0, 4.0, 20.0, 100.0}) {
+    const TextureLevels levels = make_texture_levels(shape);
+    double mean = 0.0, square = 0.0;
+    for (const float level : levels) {
+      mean += static_cast<double>(level) / kTextureLevels;
+      square += static_cast<double>(level) * static_cast<double>(level) / kTextureLevels;
+    }
+    EXPECT_NEAR(mean, 1.0, 1e-6) << shape;
+    EXPECT_NEAR((square - 1.0) * shape, 1.0, shape < 1.0 ? 0.03 : 0.01) << shape;
+    EXPECT_TRUE(std::is_sorted(levels.begin(), levels.end()));
+  }
+  for (const float level : make_texture_levels(0.0)) EXPECT_EQ(level, 1.0F);
+}
+
+TEST(Texture, LiesInCellsThatHoldPulseAndSample) {
+  EXPECT_EQ(texture_cell_m(300.0, 154.0), 512.0);
+  EXPECT_EQ(texture_cell_m(75.0, 300.0), 512.0);
+  EXPECT_EQ(texture_cell_m(64.0, 10.0), 64.0);
+}
+
+}  // namespace
+}  // namespace yars::model::reflectivity

@@ -1,0 +1,151 @@
+// Ships and vehicles: where they are, what comes back, what hides them.
+#include "model/rbm/movers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tests/model/ground.hpp"
+
+namespace yars::model::rbm {
+namespace {
+
+constexpr double kAltitudeM = 2000.0;
+constexpr double kRangeM = 40000.0;
+constexpr double kSpacingM = 40.0;
+
+double decibels(double ratio) {
+  return 10.0 * std::log10(ratio);
+}
+
+radar::Mover ship_at(double distance_m, double bearing_deg = 0.0) {
+  radar::Mover ship;
+  ship.place =
+      geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(bearing_deg), geo::Length::metres(distance_m));
+  return ship;
+}
+
+radar::RadarConfiguration with(const radar::Mover& mover) {
+  radar::RadarConfiguration configuration = test::bare_configuration(1000);
+  configuration.receiver.stc_exponent = 0.0;
+  configuration.world.movers.push_back(mover);
+  return configuration;
+}
+
+std::vector<float> power_of(const radar::RadarConfiguration& configuration, const Look& look,
+                            const terrain::AnalyticTerrain::Height& height) {
+  Reference reference(configuration);
+  std::vector<float> power(1000);
+  reference.measure(look, terrain::AnalyticTerrain(height), power);
+  return power;
+}
+
+// What a mover adds, with the ground taken off.
+std::vector<double> added_by(radar::RadarConfiguration configuration, const Look& look,
+                             const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0)) {
+  const auto with_it = power_of(configuration, look, height);
+  configuration.world.movers.clear();
+  const auto without = power_of(configuration, look, height);
+  std::vector<double> difference(1000);
+  std::transform(with_it.begin(), with_it.end(), without.begin(), difference.begin(),
+                 [](float a, float b) { return static_cast<double>(a) - static_cast<double>(b); });
+  return difference;
+}
+
+std::size_t brightest(const std::vector<double>& power) {
+  return static_cast<std::size_t>(std::max_element(power.begin(), power.end()) - power.begin());
+}
+
+TEST(Movers, GoTheirGeodesicWithSimTime) {
+  radar::Mover ship = ship_at(10000.0);
+  ship.speed_mps = geo::Speed::knots(30.0).metres_per_second();
+  ship.heading_deg = 45.0;
+  const Movers movers(with(ship));
+  EXPECT_LT(geo::geodesic_inverse(ship.place, movers.place(0, geo::Duration())).distance.metres(), 1e-6);
+  const auto way = geo::geodesic_inverse(ship.place, movers.place(0, geo::Duration::seconds(3600.0)));
+  EXPECT_NEAR(way.distance.nautical_miles(), 30.0, 1e-6);
+  EXPECT_NEAR(way.azimuth_at_start.degrees(), 45.0, 1e-6);
+}
+
+TEST(Movers, ReturnAPointInTheSampleOfTheirRange) {
+  const auto power = added_by(with(ship_at(20020.0)), test::look_north(kAltitudeM, kRangeM));
+  EXPECT_EQ(brightest(power), 500U);
+  for (std::size_t i = 0; i < power.size(); ++i) {
+    if (i != 500) {
+      EXPECT_EQ(power[i], 0.0) << i;
+    }
+  }
+}
+
+TEST(Movers, ReturnSigmaOverTheFourthPowerOfTheRange) {
+  radar::Mover ship = ship_at(20020.0);
+  ship.cross_section_m2 = 5000.0;
+  const Look look = test::look_north(kAltitudeM, kRangeM);
+  const Receiver receiver = make_receiver(with(ship), look.range);
+  const double slant_m = std::hypot(20020.0, kAltitudeM - ship.height_m);
+  const double expected = 5000.0 / std::pow(slant_m, 4.0) / receiver.full_scale;
+  EXPECT_NEAR(added_by(with(ship), look)[500] / expected, 1.0, 1e-3);
+}
+
+TEST(Movers, AreTwelveDecibelsDownAtTwiceTheRange) {
+  // Level with the aircraft's keel, so that slant range is ground range.
+  radar::Mover near = ship_at(18000.0), far = ship_at(36000.0);
+  near.height_m = far.height_m = 300.0;
+  const Look look = test::look_north(300.0, kRangeM);
+  const auto power_at = [&](const radar::Mover& mover) {
+    const auto power = added_by(with(mover), look);
+    return power[brightest(power)];
+  };
+  EXPECT_NEAR(decibels(power_at(far) / power_at(near)), -12.04, 0.01);
+}
+
+TEST(Movers, FadeAcrossTheBeam) {
+  const Look look = test::look_north(kAltitudeM, kRangeM);
+  const double centre = added_by(with(ship_at(20020.0)), look)[500];
+  EXPECT_NEAR(decibels(added_by(with(ship_at(20020.0, 1.25)), look)[500] / centre), -6.02, 0.05);
+  EXPECT_EQ(added_by(with(ship_at(20020.0, 6.0)), look)[500], 0.0);
+}
+
+TEST(Movers, AreAsLongAsThePulseAndNoDimmerForIt) {
+  radar::RadarConfiguration configuration = with(ship_at(20020.0));
+  const Look look = test::look_north(kAltitudeM, kRangeM);
+  const double sharp = added_by(configuration, look)[500];
+  configuration.fidelity.pulse_smear = true;
+  const auto smeared = added_by(configuration, look);
+  const double pulse_samples = pulse_length(configuration, look.range).metres() / kSpacingM;
+  EXPECT_NEAR(smeared[500] / sharp, 1.0, 1e-3);
+  double sum = 0.0;
+  for (const double power : smeared) sum += power;
+  EXPECT_NEAR(sum / sharp, pulse_samples, 0.01 * pulse_samples);
+}
+
+TEST(Movers, AreHiddenBehindAHill) {
+  const Look look = test::look_north(kAltitudeM, kRangeM);
+  const auto hill = terrain::ridge(test::axis_north(), 15000.0, 1000.0, 900.0);
+  for (const double power : added_by(with(ship_at(20020.0)), look, hill)) EXPECT_EQ(power, 0.0);
+  EXPECT_GT(added_by(with(ship_at(12020.0)), look, hill)[300], 0.0);
+}
+
+TEST(Movers, FarAwayOrBehindCostNothing) {
+  const radar::RadarConfiguration configuration = with(ship_at(60000.0));
+  Movers movers(configuration);
+  const Look look = test::look_north(kAltitudeM, kRangeM);
+  const Receiver receiver = make_receiver(configuration, look.range);
+  const terrain::AnalyticTerrain sea(terrain::flat(0.0));
+  EXPECT_TRUE(movers.echoes(look, receiver, EffectiveEarth(8.5e6), sea).empty());
+}
+
+TEST(NearestSample, IsTheOneAroundTheDistance) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double> centres{nan, nan, 25.0, 35.0, 45.0};
+  EXPECT_EQ(nearest_sample(centres, 1.0), 2U);
+  EXPECT_EQ(nearest_sample(centres, 29.0), 2U);
+  EXPECT_EQ(nearest_sample(centres, 31.0), 3U);
+  EXPECT_EQ(nearest_sample(centres, 49.0), 4U);
+  EXPECT_EQ(nearest_sample(std::vector<double>{nan, nan}, 3.0), 2U);
+}
+
+}  // namespace
+}  // namespace yars::model::rbm

@@ -1,0 +1,103 @@
+// The sea's return against its sources.
+#include "model/reflectivity/sea.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/reflectivity/sea_table.hpp"
+
+namespace yars::model::reflectivity {
+namespace {
+
+constexpr SeaCoefficients kHorizontal{-73.0, 20.781, 7.351, 25.65, 0.0054};
+constexpr SeaCoefficients kVertical{-50.796, 25.93, 0.7093, 21.588, 0.00211};
+
+double decibels(double ratio) {
+  return 10.0 * std::log10(ratio);
+}
+
+TEST(Sea, GivesTheNrlModelsCheckValue) {
+  // Source: spec physics.md.
+  EXPECT_NEAR(std::pow(10.0, 0.1 * nrl_sigma0_db(kHorizontal, 10.0, 30.0, 2.0)), 2.1555e-4, 5e-9);
+}
+
+TEST(Sea, ShinesMoreInARougherSeaAndUnderASteeperLook) {
+  for (const SeaCoefficients& c : {kHorizontal, kVertical}) {
+    double before_db = -1e9;
+    for (double state = 0.0; state <= 6.0; state += 0.5) {
+      const double here_db = nrl_sigma0_db(c, 2.0, 9.6, state);
+      EXPECT_GT(here_db, before_db) << state;
+      before_db = here_db;
+    }
+    before_db = -1e9;
+    for (double grazing_deg = 0.1; grazing_deg <= 60.0; grazing_deg *= 1.3) {
+      const double here_db = nrl_sigma0_db(c, grazing_deg, 9.6, 2.0);
+      EXPECT_GT(here_db, before_db) << grazing_deg;
+      before_db = here_db;
+    }
+  }
+}
+
+TEST(Sea, IsThreeDecibelsBrighterUpwindAndThreeDarkerDownwindAtXBand) {
+  radar::RadarConfiguration configuration;
+  configuration.world.sea.wind_from_deg = 350.0;
+  const SeaReturn sea = make_sea_return(configuration);
+  const double sine = std::sin(1.0 * geo::kRadiansPerDegree);
+  const auto towards_db = [&](double look_deg) {
+    return decibels(sea_sigma0(sea, sine, geo::Bearing::degrees(look_deg)));
+  };
+  EXPECT_NEAR(towards_db(350.0) - towards_db(80.0), 2.83, 0.02);  // 2.97 dB at zero grazing, times 1 - 2.8 psi
+  EXPECT_NEAR(towards_db(170.0) - towards_db(80.0), -2.83, 0.02);
+  EXPECT_NEAR(towards_db(80.0), nrl_sigma0_db(kHorizontal, 1.0, 9.6, 2.0), 1e-9);
+  EXPECT_EQ(upwind_db(0.2, 0.03, 0.5), 0.0);
+}
+
+TEST(Sea, TakesItsStateFromTheBeaufortForceOfTheWind) {
+  struct Row {
+    double wind_kt, state;
+  };
+  for (const Row row : {Row{0, 0}, Row{2, 1}, Row{5, 2}, Row{10, 2}, Row{11, 3}, Row{16, 3}, Row{21, 4}, Row{22, 5},
+                        Row{28, 6}, Row{60, 6}}) {
+    EXPECT_EQ(sea_state_of_wind(geo::Speed::knots(row.wind_kt)), row.state) << row.wind_kt;
+  }
+}
+
+TEST(Sea, ThatIsGivenAStateDoesNotAskTheWind) {
+  radar::RadarConfiguration configuration;
+  EXPECT_EQ(make_sea_return(configuration).state, 2.0);  // 10 kt
+  configuration.world.sea.state = 4.5;
+  EXPECT_EQ(make_sea_return(configuration).state, 4.5);
+}
+
+TEST(Sea, ReturnsNothingFromBehindAndTheSameAbove60Degrees) {
+  const SeaReturn sea = make_sea_return({});
+  EXPECT_EQ(sea_sigma0(sea, 0.0, {}), 0.0);
+  EXPECT_EQ(sea_sigma0(sea, -0.1, {}), 0.0);
+  EXPECT_NEAR(sea_sigma0(sea, 1.0, {}) / sea_sigma0(sea, std::sin(60.0 * geo::kRadiansPerDegree), {}), 1.0, 1e-9);
+}
+
+TEST(SeaTable, LiesWithinTwoHundredthsOfADecibelOfTheModelAtLowGrazing) {
+  for (const auto polarization : {radar::Polarization::horizontal, radar::Polarization::vertical}) {
+    radar::RadarConfiguration configuration;
+    configuration.world.sea.polarization = polarization;
+    const SeaReturn sea = make_sea_return(configuration);
+    const SeaTables tables(sea);
+    SeaTable table;
+    for (const double look_deg : {0.0, 133.0, 270.0}) {
+      const geo::Bearing look = geo::Bearing::degrees(look_deg);
+      tables.fill(look, table);
+      for (double grazing_deg = 0.02; grazing_deg < 90.0; grazing_deg *= 1.01) {
+        const double sine = std::sin(grazing_deg * geo::kRadiansPerDegree);
+        const double bound_db = grazing_deg < 15.0 ? 0.02 : grazing_deg < 55.0 ? 0.2 : 0.4;
+        const auto found = static_cast<double>(table.at(static_cast<float>(sine)));
+        ASSERT_NEAR(decibels(found), decibels(sea_sigma0(sea, sine, look)), bound_db) << grazing_deg;
+      }
+      EXPECT_EQ(table.at(0.0F), 0.0F);
+      EXPECT_GT(table.at(1.0F), 0.0F);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace yars::model::reflectivity

@@ -1,0 +1,167 @@
+// Jammers: level, pattern, bands and channels, what hides them, and what the radar shows of them in SNIFF.
+#include "model/rbm/strobes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "model/rbm/receiver.hpp"
+#include "tests/model/cockpit.hpp"
+#include "tests/model/ground.hpp"
+
+namespace yars::model::rbm {
+namespace {
+
+constexpr double kAltitudeM = 3000.0;
+constexpr double kRangeM = 74080.0;
+
+double decibels(double ratio) {
+  return 10.0 * std::log10(ratio);
+}
+
+radar::Jammer jammer_north(double distance_m, double altitude_m = kAltitudeM) {
+  radar::Jammer jammer;
+  jammer.place = geo::geodesic_direct(test::kMidLatitude, geo::Bearing(), geo::Length::metres(distance_m));
+  jammer.altitude_m = altitude_m;
+  return jammer;
+}
+
+radar::RadarConfiguration jammed_by(const radar::Jammer& jammer) {
+  radar::RadarConfiguration configuration;
+  configuration.fidelity.beam = radar::BeamPattern::gaussian;
+  configuration.world.jamming.jammers.push_back(jammer);
+  return configuration;
+}
+
+Look look_off(double off_deg) {
+  Look look = test::look_north(kAltitudeM, kRangeM);
+  look.azimuth = geo::Bearing::degrees(off_deg);
+  return look;
+}
+
+double level(const radar::RadarConfiguration& configuration, const Look& look,
+             const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0)) {
+  return Strobes(configuration).level(look, terrain::AnalyticTerrain(height));
+}
+
+TEST(Strobes, HaveThePowerOfTheOneWayRadarEquation) {
+  radar::RadarConfiguration configuration = jammed_by(jammer_north(50000.0));
+  configuration.fidelity.earth = radar::EarthModel::flat;
+  const Receiver receiver = make_receiver(configuration, geo::Length::metres(kRangeM));
+  const double radar_w = std::pow(10.0, 7.2);
+  const double expected = 4.0 * std::numbers::pi * 10.0 / radar_w / (50000.0 * 50000.0) / receiver.full_scale;
+  EXPECT_NEAR(level(configuration, look_off(0.0)) / expected, 1.0, 1e-6);
+}
+
+TEST(Strobes, FallSixDecibelsAtTwiceTheRange) {
+  radar::RadarConfiguration near = jammed_by(jammer_north(40000.0));
+  radar::RadarConfiguration far = jammed_by(jammer_north(80000.0));
+  near.fidelity.earth = far.fidelity.earth = radar::EarthModel::flat;
+  EXPECT_NEAR(decibels(level(far, look_off(0.0)) / level(near, look_off(0.0))), -6.02, 0.005);
+}
+
+TEST(Strobes, FollowTheOneWayPatternDownToTheSidelobes) {
+  const radar::RadarConfiguration configuration = jammed_by(jammer_north(50000.0));
+  const double centre = level(configuration, look_off(0.0));
+  EXPECT_NEAR(decibels(level(configuration, look_off(1.25)) / centre), -3.01, 0.02);
+  EXPECT_NEAR(decibels(level(configuration, look_off(-1.25)) / centre), -3.01, 0.02);
+  // The floor counts from the beam's centre in elevation too, where the jammer is a fraction of a degree off.
+  EXPECT_NEAR(decibels(level(configuration, look_off(90.0)) / centre), -35.0, 0.3);
+  EXPECT_EQ(level(configuration, look_off(90.0)), level(configuration, look_off(45.0)));
+}
+
+TEST(Strobes, AreThereOnTheJammedBandAndChannelsAlone) {
+  radar::Jammer jammer = jammer_north(50000.0);
+  jammer.band = 1;
+  jammer.channels = {3, 4};
+  const radar::RadarConfiguration configuration = jammed_by(jammer);
+  for (std::uint8_t band = 0; band < 5; ++band) {
+    for (std::uint8_t channel = 1; channel <= 8; ++channel) {
+      Look look = look_off(0.0);
+      look.band = band;
+      look.channel = channel;
+      const bool jammed = band == 1 && (channel == 3 || channel == 4);
+      EXPECT_EQ(level(configuration, look) > 0.0, jammed) << int(band) << ", " << int(channel);
+    }
+  }
+}
+
+TEST(Strobes, AreHiddenBehindARidgeAndBelowTheHorizon) {
+  const radar::RadarConfiguration low = jammed_by(jammer_north(50000.0, 20.0));
+  EXPECT_GT(level(low, look_off(0.0)), 0.0);
+  EXPECT_EQ(level(low, look_off(0.0), terrain::ridge(test::axis_north(), 40000.0, 2000.0, 900.0)), 0.0);
+  Look skimming = look_off(0.0);
+  skimming.altitude = geo::AltitudeMsl::metres(30.0);
+  // 4/3 earth: 30 m see 22.6 km, 20 m another 18.4 km.
+  EXPECT_EQ(level(low, skimming), 0.0);
+  EXPECT_GT(level(jammed_by(jammer_north(40000.0, 20.0)), skimming), 0.0);
+  EXPECT_EQ(level(jammed_by(jammer_north(42500.0, 20.0)), skimming), 0.0);
+}
+
+TEST(Strobes, OfAJammerWithoutAltitudeComeFromAMastOnTheGround) {
+  const radar::RadarConfiguration given = jammed_by(jammer_north(50000.0, 310.0));
+  const radar::RadarConfiguration mast = jammed_by(jammer_north(50000.0, radar::kNotGiven));
+  EXPECT_EQ(level(mast, look_off(0.0), terrain::flat(300.0)), level(given, look_off(0.0), terrain::flat(300.0)));
+}
+
+TEST(Strobes, AreAsBrightInEverySample) {
+  radar::RadarConfiguration configuration = test::bare_configuration(64);
+  Reference reference(configuration);
+  const std::vector<float> nothing(64, 0.0F);
+  std::vector<std::uint8_t> quiet(64), jammed(64);
+  reference.develop({nothing, nothing, nothing}, geo::Length::metres(kRangeM), 3, {}, quiet);
+  reference.develop({nothing, nothing, nothing, 0.1}, geo::Length::metres(kRangeM), 3, {}, jammed);
+  for (std::size_t i = 0; i < jammed.size(); ++i) {
+    EXPECT_EQ(jammed[i], jammed[0]);
+    EXPECT_NEAR(jammed[i], 255.0 * (1.0 - 10.0 / 45.0), 1.0);
+    EXPECT_LT(quiet[i], jammed[i]);
+  }
+}
+
+double mean_video(const databuffer::Sweep& sweep) {
+  return std::accumulate(sweep.video, sweep.video + sweep.samples, 0.0) / sweep.samples;
+}
+
+// The brightest and the dimmest sweep of a scan in SNIFF.
+struct Extremes {
+  double brightest = 0.0, dimmest = 255.0, brightest_deg = 0.0;
+};
+
+Extremes sniffed(std::uint8_t channel) {
+  radar::RadarConfiguration configuration;
+  configuration.fidelity.algorithm = radar::Algorithm::reference;
+  configuration.fidelity.samples = 64;
+  radar::Jammer jammer;
+  jammer.channels = {5};
+  jammer.power_w = 1.0;
+  jammer.place = geo::geodesic_direct({37.0, -122.0}, geo::Bearing::degrees(60.0), geo::Length::metres(60000.0));
+  configuration.world.jamming.jammers.push_back(jammer);
+  test::Cockpit cockpit(configuration);
+  cockpit.tick.command.channel = channel;
+  cockpit.set_flag(databuffer::kSniff, true);
+  EXPECT_TRUE(cockpit.run_until(test::is_scan_end));
+  Extremes found;
+  for (const databuffer::Sweep& sweep : cockpit.run(200)) {
+    EXPECT_NE(sweep.flags & databuffer::kSweepNoiseOnly, 0U);
+    const double mean = mean_video(sweep);
+    if (mean > found.brightest) {
+      found.brightest = mean;
+      found.brightest_deg = sweep.azimuth_left_deg;
+    }
+    found.dimmest = std::min(found.dimmest, mean);
+  }
+  return found;
+}
+
+TEST(Sniff, ShowsAStrobeAtTheJammersAzimuthOnItsChannel) {
+  const Extremes jammed = sniffed(5);
+  EXPECT_GT(jammed.brightest, jammed.dimmest + 40.0);
+  EXPECT_NEAR(jammed.brightest_deg, 60.0, 1.5);
+  const Extremes free = sniffed(4);
+  EXPECT_LT(free.brightest, free.dimmest + 40.0);
+}
+
+}  // namespace
+}  // namespace yars::model::rbm

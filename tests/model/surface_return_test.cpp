@@ -1,0 +1,129 @@
+// The ground as the reference sees it through materials, sea, walls and texture.
+#include "model/rbm/surface_return.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/reflectivity/street_grid.hpp"
+#include "tests/model/ground.hpp"
+
+namespace yars::model::rbm {
+namespace {
+
+double decibels(double ratio) {
+  return 10.0 * std::log10(ratio);
+}
+
+// One sample in the middle of a sweep over level ground of one material.
+Reference::Sample middle(const radar::RadarConfiguration& configuration, std::uint8_t material, double height_m = 100.0,
+                         const Look& look = test::look_north(2000.0, 40000.0)) {
+  const terrain::AnalyticTerrain ground(terrain::flat(height_m), 1, [material](geo::GeoPoint) { return material; });
+  return test::seen_by_reference(configuration, look, ground)[500];
+}
+
+TEST(SurfaceReturn, OfMaterialsDiffersByTheirGammas) {
+  const radar::RadarConfiguration configuration = test::bare_configuration(1000);
+  const double land = middle(configuration, 0).power;
+  for (const radar::Material& material : configuration.world.land.materials) {
+    if (material.cardinal_db > 0.0) continue;
+    EXPECT_NEAR(decibels(middle(configuration, static_cast<std::uint8_t>(material.code)).power / land),
+                material.gamma_db - configuration.receiver.land_gamma_db, 0.01)
+        << material.name;
+  }
+  EXPECT_NEAR(middle(configuration, 30).power, land, 1e-9 * land) << "a code that nobody describes is land";
+}
+
+TEST(SurfaceReturn, OfWaterIsTheSeasAtAnyHeight) {
+  const radar::RadarConfiguration configuration = test::bare_configuration(1000);
+  // The sea at 0 m by elevation, a lake at 100 m by its material: the same but for the aircraft's height above it.
+  const Reference::Sample sea = middle(configuration, 0, 0.0);
+  const Reference::Sample lake = middle(configuration, radar::kWaterMaterial, 100.0, test::look_north(2100.0, 40000.0));
+  EXPECT_EQ(sea.water, 1.0);
+  EXPECT_EQ(lake.water, 0.0);
+  EXPECT_NEAR(lake.power / sea.power, 1.0, 1e-6);
+}
+
+TEST(SurfaceReturn, OfWallsDependsOnTheStreetsBearing) {
+  const radar::RadarConfiguration configuration = test::bare_configuration(1000);
+  Look look = test::look_north(2000.0, 40000.0);
+  double least = 1e9, most = 0.0;
+  for (double azimuth_deg = 0.0; azimuth_deg < 360.0; azimuth_deg += 1.0) {
+    // Always the same town in the middle of the sweep.
+    look.azimuth = geo::Bearing::degrees(azimuth_deg);
+    look.apex = geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(azimuth_deg + 180.0),
+                                     geo::Length::metres(500.5 * 40.0));
+    const Reference::Sample sample = middle(configuration, 1, 100.0, look);
+    const double off_deg =
+        reflectivity::off_street_deg(sample.azimuth.degrees(), reflectivity::street_bearing_deg(sample.place));
+    if (std::abs(off_deg) < 1.0) most = std::max(most, sample.power);
+    if (std::abs(off_deg) > 12.0) least = std::min(least, sample.power);
+  }
+  EXPECT_NEAR(decibels(most / least), 12.0, 0.5);
+}
+
+struct Moments {
+  double mean = 0.0, variance = 0.0;
+};
+
+// K clutter as the video shows it, over many places: power of each sample against that of untextured ground.
+Moments k_clutter(double shape, int looks) {
+  radar::RadarConfiguration configuration = test::bare_configuration(250);
+  configuration.fidelity.noise = true;
+  configuration.receiver.dynamic_range_db = 120.0;
+  configuration.receiver.noise_floor_db = -120.0;
+  configuration.receiver.gain_step_db = 10.0;  // at gain 0 nothing clips
+  configuration.receiver.looks = looks;
+  configuration.world.land.texture = shape;
+  Look look = test::look_north(3000.0, 80000.0);
+  const terrain::AnalyticTerrain plain(terrain::flat(100.0));
+  Reference textured(configuration);
+  configuration.world.land.texture = 0.0;
+  Reference even(configuration);
+  std::vector<float> power(250), mean(250);
+  std::vector<std::uint8_t> video(250);
+  double sum = 0.0, squares = 0.0, count = 0.0;
+  for (std::uint32_t sweep = 0; sweep < 1000; ++sweep) {
+    look.apex.longitude_deg = 0.36 * sweep - 180.0;  // other ground each time
+    textured.measure(look, plain, power);
+    even.measure(look, plain, mean);
+    textured.develop({power, power, power}, look.range, 0, {5, 1, sweep}, video);
+    for (std::size_t i = 25; i < 250; ++i) {
+      const double relative = std::pow(10.0, 12.0 * (video[i] / 255.0 - 1.0) + 3.0) / static_cast<double>(mean[i]);
+      sum += relative;
+      squares += relative * relative;
+      count += 1.0;
+    }
+  }
+  return {sum / count, squares / count - sum / count * sum / count};
+}
+
+TEST(SurfaceReturn, FluctuatesAsKWhereItHasTexture) {
+  for (const double shape : {0.0, 2.0, 4.0}) {
+    for (const int looks : {1, 4}) {
+      const Moments found = k_clutter(shape, looks);
+      const double texture = shape > 0.0 ? 1.0 + 1.0 / shape : 1.0;
+      EXPECT_NEAR(found.mean, 1.0, 0.02) << shape << ", " << looks;
+      EXPECT_NEAR(found.variance / (found.mean * found.mean) / (texture * (1.0 + 1.0 / looks) - 1.0), 1.0, 0.03)
+          << shape << ", " << looks;
+    }
+  }
+}
+
+TEST(SurfaceReturn, HasTheSameTextureFromEverywhere) {
+  radar::RadarConfiguration configuration = test::bare_configuration(1000);
+  configuration.fidelity.noise = true;
+  configuration.world.land.texture = 1.0;
+  SurfaceReturn surface(configuration);
+  const Receiver receiver = make_receiver(configuration, geo::Length::metres(40000.0));
+  surface.use_resolution(receiver.pulse_length_m, 40.0);
+  Facet facet{{37.2, -122.3}, geo::Bearing(), 20000.0, 0.1, 0.1, 0.0, 0};
+  const double once = surface.cross_section_m2(receiver, facet);
+  facet.look = geo::Bearing::degrees(200.0);
+  EXPECT_EQ(surface.cross_section_m2(receiver, facet), once);
+  facet.place.latitude_deg += 0.1;
+  EXPECT_NE(surface.cross_section_m2(receiver, facet), once);
+}
+
+}  // namespace
+}  // namespace yars::model::rbm

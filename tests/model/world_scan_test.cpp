@@ -1,0 +1,81 @@
+// Scans of a world with rain, jammers and movers: the live kernel and the offline scan make the same of it.
+#include <gtest/gtest.h>
+
+#include "model/kernel/offline_scan.hpp"
+#include "tests/model/cockpit.hpp"
+
+namespace yars::model::kernel {
+namespace {
+
+radar::RadarConfiguration busy_world() {
+  radar::RadarConfiguration configuration;
+  configuration.fidelity.algorithm = radar::Algorithm::reference;
+  configuration.fidelity.samples = 120;
+  radar::WorldConfiguration& world = configuration.world;
+  world.rain.cells.push_back({{37.25, -121.7}, 9000.0, 20.0, 6000.0});
+  radar::Jammer jammer;
+  jammer.place = {37.3, -121.8};
+  jammer.altitude_m = 3000.0;
+  jammer.band = 2;
+  jammer.channels = {4};
+  world.jamming.jammers.push_back(jammer);
+  radar::Mover mover;
+  mover.place = {37.2, -121.75};
+  mover.speed_mps = 200.0;
+  mover.heading_deg = 10.0;
+  world.movers.push_back(mover);
+  return configuration;
+}
+
+ScanRequest request_of(const databuffer::ModelTick& tick, std::int64_t sim_time_ns) {
+  ScanRequest request;
+  request.pose = *pose_of(tick.ownship);
+  request.range = geo::Length::nautical_miles(tick.command.range_nm);
+  request.width = geo::Angle::degrees(tick.command.scan_width_deg);
+  request.elevation = geo::Angle::degrees(tick.command.antenna_elevation_deg);
+  request.gain = tick.command.gain;
+  request.sim_time_ns = sim_time_ns;
+  request.band = tick.command.band;
+  request.channel = tick.command.channel;
+  return request;
+}
+
+std::vector<std::uint64_t> offline(const radar::RadarConfiguration& configuration, const test::Cockpit& cockpit,
+                                   std::int64_t sim_time_ns) {
+  OfflineScan scan(configuration, request_of(cockpit.tick, sim_time_ns), 2);
+  scan.measure(cockpit.terrain);
+  scan.develop();
+  std::vector<std::uint64_t> hashes;
+  for (const databuffer::Sweep& sweep : scan.sweeps()) hashes.push_back(sweep.hash);
+  return hashes;
+}
+
+TEST(WorldScan, IsTheSameLiveAndOffline) {
+  const radar::RadarConfiguration configuration = busy_world();
+  test::Cockpit cockpit(configuration, terrain::flat(0.0));
+  cockpit.tick.command.antenna_elevation_deg = 0.0;
+  cockpit.tick.command.band = 2;
+  cockpit.tick.command.channel = 4;
+  const auto live = cockpit.run(320);
+  ASSERT_GE(live.size(), 182U);
+  const auto hashes = offline(configuration, cockpit, live[0].sim_time_ns);
+  ASSERT_EQ(hashes.size(), 182U);
+  for (std::size_t i = 0; i < hashes.size(); ++i) ASSERT_EQ(live[i].hash, hashes[i]) << i;
+}
+
+TEST(WorldScan, ChangesWithTheChannelTheTimeAndTheRain) {
+  radar::RadarConfiguration configuration = busy_world();
+  test::Cockpit cockpit(configuration, terrain::flat(0.0));
+  const auto free = offline(configuration, cockpit, 0);
+  EXPECT_EQ(offline(configuration, cockpit, 0), free);
+  EXPECT_NE(offline(configuration, cockpit, 60'000'000'000), free) << "the mover has gone on";
+  cockpit.tick.command.band = 2;
+  cockpit.tick.command.channel = 4;
+  EXPECT_NE(offline(configuration, cockpit, 0), free) << "jammed";
+  cockpit.tick.command.channel = 0;
+  configuration.world.rain.cells.clear();
+  EXPECT_NE(offline(configuration, cockpit, 0), free) << "dry";
+}
+
+}  // namespace
+}  // namespace yars::model::kernel
