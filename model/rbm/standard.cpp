@@ -19,6 +19,9 @@ constexpr double kSideShare = 0.25;  // of the beam width: where the side rays f
 
 Standard::Standard(const radar::RadarConfiguration& configuration)
     : configuration_(configuration),
+      ground_(configuration, sample_count(configuration)),
+      rain_(configuration),
+      movers_(configuration),
       count_(sample_count(configuration)),
       distance_m_(count_),
       distance_(count_, 0.0F),
@@ -57,9 +60,15 @@ std::size_t Standard::measure(const Look& look, const terrain::TerrainView& terr
   const bool peaks = terrain.has_peaks();
   if (peaks) lanes::sight_tangent(count_, constants, distance_.data(), peak_.data(), peak_tangent_.data());
   lanes::running_maximum(count_, peaks ? peak_tangent_.data() : tangent_.data(), spare_.data(), horizon_.data());
+  const double spacing_m = look.range.metres() / static_cast<double>(count_);
+  const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
+  ground_.use_resolution(receiver.pulse_length_m, spacing_m);
+  const Ground::Sample reflects =
+      ground_.reflect(look, places_.run(), water_.data(), sin_grazing_.data(), terrain.has_materials());
   const lanes::PowerInputs inputs{elevation_.data(),
                                   configuration_.fidelity.cross_track_slope ? cross_slope_.data() : nullptr,
-                                  water_.data(),
+                                  reflects.land,
+                                  reflects.sea,
                                   peaks ? peak_tangent_.data() : tangent_.data(),
                                   horizon_.data(),
                                   one_step_inverse_.data(),
@@ -68,15 +77,41 @@ std::size_t Standard::measure(const Look& look, const terrain::TerrainView& terr
   lanes::power(count_, constants, configuration_.fidelity.beam, inputs, power_.data());
   // What the last vector wrote behind the sweep is no power.
   std::fill_n(power_.data() + count_, lanes::kPad, 0.0F);
+  add_movers(look, earth, receiver, terrain, pulse_samples);
+  rain_.enter(look);
+  if (!rain_.dry()) add_rain(look, earth, receiver);
 
-  const double spacing_m = look.range.metres() / static_cast<double>(count_);
-  const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   const PulseSmear smear = make_pulse_smear(pulse_samples);
   std::array<float, 2 * PulseSmear::kMostReach + 1> weights{};
   std::transform(smear.weights.begin(), smear.weights.end(), weights.begin(),
                  [](double weight) { return static_cast<float>(weight); });
   lanes::smear(count_, power_.data(), weights.data(), smear.reach, power.data());
   return pending;
+}
+
+void Standard::add_movers(const Look& look, const EffectiveEarth& earth, const Receiver& receiver,
+                          const terrain::TerrainView& terrain, double pulse_samples) {
+  for (const Echo& echo : movers_.echoes(look, receiver, earth, terrain)) {
+    const std::size_t index = nearest_sample(distance_m_, echo.distance_m);
+    if (index >= count_) continue;
+    const bool hidden = index > 0 && echo.tangent <= static_cast<double>(horizon_.data()[index - 1]);
+    if (!hidden) power_.data()[index] += static_cast<float>(point_rise(pulse_samples) * echo.power);
+  }
+}
+
+// Only sweeps that cross a shower pay for it: in double, sample by sample.
+void Standard::add_rain(const Look& look, const EffectiveEarth& earth, const Receiver& receiver) {
+  const double altitude_m = look.altitude.metres();
+  for (std::size_t i = holes_; i < count_; ++i) {
+    const auto elevation_m = static_cast<double>(elevation_.data()[i]);
+    const double height_m = std::isnan(elevation_m) ? 0.0 : elevation_m;
+    const double distance_m = distance_m_[i];
+    const double slant_range_m = earth.sight(altitude_m, distance_m, height_m).slant_range_m;
+    const double horizon_rad = std::atan(static_cast<double>(horizon_.data()[i]));
+    const double rain = received(receiver, rain_.power(receiver, earth, look, distance_m, horizon_rad), slant_range_m);
+    const double loss = rain_.two_way_loss(earth, altitude_m, distance_m, height_m, slant_range_m);
+    power_.data()[i] = static_cast<float>((static_cast<double>(power_.data()[i]) + rain) * loss);
+  }
 }
 
 const Receiver& Standard::receiver_at(geo::Length range) {
@@ -104,7 +139,10 @@ void Standard::place_samples(const Look& look, const EffectiveEarth& earth, cons
 std::size_t Standard::read_terrain(const Look& look, const terrain::TerrainView& terrain) {
   sample_places(look.apex, look.azimuth, look.range, configuration_.fidelity.geodesic_knots, distance_.data(), places_);
   const bool peaks = terrain.has_peaks();
-  const terrain::SurfaceRun found{elevation_.first(count_), water_.first(count_), peak_.first(peaks ? count_ : 0), {}};
+  const terrain::SurfaceRun found{elevation_.first(count_),
+                                  water_.first(count_),
+                                  peak_.first(peaks ? count_ : 0),
+                                  {ground_.materials().data(), terrain.has_materials() ? count_ : 0}};
   const std::size_t pending = terrain.surfaces(places_.run(), configuration_.fidelity.interpolation, found);
   for (Padded* heights : {&elevation_, &peak_}) {
     std::fill_n(heights->data(), holes_, kVoid);
@@ -140,7 +178,6 @@ lanes::SweepConstants Standard::sweep_constants(const Look& look, const Effectiv
   c.altitude_m = static_cast<float>(look.altitude.metres());
   c.curvature = static_cast<float>(earth.curvature());
   c.land_gamma = static_cast<float>(receiver.land_gamma);
-  c.sea_less_land_gamma = static_cast<float>(receiver.sea_gamma - receiver.land_gamma);
   c.pulse_inverse = static_cast<float>(1.0 / receiver.pulse_length_m);
   c.beam_inverse = static_cast<float>(1.0 / beam_rad);
   c.scale = static_cast<float>(receiver.azimuth_beamwidth_rad / (receiver.full_scale * range_m * range_m * range_m));
@@ -171,7 +208,7 @@ void Standard::develop(const PowerWindow& window, geo::Length range, int gain, c
   inputs.centre = window.centre.data();
   inputs.after = window.after.data();
   inputs.weights = weights.data();
-  inputs.noise = static_cast<float>(receiver.noise);
+  inputs.noise = static_cast<float>(receiver.noise + window.jamming);
   inputs.gain_db = static_cast<float>((gain - kFullGain) * receiver.gain_step_db);
   inputs.decibels_per_scale = static_cast<float>(receiver.decibels_per_scale);
   if (fidelity.noise) {

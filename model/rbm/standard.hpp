@@ -10,6 +10,9 @@
 #include "lib/radar/configuration.hpp"
 #include "model/rbm/algorithm.hpp"
 #include "model/rbm/earth.hpp"
+#include "model/rbm/ground.hpp"
+#include "model/rbm/movers.hpp"
+#include "model/rbm/rain_path.hpp"
 #include "model/rbm/receiver.hpp"
 #include "model/rbm/sample_places.hpp"
 #include "model/rbm/sweep_lanes.hpp"
@@ -35,12 +38,18 @@ class Standard : public Algorithm {
 
   void place_samples(const Look& look, const EffectiveEarth& earth, const terrain::TerrainView& terrain);
   std::size_t read_terrain(const Look& look, const terrain::TerrainView& terrain);
+  void add_movers(const Look& look, const EffectiveEarth& earth, const Receiver& receiver,
+                  const terrain::TerrainView& terrain, double pulse_samples);
+  void add_rain(const Look& look, const EffectiveEarth& earth, const Receiver& receiver);
   void read_cross_slopes(const Look& look, const terrain::TerrainView& terrain);
   lanes::SweepConstants sweep_constants(const Look& look, const EffectiveEarth& earth, const Receiver& receiver) const;
 
   const Receiver& receiver_at(geo::Length range);
 
   radar::RadarConfiguration configuration_;
+  Ground ground_;
+  RainPath rain_;
+  Movers movers_;
   Receiver receiver_;  // of the range last asked for
   std::size_t count_;
   std::size_t holes_ = 0;        // first samples that nothing is near enough for (slant range)

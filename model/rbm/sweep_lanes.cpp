@@ -160,6 +160,12 @@ HWY_INLINE Floats along_slope(const PowerInputs& in, std::size_t i) {
   return hn::Mul(rise, hn::IfThenElse(near_known, hn::IfThenElse(far_known, both, to_near), to_far));
 }
 
+// The larger inverse of pulse and beam limit: the smaller area lit.
+HWY_INLINE Floats smaller_area_inverse(const SweepConstants& c, Floats sine, Floats cosine, Floats range_inverse) {
+  return hn::Max(hn::Mul(cosine, constant(c.pulse_inverse)),
+                 hn::Mul(hn::Mul(sine, range_inverse), constant(c.beam_inverse)));
+}
+
 template <radar::BeamPattern kBeam>
 HWY_INLINE void power_by(std::size_t count, const SweepConstants& constants, const PowerInputs& in, float* result) {
   const Tag d;
@@ -184,17 +190,26 @@ HWY_INLINE void power_by(std::size_t count, const SweepConstants& constants, con
         hn::Add(hn::Mul(slope, hn::LoadU(d, in.sights.cos_grazing + i)), hn::LoadU(d, in.sights.sin_grazing + i));
     const auto sine = hn::Max(towards, zero);
     const auto cosine = hn::Sqrt(hn::Max(hn::Sub(square, hn::Mul(sine, sine)), zero));
-    // The larger inverse of pulse and beam limit: the smaller area.
-    const auto area_inverse = hn::Max(hn::Mul(cosine, constant(c.pulse_inverse)),
-                                      hn::Mul(hn::Mul(sine, range_inverse), constant(c.beam_inverse)));
-    const auto gamma =
-        hn::Add(constant(c.land_gamma), hn::Mul(constant(c.sea_less_land_gamma), hn::LoadU(d, in.water + i)));
+    const auto area_inverse = smaller_area_inverse(c, sine, cosine, range_inverse);
+    const auto gamma = in.land == nullptr ? constant(c.land_gamma) : hn::LoadU(d, in.land + i);
     const Gain gain = gain_of<kBeam>(c, hn::LoadU(d, in.sights.sin_sight + i), hn::LoadU(d, in.sights.cos_sight + i));
-    const auto over = hn::Mul(hn::Mul(gamma, sine), hn::Mul(gain.over, constant(c.scale)));
+    const auto raised = hn::Mul(gain.over, constant(c.scale));
     // Where the sine is zero so is the power; the area's inverse may be zero there too.
     const auto returns = hn::And(lit, hn::Gt(sine, zero));
     const auto under = hn::IfThenElse(returns, hn::Mul(area_inverse, gain.under), one);
-    hn::StoreU(hn::IfThenElseZero(returns, hn::Div(over, under)), d, result + i);
+    auto sum = hn::IfThenElseZero(returns, hn::Div(hn::Mul(hn::Mul(gamma, sine), raised), under));
+    if (in.sea != nullptr) {
+      const auto sea = hn::LoadU(d, in.sea + i);
+      const auto wet = hn::And(lit, hn::Gt(sea, zero));
+      if (!hn::AllFalse(d, wet)) {
+        // The sea lies level: its area goes by the ray's own grazing angle.
+        const auto level_inverse = smaller_area_inverse(c, hn::LoadU(d, in.sights.sin_grazing + i),
+                                                        hn::LoadU(d, in.sights.cos_grazing + i), range_inverse);
+        const auto below = hn::IfThenElse(wet, hn::Mul(level_inverse, gain.under), one);
+        sum = hn::Add(sum, hn::IfThenElseZero(wet, hn::Div(hn::Mul(sea, raised), below)));
+      }
+    }
+    hn::StoreU(sum, d, result + i);
   }
   if (c.range_power == 0.0F) return;
   const auto at_reference = polynomials::log2(d, constant(c.range_inverse));

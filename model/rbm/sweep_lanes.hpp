@@ -18,7 +18,6 @@ struct SweepConstants {
   float altitude_m = 0.0F;
   float curvature = 0.0F;  // [1/m] of the effective earth, 0 = flat
   float land_gamma = 0.0F;
-  float sea_less_land_gamma = 0.0F;
   float pulse_inverse = 0.0F;  // [1/m] 1 / (c tau / 2)
   float beam_inverse = 0.0F;   // 1 / theta_el
   float scale = 0.0F;          // theta_az / (full scale R0^3)
@@ -59,8 +58,9 @@ void running_maximum(std::size_t count, const float* tangent, float* spare, floa
 // incidence, two-way gain, area and reflectivity in one. 0 in shadow and void.
 struct PowerInputs {
   const float* elevation_m;
-  const float* cross_slope;  // null: none
-  const float* water;
+  const float* cross_slope;       // null: none
+  const float* land;              // gamma of each sample, its share of land in it; null: the constants' everywhere
+  const float* sea;               // sigma0 of each sample, its share of water in it; null: none
   const float* tangent;           // of the ground that returns
   const float* horizon;           // of all ground before
   const float* one_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i])

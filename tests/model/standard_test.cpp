@@ -11,6 +11,7 @@
 #include "model/rbm/polynomials.hpp"
 #include "model/rbm/sample_places.hpp"
 #include "model/terrain/open_terrain.hpp"
+#include "tests/lanes/vector_targets.hpp"
 #include "tests/model/ground.hpp"
 #include "tests/terrain/shared_data.hpp"
 
@@ -181,6 +182,63 @@ TEST(Standard, AgreesWithTheReferenceWhateverTheKnobs) {
       const Difference found = difference(configuration, look, hills);
       EXPECT_LE(found.shadow_share, 0.005) << static_cast<int>(beam);
       EXPECT_LE(found.rms, 0.5) << static_cast<int>(beam);
+    }
+  }
+}
+
+// Every material in stripes, sea between them, rain, a ship and a town: what the world has in one sweep or another.
+TEST(Standard, AgreesWithTheReferenceOverABusyWorld) {
+  const auto hills = terrain::sine_hills(test::axis_north(), 300.0, 9000.0);
+  const terrain::AnalyticTerrain world(
+      [hills](geo::GeoPoint place) { return std::max(0.0, hills(place) - 150.0); }, 1,
+      [](geo::GeoPoint place) {
+        return static_cast<std::uint8_t>(static_cast<int>(std::abs(place.longitude_deg) * 40.0) % 14);
+      });
+  radar::RadarConfiguration configuration = sharp_configuration();
+  const geo::GeoPoint ahead =
+      geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(200.0), geo::Length::nautical_miles(20.0));
+  configuration.world.rain.cells.push_back({ahead, 15000.0, 25.0, 4000.0});
+  configuration.world.movers.push_back({"ship", ahead, 8.0, 90.0, 5000.0, 12.0});
+  for (const double range_nm : {10.0, 40.0, 160.0}) {
+    SCOPED_TRACE(range_nm);
+    const Difference found = difference(configuration, look_from(test::kMidLatitude, 200.0, range_nm), world);
+    EXPECT_LE(found.shadow_share, 0.001);
+    EXPECT_LE(found.rms, 0.5);
+  }
+}
+
+// The plain version of the instructions among them.
+TEST(Standard, EveryWidthOfVectorGivesTheSamePowerAndVideo) {
+  const auto hills = terrain::sine_hills(test::axis_north(), 600.0, 12000.0);
+  const terrain::AnalyticTerrain world(
+      [hills](geo::GeoPoint place) { return std::max(0.0, hills(place) - 200.0); }, 1,
+      [](geo::GeoPoint place) {
+        return static_cast<std::uint8_t>(static_cast<int>(std::abs(place.longitude_deg) * 40.0) % 14);
+      });
+  for (const auto beam :
+       {radar::BeamPattern::hard_edge, radar::BeamPattern::gaussian, radar::BeamPattern::cosecant_squared}) {
+    for (const int samples : {1, 2, 3, 17, 480, 4096}) {
+      radar::RadarConfiguration configuration;
+      configuration.fidelity.beam = beam;
+      configuration.fidelity.samples = samples;
+      configuration.receiver.stc_exponent = 2.5;
+      const auto count = static_cast<std::size_t>(samples);
+      const Look look = look_from(test::kMidLatitude, 200.0, 40.0);
+      std::vector<float> first_power;
+      std::vector<std::uint8_t> first_video;
+      test::for_each_vector_target([&](const char* name) {
+        Standard standard(configuration);
+        std::vector<float> power(count);
+        std::vector<std::uint8_t> video(count);
+        standard.measure(look, world, power);
+        standard.develop({power, power, power}, look.range, 3, {7, 3, 11}, video);
+        if (first_power.empty()) {
+          first_power = power;
+          first_video = video;
+        }
+        EXPECT_EQ(power, first_power) << name << ", " << samples << " samples";
+        EXPECT_EQ(video, first_video) << name << ", " << samples << " samples";
+      });
     }
   }
 }
