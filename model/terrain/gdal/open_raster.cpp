@@ -145,7 +145,7 @@ failure::Expected<Raster> open_raster(const std::filesystem::path& path) {
   const std::string subject = path.string();
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
-    return failure::fail(subject, "a raster of heights", code ? code.message() : "not a plain file");
+    return failure::fail(subject, "a raster of heights in a plain file", code ? code.message() : "not a plain file");
   const MessageKeeper messages;
   // An absolute path: GDAL takes no part of it for a driver's prefix or one of its virtual folders.
   Raster raster;
