@@ -120,6 +120,10 @@ bool is_raster_name(const std::filesystem::path& path) {
   return std::find(kExtensions.begin(), kExtensions.end(), lower_case(path.extension().string())) != kExtensions.end();
 }
 
+bool is_virtual_raster_name(const std::filesystem::path& path) {
+  return lower_case(path.extension().string()) == ".vrt";
+}
+
 failure::Expected<CellReading> read_cell(const CellFile& file, CellPlace place, int reduction) {
   YARS_REQUIRE(reduction, >=, 0);
   if (file.format == CellFormat::pack) return read_pack(file.path, place, reduction);

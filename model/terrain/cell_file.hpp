@@ -33,7 +33,8 @@ std::optional<NamedCell> cell_named(const std::string& folder, const std::string
 
 // Files whose headers have to be opened to know their cells.
 bool is_ded_name(const std::filesystem::path& path);
-bool is_raster_name(const std::filesystem::path& path);  // .vrt too, which is then refused with a word
+bool is_raster_name(const std::filesystem::path& path);          // .vrt among them
+bool is_virtual_raster_name(const std::filesystem::path& path);  // .vrt: refused with a word
 
 // Reads a cell by the reader of its format, at every 2^reduction-th post: see reduce.hpp for what that means and for
 // CellReading::peaks, which reduction 0 does not have. Packs decode no more than they have to; rasters finer than an

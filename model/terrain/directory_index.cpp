@@ -58,7 +58,7 @@ failure::Expected<void> offer_ded(const std::filesystem::path& path, DirectoryIn
 }
 
 failure::Expected<void> offer_raster(const std::filesystem::path& path, DirectoryIndex& index) {
-  if (path.extension() == ".vrt")
+  if (is_virtual_raster_name(path))
     return failure::fail(path.string(), "a raster that holds its own heights",
                          "a .vrt, which may name any file or address", "make a GeoTIFF of it with gdal_translate");
   const auto raster = gdal::describe_raster(path);

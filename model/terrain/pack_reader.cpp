@@ -72,7 +72,10 @@ failure::Expected<CellReading> parse_pack(std::span<const std::byte> jp2, std::s
   const int row_factor = (decoded.rows() - 1) / (rows - 1);
   const int column_factor = (decoded.columns() - 1) / (columns - 1);
   const Cell heights = row_factor * column_factor == 1 ? decoded : reduce_by(decoded, row_factor, column_factor).means;
-  return CellReading{marked(heights, *level, wanted), std::move(level->peaks), {}};
+  Cell cell = marked(heights, *level, wanted);
+  // A cell that does not halve is its own peaks.
+  if (reduction > 0 && wanted == 0) level->peaks = cell;
+  return CellReading{std::move(cell), std::move(level->peaks), {}};
 }
 
 failure::Expected<CellReading> read_pack(const std::filesystem::path& path, CellPlace place, int reduction) {

@@ -45,7 +45,7 @@ TEST(DedReader, FromDiskEachCellIsFoundAtItsOffset) {
   EXPECT_EQ(read_ded(folder.path() / "AREA.DED", {36, -121})->cell.post(6, 6), 606);
   auto store = DirectoryTerrainStore::open(folder.path(), {});
   ASSERT_TRUE(store.has_value()) << store.error().message();
-  EXPECT_EQ((*store)->prepare({{36.5, -121.5}, 1000})->elevation_m({36.5, -121.0 - 1e-12}), 302)
+  EXPECT_NEAR((*store)->prepare({{36.5, -121.5}, 1000})->elevation_m({36.5, -121.0 - 1e-12}), 302, 1e-6)
       << "the middle of the east column of the first cell";
 }
 

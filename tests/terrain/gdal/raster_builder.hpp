@@ -6,9 +6,11 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace yars::test {
@@ -19,7 +21,7 @@ struct RasterFields {
   int epsg = 4326;                       // 0: no coordinate system
   GDALDataType type = GDT_Int16;
   int bands = 1;
-  std::optional<double> void_value;
+  std::optional<double> void_value = {};
   const char* unit = nullptr;
   const char* driver = "GTiff";
 };
@@ -53,7 +55,9 @@ inline void write_raster(const std::filesystem::path& path, const RasterFields& 
   for (int row = 0; row < fields.rows; ++row) {
     for (int column = 0; column < fields.columns; ++column)
       line[static_cast<std::size_t>(column)] = height(row, column);
-    (void)GDALRasterIO(band, GF_Write, 0, row, fields.columns, 1, line.data(), fields.columns, 1, GDT_Float64, 0, 0);
+    if (GDALRasterIO(band, GF_Write, 0, row, fields.columns, 1, line.data(), fields.columns, 1, GDT_Float64, 0, 0) !=
+        CE_None)
+      std::abort();
   }
   std::vector<char*> options;
   char reversible[] = "REVERSIBLE=YES";

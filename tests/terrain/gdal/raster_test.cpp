@@ -44,9 +44,10 @@ class RasterOf : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(RasterOf, ADegreeOfPostsIsReadPostByPost) {
   const test::TemporaryFolder folder;
-  const auto path = folder.path() / "a.tif";
   RasterFields fields = degree_raster(-36, 149, 121);
   fields.driver = GetParam();
+  // The name decides whether GDAL writes JPEG 2000 with or without its place.
+  const auto path = folder.path() / (fields.driver == std::string_view("JP2OpenJPEG") ? "a.jp2" : "a.tif");
   write_raster(path, fields, [](int row, int column) { return 100 + 7 * row - 3 * column; });
   const auto summary = gdal::describe_raster(path);
   ASSERT_TRUE(summary.has_value()) << summary.error().message();
@@ -90,8 +91,8 @@ TEST(Raster, OneFileServesEveryCellThatItTouchesAndIsVoidOutside) {
   EXPECT_NEAR(index->at(slot_of({49, 9})).covered, 0.0625, 0.01);
   auto store = DirectoryTerrainStore::open(folder.path(), {});
   const auto view = (*store)->prepare({{50.5, 10.5}, 100e3});
-  EXPECT_EQ(view->elevation_m({50.0, 10.0}), 321);
-  EXPECT_EQ(view->elevation_m({51.2, 11.2}), 321);
+  EXPECT_NEAR(view->elevation_m({50.0, 10.0}), 321, 1e-6);
+  EXPECT_NEAR(view->elevation_m({51.2, 11.2}), 321, 1e-6);
   EXPECT_TRUE(std::isnan(view->elevation_m({49.5, 9.5})));
 }
 
