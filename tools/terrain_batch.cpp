@@ -77,12 +77,12 @@ void run_terrain_batch(const TerrainBatch& batch) {
     }
     if (files.insert(file.path).second) bytes_in += bytes_of(file.path);
     bytes_out += bytes_written(*written);
-    std::printf("%3zu/%zu  %s  %.1f MB\n", seen, index->size(), written->c_str(),
+    std::printf("%3zu/%zu  %s  %.3f MB\n", seen, index->size(), written->c_str(),
                 static_cast<double>(bytes_written(*written)) / kMegabyte);
     std::fflush(stdout);
   }
   for (const std::string& problem : problems) std::fprintf(stderr, "problem: %s\n", problem.c_str());
-  std::printf("%zu cells, %.1f MB to %.1f MB, ratio %.2f\n", seen - failed, static_cast<double>(bytes_in) / kMegabyte,
+  std::printf("%zu cells, %.3f MB to %.3f MB, ratio %.2f\n", seen - failed, static_cast<double>(bytes_in) / kMegabyte,
               static_cast<double>(bytes_out) / kMegabyte,
               bytes_out == 0 ? 0.0 : static_cast<double>(bytes_in) / static_cast<double>(bytes_out));
   if (failed > 0)
