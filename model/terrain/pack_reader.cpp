@@ -23,6 +23,13 @@ Cell from_south(const HeightGrid& grid, CellPlace place) {
   return {place, grid.rows, grid.columns, std::move(posts)};
 }
 
+// A wavelet rings beside cliffs, and land is never at exactly 0 m.
+std::int16_t land_below(std::int16_t peak_m, std::int16_t height_m) {
+  const std::int16_t lower_m = std::min(peak_m, height_m);
+  if (lower_m != 0) return lower_m;
+  return peak_m > 0 ? std::int16_t{1} : std::int16_t{-1};
+}
+
 // The posts with what the side file says put over them.
 Cell marked(const Cell& cell, const SideLevel& level, int reduction) {
   const int rows = cell.rows();
@@ -35,10 +42,8 @@ Cell marked(const Cell& cell, const SideLevel& level, int reduction) {
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
       std::int16_t post_m = cell.post(row, column);
-      if (reduction > 0 && level.sea[posts.size()])
-        post_m = 0;
-      else if (reduction > 0 && post_m == 0)
-        post_m = 1;  // land is never at exactly 0 m
+      if (reduction > 0)
+        post_m = level.sea[posts.size()] ? std::int16_t{0} : land_below(level.peaks->post(row, column), post_m);
       posts.push_back(level.voids[posts.size()] ? kVoidPost : post_m);
     }
   if (reduction > 0) {
