@@ -120,6 +120,7 @@ failure::Expected<std::vector<float>> warp(const Raster& raster, const Strip& st
   const MessageKeeper messages;
   std::vector<std::string> arguments = warp_arguments(raster, strip);
   std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   const std::unique_ptr<GDALWarpAppOptions, DestroyOptions> options(GDALWarpAppOptionsNew(pointers.data(), nullptr));
