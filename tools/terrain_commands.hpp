@@ -11,5 +11,8 @@ void add_terrain_info(CLI::App& terrain);
 void add_terrain_image(CLI::App& terrain);
 void add_terrain_profile(CLI::App& terrain);
 void add_terrain_dump(CLI::App& terrain);
+void add_terrain_reduce(CLI::App& terrain);
+void add_terrain_convert(CLI::App& terrain);
+void add_terrain_pack(CLI::App& terrain);
 
 }  // namespace yars::tools

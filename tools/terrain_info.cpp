@@ -44,10 +44,10 @@ void print_cell(const Cell& cell, const CellFile& file) {
 }
 
 void info(const std::string& directory) {
-  const auto index = index_directory(directory);
+  std::vector<std::string> problems;
+  const auto index = index_directory(directory, &problems);
   if (!index) give_up(index.error());
   Totals totals;
-  std::vector<std::string> problems;
   std::printf("south   west  columns x rows  min_m  max_m    voids   sea_%%  file\n");
   for (const auto& [slot, file] : *index) {
     const auto reading = read_cell(file, place_of_slot(slot));

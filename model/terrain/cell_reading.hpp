@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,12 +14,20 @@
 namespace yars::model::terrain {
 
 struct CellReading {
-  Cell cell;
+  Cell cell;                          // its grid is what was achieved: (rows - 1) x (columns - 1) posts per degree
+  std::optional<Cell> peaks;          // of a reduced reading, on the same grid; see reduce.hpp
   std::vector<std::string> warnings;  // one sentence each, without the file's name
 };
 
 // A whole file in memory. Fails on a file that cannot be opened or is larger than `limit_bytes`.
 failure::Expected<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::size_t limit_bytes);
+
+// So many bytes of a file from `offset` on. Fails on a file that cannot be opened or ends before.
+failure::Expected<std::vector<std::byte>> read_file_part(const std::filesystem::path& path, std::uintmax_t offset,
+                                                         std::size_t bytes);
+
+// The length of a plain file.
+failure::Expected<std::uintmax_t> file_length(const std::filesystem::path& path);
 
 // Big-endian words of elevation files; the caller has checked that two (four) bytes are there.
 inline std::uint16_t big_endian_16(const std::byte* bytes) {

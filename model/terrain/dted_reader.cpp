@@ -198,7 +198,7 @@ failure::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, cons
   const failure::Expected<Oddities> odd = gather_words(data, *header, subject, words);
   if (!odd) return tl::unexpected(odd.error());
   const bool twos_complement = is_twos_complement(words);
-  return CellReading{Cell(place, header->rows, header->columns, decode(words, twos_complement)),
+  return CellReading{Cell(place, header->rows, header->columns, decode(words, twos_complement)), std::nullopt,
                      warnings_of(*odd, *header, twos_complement)};
 }
 

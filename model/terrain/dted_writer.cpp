@@ -4,12 +4,11 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <string_view>
-#include <system_error>
 
 #include "lib/failure/require.hpp"
 #include "model/terrain/dted_format.hpp"
+#include "model/terrain/whole_file_writer.hpp"
 
 namespace yars::model::terrain {
 
@@ -119,21 +118,7 @@ std::vector<std::byte> dted_bytes(const Cell& cell, int level) {
 }
 
 failure::Expected<std::filesystem::path> write_dted(const std::filesystem::path& tree, const Cell& cell, int level) {
-  const std::filesystem::path path = tree / dted_name(cell.place(), level);
-  const std::filesystem::path beside = path.string() + ".tmp";
-  std::error_code code;
-  std::filesystem::create_directories(path.parent_path(), code);
-  if (code) return failure::fail(path.parent_path().string(), "a folder that can be made", code.message());
-  const std::vector<std::byte> bytes = dted_bytes(cell, level);
-  std::ofstream file(beside, std::ios::binary | std::ios::trunc);
-  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file)
-    return failure::fail(beside.string(), "a file of " + std::to_string(bytes.size()) + " bytes to be written",
-                         "a failed write", "check the folder and the space on the disk");
-  std::filesystem::rename(beside, path, code);
-  if (code) return failure::fail(path.string(), "a file that can be replaced", code.message());
-  return path;
+  return write_whole_file(tree / dted_name(cell.place(), level), dted_bytes(cell, level));
 }
 
 }  // namespace yars::model::terrain

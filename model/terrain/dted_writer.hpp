@@ -1,4 +1,4 @@
-// Writes a cell as DTED level 0 or 1 (MIL-PRF-89020B): whole columns, sign-magnitude, right checksums.
+// Writes a cell as DTED level 0, 1 or 2 (MIL-PRF-89020B): whole columns, sign-magnitude, right checksums.
 // Errors of write_dted: the file cannot be written. The cell needs kPostsOfLevel[level] rows.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace yars::model::terrain {
 
 std::vector<std::byte> dted_bytes(const Cell& cell, int level);
 
-// `tree`/wLLL/nBB.dtN, folders made as needed; written beside and renamed, so that no reader meets half a cell.
+// `tree`/wLLL/nBB.dtN, written as whole_file_writer.hpp says.
 failure::Expected<std::filesystem::path> write_dted(const std::filesystem::path& tree, const Cell& cell, int level);
 
 // Below a tree: "w122/n36.dt1".

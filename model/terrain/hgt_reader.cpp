@@ -29,13 +29,10 @@ failure::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const
     for (std::size_t column = 0; column < side; ++column)
       heights[(side - 1 - row) * side + column] =
           static_cast<std::int16_t>(big_endian_16(&bytes[2 * (row * side + column)]));
-  return CellReading{Cell(place, posts, posts, std::move(heights)), {}};
+  return CellReading{Cell(place, posts, posts, std::move(heights)), std::nullopt, {}};
 }
 
 failure::Expected<CellReading> read_hgt(const std::filesystem::path& path, CellPlace place) {
-  const std::string extension = path.extension().string();
-  if (extension == ".zip" || extension == ".gz")
-    return failure::fail(path.string(), "an unpacked .hgt file", "a packed one", "unpack it beside");
   const auto bytes = read_file(path, bytes_of(kPosts[1]));
   if (!bytes) return tl::unexpected(bytes.error());
   return parse_hgt(*bytes, path.string(), place);

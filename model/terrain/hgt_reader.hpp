@@ -1,6 +1,6 @@
 // Reads one SRTM cell: 1201 x 1201 or 3601 x 3601 heights, big-endian two's complement, rows from north to south,
 // void -32768. The file has no header: its name is its place and its length tells the spacing.
-// Errors: another length; a .zip or .gz.
+// Errors: another length. Packed files: packed_hgt_reader.hpp.
 #pragma once
 
 #include <cstddef>

@@ -3,11 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "model/terrain/gdal/raster.hpp"
+#include "tests/terrain/ded_builder.hpp"
 #include "tests/terrain/dted_builder.hpp"
 
 namespace yars::model::terrain {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 const std::vector<std::byte> kAnything(10);
@@ -25,6 +28,7 @@ TEST(DirectoryIndex, NamesGiveThePlace) {
   EXPECT_EQ(cell_named("anywhere", "N36W122.hgt")->place, (CellPlace{36, -122}));
   EXPECT_EQ(cell_named("anywhere", "s46w066.HGT.GZ")->place, (CellPlace{-46, -66}));
   EXPECT_EQ(cell_named("anywhere", "N43E007.hgt.zip")->format, CellFormat::packed_hgt);
+  EXPECT_EQ(cell_named("W122", "N36.JP2")->format, CellFormat::pack);
 }
 
 TEST(DirectoryIndex, OtherNamesAreNoCells) {
@@ -35,6 +39,8 @@ TEST(DirectoryIndex, OtherNamesAreNoCells) {
   EXPECT_FALSE(cell_named("e180", "n36.dt1").has_value());
   EXPECT_FALSE(cell_named("w122", "n36.dt1.tmp").has_value());
   EXPECT_FALSE(cell_named("x", "N36W122.hgt.7z").has_value());
+  EXPECT_FALSE(cell_named("somewhere", "n36.jp2").has_value());
+  EXPECT_FALSE(cell_named("w122", "n36.side").has_value());
   EXPECT_FALSE(cell_named("", "").has_value());
 }
 
@@ -70,6 +76,58 @@ TEST(DirectoryIndex, OfEqualsTheFirstPathWinsHoweverTheDirectoryIsOrdered) {
   const test::TemporaryFolder folder;
   for (const char* name : {"m", "z", "b", "k"}) folder.write(std::string(name) + "/w122/n36.dt1", kAnything);
   EXPECT_EQ(chosen(folder, {36, -122}), "b/w122/n36.dt1");
+}
+
+TEST(DirectoryIndex, TheSpacingIsKnownBothWays) {
+  const test::TemporaryFolder folder;
+  folder.write("e013/n54.dt1", kAnything);
+  test::DedFile ded;
+  ded.cells = {test::ded_cell(36, -122, 5, 4)};
+  folder.write("area.ded", ded.bytes());
+  const auto index = index_directory(folder.path());
+  ASSERT_TRUE(index.has_value()) << index.error().message();
+  EXPECT_EQ(index->at(slot_of({54, 13})).posts_per_degree, 1200);
+  EXPECT_EQ(index->at(slot_of({54, 13})).posts_per_degree_east, 600);
+  EXPECT_EQ(index->at(slot_of({36, -122})).posts_per_degree, 4);
+  EXPECT_EQ(index->at(slot_of({36, -122})).posts_per_degree_east, 3);
+}
+
+TEST(DirectoryIndex, AFileThatCannotBeUsedIsAProblemAndTheRestGoesOn) {
+  const test::TemporaryFolder folder;
+  folder.write("w122/n36.dt1", kAnything);
+  folder.write("broken.ded", kAnything);
+  folder.write("pointer.VRT", kAnything);
+  std::vector<std::string> problems;
+  const auto index = index_directory(folder.path(), &problems);
+  ASSERT_TRUE(index.has_value());
+  EXPECT_EQ(index->size(), 1U);
+  EXPECT_THAT(problems, ElementsAre(HasSubstr("broken.ded"), HasSubstr("gdal_translate")));
+  std::filesystem::remove_all(folder.path() / "w122");
+  EXPECT_THAT(index_directory(folder.path()).error().message(), HasSubstr("broken.ded"));
+}
+
+TEST(DirectoryIndex, WithoutGdalEachRasterIsNamedWithWhatToDo) {
+  if (gdal::available()) GTEST_SKIP() << "this build has GDAL";
+  const test::TemporaryFolder folder;
+  folder.write("w122/n36.dt1", kAnything);
+  folder.write("a.tif", kAnything);
+  folder.write("b.img", kAnything);
+  std::vector<std::string> problems;
+  ASSERT_TRUE(index_directory(folder.path(), &problems).has_value());
+  EXPECT_THAT(problems, ElementsAre(HasSubstr("scripts/setup --gdal"), HasSubstr("scripts/setup --gdal")));
+}
+
+TEST(DirectoryIndex, ASingleFileHasItsOwnCells) {
+  const test::TemporaryFolder folder;
+  test::DedFile ded;
+  ded.cells = {test::ded_cell(36, -122, 5, 4), test::ded_cell(37, -122, 5, 4)};
+  folder.write("area.ded", ded.bytes());
+  folder.write("w122/n36.dt0", kAnything);
+  EXPECT_EQ(index_file(folder.path() / "area.ded")->size(), 2U);
+  EXPECT_EQ(index_file(folder.path() / "w122/n36.dt0")->at(slot_of({36, -122})).format, CellFormat::dted);
+  EXPECT_THAT(index_file(folder.path() / "gone.ded").error().message(), HasSubstr("gone.ded"));
+  folder.write("readme.txt", kAnything);
+  EXPECT_THAT(index_file(folder.path() / "readme.txt").error().message(), HasSubstr("readme.txt"));
 }
 
 TEST(DirectoryIndex, AMissingDirectoryAndOneWithoutCellsAreErrors) {

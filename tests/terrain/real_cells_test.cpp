@@ -5,6 +5,10 @@
 
 #include "model/terrain/directory_index.hpp"
 #include "model/terrain/directory_store.hpp"
+#include "model/terrain/pack_reader.hpp"
+#include "model/terrain/pack_writer.hpp"
+#include "model/terrain/reduce.hpp"
+#include "tests/terrain/rough_cell.hpp"
 #include "tests/terrain/shared_data.hpp"
 
 namespace yars::model::terrain {
@@ -94,14 +98,38 @@ TEST(RealCells, AHeaderWithoutDataIsRefused) {
   EXPECT_THAT(reading.error().message(), ::testing::HasSubstr("truncated"));
 }
 
-TEST(RealCells, APackedHgtIsRefusedWithAWord) {
+TEST(RealCells, PackedHgtReadsLikePlain) {
   YARS_NEEDS_SHARED_DATA();
-  const auto index = index_directory(test::shared_data() / "srtm");
-  ASSERT_TRUE(index.has_value());
-  const CellFile& file = index->at(slot_of({43, 7}));
-  const auto reading = read_cell(file, {43, 7});
-  ASSERT_FALSE(reading.has_value());
-  EXPECT_THAT(reading.error().message(), ::testing::HasSubstr("unpack"));
+  const Cell cell = cell_of("srtm/N43E007.hgt.zip", CellFormat::packed_hgt, {43, 7});
+  EXPECT_EQ(cell.rows(), 1201);
+  // The highest ground of the cell lies in the Maritime Alps, the lowest is the sea.
+  EXPECT_GT(cell.highest_m(), 1500);
+  EXPECT_GT(cell.sea_posts(), 100000U);
+  EXPECT_EQ(cell_of("srtm/S46W066.hgt.gz", CellFormat::packed_hgt, {-46, -66}).rows(), 3601);
+}
+
+TEST(RealCells, PackedByWaveletTheyUnpackToTheSameBits) {
+  YARS_NEEDS_SHARED_DATA();
+  for (const Cell& cell : {cell_of("dted/w122/n37.dt0", CellFormat::dted, {37, -122}),
+                           cell_of("dted/e006/n00.dt1", CellFormat::dted, {0, 6}),
+                           cell_of("dted/e013/n54.dt1", CellFormat::dted, {54, 13})}) {
+    const auto packed = pack_cell(cell);
+    ASSERT_TRUE(packed.has_value()) << packed.error().message();
+    const auto reading = parse_pack(packed->jp2, packed->side, "pack", cell.place(), 0);
+    ASSERT_TRUE(reading.has_value()) << reading.error().message();
+    EXPECT_TRUE(test::same_posts(reading->cell, cell));
+  }
+}
+
+TEST(RealCells, ReducedEdgesOfNeighboursStayIdentical) {
+  YARS_NEEDS_SHARED_DATA();
+  const Cell west = cell_of("dted/w122/n37.dt0", CellFormat::dted, {37, -122});
+  const Cell east = cell_of("dted/w121/n37.dt0", CellFormat::dted, {37, -121});
+  for (int reduction = 1; reduction <= 3; ++reduction) {
+    const Cell a = reduce(west, reduction).means;
+    const Cell b = reduce(east, reduction).means;
+    for (int row = 0; row < a.rows(); ++row) EXPECT_EQ(a.post(row, a.columns() - 1), b.post(row, 0));
+  }
 }
 
 }  // namespace

@@ -1,0 +1,134 @@
+#include "model/terrain/cell_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+#include <utility>
+
+#include "lib/failure/require.hpp"
+#include "model/terrain/ded_reader.hpp"
+#include "model/terrain/dted_reader.hpp"
+#include "model/terrain/gdal/raster.hpp"
+#include "model/terrain/hgt_reader.hpp"
+#include "model/terrain/pack_reader.hpp"
+#include "model/terrain/packed_hgt_reader.hpp"
+#include "model/terrain/reduce.hpp"
+
+namespace yars::model::terrain {
+
+namespace {
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return text;
+}
+
+// A hemisphere letter and so many digits, as signed degrees.
+std::optional<int> signed_degrees(std::string_view text, char positive, char negative, std::size_t digits) {
+  if (text.size() != digits + 1 || (text[0] != positive && text[0] != negative)) return std::nullopt;
+  int degrees = 0;
+  for (const char digit : text.substr(1)) {
+    if (digit < '0' || digit > '9') return std::nullopt;
+    degrees = degrees * 10 + (digit - '0');
+  }
+  return text[0] == positive ? degrees : -degrees;
+}
+
+std::optional<CellPlace> place_named(std::string_view latitude, std::string_view longitude) {
+  const std::optional<int> south_deg = signed_degrees(latitude, 'n', 's', 2);
+  const std::optional<int> west_deg = signed_degrees(longitude, 'e', 'w', 3);
+  if (!south_deg || !west_deg) return std::nullopt;
+  if (*south_deg < -90 || *south_deg > 89 || *west_deg < -180 || *west_deg > 179) return std::nullopt;
+  return CellPlace{*south_deg, *west_deg};
+}
+
+failure::Expected<CellReading> read_whole(const CellFile& file, CellPlace place) {
+  switch (file.format) {
+    case CellFormat::dted:
+      return read_dted(file.path, place);
+    case CellFormat::hgt:
+      return read_hgt(file.path, place);
+    case CellFormat::ded:
+      return read_ded(file.path, place);
+    default:
+      return read_packed_hgt(file.path, place);
+  }
+}
+
+failure::Expected<CellReading> reduced(failure::Expected<CellReading> reading, int reduction) {
+  if (!reading || reduction == 0) return reading;
+  ReducedCell coarse = reduce(reading->cell, reduction);
+  return CellReading{std::move(coarse.means), std::move(coarse.peaks), std::move(reading->warnings)};
+}
+
+failure::Expected<CellReading> read_raster_cell(const CellFile& file, CellPlace place, int reduction) {
+  static_assert(gdal::kNoHeight == kVoidPost);
+  int north = file.posts_per_degree;
+  int east = file.posts_per_degree_east;
+  if (north == 0 || east == 0) {
+    const auto summary = gdal::describe_raster(file.path);
+    if (!summary) return tl::unexpected(summary.error());
+    north = summary->posts_per_degree_north;
+    east = summary->posts_per_degree_east;
+  }
+  // Peaks are of the posts that are read: no coarser than an arc second.
+  constexpr int kFinestReduced = 3600;
+  int left = reduction;
+  for (; left > 0 && std::max(north, east) > kFinestReduced && north % 2 == 0 && east % 2 == 0; --left) {
+    north /= 2;
+    east /= 2;
+  }
+  auto posts = gdal::read_raster(file.path, place.south_deg, place.west_deg, north, east);
+  if (!posts) return tl::unexpected(posts.error());
+  Cell cell(place, posts->rows, posts->columns, std::move(posts->posts));
+  // A reduced reading always has peaks, also where smoothing was all of it.
+  if (reduction > 0 && left == 0) {
+    Cell peaks = cell;
+    return CellReading{std::move(cell), std::move(peaks), {}};
+  }
+  return reduced(CellReading{std::move(cell), std::nullopt, {}}, left);
+}
+
+}  // namespace
+
+std::optional<NamedCell> cell_named(const std::string& folder, const std::string& file) {
+  const std::string name = lower_case(file);
+  const std::string_view view = name;
+  if (view.size() == 7 && view[3] == '.') {
+    const std::optional<CellPlace> place = place_named(view.substr(0, 3), lower_case(folder));
+    if (place && view.substr(4, 2) == "dt" && view[6] >= '0' && view[6] <= '2')
+      return NamedCell{*place, CellFormat::dted, view[6] - '0'};
+    if (place && view.substr(4) == "jp2") return NamedCell{*place, CellFormat::pack};
+  }
+  if (view.size() >= 11 && view.substr(7, 4) == ".hgt") {
+    const std::string_view packing = view.substr(11);
+    const std::optional<CellPlace> place = place_named(view.substr(0, 3), view.substr(3, 4));
+    if (place && packing.empty()) return NamedCell{*place, CellFormat::hgt};
+    if (place && (packing == ".zip" || packing == ".gz")) return NamedCell{*place, CellFormat::packed_hgt};
+  }
+  return std::nullopt;
+}
+
+bool is_ded_name(const std::filesystem::path& path) {
+  return lower_case(path.extension().string()) == ".ded";
+}
+
+bool is_raster_name(const std::filesystem::path& path) {
+  constexpr std::array<std::string_view, 5> kExtensions = {".tif", ".tiff", ".jp2", ".img", ".vrt"};
+  return std::find(kExtensions.begin(), kExtensions.end(), lower_case(path.extension().string())) != kExtensions.end();
+}
+
+bool is_virtual_raster_name(const std::filesystem::path& path) {
+  return lower_case(path.extension().string()) == ".vrt";
+}
+
+failure::Expected<CellReading> read_cell(const CellFile& file, CellPlace place, int reduction) {
+  YARS_REQUIRE(reduction, >=, 0);
+  if (file.format == CellFormat::pack) return read_pack(file.path, place, reduction);
+  if (file.format == CellFormat::raster) return read_raster_cell(file, place, reduction);
+  return reduced(read_whole(file, place), reduction);
+}
+
+}  // namespace yars::model::terrain

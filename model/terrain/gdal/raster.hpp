@@ -1,0 +1,52 @@
+// Rasters of heights that GDAL opens, as one-degree cells. The only door to GDAL; a build without it has the same
+// functions, which fail with a word (raster_absent.cpp).
+// Opened are plain files through drivers that read one local file: GeoTIFF, JPEG 2000, Erdas Imagine, ASCII and BIL
+// grids, ENVI, USGS DEM, DTED, HGT. Never a .vrt: it may name any path or address.
+// A raster needs one band of 16-bit or real heights, a coordinate system and a geotransform; feet become metres.
+// Posts: rows from south to north, both edges of the degree included, metres; kNoHeight outside the raster and where
+// it has no data. Bilinear; a height that is not 0 m rounds to at least 1 m away from it (0 m means sea).
+// Errors: GDAL cannot open or read it, or it is not such a raster. Thread-safe: each call opens the file anew.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "lib/failure/error.hpp"
+
+namespace yars::model::terrain::gdal {
+
+inline constexpr std::int16_t kNoHeight = -32768;
+inline constexpr int kMostPostsPerDegree = 7200;  // 0.5 arc seconds: a cell of finer posts would not fit in memory
+
+// False where YARS was built without GDAL.
+bool available();
+
+struct RasterCell {
+  int south_deg = 0;
+  int west_deg = 0;
+  double covered = 0.0;  // (0, 1] share of the degree that the raster spans
+};
+
+struct RasterSummary {
+  // Nearest to the raster's own spacing of 15, 75 and 225 times a power of two, so that it halves often.
+  int posts_per_degree_north = 0;
+  int posts_per_degree_east = 0;
+  std::vector<RasterCell> cells;  // that the raster touches by more than a quarter of a pixel
+};
+
+// From the header alone.
+failure::Expected<RasterSummary> describe_raster(const std::filesystem::path& path);
+
+struct RasterPosts {
+  int rows = 0;
+  int columns = 0;
+  std::vector<std::int16_t> posts;  // [m]
+};
+
+// The posts of one degree, so many intervals a side; coarser than the raster: smoothed, through its overviews.
+failure::Expected<RasterPosts> read_raster(const std::filesystem::path& path, int south_deg, int west_deg,
+                                           int posts_per_degree_north, int posts_per_degree_east);
+
+}  // namespace yars::model::terrain::gdal

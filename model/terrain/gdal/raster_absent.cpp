@@ -1,0 +1,28 @@
+// In place of raster.cpp in a build without GDAL.
+#include "model/terrain/gdal/raster.hpp"
+
+namespace yars::model::terrain::gdal {
+
+namespace {
+
+tl::unexpected<failure::Error> built_without(const std::filesystem::path& path) {
+  return failure::fail(path.string(), "a YARS built with GDAL to read this raster", "one built without it",
+                       "run `scripts/setup --gdal` and build again");
+}
+
+}  // namespace
+
+bool available() {
+  return false;
+}
+
+failure::Expected<RasterSummary> describe_raster(const std::filesystem::path& path) {
+  return built_without(path);
+}
+
+failure::Expected<RasterPosts> read_raster(const std::filesystem::path& path, int /*south_deg*/, int /*west_deg*/,
+                                           int /*posts_per_degree_north*/, int /*posts_per_degree_east*/) {
+  return built_without(path);
+}
+
+}  // namespace yars::model::terrain::gdal

@@ -1,0 +1,146 @@
+#include "model/terrain/packed_hgt_reader.hpp"
+
+#include <zip.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+#include <optional>
+
+#include "model/terrain/hgt_reader.hpp"
+
+namespace yars::model::terrain {
+
+namespace {
+
+constexpr std::size_t kLargestHgt = 2UL * 3601 * 3601;   // [bytes]
+constexpr std::size_t kLargestPackedFile = 64UL << 20U;  // [bytes] more is no packed cell
+constexpr const char* kFetchAgain = "fetch the file again";
+
+struct CloseGzip {
+  void operator()(gzFile file) const { gzclose_r(file); }
+};
+struct DiscardZip {
+  void operator()(zip_t* archive) const { zip_discard(archive); }
+};
+struct CloseZipEntry {
+  void operator()(zip_file_t* file) const { zip_fclose(file); }
+};
+using ZipArchive = std::unique_ptr<zip_t, DiscardZip>;
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return text;
+}
+
+bool is_gzip(const std::filesystem::path& path) {
+  return lower_case(path.extension().string()) == ".gz";
+}
+
+failure::Expected<std::vector<std::byte>> inflate_gzip(const std::filesystem::path& path) {
+  const std::unique_ptr<gzFile_s, CloseGzip> file(gzopen(path.c_str(), "rb"));
+  if (!file) return failure::fail(path.string(), "a gzip file", "one that cannot be opened");
+  // One byte more than any cell has tells a longer stream.
+  std::vector<std::byte> bytes(kLargestHgt + 1);
+  std::size_t filled = 0;
+  while (filled < bytes.size()) {
+    const int got = gzread(file.get(), bytes.data() + filled, static_cast<unsigned>(bytes.size() - filled));
+    if (got < 0) return failure::fail(path.string(), "a whole gzip stream", "a damaged one", kFetchAgain);
+    if (got == 0) break;
+    filled += static_cast<std::size_t>(got);
+  }
+  int status = Z_OK;
+  gzerror(file.get(), &status);
+  if (status != Z_OK) return failure::fail(path.string(), "a whole gzip stream", "a truncated one", kFetchAgain);
+  if (filled > kLargestHgt)
+    return failure::fail(path.string(), "at most " + std::to_string(kLargestHgt) + " bytes unpacked", "more",
+                         "this is no HGT cell");
+  bytes.resize(filled);
+  return bytes;
+}
+
+struct ZipEntry {
+  zip_uint64_t index = 0;
+  zip_uint64_t bytes = 0;
+};
+
+// The entry named like the archive without `.zip`, else the only one that ends in .hgt.
+std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& path) {
+  const std::string wanted = lower_case(path.stem().string());
+  std::optional<ZipEntry> found;
+  int candidates = 0;
+  for (zip_int64_t index = 0; index < zip_get_num_entries(archive, 0); ++index) {
+    zip_stat_t status;
+    if (zip_stat_index(archive, static_cast<zip_uint64_t>(index), 0, &status) != 0) continue;
+    if ((status.valid & ZIP_STAT_NAME) == 0 || (status.valid & ZIP_STAT_SIZE) == 0) continue;
+    const std::filesystem::path name = lower_case(status.name);
+    const ZipEntry entry{static_cast<zip_uint64_t>(index), status.size};
+    if (name.filename() == wanted) return entry;
+    if (name.extension() != ".hgt") continue;
+    found = entry;
+    ++candidates;
+  }
+  return candidates == 1 ? found : std::nullopt;
+}
+
+failure::Expected<ZipArchive> open_zip(const std::filesystem::path& path) {
+  const auto length = file_length(path);
+  if (!length) return tl::unexpected(length.error());
+  if (*length > kLargestPackedFile)
+    return failure::fail(path.string(), "at most " + std::to_string(kLargestPackedFile) + " bytes",
+                         std::to_string(*length) + " bytes", "this is no packed HGT cell");
+  int code = 0;
+  ZipArchive archive(zip_open(path.c_str(), ZIP_RDONLY, &code));
+  if (!archive) return failure::fail(path.string(), "a zip archive", "a damaged one", kFetchAgain);
+  return archive;
+}
+
+failure::Expected<std::vector<std::byte>> inflate_zip(const std::filesystem::path& path) {
+  const auto archive = open_zip(path);
+  if (!archive) return tl::unexpected(archive.error());
+  const std::optional<ZipEntry> entry = hgt_entry(archive->get(), path);
+  if (!entry)
+    return failure::fail(path.string(), "an entry " + path.stem().string() + " or a single .hgt",
+                         "none in the archive");
+  if (hgt_posts_for_size(entry->bytes) == 0)
+    return failure::fail(path.string(), "an entry of 2884802 or 25934402 bytes",
+                         "one of " + std::to_string(entry->bytes) + " bytes", "this is no HGT cell");
+  const std::unique_ptr<zip_file_t, CloseZipEntry> file(zip_fopen_index(archive->get(), entry->index, 0));
+  if (!file) return failure::fail(path.string(), "an entry that can be unpacked", zip_strerror(archive->get()));
+  std::vector<std::byte> bytes(entry->bytes);
+  const zip_int64_t got = zip_fread(file.get(), bytes.data(), bytes.size());
+  // Reading on to the end is what makes the library compare the checksum; it also finds a stream that is longer.
+  std::byte beyond{};
+  if (got != static_cast<zip_int64_t>(bytes.size()) || zip_fread(file.get(), &beyond, 1) != 0)
+    return failure::fail(path.string(), "a whole entry with its checksum", "a damaged one", kFetchAgain);
+  return bytes;
+}
+
+}  // namespace
+
+failure::Expected<CellReading> read_packed_hgt(const std::filesystem::path& path, CellPlace place) {
+  const auto bytes = is_gzip(path) ? inflate_gzip(path) : inflate_zip(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return parse_hgt(*bytes, path.string(), place);
+}
+
+int packed_hgt_posts(const std::filesystem::path& path) {
+  if (is_gzip(path)) {
+    // A gzip stream ends with its unpacked length, little-endian.
+    const auto length = file_length(path);
+    if (!length || *length < 18) return 0;
+    const auto tail = read_file_part(path, *length - 4, 4);
+    if (!tail) return 0;
+    std::uint32_t bytes = 0;
+    for (std::size_t i = 4; i-- > 0;) bytes = bytes << 8U | std::to_integer<std::uint32_t>((*tail)[i]);
+    return hgt_posts_for_size(bytes);
+  }
+  const auto archive = open_zip(path);
+  if (!archive) return 0;
+  const std::optional<ZipEntry> entry = hgt_entry(archive->get(), path);
+  return entry ? hgt_posts_for_size(entry->bytes) : 0;
+}
+
+}  // namespace yars::model::terrain

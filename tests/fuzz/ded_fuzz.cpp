@@ -1,0 +1,43 @@
+// Any bytes as a DED file: cells or an error, and every cell that the headers promise reads. The input is laid over a
+// file that is well formed, in pieces of (offset, length, bytes), so that the reader gets past its magic.
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "lib/failure/require.hpp"
+#include "model/terrain/ded_reader.hpp"
+#include "tests/terrain/ded_builder.hpp"
+
+using namespace yars::model::terrain;
+
+namespace {
+
+std::vector<std::byte> well_formed_file() {
+  yars::test::DedFile file;
+  file.cells = {yars::test::ded_cell(36, -122, 5, 4), yars::test::ded_cell(-90, 179, 3, 3)};
+  return file.bytes();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const std::vector<std::byte> well_formed = well_formed_file();
+  std::vector<std::byte> file = well_formed;
+  const std::uint8_t* const end = data + size;
+  if (size >= 2) {
+    file.resize(file.size() * (256U - data[0]) / 256U + data[1]);
+    data += 2;
+  }
+  while (end - data >= 3 && !file.empty()) {
+    const std::size_t offset = (data[0] * 256U + data[1]) % file.size();
+    const std::size_t length =
+        std::min({std::size_t{data[2]}, static_cast<std::size_t>(end - data - 3), file.size() - offset});
+    std::memcpy(file.data() + offset, data + 3, length);
+    data += 3 + length;
+  }
+  const auto cells = parse_ded_cells(file, "fuzz");
+  if (!cells) return 0;
+  for (const DedCell& cell : *cells) YARS_REQUIRE(parse_ded(file, "fuzz", cell.place).has_value(), ==, true);
+  return 0;
+}

@@ -1,0 +1,160 @@
+// Across the edges of cells of unlike spacing, the antimeridian and the poles the ground is one surface.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "model/terrain/directory_store.hpp"
+#include "model/terrain/dted_format.hpp"
+#include "model/terrain/dted_writer.hpp"
+#include "model/terrain/pack_writer.hpp"
+#include "model/terrain/reduce.hpp"
+#include "tests/terrain/dted_builder.hpp"
+#include "tests/terrain/rough_cell.hpp"
+
+namespace yars::model::terrain {
+namespace {
+
+constexpr double kWaves = 3.0;        // a degree, in each direction
+constexpr double kAmplitude_m = 200;  // of each direction
+constexpr double kHair_deg = 1e-9;
+
+// Hills over the whole earth, the same at 180 and -180; never sea.
+double ground_m(double latitude_deg, double longitude_deg) {
+  const double turn = 2 * std::numbers::pi * kWaves;
+  return 1000 + kAmplitude_m * std::sin(turn * latitude_deg) + kAmplitude_m * std::cos(turn * (longitude_deg + 0.1));
+}
+
+// How far straight lines between posts so far apart may leave the ground along an edge, and rounding to metres.
+double bound_m(int intervals) {
+  const double turn = 2 * std::numbers::pi * kWaves / intervals;
+  return kAmplitude_m * turn * turn / 8 + 0.5;
+}
+
+Cell ground_cell(CellPlace place, int rows, int columns) {
+  return test::cell_of(place, rows, columns, [&](int row, int column) {
+    return static_cast<int>(std::lround(ground_m(place.south_deg + static_cast<double>(row) / (rows - 1),
+                                                 place.west_deg + static_cast<double>(column) / (columns - 1))));
+  });
+}
+
+void put_ground(const test::TemporaryFolder& folder, CellPlace place, int level) {
+  const auto path =
+      write_dted(folder.path(), ground_cell(place, dted::kPostsOfLevel[level], dted_columns(place, level)), level);
+  ASSERT_TRUE(path.has_value()) << path.error().message();
+}
+
+std::unique_ptr<DirectoryTerrainStore> open_store(const test::TemporaryFolder& folder) {
+  auto store = DirectoryTerrainStore::open(folder.path(), {.missing_cell_is_sea = false});
+  EXPECT_TRUE(store.has_value()) << store.error().message();
+  return std::move(store.value());
+}
+
+// Both sides of the meridian, from south to north, against the ground and each other.
+void expect_meridian_is_no_seam(const TerrainView& view, double longitude_deg, double south_deg, int coarse) {
+  for (int step = 0; step <= 500; ++step) {
+    const double latitude_deg = south_deg + (step + 0.37) / 502;
+    const double west_m = view.elevation_m({latitude_deg, longitude_deg - kHair_deg});
+    const double east_m = view.elevation_m({latitude_deg, longitude_deg + kHair_deg});
+    ASSERT_NEAR(west_m, ground_m(latitude_deg, longitude_deg), bound_m(coarse)) << latitude_deg;
+    ASSERT_NEAR(east_m, west_m, bound_m(coarse) + 0.5) << latitude_deg;
+  }
+}
+
+void expect_parallel_is_no_seam(const TerrainView& view, double latitude_deg, double west_deg, int coarse) {
+  for (int step = 0; step <= 500; ++step) {
+    const double longitude_deg = west_deg + (step + 0.37) / 502;
+    const double south_m = view.elevation_m({latitude_deg - kHair_deg, longitude_deg});
+    const double north_m = view.elevation_m({latitude_deg + kHair_deg, longitude_deg});
+    ASSERT_NEAR(south_m, ground_m(latitude_deg, longitude_deg), bound_m(coarse)) << longitude_deg;
+    ASSERT_NEAR(north_m, south_m, bound_m(coarse) + 0.5) << longitude_deg;
+  }
+}
+
+TEST(CellSeams, LevelZeroBesideLevelOneMeetsAsWellAsTheCoarserCan) {
+  const test::TemporaryFolder folder;
+  put_ground(folder, {36, -122}, 0);
+  put_ground(folder, {36, -121}, 1);
+  put_ground(folder, {37, -122}, 1);
+  const auto store = open_store(folder);
+  const auto view = store->prepare({{37.0, -121.0}, 50e3});
+  expect_meridian_is_no_seam(*view, -121.0, 36.0, 120);
+  expect_parallel_is_no_seam(*view, 37.0, -122.0, 120);
+}
+
+TEST(CellSeams, ZonesOfFewerColumnsMeet) {
+  const test::TemporaryFolder folder;
+  put_ground(folder, {49, 10}, 0);
+  put_ground(folder, {50, 10}, 0);
+  put_ground(folder, {79, 10}, 0);
+  put_ground(folder, {80, 10}, 0);
+  const auto store = open_store(folder);
+  expect_parallel_is_no_seam(*store->prepare({{50.0, 10.5}, 50e3}), 50.0, 10.0, 60);
+  expect_parallel_is_no_seam(*store->prepare({{80.0, 10.5}, 20e3}), 80.0, 10.0, 20);
+}
+
+TEST(CellSeams, TheAntimeridianIsAnEdgeLikeOthers) {
+  const test::TemporaryFolder folder;
+  put_ground(folder, {10, 179}, 0);
+  put_ground(folder, {10, -180}, 0);
+  const auto store = open_store(folder);
+  const auto view = store->prepare({{10.5, 180.0}, 20e3});
+  expect_meridian_is_no_seam(*view, 180.0, 10.0, 120);
+  expect_meridian_is_no_seam(*view, -180.0, 10.0, 120);
+}
+
+TEST(CellSeams, ThePolesAreReachedAndNotVoid) {
+  const test::TemporaryFolder folder;
+  for (const int west : {-180, -1, 0, 179}) {
+    put_ground(folder, {89, west}, 0);
+    put_ground(folder, {-90, west}, 0);
+  }
+  const auto store = open_store(folder);
+  const auto north = store->prepare({{89.9, 0.0}, 60e3});
+  expect_meridian_is_no_seam(*north, 0.0, 89.0, 20);
+  expect_meridian_is_no_seam(*north, 180.0, 89.0, 20);
+  EXPECT_NEAR(north->elevation_m({90.0, 0.5}), ground_m(90.0, 0.5), bound_m(20));
+  const auto south = store->prepare({{-89.9, 0.0}, 60e3});
+  expect_meridian_is_no_seam(*south, 0.0, -90.0, 20);
+  EXPECT_NEAR(south->elevation_m({-90.0, 0.5}), ground_m(-90.0, 0.5), bound_m(20));
+}
+
+TEST(CellSeams, NothingInsideCellsWithoutVoidsIsVoid) {
+  const test::TemporaryFolder folder;
+  put_ground(folder, {50, 179}, 0);
+  put_ground(folder, {49, 179}, 1);
+  put_ground(folder, {50, -180}, 1);
+  put_ground(folder, {49, -180}, 0);
+  const auto store = open_store(folder);
+  const auto view = store->prepare({{50.0, 180.0}, 120e3});
+  std::vector<double> latitudes;
+  std::vector<double> longitudes;
+  for (int i = 0; i < 400; ++i)
+    for (int j = 0; j < 400; ++j) {
+      latitudes.push_back(49.0 + i / 200.0);
+      longitudes.push_back(179.0 + j / 200.0);
+    }
+  std::vector<float> elevation_m(latitudes.size());
+  std::vector<float> water(latitudes.size());
+  EXPECT_EQ(view->elevations(latitudes, longitudes, elevation_m, water), 0U);
+  for (std::size_t i = 0; i < elevation_m.size(); ++i)
+    ASSERT_NEAR(elevation_m[i], ground_m(latitudes[i], longitudes[i]), 2 * bound_m(60) + 0.1)
+        << latitudes[i] << ", " << longitudes[i];
+}
+
+TEST(CellSeams, ReducedCellsAndPacksOfOneReductionMeetExactly) {
+  const Cell west = ground_cell({36, -122}, 121, 121);
+  const Cell east = ground_cell({36, -121}, 121, 121);
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(write_pack(folder.path(), east).has_value());
+  for (int reduction = 1; reduction <= 3; ++reduction) {
+    const Cell a = reduce(west, reduction).means;
+    const auto b = read_cell({folder.path() / "w121/n36.jp2", CellFormat::pack}, {36, -121}, reduction);
+    ASSERT_TRUE(b.has_value()) << b.error().message();
+    for (int row = 0; row < a.rows(); ++row) EXPECT_EQ(a.post(row, a.columns() - 1), b->cell.post(row, 0));
+  }
+}
+
+}  // namespace
+}  // namespace yars::model::terrain

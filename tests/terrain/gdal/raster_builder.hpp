@@ -1,0 +1,72 @@
+// Makes rasters with GDAL itself for the tests.
+#pragma once
+
+#include <gdal.h>
+#include <ogr_srs_api.h>
+
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace yars::test {
+
+struct RasterFields {
+  int columns = 0, rows = 0;
+  std::array<double, 6> geotransform{};  // of pixel corners, north up
+  int epsg = 4326;                       // 0: no coordinate system
+  GDALDataType type = GDT_Int16;
+  int bands = 1;
+  std::optional<double> void_value = {};
+  const char* unit = nullptr;
+  const char* driver = "GTiff";
+};
+
+// Pixels a degree, their middles on whole fractions of the degree as in elevation rasters: both edges included.
+inline RasterFields degree_raster(int south_deg, int west_deg, int posts) {
+  const double step = 1.0 / (posts - 1);
+  return {posts, posts, {west_deg - step / 2, step, 0, south_deg + 1 + step / 2, 0, -step}};
+}
+
+// height(row from the north, column).
+inline void write_raster(const std::filesystem::path& path, const RasterFields& fields,
+                         const std::function<double(int, int)>& height) {
+  GDALAllRegister();
+  std::filesystem::create_directories(path.parent_path());
+  const GDALDriverH memory = GDALGetDriverByName("MEM");
+  const GDALDatasetH dataset = GDALCreate(memory, "", fields.columns, fields.rows, fields.bands, fields.type, nullptr);
+  std::array<double, 6> geotransform = fields.geotransform;
+  GDALSetGeoTransform(dataset, geotransform.data());
+  if (fields.epsg != 0) {
+    const OGRSpatialReferenceH reference = OSRNewSpatialReference(nullptr);
+    OSRImportFromEPSG(reference, fields.epsg);
+    OSRSetAxisMappingStrategy(reference, OAMS_TRADITIONAL_GIS_ORDER);
+    GDALSetSpatialRef(dataset, reference);
+    OSRDestroySpatialReference(reference);
+  }
+  const GDALRasterBandH band = GDALGetRasterBand(dataset, 1);
+  if (fields.void_value) GDALSetRasterNoDataValue(band, *fields.void_value);
+  if (fields.unit != nullptr) GDALSetRasterUnitType(band, fields.unit);
+  std::vector<double> line(static_cast<std::size_t>(fields.columns));
+  for (int row = 0; row < fields.rows; ++row) {
+    for (int column = 0; column < fields.columns; ++column)
+      line[static_cast<std::size_t>(column)] = height(row, column);
+    if (GDALRasterIO(band, GF_Write, 0, row, fields.columns, 1, line.data(), fields.columns, 1, GDT_Float64, 0, 0) !=
+        CE_None)
+      std::abort();
+  }
+  std::vector<char*> options;
+  char reversible[] = "REVERSIBLE=YES";
+  char quality[] = "QUALITY=100";
+  if (std::string_view(fields.driver) == "JP2OpenJPEG") options = {reversible, quality};
+  options.push_back(nullptr);
+  GDALClose(
+      GDALCreateCopy(GDALGetDriverByName(fields.driver), path.c_str(), dataset, 0, options.data(), nullptr, nullptr));
+  GDALClose(dataset);
+}
+
+}  // namespace yars::test

@@ -1,0 +1,132 @@
+#include "model/terrain/packed_hgt_reader.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <zip.h>
+#include <zlib.h>
+
+#include "model/terrain/cell_file.hpp"
+#include "model/terrain/directory_index.hpp"
+#include "tests/terrain/dted_builder.hpp"
+
+namespace yars::model::terrain {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr std::size_t kSide = 1201;
+constexpr CellPlace kPlace{43, 7};
+
+// The north-west post is 111 m, the rest 5 m.
+std::vector<std::byte> hgt(std::size_t bytes = 2 * kSide * kSide) {
+  std::vector<std::byte> file(bytes);
+  for (std::size_t at = 1; at < file.size(); at += 2) file[at] = std::byte{5};
+  if (bytes > 1) file[1] = std::byte{111};
+  return file;
+}
+
+std::filesystem::path zipped(const test::TemporaryFolder& folder, const std::string& entry,
+                             const std::vector<std::byte>& bytes) {
+  const std::filesystem::path path = folder.path() / "N43E007.hgt.zip";
+  int code = 0;
+  zip_t* archive = zip_open(path.c_str(), ZIP_CREATE, &code);
+  zip_file_add(archive, "readme.txt", zip_source_buffer(archive, "x", 1, 0), 0);
+  zip_file_add(archive, entry.c_str(), zip_source_buffer(archive, bytes.data(), bytes.size(), 0), 0);
+  EXPECT_EQ(zip_close(archive), 0);
+  return path;
+}
+
+std::filesystem::path gzipped(const test::TemporaryFolder& folder, const std::vector<std::byte>& bytes) {
+  const std::filesystem::path path = folder.path() / "N43E007.hgt.gz";
+  gzFile file = gzopen(path.c_str(), "wb6");
+  EXPECT_EQ(gzwrite(file, bytes.data(), static_cast<unsigned>(bytes.size())), static_cast<int>(bytes.size()));
+  gzclose(file);
+  return path;
+}
+
+std::string reason(const std::filesystem::path& path) {
+  const auto reading = read_packed_hgt(path, kPlace);
+  return reading ? "none" : reading.error().message();
+}
+
+void cut(const std::filesystem::path& path, std::uintmax_t off) {
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - off);
+}
+
+void flip_byte(const std::filesystem::path& path, std::size_t at) {
+  std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+  file.seekg(static_cast<std::streamoff>(at));
+  const char byte = static_cast<char>(file.get() ^ 0x55);
+  file.seekp(static_cast<std::streamoff>(at));
+  file.put(byte);
+}
+
+TEST(PackedHgt, ZipAndGzipGiveTheCellThatWasPacked) {
+  const test::TemporaryFolder folder;
+  for (const auto& path : {zipped(folder, "N43E007.hgt", hgt()), gzipped(folder, hgt())}) {
+    EXPECT_EQ(packed_hgt_posts(path), 1201);
+    const auto reading = read_packed_hgt(path, kPlace);
+    ASSERT_TRUE(reading.has_value()) << reading.error().message();
+    EXPECT_EQ(reading->cell.post(1200, 0), 111);
+    EXPECT_EQ(reading->cell.post(0, 0), 5);
+    EXPECT_EQ(reading->cell.rows(), 1201);
+  }
+}
+
+TEST(PackedHgt, TheEntryMayLieInAFolderOrBeTheOnlyOneOfItsKind) {
+  const test::TemporaryFolder folder;
+  EXPECT_EQ(reason(zipped(folder, "eurasia/n43e007.HGT", hgt())), "none");
+  const test::TemporaryFolder other;
+  EXPECT_EQ(reason(zipped(other, "cell.hgt", hgt())), "none");
+}
+
+TEST(PackedHgt, AnArchiveWithoutACellIsRefused) {
+  const test::TemporaryFolder folder;
+  EXPECT_THAT(reason(zipped(folder, "picture.jpg", hgt())), HasSubstr("an entry N43E007.hgt"));
+}
+
+TEST(PackedHgt, ABombIsRefusedBeforeItIsUnpacked) {
+  const test::TemporaryFolder folder;
+  const auto big = hgt(60UL << 20U);
+  const auto zip = zipped(folder, "N43E007.hgt", big);
+  const auto gzip = gzipped(folder, big);
+  EXPECT_LT(std::filesystem::file_size(zip), 1UL << 20U);
+  EXPECT_THAT(reason(zip), HasSubstr("no HGT cell"));
+  EXPECT_THAT(reason(gzip), HasSubstr("no HGT cell"));
+  EXPECT_EQ(packed_hgt_posts(zip), 0);
+  EXPECT_EQ(packed_hgt_posts(gzip), 0);
+}
+
+TEST(PackedHgt, TruncatedAndDamagedFilesAreRefused) {
+  const test::TemporaryFolder folder;
+  const auto zip = zipped(folder, "N43E007.hgt", hgt());
+  const auto gzip = gzipped(folder, hgt());
+  flip_byte(gzip, std::filesystem::file_size(gzip) - 6);
+  EXPECT_THAT(reason(gzip), HasSubstr("gzip stream")) << "its checksum";
+  cut(gzip, 100);
+  EXPECT_THAT(reason(gzip), HasSubstr("gzip stream"));
+  cut(zip, 30);
+  EXPECT_THAT(reason(zip), HasSubstr("zip archive"));
+  folder.write("N43E007.hgt.gz", {});
+  EXPECT_NE(reason(folder.path() / "N43E007.hgt.gz"), "none");
+  EXPECT_THAT(reason(folder.path() / "gone.hgt.zip"), HasSubstr("expected"));
+}
+
+TEST(PackedHgt, InAnIndexItsSpacingCounts) {
+  const test::TemporaryFolder folder;
+  zipped(folder, "N43E007.hgt", hgt());
+  folder.write("e007/n43.dt0", test::level_dted(43, 7, 9).bytes());
+  const auto index = index_directory(folder.path());
+  ASSERT_TRUE(index.has_value());
+  const CellFile& file = index->at(slot_of(kPlace));
+  EXPECT_EQ(file.format, CellFormat::packed_hgt);
+  const auto reading = read_cell(file, kPlace, 2);
+  ASSERT_TRUE(reading.has_value()) << reading.error().message();
+  EXPECT_EQ(reading->cell.rows(), 301);
+  ASSERT_TRUE(reading->peaks.has_value());
+  EXPECT_EQ(reading->peaks->post(300, 0), 111);
+  EXPECT_EQ(reading->cell.post(299, 1), 5);
+}
+
+}  // namespace
+}  // namespace yars::model::terrain
