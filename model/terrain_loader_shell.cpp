@@ -13,6 +13,7 @@ namespace {
 constexpr double kSlack_m = 20'000.0;
 
 bool still_serves(const terrain::TerrainRegion& asked, const terrain::TerrainRegion& region) {
+  if (region.detail != asked.detail) return false;
   if (region.radius_m > asked.radius_m || region.radius_m + 2.0 * kSlack_m < asked.radius_m) return false;
   const double moved_m = geo::geodesic_inverse(asked.centre, region.centre).distance.metres();
   return moved_m + region.radius_m + 0.5 * kSlack_m <= asked.radius_m;
@@ -39,7 +40,7 @@ TerrainLoader::~TerrainLoader() {
 
 void TerrainLoader::request(const terrain::TerrainRegion& region) {
   if (asked_ && still_serves(*asked_, region)) return;
-  asked_ = terrain::TerrainRegion{region.centre, region.radius_m + kSlack_m};
+  asked_ = terrain::TerrainRegion{region.centre, region.radius_m + kSlack_m, region.detail};
   if (may_wait_) {
     view_ = store_->prepare(*asked_);
     collect_problems();

@@ -16,6 +16,7 @@
 #include "lib/imageio/png.hpp"
 #include "lib/radar/fidelity_preset.hpp"
 #include "model/kernel/offline_scan.hpp"
+#include "model/kernel/scan_detail.hpp"
 #include "model/terrain/open_terrain.hpp"
 #include "tools/command.hpp"
 #include "tools/scan_picture.hpp"
@@ -124,7 +125,8 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   model::kernel::OfflineScan work(configuration, request, options.threads);
 
   const auto begin = std::chrono::steady_clock::now();
-  const auto terrain = (*store)->prepare({request.pose.place, request.range.metres()});
+  const auto terrain = (*store)->prepare(
+      {request.pose.place, request.range.metres(), model::kernel::scan_detail(configuration.fidelity, request.range)});
   std::vector<double> measure_ms, whole_ms;
   double first_ms = 0.0;
   for (int run = 0; run <= options.repeat; ++run) {

@@ -12,6 +12,7 @@
 #include "model/antenna/antenna.hpp"
 #include "model/kernel/mappable.hpp"
 #include "model/kernel/pose.hpp"
+#include "model/kernel/scan_detail.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "model/rbm/receiver.hpp"
 
@@ -96,7 +97,9 @@ RadarKernel::Need RadarKernel::need(const ModelTick& tick) const {
   if (!pose && !state_->pose) return need;
   need.video = true;
   need.region.centre = pose ? pose->place : state_->pose->place;
-  need.region.radius_m = geo::Length::nautical_miles(tick.command.range_nm).metres() + kRegionMarginM;
+  const geo::Length range = geo::Length::nautical_miles(tick.command.range_nm);
+  need.region.radius_m = range.metres() + kRegionMarginM;
+  need.region.detail = scan_detail(state_->configuration.fidelity, range);
   return need;
 }
 
@@ -219,6 +222,9 @@ bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::Anten
   if (noise_only) labels.flags |= databuffer::kSweepNoiseOnly;
   if (step.scan_start) labels.flags |= databuffer::kSweepScanStart;
   if (step.scan_end) labels.flags |= databuffer::kSweepScanEnd;
+  // Another detail than the scan's still stands in: the sweep is not what it will be.
+  const geo::Length wanted = geo::Length::nautical_miles(given.command.range_nm);
+  if (!terrain.serves(scan_detail(configuration.fidelity, wanted))) labels.flags |= databuffer::kSweepNotReady;
   return chain.advance(place, labels, terrain, sweep);
 }
 

@@ -18,7 +18,7 @@ constexpr float kMostTurns = 1.0e6F;  // [deg] of longitude: more is no place, b
 
 }  // namespace
 
-CellView::CellView(std::uint64_t generation, Absence elsewhere) : generation_(generation) {
+CellView::CellView(std::uint64_t generation, Absence elsewhere, int detail) : generation_(generation), detail_(detail) {
   table_.fill(static_cast<std::uint16_t>(elsewhere));
 }
 

@@ -29,7 +29,7 @@ struct TerrainCell {
 class CellView final : public TerrainView {
  public:
   // `elsewhere` holds where neither set_absence nor add says otherwise.
-  CellView(std::uint64_t generation, Absence elsewhere);
+  CellView(std::uint64_t generation, Absence elsewhere, int detail = 0);
 
   // While building; afterwards the view is shared as const.
   void set_absence(CellPlace place, Absence absence);
@@ -39,6 +39,7 @@ class CellView final : public TerrainView {
   std::uint64_t generation() const override { return generation_; }
   std::uint64_t resident_bytes() const override { return sizeof(*this) + resident_bytes_; }
   Surface surface_at(geo::GeoPoint place, Interpolation interpolation) const override;
+  bool serves(int detail) const override { return detail == detail_; }
   bool has_peaks() const override { return has_peaks_; }
   std::size_t surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const override;
 
@@ -59,6 +60,7 @@ class CellView final : public TerrainView {
   std::uint16_t entry(CellPlace place) const { return table_[slot_of(place)]; }
 
   std::uint64_t generation_;
+  int detail_;
   std::uint64_t resident_bytes_ = 0;
   bool has_peaks_ = false;
   std::vector<TerrainCell> cells_;

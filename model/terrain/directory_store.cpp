@@ -1,39 +1,62 @@
 #include "model/terrain/directory_store.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
-#include "model/terrain/cell_view.hpp"
 #include "model/terrain/region_cells.hpp"
 
 namespace yars::model::terrain {
 
-failure::Expected<std::unique_ptr<DirectoryTerrainStore>> DirectoryTerrainStore::open(
-    const std::filesystem::path& directory, DirectoryStoreOptions options) {
-  failure::Expected<DirectoryIndex> index = index_directory(directory);
-  if (!index) return tl::unexpected(index.error());
-  return std::unique_ptr<DirectoryTerrainStore>(new DirectoryTerrainStore(std::move(*index), options));
+namespace {
+constexpr double kMetresPerDegree = 111195.0;  // [m] of a meridian, on the mean sphere
+constexpr int kMostReduction = 6;              // beyond it a cell of level 1 would have fewer than 20 posts a side
+
+std::size_t bytes_of(const TerrainCell& cell) {
+  return cell.heights->bytes() + (cell.peaks ? cell.peaks->bytes() : 0);
+}
+}  // namespace
+
+int reduction_for(const CellFile& file, int detail) {
+  if (file.posts_per_degree <= 0 || detail <= 0) return 0;
+  const double spacing_m = kMetresPerDegree / file.posts_per_degree;
+  const double halvings = std::log2(std::ldexp(1.0, detail) / spacing_m);
+  return std::clamp(static_cast<int>(std::floor(halvings)), 0, kMostReduction);
 }
 
-DirectoryTerrainStore::DirectoryTerrainStore(DirectoryIndex index, DirectoryStoreOptions options)
-    : index_(std::move(index)), options_(options) {}
+failure::Expected<std::unique_ptr<DirectoryTerrainStore>> DirectoryTerrainStore::open(
+    const std::filesystem::path& directory, DirectoryStoreOptions options) {
+  std::vector<std::string> problems;
+  failure::Expected<DirectoryIndex> index = index_directory(directory, &problems);
+  if (!index) return tl::unexpected(index.error());
+  return std::unique_ptr<DirectoryTerrainStore>(
+      new DirectoryTerrainStore(std::move(*index), options, std::move(problems)));
+}
+
+DirectoryTerrainStore::DirectoryTerrainStore(DirectoryIndex index, DirectoryStoreOptions options,
+                                             std::vector<std::string> problems)
+    : index_(std::move(index)), options_(options), problems_(std::move(problems)) {}
 
 TerrainViewPointer DirectoryTerrainStore::prepare(const TerrainRegion& region) {
   ++prepares_;
-  bool changed = view_ == nullptr;
+  bool changed = view_ == nullptr || region.detail != detail_;
+  detail_ = region.detail;
   for (const CellPlace place : cells_within(region)) {
     const std::size_t slot = slot_of(place);
     const auto file = index_.find(slot);
-    if (file == index_.end()) continue;
-    const auto [resident, fresh] = resident_.try_emplace(slot);
-    if (fresh) {
-      resident->second.cell = load(file->second, place);
-      if (resident->second.cell) resident_bytes_ += resident->second.cell->bytes();
+    if (file == index_.end() || unreadable_.contains(slot)) continue;
+    const Level level{slot, reduction_for(file->second, region.detail)};
+    if (!resident_.contains(level) && !load(level, file->second)) {
       changed = true;
+      continue;
     }
-    resident->second.last_use = prepares_;
+    resident_[level].last_use = prepares_;
+    const auto [shown, fresh] = shown_.try_emplace(slot, level.second);
+    changed = changed || fresh || shown->second != level.second;
+    shown->second = level.second;
   }
   while (resident_bytes_ > options_.resident_limit_bytes && drop_longest_unused()) changed = true;
-  if (changed) view_ = make_view();
+  if (changed) view_ = make_view(region.detail);
   return view_;
 }
 
@@ -41,39 +64,43 @@ std::vector<std::string> DirectoryTerrainStore::take_problems() {
   return std::exchange(problems_, {});
 }
 
-std::shared_ptr<const Cell> DirectoryTerrainStore::load(const CellFile& file, CellPlace place) {
-  failure::Expected<CellReading> reading = read_cell(file, place);
+bool DirectoryTerrainStore::load(Level level, const CellFile& file) {
+  failure::Expected<CellReading> reading = read_cell(file, place_of_slot(level.first), level.second);
   if (!reading) {
     problems_.push_back(reading.error().message() + "; the cell counts as void");
-    return nullptr;
+    unreadable_.insert(level.first);
+    shown_.erase(level.first);
+    return false;
   }
   for (const std::string& warning : reading->warnings) problems_.push_back(file.path.string() + ": " + warning);
-  return std::make_shared<const Cell>(std::move(reading->cell));
+  TerrainCell cell{std::make_shared<const Cell>(std::move(reading->cell)), nullptr};
+  if (reading->peaks) cell.peaks = std::make_shared<const Cell>(std::move(*reading->peaks));
+  resident_bytes_ += bytes_of(cell);
+  resident_[level] = {std::move(cell), prepares_};
+  return true;
 }
 
-// False when nothing outside the present region is left to drop.
+// False when nothing is left that this prepare() did not want.
 bool DirectoryTerrainStore::drop_longest_unused() {
   auto oldest = resident_.end();
   for (auto candidate = resident_.begin(); candidate != resident_.end(); ++candidate) {
-    const bool droppable = candidate->second.cell && candidate->second.last_use < prepares_;
-    if (droppable && (oldest == resident_.end() || candidate->second.last_use < oldest->second.last_use))
-      oldest = candidate;
+    if (candidate->second.last_use == prepares_) continue;
+    if (oldest == resident_.end() || candidate->second.last_use < oldest->second.last_use) oldest = candidate;
   }
   if (oldest == resident_.end()) return false;
-  resident_bytes_ -= oldest->second.cell->bytes();
+  const auto shown = shown_.find(oldest->first.first);
+  if (shown != shown_.end() && shown->second == oldest->first.second) shown_.erase(shown);
+  resident_bytes_ -= bytes_of(oldest->second.cell);
   resident_.erase(oldest);
   return true;
 }
 
-TerrainViewPointer DirectoryTerrainStore::make_view() {
-  auto view = std::make_shared<CellView>(++generation_, options_.missing_cell_is_sea ? Absence::sea : Absence::none);
-  for (const auto& [slot, file] : index_) view->set_absence(place_of_slot(slot), Absence::not_loaded);
-  for (const auto& [slot, resident] : resident_) {
-    if (resident.cell)
-      view->add(resident.cell);
-    else
-      view->set_absence(place_of_slot(slot), Absence::none);
-  }
+TerrainViewPointer DirectoryTerrainStore::make_view(int detail) {
+  auto view =
+      std::make_shared<CellView>(++generation_, options_.missing_cell_is_sea ? Absence::sea : Absence::none, detail);
+  for (const auto& [slot, file] : index_)
+    view->set_absence(place_of_slot(slot), unreadable_.contains(slot) ? Absence::none : Absence::not_loaded);
+  for (const auto& [slot, reduction] : shown_) view->add(resident_.at({slot, reduction}).cell);
   return view;
 }
 

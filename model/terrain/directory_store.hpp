@@ -1,17 +1,20 @@
-// Terrain from a directory of DTED and HGT cells. prepare() loads the cells within the region; cells outside stay
-// while all fit into the limit, the longest unused go first. A cell whose file cannot be read is noted as a
-// problem once and is void from then on. A view's generation rises when, and only when, its set of cells changes.
-// Errors of open(): those of index_directory().
+// Terrain from a directory of elevation files. prepare() loads the cells within the region, each reduced as far as the
+// region's detail allows; what is outside stays while all fits into the limit, the longest unused goes first. A cell
+// whose file cannot be read is noted as a problem once and is void from then on. A view's generation rises when, and
+// only when, what it shows changes. Errors of open(): those of index_directory().
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/terrain/cell.hpp"
+#include "model/terrain/cell_view.hpp"
 #include "model/terrain/directory_index.hpp"
 #include "model/terrain/terrain_view.hpp"
 
@@ -22,6 +25,10 @@ struct DirectoryStoreOptions {
   std::size_t resident_limit_bytes = 512U << 20;  // [bytes] of cells; only a region that needs more goes beyond it
 };
 
+// How far a file is reduced for a detail: every 2^reduction-th post lies at most 2^detail metres from the next, along a
+// meridian. 0 where the file's spacing is not known.
+int reduction_for(const CellFile& file, int detail);
+
 class DirectoryTerrainStore final : public TerrainStore {
  public:
   static failure::Expected<std::unique_ptr<DirectoryTerrainStore>> open(const std::filesystem::path& directory,
@@ -31,22 +38,26 @@ class DirectoryTerrainStore final : public TerrainStore {
   std::vector<std::string> take_problems() override;
 
  private:
+  using Level = std::pair<std::size_t, int>;  // slot, reduction
   struct Resident {
-    std::shared_ptr<const Cell> cell;  // null: the file could not be read
-    std::uint64_t last_use = 0;        // number of the prepare() that wanted it last
+    TerrainCell cell;
+    std::uint64_t last_use = 0;  // number of the prepare() that wanted it last
   };
 
-  DirectoryTerrainStore(DirectoryIndex index, DirectoryStoreOptions options);
-  std::shared_ptr<const Cell> load(const CellFile& file, CellPlace place);
+  DirectoryTerrainStore(DirectoryIndex index, DirectoryStoreOptions options, std::vector<std::string> problems);
+  bool load(Level level, const CellFile& file);
   bool drop_longest_unused();
-  TerrainViewPointer make_view();
+  TerrainViewPointer make_view(int detail);
 
   DirectoryIndex index_;
   DirectoryStoreOptions options_;
-  std::map<std::size_t, Resident> resident_;  // by slot
+  std::map<Level, Resident> resident_;
+  std::map<std::size_t, int> shown_;  // reduction that the view has of a slot
+  std::set<std::size_t> unreadable_;  // slots
   std::size_t resident_bytes_ = 0;
   std::uint64_t prepares_ = 0;
   std::uint64_t generation_ = 0;
+  int detail_ = 0;
   TerrainViewPointer view_;
   std::vector<std::string> problems_;
 };

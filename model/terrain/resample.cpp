@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lib/failure/require.hpp"
-#include "model/terrain/bilinear.hpp"
+#include "model/terrain/interpolation.hpp"
 #include "model/terrain/reduce.hpp"
 
 namespace yars::model::terrain {

@@ -65,6 +65,8 @@ class TerrainView {
   virtual Surface surface_at(geo::GeoPoint place, Interpolation interpolation = Interpolation::bilinear) const = 0;
   double elevation_m(geo::GeoPoint place) const { return surface_at(place).elevation_m; }
 
+  // True if this is what prepare() gives for a region of this detail; false: another one still stands in.
+  virtual bool serves(int /*detail*/) const { return true; }
   // True if peak_m may differ from elevation_m anywhere.
   virtual bool has_peaks() const { return false; }
   // True if a material other than 0 may be found anywhere.
@@ -77,11 +79,16 @@ class TerrainView {
 
 using TerrainViewPointer = std::shared_ptr<const TerrainView>;
 
-// What a scan can reach: a disc on the earth.
+// What a scan can reach: a disc on the earth, and how fine it has to be: posts closer than 2^detail metres are not
+// needed; 0 = the finest that there are.
 struct TerrainRegion {
   geo::GeoPoint centre;
   double radius_m = 0.0;
+  int detail = 0;
 };
+
+// The detail for which posts this far apart [m] do; 0 for anything below two metres and for what is no length.
+int detail_for(double spacing_m);
 
 // Where views come from. prepare() may read files and wait; it is called by one thread at a time.
 class TerrainStore {

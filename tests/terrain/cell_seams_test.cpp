@@ -11,6 +11,7 @@
 #include "model/terrain/pack_writer.hpp"
 #include "model/terrain/reduce.hpp"
 #include "tests/terrain/dted_builder.hpp"
+#include "tests/terrain/fast_path.hpp"
 #include "tests/terrain/rough_cell.hpp"
 
 namespace yars::model::terrain {
@@ -128,19 +129,14 @@ TEST(CellSeams, NothingInsideCellsWithoutVoidsIsVoid) {
   put_ground(folder, {49, -180}, 0);
   const auto store = open_store(folder);
   const auto view = store->prepare({{50.0, 180.0}, 120e3});
-  std::vector<double> latitudes;
-  std::vector<double> longitudes;
+  std::vector<geo::GeoPoint> places;
   for (int i = 0; i < 400; ++i)
-    for (int j = 0; j < 400; ++j) {
-      latitudes.push_back(49.0 + i / 200.0);
-      longitudes.push_back(179.0 + j / 200.0);
-    }
-  std::vector<float> elevation_m(latitudes.size());
-  std::vector<float> water(latitudes.size());
-  EXPECT_EQ(view->elevations(latitudes, longitudes, elevation_m, water), 0U);
-  for (std::size_t i = 0; i < elevation_m.size(); ++i)
-    ASSERT_NEAR(elevation_m[i], ground_m(latitudes[i], longitudes[i]), 2 * bound_m(60) + 0.1)
-        << latitudes[i] << ", " << longitudes[i];
+    for (int j = 0; j < 400; ++j) places.push_back({49.0 + i / 200.0, 179.0 + j / 200.0});
+  const auto found = test::fast_path(*view, places);
+  EXPECT_EQ(found.not_loaded, 0U);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    ASSERT_NEAR(found.elevation_m[i], ground_m(places[i].latitude_deg, places[i].longitude_deg), 2 * bound_m(60) + 0.1)
+        << places[i].latitude_deg << ", " << places[i].longitude_deg;
 }
 
 TEST(CellSeams, ReducedCellsAndPacksOfOneReductionMeetExactly) {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "model/terrain/bilinear.hpp"
+#include "model/terrain/interpolation.hpp"
 #include "model/terrain/resample.hpp"
 #include "tests/terrain/rough_cell.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "model/terrain/bilinear.hpp"
+#include "model/terrain/interpolation.hpp"
 #include "model/terrain/directory_index.hpp"
 #include "model/terrain/directory_store.hpp"
 #include "model/terrain/reduce.hpp"
