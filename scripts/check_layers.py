@@ -31,7 +31,7 @@ LAYERS = {
     "databuffer/records": RECORDS,
     "databuffer/flight": RECORDS,
     "databuffer": SEGMENT,
-    "model/terrain": RADAR,
+    "model/terrain": RADAR + ["lib/imageio"],
     "model/antenna": RADAR,
     "model/rbm": RADAR + ["model/terrain", "model/antenna"],
     "model/kernel": MODEL,
