@@ -21,7 +21,9 @@ constexpr int kFarthest = 25000;  // cost of a way, about 20 tiles; beyond, wate
 constexpr int kNoWay = std::numeric_limits<int>::max() / 4;
 constexpr double kLeastFallM = 15.0;  // [m] from gate to gate: leaves a fall for any path between
 constexpr double kMostFallM = 180.0;  // [m] what is higher is cut through, so that basins do not fill
-constexpr double kLowGateM = 40.0;    // [m] coastal gates only where the edge is as low
+constexpr double kGateFallM = 5.0;    // [m] the same between tiles on the coast
+constexpr int kGatesAnEdge = 3;       // of tiles on the coast
+constexpr int kGateMargin = 12;       // nodes that gates keep from the ends of an edge
 
 struct Step {
   int north, east;
@@ -30,9 +32,6 @@ constexpr std::array<Step, 4> kSteps = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
 
 std::pair<int, int> key_of(CellPlace place) {
   return {place.south_deg, place.west_deg};
-}
-bool same(CellPlace a, CellPlace b) {
-  return a == b;
 }
 
 double tile_km2(CellPlace place) {
@@ -61,7 +60,7 @@ std::vector<RiverGate> RiverBasins::entries(CellPlace place) {
   std::vector<RiverGate> entries;
   for (const Step step : kSteps)
     for (const RiverGate& gate : exits_of(neighbour_of(place, step.north, step.east)))
-      if (same(gate.to, place)) entries.push_back(gate);
+      if (gate.to == place) entries.push_back(gate);
   return entries;
 }
 
@@ -148,12 +147,12 @@ std::optional<CellPlace> RiverBasins::next(CellPlace place) {
   return chosen;
 }
 
-// The lowest pair of nodes that face each other over an edge, away from its ends; bed_m is the higher of the two.
-RiverGate RiverBasins::gate_between(CellPlace from, int north, int east) const {
+// The lowest pair of nodes that face each other over an edge, between two places on it; bed_m is the higher's height.
+RiverGate RiverBasins::gate_between(CellPlace from, int north, int east, int first, int last) const {
   RiverGate gate{from, neighbour_of(from, north, east), north, east, 0, std::numeric_limits<double>::max()};
   const int row = (from.south_deg + 90) * kTileNodes;
   const int column = (from.west_deg + 180) * kTileNodes;
-  for (int along = 10; along < kTileNodes - 10; along += 2) {
+  for (int along = first; along < last; along += 2) {
     const auto height_m = [&](int beyond) {
       const int line = (north + east > 0 ? kTileNodes - 1 + beyond : -beyond);
       return broad_.height_m(north != 0 ? lattice_node(row + line, column + along)
@@ -167,36 +166,51 @@ RiverGate RiverBasins::gate_between(CellPlace from, int north, int east) const {
   return gate;
 }
 
+// No water that enters a tile may lie below what it can leave by.
+double RiverBasins::highest_exit_m(CellPlace place) {
+  double highest_m = 0.0;
+  for (const RiverGate& gate : exits_of(place)) highest_m = std::max(highest_m, gate.bed_m);
+  return highest_m;
+}
+
 std::optional<RiverGate> RiverBasins::inland_exit(CellPlace place) {
   const std::optional<CellPlace> to = next(place);
   if (!to) return std::nullopt;
-  const std::vector<RiverGate> beyond = is_coastal(*to) ? std::vector<RiverGate>{} : exits_of(*to);
-  const double base_m = beyond.empty() ? 0.0 : beyond.front().bed_m;
+  const double base_m = highest_exit_m(*to);
   for (const Step step : kSteps) {
-    if (!same(neighbour_of(place, step.north, step.east), *to)) continue;
-    RiverGate gate = gate_between(place, step.north, step.east);
+    if (!(neighbour_of(place, step.north, step.east) == *to)) continue;
+    RiverGate gate = gate_between(place, step.north, step.east, kGateMargin, kTileNodes - kGateMargin);
     gate.bed_m = std::clamp(gate.bed_m, base_m + kLeastFallM, base_m + kMostFallM);
     return gate;
   }
   return std::nullopt;
 }
 
-std::vector<RiverGate> RiverBasins::exits_of(CellPlace place) {
-  if (const auto known = exits_.find(key_of(place)); known != exits_.end()) return known->second;
+// Toward each neighbour with more sea, where the edge has no sea of its own.
+std::vector<RiverGate> RiverBasins::coastal_exits(CellPlace place) {
   std::vector<RiverGate> exits;
-  if (!frozen(place) && !is_coastal(place)) {
-    if (const auto gate = inland_exit(place)) exits.push_back(*gate);
-  } else if (!frozen(place)) {
-    for (const Step step : kSteps) {
-      const CellPlace to = neighbour_of(place, step.north, step.east);
-      if (frozen(to) || outline(to).deep <= outline(place).deep) continue;
-      RiverGate gate = gate_between(place, step.north, step.east);
-      if (gate.bed_m >= kLowGateM) continue;
-      // Falls toward more sea, and lies below every gate of the inland.
-      gate.bed_m = 1.0 + 0.08 * (kSamples * kSamples - outline(to).deep);
+  for (const Step step : kSteps) {
+    const CellPlace to = neighbour_of(place, step.north, step.east);
+    if (frozen(to) || outline(to).deep <= outline(place).deep) continue;
+    const double base_m = highest_exit_m(to);
+    constexpr int kStretch = (kTileNodes - 2 * kGateMargin) / kGatesAnEdge;
+    for (int stretch = 0; stretch < kGatesAnEdge; ++stretch) {
+      const int first = kGateMargin + stretch * kStretch;
+      RiverGate gate = gate_between(place, step.north, step.east, first, first + kStretch);
+      if (gate.bed_m < 0.0) continue;
+      gate.bed_m = std::clamp(gate.bed_m, base_m + kGateFallM, base_m + kMostFallM);
       exits.push_back(gate);
     }
   }
+  return exits;
+}
+
+std::vector<RiverGate> RiverBasins::exits_of(CellPlace place) {
+  if (const auto known = exits_.find(key_of(place)); known != exits_.end()) return known->second;
+  std::vector<RiverGate> exits;
+  if (!frozen(place) && is_coastal(place)) exits = coastal_exits(place);
+  if (!frozen(place) && !is_coastal(place))
+    if (const auto gate = inland_exit(place)) exits.push_back(*gate);
   exits_[key_of(place)] = exits;
   return exits;
 }
@@ -207,7 +221,7 @@ double RiverBasins::area_leaving(CellPlace place) {
   for (const Step step : kSteps) {
     const CellPlace from = neighbour_of(place, step.north, step.east);
     if (frozen(from) || is_coastal(from)) continue;
-    if (const auto to = next(from); to && same(*to, place)) area_km2 += area_leaving(from);
+    if (const auto to = next(from); to && *to == place) area_km2 += area_leaving(from);
   }
   areas_km2_[key_of(place)] = area_km2;
   return area_km2;

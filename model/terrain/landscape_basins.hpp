@@ -1,6 +1,6 @@
 // Where the water of a whole degree goes, from a few samples of the broad shapes: an inland tile drains through one
 // gate into the neighbour on its cheapest way to the sea; a tile on the coast drains to its own sea, and through
-// low gates to neighbours with more sea. Ways never lead in a circle. Each answer is a function of place, seed and
+// gates to neighbours with more sea. Ways never lead in a circle. Each answer is a function of place, seed and
 // box, found from the tiles around alone; whole numbers decide, so that no order of questions matters.
 // No water runs poleward of 72 degrees, and a tile that finds no sea nearby keeps its water.
 #pragma once
@@ -46,8 +46,10 @@ class RiverBasins {
   int step_cost(CellPlace from, CellPlace to);
   int way_to_sea(CellPlace place);
   std::optional<CellPlace> next(CellPlace place);
-  RiverGate gate_between(CellPlace from, int north, int east) const;
+  RiverGate gate_between(CellPlace from, int north, int east, int first, int last) const;
+  double highest_exit_m(CellPlace place);
   std::optional<RiverGate> inland_exit(CellPlace place);
+  std::vector<RiverGate> coastal_exits(CellPlace place);
   std::vector<RiverGate> exits_of(CellPlace place);
   double area_leaving(CellPlace place);
 

@@ -43,14 +43,16 @@ double BroadRelief::ridges(geo::Vector3 point_km, double wavelength_km, std::uin
   return ridged_noise(at_wavelength(point_km, wavelength_km), seed_ + layer, octaves);
 }
 
-// The coast that ends a box keeps 4 to 40 km from its edge, in bays and capes of its own.
+// The coast that ends a box keeps 4 to 75 km from its edge, in bays and capes of its own.
 BroadRelief::Shore BroadRelief::beside_edge(double coast_km, geo::GeoPoint place, geo::Vector3 bent) const {
-  constexpr double kReachKm = 90.0;  // [km] farther inside the edge is not felt
+  constexpr double kReachKm = 125.0;  // [km] farther inside the edge is not felt
   const double inside_km = island_ ? island_->inside_km(place) : kReachKm;
   if (inside_km >= kReachKm) return {coast_km, 1.0};
-  const double margin_km = 4.0 + 36.0 * std::clamp(0.42 + 0.8 * noise(bent, 70, 170, 6), 0.0, 1.0);
+  const double wide = 0.5 + 0.75 * noise(bent, 210, 170, 2);
+  const double margin_km =
+      5.0 + 46.0 * std::clamp(wide, 0.0, 1.0) + 24.0 * std::clamp(0.5 + 0.9 * noise(bent, 52, 176, 6), 0.0, 1.0);
   const double shore_km = inside_km - margin_km;
-  return {std::min(coast_km, shore_km), smooth_step(0.0, kReachKm - 40.0, shore_km)};
+  return {std::min(coast_km, shore_km), smooth_step(0.0, kReachKm - 75.0, shore_km)};
 }
 
 double BroadRelief::height_m(geo::GeoPoint place) const {

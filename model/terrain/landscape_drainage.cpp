@@ -11,8 +11,11 @@ namespace yars::model::terrain {
 
 namespace {
 
-constexpr double kSeaM = -10.0;      // [m] deeper is the sea that rivers end in; shoals before it are crossed
-constexpr double kWinding_m = 4.0;   // [m] of chance in what a flood meets: plains have winding rivers
+constexpr double kSeaM = -10.0;    // [m] deeper is the sea that rivers end in; shoals before it are crossed
+constexpr double kWindingM = 4.0;  // [m] of chance in what a flood meets: plains have winding rivers
+// [m] [nodes] Rivers cross a tile's border at gates alone, so they shall not run along it.
+constexpr double kBorderM = 45.0;
+constexpr double kBorderNodes = 9.0;
 constexpr double kLeastFall = 1e-7;  // [m/m] small enough for every gate, see kLeastFallM in landscape_basins.cpp
 constexpr int kNodes = kTileNodes * kTileNodes;
 constexpr int kEnd = -1;
@@ -45,6 +48,7 @@ class Flood {
   }
   bool beside_sea(int row, int column) const;
   void seed_outlets(const std::vector<RiverGate>& exits);
+  double courted_m(TileNode at) const;
   void spread(const Front& front);
 
   const ReliefTile& relief_;
@@ -90,10 +94,20 @@ void Flood::seed_outlets(const std::vector<RiverGate>& exits) {
   if (landlocked) seed(lowest, relief_.height_m(lowest / kTileNodes, lowest % kTileNodes));
 }
 
+// The flood goes for the lowest ground that it sees (r.watershed's search, Ehlschlaeger 1989): into a basin by its
+// steepest side, then up from its bottom.
+double Flood::courted_m(TileNode at) const {
+  const CellPlace place = relief_.place();
+  const std::uint32_t hash =
+      lattice_hash(place.south_deg * kTileNodes + at.row, place.west_deg * kTileNodes + at.column, 1, 5U);
+  const int border = std::min({at.row, at.column, kTileNodes - 1 - at.row, kTileNodes - 1 - at.column});
+  const double near = std::max(0.0, 1.0 - border / kBorderNodes);
+  return relief_.height_m(at.row, at.column) + kWindingM * share_of(hash) + kBorderM * near * near;
+}
+
 void Flood::spread(const Front& front) {
   const int row = front.node / kTileNodes;
   const int column = front.node % kTileNodes;
-  const CellPlace place = relief_.place();
   for (int north = -1; north <= 1; ++north)
     for (int east = -1; east <= 1; ++east) {
       const TileNode to{row + north, column + east};
@@ -101,9 +115,7 @@ void Flood::spread(const Front& front) {
       const int node = index_of(to);
       if (met_[static_cast<std::size_t>(node)]) continue;
       downstream[static_cast<std::size_t>(node)] = front.node;
-      const std::uint32_t hash =
-          lattice_hash(place.south_deg * kTileNodes + to.row, place.west_deg * kTileNodes + to.column, 1, 5U);
-      seed(node, std::max<double>(front.level_m, relief_.height_m(to.row, to.column) + kWinding_m * share_of(hash)));
+      seed(node, courted_m(to));
     }
 }
 

@@ -1,7 +1,7 @@
 // The rivers of one tile as a tree over its lattice: each node of a river, its next node downstream, the area it
 // drains and the height of its water. Water never rises downstream, from gates that enter the tile down to the sea
-// or to a gate that leaves it. Priority flood from the outlets (Barnes 2014): a node drains to the neighbour that a
-// rising flood comes from; where that is uphill, the river cuts through.
+// or to a gate that leaves it. A flood from the outlets goes for the lowest ground it sees; a node drains to the
+// neighbour that the flood comes from; where that is uphill, the river cuts through.
 #pragma once
 
 #include <vector>

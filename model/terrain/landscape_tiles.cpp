@@ -38,7 +38,8 @@ std::shared_ptr<const Drainage> LandscapeTiles::drainage(CellPlace place) {
       // Gates of the coast lead toward more sea: no circle.
       const auto above = drainage(gate.from);
       for (std::size_t exit = 0; exit < above->exits.size(); ++exit)
-        if (above->exits[exit].to == place) entries.push_back({gate, above->exits_km2[exit]});
+        if (above->exits[exit].to == place && above->exits[exit].along == gate.along)
+          entries.push_back({gate, above->exits_km2[exit]});
     }
     Drainage drained = drain(*relief(place), basins_.exits(place), std::move(entries));
     // What leaves an inland tile is what its neighbour is told.
