@@ -23,7 +23,9 @@ constexpr double kLeastFallM = 15.0;  // [m] from gate to gate: leaves a fall fo
 constexpr double kMostFallM = 180.0;  // [m] what is higher is cut through, so that basins do not fill
 constexpr double kGateFallM = 5.0;    // [m] the same between tiles on the coast
 constexpr int kGatesAnEdge = 3;       // of tiles on the coast
-constexpr int kGateMargin = 12;       // nodes that gates keep from the ends of an edge
+constexpr double kDryM = 1.0;         // [m] gates are on land
+constexpr double kNoGateM = 1e9;
+constexpr int kGateMargin = 12;  // nodes that gates keep from the ends of an edge
 
 struct Step {
   int north, east;
@@ -147,9 +149,10 @@ std::optional<CellPlace> RiverBasins::next(CellPlace place) {
   return chosen;
 }
 
-// The lowest pair of nodes that face each other over an edge, between two places on it; bed_m is the higher's height.
+// The lowest pair of nodes that face each other over an edge, between two places on it; bed_m is the higher's height,
+// kNoGateM where there is no land.
 RiverGate RiverBasins::gate_between(CellPlace from, int north, int east, int first, int last) const {
-  RiverGate gate{from, neighbour_of(from, north, east), north, east, 0, std::numeric_limits<double>::max()};
+  RiverGate gate{from, neighbour_of(from, north, east), north, east, (first + last) / 2, kNoGateM};
   const int row = (from.south_deg + 90) * kTileNodes;
   const int column = (from.west_deg + 180) * kTileNodes;
   for (int along = first; along < last; along += 2) {
@@ -159,7 +162,7 @@ RiverGate RiverBasins::gate_between(CellPlace from, int north, int east, int fir
                                         : lattice_node(row + along, column + line));
     };
     const double level_m = std::max(height_m(0), height_m(1));
-    if (level_m >= gate.bed_m) continue;
+    if (level_m >= gate.bed_m || std::min(height_m(0), height_m(1)) < kDryM) continue;
     gate.bed_m = level_m;
     gate.along = along;
   }
@@ -186,7 +189,7 @@ std::optional<RiverGate> RiverBasins::inland_exit(CellPlace place) {
   return std::nullopt;
 }
 
-// Toward each neighbour with more sea, where the edge has no sea of its own.
+// Toward each neighbour with more sea, in each stretch of the edge that has land.
 std::vector<RiverGate> RiverBasins::coastal_exits(CellPlace place) {
   std::vector<RiverGate> exits;
   for (const Step step : kSteps) {
@@ -197,7 +200,7 @@ std::vector<RiverGate> RiverBasins::coastal_exits(CellPlace place) {
     for (int stretch = 0; stretch < kGatesAnEdge; ++stretch) {
       const int first = kGateMargin + stretch * kStretch;
       RiverGate gate = gate_between(place, step.north, step.east, first, first + kStretch);
-      if (gate.bed_m < 0.0) continue;
+      if (gate.bed_m >= kNoGateM) continue;
       gate.bed_m = std::clamp(gate.bed_m, base_m + kGateFallM, base_m + kMostFallM);
       exits.push_back(gate);
     }

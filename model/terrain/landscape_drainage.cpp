@@ -27,9 +27,10 @@ int index_of(TileNode node) {
 // The flood's result: where each node drains to, and the order in which the flood met the nodes.
 class Flood {
  public:
-  Flood(const ReliefTile& relief, const std::vector<RiverGate>& exits);
+  Flood(const ReliefTile& relief, const std::vector<RiverGate>& gates);
 
   std::vector<int> downstream;  // node, or kEnd
+  std::vector<int> exits;       // gate that water leaves a node by, or kEnd
   std::vector<int> order;       // downstream before upstream
   bool landlocked = false;      // neither sea nor gate
 
@@ -47,7 +48,7 @@ class Flood {
     open_.push({static_cast<float>(level_m), node});
   }
   bool beside_sea(int row, int column) const;
-  void seed_outlets(const std::vector<RiverGate>& exits);
+  void seed_outlets(const std::vector<RiverGate>& gates);
   double courted_m(TileNode at) const;
   void spread(const Front& front);
 
@@ -56,10 +57,10 @@ class Flood {
   std::priority_queue<Front> open_;
 };
 
-Flood::Flood(const ReliefTile& relief, const std::vector<RiverGate>& exits)
-    : downstream(kNodes, kEnd), relief_(relief), met_(kNodes, false) {
+Flood::Flood(const ReliefTile& relief, const std::vector<RiverGate>& gates)
+    : downstream(kNodes, kEnd), exits(kNodes, kEnd), relief_(relief), met_(kNodes, false) {
   order.reserve(kNodes);
-  seed_outlets(exits);
+  seed_outlets(gates);
   while (!open_.empty()) {
     const Front front = open_.top();
     open_.pop();
@@ -76,7 +77,7 @@ bool Flood::beside_sea(int row, int column) const {
          (column == kTileNodes - 1 && relief_.height_m(row, kTileNodes) < kSeaM);
 }
 
-void Flood::seed_outlets(const std::vector<RiverGate>& exits) {
+void Flood::seed_outlets(const std::vector<RiverGate>& gates) {
   int lowest = 0;
   for (int node = 0; node < kNodes; ++node) {
     const int row = node / kTileNodes;
@@ -85,8 +86,10 @@ void Flood::seed_outlets(const std::vector<RiverGate>& exits) {
     if (height_m < kSeaM || beside_sea(row, column)) seed(node, height_m);
     if (height_m < relief_.height_m(lowest / kTileNodes, lowest % kTileNodes)) lowest = node;
   }
-  for (const RiverGate& gate : exits) {
-    const TileNode node = gate_source(gate);
+  for (std::size_t gate = 0; gate < gates.size(); ++gate) {
+    const TileNode node = gate_source(gates[gate]);
+    if (met_[static_cast<std::size_t>(index_of(node))]) continue;
+    exits[static_cast<std::size_t>(index_of(node))] = static_cast<int>(gate);
     seed(index_of(node), relief_.height_m(node.row, node.column));
   }
   // Without an outlet the water stays at the lowest place.
@@ -143,8 +146,8 @@ void set_water(Drainage& drainage) {
   for (const RiverEntry& entry : drainage.entries)
     for (std::size_t index = 0; index < nodes.size(); ++index) {
       const TileNode target = gate_target(entry.gate);
-      if (nodes[index].row == target.row && nodes[index].column == target.column)
-        upstream_m[index] = std::min(upstream_m[index], entry.gate.bed_m);
+      const bool here = nodes[index].row == target.row && nodes[index].column == target.column;
+      if (here && entry.area_km2 >= kRiverKm2) upstream_m[index] = std::min(upstream_m[index], entry.gate.bed_m);
     }
   for (std::size_t index = nodes.size(); index-- > 0;) {
     RiverNode& node = nodes[index];
@@ -190,15 +193,13 @@ Drainage drain(const ReliefTile& relief, std::vector<RiverGate> exits, std::vect
     const int row = node / kTileNodes;
     const int column = node % kTileNodes;
     numbers[static_cast<std::size_t>(node)] = static_cast<int>(drainage.nodes.size());
-    drainage.nodes.push_back({row, column, to == kEnd ? -1 : numbers[static_cast<std::size_t>(to)], -1, area_km2,
-                              relief.height_m(row, column), 0.0});
+    drainage.nodes.push_back({row, column, to == kEnd ? -1 : numbers[static_cast<std::size_t>(to)],
+                              flood.exits[static_cast<std::size_t>(node)], area_km2, relief.height_m(row, column),
+                              0.0});
   }
   for (std::size_t exit = 0; exit < drainage.exits.size(); ++exit) {
-    const int node = index_of(gate_source(drainage.exits[exit]));
-    const bool leaves = flood.downstream[static_cast<std::size_t>(node)] == kEnd;
-    const int number = numbers[static_cast<std::size_t>(node)];
-    drainage.exits_km2.push_back(leaves ? areas[static_cast<std::size_t>(node)] : 0.0);
-    if (leaves && number >= 0) drainage.nodes[static_cast<std::size_t>(number)].exit = static_cast<int>(exit);
+    const auto node = static_cast<std::size_t>(index_of(gate_source(drainage.exits[exit])));
+    drainage.exits_km2.push_back(flood.exits[node] == kEnd ? 0.0 : areas[node]);
   }
   set_water(drainage);
   return drainage;
