@@ -37,7 +37,7 @@ MadeCell Landscape::make(CellPlace place, int rows, int columns, int threads) co
 bool Landscape::may_have_land(CellPlace place) const {
   const auto land = tiles_->relief(place);
   // The ring about the tile holds the nodes of its far edges; a spline and its gullies rise no higher than this.
-  constexpr double kCannotRiseM = -60.0;
+  constexpr double kCannotRiseM = -100.0;
   for (int row = -1; row <= kTileNodes; ++row)
     for (int column = -1; column <= kTileNodes; ++column)
       if (land->height_m(row, column) > kCannotRiseM) return true;

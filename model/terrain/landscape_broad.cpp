@@ -13,7 +13,8 @@ namespace {
 constexpr double kEarthRadiusKm = 6371.0;  // [km] sphere: shape only, no navigation
 constexpr double kShelfMPerKm = 14.0;      // [m/km] the sea deepens so much with the way out
 constexpr double kOpenSeaKm = -130.0;      // [km] inland: so far out no coast, island or range reaches
-constexpr double kBeyondTheBoxM = -200.0;  // [m]
+// [m] No sea is deeper: a bottom that falls off has gullies, whose spurs would rise above the water at a box's edge.
+constexpr double kSeaBottomM = -150.0;
 
 double bell(double offset, double half_width) {
   const double t = offset / half_width;
@@ -43,20 +44,19 @@ double BroadRelief::ridges(geo::Vector3 point_km, double wavelength_km, std::uin
   return ridged_noise(at_wavelength(point_km, wavelength_km), seed_ + layer, octaves);
 }
 
-// The coast that ends a box keeps 4 to 75 km from its edge, in bays and capes of its own.
+// The coast that ends a box keeps 11 to 81 km from its edge, in bays and capes of its own;
+// at the edge the sea has its full depth.
 BroadRelief::Shore BroadRelief::beside_edge(double coast_km, geo::GeoPoint place, geo::Vector3 bent) const {
   constexpr double kReachKm = 125.0;  // [km] farther inside the edge is not felt
   const double inside_km = island_ ? island_->inside_km(place) : kReachKm;
   if (inside_km >= kReachKm) return {coast_km, 1.0};
-  const double wide = 0.5 + 0.75 * noise(bent, 210, 170, 2);
-  const double margin_km =
-      5.0 + 46.0 * std::clamp(wide, 0.0, 1.0) + 24.0 * std::clamp(0.5 + 0.9 * noise(bent, 52, 176, 6), 0.0, 1.0);
+  const double margin_km = 11.0 + 70.0 * std::clamp(0.42 + 1.15 * noise(bent, 115, 170, 6), 0.0, 1.0);
   const double shore_km = inside_km - margin_km;
   return {std::min(coast_km, shore_km), smooth_step(0.0, kReachKm - 75.0, shore_km)};
 }
 
 double BroadRelief::height_m(geo::GeoPoint place) const {
-  if (island_ && island_->inside_km(place) <= 0.0) return kBeyondTheBoxM;
+  if (island_ && island_->inside_km(place) <= 0.0) return kSeaBottomM;
   const double latitude = place.latitude_deg * geo::kRadiansPerDegree;
   const double longitude = place.longitude_deg * geo::kRadiansPerDegree;
   const geo::Vector3 at{kEarthRadiusKm * std::cos(latitude) * std::cos(longitude),
@@ -66,7 +66,7 @@ double BroadRelief::height_m(geo::GeoPoint place) const {
                           at.z + 9.0 * noise(at, 55, 30, 3)};
   // Way inland from the coast's general line, negative at sea.
   const double inland_km = 260.0 * (noise(bent, 1100, 40) + 0.45 * noise(bent, 430, 41) + 0.16 * noise(bent, 170, 42));
-  if (inland_km < kOpenSeaKm) return kShelfMPerKm * inland_km;
+  if (inland_km < kOpenSeaKm) return kSeaBottomM;
   // The coast itself wanders about that line, here in beaches, there in capes; inlets reach in.
   const double rugged = smooth_step(-0.3, 0.4, noise(at, 130, 43));
   const double inlets = smooth_step(0.42, 0.8, ridges(bent, 85, 44, 3));
@@ -76,7 +76,7 @@ double BroadRelief::height_m(geo::GeoPoint place) const {
   // Shelf, coastal plain and the slow rise behind it.
   double height_m = coast_km < 0 ? kShelfMPerKm * coast_km
                                  : 95.0 * (1.0 - std::exp(-coast_km / 14.0)) + 1.6 * std::min(coast_km, 90.0);
-  if (shore.fade <= 0.0) return height_m;
+  if (shore.fade <= 0.0) return std::max(height_m, kSeaBottomM);
   // Ranges follow the general line at their own distance and with their own gaps.
   const double wander_km = 26.0 * noise(at, 120, 60, 3);
   for (const Range& range : kRanges) {
@@ -87,7 +87,8 @@ double BroadRelief::height_m(geo::GeoPoint place) const {
   }
   // Low hills here and there.
   const double hilly = smooth_step(2.0, 25.0, coast_km) * smooth_step(-0.1, 0.5, noise(at, 60, 160, 2)) * shore.fade;
-  return hilly <= 0.0 ? height_m : height_m + 190.0 * hilly * ridges(bent, 17, 150, 4);
+  if (hilly > 0.0) height_m += 190.0 * hilly * ridges(bent, 17, 150, 4);
+  return std::max(height_m, kSeaBottomM);
 }
 
 }  // namespace yars::model::terrain

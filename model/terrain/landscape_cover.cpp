@@ -23,7 +23,7 @@ double noise_at(const CoverSite& site, double wavelength_m, int octaves, std::ui
 
 double snow_line_m(double latitude_deg) {
   const double parallel = std::max(0.0, std::cos(latitude_deg * geo::kRadiansPerDegree));
-  return 4500.0 * parallel * std::sqrt(parallel) - 500.0 * smooth_step(64.0, 78.0, std::abs(latitude_deg));
+  return 4100.0 * parallel * std::sqrt(parallel) - 500.0 * smooth_step(64.0, 78.0, std::abs(latitude_deg));
 }
 
 Material natural_cover(const CoverSite& site, std::uint32_t seed) {

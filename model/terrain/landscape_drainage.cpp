@@ -155,13 +155,12 @@ void set_water(Drainage& drainage) {
     node.water_m = std::max(0.0, std::min(node.ground_m - depth_m, upstream_m[index]));
     if (node.downstream >= 0) {
       double& below_m = upstream_m[static_cast<std::size_t>(node.downstream)];
-      below_m = std::min(below_m, node.water_m);
+      below_m = std::min(below_m, node.water_m - kLeastFall * kNodeMetres);
     }
   }
   for (RiverNode& node : nodes) {
     if (node.downstream >= 0)
-      node.water_m =
-          std::max(node.water_m, nodes[static_cast<std::size_t>(node.downstream)].water_m + kLeastFall * kNodeMetres);
+      node.water_m = std::max(node.water_m, nodes[static_cast<std::size_t>(node.downstream)].water_m);
     else if (node.exit >= 0)
       node.water_m = std::max(node.water_m, drainage.exits[static_cast<std::size_t>(node.exit)].bed_m);
     else if (!drainage.landlocked)

@@ -11,12 +11,11 @@ namespace yars::model::terrain {
 
 namespace {
 
-constexpr double kDeepSeaM = -150.0;  // [m] ground below does not reach the surface by any gully's spur
+constexpr double kDeepSeaM = -100.0;  // [m] ground below does not reach the surface by any gully's spur
 constexpr GullyOctave kGullies[] = {{2000, 0.17}, {980, 0.12}, {500, 0.08}, {240, 0.06}, {115, 0.05}};
 constexpr double kRoughM = 2.5;  // [m] of stones and ledges on steep ground
 constexpr double kRoughWavelengthM = 75.0;
 constexpr double kTownReach = 2.2;  // radii: a town's ragged edge ends within
-// [m] higher is no river's or coast's business: spares culture's noise nothing, keeps shorts from overflow
 constexpr double kHighestM = 9000.0;
 
 // Sea is exactly 0 m and land at least 1 m: zero means water to the radar.

@@ -89,7 +89,9 @@ TEST_F(IndexedPng, EveryFlippedByteIsAnErrorOrAPicture) {
     broken[at] = static_cast<char>(~broken[at]);
     put(broken);
     const auto read = read_indexed_png(path_, 100);
-    if (read) EXPECT_EQ(read->pixels.size(), static_cast<std::size_t>(read->width * read->height));
+    if (read) {
+      EXPECT_EQ(read->pixels.size(), static_cast<std::size_t>(read->width * read->height));
+    }
   }
 }
 
