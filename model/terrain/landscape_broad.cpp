@@ -52,7 +52,7 @@ BroadRelief::Shore BroadRelief::beside_edge(double coast_km, geo::GeoPoint place
   if (inside_km >= kReachKm) return {coast_km, 1.0};
   const double margin_km = 11.0 + 70.0 * std::clamp(0.42 + 1.15 * noise(bent, 115, 170, 6), 0.0, 1.0);
   const double shore_km = inside_km - margin_km;
-  return {std::min(coast_km, shore_km), smooth_step(0.0, kReachKm - 75.0, shore_km)};
+  return {std::min(coast_km, shore_km), smooth_step(0.0, 22.0, shore_km)};
 }
 
 double BroadRelief::height_m(geo::GeoPoint place) const {
