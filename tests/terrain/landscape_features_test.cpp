@@ -168,6 +168,23 @@ TEST(LandscapeCover, SeamsHaveOneCover) {
   }
 }
 
+TEST(LandscapeCover, TheAntimeridianAndTheZonesOfDtedAreNoBorders) {
+  const Landscape landscape(Default::kSeed);
+  const MadeCell west = landscape.make({10, 179}, 121, 121);
+  const MadeCell east = landscape.make({10, -180}, 121, 121);
+  const MadeCell south = landscape.make({49, 10}, 121, dted_columns({49, 10}, 0));
+  const MadeCell north = landscape.make({50, 10}, 121, dted_columns({50, 10}, 0));
+  ASSERT_EQ(2 * (north.cell.columns() - 1), south.cell.columns() - 1);
+  for (int post = 0; post < 121; ++post) {
+    ASSERT_EQ(west.culture.code(post, 120), east.culture.code(post, 0));
+    ASSERT_EQ(west.cell.post(post, 120), east.cell.post(post, 0));
+  }
+  for (int post = 0; post < north.cell.columns(); ++post) {
+    ASSERT_EQ(south.culture.code(120, 2 * post), north.culture.code(0, post));
+    ASSERT_EQ(south.cell.post(120, 2 * post), north.cell.post(0, post));
+  }
+}
+
 TEST(LandscapeCover, SeaIsWaterAndThereIsMuchToSee) {
   std::size_t counts[kLargestMaterial + 1] = {};
   for (const CellPlace place : island_places()) {
