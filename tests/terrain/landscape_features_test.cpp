@@ -268,7 +268,7 @@ TEST(LandscapeLevels, TheBitsDoNotDependOnThreads) {
   const Landscape two(Default::kSeed, kIsland);
   const MadeCell first = one.make({37, -122}, 121, 121, 1);
   const MadeCell second = two.make({37, -122}, 121, 121, 2);
-  EXPECT_TRUE(std::equal(first.cell.posts().begin(), first.cell.posts().end(), second.cell.posts().begin()));
+  EXPECT_EQ(first.cell.posts(), second.cell.posts());
   EXPECT_TRUE(std::equal(first.culture.codes().begin(), first.culture.codes().end(), second.culture.codes().begin()));
 }
 
@@ -278,7 +278,7 @@ TEST(LandscapeLevels, TheOrderOfQuestionsDoesNotMatter) {
   for (const CellPlace place : island_places()) after.features(place);
   const MadeCell first = before.make({38, -123}, 121, 121);
   const MadeCell second = after.make({38, -123}, 121, 121);
-  EXPECT_TRUE(std::equal(first.cell.posts().begin(), first.cell.posts().end(), second.cell.posts().begin()));
+  EXPECT_EQ(first.cell.posts(), second.cell.posts());
 }
 
 }  // namespace
