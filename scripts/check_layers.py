@@ -32,7 +32,7 @@ LAYERS = {
     "databuffer/flight": RECORDS,
     "databuffer": SEGMENT,
     "model/terrain/gdal": ["lib/failure"],
-    "model/terrain": RADAR + ["model/terrain/gdal"],
+    "model/terrain": RADAR + ["lib/imageio", "model/terrain/gdal"],
     "model/antenna": RADAR,
     "model/reflectivity": RADAR + ["model/terrain"],
     "model/rbm": RADAR + ["model/terrain", "model/antenna", "model/reflectivity"],

@@ -4,7 +4,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include "model/terrain/culture_reader.hpp"
+#include "model/terrain/culture_tile.hpp"
 #include "model/terrain/directory_index.hpp"
 #include "tools/command.hpp"
 #include "tools/terrain_commands.hpp"
@@ -21,6 +24,7 @@ struct Options {
   std::string out;
   std::optional<double> south_deg, north_deg, west_deg, east_deg;  // else what the directory covers
   int width = 1024;
+  bool culture = false;
 };
 
 MapFrame frame_of(const Options& options, const DirectoryIndex& index) {
@@ -45,6 +49,20 @@ bool overlap(CellPlace place, const MapFrame& frame) {
          place.west_deg < frame.east_deg && place.west_deg + 1 > frame.west_deg;
 }
 
+void say_problem(const failure::Error& error) {
+  std::fprintf(stderr, "problem: %s\n", error.message().c_str());
+}
+
+// Nothing where it is not asked for, absent or unreadable.
+std::optional<Culture> culture_of(const Options& options, const CellFile& file, CellPlace place) {
+  const auto path = options.culture ? find_culture(file.path) : std::nullopt;
+  if (!path) return std::nullopt;
+  auto culture = read_culture(*path, place);
+  if (culture) return std::move(*culture);
+  say_problem(culture.error());
+  return std::nullopt;
+}
+
 // Cell by cell: no more than one is in memory, whatever the region.
 void draw(const Options& options) {
   const auto index = index_directory(options.directory);
@@ -54,10 +72,12 @@ void draw(const Options& options) {
   for (const auto& [slot, file] : *index) {
     if (!overlap(place_of_slot(slot), frame)) continue;
     const auto reading = read_cell(file, place_of_slot(slot));
-    if (reading)
-      paint_cell(reading->cell, frame, image);
-    else
-      std::fprintf(stderr, "problem: %s\n", reading.error().message().c_str());
+    if (!reading) {
+      say_problem(reading.error());
+      continue;
+    }
+    const std::optional<Culture> culture = culture_of(options, file, place_of_slot(slot));
+    paint_cell(reading->cell, culture ? &*culture : nullptr, frame, image);
   }
   if (const auto written = imageio::write_png(options.out, image); !written) give_up(written.error());
 }
@@ -75,6 +95,8 @@ void add_terrain_image(CLI::App& terrain) {
   command->add_option("--west", options->west_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
   command->add_option("--east", options->east_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
   command->add_option("--width", options->width, "[pixels]")->check(CLI::Range(16, 16384))->capture_default_str();
+  command->add_flag("--culture", options->culture,
+                    "colours by surface material where a cell has its culture beside it");
   command->callback([options] { draw(*options); });
 }
 

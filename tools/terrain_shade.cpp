@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lib/geo/quantity.hpp"
+#include "model/terrain/culture_writer.hpp"
 #include "model/terrain/interpolation.hpp"
 
 namespace yars::tools {
@@ -12,6 +13,8 @@ namespace yars::tools {
 namespace {
 
 using model::terrain::Cell;
+using model::terrain::Culture;
+using model::terrain::Material;
 using Colour = std::array<double, 3>;
 
 constexpr double kMetresPerDegree = 111195.0;  // [m] of a sphere of 6371 km: a picture, no navigation
@@ -54,7 +57,21 @@ struct PixelStep {
   double north_deg, east_deg;
 };
 
-Colour colour_at(const Cell& cell, double north_deg, double east_deg, PixelStep step, double east_m_per_deg) {
+struct Ground {
+  const Cell& cell;
+  const Culture* culture;  // may be null
+};
+
+// What covers the ground; by height where culture is absent or says nothing.
+Colour cover_of(const Ground& ground, double north_deg, double east_deg, double height_m) {
+  const std::uint8_t code = ground.culture != nullptr ? ground.culture->nearest(north_deg, east_deg) : 0;
+  if (code == static_cast<std::uint8_t>(Material::none)) return tint(height_m);
+  const auto colour = model::terrain::material_colour(code);
+  return {static_cast<double>(colour[0]), static_cast<double>(colour[1]), static_cast<double>(colour[2])};
+}
+
+Colour colour_at(const Ground& ground, double north_deg, double east_deg, PixelStep step, double east_m_per_deg) {
+  const Cell& cell = ground.cell;
   const model::terrain::Surface here = model::terrain::interpolate(cell, north_deg, east_deg);
   if (std::isnan(here.elevation_m)) return kVoid;
   if (here.water > 0.5) return kSea;
@@ -72,7 +89,7 @@ Colour colour_at(const Cell& cell, double north_deg, double east_deg, PixelStep 
   };
   const double shade = light(rise(north_deg, west, north_deg, east) / ((east - west) * east_m_per_deg),
                              rise(south, east_deg, north, east_deg) / ((north - south) * kMetresPerDegree));
-  Colour colour = tint(here.elevation_m);
+  Colour colour = cover_of(ground, north_deg, east_deg, here.elevation_m);
   for (double& channel : colour) channel *= shade;
   return colour;
 }
@@ -101,7 +118,7 @@ imageio::Image blank_map(const MapFrame& frame) {
   return image;
 }
 
-void paint_cell(const Cell& cell, const MapFrame& frame, imageio::Image& image) {
+void paint_cell(const Cell& cell, const Culture* culture, const MapFrame& frame, imageio::Image& image) {
   const PixelStep step{(frame.north_deg - frame.south_deg) / frame.height,
                        (frame.east_deg - frame.west_deg) / frame.width};
   const double west_deg = cell.place().west_deg;
@@ -116,7 +133,8 @@ void paint_cell(const Cell& cell, const MapFrame& frame, imageio::Image& image) 
       const double longitude_deg = frame.west_deg + (x + 0.5) * step.east_deg;
       if (longitude_deg >= west_deg + 1.0) break;
       put(image, x, y,
-          colour_at(cell, latitude_deg - cell.place().south_deg, longitude_deg - west_deg, step, east_m_per_deg));
+          colour_at({cell, culture}, latitude_deg - cell.place().south_deg, longitude_deg - west_deg, step,
+                    east_m_per_deg));
     }
   }
 }

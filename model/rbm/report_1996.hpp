@@ -28,8 +28,9 @@ class Report1996 : public Algorithm {
   int knots_;
   radar::Interpolation interpolation_;
   std::size_t count_;
+  std::vector<float> distance_m_;
   PlaceArrays places_;
-  std::vector<float> distance_m_, elevation_m_, water_;  // and terrain::kRunSlack more
+  std::vector<float> elevation_m_, water_;  // and terrain::kRunSlack more
   std::vector<float> intensity_;
 };
 

@@ -1,14 +1,11 @@
 #include "model/terrain/landscape_lattice.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace yars::model::terrain {
 
 namespace {
-
-constexpr double kMetresPerDegree = 111195.0;  // [m] of a sphere of 6371 km: shape only, no navigation
 
 // Weights of a uniform cubic B-spline over four lattice points, and their derivatives.
 struct Spline {
@@ -22,78 +19,65 @@ Spline spline_at(double t) {
       {-s * s / 2.0, (3 * t * t - 4 * t) / 2.0, (4 * s - 3 * s * s) / 2.0, t * t / 2.0}};
 }
 
-// Metres eastward in a degree of longitude; kept from zero at the poles, where no slope makes sense.
-double east_m_per_degree(double latitude_deg) {
-  return kMetresPerDegree * std::max(0.01, std::cos(latitude_deg * geo::kRadiansPerDegree));
-}
-
 }  // namespace
 
-geo::GeoPoint LandscapeLattice::node(int row, int column) const {
-  constexpr int kRound = kCellColumns * kPerDegree;
-  const int wrapped = (first_column_ + column + kRound) % kRound;
-  return {static_cast<double>(first_row_ + row) / kPerDegree - 90.0, static_cast<double>(wrapped) / kPerDegree - 180.0};
-}
-
-LandscapeLattice::LandscapeLattice(CellPlace place, const std::function<double(geo::GeoPoint)>& height_m)
-    : first_row_((place.south_deg + 90) * kPerDegree - kMargin),
-      first_column_((place.west_deg + 180) * kPerDegree - kMargin),
-      heights_m_(static_cast<std::size_t>(kNodes) * kNodes),
-      row_m_(kNodes),
-      row_change_m_(kNodes) {
-  for (int row = 0; row < kNodes; ++row)
-    for (int column = 0; column < kNodes; ++column) heights_m_[slot(row, column)] = height_m(node(row, column));
-}
-
-void LandscapeLattice::cut(const Gullies& gullies) {
-  const std::vector<double> before = heights_m_;
-  const auto height = [&](int row, int column) { return before[slot(row, column)]; };
-  // The outermost nodes lack a neighbour; no post's spline reaches them.
-  for (int row = 1; row < kNodes - 1; ++row)
-    for (int column = 1; column < kNodes - 1; ++column) {
-      const geo::GeoPoint at = node(row, column);
-      const double half_steps = kPerDegree / 2.0;
-      const Slope slope{
-          (height(row, column + 1) - height(row, column - 1)) * half_steps / east_m_per_degree(at.latitude_deg),
-          (height(row + 1, column) - height(row - 1, column)) * half_steps / kMetresPerDegree};
-      heights_m_[slot(row, column)] += gullies.relief_m(at.latitude_deg, at.longitude_deg, slope);
+LandscapeLattice::LandscapeLattice(CellPlace place, int columns,
+                                   const std::function<const ReliefTile&(CellPlace)>& tile_at)
+    : place_(place), heights_m_(static_cast<std::size_t>(kNodes) * kNodes) {
+  for (int north = -1; north <= 1; ++north)
+    for (int east = -1; east <= 1; ++east) {
+      const ReliefTile& tile = tile_at(neighbour_of(place, north, east));
+      // Nodes of this tile among ours.
+      for (int row = std::max(0, kMargin + north * kTileNodes);
+           row < std::min(kNodes, kMargin + (north + 1) * kTileNodes); ++row)
+        for (int column = std::max(0, kMargin + east * kTileNodes);
+             column < std::min(kNodes, kMargin + (east + 1) * kTileNodes); ++column)
+          heights_m_[static_cast<std::size_t>(row) * kNodes + static_cast<std::size_t>(column)] =
+              tile.height_m(row - kMargin - north * kTileNodes, column - kMargin - east * kTileNodes);
     }
+  columns_.reserve(static_cast<std::size_t>(columns));
+  constexpr int kRound = kCellColumns * kTileNodes;
+  for (int column = 0; column < columns; ++column) {
+    const int steps = column * kTileNodes;
+    const double fraction = static_cast<double>(steps % (columns - 1)) / (columns - 1);
+    const int node = steps / (columns - 1);
+    const int of_earth = ((place.west_deg + 180) * kTileNodes + node) % kRound;
+    const Spline spline = spline_at(fraction);
+    columns_.push_back({node + kMargin - 1, (of_earth + fraction) / kTileNodes - 180.0, spline.value, spline.change});
+  }
 }
 
-void LandscapeLattice::choose_row(int post, int intervals) {
-  const int steps = post * kPerDegree;
+LandscapeLattice::Row::Row(const LandscapeLattice& lattice, int post, int intervals)
+    : lattice_(&lattice), value_m_(kNodes), change_m_(kNodes) {
+  const int steps = post * kTileNodes;
   const double fraction = static_cast<double>(steps % intervals) / intervals;
-  const int first = steps / intervals + kMargin - 1;
-  latitude_deg_ = (first_row_ + first + 1 + fraction) / kPerDegree - 90.0;
-  east_per_node_m_ = east_m_per_degree(latitude_deg_) / kPerDegree;
+  const int node = steps / intervals;
+  latitude_deg_ = ((lattice.place_.south_deg + 90) * kTileNodes + node + fraction) / kTileNodes - 90.0;
+  east_per_node_m_ = east_m_per_degree(latitude_deg_) / kTileNodes;
   const Spline spline = spline_at(fraction);
-  std::fill(row_m_.begin(), row_m_.end(), 0.0);
-  std::fill(row_change_m_.begin(), row_change_m_.end(), 0.0);
-  for (int tap = 0; tap < 4; ++tap) {
+  for (std::size_t tap = 0; tap < 4; ++tap) {
     // On the cell's north edge the fourth tap has no weight and may stay inside.
-    const int row = std::min(first + tap, kNodes - 1);
-    for (int column = 0; column < kNodes; ++column) {
-      row_m_[column] += spline.value[tap] * heights_m_[slot(row, column)];
-      row_change_m_[column] += spline.change[tap] * heights_m_[slot(row, column)];
+    const int row = std::min(node + kMargin - 1 + static_cast<int>(tap), kNodes - 1);
+    const double* nodes = &lattice.heights_m_[static_cast<std::size_t>(row) * kNodes];
+    for (std::size_t column = 0; column < kNodes; ++column) {
+      value_m_[column] += spline.value[tap] * nodes[column];
+      change_m_[column] += spline.change[tap] * nodes[column];
     }
   }
 }
 
-LandscapeLattice::Ground LandscapeLattice::at_column(int post, int intervals) const {
-  constexpr int kRound = kCellColumns * kPerDegree;
-  const int steps = post * kPerDegree;
-  const double fraction = static_cast<double>(steps % intervals) / intervals;
-  const int first = steps / intervals + kMargin - 1;
-  const Spline spline = spline_at(fraction);
+LandscapeLattice::Ground LandscapeLattice::Row::at(int column) const {
+  const Column& taps = lattice_->columns_[static_cast<std::size_t>(column)];
   Ground ground;
-  ground.latitude_deg = latitude_deg_;
-  ground.longitude_deg = ((first_column_ + first + 1) % kRound + fraction) / kPerDegree - 180.0;
-  for (int tap = 0; tap < 4; ++tap) {
-    const int column = std::min(first + tap, kNodes - 1);
-    ground.height_m += spline.value[tap] * row_m_[column];
-    ground.slope.east += spline.change[tap] * row_m_[column] / east_per_node_m_;
-    ground.slope.north += spline.value[tap] * row_change_m_[column] * kPerDegree / kMetresPerDegree;
+  double east = 0.0;
+  double north = 0.0;
+  for (std::size_t tap = 0; tap < 4; ++tap) {
+    const auto node = static_cast<std::size_t>(std::min(taps.first + static_cast<int>(tap), kNodes - 1));
+    ground.height_m += taps.value[tap] * value_m_[node];
+    east += taps.change[tap] * value_m_[node];
+    north += taps.value[tap] * change_m_[node];
   }
+  ground.slope = {east / east_per_node_m_, north / kNodeMetres};
   return ground;
 }
 

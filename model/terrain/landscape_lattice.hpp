@@ -1,50 +1,57 @@
-// The broad shapes of one cell on a lattice of 30 arc seconds, joined by a uniform cubic B-spline: smooth, with its
-// slope. Lattice and post positions are integers of the whole earth, so neighbouring cells compute equal bits.
+// Lattice nodes of one cell and its surroundings joined by a uniform cubic B-spline: smooth ground, with its slope.
+// Post positions are fractions of whole numbers of the earth, so neighbouring cells compute equal bits.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
-#include "model/terrain/cell.hpp"
-#include "model/terrain/gullies.hpp"
+#include "model/terrain/landscape_relief.hpp"
 
 namespace yars::model::terrain {
 
 class LandscapeLattice {
  public:
-  LandscapeLattice(CellPlace place, const std::function<double(geo::GeoPoint)>& height_m);
-
-  // Adds the relief of gullies at each lattice point, down the slope between its neighbours.
-  void cut(const Gullies& gullies);
+  // `tile_at` gives the tile of a place, also one row beyond the poles. `columns` posts from west to east.
+  LandscapeLattice(CellPlace place, int columns, const std::function<const ReliefTile&(CellPlace)>& tile_at);
 
   struct Ground {
-    double latitude_deg = 0.0;
-    double longitude_deg = 0.0;  // [-180, 180)
     double height_m = 0.0;
     Slope slope;
   };
 
-  // Row `post` of `intervals` northward from the cell's south edge; then places along it eastward.
-  void choose_row(int post, int intervals);
-  Ground at_column(int post, int intervals) const;
+  // A row of posts: `post` of `intervals` northward from the cell's south edge.
+  class Row {
+   public:
+    Row(const LandscapeLattice& lattice, int post, int intervals);
+    double latitude_deg() const { return latitude_deg_; }
+    Ground at(int column) const;
+
+   private:
+    const LandscapeLattice* lattice_;
+    double latitude_deg_;
+    double east_per_node_m_;
+    std::vector<double> value_m_;   // the spline along the row, at lattice columns
+    std::vector<double> change_m_;  // its change northward, per lattice step
+  };
+
+  // Longitude of a column of posts, [-180, 180).
+  double longitude_deg(int column) const { return columns_[static_cast<std::size_t>(column)].longitude_deg; }
 
  private:
-  static constexpr int kPerDegree = 120;
-  static constexpr int kMargin = 2;  // nodes beyond the cell: the spline's, and their neighbours
-  static constexpr int kNodes = kPerDegree + 2 * kMargin + 1;  // a side
+  static constexpr int kMargin = 2;                            // nodes beyond the cell that its splines reach
+  static constexpr int kNodes = kTileNodes + 2 * kMargin + 1;  // a side
 
-  static std::size_t slot(int row, int column) {
-    return static_cast<std::size_t>(row) * kNodes + static_cast<std::size_t>(column);
-  }
-  geo::GeoPoint node(int row, int column) const;
+  struct Column {
+    int first;  // lattice column of the first tap
+    double longitude_deg;
+    std::array<double, 4> value;
+    std::array<double, 4> change;
+  };
 
-  int first_row_;     // lattice row of the earth, from the south pole
-  int first_column_;  // lattice column, from the antimeridian eastward
+  CellPlace place_;
   std::vector<double> heights_m_;
-  double latitude_deg_ = 0.0;
-  double east_per_node_m_ = 0.0;
-  std::vector<double> row_m_;         // the spline along the chosen row, at lattice columns
-  std::vector<double> row_change_m_;  // its change northward, per lattice step
+  std::vector<Column> columns_;
 };
 
 }  // namespace yars::model::terrain

@@ -13,6 +13,11 @@ double fade(double t) {
 double mix(double a, double b, double t) {
   return a + t * (b - a);
 }
+// std::floor is a call into the library without SSE 4.1; coordinates are far below 2^31.
+std::int32_t floor_of(double value) {
+  const auto whole = static_cast<std::int32_t>(value);
+  return whole - static_cast<std::int32_t>(value < static_cast<double>(whole));
+}
 geo::Vector3 scaled(geo::Vector3 point, double factor) {
   return {point.x * factor, point.y * factor, point.z * factor};
 }
@@ -38,13 +43,10 @@ std::uint32_t lattice_hash(std::int32_t x, std::int32_t y, std::int32_t z, std::
 }
 
 double gradient_noise(geo::Vector3 point, std::uint32_t seed) {
-  const double floor_x = std::floor(point.x);
-  const double floor_y = std::floor(point.y);
-  const double floor_z = std::floor(point.z);
-  const auto x = static_cast<std::int32_t>(floor_x);
-  const auto y = static_cast<std::int32_t>(floor_y);
-  const auto z = static_cast<std::int32_t>(floor_z);
-  const geo::Vector3 in{point.x - floor_x, point.y - floor_y, point.z - floor_z};
+  const std::int32_t x = floor_of(point.x);
+  const std::int32_t y = floor_of(point.y);
+  const std::int32_t z = floor_of(point.z);
+  const geo::Vector3 in{point.x - x, point.y - y, point.z - z};
   const double across_x = fade(in.x);
   const auto edge = [&](int up_y, int up_z) {
     return mix(corner(lattice_hash(x, y + up_y, z + up_z, seed), in.x, in.y - up_y, in.z - up_z),
@@ -53,6 +55,11 @@ double gradient_noise(geo::Vector3 point, std::uint32_t seed) {
   const double across_y = fade(in.y);
   constexpr double kGain = 1.6;  // brings the usual extremes of this gradient set to about 1
   return kGain * mix(mix(edge(0, 0), edge(1, 0), across_y), mix(edge(0, 1), edge(1, 1), across_y), fade(in.z));
+}
+
+double smooth_step(double low, double high, double value) {
+  const double t = std::clamp((value - low) / (high - low), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
 }
 
 double fractal_noise(geo::Vector3 point, std::uint32_t seed, int octaves, double persistence) {

@@ -20,4 +20,12 @@ double fractal_noise(geo::Vector3 point, std::uint32_t seed, int octaves, double
 // Ridged sum: crests where the noise passes zero; octaves are rough on crests and calm in valleys. [0, 1].
 double ridged_noise(geo::Vector3 point, std::uint32_t seed, int octaves);
 
+// 0 below `low`, 1 above `high`, smooth between.
+double smooth_step(double low, double high, double value);
+
+// A number in [0, 1) from a hash.
+constexpr double share_of(std::uint32_t hash) {
+  return static_cast<double>(hash) / 4294967296.0;
+}
+
 }  // namespace yars::model::terrain

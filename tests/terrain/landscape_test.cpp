@@ -53,16 +53,6 @@ TEST(Landscape, PostsAtAZoneBoundaryAreShared) {
   expect_equal_north_south(south, north);
 }
 
-TEST(Landscape, LevelZeroIsEveryTenthPostOfLevelOne) {
-  const Landscape landscape(DefaultLandscape::kSeed);
-  const CellPlace place{38, -122};
-  const Cell coarse = level_0(landscape, place);
-  const Cell fine = landscape.cell(place, 1201, 1201);
-  for (int row = 0; row < kRows; ++row)
-    for (int column = 0; column < kRows; ++column)
-      ASSERT_EQ(coarse.post(row, column), fine.post(10 * row, 10 * column));
-}
-
 TEST(Landscape, AnotherObjectMakesTheSameEarthAndAnotherSeedAnother) {
   const CellPlace place{37, -122};
   const Cell first = level_0(Landscape(12), place);

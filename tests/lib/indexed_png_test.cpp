@@ -1,0 +1,104 @@
+// Indexed PNG in and out.
+#include "lib/imageio/indexed_png.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "lib/imageio/png.hpp"
+
+namespace yars::imageio {
+namespace {
+
+class IndexedPng : public testing::Test {
+ protected:
+  IndexedPng() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "yars-indexed-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) std::abort();
+    folder_ = pattern;
+    path_ = folder_ / "numbers.png";
+  }
+  ~IndexedPng() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  static IndexedImage numbers() {
+    IndexedImage image{5, 3, {}, {}};
+    for (std::uint8_t pixel = 0; pixel < 15; ++pixel) image.pixels.push_back(pixel);
+    for (std::uint8_t colour = 0; colour < 20; ++colour) image.palette.push_back({colour, 9, 200});
+    return image;
+  }
+  std::string bytes() const {
+    std::ifstream file(path_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  void put(const std::string& bytes) const { std::ofstream(path_, std::ios::binary) << bytes; }
+
+  std::filesystem::path folder_;
+  std::filesystem::path path_;
+};
+
+TEST_F(IndexedPng, NumbersAndPaletteComeBack) {
+  ASSERT_TRUE(write_indexed_png(path_, numbers()).has_value());
+  const auto read = read_indexed_png(path_, 100);
+  ASSERT_TRUE(read.has_value()) << read.error().message();
+  EXPECT_EQ(read->width, 5);
+  EXPECT_EQ(read->height, 3);
+  EXPECT_EQ(read->pixels, numbers().pixels);
+  EXPECT_EQ(read->palette, numbers().palette);
+}
+
+TEST_F(IndexedPng, AnyViewerSeesThePalettesColours) {
+  ASSERT_TRUE(write_indexed_png(path_, numbers()).has_value());
+  const auto picture = read_png(path_);
+  ASSERT_TRUE(picture.has_value());
+  ASSERT_EQ(picture->channels, 3);
+  EXPECT_EQ(picture->pixels[3 * 7], 7);
+  EXPECT_EQ(picture->pixels[3 * 7 + 2], 200);
+}
+
+TEST_F(IndexedPng, ColoursWithoutNumbersAreRefused) {
+  ASSERT_TRUE(write_png(path_, Image{2, 2, 3, std::vector<std::uint8_t>(12)}).has_value());
+  const auto read = read_indexed_png(path_, 100);
+  ASSERT_FALSE(read.has_value());
+  EXPECT_NE(read.error().message().find("indexed"), std::string::npos) << read.error().message();
+}
+
+TEST_F(IndexedPng, ALargerPictureThanAskedForIsRefused) {
+  ASSERT_TRUE(write_indexed_png(path_, numbers()).has_value());
+  EXPECT_FALSE(read_indexed_png(path_, 4).has_value());
+  EXPECT_TRUE(read_indexed_png(path_, 5).has_value());
+}
+
+TEST_F(IndexedPng, EveryTruncationIsAnError) {
+  ASSERT_TRUE(write_indexed_png(path_, numbers()).has_value());
+  const std::string whole = bytes();
+  for (std::size_t length = 0; length + 1 < whole.size(); ++length) {
+    put(whole.substr(0, length));
+    EXPECT_FALSE(read_indexed_png(path_, 100).has_value()) << length << " of " << whole.size() << " bytes";
+  }
+}
+
+TEST_F(IndexedPng, EveryFlippedByteIsAnErrorOrAPicture) {
+  ASSERT_TRUE(write_indexed_png(path_, numbers()).has_value());
+  const std::string whole = bytes();
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    std::string broken = whole;
+    broken[at] = static_cast<char>(~broken[at]);
+    put(broken);
+    const auto read = read_indexed_png(path_, 100);
+    if (read) {
+      EXPECT_EQ(read->pixels.size(), static_cast<std::size_t>(read->width * read->height));
+    }
+  }
+}
+
+TEST_F(IndexedPng, AMissingFileAndAFolderThatIsNoneAreErrors) {
+  EXPECT_FALSE(read_indexed_png(folder_ / "absent.png", 100).has_value());
+  EXPECT_FALSE(write_indexed_png(folder_ / "absent" / "numbers.png", numbers()).has_value());
+}
+
+}  // namespace
+}  // namespace yars::imageio

@@ -1,0 +1,127 @@
+// Culture: the tile's file, where it lies, how streets run.
+#include "model/terrain/culture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "lib/imageio/indexed_png.hpp"
+#include "lib/imageio/png.hpp"
+#include "model/terrain/culture_reader.hpp"
+#include "model/terrain/culture_tile.hpp"
+#include "model/terrain/culture_writer.hpp"
+#include "model/terrain/street_grid.hpp"
+#include "tests/terrain/dted_builder.hpp"
+
+namespace yars::model::terrain {
+namespace {
+
+constexpr CellPlace kPlace{36, -122};
+
+Culture small_culture() {
+  std::vector<std::uint8_t> codes;
+  for (int code = 0; code < 12; ++code) codes.push_back(static_cast<std::uint8_t>(code));
+  return Culture(kPlace, 4, 3, codes);
+}
+
+TEST(Culture, WhatItsWriterWritesItsReaderReads) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "w122" / "n36.smc.png";
+  ASSERT_TRUE(write_culture(path, small_culture()).has_value());
+  const auto read = read_culture(path, kPlace);
+  ASSERT_TRUE(read.has_value()) << read.error().message();
+  EXPECT_EQ(read->place(), kPlace);
+  ASSERT_EQ(read->rows(), 4);
+  ASSERT_EQ(read->columns(), 3);
+  EXPECT_TRUE(std::equal(read->codes().begin(), read->codes().end(), small_culture().codes().begin()));
+}
+
+TEST(Culture, ThePictureHasNorthOnTop) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "n36.smc.png";
+  ASSERT_TRUE(write_culture(path, small_culture()).has_value());
+  const auto image = imageio::read_indexed_png(path, 100);
+  ASSERT_TRUE(image.has_value());
+  EXPECT_EQ(image->pixels[0], small_culture().code(3, 0));
+  EXPECT_EQ(image->pixels[11], small_culture().code(0, 2));
+  const auto water = static_cast<std::size_t>(Material::water);
+  EXPECT_GT(image->palette[water][2], image->palette[water][0]) << "water looks blue";
+}
+
+TEST(Culture, ThePostNearestToAPlaceAnswers) {
+  const Culture culture = small_culture();
+  EXPECT_EQ(culture.nearest(0.0, 0.0), 0);
+  EXPECT_EQ(culture.nearest(1.0, 1.0), 11);
+  EXPECT_EQ(culture.nearest(0.4, 0.6), culture.code(1, 1));
+  EXPECT_EQ(culture.nearest(-3.0, 7.0), culture.code(0, 2)) << "outside: the edge";
+}
+
+TEST(CultureTile, LiesBesideTheElevationCell) {
+  EXPECT_EQ(culture_path("db/w122/n36.dt1"), "db/w122/n36.smc.png");
+  EXPECT_EQ(culture_path("db/N36W122.hgt"), "db/N36W122.smc.png");
+  EXPECT_EQ(culture_path("db/N36W122.hgt.gz"), "db/N36W122.smc.png");
+  const test::TemporaryFolder folder;
+  const auto elevation = folder.path() / "w122" / "n36.dt1";
+  EXPECT_FALSE(find_culture(elevation).has_value());
+  ASSERT_TRUE(write_culture(culture_path(elevation), small_culture()).has_value());
+  EXPECT_EQ(find_culture(elevation), culture_path(elevation));
+}
+
+TEST(CultureReader, ACodeBeyondDfadIsRefusedWithItsPlace) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "n36.smc.png";
+  imageio::IndexedImage image{3, 2, {0, 31, 0, 0, 0, 32}, {}};
+  image.palette.resize(64);
+  ASSERT_TRUE(imageio::write_indexed_png(path, image).has_value());
+  const auto read = read_culture(path, kPlace);
+  ASSERT_FALSE(read.has_value());
+  EXPECT_NE(read.error().message().find("code 32 at column 2 of row 1"), std::string::npos) << read.error().message();
+}
+
+TEST(CultureReader, WhatIsNoTileIsOneClearError) {
+  const test::TemporaryFolder folder;
+  folder.write("text.smc.png", std::vector<std::byte>(200, std::byte{65}));
+  EXPECT_FALSE(read_culture(folder.path() / "text.smc.png", kPlace).has_value());
+  const auto gray = folder.path() / "gray.smc.png";
+  ASSERT_TRUE(imageio::write_png(gray, imageio::Image{3, 3, 1, std::vector<std::uint8_t>(9)}).has_value());
+  EXPECT_FALSE(read_culture(gray, kPlace).has_value());
+  const auto line = folder.path() / "line.smc.png";
+  ASSERT_TRUE(imageio::write_indexed_png(line, {1, 5, std::vector<std::uint8_t>(5), {{0, 0, 0}}}).has_value());
+  const auto read = read_culture(line, kPlace);
+  ASSERT_FALSE(read.has_value());
+  EXPECT_NE(read.error().message().find("1 x 5"), std::string::npos) << read.error().message();
+}
+
+TEST(StreetGrid, BearingsAreRightAngledAndTownsHaveOne) {
+  int same = 0;
+  constexpr int kPlaces = 2000;
+  for (int index = 0; index < kPlaces; ++index) {
+    const geo::GeoPoint place{-70.0 + 0.07 * index, -180.0 + 0.18 * index};
+    const double bearing_deg = street_bearing_deg(place);
+    ASSERT_GE(bearing_deg, 0.0);
+    ASSERT_LT(bearing_deg, 90.0);
+    same += static_cast<int>(bearing_deg == street_bearing_deg({place.latitude_deg + 0.005, place.longitude_deg}));
+  }
+  EXPECT_GT(same, kPlaces * 3 / 4) << "places 550 m apart are mostly of one patch";
+  EXPECT_LT(same, kPlaces) << "but not all";
+}
+
+TEST(StreetGrid, DirectionsAreOfEveryKind) {
+  int sectors[9] = {};
+  for (int index = 0; index < 3000; ++index)
+    ++sectors[static_cast<int>(street_bearing_deg({-40.0 + 0.03 * index, 3.1 * index}) / 10.0)];
+  for (const int count : sectors) EXPECT_GT(count, 30);
+}
+
+TEST(StreetGrid, TheAntimeridianIsNoBorder) {
+  for (double latitude_deg = -89.5; latitude_deg < 90.0; latitude_deg += 0.5) {
+    EXPECT_EQ(street_bearing_deg({latitude_deg, 180.0}), street_bearing_deg({latitude_deg, -180.0}));
+    const double west = street_bearing_deg({latitude_deg, 179.9999999});
+    EXPECT_EQ(west, street_bearing_deg({latitude_deg, -179.9999999})) << latitude_deg;
+  }
+}
+
+}  // namespace
+}  // namespace yars::model::terrain

@@ -1,0 +1,285 @@
+// What the made-up earth has beyond bare relief: rivers, towns, airfields, cover, an island's coast.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "model/terrain/dted_writer.hpp"
+#include "model/terrain/landscape.hpp"
+#include "model/terrain/landscape_cover.hpp"
+#include "model/terrain/landscape_rows.hpp"
+
+namespace yars::model::terrain {
+namespace {
+
+using Default = DefaultLandscape;
+constexpr LandscapeBox kIsland{Default::kSouthDeg, Default::kWestDeg, Default::kCellsNorth, Default::kCellsEast};
+
+constexpr std::uint32_t kSeed = 12U * 4096U;  // as the landscape hands it to its tiles
+
+// Tiles are kept: the tests share one earth.
+const Landscape& island() {
+  static const Landscape landscape(Default::kSeed, kIsland);
+  return landscape;
+}
+
+std::vector<CellPlace> island_places() {
+  std::vector<CellPlace> places;
+  for (int row = 0; row < Default::kCellsNorth; ++row)
+    for (int column = 0; column < Default::kCellsEast; ++column)
+      places.push_back({Default::kSouthDeg + row, Default::kWestDeg + column});
+  return places;
+}
+
+TEST(LandscapeBox, MeasuresTheWayToItsNearestEdge) {
+  const LandscapeBox box{10, 20, 4, 6};
+  EXPECT_NEAR(box.inside_km({10.1, 23.0}), 11.12, 0.01);
+  EXPECT_NEAR(box.inside_km({12.0, 20.2}), 0.2 * 111.195 * std::cos(12.0 * geo::kRadiansPerDegree), 0.01);
+  EXPECT_LE(box.inside_km({9.9, 23.0}), 0.0);
+  EXPECT_LE(box.inside_km({12.0, 19.9}), 0.0);
+  EXPECT_LE(box.inside_km({12.0, 26.1}), 0.0);
+  EXPECT_LT(box.inside_km({10.1, 20.1}), 11.0) << "corners are round";
+}
+
+TEST(LandscapeBox, APoleAndTheWayRoundTheEarthAreNoEdges) {
+  const LandscapeBox earth;
+  EXPECT_GT(earth.inside_km({90.0, 0.0}), 1e5);
+  EXPECT_GT(earth.inside_km({0.0, -180.0}), 1e5);
+  const LandscapeBox across{-2, 178, 4, 4};  // over the antimeridian
+  EXPECT_NEAR(across.inside_km({0.0, -179.0}), 111.2, 0.1);
+}
+
+TEST(LandscapeRivers, WaterNeverRisesOnItsWayToTheSea) {
+  std::size_t nodes = 0;
+  std::size_t mouths = 0;
+  for (const CellPlace place : island_places()) {
+    const Drainage& drainage = island().features(place)->drainage;
+    for (const RiverNode& node : drainage.nodes) {
+      ++nodes;
+      if (node.downstream < 0) {
+        const double below_m = node.exit < 0 ? 0.0 : drainage.exits[static_cast<std::size_t>(node.exit)].bed_m;
+        EXPECT_GE(node.water_m, below_m);
+        if (node.exit < 0) {
+          EXPECT_EQ(node.water_m, 0.0) << "ends in the sea";
+        }
+        mouths += static_cast<std::size_t>(node.exit < 0);
+        continue;
+      }
+      const RiverNode& next = drainage.nodes[static_cast<std::size_t>(node.downstream)];
+      ASSERT_GE(node.water_m, next.water_m);
+      ASSERT_GT(next.area_km2, node.area_km2);
+    }
+  }
+  EXPECT_GT(nodes, 500U);
+  EXPECT_GT(mouths, 20U);
+}
+
+TEST(LandscapeRivers, WhatLeavesATileEntersTheNext) {
+  int gates = 0;
+  for (const CellPlace place : island_places()) {
+    const auto from = island().features(place);
+    for (std::size_t exit = 0; exit < from->drainage.exits.size(); ++exit) {
+      const RiverGate& gate = from->drainage.exits[exit];
+      const auto to = island().features(gate.to);
+      const auto entry = std::find_if(to->drainage.entries.begin(), to->drainage.entries.end(), [&](const auto& each) {
+        return each.gate.from == place && each.gate.along == gate.along;
+      });
+      ASSERT_NE(entry, to->drainage.entries.end());
+      EXPECT_EQ(entry->area_km2, from->drainage.exits_km2[exit]);
+      EXPECT_EQ(entry->gate.bed_m, gate.bed_m);
+      const TileNode target = gate_target(gate);
+      for (const RiverNode& node : to->drainage.nodes)
+        if (node.row == target.row && node.column == target.column && entry->area_km2 >= kRiverKm2) {
+          EXPECT_LE(node.water_m, gate.bed_m);
+        }
+      ++gates;
+    }
+  }
+  EXPECT_GT(gates, 3);
+}
+
+TEST(LandscapeRivers, CoursesOfATileNeitherRiseNorBreak) {
+  for (const CellPlace place : island_places())
+    for (const RiverPiece& piece : island().features(place)->rivers) {
+      ASSERT_GE(piece.ends[0].water_m, piece.ends[1].water_m - 1e-9);
+      ASSERT_LT(std::hypot(piece.east_m, piece.north_m), 1500.0);
+      ASSERT_GT(piece.ends[0].half_width_m, 20.0);
+    }
+}
+
+TEST(LandscapePlaces, TownsStandOnGentleLand) {
+  std::size_t towns = 0;
+  for (const CellPlace place : island_places()) {
+    const auto relief = island().relief(place);
+    for (const Town& town : island().features(place)->places.towns) {
+      const int row = static_cast<int>(std::lround((town.centre.latitude_deg - place.south_deg) * kTileNodes));
+      const int column = static_cast<int>(std::lround((town.centre.longitude_deg - place.west_deg) * kTileNodes));
+      EXPECT_GE(relief->height_m(row, column), 3.0);
+      EXPECT_LE(relief->steepness(row, column), kTownMostSteep);
+      EXPECT_LE(town.radius_m, kLargestTownM);
+      ++towns;
+    }
+  }
+  EXPECT_GT(towns, 30U);
+}
+
+// Rows of posts of level 1 that a place's surroundings need.
+TEST(LandscapePlaces, RunwaysAreFlatAndOfAsphalt) {
+  LandscapeTiles tiles(kSeed, kIsland);
+  int runways = 0;
+  std::size_t posts = 0;
+  for (const CellPlace place : {CellPlace{37, -124}, CellPlace{38, -121}, CellPlace{36, -121}}) {
+    for (const Airfield& airfield : tiles.features(place)->places.airfields) {
+      const LandscapeRows rows(tiles, kSeed, place, 1201, 1201);
+      std::vector<std::int16_t> heights_m(1201);
+      std::vector<std::uint8_t> codes(1201);
+      const int middle = static_cast<int>(std::lround((airfield.centre.latitude_deg - place.south_deg) * 1200));
+      for (int row = std::max(0, middle - 17); row <= std::min(1200, middle + 17); ++row) {
+        rows.make(row, heights_m, codes);
+        for (std::size_t column = 0; column < heights_m.size(); ++column) {
+          const geo::GeoPoint at{place.south_deg + row / 1200.0, place.west_deg + static_cast<double>(column) / 1200.0};
+          const OnAirfield on = on_airfield(airfield, at);
+          if (std::abs(on.along_m) > airfield.length_m / 2 - 1 || std::abs(on.across_m) > kRunwayHalfWidthM - 1)
+            continue;
+          ++posts;
+          ASSERT_NEAR(heights_m[column], airfield.elevation_m, 1.0);
+          ASSERT_EQ(codes[column], static_cast<std::uint8_t>(Material::asphalt));
+        }
+      }
+      EXPECT_GE(airfield.length_m, 2000.0);
+      EXPECT_LE(airfield.length_m, 3000.0);
+      ++runways;
+    }
+  }
+  EXPECT_GE(runways, 1);
+  EXPECT_GE(posts, 20U);
+}
+
+TEST(LandscapeCover, SeamsHaveOneCover) {
+  const MadeCell here = island().make({37, -122}, 121, 121);
+  const MadeCell east = island().make({37, -121}, 121, 121);
+  const MadeCell north = island().make({38, -122}, 121, 121);
+  for (int post = 0; post < 121; ++post) {
+    ASSERT_EQ(here.culture.code(post, 120), east.culture.code(post, 0));
+    ASSERT_EQ(here.culture.code(120, post), north.culture.code(0, post));
+    ASSERT_EQ(here.cell.post(post, 120), east.cell.post(post, 0));
+    ASSERT_EQ(here.cell.post(120, post), north.cell.post(0, post));
+  }
+}
+
+TEST(LandscapeCover, TheAntimeridianAndTheZonesOfDtedAreNoBorders) {
+  const Landscape landscape(Default::kSeed);
+  const MadeCell west = landscape.make({10, 179}, 121, 121);
+  const MadeCell east = landscape.make({10, -180}, 121, 121);
+  const MadeCell south = landscape.make({49, 10}, 121, dted_columns({49, 10}, 0));
+  const MadeCell north = landscape.make({50, 10}, 121, dted_columns({50, 10}, 0));
+  ASSERT_EQ(2 * (north.cell.columns() - 1), south.cell.columns() - 1);
+  for (int post = 0; post < 121; ++post) {
+    ASSERT_EQ(west.culture.code(post, 120), east.culture.code(post, 0));
+    ASSERT_EQ(west.cell.post(post, 120), east.cell.post(post, 0));
+  }
+  for (int post = 0; post < north.cell.columns(); ++post) {
+    ASSERT_EQ(south.culture.code(120, 2 * post), north.culture.code(0, post));
+    ASSERT_EQ(south.cell.post(120, 2 * post), north.cell.post(0, post));
+  }
+}
+
+TEST(LandscapeCover, SeaIsWaterAndThereIsMuchToSee) {
+  std::size_t counts[kLargestMaterial + 1] = {};
+  for (const CellPlace place : island_places()) {
+    if (!island().may_have_land(place)) continue;
+    const MadeCell made = island().make(place, 121, 121);
+    for (int row = 0; row < 121; ++row)
+      for (int column = 0; column < 121; ++column) {
+        const std::uint8_t code = made.culture.code(row, column);
+        ++counts[code];
+        if (made.cell.post(row, column) == 0) {
+          ASSERT_EQ(code, static_cast<std::uint8_t>(Material::water));
+        }
+        ASSERT_NE(code, static_cast<std::uint8_t>(Material::none));
+      }
+  }
+  const auto count = [&](Material material) { return counts[static_cast<std::size_t>(material)]; };
+  for (const Material material : {Material::composition, Material::stone, Material::sand, Material::rock,
+                                  Material::asphalt, Material::marsh, Material::snow})
+    EXPECT_GT(count(material), 10U) << static_cast<int>(material);
+  EXPECT_GT(count(Material::trees), 10000U);
+  EXPECT_GT(count(Material::soil), 10000U);
+}
+
+TEST(LandscapeCover, SnowLiesLowerTowardThePoles) {
+  EXPECT_GT(snow_line_m(0), 4000.0);
+  EXPECT_GT(snow_line_m(38), 2500.0);
+  EXPECT_LT(snow_line_m(-60), 1800.0);
+  EXPECT_LT(snow_line_m(85), 0.0);
+  EXPECT_EQ(snow_line_m(45), snow_line_m(-45));
+}
+
+TEST(LandscapeIsland, TheSeaRunsRoundTheBox) {
+  for (const CellPlace place : island_places()) {
+    const Cell cell = island().cell(place, 121, 121);
+    for (int post = 0; post < 121; ++post) {
+      if (place.south_deg == kIsland.south_deg) {
+        ASSERT_EQ(cell.post(0, post), 0);
+      }
+      if (place.south_deg == kIsland.south_deg + kIsland.cells_north - 1) {
+        ASSERT_EQ(cell.post(120, post), 0);
+      }
+      if (place.west_deg == kIsland.west_deg) {
+        ASSERT_EQ(cell.post(post, 0), 0);
+      }
+      if (place.west_deg == kIsland.west_deg + kIsland.cells_east - 1) {
+        ASSERT_EQ(cell.post(post, 120), 0);
+      }
+    }
+    if (!island().may_have_land(place)) {
+      EXPECT_EQ(cell.highest_m(), 0);
+    }
+  }
+}
+
+TEST(LandscapeLevels, PostsOfLevelTwoAreThoseOfTheCoarserLevels) {
+  LandscapeTiles tiles(kSeed, std::nullopt);
+  const CellPlace place{37, -121};
+  const LandscapeRows coarse(tiles, kSeed, place, 121, 121);
+  const LandscapeRows middle(tiles, kSeed, place, 1201, 1201);
+  const LandscapeRows fine(tiles, kSeed, place, 3601, 3601);
+  for (const int row : {0, 7, 60, 113, 120}) {
+    std::vector<std::int16_t> heights_m[3] = {std::vector<std::int16_t>(121), std::vector<std::int16_t>(1201),
+                                              std::vector<std::int16_t>(3601)};
+    std::vector<std::uint8_t> codes[3] = {std::vector<std::uint8_t>(121), std::vector<std::uint8_t>(1201),
+                                          std::vector<std::uint8_t>(3601)};
+    coarse.make(row, heights_m[0], codes[0]);
+    middle.make(row * 10, heights_m[1], codes[1]);
+    fine.make(row * 30, heights_m[2], codes[2]);
+    for (std::size_t post = 0; post < 1201; ++post) {
+      ASSERT_EQ(heights_m[1][post], heights_m[2][post * 3]) << "row " << row << " post " << post;
+      ASSERT_EQ(codes[1][post], codes[2][post * 3]) << "row " << row << " post " << post;
+      if (post % 10 == 0) {
+        ASSERT_EQ(heights_m[0][post / 10], heights_m[1][post]);
+      }
+    }
+  }
+}
+
+TEST(LandscapeLevels, TheBitsDoNotDependOnThreads) {
+  const Landscape one(Default::kSeed, kIsland);
+  const Landscape two(Default::kSeed, kIsland);
+  const MadeCell first = one.make({37, -122}, 121, 121, 1);
+  const MadeCell second = two.make({37, -122}, 121, 121, 2);
+  EXPECT_EQ(first.cell.posts(), second.cell.posts());
+  EXPECT_TRUE(std::equal(first.culture.codes().begin(), first.culture.codes().end(), second.culture.codes().begin()));
+}
+
+TEST(LandscapeLevels, TheOrderOfQuestionsDoesNotMatter) {
+  const Landscape before(Default::kSeed, kIsland);
+  const Landscape after(Default::kSeed, kIsland);
+  for (const CellPlace place : island_places()) after.features(place);
+  const MadeCell first = before.make({38, -123}, 121, 121);
+  const MadeCell second = after.make({38, -123}, 121, 121);
+  EXPECT_EQ(first.cell.posts(), second.cell.posts());
+}
+
+}  // namespace
+}  // namespace yars::model::terrain
