@@ -104,9 +104,7 @@ std::vector<SlotSchema> receiver_slots() {
           number("dynamicRange", "dB", 10, 120, YARS_FIELD(radar.receiver.dynamic_range_db), "black to white"),
           number("gainStep", "dB", 0, 40, YARS_FIELD(radar.receiver.gain_step_db), "a step of GAIN 3 to 0"),
           number("landGamma", "dB", -60, 20, YARS_FIELD(radar.receiver.land_gamma_db),
-                 "return of land at vertical incidence"),
-          number("seaGamma", "dB", -80, 20, YARS_FIELD(radar.receiver.sea_gamma_db),
-                 "return of sea at vertical incidence, where the algorithm has no sea model")};
+                 "return of land at vertical incidence")};
 }
 
 std::vector<SlotSchema> noise_slots() {

@@ -71,7 +71,6 @@ struct ReceiverConfiguration {
   double gain_step_db = 8.0;       // [dB] a step of GAIN 3..0
   double noise_floor_db = -42.0;   // [dB] thermal noise below full scale
   double land_gamma_db = -14.0;    // [dB] sigma0 = gamma sin(psi)
-  double sea_gamma_db = -38.0;     // [dB] sea of the standard algorithm, until it has the sea model
   int looks = 4;                   // of land and sea speckle
 };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "model/reflectivity/sea.hpp"
-#include "model/reflectivity/street_grid.hpp"
+#include "model/terrain/street_grid.hpp"
 
 namespace yars::model::rbm {
 
@@ -23,12 +23,11 @@ Ground::Ground(const radar::RadarConfiguration& configuration, std::size_t sampl
       sea_(reflectivity::make_sea_table(reflectivity::make_sea_return(configuration))),
       wind_from_(reflectivity::make_sea_return(configuration).wind_from),
       sigma0_(sea_.across.size() + terrain::kRunSlack),
-      materials_(samples + terrain::kRunSlack),
-      codes_(materials_.size()),
-      level_(materials_.size()),
-      everywhere_(materials_.size(), 1.0F),
-      land_gamma_(materials_.size()),
-      sea_sigma0_(materials_.size()) {
+      codes_(samples + terrain::kRunSlack),
+      level_(codes_.size()),
+      everywhere_(codes_.size(), 1.0F),
+      land_gamma_(codes_.size()),
+      sea_sigma0_(codes_.size()) {
   const radar::WorldConfiguration& world = configuration.world;
   std::transform(land_.gamma.begin(), land_.gamma.end(), tables_.gamma.begin(),
                  [](double gamma) { return static_cast<float>(gamma); });
@@ -61,9 +60,9 @@ Ground::Sample Ground::reflect(const Look& look, const terrain::PlaceRun& places
   bool some = false;
   if (materials) {
     for (std::size_t i = 0; i < count; ++i) {
-      codes_[i] = materials_[i] < radar::kMaterials ? materials_[i] : 0;
+      if (codes_[i] >= radar::kMaterials) codes_[i] = 0;
       some = some || codes_[i] != 0;
-      if (materials_[i] == kWater) water[i] = 1.0F;
+      if (codes_[i] == radar::kWaterMaterial) water[i] = 1.0F;
     }
   }
   const bool land = some || (textured_land_ && tables_.texture[0] != 1.0F);
@@ -94,7 +93,7 @@ void Ground::face_walls(const terrain::PlaceRun& places, geo::Bearing azimuth) {
     const double cardinal = land_.cardinal[static_cast<std::size_t>(codes_[i])];
     if (!(cardinal > 0.0)) continue;
     const double off_deg =
-        reflectivity::off_street_deg(azimuth.degrees(), reflectivity::street_bearing_deg(terrain::place_of(places, i)));
+        reflectivity::off_street_deg(azimuth.degrees(), terrain::street_bearing_deg(terrain::place_of(places, i)));
     land_gamma_[i] *= static_cast<float>(reflectivity::cardinal_gain(cardinal, off_deg, land_.street_width_deg));
   }
 }

@@ -20,7 +20,7 @@ class Ground {
   void use_resolution(double pulse_length_m, double spacing_m);
 
   // Codes of the samples that reflect() reads; terrain::kRunSlack more.
-  std::vector<std::uint8_t>& materials() { return materials_; }
+  std::vector<std::int32_t>& materials() { return codes_; }
 
   struct Sample {
     const float* land = nullptr;  // (1 - water) gamma, texture and cardinal effect in it; null: plain land everywhere
@@ -42,7 +42,6 @@ class Ground {
   std::vector<float> sigma0_;  // of the sea over the grazing angle, this sweep
   reflectivity::GroundGrid grid_;
   double cell_m_ = 0.0;
-  std::vector<std::uint8_t> materials_;
   std::vector<std::int32_t> codes_, level_;
   std::vector<float> everywhere_, land_gamma_, sea_sigma0_;
 };

@@ -63,7 +63,6 @@ Receiver make_receiver(const radar::RadarConfiguration& configuration, geo::Leng
   receiver.pulse_length_m = pulse_length(configuration, range).metres();
   const double frequency_db = reflectivity::frequency_term_db(configuration.world.land, given.frequency_ghz);
   receiver.land_gamma = ratio(given.land_gamma_db + frequency_db);
-  receiver.sea_gamma = ratio(given.sea_gamma_db);
   receiver.stc_exponent = given.stc_exponent;
   receiver.stc_range_m = range.metres();
   receiver.noise = ratio(given.noise_floor_db);

@@ -16,7 +16,6 @@ struct Receiver {
   double elevation_beamwidth_rad = 0.0;
   double pulse_length_m = 0.0;  // [m] c tau / 2: what one pulse covers in range
   double land_gamma = 0.0;      // power ratio
-  double sea_gamma = 0.0;
   double stc_exponent = 0.0;
   double stc_range_m = 0.0;         // [m] R0, where the sensitivity time control is 1
   double full_scale = 0.0;          // [1/m^2] power of returned_power() that counts as 1, see below

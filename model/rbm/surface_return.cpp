@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "model/reflectivity/street_grid.hpp"
+#include "model/terrain/street_grid.hpp"
 
 namespace yars::model::rbm {
 
@@ -54,7 +54,7 @@ double SurfaceReturn::cross_section_m2(const Receiver& receiver, const Facet& fa
     double gamma = land_.gamma[material];
     if (land_.cardinal[material] > 0.0) {
       const double off_deg =
-          reflectivity::off_street_deg(facet.look.degrees(), reflectivity::street_bearing_deg(facet.place));
+          reflectivity::off_street_deg(facet.look.degrees(), terrain::street_bearing_deg(facet.place));
       gamma *= reflectivity::cardinal_gain(land_.cardinal[material], off_deg, land_.street_width_deg);
     }
     total_m2 += (1.0 - water) * gamma * facet.sin_local * texture(material, facet.place) *

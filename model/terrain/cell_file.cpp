@@ -82,7 +82,7 @@ failure::Expected<CellReading> read_raster_cell(const CellFile& file, CellPlace 
   }
   auto posts = gdal::read_raster(file.path, place.south_deg, place.west_deg, north, east);
   if (!posts) return tl::unexpected(posts.error());
-  Cell cell(place, posts->rows, posts->columns, std::move(posts->posts));
+  Cell cell(place, posts->rows, posts->columns, posts->posts);
   // A reduced reading always has peaks, also where smoothing was all of it.
   if (reduction > 0 && left == 0) {
     Cell peaks = cell;

@@ -33,6 +33,10 @@ void CellView::add(TerrainCell cell) {
     resident_bytes_ += cell.peaks->bytes();
     has_peaks_ = true;
   }
+  if (cell.culture) {
+    resident_bytes_ += cell.culture->bytes();
+    has_materials_ = true;
+  }
   cells_.push_back(std::move(cell));
 }
 
@@ -46,8 +50,12 @@ Surface CellView::surface_at(geo::GeoPoint place, Interpolation interpolation) c
     nothing.loaded = what != static_cast<std::uint16_t>(Absence::not_loaded);
     return nothing;
   }
-  return interpolate(*cells_[what - kFirstCell].heights, place.latitude_deg - corner.south_deg,
-                     geo::wrapped_degrees(place.longitude_deg) - corner.west_deg, interpolation);
+  const TerrainCell& cell = cells_[what - kFirstCell];
+  const double north_deg = place.latitude_deg - corner.south_deg;
+  const double east_deg = geo::wrapped_degrees(place.longitude_deg) - corner.west_deg;
+  Surface surface = interpolate(*cell.heights, north_deg, east_deg, interpolation);
+  if (cell.culture) surface.material = cell.culture->nearest(north_deg, east_deg);
+  return surface;
 }
 
 CellView::Run CellView::run_at(const PlaceRun& places, std::size_t first) const {
@@ -90,6 +98,8 @@ void CellView::look_up_run(const Run& run, const PlaceRun& places, Interpolation
   else
     look_up::heights(grid_of(*cell.heights), north_deg, east_deg, run.places, nearest, &found.elevation_m[run.first],
                      &found.water[run.first]);
+  if (!found.material.empty() && cell.culture)
+    look_up::codes(*cell.culture, north_deg, east_deg, run.places, &found.material[run.first]);
   if (found.peak_m.empty()) return;
   if (cell.peaks)
     look_up::heights(grid_of(*cell.peaks), north_deg, east_deg, run.places, nearest, &found.peak_m[run.first], nullptr);
@@ -104,10 +114,10 @@ std::size_t CellView::surfaces(const PlaceRun& places, Interpolation interpolati
   YARS_REQUIRE(places.cells_east.size(), ==, count);
   YARS_REQUIRE(found.elevation_m.size(), ==, count);
   YARS_REQUIRE(found.water.size(), ==, count);
-  std::fill(found.material.begin(), found.material.end(), std::uint8_t{0});
   std::size_t not_loaded = 0;
   for (std::size_t first = 0; first < count;) {
     const Run run = run_at(places, first);
+    if (!found.material.empty()) std::fill_n(&found.material[first], run.places, 0);
     if (run.what >= kFirstCell) {
       look_up_run(run, places, interpolation, found);
     } else {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "model/terrain/cell.hpp"
+#include "model/terrain/culture.hpp"
 #include "model/terrain/terrain_view.hpp"
 
 namespace yars::model::terrain {
@@ -20,10 +21,11 @@ enum class Absence : std::uint8_t {
   not_loaded,  // a file exists but the view was made without it
 };
 
-// What stands for one cell: its heights and, at a coarser level, the highest ground about each post.
+// What stands for one cell: its heights, at a coarser level the highest ground about each post, and what covers it.
 struct TerrainCell {
   std::shared_ptr<const Cell> heights;
-  std::shared_ptr<const Cell> peaks;  // null: the heights themselves
+  std::shared_ptr<const Cell> peaks;       // null: the heights themselves
+  std::shared_ptr<const Culture> culture;  // null: none given
 };
 
 class CellView final : public TerrainView {
@@ -33,7 +35,7 @@ class CellView final : public TerrainView {
 
   // While building; afterwards the view is shared as const.
   void set_absence(CellPlace place, Absence absence);
-  void add(std::shared_ptr<const Cell> cell) { add(TerrainCell{std::move(cell), nullptr}); }
+  void add(std::shared_ptr<const Cell> cell) { add(TerrainCell{std::move(cell), nullptr, nullptr}); }
   void add(TerrainCell cell);
 
   std::uint64_t generation() const override { return generation_; }
@@ -41,6 +43,7 @@ class CellView final : public TerrainView {
   Surface surface_at(geo::GeoPoint place, Interpolation interpolation) const override;
   bool serves(int detail) const override { return detail == detail_; }
   bool has_peaks() const override { return has_peaks_; }
+  bool has_materials() const override { return has_materials_; }
   std::size_t surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const override;
 
  private:
@@ -63,6 +66,7 @@ class CellView final : public TerrainView {
   int detail_;
   std::uint64_t resident_bytes_ = 0;
   bool has_peaks_ = false;
+  bool has_materials_ = false;
   std::vector<TerrainCell> cells_;
   std::array<std::uint16_t, static_cast<std::size_t>(kCellRows) * kCellColumns> table_;
 };

@@ -37,7 +37,10 @@ class Culture {
   CellPlace place() const { return place_; }
   int rows() const { return rows_; }
   int columns() const { return columns_; }
-  std::span<const std::uint8_t> codes() const { return codes_; }
+  // Row by row; three bytes more may be read, so that a look-up can take four at once.
+  std::span<const std::uint8_t> codes() const { return {codes_.data(), codes_.size() - kSpareBytes}; }
+  // Every 2^reduction-th post, as far as the intervals divide.
+  Culture reduced(int reduction) const;
   std::uint8_t code(int row, int column) const {
     return codes_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
                   static_cast<std::size_t>(column)];
@@ -47,6 +50,8 @@ class Culture {
   std::size_t bytes() const { return sizeof(*this) + codes_.size(); }
 
  private:
+  static constexpr std::size_t kSpareBytes = 3;
+
   CellPlace place_;
   int rows_;
   int columns_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "model/terrain/culture_reader.hpp"
+#include "model/terrain/culture_tile.hpp"
 #include "model/terrain/region_cells.hpp"
 
 namespace yars::model::terrain {
@@ -13,7 +15,7 @@ constexpr double kMetresPerDegree = 111195.0;  // [m] of a meridian, on the mean
 constexpr int kMostReduction = 6;              // beyond it a cell of level 1 would have fewer than 20 posts a side
 
 std::size_t bytes_of(const TerrainCell& cell) {
-  return cell.heights->bytes() + (cell.peaks ? cell.peaks->bytes() : 0);
+  return cell.heights->bytes() + (cell.peaks ? cell.peaks->bytes() : 0) + (cell.culture ? cell.culture->bytes() : 0);
 }
 }  // namespace
 
@@ -73,11 +75,22 @@ bool DirectoryTerrainStore::load(Level level, const CellFile& file) {
     return false;
   }
   for (const std::string& warning : reading->warnings) problems_.push_back(file.path.string() + ": " + warning);
-  TerrainCell cell{std::make_shared<const Cell>(std::move(reading->cell)), nullptr};
+  TerrainCell cell{std::make_shared<const Cell>(std::move(reading->cell)), nullptr, read_cover(level, file)};
   if (reading->peaks) cell.peaks = std::make_shared<const Cell>(std::move(*reading->peaks));
   resident_bytes_ += bytes_of(cell);
   resident_[level] = {std::move(cell), prepares_};
   return true;
+}
+
+// What covers the cell; null where no file tells, or where it cannot be read: then plain land and sea.
+std::shared_ptr<const Culture> DirectoryTerrainStore::read_cover(Level level, const CellFile& file) {
+  const auto path = find_culture(file.path);
+  if (!path) return nullptr;
+  const failure::Expected<Culture> culture = read_culture(*path, place_of_slot(level.first));
+  if (culture) return std::make_shared<const Culture>(culture->reduced(level.second));
+  if (coverless_.insert(level.first).second)
+    problems_.push_back(culture.error().message() + "; the cell counts as land and sea");
+  return nullptr;
 }
 
 // False when nothing is left that this prepare() did not want.

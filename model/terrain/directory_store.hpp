@@ -1,7 +1,7 @@
-// Terrain from a directory of elevation files. prepare() loads the cells within the region, each reduced as far as the
-// region's detail allows; what is outside stays while all fits into the limit, the longest unused goes first. A cell
-// whose file cannot be read is noted as a problem once and is void from then on. A view's generation rises when, and
-// only when, what it shows changes. Errors of open(): those of index_directory().
+// Terrain from a directory of elevation files. prepare() loads the cells within the region and their culture, each
+// reduced as far as the region's detail allows; what is outside stays while all fits into the limit, the longest unused
+// goes first. A cell whose file cannot be read is noted as a problem once and is void from then on. A view's generation
+// rises when, and only when, what it shows changes. Errors of open(): those of index_directory().
 #pragma once
 
 #include <cstdint>
@@ -46,6 +46,7 @@ class DirectoryTerrainStore final : public TerrainStore {
 
   DirectoryTerrainStore(DirectoryIndex index, DirectoryStoreOptions options, std::vector<std::string> problems);
   bool load(Level level, const CellFile& file);
+  std::shared_ptr<const Culture> read_cover(Level level, const CellFile& file);
   bool drop_longest_unused();
   TerrainViewPointer make_view(int detail);
 
@@ -54,6 +55,7 @@ class DirectoryTerrainStore final : public TerrainStore {
   std::map<Level, Resident> resident_;
   std::map<std::size_t, int> shown_;  // reduction that the view has of a slot
   std::set<std::size_t> unreadable_;  // slots
+  std::set<std::size_t> coverless_;   // slots whose culture cannot be read, said once
   std::size_t resident_bytes_ = 0;
   std::uint64_t prepares_ = 0;
   std::uint64_t generation_ = 0;

@@ -20,7 +20,7 @@ Cell from_south(const HeightGrid& grid, CellPlace place) {
     posts.insert(posts.end(), grid.heights.begin() + row * columns, grid.heights.begin() + (row + 1) * columns);
   // Where the wavelet comes out at the lowest word it is no void: those are marked in the side file.
   std::replace(posts.begin(), posts.end(), kVoidPost, static_cast<std::int16_t>(kVoidPost + 1));
-  return {place, grid.rows, grid.columns, std::move(posts)};
+  return {place, grid.rows, grid.columns, posts};
 }
 
 // A wavelet rings beside cliffs, and land is never at exactly 0 m.
@@ -56,7 +56,7 @@ Cell marked(const Cell& cell, const SideLevel& level, int reduction) {
       posts[index(row, columns - 1)] = level.edges[3][static_cast<std::size_t>(row)];
     }
   }
-  return {cell.place(), rows, columns, std::move(posts)};
+  return {cell.place(), rows, columns, posts};
 }
 
 }  // namespace

@@ -160,7 +160,7 @@ failure::Expected<Cell> parse_peaks(std::span<const std::byte> packed, const std
     posts.insert(posts.end(), grid->heights.begin() + row * columns, grid->heights.begin() + (row + 1) * columns);
   for (std::size_t post = 0; post < posts.size(); ++post)
     if (voids[post]) posts[post] = kVoidPost;
-  return Cell(place, sides.rows, sides.columns, std::move(posts));
+  return Cell(place, sides.rows, sides.columns, posts);
 }
 
 }  // namespace

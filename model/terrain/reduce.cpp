@@ -130,8 +130,7 @@ ReducedCell reduce_by(const Cell& cell, int row_factor, int column_factor) {
     append_mean_row(cell, grid, row, sums_down, means);
     append_peak_row(cell, grid, row, highest_down, peaks);
   }
-  return {Cell(cell.place(), grid.rows, grid.columns, std::move(means)),
-          Cell(cell.place(), grid.rows, grid.columns, std::move(peaks))};
+  return {Cell(cell.place(), grid.rows, grid.columns, means), Cell(cell.place(), grid.rows, grid.columns, peaks)};
 }
 
 ReducedCell reduce(const Cell& cell, int reduction) {

@@ -84,7 +84,7 @@ class RandomConfiguration {
     made.view = {number(-4, 0), number(0, 4), number(-4, 0), number(0, 4), 64 + int(random_() % 4000)};
     made.fidelity = fidelity();
     made.receiver = {number(1, 40),   number(0, 6),    number(10, 120), number(0, 40),
-                     number(-120, 0), number(-60, 20), number(-80, 20), 1 + int(random_() % 64)};
+                     number(-120, 0), number(-60, 20), 1 + int(random_() % 64)};
     made.terrain = {coin() ? "" : "/data/de\"d", coin()};
     made.seed = random_() >> 11U;  // below 2^53, the range of the slot
     made.magnetic_variation_deg = number(-180, 180);

@@ -32,8 +32,8 @@ inline auto fields(const radar::Fidelity& fidelity) {
 }
 
 inline auto fields(const radar::ReceiverConfiguration& receiver) {
-  const auto& [frequency, stc, dynamic, step, floor, land, sea, looks] = receiver;
-  return std::tuple(frequency, stc, dynamic, step, floor, land, sea, looks);
+  const auto& [frequency, stc, dynamic, step, floor, land, looks] = receiver;
+  return std::tuple(frequency, stc, dynamic, step, floor, land, looks);
 }
 
 inline auto fields(const radar::TerrainConfiguration& terrain) {

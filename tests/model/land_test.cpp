@@ -7,7 +7,6 @@
 #include <set>
 
 #include "model/reflectivity/ground_grid.hpp"
-#include "model/reflectivity/street_grid.hpp"
 #include "model/reflectivity/texture.hpp"
 
 namespace yars::model::reflectivity {
@@ -50,19 +49,6 @@ TEST(Land, HasWallsAlongAndAcrossItsStreets) {
   EXPECT_NEAR(off_street_deg(208.0, 30.0), -2.0, 1e-9);
   EXPECT_NEAR(off_street_deg(-61.0, 30.0), -1.0, 1e-9);
   EXPECT_NEAR(std::abs(off_street_deg(75.0, 30.0)), 45.0, 1e-9);
-}
-
-TEST(StreetGrid, IsOneBearingATownAndAnotherInTheNext) {
-  std::set<double> bearings;
-  for (int town = 0; town < 50; ++town) {
-    const double latitude_deg = 37.0 + 0.1 * town;
-    const double here_deg = street_bearing_deg({latitude_deg, -122.0});
-    EXPECT_GE(here_deg, 0.0);
-    EXPECT_LT(here_deg, 90.0);
-    EXPECT_EQ(street_bearing_deg({latitude_deg, 238.0}), here_deg) << "a whole turn away";
-    bearings.insert(here_deg);
-  }
-  EXPECT_EQ(bearings.size(), 50U);
 }
 
 TEST(GroundGrid, HasCellsOfItsSizeAtEveryLatitude) {

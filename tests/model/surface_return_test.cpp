@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "model/reflectivity/street_grid.hpp"
+#include "model/terrain/street_grid.hpp"
 #include "tests/model/ground.hpp"
 
 namespace yars::model::rbm {
@@ -55,7 +55,7 @@ TEST(SurfaceReturn, OfWallsDependsOnTheStreetsBearing) {
                                      geo::Length::metres(500.5 * 40.0));
     const Reference::Sample sample = middle(configuration, 1, 100.0, look);
     const double off_deg =
-        reflectivity::off_street_deg(sample.azimuth.degrees(), reflectivity::street_bearing_deg(sample.place));
+        reflectivity::off_street_deg(sample.azimuth.degrees(), terrain::street_bearing_deg(sample.place));
     if (std::abs(off_deg) < 1.0) most = std::max(most, sample.power);
     if (std::abs(off_deg) > 12.0) least = std::min(least, sample.power);
   }

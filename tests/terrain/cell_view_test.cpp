@@ -203,6 +203,32 @@ TEST(CellView, EveryWidthOfVectorGivesTheSameBits) {
   }
 }
 
+TEST(CellView, TheMaterialIsThatOfTheNearestPostOfTheCulture) {
+  constexpr unsigned kSeed = 14;
+  std::mt19937_64 random(kSeed);
+  std::vector<std::uint8_t> codes(31U * 61U);
+  for (auto& code : codes) code = static_cast<std::uint8_t>(random() % 32);
+  const auto culture = std::make_shared<const Culture>(CellPlace{40, -75}, 31, 61, codes);
+  CellView view(1, Absence::sea);
+  view.add(TerrainCell{cell({40, -75}, 11, 11, [](int, int) { return 100; }), nullptr, culture});
+  view.add(cell({40, -74}, 11, 11, [](int, int) { return 100; }));
+  EXPECT_TRUE(view.has_materials());
+  std::uniform_real_distribution<double> degrees(0.0, 1.0);
+  std::vector<geo::GeoPoint> at{{40.0, -75.0}, {40.999999, -74.000001}, {40.5, -73.5}, {39.5, -74.5}};
+  for (int i = 0; i < 2000; ++i) at.push_back({40.0 + degrees(random), -75.0 + degrees(random)});
+  test::for_each_vector_target([&](const char* name) {
+    const auto found = test::fast_path(view, at);
+    EXPECT_EQ(found.material[0], codes.front()) << name;
+    EXPECT_EQ(found.material[1], codes.back()) << name;
+    EXPECT_EQ(found.material[2], 0) << "a cell without culture, " << name;
+    EXPECT_EQ(found.material[3], 0) << "no cell, " << name;
+    std::size_t different = 0;
+    for (std::size_t i = 4; i < at.size(); ++i)
+      if (found.material[i] != view.surface_at(found.places[i], radar::Interpolation::bilinear).material) ++different;
+    EXPECT_LE(different, 1U) << "half-way between two posts float may round otherwise, " << name;
+  });
+}
+
 TEST(CellView, ResidentBytesCoverThePosts) {
   CellView view(1, Absence::sea);
   const std::uint64_t empty = view.resident_bytes();

@@ -16,7 +16,7 @@ inline model::terrain::Cell cell_of(model::terrain::CellPlace place, int rows, i
   std::vector<std::int16_t> posts;
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) posts.push_back(static_cast<std::int16_t>(height(row, column)));
-  return {place, rows, columns, std::move(posts)};
+  return {place, rows, columns, posts};
 }
 
 // Heights that wander, -300 to 4000 m, with patches of sea and of voids.
