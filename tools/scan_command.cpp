@@ -32,7 +32,9 @@ struct ScanOptions {
   std::string color = "green";
   double latitude_deg = 37.8, longitude_deg = -122.5, altitude_ft = 15000.0, heading_deg = 0.0;
   double range_nm = 40.0, width_deg = 100.0, elevation_deg = 0.0;
-  int samples = 0, threads = 1, gain = 3, size = 0, repeat = 1;
+  int samples = 0, threads = 1, gain = 3, size = 0, repeat = 1, channel = 1;
+  double time_s = 0.0;
+  std::string band = "A";
   std::int64_t seed = -1;
 };
 
@@ -68,6 +70,9 @@ model::kernel::ScanRequest request_of(const ScanOptions& options) {
   request.width = geo::Angle::degrees(options.width_deg);
   request.elevation = geo::Angle::degrees(options.elevation_deg);
   request.gain = options.gain;
+  request.sim_time_ns = static_cast<std::int64_t>(options.time_s * 1e9);
+  request.band = static_cast<std::uint8_t>(options.band.front() - 'A');
+  request.channel = static_cast<std::uint8_t>(options.channel);
   return request;
 }
 
@@ -120,13 +125,16 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   check_output(options.out);
   const radar::RadarConfiguration configuration = configure(common, options);
   const model::kernel::ScanRequest request = request_of(options);
+  const auto opening = std::chrono::steady_clock::now();
   auto store = model::terrain::open_terrain(configuration.terrain);
   if (!store) give_up(store.error());
+  const double index_ms = milliseconds_since(opening);
   model::kernel::OfflineScan work(configuration, request, options.threads);
 
   const auto begin = std::chrono::steady_clock::now();
   const auto terrain = (*store)->prepare(
       {request.pose.place, request.range.metres(), model::kernel::scan_detail(configuration.fidelity, request.range)});
+  for (const std::string& problem : (*store)->take_problems()) std::fprintf(stderr, "yars scan: %s\n", problem.c_str());
   std::vector<double> measure_ms, whole_ms;
   double first_ms = 0.0;
   for (int run = 0; run <= options.repeat; ++run) {
@@ -151,6 +159,7 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   line["kernel_ms"] = kernel_ms;
   line["sweep_ms"] = median(measure_ms);
   line["first_ms"] = first_ms;
+  line["index_ms"] = index_ms;
   line["samples_per_second"] = samples / (kernel_ms * 1e-3);
   line["terrain_bytes"] = terrain->resident_bytes();
   line["threads"] = options.threads;
@@ -180,6 +189,11 @@ void add_scan_command(CLI::App& app, const CommonOptions& common) {
       ->check(CLI::IsMember(std::vector<std::string>(radar::fidelity_names().begin(), radar::fidelity_names().end())));
   command->add_option("--samples", options->samples, "a sweep")->check(CLI::Range(1, radar::kMaxSamples));
   command->add_option("--gain", options->gain, "0 to 3")->check(CLI::Range(0, 3));
+  command->add_option("--band", options->band, "that jammers are on or not: A to E")
+      ->check(CLI::IsMember({"A", "B", "C", "D", "E"}));
+  command->add_option("--channel", options->channel, "1 to 8")->check(CLI::Range(1, 8));
+  command->add_option("--time-s", options->time_s, "[s] sim time of the first sweep, for what moves")
+      ->check(CLI::Range(0.0, 1e8));
   command->add_option("--threads", options->threads)->check(CLI::Range(1, 256));
   command->add_option("--seed", options->seed, "of the noise")->check(CLI::NonNegativeNumber);
   command->add_option("--repeat", options->repeat, "warm scans to time; the first comes on top")
