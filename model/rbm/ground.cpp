@@ -56,7 +56,6 @@ void Ground::use_resolution(double pulse_length_m, double spacing_m) {
 Ground::Sample Ground::reflect(const Look& look, const terrain::PlaceRun& places, float* water,
                                const float* sin_grazing, bool materials) {
   const std::size_t count = places.north_deg.size();
-  const geo::Bearing azimuth = geo::GeodesicRay(look.apex, look.azimuth).place(0.5 * look.range).azimuth;
   bool some = false;
   if (materials) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -66,9 +65,10 @@ Ground::Sample Ground::reflect(const Look& look, const terrain::PlaceRun& places
     }
   }
   const bool land = some || (textured_land_ && tables_.texture[0] != 1.0F);
-  const bool wet = std::any_of(water, water + count, [](float share) { return share > 0.0F; });
+  const bool wet = lanes::any_positive(count, water);
   Sample sample;
   if (!land && !wet) return sample;
+  const geo::Bearing azimuth = geo::GeodesicRay(look.apex, look.azimuth).place(0.5 * look.range).azimuth;
   const bool land_levels = land && textured_land_;
   if (land_levels || textured_sea_)
     lanes::texture_levels(count, grid_, places, land_levels ? everywhere_.data() : water, level_.data());

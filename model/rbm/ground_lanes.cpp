@@ -19,6 +19,14 @@ using Tag = hn::CappedTag<float, terrain::kRunSlack>;
 using WholeTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
 
+bool any_positive(std::size_t count, const float* values) {
+  const Tag d;
+  std::size_t i = 0;
+  for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d))
+    if (!hn::AllFalse(d, hn::Gt(hn::LoadU(d, values + i), hn::Zero(d)))) return true;
+  return std::any_of(values + i, values + count, [](float value) { return value > 0.0F; });
+}
+
 void fill_sigma0(const reflectivity::SeaTable& table, float cosine, float* sigma0) {
   const Tag d;
   // The last entry stands alone behind whole vectors: sixteen divide the others.
@@ -139,11 +147,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace yars::model::rbm::lanes {
 
+HWY_EXPORT(any_positive);
 HWY_EXPORT(fill_sigma0);
 HWY_EXPORT(texture_levels);
 HWY_EXPORT(sea_return);
 HWY_EXPORT(land_return);
 
+bool any_positive(std::size_t count, const float* values) {
+  return HWY_DYNAMIC_DISPATCH(any_positive)(count, values);
+}
 void fill_sigma0(const reflectivity::SeaTable& table, float cosine, float* sigma0) {
   HWY_DYNAMIC_DISPATCH(fill_sigma0)(table, cosine, sigma0);
 }

@@ -23,6 +23,9 @@ struct MaterialTables {
   std::array<float, radar::kMaterials * reflectivity::kTextureLevels> texture{};
 };
 
+// True if any of the first `count` entries is above 0; no array has to have more.
+bool any_positive(std::size_t count, const float* values);
+
 // Sigma0 of the table's entries for a look: 2^(across + cosine * upwind). `sigma0` has room for as many and a vector
 // more.
 void fill_sigma0(const reflectivity::SeaTable& table, float cosine, float* sigma0);

@@ -12,11 +12,16 @@ namespace yars::model::rbm::places::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-void along_curves(std::size_t count, const float* distance_m, double scale, const Curve& north, const Curve& east,
-                  const Places& places) {
-  const hn::CappedTag<double, terrain::kRunSlack / 2> d;
-  const hn::Rebind<float, decltype(d)> df;
-  const auto last = static_cast<std::size_t>(north.knots - 1);
+using DoubleTag = hn::CappedTag<double, terrain::kRunSlack / 2>;
+using FloatTag = hn::Rebind<float, DoubleTag>;
+
+// So many knots that the compiler knows: their coefficients stay in registers. 0: as many as the curves say.
+template <std::size_t kKnots>
+HWY_INLINE void along(std::size_t count, const float* distance_m, double scale, const Curve& north, const Curve& east,
+                      const Places& places) {
+  const DoubleTag d;
+  const FloatTag df;
+  const std::size_t last = (kKnots > 0 ? kKnots : static_cast<std::size_t>(north.knots)) - 1;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto distance = hn::PromoteTo(d, hn::LoadU(df, distance_m + i));
     const auto t = hn::Sub(hn::Mul(distance, hn::Set(d, scale)), hn::Set(d, 1.0));
@@ -34,6 +39,17 @@ void along_curves(std::size_t count, const float* distance_m, double scale, cons
     hn::StoreU(hn::DemoteTo(df, hn::Sub(up, cells_north)), df, places.north_deg + i);
     hn::StoreU(hn::DemoteTo(df, hn::Sub(right, cells_east)), df, places.east_deg + i);
   }
+}
+
+void along_curves(std::size_t count, const float* distance_m, double scale, const Curve& north, const Curve& east,
+                  const Places& places) {
+  // Copies, so that no store could be one to a coefficient.
+  const Curve up = north;
+  const Curve right = east;
+  if (north.knots == 3) return along<3>(count, distance_m, scale, up, right, places);
+  if (north.knots == 4) return along<4>(count, distance_m, scale, up, right, places);
+  if (north.knots == 5) return along<5>(count, distance_m, scale, up, right, places);
+  along<0>(count, distance_m, scale, up, right, places);
 }
 
 }  // namespace yars::model::rbm::places::HWY_NAMESPACE

@@ -81,11 +81,14 @@ std::size_t Standard::measure(const Look& look, const terrain::TerrainView& terr
   rain_.enter(look);
   if (!rain_.dry()) add_rain(look, earth, receiver);
 
-  const PulseSmear smear = make_pulse_smear(pulse_samples);
-  std::array<float, 2 * PulseSmear::kMostReach + 1> weights{};
-  std::transform(smear.weights.begin(), smear.weights.end(), weights.begin(),
-                 [](double weight) { return static_cast<float>(weight); });
-  lanes::smear(count_, power_.data(), weights.data(), smear.reach, power.data());
+  if (pulse_samples != smeared_samples_) {
+    smeared_samples_ = pulse_samples;
+    const PulseSmear smear = make_pulse_smear(pulse_samples);
+    smear_reach_ = smear.reach;
+    std::transform(smear.weights.begin(), smear.weights.end(), smear_weights_.begin(),
+                   [](double weight) { return static_cast<float>(weight); });
+  }
+  lanes::smear(count_, power_.data(), smear_weights_.data(), smear_reach_, power.data());
   return pending;
 }
 

@@ -4,6 +4,7 @@
 // any number of threads and any width.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -52,8 +53,11 @@ class Standard : public Algorithm {
   Movers movers_;
   Receiver receiver_;  // of the range last asked for
   std::size_t count_;
-  std::size_t holes_ = 0;        // first samples that nothing is near enough for (slant range)
-  double spaced_range_m_ = 0.0;  // range that the distances are for; 0: none yet
+  std::size_t holes_ = 0;         // first samples that nothing is near enough for (slant range)
+  double spaced_range_m_ = 0.0;   // range that the distances are for; 0: none yet
+  double smeared_samples_ = 0.0;  // pulse that the weights are for; 0: none yet
+  std::ptrdiff_t smear_reach_ = 0;
+  std::array<float, 2 * PulseSmear::kMostReach + 1> smear_weights_{};
   std::vector<double> distance_m_;
   Padded distance_, one_step_inverse_, two_step_inverse_;
   PlaceArrays places_;
