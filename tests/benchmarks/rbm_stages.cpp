@@ -67,7 +67,7 @@ class Stages {
           [&](int) { lanes::sight(count_, constants_, at(kDistance), at(kElevation), sights); });
     stage("shadow", {kTangent}, {kHorizon},
           [&](int) { lanes::running_maximum(count_, at(kTangent), at(kSpare), at(kHorizon)); });
-    const lanes::PowerInputs inputs{at(kElevation), nullptr, nullptr, nullptr, at(kTangent),
+    const lanes::PowerInputs inputs{at(kElevation), nullptr,      nullptr,       nullptr, at(kTangent),
                                     at(kHorizon),   at(kOneStep), at(kTwoSteps), sights};
     stage("power",
           {kElevation, kWater, kTangent, kHorizon, kOneStep, kTwoSteps, kInverse, kSinGrazing, kCosGrazing, kSinSight,

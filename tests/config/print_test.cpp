@@ -6,9 +6,9 @@
 #include <limits>
 #include <random>
 
-#include "lib/radar/fidelity_preset.hpp"
 #include "config/schema.hpp"
 #include "config/slot_text.hpp"
+#include "lib/radar/fidelity_preset.hpp"
 #include "tests/config/support.hpp"
 
 namespace yars::config {
@@ -83,7 +83,7 @@ class RandomConfiguration {
                     number(0, 60),   number(0.1, 30), number(0.1, 30), coin(),        1 + int(random_() % 4)};
     made.view = {number(-4, 0), number(0, 4), number(-4, 0), number(0, 4), 64 + int(random_() % 4000)};
     made.fidelity = fidelity();
-    made.receiver = {number(1, 40),   number(0, 6),    number(10, 120), number(0, 40),
+    made.receiver = {number(1, 40),   number(0, 6),    number(10, 120),        number(0, 40),
                      number(-120, 0), number(-60, 20), 1 + int(random_() % 64)};
     made.terrain = {coin() ? "" : "/data/de\"d", coin()};
     made.seed = random_() >> 11U;  // below 2^53, the range of the slot

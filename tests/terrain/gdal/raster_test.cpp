@@ -6,9 +6,9 @@
 #include <cmath>
 #include <fstream>
 
-#include "model/terrain/interpolation.hpp"
 #include "model/terrain/directory_index.hpp"
 #include "model/terrain/directory_store.hpp"
+#include "model/terrain/interpolation.hpp"
 #include "model/terrain/reduce.hpp"
 #include "tests/terrain/dted_builder.hpp"
 #include "tests/terrain/gdal/raster_builder.hpp"
