@@ -170,6 +170,32 @@ TEST_F(LiveSet, TheClockFreezesStepsAndRepositions) {
   })) << set_.watch().dump();
 }
 
+// A share so small that nothing fits picks the coarsest, says so, and the recording follows it from scan to scan.
+TEST_F(LiveSet, AutomaticFidelityGivesWayToTheShareAndReplays) {
+  const auto configuration = (set_.folder() / "automatic.guf").string();
+  std::ofstream(configuration) << "( Apg70 :fidelity ( Fidelity :automatic true :coreShare 0.001 ) )\n";
+  const auto recording = (set_.folder() / "run.yars").string();
+  for (const auto* role : {"state-machine", "flight-model"}) start(role);
+  set_.start("recorder", {"yars", "--config", configuration, "record", recording});
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].contains("recorder"); }));
+  set_.start("radar-model", {"radar-model", "--config", configuration});
+  inject({"power opr", "elevation -3"});
+  const auto fidelity = [this] {
+    return nlohmann::json::parse(set_.yars({"status", "--json"}).output)["model"]["fidelity"].get<std::string>();
+  };
+  EXPECT_TRUE(eventually([&] { return fidelity() == "draft"; }, 20.0)) << fidelity();
+  const std::uint64_t sweeps = set_.watch()["sweeps"];
+  ASSERT_TRUE(set_.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps + 300; }));
+  set_.kill("recorder", SIGTERM);
+  EXPECT_EQ(set_.wait("recorder"), 0);
+  const auto replay = set_.yars({"replay", "--events", recording});
+  ASSERT_EQ(replay.code, 0) << replay.output << replay.errors;
+  const auto result = nlohmann::json::parse(replay.output);
+  EXPECT_EQ(result["different"], 0) << replay.output;
+  EXPECT_EQ(result["missing"], 0) << replay.output;
+  EXPECT_GT(result["equal"], 300) << replay.output;
+}
+
 TEST_F(LiveSet, ARepositioningWhileNobodyFliesHoldsForWhoComes) {
   start_all();
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return !watch["ownship"].is_null(); }));
