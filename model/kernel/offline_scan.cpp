@@ -1,7 +1,6 @@
 #include "model/kernel/offline_scan.hpp"
 
 #include <algorithm>
-#include <thread>
 
 #include "lib/radar/limits.hpp"
 #include "lib/radar/modes.hpp"
@@ -10,28 +9,26 @@
 
 namespace yars::model::kernel {
 
-namespace {
-// Calls job(sweep, thread) for every sweep; thread t takes sweeps t, t + n, ...: which thread does which changes
-// nothing, for sweeps share nothing but what they read.
+// Calls job(sweep, thread) for every sweep; each thread takes a run of neighbours, for the smear joins those: which
+// thread does which changes nothing, sweeps share nothing but what they read.
 template <class Job>
-void spread(std::size_t sweeps, std::size_t threads, const Job& job) {
-  const auto work = [&](std::size_t thread) {
-    for (std::size_t sweep = thread; sweep < sweeps; sweep += threads) job(sweep, thread);
-  };
-  std::vector<std::thread> helpers;
-  for (std::size_t thread = 1; thread < threads; ++thread) helpers.emplace_back(work, thread);
-  work(0);
-  for (std::thread& helper : helpers) helper.join();
+void OfflineScan::spread(const Job& job) {
+  const std::size_t sweeps = places_.size();
+  const std::size_t threads = workers_.threads();
+  workers_.run([&](std::size_t thread) {
+    for (std::size_t sweep = thread * sweeps / threads; sweep < (thread + 1) * sweeps / threads; ++sweep)
+      job(sweep, thread);
+  });
 }
-}  // namespace
 
 OfflineScan::OfflineScan(const radar::RadarConfiguration& configuration, const ScanRequest& request, int threads)
     : seed_(configuration.seed),
       gain_(request.gain),
       samples_(rbm::sample_count(configuration)),
-      strobes_(configuration) {
+      strobes_(configuration),
+      workers_(static_cast<std::size_t>(std::max(1, threads))) {
   place_sweeps(configuration, request);
-  for (int thread = 0; thread < std::max(1, threads); ++thread) {
+  for (std::size_t thread = 0; thread < workers_.threads(); ++thread) {
     algorithms_.push_back(rbm::make_algorithm(configuration));
   }
   flags_.assign(places_.size(), 0U);
@@ -54,7 +51,7 @@ void OfflineScan::place_sweeps(const radar::RadarConfiguration& configuration, c
 }
 
 void OfflineScan::measure(const terrain::TerrainView& terrain) {
-  spread(places_.size(), algorithms_.size(), [&](std::size_t sweep, std::size_t thread) {
+  spread([&](std::size_t sweep, std::size_t thread) {
     const rbm::Look look = look_of(places_[sweep]);
     const std::size_t pending = algorithms_[thread]->measure(look, terrain, power_of(sweep));
     jamming_[sweep] = strobes_.level(look, terrain);
@@ -64,7 +61,7 @@ void OfflineScan::measure(const terrain::TerrainView& terrain) {
 
 void OfflineScan::develop() {
   const std::size_t last = places_.size() - 1;
-  spread(places_.size(), algorithms_.size(), [&](std::size_t sweep, std::size_t thread) {
+  spread([&](std::size_t sweep, std::size_t thread) {
     const std::size_t before = sweep > 0 ? sweep - 1 : 0;
     const std::size_t after = std::min(sweep + 1, last);
     SweepChain::Labels labels;

@@ -11,6 +11,7 @@
 #include "lib/radar/configuration.hpp"
 #include "model/kernel/pose.hpp"
 #include "model/kernel/sweep_record.hpp"
+#include "model/kernel/workers.hpp"
 #include "model/rbm/algorithm.hpp"
 #include "model/rbm/strobes.hpp"
 #include "model/terrain/terrain_view.hpp"
@@ -40,6 +41,8 @@ class OfflineScan {
 
  private:
   std::span<float> power_of(std::size_t sweep) { return {power_.data() + sweep * samples_, samples_}; }
+  template <class Job>
+  void spread(const Job& job);
   void place_sweeps(const radar::RadarConfiguration& configuration, const ScanRequest& request);
 
   std::uint64_t seed_;
@@ -52,6 +55,7 @@ class OfflineScan {
   std::vector<double> jamming_;
   std::vector<float> power_;  // sweep after sweep
   std::vector<databuffer::Sweep> sweeps_;
+  Workers workers_;
 };
 
 }  // namespace yars::model::kernel

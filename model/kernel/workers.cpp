@@ -1,0 +1,52 @@
+#include "model/kernel/workers.hpp"
+
+namespace yars::model::kernel {
+
+namespace {
+// Looks before a thread sleeps: the other half of a scan is a few hundred microseconds away at most, a wake-up tens.
+constexpr int kLooks = 20000;
+
+// Until the value is another one.
+std::uint32_t wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t seen) {
+  for (int look = 0; look < kLooks; ++look)
+    if (const std::uint32_t now = value.load(std::memory_order_acquire); now != seen) return now;
+  value.wait(seen, std::memory_order_acquire);
+  return value.load(std::memory_order_acquire);
+}
+}  // namespace
+
+Workers::Workers(std::size_t threads) {
+  for (std::size_t number = 1; number < threads; ++number) helpers_.emplace_back([this, number] { help(number); });
+}
+
+Workers::~Workers() {
+  job_ = nullptr;
+  turn_.fetch_add(1, std::memory_order_release);
+  turn_.notify_all();
+  for (std::thread& helper : helpers_) helper.join();
+}
+
+void Workers::run(const std::function<void(std::size_t)>& job) {
+  if (helpers_.empty()) {
+    job(0);
+    return;
+  }
+  job_ = &job;
+  busy_.store(static_cast<std::uint32_t>(helpers_.size()), std::memory_order_relaxed);
+  turn_.fetch_add(1, std::memory_order_release);
+  turn_.notify_all();
+  job(0);
+  for (std::uint32_t busy = busy_.load(std::memory_order_acquire); busy != 0;) busy = wait_for_change(busy_, busy);
+}
+
+void Workers::help(std::size_t number) {
+  std::uint32_t turn = 0;
+  while (true) {
+    turn = wait_for_change(turn_, turn);
+    if (job_ == nullptr) return;
+    (*job_)(number);
+    if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_.notify_one();
+  }
+}
+
+}  // namespace yars::model::kernel
