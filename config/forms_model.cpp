@@ -14,14 +14,23 @@ constexpr std::array<std::string_view, 3> kEarthModels{"flat", "sphere", "ellips
 constexpr std::array<std::string_view, 3> kInterpolations{"nearest", "bilinear", "cubic"};
 constexpr std::array<std::string_view, 3> kBeams{"hard-edge", "gaussian", "cosecant-squared"};
 
+// The named presets, and the one that picks among them.
+constexpr std::array<std::string_view, 6> kPresets{"1996", "draft", "standard", "fine", "reference", "auto"};
+
 int preset_of(const Draft& draft) {
-  const auto names = radar::fidelity_names();
-  const auto found = std::find(names.begin(), names.end(), draft.radar.fidelity.name);
-  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+  const auto* const found = std::find(kPresets.begin(), kPresets.end(), draft.radar.fidelity.name);
+  return found == kPresets.end() ? -1 : static_cast<int>(found - kPresets.begin());
 }
 
 void set_preset(Draft& draft, int index) {
-  draft.radar.fidelity = *radar::fidelity_preset(radar::fidelity_names()[static_cast<std::size_t>(index)]);
+  const std::string_view name = kPresets[static_cast<std::size_t>(index)];
+  if (const auto preset = radar::fidelity_preset(name)) {
+    draft.radar.fidelity = *preset;
+    return;
+  }
+  // auto begins where everybody does.
+  draft.radar.fidelity = radar::Fidelity();
+  draft.radar.fidelity.automatic = true;
 }
 
 SlotSchema flag(std::string_view name, bool& (*of)(Draft&), std::string_view purpose) {
@@ -31,8 +40,8 @@ SlotSchema flag(std::string_view name, bool& (*of)(Draft&), std::string_view pur
 std::vector<SlotSchema> fidelity_slots() {
   return {
       {.name = "preset",
-       .binding = ChoiceSlot{radar::fidelity_names(), preset_of, set_preset},
-       .purpose = "sets all knobs; each can then be set alone",
+       .binding = ChoiceSlot{kPresets, preset_of, set_preset},
+       .purpose = "sets all knobs, each can then be set alone; auto: standard with automatic",
        .before_others = true},
       {.name = "algorithm",
        .binding = ChoiceSlot{kAlgorithms, [](const Draft& draft) { return int(draft.radar.fidelity.algorithm); },

@@ -160,6 +160,14 @@ TEST(Fidelity, APresetSetsEveryKnobAndEachCanThenBeSetAlone) {
   EXPECT_EQ(changed.earth, radar::EarthModel::flat);
 }
 
+TEST(Fidelity, AutoIsStandardThatPicksForItself) {
+  const auto fidelity = loaded("( Fidelity :preset auto :coreShare 0.5 )").radar.fidelity;
+  EXPECT_TRUE(fidelity.automatic);
+  EXPECT_EQ(fidelity.name, "standard");
+  EXPECT_EQ(fidelity.core_share, 0.5);
+  EXPECT_FALSE(loaded("( Fidelity :preset auto )\n( Fidelity :preset fine )").radar.fidelity.automatic);
+}
+
 TEST(LatLong, IsDegreesMinutesAndSecondsWithAHemisphere) {
   const auto route =
       loaded("( Route `( ( Point \"1\" ( lat-long N 35 44 51 ) ( lat-long west 121 30 2 ) ) ) )").radar.route;

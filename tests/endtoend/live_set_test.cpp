@@ -173,7 +173,7 @@ TEST_F(LiveSet, TheClockFreezesStepsAndRepositions) {
 // A share so small that nothing fits picks the coarsest, says so, and the recording follows it from scan to scan.
 TEST_F(LiveSet, AutomaticFidelityGivesWayToTheShareAndReplays) {
   const auto configuration = (set_.folder() / "automatic.guf").string();
-  std::ofstream(configuration) << "( Apg70 :fidelity ( Fidelity :automatic true :coreShare 0.001 ) )\n";
+  std::ofstream(configuration) << "( Apg70 :fidelity ( Fidelity :preset auto :coreShare 0.001 ) )\n";
   const auto recording = (set_.folder() / "run.yars").string();
   for (const auto* role : {"state-machine", "flight-model"}) start(role);
   set_.start("recorder", {"yars", "--config", configuration, "record", recording});
