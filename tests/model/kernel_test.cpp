@@ -278,5 +278,38 @@ TEST(RadarKernel, SaysWhyNothingCanBeMappedAtTheCursor) {
   }
 }
 
+// Hills that were prepared for another scan.
+class ForeignTerrain : public terrain::TerrainView {
+ public:
+  std::uint64_t generation() const override { return hills_.generation(); }
+  std::uint64_t resident_bytes() const override { return hills_.resident_bytes(); }
+  terrain::Surface surface_at(geo::GeoPoint place, Interpolation interpolation) const override {
+    return hills_.surface_at(place, interpolation);
+  }
+  bool serves(int detail) const override { return detail == 3; }
+  std::size_t surfaces(const terrain::PlaceRun& places, Interpolation interpolation,
+                       const terrain::SurfaceRun& found) const override {
+    return hills_.surfaces(places, interpolation, found);
+  }
+
+ private:
+  terrain::AnalyticTerrain hills_{terrain::built_in_hills()};
+};
+
+TEST(RadarKernel, ASweepOverTerrainOfAnotherDetailIsNotReady) {
+  test::Cockpit cockpit;
+  const ForeignTerrain foreign;
+  EXPECT_NE(cockpit.kernel.need(cockpit.tick).region.detail, 3);
+  int sweeps = 0;
+  for (int i = 0; i < 400; ++i) {
+    ++cockpit.tick.tick;
+    cockpit.tick.sim_time_ns = cockpit.tick.tick * radar::kTickNanoseconds;
+    if (!cockpit.kernel.step(cockpit.tick, foreign, cockpit.sweep)) continue;
+    ++sweeps;
+    EXPECT_NE(cockpit.sweep.flags & databuffer::kSweepNotReady, 0U);
+  }
+  EXPECT_GT(sweeps, 100);
+}
+
 }  // namespace
 }  // namespace yars::model::kernel

@@ -66,8 +66,9 @@ TEST(AnalyticTerrain, TheFastPathIsTheSameSurfaceAndZeroIsWater) {
   const geo::GeoPoint land = at(15000);
   const auto found = test::fast_path(
       terrain, {sea, {land.latitude_deg, land.longitude_deg + 360.0}, {std::numeric_limits<double>::quiet_NaN(), 0.0}});
-  const auto& [places, elevation_m, water, material, not_loaded] = found;
+  const auto& [places, elevation_m, water, peak_m, material, not_loaded] = found;
   EXPECT_EQ(material[1], 0);
+  EXPECT_EQ(peak_m[1], elevation_m[1]);
   EXPECT_EQ(not_loaded, 0U);
   EXPECT_EQ(elevation_m[0], 0);
   EXPECT_EQ(water[0], 1);

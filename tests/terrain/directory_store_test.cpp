@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <random>
 
+#include "model/terrain/dted_writer.hpp"
 #include "model/terrain/open_terrain.hpp"
 #include "tests/terrain/dted_builder.hpp"
+#include "tests/terrain/fast_path.hpp"
 
 namespace yars::model::terrain {
 namespace {
@@ -124,6 +128,65 @@ TEST(DirectoryStore, AnOddCellIsReportedAndUsed) {
   const auto store = store_over(folder);
   EXPECT_EQ(store->prepare({middle(20), kNear})->elevation_m(middle(20)), 5);
   EXPECT_THAT(store->take_problems(), ElementsAre(HasSubstr("checksum")));
+}
+
+// Rough ground of level 0: a post every 927 m.
+Cell rough_cell(CellPlace place) {
+  std::mt19937 random(7);
+  std::vector<std::int16_t> posts(121U * 121U);
+  for (std::int16_t& post_m : posts) post_m = static_cast<std::int16_t>(100 + random() % 900);
+  return {place, 121, 121, posts};
+}
+
+TEST(DirectoryStore, ACoarserDetailKeepsMeansForTheReturnAndPeaksForTheShadow) {
+  const test::TemporaryFolder folder;
+  const Cell whole = rough_cell({0, 0});
+  ASSERT_TRUE(write_dted(folder.path(), whole, 0));
+  const auto store = store_over(folder);
+  const auto fine = store->prepare({middle(0), kNear, 0});
+  EXPECT_FALSE(fine->has_peaks());
+  const auto coarse = store->prepare({middle(0), kNear, detail_for(4100.0)});  // every fourth post
+  EXPECT_TRUE(coarse->has_peaks());
+  EXPECT_LT(coarse->resident_bytes() - sizeof(CellView), (fine->resident_bytes() - sizeof(CellView)) / 4);
+  std::vector<geo::GeoPoint> places;
+  for (int i = 0; i < 3000; ++i) places.push_back({0.02 + 0.00032 * i, 0.98 - 0.00031 * i});
+  const auto found = test::fast_path(*coarse, places);
+  double mean_difference_m = 0.0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double exact_m = fine->elevation_m(found.places[i]);
+    EXPECT_GE(found.peak_m[i], exact_m - 0.1) << "a shadow is never lost";
+    mean_difference_m += (found.elevation_m[i] - exact_m) / static_cast<double>(places.size());
+  }
+  EXPECT_NEAR(mean_difference_m, 0.0, 30.0) << "the mean stays what it was";
+}
+
+TEST(DirectoryStore, AViewServesTheDetailThatItWasMadeFor) {
+  const test::TemporaryFolder folder;
+  ASSERT_TRUE(write_dted(folder.path(), rough_cell({0, 0}), 0));
+  const auto store = store_over(folder);
+  const auto coarse = store->prepare({middle(0), kNear, 12});
+  EXPECT_TRUE(coarse->serves(12));
+  EXPECT_FALSE(coarse->serves(0));
+  const auto fine = store->prepare({middle(0), kNear, 0});
+  EXPECT_GT(fine->generation(), coarse->generation());
+  EXPECT_TRUE(fine->serves(0));
+  EXPECT_TRUE(coarse->has_peaks()) << "the old view stays what it is";
+  EXPECT_EQ(store->prepare({middle(0), kNear, 0}), fine);
+}
+
+TEST(Detail, IsTheLargestPowerOfTwoBelowTheSpacing) {
+  EXPECT_EQ(detail_for(0.0), 0);
+  EXPECT_EQ(detail_for(1.9), 0);
+  EXPECT_EQ(detail_for(2.0), 1);
+  EXPECT_EQ(detail_for(100.0), 6);
+  EXPECT_EQ(detail_for(std::numeric_limits<double>::quiet_NaN()), 0);
+  CellFile level_1;
+  level_1.posts_per_degree = 1200;  // 93 m
+  EXPECT_EQ(reduction_for(level_1, 6), 0);
+  EXPECT_EQ(reduction_for(level_1, 7), 0);
+  EXPECT_EQ(reduction_for(level_1, 8), 1);
+  EXPECT_EQ(reduction_for(level_1, 10), 3);
+  EXPECT_EQ(reduction_for(CellFile(), 10), 0) << "a spacing that is not known";
 }
 
 TEST(OpenTerrain, WithoutADirectoryThereAreHills) {

@@ -11,7 +11,7 @@ namespace yars::test {
 
 struct FastAnswer {
   std::vector<geo::GeoPoint> places;  // as float holds them
-  std::vector<float> elevation_m, water;
+  std::vector<float> elevation_m, water, peak_m;
   std::vector<std::int32_t> material;
   std::size_t not_loaded = 0;
 };
@@ -34,15 +34,18 @@ inline FastAnswer fast_path(const model::terrain::TerrainView& view, const std::
   }
   const auto of = [&](const std::vector<float>& values) { return std::span(values.data(), places.size()); };
   const model::terrain::PlaceRun run{corner, of(cells_north), of(cells_east), of(north_deg), of(east_deg)};
-  FastAnswer answer{{}, std::vector<float>(room), std::vector<float>(room), std::vector<std::int32_t>(room), 0};
+  FastAnswer answer{
+      {}, std::vector<float>(room), std::vector<float>(room), std::vector<float>(room), std::vector<std::int32_t>(room),
+      0};
   for (std::size_t i = 0; i < places.size(); ++i) answer.places.push_back(place_of(run, i));
   answer.not_loaded = view.surfaces(run, interpolation,
                                     {{answer.elevation_m.data(), places.size()},
                                      {answer.water.data(), places.size()},
-                                     {},
+                                     {answer.peak_m.data(), places.size()},
                                      {answer.material.data(), places.size()}});
   answer.elevation_m.resize(places.size());
   answer.water.resize(places.size());
+  answer.peak_m.resize(places.size());
   answer.material.resize(places.size());
   return answer;
 }
