@@ -32,10 +32,11 @@ radar::RadarConfiguration configured(radar::Algorithm algorithm, bool noise) {
   return configuration;
 }
 
-// The posts about the aircraft as one grid, in the blocks of the terrain's own look-up: four neighbours share a cache
-// line, the best that memory can do for a gather.
+// The posts about the aircraft as one grid, row by row as files have them, and in the blocks of the terrain's own
+// look-up, where four neighbours share a cache line: the best that memory can do for a gather.
 struct Mosaic {
-  int south_deg, west_deg, posts_per_degree;
+  int south_deg, west_deg, posts_per_degree, columns;
+  std::vector<std::int16_t> rows;
   model::terrain::PostBlocks blocks;
 };
 
@@ -51,12 +52,16 @@ Mosaic mosaic_about(geo::GeoPoint place, double radius_m, int posts_per_degree) 
   // What the heights are does not matter, that they are there does.
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) posts.push_back(static_cast<std::int16_t>((row ^ column) & 0xff));
-  return {south, west, posts_per_degree, model::terrain::PostBlocks(rows, columns, posts)};
+  model::terrain::PostBlocks blocks(rows, columns, posts);
+  return {south, west, posts_per_degree, columns, std::move(posts), std::move(blocks)};
 }
 
-// Entries of the posts south-west of every sample of the scan.
-std::vector<std::int32_t> ray_entries(const Mosaic& mosaic, const model::kernel::OfflineScan& scan, geo::Length range) {
-  std::vector<std::int32_t> entries;
+// Entries of the posts south-west of every sample of the scan, in both forms of the grid.
+struct Entries {
+  std::vector<std::int32_t> blocks, rows;
+};
+Entries ray_entries(const Mosaic& mosaic, const model::kernel::OfflineScan& scan, geo::Length range) {
+  Entries entries;
   for (const databuffer::Sweep& sweep : scan.sweeps()) {
     const double middle_deg =
         sweep.azimuth_left_deg + 0.5 * geo::wrapped_degrees(sweep.azimuth_right_deg - sweep.azimuth_left_deg);
@@ -67,15 +72,16 @@ std::vector<std::int32_t> ray_entries(const Mosaic& mosaic, const model::kernel:
       const int column = static_cast<int>((place.longitude_deg - mosaic.west_deg) * mosaic.posts_per_degree);
       using Blocks = model::terrain::PostBlocks;
       const int block = row / Blocks::kRowStep * mosaic.blocks.block_columns() + column / Blocks::kColumnStep;
-      entries.push_back(block * static_cast<int>(Blocks::kPosts) + row % Blocks::kRowStep * Blocks::kColumns +
-                        column % Blocks::kColumnStep);
+      entries.rows.push_back(row * mosaic.columns + column);
+      entries.blocks.push_back(block * static_cast<int>(Blocks::kPosts) + row % Blocks::kRowStep * Blocks::kColumns +
+                               column % Blocks::kColumnStep);
     }
   }
   return entries;
 }
 
 struct Rates {
-  std::vector<double> gather, full, quiet, kernel, cold, reference, share, quiet_share;
+  std::vector<double> gather, rows, rows_share, full, quiet, kernel, cold, reference, share, quiet_share;
 };
 
 void measure_range(const model::terrain::TerrainView& terrain, model::kernel::ScanRequest request, double range_nm,
@@ -94,13 +100,18 @@ void measure_range(const model::terrain::TerrainView& terrain, model::kernel::Sc
   const double samples = static_cast<double>(noisy.sweeps().size()) * kSamples;
   constexpr int kPostsPerDegree = 1200;
   const Mosaic mosaic = mosaic_about(request.pose.place, request.range.metres(), kPostsPerDegree);
-  const std::vector<std::int32_t> entries = ray_entries(mosaic, noisy, request.range);
+  const Entries entries = ray_entries(mosaic, noisy, request.range);
   std::uint32_t sink = 0;
   Rates rates;
   for (int round = 0; round < kRounds; ++round) {
     const auto gather = [&] {
-      sink += benchmarks::gather_pairs(mosaic.blocks.data(), entries, model::terrain::PostBlocks::kColumns);
+      sink += benchmarks::gather_pairs(mosaic.blocks.data(), entries.blocks, model::terrain::PostBlocks::kColumns);
     };
+    const auto gather_rows = [&] {
+      sink += benchmarks::gather_pairs(mosaic.rows.data(), entries.rows, mosaic.columns);
+    };
+    gather_rows();
+    const double rows_s = timed(gather_rows);
     gather();
     const double gather_s = timed(gather);
     noisy.measure(terrain);
@@ -112,6 +123,8 @@ void measure_range(const model::terrain::TerrainView& terrain, model::kernel::Sc
     const double cold_s = timed([&] { scan(noisy); });
     const double reference_s = timed([&] { scan(reference); });
     rates.gather.push_back(samples / gather_s);
+    rates.rows.push_back(samples / rows_s);
+    rates.rows_share.push_back(rows_s / full_s);
     rates.kernel.push_back(samples / kernel_s);
     rates.full.push_back(samples / full_s);
     rates.quiet.push_back(samples / quiet_s);
@@ -122,12 +135,14 @@ void measure_range(const model::terrain::TerrainView& terrain, model::kernel::Sc
   }
   const auto mega = [](const std::vector<double>& values) { return median(values) * 1e-6; };
   std::printf(
-      "{\"range_nm\":%.4g,\"sweeps\":%zu,\"samples\":%d,\"gather\":\"%s\",\"gather_limit_M\":%.1f,\"standard_M\":%.1f,"
-      "\"without_noise_M\":%.1f,\"kernel_M\":%.1f,\"cold_M\":%.1f,\"reference_M\":%.2f,\"of_limit\":%.3f,"
-      "\"without_noise_of_limit\":%.3f,\"of_reference\":%.1f,\"check\":%u}\n",
-      range_nm, noisy.sweeps().size(), kSamples, benchmarks::gather_width().data(), mega(rates.gather),
-      mega(rates.full), mega(rates.quiet), mega(rates.kernel), mega(rates.cold), mega(rates.reference),
-      median(rates.share), median(rates.quiet_share), median(rates.full) / median(rates.reference), sink);
+      "{\"range_nm\":%.4g,\"sweeps\":%zu,\"samples\":%d,\"gather\":\"%s\",\"rows_limit_M\":%.1f,\"of_rows_limit\":%.3f,"
+      "\"blocks_limit_M\":%.1f,\"standard_M\":%.1f,"
+      "\"without_noise_M\":%.1f,\"kernel_M\":%.1f,\"cold_M\":%.1f,\"reference_M\":%.2f,\"of_blocks_limit\":%.3f,"
+      "\"without_noise_of_blocks_limit\":%.3f,\"of_reference\":%.1f,\"check\":%u}\n",
+      range_nm, noisy.sweeps().size(), kSamples, benchmarks::gather_width().data(), mega(rates.rows),
+      median(rates.rows_share), mega(rates.gather), mega(rates.full), mega(rates.quiet), mega(rates.kernel),
+      mega(rates.cold), mega(rates.reference), median(rates.share), median(rates.quiet_share),
+      median(rates.full) / median(rates.reference), sink);
   benchmarks::print_stages(terrain, request, kSamples);
   std::fflush(stdout);
 }
