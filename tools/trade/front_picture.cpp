@@ -46,7 +46,8 @@ struct Mark {
 std::string power_text(int exponent) {
   std::string digits(static_cast<std::size_t>(std::abs(exponent)) + 1, '0');
   (exponent >= 0 ? digits.front() : digits.back()) = '1';
-  return exponent >= 0 ? digits : digits.insert(1, ".");
+  if (exponent < 0) digits.insert(digits.begin() + 1, '.');
+  return digits;
 }
 
 // Decades that hold all values above zero; at least one.
@@ -101,7 +102,7 @@ class Panel {
   }
 
  private:
-  static Rect about(Point place) { return grown({place.x, place.y, place.x, place.y}, kRadius + 1.0F); }
+  static Rect about(Point place) { return display::grown({place.x, place.y, place.x, place.y}, kRadius + 1.0F); }
   float height_of(double error) const { return error > 0.0 ? error_.at(error) : frame_.bottom - 0.5F * kZeroRow; }
 
   void draw_axes() {
@@ -167,10 +168,10 @@ class Panel {
                                {0.2F, -1.0F}}) {
         const float left = mark.place.x + side.x * away - (side.x < 0.0F ? width : 0.0F);
         const float base = mark.place.y + side.y * away + 0.5F * kLabel;
-        const Rect box = grown({left, base - kLabel, left + width, base}, 3.0F);
+        const Rect box = display::grown({left, base - kLabel, left + width, base}, 3.0F);
         const bool inside = box.left > frame_.left && box.right < frame_.right + 60.0F && box.top > frame_.top - 8.0F &&
                             box.bottom < frame_.bottom;
-        const auto in_the_way = [&](const Rect& other) { return intersect(box, other); };
+        const auto in_the_way = [&](const Rect& other) { return display::intersect(box, other); };
         if (!inside || std::any_of(taken_.begin(), taken_.end(), in_the_way)) continue;
         taken_.push_back(box);
         const Point end{std::clamp(mark.place.x, left, left + width), std::clamp(mark.place.y, box.top, box.bottom)};

@@ -25,7 +25,7 @@ constexpr double kLowestElevationDeg = -60.0;  // of the antenna, its gimbal's s
 
 tl::unexpected<failure::Error> refuse(std::string expected, std::string_view found) {
   return tl::unexpected<failure::Error>(
-      failure::Error{"--scene", std::move(expected), "'" + std::string(found) + "'", "", true});
+      failure::Error{"--scene", std::move(expected), std::string("'").append(found).append("'"), "", true});
 }
 
 std::string short_number(double value) {

@@ -103,14 +103,18 @@ std::string table_text(const TradeTable& table) {
   }
   std::string text = aligned(rows) + "\n";
   for (std::size_t scene = 0; scene < table.scenes.size(); ++scene)
-    text += "@" + std::to_string(scene + 1) + ": " + scene_name(table.scenes[scene]) + "\n";
+    text += std::string("@")
+                .append(std::to_string(scene + 1))
+                .append(": ")
+                .append(scene_name(table.scenes[scene]))
+                .append("\n");
   return text;
 }
 
 std::string csv_text(const TradeTable& table) {
   const auto exact = [](double value) { return std::isnan(value) ? std::string() : number_text(value, "%.9g"); };
   std::string text = "point,family,scene,latitude_deg,longitude_deg,altitude_ft,heading_deg,range_nm";
-  for (const std::string_view name : kColumnNames) text += "," + std::string(name);
+  for (const std::string_view name : kColumnNames) text.append(",").append(name);
   text += "\n";
   for (std::size_t contender = 0; contender < table.contenders.size(); ++contender) {
     for (std::size_t i = 0; i < table.scenes.size(); ++i) {
@@ -118,8 +122,8 @@ std::string csv_text(const TradeTable& table) {
       text += table.contenders[contender].name + "," + table.contenders[contender].family + "," + std::to_string(i + 1);
       for (const double value :
            {scene.place.latitude_deg, scene.place.longitude_deg, scene.altitude_ft, scene.heading_deg, scene.range_nm})
-        text += "," + exact(value);
-      for (const double value : table.values[contender][i]) text += "," + exact(value);
+        text.append(",").append(exact(value));
+      for (const double value : table.values[contender][i]) text.append(",").append(exact(value));
       text += "\n";
     }
   }
