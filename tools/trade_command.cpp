@@ -187,7 +187,7 @@ nlohmann::ordered_json json_of(const trade::TradeTable& table) {
       nlohmann::ordered_json values;
       for (const trade::Values& row : table.values[i]) values.push_back(row[column]);
       point[std::string(trade::kColumnNames[column])] = {
-          {"mean", summary.mean}, {"worst", summary.worst}, {"worst_scene", summary.worst_scene}, {"scenes", values}};
+          {"mean", summary.mean}, {"worst", summary.worst}, {"worst_scene", summary.worst_scene + 1}, {"scenes", values}};
     }
     all["points"].push_back(std::move(point));
   }
