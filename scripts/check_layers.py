@@ -43,7 +43,8 @@ LAYERS = {
     "display": ROLE,
     "display/gl": ROLE + ["display"],
     "tools/recording": MODEL,
-    "tools": SEGMENT + ["tools/recording"] + MODEL + ["statemachine", "display"],
+    "tools/trade": MODEL + ["display"],
+    "tools": SEGMENT + ["tools/recording", "tools/trade"] + MODEL + ["statemachine", "display"],
     "tests": None,  # None: everything
 }
 

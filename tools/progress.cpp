@@ -1,7 +1,6 @@
 #include "tools/progress.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 namespace yars::tools {
 
@@ -17,7 +16,8 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress(std::size_t total) : total_(total), began_(std::chrono::steady_clock::now()), said_(began_) {}
+Progress::Progress(std::size_t total, std::FILE* out)
+    : out_(out), total_(total), began_(std::chrono::steady_clock::now()), said_(began_) {}
 
 void Progress::done(const std::string& note) {
   ++done_;
@@ -28,8 +28,8 @@ void Progress::done(const std::string& note) {
   const double elapsed_s = std::chrono::duration<double>(now - began_).count();
   const double left_s = elapsed_s / static_cast<double>(done_) * static_cast<double>(total_ - done_);
   const std::string left = done_ == total_ ? "" : "  about " + duration_text(left_s) + " left";
-  std::printf("%zu/%zu  %s%s\n", done_, total_, note.c_str(), left.c_str());
-  std::fflush(stdout);
+  std::fprintf(out_, "%zu/%zu  %s%s\n", done_, total_, note.c_str(), left.c_str());
+  std::fflush(out_);
 }
 
 }  // namespace yars::tools

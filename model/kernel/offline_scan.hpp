@@ -38,6 +38,9 @@ class OfflineScan {
   void develop();
 
   std::span<const databuffer::Sweep> sweeps() const { return sweeps_; }
+  // Where the sweeps lie, and what measure() found: sweep after sweep, full scale = 1.
+  std::span<const SweepPlace> places() const { return places_; }
+  std::span<const float> power() const { return power_; }
 
  private:
   std::span<float> power_of(std::size_t sweep) { return {power_.data() + sweep * samples_, samples_}; }

@@ -1,0 +1,195 @@
+// The trade of speed against accuracy: what it measures by, what it names, what it writes, what it refuses.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "lib/radar/fidelity_preset.hpp"
+#include "model/terrain/analytic_terrain.hpp"
+#include "tools/trade/contender.hpp"
+#include "tools/trade/evidence.hpp"
+#include "tools/trade/fields.hpp"
+#include "tools/trade/front_picture.hpp"
+#include "tools/trade/scene.hpp"
+#include "tools/trade/trade_table.hpp"
+
+namespace yars::tools::trade {
+namespace {
+
+radar::RadarConfiguration with(const radar::Fidelity& fidelity) {
+  radar::RadarConfiguration configuration;
+  configuration.fidelity = fidelity;
+  return configuration;
+}
+
+// Narrow, for the reference is slow.
+model::kernel::ScanRequest narrow_scan(double range_nm) {
+  return request_of({{37.0, -122.0}, 5000.0, 60.0, range_nm}, geo::Angle::degrees(10.0));
+}
+
+TEST(Trade, TheReferenceAgainstItselfHasNoErrorAtAll) {
+  const auto hills = model::terrain::AnalyticTerrain(model::terrain::built_in_hills());
+  const auto configuration = with(*radar::fidelity_preset("reference"));
+  const auto scan = narrow_scan(40.0);
+  const Errors errors = errors_against(make_ruler(configuration, scan, hills), observe(configuration, scan, hills));
+  EXPECT_EQ(errors.position_m, 0.0);
+  EXPECT_EQ(errors.shadow_percent, 0.0);
+  EXPECT_EQ(errors.power_db, 0.0);
+  EXPECT_EQ(errors.gray_levels, 0.0);
+}
+
+TEST(Trade, StandardHoldsItsStatedBoundsAgainstTheReferenceWithItsOwnKnobs) {
+  const auto hills = model::terrain::AnalyticTerrain(model::terrain::built_in_hills());
+  auto fidelity = *radar::fidelity_preset("standard");
+  const auto standard = with(fidelity);
+  fidelity.algorithm = radar::Algorithm::reference;
+  for (const double range_nm : {10.0, 40.0, 160.0}) {
+    SCOPED_TRACE(range_nm);
+    const auto scan = narrow_scan(range_nm);
+    const Errors errors = errors_against(make_ruler(with(fidelity), scan, hills), observe(standard, scan, hills));
+    EXPECT_LE(errors.shadow_percent, 0.1);
+    EXPECT_LE(errors.gray_levels, 0.5);
+    EXPECT_LE(errors.position_m, 0.5);
+    EXPECT_GT(errors.position_m, 0.0);
+  }
+}
+
+// Without the gray levels that a coarser picture costs, the columns would measure nothing.
+TEST(Trade, FewerSamplesAreFurtherFromTheReference) {
+  const auto hills = model::terrain::AnalyticTerrain(model::terrain::built_in_hills());
+  const auto scan = narrow_scan(40.0);
+  const Ruler ruler = make_ruler(with(*radar::fidelity_preset("reference")), scan, hills);
+  const auto sweep = *knob_contenders("samples=60,480", *radar::fidelity_preset("standard"));
+  const Errors coarse = errors_against(ruler, observe(with(sweep[0].fidelity), scan, hills));
+  const Errors fine = errors_against(ruler, observe(with(sweep[1].fidelity), scan, hills));
+  EXPECT_GT(coarse.gray_levels, fine.gray_levels);
+  EXPECT_GT(coarse.shadow_percent, fine.shadow_percent);
+  EXPECT_GT(fine.shadow_percent, 0.0);
+}
+
+// One sweep of four samples against one of two, by hand: pairs share a sample.
+TEST(Trade, ComparesOnTheRulersGridByTheNearestSample) {
+  Ruler ruler;
+  ruler.evidence = {1, 4, {1.0F, 1.0F, 1.0F, 1.0F}, {10, 10, 20, 20}, {1, 1, 0, 1}, 0.0, true};
+  ruler.ground = {1, 1, 1, 0};
+  const Evidence found{1, 2, {0.1F, 1.0F}, {10, 24}, {1, 1}, 3.0, true};
+  const Errors errors = errors_against(ruler, found);
+  EXPECT_DOUBLE_EQ(errors.position_m, 3.0);
+  EXPECT_DOUBLE_EQ(errors.shadow_percent, 100.0 / 3.0);  // the void does not count
+  EXPECT_NEAR(errors.power_db, 10.0, 1e-6);              // the first two alone are seen by both
+  EXPECT_DOUBLE_EQ(errors.gray_levels, std::sqrt(8.0));
+}
+
+TEST(Trade, TheReports1996PowerHasNoDecibels) {
+  Ruler ruler;
+  ruler.evidence = {1, 1, {1.0F}, {10}, {1}, 0.0, true};
+  ruler.ground = {1};
+  EXPECT_TRUE(std::isnan(errors_against(ruler, {1, 1, {0.5F}, {9}, {1}, 0.0, false}).power_db));
+}
+
+TEST(Trade, AKnobSweepNamesEachPointAndSetsThatKnobAlone) {
+  const auto base = *radar::fidelity_preset("standard");
+  const auto sweep = knob_contenders("geodesicKnots=2,3,5", base);
+  ASSERT_TRUE(sweep);
+  ASSERT_EQ(sweep->size(), 3U);
+  EXPECT_EQ((*sweep)[1].name, "geodesicKnots=3");
+  EXPECT_EQ((*sweep)[1].family, "geodesicKnots");
+  EXPECT_EQ((*sweep)[1].fidelity.geodesic_knots, 3);
+  EXPECT_EQ((*sweep)[1].fidelity.samples, base.samples);
+  EXPECT_EQ((*knob_contenders("interpolation=cubic", base))[0].fidelity.interpolation, radar::Interpolation::cubic);
+  EXPECT_TRUE((*knob_contenders("crossTrackSlope=true", base))[0].fidelity.cross_track_slope);
+  EXPECT_EQ((*knob_contenders("beam=hard-edge", base))[0].fidelity.beam, radar::BeamPattern::hard_edge);
+}
+
+TEST(Trade, AllPresetsIsAllOfThem) {
+  EXPECT_EQ(preset_contenders("all")->size(), radar::fidelity_names().size());
+  EXPECT_EQ((*preset_contenders("draft,fine"))[1].name, "fine");
+  EXPECT_TRUE(preset_contenders("none")->empty());
+}
+
+void expect_refused(const failure::Error& error) {
+  EXPECT_TRUE(error.bad_usage);
+  EXPECT_FALSE(error.message().empty());
+  EXPECT_EQ(error.message().find('\n'), std::string::npos) << error.message();
+}
+
+TEST(Trade, RefusesBadInputWithOneLine) {
+  const radar::Fidelity base;
+  for (const char* sweep :
+       {"", "samples", "samples=", "samples=0", "samples=4097", "samples=12x", "samples=120,,240", "sample=5",
+        "geodesicKnots=1", "geodesicKnots=10", "interpolation=best", "postsPerSample=-1", "postsPerSample=nan",
+        "earth=disc", "subBeams=16", "crossTrackSlope=1", "beam=hard"}) {
+    const auto found = knob_contenders(sweep, base);
+    ASSERT_FALSE(found) << sweep;
+    expect_refused(found.error());
+  }
+  for (const char* scene : {"", "37,-122,15000,60", "37,-122,15000,60,40,1", "91,0,0,0,40", "0,181,0,0,40",
+                            "a,0,0,0,40", "0,0,0,0,0", "0,0,inf,0,40", "0,0,0,0,40 "}) {
+    const auto found = scene_of(scene);
+    ASSERT_FALSE(found) << scene;
+    expect_refused(found.error());
+  }
+  for (const char* presets : {"", "best", "draft,"}) {
+    const auto found = preset_contenders(presets);
+    ASSERT_FALSE(found) << presets;
+    expect_refused(found.error());
+  }
+}
+
+// Two points over two scenes; the first is worst in the second one.
+TradeTable small_table() {
+  TradeTable table;
+  table.contenders = {{"draft", "preset", {}}, {"samples=240", "samples", {}}};
+  table.scenes = {{{37.0, -122.0}, 15000.0, 60.0, 10.0}, {{37.0, -122.0}, 15000.0, 60.0, 160.0}};
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  table.values = {{Values{1.0, 2e6, 5e6, 0.1, 1.0, 2.0, 3.0}, Values{2.0, 1e6, 9e6, 0.3, 2.0, 3.0, 7.0}},
+                  {Values{4.0, 3e6, 5e6, 0.0, 0.5, none, 1.0}, Values{3.0, 4e6, 5e6, 0.0, 0.0, none, 0.0}}};
+  return table;
+}
+
+TEST(Trade, TheWorstCaseIsTheMaximumOverTheScenes) {
+  const Summary gray = summary_of(small_table(), 0, Column::gray_levels);
+  EXPECT_DOUBLE_EQ(gray.mean, 5.0);
+  EXPECT_DOUBLE_EQ(gray.worst, 7.0);
+  EXPECT_EQ(gray.worst_scene, 1U);
+  EXPECT_EQ(summary_of(small_table(), 1, Column::scan_ms).worst_scene, 0U);
+  EXPECT_DOUBLE_EQ(summary_of(small_table(), 0, Column::samples_per_second).worst, 1e6);  // slow is bad
+  EXPECT_TRUE(std::isnan(summary_of(small_table(), 1, Column::power_db).mean));
+}
+
+TEST(Trade, CsvHasARowAPointAndSceneWithAsManyFieldsAsNames) {
+  std::istringstream csv(csv_text(small_table()));
+  std::string line;
+  ASSERT_TRUE(std::getline(csv, line));
+  const auto names = fields_of(line).size();
+  EXPECT_EQ(line.substr(0, 12), "point,family");
+  std::set<std::string> rows;
+  while (std::getline(csv, line)) {
+    const auto fields = fields_of(line);
+    ASSERT_EQ(fields.size(), names) << line;
+    rows.insert(std::string(fields[0]) + " " + std::string(fields[2]));
+    EXPECT_TRUE(number_of(fields[names - 1])) << line;
+    EXPECT_TRUE(number_of(fields[names - 2]) || fields[names - 2].empty()) << line;
+  }
+  EXPECT_EQ(rows, (std::set<std::string>{"draft 1", "draft 2", "samples=240 1", "samples=240 2"}));
+}
+
+TEST(Trade, TheTableTellsTheWorstScene) {
+  const std::string text = table_text(small_table());
+  EXPECT_NE(text.find("5.00 / 7.00 @2"), std::string::npos) << text;
+  EXPECT_NE(text.find("@2: 37 -122 15000 ft 60 deg 160 NM"), std::string::npos) << text;
+}
+
+TEST(Trade, ThePictureHasInkForEveryFamily) {
+  const imageio::Image image = front_picture(small_table());
+  std::set<std::uint32_t> colors;
+  for (std::size_t i = 0; i + 2 < image.pixels.size(); i += 3)
+    colors.insert(image.pixels[i] << 16U | image.pixels[i + 1] << 8U | image.pixels[i + 2]);
+  EXPECT_EQ(colors.count(0xc81e1eU), 1U);  // presets
+  EXPECT_EQ(colors.count(0x1e5abeU), 1U);  // the first knob
+}
+
+}  // namespace
+}  // namespace yars::tools::trade

@@ -1,0 +1,141 @@
+#include "tools/trade/contender.hpp"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+
+#include "lib/radar/fidelity_preset.hpp"
+#include "lib/radar/limits.hpp"
+#include "tools/trade/fields.hpp"
+
+namespace yars::tools::trade {
+
+namespace {
+
+using failure::Expected;
+using radar::Fidelity;
+
+// Puts a value into a fidelity; false when the knob does not take it.
+using Setter = std::function<bool(Fidelity&, std::string_view)>;
+
+struct Knob {
+  std::string_view name;
+  std::string_view takes;  // for a person
+  Setter set;
+};
+
+Setter whole_number(int Fidelity::*slot, int least, int most) {
+  return [=](Fidelity& fidelity, std::string_view text) {
+    const auto value = whole_number_of(text);
+    if (!value || *value < least || *value > most) return false;
+    fidelity.*slot = *value;
+    return true;
+  };
+}
+
+Setter flag(bool Fidelity::*slot) {
+  return [=](Fidelity& fidelity, std::string_view text) {
+    if (text != "true" && text != "false") return false;
+    fidelity.*slot = text == "true";
+    return true;
+  };
+}
+
+template <class Choice>
+Setter choice(Choice Fidelity::*slot, std::array<std::string_view, 3> names) {
+  return [=](Fidelity& fidelity, std::string_view text) {
+    const auto found = std::find(names.begin(), names.end(), text);
+    if (found == names.end()) return false;
+    fidelity.*slot = static_cast<Choice>(found - names.begin());
+    return true;
+  };
+}
+
+bool set_posts_per_sample(Fidelity& fidelity, std::string_view text) {
+  constexpr double kMostPosts = 1000.0;  // as GUF
+  const auto value = number_of(text);
+  if (!value || *value < 0.0 || *value > kMostPosts) return false;
+  fidelity.posts_per_sample = *value;
+  return true;
+}
+
+// 1 is no number of knots: one point has no direction.
+bool set_geodesic_knots(Fidelity& fidelity, std::string_view text) {
+  constexpr int kMostKnots = 9;
+  const auto value = whole_number_of(text);
+  if (!value || *value < 0 || *value == 1 || *value > kMostKnots) return false;
+  fidelity.geodesic_knots = *value;
+  return true;
+}
+
+const std::array<Knob, 10>& knobs() {
+  static const std::array<Knob, 10> all{{
+      {"samples", "whole numbers 1 to 4096", whole_number(&Fidelity::samples, 1, radar::kMaxSamples)},
+      {"geodesicKnots", "0 or whole numbers 2 to 9", set_geodesic_knots},
+      {"interpolation", "nearest, bilinear, cubic", choice(&Fidelity::interpolation, {"nearest", "bilinear", "cubic"})},
+      {"postsPerSample", "numbers 0 to 1000", set_posts_per_sample},
+      {"earth", "flat, sphere, ellipsoid", choice(&Fidelity::earth, {"flat", "sphere", "ellipsoid"})},
+      {"subBeams", "whole numbers 1 to 15", whole_number(&Fidelity::sub_beams, 1, radar::kMostSubBeams)},
+      {"crossTrackSlope", "true, false", flag(&Fidelity::cross_track_slope)},
+      {"pulseSmear", "true, false", flag(&Fidelity::pulse_smear)},
+      {"azimuthSmear", "true, false", flag(&Fidelity::azimuth_smear)},
+      {"beam", "hard-edge, gaussian, cosecant-squared",
+       choice(&Fidelity::beam, {"hard-edge", "gaussian", "cosecant-squared"})},
+  }};
+  return all;
+}
+
+template <class Names>
+std::string joined(const Names& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + std::string(name);
+  return text;
+}
+
+tl::unexpected<failure::Error> refuse(std::string subject, std::string expected, std::string_view found) {
+  return tl::unexpected<failure::Error>(
+      failure::Error{std::move(subject), std::move(expected), "'" + std::string(found) + "'", "", true});
+}
+
+const Knob* knob_named(std::string_view name) {
+  const auto found = std::find_if(knobs().begin(), knobs().end(), [&](const Knob& knob) { return knob.name == name; });
+  return found == knobs().end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+Expected<std::vector<Contender>> preset_contenders(std::string_view list) {
+  std::vector<Contender> found;
+  if (list == "none") return found;
+  std::vector<std::string_view> names = fields_of(list);
+  if (list == "all") names.assign(radar::fidelity_names().begin(), radar::fidelity_names().end());
+  for (const std::string_view name : names) {
+    const auto fidelity = radar::fidelity_preset(name);
+    if (!fidelity) return refuse("--presets", joined(radar::fidelity_names()) + ", or all, or none", name);
+    found.push_back({std::string(name), "preset", *fidelity});
+  }
+  return found;
+}
+
+Expected<std::vector<Contender>> knob_contenders(std::string_view sweep, const Fidelity& base) {
+  const std::size_t equals = sweep.find('=');
+  if (equals == std::string_view::npos) return refuse("--knob", "KNOB=VALUE,VALUE,...", sweep);
+  const std::string_view name = sweep.substr(0, equals);
+  const Knob* knob = knob_named(name);
+  if (knob == nullptr) {
+    std::vector<std::string_view> names;
+    for (const Knob& known : knobs()) names.push_back(known.name);
+    return refuse("--knob", "one of " + joined(names), name);
+  }
+  std::vector<Contender> found;
+  for (const std::string_view value : fields_of(sweep.substr(equals + 1))) {
+    Contender contender{std::string(name) + "=" + std::string(value), std::string(name), base};
+    contender.fidelity.name = contender.name;
+    if (!knob->set(contender.fidelity, value))
+      return refuse("--knob " + std::string(name), std::string(knob->takes), value);
+    found.push_back(std::move(contender));
+  }
+  return found;
+}
+
+}  // namespace yars::tools::trade

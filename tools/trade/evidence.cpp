@@ -1,0 +1,180 @@
+#include "tools/trade/evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lib/failure/require.hpp"
+#include "model/rbm/earth.hpp"
+#include "model/rbm/receiver.hpp"
+#include "model/rbm/sample_places.hpp"
+
+namespace yars::tools::trade {
+
+namespace {
+
+using model::kernel::OfflineScan;
+using model::kernel::ScanRequest;
+using model::rbm::Look;
+using radar::RadarConfiguration;
+
+constexpr float kNothing = 1e-8F;  // of full scale: far below the noise, and what float still tells from zero
+
+// One ray, no smear, and a beam without edge about the horizon: power says what ground hides, and nothing else.
+RadarConfiguration bare(RadarConfiguration configuration) {
+  constexpr double kWholeViewDeg = 179.9;
+  radar::Fidelity& fidelity = configuration.fidelity;
+  fidelity.sub_beams = 1;
+  fidelity.pulse_smear = false;
+  fidelity.azimuth_smear = false;
+  fidelity.beam = radar::BeamPattern::hard_edge;
+  configuration.antenna.elevation_beamwidth_deg = kWholeViewDeg;
+  return configuration;
+}
+
+std::vector<double> distances(const RadarConfiguration& configuration, const Look& look,
+                              const model::terrain::TerrainView& terrain) {
+  std::vector<double> distance_m(model::rbm::sample_count(configuration));
+  const auto earth = model::rbm::effective_earth(configuration.fidelity, look.apex, look.azimuth);
+  model::rbm::sample_distances(configuration.fidelity, earth, look, terrain, distance_m);
+  // What nothing is near enough for lies below the aircraft.
+  std::replace_if(
+      distance_m.begin(), distance_m.end(), [](double value) { return std::isnan(value); }, 0.0);
+  return distance_m;
+}
+
+double position_error_m(const RadarConfiguration& configuration, const OfflineScan& scan,
+                        const model::terrain::TerrainView& terrain) {
+  // It asks the geodesic for every sample.
+  if (configuration.fidelity.algorithm == radar::Algorithm::reference) return 0.0;
+  constexpr std::size_t kStep = 4;  // of sweeps and samples: the error is smooth in both
+  model::rbm::PlaceArrays places(model::rbm::sample_count(configuration));
+  double worst_m = 0.0;
+  for (std::size_t sweep = 0; sweep < scan.places().size(); sweep += kStep) {
+    const Look look = model::kernel::look_of(scan.places()[sweep]);
+    const std::vector<double> exact_m = distances(configuration, look, terrain);
+    std::vector<float> distance_m(exact_m.begin(), exact_m.end());
+    distance_m.resize(distance_m.size() + model::terrain::kRunSlack, 0.0F);
+    model::rbm::sample_places(look.apex, look.azimuth, look.range, configuration.fidelity.geodesic_knots,
+                              distance_m.data(), places);
+    const geo::GeodesicRay ray(look.apex, look.azimuth);
+    for (std::size_t i = 0; i < places.count; i += kStep) {
+      geo::GeoPoint found = model::terrain::place_of(places.run(), i);
+      found.longitude_deg = geo::wrapped_degrees(found.longitude_deg);
+      const geo::GeoPoint exact = ray.position(geo::Length::metres(static_cast<double>(distance_m[i])));
+      worst_m = std::max(worst_m, geo::geodesic_inverse(exact, found).distance.metres());
+    }
+  }
+  return worst_m;
+}
+
+std::vector<std::uint8_t> ground_of(const RadarConfiguration& configuration, const OfflineScan& scan,
+                                    const model::terrain::TerrainView& terrain) {
+  std::vector<std::uint8_t> ground;
+  ground.reserve(scan.power().size());
+  for (const model::kernel::SweepPlace& place : scan.places()) {
+    const Look look = model::kernel::look_of(place);
+    const geo::GeodesicRay ray(look.apex, look.azimuth);
+    for (const double distance_m : distances(configuration, look, terrain)) {
+      const geo::GeoPoint there = ray.position(geo::Length::metres(distance_m));
+      const auto surface = terrain.surface_at(there, configuration.fidelity.interpolation);
+      ground.push_back(std::isnan(surface.elevation_m) ? 0 : 1);
+    }
+  }
+  return ground;
+}
+
+std::vector<std::uint8_t> seen_ground(const RadarConfiguration& configuration, ScanRequest request,
+                                      const model::terrain::TerrainView& terrain) {
+  request.elevation = geo::Angle();
+  OfflineScan scan(bare(configuration), request, 1);
+  scan.measure(terrain);
+  std::vector<std::uint8_t> seen(scan.power().size());
+  std::transform(scan.power().begin(), scan.power().end(), seen.begin(),
+                 [](float power) { return power > kNothing ? std::uint8_t{1} : std::uint8_t{0}; });
+  return seen;
+}
+
+Evidence observe_scan(const RadarConfiguration& configuration, const ScanRequest& request,
+                      const model::terrain::TerrainView& terrain, OfflineScan& scan) {
+  scan.measure(terrain);
+  scan.develop();
+  Evidence evidence;
+  evidence.sweeps = scan.places().size();
+  evidence.samples = model::rbm::sample_count(configuration);
+  evidence.power.assign(scan.power().begin(), scan.power().end());
+  for (const databuffer::Sweep& sweep : scan.sweeps())
+    evidence.video.insert(evidence.video.end(), &sweep.video[0], &sweep.video[0] + sweep.samples);
+  evidence.seen = seen_ground(configuration, request, terrain);
+  evidence.position_m = position_error_m(configuration, scan, terrain);
+  evidence.power_is_radar = configuration.fidelity.algorithm != radar::Algorithm::report_1996;
+  return evidence;
+}
+
+RadarConfiguration without_noise(RadarConfiguration configuration) {
+  configuration.fidelity.noise = false;
+  return configuration;
+}
+
+// Mean square of what is added, as its root; NaN of nothing.
+class RootMeanSquare {
+ public:
+  void add(double value) {
+    sum_ += value * value;
+    ++count_;
+  }
+  double value() const {
+    return count_ > 0 ? std::sqrt(sum_ / static_cast<double>(count_)) : std::numeric_limits<double>::quiet_NaN();
+  }
+
+ private:
+  double sum_ = 0.0;
+  std::size_t count_ = 0;
+};
+
+}  // namespace
+
+Evidence observe(const RadarConfiguration& configuration, const ScanRequest& request,
+                 const model::terrain::TerrainView& terrain) {
+  const RadarConfiguration quiet = without_noise(configuration);
+  OfflineScan scan(quiet, request, 1);
+  return observe_scan(quiet, request, terrain, scan);
+}
+
+Ruler make_ruler(const RadarConfiguration& configuration, const ScanRequest& request,
+                 const model::terrain::TerrainView& terrain) {
+  const RadarConfiguration quiet = without_noise(configuration);
+  OfflineScan scan(quiet, request, 1);
+  Ruler ruler;
+  ruler.evidence = observe_scan(quiet, request, terrain, scan);
+  ruler.ground = ground_of(quiet, scan, terrain);
+  ruler.noise = model::rbm::make_receiver(quiet, request.range).noise;
+  return ruler;
+}
+
+Errors errors_against(const Ruler& ruler, const Evidence& found) {
+  const Evidence& exact = ruler.evidence;
+  YARS_REQUIRE(exact.sweeps, ==, found.sweeps);
+  RootMeanSquare decibels, grays;
+  std::size_t ground = 0, mismatches = 0;
+  for (std::size_t sweep = 0; sweep < exact.sweeps; ++sweep) {
+    for (std::size_t i = 0; i < exact.samples; ++i) {
+      const std::size_t here = sweep * exact.samples + i;
+      // The sample whose part of the range holds the middle of the ruler's.
+      const std::size_t there = sweep * found.samples + (2 * i + 1) * found.samples / (2 * exact.samples);
+      grays.add(static_cast<double>(exact.video[here]) - static_cast<double>(found.video[there]));
+      if (ruler.ground[here] == 0) continue;
+      ++ground;
+      if (exact.seen[here] != found.seen[there]) ++mismatches;
+      const bool both = exact.seen[here] != 0 && found.seen[there] != 0;
+      if (!both || !found.power_is_radar || static_cast<double>(exact.power[here]) <= ruler.noise) continue;
+      const double ratio =
+          static_cast<double>(std::max(found.power[there], kNothing)) / static_cast<double>(exact.power[here]);
+      decibels.add(10.0 * std::log10(ratio));
+    }
+  }
+  const double share = ground > 0 ? static_cast<double>(mismatches) / static_cast<double>(ground) : 0.0;
+  return {found.position_m, 100.0 * share, decibels.value(), grays.value()};
+}
+
+}  // namespace yars::tools::trade

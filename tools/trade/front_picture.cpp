@@ -1,0 +1,211 @@
+#include "tools/trade/front_picture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "tools/trade/canvas.hpp"
+
+namespace yars::tools::trade {
+
+namespace {
+
+using display::Point;
+using display::Rect;
+
+constexpr int kWidth = 1560, kHeight = 780;
+constexpr float kTitle = 15.0F, kTick = 11.0F, kLabel = 10.0F;  // [pixels] heights of capitals
+constexpr float kRadius = 5.0F;
+constexpr float kZeroRow = 40.0F;  // [pixels] below the least decade
+constexpr Color kPaper{255, 255, 255}, kInk{30, 30, 30}, kGrid{222, 222, 222}, kFront{255, 190, 90};
+constexpr Color kPresetColor{200, 30, 30};
+constexpr std::array<Color, 6> kFamilyColors{
+    {{30, 90, 190}, {20, 130, 70}, {130, 60, 160}, {0, 130, 140}, {150, 90, 20}, {90, 90, 90}}};
+
+// A logarithmic axis over whole decades, to pixels.
+struct Axis {
+  int least = 0, most = 1;  // powers of ten
+  float from = 0.0F, to = 0.0F;
+
+  float at(double value) const {
+    const double share = (std::log10(value) - least) / (most - least);
+    return from + static_cast<float>(share) * (to - from);
+  }
+};
+
+struct Mark {
+  std::string name, family;
+  double ms = 0.0, error = 0.0, worst = 0.0;
+  Color color{};
+  Point place;
+};
+
+std::string power_text(int exponent) {
+  std::string digits(static_cast<std::size_t>(std::abs(exponent)) + 1, '0');
+  (exponent >= 0 ? digits.front() : digits.back()) = '1';
+  if (exponent < 0) digits.insert(digits.begin() + 1, '.');
+  return digits;
+}
+
+// Decades that hold all values above zero; at least one.
+Axis axis_over(const std::vector<double>& values, float from, float to) {
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (const double value : values) {
+    if (!(value > 0.0)) continue;
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  if (most <= 0.0) return {0, 1, from, to};
+  Axis axis{static_cast<int>(std::floor(std::log10(least))), static_cast<int>(std::ceil(std::log10(most))), from, to};
+  axis.most = std::max(axis.most, axis.least + 1);
+  return axis;
+}
+
+std::vector<Mark> marks_of(const TradeTable& table, Column column) {
+  std::map<std::string, Color> colors{{"preset", kPresetColor}};
+  std::vector<Mark> marks;
+  for (std::size_t i = 0; i < table.contenders.size(); ++i) {
+    const Contender& contender = table.contenders[i];
+    const Summary time = summary_of(table, i, Column::scan_ms);
+    const Summary error = summary_of(table, i, column);
+    if (std::isnan(error.mean) || !(time.mean > 0.0)) continue;
+    const Color next = kFamilyColors[(colors.size() - 1) % kFamilyColors.size()];
+    const Color color = colors.emplace(contender.family, next).first->second;
+    marks.push_back({contender.name, contender.family, time.mean, error.mean, error.worst, color, {}});
+  }
+  return marks;
+}
+
+class Panel {
+ public:
+  Panel(Canvas& canvas, Rect frame, std::string title, std::vector<Mark> marks)
+      : canvas_(canvas), frame_(frame), title_(std::move(title)), marks_(std::move(marks)) {
+    std::vector<double> times, errors;
+    for (const Mark& mark : marks_) {
+      times.push_back(mark.ms);
+      errors.insert(errors.end(), {mark.error, mark.worst});
+    }
+    time_ = axis_over(times, frame_.left, frame_.right);
+    error_ = axis_over(errors, frame_.bottom - kZeroRow, frame_.top);
+    for (Mark& mark : marks_) mark.place = {time_.at(mark.ms), height_of(mark.error)};
+  }
+
+  void draw() {
+    draw_axes();
+    draw_front();
+    for (std::size_t i = 0; i < marks_.size(); ++i) draw_mark(i);
+    for (const Mark& mark : marks_) taken_.push_back(about(mark.place));
+    for (const Mark& mark : marks_) draw_label(mark);
+  }
+
+ private:
+  static Rect about(Point place) { return display::grown({place.x, place.y, place.x, place.y}, kRadius + 1.0F); }
+  float height_of(double error) const { return error > 0.0 ? error_.at(error) : frame_.bottom - 0.5F * kZeroRow; }
+
+  void draw_axes() {
+    for (int power = time_.least; power < time_.most; ++power)
+      for (int digit = 1; digit < 10; ++digit) time_tick(digit * std::pow(10.0, power), digit == 1 ? power : kNoText);
+    time_tick(std::pow(10.0, time_.most), time_.most);
+    for (int power = error_.least; power < error_.most; ++power)
+      for (int digit = 1; digit < 10; ++digit) error_tick(digit * std::pow(10.0, power), digit == 1 ? power : kNoText);
+    error_tick(std::pow(10.0, error_.most), error_.most);
+    canvas_.text("0", {frame_.left - 10.0F, height_of(0.0) + 0.5F * kTick}, kTick, Anchor::right, kInk);
+    canvas_.line({frame_.left, frame_.bottom}, {frame_.right, frame_.bottom}, 1.5F, kInk);
+    canvas_.line({frame_.left, frame_.bottom}, {frame_.left, frame_.top}, 1.5F, kInk);
+    const float middle = 0.5F * (frame_.left + frame_.right);
+    canvas_.text("time a scan (ms of one core)", {middle, frame_.bottom + 52.0F}, kTick, Anchor::middle, kInk);
+    canvas_.text(title_, {frame_.left, frame_.top - 22.0F}, kTitle, Anchor::left, kInk);
+  }
+
+  void time_tick(double value, int power) {
+    const float x = time_.at(value);
+    canvas_.line({x, frame_.top}, {x, frame_.bottom}, power == kNoText ? 0.6F : 1.4F, kGrid);
+    if (power != kNoText) canvas_.text(power_text(power), {x, frame_.bottom + 24.0F}, kTick, Anchor::middle, kInk);
+  }
+
+  void error_tick(double value, int power) {
+    const float y = error_.at(value);
+    canvas_.line({frame_.left, y}, {frame_.right, y}, power == kNoText ? 0.6F : 1.4F, kGrid);
+    if (power == kNoText) return;
+    canvas_.text(power_text(power), {frame_.left - 10.0F, y + 0.5F * kTick}, kTick, Anchor::right, kInk);
+  }
+
+  // What no other one beats in both, from fast to slow.
+  void draw_front() {
+    std::vector<Mark> sorted = marks_;
+    std::sort(sorted.begin(), sorted.end(),
+              [](const Mark& a, const Mark& b) { return a.ms != b.ms ? a.ms < b.ms : a.error < b.error; });
+    const Mark* last = nullptr;
+    for (const Mark& mark : sorted) {
+      if (last != nullptr && mark.error >= last->error) continue;
+      if (last != nullptr) canvas_.line(last->place, mark.place, 5.0F, kFront);
+      last = &mark;
+    }
+  }
+
+  void draw_mark(std::size_t index) {
+    const Mark& mark = marks_[index];
+    const bool swept = mark.family != "preset" && index > 0 && marks_[index - 1].family == mark.family;
+    if (swept) canvas_.line(marks_[index - 1].place, mark.place, 1.2F, mark.color);
+    if (mark.worst > mark.error) canvas_.line(mark.place, {mark.place.x, height_of(mark.worst)}, 1.2F, mark.color);
+    canvas_.disc(mark.place, kRadius, mark.color);
+  }
+
+  // The first free place about the mark, nearest first; where all is taken, the label is left out.
+  void draw_label(const Mark& mark) {
+    const float width = text_width(mark.name, kLabel);
+    for (float away = kRadius + 5.0F; away < 130.0F; away += 6.0F) {
+      for (const Point side : {Point{1.0F, 0.0F},
+                               {1.0F, 0.8F},
+                               {-1.0F, 0.8F},
+                               {-1.0F, 0.0F},
+                               {1.0F, -0.8F},
+                               {-1.0F, -0.8F},
+                               {0.2F, 1.0F},
+                               {0.2F, -1.0F}}) {
+        const float left = mark.place.x + side.x * away - (side.x < 0.0F ? width : 0.0F);
+        const float base = mark.place.y + side.y * away + 0.5F * kLabel;
+        const Rect box = display::grown({left, base - kLabel, left + width, base}, 3.0F);
+        const bool inside = box.left > frame_.left && box.right < frame_.right + 60.0F && box.top > frame_.top - 8.0F &&
+                            box.bottom < frame_.bottom;
+        const auto in_the_way = [&](const Rect& other) { return display::intersect(box, other); };
+        if (!inside || std::any_of(taken_.begin(), taken_.end(), in_the_way)) continue;
+        taken_.push_back(box);
+        const Point end{std::clamp(mark.place.x, left, left + width), std::clamp(mark.place.y, box.top, box.bottom)};
+        if (away > 20.0F) canvas_.line(mark.place, end, 0.6F, mark.color);
+        canvas_.text(mark.name, {left, base}, kLabel, Anchor::left, mark.color);
+        return;
+      }
+    }
+  }
+
+  static constexpr int kNoText = std::numeric_limits<int>::min();
+  Canvas& canvas_;
+  Rect frame_;
+  std::string title_;
+  std::vector<Mark> marks_;
+  std::vector<Rect> taken_;  // where no label fits any more
+  Axis time_, error_;
+};
+
+}  // namespace
+
+imageio::Image front_picture(const TradeTable& table) {
+  Canvas canvas(kWidth, kHeight, kPaper);
+  canvas.text("speed against accuracy: mean (disc) and worst (hair) of " + std::to_string(table.scenes.size()) +
+                  (table.scenes.size() == 1 ? " scene" : " scenes"),
+              {80.0F, 36.0F}, kTitle, Anchor::left, kInk);
+  constexpr float kTop = 100.0F, kBottom = 690.0F;
+  Panel(canvas, {80.0F, kTop, 720.0F, kBottom}, "video error (gray levels of 255 RMS)",
+        marks_of(table, Column::gray_levels))
+      .draw();
+  Panel(canvas, {860.0F, kTop, 1500.0F, kBottom}, "shadow mismatch (% of ground)",
+        marks_of(table, Column::shadow_percent))
+      .draw();
+  return canvas.image();
+}
+
+}  // namespace yars::tools::trade

@@ -1,0 +1,133 @@
+#include "tools/trade/trade_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <span>
+
+namespace yars::tools::trade {
+
+namespace {
+
+// How a column is shown to people.
+struct Shown {
+  std::string_view title;
+  double scale;
+};
+constexpr std::array<Shown, kColumnNames.size()> kShown{{{"ms a scan", 1.0},
+                                                         {"M samples/s", 1e-6},
+                                                         {"terrain MB", 1e-6},
+                                                         {"position m", 1.0},
+                                                         {"shadow %", 1.0},
+                                                         {"power dB", 1.0},
+                                                         {"gray", 1.0}}};
+
+std::string number_text(double value, const char* format) {
+  if (std::isnan(value)) return "-";
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
+
+// Three digits that count, without exponents.
+std::string shown_number(double value) {
+  const double size = std::abs(value);
+  if (size == 0.0) return "0";
+  if (size < 0.0005) return "<0.001";
+  return number_text(value, size < 0.1 ? "%.3f" : size < 10.0 ? "%.2f" : size < 100.0 ? "%.1f" : "%.0f");
+}
+
+std::string cell_text(const Summary& summary, double scale, bool many_scenes) {
+  if (std::isnan(summary.mean)) return "-";
+  const std::string mean = shown_number(summary.mean * scale);
+  if (!many_scenes) return mean;
+  return mean + " / " + shown_number(summary.worst * scale) + " @" + std::to_string(summary.worst_scene + 1);
+}
+
+using Row = std::vector<std::string>;
+
+std::string aligned(const std::vector<Row>& rows) {
+  std::vector<std::size_t> widths(rows.front().size(), 3);
+  for (const Row& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  std::string text;
+  const auto add = [&](const Row& row) {
+    for (std::size_t i = 0; i < row.size(); ++i)
+      text += "| " + row[i] + std::string(widths[i] - row[i].size() + 1, ' ');
+    text += "|\n";
+  };
+  add(rows.front());
+  for (const std::size_t width : widths) text += "| " + std::string(width, '-') + " ";
+  text += "|\n";
+  for (const Row& row : std::span(rows).subspan(1)) add(row);
+  return text;
+}
+
+}  // namespace
+
+Values values_of(const Cost& cost, const Errors& errors) {
+  return {cost.scan_ms,          cost.samples_per_second, cost.terrain_bytes, errors.position_m,
+          errors.shadow_percent, errors.power_db,         errors.gray_levels};
+}
+
+Summary summary_of(const TradeTable& table, std::size_t contender, Column column) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  Summary summary{kNone, kNone, 0};
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t scene = 0; scene < table.scenes.size(); ++scene) {
+    const double value = table.values[contender][scene][static_cast<std::size_t>(column)];
+    if (std::isnan(value)) continue;
+    sum += value;
+    ++count;
+    const bool worse = column == Column::samples_per_second ? value < summary.worst : value > summary.worst;
+    if (count > 1 && !worse) continue;
+    summary.worst = value;
+    summary.worst_scene = scene;
+  }
+  if (count > 0) summary.mean = sum / static_cast<double>(count);
+  return summary;
+}
+
+std::string table_text(const TradeTable& table) {
+  std::vector<Row> rows(1, Row{"point"});
+  for (const Shown& shown : kShown) rows.front().emplace_back(shown.title);
+  for (std::size_t contender = 0; contender < table.contenders.size(); ++contender) {
+    Row row{table.contenders[contender].name};
+    for (std::size_t column = 0; column < kShown.size(); ++column) {
+      const Summary summary = summary_of(table, contender, static_cast<Column>(column));
+      row.push_back(cell_text(summary, kShown[column].scale, table.scenes.size() > 1));
+    }
+    rows.push_back(std::move(row));
+  }
+  std::string text = aligned(rows) + "\n";
+  for (std::size_t scene = 0; scene < table.scenes.size(); ++scene)
+    text += std::string("@")
+                .append(std::to_string(scene + 1))
+                .append(": ")
+                .append(scene_name(table.scenes[scene]))
+                .append("\n");
+  return text;
+}
+
+std::string csv_text(const TradeTable& table) {
+  const auto exact = [](double value) { return std::isnan(value) ? std::string() : number_text(value, "%.9g"); };
+  std::string text = "point,family,scene,latitude_deg,longitude_deg,altitude_ft,heading_deg,range_nm";
+  for (const std::string_view name : kColumnNames) text.append(",").append(name);
+  text += "\n";
+  for (std::size_t contender = 0; contender < table.contenders.size(); ++contender) {
+    for (std::size_t i = 0; i < table.scenes.size(); ++i) {
+      const Scene& scene = table.scenes[i];
+      text += table.contenders[contender].name + "," + table.contenders[contender].family + "," + std::to_string(i + 1);
+      for (const double value :
+           {scene.place.latitude_deg, scene.place.longitude_deg, scene.altitude_ft, scene.heading_deg, scene.range_nm})
+        text.append(",").append(exact(value));
+      for (const double value : table.values[contender][i]) text.append(",").append(exact(value));
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace yars::tools::trade
