@@ -39,7 +39,7 @@ FlightSample FixedFlight::step(geo::Duration dt) {
     return Motion{place.point, origin_.altitude, place.azimuth, setting_.ground_speed, {}};
   };
   const Motion before = motion_here();
-  const auto flown = geo::Length::metres(setting_.ground_speed.metres_per_second() * dt.seconds());
+  const auto flown = geo::Length::metres(setting_.ground_speed.metres_per_second() * stretch_ahead(dt).seconds());
   flown_ = flown_ + surface_distance(before, flown);
   const Motion motion = motion_here();
   return sample_of(motion, coordinated_attitude(motion, {}), "fixed");

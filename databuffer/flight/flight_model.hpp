@@ -23,11 +23,15 @@ struct Placement {
   geo::Bearing heading;
 };
 
+// `dt` where it is a stretch of time ahead, else none.
+geo::Duration stretch_ahead(geo::Duration dt);
+
 class FlightModel {
  public:
   virtual ~FlightModel() = default;
 
-  // `dt` >= 0 after the call before; zero gives the present sample again.
+  // `dt` after the call before; zero gives the present sample again, and so does what is no stretch of time ahead:
+  // less than zero, infinite, not a number.
   virtual FlightSample step(geo::Duration dt) = 0;
   // Back to the start of the flight.
   virtual void reset() = 0;

@@ -87,7 +87,7 @@ std::size_t RouteFlight::nearest_leg_end(geo::GeoPoint place) const {
 }
 
 FlightSample RouteFlight::step(geo::Duration dt) {
-  double remaining_s = dt.seconds();
+  double remaining_s = stretch_ahead(dt).seconds();
   while (remaining_s > 0.0) {
     const double part_s = std::min(remaining_s, kLongestStep);
     advance(part_s);

@@ -54,7 +54,7 @@ void TrackFlight::find_row() {
 }
 
 FlightSample TrackFlight::step(geo::Duration dt) {
-  elapsed_ = elapsed_ + dt;
+  elapsed_ = elapsed_ + stretch_ahead(dt);
   FlightSample sample = present();
   const geo::Duration whole = track_.rows.back().time - track_.rows.front().time;
   sample.ownship.flight_time_s = std::min(elapsed_, whole).seconds();

@@ -25,7 +25,7 @@ struct Ownship {
   std::uint32_t epoch;          // session epoch that the writer knew; a new one makes a jump legal
   std::uint32_t flags;          // kOwnship...
   char source[16];              // "route", "fixed", "csv", "jsbsim": for people
-  double flight_time_s;         // [s] into the source's own recording, for its successor; 0 = not told
+  double flight_time_s;         // [s] [0, 1e10] into the source's own recording, for its successor; 0 = not told
   std::uint64_t reserved[3];
 };
 static_assert(sizeof(Ownship) == 144 && std::is_trivially_copyable_v<Ownship>);

@@ -22,6 +22,9 @@ constexpr double kLargestRange = 10'800.0;
 constexpr double kLowestGround = -12'000.0;
 constexpr double kHighestGround = 10'000.0;
 
+// [s] into a recording: three centuries; no recording is longer.
+constexpr double kLongestFlight = 1e10;
+
 enum class Missing { refused, allowed };  // whether NaN stands for "none"
 
 // Collects the first fault; a reader wants one line, not twenty.
@@ -135,6 +138,7 @@ Refusal why_refused(const Ownship& ownship) {
   inspection.speed("velocity_east_mps", ownship.velocity_east_mps);
   inspection.speed("velocity_down_mps", ownship.velocity_down_mps);
   inspection.range("radar_altitude_m", ownship.radar_altitude_m, 0.0, 200'000.0, Missing::allowed);
+  inspection.range("flight_time_s", ownship.flight_time_s, 0.0, kLongestFlight);
   inspection.text("source", ownship.source);
   return inspection.result();
 }

@@ -12,6 +12,8 @@ namespace yars::model::kernel {
 namespace {
 constexpr double kLeastAltitudeM = -1000.0;  // [m] MSL, of the record
 constexpr double kGreatestAltitudeM = 200000.0;
+// [NM] 18 m, a tenth of the shortest pulse: below it a sample's inverse cube leaves the numbers of float
+constexpr double kLeastRangeNm = 0.01;
 constexpr double kGreatestRangeNm = 1000.0;  // [NM] beyond it the series of the earth's curvature lose accuracy
 }  // namespace
 
@@ -36,7 +38,7 @@ std::optional<Pose> pose_of(const databuffer::Ownship& ownship) {
 
 bool asks_for_video(const databuffer::RadarCommand& command) {
   return command.power == static_cast<std::uint8_t>(radar::Power::operate) &&
-         command.mode == static_cast<std::uint8_t>(radar::Mode::rbm) && command.range_nm > 0.0 &&
+         command.mode == static_cast<std::uint8_t>(radar::Mode::rbm) && command.range_nm >= kLeastRangeNm &&
          command.range_nm <= kGreatestRangeNm;
 }
 

@@ -19,7 +19,7 @@ struct Pose {
 // Nothing if a value is not finite or outside the record's range.
 std::optional<Pose> pose_of(const databuffer::Ownship& ownship);
 
-// True if the command asks for ground video in this mode with a range that can be scanned, (0, 1000] NM.
+// True if the command asks for ground video in this mode with a range that can be scanned, [0.01, 1000] NM.
 bool asks_for_video(const databuffer::RadarCommand& command);
 
 }  // namespace yars::model::kernel

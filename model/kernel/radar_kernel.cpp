@@ -37,6 +37,7 @@ struct RadarKernel::State {
   bool follow_command(const ModelTick& tick, databuffer::Sweep& sweep);
   void use_samples(std::uint32_t samples);
   void use_fidelity(const ModelTick& tick);
+  double wanted_width_deg(const databuffer::RadarCommand& command) const;
   void restart(const databuffer::RadarCommand& command);
   void start_scan(const databuffer::RadarCommand& command);
   bool sweep_tick(const ModelTick& tick, const antenna::AntennaStep& step, const terrain::TerrainView& terrain,
@@ -152,7 +153,7 @@ bool RadarKernel::State::follow_command(const ModelTick& given, databuffer::Swee
     restart(command);
     return false;
   }
-  if (jumped || command.scan_restart != scan_restart || command.scan_width_deg != scan_width_deg) restart(command);
+  if (jumped || command.scan_restart != scan_restart || wanted_width_deg(command) != scan_width_deg) restart(command);
   return false;
 }
 
@@ -176,9 +177,14 @@ void RadarKernel::State::use_fidelity(const ModelTick& given) {
   chain = SweepChain(configuration);
 }
 
+// A width that is not a number would differ from itself and restart the scan at each tick: the one in force stands.
+double RadarKernel::State::wanted_width_deg(const databuffer::RadarCommand& given) const {
+  return std::isfinite(given.scan_width_deg) ? given.scan_width_deg : scan_width_deg;
+}
+
 void RadarKernel::State::restart(const databuffer::RadarCommand& given) {
   scan_restart = given.scan_restart;
-  scan_width_deg = given.scan_width_deg;
+  scan_width_deg = wanted_width_deg(given);
   scanning = true;
   antenna.restart(scan_width_deg);
   chain.clear();

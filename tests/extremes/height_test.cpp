@@ -1,0 +1,199 @@
+// Heights at the ends of the scale, of the aircraft and of the ground. Expected results come from triangles: over a
+// sphere of radius k R an aircraft H above level ground sees as far as k R acos(k R / (k R + H)), about sqrt(2 k R H).
+#include "lib/geo/height.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/extremes/islands.hpp"
+
+namespace yars::model {
+namespace {
+
+using test::expect_lit_between;
+using test::look_from;
+using test::seen;
+
+constexpr double kFactor = 4.0 / 3.0;
+constexpr double kMeanRadiusM = 6371008.8;  // [m] EarthModel::sphere
+constexpr double kFarM = 1e9;               // [m] beyond every range
+
+double horizon_m(double above_ground_m, double ground_m) {
+  const double radius_m = kFactor * kMeanRadiusM;
+  const double ground_radius_m = radius_m + ground_m;
+  return radius_m * std::acos(ground_radius_m / (ground_radius_m + above_ground_m));
+}
+
+bool knows_curvature(const radar::RadarConfiguration& configuration) {
+  return configuration.fidelity.algorithm != radar::Algorithm::report_1996;
+}
+
+// Level ground is lit as far as the horizon; the report's earth is flat and has none.
+void expect_horizon(double altitude_m, double ground_m, double range_m) {
+  test::for_each_algorithm_and_beam(400, [&](radar::RadarConfiguration& configuration) {
+    configuration.fidelity.earth = radar::EarthModel::sphere;
+    const double end_m = knows_curvature(configuration) ? horizon_m(altitude_m - ground_m, ground_m) : kFarM;
+    expect_lit_between(seen(configuration, look_from(test::kMidLatitude, 0.0, altitude_m, range_m),
+                            terrain::AnalyticTerrain(terrain::flat(ground_m))),
+                       range_m, 0.0, end_m);
+  });
+}
+
+TEST(ExtremeHeights, At400MetresBelowSeaTheShoreOfTheDeadSeaIsSeenToItsHorizonOf18Kilometres) {
+  EXPECT_NEAR(horizon_m(20.0, -420.0), std::sqrt(2.0 * kFactor * kMeanRadiusM * 20.0), 20.0);
+  expect_horizon(-400.0, -420.0, 40000.0);
+}
+
+TEST(ExtremeHeights, At60000FeetTheHorizonLiesAt557KilometresWithin320NauticalMiles) {
+  const double altitude_m = geo::AltitudeMsl::feet(60000.0).metres();
+  EXPECT_NEAR(horizon_m(altitude_m, 1.0), 557000.0, 1000.0);
+  expect_horizon(altitude_m, 1.0, geo::Length::nautical_miles(320.0).metres());
+}
+
+TEST(ExtremeHeights, At100KilometresTheHorizonIsTheRootOfTwoKRH) {
+  // The root is the first term: the next takes off 5 H / (12 k R), 0.5 %.
+  const double root_m = std::sqrt(2.0 * kFactor * kMeanRadiusM * 100e3);
+  EXPECT_NEAR(horizon_m(100e3, 1.0), root_m, 0.006 * root_m);
+  expect_horizon(100e3, 1.0, geo::Length::nautical_miles(800.0).metres());
+}
+
+TEST(ExtremeHeights, AtZeroFeetAboveLevelGroundNothingBeyondTheFirstSampleIsSeen) {
+  // The line of sight lies in the ground: the first sample is at the horizon, no other is above it.
+  for (const double ground_m : {-400.0, 0.0, 0.5, 1000.0, 8848.0}) {
+    SCOPED_TRACE(ground_m);
+    test::for_each_algorithm_and_beam(400, [&](const radar::RadarConfiguration& configuration) {
+      const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, ground_m, 40000.0),
+                              terrain::AnalyticTerrain(terrain::flat(ground_m)));
+      EXPECT_TRUE(std::all_of(power.begin() + 2, power.end(), [](float value) { return value == 0.0F; }));
+    });
+  }
+}
+
+TEST(ExtremeHeights, AtZeroFeetAboveGroundTheHillsideAheadIsSeenFromItsFoot) {
+  // Flat earth: the plain is edge on, the slope of 5 % faces the aircraft from its foot on.
+  const terrain::AnalyticTerrain hillside([](geo::GeoPoint place) {
+    const double distance_m = geo::geodesic_inverse(test::kMidLatitude, place).distance.metres();
+    return 100.0 + 0.05 * std::max(0.0, distance_m - 5000.0);
+  });
+  test::for_each_algorithm_and_beam(400, [&](radar::RadarConfiguration& configuration) {
+    configuration.fidelity.earth = radar::EarthModel::flat;
+    const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, 100.0, 40000.0), hillside);
+    EXPECT_TRUE(std::all_of(power.begin() + 2, power.begin() + 48, [](float value) { return value == 0.0F; }));
+    EXPECT_TRUE(std::all_of(power.begin() + 53, power.end(), [](float value) { return value > 0.0F; }));
+  });
+}
+
+TEST(ExtremeHeights, BelowTheTerrainNothingIsLitBeyondTheFirstSample) {
+  // Level ground overhead falls towards the horizon with distance: the nearest sample hides the rest.
+  for (const double below_m : {0.1, 10.0, 500.0, 9000.0}) {
+    SCOPED_TRACE(below_m);
+    test::for_each_algorithm_and_beam(400, [&](const radar::RadarConfiguration& configuration) {
+      const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, 8848.0 - below_m, 40000.0),
+                              terrain::AnalyticTerrain(terrain::flat(8848.0)));
+      EXPECT_TRUE(std::all_of(power.begin() + 2, power.end(), [](float value) { return value == 0.0F; }));
+    });
+  }
+}
+
+TEST(ExtremeHeights, InSlantRangeTheNadirSampleIsLitAndEverythingNearerIsDark) {
+  // Nothing is nearer than the ground straight below; over level ground all is lit from there on.
+  for (const double above_m : {140.0, 3000.0, 18288.0}) {
+    SCOPED_TRACE(above_m);
+    test::for_each_algorithm_and_beam(400, [&](radar::RadarConfiguration& configuration) {
+      if (!knows_curvature(configuration)) return;  // the report knows ground range alone
+      configuration.fidelity.slant_range = true;
+      constexpr double kRangeM = 40000.0;
+      const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, 200.0 + above_m, kRangeM),
+                              terrain::AnalyticTerrain(terrain::flat(200.0)));
+      // The first sample whose middle lies beyond the ground below.
+      const auto nadir = static_cast<std::size_t>(std::ceil(above_m / (kRangeM / 400.0) - 0.5));
+      for (std::size_t i = 0; i < power.size(); ++i) EXPECT_EQ(power[i] > 0.0F, i >= nadir) << i << " of " << nadir;
+    });
+  }
+}
+
+TEST(ExtremeHeights, InGroundRangeTheNadirIsTheFirstSampleAndSeenStraightFromAbove) {
+  // 5 m out at 3000 m up: the grazing angle is within 0.1 degrees of 90, and its sine, the report's power, is 1.
+  test::for_each_algorithm_and_beam(4000, [&](const radar::RadarConfiguration& configuration) {
+    const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, 3100.0, 40000.0),
+                            terrain::AnalyticTerrain(terrain::flat(100.0)));
+    EXPECT_GT(power[0], 0.0F);
+    if (knows_curvature(configuration)) return;
+    EXPECT_NEAR(power[0], 1.0F, 1e-5F);
+  });
+}
+
+// Where the line from the aircraft over an edge meets the sphere of level ground behind it: by bisection of the
+// elevation angle over the centre of the earth.
+double shadow_end_m(double altitude_m, double edge_m, double edge_height_m, double ground_m) {
+  const double radius_m = kFactor * kMeanRadiusM;
+  const auto tangent = [&](double distance_m, double height_m) {
+    const double angle = distance_m / radius_m;
+    return ((radius_m + height_m) * std::cos(angle) - (radius_m + altitude_m)) /
+           ((radius_m + height_m) * std::sin(angle));
+  };
+  const double edge = tangent(edge_m, edge_height_m);
+  double hidden_m = edge_m, lit_m = horizon_m(altitude_m - ground_m, ground_m);
+  for (int step = 0; step < 100; ++step) {
+    const double middle_m = 0.5 * (hidden_m + lit_m);
+    (tangent(middle_m, ground_m) < edge ? hidden_m : lit_m) = middle_m;
+  }
+  return lit_m;
+}
+
+TEST(ExtremeHeights, BehindACliffOf8848MetresTheShadowEndsWhereTheLineOfSightComesDown) {
+  constexpr double kCliffM = 20000.0, kAltitudeM = 12000.0, kRangeM = 120000.0;
+  const terrain::AnalyticTerrain cliff(terrain::step_wall(test::axis_north(), kCliffM, 8848.0, 1.0));
+  constexpr double kSpacingM = kRangeM / 1200.0;
+  // The middle of the last sample on the cliff is the edge that a sweep knows.
+  constexpr double kEdgeM = kCliffM - 0.5 * kSpacingM;
+  test::for_each_algorithm_and_beam(1200, [&](radar::RadarConfiguration& configuration) {
+    configuration.fidelity.earth = radar::EarthModel::sphere;
+    // On a flat earth by similar triangles.
+    const double end_m = knows_curvature(configuration) ? shadow_end_m(kAltitudeM, kEdgeM, 8848.0, 1.0)
+                                                        : kEdgeM * (kAltitudeM - 1.0) / (kAltitudeM - 8848.0);
+    ASSERT_LT(end_m, 0.8 * kRangeM);
+    const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, kAltitudeM, kRangeM), cliff);
+    for (std::size_t i = 0; i < power.size(); ++i) {
+      const double distance_m = (static_cast<double>(i) + 0.5) * kSpacingM;
+      const bool near_an_edge =
+          std::abs(distance_m - kCliffM) < 2.0 * kSpacingM || std::abs(distance_m - end_m) < 2.0 * kSpacingM;
+      if (near_an_edge) continue;
+      EXPECT_EQ(power[i] > 0.0F, distance_m < kCliffM || distance_m > end_m) << distance_m << ", end " << end_m;
+    }
+  });
+}
+
+TEST(ExtremeHeights, TheFaceOfACliffOf8848MetresIsTheBrightestAndHidesAllBehindIt) {
+  // From 2000 m the edge is above the aircraft: the line of sight over it never comes down.
+  constexpr double kRangeM = 60000.0;
+  const terrain::AnalyticTerrain cliff(terrain::step_wall(test::axis_north(), 20000.0, 1.0, 8848.0));
+  test::for_each_algorithm_and_beam(600, [&](const radar::RadarConfiguration& configuration) {
+    const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, 2000.0, kRangeM), cliff);
+    // From 5 km on: the ground straight below is bright too.
+    const auto brightest = std::max_element(power.begin() + 50, power.end()) - power.begin();
+    EXPECT_NEAR(static_cast<double>(brightest), 200.0, 2.0);
+    EXPECT_TRUE(std::all_of(power.begin() + 203, power.end(), [](float value) { return value == 0.0F; }));
+  });
+}
+
+TEST(ExtremeHeights, FlatZeroIsWaterThatReturnsEverywhereUpToTheHorizon) {
+  // From 4572 m the horizon lies at 279 km, beyond the range.
+  constexpr double kAltitudeM = 4572.0, kRangeM = 80000.0;
+  test::for_each_algorithm_and_beam(400, [&](const radar::RadarConfiguration& configuration) {
+    const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, kAltitudeM, kRangeM),
+                            terrain::AnalyticTerrain(terrain::flat(0.0)));
+    EXPECT_TRUE(std::all_of(power.begin(), power.end(), [](float value) { return value > 0.0F; }));
+    if (knows_curvature(configuration)) return;
+    for (std::size_t i = 1; i + 1 < power.size(); ++i) {
+      const double distance_m = (static_cast<double>(i) + 0.5) * kRangeM / 400.0;
+      // The sine of the depression; the report's joining of neighbours moves it by the curve's second difference.
+      EXPECT_NEAR(static_cast<double>(power[i]), kAltitudeM / std::hypot(kAltitudeM, distance_m), 1e-3);
+    }
+  });
+}
+
+}  // namespace
+}  // namespace yars::model

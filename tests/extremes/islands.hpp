@@ -1,0 +1,106 @@
+// Land that is known exactly: an island in a void. Where nothing is, nothing returns, whatever the algorithm; so that
+// the samples with power say where the island lies. Configurations have no smear, no noise and a beam without edge.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "lib/geo/geodesic.hpp"
+#include "model/rbm/algorithm.hpp"
+#include "tests/model/ground.hpp"
+
+namespace yars::test {
+
+inline constexpr radar::Algorithm kAlgorithms[] = {radar::Algorithm::standard, radar::Algorithm::reference,
+                                                   radar::Algorithm::report_1996};
+inline constexpr radar::BeamPattern kBeams[] = {radar::BeamPattern::hard_edge, radar::BeamPattern::gaussian,
+                                                radar::BeamPattern::cosecant_squared};
+inline constexpr double kVoidM = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kIslandHeightM = 500.0;
+
+inline std::string name_of(radar::Algorithm algorithm) {
+  switch (algorithm) {
+    case radar::Algorithm::standard:
+      return "standard";
+    case radar::Algorithm::reference:
+      return "reference";
+    case radar::Algorithm::report_1996:
+      break;
+  }
+  return "report-1996";
+}
+
+// Runs a body for each algorithm, and says for which it failed.
+template <class Body>
+void for_each_algorithm(int samples, const Body& body) {
+  for (const radar::Algorithm algorithm : kAlgorithms) {
+    SCOPED_TRACE(name_of(algorithm));
+    radar::RadarConfiguration configuration = bare_configuration(samples);
+    configuration.fidelity.algorithm = algorithm;
+    configuration.fidelity.earth = radar::EarthModel::ellipsoid;
+    body(configuration);
+  }
+}
+
+// The same for each pattern of the beam too; the report knows one beam alone and takes no notice.
+template <class Body>
+void for_each_algorithm_and_beam(int samples, const Body& body) {
+  for_each_algorithm(samples, [&body](radar::RadarConfiguration& configuration) {
+    for (const radar::BeamPattern beam : kBeams) {
+      SCOPED_TRACE("beam pattern " + std::to_string(static_cast<int>(beam)));
+      configuration.fidelity.beam = beam;
+      body(configuration);
+    }
+  });
+}
+
+inline bool is_dark(const std::vector<float>& power) {
+  for (const float value : power)
+    if (value != 0.0F) return false;
+  return true;
+}
+
+// Power of one look; whatever was asked, each value of it is a number that a receiver can receive.
+inline std::vector<float> seen(const radar::RadarConfiguration& configuration, const model::rbm::Look& look,
+                               const model::terrain::TerrainView& terrain) {
+  const auto algorithm = model::rbm::make_algorithm(configuration);
+  std::vector<float> power(model::rbm::sample_count(configuration), -1.0F);
+  algorithm->measure(look, terrain, power);
+  for (std::size_t i = 0; i < power.size(); ++i)
+    EXPECT_TRUE(std::isfinite(power[i]) && power[i] >= 0.0F) << "sample " << i << ": " << power[i];
+  return power;
+}
+
+inline model::rbm::Look look_from(geo::GeoPoint apex, double azimuth_deg, double altitude_m, double range_m) {
+  model::rbm::Look look = look_north(altitude_m, range_m, apex);
+  look.azimuth = geo::Bearing::degrees(azimuth_deg);
+  return look;
+}
+
+// A disc of kIslandHeightM about a place, void elsewhere.
+inline model::terrain::AnalyticTerrain island_at(geo::GeoPoint middle, double radius_m) {
+  return model::terrain::AnalyticTerrain([middle, radius_m](geo::GeoPoint place) {
+    return geo::geodesic_inverse(middle, place).distance.metres() < radius_m ? kIslandHeightM : kVoidM;
+  });
+}
+
+// Power from `near_m` to `far_m` and nowhere else, to two samples: one for where a sample's middle falls, one for the
+// report's joining of neighbours.
+inline void expect_lit_between(const std::vector<float>& power, double range_m, double near_m, double far_m) {
+  const double spacing_m = range_m / static_cast<double>(power.size());
+  for (std::size_t i = 0; i < power.size(); ++i) {
+    const double distance_m = (static_cast<double>(i) + 0.5) * spacing_m;
+    if (distance_m > near_m + 2.0 * spacing_m && distance_m < far_m - 2.0 * spacing_m) {
+      EXPECT_GT(power[i], 0.0F) << "at " << distance_m << " m, between " << near_m << " and " << far_m;
+    }
+    if (distance_m < near_m - 2.0 * spacing_m || distance_m > far_m + 2.0 * spacing_m) {
+      EXPECT_EQ(power[i], 0.0F) << "at " << distance_m << " m, not between " << near_m << " and " << far_m;
+    }
+  }
+}
+
+}  // namespace yars::test

@@ -1,0 +1,117 @@
+// Elevation files at the ends of the scale: of one post, of one row, of nothing but voids. The scan over them goes on.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/terrain/directory_store.hpp"
+#include "model/terrain/dted_reader.hpp"
+#include "model/terrain/hgt_reader.hpp"
+#include "tests/extremes/islands.hpp"
+#include "tests/model/cockpit.hpp"
+#include "tests/terrain/dted_builder.hpp"
+
+namespace yars::model {
+namespace {
+
+using test::look_from;
+using test::seen;
+using ::testing::HasSubstr;
+
+constexpr geo::GeoPoint kMiddle{50.5, 10.5};
+constexpr double kRangeM = 20000.0;
+
+// Rows and columns as the header tells them, spread over a degree where a number of posts can be.
+test::DtedFile dted_of(int columns, int rows) {
+  const auto text = [](int number) {
+    std::string digits = std::to_string(number);
+    return std::string(4 - digits.size(), '0') + digits;
+  };
+  test::DtedFile file;
+  file.longitude_count = text(columns);
+  file.latitude_count = text(rows);
+  for (int column = 0; column < columns; ++column)
+    file.columns.push_back(
+        {.longitude_index = column, .words = std::vector<std::uint16_t>(static_cast<std::size_t>(rows), 7)});
+  return file;
+}
+
+TEST(ExtremeFiles, DtedOfOnePostOneRowOrOneColumnIsRefusedWithTheNumberOfPostsThatItNeeds) {
+  for (const auto& [columns, rows] : {std::pair{1, 1}, {5, 1}, {1, 5}, {0, 5}, {5, 0}, {0, 0}}) {
+    SCOPED_TRACE(std::to_string(columns) + " x " + std::to_string(rows));
+    const auto bytes = dted_of(columns, rows).bytes();
+    const auto reading = terrain::parse_dted(bytes, "tiny.dt0", {50, 10});
+    ASSERT_FALSE(reading.has_value());
+    EXPECT_THAT(reading.error().message(), HasSubstr("2 to 3601 a side"));
+  }
+}
+
+TEST(ExtremeFiles, HgtOfOnePostOrOneRowIsRefusedWithTheBytesThatItNeeds) {
+  for (const std::size_t bytes :
+       {std::size_t{0}, std::size_t{1}, std::size_t{2}, std::size_t{2 * 1201}, std::size_t{2 * 3601}}) {
+    const auto reading = terrain::parse_hgt(std::vector<std::byte>(bytes), "N50E010.hgt", {50, 10});
+    ASSERT_FALSE(reading.has_value());
+    EXPECT_THAT(reading.error().message(), HasSubstr("2884802"));
+  }
+}
+
+TEST(ExtremeFiles, AFileOfOnePostIsReportedOnceAndTheScanSeesTheLandBesideItAlone) {
+  const test::TemporaryFolder folder;
+  folder.write("e010/n50.dt0", dted_of(1, 1).bytes());
+  folder.write("e011/n50.dt0", test::level_dted(50, 11, 100).bytes());
+  auto store = terrain::DirectoryTerrainStore::open(folder.path(), {});
+  ASSERT_TRUE(store.has_value()) << store.error().message();
+  std::vector<std::string> problems;
+  terrain::TerrainViewPointer view;
+  for (int time = 0; time < 3; ++time) {
+    view = (*store)->prepare({kMiddle, 100000.0});
+    for (auto& problem : (*store)->take_problems()) problems.push_back(problem);
+  }
+  EXPECT_EQ(problems.size(), 1U);
+  test::for_each_algorithm(200, [&](const radar::RadarConfiguration& configuration) {
+    // West of the land lies what the bad file leaves, from kMiddle on; the border is 35 km away.
+    const auto power = seen(configuration, look_from(kMiddle, 90.0, 3000.0, 80000.0), *view);
+    EXPECT_GT(power[150], 0.0F);
+    const bool sea = view->elevation_m(kMiddle) == 0.0;
+    EXPECT_EQ(power[40] > 0.0F, sea);
+  });
+}
+
+TEST(ExtremeFiles, OverACellOfVoidsNothingReturnsAndNoGroundIsTold) {
+  const test::TemporaryFolder folder;
+  folder.write("e010/n50.dt0", test::level_dted(50, 10, 0xFFFF).bytes());
+  auto store = terrain::DirectoryTerrainStore::open(folder.path(), {});
+  ASSERT_TRUE(store.has_value()) << store.error().message();
+  const auto view = (*store)->prepare({kMiddle, kRangeM});
+  test::for_each_algorithm_and_beam(200, [&](radar::RadarConfiguration& configuration) {
+    for (const bool slant : {false, true}) {
+      for (const bool across : {false, true}) {
+        configuration.fidelity.slant_range = slant;
+        configuration.fidelity.cross_track_slope = across;
+        EXPECT_TRUE(test::is_dark(seen(configuration, look_from(kMiddle, 30.0, 3000.0, kRangeM), *view)));
+      }
+    }
+    kernel::RadarKernel kernel(configuration);
+    test::Cockpit cockpit;  // for its tick
+    cockpit.tick.ownship.latitude_deg = kMiddle.latitude_deg;
+    cockpit.tick.ownship.longitude_deg = kMiddle.longitude_deg;
+    cockpit.tick.command.range_nm = 10.0;
+    int sweeps = 0;
+    for (int tick = 0; tick < 150; ++tick) {
+      ++cockpit.tick.tick;
+      if (!kernel.step(cockpit.tick, *view, cockpit.sweep)) continue;
+      ++sweeps;
+      // Without noise every sample is the receiver's floor, the same all along; the report's is black.
+      const auto* video = cockpit.sweep.video;
+      ASSERT_TRUE(std::all_of(video, video + 200, [video](std::uint8_t level) { return level == video[0]; }));
+    }
+    EXPECT_GT(sweeps, 50);
+    databuffer::ModelStatus status{};
+    kernel.describe(*view, status);
+    EXPECT_TRUE(std::isnan(status.ground_elevation_m) && std::isnan(status.height_above_ground_m));
+  });
+}
+
+}  // namespace
+}  // namespace yars::model
