@@ -25,7 +25,7 @@ void OwnshipReceiver::receive(const SessionLayout& layout, std::size_t index) {
   Lane& lane = lanes_[index];
   const auto refuse = [this, index](const char* record, const std::string& reason) {
     ++refused_;
-    last_refusal_ = std::string(record) + " in lane " + std::to_string(index) + ": " + reason;
+    refusals_.push_back(std::string(record) + " in lane " + std::to_string(index) + ": " + reason);
   };
   // A lane taken away holds nothing of its last writer for the next one.
   if (!layout.ownship[index].has_value()) lane.accepted = 0;
@@ -57,6 +57,7 @@ void OwnshipReceiver::receive(const SessionLayout& layout, std::size_t index) {
 }
 
 const OwnshipReceiver::Selected& OwnshipReceiver::refresh(const SessionLayout& layout, std::int64_t sim_time_ns) {
+  refusals_.clear();
   std::array<OwnshipLane, kOwnshipLanes> view{};
   for (std::size_t i = 0; i < kOwnshipLanes; ++i) {
     receive(layout, i);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "databuffer/records/select_ownship.hpp"
 #include "databuffer/session_layout.hpp"
@@ -26,7 +27,8 @@ class OwnshipReceiver {
   const Selected& refresh(const SessionLayout& layout, std::int64_t sim_time_ns);
 
   std::uint64_t refused() const { return refused_; }
-  const std::string& last_refusal() const { return last_refusal_; }  // why; empty = none yet
+  // Why, a sentence for each record that the last refresh() refused.
+  const std::vector<std::string>& refusals() const { return refusals_; }
 
  private:
   void receive(const SessionLayout& layout, std::size_t lane);
@@ -43,7 +45,7 @@ class OwnshipReceiver {
   OwnshipSelection selection_;
   Selected selected_;
   std::uint64_t refused_ = 0;
-  std::string last_refusal_;
+  std::vector<std::string> refusals_;
 };
 
 }  // namespace yars::databuffer

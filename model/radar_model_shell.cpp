@@ -78,10 +78,7 @@ void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
     status_.ownship_received_ns = selected.received_ns;
   }
   tick_.ownship_lane = selected.lane;
-  if (ownship_.refused() > ownship_refused_) {
-    ownship_refused_ = ownship_.refused();
-    session_->note(databuffer::NoteKind::refusal, ownship_.last_refusal());
-  }
+  for (const std::string& refusal : ownship_.refusals()) session_->note(databuffer::NoteKind::refusal, refusal);
   latch_command();
   tick_.flags = selected.valid ? databuffer::kTickOwnshipValid : 0U;
   if (first_tick_) tick_.flags |= databuffer::kTickRestart;

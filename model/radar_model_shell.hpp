@@ -39,7 +39,6 @@ class RadarModelShell {
   databuffer::Sweep sweep_{};
   std::uint64_t state_version_ = 0;
   std::uint64_t refused_ = 0;          // radar states
-  std::uint64_t ownship_refused_ = 0;  // ownships and navs already noted
   std::uint64_t late_before_ = 0;      // ticks that predecessors skipped
   double load_ = 0.0;
   kernel::FidelityGovernor governor_;

@@ -186,8 +186,10 @@ nlohmann::ordered_json json_of(const trade::TradeTable& table) {
       const auto summary = trade::summary_of(table, i, static_cast<trade::Column>(column));
       nlohmann::ordered_json values;
       for (const trade::Values& row : table.values[i]) values.push_back(row[column]);
-      point[std::string(trade::kColumnNames[column])] = {
-          {"mean", summary.mean}, {"worst", summary.worst}, {"worst_scene", summary.worst_scene + 1}, {"scenes", values}};
+      point[std::string(trade::kColumnNames[column])] = {{"mean", summary.mean},
+                                                         {"worst", summary.worst},
+                                                         {"worst_scene", summary.worst_scene + 1},
+                                                         {"scenes", values}};
     }
     all["points"].push_back(std::move(point));
   }
