@@ -38,8 +38,8 @@ class RadarModelShell {
   databuffer::ModelStatus status_{};
   databuffer::Sweep sweep_{};
   std::uint64_t state_version_ = 0;
-  std::uint64_t refused_ = 0;          // radar states
-  std::uint64_t late_before_ = 0;      // ticks that predecessors skipped
+  std::uint64_t refused_ = 0;      // radar states
+  std::uint64_t late_before_ = 0;  // ticks that predecessors skipped
   double load_ = 0.0;
   kernel::FidelityGovernor governor_;
   radar::Fidelity picked_;     // the governor's, or the configuration's
