@@ -1,5 +1,5 @@
 // What the sea returns: the NRL model of Gregers-Hansen and Mital 2012 (DTIC ADA559494), 0.1 to 60 degrees grazing,
-// 0.5 to 35 GHz, sea states 0 to 6, mean error 2.2 dB against Nathanson's tables, which average over the wind. The
+// sea states 0 to 6, within 2.6 dB on average of Nathanson's tables, which average over the wind. The
 // wind's side is that of the GIT model (Horst, Dyer, Tuley 1978): 3 dB more upwind, less downwind, at X band.
 #pragma once
 
