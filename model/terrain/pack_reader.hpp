@@ -1,6 +1,6 @@
 // Reads a packed cell (see pack_writer.hpp) at a reduction. At 0 it is the packed cell bit for bit. Above, finer
 // levels are not decoded: inside the cell heights are the wavelet's low-pass, at most the peak, in place of reduce()'s
-// box mean (sharper: rms 1 to 10 m apart in 3-arc-second mountains at reductions 1 and 2); edges, voids, sea and peaks
+// box mean (sharper: rms 4 to 22 m apart in 3-arc-second mountains at reductions 1 and 2); edges, voids, sea and peaks
 // are those of reduce(). A reduction beyond what the cell holds gives its coarsest.
 // Errors: one of the two files is missing, damaged, or belongs to another.
 #pragma once
