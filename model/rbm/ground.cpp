@@ -34,8 +34,8 @@ Ground::Ground(const radar::RadarConfiguration& configuration, std::size_t sampl
   tables_.texture.fill(1.0F);
   if (!configuration.fidelity.noise) return;
   textured_sea_ = world.sea.texture > 0.0;
-  textured_land_ = world.land.texture > 0.0;
-  if (textured_land_)
+  textured_plain_ = textured_land_ = world.land.texture > 0.0;
+  if (textured_plain_)
     for (std::size_t code = 0; code < radar::kMaterials; ++code) put_texture(tables_, code, world.land.texture);
   for (const radar::Material& material : world.land.materials) {
     const auto code = static_cast<std::size_t>(material.code);
@@ -64,7 +64,7 @@ Ground::Sample Ground::reflect(const Look& look, const terrain::PlaceRun& places
       if (codes_[i] == radar::kWaterMaterial) water[i] = 1.0F;
     }
   }
-  const bool land = some || (textured_land_ && tables_.texture[0] != 1.0F);
+  const bool land = some || textured_plain_;
   const bool wet = lanes::any_positive(count, water);
   Sample sample;
   if (!land && !wet) return sample;

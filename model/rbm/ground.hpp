@@ -34,7 +34,9 @@ class Ground {
  private:
   void face_walls(const terrain::PlaceRun& places, geo::Bearing azimuth);
 
-  bool textured_land_ = false, textured_sea_ = false;
+  bool textured_plain_ = false;  // land without culture
+  bool textured_land_ = false;   // any land
+  bool textured_sea_ = false;
   reflectivity::LandReturn land_;
   reflectivity::SeaTable sea_;
   geo::Bearing wind_from_;

@@ -49,8 +49,9 @@ std::size_t Standard::measure(const Look& look, const terrain::TerrainView& terr
   const EffectiveEarth earth = effective_earth(configuration_.fidelity, look.apex, look.azimuth);
   const Receiver& receiver = receiver_at(look.range);
   place_samples(look, earth, terrain);
-  const std::size_t pending = read_terrain(look, terrain);
+  // The side rays first: the places that stay are those of the sweep.
   if (configuration_.fidelity.cross_track_slope) read_cross_slopes(look, terrain);
+  const std::size_t pending = read_terrain(look, terrain);
 
   const lanes::SweepConstants constants = sweep_constants(look, earth, receiver);
   const lanes::SightArrays sights{tangent_.data(),     range_inverse_.data(), sin_grazing_.data(),

@@ -207,6 +207,23 @@ TEST(Standard, AgreesWithTheReferenceOverABusyWorld) {
   }
 }
 
+// Walls face the radar or not by where the sample lies, not by where the side rays for the slope across went.
+TEST(Standard, SideRaysDoNotMoveTheStreets) {
+  const terrain::AnalyticTerrain town(terrain::flat(20.0), 1, [](geo::GeoPoint) { return std::uint8_t{1}; });
+  radar::RadarConfiguration configuration = sharp_configuration();
+  configuration.fidelity.noise = false;
+  configuration.world.land.street_width_deg = 30.0;
+  for (const double azimuth_deg : {10.0, 100.0, 250.0}) {
+    const Look look = look_from(test::kMidLatitude, azimuth_deg, 40.0);
+    std::vector<float> with_side_rays(480), without(480);
+    configuration.fidelity.cross_track_slope = true;
+    Standard(configuration).measure(look, town, with_side_rays);
+    configuration.fidelity.cross_track_slope = false;
+    Standard(configuration).measure(look, town, without);
+    for (std::size_t i = 0; i < without.size(); ++i) ASSERT_FLOAT_EQ(with_side_rays[i], without[i]) << i;
+  }
+}
+
 // The plain version of the instructions among them.
 TEST(Standard, EveryWidthOfVectorGivesTheSamePowerAndVideo) {
   const auto hills = terrain::sine_hills(test::axis_north(), 600.0, 12000.0);
