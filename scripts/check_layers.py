@@ -16,7 +16,7 @@ GEO = ["lib/failure", "lib/geo"]
 RADAR = GEO + ["lib/radar"]
 RECORDS = RADAR + ["databuffer/records"]
 ROLE = RECORDS + ["lib/imageio", "config"]
-MODEL = ROLE + ["model/terrain", "model/antenna", "model/reflectivity", "model/rbm", "model/kernel"]
+MODEL = ROLE + ["model/terrain", "model/antenna", "model/reflectivity", "model/scene", "model/rbm", "model/hrm", "model/kernel"]
 SEGMENT = ROLE + ["shm", "databuffer", "databuffer/flight"]
 
 # Folder -> folders whose headers it may include besides its own. model, statemachine, inputmonitor and display
@@ -35,7 +35,9 @@ LAYERS = {
     "model/terrain": RADAR + ["lib/imageio", "model/terrain/gdal"],
     "model/antenna": RADAR,
     "model/reflectivity": RADAR + ["model/terrain"],
+    "model/scene": RADAR + ["model/terrain", "lib/imageio"],
     "model/rbm": RADAR + ["model/terrain", "model/antenna", "model/reflectivity"],
+    "model/hrm": RADAR + ["model/terrain", "model/antenna", "model/reflectivity", "model/scene"],
     "model/kernel": MODEL,
     "model": MODEL,
     "statemachine": ROLE,
