@@ -117,6 +117,14 @@ constexpr std::array kRadarStateFields = {
     YARS_FIELD(RadarState, frame_longitude_deg),
     YARS_FIELD(RadarState, frame_track_deg),
     YARS_FIELD(RadarState, ground_mode),
+    YARS_FIELD(RadarState, map_request),
+    YARS_FIELD(RadarState, map_latitude_deg),
+    YARS_FIELD(RadarState, map_longitude_deg),
+    YARS_FIELD(RadarState, map_window_nm),
+    YARS_FIELD(RadarState, map_newest),
+    YARS_FIELD(RadarState, map_old),
+    YARS_FIELD(RadarState, map_stored),
+    YARS_FIELD(RadarState, map_shown),
 };
 
 constexpr std::array kRadarCommandFields = {
@@ -135,6 +143,10 @@ constexpr std::array kRadarCommandFields = {
     YARS_FIELD(RadarCommand, range_index),
     YARS_FIELD(RadarCommand, channel),
     YARS_FIELD(RadarCommand, band),
+    YARS_FIELD(RadarCommand, map_latitude_deg),
+    YARS_FIELD(RadarCommand, map_longitude_deg),
+    YARS_FIELD(RadarCommand, map_window_nm),
+    YARS_FIELD(RadarCommand, map_request),
 };
 
 constexpr std::array kModelTickFields = {
@@ -210,6 +222,38 @@ constexpr std::array kModelStatusFields = {
     YARS_FIELD(ModelStatus, antenna_phase),
     YARS_FIELD(ModelStatus, scan_noise_only),
     YARS_FIELD(ModelStatus, ownship_received_ns),
+    YARS_FIELD(ModelStatus, map_latitude_deg),
+    YARS_FIELD(ModelStatus, map_longitude_deg),
+    YARS_FIELD(ModelStatus, map_up_deg),
+    YARS_FIELD(ModelStatus, map_window_nm),
+    YARS_FIELD(ModelStatus, map_newest),
+    YARS_FIELD(ModelStatus, map_request),
+    YARS_FIELD(ModelStatus, map_done_request),
+};
+
+constexpr std::array kPatchMapFields = {
+    YARS_FIELD(PatchMap, id),
+    YARS_FIELD(PatchMap, start_tick),
+    YARS_FIELD(PatchMap, end_tick),
+    YARS_FIELD(PatchMap, latitude_deg),
+    YARS_FIELD(PatchMap, longitude_deg),
+    YARS_FIELD(PatchMap, elevation_msl_m),
+    YARS_FIELD(PatchMap, up_deg),
+    YARS_FIELD(PatchMap, window_nm),
+    YARS_FIELD(PatchMap, apex_latitude_deg),
+    YARS_FIELD(PatchMap, apex_longitude_deg),
+    YARS_FIELD(PatchMap, apex_altitude_msl_m),
+    YARS_FIELD(PatchMap, distance_m),
+    YARS_FIELD(PatchMap, squint_deg),
+    YARS_FIELD(PatchMap, resolution_m),
+    YARS_FIELD(PatchMap, formation_s),
+    YARS_FIELD(PatchMap, hash),
+    YARS_FIELD(PatchMap, epoch),
+    YARS_FIELD(PatchMap, request),
+    YARS_FIELD(PatchMap, size),
+    YARS_FIELD(PatchMap, looks),
+    YARS_FIELD(PatchMap, flags),
+    YARS_FIELD(PatchMap, fidelity),
 };
 
 constexpr std::array kNoteFields = {
@@ -231,6 +275,7 @@ constexpr std::array kRecords = {
     RecordFields{"AppliedEvent", sizeof(AppliedEvent), kAppliedEventFields},
     RecordFields{"Sweep", sizeof(Sweep), kSweepFields},
     RecordFields{"ModelStatus", sizeof(ModelStatus), kModelStatusFields},
+    RecordFields{"PatchMap", sizeof(PatchMap), kPatchMapFields},
     RecordFields{"Note", sizeof(Note), kNoteFields},
 };
 

@@ -9,6 +9,7 @@
 #include "databuffer/records/clock_state.hpp"
 #include "databuffer/records/model_records.hpp"
 #include "databuffer/records/ownship.hpp"
+#include "databuffer/records/patch_map.hpp"
 #include "databuffer/records/radar_state.hpp"
 #include "shm/broadcast_ring.hpp"
 #include "shm/input_lanes.hpp"
@@ -59,12 +60,14 @@ struct Lockstep {
   std::array<std::atomic<std::uint32_t>, kLockstepRoles> wake;      // futex words, count up with done_tick
 };
 
+// A whole map. Its writer takes the id away, writes, and puts the new id in last; a reader copies between two reads of
+// the same id.
 struct PatchSlot {
-  std::atomic<std::uint64_t> id;  // 0 = empty
+  std::atomic<std::uint64_t> id;  // 0 = empty, or being written
   std::atomic<std::uint32_t> epoch;
   std::atomic<std::uint32_t> progress_permille;
-  std::array<std::atomic<std::uint64_t>, 32> georeference;  // layout comes with the patch maps
-  std::array<std::atomic<std::uint64_t>, 1024 * 1024 / 8> pixels;
+  std::array<std::atomic<std::uint64_t>, sizeof(PatchMap) / 8> map;                        // words of a PatchMap
+  std::array<std::atomic<std::uint64_t>, kMostPatchPixels * kMostPatchPixels / 8> pixels;  // rows without padding
 };
 
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): the order is what the parts are, the padding cache lines

@@ -112,8 +112,11 @@ typedef struct {
   yars_drawn_point points[8];
   char legends[21][8];
   double frame_latitude_deg, frame_longitude_deg, frame_track_deg;
-  uint8_t ground_mode, reserved_bytes[7];
-  uint64_t reserved[12];
+  uint8_t ground_mode, reserved_bytes[3];
+  uint32_t map_request;
+  double map_latitude_deg, map_longitude_deg, map_window_nm;
+  uint64_t map_newest, map_old, map_stored, map_shown;
+  uint64_t reserved[5];
 } yars_radar_state;
 
 typedef struct {
@@ -131,7 +134,10 @@ typedef struct {
   uint32_t scan_tick;
   uint8_t antenna_phase, scan_noise_only, reserved0[2];
   int64_t ownship_received_ns;
-  uint64_t reserved[11];
+  double map_latitude_deg, map_longitude_deg, map_up_deg, map_window_nm;
+  uint64_t map_newest;
+  uint32_t map_request, map_done_request;
+  uint64_t reserved[5];
 } yars_model_status;
 
 /* ---- The session ---- */

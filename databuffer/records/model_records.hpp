@@ -21,10 +21,13 @@ struct RadarCommand {
   double cursor_longitude_deg;
   double window_nm;
   std::uint32_t scan_restart;  // a change restarts the scan
-  std::uint32_t flags;         // RadarState's flags that matter here: freeze, sniff
+  std::uint32_t flags;         // RadarState's flags that matter here: freeze, sniff, looks, mapping
   std::uint8_t power, mode, scan, gain;
   std::uint8_t range_index, channel, band, reserved0;
-  std::uint64_t reserved[3];
+  double map_latitude_deg;  // [deg] centre of the patch map asked for
+  double map_longitude_deg;
+  float map_window_nm;        // [NM]
+  std::uint32_t map_request;  // a change asks for a map
 };
 static_assert(sizeof(RadarCommand) == 88 && std::is_trivially_copyable_v<RadarCommand>);
 
@@ -140,7 +143,16 @@ struct ModelStatus {
   std::uint8_t scan_noise_only;  // 1: SNIFF holds for the scan under way
   std::uint8_t reserved0[2];
   std::int64_t ownship_received_ns;  // [ns] sim time at which the ownship used came; staleness is judged by it
-  std::uint64_t reserved[11];
+  // The patch map under way: where it will lie; a window of 0 = none. Its time left is map_timer_s, its share
+  // map_progress.
+  double map_latitude_deg;         // [deg] centre
+  double map_longitude_deg;        // [deg]
+  double map_up_deg;               // [deg] true bearing that will point up
+  double map_window_nm;            // [NM] edge
+  std::uint64_t map_newest;        // id of the last map that was completed; 0 = none
+  std::uint32_t map_request;       // the last request taken up
+  std::uint32_t map_done_request;  // the request that the last map answers
+  std::uint64_t reserved[5];
 };
 static_assert(sizeof(ModelStatus) % 8 == 0 && std::is_trivially_copyable_v<ModelStatus>);
 

@@ -35,6 +35,7 @@ inline constexpr std::uint32_t kAltimeterFailed = 1U << 9;
 inline constexpr std::uint32_t kCursorValid = 1U << 10;
 inline constexpr std::uint32_t kTdcPressed = 1U << 11;
 inline constexpr std::uint32_t kFrozenByHrmExit = 1U << 12;
+inline constexpr std::uint32_t kMapping = 1U << 14;   // a map was commanded and is not there yet
 inline constexpr std::uint32_t kRangeSet = 1U << 13;  // the range rule has been applied since power-up
 
 struct RadarState {
@@ -79,8 +80,17 @@ struct RadarState {
   double frame_longitude_deg;  // was when the picture froze
   double frame_track_deg;      // [deg] [0, 360) true ground track of that frame, up on the glass
   std::uint8_t ground_mode;    // radar::Mode to go back to from A/A and ranging
-  std::uint8_t reserved_bytes[7];
-  std::uint64_t reserved[12];
+  std::uint8_t reserved_bytes[3];
+  std::uint32_t map_request;  // counts up with every map that the pilot commands
+  double map_latitude_deg;    // [deg] centre of that map
+  double map_longitude_deg;   // [deg]
+  double map_window_nm;       // [NM] its edge
+  // Maps by id, 0 = none; the radar model reuses no slot that is named here.
+  std::uint64_t map_newest;
+  std::uint64_t map_old;
+  std::uint64_t map_stored;
+  std::uint64_t map_shown;
+  std::uint64_t reserved[5];
 };
 static_assert(sizeof(RadarState) % 8 == 0 && std::is_trivially_copyable_v<RadarState>);
 static_assert(offsetof(RadarState, power) == 120);

@@ -83,6 +83,12 @@ void inspect_cursor(Inspection& inspection, const RadarState& state) {
   inspection.range("cursor_range_nm", state.cursor_range_nm, 0.0, kLargestRange, missing);
 }
 
+void inspect_map(Inspection& inspection, const RadarState& state) {
+  inspection.latitude("map_latitude_deg", state.map_latitude_deg);
+  inspection.longitude("map_longitude_deg", state.map_longitude_deg);
+  inspection.range("map_window_nm", state.map_window_nm, 0.0, kLargestRange);
+}
+
 void inspect_switches(Inspection& inspection, const RadarState& state) {
   inspection.range("power", state.power, 0, 2);
   inspection.range("mode", state.mode, 0, 7);
@@ -169,6 +175,7 @@ Refusal why_refused(const RadarState& state) {
   inspection.range("frame_track_deg", state.frame_track_deg, 0.0, 360.0);
   inspect_cursor(inspection, state);
   inspect_switches(inspection, state);
+  inspect_map(inspection, state);
   inspection.text("sequence_point", state.sequence_point);
   inspection.text("message", state.message);
   for (const auto& legend : state.legends) inspection.text("legends", legend);

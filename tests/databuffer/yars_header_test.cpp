@@ -159,6 +159,14 @@ SAME(yars_radar_state, RadarState, frame_longitude_deg);
 SAME(yars_radar_state, RadarState, frame_track_deg);
 SAME(yars_radar_state, RadarState, ground_mode);
 SAME(yars_radar_state, RadarState, reserved_bytes);
+SAME(yars_radar_state, RadarState, map_request);
+SAME(yars_radar_state, RadarState, map_latitude_deg);
+SAME(yars_radar_state, RadarState, map_longitude_deg);
+SAME(yars_radar_state, RadarState, map_window_nm);
+SAME(yars_radar_state, RadarState, map_newest);
+SAME(yars_radar_state, RadarState, map_old);
+SAME(yars_radar_state, RadarState, map_stored);
+SAME(yars_radar_state, RadarState, map_shown);
 SAME(yars_radar_state, RadarState, reserved);
 static_assert(sizeof(yars_model_status) == sizeof(ModelStatus));
 SAME(yars_model_status, ModelStatus, tick);
@@ -198,6 +206,13 @@ SAME(yars_model_status, ModelStatus, scan_tick);
 SAME(yars_model_status, ModelStatus, antenna_phase);
 SAME(yars_model_status, ModelStatus, scan_noise_only);
 SAME(yars_model_status, ModelStatus, reserved0);
+SAME(yars_model_status, ModelStatus, map_latitude_deg);
+SAME(yars_model_status, ModelStatus, map_longitude_deg);
+SAME(yars_model_status, ModelStatus, map_up_deg);
+SAME(yars_model_status, ModelStatus, map_window_nm);
+SAME(yars_model_status, ModelStatus, map_newest);
+SAME(yars_model_status, ModelStatus, map_request);
+SAME(yars_model_status, ModelStatus, map_done_request);
 SAME(yars_model_status, ModelStatus, reserved);
 
 #undef SAME

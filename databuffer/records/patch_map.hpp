@@ -1,0 +1,46 @@
+// What a patch map is and where it lies on the earth: goes with the pixels of its slot. The picture is square, row 0
+// at the far edge, line of sight up, 0 black to 255 white.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace yars::databuffer {
+
+inline constexpr std::uint32_t kMostPatchPixels = 1024;  // on an edge
+
+inline constexpr std::uint32_t kPatchNotReady = 1U;  // some posts were not loaded yet
+inline constexpr std::uint32_t kPatchBlind = 2U;     // part of it lies in the blind zone and is blank
+
+// A place on the picture: right and up of the centre [m] are those of the plane that keeps distance and bearing
+// from the apex (azimuthal equidistant), turned so that the bearing of the centre points up.
+struct PatchMap {
+  std::uint64_t id;            // counts up over the session; 0 = no map
+  std::int64_t start_tick;     // when the radar began it
+  std::int64_t end_tick;       // when it was complete
+  double latitude_deg;         // [deg] centre
+  double longitude_deg;        // [deg]
+  double elevation_msl_m;      // [m] of the plane on which it is drawn
+  double up_deg;               // [deg] true bearing of the centre from the apex
+  double window_nm;            // [NM] edge
+  double apex_latitude_deg;    // [deg] the aircraft at the start
+  double apex_longitude_deg;   // [deg]
+  double apex_altitude_msl_m;  // [m]
+  double distance_m;           // [m] over ground, apex to centre
+  double squint_deg;           // [deg] line of sight against the ground track, right positive
+  double resolution_m;         // [m] of a cell in range and azimuth
+  double formation_s;          // [s] that the radar took
+  std::uint64_t hash;          // XXH3 64 of the fields above but for id and ticks, then of the pixels
+  std::uint32_t epoch;
+  std::uint32_t request;  // RadarState::map_request that it answers
+  std::uint32_t size;     // [pixels] on an edge
+  std::uint32_t looks;
+  std::uint32_t flags;  // kPatch...
+  std::uint32_t reserved0;
+  char fidelity[16];
+  std::uint64_t reserved[11];
+};
+static_assert(sizeof(PatchMap) == 256 && std::is_trivially_copyable_v<PatchMap>);
+
+}  // namespace yars::databuffer
