@@ -16,6 +16,9 @@ Fidelity of_1996() {
   fidelity.earth_radius_factor = 1.0;
   fidelity.noise = false;
   fidelity.beam = BeamPattern::hard_edge;
+  fidelity.map_layover = false;
+  fidelity.map_response = false;
+  fidelity.map_detail = false;
   return fidelity;
 }
 
@@ -28,6 +31,8 @@ Fidelity draft() {
   fidelity.samples = 240;
   fidelity.azimuth_smear = false;
   fidelity.pulse_smear = false;
+  fidelity.map_response = false;
+  fidelity.map_detail = false;
   return fidelity;
 }
 
@@ -40,6 +45,8 @@ Fidelity fine() {
   fidelity.cross_track_slope = true;
   fidelity.azimuth_smear = false;
   fidelity.sub_beams = 5;
+  fidelity.map_oversampling = 2;
+  fidelity.map_double_bounce = true;
   return fidelity;
 }
 
