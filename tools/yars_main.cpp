@@ -8,6 +8,7 @@ using namespace yars;
 
 void add_commands(CLI::App& app, const tools::CommonOptions& common) {
   tools::add_scan_command(app, common);
+  tools::add_patch_command(app, common);
   tools::add_trade_command(app, common);
   tools::add_terrain_command(app, common);
   tools::add_config_command(app, common);

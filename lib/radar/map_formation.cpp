@@ -28,8 +28,8 @@ geo::Duration formation_time(const MapLook& look, const RadarConfiguration& conf
   const double doppler_mps = look.ground_speed.metres_per_second() * std::abs(std::sin(look.squint.radians()));
   const double strip_s = map.broadening * wavelength_m(configuration) * look.slant_range.metres() /
                          (2.0 * doppler_mps * map_resolution(look.window).metres());
-  const int strips = map_strips(look.window, look.slant_range,
-                                geo::Angle::degrees(configuration.antenna.azimuth_beamwidth_deg));
+  const int strips =
+      map_strips(look.window, look.slant_range, geo::Angle::degrees(configuration.antenna.azimuth_beamwidth_deg));
   const double whole_s = strip_s * look.looks * strips;
   // Standing still or looking straight ahead gives infinity, or nothing at all: the cap holds then.
   return geo::Duration::seconds(whole_s < map.formation_cap_s ? whole_s : map.formation_cap_s);

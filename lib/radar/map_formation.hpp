@@ -21,7 +21,7 @@ int map_strips(geo::Length window, geo::Length slant_range, geo::Angle azimuth_b
 struct MapLook {
   geo::Length slant_range;
   geo::Length window;
-  geo::Angle squint;       // line of sight against the ground track
+  geo::Angle squint;  // line of sight against the ground track
   geo::Speed ground_speed;
   int looks = 1;
 };

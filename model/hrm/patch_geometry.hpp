@@ -45,16 +45,16 @@ class PatchGeometry {
 
   geo::GeoPoint apex() const { return apex_; }
   geo::Bearing up() const { return up_; }
-  double distance_m() const { return distance_m_; }   // over ground, apex to centre
+  double distance_m() const { return distance_m_; }  // over ground, apex to centre
   double window_m() const { return window_m_; }
   double plane_msl_m() const { return plane_msl_m_; }
-  double altitude_m() const { return altitude_m_; }   // of the aircraft, MSL
+  double altitude_m() const { return altitude_m_; }  // of the aircraft, MSL
   const rbm::EffectiveEarth& earth() const { return earth_; }
 
   // How far the aircraft is above the map plane where it has bent away, at a distance over ground [m].
   double above_plane_m(double distance_m) const { return altitude_m_ - plane_msl_m_ + earth_.drop_m(distance_m); }
-  double slant_range_m() const;            // aircraft to centre
-  double sin_grazing() const;              // on the map plane at the centre
+  double slant_range_m() const;  // aircraft to centre
+  double sin_grazing() const;    // on the map plane at the centre
   geo::Angle squint(geo::Bearing ground_track) const { return up_ - ground_track; }
 
  private:

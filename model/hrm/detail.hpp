@@ -1,0 +1,32 @@
+// Made-up texture of the ground below the spacing of posts: what fields, tracks and stones make of a patch that would
+// else show the facets of the terrain. A factor on gamma, mean 1, that stays where it is on the earth: the same from
+// every direction and in every look. Two samples of one periodic table, turned and stretched against each other, so
+// that no period shows; coarser pixels read a table whose cells are averaged.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "model/terrain/terrain_view.hpp"
+
+namespace yars::model::hrm {
+
+class Detail {
+ public:
+  // `contrast`: standard deviation of the factor; `pixel_m`: what the samples stand for.
+  Detail(double contrast, double pixel_m);
+
+  double pixel_m() const { return pixel_m_; }
+  // gain[i] *= factor at the place.
+  void modulate(const terrain::PlaceRun& places, float* gain) const;
+  // The factor at one place; what modulate() applies, within 1e-3.
+  double factor(geo::GeoPoint place) const;
+
+ private:
+  double pixel_m_;
+  float texels_per_metre_;
+  int edge_;                  // texels, a power of two
+  std::vector<float> table_;  // rows of texels, mean 1
+};
+
+}  // namespace yars::model::hrm

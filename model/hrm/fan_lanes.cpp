@@ -1,0 +1,90 @@
+#include "model/hrm/fan_lanes.hpp"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "model/hrm/fan_lanes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace yars::model::hrm::lanes::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr std::size_t kMostLanes = 16;
+using Tag = hn::CappedTag<float, kMostLanes>;
+using SignedTag = hn::RebindToSigned<Tag>;
+using Floats = hn::Vec<Tag>;
+
+// Where a column begins in the fan: its strip, and its place in a row of it.
+HWY_INLINE hn::Vec<SignedTag> start_of(hn::Vec<SignedTag> column, std::int32_t strip_size) {
+  const SignedTag di;
+  const auto strip = hn::ShiftRight<4>(column);
+  return hn::Add(hn::Mul(strip, hn::Set(di, strip_size)), hn::And(column, hn::Set(di, kStripColumns - 1)));
+}
+
+void draw_row(const FanGrid& grid, const float* fan, const MapRow& row, float* pixel) {
+  const Tag d;
+  const SignedTag di;
+  const auto ahead = hn::Set(d, row.ahead_m);
+  const auto one = hn::Set(d, 1.0F);
+  const auto first_tangent = hn::Set(d, static_cast<float>(grid.first_tangent));
+  const auto columns_a_tangent = hn::Set(d, static_cast<float>(1.0 / grid.tangent_step));
+  const auto first_distance = hn::Set(d, static_cast<float>(grid.first_distance_m));
+  const auto rows_a_metre = hn::Set(d, static_cast<float>(1.0 / grid.spacing_m));
+  const auto last_column = hn::Set(di, grid.columns - 2);
+  const auto last_row = hn::Set(di, grid.rows - 2);
+  const auto nothing = hn::Zero(di);
+  const auto strip_size = static_cast<std::int32_t>(grid.strip_size());
+  const float cell_scale = static_cast<float>(static_cast<double>(row.scale) / (grid.tangent_step * grid.spacing_m));
+  const auto lanes = hn::ConvertTo(d, hn::Iota(di, 0));
+  for (int i = 0; i < row.columns; i += static_cast<int>(hn::Lanes(d))) {
+    const auto number = hn::Add(lanes, hn::Set(d, static_cast<float>(i)));
+    const auto right = hn::Add(hn::Set(d, row.first_right_m), hn::Mul(number, hn::Set(d, row.pixel_m)));
+    const auto tangent = hn::Div(right, ahead);
+    const auto distance = hn::Sqrt(hn::Add(hn::Mul(right, right), hn::Mul(ahead, ahead)));
+    const auto x = hn::Mul(hn::Sub(tangent, first_tangent), columns_a_tangent);
+    const auto y = hn::Mul(hn::Sub(distance, first_distance), rows_a_metre);
+    const auto column = hn::Min(hn::Max(hn::ConvertTo(di, x), nothing), last_column);
+    const auto line = hn::Min(hn::Max(hn::ConvertTo(di, y), nothing), last_row);
+    const auto across = hn::Sub(x, hn::ConvertTo(d, column));
+    const auto along = hn::Sub(y, hn::ConvertTo(d, line));
+    const auto offset = hn::ShiftLeft<4>(line);
+    const auto left_at = hn::Add(start_of(column, strip_size), offset);
+    const auto right_at = hn::Add(start_of(hn::Add(column, hn::Set(di, 1)), strip_size), offset);
+    const auto near_left = hn::GatherIndex(d, fan, left_at);
+    const auto near_right = hn::GatherIndex(d, fan, right_at);
+    const auto far_left = hn::GatherIndex(d, fan + kStripColumns, left_at);
+    const auto far_right = hn::GatherIndex(d, fan + kStripColumns, right_at);
+    const auto near = hn::Add(near_left, hn::Mul(across, hn::Sub(near_right, near_left)));
+    const auto far = hn::Add(far_left, hn::Mul(across, hn::Sub(far_right, far_left)));
+    const auto value = hn::Add(near, hn::Mul(along, hn::Sub(far, near)));
+    // A column is as wide as distance * step / (1 + t^2).
+    const auto scale = hn::Div(hn::Mul(hn::Set(d, cell_scale), hn::Add(one, hn::Mul(tangent, tangent))), distance);
+    const auto drawn = hn::Mul(value, scale);
+    const auto left = static_cast<std::size_t>(row.columns - i);
+    if (left >= hn::Lanes(d)) {
+      hn::StoreU(drawn, d, pixel + i);
+    } else {
+      HWY_ALIGN float last[kMostLanes];
+      hn::StoreU(drawn, d, last);
+      std::copy_n(last, left, pixel + i);
+    }
+  }
+}
+
+}  // namespace yars::model::hrm::lanes::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace yars::model::hrm::lanes {
+
+HWY_EXPORT(draw_row);
+
+void draw_row(const FanGrid& grid, const float* fan, const MapRow& row, float* pixel) {
+  HWY_DYNAMIC_DISPATCH(draw_row)(grid, fan, row, pixel);
+}
+
+}  // namespace yars::model::hrm::lanes
+#endif  // HWY_ONCE

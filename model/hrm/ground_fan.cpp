@@ -1,0 +1,130 @@
+#include "model/hrm/ground_fan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/reflectivity/land.hpp"
+
+namespace yars::model::hrm {
+
+namespace {
+// Spacing [m] of the samples on the way to the window: about that of fine posts; a narrower ridge hides next to
+// nothing.
+constexpr double kPathSpacing_m = 60.0;
+constexpr double kMostPathSamples = 4096.0;
+constexpr float kNoHorizon = -1.0e6F;  // below every ray
+}  // namespace
+
+GroundFan::Column::Column(std::size_t samples)
+    : places(samples),
+      distance_m(samples + terrain::kRunSlack),
+      elevation_m(distance_m.size()),
+      water(distance_m.size()),
+      peak_m(distance_m.size()) {}
+
+GroundFan::GroundFan(const radar::RadarConfiguration& configuration)
+    : configuration_(configuration),
+      plain_gamma_(static_cast<float>(reflectivity::make_land_return(configuration).gamma[0])) {}
+
+void GroundFan::make_room(const PatchGeometry& geometry, const FanGrid& grid) {
+  const auto rows = static_cast<std::size_t>(grid.rows);
+  if (!window_ || window_->places.count != rows) {
+    window_ = std::make_unique<Column>(rows);
+    ground_ = std::make_unique<rbm::Ground>(configuration_, rows);
+    sin_grazing_.assign(rows + terrain::kRunSlack, 0.0F);
+    gain_.assign(rows + terrain::kRunSlack, 0.0F);
+  }
+  for (std::size_t row = 0; row < window_->distance_m.size(); ++row) {
+    const double distance_m = grid.distance_m(static_cast<double>(std::min(row, rows - 1)));
+    window_->distance_m[row] = static_cast<float>(distance_m);
+    const double above_m = geometry.altitude_m() - geometry.plane_msl_m();
+    sin_grazing_[row] = static_cast<float>(std::max(0.0, geometry.earth().sight(above_m, distance_m, 0.0).sin_grazing));
+  }
+  const double path_m = grid.first_distance_m;
+  const auto samples = static_cast<std::size_t>(std::clamp(std::ceil(path_m / kPathSpacing_m), 1.0, kMostPathSamples));
+  if (!path_ || path_->places.count != samples) path_ = std::make_unique<Column>(samples);
+  above_path_m_.resize(path_->distance_m.size());
+  for (std::size_t i = 0; i < path_->distance_m.size(); ++i) {
+    const double share = (static_cast<double>(std::min(i, samples - 1)) + 0.5) / static_cast<double>(samples);
+    path_->distance_m[i] = static_cast<float>(share * path_m);
+    above_path_m_[i] = static_cast<float>(geometry.above_plane_m(share * path_m));
+  }
+  ground_->use_resolution(grid.spacing_m, grid.spacing_m);
+}
+
+std::size_t GroundFan::fill(const PatchOrder& order, const PatchGeometry& geometry, const FanGrid& grid,
+                            const PatchTerrain& terrain, const Detail* detail, int first, int last,
+                            const GroundArrays& arrays) {
+  make_room(geometry, grid);
+  std::size_t pending = 0;
+  for (int column = first; column < last; ++column) {
+    const geo::Bearing azimuth = geometry.up() + geo::Angle::radians(std::atan(grid.tangent(column)));
+    pending += read_path(geometry, grid, azimuth, *terrain.path, arrays.horizon[column]);
+    pending += read_window(order, geometry, azimuth, *terrain.window, detail);
+    put(geometry, grid, column, arrays);
+  }
+  return pending;
+}
+
+std::size_t GroundFan::read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
+                                   const terrain::TerrainView& view, const Detail* detail) {
+  Column& column = *window_;
+  const std::size_t rows = column.places.count;
+  const geo::Length range = geo::Length::metres(static_cast<double>(column.distance_m[rows - 1]));
+  rbm::sample_places(geometry.apex(), azimuth, range, configuration_.fidelity.geodesic_knots, column.distance_m.data(),
+                     column.places);
+  const terrain::SurfaceRun found{
+      {column.elevation_m.data(), rows},
+      {column.water.data(), rows},
+      {},
+      view.has_materials() ? std::span(ground_->materials()).first(rows) : std::span<std::int32_t>{}};
+  const std::size_t pending = view.surfaces(column.places.run(), configuration_.fidelity.interpolation, found);
+  const rbm::Look look{geometry.apex(), order.altitude, azimuth, {}, range, order.sim_time, order.band, order.channel};
+  const rbm::Ground::Sample reflects =
+      ground_->reflect(look, column.places.run(), column.water.data(), sin_grazing_.data(), view.has_materials());
+  for (std::size_t row = 0; row < rows; ++row) {
+    float gain = reflects.land != nullptr ? reflects.land[row] : plain_gamma_;
+    // The sea's sigma0 is of level water; what is seen square on is less by the sine.
+    if (reflects.sea != nullptr && sin_grazing_[row] > 0.0F) gain += reflects.sea[row] / sin_grazing_[row];
+    gain_[row] = gain;
+  }
+  if (detail != nullptr) detail->modulate(column.places.run(), gain_.data());
+  return pending;
+}
+
+std::size_t GroundFan::read_path(const PatchGeometry& geometry, const FanGrid& grid, geo::Bearing azimuth,
+                                 const terrain::TerrainView& view, float& horizon) {
+  Column& column = *path_;
+  const std::size_t samples = column.places.count;
+  rbm::sample_places(geometry.apex(), azimuth, geo::Length::metres(grid.first_distance_m),
+                     configuration_.fidelity.geodesic_knots, column.distance_m.data(), column.places);
+  const bool peaks = view.has_peaks();
+  const terrain::SurfaceRun found{{column.elevation_m.data(), samples},
+                                  {column.water.data(), samples},
+                                  peaks ? std::span(column.peak_m).first(samples) : std::span<float>{},
+                                  {}};
+  const std::size_t pending = view.surfaces(column.places.run(), configuration_.fidelity.interpolation, found);
+  const std::vector<float>& top_m = peaks ? column.peak_m : column.elevation_m;
+  const auto plane_m = static_cast<float>(geometry.plane_msl_m());
+  horizon = kNoHorizon;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const float tangent = (top_m[i] - plane_m - above_path_m_[i]) / column.distance_m[i];
+    if (tangent > horizon) horizon = tangent;  // never for a void
+  }
+  return pending;
+}
+
+void GroundFan::put(const PatchGeometry& geometry, const FanGrid& grid, int column, const GroundArrays& arrays) {
+  const auto plane_m = static_cast<float>(geometry.plane_msl_m());
+  float last_m = 0.0F;
+  for (int row = 0; row < grid.rows; ++row) {
+    const auto i = static_cast<std::size_t>(row);
+    const std::size_t at = grid.at(column, row);
+    const bool hole = std::isnan(window_->elevation_m[i]);
+    if (!hole) last_m = window_->elevation_m[i] - plane_m;
+    arrays.height_m[at] = last_m;
+    arrays.gain[at] = hole ? 0.0F : gain_[i];
+  }
+}
+
+}  // namespace yars::model::hrm

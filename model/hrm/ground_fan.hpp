@@ -1,0 +1,61 @@
+// The terrain under the columns of a fan: height, what it returns, and the horizon that the way from the aircraft to
+// the first row has raised already. One instance a thread: it keeps the room for a column.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "lib/radar/configuration.hpp"
+#include "model/hrm/detail.hpp"
+#include "model/hrm/fan_grid.hpp"
+#include "model/rbm/ground.hpp"
+#include "model/rbm/sample_places.hpp"
+#include "model/terrain/terrain_view.hpp"
+
+namespace yars::model::hrm {
+
+// Of the window itself, and of the way to it, which may be coarser.
+struct PatchTerrain {
+  const terrain::TerrainView* window = nullptr;
+  const terrain::TerrainView* path = nullptr;
+};
+
+// By FanGrid::at(); the horizon by column.
+struct GroundArrays {
+  float* height_m = nullptr;  // above the map plane; a void takes over its nearer neighbour's
+  float* gain = nullptr;      // gamma: cross section [m^2] a square metre seen square on; 0 for a void
+  float* horizon = nullptr;   // greatest (height - above) / distance before row 0
+};
+
+class GroundFan {
+ public:
+  explicit GroundFan(const radar::RadarConfiguration& configuration);
+
+  // Fills the columns [first, last); `detail` null: none. Returns how many samples met terrain that was not loaded.
+  std::size_t fill(const PatchOrder& order, const PatchGeometry& geometry, const FanGrid& grid,
+                   const PatchTerrain& terrain, const Detail* detail, int first, int last, const GroundArrays& arrays);
+
+ private:
+  // Room for a column of so many samples.
+  struct Column {
+    explicit Column(std::size_t samples);
+    rbm::PlaceArrays places;
+    std::vector<float> distance_m, elevation_m, water, peak_m;
+  };
+  void make_room(const PatchGeometry& geometry, const FanGrid& grid);
+  std::size_t read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
+                          const terrain::TerrainView& view, const Detail* detail);
+  std::size_t read_path(const PatchGeometry& geometry, const FanGrid& grid, geo::Bearing azimuth,
+                        const terrain::TerrainView& view, float& horizon);
+  void put(const PatchGeometry& geometry, const FanGrid& grid, int column, const GroundArrays& arrays);
+
+  radar::RadarConfiguration configuration_;
+  std::unique_ptr<Column> window_, path_;
+  std::unique_ptr<rbm::Ground> ground_;
+  std::vector<float> sin_grazing_;   // on the map plane, by row
+  std::vector<float> above_path_m_;  // aircraft above the plane, by sample of the path
+  std::vector<float> gain_;
+  float plain_gamma_;  // of land without culture
+};
+
+}  // namespace yars::model::hrm

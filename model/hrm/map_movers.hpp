@@ -1,0 +1,42 @@
+// Moving targets, and points that stand (a corner reflector is one), on a map: displaced along the track by what their
+// radial speed adds to the Doppler, and smeared over the time that the map takes. Radial speed v_r, positive towards
+// the radar, shifts the bearing by v_r / (V sin(squint)) forwards: R v_r / V across a broadside line of sight.
+// Source: spec physics.md "HRM"; Raney, "Synthetic Aperture Imaging Radar and Moving Targets" (1971).
+#pragma once
+
+#include "lib/radar/configuration.hpp"
+#include "model/hrm/fan_grid.hpp"
+#include "model/hrm/response.hpp"
+#include "model/rbm/movers.hpp"
+#include "model/terrain/terrain_view.hpp"
+
+namespace yars::model::hrm {
+
+// What stands in the way of a point: highest tangent of all that is nearer, by column and row of the fan.
+struct Horizons {
+  const FanGrid* grid = nullptr;
+  const float* height_m = nullptr;
+  const float* horizon = nullptr;  // before row 0
+};
+
+class MapMovers {
+ public:
+  explicit MapMovers(const radar::RadarConfiguration& configuration);
+
+  void draw(const PatchOrder& order, const PatchGeometry& geometry, geo::Duration formation,
+            const terrain::TerrainView& terrain, const Horizons& horizons, const Response& response,
+            MapImage& image) const;
+
+ private:
+  struct Trace {
+    MapPoint from, to;  // on the map, where it appears at the start and at the end
+  };
+  Trace trace_of(std::size_t mover, const PatchOrder& order, const PatchGeometry& geometry, geo::Duration formation,
+                 double height_m) const;
+  bool hidden(const PatchGeometry& geometry, const Horizons& horizons, MapPoint point, double height_m) const;
+
+  const radar::RadarConfiguration* configuration_;
+  rbm::Movers movers_;
+};
+
+}  // namespace yars::model::hrm

@@ -1,0 +1,285 @@
+#include "model/hrm/patch_process.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "lib/failure/require.hpp"
+#include "lib/radar/map_formation.hpp"
+#include "model/hrm/develop.hpp"
+#include "model/hrm/fan_array.hpp"
+#include "model/hrm/profile_lanes.hpp"
+#include "model/reflectivity/decibels.hpp"
+
+namespace yars::model::hrm {
+
+namespace {
+// Terrain for the way is at most this much coarser than a sixtieth of it.
+constexpr double kPathDetail_m = 60.0;
+constexpr int kReliefSteps = 24;        // places along an edge of the window at which the relief is looked at
+constexpr double kReliefReserve = 1.2;  // what lies between them may stand out so much more
+constexpr double kLeastSine = 0.02;     // shadows grow beyond any margin below a degree
+
+// The span of heights [m] above the map plane in and about the window.
+struct Relief {
+  double lowest_m = 0.0;
+  double highest_m = 0.0;
+};
+
+Relief relief_of(const PatchGeometry& geometry, const PatchDatabase& database,
+                 const std::vector<const scene::Tile*>& tiles) {
+  Relief relief;
+  const double reach_m = 0.75 * geometry.window_m();
+  for (int i = 0; i <= kReliefSteps; ++i) {
+    for (int j = 0; j <= kReliefSteps; ++j) {
+      const MapPoint point{reach_m * (2.0 * i / kReliefSteps - 1.0), reach_m * (2.0 * j / kReliefSteps - 1.0)};
+      if (point.up_m + geometry.distance_m() <= 0.0) continue;
+      const double height_m = database.window->elevation_m(geometry.place_of(point)) - geometry.plane_msl_m();
+      if (std::isnan(height_m)) continue;
+      relief.lowest_m = std::min(relief.lowest_m, kReliefReserve * height_m);
+      relief.highest_m = std::max(relief.highest_m, kReliefReserve * height_m);
+    }
+  }
+  for (const scene::Tile* tile : tiles) {
+    const double top_m = tile->zero_msl_m + static_cast<double>(tile->bounds.up_most_m) - geometry.plane_msl_m();
+    relief.highest_m = std::max(relief.highest_m, top_m);
+  }
+  return relief;
+}
+
+// Highest thing of the scene above its tile's ground [m].
+double tallest_m(const std::vector<const scene::Tile*>& tiles) {
+  double tallest = 0.0;
+  for (const scene::Tile* tile : tiles)
+    tallest = std::max(tallest, static_cast<double>(tile->bounds.up_most_m - tile->bounds.up_least_m));
+  return tallest;
+}
+}  // namespace
+
+struct PatchProcess::Work {
+  Work(const radar::RadarConfiguration& given, Crew hands)
+      : configuration(given),
+        crew(std::move(hands)),
+        movers(configuration),
+        image(configuration.fidelity.map_size),
+        response(configuration.high_resolution.sidelobe_db,
+                 static_cast<double>(radar::kCellsOfMap) / std::max(configuration.fidelity.map_size, 1)) {
+    for (std::size_t thread = 0; thread < crew.threads; ++thread) {
+      rasters.emplace_back(configuration);
+      grounds.emplace_back(configuration);
+    }
+  }
+
+  void lay_out();
+  void read_terrain();
+  void draw_scene();
+  void cast_profiles();
+  void draw_map();
+  void draw_video();
+  // job(first strip, behind the last, thread), the strips shared out in runs.
+  template <class Job>
+  void share_strips(const Job& job) {
+    const int strips = grid.strips();
+    const auto threads = static_cast<int>(crew.threads);
+    crew.run([&](std::size_t thread) {
+      const auto number = static_cast<int>(thread);
+      job(number * strips / threads, (number + 1) * strips / threads, thread);
+    });
+  }
+
+  radar::RadarConfiguration configuration;
+  Crew crew;
+  MapMovers movers;
+  PatchOrder order;
+  PatchDatabase database;
+  PatchState state = PatchState::reset;
+  int done = 0;
+  std::optional<PatchGeometry> geometry;
+  geo::Duration formation{};
+  FanGrid grid;
+  std::vector<const scene::Tile*> tiles;
+  std::unique_ptr<Detail> detail;
+  std::vector<GroundFan> grounds;
+  std::vector<SceneRaster> rasters;
+  FanArray height_m, gain, wall_gain, cross_section_m2, horizon, arc;
+  std::vector<float> distance_m, above_m;
+  std::vector<std::size_t> pending, triangles;
+  MapImage image;
+  Response response;
+  std::vector<std::uint8_t> picture;
+};
+
+PatchProcess::PatchProcess(const radar::RadarConfiguration& configuration, Crew crew)
+    : work_(std::make_unique<Work>(configuration, std::move(crew))) {}
+PatchProcess::~PatchProcess() = default;
+PatchProcess::PatchProcess(PatchProcess&&) noexcept = default;
+PatchProcess& PatchProcess::operator=(PatchProcess&&) noexcept = default;
+
+PatchNeed PatchProcess::begin(const PatchOrder& order) {
+  Work& work = *work_;
+  work.order = order;
+  work.database = {};
+  work.state = PatchState::database;
+  work.done = 0;
+  const geo::Length distance = geo::geodesic_inverse(order.apex, order.centre).distance;
+  const double pixel_m = order.window.metres() / work.configuration.fidelity.map_size;
+  PatchNeed need;
+  // The corners, and what beyond them is laid over into the picture.
+  need.window = {order.centre, 1.5 * order.window.metres(), terrain::detail_for(pixel_m)};
+  const geo::GeodesicRay way(order.apex, geo::geodesic_inverse(order.apex, order.centre).azimuth_at_start);
+  const double half_way_m = 0.5 * distance.metres();
+  need.path = {way.position(geo::Length::metres(half_way_m)), half_way_m + 0.5 * order.window.metres(),
+               terrain::detail_for(std::max(pixel_m, kPathDetail_m))};
+  return need;
+}
+
+void PatchProcess::give(const PatchDatabase& database) {
+  YARS_REQUIRE(static_cast<int>(work_->state), ==, static_cast<int>(PatchState::database));
+  work_->database = database;
+  work_->lay_out();
+  work_->state = PatchState::processing;
+}
+
+void PatchProcess::Work::lay_out() {
+  const double elevation_m = database.window->elevation_m(order.centre);
+  geometry.emplace(order, configuration.fidelity, std::isnan(elevation_m) ? 0.0 : elevation_m);
+  formation = radar::formation_time({geo::Length::metres(geometry->slant_range_m()), order.window,
+                                     geometry->squint(order.ground_track), order.ground_speed, order.looks},
+                                    configuration);
+  tiles.clear();
+  if (database.scene) database.scene->tiles_near(order.centre, 1.5 * order.window.metres(), tiles);
+  const Relief relief = relief_of(*geometry, database, tiles);
+  const double sine = std::max(geometry->sin_grazing(), kLeastSine);
+  const double tangent = sine / std::sqrt(std::max(1.0 - sine * sine, 1e-6));
+  // Low ground is laid over outwards and high ground inwards; a thing before the near edge shades into the window.
+  const FanMargins margins{std::max(-relief.lowest_m * tangent, tallest_m(tiles) / tangent),
+                           relief.highest_m * tangent};
+  grid = make_fan_grid(*geometry, image.size, configuration.fidelity.map_oversampling, margins);
+  if (configuration.fidelity.map_detail && (!detail || detail->pixel_m() != grid.spacing_m))
+    detail = std::make_unique<Detail>(configuration.high_resolution.detail_contrast, grid.spacing_m);
+  height_m.resize(grid.size());
+  gain.resize(grid.size());
+  wall_gain.resize(grid.size());
+  cross_section_m2.resize(grid.size());
+  horizon.resize(static_cast<std::size_t>(grid.columns));
+  distance_m.clear();
+  above_m.clear();
+  for (int row = 0; row < grid.rows; ++row) {
+    distance_m.push_back(static_cast<float>(grid.distance_m(row)));
+    above_m.push_back(static_cast<float>(geometry->above_plane_m(grid.distance_m(row))));
+  }
+  arc.resize(static_cast<std::size_t>(grid.columns));
+  for (int column = 0; column < grid.columns; ++column)
+    arc.data()[column] = static_cast<float>(grid.width_m(column, 1.0));
+  pending.assign(crew.threads, 0);
+  triangles.assign(crew.threads, 0);
+}
+
+void PatchProcess::Work::read_terrain() {
+  share_strips([&](int first, int last, std::size_t thread) {
+    pending[thread] = grounds[thread].fill(order, *geometry, grid, {database.window.get(), database.path.get()},
+                                           detail.get(), first * kStripColumns, last * kStripColumns,
+                                           {height_m.data(), gain.data(), horizon.data()});
+  });
+}
+
+void PatchProcess::Work::draw_scene() {
+  const std::size_t strip = grid.strip_size();
+  share_strips([&](int first, int last, std::size_t thread) {
+    const auto begin = static_cast<std::size_t>(first) * strip;
+    const auto count = static_cast<std::size_t>(last - first) * strip;
+    std::fill_n(wall_gain.data() + begin, count, 0.0F);
+    if (tiles.empty()) return;
+    triangles[thread] = rasters[thread].draw(*geometry, grid, *database.scene, tiles, first * kStripColumns,
+                                             last * kStripColumns, {height_m.data(), gain.data(), wall_gain.data()});
+  });
+}
+
+void PatchProcess::Work::cast_profiles() {
+  const std::size_t size = grid.strip_size();
+  const double bounce_db = configuration.high_resolution.double_bounce_db;
+  share_strips([&](int first, int last, std::size_t) {
+    for (int number = first; number < last; ++number) {
+      const auto at = static_cast<std::size_t>(number) * size;
+      const auto column = static_cast<std::size_t>(number) * kStripColumns;
+      std::fill_n(cross_section_m2.data() + at, size, 0.0F);
+      lanes::Strip strip;
+      strip.rows = grid.rows;
+      strip.first_distance_m = static_cast<float>(grid.first_distance_m);
+      strip.spacing_m = static_cast<float>(grid.spacing_m);
+      strip.layover = configuration.fidelity.map_layover;
+      strip.double_bounce =
+          configuration.fidelity.map_double_bounce ? static_cast<float>(reflectivity::ratio(bounce_db)) : 0.0F;
+      strip.distance_m = distance_m.data();
+      strip.above_m = above_m.data();
+      strip.arc = arc.data() + column;
+      strip.horizon = horizon.data() + column;
+      strip.height_m = height_m.data() + at;
+      strip.gain = gain.data() + at;
+      strip.wall_gain = wall_gain.data() + at;
+      strip.power = cross_section_m2.data() + at;
+      lanes::cast_profile(strip);
+    }
+  });
+}
+
+void PatchProcess::Work::draw_map() {
+  crew.run([&](std::size_t thread) {
+    const auto number = static_cast<int>(thread);
+    const auto threads = static_cast<int>(crew.threads);
+    draw_fan(*geometry, grid, cross_section_m2.data(), number * image.size / threads,
+             (number + 1) * image.size / threads, image);
+  });
+  image.blind = false;
+  const auto noise =
+      static_cast<float>(noise_gamma(configuration.high_resolution, geo::Length::metres(geometry->slant_range_m())));
+  if (configuration.fidelity.map_response) response.apply(noise, image);
+  movers.draw(order, *geometry, formation, *database.window, {&grid, height_m.data(), horizon.data()}, response, image);
+  blank_blind_zone(*geometry, order.ground_track, configuration.high_resolution, image);
+}
+
+void PatchProcess::Work::draw_video() {
+  const double noise = noise_gamma(configuration.high_resolution, geo::Length::metres(geometry->slant_range_m()));
+  develop(configuration, image, noise, order.looks, order.map, picture);
+}
+
+void PatchProcess::advance() {
+  Work& work = *work_;
+  using Stage = void (Work::*)();
+  constexpr std::array<Stage, kPatchStages.size()> kStages{&Work::read_terrain, &Work::draw_scene, &Work::cast_profiles,
+                                                           &Work::draw_map, &Work::draw_video};
+  if (work.state != PatchState::processing && work.state != PatchState::output) return;
+  (work.*kStages[static_cast<std::size_t>(work.done)])();
+  ++work.done;
+  if (work.done == static_cast<int>(kStages.size()) - 1) work.state = PatchState::output;
+  if (work.done == static_cast<int>(kStages.size())) work.state = PatchState::done;
+}
+
+PatchState PatchProcess::state() const {
+  return work_->state;
+}
+int PatchProcess::stages_done() const {
+  return work_->done;
+}
+const std::vector<std::uint8_t>& PatchProcess::picture() const {
+  return work_->picture;
+}
+const MapImage& PatchProcess::image() const {
+  return work_->image;
+}
+const PatchGeometry& PatchProcess::geometry() const {
+  return *work_->geometry;
+}
+geo::Duration PatchProcess::formation() const {
+  return work_->formation;
+}
+std::size_t PatchProcess::triangles() const {
+  return work_->triangles.empty() ? 0 : work_->triangles.front();
+}
+std::size_t PatchProcess::posts_pending() const {
+  std::size_t sum = 0;
+  for (const std::size_t count : work_->pending) sum += count;
+  return sum;
+}
+
+}  // namespace yars::model::hrm

@@ -1,0 +1,33 @@
+// One pass down range over a strip of sixteen columns: shadow, and every visible piece of the profile put where slant
+// range has it, by vectors (Highway, chosen at run time; equal bits on every target).
+// The profile of a column is a polyline through its heights. What of a piece rises above all before it is seen; its
+// power is gamma times the area seen square on, which is the angle it fills times the distance: walls, roofs, slopes
+// and level ground alike, and the power of a column is that of its whole visible angle, however coarse the rows.
+#pragma once
+
+#include <cstddef>
+
+#include "model/hrm/fan_grid.hpp"
+
+namespace yars::model::hrm::lanes {
+
+struct Strip {
+  int rows = 0;
+  float first_distance_m = 0.0F;
+  float spacing_m = 0.0F;
+  bool layover = true;                // else everything returns from where it stands
+  float double_bounce = 0.0F;         // of a wall's foot, against the wall; 0 = none
+  const float* distance_m = nullptr;  // by row
+  const float* above_m = nullptr;     // aircraft above the map plane, by row
+  const float* arc = nullptr;         // width of a column over its distance, sixteen
+  const float* horizon = nullptr;     // before row 0, sixteen
+  const float* height_m = nullptr;    // above the map plane, by row and column
+  const float* gain = nullptr;        // gamma; its sign is of no account
+  const float* wall_gain = nullptr;   // gamma of a wall that stands before this row's ground; 0 = none
+  float* power = nullptr;             // [m^2] cross section, by row and column as it appears; is added to
+  float* lit = nullptr;               // share of each piece that is seen; null: not asked
+};
+
+void cast_profile(const Strip& strip);
+
+}  // namespace yars::model::hrm::lanes

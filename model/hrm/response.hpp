@@ -1,0 +1,37 @@
+// The impulse response of the synthetic array: what a point becomes, in range and in azimuth alike. Amplitude after
+// Taylor (n-bar 5), scaled so that its half-power width is one resolution cell; on the map its square counts.
+// Source: Carrara, Goodman, Majewski, "Spotlight SAR", D.2 (Taylor weighting); spec physics.md "HRM".
+#pragma once
+
+#include <vector>
+
+#include "model/hrm/map_image.hpp"
+
+namespace yars::model::hrm {
+
+class Response {
+ public:
+  // `cells_a_pixel`: resolution cells that a pixel is wide.
+  Response(double sidelobe_db, double cells_a_pixel);
+
+  // Power at a distance from a point [cells], 1 at the point itself.
+  double power(double cells) const;
+
+  // Every pixel spreads over the main lobe; those so strong that their sidelobes rise above `floor`, over these too.
+  // The sum over the picture stays, but for what leaves it.
+  void apply(float floor, MapImage& image) const;
+  // Weights of the pixels from `first` on for a point at this place [pixels]; sum 1.
+  std::vector<float> weights(double pixel, int& first) const;
+
+ private:
+  void smooth(MapImage& image) const;
+  void add_sidelobes(float floor, MapImage& image) const;
+
+  std::vector<double> coefficients_;  // of the weighting's cosine series, 1 first
+  double stretch_ = 1.0;              // 1 / bandwidth of an unweighted array, in cells
+  double cells_a_pixel_;
+  std::vector<float> main_lobe_;  // from the middle outwards, pixels; with their mirror image the sum is 1
+  std::vector<float> sidelobes_;  // behind them; likewise against a sum of 1
+};
+
+}  // namespace yars::model::hrm

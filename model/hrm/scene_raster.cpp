@@ -1,0 +1,272 @@
+#include "model/hrm/scene_raster.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "model/reflectivity/land.hpp"
+
+namespace yars::model::hrm {
+
+namespace {
+// A face this near its object's base [m], and level, lies on the ground.
+constexpr float kOnGround_m = 0.5F;
+constexpr float kLevelNormal = 0.98F;  // of the unit normal, upwards
+// Steeper than 70 degrees a face is a wall.
+constexpr float kWallNormal2 = 0.13F;  // tan^2 20 degrees: square of the upward part against the level part
+constexpr float kSmooth = 0.02F;       // vertices that face the radar so differently from the facet are interpolated
+constexpr float kMostShading = 4.0F;   // of an interpolated normal against the facet's: silhouettes are ragged
+
+// Half-open: a grid point on an edge between two triangles belongs to exactly one.
+int first_at(float value) {
+  return static_cast<int>(std::ceil(value));
+}
+}  // namespace
+
+SceneRaster::SceneRaster(const radar::RadarConfiguration& configuration)
+    : street_width_deg_(configuration.world.land.street_width_deg) {
+  const reflectivity::LandReturn land = reflectivity::make_land_return(configuration);
+  for (std::size_t code = 0; code < land.gamma.size(); ++code) {
+    // A face without a code is taken for what the configuration says.
+    const std::size_t known = code == 0 ? static_cast<std::size_t>(configuration.high_resolution.plain_material) : code;
+    gamma_.push_back(static_cast<float>(land.gamma[known]));
+    cardinal_.push_back(static_cast<float>(land.cardinal[known]));
+  }
+}
+
+SceneRaster::Placement SceneRaster::place(const PatchGeometry& geometry, const scene::Tile& tile) const {
+  const geo::GeodesicInverse way = geo::geodesic_inverse(geometry.apex(), tile.origin);
+  const double turn_rad = (way.azimuth_at_start - geometry.up()).radians();
+  const double away_rad = way.azimuth_at_end.radians();
+  const double distance_m = way.distance.metres();
+  // Across the line of sight the plane is stretched against the earth.
+  constexpr double kEarthRadius_m = 6371008.8;
+  const double angle_rad = distance_m / kEarthRadius_m;
+  const double stretch = angle_rad > 1e-6 ? angle_rad / std::sin(angle_rad) : 1.0;
+  const double sine = std::sin(turn_rad);
+  const double cosine = std::cos(turn_rad);
+  // East and north as parts along and across the line of sight, then turned onto the map.
+  const double along_east = std::sin(away_rad);
+  const double along_north = std::cos(away_rad);
+  const double across_east = stretch * std::cos(away_rad);
+  const double across_north = -stretch * std::sin(away_rad);
+  Placement placement{};
+  placement.right_m = distance_m * sine;
+  placement.up_m = distance_m * cosine - geometry.distance_m();
+  placement.right_east = along_east * sine + across_east * cosine;
+  placement.right_north = along_north * sine + across_north * cosine;
+  placement.up_east = along_east * cosine - across_east * sine;
+  placement.up_north = along_north * cosine - across_north * sine;
+  placement.lift_m = static_cast<float>(tile.zero_msl_m - geometry.plane_msl_m());
+  const rbm::Sight sight = geometry.earth().sight(geometry.altitude_m() - geometry.plane_msl_m(), distance_m, 0.0);
+  placement.toward_east = static_cast<float>(-along_east * sight.cos_grazing);
+  placement.toward_north = static_cast<float>(-along_north * sight.cos_grazing);
+  placement.toward_up = static_cast<float>(sight.sin_grazing);
+  return placement;
+}
+
+SceneRaster::Vertex SceneRaster::on_grid(const PatchGeometry& geometry, const FanGrid& grid, const Placement& placement,
+                                         float east_m, float north_m, float height_m) const {
+  const double right_m = placement.right_m + placement.right_east * static_cast<double>(east_m) +
+                         placement.right_north * static_cast<double>(north_m);
+  const double up_m = placement.up_m + placement.up_east * static_cast<double>(east_m) +
+                      placement.up_north * static_cast<double>(north_m);
+  const double ahead_m = std::max(geometry.distance_m() + up_m, 1.0);
+  const double distance_m = std::sqrt(right_m * right_m + ahead_m * ahead_m);
+  return {static_cast<float>((right_m / ahead_m - grid.first_tangent) / grid.tangent_step),
+          static_cast<float>((distance_m - grid.first_distance_m) / grid.spacing_m), height_m, 0.0F};
+}
+
+bool SceneRaster::overlaps(const PatchGeometry& geometry, const FanGrid& grid, const Placement& placement,
+                           const scene::Tile& tile, int first, int last) const {
+  float least_column = std::numeric_limits<float>::max();
+  float most_column = std::numeric_limits<float>::lowest();
+  float least_row = least_column;
+  float most_row = most_column;
+  for (const float east_m : {tile.bounds.east_least_m, tile.bounds.east_most_m}) {
+    for (const float north_m : {tile.bounds.north_least_m, tile.bounds.north_most_m}) {
+      const Vertex corner = on_grid(geometry, grid, placement, east_m, north_m, 0.0F);
+      least_column = std::min(least_column, corner.column);
+      most_column = std::max(most_column, corner.column);
+      least_row = std::min(least_row, corner.row);
+      most_row = std::max(most_row, corner.row);
+    }
+  }
+  // A row more: distance curves a little within a large tile.
+  return most_column >= static_cast<float>(first) && least_column < static_cast<float>(last) && most_row >= -1.0F &&
+         least_row < static_cast<float>(grid.rows) + 1.0F;
+}
+
+void SceneRaster::transform(const PatchGeometry& geometry, const FanGrid& grid, const Placement& placement,
+                            const scene::Tile& tile) {
+  const std::size_t count = tile.east_m.size();
+  vertices_.resize(count);
+  // Counted from the centre of the map, so that float is precise; distance - centre without its cancellation.
+  const auto right_m = static_cast<float>(placement.right_m);
+  const auto up_m = static_cast<float>(placement.up_m);
+  const auto right_east = static_cast<float>(placement.right_east);
+  const auto right_north = static_cast<float>(placement.right_north);
+  const auto up_east = static_cast<float>(placement.up_east);
+  const auto up_north = static_cast<float>(placement.up_north);
+  const auto centre_m = static_cast<float>(geometry.distance_m());
+  const auto columns_a_tangent = static_cast<float>(1.0 / grid.tangent_step);
+  const auto middle_column = static_cast<float>(-grid.first_tangent / grid.tangent_step);
+  const auto rows_a_metre = static_cast<float>(1.0 / grid.spacing_m);
+  const auto middle_row = static_cast<float>((geometry.distance_m() - grid.first_distance_m) / grid.spacing_m);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float right = right_m + right_east * tile.east_m[i] + right_north * tile.north_m[i];
+    const float up = up_m + up_east * tile.east_m[i] + up_north * tile.north_m[i];
+    const float ahead = centre_m + up;
+    const float distance = std::sqrt(right * right + ahead * ahead);
+    const float beyond = (up * (centre_m + ahead) + right * right) / (distance + centre_m);
+    vertices_[i].column = middle_column + right / ahead * columns_a_tangent;
+    vertices_[i].row = middle_row + beyond * rows_a_metre;
+    vertices_[i].height_m = tile.up_m[i] + placement.lift_m;
+    vertices_[i].facing = tile.normal_east[i] * placement.toward_east + tile.normal_north[i] * placement.toward_north +
+                          tile.normal_up[i] * placement.toward_up;
+  }
+}
+
+std::size_t SceneRaster::draw(const PatchGeometry& geometry, const FanGrid& grid, const scene::SceneView& scene,
+                              const std::vector<const scene::Tile*>& tiles, int first, int last,
+                              const SceneArrays& arrays) {
+  std::size_t triangles = 0;
+  for (const scene::Tile* tile : tiles) {
+    const Placement placement = place(geometry, *tile);
+    if (!overlaps(geometry, grid, placement, *tile, first, last)) continue;
+    const double distance_m = std::hypot(placement.right_m, placement.up_m + geometry.distance_m());
+    const double column = placement.right_m / std::max(placement.up_m + geometry.distance_m(), 1.0);
+    const Limits limits{first,
+                        last,
+                        static_cast<float>(distance_m * grid.tangent_step / (1.0 + column * column)),
+                        static_cast<float>(grid.spacing_m),
+                        placement.toward_up,
+                        std::sqrt(1.0F - placement.toward_up * placement.toward_up)};
+    transform(geometry, grid, placement, *tile);
+    draw_tile(grid, scene, *tile, placement, limits, arrays);
+    triangles += tile->corners.size();
+  }
+  return triangles;
+}
+
+void SceneRaster::draw_tile(const FanGrid& grid, const scene::SceneView& scene, const scene::Tile& tile,
+                            const Placement& placement, const Limits& limits, const SceneArrays& arrays) {
+  const float width = limits.column_width_m;
+  const float depth = limits.row_height_m;
+  const auto rows = static_cast<float>(grid.rows);
+  const auto first = static_cast<float>(limits.first);
+  const auto last = static_cast<float>(limits.last);
+  for (std::size_t t = 0; t < tile.corners.size(); ++t) {
+    const Vertex corner[3] = {vertices_[tile.corners[t][0]], vertices_[tile.corners[t][1]],
+                              vertices_[tile.corners[t][2]]};
+    const float least_row = std::min({corner[0].row, corner[1].row, corner[2].row});
+    const float most_row = std::max({corner[0].row, corner[1].row, corner[2].row});
+    const float least_column = std::min({corner[0].column, corner[1].column, corner[2].column});
+    const float most_column = std::max({corner[0].column, corner[1].column, corner[2].column});
+    if (!(most_row >= 0.0F && least_row < rows && most_column >= first && least_column < last)) continue;
+    // The facet's normal: right, ahead, up, in metres.
+    const float c1 = corner[1].column - corner[0].column;
+    const float c2 = corner[2].column - corner[0].column;
+    const float r1 = corner[1].row - corner[0].row;
+    const float r2 = corner[2].row - corner[0].row;
+    const float z1 = corner[1].height_m - corner[0].height_m;
+    const float z2 = corner[2].height_m - corner[0].height_m;
+    const float across = depth * (r1 * z2 - z1 * r2);
+    const float ahead = width * (z1 * c2 - c1 * z2);
+    const float area = c1 * r2 - r1 * c2;  // grid cells
+    const float upward = width * depth * area;
+    const float level2 = across * across + ahead * ahead;
+    const std::size_t code = scene.kinds()[tile.kind[t]].material % gamma_.size();
+    const float gamma = gamma_[code];
+    if (upward * upward < kWallNormal2 * level2) {
+      const float towards = -ahead * limits.cosine + upward * limits.sine;
+      if (towards > 0.0F) {
+        const double off_deg =
+            std::atan2(static_cast<double>(across), static_cast<double>(-ahead)) / geo::kRadiansPerDegree;
+        const double cardinal =
+            reflectivity::cardinal_gain(static_cast<double>(cardinal_[code]), off_deg, street_width_deg_);
+        mark_wall(grid, limits, corner, gamma * static_cast<float>(cardinal), arrays);
+      }
+    }
+    if (!(area > 0.0F)) continue;  // seen from below, or on edge
+    if (first_at(least_row) >= first_at(most_row) || first_at(least_column) >= first_at(most_column)) continue;
+
+    const float length = std::sqrt(level2 + upward * upward);
+    const float facing = (-ahead * limits.cosine + upward * limits.sine) / length;
+    float gain = gamma;
+    bool smooth = false;
+    if (facing > 0.0F) {
+      for (const Vertex& vertex : corner) smooth = smooth || std::abs(vertex.facing - facing) > kSmooth;
+      if (smooth) {
+        const float mean = (corner[0].facing + corner[1].facing + corner[2].facing) / 3.0F;
+        gain *= std::clamp(mean / facing, 0.0F, kMostShading);
+      }
+    }
+    const float inverse = 1.0F / area;
+    Plane plane{};
+    plane.by_column = (z1 * r2 - z2 * r1) * inverse;
+    plane.by_row = (c1 * z2 - c2 * z1) * inverse;
+    plane.value = corner[0].height_m - plane.by_column * corner[0].column - plane.by_row * corner[0].row;
+    const float base_m =
+        static_cast<float>(scene.objects()[tile.object[t]].base_msl_m - tile.zero_msl_m) + placement.lift_m;
+    const bool flat = upward > kLevelNormal * length && corner[0].height_m - base_m < kOnGround_m;
+    fill(grid, limits, corner, plane, gain, flat, arrays);
+  }
+}
+
+void SceneRaster::fill(const FanGrid& grid, const Limits& limits, const Vertex (&corner)[3], const Plane& plane,
+                       float gain, bool flat, const SceneArrays& arrays) const {
+  std::array<const Vertex*, 3> by_row{&corner[0], &corner[1], &corner[2]};
+  if (by_row[1]->row < by_row[0]->row) std::swap(by_row[0], by_row[1]);
+  if (by_row[2]->row < by_row[1]->row) std::swap(by_row[1], by_row[2]);
+  if (by_row[1]->row < by_row[0]->row) std::swap(by_row[0], by_row[1]);
+  const Vertex& low = *by_row[0];
+  const Vertex& middle = *by_row[1];
+  const Vertex& high = *by_row[2];
+  const int last_row = std::min(first_at(high.row), grid.rows);
+  for (int row = std::max(first_at(low.row), 0); row < last_row; ++row) {
+    const auto y = static_cast<float>(row);
+    const float along = low.column + (high.column - low.column) * (y - low.row) / (high.row - low.row);
+    const float beside =
+        y < middle.row ? low.column + (middle.column - low.column) * (y - low.row) / (middle.row - low.row)
+                       : middle.column + (high.column - middle.column) * (y - middle.row) / (high.row - middle.row);
+    const int begin = std::max(first_at(std::min(along, beside)), limits.first);
+    const int end = std::min(first_at(std::max(along, beside)), limits.last);
+    for (int column = begin; column < end; ++column) {
+      const std::size_t at = grid.at(column, row);
+      if (flat) {
+        if (arrays.gain[at] >= 0.0F) arrays.gain[at] = gain;
+        continue;
+      }
+      const float height = plane.at(static_cast<float>(column), y);
+      if (height <= arrays.height_m[at]) continue;
+      arrays.height_m[at] = height;
+      arrays.gain[at] = -gain;
+    }
+  }
+}
+
+// Seen from above the wall is the line between the two corners that lie farthest apart across; the first grid point at
+// or behind it is where the profile steps up.
+void SceneRaster::mark_wall(const FanGrid& grid, const Limits& limits, const Vertex (&corner)[3], float gain,
+                            const SceneArrays& arrays) const {
+  const Vertex* left = &corner[0];
+  const Vertex* right = &corner[0];
+  for (const Vertex& vertex : corner) {
+    if (vertex.column < left->column) left = &vertex;
+    if (vertex.column > right->column) right = &vertex;
+  }
+  const int begin = std::max(first_at(left->column), limits.first);
+  const int end = std::min(first_at(right->column), limits.last);
+  if (begin >= end) return;
+  const float slope = (right->row - left->row) / (right->column - left->column);
+  for (int column = begin; column < end; ++column) {
+    const int row = first_at(left->row + slope * (static_cast<float>(column) - left->column));
+    if (row < 0 || row >= grid.rows) continue;
+    float& wall = arrays.wall_gain[grid.at(column, row)];
+    wall = std::max(wall, gain);
+  }
+}
+
+}  // namespace yars::model::hrm

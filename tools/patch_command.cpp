@@ -1,0 +1,204 @@
+// `yars patch`: one patch map without processes, to a picture or to numbers; one JSON line says how long it took.
+// Source of the option names and of the line: spec commands.md.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "config/load.hpp"
+#include "databuffer/program.hpp"
+#include "lib/imageio/png.hpp"
+#include "lib/radar/fidelity_preset.hpp"
+#include "lib/radar/map_formation.hpp"
+#include "model/hrm/patch_process.hpp"
+#include "model/kernel/workers.hpp"
+#include "model/terrain/open_terrain.hpp"
+#include "tools/command.hpp"
+
+namespace yars::tools {
+
+namespace {
+
+namespace hrm = model::hrm;
+
+struct PatchOptions {
+  std::string terrain, fidelity, out;
+  std::vector<std::string> scenes;
+  double latitude_deg = 37.8, longitude_deg = -122.5, altitude_ft = 15000.0, heading_deg = 0.0, speed_kt = 480.0;
+  double target_latitude_deg = 37.8, target_longitude_deg = -122.3, window_nm = 4.7, time_s = 0.0;
+  int looks = 0, size = 0, threads = 1, repeat = 1;
+  std::int64_t seed = -1;
+};
+
+// What one run took.
+struct Timing {
+  double whole_ms = 0.0;
+  std::array<double, hrm::kPatchStages.size()> stages_ms{};
+};
+
+double now_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+radar::RadarConfiguration configure(const CommonOptions& common, const PatchOptions& options) {
+  auto loaded = config::load_configuration(common.config);
+  if (!loaded) give_up(loaded.error());
+  radar::RadarConfiguration configuration = std::move(loaded->radar);
+  if (!options.fidelity.empty()) configuration.fidelity = *radar::fidelity_preset(options.fidelity);
+  if (!options.terrain.empty()) configuration.terrain.directory = options.terrain;
+  if (options.size > 0) configuration.fidelity.map_size = options.size;
+  if (options.seed >= 0) configuration.seed = static_cast<std::uint64_t>(options.seed);
+  return configuration;
+}
+
+hrm::PatchOrder order_of(const PatchOptions& options, const radar::RadarConfiguration& configuration) {
+  hrm::PatchOrder order;
+  order.apex = {options.latitude_deg, options.longitude_deg};
+  order.altitude = geo::AltitudeMsl::feet(options.altitude_ft);
+  order.ground_track = geo::Bearing::degrees(options.heading_deg);
+  order.ground_speed = geo::Speed::knots(options.speed_kt);
+  order.centre = {options.target_latitude_deg, options.target_longitude_deg};
+  order.window = geo::Length::nautical_miles(options.window_nm);
+  order.looks = options.looks > 0 ? options.looks : static_cast<int>(configuration.high_resolution.looks.front());
+  order.sim_time = geo::Duration::seconds(options.time_s);
+  order.map = 1;
+  return order;
+}
+
+Timing run_once(hrm::PatchProcess& process, const hrm::PatchOrder& order, const hrm::PatchDatabase& database) {
+  Timing timing;
+  process.begin(order);
+  const double begin_ms = now_ms();
+  process.give(database);
+  while (process.state() != hrm::PatchState::done) {
+    const auto stage = static_cast<std::size_t>(process.stages_done());
+    const double stage_begin_ms = now_ms();
+    process.advance();
+    timing.stages_ms[stage] = now_ms() - stage_begin_ms;
+  }
+  timing.whole_ms = now_ms() - begin_ms;
+  return timing;
+}
+
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void write_floats(const std::string& out, const hrm::MapImage& image) {
+  std::ofstream file(out, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(image.power.data()),
+             static_cast<std::streamsize>(image.power.size() * sizeof(float)));
+  file.flush();
+  if (!file) give_up({out, "a file that can be written", "an error", "check the folder and the space left"});
+}
+
+void write_result(const PatchOptions& options, const hrm::PatchProcess& process) {
+  const std::filesystem::path path(options.out);
+  if (path.extension() == ".f32") return write_floats(options.out, process.image());
+  imageio::Image picture{process.image().size, process.image().size, 1, process.picture()};
+  if (auto written = imageio::write_png(path, picture); !written) give_up(written.error());
+}
+
+void check_output(const std::string& out) {
+  const auto suffix = std::filesystem::path(out).extension();
+  if (!out.empty() && suffix != ".png" && suffix != ".tif" && suffix != ".f32")
+    give_up(databuffer::usage_error("--out", "a name that ends in .png, .tif or .f32", out));
+}
+
+void check_geometry(const PatchOptions& options) {
+  const double distance_nm = geo::geodesic_inverse({options.latitude_deg, options.longitude_deg},
+                                                   {options.target_latitude_deg, options.target_longitude_deg})
+                                 .distance.nautical_miles();
+  if (distance_nm <= options.window_nm)
+    give_up(databuffer::usage_error("--target-lat, --target-lon", "a target farther away than the window is wide",
+                                    std::to_string(distance_nm) + " NM"));
+}
+
+void patch(const CommonOptions& common, const PatchOptions& options) {
+  check_output(options.out);
+  check_geometry(options);
+  const radar::RadarConfiguration configuration = configure(common, options);
+  const hrm::PatchOrder order = order_of(options, configuration);
+  // Two stores: what the window needs and what the way needs are of different detail.
+  auto window_store = model::terrain::open_terrain(configuration.terrain);
+  if (!window_store) give_up(window_store.error());
+  auto path_store = model::terrain::open_terrain(configuration.terrain);
+  if (!path_store) give_up(path_store.error());
+
+  model::kernel::Workers workers(static_cast<std::size_t>(options.threads));
+  hrm::PatchProcess process(configuration, {workers.threads(), [&workers](const std::function<void(std::size_t)>& job) {
+                                              workers.run(job);
+                                            }});
+  const double begin_ms = now_ms();
+  const hrm::PatchNeed need = process.begin(order);
+  const hrm::PatchDatabase database{(*window_store)->prepare(need.window), (*path_store)->prepare(need.path), nullptr};
+  for (const std::string& problem : (*window_store)->take_problems())
+    std::fprintf(stderr, "yars patch: %s\n", problem.c_str());
+  const double database_ms = now_ms() - begin_ms;
+  std::vector<double> whole_ms;
+  std::array<std::vector<double>, hrm::kPatchStages.size()> stages_ms;
+  for (int run = 0; run <= options.repeat; ++run) {
+    const Timing timing = run_once(process, order, database);
+    if (run == 0) continue;
+    whole_ms.push_back(timing.whole_ms);
+    for (std::size_t stage = 0; stage < stages_ms.size(); ++stage) stages_ms[stage].push_back(timing.stages_ms[stage]);
+  }
+  nlohmann::ordered_json line;
+  line["size"] = process.image().size;
+  line["triangles"] = process.triangles();
+  line["kernel_ms"] = median_of(whole_ms);
+  for (std::size_t stage = 0; stage < stages_ms.size(); ++stage)
+    line["stages_ms"][std::string(hrm::kPatchStages[stage])] = median_of(stages_ms[stage]);
+  line["database_ms"] = database_ms;
+  line["formation_s"] = process.formation().seconds();
+  line["resolution_ft"] = radar::map_resolution(order.window).feet();
+  line["terrain_bytes"] = database.window->resident_bytes() + database.path->resident_bytes();
+  line["threads"] = options.threads;
+  line["fidelity"] = configuration.fidelity.name;
+  if (!options.out.empty()) write_result(options, process);
+  std::printf("%s\n", line.dump().c_str());
+}
+
+}  // namespace
+
+void add_patch_command(CLI::App& app, const CommonOptions& common) {
+  auto options = std::make_shared<PatchOptions>();
+  CLI::App* command = app.add_subcommand("patch", "one patch map, without processes");
+  command->add_option("--terrain", options->terrain, "directory of terrain cells (else the configuration's)");
+  command->add_option("--scene", options->scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; may come again");
+  command->add_option("--lat", options->latitude_deg, "[deg] of the aircraft")->check(CLI::Range(-90.0, 90.0));
+  command->add_option("--lon", options->longitude_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
+  command->add_option("--alt-ft", options->altitude_ft, "[ft] above mean sea level")
+      ->check(CLI::Range(-3000.0, 600000.0));
+  command->add_option("--heading", options->heading_deg, "[deg] true; also the ground track")
+      ->check(CLI::Range(-360.0, 360.0));
+  command->add_option("--speed-kt", options->speed_kt, "[kt] over ground")->check(CLI::Range(0.0, 10000.0));
+  command->add_option("--target-lat", options->target_latitude_deg, "[deg] middle of the map")
+      ->check(CLI::Range(-90.0, 90.0));
+  command->add_option("--target-lon", options->target_longitude_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
+  command->add_option("--window-nm", options->window_nm, "[NM] edge of the map")->check(CLI::Range(0.01, 200.0));
+  command->add_option("--looks", options->looks, "averaged (else the configuration's ML1)")->check(CLI::Range(1, 16));
+  command->add_option("--fidelity", options->fidelity, "preset (else the configuration's)")
+      ->check(CLI::IsMember(std::vector<std::string>(radar::fidelity_names().begin(), radar::fidelity_names().end())));
+  command->add_option("--size", options->size, "[pixels] on an edge")->check(CLI::Range(16, 1024));
+  command->add_option("--time-s", options->time_s, "[s] sim time at the start, for what moves")
+      ->check(CLI::Range(0.0, 1e8));
+  command->add_option("--threads", options->threads)->check(CLI::Range(1, 256));
+  command->add_option("--seed", options->seed, "of the noise")->check(CLI::NonNegativeNumber);
+  command->add_option("--repeat", options->repeat, "warm maps to time; the first comes on top")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--out", options->out, "file: .png, .tif or .f32");
+  command->callback([options, &common] { patch(common, *options); });
+}
+
+}  // namespace yars::tools
