@@ -1,10 +1,11 @@
 #include "model/hrm/detail.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
 #include "lib/geo/quantity.hpp"
+#include "model/hrm/detail_lanes.hpp"
 #include "model/terrain/noise.hpp"
 
 namespace yars::model::hrm {
@@ -15,12 +16,6 @@ constexpr double kFinestTexel_m = 4.0;  // detail below it is speckle's
 constexpr double kCoarsest_m = 256.0;   // [m] longest wave; beyond it the posts say what there is
 constexpr double kMetresPerDegree = 60.0 * geo::kMetresPerNauticalMile;
 constexpr std::uint32_t kSeed = 0x59a75u;
-
-// The second look at the table: turned by a fifth of a turn or so and stretched by the golden ratio, so that the two
-// periods never meet.
-constexpr float kTurnCosine = 0.3420201F;  // of 70 degrees
-constexpr float kTurnSine = 0.9396926F;
-constexpr float kStretch = 1.618034F;
 
 // Periodic fractal noise: octaves from the longest wave down to two texels, each as strong as the one before.
 std::vector<float> fractal_table(int edge, double texel_m) {
@@ -83,59 +78,27 @@ Detail::Detail(double contrast, double pixel_m) : pixel_m_(pixel_m), texels_per_
   shape(table_, contrast);
 }
 
-namespace {
-// Bilinear, periodic.
-struct Table {
-  const float* texels;
-  int edge;
-
-  float at(float x, float y) const {
-    const float column = std::floor(x);
-    const float row = std::floor(y);
-    const int mask = edge - 1;
-    const int i = static_cast<int>(column) & mask;
-    const int j = static_cast<int>(row) & mask;
-    const int i2 = (i + 1) & mask;
-    const int j2 = (j + 1) & mask;
-    const float a = x - column;
-    const float b = y - row;
-    const float low = texels[j * edge + i] + a * (texels[j * edge + i2] - texels[j * edge + i]);
-    const float high = texels[j2 * edge + i] + a * (texels[j2 * edge + i2] - texels[j2 * edge + i]);
-    return low + b * (high - low);
-  }
-
-  float factor(float east, float north) const {
-    const float turned_east = kStretch * (kTurnCosine * east - kTurnSine * north);
-    const float turned_north = kStretch * (kTurnSine * east + kTurnCosine * north);
-    return at(east, north) * at(turned_east, turned_north);
-  }
-};
-}  // namespace
-
+// Within its cell of one degree a place counts from the cell's corner, with degrees of longitude as long as in the
+// cell's middle. A ray runs through few cells: each run in one is one call.
 void Detail::modulate(const terrain::PlaceRun& places, float* gain) const {
-  const Table table{table_.data(), edge_};
+  const lanes::DetailTable table{table_.data(), edge_};
   const auto north_scale = static_cast<float>(kMetresPerDegree) * texels_per_metre_;
-  float cell_north = std::numeric_limits<float>::quiet_NaN();
-  float east_scale = 0.0F;
-  for (std::size_t i = 0; i < places.north_deg.size(); ++i) {
-    // Within its cell of one degree a place counts from the cell's corner; degrees of longitude as long as in the
-    // cell's middle.
-    if (places.cells_north[i] != cell_north) {
-      cell_north = places.cells_north[i];
-      const double middle_deg = places.corner.south_deg + static_cast<double>(cell_north) + 0.5;
-      east_scale = north_scale * static_cast<float>(std::cos(middle_deg * geo::kRadiansPerDegree));
-    }
-    gain[i] *= table.factor(places.east_deg[i] * east_scale, places.north_deg[i] * north_scale);
+  const std::size_t count = places.north_deg.size();
+  std::size_t first = 0;
+  while (first < count) {
+    std::size_t last = first + 1;
+    while (last < count && places.cells_north[last] == places.cells_north[first]) ++last;
+    const double middle_deg = places.corner.south_deg + static_cast<double>(places.cells_north[first]) + 0.5;
+    const auto east_scale = north_scale * static_cast<float>(std::cos(middle_deg * geo::kRadiansPerDegree));
+    // Vectors overrun the end of a run: what they touch of the next is put back.
+    std::array<float, terrain::kRunSlack> behind{};
+    const std::size_t kept = std::min(behind.size(), count - last);
+    std::copy_n(gain + last, kept, behind.begin());
+    lanes::modulate(last - first, table, &places.east_deg[first], &places.north_deg[first], east_scale, north_scale,
+                    gain + first);
+    std::copy_n(behind.begin(), kept, gain + last);
+    first = last;
   }
-}
-
-double Detail::factor(geo::GeoPoint place) const {
-  const double south_deg = std::floor(place.latitude_deg);
-  const double west_deg = std::floor(place.longitude_deg);
-  const double scale = kMetresPerDegree * static_cast<double>(texels_per_metre_);
-  const double east = (place.longitude_deg - west_deg) * scale * std::cos((south_deg + 0.5) * geo::kRadiansPerDegree);
-  const double north = (place.latitude_deg - south_deg) * scale;
-  return static_cast<double>(Table{table_.data(), edge_}.factor(static_cast<float>(east), static_cast<float>(north)));
 }
 
 }  // namespace yars::model::hrm

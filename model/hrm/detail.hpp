@@ -17,10 +17,8 @@ class Detail {
   Detail(double contrast, double pixel_m);
 
   double pixel_m() const { return pixel_m_; }
-  // gain[i] *= factor at the place.
+  // gain[i] *= factor at the place; terrain::kRunSlack entries behind the last may be overwritten.
   void modulate(const terrain::PlaceRun& places, float* gain) const;
-  // The factor at one place; what modulate() applies, within 1e-3.
-  double factor(geo::GeoPoint place) const;
 
  private:
   double pixel_m_;
