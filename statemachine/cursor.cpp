@@ -2,27 +2,55 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "lib/geo/geodesic.hpp"
 #include "lib/radar/ground_track.hpp"
+#include "statemachine/maps.hpp"
 #include "statemachine/sequence_points.hpp"
 
 namespace yars::statemachine {
 
 namespace {
 
+using databuffer::PatchMap;
 using databuffer::RadarState;
 using geo::Bearing;
 using geo::GeoPoint;
 using geo::Length;
-using radar::ViewConfiguration;
 
 constexpr double kCrossingSeconds = 2.0;  // [s] full deflection across the glass: pvi.md, hands-on controls
+constexpr radar::ViewConfiguration kMapView{-0.5, 0.5, -0.5, 0.5};  // the window fills the glass, its centre is 0, 0
 
-// A place on the glass in fractions of the range: right and up from the apex.
+// A place on the glass, right and up; its unit and its zero are the plane's.
 struct GlassPoint {
   double x = 0.0;
   double y = 0.0;
+};
+
+// What the glass shows: geodesic distance and azimuth from an apex, plotted flat.
+struct Plane {
+  GeoPoint apex;
+  Bearing up;
+  Length unit;   // the selected range, or the map's window
+  Length ahead;  // of the glass's zero, from the apex
+  radar::ViewConfiguration view;
+
+  GlassPoint glass_from_ground(GeoPoint place) const {
+    const auto inverse = geo::geodesic_inverse(apex, place);
+    const double turn_rad = (inverse.azimuth_at_start - up).radians();
+    return {inverse.distance * std::sin(turn_rad) / unit, (inverse.distance * std::cos(turn_rad) - ahead) / unit};
+  }
+  GeoPoint ground_from_glass(GlassPoint point) const {
+    const Length right = point.x * unit;
+    const Length forward = point.y * unit + ahead;
+    const Bearing azimuth = up + geo::Angle::radians(std::atan2(right.metres(), forward.metres()));
+    return geo::geodesic_direct(apex, azimuth, Length::metres(std::hypot(right.metres(), forward.metres())));
+  }
+  bool shows(GlassPoint point) const {
+    return point.x >= view.width_min && point.x <= view.width_max && point.y >= view.height_min &&
+           point.y <= view.height_max;
+  }
 };
 
 GeoPoint aircraft_of(const Surroundings& surroundings) {
@@ -39,23 +67,21 @@ void put_cursor(RadarState& state, GeoPoint place) {
   set_flag(state, databuffer::kCursorValid, true);
 }
 
-// Between the two transforms lies what the glass shows: geodesic distance and azimuth, plotted flat.
-GlassPoint glass_from_ground(const RadarState& state, GeoPoint place) {
-  const auto inverse = geo::geodesic_inverse({state.frame_latitude_deg, state.frame_longitude_deg}, place);
-  const double turn_rad = (inverse.azimuth_at_start - Bearing::degrees(state.frame_track_deg)).radians();
-  const double radius = inverse.distance.nautical_miles() / state.range_nm;
-  return {radius * std::sin(turn_rad), radius * std::cos(turn_rad)};
-}
-
-GeoPoint ground_from_glass(const RadarState& state, GlassPoint point) {
-  const Bearing azimuth = Bearing::degrees(state.frame_track_deg) + geo::Angle::radians(std::atan2(point.x, point.y));
-  const Length distance = Length::nautical_miles(std::hypot(point.x, point.y) * state.range_nm);
-  return geo::geodesic_direct({state.frame_latitude_deg, state.frame_longitude_deg}, azimuth, distance);
-}
-
-bool on_glass(GlassPoint point, const ViewConfiguration& view) {
-  return point.x >= view.width_min && point.x <= view.width_max && point.y >= view.height_min &&
-         point.y <= view.height_max;
+// Nothing while a map is shown of which nobody knows where it lies.
+std::optional<Plane> plane_of(const RadarState& state, const Surroundings& surroundings,
+                              const radar::ViewConfiguration& view) {
+  Plane plane{{state.frame_latitude_deg, state.frame_longitude_deg},
+              Bearing::degrees(state.frame_track_deg),
+              Length::nautical_miles(state.range_nm),
+              Length(),
+              view};
+  if (state.map_shown == 0) return plane;
+  const PatchMap* map = map_of(surroundings, state.map_shown);
+  if (map == nullptr) return std::nullopt;
+  plane.unit = Length::nautical_miles(map->window_nm);
+  plane.ahead = Length::metres(map->distance_m);
+  plane.view = kMapView;
+  return plane;
 }
 
 void follow_aircraft(RadarState& state, const Surroundings& surroundings) {
@@ -71,26 +97,38 @@ void follow_aircraft(RadarState& state, const Surroundings& surroundings) {
                               .degrees();
 }
 
-void place_cursor(RadarState& state, const radar::RadarConfiguration& configuration) {
-  const radar::RoutePoint* point = selected_point(state, configuration);
-  const bool seen = point && on_glass(glass_from_ground(state, point->place), configuration.view);
-  put_cursor(state, seen ? point->place : ground_from_glass(state, {0.0, 0.5}));
+void follow(RadarState& state, const Surroundings& surroundings) {
+  if (state.map_shown == 0) return follow_aircraft(state, surroundings);
+  const PatchMap* map = map_of(surroundings, state.map_shown);
+  if (map == nullptr) return;
+  state.frame_latitude_deg = map->apex_latitude_deg;
+  state.frame_longitude_deg = map->apex_longitude_deg;
+  state.frame_track_deg = map->up_deg;
 }
 
-// PVU shows no cursor; in A/A and ranging there is no picture to slew it over.
+void place_cursor(RadarState& state, const Plane& plane, const radar::RadarConfiguration& configuration) {
+  const radar::RoutePoint* point = selected_point(state, configuration);
+  const bool seen = point && plane.shows(plane.glass_from_ground(point->place));
+  const GlassPoint middle{0.0, state.map_shown == 0 ? 0.5 : 0.0};
+  put_cursor(state, seen ? point->place : plane.ground_from_glass(middle));
+}
+
+// PVU shows no cursor; in A/A and ranging there is a picture to slew it over in SET alone.
 bool can_slew(const RadarState& state) {
   const radar::Mode mode = running_mode(state);
-  return mode != radar::Mode::pvu && mode != radar::Mode::air_to_air && mode != radar::Mode::ranging;
+  const bool elsewhere = mode == radar::Mode::air_to_air || mode == radar::Mode::ranging;
+  return mode != radar::Mode::pvu && (!elsewhere || has(state, databuffer::kSet));
 }
 
-void slew(RadarState& state, const ViewConfiguration& view) {
+void slew(RadarState& state, const Plane& plane) {
   if (!can_slew(state) || (state.tdc_x == 0.0 && state.tdc_y == 0.0)) return;
   const double share = radar::kTickSeconds / kCrossingSeconds;
-  const GlassPoint from = glass_from_ground(state, cursor_of(state));
+  const auto& view = plane.view;
+  const GlassPoint from = plane.glass_from_ground(cursor_of(state));
   const double x = from.x + state.tdc_x * share * (view.width_max - view.width_min);
   const double y = from.y + state.tdc_y * share * (view.height_max - view.height_min);
-  put_cursor(state, ground_from_glass(state, {std::clamp(x, view.width_min, view.width_max),
-                                              std::clamp(y, view.height_min, view.height_max)}));
+  put_cursor(state, plane.ground_from_glass({std::clamp(x, view.width_min, view.width_max),
+                                             std::clamp(y, view.height_min, view.height_max)}));
 }
 
 void read_out(RadarState& state, const Surroundings& surroundings, const radar::RadarConfiguration& configuration) {
@@ -112,7 +150,11 @@ void deflect(Step& step) {
 
 void next_cursor_function(Step& step) {
   constexpr int kFunctions = 5;
-  step.state.cursor_function = static_cast<std::uint8_t>((step.state.cursor_function + 1) % kFunctions);
+  constexpr auto kMap = static_cast<std::uint8_t>(radar::CursorFunction::map);
+  std::uint8_t& function = step.state.cursor_function;
+  do {
+    function = static_cast<std::uint8_t>((function + 1) % kFunctions);
+  } while (function == kMap && has(step.state, databuffer::kSet));
 }
 
 void jump_cursor(RadarState& state, const radar::RoutePoint& point) {
@@ -121,10 +163,12 @@ void jump_cursor(RadarState& state, const radar::RoutePoint& point) {
 
 void advance_cursor(RadarState& state, const Surroundings& surroundings,
                     const radar::RadarConfiguration& configuration) {
-  follow_aircraft(state, surroundings);
-  if (!has(state, databuffer::kCursorValid)) place_cursor(state, configuration);
-  slew(state, configuration.view);
-  read_out(state, surroundings, configuration);
+  follow(state, surroundings);
+  if (const auto plane = plane_of(state, surroundings, configuration.view)) {
+    if (!has(state, databuffer::kCursorValid)) place_cursor(state, *plane, configuration);
+    slew(state, *plane);
+  }
+  if (has(state, databuffer::kCursorValid)) read_out(state, surroundings, configuration);
 }
 
 }  // namespace yars::statemachine

@@ -1,5 +1,6 @@
-// The cursor: held on its ground point (rule 12), slewed by the TDC in the frame of the glass. It may lie off the glass
-// (the aircraft has passed it, the range is shorter, the point jumped to is far); slewing brings it to the edge first.
+// The cursor: held on its ground point (rule 12), slewed by the TDC in the frame of the glass: ground track up, or, on
+// a patch map, line of sight up, fixed at its start (rule 5). It may lie off the glass (the aircraft has passed it, the
+// range is shorter, the point jumped to is far); slewing brings it to the edge first.
 #pragma once
 
 #include "statemachine/step.hpp"
@@ -7,14 +8,14 @@
 namespace yars::statemachine {
 
 void deflect(Step& step);               // TDC, held until changed
-void next_cursor_function(Step& step);  // MAP, UPDT, CUE, TGT, MARK, MAP
+void next_cursor_function(Step& step);  // MAP, UPDT, CUE, TGT, MARK, MAP; in SET without MAP
 
 // Puts the cursor on a sequence point.
 void jump_cursor(databuffer::RadarState& state, const radar::RoutePoint& point);
 
-// A tick of the cursor: the frame follows the aircraft unless the picture is frozen, the deflection moves the
+// A tick of the cursor: the frame follows the aircraft unless the picture is frozen or a map, the deflection moves the
 // cursor, bearing and range follow. A cursor that was nowhere goes to the selected point when that is on the glass,
-// else half the range ahead. Needs a valid ownship.
+// else half the range ahead, or to the middle of the map. Needs a valid ownship.
 void advance_cursor(databuffer::RadarState& state, const Surroundings& surroundings,
                     const radar::RadarConfiguration& configuration);
 

@@ -43,6 +43,17 @@ std::string_view stabilizing_legend(const databuffer::RadarState& state) {
   return has(state, databuffer::kProgressive) ? "PROG" : "STAB";
 }
 
+std::string_view recall_legend(const databuffer::RadarState& state) {
+  switch (static_cast<radar::Recall>(state.recall)) {
+    case radar::Recall::old:
+      return "OLD";
+    case radar::Recall::store:
+      return "STORE";
+    default:
+      return "NEW";  // also on a frozen HRM PPI: what the next press brings up
+  }
+}
+
 std::string_view scan_legend(const databuffer::RadarState& state) {
   return name_of(static_cast<radar::ScanWidth>(state.scan));
 }
@@ -65,7 +76,7 @@ void write_legends(databuffer::RadarState& state) {
     if ((row.columns & column) == 0 || !hold(row.shown_when, state)) continue;
     auto& legend = state.legends[row.button];
     row.legend.of(state).copy(legend, sizeof(legend) - 1);
-    if (has(state, row.boxed_by)) state.boxed |= 1U << row.button;
+    if (row.boxed && row.boxed(state)) state.boxed |= 1U << row.button;
   }
 }
 

@@ -12,6 +12,7 @@ std::string_view looks_legend(const databuffer::RadarState& state);
 std::string_view mode_legend(const databuffer::RadarState& state);
 std::string_view cursor_function_legend(const databuffer::RadarState& state);
 std::string_view stabilizing_legend(const databuffer::RadarState& state);
+std::string_view recall_legend(const databuffer::RadarState& state);
 std::string_view scan_legend(const databuffer::RadarState& state);
 std::string_view sequence_point_legend(const databuffer::RadarState& state);
 std::string_view channel_legend(const databuffer::RadarState& state);

@@ -5,7 +5,9 @@
 #include <span>
 
 #include "statemachine/cursor.hpp"
+#include "statemachine/freezing.hpp"
 #include "statemachine/legends.hpp"
+#include "statemachine/maps.hpp"
 #include "statemachine/modes.hpp"
 #include "statemachine/scanning.hpp"
 #include "statemachine/sequence_points.hpp"
@@ -21,9 +23,10 @@ using databuffer::RadarState;
 // a geodesic for every point of the route.
 constexpr std::int64_t kTicksBetweenPoints = 20;
 
-// A jump in place or time leaves nothing for the cursor, the scan and a message's end to stand on.
-void enter_epoch(RadarState& state, std::uint32_t epoch) {
-  state.epoch = epoch;
+// A jump in place or time leaves nothing for the cursor, the scan, a map under way and a message's end to stand on.
+void enter_epoch(RadarState& state, const Surroundings& surroundings) {
+  state.epoch = surroundings.epoch;
+  cancel_map(state, surroundings);
   ++state.scan_restart;
   set_flag(state, databuffer::kCursorValid, false);
   state.message_until_tick = 0;
@@ -53,6 +56,7 @@ bool apply(RadarState& state, const databuffer::InputEvent& event, const Surroun
   const RadarState before = state;
   Step step{state, event, surroundings, configuration};
   action(step);
+  state.map_shown = map_to_show(state);
   if (same_bytes(before, state)) return false;
   draw_points(state, surroundings, configuration);
   return true;
@@ -61,9 +65,11 @@ bool apply(RadarState& state, const databuffer::InputEvent& event, const Surroun
 void advance(RadarState& state, const Surroundings& surroundings, const radar::RadarConfiguration& configuration) {
   bool points_due = surroundings.tick % kTicksBetweenPoints == 0;
   if (state.epoch != surroundings.epoch) {
-    enter_epoch(state, surroundings.epoch);
+    enter_epoch(state, surroundings);
     points_due = true;
   }
+  take_map(state, surroundings);
+  state.map_shown = map_to_show(state);
   if (power_of(state) != radar::Power::off && surroundings.ownship_valid) {
     if (!has(state, databuffer::kRangeSet)) {
       set_range_by_height(state, surroundings, configuration);

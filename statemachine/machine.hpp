@@ -1,14 +1,20 @@
 // The state machine as one pure step: state and inputs in, next state out.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 
 #include "databuffer/records/model_records.hpp"
 #include "databuffer/records/ownship.hpp"
+#include "databuffer/records/patch_map.hpp"
 #include "databuffer/records/radar_state.hpp"
 #include "lib/radar/configuration.hpp"
 
 namespace yars::statemachine {
+
+// NEW, OLD and STORE, and the one that the model has just completed.
+inline constexpr std::size_t kMapsKnown = 4;
 
 // What the machine sees in a tick besides the events.
 struct Surroundings {
@@ -19,6 +25,8 @@ struct Surroundings {
   databuffer::Ownship ownship{};
   databuffer::Nav nav{};
   databuffer::ModelStatus model{};
+  // Records of the maps that the state names and of the model's newest, in any order; id 0 = an empty place.
+  std::array<databuffer::PatchMap, kMapsKnown> maps{};
 };
 
 // A session's first state: power off.

@@ -1,6 +1,10 @@
 #include "statemachine/modes.hpp"
 
+#include <optional>
+
 #include "lib/radar/ranges.hpp"
+#include "statemachine/freezing.hpp"
+#include "statemachine/maps.hpp"
 #include "statemachine/scanning.hpp"
 #include "statemachine/sequence_points.hpp"
 
@@ -32,6 +36,7 @@ void show_menu(RadarState& state, bool on) {
 // A mode change by the pilot's hand also sets the range (rule 1).
 void change_mode(Step& step, Mode mode) {
   if (mode == running_mode(step.state)) return;
+  cancel_map(step.state, step.surroundings);
   run_ground_mode(step.state, mode);
   set_range_by_height(step.state, step.surroundings, step.configuration);
 }
@@ -50,6 +55,19 @@ Mode mode_after(Mode mode) {
   }
 }
 
+// The mode that a master mode runs; nothing for what is no switch position.
+std::optional<Mode> mode_of(radar::Master master, const RadarState& state) {
+  switch (master) {
+    case radar::Master::air_to_ground:
+      return static_cast<Mode>(state.ground_mode);
+    case radar::Master::air_to_air:
+      return Mode::air_to_air;
+    case radar::Master::ranging:
+      return Mode::ranging;
+  }
+  return std::nullopt;
+}
+
 // What no loss of power may take: whose session this is, and the counters that others compare.
 RadarState forgotten(const Step& step) {
   RadarState fresh = power_up_settings(step.configuration);
@@ -57,6 +75,7 @@ RadarState forgotten(const Step& step) {
   fresh.epoch = step.state.epoch;
   fresh.events_applied = step.state.events_applied;
   fresh.scan_restart = step.state.scan_restart;
+  fresh.map_request = step.state.map_request;
   return fresh;
 }
 
@@ -81,6 +100,7 @@ void switch_power(Step& step) {
   RadarState& state = step.state;
   const auto power = step.event.argument;
   if (power < 0 || power > static_cast<std::int16_t>(radar::Power::operate) || power == state.power) return;
+  cancel_map(state, step.surroundings);
   // Losing power forgets: what comes on again is as new.
   if (power == static_cast<std::int16_t>(radar::Power::off)) state = forgotten(step);
   state.power = static_cast<std::uint8_t>(power);
@@ -104,26 +124,22 @@ void select_mode(Step& step) {
 }
 
 void leave_patch(Step& step) {
+  cancel_map(step.state, step.surroundings);
   run_ground_mode(step.state, Mode::hrm);
 }
 
 void select_master(Step& step) {
   RadarState& state = step.state;
   const auto master = static_cast<radar::Master>(step.event.argument);
-  if (master == master_of(state)) return;
-  switch (master) {
-    case radar::Master::air_to_ground:
-      run(state, static_cast<Mode>(state.ground_mode));
-      break;
-    case radar::Master::air_to_air:
-      run(state, Mode::air_to_air);
-      break;
-    case radar::Master::ranging:
-      run(state, Mode::ranging);
-      break;
-    default:
-      return;  // no switch position
+  const std::optional<Mode> mode = mode_of(master, state);
+  if (!mode || master == master_of(state)) return;
+  cancel_map(state, step.surroundings);
+  if (master == radar::Master::air_to_ground) {
+    thaw_on_return(state);
+  } else {
+    freeze_on_leaving(state);
   }
+  run(state, *mode);
   state.master = static_cast<std::uint8_t>(master);
 }
 
@@ -134,14 +150,8 @@ void close_menu(Step& step) {
   show_menu(step.state, false);
 }
 
-void toggle_freeze(Step& step) {
-  step.state.flags ^= databuffer::kFreeze;
-}
-
-void freeze_silent_hrm(RadarState& state) {
-  const Mode mode = running_mode(state);
-  const bool silent = has(state, databuffer::kSniff) && (mode == Mode::hrm || mode == Mode::patch);
-  if (silent) set_flag(state, databuffer::kFreeze, true);
+void enter_patch(RadarState& state) {
+  run_ground_mode(state, Mode::patch);
 }
 
 }  // namespace yars::statemachine

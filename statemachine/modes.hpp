@@ -1,4 +1,4 @@
-// Power, master mode, radar mode, menu and freeze. Source: spec pvi.md rules 8, 18 to 21, 23.
+// Power, master mode, radar mode and menu. Source: spec pvi.md rules 18, 20, 21, 23.
 #pragma once
 
 #include "statemachine/step.hpp"
@@ -12,12 +12,11 @@ void leave_patch(Step& step);    // back to the HRM PPI; the range stays
 void select_master(Step& step);  // A/G resumes the mode it left
 void open_menu(Step& step);
 void close_menu(Step& step);
-void toggle_freeze(Step& step);
+
+// A map has come: whatever ground mode ran, the patch runs now.
+void enter_patch(databuffer::RadarState& state);
 
 // The settings of power-up, with the power still off.
 databuffer::RadarState power_up_settings(const radar::RadarConfiguration& configuration);
-
-// Rule 19: HRM that may not transmit keeps the picture it has.
-void freeze_silent_hrm(databuffer::RadarState& state);
 
 }  // namespace yars::statemachine

@@ -1,9 +1,12 @@
 #include "statemachine/state_machine_shell.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <string>
 
 #include "databuffer/log.hpp"
+#include "databuffer/patch_pool.hpp"
 #include "databuffer/records/event_text.hpp"
 #include "databuffer/records/validation.hpp"
 
@@ -54,6 +57,28 @@ void StateMachineShell::latch(const databuffer::TickLoop::Due& due) {
   surroundings_.nav = selected.nav;
   surroundings_.recorder_writing = session_->role_is_held(databuffer::Role::recorder);
   session_->layout().model_status.read(surroundings_.model);
+  latch_maps();
+}
+
+// Records that are wanted no more make way for those that are; one that is here already is not read again.
+void StateMachineShell::latch_maps() {
+  const std::array<std::uint64_t, kMapsKnown> wanted{state_.map_newest, state_.map_old, state_.map_stored,
+                                                     surroundings_.model.map_newest};
+  auto& maps = surroundings_.maps;
+  const auto is_wanted = [&](std::uint64_t id) { return std::ranges::find(wanted, id) != wanted.end(); };
+  for (databuffer::PatchMap& map : maps)
+    if (!is_wanted(map.id)) map = {};
+  for (const std::uint64_t id : wanted) {
+    if (id == 0 || id == refused_map_ || std::ranges::find(maps, id, &databuffer::PatchMap::id) != maps.end()) continue;
+    databuffer::PatchMap map{};
+    if (!databuffer::read_patch(session_->layout(), id, map)) continue;
+    if (const auto reason = databuffer::why_refused(map)) {
+      session_->note(databuffer::NoteKind::refusal, "patch map: " + *reason);
+      refused_map_ = id;
+      continue;
+    }
+    *std::ranges::find(maps, std::uint64_t{0}, &databuffer::PatchMap::id) = map;
+  }
 }
 
 void StateMachineShell::take_events(std::int64_t tick) {

@@ -19,6 +19,7 @@ class StateMachineShell {
   void step(const databuffer::TickLoop::Due& due);
 
  private:
+  void latch_maps();
   void latch(const databuffer::TickLoop::Due& due);
   void take_events(std::int64_t tick);
   void take(const databuffer::InputEvent& event, std::size_t lane, std::int64_t tick);
@@ -29,6 +30,7 @@ class StateMachineShell {
   bool drop_old_events_;  // what waited for a dead predecessor for over a second is dropped
   databuffer::OwnshipReceiver ownship_;
   Surroundings surroundings_;
+  std::uint64_t refused_map_ = 0;  // told once
   databuffer::RadarState state_;
   databuffer::RadarState published_;
   bool nothing_published_ = true;

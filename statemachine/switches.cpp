@@ -4,7 +4,8 @@
 #include <cstring>
 #include <string_view>
 
-#include "statemachine/modes.hpp"
+#include "statemachine/freezing.hpp"
+#include "statemachine/maps.hpp"
 
 namespace yars::statemachine {
 
@@ -66,6 +67,8 @@ void toggle_recorder(Step& step) {
 
 void toggle_sniff(Step& step) {
   toggle(step, databuffer::kSniff);
+  // A map is made by transmitting; HRM stops that at once.
+  if (has(step.state, databuffer::kSniff)) cancel_map(step.state, step.surroundings);
   freeze_silent_hrm(step.state);
 }
 

@@ -14,7 +14,7 @@ void step_contrast(Step& step);
 void toggle_stabilizing(Step& step);  // STAB, PROG
 void toggle_recorder(Step& step);     // rule 22: NO RECORDER when nothing writes
 void toggle_ipvu(Step& step);
-void toggle_sniff(Step& step);  // rule 19: in HRM it freezes
+void toggle_sniff(Step& step);  // rules 9, 19: in HRM it freezes; a map under way ends
 void next_channel(Step& step);  // 1 to 8, then 1
 void next_band(Step& step);     // A to E, then A
 void select_navigator(Step& step);

@@ -4,7 +4,9 @@
 #include <array>
 
 #include "statemachine/cursor.hpp"
+#include "statemachine/freezing.hpp"
 #include "statemachine/legends.hpp"
+#include "statemachine/maps.hpp"
 #include "statemachine/modes.hpp"
 #include "statemachine/scanning.hpp"
 #include "statemachine/sequence_points.hpp"
@@ -15,52 +17,71 @@ namespace yars::statemachine {
 namespace {
 
 using databuffer::EventKind;
-using databuffer::kDeclutter;
-using databuffer::kIpvu;
-using databuffer::kSniff;
-using databuffer::kVtr;
+using databuffer::RadarState;
 
 constexpr Columns kBothHrm = kHrm | kPatch;
 constexpr Columns kAllGround = kRbm | kHrm | kPatch | kBcn | kPvu;
 constexpr Columns kRadar = kAllGround | kRanging;  // power is on; hands-on controls do not know the menu
 constexpr Conditions kRangeFree = kThawed | kWithMap;
+constexpr Conditions kRecallable = kFrozen | kHasMap;
+// A map is made by transmitting, and SET works on the one that stands.
+constexpr Conditions kMapFree = kWithMap | kOperating | kSniffOff | kSetOff;
 
-// pvi.md, "Bezel buttons". PB 10, 15 and, in ranging, PB 18 need a map and come with the patch maps.
+template <std::uint32_t Flag>
+bool on(const RadarState& state) {
+  return has(state, Flag);
+}
+constexpr auto kDeclutterOn = on<databuffer::kDeclutter>;
+constexpr auto kVtrOn = on<databuffer::kVtr>;
+constexpr auto kIpvuOn = on<databuffer::kIpvu>;
+constexpr auto kSniffOn = on<databuffer::kSniff>;
+constexpr auto kSetIsOn = on<databuffer::kSet>;
+
+bool stored(const RadarState& state) {
+  return state.map_stored != 0;
+}
+
+// pvi.md, "Bezel buttons", and rules 8, 10, 20, 21 of what frozen, SET and maps make of them.
 constexpr std::array kButtons{
-    ButtonRow{2, kAllGround | kRanging, kAlways, toggle_declutter, "DCL", kAlways, kDeclutter},
-    ButtonRow{3, kRbm | kBcn, kAlways, cycle_gain, gain_legend, kAlways, 0},
-    ButtonRow{3, kBothHrm, kAlways, toggle_looks, looks_legend, kAlways, 0},
-    ButtonRow{4, kRbm | kBcn | kPvu | kRanging, kAlways, brightness_up, "BRT+", kAlways, 0},
-    ButtonRow{4, kBothHrm, kFrozen, brightness_up, "BRT+", kFrozen, 0},
-    ButtonRow{5, kRbm | kBcn | kPvu | kRanging, kAlways, brightness_down, "BRT-", kAlways, 0},
-    ButtonRow{5, kBothHrm, kFrozen, brightness_down, "BRT-", kFrozen, 0},
-    ButtonRow{6, kAllGround, kThawed, next_mode, mode_legend, kAlways, 0},
-    ButtonRow{6, kMenu, kAlways, close_menu, "A/G RDR", kAlways, 0},
-    ButtonRow{7, kRbm | kBothHrm | kBcn | kRanging, kAlways, next_cursor_function, cursor_function_legend, kAlways, 0},
-    ButtonRow{8, kPatch, kAlways, toggle_stabilizing, stabilizing_legend, kAlways, 0},
-    ButtonRow{9, kRbm | kHrm | kBcn, kThawed, next_scan_width, scan_legend, kAlways, 0},
-    ButtonRow{11, kAllGround | kRanging, kAlways, open_menu, "M", kAlways, 0},
-    ButtonRow{12, kAllGround | kRanging, kAlways, toggle_recorder, "VTR", kAlways, kVtr},
-    ButtonRow{13, kRbm | kHrm | kBcn, kRangeFree, range_up, "^", kAlways, 0},
-    ButtonRow{14, kRbm | kHrm | kBcn, kRangeFree, range_down, "v", kAlways, 0},
-    ButtonRow{14, kPatch, kThawed, leave_patch, "PPI", kAlways, 0},
-    ButtonRow{16, kRbm | kBothHrm | kBcn, kAlways, toggle_ipvu, "IPVU", kAlways, kIpvu},
-    ButtonRow{17, kAllGround | kRanging, kAlways, next_sequence_point, sequence_point_legend, kAlways, 0},
-    ButtonRow{18, kAllGround, kAlways, toggle_sniff, "SNIFF", kAlways, kSniff},
-    ButtonRow{19, kAllGround, kAlways, next_channel, channel_legend, kAlways, 0},
-    ButtonRow{20, kAllGround, kAlways, next_band, band_legend, kAlways, 0},
+    ButtonRow{2, kAllGround | kRanging, kSetOff, toggle_declutter, "DCL", kAlways, kDeclutterOn},
+    ButtonRow{3, kRbm | kBcn, kSetOff, cycle_gain, gain_legend, kAlways},
+    ButtonRow{3, kBothHrm, kSetOff, toggle_looks, looks_legend, kAlways},
+    ButtonRow{4, kRbm | kBcn | kPvu | kRanging, kAlways, brightness_up, "BRT+", kAlways},
+    ButtonRow{4, kBothHrm, kFrozen, brightness_up, "BRT+", kFrozen},
+    ButtonRow{5, kRbm | kBcn | kPvu | kRanging, kAlways, brightness_down, "BRT-", kAlways},
+    ButtonRow{5, kBothHrm, kFrozen, brightness_down, "BRT-", kFrozen},
+    ButtonRow{6, kAllGround, kThawed, next_mode, mode_legend, kAlways},
+    ButtonRow{6, kMenu, kAlways, close_menu, "A/G RDR", kAlways},
+    ButtonRow{7, kRbm | kBothHrm | kBcn | kRanging, kAlways, next_cursor_function, cursor_function_legend, kAlways},
+    ButtonRow{8, kPatch, kSetOff, toggle_stabilizing, stabilizing_legend, kAlways},
+    ButtonRow{9, kRbm | kHrm | kBcn, kThawed, next_scan_width, scan_legend, kAlways},
+    ButtonRow{10, kBothHrm, kRecallable | kSetOff, flip_recall, recall_legend, kRecallable},
+    ButtonRow{11, kAllGround | kRanging, kAlways, open_menu, "M", kAlways},
+    ButtonRow{12, kAllGround | kRanging, kAlways, toggle_recorder, "VTR", kAlways, kVtrOn},
+    ButtonRow{13, kRbm | kHrm | kBcn, kRangeFree, range_up, "^", kAlways},
+    ButtonRow{14, kRbm | kHrm | kBcn, kRangeFree, range_down, "v", kAlways},
+    ButtonRow{14, kPatch, kThawed, leave_patch, "PPI", kAlways},
+    ButtonRow{15, kBothHrm, kRecallable | kSetOff, toggle_store, "STO", kRecallable, stored},
+    ButtonRow{16, kRbm | kBothHrm | kBcn, kSetOff, toggle_ipvu, "IPVU", kAlways, kIpvuOn},
+    ButtonRow{17, kAllGround | kRanging, kAlways, next_sequence_point, sequence_point_legend, kAlways},
+    ButtonRow{18, kAllGround, kSetOff, toggle_sniff, "SNIFF", kSetOff, kSniffOn},
+    ButtonRow{18, kAllGround, kSetOn, toggle_set, "SET", kSetOn, kSetIsOn},
+    ButtonRow{18, kRanging, kMapStands, toggle_set, "SET", kMapStands, kSetIsOn},
+    ButtonRow{19, kAllGround, kSetOff, next_channel, channel_legend, kAlways},
+    ButtonRow{20, kAllGround, kSetOff, next_band, band_legend, kAlways},
 };
 
-// pvi.md, "Hands-on and other controls". The TDC's release acts by cursor function; that comes with the maps and
+// pvi.md, "Hands-on and other controls". The TDC's release acts by cursor function; all but MAP come with the
 // designations. The deflection is taken also where no cursor is slewed, so that letting go is never missed.
 constexpr std::array kControls{
     ControlRow{EventKind::tdc, kRadar, kAlways, deflect},
+    ControlRow{EventKind::tdc_release, kRbm | kBothHrm | kPvu, kMapFree, command_map},
     ControlRow{EventKind::coolie_up, kRadar, kAlways, next_sequence_point},
     ControlRow{EventKind::acquisition, kRbm | kBothHrm, kWithMap, step_window},
     ControlRow{EventKind::freeze, kRbm | kBcn, kAlways, toggle_freeze},
-    ControlRow{EventKind::freeze, kBothHrm, kSniffOff, toggle_freeze},
-    ControlRow{EventKind::elevation, kRbm | kBcn | kPvu | kRanging, kAlways, set_elevation},
-    ControlRow{EventKind::elevation_step, kRbm | kBcn | kPvu | kRanging, kAlways, step_elevation},
+    ControlRow{EventKind::freeze, kBothHrm, kSniffOff | kSetOff, toggle_freeze},
+    ControlRow{EventKind::elevation, kRbm | kBcn | kPvu | kRanging, kSetOff, set_elevation},
+    ControlRow{EventKind::elevation_step, kRbm | kBcn | kPvu | kRanging, kSetOff, step_elevation},
     ControlRow{EventKind::master_mode, kRadar, kAlways, select_master},
     ControlRow{EventKind::radar_mode, kAllGround, kThawed, select_mode},
     ControlRow{EventKind::power, kRadar | kOff, kAlways, switch_power},
@@ -116,7 +137,11 @@ bool hold(Conditions conditions, const databuffer::RadarState& state) {
   const bool frozen = has(state, databuffer::kFreeze);
   Conditions present = frozen ? kFrozen : kThawed;
   if (state.cursor_function == static_cast<std::uint8_t>(radar::CursorFunction::map)) present |= kWithMap;
-  if (!has(state, kSniff)) present |= kSniffOff;
+  if (!has(state, databuffer::kSniff)) present |= kSniffOff;
+  if (power_of(state) == radar::Power::operate) present |= kOperating;
+  present |= has(state, databuffer::kSet) ? kSetOn : kSetOff;
+  if (state.map_newest != 0) present |= kHasMap;
+  if (state.map_shown != 0) present |= kMapStands;
   return (conditions & ~present) == 0;
 }
 

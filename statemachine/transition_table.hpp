@@ -28,6 +28,11 @@ inline constexpr Conditions kThawed = 1U << 0;
 inline constexpr Conditions kFrozen = 1U << 1;
 inline constexpr Conditions kWithMap = 1U << 2;  // cursor function MAP
 inline constexpr Conditions kSniffOff = 1U << 3;
+inline constexpr Conditions kOperating = 1U << 4;  // power OPR
+inline constexpr Conditions kSetOff = 1U << 5;
+inline constexpr Conditions kSetOn = 1U << 6;
+inline constexpr Conditions kHasMap = 1U << 7;     // one has been made
+inline constexpr Conditions kMapStands = 1U << 8;  // one is on the glass
 
 using Action = void (*)(Step&);
 
@@ -46,8 +51,8 @@ struct ButtonRow {
   Conditions live_when;
   Action action;
   Legend legend;
-  Conditions shown_when;   // of the legend
-  std::uint32_t boxed_by;  // flag of RadarState that boxes the legend; 0 = never
+  Conditions shown_when;                                   // of the legend
+  bool (*boxed)(const databuffer::RadarState&) = nullptr;  // whether a box is round it; none = never
 };
 
 struct ControlRow {

@@ -22,6 +22,13 @@ constexpr double kLargestRange = 10'800.0;
 constexpr double kLowestGround = -12'000.0;
 constexpr double kHighestGround = 10'000.0;
 
+// [NM] edge of a map; the glass divides by it.
+constexpr double kSmallestWindow = 0.01;
+// [m] over ground from the aircraft to a patch map's centre: far beyond any radar's horizon.
+constexpr double kFarthestPatch = 1'000'000.0;
+// [s] that a map may have taken to form.
+constexpr double kLongestFormation = 86'400.0;
+
 // [s] into a recording: three centuries; no recording is longer.
 constexpr double kLongestFlight = 1e10;
 
@@ -247,6 +254,25 @@ Refusal why_refused(const ClockState& clock) {
   inspection.longitude("reposition_longitude_deg", clock.reposition_longitude_deg);
   inspection.range("reposition_altitude_m", clock.reposition_altitude_m, -1'000.0, 200'000.0);
   inspection.range("reposition_heading_deg", clock.reposition_heading_deg, 0.0, 360.0);
+  return inspection.result();
+}
+
+Refusal why_refused(const PatchMap& map) {
+  Inspection inspection;
+  inspection.range("size", map.size, 1, kMostPatchPixels);
+  inspection.latitude("latitude_deg", map.latitude_deg);
+  inspection.longitude("longitude_deg", map.longitude_deg);
+  inspection.range("elevation_msl_m", map.elevation_msl_m, kLowestGround, kHighestGround);
+  inspection.range("up_deg", map.up_deg, 0.0, 360.0);
+  inspection.range("window_nm", map.window_nm, kSmallestWindow, kLargestRange);
+  inspection.latitude("apex_latitude_deg", map.apex_latitude_deg);
+  inspection.longitude("apex_longitude_deg", map.apex_longitude_deg);
+  inspection.range("apex_altitude_msl_m", map.apex_altitude_msl_m, -1'000.0, 200'000.0);
+  inspection.range("distance_m", map.distance_m, 0.0, kFarthestPatch);
+  inspection.range("squint_deg", map.squint_deg, -180.0, 180.0);
+  inspection.range("resolution_m", map.resolution_m, 0.0, kFarthestPatch);
+  inspection.range("formation_s", map.formation_s, 0.0, kLongestFormation);
+  inspection.text("fidelity", map.fidelity);
   return inspection.result();
 }
 

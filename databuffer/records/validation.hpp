@@ -11,6 +11,7 @@
 #include "databuffer/records/clock_state.hpp"
 #include "databuffer/records/input_event.hpp"
 #include "databuffer/records/ownship.hpp"
+#include "databuffer/records/patch_map.hpp"
 #include "databuffer/records/radar_state.hpp"
 
 namespace yars::databuffer {
@@ -22,5 +23,6 @@ Refusal why_refused(const Nav& nav);
 Refusal why_refused(const RadarState& state);
 Refusal why_refused(const InputEvent& event);
 Refusal why_refused(const ClockState& clock);
+Refusal why_refused(const PatchMap& map);
 
 }  // namespace yars::databuffer

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <map>
 #include <random>
 
 #include "databuffer/records/radar_command.hpp"
@@ -82,6 +83,52 @@ class Storm {
   std::mt19937_64 random_;
 };
 
+// A model that completes maps when it likes: mostly the one asked for, now and then one that nobody waits for, and
+// seldom one of which no record can be read.
+class MapMaker {
+ public:
+  void disturb(Storm& storm, Pilot& pilot) {
+    databuffer::ModelStatus& model = pilot.around.model;
+    model.mappable = storm.pick(0, 4) == 0 ? 0 : 1;
+    storm.pick(0, 1) == 0 ? put_reason(model, "BLIND ZONE") : put_reason(model, "\x07\xff");
+    if (storm.pick(0, 9) == 0) complete(storm, pilot);
+    know(pilot);
+  }
+
+ private:
+  template <std::size_t N>
+  static void put_reason(databuffer::ModelStatus& model, const char (&reason)[N]) {
+    std::memcpy(model.why_not, reason, N);
+  }
+
+  void complete(Storm& storm, Pilot& pilot) {
+    databuffer::ModelStatus& model = pilot.around.model;
+    databuffer::PatchMap map{};
+    map.id = ++model.map_newest;
+    model.map_request = pilot.state.map_request;
+    model.map_done_request = pilot.state.map_request - (storm.pick(0, 4) == 0 && pilot.state.map_request > 0 ? 1 : 0);
+    map.latitude_deg = std::min(90.0, pilot.around.ownship.latitude_deg + storm.number(-0.2, 0.2));
+    map.longitude_deg = pilot.around.ownship.longitude_deg;
+    map.window_nm = 4.7;
+    map.apex_latitude_deg = pilot.around.ownship.latitude_deg;
+    map.apex_longitude_deg = pilot.around.ownship.longitude_deg;
+    map.up_deg = storm.number(0.0, 360.0);
+    map.distance_m = storm.number(5'000.0, 100'000.0);
+    if (storm.pick(0, 19) != 0) made_[map.id] = map;
+  }
+
+  // As the shell latches them.
+  void know(Pilot& pilot) const {
+    const RadarState& state = pilot.state;
+    pilot.around.maps = {};
+    std::size_t place = 0;
+    for (const std::uint64_t id : {state.map_newest, state.map_old, state.map_stored, pilot.around.model.map_newest})
+      if (const auto map = made_.find(id); map != made_.end()) pilot.around.maps[place++] = map->second;
+  }
+
+  std::map<std::uint64_t, databuffer::PatchMap> made_;
+};
+
 template <class Values, class Value>
 bool contains(const Values& values, Value value) {
   return std::find(values.begin(), values.end(), value) != values.end();
@@ -119,10 +166,48 @@ void expect_one_mode(const RadarState& state) {
   const Mode of_master[] = {static_cast<Mode>(state.ground_mode), Mode::air_to_air, Mode::ranging};
   ASSERT_LE(state.master, 2);
   EXPECT_EQ(running, of_master[state.master]);
-  EXPECT_TRUE(contains(std::vector{Mode::rbm, Mode::hrm, Mode::beacon, Mode::pvu}, of_master[0]));
+  EXPECT_TRUE(contains(std::vector{Mode::rbm, Mode::hrm, Mode::patch, Mode::beacon, Mode::pvu}, of_master[0]));
   EXPECT_EQ(databuffer::command_from_state(state).mode, state.resume_mode);
-  const bool silent_hrm = running == Mode::hrm && (state.flags & databuffer::kSniff) != 0;
+  const bool silent_hrm = (running == Mode::hrm || running == Mode::patch) && (state.flags & databuffer::kSniff) != 0;
   EXPECT_TRUE(!silent_hrm || (state.flags & databuffer::kFreeze) != 0);
+}
+
+void expect_maps_in_order(const RadarState& before, const RadarState& state) {
+  using radar::Recall;
+  const auto has = [&state](std::uint32_t flag) { return (state.flags & flag) != 0; };
+  const bool frozen = has(databuffer::kFreeze);
+  const std::uint64_t recalled[] = {0, state.map_newest, state.map_old, state.map_stored};
+  ASSERT_LE(state.recall, 3);
+  const bool recalls = state.recall != static_cast<std::uint8_t>(Recall::none);
+  const bool patch = state.ground_mode == static_cast<std::uint8_t>(radar::Mode::patch);
+  EXPECT_EQ(state.map_shown, recalls ? recalled[state.recall] : patch ? state.map_newest : 0U);
+  EXPECT_TRUE(!patch || state.map_shown != 0) << "a patch without a map cannot occur";
+  EXPECT_TRUE(!recalls || (frozen && state.map_shown != 0));
+  EXPECT_TRUE(state.map_stored == 0 || frozen);
+  EXPECT_TRUE(state.map_newest >= state.map_old && state.map_newest >= state.map_stored);
+  EXPECT_TRUE(state.map_old != state.map_newest || state.map_old == 0);
+  EXPECT_TRUE(state.map_newest >= before.map_newest || state.power == 0) << "maps are forgotten by power off alone";
+  EXPECT_GE(state.map_request, before.map_request);
+}
+
+void expect_a_map_forms_only_where_it_can(const RadarState& state) {
+  using radar::Mode;
+  if ((state.flags & databuffer::kMapping) == 0) return;
+  EXPECT_EQ(state.power, static_cast<std::uint8_t>(radar::Power::operate));
+  EXPECT_TRUE(
+      contains(std::vector{Mode::rbm, Mode::hrm, Mode::patch, Mode::pvu}, static_cast<Mode>(state.resume_mode)));
+  EXPECT_EQ(state.flags & databuffer::kSniff, 0U);
+  EXPECT_GT(state.map_window_nm, 0.0);
+  EXPECT_GT(state.map_request, 0U);
+}
+
+void expect_set_over_a_frozen_map(const RadarState& state) {
+  const bool set = (state.flags & databuffer::kSet) != 0;
+  const bool frozen = (state.flags & databuffer::kFreeze) != 0;
+  EXPECT_TRUE(!set || (frozen && state.map_shown != 0));
+  EXPECT_TRUE(!set || state.cursor_function != static_cast<std::uint8_t>(radar::CursorFunction::map));
+  const bool by_exit = (state.flags & databuffer::kFrozenByHrmExit) != 0;
+  EXPECT_TRUE(!by_exit || (frozen && (state.master != 0 || set)));
 }
 
 void expect_text_terminated_and_numbers_finite(const RadarState& state) {
@@ -150,6 +235,7 @@ void expect_a_way_out(Pilot pilot) {
   pilot.send("power opr");
   pilot.press("mode ag");
   if (pilot.is(databuffer::kMenu)) pilot.press("pb 6");
+  if (pilot.is(databuffer::kSet)) pilot.press("pb 18");
   if (pilot.is(databuffer::kSniff)) pilot.press("pb 18");
   if (pilot.is(databuffer::kFreeze)) pilot.press("freeze");
   pilot.press("radar rbm");
@@ -163,7 +249,9 @@ TEST(EventStorm, KeepsEveryInvariantAndNeverWedges) {
   SCOPED_TRACE("YARS_SEED=" + std::to_string(seed));
   Storm storm(seed);
   Pilot pilot;
+  MapMaker model;
   int dead = 0;
+  int patches = 0;
   for (int count = 0; count < kEvents && !::testing::Test::HasFailure(); ++count) {
     const RadarState before = pilot.state;
     const InputEvent event = storm.event();
@@ -172,11 +260,16 @@ TEST(EventStorm, KeepsEveryInvariantAndNeverWedges) {
     ASSERT_EQ(did, std::memcmp(&before, &pilot.state, sizeof before) != 0);
     dead += did ? 0 : 1;
     storm.disturb(pilot.around);
+    model.disturb(storm, pilot);
     advance(pilot.state, pilot.around, pilot.configuration);
 
     expect_switches_in_their_positions(pilot.state);
     expect_range_and_window_in_the_tables(pilot.state, pilot.configuration);
     expect_one_mode(pilot.state);
+    expect_maps_in_order(before, pilot.state);
+    expect_a_map_forms_only_where_it_can(pilot.state);
+    expect_set_over_a_frozen_map(pilot.state);
+    patches += pilot.state.map_shown != 0 ? 1 : 0;
     expect_text_terminated_and_numbers_finite(pilot.state);
     expect_boxes_around_legends(pilot.state);
     // A restarted state machine takes up only what passes the border.
@@ -186,6 +279,7 @@ TEST(EventStorm, KeepsEveryInvariantAndNeverWedges) {
   // A storm in which all is dead, or nothing, has tested little.
   EXPECT_GT(dead, kEvents / 10);
   EXPECT_LT(dead, kEvents * 9 / 10);
+  EXPECT_GT(patches, kEvents / 20);
 }
 
 // Held to its ground point the cursor may leave the glass; slewed it is on it.

@@ -267,5 +267,49 @@ TEST(Validation, ARepositioningIsWholeOrNone) {
   EXPECT_TRUE(why_refused(clock));
 }
 
+PatchMap good_map() {
+  PatchMap map{};
+  map.id = 1;
+  map.size = 480;
+  map.latitude_deg = 38.0;
+  map.longitude_deg = -123.1;
+  map.window_nm = 0.67;
+  map.apex_latitude_deg = 38.2;
+  map.apex_longitude_deg = -123.1;
+  map.apex_altitude_msl_m = 4572.0;
+  map.distance_m = 20'000.0;
+  return map;
+}
+
+TEST(Validation, APatchMapHoldsItsRangesAndItsNumbersAreFinite) {
+  expect_range_without_nan(good_map(), &PatchMap::latitude_deg, -90.0, 90.0);
+  expect_range_without_nan(good_map(), &PatchMap::longitude_deg, -180.0, 180.0);
+  expect_range_without_nan(good_map(), &PatchMap::up_deg, 0.0, 360.0);
+  expect_range_without_nan(good_map(), &PatchMap::apex_latitude_deg, -90.0, 90.0);
+  expect_range_without_nan(good_map(), &PatchMap::apex_longitude_deg, -180.0, 180.0);
+  expect_range_without_nan(good_map(), &PatchMap::distance_m, 0.0, 1e6);
+  for (double PatchMap::*field : {&PatchMap::elevation_msl_m, &PatchMap::apex_altitude_msl_m, &PatchMap::squint_deg,
+                                  &PatchMap::resolution_m, &PatchMap::formation_s, &PatchMap::window_nm}) {
+    for (const double wrong : {kNan, kInfinity}) {
+      PatchMap map = good_map();
+      map.*field = wrong;
+      EXPECT_TRUE(why_refused(map));
+    }
+  }
+}
+
+TEST(Validation, APatchMapHasBetweenOneAnd1024PixelsToItsEdgeAndAWindow) {
+  for (const std::uint32_t size : {0U, 1025U, 4'000'000'000U}) {
+    PatchMap map = good_map();
+    map.size = size;
+    EXPECT_TRUE(why_refused(map)) << size;
+  }
+  PatchMap map = good_map();
+  map.size = 1024;
+  EXPECT_EQ(why_refused(map), std::nullopt);
+  map.window_nm = 0.0;
+  EXPECT_TRUE(why_refused(map));
+}
+
 }  // namespace
 }  // namespace yars::databuffer

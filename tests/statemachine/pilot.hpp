@@ -11,6 +11,7 @@
 #include <string>
 
 #include "databuffer/records/event_text.hpp"
+#include "databuffer/records/patch_map.hpp"
 #include "lib/geo/geodesic.hpp"
 #include "lib/radar/modes.hpp"
 #include "statemachine/machine.hpp"
@@ -46,6 +47,7 @@ class Pilot {
     around.ownship.velocity_north_mps = 200.0;
     around.ownship.radar_altitude_m = 200.0;
     around.nav.magnetic_variation_deg = kNaN;
+    around.model.mappable = 1;
     state = initial_state(configuration);
   }
 
@@ -70,6 +72,37 @@ class Pilot {
     return did;
   }
 
+  // The model completes the map commanded, or maps the same place once more: from where the aircraft is.
+  std::uint64_t complete_map() {
+    databuffer::PatchMap map{};
+    map.id = ++around.model.map_newest;
+    map.request = around.model.map_done_request = around.model.map_request = state.map_request;
+    map.latitude_deg = state.map_latitude_deg;
+    map.longitude_deg = state.map_longitude_deg;
+    map.window_nm = state.map_window_nm;
+    map.apex_latitude_deg = around.ownship.latitude_deg;
+    map.apex_longitude_deg = around.ownship.longitude_deg;
+    const auto line =
+        geo::geodesic_inverse({map.apex_latitude_deg, map.apex_longitude_deg}, {map.latitude_deg, map.longitude_deg});
+    map.up_deg = line.azimuth_at_start.degrees();
+    map.distance_m = line.distance.metres();
+    map.size = 480;
+    // In the place of one that nobody names.
+    for (databuffer::PatchMap& known : around.maps) {
+      if (known.id != 0 && (known.id == state.map_newest || known.id == state.map_old || known.id == state.map_stored))
+        continue;
+      known = map;
+      break;
+    }
+    wait();
+    return map.id;
+  }
+  // Commands a map under the cursor and has it made.
+  std::uint64_t make_map() {
+    EXPECT_TRUE(press("tdc release"));
+    return complete_map();
+  }
+
   std::string legend(int button) const { return state.legends[button]; }
   bool boxed(int button) const { return (state.boxed >> button & 1U) != 0; }
   bool is(std::uint32_t flag) const { return (state.flags & flag) != 0; }
@@ -78,6 +111,20 @@ class Pilot {
   Surroundings around;
   databuffer::RadarState state;
 };
+
+inline std::string word_of(radar::Recall recall) {
+  switch (recall) {
+    case radar::Recall::newest:
+      return "NEW";
+    case radar::Recall::old:
+      return "OLD";
+    case radar::Recall::store:
+      return "STORE";
+    case radar::Recall::none:
+      break;
+  }
+  return "-";
+}
 
 inline std::string words_of(double value) {
   std::ostringstream text;
@@ -115,7 +162,13 @@ inline Fields fields_of(const Pilot& pilot) {
           {"sniff", flag(databuffer::kSniff)},
           {"ipvu", flag(databuffer::kIpvu)},
           {"vtr", flag(databuffer::kVtr)},
+          {"set", flag(databuffer::kSet)},
           {"menu", flag(databuffer::kMenu)},
+          {"mapping", flag(databuffer::kMapping)},
+          {"recall", word_of(static_cast<radar::Recall>(state.recall))},
+          {"shown", std::to_string(state.map_shown)},
+          {"maps", std::to_string(state.map_newest) + "/" + std::to_string(state.map_old) + "/" +
+                       std::to_string(state.map_stored)},
           {"cursor_function", std::string(name_of(static_cast<radar::CursorFunction>(state.cursor_function)))},
           {"cursor_on", point_under_cursor(pilot)},
           {"window_nm", words_of(state.window_nm)},
@@ -131,21 +184,26 @@ inline Fields fields_of(const Pilot& pilot) {
           {"message", state.message}};
 }
 
-// Brings a pilot into a mode, by events as far as events lead there; then the range is 40 NM (20 in PVU).
+// Brings a pilot into a mode, or into a state that transitions.csv describes, by events; then the range is 40 NM (20 in
+// PVU).
 inline void bring_into(Pilot& pilot, const std::string& mode, bool frozen) {
   if (mode == "OFF") return;
+  const bool over_map = mode == "AAMAP" || mode == "AASET" || mode == "AGSET";
+  const bool patch = mode == "PATCH" || mode == "MAPS" || over_map;
   pilot.press("power opr");
-  if (mode == "HRM" || mode == "PATCH") pilot.press("radar hrm");
+  if (mode == "HRM" || patch) pilot.press("radar hrm");
   if (mode == "BCN") pilot.press("radar bcn");
   if (mode == "PVU") pilot.press("radar pvu");
   if (mode != "PVU") pilot.press("pb 13");
-  if (mode == "PATCH") {
-    // Nothing leads to a patch map without patch maps; its column of the table holds all the same.
-    const auto patch = static_cast<std::uint8_t>(radar::Mode::patch);
-    pilot.state.mode = pilot.state.resume_mode = pilot.state.ground_mode = patch;
+  if (patch) {
+    pilot.make_map();
+    pilot.make_map();
   }
+  if (mode == "MAPS") pilot.press("pb 14");
   if (frozen) pilot.press("freeze");
-  if (mode == "AA") pilot.press("mode aa");
+  if (mode == "AA" || over_map) pilot.press("mode aa");
+  if (mode == "AASET" || mode == "AGSET") pilot.press("pb 18");
+  if (mode == "AGSET") pilot.press("mode ag");
   if (mode == "AGR") pilot.press("mode agr");
   if (mode == "MENU") pilot.press("pb 11");
   if (mode == "STBY") pilot.press("power stby");

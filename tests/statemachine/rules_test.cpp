@@ -28,13 +28,15 @@ TEST(PowerUp, ASessionBeginsOffWithNothingOnTheGlass) {
 
 TEST_F(Rules, PowerUpSetsWhatTheSpecLists) {
   const Fields expected{
-      {"power", "OPR"},    {"mode", "RBM"},        {"running", "RBM"},      {"master", "AG"},
-      {"range_nm", "20"},  {"scan", "FULL"},       {"gain", "3"},           {"brightness", "8"},
-      {"contrast", "8"},   {"declutter", "false"}, {"freeze", "false"},     {"sniff", "false"},
-      {"ipvu", "false"},   {"vtr", "false"},       {"menu", "false"},       {"cursor_function", "MAP"},
-      {"cursor_on", "1"},  {"window_nm", "4.7"},   {"multi_look", "ML1"},   {"stabilizing", "STAB"},
-      {"channel", "1"},    {"band", "A"},          {"sequence_point", "1"}, {"nav_source", "MN"},
-      {"altimeter", "ok"}, {"elevation", "0"},     {"tdc", "0/0"},          {"message", ""}};
+      {"power", "OPR"},        {"mode", "RBM"},        {"running", "RBM"},   {"master", "AG"},
+      {"range_nm", "20"},      {"scan", "FULL"},       {"gain", "3"},        {"brightness", "8"},
+      {"contrast", "8"},       {"declutter", "false"}, {"freeze", "false"},  {"sniff", "false"},
+      {"ipvu", "false"},       {"vtr", "false"},       {"menu", "false"},    {"cursor_function", "MAP"},
+      {"set", "false"},        {"mapping", "false"},   {"recall", "-"},      {"shown", "0"},
+      {"maps", "0/0/0"},       {"cursor_on", "1"},     {"window_nm", "4.7"}, {"multi_look", "ML1"},
+      {"stabilizing", "STAB"}, {"channel", "1"},       {"band", "A"},        {"sequence_point", "1"},
+      {"nav_source", "MN"},    {"altimeter", "ok"},    {"elevation", "0"},   {"tdc", "0/0"},
+      {"message", ""}};
   EXPECT_EQ(fields_of(pilot), expected);
 }
 

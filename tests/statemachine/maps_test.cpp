@@ -1,0 +1,272 @@
+// Patch maps under the pilot's hand: rules 3 to 8 of spec pvi.md.
+#include <gtest/gtest.h>
+
+#include "tests/statemachine/pilot.hpp"
+
+namespace yars::statemachine::testing {
+namespace {
+
+using databuffer::kFreeze;
+using databuffer::kMapping;
+
+template <std::size_t N>
+void put_text(char (&field)[N], std::string_view text) {
+  std::memset(field, 0, N);
+  text.copy(field, N);
+}
+
+class Maps : public ::testing::Test {
+ protected:
+  Maps() {
+    pilot.press("power opr");
+    pilot.press("pb 13");  // 40 NM
+  }
+  std::string field(const std::string& name) const { return fields_of(pilot).at(name); }
+  Pilot pilot;
+};
+
+TEST_F(Maps, ACommandAsksForTheCursorsPlaceAndTheSelectedWindowAndThePictureStays) {
+  const databuffer::RadarState before = pilot.state;
+  ASSERT_TRUE(pilot.press("tdc release"));
+  EXPECT_EQ(pilot.state.map_request, before.map_request + 1);
+  EXPECT_EQ(pilot.state.map_latitude_deg, before.cursor_latitude_deg);
+  EXPECT_EQ(pilot.state.map_longitude_deg, before.cursor_longitude_deg);
+  EXPECT_EQ(pilot.state.map_window_nm, 4.7);
+  EXPECT_EQ(field("mode"), "RBM");
+  EXPECT_EQ(field("shown"), "0");
+  EXPECT_EQ(pilot.state.scan_restart, before.scan_restart);
+  pilot.send("tdc 1 1");
+  pilot.wait(50);
+  EXPECT_EQ(pilot.state.map_latitude_deg, before.cursor_latitude_deg) << "the cursor is free again";
+}
+
+TEST_F(Maps, ARejectedCommandSaysWhyAndNothingElseHappens) {
+  pilot.around.model.mappable = 0;
+  for (const char* why : {"BLIND ZONE", "MIN RANGE", "MAX RANGE", "GIMBAL", "NO WINDOW"}) {
+    put_text(pilot.around.model.why_not, why);
+    Fields expected = fields_of(pilot);
+    expected["message"] = why;
+    EXPECT_TRUE(pilot.press("tdc release"));
+    EXPECT_EQ(fields_of(pilot), expected);
+    EXPECT_EQ(pilot.state.map_request, 0U);
+  }
+}
+
+TEST_F(Maps, AReasonThatNobodyCanReadIsNotShown) {
+  pilot.around.model.mappable = 0;
+  EXPECT_FALSE(pilot.press("tdc release")) << "no reason at all";
+  put_text(pilot.around.model.why_not, "\x1b[2J");
+  EXPECT_FALSE(pilot.press("tdc release"));
+  put_text(pilot.around.model.why_not, "WITHOUT A ZERO AT ITS END");
+  EXPECT_TRUE(pilot.press("tdc release"));
+  EXPECT_STREQ(pilot.state.message, "WITHOUT A ZERO AT IT");
+}
+
+TEST_F(Maps, ABlankWindowStandsForOneByTheCursorsRange) {
+  struct Case {
+    double range_nm, window_nm;
+  };
+  for (int press = 0; press < 4; ++press) pilot.press("acq aft");
+  ASSERT_EQ(pilot.state.window_nm, 0.0);
+  for (const auto& [range_nm, window_nm] :
+       {Case{2.8, 3.3}, Case{49.9, 3.3}, Case{50.1, 4.7}, Case{79.9, 4.7}, Case{80.1, 10.0}, Case{149.9, 10.0}}) {
+    const geo::GeoPoint where = place(30.0, range_nm);
+    pilot.state.cursor_latitude_deg = where.latitude_deg;
+    pilot.state.cursor_longitude_deg = where.longitude_deg;
+    pilot.wait();
+    ASSERT_TRUE(pilot.press("tdc release"));
+    EXPECT_EQ(pilot.state.map_window_nm, window_nm) << range_nm;
+  }
+  for (const double range_nm : {2.6, 150.1}) {
+    const geo::GeoPoint where = place(30.0, range_nm);
+    pilot.state.cursor_latitude_deg = where.latitude_deg;
+    pilot.state.cursor_longitude_deg = where.longitude_deg;
+    pilot.wait();
+    const auto request = pilot.state.map_request;
+    pilot.press("tdc release");
+    EXPECT_STREQ(pilot.state.message, "NO WINDOW");
+    EXPECT_EQ(pilot.state.map_request, request);
+  }
+}
+
+TEST_F(Maps, NothingIsCommandedWhereNothingIsTransmittedOrNoMapIsToBeHad) {
+  for (const char* event : {"radar bcn", "mode aa", "power stby", "pb 18", "pb 7"}) {
+    Pilot elsewhere = pilot;
+    elsewhere.press(event);
+    EXPECT_FALSE(elsewhere.press("tdc release")) << event;
+  }
+  pilot.around.ownship_valid = false;
+  EXPECT_FALSE(pilot.press("tdc release"));
+}
+
+TEST_F(Maps, TheMapThatAnswersBringsUpThePatch) {
+  for (const char* mode : {"rbm", "hrm", "pvu"}) {
+    Pilot one = pilot;
+    one.press(std::string("radar ") + mode);
+    const double range_nm = one.state.range_nm;
+    const auto id = one.make_map();
+    EXPECT_EQ(fields_of(one).at("mode"), "PATCH") << mode;
+    EXPECT_EQ(fields_of(one).at("mapping"), "false");
+    EXPECT_EQ(one.state.map_newest, id);
+    EXPECT_EQ(one.state.map_shown, id);
+    EXPECT_EQ(one.state.range_nm, range_nm) << "rule 1: the range is not set on a patch";
+    EXPECT_EQ(one.legend(14), "PPI");
+  }
+}
+
+TEST_F(Maps, UnderTheMenuTheMapComesAllTheSame) {
+  pilot.press("pb 11");
+  pilot.make_map();
+  EXPECT_EQ(field("mode"), "MENU");
+  EXPECT_EQ(field("running"), "PATCH");
+  pilot.press("pb 6");
+  EXPECT_EQ(field("mode"), "PATCH");
+}
+
+TEST_F(Maps, ANewCommandMovesNewToOldAndAReMapRefreshesNewAlone) {
+  pilot.make_map();
+  EXPECT_EQ(field("maps"), "1/0/0");
+  pilot.complete_map();
+  EXPECT_EQ(field("maps"), "2/0/0");
+  pilot.make_map();
+  EXPECT_EQ(field("maps"), "3/2/0");
+  pilot.complete_map();
+  pilot.complete_map();
+  EXPECT_EQ(field("maps"), "5/2/0");
+  EXPECT_EQ(field("shown"), "5");
+}
+
+TEST_F(Maps, ASecondCommandBeforeTheFirstMapIsThereTakesItsPlace) {
+  pilot.press("tdc release");
+  const auto first = pilot.state.map_request;
+  pilot.press("pb 17");
+  pilot.press("tdc release");
+  pilot.around.model.map_done_request = first;
+  pilot.around.maps[0].id = pilot.around.model.map_newest = 1;
+  pilot.wait();
+  EXPECT_EQ(field("mode"), "RBM") << "the first map is not the one that is waited for";
+  pilot.complete_map();
+  EXPECT_EQ(field("mode"), "PATCH");
+  EXPECT_EQ(field("maps"), "2/0/0");
+}
+
+// The map may be complete just when the pilot leaves: nobody waits for it then.
+TEST_F(Maps, WhateverLeavesWhileAMapFormsCancelsIt) {
+  for (const char* event : {"pb 6", "radar pvu", "power stby", "power off", "mode aa", "mode agr", "pb 18"}) {
+    Pilot leaving = pilot;
+    leaving.press("tdc release");
+    const auto request = leaving.state.map_request;
+    leaving.press(event);
+    EXPECT_FALSE(leaving.is(kMapping)) << event;
+    const Fields expected = fields_of(leaving);
+    leaving.around.model.map_done_request = request;
+    leaving.around.maps[0].id = leaving.around.model.map_newest = 1;
+    leaving.wait();
+    EXPECT_EQ(fields_of(leaving), expected) << event;
+  }
+}
+
+TEST_F(Maps, ANewEpochCancelsTheMapUnderWay) {
+  pilot.press("tdc release");
+  ++pilot.around.epoch;
+  pilot.complete_map();
+  EXPECT_FALSE(pilot.is(kMapping));
+  EXPECT_EQ(field("maps"), "0/0/0");
+}
+
+TEST_F(Maps, LeavingThePatchForThePpiCancelsTheNextMapAndKeepsTheLast) {
+  pilot.make_map();
+  pilot.press("tdc release");
+  pilot.press("pb 14");
+  EXPECT_EQ(field("mode"), "HRM");
+  EXPECT_FALSE(pilot.is(kMapping));
+  EXPECT_EQ(field("maps"), "1/0/0");
+}
+
+// A patch that goes on is mapped again and again where its newest map lies, not where the map cancelled would have.
+TEST_F(Maps, AfterACancelledCommandThePatchReMapsItsNewestMap) {
+  pilot.make_map();
+  const double latitude_deg = pilot.state.map_latitude_deg;
+  pilot.press("sp 3.");
+  pilot.press("acq aft");
+  pilot.press("tdc release");
+  ASSERT_NE(pilot.state.map_latitude_deg, latitude_deg);
+  const auto cancelled = pilot.state.map_request;
+  pilot.press("mode aa");
+  pilot.press("mode ag");
+  ASSERT_EQ(field("mode"), "PATCH");
+  EXPECT_EQ(pilot.state.map_latitude_deg, latitude_deg);
+  EXPECT_EQ(pilot.state.map_window_nm, 4.7);
+  EXPECT_GT(pilot.state.map_request, cancelled);
+  pilot.complete_map();
+  EXPECT_EQ(field("maps"), "2/0/0") << "a re-map";
+}
+
+TEST_F(Maps, AMapOfWhichNobodyKnowsWhereItLiesIsNotShown) {
+  pilot.press("tdc release");
+  pilot.around.model.map_done_request = pilot.state.map_request;
+  pilot.around.model.map_newest = 1;
+  pilot.wait(10);
+  EXPECT_EQ(field("mode"), "RBM");
+  EXPECT_TRUE(pilot.is(kMapping));
+}
+
+TEST_F(Maps, RequestsGoOnAboveWhatTheModelKnowsOf) {
+  pilot.around.model.map_request = 40;
+  pilot.around.model.map_done_request = 1;
+  pilot.around.maps[0].id = pilot.around.model.map_newest = 17;
+  pilot.press("tdc release");
+  EXPECT_EQ(pilot.state.map_request, 41U);
+  EXPECT_TRUE(pilot.is(kMapping)) << "a state that began anew takes no old map for an answer";
+}
+
+TEST_F(Maps, PowerOffForgetsTheMapsAndNoOldOneComesBack) {
+  pilot.make_map();
+  pilot.make_map();
+  pilot.press("power off");
+  pilot.press("power opr");
+  EXPECT_EQ(field("maps"), "0/0/0");
+  pilot.press("tdc release");
+  pilot.wait(10);
+  EXPECT_TRUE(pilot.is(kMapping));
+  EXPECT_EQ(field("mode"), "RBM");
+}
+
+TEST_F(Maps, StandbyKeepsTheMapAndOperateResumesThePatch) {
+  pilot.make_map();
+  const Fields expected = fields_of(pilot);
+  pilot.press("power stby");
+  pilot.press("power opr");
+  EXPECT_EQ(fields_of(pilot), expected);
+}
+
+TEST_F(Maps, FrozenInTheBeamMapACommandBuildsOneMapAndFreezesIt) {
+  pilot.press("freeze");
+  pilot.make_map();
+  EXPECT_EQ(field("mode"), "PATCH");
+  EXPECT_TRUE(pilot.is(kFreeze));
+  EXPECT_EQ(field("recall"), "NEW");
+}
+
+TEST_F(Maps, TheMapInProgressWhenThePilotFreezesIsStillTaken) {
+  pilot.make_map();
+  pilot.press("freeze");
+  pilot.complete_map();
+  EXPECT_EQ(field("maps"), "2/0/0");
+  EXPECT_EQ(field("shown"), "2");
+}
+
+TEST_F(Maps, ARestartedStateMachineGoesOnWithMapUnderWayAndRecall) {
+  pilot.make_map();
+  for (const char* event : {"pb 17", "freeze", "pb 15", "tdc 0.2 0.1", "tdc release"}) pilot.press(event);
+  Pilot successor;
+  successor.around = pilot.around;
+  successor.state = pilot.state;
+  pilot.complete_map();
+  successor.complete_map();
+  EXPECT_EQ(std::memcmp(&pilot.state, &successor.state, sizeof pilot.state), 0);
+  EXPECT_EQ(fields_of(successor).at("maps"), "2/1/1");
+}
+
+}  // namespace
+}  // namespace yars::statemachine::testing
