@@ -229,6 +229,8 @@ constexpr std::array kModelStatusFields = {
     YARS_FIELD(ModelStatus, map_newest),
     YARS_FIELD(ModelStatus, map_request),
     YARS_FIELD(ModelStatus, map_done_request),
+    YARS_FIELD(ModelStatus, scan_offset_deg),
+    YARS_FIELD(ModelStatus, scan_rate_dps),
 };
 
 constexpr std::array kPatchMapFields = {

@@ -137,7 +137,8 @@ typedef struct {
   double map_latitude_deg, map_longitude_deg, map_up_deg, map_window_nm;
   uint64_t map_newest;
   uint32_t map_request, map_done_request;
-  uint64_t reserved[5];
+  double scan_offset_deg, scan_rate_dps;
+  uint64_t reserved[3];
 } yars_model_status;
 
 /* ---- The session ---- */

@@ -152,7 +152,9 @@ struct ModelStatus {
   std::uint64_t map_newest;        // id of the last map that was completed; 0 = none
   std::uint32_t map_request;       // the last request taken up
   std::uint32_t map_done_request;  // the request that the last map answers
-  std::uint64_t reserved[5];
+  double scan_offset_deg;          // [deg] middle of the sector against the ground track
+  double scan_rate_dps;            // [deg/s] of the scan under way; 0: the configuration's
+  std::uint64_t reserved[3];
 };
 static_assert(sizeof(ModelStatus) % 8 == 0 && std::is_trivially_copyable_v<ModelStatus>);
 

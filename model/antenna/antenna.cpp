@@ -19,6 +19,12 @@ AxisLimits azimuth_limits(const radar::AntennaConfiguration& antenna) {
   return {antenna.azimuth_rate_dps, antenna.circular_scan ? 180.0 : antenna.azimuth_limit_deg, antenna.tolerance_deg};
 }
 
+// Its own rate, if a sector has one.
+ScanPattern pattern_of(radar::AntennaConfiguration antenna, double width_deg, double rate_dps) {
+  if (rate_dps > 0.0) antenna.azimuth_rate_dps = rate_dps;
+  return make_scan_pattern(antenna, width_deg);
+}
+
 AxisLimits elevation_limits(const radar::AntennaConfiguration& antenna) {
   return {antenna.elevation_rate_dps, antenna.elevation_limit_deg, antenna.tolerance_deg};
 }
@@ -37,11 +43,15 @@ Antenna::Memory Antenna::memory() const {
           pattern_.width_deg,
           tick_,
           direction_,
-          phase_};
+          phase_,
+          offset_deg_,
+          rate_dps_};
 }
 
 void Antenna::resume(const Memory& memory) {
-  pattern_ = make_scan_pattern(configuration_, memory.width_deg);
+  offset_deg_ = std::isfinite(memory.offset_deg) ? memory.offset_deg : 0.0;
+  rate_dps_ = std::isfinite(memory.rate_dps) ? memory.rate_dps : 0.0;
+  pattern_ = pattern_of(configuration_, memory.width_deg, rate_dps_);
   azimuth_.place(memory.azimuth_deg);
   elevation_.place(memory.elevation_deg);
   centre_ = Bearing::degrees(std::isfinite(memory.centre_deg) ? memory.centre_deg : 0.0);
@@ -51,8 +61,10 @@ void Antenna::resume(const Memory& memory) {
   direction_known_ = true;
 }
 
-void Antenna::restart(double width_deg) {
-  pattern_ = make_scan_pattern(configuration_, width_deg);
+void Antenna::restart(const Sector& sector) {
+  offset_deg_ = sector.offset_deg;
+  rate_dps_ = sector.rate_dps;
+  pattern_ = pattern_of(configuration_, sector.width_deg, rate_dps_);
   phase_ = Phase::slewing;
   tick_ = 0;
   direction_known_ = false;
@@ -82,20 +94,24 @@ AntennaStep Antenna::step(const Platform& platform, Angle commanded_elevation) {
   return step;
 }
 
+Bearing Antenna::wanted_centre(const Platform& platform) const {
+  return scan_centre(platform, configuration_) + Angle::degrees(offset_deg_);
+}
+
 void Antenna::slew(const Platform& platform) {
-  const double centre_deg = (scan_centre(platform, configuration_) - platform.heading).degrees();
+  const double centre_deg = (wanted_centre(platform) - platform.heading).degrees();
   if (!direction_known_) direction_ = azimuth_.position_deg() > centre_deg && !pattern_.circular ? -1 : 1;
   direction_known_ = true;
   azimuth_.command_position(centre_deg + pattern_.edge_deg(0, direction_));
   azimuth_.step();
   if (!azimuth_.reached()) return;
   phase_ = Phase::sweeping;
-  centre_ = scan_centre(platform, configuration_);
+  centre_ = wanted_centre(platform);
 }
 
 void Antenna::scan(const Platform& platform, AntennaStep& step) {
   const Bearing centre_before = centre_;
-  const double lag_deg = (scan_centre(platform, configuration_) - centre_).degrees();
+  const double lag_deg = (wanted_centre(platform) - centre_).degrees();
   const double most_deg = kCentreRateDps * radar::kTickSeconds;
   centre_ = centre_ + Angle::degrees(std::clamp(lag_deg, -most_deg, most_deg));
 

@@ -29,6 +29,13 @@ struct AntennaStep {
   bool scan_end = false;    // last sweep of the scan
 };
 
+// What is scanned: about the ground track, or so far to the right of it.
+struct Sector {
+  double width_deg = 0.0;
+  double offset_deg = 0.0;
+  double rate_dps = 0.0;  // 0: the configuration's
+};
+
 class Antenna {
  public:
   explicit Antenna(const radar::AntennaConfiguration& configuration);
@@ -42,12 +49,17 @@ class Antenna {
     int tick = 0;  // within the scan
     int direction = 1;
     Phase phase = Phase::parked;
+    double offset_deg = 0.0;  // of the sector's middle
+    double rate_dps = 0.0;    // 0: the configuration's
   };
   Memory memory() const;
   // Values outside their range are taken as the nearest inside.
   void resume(const Memory& memory);
-  // Goes to the nearer edge of a sector of this width and scans from there.
-  void restart(double width_deg);
+  // Goes to the nearer edge of a sector and scans from there.
+  void restart(const Sector& sector);
+  void restart(double width_deg) { restart(Sector{.width_deg = width_deg}); }
+  // Moves the middle of the sector; the scan follows it no faster than it turns with the aircraft.
+  void aim(double offset_deg) { offset_deg_ = offset_deg; }
   // Holds still until the next restart.
   void park();
 
@@ -59,11 +71,14 @@ class Antenna {
   const ScanPattern& pattern() const { return pattern_; }
 
  private:
+  geo::Bearing wanted_centre(const Platform& platform) const;
   void slew(const Platform& platform);
   void scan(const Platform& platform, AntennaStep& step);
 
   radar::AntennaConfiguration configuration_;
   ScanPattern pattern_;
+  double offset_deg_ = 0.0;  // of the sector's middle against the ground track
+  double rate_dps_ = 0.0;    // 0: the configuration's
   Axis azimuth_;
   Axis elevation_;
   geo::Bearing centre_;  // of the scan, true, at the end of the last tick

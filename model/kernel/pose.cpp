@@ -33,13 +33,15 @@ std::optional<Pose> pose_of(const databuffer::Ownship& ownship) {
   pose.platform.ground_track =
       radar::ground_track(geo::Speed::metres_per_second(ownship.velocity_north_mps),
                           geo::Speed::metres_per_second(ownship.velocity_east_mps), pose.platform.heading);
+  pose.ground_speed = geo::Speed::metres_per_second(std::hypot(ownship.velocity_north_mps, ownship.velocity_east_mps));
   return pose;
 }
 
 bool asks_for_video(const databuffer::RadarCommand& command) {
-  return command.power == static_cast<std::uint8_t>(radar::Power::operate) &&
-         command.mode == static_cast<std::uint8_t>(radar::Mode::rbm) && command.range_nm >= kLeastRangeNm &&
-         command.range_nm <= kGreatestRangeNm;
+  const bool scans = command.mode == static_cast<std::uint8_t>(radar::Mode::rbm) ||
+                     command.mode == static_cast<std::uint8_t>(radar::Mode::hrm);
+  return command.power == static_cast<std::uint8_t>(radar::Power::operate) && scans &&
+         command.range_nm >= kLeastRangeNm && command.range_nm <= kGreatestRangeNm;
 }
 
 }  // namespace yars::model::kernel

@@ -14,6 +14,7 @@ struct Pose {
   geo::GeoPoint place;
   geo::AltitudeMsl altitude;
   antenna::Platform platform;
+  geo::Speed ground_speed{};
 };
 
 // Nothing if a value is not finite or outside the record's range.

@@ -6,6 +6,7 @@
 
 #include "databuffer/records/model_records.hpp"
 #include "lib/radar/configuration.hpp"
+#include "model/kernel/map_schedule.hpp"
 #include "model/terrain/terrain_view.hpp"
 
 namespace yars::model::kernel {
@@ -19,6 +20,11 @@ class RadarKernel {
 
   // Takes up servo, scan and sweep numbers where a predecessor's status left them.
   void resume(const databuffer::ModelStatus& status);
+
+  // The patch map under way: who drives the kernel has its picture ready when it is due, and says so.
+  const MapSchedule& maps() const;
+  bool map_due() const;
+  void complete_map();
 
   // The region that the command needs at this place, for prepare(); nothing while no video is made.
   struct Need {

@@ -26,8 +26,9 @@ void write_place(const SweepPlace& place, databuffer::Sweep& sweep) {
 
 rbm::Look look_of(const SweepPlace& place) {
   const geo::Angle width = place.right - place.left;
-  return {place.apex, place.altitude, place.left + 0.5 * width, place.elevation, place.range, place.sim_time,
-          place.band, place.channel};
+  return {place.apex,      place.altitude, place.looked_at.value_or(place.left + 0.5 * width),
+          place.elevation, place.range,    place.sim_time,
+          place.band,      place.channel};
 }
 
 std::uint64_t sweep_hash(const databuffer::Sweep& sweep) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "databuffer/records/model_records.hpp"
@@ -20,9 +21,10 @@ struct SweepPlace {
   geo::Angle elevation;
   geo::Length range;
   int direction = 1;
-  geo::Duration sim_time{};  // not part of the record's place
-  std::uint8_t band = 0;     // 0..4: A..E
-  std::uint8_t channel = 1;  // 1..8
+  geo::Duration sim_time{};                 // not part of the record's place
+  std::uint8_t band = 0;                    // 0..4: A..E
+  std::uint8_t channel = 1;                 // 1..8
+  std::optional<geo::Bearing> looked_at{};  // where the beam's centre looks if not to the middle of the wedge
 };
 
 // Sim time as movers go by it.
@@ -33,7 +35,7 @@ inline geo::Duration sim_time_of(std::int64_t sim_time_ns) {
 // Fills all of `sweep` but video, hash, times, numbers and flags.
 void write_place(const SweepPlace& place, databuffer::Sweep& sweep);
 
-// What the beam's centre looks at: the middle of the wedge.
+// What the beam's centre looks at: the middle of the wedge, unless the place says otherwise.
 rbm::Look look_of(const SweepPlace& place);
 
 // XXH3 64 over the record's fields before `hash` but for the times, then, seeded with that, over the used samples.

@@ -213,6 +213,8 @@ SAME(yars_model_status, ModelStatus, map_window_nm);
 SAME(yars_model_status, ModelStatus, map_newest);
 SAME(yars_model_status, ModelStatus, map_request);
 SAME(yars_model_status, ModelStatus, map_done_request);
+SAME(yars_model_status, ModelStatus, scan_offset_deg);
+SAME(yars_model_status, ModelStatus, scan_rate_dps);
 SAME(yars_model_status, ModelStatus, reserved);
 
 #undef SAME

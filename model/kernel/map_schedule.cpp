@@ -1,0 +1,163 @@
+#include "model/kernel/map_schedule.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "lib/radar/limits.hpp"
+#include "lib/radar/map_formation.hpp"
+#include "lib/radar/modes.hpp"
+
+namespace yars::model::kernel {
+
+using databuffer::ModelStatus;
+using databuffer::ModelTick;
+using databuffer::RadarCommand;
+
+namespace {
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+// Nearer than this share of its window a map would lie under the aircraft and behind it.
+constexpr double kNearestShare = 0.75;
+
+bool operates(const RadarCommand& command) {
+  return command.power == static_cast<std::uint8_t>(radar::Power::operate);
+}
+bool is_commanded(const RadarCommand& command) {
+  return operates(command) && (command.flags & databuffer::kMapping) != 0U;
+}
+bool shows_map(const RadarCommand& command) {
+  return operates(command) && command.mode == static_cast<std::uint8_t>(radar::Mode::patch);
+}
+bool holds_still(const RadarCommand& command) {
+  return (command.flags & (databuffer::kFreeze | databuffer::kSniff)) != 0U;
+}
+}  // namespace
+
+MapSchedule::MapSchedule(const radar::RadarConfiguration& configuration) : configuration_(&configuration) {}
+
+// A map that a predecessor was forming starts over: its request is one that nobody has taken up.
+void MapSchedule::resume(const ModelStatus& status) {
+  newest_ = status.map_newest;
+  done_request_ = status.map_done_request;
+  request_ = status.map_done_request;
+  epoch_ = status.epoch;
+}
+
+int MapSchedule::looks_of(const RadarCommand& command) const {
+  const auto& looks = configuration_->high_resolution.looks;
+  return static_cast<int>((command.flags & databuffer::kMultiLook2) != 0U ? looks.back() : looks.front());
+}
+
+bool MapSchedule::keeps_from_scanning(const RadarCommand& command) const {
+  return is_commanded(command) || shows_map(command);
+}
+
+std::optional<hrm::PatchOrder> MapSchedule::order_of(const ModelTick& tick, const Pose& pose, bool commanded) const {
+  const RadarCommand& command = tick.command;
+  hrm::PatchOrder order;
+  order.apex = pose.place;
+  order.altitude = pose.altitude;
+  order.ground_track = pose.platform.ground_track;
+  order.ground_speed = pose.ground_speed;
+  order.window = geo::Length::nautical_miles(static_cast<double>(command.map_window_nm));
+  order.looks = looks_of(command);
+  order.sim_time = geo::Duration::seconds(static_cast<double>(tick.sim_time_ns) * 1e-9);
+  order.map = static_cast<std::uint32_t>(newest_ + 1);
+  order.band = command.band;
+  order.channel = command.channel;
+  const bool progressive = (command.flags & databuffer::kProgressive) != 0U;
+  if (progressive && !commanded && placed_) {
+    order.centre = geo::geodesic_direct(pose.place, order.ground_track + geo::Angle::degrees(off_track_deg_),
+                                        geo::Length::metres(distance_m_));
+  } else {
+    order.centre = {command.map_latitude_deg, command.map_longitude_deg};
+  }
+  const bool finite = std::isfinite(order.centre.latitude_deg) && std::isfinite(order.centre.longitude_deg) &&
+                      std::abs(order.centre.latitude_deg) <= 90.0 && std::isfinite(order.window.metres());
+  if (!finite || !(order.window.metres() > 0.0)) return std::nullopt;
+  const double distance_m = geo::geodesic_inverse(order.apex, order.centre).distance.metres();
+  if (distance_m < kNearestShare * order.window.metres()) return std::nullopt;
+  return order;
+}
+
+void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m, bool commanded) {
+  request_ = tick.command.map_request;
+  const auto order = order_of(tick, pose, commanded);
+  if (!order) {
+    // Nothing can be mapped there: the command is answered without a map. A map shown stays as it is.
+    if (commanded) done_request_ = request_;
+    return;
+  }
+  MapUnderWay map;
+  map.order = *order;
+  const geo::GeodesicInverse way = geo::geodesic_inverse(order->apex, order->centre);
+  const geo::Angle squint = way.azimuth_at_start - order->ground_track;
+  if (!commanded && radar::in_blind_zone(squint, configuration_->high_resolution)) return;
+  map.id = newest_ + 1;
+  map.request = request_;
+  map.start_tick = tick.tick;
+  map.up_deg = way.azimuth_at_start.degrees();
+  map.distance_m = way.distance.metres();
+  const double height_m = pose.altitude.metres() - (std::isnan(ground_m) ? 0.0 : ground_m);
+  map.formation = radar::formation_time({geo::Length::metres(std::hypot(map.distance_m, height_m)), order->window,
+                                         squint, order->ground_speed, order->looks},
+                                        *configuration_);
+  map.end_tick = tick.tick + std::max<std::int64_t>(1, std::llround(map.formation.seconds() / radar::kTickSeconds));
+  map_ = map;
+  off_track_deg_ = squint.degrees();
+  distance_m_ = map.distance_m;
+  placed_ = true;
+}
+
+void MapSchedule::step(const ModelTick& tick, const Pose& pose, double ground_m) {
+  const RadarCommand& command = tick.command;
+  const bool jumped = tick.epoch != epoch_;
+  epoch_ = tick.epoch;
+  if (is_commanded(command)) {
+    if (command.map_request == done_request_) return;  // the state machine has not seen it yet
+    if (!map_ || map_->request != command.map_request || jumped) start(tick, pose, ground_m, true);
+    return;
+  }
+  if (!shows_map(command)) {
+    map_.reset();
+    return;
+  }
+  // A re-map in progress is finished also when the picture is to freeze; a jump makes it worthless.
+  if (map_ && (map_->request != command.map_request || jumped)) map_.reset();
+  if (!map_ && !holds_still(command)) start(tick, pose, ground_m, false);
+}
+
+void MapSchedule::complete() {
+  newest_ = map_->id;
+  done_request_ = map_->request;
+  map_.reset();
+}
+
+double MapSchedule::estimate_s(const RadarCommand& command, const Pose& pose, geo::GeoPoint target, double ground_m,
+                               double window_nm) const {
+  if (!(window_nm > 0.0)) return kUnknown;
+  const geo::GeodesicInverse way = geo::geodesic_inverse(pose.place, target);
+  const double height_m = pose.altitude.metres() - (std::isnan(ground_m) ? 0.0 : ground_m);
+  return radar::formation_time(
+             {geo::Length::metres(std::hypot(way.distance.metres(), height_m)), geo::Length::nautical_miles(window_nm),
+              way.azimuth_at_start - pose.platform.ground_track, pose.ground_speed, looks_of(command)},
+             *configuration_)
+      .seconds();
+}
+
+void MapSchedule::describe(std::int64_t tick, ModelStatus& status) const {
+  status.map_newest = newest_;
+  status.map_request = request_;
+  status.map_done_request = done_request_;
+  status.map_latitude_deg = map_ ? map_->order.centre.latitude_deg : 0.0;
+  status.map_longitude_deg = map_ ? map_->order.centre.longitude_deg : 0.0;
+  status.map_up_deg = map_ ? map_->up_deg : 0.0;
+  status.map_window_nm = map_ ? map_->order.window.nautical_miles() : 0.0;
+  status.map_progress = kUnknown;
+  if (!map_) return;
+  const double left_s = static_cast<double>(map_->end_tick - tick) * radar::kTickSeconds;
+  status.map_timer_s = std::max(left_s, 0.0);
+  const auto whole = static_cast<double>(map_->end_tick - map_->start_tick);
+  status.map_progress = std::min(static_cast<double>(tick - map_->start_tick) / whole, 1.0);
+}
+
+}  // namespace yars::model::kernel

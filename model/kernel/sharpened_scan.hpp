@@ -1,0 +1,30 @@
+// The HRM PPI: a Doppler beam sharpened sector. It takes 18 s a hundred degrees, looks ahead of and beside the cursor,
+// resolves the range over 480 cells, and in azimuth as fine as the squint allows; nothing returns about the ground
+// track. Source: spec pvi.md rules 2 and 3, physics.md "HRM".
+#pragma once
+
+#include "databuffer/records/model_records.hpp"
+#include "lib/radar/configuration.hpp"
+#include "model/antenna/antenna.hpp"
+#include "model/kernel/pose.hpp"
+
+namespace yars::model::kernel {
+
+// What the algorithm of the beam map works with when the beam is sharpened.
+radar::RadarConfiguration sharpened_configuration(const radar::RadarConfiguration& configuration);
+
+// Ticks that one sweep of the sector gathers; at least 1.
+int ticks_a_sharpened_sweep(const radar::RadarConfiguration& configuration);
+
+// FULL about the ground track; HALF and QTR centred on the cursor, as far as they stay within FULL.
+antenna::Sector sharpened_sector(const databuffer::RadarCommand& command, const Pose& pose,
+                                 const radar::RadarConfiguration& configuration);
+
+// The middle of the resolution cell that a direction lies in: what is seen there is one. Cells are counted from the
+// ground track.
+geo::Bearing sharpened_azimuth(geo::Bearing azimuth, const Pose& pose, const radar::RadarConfiguration& configuration);
+
+// Where the dish points in HRM: down to the cursor, or to the map.
+geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m);
+
+}  // namespace yars::model::kernel
