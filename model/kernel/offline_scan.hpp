@@ -13,6 +13,7 @@
 #include "model/kernel/sweep_record.hpp"
 #include "model/kernel/workers.hpp"
 #include "model/rbm/algorithm.hpp"
+#include "model/rbm/line_vector.hpp"
 #include "model/rbm/strobes.hpp"
 #include "model/terrain/terrain_view.hpp"
 
@@ -56,7 +57,7 @@ class OfflineScan {
   std::vector<SweepPlace> places_;
   std::vector<std::uint32_t> flags_;
   std::vector<double> jamming_;
-  std::vector<float> power_;  // sweep after sweep
+  rbm::LineVector<float> power_;  // sweep after sweep
   std::vector<databuffer::Sweep> sweeps_;
   Workers workers_;
 };
