@@ -1,19 +1,24 @@
 #include "model/kernel/workers.hpp"
 
-#include <hwy/cache_control.h>
-
 namespace yars::model::kernel {
 
 namespace {
 // Looks before a thread sleeps, tens of nanoseconds each: the rest of a scan is some hundred microseconds away at most,
 // and a wake-up costs tens.
 constexpr int kLooks = 8000;
+
+// Leaves the core to its other thread for a moment.
+void pause() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#endif
+}
 }  // namespace
 
 std::uint32_t wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t seen) {
   for (int look = 0; look < kLooks; ++look) {
     if (const std::uint32_t now = value.load(std::memory_order_acquire); now != seen) return now;
-    hwy::Pause();
+    pause();
   }
   value.wait(seen, std::memory_order_acquire);
   return value.load(std::memory_order_acquire);

@@ -3,6 +3,8 @@
 // 15 degrees of grazing) and for a look that is the middle one of the ray.
 #pragma once
 
+#include <cstdint>
+
 #include "model/rbm/ground_lanes.hpp"
 #include "model/rbm/line_vector.hpp"
 #include "model/rbm/look.hpp"
@@ -36,6 +38,7 @@ class Ground {
   bool textured_plain_ = false;  // land without culture
   bool textured_land_ = false;   // any land
   bool textured_sea_ = false;
+  std::uint32_t walled_ = 0;  // the materials with walls, a bit each
   reflectivity::LandReturn land_;
   reflectivity::SeaTable sea_;
   geo::Bearing wind_from_;

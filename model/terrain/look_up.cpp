@@ -247,31 +247,6 @@ void heights(const Grid& grid, const float* north_deg, const float* east_deg, st
   }
 }
 
-void codes(const Culture& culture, const float* north_deg, const float* east_deg, std::size_t count,
-           std::int32_t* material) {
-  const FloatLanes d;
-  const WholeLanes di;
-  const std::uint8_t* const posts = culture.codes().data();
-  const auto rows = hn::Set(d, static_cast<float>(culture.rows() - 1));
-  const auto columns = hn::Set(d, static_cast<float>(culture.columns() - 1));
-  const auto half = hn::Set(d, 0.5F);
-  const auto nearest = [&](const float* degrees, Floats intervals) {
-    // Half up, as std::lround does with what is not negative.
-    return hn::ConvertTo(di, hn::Add(clamped(hn::Mul(hn::LoadU(d, degrees), intervals), intervals), half));
-  };
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const auto entry =
-        hn::Add(hn::Mul(nearest(north_deg + i, rows), hn::Set(di, culture.columns())), nearest(east_deg + i, columns));
-#if HWY_TARGET == HWY_SCALAR
-    // Highway would load a word where none is aligned.
-    const auto word = hn::Set(di, std::int32_t{posts[hn::GetLane(entry)]});
-#else
-    const auto word = hn::GatherOffset(di, reinterpret_cast<const std::int32_t*>(posts), entry);
-#endif
-    hn::StoreU(hn::And(word, hn::Set(di, 0xff)), di, material + i);
-  }
-}
-
 std::size_t places_alike(const float* cells_north, const float* cells_east, std::size_t count) {
   const FloatLanes d;
   const auto north = hn::Set(d, cells_north[0]);
@@ -293,7 +268,6 @@ namespace yars::model::terrain::look_up {
 
 HWY_EXPORT(heights);
 HWY_EXPORT(places_alike);
-HWY_EXPORT(codes);
 
 void heights(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count, bool nearest,
              float* elevation_m, float* water) {
@@ -302,11 +276,6 @@ void heights(const Grid& grid, const float* north_deg, const float* east_deg, st
 
 std::size_t places_alike(const float* cells_north, const float* cells_east, std::size_t count) {
   return HWY_DYNAMIC_DISPATCH(places_alike)(cells_north, cells_east, count);
-}
-
-void codes(const Culture& culture, const float* north_deg, const float* east_deg, std::size_t count,
-           std::int32_t* material) {
-  HWY_DYNAMIC_DISPATCH(codes)(culture, north_deg, east_deg, count, material);
 }
 
 }  // namespace yars::model::terrain::look_up
