@@ -66,7 +66,8 @@ std::vector<SlotSchema> fidelity_slots() {
        .highest = 9,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.geodesic_knots)},
        .purpose =
-           "exact points of the geodesic a sweep, at least 2, between which places are interpolated; 0 = all exact"},
+           "exact points of the geodesic a sweep, at least 2, between which places are interpolated (from 5 on a "
+           "series where it is as good); 0 = all exact"},
       {.name = "interpolation",
        .binding = ChoiceSlot{
            kInterpolations, [](const Draft& draft) { return int(draft.radar.fidelity.interpolation); },

@@ -76,8 +76,7 @@ trade::Cost cost_of(const radar::RadarConfiguration& configuration, const ScanRe
   std::vector<double> took_ms;
   for (int run = 0; run <= repeat; ++run) {
     const double begin_ms = thread_ms();
-    scan.measure(terrain);
-    scan.develop();
+    scan.run(terrain);
     if (run > 0) took_ms.push_back(thread_ms() - begin_ms);  // the first warms the caches
   }
   const auto middle = took_ms.begin() + static_cast<std::ptrdiff_t>(took_ms.size() / 2);

@@ -49,7 +49,9 @@ struct Fidelity {
   EarthModel earth = EarthModel::ellipsoid;
   double earth_radius_factor = 4.0 / 3.0;  // k; 1 = no refraction
   int samples = 480;                       // a sweep, 1..4096
-  int geodesic_knots = 5;                  // exact points a sweep, 2..9, between which places are interpolated; 0 = all
+  // Exact points a sweep, 2..9, between which places are interpolated; from 5 on a series stands in where it is as
+  // good; 0 = all exact.
+  int geodesic_knots = 5;
   Interpolation interpolation = Interpolation::bilinear;
   // Posts that one sample steps over at most: where the finest level has more, a coarser one serves. 0: always the
   // finest.

@@ -9,24 +9,13 @@
 
 namespace yars::model::kernel {
 
-// Calls job(sweep, thread) for every sweep; each thread takes a run of neighbours, for the smear joins those: which
-// thread does which changes nothing, sweeps share nothing but what they read.
-template <class Job>
-void OfflineScan::spread(const Job& job) {
-  const std::size_t sweeps = places_.size();
-  const std::size_t threads = workers_.threads();
-  workers_.run([&](std::size_t thread) {
-    for (std::size_t sweep = thread * sweeps / threads; sweep < (thread + 1) * sweeps / threads; ++sweep)
-      job(sweep, thread);
-  });
-}
-
 OfflineScan::OfflineScan(const radar::RadarConfiguration& configuration, const ScanRequest& request, int threads)
     : seed_(configuration.seed),
       gain_(request.gain),
       samples_(rbm::sample_count(configuration)),
       strobes_(configuration),
-      workers_(static_cast<std::size_t>(std::max(1, threads))) {
+      workers_(static_cast<std::size_t>(std::max(1, threads))),
+      measured_(workers_.threads()) {
   place_sweeps(configuration, request);
   for (std::size_t thread = 0; thread < workers_.threads(); ++thread) {
     algorithms_.push_back(rbm::make_algorithm(configuration));
@@ -50,30 +39,58 @@ void OfflineScan::place_sweeps(const radar::RadarConfiguration& configuration, c
   }
 }
 
-void OfflineScan::measure(const terrain::TerrainView& terrain) {
-  spread([&](std::size_t sweep, std::size_t thread) {
-    const rbm::Look look = look_of(places_[sweep]);
-    const std::size_t pending = algorithms_[thread]->measure(look, terrain, power_of(sweep));
-    jamming_[sweep] = strobes_.level(look, terrain);
-    flags_[sweep] = pending > 0 ? databuffer::kSweepNotReady : 0U;
-  });
+// Which thread does which sweep changes nothing: sweeps share only what they read.
+OfflineScan::Part OfflineScan::part(std::size_t thread) const {
+  const std::size_t threads = workers_.threads();
+  return {thread, thread * places_.size() / threads, (thread + 1) * places_.size() / threads};
 }
 
-void OfflineScan::develop() {
+void OfflineScan::measure_part(const Part& part, const terrain::TerrainView& terrain) {
+  for (std::size_t sweep = part.first; sweep < part.end; ++sweep) {
+    const rbm::Look look = look_of(places_[sweep]);
+    const std::size_t pending = algorithms_[part.thread]->measure(look, terrain, power_of(sweep));
+    jamming_[sweep] = strobes_.level(look, terrain);
+    flags_[sweep] = pending > 0 ? databuffer::kSweepNotReady : 0U;
+  }
+}
+
+void OfflineScan::develop_sweep(std::size_t sweep, std::size_t thread) {
   const std::size_t last = places_.size() - 1;
-  spread([&](std::size_t sweep, std::size_t thread) {
-    const std::size_t before = sweep > 0 ? sweep - 1 : 0;
-    const std::size_t after = std::min(sweep + 1, last);
-    SweepChain::Labels labels;
-    labels.scan = 1;
-    labels.number = static_cast<std::uint32_t>(sweep);
-    labels.gain = static_cast<std::uint8_t>(std::clamp(gain_, 0, rbm::kFullGain));
-    labels.mode = static_cast<std::uint8_t>(radar::Mode::rbm);
-    labels.flags = flags_[before] | flags_[sweep] | flags_[after];
-    if (sweep == 0) labels.flags |= databuffer::kSweepScanStart;
-    if (sweep == last) labels.flags |= databuffer::kSweepScanEnd;
-    finish_sweep(*algorithms_[thread], seed_, places_[sweep], labels,
-                 {power_of(before), power_of(sweep), power_of(after), jamming_[sweep]}, sweeps_[sweep]);
+  const std::size_t before = sweep > 0 ? sweep - 1 : 0;
+  const std::size_t after = std::min(sweep + 1, last);
+  SweepChain::Labels labels;
+  labels.scan = 1;
+  labels.number = static_cast<std::uint32_t>(sweep);
+  labels.gain = static_cast<std::uint8_t>(std::clamp(gain_, 0, rbm::kFullGain));
+  labels.mode = static_cast<std::uint8_t>(radar::Mode::rbm);
+  labels.flags = flags_[before] | flags_[sweep] | flags_[after];
+  if (sweep == 0) labels.flags |= databuffer::kSweepScanStart;
+  if (sweep == last) labels.flags |= databuffer::kSweepScanEnd;
+  finish_sweep(*algorithms_[thread], seed_, places_[sweep], labels,
+               {power_of(before), power_of(sweep), power_of(after), jamming_[sweep]}, sweeps_[sweep]);
+}
+
+void OfflineScan::measure(const terrain::TerrainView& terrain) {
+  workers_.run([&](std::size_t thread) { measure_part(part(thread), terrain); });
+}
+
+void OfflineScan::await_measured(std::size_t thread) {
+  const std::atomic<std::uint32_t>& scans = measured_[thread].scans;
+  for (std::uint32_t seen = scans.load(std::memory_order_acquire); seen != scans_;) seen = wait_for_change(scans, seen);
+}
+
+void OfflineScan::run(const terrain::TerrainView& terrain) {
+  ++scans_;
+  workers_.run([&](std::size_t thread) {
+    const Part own = part(thread);
+    measure_part(own, terrain);
+    measured_[thread].scans.store(scans_, std::memory_order_release);
+    measured_[thread].scans.notify_all();
+    // The outermost sweeps need those of other threads, which are measured by the time that the inner ones are done.
+    for (std::size_t sweep = own.first + 1; sweep + 1 < own.end; ++sweep) develop_sweep(sweep, thread);
+    for (std::size_t other = 0; other < measured_.size(); ++other) await_measured(other);
+    if (own.first < own.end) develop_sweep(own.first, thread);
+    if (own.first + 1 < own.end) develop_sweep(own.end - 1, thread);
   });
 }
 

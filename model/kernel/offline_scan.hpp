@@ -2,6 +2,8 @@
 // the kernel makes of a hovering aircraft in its first scan: equal hashes, for any number of threads.
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -13,6 +15,7 @@
 #include "model/kernel/sweep_record.hpp"
 #include "model/kernel/workers.hpp"
 #include "model/rbm/algorithm.hpp"
+#include "model/rbm/line_vector.hpp"
 #include "model/rbm/strobes.hpp"
 #include "model/terrain/terrain_view.hpp"
 
@@ -33,19 +36,26 @@ class OfflineScan {
  public:
   OfflineScan(const radar::RadarConfiguration& configuration, const ScanRequest& request, int threads);
 
-  // Terrain to power, then power to video and hashes; the second needs the first. Each waits for all its threads.
+  // Terrain to power to video and hashes. The threads do not wait for each other between the two.
+  void run(const terrain::TerrainView& terrain);
+  // Terrain to power alone.
   void measure(const terrain::TerrainView& terrain);
-  void develop();
 
   std::span<const databuffer::Sweep> sweeps() const { return sweeps_; }
-  // Where the sweeps lie, and what measure() found: sweep after sweep, full scale = 1.
+  // Where the sweeps lie, and the power that was found: sweep after sweep, full scale = 1.
   std::span<const SweepPlace> places() const { return places_; }
   std::span<const float> power() const { return power_; }
 
  private:
   std::span<float> power_of(std::size_t sweep) { return {power_.data() + sweep * samples_, samples_}; }
-  template <class Job>
-  void spread(const Job& job);
+  // What a thread does alone: a run of neighbours, for the smear joins those.
+  struct Part {
+    std::size_t thread, first, end;
+  };
+  Part part(std::size_t thread) const;
+  void measure_part(const Part& part, const terrain::TerrainView& terrain);
+  void develop_sweep(std::size_t sweep, std::size_t thread);
+  void await_measured(std::size_t thread);
   void place_sweeps(const radar::RadarConfiguration& configuration, const ScanRequest& request);
 
   std::uint64_t seed_;
@@ -56,9 +66,14 @@ class OfflineScan {
   std::vector<SweepPlace> places_;
   std::vector<std::uint32_t> flags_;
   std::vector<double> jamming_;
-  std::vector<float> power_;  // sweep after sweep
+  rbm::LineVector<float> power_;  // sweep after sweep
   std::vector<databuffer::Sweep> sweeps_;
+  struct alignas(64) Progress {
+    std::atomic<std::uint32_t> scans{0};  // that the thread has measured its part of in run()
+  };
+  std::uint32_t scans_ = 0;  // that run() has begun
   Workers workers_;
+  std::vector<Progress> measured_;  // one a thread
 };
 
 }  // namespace yars::model::kernel

@@ -13,6 +13,7 @@
 #include "lib/radar/configuration.hpp"
 #include "model/kernel/sweep_record.hpp"
 #include "model/rbm/algorithm.hpp"
+#include "model/rbm/line_vector.hpp"
 #include "model/rbm/strobes.hpp"
 
 namespace yars::model::kernel {
@@ -49,7 +50,7 @@ class SweepChain {
     SweepPlace place;
     Labels labels;
     double jamming = 0.0;  // full scale = 1
-    std::vector<float> power;
+    rbm::LineVector<float> power;
   };
   void finish(const Measured& before, const Measured& centre, const Measured& after, databuffer::Sweep& sweep);
   Measured& newest(std::size_t age) { return measured_[(next_ + measured_.size() - 1 - age) % measured_.size()]; }

@@ -11,6 +11,9 @@
 
 namespace yars::model::kernel {
 
+// Until the value is another one than the one seen; looks for a while before it sleeps. Whoever changes it notifies.
+std::uint32_t wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t seen);
+
 class Workers {
  public:
   // `threads` with the caller, at least 1.
@@ -27,8 +30,9 @@ class Workers {
   void help(std::size_t number);
 
   const std::function<void(std::size_t)>* job_ = nullptr;  // null at a new turn: the end
-  std::atomic<std::uint32_t> turn_{0};
-  std::atomic<std::uint32_t> busy_{0};
+  // Each on a cache line of its own: who looks at one does not slow who writes the other.
+  alignas(64) std::atomic<std::uint32_t> turn_{0};
+  alignas(64) std::atomic<std::uint32_t> busy_{0};
   std::vector<std::thread> helpers_;
 };
 

@@ -31,6 +31,9 @@ Ground::Ground(const radar::RadarConfiguration& configuration, std::size_t sampl
   const radar::WorldConfiguration& world = configuration.world;
   std::transform(land_.gamma.begin(), land_.gamma.end(), tables_.gamma.begin(),
                  [](double gamma) { return static_cast<float>(gamma); });
+  static_assert(radar::kMaterials <= 32);
+  for (std::size_t code = 0; code < radar::kMaterials; ++code)
+    if (land_.cardinal[code] > 0.0) walled_ |= 1U << code;
   tables_.texture.fill(1.0F);
   if (!configuration.fidelity.noise) return;
   textured_sea_ = world.sea.texture > 0.0;
@@ -56,14 +59,7 @@ void Ground::use_resolution(double pulse_length_m, double spacing_m) {
 Ground::Sample Ground::reflect(const Look& look, const terrain::PlaceRun& places, float* water,
                                const float* sin_grazing, bool materials) {
   const std::size_t count = places.north_deg.size();
-  bool some = false;
-  if (materials) {
-    for (std::size_t i = 0; i < count; ++i) {
-      if (codes_[i] >= radar::kMaterials) codes_[i] = 0;
-      some = some || codes_[i] != 0;
-      if (codes_[i] == radar::kWaterMaterial) water[i] = 1.0F;
-    }
-  }
+  const bool some = materials && lanes::settle_materials(count, codes_.data(), water);
   const bool land = some || textured_plain_;
   const bool wet = lanes::any_positive(count, water);
   Sample sample;
@@ -89,9 +85,10 @@ Ground::Sample Ground::reflect(const Look& look, const terrain::PlaceRun& places
 
 // The cardinal effect: few samples have walls, so one by one.
 void Ground::face_walls(const terrain::PlaceRun& places, geo::Bearing azimuth) {
-  for (std::size_t i = 0; i < places.north_deg.size(); ++i) {
+  const std::size_t count = places.north_deg.size();
+  const auto next = [&](std::size_t from) { return lanes::next_in(count, walled_, codes_.data(), from); };
+  for (std::size_t i = next(0); i < count; i = next(i + 1)) {
     const double cardinal = land_.cardinal[static_cast<std::size_t>(codes_[i])];
-    if (!(cardinal > 0.0)) continue;
     const double off_deg =
         reflectivity::off_street_deg(azimuth.degrees(), terrain::street_bearing_deg(terrain::place_of(places, i)));
     land_gamma_[i] *= static_cast<float>(reflectivity::cardinal_gain(cardinal, off_deg, land_.street_width_deg));

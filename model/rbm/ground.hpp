@@ -3,9 +3,10 @@
 // 15 degrees of grazing) and for a look that is the middle one of the ray.
 #pragma once
 
-#include <vector>
+#include <cstdint>
 
 #include "model/rbm/ground_lanes.hpp"
+#include "model/rbm/line_vector.hpp"
 #include "model/rbm/look.hpp"
 #include "model/reflectivity/land.hpp"
 #include "model/reflectivity/sea_table.hpp"
@@ -20,7 +21,7 @@ class Ground {
   void use_resolution(double pulse_length_m, double spacing_m);
 
   // Codes of the samples that reflect() reads; terrain::kRunSlack more.
-  std::vector<std::int32_t>& materials() { return codes_; }
+  LineVector<std::int32_t>& materials() { return codes_; }
 
   struct Sample {
     const float* land = nullptr;  // (1 - water) gamma, texture and cardinal effect in it; null: plain land everywhere
@@ -37,15 +38,16 @@ class Ground {
   bool textured_plain_ = false;  // land without culture
   bool textured_land_ = false;   // any land
   bool textured_sea_ = false;
+  std::uint32_t walled_ = 0;  // the materials with walls, a bit each
   reflectivity::LandReturn land_;
   reflectivity::SeaTable sea_;
   geo::Bearing wind_from_;
   lanes::MaterialTables tables_;
-  std::vector<float> sigma0_;  // of the sea over the grazing angle, this sweep
+  LineVector<float> sigma0_;  // of the sea over the grazing angle, this sweep
   reflectivity::GroundGrid grid_;
   double cell_m_ = 0.0;
-  std::vector<std::int32_t> codes_, level_;
-  std::vector<float> everywhere_, land_gamma_, sea_sigma0_;
+  LineVector<std::int32_t> codes_, level_;
+  LineVector<float> everywhere_, land_gamma_, sea_sigma0_;
 };
 
 }  // namespace yars::model::rbm

@@ -59,11 +59,15 @@ using DoubleTag = hn::CappedTag<double, terrain::kRunSlack / 2>;
 HWY_INLINE hn::Vec<DoubleTag> columns_of(const reflectivity::GroundGrid& grid, const terrain::PlaceRun& places,
                                          std::size_t i) {
   const DoubleTag d;
+  const hn::Rebind<float, DoubleTag> df;
+  const auto band_of = [&](float cells_north) {
+    return static_cast<std::size_t>(std::clamp(places.corner.south_deg + 90 + static_cast<int>(cells_north), 0, 179));
+  };
+  const float* const cells_north = places.cells_north.data() + i;
+  if (hn::AllTrue(df, hn::Eq(hn::LoadU(df, cells_north), hn::Set(df, cells_north[0]))))
+    return hn::Set(d, grid.columns[band_of(cells_north[0])]);
   HWY_ALIGN double columns[terrain::kRunSlack];
-  for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
-    const int band = places.corner.south_deg + 90 + static_cast<int>(places.cells_north.data()[i + lane]);
-    columns[lane] = grid.columns[static_cast<std::size_t>(std::clamp(band, 0, 179))];
-  }
+  for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) columns[lane] = grid.columns[band_of(cells_north[lane])];
   return hn::Load(d, columns);
 }
 
@@ -126,6 +130,35 @@ void sea_return(std::size_t count, const float* sigma0, const float* water, cons
   }
 }
 
+bool settle_materials(std::size_t count, std::int32_t* material, float* water) {
+  const WholeTag di;
+  const Tag d;
+  auto all = hn::Zero(di);
+  for (std::size_t i = 0; i < count; i += hn::Lanes(di)) {
+    const auto given = hn::LoadU(di, material + i);
+    const auto code = hn::IfThenElseZero(hn::Lt(given, hn::Set(di, radar::kMaterials)), given);
+    const auto wet = hn::RebindMask(d, hn::Eq(code, hn::Set(di, radar::kWaterMaterial)));
+    hn::StoreU(code, di, material + i);
+    hn::StoreU(hn::IfThenElse(wet, hn::Set(d, 1.0F), hn::LoadU(d, water + i)), d, water + i);
+    all = hn::Or(all, count - i >= hn::Lanes(di) ? code : hn::IfThenElseZero(hn::FirstN(di, count - i), code));
+  }
+  return !hn::AllTrue(di, hn::Eq(all, hn::Zero(di)));
+}
+
+std::size_t next_in(std::size_t count, std::uint32_t codes, const std::int32_t* material, std::size_t from) {
+  const WholeTag di;
+  const hn::RebindToUnsigned<WholeTag> du;
+  const auto set = hn::Set(du, codes);
+  std::size_t i = from;
+  for (; i + hn::Lanes(di) <= count; i += hn::Lanes(di)) {
+    const auto bit = hn::Shr(set, hn::BitCast(du, hn::LoadU(di, material + i)));
+    const auto inside = hn::Ne(hn::And(bit, hn::Set(du, 1U)), hn::Zero(du));
+    if (!hn::AllFalse(du, inside)) return i + static_cast<std::size_t>(hn::FindFirstTrue(du, inside));
+  }
+  while (i < count && (codes >> static_cast<std::uint32_t>(material[i]) & 1U) == 0) ++i;
+  return i;
+}
+
 void land_return(std::size_t count, const MaterialTables& tables, const std::int32_t* material, const float* water,
                  const std::int32_t* level, float* gamma) {
   const Tag d;
@@ -151,6 +184,8 @@ HWY_EXPORT(any_positive);
 HWY_EXPORT(fill_sigma0);
 HWY_EXPORT(texture_levels);
 HWY_EXPORT(sea_return);
+HWY_EXPORT(settle_materials);
+HWY_EXPORT(next_in);
 HWY_EXPORT(land_return);
 
 bool any_positive(std::size_t count, const float* values) {
@@ -166,6 +201,12 @@ void texture_levels(std::size_t count, const reflectivity::GroundGrid& grid, con
 void sea_return(std::size_t count, const float* sigma0, const float* water, const float* sin_grazing,
                 const float* texture, const std::int32_t* level, float* sea) {
   HWY_DYNAMIC_DISPATCH(sea_return)(count, sigma0, water, sin_grazing, texture, level, sea);
+}
+bool settle_materials(std::size_t count, std::int32_t* material, float* water) {
+  return HWY_DYNAMIC_DISPATCH(settle_materials)(count, material, water);
+}
+std::size_t next_in(std::size_t count, std::uint32_t codes, const std::int32_t* material, std::size_t from) {
+  return HWY_DYNAMIC_DISPATCH(next_in)(count, codes, material, from);
 }
 void land_return(std::size_t count, const MaterialTables& tables, const std::int32_t* material, const float* water,
                  const std::int32_t* level, float* gamma) {

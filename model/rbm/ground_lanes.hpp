@@ -26,6 +26,12 @@ struct MaterialTables {
 // True if any of the first `count` entries is above 0; no array has to have more.
 bool any_positive(std::size_t count, const float* values);
 
+// Codes of kMaterials and above count as 0; where the material is water so becomes `water`. True if any code is not 0.
+bool settle_materials(std::size_t count, std::int32_t* material, float* water);
+
+// The first sample from `from` on whose material is one of those in the bits of `codes`; `count` if none is.
+std::size_t next_in(std::size_t count, std::uint32_t codes, const std::int32_t* material, std::size_t from);
+
 // Sigma0 of the table's entries for a look: 2^(across + cosine * upwind). `sigma0` has room for as many and a vector
 // more.
 void fill_sigma0(const reflectivity::SeaTable& table, float cosine, float* sigma0);

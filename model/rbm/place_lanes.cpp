@@ -1,5 +1,7 @@
 #include "model/rbm/place_lanes.hpp"
 
+#include <algorithm>
+
 #include "model/terrain/terrain_view.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -12,44 +14,89 @@ namespace yars::model::rbm::places::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using DoubleTag = hn::CappedTag<double, terrain::kRunSlack / 2>;
-using FloatTag = hn::Rebind<float, DoubleTag>;
+constexpr std::size_t kGroup = 8;  // pieces worked on at once: a vector of doubles
+using DoubleTag = hn::CappedTag<double, kGroup>;
+using NarrowTag = hn::Rebind<float, DoubleTag>;
+using FloatTag = hn::CappedTag<float, terrain::kRunSlack>;
 
-// So many knots that the compiler knows: their coefficients stay in registers. 0: as many as the curves say.
-template <std::size_t kKnots>
-HWY_INLINE void along(std::size_t count, const float* distance_m, double scale, const Curve& north, const Curve& east,
-                      const Places& places) {
+// A curve about the middles of a group's pieces: cell + base + (rest + s (slope + s (bend + s twist))), s [m] from the
+// middle. The rest keeps what float drops of the base.
+struct Pieces {
+  HWY_ALIGN float cell[kGroup];
+  HWY_ALIGN float base[kGroup];
+  HWY_ALIGN float rest[kGroup];
+  HWY_ALIGN float slope[kGroup];
+  HWY_ALIGN float bend[kGroup];
+  HWY_ALIGN float twist[kGroup];
+};
+
+HWY_INLINE void expand(const Curve& curve, double scale, double shift, const float* middle_m, Pieces& pieces) {
   const DoubleTag d;
-  const FloatTag df;
-  const std::size_t last = (kKnots > 0 ? kKnots : static_cast<std::size_t>(north.knots)) - 1;
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const auto distance = hn::PromoteTo(d, hn::LoadU(df, distance_m + i));
-    const auto t = hn::Sub(hn::Mul(distance, hn::Set(d, scale)), hn::Set(d, 1.0));
-    auto up = hn::Set(d, north.difference[last]);
-    auto right = hn::Set(d, east.difference[last]);
-    for (std::size_t k = last; k-- > 0;) {
-      const auto way = hn::Sub(t, hn::Set(d, north.knot[k]));
-      up = hn::Add(hn::Mul(up, way), hn::Set(d, north.difference[k]));
-      right = hn::Add(hn::Mul(right, way), hn::Set(d, east.difference[k]));
+  const NarrowTag df;
+  const auto unit = hn::Set(d, scale);
+  const auto store = [&](auto value, float* to) { hn::StoreU(hn::DemoteTo(df, value), df, to); };
+  for (std::size_t i = 0; i < kGroup; i += hn::Lanes(d)) {
+    const auto x = hn::Sub(hn::Mul(hn::PromoteTo(d, hn::LoadU(df, middle_m + i)), unit), hn::Set(d, shift));
+    auto value = hn::Set(d, curve.coefficient[curve.terms - 1]);
+    auto slope = hn::Zero(d);
+    auto bend = hn::Zero(d);
+    auto twist = hn::Zero(d);
+    // Horner's scheme, four times over: the value and its derivatives over their factorials.
+    for (std::size_t k = curve.terms - 1; k-- > 0;) {
+      twist = hn::Add(hn::Mul(twist, x), bend);
+      bend = hn::Add(hn::Mul(bend, x), slope);
+      slope = hn::Add(hn::Mul(slope, x), value);
+      value = hn::Add(hn::Mul(value, x), hn::Set(d, curve.coefficient[k]));
     }
-    const auto cells_north = hn::Floor(up);
-    const auto cells_east = hn::Floor(right);
-    hn::StoreU(hn::DemoteTo(df, cells_north), df, places.cells_north + i);
-    hn::StoreU(hn::DemoteTo(df, cells_east), df, places.cells_east + i);
-    hn::StoreU(hn::DemoteTo(df, hn::Sub(up, cells_north)), df, places.north_deg + i);
-    hn::StoreU(hn::DemoteTo(df, hn::Sub(right, cells_east)), df, places.east_deg + i);
+    const auto cell = hn::Floor(value);
+    const auto within = hn::Sub(value, cell);
+    const auto base = hn::DemoteTo(df, within);
+    store(cell, pieces.cell + i);
+    hn::StoreU(base, df, pieces.base + i);
+    store(hn::Sub(within, hn::PromoteTo(d, base)), pieces.rest + i);
+    store(hn::Mul(slope, unit), pieces.slope + i);
+    store(hn::Mul(hn::Mul(bend, unit), unit), pieces.bend + i);
+    store(hn::Mul(hn::Mul(hn::Mul(twist, unit), unit), unit), pieces.twist + i);
   }
 }
 
-void along_curves(std::size_t count, const float* distance_m, double scale, const Curve& north, const Curve& east,
+HWY_INLINE void put(const Pieces& pieces, std::size_t piece, hn::Vec<FloatTag> s, float* cells, float* degrees) {
+  const FloatTag d;
+  auto way = hn::Add(hn::Mul(hn::Set(d, pieces.twist[piece]), s), hn::Set(d, pieces.bend[piece]));
+  way = hn::Add(hn::Mul(way, s), hn::Set(d, pieces.slope[piece]));
+  way = hn::Add(hn::Mul(way, s), hn::Set(d, pieces.rest[piece]));
+  const auto place = hn::Add(way, hn::Set(d, pieces.base[piece]));
+  const auto whole = hn::Floor(place);
+  hn::StoreU(hn::Add(whole, hn::Set(d, pieces.cell[piece])), d, cells);
+  hn::StoreU(hn::Sub(place, whole), d, degrees);
+}
+
+void along_curves(std::size_t count, std::size_t piece_size, const float* distance_m, const Curves& given,
                   const Places& places) {
-  // Copies, so that no store could be one to a coefficient.
-  const Curve up = north;
-  const Curve right = east;
-  if (north.knots == 3) return along<3>(count, distance_m, scale, up, right, places);
-  if (north.knots == 4) return along<4>(count, distance_m, scale, up, right, places);
-  if (north.knots == 5) return along<5>(count, distance_m, scale, up, right, places);
-  along<0>(count, distance_m, scale, up, right, places);
+  const FloatTag d;
+  // A copy, so that no store could be one to a coefficient.
+  const Curves curves = given;
+  Pieces north, east;
+  HWY_ALIGN float middle_m[kGroup];
+  for (std::size_t start = 0; start < count; start += kGroup * piece_size) {
+    for (std::size_t piece = 0; piece < kGroup; ++piece) {
+      const std::size_t first = std::min(start + piece * piece_size, count - 1);
+      const std::size_t last = std::min(first + piece_size, count) - 1;
+      middle_m[piece] = 0.5F * (distance_m[first] + distance_m[last]);
+    }
+    expand(curves.north, curves.scale, curves.shift, middle_m, north);
+    expand(curves.east, curves.scale, curves.shift, middle_m, east);
+    std::size_t i = start;
+    for (std::size_t piece = 0; piece < kGroup && i < count; ++piece) {
+      const auto middle = hn::Set(d, middle_m[piece]);
+      const std::size_t end = std::min(i + piece_size, count);
+      for (; i < end; i += hn::Lanes(d)) {
+        const auto s = hn::Sub(hn::LoadU(d, distance_m + i), middle);
+        put(north, piece, s, places.cells_north + i, places.north_deg + i);
+        put(east, piece, s, places.cells_east + i, places.east_deg + i);
+      }
+    }
+  }
 }
 
 }  // namespace yars::model::rbm::places::HWY_NAMESPACE
@@ -60,9 +107,15 @@ namespace yars::model::rbm::places {
 
 HWY_EXPORT(along_curves);
 
-void along_curves(std::size_t count, const float* distance_m, double scale, const Curve& north, const Curve& east,
+std::size_t piece_samples(std::size_t count) {
+  // Whole vectors; a piece is at most a twelfth of the ray.
+  constexpr std::size_t kShort = terrain::kRunSlack, kLong = 2 * kShort, kPieces = 12;
+  return count >= kPieces * kLong ? kLong : count >= kPieces * kShort ? kShort : 0;
+}
+
+void along_curves(std::size_t count, std::size_t piece, const float* distance_m, const Curves& curves,
                   const Places& places) {
-  HWY_DYNAMIC_DISPATCH(along_curves)(count, distance_m, scale, north, east, places);
+  HWY_DYNAMIC_DISPATCH(along_curves)(count, piece, distance_m, curves, places);
 }
 
 }  // namespace yars::model::rbm::places

@@ -42,6 +42,23 @@ HWY_INLINE V log2(D d, V value) {
   return hn::Add(hn::ConvertTo(d, exponent), hn::Mul(t, p));
 }
 
+// The same for pictures, at half the cost. Error 1.3e-4: 4e-4 dB.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V rough_log2(D d, V value) {
+  const hn::RebindToSigned<D> di;
+  // Exponent and mantissa as one number are the logarithm already, linear within each octave; the polynomial over the
+  // mantissa in [1, 2) bends it and takes the exponent's bias off.
+  const auto bits = hn::BitCast(di, value);
+  const auto linear = hn::Mul(hn::ConvertTo(d, bits), hn::Set(d, 1.0F / 8388608.0F));
+  const auto mantissa = hn::BitCast(d, hn::Or(hn::And(bits, hn::Set(di, 0x7fffff)), hn::Set(di, 0x3f800000)));
+  auto p = hn::Set(d, -0.0784406762F);
+  p = step(d, p, mantissa, 0.626032182F);
+  p = step(d, p, mantissa, -2.07833517F);
+  p = step(d, p, mantissa, 3.02921139F);
+  p = step(d, p, mantissa, -128.498353F);
+  return hn::Add(linear, p);
+}
+
 // 2 to a power in [-126, 126], else clamped. Error 8e-8, relative.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V exp2(D d, V power) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lib/geo/geodesic_series.hpp"
 #include "model/rbm/place_lanes.hpp"
 #include "model/rbm/polynomials.hpp"
 #include "model/terrain/cell.hpp"
@@ -16,7 +17,6 @@ constexpr double kEarthRadiusM = 6371008.8;  // [m] only to judge how near the p
 // Interpolating latitude and longitude holds while the pole is this many half ranges from the apex: the error falls
 // with its power of the knots. Smaller: metres lost at 75 degrees; greater: more sweeps take the slower way.
 constexpr double kPoleHalfRanges = 12.0;
-constexpr double kCrowdedHalfRanges = 40.0;  // and this many, for fewer knots to suffice
 
 using Knots = std::array<double, kMostKnots>;
 
@@ -43,14 +43,6 @@ std::array<Knots, kMostKnots + 1> chebyshev_points() {
   return points;
 }
 
-// The error falls with the ray's length to the power of the knots: short rays need fewer for a tenth of what five leave
-// at 160 NM. [m]
-int knots_needed(int most, double range_m) {
-  constexpr double kThreeSufficeM = 40000.0;
-  constexpr double kFourSufficeM = 150000.0;
-  return std::min(most, range_m <= kThreeSufficeM ? 3 : range_m <= kFourSufficeM ? 4 : most);
-}
-
 Newton newton_form(int knots, const Knots& points, const Knots& values) {
   Newton form{knots, points, values};
   for (int order = 1; order < knots; ++order)
@@ -62,10 +54,18 @@ Newton newton_form(int knots, const Knots& points, const Knots& values) {
   return form;
 }
 
-// The same, counted from the corner.
+// The same in powers of t, counted from the corner.
 places::Curve curve_of(const Newton& form, int corner_deg) {
-  places::Curve curve{form.knots, form.knot, form.difference};
-  curve.difference[0] -= corner_deg;
+  const auto knots = static_cast<std::size_t>(form.knots);
+  places::Curve curve{knots, {}};
+  curve.coefficient[0] = form.difference[knots - 1];
+  for (std::size_t k = knots - 1; k-- > 0;) {
+    // Times (t - knot), plus the next difference.
+    for (std::size_t power = knots - 1; power > 0; --power)
+      curve.coefficient[power] = curve.coefficient[power - 1] - form.knot[k] * curve.coefficient[power];
+    curve.coefficient[0] = form.difference[k] - form.knot[k] * curve.coefficient[0];
+  }
+  curve.coefficient[0] -= corner_deg;
   return curve;
 }
 
@@ -96,24 +96,41 @@ void place_by_vector(geo::GeoPoint apex, const float* distance_m, double scale, 
          longitude_rad / geo::kRadiansPerDegree});
   }
 }
-}  // namespace
+double value_at(const places::Curve& curve, double x) {
+  double sum = 0.0;
+  for (std::size_t k = curve.terms; k-- > 0;) sum = sum * x + curve.coefficient[k];
+  return sum;
+}
 
-void sample_places(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots, const float* distance_m,
-                   PlaceArrays& places) {
-  const geo::GeodesicRay ray(apex, azimuth);
-  places.corner = terrain::cell_holding(apex);
-  if (knots == kExactPlaces) {
-    for (std::size_t i = 0; i < places.count; ++i)
-      put(places, i, apex, ray.position(geo::Length::metres(static_cast<double>(distance_m[i]))));
+// The curves count from the corner.
+void place_by_curves(geo::GeoPoint apex, const float* distance_m, const places::Curves& curves, PlaceArrays& places) {
+  if (const std::size_t piece = places::piece_samples(places.count); piece > 0) {
+    places::along_curves(
+        places.count, piece, distance_m, curves,
+        {places.cells_north.data(), places.cells_east.data(), places.north_deg.data(), places.east_deg.data()});
     return;
   }
+  for (std::size_t i = 0; i < places.count; ++i) {
+    const double x = static_cast<double>(distance_m[i]) * curves.scale - curves.shift;
+    put(places, i, apex,
+        {value_at(curves.north, x) + places.corner.south_deg, value_at(curves.east, x) + places.corner.west_deg});
+  }
+}
+
+places::Curves curves_of(const geo::GeodesicSeries& series, terrain::CellPlace corner) {
+  const auto terms = static_cast<std::size_t>(series.order) + 1;
+  places::Curves curves{1.0, 0.0, {terms, series.latitude_deg}, {terms, series.longitude_deg}};
+  curves.north.coefficient[0] -= corner.south_deg;
+  curves.east.coefficient[0] -= corner.west_deg;
+  return curves;
+}
+
+void place_by_knots(geo::GeoPoint apex, const geo::GeodesicRay& ray, geo::Length range, int knots,
+                    const float* distance_m, PlaceArrays& places) {
   static const std::array<Knots, kMostKnots + 1> points_of = chebyshev_points();
   const double half_range_rad = 0.5 * range.metres() / kEarthRadiusM;
   const double to_pole_rad = (90.0 - std::abs(apex.latitude_deg)) * geo::kRadiansPerDegree;
   const bool near_pole = to_pole_rad <= kPoleHalfRanges * half_range_rad;
-  knots = std::clamp(knots, kLeastKnots, kMostKnots);
-  // Towards the poles the meridians' crowding outweighs the shortness.
-  if (to_pole_rad > kCrowdedHalfRanges * half_range_rad) knots = knots_needed(knots, range.metres());
   const Knots& points = points_of[static_cast<std::size_t>(knots)];
   const double scale = 2.0 / range.metres();
   std::array<Knots, 3> value{};
@@ -137,10 +154,27 @@ void sample_places(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, 
     place_by_vector(apex, distance_m, scale, {first, second, newton_form(knots, points, value[2])}, places);
     return;
   }
-  places::along_curves(
-      places.count, distance_m, scale, curve_of(first, places.corner.south_deg),
-      curve_of(second, places.corner.west_deg),
-      {places.cells_north.data(), places.cells_east.data(), places.north_deg.data(), places.east_deg.data()});
+  place_by_curves(apex, distance_m,
+                  {scale, 1.0, curve_of(first, places.corner.south_deg), curve_of(second, places.corner.west_deg)},
+                  places);
+}
+}  // namespace
+
+void sample_places(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots, const float* distance_m,
+                   PlaceArrays& places) {
+  places.corner = terrain::cell_holding(apex);
+  const int order = knots >= kSeriesKnots ? geo::GeodesicSeries::order_for(apex.latitude_deg, range) : 0;
+  if (order > 0) {
+    place_by_curves(apex, distance_m, curves_of(geo::GeodesicSeries(apex, azimuth, order), places.corner), places);
+    return;
+  }
+  const geo::GeodesicRay ray(apex, azimuth);
+  if (knots != kExactPlaces) {
+    place_by_knots(apex, ray, range, std::clamp(knots, kLeastKnots, kMostKnots), distance_m, places);
+    return;
+  }
+  for (std::size_t i = 0; i < places.count; ++i)
+    put(places, i, apex, ray.position(geo::Length::metres(static_cast<double>(distance_m[i]))));
 }
 
 }  // namespace yars::model::rbm

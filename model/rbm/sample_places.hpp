@@ -1,14 +1,16 @@
-// Where the samples of a sweep lie, by interpolation between a few exact points of the geodesic, in double. Away from
-// the poles latitude and longitude are interpolated themselves; near them, where longitude turns quickly, the unit
-// vector is. Accuracy with five knots: 0.5 m against the geodesic for any ray of up to 160 NM from any latitude,
-// millimetres at middle latitudes. Longitudes run on across the antimeridian.
+// Where the samples of a sweep lie. With five knots or more, a Taylor series of the geodesic where it holds within 1 mm
+// (GeodesicSeries: rays short against the way to the pole, the usual case); else, and with fewer knots always, by
+// interpolation between so many exact points, in double. Away from the poles latitude and longitude are interpolated
+// themselves; near them, where longitude turns quickly, the unit vector is. Accuracy with five knots or more: 0.5 m
+// against the geodesic for any ray of up to 160 NM from any latitude, millimetres at middle latitudes. Longitudes run
+// on across the antimeridian.
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "lib/geo/bearing.hpp"
 #include "lib/geo/geodesic.hpp"
+#include "model/rbm/line_vector.hpp"
 #include "model/terrain/terrain_view.hpp"
 
 namespace yars::model::rbm {
@@ -16,6 +18,7 @@ namespace yars::model::rbm {
 inline constexpr int kLeastKnots = 2;
 inline constexpr int kMostKnots = 9;
 inline constexpr int kExactPlaces = 0;  // as knots: the geodesic itself at every sample
+inline constexpr int kSeriesKnots = 5;  // so many or more: a series will do where it is as good
 
 // Room for the places of a sweep, and the run that they make.
 struct PlaceArrays {
@@ -35,10 +38,11 @@ struct PlaceArrays {
 
   std::size_t count;
   terrain::CellPlace corner;  // of the cell that holds the apex
-  std::vector<float> cells_north, cells_east, north_deg, east_deg;
+  LineVector<float> cells_north, cells_east, north_deg, east_deg;
 };
 
-// Distances [m] in [0, range], finite, as many as the places; terrain::kRunSlack entries more behind them are read.
+// Distances [m] in [0, range], finite, ascending, as many as the places; terrain::kRunSlack entries more behind them
+// are read.
 void sample_places(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots, const float* distance_m,
                    PlaceArrays& places);
 

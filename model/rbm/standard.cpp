@@ -35,7 +35,6 @@ Standard::Standard(const radar::RadarConfiguration& configuration)
       cross_slope_(count_, 0.0F),
       tangent_(count_, lanes::kNoHorizon),
       peak_tangent_(count_, lanes::kNoHorizon),
-      spare_(count_, lanes::kNoHorizon),
       horizon_(count_, lanes::kNoHorizon),
       range_inverse_(count_, 0.0F),
       sin_grazing_(count_, 0.0F),
@@ -43,7 +42,8 @@ Standard::Standard(const radar::RadarConfiguration& configuration)
       sin_sight_(count_, 0.0F),
       cos_sight_(count_, 0.0F),
       power_(count_, 0.0F),
-      variate_(count_, 1.0F) {}
+      variate_(count_, 1.0F),
+      cell_(count_ + terrain::kRunSlack) {}
 
 std::size_t Standard::measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) {
   const EffectiveEarth earth = effective_earth(configuration_.fidelity, look.apex, look.azimuth);
@@ -60,7 +60,7 @@ std::size_t Standard::measure(const Look& look, const terrain::TerrainView& terr
   // Shadow is cast by the highest ground; where a coarser level stands in, that is not the mean that returns.
   const bool peaks = terrain.has_peaks();
   if (peaks) lanes::sight_tangent(count_, constants, distance_.data(), peak_.data(), peak_tangent_.data());
-  lanes::running_maximum(count_, peaks ? peak_tangent_.data() : tangent_.data(), spare_.data(), horizon_.data());
+  lanes::running_maximum(count_, peaks ? peak_tangent_.data() : tangent_.data(), horizon_.data());
   const double spacing_m = look.range.metres() / static_cast<double>(count_);
   const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   ground_.use_resolution(receiver.pulse_length_m, spacing_m);
@@ -178,7 +178,7 @@ void Standard::read_cross_slopes(const Look& look, const terrain::TerrainView& t
     sample_places(look.apex, look.azimuth + geo::Angle::radians(turn_rad), look.range,
                   configuration_.fidelity.geodesic_knots, distance_.data(), places_);
     terrain.surfaces(places_.run(), configuration_.fidelity.interpolation,
-                     {out.first(count_), spare_.first(count_), {}, {}});
+                     {out.first(count_), water_.first(count_), {}, {}});
   };
   read(-side_rad, side_);
   read(side_rad, cross_slope_);
@@ -214,6 +214,14 @@ lanes::SweepConstants Standard::sweep_constants(const Look& look, const Effectiv
   return c;
 }
 
+// Which samples share a resolution cell is a range scale's.
+void Standard::use_cells(float cells_per_sample) {
+  if (cells_per_sample == cells_per_sample_) return;
+  cells_per_sample_ = cells_per_sample;
+  for (std::size_t i = 0; i < count_; ++i)
+    cell_[i] = static_cast<std::int32_t>(resolution_cell(static_cast<std::uint32_t>(i), cells_per_sample));
+}
+
 void Standard::develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
                        std::span<std::uint8_t> video) {
   const Receiver& receiver = receiver_at(range);
@@ -233,10 +241,11 @@ void Standard::develop(const PowerWindow& window, geo::Length range, int gain, c
   inputs.gain_db = static_cast<float>((gain - kFullGain) * receiver.gain_step_db);
   inputs.decibels_per_scale = static_cast<float>(receiver.decibels_per_scale);
   if (fidelity.noise) {
-    inputs.cells_per_sample = cells_per_sample(range.metres() / static_cast<double>(count), receiver.pulse_length_m);
-    const std::uint32_t last_cell = resolution_cell(static_cast<std::uint32_t>(count - 1), inputs.cells_per_sample);
-    lanes::speckle(last_cell + 1, make_noise_state(key), receiver.looks, variate_.data());
+    use_cells(cells_per_sample(range.metres() / static_cast<double>(count), receiver.pulse_length_m));
+    lanes::speckle(static_cast<std::size_t>(cell_[count - 1]) + 1, make_noise_state(key), receiver.looks,
+                   variate_.data());
     inputs.variate = variate_.data();
+    if (cells_per_sample_ < 1.0F) inputs.cell = cell_.data();
   }
   lanes::develop(count, inputs, video.data());
 }

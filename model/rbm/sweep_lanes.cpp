@@ -15,7 +15,7 @@ namespace yars::model::rbm::lanes::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace polynomials = rbm::HWY_NAMESPACE;
 
-constexpr std::size_t kMostLanes = 16;  // samples that four doubling steps of the running maximum cover
+constexpr std::size_t kMostLanes = 16;
 using Tag = hn::CappedTag<float, kMostLanes>;
 using Floats = hn::Vec<Tag>;
 
@@ -87,24 +87,30 @@ void sight_tangent(std::size_t count, const SweepConstants& constants, const flo
   }
 }
 
-void running_maximum(std::size_t count, const float* tangent, float* spare, float* horizon) {
+// Each lane's index less `back`, at least the first's: what is taken twice changes no maximum.
+HWY_INLINE auto lanes_before(std::size_t back) {
+  const hn::RebindToSigned<Tag> di;
+  const auto lane = hn::Sub(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(back)));
+  return hn::IndicesFromVec(Tag(), hn::Max(lane, hn::Zero(di)));
+}
+
+void running_maximum(std::size_t count, const float* tangent, float* horizon) {
   const Tag d;
+  constexpr std::size_t kSteps = 4;
+  static_assert(std::size_t{1} << kSteps == kMostLanes);
   const std::size_t lanes = hn::Lanes(d);
-  // Doubling: after each step an entry holds the maximum of twice as many up to itself.
-  const auto doubled = [&](const float* from, std::ptrdiff_t back, float* to) {
-    for (std::size_t i = 0; i < count; i += lanes)
-      hn::StoreU(hn::Max(hn::LoadU(d, from + i), hn::LoadU(d, from + i - back)), d, to + i);
-  };
-  doubled(tangent, 1, horizon);
-  doubled(horizon, 2, spare);
-  doubled(spare, 4, horizon);
-  doubled(horizon, 8, spare);
-  // Then the maximum of all sixteens before is carried into the next.
+  const decltype(lanes_before(0)) before[kSteps] = {lanes_before(1), lanes_before(2), lanes_before(4), lanes_before(8)};
+  const hn::RebindToSigned<Tag> di;
+  const auto last = hn::IndicesFromVec(d, hn::Set(di, static_cast<std::int32_t>(lanes - 1)));
   auto carry = constant(kNoHorizon);
-  for (std::size_t start = 0; start < count; start += kMostLanes) {
-    for (std::size_t i = start; i < start + kMostLanes; i += lanes)
-      hn::StoreU(hn::Max(hn::LoadU(d, spare + i), carry), d, horizon + i);
-    carry = hn::Max(carry, hn::Set(d, spare[start + kMostLanes - 1]));
+  for (std::size_t i = 0; i < count; i += lanes) {
+    auto most = hn::LoadU(d, tangent + i);
+    // Doubling: after each step a lane holds the maximum of twice as many up to itself.
+    for (std::size_t step = 0; std::size_t{1} << step < lanes; ++step)
+      most = hn::Max(most, hn::TableLookupLanes(most, before[step]));
+    const auto all = hn::Max(most, carry);
+    hn::StoreU(all, d, horizon + i);
+    carry = hn::Max(carry, hn::TableLookupLanes(most, last));
   }
 }
 
@@ -268,8 +274,8 @@ void sight_tangent(std::size_t count, const SweepConstants& constants, const flo
                    const float* elevation_m, float* tangent) {
   HWY_DYNAMIC_DISPATCH(sight_tangent)(count, constants, distance_m, elevation_m, tangent);
 }
-void running_maximum(std::size_t count, const float* tangent, float* spare, float* horizon) {
-  HWY_DYNAMIC_DISPATCH(running_maximum)(count, tangent, spare, horizon);
+void running_maximum(std::size_t count, const float* tangent, float* horizon) {
+  HWY_DYNAMIC_DISPATCH(running_maximum)(count, tangent, horizon);
 }
 void power(std::size_t count, const SweepConstants& constants, radar::BeamPattern beam, const PowerInputs& inputs,
            float* result) {

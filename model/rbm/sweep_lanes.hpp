@@ -10,7 +10,7 @@
 
 namespace yars::model::rbm::lanes {
 
-inline constexpr std::size_t kPad = 64;        // entries; the longest pulse smear reaches 32, the horizon looks 16 back
+inline constexpr std::size_t kPad = 64;        // entries; the longest pulse smear reaches 32
 inline constexpr float kNoHorizon = -1.0e30F;  // tangent below every terrain
 
 // One sweep, unwrapped. Lengths [m], angles as sine and cosine.
@@ -50,9 +50,8 @@ void sight(std::size_t count, const SweepConstants& constants, const float* dist
 void sight_tangent(std::size_t count, const SweepConstants& constants, const float* distance_m,
                    const float* elevation_m, float* tangent);
 
-// horizon[i] = the greatest tangent of samples 0..i. Both arrays have kPad entries of kNoHorizon in front; `spare` is
-// as long. Exact: only comparisons.
-void running_maximum(std::size_t count, const float* tangent, float* spare, float* horizon);
+// horizon[i] = the greatest tangent of samples 0..i. Exact: only comparisons.
+void running_maximum(std::size_t count, const float* tangent, float* horizon);
 
 // Power after sensitivity time control, full scale = 1, before the pulse smear: slopes along and across, local
 // incidence, two-way gain, area and reflectivity in one. 0 in shadow and void.

@@ -81,35 +81,43 @@ HWY_INLINE Floats load(const float* from, std::size_t left) {
   return hn::Load(d, entries);
 }
 
-void develop(std::size_t count, const VideoInputs& in, std::uint8_t* video) {
+// The variates of a vector's cells lie side by side: one load, and each lane takes its own.
+HWY_INLINE Floats variates(const VideoInputs& in, std::size_t i) {
   const Tag d;
   const SignedTag di;
+  if (in.cell == nullptr) return hn::LoadU(d, in.variate + i);
+  const std::int32_t first = in.cell[i];
+  const auto place = hn::Sub(hn::LoadU(di, in.cell + i), hn::Set(di, first));
+  return hn::TableLookupLanes(hn::LoadU(d, in.variate + first), hn::IndicesFromVec(d, place));
+}
+
+// The nearest whole number of one below 2^21: in the sum the last bit counts ones.
+HWY_INLINE hn::Vec<SignedTag> rounded(Floats value) {
+  constexpr float kOnes = 12582912.0F;  // 1.5 * 2^23
+  const SignedTag di;
+  return hn::Sub(hn::BitCast(di, hn::Add(value, hn::Set(Tag(), kOnes))), hn::Set(di, 0x4b400000));
+}
+
+void develop(std::size_t count, const VideoInputs& inputs, std::uint8_t* video) {
+  const Tag d;
   const hn::Rebind<std::uint8_t, Tag> d8;
+  // A copy, so that no store of video could be one to it.
+  const VideoInputs in = inputs;
   const auto first = hn::Set(d, in.weights[0]);
   const auto second = hn::Set(d, in.weights[1]);
   const auto third = hn::Set(d, in.weights[2]);
   const auto slope = hn::Set(d, 255.0F * kDecibelsPerOctave / in.decibels_per_scale);
-  const auto base = hn::Set(d, 255.0F * (1.0F + in.gain_db / in.decibels_per_scale) + 0.5F);
-  const auto lane = hn::Iota(di, 0);
-  const bool each_its_own = in.cells_per_sample == 1.0F;
+  const auto base = hn::Set(d, 255.0F * (1.0F + in.gain_db / in.decibels_per_scale));
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const std::size_t left = count - i;
     const auto neighbours =
         hn::Add(hn::Mul(first, load(in.before + i, left)), hn::Mul(second, load(in.centre + i, left)));
     auto power = hn::Add(hn::Add(neighbours, hn::Mul(third, load(in.after + i, left))), hn::Set(d, in.noise));
-    if (in.variate != nullptr) {
-      if (each_its_own) {
-        power = hn::Mul(power, hn::LoadU(d, in.variate + i));
-      } else {
-        const auto sample = hn::ConvertTo(d, hn::Add(lane, hn::Set(di, static_cast<std::int32_t>(i))));
-        const auto place = hn::Mul(hn::Add(sample, hn::Set(d, 0.5F)), hn::Set(d, in.cells_per_sample));
-        power = hn::Mul(power, hn::GatherIndex(d, in.variate, hn::ConvertTo(di, place)));
-      }
-    }
+    if (in.variate != nullptr) power = hn::Mul(power, variates(in, i));
     // The least power keeps the logarithm's argument normal.
-    const auto level = hn::Add(base, hn::Mul(slope, polynomials::log2(d, hn::Max(power, hn::Set(d, 1.0e-30F)))));
-    const auto clipped = hn::Min(hn::Max(level, hn::Set(d, 0.5F)), hn::Set(d, 255.5F));
-    const auto bytes = hn::DemoteTo(d8, hn::ConvertTo(di, clipped));
+    const auto level = hn::Add(base, hn::Mul(slope, polynomials::rough_log2(d, hn::Max(power, hn::Set(d, 1.0e-30F)))));
+    // Bytes saturate: that clips.
+    const auto bytes = hn::DemoteTo(d8, rounded(level));
     if (left >= hn::Lanes(d)) {
       hn::StoreU(bytes, d8, video + i);
     } else {

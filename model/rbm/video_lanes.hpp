@@ -17,10 +17,10 @@ struct VideoInputs {
   const float* before;  // power of three sweeps, `count` entries each
   const float* centre;
   const float* after;
-  const float* weights;    // of the three
-  float noise;             // added to their sum
-  const float* variate;    // of each resolution cell; null: no speckle; 16 entries more are read
-  float cells_per_sample;  // resolution cells, see resolution_cell()
+  const float* weights;      // of the three
+  float noise;               // added to their sum
+  const float* variate;      // of each resolution cell; null: no speckle; 16 entries more are read
+  const std::int32_t* cell;  // of each sample, neighbours in the same or the next; null: each its own; 16 more are read
   float gain_db;
   float decibels_per_scale;
 };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lib/failure/require.hpp"
+#include "model/terrain/code_look_up.hpp"
 #include "model/terrain/interpolation.hpp"
 #include "model/terrain/look_up.hpp"
 

@@ -1,6 +1,7 @@
 #include "model/terrain/look_up.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -24,9 +25,9 @@ using Wholes = hn::Vec<WholeLanes>;
 constexpr std::size_t kAhead = 128;
 constexpr std::int32_t kVoid = -32768;
 
-// Where places lie: the entry of the post south-west of each, and the way on from it [0, 1].
+// Where places lie: the post south-west of each, as bytes from the first, and the way on from it [0, 1].
 struct Located {
-  HWY_ALIGN std::int32_t entry[kAhead];
+  HWY_ALIGN std::int32_t offset[kAhead];
   HWY_ALIGN float north[kAhead];
   HWY_ALIGN float east[kAhead];
 };
@@ -44,46 +45,63 @@ HWY_INLINE Wholes divided(Wholes number) {
 #endif
 }
 
-// Not a number counts as 0: what lies in the slack must not lead anywhere.
+// Not a number counts as 0: what lies in the slack must not lead anywhere. (Of a maximum with no number in it, the
+// other one is left.)
 HWY_INLINE Floats clamped(Floats value, Floats most) {
-  const auto zero = hn::Zero(FloatLanes());
-  const auto raised = hn::IfThenElseZero(hn::Gt(value, zero), value);
-  return hn::IfThenElse(hn::Lt(raised, most), raised, most);
+  return hn::Min(hn::Max(value, hn::Zero(FloatLanes())), most);
 }
 
-// Brings the posts of a few places in a row towards the processor; where they lie dense one line serves them all.
-HWY_INLINE void fetch(const std::int16_t* posts, const std::int32_t* entry, std::size_t places) {
-  hwy::Prefetch(posts + entry[0]);
-  if (entry[0] / static_cast<std::int32_t>(PostBlocks::kPosts) ==
-      entry[places - 1] / static_cast<std::int32_t>(PostBlocks::kPosts))
-    return;
-  for (std::size_t i = 1; i < places; ++i) hwy::Prefetch(posts + entry[i]);
+// A place along rows or columns [posts], apart: the last interval keeps what lies on its end.
+struct Apart {
+  Floats share;  // [0, 1]
+  Wholes whole;
+};
+HWY_INLINE Apart apart(Floats place, Floats last) {
+  constexpr float kOnes = 8388608.0F;  // 2^23: in the sum the last bit counts ones
+  const WholeLanes di;
+  const auto whole = hn::Min(hn::Floor(place), last);
+  const auto bits = hn::BitCast(di, hn::Add(whole, hn::Set(FloatLanes(), kOnes)));
+  return {hn::Sub(place, whole), hn::Sub(bits, hn::Set(di, 0x4b000000))};
+}
+
+// Of how many neighbours one place shall be fetched, for about one fetch a line of posts.
+std::size_t places_per_line(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count) {
+  if (count < 2) return 1;
+  const float rows = std::abs(north_deg[count - 1] - north_deg[0]) * static_cast<float>(grid.rows - 1);
+  const float columns = std::abs(east_deg[count - 1] - east_deg[0]) * static_cast<float>(grid.columns - 1);
+  const float lines =
+      rows / static_cast<float>(PostBlocks::kRowStep) + columns / static_cast<float>(PostBlocks::kColumnStep) + 1.0F;
+  return std::max<std::size_t>(1, static_cast<std::size_t>(static_cast<float>(count) / lines));
 }
 
 HWY_INLINE void locate(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count,
-                       Located& located) {
+                       std::size_t fetch_step, Located& located) {
+  constexpr auto kPost = static_cast<std::int32_t>(sizeof(std::int16_t));
+  constexpr auto kBlock = static_cast<std::int32_t>(PostBlocks::kPosts);
   const FloatLanes d;
   const WholeLanes di;
-  const auto last_row = hn::Set(di, grid.rows - 2);
-  const auto last_column = hn::Set(di, grid.columns - 2);
   const auto row_intervals = hn::Set(d, static_cast<float>(grid.rows - 1));
   const auto column_intervals = hn::Set(d, static_cast<float>(grid.columns - 1));
-  const auto block_columns = hn::Set(di, grid.posts->block_columns());
+  const auto last_row = hn::Set(d, static_cast<float>(grid.rows - 2));
+  const auto last_column = hn::Set(d, static_cast<float>(grid.columns - 2));
+  // A post is a row or a column on within its block; a block further, the posts of the one before are taken back.
+  const auto row_of_blocks =
+      hn::Set(di, kPost * (grid.posts->block_columns() * kBlock - PostBlocks::kRowStep * PostBlocks::kColumns));
+  const auto column_of_blocks = hn::Set(di, kPost * (kBlock - PostBlocks::kColumnStep));
+  const auto* const bytes = reinterpret_cast<const char*>(grid.posts->data());
+  static_assert(kPost == 2 && PostBlocks::kColumns == 8);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const auto row = clamped(hn::Mul(hn::LoadU(d, north_deg + i), row_intervals), row_intervals);
-    const auto column = clamped(hn::Mul(hn::LoadU(d, east_deg + i), column_intervals), column_intervals);
-    const auto whole_row = hn::Min(hn::ConvertTo(di, row), last_row);
-    const auto whole_column = hn::Min(hn::ConvertTo(di, column), last_column);
-    const auto block_row = divided<PostBlocks::kRowStep>(whole_row);
-    const auto block_column = divided<PostBlocks::kColumnStep>(whole_column);
-    const auto row_within = hn::Sub(whole_row, hn::Add(block_row, hn::Add(block_row, block_row)));
-    const auto column_within = hn::Sub(whole_column, hn::Sub(hn::ShiftLeft<3>(block_column), block_column));
-    const auto block = hn::Add(hn::Mul(block_row, block_columns), block_column);
-    hn::Store(hn::Add(hn::ShiftLeft<5>(block), hn::Add(hn::ShiftLeft<3>(row_within), column_within)), di,
-              located.entry + i);
-    fetch(grid.posts->data(), located.entry + i, hn::Lanes(d));
-    hn::Store(hn::Sub(row, hn::ConvertTo(d, whole_row)), d, located.north + i);
-    hn::Store(hn::Sub(column, hn::ConvertTo(d, whole_column)), d, located.east + i);
+    const Apart row = apart(clamped(hn::Mul(hn::LoadU(d, north_deg + i), row_intervals), row_intervals), last_row);
+    const Apart column =
+        apart(clamped(hn::Mul(hn::LoadU(d, east_deg + i), column_intervals), column_intervals), last_column);
+    const auto blocks = hn::Add(hn::Mul(divided<PostBlocks::kRowStep>(row.whole), row_of_blocks),
+                                hn::Mul(divided<PostBlocks::kColumnStep>(column.whole), column_of_blocks));
+    const auto within = hn::Add(hn::ShiftLeft<4>(row.whole), hn::ShiftLeft<1>(column.whole));
+    hn::Store(hn::Add(blocks, within), di, located.offset + i);
+    hn::Store(row.share, d, located.north + i);
+    hn::Store(column.share, d, located.east + i);
+    for (std::size_t place = 0; place < hn::Lanes(d); place += fetch_step)
+      hwy::Prefetch(bytes + located.offset[i + place]);
   }
 }
 
@@ -92,27 +110,30 @@ struct Posts {
   Wholes south_west, south_east, north_west, north_east;
 };
 
-HWY_INLINE Posts gather(const std::int16_t* posts, Wholes entry) {
-  [[maybe_unused]] const WholeLanes di;
-  // Two posts side by side are one word; a row further is 8 posts on.
+// Two posts side by side are one word.
+struct Words {
+  Wholes south, north;
+};
+HWY_INLINE Words gather(const std::int16_t* posts, Wholes offset) {
   const auto* const words = reinterpret_cast<const std::int32_t*>(posts);
   const auto* const words_north = reinterpret_cast<const std::int32_t*>(posts + PostBlocks::kColumns);
 #if HWY_TARGET == HWY_SCALAR
   // Highway would load a word where none is aligned.
-  const auto word = [entry](const std::int32_t* from) {
+  const auto word = [offset](const std::int32_t* from) {
     std::int32_t both = 0;
-    std::memcpy(&both, reinterpret_cast<const std::int16_t*>(from) + hn::GetLane(entry), sizeof both);
+    std::memcpy(&both, reinterpret_cast<const char*>(from) + hn::GetLane(offset), sizeof both);
     return hn::Set(WholeLanes(), both);
   };
-  const auto south = word(words);
-  const auto north = word(words_north);
+  return {word(words), word(words_north)};
 #else
-  const auto offset = hn::ShiftLeft<1>(entry);
-  const auto south = hn::GatherOffset(di, words, offset);
-  const auto north = hn::GatherOffset(di, words_north, offset);
+  const WholeLanes di;
+  return {hn::GatherOffset(di, words, offset), hn::GatherOffset(di, words_north, offset)};
 #endif
-  return {hn::ShiftRight<16>(hn::ShiftLeft<16>(south)), hn::ShiftRight<16>(south),
-          hn::ShiftRight<16>(hn::ShiftLeft<16>(north)), hn::ShiftRight<16>(north)};
+}
+
+HWY_INLINE Posts unpacked(Words words) {
+  return {hn::ShiftRight<16>(hn::ShiftLeft<16>(words.south)), hn::ShiftRight<16>(words.south),
+          hn::ShiftRight<16>(hn::ShiftLeft<16>(words.north)), hn::ShiftRight<16>(words.north)};
 }
 
 HWY_INLINE Floats blended(Floats south_west, Floats south_east, Floats north_west, Floats north_east, Floats north,
@@ -136,6 +157,17 @@ HWY_INLINE Floats shore(const Posts& posts, Floats north, Floats east) {
 HWY_INLINE hn::Mask<WholeLanes> any_equal(const Posts& posts, Wholes value) {
   return hn::Or(hn::Or(hn::Eq(posts.south_west, value), hn::Eq(posts.south_east, value)),
                 hn::Or(hn::Eq(posts.north_west, value), hn::Eq(posts.north_east, value)));
+}
+
+// Whether no post of the whole vector lies at 0 m: the least of posts taken as unsigned numbers.
+HWY_INLINE bool none_at_sea([[maybe_unused]] Words words, [[maybe_unused]] const Posts& posts) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::AllFalse(WholeLanes(), any_equal(posts, hn::Zero(WholeLanes())));
+#else
+  const hn::Repartition<std::uint16_t, WholeLanes> d16;
+  const auto least = hn::Min(hn::BitCast(d16, words.south), hn::BitCast(d16, words.north));
+  return hn::AllFalse(d16, hn::Eq(least, hn::Zero(d16)));
+#endif
 }
 
 // Voids are left out: sums of weighted posts and of their weights, divided at the end.
@@ -175,7 +207,8 @@ HWY_INLINE void join(const Grid& grid, std::size_t count, const Located& located
   const auto one = hn::Set(d, 1.0F);
   const auto half = hn::Set(d, 0.5F);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const Posts posts = gather(grid.posts->data(), hn::Load(di, located.entry + i));
+    const Words words = gather(grid.posts->data(), hn::Load(di, located.offset + i));
+    const Posts posts = unpacked(words);
     auto north = hn::Load(d, located.north + i);
     auto east = hn::Load(d, located.east + i);
     if (nearest) {
@@ -185,7 +218,7 @@ HWY_INLINE void join(const Grid& grid, std::size_t count, const Located& located
     auto height = blended(hn::ConvertTo(d, posts.south_west), hn::ConvertTo(d, posts.south_east),
                           hn::ConvertTo(d, posts.north_west), hn::ConvertTo(d, posts.north_east), north, east);
     // Where a vector has none of a kind the work is spared; a place's result is its own whatever its company.
-    const bool dry = water == nullptr || !grid.sea || hn::AllFalse(di, any_equal(posts, hn::Zero(di)));
+    const bool dry = water == nullptr || !grid.sea || none_at_sea(words, posts);
     auto share = dry ? hn::Zero(d) : shore(posts, north, east);
     if (grid.voids) {
       const auto holed = any_equal(posts, hn::Set(di, kVoid));
@@ -205,36 +238,12 @@ void heights(const Grid& grid, const float* north_deg, const float* east_deg, st
   if (count == 0) return;
   Located located[2];
   const auto batch = [count](std::size_t start) { return std::min(kAhead, count - start); };
-  locate(grid, north_deg, east_deg, batch(0), located[0]);
+  const std::size_t fetch_step = places_per_line(grid, north_deg, east_deg, count);
+  locate(grid, north_deg, east_deg, batch(0), fetch_step, located[0]);
   for (std::size_t start = 0, turn = 0; start < count; start += kAhead, turn = 1 - turn) {
     const std::size_t next = start + kAhead;
-    if (next < count) locate(grid, north_deg + next, east_deg + next, batch(next), located[1 - turn]);
+    if (next < count) locate(grid, north_deg + next, east_deg + next, batch(next), fetch_step, located[1 - turn]);
     join(grid, batch(start), located[turn], nearest, elevation_m + start, water == nullptr ? nullptr : water + start);
-  }
-}
-
-void codes(const Culture& culture, const float* north_deg, const float* east_deg, std::size_t count,
-           std::int32_t* material) {
-  const FloatLanes d;
-  const WholeLanes di;
-  const std::uint8_t* const posts = culture.codes().data();
-  const auto rows = hn::Set(d, static_cast<float>(culture.rows() - 1));
-  const auto columns = hn::Set(d, static_cast<float>(culture.columns() - 1));
-  const auto half = hn::Set(d, 0.5F);
-  const auto nearest = [&](const float* degrees, Floats intervals) {
-    // Half up, as std::lround does with what is not negative.
-    return hn::ConvertTo(di, hn::Add(clamped(hn::Mul(hn::LoadU(d, degrees), intervals), intervals), half));
-  };
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const auto entry =
-        hn::Add(hn::Mul(nearest(north_deg + i, rows), hn::Set(di, culture.columns())), nearest(east_deg + i, columns));
-#if HWY_TARGET == HWY_SCALAR
-    // Highway would load a word where none is aligned.
-    const auto word = hn::Set(di, std::int32_t{posts[hn::GetLane(entry)]});
-#else
-    const auto word = hn::GatherOffset(di, reinterpret_cast<const std::int32_t*>(posts), entry);
-#endif
-    hn::StoreU(hn::And(word, hn::Set(di, 0xff)), di, material + i);
   }
 }
 
@@ -259,7 +268,6 @@ namespace yars::model::terrain::look_up {
 
 HWY_EXPORT(heights);
 HWY_EXPORT(places_alike);
-HWY_EXPORT(codes);
 
 void heights(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count, bool nearest,
              float* elevation_m, float* water) {
@@ -268,11 +276,6 @@ void heights(const Grid& grid, const float* north_deg, const float* east_deg, st
 
 std::size_t places_alike(const float* cells_north, const float* cells_east, std::size_t count) {
   return HWY_DYNAMIC_DISPATCH(places_alike)(cells_north, cells_east, count);
-}
-
-void codes(const Culture& culture, const float* north_deg, const float* east_deg, std::size_t count,
-           std::int32_t* material) {
-  HWY_DYNAMIC_DISPATCH(codes)(culture, north_deg, east_deg, count, material);
 }
 
 }  // namespace yars::model::terrain::look_up

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "model/terrain/culture.hpp"
 #include "model/terrain/post_blocks.hpp"
 #include "model/terrain/terrain_view.hpp"
 
@@ -28,9 +27,5 @@ std::size_t places_alike(const float* cells_north, const float* cells_east, std:
 // `nearest`: of the four posts the nearest alone.
 void heights(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count, bool nearest,
              float* elevation_m, float* water);
-
-// Code of the culture's post nearest to each place, as whole numbers; kRunSlack entries more are overwritten.
-void codes(const Culture& culture, const float* north_deg, const float* east_deg, std::size_t count,
-           std::int32_t* material);
 
 }  // namespace yars::model::terrain::look_up

@@ -90,10 +90,7 @@ void measure_range(const model::terrain::TerrainView& terrain, model::kernel::Sc
   model::kernel::OfflineScan noisy(configured(radar::Algorithm::standard, true), request, 1);
   model::kernel::OfflineScan quiet(configured(radar::Algorithm::standard, false), request, 1);
   model::kernel::OfflineScan reference(configured(radar::Algorithm::reference, true), request, 1);
-  const auto scan = [&terrain](model::kernel::OfflineScan& which) {
-    which.measure(terrain);
-    which.develop();
-  };
+  const auto scan = [&terrain](model::kernel::OfflineScan& which) { which.run(terrain); };
   scan(noisy);
   scan(quiet);
   scan(reference);

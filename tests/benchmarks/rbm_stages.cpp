@@ -30,9 +30,9 @@ class Stages {
         count_(static_cast<std::size_t>(samples)),
         video_(count_),
         places_(count_) {
+    cell_.resize(count_ + 16);
     for (auto& array : arrays_) array.assign(count_ + 2 * lanes::kPad, 0.0F);
-    for (const int padded : {kTangent, kSpare, kHorizon})
-      arrays_[padded].assign(arrays_[padded].size(), lanes::kNoHorizon);
+    for (const int padded : {kTangent, kHorizon}) arrays_[padded].assign(arrays_[padded].size(), lanes::kNoHorizon);
     receiver_ = make_receiver(configuration_, request.range);
     const double spacing_m = request.range.metres() / samples;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -50,7 +50,9 @@ class Stages {
     constants_.sin_centre = 0.05F;
     constants_.gaussian = 4000.0F;
     smear_ = make_pulse_smear(receiver_.pulse_length_m / spacing_m);
-    cells_ = cells_per_sample(spacing_m, receiver_.pulse_length_m);
+    const float cells = cells_per_sample(spacing_m, receiver_.pulse_length_m);
+    for (std::size_t i = 0; i < count_; ++i)
+      cell_[i] = static_cast<std::int32_t>(resolution_cell(static_cast<std::uint32_t>(i), cells));
   }
 
   void print() {
@@ -65,8 +67,7 @@ class Stages {
     });
     stage("sight", {kDistance, kElevation}, {kTangent, kInverse, kSinGrazing, kCosGrazing, kSinSight, kCosSight},
           [&](int) { lanes::sight(count_, constants_, at(kDistance), at(kElevation), sights); });
-    stage("shadow", {kTangent}, {kHorizon},
-          [&](int) { lanes::running_maximum(count_, at(kTangent), at(kSpare), at(kHorizon)); });
+    stage("shadow", {kTangent}, {kHorizon}, [&](int) { lanes::running_maximum(count_, at(kTangent), at(kHorizon)); });
     const lanes::PowerInputs inputs{at(kElevation), nullptr,      nullptr,       nullptr, at(kTangent),
                                     at(kHorizon),   at(kOneStep), at(kTwoSteps), sights};
     stage("power",
@@ -78,13 +79,13 @@ class Stages {
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = static_cast<float>(smear_.weights[i]);
     stage("smear", {kPower}, {kSmeared},
           [&](int) { lanes::smear(count_, at(kPower), weights.data(), smear_.reach, at(kSmeared)); });
-    const auto last_cell = resolution_cell(static_cast<std::uint32_t>(count_ - 1), cells_);
     stage("speckle", {}, {kVariate}, [&](int sweep) {
-      lanes::speckle(last_cell + 1, make_noise_state({1, 1, static_cast<std::uint32_t>(sweep)}), 4, at(kVariate));
+      lanes::speckle(static_cast<std::size_t>(cell_[count_ - 1]) + 1,
+                     make_noise_state({1, 1, static_cast<std::uint32_t>(sweep)}), 4, at(kVariate));
     });
     const std::array<float, 3> join{0.25F, 0.5F, 0.25F};
     const lanes::VideoInputs video{at(kSmeared), at(kSmeared), at(kSmeared), join.data(), 1e-4F,
-                                   at(kVariate), cells_,       0.0F,         45.0F};
+                                   at(kVariate), cell_.data(), 0.0F,         45.0F};
     stage("video", {kSmeared, kVariate}, {kSpare}, [&](int) { lanes::develop(count_, video, video_.data()); });
     std::printf("{\"stages_ns\":{%s},\"floors_ns\":{%s}}\n", stages_.c_str(), floors_.c_str());
   }
@@ -154,13 +155,13 @@ class Stages {
   const model::terrain::TerrainView* terrain_;
   model::kernel::ScanRequest request_;
   std::size_t count_;
-  std::array<std::vector<float>, kArrays> arrays_;
+  std::array<LineVector<float>, kArrays> arrays_;
   std::vector<float> scratch_ = std::vector<float>(8192);
   std::vector<std::uint8_t> video_;
   Receiver receiver_;
   lanes::SweepConstants constants_;
   PulseSmear smear_;
-  float cells_ = 1.0F;
+  LineVector<std::int32_t> cell_;
   PlaceArrays places_;
   std::string stages_, floors_;
 };

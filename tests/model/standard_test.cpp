@@ -9,7 +9,6 @@
 
 #include "model/rbm/polynomials-inl.hpp"
 #include "model/rbm/polynomials.hpp"
-#include "model/rbm/sample_places.hpp"
 #include "model/terrain/open_terrain.hpp"
 #include "tests/lanes/vector_targets.hpp"
 #include "tests/model/ground.hpp"
@@ -36,6 +35,7 @@ TEST(VectorPolynomials, HoldTheirStatedErrors) {
     EXPECT_NEAR(static_cast<double>(hn::GetLane(lane::inverse_root(d, of(x)))) * std::sqrt(static_cast<double>(x)), 1.0,
                 5e-6)
         << x;
+    EXPECT_NEAR(static_cast<double>(hn::GetLane(lane::rough_log2(d, of(x)))), exact, 1.3e-4) << x;
   }
   for (float x = -125.0F; x < 120.0F; x += 0.0137F) {
     const double exact = std::exp2(static_cast<double>(x));
@@ -45,37 +45,6 @@ TEST(VectorPolynomials, HoldTheirStatedErrors) {
     const auto angle = lane::angle(d, of(static_cast<float>(std::sin(x))), of(static_cast<float>(std::cos(x))));
     EXPECT_NEAR(static_cast<double>(hn::GetLane(angle)), x, 1.3e-6);
   }
-}
-
-TEST(SamplePlaces, LieWithinHalfAMetreOfTheGeodesicAtEveryLatitude) {
-  constexpr std::size_t kCount = 161;
-  constexpr std::size_t kRoom = kCount + terrain::kRunSlack;
-  std::vector<float> distance_m(kRoom);
-  PlaceArrays places(kCount);
-  double worst_m = 0.0;
-  for (const double range_nm : {4.7, 10.0, 20.0, 40.0, 80.0, 160.0}) {
-    const geo::Length range = geo::Length::nautical_miles(range_nm);
-    for (std::size_t i = 0; i < kCount; ++i) {
-      distance_m[i] = static_cast<float>(range.metres() * static_cast<double>(i) / static_cast<double>(kCount - 1));
-    }
-    for (const double latitude : {0.0, 37.0, -60.0, 70.0, 73.9, 74.1, 80.0, 88.0, 89.0, -89.9, 90.0}) {
-      for (double azimuth = 0.0; azimuth < 360.0; azimuth += 7.5) {
-        const geo::GeoPoint apex{latitude, 179.7};
-        sample_places(apex, geo::Bearing::degrees(azimuth), range, 5, distance_m.data(), places);
-        const geo::GeodesicRay ray(apex, geo::Bearing::degrees(azimuth));
-        for (std::size_t i = 0; i < kCount; i += 4) {
-          const geo::GeoPoint exact = ray.position(geo::Length::metres(static_cast<double>(distance_m[i])));
-          geo::GeoPoint found = place_of(places.run(), i);
-          found.longitude_deg = geo::wrapped_degrees(found.longitude_deg);
-          const double error_m = geo::geodesic_inverse(exact, found).distance.metres();
-          worst_m = std::max(worst_m, error_m);
-          ASSERT_LT(error_m, 0.5) << "latitude " << latitude << ", azimuth " << azimuth << ", " << distance_m[i]
-                                  << " m";
-        }
-      }
-    }
-  }
-  RecordProperty("worst_m", std::to_string(worst_m));
 }
 
 constexpr float kNothing = 1e-8F;  // of full scale: far below the noise, and what float still tells from zero

@@ -43,8 +43,7 @@ ScanRequest request_of(const databuffer::ModelTick& tick, std::int64_t sim_time_
 std::vector<std::uint64_t> offline(const radar::RadarConfiguration& configuration, const test::Cockpit& cockpit,
                                    std::int64_t sim_time_ns) {
   OfflineScan scan(configuration, request_of(cockpit.tick, sim_time_ns), 2);
-  scan.measure(cockpit.terrain);
-  scan.develop();
+  scan.run(cockpit.terrain);
   std::vector<std::uint64_t> hashes;
   for (const databuffer::Sweep& sweep : scan.sweeps()) hashes.push_back(sweep.hash);
   return hashes;

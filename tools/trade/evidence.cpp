@@ -97,8 +97,7 @@ std::vector<std::uint8_t> seen_ground(const RadarConfiguration& configuration, S
 
 Evidence observe_scan(const RadarConfiguration& configuration, const ScanRequest& request,
                       const model::terrain::TerrainView& terrain, OfflineScan& scan) {
-  scan.measure(terrain);
-  scan.develop();
+  scan.run(terrain);
   Evidence evidence;
   evidence.sweeps = scan.places().size();
   evidence.samples = model::rbm::sample_count(configuration);

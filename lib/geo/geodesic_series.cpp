@@ -1,0 +1,131 @@
+#include "lib/geo/geodesic_series.hpp"
+
+#include <GeographicLib/Constants.hpp>
+#include <cmath>
+
+namespace yars::geo {
+
+namespace {
+using Coefficients = GeodesicSeries::Coefficients;
+
+constexpr double kAimM = 5e-4;  // of the first term left out: half of what is promised, for the others
+// [m] between both radii; only to judge how near the pole is.
+constexpr double kMeanRadiusM = 6371008.8;
+
+// 1 / k: a multiplication is several times as fast as a division.
+constexpr std::array<double, GeodesicSeries::kMostOrder + 1> kInverse{
+    0.0, 1.0, 1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0, 1.0 / 5.0, 1.0 / 6.0, 1.0 / 7.0, 1.0 / 8.0};
+
+// Term k of the product of two series.
+double product(const Coefficients& a, const Coefficients& b, std::size_t k) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j <= k; ++j) sum += a[j] * b[k - j];
+  return sum;
+}
+
+// The same without the first term of `a`.
+double product_after_first(const Coefficients& a, const Coefficients& b, std::size_t k) {
+  double sum = 0.0;
+  for (std::size_t j = 1; j <= k; ++j) sum += a[j] * b[k - j];
+  return sum;
+}
+
+// How the ray begins, on the sphere of reduced latitude beta.
+struct Start {
+  double squared_axes;           // (b / a)^2
+  double sin_beta, north, east;  // north, east: cos(beta) times cosine and sine of the azimuth
+  double cos_latitude;
+};
+
+Start start_of(double latitude_deg, Bearing azimuth) {
+  const double axes = 1.0 - GeographicLib::Constants::WGS84_f();
+  const double latitude_rad = latitude_deg * kRadiansPerDegree;
+  const double polar = axes * std::sin(latitude_rad);
+  const double level = std::cos(latitude_rad);
+  const double inverse = 1.0 / std::sqrt(polar * polar + level * level);
+  const double azimuth_rad = azimuth.radians();
+  return {axes * axes, polar * inverse, level * inverse * std::cos(azimuth_rad),
+          level * inverse * std::sin(azimuth_rad), level};
+}
+
+// Longitude and the sine of the geodetic latitude over the distance [equatorial radii]. With z = sin(beta),
+// p = cos(beta) cos(azimuth) and ds = dw = W dsigma, W^2 = 1 - e^2 cos^2(beta): z' = p / W, p' = -z / W; by Clairaut
+// cos(beta) sin(azimuth) stays, so longitude' = east / cos^2(beta); sin(latitude) = z / W (Karney 2013, eqs. 5-10).
+struct Path {
+  Coefficients sin_latitude{}, longitude{};
+};
+
+Path path_from(const Start& start, std::size_t order) {
+  const double flatness = 1.0 - start.squared_axes;
+  Path path;
+  Coefficients z{}, p{}, width{}, inverse_width{}, cosine_squared{}, inverse_cosine{};
+  z[0] = start.sin_beta;
+  p[0] = start.north;
+  for (std::size_t k = 0; k <= order; ++k) {
+    const double square = product(z, z, k);
+    if (k == 0) {
+      width[0] = start.squared_axes + flatness * square;
+      cosine_squared[0] = start.north * start.north + start.east * start.east;
+      inverse_width[0] = 1.0 / std::sqrt(width[0]);
+      inverse_cosine[0] = 1.0 / cosine_squared[0];
+    } else {
+      width[k] = flatness * square;
+      cosine_squared[k] = -square;
+      // From 2 W^2 (1/W)' = -(W^2)' (1/W).
+      double sum = 0.0;
+      for (std::size_t j = 1; j <= k; ++j) sum += static_cast<double>(2 * k - j) * width[j] * inverse_width[k - j];
+      inverse_width[k] = -0.5 * kInverse[k] * inverse_width[0] * inverse_width[0] * sum;
+      inverse_cosine[k] = -inverse_cosine[0] * product_after_first(cosine_squared, inverse_cosine, k);
+    }
+    path.sin_latitude[k] = product(z, inverse_width, k);
+    if (k == order) break;
+    z[k + 1] = kInverse[k + 1] * product(p, inverse_width, k);
+    p[k + 1] = -kInverse[k + 1] * path.sin_latitude[k];
+    path.longitude[k + 1] = kInverse[k + 1] * start.east * inverse_cosine[k];
+  }
+  return path;
+}
+
+// The angle whose sine is given, less its first term: from sine' = cosine angle', cosine' = -sine angle'.
+Coefficients arcsine(const Coefficients& sine, double first_cosine, std::size_t order) {
+  Coefficients angle{}, slope{}, cosine{};
+  cosine[0] = first_cosine;
+  const double inverse = 1.0 / first_cosine;
+  for (std::size_t k = 0; k < order; ++k) {
+    slope[k] = inverse * (static_cast<double>(k + 1) * sine[k + 1] - product_after_first(cosine, slope, k));
+    cosine[k + 1] = -kInverse[k + 1] * product(sine, slope, k);
+    angle[k + 1] = kInverse[k + 1] * slope[k];
+  }
+  return angle;
+}
+}  // namespace
+
+int GeodesicSeries::order_for(double latitude_deg, Length range) {
+  // Both series converge up to about the pole's distance: what is left out is near its power.
+  const double to_pole_m = (90.0 - std::abs(latitude_deg)) * kRadiansPerDegree * kMeanRadiusM;
+  const double share = range.metres() / to_pole_m;
+  double left_out_m = to_pole_m * share;
+  for (int order = 1; order <= kMostOrder; ++order) {
+    left_out_m *= share;
+    if (left_out_m < kAimM * (order + 1)) return order;
+  }
+  return 0;
+}
+
+GeodesicSeries::GeodesicSeries(GeoPoint start, Bearing azimuth, int given_order) : order(given_order) {
+  const auto terms = static_cast<std::size_t>(order);
+  const Start begin = start_of(start.latitude_deg, azimuth);
+  const Path path = path_from(begin, terms);
+  const Coefficients latitude = arcsine(path.sin_latitude, begin.cos_latitude, terms);
+  latitude_deg[0] = start.latitude_deg;
+  longitude_deg[0] = start.longitude_deg;
+  const double per_metre = 1.0 / GeographicLib::Constants::WGS84_a();
+  double unit = 1.0 / kRadiansPerDegree;
+  for (std::size_t k = 1; k <= terms; ++k) {
+    unit *= per_metre;
+    latitude_deg[k] = latitude[k] * unit;
+    longitude_deg[k] = path.longitude[k] * unit;
+  }
+}
+
+}  // namespace yars::geo

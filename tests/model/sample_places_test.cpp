@@ -1,0 +1,65 @@
+// Where samples lie against the exact geodesic, within the bounds that model/rbm/sample_places.hpp states.
+#include "model/rbm/sample_places.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "lib/geo/geodesic.hpp"
+
+namespace yars::model::rbm {
+namespace {
+
+// Farthest of the places of a ray from the exact geodesic, of every eleventh.
+double farthest_m(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, std::size_t count) {
+  std::vector<float> distance_m(count + terrain::kRunSlack);
+  for (std::size_t i = 0; i < count; ++i)
+    distance_m[i] = static_cast<float>(range.metres() * static_cast<double>(i) / static_cast<double>(count - 1));
+  PlaceArrays places(count);
+  sample_places(apex, azimuth, range, 5, distance_m.data(), places);
+  const geo::GeodesicRay ray(apex, azimuth);
+  double worst_m = 0.0;
+  for (std::size_t i = 0; i < count; i += 11) {
+    const geo::GeoPoint exact = ray.position(geo::Length::metres(static_cast<double>(distance_m[i])));
+    geo::GeoPoint found = place_of(places.run(), i);
+    found.longitude_deg = geo::wrapped_degrees(found.longitude_deg);
+    worst_m = std::max(worst_m, geo::geodesic_inverse(exact, found).distance.metres());
+  }
+  return worst_m;
+}
+
+// So many samples that there are pieces of both sizes, and none.
+TEST(SamplePlaces, LieWithinHalfAMetreOfTheGeodesicAtEveryLatitude) {
+  double worst_m = 0.0;
+  for (const std::size_t count : {161U, 200U, 480U, 1024U}) {
+    for (const double range_nm : {4.7, 10.0, 20.0, 40.0, 80.0, 160.0}) {
+      const geo::Length range = geo::Length::nautical_miles(range_nm);
+      for (const double latitude : {0.0, 37.0, -60.0, 70.0, 73.9, 74.1, 80.0, 88.0, 89.0, -89.9, 90.0}) {
+        for (double azimuth = 0.0; azimuth < 360.0; azimuth += 22.5) {
+          const double error_m = farthest_m({latitude, 179.7}, geo::Bearing::degrees(azimuth), range, count);
+          worst_m = std::max(worst_m, error_m);
+          ASSERT_LT(error_m, 0.5) << "latitude " << latitude << ", azimuth " << azimuth << ", " << range_nm << " NM, "
+                                  << count << " samples";
+        }
+      }
+    }
+  }
+  RecordProperty("worst_m", std::to_string(worst_m));
+}
+
+TEST(SamplePlaces, LieWithinMillimetresAtMiddleLatitudes) {
+  for (const std::size_t count : {161U, 200U, 480U, 1024U})
+    for (const double range_nm : {4.7, 40.0, 160.0})
+      for (const double latitude : {0.5, 37.0, -60.0})
+        for (double azimuth = 0.0; azimuth < 360.0; azimuth += 22.5)
+          ASSERT_LT(farthest_m({latitude, 179.7}, geo::Bearing::degrees(azimuth), geo::Length::nautical_miles(range_nm),
+                               count),
+                    0.008)
+              << "latitude " << latitude << ", azimuth " << azimuth << ", " << range_nm << " NM, " << count
+              << " samples";
+}
+
+}  // namespace
+}  // namespace yars::model::rbm
