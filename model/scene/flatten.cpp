@@ -29,8 +29,8 @@ bool is_sound(Vector3 place) {
 
 class Flattening {
  public:
-  Flattening(const NodeTree& tree, std::string subject, const LoadExternal& load)
-      : tree_(tree), subject_(std::move(subject)), load_(load) {
+  Flattening(const NodeTree& tree, std::string subject, const LoadExternal& load, FlattenLimits limits)
+      : tree_(tree), subject_(std::move(subject)), load_(load), limits_(limits) {
     model_.header = tree.header;
     model_.counts = tree.counts;
     model_.warnings = tree.warnings;
@@ -113,18 +113,18 @@ class Flattening {
 
   Done count_visits(std::size_t more) {
     visits_ += more;
-    if (visits_ <= kMostVisits) return {};
-    return failure::fail(subject_, "at most " + std::to_string(kMostVisits) + " nodes and corners with their copies",
+    if (visits_ <= limits_.visits) return {};
+    return failure::fail(subject_, "at most " + std::to_string(limits_.visits) + " nodes and corners with their copies",
                          "more", "split the file, or use fewer instances and replications");
   }
 
   Done make_room(std::size_t triangles, std::size_t vertices) {
-    if (model_.triangles.size() + triangles <= kMostTriangles &&
-        model_.vertices.size() + vertices <= kMostModelVertices)
+    if (model_.triangles.size() + triangles <= limits_.triangles &&
+        model_.vertices.size() + vertices <= limits_.vertices)
       return {};
     return failure::fail(subject_,
-                         "at most " + std::to_string(kMostTriangles) + " triangles and " +
-                             std::to_string(kMostModelVertices) + " vertices",
+                         "at most " + std::to_string(limits_.triangles) + " triangles and " +
+                             std::to_string(limits_.vertices) + " vertices",
                          "more", "split the scene into several files");
   }
 
@@ -232,6 +232,7 @@ class Flattening {
   const NodeTree& tree_;
   std::string subject_;
   const LoadExternal& load_;
+  FlattenLimits limits_;
   Model model_;
   KindTable kinds_;
   std::vector<std::uint16_t> kind_numbers_;  // of the tree's kinds
@@ -244,8 +245,9 @@ class Flattening {
 
 }  // namespace
 
-failure::Expected<Model> flatten(const NodeTree& tree, const std::string& subject, const LoadExternal& load) {
-  return Flattening(tree, subject, load).run();
+failure::Expected<Model> flatten(const NodeTree& tree, const std::string& subject, const LoadExternal& load,
+                                 FlattenLimits limits) {
+  return Flattening(tree, subject, load, limits).run();
 }
 
 }  // namespace yars::model::scene

@@ -117,10 +117,11 @@ failure::Expected<Model> read_openflight(const fs::path& path) {
   return model;
 }
 
-failure::Expected<Model> read_openflight(std::span<const std::byte> bytes, const std::string& subject) {
+failure::Expected<Model> read_openflight(std::span<const std::byte> bytes, const std::string& subject,
+                                         FlattenLimits limits) {
   const auto tree = parse_openflight(bytes, subject);
   if (!tree) return tl::unexpected(tree.error());
-  return flatten(*tree, subject, {});
+  return flatten(*tree, subject, {}, limits);
 }
 
 failure::Expected<Header> read_openflight_header(const fs::path& path) {

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "lib/failure/error.hpp"
+#include "model/scene/flatten.hpp"
 #include "model/scene/model.hpp"
 
 namespace yars::model::scene {
@@ -22,7 +23,8 @@ inline constexpr std::size_t kMostFiles = 4096;
 failure::Expected<Model> read_openflight(const std::filesystem::path& path);
 
 // From memory; external references are counted and left out.
-failure::Expected<Model> read_openflight(std::span<const std::byte> bytes, const std::string& subject);
+failure::Expected<Model> read_openflight(std::span<const std::byte> bytes, const std::string& subject,
+                                         FlattenLimits limits = {});
 
 // The header alone.
 failure::Expected<Header> read_openflight_header(const std::filesystem::path& path);
