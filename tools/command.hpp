@@ -28,6 +28,7 @@ void add_scan_command(CLI::App& app, const CommonOptions& common);
 void add_patch_command(CLI::App& app, const CommonOptions& common);
 void add_trade_command(CLI::App& app, const CommonOptions& common);
 void add_terrain_command(CLI::App& app, const CommonOptions& common);
+void add_scene_command(CLI::App& app, const CommonOptions& common);
 void add_config_command(CLI::App& app, const CommonOptions& common);
 void add_sim_command(CLI::App& app, const CommonOptions& common);
 void add_inject_command(CLI::App& app, const CommonOptions& common);

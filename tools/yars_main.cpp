@@ -11,6 +11,7 @@ void add_commands(CLI::App& app, const tools::CommonOptions& common) {
   tools::add_patch_command(app, common);
   tools::add_trade_command(app, common);
   tools::add_terrain_command(app, common);
+  tools::add_scene_command(app, common);
   tools::add_config_command(app, common);
   tools::add_sim_command(app, common);
   tools::add_inject_command(app, common);
@@ -33,7 +34,7 @@ int main(int argc, char** argv) {
   app.parse_complete_callback([&] {
     if (auto error = databuffer::begin_program("yars", options)) tools::give_up(*error);
     // These compute until they are done and never look at a stop flag.
-    for (const auto* command : {"scan", "trade", "terrain", "config"})
+    for (const auto* command : {"scan", "trade", "terrain", "scene", "config"})
       if (app.got_subcommand(command)) databuffer::let_signals_end_the_process();
     common.session = options.session;
     common.config = options.config;

@@ -1,5 +1,6 @@
 // What a configuration settles about the world that the radar looks at: what surfaces return, the sea's state, rain,
-// jammers, moving targets. Pure values; defaults are those of GUF. Sources: spec physics.md "Power and video".
+// jammers, moving targets, polygonal scenes. Pure values; defaults are those of GUF. Sources: spec physics.md "Power
+// and video".
 #pragma once
 
 #include <cstdint>
@@ -19,6 +20,7 @@ inline constexpr int kWaterMaterial = 6;   // returns what the sea returns
 inline constexpr int kMostRainCells = 64;  // bounds on what one sweep has to look at
 inline constexpr int kMostJammers = 16;
 inline constexpr int kMostMovers = 64;
+inline constexpr int kMostScenes = 1024;
 
 // What a surface material returns: sigma0 = gamma sin(grazing).
 struct Material {
@@ -102,12 +104,25 @@ struct Mover {
   double height_m = 6.096;  // [m] of what returns above the ground; 20 ft
 };
 
+// Where up begins for a polygonal scene. ground: each of its objects stands on the ground below its middle, what lies
+// flat follows the ground. anchor: all of it stands on the ground at its place. sea_level: its heights are MSL.
+enum class SceneHeights : std::uint8_t { ground = 0, anchor = 1, sea_level = 2 };
+
+// A polygonal scene: an OpenFlight file, or a folder of them.
+struct Scene {
+  std::string file;
+  geo::GeoPoint place{kNotGiven, kNotGiven};  // of its origin; not given: as its header or its name says
+  double heading_deg = 0.0;                   // [deg] true, where its y axis points
+  SceneHeights heights = SceneHeights::ground;
+};
+
 struct WorldConfiguration {
   LandConfiguration land;
   SeaConfiguration sea;
   RainConfiguration rain;
   JammingConfiguration jamming;
   std::vector<Mover> movers;
+  std::vector<Scene> scenes;
 };
 
 }  // namespace yars::radar

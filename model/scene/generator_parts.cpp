@@ -1,0 +1,121 @@
+#include "model/scene/generator_parts.hpp"
+
+#include <array>
+
+namespace yars::model::scene {
+
+namespace {
+
+// A window band around a box: shallow boxes standing out of each long wall.
+void windows(Sketch& sketch, double length_m, double depth_m, double sill_m, double height_m, int count) {
+  const SurfaceKind before = sketch.kind;
+  sketch.kind = surface::kGlass;
+  const double pitch = length_m / count;
+  for (int i = 0; i < count; ++i) {
+    const double x = -length_m / 2 + pitch * (i + 0.5), half = 0.32 * pitch, y = depth_m / 2 + 0.05;
+    sketch.polygon({{x - half, -y, sill_m},
+                    {x + half, -y, sill_m},
+                    {x + half, -y, sill_m + height_m},
+                    {x - half, -y, sill_m + height_m}});
+    sketch.polygon({{x + half, y, sill_m},
+                    {x - half, y, sill_m},
+                    {x - half, y, sill_m + height_m},
+                    {x + half, y, sill_m + height_m}});
+  }
+  sketch.kind = before;
+}
+
+void parapet(Sketch& sketch, double length_m, double depth_m, double z) {
+  constexpr double kThick = 0.4, kHigh = 1.0;
+  for (const double side : {-1.0, 1.0}) {
+    sketch.box({0, side * (depth_m - kThick) / 2, z}, length_m, kThick, kHigh);
+    sketch.box({side * (length_m - kThick) / 2, 0, z}, kThick, depth_m - 2 * kThick, kHigh);
+  }
+}
+
+const SurfaceKind& wall_of(Chance& chance) {
+  static constexpr std::array<SurfaceKind, 4> kWalls{surface::kStone, surface::kBrick, surface::kComposition,
+                                                     surface::kBrick};
+  return kWalls[static_cast<std::size_t>(chance.below(4))];
+}
+
+}  // namespace
+
+void draw_conifer(Sketch& sketch, double height_m, int sides) {
+  sketch.kind = surface::kTrunk;
+  sketch.turned({0, 0, 0}, {0, 0, 1}, {{0, 0.25}, {0.15 * height_m, 0.22}}, 5);
+  sketch.kind = surface::kNeedles;
+  for (int tier = 0; tier < 3; ++tier) {
+    const double foot = (0.12 + 0.25 * tier) * height_m, radius = (0.24 - 0.05 * tier) * height_m;
+    sketch.turned({0, 0, foot}, {0, 0, 1}, {{0, radius}, {tier == 2 ? height_m - foot : 0.42 * height_m, 0}}, sides);
+  }
+}
+
+void draw_leafy_tree(Sketch& sketch, double height_m, int sides) {
+  sketch.kind = surface::kTrunk;
+  sketch.turned({0, 0, 0}, {0, 0, 1}, {{0, 0.3}, {0.3 * height_m, 0.25}}, 5);
+  sketch.kind = surface::kLeaves;
+  const double r = 0.32 * height_m;
+  sketch.turned({0, 0, 0.25 * height_m}, {0, 0, 1},
+                {{0, 0}, {0.3 * r, 0.8 * r}, {r, r}, {1.8 * r, 0.7 * r}, {0.75 * height_m, 0}}, sides);
+}
+
+void draw_house(Sketch& sketch, Chance& chance) {
+  const double length = chance.between(9, 15), depth = chance.between(7, 10);
+  const int storeys = 1 + chance.below(2);
+  const double wall = 2.8 * storeys, rise = chance.between(2.2, 4.0);
+  sketch.kind = wall_of(chance);
+  sketch.box({0, 0, 0}, length, depth, wall);
+  for (int storey = 0; storey < storeys; ++storey)
+    windows(sketch, length, depth, 0.9 + 2.8 * storey, 1.3, 3 + chance.below(2));
+  sketch.kind = chance.below(3) == 0 ? surface::kRoofing : surface::kTiles;
+  sketch.gable({0, 0, wall}, length, depth, rise, 0.5);
+  sketch.kind = surface::kBrick;
+  sketch.box({length * 0.3, depth * 0.12, wall}, 0.8, 0.8, rise + 1.0);
+  if (chance.below(2) == 0) {
+    sketch.kind = surface::kTiles;
+    const double x = -length * 0.2;
+    sketch.box({x, -depth * 0.28, wall}, 1.8, depth * 0.3, 0.6 * rise);
+  }
+  if (chance.below(3) != 0) {
+    sketch.kind = surface::kComposition;
+    const double side = length / 2 + 1.8;
+    sketch.box({side, 0, 0}, 3.6, 6.0, 2.6);
+  }
+}
+
+void draw_block(Sketch& sketch, Chance& chance) {
+  const double length = chance.between(28, 60), depth = chance.between(11, 15);
+  const int storeys = 4 + chance.below(6);
+  const double height = 3.0 * storeys;
+  sketch.kind = wall_of(chance);
+  sketch.box({0, 0, 0}, length, depth, height);
+  for (int storey = 0; storey < storeys; ++storey)
+    windows(sketch, length, depth, 1.0 + 3.0 * storey, 1.4, static_cast<int>(length / 4.0));
+  parapet(sketch, length, depth, height);
+  sketch.kind = surface::kPartMetal;
+  for (int head = 0; head < 3; ++head) sketch.box({length * (head - 1) / 3.2, 0, height}, 4.0, 3.5, 2.6);
+}
+
+void draw_tower(Sketch& sketch, Chance& chance) {
+  double length = chance.between(26, 40), depth = chance.between(24, 34), foot = 0;
+  sketch.kind = surface::kStone;
+  sketch.box({0, 0, 0}, length + 16, depth + 14, 7.0);
+  foot = 7.0;
+  sketch.kind = chance.below(2) == 0 ? surface::kPartMetal : surface::kComposition;
+  for (int step = 0; step < 3; ++step) {
+    const int storeys = 7 + chance.below(8);
+    sketch.box({0, 0, foot}, length, depth, 3.6 * storeys);
+    for (int storey = 0; storey < storeys; ++storey)
+      windows(sketch, length, depth, foot + 3.6 * storey + 0.8, 2.2, static_cast<int>(length / 3.0));
+    foot += 3.6 * storeys;
+    parapet(sketch, length, depth, foot);
+    length *= 0.78;
+    depth *= 0.78;
+  }
+  sketch.kind = surface::kMetal;
+  sketch.box({0, 0, foot}, 0.5 * length, 0.5 * depth, 5.0);
+  sketch.cylinder({0, 0, foot + 5.0}, 0.4, 18.0, 8);
+}
+
+}  // namespace yars::model::scene

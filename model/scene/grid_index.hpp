@@ -1,0 +1,56 @@
+// Which discs on the earth come within a distance of a place, found by a hash of squares: the cost is that of what is
+// near. Longitudes wrap, poles are places like others. Distances by the chord through WGS84, within 1 m up to 500 km.
+// Immutable once built.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "lib/geo/frames.hpp"
+
+namespace yars::model::scene {
+
+struct Disc {
+  geo::GeoPoint middle;
+  double reach_m = 0.0;
+};
+
+class GridIndex {
+ public:
+  GridIndex() = default;
+  // `cell_deg`: side of a square, about the size of a usual query.
+  GridIndex(const std::vector<Disc>& discs, double cell_deg);
+
+  struct Hit {
+    std::uint32_t disc = 0;   // its number
+    double distance_m = 0.0;  // of its middle
+    bool operator<(const Hit& other) const { return disc < other.disc; }
+  };
+  // Appends the discs of which any part is within the radius, in no order.
+  void find(geo::GeoPoint place, double radius_m, std::vector<Hit>& hits) const;
+
+  std::uint64_t bytes() const;
+
+ private:
+  struct Row {
+    std::int64_t number = 0;
+    std::int64_t columns = 1;
+  };
+  Row row_of(double latitude_deg) const;
+  std::int64_t column_of(const Row& row, double longitude_deg) const;
+  void test(std::uint32_t disc, geo::Vector3 place, double radius_m, std::vector<Hit>& hits) const;
+  void find_in_row(std::int64_t number, geo::GeoPoint place, double reach_deg, geo::Vector3 at, double radius_m,
+                   std::vector<Hit>& hits) const;
+
+  double cell_deg_ = 1.0;
+  double most_reach_m_ = 0.0;  // of the discs in cells
+  std::vector<geo::Vector3> middles_;
+  std::vector<double> reaches_m_;
+  std::vector<std::uint32_t> large_;    // too large for cells: looked at every time
+  std::vector<std::uint32_t> ordered_;  // discs by cell
+  std::unordered_map<std::uint64_t, std::pair<std::uint32_t, std::uint32_t>> cells_;  // first and end in ordered_
+};
+
+}  // namespace yars::model::scene

@@ -1,0 +1,474 @@
+#include "model/scene/openflight_parser.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/radar/world.hpp"
+#include "model/scene/color_palette.hpp"
+#include "model/scene/kind_table.hpp"
+#include "model/scene/mesh_record.hpp"
+#include "model/scene/openflight_format.hpp"
+#include "model/scene/openflight_header.hpp"
+#include "model/scene/record_stream.hpp"
+
+namespace yars::model::scene {
+
+using namespace openflight;
+
+namespace {
+
+// What the records of one level belong to.
+struct Level {
+  std::uint32_t node = kNone;
+  std::uint32_t face = kNone;  // the face that a vertex list is of
+  int mesh = -1;               // the mesh that primitives are of
+};
+
+class TreeParser {
+ public:
+  TreeParser(std::span<const std::byte> bytes, std::string subject)
+      : bytes_(bytes), subject_(std::move(subject)), stream_(bytes, subject_) {}
+
+  failure::Expected<NodeTree> parse() {
+    const auto header = parse_header(bytes_, subject_);
+    if (!header) return tl::unexpected(header.error());
+    tree_.header = *header;
+    tree_.nodes.emplace_back();
+    current_.node = 0;
+    for (;;) {
+      const auto record = stream_.next();
+      if (!record) return tl::unexpected(record.error());
+      if (!*record) break;
+      if (const auto done = take(**record); !done) return tl::unexpected(done.error());
+    }
+    if (!levels_.empty())
+      tree_.warnings.emplace_back("the file ends inside " + std::to_string(levels_.size()) + " open levels");
+    if (foreign_codes_ > 0)
+      tree_.warnings.emplace_back("faces with a surface material code beyond 31: " + std::to_string(foreign_codes_) +
+                                  "; they count as without one");
+    tree_.counts.materials = colors_.materials();
+    tree_.kinds = kinds_.kinds();
+    return std::move(tree_);
+  }
+
+ private:
+  using Done = failure::Expected<void>;
+
+  Done take(const Record& record) {
+    if (const int step = nesting_of_skipped(record.opcode()); step != 0 || skipped_ > 0) {
+      skipped_ = std::max(0, skipped_ + step);
+      return {};
+    }
+    switch (record.opcode()) {
+      case kPushLevel:
+        return push();
+      case kPopLevel:
+        return pop();
+      case kPushSubface:
+        ++subface_level_;
+        return push();
+      case kPopSubface:
+        subface_level_ = std::max(0, subface_level_ - 1);
+        return pop();
+      case kColorPalette:
+        colors_.read_colors(record, tree_.header.revision);
+        return {};
+      case kMaterial:
+        colors_.read_material(record);
+        return {};
+      case kFace:
+        return add_face(record);
+      case kMesh:
+        return add_mesh(record);
+      case kLocalVertexPool:
+        return add_pool(record);
+      case kMeshPrimitive:
+        return add_primitive(record);
+      case kVertexPalette:
+        palette_start_ = record.start();
+        return {};
+      case kVertexColor:
+      case kVertexColorNormal:
+      case kVertexColorNormalTexture:
+      case kVertexColorTexture:
+        return add_vertex(record);
+      case kVertexList:
+        return add_corners(record);
+      case kMatrix:
+        return add_matrix(record);
+      case kReplicate:
+        return add_replication(record);
+      case kLongId:
+        name_it(record);
+        return {};
+      default:
+        return add_node(record);
+    }
+  }
+
+  // +1 and -1 around records that nobody here reads, else 0.
+  static int nesting_of_skipped(std::uint16_t opcode) {
+    if (opcode == kPushExtension || opcode == kPushAttribute) return 1;
+    return opcode == kPopExtension || opcode == kPopAttribute ? -1 : 0;
+  }
+
+  tl::unexpected<failure::Error> too_many(std::size_t most, const std::string& what) {
+    return failure::fail(subject_, "at most " + std::to_string(most) + " " + what, "more", "split the file");
+  }
+
+  Done push() {
+    if (levels_.size() >= kDeepestPush) return too_many(kDeepestPush, "levels of records");
+    levels_.push_back(current_);
+    return {};
+  }
+
+  Done pop() {
+    if (levels_.empty())
+      return failure::fail(subject_, "as many pop records as push records", "one pop more",
+                           "the file is damaged; fetch it again");
+    current_ = levels_.back();
+    levels_.pop_back();
+    return {};
+  }
+
+  const Level& parent() const { return levels_.empty() ? root_ : levels_.back(); }
+
+  Done new_node(NodeKind kind, bool attached = true) {
+    if (tree_.nodes.size() >= kMostNodes) return too_many(kMostNodes, "nodes");
+    const auto number = static_cast<std::uint32_t>(tree_.nodes.size());
+    tree_.nodes.emplace_back().kind = kind;
+    if (attached && parent().node != kNone) link_child(parent().node, number);
+    current_ = {.node = number};
+    return {};
+  }
+
+  void link_child(std::uint32_t parent, std::uint32_t child) {
+    Node& above = tree_.nodes[parent];
+    if (above.first_child == kNone)
+      above.first_child = child;
+    else
+      tree_.nodes[above.last_child].next_sibling = child;
+    above.last_child = child;
+  }
+
+  Done add_node(const Record& record) {
+    switch (record.opcode()) {
+      case kGroup:
+        return add_group(record);
+      case kObject:
+        ++tree_.counts.objects;
+        return add_named(record, NodeKind::object);
+      case kLevelOfDetail:
+        return add_level_of_detail(record);
+      case kSwitch:
+        return add_switch(record);
+      case kInstanceDefinition:
+        return add_definition(record);
+      case kInstanceReference:
+        ++tree_.counts.instances;
+        return new_node(NodeKind::instance).map([&] {
+          tree_.nodes.back().instance = record.number_or<std::uint16_t>(6, 0);
+        });
+      case kExternalReference:
+        ++tree_.counts.external_references;
+        return new_node(NodeKind::external).map([&] { tree_.nodes.back().name = record.text(4, 200); });
+      case kDegreeOfFreedom:
+      case kBinarySeparatingPlane:
+      case kRoadSegment:
+      case kClipRegion:
+      case kExtension:
+      case kContinuouslyAdaptive:
+      case kRoadConstruction:
+        return add_named(record, NodeKind::group);
+      case kSound:
+      case kPath:
+      case kText:
+      case kLightSource:
+      case kLightPoint:
+      case kCurve:
+      case kIndexedLightPoint:
+      case kLightPointSystem:
+        return new_node(NodeKind::ignored);
+      default:
+        return {};
+    }
+  }
+
+  Done add_named(const Record& record, NodeKind kind) {
+    return new_node(kind).map([&] { tree_.nodes.back().name = record.text(kNameAt, kNameBytes); });
+  }
+
+  Done add_group(const Record& record) {
+    constexpr std::uint32_t kForward = 1U << 30, kSwing = 1U << 29, kBackward = 1U << 26;
+    constexpr std::int32_t kBackwardRevision = 1580;  // the bit meant nothing before; a swing alone was an animation
+    const auto flags = record.number_or<std::uint32_t>(16, 0);
+    const std::uint32_t animation = kForward | (tree_.header.revision >= kBackwardRevision ? kBackward : kSwing);
+    return add_named(record, NodeKind::group).map([&] {
+      tree_.nodes.back().first_child_only = (flags & animation) != 0;
+    });
+  }
+
+  Done add_level_of_detail(const Record& record) {
+    ++tree_.counts.levels_of_detail;
+    return add_named(record, NodeKind::level_of_detail).map([&] {
+      const double switch_out = record.number_or<double>(24, 0.0);
+      tree_.nodes.back().switch_out_m = std::isfinite(switch_out) ? switch_out * tree_.header.metres_per_unit : 0.0;
+    });
+  }
+
+  Done add_switch(const Record& record) {
+    constexpr std::size_t kCurrentAt = 16, kMasksAt = 20, kWordsAt = 24, kFirstWordAt = 28;
+    return add_named(record, NodeKind::choice).map([&] {
+      const std::size_t current = record.number_or<std::uint32_t>(kCurrentAt, 0);
+      const std::size_t words = record.number_or<std::uint32_t>(kWordsAt, 0);
+      if (current >= record.number_or<std::uint32_t>(kMasksAt, 0)) return;
+      for (std::size_t word = 0; word < words; ++word) {
+        const auto mask = record.number<std::uint32_t>(kFirstWordAt + 4 * (current * words + word));
+        if (!mask) break;
+        tree_.nodes.back().choice_mask.push_back(*mask);
+      }
+    });
+  }
+
+  Done add_definition(const Record& record) {
+    return new_node(NodeKind::group, false).map([&] {
+      tree_.definitions[record.number_or<std::uint16_t>(6, 0)] = current_.node;
+    });
+  }
+
+  void name_it(const Record& record) {
+    constexpr std::size_t kLongestName = 128;
+    if (current_.node == kNone || current_.face != kNone || current_.mesh >= 0) return;
+    Node& node = tree_.nodes[current_.node];
+    if (node.kind != NodeKind::external) node.name = record.text(4, kLongestName);
+  }
+
+  // A face that is moved becomes the content of a node of its own. Records that follow a face at once can do that;
+  // later the list of its siblings has gone on, and it stays where it is.
+  Done own_node() {
+    const std::uint32_t face = current_.face;
+    const std::uint32_t above = parent().node;
+    if (tree_.faces.size() != std::size_t{face} + 1 || above == kNone) return {};
+    if (const auto made = new_node(NodeKind::group); !made) return made;
+    Node& before = tree_.nodes[above];
+    before.last_face = face_before_;
+    if (face_before_ == kNone)
+      before.first_face = kNone;
+    else
+      tree_.faces[face_before_].next = kNone;
+    tree_.nodes.back().first_face = tree_.nodes.back().last_face = face;
+    current_.face = face;
+    return {};
+  }
+
+  bool is_loose_face() const { return current_.face != kNone && current_.node == parent().node; }
+
+  Done add_matrix(const Record& record) {
+    constexpr std::size_t kNumbers = 16;
+    std::array<double, kNumbers> m{};
+    for (std::size_t i = 0; i < kNumbers; ++i) {
+      m[i] = static_cast<double>(record.number_or<float>(4 + 4 * i, i % 5 == 0 ? 1.0F : 0.0F));
+      if (!std::isfinite(m[i]))
+        return failure::fail(subject_, "a matrix of finite numbers", "NaN or infinity", "the file is damaged");
+    }
+    if (is_loose_face())
+      if (const auto done = own_node(); !done) return done;
+    if (current_.node == kNone || is_loose_face()) return {};
+    const Affine matrix{{m[0], m[1], m[2]},
+                        {m[4], m[5], m[6]},
+                        {m[8], m[9], m[10]},
+                        tree_.header.metres_per_unit * Vector3{m[12], m[13], m[14]}};
+    if (tree_.nodes[current_.node].matrix == kNone) {
+      tree_.nodes[current_.node].matrix = static_cast<std::uint32_t>(tree_.matrices.size());
+      tree_.matrices.push_back(matrix);
+    } else {
+      tree_.matrices[tree_.nodes[current_.node].matrix] = matrix;
+    }
+    return {};
+  }
+
+  Done add_replication(const Record& record) {
+    const int copies = record.number_or<std::int16_t>(4, 0);
+    if (copies <= 0) return {};
+    if (is_loose_face())
+      if (const auto done = own_node(); !done) return done;
+    if (current_.node != kNone && !is_loose_face())
+      tree_.nodes[current_.node].replications = static_cast<std::uint16_t>(copies);
+    return {};
+  }
+
+  // ---- surfaces
+
+  // The face whose properties a face or mesh record gives, its corners still to come; nothing when it is no surface.
+  std::optional<TreeFace> surface_of(const Record& record, std::size_t shift) {
+    const auto draw_type = record.number_or<std::uint8_t>(face::kDrawType + shift, face::kSolidOneSided);
+    const auto flags = record.number_or<std::uint32_t>(face::kFlags + shift, 0);
+    if ((flags & face::kHidden) != 0) {
+      ++tree_.counts.hidden_faces;
+      return std::nullopt;
+    }
+    if (draw_type != face::kSolidOneSided && draw_type != face::kSolidTwoSided && draw_type != face::kSurround)
+      return std::nullopt;
+    SurfaceKind kind;
+    const int code = record.number_or<std::int16_t>(face::kSurfaceMaterial + shift, 0);
+    if (code > 0 && code < radar::kMaterials) kind.material = static_cast<std::uint8_t>(code);
+    foreign_codes_ += code >= radar::kMaterials ? 1 : 0;
+    kind.feature_id = record.number_or<std::uint16_t>(face::kFeatureId + shift, 0);
+    kind.color_rgb = colors_.color_of(record, shift, tree_.header.revision);
+    TreeFace found;
+    found.kind = kinds_.number_of(kind);
+    found.two_sided = draw_type == face::kSolidTwoSided;
+    found.subface_level = static_cast<std::uint8_t>(std::min(subface_level_, 255));
+    return found;
+  }
+
+  Done append_face(TreeFace face, std::uint32_t node) {
+    if (tree_.faces.size() >= kMostFaces) return too_many(kMostFaces, "faces");
+    const auto number = static_cast<std::uint32_t>(tree_.faces.size());
+    tree_.faces.push_back(face);
+    Node& owner = tree_.nodes[node];
+    face_before_ = owner.last_face;
+    if (owner.first_face == kNone)
+      owner.first_face = number;
+    else
+      tree_.faces[owner.last_face].next = number;
+    owner.last_face = number;
+    return {};
+  }
+
+  Done add_face(const Record& record) {
+    ++tree_.counts.faces;
+    current_ = {.node = parent().node};
+    if (current_.node == kNone) return {};
+    const std::optional<TreeFace> face = surface_of(record, 0);
+    if (!face) {
+      current_.node = kNone;  // what is below it belongs to nothing
+      return {};
+    }
+    current_.face = static_cast<std::uint32_t>(tree_.faces.size());
+    return append_face(*face, current_.node);
+  }
+
+  Done add_vertex(const Record& record) {
+    if (tree_.vertices.size() >= kMostVertices) return too_many(kMostVertices, "vertices");
+    TreeVertex made;
+    made.place = tree_.header.metres_per_unit * Vector3{record.number_or<double>(vertex::kX, 0.0),
+                                                        record.number_or<double>(vertex::kY, 0.0),
+                                                        record.number_or<double>(vertex::kZ, 0.0)};
+    if (record.opcode() == kVertexColorNormal || record.opcode() == kVertexColorNormalTexture)
+      for (std::size_t i = 0; i < 3; ++i) made.normal[i] = record.number_or<float>(vertex::kNormal + 4 * i, 0.0F);
+    palette_offsets_.push_back(record.start() - palette_start_);
+    palette_vertices_.push_back(static_cast<std::uint32_t>(tree_.vertices.size()));
+    tree_.vertices.push_back(made);
+    ++tree_.counts.vertices;
+    return {};
+  }
+
+  Done add_corners(const Record& record) {
+    const std::uint32_t face_number = parent().face;
+    const std::size_t count = (record.size() - 4) / 4;
+    tree_.counts.corners += count;
+    if (face_number == kNone) return {};
+    if (tree_.corners.size() + count > kMostVertices) return too_many(kMostVertices, "corners of faces");
+    TreeFace& face = tree_.faces[face_number];
+    if (face.count > 0) return {};
+    face.first_corner = static_cast<std::uint32_t>(tree_.corners.size());
+    face.count = static_cast<std::uint32_t>(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t offset = *record.number<std::uint32_t>(4 + 4 * i);
+      const auto found = std::lower_bound(palette_offsets_.begin(), palette_offsets_.end(), offset);
+      if (found == palette_offsets_.end() || *found != offset)
+        return failure::fail(
+            subject_, "corners that are vertices of the palette",
+            "offset " + std::to_string(offset) + " in the vertex list at byte " + std::to_string(record.start()),
+            "the file is damaged; fetch it again");
+      tree_.corners.push_back(palette_vertices_[static_cast<std::size_t>(found - palette_offsets_.begin())]);
+    }
+    return {};
+  }
+
+  // ---- meshes
+
+  Done add_mesh(const Record& record) {
+    ++tree_.counts.meshes;
+    current_ = {.node = parent().node};
+    const std::optional<TreeFace> surface = surface_of(record, face::kMeshShift);
+    meshes_.push_back({.surface = surface.value_or(TreeFace{}), .visible = surface && current_.node != kNone});
+    const int mesh = static_cast<int>(meshes_.size()) - 1;
+    // A node of its own: its primitives come behind a push, a matrix before it.
+    if (current_.node != kNone)
+      if (const auto made = new_node(NodeKind::group); !made) return made;
+    current_.mesh = mesh;
+    return {};
+  }
+
+  int mesh_here() const { return current_.mesh >= 0 ? current_.mesh : parent().mesh; }
+
+  Done add_pool(const Record& record) {
+    const int mesh = mesh_here();
+    if (mesh < 0) return {};
+    if (tree_.vertices.size() + record.size() / 24 > kMostVertices) return too_many(kMostVertices, "vertices");
+    MeshState& state = meshes_[static_cast<std::size_t>(mesh)];
+    state.first_vertex = tree_.vertices.size();
+    const auto count = read_local_pool(record, tree_.header.metres_per_unit, subject_, tree_.vertices);
+    if (!count) return tl::unexpected(count.error());
+    state.vertices = *count;
+    tree_.counts.vertices += *count;
+    return {};
+  }
+
+  Done add_primitive(const Record& record) {
+    ++tree_.counts.faces;
+    const Level& above = parent();
+    if (above.mesh < 0) return {};
+    const MeshState& state = meshes_[static_cast<std::size_t>(above.mesh)];
+    const auto polygons = read_primitive(record, state.vertices, subject_);
+    if (!polygons) return tl::unexpected(polygons.error());
+    tree_.counts.corners += polygons->listed;
+    if (!state.visible || above.node == kNone) return {};
+    if (tree_.corners.size() + polygons->corners.size() > kMostVertices)
+      return too_many(kMostVertices, "corners of faces");
+    for (std::size_t first = 0; first < polygons->corners.size(); first += polygons->each) {
+      TreeFace face = state.surface;
+      face.first_corner = static_cast<std::uint32_t>(tree_.corners.size());
+      face.count = static_cast<std::uint32_t>(polygons->each);
+      for (std::size_t i = first; i < first + polygons->each; ++i)
+        tree_.corners.push_back(static_cast<std::uint32_t>(state.first_vertex + polygons->corners[i]));
+      if (const auto done = append_face(face, above.node); !done) return done;
+    }
+    return {};
+  }
+
+  struct MeshState {
+    TreeFace surface;
+    bool visible = true;
+    std::size_t first_vertex = 0;
+    std::size_t vertices = 0;
+  };
+
+  std::span<const std::byte> bytes_;
+  std::string subject_;
+  RecordStream stream_;
+  NodeTree tree_;
+  ColorPalette colors_;
+  KindTable kinds_;
+  std::vector<Level> levels_;
+  Level root_{.node = 0};
+  Level current_;
+  std::uint32_t face_before_ = kNone;  // the newest face's elder sibling
+  int skipped_ = 0;                    // depth of extensions and attributes
+  int subface_level_ = 0;
+  std::size_t palette_start_ = 0;
+  std::vector<std::size_t> palette_offsets_;  // of vertices, ascending
+  std::vector<std::uint32_t> palette_vertices_;
+  std::vector<MeshState> meshes_;
+  std::uint64_t foreign_codes_ = 0;
+};
+
+}  // namespace
+
+failure::Expected<NodeTree> parse_openflight(std::span<const std::byte> bytes, const std::string& subject) {
+  return TreeParser(bytes, subject).parse();
+}
+
+}  // namespace yars::model::scene

@@ -1,0 +1,83 @@
+#include "model/scene/scene_source.hpp"
+
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+namespace yars::model::scene {
+
+namespace {
+
+std::optional<double> number(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::optional<std::vector<double>> numbers(std::string_view text) {
+  std::vector<double> found;
+  for (;;) {
+    const std::size_t comma = text.find(',');
+    const std::optional<double> value = number(text.substr(0, comma));
+    if (!value) return std::nullopt;
+    found.push_back(*value);
+    if (comma == std::string_view::npos) return found;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+// Degrees_minutes_seconds behind one of two letters, taken off the front of `text`.
+std::optional<double> take_angle(std::string_view& text, char positive, char negative) {
+  if (text.empty()) return std::nullopt;
+  const char side = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  if (side != positive && side != negative) return std::nullopt;
+  text.remove_prefix(1);
+  double degrees = 0.0;
+  for (const double parts : {1.0, 60.0, 3600.0}) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || value < 0 || (parts > 1.0 && value >= 60)) return std::nullopt;
+    degrees += value / parts;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    if (parts == 3600.0) break;
+    if (text.empty() || text[0] != '_') return std::nullopt;
+    text.remove_prefix(1);
+  }
+  return side == negative ? -degrees : degrees;
+}
+
+}  // namespace
+
+failure::Expected<radar::Scene> parse_scene(const std::string& text) {
+  radar::Scene scene;
+  const std::size_t at = text.rfind('@');
+  scene.file = text.substr(0, at);
+  if (at == std::string::npos) return scene;
+  const auto values = numbers(std::string_view(text).substr(at + 1));
+  const bool right = values && (values->size() == 2 || values->size() == 3) && std::abs((*values)[0]) <= 90.0 &&
+                     std::abs((*values)[1]) <= 360.0;
+  if (!right || scene.file.empty())
+    return failure::fail(text, "FILE@LATITUDE,LONGITUDE or FILE@LATITUDE,LONGITUDE,HEADING in degrees",
+                         "'" + text.substr(at) + "'", "write it as airfield.flt@37.5,-122.3,45");
+  scene.place = {(*values)[0], geo::wrapped_degrees((*values)[1])};
+  if (values->size() == 3) scene.heading_deg = (*values)[2];
+  return scene;
+}
+
+std::optional<geo::GeoPoint> place_in_name(const std::string& name) {
+  for (std::size_t start = 0; start < name.size(); ++start) {
+    std::string_view rest = std::string_view(name).substr(start);
+    const std::optional<double> latitude_deg = take_angle(rest, 'N', 'S');
+    if (!latitude_deg) continue;
+    if (!rest.empty() && rest[0] == '_') rest.remove_prefix(1);
+    const std::optional<double> longitude_deg = take_angle(rest, 'E', 'W');
+    if (longitude_deg && std::abs(*latitude_deg) <= 90.0 && std::abs(*longitude_deg) <= 180.0)
+      return geo::GeoPoint{*latitude_deg, *longitude_deg};
+  }
+  return std::nullopt;
+}
+
+}  // namespace yars::model::scene

@@ -1,0 +1,72 @@
+// Polygonal scenes of a configuration, read as far as they are wanted: prepare() reads and places the files whose reach
+// comes into the region and keeps them; files elsewhere are not opened. Beyond the limit the longest unused go, never
+// one that the region wants. Terrain comes from a store of its own, at its finest, so that heights never depend on what
+// the radar looks at. Equal files and calls give equal views. A file that cannot be read is a problem once and is
+// absent. Numbers of kinds and objects stay as they are from view to view. One thread at a time; views are read by any
+// number.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lib/failure/error.hpp"
+#include "model/scene/scene_index.hpp"
+#include "model/scene/scene_view.hpp"
+#include "model/terrain/terrain_view.hpp"
+
+namespace yars::model::scene {
+
+struct SceneStoreOptions {
+  std::size_t resident_limit_bytes = std::size_t{2} << 30;
+};
+
+class SceneStore {
+ public:
+  // Errors: a file named by itself is missing, is no OpenFlight file or has no place.
+  static failure::Expected<std::unique_ptr<SceneStore>> open(const std::vector<radar::Scene>& scenes,
+                                                             std::unique_ptr<terrain::TerrainStore> ground,
+                                                             SceneStoreOptions options = {});
+
+  // A view that holds every scene that reaches into the region (its detail is not asked). The same view, of the same
+  // generation, while nothing has to change.
+  SceneViewPointer prepare(const terrain::TerrainRegion& region);
+
+  // What a person should know since the last call: unreadable files, odd ones. A sentence each.
+  std::vector<std::string> take_problems();
+
+  const std::vector<IndexedScene>& index() const { return index_; }
+
+ private:
+  struct Resident {
+    std::shared_ptr<const PlacedScene> placed;
+    std::uint64_t last_use = 0;
+    bool unreadable = false;
+    std::uint32_t first_object = 0;  // its range of objects_, kept when it is dropped
+    std::uint32_t objects = 0;
+  };
+
+  SceneStore(std::vector<IndexedScene> index, std::unique_ptr<terrain::TerrainStore> ground, SceneStoreOptions options);
+  bool load(std::size_t scene);
+  bool drop_longest_unused();
+  void make_view();
+
+  std::vector<IndexedScene> index_;
+  std::unique_ptr<terrain::TerrainStore> ground_;
+  SceneStoreOptions options_;
+  GridIndex places_;
+  std::vector<Resident> scenes_;  // one for each of index_
+  KindTable kinds_;
+  std::vector<SceneObject> objects_;
+  std::uint64_t resident_bytes_ = 0;
+  std::uint64_t prepares_ = 0;
+  std::uint64_t generation_ = 0;
+  SceneViewPointer view_;
+  std::vector<std::string> problems_;
+};
+
+// The store that a configuration asks for; null when it names no scene.
+failure::Expected<std::unique_ptr<SceneStore>> open_scenes(const radar::RadarConfiguration& configuration);
+
+}  // namespace yars::model::scene

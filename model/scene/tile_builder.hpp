@@ -1,0 +1,62 @@
+// Tiles of one scene while triangles are sorted into them: the square of a scene's plane that holds a triangle's middle
+// is its tile. Corners that come from one vertex of the model are one vertex of a tile.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "model/scene/affine.hpp"
+#include "model/scene/node_tree.hpp"
+#include "model/scene/plane.hpp"
+#include "model/scene/scene_view.hpp"
+
+namespace yars::model::scene {
+
+struct PlacedCorner {
+  Vector3 place;                 // metres east and north on the scene's plane, altitude MSL
+  Vector3 normal;                // unit, along the same axes
+  std::uint32_t vertex = kNone;  // of the model; kNone: shared with no other corner
+};
+
+struct SurfaceTag {
+  std::uint16_t kind = 0;
+  std::uint32_t object = 0;
+};
+
+class TileBuilders {
+ public:
+  TileBuilders(const Plane& plane, std::size_t model_vertices);
+
+  void add(const std::array<PlacedCorner, 3>& corners, SurfaceTag tag);
+  // The map of the square that a point lies in.
+  const LocalMap& map_at(PlanePoint point);
+  // Ends the work: tiles from south to north and west to east, without spare room.
+  std::vector<Tile> take(double zero_msl_m);
+
+ private:
+  using Square = std::pair<std::int32_t, std::int32_t>;  // row, column
+  struct Builder {
+    explicit Builder(const LocalMap& local) : map(local) {}
+    LocalMap map;
+    Tile tile;
+    std::vector<double> altitude_m;  // a vertex each
+    std::uint32_t number = 0;
+  };
+  Builder& builder_at(PlanePoint point);
+  std::uint32_t vertex_in(Builder& builder, const PlacedCorner& corner);
+
+  Plane plane_;
+  std::map<Square, std::unique_ptr<Builder>> builders_;
+  Builder* last_ = nullptr;
+  Square last_square_{};
+  struct Copy {
+    std::uint32_t builder = kNone, vertex = 0;
+  };
+  std::vector<Copy> copies_;  // the newest copy of each vertex of the model
+};
+
+std::uint64_t bytes_of(const Tile& tile);
+
+}  // namespace yars::model::scene

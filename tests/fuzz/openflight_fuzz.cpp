@@ -1,0 +1,33 @@
+// Any bytes as an OpenFlight file: a model or an error, within limits. The input is laid over a small file with every
+// record, in pieces of (offset, length, bytes), so that the reader gets past its header; input that begins with a
+// header record is taken as the file itself.
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "tests/scene/every_record.hpp"
+
+using namespace yars::model::scene;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const std::vector<std::byte> sound = every_record();
+  static constexpr FlattenLimits kLimits{.triangles = 100'000, .vertices = 300'000, .visits = 1'000'000};
+  std::vector<std::byte> file;
+  if (size >= 4 && data[0] == 0 && data[1] == 1) {
+    file.resize(size);
+    std::memcpy(file.data(), data, size);
+  } else {
+    file = sound;
+    const std::uint8_t* const end = data + size;
+    while (end - data >= 3) {
+      const std::size_t offset = (data[0] * 256U + data[1]) % file.size();
+      const std::size_t length =
+          std::min({std::size_t{data[2]}, static_cast<std::size_t>(end - data - 3), file.size() - offset});
+      std::memcpy(file.data() + offset, data + 3, length);
+      data += 3 + length;
+    }
+  }
+  (void)read_openflight(file, "fuzz", kLimits);
+  return 0;
+}

@@ -1,0 +1,78 @@
+// Damaged files are read or refused, in bounded memory. YARS_SCENE_MUTATIONS: how many of each; YARS_SCENE_SEED:
+// another row of them.
+#include "tests/scene/mutation.hpp"
+
+#include <sys/resource.h>
+
+#include <cstdlib>
+#include <map>
+
+#include "model/scene/placing.hpp"
+#include "model/terrain/analytic_terrain.hpp"
+#include "model/terrain/cell_reading.hpp"
+#include "tests/scene/every_record.hpp"
+#include "tests/scene/support.hpp"
+#include "tests/terrain/shared_data.hpp"
+
+namespace yars::model::scene {
+namespace {
+
+std::uint64_t number_from(const char* name, std::uint64_t otherwise) {
+  const char* text = std::getenv(name);
+  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
+}
+
+// Small, so that a run meets them often.
+constexpr FlattenLimits kLimits{.triangles = 100'000, .vertices = 300'000, .visits = 1'000'000};
+
+void read_mutations(std::span<const std::byte> sound, std::uint64_t count) {
+  const std::uint64_t seed = number_from("YARS_SCENE_SEED", 1);
+  SCOPED_TRACE("YARS_SCENE_SEED=" + std::to_string(seed));
+  ASSERT_TRUE(read_openflight(sound, "sound"));
+  const Mutation mutation(sound);
+  const terrain::AnalyticTerrain ground(terrain::flat(0));
+  Chance chance(seed);
+  std::uint64_t read = 0, refused = 0;
+  std::map<std::string, std::uint64_t> refusals;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const std::vector<std::byte> bytes = mutation.made(chance);
+    const auto model = read_openflight(bytes, "f", kLimits);
+    if (!model) {
+      ++refused;
+      EXPECT_FALSE(model.error().expected.empty());
+      ++refusals[model.error().expected.substr(0, 24)];
+      continue;
+    }
+    ++read;
+    EXPECT_LE(model->triangles.size(), kLimits.triangles);
+    for (const ModelTriangle& triangle : model->triangles)
+      for (const std::uint32_t corner : triangle.corners) ASSERT_LT(corner, model->vertices.size());
+    if (i % 64 != 0) continue;
+    KindTable kinds;
+    const PlacedScene placed = place_model(*model, {.place = {37, -122}}, ground, 0, kinds);
+    EXPECT_EQ(placed.objects.size(), model->objects.size());
+  }
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  std::printf("%llu read, %llu refused in %zu ways, at most %ld MB\n", static_cast<unsigned long long>(read),
+              static_cast<unsigned long long>(refused), refusals.size(), usage.ru_maxrss / 1024);
+}
+
+TEST(DamagedFiles, OfEveryRecordAreReadOrRefused) {
+  read_mutations(every_record(), number_from("YARS_SCENE_MUTATIONS", 3000));
+}
+
+TEST(DamagedFiles, OfAnAirfieldAreReadOrRefused) {
+  read_mutations(generate_scene({.triangles = 1, .origin = {37, -122}}).file,
+                 number_from("YARS_SCENE_MUTATIONS", 1000) / 10);
+}
+
+TEST(DamagedFiles, OfTheTankAreReadOrRefused) {
+  YARS_NEEDS_SHARED_DATA();
+  const auto bytes = terrain::read_file(test::shared_data() / "flt/tank.FLT", 1 << 20);
+  ASSERT_TRUE(bytes);
+  read_mutations(*bytes, number_from("YARS_SCENE_MUTATIONS", 1000) / 10);
+}
+
+}  // namespace
+}  // namespace yars::model::scene

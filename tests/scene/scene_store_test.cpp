@@ -1,0 +1,306 @@
+// Scenes on the earth: where they stand, how they meet the ground, what a store reads and what a view finds.
+#include "model/scene/scene_store.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/scene/generator.hpp"
+#include "model/scene/scene_source.hpp"
+#include "model/terrain/analytic_terrain.hpp"
+#include "tests/scene/support.hpp"
+
+namespace yars::model::scene {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr geo::GeoPoint kPlace{37.5, -122.3};
+
+std::unique_ptr<terrain::TerrainStore> ground(terrain::AnalyticTerrain::Height height) {
+  return std::make_unique<terrain::FixedTerrainStore>(
+      std::make_shared<const terrain::AnalyticTerrain>(std::move(height)));
+}
+
+std::unique_ptr<SceneStore> store_of(const std::vector<radar::Scene>& scenes, terrain::AnalyticTerrain::Height height,
+                                     SceneStoreOptions options = {}) {
+  auto store = SceneStore::open(scenes, ground(std::move(height)), options);
+  EXPECT_TRUE(store) << (store ? "" : store.error().message());
+  return std::move(*store);
+}
+
+radar::Scene scene_of(const std::filesystem::path& file) {
+  return {.file = file.string()};
+}
+
+// A box of 20 x 10 x 8 m whose middle is 300 m east and 400 m north of the origin, and a flat road of 200 m.
+std::vector<std::byte> box_and_road(std::optional<geo::GeoPoint> origin) {
+  OpenFlightWriter writer(origin);
+  Sketch sketch(writer);
+  writer.begin_object("box");
+  sketch.kind = {1, 0, 0xFF0000};
+  sketch.box({300, 400, 0}, 20, 10, 8);
+  writer.end();
+  writer.begin_object("road");
+  sketch.kind = {9, 0, 0x00FF00};
+  sketch.polygon({{-100, -2, 0.1}, {100, -2, 0.1}, {100, 2, 0.1}, {-100, 2, 0.1}});
+  writer.end();
+  return writer.take();
+}
+
+geo::GeoPoint offset(geo::GeoPoint from, double azimuth_deg, double distance_m) {
+  return geo::geodesic_direct(from, geo::Bearing::degrees(azimuth_deg), geo::Length::metres(distance_m));
+}
+
+double distance_m(geo::GeoPoint a, geo::GeoPoint b) {
+  return geo::geodesic_inverse(a, b).distance.metres();
+}
+
+// Every corner of a view's triangles: the object it is of, its place and altitude.
+template <class Look>
+void each_corner(const SceneView& view, const Look& look) {
+  std::vector<const Tile*> tiles;
+  view.tiles_near(kPlace, 50'000, tiles);
+  for (const Tile* tile : tiles)
+    for (std::size_t triangle = 0; triangle < tile->corners.size(); ++triangle)
+      for (const std::uint32_t i : tile->corners[triangle]) {
+        const double east = static_cast<double>(tile->east_m[i]), north = static_cast<double>(tile->north_m[i]);
+        const geo::GeoPoint at = offset(tile->origin, std::atan2(east, north) * 180.0 / M_PI, std::hypot(east, north));
+        look(view.objects()[tile->object[triangle]], at, tile->zero_msl_m + static_cast<double>(tile->up_m[i]));
+      }
+}
+
+TEST(SceneStore, PutsAnObjectAtItsLatitudeAndLongitude) {
+  const Folder folder;
+  const auto store = store_of({scene_of(folder.write("a.flt", box_and_road(kPlace)))}, terrain::flat(100));
+  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+  std::vector<std::uint32_t> found;
+  const geo::GeoPoint middle = offset(kPlace, std::atan2(300, 400) * 180.0 / M_PI, 500);
+  view->objects_near(middle, 5, found);
+  ASSERT_EQ(found.size(), 1U);
+  const SceneObject& object = view->objects()[found[0]];
+  EXPECT_EQ(object.name, "box");
+  EXPECT_LT(distance_m(object.middle, middle), 0.01);
+  EXPECT_NEAR(object.base_msl_m, 100, 1e-9);
+  EXPECT_NEAR(object.height_m, 8, 1e-5);
+  EXPECT_NEAR(object.length_m, 20, 1e-4);
+  EXPECT_NEAR(object.width_m, 10, 1e-4);
+  EXPECT_NEAR(object.heading_deg, 90, 0.01);
+  EXPECT_EQ(view->kinds()[object.kind].material, 1);
+}
+
+TEST(SceneStore, TurnsASceneByItsHeadingClockwise) {
+  const Folder folder;
+  radar::Scene scene = scene_of(folder.write("a.flt", box_and_road(std::nullopt)));
+  scene.place = kPlace;
+  scene.heading_deg = 90;
+  const auto store = store_of({scene}, terrain::flat(0));
+  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+  std::vector<std::uint32_t> found;
+  // 300 east and 400 north become 400 east and 300 south.
+  view->objects_near(offset(kPlace, std::atan2(400, -300) * 180.0 / M_PI, 500), 1, found);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(view->objects()[found[0]].heading_deg, 0, 0.01);
+}
+
+TEST(SceneStore, StandsAnObjectLevelOnTheGroundUnderItsMiddle) {
+  const Folder folder;
+  // One metre up in ten, eastward.
+  const terrain::TerrainAxis east{kPlace, geo::Bearing::degrees(90)};
+  const auto store = store_of({scene_of(folder.write("a.flt", box_and_road(kPlace)))}, terrain::plane(east, 500, 0.1));
+  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+  double lowest = 1e9, highest = -1e9;
+  each_corner(*view, [&](const SceneObject& object, geo::GeoPoint, double altitude) {
+    if (object.name != "box") return;
+    lowest = std::min(lowest, altitude);
+    highest = std::max(highest, altitude);
+  });
+  EXPECT_NEAR(lowest, 530, 0.01);
+  EXPECT_NEAR(highest, 538, 0.01);
+}
+
+TEST(SceneStore, LaysARoadOnTheGroundAllAlong) {
+  const Folder folder;
+  const auto hills = terrain::sine_hills({kPlace, geo::Bearing::degrees(90)}, 5, 200);
+  const auto store = store_of({scene_of(folder.write("a.flt", box_and_road(kPlace)))}, hills);
+  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+  std::size_t vertices = 0;
+  each_corner(*view, [&](const SceneObject& object, geo::GeoPoint at, double altitude) {
+    if (object.name != "road") return;
+    ++vertices;
+    EXPECT_NEAR(altitude, hills(at) + 0.1, 0.01);
+  });
+  EXPECT_GT(vertices, 40U);
+}
+
+TEST(SceneStore, KeepsHeightsAsTheyAreWhenToldThatTheyAreMsl) {
+  const Folder folder;
+  radar::Scene scene = scene_of(folder.write("a.flt", box_and_road(kPlace)));
+  scene.heights = radar::SceneHeights::sea_level;
+  const auto store = store_of({scene}, terrain::flat(700));
+  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+  each_corner(*view, [&](const SceneObject&, geo::GeoPoint, double altitude) { EXPECT_LT(altitude, 8.001); });
+}
+
+TEST(SceneStore, PutsAllOfASceneOnTheGroundAtItsPlaceWhenAnchored) {
+  const Folder folder;
+  radar::Scene scene = scene_of(folder.write("a.flt", box_and_road(kPlace)));
+  scene.heights = radar::SceneHeights::anchor;
+  const terrain::TerrainAxis east{kPlace, geo::Bearing::degrees(90)};
+  const auto store = store_of({scene}, terrain::plane(east, 500, 0.1));
+  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+  for (const SceneObject& object : view->objects()) EXPECT_NEAR(object.base_msl_m, 500, 1e-6);
+}
+
+TEST(SceneStore, TakesThePlaceFromTheNameBeforeTheHeader) {
+  const Folder folder;
+  const auto store =
+      store_of({scene_of(folder.write("N35_44_51W121_30_2.flt", box_and_road(kPlace)))}, terrain::flat(0));
+  EXPECT_NEAR(store->index()[0].placement.place.latitude_deg, 35.0 + 44.0 / 60 + 51.0 / 3600, 1e-12);
+  EXPECT_NEAR(store->index()[0].placement.place.longitude_deg, -(121.0 + 30.0 / 60 + 2.0 / 3600), 1e-12);
+}
+
+TEST(SceneStore, RefusesASceneWithoutAPlace) {
+  const Folder folder;
+  const auto store =
+      SceneStore::open({scene_of(folder.write("a.flt", box_and_road(std::nullopt)))}, ground(terrain::flat(0)));
+  ASSERT_FALSE(store);
+  EXPECT_THAT(store.error().message(), HasSubstr("expected a scene with a place"));
+}
+
+TEST(SceneStore, ReadsOnlyWhatReachesIntoTheRegion) {
+  const Folder folder;
+  std::vector<std::byte> far = box_and_road(offset(kPlace, 0, 100'000));
+  far.resize(far.size() - 3);  // reading it would fail
+  folder.write("far.flt", far);
+  folder.write("near.flt", box_and_road(kPlace));
+  const auto store = store_of({scene_of(folder.path())}, terrain::flat(0));
+  EXPECT_EQ(store->index().size(), 2U);
+  const SceneViewPointer view = store->prepare({kPlace, 10'000, 0});
+  EXPECT_THAT(store->take_problems(), IsEmpty());
+  EXPECT_EQ(store->prepare({kPlace, 9'000, 0}), view);
+  const SceneViewPointer after = store->prepare({kPlace, 120'000, 0});
+  EXPECT_THAT(store->take_problems(), testing::ElementsAre(HasSubstr("truncated")));
+  EXPECT_EQ(after, view);
+}
+
+TEST(SceneStore, DropsTheLongestUnusedBeyondItsLimit) {
+  const Folder folder;
+  const geo::GeoPoint other = offset(kPlace, 90, 200'000);
+  const auto store = store_of(
+      {scene_of(folder.write("a.flt", box_and_road(kPlace))), scene_of(folder.write("b.flt", box_and_road(other)))},
+      terrain::flat(0), {.resident_limit_bytes = 1});
+  std::vector<const Tile*> tiles;
+  const SceneViewPointer first = store->prepare({kPlace, 1000, 0});
+  first->tiles_near(kPlace, 1000, tiles);
+  EXPECT_FALSE(tiles.empty());
+  const SceneViewPointer second = store->prepare({other, 1000, 0});
+  EXPECT_GT(second->generation(), first->generation());
+  second->tiles_near(kPlace, 1000, tiles);
+  EXPECT_TRUE(tiles.empty());
+  second->tiles_near(other, 1000, tiles);
+  EXPECT_FALSE(tiles.empty());
+  // Back again: the same numbers as before.
+  const SceneViewPointer third = store->prepare({kPlace, 1000, 0});
+  std::vector<std::uint32_t> before, again;
+  first->objects_near(kPlace, 1000, before);
+  third->objects_near(kPlace, 1000, again);
+  EXPECT_EQ(before, again);
+}
+
+TEST(SceneStore, GivesEqualViewsForEqualFiles) {
+  const Folder folder;
+  const auto file = folder.write("a.flt", generate_scene({.triangles = 8000, .origin = kPlace}).file);
+  std::vector<std::vector<float>> ups;
+  for (int run = 0; run < 2; ++run) {
+    const auto store = store_of({scene_of(file)}, terrain::built_in_hills());
+    const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+    std::vector<const Tile*> tiles;
+    view->tiles_near(kPlace, 10'000, tiles);
+    std::vector<float> all;
+    for (const Tile* tile : tiles) {
+      all.insert(all.end(), tile->up_m.begin(), tile->up_m.end());
+      all.insert(all.end(), tile->east_m.begin(), tile->east_m.end());
+    }
+    ups.push_back(std::move(all));
+  }
+  EXPECT_EQ(ups[0], ups[1]);
+  EXPECT_GT(ups[0].size(), 10'000U);
+}
+
+TEST(SceneView, FindsExactlyTheTilesWhoseBoundsAreWithinTheRadius) {
+  const Folder folder;
+  const auto file = folder.write("a.flt", generate_scene({.triangles = 30'000, .origin = kPlace}).file);
+  const auto store = store_of({scene_of(file)}, terrain::flat(0));
+  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+  std::vector<const Tile*> all, found;
+  view->tiles_near(kPlace, 100'000, all);
+  ASSERT_GT(all.size(), 20U);
+  for (const double azimuth_deg : {0.0, 70.0, 200.0})
+    for (const double away_m : {0.0, 800.0, 3000.0})
+      for (const double radius_m : {1.0, 300.0, 2500.0}) {
+        const geo::GeoPoint place = offset(kPlace, azimuth_deg, away_m);
+        view->tiles_near(place, radius_m, found);
+        std::vector<const Tile*> expected;
+        for (const Tile* tile : all) {
+          const auto way = geo::geodesic_inverse(tile->origin, place);
+          const double east = way.distance.metres() * std::sin(way.azimuth_at_start.radians());
+          const double north = way.distance.metres() * std::cos(way.azimuth_at_start.radians());
+          const Bounds& b = tile->bounds;
+          const double de =
+              std::max({0.0, static_cast<double>(b.east_least_m) - east, east - static_cast<double>(b.east_most_m)});
+          const double dn = std::max(
+              {0.0, static_cast<double>(b.north_least_m) - north, north - static_cast<double>(b.north_most_m)});
+          if (std::hypot(de, dn) <= radius_m) expected.push_back(tile);
+        }
+        EXPECT_EQ(found, expected);
+      }
+}
+
+TEST(SceneView, TrianglesTurnCounterClockwiseAndBoundsHoldThem) {
+  const Folder folder;
+  const auto file = folder.write("a.flt", generate_scene({.triangles = 30'000, .origin = kPlace}).file);
+  const auto store = store_of({scene_of(file)}, terrain::flat(250));
+  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+  std::vector<const Tile*> tiles;
+  view->tiles_near(kPlace, 100'000, tiles);
+  std::size_t wrong = 0;
+  for (const Tile* tile : tiles) {
+    for (const auto& t : tile->corners) {
+      const auto at = [&](std::uint32_t i) {
+        return Vector3{static_cast<double>(tile->east_m[i]), static_cast<double>(tile->north_m[i]),
+                       static_cast<double>(tile->up_m[i])};
+      };
+      const Vector3 area = cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
+      for (const std::uint32_t i : t) {
+        const Vector3 normal{static_cast<double>(tile->normal_east[i]), static_cast<double>(tile->normal_north[i]),
+                             static_cast<double>(tile->normal_up[i])};
+        EXPECT_NEAR(length(normal), 1.0, 1e-4);
+        wrong += dot(area, normal) <= 0.0 ? 1 : 0;
+        EXPECT_LE(tile->east_m[i], tile->bounds.east_most_m);
+        EXPECT_GE(tile->up_m[i], tile->bounds.up_least_m);
+      }
+    }
+    EXPECT_EQ(tile->kind.size(), tile->corners.size());
+    EXPECT_EQ(tile->object.size(), tile->corners.size());
+  }
+  EXPECT_EQ(wrong, 0U);
+}
+
+TEST(SceneSource, ReadsFilePlaceAndHeading) {
+  const auto scene = parse_scene("some/airfield.flt@37.5,-122.25,45");
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(scene->file, "some/airfield.flt");
+  EXPECT_EQ(scene->place.latitude_deg, 37.5);
+  EXPECT_EQ(scene->place.longitude_deg, -122.25);
+  EXPECT_EQ(scene->heading_deg, 45);
+  EXPECT_TRUE(std::isnan(parse_scene("airfield.flt")->place.latitude_deg));
+  EXPECT_FALSE(parse_scene("airfield.flt@north"));
+  EXPECT_FALSE(parse_scene("airfield.flt@95,0"));
+  EXPECT_FALSE(parse_scene("@1,2"));
+}
+
+}  // namespace
+}  // namespace yars::model::scene
