@@ -20,6 +20,8 @@
 #include "lib/radar/map_formation.hpp"
 #include "model/hrm/patch_process.hpp"
 #include "model/kernel/workers.hpp"
+#include "model/scene/scene_source.hpp"
+#include "model/scene/scene_store.hpp"
 #include "model/terrain/open_terrain.hpp"
 #include "tools/command.hpp"
 
@@ -56,6 +58,11 @@ radar::RadarConfiguration configure(const CommonOptions& common, const PatchOpti
   if (!options.terrain.empty()) configuration.terrain.directory = options.terrain;
   if (options.size > 0) configuration.fidelity.map_size = options.size;
   if (options.seed >= 0) configuration.seed = static_cast<std::uint64_t>(options.seed);
+  for (const std::string& text : options.scenes) {
+    auto scene = model::scene::parse_scene(text);
+    if (!scene) give_up(scene.error());
+    configuration.world.scenes.push_back(*scene);
+  }
   return configuration;
 }
 
@@ -141,7 +148,13 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
                                             }});
   const double begin_ms = now_ms();
   const hrm::PatchNeed need = process.begin(order);
-  const hrm::PatchDatabase database{(*window_store)->prepare(need.window), (*path_store)->prepare(need.path), nullptr};
+  auto scenes = model::scene::open_scenes(configuration);
+  if (!scenes) give_up(scenes.error());
+  const hrm::PatchDatabase database{(*window_store)->prepare(need.window), (*path_store)->prepare(need.path),
+                                    *scenes ? (*scenes)->prepare(need.window) : nullptr};
+  if (*scenes)
+    for (const std::string& problem : (*scenes)->take_problems())
+      std::fprintf(stderr, "yars patch: %s\n", problem.c_str());
   for (const std::string& problem : (*window_store)->take_problems())
     std::fprintf(stderr, "yars patch: %s\n", problem.c_str());
   const double database_ms = now_ms() - begin_ms;

@@ -30,6 +30,10 @@ void develop(const radar::RadarConfiguration& configuration, const MapImage& ima
   std::vector<float> variate(cells + 2 * kSlack, 1.0F);
   constexpr std::array<float, 3> kAlone{0.0F, 1.0F, 0.0F};
   const float cells_a_pixel = size > kCells ? static_cast<float>(kCells) / static_cast<float>(size) : 1.0F;
+  std::vector<std::int32_t> cell(size + kSlack);
+  for (std::size_t i = 0; i < cell.size(); ++i)
+    cell[i] = static_cast<std::int32_t>(
+        rbm::resolution_cell(static_cast<std::uint32_t>(std::min(i, size - 1)), cells_a_pixel));
   std::uint32_t drawn = ~0U;
   for (std::size_t row = 0; row < size; ++row) {
     const auto cell_row = rbm::resolution_cell(static_cast<std::uint32_t>(row), cells_a_pixel);
@@ -44,7 +48,7 @@ void develop(const radar::RadarConfiguration& configuration, const MapImage& ima
                                          kAlone.data(),
                                          static_cast<float>(noise),
                                          configuration.fidelity.noise ? variate.data() : nullptr,
-                                         cells_a_pixel,
+                                         size > kCells ? cell.data() : nullptr,
                                          static_cast<float>(-hrm.brightest_gamma_db),
                                          static_cast<float>(hrm.dynamic_range_db)};
     rbm::lanes::develop(size, inputs, &picture[row * size]);
