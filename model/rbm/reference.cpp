@@ -166,6 +166,11 @@ void Reference::smear_pulse(double pulse_samples, std::span<float> power) const 
   }
 }
 
+void Reference::lit(std::span<std::uint8_t> mask) const {
+  std::transform(samples_.begin(), samples_.end(), mask.begin(),
+                 [](const Sample& sample) { return sample.lit ? std::uint8_t{1} : std::uint8_t{0}; });
+}
+
 void Reference::develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
                         std::span<std::uint8_t> video) {
   const Receiver receiver = make_receiver(configuration_, range);
