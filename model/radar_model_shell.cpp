@@ -126,7 +126,7 @@ void RadarModelShell::latch_command() {
 
 void RadarModelShell::run_kernel() {
   const auto need = kernel_.need(tick_);
-  if (need.video) terrain_->request(need.region);
+  if (need.ground) terrain_->request(need.region);
   for (const auto& problem : terrain_->take_problems()) {
     session_->note(databuffer::NoteKind::refusal, problem);
     databuffer::log_warning(problem);

@@ -20,9 +20,10 @@ class RadarKernel {
   // Takes up servo, scan and sweep numbers where a predecessor's status left them.
   void resume(const databuffer::ModelStatus& status);
 
-  // The region that the command needs at this place, for prepare(); nothing while no video is made.
+  // The region that the command needs at this place, for prepare(); none while nothing looks at the ground: without
+  // video, and in SNIFF without jammers.
   struct Need {
-    bool video = false;
+    bool ground = false;
     terrain::TerrainRegion region;
   };
   Need need(const databuffer::ModelTick& tick) const;
