@@ -78,10 +78,10 @@ std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const Te
     resident->second.last_use = prepares_;
     if (show(level)) changed = true;
   }
-  std::stable_sort(missing.begin(), missing.end(), [&](Level a, Level b) {
-    return angle_to_middle_deg(region.centre, place_of_slot(a.first)) <
-           angle_to_middle_deg(region.centre, place_of_slot(b.first));
-  });
+  const auto angle_and_slot = [&](Level level) {
+    return std::pair(angle_to_middle_deg(region.centre, place_of_slot(level.first)), level.first);
+  };
+  std::sort(missing.begin(), missing.end(), [&](Level a, Level b) { return angle_and_slot(a) < angle_and_slot(b); });
   return missing;
 }
 
