@@ -30,6 +30,7 @@ class Reference : public Algorithm {
     geo::GeoPoint place;
     geo::Bearing azimuth;       // of the ray there
     double height_m = 0.0;      // MSL; NaN = void
+    double peak_m = 0.0;        // MSL; casts the shadow; NaN = void
     double water = 0.0;         // share [0, 1]
     std::uint8_t material = 0;  // code
     double cross_slope = 0.0;   // across the sweep, dimensionless

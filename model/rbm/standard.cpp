@@ -61,6 +61,9 @@ std::size_t Standard::measure(const Look& look, const terrain::TerrainView& terr
   peaked_ = terrain.has_peaks();
   if (peaked_) lanes::sight_tangent(count_, constants, distance_.data(), peak_.data(), peak_tangent_.data());
   lanes::running_maximum(count_, peaked_ ? peak_tangent_.data() : tangent_.data(), spare_.data(), horizon_.data());
+  // Beside a void the peak may be known where the mean is not: it hides what is behind it and returns nothing.
+  for (std::size_t i = 0; peaked_ && i < count_; ++i)
+    if (std::isnan(elevation_.data()[i])) peak_tangent_.data()[i] = lanes::kNoHorizon;
   const double spacing_m = look.range.metres() / static_cast<double>(count_);
   const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   ground_.use_resolution(receiver.pulse_length_m, spacing_m);

@@ -18,10 +18,11 @@ namespace yars::model::terrain {
 
 // The ground at one place.
 struct Surface {
-  double elevation_m = 0.0;   // [m] MSL; NaN = void
-  double water = 0.0;         // [0, 1] share of posts at exactly 0 m
-  std::uint8_t material = 0;  // surface material code of the nearest post; 0 = none given: land or sea by `water`
-  bool loaded = true;         // false: a file has it, but it is not in memory yet
+  double elevation_m = 0.0;     // [m] MSL; NaN = void
+  double water = 0.0;           // [0, 1] share of posts at exactly 0 m
+  std::uint8_t material = 0;    // surface material code of the nearest post; 0 = none given: land or sea by `water`
+  bool loaded = true;           // false: a file has it, but it is not in memory yet
+  double peak_m = elevation_m;  // [m] MSL highest ground about the place where a coarser level stands in
 };
 
 // Places in a row for the fast path: which cell each lies in, counted from one of them, and where in it [0, 1] deg.
