@@ -22,11 +22,24 @@ failure::Expected<radar::RadarConfiguration> configure(const databuffer::Program
   return configuration;
 }
 
+// Maps have stores of their own: what a window needs must not push out what the scan has.
+failure::Expected<model::PatchStores> open_patch_stores(const radar::RadarConfiguration& configuration) {
+  auto window = model::terrain::open_terrain(configuration.terrain);
+  if (!window) return tl::unexpected(window.error());
+  auto path = model::terrain::open_terrain(configuration.terrain);
+  if (!path) return tl::unexpected(path.error());
+  auto scenes = model::scene::open_scenes(configuration);
+  if (!scenes) return tl::unexpected(scenes.error());
+  return model::PatchStores{std::move(*window), std::move(*path), std::move(*scenes)};
+}
+
 failure::Expected<void> run(const databuffer::ProgramOptions& options, const ModelOptions& model_options) {
   auto configuration = configure(options, model_options);
   if (!configuration) return tl::unexpected(configuration.error());
   auto store = model::terrain::open_terrain(configuration->terrain);
   if (!store) return tl::unexpected(store.error());
+  auto patch_stores = open_patch_stores(*configuration);
+  if (!patch_stores) return tl::unexpected(patch_stores.error());
   auto session = databuffer::Session::open(options.session, "radar-model");
   if (!session) return tl::unexpected(session.error());
   auto role = session->claim(databuffer::Role::radar_model);
@@ -34,7 +47,8 @@ failure::Expected<void> run(const databuffer::ProgramOptions& options, const Mod
   auto loop = databuffer::TickLoop::create(*session, databuffer::LockstepRole::radar_model, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
   model::TerrainLoader terrain(std::move(*store), loop->lockstep());
-  model::RadarModelShell shell(*session, *configuration, terrain);
+  model::PatchMaker patches(*configuration, std::move(*patch_stores), loop->lockstep());
+  model::RadarModelShell shell(*session, *configuration, terrain, patches);
   databuffer::log_info(
       "runs in session " + options.session + ", terrain " +
       (configuration->terrain.directory.empty() ? "built-in hills" : configuration->terrain.directory));

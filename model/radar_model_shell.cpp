@@ -7,9 +7,12 @@
 #include <string>
 
 #include "databuffer/log.hpp"
+#include "databuffer/patch_pool.hpp"
 #include "databuffer/records/radar_command.hpp"
 #include "databuffer/records/validation.hpp"
 #include "lib/radar/fidelity_preset.hpp"
+#include "lib/radar/map_formation.hpp"
+#include "model/kernel/map_record.hpp"
 
 namespace yars::model {
 
@@ -27,10 +30,11 @@ double thread_seconds() {
 }  // namespace
 
 RadarModelShell::RadarModelShell(databuffer::Session& session, const radar::RadarConfiguration& configuration,
-                                 TerrainLoader& terrain)
+                                 TerrainLoader& terrain, PatchMaker& patches)
     : session_(&session),
       configuration_(&configuration),
       terrain_(&terrain),
+      patches_(&patches),
       kernel_(configuration),
       governor_(configuration.fidelity.core_share),
       picked_(configuration.fidelity) {
@@ -122,11 +126,12 @@ void RadarModelShell::latch_command() {
     return;
   }
   tick_.command = databuffer::command_from_state(state);
+  maps_named_ = {state.map_newest, state.map_old, state.map_stored, state.map_shown};
 }
 
 void RadarModelShell::run_kernel() {
   const auto need = kernel_.need(tick_);
-  if (need.video) terrain_->request(need.region);
+  if (need.ground) terrain_->request(need.region);
   for (const auto& problem : terrain_->take_problems()) {
     session_->note(databuffer::NoteKind::refusal, problem);
     databuffer::log_warning(problem);
@@ -139,9 +144,63 @@ void RadarModelShell::run_kernel() {
     session_->layout().sweeps.publish(sweep_);
     ++status_.sweeps;
   }
+  serve_maps();
   kernel_.describe(*view, status_);
   status_.terrain_bytes = view->resident_bytes();
   status_.terrain_generation = view->generation();
+}
+
+// A map that has begun is asked for at once; it goes out at the tick at which the radar would have it, or when it is
+// ready if that is later.
+void RadarModelShell::serve_maps() {
+  for (const auto& problem : patches_->take_problems()) {
+    session_->note(databuffer::NoteKind::refusal, problem);
+    databuffer::log_warning(problem);
+  }
+  if (!kernel_.maps().forming()) return;
+  const kernel::MapUnderWay& map = kernel_.maps().map();
+  if (map.id != map_asked_ || map.start_tick != map_asked_tick_) {
+    map_asked_ = map.id;
+    map_asked_tick_ = map.start_tick;
+    patches_->request(map);
+  }
+  if (!kernel_.map_due()) return;
+  const PatchMaker::Picture* picture = patches_->finished(map);
+  if (picture == nullptr) return;
+  publish_map(*picture);
+  kernel_.complete_map();
+}
+
+void RadarModelShell::publish_map(const PatchMaker::Picture& picture) {
+  const kernel::MapUnderWay& under_way = kernel_.maps().map();
+  databuffer::PatchMap map{};
+  map.id = under_way.id;
+  map.start_tick = under_way.start_tick;
+  map.end_tick = tick_.tick;
+  map.latitude_deg = under_way.order.centre.latitude_deg;
+  map.longitude_deg = under_way.order.centre.longitude_deg;
+  map.elevation_msl_m = picture.elevation_msl_m;
+  map.up_deg = picture.up_deg;
+  map.window_nm = under_way.order.window.nautical_miles();
+  map.apex_latitude_deg = under_way.order.apex.latitude_deg;
+  map.apex_longitude_deg = under_way.order.apex.longitude_deg;
+  map.apex_altitude_msl_m = under_way.order.altitude.metres();
+  map.distance_m = picture.distance_m;
+  map.squint_deg = picture.squint_deg;
+  map.resolution_m = radar::map_resolution(under_way.order.window).metres();
+  map.formation_s = under_way.formation.seconds();
+  map.epoch = tick_.epoch;
+  map.request = under_way.request;
+  map.size = picture.size;
+  map.looks = static_cast<std::uint32_t>(under_way.order.looks);
+  map.flags = (picture.ready ? 0U : databuffer::kPatchNotReady) | (picture.blind ? databuffer::kPatchBlind : 0U);
+  configuration_->fidelity.name.copy(map.fidelity, sizeof map.fidelity - 1);
+  map.hash = kernel::map_hash(map, picture.pixels);
+  std::array<std::uint64_t, 5> keep{};
+  std::copy(maps_named_.begin(), maps_named_.end(), keep.begin());
+  keep.back() = kernel_.maps().newest();
+  if (!databuffer::publish_patch(session_->layout(), map, picture.pixels, keep))
+    session_->note(databuffer::NoteKind::loss, "no free slot for patch map " + std::to_string(map.id));
 }
 
 void RadarModelShell::publish_status(std::uint64_t late_ticks) {

@@ -2,6 +2,7 @@
 // the kernel and publishes sweeps and status.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -11,13 +12,15 @@
 #include "lib/radar/configuration.hpp"
 #include "model/kernel/fidelity_governor.hpp"
 #include "model/kernel/radar_kernel.hpp"
+#include "model/patch_maker_shell.hpp"
 #include "model/terrain_loader_shell.hpp"
 
 namespace yars::model {
 
 class RadarModelShell {
  public:
-  RadarModelShell(databuffer::Session& session, const radar::RadarConfiguration& configuration, TerrainLoader& terrain);
+  RadarModelShell(databuffer::Session& session, const radar::RadarConfiguration& configuration, TerrainLoader& terrain,
+                  PatchMaker& patches);
   void step(const databuffer::TickLoop::Due& due, std::uint64_t late_ticks);
 
  private:
@@ -27,19 +30,25 @@ class RadarModelShell {
   void latch_fidelity();
   void govern(double seconds, double rate);
   void run_kernel();
+  void serve_maps();
+  void publish_map(const PatchMaker::Picture& picture);
   void publish_status(std::uint64_t late_ticks);
 
   databuffer::Session* session_;
   const radar::RadarConfiguration* configuration_;
   TerrainLoader* terrain_;
+  PatchMaker* patches_;
   kernel::RadarKernel kernel_;
   databuffer::OwnshipReceiver ownship_;
   databuffer::ModelTick tick_{};
   databuffer::ModelStatus status_{};
   databuffer::Sweep sweep_{};
   std::uint64_t state_version_ = 0;
-  std::uint64_t refused_ = 0;      // radar states
-  std::uint64_t late_before_ = 0;  // ticks that predecessors skipped
+  std::uint64_t map_asked_ = 0;  // id and start of the map that was asked for last
+  std::int64_t map_asked_tick_ = -1;
+  std::array<std::uint64_t, 4> maps_named_{};  // by the radar state: they stay
+  std::uint64_t refused_ = 0;                  // radar states
+  std::uint64_t late_before_ = 0;              // ticks that predecessors skipped
   double load_ = 0.0;
   kernel::FidelityGovernor governor_;
   radar::Fidelity picked_;     // the governor's, or the configuration's

@@ -40,7 +40,7 @@ TerrainLoader::~TerrainLoader() {
 
 void TerrainLoader::request(const terrain::TerrainRegion& region) {
   if (asked_ && still_serves(*asked_, region)) return;
-  asked_ = terrain::TerrainRegion{region.centre, region.radius_m + kSlack_m, region.detail};
+  asked_ = terrain::TerrainRegion{region.centre, region.radius_m + kSlack_m, region.detail, region.radius_m};
   if (may_wait_) {
     view_ = store_->prepare(*asked_);
     collect_problems();
@@ -75,7 +75,11 @@ void TerrainLoader::serve() {
     const terrain::TerrainRegion region = *wanted_;
     wanted_.reset();
     lock.unlock();
-    auto view = store_->prepare(region);
+    auto view = store_->prepare_in_steps(region, [this](const terrain::TerrainViewPointer& interim) {
+      const std::scoped_lock hold(mutex_);
+      view_ = interim;
+      return !ending_ && !wanted_;
+    });
     lock.lock();
     view_ = std::move(view);
     collect_problems();

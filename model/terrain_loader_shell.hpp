@@ -1,5 +1,6 @@
-// Keeps the terrain that the scan needs in memory: prepare() on a thread of its own while live, at once when the
-// caller may wait (lockstep, replay).
+// Keeps the terrain that the scan needs in memory. Live, on a thread of its own, in steps: each is seen as soon as it
+// is there, and a newer request cuts the rest of an older one short. At once and whole when the caller may wait
+// (lockstep, replay).
 #pragma once
 
 #include <condition_variable>
@@ -21,7 +22,7 @@ class TerrainLoader {
   TerrainLoader(const TerrainLoader&) = delete;
   TerrainLoader& operator=(const TerrainLoader&) = delete;
 
-  // Asks for a region; a newer request replaces one that has not begun. Waits for it if the loader may.
+  // Asks for a region in place of the one asked for before. Waits for it if the loader may.
   void request(const terrain::TerrainRegion& region);
   // The latest view; an empty one at first, never null.
   terrain::TerrainViewPointer view() const;

@@ -20,6 +20,7 @@
 #include "model/terrain/open_terrain.hpp"
 #include "tools/command.hpp"
 #include "tools/scan_picture.hpp"
+#include "tools/scan_shadow.hpp"
 
 namespace yars::tools {
 
@@ -28,7 +29,7 @@ namespace {
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
 struct ScanOptions {
-  std::string terrain, fidelity, out;
+  std::string terrain, fidelity, out, shadow;
   std::string color = "green";
   double latitude_deg = 37.8, longitude_deg = -122.5, altitude_ft = 15000.0, heading_deg = 0.0;
   double range_nm = 40.0, width_deg = 100.0, elevation_deg = 0.0;
@@ -97,6 +98,11 @@ void write_floats(std::ofstream& file, std::span<const databuffer::Sweep> sweeps
   }
 }
 
+void close_whole(std::ofstream& file, const std::string& name) {
+  file.flush();
+  if (!file) give_up({name, "a file that can be written", "an error", "check the folder and the space left"});
+}
+
 void write_result(const ScanOptions& options, const radar::ViewConfiguration& view,
                   std::span<const databuffer::Sweep> sweeps) {
   const std::filesystem::path path(options.out);
@@ -111,18 +117,57 @@ void write_result(const ScanOptions& options, const radar::ViewConfiguration& vi
   } else {
     write_floats(file, sweeps);
   }
-  file.flush();
-  if (!file) give_up({options.out, "a file that can be written", "an error", "check the folder and the space left"});
+  close_whole(file, options.out);
 }
 
-void check_output(const std::string& out) {
-  const auto suffix = std::filesystem::path(out).extension();
-  if (!out.empty() && suffix != ".png" && suffix != ".csv" && suffix != ".f32")
-    give_up(databuffer::usage_error("--out", "a name that ends in .png, .csv or .f32", out));
+void check_output(const ScanOptions& options) {
+  const auto suffix = std::filesystem::path(options.out).extension();
+  if (!options.out.empty() && suffix != ".png" && suffix != ".csv" && suffix != ".f32")
+    give_up(databuffer::usage_error("--out", "a name that ends in .png, .csv or .f32", options.out));
+  if (!options.shadow.empty() && std::filesystem::path(options.shadow).extension() != ".csv")
+    give_up(databuffer::usage_error("--shadow", "a name that ends in .csv", options.shadow));
+}
+
+struct Times {
+  double first_ms = 0.0;                     // reading of terrain included
+  std::vector<double> measure_ms, whole_ms;  // of the warm scans
+};
+
+// The first scan and the repeats; `begin`: when reading began.
+Times run_scans(model::kernel::OfflineScan& work, const model::terrain::TerrainView& terrain, int repeat,
+                std::chrono::steady_clock::time_point begin) {
+  Times times;
+  for (int run = 0; run <= repeat; ++run) {
+    const auto run_begin = std::chrono::steady_clock::now();
+    work.run(terrain);
+    if (run == 0) {
+      times.first_ms = milliseconds_since(begin);
+      continue;
+    }
+    times.whole_ms.push_back(milliseconds_since(run_begin));
+    const auto measure_begin = std::chrono::steady_clock::now();
+    work.measure(terrain);
+    times.measure_ms.push_back(milliseconds_since(measure_begin));
+  }
+  return times;
+}
+
+nlohmann::ordered_json summary(std::span<const databuffer::Sweep> sweeps, const Times& times, double index_ms) {
+  const double kernel_ms = median(times.whole_ms);
+  const double samples = static_cast<double>(sweeps.size()) * sweeps.front().samples;
+  nlohmann::ordered_json line;
+  line["sweeps"] = sweeps.size();
+  line["samples"] = sweeps.front().samples;
+  line["kernel_ms"] = kernel_ms;
+  line["sweep_ms"] = median(times.measure_ms);
+  line["first_ms"] = times.first_ms;
+  line["index_ms"] = index_ms;
+  line["samples_per_second"] = samples / (kernel_ms * 1e-3);
+  return line;
 }
 
 void scan(const CommonOptions& common, const ScanOptions& options) {
-  check_output(options.out);
+  check_output(options);
   const radar::RadarConfiguration configuration = configure(common, options);
   const model::kernel::ScanRequest request = request_of(options);
   const auto opening = std::chrono::steady_clock::now();
@@ -135,37 +180,19 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   const auto terrain = (*store)->prepare(
       {request.pose.place, request.range.metres(), model::kernel::scan_detail(configuration.fidelity, request.range)});
   for (const std::string& problem : (*store)->take_problems()) std::fprintf(stderr, "yars scan: %s\n", problem.c_str());
-  std::vector<double> whole_ms, measure_ms;
-  double first_ms = 0.0;
-  for (int run = 0; run <= options.repeat; ++run) {
-    const auto run_begin = std::chrono::steady_clock::now();
-    work.run(*terrain);
-    if (run == 0) {
-      first_ms = milliseconds_since(begin);
-      continue;
-    }
-    whole_ms.push_back(milliseconds_since(run_begin));
-    const auto measure_begin = std::chrono::steady_clock::now();
-    work.measure(*terrain);
-    measure_ms.push_back(milliseconds_since(measure_begin));
-  }
+  const Times times = run_scans(work, *terrain, options.repeat, begin);
 
-  const auto sweeps = work.sweeps();
-  const double kernel_ms = median(whole_ms);
-  const double samples = static_cast<double>(sweeps.size()) * sweeps.front().samples;
-  nlohmann::ordered_json line;
-  line["sweeps"] = sweeps.size();
-  line["samples"] = sweeps.front().samples;
-  line["kernel_ms"] = kernel_ms;
-  line["sweep_ms"] = median(measure_ms);
-  line["first_ms"] = first_ms;
-  line["index_ms"] = index_ms;
-  line["samples_per_second"] = samples / (kernel_ms * 1e-3);
+  nlohmann::ordered_json line = summary(work.sweeps(), times, index_ms);
   line["terrain_bytes"] = terrain->resident_bytes();
   line["threads"] = options.threads;
   line["fidelity"] = configuration.fidelity.name;
-  line["hash"] = model::kernel::scan_hash(sweeps);
-  if (!options.out.empty()) write_result(options, configuration.view, sweeps);
+  line["hash"] = model::kernel::scan_hash(work.sweeps());
+  if (!options.out.empty()) write_result(options, configuration.view, work.sweeps());
+  if (!options.shadow.empty()) {
+    std::ofstream file(options.shadow);
+    write_shadow(file, work.places(), trade::ray_samples(configuration, work.places(), *terrain));
+    close_whole(file, options.shadow);
+  }
   std::printf("%s\n", line.dump().c_str());
 }
 
@@ -201,6 +228,7 @@ void add_scan_command(CLI::App& app, const CommonOptions& common) {
   command->add_option("--size", options->size, "[pixels] of the picture")->check(CLI::Range(16, 8192));
   command->add_option("--color", options->color)->check(CLI::IsMember({"green", "gray"}));
   command->add_option("--out", options->out, "file: .png, .csv or .f32");
+  command->add_option("--shadow", options->shadow, "file: .csv of every sample's place, height and whether it is lit");
   command->callback([options, &common] { scan(common, *options); });
 }
 

@@ -28,6 +28,15 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 // Terrain a little beyond the range is wanted too: the aircraft moves on while it loads [m].
 constexpr double kRegionMarginM = 2000.0;
 
+// SNIFF transmits nothing: ground matters to it only where it hides a jammer.
+bool needs_ground(bool silent, const radar::RadarConfiguration& configuration) {
+  return !silent || !configuration.world.jamming.jammers.empty();
+}
+
+bool sniffs(const databuffer::RadarCommand& command) {
+  return (command.flags & databuffer::kSniff) != 0U;
+}
+
 bool frozen_by(const databuffer::RadarCommand& command) {
   return (command.flags & databuffer::kFreeze) != 0U;
 }
@@ -120,9 +129,12 @@ RadarKernel::Need RadarKernel::need(const ModelTick& tick) const {
   const bool stays_frozen = state_->frozen && frozen_by(tick.command);
   const bool scans = asks_for_video(tick.command) && !state_->maps.keeps_from_scanning(tick.command);
   if (!scans || stays_frozen) return need;
+  // A scan that began before SNIFF transmits to its end.
+  const bool silent = sniffs(tick.command) && (state_->noise_only || !state_->scanning);
+  if (!needs_ground(silent, state_->configuration)) return need;
   const std::optional<Pose> pose = pose_of(tick.ownship);
   if (!pose && !state_->pose) return need;
-  need.video = true;
+  need.ground = true;
   need.region.centre = pose ? pose->place : state_->pose->place;
   const geo::Length range = geo::Length::nautical_miles(tick.command.range_nm);
   need.region.radius_m = range.metres() + kRegionMarginM;
@@ -285,7 +297,7 @@ void RadarKernel::State::restart(const databuffer::RadarCommand& given) {
 void RadarKernel::State::start_scan(const databuffer::RadarCommand& given) {
   ++scan;
   scan_range_m = geo::Length::nautical_miles(given.range_nm).metres();
-  noise_only = (given.flags & databuffer::kSniff) != 0U;
+  noise_only = sniffs(given);
 }
 
 bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::AntennaStep& step,
@@ -329,7 +341,8 @@ bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::Anten
   // Another detail than the scan's still stands in: the sweep is not what it will be.
   const geo::Length wanted = geo::Length::nautical_miles(given.command.range_nm);
   const radar::Fidelity& fidelity = is_sharpened() ? sharpened.fidelity : configuration.fidelity;
-  if (!terrain.serves(scan_detail(fidelity, wanted))) labels.flags |= databuffer::kSweepNotReady;
+  if (needs_ground(noise_only, configuration) && !terrain.serves(scan_detail(fidelity, wanted)))
+    labels.flags |= databuffer::kSweepNotReady;
   return chain().advance(place, labels, terrain, sweep);
 }
 

@@ -26,9 +26,10 @@ class RadarKernel {
   bool map_due() const;
   void complete_map();
 
-  // The region that the command needs at this place, for prepare(); nothing while no video is made.
+  // The region that the command needs at this place, for prepare(); none while nothing looks at the ground: without
+  // video, and in SNIFF without jammers.
   struct Need {
-    bool video = false;
+    bool ground = false;
     terrain::TerrainRegion region;
   };
   Need need(const databuffer::ModelTick& tick) const;

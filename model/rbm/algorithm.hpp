@@ -24,6 +24,10 @@ class Algorithm {
   // smear, without noise; never NaN, never negative. Returns how many samples met terrain that is not loaded yet.
   virtual std::size_t measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) = 0;
 
+  // Of the last measure(), where there are several rays of its last: 1 where no nearer ground hides the sample, 0 in
+  // shadow, over a void and, by the 1996 report, outside the beam. `mask` as long as the power.
+  virtual void lit(std::span<std::uint8_t> mask) const = 0;
+
   // Azimuth smear, noise, log receiver and gain (0..3): 8-bit video, as long as the power.
   virtual void develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
                        std::span<std::uint8_t> video) = 0;

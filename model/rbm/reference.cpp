@@ -68,6 +68,7 @@ std::size_t Reference::read_terrain(const Look& look, const terrain::TerrainView
     sample.place = there.point;
     sample.azimuth = there.azimuth;
     sample.height_m = surface.elevation_m;
+    sample.peak_m = surface.peak_m;
     sample.water = surface.water;
     sample.material = surface.material;
     if (!surface.loaded) ++pending;
@@ -91,12 +92,13 @@ void Reference::read_cross_slopes(const Look& look, const terrain::TerrainView& 
 }
 
 void Reference::cast_shadows(const EffectiveEarth& earth, double altitude_m) {
-  // Every terrain sample raises the horizon, also one outside the beam; a void neither raises it nor returns.
+  // Every terrain sample raises the horizon, also one outside the beam; a void neither raises it nor returns. Shadow is
+  // cast by the highest ground; where a coarser level stands in, that is not the mean that returns.
   double horizon = -std::numeric_limits<double>::infinity();
   for (Sample& sample : samples_) {
-    if (!std::isnan(sample.height_m)) {
-      const double tangent = earth.sight(altitude_m, sample.distance_m, sample.height_m).tangent;
-      sample.lit = tangent > horizon;
+    if (!std::isnan(sample.peak_m)) {
+      const double tangent = earth.sight(altitude_m, sample.distance_m, sample.peak_m).tangent;
+      sample.lit = tangent > horizon && !std::isnan(sample.height_m);
       horizon = std::max(horizon, tangent);
     }
     sample.horizon = horizon;
@@ -164,6 +166,11 @@ void Reference::smear_pulse(double pulse_samples, std::span<float> power) const 
     }
     power[static_cast<std::size_t>(i)] = static_cast<float>(sum);
   }
+}
+
+void Reference::lit(std::span<std::uint8_t> mask) const {
+  std::transform(samples_.begin(), samples_.end(), mask.begin(),
+                 [](const Sample& sample) { return sample.lit ? std::uint8_t{1} : std::uint8_t{0}; });
 }
 
 void Reference::develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,

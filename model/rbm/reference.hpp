@@ -20,6 +20,7 @@ class Reference : public Algorithm {
   explicit Reference(const radar::RadarConfiguration& configuration);
 
   std::size_t measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) override;
+  void lit(std::span<std::uint8_t> mask) const override;
   void develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
                std::span<std::uint8_t> video) override;
 
@@ -29,6 +30,7 @@ class Reference : public Algorithm {
     geo::GeoPoint place;
     geo::Bearing azimuth;       // of the ray there
     double height_m = 0.0;      // MSL; NaN = void
+    double peak_m = 0.0;        // MSL; casts the shadow; NaN = void
     double water = 0.0;         // share [0, 1]
     std::uint8_t material = 0;  // code
     double cross_slope = 0.0;   // across the sweep, dimensionless

@@ -28,7 +28,8 @@ Report1996::Report1996(const radar::RadarConfiguration& configuration)
       places_(count_),
       elevation_m_(distance_m_.size()),
       water_(distance_m_.size()),
-      intensity_(count_) {}
+      intensity_(count_),
+      lit_(count_) {}
 
 std::size_t Report1996::measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) {
   const std::size_t count = count_;
@@ -50,6 +51,7 @@ std::size_t Report1996::measure(const Look& look, const terrain::TerrainView& te
     const float up_m = elevation_m_[i] - altitude_m;
     const float tangent = up_m / distance_m;
     const bool lit = tangent >= lower && tangent <= upper && tangent > horizon;  // a void compares false
+    lit_[i] = lit ? 1 : 0;
     if (!lit) continue;
     horizon = tangent;
     const float rise = slope(i, static_cast<float>(spacing_m));
@@ -63,6 +65,10 @@ std::size_t Report1996::measure(const Look& look, const terrain::TerrainView& te
     power[i] = joined(intensity_[before], intensity_[i], intensity_[after]);
   }
   return pending;
+}
+
+void Report1996::lit(std::span<std::uint8_t> mask) const {
+  std::copy(lit_.begin(), lit_.end(), mask.begin());
 }
 
 float Report1996::slope(std::size_t index, float spacing_m) const {

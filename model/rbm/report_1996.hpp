@@ -18,6 +18,7 @@ class Report1996 : public Algorithm {
   explicit Report1996(const radar::RadarConfiguration& configuration);
 
   std::size_t measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) override;
+  void lit(std::span<std::uint8_t> mask) const override;
   void develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
                std::span<std::uint8_t> video) override;
 
@@ -32,6 +33,7 @@ class Report1996 : public Algorithm {
   PlaceArrays places_;
   std::vector<float> elevation_m_, water_;  // and terrain::kRunSlack more
   std::vector<float> intensity_;
+  std::vector<std::uint8_t> lit_;
 };
 
 }  // namespace yars::model::rbm

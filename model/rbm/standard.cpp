@@ -58,9 +58,12 @@ std::size_t Standard::measure(const Look& look, const terrain::TerrainView& terr
                                   cos_grazing_.data(), sin_sight_.data(),     cos_sight_.data()};
   lanes::sight(count_, constants, distance_.data(), elevation_.data(), sights);
   // Shadow is cast by the highest ground; where a coarser level stands in, that is not the mean that returns.
-  const bool peaks = terrain.has_peaks();
-  if (peaks) lanes::sight_tangent(count_, constants, distance_.data(), peak_.data(), peak_tangent_.data());
-  lanes::running_maximum(count_, peaks ? peak_tangent_.data() : tangent_.data(), horizon_.data());
+  peaked_ = terrain.has_peaks();
+  if (peaked_) lanes::sight_tangent(count_, constants, distance_.data(), peak_.data(), peak_tangent_.data());
+  lanes::running_maximum(count_, peaked_ ? peak_tangent_.data() : tangent_.data(), horizon_.data());
+  // Beside a void the peak may be known where the mean is not: it hides what is behind it and returns nothing.
+  for (std::size_t i = 0; peaked_ && i < count_; ++i)
+    if (std::isnan(elevation_.data()[i])) peak_tangent_.data()[i] = lanes::kNoHorizon;
   const double spacing_m = look.range.metres() / static_cast<double>(count_);
   const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   ground_.use_resolution(receiver.pulse_length_m, spacing_m);
@@ -70,7 +73,7 @@ std::size_t Standard::measure(const Look& look, const terrain::TerrainView& terr
                                   configuration_.fidelity.cross_track_slope ? cross_slope_.data() : nullptr,
                                   reflects.land,
                                   reflects.sea,
-                                  peaks ? peak_tangent_.data() : tangent_.data(),
+                                  peaked_ ? peak_tangent_.data() : tangent_.data(),
                                   horizon_.data(),
                                   one_step_inverse_.data(),
                                   two_step_inverse_.data(),
@@ -91,6 +94,12 @@ std::size_t Standard::measure(const Look& look, const terrain::TerrainView& terr
   }
   lanes::smear(count_, power_.data(), smear_weights_.data(), smear_reach_, power.data());
   return pending;
+}
+
+void Standard::lit(std::span<std::uint8_t> mask) const {
+  const float* const tangent = peaked_ ? peak_tangent_.data() : tangent_.data();
+  const float* const horizon_before = horizon_.data() - 1;
+  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = tangent[i] > horizon_before[i] ? 1 : 0;
 }
 
 void Standard::add_movers(const Look& look, const EffectiveEarth& earth, const Receiver& receiver,

@@ -26,6 +26,7 @@ class Standard : public Algorithm {
   explicit Standard(const radar::RadarConfiguration& configuration);
 
   std::size_t measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) override;
+  void lit(std::span<std::uint8_t> mask) const override;
   void develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
                std::span<std::uint8_t> video) override;
 
@@ -34,6 +35,7 @@ class Standard : public Algorithm {
   struct Padded {
     Padded(std::size_t samples, float fill) : values(samples + 2 * lanes::kPad, fill) {}
     float* data() { return values.data() + lanes::kPad; }
+    const float* data() const { return values.data() + lanes::kPad; }
     std::span<float> first(std::size_t count) { return {data(), count}; }
     LineVector<float> values;
   };
@@ -55,6 +57,7 @@ class Standard : public Algorithm {
   Movers movers_;
   Receiver receiver_;  // of the range last asked for
   std::size_t count_;
+  bool peaked_ = false;           // peaks cast the last measure()'s shadow
   std::size_t holes_ = 0;         // first samples that nothing is near enough for (slant range)
   double spaced_range_m_ = 0.0;   // range that the distances are for; 0: none yet
   double smeared_samples_ = 0.0;  // pulse that the weights are for; 0: none yet

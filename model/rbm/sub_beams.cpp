@@ -39,6 +39,10 @@ std::size_t SubBeams::measure(const Look& look, const terrain::TerrainView& terr
   return pending;
 }
 
+void SubBeams::lit(std::span<std::uint8_t> mask) const {
+  ray_->lit(mask);
+}
+
 void SubBeams::develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
                        std::span<std::uint8_t> video) {
   ray_->develop(window, range, gain, key, video);

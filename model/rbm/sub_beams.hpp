@@ -15,6 +15,7 @@ class SubBeams : public Algorithm {
   SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfiguration& configuration);
 
   std::size_t measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) override;
+  void lit(std::span<std::uint8_t> mask) const override;
   void develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
                std::span<std::uint8_t> video) override;
 

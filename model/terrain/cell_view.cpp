@@ -55,6 +55,13 @@ Surface CellView::surface_at(geo::GeoPoint place, Interpolation interpolation) c
   const double north_deg = place.latitude_deg - corner.south_deg;
   const double east_deg = geo::wrapped_degrees(place.longitude_deg) - corner.west_deg;
   Surface surface = interpolate(*cell.heights, north_deg, east_deg, interpolation);
+  if (cell.peaks) {
+    // Between peaks a cubic could dip below the ground that they stand for.
+    const bool nearest = interpolation == Interpolation::nearest;
+    surface.peak_m =
+        interpolate(*cell.peaks, north_deg, east_deg, nearest ? Interpolation::nearest : Interpolation::bilinear)
+            .elevation_m;
+  }
   if (cell.culture) surface.material = cell.culture->nearest(north_deg, east_deg);
   return surface;
 }

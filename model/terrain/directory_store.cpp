@@ -13,6 +13,7 @@ namespace yars::model::terrain {
 namespace {
 constexpr double kMetresPerDegree = 111195.0;  // [m] of a meridian, on the mean sphere
 constexpr int kMostReduction = 6;              // beyond it a cell of level 1 would have fewer than 20 posts a side
+constexpr int kServesNothing = -1;             // detail of a view in which something within reach stands in
 
 std::size_t bytes_of(const TerrainCell& cell) {
   return cell.heights->bytes() + (cell.peaks ? cell.peaks->bytes() : 0) + (cell.culture ? cell.culture->bytes() : 0);
@@ -39,34 +40,75 @@ DirectoryTerrainStore::DirectoryTerrainStore(DirectoryIndex index, DirectoryStor
                                              std::vector<std::string> problems)
     : index_(std::move(index)), options_(options), problems_(std::move(problems)) {}
 
-TerrainViewPointer DirectoryTerrainStore::prepare(const TerrainRegion& region) {
+TerrainViewPointer DirectoryTerrainStore::prepare_in_steps(const TerrainRegion& region, const Interim& interim) {
   ++prepares_;
-  bool changed = view_ == nullptr || region.detail != detail_;
-  detail_ = region.detail;
-  for (const CellPlace place : cells_within(region)) {
-    const std::size_t slot = slot_of(place);
-    const auto file = index_.find(slot);
-    if (file == index_.end() || unreadable_.contains(slot)) continue;
-    const Level level{slot, reduction_for(file->second, region.detail)};
-    if (!resident_.contains(level) && !load(level, file->second)) {
-      changed = true;
-      continue;
-    }
-    resident_[level].last_use = prepares_;
-    const auto [shown, fresh] = shown_.try_emplace(slot, level.second);
-    changed = changed || fresh || shown->second != level.second;
-    shown->second = level.second;
+  bool changed = view_ == nullptr || !view_->serves(region.detail);
+  const std::vector<Level> missing = select(region, changed);
+  const double reach_deg = touched_within_deg(region.reach_m);
+  const auto beyond_reach = [&](Level level) {
+    return angle_to_middle_deg(region.centre, place_of_slot(level.first)) > reach_deg;
+  };
+  for (std::size_t i = 0; i < missing.size(); ++i) {
+    if (load(missing[i])) show(missing[i]);
+    changed = true;
+    if (!interim || i + 1 == missing.size()) continue;
+    // They come by distance: if the next one lies beyond the reach, so do all after it.
+    view_ = make_view(beyond_reach(missing[i + 1]) ? region.detail : kServesNothing);
+    if (!interim(view_)) return view_;
   }
   while (resident_bytes_ > options_.resident_limit_bytes && drop_longest_unused()) changed = true;
   if (changed) view_ = make_view(region.detail);
   return view_;
 }
 
+// Shows what is in memory of the region's cells, and tells which are not, nearest first.
+std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const TerrainRegion& region, bool& changed) {
+  std::vector<Level> missing;
+  for (const CellPlace place : cells_within(region)) {
+    const std::size_t slot = slot_of(place);
+    const auto file = index_.find(slot);
+    if (file == index_.end() || unreadable_.contains(slot)) continue;
+    const Level level{slot, reduction_for(file->second, region.detail)};
+    const auto resident = resident_.find(level);
+    if (resident == resident_.end()) {
+      show_stand_in(level);
+      missing.push_back(level);
+      continue;
+    }
+    resident->second.last_use = prepares_;
+    if (show(level)) changed = true;
+  }
+  const auto angle_and_slot = [&](Level level) {
+    return std::pair(angle_to_middle_deg(region.centre, place_of_slot(level.first)), level.first);
+  };
+  std::sort(missing.begin(), missing.end(), [&](Level a, Level b) { return angle_and_slot(a) < angle_and_slot(b); });
+  return missing;
+}
+
+// True if that is another version of the cell than the view has.
+bool DirectoryTerrainStore::show(Level level) {
+  const auto [shown, fresh] = shown_.try_emplace(level.first, level.second);
+  const bool changed = fresh || shown->second != level.second;
+  shown->second = level.second;
+  return changed;
+}
+
+// Until the level itself is there: of the cell's versions in memory the next coarser, else the next finer.
+void DirectoryTerrainStore::show_stand_in(Level level) {
+  auto found = resident_.upper_bound(level);
+  if (found == resident_.end() || found->first.first != level.first) {
+    if (found == resident_.begin()) return;
+    --found;
+  }
+  if (found->first.first == level.first) show(found->first);
+}
+
 std::vector<std::string> DirectoryTerrainStore::take_problems() {
   return std::exchange(problems_, {});
 }
 
-bool DirectoryTerrainStore::load(Level level, const CellFile& file) {
+bool DirectoryTerrainStore::load(Level level) {
+  const CellFile& file = index_.at(level.first);
   failure::Expected<CellReading> reading = read_cell(file, place_of_slot(level.first), level.second);
   if (!reading) {
     problems_.push_back(reading.error().message() + "; the cell counts as void");

@@ -1,7 +1,7 @@
-// Terrain from a directory of elevation files. prepare() loads the cells within the region and their culture, each
-// reduced as far as the region's detail allows; what is outside stays while all fits into the limit, the longest unused
-// goes first. A cell whose file cannot be read is noted as a problem once and is void from then on. A view's generation
-// rises when, and only when, what it shows changes. Errors of open(): those of index_directory().
+// Terrain from a directory of elevation files. prepare() loads the cells within the region and their culture, nearest
+// first, each reduced as far as the region's detail allows; what is outside stays while all fits into the limit, the
+// longest unused goes first. A cell whose file cannot be read is noted as a problem once and is void from then on. A
+// view's generation rises when, and only when, what it shows changes. Errors of open(): those of index_directory().
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,8 @@ class DirectoryTerrainStore final : public TerrainStore {
   static failure::Expected<std::unique_ptr<DirectoryTerrainStore>> open(const std::filesystem::path& directory,
                                                                         DirectoryStoreOptions options);
 
-  TerrainViewPointer prepare(const TerrainRegion& region) override;
+  TerrainViewPointer prepare(const TerrainRegion& region) override { return prepare_in_steps(region, {}); }
+  TerrainViewPointer prepare_in_steps(const TerrainRegion& region, const Interim& interim) override;
   std::vector<std::string> take_problems() override;
 
  private:
@@ -45,7 +46,10 @@ class DirectoryTerrainStore final : public TerrainStore {
   };
 
   DirectoryTerrainStore(DirectoryIndex index, DirectoryStoreOptions options, std::vector<std::string> problems);
-  bool load(Level level, const CellFile& file);
+  std::vector<Level> select(const TerrainRegion& region, bool& changed);
+  bool show(Level level);
+  void show_stand_in(Level level);
+  bool load(Level level);
   std::shared_ptr<const Culture> read_cover(Level level, const CellFile& file);
   bool drop_longest_unused();
   TerrainViewPointer make_view(int detail);
@@ -59,7 +63,6 @@ class DirectoryTerrainStore final : public TerrainStore {
   std::size_t resident_bytes_ = 0;
   std::uint64_t prepares_ = 0;
   std::uint64_t generation_ = 0;
-  int detail_ = 0;
   TerrainViewPointer view_;
   std::vector<std::string> problems_;
 };

@@ -72,7 +72,7 @@ Surface interpolate(const Cell& cell, double north_deg, double east_deg, radar::
   }
   Surface surface = bilinear(cell, at);
   if (interpolation != radar::Interpolation::cubic) return surface;
-  if (const std::optional<double> height_m = cubic_height_m(cell, at)) surface.elevation_m = *height_m;
+  if (const std::optional<double> height_m = cubic_height_m(cell, at)) surface.elevation_m = surface.peak_m = *height_m;
   return surface;
 }
 

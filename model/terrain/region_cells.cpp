@@ -21,17 +21,24 @@ double angle_between_deg(geo::GeoPoint a, geo::GeoPoint b) {
   return 2 * std::asin(std::min(1.0, std::sqrt(haversine))) / geo::kRadiansPerDegree;
 }
 
-// Conservative: the disc against a circle about the cell's middle.
-bool near(CellPlace place, geo::GeoPoint centre, double reach_deg) {
-  const geo::GeoPoint middle{place.south_deg + 0.5, place.west_deg + 0.5};
-  const double half_diagonal_deg = 0.7072;  // [deg] that of a square degree; a cell is nowhere wider
-  return angle_between_deg(centre, middle) <= reach_deg + half_diagonal_deg;
+double angle_of(double radius_m) {
+  return std::clamp(radius_m / kSmallestRadiusM, 0.0, geo::kRadiansPerDegree * 180.0);
 }
 
 }  // namespace
 
+double angle_to_middle_deg(geo::GeoPoint point, CellPlace place) {
+  return angle_between_deg(point, {place.south_deg + 0.5, place.west_deg + 0.5});
+}
+
+// Conservative: the disc against a circle about the cell's middle.
+double touched_within_deg(double radius_m) {
+  constexpr double kHalfDiagonalDeg = 0.7072;  // that of a square degree; a cell is nowhere wider
+  return angle_of(radius_m) / geo::kRadiansPerDegree + kHalfDiagonalDeg;
+}
+
 std::vector<CellPlace> cells_within(const TerrainRegion& region) {
-  const double reach = std::clamp(region.radius_m / kSmallestRadiusM, 0.0, geo::kRadiansPerDegree * 180.0);
+  const double reach = angle_of(region.radius_m);
   const double reach_deg = reach / geo::kRadiansPerDegree;
   const geo::GeoPoint centre = region.centre;
   const int south = cell_holding({centre.latitude_deg - reach_deg, 0}).south_deg;
@@ -42,11 +49,12 @@ std::vector<CellPlace> cells_within(const TerrainRegion& region) {
   const double side_deg = over_pole || sine >= 1.0 ? 180.0 : std::asin(sine) / geo::kRadiansPerDegree;
   const int first = static_cast<int>(std::floor(centre.longitude_deg - side_deg));
   const int last = std::min(static_cast<int>(std::floor(centre.longitude_deg + side_deg)), first + kCellColumns - 1);
+  const double touched_deg = touched_within_deg(region.radius_m);
   std::vector<CellPlace> places;
   for (int row = south; row <= north; ++row)
     for (int column = first; column <= last; ++column) {
       const CellPlace place{row, cell_holding({0, column + 0.5}).west_deg};
-      if (near(place, centre, reach_deg)) places.push_back(place);
+      if (angle_to_middle_deg(centre, place) <= touched_deg) places.push_back(place);
     }
   std::sort(places.begin(), places.end(), [](CellPlace a, CellPlace b) { return slot_of(a) < slot_of(b); });
   return places;

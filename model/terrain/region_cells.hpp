@@ -11,4 +11,9 @@ namespace yars::model::terrain {
 
 std::vector<CellPlace> cells_within(const TerrainRegion& region);
 
+// Great-circle angle [deg] from a point to a cell's middle. A disc touches no cell that is farther than
+// touched_within_deg() of its radius.
+double angle_to_middle_deg(geo::GeoPoint point, CellPlace place);
+double touched_within_deg(double radius_m);
+
 }  // namespace yars::model::terrain

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -16,10 +18,11 @@ namespace yars::model::terrain {
 
 // The ground at one place.
 struct Surface {
-  double elevation_m = 0.0;   // [m] MSL; NaN = void
-  double water = 0.0;         // [0, 1] share of posts at exactly 0 m
-  std::uint8_t material = 0;  // surface material code of the nearest post; 0 = none given: land or sea by `water`
-  bool loaded = true;         // false: a file has it, but it is not in memory yet
+  double elevation_m = 0.0;     // [m] MSL; NaN = void
+  double water = 0.0;           // [0, 1] share of posts at exactly 0 m
+  std::uint8_t material = 0;    // surface material code of the nearest post; 0 = none given: land or sea by `water`
+  bool loaded = true;           // false: a file has it, but it is not in memory yet
+  double peak_m = elevation_m;  // [m] MSL highest ground about the place where a coarser level stands in
 };
 
 // Places in a row for the fast path: which cell each lies in, counted from one of them, and where in it [0, 1] deg.
@@ -65,7 +68,8 @@ class TerrainView {
   virtual Surface surface_at(geo::GeoPoint place, Interpolation interpolation = Interpolation::bilinear) const = 0;
   double elevation_m(geo::GeoPoint place) const { return surface_at(place).elevation_m; }
 
-  // True if this is what prepare() gives for a region of this detail; false: another one still stands in.
+  // True if this is what prepare() gives for a region of this detail, as far as a scan reaches; false: something else
+  // still stands in.
   virtual bool serves(int /*detail*/) const { return true; }
   // True if peak_m may differ from elevation_m anywhere.
   virtual bool has_peaks() const { return false; }
@@ -85,6 +89,8 @@ struct TerrainRegion {
   geo::GeoPoint centre;
   double radius_m = 0.0;
   int detail = 0;
+  // [m] what the scan reaches by itself: farther out cells may come later, and a view without them serves.
+  double reach_m = std::numeric_limits<double>::infinity();
 };
 
 // The detail for which posts this far apart [m] do; 0 for anything below two metres and for what is no length.
@@ -101,6 +107,14 @@ class TerrainStore {
   // A view that holds all that exists within the region; posts outside may be dropped from memory.
   // The same view (same generation) is returned while nothing has to change.
   virtual TerrainViewPointer prepare(const TerrainRegion& region) = 0;
+
+  // The same in steps, for who need not wait for the whole: nearest cells first; after each but the last, `interim`
+  // gets a view of what there is. A cell still to come is there in the next coarser version in memory, else in a finer
+  // one, else it is not loaded. If `interim` returns false the rest stays out, and that view is the result.
+  using Interim = std::function<bool(const TerrainViewPointer&)>;
+  virtual TerrainViewPointer prepare_in_steps(const TerrainRegion& region, const Interim& /*interim*/) {
+    return prepare(region);
+  }
 
   // What prepare() has met since the last call and a person should know: unreadable cells, odd files. Each once,
   // a sentence each; same thread as prepare().

@@ -273,7 +273,7 @@ TEST(ExtremeNumbers, ADenormalRangeIsNoRangeAndADenormalWidthTheNarrowestScan) {
       Cockpit cockpit(configuration);
       cockpit.tick.command.range_nm = small;
       EXPECT_TRUE(cockpit.run(400).empty()) << small;
-      EXPECT_FALSE(cockpit.kernel.need(cockpit.tick).video);
+      EXPECT_FALSE(cockpit.kernel.need(cockpit.tick).ground);
       cockpit.tick.command.range_nm = 40.0;
       cockpit.tick.command.scan_width_deg = small;
       const auto sweeps = cockpit.run(400);

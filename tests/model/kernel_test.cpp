@@ -53,7 +53,7 @@ TEST(RadarKernel, MakesNothingInOffAndStandby) {
     cockpit.run(300);
     cockpit.tick.command.power = static_cast<std::uint8_t>(power);
     EXPECT_TRUE(cockpit.run(300).empty());
-    EXPECT_FALSE(cockpit.kernel.need(cockpit.tick).video);
+    EXPECT_FALSE(cockpit.kernel.need(cockpit.tick).ground);
     EXPECT_EQ(cockpit.status().flags & databuffer::kModelScanning, 0U);
   }
 }
@@ -74,7 +74,7 @@ TEST(RadarKernel, FreezeStopsAtTheEndOfTheScan) {
   EXPECT_TRUE(is_scan_end(rest.back()));
   EXPECT_NE(cockpit.status().flags & databuffer::kModelFrozen, 0U);
   EXPECT_EQ(cockpit.status().flags & databuffer::kModelScanning, 0U);
-  EXPECT_FALSE(cockpit.kernel.need(cockpit.tick).video);
+  EXPECT_FALSE(cockpit.kernel.need(cockpit.tick).ground);
 }
 
 TEST(RadarKernel, UnfreezeStartsTheNextScan) {
@@ -84,7 +84,7 @@ TEST(RadarKernel, UnfreezeStartsTheNextScan) {
   cockpit.set_flag(databuffer::kFreeze, true);
   cockpit.run(400);
   cockpit.set_flag(databuffer::kFreeze, false);
-  EXPECT_TRUE(cockpit.kernel.need(cockpit.tick).video);
+  EXPECT_TRUE(cockpit.kernel.need(cockpit.tick).ground);
   const auto after = cockpit.run_until(is_scan_start);
   ASSERT_TRUE(before && after);
   EXPECT_EQ(after->scan, before->scan + 1);
@@ -109,6 +109,26 @@ TEST(RadarKernel, SniffStopsTransmittingAtTheEndOfTheScan) {
     EXPECT_GT(mean_video(sweep), 0.0);
   }
   EXPECT_NE(quiet[0].hash, quiet[1].hash);
+}
+
+TEST(RadarKernel, SniffWithoutJammersAsksForNoTerrainOnceTheScanHasEnded) {
+  Cockpit cockpit;
+  ASSERT_TRUE(cockpit.run_until(is_scan_start));
+  cockpit.set_flag(databuffer::kSniff, true);
+  EXPECT_TRUE(cockpit.kernel.need(cockpit.tick).ground) << "the scan under way still transmits";
+  cockpit.run(400);
+  EXPECT_FALSE(cockpit.kernel.need(cockpit.tick).ground);
+  cockpit.set_flag(databuffer::kSniff, false);
+  EXPECT_TRUE(cockpit.kernel.need(cockpit.tick).ground);
+}
+
+TEST(RadarKernel, SniffAsksForTheTerrainThatMayHideAJammer) {
+  radar::RadarConfiguration configuration;
+  configuration.world.jamming.jammers.emplace_back();
+  Cockpit cockpit(configuration);
+  cockpit.set_flag(databuffer::kSniff, true);
+  cockpit.run(400);
+  EXPECT_TRUE(cockpit.kernel.need(cockpit.tick).ground);
 }
 
 TEST(RadarKernel, ARestartBeginsANewScanAtOnce) {
@@ -247,7 +267,7 @@ TEST(RadarKernel, TellsTheAntennasElevationOnceItIsThere) {
 TEST(RadarKernel, AsksForTerrainAsFarAsItsRange) {
   Cockpit cockpit;
   const auto need = cockpit.kernel.need(cockpit.tick);
-  ASSERT_TRUE(need.video);
+  ASSERT_TRUE(need.ground);
   EXPECT_EQ(need.region.centre.latitude_deg, 37.0);
   EXPECT_GE(need.region.radius_m, 40.0 * geo::kMetresPerNauticalMile);
 }
@@ -307,6 +327,21 @@ TEST(RadarKernel, ASweepOverTerrainOfAnotherDetailIsNotReady) {
     if (!cockpit.kernel.step(cockpit.tick, foreign, cockpit.sweep)) continue;
     ++sweeps;
     EXPECT_NE(cockpit.sweep.flags & databuffer::kSweepNotReady, 0U);
+  }
+  EXPECT_GT(sweeps, 100);
+}
+
+TEST(RadarKernel, SniffWithoutJammersIsReadyOverTerrainOfAnotherDetail) {
+  Cockpit cockpit;
+  const ForeignTerrain foreign;
+  cockpit.set_flag(databuffer::kSniff, true);
+  int sweeps = 0;
+  for (int i = 0; i < 400; ++i) {
+    ++cockpit.tick.tick;
+    cockpit.tick.sim_time_ns = cockpit.tick.tick * radar::kTickNanoseconds;
+    if (!cockpit.kernel.step(cockpit.tick, foreign, cockpit.sweep)) continue;
+    ++sweeps;
+    EXPECT_EQ(cockpit.sweep.flags & databuffer::kSweepNotReady, 0U);
   }
   EXPECT_GT(sweeps, 100);
 }

@@ -19,7 +19,7 @@ void Replay::tick(const databuffer::ModelTick& tick) {
   if ((tick.flags & databuffer::kTickRestart) != 0U && ticks_ > 0) restart(tick.resumed_tick);
   before_last_ = last_;
   ++ticks_;
-  if (const auto need = kernel_.need(tick); need.video) view_ = store_->prepare(need.region);
+  if (const auto need = kernel_.need(tick); need.ground) view_ = store_->prepare(need.region);
   const bool finished = kernel_.step(tick, *view_, sweep_);
   kernel_.describe(*view_, last_);
   if (!finished) return;

@@ -8,6 +8,7 @@
 #include "model/rbm/earth.hpp"
 #include "model/rbm/receiver.hpp"
 #include "model/rbm/sample_places.hpp"
+#include "tools/trade/ray_samples.hpp"
 
 namespace yars::tools::trade {
 
@@ -20,29 +21,6 @@ using radar::RadarConfiguration;
 
 constexpr float kNothing = 1e-8F;  // of full scale: far below the noise, and what float still tells from zero
 
-// One ray, no smear, and a beam without edge about the horizon: power says what ground hides, and nothing else.
-RadarConfiguration bare(RadarConfiguration configuration) {
-  constexpr double kWholeViewDeg = 179.9;
-  radar::Fidelity& fidelity = configuration.fidelity;
-  fidelity.sub_beams = 1;
-  fidelity.pulse_smear = false;
-  fidelity.azimuth_smear = false;
-  fidelity.beam = radar::BeamPattern::hard_edge;
-  configuration.antenna.elevation_beamwidth_deg = kWholeViewDeg;
-  return configuration;
-}
-
-std::vector<double> distances(const RadarConfiguration& configuration, const Look& look,
-                              const model::terrain::TerrainView& terrain) {
-  std::vector<double> distance_m(model::rbm::sample_count(configuration));
-  const auto earth = model::rbm::effective_earth(configuration.fidelity, look.apex, look.azimuth);
-  model::rbm::sample_distances(configuration.fidelity, earth, look, terrain, distance_m);
-  // What nothing is near enough for lies below the aircraft.
-  std::replace_if(
-      distance_m.begin(), distance_m.end(), [](double value) { return std::isnan(value); }, 0.0);
-  return distance_m;
-}
-
 double position_error_m(const RadarConfiguration& configuration, const OfflineScan& scan,
                         const model::terrain::TerrainView& terrain) {
   // It asks the geodesic for every sample.
@@ -52,7 +30,12 @@ double position_error_m(const RadarConfiguration& configuration, const OfflineSc
   double worst_m = 0.0;
   for (std::size_t sweep = 0; sweep < scan.places().size(); sweep += kStep) {
     const Look look = model::kernel::look_of(scan.places()[sweep]);
-    const std::vector<double> exact_m = distances(configuration, look, terrain);
+    std::vector<double> exact_m(places.count);
+    const auto earth = model::rbm::effective_earth(configuration.fidelity, look.apex, look.azimuth);
+    model::rbm::sample_distances(configuration.fidelity, earth, look, terrain, exact_m);
+    // What nothing is near enough for lies below the aircraft.
+    std::replace_if(
+        exact_m.begin(), exact_m.end(), [](double value) { return std::isnan(value); }, 0.0);
     std::vector<float> distance_m(exact_m.begin(), exact_m.end());
     distance_m.resize(distance_m.size() + model::terrain::kRunSlack, 0.0F);
     model::rbm::sample_places(look.apex, look.azimuth, look.range, configuration.fidelity.geodesic_knots,
@@ -68,35 +51,16 @@ double position_error_m(const RadarConfiguration& configuration, const OfflineSc
   return worst_m;
 }
 
-std::vector<std::uint8_t> ground_of(const RadarConfiguration& configuration, const OfflineScan& scan,
-                                    const model::terrain::TerrainView& terrain) {
-  std::vector<std::uint8_t> ground;
-  ground.reserve(scan.power().size());
-  for (const model::kernel::SweepPlace& place : scan.places()) {
-    const Look look = model::kernel::look_of(place);
-    const geo::GeodesicRay ray(look.apex, look.azimuth);
-    for (const double distance_m : distances(configuration, look, terrain)) {
-      const geo::GeoPoint there = ray.position(geo::Length::metres(distance_m));
-      const auto surface = terrain.surface_at(there, configuration.fidelity.interpolation);
-      ground.push_back(std::isnan(surface.elevation_m) ? 0 : 1);
-    }
-  }
-  return ground;
+template <class Fact>
+std::vector<std::uint8_t> facts_of(std::span<const RaySample> samples, Fact fact) {
+  std::vector<std::uint8_t> facts(samples.size());
+  std::transform(samples.begin(), samples.end(), facts.begin(),
+                 [&](const RaySample& sample) { return fact(sample) ? std::uint8_t{1} : std::uint8_t{0}; });
+  return facts;
 }
 
-std::vector<std::uint8_t> seen_ground(const RadarConfiguration& configuration, ScanRequest request,
-                                      const model::terrain::TerrainView& terrain) {
-  request.elevation = geo::Angle();
-  OfflineScan scan(bare(configuration), request, 1);
-  scan.measure(terrain);
-  std::vector<std::uint8_t> seen(scan.power().size());
-  std::transform(scan.power().begin(), scan.power().end(), seen.begin(),
-                 [](float power) { return power > kNothing ? std::uint8_t{1} : std::uint8_t{0}; });
-  return seen;
-}
-
-Evidence observe_scan(const RadarConfiguration& configuration, const ScanRequest& request,
-                      const model::terrain::TerrainView& terrain, OfflineScan& scan) {
+Evidence observe_scan(const RadarConfiguration& configuration, const model::terrain::TerrainView& terrain,
+                      OfflineScan& scan, std::span<const RaySample> ray) {
   scan.run(terrain);
   Evidence evidence;
   evidence.sweeps = scan.places().size();
@@ -104,7 +68,8 @@ Evidence observe_scan(const RadarConfiguration& configuration, const ScanRequest
   evidence.power.assign(scan.power().begin(), scan.power().end());
   for (const databuffer::Sweep& sweep : scan.sweeps())
     evidence.video.insert(evidence.video.end(), &sweep.video[0], &sweep.video[0] + sweep.samples);
-  evidence.seen = seen_ground(configuration, request, terrain);
+  evidence.seen = facts_of(ray, [](const RaySample& sample) { return sample.lit; });
+  evidence.returns = facts_of(ray, [](const RaySample& sample) { return sample.returns; });
   evidence.position_m = position_error_m(configuration, scan, terrain);
   evidence.power_is_radar = configuration.fidelity.algorithm != radar::Algorithm::report_1996;
   return evidence;
@@ -137,16 +102,17 @@ Evidence observe(const RadarConfiguration& configuration, const ScanRequest& req
                  const model::terrain::TerrainView& terrain) {
   const RadarConfiguration quiet = without_noise(configuration);
   OfflineScan scan(quiet, request, 1);
-  return observe_scan(quiet, request, terrain, scan);
+  return observe_scan(quiet, terrain, scan, ray_samples(quiet, scan.places(), terrain));
 }
 
 Ruler make_ruler(const RadarConfiguration& configuration, const ScanRequest& request,
                  const model::terrain::TerrainView& terrain) {
   const RadarConfiguration quiet = without_noise(configuration);
   OfflineScan scan(quiet, request, 1);
+  const std::vector<RaySample> ray = ray_samples(quiet, scan.places(), terrain);
   Ruler ruler;
-  ruler.evidence = observe_scan(quiet, request, terrain, scan);
-  ruler.ground = ground_of(quiet, scan, terrain);
+  ruler.evidence = observe_scan(quiet, terrain, scan, ray);
+  ruler.ground = facts_of(ray, [](const RaySample& sample) { return !std::isnan(sample.ground.elevation_m); });
   ruler.noise = model::rbm::make_receiver(quiet, request.range).noise;
   return ruler;
 }
@@ -165,7 +131,7 @@ Errors errors_against(const Ruler& ruler, const Evidence& found) {
       if (ruler.ground[here] == 0) continue;
       ++ground;
       if (exact.seen[here] != found.seen[there]) ++mismatches;
-      const bool both = exact.seen[here] != 0 && found.seen[there] != 0;
+      const bool both = exact.returns[here] != 0 && found.returns[there] != 0;
       if (!both || !found.power_is_radar || static_cast<double>(exact.power[here]) <= ruler.noise) continue;
       const double ratio =
           static_cast<double>(std::max(found.power[there], kNothing)) / static_cast<double>(exact.power[here]);

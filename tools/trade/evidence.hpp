@@ -15,12 +15,13 @@ namespace yars::tools::trade {
 // Sweep after sweep, samples from near to far.
 struct Evidence {
   std::size_t sweeps = 0;
-  std::size_t samples = 0;          // a sweep
-  std::vector<float> power;         // full scale = 1, before the azimuth smear
-  std::vector<std::uint8_t> video;  // as drawn, gain 3
-  std::vector<std::uint8_t> seen;   // 1: no ground hides it, whatever beam and smear make of it
-  double position_m = 0.0;          // [m] farthest that a sample lies from its place on the geodesic
-  bool power_is_radar = true;       // false: the 1996 report's intensity, a cosine
+  std::size_t samples = 0;            // a sweep
+  std::vector<float> power;           // full scale = 1, before the azimuth smear
+  std::vector<std::uint8_t> video;    // as drawn, gain 3
+  std::vector<std::uint8_t> seen;     // 1: no ground hides it, whatever beam and smear make of it
+  std::vector<std::uint8_t> returns;  // 1: seen, and its facet looks towards the radar
+  double position_m = 0.0;            // [m] farthest that a sample lies from its place on the geodesic
+  bool power_is_radar = true;         // false: the 1996 report's intensity, a cosine
 };
 
 Evidence observe(const radar::RadarConfiguration& configuration, const model::kernel::ScanRequest& request,

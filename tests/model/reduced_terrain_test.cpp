@@ -1,0 +1,94 @@
+// Shadow over terrain at a reduced level: cast by peaks, in the reference as in the standard algorithm.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "model/rbm/standard.hpp"
+#include "model/terrain/directory_store.hpp"
+#include "model/terrain/dted_writer.hpp"
+#include "tests/model/ground.hpp"
+#include "tests/terrain/dted_builder.hpp"
+#include "tests/terrain/rough_cell.hpp"
+
+namespace yars::model::rbm {
+namespace {
+
+constexpr geo::GeoPoint kApex{37.5, -121.5};
+
+// Ranges with lone peaks on them, and a patch of voids.
+terrain::Cell mountains() {
+  return test::cell_of({37, -122}, 121, 121, [](int row, int column) {
+    if (row > 70 && row < 80 && column > 70 && column < 84) return int{terrain::kVoidPost};
+    const double ranges = 500.0 + 300.0 * std::sin(row * 0.31) * std::cos(column * 0.23);
+    return static_cast<int>(ranges) + (row * 7 + column * 13) % 29 * 10;
+  });
+}
+
+Look look_from(double azimuth_deg) {
+  return {kApex, geo::AltitudeMsl::metres(1500.0), geo::Bearing::degrees(azimuth_deg), geo::Angle::degrees(-3.0),
+          geo::Length::nautical_miles(20.0)};
+}
+
+std::vector<std::uint8_t> lit_by(Algorithm& algorithm, const Look& look, const terrain::TerrainView& view,
+                                 std::size_t count) {
+  std::vector<float> power(count);
+  std::vector<std::uint8_t> lit(count);
+  algorithm.measure(look, view, power);
+  algorithm.lit(lit);
+  for (const float value : power) EXPECT_TRUE(std::isfinite(value) && value >= 0.0F);
+  return lit;
+}
+
+class ReducedTerrain : public ::testing::Test {
+ protected:
+  terrain::TerrainViewPointer view(double spacing_m) const {
+    EXPECT_TRUE(terrain::write_dted(folder_.path(), mountains(), 0));
+    auto store = terrain::DirectoryTerrainStore::open(folder_.path(), {});
+    return (*store)->prepare({kApex, 40000.0, terrain::detail_for(spacing_m)});
+  }
+
+ private:
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(ReducedTerrain, TheReferenceAndTheStandardHaveTheSameShadows) {
+  const auto coarse = view(4100.0);  // every fourth post
+  ASSERT_TRUE(coarse->has_peaks());
+  radar::RadarConfiguration configuration;
+  configuration.fidelity.samples = 480;
+  Reference reference(configuration);
+  Standard standard(configuration);
+  const std::size_t count = sample_count(configuration);
+  double mismatches = 0.0, dark = 0.0, total = 0.0;
+  for (double azimuth_deg = 0.0; azimuth_deg < 360.0; azimuth_deg += 5.0) {
+    const auto exact = lit_by(reference, look_from(azimuth_deg), *coarse, count);
+    const auto fast = lit_by(standard, look_from(azimuth_deg), *coarse, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      mismatches += exact[i] != fast[i] ? 1.0 : 0.0;
+      dark += exact[i] == 0 ? 1.0 : 0.0;
+      total += 1.0;
+    }
+  }
+  EXPECT_LE(mismatches / total, 0.001);
+  EXPECT_GT(dark / total, 0.1);
+  EXPECT_LT(dark / total, 0.9);
+}
+
+TEST_F(ReducedTerrain, ThePeakOfAPlaceIsNeverBelowItsGround) {
+  const auto coarse = view(4100.0);
+  const auto fine = view(0.0);
+  for (int i = 0; i < 300; ++i) {
+    const geo::GeoPoint place{37.05 + 0.0029 * i, -121.05 - 0.003 * i};
+    const terrain::Surface surface = coarse->surface_at(place);
+    if (std::isnan(surface.elevation_m)) continue;
+    EXPECT_GE(surface.peak_m, surface.elevation_m - 1.0);
+    const terrain::Surface whole = fine->surface_at(place);
+    if (std::isnan(whole.elevation_m)) continue;
+    EXPECT_GE(surface.peak_m, whole.elevation_m - 1e-9) << "a shadow is never lost";
+    EXPECT_EQ(whole.peak_m, whole.elevation_m);
+  }
+}
+
+}  // namespace
+}  // namespace yars::model::rbm

@@ -1,0 +1,134 @@
+// A region that is loaded in steps: what the views in between show, and what they say of themselves.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/terrain/directory_store.hpp"
+#include "model/terrain/dted_writer.hpp"
+#include "tests/terrain/dted_builder.hpp"
+#include "tests/terrain/fast_path.hpp"
+#include "tests/terrain/rough_cell.hpp"
+
+namespace yars::model::terrain {
+namespace {
+
+using ::testing::ElementsAre;
+
+geo::GeoPoint middle(int west_deg) {
+  return {0.5, west_deg + 0.5};
+}
+
+std::unique_ptr<DirectoryTerrainStore> store_over(const test::TemporaryFolder& folder) {
+  auto store = DirectoryTerrainStore::open(folder.path(), {});
+  EXPECT_TRUE(store.has_value()) << store.error().message();
+  return std::move(store.value());
+}
+
+// Three cells in a row, 0 to 3 east; the middle of the region lies in the first.
+constexpr TerrainRegion kRow{{0.5, 0.5}, 280000.0, 0};
+
+void write_row(const test::TemporaryFolder& folder) {
+  for (const int west : {0, 1, 2}) ASSERT_TRUE(write_dted(folder.path(), test::rough_cell({0, west}, 121, 121, 7), 0));
+}
+
+TEST(DirectoryStoreSteps, NearCellsComeFirstAndOnesToComeAreNotLoadedButNoVoids) {
+  const test::TemporaryFolder folder;
+  write_row(folder);
+  const auto store = store_over(folder);
+  std::vector<TerrainViewPointer> interim;
+  const auto whole = store->prepare_in_steps(kRow, [&](const TerrainViewPointer& view) {
+    interim.push_back(view);
+    return true;
+  });
+  ASSERT_EQ(interim.size(), 2U) << "the last step is the whole";
+  for (int step = 0; step < 2; ++step) {
+    SCOPED_TRACE(step);
+    for (int west = 0; west < 3; ++west) {
+      const Surface ground = interim[step]->surface_at(middle(west));
+      EXPECT_EQ(ground.loaded, west <= step);
+      EXPECT_EQ(std::isnan(ground.elevation_m), west > step);
+    }
+    EXPECT_FALSE(interim[step]->serves(0));
+    EXPECT_EQ(test::fast_path(*interim[step], {middle(step + 1)}).not_loaded, 1U);
+  }
+  EXPECT_LT(interim[0]->generation(), interim[1]->generation());
+  EXPECT_LT(interim[1]->generation(), whole->generation());
+  EXPECT_TRUE(whole->serves(0));
+  EXPECT_EQ(store->prepare(kRow), whole);
+}
+
+TEST(DirectoryStoreSteps, ACellToComeIsThereAsCoarseAsItWasAndTheViewServesNothing) {
+  const test::TemporaryFolder folder;
+  write_row(folder);
+  const auto store = store_over(folder);
+  TerrainRegion coarse = kRow;
+  coarse.detail = detail_for(4100.0);  // every fourth post
+  const auto before = store->prepare(coarse);
+  TerrainViewPointer first;
+  const auto whole = store->prepare_in_steps(kRow, [&](const TerrainViewPointer& view) {
+    if (!first) first = view;
+    return true;
+  });
+  const geo::GeoPoint near{0.31, 0.43}, far{0.31, 2.43};
+  ASSERT_NE(before->elevation_m(far), whole->elevation_m(far));
+  EXPECT_EQ(first->elevation_m(near), whole->elevation_m(near)) << "the loaded cell is fine";
+  EXPECT_EQ(first->elevation_m(far), before->elevation_m(far)) << "the one to come is coarse";
+  EXPECT_TRUE(first->surface_at(far).loaded);
+  EXPECT_TRUE(first->has_peaks());
+  EXPECT_FALSE(first->serves(kRow.detail));
+  EXPECT_FALSE(first->serves(coarse.detail));
+  EXPECT_TRUE(whole->serves(kRow.detail));
+  EXPECT_FALSE(whole->has_peaks());
+}
+
+TEST(DirectoryStoreSteps, OfAllVersionsInMemoryTheNextCoarserStandsIn) {
+  const test::TemporaryFolder folder;
+  write_row(folder);
+  const auto store = store_over(folder);
+  const auto at = [&](int reduction) {
+    TerrainRegion region = kRow;
+    region.detail = reduction == 0 ? 0 : detail_for(1100.0 * std::ldexp(1.0, reduction));
+    return region;
+  };
+  const geo::GeoPoint far{0.31, 2.43};
+  const double coarser_m = store->prepare(at(2))->elevation_m(far);
+  store->prepare(at(3));
+  store->prepare(at(0));
+  TerrainViewPointer first;
+  store->prepare_in_steps(at(1), [&](const TerrainViewPointer& view) {
+    if (!first) first = view;
+    return true;
+  });
+  EXPECT_EQ(first->elevation_m(far), coarser_m);
+}
+
+TEST(DirectoryStoreSteps, AViewServesOnceAllWithinReachIsThere) {
+  const test::TemporaryFolder folder;
+  write_row(folder);
+  const auto store = store_over(folder);
+  TerrainRegion region = kRow;
+  region.reach_m = 100000.0;  // touches the first two
+  std::vector<bool> served;
+  store->prepare_in_steps(region, [&](const TerrainViewPointer& view) {
+    served.push_back(view->serves(region.detail));
+    return true;
+  });
+  EXPECT_THAT(served, ElementsAre(false, true));
+}
+
+TEST(DirectoryStoreSteps, WhatIsCutShortIsTakenUpByTheNextAndServesThen) {
+  const test::TemporaryFolder folder;
+  write_row(folder);
+  const auto store = store_over(folder);
+  const auto first = store->prepare_in_steps(kRow, [](const TerrainViewPointer&) { return false; });
+  EXPECT_FALSE(first->serves(0));
+  EXPECT_TRUE(std::isnan(first->elevation_m(middle(1))));
+  const auto small = store->prepare({middle(0), 1000.0});
+  EXPECT_TRUE(small->serves(0)) << "nothing new is read, but the whole of the smaller region is there";
+  const auto whole = store->prepare(kRow);
+  for (int west = 0; west < 3; ++west) EXPECT_TRUE(whole->surface_at(middle(west)).loaded);
+}
+
+}  // namespace
+}  // namespace yars::model::terrain
