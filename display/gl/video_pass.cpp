@@ -50,12 +50,12 @@ void main() {
 }
 )";
 
-std::uint32_t new_texture(GLint filter) {
+std::uint32_t new_texture() {
   GLuint texture = 0;
   glGenTextures(1, &texture);
   glBindTexture(GL_TEXTURE_2D, texture);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -81,11 +81,9 @@ VideoPass::VideoPass() : program_("video", kVertex, kFragment), uploaded_serial_
   instance_attribute(1, 4, 2);
   instance_attribute(2, 4, 6);
 
-  video_texture_ = new_texture(GL_LINEAR);
+  video_texture_ = new_texture();
   glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, PolarStore::kRowSamples, PolarStore::kRows, 0, GL_RED, GL_UNSIGNED_BYTE,
                nullptr);
-  light_texture_ = new_texture(GL_NEAREST);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_R32F, 256, 1, 0, GL_RED, GL_FLOAT, nullptr);
 
   program_.use();
   glUniform1i(program_.uniform("video"), 0);
@@ -95,14 +93,8 @@ VideoPass::VideoPass() : program_("video", kVertex, kFragment), uploaded_serial_
 
 VideoPass::~VideoPass() {
   glDeleteTextures(1, &video_texture_);
-  glDeleteTextures(1, &light_texture_);
   glDeleteBuffers(1, &instances_);
   glDeleteVertexArrays(1, &vertex_array_);
-}
-
-void VideoPass::set_light(const std::array<float, 256>& light) {
-  glBindTexture(GL_TEXTURE_2D, light_texture_);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, static_cast<GLsizei>(light.size()), 1, GL_RED, GL_FLOAT, light.data());
 }
 
 void VideoPass::upload_new_rows(const PolarStore& store, std::span<const Wedge> wedges) {
@@ -117,7 +109,8 @@ void VideoPass::upload_new_rows(const PolarStore& store, std::span<const Wedge> 
   }
 }
 
-void VideoPass::draw(const PolarStore& store, std::span<const Wedge> wedges, const Color& color) {
+void VideoPass::draw(const PolarStore& store, std::span<const Wedge> wedges, const LightTexture& light,
+                     const Color& color) {
   if (wedges.empty()) return;
   upload_new_rows(store, wedges);
   instance_data_.clear();
@@ -130,9 +123,7 @@ void VideoPass::draw(const PolarStore& store, std::span<const Wedge> wedges, con
   glBindBuffer(GL_ARRAY_BUFFER, instances_);
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instance_data_.size() * sizeof(float)), instance_data_.data(),
                GL_STREAM_DRAW);
-  glActiveTexture(GL_TEXTURE1);
-  glBindTexture(GL_TEXTURE_2D, light_texture_);
-  glActiveTexture(GL_TEXTURE0);
+  light.bind(1);
   program_.use();
   glUniform3f(color_location_, color.red, color.green, color.blue);
   glDisable(GL_BLEND);
