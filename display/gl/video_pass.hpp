@@ -1,6 +1,6 @@
-// Draws the stored sweeps: each wedge one triangle, each pixel in it the video at its distance from the wedge's own
-// apex, through the table of light. Video between two samples is interpolated along the range.
-// Needs a current context for its lifetime.
+// Draws the stored sweeps: each wedge a narrow quadrangle, each pixel in it the video at its distance from the wedge's
+// own apex, through the table of light. Video between two samples is interpolated along the range. Needs a current
+// context for its lifetime.
 #pragma once
 
 #include <cstdint>
