@@ -60,7 +60,7 @@ struct Glass::State {
       place_wedges(store, view, wanted.frame, wedges);
       video_pass.draw(store, wedges, light_texture, colors.video);
     }
-    if (wanted.map != 0) map_pass.draw(wanted.map, light_texture, colors.video);
+    if (wanted.map != 0) map_pass.draw(wanted.map, light_texture, colors.video, wanted.size);
     overlay_pass.draw(list, colors, light, static_cast<float>(framebuffer.size()) / kGlassUnits);
   }
 

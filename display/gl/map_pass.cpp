@@ -29,19 +29,17 @@ void main() {
 }
 )";
 
-// A map finer than the glass is averaged down by the mean of its pixels, or speckle would turn into sparkle.
 std::uint32_t texture_of(std::uint32_t size, std::span<const std::uint8_t> pixels) {
   GLuint texture = 0;
   glGenTextures(1, &texture);
   glBindTexture(GL_TEXTURE_2D, texture);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   const auto edge = static_cast<GLsizei>(size);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, edge, edge, 0, GL_RED, GL_UNSIGNED_BYTE, pixels.data());
-  glGenerateMipmap(GL_TEXTURE_2D);
   return texture;
 }
 
@@ -62,7 +60,7 @@ MapPass::~MapPass() {
 
 void MapPass::add(std::uint64_t id, std::uint32_t size, std::span<const std::uint8_t> pixels) {
   if (id == 0 || size == 0 || pixels.size() < std::size_t{size} * size || has(id)) return;
-  maps_.push_back({id, texture_of(size, pixels)});
+  maps_.push_back({id, texture_of(size, pixels), static_cast<int>(size)});
 }
 
 void MapPass::keep(std::span<const std::uint64_t> ids) {
@@ -77,13 +75,23 @@ bool MapPass::has(std::uint64_t id) const {
   return std::ranges::find(maps_, id, &Kept::id) != maps_.end();
 }
 
-void MapPass::draw(std::uint64_t id, const LightTexture& light, const Color& color) {
+// A map finer than the glass is averaged down by the mean of its pixels, or speckle would turn into sparkle. A software
+// renderer takes a while to make the levels: only then.
+void MapPass::bind(Kept& map, int glass_size) {
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, map.texture);
+  if (map.averaged || map.size <= glass_size) return;
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  map.averaged = true;
+}
+
+void MapPass::draw(std::uint64_t id, const LightTexture& light, const Color& color, int glass_size) {
   const auto map = std::ranges::find(maps_, id, &Kept::id);
   if (map == maps_.end()) return;
   glBindVertexArray(vertex_array_);
   light.bind(1);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, map->texture);
+  bind(*map, glass_size);
   program_.use();
   glUniform3f(color_location_, color.red, color.green, color.blue);
   glDisable(GL_BLEND);

@@ -26,13 +26,18 @@ class MapPass {
   void keep(std::span<const std::uint64_t> ids);
   bool has(std::uint64_t id) const;
 
-  void draw(std::uint64_t id, const LightTexture& light, const Color& color);
+  // `glass_size`: pixels to the edge of what is drawn on.
+  void draw(std::uint64_t id, const LightTexture& light, const Color& color, int glass_size);
 
  private:
   struct Kept {
     std::uint64_t id = 0;
     std::uint32_t texture = 0;
+    int size = 0;
+    bool averaged = false;  // has its levels for a coarser glass
   };
+  static void bind(Kept& map, int glass_size);
+
   ShaderProgram program_;
   std::uint32_t vertex_array_ = 0;
   int color_location_ = 0;
