@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "databuffer/log.hpp"
+#include "databuffer/patch_pool.hpp"
 #include "databuffer/records/validation.hpp"
 #include "databuffer/tick_loop.hpp"
 
@@ -21,15 +22,17 @@ bool takes_part(const databuffer::SessionLayout& layout, databuffer::LockstepRol
 
 }  // namespace
 
-GlassFeed::GlassFeed(databuffer::Session& session, bool lockstep, SweepSink sink)
+GlassFeed::GlassFeed(databuffer::Session& session, bool lockstep, SweepSink sweeps, MapSink maps)
     : session_(&session),
       lockstep_(lockstep),
-      sink_(std::move(sink)),
+      sweep_sink_(std::move(sweeps)),
+      map_sink_(std::move(maps)),
       sweep_cursor_(std::as_const(session).layout().sweeps.oldest()) {}
 
 void GlassFeed::refresh(std::int64_t sim_time_ns) {
   look_who_is_alive();
   take_state();
+  take_maps();
   take_model(sim_time_ns);
   take_sweeps();
 }
@@ -67,6 +70,31 @@ void GlassFeed::take_state() {
   input_.state = state;
 }
 
+// A map is read once, and kept while it is named.
+void GlassFeed::take_maps() {
+  const std::array named{input_.state.map_newest, input_.state.map_old, input_.state.map_stored};
+  for (databuffer::PatchMap& map : maps_)
+    if (std::ranges::find(named, map.id) == named.end()) map = {};
+  for (const std::uint64_t id : named) {
+    const bool here = std::ranges::find(maps_, id, &databuffer::PatchMap::id) != maps_.end();
+    if (id != 0 && id != refused_map_ && !here) take_map(id);
+  }
+  const auto shown = std::ranges::find(maps_, input_.state.map_shown, &databuffer::PatchMap::id);
+  input_.map = shown == maps_.end() ? databuffer::PatchMap{} : *shown;
+}
+
+void GlassFeed::take_map(std::uint64_t id) {
+  databuffer::PatchMap map{};
+  if (!databuffer::read_patch(session_->layout(), id, map, pixels_)) return;
+  if (const auto reason = databuffer::why_refused(map)) {
+    refused_map_ = id;
+    session_->note(databuffer::NoteKind::refusal, "glass: patch map: " + *reason);
+    return;
+  }
+  *std::ranges::find(maps_, std::uint64_t{0}, &databuffer::PatchMap::id) = map;
+  map_sink_(map, pixels_);
+}
+
 void GlassFeed::take_model(std::int64_t sim_time_ns) {
   // Kept warm while the model is alive, so that it can go on at once when the model dies.
   const auto& selected = receiver_.refresh(session_->layout(), sim_time_ns);
@@ -89,7 +117,7 @@ void GlassFeed::take_sweeps() {
     const auto read = ring.read(sweep_cursor_, sweep_);
     lost += read.lost;
     if (!read.delivered) break;
-    sink_(sweep_);
+    sweep_sink_(sweep_);
   }
   if (lost == 0) return;
   const std::string text = "glass lost " + std::to_string(lost) + " sweeps";

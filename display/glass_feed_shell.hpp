@@ -1,9 +1,13 @@
-// Keeps a GlassInput and the glass's sweeps up to date with the session, by copies; waits for nobody.
-// A restarted glass reads the ring from its oldest sweep: it repaints at once, also when frozen.
+// Keeps a GlassInput and the glass's sweeps and maps up to date with the session, by copies; waits for nobody.
+// A restarted glass reads the ring from its oldest sweep and the maps named by the radar state: it repaints at once,
+// also when frozen.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
+#include <vector>
 
 #include "databuffer/ownship_receiver.hpp"
 #include "databuffer/session.hpp"
@@ -14,8 +18,9 @@ namespace yars::display {
 class GlassFeed {
  public:
   using SweepSink = std::function<void(const databuffer::Sweep&)>;
+  using MapSink = std::function<void(const databuffer::PatchMap&, std::span<const std::uint8_t>)>;
   // In lockstep a role counts as alive when it takes part: clocks of the wall must not show in a frame.
-  GlassFeed(databuffer::Session& session, bool lockstep, SweepSink sink);
+  GlassFeed(databuffer::Session& session, bool lockstep, SweepSink sweeps, MapSink maps);
 
   // Takes over what is new. Times are those of the moment or of the tick.
   void refresh(std::int64_t sim_time_ns);
@@ -26,16 +31,22 @@ class GlassFeed {
  private:
   void take_sweeps();
   void take_state();
+  void take_maps();
+  void take_map(std::uint64_t id);
   void take_model(std::int64_t sim_time_ns);
   void look_who_is_alive();
 
   databuffer::Session* session_;
   bool lockstep_;
-  SweepSink sink_;
+  SweepSink sweep_sink_;
+  MapSink map_sink_;
   databuffer::OwnshipReceiver receiver_;
   GlassInput input_;
   databuffer::Sweep sweep_{};
   std::uint64_t sweep_cursor_ = 0;
+  std::array<databuffer::PatchMap, 3> maps_{};  // NEW, OLD and STORE, in any order; id 0 = an empty place
+  std::vector<std::uint8_t> pixels_;
+  std::uint64_t refused_map_ = 0;  // told once
   std::uint64_t state_version_ = 0;
   std::int64_t next_look_ns_ = 0;  // CLOCK_MONOTONIC
 };

@@ -18,6 +18,13 @@ GlassView::GlassView(const radar::ViewConfiguration& view) {
   units_per_range_ = static_cast<float>(scale);
 }
 
+GlassView::GlassView(const databuffer::PatchMap& map) {
+  const double edge = static_cast<double>(kGlassUnits);
+  const double distance = map.distance_m / frame_of(map).range_m;
+  apex_ = {kGlassUnits / 2.0F, static_cast<float>(edge / 2.0 + distance * edge)};
+  units_per_range_ = kGlassUnits;
+}
+
 Point GlassView::at_polar(double right_deg, double fraction) const {
   const double angle = right_deg * geo::kRadiansPerDegree;
   const double length = fraction * static_cast<double>(units_per_range_);
@@ -28,6 +35,12 @@ Point GlassView::at_polar(double right_deg, double fraction) const {
 Point GlassView::at_ground(const GlassFrame& frame, geo::GeoPoint place) const {
   const geo::GeodesicInverse line = geo::geodesic_inverse(frame.apex, place);
   return at_polar((line.azimuth_at_start - frame.up).degrees(), line.distance.metres() / frame.range_m);
+}
+
+GlassFrame frame_of(const databuffer::PatchMap& map) {
+  return {{map.apex_latitude_deg, map.apex_longitude_deg},
+          geo::Bearing::degrees(map.up_deg),
+          map.window_nm * geo::kMetresPerNauticalMile};
 }
 
 double displacement_units(const GlassView& view, const GlassFrame& drawn, const GlassFrame& present) {

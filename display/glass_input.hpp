@@ -3,6 +3,7 @@
 
 #include "databuffer/records/model_records.hpp"
 #include "databuffer/records/ownship.hpp"
+#include "databuffer/records/patch_map.hpp"
 #include "databuffer/records/radar_state.hpp"
 
 namespace yars::display {
@@ -12,6 +13,7 @@ struct GlassInput {
   databuffer::ModelStatus model{};
   databuffer::Ownship ownship{};  // present truth
   databuffer::Nav nav{};          // goes with it
+  databuffer::PatchMap map{};     // the one that the state shows; another id: it could not be read
   bool state_machine_alive = true;
   bool model_alive = true;
   bool ownship_fresh = true;

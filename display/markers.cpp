@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <numbers>
@@ -108,6 +109,25 @@ void draw_cursor(const GlassInput& input, const GlassView& view, const GlassFram
   list.line({at.x + kGapInside, at.y}, {at.x + kArm, at.y});
   list.line({at.x, at.y - kArm}, {at.x, at.y - kGapInside});
   list.line({at.x, at.y + kGapInside}, {at.x, at.y + kArm});
+}
+
+void draw_window_outline(const GlassInput& input, const GlassView& view, const GlassFrame& frame, DrawList& list) {
+  const databuffer::ModelStatus& model = input.model;
+  // Until the model has taken the command up it tells of another map, or of none.
+  const bool forms = (input.state.flags & databuffer::kMapping) != 0 && model.map_request == input.state.map_request &&
+                     model.map_window_nm > 0.0;
+  if (!forms) return;
+  const Point centre = view.at_ground(frame, {model.map_latitude_deg, model.map_longitude_deg});
+  const double turn_rad = (geo::Bearing::degrees(model.map_up_deg) - frame.up).radians();
+  const double half_m = model.map_window_nm * geo::kMetresPerNauticalMile / 2.0;
+  const auto half = static_cast<float>(half_m / frame.range_m * static_cast<double>(view.units_per_range()));
+  const Point up{half * static_cast<float>(std::sin(turn_rad)), -half * static_cast<float>(std::cos(turn_rad))};
+  const Point right{-up.y, up.x};
+  const std::array<Point, 4> corners{Point{centre.x - right.x + up.x, centre.y - right.y + up.y},
+                                     Point{centre.x + right.x + up.x, centre.y + right.y + up.y},
+                                     Point{centre.x + right.x - up.x, centre.y + right.y - up.y},
+                                     Point{centre.x - right.x - up.x, centre.y - right.y - up.y}};
+  list.polygon(corners, false);
 }
 
 void draw_points(const GlassInput& input, std::span<const radar::RoutePoint> route, const GlassView& view,

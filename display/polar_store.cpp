@@ -9,7 +9,7 @@ namespace yars::display {
 namespace {
 
 constexpr double kEdgeLength_m = 1000.0;  // [m] short enough that the chord along the geodesic is straight to 1e-8
-constexpr double kMostWidth_deg = 45.0;   // [deg] a wedge is drawn as one triangle
+constexpr double kMostWidth_deg = 45.0;   // [deg] the far side of a wedge is drawn straight
 
 geo::Vector3 on_ellipsoid(geo::GeoPoint point) {
   return geo::ecef_from_geodetic(point, geo::HeightAboveEllipsoid::metres(0.0));

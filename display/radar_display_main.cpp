@@ -1,6 +1,8 @@
 // radar-display: the glass, in a window or as pictures in a folder.
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <span>
 #include <thread>
 
 #include "databuffer/log.hpp"
@@ -28,6 +30,12 @@ struct DisplayOptions {
 constexpr std::int64_t kRedrawInterval_ns = 1'000'000'000 / 60;  // [ns] design "The glass": at most 60 a second
 // [ns] the ring of sweeps holds 5 s; this decides only how far off its sim time a live frame is.
 constexpr std::chrono::milliseconds kHeadlessLook{10};
+
+display::GlassFeed feed_for(display::gl::Glass& glass, databuffer::Session& session,
+                            const databuffer::ProgramOptions& options) {
+  return {session, !options.lockstep.empty(), [&glass](const databuffer::Sweep& sweep) { glass.add(sweep); },
+          [&glass](const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels) { glass.add(map, pixels); }};
+}
 
 // A glass without a window: draws when a picture is due.
 failure::Expected<void> run_headless_live(databuffer::Session& session, display::GlassFeed& feed,
@@ -77,8 +85,7 @@ failure::Expected<void> run_headless(databuffer::Session& session, const radar::
   if (!context) return tl::unexpected(context.error());
   databuffer::log_info("draws by " + display::gl::renderer_name() + ", frames go to " + display_options.frames);
   display::gl::Glass glass(configuration, size);
-  display::GlassFeed feed(session, !options.lockstep.empty(),
-                          [&](const databuffer::Sweep& sweep) { glass.add(sweep); });
+  display::GlassFeed feed = feed_for(glass, session, options);
   if (options.lockstep.empty()) return run_headless_live(session, feed, glass, *frames);
   auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::radar_display, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
@@ -133,8 +140,7 @@ failure::Expected<void> run_window(databuffer::Session& session, const radar::Ra
   auto pilot = display::PilotInput::create(session);
   if (!pilot) return tl::unexpected(pilot.error());
   display::gl::Glass glass(configuration, size);
-  display::GlassFeed feed(session, !options.lockstep.empty(),
-                          [&](const databuffer::Sweep& sweep) { glass.add(sweep); });
+  display::GlassFeed feed = feed_for(glass, session, options);
   WindowGlass shown(**window, glass, *pilot);
   if (options.lockstep.empty()) {
     while (!databuffer::stop_requested()) {

@@ -16,6 +16,9 @@ constexpr float kAzimuthZero = 240.0F;  // [units] x of 0 deg
 constexpr float kAzimuthUnitsPerDegree = 2.0F;
 constexpr float kAzimuthTickTop = 438.0F, kAzimuthTickBottom = 445.0F;
 constexpr float kAzimuthTrack = 64.0F;  // [deg] the caret stops here
+constexpr float kBlindZone = 8.0F;      // [deg] either side of the ground track: pvi.md rule 3
+constexpr float kLimitBallRadius = 3.0F;
+constexpr float kLimitBallTrack = 115.0F;  // [deg] the limit balls stop here, at the edge of the glass
 
 // Elevation scale, in the column between the legends of the left side and the picture.
 constexpr float kElevationZero = 240.0F;  // [units] y of the horizon
@@ -38,6 +41,10 @@ float on_track(double degrees) {
   return std::clamp(y, kTrackTop, kTrackBottom);
 }
 
+float x_of(float degrees) {
+  return kAzimuthZero + kAzimuthUnitsPerDegree * degrees;
+}
+
 float tick_length(int degrees) {
   return degrees == 0 ? 12.0F : std::abs(degrees) >= 5 ? 8.0F : 5.0F;
 }
@@ -45,7 +52,6 @@ float tick_length(int degrees) {
 }  // namespace
 
 void draw_azimuth_scale(double antenna_right_of_track_deg, DrawList& list) {
-  const auto x_of = [](float degrees) { return kAzimuthZero + kAzimuthUnitsPerDegree * degrees; };
   for (const float degrees : {-60.0F, 0.0F, 60.0F}) {
     list.line({x_of(degrees), kAzimuthTickTop}, {x_of(degrees), kAzimuthTickBottom});
   }
@@ -56,6 +62,16 @@ void draw_azimuth_scale(double antenna_right_of_track_deg, DrawList& list) {
   list.polyline(caret);
   list.occupy("azimuth scale", {x_of(-kAzimuthTrack) - kCaretHalf, tip - kCaretLength - 1.0F,
                                 x_of(kAzimuthTrack) + kCaretHalf, kAzimuthTickBottom + 1.0F});
+}
+
+void draw_limit_balls(double left_deg, double right_deg, DrawList& list) {
+  constexpr float middle = (kAzimuthTickTop + kAzimuthTickBottom) / 2.0F;
+  for (const float degrees : {-kBlindZone, kBlindZone})
+    list.line({x_of(degrees), middle}, {x_of(degrees), kAzimuthTickBottom});
+  for (const double degrees : {left_deg, right_deg}) {
+    const float x = x_of(std::clamp(static_cast<float>(degrees), -kLimitBallTrack, kLimitBallTrack));
+    list.circle({x, middle}, kLimitBallRadius);
+  }
 }
 
 void draw_elevation_scale(double antenna_deg, DrawList& list) {

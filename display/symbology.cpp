@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "databuffer/records/map_timer.hpp"
 #include "display/markers.hpp"
 #include "display/present_frame.hpp"
 #include "display/readouts.hpp"
@@ -16,14 +17,16 @@ namespace {
 
 // A row of the table: what the format of a mode has.
 struct Format {
-  bool video = false;     // made by the radar model
+  bool video = false;     // sweeps
+  bool map = false;       // a patch map
   bool no_video = false;  // says that it has none yet
   bool arcs = false;
   bool zero_line = false;
-  bool scales = false;  // azimuth and elevation scale, carets, pitch ball
+  bool scales = false;       // azimuth and elevation scale, carets, pitch ball
+  bool limit_balls = false;  // on the azimuth scale
   bool gray_scale = false;
   bool ground = false;    // cursor with its readout, sequence points
-  bool window = false;    // window size, map timer
+  bool window = false;    // window size, outline, map timer
   bool readouts = false;  // range, brightness
 };
 
@@ -35,26 +38,29 @@ constexpr Format kRbm{.video = true,
                       .ground = true,
                       .window = true,
                       .readouts = true};
-constexpr Format kHrm{.no_video = true,
+constexpr Format kHrm{.video = true,
                       .arcs = true,
                       .scales = true,
+                      .limit_balls = true,
                       .gray_scale = true,
                       .ground = true,
                       .window = true,
                       .readouts = true};
-// A patch map has a frame of its own, along the line of sight; ground symbols come with it.
-constexpr Format kPatch{.no_video = true, .scales = true, .window = true, .readouts = true};
+constexpr Format kPatch{
+    .map = true, .scales = true, .limit_balls = true, .ground = true, .window = true, .readouts = true};
+// Over which A/A or ranging has the radar: no map is made.
+constexpr Format kStandingMap{.map = true, .scales = true, .limit_balls = true, .ground = true, .readouts = true};
 constexpr Format kBeacon{
     .no_video = true, .arcs = true, .zero_line = true, .scales = true, .ground = true, .readouts = true};
 constexpr Format kPvu{.no_video = true, .scales = true, .readouts = true};
 constexpr Format kLegendsOnly{};
 
-const Format& format_of(std::uint8_t mode) {
-  switch (static_cast<radar::Mode>(mode)) {
+const Format& format_of(const databuffer::RadarState& state) {
+  switch (static_cast<radar::Mode>(state.mode)) {
     case radar::Mode::rbm:
       return kRbm;
     case radar::Mode::hrm:
-      return kHrm;
+      return state.map_shown != 0 ? kPatch : kHrm;
     case radar::Mode::patch:
       return kPatch;
     case radar::Mode::beacon:
@@ -63,6 +69,7 @@ const Format& format_of(std::uint8_t mode) {
       return kPvu;
     case radar::Mode::air_to_air:
     case radar::Mode::ranging:
+      return state.map_shown != 0 ? kStandingMap : kLegendsOnly;
     case radar::Mode::menu:
       break;
   }
@@ -85,13 +92,41 @@ void draw_scales(const GlassInput& input, DrawList& list) {
   draw_pitch_ball(input.ownship.pitch_deg, input.ownship.roll_deg, attitude_source(input.nav), list);
 }
 
+// A sector as it is seen from the aircraft.
+struct Sector {
+  geo::Bearing middle;
+  double half_width_deg = 0.0;
+};
+
+Sector sector_of_window(const databuffer::Ownship& ownship, geo::GeoPoint centre, double window_nm) {
+  const auto line = geo::geodesic_inverse({ownship.latitude_deg, ownship.longitude_deg}, centre);
+  const double half_m = window_nm * geo::kMetresPerNauticalMile / 2.0;
+  return {line.azimuth_at_start, std::atan2(half_m, line.distance.metres()) / geo::kRadiansPerDegree};
+}
+
+// What the antenna covers: the map that forms, else the one on the glass, else the scan.
+Sector covered_sector(const GlassInput& input) {
+  const databuffer::ModelStatus& model = input.model;
+  if (model.map_window_nm > 0.0)
+    return sector_of_window(input.ownship, {model.map_latitude_deg, model.map_longitude_deg}, model.map_window_nm);
+  if (shows_map(input))
+    return sector_of_window(input.ownship, {input.map.latitude_deg, input.map.longitude_deg}, input.map.window_nm);
+  return {geo::Bearing::degrees(model.scan_centre_deg), model.scan_width_deg / 2.0};
+}
+
+void draw_limits(const GlassInput& input, DrawList& list) {
+  const Sector sector = covered_sector(input);
+  const double middle_deg = (sector.middle - ground_track_of(input.ownship)).degrees();
+  draw_limit_balls(middle_deg - sector.half_width_deg, middle_deg + sector.half_width_deg, list);
+}
+
 void draw_readouts(const GlassInput& input, const Format& format, DrawList& list) {
   const databuffer::RadarState& state = input.state;
   draw_brightness(state, list);
   draw_range(state, list);
   if (format.window) {
     draw_window_size(state, list);
-    draw_map_timer(input.model.map_timer_s, list);
+    if (const auto seconds = databuffer::map_timer_s(state, input.model)) draw_map_timer(*seconds, list);
   }
   if (format.ground) draw_cursor_readout(state, list);
   if ((state.flags & databuffer::kFreeze) != 0) draw_freeze(list);
@@ -102,10 +137,14 @@ void draw_format(const GlassInput& input, const Format& format, const radar::Rad
   if (format.arcs) draw_range_arcs(view, list);
   if (format.zero_line) draw_zero_azimuth_line(view, list);
   if (format.scales) draw_scales(input, list);
+  if (format.limit_balls) draw_limits(input, list);
   if (format.gray_scale) draw_gray_scale(list);
   if (format.readouts) draw_readouts(input, format, list);
   if (format.no_video) draw_banner("NO VIDEO", list);
-  if (format.ground) {
+  // On a map that could not be read nobody knows where anything lies.
+  const bool placed = format.ground && (!format.map || shows_map(input));
+  if (placed && format.window) draw_window_outline(input, view, frame, list);
+  if (placed) {
     draw_cursor(input, view, frame, list);
     draw_points(input, configuration.route, view, frame, list);
   }
@@ -114,7 +153,13 @@ void draw_format(const GlassInput& input, const Format& format, const radar::Rad
 }  // namespace
 
 bool shows_video(const databuffer::RadarState& state) {
-  return has_power(state, radar::Power::operate) && format_of(state.mode).video;
+  return has_power(state, radar::Power::operate) && format_of(state).video;
+}
+
+bool shows_map(const GlassInput& input) {
+  const databuffer::RadarState& state = input.state;
+  return has_power(state, radar::Power::operate) && format_of(state).map && input.map.id != 0 &&
+         input.map.id == state.map_shown;
 }
 
 void draw_symbology(const GlassInput& input, const radar::RadarConfiguration& configuration, const GlassView& view,
@@ -131,8 +176,10 @@ void draw_symbology(const GlassInput& input, const radar::RadarConfiguration& co
   draw_silent(input, list);
   if (has_power(state, radar::Power::standby)) {
     draw_banner("STBY", list);
+  } else if (shows_map(input)) {
+    draw_format(input, format_of(state), configuration, GlassView(input.map), frame_of(input.map), list);
   } else {
-    draw_format(input, format_of(state.mode), configuration, view, frame, list);
+    draw_format(input, format_of(state), configuration, view, frame, list);
   }
 }
 

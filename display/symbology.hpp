@@ -1,6 +1,7 @@
 // Everything that is drawn over the video, by power and mode: the table of spec pvi.md "Symbology".
-// OFF draws nothing; STBY legends and STBY; a mode without video its legends, its symbols and NO VIDEO. What has
-// gone silent is named, whatever the power, but for a radar that is off.
+// OFF draws nothing; STBY legends and STBY; a mode without video its legends, its symbols and NO VIDEO. A patch map has
+// the format of the patch, whichever mode shows it, and a view and a frame of its own. What has gone silent is named,
+// whatever the power, but for a radar that is off.
 // Pure: the same input gives the same list.
 #pragma once
 
@@ -11,9 +12,12 @@
 
 namespace yars::display {
 
-// True when the mode shown has video of its own and the radar operates.
+// True when the radar operates and sweeps are what the mode shows.
 bool shows_video(const databuffer::RadarState& state);
+// True when the radar operates and the map of the input is on the glass.
+bool shows_map(const GlassInput& input);
 
+// `view` and `frame` are those of sweeps; on a map they are not used.
 void draw_symbology(const GlassInput& input, const radar::RadarConfiguration& configuration, const GlassView& view,
                     const GlassFrame& frame, DrawList& list);
 

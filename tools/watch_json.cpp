@@ -4,6 +4,7 @@
 #include <cstring>
 #include <string>
 
+#include "databuffer/records/map_timer.hpp"
 #include "lib/geo/bearing.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/modes.hpp"
@@ -170,7 +171,8 @@ nlohmann::ordered_json watch_object(const databuffer::Session& session) {
   ordered_json object;
   add_clock(object, session, model);
   add_radar_state(object, state);
-  object["map_timer_s"] = number_or_null(model.map_timer_s);
+  const auto timer_s = databuffer::map_timer_s(state, model);
+  object["map_timer_s"] = timer_s ? ordered_json(*timer_s) : ordered_json(nullptr);
   object["map_progress"] = number_or_null(model.map_progress);
   add_ownship(object, model, session.sim_time_ns());
   add_health(object, session, model);

@@ -8,6 +8,8 @@
 
 #include "display/draw_list.hpp"
 #include "display/gl/framebuffer.hpp"
+#include "display/gl/light_texture.hpp"
+#include "display/gl/map_pass.hpp"
 #include "display/gl/overlay_pass.hpp"
 #include "display/gl/video_pass.hpp"
 #include "display/glass_geometry.hpp"
@@ -28,6 +30,7 @@ constexpr double kVisibleShift = 0.2;
 struct Shown {
   std::uint64_t video_version = 0;
   bool video = false;
+  std::uint64_t map = 0;  // 0: none
   GlassFrame frame;
   std::uint8_t brightness = 0, contrast = 0;
   int size = 0;
@@ -40,7 +43,7 @@ struct Glass::State {
       : configuration(configuration_used), colors(colors_used), view(configuration_used.view), framebuffer(size) {}
 
   bool is_shown(const Shown& wanted) const {
-    return shown && shown->size == wanted.size && shown->video == wanted.video &&
+    return shown && shown->size == wanted.size && shown->video == wanted.video && shown->map == wanted.map &&
            shown->brightness == wanted.brightness && shown->contrast == wanted.contrast &&
            (!wanted.video || (shown->video_version == wanted.video_version &&
                               displacement_units(view, shown->frame, wanted.frame) < kVisibleShift)) &&
@@ -52,11 +55,12 @@ struct Glass::State {
     framebuffer.bind();
     glClearColor(colors.ground.red, colors.ground.green, colors.ground.blue, 1.0F);
     glClear(GL_COLOR_BUFFER_BIT);
+    light_texture.set(light);
     if (wanted.video) {
       place_wedges(store, view, wanted.frame, wedges);
-      video_pass.set_light(light);
-      video_pass.draw(store, wedges, colors.video);
+      video_pass.draw(store, wedges, light_texture, colors.video);
     }
+    if (wanted.map != 0) map_pass.draw(wanted.map, light_texture, colors.video, wanted.size);
     overlay_pass.draw(list, colors, light, static_cast<float>(framebuffer.size()) / kGlassUnits);
   }
 
@@ -64,7 +68,9 @@ struct Glass::State {
   ColorScheme colors;
   GlassView view;
   Framebuffer framebuffer;
+  LightTexture light_texture;
   VideoPass video_pass;
+  MapPass map_pass;
   OverlayPass overlay_pass;
   PolarStore store;
   DrawList list, shown_list;
@@ -82,6 +88,10 @@ void Glass::add(const databuffer::Sweep& sweep) {
   state_->store.insert(sweep);
 }
 
+void Glass::add(const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels) {
+  state_->map_pass.add(map.id, map.size, pixels);
+}
+
 void Glass::resize(int size) {
   state_->framebuffer.resize(size);
 }
@@ -97,6 +107,8 @@ bool Glass::draw(const GlassInput& input) {
   Shown wanted;
   wanted.video_version = state.store.version();
   wanted.video = video;
+  state.map_pass.keep(std::array{input.state.map_newest, input.state.map_old, input.state.map_stored});
+  wanted.map = shows_map(input) && state.map_pass.has(input.map.id) ? input.map.id : 0;
   wanted.frame = present_frame(input, video ? state.store.newest() : nullptr);
   wanted.brightness = input.state.brightness;
   wanted.contrast = input.state.contrast;

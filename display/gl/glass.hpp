@@ -1,9 +1,11 @@
-// The glass: keeps the sweeps, and draws them with the symbols when something that shows has changed.
+// The glass: keeps the sweeps and the maps, and draws them with the symbols when something that shows has changed.
 // Draws into its own framebuffer, which is then read back or copied into a window's.
 // Needs a current context (headless_egl.hpp, window_glfw.hpp) for its lifetime; knows nothing of the session.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
 
 #include "databuffer/records/model_records.hpp"
 #include "display/color_scheme.hpp"
@@ -22,6 +24,8 @@ class Glass {
   Glass& operator=(Glass&&) noexcept;
 
   void add(const databuffer::Sweep& sweep);
+  // A map that the radar state names; it is kept as long as it is named.
+  void add(const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels);
   void resize(int size);
   int size() const;
 

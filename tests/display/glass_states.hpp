@@ -66,6 +66,7 @@ inline GlassInput operating(radar::Mode mode, double range_nm) {
   input.ownship.velocity_east_mps = 231.5 * std::sin(30.0 * geo::kRadiansPerDegree);
   input.nav.mission_latitude_deg = input.nav.ins_latitude_deg = kHome.latitude_deg;
   input.nav.mission_longitude_deg = input.nav.ins_longitude_deg = kHome.longitude_deg;
+  input.model.mappable = 1;
   input.model.map_timer_s = input.model.map_progress = kNone;
   databuffer::RadarState& state = input.state;
   state.power = static_cast<std::uint8_t>(radar::Power::operate);
@@ -89,6 +90,32 @@ inline void put_cursor(GlassInput& input, double bearing_deg, double range_nm) {
   input.state.cursor_longitude_deg = place.longitude_deg;
   input.state.cursor_bearing_deg = bearing_deg;
   input.state.cursor_range_nm = range_nm;
+}
+
+// A map of a window about a place, as it was made from where the aircraft is; the glass shows it.
+inline void put_map(GlassInput& input, double bearing_deg, double range_nm, double window_nm) {
+  const geo::GeoPoint centre = at(bearing_deg, range_nm);
+  databuffer::PatchMap& map = input.map;
+  map.id = input.state.map_newest = input.state.map_shown = 1;
+  map.size = 480;
+  map.latitude_deg = centre.latitude_deg;
+  map.longitude_deg = centre.longitude_deg;
+  map.up_deg = bearing_deg;
+  map.window_nm = window_nm;
+  map.apex_latitude_deg = kHome.latitude_deg;
+  map.apex_longitude_deg = kHome.longitude_deg;
+  map.distance_m = range_nm * geo::kMetresPerNauticalMile;
+}
+
+// A map that was commanded there and forms.
+inline void put_forming_map(GlassInput& input, double bearing_deg, double range_nm, double window_nm) {
+  const geo::GeoPoint centre = at(bearing_deg, range_nm);
+  input.state.flags |= databuffer::kMapping;
+  input.state.map_request = input.model.map_request = 4;
+  input.model.map_latitude_deg = centre.latitude_deg;
+  input.model.map_longitude_deg = centre.longitude_deg;
+  input.model.map_up_deg = bearing_deg;
+  input.model.map_window_nm = window_nm;
 }
 
 inline void add_point(GlassInput& input, const std::string& name, radar::PointKind kind, geo::GeoPoint place) {

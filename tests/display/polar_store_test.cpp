@@ -124,6 +124,16 @@ TEST(PolarStore, TheOldestMakesWayWhenAllRowsAreTaken) {
   for (const StoredSweep& sweep : store.by_azimuth()) EXPECT_GT(sweep.serial, 5U);
 }
 
+TEST(PolarStore, AScanOfAThousandNarrowWedgesIsKeptWholeAndReplacedByTheNext) {
+  PolarStore store;
+  constexpr double kWidth_deg = 0.1;
+  for (int i = 0; i < 1000; ++i) store.insert(sweep_of(310.0 + i * kWidth_deg, kWidth_deg));
+  ASSERT_EQ(store.by_azimuth().size(), 1000U);
+  for (int i = 999; i >= 0; --i) store.insert(sweep_of(310.0 + i * kWidth_deg, kWidth_deg));
+  EXPECT_EQ(store.by_azimuth().size(), 1000U);
+  for (const StoredSweep& sweep : store.by_azimuth()) EXPECT_GT(sweep.serial, 1000U);
+}
+
 TEST(PolarStore, AnotherModeOrEpochBeginsANewPicture) {
   PolarStore store;
   store.insert(sweep_of(10.0));

@@ -67,6 +67,8 @@ GlassInput crowded(Mode mode, double range_nm) {
   testing::put_cursor(input, 359.7, range_nm);
   testing::set_text(input.state.message, "SIXTEEN LETTERS AND THEN SOME MO");
   input.model.map_timer_s = 120.0;
+  if (mode == Mode::patch || mode == Mode::ranging) testing::put_map(input, 60.0, 20.0, 4.7);
+  testing::put_forming_map(input, 60.0, 20.0, 4.7);
   input.model_alive = input.ownship_fresh = input.state_machine_alive = false;
   return input;
 }
@@ -118,8 +120,8 @@ TEST(Symbology, EachModeHasTheRowsOfItsColumn) {
     bool arcs, scales, gray_scale, no_video;
   };
   for (const Column& column :
-       {Column{Mode::rbm, true, true, true, false}, Column{Mode::hrm, true, true, true, true},
-        Column{Mode::patch, false, true, false, true}, Column{Mode::beacon, true, true, false, true},
+       {Column{Mode::rbm, true, true, true, false}, Column{Mode::hrm, true, true, true, false},
+        Column{Mode::patch, false, true, false, false}, Column{Mode::beacon, true, true, false, true},
         Column{Mode::pvu, false, true, false, true}, Column{Mode::air_to_air, false, false, false, false},
         Column{Mode::ranging, false, false, false, false}, Column{Mode::menu, false, false, false, false}}) {
     const DrawList list = drawn(testing::operating(column.mode, 40.0));

@@ -125,6 +125,43 @@ TEST_F(GlassPictures, NeighbouringWedgesLeaveNoCracks) {
   }
 }
 
+// Doppler beam sharpening: 714 sweeps in 18 s, the aircraft flies 4.5 km meanwhile, at the shortest range.
+TEST_F(GlassPictures, TheNarrowWedgesOfTheHrmPpiLeaveNoCracks) {
+  constexpr double kShort_nm = 4.7;
+  for (const int size : {480, 1024}) {
+    Glass glass({}, size, test_colors());
+    for (int i = 0; i < 714; ++i) {
+      const geo::GeoPoint apex = testing::at(kTrack_deg, (i - 713) * 18.0 / 714 * 250.0 / geo::kMetresPerNauticalMile);
+      const double left_deg = kTrack_deg - 50.0 + i * 0.14;
+      databuffer::Sweep sweep =
+          testing::toned_sweep(apex, left_deg, left_deg + 0.14, kShort_nm * geo::kMetresPerNauticalMile, 480, 255);
+      sweep.mode = static_cast<std::uint8_t>(radar::Mode::hrm);
+      glass.add(sweep);
+    }
+    GlassInput input = bare_input();
+    input.state.mode = static_cast<std::uint8_t>(radar::Mode::hrm);
+    input.state.range_nm = kShort_nm;
+    glass.draw(input);
+    const imageio::Image image = glass.read();
+    // A column of pixels across each sector: once lit, lit to the end.
+    int dark = 0;
+    for (int y = size * 6 / 10; y < size * 8 / 10; ++y) {
+      int first = size, last = 0;
+      for (int x = size * 25 / 100; x < size * 85 / 100; ++x) {
+        if (pixel(image, x, y)[0] != 255) continue;
+        first = std::min(first, x);
+        last = std::max(last, x);
+      }
+      EXPECT_LT(first, last);
+      for (int x = first; x < last; ++x) {
+        const auto color = pixel(image, x, y);
+        dark += color[0] == 255 || color[1] + color[2] > 0 ? 0 : 1;
+      }
+    }
+    EXPECT_EQ(dark, 0) << "at " << size;
+  }
+}
+
 TEST_F(GlassPictures, NothingIsDrawnBeyondTheSweepsRange) {
   Glass glass({}, 480, test_colors());
   glass.add(testing::toned_sweep(kHome, 10.0, 25.0, kRange_m / 2.0, 480, 255));

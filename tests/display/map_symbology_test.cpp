@@ -1,0 +1,265 @@
+// The formats of HRM: a patch map's own frame, azimuth limit balls, the outline of the window that forms.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "display/present_frame.hpp"
+#include "display/symbology.hpp"
+#include "tests/display/glass_states.hpp"
+
+namespace yars::display {
+namespace {
+
+using radar::Mode;
+
+DrawList drawn(const GlassInput& input) {
+  const GlassView view{radar::ViewConfiguration{}};
+  DrawList list;
+  draw_symbology(input, {}, view, present_frame(input, nullptr), list);
+  return list;
+}
+
+std::vector<std::string> words(const GlassInput& input) {
+  const DrawList list = drawn(input);
+  std::vector<std::string> names;
+  for (const OccupiedBox& box : list.occupied()) names.push_back(box.name);
+  return names;
+}
+
+// What the first list has and the second has not.
+std::vector<Segment> more_strokes(const GlassInput& with, const GlassInput& without) {
+  const DrawList list = drawn(with);
+  const DrawList other = drawn(without);
+  const auto& base = other.content(Layer::symbols).strokes;
+  std::vector<Segment> more;
+  for (const Segment& segment : list.content(Layer::symbols).strokes)
+    if (std::ranges::find(base, segment) == base.end()) more.push_back(segment);
+  return more;
+}
+
+Rect bounds_of(const std::vector<Segment>& strokes) {
+  Rect bounds{1e9F, 1e9F, -1e9F, -1e9F};
+  for (const Segment& segment : strokes) {
+    for (const Point& point : {segment.from, segment.to}) {
+      bounds = {std::min(bounds.left, point.x), std::min(bounds.top, point.y), std::max(bounds.right, point.x),
+                std::max(bounds.bottom, point.y)};
+    }
+  }
+  return bounds;
+}
+
+Point middle_of(const Rect& rect) {
+  return {(rect.left + rect.right) / 2.0F, (rect.top + rect.bottom) / 2.0F};
+}
+
+// A map of 4.7 NM, 20 NM away on 060.
+GlassInput patch() {
+  GlassInput input = testing::operating(Mode::patch, 40.0);
+  testing::put_map(input, 60.0, 20.0, 4.7);
+  return input;
+}
+
+// Where a place stands that is so far along and to the right of the map's line of sight.
+geo::GeoPoint on_map(const GlassInput& input, double forward_nm, double right_nm) {
+  const double bearing_deg = input.map.up_deg + std::atan2(right_nm, forward_nm) / geo::kRadiansPerDegree;
+  return testing::at(bearing_deg, std::hypot(forward_nm, right_nm));
+}
+
+void put_cursor(GlassInput& input, geo::GeoPoint place) {
+  input.state.flags |= databuffer::kCursorValid;
+  input.state.cursor_latitude_deg = place.latitude_deg;
+  input.state.cursor_longitude_deg = place.longitude_deg;
+}
+
+TEST(MapSymbology, TheWindowFillsTheGlassWithTheLineOfSightUp) {
+  struct Case {
+    double forward_nm, right_nm;
+    float x, y;
+  };
+  for (const Case& one : {Case{20.0, 0.0, 240.0F, 240.0F}, Case{20.0 + 4.7 / 4, 0.0, 240.0F, 120.0F},
+                          Case{20.0, 4.7 / 4, 360.0F, 240.0F}, Case{20.0 - 4.7 / 4, -4.7 / 4, 120.0F, 360.0F}}) {
+    GlassInput with = patch();
+    GlassInput without = with;
+    put_cursor(with, on_map(with, one.forward_nm, one.right_nm));
+    put_cursor(without, on_map(with, 60.0, 0.0));
+    const Point at = middle_of(bounds_of(more_strokes(with, without)));
+    EXPECT_NEAR(at.x, one.x, 0.2F);
+    EXPECT_NEAR(at.y, one.y, 0.2F);
+  }
+}
+
+TEST(MapSymbology, TheFrameOfAMapStandsWhileTheAircraftFliesOn) {
+  GlassInput input = patch();
+  put_cursor(input, on_map(input, 21.0, 0.5));
+  GlassInput later = input;
+  later.ownship.latitude_deg += 0.05;
+  later.nav.mission_latitude_deg += 0.05;
+  EXPECT_EQ(more_strokes(input, later).size(), more_strokes(later, input).size());
+  const auto plus_at = [](const GlassInput& shown) {
+    GlassInput bare = shown;
+    bare.state.cursor_latitude_deg = -30.0;
+    return middle_of(bounds_of(more_strokes(shown, bare)));
+  };
+  EXPECT_NEAR(plus_at(input).x, plus_at(later).x, 0.2F);
+  EXPECT_NEAR(plus_at(input).y, plus_at(later).y, 0.2F);
+}
+
+TEST(MapSymbology, OnlySequencePointsOnTheMapAreDrawn) {
+  GlassInput input = patch();
+  testing::add_point(input, "3.", radar::PointKind::target, on_map(input, 20.5, 0.3));
+  testing::add_point(input, "4", radar::PointKind::steer, on_map(input, 30.0, 0.0));
+  const auto said = words(input);
+  EXPECT_THAT(said, ::testing::Contains("3."));
+  EXPECT_THAT(said, ::testing::Not(::testing::Contains("4")));
+}
+
+TEST(MapSymbology, AMapStandsWithItsFormatInAirToAirAndOnAFrozenPpi) {
+  for (const Mode mode : {Mode::air_to_air, Mode::ranging, Mode::hrm}) {
+    GlassInput input = testing::operating(mode, 40.0);
+    const auto without = words(input);
+    testing::put_map(input, 60.0, 20.0, 4.7);
+    EXPECT_TRUE(shows_map(input)) << radar::name_of(mode);
+    EXPECT_FALSE(shows_video(input.state)) << radar::name_of(mode);
+    EXPECT_THAT(words(input), ::testing::Contains("azimuth scale"));
+    EXPECT_THAT(drawn(input).video_steps(), ::testing::IsEmpty());
+  }
+}
+
+TEST(MapSymbology, InStandbyNoMapIsShown) {
+  GlassInput input = patch();
+  EXPECT_TRUE(shows_map(input));
+  input.state.power = static_cast<std::uint8_t>(radar::Power::standby);
+  EXPECT_FALSE(shows_map(input));
+}
+
+TEST(MapSymbology, OnAMapThatCouldNotBeReadNothingIsPlaced) {
+  GlassInput input = patch();
+  input.map = {};
+  put_cursor(input, testing::at(60.0, 20.0));
+  GlassInput without = input;
+  without.state.flags = 0;
+  EXPECT_FALSE(shows_map(input));
+  for (const Segment& segment : more_strokes(input, without)) EXPECT_LT(segment.from.y, 40.0F) << "readout alone";
+}
+
+// The middles of the two balls, left and right: the glass without a map's sector has them elsewhere.
+std::array<float, 2> balls(GlassInput input) {
+  std::vector<float> x;
+  const DrawList list = drawn(input);
+  for (const Segment& segment : list.content(Layer::symbols).strokes) {
+    const Point middle{(segment.from.x + segment.to.x) / 2.0F, (segment.from.y + segment.to.y) / 2.0F};
+    const bool short_side = std::hypot(segment.from.x - segment.to.x, segment.from.y - segment.to.y) < 1.5F;
+    if (short_side && std::abs(middle.y - 441.5F) < 3.5F) x.push_back(middle.x);
+  }
+  std::ranges::sort(x);
+  EXPECT_EQ(x.size(), 48U) << "two circles of 24 sides";
+  const auto mean = [&](std::size_t from, std::size_t to) {
+    float sum = 0.0F;
+    for (std::size_t i = from; i < to; ++i) sum += x[i];
+    return sum / static_cast<float>(to - from);
+  };
+  return {mean(0, x.size() / 2), mean(x.size() / 2, x.size())};
+}
+
+TEST(LimitBalls, OnThePpiStandWhereTheScanBeginsAndEnds) {
+  GlassInput input = testing::operating(Mode::hrm, 40.0);
+  input.model.scan_centre_deg = 30.0 + 37.5;  // the track is 030
+  input.model.scan_width_deg = 25.0;
+  EXPECT_NEAR(balls(input)[0], 240.0F + 2.0F * 25.0F, 0.2F);
+  EXPECT_NEAR(balls(input)[1], 240.0F + 2.0F * 50.0F, 0.2F);
+}
+
+TEST(LimitBalls, OnAPatchStandAtTheMapsSidesAsTheAircraftSeesThem) {
+  const double half_deg = std::atan2(4.7 / 2.0, 20.0) / geo::kRadiansPerDegree;
+  const auto at = balls(patch());
+  EXPECT_NEAR(at[0], 240.0 + 2.0 * (30.0 - half_deg), 0.2);
+  EXPECT_NEAR(at[1], 240.0 + 2.0 * (30.0 + half_deg), 0.2);
+}
+
+TEST(LimitBalls, PassSixtyDegreesAndStopAtTheEdge) {
+  GlassInput input = patch();
+  const auto fly_on = [&input](double distance_nm) {
+    const geo::GeoPoint place = testing::at(30.0, distance_nm);
+    input.ownship.latitude_deg = place.latitude_deg;
+    input.ownship.longitude_deg = place.longitude_deg;
+  };
+  fly_on(14.0);
+  EXPECT_GT(balls(input)[1], 240.0F + 2.0F * 60.0F);
+  fly_on(60.0);
+  EXPECT_NEAR((balls(input)[0] + balls(input)[1]) / 2.0F, 470.0F, 0.2F) << "one upon the other";
+}
+
+TEST(LimitBalls, FollowTheMapThatForms) {
+  GlassInput input = patch();
+  testing::put_forming_map(input, 10.0, 20.0, 4.7);
+  EXPECT_LT(balls(input)[1], 240.0F);
+}
+
+TEST(LimitBalls, AreInHrmAlone) {
+  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  GlassInput other = input;
+  other.model.scan_centre_deg = 70.0;
+  other.model.scan_width_deg = 25.0;
+  EXPECT_EQ(drawn(input), drawn(other));
+}
+
+TEST(WindowOutline, IsASquareOfTheWindowAlongTheLineOfSight) {
+  for (const Mode mode : {Mode::rbm, Mode::hrm}) {
+    GlassInput without = testing::operating(mode, 40.0);
+    without.model.map_window_nm = 10.0;
+    GlassInput with = without;
+    testing::put_forming_map(with, 60.0, 20.0, 10.0);
+    without.model.map_latitude_deg = with.model.map_latitude_deg;
+    without.model.map_longitude_deg = with.model.map_longitude_deg;
+    const auto square = more_strokes(with, without);
+    ASSERT_EQ(square.size(), 4U);
+    for (const Segment& side : square) {
+      // 10 of 40 NM on 400 units.
+      EXPECT_NEAR(std::hypot(side.to.x - side.from.x, side.to.y - side.from.y), 100.0F, 0.2F);
+      // The track is 030: the line of sight leans 30 deg to the right.
+      const double lean_deg = std::atan2(side.to.x - side.from.x, side.from.y - side.to.y) / geo::kRadiansPerDegree;
+      EXPECT_NEAR(std::fmod(lean_deg + 360.0, 90.0), 30.0, 0.2);
+    }
+    const Point middle = middle_of(bounds_of(square));
+    EXPECT_NEAR(middle.x, 240.0 + 200.0 * 0.5, 0.3);
+    EXPECT_NEAR(middle.y, 440.0 - 200.0 * std::sqrt(0.75), 0.3);
+  }
+}
+
+TEST(WindowOutline, OnAPatchLiesInTheMapsFrame) {
+  GlassInput without = patch();
+  without.model.map_window_nm = 4.7 / 2;
+  GlassInput with = without;
+  testing::put_forming_map(with, 60.0, 20.0, 4.7 / 2);
+  without.model.map_latitude_deg = with.model.map_latitude_deg;
+  without.model.map_longitude_deg = with.model.map_longitude_deg;
+  const Rect square = bounds_of(more_strokes(with, without));
+  EXPECT_NEAR(square.left, 120.0F, 0.3F);
+  EXPECT_NEAR(square.top, 120.0F, 0.3F);
+  EXPECT_NEAR(square.right, 360.0F, 0.3F);
+  EXPECT_NEAR(square.bottom, 360.0F, 0.3F);
+}
+
+TEST(WindowOutline, IsNotThereForAReMapNorBeforeTheModelHasTakenTheCommandUp) {
+  GlassInput input = patch();
+  testing::put_forming_map(input, 60.0, 20.0, 2.0);
+  GlassInput re_map = input;
+  re_map.state.flags = 0;
+  EXPECT_EQ(more_strokes(input, re_map).size(), 4U);
+  GlassInput not_yet = input;
+  not_yet.state.map_request += 1;
+  EXPECT_EQ(more_strokes(input, not_yet).size(), 4U);
+}
+
+TEST(MapTimerReadout, FollowsRuleSix) {
+  GlassInput input = testing::operating(Mode::hrm, 40.0);
+  input.model.map_timer_s = 11.2;
+  EXPECT_THAT(words(input), ::testing::Contains("12 SEC"));
+  input.state.cursor_function = static_cast<std::uint8_t>(radar::CursorFunction::update);
+  EXPECT_THAT(words(input), ::testing::Not(::testing::Contains("12 SEC")));
+}
+
+}  // namespace
+}  // namespace yars::display

@@ -1,0 +1,170 @@
+// Patch maps on the glass: where their pixels lie, what light they have, which of them is shown.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "display/gl/glass.hpp"
+#include "display/gl/headless_egl.hpp"
+#include "display/video_levels.hpp"
+#include "tests/display/glass_states.hpp"
+#include "tests/display_gl/made_up_map.hpp"
+#include "tests/display_gl/made_up_sweeps.hpp"
+
+namespace yars::display::gl {
+namespace {
+
+class MapPictures : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto context = open_headless();
+    if (!context) GTEST_SKIP() << "no OpenGL without a display: " << context.error().message();
+    context_ = std::move(*context);
+  }
+
+  // A map without legends or symbols on it but the fixed scales, which leave the middle of the glass free.
+  static GlassInput bare_patch(std::uint32_t size = 480) {
+    GlassInput input = testing::operating(radar::Mode::patch, 40.0);
+    for (auto& legend : input.state.legends) legend[0] = '\0';
+    input.state.brightness = 15;
+    testing::put_map(input, 60.0, 20.0, 4.7);
+    input.map.size = size;
+    return input;
+  }
+  static Glass glass_of(int size) { return Glass({}, size, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}); }
+
+  static void show(GlassInput& input, std::uint64_t id) { input.map.id = input.state.map_shown = id; }
+
+  std::unique_ptr<Context> context_;
+};
+
+int red(const imageio::Image& image, int x, int y) {
+  return image
+      .pixels[(static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)) * 3];
+}
+
+int red_in_the_middle(const Glass& glass) {
+  const imageio::Image image = glass.read();
+  return red(image, image.width / 2, image.height * 9 / 20);  // clear of the range arcs
+}
+
+std::vector<std::uint8_t> tone(std::uint8_t level, std::uint32_t size = 480) {
+  return std::vector<std::uint8_t>(std::size_t{size} * size, level);
+}
+
+TEST_F(MapPictures, AMapOfTheGlasssSizeLiesPixelOnPixelThroughTheTableOfLight) {
+  for (const int size : {480, 1024}) {
+    GlassInput input = bare_patch(static_cast<std::uint32_t>(size));
+    input.state.brightness = 11;
+    input.state.contrast = 10;
+    const auto pixels = testing::made_up_ground(size);
+    const auto light = video_light(11, 10);
+    Glass glass = glass_of(size);
+    glass.add(input.map, pixels);
+    ASSERT_TRUE(glass.draw(input));
+    const imageio::Image image = glass.read();
+    for (int y = size / 10; y < size * 8 / 10; ++y) {
+      for (int x = size / 4; x < size * 9 / 10; ++x) {
+        const std::uint8_t level =
+            pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(size) + static_cast<std::size_t>(x)];
+        ASSERT_NEAR(red(image, x, y), 255.0F * light[level], 0.6) << x << ' ' << y << " at " << size;
+      }
+    }
+  }
+}
+
+TEST_F(MapPictures, AFinerMapIsAveragedDown) {
+  GlassInput input = bare_patch(960);
+  std::vector<std::uint8_t> pixels = tone(0, 960);
+  for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = (i + i / 960) % 2 == 0 ? 255 : 0;
+  Glass glass = glass_of(480);
+  glass.add(input.map, pixels);
+  glass.draw(input);
+  const imageio::Image image = glass.read();
+  const auto half = static_cast<int>(255.0F * video_light(15, 8)[128]);
+  for (int x = 150; x < 400; ++x) EXPECT_NEAR(red(image, x, 200), half, 40) << "a checkerboard is gray, " << x;
+}
+
+TEST_F(MapPictures, TheMapFillsTheGlassToItsEdges) {
+  GlassInput input = bare_patch();
+  Glass glass = glass_of(600);
+  glass.add(input.map, tone(255));
+  glass.draw(input);
+  const imageio::Image image = glass.read();
+  for (const int edge : {0, 599}) {
+    EXPECT_EQ(red(image, edge, 300), 255);
+    EXPECT_EQ(red(image, 300, edge), 255);
+  }
+}
+
+TEST_F(MapPictures, AFlipShowsTheOtherMapWithoutItBeingAddedAgain) {
+  GlassInput input = bare_patch();
+  Glass glass = glass_of(480);
+  input.state.map_old = 2;
+  glass.add(input.map, tone(255));
+  show(input, 2);
+  glass.add(input.map, tone(0));
+  for (int flip = 0; flip < 3; ++flip) {
+    show(input, 1);
+    EXPECT_TRUE(glass.draw(input));
+    EXPECT_EQ(red_in_the_middle(glass), 255);
+    EXPECT_FALSE(glass.draw(input));
+    show(input, 2);
+    EXPECT_TRUE(glass.draw(input));
+    EXPECT_EQ(red_in_the_middle(glass), 0);
+  }
+}
+
+TEST_F(MapPictures, AMapThatNobodyNamesAnyMoreIsLetGo) {
+  GlassInput input = bare_patch();
+  Glass glass = glass_of(480);
+  glass.add(input.map, tone(255));
+  glass.draw(input);
+  input.state.map_newest = 2;
+  show(input, 2);
+  glass.add(input.map, tone(255));
+  glass.draw(input);
+  input.state.map_newest = 1;
+  show(input, 1);
+  glass.draw(input);
+  EXPECT_EQ(red_in_the_middle(glass), 0);
+}
+
+TEST_F(MapPictures, AMapIsShownWhereTheStateShowsOneAndNowhereElse) {
+  GlassInput input = bare_patch();
+  Glass glass = glass_of(480);
+  glass.add(input.map, tone(255));
+  const auto lit_in = [&](radar::Mode mode, bool shown) {
+    input.state.mode = static_cast<std::uint8_t>(mode);
+    input.state.map_shown = shown ? 1 : 0;
+    glass.draw(input);
+    return red_in_the_middle(glass) == 255;
+  };
+  for (const auto mode : {radar::Mode::patch, radar::Mode::hrm, radar::Mode::air_to_air, radar::Mode::ranging})
+    EXPECT_TRUE(lit_in(mode, true)) << radar::name_of(mode);
+  for (const auto mode : {radar::Mode::rbm, radar::Mode::hrm, radar::Mode::beacon, radar::Mode::pvu,
+                          radar::Mode::air_to_air, radar::Mode::menu})
+    EXPECT_FALSE(lit_in(mode, false)) << radar::name_of(mode);
+  EXPECT_FALSE(lit_in(radar::Mode::menu, true));
+  input.state.power = static_cast<std::uint8_t>(radar::Power::standby);
+  EXPECT_FALSE(lit_in(radar::Mode::patch, true));
+}
+
+TEST_F(MapPictures, BackOnThePpiItsSweepsAreThereAgain) {
+  GlassInput input = bare_patch();
+  Glass glass = glass_of(480);
+  databuffer::Sweep sweep =
+      testing::toned_sweep(testing::kHome, 20.0, 40.0, 40.0 * geo::kMetresPerNauticalMile, 480, 255);
+  sweep.mode = static_cast<std::uint8_t>(radar::Mode::hrm);
+  glass.add(sweep);
+  glass.add(input.map, tone(0));
+  glass.draw(input);
+  EXPECT_EQ(red_in_the_middle(glass), 0);
+  input.state.mode = static_cast<std::uint8_t>(radar::Mode::hrm);
+  input.state.map_shown = 0;
+  glass.draw(input);
+  EXPECT_EQ(red_in_the_middle(glass), 255);
+}
+
+}  // namespace
+}  // namespace yars::display::gl

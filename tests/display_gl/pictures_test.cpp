@@ -1,0 +1,170 @@
+// Every format of the glass as a picture. With YARS_PICTURES=FOLDER they are written there, to be looked at.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+
+#include "display/gl/glass.hpp"
+#include "display/gl/headless_egl.hpp"
+#include "tests/display/glass_states.hpp"
+#include "tests/display_gl/made_up_map.hpp"
+#include "tests/display_gl/made_up_sweeps.hpp"
+
+namespace yars::display::gl {
+namespace {
+
+using radar::Mode;
+using testing::kHome;
+
+constexpr double kRange_m = 40.0 * geo::kMetresPerNauticalMile;
+constexpr double kTrack_deg = 30.0;
+
+// A scan of a made-up land; HRM leaves the blind zone out.
+void add_scan(Glass& glass, Mode mode, double width_deg) {
+  const double from_deg = kTrack_deg - 50.0;
+  for (double left_deg = from_deg; left_deg < kTrack_deg + 50.0 - 1e-9; left_deg += width_deg) {
+    databuffer::Sweep sweep = testing::blank_sweep(kHome, left_deg, left_deg + width_deg, kRange_m, 480);
+    sweep.mode = static_cast<std::uint8_t>(mode);
+    const double angle = left_deg * geo::kRadiansPerDegree;
+    const bool blind = mode == Mode::hrm && std::abs(left_deg + width_deg / 2.0 - kTrack_deg) < 8.0;
+    for (std::uint32_t i = 0; i < 480 && !blind; ++i) {
+      const double x = 0.5 + i / 960.0 * std::sin(angle), y = 1.0 - i / 480.0 * std::cos(angle);
+      const double level = testing::ground_at(x, y) *
+                           (0.6 + 0.8 * testing::speckle(static_cast<int>(left_deg * 7), static_cast<int>(i)));
+      sweep.video[i] = static_cast<std::uint8_t>(255.0 * std::min(1.0, level));
+    }
+    glass.add(sweep);
+  }
+}
+
+void add_points(GlassInput& input) {
+  using radar::PointKind;
+  testing::add_point(input, "1", PointKind::steer, testing::at(20.0, 15.0));
+  testing::add_point(input, "1.1", PointKind::steer_offset, testing::at(38.0, 17.0));
+  testing::add_point(input, "2", PointKind::initial, testing::at(10.0, 25.0));
+  testing::add_point(input, "3.", PointKind::target, testing::at(61.0, 20.4));
+  testing::add_point(input, "3.01", PointKind::target_offset, testing::at(58.0, 19.0));
+}
+
+GlassInput operating(Mode mode) {
+  GlassInput input = testing::operating(mode, 40.0);
+  testing::put_cursor(input, 60.0, 20.0);
+  add_points(input);
+  input.model.antenna_azimuth_deg = 22.0;
+  input.model.antenna_elevation_deg = -3.0;
+  input.model.scan_centre_deg = kTrack_deg;
+  input.model.scan_width_deg = 100.0;
+  input.ownship.pitch_deg = 2.0;
+  return input;
+}
+
+GlassInput over_map(Mode mode) {
+  GlassInput input = operating(mode);
+  testing::put_map(input, 60.0, 20.0, 4.7);
+  return input;
+}
+
+void freeze(GlassInput& input, const char* recall) {
+  input.state.flags |= databuffer::kFreeze;
+  testing::set_text(input.state.legends[10], recall);
+}
+
+void form(GlassInput& input, double bearing_deg, double range_nm, double window_nm) {
+  testing::put_forming_map(input, bearing_deg, range_nm, window_nm);
+  input.model.map_timer_s = 6.4;
+  input.model.map_progress = 0.4;
+}
+
+struct Picture {
+  const char* name;
+  std::function<GlassInput()> input;
+};
+
+const std::vector<Picture>& pictures() {
+  static const std::vector<Picture> all{{"rbm", [] { return operating(Mode::rbm); }},
+                                        {"rbm_map_forms",
+                                         [] {
+                                           GlassInput input = operating(Mode::rbm);
+                                           form(input, 60.0, 20.0, 4.7);
+                                           return input;
+                                         }},
+                                        {"rbm_rejected",
+                                         [] {
+                                           GlassInput input = operating(Mode::rbm);
+                                           testing::set_text(input.state.message, "BLIND ZONE");
+                                           return input;
+                                         }},
+                                        {"hrm_ppi",
+                                         [] {
+                                           GlassInput input = operating(Mode::hrm);
+                                           input.model.map_timer_s = 8.0;
+                                           return input;
+                                         }},
+                                        {"hrm_ppi_map_forms",
+                                         [] {
+                                           GlassInput input = operating(Mode::hrm);
+                                           form(input, 0.0, 25.0, 10.0);
+                                           return input;
+                                         }},
+                                        {"patch",
+                                         [] {
+                                           GlassInput input = over_map(Mode::patch);
+                                           input.model.map_timer_s = 8.0;
+                                           return input;
+                                         }},
+                                        {"patch_next_forms",
+                                         [] {
+                                           GlassInput input = over_map(Mode::patch);
+                                           form(input, 61.0, 20.5, 1.3);
+                                           return input;
+                                         }},
+                                        {"patch_frozen_store",
+                                         [] {
+                                           GlassInput input = over_map(Mode::patch);
+                                           freeze(input, "STORE");
+                                           input.state.boxed = 1U << 15U;
+                                           return input;
+                                         }},
+                                        {"air_to_air_set",
+                                         [] {
+                                           GlassInput input = over_map(Mode::air_to_air);
+                                           input.state.flags |= databuffer::kFreeze;
+                                           input.state.boxed = 1U << 18U;
+                                           return input;
+                                         }},
+                                        {"bcn", [] { return operating(Mode::beacon); }},
+                                        {"pvu", [] { return operating(Mode::pvu); }},
+                                        {"standby", [] {
+                                           GlassInput input = over_map(Mode::patch);
+                                           input.state.power = static_cast<std::uint8_t>(radar::Power::standby);
+                                           return input;
+                                         }}};
+  return all;
+}
+
+TEST(Pictures, EveryFormatIsDrawn) {
+  auto context = open_headless();
+  if (!context) GTEST_SKIP() << "no OpenGL without a display: " << context.error().message();
+  const char* folder = std::getenv("YARS_PICTURES");
+  const auto ground = testing::made_up_ground(480);
+  for (const int size : {480, 1024}) {
+    for (const Picture& picture : pictures()) {
+      const GlassInput input = picture.input();
+      Glass glass({}, size);
+      const auto mode = static_cast<Mode>(input.state.mode);
+      add_scan(glass, mode, mode == Mode::hrm ? 0.14 : 0.5);
+      glass.add(input.map, ground);
+      EXPECT_TRUE(glass.draw(input)) << picture.name;
+      const imageio::Image image = glass.read();
+      EXPECT_TRUE(std::ranges::any_of(image.pixels, [](std::uint8_t value) { return value > 150; })) << picture.name;
+      if (folder == nullptr) continue;
+      const std::string path = std::string(folder) + "/" + picture.name + "_" + std::to_string(size) + ".png";
+      const auto written = imageio::write_png(path, image);
+      EXPECT_TRUE(written) << path;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace yars::display::gl

@@ -1,0 +1,63 @@
+#include "databuffer/records/map_timer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "lib/radar/modes.hpp"
+
+namespace yars::databuffer {
+namespace {
+
+// Rule 6: cursor MAP, a window selected, the cursor mappable.
+class MapTimer : public ::testing::Test {
+ protected:
+  MapTimer() {
+    state.window_nm = 4.7;
+    model.mappable = 1;
+    model.map_timer_s = 7.5;
+  }
+  RadarState state{};
+  ModelStatus model{};
+};
+
+TEST_F(MapTimer, IsTheModelsEstimateAtTheCursor) {
+  EXPECT_EQ(map_timer_s(state, model), 7.5);
+}
+
+TEST_F(MapTimer, IsNothingWhileTheModelTellsNothing) {
+  model.map_timer_s = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(map_timer_s(state, model), std::nullopt);
+}
+
+TEST_F(MapTimer, IsNothingWithAnotherCursorFunctionABlankWindowOrACursorThatCannotBeMapped) {
+  RadarState update = state;
+  update.cursor_function = static_cast<std::uint8_t>(radar::CursorFunction::update);
+  EXPECT_EQ(map_timer_s(update, model), std::nullopt);
+  RadarState blank = state;
+  blank.window_nm = 0.0;
+  EXPECT_EQ(map_timer_s(blank, model), std::nullopt);
+  model.mappable = 0;
+  EXPECT_EQ(map_timer_s(state, model), std::nullopt);
+}
+
+TEST_F(MapTimer, CountsDownWhileAMapFormsWhateverTheCursorDoes) {
+  state.cursor_function = static_cast<std::uint8_t>(radar::CursorFunction::target);
+  model.mappable = 0;
+  model.map_window_nm = 0.67;
+  EXPECT_EQ(map_timer_s(state, model), 7.5);
+}
+
+TEST_F(MapTimer, IsNothingInModesThatCommandNoMapFromTheGlass) {
+  for (const auto mode : {radar::Mode::beacon, radar::Mode::pvu, radar::Mode::air_to_air, radar::Mode::ranging}) {
+    state.resume_mode = static_cast<std::uint8_t>(mode);
+    EXPECT_EQ(map_timer_s(state, model), std::nullopt) << radar::name_of(mode);
+  }
+  for (const auto mode : {radar::Mode::rbm, radar::Mode::hrm, radar::Mode::patch}) {
+    state.resume_mode = static_cast<std::uint8_t>(mode);
+    EXPECT_TRUE(map_timer_s(state, model).has_value()) << radar::name_of(mode);
+  }
+}
+
+}  // namespace
+}  // namespace yars::databuffer
