@@ -95,6 +95,20 @@ std::vector<SlotSchema> fidelity_slots() {
       flag("noise", YARS_FIELD(radar.fidelity.noise), "thermal noise, speckle and texture"),
       flag("azimuthSmear", YARS_FIELD(radar.fidelity.azimuth_smear), "smear over the beam width"),
       flag("pulseSmear", YARS_FIELD(radar.fidelity.pulse_smear), "smear over the pulse length"),
+      {.name = "mapSize",
+       .lowest = 16,
+       .highest = 1024,
+       .binding = IntegerSlot{YARS_FIELD(radar.fidelity.map_size)},
+       .purpose = "pixels of a patch map on an edge; its cells stay 480"},
+      {.name = "mapOversampling",
+       .lowest = 1,
+       .highest = 4,
+       .binding = IntegerSlot{YARS_FIELD(radar.fidelity.map_oversampling)},
+       .purpose = "profiles and heights a pixel of a patch map"},
+      flag("mapLayover", YARS_FIELD(radar.fidelity.map_layover), "patch maps in slant geometry; else orthographic"),
+      flag("mapResponse", YARS_FIELD(radar.fidelity.map_response), "impulse response with its sidelobes"),
+      flag("mapDetail", YARS_FIELD(radar.fidelity.map_detail), "made-up texture below the spacing of the posts"),
+      flag("mapDoubleBounce", YARS_FIELD(radar.fidelity.map_double_bounce), "between walls and ground"),
       {.name = "beam",
        .binding = ChoiceSlot{kBeams, [](const Draft& draft) { return int(draft.radar.fidelity.beam); },
                              [](Draft& draft, int index) { draft.radar.fidelity.beam = radar::BeamPattern(index); }},
@@ -117,6 +131,42 @@ std::vector<SlotSchema> receiver_slots() {
                  "return of land at vertical incidence")};
 }
 
+std::vector<SlotSchema> high_resolution_slots() {
+  return {
+      {.name = "looks",
+       .lowest = 1,
+       .highest = 16,
+       .binding = ListSlot{YARS_FIELD(radar.high_resolution.looks), 2, 2, Order::ascending},
+       .purpose = "independent looks that a map averages at ML1 and ML2"},
+      number("broadening", "", 1, 3, YARS_FIELD(radar.high_resolution.broadening),
+             "of the response by its weighting: factor on the formation time"),
+      number("sidelobes", "dB", -60, -13, YARS_FIELD(radar.high_resolution.sidelobe_db),
+             "of the impulse response, against its peak"),
+      number("formationCap", "s", 0.1, 600, YARS_FIELD(radar.high_resolution.formation_cap_s), "no map takes longer"),
+      number("blindZone", "deg", 0, 45, YARS_FIELD(radar.high_resolution.blind_zone_deg),
+             "either side of the ground track, where nothing returns"),
+      number("sectorTime", "s", 0.5, 120, YARS_FIELD(radar.high_resolution.sector_time_s),
+             "of an HRM PPI scan of 100 degrees"),
+      number("dwell", "s", 0.01, 10, YARS_FIELD(radar.high_resolution.dwell_s),
+             "for which the HRM PPI looks into each direction: its resolution"),
+      number("sectorStep", "deg", 0.02, 5, YARS_FIELD(radar.high_resolution.sector_step_deg),
+             "between sweeps of the HRM PPI"),
+      number("dynamicRange", "dB", 10, 120, YARS_FIELD(radar.high_resolution.dynamic_range_db), "black to white"),
+      number("brightestGamma", "dB", -40, 60, YARS_FIELD(radar.high_resolution.brightest_gamma_db),
+             "gamma of level ground that is white"),
+      number("noiseGamma", "dB", -120, 20, YARS_FIELD(radar.high_resolution.noise_gamma_db),
+             "gamma of level ground that thermal noise at 20 NM is worth"),
+      number("doubleBounce", "dB", -60, 40, YARS_FIELD(radar.high_resolution.double_bounce_db),
+             "of a wall's foot against the wall"),
+      {.name = "plainMaterial",
+       .lowest = 0,
+       .highest = radar::kMaterials - 1,
+       .binding = IntegerSlot{YARS_FIELD(radar.high_resolution.plain_material)},
+       .purpose = "surface material code of a scene's faces that have none"},
+      number("detailContrast", "", 0, 2, YARS_FIELD(radar.high_resolution.detail_contrast),
+             "standard deviation of the made-up detail below the posts, against the mean")};
+}
+
 std::vector<SlotSchema> noise_slots() {
   return {number("floor", "dB", -120, 0, YARS_FIELD(radar.receiver.noise_floor_db), "thermal noise below full scale"),
           {.name = "looks",
@@ -135,6 +185,7 @@ std::vector<SlotSchema> noise_slots() {
 
 std::vector<FormSchema> model_forms() {
   return {{.name = "Fidelity", .purpose = "speed against accuracy", .slots = fidelity_slots()},
+          {.name = "HighResolution", .purpose = "high resolution maps", .slots = high_resolution_slots()},
           {.name = "Receiver", .purpose = "receiver and ground return", .slots = receiver_slots()},
           {.name = "Noise", .purpose = "thermal noise and speckle", .slots = noise_slots()}};
 }

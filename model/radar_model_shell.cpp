@@ -91,6 +91,7 @@ void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
   if (first_tick_ || std::memcmp(&command_before, &tick_.command, sizeof command_before) != 0)
     tick_.flags |= databuffer::kTickCommandChanged;
   latch_fidelity();
+  if (publish_due_map()) tick_.flags |= databuffer::kTickMapComplete;
 }
 
 void RadarModelShell::latch_fidelity() {
@@ -144,31 +145,34 @@ void RadarModelShell::run_kernel() {
     session_->layout().sweeps.publish(sweep_);
     ++status_.sweeps;
   }
-  serve_maps();
+  ask_for_map();
   kernel_.describe(*view, status_);
   status_.terrain_bytes = view->resident_bytes();
   status_.terrain_generation = view->generation();
 }
 
-// A map that has begun is asked for at once; it goes out at the tick at which the radar would have it, or when it is
-// ready if that is later.
-void RadarModelShell::serve_maps() {
+// A map that has begun is asked for at once.
+void RadarModelShell::ask_for_map() {
   for (const auto& problem : patches_->take_problems()) {
     session_->note(databuffer::NoteKind::refusal, problem);
     databuffer::log_warning(problem);
   }
   if (!kernel_.maps().forming()) return;
   const kernel::MapUnderWay& map = kernel_.maps().map();
-  if (map.id != map_asked_ || map.start_tick != map_asked_tick_) {
-    map_asked_ = map.id;
-    map_asked_tick_ = map.start_tick;
-    patches_->request(map);
-  }
-  if (!kernel_.map_due()) return;
-  const PatchMaker::Picture* picture = patches_->finished(map);
-  if (picture == nullptr) return;
+  if (map.id == map_asked_ && map.start_tick == map_asked_tick_) return;
+  map_asked_ = map.id;
+  map_asked_tick_ = map.start_tick;
+  patches_->request(map);
+}
+
+// It goes out at the tick at which the radar would have it, or when it is ready if that is later; the tick says so,
+// and whoever replays the ticks completes it there.
+bool RadarModelShell::publish_due_map() {
+  if (!kernel_.maps().due(tick_.tick)) return false;
+  const PatchMaker::Picture* picture = patches_->finished(kernel_.maps().map());
+  if (picture == nullptr) return false;
   publish_map(*picture);
-  kernel_.complete_map();
+  return true;
 }
 
 void RadarModelShell::publish_map(const PatchMaker::Picture& picture) {

@@ -30,7 +30,8 @@ class RadarModelShell {
   void latch_fidelity();
   void govern(double seconds, double rate);
   void run_kernel();
-  void serve_maps();
+  void ask_for_map();
+  bool publish_due_map();
   void publish_map(const PatchMaker::Picture& picture);
   void publish_status(std::uint64_t late_ticks);
 

@@ -37,6 +37,7 @@ inline constexpr std::uint32_t kTickOwnshipValid = 4U;  // a fresh ownship was s
 inline constexpr std::uint32_t kTickRestart = 8U;  // the kernel was made anew before this tick (start of the process)
 inline constexpr std::uint32_t kTickTerrainPending =
     16U;  // posts in view were still loading: this scan is not reproducible
+inline constexpr std::uint32_t kTickMapComplete = 32U;  // the patch map under way went out before this tick
 
 struct ModelTick {
   std::int64_t tick;

@@ -85,21 +85,20 @@ struct ReceiverConfiguration {
 
 // The high resolution map; spec physics.md "HRM".
 struct HighResolutionConfiguration {
-  std::vector<double> looks{2, 3};    // averaged at ML1, ML2: ML2 takes half as long again
-  double broadening = 1.2;            // k of the weighting: how much wider than 1 / bandwidth the response is
-  double sidelobe_db = -35.0;         // [dB] of the Taylor weighting
-  double formation_cap_s = 60.0;      // [s] no map takes longer
-  double blind_zone_deg = 8.0;        // [deg] either side of the ground track
-  double sector_time_s = 18.0;        // [s] of a Doppler beam sharpened scan of 100 degrees
-  double dwell_s = 0.5;               // [s] for which each direction of that scan is looked at
-  double sector_step_deg = 0.125;     // [deg] between its sweeps
-  double dynamic_range_db = 45.0;     // [dB] of the log receiver, black to white
-  double brightest_gamma_db = 8.0;    // [dB] gamma of level ground that is white
-  double noise_gamma_db = -34.0;      // [dB] gamma of level ground that thermal noise at 20 NM is worth
-  double noise_contrast_1996 = 0.10;  // amplitude of the noise of the preset 1996
-  double double_bounce_db = 6.0;      // [dB] of a wall's foot against the wall, where both face the radar
-  int plain_material = 2;             // code of a scene's faces that have none: part metal
-  double detail_contrast = 0.5;       // standard deviation of the made-up detail below the posts, as a share
+  std::vector<double> looks{2, 3};  // averaged at ML1, ML2: ML2 takes half as long again
+  double broadening = 1.2;          // k of the weighting: how much wider than 1 / bandwidth the response is
+  double sidelobe_db = -35.0;       // [dB] of the Taylor weighting
+  double formation_cap_s = 60.0;    // [s] no map takes longer
+  double blind_zone_deg = 8.0;      // [deg] either side of the ground track
+  double sector_time_s = 18.0;      // [s] of a Doppler beam sharpened scan of 100 degrees
+  double dwell_s = 0.5;             // [s] for which each direction of that scan is looked at
+  double sector_step_deg = 0.125;   // [deg] between its sweeps
+  double dynamic_range_db = 45.0;   // [dB] of the log receiver, black to white
+  double brightest_gamma_db = 8.0;  // [dB] gamma of level ground that is white
+  double noise_gamma_db = -34.0;    // [dB] gamma of level ground that thermal noise at 20 NM is worth
+  double double_bounce_db = 6.0;    // [dB] of a wall's foot against the wall, where both face the radar
+  int plain_material = 2;           // code of a scene's faces that have none: part metal
+  double detail_contrast = 0.5;     // standard deviation of the made-up detail below the posts, as a share
 };
 
 struct TerrainConfiguration {

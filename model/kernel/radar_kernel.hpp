@@ -21,10 +21,9 @@ class RadarKernel {
   // Takes up servo, scan and sweep numbers where a predecessor's status left them.
   void resume(const databuffer::ModelStatus& status);
 
-  // The patch map under way: who drives the kernel has its picture ready when it is due, and says so.
+  // The patch map under way: who drives the kernel has its picture ready when it is due, and says so by the flag
+  // kTickMapComplete of the next tick.
   const MapSchedule& maps() const;
-  bool map_due() const;
-  void complete_map();
 
   // The region that the command needs at this place, for prepare(); none while nothing looks at the ground: without
   // video, and in SNIFF without jammers.

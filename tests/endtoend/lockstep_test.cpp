@@ -2,29 +2,19 @@
 // picture, and the same bits in every run.
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <map>
-#include <sstream>
 #include <utility>
 
-#include "lib/imageio/png.hpp"
-#include "tests/endtoend/process_set.hpp"
+#include "tests/endtoend/lockstep_run.hpp"
 
 namespace yars::endtoend {
 namespace {
 
 using nlohmann::json;
 
-// An event of the script, whether it does something there, and one field of the state after it (pvi.md).
-struct Step {
-  std::string event;
-  bool effective;
-  std::string field;
-  json expected;
-};
+constexpr const char* kSource = "fixed:37.5,-123.0,15000,90,480";
 
-const std::vector<Step>& steps() {
-  static const std::vector<Step> kSteps{
+const std::vector<ScriptedStep>& steps() {
+  static const std::vector<ScriptedStep> kSteps{
       {"power opr", true, "mode", "RBM"},
       // Rule 1: no radar altimeter, no sequence point; 15,000 ft above the sea.
       {"pb 1", false, "range_nm", 40.0},
@@ -112,111 +102,15 @@ void expect_rbm_legends(const json& state) {
   EXPECT_EQ(state["boxed"], boxed);
 }
 
-// Pixels of a frame that are lit well.
-std::size_t lit_pixels(const std::filesystem::path& path) {
-  const auto image = imageio::read_png(path);
-  EXPECT_TRUE(image.has_value()) << path;
-  std::size_t lit = 0;
-  for (std::size_t i = 1; image && i < image->pixels.size(); i += static_cast<std::size_t>(image->channels))
-    lit += image->pixels[i] > 60 ? 1 : 0;
-  return lit;
-}
-
-struct Entry {
-  std::int64_t tick = 0;
-  bool effective = false;
-  json state;  // in force at the end of that tick
-};
-
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-class LockstepRun {
- public:
-  explicit LockstepRun(const std::string& name) : set_(name), recording_(set_.folder() / "run.yars") {
-    constexpr double kFirst_s = 1.0, kApart_s = 0.25;
-    std::ofstream script(set_.folder() / "script");
-    for (std::size_t i = 0; i < steps().size(); ++i)
-      script << kFirst_s + kApart_s * static_cast<double>(i) << " " << steps()[i].event << "\n";
-    script.close();
-    const auto seconds = static_cast<int>(kFirst_s + kApart_s * static_cast<double>(steps().size())) + 3;
-    const std::string plan =
-        "flight-model,input-monitor,state-machine,radar-model,radar-display,recorder@" + std::to_string(seconds * 200);
-    std::filesystem::create_directories(frames());
-    const auto start = [&](const std::string& role, std::vector<std::string> arguments) {
-      arguments.insert(arguments.end(), {"--lockstep", plan});
-      set_.start(role, arguments);
-    };
-    start("recorder", {"yars", "record", recording_.string()});
-    start("flight-model", {"flight-model", "--source", "fixed:37.5,-123.0,15000,90,480"});
-    start("input-monitor", {"input-monitor", "--source", "script:" + (set_.folder() / "script").string()});
-    start("state-machine", {"state-machine"});
-    start("radar-model", {"radar-model"});
-    start("radar-display", {"radar-display", "--headless", "--frames", frames().string(), "--every", "2"});
-    for (const auto* role :
-         {"flight-model", "input-monitor", "state-machine", "radar-model", "radar-display", "recorder"})
-      EXPECT_EQ(set_.wait(role, 240.0), 0) << role << ": " << set_.log_of(role);
-  }
-
-  std::filesystem::path frames() const { return set_.folder() / "frames"; }
-  bool segment_exists() const { return set_.segment_exists(); }
-
-  std::map<std::string, std::string> frame_bytes() const {
-    std::map<std::string, std::string> bytes;
-    for (const auto& entry : std::filesystem::directory_iterator(frames()))
-      bytes[entry.path().filename()] = bytes_of(entry.path());
-    return bytes;
-  }
-
-  // The script's events in order, each with the state at the end of its tick.
-  std::vector<Entry> entries() const {
-    const auto printed = set_.yars({"replay", "--print", recording_.string()});
-    EXPECT_EQ(printed.code, 0) << printed.errors;
-    std::map<std::int64_t, json> states;
-    std::vector<Entry> entries;
-    std::istringstream lines(printed.output);
-    for (std::string line; std::getline(lines, line);) {
-      const auto object = json::parse(line);
-      if (object.contains("event"))
-        entries.push_back({object["tick"], object["effective"], {}});
-      else
-        states[object["tick"]] = object["state"];
-    }
-    for (auto& entry : entries) {
-      auto state = states.upper_bound(entry.tick);
-      if (state != states.begin()) entry.state = (--state)->second;
-    }
-    return entries;
-  }
-
-  json replayed() const {
-    const auto finished = set_.yars({"replay", "--events", recording_.string()}, 120.0);
-    EXPECT_EQ(finished.code, 0) << finished.output << finished.errors;
-    return json::parse(finished.output);
-  }
-
- private:
-  ProcessSet set_;
-  std::filesystem::path recording_;
-};
-
 TEST(Lockstep, EveryRealBeamMapEventHasItsEffectAndTheRunRepeatsBitForBit) {
-  const LockstepRun first("lockstep-a");
+  const LockstepRun first("lockstep-a", steps(), kSource);
   EXPECT_FALSE(first.segment_exists());
   const auto entries = first.entries();
-  ASSERT_EQ(entries.size(), steps().size());
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const auto& step = steps()[i];
-    SCOPED_TRACE("step " + std::to_string(i) + ": " + step.event + " at tick " + std::to_string(entries[i].tick));
-    EXPECT_EQ(entries[i].effective, step.effective);
-    ASSERT_TRUE(entries[i].state.contains(step.field));
-    EXPECT_EQ(entries[i].state[step.field], step.expected);
-    if (entries[i].state["mode"] == "RBM" && entries[i].state["power"] == "OPR" && entries[i].state["freeze"] == false)
-      expect_rbm_legends(entries[i].state);
+  expect_steps(entries, steps());
+  for (const Entry& entry : entries) {
+    SCOPED_TRACE("tick " + std::to_string(entry.tick));
+    if (entry.state["mode"] == "RBM" && entry.state["power"] == "OPR" && entry.state["freeze"] == false)
+      expect_rbm_legends(entry.state);
   }
   const auto replayed = first.replayed();
   EXPECT_EQ(replayed["different"], 0);
@@ -224,7 +118,7 @@ TEST(Lockstep, EveryRealBeamMapEventHasItsEffectAndTheRunRepeatsBitForBit) {
   EXPECT_EQ(replayed["ticks_lost"], 0);
   EXPECT_GT(replayed["equal"], 1000);
 
-  const LockstepRun second("lockstep-b");
+  const LockstepRun second("lockstep-b", steps(), kSource);
   EXPECT_EQ(second.replayed(), replayed);
   const auto frames = first.frame_bytes();
   EXPECT_GE(frames.size(), 7U);

@@ -1,0 +1,123 @@
+#include "tests/endtoend/lockstep_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "lib/imageio/png.hpp"
+
+namespace yars::endtoend {
+
+using nlohmann::json;
+
+std::size_t lit_pixels(const std::filesystem::path& path) {
+  const auto image = imageio::read_png(path);
+  EXPECT_TRUE(image.has_value()) << path;
+  std::size_t lit = 0;
+  for (std::size_t i = 1; image && i < image->pixels.size(); i += static_cast<std::size_t>(image->channels))
+    lit += image->pixels[i] > 60 ? 1 : 0;
+  return lit;
+}
+
+namespace {
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// Writes the script; how long the set has to run for it [s].
+int write_script(const std::filesystem::path& path, const std::vector<ScriptedStep>& steps) {
+  constexpr double kFirst_s = 1.0, kSpare_s = 3.0;
+  std::ofstream script(path);
+  double time_s = kFirst_s;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (i > 0) time_s += steps[i].after_s;
+    script << time_s << " " << steps[i].event << "\n";
+  }
+  return static_cast<int>(std::ceil(time_s + kSpare_s));
+}
+
+}  // namespace
+
+LockstepRun::LockstepRun(const std::string& name, const std::vector<ScriptedStep>& steps, const std::string& source,
+                         const std::vector<std::string>& model_arguments)
+    : set_(name), recording_(set_.folder() / "run.yars") {
+  const int seconds = write_script(set_.folder() / "script", steps);
+  const std::string plan =
+      "flight-model,input-monitor,state-machine,radar-model,radar-display,recorder@" + std::to_string(seconds * 200);
+  std::filesystem::create_directories(frames());
+  const auto start = [&](const std::string& role, std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--lockstep", plan});
+    set_.start(role, arguments);
+  };
+  start("recorder", {"yars", "record", recording_.string()});
+  start("flight-model", {"flight-model", "--source", source});
+  start("input-monitor", {"input-monitor", "--source", "script:" + (set_.folder() / "script").string()});
+  start("state-machine", {"state-machine"});
+  std::vector<std::string> model{"radar-model"};
+  model.insert(model.end(), model_arguments.begin(), model_arguments.end());
+  start("radar-model", model);
+  start("radar-display", {"radar-display", "--headless", "--frames", frames().string(), "--every", "2"});
+  for (const auto* role :
+       {"flight-model", "input-monitor", "state-machine", "radar-model", "radar-display", "recorder"})
+    EXPECT_EQ(set_.wait(role, 240.0), 0) << role << ": " << set_.log_of(role);
+}
+
+std::map<std::string, std::string> LockstepRun::frame_bytes() const {
+  std::map<std::string, std::string> bytes;
+  for (const auto& entry : std::filesystem::directory_iterator(frames()))
+    bytes[entry.path().filename()] = bytes_of(entry.path());
+  return bytes;
+}
+
+std::vector<json> LockstepRun::printed() const {
+  const auto printed = set_.yars({"replay", "--print", recording_.string()});
+  EXPECT_EQ(printed.code, 0) << printed.errors;
+  std::vector<json> objects;
+  std::istringstream lines(printed.output);
+  for (std::string line; std::getline(lines, line);) objects.push_back(json::parse(line));
+  return objects;
+}
+
+std::map<std::int64_t, json> LockstepRun::states() const {
+  std::map<std::int64_t, json> states;
+  for (const json& object : printed())
+    if (!object.contains("event")) states[object["tick"]] = object["state"];
+  return states;
+}
+
+std::vector<Entry> LockstepRun::entries() const {
+  const std::map<std::int64_t, json> all = states();
+  std::vector<Entry> entries;
+  for (const json& object : printed())
+    if (object.contains("event")) entries.push_back({object["tick"], object["effective"], {}});
+  for (auto& entry : entries) {
+    auto state = all.upper_bound(entry.tick);
+    if (state != all.begin()) entry.state = (--state)->second;
+  }
+  return entries;
+}
+
+json LockstepRun::replayed() const {
+  const auto finished = set_.yars({"replay", "--events", recording_.string()}, 120.0);
+  EXPECT_EQ(finished.code, 0) << finished.output << finished.errors;
+  return json::parse(finished.output);
+}
+
+void expect_steps(const std::vector<Entry>& entries, const std::vector<ScriptedStep>& steps) {
+  ASSERT_EQ(entries.size(), steps.size());
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const auto& step = steps[i];
+    SCOPED_TRACE("step " + std::to_string(i) + ": " + step.event + " at tick " + std::to_string(entries[i].tick));
+    EXPECT_EQ(entries[i].effective, step.effective);
+    ASSERT_TRUE(entries[i].state.contains(step.field));
+    EXPECT_EQ(entries[i].state[step.field], step.expected);
+  }
+}
+
+}  // namespace yars::endtoend

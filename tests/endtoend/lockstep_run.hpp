@@ -1,0 +1,59 @@
+// A whole set in lockstep that plays a script of events and is recorded: the state after each event, the frames, the
+// replay.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/endtoend/process_set.hpp"
+
+namespace yars::endtoend {
+
+// An event of the script, whether it does something there, and one field of the state after it (pvi.md).
+struct ScriptedStep {
+  std::string event;
+  bool effective = false;
+  std::string field;
+  nlohmann::json expected;
+  double after_s = 0.25;  // the step before
+};
+
+struct Entry {
+  std::int64_t tick = 0;
+  bool effective = false;
+  nlohmann::json state;  // in force at the end of that tick
+};
+
+class LockstepRun {
+ public:
+  // Over the built-in hills unless the source and the model's arguments say otherwise.
+  LockstepRun(const std::string& name, const std::vector<ScriptedStep>& steps, const std::string& source,
+              const std::vector<std::string>& model_arguments = {});
+
+  std::filesystem::path frames() const { return set_.folder() / "frames"; }
+  bool segment_exists() const { return set_.segment_exists(); }
+  std::map<std::string, std::string> frame_bytes() const;
+  // The script's events in order, each with the state at the end of its tick.
+  std::vector<Entry> entries() const;
+  // The states that came and went, by tick.
+  std::map<std::int64_t, nlohmann::json> states() const;
+  nlohmann::json replayed() const;
+
+ private:
+  std::vector<nlohmann::json> printed() const;
+
+  ProcessSet set_;
+  std::filesystem::path recording_;
+};
+
+// Checks each entry against its step.
+void expect_steps(const std::vector<Entry>& entries, const std::vector<ScriptedStep>& steps);
+
+// Pixels of a frame that are lit well.
+std::size_t lit_pixels(const std::filesystem::path& path);
+
+}  // namespace yars::endtoend

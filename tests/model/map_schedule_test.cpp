@@ -1,0 +1,198 @@
+#include "model/kernel/map_schedule.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lib/radar/map_formation.hpp"
+#include "lib/radar/modes.hpp"
+
+namespace yars::model::kernel {
+namespace {
+
+constexpr double kGround_m = 0.0;
+
+// An aircraft at 480 kt and 15,000 ft that flies north, and a place 15 NM away under 30 degrees of squint.
+class MapScheduleTest : public testing::Test {
+ protected:
+  MapScheduleTest() {
+    pose_.place = {37.0, -122.0};
+    pose_.altitude = geo::AltitudeMsl::feet(15000.0);
+    pose_.platform.heading = pose_.platform.ground_track = geo::Bearing::degrees(0.0);
+    pose_.ground_speed = geo::Speed::knots(480.0);
+    const geo::GeoPoint target = place_at(30.0, 15.0);
+    tick_.command.power = static_cast<std::uint8_t>(radar::Power::operate);
+    tick_.command.mode = static_cast<std::uint8_t>(radar::Mode::rbm);
+    tick_.command.range_nm = 20.0;
+    tick_.command.map_latitude_deg = target.latitude_deg;
+    tick_.command.map_longitude_deg = target.longitude_deg;
+    tick_.command.map_window_nm = 4.7F;
+    tick_.epoch = 1;
+    schedule_.step(tick_, pose_, kGround_m);
+  }
+
+  geo::GeoPoint place_at(double bearing_deg, double range_nm) const {
+    return geo::geodesic_direct(pose_.place, geo::Bearing::degrees(bearing_deg), geo::Length::nautical_miles(range_nm));
+  }
+  void command_map() {
+    ++tick_.command.map_request;
+    tick_.command.flags |= databuffer::kMapping;
+    step();
+  }
+  void step() {
+    ++tick_.tick;
+    schedule_.step(tick_, pose_, kGround_m);
+  }
+  // As the radar does: the next tick after it is due says that the map went out.
+  int ticks_until_done() {
+    int ticks = 0;
+    while (schedule_.forming() && !schedule_.due(tick_.tick) && ticks < 100'000) {
+      step();
+      ++ticks;
+    }
+    if (schedule_.forming()) schedule_.complete();
+    return ticks;
+  }
+  void show_patch() {
+    tick_.command.flags &= ~databuffer::kMapping;
+    tick_.command.mode = static_cast<std::uint8_t>(radar::Mode::patch);
+  }
+
+  radar::RadarConfiguration configuration_;
+  Pose pose_;
+  databuffer::ModelTick tick_{};
+  MapSchedule schedule_{configuration_};
+};
+
+TEST_F(MapScheduleTest, NothingFormsUntilAMapIsCommanded) {
+  step();
+  EXPECT_FALSE(schedule_.forming());
+  EXPECT_FALSE(schedule_.keeps_from_scanning(tick_.command));
+}
+
+TEST_F(MapScheduleTest, AMapTakesTheFormationTimeAndKeepsTheRadarFromScanning) {
+  command_map();
+  ASSERT_TRUE(schedule_.forming());
+  EXPECT_TRUE(schedule_.keeps_from_scanning(tick_.command));
+  const double formation_s = schedule_.map().formation.seconds();
+  EXPECT_NEAR(ticks_until_done() * radar::kTickSeconds, formation_s, radar::kTickSeconds);
+  // k lambda R / (2 V rho sin 30), two looks, two strips of 2.5 degrees at 15 NM, slant range with the height in it.
+  const double slant_m = std::hypot(15.0 * 1852.0, 4572.0);
+  const double lambda_m = 299792458.0 / 9.6e9;
+  const double rho_m = 4.7 * 1852.0 / 480.0;
+  const double strips = std::ceil(4.7 * 1852.0 / (slant_m * 2.5 * geo::kRadiansPerDegree));
+  EXPECT_NEAR(formation_s, 2.0 * strips * 1.2 * lambda_m * slant_m / (2.0 * 246.933 * rho_m * 0.5), 0.01 * formation_s);
+}
+
+TEST_F(MapScheduleTest, ProgressAndTimeLeftArePublishedWhileItForms) {
+  command_map();
+  databuffer::ModelStatus status{};
+  schedule_.describe(tick_.tick, status);
+  EXPECT_NEAR(status.map_progress, 0.0, 1e-9);
+  EXPECT_NEAR(status.map_timer_s, schedule_.map().formation.seconds(), 2.0 * radar::kTickSeconds);
+  EXPECT_NEAR(status.map_window_nm, 4.7, 1e-6);
+  EXPECT_EQ(status.map_request, 1U);
+  EXPECT_EQ(status.map_newest, 0U);
+  const std::int64_t middle = (schedule_.map().start_tick + schedule_.map().end_tick) / 2;
+  schedule_.describe(middle, status);
+  EXPECT_NEAR(status.map_progress, 0.5, 0.02);
+  ticks_until_done();
+  schedule_.describe(tick_.tick, status);
+  EXPECT_EQ(status.map_newest, 1U);
+  EXPECT_EQ(status.map_done_request, 1U);
+  EXPECT_EQ(status.map_window_nm, 0.0);
+}
+
+TEST_F(MapScheduleTest, AnAnsweredCommandIsNotAnsweredTwice) {
+  command_map();
+  ticks_until_done();
+  step();
+  step();
+  EXPECT_FALSE(schedule_.forming());
+}
+
+TEST_F(MapScheduleTest, StabMapsTheSameGroundAgainAndProgTheSameBearingAndRange) {
+  command_map();
+  ticks_until_done();
+  show_patch();
+  pose_.place = geo::geodesic_direct(pose_.place, geo::Bearing::degrees(0.0), geo::Length::nautical_miles(2.0));
+  step();
+  ASSERT_TRUE(schedule_.forming());
+  EXPECT_NEAR(schedule_.map().order.centre.latitude_deg, tick_.command.map_latitude_deg, 1e-9);
+  ticks_until_done();
+  tick_.command.flags |= databuffer::kProgressive;
+  const double off_deg = schedule_.forming() ? 0.0 : 30.0;
+  step();
+  ASSERT_TRUE(schedule_.forming());
+  const auto way = geo::geodesic_inverse(pose_.place, schedule_.map().order.centre);
+  // The re-map two miles further on saw the ground under a wider angle, and PROG keeps that one.
+  EXPECT_GT(way.azimuth_at_start.degrees(), off_deg);
+  const auto before =
+      geo::geodesic_inverse(pose_.place, {tick_.command.map_latitude_deg, tick_.command.map_longitude_deg});
+  EXPECT_NEAR(way.azimuth_at_start.degrees(), before.azimuth_at_start.degrees(), 1e-6);
+  EXPECT_NEAR(way.distance.metres(), before.distance.metres(), 1e-3);
+}
+
+TEST_F(MapScheduleTest, AFrozenPatchIsNotMappedAgain) {
+  command_map();
+  ticks_until_done();
+  show_patch();
+  tick_.command.flags |= databuffer::kFreeze;
+  step();
+  EXPECT_FALSE(schedule_.forming());
+}
+
+TEST_F(MapScheduleTest, ACancelledMapIsGivenUp) {
+  command_map();
+  tick_.command.flags &= ~databuffer::kMapping;
+  step();
+  EXPECT_FALSE(schedule_.forming());
+}
+
+TEST_F(MapScheduleTest, AJumpOfPlaceStartsItAgain) {
+  command_map();
+  for (int i = 0; i < 50; ++i) step();
+  const std::int64_t before = schedule_.map().start_tick;
+  ++tick_.epoch;
+  pose_.place = place_at(180.0, 2.0);
+  step();
+  ASSERT_TRUE(schedule_.forming());
+  EXPECT_GT(schedule_.map().start_tick, before);
+  EXPECT_NEAR(schedule_.map().order.apex.latitude_deg, pose_.place.latitude_deg, 1e-12);
+}
+
+TEST_F(MapScheduleTest, APlaceUnderTheAircraftIsAnsweredWithoutAMap) {
+  tick_.command.map_latitude_deg = pose_.place.latitude_deg;
+  tick_.command.map_longitude_deg = pose_.place.longitude_deg;
+  command_map();
+  EXPECT_FALSE(schedule_.forming());
+  databuffer::ModelStatus status{};
+  schedule_.describe(tick_.tick, status);
+  EXPECT_EQ(status.map_done_request, 1U);
+  EXPECT_EQ(status.map_newest, 0U);
+}
+
+TEST_F(MapScheduleTest, NumbersThatAreNoneMakeNoMap) {
+  tick_.command.map_window_nm = NAN;
+  command_map();
+  EXPECT_FALSE(schedule_.forming());
+  tick_.command.map_window_nm = 4.7F;
+  tick_.command.map_latitude_deg = INFINITY;
+  command_map();
+  EXPECT_FALSE(schedule_.forming());
+}
+
+TEST_F(MapScheduleTest, ARestartedModelStartsTheMapOver) {
+  command_map();
+  databuffer::ModelStatus status{};
+  schedule_.describe(tick_.tick, status);
+  MapSchedule successor(configuration_);
+  successor.resume(status);
+  ++tick_.tick;
+  successor.step(tick_, pose_, kGround_m);
+  ASSERT_TRUE(successor.forming());
+  EXPECT_EQ(successor.map().start_tick, tick_.tick);
+}
+
+}  // namespace
+}  // namespace yars::model::kernel
