@@ -113,29 +113,28 @@ std::optional<Complaint> check_scene(const Draft& draft) {
 }
 
 FormSchema scene() {
-  return {.name = "Scene",
-          .purpose = "a polygonal scene on the earth",
-          .slots = {{.name = "file",
-                     .binding = PathSlot{YARS_FIELD(scene.file)},
-                     .purpose = "OpenFlight file, or a folder: each .flt in it"},
-                    latitude_slot(YARS_FIELD(scene.place.latitude_deg)),
-                    longitude_slot(YARS_FIELD(scene.place.longitude_deg)),
-                    number_slot("heading", "deg", -360, 360, {YARS_FIELD(scene.heading_deg)},
-                                "true, where the scene's north points; left out: 0"),
-                    {.name = "elevation",
-                     .binding = ChoiceSlot{kSceneHeights,
-                                           [](const Draft& draft) { return static_cast<int>(draft.scene.heights); },
-                                           [](Draft& draft, int index) {
-                                             draft.scene.heights = static_cast<radar::SceneHeights>(index);
-                                           }},
-                     .purpose = "ground: each object on the ground below it, flat things along it; anchor: all of it on "
-                                "the ground at its place; seaLevel: its heights are above mean sea level"}},
-          .part_of_value = true,
-          .begin = [](Draft& draft) { draft.scene = {}; },
-          .check = check_scene,
-          .end = [](Draft& draft) { draft.radar.world.scenes.push_back(draft.scene); },
-          .count = [](const Draft& draft) { return draft.radar.world.scenes.size(); },
-          .select = [](Draft& draft, std::size_t index) { draft.scene = draft.radar.world.scenes[index]; }};
+  return {
+      .name = "Scene",
+      .purpose = "a polygonal scene on the earth",
+      .slots = {{.name = "file",
+                 .binding = PathSlot{YARS_FIELD(scene.file)},
+                 .purpose = "OpenFlight file, or a folder: each .flt in it"},
+                latitude_slot(YARS_FIELD(scene.place.latitude_deg)),
+                longitude_slot(YARS_FIELD(scene.place.longitude_deg)),
+                number_slot("heading", "deg", -360, 360, {YARS_FIELD(scene.heading_deg)},
+                            "true, where the scene's north points; left out: 0"),
+                {.name = "elevation",
+                 .binding = ChoiceSlot{
+                     kSceneHeights, [](const Draft& draft) { return static_cast<int>(draft.scene.heights); },
+                     [](Draft& draft, int index) { draft.scene.heights = static_cast<radar::SceneHeights>(index); }},
+                 .purpose = "ground: each object on the ground below it, flat things along it; anchor: all of it on "
+                            "the ground at its place; seaLevel: its heights are above mean sea level"}},
+      .part_of_value = true,
+      .begin = [](Draft& draft) { draft.scene = {}; },
+      .check = check_scene,
+      .end = [](Draft& draft) { draft.radar.world.scenes.push_back(draft.scene); },
+      .count = [](const Draft& draft) { return draft.radar.world.scenes.size(); },
+      .select = [](Draft& draft, std::size_t index) { draft.scene = draft.radar.world.scenes[index]; }};
 }
 
 }  // namespace
@@ -162,7 +161,8 @@ std::vector<FormSchema> traffic_forms() {
        .purpose = "polygonal scenes; replaces earlier ones",
        .slots = {{.name = "scenes",
                   .binding = FormSlot{{"Scene"}, {"Scene"}, true},
-                  .purpose = "at most 1024 scenes; without a place: at the place in the file's name, or in its header"}},
+                  .purpose =
+                      "at most 1024 scenes; without a place: at the place in the file's name, or in its header"}},
        .begin = [](Draft& draft) { draft.radar.world.scenes.clear(); }},
       scene()};
 }
