@@ -258,6 +258,12 @@ TEST(Polygons, WithoutAreaGiveNoTriangle) {
   EXPECT_THAT(read(file).triangles, IsEmpty());
 }
 
+TEST(Files, ThatAreMissingAreRefusedByName) {
+  const auto model = read_openflight(std::filesystem::path("/nowhere/a.flt"));
+  ASSERT_FALSE(model);
+  EXPECT_THAT(model.error().message(), HasSubstr("/nowhere/a.flt: expected an OpenFlight file, found No such file"));
+}
+
 TEST(EveryRecord, IsReadTogether) {
   const auto model = read_openflight(every_record(), "every.flt");
   ASSERT_TRUE(model) << model.error().message();
