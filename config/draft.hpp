@@ -25,6 +25,7 @@ struct Draft {
   radar::RainCell rain_cell{};
   radar::Jammer jammer{};
   radar::Mover mover{};
+  radar::Scene scene{};
 };
 
 // A draft that stands for a finished configuration.

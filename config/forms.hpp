@@ -14,7 +14,7 @@ std::vector<FormSchema> database_forms();  // Database, DedDbase, MgDbase, Terra
 std::vector<FormSchema> model_forms();     // Fidelity, Receiver, Noise
 std::vector<FormSchema> route_forms();     // Route, Point
 std::vector<FormSchema> world_forms();     // Land, Materials, Material, Sea, Rain, RainCell
-std::vector<FormSchema> traffic_forms();   // Jammers, Jammer, Movers, Mover
+std::vector<FormSchema> traffic_forms();   // Jammers, Jammer, Movers, Mover, Scenes, Scene
 
 inline SlotSchema number_slot(std::string_view name, std::string_view unit, double lowest, double highest,
                               NumberSlot binding, std::string_view purpose) {

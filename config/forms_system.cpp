@@ -106,7 +106,8 @@ std::vector<SlotSchema> system_slots() {
        {.name = "sea", .binding = FormSlot{{"Sea"}, {"Sea"}}, .purpose = "what the sea returns"},
        {.name = "rain", .binding = FormSlot{{"Rain"}, {"Rain"}}, .purpose = "showers"},
        {.name = "jammers", .binding = FormSlot{{"Jammers"}, {"Jammers"}}, .purpose = "jammers"},
-       {.name = "movers", .binding = FormSlot{{"Movers"}, {"Movers"}}, .purpose = "ships and vehicles"}});
+       {.name = "movers", .binding = FormSlot{{"Movers"}, {"Movers"}}, .purpose = "ships and vehicles"},
+       {.name = "scenes", .binding = FormSlot{{"Scenes"}, {"Scenes"}}, .purpose = "polygonal scenes"}});
 }
 
 }  // namespace

@@ -100,6 +100,43 @@ FormSchema mover() {
           .select = [](Draft& draft, std::size_t index) { draft.mover = draft.radar.world.movers[index]; }};
 }
 
+constexpr std::array<std::string_view, 3> kSceneHeights{"ground", "anchor", "seaLevel"};  // radar::SceneHeights
+
+std::optional<Complaint> check_scene(const Draft& draft) {
+  if (draft.radar.world.scenes.size() >= radar::kMostScenes) {
+    return Complaint{"file", "at most " + std::to_string(radar::kMostScenes) + " scenes", "one more"};
+  }
+  const radar::Scene& scene = draft.scene;
+  if (scene.file.empty()) return Complaint{"file", "an OpenFlight file or a folder of them", "none"};
+  if (std::isnan(scene.place.latitude_deg) == std::isnan(scene.place.longitude_deg)) return std::nullopt;
+  return Complaint{"latitude", "latitude and longitude together, or neither", "one of them"};
+}
+
+FormSchema scene() {
+  return {
+      .name = "Scene",
+      .purpose = "a polygonal scene on the earth",
+      .slots = {{.name = "file",
+                 .binding = PathSlot{YARS_FIELD(scene.file)},
+                 .purpose = "OpenFlight file, or a folder: each .flt in it"},
+                latitude_slot(YARS_FIELD(scene.place.latitude_deg)),
+                longitude_slot(YARS_FIELD(scene.place.longitude_deg)),
+                number_slot("heading", "deg", -360, 360, {YARS_FIELD(scene.heading_deg)},
+                            "true, where the scene's north points; left out: 0"),
+                {.name = "elevation",
+                 .binding = ChoiceSlot{
+                     kSceneHeights, [](const Draft& draft) { return static_cast<int>(draft.scene.heights); },
+                     [](Draft& draft, int index) { draft.scene.heights = static_cast<radar::SceneHeights>(index); }},
+                 .purpose = "ground: each object on the ground below it, flat things along it; anchor: all of it on "
+                            "the ground at its place; seaLevel: its heights are above mean sea level"}},
+      .part_of_value = true,
+      .begin = [](Draft& draft) { draft.scene = {}; },
+      .check = check_scene,
+      .end = [](Draft& draft) { draft.radar.world.scenes.push_back(draft.scene); },
+      .count = [](const Draft& draft) { return draft.radar.world.scenes.size(); },
+      .select = [](Draft& draft, std::size_t index) { draft.scene = draft.radar.world.scenes[index]; }};
+}
+
 }  // namespace
 
 std::vector<FormSchema> traffic_forms() {
@@ -119,7 +156,15 @@ std::vector<FormSchema> traffic_forms() {
        .purpose = "ships and vehicles; replaces earlier ones",
        .slots = {{.name = "movers", .binding = FormSlot{{"Mover"}, {"Mover"}, true}, .purpose = "at most 64 movers"}},
        .begin = [](Draft& draft) { draft.radar.world.movers.clear(); }},
-      mover()};
+      mover(),
+      {.name = "Scenes",
+       .purpose = "polygonal scenes; replaces earlier ones",
+       .slots = {{.name = "scenes",
+                  .binding = FormSlot{{"Scene"}, {"Scene"}, true},
+                  .purpose =
+                      "at most 1024 scenes; without a place: at the place in the file's name, or in its header"}},
+       .begin = [](Draft& draft) { draft.radar.world.scenes.clear(); }},
+      scene()};
 }
 
 }  // namespace yars::config

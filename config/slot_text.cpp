@@ -38,7 +38,9 @@ struct Writer {
   }
   std::string operator()(const TextSlot& kind) const { return kind.of ? quoted_text(kind.of(draft)) : ""; }
   std::string operator()(const PathSlot& kind) const { return kind.of ? quoted_text(kind.of(draft)) : ""; }
-  std::string operator()(const AngleSlot& kind) const { return kind.of ? number_text(kind.of(draft)) : ""; }
+  std::string operator()(const AngleSlot& kind) const {
+    return kind.of == nullptr || std::isnan(kind.of(draft)) ? std::string() : number_text(kind.of(draft));
+  }
   std::string operator()(const ChoiceSlot& kind) const {
     const int index = kind.get ? kind.get(draft) : -1;
     return index < 0 ? std::string() : std::string(kind.words[static_cast<std::size_t>(index)]);

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/radar/world.hpp"
-#include "model/scene/color_palette.hpp"
-#include "model/scene/kind_table.hpp"
 #include "model/scene/mesh_record.hpp"
 #include "model/scene/openflight_format.hpp"
 #include "model/scene/openflight_header.hpp"
 #include "model/scene/record_stream.hpp"
+#include "model/scene/surface_reader.hpp"
+#include "model/scene/vertex_palette.hpp"
 
 namespace yars::model::scene {
 
@@ -33,6 +32,7 @@ class TreeParser {
     const auto header = parse_header(bytes_, subject_);
     if (!header) return tl::unexpected(header.error());
     tree_.header = *header;
+    surfaces_.set_revision(header->revision);
     tree_.nodes.emplace_back();
     current_.node = 0;
     for (;;) {
@@ -43,11 +43,12 @@ class TreeParser {
     }
     if (!levels_.empty())
       tree_.warnings.emplace_back("the file ends inside " + std::to_string(levels_.size()) + " open levels");
-    if (foreign_codes_ > 0)
-      tree_.warnings.emplace_back("faces with a surface material code beyond 31: " + std::to_string(foreign_codes_) +
-                                  "; they count as without one");
-    tree_.counts.materials = colors_.materials();
-    tree_.kinds = kinds_.kinds();
+    if (surfaces_.foreign_codes() > 0)
+      tree_.warnings.emplace_back("faces with a surface material code beyond 31: " +
+                                  std::to_string(surfaces_.foreign_codes()) + "; they count as without one");
+    tree_.counts.materials = surfaces_.colors().materials();
+    tree_.counts.hidden_faces = surfaces_.hidden_faces();
+    tree_.kinds = surfaces_.kinds();
     return std::move(tree_);
   }
 
@@ -71,10 +72,10 @@ class TreeParser {
         subface_level_ = std::max(0, subface_level_ - 1);
         return pop();
       case kColorPalette:
-        colors_.read_colors(record, tree_.header.revision);
+        surfaces_.colors().read_colors(record, tree_.header.revision);
         return {};
       case kMaterial:
-        colors_.read_material(record);
+        surfaces_.colors().read_material(record);
         return {};
       case kFace:
         return add_face(record);
@@ -85,7 +86,7 @@ class TreeParser {
       case kMeshPrimitive:
         return add_primitive(record);
       case kVertexPalette:
-        palette_start_ = record.start();
+        palette_.begin(record);
         return {};
       case kVertexColor:
       case kVertexColorNormal:
@@ -299,29 +300,6 @@ class TreeParser {
 
   // ---- surfaces
 
-  // The face whose properties a face or mesh record gives, its corners still to come; nothing when it is no surface.
-  std::optional<TreeFace> surface_of(const Record& record, std::size_t shift) {
-    const auto draw_type = record.number_or<std::uint8_t>(face::kDrawType + shift, face::kSolidOneSided);
-    const auto flags = record.number_or<std::uint32_t>(face::kFlags + shift, 0);
-    if ((flags & face::kHidden) != 0) {
-      ++tree_.counts.hidden_faces;
-      return std::nullopt;
-    }
-    if (draw_type != face::kSolidOneSided && draw_type != face::kSolidTwoSided && draw_type != face::kSurround)
-      return std::nullopt;
-    SurfaceKind kind;
-    const int code = record.number_or<std::int16_t>(face::kSurfaceMaterial + shift, 0);
-    if (code > 0 && code < radar::kMaterials) kind.material = static_cast<std::uint8_t>(code);
-    foreign_codes_ += code >= radar::kMaterials ? 1 : 0;
-    kind.feature_id = record.number_or<std::uint16_t>(face::kFeatureId + shift, 0);
-    kind.color_rgb = colors_.color_of(record, shift, tree_.header.revision);
-    TreeFace found;
-    found.kind = kinds_.number_of(kind);
-    found.two_sided = draw_type == face::kSolidTwoSided;
-    found.subface_level = static_cast<std::uint8_t>(std::min(subface_level_, 255));
-    return found;
-  }
-
   Done append_face(TreeFace face, std::uint32_t node) {
     if (tree_.faces.size() >= kMostFaces) return too_many(kMostFaces, "faces");
     const auto number = static_cast<std::uint32_t>(tree_.faces.size());
@@ -340,7 +318,7 @@ class TreeParser {
     ++tree_.counts.faces;
     current_ = {.node = parent().node};
     if (current_.node == kNone) return {};
-    const std::optional<TreeFace> face = surface_of(record, 0);
+    const std::optional<TreeFace> face = surfaces_.of(record, 0, subface_level_);
     if (!face) {
       current_.node = kNone;  // what is below it belongs to nothing
       return {};
@@ -351,15 +329,7 @@ class TreeParser {
 
   Done add_vertex(const Record& record) {
     if (tree_.vertices.size() >= kMostVertices) return too_many(kMostVertices, "vertices");
-    TreeVertex made;
-    made.place = tree_.header.metres_per_unit * Vector3{record.number_or<double>(vertex::kX, 0.0),
-                                                        record.number_or<double>(vertex::kY, 0.0),
-                                                        record.number_or<double>(vertex::kZ, 0.0)};
-    if (record.opcode() == kVertexColorNormal || record.opcode() == kVertexColorNormalTexture)
-      for (std::size_t i = 0; i < 3; ++i) made.normal[i] = record.number_or<float>(vertex::kNormal + 4 * i, 0.0F);
-    palette_offsets_.push_back(record.start() - palette_start_);
-    palette_vertices_.push_back(static_cast<std::uint32_t>(tree_.vertices.size()));
-    tree_.vertices.push_back(made);
+    palette_.add(record, tree_.header.metres_per_unit, tree_.vertices);
     ++tree_.counts.vertices;
     return {};
   }
@@ -374,16 +344,11 @@ class TreeParser {
     if (face.count > 0) return {};
     face.first_corner = static_cast<std::uint32_t>(tree_.corners.size());
     face.count = static_cast<std::uint32_t>(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t offset = *record.number<std::uint32_t>(4 + 4 * i);
-      const auto found = std::lower_bound(palette_offsets_.begin(), palette_offsets_.end(), offset);
-      if (found == palette_offsets_.end() || *found != offset)
-        return failure::fail(
-            subject_, "corners that are vertices of the palette",
-            "offset " + std::to_string(offset) + " in the vertex list at byte " + std::to_string(record.start()),
-            "the file is damaged; fetch it again");
-      tree_.corners.push_back(palette_vertices_[static_cast<std::size_t>(found - palette_offsets_.begin())]);
-    }
+    if (const auto strange = palette_.find_corners(record, tree_.corners))
+      return failure::fail(
+          subject_, "corners that are vertices of the palette",
+          "offset " + std::to_string(*strange) + " in the vertex list at byte " + std::to_string(record.start()),
+          "the file is damaged; fetch it again");
     return {};
   }
 
@@ -392,7 +357,7 @@ class TreeParser {
   Done add_mesh(const Record& record) {
     ++tree_.counts.meshes;
     current_ = {.node = parent().node};
-    const std::optional<TreeFace> surface = surface_of(record, face::kMeshShift);
+    const std::optional<TreeFace> surface = surfaces_.of(record, face::kMeshShift, subface_level_);
     meshes_.push_back({.surface = surface.value_or(TreeFace{}), .visible = surface && current_.node != kNone});
     const int mesh = static_cast<int>(meshes_.size()) - 1;
     // A node of its own: its primitives come behind a push, a matrix before it.
@@ -450,19 +415,15 @@ class TreeParser {
   std::string subject_;
   RecordStream stream_;
   NodeTree tree_;
-  ColorPalette colors_;
-  KindTable kinds_;
+  SurfaceReader surfaces_;
+  VertexPalette palette_;
   std::vector<Level> levels_;
   Level root_{.node = 0};
   Level current_;
   std::uint32_t face_before_ = kNone;  // the newest face's elder sibling
   int skipped_ = 0;                    // depth of extensions and attributes
   int subface_level_ = 0;
-  std::size_t palette_start_ = 0;
-  std::vector<std::size_t> palette_offsets_;  // of vertices, ascending
-  std::vector<std::uint32_t> palette_vertices_;
   std::vector<MeshState> meshes_;
-  std::uint64_t foreign_codes_ = 0;
 };
 
 }  // namespace

@@ -16,6 +16,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The first `most` bytes of a file.
+failure::Expected<std::vector<std::byte>> read_bytes(const fs::path& path, std::uintmax_t most) {
+  std::error_code code;
+  if (!fs::is_regular_file(path, code))
+    return failure::fail(path.string(), "an OpenFlight file", code ? code.message() : "not a plain file",
+                         "give the path of a .flt file");
+  const std::uintmax_t size = fs::file_size(path, code);
+  if (code) return failure::fail(path.string(), "a readable file", code.message());
+  if (size > kLargestFile)
+    return failure::fail(path.string(), "at most " + std::to_string(kLargestFile) + " bytes",
+                         std::to_string(size) + " bytes", "split the scene into several files");
+  return terrain::read_file_part(path, 0, std::min(size, most));
+}
+
 void add_counts(FileCounts& sum, const FileCounts& more) {
   sum.vertices += more.vertices;
   sum.faces += more.faces;
@@ -64,7 +78,7 @@ class FileSet {
   failure::Expected<Model> read_now(const fs::path& path) {
     const std::string subject = path.string();
     failure::Expected<NodeTree> tree = [&]() -> failure::Expected<NodeTree> {
-      const auto bytes = terrain::read_file(path, kLargestFile);
+      const auto bytes = read_bytes(path, kLargestFile);
       if (!bytes) return tl::unexpected(bytes.error());
       return parse_openflight(*bytes, subject);
     }();
@@ -125,9 +139,7 @@ failure::Expected<Model> read_openflight(std::span<const std::byte> bytes, const
 }
 
 failure::Expected<Header> read_openflight_header(const fs::path& path) {
-  const auto length = terrain::file_length(path);
-  if (!length) return tl::unexpected(length.error());
-  const auto bytes = terrain::read_file_part(path, 0, std::min<std::uintmax_t>(*length, openflight::header::kBytes));
+  const auto bytes = read_bytes(path, openflight::header::kBytes);
   if (!bytes) return tl::unexpected(bytes.error());
   return parse_header(*bytes, path.string());
 }

@@ -68,10 +68,10 @@ void Sketch::gable(Vector3 eaves, double east_m, double north_m, double rise_m, 
 }
 
 void Sketch::turned(Vector3 from, Vector3 axis, const std::vector<TurnedPoint>& profile, int sides) {
-  const auto [u, v] = across(axis);
+  const std::pair<Vector3, Vector3> sideways = across(axis);
   const auto around = [&](int side) {
     const double angle = 2 * std::numbers::pi * (side % sides) / sides;
-    return std::cos(angle) * u + std::sin(angle) * v;
+    return std::cos(angle) * sideways.first + std::sin(angle) * sideways.second;
   };
   const auto at = [&](TurnedPoint point, int side) {
     return from + point.along_m * axis + point.radius_m * around(side);

@@ -159,6 +159,8 @@ class RandomConfiguration {
                                       number(0, 1e9)});
       made.movers.push_back({"M", place(), number(0, 1000) * (1852.0 / 3600.0), number(0, 360), number(0, 1e7),
                              number(0, 1000) * 0.3048});
+      made.scenes.push_back({"/s.flt", coin() ? place() : radar::Scene{}.place, number(-360, 360),
+                             static_cast<radar::SceneHeights>(random_() % 3)});
     }
     return made;
   }

@@ -75,6 +75,12 @@ inline auto fields(const radar::Mover& mover) {
   return std::tuple(name, latitude, longitude, speed, heading, section, height);
 }
 
+inline auto fields(const radar::Scene& scene) {
+  const auto& [file, place, heading, heights] = scene;
+  const auto& [latitude, longitude] = place;
+  return std::tuple(file, comparable(latitude), comparable(longitude), heading, heights);
+}
+
 template <class Record>
 auto fields_of_all(const std::vector<Record>& records) {
   std::vector<decltype(fields(records[0]))> all;
@@ -84,7 +90,7 @@ auto fields_of_all(const std::vector<Record>& records) {
 }
 
 inline auto fields(const radar::WorldConfiguration& world) {
-  const auto& [land, sea, rain, jamming, movers] = world;
+  const auto& [land, sea, rain, jamming, movers, scenes] = world;
   const auto& [slope, reference, street, land_texture, materials] = land;
   const auto& [state, wind, from, polarization, horizontal, vertical, factor, sea_texture] = sea;
   const auto& [a, b, dielectric, k, exponent, cells] = rain;
@@ -92,7 +98,8 @@ inline auto fields(const radar::WorldConfiguration& world) {
   return std::tuple(std::tuple(slope, reference, street, land_texture, fields_of_all(materials)),
                     std::tuple(comparable(state), wind, from, polarization, horizontal, vertical, factor, sea_texture),
                     std::tuple(a, b, dielectric, k, exponent, fields_of_all(cells)),
-                    std::tuple(radar_power, sidelobes, fields_of_all(jammers)), fields_of_all(movers));
+                    std::tuple(radar_power, sidelobes, fields_of_all(jammers)), fields_of_all(movers),
+                    fields_of_all(scenes));
 }
 
 inline auto fields(const radar::RadarConfiguration& configuration) {

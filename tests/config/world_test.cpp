@@ -97,15 +97,34 @@ TEST(Movers, HaveAPlaceASpeedAndAHeading) {
   EXPECT_THAT(refusal("( Movers `( ( Mover :name \"x\" ) ) )"), HasSubstr("expected a latitude"));
 }
 
+TEST(Scenes, HaveAFileAndByChanceAPlaceAHeadingAndAnElevation) {
+  const auto scenes =
+      loaded(
+          "( Scenes `( ( Scene \"/data/a.flt\" ) ( Scene \"/data/b.flt\" 37.5 ( lat-long W 122 30 0 ) 45 "
+          "seaLevel ) ) )")
+          .radar.world.scenes;
+  ASSERT_EQ(scenes.size(), 2U);
+  EXPECT_EQ(scenes[0].file, "/data/a.flt");
+  EXPECT_TRUE(std::isnan(scenes[0].place.latitude_deg));
+  EXPECT_EQ(scenes[0].heights, radar::SceneHeights::ground);
+  EXPECT_EQ(scenes[1].place.longitude_deg, -122.5);
+  EXPECT_EQ(scenes[1].heading_deg, 45);
+  EXPECT_EQ(scenes[1].heights, radar::SceneHeights::sea_level);
+  EXPECT_THAT(refusal("( Scenes `( ( Scene :latitude 1 :longitude 2 ) ) )"), HasSubstr("expected an OpenFlight file"));
+  EXPECT_THAT(refusal("( Scenes `( ( Scene \"a.flt\" :latitude 1 ) ) )"), HasSubstr("together, or neither"));
+}
+
 TEST(World, IsReadFromTheSlotsOfTheRadarWithoutWarning) {
   const auto configuration = loaded(
       "( Apg70 :sea ( Sea :state 1 ) :land ( Land :texture 5 ) :rain ( Rain :cells `( ( RainCell 1 2 ) ) )\n"
-      ":jammers ( Jammers :sidelobes -40 ) :movers ( Movers `( ( Mover \"m\" 1 2 ) ) ) )");
+      ":jammers ( Jammers :sidelobes -40 ) :movers ( Movers `( ( Mover \"m\" 1 2 ) ) )\n"
+      ":scenes ( Scenes `( ( Scene \"a.flt\" ) ) ) )");
   EXPECT_THAT(configuration.warnings, IsEmpty());
   EXPECT_EQ(configuration.radar.world.sea.state, 1.0);
   EXPECT_EQ(configuration.radar.world.land.texture, 5.0);
   EXPECT_EQ(configuration.radar.world.jamming.sidelobe_db, -40.0);
   EXPECT_EQ(configuration.radar.world.movers.size(), 1U);
+  EXPECT_EQ(configuration.radar.world.scenes.size(), 1U);
 }
 
 }  // namespace

@@ -1,0 +1,73 @@
+// What the generators make.
+#include "model/scene/generator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "tests/scene/support.hpp"
+
+namespace yars::model::scene {
+namespace {
+
+constexpr geo::GeoPoint kOrigin{36.2, -115.0};
+constexpr std::array<GeneratedKind, 4> kKinds{GeneratedKind::airfield, GeneratedKind::harbour, GeneratedKind::bridge,
+                                              GeneratedKind::town};
+
+Model model_of(const SceneOrder& order) {
+  auto model = read_openflight(generate_scene(order).file, "made.flt");
+  EXPECT_TRUE(model) << (model ? "" : model.error().message());
+  return model ? std::move(*model) : Model{};
+}
+
+TEST(Generator, MakesTheSameFileForTheSameOrder) {
+  for (const GeneratedKind kind : kKinds) {
+    const SceneOrder order{.kind = kind, .triangles = 15'000, .seed = 3, .origin = kOrigin};
+    EXPECT_EQ(generate_scene(order).file, generate_scene(order).file);
+    SceneOrder other = order;
+    other.seed = 4;
+    EXPECT_NE(generate_scene(order).file, generate_scene(other).file);
+  }
+}
+
+TEST(Generator, MakesAboutAsManyTrianglesAsOrderedAndSaysHowMany) {
+  for (const GeneratedKind kind : kKinds) {
+    const SceneOrder order{.kind = kind, .triangles = 60'000, .seed = 1, .origin = kOrigin};
+    const GeneratedScene made = generate_scene(order);
+    const auto model = read_openflight(made.file, "made.flt");
+    ASSERT_TRUE(model);
+    EXPECT_NEAR(static_cast<double>(made.triangles), 60'000, 6'000);
+    EXPECT_NEAR(static_cast<double>(model->triangles.size()), static_cast<double>(made.triangles), 20);
+  }
+}
+
+TEST(Generator, GivesEveryFaceAMaterialAndStaysWithinItsHeader) {
+  for (const GeneratedKind kind : kKinds) {
+    const Model model = model_of({.kind = kind, .triangles = 30'000, .seed = 2, .origin = kOrigin});
+    for (const SurfaceKind& surface : model.kinds) EXPECT_NE(surface.material, 0);
+    ASSERT_TRUE(model.header.south_west && model.header.north_east && model.header.origin);
+    const double reach_m = geo::geodesic_inverse(*model.header.origin, *model.header.north_east).distance.metres();
+    for (std::uint32_t i = 0; i < model.vertices.size(); ++i)
+      EXPECT_LT(std::hypot(place_of(model, i).x, place_of(model, i).y), reach_m);
+  }
+}
+
+TEST(Generator, MakesAnAirfieldOfHangarsRunwayTanksAircraftFencesAndRevetments) {
+  const Model model = model_of({.triangles = 20'000, .seed = 1, .origin = kOrigin});
+  std::map<std::string, int> names;
+  for (const std::string& name : model.objects) ++names[name];
+  for (const char* name : {"runway", "taxiway", "apron", "hangar1", "tower", "tank1", "fighter", "transport", "truck",
+                           "tanker", "fence", "embankment", "revetment"})
+    EXPECT_GT(names[name], 0) << name;
+  EXPECT_EQ(names["fighter_far"], 0);
+}
+
+TEST(Generator, MakesATownOfAMillionTrianglesInSomeMegabytes) {
+  const GeneratedScene made =
+      generate_scene({.kind = GeneratedKind::town, .triangles = 1'000'000, .seed = 1, .origin = kOrigin});
+  EXPECT_LT(made.file.size(), 16U << 20U);
+  EXPECT_GE(made.triangles, 1'000'000U);
+}
+
+}  // namespace
+}  // namespace yars::model::scene

@@ -1,0 +1,324 @@
+// The reader: what nodes do to what is below them, meshes, external files.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "model/scene/generator_yard.hpp"
+#include "model/scene/openflight_parser.hpp"
+#include "model/scene/record_stream.hpp"
+#include "model/scene/triangulation.hpp"
+#include "model/terrain/cell_reading.hpp"
+#include "tests/scene/every_record.hpp"
+#include "tests/terrain/shared_data.hpp"
+
+namespace yars::model::scene {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Model read(ByteFile& file) {
+  auto model = read_openflight(file.bytes(), "test.flt");
+  EXPECT_TRUE(model) << (model ? "" : model.error().message());
+  return model ? std::move(*model) : Model{};
+}
+
+std::string refusal(ByteFile& file) {
+  const auto model = read_openflight(file.bytes(), "test.flt");
+  EXPECT_FALSE(model);
+  return model ? "" : model.error().message();
+}
+
+// A square of 10 m about which files of bytes are built.
+const std::vector<Vector3> kSquare{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}};
+
+TEST(Subfaces, LieJustBeforeTheirFace) {
+  OpenFlightWriter writer(std::nullopt);
+  writer.face(square(0, 0, 10), kTestKind);
+  writer.begin_subfaces();
+  writer.face(square(2, 2, 3), {6, 0, 0});
+  writer.end_subfaces();
+  const Model model = scene::read(writer);
+  ASSERT_EQ(model.vertices.size(), 8U);
+  EXPECT_NEAR(place_of(model, 0).z, 0.0, 1e-7);
+  EXPECT_NEAR(place_of(model, 4).z, 0.02, 1e-6);
+}
+
+TEST(Matrices, ApplyToTheNodeBeforeThem) {
+  // Quarter turn about up, then 100 east: (10, 0) goes to (100, 10).
+  OpenFlightWriter writer(std::nullopt);
+  const Affine matrix = Affine::turn_about_up(M_PI / 2) * Affine::translation({100, 0, 0});
+  writer.begin_group("turned", &matrix);
+  writer.face(square(0, 0, 10), kTestKind);
+  writer.end();
+  const Model model = scene::read(writer);
+  EXPECT_NEAR(place_of(model, 1).x, 100, 1e-4);
+  EXPECT_NEAR(place_of(model, 1).y, 10, 1e-4);
+}
+
+TEST(Matrices, OfInnerNodesComeBeforeThoseOfOuterOnes) {
+  OpenFlightWriter writer(std::nullopt);
+  const Affine outer = Affine::turn_about_up(M_PI / 2), inner = Affine::translation({100, 0, 0});
+  writer.begin_group("outer", &outer);
+  writer.begin_group("inner", &inner);
+  writer.face(square(0, 0, 10), kTestKind);
+  writer.end();
+  writer.end();
+  const Model model = scene::read(writer);
+  EXPECT_NEAR(place_of(model, 0).x, 0, 1e-4);
+  EXPECT_NEAR(place_of(model, 0).y, 100, 1e-4);
+}
+
+TEST(Matrices, ThatMirrorKeepOutsideOutside) {
+  OpenFlightWriter writer(std::nullopt);
+  Sketch sketch(writer);
+  const Affine mirror = Affine::scale({-1, 2, 1});
+  writer.begin_group("mirrored", &mirror);
+  sketch.box({5, 5, 0}, 4, 4, 4);
+  writer.end();
+  const Model model = scene::read(writer);
+  const Vector3 middle{-5, 10, 1};
+  for (const ModelTriangle& triangle : model.triangles) {
+    const Vector3 outwards = place_of(model, triangle.corners[0]) - middle;
+    EXPECT_GT(dot(area_of(model, triangle), outwards), 0.0);
+    EXPECT_GT(dot(normal_of(model, triangle.corners[0]), outwards), 0.0);
+  }
+}
+
+TEST(Matrices, OfAFaceMoveThatFaceAlone) {
+  ByteFile file;
+  file.palette(kSquare);
+  file.push();
+  file.polygon({0, 1, 2, 3});
+  file.face();
+  file.matrix(Affine::translation({0, 0, 50}));
+  file.push();
+  file.corners({0, 1, 2, 3});
+  file.pop();
+  file.polygon({0, 1, 2, 3});
+  file.pop();
+  const Model model = read(file);
+  ASSERT_EQ(model.vertices.size(), 12U);
+  int high = 0;
+  for (std::uint32_t i = 0; i < 12; ++i) high += place_of(model, i).z > 49 ? 1 : 0;
+  EXPECT_EQ(high, 4);
+}
+
+TEST(Matrices, OfNumbersThatAreNoneAreRefused) {
+  ByteFile file;
+  file.group("a");
+  file.matrix(Affine::translation({std::nan(""), 0, 0}));
+  EXPECT_THAT(refusal(file), HasSubstr("expected a matrix of finite numbers"));
+}
+
+TEST(Replication, ShowsTheNodeAndSoManyMoreEachFartherOn) {
+  ByteFile file;
+  file.palette(kSquare);
+  file.push();
+  file.group("row");
+  file.matrix(Affine::translation({20, 0, 0}));
+  file.replicate(3);
+  file.push();
+  file.polygon({0, 1, 2, 3});
+  file.pop();
+  file.pop();
+  const Model model = read(file);
+  ASSERT_EQ(model.polygons, 4U);
+  for (std::uint32_t copy = 0; copy < 4; ++copy) EXPECT_NEAR(place_of(model, 4 * copy).x, 20.0 * copy, 1e-4);
+}
+
+TEST(Instances, ShowTheirDefinitionWhereTheyAre) {
+  OpenFlightWriter writer(std::nullopt);
+  writer.begin_definition(5);
+  writer.begin_object("thing");
+  writer.face(square(0, 0, 10), kTestKind);
+  writer.end();
+  writer.end();
+  writer.instance(5, Affine::translation({100, 0, 0}));
+  writer.instance(5, Affine::translation({200, 0, 0}));
+  const Model model = scene::read(writer);
+  EXPECT_EQ(model.polygons, 2U);
+  EXPECT_EQ(model.counts.faces, 1U);
+  EXPECT_THAT(model.objects, ElementsAre("", "thing", "thing"));
+  EXPECT_NEAR(place_of(model, 4).x, 200, 1e-4);
+}
+
+TEST(Instances, ThatContainThemselvesAreRefused) {
+  ByteFile file;
+  file.push();
+  file.instance_definition(1);
+  file.push();
+  file.instance(1);
+  file.pop();
+  file.instance(1);
+  file.pop();
+  EXPECT_THAT(refusal(file), HasSubstr("deep"));
+}
+
+TEST(Instances, ThatMultiplyWithoutBoundAreRefused) {
+  // Each definition shows the next one ten times: 10^9 squares.
+  ByteFile file;
+  file.palette(kSquare);
+  file.push();
+  for (std::uint16_t number = 1; number <= 9; ++number) {
+    file.instance_definition(number);
+    file.push();
+    for (int i = 0; i < 10; ++i) file.instance(static_cast<std::uint16_t>(number + 1));
+    file.pop();
+  }
+  file.instance_definition(10);
+  file.push();
+  file.polygon({0, 1, 2, 3});
+  file.pop();
+  file.instance(1);
+  file.pop();
+  const auto model =
+      read_openflight(file.bytes(), "test.flt", {.triangles = 10'000, .vertices = 30'000, .visits = 100'000});
+  ASSERT_FALSE(model);
+  EXPECT_THAT(model.error().message(), HasSubstr("expected at most"));
+}
+
+TEST(Instances, OfNoDefinitionAreAWarning) {
+  ByteFile file;
+  file.push();
+  file.instance(9);
+  file.pop();
+  EXPECT_THAT(read(file).warnings, ElementsAre(HasSubstr("definition 9")));
+}
+
+TEST(LevelsOfDetail, TheFinestIsShown) {
+  OpenFlightWriter writer(std::nullopt);
+  writer.begin_level_of_detail("far", 10'000, 1000, {});
+  writer.face(square(0, 0, 10), {1, 0, 0});
+  writer.end();
+  writer.begin_level_of_detail("near", 1000, 0, {});
+  writer.face(square(0, 0, 10), {2, 0, 0});
+  writer.end();
+  const Model model = scene::read(writer);
+  ASSERT_EQ(model.polygons, 1U);
+  EXPECT_EQ(model.kinds[model.triangles[0].kind].material, 2);
+  EXPECT_EQ(model.counts.faces, 2U);
+}
+
+TEST(Switches, ShowWhatTheirMaskHas) {
+  OpenFlightWriter writer(std::nullopt);
+  writer.begin_switch("s", 0b10);
+  for (const std::uint8_t material : {std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{3}}) {
+    writer.begin_group("child");
+    writer.face(square(0, 0, 10), {material, 0, 0});
+    writer.end();
+  }
+  writer.end();
+  const Model model = scene::read(writer);
+  ASSERT_EQ(model.polygons, 1U);
+  EXPECT_EQ(model.kinds[model.triangles[0].kind].material, 2);
+}
+
+TEST(Meshes, StripsFansQuadrilateralsAndPolygonsTurnTheSameWay) {
+  const std::vector<std::pair<std::int16_t, std::vector<std::uint16_t>>> primitives{
+      {1, {0, 1, 2, 3, 4, 5}}, {2, {0, 1, 3, 2}}, {3, {0, 1, 2, 3, 4, 5}}, {4, {0, 1, 3, 5, 4, 2}}};
+  const std::vector<double> areas_m2{2, 1, 2, 2};
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
+    ByteFile file;
+    file.push();
+    file.mesh(7);
+    file.pool({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 2, 0}, {1, 2, 0}}, true);
+    file.push();
+    file.primitive(primitives[i].first, primitives[i].second);
+    file.pop();
+    file.pop();
+    const Model model = read(file);
+    EXPECT_NEAR(total_area_m2(model), areas_m2[i], 1e-6) << "primitive " << primitives[i].first;
+    for (const ModelTriangle& triangle : model.triangles) EXPECT_GT(area_of(model, triangle).z, 0.0);
+    EXPECT_EQ(model.kinds[0].material, 7);
+    EXPECT_EQ(model.counts.vertices, 6U);
+    EXPECT_EQ(model.counts.faces, 1U);
+  }
+}
+
+TEST(Meshes, IndicesOutsideThePoolAreRefused) {
+  ByteFile file;
+  file.push();
+  file.mesh(1);
+  file.pool({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  file.push();
+  file.primitive(4, {0, 1, 3});
+  EXPECT_THAT(refusal(file), HasSubstr("expected indices below 3"));
+}
+
+TEST(Levels, MorePopsThanPushesAreRefused) {
+  ByteFile file;
+  file.push();
+  file.pop();
+  file.pop();
+  EXPECT_THAT(refusal(file), HasSubstr("one pop more"));
+}
+
+TEST(Levels, TooManyAreRefused) {
+  ByteFile file;
+  for (std::size_t i = 0; i <= kDeepestPush; ++i) file.push();
+  EXPECT_THAT(refusal(file), HasSubstr("levels of records"));
+}
+
+TEST(Levels, ExtensionsAreSkippedWithAllThatIsInThem) {
+  ByteFile file;
+  file.palette(kSquare);
+  file.push();
+  file.plain(openflight::kPushExtension);
+  file.polygon({0, 1, 2, 3});
+  file.plain(openflight::kPopExtension);
+  file.pop();
+  EXPECT_THAT(read(file).triangles, IsEmpty());
+}
+
+TEST(ExternalFiles, AreReadBesideTheirFileInItsUnitsAndMoved) {
+  const Folder folder;
+  ByteFile child(1600, 4);  // feet
+  child.palette(kSquare);
+  child.push();
+  child.polygon({0, 1, 2, 3}, 9);
+  child.pop();
+  folder.write("parts/child.flt", child.bytes());
+  OpenFlightWriter parent(std::nullopt);
+  parent.external("parts\\child.flt", Affine::translation({100, 0, 0}));
+  parent.external("parts/child.flt<all>", Affine::translation({200, 0, 0}));
+  const auto model = read_openflight(folder.write("parent.flt", parent.take()));
+  ASSERT_TRUE(model) << model.error().message();
+  EXPECT_EQ(model->polygons, 2U);
+  EXPECT_EQ(model->files.size(), 1U);
+  EXPECT_EQ(model->counts.external_references, 2U);
+  EXPECT_NEAR(place_of(*model, 1).x, 103.048, 1e-4);
+  EXPECT_NEAR(place_of(*model, 4).x, 200, 1e-4);
+}
+
+TEST(ExternalFiles, ThatLeadBackAreLeftOut) {
+  const Folder folder;
+  OpenFlightWriter a(std::nullopt), b(std::nullopt);
+  a.face(square(0, 0, 1), kTestKind);
+  a.external("b.flt", {});
+  b.face(square(0, 0, 1), kTestKind);
+  b.external("a.flt", {});
+  const auto first = folder.write("a.flt", a.take());
+  folder.write("b.flt", b.take());
+  const auto model = read_openflight(first);
+  ASSERT_TRUE(model);
+  EXPECT_EQ(model->polygons, 2U);
+  EXPECT_THAT(model->warnings, ElementsAre(HasSubstr("leads back to itself")));
+}
+
+TEST(ExternalFiles, OutsideTheFolderAndMissingOnesAreLeftOut) {
+  const Folder folder;
+  OpenFlightWriter inner(std::nullopt), outer(std::nullopt);
+  outer.face(square(0, 0, 1), kTestKind);
+  folder.write("outer.flt", outer.take());
+  inner.external("../outer.flt", {});
+  inner.external("nowhere.flt", {});
+  const auto model = read_openflight(folder.write("sub/inner.flt", inner.take()));
+  ASSERT_TRUE(model);
+  EXPECT_THAT(model->triangles, IsEmpty());
+  EXPECT_THAT(model->warnings, ElementsAre(HasSubstr("outside the folder"), HasSubstr("is not there")));
+}
+
+}  // namespace
+}  // namespace yars::model::scene

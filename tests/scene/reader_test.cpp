@@ -1,0 +1,284 @@
+// The reader: records, header, faces, polygons.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+#include "model/scene/generator_yard.hpp"
+#include "model/scene/openflight_parser.hpp"
+#include "model/scene/record_stream.hpp"
+#include "model/scene/triangulation.hpp"
+#include "model/terrain/cell_reading.hpp"
+#include "tests/scene/every_record.hpp"
+#include "tests/terrain/shared_data.hpp"
+
+namespace yars::model::scene {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Model read(ByteFile& file) {
+  auto model = read_openflight(file.bytes(), "test.flt");
+  EXPECT_TRUE(model) << (model ? "" : model.error().message());
+  return model ? std::move(*model) : Model{};
+}
+
+std::string refusal(ByteFile& file) {
+  const auto model = read_openflight(file.bytes(), "test.flt");
+  EXPECT_FALSE(model);
+  return model ? "" : model.error().message();
+}
+
+// A square of 10 m about which files of bytes are built.
+const std::vector<Vector3> kSquare{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}};
+
+TEST(Records, FieldsPastTheEndAreAbsent) {
+  RecordBuilder builder;
+  builder.begin(5, 10);
+  builder.put<std::int16_t>(8, -7);
+  const auto record = record_at(builder.bytes(), 0);
+  ASSERT_TRUE(record);
+  EXPECT_EQ(record->number<std::int16_t>(8), -7);
+  EXPECT_FALSE(record->number<std::int32_t>(8));
+  EXPECT_FALSE(record->number<std::uint8_t>(std::numeric_limits<std::size_t>::max()));
+  EXPECT_EQ(record->number_or<double>(4, 2.5), 2.5);
+}
+
+TEST(Records, OneThatRunsPastTheFileIsRefused) {
+  ByteFile file;
+  file.group("a");
+  file.bytes().resize(file.bytes().size() - 1);
+  EXPECT_THAT(refusal(file), HasSubstr("truncated"));
+}
+
+TEST(Records, ALengthBelowFourIsRefused) {
+  ByteFile file;
+  file.group("a");
+  file.bytes()[openflight::header::kBytes + 3] = std::byte{3};
+  EXPECT_THAT(refusal(file), HasSubstr("a length of 3"));
+}
+
+TEST(Header, HasRevisionUnitAndOrigin) {
+  OpenFlightWriter writer(geo::GeoPoint{37.5, -122.3});
+  const Model model = scene::read(writer);
+  EXPECT_EQ(model.header.revision, 1600);
+  EXPECT_EQ(model.header.metres_per_unit, 1.0);
+  ASSERT_TRUE(model.header.origin);
+  EXPECT_EQ(model.header.origin->latitude_deg, 37.5);
+  EXPECT_EQ(model.header.origin->longitude_deg, -122.3);
+}
+
+TEST(Header, RevisionsOutsideFourteenToSixteenAndAHalfAreRefused) {
+  for (const std::int32_t revision : {1300, 1651, -5, 0}) {
+    ByteFile file(revision);
+    EXPECT_THAT(refusal(file), HasSubstr("expected OpenFlight revision 1400 to 1650"));
+  }
+  for (const std::int32_t revision : {1400, 142, 14, 1541, 1650}) {
+    ByteFile file(revision);
+    EXPECT_TRUE(read_openflight(file.bytes(), "test.flt"));
+  }
+}
+
+TEST(Header, UnitsBecomeMetres) {
+  const std::vector<std::pair<int, double>> units{{0, 1.0}, {1, 1000.0}, {4, 0.3048}, {5, 0.0254}, {8, 1852.0}};
+  for (const auto& [code, metres] : units) {
+    ByteFile file(1600, code);
+    file.palette(kSquare);
+    file.push();
+    file.group("moved");
+    file.matrix(Affine::translation({1, 0, 0}));
+    file.push();
+    file.polygon({0, 1, 2, 3});
+    file.pop();
+    file.pop();
+    const Model model = read(file);
+    ASSERT_EQ(model.vertices.size(), 4U);
+    EXPECT_NEAR(place_of(model, 0).x, metres, 1e-3 * metres);
+    EXPECT_NEAR(place_of(model, 1).x, 11 * metres, 1e-3 * metres);
+  }
+  ByteFile furlongs(1600, 7);
+  EXPECT_THAT(refusal(furlongs), HasSubstr("expected units"));
+}
+
+TEST(Faces, KeepMaterialFeatureAndColor) {
+  OpenFlightWriter writer(std::nullopt);
+  writer.begin_object("o");
+  writer.face(square(0, 0, 10), {9, 1234, 0x804020});
+  writer.end();
+  const Model model = scene::read(writer);
+  ASSERT_EQ(model.kinds.size(), 1U);
+  EXPECT_EQ(model.kinds[0].material, 9);
+  EXPECT_EQ(model.kinds[0].feature_id, 1234);
+  EXPECT_EQ(model.kinds[0].color_rgb, 0x804020U);
+  EXPECT_EQ(model.counts.materials, 1U);
+  EXPECT_THAT(model.objects, ElementsAre("", "o"));
+}
+
+TEST(Faces, OfOldShortRecordsHaveNoMaterial) {
+  ByteFile file(1400);
+  file.palette(kSquare);
+  file.push();
+  file.face(32, 0);
+  file.push();
+  file.corners({0, 1, 2, 3});
+  file.pop();
+  file.pop();
+  const Model model = read(file);
+  ASSERT_EQ(model.triangles.size(), 2U);
+  EXPECT_EQ(model.kinds[0].material, 0);
+}
+
+TEST(Faces, WithACodeBeyondThirtyOneCountAsWithoutOne) {
+  ByteFile file;
+  file.palette(kSquare);
+  file.push();
+  file.polygon({0, 1, 2, 3}, 99);
+  file.pop();
+  const Model model = read(file);
+  EXPECT_EQ(model.kinds[0].material, 0);
+  EXPECT_THAT(model.warnings, ElementsAre(HasSubstr("code beyond 31: 1")));
+}
+
+TEST(Faces, HiddenOnesLinesAndLightsAreLeftOut) {
+  ByteFile file;
+  file.palette(kSquare);
+  file.push();
+  for (const int draw_type : {2, 3, 8, 9, 10}) {
+    file.face(80, static_cast<std::uint8_t>(draw_type));
+    file.push();
+    file.corners({0, 1, 2, 3});
+    file.pop();
+  }
+  file.face(80, 0, 0, openflight::face::kHidden);
+  file.push();
+  file.corners({0, 1, 2, 3});
+  file.pop();
+  file.pop();
+  const Model model = read(file);
+  EXPECT_EQ(model.triangles.size(), 0U);
+  EXPECT_EQ(model.counts.faces, 6U);
+  EXPECT_EQ(model.counts.hidden_faces, 1U);
+}
+
+TEST(Faces, OfTwoSidesAreThereTwiceWithOppositeNormals) {
+  OpenFlightWriter writer(std::nullopt);
+  writer.face(square(0, 0, 10), kTestKind, true);
+  const Model model = scene::read(writer);
+  ASSERT_EQ(model.triangles.size(), 4U);
+  EXPECT_EQ(model.polygons, 1U);
+  int up = 0;
+  for (const ModelTriangle& triangle : model.triangles) {
+    const Vector3 area = area_of(model, triangle);
+    up += area.z > 0 ? 1 : -1;
+    EXPECT_GT(dot(area, normal_of(model, triangle.corners[0])), 0.0);
+  }
+  EXPECT_EQ(up, 0);
+}
+
+TEST(Faces, WithoutNormalsGetTheirFacets) {
+  ByteFile file;
+  file.palette({{0, 0, 0}, {0, 10, 0}, {0, 10, 10}});
+  file.push();
+  file.polygon({0, 1, 2});
+  file.pop();
+  const Model model = read(file);
+  EXPECT_NEAR(normal_of(model, 0).x, 1.0, 1e-6);
+}
+
+TEST(Faces, WithNormalsOfTheOtherSideGetTheirFacets) {
+  OpenFlightWriter writer(std::nullopt);
+  auto corners = square(0, 0, 10);
+  for (WriterVertex& corner : corners) corner.normal = {0, 0, -1};
+  writer.face(corners, kTestKind);
+  EXPECT_NEAR(normal_of(scene::read(writer), 0).z, 1.0, 1e-6);
+}
+
+TEST(Faces, WithCornersThatAreNoNumbersAreLeftOut) {
+  ByteFile file;
+  file.palette({{0, 0, 0}, {10, 0, 0}, {std::nan(""), 10, 0}});
+  file.push();
+  file.polygon({0, 1, 2});
+  file.pop();
+  const Model model = read(file);
+  EXPECT_THAT(model.triangles, IsEmpty());
+  EXPECT_THAT(model.warnings, ElementsAre(HasSubstr("no numbers")));
+}
+
+TEST(Faces, CornersOutsideThePaletteAreRefused) {
+  ByteFile file;
+  file.palette(kSquare);
+  file.push();
+  file.polygon({0, 1, 7});
+  EXPECT_THAT(refusal(file), HasSubstr("expected corners that are vertices of the palette"));
+}
+
+TEST(Polygons, ConcaveOnesKeepTheirAreaAndSense) {
+  // An L of 75 m2, whose fan from the first corner would leave it.
+  ByteFile file;
+  file.palette({{5, 5, 0}, {5, 10, 0}, {0, 10, 0}, {0, 0, 0}, {10, 0, 0}, {10, 5, 0}});
+  file.push();
+  file.polygon({0, 1, 2, 3, 4, 5});
+  file.pop();
+  const Model model = read(file);
+  EXPECT_EQ(model.triangles.size(), 4U);
+  EXPECT_NEAR(total_area_m2(model), 75, 1e-4);
+  for (const ModelTriangle& triangle : model.triangles) EXPECT_GT(area_of(model, triangle).z, 0.0);
+}
+
+TEST(Polygons, StarsOfAnySizeAndSlopeKeepTheirArea) {
+  Chance chance(7);
+  for (int trial = 0; trial < 200; ++trial) {
+    const int points = 5 + chance.below(40);
+    const Affine tilt{{chance.between(-1, 1), chance.between(-1, 1), chance.between(-1, 1)},
+                      {chance.between(-1, 1), chance.between(-1, 1), chance.between(-1, 1)}};
+    std::vector<Vector3> star;
+    double flat_m2 = 0.0;
+    for (int i = 0; i < points; ++i) {
+      const double angle = 2 * M_PI * i / points, radius = chance.between(1, 10);
+      star.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
+    }
+    for (std::size_t i = 0; i < star.size(); ++i) flat_m2 += cross(star[i], star[(i + 1) % star.size()]).z / 2;
+    for (Vector3& corner : star) corner = tilt.apply(corner);
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    triangulate(star, triangles);
+    double area_m2 = 0.0;
+    for (const auto& t : triangles) area_m2 += length(cross(star[t[1]] - star[t[0]], star[t[2]] - star[t[0]])) / 2;
+    EXPECT_NEAR(area_m2, flat_m2 * length(cross(tilt.x, tilt.y)), 1e-9 * (1 + area_m2)) << "trial " << trial;
+  }
+}
+
+TEST(Polygons, WithoutAreaGiveNoTriangle) {
+  ByteFile file;
+  file.palette({{0, 0, 0}, {5, 0, 0}, {10, 0, 0}});
+  file.push();
+  file.polygon({0, 1, 2});
+  file.pop();
+  EXPECT_THAT(read(file).triangles, IsEmpty());
+}
+
+TEST(Files, ThatAreMissingAreRefusedByName) {
+  const auto model = read_openflight(std::filesystem::path("/nowhere/a.flt"));
+  ASSERT_FALSE(model);
+  EXPECT_THAT(model.error().message(), HasSubstr("/nowhere/a.flt: expected an OpenFlight file, found No such file"));
+}
+
+TEST(EveryRecord, IsReadTogether) {
+  const auto model = read_openflight(every_record(), "every.flt");
+  ASSERT_TRUE(model) << model.error().message();
+  EXPECT_GT(model->triangles.size(), 30U);
+}
+
+TEST(Tank, HasItsPolygonsAndVertices) {
+  YARS_NEEDS_SHARED_DATA();
+  const auto model = read_openflight(test::shared_data() / "flt/tank.FLT");
+  ASSERT_TRUE(model) << model.error().message();
+  EXPECT_EQ(model->counts.faces, 957U);
+  EXPECT_EQ(model->counts.vertices, 3101U);
+  EXPECT_EQ(model->counts.materials, 1U);
+  EXPECT_EQ(model->counts.objects, 1U);
+}
+
+}  // namespace
+}  // namespace yars::model::scene
