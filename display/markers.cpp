@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstring>
 #include <numbers>
+#include <optional>
 
 #include "display/present_frame.hpp"
 #include "lib/radar/limits.hpp"
@@ -75,7 +76,22 @@ void draw_symbol(const databuffer::DrawnPoint& point, std::span<const radar::Rou
   }
 }
 
-void draw_name(std::string_view name, Point at, DrawList& list) {
+// Where the open plus stands; nothing when it is not on the glass.
+std::optional<Point> cursor_at(const GlassInput& input, const GlassView& view, const GlassFrame& frame) {
+  if ((input.state.flags & databuffer::kCursorValid) == 0) return std::nullopt;
+  const geo::GeoPoint place{input.state.cursor_latitude_deg, input.state.cursor_longitude_deg};
+  const Point at = view.at_ground(frame, seen_through_navigator(input, place));
+  return on_glass(at) ? std::optional(at) : std::nullopt;
+}
+
+// What the arms of the plus cover; a name may stand in the corners between them.
+std::array<Rect, 2> arms_of(Point cursor) {
+  constexpr float clear = 2.0F;
+  return {Rect{cursor.x - kArm, cursor.y - clear, cursor.x + kArm, cursor.y + clear},
+          Rect{cursor.x - clear, cursor.y - kArm, cursor.x + clear, cursor.y + kArm}};
+}
+
+void draw_name(std::string_view name, Point at, std::optional<Point> cursor, DrawList& list) {
   struct Place {
     float right, down;
     Align align;
@@ -90,6 +106,8 @@ void draw_name(std::string_view name, Point at, DrawList& list) {
   const auto is_free = [&](const Place& place) {
     const Rect box = box_at(place);
     const bool inside = box.left >= 0.0F && box.top >= 0.0F && box.right <= kGlassUnits && box.bottom <= kGlassUnits;
+    const auto covers = [&](const Rect& arm) { return intersect(box, arm); };
+    if (cursor && std::ranges::any_of(arms_of(*cursor), covers)) return false;
     return inside &&
            std::ranges::none_of(list.occupied(), [&](const OccupiedBox& other) { return intersect(box, other.rect); });
   };
@@ -101,10 +119,9 @@ void draw_name(std::string_view name, Point at, DrawList& list) {
 }  // namespace
 
 void draw_cursor(const GlassInput& input, const GlassView& view, const GlassFrame& frame, DrawList& list) {
-  if ((input.state.flags & databuffer::kCursorValid) == 0) return;
-  const geo::GeoPoint place{input.state.cursor_latitude_deg, input.state.cursor_longitude_deg};
-  const Point at = view.at_ground(frame, seen_through_navigator(input, place));
-  if (!on_glass(at)) return;
+  const std::optional<Point> cursor = cursor_at(input, view, frame);
+  if (!cursor) return;
+  const Point at = *cursor;
   list.line({at.x - kArm, at.y}, {at.x - kGapInside, at.y});
   list.line({at.x + kGapInside, at.y}, {at.x + kArm, at.y});
   list.line({at.x, at.y - kArm}, {at.x, at.y - kGapInside});
@@ -148,8 +165,9 @@ void draw_points(const GlassInput& input, std::span<const radar::RoutePoint> rou
     shown[count++] = {&point, at};
   }
   // Names after all symbols, so that none of them is written over.
+  const std::optional<Point> cursor = cursor_at(input, view, frame);
   for (const Shown& one : std::span(shown).first(count)) {
-    draw_name(name_of(*one.point), one.at, list);
+    draw_name(name_of(*one.point), one.at, cursor, list);
   }
 }
 

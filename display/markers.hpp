@@ -17,7 +17,8 @@ void draw_cursor(const GlassInput& input, const GlassView& view, const GlassFram
 void draw_window_outline(const GlassInput& input, const GlassView& view, const GlassFrame& frame, DrawList& list);
 
 // Steer point circle, initial point square, target triangle; offsets dashed. A name takes the first free one of
-// four places beside its symbol, clear of whatever the list holds; so legends and readouts come first.
+// four places beside its symbol, clear of the cursor and of whatever the list holds; so legends and readouts come
+// first.
 // The route tells whether an offset belongs to an initial point. Points off the glass are not drawn.
 void draw_points(const GlassInput& input, std::span<const radar::RoutePoint> route, const GlassView& view,
                  const GlassFrame& frame, DrawList& list);

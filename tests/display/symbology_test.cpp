@@ -274,6 +274,23 @@ TEST(Symbology, NamesKeepClearOfLegendsAndOfEachOther) {
   expect_no_overlap(drawn(input), "five points in a row");
 }
 
+TEST(Symbology, NamesKeepClearOfTheCursor) {
+  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  testing::put_cursor(input, 30.0, 20.0);
+  // About the cursor in the middle of the glass, so that the first place for a name is on one of its arms.
+  for (int i = 0; i < 5; ++i) {
+    input.state.points_drawn = 0;
+    testing::add_point(input, "2.0" + std::to_string(i + 1), radar::PointKind::target_offset,
+                       testing::at(24.0 + 1.5 * i, 18.6 + 0.5 * i));
+    const DrawList list = drawn(input);
+    const auto& boxes = list.occupied();
+    const auto name = std::ranges::find(boxes, "2.0" + std::to_string(i + 1), &OccupiedBox::name);
+    ASSERT_NE(name, boxes.end());
+    EXPECT_FALSE(intersect(name->rect, {224.0F, 239.0F, 256.0F, 241.0F})) << i;
+    EXPECT_FALSE(intersect(name->rect, {239.0F, 224.0F, 241.0F, 256.0F})) << i;
+  }
+}
+
 TEST(Symbology, TheAntennaCaretPointsAtTheAzimuthAgainstTheGroundTrack) {
   GlassInput straight = testing::operating(Mode::rbm, 40.0);  // 4 deg of drift to the right
   straight.model.antenna_azimuth_deg = 4.0;

@@ -34,12 +34,13 @@ class Storm {
   double number(double least, double greatest) { return std::uniform_real_distribution(least, greatest)(random_); }
 
   // Mostly what a hand can do; one in ten has an argument that no switch has. Power is seldom touched, or the storm
-  // would spend most of its time in OFF.
+  // would spend most of its time in OFF; the TDC is released often, or there would be few maps.
   InputEvent event() {
     InputEvent event{};
     const int greatest_kind = static_cast<int>(EventKind::contrast);
     event.kind = static_cast<std::uint16_t>(pick(0, 1) == 0 ? 1 : pick(0, greatest_kind + 1));
     if (event.kind == static_cast<std::uint16_t>(EventKind::power) && pick(0, 19) != 0) event.kind = 1;
+    if (pick(0, 9) == 0) event.kind = static_cast<std::uint16_t>(EventKind::tdc_release);
     event.argument = static_cast<std::int16_t>(pick(0, 9) == 0 ? pick(-32768, 32767) : argument(event.kind));
     event.x = pick(0, 49) == 0 ? kNaN : event.kind == 2 ? number(-2.0, 2.0) : number(-90.0, 90.0);
     event.y = number(-2.0, 2.0);
@@ -279,7 +280,7 @@ TEST(EventStorm, KeepsEveryInvariantAndNeverWedges) {
   // A storm in which all is dead, or nothing, has tested little.
   EXPECT_GT(dead, kEvents / 10);
   EXPECT_LT(dead, kEvents * 9 / 10);
-  EXPECT_GT(patches, kEvents / 20);
+  EXPECT_GT(patches, kEvents / 50);
 }
 
 // Held to its ground point the cursor may leave the glass; slewed it is on it.
