@@ -169,8 +169,7 @@ bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::Anten
   if (!step.reachable || lost) labels.flags |= databuffer::kSweepBlank;
   if (is_sharpened()) {
     const geo::Bearing middle = step.left + 0.5 * (step.right - step.left);
-    if (radar::in_blind_zone(middle - pose->platform.ground_track, configuration.high_resolution))
-      labels.flags |= databuffer::kSweepBlank;
+    labels.dark = radar::in_blind_zone(middle - pose->platform.ground_track, configuration.high_resolution);
     place.looked_at = sharpened_azimuth(middle, *pose, configuration);
     labels.gain = rbm::kFullGain;
   }

@@ -25,7 +25,7 @@ bool SweepChain::advance(const SweepPlace& place, const Labels& labels, const te
   measured.labels = labels;
   const bool deaf = (labels.flags & databuffer::kSweepBlank) != 0U;
   measured.jamming = deaf ? 0.0 : strobes_.level(look_of(place), terrain);
-  if ((labels.flags & kNothingReceived) != 0U) {
+  if ((labels.flags & kNothingReceived) != 0U || labels.dark) {
     std::fill(measured.power.begin(), measured.power.end(), 0.0F);
   } else {
     const std::size_t pending = algorithm_->measure(look_of(place), terrain, measured.power);
@@ -67,7 +67,7 @@ void finish_sweep(rbm::Algorithm& algorithm, std::uint64_t seed, const SweepPlac
   sweep.mode = labels.mode;
   sweep.gain = labels.gain;
   const std::span<std::uint8_t> video(sweep.video, window.centre.size());
-  if ((labels.flags & databuffer::kSweepBlank) != 0U) {
+  if ((labels.flags & databuffer::kSweepBlank) != 0U || labels.dark) {
     std::fill(video.begin(), video.end(), std::uint8_t{0});
   } else {
     algorithm.develop(window, place.range, labels.gain, {seed, labels.scan, labels.number}, video);

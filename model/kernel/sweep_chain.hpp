@@ -32,6 +32,7 @@ class SweepChain {
     std::uint32_t flags = 0;  // kSweep...; a blank sweep reads no terrain, one of noise only for what hides jammers
     std::uint8_t mode = 0;
     std::uint8_t gain = 3;
+    bool dark = false;  // transmitted, but nothing comes back: black video, which covers what was there
   };
 
   // Takes in the next sweep. Finishes its predecessor into `sweep` and returns true if there is one.

@@ -26,14 +26,21 @@ inline auto fields(const radar::ViewConfiguration& view) {
 
 inline auto fields(const radar::Fidelity& fidelity) {
   const auto& [name, automatic, share, algorithm, earth, factor, samples, knots, interpolation, posts, beams, slant,
-               slope, noise, azimuth, pulse, beam] = fidelity;
+               slope, noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, bounce] = fidelity;
   return std::tuple(name, automatic, share, algorithm, earth, factor, samples, knots, interpolation, posts, beams,
-                    slant, slope, noise, azimuth, pulse, beam);
+                    slant, slope, noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, bounce);
 }
 
 inline auto fields(const radar::ReceiverConfiguration& receiver) {
   const auto& [frequency, stc, dynamic, step, floor, land, looks] = receiver;
   return std::tuple(frequency, stc, dynamic, step, floor, land, looks);
+}
+
+inline auto fields(const radar::HighResolutionConfiguration& map) {
+  const auto& [looks, broadening, sidelobes, cap, blind, sector, dwell, step, dynamic, brightest, noise, bounce, plain,
+               detail] = map;
+  return std::tuple(looks, broadening, sidelobes, cap, blind, sector, dwell, step, dynamic, brightest, noise, bounce,
+                    plain, detail);
 }
 
 inline auto fields(const radar::TerrainConfiguration& terrain) {
@@ -103,13 +110,13 @@ inline auto fields(const radar::WorldConfiguration& world) {
 }
 
 inline auto fields(const radar::RadarConfiguration& configuration) {
-  const auto& [name, ranges, widths, windows, pulses, antenna, view, fidelity, receiver, terrain, world, route, seed,
-               variation] = configuration;
+  const auto& [name, ranges, widths, windows, pulses, antenna, view, fidelity, receiver, terrain, high, world, route,
+               seed, variation] = configuration;
   std::vector<decltype(fields(route[0]))> points;
   points.reserve(route.size());
   for (const auto& point : route) points.push_back(fields(point));
   return std::tuple(name, ranges, widths, windows, pulses, fields(antenna), fields(view), fields(fidelity),
-                    fields(receiver), fields(terrain), fields(world), points, seed, variation);
+                    fields(receiver), fields(terrain), fields(high), fields(world), points, seed, variation);
 }
 
 // The configuration of a text that must be right.
