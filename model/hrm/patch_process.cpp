@@ -102,8 +102,8 @@ struct PatchProcess::Work {
   std::vector<GroundFan> grounds;
   std::vector<SceneRaster> rasters;
   FanArray height_m, gain, wall_gain, cross_section_m2, horizon, arc;
-  std::vector<float> distance_m, above_m;
-  std::vector<std::size_t> pending, triangles;
+  std::vector<float> distance_m, above_m, level_m;
+  std::vector<std::size_t> pending;
   MapImage image;
   Response response;
   std::vector<std::uint8_t> picture;
@@ -164,15 +164,16 @@ void PatchProcess::Work::lay_out() {
   horizon.resize(static_cast<std::size_t>(grid.columns));
   distance_m.clear();
   above_m.clear();
+  level_m.clear();
   for (int row = 0; row < grid.rows; ++row) {
     distance_m.push_back(static_cast<float>(grid.distance_m(row)));
     above_m.push_back(static_cast<float>(geometry->above_plane_m(grid.distance_m(row))));
+    level_m.push_back(static_cast<float>(geometry->above_level_m(grid.distance_m(row))));
   }
   arc.resize(static_cast<std::size_t>(grid.columns));
   for (int column = 0; column < grid.columns; ++column)
     arc.data()[column] = static_cast<float>(grid.width_m(column, 1.0));
   pending.assign(crew.threads, 0);
-  triangles.assign(crew.threads, 0);
 }
 
 void PatchProcess::Work::read_terrain() {
@@ -190,8 +191,8 @@ void PatchProcess::Work::draw_scene() {
     const auto count = static_cast<std::size_t>(last - first) * strip;
     std::fill_n(wall_gain.data() + begin, count, 0.0F);
     if (tiles.empty()) return;
-    triangles[thread] = rasters[thread].draw(*geometry, grid, *database.scene, tiles, first * kStripColumns,
-                                             last * kStripColumns, {height_m.data(), gain.data(), wall_gain.data()});
+    rasters[thread].draw(*geometry, grid, *database.scene, tiles, first * kStripColumns, last * kStripColumns,
+                         {height_m.data(), gain.data(), wall_gain.data()});
   });
 }
 
@@ -212,6 +213,7 @@ void PatchProcess::Work::cast_profiles() {
           configuration.fidelity.map_double_bounce ? static_cast<float>(reflectivity::ratio(bounce_db)) : 0.0F;
       strip.distance_m = distance_m.data();
       strip.above_m = above_m.data();
+      strip.level_m = level_m.data();
       strip.arc = arc.data() + column;
       strip.horizon = horizon.data() + column;
       strip.height_m = height_m.data() + at;
@@ -274,7 +276,9 @@ geo::Duration PatchProcess::formation() const {
   return work_->formation;
 }
 std::size_t PatchProcess::triangles() const {
-  return work_->triangles.empty() ? 0 : work_->triangles.front();
+  std::size_t sum = 0;
+  for (const scene::Tile* tile : work_->tiles) sum += tile->corners.size();
+  return sum;
 }
 std::size_t PatchProcess::posts_pending() const {
   std::size_t sum = 0;
