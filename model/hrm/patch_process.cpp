@@ -9,6 +9,7 @@
 #include "model/hrm/develop.hpp"
 #include "model/hrm/fan_array.hpp"
 #include "model/hrm/profile_lanes.hpp"
+#include "model/hrm/reference_patch.hpp"
 #include "model/reflectivity/decibels.hpp"
 
 namespace yars::model::hrm {
@@ -99,6 +100,7 @@ struct PatchProcess::Work {
   FanGrid grid;
   std::vector<const scene::Tile*> tiles;
   std::unique_ptr<Detail> detail;
+  std::unique_ptr<ReferencePatch> reference;  // instead of what follows, where the fidelity asks for it
   std::vector<GroundFan> grounds;
   std::vector<SceneRaster> rasters;
   FanArray height_m, gain, wall_gain, cross_section_m2, horizon, arc;
@@ -154,7 +156,12 @@ void PatchProcess::Work::lay_out() {
   // Low ground is laid over outwards and high ground inwards; a thing before the near edge shades into the window.
   const FanMargins margins{std::max(-relief.lowest_m * tangent, tallest_m(tiles) / tangent),
                            relief.highest_m * tangent};
-  grid = make_fan_grid(*geometry, image.size, configuration.fidelity.map_oversampling, margins);
+  const bool exact = configuration.fidelity.algorithm == radar::Algorithm::reference;
+  const int cells = exact ? std::max(kReferenceCells, configuration.fidelity.map_oversampling)
+                          : configuration.fidelity.map_oversampling;
+  grid = make_fan_grid(*geometry, image.size, cells, margins);
+  reference.reset();
+  if (exact) reference = std::make_unique<ReferencePatch>(configuration, *geometry, grid);
   if (configuration.fidelity.map_detail && (!detail || detail->pixel_m() != grid.spacing_m))
     detail = std::make_unique<Detail>(configuration.high_resolution.detail_contrast, grid.spacing_m);
   height_m.resize(grid.size());
@@ -182,9 +189,14 @@ void PatchProcess::Work::read_terrain() {
                                            detail.get(), first * kStripColumns, last * kStripColumns,
                                            {height_m.data(), gain.data(), horizon.data()});
   });
+  if (reference) reference->read_terrain({database.window.get(), database.path.get()});
 }
 
 void PatchProcess::Work::draw_scene() {
+  if (reference) {
+    if (!tiles.empty()) reference->read_scene(*database.scene, tiles, gain.data());
+    return;
+  }
   const std::size_t strip = grid.strip_size();
   share_strips([&](int first, int last, std::size_t thread) {
     const auto begin = static_cast<std::size_t>(first) * strip;
@@ -197,6 +209,7 @@ void PatchProcess::Work::draw_scene() {
 }
 
 void PatchProcess::Work::cast_profiles() {
+  if (reference) return reference->accumulate(gain.data(), image);
   const std::size_t size = grid.strip_size();
   const double bounce_db = configuration.high_resolution.double_bounce_db;
   share_strips([&](int first, int last, std::size_t) {
@@ -226,12 +239,13 @@ void PatchProcess::Work::cast_profiles() {
 }
 
 void PatchProcess::Work::draw_map() {
-  crew.run([&](std::size_t thread) {
-    const auto number = static_cast<int>(thread);
-    const auto threads = static_cast<int>(crew.threads);
-    draw_fan(*geometry, grid, cross_section_m2.data(), number * image.size / threads,
-             (number + 1) * image.size / threads, image);
-  });
+  if (!reference)
+    crew.run([&](std::size_t thread) {
+      const auto number = static_cast<int>(thread);
+      const auto threads = static_cast<int>(crew.threads);
+      draw_fan(*geometry, grid, cross_section_m2.data(), number * image.size / threads,
+               (number + 1) * image.size / threads, image);
+    });
   image.blind = false;
   const auto noise =
       static_cast<float>(noise_gamma(configuration.high_resolution, geo::Length::metres(geometry->slant_range_m())));

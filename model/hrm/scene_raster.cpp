@@ -5,19 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "model/reflectivity/land.hpp"
-
 namespace yars::model::hrm {
 
 namespace {
-// A face this near its object's base [m], and level, lies on the ground.
-constexpr float kOnGround_m = 0.5F;
-constexpr float kLevelNormal = 0.98F;  // of the unit normal, upwards
-// Steeper than 70 degrees a face is a wall.
-constexpr float kWallNormal2 = 0.13F;  // tan^2 20 degrees: square of the upward part against the level part
-constexpr float kSmooth = 0.02F;       // vertices that face the radar so differently from the facet are interpolated
-constexpr float kMostShading = 4.0F;   // of an interpolated normal against the facet's: silhouettes are ragged
-constexpr float kReach = 0.5F;         // [rows] of a surface beyond its edges
+constexpr float kSmooth = 0.02F;  // vertices that face the radar so differently from the facet are interpolated
+constexpr float kReach = 0.5F;    // [rows] of a surface beyond its edges
 
 // Half-open: a grid point on an edge between two triangles belongs to exactly one.
 int first_at(float value) {
@@ -53,16 +45,7 @@ struct SceneRaster::Facet {
   float level2;  // square of the level part
 };
 
-SceneRaster::SceneRaster(const radar::RadarConfiguration& configuration)
-    : street_width_deg_(configuration.world.land.street_width_deg) {
-  const reflectivity::LandReturn land = reflectivity::make_land_return(configuration);
-  for (std::size_t code = 0; code < land.gamma.size(); ++code) {
-    // A face without a code is taken for what the configuration says.
-    const std::size_t known = code == 0 ? static_cast<std::size_t>(configuration.high_resolution.plain_material) : code;
-    gamma_.push_back(static_cast<float>(land.gamma[known]));
-    cardinal_.push_back(static_cast<float>(land.cardinal[known]));
-  }
-}
+SceneRaster::SceneRaster(const radar::RadarConfiguration& configuration) : surface_(configuration) {}
 
 SceneRaster::Placement SceneRaster::place(const PatchGeometry& geometry, const scene::Tile& tile) const {
   const geo::GeodesicInverse way = geo::geodesic_inverse(geometry.apex(), tile.origin);
@@ -194,7 +177,7 @@ void SceneRaster::draw_tile(const scene::SceneView& scene, const scene::Tile& ti
     const float most_row = std::max({corner[0]->row, corner[1]->row, corner[2]->row});
     if (!(most_row >= -kReach && least_row < rows)) continue;
     const Surface surface{
-        scene.kinds()[tile.kind[t]].material % gamma_.size(),
+        scene.kinds()[tile.kind[t]].material,
         static_cast<float>(scene.objects()[tile.object[t]].base_msl_m - tile.zero_msl_m) + placement.lift_m};
     draw_triangle(canvas, corner, surface);
   }
@@ -202,19 +185,17 @@ void SceneRaster::draw_tile(const scene::SceneView& scene, const scene::Tile& ti
 
 void SceneRaster::draw_triangle(const Canvas& canvas, const Triangle& corner, const Surface& surface) const {
   const Facet facet(canvas, corner);
-  const float gamma = gamma_[surface.code];
   const float towards = -facet.ahead * canvas.cosine + facet.upward * canvas.sine;
-  const bool steep = facet.upward * facet.upward < kWallNormal2 * facet.level2;
-  if (steep && towards > 0.0F) {
-    const double off_deg =
-        std::atan2(static_cast<double>(facet.across), static_cast<double>(-facet.ahead)) / geo::kRadiansPerDegree;
-    const double cardinal =
-        reflectivity::cardinal_gain(static_cast<double>(cardinal_[surface.code]), off_deg, street_width_deg_);
-    mark_wall(canvas, corner, gamma * static_cast<float>(cardinal));
-  }
+  const bool steep = facet.upward * facet.upward < static_cast<float>(kWallNormal2) * facet.level2;
+  if (steep && towards > 0.0F)
+    mark_wall(canvas, corner,
+              static_cast<float>(surface_.wall_gamma(surface.code, static_cast<double>(facet.across),
+                                                     static_cast<double>(-facet.ahead))));
   if (!(facet.area > 0.0F)) return;  // seen from below, or on edge
   const float length = std::sqrt(facet.level2 + facet.upward * facet.upward);
-  const bool flat = facet.upward > kLevelNormal * length && corner[0]->height_m - surface.base_m < kOnGround_m;
+  const bool flat = facet.upward > static_cast<float>(kLevelNormal) * length &&
+                    corner[0]->height_m - surface.base_m < static_cast<float>(kOnGround_m);
+  const auto gamma = static_cast<float>(surface_.gamma(surface.code));
   fill(canvas, corner, facet.plane(*corner[0]), gamma * shading(corner, towards / length), flat);
 }
 
@@ -225,7 +206,7 @@ float SceneRaster::shading(const Triangle& corner, float facing) {
   for (const Vertex* vertex : corner) smooth = smooth || std::abs(vertex->facing - facing) > kSmooth;
   if (!smooth) return 1.0F;
   const float mean = (corner[0]->facing + corner[1]->facing + corner[2]->facing) / 3.0F;
-  return std::clamp(mean / facing, 0.0F, kMostShading);
+  return std::clamp(mean / facing, 0.0F, static_cast<float>(kMostShading));
 }
 
 // Column by column, for a column is a profile: a surface reaches half a row beyond its edges, so that on average it
@@ -272,7 +253,11 @@ void SceneRaster::mark_wall(const Canvas& canvas, const Triangle& corner, float 
   const Vertex& right = **std::max_element(corner.begin(), corner.end(), by_column);
   const int begin = std::max(first_at(left.column), canvas.first);
   const int end = std::min(first_at(right.column), canvas.last);
-  const float slope = (right.row - left.row) / (right.column - left.column);
+  const float width = right.column - left.column;
+  const float slope = (right.row - left.row) / width;
+  // Its columns together are as wide as it is. One column alone may be one of many narrow walls side by side.
+  const int columns = first_at(right.column) - first_at(left.column);
+  if (columns > 1) gain *= width / static_cast<float>(columns);
   for (int column = begin; column < end; ++column) {
     const int row = first_at(left.row + slope * (static_cast<float>(column) - left.column) - kReach);
     if (row < 0 || row >= canvas.grid->rows) continue;

@@ -9,6 +9,7 @@
 
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/fan_grid.hpp"
+#include "model/hrm/scene_surface.hpp"
 #include "model/scene/scene_view.hpp"
 
 namespace yars::model::hrm {
@@ -74,9 +75,7 @@ class SceneRaster {
   static void fill(const Canvas& canvas, const Triangle& corner, const Plane& plane, float gain, bool flat);
   static void mark_wall(const Canvas& canvas, const Triangle& corner, float gain);
 
-  std::vector<float> gamma_;     // by material code
-  std::vector<float> cardinal_;  // by material code
-  double street_width_deg_;
+  SceneSurface surface_;
   std::vector<Vertex> vertices_;  // of the tile in hand
 };
 
