@@ -247,9 +247,11 @@ void PatchProcess::Work::draw_map() {
                (number + 1) * image.size / threads, image);
     });
   image.blind = false;
-  const auto noise =
-      static_cast<float>(noise_gamma(configuration.high_resolution, geo::Length::metres(geometry->slant_range_m())));
-  if (configuration.fidelity.map_response) response.apply(noise, image);
+  // What is below thermal noise or black cannot be seen.
+  const radar::HighResolutionConfiguration& hrm = configuration.high_resolution;
+  const double floor = std::max(noise_gamma(hrm, geo::Length::metres(geometry->slant_range_m())),
+                                reflectivity::ratio(hrm.brightest_gamma_db - hrm.dynamic_range_db));
+  if (configuration.fidelity.map_response) response.apply(static_cast<float>(floor), image);
   movers.draw(order, *geometry, formation, *database.window, {&grid, height_m.data(), horizon.data()}, response, image);
   blank_blind_zone(*geometry, order.ground_track, configuration.high_resolution, image);
 }
