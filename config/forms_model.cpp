@@ -95,6 +95,10 @@ std::vector<SlotSchema> fidelity_slots() {
       flag("noise", YARS_FIELD(radar.fidelity.noise), "thermal noise, speckle and texture"),
       flag("azimuthSmear", YARS_FIELD(radar.fidelity.azimuth_smear), "smear over the beam width"),
       flag("pulseSmear", YARS_FIELD(radar.fidelity.pulse_smear), "smear over the pulse length"),
+      {.name = "beam",
+       .binding = ChoiceSlot{kBeams, [](const Draft& draft) { return int(draft.radar.fidelity.beam); },
+                             [](Draft& draft, int index) { draft.radar.fidelity.beam = radar::BeamPattern(index); }},
+       .purpose = "beam in elevation"},
       {.name = "mapSize",
        .lowest = 16,
        .highest = 1024,
@@ -108,11 +112,7 @@ std::vector<SlotSchema> fidelity_slots() {
       flag("mapLayover", YARS_FIELD(radar.fidelity.map_layover), "patch maps in slant geometry; else orthographic"),
       flag("mapResponse", YARS_FIELD(radar.fidelity.map_response), "impulse response with its sidelobes"),
       flag("mapDetail", YARS_FIELD(radar.fidelity.map_detail), "made-up texture below the spacing of the posts"),
-      flag("mapDoubleBounce", YARS_FIELD(radar.fidelity.map_double_bounce), "between walls and ground"),
-      {.name = "beam",
-       .binding = ChoiceSlot{kBeams, [](const Draft& draft) { return int(draft.radar.fidelity.beam); },
-                             [](Draft& draft, int index) { draft.radar.fidelity.beam = radar::BeamPattern(index); }},
-       .purpose = "beam in elevation"}};
+      flag("mapDoubleBounce", YARS_FIELD(radar.fidelity.map_double_bounce), "between walls and ground")};
 }
 
 SlotSchema number(std::string_view name, std::string_view unit, double lowest, double highest, double& (*of)(Draft&),

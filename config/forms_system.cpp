@@ -95,9 +95,6 @@ std::vector<SlotSchema> system_slots() {
         .purpose = "magnetic from true, east positive"},
        {.name = "fidelity", .binding = FormSlot{{"Fidelity"}, {"Fidelity"}}, .purpose = "speed against accuracy"},
        {.name = "receiver", .binding = FormSlot{{"Receiver"}, {"Receiver"}}, .purpose = "receiver and ground return"},
-       {.name = "highResolution",
-        .binding = FormSlot{{"HighResolution"}, {"HighResolution"}},
-        .purpose = "high resolution maps"},
        {.name = "noise", .binding = FormSlot{{"Noise"}, {"Noise"}}, .purpose = "thermal noise and speckle"},
        {.name = "terrain", .binding = FormSlot{{"Terrain"}, {"Terrain"}}, .purpose = "where the ground comes from"},
        {.name = "route", .binding = FormSlot{{"Route"}, {"Route"}}, .purpose = "sequence points"},
@@ -107,7 +104,10 @@ std::vector<SlotSchema> system_slots() {
        {.name = "rain", .binding = FormSlot{{"Rain"}, {"Rain"}}, .purpose = "showers"},
        {.name = "jammers", .binding = FormSlot{{"Jammers"}, {"Jammers"}}, .purpose = "jammers"},
        {.name = "movers", .binding = FormSlot{{"Movers"}, {"Movers"}}, .purpose = "ships and vehicles"},
-       {.name = "scenes", .binding = FormSlot{{"Scenes"}, {"Scenes"}}, .purpose = "polygonal scenes"}});
+       {.name = "scenes", .binding = FormSlot{{"Scenes"}, {"Scenes"}}, .purpose = "polygonal scenes"},
+       {.name = "highResolution",
+        .binding = FormSlot{{"HighResolution"}, {"HighResolution"}},
+        .purpose = "high resolution maps"}});
 }
 
 }  // namespace

@@ -13,8 +13,7 @@ namespace yars::model::hrm {
 // the range, for the time that a map takes makes up for one power of the fourth.
 double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo::Length slant_range);
 
-// Speckle of `looks` looks is correlated over the resolution cells, kCellsOfMap an edge, not over the pixels. Blank
-// pixels are black. `map` and the seed name the noise.
+// Speckle of `looks` looks, see speckle.hpp. Blank pixels are black. `map` and the seed name the noise.
 void develop(const radar::RadarConfiguration& configuration, const MapImage& image, double noise, int looks,
              std::uint32_t map, std::vector<std::uint8_t>& picture);
 

@@ -50,8 +50,7 @@ MapMovers::Trace MapMovers::trace_of(std::size_t mover, const PatchOrder& order,
   const double steady_mps = std::copysign(std::max(std::abs(doppler_mps), kLeastDoppler_mps), doppler_mps);
   // Looking right (positive squint) forwards is left on the map.
   const double shift_m = receding_mps / steady_mps * distance_m;
-  const double above_m = geometry.above_plane_m(distance_m);
-  const double seen_m = laid_over_m(distance_m, height_m, above_m) - distance_m;
+  const double seen_m = laid_over_m(distance_m, height_m, geometry.above_level_m(distance_m)) - distance_m;
   const MapPoint shown{middle.right_m + out_right * seen_m + out_up * shift_m,
                        middle.up_m + out_up * seen_m - out_right * shift_m};
   // What it goes outwards walks in range; what it goes across defocuses it in azimuth, twice its way.

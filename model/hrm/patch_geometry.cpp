@@ -38,8 +38,8 @@ double PatchGeometry::sin_grazing() const {
   return earth_.sight(altitude_m_ - plane_msl_m_, distance_m_, 0.0).sin_grazing;
 }
 
-double laid_over_m(double distance_m, double height_m, double above_m) {
-  const double square = distance_m * distance_m + height_m * (height_m - 2.0 * above_m);
+double laid_over_m(double distance_m, double height_m, double above_level_m) {
+  const double square = distance_m * distance_m + height_m * (height_m - 2.0 * above_level_m);
   return square > 0.0 ? std::sqrt(square) : 0.0;
 }
 

@@ -9,6 +9,7 @@
 #include "model/hrm/develop.hpp"
 #include "model/hrm/fan_array.hpp"
 #include "model/hrm/profile_lanes.hpp"
+#include "model/hrm/reference_patch.hpp"
 #include "model/reflectivity/decibels.hpp"
 
 namespace yars::model::hrm {
@@ -99,11 +100,12 @@ struct PatchProcess::Work {
   FanGrid grid;
   std::vector<const scene::Tile*> tiles;
   std::unique_ptr<Detail> detail;
+  std::unique_ptr<ReferencePatch> reference;  // instead of what follows, where the fidelity asks for it
   std::vector<GroundFan> grounds;
   std::vector<SceneRaster> rasters;
   FanArray height_m, gain, wall_gain, cross_section_m2, horizon, arc;
-  std::vector<float> distance_m, above_m;
-  std::vector<std::size_t> pending, triangles;
+  std::vector<float> distance_m, above_m, level_m;
+  std::vector<std::size_t> pending;
   MapImage image;
   Response response;
   std::vector<std::uint8_t> picture;
@@ -154,7 +156,12 @@ void PatchProcess::Work::lay_out() {
   // Low ground is laid over outwards and high ground inwards; a thing before the near edge shades into the window.
   const FanMargins margins{std::max(-relief.lowest_m * tangent, tallest_m(tiles) / tangent),
                            relief.highest_m * tangent};
-  grid = make_fan_grid(*geometry, image.size, configuration.fidelity.map_oversampling, margins);
+  const bool exact = configuration.fidelity.algorithm == radar::Algorithm::reference;
+  const int cells = exact ? std::max(kReferenceCells, configuration.fidelity.map_oversampling)
+                          : configuration.fidelity.map_oversampling;
+  grid = make_fan_grid(*geometry, image.size, cells, margins);
+  reference.reset();
+  if (exact) reference = std::make_unique<ReferencePatch>(configuration, *geometry, grid);
   if (configuration.fidelity.map_detail && (!detail || detail->pixel_m() != grid.spacing_m))
     detail = std::make_unique<Detail>(configuration.high_resolution.detail_contrast, grid.spacing_m);
   height_m.resize(grid.size());
@@ -164,15 +171,16 @@ void PatchProcess::Work::lay_out() {
   horizon.resize(static_cast<std::size_t>(grid.columns));
   distance_m.clear();
   above_m.clear();
+  level_m.clear();
   for (int row = 0; row < grid.rows; ++row) {
     distance_m.push_back(static_cast<float>(grid.distance_m(row)));
     above_m.push_back(static_cast<float>(geometry->above_plane_m(grid.distance_m(row))));
+    level_m.push_back(static_cast<float>(geometry->above_level_m(grid.distance_m(row))));
   }
   arc.resize(static_cast<std::size_t>(grid.columns));
   for (int column = 0; column < grid.columns; ++column)
     arc.data()[column] = static_cast<float>(grid.width_m(column, 1.0));
   pending.assign(crew.threads, 0);
-  triangles.assign(crew.threads, 0);
 }
 
 void PatchProcess::Work::read_terrain() {
@@ -181,21 +189,27 @@ void PatchProcess::Work::read_terrain() {
                                            detail.get(), first * kStripColumns, last * kStripColumns,
                                            {height_m.data(), gain.data(), horizon.data()});
   });
+  if (reference) reference->read_terrain({database.window.get(), database.path.get()});
 }
 
 void PatchProcess::Work::draw_scene() {
+  if (reference) {
+    if (!tiles.empty()) reference->read_scene(*database.scene, tiles, gain.data());
+    return;
+  }
   const std::size_t strip = grid.strip_size();
   share_strips([&](int first, int last, std::size_t thread) {
     const auto begin = static_cast<std::size_t>(first) * strip;
     const auto count = static_cast<std::size_t>(last - first) * strip;
     std::fill_n(wall_gain.data() + begin, count, 0.0F);
     if (tiles.empty()) return;
-    triangles[thread] = rasters[thread].draw(*geometry, grid, *database.scene, tiles, first * kStripColumns,
-                                             last * kStripColumns, {height_m.data(), gain.data(), wall_gain.data()});
+    rasters[thread].draw(*geometry, grid, *database.scene, tiles, first * kStripColumns, last * kStripColumns,
+                         {height_m.data(), gain.data(), wall_gain.data()});
   });
 }
 
 void PatchProcess::Work::cast_profiles() {
+  if (reference) return reference->accumulate(gain.data(), image);
   const std::size_t size = grid.strip_size();
   const double bounce_db = configuration.high_resolution.double_bounce_db;
   share_strips([&](int first, int last, std::size_t) {
@@ -212,6 +226,7 @@ void PatchProcess::Work::cast_profiles() {
           configuration.fidelity.map_double_bounce ? static_cast<float>(reflectivity::ratio(bounce_db)) : 0.0F;
       strip.distance_m = distance_m.data();
       strip.above_m = above_m.data();
+      strip.level_m = level_m.data();
       strip.arc = arc.data() + column;
       strip.horizon = horizon.data() + column;
       strip.height_m = height_m.data() + at;
@@ -224,16 +239,19 @@ void PatchProcess::Work::cast_profiles() {
 }
 
 void PatchProcess::Work::draw_map() {
-  crew.run([&](std::size_t thread) {
-    const auto number = static_cast<int>(thread);
-    const auto threads = static_cast<int>(crew.threads);
-    draw_fan(*geometry, grid, cross_section_m2.data(), number * image.size / threads,
-             (number + 1) * image.size / threads, image);
-  });
+  if (!reference)
+    crew.run([&](std::size_t thread) {
+      const auto number = static_cast<int>(thread);
+      const auto threads = static_cast<int>(crew.threads);
+      draw_fan(*geometry, grid, cross_section_m2.data(), number * image.size / threads,
+               (number + 1) * image.size / threads, image);
+    });
   image.blind = false;
-  const auto noise =
-      static_cast<float>(noise_gamma(configuration.high_resolution, geo::Length::metres(geometry->slant_range_m())));
-  if (configuration.fidelity.map_response) response.apply(noise, image);
+  // What is below thermal noise or black cannot be seen.
+  const radar::HighResolutionConfiguration& hrm = configuration.high_resolution;
+  const double floor = std::max(noise_gamma(hrm, geo::Length::metres(geometry->slant_range_m())),
+                                reflectivity::ratio(hrm.brightest_gamma_db - hrm.dynamic_range_db));
+  if (configuration.fidelity.map_response) response.apply(static_cast<float>(floor), image);
   movers.draw(order, *geometry, formation, *database.window, {&grid, height_m.data(), horizon.data()}, response, image);
   blank_blind_zone(*geometry, order.ground_track, configuration.high_resolution, image);
 }
@@ -274,7 +292,9 @@ geo::Duration PatchProcess::formation() const {
   return work_->formation;
 }
 std::size_t PatchProcess::triangles() const {
-  return work_->triangles.empty() ? 0 : work_->triangles.front();
+  std::size_t sum = 0;
+  for (const scene::Tile* tile : work_->tiles) sum += tile->corners.size();
+  return sum;
 }
 std::size_t PatchProcess::posts_pending() const {
   std::size_t sum = 0;

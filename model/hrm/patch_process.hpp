@@ -62,7 +62,7 @@ class PatchProcess {
   const MapImage& image() const;
   const PatchGeometry& geometry() const;
   geo::Duration formation() const;
-  std::size_t triangles() const;      // of the scene that were looked at
+  std::size_t triangles() const;      // of the tiles of the scene that come near
   std::size_t posts_pending() const;  // samples over terrain that was not loaded
 
  private:

@@ -15,8 +15,8 @@ using SignedTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-// A step steeper than this is a wall, and returns as one where one stands; 60 degrees.
-constexpr float kWallSlope = 1.7F;
+// Where a wall stands, a step steeper than this is its face; less is ground that has buried it.
+constexpr float kLeastStep = 0.2F;
 // A piece seen end on still covers this share of a row: nothing is divided by zero.
 constexpr float kLeastExtent = 1.0e-3F;
 
@@ -41,7 +41,8 @@ HWY_INLINE Point point_at(const Strip& strip, int row, std::size_t lane) {
   point.gain = hn::Abs(hn::Load(d, strip.gain + at));
   point.row = hn::Set(d, static_cast<float>(row));
   if (strip.layover) {
-    const auto shift = hn::Mul(point.height, hn::Sub(point.height, hn::Add(above, above)));
+    const auto level = hn::Set(d, strip.level_m[row]);
+    const auto shift = hn::Mul(point.height, hn::Sub(point.height, hn::Add(level, level)));
     const auto square = hn::Add(hn::Mul(distance, distance), shift);
     const auto seen_at = hn::Sqrt(hn::Max(square, hn::Zero(d)));
     point.row = hn::Div(hn::Sub(seen_at, hn::Set(d, strip.first_distance_m)), hn::Set(d, strip.spacing_m));
@@ -81,16 +82,12 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   const auto half = hn::Set(d, 0.5F);
   const auto seen = hn::Gt(far.tangent, horizon);
   const auto at = static_cast<std::size_t>(row) * kStripColumns + lane;
-  if (hn::AllFalse(d, seen)) {
-    if (strip.lit != nullptr) hn::Store(hn::Zero(d), d, strip.lit + at);
-    return;
-  }
+  if (hn::AllFalse(d, seen)) return;
   // The horizon is never below the nearer end: where it is not above, all of the piece is seen.
   const auto whole = hn::And(seen, hn::Ge(near.tangent, horizon));
   const auto rise = hn::Max(hn::Sub(far.tangent, near.tangent), hn::Set(d, 1.0e-20F));
   const auto part = hn::Min(hn::Div(hn::Sub(far.tangent, horizon), rise), one);
   const auto share = hn::IfThenElseZero(seen, hn::IfThenElse(whole, one, part));
-  if (strip.lit != nullptr) hn::Store(share, d, strip.lit + at);
 
   const float step = strip.distance_m[row] - strip.distance_m[row - 1];
   const auto distance = hn::Set(d, 0.5F * (strip.distance_m[row] + strip.distance_m[row - 1]));
@@ -98,23 +95,25 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   const auto climb = hn::Sub(far.up, near.up);
   const auto across = hn::Sub(hn::Mul(distance, climb), hn::Mul(up, hn::Set(d, step)));
   const auto slant = hn::Sqrt(hn::Add(hn::Mul(distance, distance), hn::Mul(up, up)));
-  const auto width = hn::Mul(hn::Load(d, strip.arc + lane), distance);
-  const auto area = hn::Mul(hn::Mul(width, share), hn::Div(hn::Max(across, hn::Zero(d)), slant));
+  const auto width = hn::Mul(hn::Mul(hn::Load(d, strip.arc + lane), distance), share);
+  const auto area = hn::Mul(width, hn::Div(hn::Max(across, hn::Zero(d)), slant));
 
   const auto wall_gain = hn::Load(d, strip.wall_gain + at);
-  const auto wall = hn::And(hn::Gt(wall_gain, hn::Zero(d)), hn::Gt(climb, hn::Set(d, kWallSlope * step)));
+  const auto wall = hn::And(hn::Gt(wall_gain, hn::Zero(d)), hn::Gt(climb, hn::Set(d, kLeastStep * step)));
   const auto halves = hn::AndNot(wall, whole);
   const auto middle = hn::Mul(half, hn::Add(near.row, far.row));
   const auto begin = hn::Sub(far.row, hn::Mul(share, hn::Sub(far.row, near.row)));
   // Ground belongs to the nearer of two rows: half of a piece each.
   const auto half_area = hn::Mul(half, area);
   spread(strip, lane, halves, hn::Mul(half_area, near.gain), near.row, middle);
-  const auto gain = hn::IfThenElse(wall, wall_gain, far.gain);
-  spread(strip, lane, seen, hn::Mul(hn::IfThenElse(halves, half_area, area), gain),
-         hn::IfThenElse(halves, middle, begin), far.row);
+  // A wall is its climb alone; what is level of the piece is the ground before it.
+  const auto face = hn::Mul(width, hn::Div(hn::Mul(distance, climb), slant));
+  const auto built = hn::Add(hn::Mul(face, wall_gain), hn::Mul(hn::Max(hn::Sub(area, face), hn::Zero(d)), near.gain));
+  const auto open = hn::Mul(hn::IfThenElse(halves, half_area, area), far.gain);
+  spread(strip, lane, seen, hn::IfThenElse(wall, built, open), hn::IfThenElse(halves, middle, begin), far.row);
   if (strip.double_bounce > 0.0F) {
     // From wall to ground and from ground to wall: every such path is as long as to the foot.
-    const auto bounce = hn::Mul(hn::Mul(area, wall_gain), hn::Set(d, strip.double_bounce));
+    const auto bounce = hn::Mul(hn::Mul(face, wall_gain), hn::Set(d, strip.double_bounce));
     const auto foot = hn::And(wall, whole);
     if (!hn::AllFalse(d, foot)) spread(strip, lane, foot, bounce, near.row, near.row);
   }
@@ -125,7 +124,6 @@ void cast_profile(const Strip& strip) {
   for (std::size_t lane = 0; lane < kStripColumns; lane += hn::Lanes(d)) {
     Point near = point_at(strip, 0, lane);
     auto horizon = hn::Max(hn::Load(d, strip.horizon + lane), near.tangent);
-    if (strip.lit != nullptr) hn::Store(hn::Zero(d), d, strip.lit + lane);
     for (int row = 1; row < strip.rows; ++row) {
       const Point far = point_at(strip, row, lane);
       cast_piece(strip, row, lane, near, far, horizon);

@@ -19,13 +19,13 @@ struct Strip {
   float double_bounce = 0.0F;         // of a wall's foot, against the wall; 0 = none
   const float* distance_m = nullptr;  // by row
   const float* above_m = nullptr;     // aircraft above the map plane, by row
+  const float* level_m = nullptr;     // aircraft above the horizontal there, by row
   const float* arc = nullptr;         // width of a column over its distance, sixteen
   const float* horizon = nullptr;     // before row 0, sixteen
   const float* height_m = nullptr;    // above the map plane, by row and column
   const float* gain = nullptr;        // gamma; its sign is of no account
   const float* wall_gain = nullptr;   // gamma of a wall that stands before this row's ground; 0 = none
   float* power = nullptr;             // [m^2] cross section, by row and column as it appears; is added to
-  float* lit = nullptr;               // share of each piece that is seen; null: not asked
 };
 
 void cast_profile(const Strip& strip);

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
+
+#include "model/hrm/response_lanes.hpp"
 
 namespace yars::model::hrm {
 
 namespace {
+constexpr std::size_t kLanes = 16;       // counts of the loops are multiples of it
 constexpr int kEqualLobes = 5;           // n-bar: so many sidelobes of one height, falling behind
 constexpr double kMainLobeCells = 1.5;   // the first null of -35 dB lies at 1.4 cells
 constexpr double kSidelobeCells = 16.0;  // what lies farther out is below any picture's black
@@ -93,75 +97,66 @@ std::vector<float> Response::weights(double pixel, int& first) const {
   return weights;
 }
 
-void Response::apply(float floor, MapImage& image) const {
+// Rows and columns of black about a copy of the image, so that no sum looks over an edge.
+void Response::make_room(const MapImage& image) {
+  const auto size = static_cast<std::size_t>(image.size);
+  const std::size_t taps = main_lobe_.size() + sidelobes_.size();
+  margin_ = (taps + kLanes - 1) / kLanes * kLanes;
+  columns_ = (size + kLanes - 1) / kLanes * kLanes;
+  pitch_ = columns_ + 2 * margin_;
+  const std::size_t room = pitch_ * (size + 2 * margin_);
+  if (source_.size() == room) return;
+  source_.assign(room, 0.0F);
+  across_.assign(room, 0.0F);
+  row_.assign(columns_, 0.0F);
+}
+
+void Response::apply(float floor, MapImage& image) {
+  make_room(image);
   smooth(image);
   add_sidelobes(floor, image);
 }
 
-namespace {
-// to[i] = sum of the kernel over from[i - reach .. i + reach]; what lies beyond the edge is black. `from` has `reach`
-// zeros before and behind its `count` entries.
-void convolve(const std::vector<float>& kernel, const float* from, std::size_t count, float* to) {
-  for (std::size_t i = 0; i < count; ++i) to[i] = kernel[0] * from[i];
-  for (std::size_t k = 1; k < kernel.size(); ++k) {
-    const float weight = kernel[k];
-    const float* before = from - k;
-    const float* behind = from + k;
-    for (std::size_t i = 0; i < count; ++i) to[i] += weight * (before[i] + behind[i]);
-  }
-}
-}  // namespace
-
-// Columns by whole rows, so that both passes run along memory.
-void Response::smooth(MapImage& image) const {
+void Response::smooth(MapImage& image) {
   if (main_lobe_.size() < 2) return;
   const auto size = static_cast<std::size_t>(image.size);
-  const std::size_t reach = main_lobe_.size() - 1;
-  std::vector<float> padded(size + 2 * reach, 0.0F);
+  const std::span<const float> lobe = std::span<const float>(main_lobe_).subspan(1);
+  const auto pitch = static_cast<std::ptrdiff_t>(pitch_);
   for (std::size_t row = 0; row < size; ++row) {
-    float* pixels = &image.power[row * size];
-    std::copy_n(pixels, size, padded.begin() + static_cast<std::ptrdiff_t>(reach));
-    convolve(main_lobe_, padded.data() + reach, size, pixels);
+    float* from = &source_[padded(row)];
+    std::copy_n(&image.power[row * size], size, from);
+    std::fill(from + size, from + columns_, 0.0F);
+    lanes::scale(columns_, from, main_lobe_[0], &across_[padded(row)]);
+    lanes::add_neighbours(columns_, from, 1, 1, lobe, &across_[padded(row)]);
+    std::fill(&across_[padded(row)] + size, &across_[padded(row)] + columns_, 0.0F);
   }
-  std::vector<float> across(image.power.size());
   for (std::size_t row = 0; row < size; ++row) {
-    float* to = &across[row * size];
-    const float* from = &image.power[row * size];
-    for (std::size_t i = 0; i < size; ++i) to[i] = main_lobe_[0] * from[i];
-    for (std::size_t k = 1; k <= reach; ++k) {
-      const float weight = main_lobe_[k];
-      for (const bool nearer : {true, false}) {
-        if (nearer ? row < k : row + k >= size) continue;
-        const float* other = nearer ? from - k * size : from + k * size;
-        for (std::size_t i = 0; i < size; ++i) to[i] += weight * other[i];
-      }
-    }
+    const float* from = &across_[padded(row)];
+    lanes::scale(columns_, from, main_lobe_[0], row_.data());
+    lanes::add_neighbours(columns_, from, pitch, 1, lobe, row_.data());
+    std::copy_n(row_.data(), size, &image.power[row * size]);
   }
-  image.power.swap(across);
 }
 
-void Response::add_sidelobes(float floor, MapImage& image) const {
+// Strong points first, all of them: what one adds must not make another strong.
+void Response::add_sidelobes(float floor, MapImage& image) {
   if (sidelobes_.empty()) return;
-  const float strong = floor / *std::max_element(sidelobes_.begin(), sidelobes_.end());
-  const int near = static_cast<int>(main_lobe_.size());
-  // Strong points first, all of them: what one adds must not make another strong.
-  std::vector<std::size_t> points;
-  for (std::size_t i = 0; i < image.power.size(); ++i)
-    if (image.power[i] > strong) points.push_back(i);
-  std::vector<float> levels;
-  for (const std::size_t i : points) levels.push_back(image.power[i]);
   const auto size = static_cast<std::size_t>(image.size);
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    const auto column = static_cast<int>(points[p] % size);
-    const auto row = static_cast<int>(points[p] / size);
-    for (std::size_t k = 0; k < sidelobes_.size(); ++k) {
-      const int off = near + static_cast<int>(k);
-      const float level = levels[p] * sidelobes_[k];
-      if (column >= off) image.power[image.at(column - off, row)] += level;
-      if (column + off < image.size) image.power[image.at(column + off, row)] += level;
-      if (row >= off) image.power[image.at(column, row - off)] += level;
-      if (row + off < image.size) image.power[image.at(column, row + off)] += level;
-    }
+  const float strong = floor / *std::max_element(sidelobes_.begin(), sidelobes_.end());
+  const auto first = static_cast<std::ptrdiff_t>(main_lobe_.size());
+  bool any = false;
+  std::fill(row_.begin(), row_.end(), 0.0F);
+  for (std::size_t row = 0; row < size; ++row) {
+    std::copy_n(&image.power[row * size], size, row_.data());
+    any = lanes::keep_above(columns_, row_.data(), strong, &source_[padded(row)]) || any;
+  }
+  if (!any) return;
+  for (std::size_t row = 0; row < size; ++row) {
+    const float* from = &source_[padded(row)];
+    std::copy_n(&image.power[row * size], size, row_.data());
+    lanes::add_neighbours(columns_, from, 1, first, sidelobes_, row_.data());
+    lanes::add_neighbours(columns_, from, static_cast<std::ptrdiff_t>(pitch_), first, sidelobes_, row_.data());
+    std::copy_n(row_.data(), size, &image.power[row * size]);
   }
 }
 

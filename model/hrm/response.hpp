@@ -19,19 +19,24 @@ class Response {
 
   // Every pixel spreads over the main lobe; those so strong that their sidelobes rise above `floor`, over these too.
   // The sum over the picture stays, but for what leaves it.
-  void apply(float floor, MapImage& image) const;
+  void apply(float floor, MapImage& image);
   // Weights of the pixels from `first` on for a point at this place [pixels]; sum 1.
   std::vector<float> weights(double pixel, int& first) const;
 
  private:
-  void smooth(MapImage& image) const;
-  void add_sidelobes(float floor, MapImage& image) const;
+  void make_room(const MapImage& image);
+  void smooth(MapImage& image);
+  void add_sidelobes(float floor, MapImage& image);
+  // Where a row of the image begins in a copy of it.
+  std::size_t padded(std::size_t row) const { return (row + margin_) * pitch_ + margin_; }
 
   std::vector<double> coefficients_;  // of the weighting's cosine series, 1 first
   double stretch_ = 1.0;              // 1 / bandwidth of an unweighted array, in cells
   double cells_a_pixel_;
   std::vector<float> main_lobe_;  // from the middle outwards, pixels; with their mirror image the sum is 1
   std::vector<float> sidelobes_;  // behind them; likewise against a sum of 1
+  std::size_t margin_ = 0, columns_ = 0, pitch_ = 0;
+  std::vector<float> source_, across_, row_;  // kept between maps
 };
 
 }  // namespace yars::model::hrm

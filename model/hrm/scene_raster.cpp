@@ -5,18 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "model/reflectivity/land.hpp"
-
 namespace yars::model::hrm {
 
 namespace {
-// A face this near its object's base [m], and level, lies on the ground.
-constexpr float kOnGround_m = 0.5F;
-constexpr float kLevelNormal = 0.98F;  // of the unit normal, upwards
-// Steeper than 70 degrees a face is a wall.
-constexpr float kWallNormal2 = 0.13F;  // tan^2 20 degrees: square of the upward part against the level part
-constexpr float kSmooth = 0.02F;       // vertices that face the radar so differently from the facet are interpolated
-constexpr float kMostShading = 4.0F;   // of an interpolated normal against the facet's: silhouettes are ragged
+constexpr float kSmooth = 0.02F;  // vertices that face the radar so differently from the facet are interpolated
+constexpr float kReach = 0.5F;    // [rows] of a surface beyond its edges
 
 // Half-open: a grid point on an edge between two triangles belongs to exactly one.
 int first_at(float value) {
@@ -24,16 +17,35 @@ int first_at(float value) {
 }
 }  // namespace
 
-SceneRaster::SceneRaster(const radar::RadarConfiguration& configuration)
-    : street_width_deg_(configuration.world.land.street_width_deg) {
-  const reflectivity::LandReturn land = reflectivity::make_land_return(configuration);
-  for (std::size_t code = 0; code < land.gamma.size(); ++code) {
-    // A face without a code is taken for what the configuration says.
-    const std::size_t known = code == 0 ? static_cast<std::size_t>(configuration.high_resolution.plain_material) : code;
-    gamma_.push_back(static_cast<float>(land.gamma[known]));
-    cardinal_.push_back(static_cast<float>(land.cardinal[known]));
+// The normal of a triangle: right, ahead, up, in metres; and its extent on the grid.
+struct SceneRaster::Facet {
+  Facet(const Canvas& canvas, const Triangle& corner)
+      : c1(corner[1]->column - corner[0]->column),
+        c2(corner[2]->column - corner[0]->column),
+        r1(corner[1]->row - corner[0]->row),
+        r2(corner[2]->row - corner[0]->row),
+        z1(corner[1]->height_m - corner[0]->height_m),
+        z2(corner[2]->height_m - corner[0]->height_m),
+        across(canvas.row_height_m * (r1 * z2 - z1 * r2)),
+        ahead(canvas.column_width_m * (z1 * c2 - c1 * z2)),
+        area(c1 * r2 - r1 * c2),
+        upward(canvas.column_width_m * canvas.row_height_m * area),
+        level2(across * across + ahead * ahead) {}
+  Plane plane(const Vertex& corner) const {
+    const float inverse = 1.0F / area;
+    const float by_column = (z1 * r2 - z2 * r1) * inverse;
+    const float by_row = (c1 * z2 - c2 * z1) * inverse;
+    return {corner.height_m - by_column * corner.column - by_row * corner.row, by_column, by_row};
   }
-}
+
+  float c1, c2, r1, r2, z1, z2;  // edges from the first corner
+  float across, ahead;
+  float area;  // grid cells
+  float upward;
+  float level2;  // square of the level part
+};
+
+SceneRaster::SceneRaster(const radar::RadarConfiguration& configuration) : surface_(configuration) {}
 
 SceneRaster::Placement SceneRaster::place(const PatchGeometry& geometry, const scene::Tile& tile) const {
   const geo::GeodesicInverse way = geo::geodesic_inverse(geometry.apex(), tile.origin);
@@ -117,7 +129,7 @@ void SceneRaster::transform(const PatchGeometry& geometry, const FanGrid& grid, 
   for (std::size_t i = 0; i < count; ++i) {
     const float right = right_m + right_east * tile.east_m[i] + right_north * tile.north_m[i];
     const float up = up_m + up_east * tile.east_m[i] + up_north * tile.north_m[i];
-    const float ahead = centre_m + up;
+    const float ahead = std::max(centre_m + up, 1.0F);
     const float distance = std::sqrt(right * right + ahead * ahead);
     const float beyond = (up * (centre_m + ahead) + right * right) / (distance + centre_m);
     vertices_[i].column = middle_column + right / ahead * columns_a_tangent;
@@ -128,143 +140,128 @@ void SceneRaster::transform(const PatchGeometry& geometry, const FanGrid& grid, 
   }
 }
 
-std::size_t SceneRaster::draw(const PatchGeometry& geometry, const FanGrid& grid, const scene::SceneView& scene,
-                              const std::vector<const scene::Tile*>& tiles, int first, int last,
-                              const SceneArrays& arrays) {
-  std::size_t triangles = 0;
+void SceneRaster::draw(const PatchGeometry& geometry, const FanGrid& grid, const scene::SceneView& scene,
+                       const std::vector<const scene::Tile*>& tiles, int first, int last, const SceneArrays& arrays) {
   for (const scene::Tile* tile : tiles) {
     const Placement placement = place(geometry, *tile);
     if (!overlaps(geometry, grid, placement, *tile, first, last)) continue;
     const double distance_m = std::hypot(placement.right_m, placement.up_m + geometry.distance_m());
     const double column = placement.right_m / std::max(placement.up_m + geometry.distance_m(), 1.0);
-    const Limits limits{first,
+    const Canvas canvas{&grid,
+                        arrays,
+                        first,
                         last,
                         static_cast<float>(distance_m * grid.tangent_step / (1.0 + column * column)),
                         static_cast<float>(grid.spacing_m),
                         placement.toward_up,
                         std::sqrt(1.0F - placement.toward_up * placement.toward_up)};
     transform(geometry, grid, placement, *tile);
-    draw_tile(grid, scene, *tile, placement, limits, arrays);
-    triangles += tile->corners.size();
+    draw_tile(scene, *tile, placement, canvas);
   }
-  return triangles;
 }
 
-void SceneRaster::draw_tile(const FanGrid& grid, const scene::SceneView& scene, const scene::Tile& tile,
-                            const Placement& placement, const Limits& limits, const SceneArrays& arrays) {
-  const float width = limits.column_width_m;
-  const float depth = limits.row_height_m;
-  const auto rows = static_cast<float>(grid.rows);
-  const auto first = static_cast<float>(limits.first);
-  const auto last = static_cast<float>(limits.last);
+void SceneRaster::draw_tile(const scene::SceneView& scene, const scene::Tile& tile, const Placement& placement,
+                            const Canvas& canvas) {
+  const auto rows = static_cast<float>(canvas.grid->rows);
+  const auto lowest = static_cast<float>(canvas.first);
+  const auto highest = static_cast<float>(canvas.last);
   for (std::size_t t = 0; t < tile.corners.size(); ++t) {
-    const Vertex corner[3] = {vertices_[tile.corners[t][0]], vertices_[tile.corners[t][1]],
-                              vertices_[tile.corners[t][2]]};
-    const float least_row = std::min({corner[0].row, corner[1].row, corner[2].row});
-    const float most_row = std::max({corner[0].row, corner[1].row, corner[2].row});
-    const float least_column = std::min({corner[0].column, corner[1].column, corner[2].column});
-    const float most_column = std::max({corner[0].column, corner[1].column, corner[2].column});
-    if (!(most_row >= 0.0F && least_row < rows && most_column >= first && least_column < last)) continue;
-    // The facet's normal: right, ahead, up, in metres.
-    const float c1 = corner[1].column - corner[0].column;
-    const float c2 = corner[2].column - corner[0].column;
-    const float r1 = corner[1].row - corner[0].row;
-    const float r2 = corner[2].row - corner[0].row;
-    const float z1 = corner[1].height_m - corner[0].height_m;
-    const float z2 = corner[2].height_m - corner[0].height_m;
-    const float across = depth * (r1 * z2 - z1 * r2);
-    const float ahead = width * (z1 * c2 - c1 * z2);
-    const float area = c1 * r2 - r1 * c2;  // grid cells
-    const float upward = width * depth * area;
-    const float level2 = across * across + ahead * ahead;
-    const std::size_t code = scene.kinds()[tile.kind[t]].material % gamma_.size();
-    const float gamma = gamma_[code];
-    if (upward * upward < kWallNormal2 * level2) {
-      const float towards = -ahead * limits.cosine + upward * limits.sine;
-      if (towards > 0.0F) {
-        const double off_deg =
-            std::atan2(static_cast<double>(across), static_cast<double>(-ahead)) / geo::kRadiansPerDegree;
-        const double cardinal =
-            reflectivity::cardinal_gain(static_cast<double>(cardinal_[code]), off_deg, street_width_deg_);
-        mark_wall(grid, limits, corner, gamma * static_cast<float>(cardinal), arrays);
-      }
-    }
-    if (!(area > 0.0F)) continue;  // seen from below, or on edge
-    if (first_at(least_row) >= first_at(most_row) || first_at(least_column) >= first_at(most_column)) continue;
-
-    const float length = std::sqrt(level2 + upward * upward);
-    const float facing = (-ahead * limits.cosine + upward * limits.sine) / length;
-    float gain = gamma;
-    bool smooth = false;
-    if (facing > 0.0F) {
-      for (const Vertex& vertex : corner) smooth = smooth || std::abs(vertex.facing - facing) > kSmooth;
-      if (smooth) {
-        const float mean = (corner[0].facing + corner[1].facing + corner[2].facing) / 3.0F;
-        gain *= std::clamp(mean / facing, 0.0F, kMostShading);
-      }
-    }
-    const float inverse = 1.0F / area;
-    Plane plane{};
-    plane.by_column = (z1 * r2 - z2 * r1) * inverse;
-    plane.by_row = (c1 * z2 - c2 * z1) * inverse;
-    plane.value = corner[0].height_m - plane.by_column * corner[0].column - plane.by_row * corner[0].row;
-    const float base_m =
-        static_cast<float>(scene.objects()[tile.object[t]].base_msl_m - tile.zero_msl_m) + placement.lift_m;
-    const bool flat = upward > kLevelNormal * length && corner[0].height_m - base_m < kOnGround_m;
-    fill(grid, limits, corner, plane, gain, flat, arrays);
+    const Triangle corner{&vertices_[tile.corners[t][0]], &vertices_[tile.corners[t][1]],
+                          &vertices_[tile.corners[t][2]]};
+    const float least_column = std::min({corner[0]->column, corner[1]->column, corner[2]->column});
+    const float most_column = std::max({corner[0]->column, corner[1]->column, corner[2]->column});
+    if (!(most_column >= lowest && least_column < highest)) continue;
+    // Most of a fine scene ends here: too narrow to cross the line of sight of any column.
+    if (first_at(least_column) >= first_at(most_column)) continue;
+    const float least_row = std::min({corner[0]->row, corner[1]->row, corner[2]->row});
+    const float most_row = std::max({corner[0]->row, corner[1]->row, corner[2]->row});
+    if (!(most_row >= -kReach && least_row < rows)) continue;
+    const Surface surface{
+        scene.kinds()[tile.kind[t]].material,
+        static_cast<float>(scene.objects()[tile.object[t]].base_msl_m - tile.zero_msl_m) + placement.lift_m};
+    draw_triangle(canvas, corner, surface);
   }
 }
 
-void SceneRaster::fill(const FanGrid& grid, const Limits& limits, const Vertex (&corner)[3], const Plane& plane,
-                       float gain, bool flat, const SceneArrays& arrays) const {
-  std::array<const Vertex*, 3> by_row{&corner[0], &corner[1], &corner[2]};
-  if (by_row[1]->row < by_row[0]->row) std::swap(by_row[0], by_row[1]);
-  if (by_row[2]->row < by_row[1]->row) std::swap(by_row[1], by_row[2]);
-  if (by_row[1]->row < by_row[0]->row) std::swap(by_row[0], by_row[1]);
-  const Vertex& low = *by_row[0];
-  const Vertex& middle = *by_row[1];
-  const Vertex& high = *by_row[2];
-  const int last_row = std::min(first_at(high.row), grid.rows);
-  for (int row = std::max(first_at(low.row), 0); row < last_row; ++row) {
-    const auto y = static_cast<float>(row);
-    const float along = low.column + (high.column - low.column) * (y - low.row) / (high.row - low.row);
+void SceneRaster::draw_triangle(const Canvas& canvas, const Triangle& corner, const Surface& surface) const {
+  const Facet facet(canvas, corner);
+  const float towards = -facet.ahead * canvas.cosine + facet.upward * canvas.sine;
+  const bool steep = facet.upward * facet.upward < static_cast<float>(kWallNormal2) * facet.level2;
+  if (steep && towards > 0.0F)
+    mark_wall(canvas, corner,
+              static_cast<float>(surface_.wall_gamma(surface.code, static_cast<double>(facet.across),
+                                                     static_cast<double>(-facet.ahead))));
+  if (!(facet.area > 0.0F)) return;  // seen from below, or on edge
+  const float length = std::sqrt(facet.level2 + facet.upward * facet.upward);
+  const bool flat = facet.upward > static_cast<float>(kLevelNormal) * length &&
+                    corner[0]->height_m - surface.base_m < static_cast<float>(kOnGround_m);
+  const auto gamma = static_cast<float>(surface_.gamma(surface.code));
+  fill(canvas, corner, facet.plane(*corner[0]), gamma * shading(corner, towards / length), flat);
+}
+
+// How much more or less squarely the interpolated normals face the radar than the facet does.
+float SceneRaster::shading(const Triangle& corner, float facing) {
+  if (!(facing > 0.0F)) return 1.0F;
+  bool smooth = false;
+  for (const Vertex* vertex : corner) smooth = smooth || std::abs(vertex->facing - facing) > kSmooth;
+  if (!smooth) return 1.0F;
+  const float mean = (corner[0]->facing + corner[1]->facing + corner[2]->facing) / 3.0F;
+  return std::clamp(mean / facing, 0.0F, static_cast<float>(kMostShading));
+}
+
+// Column by column, for a column is a profile: a surface reaches half a row beyond its edges, so that on average it
+// is as long as it is, and its height there is that of the edge.
+void SceneRaster::fill(const Canvas& canvas, const Triangle& corner, const Plane& plane, float gain, bool flat) {
+  Triangle across = corner;
+  if (across[1]->column < across[0]->column) std::swap(across[0], across[1]);
+  if (across[2]->column < across[1]->column) std::swap(across[1], across[2]);
+  if (across[1]->column < across[0]->column) std::swap(across[0], across[1]);
+  const Vertex& left = *across[0];
+  const Vertex& middle = *across[1];
+  const Vertex& right = *across[2];
+  const float reach = flat ? 0.0F : kReach;
+  const int end = std::min(first_at(right.column), canvas.last);
+  for (int column = std::max(first_at(left.column), canvas.first); column < end; ++column) {
+    const auto x = static_cast<float>(column);
+    const float along = left.row + (right.row - left.row) * (x - left.column) / (right.column - left.column);
     const float beside =
-        y < middle.row ? low.column + (middle.column - low.column) * (y - low.row) / (middle.row - low.row)
-                       : middle.column + (high.column - middle.column) * (y - middle.row) / (high.row - middle.row);
-    const int begin = std::max(first_at(std::min(along, beside)), limits.first);
-    const int end = std::min(first_at(std::max(along, beside)), limits.last);
-    for (int column = begin; column < end; ++column) {
-      const std::size_t at = grid.at(column, row);
+        x < middle.column
+            ? left.row + (middle.row - left.row) * (x - left.column) / (middle.column - left.column)
+            : middle.row + (right.row - middle.row) * (x - middle.column) / (right.column - middle.column);
+    const float near = std::min(along, beside);
+    const float far = std::max(along, beside);
+    const int last = std::min(first_at(far + reach), canvas.grid->rows);
+    int row = std::max(first_at(near - reach), 0);
+    for (std::size_t at = canvas.grid->at(column, row); row < last; ++row, at += kStripColumns) {
       if (flat) {
-        if (arrays.gain[at] >= 0.0F) arrays.gain[at] = gain;
+        if (canvas.arrays.gain[at] >= 0.0F) canvas.arrays.gain[at] = gain;
         continue;
       }
-      const float height = plane.at(static_cast<float>(column), y);
-      if (height <= arrays.height_m[at]) continue;
-      arrays.height_m[at] = height;
-      arrays.gain[at] = -gain;
+      const float height = plane.at(x, std::clamp(static_cast<float>(row), near, far));
+      if (height <= canvas.arrays.height_m[at]) continue;
+      canvas.arrays.height_m[at] = height;
+      canvas.arrays.gain[at] = -gain;
     }
   }
 }
 
-// Seen from above the wall is the line between the two corners that lie farthest apart across; the first grid point at
-// or behind it is where the profile steps up.
-void SceneRaster::mark_wall(const FanGrid& grid, const Limits& limits, const Vertex (&corner)[3], float gain,
-                            const SceneArrays& arrays) const {
-  const Vertex* left = &corner[0];
-  const Vertex* right = &corner[0];
-  for (const Vertex& vertex : corner) {
-    if (vertex.column < left->column) left = &vertex;
-    if (vertex.column > right->column) right = &vertex;
-  }
-  const int begin = std::max(first_at(left->column), limits.first);
-  const int end = std::min(first_at(right->column), limits.last);
-  if (begin >= end) return;
-  const float slope = (right->row - left->row) / (right->column - left->column);
+// Seen from above the wall is the line between the two corners that lie farthest apart across; the profile steps up at
+// the first grid point that a surface behind the line reaches.
+void SceneRaster::mark_wall(const Canvas& canvas, const Triangle& corner, float gain) {
+  const auto by_column = [](const Vertex* a, const Vertex* b) { return a->column < b->column; };
+  const Vertex& left = **std::min_element(corner.begin(), corner.end(), by_column);
+  const Vertex& right = **std::max_element(corner.begin(), corner.end(), by_column);
+  const int begin = std::max(first_at(left.column), canvas.first);
+  const int end = std::min(first_at(right.column), canvas.last);
+  const float width = right.column - left.column;
+  const float slope = (right.row - left.row) / width;
+  // Its columns together are as wide as it is. One column alone may be one of many narrow walls side by side.
+  const int columns = first_at(right.column) - first_at(left.column);
+  if (columns > 1) gain *= width / static_cast<float>(columns);
   for (int column = begin; column < end; ++column) {
-    const int row = first_at(left->row + slope * (static_cast<float>(column) - left->column));
-    if (row < 0 || row >= grid.rows) continue;
-    float& wall = arrays.wall_gain[grid.at(column, row)];
+    const int row = first_at(left.row + slope * (static_cast<float>(column) - left.column) - kReach);
+    if (row < 0 || row >= canvas.grid->rows) continue;
+    float& wall = canvas.arrays.wall_gain[canvas.grid->at(column, row)];
     wall = std::max(wall, gain);
   }
 }

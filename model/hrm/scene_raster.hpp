@@ -3,11 +3,13 @@
 // takes the ground's height and gives it its own gamma.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/fan_grid.hpp"
+#include "model/hrm/scene_surface.hpp"
 #include "model/scene/scene_view.hpp"
 
 namespace yars::model::hrm {
@@ -23,10 +25,9 @@ class SceneRaster {
  public:
   explicit SceneRaster(const radar::RadarConfiguration& configuration);
 
-  // Draws what of the tiles falls into the columns [first, last), in the order of the tiles. Returns the triangles
-  // that were looked at.
-  std::size_t draw(const PatchGeometry& geometry, const FanGrid& grid, const scene::SceneView& scene,
-                   const std::vector<const scene::Tile*>& tiles, int first, int last, const SceneArrays& arrays);
+  // Draws what of the tiles falls into the columns [first, last), in the order of the tiles.
+  void draw(const PatchGeometry& geometry, const FanGrid& grid, const scene::SceneView& scene,
+            const std::vector<const scene::Tile*>& tiles, int first, int last, const SceneArrays& arrays);
 
  private:
   // A vertex on the grid, and how squarely its surface faces the radar.
@@ -40,10 +41,19 @@ class SceneRaster {
     float lift_m;                                // up = 0 above the map plane
     float toward_east, toward_north, toward_up;  // unit vector to the radar
   };
-  struct Limits {
+  // Where a tile is drawn, and what a grid cell is there.
+  struct Canvas {
+    const FanGrid* grid;
+    SceneArrays arrays;
     int first, last;  // columns
     float column_width_m, row_height_m;
     float sine, cosine;  // of the grazing angle
+  };
+  using Triangle = std::array<const Vertex*, 3>;
+  struct Facet;
+  struct Surface {
+    std::size_t code;  // of the material
+    float base_m;      // of the object, above the map plane
   };
 
   Placement place(const PatchGeometry& geometry, const scene::Tile& tile) const;
@@ -53,21 +63,19 @@ class SceneRaster {
                  float north_m, float height_m) const;
   void transform(const PatchGeometry& geometry, const FanGrid& grid, const Placement& placement,
                  const scene::Tile& tile);
-  void draw_tile(const FanGrid& grid, const scene::SceneView& scene, const scene::Tile& tile,
-                 const Placement& placement, const Limits& limits, const SceneArrays& arrays);
+  void draw_tile(const scene::SceneView& scene, const scene::Tile& tile, const Placement& placement,
+                 const Canvas& canvas);
+  void draw_triangle(const Canvas& canvas, const Triangle& corner, const Surface& surface) const;
   // The plane of a triangle over the grid: value + by_column * column + by_row * row.
   struct Plane {
     float value, by_column, by_row;
     float at(float column, float row) const { return value + by_column * column + by_row * row; }
   };
-  void fill(const FanGrid& grid, const Limits& limits, const Vertex (&corner)[3], const Plane& plane, float gain,
-            bool flat, const SceneArrays& arrays) const;
-  void mark_wall(const FanGrid& grid, const Limits& limits, const Vertex (&corner)[3], float gain,
-                 const SceneArrays& arrays) const;
+  static float shading(const Triangle& corner, float facing);
+  static void fill(const Canvas& canvas, const Triangle& corner, const Plane& plane, float gain, bool flat);
+  static void mark_wall(const Canvas& canvas, const Triangle& corner, float gain);
 
-  std::vector<float> gamma_;     // by material code
-  std::vector<float> cardinal_;  // by material code
-  double street_width_deg_;
+  SceneSurface surface_;
   std::vector<Vertex> vertices_;  // of the tile in hand
 };
 

@@ -254,7 +254,17 @@ TEST(RadarKernel, TellsTheGroundBelowAircraftAndCursor) {
   EXPECT_DOUBLE_EQ(status.ground_elevation_m, 100.0);
   EXPECT_DOUBLE_EQ(status.cursor_ground_elevation_m, 250.0);
   EXPECT_DOUBLE_EQ(status.height_above_ground_m, 4472.0);
-  EXPECT_TRUE(std::isnan(status.map_timer_s));
+}
+
+TEST(RadarKernel, TellsWhatAMapAtTheCursorWouldTakeWhereOneCanBeMade) {
+  Cockpit cockpit;
+  cockpit.tick.command.window_nm = 4.7;
+  cockpit.run(10);
+  const auto status = cockpit.status();
+  EXPECT_EQ(status.mappable == 1, std::isfinite(status.map_timer_s));
+  cockpit.tick.command.window_nm = 0.0;
+  cockpit.run(10);
+  EXPECT_TRUE(std::isnan(cockpit.status().map_timer_s));
 }
 
 TEST(RadarKernel, TellsTheAntennasElevationOnceItIsThere) {

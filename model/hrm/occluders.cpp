@@ -1,0 +1,105 @@
+#include "model/hrm/occluders.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace yars::model::hrm {
+
+namespace {
+constexpr double kClear_m = 0.02;  // what is nearer than this in front of a point is the point's own surface
+constexpr int kMostCells = 2048;   // an edge of the grid
+
+// True if the ray from the origin meets the triangle, `share` of the way to the point (Moeller and Trumbore 1997).
+bool meets(const Occluders::Corners& corners, Point3 point, double& share) {
+  const Point3 one = corners[1] - corners[0];
+  const Point3 two = corners[2] - corners[0];
+  const Point3 normal = cross(point, two);
+  const double determinant = dot(one, normal);
+  if (determinant == 0.0) return false;
+  const Point3 from = -1.0 * corners[0];
+  const double u = dot(from, normal) / determinant;
+  if (u < 0.0 || u > 1.0) return false;
+  const Point3 turned = cross(from, one);
+  const double v = dot(point, turned) / determinant;
+  if (v < 0.0 || u + v > 1.0) return false;
+  share = dot(two, turned) / determinant;
+  return share > 0.0;
+}
+}  // namespace
+
+int Occluders::Span::cell(double value) const {
+  return std::clamp(static_cast<int>((value - least) * scale), 0, cells - 1);
+}
+
+Occluders::Occluders(std::vector<Corners> triangles) : triangles_(std::move(triangles)) {
+  const auto behind = [](const Corners& corners) {
+    return std::any_of(corners.begin(), corners.end(), [](Point3 corner) { return !(corner.ahead_m > 1.0); });
+  };
+  triangles_.erase(std::remove_if(triangles_.begin(), triangles_.end(), behind), triangles_.end());
+  if (triangles_.empty()) return;
+  measure();
+  begin_.assign(static_cast<std::size_t>(across_.cells) * static_cast<std::size_t>(upward_.cells) + 1, 0);
+  for (const Corners& corners : triangles_) visit_cells(corners, [&](std::size_t cell) { ++begin_[cell + 1]; });
+  for (std::size_t cell = 1; cell < begin_.size(); ++cell) begin_[cell] += begin_[cell - 1];
+  entries_.resize(begin_.back());
+  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+  for (std::size_t t = 0; t < triangles_.size(); ++t)
+    visit_cells(triangles_[t], [&](std::size_t cell) { entries_[next[cell]++] = static_cast<std::uint32_t>(t); });
+}
+
+void Occluders::measure() {
+  double least[2] = {std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+  double most[2] = {std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
+  for (const Corners& corners : triangles_) {
+    for (const Point3 corner : corners) {
+      const double at[2] = {corner.right_m / corner.ahead_m, corner.up_m / corner.ahead_m};
+      for (int axis = 0; axis < 2; ++axis) {
+        least[axis] = std::min(least[axis], at[axis]);
+        most[axis] = std::max(most[axis], at[axis]);
+      }
+    }
+  }
+  // About two triangles a cell; a scene is seen flat, so most of the cells go side by side.
+  const double cells = std::sqrt(static_cast<double>(triangles_.size()) * 2.0);
+  const auto span = [&](int axis, double share) {
+    Span made;
+    made.least = least[axis];
+    made.cells = std::clamp(static_cast<int>(share * cells), 1, kMostCells);
+    made.scale = most[axis] > least[axis] ? made.cells / (most[axis] - least[axis]) : 0.0;
+    return made;
+  };
+  across_ = span(0, 2.0);
+  upward_ = span(1, 1.0);
+}
+
+template <class Visit>
+void Occluders::visit_cells(const Corners& corners, const Visit& visit) const {
+  int least[2] = {across_.cells, upward_.cells};
+  int most[2] = {-1, -1};
+  for (const Point3 corner : corners) {
+    const int at[2] = {across_.cell(corner.right_m / corner.ahead_m), upward_.cell(corner.up_m / corner.ahead_m)};
+    for (int axis = 0; axis < 2; ++axis) {
+      least[axis] = std::min(least[axis], at[axis]);
+      most[axis] = std::max(most[axis], at[axis]);
+    }
+  }
+  for (int row = least[1]; row <= most[1]; ++row)
+    for (int column = least[0]; column <= most[0]; ++column)
+      visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(across_.cells) + static_cast<std::size_t>(column));
+}
+
+bool Occluders::hide(Point3 point) const {
+  if (triangles_.empty() || !(point.ahead_m > 0.0)) return false;
+  const auto row = static_cast<std::size_t>(upward_.cell(point.up_m / point.ahead_m));
+  const auto column = static_cast<std::size_t>(across_.cell(point.right_m / point.ahead_m));
+  const std::size_t cell = row * static_cast<std::size_t>(across_.cells) + column;
+  const double length_m = std::sqrt(dot(point, point));
+  for (std::uint32_t entry = begin_[cell]; entry < begin_[cell + 1]; ++entry) {
+    double share = 0.0;
+    if (meets(triangles_[entries_[entry]], point, share) && (1.0 - share) * length_m > kClear_m) return true;
+  }
+  return false;
+}
+
+}  // namespace yars::model::hrm

@@ -1,0 +1,298 @@
+#include "model/hrm/reference_patch.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "model/reflectivity/decibels.hpp"
+
+namespace yars::model::hrm {
+
+namespace {
+constexpr double kPathSpacing_m = 15.0;  // between samples on the way to the fan; posts are farther apart
+constexpr double kFacetPixels = 1.0 / 3.0;
+constexpr int kMostPieces = 512;  // of an edge: a face as large as the window
+constexpr double kBuried_m = 0.05;
+constexpr double kFoot_m = 0.3;  // the ground before a wall: so far from it
+}  // namespace
+
+// What is below a point: its distance over ground, its own height and that of the ground above the map plane, and what
+// rises before it.
+struct ReferencePatch::Ground {
+  double distance_m, point_m;
+  double height_m, horizon;
+};
+
+ReferencePatch::ReferencePatch(const radar::RadarConfiguration& configuration, const PatchGeometry& geometry,
+                               const FanGrid& grid)
+    : fidelity_(configuration.fidelity),
+      surface_(configuration),
+      bounce_(fidelity_.map_double_bounce ? reflectivity::ratio(configuration.high_resolution.double_bounce_db) : 0.0),
+      geometry_(&geometry),
+      grid_(&grid),
+      height_m_(grid.size()),
+      horizon_(grid.size()) {}
+
+// About the radar, on the effective earth; heights count from the map plane.
+Point3 ReferencePatch::position(double distance_m, double turn_rad, double height_m) const {
+  const rbm::Sight sight =
+      geometry_->earth().sight(geometry_->altitude_m() - geometry_->plane_msl_m(), distance_m, height_m);
+  const double out_m = sight.slant_range_m * std::cos(sight.elevation_rad);
+  return {out_m * std::sin(turn_rad), out_m * std::cos(turn_rad), sight.slant_range_m * std::sin(sight.elevation_rad)};
+}
+
+void ReferencePatch::read_terrain(const PatchTerrain& terrain) {
+  const FanGrid& grid = *grid_;
+  const double altitude_m = geometry_->altitude_m() - geometry_->plane_msl_m();
+  for (int column = 0; column < grid.columns; ++column) {
+    const geo::GeodesicRay ray(geometry_->apex(),
+                               geometry_->up() + geo::Angle::radians(std::atan(grid.tangent(column))));
+    double horizon = std::numeric_limits<double>::lowest();
+    const auto height_m = [&](const terrain::TerrainView& view, double distance_m) {
+      const terrain::Surface found =
+          view.surface_at(ray.position(geo::Length::metres(distance_m)), fidelity_.interpolation);
+      return found.elevation_m - geometry_->plane_msl_m();
+    };
+    // A void is NaN, and raises nothing.
+    const auto raise = [&](double distance_m, double height) {
+      const double tangent = geometry_->earth().sight(altitude_m, distance_m, height).tangent;
+      if (tangent > horizon) horizon = tangent;
+    };
+    for (double distance_m = kPathSpacing_m; distance_m < grid.first_distance_m; distance_m += kPathSpacing_m)
+      raise(distance_m, height_m(*terrain.path, distance_m));
+    for (int row = 0; row < grid.rows; ++row) {
+      const std::size_t at = grid.at(column, row);
+      height_m_[at] = height_m(*terrain.window, grid.distance_m(row));
+      horizon_[at] = horizon;
+      raise(grid.distance_m(row), height_m_[at]);
+    }
+  }
+}
+
+void ReferencePatch::read_scene(const scene::SceneView& scene, const std::vector<const scene::Tile*>& tiles,
+                                float* gain) {
+  faces_.clear();
+  for (const scene::Tile* tile : tiles) read_tile(scene, *tile, gain);
+  std::vector<Occluders::Corners> triangles;
+  for (const Face& face : faces_) triangles.push_back(face.corners);
+  occluders_ = Occluders(std::move(triangles));
+}
+
+void ReferencePatch::read_tile(const scene::SceneView& scene, const scene::Tile& tile, float* gain) {
+  const double lift_m = tile.zero_msl_m - geometry_->plane_msl_m();
+  const auto map_point = [&](double east_m, double north_m) {
+    const geo::Bearing bearing = geo::Bearing::degrees(std::atan2(east_m, north_m) / geo::kRadiansPerDegree);
+    return geometry_->point_of(
+        geo::geodesic_direct(tile.origin, bearing, geo::Length::metres(std::hypot(east_m, north_m))));
+  };
+  const auto place = [&](MapPoint point, double up_m) {
+    const double ahead_m = point.up_m + geometry_->distance_m();
+    return position(std::hypot(point.right_m, ahead_m), std::atan2(point.right_m, ahead_m), up_m + lift_m);
+  };
+  // The tile's axes, as they lie about the radar.
+  const Point3 origin = place(map_point(0.0, 0.0), 0.0);
+  const Point3 east = place(map_point(1.0, 0.0), 0.0) - origin;
+  const Point3 north = place(map_point(0.0, 1.0), 0.0) - origin;
+  const Point3 up = place(map_point(0.0, 0.0), 1.0) - origin;
+  std::vector<MapPoint> points;
+  for (std::size_t i = 0; i < tile.east_m.size(); ++i)
+    points.push_back(map_point(static_cast<double>(tile.east_m[i]), static_cast<double>(tile.north_m[i])));
+  for (std::size_t t = 0; t < tile.corners.size(); ++t) {
+    Face face;
+    face.code = scene.kinds()[tile.kind[t]].material;
+    for (std::size_t k = 0; k < face.corners.size(); ++k) {
+      const std::size_t i = tile.corners[t][k];
+      face.corners[k] = place(points[i], static_cast<double>(tile.up_m[i]));
+      face.normals[k] = static_cast<double>(tile.normal_east[i]) * east +
+                        static_cast<double>(tile.normal_north[i]) * north + static_cast<double>(tile.normal_up[i]) * up;
+    }
+    const Point3 normal = cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
+    const double base_m = scene.objects()[tile.object[t]].base_msl_m - tile.zero_msl_m;
+    const bool level = dot(normal, up) > kLevelNormal * std::sqrt(dot(normal, normal));
+    if (level && static_cast<double>(tile.up_m[tile.corners[t][0]]) - base_m < kOnGround_m) {
+      lay_flat({points[tile.corners[t][0]], points[tile.corners[t][1]], points[tile.corners[t][2]]},
+               surface_.gamma(face.code), gain);
+    } else {
+      faces_.push_back(face);
+    }
+  }
+}
+
+// Every place of the fan whose middle lies within the triangle.
+void ReferencePatch::lay_flat(const std::array<MapPoint, 3>& corners, double gamma, float* gain) const {
+  std::array<double, 3> column{}, row{};
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const double ahead_m = corners[k].up_m + geometry_->distance_m();
+    if (!(ahead_m > 1.0)) return;
+    column[k] = (corners[k].right_m / ahead_m - grid_->first_tangent) / grid_->tangent_step;
+    row[k] = (std::hypot(corners[k].right_m, ahead_m) - grid_->first_distance_m) / grid_->spacing_m;
+  }
+  const auto side = [&](std::size_t k, double x, double y) {
+    const std::size_t next = (k + 1) % corners.size();
+    return (column[next] - column[k]) * (y - row[k]) - (row[next] - row[k]) * (x - column[k]);
+  };
+  const auto [left, right] = std::minmax_element(column.begin(), column.end());
+  const auto [near, far] = std::minmax_element(row.begin(), row.end());
+  const int last_column = static_cast<int>(std::min(std::floor(*right), grid_->columns - 1.0));
+  const int last_row = static_cast<int>(std::min(std::floor(*far), grid_->rows - 1.0));
+  for (int x = static_cast<int>(std::max(std::ceil(*left), 0.0)); x <= last_column; ++x)
+    for (int y = static_cast<int>(std::max(std::ceil(*near), 0.0)); y <= last_row; ++y)
+      if (side(0, x, y) >= 0.0 && side(1, x, y) >= 0.0 && side(2, x, y) >= 0.0)
+        gain[grid_->at(x, y)] = static_cast<float>(gamma);
+}
+
+void ReferencePatch::accumulate(const float* gain, MapImage& image) {
+  size_ = image.size;
+  power_.assign(image.power.size(), 0.0);
+  for (int column = 0; column < grid_->columns; ++column) add_column(column, gain);
+  for (const Face& face : faces_) add_face(face);
+  const double unit_m2 = unit_return_m2(*geometry_, size_);
+  for (std::size_t i = 0; i < power_.size(); ++i) image.power[i] = static_cast<float>(power_[i] / unit_m2);
+}
+
+// The pieces between neighbours of a column, cut where they climb: a cliff is many facets.
+void ReferencePatch::add_column(int column, const float* gain) {
+  const FanGrid& grid = *grid_;
+  const double tangent = grid.tangent(column);
+  const double turn_rad = std::atan(tangent);
+  const double angle_rad = grid.tangent_step / (1.0 + tangent * tangent);
+  const double longest_m = kFacetPixels * geometry_->window_m() / size_;
+  for (int row = 1; row < grid.rows; ++row) {
+    const std::size_t far = grid.at(column, row);
+    const std::size_t near = grid.at(column, row - 1);
+    if (std::isnan(height_m_[near]) || std::isnan(height_m_[far])) continue;
+    const double gamma = 0.5 * (static_cast<double>(gain[near]) + static_cast<double>(gain[far]));
+    const double climb_m = height_m_[far] - height_m_[near];
+    const int pieces = std::min(1 + static_cast<int>(std::abs(climb_m) / longest_m), kMostPieces);
+    double horizon = horizon_[far];
+    Point3 begin = position(grid.distance_m(row - 1), turn_rad, height_m_[near]);
+    for (int piece = 1; piece <= pieces; ++piece) {
+      const double share = static_cast<double>(piece) / pieces;
+      const Point3 end = position(grid.distance_m(row - 1.0 + share), turn_rad, height_m_[near] + share * climb_m);
+      const Point3 middle = 0.5 * (begin + end);
+      const double out_begin = std::hypot(begin.right_m, begin.ahead_m);
+      const double out_end = std::hypot(end.right_m, end.ahead_m);
+      const double out_middle = 0.5 * (out_begin + out_end);
+      // Twice the area of the triangle radar, begin, end: the angle that the piece fills.
+      const double facing = out_begin * end.up_m - begin.up_m * out_end;
+      if (facing > 0.0 && middle.up_m / out_middle >= horizon && !occluders_.hide(middle))
+        add(middle, gamma * angle_rad * out_middle * facing / std::hypot(out_middle, middle.up_m));
+      horizon = std::max(horizon, end.up_m / out_end);
+      begin = end;
+    }
+  }
+}
+
+void ReferencePatch::add_face(const Face& face) {
+  const Point3 one = face.corners[1] - face.corners[0];
+  const Point3 two = face.corners[2] - face.corners[0];
+  const Point3 three = two - one;
+  if (!(dot(cross(one, two), face.corners[0]) < 0.0)) return;  // seen from inside
+  const double longest_m = std::sqrt(std::max({dot(one, one), dot(two, two), dot(three, three)}));
+  const double facet_m = kFacetPixels * geometry_->window_m() / size_;
+  const int pieces = std::clamp(static_cast<int>(std::ceil(longest_m / facet_m)), 1, kMostPieces);
+  const Point3 normal = cross(one, two);
+  const double area_m2 = 0.5 * std::sqrt(dot(normal, normal)) / pieces / pieces;
+  const auto facet = [&](double u, double v) {
+    add_facet(face, face.corners[0] + u * one + v * two, {1.0 - u - v, u, v}, area_m2);
+  };
+  // Rows of facets, those that lie as the face does and those between them.
+  for (int i = 0; i < pieces; ++i) {
+    for (int j = 0; i + j < pieces; ++j) {
+      facet((i + 1.0 / 3.0) / pieces, (j + 1.0 / 3.0) / pieces);
+      if (i + j + 1 < pieces) facet((i + 2.0 / 3.0) / pieces, (j + 2.0 / 3.0) / pieces);
+    }
+  }
+}
+
+void ReferencePatch::add_facet(const Face& face, Point3 place, Point3 weights, double area_m2) {
+  if (!seen(place)) return;
+  const Point3 way = -1.0 / std::sqrt(dot(place, place)) * place;
+  const Point3 raw = cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
+  const Point3 normal = 1.0 / std::sqrt(dot(raw, raw)) * raw;
+  const double facing = dot(normal, way);
+  const Point3 smooth =
+      weights.right_m * face.normals[0] + weights.ahead_m * face.normals[1] + weights.up_m * face.normals[2];
+  const double shaded = std::clamp(dot(smooth, way), 0.0, kMostShading * facing);
+  const double out_m = std::hypot(place.right_m, place.ahead_m);
+  const double out_right = place.right_m / out_m;
+  const double out_ahead = place.ahead_m / out_m;
+  const double towards = -(normal.right_m * out_right + normal.ahead_m * out_ahead);
+  const double level2 = normal.right_m * normal.right_m + normal.ahead_m * normal.ahead_m;
+  if (normal.up_m * normal.up_m >= kWallNormal2 * level2) {
+    add(place, surface_.gamma(face.code) * area_m2 * shaded);
+    return;
+  }
+  const double across = normal.right_m * out_ahead - normal.ahead_m * out_right;
+  const double power = surface_.wall_gamma(face.code, across, towards) * area_m2 * facing;
+  add(place, power);
+  if (!(bounce_ > 0.0)) return;
+  // From wall to ground and from ground to wall: every such path is as long as to the foot.
+  const Ground below = ground_at(place);
+  const Point3 foot = position(below.distance_m - kFoot_m, std::atan2(place.right_m, place.ahead_m), below.height_m);
+  if (seen(foot)) add(foot, bounce_ * power);
+}
+
+ReferencePatch::Ground ReferencePatch::ground_at(Point3 place) const {
+  const FanGrid& grid = *grid_;
+  const double radius_m = geometry_->earth().radius_m();
+  const double altitude_m = geometry_->altitude_m() - geometry_->plane_msl_m();
+  const double out_m = std::hypot(place.right_m, place.ahead_m);
+  Ground ground{out_m, place.up_m + altitude_m, 0.0, std::numeric_limits<double>::lowest()};
+  if (std::isfinite(radius_m)) {
+    const double down_m = radius_m + altitude_m + place.up_m;
+    ground.distance_m = radius_m * std::atan2(out_m, down_m);
+    ground.point_m = std::hypot(out_m, down_m) - radius_m;
+  }
+  const double column = std::round((place.right_m / place.ahead_m - grid.first_tangent) / grid.tangent_step);
+  const double row = std::floor((ground.distance_m - grid.first_distance_m) / grid.spacing_m);
+  if (!(column >= 0.0 && column < grid.columns && row >= 0.0 && row + 1.0 < grid.rows)) return ground;
+  const std::size_t near = grid.at(static_cast<int>(column), static_cast<int>(row));
+  const std::size_t far = grid.at(static_cast<int>(column), static_cast<int>(row) + 1);
+  const double share = (ground.distance_m - grid.distance_m(row)) / grid.spacing_m;
+  const double height_m = height_m_[near] + share * (height_m_[far] - height_m_[near]);
+  if (!std::isnan(height_m)) ground.height_m = height_m;
+  ground.horizon = horizon_[near];
+  return ground;
+}
+
+bool ReferencePatch::seen(Point3 place) const {
+  if (!(place.ahead_m > 0.0)) return false;
+  const Ground ground = ground_at(place);
+  if (ground.point_m < ground.height_m - kBuried_m) return false;
+  return place.up_m / std::hypot(place.right_m, place.ahead_m) >= ground.horizon && !occluders_.hide(place);
+}
+
+// Bilinear, where the map plane is as far away.
+void ReferencePatch::add(Point3 place, double cross_section_m2) {
+  double distance_m = std::hypot(place.right_m, place.ahead_m);
+  const double sine = place.right_m / distance_m;
+  const double cosine = place.ahead_m / distance_m;
+  if (fidelity_.map_layover) {
+    distance_m = geometry_->earth().distance_at_slant_range(geometry_->altitude_m() - geometry_->plane_msl_m(), 0.0,
+                                                            std::sqrt(dot(place, place)));
+    if (std::isnan(distance_m)) return;  // nearer than any of the plane
+  } else {
+    distance_m = ground_at(place).distance_m;
+  }
+  const double pixel_m = geometry_->window_m() / size_;
+  const double x = distance_m * sine / pixel_m + 0.5 * size_ - 0.5;
+  const double y = 0.5 * size_ - 0.5 - (distance_m * cosine - geometry_->distance_m()) / pixel_m;
+  if (!(x > -1.0 && x < size_ && y > -1.0 && y < size_)) return;
+  const int column = static_cast<int>(std::floor(x));
+  const int row = static_cast<int>(std::floor(y));
+  const double a = x - column;
+  const double b = y - row;
+  const auto put = [&](int i, int j, double weight) {
+    if (i < 0 || i >= size_ || j < 0 || j >= size_) return;
+    power_[static_cast<std::size_t>(j) * static_cast<std::size_t>(size_) + static_cast<std::size_t>(i)] +=
+        weight * cross_section_m2;
+  };
+  put(column, row, (1.0 - a) * (1.0 - b));
+  put(column + 1, row, a * (1.0 - b));
+  put(column, row + 1, (1.0 - a) * b);
+  put(column + 1, row + 1, a * b);
+}
+
+}  // namespace yars::model::hrm

@@ -1,0 +1,62 @@
+// The algorithm `reference` of patches, the oracle of `standard`: plain double precision, facet by facet. Terrain is a
+// fan of pieces finer than a pixel at exact geodesic places; a scene is its triangles, cut until they are smaller than
+// a third of a pixel. What is seen adds gamma times the area seen square on at the place on the map that is as far
+// from the radar on the effective earth. Terrain hides by the running maximum along its column, the scene by rays.
+#pragma once
+
+#include <vector>
+
+#include "model/hrm/fan_grid.hpp"
+#include "model/hrm/ground_fan.hpp"
+#include "model/hrm/map_image.hpp"
+#include "model/hrm/occluders.hpp"
+#include "model/hrm/scene_surface.hpp"
+#include "model/scene/scene_view.hpp"
+
+namespace yars::model::hrm {
+
+inline constexpr int kReferenceCells = 3;  // of its fan a pixel, along and across
+
+class ReferencePatch {
+ public:
+  ReferencePatch(const radar::RadarConfiguration& configuration, const PatchGeometry& geometry, const FanGrid& grid);
+
+  void read_terrain(const PatchTerrain& terrain);
+  // `gain`: gamma of the ground by FanGrid::at(); what lies flat on it gives it its own.
+  void read_scene(const scene::SceneView& scene, const std::vector<const scene::Tile*>& tiles, float* gain);
+  // Replaces the power of the image, in the unit of map_image.hpp.
+  void accumulate(const float* gain, MapImage& image);
+
+ private:
+  // A face of the scene about the radar.
+  struct Face {
+    Occluders::Corners corners;
+    Occluders::Corners normals;  // unit, at the corners
+    std::size_t code = 0;        // of its material
+  };
+  struct Ground;
+
+  Point3 position(double distance_m, double turn_rad, double height_m) const;
+  void read_tile(const scene::SceneView& scene, const scene::Tile& tile, float* gain);
+  void lay_flat(const std::array<MapPoint, 3>& corners, double gamma, float* gain) const;
+  void add_column(int column, const float* gain);
+  void add_face(const Face& face);
+  void add_facet(const Face& face, Point3 place, Point3 weights, double area_m2);
+  bool seen(Point3 place) const;
+  Ground ground_at(Point3 place) const;
+  void add(Point3 place, double cross_section_m2);
+
+  radar::Fidelity fidelity_;
+  SceneSurface surface_;
+  double bounce_;  // of a wall's foot against the wall; 0 = none
+  const PatchGeometry* geometry_;
+  const FanGrid* grid_;
+  std::vector<double> height_m_;  // above the map plane, by FanGrid::at(); NaN = void
+  std::vector<double> horizon_;   // greatest tangent of all that is nearer
+  std::vector<Face> faces_;
+  Occluders occluders_;
+  int size_ = 0;
+  std::vector<double> power_;
+};
+
+}  // namespace yars::model::hrm

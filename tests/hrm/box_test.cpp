@@ -1,0 +1,101 @@
+// A box on level ground: where its shadow and its layover end, and what it returns.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/reflectivity/land.hpp"
+#include "tests/hrm/made_up_scene.hpp"
+#include "tests/hrm/patch_maker.hpp"
+
+namespace yars::test {
+namespace {
+
+struct Case {
+  double from_deg, distance_m, above_m;
+};
+
+// Metres ahead of the centre of the pixel's middle.
+double up_of(const hrm::PatchProcess& process, int row) {
+  const double pixel_m = process.geometry().window_m() / process.image().size;
+  return 0.5 * process.geometry().window_m() - (row + 0.5) * pixel_m;
+}
+
+class BoxSeen : public testing::TestWithParam<Case> {};
+
+TEST_P(BoxSeen, CastsAShadowOfItsHeightOverTheTangentAndIsLaidOverByItsHeightTimesTheTangent) {
+  const Case seen = GetParam();
+  const radar::RadarConfiguration configuration = bare_map();
+  Viewpoint view;
+  view.from_deg = seen.from_deg;
+  view.distance_m = seen.distance_m;
+  view.above_m = seen.above_m;
+  const auto scene = std::make_shared<MadeUpScene>(kTarget, kGround_m);
+  const Box box{0.0, 0.0, seen.from_deg, 60.0, 40.0, 25.0, kEarthenWorks};
+  scene->add(box);
+  const auto process = make_patch(configuration, order_from(view), ground_of(model::terrain::flat(kGround_m)), scene);
+  const hrm::MapImage& image = process.image();
+  const double pixel_m = process.geometry().window_m() / image.size;
+  const double ground = gamma_of(configuration, 0);
+  const double roof = gamma_of(configuration, kEarthenWorks);
+  const double tangent = seen.above_m / seen.distance_m;
+  // A wall's cosine of the area seen falls on its layover, where level ground has its sine of the same length.
+  const double wall = roof / (tangent * tangent);
+  int shadow_end = -1;  // row 0 is far
+  int roof_end = -1;
+  int layover_begin = -1;
+  const int middle = image.size / 2;
+  for (int row = 0; row < image.size; ++row) {
+    const double power = static_cast<double>(image.power[image.at(middle, row)]);
+    if (power < 0.5 * ground && shadow_end < 0) shadow_end = row;
+    if (power > 0.5 * roof && shadow_end >= 0 && roof_end < 0) roof_end = row;
+    if (power > ground + 0.5 * (wall + roof)) layover_begin = row;
+  }
+  const double back_m = 0.5 * box.length_m;
+  // Where the ray over the far edge of the roof meets the ground again.
+  const double over_m = seen.distance_m + back_m;
+  const double meets_m = over_m * seen.above_m / (seen.above_m - box.height_m);
+  EXPECT_NEAR(up_of(process, shadow_end) + 0.5 * pixel_m, meets_m - seen.distance_m, pixel_m);
+  const auto laid_over_m = [&](double distance_m) {
+    return hrm::laid_over_m(distance_m, box.height_m, seen.above_m) - seen.distance_m;
+  };
+  EXPECT_NEAR(up_of(process, roof_end) + 0.5 * pixel_m, laid_over_m(over_m), pixel_m);
+  const double front_m = laid_over_m(seen.distance_m - back_m);
+  EXPECT_NEAR(up_of(process, layover_begin) - 0.5 * pixel_m, front_m, pixel_m);
+  // The same to first order, as the books have it.
+  EXPECT_NEAR(meets_m - over_m, box.height_m / tangent, 0.02 * box.height_m / tangent + 0.5 * pixel_m);
+  EXPECT_NEAR(-back_m - front_m, box.height_m * tangent, 0.5 * pixel_m);
+}
+
+TEST_P(BoxSeen, ReturnsGammaTimesTheAreaThatFacesTheRadar) {
+  const Case seen = GetParam();
+  radar::RadarConfiguration configuration = bare_map();
+  configuration.receiver.land_gamma_db = -150.0;
+  Viewpoint view;
+  view.from_deg = seen.from_deg;
+  view.distance_m = seen.distance_m;
+  view.above_m = seen.above_m;
+  for (const double turn_deg : {0.0, 30.0, 45.0}) {
+    const auto scene = std::make_shared<MadeUpScene>(kTarget, kGround_m);
+    const Box box{10.0, -20.0, seen.from_deg + turn_deg, 60.0, 40.0, 25.0, kStone};
+    scene->add(box);
+    const auto process = make_patch(configuration, order_from(view), ground_of(model::terrain::flat(kGround_m)), scene);
+    const double slant_m = std::hypot(seen.distance_m, seen.above_m);
+    const double turn_rad = turn_deg * geo::kRadiansPerDegree;
+    const model::reflectivity::LandReturn land = model::reflectivity::make_land_return(configuration);
+    const auto wall = [&](double wide_m, double off_deg) {
+      const double cardinal = model::reflectivity::cardinal_gain(land.cardinal[kStone], off_deg, land.street_width_deg);
+      return cardinal * wide_m * box.height_m * std::cos(off_deg * geo::kRadiansPerDegree) * seen.distance_m / slant_m;
+    };
+    const double roof_m2 = box.length_m * box.width_m * seen.above_m / slant_m;
+    const double side_m2 = turn_rad > 0.0 ? wall(box.length_m, 90.0 - turn_deg) : 0.0;
+    const double wanted_m2 = land.gamma[kStone] * (wall(box.width_m, turn_deg) + side_m2 + roof_m2);
+    EXPECT_NEAR(cross_section_m2(process), wanted_m2, 0.05 * wanted_m2) << turn_deg;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(FromSeveralSides, BoxSeen,
+                         testing::Values(Case{180.0, 20000.0, 3000.0}, Case{90.0, 37040.0, 4572.0},
+                                         Case{0.0, 10000.0, 3640.0}, Case{237.0, 8000.0, 6000.0}));
+
+}  // namespace
+}  // namespace yars::test

@@ -1,0 +1,125 @@
+// Bare ground on a map: level, behind a ridge, with holes, in the blind zone.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/hrm/patch_maker.hpp"
+
+namespace yars::test {
+namespace {
+
+namespace terrain = model::terrain;
+
+TEST(LevelGround, ReturnsItsGammaTimesTheSineOfItsGrazingAngle) {
+  for (const int oversampling : {1, 2}) {
+    for (const double window_nm : {0.67, 4.7}) {
+      radar::RadarConfiguration configuration = bare_map(240);
+      configuration.fidelity.earth = radar::EarthModel::ellipsoid;
+      configuration.fidelity.map_oversampling = oversampling;
+      Viewpoint view;
+      view.window_m = window_nm * geo::kMetresPerNauticalMile;
+      const auto process = make_patch(configuration, order_from(view), ground_of(terrain::flat(kGround_m)));
+      const hrm::MapImage& image = process.image();
+      const hrm::PatchGeometry& geometry = process.geometry();
+      for (int row = 3; row < image.size; row += 18) {
+        for (int column = 1; column < image.size; column += 14) {
+          const double pixel_m = view.window_m / image.size;
+          const double ahead_m = geometry.distance_m() + 0.5 * view.window_m - (row + 0.5) * pixel_m;
+          const double right_m = (column + 0.5) * pixel_m - 0.5 * view.window_m;
+          const double sine = geometry.earth().sight(view.above_m, std::hypot(ahead_m, right_m), 0.0).sin_grazing;
+          const double wanted = gamma_of(configuration, 0) * sine / geometry.sin_grazing();
+          EXPECT_NEAR(static_cast<double>(image.power[image.at(column, row)]), wanted, 0.01 * wanted)
+              << row << ' ' << column;
+        }
+      }
+    }
+  }
+}
+
+// Rows of the middle column that return less than half of level ground.
+int dark_rows(const hrm::MapImage& image, double gamma) {
+  int dark = 0;
+  for (int row = 0; row < image.size; ++row)
+    if (!(static_cast<double>(image.power[image.at(image.size / 2, row)]) > 0.5 * gamma)) ++dark;
+  return dark;
+}
+
+TEST(Ridge, ShadowsTheWindowBehindItAndNotBeyondItsShadow) {
+  const radar::RadarConfiguration configuration = bare_map(240);
+  Viewpoint view;
+  view.window_m = 4000.0;
+  const hrm::PatchOrder order = order_from(view);
+  const hrm::PatchGeometry geometry(order, configuration.fidelity, kGround_m);
+  // A round crest of 600 m at 16 km; from 3000 m over it the ground is met again about 20 km out, the middle.
+  const auto hill = [](double distance_m) {
+    const double off = (distance_m - 16000.0) / 1500.0;
+    return std::abs(off) < 1.0 ? 600.0 * (1.0 - off * off) : 0.0;
+  };
+  const auto process = make_patch(configuration, order, ground_of([&](geo::GeoPoint place) {
+                                    const hrm::MapPoint point = geometry.point_of(place);
+                                    return kGround_m + hill(std::hypot(point.right_m, point.up_m + view.distance_m));
+                                  }));
+  double horizon = -1.0;
+  for (double distance_m = 14000.0; distance_m < 18000.0; distance_m += 1.0)
+    horizon = std::max(horizon, (hill(distance_m) - view.above_m) / distance_m);
+  const double dark_m = view.above_m / -horizon - (view.distance_m - 0.5 * view.window_m);
+  const double pixel_m = view.window_m / configuration.fidelity.map_size;
+  EXPECT_NEAR(dark_rows(process.image(), gamma_of(configuration, 0)) * pixel_m, dark_m, pixel_m);
+  const auto open = make_patch(configuration, order, ground_of(terrain::flat(kGround_m)));
+  EXPECT_EQ(dark_rows(open.image(), gamma_of(configuration, 0)), 0);
+}
+
+TEST(Void, IsDarkAndHidesNothing) {
+  const radar::RadarConfiguration configuration = bare_map(240);
+  const hrm::PatchOrder order = order_from({});
+  const hrm::PatchGeometry geometry(order, configuration.fidelity, kGround_m);
+  const auto holed = [&](geo::GeoPoint place) {
+    const hrm::MapPoint point = geometry.point_of(place);
+    return std::hypot(point.right_m, point.up_m - 200.0) < 100.0 ? std::numeric_limits<double>::quiet_NaN() : kGround_m;
+  };
+  const auto process = make_patch(configuration, order, ground_of(holed));
+  const hrm::MapImage& image = process.image();
+  const auto at = [&](double right_m, double up_m) {
+    const double pixel_m = geometry.window_m() / image.size;
+    return image.power[image.at(static_cast<int>(0.5 * image.size + right_m / pixel_m),
+                                static_cast<int>(0.5 * image.size - up_m / pixel_m))];
+  };
+  EXPECT_EQ(at(0.0, 200.0), 0.0F);
+  EXPECT_NEAR(at(0.0, 310.0), gamma_of(configuration, 0), 0.02 * gamma_of(configuration, 0));
+  EXPECT_NEAR(at(0.0, 80.0), gamma_of(configuration, 0), 0.02 * gamma_of(configuration, 0));
+}
+
+TEST(Void, AllOverGivesABlackMap) {
+  const auto nothing = ground_of(terrain::flat(std::numeric_limits<double>::quiet_NaN()));
+  const auto process = make_patch(bare_map(64), order_from({}), nothing);
+  for (const float power : process.image().power) EXPECT_EQ(power, 0.0F);
+}
+
+TEST(BlindZone, IsBlankOnBothSidesOfTheGroundTrackAndNowhereElse) {
+  radar::RadarConfiguration configuration = bare_map(240);
+  configuration.fidelity.noise = true;
+  Viewpoint view;
+  view.window_m = 8000.0;
+  hrm::PatchOrder order = order_from(view);
+  // The edge of the zone runs through the middle of the window.
+  const double edge_deg = configuration.high_resolution.blind_zone_deg;
+  order.ground_track = order.ground_track + geo::Angle::degrees(90.0 - edge_deg);
+  const auto process = make_patch(configuration, order, ground_of(terrain::flat(kGround_m)));
+  const hrm::MapImage& image = process.image();
+  for (int row = 0; row < image.size; row += 7) {
+    for (int column = 0; column < image.size; ++column) {
+      if (std::abs(column - image.size / 2) < 2) continue;
+      const std::size_t at = image.at(column, row);
+      // The track is to the left.
+      if (column < image.size / 2) {
+        EXPECT_EQ(process.picture()[at], 0) << row << ' ' << column;
+      } else {
+        EXPECT_GT(image.power[at], 0.0F) << row << ' ' << column;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace yars::test

@@ -1,0 +1,111 @@
+// Boxes and plates on one tile of a scene, for tests that know what returns.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "lib/geo/quantity.hpp"
+#include "model/scene/scene_view.hpp"
+
+namespace yars::test {
+
+inline constexpr std::uint8_t kStone = 3;
+inline constexpr std::uint8_t kEarthenWorks = 5;  // no cardinal effect
+
+struct Box {
+  double east_m = 0.0, north_m = 0.0;  // of the middle
+  double heading_deg = 0.0;            // of its length
+  double length_m = 60.0, width_m = 40.0, height_m = 20.0;
+  std::uint8_t material = kEarthenWorks;
+};
+
+class MadeUpScene final : public model::scene::SceneView {
+ public:
+  MadeUpScene(geo::GeoPoint origin, double ground_msl_m) {
+    tile_.origin = origin;
+    tile_.zero_msl_m = ground_msl_m;
+    objects_.push_back({"all", origin, ground_msl_m, 0.0, 0.0, 0.0, 0.0, 0});
+  }
+
+  // Four walls and a roof.
+  void add(const Box& box) {
+    const double heading_rad = box.heading_deg * geo::kRadiansPerDegree;
+    const auto corner = [&](double along, double across, double up) {
+      const double a = 0.5 * along * box.length_m;
+      const double b = 0.5 * across * box.width_m;
+      return std::array<double, 3>{box.east_m + a * std::sin(heading_rad) + b * std::cos(heading_rad),
+                                   box.north_m + a * std::cos(heading_rad) - b * std::sin(heading_rad),
+                                   up * box.height_m};
+    };
+    // Counter-clockwise from above: along and across as east and north would be after a turn to the left.
+    const std::array<std::array<double, 2>, 4> round{{{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}};
+    for (std::size_t i = 0; i < round.size(); ++i) {
+      const auto& one = round[i];
+      const auto& two = round[(i + 1) % round.size()];
+      add_quad(
+          {corner(one[0], one[1], 0), corner(two[0], two[1], 0), corner(two[0], two[1], 1), corner(one[0], one[1], 1)},
+          box.material);
+    }
+    add_quad({corner(-1, 1, 1), corner(1, 1, 1), corner(1, -1, 1), corner(-1, -1, 1)}, box.material);
+  }
+
+  // East, north, up [m], counter-clockwise from outside.
+  void add_quad(const std::array<std::array<double, 3>, 4>& corners, std::uint8_t material) {
+    const auto first = static_cast<std::uint32_t>(tile_.east_m.size());
+    std::array<double, 3> a{}, b{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      a[k] = corners[1][k] - corners[0][k];
+      b[k] = corners[3][k] - corners[0][k];
+    }
+    const std::array<double, 3> n{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    const double length = std::hypot(n[0], n[1], n[2]);
+    for (const auto& corner : corners) {
+      add_vertex(corner);
+      tile_.normal_east.push_back(static_cast<float>(n[0] / length));
+      tile_.normal_north.push_back(static_cast<float>(n[1] / length));
+      tile_.normal_up.push_back(static_cast<float>(n[2] / length));
+    }
+    for (const std::array<std::uint32_t, 3>& triangle :
+         {std::array<std::uint32_t, 3>{0, 1, 2}, std::array<std::uint32_t, 3>{0, 2, 3}}) {
+      tile_.corners.push_back({first + triangle[0], first + triangle[1], first + triangle[2]});
+      tile_.kind.push_back(static_cast<std::uint16_t>(kinds_.size()));
+      tile_.object.push_back(0);
+    }
+    kinds_.push_back({material, 0, 0});
+  }
+
+  std::uint64_t generation() const override { return 1; }
+  std::uint64_t resident_bytes() const override { return 0; }
+  const std::vector<model::scene::SurfaceKind>& kinds() const override { return kinds_; }
+  const std::vector<model::scene::SceneObject>& objects() const override { return objects_; }
+  void tiles_near(geo::GeoPoint /*place*/, double /*radius_m*/,
+                  std::vector<const model::scene::Tile*>& found) const override {
+    found.assign(1, &tile_);
+  }
+  void objects_near(geo::GeoPoint /*place*/, double /*radius_m*/, std::vector<std::uint32_t>& found) const override {
+    found.assign(1, 0);
+  }
+
+ private:
+  void add_vertex(const std::array<double, 3>& place) {
+    model::scene::Bounds& bounds = tile_.bounds;
+    const auto east = static_cast<float>(place[0]);
+    const auto north = static_cast<float>(place[1]);
+    const auto up = static_cast<float>(place[2]);
+    if (tile_.east_m.empty()) bounds = {east, east, north, north, up, up};
+    bounds = {std::min(bounds.east_least_m, east),   std::max(bounds.east_most_m, east),
+              std::min(bounds.north_least_m, north), std::max(bounds.north_most_m, north),
+              std::min(bounds.up_least_m, up),       std::max(bounds.up_most_m, up)};
+    tile_.east_m.push_back(east);
+    tile_.north_m.push_back(north);
+    tile_.up_m.push_back(up);
+  }
+
+  model::scene::Tile tile_;
+  std::vector<model::scene::SurfaceKind> kinds_;
+  std::vector<model::scene::SceneObject> objects_;
+};
+
+}  // namespace yars::test

@@ -1,0 +1,87 @@
+// One patch of made-up ground and scene, as the tests of the pipeline want it.
+#pragma once
+
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "model/hrm/patch_process.hpp"
+#include "model/reflectivity/land.hpp"
+#include "model/terrain/analytic_terrain.hpp"
+
+namespace yars::test {
+
+namespace hrm = model::hrm;
+
+inline constexpr geo::GeoPoint kTarget{37.8, -122.3};
+inline constexpr double kGround_m = 50.0;  // above the sea, for 0 is water
+
+// What is seen is geometry alone: flat earth, no texture, no response, no noise.
+inline radar::RadarConfiguration bare_map(int size = 480) {
+  radar::RadarConfiguration configuration;
+  configuration.fidelity.earth = radar::EarthModel::flat;
+  configuration.fidelity.map_size = size;
+  configuration.fidelity.map_response = false;
+  configuration.fidelity.map_detail = false;
+  configuration.fidelity.noise = false;
+  return configuration;
+}
+
+struct Viewpoint {
+  double from_deg = 180.0;  // bearing from the target to the aircraft
+  double distance_m = 20000.0;
+  double above_m = 3000.0;  // above the ground
+  double window_m = 0.67 * geo::kMetresPerNauticalMile;
+  geo::GeoPoint target = kTarget;
+};
+
+// Broadside, the target to the right.
+inline hrm::PatchOrder order_from(const Viewpoint& view) {
+  hrm::PatchOrder order;
+  order.centre = view.target;
+  order.apex =
+      geo::geodesic_direct(view.target, geo::Bearing::degrees(view.from_deg), geo::Length::metres(view.distance_m));
+  order.altitude = geo::AltitudeMsl::metres(kGround_m + view.above_m);
+  order.ground_speed = geo::Speed::knots(480.0);
+  order.ground_track = geo::geodesic_inverse(order.apex, order.centre).azimuth_at_start - geo::Angle::degrees(90.0);
+  order.window = geo::Length::metres(view.window_m);
+  order.looks = 1;
+  order.map = 7;
+  return order;
+}
+
+inline model::terrain::TerrainViewPointer ground_of(model::terrain::AnalyticTerrain::Height height) {
+  return std::make_shared<model::terrain::AnalyticTerrain>(std::move(height));
+}
+
+inline hrm::Crew crew_of(std::size_t threads) {
+  return {threads, [threads](const std::function<void(std::size_t)>& job) {
+            std::vector<std::thread> others;
+            for (std::size_t thread = 1; thread < threads; ++thread) others.emplace_back(job, thread);
+            job(0);
+            for (std::thread& other : others) other.join();
+          }};
+}
+
+inline hrm::PatchProcess make_patch(const radar::RadarConfiguration& configuration, const hrm::PatchOrder& order,
+                                    const model::terrain::TerrainViewPointer& ground,
+                                    const model::scene::SceneViewPointer& scene = nullptr, std::size_t threads = 1) {
+  hrm::PatchProcess process(configuration, crew_of(threads));
+  process.begin(order);
+  process.give({ground, ground, scene});
+  while (process.state() != hrm::PatchState::done) process.advance();
+  return process;
+}
+
+inline double gamma_of(const radar::RadarConfiguration& configuration, std::size_t material) {
+  return model::reflectivity::make_land_return(configuration).gamma[material];
+}
+
+// Sum over a map [m^2]: what a scene of this cross section returns.
+inline double cross_section_m2(const hrm::PatchProcess& process) {
+  double sum = 0.0;
+  for (const float power : process.image().power) sum += static_cast<double>(power);
+  return sum * hrm::unit_return_m2(process.geometry(), process.image().size);
+}
+
+}  // namespace yars::test

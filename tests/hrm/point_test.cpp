@@ -1,0 +1,153 @@
+// Points on a map: a corner reflector (a mover that stands) and what moves.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/radar/map_formation.hpp"
+#include "tests/hrm/patch_maker.hpp"
+
+namespace yars::test {
+namespace {
+
+radar::RadarConfiguration with_mover(int size, const radar::Mover& mover) {
+  radar::RadarConfiguration configuration = bare_map(size);
+  configuration.receiver.land_gamma_db = -120.0;
+  configuration.fidelity.map_response = true;
+  configuration.world.movers.push_back(mover);
+  return configuration;
+}
+
+struct Pixel {
+  int column, row;
+};
+
+Pixel brightest(const hrm::MapImage& image) {
+  const auto at = static_cast<int>(std::max_element(image.power.begin(), image.power.end()) - image.power.begin());
+  return {at % image.size, at / image.size};
+}
+
+hrm::MapPoint point_of(const hrm::PatchProcess& process, double column, double row) {
+  const double pixel_m = process.geometry().window_m() / process.image().size;
+  const double edge_m = 0.5 * process.geometry().window_m();
+  return {(column + 0.5) * pixel_m - edge_m, edge_m - (row + 0.5) * pixel_m};
+}
+
+// How wide the response is at half its greatest power [pixels], along a row.
+double half_power_width(const hrm::MapImage& image, Pixel peak) {
+  const auto power = [&](int column) { return static_cast<double>(image.power[image.at(column, peak.row)]); };
+  double width = 0.0;
+  for (const int step : {-1, 1}) {
+    int column = peak.column;
+    while (power(column + step) > 0.5 * power(peak.column)) column += step;
+    const double share = (power(column) - 0.5 * power(peak.column)) / (power(column) - power(column + step));
+    width += std::abs(column - peak.column) + share;
+  }
+  return width;
+}
+
+TEST(CornerReflector, StandsAtItsPlaceAsWideAsACellWithTaylorsSidelobes) {
+  constexpr int kSize = 1024;
+  const hrm::MapPoint wanted{123.4, -77.7};
+  for (const double from_deg : {0.0, 130.0, 250.0}) {
+    Viewpoint view;
+    view.from_deg = from_deg;
+    const hrm::PatchOrder order = order_from(view);
+    const hrm::PatchGeometry geometry(order, bare_map().fidelity, kGround_m);
+    const auto process = make_patch(with_mover(kSize, {"corner", geometry.place_of(wanted), 0.0, 0.0, 1000.0, 0.0}),
+                                    order, ground_of(model::terrain::flat(kGround_m)));
+    const hrm::MapImage& image = process.image();
+    const Pixel peak = brightest(image);
+    const hrm::MapPoint found = point_of(process, peak.column, peak.row);
+    const double pixel_m = view.window_m / kSize;
+    EXPECT_NEAR(found.right_m, wanted.right_m, pixel_m);
+    EXPECT_NEAR(found.up_m, wanted.up_m, pixel_m);
+    const double cell = static_cast<double>(kSize) / radar::kCellsOfMap;
+    EXPECT_NEAR(half_power_width(image, peak), cell, 0.08 * cell);
+    double sidelobe = 0.0;
+    for (int column = peak.column + static_cast<int>(std::ceil(1.9 * cell)); column < image.size; ++column)
+      sidelobe = std::max(sidelobe, static_cast<double>(image.power[image.at(column, peak.row)]));
+    const double level_db =
+        10.0 * std::log10(sidelobe / static_cast<double>(image.power[image.at(peak.column, peak.row)]));
+    EXPECT_NEAR(level_db, -35.0, 1.5);
+    EXPECT_NEAR(cross_section_m2(process), 1000.0, 1.0);
+  }
+}
+
+TEST(CornerReflector, BehindAHillIsNotSeen) {
+  const hrm::PatchOrder order = order_from({});
+  const hrm::PatchGeometry geometry(order, bare_map().fidelity, kGround_m);
+  const model::terrain::TerrainAxis axis{order.apex, geometry.up()};
+  const auto hill = model::terrain::ridge(axis, geometry.distance_m() - 200.0, 150.0, 60.0);
+  const auto ground = ground_of([&](geo::GeoPoint place) { return kGround_m + hill(place); });
+  const radar::Mover behind{"behind", geometry.place_of({0.0, -20.0}), 0.0, 0.0, 1000.0, 1.0};
+  const radar::Mover beyond{"beyond", geometry.place_of({0.0, 400.0}), 0.0, 0.0, 1000.0, 1.0};
+  EXPECT_LT(cross_section_m2(make_patch(with_mover(240, behind), order, ground)), 1.0);
+  EXPECT_GT(cross_section_m2(make_patch(with_mover(240, beyond), order, ground)), 990.0);
+}
+
+// Middle of what returns.
+hrm::MapPoint middle_of(const hrm::PatchProcess& process) {
+  const hrm::MapImage& image = process.image();
+  double sum = 0.0;
+  double right_m = 0.0;
+  double up_m = 0.0;
+  for (int row = 0; row < image.size; ++row) {
+    for (int column = 0; column < image.size; ++column) {
+      const auto power = static_cast<double>(image.power[image.at(column, row)]);
+      const hrm::MapPoint point = point_of(process, column, row);
+      sum += power;
+      right_m += power * point.right_m;
+      up_m += power * point.up_m;
+    }
+  }
+  return {right_m / sum, up_m / sum};
+}
+
+TEST(Mover, IsDisplacedByRangeTimesItsRadialSpeedOverTheSpeedAcross) {
+  Viewpoint view;
+  view.distance_m = 20.0 * geo::kMetresPerNauticalMile;
+  view.window_m = 3.3 * geo::kMetresPerNauticalMile;
+  const double speed_mps = geo::Speed::knots(480.0).metres_per_second();
+  for (const double squint_deg : {90.0, 40.0, -90.0, -140.0}) {
+    for (const double receding_mps : {5.0, -3.0}) {
+      hrm::PatchOrder order = order_from(view);
+      order.ground_track = order.ground_track + geo::Angle::degrees(90.0 - squint_deg);
+      const hrm::PatchGeometry geometry(order, bare_map().fidelity, kGround_m);
+      radar::Mover mover{"mover", order.centre, std::abs(receding_mps), geometry.up().degrees(), 1000.0, 0.0};
+      if (receding_mps < 0.0) mover.heading_deg += 180.0;
+      const auto process = make_patch(with_mover(480, mover), order, ground_of(model::terrain::flat(kGround_m)));
+      const hrm::MapPoint found = middle_of(process);
+      // What recedes lags in Doppler: it appears aft, which is to the right of a look to the right.
+      const double shift_m =
+          view.distance_m * receding_mps / (speed_mps * std::sin(squint_deg * geo::kRadiansPerDegree));
+      EXPECT_NEAR(found.right_m, shift_m, 0.02 * std::abs(shift_m)) << squint_deg << ' ' << receding_mps;
+      // It has gone half its way at half time.
+      EXPECT_NEAR(found.up_m, 0.5 * receding_mps * process.formation().seconds(), 12.0);
+    }
+  }
+}
+
+TEST(Mover, ThatGoesAcrossIsSmearedAlongTheTrackAndNotDisplaced) {
+  const hrm::PatchOrder order = order_from({});
+  const hrm::PatchGeometry geometry(order, bare_map().fidelity, kGround_m);
+  const radar::Mover mover{"mover", order.centre, 20.0, geometry.up().degrees() + 90.0, 1000.0, 0.0};
+  const auto process = make_patch(with_mover(480, mover), order, ground_of(model::terrain::flat(kGround_m)));
+  const double way_m = 20.0 * process.formation().seconds();
+  const hrm::MapPoint found = middle_of(process);
+  EXPECT_NEAR(found.right_m, 0.5 * way_m, 3.0);
+  EXPECT_NEAR(found.up_m, 0.0, 3.0);
+  const hrm::MapImage& image = process.image();
+  const float most = *std::max_element(image.power.begin(), image.power.end());
+  int bright = 0;
+  for (int column = 0; column < image.size; ++column) {
+    float top = 0.0F;
+    for (int row = 0; row < image.size; ++row) top = std::max(top, image.power[image.at(column, row)]);
+    if (top > 0.5F * most) ++bright;
+  }
+  const double pixel_m = geometry.window_m() / image.size;
+  EXPECT_NEAR(bright * pixel_m, 2.0 * way_m, 2.0 * pixel_m);
+}
+
+}  // namespace
+}  // namespace yars::test

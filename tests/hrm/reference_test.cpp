@@ -1,0 +1,140 @@
+// The fast algorithm beside the plain one, facet by facet in double.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "tests/hrm/made_up_scene.hpp"
+#include "tests/hrm/patch_maker.hpp"
+
+namespace yars::test {
+namespace {
+
+namespace terrain = model::terrain;
+
+struct Difference {
+  double power = 0.0;   // of the sums, as a share
+  double shadow = 0.0;  // share of the pixels that one has dark and the other does not
+  double rms_db = 0.0;  // of the pixels that both have lit
+};
+
+constexpr float kShadow = 0.05F;  // of level ground
+
+Difference compare(const hrm::MapImage& fast, const hrm::MapImage& exact, double ground) {
+  double fast_sum = 0.0;
+  double exact_sum = 0.0;
+  double squares = 0.0;
+  double lit = 0.0;
+  double differ = 0.0;
+  for (std::size_t i = 0; i < fast.power.size(); ++i) {
+    const auto one = static_cast<double>(fast.power[i]);
+    const auto two = static_cast<double>(exact.power[i]);
+    fast_sum += one;
+    exact_sum += two;
+    const bool dark_one = one < static_cast<double>(kShadow) * ground;
+    const bool dark_two = two < static_cast<double>(kShadow) * ground;
+    if (dark_one != dark_two) differ += 1.0;
+    if (dark_one || dark_two) continue;
+    const double error_db = 10.0 * std::log10(one / two);
+    squares += error_db * error_db;
+    lit += 1.0;
+  }
+  return {fast_sum / exact_sum - 1.0, differ / static_cast<double>(fast.power.size()), std::sqrt(squares / lit)};
+}
+
+struct Setting {
+  Viewpoint view;
+  terrain::AnalyticTerrain::Height height;
+  model::scene::SceneViewPointer scene;
+  radar::EarthModel earth = radar::EarthModel::ellipsoid;
+};
+
+Difference measure(const char* name, const Setting& setting) {
+  radar::RadarConfiguration configuration = bare_map(192);
+  configuration.fidelity.earth = setting.earth;
+  configuration.fidelity.map_response = true;
+  const auto ground = ground_of(setting.height);
+  const auto fast = make_patch(configuration, order_from(setting.view), ground, setting.scene);
+  configuration.fidelity.algorithm = radar::Algorithm::reference;
+  configuration.fidelity.geodesic_knots = 0;
+  const auto exact = make_patch(configuration, order_from(setting.view), ground, setting.scene);
+  const Difference found = compare(fast.image(), exact.image(), gamma_of(configuration, 0));
+  std::printf("%-18s power %+.4f  shadow %.4f  rms %.2f dB\n", name, found.power, found.shadow, found.rms_db);
+  return found;
+}
+
+Viewpoint view_from(double from_deg, double distance_m, double above_m, double window_m) {
+  return {from_deg, distance_m, above_m, window_m, kTarget};
+}
+
+TEST(Standard, IsTheReferenceOverLevelGround) {
+  const Difference found = measure("level", {view_from(200.0, 37040.0, 4572.0, 1241.0), terrain::flat(kGround_m), {}});
+  EXPECT_NEAR(found.power, 0.0, 0.001);
+  EXPECT_EQ(found.shadow, 0.0);
+  EXPECT_LT(found.rms_db, 0.02);
+}
+
+TEST(Standard, IsTheReferenceOverASlope) {
+  const auto slope = terrain::plane({kTarget, geo::Bearing::degrees(60.0)}, kGround_m, 0.1);
+  const Difference found = measure("slope", {view_from(200.0, 37040.0, 4572.0, 1241.0), slope, {}});
+  EXPECT_NEAR(found.power, 0.0, 0.003);
+  EXPECT_LT(found.rms_db, 0.1);
+}
+
+TEST(Standard, IsCloseToTheReferenceOverHills) {
+  const auto hills = terrain::sine_hills({kTarget, geo::Bearing::degrees(30.0)}, 60.0, 1500.0);
+  const Difference found = measure(
+      "hills", {view_from(90.0, 30000.0, 2500.0, 6000.0), [&](geo::GeoPoint place) { return 5.0 + hills(place); }, {}});
+  EXPECT_NEAR(found.power, 0.0, 0.01);
+  EXPECT_LT(found.shadow, 0.01);
+  EXPECT_LT(found.rms_db, 0.6);
+}
+
+TEST(Standard, IsCloseToTheReferenceOverACone) {
+  const hrm::PatchOrder order = order_from({});
+  const hrm::PatchGeometry geometry(order, radar::Fidelity(), kGround_m);
+  const auto cone = [&](geo::GeoPoint place) {
+    const hrm::MapPoint point = geometry.point_of(place);
+    return kGround_m + std::max(0.0, 80.0 - 0.3 * std::hypot(point.right_m, point.up_m));
+  };
+  const Difference found = measure("cone", {view_from(180.0, 20000.0, 3000.0, 1241.0), cone, {}});
+  EXPECT_NEAR(found.power, 0.0, 0.01);
+  EXPECT_LT(found.shadow, 0.01);
+  EXPECT_LT(found.rms_db, 0.6);
+}
+
+TEST(Standard, IsCloseToTheReferenceOverBoxes) {
+  for (const double from_deg : {0.0, 65.0, 300.0}) {
+    const auto scene = std::make_shared<MadeUpScene>(kTarget, kGround_m);
+    scene->add({0.0, 0.0, 20.0, 80.0, 50.0, 20.0, kEarthenWorks});
+    scene->add({-200.0, 150.0, 65.0, 60.0, 30.0, 12.0, kStone});
+    scene->add({220.0, -180.0, 110.0, 40.0, 40.0, 30.0, kEarthenWorks});
+    const Difference found =
+        measure("boxes", {view_from(from_deg, 20000.0, 4000.0, 1241.0), terrain::flat(kGround_m), scene});
+    EXPECT_NEAR(found.power, 0.0, 0.01);
+    EXPECT_LT(found.shadow, 0.005);
+    EXPECT_LT(found.rms_db, 0.8);
+  }
+}
+
+TEST(Reference, ReturnsGammaTimesTheAreaOfABoxThatFacesTheRadar) {
+  radar::RadarConfiguration configuration = bare_map(192);
+  configuration.receiver.land_gamma_db = -150.0;
+  configuration.fidelity.algorithm = radar::Algorithm::reference;
+  Viewpoint view;
+  const Box box{10.0, -20.0, 210.0, 60.0, 40.0, 25.0, kEarthenWorks};
+  const auto scene = std::make_shared<MadeUpScene>(kTarget, kGround_m);
+  scene->add(box);
+  const auto process = make_patch(configuration, order_from(view), ground_of(terrain::flat(kGround_m)), scene);
+  const double slant_m = std::hypot(view.distance_m, view.above_m);
+  const double turn_rad = 30.0 * geo::kRadiansPerDegree;
+  const double walls_m2 =
+      box.height_m * (box.width_m * std::cos(turn_rad) + box.length_m * std::sin(turn_rad)) * view.distance_m / slant_m;
+  const double wanted_m2 =
+      gamma_of(configuration, kEarthenWorks) * (walls_m2 + box.length_m * box.width_m * view.above_m / slant_m);
+  EXPECT_NEAR(cross_section_m2(process), wanted_m2, 0.005 * wanted_m2);
+}
+
+}  // namespace
+}  // namespace yars::test
