@@ -74,6 +74,7 @@ SYSTEM_HEADERS = {
     "glm/": ["display/gl"],
     "xxhash.h": ["model/kernel"],
     "hwy/": ["model/terrain", "model/rbm", "model/hrm", "tests"],
+    "embree3/": ["tests"],
     "GLFW/": ["display/gl", "inputmonitor/window_source.cpp"],
     "spdlog/": ["shells"],
     "CLI/": ["shells"],

@@ -20,12 +20,12 @@ int first_at(float value) {
 // The normal of a triangle: right, ahead, up, in metres; and its extent on the grid.
 struct SceneRaster::Facet {
   Facet(const Canvas& canvas, const Triangle& corner)
-      : c1(corner[1]->column - corner[0]->column),
-        c2(corner[2]->column - corner[0]->column),
-        r1(corner[1]->row - corner[0]->row),
-        r2(corner[2]->row - corner[0]->row),
-        z1(corner[1]->height_m - corner[0]->height_m),
-        z2(corner[2]->height_m - corner[0]->height_m),
+      : c1(corner[1].column - corner[0].column),
+        c2(corner[2].column - corner[0].column),
+        r1(corner[1].row - corner[0].row),
+        r2(corner[2].row - corner[0].row),
+        z1(corner[1].height_m - corner[0].height_m),
+        z2(corner[2].height_m - corner[0].height_m),
         across(canvas.row_height_m * (r1 * z2 - z1 * r2)),
         ahead(canvas.column_width_m * (z1 * c2 - c1 * z2)),
         area(c1 * r2 - r1 * c2),
@@ -113,31 +113,28 @@ bool SceneRaster::overlaps(const PatchGeometry& geometry, const FanGrid& grid, c
 void SceneRaster::transform(const PatchGeometry& geometry, const FanGrid& grid, const Placement& placement,
                             const scene::Tile& tile) {
   const std::size_t count = tile.east_m.size();
-  vertices_.resize(count);
-  // Counted from the centre of the map, so that float is precise; distance - centre without its cancellation.
-  const auto right_m = static_cast<float>(placement.right_m);
-  const auto up_m = static_cast<float>(placement.up_m);
-  const auto right_east = static_cast<float>(placement.right_east);
-  const auto right_north = static_cast<float>(placement.right_north);
-  const auto up_east = static_cast<float>(placement.up_east);
-  const auto up_north = static_cast<float>(placement.up_north);
-  const auto centre_m = static_cast<float>(geometry.distance_m());
-  const auto columns_a_tangent = static_cast<float>(1.0 / grid.tangent_step);
-  const auto middle_column = static_cast<float>(-grid.first_tangent / grid.tangent_step);
-  const auto rows_a_metre = static_cast<float>(1.0 / grid.spacing_m);
-  const auto middle_row = static_cast<float>((geometry.distance_m() - grid.first_distance_m) / grid.spacing_m);
-  for (std::size_t i = 0; i < count; ++i) {
-    const float right = right_m + right_east * tile.east_m[i] + right_north * tile.north_m[i];
-    const float up = up_m + up_east * tile.east_m[i] + up_north * tile.north_m[i];
-    const float ahead = std::max(centre_m + up, 1.0F);
-    const float distance = std::sqrt(right * right + ahead * ahead);
-    const float beyond = (up * (centre_m + ahead) + right * right) / (distance + centre_m);
-    vertices_[i].column = middle_column + right / ahead * columns_a_tangent;
-    vertices_[i].row = middle_row + beyond * rows_a_metre;
-    vertices_[i].height_m = tile.up_m[i] + placement.lift_m;
-    vertices_[i].facing = tile.normal_east[i] * placement.toward_east + tile.normal_north[i] * placement.toward_north +
-                          tile.normal_up[i] * placement.toward_up;
-  }
+  for (std::vector<float>* numbers : {&column_, &row_, &height_m_, &facing_})
+    if (numbers->size() < count) numbers->resize(count);
+  lanes::VertexMap map{};
+  map.right_m = static_cast<float>(placement.right_m);
+  map.up_m = static_cast<float>(placement.up_m);
+  map.right_east = static_cast<float>(placement.right_east);
+  map.right_north = static_cast<float>(placement.right_north);
+  map.up_east = static_cast<float>(placement.up_east);
+  map.up_north = static_cast<float>(placement.up_north);
+  map.lift_m = placement.lift_m;
+  map.toward_east = placement.toward_east;
+  map.toward_north = placement.toward_north;
+  map.toward_up = placement.toward_up;
+  map.centre_m = static_cast<float>(geometry.distance_m());
+  map.columns_a_tangent = static_cast<float>(1.0 / grid.tangent_step);
+  map.middle_column = static_cast<float>(-grid.first_tangent / grid.tangent_step);
+  map.rows_a_metre = static_cast<float>(1.0 / grid.spacing_m);
+  map.middle_row = static_cast<float>((geometry.distance_m() - grid.first_distance_m) / grid.spacing_m);
+  lanes::place_vertices(count,
+                        {tile.east_m.data(), tile.north_m.data(), tile.up_m.data(), tile.normal_east.data(),
+                         tile.normal_north.data(), tile.normal_up.data()},
+                        map, vertices());
 }
 
 void SceneRaster::draw(const PatchGeometry& geometry, const FanGrid& grid, const scene::SceneView& scene,
@@ -162,20 +159,22 @@ void SceneRaster::draw(const PatchGeometry& geometry, const FanGrid& grid, const
 
 void SceneRaster::draw_tile(const scene::SceneView& scene, const scene::Tile& tile, const Placement& placement,
                             const Canvas& canvas) {
-  const auto rows = static_cast<float>(canvas.grid->rows);
-  const auto lowest = static_cast<float>(canvas.first);
-  const auto highest = static_cast<float>(canvas.last);
-  for (std::size_t t = 0; t < tile.corners.size(); ++t) {
-    const Triangle corner{&vertices_[tile.corners[t][0]], &vertices_[tile.corners[t][1]],
-                          &vertices_[tile.corners[t][2]]};
-    const float least_column = std::min({corner[0]->column, corner[1]->column, corner[2]->column});
-    const float most_column = std::max({corner[0]->column, corner[1]->column, corner[2]->column});
-    if (!(most_column >= lowest && least_column < highest)) continue;
-    // Most of a fine scene ends here: too narrow to cross the line of sight of any column.
-    if (first_at(least_column) >= first_at(most_column)) continue;
-    const float least_row = std::min({corner[0]->row, corner[1]->row, corner[2]->row});
-    const float most_row = std::max({corner[0]->row, corner[1]->row, corner[2]->row});
-    if (!(most_row >= -kReach && least_row < rows)) continue;
+  constexpr std::size_t kSlack = 16;  // entries that vectors may touch behind the last
+  if (found_.size() < tile.corners.size() + kSlack) found_.resize(tile.corners.size() + kSlack);
+  const lanes::GridLimits limits{static_cast<float>(canvas.first),
+                                 static_cast<float>(canvas.last),
+                                 -kReach,
+                                 static_cast<float>(canvas.grid->rows),
+                                 canvas.column_width_m,
+                                 canvas.row_height_m,
+                                 canvas.sine,
+                                 canvas.cosine,
+                                 static_cast<float>(kWallNormal2)};
+  const std::size_t count =
+      lanes::select_triangles(tile.corners.size(), tile.corners.data(), vertices(), limits, found_.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t t = found_[i];
+    const Triangle corner{vertex(tile.corners[t][0]), vertex(tile.corners[t][1]), vertex(tile.corners[t][2])};
     const Surface surface{
         scene.kinds()[tile.kind[t]].material,
         static_cast<float>(scene.objects()[tile.object[t]].base_msl_m - tile.zero_msl_m) + placement.lift_m};
@@ -194,18 +193,18 @@ void SceneRaster::draw_triangle(const Canvas& canvas, const Triangle& corner, co
   if (!(facet.area > 0.0F)) return;  // seen from below, or on edge
   const float length = std::sqrt(facet.level2 + facet.upward * facet.upward);
   const bool flat = facet.upward > static_cast<float>(kLevelNormal) * length &&
-                    corner[0]->height_m - surface.base_m < static_cast<float>(kOnGround_m);
+                    corner[0].height_m - surface.base_m < static_cast<float>(kOnGround_m);
   const auto gamma = static_cast<float>(surface_.gamma(surface.code));
-  fill(canvas, corner, facet.plane(*corner[0]), gamma * shading(corner, towards / length), flat);
+  fill(canvas, corner, facet.plane(corner[0]), gamma * shading(corner, towards / length), flat);
 }
 
 // How much more or less squarely the interpolated normals face the radar than the facet does.
 float SceneRaster::shading(const Triangle& corner, float facing) {
   if (!(facing > 0.0F)) return 1.0F;
   bool smooth = false;
-  for (const Vertex* vertex : corner) smooth = smooth || std::abs(vertex->facing - facing) > kSmooth;
+  for (const Vertex& vertex : corner) smooth = smooth || std::abs(vertex.facing - facing) > kSmooth;
   if (!smooth) return 1.0F;
-  const float mean = (corner[0]->facing + corner[1]->facing + corner[2]->facing) / 3.0F;
+  const float mean = (corner[0].facing + corner[1].facing + corner[2].facing) / 3.0F;
   return std::clamp(mean / facing, 0.0F, static_cast<float>(kMostShading));
 }
 
@@ -213,12 +212,12 @@ float SceneRaster::shading(const Triangle& corner, float facing) {
 // is as long as it is, and its height there is that of the edge.
 void SceneRaster::fill(const Canvas& canvas, const Triangle& corner, const Plane& plane, float gain, bool flat) {
   Triangle across = corner;
-  if (across[1]->column < across[0]->column) std::swap(across[0], across[1]);
-  if (across[2]->column < across[1]->column) std::swap(across[1], across[2]);
-  if (across[1]->column < across[0]->column) std::swap(across[0], across[1]);
-  const Vertex& left = *across[0];
-  const Vertex& middle = *across[1];
-  const Vertex& right = *across[2];
+  if (across[1].column < across[0].column) std::swap(across[0], across[1]);
+  if (across[2].column < across[1].column) std::swap(across[1], across[2]);
+  if (across[1].column < across[0].column) std::swap(across[0], across[1]);
+  const Vertex& left = across[0];
+  const Vertex& middle = across[1];
+  const Vertex& right = across[2];
   const float reach = flat ? 0.0F : kReach;
   const int end = std::min(first_at(right.column), canvas.last);
   for (int column = std::max(first_at(left.column), canvas.first); column < end; ++column) {
@@ -248,9 +247,9 @@ void SceneRaster::fill(const Canvas& canvas, const Triangle& corner, const Plane
 // Seen from above the wall is the line between the two corners that lie farthest apart across; the profile steps up at
 // the first grid point that a surface behind the line reaches.
 void SceneRaster::mark_wall(const Canvas& canvas, const Triangle& corner, float gain) {
-  const auto by_column = [](const Vertex* a, const Vertex* b) { return a->column < b->column; };
-  const Vertex& left = **std::min_element(corner.begin(), corner.end(), by_column);
-  const Vertex& right = **std::max_element(corner.begin(), corner.end(), by_column);
+  const auto by_column = [](const Vertex& a, const Vertex& b) { return a.column < b.column; };
+  const Vertex& left = *std::min_element(corner.begin(), corner.end(), by_column);
+  const Vertex& right = *std::max_element(corner.begin(), corner.end(), by_column);
   const int begin = std::max(first_at(left.column), canvas.first);
   const int end = std::min(first_at(right.column), canvas.last);
   const float width = right.column - left.column;

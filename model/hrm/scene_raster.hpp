@@ -9,6 +9,7 @@
 
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/fan_grid.hpp"
+#include "model/hrm/scene_lanes.hpp"
 #include "model/hrm/scene_surface.hpp"
 #include "model/scene/scene_view.hpp"
 
@@ -49,7 +50,7 @@ class SceneRaster {
     float column_width_m, row_height_m;
     float sine, cosine;  // of the grazing angle
   };
-  using Triangle = std::array<const Vertex*, 3>;
+  using Triangle = std::array<Vertex, 3>;
   struct Facet;
   struct Surface {
     std::size_t code;  // of the material
@@ -76,7 +77,11 @@ class SceneRaster {
   static void mark_wall(const Canvas& canvas, const Triangle& corner, float gain);
 
   SceneSurface surface_;
-  std::vector<Vertex> vertices_;  // of the tile in hand
+  lanes::GridVertices vertices() { return {column_.data(), row_.data(), height_m_.data(), facing_.data()}; }
+  Vertex vertex(std::size_t i) const { return {column_[i], row_[i], height_m_[i], facing_[i]}; }
+
+  std::vector<float> column_, row_, height_m_, facing_;  // of the tile in hand, by vertex
+  std::vector<std::uint32_t> found_;                     // triangles of it that are drawn
 };
 
 }  // namespace yars::model::hrm

@@ -28,6 +28,7 @@ class SceneSurface {
  private:
   std::vector<double> gamma_, cardinal_;
   double street_width_deg_;
+  double faded_tangent_;  // of the angle beyond which nothing of the cardinal effect is left
 };
 
 }  // namespace yars::model::hrm

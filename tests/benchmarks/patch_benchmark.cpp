@@ -1,6 +1,6 @@
-// Patch maps of a made-up town over the built-in hills: thread CPU time on one thread, best of fifteen, by stage, over
-// the number of triangles. With Embree 3: the same visibility by its packets in the same run.
-// Usage: patch_benchmark [TRIANGLES ...]
+// Patch maps of a made-up town on terrain: thread CPU time on one thread, best of fifteen, by stage, over the number of
+// triangles. With Embree 3: the same visibility by its packets in the same run.
+// Usage: patch_benchmark DIRECTORY LAT LON [TRIANGLES ...] - a directory of DTED or HGT cells, a place in it.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -13,7 +13,7 @@
 #include "model/scene/openflight_reader.hpp"
 #include "model/scene/placed_view.hpp"
 #include "model/scene/placing.hpp"
-#include "model/terrain/analytic_terrain.hpp"
+#include "model/terrain/open_terrain.hpp"
 #include "tests/benchmarks/timing.hpp"
 #include "tests/benchmarks/visibility.hpp"
 
@@ -23,32 +23,28 @@ using namespace yars;
 namespace hrm = model::hrm;
 
 constexpr int kRounds = 15;
-constexpr geo::GeoPoint kTarget{37.8, -122.3};
 constexpr double kWindow_nm = 0.67;
 constexpr double kRange_nm = 10.0;
 
-model::terrain::TerrainViewPointer plain() {
-  return std::make_shared<model::terrain::AnalyticTerrain>(model::terrain::flat(50.0));
-}
-
-model::scene::SceneViewPointer town_of(std::uint64_t triangles, const model::terrain::TerrainView& ground) {
+model::scene::SceneViewPointer town_of(std::uint64_t triangles, geo::GeoPoint place,
+                                       const model::terrain::TerrainView& ground) {
   using namespace model::scene;
-  const GeneratedScene made = generate_scene({GeneratedKind::town, triangles, 1, kTarget});
+  const GeneratedScene made = generate_scene({GeneratedKind::town, triangles, 1, place});
   const auto model = read_openflight(made.file, "town", {});
   if (!model) {
     std::fprintf(stderr, "patch_benchmark: %s\n", model.error().message().c_str());
     std::exit(1);
   }
   KindTable kinds;
-  auto placed = std::make_shared<PlacedScene>(place_model(*model, {kTarget}, ground, 0, kinds));
+  auto placed = std::make_shared<PlacedScene>(place_model(*model, {place}, ground, 0, kinds));
   std::vector<SceneObject> objects = placed->objects;
   return std::make_shared<PlacedView>(1, std::vector<PlacedView::Part>{{placed, 0}}, kinds.kinds(), std::move(objects));
 }
 
-hrm::PatchOrder order() {
+hrm::PatchOrder order_about(geo::GeoPoint place) {
   hrm::PatchOrder order;
-  order.centre = kTarget;
-  order.apex = geo::geodesic_direct(kTarget, geo::Bearing::degrees(200.0), geo::Length::nautical_miles(kRange_nm));
+  order.centre = place;
+  order.apex = geo::geodesic_direct(place, geo::Bearing::degrees(200.0), geo::Length::nautical_miles(kRange_nm));
   order.altitude = geo::AltitudeMsl::feet(15000.0);
   order.ground_track = geo::Bearing::degrees(290.0);
   order.ground_speed = geo::Speed::knots(480.0);
@@ -62,11 +58,10 @@ struct Times {
   std::array<double, hrm::kPatchStages.size()> stages_s{};
 };
 
-void run(hrm::PatchProcess& process, const hrm::PatchDatabase& database, Times& times) {
-  process.begin(order());
+void run(hrm::PatchProcess& process, const hrm::PatchOrder& order, const hrm::PatchDatabase& database, Times& times) {
   std::array<double, hrm::kPatchStages.size()> stages_s{};
   const double whole_s = benchmarks::timed([&] {
-    process.begin(order());
+    process.begin(order);
     process.give(database);
     for (double& stage_s : stages_s) {
       const double begin_s = benchmarks::thread_seconds();
@@ -77,18 +72,20 @@ void run(hrm::PatchProcess& process, const hrm::PatchDatabase& database, Times& 
   if (whole_s < times.whole_s) times = {whole_s, stages_s};
 }
 
-void measure(std::uint64_t triangles, int size) {
-  const auto ground = plain();
-  const hrm::PatchDatabase database{ground, ground, town_of(triangles, *ground)};
+void measure(model::terrain::TerrainStore& store, geo::GeoPoint place, std::uint64_t triangles, int size) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.map_size = size;
   hrm::PatchProcess process(configuration, {});
+  const hrm::PatchOrder order = order_about(place);
+  process.begin(order);
+  const auto ground = store.prepare({place, geo::Length::nautical_miles(1.5 * kRange_nm).metres(), 0});
+  const hrm::PatchDatabase database{ground, ground, town_of(triangles, place, *ground)};
   Times times;
   benchmarks::Visibility visibility;
-  const double build_s = visibility.build(order(), *database.scene, size);
+  const double build_s = visibility.build(order, *database.scene, ground->elevation_m(place), size);
   double rays_s = 1e9;
   for (int round = 0; round < kRounds; ++round) {
-    run(process, database, times);
+    run(process, order, database, times);
     if (build_s > 0.0) rays_s = std::min(rays_s, benchmarks::timed([&] { visibility.cast(); }));
   }
   std::printf("{\"size\":%d,\"triangles\":%zu,\"kernel_ms\":%.2f", size, process.triangles(), 1e3 * times.whole_s);
@@ -104,10 +101,22 @@ void measure(std::uint64_t triangles, int size) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc < 4) {
+    std::fprintf(stderr, "usage: patch_benchmark DIRECTORY LAT LON [TRIANGLES ...]\n");
+    return 2;
+  }
+  radar::TerrainConfiguration terrain;
+  terrain.directory = argv[1];
+  const geo::GeoPoint place{std::strtod(argv[2], nullptr), std::strtod(argv[3], nullptr)};
+  auto store = model::terrain::open_terrain(terrain);
+  if (!store) {
+    std::fprintf(stderr, "patch_benchmark: %s\n", store.error().message().c_str());
+    return 1;
+  }
   std::vector<std::uint64_t> triangles{10'000, 100'000, 1'000'000, 4'000'000};
-  if (argc > 1) triangles.clear();
-  for (int i = 1; i < argc; ++i) triangles.push_back(std::strtoull(argv[i], nullptr, 10));
+  if (argc > 4) triangles.clear();
+  for (int i = 4; i < argc; ++i) triangles.push_back(std::strtoull(argv[i], nullptr, 10));
   for (const std::uint64_t count : triangles)
-    for (const int size : {480, 1024}) measure(count, size);
+    for (const int size : {480, 1024}) measure(**store, place, count, size);
   return 0;
 }

@@ -84,9 +84,10 @@ unsigned Visibility::Rays::cast_packet(int row, int column) const {
   return seen;
 }
 
-double Visibility::build(const model::hrm::PatchOrder& order, const model::scene::SceneView& scene, int size) {
+double Visibility::build(const model::hrm::PatchOrder& order, const model::scene::SceneView& scene, double elevation_m,
+                         int size) {
   rays_ = std::make_unique<Rays>();
-  const model::hrm::PatchGeometry geometry(order, radar::Fidelity(), 50.0);
+  const model::hrm::PatchGeometry geometry(order, radar::Fidelity(), elevation_m);
   rays_->size = size;
   rays_->pixel_m = static_cast<float>(geometry.window_m() / size);
   rays_->edge_m = static_cast<float>(0.5 * geometry.window_m());
@@ -136,7 +137,7 @@ double Visibility::lit() const {
 #else
 struct Visibility::Rays {};
 double Visibility::build(const model::hrm::PatchOrder& /*order*/, const model::scene::SceneView& /*scene*/,
-                         int /*size*/) {
+                         double /*elevation_m*/, int /*size*/) {
   return 0.0;
 }
 void Visibility::cast() {}

@@ -17,7 +17,7 @@ class Visibility {
   Visibility& operator=(const Visibility&) = delete;
 
   // Thread CPU seconds of the tree; 0: there is no Embree.
-  double build(const model::hrm::PatchOrder& order, const model::scene::SceneView& scene, int size);
+  double build(const model::hrm::PatchOrder& order, const model::scene::SceneView& scene, double elevation_m, int size);
   void cast();
   double lit() const;  // share of the pixels of the last cast
 
