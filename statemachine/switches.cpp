@@ -94,10 +94,14 @@ void switch_altimeter(Step& step) {
   set_flag(step.state, databuffer::kAltimeterFailed, step.event.argument == 0);
 }
 
+void show_message(databuffer::RadarState& state, const Surroundings& surroundings, std::string_view text) {
+  std::memset(state.message, 0, sizeof(state.message));
+  text.copy(state.message, sizeof(state.message) - 1);
+  state.message_until_tick = surroundings.tick + kMessageTicks;
+}
+
 void show_message(Step& step, std::string_view text) {
-  std::memset(step.state.message, 0, sizeof(step.state.message));
-  text.copy(step.state.message, sizeof(step.state.message) - 1);
-  step.state.message_until_tick = step.surroundings.tick + kMessageTicks;
+  show_message(step.state, step.surroundings, text);
 }
 
 }  // namespace yars::statemachine

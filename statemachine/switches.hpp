@@ -21,6 +21,7 @@ void select_navigator(Step& step);
 void switch_altimeter(Step& step);
 
 // A word for the pilot that goes by itself.
+void show_message(databuffer::RadarState& state, const Surroundings& surroundings, std::string_view text);
 void show_message(Step& step, std::string_view text);
 
 }  // namespace yars::statemachine

@@ -118,8 +118,8 @@ void write_result(const PatchOptions& options, const hrm::PatchProcess& process)
 
 void check_output(const std::string& out) {
   const auto suffix = std::filesystem::path(out).extension();
-  if (!out.empty() && suffix != ".png" && suffix != ".tif" && suffix != ".f32")
-    give_up(databuffer::usage_error("--out", "a name that ends in .png, .tif or .f32", out));
+  if (!out.empty() && suffix != ".png" && suffix != ".f32")
+    give_up(databuffer::usage_error("--out", "a name that ends in .png or .f32", out));
 }
 
 void check_geometry(const PatchOptions& options) {
@@ -210,7 +210,7 @@ void add_patch_command(CLI::App& app, const CommonOptions& common) {
   command->add_option("--seed", options->seed, "of the noise")->check(CLI::NonNegativeNumber);
   command->add_option("--repeat", options->repeat, "warm maps to time; the first comes on top")
       ->check(CLI::Range(1, 1000000));
-  command->add_option("--out", options->out, "file: .png, .tif or .f32");
+  command->add_option("--out", options->out, "file: .png or .f32");
   command->callback([options, &common] { patch(common, *options); });
 }
 

@@ -52,6 +52,15 @@ TEST_F(Maps, ARejectedCommandSaysWhyAndNothingElseHappens) {
   }
 }
 
+TEST_F(Maps, ACommandThatIsAnsweredWithoutAMapIsTakenBackAndTheGlassSaysSo) {
+  ASSERT_TRUE(pilot.press("tdc release"));
+  pilot.around.model.map_request = pilot.around.model.map_done_request = pilot.state.map_request;
+  pilot.wait(1);
+  EXPECT_EQ(pilot.state.flags & kMapping, 0U);
+  EXPECT_EQ(field("mode"), "RBM");
+  EXPECT_STREQ(pilot.state.message, "NO MAP");
+}
+
 TEST_F(Maps, AReasonThatNobodyCanReadIsNotShown) {
   pilot.around.model.mappable = 0;
   EXPECT_FALSE(pilot.press("tdc release")) << "no reason at all";
