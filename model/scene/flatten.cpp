@@ -63,14 +63,14 @@ class Flattening {
     const Affine& matrix = tree_.matrices[node.matrix];
     Affine moved = node.replications > 0 ? Affine{} : matrix;
     for (int copy = 0; copy <= node.replications; ++copy) {
-      if (const auto done = show_once(node, moved * above, object, depth); !done) return done;
+      if (auto done = show_once(node, moved * above, object, depth); !done) return done;
       moved = moved * matrix;
     }
     return {};
   }
 
   Done show_once(const Node& node, const Affine& place, std::uint32_t object, int depth) {
-    if (const auto done = count_visits(1); !done) return done;
+    if (auto done = count_visits(1); !done) return done;
     if (node.kind == NodeKind::object) {
       object = static_cast<std::uint32_t>(model_.objects.size());
       model_.objects.push_back(node.name);
@@ -83,10 +83,10 @@ class Flattening {
                                   ", which the file has not; it is left out");
         return {};
       }
-      if (const auto done = show(definition->second, place, object, depth + 1); !done) return done;
+      if (auto done = show(definition->second, place, object, depth + 1); !done) return done;
     }
     for (std::uint32_t face = node.first_face; face != kNone; face = tree_.faces[face].next)
-      if (const auto done = show_face(tree_.faces[face], place, object); !done) return done;
+      if (auto done = show_face(tree_.faces[face], place, object); !done) return done;
     return show_children(node, place, object, depth);
   }
 
@@ -100,7 +100,7 @@ class Flattening {
       const Node& below = tree_.nodes[child];
       if (below.kind == NodeKind::level_of_detail && below.switch_out_m > finest_m) continue;
       if (node.kind == NodeKind::choice && !is_chosen(node, position)) continue;
-      if (const auto done = show(child, place, object, depth + 1); !done) return done;
+      if (auto done = show(child, place, object, depth + 1); !done) return done;
       if (node.first_child_only) break;
     }
     return {};
@@ -134,7 +134,7 @@ class Flattening {
     if (!loaded) return tl::unexpected(loaded.error());
     if (!*loaded) return {};
     const Model& other = **loaded;
-    if (const auto done = make_room(other.triangles.size(), other.vertices.size()); !done) return done;
+    if (auto done = make_room(other.triangles.size(), other.vertices.size()); !done) return done;
     const auto first_vertex = static_cast<std::uint32_t>(model_.vertices.size());
     for (const ModelVertex& vertex : other.vertices) {
       const Vector3 at = place.apply(vector(vertex.place_m) + other.base);
@@ -179,7 +179,7 @@ class Flattening {
   }
 
   Done show_face(const TreeFace& face, const Affine& place, std::uint32_t object) {
-    if (const auto done = count_visits(face.count + std::size_t{1}); !done) return done;
+    if (auto done = count_visits(face.count + std::size_t{1}); !done) return done;
     if (face.count < 3) return {};
     if (!gather(face, place)) {
       ++unsound_;
@@ -194,7 +194,7 @@ class Flattening {
       return {};
     }
     facet = (1.0 / size) * facet;
-    if (const auto done = make_room(2 * triangles_.size(), 2 * places_.size()); !done) return done;
+    if (auto done = make_room(2 * triangles_.size(), 2 * places_.size()); !done) return done;
     if (face.subface_level > 0)
       for (Vector3& at : places_) at = at + (kSubfaceLift_m * face.subface_level) * facet;
     ++model_.polygons;

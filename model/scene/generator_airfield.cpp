@@ -94,7 +94,7 @@ class Airfield {
       s.polygon({{-half, -side, kPaved_m}, {half, -side, kPaved_m}, {half, side, kPaved_m}, {-half, side, kPaved_m}});
       yard_.out.begin_subfaces();
       s.kind = surface::kPaint;
-      for (double x = -half + 100; x < half - 100; x += 60) mark(s, x, x + 30, -0.45, 0.45);
+      for (int dash = 0; dash < 39; ++dash) mark(s, 60.0 * dash - half + 100, 60.0 * dash - half + 130, -0.45, 0.45);
       for (const double end : {-half + 6, half - 36})
         for (int stripe = -4; stripe < 4; ++stripe) mark(s, end, end + 30, 4.5 * stripe + 1.3, 4.5 * stripe + 3.2);
       yard_.out.end_subfaces();
@@ -166,7 +166,7 @@ class Airfield {
   void fuel() {
     const int sides = yard_.sides(12, 64);
     for (int tank = 0; tank < 4; ++tank) {
-      const Vector3 foot{-480 - 40.0 * (tank % 2), kApronSouth_m + 20 - 40.0 * (tank / 2), 0};
+      const Vector3 foot{-480 - 40.0 * (tank % 2), kApronSouth_m + 20 - 40.0 * std::floor(tank / 2.0), 0};
       yard_.object("tank" + std::to_string(tank + 1), surface::kWhite, [&](Sketch& s) {
         s.turned(foot, {0, 0, 1}, {{0, 12}, {11, 12}, {12.5, 9}, {13.5, 4.5}, {13.8, 0}}, sides);
       });
@@ -229,7 +229,8 @@ class Airfield {
   // Quarters first, then woods around the field, as far as the order goes.
   void fill() {
     for (int i = 0; i < 24 && !yard_.is_full(); ++i)
-      yard_.show(kHouse, house_, standing(60 + 30 * (i % 8), -540 - 26 * (i / 8), 5.0 * yard_.chance.below(2)));
+      yard_.show(kHouse, house_,
+                 standing(60 + 30 * (i % 8), -540 - 26 * std::floor(i / 8.0), 5.0 * yard_.chance.below(2)));
     constexpr double kWood_m = 1'200;  // beyond the fence
     while (!yard_.is_full()) {
       const double x = yard_.chance.between(-kFenceX_m - kWood_m, kFenceX_m + kWood_m);

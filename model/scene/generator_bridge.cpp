@@ -167,7 +167,7 @@ class Bridge {
   // Houses along the road and woods along the river's banks.
   void fill() {
     for (int i = 0; i < 60 && !yard_.is_full(); ++i) {
-      const double x = (i % 2 == 0 ? -1.0 : 1.0) * (kHalf_m + kRamp_m + 90 + 20 * (i / 4));
+      const double x = (i % 2 == 0 ? -1.0 : 1.0) * (kHalf_m + kRamp_m + 90 + 20 * std::floor(i / 4.0));
       const double y = i / 2 % 2 == 0 ? -22 : 22;
       yard_.show(kHouse, house_, standing(x, y, y < 0 ? 0 : 180));
     }

@@ -176,7 +176,7 @@ class Harbour {
   void tanks() {
     for (int tank = 0; tank < 6; ++tank)
       yard_.object("tank" + std::to_string(tank + 1), surface::kWhite, [&](Sketch& s) {
-        const Vector3 foot{560 + 60.0 * (tank % 3), -300 - 60.0 * (tank / 3), 0};
+        const Vector3 foot{560 + 60.0 * (tank % 3), -300 - 60.0 * std::floor(tank / 3.0), 0};
         s.turned(foot, {0, 0, 1}, {{0, 22}, {15, 22}, {16.5, 12}, {17, 0}}, yard_.sides(12, 64));
       });
   }

@@ -250,7 +250,7 @@ class TreeParser {
     const std::uint32_t face = current_.face;
     const std::uint32_t above = parent().node;
     if (tree_.faces.size() != std::size_t{face} + 1 || above == kNone) return {};
-    if (const auto made = new_node(NodeKind::group); !made) return made;
+    if (auto made = new_node(NodeKind::group); !made) return made;
     Node& before = tree_.nodes[above];
     before.last_face = face_before_;
     if (face_before_ == kNone)
@@ -273,7 +273,7 @@ class TreeParser {
         return failure::fail(subject_, "a matrix of finite numbers", "NaN or infinity", "the file is damaged");
     }
     if (is_loose_face())
-      if (const auto done = own_node(); !done) return done;
+      if (auto done = own_node(); !done) return done;
     if (current_.node == kNone || is_loose_face()) return {};
     const Affine matrix{{m[0], m[1], m[2]},
                         {m[4], m[5], m[6]},
@@ -292,7 +292,7 @@ class TreeParser {
     const int copies = record.number_or<std::int16_t>(4, 0);
     if (copies <= 0) return {};
     if (is_loose_face())
-      if (const auto done = own_node(); !done) return done;
+      if (auto done = own_node(); !done) return done;
     if (current_.node != kNone && !is_loose_face())
       tree_.nodes[current_.node].replications = static_cast<std::uint16_t>(copies);
     return {};
@@ -362,7 +362,7 @@ class TreeParser {
     const int mesh = static_cast<int>(meshes_.size()) - 1;
     // A node of its own: its primitives come behind a push, a matrix before it.
     if (current_.node != kNone)
-      if (const auto made = new_node(NodeKind::group); !made) return made;
+      if (auto made = new_node(NodeKind::group); !made) return made;
     current_.mesh = mesh;
     return {};
   }
@@ -399,7 +399,7 @@ class TreeParser {
       face.count = static_cast<std::uint32_t>(polygons->each);
       for (std::size_t i = first; i < first + polygons->each; ++i)
         tree_.corners.push_back(static_cast<std::uint32_t>(state.first_vertex + polygons->corners[i]));
-      if (const auto done = append_face(face, above.node); !done) return done;
+      if (auto done = append_face(face, above.node); !done) return done;
     }
     return {};
   }
