@@ -2,13 +2,12 @@
 
 #include <cmath>
 
+#include "lib/radar/map_formation.hpp"
 #include "lib/radar/windows.hpp"
 
 namespace yars::model::kernel {
 
 namespace {
-constexpr double kBlindZoneDeg = 8.0;  // [deg] either side of the ground track: too little Doppler to map (rule 3)
-
 bool is_finite(geo::GeoPoint point) {
   return std::isfinite(point.latitude_deg) && std::isfinite(point.longitude_deg);
 }
@@ -16,13 +15,13 @@ bool is_finite(geo::GeoPoint point) {
 
 std::optional<std::string_view> why_not_mappable(const antenna::Platform& platform, geo::GeoPoint aircraft,
                                                  geo::GeoPoint cursor, geo::Length window,
-                                                 const radar::AntennaConfiguration& antenna) {
+                                                 const radar::RadarConfiguration& configuration) {
   if (!is_finite(aircraft) || !is_finite(cursor)) return "NO CURSOR";
   const geo::GeodesicInverse way = geo::geodesic_inverse(aircraft, cursor);
   const geo::Angle off_track = way.azimuth_at_start - platform.ground_track;
-  if (std::abs(off_track.degrees()) < kBlindZoneDeg) return "BLIND ZONE";
+  if (radar::in_blind_zone(off_track, configuration.high_resolution)) return "BLIND ZONE";
   const geo::Angle off_nose = way.azimuth_at_start - platform.heading;
-  if (std::abs(off_nose.degrees()) > antenna.azimuth_limit_deg) return "GIMBAL";
+  if (std::abs(off_nose.degrees()) > configuration.antenna.azimuth_limit_deg) return "GIMBAL";
   const std::optional<geo::Length> taken =
       window > geo::Length() ? std::optional(window) : radar::window_while_blank(way.distance);
   if (!taken) return "NO WINDOW";

@@ -13,6 +13,6 @@ namespace yars::model::kernel {
 // Nothing: mappable. `window` of zero is the blank one. Either point may not be finite: then "NO CURSOR".
 std::optional<std::string_view> why_not_mappable(const antenna::Platform& platform, geo::GeoPoint aircraft,
                                                  geo::GeoPoint cursor, geo::Length window,
-                                                 const radar::AntennaConfiguration& antenna);
+                                                 const radar::RadarConfiguration& configuration);
 
 }  // namespace yars::model::kernel

@@ -134,10 +134,10 @@ void RadarKernel::describe(const terrain::TerrainView& terrain, ModelStatus& sta
   status.height_above_ground_m = state.pose ? state.pose->altitude.metres() - status.ground_elevation_m : kUnknown;
 
   std::fill(std::begin(status.why_not), std::end(status.why_not), '\0');
-  const auto reason =
-      !state.pose ? std::optional<std::string_view>("NO POSITION")
-                  : why_not_mappable(state.pose->platform, state.pose->place, cursor,
-                                     geo::Length::nautical_miles(state.command.window_nm), state.configuration.antenna);
+  const auto reason = !state.pose
+                          ? std::optional<std::string_view>("NO POSITION")
+                          : why_not_mappable(state.pose->platform, state.pose->place, cursor,
+                                             geo::Length::nautical_miles(state.command.window_nm), state.configuration);
   status.mappable = reason ? 0 : 1;
   // While nothing forms the timer says what a map at the cursor would take.
   status.map_timer_s = kUnknown;
