@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "display/gl/texture.hpp"
+
 namespace yars::display::gl {
 
 namespace {
@@ -30,14 +32,7 @@ void main() {
 )";
 
 std::uint32_t texture_of(std::uint32_t size, std::span<const std::uint8_t> pixels) {
-  GLuint texture = 0;
-  glGenTextures(1, &texture);
-  glBindTexture(GL_TEXTURE_2D, texture);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  const std::uint32_t texture = new_texture();
   const auto edge = static_cast<GLsizei>(size);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, edge, edge, 0, GL_RED, GL_UNSIGNED_BYTE, pixels.data());
   return texture;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "display/gl/texture.hpp"
 #include "lib/radar/limits.hpp"
 
 namespace yars::display::gl {
@@ -51,18 +52,6 @@ void main() {
   fragment = vec4(color * texture(light, vec2((level * 255.0 + 0.5) / 256.0, 0.5)).r, 1.0);
 }
 )";
-
-std::uint32_t new_texture() {
-  GLuint texture = 0;
-  glGenTextures(1, &texture);
-  glBindTexture(GL_TEXTURE_2D, texture);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  return texture;
-}
 
 void instance_attribute(GLuint location, GLint components, int first_float) {
   glEnableVertexAttribArray(location);

@@ -10,6 +10,7 @@
 #include "model/scene/triangulation.hpp"
 #include "model/terrain/cell_reading.hpp"
 #include "tests/scene/every_record.hpp"
+#include "tests/scene/read_bytes.hpp"
 #include "tests/terrain/shared_data.hpp"
 
 namespace yars::model::scene {
@@ -18,21 +19,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-Model read(ByteFile& file) {
-  auto model = read_openflight(file.bytes(), "test.flt");
-  EXPECT_TRUE(model) << (model ? "" : model.error().message());
-  return model ? std::move(*model) : Model{};
-}
-
-std::string refusal(ByteFile& file) {
-  const auto model = read_openflight(file.bytes(), "test.flt");
-  EXPECT_FALSE(model);
-  return model ? "" : model.error().message();
-}
-
-// A square of 10 m about which files of bytes are built.
-const std::vector<Vector3> kSquare{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}};
 
 TEST(Records, FieldsPastTheEndAreAbsent) {
   RecordBuilder builder;
