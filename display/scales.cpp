@@ -16,7 +16,6 @@ constexpr float kAzimuthZero = 240.0F;  // [units] x of 0 deg
 constexpr float kAzimuthUnitsPerDegree = 2.0F;
 constexpr float kAzimuthTickTop = 438.0F, kAzimuthTickBottom = 445.0F;
 constexpr float kAzimuthTrack = 64.0F;  // [deg] the caret stops here
-constexpr float kBlindZone = 8.0F;      // [deg] either side of the ground track: pvi.md rule 3
 constexpr float kLimitBallRadius = 3.0F;
 constexpr float kLimitBallTrack = 115.0F;  // [deg] the limit balls stop here, at the edge of the glass
 
@@ -64,10 +63,10 @@ void draw_azimuth_scale(double antenna_right_of_track_deg, DrawList& list) {
                                 x_of(kAzimuthTrack) + kCaretHalf, kAzimuthTickBottom + 1.0F});
 }
 
-void draw_limit_balls(double left_deg, double right_deg, DrawList& list) {
+void draw_limit_balls(double left_deg, double right_deg, double blind_zone_deg, DrawList& list) {
   constexpr float middle = (kAzimuthTickTop + kAzimuthTickBottom) / 2.0F;
-  for (const float degrees : {-kBlindZone, kBlindZone})
-    list.line({x_of(degrees), middle}, {x_of(degrees), kAzimuthTickBottom});
+  const auto blind = static_cast<float>(blind_zone_deg);
+  for (const float degrees : {-blind, blind}) list.line({x_of(degrees), middle}, {x_of(degrees), kAzimuthTickBottom});
   for (const double degrees : {left_deg, right_deg}) {
     const float x = x_of(std::clamp(static_cast<float>(degrees), -kLimitBallTrack, kLimitBallTrack));
     list.circle({x, middle}, kLimitBallRadius);

@@ -13,7 +13,7 @@ namespace yars::display {
 void draw_azimuth_scale(double antenna_right_of_track_deg, DrawList& list);
 // Two balls on the azimuth scale where the scan, or the map, begins and ends; with marks at the ends of the blind zone
 // to judge them by. They pass +-60 deg and stop at the edge of the glass.
-void draw_limit_balls(double left_deg, double right_deg, DrawList& list);
+void draw_limit_balls(double left_deg, double right_deg, double blind_zone_deg, DrawList& list);
 void draw_elevation_scale(double antenna_deg, DrawList& list);
 
 enum class AttitudeSource : std::uint8_t { ins, ahrs, invalid };  // round, square, crossed out

@@ -114,10 +114,10 @@ Sector covered_sector(const GlassInput& input) {
   return {geo::Bearing::degrees(model.scan_centre_deg), model.scan_width_deg / 2.0};
 }
 
-void draw_limits(const GlassInput& input, DrawList& list) {
+void draw_limits(const GlassInput& input, double blind_zone_deg, DrawList& list) {
   const Sector sector = covered_sector(input);
   const double middle_deg = (sector.middle - ground_track_of(input.ownship)).degrees();
-  draw_limit_balls(middle_deg - sector.half_width_deg, middle_deg + sector.half_width_deg, list);
+  draw_limit_balls(middle_deg - sector.half_width_deg, middle_deg + sector.half_width_deg, blind_zone_deg, list);
 }
 
 void draw_readouts(const GlassInput& input, const Format& format, DrawList& list) {
@@ -137,7 +137,7 @@ void draw_format(const GlassInput& input, const Format& format, const radar::Rad
   if (format.arcs) draw_range_arcs(view, list);
   if (format.zero_line) draw_zero_azimuth_line(view, list);
   if (format.scales) draw_scales(input, list);
-  if (format.limit_balls) draw_limits(input, list);
+  if (format.limit_balls) draw_limits(input, configuration.high_resolution.blind_zone_deg, list);
   if (format.gray_scale) draw_gray_scale(list);
   if (format.readouts) draw_readouts(input, format, list);
   if (format.no_video) draw_banner("NO VIDEO", list);

@@ -123,13 +123,13 @@ PatchNeed PatchProcess::begin(const PatchOrder& order) {
   work.database = {};
   work.state = PatchState::database;
   work.done = 0;
-  const geo::Length distance = geo::geodesic_inverse(order.apex, order.centre).distance;
+  const geo::GeodesicInverse to_centre = geo::geodesic_inverse(order.apex, order.centre);
   const double pixel_m = order.window.metres() / work.configuration.fidelity.map_size;
   PatchNeed need;
   // The corners, and what beyond them is laid over into the picture.
   need.window = {order.centre, 1.5 * order.window.metres(), terrain::detail_for(pixel_m)};
-  const geo::GeodesicRay way(order.apex, geo::geodesic_inverse(order.apex, order.centre).azimuth_at_start);
-  const double half_way_m = 0.5 * distance.metres();
+  const geo::GeodesicRay way(order.apex, to_centre.azimuth_at_start);
+  const double half_way_m = 0.5 * to_centre.distance.metres();
   need.path = {way.position(geo::Length::metres(half_way_m)), half_way_m + 0.5 * order.window.metres(),
                terrain::detail_for(std::max(pixel_m, kPathDetail_m))};
   return need;
