@@ -16,13 +16,14 @@ GEO = ["lib/failure", "lib/geo"]
 RADAR = GEO + ["lib/radar"]
 RECORDS = RADAR + ["databuffer/records"]
 ROLE = RECORDS + ["lib/imageio", "config"]
-MODEL = ROLE + ["model/terrain", "model/antenna", "model/reflectivity", "model/scene", "model/rbm", "model/hrm", "model/kernel"]
+MODEL = ROLE + ["lib/memory", "model/terrain", "model/antenna", "model/reflectivity", "model/scene", "model/rbm", "model/hrm", "model/kernel"]
 SEGMENT = ROLE + ["shm", "databuffer", "databuffer/flight"]
 
 # Folder -> folders whose headers it may include besides its own. model, statemachine, inputmonitor and display
 # never see each other; tools and tests drive everything.
 LAYERS = {
     "lib/failure": [],
+    "lib/memory": [],
     "lib/geo": GEO,
     "lib/radar": RADAR,
     "lib/imageio": ["lib/failure"],
@@ -32,12 +33,12 @@ LAYERS = {
     "databuffer/flight": RECORDS,
     "databuffer": SEGMENT,
     "model/terrain/gdal": ["lib/failure"],
-    "model/terrain": RADAR + ["lib/imageio", "model/terrain/gdal"],
+    "model/terrain": RADAR + ["lib/memory", "lib/imageio", "model/terrain/gdal"],
     "model/antenna": RADAR,
     "model/reflectivity": RADAR + ["model/terrain"],
     "model/scene": RADAR + ["model/terrain", "lib/imageio"],
-    "model/rbm": RADAR + ["model/terrain", "model/antenna", "model/reflectivity"],
-    "model/hrm": RADAR + ["model/terrain", "model/reflectivity", "model/rbm", "model/scene"],
+    "model/rbm": RADAR + ["lib/memory", "model/terrain", "model/antenna", "model/reflectivity"],
+    "model/hrm": RADAR + ["lib/memory", "model/terrain", "model/reflectivity", "model/rbm", "model/scene"],
     "model/kernel": MODEL,
     "model": MODEL,
     "statemachine": ROLE,
@@ -63,6 +64,7 @@ SYSTEM_HEADERS = {
     "openjpeg.h": ["model/terrain"],
     "zip.h": ["model/terrain", "tests"],
     "zlib.h": ["model/terrain", "tests"],
+    "sys/mman.h": ["lib/memory", "shells", "shm", "databuffer", "tools", "tests"],
     "gdal.h": ["model/terrain/gdal", "tests"],
     "gdal_utils.h": ["model/terrain/gdal", "tests"],
     "cpl_conv.h": ["model/terrain/gdal", "tests"],

@@ -6,6 +6,7 @@
 
 #include "lib/geo/quantity.hpp"
 #include "model/hrm/detail_lanes.hpp"
+#include "model/terrain/look_up.hpp"
 #include "model/terrain/noise.hpp"
 
 namespace yars::model::hrm {
@@ -15,6 +16,7 @@ constexpr int kFinestEdge = 512;        // texels: 1 MiB, which the second-level
 constexpr double kFinestTexel_m = 4.0;  // detail below it is speckle's
 constexpr double kCoarsest_m = 256.0;   // [m] longest wave; beyond it the posts say what there is
 constexpr double kMetresPerDegree = 60.0 * geo::kMetresPerNauticalMile;
+constexpr float kMostByte = 255.0F;
 constexpr std::uint32_t kSeed = 0x59a75u;
 
 // Periodic fractal noise: octaves from the longest wave down to two texels, each as strong as the one before.
@@ -69,25 +71,40 @@ void shape(std::vector<float>& table, double contrast) {
 Detail::Detail(double contrast, double pixel_m) : pixel_m_(pixel_m), texels_per_metre_(0.0F), edge_(kFinestEdge) {
   // A texel no smaller than half a pixel: finer waves would only flicker.
   double texel_m = kFinestTexel_m;
-  while (texel_m < 0.5 * pixel_m && edge_ > 1) {
+  while (texel_m < 0.5 * pixel_m && edge_ > lanes::kDetailBlock) {
     texel_m *= 2.0;
     edge_ /= 2;
   }
   texels_per_metre_ = static_cast<float>(1.0 / texel_m);
-  table_ = fractal_table(edge_, texel_m);
-  shape(table_, contrast);
+  std::vector<float> texels = fractal_table(edge_, texel_m);
+  shape(texels, contrast);
+  unit_ = *std::max_element(texels.begin(), texels.end()) / kMostByte;
+  pack(texels);
+}
+
+void Detail::pack(const std::vector<float>& texels) {
+  const auto edge = static_cast<std::size_t>(edge_);
+  table_.resize(texels.size());
+  const auto byte = [&](std::size_t x, std::size_t y) {
+    return static_cast<std::uint32_t>(std::lround(texels[y % edge * edge + x % edge] / unit_));
+  };
+  constexpr std::size_t kBlock = lanes::kDetailBlock;
+  for (std::size_t y = 0; y < edge; ++y)
+    for (std::size_t x = 0; x < edge; ++x)
+      table_[y / kBlock * kBlock * edge + x / kBlock * kBlock * kBlock + y % kBlock * kBlock + x % kBlock] =
+          byte(x, y) | byte(x + 1, y) << 8 | byte(x, y + 1) << 16 | byte(x + 1, y + 1) << 24;
 }
 
 // Within its cell of one degree a place counts from the cell's corner, with degrees of longitude as long as in the
 // cell's middle. A ray runs through few cells: each run in one is one call.
 void Detail::modulate(const terrain::PlaceRun& places, float* gain) const {
-  const lanes::DetailTable table{table_.data(), edge_};
+  const lanes::DetailTable table{table_.data(), edge_, unit_ * unit_};
   const auto north_scale = static_cast<float>(kMetresPerDegree) * texels_per_metre_;
   const std::size_t count = places.north_deg.size();
   std::size_t first = 0;
   while (first < count) {
-    std::size_t last = first + 1;
-    while (last < count && places.cells_north[last] == places.cells_north[first]) ++last;
+    const std::size_t last =
+        first + terrain::look_up::places_alike(&places.cells_north[first], &places.cells_east[first], count - first);
     const double middle_deg = places.corner.south_deg + static_cast<double>(places.cells_north[first]) + 0.5;
     const auto east_scale = north_scale * static_cast<float>(std::cos(middle_deg * geo::kRadiansPerDegree));
     // Vectors overrun the end of a run: what they touch of the next is put back.

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "model/terrain/terrain_view.hpp"
@@ -21,10 +22,15 @@ class Detail {
   void modulate(const terrain::PlaceRun& places, float* gain) const;
 
  private:
+  void pack(const std::vector<float>& texels);
+
   double pixel_m_;
   float texels_per_metre_;
-  int edge_;                  // texels, a power of two
-  std::vector<float> table_;  // rows of texels, mean 1
+  int edge_;           // texels, a power of two
+  float unit_ = 1.0F;  // what one step of a byte is worth
+  // As lanes::DetailTable has them: a byte each of the texel itself, the one to its right, and the two above them, so
+  // that what lies between the four is one look.
+  std::vector<std::uint32_t> table_;
 };
 
 }  // namespace yars::model::hrm

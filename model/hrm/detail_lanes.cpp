@@ -20,27 +20,34 @@ constexpr float kTurnCosine = 0.3420201F;
 constexpr float kTurnSine = 0.9396926F;
 constexpr float kStretch = 1.618034F;
 
+// One of the four bytes of a word as a number.
+template <int kShift>
+HWY_INLINE Floats byte_of(hn::Vec<SignedTag> word) {
+  const SignedTag di;
+  return hn::ConvertTo(Tag(), hn::And(hn::ShiftRight<kShift>(word), hn::Set(di, 0xff)));
+}
+
 HWY_INLINE Floats look_up(const DetailTable& table, Floats x, Floats y) {
-  const Tag d;
   const SignedTag di;
   const auto mask = hn::Set(di, table.edge - 1);
-  const auto pitch = hn::Set(di, table.edge);
-  const auto one = hn::Set(di, 1);
   const auto column = hn::Floor(x);
   const auto row = hn::Floor(y);
-  const auto left = hn::And(hn::ConvertTo(di, column), mask);
-  const auto right = hn::And(hn::Add(left, one), mask);
-  const auto near = hn::And(hn::ConvertTo(di, row), mask);
-  const auto near_at = hn::Mul(near, pitch);
-  const auto far_at = hn::Mul(hn::And(hn::Add(near, one), mask), pitch);
+  const auto i = hn::And(hn::ConvertTo(di, column), mask);
+  const auto j = hn::And(hn::ConvertTo(di, row), mask);
+  const auto low_bits = hn::Set(di, kDetailBlock - 1);
+  // Whole lines of blocks, whole blocks of the line, and within the block.
+  const auto lines = hn::Mul(hn::AndNot(low_bits, j), hn::Set(di, table.edge));
+  const auto blocks = hn::ShiftLeft<2>(hn::AndNot(low_bits, i));
+  const auto within = hn::Add(hn::ShiftLeft<2>(hn::And(j, low_bits)), hn::And(i, low_bits));
+  const auto at = hn::Add(hn::Add(lines, blocks), within);
+  static_assert(kDetailBlock == 4);
+  const auto word = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(table.texels), at);
   const auto a = hn::Sub(x, column);
   const auto b = hn::Sub(y, row);
-  const auto near_left = hn::GatherIndex(d, table.texels, hn::Add(near_at, left));
-  const auto near_right = hn::GatherIndex(d, table.texels, hn::Add(near_at, right));
-  const auto far_left = hn::GatherIndex(d, table.texels, hn::Add(far_at, left));
-  const auto far_right = hn::GatherIndex(d, table.texels, hn::Add(far_at, right));
-  const auto low = hn::Add(near_left, hn::Mul(a, hn::Sub(near_right, near_left)));
-  const auto high = hn::Add(far_left, hn::Mul(a, hn::Sub(far_right, far_left)));
+  const auto near_left = byte_of<0>(word);
+  const auto far_left = byte_of<16>(word);
+  const auto low = hn::Add(near_left, hn::Mul(a, hn::Sub(byte_of<8>(word), near_left)));
+  const auto high = hn::Add(far_left, hn::Mul(a, hn::Sub(byte_of<24>(word), far_left)));
   return hn::Add(low, hn::Mul(b, hn::Sub(high, low)));
 }
 
@@ -49,13 +56,14 @@ void modulate(std::size_t count, const DetailTable& table, const float* east_deg
   const Tag d;
   const auto cosine = hn::Set(d, kStretch * kTurnCosine);
   const auto sine = hn::Set(d, kStretch * kTurnSine);
+  const auto unit2 = hn::Set(d, table.unit2);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto east = hn::Mul(hn::LoadU(d, east_deg + i), hn::Set(d, east_scale));
     const auto north = hn::Mul(hn::LoadU(d, north_deg + i), hn::Set(d, north_scale));
     const auto turned_east = hn::Sub(hn::Mul(cosine, east), hn::Mul(sine, north));
     const auto turned_north = hn::Add(hn::Mul(sine, east), hn::Mul(cosine, north));
     const auto factor = hn::Mul(look_up(table, east, north), look_up(table, turned_east, turned_north));
-    hn::StoreU(hn::Mul(hn::LoadU(d, gain + i), factor), d, gain + i);
+    hn::StoreU(hn::Mul(hn::LoadU(d, gain + i), hn::Mul(factor, unit2)), d, gain + i);
   }
 }
 

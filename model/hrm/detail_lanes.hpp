@@ -2,13 +2,20 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace yars::model::hrm::lanes {
 
-// A periodic table of edge * edge texels, edge a power of two.
+// Texels lie in square blocks, row by row within them and among each other: a line of the cache is a block, so that a
+// walk in any direction meets few.
+inline constexpr int kDetailBlock = 4;
+
+// A periodic table of edge * edge words, edge a power of two and a block at least: bytes of the texels (x, y), (x + 1,
+// y), (x, y + 1) and (x + 1, y + 1), the lowest first. `unit2`: the square of what a byte counts by.
 struct DetailTable {
-  const float* texels = nullptr;
+  const std::uint32_t* texels = nullptr;
   int edge = 0;
+  float unit2 = 1.0F;
 };
 
 // gain[i] *= table(east, north) * table(both turned and stretched), bilinear; east = east_deg[i] * east_scale and so

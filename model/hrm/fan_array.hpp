@@ -1,26 +1,26 @@
 // Numbers on a fan: grows, never shrinks, does not keep what it held; each row of a strip on a cache line of its own.
 #pragma once
 
-#include <hwy/aligned_allocator.h>
-
 #include <cstddef>
+
+#include "lib/memory/line_vector.hpp"
 
 namespace yars::model::hrm {
 
+template <class Number>
 class FanArray {
  public:
   void resize(std::size_t size) {
-    if (size <= size_) return;
-    numbers_ = hwy::AllocateAligned<float>(size);
-    size_ = size;
+    if (size <= numbers_.size()) return;
+    numbers_ = {};  // first, so that both are not there at once
+    numbers_.resize(size);
   }
-  float* data() { return numbers_.get(); }
-  const float* data() const { return numbers_.get(); }
-  std::size_t bytes() const { return size_ * sizeof(float); }
+  Number* data() { return numbers_.data(); }
+  const Number* data() const { return numbers_.data(); }
+  std::size_t size() const { return numbers_.size(); }
 
  private:
-  hwy::AlignedFreeUniquePtr<float[]> numbers_;
-  std::size_t size_ = 0;
+  memory::LineVector<Number> numbers_;
 };
 
 }  // namespace yars::model::hrm

@@ -22,7 +22,8 @@ struct FanGrid {
   double centre_distance_m = 0.0;
 
   int strips() const { return columns / kStripColumns; }
-  std::size_t strip_size() const { return static_cast<std::size_t>(rows) * kStripColumns; }
+  // An odd number of cache lines: a row across many strips does not meet itself in the cache.
+  std::size_t strip_size() const { return static_cast<std::size_t>(rows | 1) * kStripColumns; }
   std::size_t size() const { return strip_size() * static_cast<std::size_t>(strips()); }
   std::size_t at(int column, int row) const {
     return static_cast<std::size_t>(column / kStripColumns) * strip_size() +

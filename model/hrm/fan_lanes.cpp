@@ -27,24 +27,25 @@ HWY_INLINE hn::Vec<SignedTag> start_of(hn::Vec<SignedTag> column, std::int32_t s
 void draw_row(const FanGrid& grid, const float* fan, const MapRow& row, float* pixel) {
   const Tag d;
   const SignedTag di;
-  const auto ahead = hn::Set(d, row.ahead_m);
-  const auto one = hn::Set(d, 1.0F);
-  const auto first_tangent = hn::Set(d, static_cast<float>(grid.first_tangent));
-  const auto columns_a_tangent = hn::Set(d, static_cast<float>(1.0 / grid.tangent_step));
+  const auto ahead2 = hn::Set(d, row.ahead_m * row.ahead_m);
+  const auto middle_column = hn::Set(d, static_cast<float>(-grid.first_tangent / grid.tangent_step));
+  const auto columns_a_metre = hn::Set(d, static_cast<float>(1.0 / grid.tangent_step) / row.ahead_m);
   const auto first_distance = hn::Set(d, static_cast<float>(grid.first_distance_m));
   const auto rows_a_metre = hn::Set(d, static_cast<float>(1.0 / grid.spacing_m));
   const auto last_column = hn::Set(di, grid.columns - 2);
   const auto last_row = hn::Set(di, grid.rows - 2);
   const auto nothing = hn::Zero(di);
   const auto strip_size = static_cast<std::int32_t>(grid.strip_size());
-  const float cell_scale = static_cast<float>(static_cast<double>(row.scale) / (grid.tangent_step * grid.spacing_m));
+  // A column is as wide as distance * step / (1 + tangent^2), which is step * ahead^2 / distance.
+  const double ahead_m = static_cast<double>(row.ahead_m);
+  const auto scale_a_metre = hn::Set(
+      d, static_cast<float>(static_cast<double>(row.scale) / (grid.tangent_step * grid.spacing_m * ahead_m * ahead_m)));
   const auto lanes = hn::ConvertTo(d, hn::Iota(di, 0));
   for (int i = 0; i < row.columns; i += static_cast<int>(hn::Lanes(d))) {
     const auto number = hn::Add(lanes, hn::Set(d, static_cast<float>(i)));
     const auto right = hn::Add(hn::Set(d, row.first_right_m), hn::Mul(number, hn::Set(d, row.pixel_m)));
-    const auto tangent = hn::Div(right, ahead);
-    const auto distance = hn::Sqrt(hn::Add(hn::Mul(right, right), hn::Mul(ahead, ahead)));
-    const auto x = hn::Mul(hn::Sub(tangent, first_tangent), columns_a_tangent);
+    const auto distance = hn::Sqrt(hn::Add(hn::Mul(right, right), ahead2));
+    const auto x = hn::Add(middle_column, hn::Mul(right, columns_a_metre));
     const auto y = hn::Mul(hn::Sub(distance, first_distance), rows_a_metre);
     const auto column = hn::Min(hn::Max(hn::ConvertTo(di, x), nothing), last_column);
     const auto line = hn::Min(hn::Max(hn::ConvertTo(di, y), nothing), last_row);
@@ -60,9 +61,7 @@ void draw_row(const FanGrid& grid, const float* fan, const MapRow& row, float* p
     const auto near = hn::Add(near_left, hn::Mul(across, hn::Sub(near_right, near_left)));
     const auto far = hn::Add(far_left, hn::Mul(across, hn::Sub(far_right, far_left)));
     const auto value = hn::Add(near, hn::Mul(along, hn::Sub(far, near)));
-    // A column is as wide as distance * step / (1 + t^2).
-    const auto scale = hn::Div(hn::Mul(hn::Set(d, cell_scale), hn::Add(one, hn::Mul(tangent, tangent))), distance);
-    const auto drawn = hn::Mul(value, scale);
+    const auto drawn = hn::Mul(value, hn::Mul(scale_a_metre, distance));
     const auto left = static_cast<std::size_t>(row.columns - i);
     if (left >= hn::Lanes(d)) {
       hn::StoreU(drawn, d, pixel + i);

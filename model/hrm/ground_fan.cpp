@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/hrm/strip_lanes.hpp"
 #include "model/reflectivity/land.hpp"
 
 namespace yars::model::hrm {
@@ -12,7 +13,21 @@ namespace {
 // nothing.
 constexpr double kPathSpacing_m = 60.0;
 constexpr double kMostPathSamples = 4096.0;
+// Of a strip every fifth column looks along the way, the first and the last among them: columns lie a pixel apart where
+// the window is and closer before it, and posts many. What lies between is interpolated.
+constexpr int kPathColumns = 5;
+static_assert((kStripColumns - 1) % kPathColumns == 0);
 constexpr float kNoHorizon = -1.0e6F;  // below every ray
+
+void join_horizons(float* horizon) {
+  for (int lane = 0; lane < kStripColumns; ++lane) {
+    const int off = lane % kPathColumns;
+    if (off == 0) continue;
+    const float first = horizon[lane - off];
+    const float second = horizon[lane - off + kPathColumns];
+    horizon[lane] = first + static_cast<float>(off) / static_cast<float>(kPathColumns) * (second - first);
+  }
+}
 }  // namespace
 
 GroundFan::Column::Column(std::size_t samples)
@@ -33,6 +48,11 @@ void GroundFan::make_room(const PatchGeometry& geometry, const FanGrid& grid) {
     ground_ = std::make_unique<rbm::Ground>(configuration_, rows);
     sin_grazing_.assign(rows + terrain::kRunSlack, 0.0F);
     gain_.assign(rows + terrain::kRunSlack, 0.0F);
+    // No power of two: rows of sixteen columns shall not meet in one place of the cache.
+    pitch_ = (rows / terrain::kRunSlack + 1) * terrain::kRunSlack;
+    if (pitch_ / terrain::kRunSlack % 2 == 0) pitch_ += terrain::kRunSlack;
+    strip_height_.assign(kStripColumns * pitch_, 0.0F);
+    strip_gain_.assign(kStripColumns * pitch_, 0.0F);
   }
   for (std::size_t row = 0; row < window_->distance_m.size(); ++row) {
     const double distance_m = grid.distance_m(static_cast<double>(std::min(row, rows - 1)));
@@ -59,9 +79,13 @@ std::size_t GroundFan::fill(const PatchOrder& order, const PatchGeometry& geomet
   std::size_t pending = 0;
   for (int column = first; column < last; ++column) {
     const geo::Bearing azimuth = geometry.up() + geo::Angle::radians(std::atan(grid.tangent(column)));
-    pending += read_path(geometry, grid, azimuth, *terrain.path, arrays.horizon[column]);
+    const int lane = column % kStripColumns;
+    if (lane % kPathColumns == 0) pending += read_path(geometry, grid, azimuth, *terrain.path, arrays.horizon[column]);
     pending += read_window(order, geometry, azimuth, *terrain.window, detail);
-    put(geometry, grid, column, arrays);
+    keep(geometry, static_cast<std::size_t>(lane));
+    if (lane + 1 < kStripColumns) continue;
+    put_strip(grid, column / kStripColumns, arrays);
+    join_horizons(arrays.horizon + column + 1 - kStripColumns);
   }
   return pending;
 }
@@ -82,12 +106,14 @@ std::size_t GroundFan::read_window(const PatchOrder& order, const PatchGeometry&
   const rbm::Look look{geometry.apex(), order.altitude, azimuth, {}, range, order.sim_time, order.band, order.channel};
   const rbm::Ground::Sample reflects =
       ground_->reflect(look, column.places.run(), column.water.data(), sin_grazing_.data(), view.has_materials());
-  for (std::size_t row = 0; row < rows; ++row) {
-    float gain = reflects.land != nullptr ? reflects.land[row] : plain_gamma_;
-    // The sea's sigma0 is of level water; what is seen square on is less by the sine.
-    if (reflects.sea != nullptr && sin_grazing_[row] > 0.0F) gain += reflects.sea[row] / sin_grazing_[row];
-    gain_[row] = gain;
-  }
+  if (reflects.land != nullptr)
+    std::copy_n(reflects.land, rows, gain_.data());
+  else
+    std::fill_n(gain_.data(), rows, plain_gamma_);
+  // The sea's sigma0 is of level water; what is seen square on is less by the sine.
+  if (reflects.sea != nullptr)
+    for (std::size_t row = 0; row < rows; ++row)
+      if (sin_grazing_[row] > 0.0F) gain_[row] += reflects.sea[row] / sin_grazing_[row];
   if (detail != nullptr) detail->modulate(column.places.run(), gain_.data());
   return pending;
 }
@@ -114,17 +140,35 @@ std::size_t GroundFan::read_path(const PatchGeometry& geometry, const FanGrid& g
   return pending;
 }
 
-void GroundFan::put(const PatchGeometry& geometry, const FanGrid& grid, int column, const GroundArrays& arrays) {
+// The column just read, into its place of the strip.
+void GroundFan::keep(const PatchGeometry& geometry, std::size_t lane) {
   const auto plane_m = static_cast<float>(geometry.plane_msl_m());
-  float last_m = 0.0F;
-  for (int row = 0; row < grid.rows; ++row) {
-    const auto i = static_cast<std::size_t>(row);
-    const std::size_t at = grid.at(column, row);
-    const bool hole = std::isnan(window_->elevation_m[i]);
-    if (!hole) last_m = window_->elevation_m[i] - plane_m;
-    arrays.height_m[at] = last_m;
-    arrays.gain[at] = hole ? 0.0F : gain_[i];
+  const std::size_t rows = window_->places.count;
+  const float* elevation_m = window_->elevation_m.data();
+  float* height_m = &strip_height_[lane * pitch_];
+  float* gain = &strip_gain_[lane * pitch_];
+  int holes = 0;
+  for (std::size_t row = 0; row < rows; ++row) {
+    height_m[row] = elevation_m[row] - plane_m;
+    gain[row] = gain_[row];
+    holes += std::isnan(height_m[row]) ? 1 : 0;
   }
+  if (holes == 0) return;
+  float last_m = 0.0F;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const bool hole = std::isnan(height_m[row]);
+    if (!hole) last_m = height_m[row];
+    height_m[row] = last_m;
+    if (hole) gain[row] = 0.0F;
+  }
+}
+
+// A column's numbers lie one behind the other when read, and sixteen columns' side by side on the fan.
+void GroundFan::put_strip(const FanGrid& grid, int strip, const GroundArrays& arrays) const {
+  const std::size_t begin = static_cast<std::size_t>(strip) * grid.strip_size();
+  const auto rows = static_cast<std::size_t>(grid.rows);
+  lanes::put_side_by_side(rows, strip_height_.data(), pitch_, arrays.height_m + begin);
+  lanes::put_side_by_side(rows, strip_gain_.data(), pitch_, arrays.gain + begin);
 }
 
 }  // namespace yars::model::hrm

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "lib/memory/line_vector.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/detail.hpp"
 #include "model/hrm/fan_grid.hpp"
@@ -31,7 +32,8 @@ class GroundFan {
  public:
   explicit GroundFan(const radar::RadarConfiguration& configuration);
 
-  // Fills the columns [first, last); `detail` null: none. Returns how many samples met terrain that was not loaded.
+  // Fills the columns [first, last), whole strips; `detail` null: none. Returns how many samples met terrain that was
+  // not loaded.
   std::size_t fill(const PatchOrder& order, const PatchGeometry& geometry, const FanGrid& grid,
                    const PatchTerrain& terrain, const Detail* detail, int first, int last, const GroundArrays& arrays);
 
@@ -47,7 +49,8 @@ class GroundFan {
                           const terrain::TerrainView& view, const Detail* detail);
   std::size_t read_path(const PatchGeometry& geometry, const FanGrid& grid, geo::Bearing azimuth,
                         const terrain::TerrainView& view, float& horizon);
-  void put(const PatchGeometry& geometry, const FanGrid& grid, int column, const GroundArrays& arrays);
+  void keep(const PatchGeometry& geometry, std::size_t lane);
+  void put_strip(const FanGrid& grid, int strip, const GroundArrays& arrays) const;
 
   radar::RadarConfiguration configuration_;
   std::unique_ptr<Column> window_, path_;
@@ -55,7 +58,9 @@ class GroundFan {
   std::vector<float> sin_grazing_;   // on the map plane, by row
   std::vector<float> above_path_m_;  // aircraft above the plane, by sample of the path
   std::vector<float> gain_;
-  float plain_gamma_;  // of land without culture
+  std::size_t pitch_ = 0;                                // of the columns of a strip in hand, as they were read
+  memory::LineVector<float> strip_height_, strip_gain_;  // sixteen columns, one after the other
+  float plain_gamma_;                                    // of land without culture
 };
 
 }  // namespace yars::model::hrm

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "lib/memory/line_vector.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/fan_grid.hpp"
 
@@ -19,7 +20,7 @@ struct MapImage {
   }
 
   int size;
-  std::vector<float> power;
+  memory::LineVector<float> power;
   bool blind = false;  // part of it is blank
 };
 

@@ -72,6 +72,7 @@ struct PatchProcess::Work {
   }
 
   void lay_out();
+  void clear_walls();
   void read_terrain();
   void draw_scene();
   void cast_profiles();
@@ -103,8 +104,10 @@ struct PatchProcess::Work {
   std::unique_ptr<ReferencePatch> reference;  // instead of what follows, where the fidelity asks for it
   std::vector<GroundFan> grounds;
   std::vector<SceneRaster> rasters;
-  FanArray height_m, gain, wall_gain, cross_section_m2, horizon, arc;
-  std::vector<float> distance_m, above_m, level_m;
+  FanArray<float> height_m, gain, cross_section_m2, horizon, arc;
+  FanArray<std::uint32_t> wall_height, wall_return;
+  bool walls_left = false;  // of a map whose profiles are still to be cast
+  std::vector<float> distance_m, inverse_m, above_m, level_m;
   std::vector<std::size_t> pending;
   MapImage image;
   Response response;
@@ -166,14 +169,16 @@ void PatchProcess::Work::lay_out() {
     detail = std::make_unique<Detail>(configuration.high_resolution.detail_contrast, grid.spacing_m);
   height_m.resize(grid.size());
   gain.resize(grid.size());
-  wall_gain.resize(grid.size());
+  if (!tiles.empty()) clear_walls();
   cross_section_m2.resize(grid.size());
   horizon.resize(static_cast<std::size_t>(grid.columns));
   distance_m.clear();
+  inverse_m.clear();
   above_m.clear();
   level_m.clear();
   for (int row = 0; row < grid.rows; ++row) {
     distance_m.push_back(static_cast<float>(grid.distance_m(row)));
+    inverse_m.push_back(static_cast<float>(1.0 / grid.distance_m(row)));
     above_m.push_back(static_cast<float>(geometry->above_plane_m(grid.distance_m(row))));
     level_m.push_back(static_cast<float>(geometry->above_level_m(grid.distance_m(row))));
   }
@@ -181,6 +186,17 @@ void PatchProcess::Work::lay_out() {
   for (int column = 0; column < grid.columns; ++column)
     arc.data()[column] = static_cast<float>(grid.width_m(column, 1.0));
   pending.assign(crew.threads, 0);
+}
+
+// Who reads the walls clears them: it is done here for new room only, and after a map that was given up.
+void PatchProcess::Work::clear_walls() {
+  const std::size_t before = wall_height.size();
+  wall_height.resize(grid.size());
+  wall_return.resize(grid.size());
+  if (!walls_left && wall_height.size() == before) return;
+  std::fill_n(wall_height.data(), wall_height.size(), 0U);
+  std::fill_n(wall_return.data(), wall_return.size(), 0U);
+  walls_left = false;
 }
 
 void PatchProcess::Work::read_terrain() {
@@ -197,14 +213,11 @@ void PatchProcess::Work::draw_scene() {
     if (!tiles.empty()) reference->read_scene(*database.scene, tiles, gain.data());
     return;
   }
-  const std::size_t strip = grid.strip_size();
+  if (tiles.empty()) return;
+  walls_left = true;
   share_strips([&](int first, int last, std::size_t thread) {
-    const auto begin = static_cast<std::size_t>(first) * strip;
-    const auto count = static_cast<std::size_t>(last - first) * strip;
-    std::fill_n(wall_gain.data() + begin, count, 0.0F);
-    if (tiles.empty()) return;
     rasters[thread].draw(*geometry, grid, *database.scene, tiles, first * kStripColumns, last * kStripColumns,
-                         {height_m.data(), gain.data(), wall_gain.data()});
+                         {height_m.data(), gain.data(), wall_height.data(), wall_return.data()});
   });
 }
 
@@ -225,17 +238,22 @@ void PatchProcess::Work::cast_profiles() {
       strip.double_bounce =
           configuration.fidelity.map_double_bounce ? static_cast<float>(reflectivity::ratio(bounce_db)) : 0.0F;
       strip.distance_m = distance_m.data();
+      strip.inverse_m = inverse_m.data();
       strip.above_m = above_m.data();
       strip.level_m = level_m.data();
       strip.arc = arc.data() + column;
       strip.horizon = horizon.data() + column;
       strip.height_m = height_m.data() + at;
       strip.gain = gain.data() + at;
-      strip.wall_gain = wall_gain.data() + at;
+      if (!tiles.empty()) {
+        strip.wall_height = wall_height.data() + at;
+        strip.wall_return = wall_return.data() + at;
+      }
       strip.power = cross_section_m2.data() + at;
       lanes::cast_profile(strip);
     }
   });
+  walls_left = false;
 }
 
 void PatchProcess::Work::draw_map() {

@@ -6,10 +6,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "model/hrm/fan_grid.hpp"
 
 namespace yars::model::hrm::lanes {
+
+// Whole numbers, so that the order in which walls are drawn is of no account.
+inline constexpr float kWallStep_m = 1.0F / 4096.0F;
 
 struct Strip {
   int rows = 0;
@@ -18,14 +22,18 @@ struct Strip {
   bool layover = true;                // else everything returns from where it stands
   float double_bounce = 0.0F;         // of a wall's foot, against the wall; 0 = none
   const float* distance_m = nullptr;  // by row
+  const float* inverse_m = nullptr;   // 1 / distance, by row
   const float* above_m = nullptr;     // aircraft above the map plane, by row
   const float* level_m = nullptr;     // aircraft above the horizontal there, by row
   const float* arc = nullptr;         // width of a column over its distance, sixteen
   const float* horizon = nullptr;     // before row 0, sixteen
   const float* height_m = nullptr;    // above the map plane, by row and column
   const float* gain = nullptr;        // gamma; its sign is of no account
-  const float* wall_gain = nullptr;   // gamma of a wall that stands before this row's ground; 0 = none
-  float* power = nullptr;             // [m^2] cross section, by row and column as it appears; is added to
+  // Of the walls that stand before this row's ground, by row and column: how tall they are together, and the sum of
+  // gamma times height, in steps of kWallStep_m; cleared for the next map. Both null: there are none.
+  std::uint32_t* wall_height = nullptr;
+  std::uint32_t* wall_return = nullptr;
+  float* power = nullptr;  // [m^2] cross section, by row and column as it appears; is added to
 };
 
 void cast_profile(const Strip& strip);

@@ -107,10 +107,7 @@ void ReferencePatch::read_tile(const scene::SceneView& scene, const scene::Tile&
       face.normals[k] = static_cast<double>(tile.normal_east[i]) * east +
                         static_cast<double>(tile.normal_north[i]) * north + static_cast<double>(tile.normal_up[i]) * up;
     }
-    const Point3 normal = cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
-    const double base_m = scene.objects()[tile.object[t]].base_msl_m - tile.zero_msl_m;
-    const bool level = dot(normal, up) > kLevelNormal * std::sqrt(dot(normal, normal));
-    if (level && static_cast<double>(tile.up_m[tile.corners[t][0]]) - base_m < kOnGround_m) {
+    if (t < tile.on_ground) {
       lay_flat({points[tile.corners[t][0]], points[tile.corners[t][1]], points[tile.corners[t][2]]},
                surface_.gamma(face.code), gain);
     } else {

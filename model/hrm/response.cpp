@@ -5,12 +5,9 @@
 #include <numbers>
 #include <span>
 
-#include "model/hrm/response_lanes.hpp"
-
 namespace yars::model::hrm {
 
 namespace {
-constexpr std::size_t kLanes = 16;       // counts of the loops are multiples of it
 constexpr int kEqualLobes = 5;           // n-bar: so many sidelobes of one height, falling behind
 constexpr double kMainLobeCells = 1.5;   // the first null of -35 dB lies at 1.4 cells
 constexpr double kSidelobeCells = 16.0;  // what lies farther out is below any picture's black
@@ -76,6 +73,18 @@ Response::Response(double sidelobe_db, double cells_a_pixel)
   }
   for (float& value : main_lobe_) value = static_cast<float>(static_cast<double>(value) / sum);
   for (float& value : sidelobes_) value = static_cast<float>(static_cast<double>(value) / sum);
+  mirror_sidelobes();
+}
+
+void Response::mirror_sidelobes() {
+  const std::size_t taps = main_lobe_.size() + sidelobes_.size();
+  along_reach_ = (taps + lanes::kBlock - 1) / lanes::kBlock;
+  along_middle_ = (along_reach_ + 1) * lanes::kBlock;
+  along_.assign(2 * along_middle_ + lanes::kBlock, 0.0F);
+  for (std::size_t i = 0; i < sidelobes_.size(); ++i) {
+    const std::size_t off = main_lobe_.size() + i;
+    along_[along_middle_ - off] = along_[along_middle_ + off] = sidelobes_[i];
+  }
 }
 
 double Response::power(double cells) const {
@@ -100,14 +109,13 @@ std::vector<float> Response::weights(double pixel, int& first) const {
 // Rows and columns of black about a copy of the image, so that no sum looks over an edge.
 void Response::make_room(const MapImage& image) {
   const auto size = static_cast<std::size_t>(image.size);
-  const std::size_t taps = main_lobe_.size() + sidelobes_.size();
-  margin_ = (taps + kLanes - 1) / kLanes * kLanes;
-  columns_ = (size + kLanes - 1) / kLanes * kLanes;
+  margin_ = along_reach_ * lanes::kBlock;
+  columns_ = (size + lanes::kBlock - 1) / lanes::kBlock * lanes::kBlock;
   pitch_ = columns_ + 2 * margin_;
   const std::size_t room = pitch_ * (size + 2 * margin_);
-  if (source_.size() == room) return;
-  source_.assign(room, 0.0F);
+  if (across_.size() == room) return;
   across_.assign(room, 0.0F);
+  source_.assign(pitch_, 0.0F);
   row_.assign(columns_, 0.0F);
 }
 
@@ -120,44 +128,50 @@ void Response::apply(float floor, MapImage& image) {
 void Response::smooth(MapImage& image) {
   if (main_lobe_.size() < 2) return;
   const auto size = static_cast<std::size_t>(image.size);
-  const std::span<const float> lobe = std::span<const float>(main_lobe_).subspan(1);
-  const auto pitch = static_cast<std::ptrdiff_t>(pitch_);
   for (std::size_t row = 0; row < size; ++row) {
-    float* from = &source_[padded(row)];
+    float* from = &source_[margin_];
     std::copy_n(&image.power[row * size], size, from);
-    std::fill(from + size, from + columns_, 0.0F);
-    lanes::scale(columns_, from, main_lobe_[0], &across_[padded(row)]);
-    lanes::add_neighbours(columns_, from, 1, 1, lobe, &across_[padded(row)]);
-    std::fill(&across_[padded(row)] + size, &across_[padded(row)] + columns_, 0.0F);
+    lanes::smooth(columns_, from, 1, main_lobe_, &across_[padded(row)]);
   }
   for (std::size_t row = 0; row < size; ++row) {
-    const float* from = &across_[padded(row)];
-    lanes::scale(columns_, from, main_lobe_[0], row_.data());
-    lanes::add_neighbours(columns_, from, pitch, 1, lobe, row_.data());
-    std::copy_n(row_.data(), size, &image.power[row * size]);
+    // In place where rows are whole blocks.
+    float* to = columns_ == size ? &image.power[row * size] : row_.data();
+    lanes::smooth(columns_, &across_[padded(row)], static_cast<std::ptrdiff_t>(pitch_), main_lobe_, to);
+    if (columns_ != size) std::copy_n(row_.data(), size, &image.power[row * size]);
   }
 }
 
-// Strong points first, all of them: what one adds must not make another strong.
+void Response::find_strong(float limit, const MapImage& image) {
+  const auto size = static_cast<std::size_t>(image.size);
+  strong_.clear();
+  for (std::size_t row = 0; row < size; ++row) {
+    const float* from = &image.power[row * size];
+    if (columns_ != size) {
+      std::copy_n(from, size, row_.data());
+      from = row_.data();
+    }
+    Strong found{row, 0, {}};
+    for (found.column = 0; found.column < columns_; found.column += lanes::kBlock)
+      if (lanes::keep_above(from + found.column, limit, found.power.data())) strong_.push_back(found);
+  }
+}
+
+// Strong points first, all of them: what one adds must not make another strong. Few pixels of a picture are, as a
+// rule, so it is these that are spread, not their neighbours that are summed.
 void Response::add_sidelobes(float floor, MapImage& image) {
   if (sidelobes_.empty()) return;
+  find_strong(floor / *std::max_element(sidelobes_.begin(), sidelobes_.end()), image);
+  if (strong_.empty()) return;
   const auto size = static_cast<std::size_t>(image.size);
-  const float strong = floor / *std::max_element(sidelobes_.begin(), sidelobes_.end());
   const auto first = static_cast<std::ptrdiff_t>(main_lobe_.size());
-  bool any = false;
-  std::fill(row_.begin(), row_.end(), 0.0F);
-  for (std::size_t row = 0; row < size; ++row) {
-    std::copy_n(&image.power[row * size], size, row_.data());
-    any = lanes::keep_above(columns_, row_.data(), strong, &source_[padded(row)]) || any;
+  added_.assign(across_.size(), 0.0F);
+  for (const Strong& strong : strong_) {
+    float* at = &added_[padded(strong.row) + strong.column];
+    lanes::spread_along(strong.power.data(), along_reach_, &along_[along_middle_], at);
+    lanes::spread(strong.power.data(), static_cast<std::ptrdiff_t>(pitch_), first, sidelobes_, at);
   }
-  if (!any) return;
-  for (std::size_t row = 0; row < size; ++row) {
-    const float* from = &source_[padded(row)];
-    std::copy_n(&image.power[row * size], size, row_.data());
-    lanes::add_neighbours(columns_, from, 1, first, sidelobes_, row_.data());
-    lanes::add_neighbours(columns_, from, static_cast<std::ptrdiff_t>(pitch_), first, sidelobes_, row_.data());
-    std::copy_n(row_.data(), size, &image.power[row * size]);
-  }
+  for (std::size_t row = 0; row < size; ++row)
+    for (std::size_t i = 0; i < size; ++i) image.power[row * size + i] += added_[padded(row) + i];
 }
 
 }  // namespace yars::model::hrm

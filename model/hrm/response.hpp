@@ -3,9 +3,12 @@
 // Source: Carrara, Goodman, Majewski, "Spotlight SAR", D.2 (Taylor weighting); spec physics.md "HRM".
 #pragma once
 
+#include <array>
 #include <vector>
 
+#include "lib/memory/line_vector.hpp"
 #include "model/hrm/map_image.hpp"
+#include "model/hrm/response_lanes.hpp"
 
 namespace yars::model::hrm {
 
@@ -24,9 +27,11 @@ class Response {
   std::vector<float> weights(double pixel, int& first) const;
 
  private:
+  void mirror_sidelobes();
   void make_room(const MapImage& image);
   void smooth(MapImage& image);
   void add_sidelobes(float floor, MapImage& image);
+  void find_strong(float limit, const MapImage& image);
   // Where a row of the image begins in a copy of it.
   std::size_t padded(std::size_t row) const { return (row + margin_) * pitch_ + margin_; }
 
@@ -35,8 +40,17 @@ class Response {
   double cells_a_pixel_;
   std::vector<float> main_lobe_;  // from the middle outwards, pixels; with their mirror image the sum is 1
   std::vector<float> sidelobes_;  // behind them; likewise against a sum of 1
+  std::vector<float> along_;  // the same on both sides of a point, its middle at along_middle_; 0 where main_lobe_ is
+  std::size_t along_reach_ = 0, along_middle_ = 0;  // [blocks], [pixels]
   std::size_t margin_ = 0, columns_ = 0, pitch_ = 0;
-  std::vector<float> source_, across_, row_;  // kept between maps
+  struct Strong {
+    std::size_t row, column;  // of the first
+    std::array<float, lanes::kBlock> power;
+  };
+  // Kept between maps: the picture spread along its rows; what sidelobes add to it; a row of the picture with its
+  // margins; a row of the result; where the strong points are.
+  memory::LineVector<float> across_, added_, source_, row_;
+  std::vector<Strong> strong_;
 };
 
 }  // namespace yars::model::hrm

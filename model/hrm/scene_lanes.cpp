@@ -44,6 +44,7 @@ HWY_INLINE void place_vector(std::size_t at, const TileVertices& tile, const Ver
   const auto rows = hn::Mul(beyond, hn::Set(d, map.rows_a_metre));
   hn::StoreU(hn::Add(hn::Set(d, map.middle_row), rows), d, grid.row + at);
   hn::StoreU(hn::Add(hn::LoadU(d, tile.up_m + at), hn::Set(d, map.lift_m)), d, grid.height_m + at);
+  if (grid.facing == nullptr) return;
   const auto level = sum_of(map.toward_east, hn::LoadU(d, tile.normal_east + at), map.toward_north,
                             hn::LoadU(d, tile.normal_north + at));
   const auto raised = hn::Mul(hn::Set(d, map.toward_up), hn::LoadU(d, tile.normal_up + at));
@@ -57,9 +58,10 @@ void place_few(std::size_t count, const TileVertices& tile, const VertexMap& map
   const float* const from[6] = {tile.east_m,      tile.north_m,      tile.up_m,
                                 tile.normal_east, tile.normal_north, tile.normal_up};
   float* const to[4] = {grid.column, grid.row, grid.height_m, grid.facing};
+  const bool facing = grid.facing != nullptr;
   for (int k = 0; k < 6; ++k) std::copy_n(from[k], count, in[k]);
-  place_vector(0, {in[0], in[1], in[2], in[3], in[4], in[5]}, map, {out[0], out[1], out[2], out[3]});
-  for (int k = 0; k < 4; ++k) std::copy_n(out[k], count, to[k]);
+  place_vector(0, {in[0], in[1], in[2], in[3], in[4], in[5]}, map, {out[0], out[1], out[2], facing ? out[3] : nullptr});
+  for (int k = 0; k < (facing ? 4 : 3); ++k) std::copy_n(out[k], count, to[k]);
 }
 
 void place_vertices(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
@@ -104,18 +106,18 @@ HWY_INLINE hn::Mask<Tag> faces(const Corners& column, const Corners& row, const 
   return hn::Or(hn::Gt(area, hn::Zero(d)), hn::And(steep, hn::Gt(towards, hn::Zero(d))));
 }
 
-std::size_t select_triangles(std::size_t count, const std::array<std::uint32_t, 3>* corners, const GridVertices& grid,
-                             const GridLimits& limits, std::uint32_t* found) {
+std::size_t select_triangles(std::size_t begin, std::size_t end, const std::array<std::uint32_t, 3>* corners,
+                             const GridVertices& grid, const GridLimits& limits, std::uint32_t* found) {
   const Tag d;
   const SignedTag di;
   const BitsTag db;
   const std::size_t step = hn::Lanes(d);
   std::size_t number = 0;
   HWY_ALIGN std::uint32_t few[3 * kMostLanes] = {};
-  for (std::size_t t = 0; t < count; t += step) {
+  for (std::size_t t = begin; t < end; t += step) {
     const std::uint32_t* from = corners[t].data();
-    if (t + step > count) {
-      std::copy_n(from, 3 * (count - t), few);
+    if (t + step > end) {
+      std::copy_n(from, 3 * (end - t), few);
       from = few;
     }
     hn::Vec<BitsTag> a, b, c;
@@ -135,7 +137,7 @@ std::size_t select_triangles(std::size_t count, const std::array<std::uint32_t, 
                                  hn::Lt(row.least(), hn::Set(d, limits.last_row))));
     kept = hn::And(kept, faces(column, row, gather(grid.height_m, first, second, third), limits));
     const auto numbers = hn::Iota(db, static_cast<std::uint32_t>(t));
-    const auto within = hn::Lt(numbers, hn::Set(db, static_cast<std::uint32_t>(count)));
+    const auto within = hn::Lt(numbers, hn::Set(db, static_cast<std::uint32_t>(end)));
     number += hn::CompressStore(numbers, hn::And(hn::RebindMask(db, kept), within), db, found + number);
   }
   return number;
@@ -153,9 +155,9 @@ HWY_EXPORT(select_triangles);
 void place_vertices(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
   HWY_DYNAMIC_DISPATCH(place_vertices)(count, tile, map, grid);
 }
-std::size_t select_triangles(std::size_t count, const std::array<std::uint32_t, 3>* corners, const GridVertices& grid,
-                             const GridLimits& limits, std::uint32_t* found) {
-  return HWY_DYNAMIC_DISPATCH(select_triangles)(count, corners, grid, limits, found);
+std::size_t select_triangles(std::size_t begin, std::size_t end, const std::array<std::uint32_t, 3>* corners,
+                             const GridVertices& grid, const GridLimits& limits, std::uint32_t* found) {
+  return HWY_DYNAMIC_DISPATCH(select_triangles)(begin, end, corners, grid, limits, found);
 }
 
 }  // namespace yars::model::hrm::lanes

@@ -23,11 +23,14 @@ struct TileVertices {
   const float *east_m, *north_m, *up_m;
   const float *normal_east, *normal_north, *normal_up;
 };
-// On the grid, by vertex: place, height above the map plane, and how squarely the surface faces the radar.
+// On the grid, by vertex: place, height above the map plane, and how squarely the surface faces the radar (null: all
+// normals are those of the triangles, so nobody asks).
 struct GridVertices {
   float *column, *row, *height_m, *facing;
 };
 void place_vertices(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid);
+
+inline constexpr float kSurfaceReach = 0.5F;  // [rows] of a surface beyond its edges
 
 // What of the grid is drawn, and the size of its cells.
 struct GridLimits {
@@ -36,9 +39,9 @@ struct GridLimits {
   float sine, cosine;  // of the grazing angle
   float wall_normal2;  // square of the upward part of a wall's normal against the level part, at most
 };
-// Numbers of the triangles that cross a column within the limits and face up, or are walls and face the radar;
-// ascending. `found` has room for `count` and fifteen more. Returns how many.
-std::size_t select_triangles(std::size_t count, const std::array<std::uint32_t, 3>* corners, const GridVertices& grid,
-                             const GridLimits& limits, std::uint32_t* found);
+// Numbers of the triangles [begin, end) that cross a column within the limits and face up, or are walls and face the
+// radar; ascending. `found` has room for all and fifteen more. Returns how many.
+std::size_t select_triangles(std::size_t begin, std::size_t end, const std::array<std::uint32_t, 3>* corners,
+                             const GridVertices& grid, const GridLimits& limits, std::uint32_t* found);
 
 }  // namespace yars::model::hrm::lanes

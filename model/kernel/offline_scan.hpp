@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "databuffer/records/model_records.hpp"
+#include "lib/memory/line_vector.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/kernel/pose.hpp"
 #include "model/kernel/sweep_record.hpp"
 #include "model/kernel/workers.hpp"
 #include "model/rbm/algorithm.hpp"
-#include "model/rbm/line_vector.hpp"
 #include "model/rbm/strobes.hpp"
 #include "model/terrain/terrain_view.hpp"
 
@@ -66,7 +66,7 @@ class OfflineScan {
   std::vector<SweepPlace> places_;
   std::vector<std::uint32_t> flags_;
   std::vector<double> jamming_;
-  rbm::LineVector<float> power_;  // sweep after sweep
+  memory::LineVector<float> power_;  // sweep after sweep
   std::vector<databuffer::Sweep> sweeps_;
   struct alignas(64) Progress {
     std::atomic<std::uint32_t> scans{0};  // that the thread has measured its part of in run()

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "databuffer/records/model_records.hpp"
+#include "lib/memory/line_vector.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/kernel/sweep_record.hpp"
 #include "model/rbm/algorithm.hpp"
-#include "model/rbm/line_vector.hpp"
 #include "model/rbm/strobes.hpp"
 
 namespace yars::model::kernel {
@@ -51,7 +51,7 @@ class SweepChain {
     SweepPlace place;
     Labels labels;
     double jamming = 0.0;  // full scale = 1
-    rbm::LineVector<float> power;
+    memory::LineVector<float> power;
   };
   void finish(const Measured& before, const Measured& centre, const Measured& after, databuffer::Sweep& sweep);
   Measured& newest(std::size_t age) { return measured_[(next_ + measured_.size() - 1 - age) % measured_.size()]; }

@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
+#include "lib/memory/line_vector.hpp"
 #include "model/rbm/ground_lanes.hpp"
-#include "model/rbm/line_vector.hpp"
 #include "model/rbm/look.hpp"
 #include "model/reflectivity/land.hpp"
 #include "model/reflectivity/sea_table.hpp"
@@ -21,7 +21,7 @@ class Ground {
   void use_resolution(double pulse_length_m, double spacing_m);
 
   // Codes of the samples that reflect() reads; terrain::kRunSlack more.
-  LineVector<std::int32_t>& materials() { return codes_; }
+  memory::LineVector<std::int32_t>& materials() { return codes_; }
 
   struct Sample {
     const float* land = nullptr;  // (1 - water) gamma, texture and cardinal effect in it; null: plain land everywhere
@@ -43,11 +43,11 @@ class Ground {
   reflectivity::SeaTable sea_;
   geo::Bearing wind_from_;
   lanes::MaterialTables tables_;
-  LineVector<float> sigma0_;  // of the sea over the grazing angle, this sweep
+  memory::LineVector<float> sigma0_;  // of the sea over the grazing angle, this sweep
   reflectivity::GroundGrid grid_;
   double cell_m_ = 0.0;
-  LineVector<std::int32_t> codes_, level_;
-  LineVector<float> everywhere_, land_gamma_, sea_sigma0_;
+  memory::LineVector<std::int32_t> codes_, level_;
+  memory::LineVector<float> everywhere_, land_gamma_, sea_sigma0_;
 };
 
 }  // namespace yars::model::rbm

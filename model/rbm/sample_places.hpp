@@ -10,7 +10,7 @@
 
 #include "lib/geo/bearing.hpp"
 #include "lib/geo/geodesic.hpp"
-#include "model/rbm/line_vector.hpp"
+#include "lib/memory/line_vector.hpp"
 #include "model/terrain/terrain_view.hpp"
 
 namespace yars::model::rbm {
@@ -38,7 +38,7 @@ struct PlaceArrays {
 
   std::size_t count;
   terrain::CellPlace corner;  // of the cell that holds the apex
-  LineVector<float> cells_north, cells_east, north_deg, east_deg;
+  memory::LineVector<float> cells_north, cells_east, north_deg, east_deg;
 };
 
 // Distances [m] in [0, range], finite, ascending, as many as the places; terrain::kRunSlack entries more behind them

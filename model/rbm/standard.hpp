@@ -8,11 +8,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "lib/memory/line_vector.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/rbm/algorithm.hpp"
 #include "model/rbm/earth.hpp"
 #include "model/rbm/ground.hpp"
-#include "model/rbm/line_vector.hpp"
 #include "model/rbm/movers.hpp"
 #include "model/rbm/rain_path.hpp"
 #include "model/rbm/receiver.hpp"
@@ -37,7 +37,7 @@ class Standard : public Algorithm {
     float* data() { return values.data() + lanes::kPad; }
     const float* data() const { return values.data() + lanes::kPad; }
     std::span<float> first(std::size_t count) { return {data(), count}; }
-    LineVector<float> values;
+    memory::LineVector<float> values;
   };
 
   void place_samples(const Look& look, const EffectiveEarth& earth, const terrain::TerrainView& terrain);
@@ -71,7 +71,7 @@ class Standard : public Algorithm {
   Padded tangent_, peak_tangent_, horizon_;
   Padded range_inverse_, sin_grazing_, cos_grazing_, sin_sight_, cos_sight_;
   Padded power_, variate_;
-  LineVector<std::int32_t> cell_;  // of resolution, that each sample lies in
+  memory::LineVector<std::int32_t> cell_;  // of resolution, that each sample lies in
 };
 
 }  // namespace yars::model::rbm

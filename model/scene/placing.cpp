@@ -15,6 +15,9 @@ namespace yars::model::scene {
 namespace {
 
 constexpr double kMostDraped = 500'000;  // triangles that draping makes of one scene, about; then edges grow
+constexpr double kLevelNormal = 0.98;    // upward part of a unit normal that is level
+constexpr double kOnGround_m = 0.5;      // above its object's base a level face lies on the ground
+constexpr double kNearGround_m = 2.0;    // the same against terrain
 constexpr double kObjectCell_deg = 1.0 / 64.0;
 
 Vector3 vector(const std::array<float, 3>& v) {
@@ -146,8 +149,20 @@ class Placing {
     }
   }
 
-  SurfaceTag tag_of(const ModelTriangle& triangle, std::uint32_t object) const {
-    return {kind_numbers_[triangle.kind], first_object_ + object};
+  SurfaceTag tag_of(const ModelTriangle& triangle, std::uint32_t object, bool on_ground) const {
+    return {kind_numbers_[triangle.kind], first_object_ + object, on_ground};
+  }
+
+  // A level face that is meant to lie on the ground, and does so about. Where the scene brings its own heights the
+  // ground is that of the terrain, which knows it less well.
+  bool lies_on_ground(const std::array<PlacedCorner, 3>& corners, double base_m) const {
+    const Vector3 area = cross(corners[1].place - corners[0].place, corners[2].place - corners[0].place);
+    if (!(area.z > kLevelNormal * length(area))) return false;
+    if (placement_.heights != radar::SceneHeights::sea_level) return corners[0].place.z - base_m < kOnGround_m;
+    return std::all_of(corners.begin(), corners.end(), [&](const PlacedCorner& corner) {
+      const double ground_m = height_at(plane_.place_of({corner.place.x, corner.place.y}), base_m);
+      return std::abs(corner.place.z - ground_m) < kNearGround_m;
+    });
   }
 
   void stand(const ModelTriangle& triangle, std::uint32_t object, double base_m) {
@@ -158,7 +173,7 @@ class Placing {
       corners[i] = {at, turned(vector(model_.vertices[triangle.corners[i]].normal)), triangle.corners[i]};
       note(at);
     }
-    builders_.add(corners, tag_of(triangle, object));
+    builders_.add(corners, tag_of(triangle, object, lies_on_ground(corners, base_m)));
   }
 
   void drape(const ModelTriangle& triangle, std::uint32_t object) {
@@ -168,7 +183,7 @@ class Placing {
       const std::array<Vector3, 3> piece = pieces_.back();
       pieces_.pop_back();
       if (split(piece)) continue;
-      lay(piece, tag_of(triangle, object));
+      lay(piece, tag_of(triangle, object, true));
     }
   }
 

@@ -17,7 +17,7 @@
 
 namespace yars::model::scene {
 
-inline constexpr double kTileSide_m = 512.0;
+inline constexpr double kTileSide_m = 128.0;
 inline constexpr double kFlat_m = 1.0;         // how far from z = 0 a thing that is draped may reach
 inline constexpr double kDrapedEdge_m = 30.0;  // below the post spacing of DTED level 2
 

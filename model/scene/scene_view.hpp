@@ -33,8 +33,10 @@ struct Tile {
   std::vector<float> east_m, north_m, up_m;                 // a vertex each
   std::vector<float> normal_east, normal_north, normal_up;  // a vertex each: unit, outwards
   std::vector<std::array<std::uint32_t, 3>> corners;        // a triangle each, counter-clockwise from outside
-  std::vector<std::uint16_t> kind;                          // a triangle each: into SceneView::kinds()
-  std::vector<std::uint32_t> object;                        // a triangle each: into SceneView::objects()
+  bool curved = true;  // normals of vertices may differ from those of their triangles; false: they may be ignored
+  std::uint32_t on_ground = 0;  // so many triangles, the first ones, lie on the ground: paint, no height of their own
+  std::vector<std::uint16_t> kind;    // a triangle each: into SceneView::kinds()
+  std::vector<std::uint32_t> object;  // a triangle each: into SceneView::objects()
 };
 
 // A thing that stands by itself (an OpenFlight object): what it is to a radar that does not resolve it.

@@ -9,6 +9,15 @@ namespace yars::model::scene {
 
 namespace {
 
+constexpr double kEqualNormals = 0.9999;  // cosine: less than a degree apart
+
+bool is_curved(const std::array<PlacedCorner, 3>& corners) {
+  const Vector3 area = cross(corners[1].place - corners[0].place, corners[2].place - corners[0].place);
+  const double least = kEqualNormals * length(area);
+  return std::any_of(corners.begin(), corners.end(),
+                     [&](const PlacedCorner& corner) { return dot(corner.normal, area) < least; });
+}
+
 void find_bounds(const std::vector<float>& values, float& least, float& most) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   least = *low;
@@ -66,6 +75,29 @@ void TileBuilders::add(const std::array<PlacedCorner, 3>& corners, SurfaceTag ta
       {vertex_in(builder, corners[0]), vertex_in(builder, corners[1]), vertex_in(builder, corners[2])});
   builder.tile.kind.push_back(tag.kind);
   builder.tile.object.push_back(tag.object);
+  builder.on_ground.push_back(tag.on_ground);
+  builder.curved = builder.curved || is_curved(corners);
+}
+
+// Puts the triangles on the ground first; among themselves they stay in order, for the later is painted over the
+// earlier.
+void TileBuilders::sort_by_ground(Builder& builder) {
+  Tile& tile = builder.tile;
+  const std::size_t count = tile.corners.size();
+  Tile sorted;
+  for (const bool on_ground : {true, false}) {
+    for (std::size_t t = 0; t < count; ++t) {
+      if (builder.on_ground[t] != on_ground) continue;
+      sorted.corners.push_back(tile.corners[t]);
+      sorted.kind.push_back(tile.kind[t]);
+      sorted.object.push_back(tile.object[t]);
+    }
+    if (on_ground) tile.on_ground = static_cast<std::uint32_t>(sorted.corners.size());
+  }
+  if (tile.on_ground == 0) return;
+  tile.corners = std::move(sorted.corners);
+  tile.kind = std::move(sorted.kind);
+  tile.object = std::move(sorted.object);
 }
 
 std::vector<Tile> TileBuilders::take(double zero_msl_m) {
@@ -77,7 +109,9 @@ std::vector<Tile> TileBuilders::take(double zero_msl_m) {
       builder.reset();
       continue;
     }
+    sort_by_ground(*builder);
     Tile tile = std::move(builder->tile);
+    tile.curved = builder->curved;
     tile.zero_msl_m = std::isfinite(zero_msl_m) ? std::floor(zero_msl_m) : 0.0;
     tile.up_m.reserve(builder->altitude_m.size());
     for (const double altitude_m : builder->altitude_m)

@@ -23,6 +23,7 @@ struct PlacedCorner {
 struct SurfaceTag {
   std::uint16_t kind = 0;
   std::uint32_t object = 0;
+  bool on_ground = false;
 };
 
 class TileBuilders {
@@ -42,8 +43,11 @@ class TileBuilders {
     LocalMap map;
     Tile tile;
     std::vector<double> altitude_m;  // a vertex each
+    std::vector<bool> on_ground;     // a triangle each
+    bool curved = false;
     std::uint32_t number = 0;
   };
+  static void sort_by_ground(Builder& builder);
   Builder& builder_at(PlanePoint point);
   std::uint32_t vertex_in(Builder& builder, const PlacedCorner& corner);
 

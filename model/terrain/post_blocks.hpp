@@ -10,6 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "lib/memory/line_vector.hpp"
+
 namespace yars::model::terrain {
 
 class PostBlocks {
@@ -42,7 +44,7 @@ class PostBlocks {
   };
   int block_rows_;
   int block_columns_;
-  std::vector<Block> blocks_;
+  memory::LineVector<Block> blocks_;
 };
 
 }  // namespace yars::model::terrain

@@ -155,13 +155,13 @@ class Stages {
   const model::terrain::TerrainView* terrain_;
   model::kernel::ScanRequest request_;
   std::size_t count_;
-  std::array<LineVector<float>, kArrays> arrays_;
+  std::array<memory::LineVector<float>, kArrays> arrays_;
   std::vector<float> scratch_ = std::vector<float>(8192);
   std::vector<std::uint8_t> video_;
   Receiver receiver_;
   lanes::SweepConstants constants_;
   PulseSmear smear_;
-  LineVector<std::int32_t> cell_;
+  memory::LineVector<std::int32_t> cell_;
   PlaceArrays places_;
   std::string stages_, floors_;
 };

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "model/reflectivity/decibels.hpp"
 #include "model/reflectivity/land.hpp"
 #include "tests/hrm/made_up_scene.hpp"
 #include "tests/hrm/patch_maker.hpp"
@@ -91,6 +92,32 @@ TEST_P(BoxSeen, ReturnsGammaTimesTheAreaThatFacesTheRadar) {
     const double wanted_m2 = land.gamma[kStone] * (wall(box.width_m, turn_deg) + side_m2 + roof_m2);
     EXPECT_NEAR(cross_section_m2(process), wanted_m2, 0.05 * wanted_m2) << turn_deg;
   }
+}
+
+// A fence has no surface from above; what it returns is its face, and it shades what is behind.
+TEST(Fence, ReturnsItsFaceAndCastsAShadowThoughItHasNoRoof) {
+  radar::RadarConfiguration configuration = bare_map();
+  configuration.receiver.land_gamma_db = -150.0;
+  Viewpoint view;
+  const auto scene = std::make_shared<MadeUpScene>(kTarget, kGround_m);
+  // Seen from the south; both sides, as models have it.
+  scene->add_quad({{{-50, 0, 0}, {50, 0, 0}, {50, 0, 6}, {-50, 0, 6}}}, kEarthenWorks);
+  scene->add_quad({{{50, 0, 0}, {-50, 0, 0}, {-50, 0, 6}, {50, 0, 6}}}, kEarthenWorks);
+  const auto dark = make_patch(configuration, order_from(view), ground_of(model::terrain::flat(kGround_m)), scene);
+  const double wanted_m2 = gamma_of(configuration, kEarthenWorks) * 100.0 * 6.0 * view.distance_m /
+                           std::hypot(view.distance_m, view.above_m);
+  EXPECT_NEAR(cross_section_m2(dark), wanted_m2, 0.02 * wanted_m2);
+
+  configuration.receiver.land_gamma_db = -10.0;
+  const auto lit = make_patch(configuration, order_from(view), ground_of(model::terrain::flat(kGround_m)), scene);
+  const double shadow_m = 6.0 * view.distance_m / view.above_m;
+  const double pixel_m = lit.geometry().window_m() / lit.image().size;
+  const int column = lit.image().size / 2;
+  const auto half = static_cast<float>(0.5 * model::reflectivity::ratio(-10.0));
+  double dark_m = 0.0;
+  for (int row = 0; row < lit.image().size; ++row)
+    if (lit.image().power[lit.image().at(column, row)] < half) dark_m += pixel_m;
+  EXPECT_NEAR(dark_m, shadow_m, pixel_m);
 }
 
 INSTANTIATE_TEST_SUITE_P(FromSeveralSides, BoxSeen,

@@ -33,7 +33,7 @@ TEST(Patch, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(Patch, IsTheSameOnEveryVectorTarget) {
-  std::vector<float> power;
+  memory::LineVector<float> power;
   std::vector<std::uint8_t> picture;
   for_each_vector_target([&](const char* name) {
     const auto process = busy_map(1, 500);

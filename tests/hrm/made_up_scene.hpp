@@ -67,10 +67,13 @@ class MadeUpScene final : public model::scene::SceneView {
       tile_.normal_north.push_back(static_cast<float>(n[1] / length));
       tile_.normal_up.push_back(static_cast<float>(n[2] / length));
     }
+    // What is level at the foot of all lies on the ground, and stands first in a tile.
+    const bool on_ground = n[2] > 0.98 * length && corners[0][2] < 0.5;
     for (const std::array<std::uint32_t, 3>& triangle :
          {std::array<std::uint32_t, 3>{0, 1, 2}, std::array<std::uint32_t, 3>{0, 2, 3}}) {
-      tile_.corners.push_back({first + triangle[0], first + triangle[1], first + triangle[2]});
-      tile_.kind.push_back(static_cast<std::uint16_t>(kinds_.size()));
+      const auto at = static_cast<std::ptrdiff_t>(on_ground ? tile_.on_ground++ : tile_.corners.size());
+      tile_.corners.insert(tile_.corners.begin() + at, {first + triangle[0], first + triangle[1], first + triangle[2]});
+      tile_.kind.insert(tile_.kind.begin() + at, static_cast<std::uint16_t>(kinds_.size()));
       tile_.object.push_back(0);
     }
     kinds_.push_back({material, 0, 0});

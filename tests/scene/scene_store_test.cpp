@@ -91,6 +91,38 @@ TEST(SceneStore, PutsAnObjectAtItsLatitudeAndLongitude) {
   EXPECT_EQ(view->kinds()[object.kind].material, 1);
 }
 
+// A road up a hill is many metres from the height of its middle, and is paint all the same; a box has nothing that is.
+TEST(SceneStore, ARoadLiesOnTheGroundHoweverThatSlopes) {
+  const Folder folder;
+  const terrain::TerrainAxis east{kPlace, geo::Bearing::degrees(90)};
+  const auto store = store_of({scene_of(folder.write("a.flt", box_and_road(kPlace)))}, terrain::plane(east, 500, 0.1));
+  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+  std::vector<const Tile*> tiles;
+  view->tiles_near(kPlace, 5000, tiles);
+  std::size_t painted = 0;
+  for (const Tile* tile : tiles)
+    for (std::size_t t = 0; t < tile->corners.size(); ++t) {
+      EXPECT_EQ(t < tile->on_ground, view->objects()[tile->object[t]].name == "road");
+      painted += t < tile->on_ground ? 1 : 0;
+    }
+  EXPECT_GT(painted, 8U);
+}
+
+// Its own heights miss the terrain's by a metre: it is paint where it comes near, and stands where it is far above.
+TEST(SceneStore, ALevelFaceWithItsOwnHeightsLiesOnTheGroundThatIsNear) {
+  const Folder folder;
+  radar::Scene scene = scene_of(folder.write("a.flt", box_and_road(kPlace)));
+  scene.heights = radar::SceneHeights::sea_level;
+  for (const double ground_m : {1.0, -1.0, -10.0}) {
+    const auto store = store_of({scene}, terrain::flat(ground_m));
+    const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+    std::vector<const Tile*> tiles;
+    view->tiles_near(kPlace, 50, tiles);
+    ASSERT_FALSE(tiles.empty());
+    for (const Tile* tile : tiles) EXPECT_EQ(tile->on_ground, ground_m < -2.0 ? 0 : tile->corners.size()) << ground_m;
+  }
+}
+
 TEST(SceneStore, TurnsASceneByItsHeadingClockwise) {
   const Folder folder;
   radar::Scene scene = scene_of(folder.write("a.flt", box_and_road(std::nullopt)));
