@@ -4,6 +4,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "model/hrm/fan_lanes.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -16,6 +17,7 @@ constexpr std::size_t kMostLanes = 16;
 using Tag = hn::CappedTag<float, kMostLanes>;
 using SignedTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
+constexpr std::ptrdiff_t kFetchAhead = 4;  // rows
 
 // Where a column begins in the fan: its strip, and its place in a row of it.
 HWY_INLINE hn::Vec<SignedTag> start_of(hn::Vec<SignedTag> column, std::int32_t strip_size) {
@@ -53,6 +55,8 @@ void draw_row(const FanGrid& grid, const float* fan, const MapRow& row, float* p
     const auto along = hn::Sub(y, hn::ConvertTo(d, line));
     const auto offset = hn::ShiftLeft<4>(line);
     const auto left_at = hn::Add(start_of(column, strip_size), offset);
+    // The rows below will look nearer: their streams, one a strip, are too many for the processor to see.
+    hwy::Prefetch(fan + hn::GetLane(left_at) - kFetchAhead * kStripColumns);
     const auto right_at = hn::Add(start_of(hn::Add(column, hn::Set(di, 1)), strip_size), offset);
     const auto near_left = hn::GatherIndex(d, fan, left_at);
     const auto near_right = hn::GatherIndex(d, fan, right_at);

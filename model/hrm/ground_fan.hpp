@@ -50,6 +50,7 @@ class GroundFan {
   std::size_t read_path(const PatchGeometry& geometry, const FanGrid& grid, geo::Bearing azimuth,
                         const terrain::TerrainView& view, float& horizon);
   void keep(const PatchGeometry& geometry, std::size_t lane);
+  void fetch_strip(const FanGrid& grid, int column, const GroundArrays& arrays) const;
   void put_strip(const FanGrid& grid, int strip, const GroundArrays& arrays) const;
 
   radar::RadarConfiguration configuration_;

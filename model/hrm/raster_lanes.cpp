@@ -4,130 +4,28 @@
 #include <utility>
 
 #include "model/hrm/profile_lanes.hpp"
-#include "model/hrm/scene_surface.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "model/hrm/raster_lanes.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+// Behind highway.h, or it would have no target yet.
+#include "model/hrm/facet-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace yars::model::hrm::lanes::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Tag = hn::CappedTag<float, kStripColumns>;
-using SignedTag = hn::RebindToSigned<Tag>;
-using BitsTag = hn::RebindToUnsigned<Tag>;
-using Floats = hn::Vec<Tag>;
 using Bits = hn::Vec<BitsTag>;
-using Mask = hn::Mask<Tag>;
 
-constexpr float kSmooth = 0.02F;  // vertices that face the radar so differently from the facet are interpolated
-constexpr float kWide = 12.0F;    // columns of a triangle that is drawn by itself
+constexpr float kWide = 12.0F;  // columns of a triangle that is drawn by itself
+constexpr std::size_t kFlush = 1024;     // grid points kept before they are put down
+constexpr std::size_t kFetchAhead = 24;  // of them
 constexpr float kUnderRoof_m = 0.02F;
 constexpr float kMostWall = 1.0e9F;
 constexpr std::uint32_t kFullWall = 0x7fffffffU;
-
-HWY_INLINE Floats set(float value) {
-  return hn::Set(Tag(), value);
-}
-
-// A corner on the grid: column, row, height, and how squarely its surface faces the radar.
-struct Corner {
-  Floats column, row, height, facing;
-};
-HWY_INLINE Corner chosen(Mask first, const Corner& a, const Corner& b) {
-  return {hn::IfThenElse(first, a.column, b.column), hn::IfThenElse(first, a.row, b.row),
-          hn::IfThenElse(first, a.height, b.height), hn::IfThenElse(first, a.facing, b.facing)};
-}
-HWY_INLINE void order(Corner& a, Corner& b) {
-  const auto turned = hn::Lt(b.column, a.column);
-  const Corner left = chosen(turned, b, a);
-  b = chosen(turned, a, b);
-  a = left;
-}
-
-// A triangle seen from above, its corners from left to right.
-struct Triangle {
-  Corner left, middle, right;
-  // What lies at a column between the corners along the long edge and on the other two.
-  HWY_INLINE std::pair<Floats, Floats> edges(Floats x, Floats Corner::*number) const {
-    const auto whole = hn::Div(hn::Sub(x, left.column), hn::Sub(right.column, left.column));
-    const auto along = hn::Add(left.*number, hn::Mul(whole, hn::Sub(right.*number, left.*number)));
-    const auto before = hn::Lt(x, middle.column);
-    const Corner begin = chosen(before, left, middle);
-    const Corner end = chosen(before, middle, right);
-    const auto part = hn::Div(hn::Sub(x, begin.column), hn::Sub(end.column, begin.column));
-    return {along, hn::Add(begin.*number, hn::Mul(part, hn::Sub(end.*number, begin.*number)))};
-  }
-};
-
-// What a triangle is to the radar.
-struct Facet {
-  Floats area;  // grid cells; more than 0: seen from above
-  Floats across, ahead;
-  Floats towards;                   // of the normal, to the radar
-  Floats length;                    // of the normal
-  Floats value, by_column, by_row;  // its plane: value + by_column * column + by_row * row
-  Mask steep;
-};
-HWY_INLINE Facet facet_of(const Corner& a, const Corner& b, const Corner& c, const GridLimits& limits) {
-  const auto c1 = hn::Sub(b.column, a.column);
-  const auto c2 = hn::Sub(c.column, a.column);
-  const auto r1 = hn::Sub(b.row, a.row);
-  const auto r2 = hn::Sub(c.row, a.row);
-  const auto z1 = hn::Sub(b.height, a.height);
-  const auto z2 = hn::Sub(c.height, a.height);
-  Facet facet;
-  facet.area = hn::Sub(hn::Mul(c1, r2), hn::Mul(r1, c2));
-  const auto right = hn::Sub(hn::Mul(r1, z2), hn::Mul(z1, r2));
-  const auto out = hn::Sub(hn::Mul(z1, c2), hn::Mul(c1, z2));
-  facet.across = hn::Mul(set(limits.row_height_m), right);
-  facet.ahead = hn::Mul(set(limits.column_width_m), out);
-  const auto upward = hn::Mul(hn::Mul(set(limits.column_width_m), set(limits.row_height_m)), facet.area);
-  const auto level2 = hn::Add(hn::Mul(facet.across, facet.across), hn::Mul(facet.ahead, facet.ahead));
-  const auto upward2 = hn::Mul(upward, upward);
-  facet.steep = hn::Lt(upward2, hn::Mul(set(limits.wall_normal2), level2));
-  facet.towards = hn::Sub(hn::Mul(upward, set(limits.sine)), hn::Mul(facet.ahead, set(limits.cosine)));
-  facet.length = hn::Sqrt(hn::Add(level2, upward2));
-  const auto inverse = hn::Div(set(1.0F), facet.area);
-  facet.by_column = hn::Neg(hn::Mul(right, inverse));
-  facet.by_row = hn::Neg(hn::Mul(out, inverse));
-  facet.value = hn::Sub(hn::Sub(a.height, hn::Mul(facet.by_column, a.column)), hn::Mul(facet.by_row, a.row));
-  return facet;
-}
-
-// How much more or less squarely the interpolated normals face the radar than the facet does.
-HWY_INLINE Floats shading(const GridVertices& vertices, const Corner& a, const Corner& b, const Corner& c,
-                          const Facet& facet) {
-  const Tag d;
-  if (vertices.facing == nullptr) return set(1.0F);
-  const auto facing = hn::Div(facet.towards, facet.length);
-  const auto off = [&](const Corner& corner) HWY_ATTR { return hn::Abs(hn::Sub(corner.facing, facing)); };
-  const auto smooth =
-      hn::And(hn::Gt(hn::Max(hn::Max(off(a), off(b)), off(c)), set(kSmooth)), hn::Gt(facing, hn::Zero(d)));
-  const auto mean = hn::Mul(hn::Add(hn::Add(a.facing, b.facing), c.facing), set(1.0F / 3.0F));
-  const auto ratio = hn::Min(hn::Max(hn::Div(mean, facing), hn::Zero(d)), set(static_cast<float>(kMostShading)));
-  return hn::IfThenElse(smooth, ratio, set(1.0F));
-}
-
-HWY_INLINE Floats wall_gain(const CardinalShape& shape, const Facet& facet, Floats gamma, Floats cardinal) {
-  const Tag d;
-  const SignedTag di;
-  const auto level = hn::Sqrt(hn::Add(hn::Mul(facet.across, facet.across), hn::Mul(facet.ahead, facet.ahead)));
-  const auto sine = hn::Div(hn::Abs(facet.across), hn::Max(level, set(1.0e-20F)));
-  const auto last = set(static_cast<float>(shape.share.size() - 2));
-  const auto place = hn::Mul(sine, set(shape.steps_a_sine));
-  const auto whole = hn::Floor(hn::Min(place, last));
-  const auto i = hn::ConvertTo(di, whole);
-  const auto low = hn::GatherIndex(d, shape.share.data(), i);
-  const auto high = hn::GatherIndex(d, shape.share.data() + 1, i);
-  const auto share =
-      hn::Add(low, hn::Mul(hn::Sub(hn::Min(place, hn::Add(last, set(1.0F))), whole), hn::Sub(high, low)));
-  const auto ahead = hn::Lt(facet.ahead, hn::Zero(d));  // of two sides it is the near one that is square on
-  return hn::Mul(gamma, hn::Add(set(1.0F), hn::IfThenElseZero(ahead, hn::Mul(cardinal, share))));
-}
 
 // Where a grid point lies in the arrays.
 HWY_INLINE Bits place_on(const FanGrid& grid, Floats column, Floats row) {
@@ -197,10 +95,14 @@ class SmallTriangles {
     }
   }
 
-  // Puts down what was kept.
-  void flush() {
+  // Puts down what was kept, when there is much or all is drawn: places are fetched ahead of their turn.
+  void flush(bool all) {
+    if (!all && count_ < kFlush && walls_ < kFlush) return;
     const SceneArrays& to = canvas_.arrays;
     for (std::size_t i = 0; i < count_; ++i) {
+      const std::size_t soon = fragments_.at[std::min(i + kFetchAhead, count_ - 1)];
+      hwy::Prefetch(to.height_m + soon);
+      hwy::Prefetch(to.gain + soon);
       const std::size_t at = fragments_.at[i];
       const float height = fragments_.height_m[i];
       const float gain = fragments_.gain[i];
@@ -211,6 +113,9 @@ class SmallTriangles {
       to.gain[at] = higher || stronger ? gain : there;
     }
     for (std::size_t i = 0; i < walls_; ++i) {
+      const std::size_t soon = fragments_.wall_at[std::min(i + kFetchAhead, walls_ - 1)];
+      hwy::Prefetch(to.wall_height + soon);
+      hwy::Prefetch(to.wall_return + soon);
       const std::size_t at = fragments_.wall_at[i];
       to.wall_height[at] = std::min(to.wall_height[at] + fragments_.wall_height[i], kFullWall);
       to.wall_return[at] = std::min(to.wall_return[at] + fragments_.wall_return[i], kFullWall);
@@ -384,13 +289,13 @@ void draw_standing(std::span<const std::uint32_t> triangles, const TileSurfaces&
     const auto gain = hn::Mul(hn::Load(d, gamma), shading(vertices, a, b, c, facet));
     const auto wide = hn::And(above, hn::Gt(hn::Sub(triangle.right.column, triangle.left.column), set(kWide)));
     small.fill(triangle, facet, gain, hn::AndNot(wide, above));
-    small.flush();
+    small.flush(false);
     if (hn::AllFalse(d, wide)) continue;
     HWY_ALIGN float gains[kStripColumns];
     hn::Store(gain, d, gains);
     draw_wide(number, gains, wide, vertices, tile, canvas);
   }
-  small.flush();
+  small.flush(true);
 }
 
 }  // namespace yars::model::hrm::lanes::HWY_NAMESPACE
