@@ -17,20 +17,19 @@ double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo:
   return reflectivity::ratio(configuration.noise_gamma_db) * std::pow(slant_range.metres() / kNoiseRange_m, 3.0);
 }
 
-void develop(const radar::RadarConfiguration& configuration, const MapImage& image, double noise, int looks,
-             std::uint32_t map, std::vector<std::uint8_t>& picture) {
+void develop(const radar::RadarConfiguration& configuration, const MapImage& image, const MapNoise& noise, int first,
+             int last, std::vector<std::uint8_t>& picture) {
   const radar::HighResolutionConfiguration& hrm = configuration.high_resolution;
   const auto size = static_cast<std::size_t>(image.size);
-  picture.resize(image.power.size());
-  Speckle speckle(image.size, looks, configuration.seed, map);
+  Speckle speckle(image.size, noise.looks, configuration.seed, noise.map);
   constexpr std::array<float, 3> kAlone{0.0F, 1.0F, 0.0F};
-  for (std::size_t row = 0; row < size; ++row) {
+  for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
     const float* power = &image.power[row * size];
     const rbm::lanes::VideoInputs inputs{power,
                                          power,
                                          power,
                                          kAlone.data(),
-                                         static_cast<float>(noise),
+                                         static_cast<float>(noise.thermal),
                                          configuration.fidelity.noise ? speckle.row(static_cast<int>(row)) : nullptr,
                                          nullptr,
                                          static_cast<float>(-hrm.brightest_gamma_db),

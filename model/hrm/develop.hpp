@@ -13,8 +13,14 @@ namespace yars::model::hrm {
 // the range, for the time that a map takes makes up for one power of the fourth.
 double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo::Length slant_range);
 
-// Speckle of `looks` looks, see speckle.hpp. Blank pixels are black. `map` and the seed name the noise.
-void develop(const radar::RadarConfiguration& configuration, const MapImage& image, double noise, int looks,
-             std::uint32_t map, std::vector<std::uint8_t>& picture);
+struct MapNoise {
+  double thermal = 0.0;   // as noise_gamma() has it
+  int looks = 1;          // of the speckle, see speckle.hpp
+  std::uint32_t map = 0;  // names the noise, together with the seed
+};
+
+// Rows [first, last) of the picture, which is as large as the image. Blank pixels are black.
+void develop(const radar::RadarConfiguration& configuration, const MapImage& image, const MapNoise& noise, int first,
+             int last, std::vector<std::uint8_t>& picture);
 
 }  // namespace yars::model::hrm

@@ -81,12 +81,7 @@ struct PatchProcess::Work {
   // job(first strip, behind the last, thread), the strips shared out in runs.
   template <class Job>
   void share_strips(const Job& job) {
-    const int strips = grid.strips();
-    const auto threads = static_cast<int>(crew.threads);
-    crew.run([&](std::size_t thread) {
-      const auto number = static_cast<int>(thread);
-      job(number * strips / threads, (number + 1) * strips / threads, thread);
-    });
+    share_out(crew, grid.strips(), job);
   }
 
   radar::RadarConfiguration configuration;
@@ -258,25 +253,25 @@ void PatchProcess::Work::cast_profiles() {
 
 void PatchProcess::Work::draw_map() {
   if (!reference)
-    crew.run([&](std::size_t thread) {
-      const auto number = static_cast<int>(thread);
-      const auto threads = static_cast<int>(crew.threads);
-      draw_fan(*geometry, grid, cross_section_m2.data(), number * image.size / threads,
-               (number + 1) * image.size / threads, image);
+    share_out(crew, image.size, [&](int first, int last, std::size_t) {
+      draw_fan(*geometry, grid, cross_section_m2.data(), first, last, image);
     });
   image.blind = false;
   // What is below thermal noise or black cannot be seen.
   const radar::HighResolutionConfiguration& hrm = configuration.high_resolution;
   const double floor = std::max(noise_gamma(hrm, geo::Length::metres(geometry->slant_range_m())),
                                 reflectivity::ratio(hrm.brightest_gamma_db - hrm.dynamic_range_db));
-  if (configuration.fidelity.map_response) response.apply(static_cast<float>(floor), image);
+  if (configuration.fidelity.map_response) response.apply(static_cast<float>(floor), crew, image);
   movers.draw(order, *geometry, formation, *database.window, {&grid, height_m.data(), horizon.data()}, response, image);
   blank_blind_zone(*geometry, order.ground_track, configuration.high_resolution, image);
 }
 
 void PatchProcess::Work::draw_video() {
   const double noise = noise_gamma(configuration.high_resolution, geo::Length::metres(geometry->slant_range_m()));
-  develop(configuration, image, noise, order.looks, order.map, picture);
+  picture.resize(image.power.size());
+  share_out(crew, image.size, [&](int first, int last, std::size_t) {
+    develop(configuration, image, {noise, order.looks, order.map}, first, last, picture);
+  });
 }
 
 void PatchProcess::advance() {

@@ -5,12 +5,12 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string_view>
 #include <vector>
 
 #include "lib/radar/configuration.hpp"
+#include "model/hrm/crew.hpp"
 #include "model/hrm/ground_fan.hpp"
 #include "model/hrm/map_image.hpp"
 #include "model/hrm/map_movers.hpp"
@@ -33,12 +33,6 @@ struct PatchDatabase {
   terrain::TerrainViewPointer window;
   terrain::TerrainViewPointer path;
   scene::SceneViewPointer scene;  // null: no scene
-};
-
-// Runs job(0), ..., job(threads - 1) at the same time and waits for all.
-struct Crew {
-  std::size_t threads = 1;
-  std::function<void(const std::function<void(std::size_t)>&)> run = [](const auto& job) { job(0); };
 };
 
 inline constexpr std::array<std::string_view, 5> kPatchStages{"terrain", "scene", "profile", "map", "video"};

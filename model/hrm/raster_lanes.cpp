@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Bits = hn::Vec<BitsTag>;
 
-constexpr float kWide = 12.0F;  // columns of a triangle that is drawn by itself
+constexpr float kWide = 12.0F;           // columns of a triangle that is drawn by itself
 constexpr std::size_t kFlush = 1024;     // grid points kept before they are put down
 constexpr std::size_t kFetchAhead = 24;  // of them
 constexpr float kUnderRoof_m = 0.02F;

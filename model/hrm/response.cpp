@@ -107,70 +107,103 @@ std::vector<float> Response::weights(double pixel, int& first) const {
 }
 
 // Rows and columns of black about a copy of the image, so that no sum looks over an edge.
-void Response::make_room(const MapImage& image) {
+void Response::make_room(const Crew& crew, const MapImage& image) {
   const auto size = static_cast<std::size_t>(image.size);
   margin_ = along_reach_ * lanes::kBlock;
   columns_ = (size + lanes::kBlock - 1) / lanes::kBlock * lanes::kBlock;
   pitch_ = columns_ + 2 * margin_;
   const std::size_t room = pitch_ * (size + 2 * margin_);
-  if (across_.size() == room) return;
+  if (across_.size() == room && hands_.size() == crew.threads) return;
   across_.assign(room, 0.0F);
-  source_.assign(pitch_, 0.0F);
-  row_.assign(columns_, 0.0F);
+  added_.assign(room, 0.0F);
+  hands_.resize(crew.threads);
+  for (Hand& hand : hands_) {
+    hand.source.assign(pitch_, 0.0F);
+    hand.row.assign(columns_, 0.0F);
+  }
 }
 
-void Response::apply(float floor, MapImage& image) {
-  make_room(image);
-  smooth(image);
-  add_sidelobes(floor, image);
+void Response::apply(float floor, const Crew& crew, MapImage& image) {
+  make_room(crew, image);
+  if (main_lobe_.size() > 1)
+    share_out(crew, image.size,
+              [&](int first, int last, std::size_t thread) { smooth_along(first, last, hands_[thread], image); });
+  const float strong = sidelobes_.empty() ? 0.0F : floor / *std::max_element(sidelobes_.begin(), sidelobes_.end());
+  share_out(crew, image.size, [&](int first, int last, std::size_t thread) {
+    if (main_lobe_.size() > 1) smooth_down(first, last, hands_[thread], image);
+    if (!sidelobes_.empty()) find_strong(strong, first, last, hands_[thread], image);
+  });
+  if (std::all_of(hands_.begin(), hands_.end(), [](const Hand& hand) { return hand.strong.empty(); })) return;
+  share_out(crew, image.size, [&](int first, int last, std::size_t) { add_sidelobes(first, last, image); });
 }
 
-void Response::smooth(MapImage& image) {
-  if (main_lobe_.size() < 2) return;
+void Response::smooth_along(int first, int last, Hand& hand, const MapImage& image) {
   const auto size = static_cast<std::size_t>(image.size);
-  for (std::size_t row = 0; row < size; ++row) {
-    float* from = &source_[margin_];
+  float* from = &hand.source[margin_];
+  for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
     std::copy_n(&image.power[row * size], size, from);
     lanes::smooth(columns_, from, 1, main_lobe_, &across_[padded(row)]);
   }
-  for (std::size_t row = 0; row < size; ++row) {
+}
+
+void Response::smooth_down(int first, int last, Hand& hand, MapImage& image) const {
+  const auto size = static_cast<std::size_t>(image.size);
+  for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
     // In place where rows are whole blocks.
-    float* to = columns_ == size ? &image.power[row * size] : row_.data();
+    float* to = columns_ == size ? &image.power[row * size] : hand.row.data();
     lanes::smooth(columns_, &across_[padded(row)], static_cast<std::ptrdiff_t>(pitch_), main_lobe_, to);
-    if (columns_ != size) std::copy_n(row_.data(), size, &image.power[row * size]);
+    if (columns_ != size) std::copy_n(to, size, &image.power[row * size]);
   }
 }
 
-void Response::find_strong(float limit, const MapImage& image) {
+void Response::find_strong(float limit, int first, int last, Hand& hand, const MapImage& image) const {
   const auto size = static_cast<std::size_t>(image.size);
-  strong_.clear();
-  for (std::size_t row = 0; row < size; ++row) {
+  hand.strong.clear();
+  std::fill(hand.row.begin(), hand.row.end(), 0.0F);
+  for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
     const float* from = &image.power[row * size];
     if (columns_ != size) {
-      std::copy_n(from, size, row_.data());
-      from = row_.data();
+      std::copy_n(from, size, hand.row.data());
+      from = hand.row.data();
     }
     Strong found{row, 0, {}};
     for (found.column = 0; found.column < columns_; found.column += lanes::kBlock)
-      if (lanes::keep_above(from + found.column, limit, found.power.data())) strong_.push_back(found);
+      if (lanes::keep_above(from + found.column, limit, found.power.data())) hand.strong.push_back(found);
   }
 }
 
-// Strong points first, all of them: what one adds must not make another strong. Few pixels of a picture are, as a
-// rule, so it is these that are spread, not their neighbours that are summed.
-void Response::add_sidelobes(float floor, MapImage& image) {
-  if (sidelobes_.empty()) return;
-  find_strong(floor / *std::max_element(sidelobes_.begin(), sidelobes_.end()), image);
-  if (strong_.empty()) return;
-  const auto size = static_cast<std::size_t>(image.size);
-  const auto first = static_cast<std::ptrdiff_t>(main_lobe_.size());
-  added_.assign(across_.size(), 0.0F);
-  for (const Strong& strong : strong_) {
-    float* at = &added_[padded(strong.row) + strong.column];
+// What of a block's sidelobes falls onto the rows [first, last).
+void Response::spread(const Strong& strong, std::size_t first, std::size_t last) {
+  const std::size_t lobe = main_lobe_.size();
+  const std::size_t taps = lobe + sidelobes_.size();
+  const std::span<const float> weights(sidelobes_);
+  float* at = &added_[padded(strong.row) + strong.column];
+  const auto pitch = static_cast<std::ptrdiff_t>(pitch_);
+  if (strong.row >= first && strong.row < last)
     lanes::spread_along(strong.power.data(), along_reach_, &along_[along_middle_], at);
-    lanes::spread(strong.power.data(), static_cast<std::ptrdiff_t>(pitch_), first, sidelobes_, at);
-  }
-  for (std::size_t row = 0; row < size; ++row)
+  // Rows before: from row - taps + 1 to row - lobe; behind likewise.
+  const std::size_t nearest = strong.row >= last ? std::max(lobe, strong.row - last + 1) : lobe;
+  const std::size_t farthest = strong.row >= first ? std::min(taps, strong.row - first + 1) : 0;
+  if (nearest < farthest)
+    lanes::spread(strong.power.data(), -pitch, weights.subspan(nearest - lobe, farthest - nearest),
+                  at - static_cast<std::ptrdiff_t>(nearest) * pitch);
+  const std::size_t next = strong.row < first ? std::max(lobe, first - strong.row) : lobe;
+  const std::size_t end = strong.row < last ? std::min(taps, last - strong.row) : 0;
+  if (next < end)
+    lanes::spread(strong.power.data(), pitch, weights.subspan(next - lobe, end - next),
+                  at + static_cast<std::ptrdiff_t>(next) * pitch);
+}
+
+// Strong points were found first, all of them: what one adds must not make another strong. Few pixels of a picture are,
+// as a rule, so it is these that are spread, not their neighbours that are summed.
+void Response::add_sidelobes(int first, int last, MapImage& image) {
+  const auto size = static_cast<std::size_t>(image.size);
+  const auto begin = static_cast<std::size_t>(first);
+  const auto end = static_cast<std::size_t>(last);
+  for (std::size_t row = begin; row < end; ++row) std::fill_n(&added_[padded(row)] - margin_, pitch_, 0.0F);
+  for (const Hand& hand : hands_)
+    for (const Strong& strong : hand.strong) spread(strong, begin, end);
+  for (std::size_t row = begin; row < end; ++row)
     for (std::size_t i = 0; i < size; ++i) image.power[row * size + i] += added_[padded(row) + i];
 }
 

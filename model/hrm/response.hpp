@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/memory/line_vector.hpp"
+#include "model/hrm/crew.hpp"
 #include "model/hrm/map_image.hpp"
 #include "model/hrm/response_lanes.hpp"
 
@@ -22,16 +23,27 @@ class Response {
 
   // Every pixel spreads over the main lobe; those so strong that their sidelobes rise above `floor`, over these too.
   // The sum over the picture stays, but for what leaves it.
-  void apply(float floor, MapImage& image);
+  void apply(float floor, const Crew& crew, MapImage& image);
   // Weights of the pixels from `first` on for a point at this place [pixels]; sum 1.
   std::vector<float> weights(double pixel, int& first) const;
 
  private:
   void mirror_sidelobes();
-  void make_room(const MapImage& image);
-  void smooth(MapImage& image);
-  void add_sidelobes(float floor, MapImage& image);
-  void find_strong(float limit, const MapImage& image);
+  // A hand's own room: a row of the picture with its margins, a row of the result, the strong points of its rows.
+  struct Strong {
+    std::size_t row, column;  // of the first
+    std::array<float, lanes::kBlock> power;
+  };
+  struct Hand {
+    memory::LineVector<float> source, row;
+    std::vector<Strong> strong;
+  };
+  void make_room(const Crew& crew, const MapImage& image);
+  void smooth_along(int first, int last, Hand& hand, const MapImage& image);
+  void smooth_down(int first, int last, Hand& hand, MapImage& image) const;
+  void find_strong(float limit, int first, int last, Hand& hand, const MapImage& image) const;
+  void spread(const Strong& strong, std::size_t first, std::size_t last);
+  void add_sidelobes(int first, int last, MapImage& image);
   // Where a row of the image begins in a copy of it.
   std::size_t padded(std::size_t row) const { return (row + margin_) * pitch_ + margin_; }
 
@@ -43,14 +55,9 @@ class Response {
   std::vector<float> along_;  // the same on both sides of a point, its middle at along_middle_; 0 where main_lobe_ is
   std::size_t along_reach_ = 0, along_middle_ = 0;  // [blocks], [pixels]
   std::size_t margin_ = 0, columns_ = 0, pitch_ = 0;
-  struct Strong {
-    std::size_t row, column;  // of the first
-    std::array<float, lanes::kBlock> power;
-  };
-  // Kept between maps: the picture spread along its rows; what sidelobes add to it; a row of the picture with its
-  // margins; a row of the result; where the strong points are.
-  memory::LineVector<float> across_, added_, source_, row_;
-  std::vector<Strong> strong_;
+  // Kept between maps: the picture spread along its rows, and what sidelobes add to it.
+  memory::LineVector<float> across_, added_;
+  std::vector<Hand> hands_;
 };
 
 }  // namespace yars::model::hrm

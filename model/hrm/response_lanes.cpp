@@ -39,21 +39,12 @@ bool keep_above(const float* from, float limit, float* to) {
   return any;
 }
 
-// First the whole block one way, then the other: the order of the sums is the same however wide the vectors are.
-HWY_INLINE void add_block(const float* from, float weight, float* to) {
+void spread(const float* from, std::ptrdiff_t stride, std::span<const float> weights, float* to) {
   const Tag d;
-  for (std::size_t i = 0; i < kBlock; i += hn::Lanes(d))
-    hn::StoreU(hn::Add(hn::LoadU(d, to + i), hn::Mul(hn::Set(d, weight), hn::LoadU(d, from + i))), d, to + i);
-}
-
-void spread(const float* from, std::ptrdiff_t stride, std::ptrdiff_t first, std::span<const float> weights, float* to) {
-  float* before = to - first * stride;
-  float* behind = to + first * stride;
   for (const float weight : weights) {
-    add_block(from, weight, before);
-    add_block(from, weight, behind);
-    before -= stride;
-    behind += stride;
+    for (std::size_t i = 0; i < kBlock; i += hn::Lanes(d))
+      hn::StoreU(hn::Add(hn::LoadU(d, to + i), hn::Mul(hn::Set(d, weight), hn::LoadU(d, from + i))), d, to + i);
+    to += stride;
   }
 }
 
@@ -93,10 +84,9 @@ void smooth(std::size_t count, const float* from, std::ptrdiff_t stride, std::sp
 bool keep_above(const float* from, float limit, float* to) {
   return HWY_DYNAMIC_DISPATCH(keep_above)(from, limit, to);
 }
-void spread(const float* from, std::ptrdiff_t stride, std::ptrdiff_t first, std::span<const float> weights, float* to) {
-  HWY_DYNAMIC_DISPATCH(spread)(from, stride, first, weights, to);
+void spread(const float* from, std::ptrdiff_t stride, std::span<const float> weights, float* to) {
+  HWY_DYNAMIC_DISPATCH(spread)(from, stride, weights, to);
 }
-
 void spread_along(const float* from, std::size_t reach, const float* middle, float* to) {
   HWY_DYNAMIC_DISPATCH(spread_along)(from, reach, middle, to);
 }

@@ -15,8 +15,8 @@ void smooth(std::size_t count, const float* from, std::ptrdiff_t stride, std::sp
 // to[i] = from[i] where it is greater than the limit, else 0, for a block. True if any is.
 bool keep_above(const float* from, float limit, float* to);
 
-// to[i - (first + k) * stride] and to[i + (first + k) * stride] += weights[k] * from[i], for a block.
-void spread(const float* from, std::ptrdiff_t stride, std::ptrdiff_t first, std::span<const float> weights, float* to);
+// to[i + k * stride] += weights[k] * from[i], for a block.
+void spread(const float* from, std::ptrdiff_t stride, std::span<const float> weights, float* to);
 
 // to[i + k] += kernel[middle + k] * from[i], for a block and every k that is less than `reach` blocks away or as far;
 // the kernel is so long, and a block more on either side.

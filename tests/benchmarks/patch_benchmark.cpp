@@ -2,7 +2,8 @@
 // triangles. With Embree 3: the same visibility by its packets in the same run (`of_embree`: against the whole map;
 // `visibility_of_embree`: against the stages that find it, scene and profile).
 // With --threads: two threads of one map against two maps of one thread each at the same time, by the clock.
-// Usage: patch_benchmark DIRECTORY LAT LON [--threads] [TRIANGLES ...] - a directory of DTED or HGT cells, a place in it.
+// Usage: patch_benchmark DIRECTORY LAT LON [--threads] [TRIANGLES ...] - a directory of DTED or HGT cells, a place in
+// it.
 #include <algorithm>
 #include <array>
 #include <chrono>

@@ -35,7 +35,8 @@ TEST(UniformField, VariesByItsMeanSquaredOverTheLooks) {
     image.power.assign(image.power.size(), 1.0F);
     for (const int looks : {1, 2, 3}) {
       std::vector<std::uint8_t> picture;
-      hrm::develop(configuration, image, 0.0, looks, 1, picture);
+      picture.resize(image.power.size());
+      hrm::develop(configuration, image, {0.0, looks, 1}, 0, image.size, picture);
       Moments moments;
       for (const std::uint8_t level : picture) moments.add(std::pow(10.0, 0.1 * (60.0 / 255.0 * level - 60.0 + 14.0)));
       const double share = moments.variance() / (moments.mean() * moments.mean());
