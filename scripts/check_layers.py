@@ -47,7 +47,7 @@ LAYERS = {
     "display/gl": ROLE + ["display"],
     "tools/recording": MODEL,
     "tools/trade": MODEL + ["display"],
-    "tools": SEGMENT + ["tools/recording", "tools/trade"] + MODEL + ["statemachine", "display"],
+    "tools": SEGMENT + ["tools/recording", "tools/trade", "model/terrain/gdal"] + MODEL + ["statemachine", "display"],
     "tests": None,  # None: everything
 }
 

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -15,7 +13,6 @@
 
 #include "config/load.hpp"
 #include "databuffer/program.hpp"
-#include "lib/imageio/png.hpp"
 #include "lib/radar/fidelity_preset.hpp"
 #include "lib/radar/map_formation.hpp"
 #include "model/hrm/patch_process.hpp"
@@ -24,6 +21,7 @@
 #include "model/scene/scene_store.hpp"
 #include "model/terrain/open_terrain.hpp"
 #include "tools/command.hpp"
+#include "tools/patch_output.hpp"
 
 namespace yars::tools {
 
@@ -32,7 +30,8 @@ namespace {
 namespace hrm = model::hrm;
 
 struct PatchOptions {
-  std::string terrain, fidelity, out;
+  std::string terrain, fidelity;
+  PatchOutput output;
   std::vector<std::string> scenes;
   double latitude_deg = 37.8, longitude_deg = -122.5, altitude_ft = 15000.0, heading_deg = 0.0, speed_kt = 480.0;
   double target_latitude_deg = 37.8, target_longitude_deg = -122.3, window_nm = 4.7, time_s = 0.0;
@@ -101,27 +100,6 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-void write_floats(const std::string& out, const hrm::MapImage& image) {
-  std::ofstream file(out, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(image.power.data()),
-             static_cast<std::streamsize>(image.power.size() * sizeof(float)));
-  file.flush();
-  if (!file) give_up({out, "a file that can be written", "an error", "check the folder and the space left"});
-}
-
-void write_result(const PatchOptions& options, const hrm::PatchProcess& process) {
-  const std::filesystem::path path(options.out);
-  if (path.extension() == ".f32") return write_floats(options.out, process.image());
-  imageio::Image picture{process.image().size, process.image().size, 1, process.picture()};
-  if (auto written = imageio::write_png(path, picture); !written) give_up(written.error());
-}
-
-void check_output(const std::string& out) {
-  const auto suffix = std::filesystem::path(out).extension();
-  if (!out.empty() && suffix != ".png" && suffix != ".f32")
-    give_up(databuffer::usage_error("--out", "a name that ends in .png or .f32", out));
-}
-
 void check_geometry(const PatchOptions& options) {
   const double distance_nm = geo::geodesic_inverse({options.latitude_deg, options.longitude_deg},
                                                    {options.target_latitude_deg, options.target_longitude_deg})
@@ -132,7 +110,7 @@ void check_geometry(const PatchOptions& options) {
 }
 
 void patch(const CommonOptions& common, const PatchOptions& options) {
-  check_output(options.out);
+  check_patch_output(options.output);
   check_geometry(options);
   const radar::RadarConfiguration configuration = configure(common, options);
   const hrm::PatchOrder order = order_of(options, configuration);
@@ -178,7 +156,7 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   line["terrain_bytes"] = database.window->resident_bytes() + database.path->resident_bytes();
   line["threads"] = options.threads;
   line["fidelity"] = configuration.fidelity.name;
-  if (!options.out.empty()) write_result(options, process);
+  if (!options.output.file.empty()) write_patch(options.output, order, process);
   std::printf("%s\n", line.dump().c_str());
 }
 
@@ -210,7 +188,9 @@ void add_patch_command(CLI::App& app, const CommonOptions& common) {
   command->add_option("--seed", options->seed, "of the noise")->check(CLI::NonNegativeNumber);
   command->add_option("--repeat", options->repeat, "warm maps to time; the first comes on top")
       ->check(CLI::Range(1, 1000000));
-  command->add_option("--out", options->out, "file: .png or .f32");
+  command->add_option("--out", options->output.file, "file: .png, .tif (georeferenced) or .f32");
+  command->add_option("--pixels", options->output.pixels, "of a .tif: video (8 bits) or power (32-bit float)")
+      ->check(CLI::IsMember({"video", "power"}));
   command->callback([options, &common] { patch(common, *options); });
 }
 
