@@ -112,7 +112,12 @@ std::vector<SlotSchema> fidelity_slots() {
       flag("mapLayover", YARS_FIELD(radar.fidelity.map_layover), "patch maps in slant geometry; else orthographic"),
       flag("mapResponse", YARS_FIELD(radar.fidelity.map_response), "impulse response with its sidelobes"),
       flag("mapDetail", YARS_FIELD(radar.fidelity.map_detail), "made-up texture below the spacing of the posts"),
-      flag("mapDoubleBounce", YARS_FIELD(radar.fidelity.map_double_bounce), "between walls and ground")};
+      flag("mapDoubleBounce", YARS_FIELD(radar.fidelity.map_double_bounce), "between walls and ground"),
+      {.name = "mapNoise",
+       .lowest = 0,
+       .highest = 1,
+       .binding = NumberSlot{YARS_FIELD(radar.fidelity.map_noise)},
+       .purpose = "random part of the brightness of a patch map of the preset 1996"}};
 }
 
 SlotSchema number(std::string_view name, std::string_view unit, double lowest, double highest, double& (*of)(Draft&),

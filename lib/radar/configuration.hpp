@@ -70,6 +70,7 @@ struct Fidelity {
   bool map_response = true;  // impulse response with its sidelobes
   bool map_detail = true;    // made-up texture below the spacing of the posts
   bool map_double_bounce = false;
+  double map_noise = 0.10;  // of the 1996 algorithm: random part of the brightness, [0, 1]
 };
 
 // Receiver and land/sea return; spec physics.md "Power and video".

@@ -10,6 +10,7 @@
 #include "model/hrm/fan_array.hpp"
 #include "model/hrm/profile_lanes.hpp"
 #include "model/hrm/reference_patch.hpp"
+#include "model/hrm/report_1996_patch.hpp"
 #include "model/reflectivity/decibels.hpp"
 
 namespace yars::model::hrm {
@@ -62,6 +63,7 @@ struct PatchProcess::Work {
       : configuration(given),
         crew(std::move(hands)),
         movers(configuration),
+        report_1996(configuration.fidelity.algorithm == radar::Algorithm::report_1996),
         image(configuration.fidelity.map_size),
         response(configuration.high_resolution.sidelobe_db,
                  static_cast<double>(radar::kCellsOfMap) / std::max(configuration.fidelity.map_size, 1)) {
@@ -76,6 +78,7 @@ struct PatchProcess::Work {
   void read_terrain();
   void draw_scene();
   void cast_profiles();
+  void shade();
   void draw_map();
   void draw_video();
   // job(first strip, behind the last, thread), the strips shared out in runs.
@@ -104,6 +107,7 @@ struct PatchProcess::Work {
   bool walls_left = false;  // of a map whose profiles are still to be cast
   std::vector<float> distance_m, inverse_m, above_m, level_m;
   std::vector<std::size_t> pending;
+  bool report_1996;  // the map is brightness, see report_1996_patch.hpp
   MapImage image;
   Response response;
   std::vector<std::uint8_t> picture;
@@ -216,7 +220,16 @@ void PatchProcess::Work::draw_scene() {
   });
 }
 
+// In place of the profiles and of all that follows them.
+void PatchProcess::Work::shade() {
+  share_strips([&](int first, int last, std::size_t) {
+    shade_fan(*geometry, grid, {height_m.data(), gain.data(), horizon.data()}, first * kStripColumns,
+              last * kStripColumns, cross_section_m2.data());
+  });
+}
+
 void PatchProcess::Work::cast_profiles() {
+  if (report_1996) return shade();
   if (reference) return reference->accumulate(gain.data(), image);
   const std::size_t size = grid.strip_size();
   const double bounce_db = configuration.high_resolution.double_bounce_db;
@@ -252,6 +265,16 @@ void PatchProcess::Work::cast_profiles() {
 }
 
 void PatchProcess::Work::draw_map() {
+  if (report_1996) {
+    crew.run([&](std::size_t thread) {
+      const auto number = static_cast<int>(thread);
+      const auto threads = static_cast<int>(crew.threads);
+      draw_brightness(*geometry, grid, cross_section_m2.data(), number * image.size / threads,
+                      (number + 1) * image.size / threads, image);
+    });
+    image.blind = false;
+    return blank_blind_zone(*geometry, order.ground_track, configuration.high_resolution, image);
+  }
   if (!reference)
     share_out(crew, image.size, [&](int first, int last, std::size_t) {
       draw_fan(*geometry, grid, cross_section_m2.data(), first, last, image);
@@ -267,6 +290,7 @@ void PatchProcess::Work::draw_map() {
 }
 
 void PatchProcess::Work::draw_video() {
+  if (report_1996) return develop_brightness(configuration, image, order.map, picture);
   const double noise = noise_gamma(configuration.high_resolution, geo::Length::metres(geometry->slant_range_m()));
   picture.resize(image.power.size());
   share_out(crew, image.size, [&](int first, int last, std::size_t) {

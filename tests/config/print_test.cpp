@@ -122,6 +122,7 @@ class RandomConfiguration {
     made.noise = coin();
     made.azimuth_smear = coin();
     made.pulse_smear = coin();
+    made.map_noise = number(0, 1);
     return made;
   }
 

@@ -1,0 +1,106 @@
+#include "model/hrm/report_1996_patch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/rbm/noise.hpp"
+
+namespace yars::model::hrm {
+
+namespace {
+
+constexpr float kWhite = 255.0F;
+
+// Climb across the line of sight [m a m]; at an edge of the fan that to the one neighbour.
+float slope_across(const FanGrid& grid, const float* height_m, int column, int row) {
+  const int left = std::max(column - 1, 0);
+  const int right = std::min(column + 1, grid.columns - 1);
+  const auto width_m = static_cast<float>(grid.width_m(column, grid.distance_m(row)) * (right - left));
+  return (height_m[grid.at(right, row)] - height_m[grid.at(left, row)]) / width_m;
+}
+
+// Of a pixel's place between two samples.
+struct Between {
+  int first;
+  float second_weight;
+};
+
+Between between(double place, int count) {
+  const double clamped = std::clamp(place, 0.0, static_cast<double>(count - 1));
+  const int first = std::min(static_cast<int>(clamped), count - 2);
+  return {first, static_cast<float>(clamped - first)};
+}
+
+}  // namespace
+
+void shade_fan(const PatchGeometry& geometry, const FanGrid& grid, const ShadingInputs& inputs, int first, int last,
+               float* brightness) {
+  const auto spacing_m = static_cast<float>(grid.spacing_m);
+  for (int column = first; column < last; ++column) {
+    float horizon = inputs.horizon[column];
+    for (int row = 0; row < grid.rows; ++row) {
+      const std::size_t at = grid.at(column, row);
+      const auto distance_m = static_cast<float>(grid.distance_m(row));
+      const float height_m = inputs.height_m[at];
+      const float up_m = height_m - static_cast<float>(geometry.above_plane_m(grid.distance_m(row)));
+      const float tangent = up_m / distance_m;
+      brightness[at] = 0.0F;
+      if (!(tangent > horizon)) continue;
+      horizon = tangent;
+      // What the scene drew has its sign bit set, whatever its gain.
+      if (inputs.gain[at] == 0.0F && !std::signbit(inputs.gain[at])) continue;
+      const int nearer = std::max(row - 1, 0);
+      const int farther = row == 0 ? 1 : row;
+      const float along =
+          (inputs.height_m[grid.at(column, farther)] - inputs.height_m[grid.at(column, nearer)]) / spacing_m;
+      const float across = slope_across(grid, inputs.height_m, column, row);
+      const float normal = std::sqrt(1.0F + along * along + across * across);
+      const float slant_m = std::sqrt(distance_m * distance_m + up_m * up_m);
+      brightness[at] = std::max(0.0F, (along * distance_m - up_m) / (normal * slant_m));
+    }
+  }
+}
+
+void draw_brightness(const PatchGeometry& geometry, const FanGrid& grid, const float* brightness, int first, int last,
+                     MapImage& image) {
+  const double pixel_m = geometry.window_m() / image.size;
+  const double edge_m = 0.5 * geometry.window_m();
+  for (int line = first; line < last; ++line) {
+    const double ahead_m = geometry.distance_m() + edge_m - (line + 0.5) * pixel_m;
+    for (int pixel = 0; pixel < image.size; ++pixel) {
+      const double right_m = (pixel + 0.5) * pixel_m - edge_m;
+      float& value = image.power[image.at(pixel, line)];
+      value = 0.0F;
+      if (!(ahead_m > 0.0)) continue;
+      const Between column = between((right_m / ahead_m - grid.first_tangent) / grid.tangent_step, grid.columns);
+      const double distance_m = std::sqrt(right_m * right_m + ahead_m * ahead_m);
+      const Between row = between((distance_m - grid.first_distance_m) / grid.spacing_m, grid.rows);
+      const auto along = [&](int of) {
+        const float near = brightness[grid.at(of, row.first)];
+        return near + row.second_weight * (brightness[grid.at(of, row.first + 1)] - near);
+      };
+      const float left = along(column.first);
+      value = left + column.second_weight * (along(column.first + 1) - left);
+    }
+  }
+}
+
+void develop_brightness(const radar::RadarConfiguration& configuration, const MapImage& image, std::uint32_t map,
+                        std::vector<std::uint8_t>& picture) {
+  constexpr auto kHalfOfBits = 2147483648.0F;  // 2^31: 32 bits onto [-1, 1)
+  const auto noise = static_cast<float>(configuration.fidelity.map_noise);
+  const auto size = static_cast<std::size_t>(image.size);
+  picture.resize(image.power.size());
+  for (std::size_t row = 0; row < size; ++row) {
+    const rbm::NoiseState state = rbm::make_noise_state({configuration.seed, map, static_cast<std::uint32_t>(row)});
+    for (std::size_t column = 0; column < size; ++column) {
+      const std::size_t at = row * size + column;
+      const auto bits = rbm::noise_bits(state, static_cast<std::uint32_t>(column), 0);
+      const float random = static_cast<float>(bits) / kHalfOfBits - 1.0F;
+      const float level = std::max(image.power[at], 0.0F) * (1.0F + noise * random);
+      picture[at] = static_cast<std::uint8_t>(std::min(kWhite * level + 0.5F, kWhite));
+    }
+  }
+}
+
+}  // namespace yars::model::hrm

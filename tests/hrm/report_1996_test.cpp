@@ -1,0 +1,130 @@
+// Patches by the preset 1996: brightness is a dot product, things stand where they are, noise is a tenth.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/radar/fidelity_preset.hpp"
+#include "tests/hrm/made_up_scene.hpp"
+#include "tests/hrm/patch_maker.hpp"
+
+namespace yars::test {
+namespace {
+
+namespace terrain = model::terrain;
+
+radar::RadarConfiguration map_of_1996(int size = 240) {
+  radar::RadarConfiguration configuration;
+  configuration.fidelity = *radar::fidelity_preset("1996");
+  configuration.fidelity.map_size = size;
+  return configuration;
+}
+
+double middle_of(const hrm::MapImage& image) {
+  return static_cast<double>(image.power[image.at(image.size / 2, image.size / 2)]);
+}
+
+// Rise and where it climbs to, against a line of sight from `from_deg`.
+struct Slope {
+  double from_deg, climbs_deg, rise;
+};
+
+class Brightness : public ::testing::TestWithParam<Slope> {};
+
+TEST_P(Brightness, OfATiltedPlaneIsItsNormalTimesTheDirectionToTheRadar) {
+  const Slope slope = GetParam();
+  Viewpoint view;
+  view.from_deg = slope.from_deg;
+  const auto plane = terrain::plane({kTarget, geo::Bearing::degrees(slope.climbs_deg)}, kGround_m, slope.rise);
+  const auto process = make_patch(map_of_1996(), order_from(view), ground_of(plane));
+  const double slant_m = std::hypot(view.distance_m, view.above_m);
+  const double turn_rad = (slope.climbs_deg - slope.from_deg) * geo::kRadiansPerDegree;
+  // The normal leans away from where the plane climbs to.
+  const double dot = (-slope.rise * std::cos(turn_rad) * view.distance_m + view.above_m) /
+                     (slant_m * std::sqrt(1.0 + slope.rise * slope.rise));
+  EXPECT_NEAR(middle_of(process.image()), std::max(dot, 0.0), 0.002);
+}
+INSTANTIATE_TEST_SUITE_P(Planes, Brightness,
+                         ::testing::Values(Slope{180, 0, 0.0}, Slope{180, 0, 0.5}, Slope{180, 90, 0.5},
+                                           Slope{40, 250, 0.3}, Slope{300, 100, 1.0}, Slope{0, 10, 0.1},
+                                           Slope{0, 0, 0.5}));
+
+// Both the video's level and how far the random number takes it: +-10 %, even between.
+TEST(Noise1996, IsATenthOfTheBrightnessEitherWayAndEven) {
+  const auto plane = terrain::plane({kTarget, geo::Bearing::degrees(0.0)}, kGround_m, 1.0);
+  const auto process = make_patch(map_of_1996(), order_from({}), ground_of(plane));
+  double sum = 0.0, squares = 0.0, least = 1.0, most = -1.0;
+  for (std::size_t i = 0; i < process.picture().size(); ++i) {
+    const double level = 255.0 * static_cast<double>(process.image().power[i]);
+    const double random = static_cast<double>(process.picture()[i]) / level - 1.0;
+    sum += random;
+    squares += random * random;
+    least = std::min(least, random);
+    most = std::max(most, random);
+  }
+  const auto count = static_cast<double>(process.picture().size());
+  EXPECT_NEAR(sum / count, 0.0, 0.001);
+  EXPECT_NEAR(std::sqrt(squares / count), 0.10 / std::sqrt(3.0), 0.001);
+  EXPECT_NEAR(least, -0.10, 0.004);
+  EXPECT_NEAR(most, 0.10, 0.004);
+}
+
+TEST(Noise1996, IsOffAtZeroAndNeverDependsOnLooks) {
+  const auto plane = terrain::plane({kTarget, geo::Bearing::degrees(0.0)}, kGround_m, 1.0);
+  radar::RadarConfiguration configuration = map_of_1996(96);
+  hrm::PatchOrder order = order_from({});
+  const auto one = make_patch(configuration, order, ground_of(plane));
+  order.looks = 3;
+  EXPECT_EQ(make_patch(configuration, order, ground_of(plane)).picture(), one.picture());
+  ++order.map;
+  EXPECT_NE(make_patch(configuration, order, ground_of(plane)).picture(), one.picture());
+  configuration.fidelity.map_noise = 0.0;
+  const auto quiet = make_patch(configuration, order, ground_of(plane));
+  for (std::size_t i = 0; i < quiet.picture().size(); ++i)
+    ASSERT_EQ(quiet.picture()[i], std::lround(255.0 * static_cast<double>(quiet.image().power[i])));
+}
+
+// Seen from the south: the wall shines where it stands, the roof behind it, then shadow as long as h / tan psi.
+TEST(Map1996, ABoxIsNotLaidOverAndCastsItsShadow) {
+  const auto scene = std::make_shared<MadeUpScene>(kTarget, kGround_m);
+  const Box box{0.0, 0.0, 90.0, 120.0, 60.0, 30.0, kStone};
+  scene->add(box);
+  const radar::RadarConfiguration configuration = map_of_1996(480);
+  const Viewpoint view;
+  const auto process = make_patch(configuration, order_from(view), ground_of(terrain::flat(kGround_m)), scene);
+  const hrm::MapImage& image = process.image();
+  const double pixel_m = view.window_m / image.size;
+  const double level = view.above_m / std::hypot(view.distance_m, view.above_m);
+  const auto brightness_at = [&](double up_m) {
+    const int row = static_cast<int>(std::floor(0.5 * image.size - up_m / pixel_m));
+    return static_cast<double>(image.power[image.at(image.size / 2, row)]);
+  };
+  const double foot_m = -0.5 * box.width_m;
+  double brightest_m = 0.0, brightest = 0.0;
+  for (double up_m = -200.0; up_m < 200.0; up_m += 0.5 * pixel_m) {
+    if (brightness_at(up_m) <= brightest) continue;
+    brightest = brightness_at(up_m);
+    brightest_m = up_m;
+  }
+  EXPECT_NEAR(brightest_m, foot_m, 1.5 * pixel_m);
+  EXPECT_GT(brightest, 0.7);
+  EXPECT_NEAR(brightness_at(foot_m - 4.0 * pixel_m), level, 0.01);
+  EXPECT_NEAR(brightness_at(0.0), level, 0.01);  // the roof is level too
+  const double shadow_m = box.height_m * view.distance_m / view.above_m;
+  EXPECT_EQ(brightness_at(-foot_m + 3.0 * pixel_m), 0.0);
+  EXPECT_EQ(brightness_at(-foot_m + shadow_m - 3.0 * pixel_m), 0.0);
+  EXPECT_NEAR(brightness_at(-foot_m + shadow_m + 3.0 * pixel_m), level, 0.01);
+}
+
+TEST(Map1996, HasEqualBitsForAnyNumberOfThreads) {
+  const auto hills = terrain::sine_hills({kTarget, geo::Bearing::degrees(30.0)}, 60.0, 700.0);
+  const auto scene = std::make_shared<MadeUpScene>(kTarget, kGround_m);
+  scene->add({});
+  const auto one = make_patch(map_of_1996(), order_from({}), ground_of(hills), scene, 1);
+  const auto three = make_patch(map_of_1996(), order_from({}), ground_of(hills), scene, 3);
+  EXPECT_EQ(one.picture(), three.picture());
+  EXPECT_EQ(one.image().power, three.image().power);
+}
+
+}  // namespace
+}  // namespace yars::test
