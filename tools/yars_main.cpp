@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
   app.parse_complete_callback([&] {
     if (auto error = databuffer::begin_program("yars", options)) tools::give_up(*error);
     // These compute until they are done and never look at a stop flag.
-    for (const auto* command : {"scan", "trade", "terrain", "scene", "config"})
+    for (const auto* command : {"scan", "patch", "trade", "terrain", "scene", "config"})
       if (app.got_subcommand(command)) databuffer::let_signals_end_the_process();
     common.session = options.session;
     common.config = options.config;

@@ -12,6 +12,7 @@
 #include "tools/trade/evidence.hpp"
 #include "tools/trade/fields.hpp"
 #include "tools/trade/front_picture.hpp"
+#include "tools/trade/scan_table.hpp"
 #include "tools/trade/scene.hpp"
 #include "tools/trade/trade_table.hpp"
 
@@ -61,7 +62,7 @@ TEST(Trade, FewerSamplesAreFurtherFromTheReference) {
   const auto hills = model::terrain::AnalyticTerrain(model::terrain::built_in_hills());
   const auto scan = narrow_scan(40.0);
   const Ruler ruler = make_ruler(with(*radar::fidelity_preset("reference")), scan, hills);
-  const auto sweep = *knob_contenders("samples=60,480", *radar::fidelity_preset("standard"));
+  const auto sweep = *knob_contenders("samples=60,480", *radar::fidelity_preset("standard"), Subject::scan);
   const Errors coarse = errors_against(ruler, observe(with(sweep[0].fidelity), scan, hills));
   const Errors fine = errors_against(ruler, observe(with(sweep[1].fidelity), scan, hills));
   EXPECT_GT(coarse.gray_levels, fine.gray_levels);
@@ -91,16 +92,17 @@ TEST(Trade, TheReports1996PowerHasNoDecibels) {
 
 TEST(Trade, AKnobSweepNamesEachPointAndSetsThatKnobAlone) {
   const auto base = *radar::fidelity_preset("standard");
-  const auto sweep = knob_contenders("geodesicKnots=2,3,5", base);
+  const auto sweep = knob_contenders("geodesicKnots=2,3,5", base, Subject::scan);
   ASSERT_TRUE(sweep);
   ASSERT_EQ(sweep->size(), 3U);
   EXPECT_EQ((*sweep)[1].name, "geodesicKnots=3");
   EXPECT_EQ((*sweep)[1].family, "geodesicKnots");
   EXPECT_EQ((*sweep)[1].fidelity.geodesic_knots, 3);
   EXPECT_EQ((*sweep)[1].fidelity.samples, base.samples);
-  EXPECT_EQ((*knob_contenders("interpolation=cubic", base))[0].fidelity.interpolation, radar::Interpolation::cubic);
-  EXPECT_TRUE((*knob_contenders("crossTrackSlope=true", base))[0].fidelity.cross_track_slope);
-  EXPECT_EQ((*knob_contenders("beam=hard-edge", base))[0].fidelity.beam, radar::BeamPattern::hard_edge);
+  EXPECT_EQ((*knob_contenders("interpolation=cubic", base, Subject::scan))[0].fidelity.interpolation,
+            radar::Interpolation::cubic);
+  EXPECT_TRUE((*knob_contenders("crossTrackSlope=true", base, Subject::scan))[0].fidelity.cross_track_slope);
+  EXPECT_EQ((*knob_contenders("beam=hard-edge", base, Subject::scan))[0].fidelity.beam, radar::BeamPattern::hard_edge);
 }
 
 TEST(Trade, AllPresetsIsAllOfThem) {
@@ -120,8 +122,8 @@ TEST(Trade, RefusesBadInputWithOneLine) {
   for (const char* sweep :
        {"", "samples", "samples=", "samples=0", "samples=4097", "samples=12x", "samples=120,,240", "sample=5",
         "geodesicKnots=1", "geodesicKnots=10", "interpolation=best", "postsPerSample=-1", "postsPerSample=nan",
-        "earth=disc", "subBeams=16", "crossTrackSlope=1", "beam=hard"}) {
-    const auto found = knob_contenders(sweep, base);
+        "earth=disc", "subBeams=16", "crossTrackSlope=1", "beam=hard", "mapSize=480"}) {
+    const auto found = knob_contenders(sweep, base, Subject::scan);
     ASSERT_FALSE(found) << sweep;
     expect_refused(found.error());
   }
@@ -142,7 +144,9 @@ TEST(Trade, RefusesBadInputWithOneLine) {
 TradeTable small_table() {
   TradeTable table;
   table.contenders = {{"draft", "preset", {}}, {"samples=240", "samples", {}}};
-  table.scenes = {{{37.0, -122.0}, 15000.0, 60.0, 10.0}, {{37.0, -122.0}, 15000.0, 60.0, 160.0}};
+  table.columns = kScanColumns;
+  table.scene_fields = kScanFields;
+  table.scenes = {row_of({{37.0, -122.0}, 15000.0, 60.0, 10.0}), row_of({{37.0, -122.0}, 15000.0, 60.0, 160.0})};
   const double none = std::numeric_limits<double>::quiet_NaN();
   table.values = {{Values{1.0, 2e6, 5e6, 0.1, 1.0, 2.0, 3.0}, Values{2.0, 1e6, 9e6, 0.3, 2.0, 3.0, 7.0}},
                   {Values{4.0, 3e6, 5e6, 0.0, 0.5, none, 1.0}, Values{3.0, 4e6, 5e6, 0.0, 0.0, none, 0.0}}};
@@ -150,13 +154,13 @@ TradeTable small_table() {
 }
 
 TEST(Trade, TheWorstCaseIsTheMaximumOverTheScenes) {
-  const Summary gray = summary_of(small_table(), 0, Column::gray_levels);
+  const Summary gray = summary_of(small_table(), 0, kScanGray);
   EXPECT_DOUBLE_EQ(gray.mean, 5.0);
   EXPECT_DOUBLE_EQ(gray.worst, 7.0);
   EXPECT_EQ(gray.worst_scene, 1U);
-  EXPECT_EQ(summary_of(small_table(), 1, Column::scan_ms).worst_scene, 0U);
-  EXPECT_DOUBLE_EQ(summary_of(small_table(), 0, Column::samples_per_second).worst, 1e6);  // slow is bad
-  EXPECT_TRUE(std::isnan(summary_of(small_table(), 1, Column::power_db).mean));
+  EXPECT_EQ(summary_of(small_table(), 1, kScanMs).worst_scene, 0U);
+  EXPECT_DOUBLE_EQ(summary_of(small_table(), 0, kSamplesPerSecond).worst, 1e6);  // slow is bad
+  EXPECT_TRUE(std::isnan(summary_of(small_table(), 1, kScanPower).mean));
 }
 
 TEST(Trade, CsvHasARowAPointAndSceneWithAsManyFieldsAsNames) {
@@ -183,7 +187,8 @@ TEST(Trade, TheTableTellsTheWorstScene) {
 }
 
 TEST(Trade, ThePictureHasInkForEveryFamily) {
-  const imageio::Image image = front_picture(small_table());
+  const imageio::Image image =
+      front_picture(small_table(), {kScanMs, "time", {{{kScanGray, "gray"}, {kScanShadow, "shadow"}}}});
   std::set<std::uint32_t> colors;
   for (std::size_t i = 0; i + 2 < image.pixels.size(); i += 3)
     colors.insert(image.pixels[i] << 16U | image.pixels[i + 1] << 8U | image.pixels[i + 2]);

@@ -22,6 +22,7 @@ struct Knob {
   std::string_view name;
   std::string_view takes;  // for a person
   Setter set;
+  bool of_scan, of_map;  // what it touches
 };
 
 Setter whole_number(int Fidelity::*slot, int least, int most) {
@@ -68,19 +69,26 @@ bool set_geodesic_knots(Fidelity& fidelity, std::string_view text) {
   return true;
 }
 
-const std::array<Knob, 10>& knobs() {
-  static const std::array<Knob, 10> all{{
-      {"samples", "whole numbers 1 to 4096", whole_number(&Fidelity::samples, 1, radar::kMaxSamples)},
-      {"geodesicKnots", "0 or whole numbers 2 to 9", set_geodesic_knots},
-      {"interpolation", "nearest, bilinear, cubic", choice(&Fidelity::interpolation, {"nearest", "bilinear", "cubic"})},
-      {"postsPerSample", "numbers 0 to 1000", set_posts_per_sample},
-      {"earth", "flat, sphere, ellipsoid", choice(&Fidelity::earth, {"flat", "sphere", "ellipsoid"})},
-      {"subBeams", "whole numbers 1 to 15", whole_number(&Fidelity::sub_beams, 1, radar::kMostSubBeams)},
-      {"crossTrackSlope", "true, false", flag(&Fidelity::cross_track_slope)},
-      {"pulseSmear", "true, false", flag(&Fidelity::pulse_smear)},
-      {"azimuthSmear", "true, false", flag(&Fidelity::azimuth_smear)},
+const std::array<Knob, 16>& knobs() {
+  static const std::array<Knob, 16> all{{
+      {"samples", "whole numbers 1 to 4096", whole_number(&Fidelity::samples, 1, radar::kMaxSamples), true, false},
+      {"geodesicKnots", "0 or whole numbers 2 to 9", set_geodesic_knots, true, true},
+      {"interpolation", "nearest, bilinear, cubic", choice(&Fidelity::interpolation, {"nearest", "bilinear", "cubic"}),
+       true, true},
+      {"postsPerSample", "numbers 0 to 1000", set_posts_per_sample, true, false},
+      {"earth", "flat, sphere, ellipsoid", choice(&Fidelity::earth, {"flat", "sphere", "ellipsoid"}), true, true},
+      {"subBeams", "whole numbers 1 to 15", whole_number(&Fidelity::sub_beams, 1, radar::kMostSubBeams), true, false},
+      {"crossTrackSlope", "true, false", flag(&Fidelity::cross_track_slope), true, false},
+      {"pulseSmear", "true, false", flag(&Fidelity::pulse_smear), true, false},
+      {"azimuthSmear", "true, false", flag(&Fidelity::azimuth_smear), true, false},
       {"beam", "hard-edge, gaussian, cosecant-squared",
-       choice(&Fidelity::beam, {"hard-edge", "gaussian", "cosecant-squared"})},
+       choice(&Fidelity::beam, {"hard-edge", "gaussian", "cosecant-squared"}), true, false},
+      {"mapSize", "whole numbers 16 to 1024", whole_number(&Fidelity::map_size, 16, 1024), false, true},
+      {"mapOversampling", "whole numbers 1 to 4", whole_number(&Fidelity::map_oversampling, 1, 4), false, true},
+      {"mapLayover", "true, false", flag(&Fidelity::map_layover), false, true},
+      {"mapResponse", "true, false", flag(&Fidelity::map_response), false, true},
+      {"mapDetail", "true, false", flag(&Fidelity::map_detail), false, true},
+      {"mapDoubleBounce", "true, false", flag(&Fidelity::map_double_bounce), false, true},
   }};
   return all;
 }
@@ -97,9 +105,11 @@ tl::unexpected<failure::Error> refuse(std::string subject, std::string expected,
       failure::Error{std::move(subject), std::move(expected), "'" + std::string(found) + "'", "", true});
 }
 
-const Knob* knob_named(std::string_view name) {
-  const auto found = std::find_if(knobs().begin(), knobs().end(), [&](const Knob& knob) { return knob.name == name; });
-  return found == knobs().end() ? nullptr : &*found;
+std::vector<const Knob*> knobs_of(Subject subject) {
+  std::vector<const Knob*> found;
+  for (const Knob& knob : knobs())
+    if (subject == Subject::scan ? knob.of_scan : knob.of_map) found.push_back(&knob);
+  return found;
 }
 
 }  // namespace
@@ -117,22 +127,23 @@ Expected<std::vector<Contender>> preset_contenders(std::string_view list) {
   return found;
 }
 
-Expected<std::vector<Contender>> knob_contenders(std::string_view sweep, const Fidelity& base) {
+Expected<std::vector<Contender>> knob_contenders(std::string_view sweep, const Fidelity& base, Subject subject) {
   const std::size_t equals = sweep.find('=');
   if (equals == std::string_view::npos) return refuse("--knob", "KNOB=VALUE,VALUE,...", sweep);
   const std::string_view name = sweep.substr(0, equals);
-  const Knob* knob = knob_named(name);
-  if (knob == nullptr) {
+  const std::vector<const Knob*> known = knobs_of(subject);
+  const auto named = std::find_if(known.begin(), known.end(), [&](const Knob* knob) { return knob->name == name; });
+  if (named == known.end()) {
     std::vector<std::string_view> names;
-    for (const Knob& known : knobs()) names.push_back(known.name);
+    for (const Knob* knob : known) names.push_back(knob->name);
     return refuse("--knob", "one of " + joined(names), name);
   }
   std::vector<Contender> found;
   for (const std::string_view value : fields_of(sweep.substr(equals + 1))) {
     Contender contender{std::string(name) + "=" + std::string(value), std::string(name), base};
     contender.fidelity.name = contender.name;
-    if (!knob->set(contender.fidelity, value))
-      return refuse("--knob " + std::string(name), std::string(knob->takes), value);
+    if (!(*named)->set(contender.fidelity, value))
+      return refuse("--knob " + std::string(name), std::string((*named)->takes), value);
     found.push_back(std::move(contender));
   }
   return found;

@@ -2,6 +2,7 @@
 // GUF slots (`Fidelity`), so that a point of the picture can be typed into a configuration.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +21,11 @@ struct Contender {
 // From "1996,draft"; "all" = every preset, "none" = no preset. Errors: no preset of this name.
 failure::Expected<std::vector<Contender>> preset_contenders(std::string_view list);
 
+// What is traded: a knob that does not touch it is refused.
+enum class Subject : std::uint8_t { scan, map };
+
 // From "samples=120,240". Errors: an unknown knob, a value that it does not take.
-failure::Expected<std::vector<Contender>> knob_contenders(std::string_view sweep, const radar::Fidelity& base);
+failure::Expected<std::vector<Contender>> knob_contenders(std::string_view sweep, const radar::Fidelity& base,
+                                                          Subject subject);
 
 }  // namespace yars::tools::trade

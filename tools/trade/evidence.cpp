@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "lib/failure/require.hpp"
 #include "model/rbm/earth.hpp"
 #include "model/rbm/receiver.hpp"
 #include "model/rbm/sample_places.hpp"
 #include "tools/trade/ray_samples.hpp"
+#include "tools/trade/root_mean_square.hpp"
 
 namespace yars::tools::trade {
 
@@ -79,22 +79,6 @@ RadarConfiguration without_noise(RadarConfiguration configuration) {
   configuration.fidelity.noise = false;
   return configuration;
 }
-
-// Mean square of what is added, as its root; NaN of nothing.
-class RootMeanSquare {
- public:
-  void add(double value) {
-    sum_ += value * value;
-    ++count_;
-  }
-  double value() const {
-    return count_ > 0 ? std::sqrt(sum_ / static_cast<double>(count_)) : std::numeric_limits<double>::quiet_NaN();
-  }
-
- private:
-  double sum_ = 0.0;
-  std::size_t count_ = 0;
-};
 
 }  // namespace
 

@@ -64,12 +64,12 @@ Axis axis_over(const std::vector<double>& values, float from, float to) {
   return axis;
 }
 
-std::vector<Mark> marks_of(const TradeTable& table, Column column) {
+std::vector<Mark> marks_of(const TradeTable& table, std::size_t time_column, std::size_t column) {
   std::map<std::string, Color> colors{{"preset", kPresetColor}};
   std::vector<Mark> marks;
   for (std::size_t i = 0; i < table.contenders.size(); ++i) {
     const Contender& contender = table.contenders[i];
-    const Summary time = summary_of(table, i, Column::scan_ms);
+    const Summary time = summary_of(table, i, time_column);
     const Summary error = summary_of(table, i, column);
     if (std::isnan(error.mean) || !(time.mean > 0.0)) continue;
     const Color next = kFamilyColors[(colors.size() - 1) % kFamilyColors.size()];
@@ -81,8 +81,8 @@ std::vector<Mark> marks_of(const TradeTable& table, Column column) {
 
 class Panel {
  public:
-  Panel(Canvas& canvas, Rect frame, std::string title, std::vector<Mark> marks)
-      : canvas_(canvas), frame_(frame), title_(std::move(title)), marks_(std::move(marks)) {
+  Panel(Canvas& canvas, Rect frame, std::string_view time_title, std::string_view title, std::vector<Mark> marks)
+      : canvas_(canvas), frame_(frame), time_title_(time_title), title_(title), marks_(std::move(marks)) {
     std::vector<double> times, errors;
     for (const Mark& mark : marks_) {
       times.push_back(mark.ms);
@@ -116,7 +116,7 @@ class Panel {
     canvas_.line({frame_.left, frame_.bottom}, {frame_.right, frame_.bottom}, 1.5F, kInk);
     canvas_.line({frame_.left, frame_.bottom}, {frame_.left, frame_.top}, 1.5F, kInk);
     const float middle = 0.5F * (frame_.left + frame_.right);
-    canvas_.text("time a scan (ms of one core)", {middle, frame_.bottom + 52.0F}, kTick, Anchor::middle, kInk);
+    canvas_.text(time_title_, {middle, frame_.bottom + 52.0F}, kTick, Anchor::middle, kInk);
     canvas_.text(title_, {frame_.left, frame_.top - 22.0F}, kTitle, Anchor::left, kInk);
   }
 
@@ -185,7 +185,7 @@ class Panel {
   static constexpr int kNoText = std::numeric_limits<int>::min();
   Canvas& canvas_;
   Rect frame_;
-  std::string title_;
+  std::string_view time_title_, title_;
   std::vector<Mark> marks_;
   std::vector<Rect> taken_;  // where no label fits any more
   Axis time_, error_;
@@ -193,18 +193,17 @@ class Panel {
 
 }  // namespace
 
-imageio::Image front_picture(const TradeTable& table) {
+imageio::Image front_picture(const TradeTable& table, const Front& front) {
   Canvas canvas(kWidth, kHeight, kPaper);
   canvas.text("speed against accuracy: mean (disc) and worst (hair) of " + std::to_string(table.scenes.size()) +
                   (table.scenes.size() == 1 ? " scene" : " scenes"),
               {80.0F, 36.0F}, kTitle, Anchor::left, kInk);
   constexpr float kTop = 100.0F, kBottom = 690.0F;
-  Panel(canvas, {80.0F, kTop, 720.0F, kBottom}, "video error (gray levels of 255 RMS)",
-        marks_of(table, Column::gray_levels))
-      .draw();
-  Panel(canvas, {860.0F, kTop, 1500.0F, kBottom}, "shadow mismatch (% of ground)",
-        marks_of(table, Column::shadow_percent))
-      .draw();
+  constexpr std::array<Rect, 2> kFrames{{{80.0F, kTop, 720.0F, kBottom}, {860.0F, kTop, 1500.0F, kBottom}}};
+  for (std::size_t i = 0; i < kFrames.size(); ++i)
+    Panel(canvas, kFrames[i], front.time_title, front.errors[i].title,
+          marks_of(table, front.time_column, front.errors[i].column))
+        .draw();
   return canvas.image();
 }
 

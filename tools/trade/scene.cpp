@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "tools/trade/fields.hpp"
 
 namespace yars::tools::trade {
 
 namespace {
-
-struct Bounds {
-  std::string_view name;
-  double least, most;
-};
 
 constexpr std::array<Bounds, 5> kBounds{{{"latitude [deg]", -90.0, 90.0},
                                          {"longitude [deg]", -180.0, 180.0},
@@ -23,33 +17,12 @@ constexpr std::array<Bounds, 5> kBounds{{{"latitude [deg]", -90.0, 90.0},
                                          {"range [NM]", 0.1, 1000.0}}};
 constexpr double kLowestElevationDeg = -60.0;  // of the antenna, its gimbal's stop
 
-tl::unexpected<failure::Error> refuse(std::string expected, std::string_view found) {
-  return tl::unexpected<failure::Error>(
-      failure::Error{"--scene", std::move(expected), std::string("'").append(found).append("'"), "", true});
-}
-
-std::string short_number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
-
 }  // namespace
 
 failure::Expected<Scene> scene_of(std::string_view text) {
-  const auto fields = fields_of(text);
-  std::array<double, kBounds.size()> values{};
-  if (fields.size() != values.size()) return refuse("five numbers LAT,LON,ALT_FT,HDG,RANGE_NM", text);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto value = number_of(fields[i]);
-    const Bounds& bounds = kBounds[i];
-    if (!value || *value < bounds.least || *value > bounds.most)
-      return refuse(
-          std::string(bounds.name) + " from " + short_number(bounds.least) + " to " + short_number(bounds.most),
-          fields[i]);
-    values[i] = *value;
-  }
-  return Scene{{values[0], values[1]}, values[2], values[3], values[4]};
+  const auto values = numbers_of(text, kBounds, "--scene", "LAT,LON,ALT_FT,HDG,RANGE_NM");
+  if (!values) return tl::unexpected(values.error());
+  return Scene{{(*values)[0], (*values)[1]}, (*values)[2], (*values)[3], (*values)[4]};
 }
 
 std::string scene_name(const Scene& scene) {

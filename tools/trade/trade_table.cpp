@@ -10,19 +10,6 @@ namespace yars::tools::trade {
 
 namespace {
 
-// How a column is shown to people.
-struct Shown {
-  std::string_view title;
-  double scale;
-};
-constexpr std::array<Shown, kColumnNames.size()> kShown{{{"ms a scan", 1.0},
-                                                         {"M samples/s", 1e-6},
-                                                         {"terrain MB", 1e-6},
-                                                         {"position m", 1.0},
-                                                         {"shadow %", 1.0},
-                                                         {"power dB", 1.0},
-                                                         {"gray", 1.0}}};
-
 std::string number_text(double value, const char* format) {
   if (std::isnan(value)) return "-";
   std::array<char, 40> text{};
@@ -66,22 +53,17 @@ std::string aligned(const std::vector<Row>& rows) {
 
 }  // namespace
 
-Values values_of(const Cost& cost, const Errors& errors) {
-  return {cost.scan_ms,          cost.samples_per_second, cost.terrain_bytes, errors.position_m,
-          errors.shadow_percent, errors.power_db,         errors.gray_levels};
-}
-
-Summary summary_of(const TradeTable& table, std::size_t contender, Column column) {
+Summary summary_of(const TradeTable& table, std::size_t contender, std::size_t column) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   Summary summary{kNone, kNone, 0};
   double sum = 0.0;
   std::size_t count = 0;
   for (std::size_t scene = 0; scene < table.scenes.size(); ++scene) {
-    const double value = table.values[contender][scene][static_cast<std::size_t>(column)];
+    const double value = table.values[contender][scene][column];
     if (std::isnan(value)) continue;
     sum += value;
     ++count;
-    const bool worse = column == Column::samples_per_second ? value < summary.worst : value > summary.worst;
+    const bool worse = table.columns[column].least_is_worst ? value < summary.worst : value > summary.worst;
     if (count > 1 && !worse) continue;
     summary.worst = value;
     summary.worst_scene = scene;
@@ -92,37 +74,32 @@ Summary summary_of(const TradeTable& table, std::size_t contender, Column column
 
 std::string table_text(const TradeTable& table) {
   std::vector<Row> rows(1, Row{"point"});
-  for (const Shown& shown : kShown) rows.front().emplace_back(shown.title);
+  for (const Column& column : table.columns) rows.front().emplace_back(column.title);
   for (std::size_t contender = 0; contender < table.contenders.size(); ++contender) {
     Row row{table.contenders[contender].name};
-    for (std::size_t column = 0; column < kShown.size(); ++column) {
-      const Summary summary = summary_of(table, contender, static_cast<Column>(column));
-      row.push_back(cell_text(summary, kShown[column].scale, table.scenes.size() > 1));
+    for (std::size_t column = 0; column < table.columns.size(); ++column) {
+      const Summary summary = summary_of(table, contender, column);
+      row.push_back(cell_text(summary, table.columns[column].scale, table.scenes.size() > 1));
     }
     rows.push_back(std::move(row));
   }
   std::string text = aligned(rows) + "\n";
   for (std::size_t scene = 0; scene < table.scenes.size(); ++scene)
-    text += std::string("@")
-                .append(std::to_string(scene + 1))
-                .append(": ")
-                .append(scene_name(table.scenes[scene]))
-                .append("\n");
+    text +=
+        std::string("@").append(std::to_string(scene + 1)).append(": ").append(table.scenes[scene].name).append("\n");
   return text;
 }
 
 std::string csv_text(const TradeTable& table) {
   const auto exact = [](double value) { return std::isnan(value) ? std::string() : number_text(value, "%.9g"); };
-  std::string text = "point,family,scene,latitude_deg,longitude_deg,altitude_ft,heading_deg,range_nm";
-  for (const std::string_view name : kColumnNames) text.append(",").append(name);
+  std::string text = "point,family,scene";
+  for (const std::string_view name : table.scene_fields) text.append(",").append(name);
+  for (const Column& column : table.columns) text.append(",").append(column.name);
   text += "\n";
   for (std::size_t contender = 0; contender < table.contenders.size(); ++contender) {
     for (std::size_t i = 0; i < table.scenes.size(); ++i) {
-      const Scene& scene = table.scenes[i];
       text += table.contenders[contender].name + "," + table.contenders[contender].family + "," + std::to_string(i + 1);
-      for (const double value :
-           {scene.place.latitude_deg, scene.place.longitude_deg, scene.altitude_ft, scene.heading_deg, scene.range_nm})
-        text.append(",").append(exact(value));
+      for (const double value : table.scenes[i].numbers) text.append(",").append(exact(value));
       for (const double value : table.values[contender][i]) text.append(",").append(exact(value));
       text += "\n";
     }

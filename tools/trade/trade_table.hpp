@@ -1,54 +1,48 @@
 // The results of a trade, contender by contender and scene by scene, as a table for people, as CSV, and as mean and
-// worst case over the scenes.
+// worst case over the scenes. What the columns and the scenes are, scan_table.hpp and map_table.hpp say.
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "tools/trade/contender.hpp"
-#include "tools/trade/evidence.hpp"
-#include "tools/trade/scene.hpp"
 
 namespace yars::tools::trade {
 
-enum class Column : std::size_t {
-  scan_ms,
-  samples_per_second,
-  terrain_bytes,
-  position_m,
-  shadow_percent,
-  power_db,
-  gray_levels
-};
-inline constexpr std::array<std::string_view, 7> kColumnNames{
-    "scan_ms", "samples_per_second", "terrain_bytes", "position_m", "shadow_percent", "power_db", "gray_levels"};
-
-struct Cost {
-  double scan_ms = 0.0;  // [ms] of the thread's processor time
-  double samples_per_second = 0.0;
-  double terrain_bytes = 0.0;  // resident
+struct Column {
+  std::string_view name;   // of CSV and JSON, with its unit
+  std::string_view title;  // for people
+  double scale = 1.0;      // of what people are shown
+  bool least_is_worst = false;
 };
 
-// By Column; NaN = nothing to compare.
-using Values = std::array<double, kColumnNames.size()>;
-Values values_of(const Cost& cost, const Errors& errors);
+// What is looked at: in words, and in the numbers that name it.
+struct SceneRow {
+  std::string name;
+  std::vector<double> numbers;
+};
+
+// By column; NaN = nothing to compare.
+using Values = std::vector<double>;
 
 struct Summary {
-  double mean = 0.0;   // over the scenes that have a number; NaN: none has
-  double worst = 0.0;  // the greatest; of samples a second the least
+  double mean = 0.0;  // over the scenes that have a number; NaN: none has
+  double worst = 0.0;
   std::size_t worst_scene = 0;
 };
 
 struct TradeTable {
+  std::span<const Column> columns;
+  std::span<const std::string_view> scene_fields;  // names of a scene's numbers
   std::vector<Contender> contenders;
-  std::vector<Scene> scenes;
+  std::vector<SceneRow> scenes;
   std::vector<std::vector<Values>> values;  // [contender][scene]
 };
 
-Summary summary_of(const TradeTable& table, std::size_t contender, Column column);
+Summary summary_of(const TradeTable& table, std::size_t contender, std::size_t column);
 
 // Markdown: a row a contender, "mean / worst @scene"; the scenes by number follow.
 std::string table_text(const TradeTable& table);
