@@ -6,7 +6,7 @@ namespace {
 constexpr std::uint8_t kMarkMaterial = 1;
 constexpr double kMarkGammaDb = 40.0;  // water, which alone returns beside them, is far below
 constexpr double kNothingDb = -150.0;
-constexpr double kEdgeShare = 0.01;  // of the window
+constexpr double kEdgeShare = 0.03;  // of the window: pixels enough for their raster to average out
 }  // namespace
 
 MarkScene::MarkScene(const model::hrm::PatchOrder& order) {

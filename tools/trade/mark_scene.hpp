@@ -1,4 +1,4 @@
-// Bright squares painted on the ground of a map's window, a few pixels wide: their places in the picture tell how far a
+// Bright squares painted on the ground of a map's window, some pixels wide: their places in the picture tell how far a
 // fidelity puts things from where another does. The ground carries them, so they are laid over as the terrain is.
 #pragma once
 
@@ -14,7 +14,7 @@ inline constexpr int kMarksAnEdge = 3;
 
 class MarkScene final : public model::scene::SceneView {
  public:
-  // Evenly over the window, kMarksAnEdge an edge, a hundredth of it wide.
+  // Evenly over the window, kMarksAnEdge an edge, three hundredths of it wide.
   explicit MarkScene(const model::hrm::PatchOrder& order);
 
   std::uint64_t generation() const override { return 1; }
