@@ -66,7 +66,8 @@ void check_patch_output(const PatchOutput& output) {
   if (!output.file.empty() && suffix != ".png" && suffix != ".f32" && suffix != ".tif")
     give_up(databuffer::usage_error("--out", "a name that ends in .png, .tif or .f32", output.file));
   if (output.pixels != "video" && suffix != ".tif")
-    give_up(databuffer::usage_error("--pixels", "an --out that ends in .tif", output.file.empty() ? "none" : output.file));
+    give_up(
+        databuffer::usage_error("--pixels", "an --out that ends in .tif", output.file.empty() ? "none" : output.file));
   if (suffix == ".tif" && !gdal::available())
     give_up({output.file, "a YARS built with GDAL to write a GeoTIFF", "one built without it",
              "run `scripts/setup --gdal` and build again, or write a .png"});
