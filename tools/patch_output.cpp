@@ -50,7 +50,7 @@ void write_raster(const PatchOutput& output, const hrm::PatchOrder& order, const
     picture.pixels = process.picture();
     picture.description = "video, 0 black to 255 white";
   } else {
-    std::vector<float> power = process.image().power;
+    std::vector<float> power(process.image().power.begin(), process.image().power.end());
     std::replace_if(
         power.begin(), power.end(), [](float value) { return value < 0.0F; }, std::numeric_limits<float>::quiet_NaN());
     picture.pixels = std::move(power);

@@ -71,7 +71,7 @@ MapEvidence observe_map(const RadarConfiguration& configuration, const hrm::Patc
   MapEvidence evidence;
   evidence.took_ms = time_map(process, order, database, clock);
   evidence.size = process.image().size;
-  evidence.power = process.image().power;
+  evidence.power.assign(process.image().power.begin(), process.image().power.end());
   evidence.video = process.picture();
   evidence.power_is_radar = configuration.fidelity.algorithm != radar::Algorithm::report_1996;
   evidence.noise =

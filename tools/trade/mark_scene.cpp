@@ -31,6 +31,8 @@ void MarkScene::add(geo::GeoPoint place, double edge_m) {
   tile.normal_north.assign(4, 0.0F);
   tile.normal_up.assign(4, 1.0F);
   tile.corners = {{0, 1, 2}, {0, 2, 3}};
+  tile.curved = false;
+  tile.on_ground = 2;
   tile.kind.assign(2, 0);
   tile.object.assign(2, static_cast<std::uint32_t>(objects_.size()));
   objects_.push_back({"mark", place, 0.0, 0.0, edge_m, edge_m, 0.0, 0});
