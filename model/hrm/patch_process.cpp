@@ -266,11 +266,8 @@ void PatchProcess::Work::cast_profiles() {
 
 void PatchProcess::Work::draw_map() {
   if (report_1996) {
-    crew.run([&](std::size_t thread) {
-      const auto number = static_cast<int>(thread);
-      const auto threads = static_cast<int>(crew.threads);
-      draw_brightness(*geometry, grid, cross_section_m2.data(), number * image.size / threads,
-                      (number + 1) * image.size / threads, image);
+    share_out(crew, image.size, [&](int first, int last, std::size_t) {
+      draw_brightness(*geometry, grid, cross_section_m2.data(), first, last, image);
     });
     image.blind = false;
     return blank_blind_zone(*geometry, order.ground_track, configuration.high_resolution, image);
