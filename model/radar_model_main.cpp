@@ -40,6 +40,8 @@ failure::Expected<void> run(const databuffer::ProgramOptions& options, const Mod
   if (!store) return tl::unexpected(store.error());
   auto patch_stores = open_patch_stores(*configuration);
   if (!patch_stores) return tl::unexpected(patch_stores.error());
+  auto scenes = model::scene::open_scenes(*configuration, model::scene::SceneUse::scatterers);
+  if (!scenes) return tl::unexpected(scenes.error());
   auto session = databuffer::Session::open(options.session, "radar-model");
   if (!session) return tl::unexpected(session.error());
   auto role = session->claim(databuffer::Role::radar_model);
@@ -47,8 +49,9 @@ failure::Expected<void> run(const databuffer::ProgramOptions& options, const Mod
   auto loop = databuffer::TickLoop::create(*session, databuffer::LockstepRole::radar_model, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
   model::TerrainLoader terrain(std::move(*store), loop->lockstep());
+  model::SceneLoader scene_loader(std::move(*scenes), loop->lockstep());
   model::PatchMaker patches(*configuration, std::move(*patch_stores), loop->lockstep());
-  model::RadarModelShell shell(*session, *configuration, terrain, patches);
+  model::RadarModelShell shell(*session, *configuration, {terrain, scene_loader, patches});
   databuffer::log_info(
       "runs in session " + options.session + ", terrain " +
       (configuration->terrain.directory.empty() ? "built-in hills" : configuration->terrain.directory));

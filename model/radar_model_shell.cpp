@@ -30,11 +30,12 @@ double thread_seconds() {
 }  // namespace
 
 RadarModelShell::RadarModelShell(databuffer::Session& session, const radar::RadarConfiguration& configuration,
-                                 TerrainLoader& terrain, PatchMaker& patches)
+                                 const Makers& makers)
     : session_(&session),
       configuration_(&configuration),
-      terrain_(&terrain),
-      patches_(&patches),
+      terrain_(&makers.terrain),
+      scenes_(&makers.scenes),
+      patches_(&makers.patches),
       kernel_(configuration),
       governor_(configuration.fidelity.core_share),
       picked_(configuration.fidelity) {
@@ -132,16 +133,17 @@ void RadarModelShell::latch_command() {
 
 void RadarModelShell::run_kernel() {
   const auto need = kernel_.need(tick_);
-  if (need.ground) terrain_->request(need.region);
-  for (const auto& problem : terrain_->take_problems()) {
-    session_->note(databuffer::NoteKind::refusal, problem);
-    databuffer::log_warning(problem);
+  if (need.ground) {
+    terrain_->request(need.region);
+    seen_scenes_ = scenes_->request(need.region);
   }
+  note_problems(terrain_->take_problems());
+  note_problems(scenes_->take_problems());
   const auto view = terrain_->view();
   tick_.terrain_generation = view->generation();
   // The tick goes out before its sweep, so that a log cut short never holds a sweep without its cause.
   session_->layout().model_ticks.publish(tick_);
-  if (kernel_.step(tick_, *view, sweep_)) {
+  if (kernel_.step(tick_, {*view, seen_scenes_.view.get(), seen_scenes_.whole}, sweep_)) {
     session_->layout().sweeps.publish(sweep_);
     ++status_.sweeps;
   }
@@ -151,12 +153,16 @@ void RadarModelShell::run_kernel() {
   status_.terrain_generation = view->generation();
 }
 
-// A map that has begun is asked for at once.
-void RadarModelShell::ask_for_map() {
-  for (const auto& problem : patches_->take_problems()) {
+void RadarModelShell::note_problems(const std::vector<std::string>& problems) {
+  for (const std::string& problem : problems) {
     session_->note(databuffer::NoteKind::refusal, problem);
     databuffer::log_warning(problem);
   }
+}
+
+// A map that has begun is asked for at once.
+void RadarModelShell::ask_for_map() {
+  note_problems(patches_->take_problems());
   if (!kernel_.maps().forming()) return;
   const kernel::MapUnderWay& map = kernel_.maps().map();
   if (map.id == map_asked_ && map.start_tick == map_asked_tick_) return;

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "databuffer/ownship_receiver.hpp"
 #include "databuffer/session.hpp"
@@ -13,14 +15,20 @@
 #include "model/kernel/fidelity_governor.hpp"
 #include "model/kernel/radar_kernel.hpp"
 #include "model/patch_maker_shell.hpp"
+#include "model/scene_loader_shell.hpp"
 #include "model/terrain_loader_shell.hpp"
 
 namespace yars::model {
 
 class RadarModelShell {
  public:
-  RadarModelShell(databuffer::Session& session, const radar::RadarConfiguration& configuration, TerrainLoader& terrain,
-                  PatchMaker& patches);
+  // What fills the kernel's needs; all outlive the shell.
+  struct Makers {
+    TerrainLoader& terrain;
+    SceneLoader& scenes;
+    PatchMaker& patches;
+  };
+  RadarModelShell(databuffer::Session& session, const radar::RadarConfiguration& configuration, const Makers& makers);
   void step(const databuffer::TickLoop::Due& due, std::uint64_t late_ticks);
 
  private:
@@ -30,6 +38,7 @@ class RadarModelShell {
   void latch_fidelity();
   void govern(double seconds, double rate);
   void run_kernel();
+  void note_problems(const std::vector<std::string>& problems);
   void ask_for_map();
   bool publish_due_map();
   void publish_map(const PatchMaker::Picture& picture);
@@ -38,6 +47,8 @@ class RadarModelShell {
   databuffer::Session* session_;
   const radar::RadarConfiguration* configuration_;
   TerrainLoader* terrain_;
+  SceneLoader* scenes_;
+  SceneLoader::Held seen_scenes_;
   PatchMaker* patches_;
   kernel::RadarKernel kernel_;
   databuffer::OwnshipReceiver ownship_;

@@ -37,7 +37,7 @@ LAYERS = {
     "model/antenna": RADAR,
     "model/reflectivity": RADAR + ["model/terrain"],
     "model/scene": RADAR + ["model/terrain", "lib/imageio"],
-    "model/rbm": RADAR + ["lib/memory", "model/terrain", "model/antenna", "model/reflectivity"],
+    "model/rbm": RADAR + ["lib/memory", "model/terrain", "model/antenna", "model/reflectivity", "model/scene"],
     "model/hrm": RADAR + ["lib/memory", "model/terrain", "model/reflectivity", "model/rbm", "model/scene"],
     "model/kernel": MODEL,
     "model": MODEL,

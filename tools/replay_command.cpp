@@ -64,6 +64,8 @@ void replay(const CommonOptions& common, const ReplayOptions& options) {
   auto configuration = configuration_of(common, reader->header(), options);
   auto store = model::terrain::open_terrain(configuration.terrain);
   if (!store) give_up(store.error());
+  auto scenes = model::scene::open_scenes(configuration, model::scene::SceneUse::scatterers);
+  if (!scenes) give_up(scenes.error());
   std::optional<recording::Replay> run;
   std::uint64_t events = 0, lost = 0;
   while (auto entry = reader->next()) {
@@ -71,12 +73,12 @@ void replay(const CommonOptions& common, const ReplayOptions& options) {
       give_up({options.file, "time to read it to its end", "a request to stop", "", false});
     if (const auto* tick = std::get_if<ModelTick>(&*entry)) {
       configuration.fidelity.samples = static_cast<int>(tick->samples);
-      if (!run) run.emplace(configuration, **store);
+      if (!run) run.emplace(configuration, **store, scenes->get());
       run->tick(*tick);
     } else if (const auto* mark = std::get_if<recording::SweepMark>(&*entry)) {
       if (run) run->recorded(*mark);
     } else if (const auto* start = std::get_if<recording::StartingPoint>(&*entry)) {
-      if (!run) run.emplace(configuration, **store);
+      if (!run) run.emplace(configuration, **store, scenes->get());
       run->start(*start);
     } else if (const auto* gap = std::get_if<recording::Gap>(&*entry)) {
       lost += gap->ticks;

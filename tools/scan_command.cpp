@@ -17,6 +17,8 @@
 #include "lib/radar/fidelity_preset.hpp"
 #include "model/kernel/offline_scan.hpp"
 #include "model/kernel/scan_detail.hpp"
+#include "model/scene/scene_source.hpp"
+#include "model/scene/scene_store.hpp"
 #include "model/terrain/open_terrain.hpp"
 #include "tools/command.hpp"
 #include "tools/scan_picture.hpp"
@@ -30,6 +32,7 @@ using Milliseconds = std::chrono::duration<double, std::milli>;
 
 struct ScanOptions {
   std::string terrain, fidelity, out, shadow;
+  std::vector<std::string> scenes;
   std::string color = "green";
   double latitude_deg = 37.8, longitude_deg = -122.5, altitude_ft = 15000.0, heading_deg = 0.0;
   double range_nm = 40.0, width_deg = 100.0, elevation_deg = 0.0;
@@ -58,6 +61,11 @@ radar::RadarConfiguration configure(const CommonOptions& common, const ScanOptio
   if (options.samples > 0) configuration.fidelity.samples = options.samples;
   if (options.size > 0) configuration.view.size_pixels = options.size;
   if (options.seed >= 0) configuration.seed = static_cast<std::uint64_t>(options.seed);
+  for (const std::string& text : options.scenes) {
+    auto scene = model::scene::parse_scene(text);
+    if (!scene) give_up(scene.error());
+    configuration.world.scenes.push_back(*scene);
+  }
   return configuration;
 }
 
@@ -134,19 +142,19 @@ struct Times {
 };
 
 // The first scan and the repeats; `begin`: when reading began.
-Times run_scans(model::kernel::OfflineScan& work, const model::terrain::TerrainView& terrain, int repeat,
+Times run_scans(model::kernel::OfflineScan& work, const model::rbm::Database& database, int repeat,
                 std::chrono::steady_clock::time_point begin) {
   Times times;
   for (int run = 0; run <= repeat; ++run) {
     const auto run_begin = std::chrono::steady_clock::now();
-    work.run(terrain);
+    work.run(database);
     if (run == 0) {
       times.first_ms = milliseconds_since(begin);
       continue;
     }
     times.whole_ms.push_back(milliseconds_since(run_begin));
     const auto measure_begin = std::chrono::steady_clock::now();
-    work.measure(terrain);
+    work.measure(database);
     times.measure_ms.push_back(milliseconds_since(measure_begin));
   }
   return times;
@@ -166,6 +174,10 @@ nlohmann::ordered_json summary(std::span<const databuffer::Sweep> sweeps, const 
   return line;
 }
 
+void print_problems(const std::vector<std::string>& problems) {
+  for (const std::string& problem : problems) std::fprintf(stderr, "yars scan: %s\n", problem.c_str());
+}
+
 void scan(const CommonOptions& common, const ScanOptions& options) {
   check_output(options);
   const radar::RadarConfiguration configuration = configure(common, options);
@@ -173,17 +185,23 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   const auto opening = std::chrono::steady_clock::now();
   auto store = model::terrain::open_terrain(configuration.terrain);
   if (!store) give_up(store.error());
+  auto scenes = model::scene::open_scenes(configuration, model::scene::SceneUse::scatterers);
+  if (!scenes) give_up(scenes.error());
   const double index_ms = milliseconds_since(opening);
   model::kernel::OfflineScan work(configuration, request, options.threads);
 
   const auto begin = std::chrono::steady_clock::now();
-  const auto terrain = (*store)->prepare(
-      {request.pose.place, request.range.metres(), model::kernel::scan_detail(configuration.fidelity, request.range)});
-  for (const std::string& problem : (*store)->take_problems()) std::fprintf(stderr, "yars scan: %s\n", problem.c_str());
-  const Times times = run_scans(work, *terrain, options.repeat, begin);
+  const model::terrain::TerrainRegion region{request.pose.place, request.range.metres(),
+                                             model::kernel::scan_detail(configuration.fidelity, request.range)};
+  const auto terrain = (*store)->prepare(region);
+  const auto scene = *scenes ? (*scenes)->prepare(region) : nullptr;
+  print_problems((*store)->take_problems());
+  if (*scenes) print_problems((*scenes)->take_problems());
+  const Times times = run_scans(work, {*terrain, scene.get()}, options.repeat, begin);
 
   nlohmann::ordered_json line = summary(work.sweeps(), times, index_ms);
   line["terrain_bytes"] = terrain->resident_bytes();
+  if (scene) line["scene_bytes"] = scene->resident_bytes();
   line["threads"] = options.threads;
   line["fidelity"] = configuration.fidelity.name;
   line["hash"] = model::kernel::scan_hash(work.sweeps());
@@ -202,6 +220,7 @@ void add_scan_command(CLI::App& app, const CommonOptions& common) {
   auto options = std::make_shared<ScanOptions>();
   CLI::App* command = app.add_subcommand("scan", "one scan of the real beam map, without processes");
   command->add_option("--terrain", options->terrain, "directory of DTED or HGT cells (else the configuration's)");
+  command->add_option("--scene", options->scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; may come again");
   command->add_option("--lat", options->latitude_deg, "[deg]")->check(CLI::Range(-90.0, 90.0));
   command->add_option("--lon", options->longitude_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
   command->add_option("--alt-ft", options->altitude_ft, "[ft] above mean sea level")

@@ -23,10 +23,16 @@ LocalTangentFrame::LocalTangentFrame(GeoPoint origin, HeightAboveEllipsoid heigh
            Vector3{cos_lat * cos_lon, cos_lat * sin_lon, sin_lat}};
 }
 
+Vector3 LocalTangentFrame::enu_from_ecef_direction(Vector3 ecef) const {
+  return {dot(rows_[0], ecef), dot(rows_[1], ecef), dot(rows_[2], ecef)};
+}
+
+Vector3 LocalTangentFrame::ecef_from_enu_direction(Vector3 enu) const {
+  return enu.x * rows_[0] + enu.y * rows_[1] + enu.z * rows_[2];
+}
+
 Vector3 LocalTangentFrame::enu_from_ecef(Vector3 ecef) const {
-  const Vector3 d{ecef.x - origin_.x, ecef.y - origin_.y, ecef.z - origin_.z};
-  const auto along = [&d](const Vector3& row) { return row.x * d.x + row.y * d.y + row.z * d.z; };
-  return {along(rows_[0]), along(rows_[1]), along(rows_[2])};
+  return enu_from_ecef_direction(ecef - origin_);
 }
 
 Vector3 LocalTangentFrame::enu_from_geodetic(GeoPoint point, HeightAboveEllipsoid height) const {

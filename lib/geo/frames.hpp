@@ -5,12 +5,9 @@
 
 #include "lib/geo/geodesic.hpp"
 #include "lib/geo/height.hpp"
+#include "lib/geo/vector.hpp"
 
 namespace yars::geo {
-
-struct Vector3 {
-  double x = 0.0, y = 0.0, z = 0.0;
-};
 
 // Earth-centred, earth-fixed metres: x through (0, 0), z through the north pole.
 Vector3 ecef_from_geodetic(GeoPoint point, HeightAboveEllipsoid height);
@@ -21,6 +18,9 @@ class LocalTangentFrame {
   LocalTangentFrame(GeoPoint origin, HeightAboveEllipsoid height);
   Vector3 enu_from_ecef(Vector3 ecef) const;
   Vector3 enu_from_geodetic(GeoPoint point, HeightAboveEllipsoid height) const;
+  // Of directions: nothing of the origin is in them.
+  Vector3 enu_from_ecef_direction(Vector3 ecef) const;
+  Vector3 ecef_from_enu_direction(Vector3 enu) const;
 
  private:
   Vector3 origin_;

@@ -34,7 +34,7 @@ int Occluders::Span::cell(double value) const {
 
 Occluders::Occluders(std::vector<Corners> triangles) : triangles_(std::move(triangles)) {
   const auto behind = [](const Corners& corners) {
-    return std::any_of(corners.begin(), corners.end(), [](Point3 corner) { return !(corner.ahead_m > 1.0); });
+    return std::any_of(corners.begin(), corners.end(), [](Point3 corner) { return !(corner.y > 1.0); });
   };
   triangles_.erase(std::remove_if(triangles_.begin(), triangles_.end(), behind), triangles_.end());
   if (triangles_.empty()) return;
@@ -53,7 +53,7 @@ void Occluders::measure() {
   double most[2] = {std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
   for (const Corners& corners : triangles_) {
     for (const Point3 corner : corners) {
-      const double at[2] = {corner.right_m / corner.ahead_m, corner.up_m / corner.ahead_m};
+      const double at[2] = {corner.x / corner.y, corner.z / corner.y};
       for (int axis = 0; axis < 2; ++axis) {
         least[axis] = std::min(least[axis], at[axis]);
         most[axis] = std::max(most[axis], at[axis]);
@@ -78,7 +78,7 @@ void Occluders::visit_cells(const Corners& corners, const Visit& visit) const {
   int least[2] = {across_.cells, upward_.cells};
   int most[2] = {-1, -1};
   for (const Point3 corner : corners) {
-    const int at[2] = {across_.cell(corner.right_m / corner.ahead_m), upward_.cell(corner.up_m / corner.ahead_m)};
+    const int at[2] = {across_.cell(corner.x / corner.y), upward_.cell(corner.z / corner.y)};
     for (int axis = 0; axis < 2; ++axis) {
       least[axis] = std::min(least[axis], at[axis]);
       most[axis] = std::max(most[axis], at[axis]);
@@ -90,9 +90,9 @@ void Occluders::visit_cells(const Corners& corners, const Visit& visit) const {
 }
 
 bool Occluders::hide(Point3 point) const {
-  if (triangles_.empty() || !(point.ahead_m > 0.0)) return false;
-  const auto row = static_cast<std::size_t>(upward_.cell(point.up_m / point.ahead_m));
-  const auto column = static_cast<std::size_t>(across_.cell(point.right_m / point.ahead_m));
+  if (triangles_.empty() || !(point.y > 0.0)) return false;
+  const auto row = static_cast<std::size_t>(upward_.cell(point.z / point.y));
+  const auto column = static_cast<std::size_t>(across_.cell(point.x / point.y));
   const std::size_t cell = row * static_cast<std::size_t>(across_.cells) + column;
   const double length_m = std::sqrt(dot(point, point));
   for (std::uint32_t entry = begin_[cell]; entry < begin_[cell + 1]; ++entry) {

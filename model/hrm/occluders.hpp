@@ -7,28 +7,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "lib/geo/vector.hpp"
+
 namespace yars::model::hrm {
 
-// Metres from the radar: right and ahead of the map's line of sight, and up.
-struct Point3 {
-  double right_m = 0.0, ahead_m = 0.0, up_m = 0.0;
-};
-inline Point3 operator+(Point3 a, Point3 b) {
-  return {a.right_m + b.right_m, a.ahead_m + b.ahead_m, a.up_m + b.up_m};
-}
-inline Point3 operator-(Point3 a, Point3 b) {
-  return {a.right_m - b.right_m, a.ahead_m - b.ahead_m, a.up_m - b.up_m};
-}
-inline Point3 operator*(double s, Point3 a) {
-  return {s * a.right_m, s * a.ahead_m, s * a.up_m};
-}
-inline double dot(Point3 a, Point3 b) {
-  return a.right_m * b.right_m + a.ahead_m * b.ahead_m + a.up_m * b.up_m;
-}
-inline Point3 cross(Point3 a, Point3 b) {
-  return {a.ahead_m * b.up_m - a.up_m * b.ahead_m, a.up_m * b.right_m - a.right_m * b.up_m,
-          a.right_m * b.ahead_m - a.ahead_m * b.right_m};
-}
+// Metres from the radar: x to the right of the map's line of sight, y ahead along it, z up.
+using Point3 = geo::Vector3;
 
 class Occluders {
  public:

@@ -168,14 +168,14 @@ void ReferencePatch::add_column(int column, const float* gain) {
       const double share = static_cast<double>(piece) / pieces;
       const Point3 end = position(grid.distance_m(row - 1.0 + share), turn_rad, height_m_[near] + share * climb_m);
       const Point3 middle = 0.5 * (begin + end);
-      const double out_begin = std::hypot(begin.right_m, begin.ahead_m);
-      const double out_end = std::hypot(end.right_m, end.ahead_m);
+      const double out_begin = std::hypot(begin.x, begin.y);
+      const double out_end = std::hypot(end.x, end.y);
       const double out_middle = 0.5 * (out_begin + out_end);
       // Twice the area of the triangle radar, begin, end: the angle that the piece fills.
-      const double facing = out_begin * end.up_m - begin.up_m * out_end;
-      if (facing > 0.0 && middle.up_m / out_middle >= horizon && !occluders_.hide(middle))
-        add(middle, gamma * angle_rad * out_middle * facing / std::hypot(out_middle, middle.up_m));
-      horizon = std::max(horizon, end.up_m / out_end);
+      const double facing = out_begin * end.z - begin.z * out_end;
+      if (facing > 0.0 && middle.z / out_middle >= horizon && !occluders_.hide(middle))
+        add(middle, gamma * angle_rad * out_middle * facing / std::hypot(out_middle, middle.z));
+      horizon = std::max(horizon, end.z / out_end);
       begin = end;
     }
   }
@@ -209,25 +209,24 @@ void ReferencePatch::add_facet(const Face& face, Point3 place, Point3 weights, d
   const Point3 raw = cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
   const Point3 normal = 1.0 / std::sqrt(dot(raw, raw)) * raw;
   const double facing = dot(normal, way);
-  const Point3 smooth =
-      weights.right_m * face.normals[0] + weights.ahead_m * face.normals[1] + weights.up_m * face.normals[2];
+  const Point3 smooth = weights.x * face.normals[0] + weights.y * face.normals[1] + weights.z * face.normals[2];
   const double shaded = std::clamp(dot(smooth, way), 0.0, kMostShading * facing);
-  const double out_m = std::hypot(place.right_m, place.ahead_m);
-  const double out_right = place.right_m / out_m;
-  const double out_ahead = place.ahead_m / out_m;
-  const double towards = -(normal.right_m * out_right + normal.ahead_m * out_ahead);
-  const double level2 = normal.right_m * normal.right_m + normal.ahead_m * normal.ahead_m;
-  if (normal.up_m * normal.up_m >= kWallNormal2 * level2) {
+  const double out_m = std::hypot(place.x, place.y);
+  const double out_right = place.x / out_m;
+  const double out_ahead = place.y / out_m;
+  const double towards = -(normal.x * out_right + normal.y * out_ahead);
+  const double level2 = normal.x * normal.x + normal.y * normal.y;
+  if (normal.z * normal.z >= kWallNormal2 * level2) {
     add(place, surface_.gamma(face.code) * area_m2 * shaded);
     return;
   }
-  const double across = normal.right_m * out_ahead - normal.ahead_m * out_right;
+  const double across = normal.x * out_ahead - normal.y * out_right;
   const double power = surface_.wall_gamma(face.code, across, towards) * area_m2 * facing;
   add(place, power);
   if (!(bounce_ > 0.0)) return;
   // From wall to ground and from ground to wall: every such path is as long as to the foot.
   const Ground below = ground_at(place);
-  const Point3 foot = position(below.distance_m - kFoot_m, std::atan2(place.right_m, place.ahead_m), below.height_m);
+  const Point3 foot = position(below.distance_m - kFoot_m, std::atan2(place.x, place.y), below.height_m);
   if (seen(foot)) add(foot, bounce_ * power);
 }
 
@@ -235,14 +234,14 @@ ReferencePatch::Ground ReferencePatch::ground_at(Point3 place) const {
   const FanGrid& grid = *grid_;
   const double radius_m = geometry_->earth().radius_m();
   const double altitude_m = geometry_->altitude_m() - geometry_->plane_msl_m();
-  const double out_m = std::hypot(place.right_m, place.ahead_m);
-  Ground ground{out_m, place.up_m + altitude_m, 0.0, std::numeric_limits<double>::lowest()};
+  const double out_m = std::hypot(place.x, place.y);
+  Ground ground{out_m, place.z + altitude_m, 0.0, std::numeric_limits<double>::lowest()};
   if (std::isfinite(radius_m)) {
-    const double down_m = radius_m + altitude_m + place.up_m;
+    const double down_m = radius_m + altitude_m + place.z;
     ground.distance_m = radius_m * std::atan2(out_m, down_m);
     ground.point_m = std::hypot(out_m, down_m) - radius_m;
   }
-  const double column = std::round((place.right_m / place.ahead_m - grid.first_tangent) / grid.tangent_step);
+  const double column = std::round((place.x / place.y - grid.first_tangent) / grid.tangent_step);
   const double row = std::floor((ground.distance_m - grid.first_distance_m) / grid.spacing_m);
   if (!(column >= 0.0 && column < grid.columns && row >= 0.0 && row + 1.0 < grid.rows)) return ground;
   const std::size_t near = grid.at(static_cast<int>(column), static_cast<int>(row));
@@ -255,17 +254,17 @@ ReferencePatch::Ground ReferencePatch::ground_at(Point3 place) const {
 }
 
 bool ReferencePatch::seen(Point3 place) const {
-  if (!(place.ahead_m > 0.0)) return false;
+  if (!(place.y > 0.0)) return false;
   const Ground ground = ground_at(place);
   if (ground.point_m < ground.height_m - kBuried_m) return false;
-  return place.up_m / std::hypot(place.right_m, place.ahead_m) >= ground.horizon && !occluders_.hide(place);
+  return place.z / std::hypot(place.x, place.y) >= ground.horizon && !occluders_.hide(place);
 }
 
 // Bilinear, where the map plane is as far away.
 void ReferencePatch::add(Point3 place, double cross_section_m2) {
-  double distance_m = std::hypot(place.right_m, place.ahead_m);
-  const double sine = place.right_m / distance_m;
-  const double cosine = place.ahead_m / distance_m;
+  double distance_m = std::hypot(place.x, place.y);
+  const double sine = place.x / distance_m;
+  const double cosine = place.y / distance_m;
   if (fidelity_.map_layover) {
     distance_m = geometry_->earth().distance_at_slant_range(geometry_->altitude_m() - geometry_->plane_msl_m(), 0.0,
                                                             std::sqrt(dot(place, place)));

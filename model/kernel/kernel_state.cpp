@@ -40,8 +40,8 @@ geo::Angle RadarKernel::State::wanted_elevation(const terrain::TerrainView& terr
 }
 
 // A sharpened sweep takes several ticks: its edges are those of the first and of the last.
-bool RadarKernel::State::gather(const ModelTick& given, const antenna::AntennaStep& step,
-                                const terrain::TerrainView& terrain, databuffer::Sweep& sweep) {
+bool RadarKernel::State::gather(const ModelTick& given, const antenna::AntennaStep& step, const rbm::Database& database,
+                                databuffer::Sweep& sweep) {
   if (gathered_ticks == 0) {
     gathered = step;
   } else {
@@ -54,7 +54,7 @@ bool RadarKernel::State::gather(const ModelTick& given, const antenna::AntennaSt
   ++gathered_ticks;
   if (gathered_ticks < ticks_a_sharpened_sweep(configuration) && !step.scan_end) return false;
   gathered_ticks = 0;
-  return sweep_tick(given, gathered, terrain, sweep);
+  return sweep_tick(given, gathered, database, sweep);
 }
 
 // Power, mode, freeze, restart: decides whether this tick scans. True if it ended a scan whose last sweep came out.
@@ -140,7 +140,7 @@ void RadarKernel::State::start_scan(const databuffer::RadarCommand& given) {
 }
 
 bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::AntennaStep& step,
-                                    const terrain::TerrainView& terrain, databuffer::Sweep& sweep) {
+                                    const rbm::Database& database, databuffer::Sweep& sweep) {
   if (step.scan_start || scan_range_m <= 0.0) {
     if (configuration.fidelity.automatic) use_fidelity(given);
     start_scan(given.command);
@@ -170,18 +170,20 @@ bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::Anten
   if (is_sharpened()) {
     const geo::Bearing middle = step.left + 0.5 * (step.right - step.left);
     labels.dark = radar::in_blind_zone(middle - pose->platform.ground_track, configuration.high_resolution);
-    place.looked_at = sharpened_azimuth(middle, *pose, configuration);
+    const SharpenedCell cell = sharpened_cell(step.left, step.right, *pose, configuration);
+    place.looked_at = cell.middle;
+    place.resolved = cell.width;
     labels.gain = rbm::kFullGain;
   }
   if (noise_only) labels.flags |= databuffer::kSweepNoiseOnly;
   if (step.scan_start) labels.flags |= databuffer::kSweepScanStart;
   if (step.scan_end) labels.flags |= databuffer::kSweepScanEnd;
-  // Another detail than the scan's still stands in: the sweep is not what it will be.
+  // Another detail than the scan's still stands in, or scenes are being read: the sweep is not what it will be.
   const geo::Length wanted = geo::Length::nautical_miles(given.command.range_nm);
   const radar::Fidelity& fidelity = is_sharpened() ? sharpened.fidelity : configuration.fidelity;
-  if (needs_ground(noise_only, configuration) && !terrain.serves(scan_detail(fidelity, wanted)))
-    labels.flags |= databuffer::kSweepNotReady;
-  return chain().advance(place, labels, terrain, sweep);
+  const bool whole = database.terrain.serves(scan_detail(fidelity, wanted)) && database.scenes_ready;
+  if (needs_ground(noise_only, configuration) && !whole) labels.flags |= databuffer::kSweepNotReady;
+  return chain().advance(place, labels, database, sweep);
 }
 
 }  // namespace yars::model::kernel

@@ -52,10 +52,10 @@ struct RadarKernel::State {
   void restart(const databuffer::RadarCommand& command);
   void step_maps(const ModelTick& tick, const terrain::TerrainView& terrain);
   geo::Angle wanted_elevation(const terrain::TerrainView& terrain) const;
-  bool gather(const ModelTick& tick, const antenna::AntennaStep& step, const terrain::TerrainView& terrain,
+  bool gather(const ModelTick& tick, const antenna::AntennaStep& step, const rbm::Database& database,
               databuffer::Sweep& sweep);
   void start_scan(const databuffer::RadarCommand& command);
-  bool sweep_tick(const ModelTick& tick, const antenna::AntennaStep& step, const terrain::TerrainView& terrain,
+  bool sweep_tick(const ModelTick& tick, const antenna::AntennaStep& step, const rbm::Database& database,
                   databuffer::Sweep& sweep);
   void remember(ModelStatus& status) const;
 

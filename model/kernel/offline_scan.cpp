@@ -45,12 +45,12 @@ OfflineScan::Part OfflineScan::part(std::size_t thread) const {
   return {thread, thread * places_.size() / threads, (thread + 1) * places_.size() / threads};
 }
 
-void OfflineScan::measure_part(const Part& part, const terrain::TerrainView& terrain) {
+void OfflineScan::measure_part(const Part& part, const rbm::Database& database) {
   for (std::size_t sweep = part.first; sweep < part.end; ++sweep) {
     const rbm::Look look = look_of(places_[sweep]);
-    const std::size_t pending = algorithms_[part.thread]->measure(look, terrain, power_of(sweep));
-    jamming_[sweep] = strobes_.level(look, terrain);
-    flags_[sweep] = pending > 0 ? databuffer::kSweepNotReady : 0U;
+    const std::size_t pending = algorithms_[part.thread]->measure(look, database, power_of(sweep));
+    jamming_[sweep] = strobes_.level(look, database.terrain);
+    flags_[sweep] = pending > 0 || !database.scenes_ready ? databuffer::kSweepNotReady : 0U;
   }
 }
 
@@ -70,8 +70,8 @@ void OfflineScan::develop_sweep(std::size_t sweep, std::size_t thread) {
                {power_of(before), power_of(sweep), power_of(after), jamming_[sweep]}, sweeps_[sweep]);
 }
 
-void OfflineScan::measure(const terrain::TerrainView& terrain) {
-  workers_.run([&](std::size_t thread) { measure_part(part(thread), terrain); });
+void OfflineScan::measure(const rbm::Database& database) {
+  workers_.run([&](std::size_t thread) { measure_part(part(thread), database); });
 }
 
 void OfflineScan::await_measured(std::size_t thread) {
@@ -79,11 +79,11 @@ void OfflineScan::await_measured(std::size_t thread) {
   for (std::uint32_t seen = scans.load(std::memory_order_acquire); seen != scans_;) seen = wait_for_change(scans, seen);
 }
 
-void OfflineScan::run(const terrain::TerrainView& terrain) {
+void OfflineScan::run(const rbm::Database& database) {
   ++scans_;
   workers_.run([&](std::size_t thread) {
     const Part own = part(thread);
-    measure_part(own, terrain);
+    measure_part(own, database);
     measured_[thread].scans.store(scans_, std::memory_order_release);
     measured_[thread].scans.notify_all();
     // The outermost sweeps need those of other threads, which are measured by the time that the inner ones are done.

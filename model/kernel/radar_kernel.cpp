@@ -64,7 +64,8 @@ RadarKernel::Need RadarKernel::need(const ModelTick& tick) const {
   return need;
 }
 
-bool RadarKernel::step(const ModelTick& tick, const terrain::TerrainView& terrain, databuffer::Sweep& sweep) {
+bool RadarKernel::step(const ModelTick& tick, const rbm::Database& database, databuffer::Sweep& sweep) {
+  const terrain::TerrainView& terrain = database.terrain;
   State& state = *state_;
   state.tick = tick.tick;
   state.sim_time_ns = tick.sim_time_ns;
@@ -87,7 +88,8 @@ bool RadarKernel::step(const ModelTick& tick, const terrain::TerrainView& terrai
     state.antenna.aim(sharpened_sector(state.command, *state.pose, state.configuration).offset_deg);
   const antenna::AntennaStep beam = state.antenna.step(state.pose->platform, state.wanted_elevation(terrain));
   if (beam.phase != antenna::Phase::sweeping) return state.chain().flush(sweep);
-  return state.is_sharpened() ? state.gather(tick, beam, terrain, sweep) : state.sweep_tick(tick, beam, terrain, sweep);
+  return state.is_sharpened() ? state.gather(tick, beam, database, sweep)
+                              : state.sweep_tick(tick, beam, database, sweep);
 }
 
 const MapSchedule& RadarKernel::maps() const {

@@ -53,12 +53,15 @@ antenna::Sector sharpened_sector(const databuffer::RadarCommand& command, const 
   return sector;
 }
 
-geo::Bearing sharpened_azimuth(geo::Bearing azimuth, const Pose& pose, const radar::RadarConfiguration& configuration) {
+SharpenedCell sharpened_cell(geo::Bearing left, geo::Bearing right, const Pose& pose,
+                             const radar::RadarConfiguration& configuration) {
+  const geo::Angle width = right - left;
+  const geo::Bearing azimuth = left + 0.5 * width;
   const geo::Angle squint = azimuth - pose.platform.ground_track;
   const double cell_deg = radar::sharpened_beamwidth(squint, pose.ground_speed, configuration).degrees();
-  if (cell_deg <= configuration.high_resolution.sector_step_deg) return azimuth;
+  if (cell_deg <= configuration.high_resolution.sector_step_deg) return {azimuth, width};
   const double middle_deg = (std::floor(squint.degrees() / cell_deg) + 0.5) * cell_deg;
-  return pose.platform.ground_track + geo::Angle::degrees(middle_deg);
+  return {pose.platform.ground_track + geo::Angle::degrees(middle_deg), geo::Angle::degrees(cell_deg)};
 }
 
 geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m) {

@@ -20,9 +20,14 @@ int ticks_a_sharpened_sweep(const radar::RadarConfiguration& configuration);
 antenna::Sector sharpened_sector(const databuffer::RadarCommand& command, const Pose& pose,
                                  const radar::RadarConfiguration& configuration);
 
-// The middle of the resolution cell that a direction lies in: what is seen there is one. Cells are counted from the
-// ground track.
-geo::Bearing sharpened_azimuth(geo::Bearing azimuth, const Pose& pose, const radar::RadarConfiguration& configuration);
+// The resolution cell that a wedge lies in: what is seen there is one. Cells are counted from the ground track; where
+// they are narrower than wedges the wedge is the cell.
+struct SharpenedCell {
+  geo::Bearing middle;
+  geo::Angle width;
+};
+SharpenedCell sharpened_cell(geo::Bearing left, geo::Bearing right, const Pose& pose,
+                             const radar::RadarConfiguration& configuration);
 
 // Where the dish points in HRM: down to the cursor, or to the map.
 geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m);

@@ -17,18 +17,18 @@ SweepChain::SweepChain(const radar::RadarConfiguration& configuration)
   for (Measured& measured : measured_) measured.power.assign(samples_, 0.0F);
 }
 
-bool SweepChain::advance(const SweepPlace& place, const Labels& labels, const terrain::TerrainView& terrain,
+bool SweepChain::advance(const SweepPlace& place, const Labels& labels, const rbm::Database& database,
                          databuffer::Sweep& sweep) {
   Measured& measured = measured_[next_];
   next_ = (next_ + 1) % measured_.size();
   measured.place = place;
   measured.labels = labels;
   const bool deaf = (labels.flags & databuffer::kSweepBlank) != 0U;
-  measured.jamming = deaf ? 0.0 : strobes_.level(look_of(place), terrain);
+  measured.jamming = deaf ? 0.0 : strobes_.level(look_of(place), database.terrain);
   if ((labels.flags & kNothingReceived) != 0U || labels.dark) {
     std::fill(measured.power.begin(), measured.power.end(), 0.0F);
   } else {
-    const std::size_t pending = algorithm_->measure(look_of(place), terrain, measured.power);
+    const std::size_t pending = algorithm_->measure(look_of(place), database, measured.power);
     posts_pending_ += pending;
     if (pending > 0) measured.labels.flags |= databuffer::kSweepNotReady;
   }

@@ -36,8 +36,7 @@ class SweepChain {
   };
 
   // Takes in the next sweep. Finishes its predecessor into `sweep` and returns true if there is one.
-  bool advance(const SweepPlace& place, const Labels& labels, const terrain::TerrainView& terrain,
-               databuffer::Sweep& sweep);
+  bool advance(const SweepPlace& place, const Labels& labels, const rbm::Database& database, databuffer::Sweep& sweep);
   // Ends the pass: finishes the sweep that still waits for a successor.
   bool flush(databuffer::Sweep& sweep);
   // Forgets what is under way.

@@ -26,9 +26,15 @@ void write_place(const SweepPlace& place, databuffer::Sweep& sweep) {
 
 rbm::Look look_of(const SweepPlace& place) {
   const geo::Angle width = place.right - place.left;
-  return {place.apex,      place.altitude, place.looked_at.value_or(place.left + 0.5 * width),
-          place.elevation, place.range,    place.sim_time,
-          place.band,      place.channel};
+  rbm::Look look{place.apex,      place.altitude, place.looked_at.value_or(place.left + 0.5 * width),
+                 place.elevation, place.range,    place.sim_time,
+                 place.band,      place.channel};
+  if (place.resolved) {
+    look.share.left_rad = -0.5 * place.resolved->radians();
+    look.share.right_rad = 0.5 * place.resolved->radians();
+    look.share.sharpened = true;
+  }
+  return look;
 }
 
 std::uint64_t sweep_hash(const databuffer::Sweep& sweep) {

@@ -25,6 +25,7 @@ struct SweepPlace {
   std::uint8_t band = 0;                    // 0..4: A..E
   std::uint8_t channel = 1;                 // 1..8
   std::optional<geo::Bearing> looked_at{};  // where the beam's centre looks if not to the middle of the wedge
+  std::optional<geo::Angle> resolved{};     // width of the cell of a sharpened beam
 };
 
 // Sim time as movers go by it.

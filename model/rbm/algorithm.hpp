@@ -8,8 +8,8 @@
 #include <span>
 
 #include "lib/radar/configuration.hpp"
+#include "model/rbm/database.hpp"
 #include "model/rbm/look.hpp"
-#include "model/terrain/terrain_view.hpp"
 
 namespace yars::model::rbm {
 
@@ -22,7 +22,7 @@ class Algorithm {
 
   // Fills `power` (near to far, samples of the fidelity): 1 = full scale, after sensitivity time control and pulse
   // smear, without noise; never NaN, never negative. Returns how many samples met terrain that is not loaded yet.
-  virtual std::size_t measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) = 0;
+  virtual std::size_t measure(const Look& look, const Database& database, std::span<float> power) = 0;
 
   // Of the last measure(), where there are several rays of its last: 1 where no nearer ground hides the sample, 0 in
   // shadow, over a void and, by the 1996 report, outside the beam. `mask` as long as the power.

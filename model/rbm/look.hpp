@@ -10,6 +10,7 @@
 #include "lib/geo/geodesic.hpp"
 #include "lib/geo/height.hpp"
 #include "lib/geo/quantity.hpp"
+#include "model/rbm/ray_share.hpp"
 
 namespace yars::model::rbm {
 
@@ -23,6 +24,7 @@ struct Look {
   geo::Duration sim_time{};
   std::uint8_t band = 0;     // 0..4: A..E
   std::uint8_t channel = 1;  // 1..8
+  RayShare share{};          // of points
 };
 
 // Names the noise of a sweep: equal numbers, equal noise.

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/rbm/ray_share.hpp"
+
 namespace yars::model::rbm {
 
 namespace {
-constexpr double kBeamsAside = 2.0;             // [beam widths] beyond it a point is 96 dB down
 constexpr double kMetresPerDegree = 110'500.0;  // [m] the shortest degree of latitude: no mover in range is missed
 }  // namespace
 
@@ -33,13 +34,13 @@ std::span<const Echo> Movers::echoes(const Look& look, const Receiver& receiver,
     const double off_rad = (way.azimuth_at_start - look.azimuth).radians();
     const double distance_m = way.distance.metres();
     if (distance_m >= look.range.metres() || distance_m <= 0.0) continue;
-    if (std::abs(off_rad) > kBeamsAside * receiver.azimuth_beamwidth_rad) continue;
+    const double gain_across = azimuth_share(look.share, receiver.azimuth_beamwidth_rad, off_rad);
+    if (!(gain_across > 0.0)) continue;
     const double ground_m = terrain.elevation_m(there);
     const double height_m = (std::isnan(ground_m) ? 0.0 : ground_m) + tracks_[i].height_m;
     const Sight sight = earth.sight(look.altitude.metres(), distance_m, height_m);
-    const double gain =
-        azimuth_gain(receiver.azimuth_beamwidth_rad, off_rad) *
-        two_way_gain(beam_, receiver.elevation_beamwidth_rad, look.elevation.radians(), sight.elevation_rad);
+    const double gain = gain_across * two_way_gain(beam_, receiver.elevation_beamwidth_rad, look.elevation.radians(),
+                                                   sight.elevation_rad);
     const double power = returned_power(tracks_[i].cross_section_m2, gain, sight.slant_range_m);
     echoes_.push_back({distance_m, sight.tangent, received(receiver, power, sight.slant_range_m)});
   }

@@ -30,10 +30,12 @@ Reference::Reference(const radar::RadarConfiguration& configuration)
       surface_(configuration),
       rain_(configuration),
       movers_(configuration),
+      scene_return_(configuration, sample_count(configuration)),
       samples_(sample_count(configuration)),
       distance_m_(samples_.size()) {}
 
-std::size_t Reference::measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) {
+std::size_t Reference::measure(const Look& look, const Database& database, std::span<float> power) {
+  const terrain::TerrainView& terrain = database.terrain;
   const EffectiveEarth earth = effective_earth(configuration_.fidelity, look.apex, look.azimuth);
   const Receiver receiver = make_receiver(configuration_, look.range);
   sample_distances(configuration_.fidelity, earth, look, terrain, distance_m_);
@@ -46,6 +48,7 @@ std::size_t Reference::measure(const Look& look, const terrain::TerrainView& ter
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     samples_[i].power = samples_[i].lit ? cell_power(receiver, earth, look, i) : 0.0;
   }
+  if (scene_return_.enter(look, database.scenes)) see_scenes(look, receiver, earth, *database.scenes, pulse_samples);
   add_movers(movers_.echoes(look, receiver, earth, terrain), pulse_samples);
   rain_.enter(look);
   if (!rain_.dry()) add_rain(receiver, earth, look);
@@ -138,6 +141,20 @@ void Reference::add_movers(std::span<const Echo> echoes, double pulse_samples) {
     const bool hidden = index > 0 && echo.tangent <= samples_[index - 1].horizon;
     if (!hidden) samples_[index].power += point_rise(pulse_samples) * echo.power;
   }
+}
+
+void Reference::see_scenes(const Look& look, const Receiver& receiver, const EffectiveEarth& earth,
+                           const scene::SceneView& scenes, double pulse_samples) {
+  SceneReturn::Ground& ground = scene_return_.ground();
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    ground.distance_m[i] = samples_[i].distance_m;
+    ground.height_m[i] = samples_[i].height_m;
+    ground.cross_slope[i] = samples_[i].cross_slope;
+    ground.horizon[i] = samples_[i].horizon;
+    ground.power[i] = samples_[i].power;
+  }
+  scene_return_.apply(look, receiver, earth, scenes, pulse_samples);
+  for (std::size_t i = 0; i < samples_.size(); ++i) samples_[i].power = ground.power[i];
 }
 
 void Reference::add_rain(const Receiver& receiver, const EffectiveEarth& earth, const Look& look) {

@@ -11,6 +11,7 @@
 #include "model/rbm/movers.hpp"
 #include "model/rbm/rain_path.hpp"
 #include "model/rbm/receiver.hpp"
+#include "model/rbm/scene_return.hpp"
 #include "model/rbm/surface_return.hpp"
 
 namespace yars::model::rbm {
@@ -19,7 +20,7 @@ class Reference : public Algorithm {
  public:
   explicit Reference(const radar::RadarConfiguration& configuration);
 
-  std::size_t measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) override;
+  std::size_t measure(const Look& look, const Database& database, std::span<float> power) override;
   void lit(std::span<std::uint8_t> mask) const override;
   void develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
                std::span<std::uint8_t> video) override;
@@ -47,6 +48,8 @@ class Reference : public Algorithm {
   double along_slope(std::size_t index) const;
   double cell_power(const Receiver& receiver, const EffectiveEarth& earth, const Look& look, std::size_t index) const;
   void add_movers(std::span<const Echo> echoes, double pulse_samples);
+  void see_scenes(const Look& look, const Receiver& receiver, const EffectiveEarth& earth,
+                  const scene::SceneView& scenes, double pulse_samples);
   void add_rain(const Receiver& receiver, const EffectiveEarth& earth, const Look& look);
   void smear_pulse(double pulse_samples, std::span<float> power) const;
 
@@ -54,6 +57,7 @@ class Reference : public Algorithm {
   SurfaceReturn surface_;
   RainPath rain_;
   Movers movers_;
+  SceneReturn scene_return_;
   std::vector<Sample> samples_;
   std::vector<double> distance_m_;
 };

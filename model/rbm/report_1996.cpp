@@ -31,14 +31,14 @@ Report1996::Report1996(const radar::RadarConfiguration& configuration)
       intensity_(count_),
       lit_(count_) {}
 
-std::size_t Report1996::measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) {
+std::size_t Report1996::measure(const Look& look, const Database& database, std::span<float> power) {
   const std::size_t count = count_;
   const double spacing_m = look.range.metres() / static_cast<double>(count);
   for (std::size_t i = 0; i < count; ++i)
     distance_m_[i] = static_cast<float>((static_cast<double>(i) + 0.5) * spacing_m);
   sample_places(look.apex, look.azimuth, look.range, knots_, distance_m_.data(), places_);
-  const std::size_t pending =
-      terrain.surfaces(places_.run(), interpolation_, {{elevation_m_.data(), count}, {water_.data(), count}, {}, {}});
+  const std::size_t pending = database.terrain.surfaces(places_.run(), interpolation_,
+                                                        {{elevation_m_.data(), count}, {water_.data(), count}, {}, {}});
 
   // The report's Y_min and Y_max: tangents of the beam's lower and upper edge.
   const auto lower = static_cast<float>(std::tan(look.elevation.radians() - half_beam_rad_));

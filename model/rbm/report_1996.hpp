@@ -17,7 +17,7 @@ class Report1996 : public Algorithm {
  public:
   explicit Report1996(const radar::RadarConfiguration& configuration);
 
-  std::size_t measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) override;
+  std::size_t measure(const Look& look, const Database& database, std::span<float> power) override;
   void lit(std::span<std::uint8_t> mask) const override;
   void develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
                std::span<std::uint8_t> video) override;

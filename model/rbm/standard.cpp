@@ -22,6 +22,7 @@ Standard::Standard(const radar::RadarConfiguration& configuration)
       ground_(configuration, sample_count(configuration)),
       rain_(configuration),
       movers_(configuration),
+      scene_return_(configuration, sample_count(configuration)),
       count_(sample_count(configuration)),
       distance_m_(count_),
       distance_(count_, 0.0F),
@@ -45,7 +46,8 @@ Standard::Standard(const radar::RadarConfiguration& configuration)
       variate_(count_, 1.0F),
       cell_(count_ + terrain::kRunSlack) {}
 
-std::size_t Standard::measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) {
+std::size_t Standard::measure(const Look& look, const Database& database, std::span<float> power) {
+  const terrain::TerrainView& terrain = database.terrain;
   const EffectiveEarth earth = effective_earth(configuration_.fidelity, look.apex, look.azimuth);
   const Receiver& receiver = receiver_at(look.range);
   place_samples(look, earth, terrain);
@@ -81,6 +83,7 @@ std::size_t Standard::measure(const Look& look, const terrain::TerrainView& terr
   lanes::power(count_, constants, configuration_.fidelity.beam, inputs, power_.data());
   // What the last vector wrote behind the sweep is no power.
   std::fill_n(power_.data() + count_, lanes::kPad, 0.0F);
+  if (scene_return_.enter(look, database.scenes)) see_scenes(look, earth, receiver, *database.scenes, pulse_samples);
   add_movers(look, earth, receiver, terrain, pulse_samples);
   rain_.enter(look);
   if (!rain_.dry()) add_rain(look, earth, receiver);
@@ -100,6 +103,21 @@ void Standard::lit(std::span<std::uint8_t> mask) const {
   const float* const tangent = peaked_ ? peak_tangent_.data() : tangent_.data();
   const float* const horizon_before = horizon_.data() - 1;
   for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = tangent[i] > horizon_before[i] ? 1 : 0;
+}
+
+void Standard::see_scenes(const Look& look, const EffectiveEarth& earth, const Receiver& receiver,
+                          const scene::SceneView& scenes, double pulse_samples) {
+  SceneReturn::Ground& ground = scene_return_.ground();
+  const bool across = configuration_.fidelity.cross_track_slope;
+  for (std::size_t i = 0; i < count_; ++i) {
+    ground.distance_m[i] = i < holes_ ? std::numeric_limits<double>::quiet_NaN() : distance_m_[i];
+    ground.height_m[i] = static_cast<double>(elevation_.data()[i]);
+    ground.cross_slope[i] = across ? static_cast<double>(cross_slope_.data()[i]) : 0.0;
+    ground.horizon[i] = static_cast<double>(horizon_.data()[i]);
+    ground.power[i] = static_cast<double>(power_.data()[i]);
+  }
+  scene_return_.apply(look, receiver, earth, scenes, pulse_samples);
+  for (std::size_t i = 0; i < count_; ++i) power_.data()[i] = static_cast<float>(ground.power[i]);
 }
 
 void Standard::add_movers(const Look& look, const EffectiveEarth& earth, const Receiver& receiver,

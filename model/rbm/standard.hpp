@@ -17,6 +17,7 @@
 #include "model/rbm/rain_path.hpp"
 #include "model/rbm/receiver.hpp"
 #include "model/rbm/sample_places.hpp"
+#include "model/rbm/scene_return.hpp"
 #include "model/rbm/sweep_lanes.hpp"
 
 namespace yars::model::rbm {
@@ -25,7 +26,7 @@ class Standard : public Algorithm {
  public:
   explicit Standard(const radar::RadarConfiguration& configuration);
 
-  std::size_t measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) override;
+  std::size_t measure(const Look& look, const Database& database, std::span<float> power) override;
   void lit(std::span<std::uint8_t> mask) const override;
   void develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
                std::span<std::uint8_t> video) override;
@@ -45,6 +46,8 @@ class Standard : public Algorithm {
   void add_movers(const Look& look, const EffectiveEarth& earth, const Receiver& receiver,
                   const terrain::TerrainView& terrain, double pulse_samples);
   void add_rain(const Look& look, const EffectiveEarth& earth, const Receiver& receiver);
+  void see_scenes(const Look& look, const EffectiveEarth& earth, const Receiver& receiver,
+                  const scene::SceneView& scenes, double pulse_samples);
   void read_cross_slopes(const Look& look, const terrain::TerrainView& terrain);
   lanes::SweepConstants sweep_constants(const Look& look, const EffectiveEarth& earth, const Receiver& receiver) const;
 
@@ -55,6 +58,7 @@ class Standard : public Algorithm {
   Ground ground_;
   RainPath rain_;
   Movers movers_;
+  SceneReturn scene_return_;
   Receiver receiver_;  // of the range last asked for
   std::size_t count_;
   bool peaked_ = false;           // peaks cast the last measure()'s shadow

@@ -22,18 +22,27 @@ SubBeams::SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfigurati
     const double share = kHalfSpan * ((2.0 * k + 1.0) / count - 1.0);
     weights.push_back(std::exp(-kTwoWayExponent * share * share));
     sum += weights.back();
-    rays_.push_back({geo::Angle::degrees(share * configuration.antenna.azimuth_beamwidth_deg), 0.0F});
+    rays_.push_back({geo::Angle::degrees(share * configuration.antenna.azimuth_beamwidth_deg), 0.0F, {}});
   }
-  for (std::size_t k = 0; k < rays_.size(); ++k) rays_[k].weight = static_cast<float>(weights[k] / sum);
+  const double half_step_rad = kHalfSpan / count * configuration.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
+  for (std::size_t k = 0; k < rays_.size(); ++k) {
+    rays_[k].weight = static_cast<float>(weights[k] / sum);
+    RayShare& share = rays_[k].share;
+    if (k > 0) share.left_rad = -half_step_rad;
+    if (k + 1 < rays_.size()) share.right_rad = half_step_rad;
+    share.beam_rad = -rays_[k].offset.radians();
+    share.factor = sum / weights[k];
+  }
 }
 
-std::size_t SubBeams::measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) {
+std::size_t SubBeams::measure(const Look& look, const Database& database, std::span<float> power) {
   std::fill(power.begin(), power.end(), 0.0F);
   std::size_t pending = 0;
   for (const Ray& ray : rays_) {
     Look aside = look;
     aside.azimuth = look.azimuth + ray.offset;
-    pending += ray_->measure(aside, terrain, power_);
+    aside.share = ray.share;
+    pending += ray_->measure(aside, database, power_);
     for (std::size_t i = 0; i < power.size(); ++i) power[i] += ray.weight * power_[i];
   }
   return pending;

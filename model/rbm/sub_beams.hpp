@@ -14,7 +14,7 @@ class SubBeams : public Algorithm {
  public:
   SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfiguration& configuration);
 
-  std::size_t measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) override;
+  std::size_t measure(const Look& look, const Database& database, std::span<float> power) override;
   void lit(std::span<std::uint8_t> mask) const override;
   void develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
                std::span<std::uint8_t> video) override;
@@ -23,6 +23,7 @@ class SubBeams : public Algorithm {
   struct Ray {
     geo::Angle offset;  // from the beam's centre
     float weight;       // their sum is 1
+    RayShare share;     // of points: those nearest to this ray
   };
   std::unique_ptr<Algorithm> ray_;
   std::vector<Ray> rays_;

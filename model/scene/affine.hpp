@@ -1,33 +1,13 @@
 // Affine maps of space as OpenFlight writes them: row vectors, so that p * a * b applies a first.
 #pragma once
 
-#include <array>
 #include <cmath>
 
-#include "lib/geo/frames.hpp"
+#include "lib/geo/vector.hpp"
 
 namespace yars::model::scene {
 
 using geo::Vector3;
-
-inline Vector3 operator+(Vector3 a, Vector3 b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-inline Vector3 operator-(Vector3 a, Vector3 b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-inline Vector3 operator*(double factor, Vector3 a) {
-  return {factor * a.x, factor * a.y, factor * a.z};
-}
-inline double dot(Vector3 a, Vector3 b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-inline Vector3 cross(Vector3 a, Vector3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline double length(Vector3 a) {
-  return std::sqrt(dot(a, a));
-}
 
 struct Affine {
   Vector3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  // where the axes go

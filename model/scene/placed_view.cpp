@@ -44,6 +44,7 @@ PlacedView::PlacedView(std::uint64_t generation, std::vector<Part> parts, std::v
     // Bounds of tiles are boxes; their corners reach somewhat farther than what is in them.
     discs.push_back({part.scene->placement.place, 1.5 * part.scene->reach_m + kTileSide_m});
     bytes_ += part.scene->bytes;
+    if (part.scene->scatterers) scatterers_.push_back(part.scene->scatterers.get());
   }
   places_ = GridIndex(discs, kSceneCell_deg);
   bytes_ += places_.bytes() + objects_.capacity() * sizeof(SceneObject) + kinds_.capacity() * sizeof(SurfaceKind);

@@ -22,6 +22,7 @@ class PlacedView final : public SceneView {
   const std::vector<SceneObject>& objects() const override { return objects_; }
   void tiles_near(geo::GeoPoint place, double radius_m, std::vector<const Tile*>& found) const override;
   void objects_near(geo::GeoPoint place, double radius_m, std::vector<std::uint32_t>& found) const override;
+  std::span<const Scatterers* const> scatterers() const override { return scatterers_; }
 
  private:
   std::uint64_t generation_;
@@ -29,6 +30,7 @@ class PlacedView final : public SceneView {
   GridIndex places_;
   std::vector<SurfaceKind> kinds_;
   std::vector<SceneObject> objects_;
+  std::vector<const Scatterers*> scatterers_;
   std::uint64_t bytes_ = 0;
 };
 

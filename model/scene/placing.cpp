@@ -6,8 +6,11 @@
 #include <numbers>
 #include <utility>
 
+#include "model/scene/cutting.hpp"
+#include "model/scene/face_kind.hpp"
 #include "model/scene/footprint.hpp"
 #include "model/scene/plane.hpp"
+#include "model/scene/scatter_builder.hpp"
 #include "model/scene/tile_builder.hpp"
 
 namespace yars::model::scene {
@@ -15,10 +18,8 @@ namespace yars::model::scene {
 namespace {
 
 constexpr double kMostDraped = 500'000;  // triangles that draping makes of one scene, about; then edges grow
-constexpr double kLevelNormal = 0.98;    // upward part of a unit normal that is level
-constexpr double kOnGround_m = 0.5;      // above its object's base a level face lies on the ground
-constexpr double kNearGround_m = 2.0;    // the same against terrain
 constexpr double kObjectCell_deg = 1.0 / 64.0;
+constexpr double kMostPieces = 1'000'000;  // that scatterers make of one scene's large faces, about; then edges grow
 
 Vector3 vector(const std::array<float, 3>& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
@@ -37,13 +38,16 @@ struct Outline {
 class Placing {
  public:
   Placing(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
-          std::uint32_t first_object, KindTable& kinds)
+          std::uint32_t first_object, KindTable& kinds, SceneUse use, double most_reach_m)
       : model_(model),
         placement_(placement),
         ground_(ground),
         plane_(placement.place),
         first_object_(first_object),
-        builders_(plane_, model.vertices.size()) {
+        kinds_(kinds),
+        use_(use),
+        builders_(plane_, use == SceneUse::triangles ? model.vertices.size() : 0),
+        scatter_(most_reach_m) {
     const double heading_rad = placement.heading_deg * geo::kRadiansPerDegree;
     sine_ = std::sin(heading_rad);
     cosine_ = std::cos(heading_rad);
@@ -59,10 +63,12 @@ class Placing {
       flat_m2 += outlines_.back().flat_area_m2;
     }
     edge_m_ = std::max(kDrapedEdge_m, std::sqrt(2.0 * flat_m2 / kMostDraped));
+    if (use_ == SceneUse::scatterers) find_piece_edge();
     PlacedScene placed;
     placed.placement = placement_;
     for (std::uint32_t object = 0; object < model_.objects.size(); ++object) place_object(object, placed);
     placed.tiles = builders_.take(anchor_m_);
+    placed.scatterers = scatter_.take(plane_);
     finish(placed);
     return placed;
   }
@@ -155,59 +161,65 @@ class Placing {
 
   // A level face that is meant to lie on the ground, and does so about. Where the scene brings its own heights the
   // ground is that of the terrain, which knows it less well.
-  bool lies_on_ground(const std::array<PlacedCorner, 3>& corners, double base_m) const {
-    const Vector3 area = cross(corners[1].place - corners[0].place, corners[2].place - corners[0].place);
+  bool lies_on_ground(const Corners3& corners, double base_m) const {
+    const Vector3 area = cross(corners[1] - corners[0], corners[2] - corners[0]);
     if (!(area.z > kLevelNormal * length(area))) return false;
-    if (placement_.heights != radar::SceneHeights::sea_level) return corners[0].place.z - base_m < kOnGround_m;
-    return std::all_of(corners.begin(), corners.end(), [&](const PlacedCorner& corner) {
-      const double ground_m = height_at(plane_.place_of({corner.place.x, corner.place.y}), base_m);
-      return std::abs(corner.place.z - ground_m) < kNearGround_m;
+    if (placement_.heights != radar::SceneHeights::sea_level) return corners[0].z - base_m < kOnGround_m;
+    return std::all_of(corners.begin(), corners.end(), [&](Vector3 corner) {
+      const double ground_m = height_at(plane_.place_of({corner.x, corner.y}), base_m);
+      return std::abs(corner.z - ground_m) < kNearGround_m;
     });
   }
 
   void stand(const ModelTriangle& triangle, std::uint32_t object, double base_m) {
-    std::array<PlacedCorner, 3> corners;
-    for (std::size_t i = 0; i < 3; ++i) {
-      Vector3 at = turned(model_place(triangle.corners[i]));
-      at.z += base_m;
-      corners[i] = {at, turned(vector(model_.vertices[triangle.corners[i]].normal)), triangle.corners[i]};
-      note(at);
+    Corners3 places = turned_corners(triangle);
+    for (Vector3& place : places) {
+      place.z += base_m;
+      note(place);
     }
-    builders_.add(corners, tag_of(triangle, object, lies_on_ground(corners, base_m)));
+    const bool on_ground = lies_on_ground(places, base_m);
+    if (use_ == SceneUse::scatterers) return scatter(places, model_.kinds[triangle.kind].material, on_ground);
+    std::array<PlacedCorner, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i)
+      corners[i] = {places[i], turned(vector(model_.vertices[triangle.corners[i]].normal)), triangle.corners[i]};
+    builders_.add(corners, tag_of(triangle, object, on_ground));
+  }
+
+  Corners3 turned_corners(const ModelTriangle& triangle) const {
+    Corners3 corners;
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = turned(model_place(triangle.corners[i]));
+    return corners;
   }
 
   void drape(const ModelTriangle& triangle, std::uint32_t object) {
-    pieces_.assign(1, {});
-    for (std::size_t i = 0; i < 3; ++i) pieces_[0][i] = turned(model_place(triangle.corners[i]));
-    while (!pieces_.empty()) {
-      const std::array<Vector3, 3> piece = pieces_.back();
-      pieces_.pop_back();
-      if (split(piece)) continue;
-      lay(piece, tag_of(triangle, object, true));
-    }
+    cutter_.cut(turned_corners(triangle), edge_m_,
+                [&](const Corners3& piece) { lay(piece, tag_of(triangle, object, true)); });
   }
 
-  // In two across the longest edge, if that is too long. Both triangles of an edge cut it in the middle: no cracks.
-  bool split(const std::array<Vector3, 3>& piece) {
-    std::size_t longest = 0;
-    double most_m = 0.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vector3 edge = piece[(i + 1) % 3] - piece[i];
-      const double edge_m = std::hypot(edge.x, edge.y);
-      if (edge_m > most_m) {
-        most_m = edge_m;
-        longest = i;
+  // A standing face as a radar sees it that does not resolve it.
+  void scatter(const Corners3& corners, std::uint8_t material, bool on_ground) {
+    cutter_.cut(corners, piece_edge_m_, [&](const Corners3& piece) {
+      on_ground ? scatter_.lie(piece, material) : scatter_.stand(piece, material);
+    });
+  }
+
+  // So that large faces make a bounded number of pieces.
+  void find_piece_edge() {
+    const auto pieces = [this](double edge_m) {
+      double sum = 0.0;
+      for (const ModelTriangle& triangle : model_.triangles) {
+        const Corners3 corners = turned_corners(triangle);
+        const double longest_m = longest_plan_edge(corners).length_m;
+        if (!(longest_m > edge_m)) continue;
+        const double width_m = length(cross(corners[1] - corners[0], corners[2] - corners[0])) / longest_m;
+        sum += longest_m / edge_m * (1.0 + width_m / edge_m);
       }
-    }
-    if (most_m <= edge_m_) return false;
-    const Vector3 a = piece[longest], b = piece[(longest + 1) % 3], c = piece[(longest + 2) % 3];
-    const Vector3 middle = 0.5 * (a + b);
-    pieces_.push_back({a, middle, c});
-    pieces_.push_back({middle, b, c});
-    return true;
+      return sum;
+    };
+    while (pieces(piece_edge_m_) > kMostPieces) piece_edge_m_ *= 2.0;
   }
 
-  void lay(std::array<Vector3, 3> piece, SurfaceTag tag) {
+  void lay(Corners3 piece, SurfaceTag tag) {
     for (Vector3& corner : piece) {
       const LocalMap& map = builders_.map_at({corner.x, corner.y});
       corner.z += height_at(map.place_of({corner.x, corner.y}), anchor_m_);
@@ -216,6 +228,7 @@ class Placing {
     const Vector3 area = cross(piece[1] - piece[0], piece[2] - piece[0]);
     const double size = length(area);
     if (!(size > 0.0)) return;
+    if (use_ == SceneUse::scatterers) return scatter_.lie(piece, kinds_.kinds()[tag.kind].material);
     const Vector3 normal = (1.0 / size) * area;
     builders_.add({PlacedCorner{piece[0], normal, kNone}, PlacedCorner{piece[1], normal, kNone},
                    PlacedCorner{piece[2], normal, kNone}},
@@ -243,6 +256,7 @@ class Placing {
     }
     placed.object_index = GridIndex(discs, kObjectCell_deg);
     placed.bytes += placed.tile_index.bytes() + placed.object_index.bytes();
+    if (placed.scatterers) placed.bytes += placed.scatterers->bytes();
   }
 
   const Model& model_;
@@ -250,23 +264,27 @@ class Placing {
   const terrain::TerrainView& ground_;
   Plane plane_;
   std::uint32_t first_object_;
+  KindTable& kinds_;
+  SceneUse use_;
   TileBuilders builders_;
+  ScatterBuilder scatter_;
   double sine_ = 0.0, cosine_ = 1.0;
   double anchor_m_ = 0.0;
   double edge_m_ = kDrapedEdge_m;
+  double piece_edge_m_ = kScattererSides_m.front();
   double reach_m_ = 0.0;
   std::vector<std::uint16_t> kind_numbers_;  // of the model's kinds
   std::vector<std::uint32_t> begin_, order_;
   std::vector<Outline> outlines_;
   std::vector<PlanPoint> points_;
-  std::vector<std::array<Vector3, 3>> pieces_;
+  Cutter cutter_;
 };
 
 }  // namespace
 
 PlacedScene place_model(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
-                        std::uint32_t first_object, KindTable& kinds) {
-  return Placing(model, placement, ground, first_object, kinds).run();
+                        std::uint32_t first_object, KindTable& kinds, SceneUse use, double most_reach_m) {
+  return Placing(model, placement, ground, first_object, kinds, use, most_reach_m).run();
 }
 
 }  // namespace yars::model::scene

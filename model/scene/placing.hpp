@@ -7,12 +7,15 @@
 // PlacedScene::objects[n]; the kinds are entered into `kinds`.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <memory>
 
 #include "lib/radar/world.hpp"
 #include "model/scene/grid_index.hpp"
 #include "model/scene/kind_table.hpp"
 #include "model/scene/model.hpp"
+#include "model/scene/scatterers.hpp"
 #include "model/terrain/terrain_view.hpp"
 
 namespace yars::model::scene {
@@ -27,18 +30,23 @@ struct Placement {
   radar::SceneHeights heights = radar::SceneHeights::ground;
 };
 
+// What is kept of a scene: triangles for who resolves them, scatterers for who does not.
+enum class SceneUse : std::uint8_t { triangles, scatterers };
+
 struct PlacedScene {
   Placement placement;
   double reach_m = 0.0;  // from the place to the farthest corner
   std::vector<Tile> tiles;
   std::vector<SceneObject> objects;
   GridIndex tile_index, object_index;
-  std::vector<double> tile_reach_m;  // from a tile's origin to the farthest corner of its bounds
+  std::vector<double> tile_reach_m;              // from a tile's origin to the farthest corner of its bounds
+  std::shared_ptr<const Scatterers> scatterers;  // null where there are none
   std::uint64_t bytes = 0;
 };
 
-// `first_object`: what Tile::object counts from.
+// `first_object`: what Tile::object counts from. Scatterers beyond `most_reach_m` of the place are left out.
 PlacedScene place_model(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
-                        std::uint32_t first_object, KindTable& kinds);
+                        std::uint32_t first_object, KindTable& kinds, SceneUse use = SceneUse::triangles,
+                        double most_reach_m = std::numeric_limits<double>::infinity());
 
 }  // namespace yars::model::scene

@@ -76,8 +76,9 @@ bool SceneStore::load(std::size_t number) {
                         std::to_string(static_cast<long>(reach_m)) +
                         " m; it is shown only when its nearer part is looked at");
   const terrain::TerrainViewPointer ground = ground_->prepare({scene.placement.place, reach_m + kTileSide_m, 0});
-  auto placed =
-      std::make_shared<PlacedScene>(place_model(*model, scene.placement, *ground, resident.first_object, kinds_));
+  // Scatterers that the index does not know of would come and go with what else was looked at.
+  auto placed = std::make_shared<PlacedScene>(place_model(*model, scene.placement, *ground, resident.first_object,
+                                                          kinds_, options_.use, scene.reach_m + kTileSide_m));
   if (placed->objects.front().name.empty()) placed->objects.front().name = scene.file.stem().string();
   std::copy(placed->objects.begin(), placed->objects.end(), objects_.begin() + resident.first_object);
   resident_bytes_ += placed->bytes;
@@ -110,11 +111,14 @@ std::vector<std::string> SceneStore::take_problems() {
   return problems;
 }
 
-failure::Expected<std::unique_ptr<SceneStore>> open_scenes(const radar::RadarConfiguration& configuration) {
+failure::Expected<std::unique_ptr<SceneStore>> open_scenes(const radar::RadarConfiguration& configuration,
+                                                           SceneUse use) {
   if (configuration.world.scenes.empty()) return std::unique_ptr<SceneStore>();
   auto ground = terrain::open_terrain(configuration.terrain);
   if (!ground) return tl::unexpected(ground.error());
-  return SceneStore::open(configuration.world.scenes, std::move(*ground));
+  SceneStoreOptions options;
+  options.use = use;
+  return SceneStore::open(configuration.world.scenes, std::move(*ground), options);
 }
 
 }  // namespace yars::model::scene

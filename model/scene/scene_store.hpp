@@ -20,6 +20,7 @@ namespace yars::model::scene {
 
 struct SceneStoreOptions {
   std::size_t resident_limit_bytes = std::size_t{2} << 30;
+  SceneUse use = SceneUse::triangles;
 };
 
 class SceneStore {
@@ -67,6 +68,7 @@ class SceneStore {
 };
 
 // The store that a configuration asks for; null when it names no scene.
-failure::Expected<std::unique_ptr<SceneStore>> open_scenes(const radar::RadarConfiguration& configuration);
+failure::Expected<std::unique_ptr<SceneStore>> open_scenes(const radar::RadarConfiguration& configuration,
+                                                           SceneUse use = SceneUse::triangles);
 
 }  // namespace yars::model::scene

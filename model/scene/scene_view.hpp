@@ -5,10 +5,12 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "lib/geo/geodesic.hpp"
+#include "model/scene/scatterers.hpp"
 
 namespace yars::model::scene {
 
@@ -68,6 +70,8 @@ class SceneView {
   virtual void tiles_near(geo::GeoPoint place, double radius_m, std::vector<const Tile*>& found) const = 0;
   // The same for objects whose middles lie within the radius: indices into objects(), ascending.
   virtual void objects_near(geo::GeoPoint place, double radius_m, std::vector<std::uint32_t>& found) const = 0;
+  // Scene by scene in a fixed order, where the view was made for who does not resolve them.
+  virtual std::span<const Scatterers* const> scatterers() const { return {}; }
 };
 
 using SceneViewPointer = std::shared_ptr<const SceneView>;

@@ -6,6 +6,7 @@
 
 #include "model/kernel/offline_scan.hpp"
 #include "tests/model/cockpit.hpp"
+#include "tests/model/made_up_objects.hpp"
 
 namespace yars::model::kernel {
 namespace {
@@ -20,10 +21,11 @@ ScanRequest request_of(const databuffer::ModelTick& tick) {
   return request;
 }
 
-std::vector<std::uint64_t> hashes(const radar::RadarConfiguration& configuration, int threads) {
+std::vector<std::uint64_t> hashes(const radar::RadarConfiguration& configuration, int threads,
+                                  const scene::SceneViewPointer& scenes = nullptr) {
   const test::Cockpit cockpit(configuration, terrain::built_in_hills());
   OfflineScan scan(configuration, request_of(cockpit.tick), threads);
-  scan.run(cockpit.terrain);
+  scan.run({cockpit.terrain, scenes.get()});
   std::vector<std::uint64_t> result;
   for (const databuffer::Sweep& sweep : scan.sweeps()) result.push_back(sweep.hash);
   return result;
@@ -43,6 +45,41 @@ TEST(Determinism, AnyNumberOfThreadsGivesTheSameHashes) {
     ASSERT_EQ(one.size(), 182U);
     for (const int threads : {2, 3, 8, 200}) EXPECT_EQ(hashes(configuration, threads), one) << threads << " threads";
   }
+}
+
+// Houses and a runway in view of the cockpit.
+scene::SceneViewPointer town() {
+  std::vector<test::Building> all{{0.0, 900.0, 45.0, 1800.0, 0.0, 9}};
+  for (int i = 0; i < 300; ++i) all.push_back({70.0 * (i % 20), 90.0 * (i / 20), 12.0, 18.0, 6.0 + i % 9, 3});
+  return test::scene_of(all, {37.2, -121.8}, 30.0, terrain::built_in_hills());
+}
+
+TEST(Determinism, ScenesGiveTheSameHashesForAnyNumberOfThreadsAndLive) {
+  for (const auto algorithm : {radar::Algorithm::standard, radar::Algorithm::reference}) {
+    const auto configuration = with(algorithm, 137);
+    const auto scenes = town();
+    const auto one = hashes(configuration, 1, scenes);
+    EXPECT_NE(one, hashes(configuration, 1));
+    for (const int threads : {2, 5}) EXPECT_EQ(hashes(configuration, threads, scenes), one) << threads << " threads";
+    test::Cockpit cockpit(configuration, terrain::built_in_hills());
+    cockpit.scenes = scenes;
+    cockpit.tick.command.antenna_elevation_deg = 0.0;
+    OfflineScan scan(configuration, request_of(cockpit.tick), 2);
+    scan.run({cockpit.terrain, scenes.get()});
+    const auto live = cockpit.run(320);
+    ASSERT_GE(live.size(), 182U);
+    for (std::size_t i = 0; i < 182U; ++i) ASSERT_EQ(live[i].hash, scan.sweeps()[i].hash) << i;
+  }
+}
+
+TEST(Determinism, SweepsSayWhenScenesAreStillBeingRead) {
+  test::Cockpit cockpit(with(radar::Algorithm::standard, 64));
+  cockpit.scenes_ready = false;
+  for (const databuffer::Sweep& sweep : cockpit.run(50)) EXPECT_NE(sweep.flags & databuffer::kSweepNotReady, 0U);
+  cockpit.scenes_ready = true;
+  const auto later = cockpit.run(200);
+  ASSERT_GT(later.size(), 10U);
+  EXPECT_EQ(later.back().flags & databuffer::kSweepNotReady, 0U);
 }
 
 TEST(Determinism, AnotherSeedGivesOtherHashes) {

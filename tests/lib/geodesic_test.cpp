@@ -100,6 +100,17 @@ TEST(LocalTangentFrame, PointsEastNorthAndUp) {
 }
 
 // The surface falls away by d^2 / 2R below the tangent plane.
+TEST(LocalTangentFrame, TurnsDirectionsThereAndBack) {
+  const LocalTangentFrame frame({52.0, 13.0}, HeightAboveEllipsoid::metres(0.0));
+  const Vector3 back = frame.enu_from_ecef_direction(frame.ecef_from_enu_direction({0.6, -0.48, 0.64}));
+  EXPECT_NEAR(back.x, 0.6, 1e-15);
+  EXPECT_NEAR(back.y, -0.48, 1e-15);
+  EXPECT_NEAR(back.z, 0.64, 1e-15);
+  // Up at the north pole is the earth's axis.
+  const LocalTangentFrame pole({90.0, 0.0}, HeightAboveEllipsoid::metres(0.0));
+  EXPECT_NEAR(pole.ecef_from_enu_direction({0, 0, 1}).z, 1.0, 1e-15);
+}
+
 TEST(LocalTangentFrame, SeesTheEarthFallAway) {
   const GeoPoint origin{36.0, -121.0};
   const LocalTangentFrame frame(origin, HeightAboveEllipsoid::metres(0.0));

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "tests/model/cockpit.hpp"
+#include "tests/model/made_up_objects.hpp"
 
 namespace {
 std::atomic<long> allocations{0};
@@ -49,6 +50,8 @@ long allocations_of(radar::Algorithm algorithm) {
   configuration.world.jamming.jammers.push_back({"jammer", {37.4, -121.6}});
   configuration.world.movers.push_back({"mover", {37.2, -121.8}, 10.0});
   test::Cockpit cockpit(configuration);
+  cockpit.scenes =
+      test::scene_of({{}, {200.0, 0.0, 300.0, 40.0, 12.0, 3}, {0.0, 300.0, 45.0, 900.0, 0.0, 9}}, {37.2, -121.8});
   databuffer::ModelStatus status{};
   cockpit.run(50);
   ++cockpit.tick.command.scan_restart;

@@ -40,7 +40,7 @@ class Cockpit {
   const databuffer::Sweep* step() {
     ++tick.tick;
     tick.sim_time_ns = tick.tick * radar::kTickNanoseconds;
-    const bool came = kernel.step(tick, terrain, sweep);
+    const bool came = kernel.step(tick, {terrain, scenes.get(), scenes_ready}, sweep);
     return came ? &sweep : nullptr;
   }
 
@@ -75,6 +75,8 @@ class Cockpit {
   databuffer::ModelTick tick{};
   model::kernel::RadarKernel kernel;
   model::terrain::AnalyticTerrain terrain;
+  model::scene::SceneViewPointer scenes;  // none at first
+  bool scenes_ready = true;
   databuffer::Sweep sweep{};
 };
 

@@ -2,8 +2,13 @@
 #include "tools/recording/replay.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
 
 #include "tests/model/cockpit.hpp"
+#include "tests/model/made_up_objects.hpp"
 
 namespace yars::tools::recording {
 namespace {
@@ -19,8 +24,12 @@ SweepMark mark_of(const databuffer::Sweep& sweep) {
 // The live model as its process drives it, and what a recorder would have of it.
 class Recorded {
  public:
-  Recorded()
-      : cockpit_(configuration_, model::terrain::built_in_hills()), store_(hills()), replay_(configuration_, store_) {
+  explicit Recorded(model::scene::SceneStore* live = nullptr, model::scene::SceneStore* again = nullptr)
+      : cockpit_(configuration_, model::terrain::built_in_hills()),
+        store_(hills()),
+        replay_(configuration_, store_, again) {
+    // Live more is held than the scan needs.
+    if (live != nullptr) cockpit_.scenes = live->prepare({{37.0, -122.0}, 500'000.0, 0});
     cockpit_.tick.resumed_tick = -1;
     cockpit_.tick.flags |= databuffer::kTickRestart;
   }
@@ -64,6 +73,35 @@ TEST(Replay, MakesEverySweepAgain) {
   EXPECT_GT(recorded.comparison().equal(), 800U);
   EXPECT_EQ(recorded.comparison().different(), 0U);
   EXPECT_EQ(recorded.comparison().missing(), 0U);
+}
+
+TEST(Replay, MakesTheSameOfScenesWhateverElseWasHeldLive) {
+  const auto folder = std::filesystem::temp_directory_path() / ("yars_replay_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  std::vector<radar::Scene> scenes;
+  for (const geo::GeoPoint place :
+       {geo::GeoPoint{38.4, -122.0}, geo::GeoPoint{37.15, -121.85}, geo::GeoPoint{37.2, -121.8}}) {
+    scenes.push_back({.file = (folder / (std::to_string(scenes.size()) + ".flt")).string()});
+    const auto bytes = test::flt_of({{}, {90.0, 0.0, 40.0, 15.0, 12.0, 3}, {0.0, 300.0, 45.0, 900.0, 0.0, 9}}, place);
+    std::ofstream(scenes.back().file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  }
+  model::scene::SceneStoreOptions options;
+  options.use = model::scene::SceneUse::scatterers;
+  const auto open = [&] {
+    return std::move(
+        *model::scene::SceneStore::open(scenes, std::make_unique<model::terrain::FixedTerrainStore>(hills()), options));
+  };
+  const auto live = open(), again = open();
+  Recorded with_scenes(live.get(), again.get());
+  with_scenes.run(600);
+  EXPECT_GT(with_scenes.comparison().equal(), 450U);
+  EXPECT_EQ(with_scenes.comparison().different(), 0U);
+  const auto without_again = open();
+  Recorded without(without_again.get(), nullptr);
+  without.run(600);
+  EXPECT_GT(without.comparison().different(), 10U) << "the scenes are seen";
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Replay, GoesOnWithTheStatusThatARestartedModelTookUp) {

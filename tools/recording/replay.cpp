@@ -6,8 +6,13 @@ namespace {
 constexpr std::uint64_t kSmearMemory = 2;  // sweeps: the smear of the first ones needs those from before the log began
 }  // namespace
 
-Replay::Replay(const radar::RadarConfiguration& configuration, model::terrain::TerrainStore& store)
-    : configuration_(&configuration), store_(&store), kernel_(configuration), view_(store.prepare({})) {}
+Replay::Replay(const radar::RadarConfiguration& configuration, model::terrain::TerrainStore& store,
+               model::scene::SceneStore* scenes)
+    : configuration_(&configuration),
+      store_(&store),
+      kernel_(configuration),
+      view_(store.prepare({})),
+      scenes_(scenes) {}
 
 void Replay::start(const StartingPoint& point) {
   kernel_.resume(point.status);
@@ -19,8 +24,11 @@ void Replay::tick(const databuffer::ModelTick& tick) {
   if ((tick.flags & databuffer::kTickRestart) != 0U && ticks_ > 0) restart(tick.resumed_tick);
   before_last_ = last_;
   ++ticks_;
-  if (const auto need = kernel_.need(tick); need.ground) view_ = store_->prepare(need.region);
-  const bool finished = kernel_.step(tick, *view_, sweep_);
+  if (const auto need = kernel_.need(tick); need.ground) {
+    view_ = store_->prepare(need.region);
+    if (scenes_ != nullptr) scene_view_ = scenes_->prepare(need.region);
+  }
+  const bool finished = kernel_.step(tick, {*view_, scene_view_.get()}, sweep_);
   kernel_.describe(*view_, last_);
   if (!finished) return;
   ++sweeps_;

@@ -5,6 +5,7 @@
 
 #include "lib/radar/configuration.hpp"
 #include "model/kernel/radar_kernel.hpp"
+#include "model/scene/scene_store.hpp"
 #include "model/terrain/terrain_view.hpp"
 #include "tools/recording/comparison.hpp"
 #include "tools/recording/tick_log.hpp"
@@ -13,8 +14,9 @@ namespace yars::tools::recording {
 
 class Replay {
  public:
-  // Both must outlive it.
-  Replay(const radar::RadarConfiguration& configuration, model::terrain::TerrainStore& store);
+  // All must outlive it; without a store of scenes there are none.
+  Replay(const radar::RadarConfiguration& configuration, model::terrain::TerrainStore& store,
+         model::scene::SceneStore* scenes = nullptr);
 
   void start(const StartingPoint& point);
   void tick(const databuffer::ModelTick& tick);
@@ -31,6 +33,8 @@ class Replay {
   model::terrain::TerrainStore* store_;
   model::kernel::RadarKernel kernel_;
   model::terrain::TerrainViewPointer view_;
+  model::scene::SceneStore* scenes_;
+  model::scene::SceneViewPointer scene_view_;
   databuffer::Sweep sweep_{};
   databuffer::ModelStatus last_{}, before_last_{};  // after the newest tick and after the one before
   Comparison comparison_;

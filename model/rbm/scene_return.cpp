@@ -1,0 +1,229 @@
+#include "model/rbm/scene_return.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/rbm/movers.hpp"
+#include "model/rbm/ray_share.hpp"
+
+namespace yars::model::rbm {
+
+namespace {
+constexpr double kMeanRadius_m = 6'371'000.0;
+constexpr double kNoHorizon = -1.0e30;
+constexpr double kSpare_m = 1000.0;  // by which a geodesic may leave its plane and a plane its geodesics
+
+double along_slope(const SceneReturn::Ground& ground, std::size_t index) {
+  const auto known = [&](std::size_t at) { return !std::isnan(ground.height_m[at]); };
+  const std::size_t near = index > 0 && known(index - 1) ? index - 1 : index;
+  const std::size_t far = index + 1 < ground.height_m.size() && known(index + 1) ? index + 1 : index;
+  const double run_m = ground.distance_m[far] - ground.distance_m[near];
+  return run_m > 0.0 ? (ground.height_m[far] - ground.height_m[near]) / run_m : 0.0;
+}
+
+// What a scene's plane is under a ray: where its points lie east and north of the scene's place. On the sphere; within
+// some metres of the ellipsoid for scenes of some tens of kilometres.
+class RayOverPlane {
+ public:
+  RayOverPlane(const Look& look, geo::GeoPoint place) {
+    const geo::GeodesicInverse way = geo::geodesic_inverse(look.apex, place);
+    distance_m_ = way.distance.metres();
+    const double off_rad = (look.azimuth - way.azimuth_at_start).radians();
+    sin_off_ = std::sin(off_rad);
+    cos_off_ = std::cos(off_rad);
+    sin_end_ = std::sin(way.azimuth_at_end.degrees() * geo::kRadiansPerDegree);
+    cos_end_ = std::cos(way.azimuth_at_end.degrees() * geo::kRadiansPerDegree);
+  }
+  double distance_m() const { return distance_m_; }
+
+  struct Point {
+    double east_m, north_m;
+  };
+  Point at(double distance_m) const {
+    const double sine = std::sin(distance_m / kMeanRadius_m);
+    const double cosine = std::cos(distance_m / kMeanRadius_m);
+    const double across_m = kMeanRadius_m * std::asin(sine * sin_off_);
+    const double along_m = kMeanRadius_m * std::atan2(sine * cos_off_, cosine) - distance_m_;
+    return {along_m * sin_end_ + across_m * cos_end_, along_m * cos_end_ - across_m * sin_end_};
+  }
+
+ private:
+  double distance_m_, sin_off_, cos_off_, sin_end_, cos_end_;
+};
+}  // namespace
+
+SceneReturn::SceneReturn(const radar::RadarConfiguration& configuration, std::size_t samples)
+    : beam_(configuration.fidelity.beam), surface_(configuration), ground_(samples) {}
+
+bool SceneReturn::enter(const Look& look, const scene::SceneView* scenes) {
+  if (scenes == nullptr || scenes->scatterers().empty()) return false;
+  const auto sea_level = geo::HeightAboveEllipsoid::metres(0.0);
+  const geo::LocalTangentFrame level(look.apex, sea_level);
+  const double azimuth_rad = look.azimuth.degrees() * geo::kRadiansPerDegree;
+  apex_ = geo::ecef_from_geodetic(look.apex, sea_level);
+  ahead_ = level.ecef_from_enu_direction({std::sin(azimuth_rad), std::cos(azimuth_rad), 0.0});
+  right_ = level.ecef_from_enu_direction({std::cos(azimuth_rad), -std::sin(azimuth_rad), 0.0});
+  const auto all = scenes->scatterers();
+  return std::any_of(all.begin(), all.end(), [&](const scene::Scatterers* scene) { return in_range(*scene, look); });
+}
+
+bool SceneReturn::in_range(const scene::Scatterers& scene, const Look& look) const {
+  // Straight through the earth it is nearer than over ground.
+  return length(scene.frame.enu_from_ecef(apex_)) <= look.range.metres() + scene.reach_m;
+}
+
+// The ray comes over it, or nearly so.
+bool SceneReturn::under_ray(const scene::Scatterers& scene) const {
+  const Ray ray = ray_in(scene);
+  const double ahead_m = -dot(ray.apex, ray.ahead), right_m = -dot(ray.apex, ray.right);
+  return ahead_m >= -scene.reach_m && std::abs(right_m) <= scene.reach_m + kSpare_m;
+}
+
+SceneReturn::Ray SceneReturn::ray_in(const scene::Scatterers& scene) const {
+  return {scene.frame.enu_from_ecef(apex_), scene.frame.enu_from_ecef_direction(ahead_),
+          scene.frame.enu_from_ecef_direction(right_)};
+}
+
+void SceneReturn::apply(const Look& look, const Receiver& receiver, const EffectiveEarth& earth,
+                        const scene::SceneView& scenes, double pulse_samples) {
+  const double radius_m = geo::radius_of_curvature(look.apex.latitude_deg, look.azimuth).metres();
+  const double spacing_m = look.range.metres() / static_cast<double>(ground_.power.size());
+  const Sweep sweep{&look, &receiver, &earth, point_rise(pulse_samples), 1.0 / (radius_m * radius_m), spacing_m};
+  for (const scene::Scatterers* scene : scenes.scatterers())
+    if (in_range(*scene, look)) cover_ground(sweep, *scene);
+  for (const scene::Scatterers* scene : scenes.scatterers())
+    if (in_range(*scene, look)) add_standing(sweep, *scene);
+}
+
+void SceneReturn::cover_ground(const Sweep& sweep, const scene::Scatterers& scene) {
+  const std::size_t number = scene.level_for(sweep.spacing_m);
+  const scene::ScattererLevel& level = scene.levels[number];
+  if (level.covers.empty() || !under_ray(scene)) return;
+  const double side_m = scene::kScattererSides_m[number];
+  const RayOverPlane ray(*sweep.look, scene.place);
+  const double nearest_m = ray.distance_m() - scene.reach_m, farthest_m = ray.distance_m() + scene.reach_m;
+  for (std::size_t i = nearest_sample(ground_.distance_m, nearest_m); i < ground_.power.size(); ++i) {
+    const double distance_m = ground_.distance_m[i];
+    if (distance_m > farthest_m) break;
+    if (!(ground_.power[i] > 0.0)) continue;
+    const RayOverPlane::Point at = ray.at(distance_m);
+    if (at.east_m * at.east_m + at.north_m * at.north_m > scene.reach_m * scene.reach_m) continue;
+    const auto found = level.covers.find(scene::square_key(at.east_m, at.north_m, side_m));
+    if (found == level.covers.end()) continue;
+    double area_m2 = 0.0, sum_m2 = 0.0;
+    for (const scene::Facing& facing : level.facings_of(found->second)) {
+      area_m2 += static_cast<double>(facing.up_m2);
+      sum_m2 += static_cast<double>(facing.up_m2) * surface_.gamma(facing.material);
+    }
+    const auto share = static_cast<double>(found->second.share);
+    ground_.power[i] += share * (covered_power(sweep, i, sum_m2 / area_m2) - ground_.power[i]);
+  }
+}
+
+// What ground of this gamma would return, the same slopes under it.
+double SceneReturn::covered_power(const Sweep& sweep, std::size_t sample, double gamma) const {
+  const Sight sight =
+      sweep.earth->sight(sweep.look->altitude.metres(), ground_.distance_m[sample], ground_.height_m[sample]);
+  const double slope = along_slope(ground_, sample);
+  const double cross_slope = ground_.cross_slope[sample];
+  const double normal = std::sqrt(1.0 + slope * slope + cross_slope * cross_slope);
+  const double sin_local = std::clamp((slope * sight.cos_grazing + sight.sin_grazing) / normal, 0.0, 1.0);
+  const double sigma_m2 = gamma * sin_local * illuminated_area_m2(*sweep.receiver, sight.slant_range_m, sin_local);
+  const double gain = two_way_gain(beam_, sweep.receiver->elevation_beamwidth_rad, sweep.look->elevation.radians(),
+                                   sight.elevation_rad);
+  return received(*sweep.receiver, returned_power(sigma_m2, gain, sight.slant_range_m), sight.slant_range_m);
+}
+
+void SceneReturn::add_standing(const Sweep& sweep, const scene::Scatterers& scene) {
+  const scene::ScattererLevel& level = scene.levels[scene.level_for(sweep.spacing_m)];
+  const Ray ray = ray_in(scene);
+  const Angles seen = seen_angles(sweep.look->share, sweep.receiver->azimuth_beamwidth_rad);
+  const double sin_left = std::sin(seen.left_rad), cos_left = std::cos(seen.left_rad);
+  const double sin_right = std::sin(seen.right_rad), cos_right = std::cos(seen.right_rad);
+  const double range_m = sweep.look->range.metres();
+  const auto meets = [&](const scene::Ball& ball) {
+    const geo::Vector3 way = ball.middle - ray.apex;
+    const double ahead_m = dot(way, ray.ahead), right_m = dot(way, ray.right);
+    const double farthest_m = range_m + ball.radius_m;
+    return ahead_m >= -ball.radius_m && dot(way, way) <= farthest_m * farthest_m &&
+           right_m * cos_left - ahead_m * sin_left >= -ball.radius_m &&
+           ahead_m * sin_right - right_m * cos_right >= -ball.radius_m;
+  };
+  level.tree.search(meets, [&](std::uint32_t first, std::uint32_t end) {
+    for (std::uint32_t i = first; i < end; ++i) add_one(sweep, ray, level, level.scatterers[i]);
+  });
+}
+
+void SceneReturn::add_one(const Sweep& sweep, const Ray& ray, const scene::ScattererLevel& level,
+                          const scene::Scatterer& one) {
+  const geo::Vector3 at{static_cast<double>(one.east_m), static_cast<double>(one.north_m),
+                        static_cast<double>(one.up_m)};
+  const geo::Vector3 way = at - ray.apex;
+  const double ahead_m = dot(way, ray.ahead);
+  const double chord2 = dot(way, way);
+  if (!(ahead_m > 0.0)) return;
+  // The arc over a chord, to the third order.
+  const double distance_m = std::sqrt(chord2) * (1.0 + chord2 * sweep.curvature2 / 24.0);
+  if (distance_m >= sweep.look->range.metres()) return;
+  const auto extent_m = static_cast<double>(one.extent_m);
+  const double gain_across = azimuth_share(sweep.look->share, sweep.receiver->azimuth_beamwidth_rad,
+                                           std::atan2(dot(way, ray.right), ahead_m), extent_m / distance_m);
+  if (!(gain_across > 0.0)) return;
+  const std::size_t sample = nearest_sample(ground_.distance_m, distance_m);
+  if (sample >= ground_.power.size()) return;
+  const Sight sight =
+      sweep.earth->sight(sweep.look->altitude.metres(), distance_m, static_cast<double>(one.middle_msl_m));
+  const double lit = lit_share(one, sight, distance_m, sample);
+  if (!(lit > 0.0)) return;
+  const double gain = gain_across * two_way_gain(beam_, sweep.receiver->elevation_beamwidth_rad,
+                                                 sweep.look->elevation.radians(), sight.elevation_rad);
+  const double power = returned_power(lit * cross_section_m2(level, one, ray, sight), gain, sight.slant_range_m);
+  spread(distance_m, extent_m, sweep.rise * received(*sweep.receiver, power, sight.slant_range_m));
+}
+
+double SceneReturn::cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& one, const Ray& ray,
+                                     const Sight& sight) const {
+  const double east = ray.apex.x - static_cast<double>(one.east_m);
+  const double north = ray.apex.y - static_cast<double>(one.north_m);
+  const double level_m = std::hypot(east, north);
+  if (!(level_m > 0.0)) return 0.0;
+  double sum_m2 = 0.0;
+  for (const scene::Facing& facing : level.facings_of(one)) {
+    const auto e = static_cast<double>(facing.east_m2), n = static_cast<double>(facing.north_m2);
+    const double towards_m2 = (e * east + n * north) / level_m;
+    const double seen_m2 = towards_m2 * sight.cos_grazing + static_cast<double>(facing.up_m2) * sight.sin_grazing;
+    if (!(seen_m2 > 0.0)) continue;
+    const bool wall = facing.wall && towards_m2 > 0.0;
+    sum_m2 += seen_m2 * (wall ? surface_.wall_gamma(facing.material, (n * east - e * north) / level_m, towards_m2)
+                              : surface_.gamma(facing.material));
+  }
+  return sum_m2;
+}
+
+// How much of its height rises above the horizon of what lies nearer.
+double SceneReturn::lit_share(const scene::Scatterer& one, const Sight& sight, double distance_m,
+                              std::size_t sample) const {
+  const double horizon = sample > 0 ? ground_.horizon[sample - 1] : kNoHorizon;
+  const auto tangent = [&](float height_m) {
+    return sight.tangent + static_cast<double>(height_m - one.middle_msl_m) / distance_m;
+  };
+  const double least = tangent(one.least_msl_m), most = tangent(one.most_msl_m);
+  if (!(most > least)) return most > horizon ? 1.0 : 0.0;
+  return std::clamp((most - horizon) / (most - least), 0.0, 1.0);
+}
+
+// Into the samples that it lies over.
+void SceneReturn::spread(double distance_m, double extent_m, double power) {
+  const std::vector<double>& centre_m = ground_.distance_m;
+  const double from_m = distance_m - 0.5 * extent_m, to_m = distance_m + 0.5 * extent_m;
+  const std::size_t first = nearest_sample(centre_m, from_m);
+  const std::size_t last = std::min(nearest_sample(centre_m, to_m), centre_m.size() - 1);
+  double begin_m = from_m;
+  for (std::size_t i = first; i <= last; ++i) {
+    const double end_m = i == last ? to_m : 0.5 * (centre_m[i] + centre_m[i + 1]);
+    ground_.power[i] += first == last ? power : power * (end_m - begin_m) / extent_m;
+    begin_m = end_m;
+  }
+}
+
+}  // namespace yars::model::rbm

@@ -1,0 +1,56 @@
+// Scenes of a few boxes as the scan sees them: written as OpenFlight, read, placed on terrain, summed up.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "model/scene/openflight_reader.hpp"
+#include "model/scene/openflight_writer.hpp"
+#include "model/scene/placed_view.hpp"
+#include "model/scene/sketch.hpp"
+#include "model/terrain/analytic_terrain.hpp"
+
+namespace yars::test {
+
+struct Building {
+  double east_m = 0.0, north_m = 0.0;  // of the middle
+  double east_side_m = 20.0, north_side_m = 20.0, height_m = 30.0;
+  std::uint8_t material = 5;  // earthen works: no cardinal effect
+};
+
+inline std::vector<std::byte> flt_of(const std::vector<Building>& buildings, geo::GeoPoint origin) {
+  model::scene::OpenFlightWriter writer(origin);
+  model::scene::Sketch sketch(writer);
+  for (const Building& building : buildings) {
+    writer.begin_object("building");
+    sketch.kind = {building.material, 0, 0x808080};
+    const geo::Vector3 base{building.east_m, building.north_m, 0.0};
+    const double e = 0.5 * building.east_side_m, n = 0.5 * building.north_side_m;
+    if (building.height_m > 0.0)
+      sketch.box(base, building.east_side_m, building.north_side_m, building.height_m);
+    else
+      sketch.polygon({{base.x - e, base.y - n, 0},
+                      {base.x + e, base.y - n, 0},
+                      {base.x + e, base.y + n, 0},
+                      {base.x - e, base.y + n, 0}});
+    writer.end();
+  }
+  return writer.take();
+}
+
+// `heading_deg`: of the scene, about its place.
+inline model::scene::SceneViewPointer scene_of(
+    const std::vector<Building>& buildings, geo::GeoPoint place, double heading_deg = 0.0,
+    model::terrain::AnalyticTerrain::Height ground = model::terrain::flat(0)) {
+  namespace scene = model::scene;
+  const std::vector<std::byte> bytes = flt_of(buildings, place);
+  const auto model = scene::read_openflight(bytes, "test.flt");
+  scene::KindTable kinds;
+  const auto placed = std::make_shared<scene::PlacedScene>(
+      scene::place_model(*model, {place, heading_deg}, model::terrain::AnalyticTerrain(std::move(ground)), 0, kinds,
+                         scene::SceneUse::scatterers));
+  return std::make_shared<scene::PlacedView>(1, std::vector<scene::PlacedView::Part>{{placed, 0}}, kinds.kinds(),
+                                             placed->objects);
+}
+
+}  // namespace yars::test

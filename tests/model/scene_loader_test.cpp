@@ -1,0 +1,78 @@
+// Scenes come from a thread of their own, or at once for who may wait; what is there is said.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+
+#include "model/scene_loader_shell.hpp"
+#include "tests/model/made_up_objects.hpp"
+
+namespace yars::model {
+namespace {
+
+constexpr geo::GeoPoint kPlace{37.2, -121.8};
+
+class SceneLoading : public testing::Test {
+ protected:
+  SceneLoading() {
+    std::filesystem::create_directories(folder_);
+    const auto bytes = test::flt_of({test::Building{}}, kPlace);
+    std::ofstream(folder_ / "a.flt", std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  }
+  ~SceneLoading() override { std::filesystem::remove_all(folder_); }
+
+  std::unique_ptr<scene::SceneStore> store() const {
+    scene::SceneStoreOptions options;
+    options.use = scene::SceneUse::scatterers;
+    auto ground = std::make_shared<const terrain::AnalyticTerrain>(terrain::flat(0.0));
+    return std::move(*scene::SceneStore::open({{.file = (folder_ / "a.flt").string()}},
+                                              std::make_unique<terrain::FixedTerrainStore>(std::move(ground)),
+                                              options));
+  }
+
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("yars_scene_loader_" + std::to_string(::getpid()));
+};
+
+TEST_F(SceneLoading, IsWholeAtOnceForWhoMayWait) {
+  SceneLoader loader(store(), true);
+  const SceneLoader::Held held = loader.request({kPlace, 20'000.0, 0});
+  EXPECT_TRUE(held.whole);
+  ASSERT_TRUE(held.view);
+  EXPECT_EQ(held.view->scatterers().size(), 1U);
+}
+
+TEST_F(SceneLoading, IsWholeAfterAWhileForWhoMayNot) {
+  SceneLoader loader(store(), false);
+  const terrain::TerrainRegion region{kPlace, 20'000.0, 0};
+  SceneLoader::Held held = loader.request(region);
+  const auto watchdog = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!held.whole && std::chrono::steady_clock::now() < watchdog) {
+    std::this_thread::yield();
+    held = loader.request(region);
+  }
+  ASSERT_TRUE(held.whole);
+  EXPECT_EQ(held.view->scatterers().size(), 1U);
+}
+
+TEST_F(SceneLoading, StaysWholeWhileTheAircraftFliesOn) {
+  SceneLoader loader(store(), true);
+  for (int minute = 0; minute < 30; ++minute) {
+    const geo::GeoPoint place =
+        geo::geodesic_direct(kPlace, geo::Bearing::degrees(20.0), geo::Length::metres(15'000.0 * minute));
+    EXPECT_TRUE(loader.request({place, 40'000.0, 0}).whole) << minute;
+  }
+}
+
+TEST(SceneLoader, WithoutScenesIsWholeAndEmpty) {
+  SceneLoader loader(nullptr, false);
+  const SceneLoader::Held held = loader.request({kPlace, 20'000.0, 0});
+  EXPECT_TRUE(held.whole);
+  EXPECT_FALSE(held.view);
+}
+
+}  // namespace
+}  // namespace yars::model

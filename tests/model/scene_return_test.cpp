@@ -1,0 +1,233 @@
+// What the objects of scenes make of a sweep, against the formula, alone and many together.
+#include "model/rbm/scene_return.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "model/rbm/standard.hpp"
+#include "model/reflectivity/land.hpp"
+#include "tests/model/ground.hpp"
+#include "tests/model/made_up_objects.hpp"
+
+namespace yars::model::rbm {
+namespace {
+
+using test::Building;
+
+constexpr double kAltitudeM = 2000.0;
+constexpr double kRangeM = 40000.0;
+constexpr std::size_t kSamples = 1000;  // 40 m each
+
+double decibels(double ratio) {
+  return 10.0 * std::log10(ratio);
+}
+
+radar::RadarConfiguration bare() {
+  radar::RadarConfiguration configuration = test::bare_configuration(static_cast<int>(kSamples));
+  configuration.receiver.stc_exponent = 0.0;
+  return configuration;
+}
+
+geo::GeoPoint north_by(double distance_m, double bearing_deg = 0.0) {
+  return geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(bearing_deg), geo::Length::metres(distance_m));
+}
+
+std::vector<float> power_of(const radar::RadarConfiguration& configuration, const Look& look,
+                            const scene::SceneView* scenes,
+                            const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0)) {
+  const auto algorithm = make_algorithm(configuration);
+  std::vector<float> power(kSamples);
+  const terrain::AnalyticTerrain ground(height);
+  algorithm->measure(look, {ground, scenes}, power);
+  return power;
+}
+
+// What a scene adds to the ground's power.
+std::vector<double> added_by(const radar::RadarConfiguration& configuration, const scene::SceneView& scenes,
+                             const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0),
+                             const Look& look = test::look_north(kAltitudeM, kRangeM)) {
+  const auto with_it = power_of(configuration, look, &scenes, height);
+  const auto without = power_of(configuration, look, nullptr, height);
+  std::vector<double> difference(kSamples);
+  std::transform(with_it.begin(), with_it.end(), without.begin(), difference.begin(),
+                 [](float a, float b) { return static_cast<double>(a) - static_cast<double>(b); });
+  return difference;
+}
+
+double sum_of(const std::vector<double>& power) {
+  return std::accumulate(power.begin(), power.end(), 0.0);
+}
+
+std::size_t brightest(const std::vector<double>& power) {
+  return static_cast<std::size_t>(std::max_element(power.begin(), power.end()) - power.begin());
+}
+
+// Power of a cross section at a distance over flat ground, its middle at a height.
+double expected(const radar::RadarConfiguration& configuration, double sigma_m2, double distance_m, double height_m) {
+  const Receiver receiver = make_receiver(configuration, geo::Length::metres(kRangeM));
+  return sigma_m2 / std::pow(std::hypot(distance_m, kAltitudeM - height_m), 4.0) / receiver.full_scale;
+}
+
+double gamma_of(std::size_t material) {
+  return reflectivity::make_land_return(bare()).gamma[material];
+}
+
+TEST(SceneReturn, OfABoxIsGammaTimesTheAreaThatFacesTheRadarAtItsRange) {
+  const double distance_m = 20020.0;
+  const auto scenes = test::scene_of({Building{}}, north_by(distance_m));
+  const auto added = added_by(bare(), *scenes);
+  EXPECT_EQ(brightest(added), 500U);
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    if (i != 500) {
+      EXPECT_EQ(added[i], 0.0) << i;
+    }
+  }
+  const double slant_m = std::hypot(distance_m, kAltitudeM - 15.0);
+  const double seen_m2 = 20.0 * 30.0 * distance_m / slant_m + 20.0 * 20.0 * (kAltitudeM - 15.0) / slant_m;
+  EXPECT_NEAR(added[500] / expected(bare(), gamma_of(5) * seen_m2, distance_m, 15.0), 1.0, 0.005);
+}
+
+TEST(SceneReturn, LiesOverTheSamplesThatTheObjectLiesOver) {
+  // A wall-less roof 120 m long about 20 km: four samples, its middle on a border.
+  const auto scenes = test::scene_of({{0.0, 0.0, 20.0, 120.0, 0.8}}, north_by(20000.0));
+  const auto added = added_by(bare(), *scenes);
+  std::vector<std::size_t> lit;
+  for (std::size_t i = 0; i < added.size(); ++i)
+    if (added[i] > 0.02 * sum_of(added)) lit.push_back(i);
+  ASSERT_GE(lit.size(), 4U);
+  EXPECT_LE(lit.size(), 6U);
+  EXPECT_GE(lit.front(), 497U);
+  EXPECT_LE(lit.back(), 502U);
+}
+
+TEST(SceneReturn, FadesAcrossTheBeamAndEndsBesideIt) {
+  const auto power_at = [](double bearing_deg) {
+    return sum_of(added_by(bare(), *test::scene_of({Building{}}, north_by(20020.0, bearing_deg))));
+  };
+  EXPECT_NEAR(decibels(power_at(1.25) / power_at(0.0)), -6.02, 0.1);
+  EXPECT_NEAR(decibels(power_at(-1.25) / power_at(0.0)), -6.02, 0.1);
+  EXPECT_EQ(power_at(6.0), 0.0);
+}
+
+TEST(SceneReturn, IsTheSameWithSeveralRaysAcrossTheBeam) {
+  for (const double bearing_deg : {0.0, 0.3, -1.2}) {
+    const auto scenes = test::scene_of({Building{}}, north_by(20020.0, bearing_deg));
+    radar::RadarConfiguration rays = bare();
+    rays.fidelity.sub_beams = 5;
+    EXPECT_NEAR(sum_of(added_by(rays, *scenes)) / sum_of(added_by(bare(), *scenes)), 1.0, 1e-4) << bearing_deg;
+  }
+}
+
+TEST(SceneReturn, IsAllInOneCellOfASharpenedBeamAndStrongerByHowMuchSharperItIs) {
+  Look look = test::look_north(kAltitudeM, kRangeM);
+  look.share.sharpened = true;
+  const double half_rad = 0.05 * geo::kRadiansPerDegree;
+  look.share.left_rad = -half_rad;
+  look.share.right_rad = half_rad;
+  const auto scene_at = [](double bearing_deg) { return test::scene_of({Building{}}, north_by(20020.0, bearing_deg)); };
+  const double real = sum_of(added_by(bare(), *scene_at(0.0)));
+  const double beam_deg = bare().antenna.azimuth_beamwidth_deg;
+  EXPECT_NEAR(sum_of(added_by(bare(), *scene_at(0.0), terrain::flat(0.0), look)) / real, beam_deg / 0.1,
+              0.01 * beam_deg / 0.1);
+  EXPECT_EQ(sum_of(added_by(bare(), *scene_at(0.15), terrain::flat(0.0), look)), 0.0);
+  // On the border of two cells it is in both by halves.
+  EXPECT_NEAR(sum_of(added_by(bare(), *scene_at(0.05), terrain::flat(0.0), look)) / real, 0.5 * beam_deg / 0.1,
+              0.02 * beam_deg / 0.1);
+}
+
+TEST(SceneReturn, OfTwiceTheAreaIsThreeDecibelsMore) {
+  const auto one = test::scene_of({{0, 0, 10.0, 20.0, 15.0}}, north_by(20020.0));
+  const auto two = test::scene_of({{0, 0, 20.0, 20.0, 15.0}}, north_by(20020.0));
+  EXPECT_NEAR(decibels(sum_of(added_by(bare(), *two)) / sum_of(added_by(bare(), *one))), 3.01, 0.02);
+}
+
+TEST(SceneReturn, OfWallsThatFaceTheRadarHasTheCardinalEffect) {
+  constexpr std::uint8_t kStone = 3;
+  const Building house{0.0, 0.0, 20.0, 20.0, 30.0, kStone};
+  const double square = sum_of(added_by(bare(), *test::scene_of({house}, north_by(20020.0), 0.0)));
+  const double turned = sum_of(added_by(bare(), *test::scene_of({house}, north_by(20020.0), 45.0)));
+  const double slant_m = std::hypot(20020.0, kAltitudeM - 15.0);
+  const double level = 20020.0 / slant_m, up = (kAltitudeM - 15.0) / slant_m;
+  const double wall_m2 = 600.0 * level, roof_m2 = 400.0 * up;
+  const double expected_db = decibels((10.0 * wall_m2 + roof_m2) / (std::sqrt(2.0) * wall_m2 + roof_m2));
+  EXPECT_NEAR(decibels(square / turned), expected_db, 0.1);
+  EXPECT_GT(expected_db, 8.0);
+}
+
+TEST(SceneReturn, HiddenBehindARidgeIsNone) {
+  const auto hill = terrain::ridge(test::axis_north(), 15000.0, 1000.0, 900.0);
+  for (const double power : added_by(bare(), *test::scene_of({Building{}}, north_by(20020.0)), hill))
+    EXPECT_EQ(power, 0.0);
+  EXPECT_GT(sum_of(added_by(bare(), *test::scene_of({Building{}}, north_by(12020.0)), hill)), 0.0);
+}
+
+TEST(SceneReturn, IsLitByTheShareOfItsHeightThatRisesAboveTheHorizon) {
+  // The sight line over the crest meets the tower at 21020 m this high.
+  const double crest_m = 300.0, crest_at_m = 18020.0, tower_at_m = 21020.0;
+  const double hidden_m = kAltitudeM - (kAltitudeM - crest_m) * tower_at_m / crest_at_m;
+  ASSERT_GT(hidden_m, 0.0);
+  const double tower_m = 4.0 * hidden_m;
+  const auto scenes = test::scene_of({{0.0, 0.0, 20.0, 20.0, tower_m}}, north_by(tower_at_m));
+  const auto hill = terrain::ridge(test::axis_north(), crest_at_m, 1000.0, crest_m);
+  const double share = sum_of(added_by(bare(), *scenes, hill)) / sum_of(added_by(bare(), *scenes));
+  EXPECT_NEAR(share, 0.75, 0.02);
+}
+
+TEST(SceneReturn, OfManyObjectsIsTheSumOfEach) {
+  std::vector<Building> all;
+  std::vector<double> sum(kSamples, 0.0);
+  for (int i = 0; i < 60; ++i) {
+    const Building one{150.0 * (i % 10 - 5) + 16.0, 150.0 * (i / 10 - 3) + 16.0, 10.0, 8.0 + i, 5.0 + 0.5 * i};
+    all.push_back(one);
+    const auto added = added_by(bare(), *test::scene_of({one}, north_by(20020.0)));
+    std::transform(sum.begin(), sum.end(), added.begin(), sum.begin(), std::plus<>());
+  }
+  const auto together = added_by(bare(), *test::scene_of(all, north_by(20020.0)));
+  const double most = *std::max_element(sum.begin(), sum.end());
+  for (std::size_t i = 0; i < kSamples; ++i) EXPECT_NEAR(together[i], sum[i], 2e-5 * most) << i;
+}
+
+TEST(SceneReturn, OfARunwayTakesThePlaceOfTheGroundsReturn) {
+  const auto scenes = test::scene_of({{0.0, 0.0, 600.0, 2000.0, 0.0, 9}}, north_by(20000.0));
+  const Look look = test::look_north(kAltitudeM, kRangeM);
+  for (const bool fast : {false, true}) {
+    radar::RadarConfiguration configuration = bare();
+    if (fast) configuration.fidelity.algorithm = radar::Algorithm::standard;
+    const auto with_it = power_of(configuration, look, scenes.get(), terrain::flat(50.0));
+    const auto without = power_of(configuration, look, nullptr, terrain::flat(50.0));
+    const double ratio = gamma_of(9) / make_receiver(configuration, look.range).land_gamma;
+    for (std::size_t i = 478; i < 522; ++i)
+      EXPECT_NEAR(static_cast<double>(with_it[i] / without[i]), ratio, 0.01 * ratio) << i;
+    for (const std::size_t i : {400U, 470U, 530U, 600U}) EXPECT_EQ(with_it[i], without[i]) << i;
+  }
+}
+
+TEST(SceneReturn, ElsewhereChangesNoBit) {
+  const Look look = test::look_north(kAltitudeM, kRangeM);
+  const auto without = power_of(bare(), look, nullptr);
+  for (const auto& place : {north_by(60000.0), north_by(20000.0, 90.0), north_by(20000.0, 180.0)}) {
+    const auto scenes = test::scene_of({Building{}, {200, 0, 100, 100, 0.0, 9}}, place);
+    EXPECT_EQ(power_of(bare(), look, scenes.get()), without);
+  }
+}
+
+TEST(SceneReturn, OfStandardIsThatOfReference) {
+  std::vector<Building> town{{0.0, 900.0, 45.0, 1800.0, 0.0, 9}};
+  for (int i = 0; i < 200; ++i) town.push_back({70.0 * (i % 20 - 10), 90.0 * (i / 20 - 5), 12.0, 18.0, 6.0 + i % 9, 3});
+  const auto scenes = test::scene_of(town, north_by(25000.0, 0.4), 30.0);
+  radar::RadarConfiguration configuration;
+  configuration.fidelity.noise = false;
+  configuration.fidelity.samples = static_cast<int>(kSamples);
+  const Look look = test::look_north(kAltitudeM, kRangeM);
+  configuration.fidelity.algorithm = radar::Algorithm::standard;
+  const auto fast = power_of(configuration, look, scenes.get(), terrain::flat(20.0));
+  configuration.fidelity.algorithm = radar::Algorithm::reference;
+  const auto exact = power_of(configuration, look, scenes.get(), terrain::flat(20.0));
+  for (std::size_t i = 0; i < kSamples; ++i) EXPECT_NEAR(fast[i], exact[i], 1e-3F * exact[i] + 1e-9F) << i;
+}
+
+}  // namespace
+}  // namespace yars::model::rbm
