@@ -26,14 +26,8 @@ using GroundFloats = hn::Vec<GroundTag>;
 // Lanes whose code's bit is in the set.
 HWY_INLINE hn::Mask<GroundTag> in_set(std::uint32_t set, GroundWholes code) {
   const hn::RebindToUnsigned<GroundTag> du;
-  const auto bit = hn::And(hn::Shr(hn::Set(du, set), hn::BitCast(du, code)), hn::Set(du, 1U));
-  return hn::RebindMask(GroundTag(), hn::Ne(bit, hn::Zero(du)));
-}
-
-// Codes that do not exist count as none.
-HWY_INLINE GroundWholes settled(GroundWholes code) {
-  const hn::RebindToSigned<GroundTag> di;
-  return hn::IfThenElseZero(hn::Lt(code, hn::Set(di, radar::kMaterials)), code);
+  const auto bits = hn::Shr(hn::Set(du, set), hn::BitCast(du, code));
+  return hn::RebindMask(GroundTag(), hn::TestBit(bits, hn::Set(du, 1U)));
 }
 
 // Entry of a table by code.
@@ -72,13 +66,16 @@ class TextureLanes {
     const GroundTag d;
     const auto north = hn::LoadU(d, in_.places.cells_north.data() + i);
     const auto east = hn::LoadU(d, in_.places.cells_east.data() + i);
+    const auto in_degree = [&] { return hn::And(hn::Eq(north, hn::Set(d, north_)), hn::Eq(east, hn::Set(d, east_))); };
+    // Mostly one degree for the whole vector, and that of the one before.
+    if (hn::AllTrue(d, in_degree())) return levels_in_degree(i);
     auto found = hn::Zero(hn::RebindToSigned<GroundTag>());
-    // Mostly one degree for the whole vector; what is not a number is in none.
+    // What is not a number is in none.
     auto left = hn::And(hn::Eq(north, north), hn::Eq(east, east));
     while (!hn::AllFalse(d, left)) {
       const auto lane = static_cast<std::size_t>(hn::FindFirstTrue(d, left));
       use_degree(in_.places.cells_north[i + lane], in_.places.cells_east[i + lane]);
-      const auto here = hn::And(hn::Eq(north, hn::Set(d, north_)), hn::Eq(east, hn::Set(d, east_)));
+      const auto here = in_degree();
       found = hn::IfThenElse(hn::RebindMask(hn::RebindToSigned<GroundTag>(), here), levels_in_degree(i), found);
       left = hn::AndNot(here, left);
     }
@@ -87,11 +84,9 @@ class TextureLanes {
 
  private:
   HWY_INLINE void use_degree(float cells_north, float cells_east) {
-    if (cells_north == north_ && cells_east == east_) return;
     north_ = cells_north;
     east_ = cells_east;
-    const TextureDegree degree = texture_degree(in_, cells_north, cells_east);
-    degree_ = degree;
+    degree_ = texture_degree(in_, cells_north, cells_east);
   }
 
   HWY_INLINE GroundWholes levels_in_degree(std::size_t i) const {
@@ -104,7 +99,9 @@ class TextureLanes {
     };
     const auto row = cell(in_.places.north_deg.data(), degree_.rows, degree_.row_share, degree_.row);
     const auto column = cell(in_.places.east_deg.data(), degree_.columns, degree_.column_share, degree_.column);
-    const auto bits = mixed(hn::Xor(mixed(hn::BitCast(du, row)), hn::BitCast(du, column)));
+    const auto number =
+        hn::Add(hn::Mul(hn::BitCast(du, row), hn::Set(du, reflectivity::kRowFactor)), hn::BitCast(du, column));
+    const auto bits = mixed(number);
     return hn::BitCast(di, hn::ShiftRight<24>(bits));
   }
 
@@ -139,6 +136,8 @@ struct GroundReturn {
   bool wet;           // false: `sea` is 0 in every lane
 };
 
+constexpr std::uint32_t kWaterBit = 1U << static_cast<unsigned>(radar::kWaterMaterial);
+
 // Of the samples from `i` on, seen under these sines of the grazing angle.
 HWY_INLINE GroundReturn ground_return(const GroundInputs& in, TextureLanes& texture, std::size_t i,
                                       GroundFloats sin_grazing) {
@@ -146,28 +145,29 @@ HWY_INLINE GroundReturn ground_return(const GroundInputs& in, TextureLanes& text
   const hn::RebindToSigned<GroundTag> di;
   const auto one = hn::Set(d, 1.0F);
   const auto zero = hn::Zero(d);
+  const auto code = in.material == nullptr ? hn::Zero(di) : hn::LoadU(di, in.material + i);
   auto water = hn::LoadU(d, in.water + i);
-  auto code = hn::Zero(di);
-  if (in.material != nullptr) code = settled(hn::LoadU(di, in.material + i));
-  const auto lake = hn::RebindMask(d, hn::Eq(code, hn::Set(di, radar::kWaterMaterial)));
-  water = hn::IfThenElse(lake, one, water);
+  auto gamma = by_code(in.tables->gamma.data(), code);
+  const bool special = !hn::AllFalse(d, in_set(in.textured | in.walled | kWaterBit, code));
+  if (special) water = hn::IfThenElse(in_set(kWaterBit, code), one, water);
   const auto wet = hn::And(hn::Gt(water, zero), hn::Gt(sin_grazing, zero));
-  GroundReturn result{by_code(in.tables->gamma.data(), code), zero, !hn::AllFalse(d, wet)};
+  const bool textured_land = special && !hn::AllFalse(d, in_set(in.textured, code));
+  const bool some_wet = !hn::AllFalse(d, wet);
+  const bool textured_sea = in.textured_sea && some_wet;
   auto level = hn::Zero(di);
-  const auto textured = in_set(in.textured, code);
-  const bool some_texture = !hn::AllFalse(d, textured) || (in.textured_sea && result.wet);
-  if (some_texture) {
-    level = texture.levels(i);
+  if (textured_land || textured_sea) level = texture.levels(i);
+  if (textured_land) {
     const auto entry = hn::Add(hn::ShiftLeft<8>(code), level);
-    result.land = hn::Mul(result.land, hn::GatherIndex(d, in.tables->texture.data(), entry));
+    gamma = hn::Mul(gamma, hn::GatherIndex(d, in.tables->texture.data(), entry));
   }
-  const auto walled = in_set(in.walled, code);
-  if (!hn::AllFalse(d, walled))
-    result.land = hn::Mul(result.land, hn::IfThenElse(walled, hn::LoadU(d, in.wall_gain + i), one));
-  result.land = hn::Mul(hn::Sub(one, water), result.land);
+  if (special) {
+    const auto walled = in_set(in.walled, code);
+    if (!hn::AllFalse(d, walled)) gamma = hn::Mul(gamma, hn::IfThenElse(walled, hn::LoadU(d, in.wall_gain + i), one));
+  }
+  GroundReturn result{hn::Mul(hn::Sub(one, water), gamma), zero, some_wet};
   if (!result.wet) return result;
   auto value = sea_sigma0(in.sigma0, sin_grazing);
-  if (some_texture && in.textured_sea) {
+  if (textured_sea) {
     const float* const levels = &in.tables->texture[radar::kWaterMaterial * reflectivity::kTextureLevels];
     value = hn::Mul(value, hn::GatherIndex(d, levels, level));
   }

@@ -38,7 +38,7 @@ std::size_t next_in(std::size_t count, std::uint32_t codes, const std::int32_t* 
   const GroundTag d;
   const hn::RebindToSigned<GroundTag> di;
   for (std::size_t i = from; i < count; i += hn::Lanes(d)) {
-    const auto inside = in_set(codes, settled(hn::LoadU(di, material + i)));
+    const auto inside = in_set(codes, hn::LoadU(di, material + i));
     if (hn::AllFalse(d, inside)) continue;
     return std::min(count, i + static_cast<std::size_t>(hn::FindFirstTrue(d, inside)));
   }

@@ -27,7 +27,7 @@ struct GroundInputs {
   const MaterialTables* tables = nullptr;
   terrain::PlaceRun places;
   const float* water = nullptr;            // [0, 1]
-  const std::int32_t* material = nullptr;  // codes; null: none anywhere. Water is all water, codes beyond are none.
+  const std::int32_t* material = nullptr;  // codes; null: none anywhere. Water is all water.
   const float* wall_gain = nullptr;        // factor on the gamma of samples of a material with walls; else not read
   const float* sigma0 = nullptr;           // of fill_sigma0(); may be null where neither water nor material is
   const reflectivity::GroundGrid* grid = nullptr;
