@@ -45,15 +45,14 @@ HWY_INLINE GroundFloats by_code(const float* table, GroundWholes code) {
 #endif
 }
 
-// mixed() of ground_grid.cpp.
+// The first eight bits of mixed() of ground_grid.cpp: its last step leaves them as they are.
 template <class V>
-HWY_INLINE V mixed(V x) {
+HWY_INLINE V first_bits(V x) {
   const hn::DFromV<V> d;
   x = hn::Xor(x, hn::ShiftRight<16>(x));
   x = hn::Mul(x, hn::Set(d, 0x7feb352dU));
   x = hn::Xor(x, hn::ShiftRight<15>(x));
-  x = hn::Mul(x, hn::Set(d, 0x846ca68bU));
-  return hn::Xor(x, hn::ShiftRight<16>(x));
+  return hn::ShiftRight<24>(hn::Mul(x, hn::Set(d, 0x846ca68bU)));
 }
 
 // Texture level [0, 255] of the ground cells that places lie in: ground_bits() counted from the corner of each degree,
@@ -101,8 +100,7 @@ class TextureLanes {
     const auto column = cell(in_.places.east_deg.data(), degree_.columns, degree_.column_share, degree_.column);
     const auto number =
         hn::Add(hn::Mul(hn::BitCast(du, row), hn::Set(du, reflectivity::kRowFactor)), hn::BitCast(du, column));
-    const auto bits = mixed(number);
-    return hn::BitCast(di, hn::ShiftRight<24>(bits));
+    return hn::BitCast(di, first_bits(number));
   }
 
   const GroundInputs& in_;
