@@ -91,7 +91,7 @@ class Stages {
  private:
   // What culture adds: the codes with the terrain, and what they reflect (in the sweep's own pass when all is one).
   void print_ground() {
-    LineVector<std::int32_t>& codes = ground_.materials();
+    memory::LineVector<std::int32_t>& codes = ground_.materials();
     ground_.use_resolution(receiver_.pulse_length_m, request_.range.metres() / static_cast<double>(count_));
     std::fill_n(at(kSpare), count_, 0.1F);
     stage("terrain+codes", {kNorth, kEast, kNorth, kEast}, {kElevation, kWater, kSpare}, [&](int) {
