@@ -9,6 +9,7 @@
 namespace yars::model::rbm {
 
 namespace {
+constexpr double kEarthRadiusM = 6371008.8;  // [m] mean
 constexpr auto kWater = static_cast<std::size_t>(radar::kWaterMaterial);
 
 void put_texture(lanes::MaterialTables& tables, std::size_t code, double shape) {
@@ -16,37 +17,61 @@ void put_texture(lanes::MaterialTables& tables, std::size_t code, double shape) 
   std::copy(levels.begin(), levels.end(),
             tables.texture.begin() + static_cast<std::ptrdiff_t>(code * reflectivity::kTextureLevels));
 }
+
+// A unit vector over ground.
+struct Direction {
+  double north, east;
+};
+
+// Of the ray at the middle of the sweep, on the sphere: at most 0.01 degrees off for 160 NM. From Clairaut's relation
+// and Karney 2013, eq. 10.
+Direction middle_direction(const Look& look) {
+  const double turn_rad = 0.5 * look.range.metres() / kEarthRadiusM;
+  const double latitude_rad = look.apex.latitude_deg * geo::kRadiansPerDegree;
+  const double azimuth_rad = look.azimuth.radians();
+  const double level = std::cos(latitude_rad);
+  const double east = std::sin(azimuth_rad) * level;
+  const double north = std::cos(azimuth_rad) * level * std::cos(turn_rad) - std::sin(latitude_rad) * std::sin(turn_rad);
+  const double length = std::sqrt(north * north + east * east);
+  // Over a pole any direction is right.
+  return length > 0.0 ? Direction{north / length, east / length} : Direction{1.0, 0.0};
+}
 }  // namespace
 
 Ground::Ground(const radar::RadarConfiguration& configuration, std::size_t samples)
     : land_(reflectivity::make_land_return(configuration)),
       sea_(reflectivity::make_sea_table(reflectivity::make_sea_return(configuration))),
-      wind_from_(reflectivity::make_sea_return(configuration).wind_from),
       sigma0_(sea_.across.size() + terrain::kRunSlack),
       codes_(samples + terrain::kRunSlack),
-      level_(codes_.size()),
-      everywhere_(codes_.size(), 1.0F),
+      wall_gain_(codes_.size(), 1.0F),
       land_gamma_(codes_.size()),
       sea_sigma0_(codes_.size()) {
+  const double wind_rad = reflectivity::make_sea_return(configuration).wind_from.radians();
+  wind_north_ = std::cos(wind_rad);
+  wind_east_ = std::sin(wind_rad);
   const radar::WorldConfiguration& world = configuration.world;
   std::transform(land_.gamma.begin(), land_.gamma.end(), tables_.gamma.begin(),
                  [](double gamma) { return static_cast<float>(gamma); });
   static_assert(radar::kMaterials <= 32);
   for (std::size_t code = 0; code < radar::kMaterials; ++code)
-    if (land_.cardinal[code] > 0.0) walled_ |= 1U << code;
+    if (land_.cardinal[code] > 0.0) inputs_.walled |= 1U << code;
   tables_.texture.fill(1.0F);
   if (!configuration.fidelity.noise) return;
-  textured_sea_ = world.sea.texture > 0.0;
-  textured_plain_ = textured_land_ = world.land.texture > 0.0;
-  if (textured_plain_)
-    for (std::size_t code = 0; code < radar::kMaterials; ++code) put_texture(tables_, code, world.land.texture);
+  const auto texture = [this](std::size_t code, double shape) {
+    put_texture(tables_, code, shape);
+    inputs_.textured &= ~(1U << code);
+    if (shape > 0.0) inputs_.textured |= 1U << code;
+  };
+  for (std::size_t code = 0; code < radar::kMaterials && world.land.texture > 0.0; ++code)
+    texture(code, world.land.texture);
   for (const radar::Material& material : world.land.materials) {
     const auto code = static_cast<std::size_t>(material.code);
-    if (code >= radar::kMaterials) continue;
-    put_texture(tables_, code, material.texture);
-    textured_land_ = textured_land_ || material.texture > 0.0;
+    if (code < radar::kMaterials) texture(code, material.texture);
   }
-  put_texture(tables_, kWater, world.sea.texture);
+  // Water's place in the tables is the sea's.
+  texture(kWater, world.sea.texture);
+  inputs_.textured_sea = world.sea.texture > 0.0;
+  inputs_.textured &= ~(1U << kWater);
 }
 
 void Ground::use_resolution(double pulse_length_m, double spacing_m) {
@@ -56,42 +81,41 @@ void Ground::use_resolution(double pulse_length_m, double spacing_m) {
   grid_ = reflectivity::make_ground_grid(cell_m);
 }
 
-Ground::Sample Ground::reflect(const Look& look, const terrain::PlaceRun& places, float* water,
-                               const float* sin_grazing, bool materials) {
+const lanes::GroundInputs* Ground::prepare(const Look& look, const terrain::PlaceRun& places, const float* water,
+                                           bool materials) {
   const std::size_t count = places.north_deg.size();
-  const bool some = materials && lanes::settle_materials(count, codes_.data(), water);
-  const bool land = some || textured_plain_;
-  const bool wet = lanes::any_positive(count, water);
-  Sample sample;
-  if (!land && !wet) return sample;
-  const geo::Bearing azimuth = geo::GeodesicRay(look.apex, look.azimuth).place(0.5 * look.range).azimuth;
-  const bool land_levels = land && textured_land_;
-  if (land_levels || textured_sea_)
-    lanes::texture_levels(count, grid_, places, land_levels ? everywhere_.data() : water, level_.data());
-  if (wet) {
-    lanes::fill_sigma0(sea_, static_cast<float>(std::cos((azimuth - wind_from_).radians())), sigma0_.data());
-    lanes::sea_return(count, sigma0_.data(), water, sin_grazing,
-                      &tables_.texture[kWater * reflectivity::kTextureLevels], textured_sea_ ? level_.data() : nullptr,
-                      sea_sigma0_.data());
-    sample.sea = sea_sigma0_.data();
-  }
-  // Without materials there is still less land where there is water.
-  if (!materials) std::fill_n(codes_.data(), count, 0);
-  lanes::land_return(count, tables_, codes_.data(), water, land_levels ? level_.data() : nullptr, land_gamma_.data());
-  if (some) face_walls(places, azimuth);
-  sample.land = land_gamma_.data();
-  return sample;
+  if (!materials && (inputs_.textured & 1U) == 0 && !lanes::any_positive(count, water)) return nullptr;
+  const Direction azimuth = middle_direction(look);
+  // Which samples are of a material with walls, or of water, shows in the pass that needs to know.
+  lanes::fill_sigma0(sea_, static_cast<float>(azimuth.north * wind_north_ + azimuth.east * wind_east_), sigma0_.data());
+  if (materials) face_walls(places, geo::Bearing::radians(std::atan2(azimuth.east, azimuth.north)));
+  inputs_.tables = &tables_;
+  inputs_.places = places;
+  inputs_.water = water;
+  inputs_.material = materials ? codes_.data() : nullptr;
+  inputs_.wall_gain = wall_gain_.data();
+  inputs_.sigma0 = sigma0_.data();
+  inputs_.grid = &grid_;
+  return &inputs_;
+}
+
+Ground::Sample Ground::reflect(const Look& look, const terrain::PlaceRun& places, const float* water,
+                               const float* sin_grazing, bool materials) {
+  const lanes::GroundInputs* const ground = prepare(look, places, water, materials);
+  if (ground == nullptr) return {};
+  lanes::reflect(places.north_deg.size(), *ground, sin_grazing, land_gamma_.data(), sea_sigma0_.data());
+  return {land_gamma_.data(), sea_sigma0_.data()};
 }
 
 // The cardinal effect: few samples have walls, so one by one.
 void Ground::face_walls(const terrain::PlaceRun& places, geo::Bearing azimuth) {
   const std::size_t count = places.north_deg.size();
-  const auto next = [&](std::size_t from) { return lanes::next_in(count, walled_, codes_.data(), from); };
+  const auto next = [&](std::size_t from) { return lanes::next_in(count, inputs_.walled, codes_.data(), from); };
   for (std::size_t i = next(0); i < count; i = next(i + 1)) {
     const double cardinal = land_.cardinal[static_cast<std::size_t>(codes_[i])];
     const double off_deg =
-        reflectivity::off_street_deg(azimuth.degrees(), terrain::street_bearing_deg(terrain::place_of(places, i)));
-    land_gamma_[i] *= static_cast<float>(reflectivity::cardinal_gain(cardinal, off_deg, land_.street_width_deg));
+        reflectivity::off_street_deg(azimuth.degrees(), streets_.bearing_deg(terrain::place_of(places, i)));
+    wall_gain_[i] = static_cast<float>(reflectivity::cardinal_gain(cardinal, off_deg, land_.street_width_deg));
   }
 }
 

@@ -1,12 +1,11 @@
-// What the ground of a sweep reflects, by vectors (Highway, chosen at run time; equal bits on every target): the fast
-// path of surface_return.hpp. Only vectors with land of a material, or with water, are worked on. Arrays have
-// terrain::kRunSlack entries more than `count`.
+// What the ground of a sweep reflects, for vectors (Highway, chosen at run time; equal bits on every target): the fast
+// path of surface_return.hpp. ground_lanes-inl.hpp joins it, a vector of samples at a time. Arrays have
+// terrain::kRunSlack entries more than samples.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "lib/radar/world.hpp"
 #include "model/reflectivity/ground_grid.hpp"
@@ -23,11 +22,33 @@ struct MaterialTables {
   std::array<float, radar::kMaterials * reflectivity::kTextureLevels> texture{};
 };
 
+// The ground of one sweep. Sets of materials have a bit a code.
+struct GroundInputs {
+  const MaterialTables* tables = nullptr;
+  terrain::PlaceRun places;
+  const float* water = nullptr;            // [0, 1]
+  const std::int32_t* material = nullptr;  // codes; null: none anywhere. Water is all water.
+  const float* wall_gain = nullptr;        // factor on the gamma of samples of a material with walls; else not read
+  const float* sigma0 = nullptr;           // of fill_sigma0(); may be null where neither water nor material is
+  const reflectivity::GroundGrid* grid = nullptr;
+  std::uint32_t textured = 0;  // land
+  std::uint32_t walled = 0;
+  bool textured_sea = false;
+};
+
+// land[i] = (1 - water) * gamma, sea[i] = water * sigma0 under these sines of the grazing angle.
+void reflect(std::size_t count, const GroundInputs& ground, const float* sin_grazing, float* land, float* sea);
+
+// The texture's grid within one degree: cells counted from its corner, and the first one's number.
+struct TextureDegree {
+  std::int32_t row = 0, column = 0;
+  float row_share = 0.0F, column_share = 0.0F;  // [0, 1) of the first cell that lies before the corner
+  float rows = 0.0F, columns = 0.0F;            // a degree
+};
+TextureDegree texture_degree(const GroundInputs& ground, float cells_north, float cells_east);
+
 // True if any of the first `count` entries is above 0; no array has to have more.
 bool any_positive(std::size_t count, const float* values);
-
-// Codes of kMaterials and above count as 0; where the material is water so becomes `water`. True if any code is not 0.
-bool settle_materials(std::size_t count, std::int32_t* material, float* water);
 
 // The first sample from `from` on whose material is one of those in the bits of `codes`; `count` if none is.
 std::size_t next_in(std::size_t count, std::uint32_t codes, const std::int32_t* material, std::size_t from);
@@ -35,18 +56,5 @@ std::size_t next_in(std::size_t count, std::uint32_t codes, const std::int32_t* 
 // Sigma0 of the table's entries for a look: 2^(across + cosine * upwind). `sigma0` has room for as many and a vector
 // more.
 void fill_sigma0(const reflectivity::SeaTable& table, float cosine, float* sigma0);
-
-// Texture level [0, 255] of the ground cell that holds each place, as whole numbers; 0 where `wanted` is not above 0 in
-// the whole vector.
-void texture_levels(std::size_t count, const reflectivity::GroundGrid& grid, const terrain::PlaceRun& places,
-                    const float* wanted, std::int32_t* level);
-
-// sea[i] = water * sigma0(sin_grazing) * texture; `level` null: no texture.
-void sea_return(std::size_t count, const float* sigma0, const float* water, const float* sin_grazing,
-                const float* texture, const std::int32_t* level, float* sea);
-
-// gamma[i] = (1 - water) * gamma of the material * texture; `material` as whole numbers below kMaterials.
-void land_return(std::size_t count, const MaterialTables& tables, const std::int32_t* material, const float* water,
-                 const std::int32_t* level, float* gamma);
 
 }  // namespace yars::model::rbm::lanes

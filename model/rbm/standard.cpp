@@ -35,13 +35,7 @@ Standard::Standard(const radar::RadarConfiguration& configuration)
       side_(count_, 0.0F),
       cross_slope_(count_, 0.0F),
       tangent_(count_, lanes::kNoHorizon),
-      peak_tangent_(count_, lanes::kNoHorizon),
       horizon_(count_, lanes::kNoHorizon),
-      range_inverse_(count_, 0.0F),
-      sin_grazing_(count_, 0.0F),
-      cos_grazing_(count_, 0.0F),
-      sin_sight_(count_, 0.0F),
-      cos_sight_(count_, 0.0F),
       power_(count_, 0.0F),
       variate_(count_, 1.0F),
       cell_(count_ + terrain::kRunSlack) {}
@@ -56,31 +50,18 @@ std::size_t Standard::measure(const Look& look, const Database& database, std::s
   const std::size_t pending = read_terrain(look, terrain);
 
   const lanes::SweepConstants constants = sweep_constants(look, earth, receiver);
-  const lanes::SightArrays sights{tangent_.data(),     range_inverse_.data(), sin_grazing_.data(),
-                                  cos_grazing_.data(), sin_sight_.data(),     cos_sight_.data()};
-  lanes::sight(count_, constants, distance_.data(), elevation_.data(), sights);
-  // Shadow is cast by the highest ground; where a coarser level stands in, that is not the mean that returns.
-  peaked_ = terrain.has_peaks();
-  if (peaked_) lanes::sight_tangent(count_, constants, distance_.data(), peak_.data(), peak_tangent_.data());
-  lanes::running_maximum(count_, peaked_ ? peak_tangent_.data() : tangent_.data(), horizon_.data());
-  // Beside a void the peak may be known where the mean is not: it hides what is behind it and returns nothing.
-  for (std::size_t i = 0; peaked_ && i < count_; ++i)
-    if (std::isnan(elevation_.data()[i])) peak_tangent_.data()[i] = lanes::kNoHorizon;
   const double spacing_m = look.range.metres() / static_cast<double>(count_);
   const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   ground_.use_resolution(receiver.pulse_length_m, spacing_m);
-  const Ground::Sample reflects =
-      ground_.reflect(look, places_.run(), water_.data(), sin_grazing_.data(), terrain.has_materials());
-  const lanes::PowerInputs inputs{elevation_.data(),
+  const terrain::PlaceRun places = places_.run();
+  const lanes::SweepInputs inputs{distance_.data(), elevation_.data(),
+                                  // Where a coarser level stands in, the highest ground is not the mean that returns.
+                                  terrain.has_peaks() ? peak_.data() : nullptr,
                                   configuration_.fidelity.cross_track_slope ? cross_slope_.data() : nullptr,
-                                  reflects.land,
-                                  reflects.sea,
-                                  peaked_ ? peak_tangent_.data() : tangent_.data(),
-                                  horizon_.data(),
-                                  one_step_inverse_.data(),
-                                  two_step_inverse_.data(),
-                                  sights};
-  lanes::power(count_, constants, configuration_.fidelity.beam, inputs, power_.data());
+                                  one_step_inverse_.data(), two_step_inverse_.data(),
+                                  ground_.prepare(look, places, water_.data(), terrain.has_materials())};
+  lanes::sweep(count_, constants, configuration_.fidelity.beam, inputs,
+               {tangent_.data(), horizon_.data(), power_.data()});
   // What the last vector wrote behind the sweep is no power.
   std::fill_n(power_.data() + count_, lanes::kPad, 0.0F);
   if (scene_return_.enter(look, database.scenes)) see_scenes(look, earth, receiver, *database.scenes, pulse_samples);
@@ -100,7 +81,7 @@ std::size_t Standard::measure(const Look& look, const Database& database, std::s
 }
 
 void Standard::lit(std::span<std::uint8_t> mask) const {
-  const float* const tangent = peaked_ ? peak_tangent_.data() : tangent_.data();
+  const float* const tangent = tangent_.data();
   const float* const horizon_before = horizon_.data() - 1;
   for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = tangent[i] > horizon_before[i] ? 1 : 0;
 }

@@ -61,7 +61,6 @@ class Standard : public Algorithm {
   SceneReturn scene_return_;
   Receiver receiver_;  // of the range last asked for
   std::size_t count_;
-  bool peaked_ = false;           // peaks cast the last measure()'s shadow
   std::size_t holes_ = 0;         // first samples that nothing is near enough for (slant range)
   double spaced_range_m_ = 0.0;   // range that the distances are for; 0: none yet
   double smeared_samples_ = 0.0;  // pulse that the weights are for; 0: none yet
@@ -72,8 +71,7 @@ class Standard : public Algorithm {
   Padded distance_, one_step_inverse_, two_step_inverse_;
   PlaceArrays places_;
   Padded elevation_, water_, peak_, side_, cross_slope_;
-  Padded tangent_, peak_tangent_, horizon_;
-  Padded range_inverse_, sin_grazing_, cos_grazing_, sin_sight_, cos_sight_;
+  Padded tangent_, horizon_;
   Padded power_, variate_;
   memory::LineVector<std::int32_t> cell_;  // of resolution, that each sample lies in
 };

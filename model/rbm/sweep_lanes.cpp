@@ -7,6 +7,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 // Behind highway.h, or it would have no target yet.
+#include "model/rbm/ground_lanes-inl.hpp"
 #include "model/rbm/polynomials-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,16 +27,13 @@ HWY_INLINE Floats constant(float value) {
 // Where a point is in the vertical plane of the ray, and the aircraft as seen from it.
 struct Geometry {
   Floats out_m, up_m;
-  Floats inverse;  // [1/m] 1 / slant range
   Floats drop_m, chord_m, sine, cosine;
 };
 
 // Sine and cosine of the angle at the earth's centre, as the lengths that they stand for. Their series end at the fifth
 // power of an angle below 0.04 (0.1 at 320 NM and k = 1: drop within 0.01 m, chord within 1e-6 of itself).
 HWY_INLINE Geometry geometry(const SweepConstants& c, Floats distance, Floats height) {
-  const Tag d;
   const auto curvature = constant(c.curvature);
-  const auto one = constant(1.0F);
   const auto angle = hn::Mul(distance, curvature);
   const auto square = hn::Mul(angle, angle);
   Geometry g{};
@@ -43,12 +41,9 @@ HWY_INLINE Geometry geometry(const SweepConstants& c, Floats distance, Floats he
   g.drop_m = hn::Mul(hn::Mul(distance, angle), fall);
   g.chord_m = hn::Sub(distance, hn::Mul(hn::Mul(distance, square), constant(0.166666667F)));
   g.sine = hn::Mul(g.chord_m, curvature);
-  g.cosine = hn::Sub(one, hn::Mul(g.drop_m, curvature));
+  g.cosine = hn::Sub(constant(1.0F), hn::Mul(g.drop_m, curvature));
   g.out_m = hn::Add(g.chord_m, hn::Mul(height, g.sine));
   g.up_m = hn::Sub(hn::Sub(hn::Mul(height, g.cosine), g.drop_m), constant(c.altitude_m));
-  // Nothing is nearer than a metre: a sample without ground may lie at the aircraft itself.
-  const auto slant = hn::Add(hn::Mul(g.out_m, g.out_m), hn::Mul(g.up_m, g.up_m));
-  g.inverse = polynomials::inverse_root(d, hn::Max(slant, one));
   return g;
 }
 
@@ -56,35 +51,10 @@ HWY_INLINE Floats tangent_of(const Geometry& g, hn::Mask<Tag> known) {
   return hn::IfThenElse(known, hn::Div(g.up_m, g.out_m), constant(kNoHorizon));
 }
 
-void sight(std::size_t count, const SweepConstants& constants, const float* distance_m, const float* elevation_m,
-           const SightArrays& out) {
-  const Tag d;
-  const SweepConstants c = constants;
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const auto elevation = hn::LoadU(d, elevation_m + i);
-    const auto known = hn::Eq(elevation, elevation);
-    const auto height = hn::IfThenElseZero(known, elevation);
-    const Geometry g = geometry(c, hn::LoadU(d, distance_m + i), height);
-    const auto altitude = constant(c.altitude_m);
-    hn::StoreU(tangent_of(g, known), d, out.tangent + i);
-    hn::StoreU(g.inverse, d, out.range_inverse + i);
-    hn::StoreU(hn::Mul(hn::Sub(hn::Sub(hn::Mul(altitude, g.cosine), height), g.drop_m), g.inverse), d,
-               out.sin_grazing + i);
-    hn::StoreU(hn::Mul(hn::Add(g.chord_m, hn::Mul(altitude, g.sine)), g.inverse), d, out.cos_grazing + i);
-    hn::StoreU(hn::Mul(g.up_m, g.inverse), d, out.sin_sight + i);
-    hn::StoreU(hn::Mul(g.out_m, g.inverse), d, out.cos_sight + i);
-  }
-}
-
-void sight_tangent(std::size_t count, const SweepConstants& constants, const float* distance_m,
-                   const float* elevation_m, float* tangent) {
-  const Tag d;
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const auto elevation = hn::LoadU(d, elevation_m + i);
-    const auto known = hn::Eq(elevation, elevation);
-    const Geometry g = geometry(constants, hn::LoadU(d, distance_m + i), hn::IfThenElseZero(known, elevation));
-    hn::StoreU(tangent_of(g, known), d, tangent + i);
-  }
+// Of the highest ground.
+HWY_INLINE Floats peak_tangent(const SweepConstants& c, Floats distance, Floats peak) {
+  const auto known = hn::Eq(peak, peak);
+  return tangent_of(geometry(c, distance, hn::IfThenElseZero(known, peak)), known);
 }
 
 // Each lane's index less `back`, at least the first's: what is taken twice changes no maximum.
@@ -94,25 +64,42 @@ HWY_INLINE auto lanes_before(std::size_t back) {
   return hn::IndicesFromVec(Tag(), hn::Max(lane, hn::Zero(di)));
 }
 
-void running_maximum(std::size_t count, const float* tangent, float* horizon) {
-  const Tag d;
-  constexpr std::size_t kSteps = 4;
-  static_assert(std::size_t{1} << kSteps == kMostLanes);
-  const std::size_t lanes = hn::Lanes(d);
-  const decltype(lanes_before(0)) before[kSteps] = {lanes_before(1), lanes_before(2), lanes_before(4), lanes_before(8)};
+HWY_INLINE auto last_lane() {
   const hn::RebindToSigned<Tag> di;
-  const auto last = hn::IndicesFromVec(d, hn::Set(di, static_cast<std::int32_t>(lanes - 1)));
-  auto carry = constant(kNoHorizon);
-  for (std::size_t i = 0; i < count; i += lanes) {
-    auto most = hn::LoadU(d, tangent + i);
-    // Doubling: after each step a lane holds the maximum of twice as many up to itself.
-    for (std::size_t step = 0; std::size_t{1} << step < lanes; ++step)
-      most = hn::Max(most, hn::TableLookupLanes(most, before[step]));
-    const auto all = hn::Max(most, carry);
-    hn::StoreU(all, d, horizon + i);
-    carry = hn::Max(carry, hn::TableLookupLanes(most, last));
-  }
+  return hn::IndicesFromVec(Tag(), hn::Set(di, static_cast<std::int32_t>(hn::Lanes(Tag())) - 1));
 }
+
+// The greatest tangent up to each sample, a vector after the other.
+class RunningMaximum {
+ public:
+  HWY_INLINE RunningMaximum()
+      : back_{lanes_before(1), lanes_before(2), lanes_before(4), lanes_before(8)},
+        last_(last_lane()),
+        carry_(constant(kNoHorizon)) {}
+
+  struct Horizon {
+    Floats upto;    // with the sample itself
+    Floats before;  // without
+  };
+  HWY_INLINE Horizon after(Floats tangent) {
+    const Tag d;
+    auto most = tangent;
+    // Doubling: after each step a lane holds the maximum of twice as many up to itself.
+    for (std::size_t step = 0; std::size_t{1} << step < hn::Lanes(d); ++step)
+      most = hn::Max(most, hn::TableLookupLanes(most, back_[step]));
+    const auto upto = hn::Max(most, carry_);
+    const auto before = hn::IfThenElse(hn::FirstN(d, 1), carry_, hn::TableLookupLanes(upto, back_[0]));
+    carry_ = hn::TableLookupLanes(upto, last_);
+    return {upto, before};
+  }
+
+ private:
+  static_assert(kMostLanes == 16);
+  using Indices = decltype(last_lane());
+  Indices back_[4];
+  Indices last_;
+  Floats carry_;
+};
 
 // A gain as a fraction: its division joins that of the power.
 struct Gain {
@@ -152,9 +139,8 @@ HWY_INLINE Gain gain_of(const SweepConstants& c, Floats sin_sight, Floats cos_si
 }
 
 // Slope along the sweep: the central difference; towards a void or an end, the difference to the other side alone.
-HWY_INLINE Floats along_slope(const PowerInputs& in, std::size_t i) {
+HWY_INLINE Floats along_slope(const SweepInputs& in, Floats here, std::size_t i) {
   const Tag d;
-  const auto here = hn::LoadU(d, in.elevation_m + i);
   const auto near = hn::LoadU(d, in.elevation_m + i - 1);
   const auto far = hn::LoadU(d, in.elevation_m + i + 1);
   const auto near_known = hn::Eq(near, near);
@@ -172,69 +158,90 @@ HWY_INLINE Floats smaller_area_inverse(const SweepConstants& c, Floats sine, Flo
                  hn::Mul(hn::Mul(sine, range_inverse), constant(c.beam_inverse)));
 }
 
+// The power of samples of which some are lit, before sensitivity time control but for its third power of range.
 template <radar::BeamPattern kBeam>
-HWY_INLINE void power_by(std::size_t count, const SweepConstants& constants, const PowerInputs& in, float* result) {
+HWY_INLINE Floats lit_power(const SweepConstants& c, const SweepInputs& in, TextureLanes& texture, std::size_t i,
+                            const Geometry& g, Floats height, Floats range_inverse, hn::Mask<Tag> lit) {
   const Tag d;
-  const SweepConstants c = constants;
   const auto zero = hn::Zero(d);
   const auto one = constant(1.0F);
+  const auto altitude = constant(c.altitude_m);
+  const auto sin_grazing = hn::Mul(hn::Sub(hn::Sub(hn::Mul(altitude, g.cosine), height), g.drop_m), range_inverse);
+  const auto cos_grazing = hn::Mul(hn::Add(g.chord_m, hn::Mul(altitude, g.sine)), range_inverse);
+  // Sine and cosine of the local grazing angle, both times the length of the facet's normal: it cancels in the power.
+  const auto slope = along_slope(in, height, i);
+  auto square = hn::Add(one, hn::Mul(slope, slope));
+  if (in.cross_slope != nullptr) {
+    const auto across = hn::LoadU(d, in.cross_slope + i);
+    square = hn::Add(square, hn::Mul(across, across));
+  }
+  const auto sine = hn::Max(hn::Add(hn::Mul(slope, cos_grazing), sin_grazing), zero);
+  const auto cosine = hn::Sqrt(hn::Max(hn::Sub(square, hn::Mul(sine, sine)), zero));
+  const auto area_inverse = smaller_area_inverse(c, sine, cosine, range_inverse);
+  const Gain gain = gain_of<kBeam>(c, hn::Mul(g.up_m, range_inverse), hn::Mul(g.out_m, range_inverse));
+  const auto raised = hn::Mul(gain.over, constant(c.scale));
+  // Where the sine is zero so is the power; the area's inverse may be zero there too.
+  const auto returns = hn::And(lit, hn::Gt(sine, zero));
+  const auto under = hn::IfThenElse(returns, hn::Mul(area_inverse, gain.under), one);
+  const auto by_land = hn::Div(hn::Mul(sine, raised), under);
+  if (in.ground == nullptr) return hn::IfThenElseZero(returns, hn::Mul(constant(c.land_gamma), by_land));
+  const GroundReturn ground = ground_return(*in.ground, texture, i, sin_grazing);
+  const auto land = hn::IfThenElseZero(returns, hn::Mul(ground.land, by_land));
+  if (!ground.wet) return land;
+  const auto wet = hn::And(lit, hn::Gt(ground.sea, zero));
+  // The sea lies level: its area goes by the ray's own grazing angle.
+  const auto level_inverse = smaller_area_inverse(c, sin_grazing, cos_grazing, range_inverse);
+  const auto below = hn::IfThenElse(wet, hn::Mul(level_inverse, gain.under), one);
+  return hn::Add(land, hn::IfThenElseZero(wet, hn::Div(hn::Mul(ground.sea, raised), below)));
+}
+
+template <radar::BeamPattern kBeam>
+HWY_INLINE void sweep_by(std::size_t count, const SweepConstants& constants, const SweepInputs& in,
+                         const SweepOutputs& out) {
+  const Tag d;
+  const SweepConstants c = constants;
+  const GroundInputs none;
+  TextureLanes texture(in.ground != nullptr ? *in.ground : none);
+  RunningMaximum horizon;
+  const auto reference_octaves = polynomials::log2(d, constant(c.range_inverse));
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const auto lit = hn::Gt(hn::LoadU(d, in.tangent + i), hn::LoadU(d, in.horizon + i - 1));
+    const auto distance = hn::LoadU(d, in.distance_m + i);
+    const auto elevation = hn::LoadU(d, in.elevation_m + i);
+    const auto known = hn::Eq(elevation, elevation);
+    const auto height = hn::IfThenElseZero(known, elevation);
+    const Geometry g = geometry(c, distance, height);
+    auto tangent = in.peak_m == nullptr ? tangent_of(g, known) : peak_tangent(c, distance, hn::LoadU(d, in.peak_m + i));
+    const auto [upto, before] = horizon.after(tangent);
+    // Beside a void the peak may be known where the mean is not: it hides what is behind it and returns nothing.
+    tangent = hn::IfThenElse(known, tangent, constant(kNoHorizon));
+    hn::StoreU(tangent, d, out.tangent + i);
+    hn::StoreU(upto, d, out.horizon + i);
+    const auto lit = hn::Gt(tangent, before);
     if (hn::AllFalse(d, lit)) {
-      hn::StoreU(zero, d, result + i);
+      hn::StoreU(hn::Zero(d), d, out.power + i);
       continue;
     }
-    // Sine and cosine of the local grazing angle, both times the length of the facet's normal: it cancels in the power.
-    const auto slope = along_slope(in, i);
-    auto square = hn::Add(one, hn::Mul(slope, slope));
-    if (in.cross_slope != nullptr) {
-      const auto across = hn::LoadU(d, in.cross_slope + i);
-      square = hn::Add(square, hn::Mul(across, across));
+    // Nothing is nearer than a metre: a sample without ground may lie at the aircraft itself.
+    const auto slant_square = hn::Add(hn::Mul(g.out_m, g.out_m), hn::Mul(g.up_m, g.up_m));
+    const auto range_inverse = polynomials::inverse_root(d, hn::Max(slant_square, constant(1.0F)));
+    auto power = lit_power<kBeam>(c, in, texture, i, g, height, range_inverse, lit);
+    if (c.range_power != 0.0F) {
+      const auto octaves = hn::Sub(polynomials::log2(d, range_inverse), reference_octaves);
+      power = hn::Mul(power, polynomials::exp2(d, hn::Mul(constant(-c.range_power), octaves)));
     }
-    const auto range_inverse = hn::LoadU(d, in.sights.range_inverse + i);
-    const auto towards =
-        hn::Add(hn::Mul(slope, hn::LoadU(d, in.sights.cos_grazing + i)), hn::LoadU(d, in.sights.sin_grazing + i));
-    const auto sine = hn::Max(towards, zero);
-    const auto cosine = hn::Sqrt(hn::Max(hn::Sub(square, hn::Mul(sine, sine)), zero));
-    const auto area_inverse = smaller_area_inverse(c, sine, cosine, range_inverse);
-    const auto gamma = in.land == nullptr ? constant(c.land_gamma) : hn::LoadU(d, in.land + i);
-    const Gain gain = gain_of<kBeam>(c, hn::LoadU(d, in.sights.sin_sight + i), hn::LoadU(d, in.sights.cos_sight + i));
-    const auto raised = hn::Mul(gain.over, constant(c.scale));
-    // Where the sine is zero so is the power; the area's inverse may be zero there too.
-    const auto returns = hn::And(lit, hn::Gt(sine, zero));
-    const auto under = hn::IfThenElse(returns, hn::Mul(area_inverse, gain.under), one);
-    auto sum = hn::IfThenElseZero(returns, hn::Div(hn::Mul(hn::Mul(gamma, sine), raised), under));
-    if (in.sea != nullptr) {
-      const auto sea = hn::LoadU(d, in.sea + i);
-      const auto wet = hn::And(lit, hn::Gt(sea, zero));
-      if (!hn::AllFalse(d, wet)) {
-        // The sea lies level: its area goes by the ray's own grazing angle.
-        const auto level_inverse = smaller_area_inverse(c, hn::LoadU(d, in.sights.sin_grazing + i),
-                                                        hn::LoadU(d, in.sights.cos_grazing + i), range_inverse);
-        const auto below = hn::IfThenElse(wet, hn::Mul(level_inverse, gain.under), one);
-        sum = hn::Add(sum, hn::IfThenElseZero(wet, hn::Div(hn::Mul(sea, raised), below)));
-      }
-    }
-    hn::StoreU(sum, d, result + i);
-  }
-  if (c.range_power == 0.0F) return;
-  const auto at_reference = polynomials::log2(d, constant(c.range_inverse));
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const auto octaves = hn::Sub(polynomials::log2(d, hn::LoadU(d, in.sights.range_inverse + i)), at_reference);
-    const auto control = polynomials::exp2(d, hn::Mul(constant(-c.range_power), octaves));
-    hn::StoreU(hn::Mul(hn::LoadU(d, result + i), control), d, result + i);
+    hn::StoreU(power, d, out.power + i);
   }
 }
 
-void power(std::size_t count, const SweepConstants& constants, radar::BeamPattern beam, const PowerInputs& inputs,
-           float* result) {
+void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& inputs,
+           const SweepOutputs& outputs) {
   switch (beam) {
     case radar::BeamPattern::hard_edge:
-      return power_by<radar::BeamPattern::hard_edge>(count, constants, inputs, result);
+      return sweep_by<radar::BeamPattern::hard_edge>(count, constants, inputs, outputs);
     case radar::BeamPattern::gaussian:
-      return power_by<radar::BeamPattern::gaussian>(count, constants, inputs, result);
+      return sweep_by<radar::BeamPattern::gaussian>(count, constants, inputs, outputs);
     case radar::BeamPattern::cosecant_squared:
-      return power_by<radar::BeamPattern::cosecant_squared>(count, constants, inputs, result);
+      return sweep_by<radar::BeamPattern::cosecant_squared>(count, constants, inputs, outputs);
   }
 }
 
@@ -260,26 +267,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace yars::model::rbm::lanes {
 
-HWY_EXPORT(sight);
-HWY_EXPORT(sight_tangent);
-HWY_EXPORT(running_maximum);
-HWY_EXPORT(power);
+HWY_EXPORT(sweep);
 HWY_EXPORT(smear);
 
-void sight(std::size_t count, const SweepConstants& constants, const float* distance_m, const float* elevation_m,
-           const SightArrays& out) {
-  HWY_DYNAMIC_DISPATCH(sight)(count, constants, distance_m, elevation_m, out);
-}
-void sight_tangent(std::size_t count, const SweepConstants& constants, const float* distance_m,
-                   const float* elevation_m, float* tangent) {
-  HWY_DYNAMIC_DISPATCH(sight_tangent)(count, constants, distance_m, elevation_m, tangent);
-}
-void running_maximum(std::size_t count, const float* tangent, float* horizon) {
-  HWY_DYNAMIC_DISPATCH(running_maximum)(count, tangent, horizon);
-}
-void power(std::size_t count, const SweepConstants& constants, radar::BeamPattern beam, const PowerInputs& inputs,
-           float* result) {
-  HWY_DYNAMIC_DISPATCH(power)(count, constants, beam, inputs, result);
+void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& inputs,
+           const SweepOutputs& outputs) {
+  HWY_DYNAMIC_DISPATCH(sweep)(count, constants, beam, inputs, outputs);
 }
 void smear(std::size_t count, const float* power, const float* weights, std::ptrdiff_t reach, float* result) {
   HWY_DYNAMIC_DISPATCH(smear)(count, power, weights, reach, result);

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "lib/radar/configuration.hpp"
+#include "model/rbm/ground_lanes.hpp"
 
 namespace yars::model::rbm::lanes {
 
@@ -32,42 +33,27 @@ struct SweepConstants {
   float sin_half_beam = 0.0F;
 };
 
-// How the aircraft sees each sample, one array each.
-struct SightArrays {
-  float* tangent;        // tangent of the elevation angle; void: kNoHorizon
-  float* range_inverse;  // [1/m] 1 / slant range
-  float* sin_grazing;
-  float* cos_grazing;
-  float* sin_sight;  // of the elevation angle
-  float* cos_sight;
-};
-
-// Elevation [m] NaN = void.
-void sight(std::size_t count, const SweepConstants& constants, const float* distance_m, const float* elevation_m,
-           const SightArrays& out);
-
-// The tangent alone, as sight() makes it: of the highest ground where that is not the mean.
-void sight_tangent(std::size_t count, const SweepConstants& constants, const float* distance_m,
-                   const float* elevation_m, float* tangent);
-
-// horizon[i] = the greatest tangent of samples 0..i. Exact: only comparisons.
-void running_maximum(std::size_t count, const float* tangent, float* horizon);
-
-// Power after sensitivity time control, full scale = 1, before the pulse smear: slopes along and across, local
-// incidence, two-way gain, area and reflectivity in one. 0 in shadow and void.
-struct PowerInputs {
-  const float* elevation_m;
+// What one sweep reads, an array a sample each.
+struct SweepInputs {
+  const float* distance_m;
+  const float* elevation_m;       // of the ground that returns; NaN = void
+  const float* peak_m;            // highest ground, which casts the shadow; null: the same as elevation_m
   const float* cross_slope;       // null: none
-  const float* land;              // gamma of each sample, its share of land in it; null: the constants' everywhere
-  const float* sea;               // sigma0 of each sample, its share of water in it; null: none
-  const float* tangent;           // of the ground that returns
-  const float* horizon;           // of all ground before
   const float* one_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i])
   const float* two_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i - 1])
-  SightArrays sights;
+  const GroundInputs* ground;     // null: plain dry land everywhere
 };
-void power(std::size_t count, const SweepConstants& constants, radar::BeamPattern beam, const PowerInputs& inputs,
-           float* result);
+// And what it gives.
+struct SweepOutputs {
+  float* tangent;  // of the elevation angle of what casts the shadow; kNoHorizon where nothing returns
+  float* horizon;  // the greatest tangent of all ground up to and with the sample. Exact: only comparisons.
+  float* power;    // after sensitivity time control, full scale = 1, before the pulse smear; 0 in shadow and void
+};
+
+// From terrain to power in one pass: sight, shadow, slopes along and across, local incidence, two-way gain, area and
+// reflectivity.
+void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& inputs,
+           const SweepOutputs& outputs);
 
 // result[i] = sum of weights[reach + k] * power[i + k] over k = -reach..reach; `result` has exactly `count` entries.
 void smear(std::size_t count, const float* power, const float* weights, std::ptrdiff_t reach, float* result);

@@ -38,7 +38,7 @@ std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint place) {
   // By way of signed integers: those a loop converts many at a time.
   const auto row = static_cast<std::int32_t>(std::max(0.0, north_deg * grid.rows_per_degree));
   const auto column = static_cast<std::int32_t>((turns - std::floor(turns)) * grid.columns[band]);
-  return mixed(mixed(static_cast<std::uint32_t>(row)) ^ static_cast<std::uint32_t>(column));
+  return mixed(static_cast<std::uint32_t>(row) * kRowFactor + static_cast<std::uint32_t>(column));
 }
 
 }  // namespace yars::model::reflectivity

@@ -14,6 +14,10 @@ struct GroundGrid {
   std::array<double, 180> columns{};  // cells round the earth, by whole degrees of latitude from the south pole
 };
 
+// A cell's number is its row times this plus its column: the golden section of 2^32, so that no two cells within
+// thousands of rows share one.
+inline constexpr std::uint32_t kRowFactor = 0x9e3779b1U;
+
 // Cells of this edge [m] (> 0), within 2 % of it below 60 degrees of latitude.
 GroundGrid make_ground_grid(double edge_m);
 

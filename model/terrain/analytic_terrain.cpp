@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lib/failure/require.hpp"
+#include "model/terrain/culture.hpp"
 
 namespace yars::model::terrain {
 
@@ -39,7 +40,9 @@ Surface AnalyticTerrain::surface_at(geo::GeoPoint place, Interpolation /*interpo
     return {std::numeric_limits<double>::quiet_NaN(), 0.0};
   const geo::GeoPoint wrapped{std::clamp(place.latitude_deg, -90.0, 90.0), geo::wrapped_degrees(place.longitude_deg)};
   const double height_m = height_m_(wrapped);
-  return {height_m, height_m == 0.0 ? 1.0 : 0.0, material_ ? material_(wrapped) : std::uint8_t{0}};
+  const std::uint8_t given = material_ ? material_(wrapped) : std::uint8_t{0};
+  const std::uint8_t material = given <= kLargestMaterial ? given : std::uint8_t{0};
+  return {height_m, height_m == 0.0 ? 1.0 : 0.0, material};
 }
 
 std::size_t AnalyticTerrain::surfaces(const PlaceRun& places, Interpolation interpolation,

@@ -44,7 +44,7 @@ struct SurfaceRun {
   std::span<float> elevation_m;  // [m] MSL; NaN = void
   std::span<float> water;        // [0, 1]
   std::span<float> peak_m;       // [m] highest ground about the place where a coarser level stands in, else elevation
-  std::span<std::int32_t> material;  // codes
+  std::span<std::int32_t> material;  // codes up to kLargestMaterial
 };
 
 // Arrays of the fast path have this many entries more behind the last one, which may be read and overwritten.

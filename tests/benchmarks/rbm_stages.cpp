@@ -1,5 +1,6 @@
 #include "tests/benchmarks/rbm_stages.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <functional>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "model/rbm/earth.hpp"
+#include "model/rbm/ground.hpp"
 #include "model/rbm/receiver.hpp"
 #include "model/rbm/sample_places.hpp"
 #include "model/rbm/sweep_lanes.hpp"
@@ -29,7 +31,8 @@ class Stages {
         request_(request),
         count_(static_cast<std::size_t>(samples)),
         video_(count_),
-        places_(count_) {
+        places_(count_),
+        ground_(configuration_, count_) {
     cell_.resize(count_ + 16);
     for (auto& array : arrays_) array.assign(count_ + 2 * lanes::kPad, 0.0F);
     for (const int padded : {kTangent, kHorizon}) arrays_[padded].assign(arrays_[padded].size(), lanes::kNoHorizon);
@@ -56,8 +59,6 @@ class Stages {
   }
 
   void print() {
-    const lanes::SightArrays sights{at(kTangent),    at(kInverse),  at(kSinGrazing),
-                                    at(kCosGrazing), at(kSinSight), at(kCosSight)};
     stage("places", {kDistance}, {kNorth, kEast, kNorth, kEast}, [&](int sweep) {
       sample_places(request_.pose.place, azimuth(sweep), request_.range, 5, at(kDistance), places_);
     });
@@ -65,16 +66,13 @@ class Stages {
       terrain_->surfaces(places_.run(), radar::Interpolation::bilinear,
                          {{at(kElevation), count_}, {at(kWater), count_}, {}, {}});
     });
-    stage("sight", {kDistance, kElevation}, {kTangent, kInverse, kSinGrazing, kCosGrazing, kSinSight, kCosSight},
-          [&](int) { lanes::sight(count_, constants_, at(kDistance), at(kElevation), sights); });
-    stage("shadow", {kTangent}, {kHorizon}, [&](int) { lanes::running_maximum(count_, at(kTangent), at(kHorizon)); });
-    const lanes::PowerInputs inputs{at(kElevation), nullptr,      nullptr,       nullptr, at(kTangent),
-                                    at(kHorizon),   at(kOneStep), at(kTwoSteps), sights};
-    stage("power",
-          {kElevation, kWater, kTangent, kHorizon, kOneStep, kTwoSteps, kInverse, kSinGrazing, kCosGrazing, kSinSight,
-           kCosSight},
-          {kPower},
-          [&](int) { lanes::power(count_, constants_, radar::BeamPattern::cosecant_squared, inputs, at(kPower)); });
+    if (terrain_->has_materials()) print_ground();
+    const lanes::SweepInputs inputs{at(kDistance), at(kElevation), nullptr, nullptr,
+                                    at(kOneStep),  at(kTwoSteps),  nullptr};
+    stage("sweep", {kDistance, kElevation, kOneStep, kTwoSteps}, {kTangent, kHorizon, kPower}, [&](int) {
+      lanes::sweep(count_, constants_, radar::BeamPattern::cosecant_squared, inputs,
+                   {at(kTangent), at(kHorizon), at(kPower)});
+    });
     std::array<float, 2 * PulseSmear::kMostReach + 1> weights{};
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = static_cast<float>(smear_.weights[i]);
     stage("smear", {kPower}, {kSmeared},
@@ -91,6 +89,21 @@ class Stages {
   }
 
  private:
+  // What culture adds: the codes with the terrain, and what they reflect (in the sweep's own pass when all is one).
+  void print_ground() {
+    memory::LineVector<std::int32_t>& codes = ground_.materials();
+    ground_.use_resolution(receiver_.pulse_length_m, request_.range.metres() / static_cast<double>(count_));
+    std::fill_n(at(kSpare), count_, 0.1F);
+    stage("terrain+codes", {kNorth, kEast, kNorth, kEast}, {kElevation, kWater, kSpare}, [&](int) {
+      terrain_->surfaces(places_.run(), radar::Interpolation::bilinear,
+                         {{at(kElevation), count_}, {at(kWater), count_}, {}, {codes.data(), count_}});
+    });
+    stage("ground", {kWater, kSpare}, {kPower, kSmeared}, [&](int sweep) {
+      ground_.reflect({request_.pose.place, request_.pose.altitude, azimuth(sweep), {}, request_.range}, places_.run(),
+                      at(kWater), at(kSpare), true);
+    });
+  }
+
   enum Array : int {
     kDistance,
     kNorth,
@@ -102,11 +115,6 @@ class Stages {
     kHorizon,
     kOneStep,
     kTwoSteps,
-    kInverse,
-    kSinGrazing,
-    kCosGrazing,
-    kSinSight,
-    kCosSight,
     kPower,
     kSmeared,
     kVariate,
@@ -163,6 +171,7 @@ class Stages {
   PulseSmear smear_;
   memory::LineVector<std::int32_t> cell_;
   PlaceArrays places_;
+  Ground ground_;
   std::string stages_, floors_;
 };
 

@@ -88,12 +88,18 @@ TEST(SeaTable, LiesWithinTwoHundredthsOfADecibelOfTheModelAtLowGrazing) {
     constexpr std::size_t kRoom = SeaTable::kPieces + 1 + terrain::kRunSlack;
     std::vector<float> sigma0(kRoom), sine(2 * terrain::kRunSlack, 0.0F), found(sine.size());
     const std::vector<float> water(sine.size(), 1.0F);
+    std::vector<float> land(sine.size());
+    const rbm::lanes::MaterialTables tables;
+    rbm::lanes::GroundInputs ground;
+    ground.tables = &tables;
+    ground.water = water.data();
+    ground.sigma0 = sigma0.data();
     for (const double look_deg : {0.0, 133.0, 270.0}) {
       const geo::Bearing look = geo::Bearing::degrees(look_deg);
       rbm::lanes::fill_sigma0(table, static_cast<float>(std::cos((look - sea.wind_from).radians())), sigma0.data());
       const auto at = [&](float sine_of_grazing) {
         sine[0] = sine_of_grazing;
-        rbm::lanes::sea_return(1, sigma0.data(), water.data(), sine.data(), nullptr, nullptr, found.data());
+        rbm::lanes::reflect(1, ground, sine.data(), land.data(), found.data());
         return static_cast<double>(found[0]);
       };
       for (double grazing_deg = 0.02; grazing_deg < 90.0; grazing_deg *= 1.01) {

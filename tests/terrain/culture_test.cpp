@@ -123,5 +123,19 @@ TEST(StreetGrid, TheAntimeridianIsNoBorder) {
   }
 }
 
+TEST(StreetFinder, AnswersAsIfEachPlaceWereItsFirst) {
+  StreetFinder finder;
+  // Along rays, as a sweep goes, and from one to the next: over a pole, the antimeridian and back.
+  for (const double start_deg : {-89.9, -34.0, 37.0, 88.0})
+    for (int step = 0; step < 800; ++step) {
+      const geo::GeoPoint place{start_deg + 0.004 * step, 179.0 + 0.003 * step};
+      const StreetPatch found = finder.patch(place);
+      const StreetPatch expected = street_patch(place);
+      ASSERT_EQ(found.bearing_deg, expected.bearing_deg) << place.latitude_deg;
+      ASSERT_EQ(found.origin.longitude_deg, expected.origin.longitude_deg) << place.latitude_deg;
+      ASSERT_EQ(finder.bearing_deg(place), expected.bearing_deg);
+    }
+}
+
 }  // namespace
 }  // namespace yars::model::terrain

@@ -1,0 +1,176 @@
+// `yars terrain reduce`, `convert` and `pack` over files that the test itself makes: what they write, what they say
+// while they do, and what they answer to bad input.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "model/terrain/directory_index.hpp"
+#include "model/terrain/dted_writer.hpp"
+#include "model/terrain/reduce.hpp"
+#include "tests/endtoend/process_set.hpp"
+#include "tests/terrain/dted_builder.hpp"
+#include "tests/terrain/rough_cell.hpp"
+
+namespace yars {
+namespace {
+
+namespace terrain = model::terrain;
+using terrain::Cell;
+using terrain::CellPlace;
+using terrain::CellReading;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr CellPlace kPlace{36, -122};
+constexpr CellPlace kNext{36, -121};
+
+endtoend::Finished run(const std::string& command, const std::filesystem::path& in, const std::filesystem::path& out,
+                       const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words{"yars", "terrain", command, "--in", in.string(), "--out", out.string()};
+  words.insert(words.end(), more.begin(), more.end());
+  return endtoend::run_program(words);
+}
+
+// Two cells side by side of level 0, with seas, cliffs and voids.
+class TerrainBatch : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(terrain::write_dted(in(), cell_at(kPlace), 0));
+    ASSERT_TRUE(terrain::write_dted(in(), cell_at(kNext), 0));
+  }
+
+  static Cell cell_at(CellPlace place) { return test::rough_cell(place, 121, 121, place == kPlace ? 1 : 2); }
+  std::filesystem::path in() const { return folder_.path() / "in"; }
+  std::filesystem::path out() const { return folder_.path() / "out"; }
+
+  static CellReading read(const std::filesystem::path& file, CellPlace place, int reduction = 0) {
+    const auto index = terrain::index_file(file.string());
+    EXPECT_TRUE(index.has_value()) << index.error().message();
+    auto reading = terrain::read_cell(index->begin()->second, place, reduction);
+    EXPECT_TRUE(reading.has_value()) << file;
+    return *reading;
+  }
+
+  // One sentence on standard error that names `words`, and the exit code of a failure.
+  static void expect_refused(const endtoend::Finished& run, int code, const std::vector<std::string>& words) {
+    EXPECT_EQ(run.code, code) << run.errors;
+    for (const std::string& word : words) EXPECT_THAT(run.errors, HasSubstr(word));
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(TerrainBatch, ConvertedToEveryFormatInTurnThePostsAndVoidsAreTheSame) {
+  // HGT has no level 0: level 1 takes the way round.
+  const std::filesystem::path start = folder_.path() / "level1";
+  ASSERT_EQ(run("convert", in(), start, {"--level", "1"}).code, 0);
+  const Cell cell = read(start / "w122" / "n36.dt1", kPlace).cell;
+  ASSERT_EQ(cell.rows(), 1201);
+  ASSERT_GT(cell.voids(), 0U);
+  ASSERT_GT(cell.sea_posts(), 0U);
+  const std::filesystem::path hgt = folder_.path() / "hgt", packed = folder_.path() / "packed";
+  ASSERT_EQ(run("convert", start, hgt, {"--to", "hgt"}).code, 0);
+  ASSERT_EQ(run("convert", hgt, packed, {"--to", "jp2"}).code, 0);
+  ASSERT_EQ(run("convert", packed, out(), {"--to", "dted"}).code, 0);
+  EXPECT_TRUE(test::same_posts(read(hgt / "N36W122.hgt", kPlace).cell, cell));
+  EXPECT_TRUE(test::same_posts(read(packed / "w122" / "n36.jp2", kPlace).cell, cell));
+  EXPECT_TRUE(test::same_posts(read(out() / "w122" / "n36.dt1", kPlace).cell, cell));
+}
+
+TEST_F(TerrainBatch, SaysEachCellThatItHasWrittenAndTheirSum) {
+  const auto converted = run("convert", in(), out());
+  ASSERT_EQ(converted.code, 0) << converted.errors;
+  EXPECT_THAT(converted.output, HasSubstr("1/2"));
+  EXPECT_THAT(converted.output, HasSubstr("2/2"));
+  EXPECT_THAT(converted.output, HasSubstr("n36.dt0"));
+  EXPECT_THAT(converted.output, HasSubstr("2 cells"));
+  EXPECT_EQ(converted.errors, "");
+}
+
+TEST_F(TerrainBatch, ReducedKeepsMeansForTheReturn) {
+  ASSERT_EQ(run("reduce", in(), out(), {"--reduction", "2"}).code, 0);
+  const Cell found = read(out() / "w122" / "n36.jp2", kPlace).cell;
+  const terrain::ReducedCell expected = terrain::reduce(cell_at(kPlace), 2);
+  EXPECT_EQ(found.rows(), 31);
+  EXPECT_TRUE(test::same_posts(found, expected.means));
+}
+
+TEST_F(TerrainBatch, AReducedCellThatIsReadCoarserStillHasPeaksForTheShadow) {
+  ASSERT_EQ(run("reduce", in(), out(), {"--reduction", "1"}).code, 0);
+  const std::filesystem::path file = out() / "w122" / "n36.jp2";
+  const Cell half = read(file, kPlace).cell;
+  const CellReading quarter = read(file, kPlace, 1);
+  ASSERT_TRUE(quarter.peaks.has_value());
+  const terrain::ReducedCell expected = terrain::reduce(half, 1);
+  EXPECT_TRUE(test::same_posts(*quarter.peaks, expected.peaks));
+}
+
+TEST_F(TerrainBatch, PackedItOpensWithTheSamePostsAndCoarserOnesWithMeansAndPeaks) {
+  const auto packed = run("pack", in(), out());
+  ASSERT_EQ(packed.code, 0) << packed.errors;
+  for (const CellPlace place : {kPlace, kNext}) {
+    const std::filesystem::path file = out() / (place == kPlace ? "w122" : "w121") / "n36.jp2";
+    const Cell cell = cell_at(place);
+    EXPECT_TRUE(test::same_posts(read(file, place).cell, cell));
+    const CellReading reduced = read(file, place, 2);
+    const terrain::ReducedCell expected = terrain::reduce(cell, 2);
+    ASSERT_EQ(reduced.cell.rows(), 31);
+    ASSERT_TRUE(reduced.peaks.has_value());
+    EXPECT_TRUE(test::same_posts(*reduced.peaks, expected.peaks));
+    EXPECT_EQ(reduced.cell.voids(), expected.means.voids());
+    EXPECT_EQ(reduced.cell.sea_posts(), expected.means.sea_posts());
+  }
+}
+
+TEST_F(TerrainBatch, AFolderThatIsNotThereIsOneClearError) {
+  for (const char* command : {"convert", "pack"})
+    expect_refused(run(command, folder_.path() / "nowhere", out()), 1, {"nowhere", "expected", "found"});
+  expect_refused(run("reduce", folder_.path() / "nowhere", out(), {"--reduction", "1"}), 1, {"nowhere"});
+}
+
+TEST_F(TerrainBatch, ATruncatedCellIsNamedAndTheOthersAreWritten) {
+  const std::filesystem::path victim = in() / "w122" / "n36.dt0";
+  std::filesystem::resize_file(victim, std::filesystem::file_size(victim) / 2);
+  for (const std::string command : {"convert", "pack"}) {
+    const auto target = out() / command;
+    expect_refused(run(command, in(), target), 1, {"problem: ", "w122/n36.dt0", "1 of 2"});
+    EXPECT_FALSE(std::filesystem::exists(target / "w122"));
+    EXPECT_TRUE(std::filesystem::exists(target / "w121"));
+  }
+}
+
+TEST_F(TerrainBatch, AFileOfNoFormatIsRefused) {
+  const std::filesystem::path text = folder_.path() / "notes.txt";
+  folder_.write("notes.txt", std::vector<std::byte>(300, std::byte{65}));
+  for (const char* command : {"convert", "pack"}) expect_refused(run(command, text, out()), 1, {"notes.txt"});
+  EXPECT_FALSE(std::filesystem::exists(out()));
+}
+
+TEST_F(TerrainBatch, AnOutputThatCannotBeWrittenIsNamed) {
+  // A file where the folder should be: not even root writes below it.
+  folder_.write("out", std::vector<std::byte>(3));
+  for (const char* command : {"convert", "pack"}) {
+    const auto refused = run(command, in(), out());
+    expect_refused(refused, 1, {"problem: ", out().string(), "2 of 2"});
+    EXPECT_THAT(refused.output, Not(HasSubstr("1/2")));
+  }
+}
+
+TEST_F(TerrainBatch, TheInputIsNeverWrittenOver) {
+  expect_refused(run("convert", in(), in()), 2, {"--out outside of --in"});
+  expect_refused(run("pack", in(), in() / "packed"), 2, {"--out outside of --in"});
+  EXPECT_TRUE(test::same_posts(read(in() / "w122" / "n36.dt0", kPlace).cell, cell_at(kPlace)));
+}
+
+TEST_F(TerrainBatch, ReduceWantsOneOfReductionAndLevel) {
+  expect_refused(run("reduce", in(), out()), 2, {"--reduction", "--level", "none"});
+  expect_refused(run("reduce", in(), out(), {"--reduction", "1", "--level", "0"}), 2, {"both"});
+  EXPECT_EQ(run("reduce", in(), out(), {"--reduction", "13"}).code, 2);
+  EXPECT_EQ(run("convert", in(), out(), {"--to", "tif"}).code, 2);
+}
+
+}  // namespace
+}  // namespace yars

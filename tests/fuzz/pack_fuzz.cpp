@@ -1,0 +1,68 @@
+// Any bytes as a packed cell: a reading or an error, in memory that the files' lengths bear out. The input is laid over
+// a pair of sound files (.jp2 and .side) in pieces of (file and offset, length, bytes); checksums are made right again
+// but in one input of eight, so that the reader gets past them to the marks, the peaks and the wavelet.
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "model/terrain/pack_reader.hpp"
+#include "model/terrain/pack_writer.hpp"
+#include "tests/terrain/rough_cell.hpp"
+
+using namespace yars::model::terrain;
+
+namespace {
+
+constexpr CellPlace kPlace{36, -122};
+constexpr int kPosts = 49;          // a side: some reductions, small files
+constexpr std::size_t kBytes = 20;  // in the .side: of the .jp2, then its CRC-32, then that of all that follows
+constexpr std::size_t kJp2Crc = 24, kRestCrc = 28, kRest = 32;
+
+PackedCell sound_pack() {
+  auto packed = pack_cell(yars::test::rough_cell(kPlace, kPosts, kPosts, 3));
+  return packed ? *packed : PackedCell{};
+}
+
+void put(std::vector<std::byte>& file, std::size_t offset, std::size_t value) {
+  for (std::size_t i = 0; i < 4; ++i) file[offset + i] = static_cast<std::byte>(value >> (24U - 8U * i));
+}
+
+std::size_t checksum(const std::vector<std::byte>& file, std::size_t from) {
+  return crc32(0, reinterpret_cast<const Bytef*>(file.data()) + from, static_cast<uInt>(file.size() - from));
+}
+
+void make_checksums_right(PackedCell& pack) {
+  if (pack.side.size() < kRest) return;
+  put(pack.side, kBytes, pack.jp2.size());
+  put(pack.side, kJp2Crc, checksum(pack.jp2, 0));
+  put(pack.side, kRestCrc, checksum(pack.side, kRest));
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const PackedCell sound = sound_pack();
+  if (size < 2) return 0;
+  PackedCell pack = sound;
+  const std::uint8_t* const end = data + size;
+  const bool right = data[0] % 8 != 0;
+  const int reduction = data[1] % 8;
+  data += 2;
+  while (end - data >= 4) {
+    std::vector<std::byte>& file = data[0] % 2 == 0 ? pack.jp2 : pack.side;
+    // Mostly bytes in place; now and then the file ends there.
+    if (file.empty()) break;
+    const std::size_t offset = (data[1] * 256U + data[2]) % file.size();
+    if (data[0] >= 252) file.resize(offset);
+    const std::size_t length =
+        std::min({std::size_t{data[3]}, static_cast<std::size_t>(end - data - 4), file.size() - offset});
+    if (length > 0) std::memcpy(file.data() + offset, data + 4, length);
+    data += 4 + length;
+  }
+  if (right) make_checksums_right(pack);
+  (void)parse_pack(pack.jp2, pack.side, "fuzz", kPlace, reduction);
+  return 0;
+}
