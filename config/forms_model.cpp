@@ -160,7 +160,7 @@ std::vector<SlotSchema> high_resolution_slots() {
       number("brightestGamma", "dB", -40, 60, YARS_FIELD(radar.high_resolution.brightest_gamma_db),
              "gamma of level ground that is white"),
       number("noiseGamma", "dB", -120, 20, YARS_FIELD(radar.high_resolution.noise_gamma_db),
-             "gamma of level ground that thermal noise at 20 NM is worth"),
+             "gamma of level ground that thermal noise at 20 NM, window 0.67 NM, is worth"),
       number("doubleBounce", "dB", -60, 40, YARS_FIELD(radar.high_resolution.double_bounce_db),
              "of a wall's foot against the wall"),
       {.name = "plainMaterial",

@@ -96,7 +96,7 @@ struct HighResolutionConfiguration {
   double sector_step_deg = 0.125;   // [deg] between its sweeps
   double dynamic_range_db = 45.0;   // [dB] of the log receiver, black to white
   double brightest_gamma_db = 8.0;  // [dB] gamma of level ground that is white
-  double noise_gamma_db = -34.0;    // [dB] gamma of level ground that thermal noise at 20 NM is worth
+  double noise_gamma_db = -34.0;    // [dB] gamma of level ground that thermal noise at 20 NM, window 0.67 NM, is worth
   double double_bounce_db = 6.0;    // [dB] of a wall's foot against the wall, where both face the radar
   int plain_material = 2;           // code of a scene's faces that have none: part metal
   double detail_contrast = 0.5;     // standard deviation of the made-up detail below the posts, as a share

@@ -19,9 +19,12 @@ AxisLimits azimuth_limits(const radar::AntennaConfiguration& antenna) {
   return {antenna.azimuth_rate_dps, antenna.circular_scan ? 180.0 : antenna.azimuth_limit_deg, antenna.tolerance_deg};
 }
 
-// Its own rate, if a sector has one.
+// A sector with a rate of its own has one bar: its beam follows what it looks at.
 ScanPattern pattern_of(radar::AntennaConfiguration antenna, double width_deg, double rate_dps) {
-  if (rate_dps > 0.0) antenna.azimuth_rate_dps = rate_dps;
+  if (rate_dps > 0.0) {
+    antenna.azimuth_rate_dps = rate_dps;
+    antenna.scan_bars = 1;
+  }
   return make_scan_pattern(antenna, width_deg);
 }
 

@@ -10,11 +10,15 @@
 namespace yars::model::hrm {
 
 namespace {
+// Where the configured figure holds.
 constexpr double kNoiseRange_m = 20.0 * geo::kMetresPerNauticalMile;
+constexpr double kNoiseWindow_m = 0.67 * geo::kMetresPerNauticalMile;
 }  // namespace
 
-double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo::Length slant_range) {
-  return reflectivity::ratio(configuration.noise_gamma_db) * std::pow(slant_range.metres() / kNoiseRange_m, 3.0);
+double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo::Length slant_range,
+                   geo::Length window) {
+  return reflectivity::ratio(configuration.noise_gamma_db) * std::pow(slant_range.metres() / kNoiseRange_m, 3.0) *
+         kNoiseWindow_m / window.metres();
 }
 
 void develop(const radar::RadarConfiguration& configuration, const MapImage& image, const MapNoise& noise, int first,

@@ -9,9 +9,12 @@
 
 namespace yars::model::hrm {
 
-// Thermal noise as the gamma of level ground that returns as much, at a slant range: it falls behind with the cube of
-// the range, for the time that a map takes makes up for one power of the fourth.
-double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo::Length slant_range);
+// Thermal noise as the gamma of level ground that returns as much: it falls behind with the cube of the slant range,
+// for the time that a map takes makes up for one power of the fourth; and it is less the coarser the cells of a window
+// are, for each holds more ground. Source: Carrara, Goodman, Majewski, "Spotlight SAR", 3.1 (noise-equivalent sigma
+// nought).
+double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo::Length slant_range,
+                   geo::Length window);
 
 struct MapNoise {
   double thermal = 0.0;   // as noise_gamma() has it

@@ -50,6 +50,12 @@ HWY_INLINE void order(Corner& a, Corner& b) {
 // A triangle seen from above, its corners from left to right.
 struct Triangle {
   Corner left, middle, right;
+  // No higher and no lower than its corners: the plane of one that is nearly upright is all rounding.
+  HWY_INLINE Floats within(Floats height) const {
+    const auto least = hn::Min(hn::Min(left.height, middle.height), right.height);
+    const auto most = hn::Max(hn::Max(left.height, middle.height), right.height);
+    return hn::Min(hn::Max(height, least), most);
+  }
   // What lies at a column between the corners along the long edge and on the other two.
   HWY_INLINE std::pair<Floats, Floats> edges(Floats x, Floats Corner::*number) const {
     const auto whole = hn::Div(hn::Sub(x, left.column), hn::Sub(right.column, left.column));

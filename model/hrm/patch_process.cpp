@@ -81,6 +81,9 @@ struct PatchProcess::Work {
   void shade();
   void draw_map();
   void draw_video();
+  double thermal_noise() const {
+    return noise_gamma(configuration.high_resolution, geo::Length::metres(geometry->slant_range_m()), order.window);
+  }
   // job(first strip, behind the last, thread), the strips shared out in runs.
   template <class Job>
   void share_strips(const Job& job) {
@@ -279,8 +282,7 @@ void PatchProcess::Work::draw_map() {
   image.blind = false;
   // What is below thermal noise or black cannot be seen.
   const radar::HighResolutionConfiguration& hrm = configuration.high_resolution;
-  const double floor = std::max(noise_gamma(hrm, geo::Length::metres(geometry->slant_range_m())),
-                                reflectivity::ratio(hrm.brightest_gamma_db - hrm.dynamic_range_db));
+  const double floor = std::max(thermal_noise(), reflectivity::ratio(hrm.brightest_gamma_db - hrm.dynamic_range_db));
   if (configuration.fidelity.map_response) response.apply(static_cast<float>(floor), crew, image);
   movers.draw(order, *geometry, formation, *database.window, {&grid, height_m.data(), horizon.data()}, response, image);
   blank_blind_zone(*geometry, order.ground_track, configuration.high_resolution, image);
@@ -288,7 +290,7 @@ void PatchProcess::Work::draw_map() {
 
 void PatchProcess::Work::draw_video() {
   if (report_1996) return develop_brightness(configuration, image, order.map, picture);
-  const double noise = noise_gamma(configuration.high_resolution, geo::Length::metres(geometry->slant_range_m()));
+  const double noise = thermal_noise();
   picture.resize(image.power.size());
   share_out(crew, image.size, [&](int first, int last, std::size_t) {
     develop(configuration, image, {noise, order.looks, order.map}, first, last, picture);

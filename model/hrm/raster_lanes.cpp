@@ -60,7 +60,7 @@ class SmallTriangles {
       const auto base = hn::Add(facet.value, hn::Mul(facet.by_column, column));
       while (!hn::AllFalse(d, wanted)) {
         const auto height = hn::Add(base, hn::Mul(facet.by_row, hn::Min(hn::Max(row, near), far)));
-        keep(at, height, gain, wanted);
+        keep(at, triangle.within(height), gain, wanted);
         at = hn::Add(at, hn::Set(BitsTag(), static_cast<std::uint32_t>(kStripColumns)));
         row = hn::Add(row, set(1.0F));
         wanted = hn::And(wanted, hn::Lt(row, last));
@@ -187,7 +187,7 @@ HWY_INLINE void fill_high(const Triangle& triangle, const Facet& facet, Floats g
   const auto negative = hn::Neg(gain);
   fill_wide(triangle, canvas, kSurfaceReach, [&](std::size_t at, Floats column, Floats row, Mask wanted) HWY_ATTR {
     const auto base = hn::Add(facet.value, hn::Mul(facet.by_column, column));
-    const auto height = hn::Add(base, hn::Mul(facet.by_row, row));
+    const auto height = triangle.within(hn::Add(base, hn::Mul(facet.by_row, row)));
     const auto old_height = hn::Load(d, canvas.arrays.height_m + at);
     const auto old_gain = hn::Load(d, canvas.arrays.gain + at);
     const auto higher = hn::And(wanted, hn::Gt(height, old_height));

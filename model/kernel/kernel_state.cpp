@@ -77,7 +77,9 @@ bool RadarKernel::State::follow_command(const ModelTick& given, databuffer::Swee
     return false;
   }
   if (frozen_by(command)) {
-    if (frozen || !scanning || antenna.between_scans()) {
+    // HRM falls silent at once; else a scan is ended.
+    const bool silenced = is_sharpened() && sniffs(command);
+    if (frozen || !scanning || silenced || antenna.between_scans()) {
       if (scanning) antenna.park();
       scanning = false;
       frozen = true;

@@ -121,8 +121,9 @@ void MapSchedule::step(const ModelTick& tick, const Pose& pose, double ground_m)
     map_.reset();
     return;
   }
-  // A re-map in progress is finished also when the picture is to freeze; a jump makes it worthless.
-  if (map_ && (map_->request != command.map_request || jumped)) map_.reset();
+  // A re-map in progress is finished also when the picture is to freeze; a jump makes it worthless, and SNIFF ends it.
+  const bool silent = (command.flags & databuffer::kSniff) != 0U;
+  if (map_ && (map_->request != command.map_request || jumped || silent)) map_.reset();
   if (!map_ && !holds_still(command)) start(tick, pose, ground_m, false);
 }
 

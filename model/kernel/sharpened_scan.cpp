@@ -9,12 +9,16 @@
 namespace yars::model::kernel {
 
 namespace {
-constexpr double kFullWidth_deg = 100.0;  // of the scan that takes sector_time_s, and that the others stay within
+// Of the scan that takes sector_time_s, and that the others stay within.
+double full_width_deg(const radar::RadarConfiguration& configuration) {
+  const std::vector<double>& widths = configuration.scan_widths_deg;
+  return *std::max_element(widths.begin(), widths.end());
+}
 // A scan turns round in a tenth of the time that it sweeps: so much faster it has to sweep.
 constexpr double kWithTurn = 1.1;
 
 double sector_rate_dps(const radar::RadarConfiguration& configuration) {
-  return kWithTurn * kFullWidth_deg / configuration.high_resolution.sector_time_s;
+  return kWithTurn * full_width_deg(configuration) / configuration.high_resolution.sector_time_s;
 }
 }  // namespace
 
@@ -45,7 +49,7 @@ antenna::Sector sharpened_sector(const databuffer::RadarCommand& command, const 
   const geo::GeoPoint cursor{command.cursor_latitude_deg, command.cursor_longitude_deg};
   const bool known = (command.flags & databuffer::kCursorValid) != 0U && std::isfinite(cursor.latitude_deg) &&
                      std::isfinite(cursor.longitude_deg);
-  const double spare_deg = 0.5 * (kFullWidth_deg - sector.width_deg);
+  const double spare_deg = 0.5 * (full_width_deg(configuration) - sector.width_deg);
   if (!known || !(spare_deg > 0.0)) return sector;
   const geo::Bearing middle = antenna::scan_centre(pose.platform, configuration.antenna);
   const geo::Angle off = geo::geodesic_inverse(pose.place, cursor).azimuth_at_start - middle;

@@ -141,6 +141,20 @@ TEST_F(MapScheduleTest, AFrozenPatchIsNotMappedAgain) {
   EXPECT_FALSE(schedule_.forming());
 }
 
+TEST_F(MapScheduleTest, SniffEndsTheMapThatIsBeingMadeAgain) {
+  command_map();
+  ticks_until_done();
+  show_patch();
+  step();
+  ASSERT_TRUE(schedule_.forming());
+  tick_.command.flags |= databuffer::kFreeze;
+  step();
+  EXPECT_TRUE(schedule_.forming());
+  tick_.command.flags |= databuffer::kSniff;
+  step();
+  EXPECT_FALSE(schedule_.forming());
+}
+
 TEST_F(MapScheduleTest, ACancelledMapIsGivenUp) {
   command_map();
   tick_.command.flags &= ~databuffer::kMapping;

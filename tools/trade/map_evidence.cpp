@@ -75,7 +75,8 @@ MapEvidence observe_map(const RadarConfiguration& configuration, const hrm::Patc
   evidence.video = process.picture();
   evidence.power_is_radar = configuration.fidelity.algorithm != radar::Algorithm::report_1996;
   evidence.noise =
-      hrm::noise_gamma(configuration.high_resolution, geo::Length::metres(process.geometry().slant_range_m()));
+      hrm::noise_gamma(configuration.high_resolution, geo::Length::metres(process.geometry().slant_range_m()),
+                       geo::Length::metres(process.geometry().window_m()));
   const double level = evidence.power_is_radar ? model::reflectivity::make_land_return(silent).gamma[0]
                                                : process.geometry().sin_grazing();
   for (const float power : evidence.power)

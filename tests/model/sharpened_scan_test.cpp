@@ -1,0 +1,108 @@
+// The HRM PPI: how long its scans take, where they look, and when they stop.
+#include "model/kernel/sharpened_scan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/model/cockpit.hpp"
+
+namespace yars::test {
+namespace {
+
+using databuffer::Sweep;
+
+Cockpit hrm_cockpit(const radar::RadarConfiguration& configuration = {}, double width_deg = 100.0) {
+  Cockpit cockpit(configuration);
+  cockpit.tick.command.mode = static_cast<std::uint8_t>(radar::Mode::hrm);
+  cockpit.tick.command.scan_width_deg = width_deg;
+  return cockpit;
+}
+
+// Ticks from one scan's first sweep to the next one's; 0 = none within a minute.
+std::int64_t ticks_a_scan(Cockpit& cockpit) {
+  std::int64_t first = 0;
+  for (int i = 0; i < 12'000; ++i) {
+    const Sweep* came = cockpit.step();
+    if (came == nullptr || !is_scan_start(*came)) continue;
+    if (first > 0) return came->tick - first;
+    first = came->tick;
+  }
+  return 0;
+}
+
+TEST(SharpenedScan, FullTakesItsTimeAndAQuarterAQuarterOfIt) {
+  const radar::RadarConfiguration configuration;
+  const double wanted = configuration.high_resolution.sector_time_s / radar::kTickSeconds;
+  Cockpit full = hrm_cockpit();
+  EXPECT_NEAR(static_cast<double>(ticks_a_scan(full)), wanted, 0.05 * wanted);
+  Cockpit quarter = hrm_cockpit(configuration, 25.0);
+  EXPECT_NEAR(static_cast<double>(ticks_a_scan(quarter)), 0.25 * wanted, 0.05 * wanted);
+}
+
+TEST(SharpenedScan, HasOneBarWhateverTheRealBeamMapHas) {
+  radar::RadarConfiguration configuration;
+  configuration.antenna.scan_bars = 4;
+  Cockpit four = hrm_cockpit(configuration);
+  Cockpit one = hrm_cockpit();
+  EXPECT_EQ(ticks_a_scan(four), ticks_a_scan(one));
+}
+
+TEST(SharpenedScan, FallsSilentAtOnceWithSniffAndEndsItsScanWithFreezeAlone) {
+  for (const bool sniff : {true, false}) {
+    Cockpit cockpit = hrm_cockpit();
+    ASSERT_FALSE(cockpit.run(1000).empty());
+    cockpit.set_flag(databuffer::kFreeze, true);
+    cockpit.set_flag(databuffer::kSniff, sniff);
+    // What was swept before may still come out, once.
+    const std::size_t came = cockpit.run(400).size();
+    if (sniff)
+      EXPECT_LE(came, 1U);
+    else
+      EXPECT_GT(came, 50U);
+  }
+}
+
+TEST(SharpenedScan, LooksAtTheCursorAndStaysWithinTheWidestScan) {
+  radar::RadarConfiguration configuration;
+  configuration.scan_widths_deg = {120.0, 60.0, 20.0};
+  Cockpit cockpit = hrm_cockpit(configuration, 60.0);
+  const geo::GeoPoint place{cockpit.tick.ownship.latitude_deg, cockpit.tick.ownship.longitude_deg};
+  const auto offset_of = [&](double off_deg) {
+    const geo::GeoPoint cursor =
+        geo::geodesic_direct(place, geo::Bearing::degrees(45.0 + off_deg), geo::Length::nautical_miles(20.0));
+    databuffer::RadarCommand command = cockpit.tick.command;
+    command.flags |= databuffer::kCursorValid;
+    command.cursor_latitude_deg = cursor.latitude_deg;
+    command.cursor_longitude_deg = cursor.longitude_deg;
+    const auto pose = model::kernel::pose_of(cockpit.tick.ownship);
+    return model::kernel::sharpened_sector(command, *pose, configuration).offset_deg;
+  };
+  EXPECT_NEAR(offset_of(12.0), 12.0, 0.01);
+  EXPECT_NEAR(offset_of(-20.0), -20.0, 0.01);
+  EXPECT_NEAR(offset_of(80.0), 30.0, 1e-9);
+}
+
+TEST(SharpenedScan, ShowsNothingInTheBlindZone) {
+  Cockpit cockpit = hrm_cockpit();
+  int blind = 0;
+  int lit = 0;
+  for (const Sweep& sweep : cockpit.run(4000)) {
+    const double off_deg =
+        (geo::Bearing::degrees(0.5 * (sweep.azimuth_left_deg + sweep.azimuth_right_deg)) - geo::Bearing::degrees(45.0))
+            .degrees();
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < sweep.samples; ++i) sum += sweep.video[i];
+    if (std::abs(off_deg) < 7.0) {
+      EXPECT_EQ(sum, 0.0) << off_deg;
+      ++blind;
+    } else if (std::abs(off_deg) > 10.0) {
+      lit += sum > 0.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(blind, 5);
+  EXPECT_GT(lit, 50);
+}
+
+}  // namespace
+}  // namespace yars::test
