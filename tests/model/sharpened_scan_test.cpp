@@ -12,12 +12,14 @@ namespace {
 
 using databuffer::Sweep;
 
-Cockpit hrm_cockpit(const radar::RadarConfiguration& configuration = {}, double width_deg = 100.0) {
-  Cockpit cockpit(configuration);
-  cockpit.tick.command.mode = static_cast<std::uint8_t>(radar::Mode::hrm);
-  cockpit.tick.command.scan_width_deg = width_deg;
-  return cockpit;
-}
+class HrmCockpit : public Cockpit {
+ public:
+  explicit HrmCockpit(const radar::RadarConfiguration& configuration = {}, double width_deg = 100.0)
+      : Cockpit(configuration) {
+    tick.command.mode = static_cast<std::uint8_t>(radar::Mode::hrm);
+    tick.command.scan_width_deg = width_deg;
+  }
+};
 
 // Ticks from one scan's first sweep to the next one's; 0 = none within a minute.
 std::int64_t ticks_a_scan(Cockpit& cockpit) {
@@ -34,23 +36,23 @@ std::int64_t ticks_a_scan(Cockpit& cockpit) {
 TEST(SharpenedScan, FullTakesItsTimeAndAQuarterAQuarterOfIt) {
   const radar::RadarConfiguration configuration;
   const double wanted = configuration.high_resolution.sector_time_s / radar::kTickSeconds;
-  Cockpit full = hrm_cockpit();
+  HrmCockpit full;
   EXPECT_NEAR(static_cast<double>(ticks_a_scan(full)), wanted, 0.05 * wanted);
-  Cockpit quarter = hrm_cockpit(configuration, 25.0);
+  HrmCockpit quarter(configuration, 25.0);
   EXPECT_NEAR(static_cast<double>(ticks_a_scan(quarter)), 0.25 * wanted, 0.05 * wanted);
 }
 
 TEST(SharpenedScan, HasOneBarWhateverTheRealBeamMapHas) {
   radar::RadarConfiguration configuration;
   configuration.antenna.scan_bars = 4;
-  Cockpit four = hrm_cockpit(configuration);
-  Cockpit one = hrm_cockpit();
+  HrmCockpit four(configuration);
+  HrmCockpit one;
   EXPECT_EQ(ticks_a_scan(four), ticks_a_scan(one));
 }
 
 TEST(SharpenedScan, FallsSilentAtOnceWithSniffAndEndsItsScanWithFreezeAlone) {
   for (const bool sniff : {true, false}) {
-    Cockpit cockpit = hrm_cockpit();
+    HrmCockpit cockpit;
     ASSERT_FALSE(cockpit.run(1000).empty());
     cockpit.set_flag(databuffer::kFreeze, true);
     cockpit.set_flag(databuffer::kSniff, sniff);
@@ -66,7 +68,7 @@ TEST(SharpenedScan, FallsSilentAtOnceWithSniffAndEndsItsScanWithFreezeAlone) {
 TEST(SharpenedScan, LooksAtTheCursorAndStaysWithinTheWidestScan) {
   radar::RadarConfiguration configuration;
   configuration.scan_widths_deg = {120.0, 60.0, 20.0};
-  Cockpit cockpit = hrm_cockpit(configuration, 60.0);
+  HrmCockpit cockpit(configuration, 60.0);
   const geo::GeoPoint place{cockpit.tick.ownship.latitude_deg, cockpit.tick.ownship.longitude_deg};
   const auto offset_of = [&](double off_deg) {
     const geo::GeoPoint cursor =
@@ -84,7 +86,7 @@ TEST(SharpenedScan, LooksAtTheCursorAndStaysWithinTheWidestScan) {
 }
 
 TEST(SharpenedScan, ShowsNothingInTheBlindZone) {
-  Cockpit cockpit = hrm_cockpit();
+  HrmCockpit cockpit;
   int blind = 0;
   int lit = 0;
   for (const Sweep& sweep : cockpit.run(4000)) {
