@@ -27,13 +27,26 @@ HWY_INLINE Floats byte_of(hn::Vec<SignedTag> word) {
   return hn::ConvertTo(Tag(), hn::And(hn::ShiftRight<kShift>(word), hn::Set(di, 0xff)));
 }
 
+// A place along an axis of the table, apart: the texel, and the way on from it.
+struct Apart {
+  hn::Vec<SignedTag> whole;
+  Floats share;
+};
+// Rounded half a texel before the place: a place on a texel may count as the end of the one before, which is the same.
+HWY_INLINE Apart apart(Floats place) {
+  const Tag d;
+  constexpr float kOnes = 12582912.0F;  // 1.5 * 2^23: in the sum the last bit counts ones
+  const auto sum = hn::Add(hn::Sub(place, hn::Set(d, 0.5F)), hn::Set(d, kOnes));
+  return {hn::BitCast(SignedTag(), sum), hn::Sub(place, hn::Sub(sum, hn::Set(d, kOnes)))};
+}
+
 HWY_INLINE Floats look_up(const DetailTable& table, Floats x, Floats y) {
   const SignedTag di;
   const auto mask = hn::Set(di, table.edge - 1);
-  const auto column = hn::Floor(x);
-  const auto row = hn::Floor(y);
-  const auto i = hn::And(hn::ConvertTo(di, column), mask);
-  const auto j = hn::And(hn::ConvertTo(di, row), mask);
+  const Apart column = apart(x);
+  const Apart row = apart(y);
+  const auto i = hn::And(column.whole, mask);
+  const auto j = hn::And(row.whole, mask);
   const auto low_bits = hn::Set(di, kDetailBlock - 1);
   // Whole lines of blocks, whole blocks of the line, and within the block.
   const auto lines = hn::Mul(hn::AndNot(low_bits, j), hn::Set(di, table.edge));
@@ -42,13 +55,11 @@ HWY_INLINE Floats look_up(const DetailTable& table, Floats x, Floats y) {
   const auto at = hn::Add(hn::Add(lines, blocks), within);
   static_assert(kDetailBlock == 4);
   const auto word = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(table.texels), at);
-  const auto a = hn::Sub(x, column);
-  const auto b = hn::Sub(y, row);
   const auto near_left = byte_of<0>(word);
   const auto far_left = byte_of<16>(word);
-  const auto low = hn::Add(near_left, hn::Mul(a, hn::Sub(byte_of<8>(word), near_left)));
-  const auto high = hn::Add(far_left, hn::Mul(a, hn::Sub(byte_of<24>(word), far_left)));
-  return hn::Add(low, hn::Mul(b, hn::Sub(high, low)));
+  const auto low = hn::Add(near_left, hn::Mul(column.share, hn::Sub(byte_of<8>(word), near_left)));
+  const auto high = hn::Add(far_left, hn::Mul(column.share, hn::Sub(byte_of<24>(word), far_left)));
+  return hn::Add(low, hn::Mul(row.share, hn::Sub(high, low)));
 }
 
 void modulate(std::size_t count, const DetailTable& table, const float* east_deg, const float* north_deg,

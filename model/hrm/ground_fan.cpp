@@ -49,12 +49,11 @@ void GroundFan::make_room(const PatchGeometry& geometry, const FanGrid& grid) {
     window_ = std::make_unique<Column>(rows);
     ground_ = std::make_unique<rbm::Ground>(configuration_, rows);
     sin_grazing_.assign(rows + terrain::kRunSlack, 0.0F);
-    gain_.assign(rows + terrain::kRunSlack, 0.0F);
     // No power of two: rows of sixteen columns shall not meet in one place of the cache.
     pitch_ = (rows / terrain::kRunSlack + 1) * terrain::kRunSlack;
     if (pitch_ / terrain::kRunSlack % 2 == 0) pitch_ += terrain::kRunSlack;
-    strip_height_.assign(kStripColumns * pitch_, 0.0F);
-    strip_gain_.assign(kStripColumns * pitch_, 0.0F);
+    strip_height_.assign(kStripColumns * pitch_ + terrain::kRunSlack, 0.0F);
+    strip_gain_.assign(strip_height_.size(), 0.0F);
   }
   for (std::size_t row = 0; row < window_->distance_m.size(); ++row) {
     const double distance_m = grid.distance_m(static_cast<double>(std::min(row, rows - 1)));
@@ -83,8 +82,8 @@ std::size_t GroundFan::fill(const PatchOrder& order, const PatchGeometry& geomet
     const geo::Bearing azimuth = geometry.up() + geo::Angle::radians(std::atan(grid.tangent(column)));
     const int lane = column % kStripColumns;
     if (lane % kPathColumns == 0) pending += read_path(geometry, grid, azimuth, *terrain.path, arrays.horizon[column]);
-    pending += read_window(order, geometry, azimuth, *terrain.window, detail);
-    keep(geometry, static_cast<std::size_t>(lane));
+    pending += read_window(order, geometry, azimuth, *terrain.window, detail, static_cast<std::size_t>(lane));
+    level(geometry, static_cast<std::size_t>(lane));
     fetch_strip(grid, column, arrays);
     if (lane + 1 < kStripColumns) continue;
     put_strip(grid, column / kStripColumns, arrays);
@@ -93,15 +92,18 @@ std::size_t GroundFan::fill(const PatchOrder& order, const PatchGeometry& geomet
   return pending;
 }
 
+// Into the column's place in the strip; the slack behind it is the next one's, who comes later.
 std::size_t GroundFan::read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
-                                   const terrain::TerrainView& view, const Detail* detail) {
+                                   const terrain::TerrainView& view, const Detail* detail, std::size_t lane) {
   Column& column = *window_;
   const std::size_t rows = column.places.count;
+  float* height_m = &strip_height_[lane * pitch_];
+  float* gain = &strip_gain_[lane * pitch_];
   const geo::Length range = geo::Length::metres(static_cast<double>(column.distance_m[rows - 1]));
   rbm::sample_places(geometry.apex(), azimuth, range, configuration_.fidelity.geodesic_knots, column.distance_m.data(),
                      column.places);
   const terrain::SurfaceRun found{
-      {column.elevation_m.data(), rows},
+      {height_m, rows},
       {column.water.data(), rows},
       {},
       view.has_materials() ? std::span(ground_->materials()).first(rows) : std::span<std::int32_t>{}};
@@ -110,14 +112,14 @@ std::size_t GroundFan::read_window(const PatchOrder& order, const PatchGeometry&
   const rbm::Ground::Sample reflects =
       ground_->reflect(look, column.places.run(), column.water.data(), sin_grazing_.data(), view.has_materials());
   if (reflects.land != nullptr)
-    std::copy_n(reflects.land, rows, gain_.data());
+    std::copy_n(reflects.land, rows, gain);
   else
-    std::fill_n(gain_.data(), rows, plain_gamma_);
+    std::fill_n(gain, rows, plain_gamma_);
   // The sea's sigma0 is of level water; what is seen square on is less by the sine.
   if (reflects.sea != nullptr)
     for (std::size_t row = 0; row < rows; ++row)
-      if (sin_grazing_[row] > 0.0F) gain_[row] += reflects.sea[row] / sin_grazing_[row];
-  if (detail != nullptr) detail->modulate(column.places.run(), gain_.data());
+      if (sin_grazing_[row] > 0.0F) gain[row] += reflects.sea[row] / sin_grazing_[row];
+  if (detail != nullptr) detail->modulate(column.places.run(), gain);
   return pending;
 }
 
@@ -143,17 +145,15 @@ std::size_t GroundFan::read_path(const PatchGeometry& geometry, const FanGrid& g
   return pending;
 }
 
-// The column just read, into its place of the strip.
-void GroundFan::keep(const PatchGeometry& geometry, std::size_t lane) {
+// Heights of the column just read count from the map plane; a void takes over its nearer neighbour's.
+void GroundFan::level(const PatchGeometry& geometry, std::size_t lane) {
   const auto plane_m = static_cast<float>(geometry.plane_msl_m());
   const std::size_t rows = window_->places.count;
-  const float* elevation_m = window_->elevation_m.data();
   float* height_m = &strip_height_[lane * pitch_];
   float* gain = &strip_gain_[lane * pitch_];
   int holes = 0;
   for (std::size_t row = 0; row < rows; ++row) {
-    height_m[row] = elevation_m[row] - plane_m;
-    gain[row] = gain_[row];
+    height_m[row] -= plane_m;
     holes += std::isnan(height_m[row]) ? 1 : 0;
   }
   if (holes == 0) return;

@@ -46,19 +46,18 @@ class GroundFan {
   };
   void make_room(const PatchGeometry& geometry, const FanGrid& grid);
   std::size_t read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
-                          const terrain::TerrainView& view, const Detail* detail);
+                          const terrain::TerrainView& view, const Detail* detail, std::size_t lane);
   std::size_t read_path(const PatchGeometry& geometry, const FanGrid& grid, geo::Bearing azimuth,
                         const terrain::TerrainView& view, float& horizon);
-  void keep(const PatchGeometry& geometry, std::size_t lane);
+  void level(const PatchGeometry& geometry, std::size_t lane);
   void fetch_strip(const FanGrid& grid, int column, const GroundArrays& arrays) const;
   void put_strip(const FanGrid& grid, int strip, const GroundArrays& arrays) const;
 
   radar::RadarConfiguration configuration_;
   std::unique_ptr<Column> window_, path_;
   std::unique_ptr<rbm::Ground> ground_;
-  std::vector<float> sin_grazing_;   // on the map plane, by row
-  std::vector<float> above_path_m_;  // aircraft above the plane, by sample of the path
-  std::vector<float> gain_;
+  std::vector<float> sin_grazing_;                       // on the map plane, by row
+  std::vector<float> above_path_m_;                      // aircraft above the plane, by sample of the path
   std::size_t pitch_ = 0;                                // of the columns of a strip in hand, as they were read
   memory::LineVector<float> strip_height_, strip_gain_;  // sixteen columns, one after the other
   float plain_gamma_;                                    // of land without culture
