@@ -14,6 +14,7 @@
 #include "model/hrm/ground_fan.hpp"
 #include "model/hrm/map_image.hpp"
 #include "model/hrm/map_movers.hpp"
+#include "model/hrm/patch_layout.hpp"
 #include "model/hrm/response.hpp"
 #include "model/hrm/scene_raster.hpp"
 #include "model/scene/scene_view.hpp"
@@ -23,12 +24,7 @@ namespace yars::model::hrm {
 
 enum class PatchState : std::uint8_t { reset, database, processing, output, done };
 
-// What the database state asks for: terrain about the window, and on the way to it, which may be coarser.
-struct PatchNeed {
-  terrain::TerrainRegion window;
-  terrain::TerrainRegion path;
-};
-
+// What the database state is given, see patch_need().
 struct PatchDatabase {
   terrain::TerrainViewPointer window;
   terrain::TerrainViewPointer path;
