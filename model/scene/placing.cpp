@@ -17,7 +17,7 @@ namespace yars::model::scene {
 
 namespace {
 
-constexpr double kMostDraped = 500'000;  // triangles that draping makes of one scene, about; then edges grow
+constexpr double kMostDraped = 100'000;  // triangles that draping makes of one scene, about; then edges grow
 constexpr double kObjectCell_deg = 1.0 / 64.0;
 constexpr double kMostPieces = 1'000'000;  // that scatterers make of one scene's large faces, about; then edges grow
 
@@ -29,7 +29,6 @@ Vector3 vector(const std::array<float, 3>& v) {
 struct Outline {
   Footprint box;
   double least_z_m = 0.0, most_z_m = 0.0;
-  double flat_area_m2 = 0.0;
   std::map<std::uint16_t, double> area_by_kind;
   bool empty = true;
   bool flat() const { return least_z_m >= -kFlat_m && most_z_m <= kFlat_m; }
@@ -57,13 +56,10 @@ class Placing {
   PlacedScene run() {
     anchor_m_ = placement_.heights == radar::SceneHeights::sea_level ? 0.0 : height_at(placement_.place, 0.0);
     sort_by_object();
-    double flat_m2 = 0.0;
-    for (std::uint32_t object = 0; object < model_.objects.size(); ++object) {
-      outlines_.push_back(outline_of(object));
-      flat_m2 += outlines_.back().flat_area_m2;
-    }
-    edge_m_ = std::max(kDrapedEdge_m, std::sqrt(2.0 * flat_m2 / kMostDraped));
-    if (use_ == SceneUse::scatterers) find_piece_edge();
+    for (std::uint32_t object = 0; object < model_.objects.size(); ++object) outlines_.push_back(outline_of(object));
+    edge_m_ = bounded_edge(kDrapedEdge_m, kMostDraped, [&](const ModelTriangle& triangle) { return drapes(triangle); });
+    if (use_ == SceneUse::scatterers)
+      piece_edge_m_ = bounded_edge(piece_edge_m_, kMostPieces, [](const ModelTriangle&) { return true; });
     PlacedScene placed;
     placed.placement = placement_;
     for (std::uint32_t object = 0; object < model_.objects.size(); ++object) place_object(object, placed);
@@ -99,10 +95,13 @@ class Placing {
                        [&](std::uint32_t corner) { return std::abs(model_place(corner).z) <= kFlat_m; });
   }
 
+  bool drapes(const ModelTriangle& triangle) const {
+    return follows_ground() && (triangle.object == 0 ? is_flat(triangle) : outlines_[triangle.object].flat());
+  }
+
   Outline outline_of(std::uint32_t object) {
     Outline outline;
     points_.clear();
-    double flat_loose_m2 = 0.0, total_m2 = 0.0;
     for (std::uint32_t i = begin_[object]; i < begin_[object + 1]; ++i) {
       const ModelTriangle& triangle = model_.triangles[order_[i]];
       std::array<Vector3, 3> at;
@@ -115,11 +114,8 @@ class Placing {
       }
       const double area_m2 = 0.5 * length(cross(at[1] - at[0], at[2] - at[0]));
       outline.area_by_kind[triangle.kind] += area_m2;
-      total_m2 += area_m2;
-      if (object == 0 && is_flat(triangle)) flat_loose_m2 += area_m2;
     }
     outline.box = footprint_of(points_);
-    outline.flat_area_m2 = object == 0 ? flat_loose_m2 : outline.flat() ? total_m2 : 0.0;
     return outline;
   }
 
@@ -147,8 +143,7 @@ class Placing {
       }
     for (std::uint32_t i = begin_[number]; i < begin_[number + 1]; ++i) {
       const ModelTriangle& triangle = model_.triangles[order_[i]];
-      const bool draped = follows_ground() && (number == 0 ? is_flat(triangle) : outline.flat());
-      if (draped)
+      if (drapes(triangle))
         drape(triangle, number);
       else
         stand(triangle, number, object.base_msl_m);
@@ -203,20 +198,24 @@ class Placing {
     });
   }
 
-  // So that large faces make a bounded number of pieces.
-  void find_piece_edge() {
-    const auto pieces = [this](double edge_m) {
+  // The edge, or more, at which the triangles that count make a bounded number of pieces: of large ones, and of slivers
+  // that are long.
+  template <class Counts>
+  double bounded_edge(double edge_m, double most, const Counts& counts) const {
+    const auto pieces = [&] {
       double sum = 0.0;
       for (const ModelTriangle& triangle : model_.triangles) {
         const Corners3 corners = turned_corners(triangle);
         const double longest_m = longest_plan_edge(corners).length_m;
-        if (!(longest_m > edge_m)) continue;
+        if (!(longest_m > edge_m) || !counts(triangle)) continue;
         const double width_m = length(cross(corners[1] - corners[0], corners[2] - corners[0])) / longest_m;
         sum += longest_m / edge_m * (1.0 + width_m / edge_m);
       }
       return sum;
     };
-    while (pieces(piece_edge_m_) > kMostPieces) piece_edge_m_ *= 2.0;
+    // What is beyond all numbers is no number, and too many; at an endless edge nothing is cut.
+    while (!(pieces() <= most)) edge_m *= 2.0;
+    return edge_m;
   }
 
   void lay(Corners3 piece, SurfaceTag tag) {

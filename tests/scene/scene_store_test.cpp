@@ -123,6 +123,20 @@ TEST(SceneStore, ALevelFaceWithItsOwnHeightsLiesOnTheGroundThatIsNear) {
   }
 }
 
+// Its area says nothing of how many pieces of thirty metres it would make.
+TEST(SceneStore, ASliverAsLongAsTheMoonIsFarMakesABoundedNumberOfPieces) {
+  const Folder folder;
+  OpenFlightWriter writer(kPlace);
+  Sketch sketch(writer);
+  writer.begin_object("road");
+  sketch.kind = {9, 0, 0x00FF00};
+  sketch.polygon({{0, 0, 0.1}, {4e8, 0, 0.1}, {4e8, 0.01, 0.1}});
+  writer.end();
+  const auto store = store_of({scene_of(folder.write("a.flt", writer.take()))}, terrain::flat(0));
+  const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
+  EXPECT_LT(view->resident_bytes(), 400'000'000U);
+}
+
 TEST(SceneStore, TurnsASceneByItsHeadingClockwise) {
   const Folder folder;
   radar::Scene scene = scene_of(folder.write("a.flt", box_and_road(std::nullopt)));
