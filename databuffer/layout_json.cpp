@@ -84,6 +84,8 @@ std::string containers() {
   parts.add("nav", latest_value<shm::LatestValue<Nav>>("Nav", kOwnshipLanes));
   parts.add("radar_state", latest_value<shm::LatestValue<RadarState>>("RadarState"));
   parts.add("model_status", latest_value<shm::LatestValue<ModelStatus>>("ModelStatus"));
+  parts.add("outputs", latest_value<shm::LatestValue<Outputs>>("Outputs"));
+  parts.add("recorder_status", latest_value<shm::LatestValue<RecorderStatus>>("RecorderStatus"));
   parts.add("model_ticks", ring<decltype(SessionLayout::model_ticks)>("ModelTick"));
   parts.add("applied_events", ring<decltype(SessionLayout::applied_events)>("AppliedEvent"));
   parts.add("sweeps", ring<decltype(SessionLayout::sweeps)>("Sweep"));
@@ -121,6 +123,8 @@ std::string offsets() {
                     {"nav", offsetof(SessionLayout, nav)},
                     {"radar_state", offsetof(SessionLayout, radar_state)},
                     {"model_status", offsetof(SessionLayout, model_status)},
+                    {"outputs", offsetof(SessionLayout, outputs)},
+                    {"recorder_status", offsetof(SessionLayout, recorder_status)},
                     {"model_ticks", offsetof(SessionLayout, model_ticks)},
                     {"applied_events", offsetof(SessionLayout, applied_events)},
                     {"sweeps", offsetof(SessionLayout, sweeps)},

@@ -74,6 +74,21 @@ constexpr std::array kDrawnPointFields = {
     YARS_FIELD(DrawnPoint, name),         YARS_FIELD(DrawnPoint, kind),          YARS_FIELD(DrawnPoint, selected),
 };
 
+constexpr std::array kNavigatorErrorFields = {
+    YARS_FIELD(NavigatorError, north_m),
+    YARS_FIELD(NavigatorError, east_m),
+    YARS_FIELD(NavigatorError, velocity_north_mps),
+    YARS_FIELD(NavigatorError, velocity_east_mps),
+    YARS_FIELD(NavigatorError, velocity_down_mps),
+};
+
+constexpr std::array kMarkFields = {
+    YARS_FIELD(Mark, latitude_deg),
+    YARS_FIELD(Mark, longitude_deg),
+    YARS_FIELD(Mark, elevation_m),
+    YARS_FIELD(Mark, sim_time_ns),
+};
+
 constexpr std::array kRadarStateFields = {
     YARS_FIELD(RadarState, tick),
     YARS_FIELD(RadarState, range_nm),
@@ -125,6 +140,34 @@ constexpr std::array kRadarStateFields = {
     YARS_FIELD(RadarState, map_old),
     YARS_FIELD(RadarState, map_stored),
     YARS_FIELD(RadarState, map_shown),
+    YARS_FIELD(RadarState, cursor_believed_latitude_deg),
+    YARS_FIELD(RadarState, cursor_believed_longitude_deg),
+    YARS_FIELD(RadarState, mission),
+    YARS_FIELD(RadarState, ins),
+    YARS_FIELD(RadarState, update_north_m),
+    YARS_FIELD(RadarState, update_east_m),
+    YARS_FIELD(RadarState, cursor_moved_tick),
+    YARS_FIELD(RadarState, update_seconds),
+    YARS_FIELD(RadarState, vtr_request),
+    YARS_FIELD(RadarState, target_latitude_deg),
+    YARS_FIELD(RadarState, target_longitude_deg),
+    YARS_FIELD(RadarState, target_elevation_m),
+    YARS_FIELD(RadarState, target_name),
+    YARS_FIELD(RadarState, steering_line_deg),
+    YARS_FIELD(RadarState, cue_latitude_deg),
+    YARS_FIELD(RadarState, cue_longitude_deg),
+    YARS_FIELD(RadarState, cue_elevation_m),
+    YARS_FIELD(RadarState, cue_count),
+    YARS_FIELD(RadarState, target_count),
+    YARS_FIELD(RadarState, steering_line),
+    YARS_FIELD(RadarState, mark_count),
+    YARS_FIELD(RadarState, velocity_taken),
+    YARS_FIELD(RadarState, velocity_updated_tick),
+    YARS_FIELD(RadarState, velocity_shown_until_tick),
+    YARS_FIELD(RadarState, velocity_along_mps),
+    YARS_FIELD(RadarState, velocity_across_mps),
+    YARS_FIELD(RadarState, velocity_vertical_mps),
+    YARS_FIELD(RadarState, marks),
 };
 
 constexpr std::array kRadarCommandFields = {
@@ -231,6 +274,41 @@ constexpr std::array kModelStatusFields = {
     YARS_FIELD(ModelStatus, map_done_request),
     YARS_FIELD(ModelStatus, scan_offset_deg),
     YARS_FIELD(ModelStatus, scan_rate_dps),
+    YARS_FIELD(ModelStatus, velocity_north_mps),
+    YARS_FIELD(ModelStatus, velocity_east_mps),
+    YARS_FIELD(ModelStatus, velocity_down_mps),
+    YARS_FIELD(ModelStatus, velocity_due_tick),
+    YARS_FIELD(ModelStatus, velocity_count),
+    YARS_FIELD(ModelStatus, velocity_dwell),
+    YARS_FIELD(ModelStatus, velocity_beam),
+};
+
+constexpr std::array kOutputsFields = {
+    YARS_FIELD(Outputs, tick),
+    YARS_FIELD(Outputs, sim_time_ns),
+    YARS_FIELD(Outputs, cue_latitude_deg),
+    YARS_FIELD(Outputs, cue_longitude_deg),
+    YARS_FIELD(Outputs, cue_elevation_m),
+    YARS_FIELD(Outputs, target_latitude_deg),
+    YARS_FIELD(Outputs, target_longitude_deg),
+    YARS_FIELD(Outputs, target_elevation_m),
+    YARS_FIELD(Outputs, target_name),
+    YARS_FIELD(Outputs, slant_range_m),
+    YARS_FIELD(Outputs, bearing_deg),
+    YARS_FIELD(Outputs, depression_deg),
+    YARS_FIELD(Outputs, steering_deg),
+    YARS_FIELD(Outputs, approach_deg),
+    YARS_FIELD(Outputs, epoch),
+    YARS_FIELD(Outputs, cue_count),
+    YARS_FIELD(Outputs, target_count),
+    YARS_FIELD(Outputs, steering),
+    YARS_FIELD(Outputs, mark_count),
+    YARS_FIELD(Outputs, marks),
+};
+
+constexpr std::array kRecorderStatusFields = {
+    YARS_FIELD(RecorderStatus, tick),    YARS_FIELD(RecorderStatus, sim_time_ns), YARS_FIELD(RecorderStatus, bytes),
+    YARS_FIELD(RecorderStatus, writing), YARS_FIELD(RecorderStatus, vtr_request), YARS_FIELD(RecorderStatus, problem),
 };
 
 constexpr std::array kPatchMapFields = {
@@ -271,12 +349,16 @@ constexpr std::array kRecords = {
     RecordFields{"Nav", sizeof(Nav), kNavFields},
     RecordFields{"InputEvent", sizeof(InputEvent), kInputEventFields},
     RecordFields{"DrawnPoint", sizeof(DrawnPoint), kDrawnPointFields},
+    RecordFields{"NavigatorError", sizeof(NavigatorError), kNavigatorErrorFields},
+    RecordFields{"Mark", sizeof(Mark), kMarkFields},
     RecordFields{"RadarState", sizeof(RadarState), kRadarStateFields},
     RecordFields{"RadarCommand", sizeof(RadarCommand), kRadarCommandFields},
     RecordFields{"ModelTick", sizeof(ModelTick), kModelTickFields},
     RecordFields{"AppliedEvent", sizeof(AppliedEvent), kAppliedEventFields},
     RecordFields{"Sweep", sizeof(Sweep), kSweepFields},
     RecordFields{"ModelStatus", sizeof(ModelStatus), kModelStatusFields},
+    RecordFields{"Outputs", sizeof(Outputs), kOutputsFields},
+    RecordFields{"RecorderStatus", sizeof(RecorderStatus), kRecorderStatusFields},
     RecordFields{"PatchMap", sizeof(PatchMap), kPatchMapFields},
     RecordFields{"Note", sizeof(Note), kNoteFields},
 };

@@ -8,9 +8,11 @@
 
 #include "databuffer/records/clock_state.hpp"
 #include "databuffer/records/model_records.hpp"
+#include "databuffer/records/outputs.hpp"
 #include "databuffer/records/ownship.hpp"
 #include "databuffer/records/patch_map.hpp"
 #include "databuffer/records/radar_state.hpp"
+#include "databuffer/records/recorder_status.hpp"
 #include "shm/broadcast_ring.hpp"
 #include "shm/input_lanes.hpp"
 #include "shm/latest_value.hpp"
@@ -19,7 +21,7 @@
 
 namespace yars::databuffer {
 
-inline constexpr std::uint32_t kLayoutVersion = 1;
+inline constexpr std::uint32_t kLayoutVersion = 2;
 inline constexpr std::size_t kOwnshipLanes = 4;
 inline constexpr std::size_t kInputLanes = 16;
 inline constexpr std::size_t kInputLaneDepth = 128;
@@ -80,6 +82,8 @@ struct SessionLayout {
   std::array<shm::LatestValue<Nav>, kOwnshipLanes> nav;
   shm::LatestValue<RadarState> radar_state;
   shm::LatestValue<ModelStatus> model_status;
+  shm::LatestValue<Outputs> outputs;
+  shm::LatestValue<RecorderStatus> recorder_status;
   shm::BroadcastRing<ModelTick, 1024> model_ticks;
   shm::BroadcastRing<AppliedEvent, 1024> applied_events;
   shm::BroadcastRing<Sweep, 1024> sweeps;

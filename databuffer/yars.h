@@ -33,9 +33,9 @@
 
 /* ---- What this header was made for; `yars status --layout` prints the same of a build. ---- */
 #define YARS_MAGIC UINT64_C(0x314d485353524159)
-#define YARS_LAYOUT_VERSION UINT32_C(1)
-#define YARS_LAYOUT_SIZE UINT64_C(13582080)
-#define YARS_LAYOUT_HASH UINT64_C(0x06830a77aff62875)
+#define YARS_LAYOUT_VERSION UINT32_C(2)
+#define YARS_LAYOUT_SIZE UINT64_C(13587584)
+#define YARS_LAYOUT_HASH UINT64_C(0x8d18d5f55229f2f5)
 
 /* Offsets [bytes] from the segment's begin. */
 #define YARS_AT_CLOCK 448
@@ -43,9 +43,10 @@
 #define YARS_AT_OWNSHIP 1088
 #define YARS_AT_NAV 4416
 #define YARS_AT_RADAR_STATE 7744
-#define YARS_AT_MODEL_STATUS 11136
-#define YARS_AT_INPUT 4929152
-#define YARS_AT_PROCESSES 5045888
+#define YARS_AT_MODEL_STATUS 13440
+#define YARS_AT_OUTPUTS 16320
+#define YARS_AT_INPUT 4934656
+#define YARS_AT_PROCESSES 5051392
 
 /* Lock bytes of the file, and how many there are of a kind. */
 #define YARS_FIRST_OWNSHIP_BYTE 8
@@ -99,6 +100,15 @@ typedef struct {
 } yars_drawn_point;
 
 typedef struct {
+  double north_m, east_m, velocity_north_mps, velocity_east_mps, velocity_down_mps;
+} yars_navigator_error;
+
+typedef struct {
+  double latitude_deg, longitude_deg, elevation_m;
+  int64_t sim_time_ns;
+} yars_mark;
+
+typedef struct {
   int64_t tick;
   double range_nm, scan_width_deg, antenna_elevation_deg;
   double cursor_latitude_deg, cursor_longitude_deg, cursor_elevation_m, cursor_bearing_deg, cursor_range_nm;
@@ -116,7 +126,22 @@ typedef struct {
   uint32_t map_request;
   double map_latitude_deg, map_longitude_deg, map_window_nm;
   uint64_t map_newest, map_old, map_stored, map_shown;
-  uint64_t reserved[5];
+  double cursor_believed_latitude_deg, cursor_believed_longitude_deg;
+  yars_navigator_error mission, ins;
+  double update_north_m, update_east_m;
+  int64_t cursor_moved_tick;
+  int32_t update_seconds;
+  uint32_t vtr_request;
+  double target_latitude_deg, target_longitude_deg, target_elevation_m;
+  char target_name[8];
+  double steering_line_deg, cue_latitude_deg, cue_longitude_deg, cue_elevation_m;
+  uint32_t cue_count, target_count;
+  uint8_t steering_line, mark_count, reserved_bytes2[2];
+  uint32_t velocity_taken;
+  int64_t velocity_updated_tick, velocity_shown_until_tick;
+  double velocity_along_mps, velocity_across_mps, velocity_vertical_mps;
+  yars_mark marks[10];
+  uint64_t reserved[8];
 } yars_radar_state;
 
 typedef struct {
@@ -138,8 +163,24 @@ typedef struct {
   uint64_t map_newest;
   uint32_t map_request, map_done_request;
   double scan_offset_deg, scan_rate_dps;
-  uint64_t reserved[3];
+  double velocity_north_mps, velocity_east_mps, velocity_down_mps;
+  int64_t velocity_due_tick;
+  uint32_t velocity_count, velocity_dwell;
+  uint8_t velocity_beam, reserved_bytes[7];
+  uint64_t reserved[8];
 } yars_model_status;
+
+typedef struct {
+  int64_t tick, sim_time_ns;
+  double cue_latitude_deg, cue_longitude_deg, cue_elevation_m;
+  double target_latitude_deg, target_longitude_deg, target_elevation_m;
+  char target_name[8];
+  double slant_range_m, bearing_deg, depression_deg, steering_deg, approach_deg;
+  uint32_t epoch, cue_count, target_count;
+  uint8_t steering, mark_count, reserved_bytes[2];
+  yars_mark marks[10];
+  uint64_t reserved[8];
+} yars_outputs;
 
 /* ---- The session ---- */
 typedef struct {
@@ -454,6 +495,10 @@ static inline int yars_push_event(yars_session* s, const yars_input_event* event
 /* ---- Reading: 1 when there is a value, 0 when not (yet). ---- */
 static inline int yars_read_radar_state(const yars_session* s, yars_radar_state* state) {
   return yars_read(s, YARS_AT_RADAR_STATE, state, sizeof *state);
+}
+
+static inline int yars_read_outputs(const yars_session* s, yars_outputs* outputs) {
+  return yars_read(s, YARS_AT_OUTPUTS, outputs, sizeof *outputs);
 }
 
 static inline int yars_read_model_status(const yars_session* s, yars_model_status* status) {

@@ -1,5 +1,6 @@
 #include "statemachine/modes.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include "lib/radar/ranges.hpp"
@@ -76,6 +77,16 @@ RadarState forgotten(const Step& step) {
   fresh.events_applied = step.state.events_applied;
   fresh.scan_restart = step.state.scan_restart;
   fresh.map_request = step.state.map_request;
+  fresh.vtr_request = step.state.vtr_request;
+  fresh.cue_count = step.state.cue_count;
+  fresh.target_count = step.state.target_count;
+  // The navigators are not the radar's, and marks outlive its power (rule 18).
+  fresh.mission = step.state.mission;
+  fresh.ins = step.state.ins;
+  fresh.navigator = step.state.navigator;
+  fresh.mark_count = step.state.mark_count;
+  std::ranges::copy(step.state.marks, fresh.marks);
+  fresh.velocity_taken = step.state.velocity_taken;
   return fresh;
 }
 
@@ -87,6 +98,8 @@ RadarState power_up_settings(const radar::RadarConfiguration& configuration) {
   state.brightness = 8;
   state.contrast = 8;
   state.channel = 1;
+  state.update_seconds = -1;
+  state.velocity_updated_tick = -1;
   set_range_index(state, radar::range_index_for(geo::Length::nautical_miles(40.0), configuration.ranges_nm),
                   configuration);
   set_scan_width(state, radar::ScanWidth::full, configuration);

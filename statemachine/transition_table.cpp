@@ -8,6 +8,7 @@
 #include "statemachine/legends.hpp"
 #include "statemachine/maps.hpp"
 #include "statemachine/modes.hpp"
+#include "statemachine/navigators.hpp"
 #include "statemachine/scanning.hpp"
 #include "statemachine/sequence_points.hpp"
 #include "statemachine/switches.hpp"
@@ -89,6 +90,8 @@ constexpr std::array kControls{
     ControlRow{EventKind::sequence_point, kRadar, kAlways, select_sequence_point},
     ControlRow{EventKind::altimeter, kRadar, kAlways, switch_altimeter},
     ControlRow{EventKind::contrast, kRadar, kAlways, step_contrast},
+    ControlRow{EventKind::navigator_error, kRadar | kOff, kAlways, put_position_error},
+    ControlRow{EventKind::navigator_drift, kRadar | kOff, kAlways, put_drift},
 };
 
 Columns column_of(radar::Mode mode) {

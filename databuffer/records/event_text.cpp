@@ -19,14 +19,14 @@ using failure::Expected;
 using Words = std::vector<std::string_view>;
 
 // What stands behind the verb.
-enum class Operand { none, word, steps, integer, number, pair, name };
+enum class Operand { none, word, steps, integer, number, pair, error, name };
 
 struct Form {
   std::string_view verb;
   Operand operand;
-  std::string_view word;  // word and steps: the word itself; else how the operand is shown to people
+  std::string_view word;  // word, steps and error: the words themselves; else how the operand is shown to people
   EventKind kind;
-  int argument;  // word and steps: what the word means
+  int argument;  // word, steps and error: what the words mean
 };
 
 template <class Enum>
@@ -59,6 +59,10 @@ constexpr std::array kForms{
     Form{"nav", Operand::word, "mn", EventKind::navigator, code(radar::Navigator::mission)},
     Form{"nav", Operand::word, "ins", EventKind::navigator, code(radar::Navigator::ins)},
     Form{"nav", Operand::word, "toggle", EventKind::navigator, -1},
+    Form{"nav", Operand::error, "error mn", EventKind::navigator_error, code(radar::Navigator::mission)},
+    Form{"nav", Operand::error, "error ins", EventKind::navigator_error, code(radar::Navigator::ins)},
+    Form{"nav", Operand::error, "drift mn", EventKind::navigator_drift, code(radar::Navigator::mission)},
+    Form{"nav", Operand::error, "drift ins", EventKind::navigator_drift, code(radar::Navigator::ins)},
     Form{"sp", Operand::name, "NAME (like 2, 2., 2.1, 2.01)", EventKind::sequence_point, 0},
     Form{"altimeter", Operand::word, "ok", EventKind::altimeter, 1},
     Form{"altimeter", Operand::word, "fail", EventKind::altimeter, 0},
@@ -88,6 +92,7 @@ std::string expected_forms(std::string_view verb) {
     list += form.verb;
     if (!form.word.empty()) list += ' ' + std::string(form.word);
     if (form.operand == Operand::steps) list += " [STEPS]";
+    if (form.operand == Operand::error) list += form.kind == EventKind::navigator_error ? " N_FT E_FT" : " N_FPS E_FPS";
   }
   return list;
 }
@@ -105,13 +110,20 @@ bool put_steps(InputEvent& event, const Form& form, const Words& words) {
   return put_argument(event, static_cast<std::int16_t>(*count * form.argument));
 }
 
-bool put_numbers(InputEvent& event, const Words& words) {
-  const auto x = finite_number(words[1]);
-  const auto y = words.size() == 3 ? finite_number(words[2]) : 0.0;
+// One number or two, from words[first] on.
+bool put_numbers(InputEvent& event, const Words& words, std::size_t first = 1) {
+  const auto x = finite_number(words[first]);
+  const auto y = words.size() > first + 1 ? finite_number(words[first + 1]) : 0.0;
   if (!x || !y) return false;
   event.x = *x;
   event.y = *y;
   return true;
+}
+
+// "error mn 2500 0": what, whose, north, east.
+bool put_error(InputEvent& event, const Form& form, const Words& words) {
+  return words.size() == 5 && std::string(words[1]) + ' ' + std::string(words[2]) == form.word &&
+         put_numbers(event, words, 3);
 }
 
 // Fills the event from the words; false when they do not have this form.
@@ -131,6 +143,8 @@ bool read_form(InputEvent& event, const Form& form, const Words& words) {
       return words.size() == 2 && put_numbers(event, words);
     case Operand::pair:
       return words.size() == 3 && put_numbers(event, words);
+    case Operand::error:
+      return put_error(event, form, words);
     case Operand::name:
       if (words.size() == 2) set_text(event, words[1]);
       return words.size() == 2;
@@ -141,7 +155,7 @@ bool read_form(InputEvent& event, const Form& form, const Words& words) {
 // Whether the form is the one that writes this event.
 bool writes(const Form& form, const InputEvent& event) {
   if (static_cast<std::uint16_t>(form.kind) != event.kind) return false;
-  if (form.operand == Operand::word) return event.argument == form.argument;
+  if (form.operand == Operand::word || form.operand == Operand::error) return event.argument == form.argument;
   if (form.operand == Operand::steps) return event.argument * form.argument > 0;
   return true;
 }
@@ -161,6 +175,8 @@ std::string operand_text(const Form& form, const InputEvent& event) {
       return ' ' + text_of_number(event.x);
     case Operand::pair:
       return ' ' + text_of_number(event.x) + ' ' + text_of_number(event.y);
+    case Operand::error:
+      return ' ' + std::string(form.word) + ' ' + text_of_number(event.x) + ' ' + text_of_number(event.y);
     case Operand::name:
       return ' ' + std::string(event.text, std::find(event.text, event.text + sizeof event.text, '\0'));
   }

@@ -25,6 +25,9 @@ enum class EventKind : std::uint16_t {
   sequence_point = 14,  // text: its name
   altimeter = 15,       // argument: 1 ok, 0 fail
   contrast = 16,        // argument: +1 up, -1 down
+  // The instructor's: argument: radar::Navigator; north and east.
+  navigator_error = 17,  // x, y: [ft] of position
+  navigator_drift = 18,  // x, y: [ft/s] of velocity
 };
 
 struct InputEvent {

@@ -155,7 +155,16 @@ struct ModelStatus {
   std::uint32_t map_done_request;  // the request that the last map answers
   double scan_offset_deg;          // [deg] middle of the sector against the ground track
   double scan_rate_dps;            // [deg/s] of the scan under way; 0: the configuration's
-  std::uint64_t reserved[3];
+  // PVU and IPVU: the aircraft's velocity over ground as the radar last measured it.
+  double velocity_north_mps;
+  double velocity_east_mps;
+  double velocity_down_mps;
+  std::int64_t velocity_due_tick;  // IPVU: when the next measurement falls due; -1 = none
+  std::uint32_t velocity_count;    // measurements completed since the session began
+  std::uint32_t velocity_dwell;    // ticks that the beam under way has stood
+  std::uint8_t velocity_beam;      // 1, 2, ... under way; 0 = none
+  std::uint8_t reserved_bytes[7];
+  std::uint64_t reserved[8];
 };
 static_assert(sizeof(ModelStatus) % 8 == 0 && std::is_trivially_copyable_v<ModelStatus>);
 

@@ -21,6 +21,28 @@ struct DrawnPoint {
 };
 static_assert(sizeof(DrawnPoint) == 40);
 
+// What a navigator has wrong beside what its lane says: added to the lane's position and velocity.
+struct NavigatorError {
+  double north_m;             // [m]
+  double east_m;              // [m]
+  double velocity_north_mps;  // [m/s]
+  double velocity_east_mps;   // [m/s]
+  double velocity_down_mps;   // [m/s]
+};
+static_assert(sizeof(NavigatorError) == 40);
+
+// What MARK stored.
+struct Mark {
+  double latitude_deg;   // [deg] as the navigator in use has it
+  double longitude_deg;  // [deg]
+  double elevation_m;    // [m] MSL; NaN = unknown
+  std::int64_t sim_time_ns;
+};
+static_assert(sizeof(Mark) == 32);
+inline constexpr std::size_t kMarks = 10;
+
+enum class SteeringLine : std::uint8_t { none = 0, line_of_sight = 1, slewing = 2, fixed = 3 };
+
 // Bits of RadarState::flags.
 inline constexpr std::uint32_t kDeclutter = 1U << 0;
 inline constexpr std::uint32_t kFreeze = 1U << 1;  // commanded by the pilot; the scan stops at its end
@@ -35,15 +57,19 @@ inline constexpr std::uint32_t kAltimeterFailed = 1U << 9;
 inline constexpr std::uint32_t kCursorValid = 1U << 10;
 inline constexpr std::uint32_t kTdcPressed = 1U << 11;
 inline constexpr std::uint32_t kFrozenByHrmExit = 1U << 12;
-inline constexpr std::uint32_t kMapping = 1U << 14;   // a map was commanded and is not there yet
-inline constexpr std::uint32_t kRangeSet = 1U << 13;  // the range rule has been applied since power-up
+inline constexpr std::uint32_t kMapping = 1U << 14;        // a map was commanded and is not there yet
+inline constexpr std::uint32_t kRangeSet = 1U << 13;       // the range rule has been applied since power-up
+inline constexpr std::uint32_t kUpdateShown = 1U << 15;    // update_north_m and update_east_m hold
+inline constexpr std::uint32_t kUpdateInvalid = 1U << 16;  // INV: the cursor's place is too old for an INS update
+inline constexpr std::uint32_t kTargetDesignated = 1U << 17;
+inline constexpr std::uint32_t kVelocityShown = 1U << 18;  // velocity_along_mps and its sisters hold
 
 struct RadarState {
   std::int64_t tick;             // tick of the last change
   double range_nm;               // [NM] selected range
   double scan_width_deg;         // [deg] whole width
   double antenna_elevation_deg;  // [deg] [-60, 60] commanded, against the horizon
-  double cursor_latitude_deg;    // [deg] the cursor's ground point
+  double cursor_latitude_deg;    // [deg] the ground point under the cursor on the video: where it truly lies
   double cursor_longitude_deg;
   double cursor_elevation_m;     // [m] MSL; NaN = unknown
   double cursor_bearing_deg;     // [deg] magnetic, from the aircraft
@@ -90,7 +116,38 @@ struct RadarState {
   std::uint64_t map_old;
   std::uint64_t map_stored;
   std::uint64_t map_shown;
-  std::uint64_t reserved[5];
+  double cursor_believed_latitude_deg;   // [deg] the cursor's point as the navigator in use has it: what is told to
+  double cursor_believed_longitude_deg;  // others, and what compares with sequence points
+  NavigatorError mission;
+  NavigatorError ins;
+  // UPDT: from the selected sequence point as the glass shows it to the cursor.
+  double update_north_m;           // [m]
+  double update_east_m;            // [m]
+  std::int64_t cursor_moved_tick;  // when the cursor was last slewed or sent to a point
+  std::int32_t update_seconds;     // [s] until the cursor's place is too old for an INS update; -1 = it does not age
+  std::uint32_t vtr_request;       // counts up with PB 12: the recorder starts or stops writing
+  // The designated target, and what leads to it.
+  double target_latitude_deg;   // [deg] as the navigator had it
+  double target_longitude_deg;  // [deg]
+  double target_elevation_m;    // [m] MSL; NaN = unknown
+  char target_name[8];          // "4.", "2.01", zero terminated
+  double steering_line_deg;     // [deg] [0, 360) true heading of the pattern steering line, toward the target
+  double cue_latitude_deg;      // [deg] what the other sensor was last slaved to; holds while cue_count > 0
+  double cue_longitude_deg;     // [deg]
+  double cue_elevation_m;       // [m] MSL; NaN = unknown
+  std::uint32_t cue_count;      // counts up with CUE and TGT
+  std::uint32_t target_count;   // counts up with TGT
+  std::uint8_t steering_line;   // SteeringLine
+  std::uint8_t mark_count;      // entries of marks; the oldest makes way
+  std::uint8_t reserved_bytes2[2];
+  std::uint32_t velocity_taken;            // ModelStatus::velocity_count that was last looked at
+  std::int64_t velocity_updated_tick;      // when the navigator's velocity was last put right; -1 = never
+  std::int64_t velocity_shown_until_tick;  // the differences of IPVU go at this tick
+  double velocity_along_mps;               // [m/s] radar less mission navigator, along the ground track
+  double velocity_across_mps;              // [m/s] to the right
+  double velocity_vertical_mps;            // [m/s] up
+  Mark marks[kMarks];
+  std::uint64_t reserved[8];
 };
 static_assert(sizeof(RadarState) % 8 == 0 && std::is_trivially_copyable_v<RadarState>);
 static_assert(offsetof(RadarState, power) == 120);

@@ -29,6 +29,12 @@ constexpr double kFarthestPatch = 1'000'000.0;
 // [s] that a map may have taken to form.
 constexpr double kLongestFormation = 86'400.0;
 
+// [m] of a navigator's error on one axis: further off than the antipode is no error of a navigator.
+constexpr double kLargestError = 20'100'000.0;
+// [ft] and [ft/s] that the instructor may put in: 100 NM, and the speed of sound.
+constexpr double kLargestInjectedError = 600'000.0;
+constexpr double kLargestInjectedDrift = 1'000.0;
+
 // [s] into a recording: three centuries; no recording is longer.
 constexpr double kLongestFlight = 1e10;
 
@@ -90,6 +96,45 @@ void inspect_cursor(Inspection& inspection, const RadarState& state) {
   inspection.range("cursor_range_nm", state.cursor_range_nm, 0.0, kLargestRange, missing);
 }
 
+void inspect_navigator(Inspection& inspection, std::string_view name, const NavigatorError& error) {
+  inspection.range(name, error.north_m, -kLargestError, kLargestError);
+  inspection.range(name, error.east_m, -kLargestError, kLargestError);
+  inspection.speed(name, error.velocity_north_mps);
+  inspection.speed(name, error.velocity_east_mps);
+  inspection.speed(name, error.velocity_down_mps);
+}
+
+// A place on the ground whose height may be unknown.
+void inspect_ground(Inspection& inspection, std::string_view name, double latitude_deg, double longitude_deg,
+                    double elevation_m) {
+  inspection.latitude(name, latitude_deg);
+  inspection.longitude(name, longitude_deg);
+  inspection.range(name, elevation_m, kLowestGround, kHighestGround, Missing::allowed);
+}
+
+// What the cursor functions have left: updates, cue, target, marks.
+void inspect_designations(Inspection& inspection, const RadarState& state) {
+  const Missing missing = (state.flags & kCursorValid) != 0U ? Missing::refused : Missing::allowed;
+  inspection.latitude("cursor_believed_latitude_deg", state.cursor_believed_latitude_deg, missing);
+  inspection.longitude("cursor_believed_longitude_deg", state.cursor_believed_longitude_deg, missing);
+  inspect_navigator(inspection, "mission", state.mission);
+  inspect_navigator(inspection, "ins", state.ins);
+  inspection.range("update_north_m", state.update_north_m, -kLargestError, kLargestError);
+  inspection.range("update_east_m", state.update_east_m, -kLargestError, kLargestError);
+  inspect_ground(inspection, "target", state.target_latitude_deg, state.target_longitude_deg, state.target_elevation_m);
+  inspection.text("target_name", state.target_name);
+  inspection.range("steering_line_deg", state.steering_line_deg, 0.0, 360.0);
+  inspection.range("steering_line", state.steering_line, 0, 3);
+  inspect_ground(inspection, "cue", state.cue_latitude_deg, state.cue_longitude_deg, state.cue_elevation_m);
+  inspection.speed("velocity_along_mps", state.velocity_along_mps);
+  inspection.speed("velocity_across_mps", state.velocity_across_mps);
+  inspection.speed("velocity_vertical_mps", state.velocity_vertical_mps);
+  inspection.range("mark_count", state.mark_count, 0, kMarks);
+  const auto count = std::min<std::size_t>(state.mark_count, kMarks);
+  for (const Mark& mark : std::span(state.marks).first(count))
+    inspect_ground(inspection, "marks", mark.latitude_deg, mark.longitude_deg, mark.elevation_m);
+}
+
 void inspect_map(Inspection& inspection, const RadarState& state) {
   inspection.latitude("map_latitude_deg", state.map_latitude_deg);
   inspection.longitude("map_longitude_deg", state.map_longitude_deg);
@@ -128,6 +173,12 @@ void inspect_radar_mode(Inspection& inspection, const InputEvent& event) {
   const auto matches = [&event](radar::Mode mode) { return event.argument == static_cast<int>(mode); };
   if (std::ranges::none_of(kCommanded, matches))
     inspection.fault("argument", "RBM 0, HRM 1, BCN 3 or PVU 4", std::to_string(event.argument));
+}
+
+void inspect_injected(Inspection& inspection, const InputEvent& event, double most) {
+  inspect_word(inspection, event, 0, 1);
+  inspection.range("x", event.x, -most, most);
+  inspection.range("y", event.y, -most, most);
 }
 
 void inspect_name(Inspection& inspection, const InputEvent& event) {
@@ -183,6 +234,7 @@ Refusal why_refused(const RadarState& state) {
   inspect_cursor(inspection, state);
   inspect_switches(inspection, state);
   inspect_map(inspection, state);
+  inspect_designations(inspection, state);
   inspection.text("sequence_point", state.sequence_point);
   inspection.text("message", state.message);
   for (const auto& legend : state.legends) inspection.text("legends", legend);
@@ -229,6 +281,12 @@ Refusal why_refused(const InputEvent& event) {
     case EventKind::sequence_point:
       inspect_name(inspection, event);
       break;
+    case EventKind::navigator_error:
+      inspect_injected(inspection, event, kLargestInjectedError);
+      break;
+    case EventKind::navigator_drift:
+      inspect_injected(inspection, event, kLargestInjectedDrift);
+      break;
     case EventKind::tdc_press:
     case EventKind::tdc_release:
     case EventKind::coolie_up:
@@ -236,7 +294,7 @@ Refusal why_refused(const InputEvent& event) {
       break;
     case EventKind::none:
     default:
-      inspection.fault("kind", "1..16", std::to_string(event.kind));
+      inspection.fault("kind", "1..18", std::to_string(event.kind));
   }
   return inspection.result();
 }
@@ -254,6 +312,13 @@ Refusal why_refused(const ClockState& clock) {
   inspection.longitude("reposition_longitude_deg", clock.reposition_longitude_deg);
   inspection.range("reposition_altitude_m", clock.reposition_altitude_m, -1'000.0, 200'000.0);
   inspection.range("reposition_heading_deg", clock.reposition_heading_deg, 0.0, 360.0);
+  return inspection.result();
+}
+
+Refusal why_refused(const RecorderStatus& status) {
+  Inspection inspection;
+  inspection.range("writing", status.writing, 0, 1);
+  inspection.text("problem", status.problem);
   return inspection.result();
 }
 

@@ -13,6 +13,7 @@
 #include "databuffer/records/ownship.hpp"
 #include "databuffer/records/patch_map.hpp"
 #include "databuffer/records/radar_state.hpp"
+#include "databuffer/records/recorder_status.hpp"
 
 namespace yars::databuffer {
 
@@ -24,5 +25,6 @@ Refusal why_refused(const RadarState& state);
 Refusal why_refused(const InputEvent& event);
 Refusal why_refused(const ClockState& clock);
 Refusal why_refused(const PatchMap& map);
+Refusal why_refused(const RecorderStatus& status);
 
 }  // namespace yars::databuffer

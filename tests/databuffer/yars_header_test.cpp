@@ -25,6 +25,7 @@ static_assert(YARS_AT_OWNSHIP == offsetof(SessionLayout, ownship));
 static_assert(YARS_AT_NAV == offsetof(SessionLayout, nav));
 static_assert(YARS_AT_RADAR_STATE == offsetof(SessionLayout, radar_state));
 static_assert(YARS_AT_MODEL_STATUS == offsetof(SessionLayout, model_status));
+static_assert(YARS_AT_OUTPUTS == offsetof(SessionLayout, outputs));
 static_assert(YARS_AT_INPUT == offsetof(SessionLayout, input));
 static_assert(YARS_AT_PROCESSES == offsetof(SessionLayout, processes));
 static_assert(offsetof(shm::SegmentHeader, magic) == 0 && offsetof(shm::SegmentHeader, size) == 8);
@@ -45,7 +46,7 @@ constexpr bool kValueMatches =
     shm::LatestValue<Record>::kSlots == YARS_SLOTS &&
     sizeof(shm::LatestValue<Record>) == YARS_VALUE_SIZE(sizeof(Record));
 static_assert(kValueMatches<ClockState> && kValueMatches<Ownship> && kValueMatches<Nav>);
-static_assert(kValueMatches<RadarState> && kValueMatches<ModelStatus>);
+static_assert(kValueMatches<RadarState> && kValueMatches<ModelStatus> && kValueMatches<Outputs>);
 
 using Input = decltype(SessionLayout::input);
 static_assert(Input::lane_stride() == YARS_INPUT_STRIDE && Input::kDepth == YARS_INPUT_DEPTH);
@@ -167,6 +168,35 @@ SAME(yars_radar_state, RadarState, map_newest);
 SAME(yars_radar_state, RadarState, map_old);
 SAME(yars_radar_state, RadarState, map_stored);
 SAME(yars_radar_state, RadarState, map_shown);
+SAME(yars_radar_state, RadarState, cursor_believed_latitude_deg);
+SAME(yars_radar_state, RadarState, cursor_believed_longitude_deg);
+SAME(yars_radar_state, RadarState, mission);
+SAME(yars_radar_state, RadarState, ins);
+SAME(yars_radar_state, RadarState, update_north_m);
+SAME(yars_radar_state, RadarState, update_east_m);
+SAME(yars_radar_state, RadarState, cursor_moved_tick);
+SAME(yars_radar_state, RadarState, update_seconds);
+SAME(yars_radar_state, RadarState, vtr_request);
+SAME(yars_radar_state, RadarState, target_latitude_deg);
+SAME(yars_radar_state, RadarState, target_longitude_deg);
+SAME(yars_radar_state, RadarState, target_elevation_m);
+SAME(yars_radar_state, RadarState, target_name);
+SAME(yars_radar_state, RadarState, steering_line_deg);
+SAME(yars_radar_state, RadarState, cue_latitude_deg);
+SAME(yars_radar_state, RadarState, cue_longitude_deg);
+SAME(yars_radar_state, RadarState, cue_elevation_m);
+SAME(yars_radar_state, RadarState, cue_count);
+SAME(yars_radar_state, RadarState, target_count);
+SAME(yars_radar_state, RadarState, steering_line);
+SAME(yars_radar_state, RadarState, mark_count);
+SAME(yars_radar_state, RadarState, velocity_taken);
+SAME(yars_radar_state, RadarState, velocity_updated_tick);
+SAME(yars_radar_state, RadarState, velocity_shown_until_tick);
+SAME(yars_radar_state, RadarState, velocity_along_mps);
+SAME(yars_radar_state, RadarState, velocity_across_mps);
+SAME(yars_radar_state, RadarState, velocity_vertical_mps);
+SAME(yars_radar_state, RadarState, marks);
+SAME(yars_radar_state, RadarState, reserved_bytes2);
 SAME(yars_radar_state, RadarState, reserved);
 static_assert(sizeof(yars_model_status) == sizeof(ModelStatus));
 SAME(yars_model_status, ModelStatus, tick);
@@ -215,7 +245,50 @@ SAME(yars_model_status, ModelStatus, map_request);
 SAME(yars_model_status, ModelStatus, map_done_request);
 SAME(yars_model_status, ModelStatus, scan_offset_deg);
 SAME(yars_model_status, ModelStatus, scan_rate_dps);
+SAME(yars_model_status, ModelStatus, velocity_north_mps);
+SAME(yars_model_status, ModelStatus, velocity_east_mps);
+SAME(yars_model_status, ModelStatus, velocity_down_mps);
+SAME(yars_model_status, ModelStatus, velocity_due_tick);
+SAME(yars_model_status, ModelStatus, velocity_count);
+SAME(yars_model_status, ModelStatus, velocity_dwell);
+SAME(yars_model_status, ModelStatus, velocity_beam);
+SAME(yars_model_status, ModelStatus, reserved_bytes);
 SAME(yars_model_status, ModelStatus, reserved);
+
+static_assert(sizeof(yars_outputs) == sizeof(Outputs));
+SAME(yars_outputs, Outputs, tick);
+SAME(yars_outputs, Outputs, sim_time_ns);
+SAME(yars_outputs, Outputs, cue_latitude_deg);
+SAME(yars_outputs, Outputs, cue_longitude_deg);
+SAME(yars_outputs, Outputs, cue_elevation_m);
+SAME(yars_outputs, Outputs, target_latitude_deg);
+SAME(yars_outputs, Outputs, target_longitude_deg);
+SAME(yars_outputs, Outputs, target_elevation_m);
+SAME(yars_outputs, Outputs, target_name);
+SAME(yars_outputs, Outputs, slant_range_m);
+SAME(yars_outputs, Outputs, bearing_deg);
+SAME(yars_outputs, Outputs, depression_deg);
+SAME(yars_outputs, Outputs, steering_deg);
+SAME(yars_outputs, Outputs, approach_deg);
+SAME(yars_outputs, Outputs, epoch);
+SAME(yars_outputs, Outputs, cue_count);
+SAME(yars_outputs, Outputs, target_count);
+SAME(yars_outputs, Outputs, steering);
+SAME(yars_outputs, Outputs, mark_count);
+SAME(yars_outputs, Outputs, marks);
+
+static_assert(sizeof(yars_navigator_error) == sizeof(NavigatorError));
+SAME(yars_navigator_error, NavigatorError, north_m);
+SAME(yars_navigator_error, NavigatorError, east_m);
+SAME(yars_navigator_error, NavigatorError, velocity_north_mps);
+SAME(yars_navigator_error, NavigatorError, velocity_east_mps);
+SAME(yars_navigator_error, NavigatorError, velocity_down_mps);
+
+static_assert(sizeof(yars_mark) == sizeof(Mark));
+SAME(yars_mark, Mark, latitude_deg);
+SAME(yars_mark, Mark, longitude_deg);
+SAME(yars_mark, Mark, elevation_m);
+SAME(yars_mark, Mark, sim_time_ns);
 
 #undef SAME
 
@@ -337,7 +410,7 @@ TEST_F(YarsHeaderTest, AnotherLayoutIsRefusedInCToo) {
   session->layout().header.hash += 1;
   yars_session s;
   EXPECT_EQ(yars_attach(&s, name_.c_str(), "tester"), -1);
-  EXPECT_NE(std::string(s.error).find("expected layout version 1"), std::string::npos) << s.error;
+  EXPECT_NE(std::string(s.error).find("expected layout version 2"), std::string::npos) << s.error;
   EXPECT_TRUE(file_exists());
 }
 

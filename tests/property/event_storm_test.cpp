@@ -37,7 +37,7 @@ class Storm {
   // would spend most of its time in OFF; the TDC is released often, or there would be few maps.
   InputEvent event() {
     InputEvent event{};
-    const int greatest_kind = static_cast<int>(EventKind::contrast);
+    const int greatest_kind = static_cast<int>(EventKind::navigator_drift);
     event.kind = static_cast<std::uint16_t>(pick(0, 1) == 0 ? 1 : pick(0, greatest_kind + 1));
     if (event.kind == static_cast<std::uint16_t>(EventKind::power) && pick(0, 19) != 0) event.kind = 1;
     if (pick(0, 9) == 0) event.kind = static_cast<std::uint16_t>(EventKind::tdc_release);

@@ -54,6 +54,32 @@ const std::vector<Written> kWords{
     {"pb 20", EventKind::push_button, 20},
 };
 
+TEST(EventText, TheInstructorsErrorsNameTheNavigatorAndBothAxes) {
+  const struct {
+    const char* text;
+    EventKind kind;
+    int navigator;
+  } rows[] = {{"nav error mn 2500 -100.5", EventKind::navigator_error, 0},
+              {"nav error ins 2500 -100.5", EventKind::navigator_error, 1},
+              {"nav drift mn 2500 -100.5", EventKind::navigator_drift, 0},
+              {"nav drift ins 2500 -100.5", EventKind::navigator_drift, 1}};
+  for (const auto& row : rows) {
+    // A drift of 2,500 ft/s is beyond what may be put in.
+    const bool drift = row.kind == EventKind::navigator_drift;
+    const auto event =
+        event_from_text(drift ? std::string(row.text).replace(row.navigator == 0 ? 13 : 14, 4, "250") : row.text);
+    ASSERT_TRUE(event) << row.text;
+    EXPECT_EQ(event->kind, static_cast<std::uint16_t>(row.kind));
+    EXPECT_EQ(event->argument, row.navigator);
+    EXPECT_EQ(event->x, drift ? 250.0 : 2500.0);
+    EXPECT_EQ(event->y, -100.5);
+    EXPECT_EQ(event_from_text(text_of(*event))->x, event->x) << text_of(*event);
+  }
+  for (const char* wrong : {"nav error", "nav error mn", "nav error mn 5", "nav error gps 1 1", "nav drift mn 1e9 0",
+                            "nav error mn 1 nan", "nav error mn 1 2 3"})
+    EXPECT_THAT(event_from_text(wrong).error().message(), HasSubstr("nav error mn N_FT E_FT")) << wrong;
+}
+
 std::string refusal_of(const std::string& text) {
   const auto event = event_from_text(text);
   return event ? "accepted" : event.error().message();

@@ -213,7 +213,7 @@ TEST(Validation, LegendsAndMessageEndWithZero) {
 
 TEST(Validation, EventsHoldTheirArguments) {
   EXPECT_TRUE(why_refused(event_of(EventKind::none, 0)));
-  EXPECT_TRUE(why_refused(event_of(static_cast<EventKind>(17), 0)));
+  EXPECT_TRUE(why_refused(event_of(static_cast<EventKind>(19), 0)));
   for (int argument = -300; argument <= 300; ++argument) {
     const auto valid = [argument](EventKind kind) { return !why_refused(event_of(kind, argument)); };
     EXPECT_EQ(valid(EventKind::push_button), argument >= 1 && argument <= 20);
@@ -232,6 +232,47 @@ TEST(Validation, TdcAndElevationAreFiniteAndInRange) {
   expect_range_without_nan(event_of(EventKind::tdc, 0), &InputEvent::x, -1.0, 1.0);
   expect_range_without_nan(event_of(EventKind::tdc, 0), &InputEvent::y, -1.0, 1.0);
   expect_range_without_nan(event_of(EventKind::elevation, 0), &InputEvent::x, -60.0, 60.0);
+}
+
+TEST(Validation, InjectedErrorsAreFiniteAndOfANavigator) {
+  expect_range_without_nan(event_of(EventKind::navigator_error, 1), &InputEvent::x, -600'000.0, 600'000.0);
+  expect_range_without_nan(event_of(EventKind::navigator_error, 1), &InputEvent::y, -600'000.0, 600'000.0);
+  expect_range_without_nan(event_of(EventKind::navigator_drift, 0), &InputEvent::x, -1'000.0, 1'000.0);
+  expect_range_without_nan(event_of(EventKind::navigator_drift, 0), &InputEvent::y, -1'000.0, 1'000.0);
+  EXPECT_TRUE(why_refused(event_of(EventKind::navigator_error, 2)));
+  EXPECT_TRUE(why_refused(event_of(EventKind::navigator_drift, -1)));
+}
+
+TEST(Validation, DesignationsAreInspected) {
+  const auto refused = [](const auto& spoil) {
+    RadarState state = good_state();
+    spoil(state);
+    return why_refused(state).has_value();
+  };
+  EXPECT_FALSE(refused([](RadarState& state) { state.target_elevation_m = kNan; })) << "unknown is legal";
+  EXPECT_TRUE(refused([](RadarState& state) { state.target_latitude_deg = 91.0; }));
+  EXPECT_TRUE(refused([](RadarState& state) { std::memset(state.target_name, 'A', sizeof state.target_name); }));
+  EXPECT_TRUE(refused([](RadarState& state) { state.cue_longitude_deg = kNan; }));
+  EXPECT_TRUE(refused([](RadarState& state) { state.mission.north_m = kNan; }));
+  EXPECT_TRUE(refused([](RadarState& state) { state.ins.velocity_down_mps = 1e9; }));
+  EXPECT_TRUE(refused([](RadarState& state) { state.steering_line = 4; }));
+  EXPECT_TRUE(refused([](RadarState& state) { state.steering_line_deg = -1.0; }));
+  EXPECT_TRUE(refused([](RadarState& state) { state.mark_count = kMarks + 1; }));
+  EXPECT_FALSE(refused([](RadarState& state) { state.marks[0].latitude_deg = 91.0; })) << "no entry yet";
+  EXPECT_TRUE(refused([](RadarState& state) {
+    state.mark_count = 1;
+    state.marks[0].latitude_deg = 91.0;
+  }));
+}
+
+TEST(Validation, ARecorderWritesOrDoesNot) {
+  RecorderStatus status{};
+  EXPECT_EQ(why_refused(status), std::nullopt);
+  status.writing = 2;
+  EXPECT_TRUE(why_refused(status));
+  status = {};
+  std::memset(status.problem, 'A', sizeof status.problem);
+  EXPECT_TRUE(why_refused(status));
 }
 
 TEST(Validation, ASequencePointNeedsAName) {
