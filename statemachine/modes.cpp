@@ -83,7 +83,6 @@ RadarState forgotten(const Step& step) {
   // The navigators are not the radar's, and marks outlive its power (rule 18).
   fresh.mission = step.state.mission;
   fresh.ins = step.state.ins;
-  fresh.navigator = step.state.navigator;
   fresh.mark_count = step.state.mark_count;
   std::ranges::copy(step.state.marks, fresh.marks);
   fresh.velocity_taken = step.state.velocity_taken;
