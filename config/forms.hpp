@@ -5,16 +5,17 @@
 
 namespace yars::config {
 
-std::vector<FormSchema> value_forms();     // colours, lat-long
-std::vector<FormSchema> system_forms();    // System, Apg70
-std::vector<FormSchema> mode_forms();      // Mode, OffMode, StbyMode, RealBeamMode, SarMode
-std::vector<FormSchema> antenna_forms();   // AntennaServo, RbmAntenna
-std::vector<FormSchema> display_forms();   // Window, Display and its kin
-std::vector<FormSchema> database_forms();  // Database, DedDbase, MgDbase, Terrain
-std::vector<FormSchema> model_forms();     // Fidelity, Receiver, Noise
-std::vector<FormSchema> route_forms();     // Route, Point
-std::vector<FormSchema> world_forms();     // Land, Materials, Material, Sea, Rain, RainCell
-std::vector<FormSchema> traffic_forms();   // Jammers, Jammer, Movers, Mover, Scenes, Scene
+std::vector<FormSchema> value_forms();       // colours, lat-long
+std::vector<FormSchema> system_forms();      // System, Apg70
+std::vector<FormSchema> mode_forms();        // Mode, OffMode, StbyMode, RealBeamMode, SarMode
+std::vector<FormSchema> antenna_forms();     // AntennaServo, RbmAntenna
+std::vector<FormSchema> display_forms();     // Window, Display and its kin
+std::vector<FormSchema> database_forms();    // Database, DedDbase, MgDbase, Terrain
+std::vector<FormSchema> model_forms();       // Fidelity, Receiver, Noise
+std::vector<FormSchema> route_forms();       // Route, Point
+std::vector<FormSchema> world_forms();       // Land, Materials, Material, Sea, Rain, RainCell
+std::vector<FormSchema> navigation_forms();  // Navigation
+std::vector<FormSchema> traffic_forms();     // Jammers, Jammer, Movers, Mover, Scenes, Scene
 
 inline SlotSchema number_slot(std::string_view name, std::string_view unit, double lowest, double highest,
                               NumberSlot binding, std::string_view purpose) {

@@ -107,7 +107,10 @@ std::vector<SlotSchema> system_slots() {
        {.name = "scenes", .binding = FormSlot{{"Scenes"}, {"Scenes"}}, .purpose = "polygonal scenes"},
        {.name = "highResolution",
         .binding = FormSlot{{"HighResolution"}, {"HighResolution"}},
-        .purpose = "high resolution maps"}});
+        .purpose = "high resolution maps"},
+       {.name = "navigation",
+        .binding = FormSlot{{"Navigation"}, {"Navigation"}},
+        .purpose = "errors of the navigators, and their updates"}});
 }
 
 }  // namespace

@@ -168,6 +168,7 @@ constexpr std::array kRadarStateFields = {
     YARS_FIELD(RadarState, velocity_across_mps),
     YARS_FIELD(RadarState, velocity_vertical_mps),
     YARS_FIELD(RadarState, marks),
+    YARS_FIELD(RadarState, magnetic_variation_deg),
 };
 
 constexpr std::array kRadarCommandFields = {

@@ -141,7 +141,8 @@ typedef struct {
   int64_t velocity_updated_tick, velocity_shown_until_tick;
   double velocity_along_mps, velocity_across_mps, velocity_vertical_mps;
   yars_mark marks[10];
-  uint64_t reserved[8];
+  double magnetic_variation_deg;
+  uint64_t reserved[7];
 } yars_radar_state;
 
 typedef struct {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <optional>
 
-#include "display/present_frame.hpp"
+#include "databuffer/records/navigation.hpp"
 #include "lib/radar/limits.hpp"
 #include "lib/radar/modes.hpp"
 
@@ -80,7 +80,7 @@ void draw_symbol(const databuffer::DrawnPoint& point, std::span<const radar::Rou
 std::optional<Point> cursor_at(const GlassInput& input, const GlassView& view, const GlassFrame& frame) {
   if ((input.state.flags & databuffer::kCursorValid) == 0) return std::nullopt;
   const geo::GeoPoint place{input.state.cursor_latitude_deg, input.state.cursor_longitude_deg};
-  const Point at = view.at_ground(frame, seen_through_navigator(input, place));
+  const Point at = view.at_ground(frame, place);
   return on_glass(at) ? std::optional(at) : std::nullopt;
 }
 
@@ -156,9 +156,10 @@ void draw_points(const GlassInput& input, std::span<const radar::RoutePoint> rou
   std::array<Shown, radar::kMaxPointsDrawn> shown;
   std::size_t count = 0;
   const std::size_t given = std::min<std::size_t>(input.state.points_drawn, radar::kMaxPointsDrawn);
+  const auto belief = databuffer::belief_in_use(input.ownship, input.nav, input.state);
   for (const databuffer::DrawnPoint& point : std::span(input.state.points).first(given)) {
     const geo::GeoPoint place{point.latitude_deg, point.longitude_deg};
-    const Point at = view.at_ground(frame, seen_through_navigator(input, place));
+    const Point at = view.at_ground(frame, belief.on_video(place));
     if (!on_glass(at)) continue;
     draw_symbol(point, route, at, list);
     list.occupy("point", grown({at.x, at.y, at.x, at.y}, kRadius + 1.0F));

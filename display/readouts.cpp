@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <cstring>
 
+#include "databuffer/records/plain_text.hpp"
 #include "display/bezel.hpp"
 #include "lib/radar/limits.hpp"
 
@@ -19,13 +19,8 @@ constexpr float kArrow = 14.0F;       // [units] of the range buttons' arrows
 constexpr float kBannerText = 18.0F;  // [units]
 constexpr float kSilentText = 13.0F;  // [units]
 
+using databuffer::text_of;
 using Buffer = std::array<char, 40>;
-
-// A text of a record, which need not be terminated when it comes from a broken writer.
-template <std::size_t N>
-std::string_view text_of(const char (&field)[N]) {
-  return {field, strnlen(field, N)};
-}
 
 std::string_view formatted(Buffer& buffer, const char* format, double value) {
   const int length = std::snprintf(buffer.data(), buffer.size(), format, value);

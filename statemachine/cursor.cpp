@@ -4,10 +4,12 @@
 #include <cmath>
 #include <optional>
 
+#include "databuffer/records/navigation.hpp"
 #include "lib/geo/geodesic.hpp"
 #include "lib/radar/ground_track.hpp"
 #include "statemachine/maps.hpp"
 #include "statemachine/sequence_points.hpp"
+#include "statemachine/steering.hpp"
 
 namespace yars::statemachine {
 
@@ -61,9 +63,10 @@ GeoPoint cursor_of(const RadarState& state) {
   return {state.cursor_latitude_deg, state.cursor_longitude_deg};
 }
 
-void put_cursor(RadarState& state, GeoPoint place) {
+void put_cursor(RadarState& state, GeoPoint place, std::int64_t tick) {
   state.cursor_latitude_deg = place.latitude_deg;
   state.cursor_longitude_deg = place.longitude_deg;
+  state.cursor_moved_tick = tick;
   set_flag(state, databuffer::kCursorValid, true);
 }
 
@@ -106,38 +109,40 @@ void follow(RadarState& state, const Surroundings& surroundings) {
   state.frame_track_deg = map->up_deg;
 }
 
-void place_cursor(RadarState& state, const Plane& plane, const radar::RadarConfiguration& configuration) {
-  const radar::RoutePoint* point = selected_point(state, configuration);
-  const bool seen = point && plane.shows(plane.glass_from_ground(point->place));
+void place_cursor(RadarState& state, const Plane& plane, const Surroundings& surroundings,
+                  const radar::RadarConfiguration& configuration) {
   const GlassPoint middle{0.0, state.map_shown == 0 ? 0.5 : 0.0};
-  put_cursor(state, seen ? point->place : plane.ground_from_glass(middle));
+  GeoPoint place = plane.ground_from_glass(middle);
+  if (const auto point = selected_point(state, configuration)) {
+    const GeoPoint seen =
+        databuffer::belief_in_use(surroundings.ownship, surroundings.nav, state).on_video(point->place);
+    if (plane.shows(plane.glass_from_ground(seen))) place = seen;
+  }
+  put_cursor(state, place, surroundings.tick);
 }
 
-// PVU shows no cursor; in A/A and ranging there is a picture to slew it over in SET alone.
-bool can_slew(const RadarState& state) {
-  const radar::Mode mode = running_mode(state);
-  const bool elsewhere = mode == radar::Mode::air_to_air || mode == radar::Mode::ranging;
-  return mode != radar::Mode::pvu && (!elsewhere || has(state, databuffer::kSet));
-}
-
-void slew(RadarState& state, const Plane& plane) {
-  if (!can_slew(state) || (state.tdc_x == 0.0 && state.tdc_y == 0.0)) return;
+void slew(RadarState& state, const Plane& plane, std::int64_t tick) {
+  // While the TDC turns the pattern steering line the cursor stands.
+  if (!shows_cursor(state) || slews_steering_line(state)) return;
+  if (state.tdc_x == 0.0 && state.tdc_y == 0.0) return;
   const double share = radar::kTickSeconds / kCrossingSeconds;
   const auto& view = plane.view;
   const GlassPoint from = plane.glass_from_ground(cursor_of(state));
   const double x = from.x + state.tdc_x * share * (view.width_max - view.width_min);
   const double y = from.y + state.tdc_y * share * (view.height_max - view.height_min);
-  put_cursor(state, plane.ground_from_glass({std::clamp(x, view.width_min, view.width_max),
-                                             std::clamp(y, view.height_min, view.height_max)}));
+  const GlassPoint to{std::clamp(x, view.width_min, view.width_max), std::clamp(y, view.height_min, view.height_max)};
+  put_cursor(state, plane.ground_from_glass(to), tick);
 }
 
-void read_out(RadarState& state, const Surroundings& surroundings, const radar::RadarConfiguration& configuration) {
+void read_out(RadarState& state, const Surroundings& surroundings) {
   const auto inverse = geo::geodesic_inverse(aircraft_of(surroundings), cursor_of(state));
-  const double given_deg = surroundings.nav.magnetic_variation_deg;
-  const double variation_deg = std::isnan(given_deg) ? configuration.magnetic_variation_deg : given_deg;
-  state.cursor_bearing_deg = (inverse.azimuth_at_start - geo::Angle::degrees(variation_deg)).degrees();
+  state.cursor_bearing_deg = (inverse.azimuth_at_start - geo::Angle::degrees(state.magnetic_variation_deg)).degrees();
   state.cursor_range_nm = inverse.distance.nautical_miles();
   state.cursor_elevation_m = surroundings.model.cursor_ground_elevation_m;
+  const auto belief = databuffer::belief_in_use(surroundings.ownship, surroundings.nav, state);
+  const GeoPoint known = belief.known_from_video(cursor_of(state));
+  state.cursor_believed_latitude_deg = known.latitude_deg;
+  state.cursor_believed_longitude_deg = known.longitude_deg;
 }
 
 }  // namespace
@@ -155,20 +160,29 @@ void next_cursor_function(Step& step) {
   do {
     function = static_cast<std::uint8_t>((function + 1) % kFunctions);
   } while (function == kMap && has(step.state, databuffer::kSet));
+  // The steering line slews in TGT alone: a function left behind must not keep the TDC.
+  if (slews_steering_line(step.state)) lead_along_line_of_sight(step.state, step.surroundings);
 }
 
-void jump_cursor(RadarState& state, const radar::RoutePoint& point) {
-  put_cursor(state, point.place);
+void jump_cursor(RadarState& state, GeoPoint known, const Surroundings& surroundings) {
+  const auto belief = databuffer::belief_in_use(surroundings.ownship, surroundings.nav, state);
+  put_cursor(state, surroundings.ownship_valid ? belief.on_video(known) : known, surroundings.tick);
+}
+
+bool shows_cursor(const RadarState& state) {
+  const radar::Mode mode = running_mode(state);
+  const bool elsewhere = mode == radar::Mode::air_to_air || mode == radar::Mode::ranging;
+  return mode != radar::Mode::pvu && (!elsewhere || has(state, databuffer::kSet));
 }
 
 void advance_cursor(RadarState& state, const Surroundings& surroundings,
                     const radar::RadarConfiguration& configuration) {
   follow(state, surroundings);
   if (const auto plane = plane_of(state, surroundings, configuration.view)) {
-    if (!has(state, databuffer::kCursorValid)) place_cursor(state, *plane, configuration);
-    slew(state, *plane);
+    if (!has(state, databuffer::kCursorValid)) place_cursor(state, *plane, surroundings, configuration);
+    slew(state, *plane, surroundings.tick);
   }
-  if (has(state, databuffer::kCursorValid)) read_out(state, surroundings, configuration);
+  if (has(state, databuffer::kCursorValid)) read_out(state, surroundings);
 }
 
 }  // namespace yars::statemachine

@@ -9,9 +9,13 @@
 #include "statemachine/legends.hpp"
 #include "statemachine/maps.hpp"
 #include "statemachine/modes.hpp"
+#include "statemachine/navigators.hpp"
 #include "statemachine/scanning.hpp"
 #include "statemachine/sequence_points.hpp"
+#include "statemachine/steering.hpp"
 #include "statemachine/transition_table.hpp"
+#include "statemachine/updating.hpp"
+#include "statemachine/velocity_update.hpp"
 
 namespace yars::statemachine {
 
@@ -46,7 +50,9 @@ void end_message(RadarState& state, std::int64_t tick) {
 }  // namespace
 
 RadarState initial_state(const radar::RadarConfiguration& configuration) {
-  return power_up_settings(configuration);
+  RadarState state = power_up_settings(configuration);
+  put_first_errors(state, configuration.navigation);
+  return state;
 }
 
 bool apply(RadarState& state, const databuffer::InputEvent& event, const Surroundings& surroundings,
@@ -75,8 +81,13 @@ void advance(RadarState& state, const Surroundings& surroundings, const radar::R
       set_range_by_height(state, surroundings, configuration);
       points_due = true;
     }
+    put_variation(state, surroundings, configuration);
     advance_cursor(state, surroundings, configuration);
+    advance_steering_line(state, surroundings);
+    advance_update(state, surroundings, configuration);
+    advance_velocity_update(state, surroundings, configuration);
   }
+  advance_navigators(state, surroundings.tick, configuration);
   if (!surroundings.recorder_writing) set_flag(state, databuffer::kVtr, false);
   if (points_due) draw_points(state, surroundings, configuration);
   end_message(state, surroundings.tick);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "databuffer/records/model_records.hpp"
@@ -19,11 +20,13 @@ inline constexpr std::size_t kMapsKnown = 4;
 // What the machine sees in a tick besides the events.
 struct Surroundings {
   std::int64_t tick = 0;
+  std::int64_t sim_time_ns = 0;
   std::uint32_t epoch = 0;
   bool ownship_valid = false;
   bool recorder_writing = false;
   databuffer::Ownship ownship{};
   databuffer::Nav nav{};
+  double field_variation_deg = std::numeric_limits<double>::quiet_NaN();  // by a model of the earth's field; NaN = none
   databuffer::ModelStatus model{};
   // Records of the maps that the state names and of the model's newest, in any order; id 0 = an empty place.
   std::array<databuffer::PatchMap, kMapsKnown> maps{};

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <optional>
 #include <span>
 
+#include "databuffer/records/navigation.hpp"
+#include "databuffer/records/plain_text.hpp"
 #include "lib/geo/geodesic.hpp"
 #include "lib/radar/point_name.hpp"
 #include "statemachine/cursor.hpp"
+#include "statemachine/designating.hpp"
 
 namespace yars::statemachine {
 
@@ -15,42 +19,40 @@ namespace {
 
 using databuffer::DrawnPoint;
 using databuffer::RadarState;
+using databuffer::text_of;
 using radar::RoutePoint;
 
 constexpr std::size_t kMostDrawn = 5;  // rule 11; the record holds more
 static_assert(kMostDrawn <= radar::kMaxPointsDrawn);
-
-// Text of a record's field, which a foreign writer may have left without its zero.
-template <std::size_t N>
-std::string_view text_of(const char (&field)[N]) {
-  return {field, static_cast<std::size_t>(std::find(field, field + N, '\0') - field)};
-}
 
 void put_name(char (&field)[8], std::string_view name) {
   std::memset(field, 0, sizeof(field));
   name.copy(field, sizeof(field) - 1);
 }
 
-const RoutePoint* find_point(std::string_view name, const radar::RadarConfiguration& configuration) {
+// Among those of the route, and the target designated.
+std::optional<RoutePoint> find_point(std::string_view name, const RadarState& state,
+                                     const radar::RadarConfiguration& configuration) {
   const auto found = std::find_if(configuration.route.begin(), configuration.route.end(),
                                   [name](const RoutePoint& point) { return point.name == name; });
-  return found == configuration.route.end() ? nullptr : &*found;
+  if (found != configuration.route.end()) return *found;
+  const auto target = designated_point(state);
+  return target && target->name == name ? target : std::nullopt;
 }
 
 bool survives_declutter(const RoutePoint& point) {
   return point.kind == radar::PointKind::target || point.kind == radar::PointKind::target_offset;
 }
 
-void select(Step& step, const RoutePoint& point) {
-  put_name(step.state.sequence_point, point.name);
-  jump_cursor(step.state, point);
+void select(Step& step, const std::optional<RoutePoint>& point) {
+  if (!point) return;
+  put_name(step.state.sequence_point, point->name);
+  jump_cursor(step.state, point->place, step.surroundings);
 }
 
-// The points to draw, kept sorted by distance while the route goes by; the selected one is put first.
+// The points to draw, kept sorted by distance while the route goes by; those always drawn go in at no distance.
 class Nearest {
  public:
-  explicit Nearest(const RoutePoint* selected) { take(selected, geo::Length()); }
-
   void take(const RoutePoint* point, geo::Length distance) {
     if (!point) return;
     const auto end = entries_.begin() + static_cast<std::ptrdiff_t>(count_);
@@ -94,11 +96,11 @@ void next_sequence_point(Step& step) {
     return radar::precedes(present, text_of(point.name));
   });
   const DrawnPoint& next = after == points.end() ? points.front() : *after;
-  if (const RoutePoint* point = find_point(text_of(next.name), step.configuration)) select(step, *point);
+  select(step, find_point(text_of(next.name), step.state, step.configuration));
 }
 
 void select_sequence_point(Step& step) {
-  if (const RoutePoint* point = find_point(text_of(step.event.text), step.configuration)) select(step, *point);
+  select(step, find_point(text_of(step.event.text), step.state, step.configuration));
 }
 
 void select_first_sequence_point(RadarState& state, const radar::RadarConfiguration& configuration) {
@@ -108,17 +110,20 @@ void select_first_sequence_point(RadarState& state, const radar::RadarConfigurat
   put_name(state.sequence_point, first == configuration.route.end() ? std::string_view() : first->name);
 }
 
-const RoutePoint* selected_point(const RadarState& state, const radar::RadarConfiguration& configuration) {
-  return find_point(text_of(state.sequence_point), configuration);
+std::optional<RoutePoint> selected_point(const RadarState& state, const radar::RadarConfiguration& configuration) {
+  return find_point(text_of(state.sequence_point), state, configuration);
 }
 
 void draw_points(RadarState& state, const Surroundings& surroundings, const radar::RadarConfiguration& configuration) {
-  const RoutePoint* selected = selected_point(state, configuration);
-  Nearest nearest(selected);
+  const std::string_view selected = text_of(state.sequence_point);
+  const std::optional<RoutePoint> target = designated_point(state);
+  Nearest nearest;
+  if (target) nearest.take(&*target, geo::Length());
   const geo::GeoPoint aircraft{surroundings.ownship.latitude_deg, surroundings.ownship.longitude_deg};
   const geo::Length range = geo::Length::nautical_miles(state.range_nm);
   for (const RoutePoint& point : configuration.route) {
-    if (!surroundings.ownship_valid || &point == selected) continue;
+    if (point.name == selected) nearest.take(&point, geo::Length());
+    if (!surroundings.ownship_valid || point.name == selected) continue;
     if (has(state, databuffer::kDeclutter) && !survives_declutter(point)) continue;
     const geo::Length distance = geo::geodesic_inverse(aircraft, point.place).distance;
     if (distance <= range) nearest.take(&point, distance);
@@ -129,7 +134,7 @@ void draw_points(RadarState& state, const Surroundings& surroundings, const rada
             [](const auto& a, const auto& b) { return radar::precedes(a.point->name, b.point->name); });
   std::fill(std::begin(state.points), std::end(state.points), DrawnPoint{});
   std::transform(entries.begin(), entries.end(), state.points,
-                 [selected](const auto& entry) { return drawn(*entry.point, entry.point == selected); });
+                 [selected](const auto& entry) { return drawn(*entry.point, entry.point->name == selected); });
   state.points_drawn = static_cast<std::uint8_t>(entries.size());
 }
 

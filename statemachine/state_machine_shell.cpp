@@ -9,6 +9,7 @@
 #include "databuffer/patch_pool.hpp"
 #include "databuffer/records/event_text.hpp"
 #include "databuffer/records/validation.hpp"
+#include "statemachine/outputs.hpp"
 
 namespace yars::statemachine {
 
@@ -45,12 +46,15 @@ void StateMachineShell::step(const databuffer::TickLoop::Due& due) {
   take_events(due.tick);
   advance(state_, surroundings_, *configuration_);
   publish_if_changed(due.tick);
+  if (state_.power != static_cast<std::uint8_t>(radar::Power::off))
+    session_->layout().outputs.publish(outputs_of(state_, surroundings_));
   drop_old_events_ = false;
 }
 
 void StateMachineShell::latch(const databuffer::TickLoop::Due& due) {
   const auto& selected = ownship_.refresh(session_->layout(), due.sim_time_ns);
   surroundings_.tick = due.tick;
+  surroundings_.sim_time_ns = due.sim_time_ns;
   surroundings_.epoch = due.clock.epoch;
   surroundings_.ownship_valid = selected.valid;
   surroundings_.ownship = selected.ownship;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "statemachine/cursor.hpp"
+#include "statemachine/designating.hpp"
 #include "statemachine/freezing.hpp"
 #include "statemachine/legends.hpp"
 #include "statemachine/maps.hpp"
@@ -11,7 +12,9 @@
 #include "statemachine/navigators.hpp"
 #include "statemachine/scanning.hpp"
 #include "statemachine/sequence_points.hpp"
+#include "statemachine/steering.hpp"
 #include "statemachine/switches.hpp"
+#include "statemachine/updating.hpp"
 
 namespace yars::statemachine {
 
@@ -21,6 +24,7 @@ using databuffer::EventKind;
 using databuffer::RadarState;
 
 constexpr Columns kBothHrm = kHrm | kPatch;
+constexpr Columns kWithCursor = kRbm | kBothHrm | kBcn;
 constexpr Columns kAllGround = kRbm | kHrm | kPatch | kBcn | kPvu;
 constexpr Columns kRadar = kAllGround | kRanging;  // power is on; hands-on controls do not know the menu
 constexpr Conditions kRangeFree = kThawed | kWithMap;
@@ -72,13 +76,26 @@ constexpr std::array kButtons{
     ButtonRow{20, kAllGround, kSetOff, next_band, band_legend, kAlways},
 };
 
-// pvi.md, "Hands-on and other controls". The TDC's release acts by cursor function; all but MAP come with the
-// designations. The deflection is taken also where no cursor is slewed, so that letting go is never missed.
+// pvi.md, "Hands-on and other controls". The TDC's release acts by cursor function; over a picture that A/A or ranging
+// leave standing in SET alone. The deflection is taken also where no cursor is slewed, so that letting go is never
+// missed.
 constexpr std::array kControls{
     ControlRow{EventKind::tdc, kRadar, kAlways, deflect},
     ControlRow{EventKind::tdc_release, kRbm | kBothHrm | kPvu, kMapFree, command_map},
+    ControlRow{EventKind::tdc_release, kWithCursor, kWithUpdate | kOperating, accept_update},
+    ControlRow{EventKind::tdc_release, kRanging, kWithUpdate | kOperating | kSetOn, accept_update},
+    ControlRow{EventKind::tdc_release, kWithCursor, kWithCue | kOperating, cue_sensor},
+    ControlRow{EventKind::tdc_release, kRanging, kWithCue | kOperating | kSetOn, cue_sensor},
+    ControlRow{EventKind::tdc_release, kWithCursor, kWithTarget | kOperating | kLineSlews, fix_steering_line},
+    ControlRow{EventKind::tdc_release, kRanging, kWithTarget | kOperating | kLineSlews | kSetOn, fix_steering_line},
+    ControlRow{EventKind::tdc_release, kWithCursor, kWithTarget | kOperating, designate_target},
+    ControlRow{EventKind::tdc_release, kRanging, kWithTarget | kOperating | kSetOn, designate_target},
+    ControlRow{EventKind::tdc_release, kWithCursor, kWithMark | kOperating, store_mark},
+    ControlRow{EventKind::tdc_release, kRanging, kWithMark | kOperating | kSetOn, store_mark},
     ControlRow{EventKind::coolie_up, kRadar, kAlways, next_sequence_point},
     ControlRow{EventKind::acquisition, kRbm | kBothHrm, kWithMap, step_window},
+    ControlRow{EventKind::acquisition, kWithCursor, kWithTarget | kOperating, steer_slewing},
+    ControlRow{EventKind::acquisition, kRanging, kWithTarget | kOperating | kSetOn, steer_slewing},
     ControlRow{EventKind::freeze, kRbm | kBcn, kAlways, toggle_freeze},
     ControlRow{EventKind::freeze, kBothHrm, kSniffOff | kSetOff, toggle_freeze},
     ControlRow{EventKind::elevation, kRbm | kBcn | kPvu | kRanging, kSetOff, set_elevation},
@@ -115,6 +132,22 @@ Columns column_of(radar::Mode mode) {
   return kOff;
 }
 
+Conditions condition_of(radar::CursorFunction function) {
+  switch (function) {
+    case radar::CursorFunction::map:
+      return kWithMap;
+    case radar::CursorFunction::update:
+      return kWithUpdate;
+    case radar::CursorFunction::cue:
+      return kWithCue;
+    case radar::CursorFunction::target:
+      return kWithTarget;
+    case radar::CursorFunction::mark:
+      return kWithMark;
+  }
+  return kAlways;
+}
+
 }  // namespace
 
 std::span<const ButtonRow> button_rows() {
@@ -139,7 +172,8 @@ Columns control_column(const databuffer::RadarState& state) {
 bool hold(Conditions conditions, const databuffer::RadarState& state) {
   const bool frozen = has(state, databuffer::kFreeze);
   Conditions present = frozen ? kFrozen : kThawed;
-  if (state.cursor_function == static_cast<std::uint8_t>(radar::CursorFunction::map)) present |= kWithMap;
+  present |= condition_of(static_cast<radar::CursorFunction>(state.cursor_function));
+  if (slews_steering_line(state)) present |= kLineSlews;
   if (!has(state, databuffer::kSniff)) present |= kSniffOff;
   if (power_of(state) == radar::Power::operate) present |= kOperating;
   present |= has(state, databuffer::kSet) ? kSetOn : kSetOff;

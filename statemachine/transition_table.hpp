@@ -31,8 +31,13 @@ inline constexpr Conditions kSniffOff = 1U << 3;
 inline constexpr Conditions kOperating = 1U << 4;  // power OPR
 inline constexpr Conditions kSetOff = 1U << 5;
 inline constexpr Conditions kSetOn = 1U << 6;
-inline constexpr Conditions kHasMap = 1U << 7;     // one has been made
-inline constexpr Conditions kMapStands = 1U << 8;  // one is on the glass
+inline constexpr Conditions kHasMap = 1U << 7;      // one has been made
+inline constexpr Conditions kMapStands = 1U << 8;   // one is on the glass
+inline constexpr Conditions kWithUpdate = 1U << 9;  // cursor function UPDT
+inline constexpr Conditions kWithCue = 1U << 10;
+inline constexpr Conditions kWithTarget = 1U << 11;
+inline constexpr Conditions kWithMark = 1U << 12;
+inline constexpr Conditions kLineSlews = 1U << 13;  // the TDC turns the pattern steering line
 
 using Action = void (*)(Step&);
 

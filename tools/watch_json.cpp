@@ -66,8 +66,8 @@ void add_cursor(ordered_json& object, const RadarState& state) {
   }
   object["cursor"] = {{"bearing_deg", number_or_null(state.cursor_bearing_deg)},
                       {"range_nm", number_or_null(state.cursor_range_nm)},
-                      {"lat", number_or_null(state.cursor_latitude_deg)},
-                      {"lon", number_or_null(state.cursor_longitude_deg)},
+                      {"lat", number_or_null(state.cursor_believed_latitude_deg)},
+                      {"lon", number_or_null(state.cursor_believed_longitude_deg)},
                       {"elevation_ft", number_or_null(state.cursor_elevation_m / geo::kMetresPerFoot)}};
 }
 
@@ -92,6 +92,36 @@ void add_map(ordered_json& object, const RadarState& state) {
   object["message"] = text_of(state.message);
 }
 
+// As the glass shows it: feet to 3000 ft, NM beyond.
+ordered_json update_error(const RadarState& state) {
+  if (!has(state, databuffer::kUpdateShown)) return nullptr;
+  const auto distance = geo::Length::metres(std::hypot(state.update_north_m, state.update_east_m));
+  const bool far = distance.feet() > databuffer::kUpdateErrorInFeet;
+  const bool ages = state.update_seconds >= 0;
+  return {{"value", far ? distance.nautical_miles() : distance.feet()},
+          {"unit", far ? "NM" : "ft"},
+          {"valid", !has(state, databuffer::kUpdateInvalid)},
+          {"seconds", ages ? ordered_json(state.update_seconds) : ordered_json(nullptr)}};
+}
+
+ordered_json steering_line(const RadarState& state) {
+  const auto heading = geo::Bearing::degrees(state.steering_line_deg - state.magnetic_variation_deg);
+  const auto object = [&](const char* word) {
+    return ordered_json{{"heading_deg", heading.degrees()}, {"state", word}};
+  };
+  switch (static_cast<databuffer::SteeringLine>(state.steering_line)) {
+    case databuffer::SteeringLine::line_of_sight:
+      return object("LOS");
+    case databuffer::SteeringLine::slewing:
+      return object("SLEW");
+    case databuffer::SteeringLine::fixed:
+      return object("FIXED");
+    case databuffer::SteeringLine::none:
+      break;
+  }
+  return nullptr;
+}
+
 void add_navigation(ordered_json& object, const RadarState& state) {
   object["channel"] = state.channel;
   object["band"] = std::string(1, static_cast<char>('A' + state.band));
@@ -101,8 +131,8 @@ void add_navigation(ordered_json& object, const RadarState& state) {
     drawn.push_back(text_of(state.points[i].name));
   object["points_drawn"] = drawn;
   object["nav_source"] = radar::name_of(static_cast<radar::Navigator>(state.navigator));
-  object["update_error"] = nullptr;
-  object["psl"] = nullptr;
+  object["update_error"] = update_error(state);
+  object["psl"] = steering_line(state);
 }
 
 void add_ownship(ordered_json& object, const ModelStatus& model, std::int64_t now_ns) {

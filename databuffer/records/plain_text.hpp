@@ -1,12 +1,20 @@
 // Plain text that people write, a record a line: routes, tracks, scripts. `#` begins a comment.
 #pragma once
 
+#include <cstddef>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace yars::databuffer {
+
+// The text in a record's field, which a foreign writer may have left without its zero.
+template <std::size_t N>
+std::string_view text_of(const char (&field)[N]) {
+  return {field, strnlen(field, N)};
+}
 
 struct NumberedLine {
   int number = 0;         // from 1, as editors count

@@ -41,6 +41,8 @@ struct Mark {
 static_assert(sizeof(Mark) == 32);
 inline constexpr std::size_t kMarks = 10;
 
+inline constexpr double kUpdateErrorInFeet = 3000.0;  // [ft] UPDT errors are told in feet up to here, in NM beyond
+
 enum class SteeringLine : std::uint8_t { none = 0, line_of_sight = 1, slewing = 2, fixed = 3 };
 
 // Bits of RadarState::flags.
@@ -147,7 +149,8 @@ struct RadarState {
   double velocity_across_mps;              // [m/s] to the right
   double velocity_vertical_mps;            // [m/s] up
   Mark marks[kMarks];
-  std::uint64_t reserved[8];
+  double magnetic_variation_deg;  // [deg] east positive: of the navigator, of the field's model, or configured
+  std::uint64_t reserved[7];
 };
 static_assert(sizeof(RadarState) % 8 == 0 && std::is_trivially_copyable_v<RadarState>);
 static_assert(offsetof(RadarState, power) == 120);

@@ -129,6 +129,7 @@ void inspect_designations(Inspection& inspection, const RadarState& state) {
   inspection.speed("velocity_along_mps", state.velocity_along_mps);
   inspection.speed("velocity_across_mps", state.velocity_across_mps);
   inspection.speed("velocity_vertical_mps", state.velocity_vertical_mps);
+  inspection.range("magnetic_variation_deg", state.magnetic_variation_deg, -180.0, 180.0);
   inspection.range("mark_count", state.mark_count, 0, kMarks);
   const auto count = std::min<std::size_t>(state.mark_count, kMarks);
   for (const Mark& mark : std::span(state.marks).first(count))

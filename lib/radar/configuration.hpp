@@ -102,6 +102,20 @@ struct HighResolutionConfiguration {
   double detail_contrast = 0.5;     // standard deviation of the made-up detail below the posts, as a share
 };
 
+// What the navigators have wrong from the start, and how the radar puts it right; spec physics.md "Navigation errors".
+struct NavigationConfiguration {
+  double error_north_m = 0.0;       // [m] of position when the session begins
+  double error_east_m = 0.0;        // [m]
+  double drift_north_mps = 0.0;     // [m/s] of velocity when the session begins
+  double drift_east_mps = 0.0;      // [m/s]
+  double drift_down_mps = 0.0;      // [m/s]
+  double walk_mps = 0.0;            // [m/s] random walk of the velocity error: standard deviation after an hour
+  double update_validity_s = 30.0;  // [s] for which a cursor placed serves an INS update
+  double velocity_period_s = 60.0;  // [s] between velocity updates
+  double velocity_noise_mps =
+      0.1;  // [m/s] standard deviation of a component that the radar measures: a third of a ft/s
+};
+
 struct TerrainConfiguration {
   std::string directory;            // empty: the built-in analytic hills
   bool missing_cell_is_sea = true;  // an absent cell is sea at 0 m; false: void
@@ -127,6 +141,7 @@ struct RadarConfiguration {
   ReceiverConfiguration receiver;
   TerrainConfiguration terrain;
   HighResolutionConfiguration high_resolution;
+  NavigationConfiguration navigation;
   WorldConfiguration world;
   std::vector<RoutePoint> route;
   std::uint64_t seed = 1;

@@ -45,6 +45,12 @@ inline auto fields(const radar::HighResolutionConfiguration& map) {
                     plain, detail);
 }
 
+inline auto fields(const radar::NavigationConfiguration& navigation) {
+  const auto& [error_north, error_east, drift_north, drift_east, drift_down, walk, validity, period, noise] =
+      navigation;
+  return std::tuple(error_north, error_east, drift_north, drift_east, drift_down, walk, validity, period, noise);
+}
+
 inline auto fields(const radar::TerrainConfiguration& terrain) {
   const auto& [directory, sea] = terrain;
   return std::tuple(directory, sea);
@@ -112,13 +118,14 @@ inline auto fields(const radar::WorldConfiguration& world) {
 }
 
 inline auto fields(const radar::RadarConfiguration& configuration) {
-  const auto& [name, ranges, widths, windows, pulses, antenna, view, fidelity, receiver, terrain, high, world, route,
-               seed, variation] = configuration;
+  const auto& [name, ranges, widths, windows, pulses, antenna, view, fidelity, receiver, terrain, high, navigation,
+               world, route, seed, variation] = configuration;
   std::vector<decltype(fields(route[0]))> points;
   points.reserve(route.size());
   for (const auto& point : route) points.push_back(fields(point));
   return std::tuple(name, ranges, widths, windows, pulses, fields(antenna), fields(view), fields(fidelity),
-                    fields(receiver), fields(terrain), fields(high), fields(world), points, seed, variation);
+                    fields(receiver), fields(terrain), fields(high), fields(navigation), fields(world), points, seed,
+                    variation);
 }
 
 // The configuration of a text that must be right.

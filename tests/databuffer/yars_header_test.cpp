@@ -196,6 +196,7 @@ SAME(yars_radar_state, RadarState, velocity_along_mps);
 SAME(yars_radar_state, RadarState, velocity_across_mps);
 SAME(yars_radar_state, RadarState, velocity_vertical_mps);
 SAME(yars_radar_state, RadarState, marks);
+SAME(yars_radar_state, RadarState, magnetic_variation_deg);
 SAME(yars_radar_state, RadarState, reserved_bytes2);
 SAME(yars_radar_state, RadarState, reserved);
 static_assert(sizeof(yars_model_status) == sizeof(ModelStatus));

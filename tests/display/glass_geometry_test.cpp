@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "databuffer/records/navigation.hpp"
 #include "display/present_frame.hpp"
 #include "display/wedge.hpp"
 #include "tests/display/glass_states.hpp"
@@ -134,9 +135,11 @@ TEST(PresentFrame, SymbolsAreOffTheVideoByTheErrorOfTheNavigatorChosen) {
   input.nav.ins_latitude_deg = believed.latitude_deg;
   input.nav.ins_longitude_deg = believed.longitude_deg;
   const GlassFrame frame = present_frame(input, nullptr);
-  const Point by_mission = kView.at_ground(frame, seen_through_navigator(input, place));
+  const Point by_mission =
+      kView.at_ground(frame, databuffer::belief_in_use(input.ownship, input.nav, input.state).on_video(place));
   input.state.navigator = static_cast<std::uint8_t>(radar::Navigator::ins);
-  const Point by_ins = kView.at_ground(frame, seen_through_navigator(input, place));
+  const Point by_ins =
+      kView.at_ground(frame, databuffer::belief_in_use(input.ownship, input.nav, input.state).on_video(place));
   EXPECT_NEAR(by_mission.x, 240.0F, 0.01F);
   EXPECT_NEAR(by_ins.x, 230.0F, 0.05F);
   EXPECT_NEAR(by_ins.y, 240.0F, 0.05F);

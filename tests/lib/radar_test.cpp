@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/radar/chance.hpp"
 #include "lib/radar/configuration.hpp"
 #include "lib/radar/ground_track.hpp"
 #include "lib/radar/modes.hpp"
@@ -142,6 +143,22 @@ TEST(Names, AreTheWordsOfWatch) {
   EXPECT_EQ(name_of(ScanWidth::quarter), "QTR");
   EXPECT_EQ(name_of(CursorFunction::update), "UPDT");
   EXPECT_EQ(name_of(Navigator::mission), "MN");
+}
+
+TEST(Chance, IsTheSameForTheSameCountAndNormal) {
+  EXPECT_EQ(standard_normal(1, 2, 3), standard_normal(1, 2, 3));
+  double sum = 0.0, squares = 0.0, products = 0.0;
+  constexpr std::uint64_t kDraws = 100'000;
+  for (std::uint64_t n = 0; n < kDraws; ++n) {
+    const double value = standard_normal(7, n, 0);
+    sum += value;
+    squares += value * value;
+    products += value * standard_normal(7, n, 1);
+  }
+  // Five standard deviations of each estimate.
+  EXPECT_NEAR(sum / kDraws, 0.0, 0.016);
+  EXPECT_NEAR(squares / kDraws, 1.0, 0.023);
+  EXPECT_NEAR(products / kDraws, 0.0, 0.016) << "draws of one count know nothing of each other";
 }
 
 TEST(Names, OfAValueOutsideItsEnumerationIsAQuestionMark) {

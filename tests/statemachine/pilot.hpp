@@ -126,6 +126,20 @@ inline std::string word_of(radar::Recall recall) {
   return "-";
 }
 
+inline std::string word_of(databuffer::SteeringLine line) {
+  switch (line) {
+    case databuffer::SteeringLine::line_of_sight:
+      return "LOS";
+    case databuffer::SteeringLine::slewing:
+      return "SLEW";
+    case databuffer::SteeringLine::fixed:
+      return "FIXED";
+    case databuffer::SteeringLine::none:
+      break;
+  }
+  return "-";
+}
+
 inline std::string words_of(double value) {
   std::ostringstream text;
   text << value;
@@ -148,40 +162,47 @@ using Fields = std::map<std::string, std::string>;
 inline Fields fields_of(const Pilot& pilot) {
   const databuffer::RadarState& state = pilot.state;
   const auto flag = [&state](std::uint32_t bit) { return std::string((state.flags & bit) != 0 ? "true" : "false"); };
-  return {{"power", std::string(name_of(static_cast<radar::Power>(state.power)))},
-          {"mode", std::string(name_of(static_cast<radar::Mode>(state.mode)))},
-          {"running", std::string(name_of(static_cast<radar::Mode>(state.resume_mode)))},
-          {"master", std::string(name_of(static_cast<radar::Master>(state.master)))},
-          {"range_nm", words_of(state.range_nm)},
-          {"scan", std::string(name_of(static_cast<radar::ScanWidth>(state.scan)))},
-          {"gain", words_of(state.gain)},
-          {"brightness", words_of(state.brightness)},
-          {"contrast", words_of(state.contrast)},
-          {"declutter", flag(databuffer::kDeclutter)},
-          {"freeze", flag(databuffer::kFreeze)},
-          {"sniff", flag(databuffer::kSniff)},
-          {"ipvu", flag(databuffer::kIpvu)},
-          {"vtr", flag(databuffer::kVtr)},
-          {"set", flag(databuffer::kSet)},
-          {"menu", flag(databuffer::kMenu)},
-          {"mapping", flag(databuffer::kMapping)},
-          {"recall", word_of(static_cast<radar::Recall>(state.recall))},
-          {"shown", std::to_string(state.map_shown)},
-          {"maps", std::to_string(state.map_newest) + "/" + std::to_string(state.map_old) + "/" +
-                       std::to_string(state.map_stored)},
-          {"cursor_function", std::string(name_of(static_cast<radar::CursorFunction>(state.cursor_function)))},
-          {"cursor_on", point_under_cursor(pilot)},
-          {"window_nm", words_of(state.window_nm)},
-          {"multi_look", flag(databuffer::kMultiLook2) == "true" ? "ML2" : "ML1"},
-          {"stabilizing", flag(databuffer::kProgressive) == "true" ? "PROG" : "STAB"},
-          {"channel", words_of(state.channel)},
-          {"band", std::string(1, static_cast<char>('A' + state.band))},
-          {"sequence_point", state.sequence_point},
-          {"nav_source", std::string(name_of(static_cast<radar::Navigator>(state.navigator)))},
-          {"altimeter", flag(databuffer::kAltimeterFailed) == "true" ? "FAIL" : "ok"},
-          {"elevation", words_of(state.antenna_elevation_deg)},
-          {"tdc", words_of(state.tdc_x) + "/" + words_of(state.tdc_y)},
-          {"message", state.message}};
+  return {
+      {"power", std::string(name_of(static_cast<radar::Power>(state.power)))},
+      {"mode", std::string(name_of(static_cast<radar::Mode>(state.mode)))},
+      {"running", std::string(name_of(static_cast<radar::Mode>(state.resume_mode)))},
+      {"master", std::string(name_of(static_cast<radar::Master>(state.master)))},
+      {"range_nm", words_of(state.range_nm)},
+      {"scan", std::string(name_of(static_cast<radar::ScanWidth>(state.scan)))},
+      {"gain", words_of(state.gain)},
+      {"brightness", words_of(state.brightness)},
+      {"contrast", words_of(state.contrast)},
+      {"declutter", flag(databuffer::kDeclutter)},
+      {"freeze", flag(databuffer::kFreeze)},
+      {"sniff", flag(databuffer::kSniff)},
+      {"ipvu", flag(databuffer::kIpvu)},
+      {"vtr", flag(databuffer::kVtr)},
+      {"set", flag(databuffer::kSet)},
+      {"menu", flag(databuffer::kMenu)},
+      {"mapping", flag(databuffer::kMapping)},
+      {"recall", word_of(static_cast<radar::Recall>(state.recall))},
+      {"shown", std::to_string(state.map_shown)},
+      {"maps",
+       std::to_string(state.map_newest) + "/" + std::to_string(state.map_old) + "/" + std::to_string(state.map_stored)},
+      {"cursor_function", std::string(name_of(static_cast<radar::CursorFunction>(state.cursor_function)))},
+      {"cursor_on", point_under_cursor(pilot)},
+      {"window_nm", words_of(state.window_nm)},
+      {"multi_look", flag(databuffer::kMultiLook2) == "true" ? "ML2" : "ML1"},
+      {"stabilizing", flag(databuffer::kProgressive) == "true" ? "PROG" : "STAB"},
+      {"channel", words_of(state.channel)},
+      {"band", std::string(1, static_cast<char>('A' + state.band))},
+      {"sequence_point", state.sequence_point},
+      {"nav_source", std::string(name_of(static_cast<radar::Navigator>(state.navigator)))},
+      {"altimeter", flag(databuffer::kAltimeterFailed) == "true" ? "FAIL" : "ok"},
+      {"elevation", words_of(state.antenna_elevation_deg)},
+      {"moved", std::hypot(state.mission.north_m, state.mission.east_m) > 1.0 ? "true" : "false"},
+      {"drift", state.mission.velocity_north_mps != 0.0 || state.mission.velocity_east_mps != 0.0 ? "true" : "false"},
+      {"cues", std::to_string(state.cue_count)},
+      {"target", state.target_name},
+      {"psl", word_of(static_cast<databuffer::SteeringLine>(state.steering_line))},
+      {"marks", std::to_string(state.mark_count)},
+      {"tdc", words_of(state.tdc_x) + "/" + words_of(state.tdc_y)},
+      {"message", state.message}};
 }
 
 // Brings a pilot into a mode, or into a state that transitions.csv describes, by events; then the range is 40 NM (20 in

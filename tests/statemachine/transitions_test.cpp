@@ -57,7 +57,7 @@ Fields expected_after(Fields fields, const std::string& effect) {
     if (equals == std::string::npos) continue;  // second word of a message
     const std::string name = change.substr(0, equals);
     const std::string value = change.substr(equals + 1);
-    fields[name] = name == "message" ? effect.substr(effect.find('=') + 1) : value;
+    fields[name] = name == "message" ? effect.substr(effect.find("message=") + 8) : value;
     if (name == "mode" && value != "MENU") fields["running"] = value;
   }
   return fields;
@@ -84,13 +84,91 @@ TEST(Transitions, EveryRowOfTheTableHolds) {
   }
 }
 
+struct FunctionCase {
+  Case one;
+  radar::CursorFunction function;
+};
+
+radar::CursorFunction function_named(const std::string& name) {
+  using radar::CursorFunction;
+  for (const auto function :
+       {CursorFunction::update, CursorFunction::cue, CursorFunction::target, CursorFunction::mark})
+    if (name_of(function) == name) return function;
+  throw std::runtime_error("no cursor function " + name);
+}
+
+std::vector<FunctionCase> function_cases() {
+  std::vector<FunctionCase> all;
+  for (const Row& row : read_csv("cursor_functions.csv"))
+    for (const std::string& function : split(row.at("function"), '|'))
+      for (const std::string& mode : split(row.at("mode"), '|'))
+        for (const std::string& frozen : split(row.at("frozen"), '|'))
+          if (reachable(mode, frozen == "yes"))
+            all.push_back({{row.at("event"), mode, frozen == "yes", row.at("effect"), row.at("source")},
+                           function_named(function)});
+  return all;
+}
+
+// The rows that say what a function makes of an event, and all other events as the table for MAP has them.
+std::vector<FunctionCase> all_function_cases() {
+  std::vector<FunctionCase> all = function_cases();
+  std::set<std::string> own;
+  for (const FunctionCase& row : all) own.insert(row.one.event);
+  for (const Case& one : cases()) {
+    if (own.count(one.event) != 0 || one.mode == "OFF") continue;
+    for (const char* function : {"UPDT", "CUE", "TGT", "MARK"}) all.push_back({one, function_named(function)});
+  }
+  return all;
+}
+
+TEST(Transitions, HoldInEveryCursorFunction) {
+  for (const auto& [one, function] : all_function_cases()) {
+    SCOPED_TRACE(one.event + " in " + one.mode + (one.frozen ? " frozen, " : ", ") + std::string(name_of(function)) +
+                 " (" + one.source + ")");
+    Pilot pilot;
+    bring_into(pilot, one.mode, one.frozen);
+    pilot.state.cursor_function = static_cast<std::uint8_t>(function);
+    if (function == radar::CursorFunction::update && one.event == "tdc release") pilot.send("nav error mn 2500 0");
+    pilot.wait();
+    const Fields before = fields_of(pilot);
+    const databuffer::RadarState untouched = pilot.state;
+
+    const bool did = pilot.send(one.event);
+
+    const bool dead = one.effect == "dead";
+    EXPECT_EQ(did, !dead);
+    if (dead) {
+      EXPECT_EQ(std::memcmp(&untouched, &pilot.state, sizeof untouched), 0) << "a dead event changed something";
+    }
+    Fields expected = expected_after(before, dead ? "" : one.effect);
+    // Power that comes anew begins with MAP; SET takes a function that it knows.
+    if (one.event == "power off") expected["cursor_function"] = "MAP";
+    if (one.event == "pb 18" && expected["set"] != before.at("set")) expected["cursor_function"] = name_of(function);
+    EXPECT_EQ(fields_of(pilot), expected);
+  }
+}
+
+TEST(Transitions, TheCursorFunctionsNameEveryModeForEveryEventOnce) {
+  std::map<std::string, std::multiset<std::string>> named;
+  for (const auto& [one, function] : function_cases())
+    named[one.event + " " + std::string(name_of(function))].insert(one.mode + (one.frozen ? " frozen" : ""));
+  EXPECT_EQ(named.size(), 6U * 4U);
+  for (const auto& [event, modes] : named) {
+    for (const std::string& mode : kModes) {
+      if (mode == "OFF") continue;
+      EXPECT_EQ(modes.count(mode), 1U) << event << " in " << mode;
+      EXPECT_EQ(modes.count(mode + " frozen"), reachable(mode, true) ? 1U : 0U) << event << " in " << mode;
+    }
+  }
+}
+
 TEST(Transitions, TheTableNamesEveryModeForEveryEventOnce) {
   std::map<std::string, std::multiset<std::string>> named;
   for (const Case& one : cases()) named[one.event].insert(one.mode + (one.frozen ? " frozen" : ""));
   for (int button = 1; button <= 20; ++button) EXPECT_EQ(named.count("pb " + std::to_string(button)), 1U) << button;
   std::set<int> kinds;
   for (const auto& entry : named) kinds.insert(databuffer::event_from_text(entry.first)->kind);
-  EXPECT_EQ(kinds.size(), 16U) << "a kind of event is missing";
+  EXPECT_EQ(kinds.size(), 18U) << "a kind of event is missing";
   for (const auto& [event, modes] : named) {
     for (const std::string& mode : kModes) {
       EXPECT_EQ(modes.count(mode), 1U) << event << " in " << mode;

@@ -1,0 +1,34 @@
+#include "config/field.hpp"
+#include "config/forms.hpp"
+
+namespace yars::config {
+
+std::vector<FormSchema> navigation_forms() {
+  constexpr double kMostError_ft = 600'000.0;
+  constexpr double kMostDrift_fps = 1'000.0;
+  const auto feet = [](double& (*of)(Draft&)) { return NumberSlot{of, geo::kMetresPerFoot}; };
+  return {{.name = "Navigation",
+           .purpose = "what the navigators have wrong, and how the radar puts it right",
+           .slots = {number_slot("errorNorth", "ft", -kMostError_ft, kMostError_ft,
+                                 feet(YARS_FIELD(radar.navigation.error_north_m)),
+                                 "of both navigators' position when the session begins"),
+                     number_slot("errorEast", "ft", -kMostError_ft, kMostError_ft,
+                                 feet(YARS_FIELD(radar.navigation.error_east_m)), "as errorNorth, to the east"),
+                     number_slot("driftNorth", "ft/s", -kMostDrift_fps, kMostDrift_fps,
+                                 feet(YARS_FIELD(radar.navigation.drift_north_mps)),
+                                 "of both navigators' velocity when the session begins; their position drifts with it"),
+                     number_slot("driftEast", "ft/s", -kMostDrift_fps, kMostDrift_fps,
+                                 feet(YARS_FIELD(radar.navigation.drift_east_mps)), "as driftNorth, to the east"),
+                     number_slot("driftDown", "ft/s", -kMostDrift_fps, kMostDrift_fps,
+                                 feet(YARS_FIELD(radar.navigation.drift_down_mps)), "as driftNorth, downward"),
+                     number_slot("velocityWalk", "ft/s", 0, kMostDrift_fps, feet(YARS_FIELD(radar.navigation.walk_mps)),
+                                 "random walk of the velocity's error: standard deviation after an hour"),
+                     number_slot("updateValidity", "s", 1, 3600, {YARS_FIELD(radar.navigation.update_validity_s)},
+                                 "how long a cursor placed serves an INS update"),
+                     number_slot("velocityPeriod", "s", 5, 3600, {YARS_FIELD(radar.navigation.velocity_period_s)},
+                                 "between the velocity updates of IPVU and PVU"),
+                     number_slot("velocityNoise", "ft/s", 0, 100, feet(YARS_FIELD(radar.navigation.velocity_noise_mps)),
+                                 "standard deviation of each component that the radar measures")}}};
+}
+
+}  // namespace yars::config

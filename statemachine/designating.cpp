@@ -1,0 +1,118 @@
+#include "statemachine/designating.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "databuffer/records/plain_text.hpp"
+#include "lib/radar/point_name.hpp"
+#include "statemachine/steering.hpp"
+#include "statemachine/switches.hpp"
+
+namespace yars::statemachine {
+
+namespace {
+
+using databuffer::RadarState;
+using databuffer::text_of;
+using radar::PointName;
+
+constexpr int kGreatestNumber = 100;  // rule 11
+constexpr int kGreatestOffset = 99;
+
+bool has_cursor(const Step& step) {
+  return step.surroundings.ownship_valid && has(step.state, databuffer::kCursorValid);
+}
+
+void cue_cursor(RadarState& state) {
+  state.cue_latitude_deg = state.cursor_believed_latitude_deg;
+  state.cue_longitude_deg = state.cursor_believed_longitude_deg;
+  state.cue_elevation_m = state.cursor_elevation_m;
+  ++state.cue_count;
+}
+
+// A point of the route with this number: an offset matters to offsets alone, and "2" and "2." are one number.
+bool is_taken(PointName wanted, const radar::RadarConfiguration& configuration) {
+  return std::any_of(configuration.route.begin(), configuration.route.end(), [wanted](const auto& point) {
+    const auto name = radar::point_name(point.name);
+    if (!name || name->number != wanted.number) return false;
+    return wanted.offset == 0 || (name->target && name->offset == wanted.offset);
+  });
+}
+
+// With a target selected the next free offset of it, else the next free number; nothing when all are taken.
+std::optional<PointName> next_free(const RadarState& state, const radar::RadarConfiguration& configuration) {
+  const auto selected = radar::point_name(text_of(state.sequence_point));
+  // A target that was designated itself makes way for the next one.
+  const bool of_route = selected && is_taken({selected->number, 0, true}, configuration);
+  if (selected && selected->target && of_route) {
+    for (int offset = 1; offset <= kGreatestOffset; ++offset)
+      if (!is_taken({selected->number, offset, true}, configuration)) return PointName{selected->number, offset, true};
+    return std::nullopt;
+  }
+  for (int number = 1; number <= kGreatestNumber; ++number)
+    if (!is_taken({number, 0, true}, configuration)) return PointName{number, 0, true};
+  return std::nullopt;
+}
+
+// "4." or "4.01".
+void put_target_name(RadarState& state, PointName name) {
+  std::array<char, 16> text{};
+  const char* const form = name.offset == 0 ? "%d." : "%d.%02d";
+  std::snprintf(text.data(), text.size(), form, name.number, name.offset);
+  std::memset(state.target_name, 0, sizeof state.target_name);
+  std::string_view(text.data()).copy(state.target_name, sizeof state.target_name - 1);
+}
+
+}  // namespace
+
+void cue_sensor(Step& step) {
+  if (has_cursor(step)) cue_cursor(step.state);
+}
+
+void designate_target(Step& step) {
+  RadarState& state = step.state;
+  if (!has_cursor(step)) return;
+  const auto name = next_free(state, step.configuration);
+  if (!name) return show_message(step, "NO FREE NUMBER");
+  const bool was_selected =
+      has(state, databuffer::kTargetDesignated) && text_of(state.sequence_point) == text_of(state.target_name);
+  put_target_name(state, *name);
+  // The selection goes with the target: its old name may be nobody's now.
+  if (was_selected) std::ranges::copy(state.target_name, state.sequence_point);
+  state.target_latitude_deg = state.cursor_believed_latitude_deg;
+  state.target_longitude_deg = state.cursor_believed_longitude_deg;
+  state.target_elevation_m = state.cursor_elevation_m;
+  ++state.target_count;
+  set_flag(state, databuffer::kTargetDesignated, true);
+  lead_along_line_of_sight(state, step.surroundings);
+  cue_cursor(state);
+}
+
+void store_mark(Step& step) {
+  RadarState& state = step.state;
+  if (!has_cursor(step)) return;
+  if (state.mark_count >= databuffer::kMarks) {
+    std::rotate(std::begin(state.marks), std::begin(state.marks) + 1, std::end(state.marks));
+    state.mark_count = databuffer::kMarks - 1;
+  }
+  state.marks[state.mark_count++] = {state.cursor_believed_latitude_deg, state.cursor_believed_longitude_deg,
+                                     state.cursor_elevation_m, step.surroundings.sim_time_ns};
+  show_message(step, "MARK " + std::to_string(state.mark_count));
+}
+
+std::optional<radar::RoutePoint> designated_point(const RadarState& state) {
+  if (!has(state, databuffer::kTargetDesignated)) return std::nullopt;
+  const std::string_view name = text_of(state.target_name);
+  const auto parts = radar::point_name(name);
+  const bool offset = parts && parts->offset > 0;
+  return radar::RoutePoint{std::string(name),
+                           offset ? radar::PointKind::target_offset : radar::PointKind::target,
+                           {state.target_latitude_deg, state.target_longitude_deg},
+                           state.target_elevation_m};
+}
+
+}  // namespace yars::statemachine

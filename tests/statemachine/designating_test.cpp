@@ -1,0 +1,249 @@
+// CUE, TGT and MARK, and the pattern steering line to what TGT designated.
+#include <gtest/gtest.h>
+
+#include "statemachine/outputs.hpp"
+#include "tests/statemachine/pilot.hpp"
+
+namespace yars::statemachine::testing {
+namespace {
+
+class Designating : public ::testing::Test {
+ protected:
+  Designating() { pilot.press("power opr"); }
+
+  void select_function(radar::CursorFunction function) {
+    while (pilot.state.cursor_function != static_cast<std::uint8_t>(function)) pilot.press("pb 7");
+  }
+  void put_cursor_on(geo::GeoPoint where) {
+    pilot.state.cursor_latitude_deg = where.latitude_deg;
+    pilot.state.cursor_longitude_deg = where.longitude_deg;
+    pilot.around.model.cursor_ground_elevation_m = 120.0;
+    pilot.wait();
+  }
+  void designate(geo::GeoPoint where) {
+    select_function(radar::CursorFunction::target);
+    put_cursor_on(where);
+    ASSERT_TRUE(pilot.press("tdc release"));
+  }
+  databuffer::Outputs outputs() const { return outputs_of(pilot.state, pilot.around); }
+  std::string steering_line() const { return fields_of(pilot).at("psl"); }
+  std::vector<std::string> points_drawn() const {
+    std::vector<std::string> names;
+    for (int point = 0; point < pilot.state.points_drawn; ++point) names.emplace_back(pilot.state.points[point].name);
+    return names;
+  }
+  void fly(double heading_deg) {
+    pilot.around.ownship.velocity_north_mps = 200.0 * std::cos(heading_deg * geo::kRadiansPerDegree);
+    pilot.around.ownship.velocity_east_mps = 200.0 * std::sin(heading_deg * geo::kRadiansPerDegree);
+  }
+
+  Pilot pilot;
+};
+
+TEST_F(Designating, CuePublishesThePointAsTheNavigatorHasIt) {
+  pilot.press("nav error mn 2500 0");
+  select_function(radar::CursorFunction::cue);
+  pilot.press("sp 1");
+  ASSERT_TRUE(pilot.press("tdc release"));
+  EXPECT_EQ(outputs().cue_count, 1U);
+  EXPECT_NEAR(outputs().cue_latitude_deg, pilot.configuration.route[0].place.latitude_deg, 1e-9);
+  EXPECT_NEAR(outputs().cue_longitude_deg, pilot.configuration.route[0].place.longitude_deg, 1e-9);
+  EXPECT_TRUE(pilot.press("tdc release")) << "the same point may be cued again";
+  EXPECT_EQ(outputs().cue_count, 2U);
+}
+
+TEST_F(Designating, NeitherCueNorTargetStopsTheScan) {
+  for (const auto function : {radar::CursorFunction::cue, radar::CursorFunction::target}) {
+    const std::uint32_t restart = pilot.state.scan_restart;
+    select_function(function);
+    pilot.press("tdc release");
+    EXPECT_EQ(pilot.state.scan_restart, restart);
+    EXPECT_FALSE(pilot.is(databuffer::kFreeze));
+  }
+}
+
+TEST_F(Designating, MarksKeepPlaceElevationAndTimeAndOutlivePower) {
+  select_function(radar::CursorFunction::mark);
+  put_cursor_on(place(10.0, 12.0));
+  pilot.around.sim_time_ns = 77'000'000;
+  ASSERT_TRUE(pilot.press("tdc release"));
+  pilot.press("power off");
+  const databuffer::Mark& mark = outputs().marks[0];
+  EXPECT_NEAR(mark.latitude_deg, place(10.0, 12.0).latitude_deg, 1e-12);
+  EXPECT_EQ(mark.elevation_m, 120.0);
+  EXPECT_EQ(mark.sim_time_ns, 77'000'000);
+}
+
+TEST_F(Designating, TheEleventhMarkTakesThePlaceOfTheOldest) {
+  select_function(radar::CursorFunction::mark);
+  for (int n = 1; n <= 11; ++n) {
+    pilot.around.sim_time_ns = n;
+    ASSERT_TRUE(pilot.press("tdc release"));
+  }
+  EXPECT_EQ(pilot.state.mark_count, databuffer::kMarks);
+  EXPECT_EQ(outputs().marks[0].sim_time_ns, 2);
+  EXPECT_EQ(outputs().marks[databuffer::kMarks - 1].sim_time_ns, 11);
+}
+
+TEST_F(Designating, ATargetTakesTheNextFreeNumber) {
+  designate(place(0.0, 20.0));
+  EXPECT_STREQ(pilot.state.target_name, "4.");
+  EXPECT_EQ(outputs().target_count, 1U);
+  EXPECT_EQ(outputs().cue_count, 1U) << "the targeting sensor is cued";
+  const auto names = points_drawn();
+  EXPECT_NE(std::find(names.begin(), names.end(), "4."), names.end()) << "it is drawn";
+  designate(place(5.0, 25.0));
+  EXPECT_STREQ(pilot.state.target_name, "4.") << "the one before makes way";
+  EXPECT_EQ(outputs().target_count, 2U);
+}
+
+TEST_F(Designating, WithATargetSelectedItIsItsNextFreeOffset) {
+  pilot.press("sp 3.");
+  designate(place(15.0, 29.0));
+  EXPECT_STREQ(pilot.state.target_name, "3.01");
+  pilot.press("sp 2.01");
+  designate(place(-10.0, 22.5));
+  EXPECT_STREQ(pilot.state.target_name, "2.02");
+}
+
+TEST_F(Designating, TheTargetCanBeSelectedAndStaysSelectedWhenItMoves) {
+  designate(place(0.0, 20.0));
+  ASSERT_TRUE(pilot.press("sp 4."));
+  EXPECT_STREQ(pilot.state.sequence_point, "4.");
+  designate(place(0.0, 22.0));
+  EXPECT_STREQ(pilot.state.sequence_point, "4.");
+}
+
+TEST_F(Designating, WithAllNumbersTakenItSaysSo) {
+  pilot.configuration.route.clear();
+  for (int n = 1; n <= 100; ++n)
+    pilot.configuration.route.push_back(route_point(std::to_string(n), radar::PointKind::steer, place(1.0 * n, 20.0)));
+  select_function(radar::CursorFunction::target);
+  pilot.press("tdc release");
+  EXPECT_STREQ(pilot.state.message, "NO FREE NUMBER");
+  EXPECT_EQ(pilot.state.target_count, 0U);
+}
+
+TEST_F(Designating, RangingIsSlantRangeBearingAndDepression) {
+  designate(place(30.0, 10.0));
+  // 4,452 m above it, 18,520 m away; the earth falls 27 m over that distance.
+  const double level_m = 18'520.0;
+  const double down_m = 4572.0 - 120.0 + level_m * level_m / (2.0 * 6.37e6);
+  EXPECT_NEAR(outputs().slant_range_m, std::hypot(level_m, down_m), 15.0);
+  EXPECT_NEAR(outputs().bearing_deg, 30.0, 0.05);
+  EXPECT_NEAR(outputs().depression_deg, std::atan2(down_m, level_m) / geo::kRadiansPerDegree, 0.05);
+}
+
+TEST_F(Designating, WithoutATargetThereIsNoRangingAndNoSteering) {
+  EXPECT_TRUE(std::isnan(outputs().slant_range_m));
+  EXPECT_EQ(outputs().steering, 0);
+  EXPECT_EQ(steering_line(), "-");
+}
+
+TEST_F(Designating, PowerOffForgetsTheTarget) {
+  designate(place(0.0, 20.0));
+  pilot.press("power off");
+  pilot.press("power opr");
+  EXPECT_FALSE(pilot.is(databuffer::kTargetDesignated));
+  EXPECT_EQ(steering_line(), "-");
+  EXPECT_EQ(outputs().target_count, 1U) << "counts that others compare go on";
+}
+
+TEST_F(Designating, TheSteeringLineFollowsTheLineOfSight) {
+  designate(place(20.0, 20.0));
+  EXPECT_EQ(steering_line(), "LOS");
+  EXPECT_NEAR(pilot.state.steering_line_deg, 20.0, 1e-9);
+  const geo::GeoPoint elsewhere =
+      geo::geodesic_direct(place(20.0, 20.0), geo::Bearing::degrees(270.0), geo::Length::nautical_miles(10.0));
+  pilot.around.ownship.latitude_deg = elsewhere.latitude_deg;
+  pilot.around.ownship.longitude_deg = elsewhere.longitude_deg;
+  pilot.wait();
+  EXPECT_NEAR(pilot.state.steering_line_deg, 90.0, 0.2);
+}
+
+TEST_F(Designating, AftSlewsReleaseFixesForwardCancels) {
+  designate(place(20.0, 20.0));
+  const geo::GeoPoint before{pilot.state.cursor_latitude_deg, pilot.state.cursor_longitude_deg};
+  ASSERT_TRUE(pilot.press("acq aft"));
+  EXPECT_EQ(steering_line(), "SLEW");
+  pilot.send("tdc 1 0");
+  pilot.wait(200);
+  EXPECT_NEAR(pilot.state.steering_line_deg, 65.0, 0.3) << "45 deg/s to the right";
+  EXPECT_EQ(pilot.state.cursor_latitude_deg, before.latitude_deg) << "the TDC turns the line, not the cursor";
+  pilot.send("tdc 0 0");
+  ASSERT_TRUE(pilot.press("tdc release"));
+  EXPECT_EQ(steering_line(), "FIXED");
+  EXPECT_EQ(outputs().target_count, 1U) << "the release fixed the line and designated nothing";
+  pilot.around.ownship.latitude_deg += 0.1;
+  pilot.wait();
+  EXPECT_NEAR(pilot.state.steering_line_deg, 65.0, 0.3) << "fixed";
+  ASSERT_TRUE(pilot.press("acq fwd"));
+  EXPECT_EQ(steering_line(), "LOS");
+  EXPECT_FALSE(pilot.press("acq fwd"));
+  ASSERT_TRUE(pilot.press("tdc release"));
+  EXPECT_EQ(outputs().target_count, 2U) << "with the line at rest the release designates";
+}
+
+TEST_F(Designating, LeavingTheFunctionEndsSlewing) {
+  designate(place(20.0, 20.0));
+  pilot.press("acq aft");
+  pilot.press("pb 7");
+  EXPECT_EQ(steering_line(), "LOS");
+  pilot.press("tdc 1 0");
+  const double before_deg = pilot.state.cursor_longitude_deg;
+  pilot.wait(50);
+  EXPECT_GT(pilot.state.cursor_longitude_deg, before_deg) << "the TDC is the cursor's again";
+}
+
+TEST_F(Designating, AzimuthSteeringIsTheTargetAgainstTheTrack) {
+  fly(15.0);
+  designate(place(20.0, 20.0));
+  EXPECT_EQ(outputs().steering, static_cast<std::uint8_t>(databuffer::SteeringCommand::azimuth));
+  EXPECT_NEAR(outputs().steering_deg, 5.0, 1e-9);
+  EXPECT_NEAR(outputs().approach_deg, 20.0, 1e-9);
+}
+
+TEST_F(Designating, BankSteeringLeadsOntoTheLine) {
+  designate(place(0.0, 20.0));
+  pilot.press("acq aft");
+  pilot.press("tdc release");
+  const auto bank_deg = [&](double heading_deg, double right_nm) {
+    fly(heading_deg);
+    const geo::GeoPoint at =
+        geo::geodesic_direct(kHome, geo::Bearing::degrees(90.0), geo::Length::nautical_miles(right_nm));
+    pilot.around.ownship.latitude_deg = at.latitude_deg;
+    pilot.around.ownship.longitude_deg = at.longitude_deg;
+    return outputs().steering_deg;
+  };
+  EXPECT_EQ(outputs().steering, static_cast<std::uint8_t>(databuffer::SteeringCommand::bank));
+  EXPECT_NEAR(bank_deg(0.0, 0.0), 0.0, 0.1) << "on the line, along it";
+  EXPECT_LT(bank_deg(0.0, 1.0), -10.0) << "right of the line: bank left";
+  EXPECT_GT(bank_deg(0.0, -1.0), 10.0);
+  EXPECT_GT(bank_deg(-30.0, 0.0), 10.0) << "off to the left of it: bank right";
+  EXPECT_GE(bank_deg(179.0, 3.0), -60.0);
+  EXPECT_LE(bank_deg(-179.0, -3.0), 60.0);
+}
+
+// Whoever obeys the bank command flies along the line over the target.
+TEST_F(Designating, ObeyingTheBankCommandEndsOnTheLine) {
+  designate(place(0.0, 20.0));
+  pilot.press("acq aft");
+  pilot.press("tdc release");
+  double heading_rad = -0.6;
+  geo::GeoPoint at = geo::geodesic_direct(kHome, geo::Bearing::degrees(90.0), geo::Length::nautical_miles(3.0));
+  constexpr double step_s = 0.25;
+  for (int step = 0; step < 480; ++step) {
+    pilot.around.ownship.latitude_deg = at.latitude_deg;
+    pilot.around.ownship.longitude_deg = at.longitude_deg;
+    fly(heading_rad / geo::kRadiansPerDegree);
+    const double bank_rad = outputs().steering_deg * geo::kRadiansPerDegree;
+    heading_rad += 9.80665 * std::tan(bank_rad) / 200.0 * step_s;
+    at = geo::geodesic_direct(at, geo::Bearing::radians(heading_rad), geo::Length::metres(200.0 * step_s));
+  }
+  const auto line = geo::geodesic_inverse(at, place(0.0, 20.0));
+  const double off_m = line.distance.metres() * std::sin(line.azimuth_at_start.radians());
+  EXPECT_LT(std::abs(off_m), 30.0);
+}
+
+}  // namespace
+}  // namespace yars::statemachine::testing

@@ -1,0 +1,230 @@
+// Errors of the navigators: what the glass and the cursor make of them, how they grow, and how UPDT takes them out.
+#include "statemachine/navigators.hpp"
+
+#include <gtest/gtest.h>
+
+#include "databuffer/records/navigation.hpp"
+#include "tests/statemachine/pilot.hpp"
+
+namespace yars::statemachine::testing {
+namespace {
+
+constexpr int kTicksPerSecond = 200;
+
+class Navigators : public ::testing::Test {
+ protected:
+  Navigators() { pilot.press("power opr"); }
+
+  databuffer::Belief belief() const {
+    return databuffer::belief_in_use(pilot.around.ownship, pilot.around.nav, pilot.state);
+  }
+  geo::GeoPoint cursor() const { return {pilot.state.cursor_latitude_deg, pilot.state.cursor_longitude_deg}; }
+  geo::GeoPoint believed_cursor() const {
+    return {pilot.state.cursor_believed_latitude_deg, pilot.state.cursor_believed_longitude_deg};
+  }
+  const radar::RoutePoint& point(std::size_t index) const { return pilot.configuration.route[index]; }
+  static double metres_between(geo::GeoPoint a, geo::GeoPoint b) {
+    return geo::geodesic_inverse(a, b).distance.metres();
+  }
+  void select_function(radar::CursorFunction function) {
+    while (pilot.state.cursor_function != static_cast<std::uint8_t>(function)) pilot.press("pb 7");
+  }
+  // The pilot lays the cursor on a place of the video, as the TDC would.
+  void put_cursor_on(geo::GeoPoint place) {
+    pilot.state.cursor_latitude_deg = place.latitude_deg;
+    pilot.state.cursor_longitude_deg = place.longitude_deg;
+    pilot.state.cursor_moved_tick = pilot.around.tick;
+    pilot.wait();
+  }
+  double offset_ft() const {
+    return geo::Length::metres(std::hypot(pilot.state.update_north_m, pilot.state.update_east_m)).feet();
+  }
+
+  Pilot pilot;
+};
+
+TEST_F(Navigators, WithoutAnErrorAPlaceStaysToTheLastBit) {
+  const geo::GeoPoint seen = belief().on_video(point(0).place);
+  EXPECT_EQ(seen.latitude_deg, point(0).place.latitude_deg);
+  EXPECT_EQ(seen.longitude_deg, point(0).place.longitude_deg);
+}
+
+TEST_F(Navigators, ABelief2500FeetNorthDrawsPoints2500FeetSouth) {
+  pilot.press("nav error mn 2500 0");
+  const geo::GeoPoint seen = belief().on_video(point(0).place);
+  EXPECT_NEAR(metres_between(seen, point(0).place), geo::Length::feet(2500.0).metres(), 2.0);
+  EXPECT_LT(seen.latitude_deg, point(0).place.latitude_deg);
+  const geo::GeoPoint back = belief().known_from_video(seen);
+  EXPECT_LT(metres_between(back, point(0).place), 1e-6);
+}
+
+TEST_F(Navigators, TheLanesOwnErrorCountsAsWell) {
+  pilot.around.nav.mission_latitude_deg = kHome.latitude_deg + 0.01;
+  pilot.around.nav.mission_longitude_deg = kHome.longitude_deg;
+  const double lane_m = metres_between(belief().believed, belief().truth);
+  pilot.press("nav error mn 2500 0");
+  EXPECT_NEAR(metres_between(belief().believed, belief().truth), lane_m + geo::Length::feet(2500.0).metres(), 1e-3);
+}
+
+TEST_F(Navigators, TheCursorJumpsToTheSymbolAndIsToldAsThePoint) {
+  pilot.press("nav error mn 2500 -1000");
+  pilot.press("sp 1");
+  EXPECT_NEAR(metres_between(cursor(), point(0).place), geo::Length::feet(std::hypot(2500.0, 1000.0)).metres(), 3.0)
+      << "on the video it lies where the symbol is";
+  EXPECT_LT(metres_between(believed_cursor(), point(0).place), 1e-6) << "the navigator knows it as the point";
+}
+
+TEST_F(Navigators, AMapIsMadeOfWhatLiesUnderTheCursorOnTheVideo) {
+  pilot.press("nav error mn 2500 0");
+  pilot.press("sp 2");
+  ASSERT_TRUE(pilot.press("tdc release"));
+  EXPECT_EQ(pilot.state.map_latitude_deg, pilot.state.cursor_latitude_deg);
+  EXPECT_EQ(pilot.state.map_longitude_deg, pilot.state.cursor_longitude_deg);
+}
+
+TEST_F(Navigators, EachNavigatorHasItsOwnError) {
+  pilot.press("nav error ins 0 4000");
+  EXPECT_EQ(metres_between(belief().believed, belief().truth), 0.0) << "the mission navigator is in use";
+  pilot.press("nav ins");
+  EXPECT_NEAR(metres_between(belief().believed, belief().truth), geo::Length::feet(4000.0).metres(), 1e-6);
+}
+
+TEST_F(Navigators, DriftMovesTheBeliefWithTime) {
+  pilot.press("nav drift mn 3 -4");
+  pilot.wait(60 * kTicksPerSecond - 1);
+  EXPECT_NEAR(pilot.state.mission.north_m, geo::Length::feet(180.0).metres(), 1e-6);
+  EXPECT_NEAR(pilot.state.mission.east_m, geo::Length::feet(-240.0).metres(), 1e-6);
+  EXPECT_EQ(pilot.state.ins.north_m, 0.0);
+}
+
+TEST_F(Navigators, ASessionBeginsWithTheErrorsConfigured) {
+  pilot.configuration.navigation.error_north_m = 100.0;
+  pilot.configuration.navigation.drift_down_mps = -1.0;
+  const databuffer::RadarState state = initial_state(pilot.configuration);
+  for (const auto& error : {state.mission, state.ins}) {
+    EXPECT_EQ(error.north_m, 100.0);
+    EXPECT_EQ(error.velocity_down_mps, -1.0);
+  }
+}
+
+TEST_F(Navigators, TheVelocityWalksAsFarAsConfigured) {
+  // Over many hours of one second's steps: the mean square after an hour is the square configured.
+  pilot.configuration.navigation.walk_mps = 2.0;
+  double sum = 0.0;
+  constexpr int kHours = 300;
+  databuffer::RadarState state = initial_state(pilot.configuration);
+  for (int hour = 0; hour < kHours; ++hour) {
+    state.mission = state.ins = {};
+    for (int second = 0; second < 3600; ++second)
+      advance_navigators(state, std::int64_t{kTicksPerSecond} * (3600 * hour + second), pilot.configuration);
+    sum += state.mission.velocity_north_mps * state.mission.velocity_north_mps;
+    ASSERT_EQ(state.mission.velocity_east_mps, state.ins.velocity_east_mps) << "one instrument feeds both";
+  }
+  EXPECT_NEAR(std::sqrt(sum / kHours), 2.0, 0.25);
+}
+
+TEST_F(Navigators, ErrorsOutliveTheRadarsPower) {
+  pilot.press("nav error mn 2500 0");
+  pilot.press("power off");
+  EXPECT_NEAR(pilot.state.mission.north_m, geo::Length::feet(2500.0).metres(), 1e-9);
+}
+
+TEST_F(Navigators, AnUpdateTakesAnErrorOf2500FeetAway) {
+  pilot.press("nav error mn 2000 1500");
+  select_function(radar::CursorFunction::update);
+  pilot.press("sp 1");
+  EXPECT_NEAR(offset_ft(), 0.0, 1e-3) << "the cursor stands on the symbol";
+  // The return of the point itself lies off its symbol by the error.
+  put_cursor_on(point(0).place);
+  ASSERT_TRUE(pilot.is(databuffer::kUpdateShown));
+  EXPECT_NEAR(offset_ft(), 2500.0, 10.0);
+  EXPECT_GT(pilot.state.update_north_m, 0.0) << "the point lies north of its symbol";
+  EXPECT_EQ(pilot.state.update_seconds, -1) << "a cursor does not age for the mission navigator";
+  ASSERT_TRUE(pilot.press("tdc release"));
+  EXPECT_NEAR(offset_ft(), 0.0, 1e-3);
+  EXPECT_NEAR(pilot.state.mission.north_m, 0.0, 1e-3);
+  EXPECT_NEAR(pilot.state.mission.east_m, 0.0, 1e-3);
+  EXPECT_FALSE(pilot.press("tdc release")) << "nothing is left to accept";
+}
+
+TEST_F(Navigators, AnUpdateHoldsAtLongRangeAndNearThePole) {
+  for (const double latitude_deg : {0.0, 60.0, 85.0, 89.0}) {
+    SCOPED_TRACE(latitude_deg);
+    Pilot other;
+    other.around.ownship.latitude_deg = latitude_deg;
+    const geo::GeoPoint far =
+        geo::geodesic_direct({latitude_deg, -121.0}, geo::Bearing::degrees(70.0), geo::Length::nautical_miles(35.0));
+    other.configuration.route = {route_point("1", radar::PointKind::steer, far)};
+    other.state = initial_state(other.configuration);
+    for (const char* event : {"power opr", "nav error mn 6000 -5000", "pb 7"}) other.press(event);
+    other.state.cursor_latitude_deg = far.latitude_deg;
+    other.state.cursor_longitude_deg = far.longitude_deg;
+    ASSERT_TRUE(other.press("tdc release"));
+    const auto seen = databuffer::belief_in_use(other.around.ownship, other.around.nav, other.state).on_video(far);
+    EXPECT_LT(metres_between(seen, far), 0.01);
+  }
+}
+
+TEST_F(Navigators, TheUpdateGoesToTheNavigatorChosen) {
+  pilot.press("nav error mn 1000 0");
+  pilot.press("nav error ins 0 1000");
+  pilot.press("nav ins");
+  select_function(radar::CursorFunction::update);
+  put_cursor_on(point(0).place);
+  ASSERT_TRUE(pilot.press("tdc release"));
+  EXPECT_NEAR(pilot.state.ins.east_m, 0.0, 1e-3);
+  EXPECT_NEAR(pilot.state.mission.north_m, geo::Length::feet(1000.0).metres(), 1e-9);
+}
+
+TEST_F(Navigators, ForTheInsACursorAgesToInvAndIsGoodAgainWhenItMoves) {
+  pilot.press("nav error ins 500 500");
+  pilot.press("nav ins");
+  select_function(radar::CursorFunction::update);
+  put_cursor_on(point(0).place);
+  EXPECT_EQ(pilot.state.update_seconds, 30);
+  pilot.wait(10 * kTicksPerSecond);
+  EXPECT_EQ(pilot.state.update_seconds, 20);
+  pilot.wait(20 * kTicksPerSecond);
+  EXPECT_EQ(pilot.state.update_seconds, 0);
+  EXPECT_TRUE(pilot.is(databuffer::kUpdateInvalid));
+  EXPECT_FALSE(pilot.press("tdc release")) << "INV is not accepted";
+  pilot.press("tdc 0.1 0");
+  EXPECT_FALSE(pilot.is(databuffer::kUpdateInvalid));
+  EXPECT_EQ(pilot.state.update_seconds, 30);
+  EXPECT_TRUE(pilot.press("tdc release"));
+}
+
+TEST_F(Navigators, TheSecondsOfTheInsAreConfigured) {
+  pilot.configuration.navigation.update_validity_s = 5.0;
+  pilot.press("nav ins");
+  select_function(radar::CursorFunction::update);
+  put_cursor_on(point(0).place);
+  EXPECT_EQ(pilot.state.update_seconds, 5);
+}
+
+TEST_F(Navigators, ErrorsAreShownInUpdtWithAPointAlone) {
+  EXPECT_FALSE(pilot.is(databuffer::kUpdateShown)) << "MAP";
+  select_function(radar::CursorFunction::update);
+  EXPECT_TRUE(pilot.is(databuffer::kUpdateShown));
+  pilot.press("mode aa");
+  EXPECT_FALSE(pilot.is(databuffer::kUpdateShown)) << "no cursor there";
+  pilot.press("mode ag");
+  pilot.configuration.route.clear();
+  pilot.wait();
+  EXPECT_FALSE(pilot.is(databuffer::kUpdateShown)) << "no point";
+}
+
+TEST_F(Navigators, TheVariationIsTheNavigatorsElseTheFieldsElseConfigured) {
+  pilot.configuration.magnetic_variation_deg = 1.0;
+  pilot.wait();
+  EXPECT_EQ(pilot.state.magnetic_variation_deg, 1.0);
+  pilot.around.field_variation_deg = 2.0;
+  pilot.wait();
+  EXPECT_EQ(pilot.state.magnetic_variation_deg, 2.0);
+  pilot.around.nav.magnetic_variation_deg = 3.0;
+  pilot.wait();
+  EXPECT_EQ(pilot.state.magnetic_variation_deg, 3.0);
+}
+
+}  // namespace
+}  // namespace yars::statemachine::testing
