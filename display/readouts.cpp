@@ -8,6 +8,7 @@
 
 #include "databuffer/records/plain_text.hpp"
 #include "display/bezel.hpp"
+#include "lib/geo/quantity.hpp"
 #include "lib/radar/limits.hpp"
 
 namespace yars::display {
@@ -82,6 +83,32 @@ void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list) {
   const double bearing_deg = std::fmod(std::round(state.cursor_bearing_deg) + 360.0, 360.0);
   list.text(formatted(buffer, "%03.0f\u00b0", bearing_deg), {6.0F, 12.0F}, {kText, Align::left});
   list.text(formatted(buffer, "%.1fNM", state.cursor_range_nm), {6.0F, 27.0F}, {kText, Align::left});
+}
+
+void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
+  if ((state.flags & databuffer::kUpdateShown) == 0) return;
+  Buffer buffer;
+  if (state.update_seconds >= 0) {
+    const Point legend = legend_place(7).at;
+    list.text(formatted(buffer, "%.0f", state.update_seconds), {legend.x, legend.y - 16.0F}, {kText});
+  }
+  // In the upper right, above the legend of PB 15.
+  constexpr float right = kGlassUnits - 6.0F, first = 47.0F, second = 60.0F;
+  if ((state.flags & databuffer::kUpdateInvalid) != 0) {
+    list.text("INV", {right, first}, {kText, Align::right});
+    return;
+  }
+  const double distance_ft = geo::Length::metres(std::hypot(state.update_north_m, state.update_east_m)).feet();
+  const bool miles_beyond = distance_ft > databuffer::kUpdateErrorInFeet;
+  const auto draw = [&](double metres, char direction, float y) {
+    const auto length = geo::Length::metres(std::abs(metres));
+    const int size = miles_beyond
+                         ? std::snprintf(buffer.data(), buffer.size(), "%c %.2fNM", direction, length.nautical_miles())
+                         : std::snprintf(buffer.data(), buffer.size(), "%c %.0fFT", direction, length.feet());
+    list.text({buffer.data(), static_cast<std::size_t>(std::max(size, 0))}, {right, y}, {kText, Align::right});
+  };
+  draw(state.update_north_m, state.update_north_m < 0.0 ? 'S' : 'N', first);
+  draw(state.update_east_m, state.update_east_m < 0.0 ? 'W' : 'E', second);
 }
 
 void draw_map_timer(double seconds, DrawList& list) {

@@ -13,7 +13,9 @@ void draw_brightness(const databuffer::RadarState& state, DrawList& list);      
 void draw_range(const databuffer::RadarState& state, DrawList& list);           // between PB 13 and 14
 void draw_window_size(const databuffer::RadarState& state, DrawList& list);     // above PB 8; nothing while blank
 void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list);  // magnetic bearing, 0.1 NM
-void draw_map_timer(double seconds, DrawList& list);                            // nothing while NaN
+// UPDT: north and east errors in feet, beyond 3000 ft in NM, or INV; for the INS the seconds left above PB 7.
+void draw_update_errors(const databuffer::RadarState& state, DrawList& list);
+void draw_map_timer(double seconds, DrawList& list);  // nothing while NaN
 void draw_freeze(DrawList& list);
 void draw_message(const databuffer::RadarState& state, DrawList& list);
 void draw_banner(std::string_view words, DrawList& list);   // STBY, NO VIDEO

@@ -9,6 +9,8 @@
 #include "display/present_frame.hpp"
 #include "display/readouts.hpp"
 #include "display/scales.hpp"
+#include "display/steering_line.hpp"
+#include "display/velocity_readouts.hpp"
 #include "lib/radar/modes.hpp"
 
 namespace yars::display {
@@ -28,6 +30,7 @@ struct Format {
   bool ground = false;    // cursor with its readout, sequence points
   bool window = false;    // window size, outline, map timer
   bool readouts = false;  // range, brightness
+  bool velocity = false;  // differences of velocity and the beam under way
 };
 
 constexpr Format kRbm{.video = true,
@@ -52,7 +55,7 @@ constexpr Format kPatch{
 constexpr Format kStandingMap{.map = true, .scales = true, .limit_balls = true, .ground = true, .readouts = true};
 constexpr Format kBeacon{
     .no_video = true, .arcs = true, .zero_line = true, .scales = true, .ground = true, .readouts = true};
-constexpr Format kPvu{.no_video = true, .scales = true, .readouts = true};
+constexpr Format kPvu{.scales = true, .readouts = true, .velocity = true};
 constexpr Format kLegendsOnly{};
 
 const Format& format_of(const databuffer::RadarState& state) {
@@ -128,7 +131,11 @@ void draw_readouts(const GlassInput& input, const Format& format, DrawList& list
     draw_window_size(state, list);
     if (const auto seconds = databuffer::map_timer_s(state, input.model)) draw_map_timer(*seconds, list);
   }
-  if (format.ground) draw_cursor_readout(state, list);
+  if (format.ground) {
+    draw_cursor_readout(state, list);
+    draw_update_errors(state, list);
+    draw_velocity_differences(state, list);
+  }
   if ((state.flags & databuffer::kFreeze) != 0) draw_freeze(list);
 }
 
@@ -140,12 +147,14 @@ void draw_format(const GlassInput& input, const Format& format, const radar::Rad
   if (format.limit_balls) draw_limits(input, configuration.high_resolution.blind_zone_deg, list);
   if (format.gray_scale) draw_gray_scale(list);
   if (format.readouts) draw_readouts(input, format, list);
+  if (format.velocity) draw_velocity_format(input, list);
   if (format.no_video) draw_banner("NO VIDEO", list);
   // On a map that could not be read nobody knows where anything lies.
   const bool placed = format.ground && (!format.map || shows_map(input));
   if (placed && format.window) draw_window_outline(input, view, frame, list);
   if (placed) {
     draw_cursor(input, view, frame, list);
+    draw_steering_line(input, view, frame, list);
     draw_points(input, configuration.route, view, frame, list);
   }
 }

@@ -27,6 +27,8 @@ struct Surroundings {
   databuffer::Ownship ownship{};
   databuffer::Nav nav{};
   double field_variation_deg = std::numeric_limits<double>::quiet_NaN();  // by a model of the earth's field; NaN = none
+  // [m] over the terrain below, by the model: the radar altimeter of an aircraft whose source has none. NaN = unknown.
+  double height_above_ground_m = std::numeric_limits<double>::quiet_NaN();
   databuffer::ModelStatus model{};
   // Records of the maps that the state names and of the model's newest, in any order; id 0 = an empty place.
   std::array<databuffer::PatchMap, kMapsKnown> maps{};

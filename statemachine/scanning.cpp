@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lib/geo/geodesic.hpp"
 #include "lib/radar/ranges.hpp"
@@ -49,10 +50,20 @@ std::optional<double> nearest_point_elevation_m(const databuffer::Ownship& ownsh
   return nearest->elevation_m;
 }
 
-Length height_for_range(const RadarState& state, const databuffer::Ownship& ownship,
+// What a radar altimeter would read; beyond its reach NaN.
+double terrain_clearance_m(const Surroundings& surroundings) {
+  constexpr double kReach_m = 1524.0;  // 5,000 ft, as those of the time
+  return surroundings.height_above_ground_m <= kReach_m ? surroundings.height_above_ground_m
+                                                        : std::numeric_limits<double>::quiet_NaN();
+}
+
+Length height_for_range(const RadarState& state, const Surroundings& surroundings,
                         const radar::RadarConfiguration& configuration) {
-  const bool altimeter = !has(state, databuffer::kAltimeterFailed) && !std::isnan(ownship.radar_altitude_m);
-  if (altimeter) return Length::metres(ownship.radar_altitude_m);
+  const databuffer::Ownship& ownship = surroundings.ownship;
+  const double radar_altitude_m =
+      std::isnan(ownship.radar_altitude_m) ? terrain_clearance_m(surroundings) : ownship.radar_altitude_m;
+  const bool altimeter = !has(state, databuffer::kAltimeterFailed) && !std::isnan(radar_altitude_m);
+  if (altimeter) return Length::metres(radar_altitude_m);
   const double ground_m = nearest_point_elevation_m(ownship, configuration).value_or(0.0);
   return Length::metres(ownship.altitude_msl_m - ground_m);
 }
@@ -116,7 +127,7 @@ void select_window(RadarState& state, Length window, const radar::RadarConfigura
 void set_range_by_height(RadarState& state, const Surroundings& surroundings,
                          const radar::RadarConfiguration& configuration) {
   if (!surroundings.ownship_valid) return;
-  const Length height = height_for_range(state, surroundings.ownship, configuration);
+  const Length height = height_for_range(state, surroundings, configuration);
   set_range_index(state, radar::range_index_for(radar::range_by_height(height), configuration.ranges_nm),
                   configuration);
   set_flag(state, databuffer::kRangeSet, true);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -25,8 +26,12 @@ StateMachineShell::StateMachineShell(databuffer::Session& session, const radar::
     : session_(&session),
       configuration_(&configuration),
       drop_old_events_(!lockstep),
+      field_(configuration.navigation.magnetic_model, configuration.navigation.magnetic_folder),
       state_(initial_state(configuration)),
       published_{} {
+  // Data that nobody asked for need not be there; the configured variation serves.
+  if (!field_.has_data() && !configuration.navigation.magnetic_model.empty())
+    databuffer::log_warning("magnetic model: " + field_.problem() + "; the configured variation serves");
   databuffer::RadarState left{};
   if (!session.layout().radar_state.read(left)) return;
   if (const auto reason = databuffer::why_refused(left)) {
@@ -60,8 +65,22 @@ void StateMachineShell::latch(const databuffer::TickLoop::Due& due) {
   surroundings_.ownship = selected.ownship;
   surroundings_.nav = selected.nav;
   surroundings_.recorder_writing = session_->role_is_held(databuffer::Role::recorder);
-  session_->layout().model_status.read(surroundings_.model);
+  const bool told = session_->layout().model_status.read(surroundings_.model).has_value();
+  const bool stale = !told || (surroundings_.model.flags & databuffer::kModelStale) != 0;
+  surroundings_.height_above_ground_m = stale ? std::nan("") : surroundings_.model.height_above_ground_m;
+  latch_variation();
   latch_maps();
+}
+
+// Every second: the field changes over miles, and its series costs more than a tick of the machine.
+void StateMachineShell::latch_variation() {
+  constexpr std::int64_t kTicksBetween = 200;
+  const bool due = surroundings_.tick % kTicksBetween == 0 || std::isnan(surroundings_.field_variation_deg);
+  if (!field_.has_data() || !surroundings_.ownship_valid || !due) return;
+  const databuffer::Ownship& ownship = surroundings_.ownship;
+  surroundings_.field_variation_deg = field_.variation_deg({ownship.latitude_deg, ownship.longitude_deg},
+                                                           geo::HeightAboveEllipsoid::metres(ownship.altitude_msl_m),
+                                                           configuration_->navigation.magnetic_year);
 }
 
 // Records that are wanted no more make way for those that are; one that is here already is not read again.

@@ -7,6 +7,7 @@
 #include "databuffer/ownship_receiver.hpp"
 #include "databuffer/session.hpp"
 #include "databuffer/tick_loop.hpp"
+#include "lib/geo/magnetic.hpp"
 #include "lib/radar/configuration.hpp"
 #include "statemachine/machine.hpp"
 
@@ -20,6 +21,7 @@ class StateMachineShell {
 
  private:
   void latch_maps();
+  void latch_variation();
   void latch(const databuffer::TickLoop::Due& due);
   void take_events(std::int64_t tick);
   void take(const databuffer::InputEvent& event, std::size_t lane, std::int64_t tick);
@@ -29,6 +31,7 @@ class StateMachineShell {
   const radar::RadarConfiguration* configuration_;
   bool drop_old_events_;  // what waited for a dead predecessor for over a second is dropped
   databuffer::OwnshipReceiver ownship_;
+  geo::MagneticField field_;
   Surroundings surroundings_;
   std::uint64_t refused_map_ = 0;  // told once
   databuffer::RadarState state_;

@@ -48,7 +48,8 @@ inline auto fields(const radar::HighResolutionConfiguration& map) {
 inline auto fields(const radar::NavigationConfiguration& navigation) {
   const auto& [error_north, error_east, drift_north, drift_east, drift_down, walk, validity, period, noise] =
       navigation;
-  return std::tuple(error_north, error_east, drift_north, drift_east, drift_down, walk, validity, period, noise);
+  return std::tuple(error_north, error_east, drift_north, drift_east, drift_down, walk, validity, period, noise, model,
+                    folder, year);
 }
 
 inline auto fields(const radar::TerrainConfiguration& terrain) {

@@ -118,6 +118,32 @@ inline void put_forming_map(GlassInput& input, double bearing_deg, double range_
   input.model.map_window_nm = window_nm;
 }
 
+// A target designated there, with its pattern steering line.
+inline void put_target(GlassInput& input, geo::GeoPoint place, double approach_deg, databuffer::SteeringLine line) {
+  databuffer::RadarState& state = input.state;
+  state.flags |= databuffer::kTargetDesignated;
+  state.target_latitude_deg = place.latitude_deg;
+  state.target_longitude_deg = place.longitude_deg;
+  state.steering_line_deg = approach_deg;
+  state.steering_line = static_cast<std::uint8_t>(line);
+  set_text(state.target_name, "4.");
+}
+
+// The errors of UPDT: from the selected point to the cursor.
+inline void put_update(GlassInput& input, double north_ft, double east_ft, int seconds) {
+  input.state.flags |= databuffer::kUpdateShown;
+  input.state.update_north_m = north_ft * geo::kMetresPerFoot;
+  input.state.update_east_m = east_ft * geo::kMetresPerFoot;
+  input.state.update_seconds = seconds;
+}
+
+inline void put_velocities(GlassInput& input, double along_fps, double across_fps, double vertical_fps) {
+  input.state.flags |= databuffer::kVelocityShown;
+  input.state.velocity_along_mps = along_fps * geo::kMetresPerFoot;
+  input.state.velocity_across_mps = across_fps * geo::kMetresPerFoot;
+  input.state.velocity_vertical_mps = vertical_fps * geo::kMetresPerFoot;
+}
+
 inline void add_point(GlassInput& input, const std::string& name, radar::PointKind kind, geo::GeoPoint place) {
   databuffer::DrawnPoint& point = input.state.points[input.state.points_drawn++];
   point.latitude_deg = place.latitude_deg;

@@ -82,64 +82,100 @@ struct Picture {
 };
 
 const std::vector<Picture>& pictures() {
-  static const std::vector<Picture> all{{"rbm", [] { return operating(Mode::rbm); }},
-                                        {"rbm_map_forms",
-                                         [] {
-                                           GlassInput input = operating(Mode::rbm);
-                                           form(input, 60.0, 20.0, 4.7);
-                                           return input;
-                                         }},
-                                        {"rbm_rejected",
-                                         [] {
-                                           GlassInput input = operating(Mode::rbm);
-                                           testing::set_text(input.state.message, "BLIND ZONE");
-                                           return input;
-                                         }},
-                                        {"hrm_ppi",
-                                         [] {
-                                           GlassInput input = operating(Mode::hrm);
-                                           input.model.map_timer_s = 8.0;
-                                           return input;
-                                         }},
-                                        {"hrm_ppi_map_forms",
-                                         [] {
-                                           GlassInput input = operating(Mode::hrm);
-                                           form(input, 0.0, 25.0, 10.0);
-                                           return input;
-                                         }},
-                                        {"patch",
-                                         [] {
-                                           GlassInput input = over_map(Mode::patch);
-                                           input.model.map_timer_s = 8.0;
-                                           return input;
-                                         }},
-                                        {"patch_next_forms",
-                                         [] {
-                                           GlassInput input = over_map(Mode::patch);
-                                           form(input, 61.0, 20.5, 1.3);
-                                           return input;
-                                         }},
-                                        {"patch_frozen_store",
-                                         [] {
-                                           GlassInput input = over_map(Mode::patch);
-                                           freeze(input, "STORE");
-                                           input.state.boxed = 1U << 15U;
-                                           return input;
-                                         }},
-                                        {"air_to_air_set",
-                                         [] {
-                                           GlassInput input = over_map(Mode::air_to_air);
-                                           input.state.flags |= databuffer::kFreeze;
-                                           input.state.boxed = 1U << 18U;
-                                           return input;
-                                         }},
-                                        {"bcn", [] { return operating(Mode::beacon); }},
-                                        {"pvu", [] { return operating(Mode::pvu); }},
-                                        {"standby", [] {
-                                           GlassInput input = over_map(Mode::patch);
-                                           input.state.power = static_cast<std::uint8_t>(radar::Power::standby);
-                                           return input;
-                                         }}};
+  static const std::vector<Picture> all{
+      {"rbm", [] { return operating(Mode::rbm); }},
+      {"rbm_map_forms",
+       [] {
+         GlassInput input = operating(Mode::rbm);
+         form(input, 60.0, 20.0, 4.7);
+         return input;
+       }},
+      {"rbm_rejected",
+       [] {
+         GlassInput input = operating(Mode::rbm);
+         testing::set_text(input.state.message, "BLIND ZONE");
+         return input;
+       }},
+      {"hrm_ppi",
+       [] {
+         GlassInput input = operating(Mode::hrm);
+         input.model.map_timer_s = 8.0;
+         return input;
+       }},
+      {"hrm_ppi_map_forms",
+       [] {
+         GlassInput input = operating(Mode::hrm);
+         form(input, 0.0, 25.0, 10.0);
+         return input;
+       }},
+      {"patch",
+       [] {
+         GlassInput input = over_map(Mode::patch);
+         input.model.map_timer_s = 8.0;
+         return input;
+       }},
+      {"patch_next_forms",
+       [] {
+         GlassInput input = over_map(Mode::patch);
+         form(input, 61.0, 20.5, 1.3);
+         return input;
+       }},
+      {"patch_frozen_store",
+       [] {
+         GlassInput input = over_map(Mode::patch);
+         freeze(input, "STORE");
+         input.state.boxed = 1U << 15U;
+         return input;
+       }},
+      {"air_to_air_set",
+       [] {
+         GlassInput input = over_map(Mode::air_to_air);
+         input.state.flags |= databuffer::kFreeze;
+         input.state.boxed = 1U << 18U;
+         return input;
+       }},
+      {"bcn", [] { return operating(Mode::beacon); }},
+      {"rbm_update",
+       [] {
+         GlassInput input = operating(Mode::rbm);
+         testing::put_update(input, 1240.0, -330.0, -1);
+         return input;
+       }},
+      {"hrm_update_ins_ipvu",
+       [] {
+         GlassInput input = operating(Mode::hrm);
+         testing::put_update(input, 12'400.0, -3'300.0, 17);
+         testing::put_velocities(input, 1.2, -0.4, 0.1);
+         return input;
+       }},
+      {"rbm_steering_line",
+       [] {
+         GlassInput input = operating(Mode::rbm);
+         const geo::GeoPoint place = testing::at(22.0, 22.0);
+         testing::add_point(input, "4.", radar::PointKind::target, place);
+         testing::put_target(input, place, 85.0, databuffer::SteeringLine::slewing);
+         return input;
+       }},
+      {"patch_steering_line",
+       [] {
+         GlassInput input = over_map(Mode::patch);
+         testing::put_target(input, testing::at(60.5, 19.6), 350.0, databuffer::SteeringLine::fixed);
+         testing::add_point(input, "4.", radar::PointKind::target, testing::at(60.5, 19.6));
+         return input;
+       }},
+      {"pvu",
+       [] {
+         GlassInput input = operating(Mode::pvu);
+         testing::put_velocities(input, 1.2, -12.4, 0.1);
+         input.model.velocity_beam = 2;
+         return input;
+       }},
+      {"pvu_before_the_first", [] { return operating(Mode::pvu); }},
+      {"standby", [] {
+         GlassInput input = over_map(Mode::patch);
+         input.state.power = static_cast<std::uint8_t>(radar::Power::standby);
+         return input;
+       }}};
   return all;
 }
 

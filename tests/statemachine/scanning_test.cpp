@@ -40,6 +40,23 @@ TEST(RangeByHeight, WithoutAltimeterTakesTheHeightOverTheNearestSequencePoint) {
   EXPECT_EQ(pilot.state.range_nm, 20.0);
 }
 
+TEST(RangeByHeight, WithoutAnAltimeterOfItsOwnTheTerrainBelowServesUpToItsReach) {
+  Pilot pilot;
+  pilot.around.ownship.radar_altitude_m = kNaN;
+  pilot.around.height_above_ground_m = 290.0;  // 951 ft, over terrain that lies at 14,049 ft
+  pilot.press("power opr");
+  EXPECT_EQ(pilot.state.range_nm, 20.0);
+  pilot.press("altimeter fail");
+  pilot.press("pb 6");
+  EXPECT_EQ(pilot.state.range_nm, 40.0) << "it fails like any other";
+  pilot.press("altimeter ok");
+  pilot.around.height_above_ground_m = 2000.0;
+  pilot.around.ownship.altitude_msl_m = 250.0;
+  for (auto& point : pilot.configuration.route) point.elevation_m = kNaN;
+  pilot.press("pb 6");
+  EXPECT_EQ(pilot.state.range_nm, 20.0) << "beyond its reach it reads nothing";
+}
+
 TEST(RangeByHeight, AFailedAltimeterIsNotBelieved) {
   Pilot pilot;
   pilot.around.ownship.radar_altitude_m = 100.0;
