@@ -88,7 +88,7 @@ AntennaStep Antenna::step(const Platform& platform, Angle commanded_elevation) {
   step.phase = phase_;
   step.bar = tick_ / pattern_.pass_ticks();
   if (phase_ != Phase::parked) {
-    // The dish is on the next bar when it has turned round.
+    // The dish steps to the next bar while it turns round.
     const bool turning = tick_ % pattern_.pass_ticks() >= pattern_.sweep_ticks;
     const int bar = turning ? (step.bar + 1) % pattern_.bars : step.bar;
     elevation_.command_position(commanded_elevation.degrees() + pattern_.bar_deg(bar));
