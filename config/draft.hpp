@@ -26,7 +26,7 @@ struct Draft {
   int map_sweeps = radar::Fidelity{}.map_size;
   std::string scene_folder{};  // of MgDbase
   radar::RoutePoint point{};
-  int point_kind = kKindByName;  // a radar::PointKind when it is given
+  int point_kind = kKindByName;             // a radar::PointKind when it is given
   std::set<std::string> kinds_left_open{};  // names of points of the route whose kind the file does not tell
   SexagesimalAngle angle{};
   radar::Material material{};

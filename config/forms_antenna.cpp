@@ -71,22 +71,23 @@ std::vector<FormSchema> antenna_forms() {
                               .binding = NumberSlot{YARS_FIELD(radar.antenna.drift_limit_deg)},
                               .purpose = "the scan follows the ground track up to this drift"}},
                    .check = check_position};
-  FormSchema scan{.name = "RbmAntenna",
-                  .purpose = "the scan of the real beam map",
-                  .slots = {{.name = "scanWidths",
-                             .unit = "deg",
-                             .lowest = 1,
-                             .highest = 360,
-                             .binding = ListSlot{YARS_FIELD(radar.scan_widths_deg), 3, 3, Order::descending},
-                             .purpose = "FULL, HALF, QTR"},
-                            {.name = "scanBars",
-                             .lowest = 1,
-                             .highest = 4,
-                             .binding = FirstSlot{YARS_FIELD(radar.antenna.scan_bars)},
-                             .purpose = "elevation bars of the real beam map and of beacons; of a list of patterns the first"},
-                            {.name = "circularScan",
-                             .binding = BooleanSlot{YARS_FIELD(radar.antenna.circular_scan)},
-                             .purpose = "the dish goes round instead of back and forth"}}};
+  FormSchema scan{
+      .name = "RbmAntenna",
+      .purpose = "the scan of the real beam map",
+      .slots = {{.name = "scanWidths",
+                 .unit = "deg",
+                 .lowest = 1,
+                 .highest = 360,
+                 .binding = ListSlot{YARS_FIELD(radar.scan_widths_deg), 3, 3, Order::descending},
+                 .purpose = "FULL, HALF, QTR"},
+                {.name = "scanBars",
+                 .lowest = 1,
+                 .highest = 4,
+                 .binding = FirstSlot{YARS_FIELD(radar.antenna.scan_bars)},
+                 .purpose = "elevation bars of the real beam map and of beacons; of a list of patterns the first"},
+                {.name = "circularScan",
+                 .binding = BooleanSlot{YARS_FIELD(radar.antenna.circular_scan)},
+                 .purpose = "the dish goes round instead of back and forth"}}};
   return {servo, scan};
 }
 

@@ -32,7 +32,7 @@ constexpr float kCaretLength = 8.0F, kCaretHalf = 4.0F;
 // Gray scale, in the lower right, where no beam of +-60 deg reaches.
 constexpr Rect kGrayScale{420.0F, 344.0F, 434.0F, 424.0F};
 
-constexpr float kSector = 60.0F;  // [deg] arcs reach to the gimbal limit
+constexpr float kSector = 60.0F;      // [deg] arcs reach to the gimbal limit
 constexpr double kUsualArcs = 0.25;   // of the range from arc to arc
 constexpr double kFinestArcs = 0.05;  // closer arcs would hide the video
 

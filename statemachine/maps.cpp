@@ -19,8 +19,8 @@ using databuffer::RadarState;
 // [NM] of the map to command; 0 when a blank window stands for none at this range.
 double window_to_map_nm(const RadarState& state, const radar::RadarConfiguration& configuration) {
   if (state.window_nm > 0.0) return state.window_nm;
-  const auto window = radar::window_while_blank(geo::Length::nautical_miles(state.cursor_range_nm),
-                                                configuration.window_limits);
+  const auto window =
+      radar::window_while_blank(geo::Length::nautical_miles(state.cursor_range_nm), configuration.window_limits);
   return window ? window->nautical_miles() : 0.0;
 }
 

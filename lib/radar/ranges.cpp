@@ -8,9 +8,8 @@ namespace yars::radar {
 
 geo::Length range_by_height(geo::Length height, const HeightRanges& table) {
   YARS_REQUIRE(table.ranges_nm.size(), ==, table.heights_ft.size() + 1);
-  const auto found = std::find_if(table.heights_ft.begin(), table.heights_ft.end(), [height](double height_ft) {
-    return height <= geo::Length::feet(height_ft);
-  });
+  const auto found = std::find_if(table.heights_ft.begin(), table.heights_ft.end(),
+                                  [height](double height_ft) { return height <= geo::Length::feet(height_ft); });
   return geo::Length::nautical_miles(table.ranges_nm[static_cast<std::size_t>(found - table.heights_ft.begin())]);
 }
 

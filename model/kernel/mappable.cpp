@@ -22,8 +22,9 @@ std::optional<std::string_view> why_not_mappable(const antenna::Platform& platfo
   if (radar::in_blind_zone(off_track, configuration.high_resolution)) return "BLIND ZONE";
   const geo::Angle off_nose = way.azimuth_at_start - platform.heading;
   if (std::abs(off_nose.degrees()) > configuration.antenna.azimuth_limit_deg) return "GIMBAL";
-  const std::optional<geo::Length> taken =
-      window > geo::Length() ? std::optional(window) : radar::window_while_blank(way.distance, configuration.window_limits);
+  const std::optional<geo::Length> taken = window > geo::Length()
+                                               ? std::optional(window)
+                                               : radar::window_while_blank(way.distance, configuration.window_limits);
   if (!taken) return "NO WINDOW";
   const auto limits = radar::cursor_limits(*taken, configuration.window_limits);
   if (!limits) return "NO WINDOW";

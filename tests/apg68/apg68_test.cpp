@@ -131,9 +131,10 @@ TEST(Apg68, MapsWithinItsOwnLimits) {
   Radar radar;
   radar.send("power opr");
   radar.send("pb 13");
-  for (const Case& one : {Case{1, 4.9, "MIN RANGE"}, Case{1, 5.1, ""}, Case{1, 19.9, ""}, Case{1, 20.1, "MAX RANGE"},
-                          Case{2.5, 39.9, ""}, Case{2.5, 40.1, "MAX RANGE"}, Case{20, 19.9, "MIN RANGE"},
-                          Case{20, 79.9, ""}, Case{0, 2.9, "NO WINDOW"}, Case{0, 3.1, ""}, Case{0, 80.1, "NO WINDOW"}}) {
+  for (const Case& one :
+       {Case{1, 4.9, "MIN RANGE"}, Case{1, 5.1, ""}, Case{1, 19.9, ""}, Case{1, 20.1, "MAX RANGE"}, Case{2.5, 39.9, ""},
+        Case{2.5, 40.1, "MAX RANGE"}, Case{20, 19.9, "MIN RANGE"}, Case{20, 79.9, ""}, Case{0, 2.9, "NO WINDOW"},
+        Case{0, 3.1, ""}, Case{0, 80.1, "NO WINDOW"}}) {
     radar.state.window_nm = one.window_nm;
     radar.put_cursor(30.0, one.range_nm);
     EXPECT_STREQ(radar.around.model.why_not, one.why_not) << one.window_nm << " at " << one.range_nm;

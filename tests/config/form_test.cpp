@@ -248,8 +248,9 @@ TEST(Route, HasAHundredPointsAtMostOneANumber) {
   }
   EXPECT_EQ(loaded("( Route `( " + points + " ) )").radar.route.size(), 200U) << "offsets do not count";
   EXPECT_THAT(refusal("( Route `( " + points + " ( Point \"101\" 1 2 ) ) )"), HasSubstr("1 to 100"));
-  EXPECT_THAT(refusal("( Route `( ( Point \"2\" 1 2 ) ( Point \"2.\" 1 2 ) ) )"),
-              HasSubstr("expected a number once in a route: steer point or target for :name, found \"2.\" beside \"2\""));
+  EXPECT_THAT(
+      refusal("( Route `( ( Point \"2\" 1 2 ) ( Point \"2.\" 1 2 ) ) )"),
+      HasSubstr("expected a number once in a route: steer point or target for :name, found \"2.\" beside \"2\""));
 }
 
 TEST(WindowLimits, HaveToNameEveryWindowWhereverBothStand) {
@@ -257,8 +258,8 @@ TEST(WindowLimits, HaveToNameEveryWindowWhereverBothStand) {
       "( WindowLimits :windows `( 1 5 ) :least `( 3 4 ) :greatest `( 20 30 ) :blankWindows `( 1 5 ) "
       ":blankUpTo `( 10 30 ) )";
   const std::string windows = "( SarMode :windows `( 1 5 ) )";
-  for (const std::string& text : {limits + windows, windows + limits,
-                                  "( Apg70 :modes `( " + windows + " ) :windowLimits " + limits + " )"}) {
+  for (const std::string& text :
+       {limits + windows, windows + limits, "( Apg70 :modes `( " + windows + " ) :windowLimits " + limits + " )"}) {
     const auto configuration = loaded(text);
     EXPECT_THAT(configuration.radar.window_limits.greatest_nm, ElementsAre(20, 30));
     EXPECT_THAT(configuration.radar.windows_nm, ElementsAre(1, 5));

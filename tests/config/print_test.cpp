@@ -85,9 +85,9 @@ class RandomConfiguration {
       made.height_ranges.ranges_nm.push_back(5.0 * double(i + 1) + number(0, 4));
     made.pulse_us = ascending(0.01, 100.0);
     made.scan_widths_deg = {number(70, 100), number(40, 70), number(1, 40)};
-    made.antenna = {number(1, 1000), number(1, 1000), number(50, 180), number(1, 90), number(0.001, 5),
-                    number(0, 60),   number(0.1, 30), number(0.1, 30), coin(),        1 + int(random_() % 4),
-                    number(-50, 50), 0.0};
+    made.antenna = {number(1, 1000),  number(1, 1000),        number(50, 180), number(1, 90),
+                    number(0.001, 5), number(0, 60),          number(0.1, 30), number(0.1, 30),
+                    coin(),           1 + int(random_() % 4), number(-50, 50), 0.0};
     made.antenna.start_elevation_deg = number(-1, 1) * made.antenna.elevation_limit_deg;
     made.view = {number(-4, 0), number(0, 4), number(-4, 0), number(0, 4), 64 + int(random_() % 4000), {}};
     if (coin()) made.view.arc_spacing_nm = ascending(1.0, 40.0);
