@@ -215,8 +215,9 @@ TEST(Antenna, StepsToTheNextBarWhileItTurnsRound) {
   const Platform platform = flying(0.0);
   AntennaStep step = until_sweeping(antenna, platform);
   for (int tick = 0; tick < 1000; ++tick) {
-    if (tick > 100 && step.phase == Phase::sweeping)
+    if (tick > 100 && step.phase == Phase::sweeping) {
       ASSERT_NEAR(step.elevation.degrees(), step.bar == 0 ? 1.25 : -1.25, 1e-12) << tick;
+    }
     step = antenna.step(platform, Angle());
   }
 }
