@@ -1,6 +1,9 @@
 // What the slots of GUF write into: the configuration, and the form in hand where forms come in numbers.
 #pragma once
 
+#include <set>
+#include <string>
+
 #include "lib/radar/configuration.hpp"
 
 namespace yars::config {
@@ -18,8 +21,13 @@ inline constexpr int kKindByName = -1;  // the name alone tells what a point is
 struct Draft {
   radar::RadarConfiguration radar{};
   int window_height_pixels = radar::ViewConfiguration{}.size_pixels;  // equals the width: the glass is square
+  // SarMode's samples and width, 0 while it has not given them.
+  int map_samples = radar::Fidelity{}.map_size;
+  int map_sweeps = radar::Fidelity{}.map_size;
+  std::string scene_folder{};  // of MgDbase
   radar::RoutePoint point{};
-  int point_kind = kKindByName;  // a radar::PointKind when it is given
+  int point_kind = kKindByName;             // a radar::PointKind when it is given
+  std::set<std::string> kinds_left_open{};  // names of points of the route whose kind the file does not tell
   SexagesimalAngle angle{};
   radar::Material material{};
   radar::RainCell rain_cell{};

@@ -20,6 +20,10 @@ void refuse_repetition(const std::vector<Assigned>& assigned, const SlotSchema& 
   }
 }
 
+[[noreturn]] void refuse(const Complaint& complaint, const Location& where) {
+  reject(where, complaint.expected + " for :" + std::string(complaint.slot), complaint.found);
+}
+
 bool accepts(const FormSlot& kind, const FormSchema& schema) {
   return std::find(kind.accepted.begin(), kind.accepted.end(), schema.name) != kind.accepted.end();
 }
@@ -38,6 +42,9 @@ void FormReader::read_all(const std::vector<Slot>& arguments) {
     } else {
       read_outermost(*form, argument.where);
     }
+  }
+  for (const Agreement& agreement : agreements_) {
+    if (const auto complaint = agreement.broken(draft_)) refuse(*complaint, agreement.where);
   }
 }
 
@@ -71,11 +78,16 @@ void FormReader::read_form(const Form& form, const Location& where, const KnownF
     if (const auto complaint = schema.check(draft_)) {
       const auto given = std::find_if(assigned.begin(), assigned.end(),
                                       [&](const Assigned& one) { return one.schema->name == complaint->slot; });
-      reject(given == assigned.end() ? where : given->slot->value.where,
-             complaint->expected + " for :" + std::string(complaint->slot), complaint->found);
+      refuse(*complaint, given == assigned.end() ? where : given->slot->value.where);
     }
   }
   if (schema.end) schema.end(draft_);
+  if (schema.agree) note_agreement(schema, where);
+}
+
+void FormReader::note_agreement(const FormSchema& schema, const Location& where) {
+  std::erase_if(agreements_, [&](const Agreement& earlier) { return earlier.broken == schema.agree; });
+  agreements_.push_back({schema.agree, where});
 }
 
 std::vector<FormReader::Assigned> FormReader::assign(const Form& form, const KnownForm& known) {

@@ -1,6 +1,7 @@
 // The tree of a configuration into a draft, by the schema.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,14 @@ class FormReader {
     const SlotSchema* schema;
     const Slot* slot;
   };
+  // A rule between forms, and the last form that has it.
+  struct Agreement {
+    std::optional<Complaint> (*broken)(const Draft&);
+    Location where;
+  };
   void read_outermost(const Form& form, const Location& where);
   void read_form(const Form& form, const Location& where, const KnownForm& known);
+  void note_agreement(const FormSchema& schema, const Location& where);
   std::vector<Assigned> assign(const Form& form, const KnownForm& known);
   const SlotSchema* row_of(const Slot& slot, int place, const Form& form, const KnownForm& known);
   void read_slot(const SlotSchema& schema, const Value& value, const std::string& form);
@@ -36,6 +43,7 @@ class FormReader {
   Draft& draft_;
   std::vector<std::string>& warnings_;
   FormBook book_;
+  std::vector<Agreement> agreements_;
   bool unused_ = false;  // inside a form that nobody uses: its slots need no word of their own
 };
 

@@ -16,6 +16,10 @@ std::vector<FormSchema> route_forms();       // Route, Point
 std::vector<FormSchema> world_forms();       // Land, Materials, Material, Sea, Rain, RainCell
 std::vector<FormSchema> navigation_forms();  // Navigation
 std::vector<FormSchema> traffic_forms();     // Jammers, Jammer, Movers, Mover, Scenes, Scene
+std::vector<FormSchema> limit_forms();       // WindowLimits, HeightRanges
+
+// The windows that can be selected are those of SarMode; where they can be mapped tells WindowLimits.
+std::optional<Complaint> check_windows_have_limits(const Draft& draft);
 
 inline SlotSchema number_slot(std::string_view name, std::string_view unit, double lowest, double highest,
                               NumberSlot binding, std::string_view purpose) {

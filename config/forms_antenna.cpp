@@ -1,7 +1,26 @@
+#include <cmath>
+
 #include "config/field.hpp"
 #include "config/forms.hpp"
+#include "config/value.hpp"
 
 namespace yars::config {
+namespace {
+
+std::optional<Complaint> check_position(const Draft& draft) {
+  const radar::AntennaConfiguration& antenna = draft.radar.antenna;
+  const double azimuth_deg = antenna.circular_scan ? 180.0 : antenna.azimuth_limit_deg;
+  if (std::abs(antenna.start_azimuth_deg) <= azimuth_deg &&
+      std::abs(antenna.start_elevation_deg) <= antenna.elevation_limit_deg) {
+    return std::nullopt;
+  }
+  return Complaint{"position",
+                   "a position within the gimbal, " + number_text(azimuth_deg) + " and " +
+                       number_text(antenna.elevation_limit_deg) + " deg either way",
+                   number_text(antenna.start_azimuth_deg) + " and " + number_text(antenna.start_elevation_deg)};
+}
+
+}  // namespace
 
 std::vector<FormSchema> antenna_forms() {
   FormSchema servo{.name = "AntennaServo",
@@ -36,8 +55,9 @@ std::vector<FormSchema> antenna_forms() {
                               .unit = "deg",
                               .lowest = -180,
                               .highest = 180,
-                              .binding = PairSlot{},
-                              .purpose = "azimuth and elevation at start"},
+                              .binding = PairSlot{YARS_FIELD(radar.antenna.start_azimuth_deg),
+                                                  YARS_FIELD(radar.antenna.start_elevation_deg)},
+                              .purpose = "azimuth and elevation at start; the elevation commanded at power-up"},
                              {.name = "tolerance",
                               .unit = "deg",
                               .lowest = 0.001,
@@ -49,23 +69,25 @@ std::vector<FormSchema> antenna_forms() {
                               .lowest = 0,
                               .highest = 60,
                               .binding = NumberSlot{YARS_FIELD(radar.antenna.drift_limit_deg)},
-                              .purpose = "the scan follows the ground track up to this drift"}}};
-  FormSchema scan{.name = "RbmAntenna",
-                  .purpose = "the scan of the real beam map",
-                  .slots = {{.name = "scanWidths",
-                             .unit = "deg",
-                             .lowest = 1,
-                             .highest = 360,
-                             .binding = ListSlot{YARS_FIELD(radar.scan_widths_deg), 3, 3, Order::descending},
-                             .purpose = "FULL, HALF, QTR"},
-                            {.name = "scanBars",
-                             .lowest = 1,
-                             .highest = 4,
-                             .binding = FirstSlot{YARS_FIELD(radar.antenna.scan_bars)},
-                             .purpose = "elevation bars of a scan; of a list the first is taken"},
-                            {.name = "circularScan",
-                             .binding = BooleanSlot{YARS_FIELD(radar.antenna.circular_scan)},
-                             .purpose = "the dish goes round instead of back and forth"}}};
+                              .purpose = "the scan follows the ground track up to this drift"}},
+                   .check = check_position};
+  FormSchema scan{
+      .name = "RbmAntenna",
+      .purpose = "the scan of the real beam map",
+      .slots = {{.name = "scanWidths",
+                 .unit = "deg",
+                 .lowest = 1,
+                 .highest = 360,
+                 .binding = ListSlot{YARS_FIELD(radar.scan_widths_deg), 3, 3, Order::descending},
+                 .purpose = "FULL, HALF, QTR"},
+                {.name = "scanBars",
+                 .lowest = 1,
+                 .highest = 4,
+                 .binding = FirstSlot{YARS_FIELD(radar.antenna.scan_bars)},
+                 .purpose = "elevation bars of the real beam map and of beacons; of a list of patterns the first"},
+                {.name = "circularScan",
+                 .binding = BooleanSlot{YARS_FIELD(radar.antenna.circular_scan)},
+                 .purpose = "the dish goes round instead of back and forth"}}};
   return {servo, scan};
 }
 

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <utility>
+
 #include "config/field.hpp"
 #include "config/forms.hpp"
 
@@ -56,28 +59,56 @@ FormSchema real_beam_mode() {
                                .same_as = "ranges of Apg70"}})};
 }
 
+// A map's samples and sweep lines are its pixels; 1996 gave them apart.
+SlotSchema map_edge(std::string_view name, IntegerSlot binding, std::string_view purpose) {
+  return {.name = name,
+          .lowest = 16,
+          .highest = 1024,
+          .binding = binding,
+          .purpose = purpose,
+          .same_as = "mapSize of Fidelity"};
+}
+
+void begin_sar_mode(Draft& draft) {
+  draft.map_samples = 0;
+  draft.map_sweeps = 0;
+}
+
+std::optional<Complaint> check_sar_mode(const Draft& draft) {
+  if (draft.map_samples == 0 || draft.map_sweeps == 0 || draft.map_samples == draft.map_sweeps) return std::nullopt;
+  return Complaint{"width", "the samples, " + std::to_string(draft.map_samples) + " (maps are square)",
+                   std::to_string(draft.map_sweeps)};
+}
+
+void end_sar_mode(Draft& draft) {
+  const int given = std::max(draft.map_samples, draft.map_sweeps);
+  if (given > 0) draft.radar.fidelity.map_size = given;
+}
+
 FormSchema sar_mode() {
+  std::vector<SlotSchema> slots = mode_slots({}, {}, {});
+  slots.back() = map_edge("samples", {YARS_FIELD(map_samples)}, "pixels of a map's edge");
   return {.name = "SarMode",
           .base = "Mode",
           .purpose = "high resolution map",
-          .slots = with_base(mode_slots({}, {}, {}),
-                             {{.name = "width",
-                               .lowest = 1,
-                               .highest = 4096,
-                               .binding = IntegerSlot{},
-                               .purpose = "sweep lines of the 1996 image"},
+          .slots = with_base(std::move(slots),
+                             {map_edge("width", {YARS_FIELD(map_sweeps)}, "sweep lines of a map, as many as samples"),
                               {.name = "patchSizes",
                                .unit = "m",
                                .lowest = 1,
                                .highest = 200'000,
                                .binding = ListSlot{nullptr, 1, 16},
-                               .purpose = "patch sizes of 1996 by range"},
+                               .purpose = "patch sizes of 1996 by range; windows settle them"},
                               {.name = "windows",
                                .unit = "NM",
                                .lowest = 0.1,
                                .highest = 500,
                                .binding = ListSlot{YARS_FIELD(radar.windows_nm), 1, 16, Order::ascending},
-                               .purpose = "display windows that can be selected"}})};
+                               .purpose = "display windows that can be selected; WindowLimits names each"}}),
+          .begin = begin_sar_mode,
+          .check = check_sar_mode,
+          .end = end_sar_mode,
+          .agree = check_windows_have_limits};
 }
 
 }  // namespace

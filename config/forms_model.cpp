@@ -151,7 +151,7 @@ std::vector<SlotSchema> high_resolution_slots() {
       number("blindZone", "deg", 0, 45, YARS_FIELD(radar.high_resolution.blind_zone_deg),
              "either side of the ground track, where nothing returns"),
       number("sectorTime", "s", 0.5, 120, YARS_FIELD(radar.high_resolution.sector_time_s),
-             "of an HRM PPI scan of 100 degrees"),
+             "of an HRM PPI scan of FULL width; others in proportion"),
       number("dwell", "s", 0.01, 10, YARS_FIELD(radar.high_resolution.dwell_s),
              "for which the HRM PPI looks into each direction: its resolution"),
       number("sectorStep", "deg", 0.02, 5, YARS_FIELD(radar.high_resolution.sector_step_deg),

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "config/field.hpp"
 #include "config/forms.hpp"
@@ -18,6 +20,10 @@ radar::PointKind kind_by_name(const radar::PointName& name) {
   return name.target ? radar::PointKind::target : radar::PointKind::steer;
 }
 
+bool is_point(const radar::PointName& name) {
+  return name.offset == 0;
+}
+
 // Steer and initial points share a spelling; every other kind is told by the name.
 std::optional<Complaint> check_point(const Draft& draft) {
   const auto name = radar::point_name(draft.point.name);
@@ -29,6 +35,12 @@ std::optional<Complaint> check_point(const Draft& draft) {
   if (std::isnan(draft.point.place.longitude_deg)) return Complaint{"longitude", "a longitude", "none"};
   for (const auto& other : draft.radar.route) {
     if (other.name == draft.point.name) return Complaint{"name", "a name once in a route", quoted_text(other.name)};
+    // So a route has at most a hundred points, offsets apart: one a number.
+    const auto before = radar::point_name(other.name);
+    if (is_point(*name) && before && is_point(*before) && before->number == name->number) {
+      return Complaint{"name", "a number once in a route: steer point or target",
+                       quoted_text(draft.point.name) + " beside " + quoted_text(other.name)};
+    }
   }
   if (draft.point_kind == kKindByName) return std::nullopt;
   const auto given = static_cast<radar::PointKind>(draft.point_kind);
@@ -53,7 +65,35 @@ void begin_point(Draft& draft) {
 void end_point(Draft& draft) {
   draft.point.kind = draft.point_kind == kKindByName ? kind_by_name(*radar::point_name(draft.point.name))
                                                      : static_cast<radar::PointKind>(draft.point_kind);
+  if (draft.point_kind == kKindByName) draft.kinds_left_open.insert(draft.point.name);
   draft.radar.route.push_back(draft.point);
+}
+
+void begin_route(Draft& draft) {
+  draft.radar.route.clear();
+  draft.kinds_left_open.clear();
+}
+
+// The last steer point before a target, by number, is the initial point: unless the file says what kind it is, or names
+// an initial point on the way from the target before.
+void derive_initial_points(Draft& draft) {
+  std::vector<radar::RoutePoint*> points;
+  for (radar::RoutePoint& point : draft.radar.route) {
+    if (is_point(*radar::point_name(point.name))) points.push_back(&point);
+  }
+  std::sort(points.begin(), points.end(),
+            [](const auto* left, const auto* right) { return radar::precedes(left->name, right->name); });
+  radar::RoutePoint* last_steer = nullptr;
+  for (radar::RoutePoint* point : points) {
+    if (point->kind == radar::PointKind::target) {
+      if (last_steer != nullptr && draft.kinds_left_open.contains(last_steer->name))
+        last_steer->kind = radar::PointKind::initial;
+      last_steer = nullptr;
+    } else {
+      const bool named = last_steer != nullptr && last_steer->kind == radar::PointKind::initial;
+      if (!named) last_steer = point;
+    }
+  }
 }
 
 FormSchema point() {
@@ -83,7 +123,7 @@ FormSchema point() {
                     {.name = "kind",
                      .binding = ChoiceSlot{kKinds, [](const Draft& draft) { return draft.point_kind; },
                                            [](Draft& draft, int index) { draft.point_kind = index; }},
-                     .purpose = "left out: by the name; only initial needs it"}},
+                     .purpose = "left out: by the name; a steer point is initial when it is the last before a target"}},
           .part_of_value = true,
           .begin = begin_point,
           .check = check_point,
@@ -104,7 +144,8 @@ std::vector<FormSchema> route_forms() {
            .slots = {{.name = "points",
                       .binding = FormSlot{{"Point"}, {"Point"}, true},
                       .purpose = "at most 100 points and their offsets"}},
-           .begin = [](Draft& draft) { draft.radar.route.clear(); }},
+           .begin = begin_route,
+           .end = derive_initial_points},
           point()};
 }
 

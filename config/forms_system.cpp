@@ -110,7 +110,13 @@ std::vector<SlotSchema> system_slots() {
         .purpose = "high resolution maps"},
        {.name = "navigation",
         .binding = FormSlot{{"Navigation"}, {"Navigation"}},
-        .purpose = "errors of the navigators, and their updates"}});
+        .purpose = "errors of the navigators, and their updates"},
+       {.name = "windowLimits",
+        .binding = FormSlot{{"WindowLimits"}, {"WindowLimits"}},
+        .purpose = "where the cursor may be for each display window"},
+       {.name = "heightRanges",
+        .binding = FormSlot{{"HeightRanges"}, {"HeightRanges"}},
+        .purpose = "the range by height"}});
 }
 
 }  // namespace

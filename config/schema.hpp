@@ -104,6 +104,8 @@ struct FormSchema {
   void (*begin)(Draft&) = nullptr;
   std::optional<Complaint> (*check)(const Draft&) = nullptr;
   void (*end)(Draft&) = nullptr;
+  // A rule with other forms, wherever they stand: looked at when all is read, for the last form that has it.
+  std::optional<Complaint> (*agree)(const Draft&) = nullptr;
   std::size_t (*count)(const Draft&) = nullptr;  // how many of them print writes; null: one
   void (*select)(Draft&, std::size_t) = nullptr;
 };

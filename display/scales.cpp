@@ -32,8 +32,9 @@ constexpr float kCaretLength = 8.0F, kCaretHalf = 4.0F;
 // Gray scale, in the lower right, where no beam of +-60 deg reaches.
 constexpr Rect kGrayScale{420.0F, 344.0F, 434.0F, 424.0F};
 
-constexpr float kSector = 60.0F;  // [deg] arcs reach to the gimbal limit
-constexpr std::array kArcs{0.25F, 0.50F, 0.75F, 1.00F};
+constexpr float kSector = 60.0F;      // [deg] arcs reach to the gimbal limit
+constexpr double kUsualArcs = 0.25;   // of the range from arc to arc
+constexpr double kFinestArcs = 0.05;  // closer arcs would hide the video
 
 float on_track(double degrees) {
   const float y = kElevationZero - kElevationUnitsPerDegree * static_cast<float>(degrees);
@@ -114,9 +115,22 @@ void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, D
   }
 }
 
-void draw_range_arcs(const GlassView& view, DrawList& list) {
+double arc_spacing(double range_nm, std::size_t range_index, std::span<const double> spacing_nm) {
+  if (spacing_nm.empty()) return kUsualArcs;
+  double spacing = spacing_nm[std::min(range_index, spacing_nm.size() - 1)] / range_nm;
+  if (!(spacing > 0.0)) return kUsualArcs;
+  while (spacing < kFinestArcs) spacing *= 2.0;
+  return spacing;
+}
+
+void draw_range_arcs(const GlassView& view, double spacing, DrawList& list) {
+  constexpr double kWhole = 1e-9;  // a spacing that divides the range may miss its end by rounding
   list.draw_on(Layer::grid);
-  for (const float fraction : kArcs) list.thin_arc(view.apex(), fraction * view.units_per_range(), -kSector, kSector);
+  const auto arc = [&](double fraction) {
+    list.thin_arc(view.apex(), static_cast<float>(fraction) * view.units_per_range(), -kSector, kSector);
+  };
+  for (int i = 1; i * spacing < 1.0 - kWhole; ++i) arc(i * spacing);
+  arc(1.0);
   list.draw_on(Layer::symbols);
 }
 

@@ -4,6 +4,9 @@
 // the end of its track.
 #pragma once
 
+#include <cstddef>
+#include <span>
+
 #include "display/draw_list.hpp"
 #include "display/glass_geometry.hpp"
 #include "display/glass_input.hpp"
@@ -19,7 +22,10 @@ void draw_elevation_scale(double antenna_deg, DrawList& list);
 enum class AttitudeSource : std::uint8_t { ins, ahrs, invalid };  // round, square, crossed out
 void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, DrawList& list);
 
-void draw_range_arcs(const GlassView& view, DrawList& list);
+// From arc to arc as a share of the range, at least 0.05: the configuration's [NM] for this range, else a quarter.
+double arc_spacing(double range_nm, std::size_t range_index, std::span<const double> spacing_nm);
+// At each multiple of the spacing, and at the range itself.
+void draw_range_arcs(const GlassView& view, double spacing, DrawList& list);
 void draw_zero_azimuth_line(const GlassView& view, DrawList& list);
 void draw_gray_scale(DrawList& list);
 

@@ -17,9 +17,10 @@ using databuffer::PatchMap;
 using databuffer::RadarState;
 
 // [NM] of the map to command; 0 when a blank window stands for none at this range.
-double window_to_map_nm(const RadarState& state) {
+double window_to_map_nm(const RadarState& state, const radar::RadarConfiguration& configuration) {
   if (state.window_nm > 0.0) return state.window_nm;
-  const auto window = radar::window_while_blank(geo::Length::nautical_miles(state.cursor_range_nm));
+  const auto window =
+      radar::window_while_blank(geo::Length::nautical_miles(state.cursor_range_nm), configuration.window_limits);
   return window ? window->nautical_miles() : 0.0;
 }
 
@@ -56,7 +57,7 @@ void command_map(Step& step) {
     if (const auto reason = reason_of(model); !reason.empty()) show_message(step, reason);
     return;
   }
-  const double window_nm = window_to_map_nm(state);
+  const double window_nm = window_to_map_nm(state, step.configuration);
   if (!(window_nm > 0.0)) return show_message(step, "NO WINDOW");
   state.map_request = next_request(state, model);
   state.map_latitude_deg = state.cursor_latitude_deg;

@@ -1,6 +1,7 @@
 #include "statemachine/modes.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "lib/radar/ranges.hpp"
@@ -15,6 +16,8 @@ namespace {
 
 using databuffer::RadarState;
 using radar::Mode;
+
+const geo::Length kUnknownHeight = geo::Length::feet(std::numeric_limits<double>::quiet_NaN());
 
 // The menu stays on the glass while the mode below it changes.
 void run(RadarState& state, Mode mode) {
@@ -99,10 +102,13 @@ RadarState power_up_settings(const radar::RadarConfiguration& configuration) {
   state.channel = 1;
   state.update_seconds = -1;
   state.velocity_updated_tick = -1;
-  set_range_index(state, radar::range_index_for(geo::Length::nautical_miles(40.0), configuration.ranges_nm),
-                  configuration);
+  // Until there is a height: the range of great heights.
+  const geo::Length high = radar::range_by_height(kUnknownHeight, configuration.height_ranges);
+  set_range_index(state, radar::range_index_for(high, configuration.ranges_nm), configuration);
   set_scan_width(state, radar::ScanWidth::full, configuration);
-  select_window(state, geo::Length::nautical_miles(4.7), configuration);
+  select_window(state, geo::Length::nautical_miles(configuration.window_limits.power_up_nm), configuration);
+  const double limit_deg = configuration.antenna.elevation_limit_deg;
+  state.antenna_elevation_deg = std::clamp(configuration.antenna.start_elevation_deg, -limit_deg, limit_deg);
   select_first_sequence_point(state, configuration);
   state.scan_restart = 0;
   return state;

@@ -128,8 +128,10 @@ void set_range_by_height(RadarState& state, const Surroundings& surroundings,
                          const radar::RadarConfiguration& configuration) {
   if (!surroundings.ownship_valid) return;
   const Length height = height_for_range(state, surroundings, configuration);
-  set_range_index(state, radar::range_index_for(radar::range_by_height(height), configuration.ranges_nm),
-                  configuration);
+  set_range_index(
+      state,
+      radar::range_index_for(radar::range_by_height(height, configuration.height_ranges), configuration.ranges_nm),
+      configuration);
   set_flag(state, databuffer::kRangeSet, true);
 }
 

@@ -23,7 +23,9 @@ struct AntennaConfiguration {
   double azimuth_beamwidth_deg = 2.5;    // [deg] two-way 3 dB
   double elevation_beamwidth_deg = 2.5;  // [deg] two-way 3 dB
   bool circular_scan = false;            // goes round instead of back and forth
-  int scan_bars = 1;                     // 1-4 elevation bars
+  int scan_bars = 1;                     // 1-4 elevation bars of the real beam map
+  double start_azimuth_deg = 0.0;        // [deg] against the nose, before the first scan
+  double start_elevation_deg = 0.0;      // [deg] against the horizon, before the first scan and at power-up
 };
 
 // Glass geometry: fractions of the selected range. Slots of RbmDisplay.
@@ -31,6 +33,8 @@ struct ViewConfiguration {
   double width_min = -0.6, width_max = 0.6;
   double height_min = -0.1, height_max = 1.1;
   int size_pixels = 480;
+  // [NM] between the range arcs, by range, the last serving whatever lies beyond; empty: at 25, 50, 75 and 100 %.
+  std::vector<double> arc_spacing_nm{};
 };
 
 enum class EarthModel : std::uint8_t { flat = 0, sphere = 1, ellipsoid = 2 };
@@ -91,7 +95,7 @@ struct HighResolutionConfiguration {
   double sidelobe_db = -35.0;       // [dB] of the Taylor weighting
   double formation_cap_s = 60.0;    // [s] no map takes longer
   double blind_zone_deg = 8.0;      // [deg] either side of the ground track
-  double sector_time_s = 18.0;      // [s] of a Doppler beam sharpened scan of 100 degrees
+  double sector_time_s = 18.0;      // [s] of a Doppler beam sharpened scan of FULL width
   double dwell_s = 0.5;             // [s] for which each direction of that scan is looked at
   double sector_step_deg = 0.125;   // [deg] between its sweeps
   double dynamic_range_db = 45.0;   // [dB] of the log receiver, black to white
@@ -132,6 +136,23 @@ struct RoutePoint {
   double elevation_m = 0.0;  // [m] MSL; NaN = unknown
 };
 
+// Where the cursor may be for each display window, and what a blank window stands for. Source: spec pvi.md rule 4.
+struct WindowLimits {
+  std::vector<double> windows_nm{0.67, 1.3, 3.3, 4.7, 10, 20, 40, 80};  // [NM] side of the square, ascending
+  std::vector<double> least_nm{4.7, 4.7, 4.7, 4.7, 10, 20, 40, 80};     // [NM] cursor range, a number a window
+  std::vector<double> greatest_nm{20, 40, 50, 80, 160, 160, 160, 160};  // [NM]
+  double blank_least_nm = 2.7;                                          // [NM] nearer, a blank window is rejected
+  std::vector<double> blank_windows_nm{3.3, 4.7, 10};                   // [NM] what it stands for ...
+  std::vector<double> blank_up_to_nm{50, 80, 150};                      // [NM] ... up to this cursor range, ascending
+  double power_up_nm = 4.7;                                             // [NM] selected at power-up
+};
+
+// Low over ground a short range, high up a long one. Source: spec pvi.md rule 1.
+struct HeightRanges {
+  std::vector<double> heights_ft{500, 1000};  // [ft] ascending; each belongs to the lower range
+  std::vector<double> ranges_nm{10, 20, 40};  // [NM] one more than heights; the last holds above all of them
+};
+
 struct RadarConfiguration {
   std::string name = "APG-70";
   std::vector<double> ranges_nm{4.7, 10, 20, 40, 80, 160};
@@ -149,6 +170,8 @@ struct RadarConfiguration {
   std::vector<RoutePoint> route;
   std::uint64_t seed = 1;
   double magnetic_variation_deg = 0.0;  // [deg] east positive
+  WindowLimits window_limits;
+  HeightRanges height_ranges;
 };
 
 }  // namespace yars::radar

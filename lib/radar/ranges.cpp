@@ -6,10 +6,11 @@
 
 namespace yars::radar {
 
-geo::Length range_by_height(geo::Length height) {
-  if (height <= geo::Length::feet(500.0)) return geo::Length::nautical_miles(10.0);
-  if (height <= geo::Length::feet(1000.0)) return geo::Length::nautical_miles(20.0);
-  return geo::Length::nautical_miles(40.0);
+geo::Length range_by_height(geo::Length height, const HeightRanges& table) {
+  YARS_REQUIRE(table.ranges_nm.size(), ==, table.heights_ft.size() + 1);
+  const auto found = std::find_if(table.heights_ft.begin(), table.heights_ft.end(),
+                                  [height](double height_ft) { return height <= geo::Length::feet(height_ft); });
+  return geo::Length::nautical_miles(table.ranges_nm[static_cast<std::size_t>(found - table.heights_ft.begin())]);
 }
 
 std::size_t range_index_for(geo::Length wanted, std::span<const double> ranges_nm) {

@@ -1,39 +1,24 @@
 #include "lib/radar/windows.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 
 namespace yars::radar {
 
 namespace {
-
-struct WindowRow {
-  double window_nm;    // [NM] side of the square
-  double least_nm;     // [NM] cursor range
-  double greatest_nm;  // [NM]
-};
-constexpr std::array<WindowRow, 8> kWindows{{{0.67, 4.7, 20.0},
-                                             {1.3, 4.7, 40.0},
-                                             {3.3, 4.7, 50.0},
-                                             {4.7, 4.7, 80.0},
-                                             {10.0, 10.0, 160.0},
-                                             {20.0, 20.0, 160.0},
-                                             {40.0, 40.0, 160.0},
-                                             {80.0, 80.0, 160.0}}};
-
 // [NM] Two sizes closer than this are one: the sizes are given to 0.01 NM, and they pass through metres.
 constexpr double kSameWindow_nm = 0.005;
-
 }  // namespace
 
-std::optional<CursorLimits> cursor_limits(geo::Length window) {
-  const auto row = std::find_if(kWindows.begin(), kWindows.end(), [window](const WindowRow& candidate) {
-    return std::abs(candidate.window_nm - window.nautical_miles()) < kSameWindow_nm;
+std::optional<CursorLimits> cursor_limits(geo::Length window, const WindowLimits& table) {
+  const auto found = std::find_if(table.windows_nm.begin(), table.windows_nm.end(), [window](double candidate_nm) {
+    return std::abs(candidate_nm - window.nautical_miles()) < kSameWindow_nm;
   });
-  if (row == kWindows.end()) return std::nullopt;
-  return CursorLimits{geo::Length::nautical_miles(row->least_nm), geo::Length::nautical_miles(row->greatest_nm)};
+  const auto row = static_cast<std::size_t>(found - table.windows_nm.begin());
+  if (row >= table.windows_nm.size() || row >= table.least_nm.size() || row >= table.greatest_nm.size()) return {};
+  return CursorLimits{geo::Length::nautical_miles(table.least_nm[row]),
+                      geo::Length::nautical_miles(table.greatest_nm[row])};
 }
 
 std::optional<std::size_t> largest_window_that_fits(geo::Length range, std::span<const double> windows_nm) {
@@ -44,11 +29,13 @@ std::optional<std::size_t> largest_window_that_fits(geo::Length range, std::span
   return static_cast<std::size_t>(std::distance(windows_nm.begin(), beyond)) - 1;
 }
 
-std::optional<geo::Length> window_while_blank(geo::Length cursor_range) {
-  if (!(cursor_range >= geo::Length::nautical_miles(2.7))) return std::nullopt;
-  if (cursor_range <= geo::Length::nautical_miles(50.0)) return geo::Length::nautical_miles(3.3);
-  if (cursor_range <= geo::Length::nautical_miles(80.0)) return geo::Length::nautical_miles(4.7);
-  if (cursor_range <= geo::Length::nautical_miles(150.0)) return geo::Length::nautical_miles(10.0);
+std::optional<geo::Length> window_while_blank(geo::Length cursor_range, const WindowLimits& table) {
+  if (!(cursor_range >= geo::Length::nautical_miles(table.blank_least_nm))) return std::nullopt;
+  const std::size_t rows = std::min(table.blank_windows_nm.size(), table.blank_up_to_nm.size());
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (cursor_range <= geo::Length::nautical_miles(table.blank_up_to_nm[row]))
+      return geo::Length::nautical_miles(table.blank_windows_nm[row]);
+  }
   return std::nullopt;
 }
 

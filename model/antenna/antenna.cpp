@@ -37,7 +37,10 @@ Antenna::Antenna(const radar::AntennaConfiguration& configuration)
     : configuration_(configuration),
       pattern_(make_scan_pattern(configuration, 0.0)),
       azimuth_(azimuth_limits(configuration)),
-      elevation_(elevation_limits(configuration)) {}
+      elevation_(elevation_limits(configuration)) {
+  azimuth_.place(configuration.start_azimuth_deg);
+  elevation_.place(configuration.start_elevation_deg);
+}
 
 Antenna::Memory Antenna::memory() const {
   return {azimuth_.position_deg(),
@@ -85,7 +88,10 @@ AntennaStep Antenna::step(const Platform& platform, Angle commanded_elevation) {
   step.phase = phase_;
   step.bar = tick_ / pattern_.pass_ticks();
   if (phase_ != Phase::parked) {
-    elevation_.command_position(commanded_elevation.degrees() + pattern_.bar_deg(step.bar));
+    // The dish steps to the next bar while it turns round.
+    const bool turning = tick_ % pattern_.pass_ticks() >= pattern_.sweep_ticks;
+    const int bar = turning ? (step.bar + 1) % pattern_.bars : step.bar;
+    elevation_.command_position(commanded_elevation.degrees() + pattern_.bar_deg(bar));
     elevation_.step();
   }
   step.elevation = Angle::degrees(elevation_.position_deg());

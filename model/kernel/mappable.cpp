@@ -22,10 +22,11 @@ std::optional<std::string_view> why_not_mappable(const antenna::Platform& platfo
   if (radar::in_blind_zone(off_track, configuration.high_resolution)) return "BLIND ZONE";
   const geo::Angle off_nose = way.azimuth_at_start - platform.heading;
   if (std::abs(off_nose.degrees()) > configuration.antenna.azimuth_limit_deg) return "GIMBAL";
-  const std::optional<geo::Length> taken =
-      window > geo::Length() ? std::optional(window) : radar::window_while_blank(way.distance);
+  const std::optional<geo::Length> taken = window > geo::Length()
+                                               ? std::optional(window)
+                                               : radar::window_while_blank(way.distance, configuration.window_limits);
   if (!taken) return "NO WINDOW";
-  const auto limits = radar::cursor_limits(*taken);
+  const auto limits = radar::cursor_limits(*taken, configuration.window_limits);
   if (!limits) return "NO WINDOW";
   if (window == geo::Length()) return std::nullopt;  // the blank window's own limits are those of rule 4
   if (way.distance < limits->least) return "MIN RANGE";

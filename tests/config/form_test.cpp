@@ -8,7 +8,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::Contains;
-using ::testing::DoubleEq;
 using ::testing::ElementsAre;
 using testing::fields;
 using ::testing::HasSubstr;
@@ -166,49 +165,6 @@ TEST(Fidelity, AutoIsStandardThatPicksForItself) {
   EXPECT_EQ(fidelity.name, "standard");
   EXPECT_EQ(fidelity.core_share, 0.5);
   EXPECT_FALSE(loaded("( Fidelity :preset auto )\n( Fidelity :preset fine )").radar.fidelity.automatic);
-}
-
-TEST(LatLong, IsDegreesMinutesAndSecondsWithAHemisphere) {
-  const auto route =
-      loaded("( Route `( ( Point \"1\" ( lat-long N 35 44 51 ) ( lat-long west 121 30 2 ) ) ) )").radar.route;
-  ASSERT_EQ(route.size(), 1U);
-  EXPECT_THAT(route[0].place.latitude_deg, DoubleEq(35.0 + 44.0 / 60.0 + 51.0 / 3600.0));
-  EXPECT_THAT(route[0].place.longitude_deg, DoubleEq(-(121.0 + 30.0 / 60.0 + 2.0 / 3600.0)));
-}
-
-TEST(LatLong, OfTheWrongAxisOrBeyondThePoleIsRefused) {
-  EXPECT_EQ(refusal("( Database ( lat-long E 35 ) )"), "text.guf:1:12: expected N or S for a latitude, found E or W");
-  EXPECT_THAT(refusal("( Database ( lat-long N 90 1 ) )"), HasSubstr("[-90, 90] deg for :latitude"));
-}
-
-TEST(Route, TakesTheKindOfAPointFromItsName) {
-  const auto route = loaded(R"(( Route `(
-    ( Point "1" 36 -122 500 ) ( Point "2" 36.1 -122 :kind initial ) ( Point "3." 36.2 -122 )
-    ( Point "3.01" 36.2 -122.1 ) ( Point "1.1" 36 -122.1 ) ) ))")
-                         .radar.route;
-  ASSERT_EQ(route.size(), 5U);
-  EXPECT_EQ(route[0].kind, radar::PointKind::steer);
-  EXPECT_DOUBLE_EQ(route[0].elevation_m, 152.4);
-  EXPECT_EQ(route[1].kind, radar::PointKind::initial);
-  EXPECT_TRUE(std::isnan(route[1].elevation_m));
-  EXPECT_EQ(route[2].kind, radar::PointKind::target);
-  EXPECT_EQ(route[3].kind, radar::PointKind::target_offset);
-  EXPECT_EQ(route[4].kind, radar::PointKind::steer_offset);
-}
-
-TEST(Route, RefusesPointsThatContradictThemselves) {
-  EXPECT_THAT(refusal("( Route `( ( Point \"x\" 1 2 ) ) )"), HasSubstr("expected a name of a sequence point"));
-  EXPECT_THAT(refusal("( Route `( ( Point \"1\" 1 2 :kind target ) ) )"),
-              HasSubstr("text.guf:1:34: expected the kind that the name 1 has, steer for :kind, found target"));
-  EXPECT_THAT(refusal("( Route `( ( Point \"1\" 1 2 ) ( Point \"1\" 3 4 ) ) )"), HasSubstr("a name once in a route"));
-  EXPECT_THAT(refusal("( Route `( ( Point \"1\" 1 ) ) )"),
-              HasSubstr("expected a longitude for :longitude, found none"));
-}
-
-TEST(Route, ASecondReplacesTheFirst) {
-  const auto route = loaded("( Route `( ( Point \"1\" 1 2 ) ) )( Route `( ( Point \"7\" 3 4 ) ) )").radar.route;
-  ASSERT_EQ(route.size(), 1U);
-  EXPECT_EQ(route[0].name, "7");
 }
 
 TEST(UnknownForms, AreIgnoredWithAWarningWhereTheyCanBe) {

@@ -77,11 +77,20 @@ class RandomConfiguration {
     made.name = "radar \"" + std::to_string(random_()) + "\"\\\n";
     made.ranges_nm = ascending(0.1, 500.0);
     made.windows_nm = ascending(0.1, 500.0);
+    made.window_limits = limits_of(made.windows_nm);
+    made.height_ranges.heights_ft = ascending(0.0, 100'000.0);
+    made.height_ranges.heights_ft.resize(std::min<std::size_t>(made.height_ranges.heights_ft.size(), 15));
+    made.height_ranges.ranges_nm.clear();
+    for (std::size_t i = 0; i <= made.height_ranges.heights_ft.size(); ++i)
+      made.height_ranges.ranges_nm.push_back(5.0 * double(i + 1) + number(0, 4));
     made.pulse_us = ascending(0.01, 100.0);
     made.scan_widths_deg = {number(70, 100), number(40, 70), number(1, 40)};
-    made.antenna = {number(1, 1000), number(1, 1000), number(50, 180), number(1, 90), number(0.001, 5),
-                    number(0, 60),   number(0.1, 30), number(0.1, 30), coin(),        1 + int(random_() % 4)};
-    made.view = {number(-4, 0), number(0, 4), number(-4, 0), number(0, 4), 64 + int(random_() % 4000)};
+    made.antenna = {number(1, 1000),  number(1, 1000),        number(50, 180), number(1, 90),
+                    number(0.001, 5), number(0, 60),          number(0.1, 30), number(0.1, 30),
+                    coin(),           1 + int(random_() % 4), number(-50, 50), 0.0};
+    made.antenna.start_elevation_deg = number(-1, 1) * made.antenna.elevation_limit_deg;
+    made.view = {number(-4, 0), number(0, 4), number(-4, 0), number(0, 4), 64 + int(random_() % 4000), {}};
+    if (coin()) made.view.arc_spacing_nm = ascending(1.0, 40.0);
     made.fidelity = fidelity();
     made.receiver = {number(1, 40),   number(0, 6),    number(10, 120),        number(0, 40),
                      number(-120, 0), number(-60, 20), 1 + int(random_() % 64)};
@@ -96,6 +105,22 @@ class RandomConfiguration {
  private:
   double number(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
   bool coin() { return (random_() & 1U) != 0; }
+
+  radar::WindowLimits limits_of(const std::vector<double>& windows_nm) {
+    radar::WindowLimits made;
+    made.windows_nm = windows_nm;
+    made.least_nm.clear();
+    made.greatest_nm.clear();
+    for (std::size_t i = 0; i < windows_nm.size(); ++i) {
+      made.least_nm.push_back(number(0, 100));
+      made.greatest_nm.push_back(made.least_nm.back() + number(1, 100));
+    }
+    made.blank_least_nm = number(0, 10);
+    made.blank_windows_nm = {windows_nm.back(), windows_nm.front()};
+    made.blank_up_to_nm = {number(10, 20), number(20, 200)};
+    made.power_up_nm = number(0.1, 100);
+    return made;
+  }
 
   std::vector<double> ascending(double low, double high) {
     std::vector<double> numbers(1 + random_() % 16);

@@ -15,13 +15,15 @@
 namespace yars::config::testing {
 
 inline auto fields(const radar::AntennaConfiguration& antenna) {
-  const auto& [az_rate, el_rate, az_limit, el_limit, tolerance, drift, az_beam, el_beam, circular, bars] = antenna;
-  return std::tuple(az_rate, el_rate, az_limit, el_limit, tolerance, drift, az_beam, el_beam, circular, bars);
+  const auto& [az_rate, el_rate, az_limit, el_limit, tolerance, drift, az_beam, el_beam, circular, bars, start_az,
+               start_el] = antenna;
+  return std::tuple(az_rate, el_rate, az_limit, el_limit, tolerance, drift, az_beam, el_beam, circular, bars, start_az,
+                    start_el);
 }
 
 inline auto fields(const radar::ViewConfiguration& view) {
-  const auto& [width_min, width_max, height_min, height_max, size] = view;
-  return std::tuple(width_min, width_max, height_min, height_max, size);
+  const auto& [width_min, width_max, height_min, height_max, size, arcs] = view;
+  return std::tuple(width_min, width_max, height_min, height_max, size, arcs);
 }
 
 inline auto fields(const radar::Fidelity& fidelity) {
@@ -118,15 +120,25 @@ inline auto fields(const radar::WorldConfiguration& world) {
                     fields_of_all(scenes));
 }
 
+inline auto fields(const radar::WindowLimits& limits) {
+  const auto& [windows, least, greatest, blank_least, blank_windows, blank_up_to, power_up] = limits;
+  return std::tuple(windows, least, greatest, blank_least, blank_windows, blank_up_to, power_up);
+}
+
+inline auto fields(const radar::HeightRanges& table) {
+  const auto& [heights, ranges] = table;
+  return std::tuple(heights, ranges);
+}
+
 inline auto fields(const radar::RadarConfiguration& configuration) {
   const auto& [name, ranges, widths, windows, pulses, antenna, view, fidelity, receiver, terrain, high, navigation,
-               world, route, seed, variation] = configuration;
+               world, route, seed, variation, limits, heights] = configuration;
   std::vector<decltype(fields(route[0]))> points;
   points.reserve(route.size());
   for (const auto& point : route) points.push_back(fields(point));
   return std::tuple(name, ranges, widths, windows, pulses, fields(antenna), fields(view), fields(fidelity),
                     fields(receiver), fields(terrain), fields(high), fields(navigation), fields(world), points, seed,
-                    variation);
+                    variation, fields(limits), fields(heights));
 }
 
 // The configuration of a text that must be right.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "display/present_frame.hpp"
+#include "display/scales.hpp"
 #include "tests/display/glass_states.hpp"
 
 namespace yars::display {
@@ -161,6 +162,28 @@ TEST(Symbology, EachModeHasTheRowsOfItsColumn) {
     EXPECT_EQ(list.video_steps().size(), column.gray_scale ? 8U : 0U) << mode;
     EXPECT_EQ(has("NO VIDEO"), column.no_video) << mode;
   }
+}
+
+TEST(RangeArcs, StandAtQuartersUnlessTheConfigurationSpacesThem) {
+  const std::vector<double> spacing_nm{5, 10, 0.1};
+  EXPECT_EQ(arc_spacing(40.0, 3, {}), 0.25);
+  EXPECT_EQ(arc_spacing(20.0, 0, spacing_nm), 0.25);
+  EXPECT_EQ(arc_spacing(20.0, 1, spacing_nm), 0.5);
+  EXPECT_NEAR(arc_spacing(160.0, 9, spacing_nm), 0.08, 1e-9) << "doubled until the arcs stand apart";
+}
+
+TEST(RangeArcs, EndAtTheRange) {
+  const GlassView view{radar::ViewConfiguration{}};
+  const auto strokes_of = [&](double spacing) {
+    DrawList list;
+    draw_range_arcs(view, spacing, list);
+    return strokes(list);
+  };
+  const std::size_t one = strokes_of(5.0);  // beyond the range: the range alone
+  EXPECT_GT(one, 0U);
+  EXPECT_GT(strokes_of(0.5), one);
+  EXPECT_GT(strokes_of(0.4), strokes_of(0.5)) << "at 0.4, 0.8 and 1";
+  EXPECT_EQ(strokes_of(0.1), strokes_of(0.1 + 1e-13)) << "no arc beside that of the range";
 }
 
 TEST(Symbology, EveryLegendStandsInWordsAsTheStateHasIt) {

@@ -22,7 +22,7 @@ namespace {
 using geo::Length;
 
 double miles_by_feet(double height_ft) {
-  return range_by_height(Length::feet(height_ft)).nautical_miles();
+  return range_by_height(Length::feet(height_ft), HeightRanges{}).nautical_miles();
 }
 
 TEST(RangeByHeight, IsTenTwentyOrFortyMiles) {
@@ -32,6 +32,15 @@ TEST(RangeByHeight, IsTenTwentyOrFortyMiles) {
   EXPECT_EQ(miles_by_feet(1000.0), 20.0);
   EXPECT_EQ(miles_by_feet(1000.1), 40.0);
   EXPECT_EQ(miles_by_feet(std::numeric_limits<double>::quiet_NaN()), 40.0);
+}
+
+TEST(RangeByHeight, FollowsItsTable) {
+  const HeightRanges table{{200, 3000, 9000}, {5, 20, 60, 90}};
+  const auto miles = [&](double height_ft) { return range_by_height(Length::feet(height_ft), table).nautical_miles(); };
+  EXPECT_EQ(miles(200.0), 5.0);
+  EXPECT_EQ(miles(3000.0), 20.0);
+  EXPECT_EQ(miles(3000.1), 60.0);
+  EXPECT_EQ(miles(9000.1), 90.0);
 }
 
 TEST(RangeIndexFor, TakesTheShortestThatIsNotBelow) {
@@ -52,16 +61,28 @@ TEST(CursorLimits, AreThoseOfTheTable) {
   for (const auto& [window_nm, least_nm, greatest_nm] :
        {LimitsCase{.67, 4.7, 20}, LimitsCase{1.3, 4.7, 40}, LimitsCase{3.3, 4.7, 50}, LimitsCase{4.7, 4.7, 80},
         LimitsCase{10, 10, 160}, LimitsCase{20, 20, 160}, LimitsCase{40, 40, 160}, LimitsCase{80, 80, 160}}) {
-    const auto limits = cursor_limits(Length::nautical_miles(window_nm));
+    const auto limits = cursor_limits(Length::nautical_miles(window_nm), WindowLimits{});
     ASSERT_TRUE(limits) << window_nm;
     EXPECT_EQ(limits->least.nautical_miles(), least_nm) << window_nm;
     EXPECT_EQ(limits->greatest.nautical_miles(), greatest_nm) << window_nm;
   }
-  EXPECT_FALSE(cursor_limits(Length::nautical_miles(5.0)));
+  EXPECT_FALSE(cursor_limits(Length::nautical_miles(5.0), WindowLimits{}));
+}
+
+TEST(CursorLimits, FollowTheirTable) {
+  WindowLimits table;
+  table.windows_nm = {2.5, 5};
+  table.least_nm = {1, 3};
+  table.greatest_nm = {12, 30};
+  const auto limits = cursor_limits(Length::nautical_miles(5.0), table);
+  ASSERT_TRUE(limits);
+  EXPECT_EQ(limits->least.nautical_miles(), 3.0);
+  EXPECT_EQ(limits->greatest.nautical_miles(), 30.0);
+  EXPECT_FALSE(cursor_limits(Length::nautical_miles(4.7), table));
 }
 
 TEST(CursorLimits, ContainBothEnds) {
-  const CursorLimits limits = *cursor_limits(Length::nautical_miles(10.0));
+  const CursorLimits limits = *cursor_limits(Length::nautical_miles(10.0), WindowLimits{});
   EXPECT_TRUE(limits.contains(Length::nautical_miles(10.0)));
   EXPECT_TRUE(limits.contains(Length::nautical_miles(160.0)));
   EXPECT_FALSE(limits.contains(Length::nautical_miles(9.99)));
@@ -70,7 +91,7 @@ TEST(CursorLimits, ContainBothEnds) {
 
 TEST(CursorLimits, KnowEveryWindowOfTheDefaultRadar) {
   for (const double window_nm : RadarConfiguration{}.windows_nm)
-    EXPECT_TRUE(cursor_limits(Length::nautical_miles(window_nm))) << window_nm;
+    EXPECT_TRUE(cursor_limits(Length::nautical_miles(window_nm), WindowLimits{})) << window_nm;
 }
 
 TEST(LargestWindowThatFits, IsNotLargerThanTheRange) {
@@ -89,7 +110,7 @@ TEST(LargestWindowThatFits, IsNotLargerThanTheRange) {
 
 TEST(WindowWhileBlank, FollowsTheCursorsRange) {
   const auto window_nm = [](double range_nm) {
-    const auto window = window_while_blank(Length::nautical_miles(range_nm));
+    const auto window = window_while_blank(Length::nautical_miles(range_nm), WindowLimits{});
     return window ? window->nautical_miles() : 0.0;
   };
   EXPECT_EQ(window_nm(2.69), 0.0);
@@ -101,6 +122,17 @@ TEST(WindowWhileBlank, FollowsTheCursorsRange) {
   EXPECT_EQ(window_nm(150.0), 10.0);
   EXPECT_EQ(window_nm(150.01), 0.0);
   EXPECT_EQ(window_nm(std::numeric_limits<double>::quiet_NaN()), 0.0);
+}
+
+TEST(WindowWhileBlank, FollowsItsTable) {
+  WindowLimits table;
+  table.blank_least_nm = 1.0;
+  table.blank_windows_nm = {2.5, 5};
+  table.blank_up_to_nm = {12, 30};
+  EXPECT_FALSE(window_while_blank(Length::nautical_miles(0.9), table));
+  EXPECT_EQ(window_while_blank(Length::nautical_miles(12.0), table), Length::nautical_miles(2.5));
+  EXPECT_EQ(window_while_blank(Length::nautical_miles(12.1), table), Length::nautical_miles(5.0));
+  EXPECT_FALSE(window_while_blank(Length::nautical_miles(30.1), table));
 }
 
 TEST(PointName, TellsSteerPointsTargetsAndTheirOffsetsApart) {

@@ -207,6 +207,31 @@ TEST(Antenna, FourBarsStepTheElevationFromTheTopDown) {
   EXPECT_TRUE(step.scan_start);
 }
 
+TEST(Antenna, StepsToTheNextBarWhileItTurnsRound) {
+  radar::AntennaConfiguration configuration;
+  configuration.scan_bars = 2;
+  Antenna antenna(configuration);
+  antenna.restart(100.0);
+  const Platform platform = flying(0.0);
+  AntennaStep step = until_sweeping(antenna, platform);
+  for (int tick = 0; tick < 1000; ++tick) {
+    if (tick > 100 && step.phase == Phase::sweeping) {
+      ASSERT_NEAR(step.elevation.degrees(), step.bar == 0 ? 1.25 : -1.25, 1e-12) << tick;
+    }
+    step = antenna.step(platform, Angle());
+  }
+}
+
+TEST(Antenna, StandsWhereItStartsUntilItScans) {
+  radar::AntennaConfiguration configuration;
+  configuration.start_azimuth_deg = -20.0;
+  configuration.start_elevation_deg = 5.0;
+  Antenna antenna(configuration);
+  antenna.step(flying(0.0), Angle());
+  EXPECT_EQ(antenna.azimuth_deg(), -20.0);
+  EXPECT_EQ(antenna.elevation_deg(), 5.0);
+}
+
 TEST(Antenna, ACircularScanGoesRoundAndNeverTurns) {
   radar::AntennaConfiguration configuration;
   configuration.circular_scan = true;

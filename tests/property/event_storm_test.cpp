@@ -6,7 +6,10 @@
 #include <cstdlib>
 #include <map>
 #include <random>
+#include <string>
+#include <utility>
 
+#include "config/load.hpp"
 #include "databuffer/records/radar_command.hpp"
 #include "databuffer/records/validation.hpp"
 #include "tests/statemachine/pilot.hpp"
@@ -245,11 +248,26 @@ void expect_a_way_out(Pilot pilot) {
   EXPECT_EQ(fields_of(pilot).at("sniff"), "false");
 }
 
-TEST(EventStorm, KeepsEveryInvariantAndNeverWedges) {
+// Of the APG-70 when `file` is empty. The route is the pilot's.
+Pilot pilot_of(const std::string& file) {
+  Pilot pilot;
+  if (file.empty()) return pilot;
+  auto loaded = config::load_configuration(std::string(YARS_SOURCE_DIR) + "/config/" + file);
+  EXPECT_TRUE(loaded) << file;
+  if (!loaded) return pilot;
+  loaded->radar.route = pilot.configuration.route;
+  pilot.configuration = std::move(loaded->radar);
+  pilot.state = initial_state(pilot.configuration);
+  return pilot;
+}
+
+class EventStorm : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(EventStorm, KeepsEveryInvariantAndNeverWedges) {
   const std::uint64_t seed = storm_seed();
   SCOPED_TRACE("YARS_SEED=" + std::to_string(seed));
   Storm storm(seed);
-  Pilot pilot;
+  Pilot pilot = pilot_of(GetParam());
   MapMaker model;
   int dead = 0;
   int patches = 0;
@@ -283,8 +301,10 @@ TEST(EventStorm, KeepsEveryInvariantAndNeverWedges) {
   EXPECT_GT(patches, kEvents / 50);
 }
 
+INSTANTIATE_TEST_SUITE_P(OfEachRadar, EventStorm, ::testing::Values("", "apg68.guf"));
+
 // Held to its ground point the cursor may leave the glass; slewed it is on it.
-TEST(EventStorm, ASlewedCursorIsOnTheGlass) {
+TEST(CursorStorm, ASlewedCursorIsOnTheGlass) {
   const std::uint64_t seed = storm_seed();
   SCOPED_TRACE("YARS_SEED=" + std::to_string(seed));
   Storm storm(seed);

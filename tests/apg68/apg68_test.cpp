@@ -1,0 +1,191 @@
+// Another radar by configuration alone: config/apg68.guf through configuration, state machine, model and glass.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+
+#include "display/gl/glass.hpp"
+#include "display/gl/headless_egl.hpp"
+#include "model/antenna/antenna.hpp"
+#include "tests/apg68/radar.hpp"
+
+namespace yars::apg68 {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+TEST(Apg68, IsReadWithoutAWarning) {
+  const auto loaded = config::load_configuration(std::string(YARS_SOURCE_DIR) + "/config/apg68.guf");
+  ASSERT_TRUE(loaded) << loaded.error().message();
+  EXPECT_THAT(loaded->warnings, IsEmpty());
+  EXPECT_THAT(loaded->radar.ranges_nm, ElementsAre(10, 20, 40, 80));
+  EXPECT_THAT(loaded->radar.scan_widths_deg, ElementsAre(120, 60, 20));
+  EXPECT_EQ(loaded->radar.antenna.scan_bars, 4);
+}
+
+TEST(Apg68, ComesUpAsItsFileSays) {
+  Radar radar;
+  radar.step();
+  EXPECT_EQ(radar.around.model.antenna_elevation_deg, -3.0) << "the dish stands where it starts until it scans";
+  radar.send("power opr");
+  radar.step();
+  EXPECT_EQ(radar.state.range_nm, 40.0) << "above the last height";
+  EXPECT_EQ(radar.state.window_nm, 5.0);
+  EXPECT_EQ(radar.state.antenna_elevation_deg, -3.0);
+}
+
+TEST(Apg68, TakesItsRangeByItsOwnHeights) {
+  for (const auto& [height_ft, range_nm] : {std::pair{1000.0, 10.0}, {1001.0, 20.0}, {5000.0, 20.0}, {5001.0, 40.0}}) {
+    Radar radar;
+    radar.around.ownship.radar_altitude_m = height_ft * geo::kMetresPerFoot;
+    radar.send("power opr");
+    radar.step();
+    EXPECT_EQ(radar.state.range_nm, range_nm) << height_ft;
+  }
+}
+
+TEST(Apg68, HasFourRangesThreeWidthsAndFiveWindows) {
+  Radar radar;
+  radar.send("power opr");
+  radar.step();
+  std::vector<double> ranges_nm{radar.state.range_nm};
+  while (radar.send("pb 14")) ranges_nm.push_back(radar.state.range_nm);
+  while (radar.send("pb 13")) ranges_nm.push_back(radar.state.range_nm);
+  EXPECT_THAT(ranges_nm, ElementsAre(40, 20, 10, 20, 40, 80));
+  std::vector<double> widths_deg;
+  for (int i = 0; i < 3; ++i) {
+    radar.send("pb 9");
+    widths_deg.push_back(radar.state.scan_width_deg);
+  }
+  EXPECT_THAT(widths_deg, ElementsAre(60, 20, 120));
+  std::vector<double> windows_nm{radar.state.window_nm};
+  while (radar.send("acq aft")) windows_nm.push_back(radar.state.window_nm);
+  while (radar.send("acq fwd")) windows_nm.push_back(radar.state.window_nm);
+  EXPECT_THAT(windows_nm, ElementsAre(5, 2.5, 1, 0, 1, 2.5, 5, 10, 20));
+}
+
+TEST(Apg68, ScansEachWidthInFourBars) {
+  for (const double width_deg : {120.0, 60.0, 20.0}) {
+    Radar radar;
+    radar.send("power opr");
+    if (width_deg < 120.0) radar.send("pb 9");
+    if (width_deg < 60.0) radar.send("pb 9");
+    ASSERT_EQ(radar.state.scan_width_deg, width_deg);
+    const auto first = radar.scan();
+    const auto sweeps = radar.scan();
+    ASSERT_FALSE(first.empty() || sweeps.empty());
+    // 110 deg/s and a tenth for turning round, four times.
+    const double scan_s = 4.0 * 1.1 * width_deg / 110.0;
+    const auto ticks = static_cast<double>(sweeps.front().tick - first.front().tick);
+    EXPECT_NEAR(ticks * radar::kTickSeconds, scan_s, 0.03);
+    EXPECT_EQ(sweeps.front().scan, sweeps.back().scan);
+    std::vector<double> elevations_deg;
+    double least_deg = 0.0, greatest_deg = 0.0;
+    for (std::size_t i = 0; i < sweeps.size(); ++i) {
+      // The last of a bar: over the first the dish may still be on its way there.
+      if (i + 1 == sweeps.size() || sweeps[i].direction != sweeps[i + 1].direction)
+        elevations_deg.push_back(sweeps[i].elevation_deg);
+      EXPECT_EQ(sweeps[i].flags & databuffer::kSweepBlank, 0U) << "without drift the dish reaches all of it, " << i;
+      const geo::Bearing track = geo::Bearing::degrees(20.0);
+      least_deg = std::min(least_deg, (geo::Bearing::degrees(sweeps[i].azimuth_left_deg) - track).degrees());
+      greatest_deg = std::max(greatest_deg, (geo::Bearing::degrees(sweeps[i].azimuth_right_deg) - track).degrees());
+    }
+    EXPECT_THAT(elevations_deg, ::testing::Pointwise(::testing::DoubleNear(1e-9), {3.9, -0.7, -5.3, -9.9}));
+    EXPECT_NEAR(greatest_deg, 0.5 * width_deg, 1e-6);
+    EXPECT_NEAR(least_deg, -0.5 * width_deg, 1e-6);
+  }
+}
+
+// What the elevation caret stands on.
+TEST(Apg68, TellsTheElevationOfTheBarUnderWay) {
+  Radar radar;
+  radar.send("power opr");
+  radar.scan();
+  std::map<int, double> reached_deg;
+  for (int i = 0; i < 960; ++i) {
+    radar.step();
+    const databuffer::ModelStatus& model = radar.around.model;
+    const bool sweeping = model.antenna_phase == static_cast<std::uint8_t>(model::antenna::Phase::sweeping);
+    if (sweeping) reached_deg[model.scan_bar] = model.antenna_elevation_deg;
+  }
+  const std::map<int, double> wanted_deg{{0, 3.9}, {1, -0.7}, {2, -5.3}, {3, -9.9}};
+  ASSERT_EQ(reached_deg.size(), wanted_deg.size());
+  for (const auto& [bar, elevation_deg] : wanted_deg) EXPECT_NEAR(reached_deg.at(bar), elevation_deg, 1e-9) << bar;
+}
+
+TEST(Apg68, LooksWithOneBarInTheSharpenedSector) {
+  Radar radar;
+  radar.send("power opr");
+  radar.send("radar hrm");
+  radar.put_cursor(30.0, 20.0);
+  radar.scan();
+  const auto sweeps = radar.scan();
+  ASSERT_FALSE(sweeps.empty());
+  for (const databuffer::Sweep& sweep : sweeps) EXPECT_NEAR(sweep.elevation_deg, sweeps.front().elevation_deg, 0.2);
+}
+
+TEST(Apg68, MapsWithinItsOwnLimits) {
+  struct Case {
+    double window_nm, range_nm;
+    const char* why_not;
+  };
+  Radar radar;
+  radar.send("power opr");
+  radar.send("pb 13");
+  for (const Case& one :
+       {Case{1, 4.9, "MIN RANGE"}, Case{1, 5.1, ""}, Case{1, 19.9, ""}, Case{1, 20.1, "MAX RANGE"}, Case{2.5, 39.9, ""},
+        Case{2.5, 40.1, "MAX RANGE"}, Case{20, 19.9, "MIN RANGE"}, Case{20, 79.9, ""}, Case{0, 2.9, "NO WINDOW"},
+        Case{0, 3.1, ""}, Case{0, 80.1, "NO WINDOW"}}) {
+    radar.state.window_nm = one.window_nm;
+    radar.put_cursor(30.0, one.range_nm);
+    EXPECT_STREQ(radar.around.model.why_not, one.why_not) << one.window_nm << " at " << one.range_nm;
+  }
+}
+
+TEST(Apg68, ABlankWindowTakesTheOneOfItsTable) {
+  for (const auto& [range_nm, window_nm] : {std::pair{19.9, 2.5}, {20.1, 5.0}, {41.0, 10.0}}) {
+    Radar radar;
+    radar.send("power opr");
+    radar.send("pb 13");
+    while (radar.send("acq aft")) {
+    }
+    radar.put_cursor(30.0, range_nm);
+    ASSERT_TRUE(radar.send("tdc release")) << range_nm;
+    EXPECT_EQ(radar.state.map_window_nm, window_nm) << range_nm;
+  }
+}
+
+// With YARS_PICTURES=FOLDER the pictures are written there, to be looked at.
+TEST(Apg68, IsDrawnOnTheGlass) {
+  auto context = display::gl::open_headless();
+  if (!context) GTEST_SKIP() << "no OpenGL without a display: " << context.error().message();
+  const char* folder = std::getenv("YARS_PICTURES");
+  Radar radar;
+  display::gl::Glass glass(radar.configuration, 480);
+  radar.send("power opr");
+  radar.put_cursor(25.0, 25.0);
+  int picture = 0;
+  for (const char* event : {"elevation -3", "pb 9", "pb 14", "radar hrm"}) {
+    radar.send(event);
+    // Two scans, and a little: a bar is under way.
+    std::size_t sweeps = 0;
+    for (const bool whole : {true, true, false}) {
+      const auto came = whole ? radar.scan() : radar.run(1.7);
+      for (const databuffer::Sweep& sweep : came) glass.add(sweep);
+      sweeps += came.size();
+    }
+    EXPECT_GT(sweeps, 100U) << event;
+    EXPECT_TRUE(glass.draw(radar.glass_input())) << event;
+    const imageio::Image image = glass.read();
+    EXPECT_TRUE(std::ranges::any_of(image.pixels, [](std::uint8_t value) { return value > 150; })) << event;
+    if (folder == nullptr) continue;
+    const std::string path = std::string(folder) + "/apg68_" + std::to_string(++picture) + ".png";
+    EXPECT_TRUE(imageio::write_png(path, image)) << path;
+  }
+}
+
+}  // namespace
+}  // namespace yars::apg68

@@ -1,0 +1,118 @@
+// The radar of config/apg68.guf as a whole in one process: its state machine, its kernel over made-up hills and the
+// glass, stepped tick by tick. Nothing but the file makes it another radar than the APG-70.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "config/load.hpp"
+#include "databuffer/records/event_text.hpp"
+#include "databuffer/records/radar_command.hpp"
+#include "display/glass_input.hpp"
+#include "lib/radar/limits.hpp"
+#include "model/kernel/radar_kernel.hpp"
+#include "model/terrain/analytic_terrain.hpp"
+#include "statemachine/machine.hpp"
+
+namespace yars::apg68 {
+
+inline radar::RadarConfiguration configuration_of(const std::string& file) {
+  const auto loaded = config::load_configuration(std::string(YARS_SOURCE_DIR) + "/config/" + file);
+  EXPECT_TRUE(loaded) << (loaded ? "" : loaded.error().message());
+  return loaded ? loaded->radar : radar::RadarConfiguration{};
+}
+
+// Ridges of 900 m and a sea to the east of them.
+inline double hills(geo::GeoPoint place) {
+  const double wave = std::sin(place.latitude_deg * 40.0) * std::cos(place.longitude_deg * 55.0);
+  return place.longitude_deg > -121.7 ? 0.0 : 450.0 + 450.0 * wave;
+}
+
+class Radar {
+ public:
+  explicit Radar(const radar::RadarConfiguration& given = configuration_of("apg68.guf"))
+      : configuration(given), kernel(given), terrain(hills), state(statemachine::initial_state(given)) {
+    databuffer::Ownship& ownship = around.ownship;
+    ownship.latitude_deg = 37.0;
+    ownship.longitude_deg = -122.0;
+    ownship.altitude_msl_m = 3048.0;
+    ownship.heading_deg = 20.0;
+    ownship.velocity_north_mps = 220.0 * std::cos(20.0 * geo::kRadiansPerDegree);
+    ownship.velocity_east_mps = 220.0 * std::sin(20.0 * geo::kRadiansPerDegree);
+    ownship.radar_altitude_m = 3048.0;
+    around.ownship_valid = true;
+    around.nav.mission_latitude_deg = around.nav.ins_latitude_deg = ownship.latitude_deg;
+    around.nav.mission_longitude_deg = around.nav.ins_longitude_deg = ownship.longitude_deg;
+    around.nav.magnetic_variation_deg = std::numeric_limits<double>::quiet_NaN();
+  }
+
+  // One tick of all; true when a sweep came out.
+  bool step() {
+    ++around.tick;
+    advance(state, around, configuration);
+    tick.tick = around.tick;
+    tick.sim_time_ns = around.tick * radar::kTickNanoseconds;
+    tick.epoch = 1;
+    tick.flags = databuffer::kTickOwnshipValid;
+    tick.ownship = around.ownship;
+    tick.command = databuffer::command_from_state(state);
+    const bool came = kernel.step(tick, {terrain, nullptr, true}, sweep);
+    kernel.describe(terrain, around.model);
+    return came;
+  }
+  std::vector<databuffer::Sweep> run(double seconds) {
+    std::vector<databuffer::Sweep> sweeps;
+    for (int i = 0; i < seconds / radar::kTickSeconds; ++i) {
+      if (step()) sweeps.push_back(sweep);
+    }
+    return sweeps;
+  }
+  // One whole scan, from its first sweep to its last.
+  std::vector<databuffer::Sweep> scan() {
+    std::vector<databuffer::Sweep> sweeps;
+    for (int i = 0; i < 20'000; ++i) {
+      if (!step()) continue;
+      if ((sweep.flags & databuffer::kSweepScanStart) != 0U) sweeps.clear();
+      sweeps.push_back(sweep);
+      const bool whole = (sweeps.front().flags & databuffer::kSweepScanStart) != 0U;
+      if (whole && (sweep.flags & databuffer::kSweepScanEnd) != 0U) return sweeps;
+    }
+    return {};
+  }
+  bool send(const std::string& text) {
+    const auto event = databuffer::event_from_text(text);
+    EXPECT_TRUE(event.has_value()) << text;
+    return event && apply(state, *event, around, configuration);
+  }
+  void put_cursor(double right_of_track_deg, double range_nm) {
+    const geo::GeoPoint place =
+        geo::geodesic_direct({around.ownship.latitude_deg, around.ownship.longitude_deg},
+                             geo::Bearing::degrees(20.0 + right_of_track_deg), geo::Length::nautical_miles(range_nm));
+    state.cursor_latitude_deg = place.latitude_deg;
+    state.cursor_longitude_deg = place.longitude_deg;
+    state.flags |= databuffer::kCursorValid;
+    step();
+  }
+  display::GlassInput glass_input() const {
+    display::GlassInput input;
+    input.state = state;
+    input.model = around.model;
+    input.ownship = around.ownship;
+    input.nav = around.nav;
+    return input;
+  }
+
+  radar::RadarConfiguration configuration;
+  model::kernel::RadarKernel kernel;
+  model::terrain::AnalyticTerrain terrain;
+  databuffer::RadarState state;
+  statemachine::Surroundings around{};
+  databuffer::ModelTick tick{};
+  databuffer::Sweep sweep{};
+};
+
+}  // namespace yars::apg68
