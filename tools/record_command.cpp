@@ -75,8 +75,7 @@ void record(const CommonOptions& common, const RecordOptions& options) {
   if (!session) give_up(session.error());
   auto role = session->claim(databuffer::Role::recorder);
   if (!role) give_up(databuffer::usage_error(role.error()));
-  auto writer =
-      recording::RecordingWriter::create(options.file, {absolute(common.config), absolute(options.terrain)});
+  auto writer = recording::RecordingWriter::create(options.file, {absolute(common.config), absolute(options.terrain)});
   if (!writer) give_up(writer.error());
   const auto recorder_index = static_cast<std::size_t>(databuffer::LockstepRole::recorder);
   const bool from_the_begin =

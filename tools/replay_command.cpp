@@ -56,6 +56,9 @@ void print_entries(recording::RecordingReader& reader) {
     } else if (const auto* change = std::get_if<recording::StateChange>(&*entry)) {
       object["tick"] = change->state.tick;
       add_radar_state(object["state"], change->state);
+    } else if (const auto* patch = std::get_if<recording::Patch>(&*entry)) {
+      object["tick"] = patch->map.end_tick;
+      object["patch"] = {{"id", patch->map.id}, {"size", patch->map.size}, {"hash", patch->map.hash}};
     } else {
       continue;
     }
@@ -129,7 +132,8 @@ void add_replay_command(CLI::App& app, const CommonOptions& common) {
   auto options = std::make_shared<ReplayOptions>();
   command->add_option("FILE", options->file, "recording made by yars record")->required();
   auto* events = command->add_flag("--events", options->events, "from the recorded ticks, offline");
-  auto* print = command->add_flag("--print", options->print, "print the events and radar states, a JSON object a line");
+  auto* print =
+      command->add_flag("--print", options->print, "print events, radar states and patch maps, a JSON object a line");
   events->excludes(print);
   command->add_option("--terrain", options->terrain, "terrain directory (else the recording's)");
   command->callback([&common, options] {

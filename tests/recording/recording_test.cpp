@@ -93,22 +93,22 @@ TEST(Recording, FindsAnyByteThatWasChanged) {
   const auto items = items_of_every_kind(24, 25);
   const std::string whole = recorded(items);
   const auto ends = block_ends(whole);
-  for (std::size_t at = 0; at < whole.size(); ++at)
-    for (const unsigned flip : {0x01U, 0x80U, 0xffU}) {
-      SCOPED_TRACE(std::to_string(at) + " by " + std::to_string(flip));
-      std::string changed = whole;
-      changed[at] = static_cast<char>(static_cast<unsigned char>(changed[at]) ^ flip);
-      auto reader = reader_of(changed);
-      if (!reader) continue;
-      const auto found = rest_of(*reader);
-      EXPECT_TRUE(reader->cut_short());
-      EXPECT_TRUE(is_begin_of(found, items));
-      // All before the block with the byte; all of them where it lies in the index.
-      std::size_t expected = 0;
-      for (const auto& end : ends)
-        if (end.bytes <= at) expected = end.items;
-      EXPECT_EQ(found.size(), expected);
-    }
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    const unsigned flip = at % 3 == 0 ? 0xffU : 1U << at % 8;
+    SCOPED_TRACE(std::to_string(at) + " by " + std::to_string(flip));
+    std::string changed = whole;
+    changed[at] = static_cast<char>(static_cast<unsigned char>(changed[at]) ^ flip);
+    auto reader = reader_of(changed);
+    if (!reader) continue;
+    const auto found = rest_of(*reader);
+    EXPECT_TRUE(reader->cut_short());
+    EXPECT_TRUE(is_begin_of(found, items));
+    // All before the block with the byte; all of them where it lies in the index.
+    std::size_t expected = 0;
+    for (const auto& end : ends)
+      if (end.bytes <= at) expected = end.items;
+    EXPECT_EQ(found.size(), expected);
+  }
 }
 
 TEST(Recording, SaysWhereABlockIsDamaged) {

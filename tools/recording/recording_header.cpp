@@ -61,9 +61,8 @@ failure::Expected<void> check_kinds(std::span<const std::byte> entries, const st
     std::memcpy(&entry, entries.data(), sizeof entry);
     const RecordedKind* kind = recorded_kind(entry.number);
     if (kind != nullptr && kind->version == entry.version && kind->bytes == entry.bytes) continue;
-    const std::string expected =
-        kind == nullptr ? "a kind of records that this release knows"
-                        : described({entry.number, 0, kind->version, kind->bytes}, kind);
+    const std::string expected = kind == nullptr ? "a kind of records that this release knows"
+                                                 : described({entry.number, 0, kind->version, kind->bytes}, kind);
     return failure::fail(file_name, expected, described(entry, kind), "replay it with the release that recorded it");
   }
   return {};
