@@ -27,7 +27,8 @@ Recorder::Recorder(databuffer::Session& session, recording::RecordingWriter& wri
       writer_(&writer),
       extras_(extras),
       state_(session.layout().radar_state),
-      status_(session.layout().model_status) {
+      status_(session.layout().model_status),
+      outputs_(session.layout().outputs) {
   if (!from_the_begin) begin_here();
 }
 
@@ -80,9 +81,14 @@ void Recorder::take_ticks(std::uint64_t& lost) {
 void Recorder::take_latest(std::int64_t tick) {
   state_.refresh();
   if (state_.has_value() && state_pace_.takes(state_.value(), tick)) append(recording::StateChange{state_.value()});
-  if (!status_pace_.is_due(tick) || !status_.refresh()) return;
-  status_pace_.taken(tick);
-  append(recording::StatusReport{status_.value()});
+  if (status_pace_.is_due(tick) && status_.refresh()) {
+    status_pace_.taken(tick);
+    append(recording::StatusReport{status_.value()});
+  }
+  if (outputs_pace_.is_due(tick) && outputs_.refresh()) {
+    outputs_pace_.taken(tick);
+    append(outputs_.value());
+  }
 }
 
 void Recorder::take_sweeps(std::uint64_t& lost) {

@@ -46,8 +46,9 @@ class Recorder {
   std::uint32_t from_epoch_ = 0;
   shm::LatestReader<databuffer::RadarState> state_;
   shm::LatestReader<databuffer::ModelStatus> status_;
+  shm::LatestReader<databuffer::Outputs> outputs_;
   recording::StatePace state_pace_;
-  recording::Pace status_pace_;
+  recording::Pace status_pace_, outputs_pace_;
   databuffer::Sweep sweep_{};
   recording::Patch patch_;
   std::uint64_t newest_patch_ = 0;  // id of the last one written

@@ -106,6 +106,18 @@ inline std::vector<RecordingItem> items_of_every_kind(int ticks, int step = 1) {
     if (i % 11 == 4) items.emplace_back(patch_at(tick, static_cast<std::uint32_t>(i % 13), random));
     if (i % 13 == 5) items.emplace_back(noise_record<databuffer::Nav>(random));
     if (i % 17 == 6) items.emplace_back(noise_record<databuffer::Ownship>(random));
+    if (i % 23 == 8) {
+      databuffer::Outputs outputs{};
+      outputs.tick = tick;
+      outputs.slant_range_m = 1e4 + i;
+      items.emplace_back(outputs);
+    }
+    if (i % 29 == 9) {
+      databuffer::RecorderStatus status{};
+      status.tick = tick;
+      status.bytes = random();
+      items.emplace_back(status);
+    }
     if (i % 19 == 7) items.emplace_back(Gap{random(), 2, 3});
     if (i % 5 == 3) {
       StatusReport report{};

@@ -34,6 +34,9 @@ TEST(StatePace, TakesWhatMovesTenTimesASecond) {
                        state.cursor_range_nm = 0.02 * tick;
                        state.frame_latitude_deg = 1e-5 * tick;
                        state.points[3].elevation_m = tick;
+                       state.ins.north_m = 0.1 * tick;
+                       state.update_east_m = 0.1 * tick;
+                       state.steering_line_deg = 0.1 * tick;
                      }),
             100);
 }

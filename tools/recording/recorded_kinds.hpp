@@ -14,7 +14,9 @@
 #include <vector>
 
 #include "databuffer/records/model_records.hpp"
+#include "databuffer/records/outputs.hpp"
 #include "databuffer/records/patch_map.hpp"
+#include "databuffer/records/recorder_status.hpp"
 
 namespace yars::tools::recording {
 
@@ -90,10 +92,14 @@ template <>
 inline constexpr KindName kKindOf<databuffer::Sweep>{10, "Sweep"};
 template <>
 inline constexpr KindName kKindOf<Patch>{11, "PatchMap"};
+template <>
+inline constexpr KindName kKindOf<databuffer::Outputs>{12, "Outputs"};
+template <>
+inline constexpr KindName kKindOf<databuffer::RecorderStatus>{13, "RecorderStatus"};
 
-using RecordingItem =
-    std::variant<databuffer::ModelTick, databuffer::AppliedEvent, SweepMark, StartingPoint, Gap, StateChange,
-                 StatusReport, databuffer::Nav, databuffer::Ownship, databuffer::Sweep, Patch>;
+using RecordingItem = std::variant<databuffer::ModelTick, databuffer::AppliedEvent, SweepMark, StartingPoint, Gap,
+                                   StateChange, StatusReport, databuffer::Nav, databuffer::Ownship, databuffer::Sweep,
+                                   Patch, databuffer::Outputs, databuffer::RecorderStatus>;
 
 // A record as it is kept.
 struct RecordParts {

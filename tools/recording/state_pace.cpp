@@ -15,6 +15,12 @@ RadarState without_what_moves(RadarState state) {
   state.cursor_latitude_deg = state.cursor_longitude_deg = state.cursor_elevation_m = 0.0;
   state.cursor_bearing_deg = state.cursor_range_nm = 0.0;
   state.tdc_x = state.tdc_y = 0.0;
+  state.cursor_believed_latitude_deg = state.cursor_believed_longitude_deg = 0.0;
+  state.cursor_moved_tick = 0;
+  state.update_north_m = state.update_east_m = 0.0;
+  state.mission = state.ins = {};
+  state.velocity_along_mps = state.velocity_across_mps = state.velocity_vertical_mps = 0.0;
+  state.steering_line_deg = state.magnetic_variation_deg = 0.0;
   state.frame_latitude_deg = state.frame_longitude_deg = state.frame_track_deg = 0.0;
   for (databuffer::DrawnPoint& point : state.points) point.latitude_deg = point.longitude_deg = point.elevation_m = 0.0;
   return state;
