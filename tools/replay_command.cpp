@@ -6,12 +6,13 @@
 #include <utility>
 
 #include "config/load.hpp"
+#include "databuffer/log.hpp"
 #include "databuffer/program.hpp"
 #include "databuffer/records/event_text.hpp"
 #include "model/terrain/open_terrain.hpp"
 #include "tools/command.hpp"
+#include "tools/recording/recording_reader.hpp"
 #include "tools/recording/replay.hpp"
-#include "tools/recording/tick_log.hpp"
 #include "tools/watch_json.hpp"
 
 namespace yars::tools {
@@ -27,7 +28,7 @@ struct ReplayOptions {
   bool print = false;
 };
 
-radar::RadarConfiguration configuration_of(const CommonOptions& common, const recording::TickLogHeader& header,
+radar::RadarConfiguration configuration_of(const CommonOptions& common, const recording::RecordingHeader& header,
                                            const ReplayOptions& options) {
   auto loaded = config::load_configuration(common.config.empty() ? header.configuration : common.config);
   if (!loaded) give_up(loaded.error());
@@ -36,7 +37,15 @@ radar::RadarConfiguration configuration_of(const CommonOptions& common, const re
   return std::move(loaded->radar);
 }
 
-void print_entries(recording::TickLogReader& reader) {
+// Where it ends early; what was read stands.
+void warn_if_cut_short(const recording::RecordingReader& reader, const std::string& file) {
+  if (reader.damage())
+    databuffer::log_warning(reader.damage()->message());
+  else if (reader.cut_short())
+    databuffer::log_warning(file + ": cut short; it was read to its last whole block");
+}
+
+void print_entries(recording::RecordingReader& reader) {
   while (const auto entry = reader.next()) {
     if (databuffer::stop_requested()) return;
     nlohmann::ordered_json object;
@@ -47,6 +56,9 @@ void print_entries(recording::TickLogReader& reader) {
     } else if (const auto* change = std::get_if<recording::StateChange>(&*entry)) {
       object["tick"] = change->state.tick;
       add_radar_state(object["state"], change->state);
+    } else if (const auto* patch = std::get_if<recording::Patch>(&*entry)) {
+      object["tick"] = patch->map.end_tick;
+      object["patch"] = {{"id", patch->map.id}, {"size", patch->map.size}, {"hash", patch->map.hash}};
     } else {
       continue;
     }
@@ -55,10 +67,11 @@ void print_entries(recording::TickLogReader& reader) {
 }
 
 void replay(const CommonOptions& common, const ReplayOptions& options) {
-  auto reader = recording::TickLogReader::open(options.file);
+  auto reader = recording::RecordingReader::open(options.file);
   if (!reader) give_up(reader.error());
   if (options.print) {
     print_entries(*reader);
+    warn_if_cut_short(*reader, options.file);
     return;
   }
   auto configuration = configuration_of(common, reader->header(), options);
@@ -77,6 +90,8 @@ void replay(const CommonOptions& common, const ReplayOptions& options) {
       run->tick(*tick);
     } else if (const auto* mark = std::get_if<recording::SweepMark>(&*entry)) {
       if (run) run->recorded(*mark);
+    } else if (const auto* sweep = std::get_if<databuffer::Sweep>(&*entry)) {
+      if (run) run->recorded(recording::mark_of(*sweep));
     } else if (const auto* start = std::get_if<recording::StartingPoint>(&*entry)) {
       if (!run) run.emplace(configuration, **store, scenes->get());
       run->start(*start);
@@ -86,6 +101,7 @@ void replay(const CommonOptions& common, const ReplayOptions& options) {
       ++events;
     }
   }
+  warn_if_cut_short(*reader, options.file);
   if (!run) give_up({options.file, "at least one tick", "none", "record while radar-model runs", false});
   const nlohmann::ordered_json object{{"ticks", run->ticks()},
                                       {"events", events},
@@ -116,7 +132,8 @@ void add_replay_command(CLI::App& app, const CommonOptions& common) {
   auto options = std::make_shared<ReplayOptions>();
   command->add_option("FILE", options->file, "recording made by yars record")->required();
   auto* events = command->add_flag("--events", options->events, "from the recorded ticks, offline");
-  auto* print = command->add_flag("--print", options->print, "print the events and radar states, a JSON object a line");
+  auto* print =
+      command->add_flag("--print", options->print, "print events, radar states and patch maps, a JSON object a line");
   events->excludes(print);
   command->add_option("--terrain", options->terrain, "terrain directory (else the recording's)");
   command->callback([&common, options] {

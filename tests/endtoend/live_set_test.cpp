@@ -176,7 +176,8 @@ TEST_F(LiveSet, AutomaticFidelityGivesWayToTheShareAndReplays) {
   std::ofstream(configuration) << "( Apg70 :fidelity ( Fidelity :preset auto :coreShare 0.001 ) )\n";
   const auto recording = (set_.folder() / "run.yars").string();
   for (const auto* role : {"state-machine", "flight-model"}) start(role);
-  set_.start("recorder", {"yars", "--config", configuration, "record", recording});
+  // With video: the sweeps themselves say what they are.
+  set_.start("recorder", {"yars", "--config", configuration, "record", "--sweeps", recording});
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].contains("recorder"); }));
   set_.start("radar-model", {"radar-model", "--config", configuration});
   inject({"power opr", "elevation -3"});

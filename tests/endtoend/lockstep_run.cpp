@@ -55,7 +55,7 @@ LockstepRun::LockstepRun(const std::string& name, const std::vector<ScriptedStep
     arguments.insert(arguments.end(), {"--lockstep", plan});
     set_.start(role, arguments);
   };
-  start("recorder", {"yars", "record", recording_.string()});
+  start("recorder", {"yars", "record", "--patches", recording_.string()});
   start("flight-model", {"flight-model", "--source", source});
   start("input-monitor", {"input-monitor", "--source", "script:" + (set_.folder() / "script").string()});
   start("state-machine", {"state-machine"});
@@ -87,7 +87,7 @@ std::vector<json> LockstepRun::printed() const {
 std::map<std::int64_t, json> LockstepRun::states() const {
   std::map<std::int64_t, json> states;
   for (const json& object : printed())
-    if (!object.contains("event")) states[object["tick"]] = object["state"];
+    if (object.contains("state")) states[object["tick"]] = object["state"];
   return states;
 }
 

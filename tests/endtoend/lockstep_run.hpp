@@ -42,10 +42,10 @@ class LockstepRun {
   // The states that came and went, by tick.
   std::map<std::int64_t, nlohmann::json> states() const;
   nlohmann::json replayed() const;
-
- private:
+  // What `yars replay --print` says, an object a line.
   std::vector<nlohmann::json> printed() const;
 
+ private:
   ProcessSet set_;
   std::filesystem::path recording_;
 };

@@ -54,6 +54,13 @@ TEST(MapFlow, APatchIsCommandedFormedFrozenRecalledStoredAndLeft) {
   const json replayed = run.replayed();
   EXPECT_EQ(replayed["different"], 0);
   EXPECT_GT(replayed["equal"], 100);
+
+  // Each map that was completed is in the recording, once.
+  std::vector<std::uint64_t> ids;
+  for (const json& object : run.printed())
+    if (object.contains("patch")) ids.push_back(object["patch"]["id"]);
+  ASSERT_GE(ids.size(), 2U);
+  for (std::size_t i = 1; i < ids.size(); ++i) EXPECT_EQ(ids[i], ids[i - 1] + 1);
   EXPECT_GT(lit_pixels(run.frames() / run.frame_bytes().rbegin()->first), 3000U);
 }
 

@@ -17,10 +17,6 @@ model::terrain::TerrainViewPointer hills() {
   return std::make_shared<const model::terrain::AnalyticTerrain>(model::terrain::built_in_hills());
 }
 
-SweepMark mark_of(const databuffer::Sweep& sweep) {
-  return {sweep.tick, sweep.hash, sweep.epoch, sweep.number, sweep.flags, 0};
-}
-
 // The live model as its process drives it, and what a recorder would have of it.
 class Recorded {
  public:

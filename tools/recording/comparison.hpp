@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "databuffer/records/model_records.hpp"
-#include "tools/recording/tick_log.hpp"
+#include "tools/recording/recorded_kinds.hpp"
 
 namespace yars::tools::recording {
 

@@ -8,7 +8,7 @@
 #include "model/scene/scene_store.hpp"
 #include "model/terrain/terrain_view.hpp"
 #include "tools/recording/comparison.hpp"
-#include "tools/recording/tick_log.hpp"
+#include "tools/recording/recorded_kinds.hpp"
 
 namespace yars::tools::recording {
 

@@ -1,0 +1,166 @@
+// Recordings made up for tests: items of every kind, and what is in a file of them.
+#pragma once
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tools/recording/recording_reader.hpp"
+#include "tools/recording/recording_writer.hpp"
+
+namespace yars::test {
+
+using tools::recording::RecordingItem;
+
+// A file that goes with the test.
+class TemporaryFile {
+ public:
+  TemporaryFile() {
+    static int number = 0;
+    path_ = std::filesystem::temp_directory_path() /
+            ("yars_recording_" + std::to_string(::getpid()) + "_" + std::to_string(number++));
+  }
+  ~TemporaryFile() { std::filesystem::remove(path_); }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+  std::string bytes() const {
+    std::ifstream file(path_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+template <class T>
+T noise_record(std::mt19937_64& random) {
+  T record{};
+  std::vector<std::uint64_t> words(sizeof record / 8 + 1);
+  for (auto& word : words) word = random();
+  std::memcpy(&record, words.data(), sizeof record);
+  return record;
+}
+
+inline databuffer::ModelTick tick_at(std::int64_t tick) {
+  databuffer::ModelTick record{};
+  record.tick = tick;
+  record.sim_time_ns = tick * radar::kTickNanoseconds;
+  record.ownship.latitude_deg = 37.0 + 1e-5 * static_cast<double>(tick);
+  record.ownship.longitude_deg = -122.0 + 2e-5 * std::sin(1e-3 * static_cast<double>(tick));
+  record.ownship.radar_altitude_m = std::nan("");
+  record.epoch = 1;
+  return record;
+}
+
+inline databuffer::Sweep sweep_at(std::int64_t tick, std::uint32_t samples, std::mt19937_64& random) {
+  databuffer::Sweep sweep{};
+  sweep.tick = tick;
+  sweep.samples = samples;
+  sweep.hash = random();
+  for (std::uint32_t i = 0; i < samples; ++i) sweep.video[i] = static_cast<std::uint8_t>(random());
+  return sweep;
+}
+
+inline tools::recording::Patch patch_at(std::int64_t tick, std::uint32_t size, std::mt19937_64& random) {
+  tools::recording::Patch patch{};
+  patch.map.id = static_cast<std::uint64_t>(tick);
+  patch.map.end_tick = tick;
+  patch.map.size = size;
+  patch.pixels.resize(std::size_t{size} * size);
+  for (auto& pixel : patch.pixels) pixel = static_cast<std::uint8_t>(random());
+  return patch;
+}
+
+// All kinds, mixed, one tick each `step` ticks; of some records every byte is noise.
+inline std::vector<RecordingItem> items_of_every_kind(int ticks, int step = 1) {
+  using namespace tools::recording;
+  std::mt19937_64 random(20261122);
+  std::vector<RecordingItem> items{StartingPoint{noise_record<databuffer::ModelStatus>(random)}};
+  std::get<StartingPoint>(items[0]).status.tick = 99;
+  for (int i = 0; i < ticks; ++i) {
+    const std::int64_t tick = 100 + std::int64_t{i} * step;
+    items.emplace_back(tick_at(tick));
+    items.emplace_back(SweepMark{tick, random(), 1, static_cast<std::uint32_t>(i), 0, 0});
+    if (i % 3 == 0) items.emplace_back(sweep_at(tick, static_cast<std::uint32_t>(i % 40), random));
+    if (i % 7 == 2) {
+      auto event = noise_record<databuffer::AppliedEvent>(random);
+      event.tick = tick;
+      items.emplace_back(event);
+    }
+    if (i % 5 == 1) {
+      StateChange change{};
+      change.state.tick = tick;
+      change.state.range_nm = 10.0 * (1 + i % 4);
+      items.emplace_back(change);
+    }
+    if (i % 11 == 4) items.emplace_back(patch_at(tick, static_cast<std::uint32_t>(i % 13), random));
+    if (i % 13 == 5) items.emplace_back(noise_record<databuffer::Nav>(random));
+    if (i % 17 == 6) items.emplace_back(noise_record<databuffer::Ownship>(random));
+    if (i % 23 == 8) {
+      databuffer::Outputs outputs{};
+      outputs.tick = tick;
+      outputs.slant_range_m = 1e4 + i;
+      items.emplace_back(outputs);
+    }
+    if (i % 29 == 9) {
+      databuffer::RecorderStatus status{};
+      status.tick = tick;
+      status.bytes = random();
+      items.emplace_back(status);
+    }
+    if (i % 19 == 7) items.emplace_back(Gap{random(), 2, 3});
+    if (i % 5 == 3) {
+      StatusReport report{};
+      report.status.tick = tick;
+      report.status.load = 1e-3 * i;
+      items.emplace_back(report);
+    }
+  }
+  return items;
+}
+
+inline bool same(const RecordingItem& a, const RecordingItem& b) {
+  if (a.index() != b.index()) return false;
+  const auto bytes_of = [](const RecordingItem& item) {
+    return std::visit(
+        [](const auto& record) {
+          const auto parts = tools::recording::parts_of(record);
+          std::vector<std::byte> bytes(parts.fixed.begin(), parts.fixed.end());
+          bytes.insert(bytes.end(), parts.tail.begin(), parts.tail.end());
+          return bytes;
+        },
+        item);
+  };
+  return bytes_of(a) == bytes_of(b);
+}
+
+// A whole recording as its file has it.
+inline std::string recorded(const std::vector<RecordingItem>& items) {
+  const TemporaryFile file;
+  auto writer = tools::recording::RecordingWriter::create(file.path(), {"made.guf", "hills"});
+  for (const auto& item : items) std::visit([&](const auto& record) { (void)writer->append(record); }, item);
+  (void)writer->close();
+  return file.bytes();
+}
+
+inline failure::Expected<tools::recording::RecordingReader> reader_of(const std::string& bytes) {
+  return tools::recording::RecordingReader::read(std::make_unique<std::istringstream>(bytes), "made");
+}
+
+inline std::vector<RecordingItem> rest_of(tools::recording::RecordingReader& reader) {
+  std::vector<RecordingItem> items;
+  while (auto item = reader.next()) items.push_back(std::move(*item));
+  return items;
+}
+
+}  // namespace yars::test

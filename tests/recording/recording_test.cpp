@@ -1,0 +1,332 @@
+// What is recorded is read, all of it and in order; what was damaged or cut short is read as far as it is whole.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <csignal>
+
+#include "databuffer/flight/route_flight.hpp"
+#include "tests/recording/made_recording.hpp"
+#include "tools/recording/block_head.hpp"
+#include "tools/recording/state_pace.hpp"
+
+namespace yars::tools::recording {
+namespace {
+
+using databuffer::ModelTick;
+using test::items_of_every_kind;
+using test::reader_of;
+using test::recorded;
+using test::rest_of;
+using test::same;
+
+void expect_same(const std::vector<RecordingItem>& found, const std::vector<RecordingItem>& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) ASSERT_TRUE(same(found[i], expected[i])) << "item " << i;
+}
+
+bool is_begin_of(const std::vector<RecordingItem>& found, const std::vector<RecordingItem>& whole) {
+  return found.size() <= whole.size() && std::equal(found.begin(), found.end(), whole.begin(), same);
+}
+
+// Where each block ends in a file, and how many items have been read by then.
+struct BlockEnd {
+  std::size_t bytes;
+  std::size_t items;
+};
+std::vector<BlockEnd> block_ends(const std::string& file) {
+  const auto reader = reader_of(file);
+  std::vector<BlockEnd> ends;
+  std::size_t items = 0;
+  for (const IndexEntry& block : reader->blocks()) {
+    BlockHead head{};
+    std::memcpy(&head, file.data() + block.offset, sizeof head);
+    items += head.items;
+    ends.push_back({block.offset + sizeof head + head.packed_bytes, items});
+  }
+  return ends;
+}
+
+TEST(Recording, GivesBackEveryItemInOrder) {
+  const auto items = items_of_every_kind(1500);
+  auto reader = reader_of(recorded(items));
+  ASSERT_TRUE(reader.has_value()) << reader.error().message();
+  EXPECT_EQ(reader->header().configuration, "made.guf");
+  EXPECT_EQ(reader->header().terrain, "hills");
+  EXPECT_GE(reader->blocks().size(), 7U) << "of a second each";
+  expect_same(rest_of(*reader), items);
+  EXPECT_FALSE(reader->cut_short());
+}
+
+TEST(Recording, OfNothingIsWhole) {
+  auto reader = reader_of(recorded({}));
+  ASSERT_TRUE(reader.has_value());
+  EXPECT_FALSE(reader->next().has_value());
+  EXPECT_FALSE(reader->cut_short());
+  reader->seek_tick(5);
+  EXPECT_FALSE(reader->next().has_value());
+}
+
+TEST(Recording, CutAtAnyLengthReadsToItsLastWholeBlock) {
+  const auto items = items_of_every_kind(24, 25);
+  const std::string whole = recorded(items);
+  const auto ends = block_ends(whole);
+  ASSERT_GE(ends.size(), 3U);
+  const std::size_t header = reader_of(whole)->blocks()[0].offset;
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    SCOPED_TRACE(length);
+    auto reader = reader_of(whole.substr(0, length));
+    ASSERT_EQ(reader.has_value(), length >= header);
+    if (!reader) continue;
+    std::size_t expected = 0;
+    for (const auto& end : ends)
+      if (end.bytes <= length) expected = end.items;
+    const auto found = rest_of(*reader);
+    ASSERT_EQ(found.size(), expected);
+    EXPECT_TRUE(is_begin_of(found, items));
+    EXPECT_TRUE(reader->cut_short());
+    EXPECT_FALSE(reader->damage().has_value()) << "cut, not damaged";
+  }
+}
+
+TEST(Recording, FindsAnyByteThatWasChanged) {
+  const auto items = items_of_every_kind(24, 25);
+  const std::string whole = recorded(items);
+  const auto ends = block_ends(whole);
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    const unsigned flip = at % 3 == 0 ? 0xffU : 1U << at % 8;
+    SCOPED_TRACE(std::to_string(at) + " by " + std::to_string(flip));
+    std::string changed = whole;
+    changed[at] = static_cast<char>(static_cast<unsigned char>(changed[at]) ^ flip);
+    auto reader = reader_of(changed);
+    if (!reader) continue;
+    const auto found = rest_of(*reader);
+    EXPECT_TRUE(reader->cut_short());
+    EXPECT_TRUE(is_begin_of(found, items));
+    // All before the block with the byte; all of them where it lies in the index.
+    std::size_t expected = 0;
+    for (const auto& end : ends)
+      if (end.bytes <= at) expected = end.items;
+    EXPECT_EQ(found.size(), expected);
+  }
+}
+
+TEST(Recording, SaysWhereABlockIsDamaged) {
+  std::string bytes = recorded(items_of_every_kind(1000));
+  const std::uint64_t third = reader_of(bytes)->blocks()[2].offset;
+  bytes[third + sizeof(BlockHead) + 20] ^= 1;
+  auto reader = reader_of(bytes);
+  rest_of(*reader);
+  ASSERT_TRUE(reader->damage().has_value());
+  EXPECT_NE(reader->damage()->message().find("byte " + std::to_string(third)), std::string::npos)
+      << reader->damage()->message();
+  reader->seek_tick(900);
+  EXPECT_TRUE(reader->next().has_value()) << "what lies behind it can be sought";
+  EXPECT_TRUE(reader->cut_short());
+}
+
+TEST(Recording, SeeksTheBlockThatHoldsATick) {
+  const auto items = items_of_every_kind(2000);
+  auto reader = reader_of(recorded(items));
+  for (const int tick : {1999, 100, 1234, 700, 299, 300, 301}) {
+    SCOPED_TRACE(tick);
+    reader->seek_tick(tick);
+    const auto rest = rest_of(*reader);
+    const auto found = std::find_if(rest.begin(), rest.end(), [tick](const auto& item) {
+      const auto* record = std::get_if<ModelTick>(&item);
+      return record != nullptr && record->tick == tick;
+    });
+    ASSERT_NE(found, rest.end());
+    EXPECT_LT(found - rest.begin(), 1000) << "within the first block read";
+    EXPECT_TRUE(std::equal(rest.rbegin(), rest.rend(), items.rbegin(), same));
+  }
+  reader->seek_time(0);
+  expect_same(rest_of(*reader), items);
+  reader->seek_time(std::int64_t{3600} * 1'000'000'000);
+  EXPECT_LT(rest_of(*reader).size(), 1000U) << "the last block";
+}
+
+TEST(Recording, KnowsWhatTheRadarWasSetToWhereABlockBegins) {
+  const auto items = items_of_every_kind(2000);
+  auto reader = reader_of(recorded(items));
+  EXPECT_FALSE(reader->last_before<StateChange>().has_value());
+  EXPECT_FALSE(reader->last_before<StartingPoint>().has_value());
+  reader->seek_tick(1000);
+  const auto rest = rest_of(*reader);
+  reader->seek_tick(1000);
+  const auto begin = items.end() - static_cast<std::ptrdiff_t>(rest.size());
+  const auto is_state = [](const auto& item) { return std::holds_alternative<StateChange>(item); };
+  const auto last = std::find_if(std::make_reverse_iterator(begin), items.rend(), is_state);
+  const auto state = reader->last_before<StateChange>();
+  ASSERT_TRUE(state.has_value());
+  EXPECT_TRUE(same(*state, *last));
+  ASSERT_TRUE(reader->last_before<StartingPoint>().has_value()) << "of a block far before";
+  EXPECT_TRUE(same(*reader->last_before<StartingPoint>(), items[0]));
+  // Within a block it is still what was before that block.
+  ASSERT_TRUE(reader->next().has_value());
+  EXPECT_TRUE(same(*reader->last_before<StateChange>(), *last));
+}
+
+TEST(Recording, BeginsABlockWhenTimeBeginsAnew) {
+  std::vector<RecordingItem> items;
+  for (int tick = 5000; tick < 5050; ++tick) items.emplace_back(test::tick_at(tick));
+  for (int tick = 0; tick < 50; ++tick) items.emplace_back(test::tick_at(tick));
+  auto reader = reader_of(recorded(items));
+  ASSERT_EQ(reader->blocks().size(), 2U);
+  EXPECT_EQ(reader->blocks()[0].first_tick, 5000);
+  EXPECT_EQ(reader->blocks()[0].last_tick, 5049);
+  EXPECT_EQ(reader->blocks()[1].last_tick, 49);
+  expect_same(rest_of(*reader), items);
+  reader->seek_tick(20);
+  EXPECT_EQ(rest_of(*reader).size(), 50U);
+}
+
+TEST(Recording, TakesAnyTicks) {
+  constexpr auto kLeast = std::numeric_limits<std::int64_t>::min(), kMost = std::numeric_limits<std::int64_t>::max();
+  std::vector<RecordingItem> items;
+  for (const std::int64_t tick : {std::int64_t{0}, kMost, kLeast, kMost - 1, kLeast + 1}) {
+    ModelTick record = test::tick_at(0);
+    record.tick = tick;
+    items.emplace_back(record);
+  }
+  auto reader = reader_of(recorded(items));
+  expect_same(rest_of(*reader), items);
+}
+
+TEST(Recording, WritesWhatFillsMemoryBeforeASecondIsOver) {
+  std::mt19937_64 random(3);
+  std::vector<RecordingItem> items;
+  for (int i = 0; i < 12; ++i) items.emplace_back(test::patch_at(7, databuffer::kMostPatchPixels, random));
+  for (int i = 0; i < 20'000; ++i) items.emplace_back(Gap{1, 2, 3});
+  auto reader = reader_of(recorded(items));
+  EXPECT_GE(reader->blocks().size(), 5U);
+  expect_same(rest_of(*reader), items);
+}
+
+TEST(Recording, OfSweepsTakesNoMoreThanTheSweepsThemselves) {
+  std::mt19937_64 random(11);
+  std::vector<RecordingItem> items;
+  std::size_t raw = 0;
+  for (int tick = 0; tick < 400; ++tick) {
+    auto sweep = test::sweep_at(tick, 512, random);  // noise: nothing packs it
+    raw += used_bytes(sweep);
+    items.emplace_back(sweep);
+  }
+  EXPECT_LT(recorded(items).size(), raw);
+}
+
+// A minute of the built-in flight, with a cursor whose readouts change each tick.
+TEST(Recording, OfAnHourTakesAtMost50Megabytes) {
+  const auto route = databuffer::flight::parse_route(
+      "37.5 -122 15000 420\n37.6 -122 18000 480\n37.6 -121.9 16000 450\n37.5 -121.9 15000 480\nloop\n", "made");
+  databuffer::flight::RouteFlight flight(*route);
+  std::vector<RecordingItem> items;
+  StatePace pace;
+  databuffer::RadarState state{};
+  for (int tick = 0; tick < 60 * 200; ++tick) {
+    ModelTick record = test::tick_at(tick);
+    record.ownship = flight.step(geo::Duration::seconds(radar::kTickSeconds)).ownship;
+    record.ownship.source_time_ns = record.sim_time_ns;
+    items.emplace_back(record);
+    state.tick = tick;
+    state.cursor_bearing_deg = 100.0 * record.ownship.latitude_deg;
+    state.cursor_range_nm = 20.0 - 100.0 * (record.ownship.longitude_deg + 122.0);
+    if (pace.takes(state, tick)) items.emplace_back(StateChange{state});
+    if (tick % 20 == 0) items.emplace_back(databuffer::AppliedEvent{tick, tick, {}, 0, 1});
+  }
+  const std::size_t bytes = recorded(items).size();
+  RecordProperty("megabytes_an_hour", std::to_string(static_cast<double>(bytes) * 60e-6));
+  EXPECT_LT(bytes * 60, 50'000'000U);
+}
+
+TEST(Recording, SaysThatTheDiskIsFull) {
+  const auto full = RecordingWriter::create("/dev/full", {});
+  ASSERT_FALSE(full.has_value());
+  EXPECT_NE(full.error().message().find("room on the disk"), std::string::npos) << full.error().message();
+}
+
+// A limit on the file's size stands for a disk that fills up.
+TEST(Recording, OfADiskThatFillsUpReadsToItsLastWholeBlock) {
+  const test::TemporaryFile file;
+  auto writer = RecordingWriter::create(file.path(), {});
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto on_signal = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit = before;
+  limit.rlim_cur = 40'000;
+  setrlimit(RLIMIT_FSIZE, &limit);
+  const auto items = items_of_every_kind(3000);
+  failure::Expected<void> outcome;
+  std::size_t taken = 0;
+  for (; outcome && taken < items.size(); ++taken)
+    outcome = std::visit([&](const auto& record) { return writer->append(record); }, items[taken]);
+  const auto again = writer->append(Gap{});
+  const auto closed = writer->close();
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, on_signal);
+  ASSERT_LT(taken, items.size());
+  EXPECT_NE(outcome.error().message().find("room on the disk"), std::string::npos) << outcome.error().message();
+  EXPECT_FALSE(again.has_value());
+  EXPECT_FALSE(closed.has_value());
+  auto reader = RecordingReader::open(file.path());
+  ASSERT_TRUE(reader.has_value());
+  const auto found = rest_of(*reader);
+  EXPECT_GT(found.size(), 100U);
+  EXPECT_TRUE(is_begin_of(found, items));
+  EXPECT_TRUE(reader->cut_short());
+}
+
+TEST(Recording, SaysWhatIsNoneOfIts) {
+  const auto message_of = [](const std::string& bytes) {
+    const auto reader = reader_of(bytes);
+    return reader ? std::string("read") : reader.error().message();
+  };
+  EXPECT_NE(message_of("").find("another kind of file"), std::string::npos);
+  EXPECT_NE(message_of("a letter of some length, by a person").find("another kind of file"), std::string::npos);
+  std::string other = recorded({});
+  other[8] = 2;
+  EXPECT_NE(message_of(other).find("version 3"), std::string::npos) << message_of(other);
+  EXPECT_FALSE(RecordingReader::open("/nowhere/run.yars").has_value());
+}
+
+TEST(Recording, OfRecordsOfAnotherSizeNamesThem) {
+  std::string bytes = recorded({});
+  // The first kind's size, and the header's checksum made right again.
+  constexpr std::size_t kFirstKindBytes = 24 + 4;
+  bytes[kFirstKindBytes] ^= 8;
+  const std::size_t header = 24 + 8 * recorded_kinds().size() + std::string("made.gufhills").size();
+  const std::uint32_t checksum = checksum_of(std::as_bytes(std::span(bytes).first(header)));
+  std::memcpy(bytes.data() + header, &checksum, sizeof checksum);
+  const auto reader = reader_of(bytes);
+  ASSERT_FALSE(reader.has_value());
+  EXPECT_NE(reader.error().message().find("ModelTick 1 of " + std::to_string(sizeof(ModelTick)) + " bytes"),
+            std::string::npos)
+      << reader.error().message();
+}
+
+TEST(Recording, BelievesNoHeadThatClaimsMoreThanItsBodyHolds) {
+  const std::string whole = recorded(items_of_every_kind(100));
+  const std::uint64_t offset = reader_of(whole)->blocks()[0].offset;
+  BlockHead head{};
+  std::memcpy(&head, whole.data() + offset, sizeof head);
+  const auto body = std::as_bytes(std::span(whole)).subspan(offset + sizeof head, head.packed_bytes);
+  const auto items_read_with = [&](BlockHead claimed) {
+    std::string bytes = whole;
+    const auto block = sealed(claimed, body);
+    std::memcpy(bytes.data() + offset, block.data(), block.size());
+    auto reader = reader_of(bytes);
+    const std::size_t items = rest_of(*reader).size();
+    EXPECT_EQ(reader->damage().has_value(), items == 0);
+    return items;
+  };
+  EXPECT_GT(items_read_with(head), 0U);
+  for (std::uint32_t BlockHead::*claim : {&BlockHead::items, &BlockHead::raw_bytes})
+    for (const std::uint32_t value : {0U, head.*claim - 1, head.*claim + 1, 0x7fffffU, 0xffffffffU}) {
+      BlockHead claimed = head;
+      claimed.*claim = value;
+      EXPECT_EQ(items_read_with(claimed), 0U) << value;
+    }
+}
+
+}  // namespace
+}  // namespace yars::tools::recording

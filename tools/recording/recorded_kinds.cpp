@@ -1,0 +1,103 @@
+#include "tools/recording/recorded_kinds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace yars::tools::recording {
+
+namespace {
+
+using databuffer::PatchMap;
+using databuffer::Sweep;
+
+constexpr std::size_t kSweepFields = offsetof(Sweep, video);  // [bytes]
+
+std::size_t patch_pixels(const PatchMap& map) {
+  const std::size_t edge = std::min(map.size, databuffer::kMostPatchPixels);
+  return edge * edge;
+}
+
+std::size_t sweep_tail(std::span<const std::byte> fixed) {
+  decltype(Sweep::samples) samples = 0;
+  std::memcpy(&samples, fixed.data() + offsetof(Sweep, samples), sizeof samples);
+  return std::min<std::size_t>(samples, radar::kMaxSamples);
+}
+
+std::size_t patch_tail(std::span<const std::byte> fixed) {
+  PatchMap map{};
+  std::memcpy(&map, fixed.data(), sizeof map);
+  return patch_pixels(map);
+}
+
+template <class T>
+RecordingItem item_from(const RecordParts& parts) {
+  T record{};
+  std::memcpy(&record, parts.fixed.data(), sizeof record);
+  return record;
+}
+
+RecordingItem sweep_from(const RecordParts& parts) {
+  Sweep sweep{};
+  std::memcpy(&sweep, parts.fixed.data(), kSweepFields);
+  std::copy_n(reinterpret_cast<const std::uint8_t*>(parts.tail.data()), parts.tail.size(), sweep.video);
+  return sweep;
+}
+
+RecordingItem patch_from(const RecordParts& parts) {
+  Patch patch{};
+  std::memcpy(&patch.map, parts.fixed.data(), sizeof patch.map);
+  const auto* pixels = reinterpret_cast<const std::uint8_t*>(parts.tail.data());
+  patch.pixels.assign(pixels, pixels + parts.tail.size());
+  return patch;
+}
+
+template <class T>
+constexpr RecordedKind row() {
+  constexpr KindName name = kKindOf<T>;
+  static_assert(name.number >= 1 && name.number <= 63, "a kind is a bit of a block's 64, and 0 is the order of items");
+  if constexpr (std::is_same_v<T, Sweep>)
+    return {name.number, name.name, name.version, kSweepFields, sweep_tail, sweep_from};
+  else if constexpr (std::is_same_v<T, Patch>)
+    return {name.number, name.name, name.version, sizeof(PatchMap), patch_tail, patch_from};
+  else
+    return {name.number, name.name, name.version, sizeof(T), nullptr, item_from<T>};
+}
+
+template <class... Ts>
+constexpr std::array<RecordedKind, sizeof...(Ts)> rows(const std::variant<Ts...>*) {
+  return {row<Ts>()...};
+}
+
+constexpr auto kKinds = rows(static_cast<const RecordingItem*>(nullptr));
+
+constexpr bool numbers_differ() {
+  for (std::size_t i = 0; i < kKinds.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (kKinds[i].number == kKinds[j].number) return false;
+  return true;
+}
+static_assert(numbers_differ());
+
+}  // namespace
+
+RecordParts parts_of(const Sweep& sweep) {
+  const auto bytes = std::as_bytes(std::span(&sweep, 1));
+  return {bytes.first(kSweepFields), bytes.subspan(kSweepFields, sweep_tail(bytes))};
+}
+
+RecordParts parts_of(const Patch& patch) {
+  const auto pixels = std::as_bytes(std::span(patch.pixels));
+  return {std::as_bytes(std::span(&patch.map, 1)), pixels.first(std::min(pixels.size(), patch_pixels(patch.map)))};
+}
+
+std::span<const RecordedKind> recorded_kinds() {
+  return kKinds;
+}
+
+const RecordedKind* recorded_kind(std::uint8_t number) {
+  const auto* row = std::find_if(kKinds.begin(), kKinds.end(), [number](const auto& k) { return k.number == number; });
+  return row == kKinds.end() ? nullptr : row;
+}
+
+}  // namespace yars::tools::recording

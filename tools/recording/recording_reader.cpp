@@ -1,0 +1,97 @@
+#include "tools/recording/recording_reader.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+#include "lib/radar/limits.hpp"
+#include "tools/recording/block_head.hpp"
+
+namespace yars::tools::recording {
+
+failure::Expected<RecordingReader> RecordingReader::open(const std::filesystem::path& path) {
+  auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
+  if (!*file) return failure::fail(path.string(), "a recording that can be read", std::strerror(errno));
+  return read(std::move(file), path.string());
+}
+
+failure::Expected<RecordingReader> RecordingReader::read(std::unique_ptr<std::istream> file, std::string name) {
+  RecordingReader reader;
+  auto header = read_header(*file, name);
+  if (!header) return tl::unexpected(header.error());
+  reader.header_ = std::move(*header);
+  reader.index_ = read_index(*file, static_cast<std::uint64_t>(file->tellg()));
+  reader.file_ = std::move(file);
+  reader.name_ = std::move(name);
+  return reader;
+}
+
+failure::Expected<BlockItems> RecordingReader::block_at(std::uint64_t offset) {
+  const auto damaged = [&](const std::string& found) {
+    return failure::fail(name_, "a block of a recording at byte " + std::to_string(offset), found,
+                         "what lies before it can be read");
+  };
+  BlockHead head{};
+  file_->clear();
+  file_->seekg(static_cast<std::streamoff>(offset));
+  if (!file_->read(reinterpret_cast<char*>(&head), sizeof head) || !is_sound(head) ||
+      head.content != BlockContent::items)
+    return damaged("a head with a wrong checksum");
+  std::vector<std::byte> body(head.packed_bytes);
+  if (!file_->read(reinterpret_cast<char*>(body.data()), static_cast<std::streamsize>(body.size())))
+    return damaged("the end of the file within it");
+  if (!belongs(head, body)) return damaged("a wrong checksum");
+  auto items = BlockItems::decode(head, body);
+  if (!items) return damaged("records that are not those its head tells of");
+  return std::move(*items);
+}
+
+std::optional<RecordingItem> RecordingReader::next() {
+  for (;;) {
+    if (block_)
+      if (auto item = block_->next()) return item;
+    block_.reset();
+    if (ended_ || next_block_ >= index_.blocks.size()) return std::nullopt;
+    auto block = block_at(index_.blocks[next_block_].offset);
+    if (!block) {
+      damage_ = block.error();
+      ended_ = true;
+      return std::nullopt;
+    }
+    block_ = std::move(*block);
+    ++next_block_;
+  }
+}
+
+void RecordingReader::seek_tick(std::int64_t tick) {
+  const auto& blocks = index_.blocks;
+  auto found = std::find_if(blocks.begin(), blocks.end(),
+                            [tick](const auto& block) { return block.first_tick <= tick && tick <= block.last_tick; });
+  if (found == blocks.end()) {
+    const auto before =
+        std::find_if(blocks.rbegin(), blocks.rend(), [tick](const auto& block) { return block.first_tick <= tick; });
+    found = before == blocks.rend() ? blocks.begin() : before.base() - 1;
+  }
+  next_block_ = static_cast<std::size_t>(found - blocks.begin());
+  block_.reset();
+  ended_ = false;
+}
+
+void RecordingReader::seek_time(std::int64_t sim_time_ns) {
+  seek_tick(sim_time_ns / radar::kTickNanoseconds);
+}
+
+std::optional<RecordingItem> RecordingReader::last_before(std::uint8_t kind) {
+  const std::size_t end = next_block_ - (block_ ? 1 : 0);
+  for (std::size_t i = end; i-- > 0;) {
+    if ((index_.blocks[i].kinds >> kind & 1U) == 0) continue;
+    auto block = block_at(index_.blocks[i].offset);
+    if (!block) return std::nullopt;
+    if (auto item = block->last_of(kind)) return item;
+  }
+  return std::nullopt;
+}
+
+}  // namespace yars::tools::recording

@@ -1,0 +1,58 @@
+#include "tools/recording/recording_writer.hpp"
+
+#include <cerrno>
+#include <cstring>
+
+namespace yars::tools::recording {
+
+failure::Expected<RecordingWriter> RecordingWriter::create(const std::filesystem::path& path,
+                                                           const RecordingHeader& header) {
+  if (header.configuration.size() > kMostHeaderText || header.terrain.size() > kMostHeaderText)
+    return failure::fail(path.string(), "paths of at most " + std::to_string(kMostHeaderText) + " bytes to record",
+                         "a longer one of the configuration or the terrain", "give it a shorter path");
+  RecordingWriter writer;
+  writer.path_ = path;
+  writer.file_.open(path, std::ios::binary | std::ios::trunc);
+  if (!writer.file_)
+    return failure::fail(path.string(), "a file that can be written", std::strerror(errno),
+                         "check the folder and its rights");
+  if (auto written = writer.write(bytes_of(header)); !written) return tl::unexpected(written.error());
+  return writer;
+}
+
+failure::Expected<void> RecordingWriter::append(const RecordedKind& kind, const RecordParts& parts,
+                                                std::optional<std::int64_t> tick) {
+  if (block_.is_full_for(parts, tick))
+    if (auto written = flush(); !written) return written;
+  if (error_) return tl::unexpected(*error_);
+  block_.append(kind, parts, tick);
+  return {};
+}
+
+failure::Expected<void> RecordingWriter::flush() {
+  if (error_) return tl::unexpected(*error_);
+  if (block_.empty()) return {};
+  blocks_.push_back({bytes_, block_.first_tick(), block_.last_tick(), block_.kinds()});
+  return write(block_.take(packer_));
+}
+
+failure::Expected<void> RecordingWriter::close() {
+  if (auto written = flush(); !written) return written;
+  auto written = write(bytes_of(blocks_, bytes_, packer_));
+  file_.close();
+  return written;
+}
+
+failure::Expected<void> RecordingWriter::write(const std::vector<std::byte>& bytes) {
+  errno = 0;
+  file_.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (file_.flush()) {
+    bytes_ += bytes.size();
+    return {};
+  }
+  error_ = failure::Error{path_.string(), "room on the disk", errno != 0 ? std::strerror(errno) : "a write that failed",
+                          "the recording ends at its last whole second", false};
+  return tl::unexpected(*error_);
+}
+
+}  // namespace yars::tools::recording
