@@ -28,7 +28,7 @@ failure::Expected<LoadedConfiguration> load_configuration(const std::filesystem:
 }
 
 failure::Expected<LoadedConfiguration> load_configuration_text(std::string_view text, const std::string& name) {
-  return parse_text(text, name).and_then(configuration_from);
+  return tree_of_text(text, name).and_then(configuration_from);
 }
 
 }  // namespace yars::config

@@ -1,4 +1,4 @@
-// From a GUF file to the typed configuration that every role reads.
+// From a file in GUF or in the messages of 1996 to the typed configuration that every role reads.
 #pragma once
 
 #include <filesystem>

@@ -28,16 +28,11 @@ class Scanner {
 }  // namespace
 
 failure::Expected<ParsedText> parse_text(std::string_view text, const std::string& name) {
-  if (text.size() > kMaxTextBytes) {
-    return failure::fail(name, "at most " + std::to_string(kMaxTextBytes) + " bytes of GUF",
-                         std::to_string(text.size()), "split the file");
-  }
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  if (const auto problem = oversize(text, name)) return tl::unexpected(*problem);
   ScanState state;
   state.next.file = std::make_shared<const std::string>(name);
   try {
-    const Scanner scanner(text, state);
+    const Scanner scanner(without_mark(text), state);
     GufParser parser(scanner.handle(), state);
     parser.parse();
   } catch (const Rejection& rejection) {

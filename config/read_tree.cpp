@@ -4,6 +4,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "config/message_text.hpp"
+#include "config/message_translation.hpp"
 #include "config/rejection.hpp"
 
 namespace yars::config {
@@ -19,7 +21,7 @@ std::string text_of_file(const fs::path& path, const std::string& subject) {
     throw Rejection{failure::fail(subject, "a GUF file", path.string() + found, "check the path").value()};
   }
   if (fs::file_size(path, problem) > kMaxTextBytes) {
-    throw Rejection{failure::fail(subject, "at most " + std::to_string(kMaxTextBytes) + " bytes of GUF",
+    throw Rejection{failure::fail(subject, "at most " + std::to_string(kMaxTextBytes) + " bytes in a file",
                                   path.string() + " is larger", "split the file")
                         .value()};
   }
@@ -40,12 +42,14 @@ class TreeReader {
   ParsedText read(const fs::path& path) {
     root_ = fs::weakly_canonical(path).parent_path();
     result_.arguments = arguments_of(path, path.string());
-    return std::move(result_);
+    return in_messages_ ? guf_from_messages(std::move(result_)) : std::move(result_);
   }
 
  private:
   std::vector<Slot> arguments_of(const fs::path& path, const std::string& subject) {
-    auto parsed = parse_text(text_of_file(path, subject), path.string());
+    const std::string text = text_of_file(path, subject);
+    if (open_.empty()) in_messages_ = is_in_messages(text);
+    auto parsed = in_messages_ ? parse_messages(text, path.string()) : parse_text(text, path.string());
     if (!parsed) throw Rejection{parsed.error()};
     result_.tokens += parsed->tokens;
     if (result_.tokens > kMaxTokens) {
@@ -132,6 +136,7 @@ class TreeReader {
 
   fs::path root_;
   std::vector<fs::path> open_;  // the files being read, from the first to the innermost
+  bool in_messages_ = false;    // the first file is, and with it what it includes
   int includes_ = 0;
   ParsedText result_;
 };
@@ -145,6 +150,17 @@ failure::Expected<ParsedText> read_tree(const fs::path& path) {
     return tl::unexpected(rejection.error);
   } catch (const fs::filesystem_error& problem) {
     return failure::fail(path.string(), "a path that the system can follow", problem.code().message());
+  }
+}
+
+failure::Expected<ParsedText> tree_of_text(std::string_view text, const std::string& name) {
+  if (!is_in_messages(text)) return parse_text(text, name);
+  auto messages = parse_messages(text, name);
+  if (!messages) return messages;
+  try {
+    return guf_from_messages(std::move(*messages));
+  } catch (const Rejection& rejection) {
+    return tl::unexpected(rejection.error);
   }
 }
 

@@ -51,6 +51,24 @@ void ScanState::warn_old_spelling(const Location& where, const std::string& old_
   result.warnings.push_back(text_of(where) + ": " + old_form + " is the spelling of 1996; write " + modern);
 }
 
+std::optional<failure::Error> oversize(std::string_view text, const std::string& name) {
+  if (text.size() <= kMaxTextBytes) return std::nullopt;
+  return failure::fail(name, "at most " + std::to_string(kMaxTextBytes) + " bytes in a file",
+                       std::to_string(text.size()), "split the file")
+      .value();
+}
+
+std::string_view without_mark(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  return text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text;
+}
+
+void count_token(ScanState& state) {
+  if (++state.result.tokens > kMaxTokens) {
+    reject(state.next, "at most " + std::to_string(kMaxTokens) + " words in a file", "more", "split the file");
+  }
+}
+
 double number_of(std::string_view text, const ScanState& state) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0.0;

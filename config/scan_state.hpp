@@ -1,6 +1,7 @@
 // What scanner and parser share while one text is read: the place, the limits, the result.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,13 @@ struct ScanState {
   void warn_comma(const Location& where);
   void warn_old_spelling(const Location& where, const std::string& old_form, const std::string& modern);
 };
+
+// What is wrong with the size of a text, if anything.
+std::optional<failure::Error> oversize(std::string_view text, const std::string& name);
+// A text behind its byte order mark.
+std::string_view without_mark(std::string_view text);
+// One word more of the text; throws beyond kMaxTokens.
+void count_token(ScanState& state);
 
 // Text of a token to its value; `state.token` is the place of a complaint.
 double number_of(std::string_view text, const ScanState& state);

@@ -1,7 +1,10 @@
-// yars config check | print: what a GUF file says, and what can be said in one.
+// yars config check | print | convert: what a configuration file says, what can be said in one, and old ones as GUF.
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 
+#include "config/convert.hpp"
 #include "config/load.hpp"
 #include "config/print.hpp"
 #include "tools/command.hpp"
@@ -13,6 +16,7 @@ struct ConfigOptions {
   std::string file;
   bool defaults = false;
   bool markdown = false;
+  std::string out;
 };
 
 // The file of the subcommand, else the one of --config.
@@ -45,10 +49,34 @@ void print(const ConfigOptions& options, const CommonOptions& common) {
   std::fputs(text.c_str(), stdout);
 }
 
+void write_file(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file << text;
+  file.close();
+  if (!file) throw CommandFailed{path + ": expected a file that can be written, found that it cannot", 1};
+}
+
+void convert(const ConfigOptions& options, const CommonOptions& common) {
+  const std::string& file = chosen_file(options, common);
+  if (file.empty()) throw CommandFailed{"yars config convert: expected a file, found none; name one", 2};
+  std::error_code problem;
+  if (!options.out.empty() && std::filesystem::equivalent(file, options.out, problem)) {
+    throw CommandFailed{"--out: expected another file than the one read, found " + options.out, 2};
+  }
+  const auto converted = config::convert_configuration(file, std::filesystem::path(options.out).parent_path());
+  if (!converted) give_up(converted.error());
+  for (const std::string& warning : converted->warnings) std::fprintf(stderr, "%s\n", warning.c_str());
+  if (options.out.empty()) {
+    std::fputs(converted->text.c_str(), stdout);
+  } else {
+    write_file(options.out, converted->text);
+  }
+}
+
 }  // namespace
 
 void add_config_command(CLI::App& app, const CommonOptions& common) {
-  auto* command = app.add_subcommand("config", "check and print configurations in GUF");
+  auto* command = app.add_subcommand("config", "check, print and convert configurations");
   command->require_subcommand(1);
   const auto options = std::make_shared<ConfigOptions>();
 
@@ -63,6 +91,11 @@ void add_config_command(CLI::App& app, const CommonOptions& common) {
   auto* markdown = print_command->add_flag("--markdown", options->markdown, "the slots of every form as tables");
   markdown->excludes(file)->excludes(defaults);
   print_command->callback([options, &common] { print(*options, common); });
+
+  auto* convert_command = command->add_subcommand("convert", "messages and old spellings of 1996 as GUF of today");
+  convert_command->add_option("file", options->file, "the file; else that of --config");
+  convert_command->add_option("--out", options->out, "the GUF file to write; else standard output");
+  convert_command->callback([options, &common] { convert(*options, common); });
 }
 
 }  // namespace yars::tools

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <random>
+#include <span>
 
+#include "config/convert.hpp"
 #include "config/print.hpp"
 #include "tests/config/support.hpp"
 
@@ -25,19 +27,36 @@ constexpr std::array kTexts{
         "( Apg70 :fidelity ( Fidelity :preset 1996 :noise true ) :seed 1 :name \"a\\\"b\\n\" ) ( include \"x\" )"),
     std::string_view("( Window :colors `( ( rgb 0 1 0 ) ( hsva 360 1 1 0.5 ) ) :cmode rgb )")};
 
-constexpr std::array kPieces{std::string_view("("),          std::string_view(")"),   std::string_view("`("),
-                             std::string_view("{"),          std::string_view("}"),   std::string_view(":1 "),
-                             std::string_view("\""),         std::string_view("\\"),  std::string_view("is="),
-                             std::string_view("1e308"),      std::string_view("-"),   std::string_view(";"),
-                             std::string_view("def-form"),   std::string_view("guf"), std::string_view(":9999"),
-                             std::string_view("\xFF\x00", 2)};
+constexpr std::array kMessages{
+    std::string_view("Sea: { state: 3 } // calm"),
+    std::string_view("my := Radar: { rate: 20 }"),
+    std::string_view("myRadar := Radar: { latitude: N37@30.5 rate: 20 Display: { width: 480 mode: \"doublebuffer\" "
+                     "colors: { rgb: { 0, 1, 0 } } } Antenna: { maxRates: { 60.0, 60.0 } // az, el\n } }"),
+    std::string_view(
+        "Radar: { MgDmaDatabase: { longitude: W122@00.0 } MgDmaDatabase: { } modes: { one := RealBeamMode: "
+        "{ scanWidths: {100, 50, 25} list := ranges: {4.7, 10} scanBars: { 1, 2 } samplesPerSweep: 128 "
+        "Display: { width: {-0.6, 0.6} } } } }"),
+    std::string_view("/* a */ Fidelity: { preset: draft noise: true samples: 100 } Terrain: { directory: \"d/e\" }"),
+    std::string_view("Apg70: { name: \"a\\\"b\" What: { is: this } pulseWidths: { 1 .5 2e-1 } } Sea: { }")};
+
+constexpr std::array kPieces{std::string_view("("),        std::string_view(")"),
+                             std::string_view("`("),       std::string_view("{"),
+                             std::string_view("}"),        std::string_view(":1 "),
+                             std::string_view("\""),       std::string_view("\\"),
+                             std::string_view("is="),      std::string_view("1e308"),
+                             std::string_view("-"),        std::string_view(";"),
+                             std::string_view("def-form"), std::string_view("guf"),
+                             std::string_view(":9999"),    std::string_view("\xFF\x00", 2),
+                             std::string_view(":="),       std::string_view("@"),
+                             std::string_view("a: "),      std::string_view("#include \"x\""),
+                             std::string_view("/*")};
 
 class Mutator {
  public:
-  explicit Mutator(std::uint64_t seed) : random_(seed) {}
+  Mutator(std::span<const std::string_view> texts, std::uint64_t seed) : texts_(texts), random_(seed) {}
 
   std::string next() {
-    std::string text(kTexts[random_() % kTexts.size()]);
+    std::string text(texts_[random_() % texts_.size()]);
     const std::size_t changes = 1 + random_() % 6;
     for (std::size_t i = 0; i < changes; ++i) change(text);
     return text;
@@ -65,17 +84,11 @@ class Mutator {
     }
   }
 
+  std::span<const std::string_view> texts_;
   std::mt19937_64 random_;
 };
 
-// 100,000 inputs in four shares, each with a seed of its own.
-class Mutations : public ::testing::TestWithParam<std::uint64_t> {};
-INSTANTIATE_TEST_SUITE_P(Seeds, Mutations, ::testing::Values(1996, 70, 15, 7));
-
-TEST_P(Mutations, AreReadOrRefusedWithAPlace) {
-  const std::uint64_t seed = GetParam();
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  Mutator mutator(seed);
+void expect_read_or_refused(Mutator mutator) {
   int read = 0;
   int refused = 0;
   for (int i = 0; i < 25'000; ++i) {
@@ -89,11 +102,25 @@ TEST_P(Mutations, AreReadOrRefusedWithAPlace) {
   EXPECT_GT(refused, 1000);
 }
 
+// 100,000 inputs in four shares, each with a seed of its own.
+class Mutations : public ::testing::TestWithParam<std::uint64_t> {};
+INSTANTIATE_TEST_SUITE_P(Seeds, Mutations, ::testing::Values(1996, 70, 15, 7));
+
+TEST_P(Mutations, AreReadOrRefusedWithAPlace) {
+  SCOPED_TRACE("seed " + std::to_string(GetParam()));
+  expect_read_or_refused({kTexts, GetParam()});
+}
+
+TEST_P(Mutations, OfMessagesAreReadOrRefusedWithAPlace) {
+  SCOPED_TRACE("seed " + std::to_string(GetParam()));
+  expect_read_or_refused({kMessages, GetParam()});
+}
+
 // What is read is valid throughout: it prints as a text that reads back without a word.
 TEST(PrintOfMutations, ThatAreReadPrintAndReadBackEqual) {
   const std::uint64_t seed = 4;
   SCOPED_TRACE("seed " + std::to_string(seed));
-  Mutator mutator(seed);
+  Mutator mutator(kTexts, seed);
   for (int i = 0; i < 2'000; ++i) {
     const auto configuration = load_configuration_text(mutator.next(), "m.guf");
     if (!configuration) continue;
@@ -101,6 +128,27 @@ TEST(PrintOfMutations, ThatAreReadPrintAndReadBackEqual) {
     ASSERT_TRUE(again) << "input " << i << ": " << again.error().message();
     ASSERT_EQ(fields(again->radar), fields(configuration->radar)) << "input " << i;
   }
+}
+
+// The text that convert writes configures the same, and is modern: no part of it is an old spelling.
+TEST(ConvertOfMutations, ReadsBackAsTheSameConfiguration) {
+  const std::uint64_t seed = 36;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  Mutator of_messages(kMessages, seed);
+  Mutator of_guf(kTexts, seed);
+  int converted = 0;
+  for (int i = 0; i < 6'000; ++i) {
+    const std::string text = (i % 2 == 0 ? of_messages : of_guf).next();
+    const auto configuration = load_configuration_text(text, "m.guf");
+    if (!configuration) continue;
+    const auto modern = convert_configuration_text(text, "m.guf");
+    ASSERT_TRUE(modern) << "input " << i << ": " << modern.error().message() << "\n" << text;
+    const auto again = load_configuration_text(modern->text, "again.guf");
+    ASSERT_TRUE(again) << "input " << i << ": " << again.error().message() << "\n" << text << "\n" << modern->text;
+    ASSERT_EQ(fields(again->radar), fields(configuration->radar)) << "input " << i << ": " << text;
+    ++converted;
+  }
+  EXPECT_GT(converted, 200);
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"TooManyWords", repeated("1 ", 200'001),
              "a.guf:1:400000: expected at most 200000 words in a file, found more; split the file"},
         Case{"TooLarge", std::string((1U << 20U) + 1, ' '),
-             "a.guf: expected at most 1048576 bytes of GUF, found 1048577; split the file"}),
+             "a.guf: expected at most 1048576 bytes in a file, found 1048577; split the file"}),
     [](const auto& one) { return std::string(one.param.name); });
 
 TEST(SyntaxLimits, DepthAndSizeJustInsideAreRead) {

@@ -1,0 +1,27 @@
+// A configuration file as one GUF file in the modern spelling: messages translated, includes put in their place, old
+// names of forms and slots replaced by today's. What the file does not say is not said; comments are lost.
+// The text configures what the file does. Errors: those of load_configuration, and a text too long for one file.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lib/failure/error.hpp"
+
+namespace yars::config {
+
+struct ConvertedConfiguration {
+  std::string text;
+  std::vector<std::string> warnings;  // of the file that was read
+};
+
+// `folder` is where the text will stand: paths in it are relative to that. Empty: the current folder.
+failure::Expected<ConvertedConfiguration> convert_configuration(const std::filesystem::path& path,
+                                                                const std::filesystem::path& folder);
+
+// The same from a text in memory, which cannot include; `name` stands for it in messages.
+failure::Expected<ConvertedConfiguration> convert_configuration_text(std::string_view text, const std::string& name);
+
+}  // namespace yars::config

@@ -1,0 +1,28 @@
+// Any text in the messages of 1996: an error with its place, or a configuration that its GUF form makes again.
+#include <cstdint>
+#include <string>
+
+#include "config/convert.hpp"
+#include "config/load.hpp"
+#include "config/message_text.hpp"
+#include "config/print.hpp"
+#include "lib/failure/require.hpp"
+
+using namespace yars;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::string text(reinterpret_cast<const char*>(data), size);
+  if (!config::is_in_messages(text)) text = "Radar: {" + text + "}";  // what would be read as GUF is fuzz_guf's
+  const auto loaded = config::load_configuration_text(text, "fuzz");
+  if (!loaded) {
+    YARS_REQUIRE(loaded.error().message().find("fuzz"), !=, std::string::npos);
+    return 0;
+  }
+  const auto converted = config::convert_configuration_text(text, "fuzz");
+  if (!converted) return 0;  // too long for one file of GUF
+  const auto again = config::load_configuration_text(converted->text, "again");
+  YARS_REQUIRE(again.has_value(), ==, true);
+  const bool equal = config::print_configuration(again->radar) == config::print_configuration(loaded->radar);
+  YARS_REQUIRE(equal, ==, true);
+  return 0;
+}
