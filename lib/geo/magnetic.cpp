@@ -9,13 +9,14 @@
 namespace yars::geo {
 
 struct MagneticField::Model {
+  Model(const std::string& name, const std::string& folder) : field(name, folder) {}
   GeographicLib::MagneticModel field;
 };
 
 MagneticField::MagneticField(const std::string& name, const std::string& folder) {
   const std::string chosen = name.empty() ? GeographicLib::MagneticModel::DefaultMagneticName() : name;
   try {
-    model_ = std::make_unique<Model>(Model{GeographicLib::MagneticModel(chosen, folder)});
+    model_ = std::make_unique<Model>(chosen, folder);
   } catch (const std::exception& problem) {
     // The library's own way to say that a file is not there.
     problem_ = problem.what();
