@@ -93,7 +93,7 @@ void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
     list.text(formatted(buffer, "%.0f", state.update_seconds), {legend.x, legend.y - 16.0F}, {kText});
   }
   // In the upper right, above the legend of PB 15.
-  constexpr float right = kGlassUnits - 6.0F, first = 47.0F, second = 60.0F;
+  constexpr float right = kGlassUnits - 6.0F, first = 46.0F, second = 61.0F;
   if ((state.flags & databuffer::kUpdateInvalid) != 0) {
     list.text("INV", {right, first}, {kText, Align::right});
     return;

@@ -16,7 +16,7 @@ using databuffer::SteeringLine;
 constexpr float kBegin = 10.0F, kEnd = 70.0F;  // [units] from the target: clear of its symbol, long enough to aim by
 constexpr float kArrow = 8.0F, kRing = 4.0F;   // [units]
 constexpr float kText = 9.0F;
-constexpr float kBeneath = 17.0F;  // [units] from the target's middle to the heading's
+constexpr float kBeneath = 25.0F;  // [units] from the target's middle to the heading's: a name stands between
 
 bool on_glass(Point at) {
   return at.x >= 0.0F && at.y >= 0.0F && at.x <= kGlassUnits && at.y <= kGlassUnits;

@@ -352,7 +352,7 @@ TEST(Symbology, TheMagneticHeadingStandsBeneathTheTarget) {
   ASSERT_NE(heading, boxes.end());
   EXPECT_NEAR((heading->rect.left + heading->rect.right) / 2.0F, 240.0F, 0.2F);
   EXPECT_GT(heading->rect.top, 246.0F);
-  EXPECT_LT(heading->rect.bottom, 270.0F);
+  EXPECT_LT(heading->rect.bottom, 275.0F);
 }
 
 TEST(Symbology, TheSteeringLineEndsInAnArrowheadWhileItSlewsAndInACircleOnceFixed) {
