@@ -114,9 +114,16 @@ void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, D
   }
 }
 
-void draw_range_arcs(const GlassView& view, DrawList& list) {
+void draw_range_arcs(const GlassView& view, std::span<const double> rings_nm, double range_m, DrawList& list) {
+  const auto arc = [&](float fraction) {
+    list.thin_arc(view.apex(), fraction * view.units_per_range(), -kSector, kSector);
+  };
   list.draw_on(Layer::grid);
-  for (const float fraction : kArcs) list.thin_arc(view.apex(), fraction * view.units_per_range(), -kSector, kSector);
+  for (const double ring_nm : rings_nm) {
+    const double fraction = ring_nm * geo::kMetresPerNauticalMile / range_m;
+    if (fraction > 0.0 && fraction <= 1.0) arc(static_cast<float>(fraction));
+  }
+  if (rings_nm.empty()) std::for_each(kArcs.begin(), kArcs.end(), arc);
   list.draw_on(Layer::symbols);
 }
 

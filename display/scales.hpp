@@ -4,6 +4,8 @@
 // the end of its track.
 #pragma once
 
+#include <span>
+
 #include "display/draw_list.hpp"
 #include "display/glass_geometry.hpp"
 #include "display/glass_input.hpp"
@@ -19,7 +21,8 @@ void draw_elevation_scale(double antenna_deg, DrawList& list);
 enum class AttitudeSource : std::uint8_t { ins, ahrs, invalid };  // round, square, crossed out
 void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, DrawList& list);
 
-void draw_range_arcs(const GlassView& view, DrawList& list);
+// At `rings_nm` as far as they lie within the frame's range; without any at its quarters.
+void draw_range_arcs(const GlassView& view, std::span<const double> rings_nm, double range_m, DrawList& list);
 void draw_zero_azimuth_line(const GlassView& view, DrawList& list);
 void draw_gray_scale(DrawList& list);
 

@@ -134,7 +134,7 @@ void draw_readouts(const GlassInput& input, const Format& format, DrawList& list
 
 void draw_format(const GlassInput& input, const Format& format, const radar::RadarConfiguration& configuration,
                  const GlassView& view, const GlassFrame& frame, DrawList& list) {
-  if (format.arcs) draw_range_arcs(view, list);
+  if (format.arcs) draw_range_arcs(view, configuration.view.range_rings_nm, frame.range_m, list);
   if (format.zero_line) draw_zero_azimuth_line(view, list);
   if (format.scales) draw_scales(input, list);
   if (format.limit_balls) draw_limits(input, configuration.high_resolution.blind_zone_deg, list);

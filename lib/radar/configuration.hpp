@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/geo/geodesic.hpp"
+#include "lib/radar/colors.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/radar/world.hpp"
 
@@ -26,11 +27,13 @@ struct AntennaConfiguration {
   int scan_bars = 1;                     // 1-4 elevation bars
 };
 
-// Glass geometry: fractions of the selected range. Slots of RbmDisplay.
+// The glass: its edges in fractions of the selected range, its size, rings and colours. Slots of RbmDisplay and Window.
 struct ViewConfiguration {
   double width_min = -0.6, width_max = 0.6;
   double height_min = -0.1, height_max = 1.1;
   int size_pixels = 480;
+  std::vector<double> range_rings_nm{};  // [NM] from the aircraft; empty: at the quarters of the selected range
+  ColorConfiguration colors{};
 };
 
 enum class EarthModel : std::uint8_t { flat = 0, sphere = 1, ellipsoid = 2 };

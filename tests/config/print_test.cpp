@@ -81,7 +81,9 @@ class RandomConfiguration {
     made.scan_widths_deg = {number(70, 100), number(40, 70), number(1, 40)};
     made.antenna = {number(1, 1000), number(1, 1000), number(50, 180), number(1, 90), number(0.001, 5),
                     number(0, 60),   number(0.1, 30), number(0.1, 30), coin(),        1 + int(random_() % 4)};
-    made.view = {number(-4, 0), number(0, 4), number(-4, 0), number(0, 4), 64 + int(random_() % 4000)};
+    made.view = {number(-4, 0), number(0, 4), number(-4, 0), number(0, 4), 64 + int(random_() % 4000), {}, {}};
+    if (coin()) made.view.range_rings_nm = ascending(0, 500);
+    made.view.colors = {radar::ColorPreset(random_() % 3), color(), color(), color()};
     made.fidelity = fidelity();
     made.receiver = {number(1, 40),   number(0, 6),    number(10, 120),        number(0, 40),
                      number(-120, 0), number(-60, 20), 1 + int(random_() % 64)};
@@ -96,6 +98,8 @@ class RandomConfiguration {
  private:
   double number(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
   bool coin() { return (random_() & 1U) != 0; }
+
+  radar::Rgb color() { return {number(0, 1), number(0, 1), number(0, 1)}; }
 
   std::vector<double> ascending(double low, double high) {
     std::vector<double> numbers(1 + random_() % 16);

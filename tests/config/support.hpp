@@ -19,9 +19,16 @@ inline auto fields(const radar::AntennaConfiguration& antenna) {
   return std::tuple(az_rate, el_rate, az_limit, el_limit, tolerance, drift, az_beam, el_beam, circular, bars);
 }
 
+inline auto fields(const radar::Rgb& color) {
+  const auto& [red, green, blue] = color;
+  return std::tuple(red, green, blue);
+}
+
 inline auto fields(const radar::ViewConfiguration& view) {
-  const auto& [width_min, width_max, height_min, height_max, size] = view;
-  return std::tuple(width_min, width_max, height_min, height_max, size);
+  const auto& [width_min, width_max, height_min, height_max, size, rings, colors] = view;
+  const auto& [preset, video, symbols, lines] = colors;
+  return std::tuple(width_min, width_max, height_min, height_max, size, rings, preset, fields(video), fields(symbols),
+                    fields(lines));
 }
 
 inline auto fields(const radar::Fidelity& fidelity) {

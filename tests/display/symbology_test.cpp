@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -134,6 +135,37 @@ TEST(Symbology, EachModeHasTheRowsOfItsColumn) {
     EXPECT_EQ(list.video_steps().size(), column.gray_scale ? 8U : 0U) << mode;
     EXPECT_EQ(has("NO VIDEO"), column.no_video) << mode;
   }
+}
+
+std::size_t arc_strokes(std::vector<double> rings_nm, double range_nm) {
+  radar::RadarConfiguration configuration;
+  configuration.view.range_rings_nm = std::move(rings_nm);
+  return drawn(testing::operating(Mode::hrm, range_nm), configuration).content(Layer::grid).strokes.size();
+}
+
+// How far the outermost stroke of the arcs is from the apex [units]; the range is 400.
+double outermost_arc(std::vector<double> rings_nm, double range_nm) {
+  radar::RadarConfiguration configuration;
+  configuration.view.range_rings_nm = std::move(rings_nm);
+  const DrawList list = drawn(testing::operating(Mode::hrm, range_nm), configuration);
+  double farthest = 0.0;
+  for (const Segment& stroke : list.content(Layer::grid).strokes) {
+    farthest = std::max<double>(farthest, std::hypot(stroke.from.x - 240.0F, stroke.from.y - 440.0F));
+  }
+  return farthest;
+}
+
+TEST(RangeArcs, LieAtTheQuartersOfTheRangeUnlessRingsAreGiven) {
+  EXPECT_NEAR(outermost_arc({}, 40.0), 400.0, 0.01);
+  EXPECT_NEAR(outermost_arc({10.0}, 40.0), 100.0, 0.01);
+  EXPECT_NEAR(outermost_arc({10.0, 5.0}, 20.0), 200.0, 0.01);
+  EXPECT_GT(arc_strokes({}, 40.0), arc_strokes({10.0, 20.0, 30.0}, 40.0));
+}
+
+TEST(RangeArcs, BeyondTheSelectedRangeAreNotDrawn) {
+  EXPECT_NEAR(outermost_arc({5.0, 10.0, 20.0}, 10.0), 400.0, 0.01);
+  EXPECT_EQ(arc_strokes({20.0, 40.0}, 10.0), 0U);
+  EXPECT_EQ(arc_strokes({0.0}, 10.0), 0U);
 }
 
 TEST(Symbology, EveryLegendStandsInWordsAsTheStateHasIt) {
