@@ -272,7 +272,7 @@ TEST(Colors, AreGivenByRedGreenBlueOrByHueSaturationValue) {
   EXPECT_EQ(video_of("( ColorScheme :video ( hsv 60 0.5 0.8 ) )"), std::tuple(0.8, 0.8, 0.4));
   EXPECT_EQ(video_of("( ColorScheme :video ( hsva 300 1 0.5 1 ) )"), std::tuple(0.5, 0.0, 0.5));
   EXPECT_THAT(loaded("( ColorScheme :video ( rgba 0 1 0 0.5 ) )").warnings,
-              ElementsAre("text.guf:1:39: :alpha of rgba is read, not used"));
+              ElementsAre("text.guf:1:35: :alpha of rgba is read, not used"));
 }
 
 TEST(Colors, OfAWindowEndWithTheVideos) {

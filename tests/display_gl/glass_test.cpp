@@ -337,14 +337,14 @@ TEST_F(GlassPictures, AreInTheColorsOfTheirScheme) {
     glass.draw(input);
     const imageio::Image bright = glass.read();
     EXPECT_GT(pixels_of(bright, colors.video), 3000);
-    EXPECT_GT(pixels_of(bright, colors.symbols), 100);
-    EXPECT_GT(pixels_of(bright, colors.lines), 100);
+    EXPECT_GT(pixels_of(bright, colors.symbols), 30);
+    EXPECT_GT(pixels_of(bright, colors.lines), 30);
     EXPECT_TRUE(is_color(pixel(bright, 5, 300), {0, 0, 0}));
     input.state.brightness = 0;
     glass.draw(input);
     const imageio::Image dark = glass.read();
     EXPECT_EQ(pixels_of(dark, colors.video), 0);
-    EXPECT_GT(pixels_of(dark, colors.symbols), 100);
+    EXPECT_GT(pixels_of(dark, colors.symbols), 30);
   }
 }
 
