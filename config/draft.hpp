@@ -16,6 +16,13 @@ struct SexagesimalAngle {
   double seconds = 0.0;
 };
 
+// ( hsv 120 1 0.5 ) while it is read.
+struct HueSaturationValue {
+  double hue_deg = 0.0;
+  double saturation = 0.0;
+  double value = 0.0;
+};
+
 inline constexpr int kKindByName = -1;  // the name alone tells what a point is
 
 struct Draft {
@@ -29,6 +36,8 @@ struct Draft {
   int point_kind = kKindByName;             // a radar::PointKind when it is given
   std::set<std::string> kinds_left_open{};  // names of points of the route whose kind the file does not tell
   SexagesimalAngle angle{};
+  radar::Rgb color{};  // in hand, until the slot it stands in takes it
+  HueSaturationValue hue{};
   radar::Material material{};
   radar::RainCell rain_cell{};
   radar::Jammer jammer{};

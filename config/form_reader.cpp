@@ -183,6 +183,7 @@ void FormReader::read_form_of_slot(const SlotSchema& schema, const FormSlot& kin
            description(value) + (unknown ? ", which is unknown" : ""));
   }
   read_form(*form, value.where, known);
+  if (kind.take) kind.take(draft_);
 }
 
 void FormReader::warn(const Location& where, const std::string& text) {

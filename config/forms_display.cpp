@@ -9,6 +9,40 @@ namespace {
 constexpr std::array<std::string_view, 2> kColourModes{"colormap", "rgb"};
 constexpr std::array<std::string_view, 4> kBufferModes{"doublebuffer", "singlebuffer", "double", "single"};
 
+constexpr std::array<std::string_view, 3> kColorPresets{"green", "gray", "night"};
+
+// A slot that holds a colour: `take` puts the draft's colour in hand into its place, `give` takes it from there.
+SlotSchema color_slot(std::string_view name, void (*take)(Draft&), void (*give)(Draft&), std::string_view purpose) {
+  return {.name = name,
+          .binding = FormSlot{{"rgb", "rgba", "hsv", "hsva"}, {"rgb"}, false, take, give},
+          .purpose = purpose};
+}
+
+FormSchema color_scheme() {
+  return {
+      .name = "ColorScheme",
+      .purpose = "the colours of the glass",
+      .slots = {
+          {.name = "preset",
+           .binding = ChoiceSlot{
+               kColorPresets, [](const Draft& draft) { return static_cast<int>(draft.radar.view.colors.preset); },
+               [](Draft& draft, int index) {
+                 draft.radar.view.colors = radar::color_preset(static_cast<radar::ColorPreset>(index));
+               }},
+           .purpose = "all colours at once: green phosphor, gray, or a dim red for the night",
+           .before_others = true},
+          color_slot(
+              "video", [](Draft& draft) { draft.radar.view.colors.video = draft.color; },
+              [](Draft& draft) { draft.color = draft.radar.view.colors.video; },
+              "the brightest video; its grays are fractions of it"),
+          color_slot(
+              "symbols", [](Draft& draft) { draft.radar.view.colors.symbols = draft.color; },
+              [](Draft& draft) { draft.color = draft.radar.view.colors.symbols; }, "legends and symbols"),
+          color_slot(
+              "lines", [](Draft& draft) { draft.radar.view.colors.lines = draft.color; },
+              [](Draft& draft) { draft.color = draft.radar.view.colors.lines; }, "range arcs and zero azimuth line")}};
+}
+
 std::vector<SlotSchema> view_slots() {
   return {{.name = "width",
            .unit = "ranges",
@@ -60,13 +94,20 @@ FormSchema window() {
                      .binding = IntegerSlot{},
                      .purpose = "first entry in the colour map of 1996"},
                     {.name = "colors",
-                     .binding = FormSlot{{"rgb", "rgba", "hsv", "hsva"}, {}, true},
-                     .purpose = "colours of the 1996 glass"},
+                     .binding = FormSlot{{"rgb", "rgba", "hsv", "hsva"},
+                                         {},
+                                         true,
+                                         [](Draft& draft) { draft.radar.view.colors.video = draft.color; }},
+                     .purpose = "the video's, from dark to bright; the last is taken",
+                     .same_as = "video of ColorScheme"},
                     {.name = "cmode", .binding = ChoiceSlot{kColourModes}, .purpose = "colour mode of 1996"},
                     {.name = "bmode",
                      .binding = ChoiceSlot{kBufferModes},
                      .purpose = "buffer mode of 1996",
-                     .old_name = "mode"}},
+                     .old_name = "mode"},
+                    {.name = "scheme",
+                     .binding = FormSlot{{"ColorScheme"}, {"ColorScheme"}},
+                     .purpose = "the colours of the glass"}},
           .check = check_square};
 }
 
@@ -75,6 +116,7 @@ FormSchema window() {
 std::vector<FormSchema> display_forms() {
   return {
       window(),
+      color_scheme(),
       {.name = "Display", .purpose = "what part of the ground the glass shows", .slots = view_slots()},
       {.name = "RbmDisplay",
        .base = "Display",

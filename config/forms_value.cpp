@@ -8,12 +8,14 @@ namespace {
 
 constexpr std::array<std::string_view, 8> kDirections{"N", "S", "E", "W", "north", "south", "east", "west"};
 
-SlotSchema share(std::string_view name, std::string_view purpose) {
-  return {.name = name, .lowest = 0, .highest = 1, .binding = NumberSlot{}, .purpose = purpose};
+SlotSchema share(std::string_view name, NumberSlot binding, std::string_view purpose) {
+  return {.name = name, .lowest = 0, .highest = 1, .binding = binding, .purpose = purpose};
 }
 
 std::vector<SlotSchema> red_green_blue() {
-  return {share("red", "share of red"), share("green", "share of green"), share("blue", "share of blue")};
+  return {share("red", {YARS_FIELD(color.red)}, "share of red"),
+          share("green", {YARS_FIELD(color.green)}, "share of green"),
+          share("blue", {YARS_FIELD(color.blue)}, "share of blue")};
 }
 
 std::vector<SlotSchema> hue_saturation_value() {
@@ -21,10 +23,10 @@ std::vector<SlotSchema> hue_saturation_value() {
            .unit = "deg",
            .lowest = 0,
            .highest = 360,
-           .binding = NumberSlot{},
+           .binding = NumberSlot{YARS_FIELD(hue.hue_deg)},
            .purpose = "place on the colour wheel"},
-          share("saturation", "1 = pure hue"),
-          share("value", "1 = full intensity")};
+          share("saturation", {YARS_FIELD(hue.saturation)}, "1 = pure hue, also where it is left out"),
+          share("value", {YARS_FIELD(hue.value)}, "1 = full intensity, also where it is left out")};
 }
 
 FormSchema lat_long() {
@@ -59,24 +61,37 @@ FormSchema lat_long() {
 }  // namespace
 
 std::vector<FormSchema> value_forms() {
-  const SlotSchema alpha = share("alpha", "0 = transparent, 1 = opaque");
-  return {
-      {.name = "rgb", .purpose = "a colour by red, green and blue", .slots = red_green_blue(), .part_of_value = true},
-      {.name = "rgba",
-       .base = "rgb",
-       .purpose = "rgb with transparency",
-       .slots = with_base(red_green_blue(), {alpha}),
-       .part_of_value = true},
-      {.name = "hsv",
-       .purpose = "a colour by hue, saturation and value",
-       .slots = hue_saturation_value(),
-       .part_of_value = true},
-      {.name = "hsva",
-       .base = "hsv",
-       .purpose = "hsv with transparency",
-       .slots = with_base(hue_saturation_value(), {alpha}),
-       .part_of_value = true},
-      lat_long()};
+  const SlotSchema alpha = share("alpha", {}, "0 = transparent, 1 = opaque");
+  const auto black = [](Draft& draft) { draft.color = {}; };
+  const auto pure_red = [](Draft& draft) { draft.hue = {0.0, 1.0, 1.0}; };
+  const auto convert = [](Draft& draft) {
+    draft.color = radar::rgb_from_hsv(draft.hue.hue_deg, draft.hue.saturation, draft.hue.value);
+  };
+  return {{.name = "rgb",
+           .purpose = "a colour by red, green and blue",
+           .slots = red_green_blue(),
+           .part_of_value = true,
+           .begin = black},
+          {.name = "rgba",
+           .base = "rgb",
+           .purpose = "rgb with transparency",
+           .slots = with_base(red_green_blue(), {alpha}),
+           .part_of_value = true,
+           .begin = black},
+          {.name = "hsv",
+           .purpose = "a colour by hue, saturation and value",
+           .slots = hue_saturation_value(),
+           .part_of_value = true,
+           .begin = pure_red,
+           .end = convert},
+          {.name = "hsva",
+           .base = "hsv",
+           .purpose = "hsv with transparency",
+           .slots = with_base(hue_saturation_value(), {alpha}),
+           .part_of_value = true,
+           .begin = pure_red,
+           .end = convert},
+          lat_long()};
 }
 
 }  // namespace yars::config

@@ -71,6 +71,7 @@ class Printer {
   void write_forms(const SlotSchema& slot, const FormSlot& forms, int depth) {
     if (forms.printed.empty()) return;
     line(depth, ":" + std::string(slot.name) + (forms.many ? " `(" : ""));
+    if (forms.give) forms.give(draft_);
     for (const std::string_view name : forms.printed) {
       const FormSchema& form = *find_form(name).schema;
       const std::size_t count = form.count ? form.count(draft_) : 1;

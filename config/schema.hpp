@@ -70,6 +70,8 @@ struct FormSlot {
   std::vector<std::string_view> accepted;
   std::vector<std::string_view> printed;  // which of them print writes, in this order
   bool many = false;                      // a list of forms; one alone is a list of one
+  void (*take)(Draft&) = nullptr;         // called with each form read: what it made, from the draft into its place
+  void (*give)(Draft&) = nullptr;         // called before print writes the form: the other way
 };
 
 using Binding = std::variant<NumberSlot, IntegerSlot, CounterSlot, BooleanSlot, TextSlot, PathSlot, AngleSlot,

@@ -1,7 +1,8 @@
-// Colors of the glass, each channel 0..1. The default is a green phosphor.
+// Colors of the glass, each channel 0..1. The default is that of the built-in configuration, a green phosphor.
 #pragma once
 
 #include "display/draw_list.hpp"
+#include "lib/radar/colors.hpp"
 
 namespace yars::display {
 
@@ -17,5 +18,7 @@ struct ColorScheme {
 
   Color of(Ink ink) const { return ink == Ink::dim ? dim : bright; }
 };
+
+ColorScheme color_scheme(const radar::ColorConfiguration& colors);
 
 }  // namespace yars::display

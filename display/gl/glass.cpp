@@ -78,6 +78,8 @@ struct Glass::State {
   std::optional<Shown> shown;
 };
 
+Glass::Glass(const radar::RadarConfiguration& configuration, int size)
+    : Glass(configuration, size, color_scheme(configuration.view.colors)) {}
 Glass::Glass(const radar::RadarConfiguration& configuration, int size, const ColorScheme& colors)
     : state_(std::make_unique<State>(configuration, size, colors)) {}
 Glass::~Glass() = default;

@@ -18,7 +18,8 @@ namespace yars::display::gl {
 class Glass {
  public:
   // `size`: pixels to the edge of the square.
-  Glass(const radar::RadarConfiguration& configuration, int size, const ColorScheme& colors = {});
+  Glass(const radar::RadarConfiguration& configuration, int size);  // in the colors of the configuration
+  Glass(const radar::RadarConfiguration& configuration, int size, const ColorScheme& colors);
   ~Glass();
   Glass(Glass&&) noexcept;
   Glass& operator=(Glass&&) noexcept;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/geo/geodesic.hpp"
+#include "lib/radar/colors.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/radar/world.hpp"
 
@@ -28,13 +29,14 @@ struct AntennaConfiguration {
   double start_elevation_deg = 0.0;      // [deg] against the horizon, before the first scan and at power-up
 };
 
-// Glass geometry: fractions of the selected range. Slots of RbmDisplay.
+// The glass: its edges in fractions of the selected range, its size, rings and colours. Slots of RbmDisplay and Window.
 struct ViewConfiguration {
   double width_min = -0.6, width_max = 0.6;
   double height_min = -0.1, height_max = 1.1;
   int size_pixels = 480;
   // [NM] between the range arcs, by range, the last serving whatever lies beyond; empty: at 25, 50, 75 and 100 %.
   std::vector<double> arc_spacing_nm{};
+  ColorConfiguration colors{};
 };
 
 enum class EarthModel : std::uint8_t { flat = 0, sphere = 1, ellipsoid = 2 };

@@ -209,6 +209,37 @@ TEST(DefForm, OfABuiltInFormChangesNothing) {
   EXPECT_EQ(configuration.radar.receiver.noise_floor_db, -50.0);
 }
 
+std::tuple<double, double, double> video_of(const std::string& text) {
+  return fields(loaded(text).radar.view.colors.video);
+}
+
+TEST(Colors, OfASchemeAreItsPresetThenWhatIsNamed) {
+  const auto night = loaded("( ColorScheme :symbols ( rgb 0.5 0.6 0.7 ) :preset night )").radar.view.colors;
+  EXPECT_EQ(night.preset, radar::ColorPreset::night);
+  EXPECT_EQ(fields(night.video), fields(radar::color_preset(radar::ColorPreset::night).video));
+  EXPECT_EQ(fields(night.symbols), std::tuple(0.5, 0.6, 0.7));
+  const auto gray = loaded("( Apg70 :display ( Window :scheme ( ColorScheme gray ) ) )").radar.view.colors;
+  EXPECT_EQ(fields(gray.lines), fields(radar::color_preset(radar::ColorPreset::gray).lines));
+}
+
+TEST(Colors, AreGivenByRedGreenBlueOrByHueSaturationValue) {
+  EXPECT_EQ(video_of("( ColorScheme :video ( rgb :blue 0.25 ) )"), std::tuple(0.0, 0.0, 0.25));
+  EXPECT_EQ(video_of("( ColorScheme :video ( hsv 120 ) )"), std::tuple(0.0, 1.0, 0.0));
+  EXPECT_EQ(video_of("( ColorScheme :video ( hsv 60 0.5 0.8 ) )"), std::tuple(0.8, 0.8, 0.4));
+  EXPECT_EQ(video_of("( ColorScheme :video ( hsva 300 1 0.5 1 ) )"), std::tuple(0.5, 0.0, 0.5));
+  EXPECT_THAT(loaded("( ColorScheme :video ( rgba 0 1 0 0.5 ) )").warnings,
+              ElementsAre("text.guf:1:35: :alpha of rgba is read, not used"));
+}
+
+TEST(Colors, OfAWindowEndWithTheVideos) {
+  EXPECT_EQ(video_of("( Window :colors `( ( rgb 0 0 0 ) ( rgb 0.1 0.2 0.3 ) ) )"), std::tuple(0.1, 0.2, 0.3));
+}
+
+TEST(Colors, InMessagesAreTheSame) {
+  EXPECT_EQ(video_of("Radar: { Display: { ColorScheme: { preset: night video: { rgb: { 0.1, 0.2, 0.3 } } } } }"),
+            std::tuple(0.1, 0.2, 0.3));
+}
+
 TEST(DefForm, ErrorsNameTheirPlace) {
   EXPECT_EQ(refusal("( def-form A is= B )"),
             "text.guf:1:18: expected a form that is known here after is=, found B; define it before this one");

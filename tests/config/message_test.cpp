@@ -53,6 +53,7 @@ TEST(Messages, TheSampleOfTheReportEqualsItsGufTwin) {
   EXPECT_EQ(sample->radar.name, "myRadarSystem");
   EXPECT_EQ(sample->radar.antenna.azimuth_rate_dps, 60);
   EXPECT_EQ(sample->radar.fidelity.samples, 128);
+  EXPECT_EQ(sample->radar.view.colors.video.green, 1.0);
   EXPECT_THAT(sample->warnings, Contains(HasSubstr("radar.cf:1:1: messages are the syntax of 1996")));
   EXPECT_THAT(sample->warnings, Contains(HasSubstr("radar.cf:29:13: the name myRangeList is read, not used")));
   EXPECT_THAT(sample->warnings, Not(Contains(HasSubstr("no slot"))));

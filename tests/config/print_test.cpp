@@ -89,8 +89,9 @@ class RandomConfiguration {
                     number(0.001, 5), number(0, 60),          number(0.1, 30), number(0.1, 30),
                     coin(),           1 + int(random_() % 4), number(-50, 50), 0.0};
     made.antenna.start_elevation_deg = number(-1, 1) * made.antenna.elevation_limit_deg;
-    made.view = {number(-4, 0), number(0, 4), number(-4, 0), number(0, 4), 64 + int(random_() % 4000), {}};
+    made.view = {number(-4, 0), number(0, 4), number(-4, 0), number(0, 4), 64 + int(random_() % 4000), {}, {}};
     if (coin()) made.view.arc_spacing_nm = ascending(1.0, 40.0);
+    made.view.colors = {radar::ColorPreset(random_() % 3), color(), color(), color()};
     made.fidelity = fidelity();
     made.receiver = {number(1, 40),   number(0, 6),    number(10, 120),        number(0, 40),
                      number(-120, 0), number(-60, 20), 1 + int(random_() % 64)};
@@ -105,6 +106,8 @@ class RandomConfiguration {
  private:
   double number(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
   bool coin() { return (random_() & 1U) != 0; }
+
+  radar::Rgb color() { return {number(0, 1), number(0, 1), number(0, 1)}; }
 
   radar::WindowLimits limits_of(const std::vector<double>& windows_nm) {
     radar::WindowLimits made;

@@ -21,9 +21,16 @@ inline auto fields(const radar::AntennaConfiguration& antenna) {
                     start_el);
 }
 
+inline auto fields(const radar::Rgb& color) {
+  const auto& [red, green, blue] = color;
+  return std::tuple(red, green, blue);
+}
+
 inline auto fields(const radar::ViewConfiguration& view) {
-  const auto& [width_min, width_max, height_min, height_max, size, arcs] = view;
-  return std::tuple(width_min, width_max, height_min, height_max, size, arcs);
+  const auto& [width_min, width_max, height_min, height_max, size, arcs, colors] = view;
+  const auto& [preset, video, symbols, lines] = colors;
+  return std::tuple(width_min, width_max, height_min, height_max, size, arcs, preset, fields(video), fields(symbols),
+                    fields(lines));
 }
 
 inline auto fields(const radar::Fidelity& fidelity) {
@@ -48,8 +55,8 @@ inline auto fields(const radar::HighResolutionConfiguration& map) {
 }
 
 inline auto fields(const radar::NavigationConfiguration& navigation) {
-  const auto& [error_north, error_east, drift_north, drift_east, drift_down, walk, validity, period, noise] =
-      navigation;
+  const auto& [error_north, error_east, drift_north, drift_east, drift_down, walk, validity, period, noise, model,
+               folder, year] = navigation;
   return std::tuple(error_north, error_east, drift_north, drift_east, drift_down, walk, validity, period, noise, model,
                     folder, year);
 }

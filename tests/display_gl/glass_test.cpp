@@ -303,5 +303,50 @@ TEST_F(GlassPictures, AStrokeIsSoftAtItsEdgeAndWholeInItsMiddle) {
   EXPECT_EQ(pixel(image, 243, 882)[1], 0);
 }
 
+std::array<int, 3> channels(const radar::Rgb& color) {
+  const auto channel = [](double share) { return static_cast<int>(std::lround(share * 255.0)); };
+  return {channel(color.red), channel(color.green), channel(color.blue)};
+}
+
+bool is_color(const std::array<int, 3>& found, const std::array<int, 3>& wanted) {
+  constexpr int kRounding = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (std::abs(found[i] - wanted[i]) > kRounding) return false;
+  }
+  return true;
+}
+
+int pixels_of(const imageio::Image& image, const radar::Rgb& color) {
+  int count = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) count += is_color(pixel(image, x, y), channels(color)) ? 1 : 0;
+  }
+  return count;
+}
+
+TEST_F(GlassPictures, AreInTheColorsOfTheirScheme) {
+  using radar::ColorPreset;
+  for (const ColorPreset preset : {ColorPreset::green, ColorPreset::gray, ColorPreset::night}) {
+    SCOPED_TRACE("preset " + std::to_string(static_cast<int>(preset)));
+    radar::RadarConfiguration configuration;
+    const radar::ColorConfiguration colors = radar::color_preset(preset);
+    configuration.view.colors = colors;
+    Glass glass(configuration, 480);
+    glass.add(testing::toned_sweep(kHome, kTrack_deg + 10.0, kTrack_deg + 20.0, kRange_m, 480, 255));
+    GlassInput input = bare_input();
+    glass.draw(input);
+    const imageio::Image bright = glass.read();
+    EXPECT_GT(pixels_of(bright, colors.video), 3000);
+    EXPECT_GT(pixels_of(bright, colors.symbols), 30);
+    EXPECT_GT(pixels_of(bright, colors.lines), 30);
+    EXPECT_TRUE(is_color(pixel(bright, 5, 300), {0, 0, 0}));
+    input.state.brightness = 0;
+    glass.draw(input);
+    const imageio::Image dark = glass.read();
+    EXPECT_EQ(pixels_of(dark, colors.video), 0);
+    EXPECT_GT(pixels_of(dark, colors.symbols), 30);
+  }
+}
+
 }  // namespace
 }  // namespace yars::display::gl

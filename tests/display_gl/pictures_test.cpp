@@ -202,5 +202,26 @@ TEST(Pictures, EveryFormatIsDrawn) {
   }
 }
 
+TEST(Pictures, EveryColorSchemeIsDrawn) {
+  auto context = open_headless();
+  if (!context) GTEST_SKIP() << "no OpenGL without a display: " << context.error().message();
+  const char* folder = std::getenv("YARS_PICTURES");
+  std::vector<imageio::Image> drawn;
+  for (const char* name : {"green", "gray", "night"}) {
+    radar::RadarConfiguration configuration;
+    configuration.view.colors = radar::color_preset(static_cast<radar::ColorPreset>(drawn.size()));
+    configuration.view.range_rings_nm = {5.0, 10.0, 20.0, 30.0, 60.0};
+    Glass glass(configuration, 480);
+    add_scan(glass, Mode::rbm, 0.5);
+    EXPECT_TRUE(glass.draw(operating(Mode::rbm))) << name;
+    drawn.push_back(glass.read());
+    if (folder == nullptr) continue;
+    const std::string path = std::string(folder) + "/scheme_" + name + ".png";
+    EXPECT_TRUE(imageio::write_png(path, drawn.back())) << path;
+  }
+  EXPECT_NE(drawn[0].pixels, drawn[1].pixels);
+  EXPECT_NE(drawn[1].pixels, drawn[2].pixels);
+}
+
 }  // namespace
 }  // namespace yars::display::gl
