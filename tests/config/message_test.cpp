@@ -73,8 +73,8 @@ TEST(Messages, FormsOfOneKindBecomeAList) {
 
 TEST(Messages, AModeStandsInItsListOrInTheRadar) {
   const std::string twin = "( System :modes `( ( RealBeamMode :samples 77 ) ( SarMode :windows `( 1 2 ) ) ) )";
-  expect_twins("Radar: { modes: { RealBeamMode: { samples: 77 } SarMode: { windows: { 1, 2 } } } }", twin);
-  expect_twins("Radar: { RealBeamMode: { samplesPerSweep: 77 } SarMode: { windows: { 1, 2 } } }", twin);
+  expect_twins("Radar: { modes: { RealBeamMode: { samples: 77 } SarMode: { windows: { 1.3, 3.3 } } } }", twin);
+  expect_twins("Radar: { RealBeamMode: { samplesPerSweep: 77 } SarMode: { windows: { 1.3, 3.3 } } }", twin);
 }
 
 TEST(Messages, ScanBarsOfAModeJoinItsAntennaWhereverThatStands) {

@@ -64,7 +64,7 @@ bool clear_of_words(const DrawList& list, geo::GeoPoint place) {
   const radar::RadarConfiguration configuration;
   const GlassView view(configuration.view);
   const Point at = view.at_ground(present_frame(testing::operating(Mode::rbm, 40.0), nullptr), place);
-  const Rect symbol{at.x - 12.0F, at.y - 12.0F, at.x + 12.0F, at.y + 12.0F};
+  const Rect symbol{at.x - 18.0F, at.y - 34.0F, at.x + 18.0F, at.y + 34.0F};
   return std::ranges::none_of(list.occupied(), [&](const OccupiedBox& box) { return intersect(box.rect, symbol); });
 }
 

@@ -210,7 +210,7 @@ TEST(Pictures, EveryColorSchemeIsDrawn) {
   for (const char* name : {"green", "gray", "night"}) {
     radar::RadarConfiguration configuration;
     configuration.view.colors = radar::color_preset(static_cast<radar::ColorPreset>(drawn.size()));
-    configuration.view.range_rings_nm = {5.0, 10.0, 20.0, 30.0, 60.0};
+    configuration.view.arc_spacing_nm = {5.0};
     Glass glass(configuration, 480);
     add_scan(glass, Mode::rbm, 0.5);
     EXPECT_TRUE(glass.draw(operating(Mode::rbm))) << name;

@@ -21,7 +21,10 @@ using databuffer::EventKind;
 using databuffer::InputEvent;
 using databuffer::RadarState;
 
-constexpr int kEvents = 100'000;
+struct StormOver {
+  const char* file;  // of a configuration; empty: the APG-70
+  int events;
+};
 
 // YARS_SEED repeats a storm that failed.
 std::uint64_t storm_seed() {
@@ -62,11 +65,20 @@ class Storm {
     around.ownship.longitude_deg = geo::wrapped_degrees(around.ownship.longitude_deg + number(-0.01, 0.012));
     around.ownship.velocity_east_mps = number(-300.0, 300.0);
     around.ownship.radar_altitude_m = pick(0, 3) == 0 ? kNaN : number(0.0, 500.0);
+    if (pick(0, 9) == 0) measure_velocity(around.model);
     if (pick(0, 999) == 0) ++around.epoch;
     if (pick(0, 99) == 0) around.ownship_valid = !around.ownship_valid;
   }
 
  private:
+  // As the model would, and now and then as no model should.
+  void measure_velocity(databuffer::ModelStatus& model) {
+    ++model.velocity_count;
+    model.velocity_north_mps = number(-300.0, 300.0);
+    model.velocity_east_mps = pick(0, 19) == 0 ? kNaN : number(-300.0, 300.0);
+    model.velocity_down_mps = pick(0, 19) == 0 ? 1e12 : number(-50.0, 50.0);
+  }
+
   int argument(int kind) {
     switch (static_cast<EventKind>(kind)) {
       case EventKind::push_button:
@@ -76,6 +88,9 @@ class Storm {
         return pick(0, 1) * 2 - 1;
       case EventKind::elevation_step:
         return pick(-10, 10);
+      case EventKind::navigator_error:
+      case EventKind::navigator_drift:
+        return pick(0, 1);
       case EventKind::radar_mode:
         return pick(0, 7);
       case EventKind::power:
@@ -214,6 +229,19 @@ void expect_set_over_a_frozen_map(const RadarState& state) {
   EXPECT_TRUE(!by_exit || (frozen && (state.master != 0 || set)));
 }
 
+void expect_designations_as_the_functions_leave_them(const RadarState& state) {
+  using databuffer::SteeringLine;
+  const auto has = [&state](std::uint32_t flag) { return (state.flags & flag) != 0; };
+  const auto function = static_cast<radar::CursorFunction>(state.cursor_function);
+  const auto line = static_cast<SteeringLine>(state.steering_line);
+  EXPECT_EQ(line != SteeringLine::none, has(databuffer::kTargetDesignated));
+  EXPECT_TRUE(line != SteeringLine::slewing || function == radar::CursorFunction::target) << "the TDC is kept";
+  EXPECT_EQ(state.target_name[0] != '\0', has(databuffer::kTargetDesignated));
+  EXPECT_LE(state.mark_count, databuffer::kMarks);
+  EXPECT_TRUE(!has(databuffer::kUpdateInvalid) || state.update_seconds == 0);
+  EXPECT_TRUE(state.update_seconds >= -1 && state.update_seconds <= 30);
+}
+
 void expect_text_terminated_and_numbers_finite(const RadarState& state) {
   for (const auto& legend : state.legends) EXPECT_NE(std::memchr(legend, 0, sizeof legend), nullptr);
   EXPECT_NE(std::memchr(state.sequence_point, 0, sizeof state.sequence_point), nullptr);
@@ -243,6 +271,9 @@ void expect_a_way_out(Pilot pilot) {
   if (pilot.is(databuffer::kSniff)) pilot.press("pb 18");
   if (pilot.is(databuffer::kFreeze)) pilot.press("freeze");
   pilot.press("radar rbm");
+  if (pilot.state.steering_line == static_cast<std::uint8_t>(databuffer::SteeringLine::slewing)) {
+    EXPECT_TRUE(pilot.press("acq fwd")) << "a line that slews can always be given up";
+  }
   EXPECT_EQ(fields_of(pilot).at("mode"), "RBM");
   EXPECT_EQ(fields_of(pilot).at("freeze"), "false");
   EXPECT_EQ(fields_of(pilot).at("sniff"), "false");
@@ -261,17 +292,18 @@ Pilot pilot_of(const std::string& file) {
   return pilot;
 }
 
-class EventStorm : public ::testing::TestWithParam<const char*> {};
+class EventStorm : public ::testing::TestWithParam<StormOver> {};
 
 TEST_P(EventStorm, KeepsEveryInvariantAndNeverWedges) {
+  const int events = GetParam().events;
   const std::uint64_t seed = storm_seed();
   SCOPED_TRACE("YARS_SEED=" + std::to_string(seed));
   Storm storm(seed);
-  Pilot pilot = pilot_of(GetParam());
+  Pilot pilot = pilot_of(GetParam().file);
   MapMaker model;
   int dead = 0;
-  int patches = 0;
-  for (int count = 0; count < kEvents && !::testing::Test::HasFailure(); ++count) {
+  int patches = 0, targets = 0, updates = 0;
+  for (int count = 0; count < events && !::testing::Test::HasFailure(); ++count) {
     const RadarState before = pilot.state;
     const InputEvent event = storm.event();
     SCOPED_TRACE("event " + std::to_string(count) + ": " + databuffer::text_of(event));
@@ -288,6 +320,12 @@ TEST_P(EventStorm, KeepsEveryInvariantAndNeverWedges) {
     expect_maps_in_order(before, pilot.state);
     expect_a_map_forms_only_where_it_can(pilot.state);
     expect_set_over_a_frozen_map(pilot.state);
+    expect_designations_as_the_functions_leave_them(pilot.state);
+    targets += did && pilot.state.target_count != before.target_count ? 1 : 0;
+    updates += did && event.kind == static_cast<std::uint16_t>(EventKind::tdc_release) &&
+                       (before.flags & databuffer::kUpdateShown) != 0
+                   ? 1
+                   : 0;
     patches += pilot.state.map_shown != 0 ? 1 : 0;
     expect_text_terminated_and_numbers_finite(pilot.state);
     expect_boxes_around_legends(pilot.state);
@@ -296,12 +334,16 @@ TEST_P(EventStorm, KeepsEveryInvariantAndNeverWedges) {
     if (count % 100 == 0) expect_a_way_out(pilot);
   }
   // A storm in which all is dead, or nothing, has tested little.
-  EXPECT_GT(dead, kEvents / 10);
-  EXPECT_LT(dead, kEvents * 9 / 10);
-  EXPECT_GT(patches, kEvents / 50);
+  EXPECT_GT(dead, events / 10);
+  EXPECT_LT(dead, events * 9 / 10);
+  EXPECT_GT(patches, events / 50);
+  EXPECT_GT(targets, events / 1000);
+  EXPECT_GT(updates, events / 1000);
 }
 
-INSTANTIATE_TEST_SUITE_P(OfEachRadar, EventStorm, ::testing::Values("", "apg68.guf"));
+INSTANTIATE_TEST_SUITE_P(OfEachRadar, EventStorm,
+                         ::testing::Values(StormOver{"", 1'000'000}, StormOver{"apg68.guf", 100'000}),
+                         [](const auto& storm) { return std::string(storm.index == 0 ? "Apg70" : "Apg68"); });
 
 // Held to its ground point the cursor may leave the glass; slewed it is on it.
 TEST(CursorStorm, ASlewedCursorIsOnTheGlass) {
