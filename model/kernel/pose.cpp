@@ -34,6 +34,7 @@ std::optional<Pose> pose_of(const databuffer::Ownship& ownship) {
       radar::ground_track(geo::Speed::metres_per_second(ownship.velocity_north_mps),
                           geo::Speed::metres_per_second(ownship.velocity_east_mps), pose.platform.heading);
   pose.ground_speed = geo::Speed::metres_per_second(std::hypot(ownship.velocity_north_mps, ownship.velocity_east_mps));
+  pose.velocity_mps = {ownship.velocity_north_mps, ownship.velocity_east_mps, ownship.velocity_down_mps};
   return pose;
 }
 
