@@ -210,7 +210,7 @@ bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::Anten
   const geo::Length wanted = geo::Length::nautical_miles(given.command.range_nm);
   const radar::Fidelity& fidelity = is_sharpened() ? sharpened.fidelity : configuration.fidelity;
   const bool whole = database.terrain.serves(scan_detail(fidelity, wanted)) && database.scenes_ready;
-  if (needs_ground(noise_only, configuration) && !whole) labels.flags |= databuffer::kSweepNotReady;
+  if (needs_ground(labels.mode, noise_only, configuration) && !whole) labels.flags |= databuffer::kSweepNotReady;
   return chain().advance(place, labels, database, sweep);
 }
 

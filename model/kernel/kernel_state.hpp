@@ -17,9 +17,11 @@ namespace yars::model::kernel {
 using databuffer::ModelStatus;
 using databuffer::ModelTick;
 
-// SNIFF transmits nothing: ground matters to it only where it hides a jammer.
-inline bool needs_ground(bool silent, const radar::RadarConfiguration& configuration) {
-  return !silent || !configuration.world.jamming.jammers.empty();
+// SNIFF transmits nothing, and BCN hears no ground: to them it matters only where it hides a jammer or a beacon.
+inline bool needs_ground(std::uint8_t mode, bool silent, const radar::RadarConfiguration& configuration) {
+  if (!configuration.world.jamming.jammers.empty()) return true;
+  const bool beacons_alone = mode == static_cast<std::uint8_t>(radar::Mode::beacon);
+  return !silent && (!beacons_alone || !configuration.world.beacons.beacons.empty());
 }
 
 inline bool sniffs(const databuffer::RadarCommand& command) {

@@ -40,7 +40,8 @@ std::optional<Pose> pose_of(const databuffer::Ownship& ownship) {
 
 bool asks_for_video(const databuffer::RadarCommand& command) {
   const bool scans = command.mode == static_cast<std::uint8_t>(radar::Mode::rbm) ||
-                     command.mode == static_cast<std::uint8_t>(radar::Mode::hrm);
+                     command.mode == static_cast<std::uint8_t>(radar::Mode::hrm) ||
+                     command.mode == static_cast<std::uint8_t>(radar::Mode::beacon);
   return command.power == static_cast<std::uint8_t>(radar::Power::operate) && scans &&
          command.range_nm >= kLeastRangeNm && command.range_nm <= kGreatestRangeNm;
 }

@@ -54,7 +54,7 @@ RadarKernel::Need RadarKernel::need(const ModelTick& tick) const {
   if (!scans || stays_frozen) return need;
   // A scan that began before SNIFF transmits to its end.
   const bool silent = sniffs(tick.command) && (state_->noise_only || !state_->scanning);
-  if (!needs_ground(silent, state_->configuration)) return need;
+  if (!needs_ground(tick.command.mode, silent, state_->configuration)) return need;
   const std::optional<Pose> pose = pose_of(tick.ownship);
   if (!pose && !state_->pose) return need;
   need.ground = true;
