@@ -43,6 +43,7 @@ struct Draft {
   radar::Jammer jammer{};
   radar::Mover mover{};
   radar::Scene scene{};
+  radar::Beacon beacon{};
 };
 
 // A draft that stands for a finished configuration.

@@ -17,6 +17,7 @@ std::vector<FormSchema> world_forms();       // Land, Materials, Material, Sea, 
 std::vector<FormSchema> navigation_forms();  // Navigation
 std::vector<FormSchema> traffic_forms();     // Jammers, Jammer, Movers, Mover, Scenes, Scene
 std::vector<FormSchema> limit_forms();       // WindowLimits, HeightRanges
+std::vector<FormSchema> beacon_forms();      // Beacons, Beacon
 
 // The windows that can be selected are those of SarMode; where they can be mapped tells WindowLimits.
 std::optional<Complaint> check_windows_have_limits(const Draft& draft);

@@ -1,7 +1,23 @@
 #include "config/field.hpp"
 #include "config/forms.hpp"
+#include "lib/radar/velocity_beams.hpp"
 
 namespace yars::config {
+
+namespace {
+
+std::optional<Complaint> check_beams(const Draft& draft) {
+  const radar::NavigationConfiguration& navigation = draft.radar.navigation;
+  const std::size_t azimuths = navigation.beam_azimuths_deg.size();
+  const std::size_t depressions = navigation.beam_depressions_deg.size();
+  if (azimuths != depressions)
+    return Complaint{"beamDepressions", "as many as beamAzimuths, " + std::to_string(azimuths),
+                     std::to_string(depressions)};
+  if (radar::horizontal_dilution(navigation)) return std::nullopt;
+  return Complaint{"beamAzimuths", "beams that do not all lie in one plane", "a plane of beams"};
+}
+
+}  // namespace
 
 std::vector<FormSchema> navigation_forms() {
   constexpr double kMostError_ft = 600'000.0;
@@ -29,7 +45,7 @@ std::vector<FormSchema> navigation_forms() {
                  number_slot("velocityPeriod", "s", 5, 3600, {YARS_FIELD(radar.navigation.velocity_period_s)},
                              "between the velocity updates of IPVU and PVU"),
                  number_slot("velocityNoise", "ft/s", 0, 100, feet(YARS_FIELD(radar.navigation.velocity_noise_mps)),
-                             "standard deviation of each component that the radar measures"),
+                             "standard deviation of a horizontal component that the radar measures"),
                  {.name = "magneticModel",
                   .binding = TextSlot{YARS_FIELD(radar.navigation.magnetic_model)},
                   .purpose = "model of the earth's field for the variation, where its data is installed; left out: the "
@@ -38,7 +54,24 @@ std::vector<FormSchema> navigation_forms() {
                   .binding = PathSlot{YARS_FIELD(radar.navigation.magnetic_folder)},
                   .purpose = "where the data of that model lies; left out: the system's place"},
                  number_slot("magneticYear", "a", 1900, 2100, {YARS_FIELD(radar.navigation.magnetic_year)},
-                             "date for that model")}}};
+                             "date for that model"),
+                 {.name = "beamAzimuths",
+                  .unit = "deg",
+                  .lowest = -90,
+                  .highest = 90,
+                  .binding = ListSlot{YARS_FIELD(radar.navigation.beam_azimuths_deg), radar::kLeastVelocityBeams,
+                                      radar::kMostVelocityBeams, Order::any},
+                  .purpose = "of the beams that measure velocity, against the ground track, in their order"},
+                 {.name = "beamDepressions",
+                  .unit = "deg",
+                  .lowest = 1,
+                  .highest = 90,
+                  .binding = ListSlot{YARS_FIELD(radar.navigation.beam_depressions_deg), radar::kLeastVelocityBeams,
+                                      radar::kMostVelocityBeams, Order::any},
+                  .purpose = "of the same beams, below the horizon"},
+                 number_slot("beamDwell", "s", 0.05, 10, {YARS_FIELD(radar.navigation.beam_dwell_s)},
+                             "how long the dish stands on each of them")},
+       .check = check_beams}};
 }
 
 }  // namespace yars::config

@@ -116,7 +116,8 @@ std::vector<SlotSchema> system_slots() {
         .purpose = "where the cursor may be for each display window"},
        {.name = "heightRanges",
         .binding = FormSlot{{"HeightRanges"}, {"HeightRanges"}},
-        .purpose = "the range by height"}});
+        .purpose = "the range by height"},
+       {.name = "beacons", .binding = FormSlot{{"Beacons"}, {"Beacons"}}, .purpose = "radar beacons"}});
 }
 
 }  // namespace

@@ -47,8 +47,9 @@ std::size_t edit_distance(std::string_view left, std::string_view right) {
 
 std::vector<FormSchema> all_forms() {
   std::vector<FormSchema> forms;
-  for (const auto group : {system_forms, mode_forms, antenna_forms, display_forms, database_forms, model_forms,
-                           route_forms, world_forms, navigation_forms, traffic_forms, limit_forms, value_forms}) {
+  for (const auto group :
+       {system_forms, mode_forms, antenna_forms, display_forms, database_forms, model_forms, route_forms, world_forms,
+        navigation_forms, traffic_forms, limit_forms, beacon_forms, value_forms}) {
     for (FormSchema& form : group()) forms.push_back(std::move(form));
   }
   return forms;

@@ -19,9 +19,8 @@ namespace {
 
 // A row of the table: what the format of a mode has.
 struct Format {
-  bool video = false;     // sweeps
-  bool map = false;       // a patch map
-  bool no_video = false;  // says that it has none yet
+  bool video = false;  // sweeps
+  bool map = false;    // a patch map
   bool arcs = false;
   bool zero_line = false;
   bool scales = false;       // azimuth and elevation scale, carets, pitch ball
@@ -54,7 +53,7 @@ constexpr Format kPatch{
 // Over which A/A or ranging has the radar: no map is made.
 constexpr Format kStandingMap{.map = true, .scales = true, .limit_balls = true, .ground = true, .readouts = true};
 constexpr Format kBeacon{
-    .no_video = true, .arcs = true, .zero_line = true, .scales = true, .ground = true, .readouts = true};
+    .video = true, .arcs = true, .zero_line = true, .scales = true, .ground = true, .readouts = true};
 constexpr Format kPvu{.scales = true, .readouts = true, .velocity = true};
 constexpr Format kLegendsOnly{};
 
@@ -151,7 +150,6 @@ void draw_format(const GlassInput& input, const Format& format, const radar::Rad
   if (format.gray_scale) draw_gray_scale(list);
   if (format.readouts) draw_readouts(input, format, list);
   if (format.velocity) draw_velocity_format(input, list);
-  if (format.no_video) draw_banner("NO VIDEO", list);
   // On a map that could not be read nobody knows where anything lies.
   const bool placed = format.ground && (!format.map || shows_map(input));
   if (placed && format.window) draw_window_outline(input, view, frame, list);

@@ -119,10 +119,15 @@ struct NavigationConfiguration {
   double update_validity_s = 30.0;  // [s] for which a cursor placed serves an INS update
   double velocity_period_s = 60.0;  // [s] between velocity updates
   double velocity_noise_mps =
-      0.1;                     // [m/s] standard deviation of a component that the radar measures: a third of a ft/s
+      0.1;  // [m/s] standard deviation of a horizontal component that the radar measures: a third of a ft/s
   std::string magnetic_model;  // of the earth's field, "wmm2020"; empty: the library's own choice, if its data is there
   std::string magnetic_folder;    // where its data lies; empty: the system's
   double magnetic_year = 2025.0;  // [year] the field drifts; a session has no date of its own
+  // The beams of a measurement, in the order in which the dish takes them. In level flight the gimbal reaches these in
+  // any bank.
+  std::vector<double> beam_azimuths_deg{-30, 30, 30, -30};   // [deg] against the ground track, right positive
+  std::vector<double> beam_depressions_deg{15, 15, 45, 45};  // [deg] below the horizon; as many
+  double beam_dwell_s = 0.4;                                 // [s] on each beam
 };
 
 struct TerrainConfiguration {

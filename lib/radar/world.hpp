@@ -1,6 +1,6 @@
 // What a configuration settles about the world that the radar looks at: what surfaces return, the sea's state, rain,
-// jammers, moving targets, polygonal scenes. Pure values; defaults are those of GUF. Sources: spec physics.md "Power
-// and video".
+// jammers, moving targets, polygonal scenes, beacons. Pure values; defaults are those of GUF. Sources: spec physics.md
+// "Power and video".
 #pragma once
 
 #include <cstdint>
@@ -20,6 +20,8 @@ inline constexpr int kWaterMaterial = 6;   // returns what the sea returns
 inline constexpr int kMostRainCells = 64;  // bounds on what one sweep has to look at
 inline constexpr int kMostJammers = 16;
 inline constexpr int kMostMovers = 64;
+inline constexpr int kMostBeacons = 64;
+inline constexpr int kMostReplies = 6;
 inline constexpr int kMostScenes = 1024;
 
 // What a surface material returns: sigma0 = gamma sin(grazing).
@@ -94,6 +96,23 @@ struct JammingConfiguration {
   std::vector<Jammer> jammers;
 };
 
+// A radar beacon on the ground: it answers a pulse of its code by a train of pulses.
+struct Beacon {
+  std::string name;
+  geo::GeoPoint place;
+  double altitude_m = kNotGiven;  // [m] MSL; not given: a mast on the ground
+  int code = 1;                   // that it answers to
+  double delay_us = 2.0;          // [us] from the pulse that it hears to the first reply
+  int replies = 2;                // 2..kMostReplies
+  double spacing_us = 10.0;       // [us] between replies: by it the pilot knows whom he sees
+  double power_w = 100.0;         // [W] effective radiated
+};
+
+struct BeaconConfiguration {
+  int code = 1;  // that the radar asks for
+  std::vector<Beacon> beacons;
+};
+
 // A ship or a vehicle: a point that goes its great circle at a steady speed from sim time 0 on.
 struct Mover {
   std::string name;
@@ -123,6 +142,7 @@ struct WorldConfiguration {
   JammingConfiguration jamming;
   std::vector<Mover> movers;
   std::vector<Scene> scenes;
+  BeaconConfiguration beacons;
 };
 
 }  // namespace yars::radar

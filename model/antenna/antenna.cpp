@@ -83,6 +83,16 @@ void Antenna::park() {
   elevation_.freeze();
 }
 
+bool Antenna::point(const Platform& platform, Bearing azimuth, Angle elevation) {
+  phase_ = Phase::pointing;
+  tick_ = 0;
+  azimuth_.command_position((azimuth - platform.heading).degrees());
+  elevation_.command_position(elevation.degrees());
+  azimuth_.step();
+  elevation_.step();
+  return azimuth_.reached() && elevation_.reached();
+}
+
 AntennaStep Antenna::step(const Platform& platform, Angle commanded_elevation) {
   AntennaStep step;
   step.phase = phase_;
@@ -113,7 +123,10 @@ void Antenna::slew(const Platform& platform) {
   direction_known_ = true;
   azimuth_.command_position(centre_deg + pattern_.edge_deg(0, direction_));
   azimuth_.step();
-  if (!azimuth_.reached()) return;
+  // From a beam far below the scan the way in elevation may be the longer one. An elevation that was never a number is
+  // not waited for.
+  const bool elevation_there = elevation_.mode() != AxisMode::position || elevation_.reached();
+  if (!azimuth_.reached() || !elevation_there) return;
   phase_ = Phase::sweeping;
   centre_ = wanted_centre(platform);
 }

@@ -13,7 +13,7 @@
 
 namespace yars::model::antenna {
 
-enum class Phase : std::uint8_t { parked, slewing, sweeping, turning };
+enum class Phase : std::uint8_t { parked, slewing, sweeping, turning, pointing };
 
 // What happened in one tick.
 struct AntennaStep {
@@ -62,6 +62,9 @@ class Antenna {
   void aim(double offset_deg) { offset_deg_ = offset_deg; }
   // Holds still until the next restart.
   void park();
+  // A tick on the way to a direction that is held, until the next restart; as far as the servo's limits let it. True
+  // once it is there.
+  bool point(const Platform& platform, geo::Bearing azimuth, geo::Angle elevation);
 
   AntennaStep step(const Platform& platform, geo::Angle commanded_elevation);
 

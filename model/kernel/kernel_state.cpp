@@ -27,7 +27,31 @@ void RadarKernel::State::step_maps(const ModelTick& given, const terrain::Terrai
   if ((given.flags & databuffer::kTickMapComplete) != 0U && maps.forming()) maps.complete();
   const geo::GeoPoint place{given.command.map_latitude_deg, given.command.map_longitude_deg};
   const bool known = std::isfinite(place.latitude_deg) && std::isfinite(place.longitude_deg);
-  maps.step(given, *pose, known ? terrain.elevation_m(place) : kUnknown);
+  maps.step(given, *pose, known ? terrain.elevation_m(place) : kUnknown, !velocity.wanted());
+}
+
+void RadarKernel::State::stop_scanning() {
+  if (scanning) antenna.park();
+  scanning = false;
+}
+
+// What the dish does while it is not needed for a scan: a map comes first, then a round of beams.
+void RadarKernel::State::point_unless_scanning(const ModelTick& given, const terrain::TerrainView& terrain) {
+  if (scanning) return;
+  const antenna::Platform& platform = pose->platform;
+  const bool measures = velocity.wanted() && !maps.forming();
+  if (!measures) velocity.give_up();
+  if (measures) {
+    const VelocityRound::Direction beam = velocity.direction(platform);
+    const bool arrived = antenna.point(platform, beam.azimuth, beam.elevation);
+    const bool within = antenna::within_gimbal(platform, configuration.antenna, beam.azimuth, beam.elevation);
+    velocity.step(given, *pose, arrived, within);
+  } else if (const auto target = maps.looked_at(given, *pose)) {
+    const geo::Bearing azimuth = geo::geodesic_inverse(pose->place, *target).azimuth_at_start;
+    antenna.point(platform, azimuth, elevation_to(*pose, *target, terrain.elevation_m(*target)));
+  } else {
+    antenna.park();
+  }
 }
 
 // In HRM the dish follows the cursor.
@@ -63,16 +87,15 @@ bool RadarKernel::State::follow_command(const ModelTick& given, databuffer::Swee
   const bool jumped = started && given.epoch != epoch;
   epoch = given.epoch;
   started = true;
+  if (jumped) velocity.give_up();
   if (!asks_for_video(command)) {
-    if (scanning) antenna.park();
-    scanning = false;
+    stop_scanning();
     frozen = false;
     clear_chains();
     return false;
   }
   if (maps.keeps_from_scanning(command)) {
-    if (scanning) antenna.park();
-    scanning = false;
+    stop_scanning();
     clear_chains();
     return false;
   }
@@ -80,11 +103,14 @@ bool RadarKernel::State::follow_command(const ModelTick& given, databuffer::Swee
     // HRM falls silent at once; else a scan is ended.
     const bool silenced = is_sharpened() && sniffs(command);
     if (frozen || !scanning || silenced || antenna.between_scans()) {
-      if (scanning) antenna.park();
-      scanning = false;
+      stop_scanning();
       frozen = true;
       return chain().flush(sweep);
     }
+  } else if (velocity.wanted() && (!scanning || antenna.between_scans())) {
+    stop_scanning();
+    frozen = false;
+    return chain().flush(sweep);
   } else if (frozen || !scanning) {
     frozen = false;
     restart(command);
@@ -184,7 +210,7 @@ bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::Anten
   const geo::Length wanted = geo::Length::nautical_miles(given.command.range_nm);
   const radar::Fidelity& fidelity = is_sharpened() ? sharpened.fidelity : configuration.fidelity;
   const bool whole = database.terrain.serves(scan_detail(fidelity, wanted)) && database.scenes_ready;
-  if (needs_ground(noise_only, configuration) && !whole) labels.flags |= databuffer::kSweepNotReady;
+  if (needs_ground(labels.mode, noise_only, configuration) && !whole) labels.flags |= databuffer::kSweepNotReady;
   return chain().advance(place, labels, database, sweep);
 }
 

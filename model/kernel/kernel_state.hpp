@@ -10,15 +10,18 @@
 #include "model/kernel/radar_kernel.hpp"
 #include "model/kernel/sharpened_scan.hpp"
 #include "model/kernel/sweep_chain.hpp"
+#include "model/kernel/velocity_round.hpp"
 
 namespace yars::model::kernel {
 
 using databuffer::ModelStatus;
 using databuffer::ModelTick;
 
-// SNIFF transmits nothing: ground matters to it only where it hides a jammer.
-inline bool needs_ground(bool silent, const radar::RadarConfiguration& configuration) {
-  return !silent || !configuration.world.jamming.jammers.empty();
+// SNIFF transmits nothing, and BCN hears no ground: to them it matters only where it hides a jammer or a beacon.
+inline bool needs_ground(std::uint8_t mode, bool silent, const radar::RadarConfiguration& configuration) {
+  if (!configuration.world.jamming.jammers.empty()) return true;
+  const bool beacons_alone = mode == static_cast<std::uint8_t>(radar::Mode::beacon);
+  return !silent && (!beacons_alone || !configuration.world.beacons.beacons.empty());
 }
 
 inline bool sniffs(const databuffer::RadarCommand& command) {
@@ -36,7 +39,8 @@ struct RadarKernel::State {
         antenna(given.antenna),
         beam_chain(given),
         sharpened_chain(sharpened),
-        maps(configuration) {}
+        maps(configuration),
+        velocity(configuration) {}
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() = default;
@@ -51,6 +55,8 @@ struct RadarKernel::State {
   double wanted_width_deg(const databuffer::RadarCommand& command) const;
   void restart(const databuffer::RadarCommand& command);
   void step_maps(const ModelTick& tick, const terrain::TerrainView& terrain);
+  void stop_scanning();
+  void point_unless_scanning(const ModelTick& tick, const terrain::TerrainView& terrain);
   geo::Angle wanted_elevation(const terrain::TerrainView& terrain) const;
   bool gather(const ModelTick& tick, const antenna::AntennaStep& step, const rbm::Database& database,
               databuffer::Sweep& sweep);
@@ -65,6 +71,7 @@ struct RadarKernel::State {
   SweepChain beam_chain;
   SweepChain sharpened_chain;
   MapSchedule maps;
+  VelocityRound velocity;
   antenna::AntennaStep gathered;  // of a sharpened sweep: what its ticks swept so far
   int gathered_ticks = 0;
   std::optional<Pose> pose;  // the last good one

@@ -30,6 +30,10 @@ bool shows_map(const RadarCommand& command) {
 bool holds_still(const RadarCommand& command) {
   return (command.flags & (databuffer::kFreeze | databuffer::kSniff)) != 0U;
 }
+bool is_place(geo::GeoPoint point) {
+  return std::isfinite(point.latitude_deg) && std::isfinite(point.longitude_deg) &&
+         std::abs(point.latitude_deg) <= 90.0;
+}
 }  // namespace
 
 MapSchedule::MapSchedule(const radar::RadarConfiguration& configuration) : configuration_(&configuration) {}
@@ -51,6 +55,21 @@ bool MapSchedule::keeps_from_scanning(const RadarCommand& command) const {
   return is_commanded(command) || shows_map(command);
 }
 
+// A re-map's: STAB the same ground, PROG the same bearing and range.
+geo::GeoPoint MapSchedule::centre_of(const RadarCommand& command, const Pose& pose, bool commanded) const {
+  const bool progressive = (command.flags & databuffer::kProgressive) != 0U;
+  if (!progressive || commanded || !placed_) return {command.map_latitude_deg, command.map_longitude_deg};
+  return geo::geodesic_direct(pose.place, pose.platform.ground_track + geo::Angle::degrees(off_track_deg_),
+                              geo::Length::metres(distance_m_));
+}
+
+std::optional<geo::GeoPoint> MapSchedule::looked_at(const ModelTick& tick, const Pose& pose) const {
+  if (map_) return map_->order.centre;
+  if (!shows_map(tick.command) || holds_still(tick.command)) return std::nullopt;
+  const geo::GeoPoint centre = centre_of(tick.command, pose, false);
+  return is_place(centre) ? std::optional(centre) : std::nullopt;
+}
+
 std::optional<hrm::PatchOrder> MapSchedule::order_of(const ModelTick& tick, const Pose& pose, bool commanded) const {
   const RadarCommand& command = tick.command;
   hrm::PatchOrder order;
@@ -64,16 +83,9 @@ std::optional<hrm::PatchOrder> MapSchedule::order_of(const ModelTick& tick, cons
   order.map = static_cast<std::uint32_t>(newest_ + 1);
   order.band = command.band;
   order.channel = command.channel;
-  const bool progressive = (command.flags & databuffer::kProgressive) != 0U;
-  if (progressive && !commanded && placed_) {
-    order.centre = geo::geodesic_direct(pose.place, order.ground_track + geo::Angle::degrees(off_track_deg_),
-                                        geo::Length::metres(distance_m_));
-  } else {
-    order.centre = {command.map_latitude_deg, command.map_longitude_deg};
-  }
-  const bool finite = std::isfinite(order.centre.latitude_deg) && std::isfinite(order.centre.longitude_deg) &&
-                      std::abs(order.centre.latitude_deg) <= 90.0 && std::isfinite(order.window.metres());
-  if (!finite || !(order.window.metres() > 0.0)) return std::nullopt;
+  order.centre = centre_of(command, pose, commanded);
+  if (!is_place(order.centre) || !std::isfinite(order.window.metres()) || !(order.window.metres() > 0.0))
+    return std::nullopt;
   const double distance_m = geo::geodesic_inverse(order.apex, order.centre).distance.metres();
   if (distance_m < kNearestShare * order.window.metres()) return std::nullopt;
   return order;
@@ -108,7 +120,7 @@ void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m
   placed_ = true;
 }
 
-void MapSchedule::step(const ModelTick& tick, const Pose& pose, double ground_m) {
+void MapSchedule::step(const ModelTick& tick, const Pose& pose, double ground_m, bool dish_free) {
   const RadarCommand& command = tick.command;
   const bool jumped = tick.epoch != epoch_;
   epoch_ = tick.epoch;
@@ -124,7 +136,7 @@ void MapSchedule::step(const ModelTick& tick, const Pose& pose, double ground_m)
   // A re-map in progress is finished also when the picture is to freeze; a jump makes it worthless, and SNIFF ends it.
   const bool silent = (command.flags & databuffer::kSniff) != 0U;
   if (map_ && (map_->request != command.map_request || jumped || silent)) map_.reset();
-  if (!map_ && !holds_still(command)) start(tick, pose, ground_m, false);
+  if (!map_ && dish_free && !holds_still(command)) start(tick, pose, ground_m, false);
 }
 
 void MapSchedule::complete() {

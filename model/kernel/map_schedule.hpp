@@ -31,7 +31,8 @@ class MapSchedule {
 
   void resume(const databuffer::ModelStatus& status);
   // Starts, ends or gives up. `ground_m`: elevation [m] at the place asked for, or at the last one; NaN = unknown.
-  void step(const databuffer::ModelTick& tick, const Pose& pose, double ground_m);
+  // `dish_free`: what stands may be mapped again; a command never waits.
+  void step(const databuffer::ModelTick& tick, const Pose& pose, double ground_m, bool dish_free = true);
   // Whoever has the picture of a map that is due says so: it is the newest from the next status on.
   void complete();
 
@@ -41,6 +42,8 @@ class MapSchedule {
   bool due(std::int64_t tick) const { return map_ && tick >= map_->end_tick; }
   // No scan while a map is commanded or shown.
   bool keeps_from_scanning(const databuffer::RadarCommand& command) const;
+  // What the dish looks at: the middle of the map that forms, else of the one that comes next; nothing where none does.
+  std::optional<geo::GeoPoint> looked_at(const databuffer::ModelTick& tick, const Pose& pose) const;
   // Time for a map of this window there [s]; NaN for a window of 0.
   double estimate_s(const databuffer::RadarCommand& command, const Pose& pose, geo::GeoPoint target, double ground_m,
                     double window_nm) const;
@@ -49,6 +52,7 @@ class MapSchedule {
   std::uint64_t newest() const { return newest_; }
 
  private:
+  geo::GeoPoint centre_of(const databuffer::RadarCommand& command, const Pose& pose, bool commanded) const;
   std::optional<hrm::PatchOrder> order_of(const databuffer::ModelTick& tick, const Pose& pose, bool commanded) const;
   void start(const databuffer::ModelTick& tick, const Pose& pose, double ground_m, bool commanded);
   int looks_of(const databuffer::RadarCommand& command) const;

@@ -34,12 +34,14 @@ std::optional<Pose> pose_of(const databuffer::Ownship& ownship) {
       radar::ground_track(geo::Speed::metres_per_second(ownship.velocity_north_mps),
                           geo::Speed::metres_per_second(ownship.velocity_east_mps), pose.platform.heading);
   pose.ground_speed = geo::Speed::metres_per_second(std::hypot(ownship.velocity_north_mps, ownship.velocity_east_mps));
+  pose.velocity_mps = {ownship.velocity_north_mps, ownship.velocity_east_mps, ownship.velocity_down_mps};
   return pose;
 }
 
 bool asks_for_video(const databuffer::RadarCommand& command) {
   const bool scans = command.mode == static_cast<std::uint8_t>(radar::Mode::rbm) ||
-                     command.mode == static_cast<std::uint8_t>(radar::Mode::hrm);
+                     command.mode == static_cast<std::uint8_t>(radar::Mode::hrm) ||
+                     command.mode == static_cast<std::uint8_t>(radar::Mode::beacon);
   return command.power == static_cast<std::uint8_t>(radar::Power::operate) && scans &&
          command.range_nm >= kLeastRangeNm && command.range_nm <= kGreatestRangeNm;
 }

@@ -27,19 +27,21 @@ RadarKernel& RadarKernel::operator=(RadarKernel&&) noexcept = default;
 void RadarKernel::resume(const ModelStatus& status) {
   State& state = *state_;
   const auto phase = static_cast<antenna::Phase>(
-      std::min<std::uint8_t>(status.antenna_phase, static_cast<std::uint8_t>(antenna::Phase::turning)));
+      std::min<std::uint8_t>(status.antenna_phase, static_cast<std::uint8_t>(antenna::Phase::pointing)));
   state.antenna.resume({status.antenna_azimuth_deg, status.antenna_elevation_deg, status.scan_centre_deg,
                         status.scan_width_deg, static_cast<int>(std::min<std::uint32_t>(status.scan_tick, 1U << 20U)),
                         status.scan_direction, phase, status.scan_offset_deg, status.scan_rate_dps});
   state.clear_chains();
   state.maps.resume(status);
+  state.velocity.resume(status);
   state.scan_width_deg = status.scan_width_deg;
   state.scan_range_m = status.scan_range_m;
   state.epoch = status.epoch;
   state.scan = status.scan;
   state.next_sweep = status.sweep;
   state.scan_restart = status.scan_restart;
-  state.scanning = (status.flags & databuffer::kModelScanning) != 0U && phase != antenna::Phase::parked;
+  const bool holds_still = phase == antenna::Phase::parked || phase == antenna::Phase::pointing;
+  state.scanning = (status.flags & databuffer::kModelScanning) != 0U && !holds_still;
   state.frozen = (status.flags & databuffer::kModelFrozen) != 0U;
   state.noise_only = status.scan_noise_only != 0;
   state.started = true;
@@ -52,7 +54,7 @@ RadarKernel::Need RadarKernel::need(const ModelTick& tick) const {
   if (!scans || stays_frozen) return need;
   // A scan that began before SNIFF transmits to its end.
   const bool silent = sniffs(tick.command) && (state_->noise_only || !state_->scanning);
-  if (!needs_ground(silent, state_->configuration)) return need;
+  if (!needs_ground(tick.command.mode, silent, state_->configuration)) return need;
   const std::optional<Pose> pose = pose_of(tick.ownship);
   if (!pose && !state_->pose) return need;
   need.ground = true;
@@ -81,8 +83,10 @@ bool RadarKernel::step(const ModelTick& tick, const rbm::Database& database, dat
     state.command = tick.command;
     return false;
   }
+  state.velocity.follow(tick);
   state.step_maps(tick, terrain);
   const bool finished = state.follow_command(tick, sweep);
+  state.point_unless_scanning(tick, terrain);
   if (!state.scanning) return finished;
   if (state.is_sharpened() && state.antenna.between_scans())
     state.antenna.aim(sharpened_sector(state.command, *state.pose, state.configuration).offset_deg);
@@ -147,6 +151,7 @@ void RadarKernel::describe(const terrain::TerrainView& terrain, ModelStatus& sta
     status.map_timer_s = state.maps.estimate_s(state.command, *state.pose, cursor, status.cursor_ground_elevation_m,
                                                state.command.window_nm);
   state.maps.describe(state.tick, status);
+  state.velocity.describe(status);
   if (reason) reason->copy(status.why_not, sizeof status.why_not - 1);
 }
 

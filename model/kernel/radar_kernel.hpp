@@ -26,7 +26,7 @@ class RadarKernel {
   const MapSchedule& maps() const;
 
   // The region that the command needs at this place, for prepare(); none while nothing looks at the ground: without
-  // video, and in SNIFF without jammers.
+  // video, in SNIFF without jammers, in BCN without beacons.
   struct Need {
     bool ground = false;
     terrain::TerrainRegion region;

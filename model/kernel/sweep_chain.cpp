@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <span>
 
+#include "lib/radar/modes.hpp"
+
 namespace yars::model::kernel {
 
 namespace {
@@ -13,7 +15,8 @@ SweepChain::SweepChain(const radar::RadarConfiguration& configuration)
     : seed_(configuration.seed),
       samples_(rbm::sample_count(configuration)),
       algorithm_(rbm::make_algorithm(configuration)),
-      strobes_(configuration) {
+      strobes_(configuration),
+      beacons_(configuration) {
   for (Measured& measured : measured_) measured.power.assign(samples_, 0.0F);
 }
 
@@ -23,19 +26,27 @@ bool SweepChain::advance(const SweepPlace& place, const Labels& labels, const rb
   next_ = (next_ + 1) % measured_.size();
   measured.place = place;
   measured.labels = labels;
-  const bool deaf = (labels.flags & databuffer::kSweepBlank) != 0U;
-  measured.jamming = deaf ? 0.0 : strobes_.level(look_of(place), database.terrain);
-  if ((labels.flags & kNothingReceived) != 0U || labels.dark) {
-    std::fill(measured.power.begin(), measured.power.end(), 0.0F);
-  } else {
-    const std::size_t pending = algorithm_->measure(look_of(place), database, measured.power);
-    posts_pending_ += pending;
-    if (pending > 0) measured.labels.flags |= databuffer::kSweepNotReady;
-  }
+  receive(measured, database);
   const bool ready = held_ > 0;
   if (ready) finish(held_ > 1 ? newest(2) : newest(1), newest(1), newest(0), sweep);
   held_ = std::min<std::size_t>(held_ + 1, 2);
   return ready;
+}
+
+void SweepChain::receive(Measured& measured, const rbm::Database& database) {
+  const Labels& labels = measured.labels;
+  const rbm::Look look = look_of(measured.place);
+  const bool deaf = (labels.flags & databuffer::kSweepBlank) != 0U;
+  measured.jamming = deaf ? 0.0 : strobes_.level(look, database.terrain);
+  if ((labels.flags & kNothingReceived) != 0U || labels.dark) {
+    std::fill(measured.power.begin(), measured.power.end(), 0.0F);
+  } else if (labels.mode == static_cast<std::uint8_t>(radar::Mode::beacon)) {
+    beacons_.measure(look, database.terrain, measured.power);
+  } else {
+    const std::size_t pending = algorithm_->measure(look, database, measured.power);
+    posts_pending_ += pending;
+    if (pending > 0) measured.labels.flags |= databuffer::kSweepNotReady;
+  }
 }
 
 bool SweepChain::flush(databuffer::Sweep& sweep) {

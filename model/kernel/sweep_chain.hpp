@@ -14,6 +14,7 @@
 #include "lib/radar/configuration.hpp"
 #include "model/kernel/sweep_record.hpp"
 #include "model/rbm/algorithm.hpp"
+#include "model/rbm/beacons.hpp"
 #include "model/rbm/strobes.hpp"
 
 namespace yars::model::kernel {
@@ -52,6 +53,7 @@ class SweepChain {
     double jamming = 0.0;  // full scale = 1
     memory::LineVector<float> power;
   };
+  void receive(Measured& measured, const rbm::Database& database);
   void finish(const Measured& before, const Measured& centre, const Measured& after, databuffer::Sweep& sweep);
   Measured& newest(std::size_t age) { return measured_[(next_ + measured_.size() - 1 - age) % measured_.size()]; }
 
@@ -59,6 +61,7 @@ class SweepChain {
   std::size_t samples_;
   std::unique_ptr<rbm::Algorithm> algorithm_;
   rbm::Strobes strobes_;
+  rbm::Beacons beacons_;
   std::array<Measured, 3> measured_;
   std::size_t next_ = 0;  // slot that the next sweep takes
   std::size_t held_ = 0;  // newest ones that belong to this pass, at most 2

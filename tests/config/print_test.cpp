@@ -98,6 +98,7 @@ class RandomConfiguration {
     made.terrain = {coin() ? "" : "/data/de\"d", coin()};
     made.seed = random_() >> 11U;  // below 2^53, the range of the slot
     made.magnetic_variation_deg = number(-180, 180);
+    made.navigation = navigation();
     made.route = route();
     made.world = world();
     return made;
@@ -157,6 +158,25 @@ class RandomConfiguration {
   geo::GeoPoint place() { return {number(-90, 90), number(-180, 180)}; }
   std::vector<double> five() { return {number(-200, 200), number(-200, 200), 0, 1, number(-1, 1)}; }
 
+  radar::NavigationConfiguration navigation() {
+    const auto feet = [this](double low, double high) { return number(low, high) * 0.3048; };
+    return {feet(-6e5, 6e5),
+            feet(-6e5, 6e5),
+            feet(-1e3, 1e3),
+            feet(-1e3, 1e3),
+            feet(-1e3, 1e3),
+            feet(0, 1e3),
+            number(1, 3600),
+            number(5, 3600),
+            feet(0, 100),
+            coin() ? "" : "wmm2020",
+            coin() ? "" : "/data/field",
+            number(1900, 2100),
+            {-20, 20, 0},
+            {20, 20, number(40, 60)},
+            number(0.05, 10.0)};
+  }
+
   // Lengths as a file gives them, in feet and nautical miles; what may be left out sometimes is.
   radar::WorldConfiguration world() {
     constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -190,6 +210,10 @@ class RandomConfiguration {
                              number(0, 1000) * 0.3048});
       made.scenes.push_back({"/s.flt", coin() ? place() : radar::Scene{}.place, number(-360, 360),
                              static_cast<radar::SceneHeights>(random_() % 3)});
+      made.beacons.code = static_cast<int>(1 + random_() % 99);
+      made.beacons.beacons.push_back({"B", place(), coin() ? kUnknown : number(0, 90'000) * 0.3048,
+                                      static_cast<int>(1 + random_() % 99), number(0, 1000),
+                                      static_cast<int>(2 + random_() % 5), number(0.1, 1000), number(0, 1e9)});
     }
     return made;
   }

@@ -56,9 +56,9 @@ inline auto fields(const radar::HighResolutionConfiguration& map) {
 
 inline auto fields(const radar::NavigationConfiguration& navigation) {
   const auto& [error_north, error_east, drift_north, drift_east, drift_down, walk, validity, period, noise, model,
-               folder, year] = navigation;
+               folder, year, beam_azimuths, beam_depressions, dwell] = navigation;
   return std::tuple(error_north, error_east, drift_north, drift_east, drift_down, walk, validity, period, noise, model,
-                    folder, year);
+                    folder, year, beam_azimuths, beam_depressions, dwell);
 }
 
 inline auto fields(const radar::TerrainConfiguration& terrain) {
@@ -106,6 +106,12 @@ inline auto fields(const radar::Scene& scene) {
   return std::tuple(file, comparable(latitude), comparable(longitude), heading, heights);
 }
 
+inline auto fields(const radar::Beacon& beacon) {
+  const auto& [name, place, altitude, code, delay, replies, spacing, power] = beacon;
+  const auto& [latitude, longitude] = place;
+  return std::tuple(name, latitude, longitude, comparable(altitude), code, delay, replies, spacing, power);
+}
+
 template <class Record>
 auto fields_of_all(const std::vector<Record>& records) {
   std::vector<decltype(fields(records[0]))> all;
@@ -115,16 +121,17 @@ auto fields_of_all(const std::vector<Record>& records) {
 }
 
 inline auto fields(const radar::WorldConfiguration& world) {
-  const auto& [land, sea, rain, jamming, movers, scenes] = world;
+  const auto& [land, sea, rain, jamming, movers, scenes, beaconing] = world;
   const auto& [slope, reference, street, land_texture, materials] = land;
   const auto& [state, wind, from, polarization, horizontal, vertical, factor, sea_texture] = sea;
   const auto& [a, b, dielectric, k, exponent, cells] = rain;
   const auto& [radar_power, sidelobes, jammers] = jamming;
+  const auto& [beacon_code, beacons] = beaconing;
   return std::tuple(std::tuple(slope, reference, street, land_texture, fields_of_all(materials)),
                     std::tuple(comparable(state), wind, from, polarization, horizontal, vertical, factor, sea_texture),
                     std::tuple(a, b, dielectric, k, exponent, fields_of_all(cells)),
                     std::tuple(radar_power, sidelobes, fields_of_all(jammers)), fields_of_all(movers),
-                    fields_of_all(scenes));
+                    fields_of_all(scenes), std::tuple(beacon_code, fields_of_all(beacons)));
 }
 
 inline auto fields(const radar::WindowLimits& limits) {

@@ -1,4 +1,4 @@
-// Materials, sea, rain, jammers and movers in GUF.
+// Materials, sea, rain, jammers, movers, beacons and the beams of velocity updates in GUF.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -114,17 +114,50 @@ TEST(Scenes, HaveAFileAndByChanceAPlaceAHeadingAndAnElevation) {
   EXPECT_THAT(refusal("( Scenes `( ( Scene \"a.flt\" :latitude 1 ) ) )"), HasSubstr("together, or neither"));
 }
 
+TEST(Beacons, HaveAPlaceACodeAndATrainOfReplies) {
+  const auto beacons = loaded(
+                           "( Beacons `( ( Beacon \"KMM\" 37.6 -122.4 :altitude 1000 :code 7 :delay 3 :replies 4 "
+                           ":spacing 8 :power 20 )\n"
+                           "( Beacon :latitude 1 :longitude 2 ) ) :beaconCode 7 )")
+                           .radar.world.beacons;
+  EXPECT_EQ(beacons.code, 7);
+  ASSERT_EQ(beacons.beacons.size(), 2U);
+  EXPECT_EQ(fields(beacons.beacons[0]), fields(radar::Beacon{"KMM", {37.6, -122.4}, 304.8, 7, 3.0, 4, 8.0, 20.0}));
+  radar::Beacon plain;
+  plain.place = {1.0, 2.0};
+  EXPECT_EQ(fields(beacons.beacons[1]), fields(plain));
+  EXPECT_THAT(refusal("( Beacons `( ( Beacon :latitude 1 ) ) )"), HasSubstr("expected a longitude"));
+  EXPECT_THAT(refusal("( Beacons `( ( Beacon \"x\" 1 2 :replies 1 ) ) )"), HasSubstr("in [2, 6]"));
+  std::string many = "( Beacons `( ";
+  for (int i = 0; i < 65; ++i) many += "( Beacon \"b\" 10 20 ) ";
+  EXPECT_THAT(refusal(many + ") )"), HasSubstr("expected at most 64 beacons"));
+}
+
+TEST(Navigation, TakesThreeToEightBeamsThatDoNotLieInOnePlane) {
+  const auto navigation =
+      loaded("( Navigation :beamAzimuths `( -20 20 0 ) :beamDepressions `( 20 20 45 ) :beamDwell 1 )").radar.navigation;
+  EXPECT_EQ(navigation.beam_azimuths_deg, (std::vector<double>{-20, 20, 0}));
+  EXPECT_EQ(navigation.beam_depressions_deg, (std::vector<double>{20, 20, 45}));
+  EXPECT_EQ(navigation.beam_dwell_s, 1.0);
+  EXPECT_THAT(refusal("( Navigation :beamAzimuths `( -20 20 0 ) )"),
+              HasSubstr("expected as many as beamAzimuths, 3 for :beamDepressions, found 4"));
+  EXPECT_THAT(refusal("( Navigation :beamAzimuths `( 0 0 0 ) :beamDepressions `( 10 30 50 ) )"),
+              HasSubstr("expected beams that do not all lie in one plane"));
+  EXPECT_THAT(refusal("( Navigation :beamAzimuths `( -20 20 ) )"), HasSubstr(":beamAzimuths"));
+}
+
 TEST(World, IsReadFromTheSlotsOfTheRadarWithoutWarning) {
   const auto configuration = loaded(
       "( Apg70 :sea ( Sea :state 1 ) :land ( Land :texture 5 ) :rain ( Rain :cells `( ( RainCell 1 2 ) ) )\n"
       ":jammers ( Jammers :sidelobes -40 ) :movers ( Movers `( ( Mover \"m\" 1 2 ) ) )\n"
-      ":scenes ( Scenes `( ( Scene \"a.flt\" ) ) ) )");
+      ":scenes ( Scenes `( ( Scene \"a.flt\" ) ) ) :beacons ( Beacons `( ( Beacon \"b\" 1 2 ) ) ) )");
   EXPECT_THAT(configuration.warnings, IsEmpty());
   EXPECT_EQ(configuration.radar.world.sea.state, 1.0);
   EXPECT_EQ(configuration.radar.world.land.texture, 5.0);
   EXPECT_EQ(configuration.radar.world.jamming.sidelobe_db, -40.0);
   EXPECT_EQ(configuration.radar.world.movers.size(), 1U);
   EXPECT_EQ(configuration.radar.world.scenes.size(), 1U);
+  EXPECT_EQ(configuration.radar.world.beacons.beacons.size(), 1U);
 }
 
 }  // namespace

@@ -67,6 +67,29 @@ long allocations_of(radar::Algorithm algorithm) {
   return allocations.load() - before;
 }
 
+// Steps through what is no scan: a round of beams in PVU and between scans, and a map.
+long allocations_beside_the_scan() {
+  radar::RadarConfiguration configuration;
+  configuration.fidelity.samples = 64;
+  test::Cockpit cockpit(configuration);
+  databuffer::ModelStatus status{};
+  cockpit.run(50);
+  const long before = allocations.load();
+  for (int tick = 0; tick < 3000; ++tick) {
+    const auto mode = tick < 1000 ? radar::Mode::pvu : tick < 2500 ? radar::Mode::rbm : radar::Mode::patch;
+    cockpit.tick.command.mode = static_cast<std::uint8_t>(mode);
+    cockpit.tick.command.map_latitude_deg = 37.1;
+    cockpit.tick.command.map_longitude_deg = -121.7;
+    cockpit.tick.command.map_window_nm = 4.7F;
+    cockpit.set_flag(databuffer::kIpvu, tick > 1200);
+    cockpit.step();
+    cockpit.kernel.describe(cockpit.terrain, status);
+  }
+  EXPECT_GT(status.velocity_count, 1U);
+  EXPECT_GT(status.map_window_nm, 0.0);
+  return allocations.load() - before;
+}
+
 TEST(Allocation, TheCounterCounts) {
   const long before = allocations.load();
   delete new int(1);
@@ -76,6 +99,7 @@ TEST(Allocation, TheCounterCounts) {
 TEST(Allocation, AWarmKernelAllocatesNothing) {
   EXPECT_EQ(allocations_of(radar::Algorithm::standard), 0);
   EXPECT_EQ(allocations_of(radar::Algorithm::reference), 0);
+  EXPECT_EQ(allocations_beside_the_scan(), 0);
 }
 
 }  // namespace

@@ -249,6 +249,23 @@ TEST(Antenna, ACircularScanGoesRoundAndNeverTurns) {
   EXPECT_NEAR(turned_deg, 720.0, 1e-6);
 }
 
+TEST(Antenna, GoesToADirectionAndHoldsItInSpaceWhileTheAircraftTurns) {
+  const radar::AntennaConfiguration configuration;
+  Antenna antenna(configuration);
+  int ticks = 1;
+  while (!antenna.point(flying(0.0), Bearing::degrees(-40.0), Angle::degrees(-20.0)) && ticks < 1000) ++ticks;
+  // 40 degrees at 110 deg/s, less the tolerance.
+  EXPECT_NEAR(ticks * radar::kTickSeconds, 40.0 / configuration.azimuth_rate_dps, 2.0 * radar::kTickSeconds);
+  for (double heading_deg = 0.0; heading_deg > -80.0; heading_deg -= 0.1) {
+    ASSERT_TRUE(antenna.point(flying(heading_deg), Bearing::degrees(-40.0), Angle::degrees(-20.0)));
+    ASSERT_NEAR(heading_deg + antenna.azimuth_deg(), -40.0, 1e-9);
+    ASSERT_EQ(antenna.elevation_deg(), -20.0);
+  }
+  for (int i = 0; i < 500; ++i) antenna.point(flying(30.0), Bearing::degrees(-40.0), Angle::degrees(-75.0));
+  EXPECT_EQ(antenna.azimuth_deg(), -configuration.azimuth_limit_deg);
+  EXPECT_EQ(antenna.elevation_deg(), -configuration.elevation_limit_deg);
+}
+
 TEST(Antenna, ResumesInTheMiddleOfAScan) {
   Antenna first({});
   first.restart(100.0);

@@ -58,10 +58,18 @@ TEST(RadarKernel, MakesNothingInOffAndStandby) {
   }
 }
 
-TEST(RadarKernel, MakesNoGroundVideoInBeaconMode) {
+TEST(RadarKernel, ScansInBeaconModeWithoutGroundVideo) {
   Cockpit cockpit;
+  const double lit = mean_video(cockpit.run(400).back());
   cockpit.tick.command.mode = static_cast<std::uint8_t>(radar::Mode::beacon);
-  EXPECT_TRUE(cockpit.run(400).empty());
+  ++cockpit.tick.command.scan_restart;
+  const auto sweeps = cockpit.run(400);
+  ASSERT_GT(sweeps.size(), 300U);
+  // Receiver noise is what remains.
+  EXPECT_LT(mean_video(sweeps.back()), 0.5 * lit);
+  EXPECT_GT(mean_video(sweeps.back()), 0.0);
+  EXPECT_EQ(sweeps.back().mode, cockpit.tick.command.mode);
+  EXPECT_FALSE(cockpit.kernel.need(cockpit.tick).ground) << "there is no beacon that it could hide";
 }
 
 TEST(RadarKernel, FreezeStopsAtTheEndOfTheScan) {

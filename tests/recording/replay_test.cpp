@@ -53,6 +53,8 @@ class Recorded {
     cockpit_.tick.resumed_tick = status_.tick;
     cockpit_.tick.tick += 7;  // while it was away
   }
+  void update_velocity() { cockpit_.set_flag(databuffer::kIpvu, true); }
+  const databuffer::ModelStatus& status() const { return status_; }
   const Comparison& comparison() const { return replay_.comparison(); }
 
  private:
@@ -115,6 +117,22 @@ TEST(Replay, GoesOnWithTheStatusThatARestartedModelTookUp) {
     EXPECT_EQ(recorded.comparison().different(), 0U);
     EXPECT_EQ(recorded.comparison().missing(), 0U);
     EXPECT_LE(recorded.comparison().extra(), 1U);  // the sweep of the tick that was not finished
+  }
+}
+
+TEST(Replay, MakesTheSweepsAfterAVelocityUpdateAgainAlsoOfAModelThatWasKilledInIt) {
+  for (const int before : {5, 150, 300, 600}) {
+    SCOPED_TRACE(before);
+    Recorded recorded;
+    recorded.run(300);
+    recorded.update_velocity();
+    recorded.run(before);
+    recorded.be_started_again();
+    recorded.run(1200 - before);
+    EXPECT_EQ(recorded.status().velocity_count, 1U);
+    EXPECT_GT(recorded.comparison().equal(), 500U);
+    EXPECT_EQ(recorded.comparison().different(), 0U);
+    EXPECT_EQ(recorded.comparison().missing(), 0U);
   }
 }
 

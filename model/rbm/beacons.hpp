@@ -1,0 +1,47 @@
+// Beacons as a sweep of BCN sees them: each that lies within the beam, is in sight and answers to the radar's code
+// shows as short arcs, one a reply, behind its place by c / 2 for each microsecond of its delay and spacing. It
+// transmits itself: P = 4 pi (ERP_beacon / ERP_radar) G / R^2 as a jammer's, G the one-way gain; a reply lasts as long
+// as the radar's pulse. It hears the main beam alone, so its arcs are a beam width wide. The receiver listens on the
+// beacons' frequency: ground returns nothing, sensitivity time control is off. Source: spec pvi.md rule 17.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lib/radar/configuration.hpp"
+#include "model/rbm/earth.hpp"
+#include "model/rbm/look.hpp"
+#include "model/rbm/receiver.hpp"
+
+namespace yars::model::rbm {
+
+// Replies in the order of their arrival.
+struct Reply {
+  double slant_range_m = 0.0;  // at which the receiver takes it to be
+  double distance_m = 0.0;     // over ground, of that slant range at the beacon's height: where it is drawn
+  double power = 0.0;          // full scale = 1
+};
+
+class Beacons {
+ public:
+  explicit Beacons(const radar::RadarConfiguration& configuration);
+
+  bool none() const { return answering_.empty(); }
+
+  // What arrives from all beacons, also from beyond the range. Valid until the next call; allocates nothing.
+  std::span<const Reply> replies(const Look& look, const terrain::TerrainView& terrain);
+
+  // The same as power by samples, near to far, as Algorithm::measure() gives it; what is no reply is 0.
+  void measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power);
+
+ private:
+  void answer(const radar::Beacon& beacon, const Look& look, const Receiver& receiver,
+              const terrain::TerrainView& terrain);
+
+  radar::RadarConfiguration configuration_;
+  std::vector<radar::Beacon> answering_;  // to the radar's code
+  std::vector<Reply> replies_;
+  std::vector<double> distance_m_;  // of the samples
+};
+
+}  // namespace yars::model::rbm
