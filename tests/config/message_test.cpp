@@ -72,7 +72,7 @@ TEST(Messages, FormsOfOneKindBecomeAList) {
 }
 
 TEST(Messages, AModeStandsInItsListOrInTheRadar) {
-  const std::string twin = "( System :modes `( ( RealBeamMode :samples 77 ) ( SarMode :windows `( 1 2 ) ) ) )";
+  const std::string twin = "( System :modes `( ( RealBeamMode :samples 77 ) ( SarMode :windows `( 1.3 3.3 ) ) ) )";
   expect_twins("Radar: { modes: { RealBeamMode: { samples: 77 } SarMode: { windows: { 1.3, 3.3 } } } }", twin);
   expect_twins("Radar: { RealBeamMode: { samplesPerSweep: 77 } SarMode: { windows: { 1.3, 3.3 } } }", twin);
 }
