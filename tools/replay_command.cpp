@@ -80,7 +80,7 @@ void replay(const CommonOptions& common, const ReplayOptions& options) {
   auto scenes = model::scene::open_scenes(configuration, model::scene::SceneUse::scatterers);
   if (!scenes) give_up(scenes.error());
   std::optional<recording::Replay> run;
-  std::uint64_t events = 0, lost = 0;
+  std::uint64_t events = 0, lost = 0, pauses = 0;
   while (auto entry = reader->next()) {
     if (databuffer::stop_requested())
       give_up({options.file, "time to read it to its end", "a request to stop", "", false});
@@ -94,6 +94,7 @@ void replay(const CommonOptions& common, const ReplayOptions& options) {
       if (run) run->recorded(recording::mark_of(*sweep));
     } else if (const auto* start = std::get_if<recording::StartingPoint>(&*entry)) {
       if (!run) run.emplace(configuration, **store, scenes->get());
+      if (run->ticks() > 0) ++pauses;
       run->start(*start);
     } else if (const auto* gap = std::get_if<recording::Gap>(&*entry)) {
       lost += gap->ticks;
@@ -113,6 +114,7 @@ void replay(const CommonOptions& common, const ReplayOptions& options) {
                                       {"not_ready", run->comparison().not_ready()},
                                       {"run_hash", run->comparison().run_hash()},
                                       {"ticks_lost", lost},
+                                      {"pauses", pauses},
                                       {"cut_short", reader->cut_short()}};
   std::printf("%s\n", object.dump().c_str());
   if (run->comparison().different() > 0)
