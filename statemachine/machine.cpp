@@ -13,6 +13,7 @@
 #include "statemachine/scanning.hpp"
 #include "statemachine/sequence_points.hpp"
 #include "statemachine/steering.hpp"
+#include "statemachine/switches.hpp"
 #include "statemachine/transition_table.hpp"
 #include "statemachine/updating.hpp"
 #include "statemachine/velocity_update.hpp"
@@ -88,7 +89,7 @@ void advance(RadarState& state, const Surroundings& surroundings, const radar::R
     advance_velocity_update(state, surroundings, configuration);
   }
   advance_navigators(state, surroundings.tick, configuration);
-  if (!surroundings.recorder_writing) set_flag(state, databuffer::kVtr, false);
+  advance_recorder(state, surroundings);
   if (points_due) draw_points(state, surroundings, configuration);
   end_message(state, surroundings.tick);
   write_legends(state);

@@ -23,7 +23,9 @@ struct Surroundings {
   std::int64_t sim_time_ns = 0;
   std::uint32_t epoch = 0;
   bool ownship_valid = false;
-  bool recorder_writing = false;
+  bool recorder_present = false;
+  bool recorder_writing = false;  // it says so, and is present
+  bool recorder_failed = false;   // it is present and has stopped: the disk takes no more
   databuffer::Ownship ownship{};
   databuffer::Nav nav{};
   double field_variation_deg = std::numeric_limits<double>::quiet_NaN();  // by a model of the earth's field; NaN = none

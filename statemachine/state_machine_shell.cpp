@@ -64,12 +64,30 @@ void StateMachineShell::latch(const databuffer::TickLoop::Due& due) {
   surroundings_.ownship_valid = selected.valid;
   surroundings_.ownship = selected.ownship;
   surroundings_.nav = selected.nav;
-  surroundings_.recorder_writing = session_->role_is_held(databuffer::Role::recorder);
+  latch_recorder();
   const bool told = session_->layout().model_status.read(surroundings_.model).has_value();
   const bool stale = !told || (surroundings_.model.flags & databuffer::kModelStale) != 0;
   surroundings_.height_above_ground_m = stale ? std::nan("") : surroundings_.model.height_above_ground_m;
   latch_variation();
   latch_maps();
+}
+
+// What a recorder that has gone left behind does not count.
+void StateMachineShell::latch_recorder() {
+  const auto& slot = session_->layout().recorder_status;
+  if (slot.version() != recorder_version_) {
+    databuffer::RecorderStatus status{};
+    if (const auto version = slot.read(status)) {
+      recorder_version_ = *version;
+      if (const auto reason = databuffer::why_refused(status))
+        session_->note(databuffer::NoteKind::refusal, "recorder status: " + *reason);
+      else
+        recorder_ = status;
+    }
+  }
+  surroundings_.recorder_present = session_->role_is_held(databuffer::Role::recorder);
+  surroundings_.recorder_writing = surroundings_.recorder_present && recorder_.writing != 0;
+  surroundings_.recorder_failed = surroundings_.recorder_present && recorder_.problem[0] != '\0';
 }
 
 // Every second: the field changes over miles, and its series costs more than a tick of the machine.

@@ -21,6 +21,7 @@ class StateMachineShell {
 
  private:
   void latch_maps();
+  void latch_recorder();
   void latch_variation();
   void latch(const databuffer::TickLoop::Due& due);
   void take_events(std::int64_t tick);
@@ -34,6 +35,8 @@ class StateMachineShell {
   geo::MagneticField field_;
   Surroundings surroundings_;
   std::uint64_t refused_map_ = 0;  // told once
+  databuffer::RecorderStatus recorder_{};
+  std::uint64_t recorder_version_ = 0;
   databuffer::RadarState state_;
   databuffer::RadarState published_;
   bool nothing_published_ = true;

@@ -18,6 +18,7 @@ constexpr std::uint8_t kBands = 5;
 // 3 s: long enough to read two words, short enough not to hide the next; a shorter one is missed in a scan of the
 // panel.
 constexpr std::int64_t kMessageTicks = 600;
+constexpr std::string_view kRecorderFull = "VTR FULL";
 
 void toggle(Step& step, std::uint32_t flag) {
   step.state.flags ^= flag;
@@ -58,11 +59,21 @@ void step_contrast(Step& step) {
 }
 
 void toggle_recorder(Step& step) {
-  if (step.surroundings.recorder_writing) {
-    toggle(step, databuffer::kVtr);
-  } else {
+  if (!step.surroundings.recorder_present) {
     show_message(step, "NO RECORDER");
+  } else if (step.surroundings.recorder_failed) {
+    show_message(step, kRecorderFull);
+  } else {
+    ++step.state.vtr_request;
   }
+}
+
+// The box is what the recorder says, not what was asked for.
+void advance_recorder(databuffer::RadarState& state, const Surroundings& surroundings) {
+  const bool wrote = has(state, databuffer::kVtr);
+  set_flag(state, databuffer::kVtr, surroundings.recorder_present && surroundings.recorder_writing);
+  if (wrote && surroundings.recorder_present && surroundings.recorder_failed)
+    show_message(state, surroundings, kRecorderFull);
 }
 
 void toggle_sniff(Step& step) {

@@ -12,7 +12,8 @@ void brightness_up(Step& step);
 void brightness_down(Step& step);
 void step_contrast(Step& step);
 void toggle_stabilizing(Step& step);  // STAB, PROG
-void toggle_recorder(Step& step);     // rule 22: NO RECORDER when nothing writes
+void toggle_recorder(Step& step);     // rule 22: asks the recorder; NO RECORDER when there is none
+void advance_recorder(databuffer::RadarState& state, const Surroundings& surroundings);  // once a tick
 void toggle_ipvu(Step& step);
 void toggle_sniff(Step& step);  // rules 9, 19: in HRM it freezes; a map under way ends
 void next_channel(Step& step);  // 1 to 8, then 1

@@ -16,7 +16,6 @@ namespace yars::tools {
 namespace {
 
 using databuffer::Session;
-using Outcome = failure::Expected<void>;
 
 constexpr std::int64_t kPause_ns = 50'000'000;  // [ns] between looks; the rings hold 5 s of sim time
 constexpr int kQuietLooks = 40;                 // 2 s: what was gathered by then is written, though time stands still
@@ -33,36 +32,35 @@ std::int64_t tick_of(const Session& session) {
 }
 
 // What came since the last look, and the last state though it is not due yet.
-Outcome drain_the_rest(Session& session, Recorder& recorder) {
-  return recorder.drain(tick_of(session) + recording::kPaceTicks);
+void drain_the_rest(Session& session, Recorder& recorder) {
+  recorder.drain(tick_of(session) + recording::kPaceTicks);
 }
 
-// Live it looks now and then; in lockstep it is the last of each tick, so that nothing is lost at any speed.
-Outcome record_live(Session& session, Recorder& recorder, recording::RecordingWriter& writer) {
-  Outcome outcome;
+// Live it looks now and then; in lockstep it is the last of each tick, so that nothing is lost at any speed. When the
+// disk takes no more it stays all the same: the pilot sees it (rule 22), and the set does not end for it.
+void record_live(Session& session, Recorder& recorder, const recording::RecordingWriter& writer) {
   int quiet_looks = 0;
-  while (outcome && !databuffer::stop_requested()) {
+  while (!databuffer::stop_requested()) {
     const std::uint64_t bytes_before = writer.bytes();
-    outcome = recorder.drain(tick_of(session));
+    recorder.drain(tick_of(session));
     quiet_looks = writer.bytes() == bytes_before ? quiet_looks + 1 : 0;
-    if (outcome && quiet_looks >= kQuietLooks) outcome = writer.flush();
+    if (quiet_looks >= kQuietLooks) recorder.flush();
     session.heartbeat();
     const timespec pause{0, kPause_ns};
     nanosleep(&pause, nullptr);
   }
-  return outcome ? drain_the_rest(session, recorder) : outcome;
+  drain_the_rest(session, recorder);
 }
 
-// The others of the set wait for it: it goes on when the disk takes no more, and says so at the end.
-Outcome record_in_lockstep(Session& session, Recorder& recorder, const std::string& lockstep) {
+void record_in_lockstep(Session& session, Recorder& recorder, const std::string& lockstep) {
   auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::recorder, lockstep);
   if (!loop) give_up(loop.error());
   while (const auto due = loop->wait()) {
-    (void)recorder.drain(due->tick);
+    recorder.drain(due->tick);
     loop->done(*due);
   }
   if (auto ended = loop->outcome(); !ended) give_up(ended.error());
-  return drain_the_rest(session, recorder);
+  drain_the_rest(session, recorder);
 }
 
 // A recording may be replayed from another folder.
@@ -82,8 +80,11 @@ void record(const CommonOptions& common, const RecordOptions& options) {
       !options.lockstep.empty() && session->layout().lockstep.done_tick[recorder_index].load() < 0;
   Recorder recorder(*session, *writer, options.extras, from_the_begin);
   databuffer::log_info("records session " + common.session + " to " + options.file);
-  Outcome outcome = options.lockstep.empty() ? record_live(*session, recorder, *writer)
-                                             : record_in_lockstep(*session, recorder, options.lockstep);
+  if (options.lockstep.empty())
+    record_live(*session, recorder, *writer);
+  else
+    record_in_lockstep(*session, recorder, options.lockstep);
+  failure::Expected<void> outcome = recorder.outcome();
   if (outcome) outcome = writer->close();
   std::printf("%llu ticks, %llu sweeps, %llu bytes in %s\n", static_cast<unsigned long long>(recorder.ticks()),
               static_cast<unsigned long long>(recorder.sweeps()), static_cast<unsigned long long>(writer->bytes()),

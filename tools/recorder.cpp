@@ -1,9 +1,12 @@
 #include "tools/recorder.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "databuffer/log.hpp"
 #include "databuffer/patch_pool.hpp"
 #include "databuffer/records/validation.hpp"
 #include "databuffer/session_layout.hpp"
@@ -11,6 +14,8 @@
 namespace yars::tools {
 
 namespace {
+
+constexpr std::int64_t kTicksBetweenStatus = 200;  // 1 s of sim time
 
 template <class Ring, class Record>
 bool take(const Ring& ring, std::uint64_t& cursor, Record& record, std::uint64_t& lost) {
@@ -29,11 +34,16 @@ Recorder::Recorder(databuffer::Session& session, recording::RecordingWriter& wri
       state_(session.layout().radar_state),
       status_(session.layout().model_status),
       outputs_(session.layout().outputs) {
+  databuffer::RadarState state{};
+  if (session.layout().radar_state.read(state)) vtr_request_ = state.vtr_request;
   if (!from_the_begin) begin_here();
 }
 
 void Recorder::begin_here() {
   const auto& layout = session_->layout();
+  // What stands at a begin is written though it does not change.
+  state_pace_ = {};
+  status_pace_ = outputs_pace_ = {};
   tick_cursor_ = layout.model_ticks.next();
   event_cursor_ = layout.applied_events.next();
   sweep_cursor_ = layout.sweeps.next();
@@ -47,10 +57,59 @@ void Recorder::begin_here() {
 
 template <class T>
 void Recorder::append(const T& record) {
-  if (outcome_) outcome_ = writer_->append(record);
+  if (outcome_) settle(writer_->append(record));
 }
 
-failure::Expected<void> Recorder::drain(std::int64_t tick) {
+// A disk that takes no more ends the recording, not the recorder: who flies shall read it.
+void Recorder::settle(failure::Expected<void> written) {
+  if (written || !outcome_) return;
+  outcome_ = std::move(written);
+  writing_ = false;
+  databuffer::log_warning(outcome_.error().message());
+  session_->note(databuffer::NoteKind::loss, "recorder stopped: " + outcome_.error().found);
+}
+
+void Recorder::flush() {
+  if (outcome_) settle(writer_->flush());
+}
+
+void Recorder::drain(std::int64_t tick) {
+  state_.refresh();
+  if (writing_) take_all(tick);
+  if (state_.has_value()) obey(state_.value().vtr_request);
+  publish(tick);
+}
+
+// Two presses between two looks: as it was. The press that stops is in the recording, the one that starts is not.
+void Recorder::obey(std::uint32_t vtr_request) {
+  const bool changes = (vtr_request - vtr_request_) % 2 != 0;
+  vtr_request_ = vtr_request;
+  if (!changes || !outcome_) return;
+  writing_ = !writing_;
+  if (writing_)
+    begin_here();
+  else
+    flush();
+  databuffer::log_info(writing_ ? "writes on" : "stopped writing");
+}
+
+void Recorder::publish(std::int64_t tick) {
+  databuffer::RecorderStatus status = published_;
+  status.bytes = writer_->bytes();
+  status.writing = writing_ ? 1 : 0;
+  status.vtr_request = vtr_request_;
+  if (!outcome_) outcome_.error().found.copy(status.problem, sizeof status.problem - 1);
+  const bool changed = std::memcmp(&status, &published_, sizeof status) != 0;
+  const bool due = tick < status.tick || tick - status.tick >= kTicksBetweenStatus;
+  if (!changed && !due && has_published_) return;
+  status.tick = tick;
+  status.sim_time_ns = tick * radar::kTickNanoseconds;
+  session_->layout().recorder_status.publish(status);
+  published_ = status;
+  has_published_ = true;
+}
+
+void Recorder::take_all(std::int64_t tick) {
   recording::Gap gap{};
   take_ticks(gap.ticks);
   databuffer::AppliedEvent event{};
@@ -62,7 +121,6 @@ failure::Expected<void> Recorder::drain(std::int64_t tick) {
     append(gap);
     session_->note(databuffer::NoteKind::loss, "recorder fell behind by " + std::to_string(gap.ticks) + " ticks");
   }
-  return outcome_;
 }
 
 void Recorder::take_ticks(std::uint64_t& lost) {
@@ -79,7 +137,6 @@ void Recorder::take_ticks(std::uint64_t& lost) {
 
 // Latest values, not rings: live, a state that lasted less than a look is passed over.
 void Recorder::take_latest(std::int64_t tick) {
-  state_.refresh();
   if (state_.has_value() && state_pace_.takes(state_.value(), tick)) append(recording::StateChange{state_.value()});
   if (status_pace_.is_due(tick) && status_.refresh()) {
     status_pace_.taken(tick);

@@ -1,5 +1,7 @@
-// Takes what a session's processes publish and appends it to a recording. It reads only; a call takes what has come
-// since the one before and never waits.
+// Takes what a session's processes publish and appends it to a recording; a call takes what has come since the one
+// before and never waits. It writes from the begin on; PB 12 stops it and starts it again, in the same file, from a new
+// starting point. What it does stands in the session's RecorderStatus: about once a second, and at once when it
+// changes.
 #pragma once
 
 #include <cstdint>
@@ -23,14 +25,22 @@ class Recorder {
   Recorder(databuffer::Session& session, recording::RecordingWriter& writer, RecordedExtras extras,
            bool from_the_begin);
 
-  // `tick`: of the session's clock. An error: the disk takes no more.
-  failure::Expected<void> drain(std::int64_t tick);
+  // `tick`: of the session's clock.
+  void drain(std::int64_t tick);
+  // Puts on the disk what has been gathered.
+  void flush();
+  // An error: the disk took no more; what came before it reads back.
+  const failure::Expected<void>& outcome() const { return outcome_; }
 
   std::uint64_t ticks() const { return ticks_; }
   std::uint64_t sweeps() const { return sweeps_; }
 
  private:
   void begin_here();
+  void obey(std::uint32_t vtr_request);
+  void take_all(std::int64_t tick);
+  void settle(failure::Expected<void> written);
+  void publish(std::int64_t tick);
   void take_ticks(std::uint64_t& lost);
   void take_sweeps(std::uint64_t& lost);
   void take_latest(std::int64_t tick);
@@ -53,6 +63,10 @@ class Recorder {
   recording::Patch patch_;
   std::uint64_t newest_patch_ = 0;  // id of the last one written
   std::uint64_t ticks_ = 0, sweeps_ = 0;
+  bool writing_ = true;
+  std::uint32_t vtr_request_ = 0;  // the last one obeyed
+  databuffer::RecorderStatus published_{};
+  bool has_published_ = false;
   failure::Expected<void> outcome_;  // the first error
 };
 

@@ -52,6 +52,25 @@ ordered_json lanes_json(const databuffer::SessionLayout& layout) {
   return lanes;
 }
 
+// Null without a recorder: what one that has gone left behind does not count.
+ordered_json recorder_json(const databuffer::Session& session) {
+  databuffer::RecorderStatus status{};
+  if (!session.role_is_held(databuffer::Role::recorder) || !session.layout().recorder_status.read(status))
+    return nullptr;
+  const std::string problem(status.problem, strnlen(status.problem, sizeof status.problem));
+  return {{"writing", status.writing != 0},
+          {"bytes", status.bytes},
+          {"problem", problem.empty() ? ordered_json(nullptr) : ordered_json(problem)}};
+}
+
+void print_recorder(const ordered_json& recorder) {
+  if (recorder.is_null()) return;
+  std::printf("recorder: %s, %.1f MB", recorder["writing"].get<bool>() ? "writing" : "stopped",
+              static_cast<double>(recorder["bytes"].get<std::uint64_t>()) / 1e6);
+  if (!recorder["problem"].is_null()) std::printf(", %s", recorder["problem"].get<std::string>().c_str());
+  std::printf("\n");
+}
+
 ordered_json status_object(const databuffer::Session& session, const std::string& name) {
   databuffer::ModelStatus model{};
   session.layout().model_status.read(model);
@@ -63,6 +82,7 @@ ordered_json status_object(const databuffer::Session& session, const std::string
                      {"scan", model.scan},
                      {"terrain_bytes", model.terrain_bytes},
                      {"posts_pending", model.posts_pending}};
+  object["recorder"] = recorder_json(session);
   object["ownship_lanes"] = lanes_json(session.layout());
   ordered_json counts = ordered_json::object();
   for (std::size_t kind = 0; kind < databuffer::kNoteKinds; ++kind)
@@ -98,6 +118,7 @@ void print_for_people(const ordered_json& object) {
               100.0 * model["load"].get<double>(),
               static_cast<unsigned long long>(watch["sweeps"].get<std::uint64_t>()),
               static_cast<double>(model["terrain_bytes"].get<std::uint64_t>()) / 1e6);
+  print_recorder(object["recorder"]);
   std::printf("flight recorder:");
   for (const auto& [kind, count] : object["note_counts"].items())
     std::printf(" %s %llu;", kind.c_str(), static_cast<unsigned long long>(count.get<std::uint64_t>()));

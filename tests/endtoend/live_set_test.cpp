@@ -151,6 +151,45 @@ TEST_F(LiveSet, WhatARunLoggedMakesTheSameSweepsOffline) {
   EXPECT_GE(result["events"], 4);
 }
 
+// A full disk ends the recording, not the flight: the box goes, the pilot and `yars status` are told.
+TEST_F(LiveSet, AFullDiskTakesTheVtrBoxAway) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  start_all();
+  inject({"power opr"});
+  EXPECT_EQ(set_.watch()["vtr"], false);
+  const auto small = (set_.folder() / "small").string();
+  set_.start_tool("recorder", {"prlimit", "--fsize=40000", "env", "--ignore-signal=SIGXFSZ",
+                               std::string(YARS_BIN_DIR) + "/yars", "--session", set_.session(), "record", small});
+  EXPECT_TRUE(set_.wait_until([](const auto& watch) { return watch["vtr"] == true; })) << set_.log_of("recorder");
+  EXPECT_TRUE(set_.wait_until([](const auto& watch) { return watch["message"] == "VTR FULL"; }))
+      << set_.log_of("recorder");
+  const auto watch = set_.watch();
+  EXPECT_EQ(watch["vtr"], false);
+  EXPECT_TRUE(watch["processes"].contains("recorder")) << "it stays and says why";
+  const auto recorder = nlohmann::json::parse(set_.yars({"status", "--json"}).output)["recorder"];
+  EXPECT_EQ(recorder["writing"], false);
+  EXPECT_TRUE(recorder["problem"].is_string()) << recorder.dump();
+  set_.kill("recorder", SIGTERM);
+  EXPECT_EQ(set_.wait("recorder"), 1);
+  EXPECT_EQ(set_.yars({"replay", "--print", small}).code, 0) << "what came before the end reads back";
+}
+
+TEST_F(LiveSet, PushButton12StopsAndStartsTheRecorder) {
+  start_all();
+  start("recorder");
+  inject({"power opr"});
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["vtr"] == true; }));
+  const auto boxed = [](const auto& watch) { return watch["boxed"].dump().find("12") != std::string::npos; };
+  EXPECT_TRUE(set_.wait_until(boxed));
+  inject({"pb 12"});
+  EXPECT_TRUE(set_.wait_until([](const auto& watch) { return watch["vtr"] == false; }));
+  EXPECT_FALSE(boxed(set_.watch()));
+  inject({"pb 12"});
+  EXPECT_TRUE(set_.wait_until(boxed));
+  set_.kill("recorder", SIGKILL);
+  EXPECT_TRUE(set_.wait_until([&](const auto& watch) { return watch["vtr"] == false; }));
+}
+
 TEST_F(LiveSet, TheClockFreezesStepsAndRepositions) {
   start_all();
   inject({"power opr"});

@@ -34,6 +34,7 @@ class LockstepRun {
   LockstepRun(const std::string& name, const std::vector<ScriptedStep>& steps, const std::string& source,
               const std::vector<std::string>& model_arguments = {});
 
+  const std::filesystem::path& recording() const { return recording_; }
   std::filesystem::path frames() const { return set_.folder() / "frames"; }
   bool segment_exists() const { return set_.segment_exists(); }
   std::map<std::string, std::string> frame_bytes() const;

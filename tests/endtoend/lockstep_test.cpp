@@ -40,8 +40,6 @@ const std::vector<ScriptedStep>& steps() {
       {"pb 18", true, "sniff", false},
       {"pb 19", true, "channel", 2},
       {"pb 20", true, "band", "B"},
-      {"pb 12", true, "vtr", true},
-      {"pb 12", true, "vtr", false},
       {"pb 7", true, "cursor_function", "UPDT"},
       // Rule 1: the range changes only with cursor MAP.
       {"pb 14", false, "range_nm", 160.0},
@@ -109,6 +107,8 @@ TEST(Lockstep, EveryRealBeamMapEventHasItsEffectAndTheRunRepeatsBitForBit) {
   expect_steps(entries, steps());
   for (const Entry& entry : entries) {
     SCOPED_TRACE("tick " + std::to_string(entry.tick));
+    // The recorder writes: else the state were not here.
+    EXPECT_EQ(entry.state["vtr"], true);
     if (entry.state["mode"] == "RBM" && entry.state["power"] == "OPR" && entry.state["freeze"] == false)
       expect_rbm_legends(entry.state);
   }
@@ -132,6 +132,31 @@ TEST(Lockstep, EveryRealBeamMapEventHasItsEffectAndTheRunRepeatsBitForBit) {
     const auto partner = again.find(name);
     EXPECT_TRUE(partner != again.end() && partner->second == bytes) << name << " differs between two runs";
   }
+}
+
+// PB 12 stops the tape and starts it again: what it pressed meanwhile is not on it, and what is on it replays.
+TEST(Lockstep, TheVtrStopsAndStartsTheRecordingInOneFile) {
+  const LockstepRun run("lockstep-vtr",
+                        {{"power opr", true, "vtr", true, 0.25},
+                         {"pb 9", true, "scan", "HALF", 2.0},
+                         {"pb 12", true, "vtr", true, 2.0},
+                         {"pb 9", true, "scan", "QTR", 1.0},
+                         {"pb 12", true, "vtr", true, 3.0},
+                         {"pb 3", true, "gain", 2, 2.0}},
+                        kSource);
+  const auto entries = run.entries();
+  ASSERT_EQ(entries.size(), 4U);
+  EXPECT_EQ(entries[2].state["vtr"], true) << "the press that stops it is the last on it";
+  EXPECT_EQ(entries[3].state["scan"], "QTR") << "what was set in the pause stands after it";
+  EXPECT_EQ(entries[3].state["vtr"], true);
+  EXPECT_EQ(entries[3].state["boxed"], json::array({12}));
+  const auto replayed = run.replayed();
+  EXPECT_EQ(replayed["pauses"], 1);
+  EXPECT_EQ(replayed["different"], 0);
+  EXPECT_EQ(replayed["ticks_lost"], 0);
+  const int seconds = 1 + 2 + 2 + 1 + 3 + 2 + 3;
+  EXPECT_EQ(replayed["ticks"], seconds * 200 + 1 - 4 * 200);
+  EXPECT_GT(replayed["equal"], 1000);
 }
 
 TEST(Lockstep, APartnerOutsideThePlanIsRefused) {

@@ -58,7 +58,9 @@ class Storm {
 
   void disturb(Surroundings& around) {
     around.tick += pick(1, 40);
-    around.recorder_writing = pick(0, 1) == 0;
+    around.recorder_present = pick(0, 1) == 0;
+    around.recorder_writing = around.recorder_present && pick(0, 1) == 0;
+    around.recorder_failed = around.recorder_present && !around.recorder_writing && pick(0, 1) == 0;
     around.model.flags = pick(0, 1) == 0 ? databuffer::kModelFrozen : databuffer::kModelScanning;
     // Drifts to the pole and stays about it; beyond, the border refuses the ownship.
     around.ownship.latitude_deg = std::min(90.0, around.ownship.latitude_deg + number(-0.01, 0.012));

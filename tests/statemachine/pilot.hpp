@@ -201,6 +201,7 @@ inline Fields fields_of(const Pilot& pilot) {
       {"target", state.target_name},
       {"psl", word_of(static_cast<databuffer::SteeringLine>(state.steering_line))},
       {"marks", std::to_string(state.mark_count)},
+      {"vtr_requests", std::to_string(state.vtr_request)},
       {"tdc", words_of(state.tdc_x) + "/" + words_of(state.tdc_y)},
       {"message", state.message}};
 }

@@ -37,7 +37,7 @@ TEST_F(Rules, PowerUpSetsWhatTheSpecLists) {
       {"stabilizing", "STAB"}, {"channel", "1"},       {"band", "A"},        {"sequence_point", "1"},
       {"nav_source", "MN"},    {"altimeter", "ok"},    {"elevation", "0"},   {"tdc", "0/0"},
       {"message", ""},         {"moved", "false"},     {"drift", "false"},   {"cues", "0"},
-      {"target", ""},          {"psl", "-"},           {"marks", "0"}};
+      {"target", ""},          {"psl", "-"},           {"marks", "0"},       {"vtr_requests", "0"}};
   EXPECT_EQ(fields_of(pilot), expected);
 }
 
@@ -183,12 +183,53 @@ TEST_F(Rules, TheVtrIsBoxedOnlyWhileARecorderWrites) {
   EXPECT_TRUE(pilot.press("pb 12"));
   EXPECT_STREQ(pilot.state.message, "NO RECORDER");
   EXPECT_FALSE(pilot.boxed(12));
+  // Presence alone is no recording, and no button puts the box there: the recorder does.
+  pilot.around.recorder_present = true;
+  pilot.press("pb 12");
+  EXPECT_FALSE(pilot.boxed(12));
   pilot.around.recorder_writing = true;
+  pilot.wait();
+  EXPECT_TRUE(pilot.boxed(12));
   pilot.press("pb 12");
   EXPECT_TRUE(pilot.boxed(12));
+  EXPECT_EQ(pilot.state.vtr_request, 2U);
   pilot.around.recorder_writing = false;
   pilot.wait();
   EXPECT_FALSE(pilot.boxed(12));
+  pilot.around.recorder_writing = true;
+  pilot.around.recorder_present = false;  // gone, and its last word stands
+  pilot.wait();
+  EXPECT_FALSE(pilot.boxed(12));
+}
+
+TEST_F(Rules, AFullDiskTakesTheBoxAwayAndSaysSoOnce) {
+  pilot.around.recorder_present = pilot.around.recorder_writing = true;
+  pilot.wait();
+  pilot.around.recorder_writing = false;
+  pilot.around.recorder_failed = true;
+  pilot.wait();
+  EXPECT_FALSE(pilot.boxed(12));
+  EXPECT_STREQ(pilot.state.message, "VTR FULL");
+  pilot.wait(700);
+  EXPECT_STREQ(pilot.state.message, "");
+  pilot.press("pb 12");
+  EXPECT_STREQ(pilot.state.message, "VTR FULL");
+  EXPECT_EQ(pilot.state.vtr_request, 0U);
+}
+
+TEST_F(Rules, StoppingTheVtrByHandIsNoFault) {
+  pilot.around.recorder_present = pilot.around.recorder_writing = true;
+  pilot.wait();
+  pilot.around.recorder_writing = false;
+  pilot.wait();
+  EXPECT_STREQ(pilot.state.message, "");
+}
+
+TEST_F(Rules, WhatWasAskedOfTheRecorderOutlivesPower) {
+  pilot.around.recorder_present = true;
+  pilot.press("pb 12");
+  pilot.press("power off");
+  EXPECT_EQ(pilot.state.vtr_request, 1U);
 }
 
 TEST_F(Rules, AMessageGoesByItself) {

@@ -84,6 +84,34 @@ TEST(Transitions, EveryRowOfTheTableHolds) {
   }
 }
 
+void put_recorder(Surroundings& around, const std::string& recorder) {
+  around.recorder_present = recorder != "none";
+  around.recorder_writing = recorder == "writing";
+  around.recorder_failed = recorder == "full";
+}
+
+TEST(Transitions, TheRecorderIsAskedInEveryModeThatHasItsButton) {
+  std::size_t cases = 0;
+  for (const Row& row : read_csv("recorder.csv"))
+    for (const std::string& mode : split(row.at("mode"), '|'))
+      for (const std::string& frozen : split(row.at("frozen"), '|'))
+        for (const std::string& recorder : split(row.at("recorder"), '|')) {
+          if (!reachable(mode, frozen == "yes")) continue;
+          SCOPED_TRACE(row.at("event") + " in " + mode + ", frozen " + frozen + ", recorder " + recorder);
+          Pilot pilot;
+          bring_into(pilot, mode, frozen == "yes");
+          put_recorder(pilot.around, recorder);
+          pilot.wait();
+          pilot.state.message[0] = '\0';
+          const Fields before = fields_of(pilot);
+          const bool dead = row.at("effect") == "dead";
+          EXPECT_EQ(pilot.send(row.at("event")), !dead);
+          EXPECT_EQ(fields_of(pilot), dead ? before : expected_after(before, row.at("effect")));
+          ++cases;
+        }
+  EXPECT_GT(cases, 80U);
+}
+
 struct FunctionCase {
   Case one;
   radar::CursorFunction function;

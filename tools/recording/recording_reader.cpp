@@ -65,7 +65,7 @@ std::optional<RecordingItem> RecordingReader::next() {
   }
 }
 
-void RecordingReader::seek_tick(std::int64_t tick) {
+std::size_t RecordingReader::block_of(std::int64_t tick) const {
   const auto& blocks = index_.blocks;
   auto found = std::find_if(blocks.begin(), blocks.end(),
                             [tick](const auto& block) { return block.first_tick <= tick && tick <= block.last_tick; });
@@ -74,9 +74,19 @@ void RecordingReader::seek_tick(std::int64_t tick) {
         std::find_if(blocks.rbegin(), blocks.rend(), [tick](const auto& block) { return block.first_tick <= tick; });
     found = before == blocks.rend() ? blocks.begin() : before.base() - 1;
   }
-  next_block_ = static_cast<std::size_t>(found - blocks.begin());
+  return static_cast<std::size_t>(found - blocks.begin());
+}
+
+void RecordingReader::seek_block(std::size_t block) {
+  next_block_ = std::min(block, index_.blocks.size());
   block_.reset();
   ended_ = false;
+}
+
+std::optional<BlockItems> RecordingReader::items_of(std::size_t block) {
+  if (block >= index_.blocks.size()) return std::nullopt;
+  auto items = block_at(index_.blocks[block].offset);
+  return items ? std::optional(std::move(*items)) : std::nullopt;
 }
 
 void RecordingReader::seek_time(std::int64_t sim_time_ns) {

@@ -30,8 +30,13 @@ class RecordingReader {
 
   // The next item is then the first of a block: the first block with this tick inside, else the last block that begins
   // before it, else the first block. Ticks may begin anew within a recording, when the session is reset.
-  void seek_tick(std::int64_t tick);
+  void seek_tick(std::int64_t tick) { seek_block(block_of(tick)); }
   void seek_time(std::int64_t sim_time_ns);
+  // The same by number, 0 to blocks().size().
+  void seek_block(std::size_t block);
+  std::size_t block_of(std::int64_t tick) const;
+  // What is in one block; the reading under way goes on where it was. Nothing when it is damaged.
+  std::optional<BlockItems> items_of(std::size_t block);
   // The last item of type T before the block that comes next: with what the radar was set to where it begins. Nothing
   // when there is none, or its block is damaged.
   template <class T>

@@ -15,12 +15,13 @@ Replay::Replay(const radar::RadarConfiguration& configuration, model::terrain::T
       scenes_(scenes) {}
 
 void Replay::start(const StartingPoint& point) {
+  kernel_ = model::kernel::RadarKernel(*configuration_);
   kernel_.resume(point.status);
-  last_ = point.status;
-  resumed_ = true;
+  last_ = before_last_ = point.status;
+  smeared_ = kSmearMemory;
 }
 
-void Replay::tick(const databuffer::ModelTick& tick) {
+const databuffer::Sweep* Replay::tick(const databuffer::ModelTick& tick) {
   if ((tick.flags & databuffer::kTickRestart) != 0U && ticks_ > 0) restart(tick.resumed_tick);
   before_last_ = last_;
   ++ticks_;
@@ -30,9 +31,14 @@ void Replay::tick(const databuffer::ModelTick& tick) {
   }
   const bool finished = kernel_.step(tick, {*view_, scene_view_.get()}, sweep_);
   kernel_.describe(*view_, last_);
-  if (!finished) return;
+  if (!finished) return nullptr;
   ++sweeps_;
-  if (!resumed_ || sweeps_ > kSmearMemory) comparison_.made(sweep_);
+  if (smeared_ > 0) {
+    --smeared_;
+    return nullptr;
+  }
+  comparison_.made(sweep_);
+  return &sweep_;
 }
 
 // What the restarted process did: a new kernel that takes up the status of the old one. That is the last tick's, or the

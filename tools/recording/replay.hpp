@@ -18,8 +18,10 @@ class Replay {
   Replay(const radar::RadarConfiguration& configuration, model::terrain::TerrainStore& store,
          model::scene::SceneStore* scenes = nullptr);
 
+  // Before ticks, or between them: a new kernel that goes on from there.
   void start(const StartingPoint& point);
-  void tick(const databuffer::ModelTick& tick);
+  // The sweep that came out of it; nullptr: none, or one whose smear needs those from before the start.
+  const databuffer::Sweep* tick(const databuffer::ModelTick& tick);
   void recorded(const SweepMark& mark) { comparison_.recorded(mark); }
 
   std::uint64_t ticks() const { return ticks_; }
@@ -39,7 +41,7 @@ class Replay {
   databuffer::ModelStatus last_{}, before_last_{};  // after the newest tick and after the one before
   Comparison comparison_;
   std::uint64_t ticks_ = 0, sweeps_ = 0;
-  bool resumed_ = false;
+  std::uint64_t smeared_ = 0;  // sweeps to come whose smear needs those from before the start
 };
 
 }  // namespace yars::tools::recording

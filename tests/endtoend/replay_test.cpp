@@ -1,0 +1,112 @@
+// `yars replay FILE`: the glass on a recording draws what the glass in the run drew, and a session ends with its tape.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "tests/endtoend/lockstep_run.hpp"
+
+namespace yars::endtoend {
+namespace {
+
+constexpr const char* kSource = "fixed:37.5,-123.0,15000,90,480";
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Twelve seconds of the real beam map; frames every 2 s.
+const LockstepRun& run() {
+  static const LockstepRun kRun("replay-run",
+                                {{"power opr", true, "mode", "RBM"},
+                                 {"elevation -3", true, "mode", "RBM", 0.5},
+                                 {"pb 13", true, "mode", "RBM", 3.0},
+                                 {"pb 2", true, "declutter", true, 4.0}},
+                                kSource);
+  return kRun;
+}
+
+// The frame that a glass draws of the recording at a time: the tape stands there.
+std::string frame_at(int seconds) {
+  ProcessSet set("replay");
+  set.start("replay", {"yars", "replay", run().recording().string(), "--seek", std::to_string(seconds), "--rate", "0"});
+  EXPECT_TRUE(set.wait_until(
+      [&](const auto& watch) { return watch["sim_time"] == seconds && watch["mode"] == "RBM" && watch["sweeps"] > 0; },
+      60.0))
+      << set.log_of("replay");
+  const auto frames = set.folder() / "frames";
+  std::filesystem::create_directories(frames);
+  set.start("display", {"radar-display", "--headless", "--frames", frames.string(), "--every", "2"});
+  char name[40];
+  std::snprintf(name, sizeof name, "frame_%06d.png", seconds / 2);
+  EXPECT_TRUE(eventually([&] { return std::filesystem::exists(frames / name); }, 60.0)) << set.log_of("display");
+  // Its last picture is of all that was there.
+  set.kill("display", SIGTERM);
+  EXPECT_EQ(set.wait("display"), 0);
+  set.kill("replay", SIGTERM);
+  EXPECT_EQ(set.wait("replay"), 0) << set.log_of("replay");
+  EXPECT_FALSE(set.segment_exists());
+  return bytes_of(frames / name);
+}
+
+TEST(ReplayToTheGlass, DrawsAtThreeTimesWhatTheRunDrew) {
+  const auto drawn = run().frame_bytes();
+  for (const int seconds : {10, 4, 8}) {
+    SCOPED_TRACE(std::to_string(seconds) + " s");
+    char name[40];
+    std::snprintf(name, sizeof name, "frame_%06d.png", seconds / 2);
+    const auto frame = drawn.find(name);
+    ASSERT_TRUE(frame != drawn.end());
+    EXPECT_GT(lit_pixels(run().frames() / name), 3000U);
+    EXPECT_TRUE(frame_at(seconds) == frame->second);  // not EXPECT_EQ: nobody wants to read pictures as text
+  }
+}
+
+TEST(ReplayToTheGlass, FollowsTheClockOfItsSession) {
+  ProcessSet set("replay-clock");
+  set.start("replay", {"yars", "replay", run().recording().string(), "--seek", "3"});
+  ASSERT_TRUE(set.wait_until([](const auto& watch) { return watch["tick"] > 700; }, 60.0)) << set.log_of("replay");
+  ASSERT_EQ(set.yars({"sim", "freeze"}).code, 0);
+  EXPECT_EQ(set.watch()["sim_time"], set.watch()["sim_time"]);
+  ASSERT_EQ(set.yars({"sim", "reset"}).code, 0);
+  EXPECT_TRUE(set.wait_until([](const auto& watch) { return watch["tick"] < 10 && watch["power"] == "OFF"; }))
+      << set.watch().dump();
+  ASSERT_EQ(set.yars({"sim", "rate", "10"}).code, 0);
+  ASSERT_EQ(set.yars({"sim", "run"}).code, 0);
+  // 12 s at ten times real time, and it ends by itself.
+  EXPECT_EQ(set.wait("replay"), 0) << set.log_of("replay");
+  EXPECT_NE(set.output_of("replay").find("played from 3.0"), std::string::npos) << set.output_of("replay");
+  EXPECT_FALSE(set.segment_exists());
+}
+
+TEST(ReplayToTheGlass, ACutFileEndsCleanlyAndSaysSo) {
+  ProcessSet set("replay-cut");
+  const std::string bytes = bytes_of(run().recording());
+  const auto cut = set.folder() / "cut.yars";
+  std::ofstream(cut, std::ios::binary) << bytes.substr(0, bytes.size() / 2);
+  const auto played = set.yars({"replay", cut.string(), "--rate", "10"});
+  EXPECT_EQ(played.code, 0) << played.errors;
+  EXPECT_NE(played.errors.find("cut short"), std::string::npos) << played.errors;
+}
+
+TEST(ReplayToTheGlass, SaysWhatItCannotDo) {
+  ProcessSet set("replay-refused");
+  const std::string recording = run().recording().string();
+  for (const std::vector<std::string>& bad :
+       {std::vector<std::string>{"--seek", "9999"}, {"--rate", "11"}, {"--rate", "2", "--print"}, {"--seek", "nan"}}) {
+    std::vector<std::string> command{"replay", recording};
+    command.insert(command.end(), bad.begin(), bad.end());
+    EXPECT_EQ(set.yars(command).code, 2) << bad[1];
+  }
+  // Where a radar runs nothing is played.
+  set.start("state-machine", {"state-machine"});
+  ASSERT_TRUE(set.wait_until([](const auto& watch) { return watch["processes"].contains("state-machine"); }));
+  const auto refused = set.yars({"replay", recording});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.errors.find("state-machine"), std::string::npos) << refused.errors;
+}
+
+}  // namespace
+}  // namespace yars::endtoend

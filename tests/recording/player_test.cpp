@@ -1,0 +1,317 @@
+// A recording played at any time shows what the session showed then: with its sweeps' video, and with the kernel that
+// makes them again.
+#include "tools/recording/player.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include "display/polar_store.hpp"
+#include "tests/model/cockpit.hpp"
+#include "tests/recording/made_recording.hpp"
+
+namespace yars::tools::recording {
+namespace {
+
+using databuffer::ModelStatus;
+using databuffer::RadarState;
+
+constexpr int kStatusTicks = 20;  // as the recorder paces them
+
+// What a glass would draw from.
+struct Seen {
+  RadarState state{};
+  ModelStatus status{};
+  std::map<std::uint32_t, std::uint64_t> sweeps;  // hashes of the scan under way and of the one before it, by number
+  std::vector<std::uint64_t> maps;
+};
+
+bool same_glass(const Seen& a, const Seen& b) {
+  return std::memcmp(&a.state, &b.state, sizeof a.state) == 0 &&
+         std::memcmp(&a.status, &b.status, sizeof a.status) == 0 && a.sweeps == b.sweeps;
+}
+
+// Those of the two newest scans.
+std::map<std::uint32_t, std::uint64_t> picture_of(const std::vector<databuffer::Sweep>& sweeps) {
+  std::map<std::uint32_t, std::uint64_t> picture;
+  for (const databuffer::Sweep& sweep : sweeps)
+    if (sweep.scan + 1 >= sweeps.back().scan) picture[sweep.number] = sweep.hash;
+  return picture;
+}
+
+// A session made up: the kernel flies, the state changes now and then, a map comes.
+class Session {
+ public:
+  explicit Session(bool video) : video_(video), cockpit_(configuration_, model::terrain::built_in_hills()) {
+    cockpit_.tick.resumed_tick = -1;
+    cockpit_.tick.flags |= databuffer::kTickRestart;
+    cockpit_.tick.samples = static_cast<std::uint32_t>(configuration_.fidelity.samples);
+    state_.range_nm = 40.0;
+    put(StateChange{state_});
+  }
+
+  void run(int ticks) {
+    for (int i = 0; i < ticks; ++i) step();
+  }
+  void change(double range_nm) {
+    state_.range_nm = cockpit_.tick.command.range_nm = range_nm;
+    ++cockpit_.tick.command.scan_restart;
+    state_.tick = cockpit_.tick.tick;
+    put(StateChange{state_});
+  }
+  void make_map(std::uint64_t id) {
+    std::mt19937_64 random(id);
+    Patch patch = test::patch_at(cockpit_.tick.tick, 8, random);
+    patch.map.id = id;
+    put(patch);
+    state_.map_old = state_.map_newest;
+    state_.map_newest = id;
+    put(StateChange{state_});
+  }
+  // The recorder looks away for so long.
+  void pause(int ticks) {
+    const bool wrote = std::exchange(writing_, false);
+    run(ticks);
+    writing_ = wrote;
+    put(StartingPoint{status()});
+    put(StateChange{state_});
+  }
+  void begin_epoch() {
+    ++cockpit_.tick.epoch;
+    cockpit_.tick.tick = 0;
+  }
+  Seen seen() const { return {state_, status(), picture_of(sweeps_), {}}; }
+  std::int64_t tick() const { return cockpit_.tick.tick; }
+  void write(const std::filesystem::path& path) const {
+    auto writer = RecordingWriter::create(path, {});
+    ASSERT_TRUE(writer);
+    for (const RecordingItem& item : items_)
+      std::visit([&](const auto& record) { EXPECT_TRUE(writer->append(record)); }, item);
+    ASSERT_TRUE(writer->close());
+  }
+  const radar::RadarConfiguration& configuration() const { return configuration_; }
+
+ private:
+  ModelStatus status() const {
+    ModelStatus status = cockpit_.status();
+    status.tick = cockpit_.tick.tick;
+    status.sim_time_ns = cockpit_.tick.sim_time_ns;
+    status.epoch = cockpit_.tick.epoch;
+    status.ownship = cockpit_.tick.ownship;
+    return status;
+  }
+  void step() {
+    cockpit_.tick.ownship.latitude_deg += 1e-6;
+    const bool came = cockpit_.step() != nullptr;
+    put(cockpit_.tick);
+    cockpit_.tick.flags &= ~databuffer::kTickRestart;
+    if (cockpit_.tick.tick % kStatusTicks == 0) put(StatusReport{status()});
+    if (!came) return;
+    if (video_)
+      put(cockpit_.sweep);
+    else
+      put(mark_of(cockpit_.sweep));
+    if ((cockpit_.sweep.flags & databuffer::kSweepBlank) == 0) sweeps_.push_back(cockpit_.sweep);
+  }
+  template <class T>
+  void put(const T& record) {
+    if (writing_) items_.emplace_back(record);
+  }
+
+  bool video_;
+  bool writing_ = true;
+  radar::RadarConfiguration configuration_;
+  test::Cockpit cockpit_;
+  RadarState state_{};
+  std::vector<databuffer::Sweep> sweeps_;
+  std::vector<RecordingItem> items_;
+};
+
+// A glass before the player.
+class Glass {
+ public:
+  void jump(const Played& played) {
+    seen_ = {};
+    sweeps_.clear();
+    take(played);
+  }
+  void take(const Played& played) {
+    if (played.state) seen_.state = *played.state;
+    if (played.status) seen_.status = *played.status;
+    sweeps_.insert(sweeps_.end(), played.sweeps.begin(), played.sweeps.end());
+    for (const Patch& patch : played.maps) seen_.maps.push_back(patch.map.id);
+    if (!sweeps_.empty()) seen_.sweeps = picture_of(sweeps_);
+  }
+  const Seen& seen() const { return seen_; }
+  const std::vector<databuffer::Sweep>& sweeps() const { return sweeps_; }
+
+ private:
+  Seen seen_;
+  std::vector<databuffer::Sweep> sweeps_;
+};
+
+class RecordingPlayed : public ::testing::TestWithParam<bool> {
+ protected:
+  RecordingPlayed() : session(GetParam()) {}
+
+  void open() {
+    session.write(file.path());
+    auto opened = RecordingReader::open(file.path());
+    ASSERT_TRUE(opened);
+    reader.emplace(std::move(*opened));
+    start();
+  }
+  void start() {
+    std::optional<PlayerWorld> world;
+    EXPECT_EQ(Player::has_video(*reader), GetParam());
+    if (!GetParam()) world = PlayerWorld{session.configuration(), &store, nullptr};
+    player.emplace(*reader, std::move(world));
+  }
+
+  test::TemporaryFile file;
+  Session session;
+  model::terrain::FixedTerrainStore store{
+      std::make_shared<const model::terrain::AnalyticTerrain>(model::terrain::built_in_hills())};
+  std::optional<RecordingReader> reader;
+  std::optional<Player> player;
+  Glass glass;
+};
+
+INSTANTIATE_TEST_SUITE_P(ByVideoAndByKernel, RecordingPlayed, ::testing::Values(true, false),
+                         [](const auto& one) { return one.param ? "Video" : "Kernel"; });
+
+TEST_P(RecordingPlayed, TheGlassSeesAtThreeTimesWhatItSawInTheRun) {
+  std::map<std::int64_t, Seen> run;
+  for (const double range_nm : {20.0, 40.0, 80.0}) {
+    session.change(range_nm);
+    session.run(2000);
+    run[session.tick()] = session.seen();
+    session.run(140);
+  }
+  open();
+  // Back and forth, and the same once more.
+  for (const std::int64_t tick :
+       {run.rbegin()->first, run.begin()->first, std::next(run.begin())->first, run.rbegin()->first}) {
+    SCOPED_TRACE(tick);
+    glass.jump(player->seek(tick));
+    EXPECT_GT(glass.seen().sweeps.size(), 100U);
+    EXPECT_TRUE(same_glass(glass.seen(), run.at(tick)));
+    EXPECT_EQ(player->tick(), tick);
+  }
+  // From the begin, tick by tick.
+  glass.jump(player->seek(1));
+  for (std::int64_t tick = 2; tick <= run.begin()->first; ++tick) glass.take(player->play_to(tick));
+  EXPECT_TRUE(same_glass(glass.seen(), run.begin()->second));
+  EXPECT_EQ(player->different(), 0U);
+}
+
+TEST_P(RecordingPlayed, ASeekBringsThePictureThatTheGlassKeeps) {
+  session.run(3001);
+  const std::int64_t tick = session.tick();
+  session.run(500);
+  open();
+  display::PolarStore sought, played;
+  for (const auto& sweep : player->seek(tick).sweeps) sought.insert(sweep);
+  for (const auto& sweep : player->seek(1).sweeps) played.insert(sweep);
+  for (const auto& sweep : player->play_to(tick).sweeps) played.insert(sweep);
+  ASSERT_GT(played.by_azimuth().size(), 100U);
+  EXPECT_EQ(sought.by_azimuth().size(), played.by_azimuth().size());
+  EXPECT_EQ(sought.newest()->range_m, played.newest()->range_m);
+}
+
+TEST_P(RecordingPlayed, GoesOnAfterASeekAsItWouldHaveWithout) {
+  session.run(2500);
+  open();
+  glass.jump(player->seek(1000));
+  glass.take(player->play_to(2400));
+  const auto end = player->play_to(1'000'000);
+  EXPECT_TRUE(end.ended);
+  EXPECT_EQ(player->tick(), 2500);
+  glass.take(end);
+  EXPECT_TRUE(glass.seen().sweeps == session.seen().sweeps);
+}
+
+TEST_P(RecordingPlayed, TheAircraftMovesWithEveryTickThoughItsStatusComesTenTimesASecond) {
+  session.run(100);
+  open();
+  glass.jump(player->seek(41));
+  const double before_deg = glass.seen().status.ownship.latitude_deg;
+  glass.take(player->play_to(42));
+  EXPECT_GT(glass.seen().status.ownship.latitude_deg, before_deg);
+}
+
+TEST_P(RecordingPlayed, ACutFilePlaysToItsLastWholeSecondAndEnds) {
+  session.run(2000);
+  session.write(file.path());
+  const std::string bytes = file.bytes();
+  auto cut = RecordingReader::read(std::make_unique<std::istringstream>(bytes.substr(0, bytes.size() * 2 / 3)), "cut");
+  ASSERT_TRUE(cut);
+  reader.emplace(std::move(*cut));
+  start();
+  glass.jump(player->seek(1));
+  const Played end = player->play_to(1'000'000);
+  EXPECT_TRUE(end.ended);
+  EXPECT_TRUE(reader->cut_short());
+  EXPECT_GT(player->tick(), 500);
+  EXPECT_LT(player->tick(), 1900);
+  EXPECT_FALSE(end.sweeps.empty());
+}
+
+TEST_P(RecordingPlayed, APauseOfTheRecorderIsACut) {
+  session.run(1500);
+  const std::int64_t stopped = session.tick();
+  session.pause(5000);
+  const std::int64_t begun = session.tick();
+  session.run(1500);
+  const Seen last = session.seen();
+  open();
+  glass.jump(player->seek(stopped - 100));
+  const Played before = player->play_to(begun);
+  EXPECT_EQ(before.cut_to_tick, begun);
+  EXPECT_EQ(player->tick(), stopped);
+  EXPECT_FALSE(before.ended);
+  glass.jump(player->play_to(begun + 1500));
+  EXPECT_EQ(player->tick(), begun + 1500);
+  EXPECT_TRUE(glass.seen().sweeps == last.sweeps);
+  EXPECT_EQ(player->different(), 0U);
+  // Into the pause: the end of what came before it.
+  glass.jump(player->seek(stopped + 1000));
+  EXPECT_EQ(player->tick(), stopped);
+}
+
+TEST_P(RecordingPlayed, ANewEpochIsACutThoughItsTimeBeginsAnew) {
+  session.run(1500);
+  session.begin_epoch();
+  session.run(700);
+  open();
+  (void)player->seek(1400);
+  const Played before = player->play_to(1'000'000);
+  EXPECT_EQ(before.cut_to_tick, 1);
+  EXPECT_EQ(player->tick(), 1500);
+  const Played after = player->play_to(600);
+  EXPECT_EQ(player->tick(), 600);
+  ASSERT_TRUE(after.status);
+  EXPECT_EQ(after.status->epoch, 2U);
+}
+
+TEST_P(RecordingPlayed, ASeekBringsTheMapsThatTheStateNames) {
+  session.run(300);
+  for (const std::uint64_t id : {1U, 2U, 3U}) {
+    session.make_map(id);
+    session.run(600);
+  }
+  open();
+  glass.jump(player->seek(session.tick()));
+  EXPECT_EQ(glass.seen().maps, (std::vector<std::uint64_t>{3, 2}));
+  glass.jump(player->seek(800));
+  EXPECT_EQ(glass.seen().maps, (std::vector<std::uint64_t>{1}));
+  glass.take(player->play_to(1000));
+  EXPECT_EQ(glass.seen().maps, (std::vector<std::uint64_t>{1, 2}));
+  EXPECT_EQ(glass.seen().state.map_newest, 2U);
+}
+
+}  // namespace
+}  // namespace yars::tools::recording
