@@ -101,7 +101,7 @@ const std::vector<Moment>& moments() {
       {108.5, "mode ag", true, "mode", "PATCH"},
       {110.25, "freeze", true, "freeze", false},
       {110.5, "radar bcn", true, "mode", "BCN"},
-      {120.25, "radar rbm", true, "mode", "RBM"},
+      {132.25, "radar rbm", true, "mode", "RBM"},
       {218.25, "radar bcn", true, "mode", "BCN"},
       {218.5, "radar rbm", true, "range_nm", 10.0},  // low on the approach
       {218.75, "elevation 0", true, "range_nm", 10.0},
@@ -129,7 +129,7 @@ constexpr Picture kPictures[] = {
     {62, "cursor_on_coast"}, {64, "updated"},      {66, "mark"},      {70, "target_los"},    {72, "line_slews"},
     {74, "line_fixed"},      {76, "cue"},          {78, "map_forms"}, {86, "patch_4_7"},     {88, "patch_forms"},
     {96, "patch_0_67"},      {98, "frozen"},       {100, "store"},    {102, "store_again"},  {104, "air_to_air"},
-    {106, "set_cue"},        {110, "back_frozen"}, {116, "beacon"},   {130, "rbm_homeward"}, {220, "approach"},
+    {106, "set_cue"},        {110, "back_frozen"}, {130, "beacon"},   {140, "rbm_homeward"}, {220, "approach"},
     {240, "touched_down"},   {256, "stopped"},     {258, "standby"},
 };
 
