@@ -1,7 +1,6 @@
 // A sortie from the runway and back, by the whole set in lockstep over a made-up coast: ranges by height, a navigator
 // put right, mark, target, steering line, cue, two maps, recall, SET, beacon mode. With YARS_PICTURES=FOLDER each
 // step's picture of the glass is kept there, to be looked at.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -10,6 +9,7 @@
 #include <fstream>
 
 #include "lib/geo/geodesic.hpp"
+#include "lib/imageio/png.hpp"
 #include "tests/endtoend/lockstep_run.hpp"
 #include "tests/endtoend/sortie_flight.hpp"
 #include "tools/recording/recording_reader.hpp"
@@ -18,13 +18,10 @@ namespace yars::endtoend {
 namespace {
 
 using nlohmann::json;
-using ::testing::ElementsAre;
-using ::testing::Gt;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 constexpr geo::GeoPoint kLagoon{37.3067, -122.2008};  // point 2 of config/sortie.guf
 constexpr geo::GeoPoint kTarget{37.2970, -122.1540};  // a mile south of its point 3; an airfield stands there
+constexpr geo::GeoPoint kRunway{37.475, -122.608};    // point 1, and the beacon
 constexpr double kError_ft = 2500.0;
 
 struct Moment {
@@ -302,7 +299,31 @@ void expect_flight(const Recorded& recorded) {
   const auto landed = recorded.statuses.rbegin()->second;
   EXPECT_NEAR(landed.height_above_ground_m / geo::kMetresPerFoot, 8.0, 4.0);
   EXPECT_EQ(std::hypot(landed.ownship.velocity_north_mps, landed.ownship.velocity_east_mps), 0.0);
-  EXPECT_LT(metres_between({37.475, -122.608}, landed.ownship.latitude_deg, landed.ownship.longitude_deg), 400.0);
+  EXPECT_LT(metres_between(kRunway, landed.ownship.latitude_deg, landed.ownship.longitude_deg), 400.0);
+}
+
+// The last of three replies: 3 and twice 12 microseconds behind the beacon, at 150 m each; no symbol lies there.
+void expect_beacon(const LockstepRun& run, const Recorded& recorded) {
+  constexpr int kTime_s = 130;
+  constexpr double kBehind_m = 150.0 * (3 + 2 * 12), kPixels = 480.0;
+  const databuffer::Ownship ownship = at(recorded.statuses, kTime_s).ownship;
+  const auto line = geo::geodesic_inverse({ownship.latitude_deg, ownship.longitude_deg}, kRunway);
+  const double track_rad = std::atan2(ownship.velocity_east_mps, ownship.velocity_north_mps);
+  const double turn_rad = line.azimuth_at_start.radians() - track_rad;
+  // The glass is 1.2 ranges wide and high, the aircraft a tenth of the range above its lower edge.
+  const double edge_m = 1.2 * at(recorded.states, kTime_s).range_nm * geo::kMetresPerNauticalMile;
+  const double away_m = line.distance.metres() + kBehind_m;
+  const int column = static_cast<int>(kPixels * (0.5 + away_m * std::sin(turn_rad) / edge_m));
+  const int row = static_cast<int>(kPixels * (1.1 / 1.2 - away_m * std::cos(turn_rad) / edge_m));
+  const auto frame = imageio::read_png(run.frame(kTime_s));
+  ASSERT_TRUE(frame.has_value());
+  constexpr int kAround = 4;
+  int lit = 0;
+  for (int y = row - kAround; y <= row + kAround; ++y)
+    for (int x = column - kAround; x <= column + kAround; ++x)
+      lit += frame->pixels[static_cast<std::size_t>((y * frame->width + x) * frame->channels + 1)] > 120 ? 1 : 0;
+  EXPECT_GE(lit, 5) << "about column " << column << ", row " << row;
+  EXPECT_LT(lit_pixels(run.frame(kTime_s)), lit_pixels(run.frame(140)) / 2) << "BCN has no ground video, RBM has";
 }
 
 TEST(Sortie, GoesFromTheRunwayThroughEveryFunctionBackOntoTheRunway) {
@@ -318,7 +339,7 @@ TEST(Sortie, GoesFromTheRunwayThroughEveryFunctionBackOntoTheRunway) {
   expect_outputs(recorded);
   expect_steering_line(run);
   expect_maps(recorded);
-  EXPECT_LT(lit_pixels(run.frame(130)), lit_pixels(run.frame(140)) / 2) << "BCN has no ground video, RBM has";
+  expect_beacon(run, recorded);
 
   const json replayed = run.replayed();
   EXPECT_EQ(replayed["different"], 0);
