@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <sstream>
 
@@ -22,6 +24,8 @@ std::size_t lit_pixels(const std::filesystem::path& path) {
 }
 
 namespace {
+
+constexpr int kFrameEvery_s = 2;
 
 std::string bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -45,27 +49,38 @@ int write_script(const std::filesystem::path& path, const std::vector<ScriptedSt
 }  // namespace
 
 LockstepRun::LockstepRun(const std::string& name, const std::vector<ScriptedStep>& steps, const std::string& source,
-                         const std::vector<std::string>& model_arguments)
+                         const Place& place)
     : set_(name), recording_(set_.folder() / "run.yars") {
   const int seconds = write_script(set_.folder() / "script", steps);
   const std::string plan =
       "flight-model,input-monitor,state-machine,radar-model,radar-display,recorder@" + std::to_string(seconds * 200);
   std::filesystem::create_directories(frames());
   const auto start = [&](const std::string& role, std::vector<std::string> arguments) {
+    if (!place.configuration.empty()) arguments.insert(arguments.begin() + 1, {"--config", place.configuration});
     arguments.insert(arguments.end(), {"--lockstep", plan});
     set_.start(role, arguments);
   };
-  start("recorder", {"yars", "record", "--patches", recording_.string()});
+  const std::vector<std::string> terrain =
+      place.terrain.empty() ? std::vector<std::string>{} : std::vector<std::string>{"--terrain", place.terrain};
+  std::vector<std::string> recorder{"yars", "record", "--patches", recording_.string()}, model{"radar-model"};
+  recorder.insert(recorder.end(), terrain.begin(), terrain.end());
+  model.insert(model.end(), terrain.begin(), terrain.end());
+  start("recorder", recorder);
   start("flight-model", {"flight-model", "--source", source});
   start("input-monitor", {"input-monitor", "--source", "script:" + (set_.folder() / "script").string()});
   start("state-machine", {"state-machine"});
-  std::vector<std::string> model{"radar-model"};
-  model.insert(model.end(), model_arguments.begin(), model_arguments.end());
   start("radar-model", model);
-  start("radar-display", {"radar-display", "--headless", "--frames", frames().string(), "--every", "2"});
+  start("radar-display",
+        {"radar-display", "--headless", "--frames", frames().string(), "--every", std::to_string(kFrameEvery_s)});
   for (const auto* role :
        {"flight-model", "input-monitor", "state-machine", "radar-model", "radar-display", "recorder"})
     EXPECT_EQ(set_.wait(role, 240.0), 0) << role << ": " << set_.log_of(role);
+}
+
+std::filesystem::path LockstepRun::frame(int time_s) const {
+  std::array<char, 32> name{};
+  std::snprintf(name.data(), name.size(), "frame_%06d.png", time_s / kFrameEvery_s);
+  return frames() / name.data();
 }
 
 std::map<std::string, std::string> LockstepRun::frame_bytes() const {

@@ -28,14 +28,22 @@ struct Entry {
   nlohmann::json state;  // in force at the end of that tick
 };
 
+// Where a set flies; empty: the built-in hills, the built-in radar.
+struct Place {
+  std::string terrain;        // a folder
+  std::string configuration;  // a file
+};
+
 class LockstepRun {
  public:
-  // Over the built-in hills unless the source and the model's arguments say otherwise.
   LockstepRun(const std::string& name, const std::vector<ScriptedStep>& steps, const std::string& source,
-              const std::vector<std::string>& model_arguments = {});
+              const Place& place = {});
 
   const std::filesystem::path& recording() const { return recording_; }
   std::filesystem::path frames() const { return set_.folder() / "frames"; }
+  // The picture of a whole, even second of sim time.
+  std::filesystem::path frame(int time_s) const;
+  const std::filesystem::path& recording() const { return recording_; }
   bool segment_exists() const { return set_.segment_exists(); }
   std::map<std::string, std::string> frame_bytes() const;
   // The script's events in order, each with the state at the end of its tick.
