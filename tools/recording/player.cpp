@@ -1,7 +1,6 @@
 #include "tools/recording/player.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace yars::tools::recording {
@@ -225,7 +224,7 @@ void Player::find_maps(std::size_t block, Played& played) {
   const databuffer::RadarState& state = *played.state;
   std::vector<std::uint64_t> wanted{state.map_newest, state.map_old, state.map_stored, state.map_shown};
   std::ranges::sort(wanted);
-  wanted.erase(std::ranges::unique(wanted).begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   std::erase(wanted, 0U);
   const auto& blocks = reader_->blocks();
   for (std::size_t i = std::min(block + 1, blocks.size()); i-- > 0 && !wanted.empty();) {
