@@ -318,10 +318,14 @@ void expect_beacon(const LockstepRun& run, const Recorded& recorded) {
   const auto frame = imageio::read_png(run.frame(kTime_s));
   ASSERT_TRUE(frame.has_value());
   constexpr int kAround = 4;
+  const auto green = [&](int x, int y) {
+    const auto pixel =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(frame->width) + static_cast<std::size_t>(x);
+    return frame->pixels[pixel * static_cast<std::size_t>(frame->channels) + 1];
+  };
   int lit = 0;
   for (int y = row - kAround; y <= row + kAround; ++y)
-    for (int x = column - kAround; x <= column + kAround; ++x)
-      lit += frame->pixels[static_cast<std::size_t>((y * frame->width + x) * frame->channels + 1)] > 120 ? 1 : 0;
+    for (int x = column - kAround; x <= column + kAround; ++x) lit += green(x, y) > 120 ? 1 : 0;
   EXPECT_GE(lit, 5) << "about column " << column << ", row " << row;
   EXPECT_LT(lit_pixels(run.frame(kTime_s)), lit_pixels(run.frame(140)) / 2) << "BCN has no ground video, RBM has";
 }
