@@ -43,7 +43,6 @@ class LockstepRun {
   std::filesystem::path frames() const { return set_.folder() / "frames"; }
   // The picture of a whole, even second of sim time.
   std::filesystem::path frame(int time_s) const;
-  const std::filesystem::path& recording() const { return recording_; }
   bool segment_exists() const { return set_.segment_exists(); }
   std::map<std::string, std::string> frame_bytes() const;
   // The script's events in order, each with the state at the end of its tick.
