@@ -14,7 +14,7 @@ namespace {
 using databuffer::NavigatorError;
 using databuffer::RadarState;
 
-constexpr auto kTicksPerSecond = static_cast<std::int64_t>(1.0 / radar::kTickSeconds + 0.5);
+constexpr std::int64_t kTicksPerSecond = 1'000'000'000 / radar::kTickNanoseconds;
 // [m] and [m/s] where an error stops growing: a quarter round the Earth, and far above any aircraft's speed. The
 // border, which holds the record to less, would refuse the whole state.
 constexpr double kMostError_m = 1e7;

@@ -8,105 +8,32 @@
 #include <string>
 #include <vector>
 
-#include "display/present_frame.hpp"
 #include "display/scales.hpp"
-#include "tests/display/glass_states.hpp"
+#include "tests/display/symbology_checks.hpp"
 
 namespace yars::display {
 namespace {
 
 using radar::Mode;
 using ::testing::Contains;
+using testing::crowded;
+using testing::drawn;
+using testing::expect_no_overlap;
 using ::testing::IsEmpty;
 using ::testing::IsSupersetOf;
 using ::testing::Not;
+using testing::strokes;
+using testing::words;
 
 constexpr std::array kModes{Mode::rbm, Mode::hrm,        Mode::patch,   Mode::beacon,
                             Mode::pvu, Mode::air_to_air, Mode::ranging, Mode::menu};
 constexpr std::array kRanges{4.7, 10.0, 20.0, 40.0, 80.0, 160.0};
-
-DrawList drawn(const GlassInput& input, const radar::RadarConfiguration& configuration = {}) {
-  const GlassView view(configuration.view);
-  DrawList list;
-  draw_symbology(input, configuration, view, present_frame(input, nullptr), list);
-  return list;
-}
-
-std::vector<std::string> words(const DrawList& list) {
-  std::vector<std::string> names;
-  for (const OccupiedBox& box : list.occupied()) names.push_back(box.name);
-  return names;
-}
-
-std::vector<std::string> words(const GlassInput& input) {
-  return words(drawn(input));
-}
-
-std::size_t strokes(const DrawList& list) {
-  return list.content(Layer::grid).strokes.size() + list.content(Layer::symbols).strokes.size() +
-         list.content(Layer::notices).strokes.size();
-}
-
-void expect_no_overlap(const DrawList& list, const std::string& what) {
-  const auto& boxes = list.occupied();
-  for (std::size_t a = 0; a < boxes.size(); ++a) {
-    const Rect& rect = boxes[a].rect;
-    EXPECT_TRUE(rect.left >= 0.0F && rect.top >= 0.0F && rect.right <= kGlassUnits && rect.bottom <= kGlassUnits)
-        << what << ": " << boxes[a].name << " leaves the glass";
-    for (std::size_t b = a + 1; b < boxes.size(); ++b) {
-      EXPECT_FALSE(intersect(rect, boxes[b].rect)) << what << ": " << boxes[a].name << " over " << boxes[b].name;
-    }
-  }
-}
-
-// Whether the symbol of a point there, and its heading, would touch none of the words.
-bool clear_of_words(const DrawList& list, geo::GeoPoint place) {
-  const radar::RadarConfiguration configuration;
-  const GlassView view(configuration.view);
-  const Point at = view.at_ground(present_frame(testing::operating(Mode::rbm, 40.0), nullptr), place);
-  const Rect symbol{at.x - 18.0F, at.y - 34.0F, at.x + 18.0F, at.y + 34.0F};
-  return std::ranges::none_of(list.occupied(), [&](const OccupiedBox& box) { return intersect(box.rect, symbol); });
-}
-
-// Everything that can be lit at once is lit, each at its widest.
-GlassInput crowded(Mode mode, double range_nm) {
-  GlassInput input = testing::operating(mode, range_nm);
-  input.state.boxed = ~0U;
-  input.state.brightness = 15;
-  input.state.window_nm = 0.67;
-  input.state.flags |= databuffer::kFreeze;
-  testing::put_cursor(input, 359.7, range_nm);
-  testing::set_text(input.state.message, "SIXTEEN LETTERS AND THEN SOME MO");
-  input.model.map_timer_s = 120.0;
-  if (mode == Mode::patch || mode == Mode::ranging) testing::put_map(input, 60.0, 20.0, 4.7);
-  testing::put_forming_map(input, 60.0, 20.0, 4.7);
-  testing::put_update(input, 2999.0, -22.0, 30);
-  testing::put_velocities(input, -188.8, 188.8, -188.8);
-  input.model.velocity_beam = 3;
-  input.model_alive = input.ownship_fresh = input.state_machine_alive = false;
-  return input;
-}
 
 TEST(Symbology, NothingOverlapsInAnyModeAtAnyRangeWithEverythingLit) {
   for (const Mode mode : kModes) {
     for (const double range_nm : kRanges) {
       const std::string what = std::string(radar::name_of(mode)) + " at " + std::to_string(range_nm);
       expect_no_overlap(drawn(crowded(mode, range_nm)), what);
-    }
-  }
-}
-
-TEST(Symbology, NothingOverlapsWithATargetDesignatedAnywhere) {
-  for (const Mode mode : {Mode::rbm, Mode::hrm, Mode::beacon}) {
-    for (double bearing_deg = -30.0; bearing_deg <= 90.0; bearing_deg += 15.0) {
-      for (double range_nm = 2.0; range_nm <= 42.0; range_nm += 4.0) {
-        GlassInput input = crowded(mode, 40.0);
-        const geo::GeoPoint place = testing::at(bearing_deg, range_nm);
-        if (!clear_of_words(drawn(input), place)) continue;  // a symbol stands where the ground is, legend or not
-        testing::put_target(input, place, 45.0, databuffer::SteeringLine::slewing);
-        testing::add_point(input, "4.", radar::PointKind::target, place);
-        expect_no_overlap(drawn(input), std::to_string(bearing_deg) + " at " + std::to_string(range_nm));
-      }
     }
   }
 }
@@ -213,48 +140,6 @@ TEST(Symbology, TheCursorReadsMagneticBearingAndTenthsOfMiles) {
   EXPECT_THAT(words(input), Contains("000\u00b0"));
 }
 
-TEST(Symbology, UpdateErrorsAreInFeetTo3000FeetAndInMilesBeyond) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
-  testing::put_update(input, 1240.4, -330.0, -1);
-  EXPECT_THAT(words(input), IsSupersetOf({"N 1240FT", "W 330FT"}));
-  testing::put_update(input, -3000.0, 0.0, -1);
-  EXPECT_THAT(words(input), IsSupersetOf({"S 3000FT", "E 0FT"}));
-  testing::put_update(input, -3000.0, 3000.0, -1);
-  EXPECT_THAT(words(input), IsSupersetOf({"S 0.49NM", "E 0.49NM"}));
-  input.state.flags &= ~databuffer::kUpdateShown;
-  EXPECT_THAT(words(input), Not(Contains("S 0.49NM")));
-}
-
-TEST(Symbology, AnInsUpdateCountsDownToInv) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
-  testing::put_update(input, 100.0, 100.0, 17);
-  const DrawList list = drawn(input);
-  EXPECT_THAT(words(list), IsSupersetOf({"17", "N 100FT"}));
-  const auto& boxes = list.occupied();
-  const auto counter = std::ranges::find(boxes, "17", &OccupiedBox::name);
-  EXPECT_NEAR((counter->rect.left + counter->rect.right) / 2.0F, 160.0F, 0.2F) << "above the legend of PB 7";
-  testing::put_update(input, 100.0, 100.0, 0);
-  input.state.flags |= databuffer::kUpdateInvalid;
-  EXPECT_THAT(words(input), IsSupersetOf({"INV", "0"}));
-  EXPECT_THAT(words(input), Not(Contains("N 100FT")));
-}
-
-TEST(Symbology, VelocityDifferencesAreInFeetPerSecond) {
-  GlassInput input = testing::operating(Mode::hrm, 40.0);
-  EXPECT_THAT(words(input), Not(Contains("FT/S")));
-  testing::put_velocities(input, 1.24, -0.04, -12.0);
-  EXPECT_THAT(words(input), IsSupersetOf({"FT/S", "AL", "+1.2", "AX", "+0.0", "VT", "-12.0"}));
-}
-
-TEST(Symbology, PvuHasItsOwnFormatWithTheBeamUnderWay) {
-  GlassInput input = testing::operating(Mode::pvu, 40.0);
-  EXPECT_THAT(words(input), IsSupersetOf({"ALONG", "ACROSS", "VERTICAL", "--- FT/S", "BEAM", "-"}));
-  testing::put_velocities(input, 1.24, -2.0, 0.5);
-  input.model.velocity_beam = 2;
-  EXPECT_THAT(words(input), IsSupersetOf({"+1.2 FT/S", "-2.0 FT/S", "+0.5 FT/S", "2"}));
-  EXPECT_THAT(words(input), Not(Contains("--- FT/S")));
-}
-
 TEST(Symbology, RangeWindowBrightnessAndTimerAreRead) {
   GlassInput input = testing::operating(Mode::rbm, 4.7);
   input.state.window_nm = 0.67;
@@ -315,63 +200,6 @@ TEST(Symbology, TheCursorIsAnOpenPlusOnItsGroundPoint) {
     const bool at_middle = std::abs(segment.from.x - 240.0F) < 4.0F && std::abs(segment.from.y - 240.0F) < 4.0F;
     EXPECT_FALSE(at_middle) << "the plus is open";
   }
-}
-
-GlassInput with_steering_line(databuffer::SteeringLine line, double approach_deg) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
-  testing::put_target(input, testing::at(30.0, 20.0), approach_deg, line);
-  return input;
-}
-
-TEST(Symbology, TheSteeringLineLeavesTheTargetAgainstTheApproach) {
-  const DrawList without = drawn(testing::operating(Mode::rbm, 40.0));
-  using databuffer::SteeringLine;
-  struct Case {
-    double approach_deg;
-    float x, y;  // of the far end
-  };
-  // Ground track 030 is up, the target stands at 240, 240: an approach on 030 comes from below, one on 120 from the
-  // left.
-  for (const Case& one : {Case{30.0, 240.0F, 310.0F}, Case{120.0, 170.0F, 240.0F}, Case{300.0, 310.0F, 240.0F}}) {
-    GlassInput input = with_steering_line(SteeringLine::line_of_sight, one.approach_deg);
-    const DrawList with = drawn(input);
-    const auto& base = without.content(Layer::symbols).strokes;
-    const auto line = std::ranges::find_if(with.content(Layer::symbols).strokes, [&](const Segment& segment) {
-      return std::ranges::find(base, segment) == base.end();
-    });
-    ASSERT_NE(line, with.content(Layer::symbols).strokes.end());
-    EXPECT_NEAR(line->to.x, one.x, 0.3F) << one.approach_deg;
-    EXPECT_NEAR(line->to.y, one.y, 0.3F) << one.approach_deg;
-  }
-}
-
-TEST(Symbology, TheMagneticHeadingStandsBeneathTheTarget) {
-  GlassInput input = with_steering_line(databuffer::SteeringLine::line_of_sight, 44.6);
-  input.state.magnetic_variation_deg = 13.0;
-  const DrawList list = drawn(input);
-  const auto& boxes = list.occupied();
-  const auto heading = std::ranges::find(boxes, "032\u00b0", &OccupiedBox::name);
-  ASSERT_NE(heading, boxes.end());
-  EXPECT_NEAR((heading->rect.left + heading->rect.right) / 2.0F, 240.0F, 0.2F);
-  EXPECT_GT(heading->rect.top, 246.0F);
-  EXPECT_LT(heading->rect.bottom, 275.0F);
-}
-
-TEST(Symbology, TheSteeringLineEndsInAnArrowheadWhileItSlewsAndInACircleOnceFixed) {
-  using databuffer::SteeringLine;
-  const auto strokes_with = [](SteeringLine line) { return strokes(drawn(with_steering_line(line, 60.0))); };
-  const std::size_t plain = strokes_with(SteeringLine::line_of_sight);
-  EXPECT_EQ(strokes_with(SteeringLine::slewing), plain + 2);
-  EXPECT_EQ(strokes_with(SteeringLine::fixed), plain + 24);
-}
-
-TEST(Symbology, WithoutATargetOnTheGlassThereIsNoSteeringLine) {
-  GlassInput input = with_steering_line(databuffer::SteeringLine::fixed, 60.0);
-  const DrawList nothing = drawn(testing::operating(Mode::rbm, 40.0));
-  input.state.flags &= ~databuffer::kTargetDesignated;
-  EXPECT_EQ(drawn(input), nothing);
-  testing::put_target(input, testing::at(210.0, 30.0), 60.0, databuffer::SteeringLine::fixed);
-  EXPECT_EQ(drawn(input), nothing);
 }
 
 TEST(Symbology, PointsStandAtTheirPlacesAndOffTheGlassAtNone) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdlib>
 #include <map>
+#include <ostream>
 #include <random>
 #include <string>
 #include <utility>
@@ -24,6 +25,10 @@ using databuffer::RadarState;
 struct StormOver {
   const char* file;  // of a configuration; empty: the APG-70
   int events;
+  // For the names of the tests: the bytes of a pointer are others on every run.
+  friend void PrintTo(const StormOver& storm, std::ostream* out) {
+    *out << (*storm.file == '\0' ? "built-in" : storm.file) << ", " << storm.events << " events";
+  }
 };
 
 // YARS_SEED repeats a storm that failed.

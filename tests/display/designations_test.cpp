@@ -1,0 +1,147 @@
+// What cursor functions and velocity updates put on the glass: errors of UPDT, differences of velocity, the pattern
+// steering line.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "tests/display/symbology_checks.hpp"
+
+namespace yars::display {
+namespace {
+
+using databuffer::SteeringLine;
+using radar::Mode;
+using ::testing::Contains;
+using testing::crowded;
+using testing::drawn;
+using testing::expect_no_overlap;
+using ::testing::IsSupersetOf;
+using ::testing::Not;
+using testing::strokes;
+using testing::words;
+
+// Whether the symbol of a point there, and its heading, would touch none of the words.
+bool clear_of_words(const DrawList& list, geo::GeoPoint place) {
+  const radar::RadarConfiguration configuration;
+  const GlassView view(configuration.view);
+  const Point at = view.at_ground(present_frame(testing::operating(Mode::rbm, 40.0), nullptr), place);
+  const Rect symbol{at.x - 18.0F, at.y - 34.0F, at.x + 18.0F, at.y + 34.0F};
+  return std::ranges::none_of(list.occupied(), [&](const OccupiedBox& box) { return intersect(box.rect, symbol); });
+}
+
+GlassInput with_steering_line(SteeringLine line, double approach_deg) {
+  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  testing::put_target(input, testing::at(30.0, 20.0), approach_deg, line);
+  return input;
+}
+
+TEST(Designations, NothingOverlapsWithATargetDesignatedAnywhere) {
+  for (const Mode mode : {Mode::rbm, Mode::hrm, Mode::beacon}) {
+    for (double bearing_deg = -30.0; bearing_deg <= 90.0; bearing_deg += 15.0) {
+      for (double range_nm = 2.0; range_nm <= 42.0; range_nm += 4.0) {
+        GlassInput input = crowded(mode, 40.0);
+        const geo::GeoPoint place = testing::at(bearing_deg, range_nm);
+        if (!clear_of_words(drawn(input), place)) continue;  // a symbol stands where the ground is, legend or not
+        testing::put_target(input, place, 45.0, SteeringLine::slewing);
+        testing::add_point(input, "4.", radar::PointKind::target, place);
+        expect_no_overlap(drawn(input), std::to_string(bearing_deg) + " at " + std::to_string(range_nm));
+      }
+    }
+  }
+}
+
+TEST(Designations, UpdateErrorsAreInFeetTo3000FeetAndInMilesBeyond) {
+  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  testing::put_update(input, 1240.4, -330.0, -1);
+  EXPECT_THAT(words(input), IsSupersetOf({"N 1240FT", "W 330FT"}));
+  testing::put_update(input, -3000.0, 0.0, -1);
+  EXPECT_THAT(words(input), IsSupersetOf({"S 3000FT", "E 0FT"}));
+  testing::put_update(input, -3000.0, 3000.0, -1);
+  EXPECT_THAT(words(input), IsSupersetOf({"S 0.49NM", "E 0.49NM"}));
+  input.state.flags &= ~databuffer::kUpdateShown;
+  EXPECT_THAT(words(input), Not(Contains("S 0.49NM")));
+}
+
+TEST(Designations, AnInsUpdateCountsDownToInv) {
+  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  testing::put_update(input, 100.0, 100.0, 17);
+  const DrawList list = drawn(input);
+  EXPECT_THAT(words(list), IsSupersetOf({"17", "N 100FT"}));
+  const auto& boxes = list.occupied();
+  const auto counter = std::ranges::find(boxes, "17", &OccupiedBox::name);
+  EXPECT_NEAR((counter->rect.left + counter->rect.right) / 2.0F, 160.0F, 0.2F) << "above the legend of PB 7";
+  testing::put_update(input, 100.0, 100.0, 0);
+  input.state.flags |= databuffer::kUpdateInvalid;
+  EXPECT_THAT(words(input), IsSupersetOf({"INV", "0"}));
+  EXPECT_THAT(words(input), Not(Contains("N 100FT")));
+}
+
+TEST(Designations, VelocityDifferencesAreInFeetPerSecond) {
+  GlassInput input = testing::operating(Mode::hrm, 40.0);
+  EXPECT_THAT(words(input), Not(Contains("FT/S")));
+  testing::put_velocities(input, 1.24, -0.04, -12.0);
+  EXPECT_THAT(words(input), IsSupersetOf({"FT/S", "AL", "+1.2", "AX", "+0.0", "VT", "-12.0"}));
+}
+
+TEST(Designations, PvuHasItsOwnFormatWithTheBeamUnderWay) {
+  GlassInput input = testing::operating(Mode::pvu, 40.0);
+  EXPECT_THAT(words(input), IsSupersetOf({"ALONG", "ACROSS", "VERTICAL", "--- FT/S", "BEAM", "-"}));
+  testing::put_velocities(input, 1.24, -2.0, 0.5);
+  input.model.velocity_beam = 2;
+  EXPECT_THAT(words(input), IsSupersetOf({"+1.2 FT/S", "-2.0 FT/S", "+0.5 FT/S", "2"}));
+  EXPECT_THAT(words(input), Not(Contains("--- FT/S")));
+}
+
+TEST(Designations, TheSteeringLineLeavesTheTargetAgainstTheApproach) {
+  const DrawList without = drawn(testing::operating(Mode::rbm, 40.0));
+  struct Case {
+    double approach_deg;
+    float x, y;  // of the far end
+  };
+  // Ground track 030 is up, the target stands at 240, 240: an approach on 030 comes from below, one on 120 from the
+  // left.
+  for (const Case& one : {Case{30.0, 240.0F, 310.0F}, Case{120.0, 170.0F, 240.0F}, Case{300.0, 310.0F, 240.0F}}) {
+    GlassInput input = with_steering_line(SteeringLine::line_of_sight, one.approach_deg);
+    const DrawList with = drawn(input);
+    const auto& base = without.content(Layer::symbols).strokes;
+    const auto line = std::ranges::find_if(with.content(Layer::symbols).strokes, [&](const Segment& segment) {
+      return std::ranges::find(base, segment) == base.end();
+    });
+    ASSERT_NE(line, with.content(Layer::symbols).strokes.end());
+    EXPECT_NEAR(line->to.x, one.x, 0.3F) << one.approach_deg;
+    EXPECT_NEAR(line->to.y, one.y, 0.3F) << one.approach_deg;
+  }
+}
+
+TEST(Designations, TheMagneticHeadingStandsBeneathTheTarget) {
+  GlassInput input = with_steering_line(SteeringLine::line_of_sight, 44.6);
+  input.state.magnetic_variation_deg = 13.0;
+  const DrawList list = drawn(input);
+  const auto& boxes = list.occupied();
+  const auto heading = std::ranges::find(boxes, "032\u00b0", &OccupiedBox::name);
+  ASSERT_NE(heading, boxes.end());
+  EXPECT_NEAR((heading->rect.left + heading->rect.right) / 2.0F, 240.0F, 0.2F);
+  EXPECT_GT(heading->rect.top, 246.0F);
+  EXPECT_LT(heading->rect.bottom, 275.0F);
+}
+
+TEST(Designations, TheSteeringLineEndsInAnArrowheadWhileItSlewsAndInACircleOnceFixed) {
+  const auto strokes_with = [](SteeringLine line) { return strokes(drawn(with_steering_line(line, 60.0))); };
+  const std::size_t plain = strokes_with(SteeringLine::line_of_sight);
+  EXPECT_EQ(strokes_with(SteeringLine::slewing), plain + 2);
+  EXPECT_EQ(strokes_with(SteeringLine::fixed), plain + 24);
+}
+
+TEST(Designations, WithoutATargetOnTheGlassThereIsNoSteeringLine) {
+  GlassInput input = with_steering_line(SteeringLine::fixed, 60.0);
+  const DrawList nothing = drawn(testing::operating(Mode::rbm, 40.0));
+  input.state.flags &= ~databuffer::kTargetDesignated;
+  EXPECT_EQ(drawn(input), nothing);
+  testing::put_target(input, testing::at(210.0, 30.0), 60.0, SteeringLine::fixed);
+  EXPECT_EQ(drawn(input), nothing);
+}
+
+}  // namespace
+}  // namespace yars::display
