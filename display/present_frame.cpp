@@ -1,6 +1,6 @@
 #include "display/present_frame.hpp"
 
-#include "lib/radar/ground_track.hpp"
+#include "databuffer/records/navigation.hpp"
 
 namespace yars::display {
 
@@ -9,12 +9,6 @@ namespace {
 constexpr double kLeastRange_m = 1852.0;  // [m] stands in for a state that names no range yet: nothing divides by 0
 
 }  // namespace
-
-geo::Bearing ground_track_of(const databuffer::Ownship& ownship) {
-  return radar::ground_track(geo::Speed::metres_per_second(ownship.velocity_north_mps),
-                             geo::Speed::metres_per_second(ownship.velocity_east_mps),
-                             geo::Bearing::degrees(ownship.heading_deg));
-}
 
 GlassFrame present_frame(const GlassInput& input, const StoredSweep* newest) {
   const double range_m = input.state.range_nm * geo::kMetresPerNauticalMile;
@@ -26,7 +20,7 @@ GlassFrame present_frame(const GlassInput& input, const StoredSweep* newest) {
     frame.up = newest->ground_track;
   } else {
     frame.apex = {input.ownship.latitude_deg, input.ownship.longitude_deg};
-    frame.up = ground_track_of(input.ownship);
+    frame.up = databuffer::ground_track_of(input.ownship);
   }
   return frame;
 }

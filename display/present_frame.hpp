@@ -7,8 +7,6 @@
 
 namespace yars::display {
 
-geo::Bearing ground_track_of(const databuffer::Ownship& ownship);
-
 // `newest` is the last sweep of the mode shown, or null.
 GlassFrame present_frame(const GlassInput& input, const StoredSweep* newest);
 

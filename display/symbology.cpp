@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "databuffer/records/map_timer.hpp"
+#include "databuffer/records/navigation.hpp"
 #include "display/markers.hpp"
 #include "display/present_frame.hpp"
 #include "display/readouts.hpp"
@@ -89,7 +90,7 @@ AttitudeSource attitude_source(const databuffer::Nav& nav) {
 
 void draw_scales(const GlassInput& input, DrawList& list) {
   const geo::Bearing antenna = geo::Bearing::degrees(input.ownship.heading_deg + input.model.antenna_azimuth_deg);
-  draw_azimuth_scale((antenna - ground_track_of(input.ownship)).degrees(), list);
+  draw_azimuth_scale((antenna - databuffer::ground_track_of(input.ownship)).degrees(), list);
   draw_elevation_scale(input.model.antenna_elevation_deg, list);
   draw_pitch_ball(input.ownship.pitch_deg, input.ownship.roll_deg, attitude_source(input.nav), list);
 }
@@ -118,7 +119,7 @@ Sector covered_sector(const GlassInput& input) {
 
 void draw_limits(const GlassInput& input, double blind_zone_deg, DrawList& list) {
   const Sector sector = covered_sector(input);
-  const double middle_deg = (sector.middle - ground_track_of(input.ownship)).degrees();
+  const double middle_deg = (sector.middle - databuffer::ground_track_of(input.ownship)).degrees();
   draw_limit_balls(middle_deg - sector.half_width_deg, middle_deg + sector.half_width_deg, blind_zone_deg, list);
 }
 

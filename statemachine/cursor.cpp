@@ -6,7 +6,6 @@
 
 #include "databuffer/records/navigation.hpp"
 #include "lib/geo/geodesic.hpp"
-#include "lib/radar/ground_track.hpp"
 #include "statemachine/maps.hpp"
 #include "statemachine/sequence_points.hpp"
 #include "statemachine/steering.hpp"
@@ -94,10 +93,7 @@ void follow_aircraft(RadarState& state, const Surroundings& surroundings) {
   const databuffer::Ownship& ownship = surroundings.ownship;
   state.frame_latitude_deg = ownship.latitude_deg;
   state.frame_longitude_deg = ownship.longitude_deg;
-  state.frame_track_deg = radar::ground_track(geo::Speed::metres_per_second(ownship.velocity_north_mps),
-                                              geo::Speed::metres_per_second(ownship.velocity_east_mps),
-                                              Bearing::degrees(ownship.heading_deg))
-                              .degrees();
+  state.frame_track_deg = databuffer::ground_track_of(ownship).degrees();
 }
 
 void follow(RadarState& state, const Surroundings& surroundings) {

@@ -5,7 +5,6 @@
 
 #include "databuffer/records/navigation.hpp"
 #include "lib/geo/geodesic.hpp"
-#include "lib/radar/ground_track.hpp"
 
 namespace yars::statemachine {
 
@@ -36,12 +35,6 @@ geo::GeodesicInverse sight_of_target(const RadarState& state, const Surroundings
   return geo::geodesic_inverse(belief.truth, belief.on_video({state.target_latitude_deg, state.target_longitude_deg}));
 }
 
-Bearing track_of(const databuffer::Ownship& ownship) {
-  return radar::ground_track(geo::Speed::metres_per_second(ownship.velocity_north_mps),
-                             geo::Speed::metres_per_second(ownship.velocity_east_mps),
-                             Bearing::degrees(ownship.heading_deg));
-}
-
 // [deg] right wing down: toward the line through the target along the approach, then along it.
 double bank_onto_line(const geo::GeodesicInverse& sight, Bearing approach, const databuffer::Ownship& ownship) {
   const double speed_mps = std::hypot(ownship.velocity_north_mps, ownship.velocity_east_mps);
@@ -49,7 +42,7 @@ double bank_onto_line(const geo::GeodesicInverse& sight, Bearing approach, const
   // Right of the line, seen along the approach.
   const double right_m = sight.distance.metres() * std::sin((approach - sight.azimuth_at_start).radians());
   const Bearing wanted = approach - geo::Angle::radians(std::atan2(right_m, speed_mps * kCapture_s));
-  const double turn_rate = (wanted - track_of(ownship)).radians() / kTurn_s;
+  const double turn_rate = (wanted - databuffer::ground_track_of(ownship)).radians() / kTurn_s;
   const double bank_deg = std::atan(speed_mps * turn_rate / kGravity_mps2) / geo::kRadiansPerDegree;
   return std::clamp(bank_deg, -kMostBank_deg, kMostBank_deg);
 }
@@ -102,7 +95,7 @@ void put_steering(databuffer::Outputs& outputs, const RadarState& state, const S
   outputs.steering =
       static_cast<std::uint8_t>(fixed ? databuffer::SteeringCommand::bank : databuffer::SteeringCommand::azimuth);
   outputs.steering_deg = fixed ? bank_onto_line(sight, Bearing::degrees(state.steering_line_deg), surroundings.ownship)
-                               : (sight.azimuth_at_start - track_of(surroundings.ownship)).degrees();
+                               : (sight.azimuth_at_start - databuffer::ground_track_of(surroundings.ownship)).degrees();
 }
 
 }  // namespace yars::statemachine

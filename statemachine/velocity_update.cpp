@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include "lib/geo/quantity.hpp"
-#include "lib/radar/ground_track.hpp"
+#include "databuffer/records/navigation.hpp"
 
 namespace yars::statemachine {
 
@@ -42,11 +41,7 @@ bool believable(const Difference& difference) {
 }
 
 void show(RadarState& state, const Difference& difference, const Surroundings& surroundings) {
-  const databuffer::Ownship& ownship = surroundings.ownship;
-  const double track_rad = radar::ground_track(geo::Speed::metres_per_second(ownship.velocity_north_mps),
-                                               geo::Speed::metres_per_second(ownship.velocity_east_mps),
-                                               geo::Bearing::degrees(ownship.heading_deg))
-                               .radians();
+  const double track_rad = databuffer::ground_track_of(surroundings.ownship).radians();
   state.velocity_along_mps = difference.north_mps * std::cos(track_rad) + difference.east_mps * std::sin(track_rad);
   state.velocity_across_mps = difference.east_mps * std::cos(track_rad) - difference.north_mps * std::sin(track_rad);
   state.velocity_vertical_mps = -difference.down_mps;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "lib/radar/ground_track.hpp"
+
 namespace yars::databuffer {
 
 namespace {
@@ -31,6 +33,12 @@ GeoPoint moved(GeoPoint place, double north_m, double east_m) {
 }
 
 }  // namespace
+
+geo::Bearing ground_track_of(const Ownship& ownship) {
+  return radar::ground_track(geo::Speed::metres_per_second(ownship.velocity_north_mps),
+                             geo::Speed::metres_per_second(ownship.velocity_east_mps),
+                             geo::Bearing::degrees(ownship.heading_deg));
+}
 
 GeoPoint Belief::on_video(GeoPoint known) const {
   return carried(believed, truth, known);

@@ -9,6 +9,9 @@
 
 namespace yars::databuffer {
 
+// Which way it goes over ground; below walking speed its heading.
+geo::Bearing ground_track_of(const Ownship& ownship);
+
 // The aircraft as it is and as a navigator has it.
 struct Belief {
   geo::GeoPoint truth;

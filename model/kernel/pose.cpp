@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "lib/radar/ground_track.hpp"
+#include "databuffer/records/navigation.hpp"
 #include "lib/radar/modes.hpp"
 
 namespace yars::model::kernel {
@@ -30,9 +30,7 @@ std::optional<Pose> pose_of(const databuffer::Ownship& ownship) {
   pose.platform.heading = geo::Bearing::degrees(ownship.heading_deg);
   pose.platform.pitch = geo::Angle::degrees(ownship.pitch_deg);
   pose.platform.roll = geo::Angle::degrees(ownship.roll_deg);
-  pose.platform.ground_track =
-      radar::ground_track(geo::Speed::metres_per_second(ownship.velocity_north_mps),
-                          geo::Speed::metres_per_second(ownship.velocity_east_mps), pose.platform.heading);
+  pose.platform.ground_track = databuffer::ground_track_of(ownship);
   pose.ground_speed = geo::Speed::metres_per_second(std::hypot(ownship.velocity_north_mps, ownship.velocity_east_mps));
   pose.velocity_mps = {ownship.velocity_north_mps, ownship.velocity_east_mps, ownship.velocity_down_mps};
   return pose;
