@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "databuffer/records/navigation.hpp"
 #include "databuffer/records/plain_text.hpp"
 #include "lib/radar/point_name.hpp"
 #include "statemachine/steering.hpp"
@@ -27,9 +28,17 @@ bool has_cursor(const Step& step) {
   return step.surroundings.ownship_valid && has(step.state, databuffer::kCursorValid);
 }
 
-void cue_cursor(RadarState& state) {
-  state.cue_latitude_deg = state.cursor_believed_latitude_deg;
-  state.cue_longitude_deg = state.cursor_believed_longitude_deg;
+// The cursor's point as the navigator has it at this moment: the state's own field is of the tick before, and the
+// cursor may have jumped since.
+geo::GeoPoint known_cursor(const Step& step) {
+  const RadarState& state = step.state;
+  const auto belief = databuffer::belief_in_use(step.surroundings.ownship, step.surroundings.nav, state);
+  return belief.known_from_video({state.cursor_latitude_deg, state.cursor_longitude_deg});
+}
+
+void cue(RadarState& state, geo::GeoPoint known) {
+  state.cue_latitude_deg = known.latitude_deg;
+  state.cue_longitude_deg = known.longitude_deg;
   state.cue_elevation_m = state.cursor_elevation_m;
   ++state.cue_count;
 }
@@ -70,7 +79,7 @@ void put_target_name(RadarState& state, PointName name) {
 }  // namespace
 
 void cue_sensor(Step& step) {
-  if (has_cursor(step)) cue_cursor(step.state);
+  if (has_cursor(step)) cue(step.state, known_cursor(step));
 }
 
 void designate_target(Step& step) {
@@ -83,13 +92,14 @@ void designate_target(Step& step) {
   put_target_name(state, *name);
   // The selection goes with the target: its old name may be nobody's now.
   if (was_selected) std::ranges::copy(state.target_name, state.sequence_point);
-  state.target_latitude_deg = state.cursor_believed_latitude_deg;
-  state.target_longitude_deg = state.cursor_believed_longitude_deg;
+  const geo::GeoPoint known = known_cursor(step);
+  state.target_latitude_deg = known.latitude_deg;
+  state.target_longitude_deg = known.longitude_deg;
   state.target_elevation_m = state.cursor_elevation_m;
   ++state.target_count;
   set_flag(state, databuffer::kTargetDesignated, true);
   lead_along_line_of_sight(state, step.surroundings);
-  cue_cursor(state);
+  cue(state, known);
 }
 
 void store_mark(Step& step) {
@@ -99,8 +109,9 @@ void store_mark(Step& step) {
     std::rotate(std::begin(state.marks), std::begin(state.marks) + 1, std::end(state.marks));
     state.mark_count = databuffer::kMarks - 1;
   }
-  state.marks[state.mark_count++] = {state.cursor_believed_latitude_deg, state.cursor_believed_longitude_deg,
-                                     state.cursor_elevation_m, step.surroundings.sim_time_ns};
+  const geo::GeoPoint known = known_cursor(step);
+  state.marks[state.mark_count++] = {known.latitude_deg, known.longitude_deg, state.cursor_elevation_m,
+                                     step.surroundings.sim_time_ns};
   show_message(step, "MARK " + std::to_string(state.mark_count));
 }
 

@@ -81,7 +81,11 @@ RadarState forgotten(const Step& step) {
   fresh.scan_restart = step.state.scan_restart;
   fresh.map_request = step.state.map_request;
   fresh.vtr_request = step.state.vtr_request;
+  // What another sensor was given it keeps.
   fresh.cue_count = step.state.cue_count;
+  fresh.cue_latitude_deg = step.state.cue_latitude_deg;
+  fresh.cue_longitude_deg = step.state.cue_longitude_deg;
+  fresh.cue_elevation_m = step.state.cue_elevation_m;
   fresh.target_count = step.state.target_count;
   // The navigators are not the radar's, and marks outlive its power (rule 18).
   fresh.mission = step.state.mission;

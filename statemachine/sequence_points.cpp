@@ -122,8 +122,11 @@ void draw_points(RadarState& state, const Surroundings& surroundings, const rada
   const geo::GeoPoint aircraft{surroundings.ownship.latitude_deg, surroundings.ownship.longitude_deg};
   const geo::Length range = geo::Length::nautical_miles(state.range_nm);
   for (const RoutePoint& point : configuration.route) {
-    if (point.name == selected) nearest.take(&point, geo::Length());
-    if (!surroundings.ownship_valid || point.name == selected) continue;
+    if (point.name == selected) {
+      nearest.take(&point, geo::Length());
+      continue;
+    }
+    if (!surroundings.ownship_valid) continue;
     if (has(state, databuffer::kDeclutter) && !survives_declutter(point)) continue;
     const geo::Length distance = geo::geodesic_inverse(aircraft, point.place).distance;
     if (distance <= range) nearest.take(&point, distance);

@@ -51,8 +51,7 @@ void StateMachineShell::step(const databuffer::TickLoop::Due& due) {
   take_events(due.tick);
   advance(state_, surroundings_, *configuration_);
   publish_if_changed(due.tick);
-  if (state_.power != static_cast<std::uint8_t>(radar::Power::off))
-    session_->layout().outputs.publish(outputs_of(state_, surroundings_));
+  session_->layout().outputs.publish(outputs_of(state_, surroundings_));
   drop_old_events_ = false;
 }
 

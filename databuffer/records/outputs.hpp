@@ -1,5 +1,5 @@
 // What the state machine tells the rest of the aircraft: sensors, weapons, head-up display. Points are as the navigator
-// in use has them. Written every tick while the radar has power.
+// in use has them. Written every tick, also with the radar off: a target forgotten has to be told.
 #pragma once
 
 #include <cstddef>

@@ -52,6 +52,26 @@ TEST_F(Designating, CuePublishesThePointAsTheNavigatorHasIt) {
   EXPECT_EQ(outputs().cue_count, 2U);
 }
 
+TEST_F(Designating, AJumpAndAReleaseInOneTickTellThePointJumpedTo) {
+  pilot.press("nav error mn 2500 0");
+  select_function(radar::CursorFunction::mark);
+  pilot.send("sp 3.");
+  ASSERT_TRUE(pilot.send("tdc release"));
+  EXPECT_NEAR(outputs().marks[0].latitude_deg, pilot.configuration.route[4].place.latitude_deg, 1e-9);
+  EXPECT_NEAR(outputs().marks[0].longitude_deg, pilot.configuration.route[4].place.longitude_deg, 1e-9);
+}
+
+TEST_F(Designating, ACueStandsWhenPowerGoes) {
+  select_function(radar::CursorFunction::cue);
+  put_cursor_on(place(10.0, 12.0));
+  ASSERT_TRUE(pilot.press("tdc release"));
+  const databuffer::Outputs before = outputs();
+  pilot.press("power off");
+  EXPECT_EQ(outputs().cue_count, before.cue_count);
+  EXPECT_EQ(outputs().cue_latitude_deg, before.cue_latitude_deg);
+  EXPECT_EQ(outputs().cue_elevation_m, before.cue_elevation_m);
+}
+
 TEST_F(Designating, NeitherCueNorTargetStopsTheScan) {
   for (const auto function : {radar::CursorFunction::cue, radar::CursorFunction::target}) {
     const std::uint32_t restart = pilot.state.scan_restart;
