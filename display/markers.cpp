@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <numbers>
 #include <optional>
 
 #include "databuffer/records/navigation.hpp"
+#include "databuffer/records/plain_text.hpp"
 #include "lib/radar/limits.hpp"
 #include "lib/radar/modes.hpp"
 
@@ -39,10 +39,6 @@ void draw_triangle(Point at, bool dashed, DrawList& list) {
   list.polygon(corners, dashed);
 }
 
-std::string_view name_of(const databuffer::DrawnPoint& point) {
-  return {point.name, strnlen(point.name, sizeof point.name)};
-}
-
 // "3.2" belongs to point "3".
 bool is_offset_of_initial_point(std::string_view name, std::span<const radar::RoutePoint> route) {
   const std::string_view base = name.substr(0, name.find('.'));
@@ -64,7 +60,7 @@ void draw_symbol(const databuffer::DrawnPoint& point, std::span<const radar::Rou
       draw_triangle(at, false, list);
       return;
     case radar::PointKind::steer_offset:
-      if (is_offset_of_initial_point(name_of(point), route)) {
+      if (is_offset_of_initial_point(databuffer::text_of(point.name), route)) {
         draw_square(at, true, list);
       } else {
         list.circle(at, kRadius, true);
@@ -168,7 +164,7 @@ void draw_points(const GlassInput& input, std::span<const radar::RoutePoint> rou
   // Names after all symbols, so that none of them is written over.
   const std::optional<Point> cursor = cursor_at(input, view, frame);
   for (const Shown& one : std::span(shown).first(count)) {
-    draw_name(name_of(*one.point), one.at, cursor, list);
+    draw_name(databuffer::text_of(one.point->name), one.at, cursor, list);
   }
 }
 

@@ -1,12 +1,12 @@
 // `yars status`: a session's health for people, as JSON, or the segment's layout.
 #include <array>
 #include <cstdio>
-#include <cstring>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "databuffer/layout_json.hpp"
+#include "databuffer/records/plain_text.hpp"
 #include "databuffer/session.hpp"
 #include "tools/command.hpp"
 #include "tools/watch_json.hpp"
@@ -45,7 +45,7 @@ ordered_json lanes_json(const databuffer::SessionLayout& layout) {
     databuffer::Ownship own{};
     if (!layout.ownship[i].read(own)) continue;
     lanes.push_back({{"lane", i},
-                     {"source", std::string(own.source, strnlen(own.source, sizeof own.source))},
+                     {"source", databuffer::text_of(own.source)},
                      {"priority", layout.ownship_priority[i].load()},
                      {"records", layout.ownship[i].version()}});
   }
@@ -57,7 +57,7 @@ ordered_json recorder_json(const databuffer::Session& session) {
   databuffer::RecorderStatus status{};
   if (!session.role_is_held(databuffer::Role::recorder) || !session.layout().recorder_status.read(status))
     return nullptr;
-  const std::string problem(status.problem, strnlen(status.problem, sizeof status.problem));
+  const std::string problem(databuffer::text_of(status.problem));
   return {{"writing", status.writing != 0},
           {"bytes", status.bytes},
           {"problem", problem.empty() ? ordered_json(nullptr) : ordered_json(problem)}};
@@ -77,7 +77,7 @@ ordered_json status_object(const databuffer::Session& session, const std::string
   ordered_json object;
   object["session"] = name;
   object["watch"] = watch_object(session);
-  object["model"] = {{"fidelity", std::string(model.fidelity, strnlen(model.fidelity, sizeof model.fidelity))},
+  object["model"] = {{"fidelity", databuffer::text_of(model.fidelity)},
                      {"load", model.load},
                      {"scan", model.scan},
                      {"terrain_bytes", model.terrain_bytes},
@@ -91,10 +91,10 @@ ordered_json status_object(const databuffer::Session& session, const std::string
   ordered_json notes = ordered_json::array();
   for (const auto& note : notes_of(session.layout()))
     notes.push_back({{"sim_time", static_cast<double>(note.sim_time_ns) * 1e-9},
-                     {"process", std::string(note.process, strnlen(note.process, sizeof note.process))},
+                     {"process", databuffer::text_of(note.process)},
                      {"pid", note.pid},
                      {"kind", note_name(note.kind)},
-                     {"text", std::string(note.text, strnlen(note.text, sizeof note.text))}});
+                     {"text", databuffer::text_of(note.text)}});
   object["notes"] = notes;
   return object;
 }

@@ -1,10 +1,10 @@
 #include "tools/watch_json.hpp"
 
 #include <cmath>
-#include <cstring>
 #include <string>
 
 #include "databuffer/records/map_timer.hpp"
+#include "databuffer/records/plain_text.hpp"
 #include "lib/geo/bearing.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/modes.hpp"
@@ -15,16 +15,12 @@ namespace {
 
 using databuffer::ModelStatus;
 using databuffer::RadarState;
+using databuffer::text_of;
 using nlohmann::ordered_json;
 
 // JSON has no NaN: what is unknown is null.
 ordered_json number_or_null(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
-
-template <std::size_t N>
-std::string text_of(const char (&field)[N]) {
-  return {field, strnlen(field, N)};
 }
 
 bool has(const RadarState& state, std::uint32_t flag) {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <string_view>
 
+#include "databuffer/records/plain_text.hpp"
 #include "lib/radar/fidelity_preset.hpp"
 #include "lib/radar/map_formation.hpp"
 #include "model/kernel/scan_detail.hpp"
@@ -130,7 +130,7 @@ void RadarKernel::State::use_samples(std::uint32_t samples) {
 // The tick names the preset that was picked; it comes into force with a scan, so that no scan is half one, half
 // another.
 void RadarKernel::State::use_fidelity(const ModelTick& given) {
-  const std::string_view name(given.fidelity, strnlen(given.fidelity, sizeof given.fidelity));
+  const std::string_view name = databuffer::text_of(given.fidelity);
   if (name == configuration.fidelity.name) return;
   const auto preset = radar::fidelity_preset(name);
   if (!preset) return;
