@@ -1,5 +1,7 @@
 // What a segment must be for this build to use it: layout version, size, and the hash over (record, version, sizeof).
 // A record that changes its meaning without changing its size gets a higher version here.
+// What moves into SessionLayout::spare, or into a record's reserved words, stays out of this: zeros say that a creator
+// of an older build knows nothing of it.
 #pragma once
 
 #include <array>
@@ -25,6 +27,8 @@ inline constexpr std::array kRecordIdentities = {
     shm::RecordIdentity{"ProcessEntry", 1, sizeof(ProcessEntry)},
     shm::RecordIdentity{"Note", 1, sizeof(Note)},
     shm::RecordIdentity{"PatchSlot", 1, sizeof(PatchSlot)},
+    shm::RecordIdentity{"Traffic", 1, sizeof(Traffic)},
+    shm::RecordIdentity{"FrameSlot", 1, sizeof(FrameSlot)},
     shm::RecordIdentity{"SessionLayout", kLayoutVersion, sizeof(SessionLayout)},
 };
 

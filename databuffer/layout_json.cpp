@@ -75,6 +75,17 @@ std::string ring(std::string_view record) {
                        {"slot_words", 16}});
 }
 
+// Slots found by the id in their first word.
+template <class Slot>
+std::string pool(std::string_view record, std::size_t count, std::size_t words) {
+  return container_of("pool", record,
+                      {{"slot_count", count},
+                       {"slot_stride", sizeof(Slot)},
+                       {"slot_id", offsetof(Slot, id)},
+                       {"slot_words", words},
+                       {"slot_pixels", offsetof(Slot, pixels)}});
+}
+
 std::string containers() {
   using Input = decltype(SessionLayout::input);
   using Notes = decltype(SessionLayout::notes);
@@ -112,6 +123,10 @@ std::string containers() {
                                    {"slot_sequence", 0},
                                    {"slot_checksum", 8},
                                    {"slot_words", 16}}));
+  parts.add("traffic", latest_value<shm::LatestValue<Traffic>>("Traffic"));
+  parts.add("traffic_latched", ring<decltype(SessionLayout::traffic_latched)>("Traffic"));
+  parts.add("patches", pool<PatchSlot>("PatchMap", kPatchSlots, offsetof(PatchSlot, map)));
+  parts.add("frames", pool<FrameSlot>("GlassFrame", kFrameSlots, offsetof(FrameSlot, frame)));
   return parts.text();
 }
 
@@ -132,13 +147,17 @@ std::string offsets() {
                     {"processes", offsetof(SessionLayout, processes)},
                     {"note_counts", offsetof(SessionLayout, note_counts)},
                     {"notes", offsetof(SessionLayout, notes)},
-                    {"patches", offsetof(SessionLayout, patches)}});
+                    {"patches", offsetof(SessionLayout, patches)},
+                    {"traffic", offsetof(SessionLayout, traffic)},
+                    {"traffic_latched", offsetof(SessionLayout, traffic_latched)},
+                    {"frames", offsetof(SessionLayout, frames)}});
 }
 
 std::string lock_bytes() {
   ObjectText object;
   object.add("participation", std::size_t{0});
-  for (const Role role : {Role::radar_model, Role::state_machine, Role::recorder, Role::clock})
+  for (const Role role :
+       {Role::radar_model, Role::state_machine, Role::recorder, Role::clock, Role::traffic, Role::glass_frames})
     object.add(name_of(role), static_cast<std::size_t>(role));
   object.add("first_ownship_lane", kFirstOwnshipByte);
   object.add("first_input_lane", kFirstInputByte);

@@ -337,6 +337,23 @@ constexpr std::array kPatchMapFields = {
     YARS_FIELD(PatchMap, fidelity),
 };
 
+constexpr std::array kTrafficEntityFields = {
+    YARS_FIELD(TrafficEntity, latitude_deg),       YARS_FIELD(TrafficEntity, longitude_deg),
+    YARS_FIELD(TrafficEntity, velocity_north_mps), YARS_FIELD(TrafficEntity, velocity_east_mps),
+    YARS_FIELD(TrafficEntity, height_m),           YARS_FIELD(TrafficEntity, cross_section_m2),
+    YARS_FIELD(TrafficEntity, id),
+};
+
+constexpr std::array kTrafficFields = {
+    YARS_FIELD(Traffic, tick),  YARS_FIELD(Traffic, source_time_ns), YARS_FIELD(Traffic, count),
+    YARS_FIELD(Traffic, epoch), YARS_FIELD(Traffic, entities),
+};
+
+constexpr std::array kGlassFrameFields = {
+    YARS_FIELD(GlassFrame, id),    YARS_FIELD(GlassFrame, tick),   YARS_FIELD(GlassFrame, sim_time_ns),
+    YARS_FIELD(GlassFrame, width), YARS_FIELD(GlassFrame, height),
+};
+
 constexpr std::array kNoteFields = {
     YARS_FIELD(Note, monotonic_ns), YARS_FIELD(Note, sim_time_ns), YARS_FIELD(Note, pid),
     YARS_FIELD(Note, kind),         YARS_FIELD(Note, process),     YARS_FIELD(Note, text),
@@ -361,6 +378,9 @@ constexpr std::array kRecords = {
     RecordFields{"Outputs", sizeof(Outputs), kOutputsFields},
     RecordFields{"RecorderStatus", sizeof(RecorderStatus), kRecorderStatusFields},
     RecordFields{"PatchMap", sizeof(PatchMap), kPatchMapFields},
+    RecordFields{"TrafficEntity", sizeof(TrafficEntity), kTrafficEntityFields},
+    RecordFields{"Traffic", sizeof(Traffic), kTrafficFields},
+    RecordFields{"GlassFrame", sizeof(GlassFrame), kGlassFrameFields},
     RecordFields{"Note", sizeof(Note), kNoteFields},
 };
 

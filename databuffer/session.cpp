@@ -92,6 +92,10 @@ std::string_view name_of(Role role) {
       return "recorder";
     case Role::clock:
       return "clock";
+    case Role::traffic:
+      return "traffic";
+    case Role::glass_frames:
+      return "glass frames";
   }
   return "unknown role";
 }

@@ -15,7 +15,14 @@
 namespace yars::databuffer {
 
 // Writers of which a session has one; the number is the byte of the segment file that its holder locks.
-enum class Role : std::uint8_t { radar_model = 1, state_machine = 2, recorder = 3, clock = 4 };
+enum class Role : std::uint8_t {
+  radar_model = 1,
+  state_machine = 2,
+  recorder = 3,
+  clock = 4,
+  traffic = 5,
+  glass_frames = 6
+};
 std::string_view name_of(Role role);
 
 // Lock bytes of the segment file: roles at their number, then a block for each kind of lane and for the table.

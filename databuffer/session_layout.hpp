@@ -7,12 +7,14 @@
 #include <cstdint>
 
 #include "databuffer/records/clock_state.hpp"
+#include "databuffer/records/glass_frame.hpp"
 #include "databuffer/records/model_records.hpp"
 #include "databuffer/records/outputs.hpp"
 #include "databuffer/records/ownship.hpp"
 #include "databuffer/records/patch_map.hpp"
 #include "databuffer/records/radar_state.hpp"
 #include "databuffer/records/recorder_status.hpp"
+#include "databuffer/records/traffic.hpp"
 #include "shm/broadcast_ring.hpp"
 #include "shm/input_lanes.hpp"
 #include "shm/latest_value.hpp"
@@ -21,13 +23,16 @@
 
 namespace yars::databuffer {
 
-inline constexpr std::uint32_t kLayoutVersion = 2;
+inline constexpr std::uint32_t kLayoutVersion = 3;
 inline constexpr std::size_t kOwnshipLanes = 4;
 inline constexpr std::size_t kInputLanes = 16;
 inline constexpr std::size_t kInputLaneDepth = 128;
 inline constexpr std::size_t kProcesses = 32;
 inline constexpr std::size_t kNotes = 1000;
 inline constexpr std::size_t kPatchSlots = 8;
+// Bytes at the end for what is to come: it can move in without a new layout version, and what was compiled before goes
+// on.
+inline constexpr std::size_t kSpareBytes = std::size_t{1} << 20;
 
 // Lines of the flight recorder.
 enum class NoteKind : std::uint32_t { restart = 0, refusal = 1, loss = 2, late_tick = 3, supervision = 4 };
@@ -72,6 +77,13 @@ struct PatchSlot {
   std::array<std::atomic<std::uint64_t>, kMostPatchPixels * kMostPatchPixels / 8> pixels;  // rows without padding
 };
 
+// A picture of the glass, for panels and other programs; written and read as a PatchSlot is.
+struct FrameSlot {
+  std::atomic<std::uint64_t> id;                                         // 0 = empty, or being written
+  std::array<std::atomic<std::uint64_t>, sizeof(GlassFrame) / 8> frame;  // words of a GlassFrame
+  std::array<std::atomic<std::uint64_t>, kMostFramePixels * kMostFramePixels * 4 / 8> pixels;  // RGBA
+};
+
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): the order is what the parts are, the padding cache lines
 struct SessionLayout {
   shm::SegmentHeader header;
@@ -92,6 +104,10 @@ struct SessionLayout {
   std::array<std::atomic<std::uint64_t>, kNoteKinds> note_counts;
   shm::NoteRing<Note, kNotes> notes;  // many writers; a writer that dies loses its own line only
   std::array<PatchSlot, kPatchSlots> patches;
+  shm::LatestValue<Traffic> traffic;                // from outside
+  shm::BroadcastRing<Traffic, 64> traffic_latched;  // by radar-model: what a replay needs
+  std::array<FrameSlot, kFrameSlots> frames;
+  std::array<std::atomic<std::uint64_t>, kSpareBytes / 8> spare;
 };
 
 }  // namespace yars::databuffer

@@ -33,9 +33,9 @@
 
 /* ---- What this header was made for; `yars status --layout` prints the same of a build. ---- */
 #define YARS_MAGIC UINT64_C(0x314d485353524159)
-#define YARS_LAYOUT_VERSION UINT32_C(2)
-#define YARS_LAYOUT_SIZE UINT64_C(13587584)
-#define YARS_LAYOUT_HASH UINT64_C(0x8d18d5f55229f2f5)
+#define YARS_LAYOUT_VERSION UINT32_C(3)
+#define YARS_LAYOUT_SIZE UINT64_C(27471872)
+#define YARS_LAYOUT_HASH UINT64_C(0xeb33f49407411935)
 
 /* Offsets [bytes] from the segment's begin. */
 #define YARS_AT_CLOCK 448
@@ -47,8 +47,18 @@
 #define YARS_AT_OUTPUTS 16320
 #define YARS_AT_INPUT 4934656
 #define YARS_AT_PROCESSES 5051392
+#define YARS_AT_TRAFFIC 13587584
+#define YARS_AT_FRAMES 13840128
+
+/* A picture of the glass: its slot's id, words and pixels. */
+#define YARS_FRAMES 3
+#define YARS_FRAME_STRIDE 4194376
+#define YARS_FRAME_WORDS 8
+#define YARS_FRAME_PIXELS 72
+#define YARS_MOST_FRAME_BYTES 4194304
 
 /* Lock bytes of the file, and how many there are of a kind. */
+#define YARS_TRAFFIC_BYTE 5
 #define YARS_FIRST_OWNSHIP_BYTE 8
 #define YARS_FIRST_INPUT_BYTE 16
 #define YARS_FIRST_PROCESS_BYTE 32
@@ -183,11 +193,31 @@ typedef struct {
   uint64_t reserved[8];
 } yars_outputs;
 
+typedef struct {
+  double latitude_deg, longitude_deg, velocity_north_mps, velocity_east_mps, height_m, cross_section_m2;
+  uint32_t id, reserved0;
+} yars_traffic_entity;
+
+typedef struct {
+  int64_t tick, source_time_ns;
+  uint32_t count, epoch;
+  uint64_t reserved[5];
+  yars_traffic_entity entities[64];
+} yars_traffic;
+
+typedef struct {
+  uint64_t id;
+  int64_t tick, sim_time_ns;
+  uint32_t width, height;
+  uint64_t reserved[4];
+} yars_glass_frame;
+
 /* ---- The session ---- */
 typedef struct {
   int descriptor;
   unsigned char* memory;
   int ownship_lane, input_lane, process; /* -1: none */
+  int traffic;                           /* 1: this program is the one that tells of traffic */
   uint32_t events;
   char path[96];
   char error[256];
@@ -397,6 +427,10 @@ static inline void yars_detach(yars_session* s) {
     yars_release(s, YARS_FIRST_OWNSHIP_BYTE + s->ownship_lane);
   }
   if (s->input_lane >= 0) yars_release(s, YARS_FIRST_INPUT_BYTE + s->input_lane);
+  if (s->traffic) {
+    yars_withdraw(s, YARS_AT_TRAFFIC);
+    yars_release(s, YARS_TRAFFIC_BYTE);
+  }
   if (s->process >= 0) {
     __atomic_store_n((int32_t*)(void*)(s->memory + YARS_AT_PROCESSES + 40 * (size_t)s->process + 8), 0,
                      __ATOMIC_RELEASE);
@@ -440,6 +474,21 @@ static inline int yars_publish_ownship(yars_session* s, const yars_ownship* owns
 static inline int yars_publish_nav(yars_session* s, const yars_nav* nav) {
   if (s->ownship_lane < 0) return yars_fail(s, "yars_publish_nav", "claim an ownship lane first");
   yars_publish(s, yars_nav_at(s->ownship_lane), nav, sizeof *nav);
+  return 0;
+}
+
+/* Ships and vehicles, all of them each time; the radar lets them go on straight between two calls, for 12 s. */
+static inline int yars_claim_traffic(yars_session* s) {
+  if (yars_claim(s, YARS_TRAFFIC_BYTE, 1) < 0)
+    return yars_fail(s, "traffic", "another program tells of it; `yars status` names the holder");
+  yars_withdraw(s, YARS_AT_TRAFFIC);
+  s->traffic = 1;
+  return 0;
+}
+
+static inline int yars_publish_traffic(yars_session* s, const yars_traffic* traffic) {
+  if (!s->traffic) return yars_fail(s, "yars_publish_traffic", "claim the traffic first");
+  yars_publish(s, YARS_AT_TRAFFIC, traffic, sizeof *traffic);
   return 0;
 }
 
@@ -504,6 +553,27 @@ static inline int yars_read_outputs(const yars_session* s, yars_outputs* outputs
 
 static inline int yars_read_model_status(const yars_session* s, yars_model_status* status) {
   return yars_read(s, YARS_AT_MODEL_STATUS, status, sizeof *status);
+}
+
+/* The newest picture of a glass started with --publish, if it is newer than `after` (0: any). `pixels` has room for
+ * YARS_MOST_FRAME_BYTES: rows from the top without padding, red, green, blue, 255. */
+static inline int yars_read_frame(const yars_session* s, uint64_t after, yars_glass_frame* frame, void* pixels) {
+  for (int attempt = 0; attempt < 8; ++attempt) {
+    uint64_t newest = 0;
+    size_t at = 0;
+    for (int i = 0; i < YARS_FRAMES; ++i) {
+      const size_t slot = YARS_AT_FRAMES + (size_t)i * YARS_FRAME_STRIDE;
+      const uint64_t id = yars_load(yars_word(s, slot));
+      if (id > newest) newest = id, at = slot;
+    }
+    if (newest <= after) return 0;
+    yars_load_words(yars_word(s, at + YARS_FRAME_WORDS), frame, sizeof *frame);
+    if (frame->width <= 1024 && frame->height <= 1024)
+      yars_load_words(yars_word(s, at + YARS_FRAME_PIXELS), pixels,
+                      ((size_t)frame->width * frame->height * 4 + 7) / 8 * 8);
+    if (yars_load(yars_word(s, at)) == newest && frame->id == newest) return 1;
+  }
+  return 0;
 }
 
 #endif

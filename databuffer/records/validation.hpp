@@ -5,26 +5,23 @@
 // what rounding makes of 0 and of the antimeridian, and every user of them wraps; 360.0001 is refused.
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include "databuffer/records/clock_state.hpp"
-#include "databuffer/records/input_event.hpp"
+#include "databuffer/records/event_validation.hpp"
+#include "databuffer/records/glass_frame.hpp"
 #include "databuffer/records/ownship.hpp"
 #include "databuffer/records/patch_map.hpp"
-#include "databuffer/records/radar_state.hpp"
+#include "databuffer/records/radar_state_validation.hpp"
 #include "databuffer/records/recorder_status.hpp"
+#include "databuffer/records/traffic.hpp"
 
 namespace yars::databuffer {
 
-using Refusal = std::optional<std::string>;
-
 Refusal why_refused(const Ownship& ownship);
 Refusal why_refused(const Nav& nav);
-Refusal why_refused(const RadarState& state);
-Refusal why_refused(const InputEvent& event);
 Refusal why_refused(const ClockState& clock);
 Refusal why_refused(const PatchMap& map);
 Refusal why_refused(const RecorderStatus& status);
+Refusal why_refused(const Traffic& traffic);
+Refusal why_refused(const GlassFrame& frame);
 
 }  // namespace yars::databuffer

@@ -23,11 +23,28 @@ static int feed(yars_session* s) {
   yars_nav nav = {0};
   nav.ins_longitude_deg = -120.25;
   if (yars_publish_ownship(s, &ownship) != 0 || yars_publish_nav(s, &nav) != 0) return give_up(s);
+  yars_traffic traffic = {0};
+  traffic.count = 1;
+  traffic.entities[0].latitude_deg = 34.25;
+  traffic.entities[0].id = 9;
+  if (yars_claim_traffic(s) != 0 || yars_publish_traffic(s, &traffic) != 0) return give_up(s);
   yars_input_event event = {0};
   event.kind = 1;
   event.argument = 13;
   strcpy(event.text, "from C");
   return yars_push_event(s, &event) == 0 ? 0 : give_up(s);
+}
+
+/* The newest picture: its sum of bytes, so that the test sees that they came. */
+static int look(yars_session* s) {
+  static unsigned char pixels[YARS_MOST_FRAME_BYTES];
+  yars_glass_frame frame;
+  unsigned long sum = 0;
+  if (yars_read_frame(s, 0, &frame, pixels) != 1) return 4;
+  if (yars_read_frame(s, frame.id, &frame, pixels) != 0) return 5; /* it is not newer than itself */
+  for (size_t i = 0; i < (size_t)frame.width * frame.height * 4; ++i) sum += pixels[i];
+  printf("%u x %u: %lu\n", frame.width, frame.height, sum);
+  return 0;
 }
 
 int main(int argc, char** argv) {
@@ -36,6 +53,11 @@ int main(int argc, char** argv) {
   if (yars_attach(&s, argv[1], "c-client") != 0) return give_up(&s);
   if (yars_claim_ownship_lane(&s, 70) < 0 || yars_claim_input_lane(&s, "c input") < 0) return give_up(&s);
   yars_heartbeat(&s);
+  if (strcmp(argv[2], "look") == 0) {
+    const int seen = look(&s);
+    yars_detach(&s);
+    return seen;
+  }
   int code = feed(&s);
   printf("%lld\n", (long long)yars_sim_time_ns(&s));
   fflush(stdout);

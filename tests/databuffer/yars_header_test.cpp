@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "databuffer/frame_pool.hpp"
 #include "databuffer/layout_identity.hpp"
 #include "databuffer/session.hpp"
 #include "databuffer/yars.h"
@@ -28,6 +29,11 @@ static_assert(YARS_AT_MODEL_STATUS == offsetof(SessionLayout, model_status));
 static_assert(YARS_AT_OUTPUTS == offsetof(SessionLayout, outputs));
 static_assert(YARS_AT_INPUT == offsetof(SessionLayout, input));
 static_assert(YARS_AT_PROCESSES == offsetof(SessionLayout, processes));
+static_assert(YARS_AT_TRAFFIC == offsetof(SessionLayout, traffic) && YARS_AT_FRAMES == offsetof(SessionLayout, frames));
+static_assert(YARS_FRAMES == kFrameSlots && YARS_FRAME_STRIDE == sizeof(FrameSlot) && offsetof(FrameSlot, id) == 0);
+static_assert(YARS_FRAME_WORDS == offsetof(FrameSlot, frame) && YARS_FRAME_PIXELS == offsetof(FrameSlot, pixels));
+static_assert(YARS_MOST_FRAME_BYTES == sizeof(FrameSlot::pixels));
+static_assert(YARS_TRAFFIC_BYTE == static_cast<int>(Role::traffic));
 static_assert(offsetof(shm::SegmentHeader, magic) == 0 && offsetof(shm::SegmentHeader, size) == 8);
 static_assert(offsetof(shm::SegmentHeader, hash) == 16 && offsetof(shm::SegmentHeader, layout_version) == 24);
 static_assert(offsetof(shm::SegmentHeader, holder_pid) == 32);
@@ -46,7 +52,8 @@ constexpr bool kValueMatches =
     shm::LatestValue<Record>::kSlots == YARS_SLOTS &&
     sizeof(shm::LatestValue<Record>) == YARS_VALUE_SIZE(sizeof(Record));
 static_assert(kValueMatches<ClockState> && kValueMatches<Ownship> && kValueMatches<Nav>);
-static_assert(kValueMatches<RadarState> && kValueMatches<ModelStatus> && kValueMatches<Outputs>);
+static_assert(kValueMatches<RadarState> && kValueMatches<ModelStatus> && kValueMatches<Outputs> &&
+              kValueMatches<Traffic>);
 
 using Input = decltype(SessionLayout::input);
 static_assert(Input::lane_stride() == YARS_INPUT_STRIDE && Input::kDepth == YARS_INPUT_DEPTH);
@@ -99,6 +106,29 @@ SAME(yars_nav, Nav, magnetic_variation_deg);
 SAME(yars_nav, Nav, epoch);
 SAME(yars_nav, Nav, flags);
 SAME(yars_nav, Nav, reserved);
+static_assert(sizeof(yars_traffic_entity) == sizeof(TrafficEntity));
+SAME(yars_traffic_entity, TrafficEntity, latitude_deg);
+SAME(yars_traffic_entity, TrafficEntity, longitude_deg);
+SAME(yars_traffic_entity, TrafficEntity, velocity_north_mps);
+SAME(yars_traffic_entity, TrafficEntity, velocity_east_mps);
+SAME(yars_traffic_entity, TrafficEntity, height_m);
+SAME(yars_traffic_entity, TrafficEntity, cross_section_m2);
+SAME(yars_traffic_entity, TrafficEntity, id);
+SAME(yars_traffic_entity, TrafficEntity, reserved0);
+static_assert(sizeof(yars_traffic) == sizeof(Traffic));
+SAME(yars_traffic, Traffic, tick);
+SAME(yars_traffic, Traffic, source_time_ns);
+SAME(yars_traffic, Traffic, count);
+SAME(yars_traffic, Traffic, epoch);
+SAME(yars_traffic, Traffic, reserved);
+SAME(yars_traffic, Traffic, entities);
+static_assert(sizeof(yars_glass_frame) == sizeof(GlassFrame));
+SAME(yars_glass_frame, GlassFrame, id);
+SAME(yars_glass_frame, GlassFrame, tick);
+SAME(yars_glass_frame, GlassFrame, sim_time_ns);
+SAME(yars_glass_frame, GlassFrame, width);
+SAME(yars_glass_frame, GlassFrame, height);
+SAME(yars_glass_frame, GlassFrame, reserved);
 static_assert(sizeof(yars_input_event) == sizeof(InputEvent));
 SAME(yars_input_event, InputEvent, session_time_ns);
 SAME(yars_input_event, InputEvent, monotonic_ns);
@@ -365,6 +395,12 @@ TEST_F(YarsHeaderTest, AProgramInCTakesPart) {
   Nav nav{};
   ASSERT_TRUE(session->layout().nav[0].read(nav));
   EXPECT_EQ(nav.ins_longitude_deg, -120.25);
+  Traffic traffic{};
+  ASSERT_TRUE(session->layout().traffic.read(traffic));
+  EXPECT_EQ(traffic.count, 1u);
+  EXPECT_EQ(traffic.entities[0].latitude_deg, 34.25);
+  EXPECT_EQ(traffic.entities[0].id, 9u);
+  EXPECT_TRUE(session->role_is_held(Role::traffic));
   InputEvent event{};
   ASSERT_TRUE(session->layout().input.pop(0, event));
   EXPECT_EQ(event.kind, static_cast<std::uint16_t>(EventKind::push_button));
@@ -384,8 +420,24 @@ TEST_F(YarsHeaderTest, AProgramInCTakesPart) {
   EXPECT_EQ(client.end(), 0);
   EXPECT_FALSE(session->ownship_lane_is_held(0));
   EXPECT_FALSE(session->layout().ownship[0].has_value()) << "withdrawn";
+  EXPECT_FALSE(session->layout().traffic.has_value()) << "withdrawn";
+  EXPECT_FALSE(session->role_is_held(Role::traffic));
   EXPECT_EQ(session->processes().size(), 1u);
   EXPECT_TRUE(file_exists());
+}
+
+TEST_F(YarsHeaderTest, AProgramInCReadsTheNewestPictureOfTheGlass) {
+  auto session = Session::open(name_, "tester");
+  ASSERT_TRUE(session);
+  EXPECT_EQ(CClient(name_, "look").end(), 4) << "there is none yet";
+  GlassFrame frame{};
+  frame.width = 3;
+  frame.height = 5;  // 60 bytes: the last word is half full
+  for (frame.id = 1; frame.id <= 4; ++frame.id)
+    publish_frame(session->layout(), frame, std::vector<std::uint8_t>(60, static_cast<std::uint8_t>(frame.id)));
+  CClient client(name_, "look");
+  EXPECT_EQ(client.line(), "3 x 5: 240") << "of the fourth";
+  EXPECT_EQ(client.end(), 0);
 }
 
 TEST_F(YarsHeaderTest, TheProgramInCTakesTheSegmentAwayWhenItLeavesLast) {

@@ -322,6 +322,19 @@ PatchMap good_map() {
   return map;
 }
 
+TEST(Validation, TrafficHoldsItsRangesInEveryUsedEntity) {
+  Traffic traffic{};
+  traffic.count = 2;
+  EXPECT_EQ(why_refused(traffic), std::nullopt);
+  traffic.entities[2].latitude_deg = 100.0;
+  EXPECT_EQ(why_refused(traffic), std::nullopt) << "not used";
+  traffic.entities[1].velocity_east_mps = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(why_refused(traffic), "entities.velocity_east_mps: expected [-10000, 10000], found nan");
+  traffic = Traffic{};
+  traffic.count = 65;
+  EXPECT_EQ(why_refused(traffic), "count: expected [0, 64], found 65");
+}
+
 TEST(Validation, APatchMapHoldsItsRangesAndItsNumbersAreFinite) {
   expect_range_without_nan(good_map(), &PatchMap::latitude_deg, -90.0, 90.0);
   expect_range_without_nan(good_map(), &PatchMap::longitude_deg, -180.0, 180.0);
