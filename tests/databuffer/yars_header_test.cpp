@@ -463,7 +463,7 @@ TEST_F(YarsHeaderTest, AnotherLayoutIsRefusedInCToo) {
   session->layout().header.hash += 1;
   yars_session s;
   EXPECT_EQ(yars_attach(&s, name_.c_str(), "tester"), -1);
-  EXPECT_NE(std::string(s.error).find("expected layout version 2"), std::string::npos) << s.error;
+  EXPECT_NE(std::string(s.error).find("expected layout version 3"), std::string::npos) << s.error;
   EXPECT_TRUE(file_exists());
 }
 
