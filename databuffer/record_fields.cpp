@@ -197,7 +197,7 @@ constexpr std::array kModelTickFields = {
     YARS_FIELD(ModelTick, tick),     YARS_FIELD(ModelTick, sim_time_ns),        YARS_FIELD(ModelTick, ownship),
     YARS_FIELD(ModelTick, command),  YARS_FIELD(ModelTick, terrain_generation), YARS_FIELD(ModelTick, epoch),
     YARS_FIELD(ModelTick, flags),    YARS_FIELD(ModelTick, ownship_lane),       YARS_FIELD(ModelTick, samples),
-    YARS_FIELD(ModelTick, fidelity), YARS_FIELD(ModelTick, resumed_tick),
+    YARS_FIELD(ModelTick, fidelity), YARS_FIELD(ModelTick, resumed_tick),       YARS_FIELD(ModelTick, traffic),
 };
 
 constexpr std::array kAppliedEventFields = {
@@ -338,9 +338,12 @@ constexpr std::array kPatchMapFields = {
 };
 
 constexpr std::array kTrafficEntityFields = {
-    YARS_FIELD(TrafficEntity, latitude_deg),       YARS_FIELD(TrafficEntity, longitude_deg),
-    YARS_FIELD(TrafficEntity, velocity_north_mps), YARS_FIELD(TrafficEntity, velocity_east_mps),
-    YARS_FIELD(TrafficEntity, height_m),           YARS_FIELD(TrafficEntity, cross_section_m2),
+    YARS_FIELD(TrafficEntity, latitude_deg),
+    YARS_FIELD(TrafficEntity, longitude_deg),
+    YARS_FIELD(TrafficEntity, velocity_north_mps),
+    YARS_FIELD(TrafficEntity, velocity_east_mps),
+    YARS_FIELD(TrafficEntity, height_m),
+    YARS_FIELD(TrafficEntity, cross_section_m2),
     YARS_FIELD(TrafficEntity, id),
 };
 

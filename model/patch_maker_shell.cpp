@@ -19,8 +19,8 @@ PatchMaker::~PatchMaker() {
   thread_.join();
 }
 
-void PatchMaker::request(const kernel::MapUnderWay& map) {
-  const Wanted wanted{map.order, map.id, map.start_tick};
+void PatchMaker::request(const kernel::MapUnderWay& map, const std::vector<rbm::MovingPoint>& traffic) {
+  const Wanted wanted{map.order, map.id, map.start_tick, traffic};
   if (may_wait_) return make(wanted);
   {
     const std::scoped_lock lock(mutex_);
@@ -45,8 +45,9 @@ std::vector<std::string> PatchMaker::take_problems() {
 void PatchMaker::make(const Wanted& wanted) {
   const hrm::PatchNeed need = process_.begin(wanted.order);
   process_.give({stores_.window->prepare(need.window), stores_.path->prepare(need.path),
-                 stores_.scenes ? stores_.scenes->prepare(need.window) : nullptr});
+                 stores_.scenes ? stores_.scenes->prepare(need.window) : nullptr, wanted.traffic});
   std::vector<std::string> problems = stores_.window->take_problems();
+  for (std::string& problem : stores_.path->take_problems()) problems.push_back(std::move(problem));
   if (stores_.scenes)
     for (std::string& problem : stores_.scenes->take_problems()) problems.push_back(std::move(problem));
   while (process_.state() != hrm::PatchState::done && !given_up()) process_.advance();

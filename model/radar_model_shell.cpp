@@ -13,6 +13,7 @@
 #include "lib/radar/fidelity_preset.hpp"
 #include "lib/radar/map_formation.hpp"
 #include "model/kernel/map_record.hpp"
+#include "model/kernel/traffic_points.hpp"
 
 namespace yars::model {
 
@@ -85,6 +86,7 @@ void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
   tick_.ownship_lane = selected.lane;
   for (const std::string& refusal : ownship_.refusals()) session_->note(databuffer::NoteKind::refusal, refusal);
   latch_command();
+  latch_traffic();
   tick_.flags = selected.valid ? databuffer::kTickOwnshipValid : 0U;
   if (first_tick_) tick_.flags |= databuffer::kTickRestart;
   if (first_tick_ || std::memcmp(&before, &tick_.ownship, sizeof before) != 0)
@@ -131,6 +133,18 @@ void RadarModelShell::latch_command() {
   maps_named_ = {state.map_newest, state.map_old, state.map_stored, state.map_shown};
 }
 
+// A predecessor's traffic is not this process's: the first tick says what holds from now on.
+void RadarModelShell::latch_traffic() {
+  auto& ring = session_->layout().traffic_latched;
+  const bool changed = traffic_.refresh(session_->layout(), tick_.tick, tick_.sim_time_ns, tick_.epoch);
+  if (traffic_.refusal()) session_->note(databuffer::NoteKind::refusal, *traffic_.refusal());
+  if (changed || (first_tick_ && ring.next() > 0)) {
+    ring.publish(traffic_.latched());
+    traffic_points_ = kernel::points_of(traffic_.latched());
+  }
+  tick_.traffic = ring.next();
+}
+
 void RadarModelShell::run_kernel() {
   const auto need = kernel_.need(tick_);
   if (need.ground) {
@@ -143,7 +157,7 @@ void RadarModelShell::run_kernel() {
   tick_.terrain_generation = view->generation();
   // The tick goes out before its sweep, so that a log cut short never holds a sweep without its cause.
   session_->layout().model_ticks.publish(tick_);
-  if (kernel_.step(tick_, {*view, seen_scenes_.view.get(), seen_scenes_.whole}, sweep_)) {
+  if (kernel_.step(tick_, {*view, seen_scenes_.view.get(), seen_scenes_.whole, traffic_points_}, sweep_)) {
     session_->layout().sweeps.publish(sweep_);
     ++status_.sweeps;
   }
@@ -168,7 +182,7 @@ void RadarModelShell::ask_for_map() {
   if (map.id == map_asked_ && map.start_tick == map_asked_tick_) return;
   map_asked_ = map.id;
   map_asked_tick_ = map.start_tick;
-  patches_->request(map);
+  patches_->request(map, traffic_points_);
 }
 
 // It goes out at the tick at which the radar would have it, or when it is ready if that is later; the tick says so,
@@ -218,7 +232,7 @@ void RadarModelShell::publish_status(std::uint64_t late_ticks) {
   status_.ownship_lane = tick_.ownship_lane;
   status_.load = std::round(load_ * 1000.0) / 1000.0;
   status_.late_ticks = late_before_ + late_ticks;
-  status_.refused = refused_ + ownship_.refused();
+  status_.refused = refused_ + ownship_.refused() + traffic_.refused();
   status_.tick = tick_.tick;
   status_.sim_time_ns = tick_.sim_time_ns;
   status_.epoch = tick_.epoch;

@@ -11,6 +11,7 @@
 #include "databuffer/ownship_receiver.hpp"
 #include "databuffer/session.hpp"
 #include "databuffer/tick_loop.hpp"
+#include "databuffer/traffic_receiver.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/kernel/fidelity_governor.hpp"
 #include "model/kernel/radar_kernel.hpp"
@@ -35,6 +36,7 @@ class RadarModelShell {
   void resume();
   void latch(const databuffer::TickLoop::Due& due);
   void latch_command();
+  void latch_traffic();
   void latch_fidelity();
   void govern(double seconds, double rate);
   void run_kernel();
@@ -52,6 +54,8 @@ class RadarModelShell {
   PatchMaker* patches_;
   kernel::RadarKernel kernel_;
   databuffer::OwnshipReceiver ownship_;
+  databuffer::TrafficReceiver traffic_;
+  std::vector<rbm::MovingPoint> traffic_points_;
   databuffer::ModelTick tick_{};
   databuffer::ModelStatus status_{};
   databuffer::Sweep sweep_{};

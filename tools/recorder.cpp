@@ -47,6 +47,8 @@ void Recorder::begin_here() {
   tick_cursor_ = layout.model_ticks.next();
   event_cursor_ = layout.applied_events.next();
   sweep_cursor_ = layout.sweeps.next();
+  const std::uint64_t traffic = layout.traffic_latched.next();
+  traffic_cursor_ = traffic > 0 ? traffic - 1 : 0;  // the last one holds
   // The status may be of a later tick than the cursor: ticks up to it are not written.
   recording::StartingPoint start{};
   if (!layout.model_status.read(start.status)) return;
@@ -130,9 +132,17 @@ void Recorder::take_ticks(std::uint64_t& lost) {
         (tick.flags & databuffer::kTickRestart) == 0U)
       continue;
     from_tick_.reset();
+    take_traffic_before(tick);
     append(tick);
     ++ticks_;
   }
+}
+
+// What holds at the tick stands before it. A record lost to a slow recorder is one that a later one has replaced.
+void Recorder::take_traffic_before(const databuffer::ModelTick& tick) {
+  databuffer::Traffic traffic{};
+  while (traffic_cursor_ < tick.traffic && session_->layout().traffic_latched.read(traffic_cursor_, traffic).delivered)
+    append(traffic);
 }
 
 // Latest values, not rings: live, a state that lasted less than a look is passed over.

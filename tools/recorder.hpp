@@ -42,6 +42,7 @@ class Recorder {
   void settle(failure::Expected<void> written);
   void publish(std::int64_t tick);
   void take_ticks(std::uint64_t& lost);
+  void take_traffic_before(const databuffer::ModelTick& tick);
   void take_sweeps(std::uint64_t& lost);
   void take_latest(std::int64_t tick);
   void take_patches();
@@ -51,7 +52,7 @@ class Recorder {
   databuffer::Session* session_;
   recording::RecordingWriter* writer_;
   RecordedExtras extras_;
-  std::uint64_t tick_cursor_ = 0, event_cursor_ = 0, sweep_cursor_ = 0;
+  std::uint64_t tick_cursor_ = 0, event_cursor_ = 0, sweep_cursor_ = 0, traffic_cursor_ = 0;
   std::optional<std::int64_t> from_tick_;  // the first to write; none: all
   std::uint32_t from_epoch_ = 0;
   shm::LatestReader<databuffer::RadarState> state_;

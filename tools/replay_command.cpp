@@ -118,6 +118,9 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
       world.configuration.fidelity.samples = static_cast<int>(tick->samples);
       if (!run) run.emplace(world.configuration, *world.store, world.scenes.get());
       run->tick(*tick);
+    } else if (const auto* traffic = std::get_if<databuffer::Traffic>(&*entry)) {
+      if (!run) run.emplace(world.configuration, *world.store, world.scenes.get());
+      run->traffic(*traffic);
     } else if (const auto* mark = std::get_if<recording::SweepMark>(&*entry)) {
       if (run) run->recorded(*mark);
     } else if (const auto* sweep = std::get_if<databuffer::Sweep>(&*entry)) {

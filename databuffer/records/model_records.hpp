@@ -51,7 +51,8 @@ struct ModelTick {
   std::uint32_t samples;       // a sweep, fidelity used
   char fidelity[16];
   std::int64_t resumed_tick;  // with kTickRestart: tick of the status that the new kernel took up; -1 = none
-  std::uint64_t reserved[3];
+  std::uint64_t traffic;      // records of traffic_latched before this tick; the last of them holds
+  std::uint64_t reserved[2];
 };
 static_assert(sizeof(ModelTick) == 16 + 144 + 88 + 8 + 16 + 16 + 32 && std::is_trivially_copyable_v<ModelTick>);
 

@@ -26,14 +26,13 @@ void splat(const Response& response, double column, double row, double power, Ma
 }
 }  // namespace
 
-MapMovers::MapMovers(const radar::RadarConfiguration& configuration)
-    : configuration_(&configuration), movers_(configuration) {}
+MapMovers::MapMovers(const radar::RadarConfiguration& configuration) : points_(rbm::configured_points(configuration)) {}
 
-MapMovers::Trace MapMovers::trace_of(std::size_t mover, const PatchOrder& order, const PatchGeometry& geometry,
-                                     geo::Duration formation, double height_m) const {
+MapMovers::Trace MapMovers::trace_of(const rbm::MovingPoint& mover, const PatchOrder& order,
+                                     const PatchGeometry& geometry, geo::Duration formation, double height_m) const {
   const double time_s = formation.seconds();
-  const MapPoint start = geometry.point_of(movers_.place(mover, order.sim_time));
-  const MapPoint end = geometry.point_of(movers_.place(mover, order.sim_time + formation));
+  const MapPoint start = geometry.point_of(mover.place(order.sim_time));
+  const MapPoint end = geometry.point_of(mover.place(order.sim_time + formation));
   const MapPoint middle{0.5 * (start.right_m + end.right_m), 0.5 * (start.up_m + end.up_m)};
   const double ahead_m = middle.up_m + geometry.distance_m();
   const double distance_m = std::hypot(middle.right_m, ahead_m);
@@ -80,31 +79,34 @@ bool MapMovers::hidden(const PatchGeometry& geometry, const Horizons& horizons, 
 }
 
 void MapMovers::draw(const PatchOrder& order, const PatchGeometry& geometry, geo::Duration formation,
-                     const terrain::TerrainView& terrain, const Horizons& horizons, const Response& response,
+                     const rbm::Database& database, const Horizons& horizons, const Response& response,
                      MapImage& image) const {
+  for (const std::span<const rbm::MovingPoint> points : {std::span(points_), database.traffic})
+    for (const rbm::MovingPoint& mover : points)
+      draw_point(mover, order, geometry, formation, database.terrain, horizons, response, image);
+}
+
+void MapMovers::draw_point(const rbm::MovingPoint& mover, const PatchOrder& order, const PatchGeometry& geometry,
+                           geo::Duration formation, const terrain::TerrainView& terrain, const Horizons& horizons,
+                           const Response& response, MapImage& image) const {
   const double pixel_m = geometry.window_m() / image.size;
-  const double unit_m2 = unit_return_m2(geometry, image.size);
-  const auto& movers = configuration_->world.movers;
-  for (std::size_t mover = 0; mover < movers.size(); ++mover) {
-    const geo::GeoPoint place = movers_.place(mover, order.sim_time);
-    const MapPoint point = geometry.point_of(place);
-    // Far outside it costs no more than this; displacement may bring it in from about a window away.
-    if (std::hypot(point.right_m, point.up_m) > 2.0 * geometry.window_m()) continue;
-    const double ground_m = terrain.elevation_m(place);
-    if (std::isnan(ground_m)) continue;
-    const double height_m = ground_m + movers[mover].height_m - geometry.plane_msl_m();
-    if (hidden(geometry, horizons, point, height_m)) continue;
-    const Trace trace = trace_of(mover, order, geometry, formation, height_m);
-    const double length_m = std::hypot(trace.to.right_m - trace.from.right_m, trace.to.up_m - trace.from.up_m);
-    const int steps = 1 + static_cast<int>(std::min(std::ceil(length_m / pixel_m), 4.0 * image.size));
-    const double power = movers[mover].cross_section_m2 / (unit_m2 * steps);
-    for (int step = 0; step < steps; ++step) {
-      const double share = (step + 0.5) / steps;
-      const double right_m = trace.from.right_m + share * (trace.to.right_m - trace.from.right_m);
-      const double up_m = trace.from.up_m + share * (trace.to.up_m - trace.from.up_m);
-      splat(response, right_m / pixel_m + 0.5 * image.size - 0.5, 0.5 * image.size - 0.5 - up_m / pixel_m, power,
-            image);
-    }
+  const geo::GeoPoint place = mover.place(order.sim_time);
+  const MapPoint point = geometry.point_of(place);
+  // Far outside it costs no more than this; displacement may bring it in from about a window away.
+  if (std::hypot(point.right_m, point.up_m) > 2.0 * geometry.window_m()) return;
+  const double ground_m = terrain.elevation_m(place);
+  if (std::isnan(ground_m)) return;
+  const double height_m = ground_m + mover.height_m - geometry.plane_msl_m();
+  if (hidden(geometry, horizons, point, height_m)) return;
+  const Trace trace = trace_of(mover, order, geometry, formation, height_m);
+  const double length_m = std::hypot(trace.to.right_m - trace.from.right_m, trace.to.up_m - trace.from.up_m);
+  const int steps = 1 + static_cast<int>(std::min(std::ceil(length_m / pixel_m), 4.0 * image.size));
+  const double power = mover.cross_section_m2 / (unit_return_m2(geometry, image.size) * steps);
+  for (int step = 0; step < steps; ++step) {
+    const double share = (step + 0.5) / steps;
+    const double right_m = trace.from.right_m + share * (trace.to.right_m - trace.from.right_m);
+    const double up_m = trace.from.up_m + share * (trace.to.up_m - trace.from.up_m);
+    splat(response, right_m / pixel_m + 0.5 * image.size - 0.5, 0.5 * image.size - 0.5 - up_m / pixel_m, power, image);
   }
 }
 

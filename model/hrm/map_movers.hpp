@@ -4,10 +4,12 @@
 // Source: spec physics.md "HRM"; Raney, "Synthetic Aperture Imaging Radar and Moving Targets" (1971).
 #pragma once
 
+#include <vector>
+
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/fan_grid.hpp"
 #include "model/hrm/response.hpp"
-#include "model/rbm/movers.hpp"
+#include "model/rbm/database.hpp"
 #include "model/terrain/terrain_view.hpp"
 
 namespace yars::model::hrm {
@@ -23,20 +25,22 @@ class MapMovers {
  public:
   explicit MapMovers(const radar::RadarConfiguration& configuration);
 
+  // Those of the configuration and of the traffic.
   void draw(const PatchOrder& order, const PatchGeometry& geometry, geo::Duration formation,
-            const terrain::TerrainView& terrain, const Horizons& horizons, const Response& response,
-            MapImage& image) const;
+            const rbm::Database& database, const Horizons& horizons, const Response& response, MapImage& image) const;
 
  private:
   struct Trace {
     MapPoint from, to;  // on the map, where it appears at the start and at the end
   };
-  Trace trace_of(std::size_t mover, const PatchOrder& order, const PatchGeometry& geometry, geo::Duration formation,
-                 double height_m) const;
+  void draw_point(const rbm::MovingPoint& mover, const PatchOrder& order, const PatchGeometry& geometry,
+                  geo::Duration formation, const terrain::TerrainView& terrain, const Horizons& horizons,
+                  const Response& response, MapImage& image) const;
+  Trace trace_of(const rbm::MovingPoint& mover, const PatchOrder& order, const PatchGeometry& geometry,
+                 geo::Duration formation, double height_m) const;
   bool hidden(const PatchGeometry& geometry, const Horizons& horizons, MapPoint point, double height_m) const;
 
-  const radar::RadarConfiguration* configuration_;
-  rbm::Movers movers_;
+  std::vector<rbm::MovingPoint> points_;
 };
 
 }  // namespace yars::model::hrm

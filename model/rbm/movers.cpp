@@ -11,24 +11,24 @@ namespace {
 constexpr double kMetresPerDegree = 110'500.0;  // [m] the shortest degree of latitude: no mover in range is missed
 }  // namespace
 
-Movers::Movers(const radar::RadarConfiguration& configuration) : beam_(configuration.fidelity.beam) {
-  for (const radar::Mover& mover : configuration.world.movers) {
-    tracks_.push_back({geo::GeodesicRay(mover.place, geo::Bearing::degrees(mover.heading_deg)), mover.speed_mps,
-                       mover.cross_section_m2, mover.height_m});
-  }
-  echoes_.reserve(tracks_.size());
-}
-
-geo::GeoPoint Movers::place(std::size_t mover, geo::Duration sim_time) const {
-  const Track& track = tracks_[mover];
-  return track.way.position(geo::Length::metres(track.speed_mps * sim_time.seconds()));
+Movers::Movers(const radar::RadarConfiguration& configuration)
+    : beam_(configuration.fidelity.beam), points_(configured_points(configuration)) {
+  echoes_.reserve(points_.size() + kMostTraffic);
 }
 
 std::span<const Echo> Movers::echoes(const Look& look, const Receiver& receiver, const EffectiveEarth& earth,
-                                     const terrain::TerrainView& terrain) {
+                                     const Database& database) {
   echoes_.clear();
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    const geo::GeoPoint there = place(i, look.sim_time);
+  add_echoes(points_, look, receiver, earth, database.terrain);
+  add_echoes(database.traffic.first(std::min(database.traffic.size(), kMostTraffic)), look, receiver, earth,
+             database.terrain);
+  return echoes_;
+}
+
+void Movers::add_echoes(std::span<const MovingPoint> points, const Look& look, const Receiver& receiver,
+                        const EffectiveEarth& earth, const terrain::TerrainView& terrain) {
+  for (const MovingPoint& point : points) {
+    const geo::GeoPoint there = point.place(look.sim_time);
     if (std::abs(there.latitude_deg - look.apex.latitude_deg) * kMetresPerDegree > look.range.metres()) continue;
     const geo::GeodesicInverse way = geo::geodesic_inverse(look.apex, there);
     const double off_rad = (way.azimuth_at_start - look.azimuth).radians();
@@ -37,14 +37,13 @@ std::span<const Echo> Movers::echoes(const Look& look, const Receiver& receiver,
     const double gain_across = azimuth_share(look.share, receiver.azimuth_beamwidth_rad, off_rad);
     if (!(gain_across > 0.0)) continue;
     const double ground_m = terrain.elevation_m(there);
-    const double height_m = (std::isnan(ground_m) ? 0.0 : ground_m) + tracks_[i].height_m;
+    const double height_m = (std::isnan(ground_m) ? 0.0 : ground_m) + point.height_m;
     const Sight sight = earth.sight(look.altitude.metres(), distance_m, height_m);
     const double gain = gain_across * two_way_gain(beam_, receiver.elevation_beamwidth_rad, look.elevation.radians(),
                                                    sight.elevation_rad);
-    const double power = returned_power(tracks_[i].cross_section_m2, gain, sight.slant_range_m);
+    const double power = returned_power(point.cross_section_m2, gain, sight.slant_range_m);
     echoes_.push_back({distance_m, sight.tangent, received(receiver, power, sight.slant_range_m)});
   }
-  return echoes_;
 }
 
 std::size_t nearest_sample(std::span<const double> distance_m, double wanted_m) {

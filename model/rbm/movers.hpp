@@ -1,11 +1,13 @@
 // Ships and vehicles as a sweep sees them: points that go their geodesics with sim time, on the ground where they are.
 // Shadow is the caller's: it knows the horizon. Source: spec physics.md; power by the radar equation of a point.
+// Those of the configuration and those of the traffic, of which no more than kMostTraffic are looked at.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "lib/radar/configuration.hpp"
+#include "model/rbm/database.hpp"
 #include "model/rbm/earth.hpp"
 #include "model/rbm/look.hpp"
 #include "model/rbm/receiver.hpp"
@@ -19,26 +21,22 @@ struct Echo {
   double power = 0.0;       // full scale = 1, after sensitivity time control; gain in azimuth and elevation in it
 };
 
+inline constexpr std::size_t kMostTraffic = 64;
+
 class Movers {
  public:
   explicit Movers(const radar::RadarConfiguration& configuration);
 
-  geo::GeoPoint place(std::size_t mover, geo::Duration sim_time) const;
-
-  // The movers within the range and two beam widths of the beam. Valid until the next call; allocates nothing.
+  // Those within the range and two beam widths of the beam. Valid until the next call; allocates nothing.
   std::span<const Echo> echoes(const Look& look, const Receiver& receiver, const EffectiveEarth& earth,
-                               const terrain::TerrainView& terrain);
+                               const Database& database);
 
  private:
-  struct Track {
-    geo::GeodesicRay way;
-    double speed_mps = 0.0;
-    double cross_section_m2 = 0.0;
-    double height_m = 0.0;
-  };
+  void add_echoes(std::span<const MovingPoint> points, const Look& look, const Receiver& receiver,
+                  const EffectiveEarth& earth, const terrain::TerrainView& terrain);
 
   radar::BeamPattern beam_;
-  std::vector<Track> tracks_;
+  std::vector<MovingPoint> points_;
   std::vector<Echo> echoes_;
 };
 

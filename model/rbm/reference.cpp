@@ -49,7 +49,7 @@ std::size_t Reference::measure(const Look& look, const Database& database, std::
     samples_[i].power = samples_[i].lit ? cell_power(receiver, earth, look, i) : 0.0;
   }
   if (scene_return_.enter(look, database.scenes)) see_scenes(look, receiver, earth, *database.scenes, pulse_samples);
-  add_movers(movers_.echoes(look, receiver, earth, terrain), pulse_samples);
+  add_movers(movers_.echoes(look, receiver, earth, database), pulse_samples);
   rain_.enter(look);
   if (!rain_.dry()) add_rain(receiver, earth, look);
   smear_pulse(pulse_samples, power);

@@ -65,7 +65,7 @@ std::size_t Standard::measure(const Look& look, const Database& database, std::s
   // What the last vector wrote behind the sweep is no power.
   std::fill_n(power_.data() + count_, lanes::kPad, 0.0F);
   if (scene_return_.enter(look, database.scenes)) see_scenes(look, earth, receiver, *database.scenes, pulse_samples);
-  add_movers(look, earth, receiver, terrain, pulse_samples);
+  add_movers(look, earth, receiver, database, pulse_samples);
   rain_.enter(look);
   if (!rain_.dry()) add_rain(look, earth, receiver);
 
@@ -102,8 +102,8 @@ void Standard::see_scenes(const Look& look, const EffectiveEarth& earth, const R
 }
 
 void Standard::add_movers(const Look& look, const EffectiveEarth& earth, const Receiver& receiver,
-                          const terrain::TerrainView& terrain, double pulse_samples) {
-  for (const Echo& echo : movers_.echoes(look, receiver, earth, terrain)) {
+                          const Database& database, double pulse_samples) {
+  for (const Echo& echo : movers_.echoes(look, receiver, earth, database)) {
     const std::size_t index = nearest_sample(distance_m_, echo.distance_m);
     if (index >= count_) continue;
     const bool hidden = index > 0 && echo.tangent <= static_cast<double>(horizon_.data()[index - 1]);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/kernel/traffic_points.hpp"
 #include "tests/model/ground.hpp"
 
 namespace yars::model::rbm {
@@ -62,9 +63,9 @@ TEST(Movers, GoTheirGeodesicWithSimTime) {
   radar::Mover ship = ship_at(10000.0);
   ship.speed_mps = geo::Speed::knots(30.0).metres_per_second();
   ship.heading_deg = 45.0;
-  const Movers movers(with(ship));
-  EXPECT_LT(geo::geodesic_inverse(ship.place, movers.place(0, geo::Duration())).distance.metres(), 1e-6);
-  const auto way = geo::geodesic_inverse(ship.place, movers.place(0, geo::Duration::seconds(3600.0)));
+  const auto points = configured_points(with(ship));
+  EXPECT_LT(geo::geodesic_inverse(ship.place, points.at(0).place(geo::Duration())).distance.metres(), 1e-6);
+  const auto way = geo::geodesic_inverse(ship.place, points.at(0).place(geo::Duration::seconds(3600.0)));
   EXPECT_NEAR(way.distance.nautical_miles(), 30.0, 1e-6);
   EXPECT_NEAR(way.azimuth_at_start.degrees(), 45.0, 1e-6);
 }
@@ -135,6 +136,39 @@ TEST(Movers, FarAwayOrBehindCostNothing) {
   const Receiver receiver = make_receiver(configuration, look.range);
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
   EXPECT_TRUE(movers.echoes(look, receiver, EffectiveEarth(8.5e6), sea).empty());
+}
+
+// An hour after it was heard of an entity of the traffic is where a ship of the configuration is that was there at
+// sim time 0, and returns the same.
+TEST(Movers, OfTheTrafficReturnWhatThoseOfTheConfigurationDo) {
+  radar::Mover ship = ship_at(20020.0);
+  ship.speed_mps = 10.0;
+  ship.heading_deg = 300.0;
+  databuffer::Traffic traffic{};
+  traffic.tick = 12'000;
+  traffic.count = 1;
+  traffic.entities[0] = {ship.place.latitude_deg,
+                         ship.place.longitude_deg,
+                         ship.speed_mps * std::cos(geo::Angle::degrees(300.0).radians()),
+                         ship.speed_mps * std::sin(geo::Angle::degrees(300.0).radians()),
+                         ship.height_m,
+                         ship.cross_section_m2,
+                         7,
+                         0};
+  const terrain::AnalyticTerrain sea(terrain::flat(0.0));
+  const EffectiveEarth earth(8.5e6);
+  Look look = test::look_north(kAltitudeM, kRangeM);
+  Movers configured(with(ship));
+  Movers none(test::bare_configuration(1000));
+  const Receiver receiver = make_receiver(with(ship), look.range);
+  look.sim_time = geo::Duration::seconds(30.0);
+  const Echo expected = configured.echoes(look, receiver, earth, sea)[0];
+  look.sim_time = geo::Duration::seconds(30.0 + 60.0);
+  const auto points = kernel::points_of(traffic);
+  const auto echoes = none.echoes(look, receiver, earth, {sea, nullptr, true, points});
+  ASSERT_EQ(echoes.size(), 1U);
+  EXPECT_NEAR(echoes[0].distance_m, expected.distance_m, 1e-6);
+  EXPECT_NEAR(echoes[0].power, expected.power, 1e-9 * expected.power);
 }
 
 TEST(NearestSample, IsTheOneAroundTheDistance) {

@@ -97,9 +97,10 @@ Played Player::seek(std::int64_t tick) {
   if (const auto report = reader_->last_before<StatusReport>()) {
     take_status(report->status, played);
   }
+  if (const auto traffic = reader_->last_before<databuffer::Traffic>()) use_traffic(*traffic);
   // The status before the block may be some ticks older than the block: the kernel waits for the first one inside.
   waiting_ = world_.has_value() && begin > 0;
-  waiting_ticks_.clear();
+  waited_.clear();
   while (look_ahead() && is_due(tick)) {
     if (is_cut()) played.sweeps.clear();
     take(played);
@@ -135,6 +136,11 @@ void Player::take(Played& played) {
     add(played.sweeps, *sweep);
   } else if (const auto* mark = std::get_if<SweepMark>(&item)) {
     if (kernel_) kernel_->recorded(*mark);
+  } else if (const auto* traffic = std::get_if<databuffer::Traffic>(&item)) {
+    if (waiting_)
+      waited_.push_back(item);
+    else
+      use_traffic(*traffic);
   } else if (const auto* patch = std::get_if<Patch>(&item)) {
     played.maps.push_back(*patch);
   }
@@ -151,7 +157,7 @@ void Player::take_tick(const ModelTick& tick, Played& played) {
     played.status = status_;
   }
   if (waiting_)
-    waiting_ticks_.push_back(tick);
+    waited_.emplace_back(tick);
   else
     run_kernel(tick, played);
 }
@@ -181,12 +187,21 @@ void Player::start_kernel(const ModelStatus& status) {
   kernel_from_epoch_ = status.epoch;
 }
 
+void Player::use_traffic(const databuffer::Traffic& traffic) {
+  if (!world_) return;
+  if (!kernel_) kernel_.emplace(world_->configuration, *world_->store, world_->scenes);
+  kernel_->traffic(traffic);
+}
+
 // Live, a status is written behind ticks that came after it.
 void Player::start_late(const ModelStatus& status, Played& played) {
   waiting_ = false;
   start_kernel(status);
-  for (const ModelTick& tick : std::exchange(waiting_ticks_, {}))
-    if (tick.epoch == status.epoch && tick.tick > status.tick) run_kernel(tick, played);
+  for (const RecordingItem& item : std::exchange(waited_, {})) {
+    if (const auto* traffic = std::get_if<databuffer::Traffic>(&item)) use_traffic(*traffic);
+    const auto* tick = std::get_if<ModelTick>(&item);
+    if (tick != nullptr && tick->epoch == status.epoch && tick->tick > status.tick) run_kernel(*tick, played);
+  }
 }
 
 // The newest status of the block up to the tick, else the last before the block.

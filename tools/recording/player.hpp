@@ -65,6 +65,7 @@ class Player {
   void run_kernel(const databuffer::ModelTick& tick, Played& played);
   void start_late(const databuffer::ModelStatus& status, Played& played);
   void start_kernel(const databuffer::ModelStatus& status);
+  void use_traffic(const databuffer::Traffic& traffic);
   std::size_t picture_begin(std::size_t block, std::int64_t tick);
   std::optional<databuffer::ModelStatus> status_at(std::size_t block, std::int64_t tick);
   void find_maps(std::size_t block, Played& played);
@@ -72,8 +73,8 @@ class Player {
   RecordingReader* reader_;
   std::optional<PlayerWorld> world_;
   std::optional<Replay> kernel_;
-  bool waiting_ = false;  // for a status from which the kernel may go on
-  std::vector<databuffer::ModelTick> waiting_ticks_;
+  bool waiting_ = false;                // for a status from which the kernel may go on
+  std::vector<RecordingItem> waited_;   // ticks, and the traffic between them
   std::int64_t kernel_from_tick_ = -1;  // ticks up to it are in the status that the kernel took up
   std::uint32_t kernel_from_epoch_ = 0;
   std::optional<RecordingItem> ahead_;

@@ -17,6 +17,7 @@
 #include "databuffer/records/outputs.hpp"
 #include "databuffer/records/patch_map.hpp"
 #include "databuffer/records/recorder_status.hpp"
+#include "databuffer/records/traffic.hpp"
 
 namespace yars::tools::recording {
 
@@ -97,9 +98,12 @@ inline constexpr KindName kKindOf<databuffer::Outputs>{12, "Outputs"};
 template <>
 inline constexpr KindName kKindOf<databuffer::RecorderStatus>{13, "RecorderStatus"};
 
+template <>
+inline constexpr KindName kKindOf<databuffer::Traffic>{14, "Traffic"};
+
 using RecordingItem = std::variant<databuffer::ModelTick, databuffer::AppliedEvent, SweepMark, StartingPoint, Gap,
                                    StateChange, StatusReport, databuffer::Nav, databuffer::Ownship, databuffer::Sweep,
-                                   Patch, databuffer::Outputs, databuffer::RecorderStatus>;
+                                   Patch, databuffer::Outputs, databuffer::RecorderStatus, databuffer::Traffic>;
 
 // A record as it is kept.
 struct RecordParts {

@@ -29,7 +29,7 @@ const databuffer::Sweep* Replay::tick(const databuffer::ModelTick& tick) {
     view_ = store_->prepare(need.region);
     if (scenes_ != nullptr) scene_view_ = scenes_->prepare(need.region);
   }
-  const bool finished = kernel_.step(tick, {*view_, scene_view_.get()}, sweep_);
+  const bool finished = kernel_.step(tick, {*view_, scene_view_.get(), true, traffic_}, sweep_);
   kernel_.describe(*view_, last_);
   if (!finished) return nullptr;
   ++sweeps_;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "lib/radar/configuration.hpp"
 #include "model/kernel/radar_kernel.hpp"
+#include "model/kernel/traffic_points.hpp"
 #include "model/scene/scene_store.hpp"
 #include "model/terrain/terrain_view.hpp"
 #include "tools/recording/comparison.hpp"
@@ -22,6 +24,8 @@ class Replay {
   void start(const StartingPoint& point);
   // The sweep that came out of it; nullptr: none, or one whose smear needs those from before the start.
   const databuffer::Sweep* tick(const databuffer::ModelTick& tick);
+  // Holds from the next tick on.
+  void traffic(const databuffer::Traffic& traffic) { traffic_ = model::kernel::points_of(traffic); }
   void recorded(const SweepMark& mark) { comparison_.recorded(mark); }
 
   std::uint64_t ticks() const { return ticks_; }
@@ -37,6 +41,7 @@ class Replay {
   model::terrain::TerrainViewPointer view_;
   model::scene::SceneStore* scenes_;
   model::scene::SceneViewPointer scene_view_;
+  std::vector<model::rbm::MovingPoint> traffic_;
   databuffer::Sweep sweep_{};
   databuffer::ModelStatus last_{}, before_last_{};  // after the newest tick and after the one before
   Comparison comparison_;
