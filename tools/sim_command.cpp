@@ -19,6 +19,7 @@ using databuffer::ClockState;
 using databuffer::Session;
 
 constexpr double kFastestRate = 10.0;      // times real time; beyond it late ticks would be skipped
+constexpr double kLatestTime_s = 1e9;      // 31 years
 constexpr std::int64_t kStepsAtOnce = 10;  // [ticks] below the 20 that a role catches up before it skips
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -114,12 +115,15 @@ void settle_when_frozen(Session& session) {
   });
 }
 
-void reset(const CommonOptions& common) {
+void reset(const CommonOptions& common, double time_s) {
+  if (!(time_s >= 0.0 && time_s <= kLatestTime_s))
+    give_up(databuffer::usage_error("reset", "a sim time of 0 to 1e9 s", std::to_string(time_s)));
   auto session = open_session(common);
-  change_clock(session, [](const ClockState& clock) {
+  change_clock(session, [time_s](const ClockState& clock) {
     ClockState next = clock;
     next.base_monotonic_ns = databuffer::monotonic_ns();
-    next.base_sim_ns = 0;
+    // On a tick's edge: a replay shows the picture of that tick.
+    next.base_sim_ns = std::llround(time_s / radar::kTickSeconds) * radar::kTickNanoseconds;
     ++next.epoch;
     next.reposition_latitude_deg = kNaN;
     return next;
@@ -167,7 +171,10 @@ void add_sim_command(CLI::App& app, const CommonOptions& common) {
   auto ticks = std::make_shared<std::int64_t>(1);
   step_command->add_option("N", *ticks);
   step_command->callback([&common, ticks] { step(common, *ticks); });
-  sim->add_subcommand("reset", "sim time back to 0, a new epoch")->callback([&common] { reset(common); });
+  auto* reset_command = sim->add_subcommand("reset", "sim time back to 0, or to S, a new epoch; a replay goes there");
+  auto time_s = std::make_shared<double>(0.0);
+  reset_command->add_option("S", *time_s, "seconds of sim time");
+  reset_command->callback([&common, time_s] { reset(common, *time_s); });
   auto* place_command = sim->add_subcommand("reposition", "put the aircraft elsewhere, a new epoch");
   auto place = std::make_shared<Place>();
   place_command->add_option("LAT", place->latitude_deg, "degrees, north positive")->required();

@@ -73,6 +73,14 @@ TEST(ReplayToTheGlass, FollowsTheClockOfItsSession) {
   ASSERT_EQ(set.yars({"sim", "reset"}).code, 0);
   EXPECT_TRUE(set.wait_until([](const auto& watch) { return watch["tick"] < 10 && watch["power"] == "OFF"; }))
       << set.watch().dump();
+  // Held, it goes to any time: forwards and back.
+  for (const char* seconds : {"9", "5"}) {
+    ASSERT_EQ(set.yars({"sim", "reset", seconds}).code, 0);
+    EXPECT_TRUE(set.wait_until([&](const auto& watch) {
+      return watch["tick"] >= std::stoi(seconds) * 200 && watch["tick"] < std::stoi(seconds) * 200 + 20 &&
+             watch["mode"] == "RBM" && watch["sweeps"] > 100;
+    })) << set.watch().dump();
+  }
   ASSERT_EQ(set.yars({"sim", "rate", "10"}).code, 0);
   ASSERT_EQ(set.yars({"sim", "run"}).code, 0);
   // 12 s at ten times real time, and it ends by itself.

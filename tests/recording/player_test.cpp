@@ -62,6 +62,7 @@ class Session {
     state_.tick = cockpit_.tick.tick;
     put(StateChange{state_});
   }
+  void freeze(bool on) { cockpit_.set_flag(databuffer::kFreeze, on); }
   void make_map(std::uint64_t id) {
     std::mt19937_64 random(id);
     Patch patch = test::patch_at(cockpit_.tick.tick, 8, random);
@@ -182,6 +183,21 @@ class RecordingPlayed : public ::testing::TestWithParam<bool> {
 
 INSTANTIATE_TEST_SUITE_P(ByVideoAndByKernel, RecordingPlayed, ::testing::Values(true, false),
                          [](const auto& one) { return one.param ? "Video" : "Kernel"; });
+
+// Twelve minutes: more than any look back block by block would want to read.
+TEST_P(RecordingPlayed, APictureFrozenForLongIsThereAfterASeek) {
+  session.run(2000);
+  session.freeze(true);
+  session.run(144'000);
+  const Seen expected = session.seen();
+  const std::int64_t frozen = session.tick();
+  session.freeze(false);
+  session.run(400);
+  open();
+  glass.jump(player->seek(frozen));
+  EXPECT_GT(glass.seen().sweeps.size(), 100U);
+  EXPECT_EQ(glass.seen().sweeps, expected.sweeps);
+}
 
 TEST_P(RecordingPlayed, TheGlassSeesAtThreeTimesWhatItSawInTheRun) {
   std::map<std::int64_t, Seen> run;

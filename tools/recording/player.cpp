@@ -10,9 +10,6 @@ namespace {
 using databuffer::ModelStatus;
 using databuffer::ModelTick;
 
-// 10 min: a picture frozen for longer comes back empty rather than after a minute of waiting.
-constexpr std::size_t kMostBlocksBack = 600;
-
 template <class T>
 bool has(const IndexEntry& block) {
   return (block.kinds >> kKindOf<T>.number & 1U) != 0;
@@ -222,15 +219,21 @@ std::optional<ModelStatus> Player::status_at(std::size_t block, std::int64_t tic
 // Where to begin so that the whole picture at the tick has come by then.
 std::size_t Player::picture_begin(std::size_t block, std::int64_t tick) {
   const auto at = status_at(block, tick);
-  const std::size_t last = block > kMostBlocksBack ? block - kMostBlocksBack : 0;
-  for (; block > last; --block) {
-    if (has<StartingPoint>(reader_->blocks()[block])) break;
-    reader_->seek_block(block);
+  const auto& blocks = reader_->blocks();
+  const auto begins_enough_before = [&](std::size_t candidate) {
+    reader_->seek_block(candidate);
     const auto before = reader_->last_before<StatusReport>();
-    if (!at || !before || before->status.epoch != at->epoch) break;
-    if (before->status.scan + 2 <= at->scan && before->status.sweep + kPictureSweeps <= at->sweep) break;
+    if (!at || !before || before->status.epoch != at->epoch) return true;
+    return before->status.scan + 2 <= at->scan && before->status.sweep + kPictureSweeps <= at->sweep;
+  };
+  std::size_t enough = block;
+  while (enough > 0 && !has<StartingPoint>(blocks[enough])) --enough;
+  // Scans count up within an epoch; halving, because a picture may have been frozen for hours.
+  for (std::size_t too_late = block + 1; too_late - enough > 1;) {
+    const std::size_t middle = enough + (too_late - enough) / 2;
+    (begins_enough_before(middle) ? enough : too_late) = middle;
   }
-  return block;
+  return enough;
 }
 
 // A map may have been recorded long before: the index says in which blocks there are any.
