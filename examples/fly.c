@@ -1,0 +1,44 @@
+/* A flight model in C: joins a running set (scripts/start --no-flight, or beside its own flight model, which then
+ * stands by) and flies circles off the Californian coast, or round LAT LON. Ctrl-C ends it.
+ *   cc -I. examples/fly.c -o fly -lm  &&  ./fly [SESSION [LAT LON]] */
+#include "databuffer/yars.h"
+/* The header asks for its own extensions and comes first. */
+#include <math.h>
+#include <signal.h>
+#include <stdlib.h>
+
+static volatile sig_atomic_t ended = 0;
+static void end(int signal) {
+  ended = signal;
+}
+
+int main(int argc, char** argv) {
+  yars_session s;
+  if (yars_attach(&s, argc > 1 ? argv[1] : "default", "fly.c") != 0 || yars_claim_ownship_lane(&s, 50) < 0) {
+    fprintf(stderr, "%s\n", s.error);
+    return 1;
+  }
+  signal(SIGINT, end);
+  signal(SIGTERM, end);
+  const double degree = 0.017453292519943295, radius_m = 8000.0, speed_mps = 200.0;
+  const double latitude_deg = argc > 3 ? atof(argv[2]) : 36.5, longitude_deg = argc > 3 ? atof(argv[3]) : -122.3;
+  for (double time_s = 0.0; !ended; time_s += 0.02) {
+    const double angle = speed_mps / radius_m * time_s; /* [rad] where on the circle, clockwise from north */
+    yars_ownship o = {0};
+    o.latitude_deg = latitude_deg + radius_m * cos(angle) / 111000.0;
+    o.longitude_deg = longitude_deg + radius_m * sin(angle) / (111000.0 * cos(latitude_deg * degree));
+    o.altitude_msl_m = 4500.0;
+    o.heading_deg = fmod(angle / degree + 90.0, 360.0);
+    o.roll_deg = 27.0; /* to the right, into the turn */
+    o.velocity_north_mps = -speed_mps * sin(angle);
+    o.velocity_east_mps = speed_mps * cos(angle);
+    o.radar_altitude_m = NAN;
+    o.epoch = yars_epoch(&s);
+    strcpy(o.source, "fly.c");
+    yars_publish_ownship(&s, &o);
+    yars_heartbeat(&s);
+    nanosleep(&(struct timespec){0, 20000000}, NULL);
+  }
+  yars_detach(&s);
+  return 0;
+}

@@ -1,0 +1,38 @@
+#!/usr/bin/env python3
+"""A flight model in Python: joins a running set (scripts/start --no-flight, or beside its own flight model, which then
+stands by) and flies circles off the Californian coast, or round LAT LON. Ctrl-C ends it.
+
+usage: examples/fly.py [SESSION [LAT LON]]"""
+import math
+import signal
+import sys
+import time
+
+from yars import Session, YarsError
+
+
+def fly(session, latitude_deg, longitude_deg, radius_m=8000.0, speed_mps=200.0):
+    session.claim_ownship_lane(priority=50)
+    begin_s = time.monotonic()
+    while True:
+        angle = speed_mps / radius_m * (time.monotonic() - begin_s)  # [rad] on the circle, clockwise from north
+        session.publish_ownship(
+            latitude_deg=latitude_deg + radius_m * math.cos(angle) / 111000.0,
+            longitude_deg=longitude_deg + radius_m * math.sin(angle) / (111000.0 * math.cos(math.radians(latitude_deg))),
+            altitude_msl_m=4500.0, heading_deg=(math.degrees(angle) + 90.0) % 360.0, roll_deg=27.0,
+            velocity_north_mps=-speed_mps * math.sin(angle), velocity_east_mps=speed_mps * math.cos(angle),
+            source=b"fly.py")
+        session.heartbeat()
+        time.sleep(0.02)
+
+
+if __name__ == "__main__":
+    place = (float(sys.argv[2]), float(sys.argv[3])) if len(sys.argv) > 3 else (36.5, -122.3)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
+    try:
+        with Session(sys.argv[1] if len(sys.argv) > 1 else "default", "fly.py") as running:
+            fly(running, *place)
+    except YarsError as error:
+        sys.exit(str(error))
+    except KeyboardInterrupt:
+        pass

@@ -1,0 +1,279 @@
+"""Takes part in a running YARS session from Python 3.9 or later, without a compiler: a copy of what databuffer/yars.h
+does in C, for ownship, navigator, events, the radar state and pictures of the glass. Linux on x86-64: there one 64-bit
+word goes into memory in one piece and in order. How the segment works: docs/shared_memory.md; a test of YARS compares
+every number here with `yars status --layout`."""
+import fcntl
+import math
+import mmap
+import os
+import struct
+import time
+
+MAGIC, VERSION, SIZE, HASH = 0x314D485353524159, 3, 27471872, 0xEB33F49407411935
+AT_CLOCK, AT_OWNSHIP_PRIORITY, AT_OWNSHIP, AT_NAV = 448, 1024, 1088, 4416
+AT_RADAR_STATE, AT_INPUT, AT_PROCESSES, AT_FRAMES = 7744, 4934656, 5051392, 13840128
+FIRST_OWNSHIP_BYTE, OWNSHIP_LANES, FIRST_INPUT_BYTE, INPUT_LANES = 8, 4, 16, 16
+FIRST_PROCESS_BYTE, PROCESSES, PROCESS_STRIDE = 32, 32, 40
+INPUT_STRIDE, INPUT_DEPTH, INPUT_POPPED, INPUT_RECORDS = 7296, 128, 64, 128
+FRAMES, FRAME_STRIDE, FRAME_PIXELS = 3, 4194376, 72
+LINE, SLOTS = 64, 4
+
+# Records: (name, struct code) in order; names that begin with an underscore are reserved.
+CLOCK = [("base_sim_ns", "q"), ("base_monotonic_ns", "q"), ("rate", "d"), ("running", "I"), ("epoch", "I"),
+         ("reposition_latitude_deg", "d"), ("reposition_longitude_deg", "d"), ("reposition_altitude_m", "d"),
+         ("reposition_heading_deg", "d"), ("_reserved", "32s")]
+OWNSHIP = [("source_time_ns", "q"), ("latitude_deg", "d"), ("longitude_deg", "d"), ("altitude_msl_m", "d"),
+           ("heading_deg", "d"), ("pitch_deg", "d"), ("roll_deg", "d"), ("velocity_north_mps", "d"),
+           ("velocity_east_mps", "d"), ("velocity_down_mps", "d"), ("radar_altitude_m", "d"), ("epoch", "I"),
+           ("flags", "I"), ("source", "16s"), ("flight_time_s", "d"), ("_reserved", "24s")]
+NAV = [("source_time_ns", "q"), ("mission_latitude_deg", "d"), ("mission_longitude_deg", "d"),
+       ("ins_latitude_deg", "d"), ("ins_longitude_deg", "d"), ("velocity_north_mps", "d"), ("velocity_east_mps", "d"),
+       ("velocity_down_mps", "d"), ("magnetic_variation_deg", "d"), ("epoch", "I"), ("flags", "I"),
+       ("_reserved", "48s")]
+INPUT_EVENT = [("session_time_ns", "q"), ("monotonic_ns", "q"), ("x", "d"), ("y", "d"), ("kind", "H"),
+               ("argument", "h"), ("number", "I"), ("text", "16s")]
+GLASS_FRAME = [("id", "Q"), ("tick", "q"), ("sim_time_ns", "q"), ("width", "I"), ("height", "I"), ("_reserved", "32s")]
+RADAR_STATE_SIZE = 1392
+# The fields of the radar state that a panel shows: name, offset, struct code; the legends are of 8 characters each.
+RADAR_STATE = [("tick", 0, "q"), ("range_nm", 8, "d"), ("boxed", 116, "I"), ("power", 120, "B"), ("mode", 121, "B")]
+LEGENDS_AT, LEGENDS = 504, 21
+
+
+class YarsError(Exception):
+    pass
+
+
+def code_of(fields):
+    return "<" + "".join(code for _, code in fields)
+
+
+def pack(fields, values):
+    return struct.pack(code_of(fields), *(values.get(name, b"" if code.endswith("s") else 0) for name, code in fields))
+
+
+def unpack(fields, record):
+    return dict(zip((name for name, _ in fields), struct.unpack(code_of(fields), record)))
+
+
+class Session:
+    """with Session("default", "my-program") as session: ..."""
+
+    def __init__(self, name="default", program="python"):
+        self.path = f"/dev/shm/yars.{os.geteuid()}.{name}"
+        try:
+            self.descriptor = os.open(self.path, os.O_RDWR | os.O_CLOEXEC | os.O_NOFOLLOW)
+        except FileNotFoundError:
+            raise YarsError(f"{self.path}: no such session runs") from None
+        # The write lock on byte 0 can be had only where nobody takes part.
+        if self._lock(0, fcntl.F_WRLCK):
+            os.close(self.descriptor)
+            raise YarsError(f"{self.path}: a leftover: its programs have died")
+        if not self._lock(0, fcntl.F_RDLCK) or not self._is_at_path():
+            os.close(self.descriptor)
+            raise YarsError(f"{self.path}: it is just ending; try again")
+        size = os.fstat(self.descriptor).st_size
+        self.memory = mmap.mmap(self.descriptor, size)
+        self.words = memoryview(self.memory).cast("Q")
+        found = (self.words[0], self.words[1], self.words[2], self.words[3] & 0xFFFFFFFF)
+        self.lane = self.input_lane = self.process = None
+        self.events = 0
+        if found != (MAGIC, SIZE, HASH, VERSION):
+            self.close()
+            raise YarsError(f"{self.path}: expected layout version {VERSION}, hash {HASH:016x}, found version "
+                            f"{found[3]}, hash {found[2]:016x}; take the yars.py of its build")
+        self.process = self._claim(FIRST_PROCESS_BYTE, PROCESSES)
+        if self.process is not None:
+            entry = AT_PROCESSES + PROCESS_STRIDE * self.process
+            self._store(entry + 16, program.encode()[:23].ljust(24, b"\0"))
+            self.heartbeat()
+            self.words[(entry + 8) // 8] = os.getpid()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def close(self):
+        """Gives back all that was claimed; who leaves last takes the segment away."""
+        if self.lane is not None:
+            for at in (self._ownship_at(), self._nav_at()):
+                self.words[at // 8] = ((self.words[at // 8] >> 1) + 1) << 1
+            self._release(FIRST_OWNSHIP_BYTE + self.lane)
+        if self.input_lane is not None:
+            self._release(FIRST_INPUT_BYTE + self.input_lane)
+        if self.process is not None:
+            self.words[(AT_PROCESSES + PROCESS_STRIDE * self.process + 8) // 8] = 0
+            self._release(FIRST_PROCESS_BYTE + self.process)
+        self._lock(0, fcntl.F_UNLCK)
+        if self._lock(0, fcntl.F_WRLCK) and self._is_at_path():
+            os.unlink(self.path)
+        self.words.release()
+        self.memory.close()
+        os.close(self.descriptor)
+
+    # ---- time
+    def clock(self):
+        return self._read(AT_CLOCK, CLOCK)
+
+    def epoch(self):
+        clock = self.clock()
+        return clock["epoch"] if clock else 0
+
+    def sim_time_ns(self):
+        clock = self.clock()
+        if not clock or not clock["running"]:
+            return clock["base_sim_ns"] if clock else 0
+        return clock["base_sim_ns"] + int(clock["rate"] * (time.monotonic_ns() - clock["base_monotonic_ns"]))
+
+    def heartbeat(self):
+        """Shows in `yars status` that this program is alive; about once a second."""
+        if self.process is not None:
+            self.words[(AT_PROCESSES + PROCESS_STRIDE * self.process) // 8] = time.monotonic_ns()
+
+    # ---- feeding
+    def claim_ownship_lane(self, priority):
+        """The radar takes the fresh lane of the highest priority; YARS's own flight models have 10."""
+        self.lane = self._claim(FIRST_OWNSHIP_BYTE, OWNSHIP_LANES)
+        if self.lane is None:
+            raise YarsError("ownship lane: all are taken; `yars status` names the holders")
+        for at in (self._ownship_at(), self._nav_at()):
+            self.words[at // 8] = ((self.words[at // 8] >> 1) + 1) << 1
+        at = AT_OWNSHIP_PRIORITY + 4 * self.lane
+        self.memory[at:at + 4] = struct.pack("<I", priority)
+
+    def publish_ownship(self, **values):
+        """Fields of the record Ownship (databuffer/records/ownship.hpp); what is not named is 0, the epoch is filled in.
+        20 to 100 times a second."""
+        self._publish(self._ownship_at(), OWNSHIP, {"epoch": self.epoch(), "radar_altitude_m": math.nan, **values})
+
+    def publish_nav(self, **values):
+        self._publish(self._nav_at(), NAV, {"epoch": self.epoch(), "magnetic_variation_deg": math.nan, **values})
+
+    def claim_input_lane(self, source):
+        """A lane that nobody feeds and that has been read empty."""
+        for lane in range(INPUT_LANES):
+            if self._claim(FIRST_INPUT_BYTE + lane, 1) is None:
+                continue
+            at = AT_INPUT + lane * INPUT_STRIDE
+            if self.words[at // 8] == self.words[(at + INPUT_POPPED) // 8]:
+                self._store(at + 24, source.encode()[:23].ljust(24, b"\0"))
+                self.input_lane = lane
+                return
+            self._release(FIRST_INPUT_BYTE + lane)
+        raise YarsError("input lane: all are taken; `yars status` names the sources")
+
+    def push_event(self, kind, argument=0, x=0.0, y=0.0, text=b""):
+        """Kinds and arguments: databuffer/records/input_event.hpp; push_button is 1, with the button as argument."""
+        at = AT_INPUT + self.input_lane * INPUT_STRIDE
+        number = self.words[at // 8]
+        if number - self.words[(at + INPUT_POPPED) // 8] >= INPUT_DEPTH:
+            self.words[at // 8 + 1] += 1
+            raise YarsError("input lane: full; does the state-machine run?")
+        self.events += 1
+        self._store(at + INPUT_RECORDS + number % INPUT_DEPTH * 56,
+                    pack(INPUT_EVENT, {"session_time_ns": self.sim_time_ns(), "monotonic_ns": time.monotonic_ns(),
+                                       "x": x, "y": y, "kind": kind, "argument": argument, "number": self.events,
+                                       "text": text}))
+        self.words[at // 8] = number + 1
+
+    # ---- reading
+    def radar_state(self):
+        """What a panel shows: mode, range, the legends of buttons 1 to 20 and which are boxed; None before there is one."""
+        record = self._read_bytes(AT_RADAR_STATE, RADAR_STATE_SIZE)
+        if record is None:
+            return None
+        state = {name: struct.unpack_from("<" + code, record, at)[0] for name, at, code in RADAR_STATE}
+        texts = (record[LEGENDS_AT + 8 * i:LEGENDS_AT + 8 * i + 8] for i in range(LEGENDS))
+        state["legends"] = [text.split(b"\0")[0].decode("ascii", "replace") for text in texts]
+        return state
+
+    def newest_frame(self, after=0):
+        """(frame, pixels) of a glass started with --publish, if newer than the id `after`, else None; rows from the top,
+        red, green, blue, 255."""
+        for _ in range(8):
+            newest = max(range(FRAMES), key=lambda i: self.words[(AT_FRAMES + i * FRAME_STRIDE) // 8])
+            at = AT_FRAMES + newest * FRAME_STRIDE
+            number = self.words[at // 8]
+            if number <= after:
+                return None
+            frame = unpack(GLASS_FRAME, self.memory[at + 8:at + 72])
+            size = min(4 * frame["width"] * frame["height"], FRAME_STRIDE - FRAME_PIXELS)
+            pixels = self.memory[at + FRAME_PIXELS:at + FRAME_PIXELS + size]
+            if self.words[at // 8] == number and frame["id"] == number:
+                return frame, pixels
+        return None
+
+    # ---- the containers
+    def _ownship_at(self):
+        return AT_OWNSHIP + self.lane * value_size(OWNSHIP)
+
+    def _nav_at(self):
+        return AT_NAV + self.lane * value_size(NAV)
+
+    def _store(self, at, record):
+        for i, (word,) in enumerate(struct.iter_unpack("<Q", record)):
+            self.words[at // 8 + i] = word
+
+    def _publish(self, at, fields, values):
+        version = (self.words[at // 8] >> 1) + 1
+        slot = (at + LINE + version % SLOTS * slot_stride(fields)) // 8
+        odd = (self.words[slot] + 1) | 1
+        self.words[slot] = odd
+        self.words[slot + 1] = version
+        self._store(8 * (slot + 2), pack(fields, values))
+        self.words[slot] = odd + 1
+        self.words[at // 8] = version << 1 | 1
+
+    def _read_bytes(self, at, size):
+        stride = (size + 16 + LINE - 1) // LINE * LINE
+        for _ in range(9):
+            state = self.words[at // 8]
+            if state & 1 == 0:
+                return None
+            slot = (at + LINE + (state >> 1) % SLOTS * stride) // 8
+            before = self.words[slot]
+            if before % 2 or self.words[slot + 1] != state >> 1:
+                continue
+            record = bytes(self.words[slot + 2:slot + 2 + size // 8])
+            if self.words[slot] == before:
+                return record
+        return None
+
+    def _read(self, at, fields):
+        record = self._read_bytes(at, struct.calcsize(code_of(fields)))
+        return unpack(fields, record) if record is not None else None
+
+    # ---- locks: of the open file, so that the kernel gives them back when this program dies
+    def _lock(self, byte, kind):
+        try:
+            fcntl.fcntl(self.descriptor, fcntl.F_OFD_SETLK, struct.pack("@hhqqi0q", kind, os.SEEK_SET, byte, 1, 0))
+            return True
+        except OSError:
+            return False
+
+    def _claim(self, first, count):
+        for i in range(count):
+            if self._lock(first + i, fcntl.F_WRLCK):
+                self.memory[32 + 4 * (first + i):36 + 4 * (first + i)] = struct.pack("<i", os.getpid())
+                return i
+        return None
+
+    def _release(self, byte):
+        self.memory[32 + 4 * byte:36 + 4 * byte] = bytes(4)
+        self._lock(byte, fcntl.F_UNLCK)
+
+    def _is_at_path(self):
+        try:
+            here, there = os.fstat(self.descriptor), os.stat(self.path)
+        except FileNotFoundError:
+            return False
+        return (here.st_dev, here.st_ino) == (there.st_dev, there.st_ino)
+
+
+def slot_stride(fields):
+    return (struct.calcsize(code_of(fields)) + 16 + LINE - 1) // LINE * LINE
+
+
+def value_size(fields):
+    return LINE + SLOTS * slot_stride(fields)

@@ -1,0 +1,146 @@
+// Flight models of one's own, as docs/attach.md shows them, fly a running set: the example in C, the one in Python; one
+// that stops hands over to the set's own and comes back.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <cmath>
+
+#include "databuffer/session.hpp"
+#include "lib/geo/geodesic.hpp"
+#include "tests/endtoend/process_set.hpp"
+
+namespace yars::endtoend {
+namespace {
+
+constexpr double kMetresPerSecond_at_most = 300.0;  // of all who fly here
+
+geo::GeoPoint place_of(const nlohmann::json& watch) {
+  return {watch["ownship"]["lat"].get<double>(), watch["ownship"]["lon"].get<double>()};
+}
+
+double metres_between(geo::GeoPoint from, geo::GeoPoint to) {
+  return geo::geodesic_inverse(from, to).distance.metres();
+}
+
+bool comes_from(const nlohmann::json& watch, const char* source) {
+  return !watch["ownship"].is_null() && watch["ownship"]["source"] == source;
+}
+
+// The aircraft of an example flies a circle of 8 km round the place, at its speed.
+void expect_circles(const ProcessSet& set, const char* source, geo::GeoPoint centre) {
+  ASSERT_TRUE(set.wait_until([&](const auto& watch) { return comes_from(watch, source); })) << set.watch().dump();
+  const auto before = set.watch();
+  ASSERT_TRUE(set.wait_until([&](const auto& watch) { return watch["tick"] > before["tick"].get<int>() + 200; }));
+  const auto after = set.watch();
+  EXPECT_NEAR(metres_between(centre, place_of(after)), 8000.0, 60.0) << after.dump();
+  const double time_s = after["sim_time"].get<double>() - before["sim_time"].get<double>();
+  EXPECT_NEAR(metres_between(place_of(before), place_of(after)) / time_s, 200.0, 40.0);
+}
+
+TEST(AttachedFlightModel, TheExampleInCFliesTheRadar) {
+  ProcessSet set("attach-c");
+  set.start("state", {"state-machine"});
+  set.start("model", {"radar-model"});
+  ASSERT_TRUE(set.wait_until([](const auto& watch) { return watch["tick"] > 10; })) << set.log_of("model");
+  set.start_tool("fly", {YARS_BIN_DIR "/example_fly", set.session(), "37.5", "-122.5"});
+  expect_circles(set, "fly.c", {37.5, -122.5});
+  ASSERT_EQ(set.yars({"inject", "power opr"}).code, 0);
+  EXPECT_TRUE(set.wait_until([](const auto& watch) { return watch["sweeps"] > 50; }));
+  set.kill("fly", SIGTERM);
+  EXPECT_EQ(set.wait("fly"), 0) << set.log_of("fly");
+  for (const auto& [role, code] : set.end_all()) EXPECT_EQ(code, 0) << role;
+  EXPECT_FALSE(set.segment_exists());
+}
+
+TEST(AttachedFlightModel, TheExampleInPythonFliesTheRadar) {
+  ProcessSet set("attach-python");
+  set.start("state", {"state-machine"});
+  set.start("model", {"radar-model"});
+  ASSERT_TRUE(set.wait_until([](const auto& watch) { return watch["tick"] > 10; })) << set.log_of("model");
+  set.start_tool("fly", {"python3", "-B", YARS_SOURCE_DIR "/examples/fly.py", set.session(), "37.5", "-122.5"});
+  expect_circles(set, "fly.py", {37.5, -122.5});
+  set.kill("fly", SIGTERM);
+  EXPECT_EQ(set.wait("fly"), 0) << set.log_of("fly");
+  for (const auto& [role, code] : set.end_all()) EXPECT_EQ(code, 0) << role;
+  EXPECT_FALSE(set.segment_exists());
+}
+
+// All that the radar saw: a jump in place is one that a new epoch tells of.
+class Witness {
+ public:
+  explicit Witness(const databuffer::SessionLayout& layout) : layout_(&layout), cursor_(layout.model_ticks.next()) {}
+  void look() {
+    databuffer::ModelTick tick{};
+    for (auto read = layout_->model_ticks.read(cursor_, tick); read.delivered;
+         read = layout_->model_ticks.read(cursor_, tick)) {
+      if ((tick.flags & databuffer::kTickOwnshipValid) == 0U) continue;
+      const geo::GeoPoint place{tick.ownship.latitude_deg, tick.ownship.longitude_deg};
+      if (seen_ > 0 && tick.epoch == epoch_) {
+        const double time_s = 5e-3 * static_cast<double>(tick.tick - tick_);
+        const double most_m = 30.0 + kMetresPerSecond_at_most * time_s;
+        if (const double jump_m = metres_between(place_, place); jump_m > most_m)
+          unexplained_.push_back(std::string(source_) + " to " + tick.ownship.source + ": " + std::to_string(jump_m));
+      }
+      if (seen_ > 0 && source_ != tick.ownship.source) ++changes_;
+      place_ = place;
+      tick_ = tick.tick;
+      epoch_ = tick.epoch;
+      source_ = tick.ownship.source;
+      ++seen_;
+    }
+  }
+  const std::vector<std::string>& unexplained() const { return unexplained_; }
+  int changes() const { return changes_; }
+  std::uint64_t seen() const { return seen_; }
+
+ private:
+  const databuffer::SessionLayout* layout_;
+  std::uint64_t cursor_;
+  geo::GeoPoint place_;
+  std::int64_t tick_ = 0;
+  std::uint32_t epoch_ = 0;
+  std::string source_;
+  std::vector<std::string> unexplained_;
+  int changes_ = 0;
+  std::uint64_t seen_ = 0;
+};
+
+TEST(AttachedFlightModel, OneThatStopsHandsOverAndComesBackWithoutAJumpThatNoEpochExplains) {
+  ProcessSet set("attach-stop");
+  set.start("state", {"state-machine"});
+  set.start("model", {"radar-model"});
+  set.start("own", {"flight-model", "--source", "fixed:36.9,-121.0,15000,90,400"});
+  ASSERT_TRUE(set.wait_until([](const auto& watch) { return comes_from(watch, "fixed"); })) << set.log_of("own");
+  auto session = databuffer::Session::open_read_only(set.session());
+  ASSERT_TRUE(session);
+  Witness witness(std::as_const(*session).layout());
+  const auto flies = [&](const char* source) {
+    return eventually(
+        [&] {
+          witness.look();
+          return comes_from(set.watch(), source);
+        },
+        30.0);
+  };
+  set.start_tool("fly", {YARS_BIN_DIR "/example_fly", set.session(), "37.5", "-122.5"});
+  ASSERT_TRUE(flies("fly.c"));
+  EXPECT_TRUE(set.runs("own")) << "it stands by";
+  for (int round = 0; round < 2; ++round) {
+    set.kill("fly", SIGSTOP);
+    ASSERT_TRUE(flies("fixed"));
+    // The set's own model has gone on from where the aircraft was.
+    EXPECT_LT(metres_between({37.5, -122.5}, place_of(set.watch())), 12000.0);
+    set.kill("fly", SIGCONT);
+    ASSERT_TRUE(flies("fly.c"));
+  }
+  witness.look();
+  EXPECT_EQ(witness.unexplained(), std::vector<std::string>{});
+  EXPECT_EQ(witness.changes(), 5) << "one source at a time";
+  EXPECT_GT(witness.seen(), 200U);
+  set.kill("fly", SIGTERM);
+  EXPECT_EQ(set.wait("fly"), 0);
+  for (const auto& [role, code] : set.end_all()) EXPECT_EQ(code, 0) << role;
+}
+
+}  // namespace
+}  // namespace yars::endtoend
