@@ -109,7 +109,7 @@ void ExternalFlight::receive(const ExternalSample& sample, geo::Duration receive
   if (!report.sample.rates) report.sample.rates = measured_rates_;
   if (!report.sample.acceleration_mps2) report.sample.acceleration_mps2 = measured_acceleration_;
   if (stands(sample, received)) halt(report.sample);
-  left_ = before ? difference(*before, sample.ownship) : Difference{};
+  left_ = before ? difference(*before, report.sample.ownship) : Difference{};
   if (is_jump(left_)) {
     ++jumps_;
     left_ = {};

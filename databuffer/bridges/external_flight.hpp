@@ -5,7 +5,7 @@
 // otherwise stands: the program is paused.
 // Bound, for reports 5 to 400 times a second that come up to J late, gaps T, a turn of acceleration a whose direction
 // turns at w: the output is within |v| J + a w T^3 / 6 + 1 m of the truth, and steps of 20 ms differ from the truth's
-// by at most 12 % of that (tests/bridges/external_flight_test.cpp).
+// by at most 8 % of that (tests/bridges/external_flight_test.cpp).
 #pragma once
 
 #include <optional>
