@@ -17,7 +17,7 @@ RADAR = GEO + ["lib/radar"]
 RECORDS = RADAR + ["databuffer/records"]
 ROLE = RECORDS + ["lib/imageio", "config"]
 MODEL = ROLE + ["lib/memory", "model/terrain", "model/antenna", "model/reflectivity", "model/scene", "model/rbm", "model/hrm", "model/kernel"]
-SEGMENT = ROLE + ["shm", "databuffer", "databuffer/flight"]
+SEGMENT = ROLE + ["shm", "databuffer", "databuffer/flight", "databuffer/bridges"]
 
 # Folder -> folders whose headers it may include besides its own. model, statemachine, inputmonitor and display
 # never see each other; tools and tests drive everything.
@@ -31,6 +31,7 @@ LAYERS = {
     "config": RADAR,
     "databuffer/records": RECORDS,
     "databuffer/flight": RECORDS,
+    "databuffer/bridges": RECORDS + ["databuffer/flight"],
     "databuffer": SEGMENT,
     "model/terrain/gdal": ["lib/failure"],
     "model/terrain": RADAR + ["lib/memory", "lib/imageio", "model/terrain/gdal"],
@@ -65,6 +66,7 @@ SYSTEM_HEADERS = {
     "zip.h": ["model/terrain", "tests"],
     "zlib.h": ["model/terrain", "tools/recording", "tests"],
     "zstd.h": ["tools/recording"],
+    "netinet/": ["databuffer", "tests"],
     "sys/mman.h": ["lib/memory", "shells", "shm", "databuffer", "tools", "tests"],
     "gdal.h": ["model/terrain/gdal", "tests"],
     "gdal_utils.h": ["model/terrain/gdal", "tests"],
@@ -140,8 +142,8 @@ def folder_of(name):
 
 def is_among(name, places):
     if "shells" in places and (SHELL.search(name) or any(name.startswith(folder + "/") for folder in SHELL_FOLDERS)):
-        # The records and the flight models are pure, though they live below databuffer/.
-        if not name.startswith(("databuffer/records/", "databuffer/flight/")):
+        # The records, the flight models and the bridges are pure, though they live below databuffer/.
+        if not name.startswith(("databuffer/records/", "databuffer/flight/", "databuffer/bridges/")):
             return True
     return any(name == place or folder_of(name) == place for place in places)
 

@@ -1,7 +1,6 @@
 #include "databuffer/flight/source_reader.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "databuffer/flight/fixed_flight.hpp"
 #include "databuffer/flight/route_flight.hpp"
@@ -15,7 +14,8 @@ namespace {
 using failure::Error;
 using failure::Expected;
 
-constexpr std::string_view kForms = "route:FILE, fixed:LAT,LON,ALT_FT,HDG,KT or csv:FILE";
+constexpr std::string_view kForms =
+    "route:FILE, fixed:LAT,LON,ALT_FT,HDG,KT, csv:FILE, flightgear:PORT, jsbsim:PORT, xplane:HOST:PORT or dis:PORT";
 
 tl::unexpected<Error> bad_usage(Error error) {
   error.bad_usage = true;
@@ -55,10 +55,7 @@ Expected<FlightSource> open_source(std::string_view text) {
   if (kind == "fixed") return open_fixed(rest);
   if (kind == "route" && !rest.empty()) return open_route(rest);
   if (kind == "csv" && !rest.empty()) return open_track(rest);
-  constexpr std::array<std::string_view, 4> kLater{"flightgear", "jsbsim", "xplane", "dis"};
-  const bool later = std::ranges::find(kLater, kind) != kLater.end();
-  return bad_usage({"--source", std::string(kForms), '"' + std::string(text) + '"',
-                    later ? std::string(kind) + " comes with a later release" : std::string(), true});
+  return bad_usage({"--source", std::string(kForms), '"' + std::string(text) + '"', {}, true});
 }
 
 }  // namespace yars::databuffer::flight

@@ -13,6 +13,15 @@ Vector3 ecef_from_geodetic(GeoPoint point, HeightAboveEllipsoid height) {
   return ecef;
 }
 
+GeodeticPlace geodetic_from_ecef(Vector3 ecef) {
+  GeodeticPlace place;
+  double height_m = 0.0;
+  GeographicLib::Geocentric::WGS84().Reverse(ecef.x, ecef.y, ecef.z, place.point.latitude_deg,
+                                             place.point.longitude_deg, height_m);
+  place.height = HeightAboveEllipsoid::metres(height_m);
+  return place;
+}
+
 LocalTangentFrame::LocalTangentFrame(GeoPoint origin, HeightAboveEllipsoid height)
     : origin_(ecef_from_geodetic(origin, height)) {
   const double sin_lat = std::sin(origin.latitude_deg * kRadiansPerDegree);

@@ -12,6 +12,13 @@ namespace yars::geo {
 // Earth-centred, earth-fixed metres: x through (0, 0), z through the north pole.
 Vector3 ecef_from_geodetic(GeoPoint point, HeightAboveEllipsoid height);
 
+// Where a finite place is over the ellipsoid; the centre of the Earth counts as below a pole.
+struct GeodeticPlace {
+  GeoPoint point;
+  HeightAboveEllipsoid height;
+};
+GeodeticPlace geodetic_from_ecef(Vector3 ecef);
+
 // East, north, up metres at an origin on the ellipsoid.
 class LocalTangentFrame {
  public:

@@ -35,8 +35,8 @@ TEST(FlightSource, WhatCannotBeReadAsASourceIsBadUsage) {
   }
 }
 
-TEST(FlightSource, ABridgeOfALaterReleaseSaysSo) {
-  EXPECT_THAT(refusal_of("xplane:localhost:49000").message(), HasSubstr("later release"));
+TEST(FlightSource, ARefusalNamesTheProgramsOutsideToo) {
+  EXPECT_THAT(refusal_of("balloon:3").message(), HasSubstr("xplane:HOST:PORT"));
 }
 
 TEST(FlightSource, AMissingFileIsAFailureOfTheWorld) {

@@ -1,0 +1,129 @@
+#include "databuffer/bridge_shell.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "databuffer/log.hpp"
+
+namespace yars::databuffer {
+
+namespace {
+
+constexpr std::int64_t kTicksBetweenRecords = 4;  // 50 Hz, as our own models
+
+geo::Duration duration_of(std::int64_t nanoseconds) {
+  return geo::Duration::seconds(1e-9 * static_cast<double>(nanoseconds));
+}
+
+// The moment of a tick by CLOCK_MONOTONIC [ns]: a tick that is done late is still flown where it belongs.
+std::int64_t moment_of(const TickLoop::Due& due) {
+  const std::int64_t now_ns = monotonic_ns();
+  if (due.clock.running == 0 || !(due.clock.rate > 0.0)) return now_ns;
+  const double since_base_ns = static_cast<double>(due.sim_time_ns - due.clock.base_sim_ns) / due.clock.rate;
+  constexpr double kLongestLate_ns = 1e8;  // the ticks that a role catches up
+  const double late_ns = static_cast<double>(now_ns - due.clock.base_monotonic_ns) - since_base_ns;
+  return now_ns - static_cast<std::int64_t>(std::clamp(late_ns, 0.0, kLongestLate_ns));
+}
+
+}  // namespace
+
+failure::Expected<UdpSocket> open_socket(const bridges::BridgeSource& source) {
+  return source.asks ? UdpSocket::ask(source.host, source.port) : UdpSocket::listen(source.host, source.port);
+}
+
+BridgeShell::BridgeShell(Session& session, bridges::BridgeSource source, UdpSocket socket, int lane)
+    : session_(&session),
+      source_(std::move(source)),
+      socket_(std::move(socket)),
+      lane_(static_cast<std::size_t>(lane)),
+      flight_(source_.bridge->reach()) {
+  log_info((source_.asks ? "asks " : "listens for ") + source_.name + (source_.asks ? " at " : " on ") +
+           text_of(socket_.place()));
+}
+
+BridgeShell::~BridgeShell() {
+  for (const auto& datagram : source_.bridge->farewell()) socket_.send(datagram);
+  if (refusals_.count() > 0) log_info(std::to_string(refusals_.count()) + " packets were refused");
+}
+
+void BridgeShell::step(const TickLoop::Due& due) {
+  if (due.new_epoch) begin_epoch(due.clock);
+  ask();
+  receive();
+  const auto sample = flight_.at(duration_of(moment_of(due)));
+  tell_presence(sample.has_value());
+  if (!sample) return;
+  if (due.tick >= next_publish_tick_ || due.new_epoch || due.tick < next_publish_tick_ - kTicksBetweenRecords)
+    publish(due, *sample);
+}
+
+void BridgeShell::begin_epoch(const ClockState& clock) {
+  if (std::isnan(clock.reposition_latitude_deg)) return;
+  const std::string line = "repositioning: " + source_.name + " flies by itself; move it there";
+  session_->note(NoteKind::refusal, line);
+  log_warning(line);
+}
+
+void BridgeShell::ask() {
+  for (const auto& datagram : source_.bridge->requests(duration_of(monotonic_ns()))) socket_.send(datagram);
+}
+
+void BridgeShell::receive() {
+  socket_.receive(kMostDatagramsATick, [this](bridges::Bytes datagram, const bridges::Sender& from,
+                                              std::int64_t received_ns) { take(datagram, from, received_ns); });
+  tell_losses();
+}
+
+void BridgeShell::take(bridges::Bytes datagram, const bridges::Sender& from, std::int64_t received_ns) {
+  latest_ns_ = std::max(latest_ns_, received_ns);
+  const geo::Duration now = duration_of(latest_ns_);
+  const bool one_sender = !source_.bridge->hears_many();
+  if (one_sender && !gate_.admits(from, now))
+    return refuse(source_.name + ": expected packets of one sender, found another, " + text_of(from), now);
+  const auto sample = source_.bridge->receive(datagram, now);
+  if (const auto news = source_.bridge->take_news()) log_info(*news);
+  if (!sample) return refuse(sample.error().message(), now);
+  if (!*sample) return;
+  if (gate_.taken(from, now) && one_sender) log_info("hears " + source_.name + " from " + text_of(from));
+  flight_.receive(**sample, now);
+  if (flight_.jumps() == std::exchange(jumps_told_, flight_.jumps())) return;
+  log_info(source_.name + " put the aircraft elsewhere");
+}
+
+void BridgeShell::refuse(const std::string& reason, geo::Duration now) {
+  const auto line = refusals_.refused(reason, now);
+  if (!line) return;
+  session_->note(NoteKind::refusal, *line);
+  log_warning("refused: " + *line);
+}
+
+// In the flight recorder once for each doubling: a flood is one story.
+void BridgeShell::tell_losses() {
+  const std::uint64_t dropped = socket_.dropped();
+  if (dropped == 0 || dropped < 2 * dropped_told_) return;
+  dropped_told_ = dropped;
+  const std::string line = source_.name + ": " + std::to_string(dropped) + " packets came too fast and were dropped";
+  session_->note(NoteKind::loss, line);
+  log_warning(line);
+}
+
+void BridgeShell::tell_presence(bool heard) {
+  if (heard == std::exchange(heard_, heard)) return;
+  if (heard) return log_info("the aircraft is flown by " + source_.name);
+  const std::string line = source_.name + " is silent; the aircraft is left to other sources";
+  session_->note(NoteKind::loss, line);
+  log_warning(line);
+}
+
+void BridgeShell::publish(const TickLoop::Due& due, flight::FlightSample sample) {
+  sample.ownship.source_time_ns = sample.nav.source_time_ns = due.sim_time_ns;
+  sample.ownship.epoch = sample.nav.epoch = due.clock.epoch;
+  SessionLayout& layout = session_->layout();
+  // Nav first: whoever sees the new ownship finds the nav that goes with it.
+  layout.nav[lane_].publish(sample.nav);
+  layout.ownship[lane_].publish(sample.ownship);
+  next_publish_tick_ = due.tick + kTicksBetweenRecords;
+}
+
+}  // namespace yars::databuffer

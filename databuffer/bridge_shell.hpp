@@ -1,0 +1,61 @@
+// A program outside that flies the aircraft of a session: takes its packets, and publishes ownship and nav at the ticks
+// while it is heard. It flies by its own clock, whatever the session's does: while the session is frozen it flies on,
+// and the radar finds it elsewhere afterwards; a rate other than 1 changes nothing for it; a reset or repositioning is
+// for the program itself to do. When nothing has come within the bridge's reach, nothing is published: the lane
+// goes stale, another takes over, and this one comes back with the packets.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "databuffer/bridges/bridge_source.hpp"
+#include "databuffer/bridges/external_flight.hpp"
+#include "databuffer/bridges/refusal_notes.hpp"
+#include "databuffer/bridges/sender_gate.hpp"
+#include "databuffer/session.hpp"
+#include "databuffer/tick_loop.hpp"
+#include "databuffer/udp_socket_shell.hpp"
+
+namespace yars::databuffer {
+
+// Of a tick; more waits for the next, and what does not fit into the kernel's queue is dropped: a flood stalls no tick.
+inline constexpr std::size_t kMostDatagramsATick = 256;
+
+// Opens the socket that the source needs.
+failure::Expected<UdpSocket> open_socket(const bridges::BridgeSource& source);
+
+class BridgeShell {
+ public:
+  // `lane` is the ownship lane claimed.
+  BridgeShell(Session& session, bridges::BridgeSource source, UdpSocket socket, int lane);
+  BridgeShell(const BridgeShell&) = delete;
+  BridgeShell& operator=(const BridgeShell&) = delete;
+  ~BridgeShell();
+
+  void step(const TickLoop::Due& due);
+
+ private:
+  void begin_epoch(const ClockState& clock);
+  void ask();
+  void receive();
+  void take(bridges::Bytes datagram, const bridges::Sender& from, std::int64_t received_ns);
+  void refuse(const std::string& reason, geo::Duration now);
+  void tell_losses();
+  void tell_presence(bool heard);
+  void publish(const TickLoop::Due& due, flight::FlightSample sample);
+
+  Session* session_;
+  bridges::BridgeSource source_;
+  UdpSocket socket_;
+  std::size_t lane_;
+  bridges::ExternalFlight flight_;
+  bridges::SenderGate gate_;
+  bridges::RefusalNotes refusals_;
+  std::uint64_t dropped_told_ = 0;
+  std::int64_t latest_ns_ = 0;  // CLOCK_MONOTONIC of the newest packet: time does not go back for the flight
+  int jumps_told_ = 0;
+  bool heard_ = false;
+  std::int64_t next_publish_tick_ = 0;
+};
+
+}  // namespace yars::databuffer

@@ -1,0 +1,129 @@
+#include "databuffer/bridges/bridge_source.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <limits>
+
+#include "databuffer/bridges/dis_bridge.hpp"
+#include "databuffer/bridges/flightgear.hpp"
+#include "databuffer/bridges/jsbsim.hpp"
+#include "databuffer/bridges/xplane.hpp"
+#include "databuffer/records/plain_text.hpp"
+
+namespace yars::databuffer::bridges {
+
+namespace {
+
+using failure::Expected;
+
+constexpr std::string_view kOwnHost = "127.0.0.1";
+
+tl::unexpected<failure::Error> bad_usage(std::string_view expected, std::string_view found) {
+  return tl::unexpected(failure::Error{"--source", std::string(expected), '"' + std::string(found) + '"', {}, true});
+}
+
+std::optional<std::uint16_t> short_number(std::string_view text) {
+  std::uint16_t value = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+struct Text {
+  std::string_view whole, kind, place, rest;  // KIND:PLACE,REST
+};
+
+Text parts_of(std::string_view text) {
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const std::string_view after = text.substr(std::min(colon + 1, text.size()));
+  const std::size_t comma = std::min(after.find(','), after.size());
+  return {text, text.substr(0, colon), after.substr(0, comma), after.substr(std::min(comma + 1, after.size()))};
+}
+
+Expected<BridgeSource> place_of(const Text& text, std::string_view form, bool asks) {
+  const std::size_t colon = text.place.rfind(':');
+  const bool has_host = colon != std::string_view::npos;
+  const auto port = short_number(has_host ? text.place.substr(colon + 1) : text.place);
+  const std::string_view host = has_host ? text.place.substr(0, colon) : kOwnHost;
+  if (!port || host.empty() || (asks && (!has_host || *port == 0))) return bad_usage(form, text.whole);
+  return BridgeSource{nullptr, std::string(text.kind), std::string(host), *port, asks};
+}
+
+class FlightgearBridge final : public Bridge {
+ public:
+  Expected<std::optional<ExternalSample>> receive(Bytes datagram, geo::Duration) override {
+    auto sample = decode_flightgear(datagram);
+    if (!sample) return tl::unexpected(std::move(sample.error()));
+    return *std::move(sample);
+  }
+};
+
+Expected<BridgeSource> open_flightgear(const Text& text) {
+  constexpr std::string_view kForm = "flightgear:[HOST:]PORT";
+  auto source = place_of(text, kForm, false);
+  if (!source) return source;
+  if (!text.rest.empty()) return bad_usage(kForm, text.whole);
+  source->bridge = std::make_unique<FlightgearBridge>();
+  return source;
+}
+
+Expected<BridgeSource> open_jsbsim(const Text& text) {
+  auto source = place_of(text, "jsbsim:[HOST:]PORT[,COLUMN,COLUMN...]", false);
+  if (!source) return source;
+  std::optional<JsbsimColumns> columns;
+  if (!text.rest.empty()) {
+    auto parsed = parse_jsbsim_labels("<LABELS>," + std::string(text.rest));
+    if (!parsed) {
+      parsed.error().bad_usage = true;
+      return tl::unexpected(parsed.error());
+    }
+    columns = *parsed;
+  }
+  source->bridge = std::make_unique<JsbsimBridge>(columns);
+  return source;
+}
+
+Expected<BridgeSource> open_xplane(const Text& text) {
+  constexpr std::string_view kForm = "xplane:HOST:PORT, X-Plane's own port being 49000";
+  auto source = place_of(text, kForm, true);
+  if (!source) return source;
+  if (!text.rest.empty()) return bad_usage(kForm, text.whole);
+  source->bridge = std::make_unique<XplaneBridge>();
+  return source;
+}
+
+Expected<BridgeSource> open_dis(const Text& text) {
+  constexpr std::string_view kForm = "dis:[HOST:]PORT[,SITE,APP,ENTITY], each 0 to 65535";
+  auto source = place_of(text, kForm, false);
+  if (!source) return source;
+  std::optional<EntityId> aircraft;
+  if (!text.rest.empty()) {
+    const auto numbers = fields_of(text.rest, ',');
+    if (numbers.size() != 3) return bad_usage(kForm, text.whole);
+    const auto site = short_number(numbers[0]), application = short_number(numbers[1]),
+               entity = short_number(numbers[2]);
+    if (!site || !application || !entity) return bad_usage(kForm, text.whole);
+    aircraft = EntityId{*site, *application, *entity};
+  }
+  source->bridge = std::make_unique<DisBridge>(aircraft);
+  return source;
+}
+
+}  // namespace
+
+bool names_bridge(std::string_view text) {
+  const std::string_view kind = parts_of(text).kind;
+  return kind == "flightgear" || kind == "jsbsim" || kind == "xplane" || kind == "dis";
+}
+
+Expected<BridgeSource> open_bridge(std::string_view text) {
+  const Text parts = parts_of(text);
+  if (parts.kind == "flightgear") return open_flightgear(parts);
+  if (parts.kind == "jsbsim") return open_jsbsim(parts);
+  if (parts.kind == "xplane") return open_xplane(parts);
+  if (parts.kind == "dis") return open_dis(parts);
+  return bad_usage("flightgear:PORT, jsbsim:PORT, xplane:HOST:PORT or dis:PORT", text);
+}
+
+}  // namespace yars::databuffer::bridges

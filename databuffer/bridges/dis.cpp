@@ -1,0 +1,180 @@
+#include "databuffer/bridges/dis.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "lib/geo/frames.hpp"
+
+namespace yars::databuffer::bridges {
+
+namespace {
+
+using geo::Vector3;
+
+// Where the fields stand [bytes].
+constexpr std::size_t kVersion = 0, kType = 2, kStamp = 4, kLength = 8;
+constexpr std::size_t kSite = 12, kApplication = 14, kEntity = 16, kParameters = 19, kKind = 20, kDomain = 21;
+constexpr std::size_t kVelocity = 36, kLocation = 48, kOrientation = 72, kAppearance = 84, kAlgorithm = 88;
+constexpr std::size_t kAcceleration = 104, kBodyRates = 116;
+constexpr std::size_t kHeaderBytes = 12, kStateBytes = 144, kParameterBytes = 16;
+
+constexpr std::uint8_t kEntityStateType = 1;
+constexpr std::uint8_t kOldestVersion = 5, kNewestVersion = 7;  // 1278.1-1995 to 1278.1-2012
+constexpr std::uint32_t kFrozenBit = 1U << 21U, kDeactivatedBit = 1U << 23U;
+constexpr double kStampUnit_s = 3600.0 / 2147483648.0;  // [s] 2^31 units an hour; bit 0 says whose clock it is
+
+// [m] from the Earth's centre: what is nearer or farther is no aircraft, and has no latitude worth its name.
+constexpr double kNearest = 6'000'000.0, kFarthest = 7'000'000.0;
+
+struct Algorithm {
+  bool body_axes, rotates, accelerates;
+};
+
+// Which of the standard's nine algorithms extrapolates what; static ones move nothing.
+Algorithm algorithm_of(std::uint8_t number) {
+  return {number >= 6 && number <= 9, number == 3 || number == 4 || number == 7 || number == 8,
+          number == 4 || number == 5};
+}
+
+Vector3 floats_at(Bytes packet, std::size_t offset) {
+  return {big_endian<float>(packet, offset), big_endian<float>(packet, offset + 4),
+          big_endian<float>(packet, offset + 8)};
+}
+
+// The body's axes (forward, right, down) in the earth's.
+struct BodyAxes {
+  Vector3 forward, right, down;
+};
+
+BodyAxes axes_of(Vector3 orientation) {
+  const double sin_psi = std::sin(orientation.x), cos_psi = std::cos(orientation.x);
+  const double sin_theta = std::sin(orientation.y), cos_theta = std::cos(orientation.y);
+  const double sin_phi = std::sin(orientation.z), cos_phi = std::cos(orientation.z);
+  return {{cos_theta * cos_psi, cos_theta * sin_psi, -sin_theta},
+          {sin_phi * sin_theta * cos_psi - cos_phi * sin_psi, sin_phi * sin_theta * sin_psi + cos_phi * cos_psi,
+           sin_phi * cos_theta},
+          {cos_phi * sin_theta * cos_psi + sin_phi * sin_psi, cos_phi * sin_theta * sin_psi - sin_phi * cos_psi,
+           cos_phi * cos_theta}};
+}
+
+bool is_finite(Vector3 vector) {
+  return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);
+}
+
+std::optional<failure::Error> fault_of(Bytes packet) {
+  const auto error = [](std::string expected, std::string found) {
+    return failure::Error{"dis", std::move(expected), std::move(found), {}, false};
+  };
+  if (packet.size() < kStateBytes)
+    return error("an Entity State PDU of at least 144 bytes", std::to_string(packet.size()) + " bytes");
+  const auto version = big_endian<std::uint8_t>(packet, kVersion);
+  if (version < kOldestVersion || version > kNewestVersion)
+    return error("protocol version 5, 6 or 7", std::to_string(version));
+  const auto type = big_endian<std::uint8_t>(packet, kType);
+  if (type != kEntityStateType) return error("PDU type 1, entity state", std::to_string(type));
+  const std::size_t bytes = kStateBytes + kParameterBytes * big_endian<std::uint8_t>(packet, kParameters);
+  if (packet.size() != bytes || big_endian<std::uint16_t>(packet, kLength) != bytes)
+    return error(std::to_string(bytes) + " bytes, told and sent, for its articulation parameters",
+                 std::to_string(big_endian<std::uint16_t>(packet, kLength)) + " told, " +
+                     std::to_string(packet.size()) + " sent");
+  return std::nullopt;
+}
+
+struct Motion {
+  Vector3 location, velocity, orientation;
+};
+
+failure::Expected<Motion> motion_of(Bytes packet) {
+  const Motion motion{{big_endian<double>(packet, kLocation), big_endian<double>(packet, kLocation + 8),
+                       big_endian<double>(packet, kLocation + 16)},
+                      floats_at(packet, kVelocity),
+                      floats_at(packet, kOrientation)};
+  if (!is_finite(motion.location) || !is_finite(motion.velocity) || !is_finite(motion.orientation))
+    return failure::fail("dis", "numbers for location, velocity and orientation", "others");
+  const double from_centre_m = geo::length(motion.location);
+  if (!(from_centre_m >= kNearest && from_centre_m <= kFarthest))
+    return failure::fail("dis", "a location 6000 to 7000 km from the Earth's centre",
+                         std::to_string(from_centre_m / 1000.0) + " km");
+  return motion;
+}
+
+struct LocalAttitude {
+  double heading_deg, pitch_deg, roll_deg;
+};
+
+LocalAttitude attitude_in(const geo::LocalTangentFrame& local, const BodyAxes& axes) {
+  const Vector3 forward = local.enu_from_ecef_direction(axes.forward);
+  const double right_up = local.enu_from_ecef_direction(axes.right).z;
+  const double down_up = local.enu_from_ecef_direction(axes.down).z;
+  return {std::atan2(forward.x, forward.y) / geo::kRadiansPerDegree,
+          std::atan2(forward.z, std::hypot(forward.x, forward.y)) / geo::kRadiansPerDegree,
+          std::atan2(-right_up, -down_up) / geo::kRadiansPerDegree};
+}
+
+failure::Expected<ExternalSample> sample_of(Bytes packet, const Motion& motion) {
+  const auto place = geo::geodetic_from_ecef(motion.location);
+  const geo::LocalTangentFrame local(place.point, place.height);
+  const BodyAxes axes = axes_of(motion.orientation);
+  const LocalAttitude attitude = attitude_in(local, axes);
+  const Algorithm algorithm = algorithm_of(big_endian<std::uint8_t>(packet, kAlgorithm));
+  const Vector3& told = motion.velocity;
+  const Vector3 velocity = local.enu_from_ecef_direction(
+      algorithm.body_axes ? told.x * axes.forward + told.y * axes.right + told.z * axes.down : told);
+  const Reading reading{place.point.latitude_deg,
+                        place.point.longitude_deg,
+                        place.height.metres(),
+                        attitude.heading_deg,
+                        attitude.pitch_deg,
+                        attitude.roll_deg,
+                        velocity.y,
+                        velocity.x,
+                        -velocity.z};
+  // What the algorithm does not move stands: nothing is left to be guessed from report to report.
+  AttitudeRates rates;
+  if (algorithm.rotates) {
+    const Vector3 body = (1.0 / geo::kRadiansPerDegree) * floats_at(packet, kBodyRates);
+    rates = rates_from_body(body.x, body.y, body.z, attitude.pitch_deg, attitude.roll_deg).value_or(AttitudeRates{});
+  }
+  Vector3 acceleration;
+  if (algorithm.accelerates) {
+    const Vector3 enu = local.enu_from_ecef_direction(floats_at(packet, kAcceleration));
+    acceleration = Vector3{enu.y, enu.x, -enu.z};
+  }
+  return checked_sample("dis", reading, rates, acceleration);
+}
+
+}  // namespace
+
+std::string text_of(EntityId id) {
+  return std::to_string(id.site) + ',' + std::to_string(id.application) + ',' + std::to_string(id.entity);
+}
+
+bool is_other_pdu(Bytes packet) {
+  if (packet.size() < kHeaderBytes) return false;
+  const auto version = big_endian<std::uint8_t>(packet, kVersion);
+  return version >= kOldestVersion && version <= kNewestVersion &&
+         big_endian<std::uint8_t>(packet, kType) != kEntityStateType &&
+         big_endian<std::uint16_t>(packet, kLength) == packet.size();
+}
+
+failure::Expected<EntityState> decode_entity_state(Bytes packet) {
+  if (auto fault = fault_of(packet)) return tl::unexpected(std::move(*fault));
+  const auto motion = motion_of(packet);
+  if (!motion) return tl::unexpected(motion.error());
+  auto sample = sample_of(packet, *motion);
+  if (!sample) return tl::unexpected(sample.error());
+  EntityState state;
+  state.id = {big_endian<std::uint16_t>(packet, kSite), big_endian<std::uint16_t>(packet, kApplication),
+              big_endian<std::uint16_t>(packet, kEntity)};
+  state.kind = static_cast<EntityKind>(big_endian<std::uint8_t>(packet, kKind));
+  state.domain = static_cast<EntityDomain>(big_endian<std::uint8_t>(packet, kDomain));
+  state.stamp =
+      geo::Duration::seconds(static_cast<double>(big_endian<std::uint32_t>(packet, kStamp) >> 1U) * kStampUnit_s);
+  const auto appearance = big_endian<std::uint32_t>(packet, kAppearance);
+  state.frozen = (appearance & kFrozenBit) != 0U;
+  state.deactivated = (appearance & kDeactivatedBit) != 0U;
+  state.sample = *std::move(sample);
+  return state;
+}
+
+}  // namespace yars::databuffer::bridges

@@ -1,0 +1,155 @@
+// DIS packets made by tests/bridges/make_packets.py, whose orientation is a product of matrices, against the numbers
+// that went into them.
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "databuffer/bridges/dis_bridge.hpp"
+#include "tests/bridges/packets.hpp"
+
+namespace yars::databuffer::bridges {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr geo::Duration kNow = geo::Duration::seconds(50.0);
+
+EntityState state_of(const std::string& name) {
+  const auto state = decode_entity_state(packet_of(name));
+  EXPECT_TRUE(state) << name << ": " << state.error().message();
+  return state.value_or(EntityState{});
+}
+
+std::string refusal_of(const PacketBytes& packet) {
+  const auto state = decode_entity_state(packet);
+  return state ? "accepted" : state.error().message();
+}
+
+void expect_the_flight(const Ownship& own) {
+  EXPECT_NEAR(own.latitude_deg, 36.6, 1e-9);
+  EXPECT_NEAR(own.longitude_deg, -121.9, 1e-9);
+  EXPECT_NEAR(own.altitude_msl_m, 4572.0, 1e-3) << "the height above the ellipsoid, as it is";
+  EXPECT_NEAR(own.heading_deg, 80.0, 1e-4);
+  EXPECT_NEAR(own.pitch_deg, 2.5, 1e-4);
+  EXPECT_NEAR(own.roll_deg, -15.0, 1e-4);
+  EXPECT_NEAR(own.velocity_north_mps, 40.0, 1e-3);
+  EXPECT_NEAR(own.velocity_east_mps, 230.0, 1e-3);
+  EXPECT_NEAR(own.velocity_down_mps, -5.0, 1e-3);
+}
+
+TEST(Dis, AnAircraftIsTheFlightThatWentIntoIt) {
+  const EntityState state = state_of("dis/air.bin");
+  EXPECT_EQ(text_of(state.id), "1,2,3");
+  EXPECT_EQ(state.kind, EntityKind::platform);
+  EXPECT_EQ(state.domain, EntityDomain::air);
+  EXPECT_NEAR(state.stamp.seconds(), 100.0, 1e-5);
+  expect_the_flight(state.sample.ownship);
+  EXPECT_STREQ(state.sample.ownship.source, "dis");
+}
+
+TEST(Dis, VelocityOfTheBodysAxesIsTurnedWithIt) {
+  expect_the_flight(state_of("dis/air_body_axes.bin").sample.ownship);
+}
+
+TEST(Dis, ArticulatedPartsAndLaterVersionsChangeNothing) {
+  expect_the_flight(state_of("dis/air_version_7.bin").sample.ownship);
+  expect_the_flight(state_of("dis/air_articulated.bin").sample.ownship);
+}
+
+TEST(Dis, TheAlgorithmSaysWhatMoves) {
+  const ExternalSample turning = state_of("dis/air_turning.bin").sample;
+  EXPECT_NEAR(turning.acceleration_mps2->x, 3.0, 1e-5);
+  EXPECT_NEAR(turning.acceleration_mps2->y, -1.0, 1e-5);
+  EXPECT_NEAR(turning.acceleration_mps2->z, 0.5, 1e-5);
+  // Yaw rate r alone: heading r cos(roll) / cos(pitch), pitch -r sin(roll).
+  EXPECT_NEAR(turning.rates->heading_dps, 3.0 * 0.965926 / 0.999048, 1e-4);
+  EXPECT_NEAR(turning.rates->pitch_dps, 3.0 * 0.258819, 1e-4);
+  const ExternalSample straight = state_of("dis/air.bin").sample;
+  EXPECT_EQ(geo::length(*straight.acceleration_mps2), 0.0);
+  EXPECT_EQ(straight.rates->heading_dps, 0.0);
+}
+
+TEST(Dis, WhatIsNoEntityStateIsRefusedWithTheReason) {
+  const PacketBytes good = packet_of("dis/air.bin");
+  EXPECT_THAT(refusal_of({}), HasSubstr("0 bytes"));
+  EXPECT_THAT(refusal_of(PacketBytes(good.begin(), good.begin() + 143)), HasSubstr("143 bytes"));
+  EXPECT_THAT(refusal_of(with<std::uint8_t>(good, 0, 4)), HasSubstr("version 5, 6 or 7, found 4"));
+  EXPECT_THAT(refusal_of(with<std::uint8_t>(good, 2, 2)), HasSubstr("type 1"));
+  EXPECT_THAT(refusal_of(with<std::uint8_t>(good, 19, 1)), HasSubstr("160 bytes"));
+  EXPECT_THAT(refusal_of(with<std::uint8_t>(good, 19, 255)), HasSubstr("4224 bytes"));
+  EXPECT_THAT(refusal_of(with<std::uint16_t>(good, 8, 145)), HasSubstr("145 told"));
+  PacketBytes longer = good;
+  longer.resize(145);
+  EXPECT_THAT(refusal_of(longer), HasSubstr("145 sent"));
+}
+
+TEST(Dis, NumbersThatAreNoneAndPlacesThatAreNowhereAreRefused) {
+  const PacketBytes good = packet_of("dis/air.bin");
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  for (const std::size_t offset : {48U, 56U, 64U})
+    for (const double bad : {kNone, kEndless, -kEndless, 1e300, 1e-300 + 9e6})
+      EXPECT_THAT(refusal_of(with(good, offset, bad)), HasSubstr("location")) << bad;
+  PacketBytes centre = good;
+  for (const std::size_t offset : {48U, 56U, 64U}) put(centre, offset, 0.0, std::endian::big);
+  EXPECT_THAT(refusal_of(centre), HasSubstr("centre"));
+  for (const std::size_t offset : {36U, 40U, 44U, 72U, 76U, 80U})
+    for (const double bad : {kNone, kEndless})
+      EXPECT_THAT(refusal_of(with(good, offset, static_cast<float>(bad))), HasSubstr("numbers")) << offset;
+  EXPECT_THAT(refusal_of(with(good, 36, 3e38F)), HasSubstr("velocity"));
+  const PacketBytes turning = packet_of("dis/air_turning.bin");
+  EXPECT_THAT(refusal_of(with(turning, 104, static_cast<float>(kNone))), HasSubstr("acceleration"));
+  EXPECT_THAT(refusal_of(with(turning, 116, 1e9F)), HasSubstr("rate"));
+}
+
+TEST(DisBridge, TheFirstOfTheAirIsTheAircraftAndIsNamed) {
+  DisBridge bridge(std::nullopt);
+  EXPECT_FALSE(*bridge.receive(packet_of("dis/ship.bin"), kNow));
+  EXPECT_FALSE(bridge.take_news());
+  const auto sample = bridge.receive(packet_of("dis/air.bin"), kNow);
+  ASSERT_TRUE(sample && *sample);
+  expect_the_flight((*sample)->ownship);
+  EXPECT_THAT(bridge.take_news().value_or(""), HasSubstr("1,2,3"));
+  EXPECT_FALSE(bridge.take_news()) << "told once";
+}
+
+TEST(DisBridge, AnEntityThatIsNamedIsTheAircraftAlone) {
+  DisBridge bridge(EntityId{1, 2, 10});
+  EXPECT_FALSE(*bridge.receive(packet_of("dis/air.bin"), kNow));
+  EXPECT_TRUE(*bridge.receive(packet_of("dis/truck.bin"), kNow));
+  ASSERT_EQ(bridge.traffic(kNow).size(), 1U);
+  EXPECT_EQ(text_of(bridge.traffic(kNow)[0].id), "1,2,3");
+}
+
+TEST(DisBridge, OthersAreTrafficWithKindAndDomain) {
+  DisBridge bridge(std::nullopt);
+  for (const char* name : {"dis/air.bin", "dis/ship.bin", "dis/truck.bin"})
+    ASSERT_TRUE(bridge.receive(packet_of(name), kNow)) << name;
+  const auto traffic = bridge.traffic(kNow);
+  ASSERT_EQ(traffic.size(), 2U);
+  EXPECT_EQ(traffic[0].domain, EntityDomain::surface);
+  EXPECT_EQ(traffic[1].domain, EntityDomain::land);
+  EXPECT_NEAR(traffic[0].place.latitude_deg, 36.7, 1e-9);
+}
+
+TEST(DisBridge, OtherPdusOfTheExerciseAreNoFault) {
+  DisBridge bridge(std::nullopt);
+  PacketBytes fire(96);
+  put<std::uint8_t>(fire, 0, 6, std::endian::big);
+  put<std::uint8_t>(fire, 2, 2, std::endian::big);
+  put<std::uint16_t>(fire, 8, 96, std::endian::big);
+  const auto outcome = bridge.receive(fire, kNow);
+  ASSERT_TRUE(outcome) << outcome.error().message();
+  EXPECT_FALSE(*outcome);
+}
+
+TEST(DisBridge, AReportComesOnceAndInOrder) {
+  DisBridge bridge(std::nullopt);
+  EXPECT_TRUE(*bridge.receive(packet_of("dis/air_version_7.bin"), kNow));
+  EXPECT_FALSE(bridge.receive(packet_of("dis/air_version_7.bin"), kNow)) << "the same again";
+  EXPECT_FALSE(bridge.receive(packet_of("dis/air.bin"), kNow)) << "a second older";
+  EXPECT_TRUE(bridge.receive(packet_of("dis/air_articulated.bin"), kNow));
+}
+
+}  // namespace
+}  // namespace yars::databuffer::bridges

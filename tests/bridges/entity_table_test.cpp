@@ -1,0 +1,92 @@
+#include "databuffer/bridges/entity_table.hpp"
+
+#include <gmock/gmock.h>
+
+#include "lib/geo/geodesic.hpp"
+#include "tests/bridges/packets.hpp"
+
+namespace yars::databuffer::bridges {
+namespace {
+
+using ::testing::HasSubstr;
+
+geo::Duration seconds(double value) {
+  return geo::Duration::seconds(value);
+}
+
+EntityState state_of(const std::string& name) {
+  return decode_entity_state(packet_of(name)).value();
+}
+
+TEST(EntityTable, AShipSailsOnByItsVelocity) {
+  EntityTable table;
+  ASSERT_FALSE(table.update(state_of("dis/ship.bin"), seconds(10)));
+  const auto there = table.at(seconds(18));
+  ASSERT_EQ(there.size(), 1U);
+  const auto sailed =
+      geo::geodesic_inverse({36.7, -122.1}, {there[0].place.latitude_deg, there[0].place.longitude_deg});
+  EXPECT_NEAR(sailed.distance.metres(), 80.0, 0.01) << "10 m/s for 8 s";
+  EXPECT_NEAR(sailed.azimuth_at_start.degrees(), 270.0, 0.01);
+  EXPECT_EQ(there[0].age.seconds(), 8.0);
+}
+
+TEST(EntityTable, WhoIsSilentForTwelveSecondsHasLeft) {
+  EntityTable table;
+  table.update(state_of("dis/ship.bin"), seconds(10));
+  EXPECT_EQ(table.at(seconds(22)).size(), 1U);
+  EXPECT_EQ(table.at(seconds(22.01)).size(), 0U);
+  EXPECT_FALSE(table.update(state_of("dis/ship.bin"), seconds(23))) << "it may come back with any stamp";
+  EXPECT_EQ(table.at(seconds(23)).size(), 1U);
+}
+
+TEST(EntityTable, WhoIsDeactivatedIsGoneAtOnceAndWhoIsFrozenStands) {
+  EntityTable table;
+  table.update(state_of("dis/ship.bin"), seconds(10));
+  table.update(state_of("dis/ship_gone.bin"), seconds(11));
+  EXPECT_EQ(table.size(), 0U);
+  table.update(state_of("dis/ship_frozen.bin"), seconds(12));
+  EXPECT_NEAR(table.at(seconds(20))[0].place.longitude_deg, -122.1, 1e-9);
+}
+
+TEST(EntityTable, AnOlderReportDoesNotReplaceANewerOne) {
+  EntityTable table;
+  EntityState state = state_of("dis/ship.bin");
+  table.update(state, seconds(10));
+  state.stamp = state.stamp - seconds(1);
+  EXPECT_THAT(table.update(state, seconds(11)).value_or(""), HasSubstr("1,2,9"));
+  EXPECT_EQ(table.at(seconds(11))[0].age.seconds(), 1.0);
+}
+
+TEST(EntityTable, ItIsBoundedAndMakesRoomOfTheSilent) {
+  EntityTable table;
+  EntityState state = state_of("dis/ship.bin");
+  const auto add = [&](std::size_t number, double now_s) {
+    state.id.application = static_cast<std::uint16_t>(number / 1'000);
+    state.id.entity = static_cast<std::uint16_t>(number % 1'000);
+    return table.update(state, seconds(now_s));
+  };
+  for (std::size_t number = 0; number < kMostEntities; ++number) ASSERT_FALSE(add(number, 10));
+  EXPECT_TRUE(add(kMostEntities, 11));
+  EXPECT_EQ(table.size(), kMostEntities);
+  EXPECT_FALSE(add(kMostEntities, 30)) << "all others have left";
+  EXPECT_EQ(table.size(), 1U);
+}
+
+TEST(StampOrder, TheHourTurnsWithoutAFault) {
+  StampOrder order(kDisStampPeriod);
+  EXPECT_FALSE(order.why_not_news(seconds(3'599.9)));
+  EXPECT_FALSE(order.why_not_news(seconds(0.1)));
+  EXPECT_TRUE(order.why_not_news(seconds(3'599.95)));
+}
+
+TEST(StampOrder, OneStrayOldStampMovesNothing) {
+  StampOrder order;
+  EXPECT_FALSE(order.why_not_news(seconds(100)));
+  EXPECT_TRUE(order.why_not_news(seconds(3)));
+  EXPECT_FALSE(order.why_not_news(seconds(100.1)));
+  EXPECT_TRUE(order.why_not_news(seconds(3))) << "nor does a second one of another time";
+  EXPECT_TRUE(order.why_not_news(seconds(3))) << "nor the same again";
+}
+
+}  // namespace
+}  // namespace yars::databuffer::bridges

@@ -1,0 +1,259 @@
+// The aircraft between reports, against flights that are known everywhere: a circle flown, jitter and gaps included.
+#include "databuffer/bridges/external_flight.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "databuffer/bridges/dead_reckoning.hpp"
+#include "databuffer/records/validation.hpp"
+#include "lib/geo/geodesic.hpp"
+
+namespace yars::databuffer::bridges {
+namespace {
+
+constexpr geo::Duration kReach = geo::Duration::seconds(1.0);
+
+geo::Duration seconds(double value) {
+  return geo::Duration::seconds(value);
+}
+
+geo::GeoPoint point_of(const Ownship& own) {
+  return {own.latitude_deg, own.longitude_deg};
+}
+
+double distance_m(const Ownship& a, const Ownship& b) {
+  return std::hypot(geo::geodesic_inverse(point_of(a), point_of(b)).distance.metres(),
+                    a.altitude_msl_m - b.altitude_msl_m);
+}
+
+// A level turn about a centre: exact places, velocities and attitude at any time.
+struct Circle {
+  geo::GeoPoint centre{36.6, -121.9};
+  double radius_m = 4'800.0;
+  double turn_dps = 3.0;
+  double altitude_m = 0.0;  // at sea level a metre flown is a metre on the ellipsoid
+
+  double speed_mps() const { return radius_m * turn_dps * geo::kRadiansPerDegree; }
+
+  ExternalSample at(double time_s, bool with_rates) const {
+    const double bearing_deg = turn_dps * time_s;
+    const geo::GeodesicRay ray(centre, geo::Bearing::degrees(bearing_deg));
+    const auto place = ray.place(geo::Length::metres(radius_m));
+    const double track_deg = place.azimuth.degrees() + 90.0;
+    const Reading reading{place.point.latitude_deg,
+                          place.point.longitude_deg,
+                          altitude_m,
+                          track_deg,
+                          2.0,
+                          40.0,
+                          speed_mps() * std::cos(track_deg * geo::kRadiansPerDegree),
+                          speed_mps() * std::sin(track_deg * geo::kRadiansPerDegree),
+                          0.0};
+    std::optional<AttitudeRates> rates;
+    if (with_rates) rates = AttitudeRates{turn_dps, 0.0, 0.0};
+    return checked_sample("circle", reading, rates).value();
+  }
+};
+
+struct Outcome {
+  double worst_place_m = 0.0;  // of the output from the truth
+  double worst_step_m = 0.0;   // of an output's step of a tick, from the truth's step
+  double worst_heading_deg = 0.0;
+  double worst_velocity_mps = 0.0;
+  int missing = 0;
+};
+
+// Reports at a rate, each up to `jitter_s` late, in order; output each 20 ms; what is measured begins after 2 s.
+Outcome fly(const Circle& circle, double rate_hz, double jitter_s, bool with_rates, double lost_share = 0.0) {
+  constexpr unsigned kSeed = 4711;
+  std::mt19937 random(kSeed);
+  std::uniform_real_distribution<double> chance(0.0, 1.0);
+  ExternalFlight flight(kReach);
+  Outcome outcome;
+  double report_s = 0.0, next_s = 0.0, received_s = 0.0;
+  std::optional<Ownship> before, true_before;
+  for (double now_s = 0.02; now_s < 60.0; now_s += 0.02) {
+    while (next_s <= now_s) {
+      if (chance(random) >= lost_share) {
+        received_s = std::max(received_s, next_s);
+        flight.receive(circle.at(report_s, with_rates), seconds(received_s));
+      }
+      report_s += 1.0 / rate_hz;
+      next_s = report_s + jitter_s * chance(random);
+    }
+    const auto sample = flight.at(seconds(now_s));
+    if (!sample) {
+      outcome.missing += now_s > 2.0 ? 1 : 0;
+      before.reset();
+      continue;
+    }
+    EXPECT_FALSE(why_refused(sample->ownship));
+    EXPECT_FALSE(why_refused(sample->nav));
+    const Ownship truth = circle.at(now_s, false).ownship;
+    const Ownship& own = sample->ownship;
+    if (now_s > 2.0) {
+      outcome.worst_place_m = std::max(outcome.worst_place_m, distance_m(own, truth));
+      outcome.worst_heading_deg =
+          std::max(outcome.worst_heading_deg, std::abs(geo::wrapped_degrees(own.heading_deg - truth.heading_deg)));
+      outcome.worst_velocity_mps =
+          std::max(outcome.worst_velocity_mps, std::hypot(own.velocity_north_mps - truth.velocity_north_mps,
+                                                          own.velocity_east_mps - truth.velocity_east_mps));
+      if (before)
+        outcome.worst_step_m =
+            std::max(outcome.worst_step_m, std::abs(distance_m(*before, own) - distance_m(*true_before, truth)));
+    }
+    before = own;
+    true_before = truth;
+  }
+  return outcome;
+}
+
+double bound_m(const Circle& circle, double interval_s, double jitter_s) {
+  const double turn = circle.turn_dps * geo::kRadiansPerDegree;
+  const double acceleration = circle.speed_mps() * turn;
+  return circle.speed_mps() * jitter_s + acceleration * turn * std::pow(interval_s, 3) / 6.0 + 1.0;
+}
+
+TEST(ExternalFlight, ATurnIsFlownSmoothlyAtEveryRateWithJitterAndLosses) {
+  const Circle circle;  // 251 m/s, 13 m/s2
+  struct Case {
+    double rate_hz, jitter_s, lost;
+  };
+  for (const Case& c : {Case{5, 0, 0}, Case{5, 0.04, 0}, Case{10, 0.02, 0.1}, Case{30, 0.01, 0.2}, Case{60, 0.01, 0},
+                        Case{400, 0.01, 0.5}})
+    for (const bool with_rates : {true, false}) {
+      SCOPED_TRACE(std::to_string(c.rate_hz) + " Hz, jitter " + std::to_string(c.jitter_s));
+      const Outcome outcome = fly(circle, c.rate_hz, c.jitter_s, with_rates, c.lost);
+      // Losses lengthen a gap to four intervals at most here.
+      const double interval_s = (c.lost > 0 ? 4.0 : 1.0) / c.rate_hz + c.jitter_s;
+      EXPECT_LT(outcome.worst_place_m, bound_m(circle, interval_s, c.jitter_s));
+      EXPECT_LT(outcome.worst_step_m, 0.08 * bound_m(circle, interval_s, c.jitter_s));
+      EXPECT_LT(outcome.worst_heading_deg, 1.0);
+      EXPECT_LT(outcome.worst_velocity_mps, 3.0);
+      EXPECT_EQ(outcome.missing, 0);
+    }
+}
+
+// What the smoothing is for: the same without it (dead reckoning alone) makes steps that the bound forbids.
+TEST(ExternalFlight, DeadReckoningAloneWouldMakeStepsBeyondTheBound) {
+  const Circle circle;
+  const double jitter_s = 0.04;
+  const auto late = dead_reckoned(circle.at(0.0, true), seconds(0.2));
+  const auto next = dead_reckoned(circle.at(0.2, true), seconds(-jitter_s));
+  EXPECT_GT(distance_m(late, next), 0.08 * bound_m(circle, 0.24, jitter_s));
+}
+
+TEST(ExternalFlight, AfterItsReachThereIsNothingAndWithTheNextReportThereIsAgain) {
+  const Circle circle;
+  ExternalFlight flight(kReach);
+  EXPECT_FALSE(flight.at(seconds(5)));
+  flight.receive(circle.at(0, true), seconds(10));
+  EXPECT_TRUE(flight.at(seconds(10.999)));
+  EXPECT_FALSE(flight.at(seconds(11.001)));
+  flight.receive(circle.at(7, true), seconds(17));
+  const auto back = flight.at(seconds(17));
+  ASSERT_TRUE(back);
+  EXPECT_LT(distance_m(back->ownship, circle.at(7, true).ownship), 1e-6) << "nothing is left of before";
+  EXPECT_EQ(flight.jumps(), 0);
+}
+
+TEST(ExternalFlight, AJumpIsTakenOverAtOnceAndCounted) {
+  ExternalFlight flight(kReach);
+  Circle here, there;
+  there.centre = {40.0, -100.0};
+  flight.receive(here.at(0, true), seconds(0));
+  flight.receive(there.at(0.1, true), seconds(0.1));
+  const auto sample = flight.at(seconds(0.1));
+  ASSERT_TRUE(sample);
+  EXPECT_LT(distance_m(sample->ownship, there.at(0.1, true).ownship), 1e-6);
+  EXPECT_EQ(flight.jumps(), 1);
+}
+
+TEST(ExternalFlight, AProgramThatIsPausedStandsThoughItTellsAVelocity) {
+  const Circle circle;
+  ExternalFlight flight(kReach);
+  const ExternalSample paused = circle.at(0, true);
+  for (int report = 0; report < 100; ++report) flight.receive(paused, seconds(0.03 * report));
+  const auto sample = flight.at(seconds(2.98));
+  ASSERT_TRUE(sample);
+  EXPECT_LT(distance_m(sample->ownship, paused.ownship), 0.1);
+  EXPECT_LT(std::hypot(sample->ownship.velocity_north_mps, sample->ownship.velocity_east_mps), 0.1);
+}
+
+TEST(ExternalFlight, APacketThatComesTwiceDoesNotHoldTheAircraft) {
+  const Circle circle;
+  ExternalFlight flight(kReach);
+  for (int report = 0; report < 100; ++report)
+    for (const double again_s : {0.0, 0.0005})
+      flight.receive(circle.at(0.05 * report, true), seconds(0.05 * report + again_s));
+  const auto sample = flight.at(seconds(4.97));
+  ASSERT_TRUE(sample);
+  EXPECT_LT(distance_m(sample->ownship, circle.at(4.97, true).ownship), 1.0);
+}
+
+// JSBSim prints seven digits: 11 m of longitude at 400 Hz are many lines from the same place.
+TEST(ExternalFlight, APlaceInCoarseStepsIsNotTakenForAPause) {
+  Circle east;
+  ExternalFlight flight(kReach);
+  double worst_m = 0.0;
+  for (int report = 0; report < 4'000; ++report) {
+    const double now_s = report / 400.0;
+    ExternalSample sample = east.at(now_s, true);
+    sample.ownship.longitude_deg = std::round(sample.ownship.longitude_deg * 1e4) / 1e4;
+    sample.ownship.latitude_deg = std::round(sample.ownship.latitude_deg * 1e5) / 1e5;
+    flight.receive(sample, seconds(now_s));
+    if (now_s > 1.0)
+      worst_m = std::max(worst_m, distance_m(flight.at(seconds(now_s))->ownship, east.at(now_s, true).ownship));
+  }
+  EXPECT_LT(worst_m, 5.0) << "half a step of 9 m, smoothed";
+}
+
+TEST(ExternalFlight, AMomentALittleBeforeTheReportIsFlownBackTo) {
+  const Circle circle;
+  ExternalFlight flight(kReach);
+  flight.receive(circle.at(10, true), seconds(10));
+  const auto sample = flight.at(seconds(9.95));
+  ASSERT_TRUE(sample);
+  EXPECT_LT(distance_m(sample->ownship, circle.at(9.95, true).ownship), 0.1);
+}
+
+TEST(DeadReckoning, OverThePoleTheMeridianTurnsHeadingAndVelocity) {
+  const Reading reading{89.999, 30.0, 0.0, 0.0, 0.0, 0.0, 250.0, 0.0, 0.0};
+  const auto sample = checked_sample("pole", reading).value();
+  const Ownship over = dead_reckoned(sample, seconds(1.0));  // the pole is 111.7 m away
+  EXPECT_NEAR(over.longitude_deg, -150.0, 1e-6);
+  EXPECT_NEAR(over.heading_deg, 180.0, 1e-6);
+  EXPECT_NEAR(over.velocity_north_mps, -250.0, 1e-6);
+}
+
+TEST(DeadReckoning, AccelerationAndClimbAreFlown) {
+  const Reading reading{0.0, 0.0, 1000.0, 90.0, 0.0, 0.0, 0.0, 100.0, -10.0};
+  const auto sample = checked_sample("accelerates", reading, AttitudeRates{0, 1, 4}, geo::Vector3{0, 10, 2}).value();
+  const Ownship there = dead_reckoned(sample, seconds(2.0));
+  const double flown_m = (100.0 * 2.0 + 0.5 * 10.0 * 4.0) * 6'378'137.0 / 6'379'137.0;
+  EXPECT_NEAR(there.longitude_deg, flown_m / 6'378'137.0 / geo::kRadiansPerDegree, 1e-9);
+  EXPECT_NEAR(there.altitude_msl_m, 1000.0 + 20.0 - 4.0, 1e-9);
+  EXPECT_NEAR(there.velocity_east_mps, 120.0, 1e-9);
+  EXPECT_NEAR(there.velocity_down_mps, -6.0, 1e-9);
+  EXPECT_NEAR(there.pitch_deg, 2.0, 1e-12);
+  EXPECT_NEAR(there.roll_deg, 8.0, 1e-12);
+}
+
+TEST(ExternalSample, BodyRatesBecomeRatesOfTheAngles) {
+  const auto level = rates_from_body(1.0, 2.0, 3.0, 0.0, 0.0);
+  ASSERT_TRUE(level);
+  EXPECT_DOUBLE_EQ(level->roll_dps, 1.0);
+  EXPECT_DOUBLE_EQ(level->pitch_dps, 2.0);
+  EXPECT_DOUBLE_EQ(level->heading_dps, 3.0);
+  const auto on_the_wing = rates_from_body(0.0, 2.0, 0.0, 0.0, 90.0);
+  EXPECT_NEAR(on_the_wing->heading_dps, 2.0, 1e-12) << "pulled around the horizon";
+  EXPECT_NEAR(on_the_wing->pitch_dps, 0.0, 1e-12);
+  EXPECT_FALSE(rates_from_body(1.0, 2.0, 3.0, 90.0, 0.0)) << "straight up no heading has a rate";
+}
+
+}  // namespace
+}  // namespace yars::databuffer::bridges

@@ -1,0 +1,126 @@
+// FlightGear's packets, recorded and made by tests/bridges/make_packets.py, against the numbers that went into them.
+#include "databuffer/bridges/flightgear.hpp"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "databuffer/records/validation.hpp"
+#include "tests/bridges/packets.hpp"
+
+namespace yars::databuffer::bridges {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string refusal_of(const PacketBytes& packet) {
+  const auto sample = decode_flightgear(packet);
+  return sample ? "accepted" : sample.error().message();
+}
+
+void expect_the_flight(const ExternalSample& sample) {
+  const Ownship& own = sample.ownship;
+  EXPECT_NEAR(own.latitude_deg, 36.6, 1e-12);
+  EXPECT_NEAR(own.longitude_deg, -121.9, 1e-12);
+  EXPECT_NEAR(own.altitude_msl_m, 4572.0, 1e-9);
+  EXPECT_NEAR(own.heading_deg, 80.0, 1e-5);
+  EXPECT_NEAR(own.pitch_deg, 2.5, 1e-6);
+  EXPECT_NEAR(own.roll_deg, -15.0, 1e-5);
+  EXPECT_NEAR(own.velocity_north_mps, 40.0, 1e-4);
+  EXPECT_NEAR(own.velocity_east_mps, 230.0, 1e-4);
+  EXPECT_NEAR(own.velocity_down_mps, -5.0, 1e-5);
+  EXPECT_STREQ(own.source, "flightgear");
+  ASSERT_TRUE(sample.rates);
+  EXPECT_NEAR(sample.rates->roll_dps, 1.0, 1e-6);
+  EXPECT_NEAR(sample.rates->pitch_dps, 0.5, 1e-6);
+  EXPECT_NEAR(sample.rates->heading_dps, -2.0, 1e-6);
+}
+
+TEST(FlightGear, Version24Of408BytesIsTheFlightThatWentIntoIt) {
+  const auto sample = decode_flightgear(packet_of("flightgear/v24.bin"));
+  ASSERT_TRUE(sample) << sample.error().message();
+  expect_the_flight(*sample);
+}
+
+TEST(FlightGear, Version25Of552BytesIsTheSameFlight) {
+  const auto sample = decode_flightgear(packet_of("flightgear/v25.bin"));
+  ASSERT_TRUE(sample) << sample.error().message();
+  expect_the_flight(*sample);
+}
+
+TEST(FlightGear, SouthAndEastKeepTheirSigns) {
+  const auto sample = decode_flightgear(packet_of("flightgear/south_east.bin"));
+  ASSERT_TRUE(sample) << sample.error().message();
+  EXPECT_NEAR(sample->ownship.latitude_deg, -33.9, 1e-12);
+  EXPECT_NEAR(sample->ownship.longitude_deg, 151.2, 1e-12);
+  EXPECT_NEAR(sample->ownship.heading_deg, 359.5, 1e-4);
+}
+
+// Recorded from JSBSim's output of type FLIGHTGEAR together with its text output, the same moments of the same run.
+TEST(FlightGear, WhatJsbsimSendsAsFlightGearIsWhatItPrintsAsText) {
+  const PacketBytes recorded = packet_of("flightgear/jsbsim_turn.bin");
+  const auto sample = decode_flightgear(recorded);
+  ASSERT_TRUE(sample) << sample.error().message();
+  const Ownship& own = sample->ownship;
+  // The line of packets/jsbsim/turn.txt, seven digits each.
+  EXPECT_NEAR(own.latitude_deg, 36.5312, 1e-5);
+  EXPECT_NEAR(own.longitude_deg, -122.4057, 1e-4);
+  EXPECT_NEAR(own.altitude_msl_m, 15178.85 * 0.3048, 0.01);
+  EXPECT_NEAR(own.roll_deg, 30.05256, 1e-4);
+  EXPECT_NEAR(own.pitch_deg, 4.046085, 1e-5);
+  EXPECT_NEAR(own.heading_deg, 358.0963, 1e-4);
+  EXPECT_NEAR(own.velocity_north_mps, 757.1168 * 0.3048, 1e-3);
+  EXPECT_NEAR(own.velocity_east_mps, -33.21016 * 0.3048, 1e-3);
+  EXPECT_NEAR(own.velocity_down_mps, -19.79934 * 0.3048, 1e-3);
+  // A steady turn: g tan(bank) / V = 9.81 tan(30.05) / 231 = 1.41 deg/s, less 0.2 in a bank still building up its turn.
+  ASSERT_TRUE(sample->rates);
+  EXPECT_NEAR(sample->rates->heading_dps, 1.3, 0.2);
+  EXPECT_NEAR(sample->rates->roll_dps, 0.0, 0.1);
+}
+
+TEST(FlightGear, LengthAndVersionMustAgree) {
+  const PacketBytes good = packet_of("flightgear/v24.bin");
+  EXPECT_THAT(refusal_of(with<std::uint32_t>(good, 0, 25)), HasSubstr("version 25 and 408 bytes"));
+  EXPECT_THAT(refusal_of(with<std::uint32_t>(good, 0, 23)), HasSubstr("version 23"));
+  EXPECT_THAT(refusal_of(with<std::uint32_t>(good, 0, 0x18000000)), HasSubstr("version 402653184"));
+  for (const std::size_t length : {0U, 1U, 3U, 4U, 88U, 407U, 409U, 552U, 65'507U}) {
+    PacketBytes packet = good;
+    packet.resize(length);
+    EXPECT_THAT(refusal_of(packet), HasSubstr(std::to_string(length) + " bytes"));
+  }
+}
+
+TEST(FlightGear, NumbersThatAreNoneAndPlacesThatAreNowhereAreRefusedByName) {
+  const PacketBytes good = packet_of("flightgear/v24.bin");
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  for (const double bad : {kNone, kEndless, -kEndless, 1e300, -7.0}) {
+    EXPECT_THAT(refusal_of(with(good, 8, bad)), HasSubstr("longitude"));
+    EXPECT_THAT(refusal_of(with(good, 16, bad)), HasSubstr("latitude"));
+  }
+  for (const double bad : {kNone, kEndless, -kEndless, 1e300, -2000.0})
+    EXPECT_THAT(refusal_of(with(good, 24, bad)), HasSubstr("altitude"));
+  struct Field {
+    std::size_t offset;
+    const char* name;
+  };
+  for (const auto& [offset, name] :
+       {Field{36, "roll"}, Field{40, "pitch"}, Field{44, "heading"}, Field{56, "rate"}, Field{60, "rate"},
+        Field{64, "rate"}, Field{76, "velocity_north"}, Field{80, "velocity_east"}, Field{84, "velocity_down"}})
+    for (const float bad :
+         {static_cast<float>(kNone), static_cast<float>(kEndless), -static_cast<float>(kEndless), 3e38F, -1e6F})
+      EXPECT_THAT(refusal_of(with(good, offset, bad)), HasSubstr(name)) << bad;
+}
+
+TEST(FlightGear, AFloatThatRoundsTheVerticalUpIsStillTheVertical) {
+  const auto upright = with(packet_of("flightgear/v24.bin"), 40, static_cast<float>(1.5707963267948966));
+  const auto sample = decode_flightgear(upright);
+  ASSERT_TRUE(sample) << sample.error().message();
+  EXPECT_EQ(sample->ownship.pitch_deg, 90.0);
+  const auto inverted = decode_flightgear(with(upright, 36, static_cast<float>(-3.141592653589793)));
+  ASSERT_TRUE(inverted) << inverted.error().message();
+  EXPECT_EQ(inverted->ownship.roll_deg, -180.0);
+}
+
+}  // namespace
+}  // namespace yars::databuffer::bridges

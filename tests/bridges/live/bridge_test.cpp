@@ -1,0 +1,213 @@
+// Programs outside fly the set by UDP: their packets reach the radar, bad ones are refused and noted, silence hands the
+// aircraft over, a flood stalls nothing.
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <cmath>
+
+#include "databuffer/bridges/byte_order.hpp"
+#include "lib/geo/geodesic.hpp"
+#include "tests/bridges/packets.hpp"
+#include "tests/bridges/live/bridged_set.hpp"
+#include "tests/bridges/live/udp_peer.hpp"
+
+namespace yars::endtoend {
+namespace {
+
+using databuffer::NoteKind;
+using databuffer::bridges::bytes_of;
+using databuffer::bridges::packet_of;
+using databuffer::bridges::PacketBytes;
+using databuffer::bridges::put;
+using ::testing::HasSubstr;
+
+constexpr geo::GeoPoint kStart{36.5, -122.5};
+constexpr double kSpeed_mps = 240.0;
+
+// Straight and level along a geodesic that begins to the east, by the clock of this machine.
+class Flyer {
+ public:
+  geo::GeoPoint place() const {
+    const double flown_s = 1e-9 * static_cast<double>(databuffer::monotonic_ns() - began_ns_);
+    return ray_.position(geo::Length::metres(kSpeed_mps * flown_s));
+  }
+
+  PacketBytes flightgear() const {
+    PacketBytes packet = packet_of("flightgear/v24.bin");
+    constexpr auto kBig = std::endian::big;
+    put(packet, 8, place().longitude_deg * geo::kRadiansPerDegree, kBig);
+    put(packet, 16, place().latitude_deg * geo::kRadiansPerDegree, kBig);
+    for (const std::size_t rate : {56U, 60U, 64U}) put(packet, rate, 0.0F, kBig);
+    put(packet, 76, 0.0F, kBig);
+    put(packet, 80, static_cast<float>(kSpeed_mps / geo::kMetresPerFoot), kBig);
+    return packet;
+  }
+
+  // [m] of a latched place from where the aircraft is at this moment.
+  double distance_m(const databuffer::Ownship& own) const {
+    return geo::geodesic_inverse(place(), {own.latitude_deg, own.longitude_deg}).distance.metres();
+  }
+
+ private:
+  std::int64_t began_ns_ = databuffer::monotonic_ns();
+  geo::GeodesicRay ray_{kStart, geo::Bearing::degrees(90)};
+};
+
+using Bridge = BridgedSet;
+
+TEST_F(Bridge, FlightGearFliesTheRadarAndSilenceHandsOver) {
+  const std::uint16_t port = listen("flightgear:0");
+  set_.start("own", {"flight-model", "--source", "fixed:40,-100,15000,90,480"});
+  start_radar();
+  const UdpPeer peer;
+  const Flyer flyer;
+  ASSERT_TRUE(eventually([&] { return flown_by("fixed"); }, 30.0));
+  const auto flown = [&] {
+    peer.send(flyer.flightgear(), port);
+    const auto own = latched();
+    return flown_by("flightgear") && flyer.distance_m(*own) < 40.0 && std::abs(own->altitude_msl_m - 4572.0) < 0.5 &&
+           std::abs(own->velocity_east_mps - kSpeed_mps) < 0.5;
+  };
+  ASSERT_TRUE(eventually(flown, 30.0)) << set_.log_of("bridge");
+  EXPECT_TRUE(eventually([&] { return flown_by("fixed"); }, 30.0)) << "silent, it is left to the built-in";
+  ASSERT_TRUE(eventually(flown, 30.0)) << set_.log_of("bridge");
+  EXPECT_THAT(set_.log_of("bridge"), HasSubstr("silent"));
+  for (const auto& [role, code] : set_.end_all()) EXPECT_EQ(code, 0) << role << ": " << set_.log_of(role);
+}
+
+TEST_F(Bridge, BadPacketsAreRefusedOnceInTheNotesAndAFloodStallsNothing) {
+  const std::uint16_t port = listen("flightgear:0");
+  start_radar();
+  const UdpPeer peer, stranger;
+  const Flyer flyer;
+  const auto flown = [&] {
+    peer.send(flyer.flightgear(), port);
+    return flown_by("flightgear");
+  };
+  ASSERT_TRUE(eventually(flown, 30.0)) << set_.log_of("bridge");
+  const std::uint64_t refused_before = notes(NoteKind::refusal);
+  const PacketBytes garbage = bytes_of("this is no aircraft");
+  PacketBytes elsewhere = flyer.flightgear();
+  put(elsewhere, 16, 0.0, std::endian::big);
+  const auto under_fire = [&] {
+    for (int packet = 0; packet < 5'000; ++packet) peer.send(garbage, port);
+    // A second program on the same port moves nothing.
+    stranger.send(elsewhere, port);
+    peer.send(flyer.flightgear(), port);
+    return notes(NoteKind::refusal) > refused_before;
+  };
+  ASSERT_TRUE(eventually(under_fire, 30.0)) << set_.log_of("bridge");
+  EXPECT_THAT(set_.log_of("bridge"), HasSubstr("version 24 and 408 bytes"));
+  EXPECT_TRUE(eventually([&] { return flown() && flyer.distance_m(*latched()) < 40.0; }, 30.0));
+  const std::string log = set_.log_of("bridge");
+  EXPECT_LT(std::count(log.begin(), log.end(), '\n'), 60) << "a line for thousands of packets";
+  EXPECT_EQ(log.find("elsewhere"), std::string::npos) << log;
+  for (const auto& [role, code] : set_.end_all()) EXPECT_EQ(code, 0) << role << ": " << set_.log_of(role);
+}
+
+TEST_F(Bridge, AFreezeOfTheSessionDoesNotStopTheProgramOutside) {
+  const std::uint16_t port = listen("flightgear:0");
+  start_radar();
+  const UdpPeer peer;
+  const Flyer flyer;
+  const auto flown = [&] {
+    peer.send(flyer.flightgear(), port);
+    return flown_by("flightgear") && flyer.distance_m(*latched()) < 40.0;
+  };
+  ASSERT_TRUE(eventually(flown, 30.0)) << set_.log_of("bridge");
+  ASSERT_EQ(set_.yars({"sim", "freeze"}).code, 0);
+  const double held_m = flyer.distance_m(*latched());
+  EXPECT_TRUE(eventually(
+      [&] {
+        peer.send(flyer.flightgear(), port);
+        return flyer.distance_m(*latched()) > held_m + 500.0;
+      },
+      30.0))
+      << "frozen, the radar holds its place";
+  ASSERT_EQ(set_.yars({"sim", "run"}).code, 0);
+  EXPECT_TRUE(eventually(flown, 30.0)) << set_.log_of("bridge");
+}
+
+TEST_F(Bridge, ARepositioningIsForTheProgramOutsideToDo) {
+  const std::uint16_t port = listen("flightgear:0");
+  start_radar();
+  const UdpPeer peer;
+  const Flyer flyer;
+  const auto flown = [&] {
+    peer.send(flyer.flightgear(), port);
+    return flown_by("flightgear");
+  };
+  ASSERT_TRUE(eventually(flown, 30.0)) << set_.log_of("bridge");
+  ASSERT_EQ(set_.yars({"sim", "reposition", "40", "-100", "20000", "45"}).code, 0);
+  EXPECT_TRUE(eventually([&] { return flown() && latched()->epoch == 1; }, 30.0)) << "it goes on in the new epoch";
+  EXPECT_TRUE(eventually([&] { return flown() && flyer.distance_m(*latched()) < 40.0; }, 30.0));
+  EXPECT_THAT(set_.log_of("bridge"), HasSubstr("flies by itself"));
+}
+
+TEST_F(Bridge, XplaneIsAskedAnswersAndIsLeftInPeace) {
+  // X-Plane's port, on two of this machine's addresses: the one that is asked, and a stranger.
+  const UdpPeer xplane;
+  const UdpPeer stranger("127.0.0.2", xplane.port());
+  set_.start("bridge", {"flight-model", "--source", "xplane:127.0.0.1:" + std::to_string(xplane.port())});
+  start_radar();
+  const auto request = xplane.hear(30'000);
+  ASSERT_TRUE(request) << set_.log_of("bridge");
+  EXPECT_EQ(request->datagram.size(), 413U);
+  const PacketBytes reply = packet_of("xplane/level.bin");
+  const PacketBytes elsewhere =
+      databuffer::bridges::with(packet_of("xplane/level.bin"), 9, -10.0F, std::endian::little);
+  ASSERT_TRUE(eventually(
+      [&] {
+        stranger.send(elsewhere, request->port);
+        xplane.send(reply, request->port);
+        return flown_by("xplane");
+      },
+      30.0))
+      << set_.log_of("bridge");
+  EXPECT_NEAR(latched()->latitude_deg, 36.5, 0.1);
+  EXPECT_EQ(set_.log_of("bridge").find("elsewhere"), std::string::npos) << set_.log_of("bridge");
+  set_.kill("bridge", SIGTERM);
+  EXPECT_EQ(set_.wait("bridge"), 0);
+  int ended = 0;
+  while (const auto last = xplane.hear(100))
+    ended += databuffer::bridges::little_endian<std::int32_t>(last->datagram, 5) == 0 ? 1 : 0;
+  EXPECT_EQ(ended, 14) << "each dataref is unsubscribed";
+}
+
+TEST_F(Bridge, ADisEntityFliesTheRadar) {
+  const std::uint16_t port = listen("dis:0,1,2,3");
+  start_radar();
+  const UdpPeer peer;
+  PacketBytes aircraft = packet_of("dis/air.bin");
+  std::uint32_t stamp = 1000;
+  ASSERT_TRUE(eventually(
+      [&] {
+        put(aircraft, 4, stamp += 20'000, std::endian::big);
+        peer.send(packet_of("dis/ship.bin"), port);
+        peer.send(aircraft, port);
+        return flown_by("dis");
+      },
+      30.0))
+      << set_.log_of("bridge");
+  EXPECT_NEAR(latched()->latitude_deg, 36.6, 0.1);
+  EXPECT_NEAR(latched()->heading_deg, 80.0, 0.01);
+}
+
+TEST_F(Bridge, APortInUseIsSaidPlainlyAndLeavesNoSession) {
+  const UdpPeer other;
+  const std::string port = std::to_string(other.port());
+  set_.start("bridge", {"flight-model", "--source", "jsbsim:" + port});
+  EXPECT_EQ(set_.wait("bridge"), 1);
+  EXPECT_THAT(set_.log_of("bridge"), HasSubstr("127.0.0.1:" + port));
+  EXPECT_THAT(set_.log_of("bridge"), HasSubstr("another program"));
+  EXPECT_FALSE(set_.segment_exists());
+}
+
+TEST(BridgeUsage, AProgramOutsideDoesNotStepInLockstep) {
+  const auto finished = run_program({"flight-model", "--source", "dis:0", "--lockstep", "flight-model,radar-model"});
+  EXPECT_EQ(finished.code, 2) << finished.errors;
+  EXPECT_THAT(finished.errors, HasSubstr("its own clock"));
+}
+
+}  // namespace
+}  // namespace yars::endtoend

@@ -1,0 +1,75 @@
+// A set whose flight-model takes the aircraft from a program outside, and what of it reaches the radar.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+
+#include "databuffer/records/plain_text.hpp"
+#include "databuffer/session.hpp"
+#include "tests/endtoend/process_set.hpp"
+
+namespace yars::endtoend {
+
+class BridgedSet : public ::testing::Test {
+ protected:
+  explicit BridgedSet(const std::string& name = "bridge") : set_(name) {}
+
+  // flight-model under the name "bridge", listening on any free port; 0 when it does not come to that.
+  std::uint16_t listen(const std::string& source) {
+    set_.start("bridge", {"flight-model", "--source", source});
+    std::size_t place = std::string::npos;
+    std::string log;
+    const std::string mark = "on 127.0.0.1:";
+    eventually(
+        [&] {
+          log = set_.log_of("bridge");
+          place = log.find(mark);
+          return place != std::string::npos && log.find('\n', place) != std::string::npos;
+        },
+        20.0);
+    EXPECT_NE(place, std::string::npos) << log;
+    return place == std::string::npos ? std::uint16_t{0}
+                                      : static_cast<std::uint16_t>(std::stoi(log.substr(place + mark.size())));
+  }
+
+  void start_radar(const std::vector<std::string>& options = {}) {
+    std::vector<std::string> command{"radar-model"};
+    command.insert(command.end(), options.begin(), options.end());
+    set_.start("radar-model", command);
+    ASSERT_TRUE(eventually([&] { return attach(); }, 20.0)) << set_.log_of("radar-model");
+    ASSERT_TRUE(eventually([&] { return session_->layout().model_status.has_value(); }, 60.0))
+        << set_.log_of("radar-model");
+  }
+
+  const databuffer::SessionLayout& layout() const { return std::as_const(*session_).layout(); }
+
+  // What radar-model has latched; nothing while no source is fresh.
+  std::optional<databuffer::Ownship> latched() const {
+    databuffer::ModelStatus status{};
+    if (!layout().model_status.read(status) || (status.flags & databuffer::kModelStale) != 0U) return std::nullopt;
+    return status.ownship;
+  }
+
+  bool flown_by(const std::string& source) const {
+    const auto own = latched();
+    return own && databuffer::text_of(own->source) == source;
+  }
+
+  std::uint64_t notes(databuffer::NoteKind kind) const {
+    return layout().note_counts[static_cast<std::size_t>(kind)].load();
+  }
+
+  ProcessSet set_;
+  std::optional<databuffer::Session> session_;
+
+ private:
+  bool attach() {
+    auto session = databuffer::Session::open_read_only(set_.session());
+    if (session) session_.emplace(std::move(*session));
+    return session.has_value();
+  }
+};
+
+}  // namespace yars::endtoend

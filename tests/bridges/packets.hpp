@@ -1,0 +1,49 @@
+// Packets of programs outside, as bytes: from files of tests/bridges/packets, changed at one place to be bad ones.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <fstream>
+#include <iterator>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace yars::databuffer::bridges {
+
+using PacketBytes = std::vector<std::byte>;
+
+inline PacketBytes bytes_of(std::string_view text) {
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+// `name`: path below tests/bridges/packets.
+inline std::string text_of_packet(const std::string& name) {
+  std::ifstream file(YARS_SOURCE_DIR "/tests/bridges/packets/" + name, std::ios::binary);
+  if (!file) throw std::runtime_error("no packet " + name);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline PacketBytes packet_of(const std::string& name) {
+  return bytes_of(text_of_packet(name));
+}
+
+// A number put into a packet in the order told.
+template <class T>
+void put(PacketBytes& packet, std::size_t offset, T value, std::endian order) {
+  auto raw = std::bit_cast<std::array<std::byte, sizeof(T)>>(value);
+  if (order != std::endian::native) std::reverse(raw.begin(), raw.end());
+  std::copy(raw.begin(), raw.end(), packet.begin() + static_cast<std::ptrdiff_t>(offset));
+}
+
+template <class T>
+PacketBytes with(PacketBytes packet, std::size_t offset, T value, std::endian order = std::endian::big) {
+  put(packet, offset, value, order);
+  return packet;
+}
+
+}  // namespace yars::databuffer::bridges
