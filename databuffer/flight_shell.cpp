@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "databuffer/log.hpp"
+#include "databuffer/records/select_ownship.hpp"
 #include "databuffer/records/validation.hpp"
 
 namespace yars::databuffer {
@@ -24,6 +25,7 @@ void FlightShell::step(const TickLoop::Due& due) {
   // A repositioning that came while nobody flew is this flight's too.
   const bool placed_before = !started_ && !resume(due) && !std::isnan(due.clock.reposition_latitude_deg);
   if (due.new_epoch || placed_before) begin_epoch(due.clock);
+  if (!every_tick_) stand_by(due);
   const flight::FlightSample sample = source_.model->step(time_since_last(due));
   const bool first = !started_ || due.new_epoch;
   started_ = true;
@@ -51,12 +53,32 @@ void FlightShell::begin_epoch(const ClockState& clock) {
   const flight::Placement placement{{clock.reposition_latitude_deg, clock.reposition_longitude_deg},
                                     geo::AltitudeMsl::metres(clock.reposition_altitude_m),
                                     geo::Bearing::degrees(clock.reposition_heading_deg)};
-  if (source_.model->reposition(placement)) {
+  const bool placed = source_.model->reposition(placement);
+  // Nobody asked for it: another source went there.
+  if (clock.followed != 0) return;
+  if (placed) {
     log_info("repositioned, epoch " + std::to_string(clock.epoch));
     return;
   }
   session_->note(NoteKind::refusal, "repositioning: " + source_.description + " follows its file alone");
   log_warning("repositioning is refused: " + source_.description + " follows its file alone");
+}
+
+// So that it takes over without a jump when that source falls silent. One that cannot be placed flies on as it does.
+void FlightShell::stand_by(const TickLoop::Due& due) {
+  const SessionLayout& layout = session_->layout();
+  ModelStatus model{};
+  if (!layout.model_status.read(model) || model.ownship_lane == lane_ || model.ownship_lane >= kOwnshipLanes) return;
+  const bool follows = (model.flags & kModelStale) == 0 && model.epoch == due.clock.epoch &&
+                       model.sim_time_ns + kStaleAfter > due.sim_time_ns;
+  const auto priority = [&layout](std::size_t lane) {
+    return layout.ownship_priority[lane].load(std::memory_order_relaxed);
+  };
+  if (!follows || priority(lane_) > priority(model.ownship_lane) || why_refused(model.ownship)) return;
+  const Ownship& there = model.ownship;
+  source_.model->reposition({{there.latitude_deg, there.longitude_deg},
+                             geo::AltitudeMsl::metres(there.altitude_msl_m),
+                             geo::Bearing::degrees(there.heading_deg)});
 }
 
 // True if it took up where a predecessor of this epoch was.

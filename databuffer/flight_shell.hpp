@@ -19,6 +19,8 @@ class FlightShell {
  private:
   geo::Duration time_since_last(const TickLoop::Due& due) const;
   void begin_epoch(const ClockState& clock);
+  // While the radar follows another source of a priority no lower, this one waits where that one is.
+  void stand_by(const TickLoop::Due& due);
   // Goes on where a flight model of the same source died a moment ago: the radar's status still shows it there.
   bool resume(const TickLoop::Due& due);
   void publish(const TickLoop::Due& due, flight::FlightSample sample);

@@ -56,7 +56,8 @@ void OwnshipReceiver::receive(const SessionLayout& layout, std::size_t index) {
   }
 }
 
-const OwnshipReceiver::Selected& OwnshipReceiver::refresh(const SessionLayout& layout, std::int64_t sim_time_ns) {
+const OwnshipReceiver::Selected& OwnshipReceiver::refresh(const SessionLayout& layout, std::int64_t sim_time_ns,
+                                                          std::uint32_t epoch) {
   refusals_.clear();
   std::array<OwnshipLane, kOwnshipLanes> view{};
   for (std::size_t i = 0; i < kOwnshipLanes; ++i) {
@@ -67,12 +68,21 @@ const OwnshipReceiver::Selected& OwnshipReceiver::refresh(const SessionLayout& l
   }
   selection_ = select_ownship(view, sim_time_ns, selection_);
   selected_.valid = selection_.lane.has_value();
-  selected_.lane = kNoLane;
-  if (!selected_.valid) return selected_;
+  selected_.jump.reset();
+  if (!selected_.valid) {
+    selected_.lane = kNoLane;
+    return selected_;
+  }
   const Lane& lane = lanes_[*selection_.lane];
+  const std::int64_t received_ns = selection_.memory[*selection_.lane].received_ns.value_or(sim_time_ns);
+  const bool lockstep = layout.lockstep.enabled.load(std::memory_order_relaxed) != 0;
+  if (!lockstep && !guard_.believes(lane.ownship, received_ns, sim_time_ns, epoch)) {
+    if (guard_.is_proven()) selected_.jump = lane.ownship;
+    return selected_;
+  }
   selected_.lane = static_cast<std::uint32_t>(*selection_.lane);
   selected_.ownship = lane.ownship;
-  selected_.received_ns = selection_.memory[*selection_.lane].received_ns.value_or(sim_time_ns);
+  selected_.received_ns = received_ns;
   selected_.nav = lane.has_nav ? lane.nav : nav_from_truth(lane.ownship);
   return selected_;
 }

@@ -24,6 +24,7 @@ constexpr std::array kClockStateFields = {
     YARS_FIELD(ClockState, reposition_longitude_deg),
     YARS_FIELD(ClockState, reposition_altitude_m),
     YARS_FIELD(ClockState, reposition_heading_deg),
+    YARS_FIELD(ClockState, followed),
 };
 
 constexpr std::array kOwnshipFields = {

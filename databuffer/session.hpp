@@ -33,6 +33,9 @@ static_assert(kFirstOwnshipByte + kOwnshipLanes <= kFirstInputByte);
 static_assert(kFirstInputByte + kInputLanes <= kFirstProcessByte);
 static_assert(kFirstProcessByte + kProcesses <= shm::kLockBytes);
 
+// Whether to wait for who changes the clock just now: a tick may not.
+enum class Patience { none, some };
+
 struct ProcessHere {
   std::int32_t pid;
   std::string name;
@@ -88,7 +91,8 @@ class Session {
   ClockState clock() const;
   std::int64_t sim_time_ns() const;
   // Takes the clock's byte for the moment of the change, so that of two changes at once none is lost.
-  failure::Expected<void> change_clock(const std::function<ClockState(const ClockState&)>& change);
+  failure::Expected<void> change_clock(const std::function<ClockState(const ClockState&)>& change,
+                                       Patience patience = Patience::some);
   failure::Expected<void> set_clock(const ClockState& state);
 
   // A line into the flight recorder (also counted): refusals, restarts, losses, late ticks.

@@ -73,7 +73,8 @@ typedef struct {
   double rate;
   uint32_t running, epoch;
   double reposition_latitude_deg, reposition_longitude_deg, reposition_altitude_m, reposition_heading_deg;
-  uint64_t reserved[4];
+  uint32_t followed, reserved0;
+  uint64_t reserved[3];
 } yars_clock;
 
 typedef struct {

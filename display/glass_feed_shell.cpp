@@ -97,7 +97,7 @@ void GlassFeed::take_map(std::uint64_t id) {
 
 void GlassFeed::take_model(std::int64_t sim_time_ns) {
   // Kept warm while the model is alive, so that it can go on at once when the model dies.
-  const auto& selected = receiver_.refresh(session_->layout(), sim_time_ns);
+  const auto& selected = receiver_.refresh(session_->layout(), sim_time_ns, session_->clock().epoch);
   const bool has_status = session_->layout().model_status.read(input_.model).has_value();
   if (input_.model_alive && has_status) {
     input_.ownship = input_.model.ownship;

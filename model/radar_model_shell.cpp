@@ -73,7 +73,7 @@ void RadarModelShell::step(const databuffer::TickLoop::Due& due, std::uint64_t l
 void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
   const databuffer::Ownship before = tick_.ownship;
   const databuffer::RadarCommand command_before = tick_.command;
-  const auto& selected = ownship_.refresh(session_->layout(), due.sim_time_ns);
+  const auto& selected = ownship_.refresh(session_->layout(), due.sim_time_ns, due.clock.epoch);
   tick_.tick = due.tick;
   tick_.sim_time_ns = due.sim_time_ns;
   tick_.epoch = due.clock.epoch;
@@ -84,6 +84,7 @@ void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
     status_.ownship_received_ns = selected.received_ns;
   }
   tick_.ownship_lane = selected.lane;
+  if (selected.jump) tell_of_jump(*selected.jump);
   for (const std::string& refusal : ownship_.refusals()) session_->note(databuffer::NoteKind::refusal, refusal);
   latch_command();
   latch_traffic();
@@ -95,6 +96,28 @@ void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
     tick_.flags |= databuffer::kTickCommandChanged;
   latch_fidelity();
   if (publish_due_map()) tick_.flags |= databuffer::kTickMapComplete;
+}
+
+// A new epoch, at the place to which the aircraft's source has jumped: with it the radar believes it.
+void RadarModelShell::tell_of_jump(const databuffer::Ownship& there) {
+  const auto told = session_->change_clock(
+      [&there](const databuffer::ClockState& clock) {
+        databuffer::ClockState next = clock;
+        next.base_monotonic_ns = databuffer::monotonic_ns();
+        next.base_sim_ns = databuffer::sim_time_at(clock, next.base_monotonic_ns);
+        ++next.epoch;
+        next.reposition_latitude_deg = there.latitude_deg;
+        next.reposition_longitude_deg = there.longitude_deg;
+        next.reposition_altitude_m = there.altitude_msl_m;
+        next.reposition_heading_deg = there.heading_deg;
+        next.followed = 1;
+        return next;
+      },
+      databuffer::Patience::none);
+  if (!told) return;  // somebody else sets the clock just now: the next tick tries again
+  const std::string text = "the aircraft of '" + std::string(there.source) + "' has jumped: a new epoch";
+  session_->note(databuffer::NoteKind::restart, text);
+  databuffer::log_info(text);
 }
 
 void RadarModelShell::latch_fidelity() {

@@ -56,7 +56,7 @@ void StateMachineShell::step(const databuffer::TickLoop::Due& due) {
 }
 
 void StateMachineShell::latch(const databuffer::TickLoop::Due& due) {
-  const auto& selected = ownship_.refresh(session_->layout(), due.sim_time_ns);
+  const auto& selected = ownship_.refresh(session_->layout(), due.sim_time_ns, due.clock.epoch);
   surroundings_.tick = due.tick;
   surroundings_.sim_time_ns = due.sim_time_ns;
   surroundings_.epoch = due.clock.epoch;

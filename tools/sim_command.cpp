@@ -126,6 +126,7 @@ void reset(const CommonOptions& common, double time_s) {
     next.base_sim_ns = std::llround(time_s / radar::kTickSeconds) * radar::kTickNanoseconds;
     ++next.epoch;
     next.reposition_latitude_deg = kNaN;
+    next.followed = 0;
     return next;
   });
   settle_when_frozen(session);
@@ -146,6 +147,7 @@ void reposition(const CommonOptions& common, const Place& place) {
   change_clock(session, [&place](const ClockState& clock) {
     ClockState next = rebased(clock);
     ++next.epoch;
+    next.followed = 0;
     next.reposition_latitude_deg = place.latitude_deg;
     next.reposition_longitude_deg = place.longitude_deg;
     next.reposition_altitude_m = place.altitude_ft * geo::kMetresPerFoot;

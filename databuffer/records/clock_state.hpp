@@ -16,7 +16,9 @@ struct ClockState {
   double reposition_longitude_deg;
   double reposition_altitude_m;   // [m] MSL
   double reposition_heading_deg;  // [deg] true
-  std::uint64_t reserved[4];
+  std::uint32_t followed;         // 1: the aircraft's source had jumped there by itself, and the epoch only tells of it
+  std::uint32_t reserved0;
+  std::uint64_t reserved[3];
 };
 static_assert(sizeof(ClockState) == 96 && std::is_trivially_copyable_v<ClockState>);
 

@@ -76,6 +76,7 @@ SAME(yars_clock, ClockState, reposition_latitude_deg);
 SAME(yars_clock, ClockState, reposition_longitude_deg);
 SAME(yars_clock, ClockState, reposition_altitude_m);
 SAME(yars_clock, ClockState, reposition_heading_deg);
+SAME(yars_clock, ClockState, followed);
 SAME(yars_clock, ClockState, reserved);
 static_assert(sizeof(yars_ownship) == sizeof(Ownship));
 SAME(yars_ownship, Ownship, source_time_ns);

@@ -147,22 +147,22 @@ TEST(ExtremeNumbers, ARefusedRecordIsCountedOnceNamedAndLeavesTheLastGoodOneInFo
   Ownship good{};
   good.latitude_deg = 38.0;
   std::int64_t now_ns = 0;
-  receiver.refresh(*layout, now_ns);
+  receiver.refresh(*layout, now_ns, 0);
   std::uint64_t refused = 0;
   for (const auto& field : kOwnshipFields) {
     for (const double bad : kNoNumbers) {
       if (field.may_be_missing && std::isnan(bad)) continue;
-      good.longitude_deg += 1.0;
+      good.longitude_deg += 1e-4;
       layout->ownship[0].publish(good);
-      ASSERT_TRUE(receiver.refresh(*layout, now_ns += 5'000'000).valid);
+      ASSERT_TRUE(receiver.refresh(*layout, now_ns += 5'000'000, 0).valid);
       Ownship record = good;
       record.longitude_deg += 90.0;
       record.*field.place = bad;
       layout->ownship[0].publish(record);
       // Twice: a record is refused when it comes, not at each look at it.
-      receiver.refresh(*layout, now_ns += 5'000'000);
+      receiver.refresh(*layout, now_ns += 5'000'000, 0);
       EXPECT_THAT(receiver.refusals(), ElementsAre(HasSubstr(std::string("ownship in lane 0: ") + field.name)));
-      const auto& selected = receiver.refresh(*layout, now_ns += 5'000'000);
+      const auto& selected = receiver.refresh(*layout, now_ns += 5'000'000, 0);
       EXPECT_EQ(receiver.refused(), ++refused) << field.name;
       EXPECT_THAT(receiver.refusals(), IsEmpty()) << field.name;
       EXPECT_TRUE(selected.valid);
@@ -173,11 +173,11 @@ TEST(ExtremeNumbers, ARefusedRecordIsCountedOnceNamedAndLeavesTheLastGoodOneInFo
     Nav nav{};
     nav.mission_latitude_deg = 1.0;
     layout->nav[0].publish(nav);
-    receiver.refresh(*layout, now_ns);
+    receiver.refresh(*layout, now_ns, 0);
     nav.mission_latitude_deg = 2.0;
     nav.*field.place = kInfinity;
     layout->nav[0].publish(nav);
-    EXPECT_EQ(receiver.refresh(*layout, now_ns).nav.mission_latitude_deg, 1.0) << field.name;
+    EXPECT_EQ(receiver.refresh(*layout, now_ns, 0).nav.mission_latitude_deg, 1.0) << field.name;
     EXPECT_EQ(receiver.refused(), ++refused);
     EXPECT_THAT(receiver.refusals(), ElementsAre(HasSubstr(std::string("nav in lane 0: ") + field.name)));
   }

@@ -1,0 +1,107 @@
+// A jump in place is believed with a new epoch only.
+#include "databuffer/jump_guard.hpp"
+
+#include <gtest/gtest.h>
+
+namespace yars::databuffer {
+namespace {
+
+constexpr std::int64_t kTick_ns = 5'000'000;
+
+class JumpGuardTest : public ::testing::Test {
+ protected:
+  // One record a tick, at 200 m/s north.
+  Ownship at(double latitude_deg, double longitude_deg, std::uint32_t epoch = 0) const {
+    Ownship ownship{};
+    ownship.latitude_deg = latitude_deg;
+    ownship.longitude_deg = longitude_deg;
+    ownship.velocity_north_mps = 200.0;
+    ownship.epoch = epoch;
+    return ownship;
+  }
+  bool believes(const Ownship& ownship, std::uint32_t epoch = 0) {
+    now_ns_ += kTick_ns;
+    return guard_.believes(ownship, now_ns_, now_ns_, epoch);
+  }
+  int ticks_until_proven(const Ownship& ownship) {
+    int ticks = 0;
+    while (!guard_.is_proven() && ticks < 1000) {
+      EXPECT_FALSE(believes(ownship));
+      ++ticks;
+    }
+    return ticks;
+  }
+
+  JumpGuard guard_;
+  std::int64_t now_ns_ = 0;
+};
+
+TEST_F(JumpGuardTest, TheFirstPlaceIsBelieved) {
+  EXPECT_TRUE(believes(at(10.0, 20.0)));
+}
+
+TEST_F(JumpGuardTest, FlightAndNoiseOfFiftyMetresAreNoJump) {
+  for (int i = 0; i < 1000; ++i) EXPECT_TRUE(believes(at(10.0 + 1e-5 * i + (i % 2) * 4e-4, 20.0)));
+}
+
+TEST_F(JumpGuardTest, AfterAGapTheAircraftIsWhereItsSpeedHasBroughtIt) {
+  ASSERT_TRUE(believes(at(10.0, 20.0)));
+  now_ns_ += 10'000'000'000;
+  EXPECT_TRUE(believes(at(10.0 + 2000.0 / 110'600.0, 20.0))) << "2 km in 10 s";
+  now_ns_ += 10'000'000'000;
+  EXPECT_FALSE(believes(at(10.1, 20.0))) << "another 9 km in 10 s";
+}
+
+TEST_F(JumpGuardTest, OverTheAntimeridianAndThePoleIsNoJump) {
+  ASSERT_TRUE(believes(at(10.0, 179.9999)));
+  EXPECT_TRUE(believes(at(10.0, -179.9999)));
+  JumpGuard pole;
+  EXPECT_TRUE(pole.believes(at(89.99999, 10.0), 0, 0, 0));
+  EXPECT_TRUE(pole.believes(at(89.99999, -170.0), kTick_ns, kTick_ns, 0));
+}
+
+TEST_F(JumpGuardTest, OneBadRecordMovesNothingAndIsCounted) {
+  ASSERT_TRUE(believes(at(10.0, 20.0)));
+  EXPECT_FALSE(believes(at(40.0, 20.0)));
+  EXPECT_FALSE(guard_.is_proven());
+  EXPECT_TRUE(believes(at(10.00001, 20.0)));
+  EXPECT_EQ(guard_.passed(), 1U);
+}
+
+TEST_F(JumpGuardTest, AJumpInHeightIsOneToo) {
+  ASSERT_TRUE(believes(at(10.0, 20.0)));
+  Ownship high = at(10.0, 20.0);
+  high.altitude_msl_m = 60.0;
+  EXPECT_FALSE(believes(high));
+}
+
+TEST_F(JumpGuardTest, APlaceThatStandsForATenthOfASecondIsProvenAndBelievedWithTheNextEpoch) {
+  ASSERT_TRUE(believes(at(10.0, 20.0)));
+  const Ownship there = at(11.0, 20.0);
+  EXPECT_EQ(ticks_until_proven(there), 21);
+  EXPECT_TRUE(believes(there, 1)) << "whatever epoch the source writes";
+  EXPECT_FALSE(guard_.is_proven());
+  EXPECT_EQ(guard_.passed(), 0U);
+}
+
+TEST_F(JumpGuardTest, ARepositioningIsBelievedAtOnce) {
+  ASSERT_TRUE(believes(at(10.0, 20.0, 3), 3));
+  EXPECT_TRUE(believes(at(10.0, 20.0, 3), 4)) << "the source has not heard of the new epoch";
+  EXPECT_TRUE(believes(at(50.0, 20.0, 4), 4));
+  EXPECT_FALSE(believes(at(10.0, 20.0, 4), 4)) << "a second jump in it";
+}
+
+TEST_F(JumpGuardTest, ASourceWithAnEpochOfItsOwnMakingJumpsNoBetter) {
+  ASSERT_TRUE(believes(at(10.0, 20.0, 0), 0));
+  EXPECT_FALSE(believes(at(50.0, 20.0, 99), 0));
+}
+
+TEST_F(JumpGuardTest, WhereNobodySetsTheClockAJumpIsTakenAfterASecond) {
+  ASSERT_TRUE(believes(at(10.0, 20.0)));
+  int held = 0;
+  while (!believes(at(11.0, 20.0)) && held < 1000) ++held;
+  EXPECT_EQ(held, 200);
+}
+
+}  // namespace
+}  // namespace yars::databuffer
