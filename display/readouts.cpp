@@ -15,10 +15,11 @@ namespace yars::display {
 
 namespace {
 
-constexpr float kText = 10.0F;        // [units] cap height of all small text
-constexpr float kArrow = 14.0F;       // [units] of the range buttons' arrows
-constexpr float kBannerText = 18.0F;  // [units]
-constexpr float kSilentText = 13.0F;  // [units]
+constexpr float kText = 10.0F;         // [units] cap height of all small text
+constexpr float kArrow = 14.0F;        // [units] of the range buttons' arrows
+constexpr float kAboveLegend = 15.5F;  // [units] from a legend of the bottom row to a number above it
+constexpr float kBannerText = 18.0F;   // [units]
+constexpr float kSilentText = 13.0F;   // [units]
 
 using databuffer::text_of;
 using Buffer = std::array<char, 40>;
@@ -73,7 +74,7 @@ void draw_window_size(const databuffer::RadarState& state, DrawList& list) {
   if (!(state.window_nm > 0.0)) return;
   Buffer buffer;
   const Point legend = legend_place(8).at;
-  list.text(miles(buffer, state.window_nm), {legend.x, legend.y - 16.0F}, {kText});
+  list.text(miles(buffer, state.window_nm), {legend.x, legend.y - kAboveLegend}, {kText});
 }
 
 void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list) {
@@ -90,7 +91,7 @@ void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
   Buffer buffer;
   if (state.update_seconds >= 0) {
     const Point legend = legend_place(7).at;
-    list.text(formatted(buffer, "%.0f", state.update_seconds), {legend.x, legend.y - 16.0F}, {kText});
+    list.text(formatted(buffer, "%.0f", state.update_seconds), {legend.x, legend.y - kAboveLegend}, {kText});
   }
   // In the upper right, above the legend of PB 15.
   constexpr float right = kGlassUnits - 6.0F, first = 46.0F, second = 61.0F;

@@ -55,7 +55,7 @@ void draw_velocity_differences(const databuffer::RadarState& state, DrawList& li
 
 void draw_velocity_format(const GlassInput& input, DrawList& list) {
   constexpr float left = 130.0F, right = 350.0F;
-  float y = 180.0F;
+  float y = 168.0F;  // all rows above the place of what has gone silent
   for (const Row& row : rows(input.state)) {
     Buffer buffer;
     list.text(row.name, {left, y}, {kLargeText, Align::left});
