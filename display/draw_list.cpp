@@ -65,6 +65,10 @@ void DrawList::line(Point from, Point to, Ink ink) {
   current().strokes.push_back({rounded(from), rounded(to), thin ? kThin : kStroke, thin ? 0.0F : kHalo, ink});
 }
 
+void DrawList::leader(Point from, Point to) {
+  current().strokes.push_back({rounded(from), rounded(to), kThin, kHalo, Ink::dim});
+}
+
 void DrawList::polyline(std::span<const Point> points, Ink ink) {
   for (std::size_t i = 1; i < points.size(); ++i) line(points[i - 1], points[i], ink);
 }
@@ -128,12 +132,14 @@ void DrawList::occupy(std::string_view name, const Rect& rect, BoxKind kind) {
 
 void DrawList::blank_behind_texts() {
   draw_on(Layer::symbols);
-  const std::vector<Segment>& ground = content(Layer::ground).strokes;
   for (const OccupiedBox& box : occupied_) {
     if (box.kind != BoxKind::text) continue;
     const Rect field = grown(box.rect, kPlateMargin);
     const auto lies_behind = [&](const Segment& line) { return crosses(field, line.from, line.to); };
-    if (std::ranges::any_of(ground, lies_behind)) plate(field);
+    if (std::ranges::any_of(content(Layer::lines).strokes, lies_behind) ||
+        std::ranges::any_of(content(Layer::points).strokes, lies_behind)) {
+      plate(field);
+    }
   }
 }
 

@@ -16,10 +16,10 @@
 
 namespace yars::display {
 
-// Drawn one over the other, each with its plates, then its halos, below its strokes: range arcs and lines; what lies
-// on the ground; texts and scales; notices; what the pilot steers, over everything.
-enum class Layer : std::uint8_t { grid, ground, symbols, notices, steered };
-inline constexpr std::size_t kLayers = 5;
+// Drawn one over the other, each with its plates, then its halos, below its strokes: range arcs and zero azimuth line;
+// lines on the ground; points on the ground; texts and scales; notices; what the pilot steers, over everything.
+enum class Layer : std::uint8_t { grid, lines, points, symbols, notices, steered };
+inline constexpr std::size_t kLayers = 6;
 
 enum class Ink : std::uint8_t { bright, dim };  // symbols; lines of the grid below them
 
@@ -71,6 +71,8 @@ class DrawList {
 
   // A line to a place that is no number is left out: an antenna that tells nothing has no caret.
   void line(Point from, Point to, Ink ink = Ink::bright);
+  // From a symbol to its label: thin and dim, for the symbols to stand out, parted from the video all the same.
+  void leader(Point from, Point to);
   void polyline(std::span<const Point> points, Ink ink = Ink::bright);
   void circle(Point center, float radius, bool dashed = false);
   // Dashed outlines go round the closed polygon.
@@ -82,7 +84,7 @@ class DrawList {
   // Draws text with its middle height at `at.y`; returns the box taken up, frame included, and records it.
   Rect text(std::string_view words, Point at, const TextStyle& style = {}, BoxKind kind = BoxKind::text);
   void occupy(std::string_view name, const Rect& rect, BoxKind kind);
-  // A black ground behind each fixed text that something on Layer::ground would lie under.
+  // A black ground behind each fixed text that a line or a point of the ground would lie behind.
   void blank_behind_texts();
 
   const LayerContent& content(Layer layer) const { return layers_[static_cast<std::size_t>(layer)]; }

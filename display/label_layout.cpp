@@ -9,15 +9,22 @@ namespace yars::display {
 
 namespace {
 
-constexpr float kText = 9.0F;        // [units] cap height
-constexpr float kSymbol = 8.0F;      // [units] from a symbol's middle to where a line may begin
-constexpr float kLineGap = 2.5F;     // [units] from the end of that line to the text
-constexpr float kLineMargin = 1.5F;  // [units] that a line stays off other things
+constexpr float kText = 9.0F;     // [units] cap height
+constexpr float kSymbol = 8.0F;   // [units] from a symbol's middle to where a line may begin
+constexpr float kLineGap = 2.5F;  // [units] from the end of that line to the text
 
-// Clear around a label [units]. A text's ink goes 0.7 beyond its box, and half a pixel; two of them must not touch.
-constexpr float kToStay = 2.5F;      // what a label needs where it stands
-constexpr float kToCome = 3.5F;      // where it comes to: more, or it would leave with the next picture
-constexpr float kToReturn = 7.0F;    // where it comes nearer
+// What a label needs to be clear [units]. A text's ink goes 0.7 beyond its box, and half a pixel; two must not touch.
+struct Clearance {
+  float around;         // the text
+  float beside_line;    // the line that leads to it
+  float beyond_line;    // its ends, which come to no other line
+  bool crosses_points;  // the line may lie beneath other points' symbols: a label stays so, and comes so at the last
+};
+constexpr Clearance kToStay{2.5F, 1.0F, 0.0F, true};
+// More to come than to stay, or it would leave with the next picture; more still to come nearer.
+constexpr Clearance kToCome{3.5F, 2.0F, 2.0F, false}, kToComeAtLast{3.5F, 2.0F, 2.0F, true};
+constexpr Clearance kToReturn{7.0F, 3.0F, 3.0F, false};
+constexpr float kOffWords = 3.0F;    // more than that beside another text, with which it would read as one word
 constexpr float kOffSymbols = 2.0F;  // more than that off another point's symbol, whose name it would seem
 
 struct Place {
@@ -44,9 +51,12 @@ constexpr std::array<Place, 8> kAroundHeading{{{{0.0F, 25.0F}, Align::center, {}
                                                {{-10.0F, -25.0F}, Align::right, {}, 0},
                                                {{14.0F, 0.0F}, Align::left, {}, 0},
                                                {{-14.0F, 0.0F}, Align::right, {}, 0}}};
-constexpr std::array kRings{26.0F, 38.0F, 52.0F, 68.0F, 86.0F};  // [units] length of the lines that lead to labels
-constexpr std::array kDirections{45.0F, 135.0F, 315.0F, 225.0F, 90.0F,  270.0F, 0.0F,   180.0F,
-                                 22.5F, 67.5F,  112.5F, 157.5F, 202.5F, 247.5F, 292.5F, 337.5F};  // [deg] from up
+constexpr std::array kRings{26.0F, 38.0F, 52.0F, 68.0F, 86.0F, 106.0F};  // [units] of the lines that lead to labels
+// [deg] from up, corners first as well.
+constexpr std::array kDirections{45.0F,   135.0F,  315.0F,  225.0F,  90.0F,   270.0F,  0.0F,    180.0F,
+                                 22.5F,   67.5F,   112.5F,  157.5F,  202.5F,  247.5F,  292.5F,  337.5F,
+                                 11.25F,  33.75F,  56.25F,  78.75F,  101.25F, 123.75F, 146.25F, 168.75F,
+                                 191.25F, 213.75F, 236.25F, 258.75F, 281.25F, 303.75F, 326.25F, 348.75F};
 constexpr std::size_t kPlaces = kAroundName.size() + kRings.size() * kDirections.size();
 
 Place place_on_ring(std::size_t ring, float direction_deg) {
@@ -88,24 +98,27 @@ class Search {
   Search(const Label& label, std::span<const Segment> lines, const DrawList& list)
       : label_(label), lines_(lines), list_(list) {}
 
-  bool is_free(std::size_t index, float margin) const {
+  bool is_free(std::size_t index, const Clearance& clearance) const {
     const Place place = place_of(label_.role, index);
     const Rect box = text_box(words_of(label_.words), moved(label_.anchor, place.offset), {kText, place.align});
-    return on_glass(grown(box, 1.0F)) && is_clear(grown(box, margin)) && (place.ring == 0 || line_is_clear(place));
+    return on_glass(grown(box, 1.0F)) && is_clear(grown(box, clearance.around)) &&
+           (place.ring == 0 || line_is_clear(place, clearance));
   }
 
-  std::optional<std::size_t> first_free(float margin, std::size_t before) const {
-    for (std::size_t index = 0; index < before; ++index) {
-      if (is_free(index, margin)) return index;
+  std::optional<std::size_t> first_free(const Clearance& clearance, std::size_t end) const {
+    for (std::size_t index = 0; index < end; ++index) {
+      if (is_free(index, clearance)) return index;
     }
     return std::nullopt;
   }
 
   std::optional<std::size_t> choose(std::optional<std::size_t> before) const {
-    if (!before || !is_free(*before, kToStay)) return first_free(kToCome, kPlaces);
-    const std::size_t around = kAroundName.size();
+    if (!before || !is_free(*before, kToStay)) {
+      const auto clear = first_free(kToCome, kPlaces);
+      return clear ? clear : first_free(kToComeAtLast, kPlaces);
+    }
     const std::size_t ring = place_of(label_.role, *before).ring;
-    const std::size_t nearer = ring == 0 ? 0 : around + (ring - 1) * kDirections.size();
+    const std::size_t nearer = ring == 0 ? 0 : kAroundName.size() + (ring - 1) * kDirections.size();
     return first_free(kToReturn, nearer).value_or(*before);
   }
 
@@ -122,26 +135,51 @@ class Search {
   }
 
   bool is_own_symbol(const OccupiedBox& box) const {
+    constexpr float rounding = 0.25F;
     return box.kind == BoxKind::point &&
-           intersect(box.rect, grown({label_.anchor.x, label_.anchor.y, label_.anchor.x, label_.anchor.y}, 1.0F));
+           std::abs((box.rect.left + box.rect.right) / 2.0F - label_.anchor.x) < rounding &&
+           std::abs((box.rect.top + box.rect.bottom) / 2.0F - label_.anchor.y) < rounding;
+  }
+
+  Rect kept_off(const Rect& room, const OccupiedBox& box) const {
+    if (box.kind == BoxKind::point) return grown(room, kOffSymbols);
+    const bool words = box.kind == BoxKind::text || box.kind == BoxKind::label;
+    return words ? Rect{room.left - kOffWords, room.top, room.right + kOffWords, room.bottom} : room;
   }
 
   bool is_clear(const Rect& room) const {
     for (const OccupiedBox& box : list_.occupied()) {
-      const bool other_symbol = box.kind == BoxKind::point && !is_own_symbol(box);
-      if (intersect(other_symbol ? grown(room, kOffSymbols) : room, box.rect)) return false;
+      // All places are clear of the label's own symbol.
+      if (!is_own_symbol(box) && intersect(kept_off(room, box), box.rect)) return false;
     }
     return std::ranges::none_of(lines_, [&](const Segment& line) { return crosses(room, line.from, line.to); });
   }
 
-  // A line may leave a heap of symbols that lie one upon the other, but cross no other symbol, no text and no line.
-  bool line_is_clear(const Place& place) const {
+  // A line crosses no text and no other line. It may run beneath a scale, and leaves what lies over its own symbol: a
+  // heap of other symbols, or a text.
+  bool line_is_clear(const Place& place, const Clearance& clearance) const {
     const Segment own = line(place);
     for (const OccupiedBox& box : list_.occupied()) {
-      const bool heap = box.kind == BoxKind::point && crosses(grown(box.rect, 1.0F), label_.anchor, own.from);
-      if (!heap && crosses(grown(box.rect, kLineMargin), own.from, own.to)) return false;
+      const bool symbol = box.kind == BoxKind::point;
+      if (box.kind == BoxKind::scale || (symbol && clearance.crosses_points)) continue;
+      const bool fixed = symbol || box.kind == BoxKind::text;
+      const float reach = 2.0F - clearance.beside_line / 2.0F;
+      if (fixed && crosses(grown(box.rect, reach), label_.anchor, own.from)) continue;
+      if (crosses(grown(box.rect, clearance.beside_line), own.from, own.to)) return false;
     }
-    return std::ranges::none_of(lines_, [&](const Segment& other) { return cross(own, other); });
+    const Segment wide = lengthened(own, clearance.beyond_line);
+    return std::ranges::none_of(
+        lines_, [&](const Segment& other) { return cross(wide, lengthened(other, clearance.beyond_line)); });
+  }
+
+  static Segment lengthened(const Segment& line, float by) {
+    const float length = std::hypot(line.to.x - line.from.x, line.to.y - line.from.y);
+    if (length <= 0.0F) return line;
+    const Point step{(line.to.x - line.from.x) * by / length, (line.to.y - line.from.y) * by / length};
+    Segment longer = line;
+    longer.from = {line.from.x - step.x, line.from.y - step.y};
+    longer.to = moved(line.to, step);
+    return longer;
   }
 
   static bool cross(const Segment& a, const Segment& b) {
@@ -175,7 +213,7 @@ void LabelMemory::keep(const Kept& kept) {
 void place_labels(std::span<const Label> labels, LabelMemory& memory, DrawList& list) {
   LabelMemory placed;
   for (const Label& label : labels) {
-    const auto& lines = list.content(Layer::ground).strokes;
+    const auto& lines = list.content(Layer::lines).strokes;
     const auto* const kept =
         std::ranges::find_if(memory.kept(), [&](const LabelMemory::Kept& one) { return is_of(one, label); }).base();
     const bool known = kept != memory.kept().data() + memory.kept().size();
@@ -185,8 +223,8 @@ void place_labels(std::span<const Label> labels, LabelMemory& memory, DrawList& 
     const Place place = place_of(label.role, *index);
     if (place.ring > 0) {
       const Segment line = search.line(place);
-      list.draw_on(Layer::ground);
-      list.line(line.from, line.to);
+      list.draw_on(Layer::lines);
+      list.leader(line.from, line.to);
       list.draw_on(Layer::symbols);
     }
     list.text(words_of(label.words), moved(label.anchor, place.offset), {kText, place.align}, BoxKind::label);

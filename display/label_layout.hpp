@@ -1,6 +1,6 @@
 // Finds a place for the labels that move with the ground: the names of points and the heading of the steering line.
 // In:  labels, the one that matters most first; a list that holds all that stays where it is: texts, scales, symbols,
-//      the cursor's arms, and on Layer::ground the lines.
+//      the cursor's arms, and on Layer::lines the lines.
 // Out: the labels as texts of the list, clear of all of that and of each other: in one of eight places around the
 //      symbol, else farther out at the end of a line that leads to it. A label that finds no place is left out.
 // A label keeps its place from picture to picture while that is clear; it comes nearer only where there is room to

@@ -124,14 +124,14 @@ void draw_window_outline(const GlassInput& input, const GlassView& view, const G
                                      Point{centre.x + right.x + up.x, centre.y + right.y + up.y},
                                      Point{centre.x + right.x - up.x, centre.y + right.y - up.y},
                                      Point{centre.x - right.x - up.x, centre.y - right.y - up.y}};
-  list.draw_on(Layer::ground);
+  list.draw_on(Layer::lines);
   list.polygon(corners, false);
   list.draw_on(Layer::symbols);
 }
 
 void draw_points(const GlassInput& input, std::span<const radar::RoutePoint> route, const GlassView& view,
                  const GlassFrame& frame, DrawList& list) {
-  list.draw_on(Layer::ground);
+  list.draw_on(Layer::points);
   const auto belief = databuffer::belief_in_use(input.ownship, input.nav, input.state);
   for (const databuffer::DrawnPoint& point : points_of(input.state)) {
     const Point at = view.at_ground(frame, belief.on_video({point.latitude_deg, point.longitude_deg}));

@@ -56,7 +56,7 @@ std::optional<Label> draw_steering_line(const GlassInput& input, const GlassView
   const double approach_deg = (geo::Bearing::degrees(state.steering_line_deg) - frame.up).degrees();
   const double back_deg = approach_deg + 180.0;
   const Point end = off(target, back_deg, kEnd);
-  list.draw_on(Layer::ground);
+  list.draw_on(Layer::lines);
   const bool ring = line == SteeringLine::fixed;
   list.line(off(target, back_deg, kBegin), ring ? off(target, back_deg, kEnd - kRing) : end);
   if (ring) list.circle(end, kRing);

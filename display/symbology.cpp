@@ -144,7 +144,6 @@ void draw_ground(const GlassInput& input, std::span<const radar::RoutePoint> rou
                  const GlassFrame& frame, LabelMemory& labels, DrawList& list) {
   draw_points(input, route, view, frame, list);
   const auto heading = draw_steering_line(input, view, frame, list);
-  draw_cursor(input, view, frame, list);
   LabelQueue queue;
   add_names(input, view, frame, NameRank::selected, queue);
   add_names(input, view, frame, NameRank::target, queue);
@@ -155,6 +154,10 @@ void draw_ground(const GlassInput& input, std::span<const radar::RoutePoint> rou
 
 void draw_format(const GlassInput& input, const Format& format, const radar::RadarConfiguration& configuration,
                  const GlassView& view, const GlassFrame& frame, LabelMemory& labels, DrawList& list) {
+  // On a map that could not be read nobody knows where anything lies.
+  const bool placed = format.ground && (!format.map || shows_map(input));
+  // Before the readouts, which give way to it.
+  if (placed) draw_cursor(input, view, frame, list);
   if (format.arcs) {
     const databuffer::RadarState& state = input.state;
     draw_range_arcs(view, arc_spacing(state.range_nm, state.range_index, configuration.view.arc_spacing_nm), list);
@@ -165,8 +168,6 @@ void draw_format(const GlassInput& input, const Format& format, const radar::Rad
   if (format.gray_scale) draw_gray_scale(list);
   if (format.readouts) draw_readouts(input, format, list);
   if (format.velocity) draw_velocity_format(input, list);
-  // On a map that could not be read nobody knows where anything lies.
-  const bool placed = format.ground && (!format.map || shows_map(input));
   if (placed && format.window) draw_window_outline(input, view, frame, list);
   if (placed) draw_ground(input, configuration.route, view, frame, labels, list);
   list.blank_behind_texts();

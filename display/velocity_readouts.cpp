@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "display/readouts.hpp"
 #include "lib/geo/quantity.hpp"
 
 namespace yars::display {
@@ -49,7 +50,7 @@ void draw_velocity_differences(const databuffer::RadarState& state, DrawList& li
     y += 13.0F;
     Buffer buffer;
     list.text(row.abbreviation, {value_left, y}, {kSmallText, Align::right});
-    list.text(feet_per_second(buffer, "%+.1f", row.value_mps), {right, y}, {kSmallText, Align::right});
+    draw_number(feet_per_second(buffer, "%+.1f", row.value_mps), {right, y}, {kSmallText, Align::right}, list);
   }
 }
 

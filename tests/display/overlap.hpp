@@ -62,7 +62,8 @@ inline std::vector<std::string> overlaps(const DrawList& list, int size) {
     }
     const auto lies_behind = [&](const Segment& line) { return crosses(grown(rect, ink(size)), line.from, line.to); };
     const bool blanked = word.kind == BoxKind::text && is_blanked(list, word);
-    if (!blanked && std::ranges::any_of(list.content(Layer::ground).strokes, lies_behind))
+    if (!blanked && (std::ranges::any_of(list.content(Layer::lines).strokes, lies_behind) ||
+                     std::ranges::any_of(list.content(Layer::points).strokes, lies_behind)))
       found.push_back(word.name + " over a line of the ground");
   }
   return found;

@@ -38,7 +38,7 @@ inline std::size_t strokes(const DrawList& list) {
 // All strokes but those of the grid.
 inline std::vector<Segment> symbol_strokes(const DrawList& list) {
   std::vector<Segment> all;
-  for (const Layer layer : {Layer::ground, Layer::symbols, Layer::notices, Layer::steered}) {
+  for (const Layer layer : {Layer::lines, Layer::points, Layer::symbols, Layer::notices, Layer::steered}) {
     const auto& strokes = list.content(layer).strokes;
     all.insert(all.end(), strokes.begin(), strokes.end());
   }

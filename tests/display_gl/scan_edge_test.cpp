@@ -1,7 +1,10 @@
-// Scans flown back and forth over bright land: between the newest sweep and the old ones no black stands.
+// Scans flown back and forth over bright land: between the newest sweep and the old ones no black stands. With
+// YARS_PICTURES=FOLDER one of them is written there, to be looked at.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <string>
 
 #include "display/gl/glass.hpp"
 #include "display/gl/headless_egl.hpp"
@@ -75,6 +78,10 @@ int dark_pixels(const Scan& scan, int passes, double stop_right_deg) {
 TEST(ScanEdge, OverBrightLandNoBlackStandsBetweenTheNewestSweepAndTheOldOnes) {
   auto context = open_headless();
   if (!context) GTEST_SKIP() << "no OpenGL without a display: " << context.error().message();
+  if (const char* folder = std::getenv("YARS_PICTURES")) {
+    const std::string path = std::string(folder) + "/scan_edge.png";
+    EXPECT_TRUE(imageio::write_png(path, flown(kBeamMap, 3, 30.0, kSpeed_mps))) << path;
+  }
   for (const Scan& scan : {kBeamMap, kShortBeamMap, kSharpened}) {
     for (const int passes : {3, 4}) {
       for (const double stop_right_deg : {-45.0, -20.0, 5.0, 30.0, 48.0}) {
