@@ -15,10 +15,10 @@ constexpr float kLineGap = 2.5F;  // [units] from the end of that line to the te
 
 // What a label needs to be clear [units]. A text's ink goes 0.7 beyond its box, and half a pixel; two must not touch.
 struct Clearance {
-  float around;         // the text
-  float beside_line;    // the line that leads to it
-  float beyond_line;    // its ends, which come to no other line
-  bool crosses_points;  // the line may lie beneath other points' symbols: a label stays so, and comes so at the last
+  float around;          // the text
+  float beside_line;     // the line that leads to it
+  float beyond_line;     // its ends, which come to no other line
+  bool crosses_symbols;  // its line may run under points, outline and steering line: so it stays, so it comes at last
 };
 constexpr Clearance kToStay{2.5F, 1.0F, 0.0F, true};
 // More to come than to stay, or it would leave with the next picture; more still to come nearer.
@@ -155,21 +155,23 @@ class Search {
     return std::ranges::none_of(lines_, [&](const Segment& line) { return crosses(room, line.from, line.to); });
   }
 
-  // A line crosses no text and no other line. It may run beneath a scale, and leaves what lies over its own symbol: a
-  // heap of other symbols, or a text.
+  // A line crosses no text and no line that leads to another label. It may run beneath a scale, and leaves what lies
+  // over its own symbol: a heap of other symbols, or a text.
   bool line_is_clear(const Place& place, const Clearance& clearance) const {
     const Segment own = line(place);
     for (const OccupiedBox& box : list_.occupied()) {
       const bool symbol = box.kind == BoxKind::point;
-      if (box.kind == BoxKind::scale || (symbol && clearance.crosses_points)) continue;
+      if (box.kind == BoxKind::scale || (symbol && clearance.crosses_symbols)) continue;
       const bool fixed = symbol || box.kind == BoxKind::text;
       const float reach = 2.0F - clearance.beside_line / 2.0F;
       if (fixed && crosses(grown(box.rect, reach), label_.anchor, own.from)) continue;
       if (crosses(grown(box.rect, clearance.beside_line), own.from, own.to)) return false;
     }
     const Segment wide = lengthened(own, clearance.beyond_line);
-    return std::ranges::none_of(
-        lines_, [&](const Segment& other) { return cross(wide, lengthened(other, clearance.beyond_line)); });
+    return std::ranges::none_of(lines_, [&](const Segment& other) {
+      const bool leads_to_label = other.ink == Ink::dim;
+      return (leads_to_label || !clearance.crosses_symbols) && cross(wide, lengthened(other, clearance.beyond_line));
+    });
   }
 
   static Segment lengthened(const Segment& line, float by) {

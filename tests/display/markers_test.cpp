@@ -45,6 +45,23 @@ TEST(Markers, TheCursorIsAnOpenPlusOnItsGroundPoint) {
   }
 }
 
+TEST(Markers, TheCursorIsDrawnOverEverythingAndANumberBeneathItIsLeftOut) {
+  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  EXPECT_THAT(words(input), Contains("4.7"));
+  testing::put_cursor(input, 210.0, 1.2);  // twelve units below the apex, on the window size
+  const DrawList list = drawn(input);
+  EXPECT_EQ(list.content(Layer::steered).strokes.size(), 4U);
+  EXPECT_THAT(words(list), ::testing::Not(Contains("4.7")));
+  EXPECT_THAT(words(list), Contains("FULL"));
+}
+
+TEST(Markers, ATextOverAPointHasABlackGround) {
+  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  EXPECT_TRUE(drawn(input).content(Layer::symbols).plates.empty());
+  testing::add_point(input, "1", radar::PointKind::steer, testing::at(210.0, 1.2));
+  EXPECT_EQ(drawn(input).content(Layer::symbols).plates.size(), 1U);
+}
+
 TEST(Markers, PointsStandAtTheirPlacesAndOffTheGlassAtNone) {
   GlassInput input = testing::operating(Mode::rbm, 40.0);
   const DrawList without = drawn(input);
