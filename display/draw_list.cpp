@@ -12,11 +12,12 @@ namespace yars::display {
 
 namespace {
 
-constexpr float kStroke = 1.35F;    // [units] a pixel and a bit at 480: thinner fades, thicker clogs 10-unit text
-constexpr float kThin = 1.0F;       // [units] arcs, which video must not drown in
-constexpr float kHalo = 1.4F;       // [units] enough that bright video does not touch a stroke
-constexpr float kDash = 3.0F;       // [units] dash and gap of an offset's outline
-constexpr float kBoxMargin = 3.0F;  // [units] between a legend and its frame
+constexpr float kStroke = 1.35F;      // [units] a pixel and a bit at 480: thinner fades, thicker clogs 10-unit text
+constexpr float kThin = 1.0F;         // [units] arcs, which video must not drown in
+constexpr float kHalo = 1.4F;         // [units] enough that bright video does not touch a stroke
+constexpr float kDash = 3.0F;         // [units] dash and gap of an offset's outline
+constexpr float kBoxMargin = 3.0F;    // [units] between a legend and its frame
+constexpr float kPlateMargin = 2.0F;  // [units] of black around a text, as wide as its halo
 constexpr int kCircleSides = 24;
 
 float rounded(float value) {
@@ -62,6 +63,10 @@ void DrawList::line(Point from, Point to, Ink ink) {
   if (!std::isfinite(from.x + from.y + to.x + to.y)) return;
   const bool thin = ink == Ink::dim;
   current().strokes.push_back({rounded(from), rounded(to), thin ? kThin : kStroke, thin ? 0.0F : kHalo, ink});
+}
+
+void DrawList::leader(Point from, Point to) {
+  current().strokes.push_back({rounded(from), rounded(to), kThin, kHalo, Ink::dim});
 }
 
 void DrawList::polyline(std::span<const Point> points, Ink ink) {
@@ -120,8 +125,22 @@ void DrawList::plate(const Rect& rect) {
   current().plates.push_back(rect);
 }
 
-void DrawList::occupy(std::string_view name, const Rect& rect) {
-  occupied_.push_back({std::string(name), rect});
+void DrawList::occupy(std::string_view name, const Rect& rect, BoxKind kind) {
+  const Point from = rounded(Point{rect.left, rect.top}), to = rounded(Point{rect.right, rect.bottom});
+  occupied_.push_back({std::string(name), {from.x, from.y, to.x, to.y}, kind});
+}
+
+void DrawList::blank_behind_texts() {
+  draw_on(Layer::symbols);
+  for (const OccupiedBox& box : occupied_) {
+    if (box.kind != BoxKind::text) continue;
+    const Rect field = grown(box.rect, kPlateMargin);
+    const auto lies_behind = [&](const Segment& line) { return crosses(field, line.from, line.to); };
+    if (std::ranges::any_of(content(Layer::lines).strokes, lies_behind) ||
+        std::ranges::any_of(content(Layer::points).strokes, lies_behind)) {
+      plate(field);
+    }
+  }
 }
 
 Rect text_box(std::string_view words, Point at, const TextStyle& style) {
@@ -133,9 +152,9 @@ Rect text_box(std::string_view words, Point at, const TextStyle& style) {
   return style.boxed ? grown(ink, kBoxMargin) : ink;
 }
 
-Rect DrawList::text(std::string_view words, Point at, const TextStyle& style) {
+Rect DrawList::text(std::string_view words, Point at, const TextStyle& style, BoxKind kind) {
   const Rect box = text_box(words, at, style);
-  if (style.plate) plate(grown(box, 2.0F));
+  if (style.plate) plate(grown(box, kPlateMargin));
   if (style.boxed) {
     const std::array<Point, 4> corners{Point{box.left, box.top}, Point{box.right, box.top},
                                        Point{box.right, box.bottom}, Point{box.left, box.bottom}};
@@ -144,7 +163,7 @@ Rect DrawList::text(std::string_view words, Point at, const TextStyle& style) {
   const float margin = style.boxed ? kBoxMargin : 0.0F;
   PlacedText placed(*this, {box.left + margin, box.bottom - margin}, style.height);
   stroke_text(words, placed);
-  occupy(words, box);
+  occupy(words, box, kind);
   return box;
 }
 

@@ -1,5 +1,5 @@
 // What is drawn over the video, as plain data: line segments, filled rectangles, steps of video, and the boxes
-// that text and scales take up (names of points are placed clear of them).
+// that texts, scales and symbols take up (label_layout.hpp places labels clear of them).
 // Coordinates are glass units, rounded to 1/8, so that a motion nobody sees leaves the list equal.
 // A list keeps its memory from one picture to the next.
 #pragma once
@@ -16,10 +16,10 @@
 
 namespace yars::display {
 
-// Drawn one over the other, each with its plates below its strokes: range arcs and lines; symbols and legends;
-// notices, which nothing may write over.
-enum class Layer : std::uint8_t { grid, symbols, notices };
-inline constexpr std::size_t kLayers = 3;
+// Drawn one over the other, each with its plates, then its halos, below its strokes: range arcs and zero azimuth line;
+// lines on the ground; points on the ground; texts and scales; notices; what the pilot steers, over everything.
+enum class Layer : std::uint8_t { grid, lines, points, symbols, notices, steered };
+inline constexpr std::size_t kLayers = 6;
 
 enum class Ink : std::uint8_t { bright, dim };  // symbols; lines of the grid below them
 
@@ -44,9 +44,14 @@ struct LayerContent {
   friend bool operator==(const LayerContent&, const LayerContent&) = default;
 };
 
+// Texts and scales stand at fixed places, labels where label_layout.hpp puts them, points and the cursor where the
+// ground is.
+enum class BoxKind : std::uint8_t { text, label, scale, point, cursor };
+
 struct OccupiedBox {
-  std::string name;  // the text itself, or what the scale is
-  Rect rect;
+  std::string name;  // the text itself, or what the scale or symbol is
+  Rect rect;         // of a scale or a symbol with its ink, of a text to the middle of its outer strokes
+  BoxKind kind = BoxKind::text;
   friend bool operator==(const OccupiedBox&, const OccupiedBox&) = default;
 };
 
@@ -66,6 +71,8 @@ class DrawList {
 
   // A line to a place that is no number is left out: an antenna that tells nothing has no caret.
   void line(Point from, Point to, Ink ink = Ink::bright);
+  // From a symbol to its label: thin and dim, for the symbols to stand out, parted from the video all the same.
+  void leader(Point from, Point to);
   void polyline(std::span<const Point> points, Ink ink = Ink::bright);
   void circle(Point center, float radius, bool dashed = false);
   // Dashed outlines go round the closed polygon.
@@ -75,8 +82,10 @@ class DrawList {
   void plate(const Rect& rect);
 
   // Draws text with its middle height at `at.y`; returns the box taken up, frame included, and records it.
-  Rect text(std::string_view words, Point at, const TextStyle& style = {});
-  void occupy(std::string_view name, const Rect& rect);
+  Rect text(std::string_view words, Point at, const TextStyle& style = {}, BoxKind kind = BoxKind::text);
+  void occupy(std::string_view name, const Rect& rect, BoxKind kind);
+  // A black ground behind each fixed text that a line or a point of the ground would lie behind.
+  void blank_behind_texts();
 
   const LayerContent& content(Layer layer) const { return layers_[static_cast<std::size_t>(layer)]; }
   const std::vector<VideoStep>& video_steps() const { return video_steps_; }

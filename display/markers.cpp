@@ -18,7 +18,7 @@ namespace {
 
 constexpr float kRadius = 6.0F;                   // [units] of a point's symbol
 constexpr float kGapInside = 7.0F, kArm = 16.0F;  // [units] of the plus: a point's symbol fits into its middle
-constexpr float kNameText = 9.0F;
+constexpr float kInk = 2.0F;                      // [units] that an arm covers, with its halo, beside its middle
 
 bool on_glass(Point at) {
   return at.x >= 0.0F && at.y >= 0.0F && at.x <= kGlassUnits && at.y <= kGlassUnits;
@@ -80,36 +80,15 @@ std::optional<Point> cursor_at(const GlassInput& input, const GlassView& view, c
   return on_glass(at) ? std::optional(at) : std::nullopt;
 }
 
-// What the arms of the plus cover; a name may stand in the corners between them.
-std::array<Rect, 2> arms_of(Point cursor) {
-  constexpr float clear = 2.0F;
-  return {Rect{cursor.x - kArm, cursor.y - clear, cursor.x + kArm, cursor.y + clear},
-          Rect{cursor.x - clear, cursor.y - kArm, cursor.x + clear, cursor.y + kArm}};
+std::span<const databuffer::DrawnPoint> points_of(const databuffer::RadarState& state) {
+  return std::span(state.points).first(std::min<std::size_t>(state.points_drawn, radar::kMaxPointsDrawn));
 }
 
-void draw_name(std::string_view name, Point at, std::optional<Point> cursor, DrawList& list) {
-  struct Place {
-    float right, down;
-    Align align;
-  };
-  constexpr float side = kRadius + 4.0F;
-  constexpr float lift = 11.0F;
-  constexpr std::array places{Place{side, -lift, Align::left}, Place{side, lift, Align::left},
-                              Place{-side, -lift, Align::right}, Place{-side, lift, Align::right}};
-  const auto box_at = [&](const Place& place) {
-    return text_box(name, {at.x + place.right, at.y + place.down}, {kNameText, place.align});
-  };
-  const auto is_free = [&](const Place& place) {
-    const Rect box = box_at(place);
-    const bool inside = box.left >= 0.0F && box.top >= 0.0F && box.right <= kGlassUnits && box.bottom <= kGlassUnits;
-    const auto covers = [&](const Rect& arm) { return intersect(box, arm); };
-    if (cursor && std::ranges::any_of(arms_of(*cursor), covers)) return false;
-    return inside &&
-           std::ranges::none_of(list.occupied(), [&](const OccupiedBox& other) { return intersect(box, other.rect); });
-  };
-  const auto* chosen = std::ranges::find_if(places, is_free);
-  if (chosen == places.end()) chosen = places.begin();
-  list.text(name, {at.x + chosen->right, at.y + chosen->down}, {kNameText, chosen->align});
+NameRank rank_of(const databuffer::DrawnPoint& point, const databuffer::RadarState& state) {
+  if (point.selected != 0) return NameRank::selected;
+  const bool designated = (state.flags & databuffer::kTargetDesignated) != 0 &&
+                          databuffer::text_of(point.name) == databuffer::text_of(state.target_name);
+  return designated ? NameRank::target : NameRank::other;
 }
 
 }  // namespace
@@ -118,10 +97,15 @@ void draw_cursor(const GlassInput& input, const GlassView& view, const GlassFram
   const std::optional<Point> cursor = cursor_at(input, view, frame);
   if (!cursor) return;
   const Point at = *cursor;
+  list.draw_on(Layer::steered);
   list.line({at.x - kArm, at.y}, {at.x - kGapInside, at.y});
   list.line({at.x + kGapInside, at.y}, {at.x + kArm, at.y});
   list.line({at.x, at.y - kArm}, {at.x, at.y - kGapInside});
   list.line({at.x, at.y + kGapInside}, {at.x, at.y + kArm});
+  list.draw_on(Layer::symbols);
+  // A name may stand in the corners between the arms.
+  list.occupy("cursor", {at.x - kArm - kInk, at.y - kInk, at.x + kArm + kInk, at.y + kInk}, BoxKind::cursor);
+  list.occupy("cursor", {at.x - kInk, at.y - kArm - kInk, at.x + kInk, at.y + kArm + kInk}, BoxKind::cursor);
 }
 
 void draw_window_outline(const GlassInput& input, const GlassView& view, const GlassFrame& frame, DrawList& list) {
@@ -140,31 +124,31 @@ void draw_window_outline(const GlassInput& input, const GlassView& view, const G
                                      Point{centre.x + right.x + up.x, centre.y + right.y + up.y},
                                      Point{centre.x + right.x - up.x, centre.y + right.y - up.y},
                                      Point{centre.x - right.x - up.x, centre.y - right.y - up.y}};
+  list.draw_on(Layer::lines);
   list.polygon(corners, false);
+  list.draw_on(Layer::symbols);
 }
 
 void draw_points(const GlassInput& input, std::span<const radar::RoutePoint> route, const GlassView& view,
                  const GlassFrame& frame, DrawList& list) {
-  struct Shown {
-    const databuffer::DrawnPoint* point;
-    Point at;
-  };
-  std::array<Shown, radar::kMaxPointsDrawn> shown;
-  std::size_t count = 0;
-  const std::size_t given = std::min<std::size_t>(input.state.points_drawn, radar::kMaxPointsDrawn);
+  list.draw_on(Layer::points);
   const auto belief = databuffer::belief_in_use(input.ownship, input.nav, input.state);
-  for (const databuffer::DrawnPoint& point : std::span(input.state.points).first(given)) {
-    const geo::GeoPoint place{point.latitude_deg, point.longitude_deg};
-    const Point at = view.at_ground(frame, belief.on_video(place));
+  for (const databuffer::DrawnPoint& point : points_of(input.state)) {
+    const Point at = view.at_ground(frame, belief.on_video({point.latitude_deg, point.longitude_deg}));
     if (!on_glass(at)) continue;
     draw_symbol(point, route, at, list);
-    list.occupy("point", grown({at.x, at.y, at.x, at.y}, kRadius + 1.0F));
-    shown[count++] = {&point, at};
+    list.occupy("point", grown({at.x, at.y, at.x, at.y}, kRadius + 1.0F), BoxKind::point);
   }
-  // Names after all symbols, so that none of them is written over.
-  const std::optional<Point> cursor = cursor_at(input, view, frame);
-  for (const Shown& one : std::span(shown).first(count)) {
-    draw_name(databuffer::text_of(one.point->name), one.at, cursor, list);
+  list.draw_on(Layer::symbols);
+}
+
+void add_names(const GlassInput& input, const GlassView& view, const GlassFrame& frame, NameRank rank,
+               LabelQueue& queue) {
+  const auto belief = databuffer::belief_in_use(input.ownship, input.nav, input.state);
+  for (const databuffer::DrawnPoint& point : points_of(input.state)) {
+    if (rank_of(point, input.state) != rank) continue;
+    const Point at = view.at_ground(frame, belief.on_video({point.latitude_deg, point.longitude_deg}));
+    if (on_glass(at)) queue.add(label_of(LabelRole::name, databuffer::text_of(point.name), at));
   }
 }
 

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kEdgeLength_m = 1000.0;  // [m] short enough that the chord along the geodesic is straight to 1e-8
 constexpr double kMostWidth_deg = 45.0;   // [deg] the far side of a wedge is drawn straight
+constexpr double kRounding_deg = 1e-6;    // [deg] of an azimuth that went through earth-centred coordinates
 
 geo::Vector3 on_ellipsoid(geo::GeoPoint point) {
   return geo::ecef_from_geodetic(point, geo::HeightAboveEllipsoid::metres(0.0));
@@ -24,6 +25,9 @@ StoredSweep placed(const databuffer::Sweep& sweep) {
   stored.apex_ecef = on_ellipsoid(stored.apex);
   stored.left_ecef = on_ellipsoid(geo::geodesic_direct(stored.apex, left, edge));
   stored.right_ecef = on_ellipsoid(geo::geodesic_direct(stored.apex, right, edge));
+  const geo::Bearing middle = left + (right - left) / 2.0;
+  const geo::Length near = geo::Length::metres(PolarStore::kNearShare * sweep.range_m);
+  stored.near_ecef = on_ellipsoid(geo::geodesic_direct(stored.apex, middle, near));
   stored.ground_track = geo::Bearing::degrees(sweep.ground_track_deg);
   stored.half_width_rad = (right - left).radians() / 2.0;
   stored.range_m = sweep.range_m;
@@ -43,6 +47,7 @@ PolarStore::PolarStore() : video_(static_cast<std::size_t>(kRows) * kRowSamples)
 
 void PolarStore::clear() {
   sweeps_.clear();
+  pass_ = {};
   free_rows_.resize(kRows);
   for (int row = 0; row < kRows; ++row) free_rows_[static_cast<std::size_t>(row)] = kRows - 1 - row;
   ++version_;
@@ -63,7 +68,9 @@ Insertion PolarStore::insert(const databuffer::Sweep& sweep) {
     mode_ = sweep.mode;
   }
   const bool was_empty = sweeps_.empty();
-  const std::size_t covered = erase_covered((left - reference_).degrees(), width_deg);
+  pass_.extend(sweep.scan, left, width_deg);
+  const std::size_t covered = cover((left - reference_).degrees(), width_deg);
+  erase_swept({sweep.apex_latitude_deg, sweep.apex_longitude_deg});
 
   StoredSweep stored = placed(sweep);
   stored.azimuth_key_deg = (middle - reference_).degrees();
@@ -81,26 +88,69 @@ Insertion PolarStore::insert(const databuffer::Sweep& sweep) {
   return at_back ? Insertion::after_last : Insertion::between;
 }
 
-std::size_t PolarStore::erase_covered(double left_key_deg, double width_deg) {
-  const std::size_t before = sweeps_.size();
-  const double right_key_deg = left_key_deg + width_deg;
-  erase_between(left_key_deg, right_key_deg);
-  // A wedge over the seam of the keys goes on at their other end.
-  if (right_key_deg >= 180.0) erase_between(-180.0, right_key_deg - 360.0);
-  return before - sweeps_.size();
+void PolarStore::Pass::extend(std::uint32_t to_scan, geo::Bearing left, double width_deg) {
+  if (to_scan != scan || left_deg == right_deg) *this = {to_scan, left, 0.0, 0.0};
+  const double from_deg = (left - first).degrees();
+  left_deg = std::min(left_deg, from_deg);
+  right_deg = std::max(right_deg, from_deg + width_deg);
 }
 
-void PolarStore::erase_between(double first_key_deg, double last_key_deg) {
+bool PolarStore::Pass::has_swept(geo::Bearing azimuth) const {
+  const double at_deg = (azimuth - first).degrees();
+  return at_deg >= left_deg - kRounding_deg && at_deg <= right_deg + kRounding_deg;
+}
+
+std::size_t PolarStore::cover(double left_key_deg, double width_deg) {
+  const double right_key_deg = left_key_deg + width_deg;
+  std::size_t covered = cover_between(left_key_deg, right_key_deg);
+  // A wedge over the seam of the keys goes on at their other end.
+  if (right_key_deg >= 180.0) covered += cover_between(-180.0, right_key_deg - 360.0);
+  return covered;
+}
+
+std::size_t PolarStore::cover_between(double first_key_deg, double last_key_deg) {
   const auto begin = std::lower_bound(sweeps_.begin(), sweeps_.end(), first_key_deg, key_less);
   auto end = begin;
-  while (end != sweeps_.end() && end->azimuth_key_deg <= last_key_deg) free_rows_.push_back((end++)->row);
-  sweeps_.erase(begin, end);
+  while (end != sweeps_.end() && end->azimuth_key_deg <= last_key_deg) ++end;
+  const auto count = static_cast<std::size_t>(end - begin);
+  auto kept = begin;
+  for (auto at = begin; at != end; ++at) {
+    if (at->covered && *at->covered != pass_.scan) {
+      free_rows_.push_back(at->row);
+      continue;
+    }
+    at->covered = pass_.scan;
+    *kept++ = *at;
+  }
+  sweeps_.erase(kept, end);
+  return count;
+}
+
+template <typename Predicate>
+void PolarStore::erase_if(Predicate gone) {
+  std::erase_if(sweeps_, [&](const StoredSweep& sweep) {
+    if (!gone(sweep)) return false;
+    free_rows_.push_back(sweep.row);
+    return true;
+  });
+}
+
+// Seen from `apex`, the aircraft's place: what lies before the near point turns away slower than it does, so the scan
+// has swept all of it.
+void PolarStore::erase_swept(geo::GeoPoint apex) {
+  const geo::LocalTangentFrame here(apex, geo::HeightAboveEllipsoid::metres(0.0));
+  erase_if([&](const StoredSweep& sweep) {
+    if (!sweep.covered) return false;
+    const geo::Vector3 near = here.enu_from_ecef(sweep.near_ecef);
+    return pass_.has_swept(geo::Bearing::degrees(std::atan2(near.x, near.y) / geo::kRadiansPerDegree));
+  });
 }
 
 int PolarStore::take_row() {
   if (free_rows_.empty()) {
-    const auto oldest = std::min_element(sweeps_.begin(), sweeps_.end(),
-                                         [](const auto& a, const auto& b) { return a.serial < b.serial; });
+    const auto oldest = std::min_element(sweeps_.begin(), sweeps_.end(), [](const auto& a, const auto& b) {
+      return a.covered.has_value() != b.covered.has_value() ? a.covered.has_value() : a.serial < b.serial;
+    });
     free_rows_.push_back(oldest->row);
     sweeps_.erase(oldest);
   }

@@ -2,8 +2,10 @@
 // Ordered by true azimuth; a new sweep enters in one of five ways: into an empty store, before the first, after
 // the last, between two, or in the place of those whose middle its wedge covers. Order runs from the direction
 // opposite to the first sweep of a picture.
-// Holds kRows sweeps; the oldest makes way. A sweep of another mode or epoch begins a new picture. Blank sweeps
-// carry no video and are ignored, as are wedges that are not 0-45 degrees wide.
+// The aircraft flies on, so an equal azimuth is not yet the same ground: a covered sweep lies beneath the newer ones
+// until their scan has swept its ground from kNearShare of its range on, at the latest until the scan after that.
+// Holds kRows sweeps; covered ones make way first, then the oldest. A sweep of another mode or epoch begins a new
+// picture. Blank sweeps carry no video and are ignored, as are wedges that are not 0-45 degrees wide.
 #pragma once
 
 #include <array>
@@ -27,17 +29,20 @@ struct StoredSweep {
   geo::GeoPoint apex;                  // where it was measured
   geo::Vector3 apex_ecef;              // [m]
   geo::Vector3 left_ecef, right_ecef;  // [m] kEdgeLength_m from the apex along either edge
+  geo::Vector3 near_ecef;              // [m] on the middle line, kNearShare of the range from the apex
   geo::Bearing ground_track;           // at the time
   double half_width_rad = 0.0;
-  double range_m = 0.0;  // ground range of the far end
+  double range_m = 0.0;                  // ground range of the far end
+  std::optional<std::uint32_t> covered;  // the scan whose wedge has covered its azimuth
 };
 
 enum class Insertion : std::uint8_t { ignored, first, before_first, after_last, between, replaced };
 
 class PolarStore {
  public:
-  static constexpr int kRows = 1024;        // as many as the ring holds
-  static constexpr int kRowSamples = 1024;  // finer sweeps are averaged down: a glass has fewer pixels along a range
+  static constexpr int kRows = 2048;          // a scan of as many sweeps as the ring holds, and the one beneath it
+  static constexpr int kRowSamples = 1024;    // finer sweeps are averaged down: a glass has fewer pixels along a range
+  static constexpr double kNearShare = 0.05;  // nearer ground than this is left open at the edge of a scan
 
   PolarStore();
   Insertion insert(const databuffer::Sweep& sweep);
@@ -50,8 +55,20 @@ class PolarStore {
   std::uint64_t version() const { return version_; }   // changes with the content
 
  private:
-  std::size_t erase_covered(double left_key_deg, double width_deg);
-  void erase_between(double first_key_deg, double last_key_deg);
+  // The azimuths that the scan under way has swept, against its first sweep.
+  struct Pass {
+    std::uint32_t scan = 0;
+    geo::Bearing first;
+    double left_deg = 0.0, right_deg = 0.0;
+    void extend(std::uint32_t to_scan, geo::Bearing left, double width_deg);
+    bool has_swept(geo::Bearing azimuth) const;
+  };
+
+  std::size_t cover(double left_key_deg, double width_deg);
+  std::size_t cover_between(double first_key_deg, double last_key_deg);
+  void erase_swept(geo::GeoPoint apex);
+  template <typename Predicate>
+  void erase_if(Predicate gone);
   int take_row();
   void store_video(const databuffer::Sweep& sweep, StoredSweep& stored);
 
@@ -59,6 +76,7 @@ class PolarStore {
   std::vector<std::uint8_t> video_;
   std::vector<int> free_rows_;
   geo::Bearing reference_;
+  Pass pass_;
   std::uint64_t serial_ = 0;
   std::uint64_t version_ = 0;
   std::uint32_t epoch_ = 0;

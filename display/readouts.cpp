@@ -15,10 +15,11 @@ namespace yars::display {
 
 namespace {
 
-constexpr float kText = 10.0F;        // [units] cap height of all small text
-constexpr float kArrow = 14.0F;       // [units] of the range buttons' arrows
-constexpr float kBannerText = 18.0F;  // [units]
-constexpr float kSilentText = 13.0F;  // [units]
+constexpr float kText = 10.0F;         // [units] cap height of all small text
+constexpr float kArrow = 14.0F;        // [units] of the range buttons' arrows
+constexpr float kAboveLegend = 15.5F;  // [units] from a legend of the bottom row to a number above it
+constexpr float kBannerText = 18.0F;   // [units]
+constexpr float kSilentText = 13.0F;   // [units]
 
 using databuffer::text_of;
 using Buffer = std::array<char, 40>;
@@ -48,6 +49,18 @@ constexpr TextStyle centered(float height) {
 
 }  // namespace
 
+void draw_number(std::string_view words, Point at, const TextStyle& style, DrawList& list) {
+  const Rect box = text_box(words, at, style);
+  const auto stands_on = [&](const OccupiedBox& other) {
+    return other.kind == BoxKind::cursor && intersect(grown(box, 1.0F), other.rect);
+  };
+  if (std::ranges::any_of(list.occupied(), stands_on)) {
+    list.occupy("number beneath the cursor", box, BoxKind::scale);
+  } else {
+    list.text(words, at, style);
+  }
+}
+
 void draw_legends(const databuffer::RadarState& state, DrawList& list) {
   for (int button = 1; button <= radar::kBezelButtons; ++button) {
     const std::string_view legend = text_of(state.legends[button]);
@@ -61,19 +74,19 @@ void draw_legends(const databuffer::RadarState& state, DrawList& list) {
 
 void draw_brightness(const databuffer::RadarState& state, DrawList& list) {
   Buffer buffer;
-  list.text(formatted(buffer, "%.0f", state.brightness), between(4, 5), {kText, Align::left});
+  draw_number(formatted(buffer, "%.0f", state.brightness), between(4, 5), {kText, Align::left}, list);
 }
 
 void draw_range(const databuffer::RadarState& state, DrawList& list) {
   Buffer buffer;
-  list.text(miles(buffer, state.range_nm), between(13, 14), {kText, Align::right});
+  draw_number(miles(buffer, state.range_nm), between(13, 14), {kText, Align::right}, list);
 }
 
 void draw_window_size(const databuffer::RadarState& state, DrawList& list) {
   if (!(state.window_nm > 0.0)) return;
   Buffer buffer;
   const Point legend = legend_place(8).at;
-  list.text(miles(buffer, state.window_nm), {legend.x, legend.y - 16.0F}, {kText});
+  draw_number(miles(buffer, state.window_nm), {legend.x, legend.y - kAboveLegend}, {kText}, list);
 }
 
 void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list) {
@@ -81,8 +94,8 @@ void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list) {
   Buffer buffer;
   // 359.6 rounds to 360, which reads 000; -0.0 does not occur in a bearing.
   const double bearing_deg = std::fmod(std::round(state.cursor_bearing_deg) + 360.0, 360.0);
-  list.text(formatted(buffer, "%03.0f\u00b0", bearing_deg), {6.0F, 12.0F}, {kText, Align::left});
-  list.text(formatted(buffer, "%.1fNM", state.cursor_range_nm), {6.0F, 27.0F}, {kText, Align::left});
+  draw_number(formatted(buffer, "%03.0f\u00b0", bearing_deg), {6.0F, 12.0F}, {kText, Align::left}, list);
+  draw_number(formatted(buffer, "%.1fNM", state.cursor_range_nm), {6.0F, 27.0F}, {kText, Align::left}, list);
 }
 
 void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
@@ -90,7 +103,7 @@ void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
   Buffer buffer;
   if (state.update_seconds >= 0) {
     const Point legend = legend_place(7).at;
-    list.text(formatted(buffer, "%.0f", state.update_seconds), {legend.x, legend.y - 16.0F}, {kText});
+    draw_number(formatted(buffer, "%.0f", state.update_seconds), {legend.x, legend.y - kAboveLegend}, {kText}, list);
   }
   // In the upper right, above the legend of PB 15.
   constexpr float right = kGlassUnits - 6.0F, first = 46.0F, second = 61.0F;
@@ -105,7 +118,7 @@ void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
     const int size = miles_beyond
                          ? std::snprintf(buffer.data(), buffer.size(), "%c %.2fNM", direction, length.nautical_miles())
                          : std::snprintf(buffer.data(), buffer.size(), "%c %.0fFT", direction, length.feet());
-    list.text({buffer.data(), static_cast<std::size_t>(std::max(size, 0))}, {right, y}, {kText, Align::right});
+    draw_number({buffer.data(), static_cast<std::size_t>(std::max(size, 0))}, {right, y}, {kText, Align::right}, list);
   };
   draw(state.update_north_m, state.update_north_m < 0.0 ? 'S' : 'N', first);
   draw(state.update_east_m, state.update_east_m < 0.0 ? 'W' : 'E', second);
@@ -114,7 +127,8 @@ void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
 void draw_map_timer(double seconds, DrawList& list) {
   if (!std::isfinite(seconds)) return;
   Buffer buffer;
-  list.text(formatted(buffer, "%.0f SEC", std::ceil(seconds)), {kGlassUnits - 6.0F, 32.0F}, {kText, Align::right});
+  draw_number(formatted(buffer, "%.0f SEC", std::ceil(seconds)), {kGlassUnits - 6.0F, 32.0F}, {kText, Align::right},
+              list);
 }
 
 void draw_freeze(DrawList& list) {

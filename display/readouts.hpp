@@ -6,6 +6,10 @@
 
 namespace yars::display {
 
+// A number that the cursor stands on is left out, its place kept: cut by the cursor's arms it may read as another one.
+// The cursor comes first.
+void draw_number(std::string_view words, Point at, const TextStyle& style, DrawList& list);
+
 // As the radar state names them, boxed where it says so.
 void draw_legends(const databuffer::RadarState& state, DrawList& list);
 

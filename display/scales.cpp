@@ -60,8 +60,10 @@ void draw_azimuth_scale(double antenna_right_of_track_deg, DrawList& list) {
   const std::array<Point, 3> caret{Point{x - kCaretHalf, tip - kCaretLength}, Point{x, tip},
                                    Point{x + kCaretHalf, tip - kCaretLength}};
   list.polyline(caret);
-  list.occupy("azimuth scale", {x_of(-kAzimuthTrack) - kCaretHalf, tip - kCaretLength - 1.0F,
-                                x_of(kAzimuthTrack) + kCaretHalf, kAzimuthTickBottom + 1.0F});
+  list.occupy("azimuth scale",
+              {x_of(-kAzimuthTrack) - kCaretHalf, tip - kCaretLength - 1.0F, x_of(kAzimuthTrack) + kCaretHalf,
+               kAzimuthTickBottom + 1.0F},
+              BoxKind::scale);
 }
 
 void draw_limit_balls(double left_deg, double right_deg, double blind_zone_deg, DrawList& list) {
@@ -71,6 +73,7 @@ void draw_limit_balls(double left_deg, double right_deg, double blind_zone_deg, 
   for (const double degrees : {left_deg, right_deg}) {
     const float x = x_of(std::clamp(static_cast<float>(degrees), -kLimitBallTrack, kLimitBallTrack));
     list.circle({x, middle}, kLimitBallRadius);
+    list.occupy("limit ball", grown({x, middle, x, middle}, kLimitBallRadius + 1.0F), BoxKind::scale);
   }
 }
 
@@ -84,8 +87,10 @@ void draw_elevation_scale(double antenna_deg, DrawList& list) {
   const std::array<Point, 3> caret{Point{tip - kCaretLength, y - kCaretHalf}, Point{tip, y},
                                    Point{tip - kCaretLength, y + kCaretHalf}};
   list.polyline(caret);
-  list.occupy("elevation scale", {tip - kCaretLength, kTrackTop - kBallRadius - kWing,
-                                  kBallColumn + kBallRadius + kWing, kTrackBottom + kBallRadius});
+  list.occupy("elevation scale",
+              {tip - kCaretLength, kTrackTop - kBallRadius - kWing, kBallColumn + kBallRadius + kWing,
+               kTrackBottom + kBallRadius},
+              BoxKind::scale);
 }
 
 void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, DrawList& list) {
@@ -152,7 +157,7 @@ void draw_gray_scale(DrawList& list) {
                                    Point{kGrayScale.right, kGrayScale.bottom},
                                    Point{kGrayScale.left, kGrayScale.bottom}, Point{kGrayScale.left, kGrayScale.top}};
   list.polyline(frame, Ink::dim);
-  list.occupy("gray scale", kGrayScale);
+  list.occupy("gray scale", kGrayScale, BoxKind::scale);
 }
 
 }  // namespace yars::display

@@ -15,8 +15,6 @@ using databuffer::SteeringLine;
 
 constexpr float kBegin = 10.0F, kEnd = 70.0F;  // [units] from the target: clear of its symbol, long enough to aim by
 constexpr float kArrow = 8.0F, kRing = 4.0F;   // [units]
-constexpr float kText = 9.0F;
-constexpr float kBeneath = 25.0F;  // [units] from the target's middle to the heading's: a name stands between
 
 bool on_glass(Point at) {
   return at.x >= 0.0F && at.y >= 0.0F && at.x <= kGlassUnits && at.y <= kGlassUnits;
@@ -37,41 +35,34 @@ void draw_arrowhead(Point end, double approach_deg, DrawList& list) {
   list.polyline(head);
 }
 
-void draw_heading(double magnetic_deg, Point target, DrawList& list) {
+Label heading_label(double magnetic_deg, Point target) {
   std::array<char, 16> text{};
   // 359.6 rounds to 360, which reads 000.
   const double shown_deg = std::fmod(std::round(magnetic_deg) + 720.0, 360.0);
   const int length = std::snprintf(text.data(), text.size(), "%03.0f\u00b0", shown_deg);
-  const std::string_view words(text.data(), static_cast<std::size_t>(length));
-  // Beneath; above where a legend or the edge is in the way.
-  for (const float down : {kBeneath, -kBeneath}) {
-    const Point at{target.x, target.y + down};
-    const Rect box = text_box(words, at, {kText});
-    bool free = box.bottom <= kGlassUnits && box.top >= 0.0F;
-    for (const OccupiedBox& other : list.occupied()) free = free && !intersect(box, other.rect);
-    if (!free && down > 0.0F) continue;
-    list.text(words, at, {kText});
-    return;
-  }
+  return label_of(LabelRole::heading, {text.data(), static_cast<std::size_t>(length)}, target);
 }
 
 }  // namespace
 
-void draw_steering_line(const GlassInput& input, const GlassView& view, const GlassFrame& frame, DrawList& list) {
+std::optional<Label> draw_steering_line(const GlassInput& input, const GlassView& view, const GlassFrame& frame,
+                                        DrawList& list) {
   const databuffer::RadarState& state = input.state;
   const auto line = static_cast<SteeringLine>(state.steering_line);
-  if ((state.flags & databuffer::kTargetDesignated) == 0 || line == SteeringLine::none) return;
+  if ((state.flags & databuffer::kTargetDesignated) == 0 || line == SteeringLine::none) return std::nullopt;
   const auto belief = databuffer::belief_in_use(input.ownship, input.nav, state);
   const Point target = view.at_ground(frame, belief.on_video({state.target_latitude_deg, state.target_longitude_deg}));
-  if (!on_glass(target)) return;
+  if (!on_glass(target)) return std::nullopt;
   const double approach_deg = (geo::Bearing::degrees(state.steering_line_deg) - frame.up).degrees();
   const double back_deg = approach_deg + 180.0;
   const Point end = off(target, back_deg, kEnd);
+  list.draw_on(Layer::lines);
   const bool ring = line == SteeringLine::fixed;
   list.line(off(target, back_deg, kBegin), ring ? off(target, back_deg, kEnd - kRing) : end);
   if (ring) list.circle(end, kRing);
   if (line == SteeringLine::slewing) draw_arrowhead(end, approach_deg, list);
-  draw_heading(state.steering_line_deg - state.magnetic_variation_deg, target, list);
+  list.draw_on(Layer::symbols);
+  return heading_label(state.steering_line_deg - state.magnetic_variation_deg, target);
 }
 
 }  // namespace yars::display

@@ -2,14 +2,18 @@
 // spec pvi.md rule 15.
 #pragma once
 
+#include <optional>
+
 #include "display/draw_list.hpp"
 #include "display/glass_geometry.hpp"
 #include "display/glass_input.hpp"
+#include "display/label_layout.hpp"
 
 namespace yars::display {
 
-// The line, its magnetic heading beneath the target, and at its end an arrowhead while it slews, a circle once it is
-// fixed. Nothing without a target on the glass. Comes before the points, whose names keep clear of the heading.
-void draw_steering_line(const GlassInput& input, const GlassView& view, const GlassFrame& frame, DrawList& list);
+// The line, and at its end an arrowhead while it slews, a circle once it is fixed. Returns its magnetic heading, a
+// label of the target. Nothing without a target on the glass.
+std::optional<Label> draw_steering_line(const GlassInput& input, const GlassView& view, const GlassFrame& frame,
+                                        DrawList& list);
 
 }  // namespace yars::display

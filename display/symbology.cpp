@@ -139,8 +139,25 @@ void draw_readouts(const GlassInput& input, const Format& format, DrawList& list
   if ((state.flags & databuffer::kFreeze) != 0) draw_freeze(list);
 }
 
+// Symbols before labels, which keep clear of them.
+void draw_ground(const GlassInput& input, std::span<const radar::RoutePoint> route, const GlassView& view,
+                 const GlassFrame& frame, LabelMemory& labels, DrawList& list) {
+  draw_points(input, route, view, frame, list);
+  const auto heading = draw_steering_line(input, view, frame, list);
+  LabelQueue queue;
+  add_names(input, view, frame, NameRank::selected, queue);
+  add_names(input, view, frame, NameRank::target, queue);
+  if (heading) queue.add(*heading);
+  add_names(input, view, frame, NameRank::other, queue);
+  place_labels(queue.labels(), labels, list);
+}
+
 void draw_format(const GlassInput& input, const Format& format, const radar::RadarConfiguration& configuration,
-                 const GlassView& view, const GlassFrame& frame, DrawList& list) {
+                 const GlassView& view, const GlassFrame& frame, LabelMemory& labels, DrawList& list) {
+  // On a map that could not be read nobody knows where anything lies.
+  const bool placed = format.ground && (!format.map || shows_map(input));
+  // Before the readouts, which give way to it.
+  if (placed) draw_cursor(input, view, frame, list);
   if (format.arcs) {
     const databuffer::RadarState& state = input.state;
     draw_range_arcs(view, arc_spacing(state.range_nm, state.range_index, configuration.view.arc_spacing_nm), list);
@@ -151,14 +168,9 @@ void draw_format(const GlassInput& input, const Format& format, const radar::Rad
   if (format.gray_scale) draw_gray_scale(list);
   if (format.readouts) draw_readouts(input, format, list);
   if (format.velocity) draw_velocity_format(input, list);
-  // On a map that could not be read nobody knows where anything lies.
-  const bool placed = format.ground && (!format.map || shows_map(input));
   if (placed && format.window) draw_window_outline(input, view, frame, list);
-  if (placed) {
-    draw_cursor(input, view, frame, list);
-    draw_steering_line(input, view, frame, list);
-    draw_points(input, configuration.route, view, frame, list);
-  }
+  if (placed) draw_ground(input, configuration.route, view, frame, labels, list);
+  list.blank_behind_texts();
 }
 
 }  // namespace
@@ -174,7 +186,7 @@ bool shows_map(const GlassInput& input) {
 }
 
 void draw_symbology(const GlassInput& input, const radar::RadarConfiguration& configuration, const GlassView& view,
-                    const GlassFrame& frame, DrawList& list) {
+                    const GlassFrame& frame, LabelMemory& labels, DrawList& list) {
   const databuffer::RadarState& state = input.state;
   list.clear();
   if (has_power(state, radar::Power::off)) {
@@ -188,9 +200,9 @@ void draw_symbology(const GlassInput& input, const radar::RadarConfiguration& co
   if (has_power(state, radar::Power::standby)) {
     draw_banner("STBY", list);
   } else if (shows_map(input)) {
-    draw_format(input, format_of(state), configuration, GlassView(input.map), frame_of(input.map), list);
+    draw_format(input, format_of(state), configuration, GlassView(input.map), frame_of(input.map), labels, list);
   } else {
-    draw_format(input, format_of(state), configuration, view, frame, list);
+    draw_format(input, format_of(state), configuration, view, frame, labels, list);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "display/readouts.hpp"
 #include "lib/geo/quantity.hpp"
 
 namespace yars::display {
@@ -49,13 +50,13 @@ void draw_velocity_differences(const databuffer::RadarState& state, DrawList& li
     y += 13.0F;
     Buffer buffer;
     list.text(row.abbreviation, {value_left, y}, {kSmallText, Align::right});
-    list.text(feet_per_second(buffer, "%+.1f", row.value_mps), {right, y}, {kSmallText, Align::right});
+    draw_number(feet_per_second(buffer, "%+.1f", row.value_mps), {right, y}, {kSmallText, Align::right}, list);
   }
 }
 
 void draw_velocity_format(const GlassInput& input, DrawList& list) {
   constexpr float left = 130.0F, right = 350.0F;
-  float y = 180.0F;
+  float y = 168.0F;  // all rows above the place of what has gone silent
   for (const Row& row : rows(input.state)) {
     Buffer buffer;
     list.text(row.name, {left, y}, {kLargeText, Align::left});

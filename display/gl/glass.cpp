@@ -74,6 +74,7 @@ struct Glass::State {
   OverlayPass overlay_pass;
   PolarStore store;
   DrawList list, shown_list;
+  LabelMemory labels;
   std::vector<Wedge> wedges;
   std::optional<Shown> shown;
 };
@@ -115,7 +116,7 @@ bool Glass::draw(const GlassInput& input) {
   wanted.brightness = input.state.brightness;
   wanted.contrast = input.state.contrast;
   wanted.size = state.framebuffer.size();
-  draw_symbology(input, state.configuration, state.view, wanted.frame, state.list);
+  draw_symbology(input, state.configuration, state.view, wanted.frame, state.labels, state.list);
   if (state.is_shown(wanted)) return false;
   state.render(wanted);
   state.shown = wanted;

@@ -118,8 +118,8 @@ void OverlayPass::draw(const DrawList& list, const ColorScheme& colors, const st
   // Instances are drawn in their order: the list's layers, from the video up.
   instance_data_.clear();
   for (const VideoStep& step : list.video_steps()) add_rectangle(step.rect, scaled(colors.video, light[step.video]));
-  for (const Layer layer : {Layer::grid, Layer::symbols, Layer::notices}) {
-    const LayerContent& content = list.content(layer);
+  for (std::size_t layer = 0; layer < kLayers; ++layer) {
+    const LayerContent& content = list.content(static_cast<Layer>(layer));
     for (const Rect& plate : content.plates) add_rectangle(plate, colors.ground);
     add_strokes(content.strokes, colors, true);
     add_strokes(content.strokes, colors, false);

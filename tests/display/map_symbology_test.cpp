@@ -5,53 +5,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "display/present_frame.hpp"
-#include "display/symbology.hpp"
-#include "tests/display/glass_states.hpp"
+#include "tests/display/symbology_checks.hpp"
 
 namespace yars::display {
 namespace {
 
 using radar::Mode;
 
-DrawList drawn(const GlassInput& input) {
-  const GlassView view{radar::ViewConfiguration{}};
-  DrawList list;
-  draw_symbology(input, {}, view, present_frame(input, nullptr), list);
-  return list;
-}
+using testing::bounds_of;
+using testing::drawn;
+using testing::middle_of;
+using testing::words;
 
-std::vector<std::string> words(const GlassInput& input) {
-  const DrawList list = drawn(input);
-  std::vector<std::string> names;
-  for (const OccupiedBox& box : list.occupied()) names.push_back(box.name);
-  return names;
-}
-
-// What the first list has and the second has not.
 std::vector<Segment> more_strokes(const GlassInput& with, const GlassInput& without) {
-  const DrawList list = drawn(with);
-  const DrawList other = drawn(without);
-  const auto& base = other.content(Layer::symbols).strokes;
-  std::vector<Segment> more;
-  for (const Segment& segment : list.content(Layer::symbols).strokes)
-    if (std::ranges::find(base, segment) == base.end()) more.push_back(segment);
-  return more;
-}
-
-Rect bounds_of(const std::vector<Segment>& strokes) {
-  Rect bounds{1e9F, 1e9F, -1e9F, -1e9F};
-  for (const Segment& segment : strokes) {
-    for (const Point& point : {segment.from, segment.to}) {
-      bounds = {std::min(bounds.left, point.x), std::min(bounds.top, point.y), std::max(bounds.right, point.x),
-                std::max(bounds.bottom, point.y)};
-    }
-  }
-  return bounds;
-}
-
-Point middle_of(const Rect& rect) {
-  return {(rect.left + rect.right) / 2.0F, (rect.top + rect.bottom) / 2.0F};
+  return testing::more_strokes(drawn(with), drawn(without));
 }
 
 // A map of 4.7 NM, 20 NM away on 060.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -118,7 +119,7 @@ TEST(PolarStore, NoStoredMiddleLiesUnderANewerWedge) {
 
 TEST(PolarStore, TheOldestMakesWayWhenAllRowsAreTaken) {
   PolarStore store;
-  const double width_deg = 360.0 / 1200.0;
+  const double width_deg = 360.0 / (PolarStore::kRows + 100);
   for (int i = 0; i < PolarStore::kRows + 5; ++i) store.insert(sweep_of(i * width_deg, width_deg));
   EXPECT_EQ(store.by_azimuth().size(), static_cast<std::size_t>(PolarStore::kRows));
   for (const StoredSweep& sweep : store.by_azimuth()) EXPECT_GT(sweep.serial, 5U);
@@ -132,6 +133,56 @@ TEST(PolarStore, AScanOfAThousandNarrowWedgesIsKeptWholeAndReplacedByTheNext) {
   for (int i = 999; i >= 0; --i) store.insert(sweep_of(310.0 + i * kWidth_deg, kWidth_deg));
   EXPECT_EQ(store.by_azimuth().size(), 1000U);
   for (const StoredSweep& sweep : store.by_azimuth()) EXPECT_GT(sweep.serial, 1000U);
+}
+
+// A sweep from so far north of where the others are measured.
+databuffer::Sweep flown_north(double left_deg, double north_m, std::uint32_t scan) {
+  databuffer::Sweep sweep = sweep_of(left_deg);
+  sweep.apex_latitude_deg += north_m / 110'900.0;
+  sweep.scan = scan;
+  return sweep;
+}
+
+std::size_t measured_at_home(const PolarStore& store) {
+  const double home_deg = sweep_of(0.0).apex_latitude_deg;
+  return static_cast<std::size_t>(std::ranges::count_if(
+      store.by_azimuth(), [&](const StoredSweep& stored) { return stored.apex.latitude_deg == home_deg; }));
+}
+
+// kNearShare of the range of 1 km is 50 m: from 20 m north, the near end of a wedge on 45.5 lies on 67.1.
+TEST(PolarStore, ACoveredSweepLiesBeneathUntilItsScanHasSweptItsGroundToo) {
+  PolarStore store;
+  store.insert(flown_north(45.0, 0.0, 1));
+  for (double left_deg = 40.0; left_deg < 67.0; left_deg += 1.0) {
+    store.insert(flown_north(left_deg, 20.0, 2));
+    EXPECT_EQ(measured_at_home(store), 1U) << left_deg;
+  }
+  for (double left_deg = 67.0; left_deg < 74.0; left_deg += 1.0) store.insert(flown_north(left_deg, 20.0, 2));
+  EXPECT_EQ(measured_at_home(store), 0U);
+}
+
+TEST(PolarStore, ACoveredSweepGoesAtTheLatestWithTheNextScanOverIt) {
+  PolarStore store;
+  store.insert(flown_north(45.0, 0.0, 1));
+  store.insert(flown_north(45.0, 200.0, 2));
+  EXPECT_EQ(measured_at_home(store), 1U) << "its near ground lies behind";
+  store.insert(flown_north(45.0, 400.0, 3));
+  EXPECT_EQ(measured_at_home(store), 0U);
+}
+
+TEST(PolarStore, CoveredSweepsMakeWayBeforeThoseInSight) {
+  PolarStore store;
+  store.insert(flown_north(359.0, 0.0, 1));
+  store.insert(flown_north(0.0, 0.0, 1));
+  store.insert(flown_north(0.0, 200.0, 2));
+  const double width_deg = 300.0 / PolarStore::kRows;
+  for (int i = 0; i + 2 < PolarStore::kRows; ++i) {
+    databuffer::Sweep sweep = flown_north(10.0 + i * width_deg, 200.0, 2);
+    sweep.azimuth_right_deg = sweep.azimuth_left_deg + width_deg;
+    store.insert(sweep);
+  }
+  ASSERT_EQ(measured_at_home(store), 1U);
+  EXPECT_FALSE(store.by_azimuth().front().covered) << "the older one, on 359.5";
 }
 
 TEST(PolarStore, AnotherModeOrEpochBeginsANewPicture) {

@@ -1,8 +1,7 @@
-// What the tests of the symbols share: a picture as a list, its words, and whether anything lies over anything.
+// What the tests of the symbols share: a picture as a list, its words and strokes.
 #pragma once
 
-#include <gtest/gtest.h>
-
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -15,7 +14,8 @@ namespace yars::display::testing {
 inline DrawList drawn(const GlassInput& input, const radar::RadarConfiguration& configuration = {}) {
   const GlassView view(configuration.view);
   DrawList list;
-  draw_symbology(input, configuration, view, present_frame(input, nullptr), list);
+  LabelMemory labels;
+  draw_symbology(input, configuration, view, present_frame(input, nullptr), labels, list);
   return list;
 }
 
@@ -30,20 +30,43 @@ inline std::vector<std::string> words(const GlassInput& input) {
 }
 
 inline std::size_t strokes(const DrawList& list) {
-  return list.content(Layer::grid).strokes.size() + list.content(Layer::symbols).strokes.size() +
-         list.content(Layer::notices).strokes.size();
+  std::size_t count = 0;
+  for (std::size_t layer = 0; layer < kLayers; ++layer) count += list.content(static_cast<Layer>(layer)).strokes.size();
+  return count;
 }
 
-inline void expect_no_overlap(const DrawList& list, const std::string& what) {
-  const auto& boxes = list.occupied();
-  for (std::size_t a = 0; a < boxes.size(); ++a) {
-    const Rect& rect = boxes[a].rect;
-    EXPECT_TRUE(rect.left >= 0.0F && rect.top >= 0.0F && rect.right <= kGlassUnits && rect.bottom <= kGlassUnits)
-        << what << ": " << boxes[a].name << " leaves the glass";
-    for (std::size_t b = a + 1; b < boxes.size(); ++b) {
-      EXPECT_FALSE(intersect(rect, boxes[b].rect)) << what << ": " << boxes[a].name << " over " << boxes[b].name;
+// All strokes but those of the grid.
+inline std::vector<Segment> symbol_strokes(const DrawList& list) {
+  std::vector<Segment> all;
+  for (const Layer layer : {Layer::lines, Layer::points, Layer::symbols, Layer::notices, Layer::steered}) {
+    const auto& strokes = list.content(layer).strokes;
+    all.insert(all.end(), strokes.begin(), strokes.end());
+  }
+  return all;
+}
+
+// What the first picture has and the second has not.
+inline std::vector<Segment> more_strokes(const DrawList& with, const DrawList& without) {
+  const auto base = symbol_strokes(without);
+  std::vector<Segment> more;
+  for (const Segment& segment : symbol_strokes(with))
+    if (std::ranges::find(base, segment) == base.end()) more.push_back(segment);
+  return more;
+}
+
+inline Rect bounds_of(const std::vector<Segment>& strokes) {
+  Rect bounds{1e9F, 1e9F, -1e9F, -1e9F};
+  for (const Segment& segment : strokes) {
+    for (const Point& point : {segment.from, segment.to}) {
+      bounds = {std::min(bounds.left, point.x), std::min(bounds.top, point.y), std::max(bounds.right, point.x),
+                std::max(bounds.bottom, point.y)};
     }
   }
+  return bounds;
+}
+
+inline Point middle_of(const Rect& rect) {
+  return {(rect.left + rect.right) / 2.0F, (rect.top + rect.bottom) / 2.0F};
 }
 
 // Everything that can be lit at once is lit, each at its widest.

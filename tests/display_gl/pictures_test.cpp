@@ -76,6 +76,19 @@ void form(GlassInput& input, double bearing_deg, double range_nm, double window_
   input.model.map_progress = 0.4;
 }
 
+// Four points within a mile and a half about a place, its target designated.
+void add_heap(GlassInput& input, double bearing_deg, double range_nm, databuffer::SteeringLine line) {
+  using radar::PointKind;
+  input.state.points_drawn = 0;
+  testing::add_point(input, "11", PointKind::steer, testing::at(bearing_deg, range_nm + 1.2));
+  testing::add_point(input, "12", PointKind::initial, testing::at(bearing_deg + 0.8, range_nm - 0.3));
+  testing::add_point(input, "13.", PointKind::target, testing::at(bearing_deg, range_nm));
+  testing::add_point(input, "13.01", PointKind::target_offset, testing::at(bearing_deg - 0.5, range_nm + 0.4));
+  testing::add_point(input, "13.02", PointKind::target_offset, testing::at(bearing_deg + 0.4, range_nm + 0.7));
+  testing::put_target(input, testing::at(bearing_deg, range_nm), 60.0, line);
+  testing::set_text(input.state.target_name, "13.");
+}
+
 struct Picture {
   const char* name;
   std::function<GlassInput()> input;
@@ -154,6 +167,37 @@ const std::vector<Picture>& pictures() {
          const geo::GeoPoint place = testing::at(22.0, 22.0);
          testing::add_point(input, "4.", radar::PointKind::target, place);
          testing::put_target(input, place, 85.0, databuffer::SteeringLine::slewing);
+         return input;
+       }},
+      {"rbm_heap_of_points",
+       [] {
+         GlassInput input = operating(Mode::rbm);
+         add_heap(input, 25.0, 24.0, databuffer::SteeringLine::slewing);
+         testing::put_cursor(input, 25.8, 23.7);
+         return input;
+       }},
+      {"rbm_heap_at_160",
+       [] {
+         GlassInput input = testing::operating(Mode::rbm, 160.0);
+         add_heap(input, 38.0, 95.0, databuffer::SteeringLine::fixed);
+         testing::put_cursor(input, 38.0, 95.0);
+         return input;
+       }},
+      {"rbm_below_the_apex",
+       [] {
+         GlassInput input = operating(Mode::rbm);
+         input.state.points_drawn = 0;
+         testing::add_point(input, "1", radar::PointKind::steer, testing::at(220.0, 1.2));
+         testing::add_point(input, "2", radar::PointKind::steer, testing::at(160.0, 1.5));
+         testing::put_cursor(input, 212.0, 1.1);
+         return input;
+       }},
+      {"hrm_corner",
+       [] {
+         GlassInput input = operating(Mode::hrm);
+         testing::put_velocities(input, 1.2, -0.4, 0.1);
+         add_heap(input, 59.8, 39.0, databuffer::SteeringLine::line_of_sight);
+         testing::put_cursor(input, -2.5, 40.0);
          return input;
        }},
       {"patch_steering_line",

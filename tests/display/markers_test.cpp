@@ -1,0 +1,134 @@
+// What lies on the ground: the cursor, and sequence points with their names.
+#include "display/markers.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "tests/display/overlap.hpp"
+#include "tests/display/symbology_checks.hpp"
+
+namespace yars::display {
+namespace {
+
+using radar::Mode;
+using testing::bounds_of;
+using ::testing::Contains;
+using testing::drawn;
+using testing::expect_no_overlap;
+using testing::middle_of;
+using testing::more_strokes;
+using testing::strokes;
+using testing::symbol_strokes;
+using testing::words;
+
+TEST(Markers, TheCursorIsAnOpenPlusOnItsGroundPoint) {
+  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  input.state.flags |= databuffer::kCursorValid;
+  const geo::GeoPoint place = testing::at(30.0, 20.0);
+  input.state.cursor_latitude_deg = testing::at(30.0, -30.0).latitude_deg;
+  input.state.cursor_longitude_deg = testing::at(30.0, -30.0).longitude_deg;
+  const DrawList away = drawn(input);
+  input.state.cursor_latitude_deg = place.latitude_deg;
+  input.state.cursor_longitude_deg = place.longitude_deg;
+  const DrawList here = drawn(input);
+  EXPECT_EQ(strokes(here), strokes(away) + 4);
+  const Rect plus = bounds_of(more_strokes(here, away));
+  EXPECT_NEAR((plus.left + plus.right) / 2.0F, 240.0F, 0.2F);
+  EXPECT_NEAR((plus.top + plus.bottom) / 2.0F, 240.0F, 0.2F);
+  for (const Segment& segment : symbol_strokes(here)) {
+    const bool at_middle = std::abs(segment.from.x - 240.0F) < 4.0F && std::abs(segment.from.y - 240.0F) < 4.0F;
+    EXPECT_FALSE(at_middle) << "the plus is open";
+  }
+}
+
+TEST(Markers, TheCursorIsDrawnOverEverythingAndANumberBeneathItIsLeftOut) {
+  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  EXPECT_THAT(words(input), Contains("4.7"));
+  testing::put_cursor(input, 210.0, 1.2);  // twelve units below the apex, on the window size
+  const DrawList list = drawn(input);
+  EXPECT_EQ(list.content(Layer::steered).strokes.size(), 4U);
+  EXPECT_THAT(words(list), ::testing::Not(Contains("4.7")));
+  EXPECT_THAT(words(list), Contains("FULL"));
+}
+
+TEST(Markers, ATextOverAPointHasABlackGround) {
+  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  EXPECT_TRUE(drawn(input).content(Layer::symbols).plates.empty());
+  testing::add_point(input, "1", radar::PointKind::steer, testing::at(210.0, 1.2));
+  EXPECT_EQ(drawn(input).content(Layer::symbols).plates.size(), 1U);
+}
+
+TEST(Markers, PointsStandAtTheirPlacesAndOffTheGlassAtNone) {
+  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  const DrawList without = drawn(input);
+  testing::add_point(input, "3.", radar::PointKind::target, testing::at(30.0, 30.0));
+  const DrawList with = drawn(input);
+  const auto& boxes = with.occupied();
+  const auto symbol = std::ranges::find(boxes, "point", &OccupiedBox::name);
+  ASSERT_NE(symbol, boxes.end());
+  EXPECT_NEAR((symbol->rect.left + symbol->rect.right) / 2.0F, 240.0F, 0.2F);
+  EXPECT_NEAR((symbol->rect.top + symbol->rect.bottom) / 2.0F, 140.0F, 0.2F);
+  EXPECT_THAT(words(with), Contains("3."));
+  input.state.points_drawn = 0;
+  testing::add_point(input, "4", radar::PointKind::steer, testing::at(30.0, -30.0));
+  EXPECT_EQ(drawn(input), without);
+}
+
+std::size_t strokes_of_point(radar::PointKind kind, const std::string& name, const radar::RadarConfiguration& with) {
+  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  const std::size_t before = strokes(drawn(input, with));
+  testing::add_point(input, name, kind, testing::at(30.0, 30.0));
+  const std::size_t named = strokes(drawn(input, with)) - before;
+  // The name's strokes are those of the same text as a message.
+  testing::set_text(input.state.message, name);
+  return named - (strokes(drawn(input, with)) - before - named);
+}
+
+TEST(Markers, SteerIsACircleInitialASquareTargetATriangleAndOffsetsAreDashed) {
+  using radar::PointKind;
+  radar::RadarConfiguration configuration;
+  configuration.route.push_back({"2", PointKind::initial, {}, 0.0});
+  EXPECT_EQ(strokes_of_point(PointKind::steer, "1", configuration), 24U);
+  EXPECT_EQ(strokes_of_point(PointKind::initial, "2", configuration), 4U);
+  EXPECT_EQ(strokes_of_point(PointKind::target, "3.", configuration), 3U);
+  const std::size_t steer_offset = strokes_of_point(PointKind::steer_offset, "1.1", configuration);
+  const std::size_t initial_offset = strokes_of_point(PointKind::steer_offset, "2.1", configuration);
+  const std::size_t target_offset = strokes_of_point(PointKind::target_offset, "3.01", configuration);
+  EXPECT_NE(steer_offset, initial_offset) << "the offset of an initial point is a square";
+  EXPECT_GT(initial_offset, 4U);
+  EXPECT_GT(target_offset, 3U);
+}
+
+TEST(Markers, NamesKeepClearOfLegendsAndOfEachOther) {
+  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  input.state.flags |= databuffer::kFreeze;
+  for (int i = 0; i < 5; ++i) {
+    testing::add_point(input, "2.0" + std::to_string(i + 1), radar::PointKind::target_offset,
+                       testing::at(30.0 + 6.0 * i, 20.0));
+  }
+  expect_no_overlap(drawn(input), "five points in a row");
+}
+
+TEST(Markers, NamesKeepClearOfTheCursor) {
+  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  testing::put_cursor(input, 30.0, 20.0);
+  // About the cursor in the middle of the glass, so that the first place for a name is on one of its arms.
+  for (int i = 0; i < 5; ++i) {
+    input.state.points_drawn = 0;
+    testing::add_point(input, "2.0" + std::to_string(i + 1), radar::PointKind::target_offset,
+                       testing::at(24.0 + 1.5 * i, 18.6 + 0.5 * i));
+    const DrawList list = drawn(input);
+    const auto& boxes = list.occupied();
+    const auto name = std::ranges::find(boxes, "2.0" + std::to_string(i + 1), &OccupiedBox::name);
+    ASSERT_NE(name, boxes.end());
+    EXPECT_FALSE(intersect(name->rect, {224.0F, 239.0F, 256.0F, 241.0F})) << i;
+    EXPECT_FALSE(intersect(name->rect, {239.0F, 224.0F, 241.0F, 256.0F})) << i;
+  }
+}
+
+}  // namespace
+}  // namespace yars::display

@@ -1,0 +1,79 @@
+// Whether anything on the glass lies over anything that it must not, told from the list. Allowed is:
+// - a symbol over a symbol (points, cursor, scales): each stands where the ground or its scale has it;
+// - the cursor over a fixed text: it is drawn over everything, with a black margin;
+// - a point or a line of the ground behind a fixed text that is on a black ground of its own;
+// - whatever over range arcs and the zero azimuth line.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "display/draw_list.hpp"
+
+namespace yars::display::testing {
+
+// How far the ink of a stroke reaches beyond its middle on a glass of so many pixels: half its width, and the soft
+// edge.
+inline float ink(int size) {
+  return 0.675F + 0.5F * kGlassUnits / static_cast<float>(size);
+}
+
+inline bool is_word(const OccupiedBox& box) {
+  return box.kind == BoxKind::text || box.kind == BoxKind::label;
+}
+
+inline bool is_blanked(const DrawList& list, const OccupiedBox& text) {
+  const auto covers = [&](const Rect& plate) {
+    const Rect& box = text.rect;
+    return plate.left < box.left && plate.top < box.top && plate.right > box.right && plate.bottom > box.bottom;
+  };
+  return std::ranges::any_of(list.content(Layer::symbols).plates, covers) ||
+         std::ranges::any_of(list.content(Layer::notices).plates, covers);
+}
+
+// Of a point behind a fixed text the strokes are judged, not the box.
+inline bool may_overlap(const OccupiedBox& word, const OccupiedBox& other) {
+  return word.kind == BoxKind::text && (other.kind == BoxKind::cursor || other.kind == BoxKind::point);
+}
+
+inline bool touch(const OccupiedBox& word, const OccupiedBox& other, int size) {
+  // The box of a symbol holds its ink; half a pixel of softness is not overlap.
+  return is_word(other) ? intersect(grown(word.rect, ink(size)), grown(other.rect, ink(size)))
+                        : intersect(grown(word.rect, 0.675F), other.rect);
+}
+
+// A sentence for each pair that overlaps on a glass of so many pixels, and for each text that leaves it.
+inline std::vector<std::string> overlaps(const DrawList& list, int size) {
+  std::vector<std::string> found;
+  const auto& boxes = list.occupied();
+  for (const OccupiedBox& word : boxes) {
+    if (!is_word(word)) continue;
+    const Rect& rect = word.rect;
+    if (rect.left < 0.0F || rect.top < 0.0F || rect.right > kGlassUnits || rect.bottom > kGlassUnits)
+      found.push_back(word.name + " leaves the glass");
+    for (const OccupiedBox& other : boxes) {
+      const bool told_before = is_word(other) && &other <= &word;
+      if (told_before || !touch(word, other, size)) continue;
+      if (may_overlap(word, other)) continue;
+      found.push_back(word.name + " over " + other.name);
+    }
+    const auto lies_behind = [&](const Segment& line) { return crosses(grown(rect, ink(size)), line.from, line.to); };
+    const bool blanked = word.kind == BoxKind::text && is_blanked(list, word);
+    if (!blanked && (std::ranges::any_of(list.content(Layer::lines).strokes, lies_behind) ||
+                     std::ranges::any_of(list.content(Layer::points).strokes, lies_behind)))
+      found.push_back(word.name + " over a line of the ground");
+  }
+  return found;
+}
+
+inline void expect_no_overlap(const DrawList& list, const std::string& what) {
+  for (const int size : {480, 1024}) {
+    for (const std::string& sentence : overlaps(list, size))
+      ADD_FAILURE() << what << " at " << size << ": " << sentence;
+  }
+}
+
+}  // namespace yars::display::testing

@@ -1,0 +1,78 @@
+// That nothing on the glass lies over what it must not, in any state; what may is listed in overlap.hpp.
+#include "tests/display/overlap.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/display/random_glass.hpp"
+#include "tests/display/symbology_checks.hpp"
+
+namespace yars::display {
+namespace {
+
+using radar::Mode;
+using testing::crowded;
+using testing::drawn;
+using testing::expect_no_overlap;
+
+constexpr std::array kModes{Mode::rbm, Mode::hrm,        Mode::patch,   Mode::beacon,
+                            Mode::pvu, Mode::air_to_air, Mode::ranging, Mode::menu};
+
+TEST(Overlap, ThereIsNoneInAnyModeAtAnyRangeWithEverythingLit) {
+  for (const Mode mode : kModes) {
+    for (const double range_nm : {4.7, 10.0, 20.0, 40.0, 80.0, 160.0}) {
+      const std::string what = std::string(radar::name_of(mode)) + " at " + std::to_string(range_nm);
+      expect_no_overlap(drawn(crowded(mode, range_nm)), what);
+    }
+  }
+}
+
+TEST(Overlap, ThereIsNoneInStandby) {
+  for (const Mode mode : kModes) {
+    GlassInput input = crowded(mode, 160.0);
+    input.state.power = static_cast<std::uint8_t>(radar::Power::standby);
+    expect_no_overlap(drawn(input), "standby");
+  }
+}
+
+TEST(Overlap, ThereIsNoneWithATargetDesignatedAnywhere) {
+  for (const Mode mode : {Mode::rbm, Mode::hrm, Mode::beacon}) {
+    for (double bearing_deg = -30.0; bearing_deg <= 90.0; bearing_deg += 15.0) {
+      for (double range_nm = 2.0; range_nm <= 42.0; range_nm += 4.0) {
+        GlassInput input = crowded(mode, 40.0);
+        const geo::GeoPoint place = testing::at(bearing_deg, range_nm);
+        testing::put_target(input, place, 45.0, databuffer::SteeringLine::slewing);
+        testing::add_point(input, "4.", radar::PointKind::target, place);
+        expect_no_overlap(drawn(input), std::to_string(bearing_deg) + " at " + std::to_string(range_nm));
+      }
+    }
+  }
+}
+
+TEST(Overlap, ThereIsNoneInAnyOfManyRandomStates) {
+  const unsigned seed = 20261122;
+  RecordProperty("seed", static_cast<int>(seed));
+  testing::RandomGlass states(seed);
+  int bad = 0;
+  std::string first;
+  constexpr int kStates = 4000;
+  for (int i = 0; i < kStates; ++i) {
+    const GlassInput input = states.next();
+    const DrawList list = drawn(input);
+    for (const int size : {480, 1024}) {
+      const auto found = testing::overlaps(list, size);
+      if (found.empty()) continue;
+      ++bad;
+      if (first.empty()) {
+        first = "state " + std::to_string(i) + " of seed " + std::to_string(seed) + ", " +
+                std::string(radar::name_of(static_cast<Mode>(input.state.mode))) + " at " + std::to_string(size) + ":";
+        for (const std::string& sentence : found) first += " " + sentence + ";";
+      }
+    }
+  }
+  EXPECT_EQ(bad, 0) << first;
+}
+
+}  // namespace
+}  // namespace yars::display

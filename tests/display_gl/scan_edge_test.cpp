@@ -1,0 +1,96 @@
+// Scans flown back and forth over bright land: between the newest sweep and the old ones no black stands. With
+// YARS_PICTURES=FOLDER one of them is written there, to be looked at.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "display/gl/glass.hpp"
+#include "display/gl/headless_egl.hpp"
+#include "tests/display/glass_states.hpp"
+#include "tests/display_gl/made_up_sweeps.hpp"
+
+namespace yars::display::gl {
+namespace {
+
+constexpr double kTrack_deg = 30.0;
+constexpr double kSpeed_mps = 250.0;
+
+struct Scan {
+  radar::Mode mode;
+  double range_nm;
+  double step_deg, step_s;  // of a sweep
+  double half_width_deg;
+};
+constexpr Scan kBeamMap{radar::Mode::rbm, 10.0, 0.55, 0.005, 50.0};
+constexpr Scan kShortBeamMap{radar::Mode::rbm, 4.7, 0.55, 0.005, 50.0};
+constexpr Scan kSharpened{radar::Mode::hrm, 20.0, 0.14, 0.0252, 50.0};
+
+// Back and forth from the left, until the third pass, or the fourth, stands so far right of the track. The last sweep
+// is measured at home.
+imageio::Image flown(const Scan& scan, int passes, double stop_right_deg, double speed_mps) {
+  const int steps = static_cast<int>(2.0 * scan.half_width_deg / scan.step_deg);
+  const double from_edge_deg =
+      passes % 2 == 1 ? stop_right_deg + scan.half_width_deg : scan.half_width_deg - stop_right_deg;
+  const int total = (passes - 1) * steps + static_cast<int>(from_edge_deg / scan.step_deg);
+  Glass glass({}, 480);
+  for (int i = 0; i < total; ++i) {
+    const double behind_nm = (total - 1 - i) * scan.step_s * speed_mps / geo::kMetresPerNauticalMile;
+    const bool clockwise = i / steps % 2 == 0;
+    const int step = clockwise ? i % steps : steps - 1 - i % steps;
+    const double left_deg = kTrack_deg - scan.half_width_deg + step * scan.step_deg;
+    databuffer::Sweep sweep =
+        testing::toned_sweep(testing::at(kTrack_deg, -behind_nm), left_deg, left_deg + scan.step_deg,
+                             scan.range_nm * geo::kMetresPerNauticalMile, 480, 255);
+    sweep.scan = 1U + static_cast<std::uint32_t>(i / steps);
+    sweep.mode = static_cast<std::uint8_t>(scan.mode);
+    glass.add(sweep);
+  }
+  GlassInput input = testing::operating(scan.mode, scan.range_nm);
+  input.state.brightness = 15;
+  glass.draw(input);
+  return glass.read();
+}
+
+// Pixels in the sector that are lit when the aircraft hovers and dark when it flies. Nearest the apex none are counted:
+// the display leaves open there what PolarStore::kNearShare says.
+int dark_pixels(const Scan& scan, int passes, double stop_right_deg) {
+  const imageio::Image flying = flown(scan, passes, stop_right_deg, kSpeed_mps);
+  const imageio::Image hovering = flown(scan, passes, stop_right_deg, 0.0);
+  // What lies ahead of the old sweeps was beyond their range; they are two passes old at most.
+  const double pass_m = kSpeed_mps * scan.step_s * 2.0 * scan.half_width_deg / scan.step_deg;
+  const double far = 398.0 - 400.0 * 2.0 * pass_m / (scan.range_nm * geo::kMetresPerNauticalMile);
+  int dark = 0;
+  for (int y = 0; y < 480; ++y) {
+    for (int x = 0; x < 480; ++x) {
+      const double right = x + 0.5 - 240.0, up = 440.0 - (y + 0.5);
+      const double right_deg = std::atan2(right, up) / geo::kRadiansPerDegree;
+      const double range = std::hypot(right, up);
+      if (range < 30.0 || range > far || std::abs(right_deg) > scan.half_width_deg - 2.0) continue;
+      const std::size_t at = (static_cast<std::size_t>(y) * 480 + static_cast<std::size_t>(x)) * 3 + 1;
+      dark += hovering.pixels[at] > 100 && flying.pixels[at] < 30 ? 1 : 0;
+    }
+  }
+  return dark;
+}
+
+TEST(ScanEdge, OverBrightLandNoBlackStandsBetweenTheNewestSweepAndTheOldOnes) {
+  auto context = open_headless();
+  if (!context) GTEST_SKIP() << "no OpenGL without a display: " << context.error().message();
+  if (const char* folder = std::getenv("YARS_PICTURES")) {
+    const std::string path = std::string(folder) + "/scan_edge.png";
+    EXPECT_TRUE(imageio::write_png(path, flown(kBeamMap, 3, 30.0, kSpeed_mps))) << path;
+  }
+  for (const Scan& scan : {kBeamMap, kShortBeamMap, kSharpened}) {
+    for (const int passes : {3, 4}) {
+      for (const double stop_right_deg : {-45.0, -20.0, 5.0, 30.0, 48.0}) {
+        EXPECT_EQ(dark_pixels(scan, passes, stop_right_deg), 0) << radar::name_of(scan.mode) << " at " << scan.range_nm
+                                                                << " NM, pass " << passes << " at " << stop_right_deg;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace yars::display::gl
