@@ -49,6 +49,7 @@ LAYERS = {
     "tools/recording": MODEL,
     "tools/trade": MODEL + ["display"],
     "tools": SEGMENT + ["tools/recording", "tools/trade", "model/terrain/gdal"] + MODEL + ["statemachine", "display"],
+    "examples": ["databuffer"],
     "tests": None,  # None: everything
 }
 
@@ -66,6 +67,7 @@ SYSTEM_HEADERS = {
     "zip.h": ["model/terrain", "tests"],
     "zlib.h": ["model/terrain", "tools/recording", "tests"],
     "zstd.h": ["tools/recording"],
+    "arpa/": ["databuffer", "tests"],
     "netinet/": ["databuffer", "tests"],
     "sys/mman.h": ["lib/memory", "shells", "shm", "databuffer", "tools", "tests"],
     "gdal.h": ["model/terrain/gdal", "tests"],

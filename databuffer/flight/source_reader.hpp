@@ -15,7 +15,8 @@ struct FlightSource {
   std::string description;  // for the log: what flies, from which file
 };
 
-// route:FILE, fixed:LAT,LON,ALT_FT,HDG,KT, csv:FILE (programs outside: databuffer/bridges). An error about the text itself counts as bad usage.
+// route:FILE, fixed:LAT,LON,ALT_FT,HDG,KT, csv:FILE (programs outside: databuffer/bridges). An error about the text
+// itself counts as bad usage.
 failure::Expected<FlightSource> open_source(std::string_view text);
 
 }  // namespace yars::databuffer::flight

@@ -227,7 +227,8 @@ void PatchProcess::Work::draw_map() {
   const radar::HighResolutionConfiguration& hrm = configuration.high_resolution;
   const double floor = std::max(thermal_noise(), reflectivity::ratio(hrm.brightest_gamma_db - hrm.dynamic_range_db));
   if (configuration.fidelity.map_response) response.apply(static_cast<float>(floor), crew, image);
-  movers.draw(order, *geometry, formation, {*database.window, nullptr, true, database.traffic}, {&grid, height_m.data(), horizon.data()}, response, image);
+  movers.draw(order, *geometry, formation, {*database.window, nullptr, true, database.traffic},
+              {&grid, height_m.data(), horizon.data()}, response, image);
   blank_blind_zone(*geometry, order.ground_track, configuration.high_resolution, image);
 }
 

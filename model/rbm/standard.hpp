@@ -43,8 +43,8 @@ class Standard : public Algorithm {
 
   void place_samples(const Look& look, const EffectiveEarth& earth, const terrain::TerrainView& terrain);
   std::size_t read_terrain(const Look& look, const terrain::TerrainView& terrain);
-  void add_movers(const Look& look, const EffectiveEarth& earth, const Receiver& receiver,
-                  const Database& database, double pulse_samples);
+  void add_movers(const Look& look, const EffectiveEarth& earth, const Receiver& receiver, const Database& database,
+                  double pulse_samples);
   void add_rain(const Look& look, const EffectiveEarth& earth, const Receiver& receiver);
   void see_scenes(const Look& look, const EffectiveEarth& earth, const Receiver& receiver,
                   const scene::SceneView& scenes, double pulse_samples);

@@ -7,9 +7,9 @@
 
 #include "databuffer/bridges/byte_order.hpp"
 #include "lib/geo/geodesic.hpp"
-#include "tests/bridges/packets.hpp"
 #include "tests/bridges/live/bridged_set.hpp"
 #include "tests/bridges/live/udp_peer.hpp"
+#include "tests/bridges/packets.hpp"
 
 namespace yars::endtoend {
 namespace {
