@@ -56,7 +56,7 @@ LAYERS = {
 # Shells (*_main.cpp, *_shell.*) of the roles see the segment, the log and clocks; nobody else of a role does.
 SHELL = re.compile(r"_(main|shell)\.[ch]pp$")
 SHELL_LAYERS = {"model": SEGMENT, "statemachine": SEGMENT, "inputmonitor": SEGMENT, "display": SEGMENT + ["display/gl"]}
-SHELL_FOLDERS = ["databuffer", "tools", "tests"]  # whole folders that may do what shells do
+SHELL_FOLDERS = ["databuffer", "tools", "tests", "examples"]  # whole folders that may do what shells do
 
 # Third-party and system headers: prefix -> who may include it: folders, single files or "shells".
 SYSTEM_HEADERS = {
@@ -94,18 +94,18 @@ SYSTEM_HEADERS = {
     "iostream": ["shells"],
 }
 # POSIX and Linux headers (with .h): the ways out of the process.
-POSIX_FOLDERS = ["shm", "databuffer", "inputmonitor", "tools", "tests", "shells"]
+POSIX_FOLDERS = ["shm", "databuffer", "inputmonitor", "tools", "tests", "examples", "shells"]
 
 CLOCKS = re.compile(r"\b(std::chrono::\w+_clock|clock_gettime|gettimeofday|clock_nanosleep|nanosleep|usleep|sleep_for"
                     r"|sleep_until|std::time\s*\(|monotonic_ns\s*\()")
-CLOCK_FOLDERS = ["databuffer", "tools", "tests", "shm", "shells"]
+CLOCK_FOLDERS = ["databuffer", "tools", "tests", "examples", "shm", "shells"]
 
 # Only readers (and what writes a picture or a terminal) open files.
 OPENING = re.compile(r"\bstd::[io]?fstream\b|\bfopen\b|(?<![\w>])::(open|openat|mmap)\b"
                      r"|\bstd::filesystem::(recursive_)?directory_iterator\b")
 READERS = [re.compile(pattern) for pattern in (
     r"_(reader|reading|index|writer)\.cpp$", r"_(main|shell)\.[ch]pp$", r"^config/read_tree\.cpp$", r"^databuffer/\w+\.cpp$",
-    r"^(shm|tools|tests)/",
+    r"^(shm|tools|tests|examples)/",
 )]
 
 HEAVY_IN_HEADERS = ("iostream", "boost/", "spdlog/")
