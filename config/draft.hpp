@@ -44,6 +44,9 @@ struct Draft {
   radar::Mover mover{};
   radar::Scene scene{};
   radar::Beacon beacon{};
+  radar::Device device{};
+  radar::DeviceButton device_button{};
+  radar::DeviceAxis device_axis{};
 };
 
 // A draft that stands for a finished configuration.

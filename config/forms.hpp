@@ -18,6 +18,7 @@ std::vector<FormSchema> navigation_forms();  // Navigation
 std::vector<FormSchema> traffic_forms();     // Jammers, Jammer, Movers, Mover, Scenes, Scene
 std::vector<FormSchema> limit_forms();       // WindowLimits, HeightRanges
 std::vector<FormSchema> beacon_forms();      // Beacons, Beacon
+std::vector<FormSchema> device_forms();      // Devices, Device, Button, Axis
 
 // The windows that can be selected are those of SarMode; where they can be mapped tells WindowLimits.
 std::optional<Complaint> check_windows_have_limits(const Draft& draft);

@@ -117,7 +117,8 @@ std::vector<SlotSchema> system_slots() {
        {.name = "heightRanges",
         .binding = FormSlot{{"HeightRanges"}, {"HeightRanges"}},
         .purpose = "the range by height"},
-       {.name = "beacons", .binding = FormSlot{{"Beacons"}, {"Beacons"}}, .purpose = "radar beacons"}});
+       {.name = "beacons", .binding = FormSlot{{"Beacons"}, {"Beacons"}}, .purpose = "radar beacons"},
+       {.name = "devices", .binding = FormSlot{{"Devices"}, {"Devices"}}, .purpose = "maps of cockpit hardware"}});
 }
 
 }  // namespace

@@ -39,8 +39,8 @@ class Printer {
   Printer(const radar::RadarConfiguration& configuration, bool explained)
       : draft_(draft_of(configuration)), explained_(explained) {}
 
-  std::string print() {
-    write_form(*find_form("Apg70").schema, 0);
+  std::string print(std::string_view outermost = "Apg70") {
+    write_form(*find_form(outermost).schema, 0);
     return std::move(text_);
   }
   const std::set<std::string_view>& written() const { return written_; }
@@ -105,6 +105,10 @@ std::string print_explained(const radar::RadarConfiguration& configuration) {
     for (std::size_t i = 0; i < form.slots.size(); ++i) text += ";   " + explanation(form, i) + "\n";
   }
   return text;
+}
+
+std::string print_devices(const radar::RadarConfiguration& configuration) {
+  return Printer(configuration, false).print("Devices");
 }
 
 std::string print_markdown() {

@@ -14,6 +14,9 @@ std::string print_configuration(const radar::RadarConfiguration& configuration);
 // only inside slots, all in comments.
 std::string print_explained(const radar::RadarConfiguration& configuration);
 
+// The maps of devices alone, as a file of their own.
+std::string print_devices(const radar::RadarConfiguration& configuration);
+
 // One Markdown table a form: position, slot, value, default, purpose.
 std::string print_markdown();
 

@@ -49,7 +49,7 @@ std::vector<FormSchema> all_forms() {
   std::vector<FormSchema> forms;
   for (const auto group :
        {system_forms, mode_forms, antenna_forms, display_forms, database_forms, model_forms, route_forms, world_forms,
-        navigation_forms, traffic_forms, limit_forms, beacon_forms, value_forms}) {
+        navigation_forms, traffic_forms, limit_forms, beacon_forms, device_forms, value_forms}) {
     for (FormSchema& form : group()) forms.push_back(std::move(form));
   }
   return forms;

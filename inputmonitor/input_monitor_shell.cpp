@@ -29,6 +29,7 @@ void InputMonitorShell::run_by_ticks(databuffer::TickLoop& loop) {
   while (const auto due = loop.wait()) {
     const Moment moment{databuffer::monotonic_ns(), due->sim_time_ns};
     if (!source_->ended()) push(source_->take(moment), moment);
+    tell_news();
     loop.done(*due);
     if (source_->ended() && !loop.lockstep()) return;
   }
@@ -41,6 +42,17 @@ void InputMonitorShell::run_by_input() {
     source_->wait(now(), kLongestWait_ms);
     const Moment moment = now();
     push(source_->take(moment), moment);
+    tell_news();
+  }
+}
+
+void InputMonitorShell::tell_news() {
+  for (const News& news : source_->news()) {
+    if (news.is_trouble)
+      databuffer::log_warning(news.text);
+    else
+      databuffer::log_info(news.text);
+    session_->note(news.is_trouble ? databuffer::NoteKind::loss : databuffer::NoteKind::restart, news.text);
   }
 }
 

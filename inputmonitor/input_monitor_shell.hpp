@@ -22,6 +22,7 @@ class InputMonitorShell {
  private:
   void run_by_ticks(databuffer::TickLoop& loop);
   void run_by_input();
+  void tell_news();
   void push(const std::vector<databuffer::InputEvent>& events, const Moment& moment);
 
   databuffer::Session* session_;

@@ -7,7 +7,10 @@
 #include <cstdlib>
 
 #include "databuffer/records/text_file_reader.hpp"
+#include "inputmonitor/device_source.hpp"
+#include "inputmonitor/found_devices_source.hpp"
 #include "inputmonitor/script_source.hpp"
+#include "inputmonitor/source_group.hpp"
 #include "inputmonitor/terminal_mode.hpp"
 #include "inputmonitor/terminal_source.hpp"
 #include "inputmonitor/window_source.hpp"
@@ -20,6 +23,7 @@ using failure::Expected;
 using SourcePointer = std::unique_ptr<EventSource>;
 
 constexpr std::string_view kScript = "script:";
+constexpr std::string_view kDevice = "evdev:";
 
 // Nothing to read from: a set in a container without display and terminal runs all the same.
 class IdleSource final : public EventSource {
@@ -29,7 +33,7 @@ class IdleSource final : public EventSource {
   bool ended() const override { return false; }
   bool follows_sim_time() const override { return false; }
   std::string description() const override {
-    return "nothing: there is neither a display nor a terminal (yars inject sends events)";
+    return "no keyboard: there is neither a display nor a terminal (yars inject sends events)";
   }
 };
 
@@ -49,40 +53,83 @@ Expected<SourcePointer> open_script(const std::string& file) {
   return std::make_unique<ScriptSource>(std::move(*script), file);
 }
 
-Expected<SourcePointer> open_best(const std::string& session) {
+// A window where there is a display, else the terminal where there is one, else nothing.
+SourcePointer open_keyboard(const std::string& session) {
   if (display_is_named()) {
     // A display that is named but not there is no reason to give up.
-    if (auto window = open_window_source(session)) return window;
+    if (auto window = open_window_source(session)) return std::move(*window);
   }
-  if (is_foreground_terminal(STDIN_FILENO)) return open_terminal_source();
-  return std::make_unique<IdleSource>();
+  if (is_foreground_terminal(STDIN_FILENO))
+    if (auto terminal = open_terminal_source()) return std::move(*terminal);
+  return nullptr;
+}
+
+// The keyboard there is, and every device that has a map.
+SourcePointer open_best(const OpeningNeeds& needs, const std::vector<SourceChoice>& all) {
+  std::vector<std::filesystem::path> others;
+  for (const SourceChoice& choice : all)
+    if (choice.kind == SourceKind::device) others.emplace_back(choice.file);
+  std::vector<SourcePointer> sources;
+  if (auto keyboard = open_keyboard(needs.session)) sources.push_back(std::move(keyboard));
+  auto devices = std::make_unique<FoundDevicesSource>(needs.device_folder, needs.maps, std::move(others));
+  if (sources.empty()) sources.push_back(std::make_unique<IdleSource>());
+  sources.push_back(std::move(devices));
+  return std::make_unique<SourceGroup>(std::move(sources));
+}
+
+// NAME of PATH,NAME holds no slash, so that a comma in a folder's name does no harm.
+SourceChoice device_choice(std::string_view text) {
+  const std::size_t comma = text.rfind(',');
+  if (comma == std::string_view::npos || text.find('/', comma) != std::string_view::npos)
+    return {SourceKind::device, std::string(text), {}};
+  return {SourceKind::device, std::string(text.substr(0, comma)), std::string(text.substr(comma + 1))};
+}
+
+Expected<SourcePointer> open_one(const SourceChoice& choice, const std::vector<SourceChoice>& all,
+                                 const OpeningNeeds& needs) {
+  switch (choice.kind) {
+    case SourceKind::window:
+      return open_window_source(needs.session);
+    case SourceKind::terminal:
+      return open_terminal_source();
+    case SourceKind::script:
+      return open_script(choice.file);
+    case SourceKind::device: {
+      auto device = DeviceSource::create(choice.file, choice.map_name, needs.maps);
+      if (!device) return tl::unexpected(device.error());
+      return std::move(*device);
+    }
+    case SourceKind::automatic:
+      break;
+  }
+  return open_best(needs, all);
 }
 
 }  // namespace
 
 Expected<SourceChoice> parse_source(std::string_view text) {
-  if (text == "window") return SourceChoice{SourceKind::window, {}};
-  if (text == "terminal") return SourceChoice{SourceKind::terminal, {}};
-  if (text == "auto") return SourceChoice{SourceKind::automatic, {}};
+  if (text == "window") return SourceChoice{SourceKind::window, {}, {}};
+  if (text == "terminal") return SourceChoice{SourceKind::terminal, {}, {}};
+  if (text == "auto") return SourceChoice{SourceKind::automatic, {}, {}};
   if (text.starts_with(kScript) && text.size() > kScript.size())
-    return SourceChoice{SourceKind::script, std::string(text.substr(kScript.size()))};
-  const std::string action = text.starts_with("evdev:") ? "evdev devices come with a later release" : "";
-  return tl::unexpected(
-      failure::Error{"--source", "window, terminal, script:FILE or auto", '"' + std::string(text) + '"', action, true});
+    return SourceChoice{SourceKind::script, std::string(text.substr(kScript.size())), {}};
+  if (text.starts_with(kDevice)) {
+    const SourceChoice choice = device_choice(text.substr(kDevice.size()));
+    if (!choice.file.empty()) return choice;
+  }
+  return tl::unexpected(failure::Error{"--source", "window, terminal, script:FILE, evdev:PATH[,MAP] or auto",
+                                       '"' + std::string(text) + '"', "", true});
 }
 
-Expected<SourcePointer> open_source(const SourceChoice& choice, const std::string& session) {
-  switch (choice.kind) {
-    case SourceKind::window:
-      return open_window_source(session);
-    case SourceKind::terminal:
-      return open_terminal_source();
-    case SourceKind::script:
-      return open_script(choice.file);
-    case SourceKind::automatic:
-      break;
+Expected<SourcePointer> open_sources(const std::vector<SourceChoice>& choices, const OpeningNeeds& needs) {
+  std::vector<SourcePointer> sources;
+  for (const SourceChoice& choice : choices) {
+    auto source = open_one(choice, choices, needs);
+    if (!source) return source;
+    sources.push_back(std::move(*source));
   }
-  return open_best(session);
+  if (sources.size() == 1) return std::move(sources.front());
+  return std::make_unique<SourceGroup>(std::move(sources));
 }
 
 }  // namespace yars::inputmonitor

@@ -3,7 +3,6 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 
 #include "inputmonitor/keyboard.hpp"
@@ -13,8 +12,6 @@
 namespace yars::inputmonitor {
 
 namespace {
-
-constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
 
 // True when the descriptor has bytes or has come to its end.
 bool readable_within(int descriptor, int milliseconds) {
@@ -26,15 +23,11 @@ class TerminalSource final : public EventSource {
  public:
   explicit TerminalSource(std::unique_ptr<TerminalMode> mode) : mode_(std::move(mode)) {}
 
-  void wait(const Moment& moment, int longest_ms) override {
-    if (const auto deadline_ns = decoder_.deadline_ns()) {
-      // Rounded up: a deadline met a little early would be asked for again at once.
-      const std::int64_t left_ms =
-          (*deadline_ns - moment.monotonic_ns + kNanosecondsPerMillisecond - 1) / kNanosecondsPerMillisecond;
-      longest_ms = static_cast<int>(std::clamp<std::int64_t>(left_ms, 0, longest_ms));
-    }
-    readable_within(STDIN_FILENO, longest_ms);
+  bool add_descriptors(std::vector<pollfd>& wanted) const override {
+    wanted.push_back({STDIN_FILENO, POLLIN, 0});
+    return true;
   }
+  std::optional<std::int64_t> deadline_ns() const override { return decoder_.deadline_ns(); }
 
   std::vector<databuffer::InputEvent> take(const Moment& moment) override {
     apply(decoder_.advance(moment.monotonic_ns));

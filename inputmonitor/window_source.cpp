@@ -66,6 +66,8 @@ class WindowSource final : public EventSource {
     glfwTerminate();
   }
 
+  // The display's own descriptor stays with GLFW.
+  bool add_descriptors(std::vector<pollfd>&) const override { return false; }
   void wait(const Moment&, int longest_ms) override { glfwWaitEventsTimeout(static_cast<double>(longest_ms) * 1e-3); }
 
   std::vector<databuffer::InputEvent> take(const Moment&) override {

@@ -28,7 +28,7 @@ LAYERS = {
     "lib/radar": RADAR,
     "lib/imageio": ["lib/failure"],
     "shm": ["lib/failure"],
-    "config": RADAR,
+    "config": RECORDS,
     "databuffer/records": RECORDS,
     "databuffer/flight": RECORDS,
     "databuffer/bridges": RECORDS + ["databuffer/flight"],
@@ -91,6 +91,7 @@ SYSTEM_HEADERS = {
     "benchmark/": ["tests"],
     "chrono": ["shells"],
     "csignal": ["shells"],
+    "linux/input-event-codes.h": ["config", "inputmonitor", "tests"],
     "iostream": ["shells"],
 }
 # POSIX and Linux headers (with .h): the ways out of the process.

@@ -8,6 +8,7 @@
 
 #include "lib/geo/geodesic.hpp"
 #include "lib/radar/colors.hpp"
+#include "lib/radar/devices.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/radar/world.hpp"
 
@@ -179,6 +180,7 @@ struct RadarConfiguration {
   double magnetic_variation_deg = 0.0;  // [deg] east positive
   WindowLimits window_limits;
   HeightRanges height_ranges;
+  std::vector<Device> devices;  // maps of cockpit hardware, the last that fits wins
 };
 
 }  // namespace yars::radar

@@ -112,6 +112,18 @@ inline auto fields(const radar::Beacon& beacon) {
   return std::tuple(name, latitude, longitude, comparable(altitude), code, delay, replies, spacing, power);
 }
 
+inline auto fields(const radar::DeviceButton& button) {
+  const auto& [code, press, release, repeat] = button;
+  return std::tuple(code, press, release, repeat);
+}
+
+inline auto fields(const radar::DeviceAxis& axis) {
+  const auto& [code, use, low, high, centre, dead, curve, inverted, positive, negative, repeat, lowest, highest,
+               steps] = axis;
+  return std::tuple(code, use, comparable(low), comparable(high), comparable(centre), dead, curve, inverted, positive,
+                    negative, repeat, lowest, highest, steps);
+}
+
 template <class Record>
 auto fields_of_all(const std::vector<Record>& records) {
   std::vector<decltype(fields(records[0]))> all;
@@ -134,6 +146,11 @@ inline auto fields(const radar::WorldConfiguration& world) {
                     fields_of_all(scenes), std::tuple(beacon_code, fields_of_all(beacons)));
 }
 
+inline auto fields(const radar::Device& device) {
+  const auto& [name, vendor, products, pattern, has, buttons, axes] = device;
+  return std::tuple(name, vendor, products, pattern, has, fields_of_all(buttons), fields_of_all(axes));
+}
+
 inline auto fields(const radar::WindowLimits& limits) {
   const auto& [windows, least, greatest, blank_least, blank_windows, blank_up_to, power_up] = limits;
   return std::tuple(windows, least, greatest, blank_least, blank_windows, blank_up_to, power_up);
@@ -146,13 +163,13 @@ inline auto fields(const radar::HeightRanges& table) {
 
 inline auto fields(const radar::RadarConfiguration& configuration) {
   const auto& [name, ranges, widths, windows, pulses, antenna, view, fidelity, receiver, terrain, high, navigation,
-               world, route, seed, variation, limits, heights] = configuration;
+               world, route, seed, variation, limits, heights, devices] = configuration;
   std::vector<decltype(fields(route[0]))> points;
   points.reserve(route.size());
   for (const auto& point : route) points.push_back(fields(point));
   return std::tuple(name, ranges, widths, windows, pulses, fields(antenna), fields(view), fields(fidelity),
                     fields(receiver), fields(terrain), fields(high), fields(navigation), fields(world), points, seed,
-                    variation, fields(limits), fields(heights));
+                    variation, fields(limits), fields(heights), fields_of_all(devices));
 }
 
 // The configuration of a text that must be right.

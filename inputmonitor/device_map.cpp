@@ -1,0 +1,145 @@
+#include "inputmonitor/device_map.hpp"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <ranges>
+
+#include "config/control_code.hpp"
+#include "databuffer/records/event_text.hpp"
+#include "databuffer/records/plain_text.hpp"
+
+namespace yars::inputmonitor {
+
+namespace {
+
+using databuffer::EventKind;
+using databuffer::InputEvent;
+using failure::Expected;
+
+constexpr double kNanosecondsPerSecond = 1e9;
+
+bool is_identity(std::string_view word, std::uint16_t wanted) {
+  std::uint16_t value = 0;
+  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value, 16);
+  return problem == std::errc{} && end == word.data() + word.size() && value == wanted;
+}
+
+bool has_control(const DeviceFacts& facts, std::string_view text) {
+  if (const auto button = config::button_code(text); button && facts.buttons.test(*button)) return true;
+  const auto axis = config::axis_code(text);
+  // A plain number names a button.
+  return axis && text.starts_with("ABS_") && facts.axes[*axis].has_value();
+}
+
+bool fits(const DeviceFacts& facts, const radar::Device& map) {
+  if (map.vendor.empty() && map.pattern.empty() && map.has.empty()) return false;
+  const auto products = databuffer::words_of(map.products);
+  const auto is_it = [&facts](std::string_view word) { return is_identity(word, facts.product); };
+  return (map.vendor.empty() || is_identity(map.vendor, facts.vendor)) &&
+         (products.empty() || std::ranges::any_of(products, is_it)) &&
+         (map.pattern.empty() || fnmatch(map.pattern.c_str(), facts.name.c_str(), FNM_CASEFOLD) == 0) &&
+         (map.has.empty() || has_control(facts, map.has));
+}
+
+Expected<std::optional<InputEvent>> event_of(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const auto event = databuffer::event_from_text(text);
+  if (!event) return tl::unexpected(event.error());
+  return *event;
+}
+
+bool is_kind(const std::optional<InputEvent>& event, EventKind kind) {
+  return event && event->kind == static_cast<std::uint16_t>(kind);
+}
+
+Expected<SwitchAction> switch_of(const std::string& press, const std::string& release, double repeat_s) {
+  const auto pressed = event_of(press);
+  if (!pressed) return tl::unexpected(pressed.error());
+  const auto released = event_of(release);
+  if (!released) return tl::unexpected(released.error());
+  SwitchAction action{*pressed, *released, std::llround(repeat_s * kNanosecondsPerSecond)};
+  // A deflection holds, and nothing cannot be done again.
+  if (!action.press || is_kind(action.press, EventKind::tdc)) action.repeat_ns = 0;
+  // What is pressed must come up again, or the cursor's command would never be given.
+  if (is_kind(action.press, EventKind::tdc_press) && !action.release) {
+    action.release = InputEvent{};
+    action.release->kind = static_cast<std::uint16_t>(EventKind::tdc_release);
+  }
+  return action;
+}
+
+Expected<AxisShape> shape_of(const radar::DeviceAxis& axis, std::uint16_t code, const DeviceFacts& facts) {
+  AxisShape shape{axis.low, axis.high, axis.centre, axis.dead_zone, axis.curve, axis.inverted};
+  const bool is_hat = code >= ABS_HAT0X && code <= ABS_HAT3Y;
+  if (std::isnan(shape.low)) {
+    if (!facts.axes[code] && !is_hat)
+      return failure::fail("axis " + axis.code, ":low and :high in its map",
+                           "neither, and the descriptor tells nothing", "write the values at both ends into the map");
+    const AxisRange range = facts.axes[code].value_or(AxisRange{-1, 1});
+    shape.low = range.low;
+    shape.high = range.high;
+  }
+  if (std::isnan(shape.centre)) shape.centre = (shape.low + shape.high) / 2.0;
+  if (shape.low < shape.centre && shape.centre < shape.high) return shape;
+  return failure::fail("axis " + axis.code, "a centre between its ends",
+                       databuffer::text_of_number(shape.centre) + " between " + databuffer::text_of_number(shape.low) +
+                           " and " + databuffer::text_of_number(shape.high),
+                       "write :low, :high and :centre into the map");
+}
+
+Expected<ButtonAction> ready_button(const radar::DeviceButton& button) {
+  const auto code = config::button_code(button.code);
+  if (!code) return failure::fail("button", "a code as BTN_TRIGGER", '"' + button.code + '"');
+  auto action = switch_of(button.press, button.release, button.repeat_s);
+  if (!action) return tl::unexpected(action.error());
+  return ButtonAction{*code, *action};
+}
+
+Expected<AxisAction> ready_axis(const radar::DeviceAxis& axis, std::uint16_t code, const DeviceFacts& facts) {
+  const auto shape = shape_of(axis, code, facts);
+  if (!shape) return tl::unexpected(shape.error());
+  const auto positive = switch_of(axis.positive, {}, axis.repeat_s);
+  if (!positive) return tl::unexpected(positive.error());
+  const auto negative = switch_of(axis.negative, {}, axis.repeat_s);
+  if (!negative) return tl::unexpected(negative.error());
+  return AxisAction{code, axis.use, *shape, *positive, *negative, axis.lowest_deg, axis.highest_deg, axis.steps};
+}
+
+}  // namespace
+
+const radar::Device* fitting_map(const DeviceFacts& facts, std::span<const radar::Device> maps) {
+  if (!facts.known) return nullptr;
+  for (const radar::Device& map : std::views::reverse(maps))
+    if (fits(facts, map)) return &map;
+  return nullptr;
+}
+
+const radar::Device* named_map(std::string_view name, std::span<const radar::Device> maps) {
+  for (const radar::Device& map : std::views::reverse(maps))
+    if (map.name == name) return &map;
+  return nullptr;
+}
+
+Expected<DeviceMap> ready_map(const radar::Device& device, const DeviceFacts& facts) {
+  DeviceMap map;
+  map.name = device.name;
+  for (const radar::DeviceButton& button : device.buttons) {
+    auto ready = ready_button(button);
+    if (!ready) return tl::unexpected(ready.error());
+    map.buttons.push_back(std::move(*ready));
+  }
+  for (const radar::DeviceAxis& axis : device.axes) {
+    const auto code = config::axis_code(axis.code);
+    if (!code) return failure::fail("axis", "a code as ABS_X", '"' + axis.code + '"');
+    if (facts.known && !facts.axes[*code]) continue;
+    auto ready = ready_axis(axis, *code, facts);
+    if (!ready) return tl::unexpected(ready.error());
+    map.axes.push_back(std::move(*ready));
+  }
+  return map;
+}
+
+}  // namespace yars::inputmonitor

@@ -1,0 +1,155 @@
+#include "inputmonitor/device_source.hpp"
+
+#include <array>
+#include <utility>
+
+namespace yars::inputmonitor {
+
+namespace {
+
+using databuffer::InputEvent;
+using failure::Expected;
+using failure::fail;
+
+constexpr std::size_t kMostBytes = 128 * kRecordBytes;  // of one take: more than a device reports in 10 ms
+
+Expected<const radar::Device*> map_for(const DeviceFacts& facts, const std::string& path, const std::string& name,
+                                       const std::vector<radar::Device>& maps) {
+  if (!name.empty()) {
+    if (const auto* map = named_map(name, maps)) return map;
+    return fail(path, "a map with the name \"" + name + "\"", "none", "look into config/devices.guf, or give --config");
+  }
+  if (const auto* map = fitting_map(facts, maps)) return map;
+  if (facts.known)
+    return fail(path, "a map for it", "none for \"" + facts.name + '"',
+                "name one (evdev:PATH,NAME) or make one: input-monitor --learn " + path + " --out FILE");
+  if (maps.size() == 1) return &maps.front();
+  return fail(path, "the name of a map, as evdev:PATH,NAME", "none, and a FIFO or file does not tell what it is",
+              "the names stand in config/devices.guf and the file of --config");
+}
+
+}  // namespace
+
+DeviceSource::DeviceSource(std::filesystem::path path, std::string map_name, DeviceMaps maps)
+    : path_(std::move(path)), map_name_(std::move(map_name)), maps_(std::move(maps)) {}
+
+Expected<std::unique_ptr<DeviceSource>> DeviceSource::create(std::filesystem::path path, std::string map_name,
+                                                             DeviceMaps maps) {
+  std::unique_ptr<DeviceSource> source(new DeviceSource(std::move(path), std::move(map_name), std::move(maps)));
+  std::error_code problem;
+  if (!std::filesystem::exists(source->path_, problem) && !problem) {
+    source->last_problem_ = "absent";
+    source->news_.push_back({true, source->path_.string() + " is not there; waits for it"});
+    // The name can be wrong all the same.
+    if (!source->map_name_.empty() && named_map(source->map_name_, *source->maps_) == nullptr)
+      return tl::unexpected(map_for({}, source->path_.string(), source->map_name_, *source->maps_).error());
+    return source;
+  }
+  if (auto connected = source->connect(); !connected) return tl::unexpected(connected.error());
+  return source;
+}
+
+Expected<void> DeviceSource::connect() {
+  auto reader = DeviceReader::open(path_);
+  if (!reader) return tl::unexpected(reader.error());
+  const DeviceFacts& facts = (*reader)->facts();
+  const auto map = map_for(facts, path_.string(), map_name_, *maps_);
+  if (!map) return tl::unexpected(map.error());
+  auto ready = ready_map(**map, facts);
+  if (!ready) return fail(path_.string() + ", map " + (*map)->name, ready.error().message(), "a map without it");
+  decoder_.emplace(std::move(*ready));
+  dropped_ = 0;
+  reader_ = std::move(*reader);
+  stream_.restart();
+  if (const auto state = reader_->state()) decoder_->begin(*state);
+  news_.push_back(
+      {false, path_.string() + (facts.known ? " (" + facts.name + ")" : "") + " plays the map " + (*map)->name});
+  last_problem_.clear();
+  return {};
+}
+
+bool DeviceSource::add_descriptors(std::vector<pollfd>& wanted) const {
+  if (reader_) wanted.push_back({reader_->descriptor(), POLLIN, 0});
+  return true;
+}
+
+std::optional<std::int64_t> DeviceSource::deadline_ns() const {
+  if (played_) return std::nullopt;
+  const auto due_ns = decoder_ ? decoder_->deadline_ns() : std::nullopt;
+  return std::min(due_ns.value_or(look_again_ns_), look_again_ns_);
+}
+
+std::vector<InputEvent> DeviceSource::take(const Moment& moment) {
+  if (moment.monotonic_ns >= look_again_ns_ && !played_) {
+    look_for_it();
+    look_again_ns_ = moment.monotonic_ns + kLookAgain_ns;
+  }
+  std::vector<InputEvent> events = std::exchange(left_behind_, {});
+  if (reader_) read_some(moment.monotonic_ns);
+  events.insert(events.end(), left_behind_.begin(), left_behind_.end());
+  left_behind_.clear();
+  if (!decoder_) return events;
+  const auto more = decoder_->take(moment.monotonic_ns);
+  events.insert(events.end(), more.begin(), more.end());
+  return events;
+}
+
+std::vector<InputEvent> DeviceSource::release() {
+  if (!decoder_) return {};
+  auto events = decoder_->take(0);
+  decoder_->let_go();
+  const auto more = decoder_->take(0);
+  events.insert(events.end(), more.begin(), more.end());
+  return events;
+}
+
+void DeviceSource::look_for_it() {
+  if (reader_ && !reader_->is_at(path_)) lose("has been taken away");
+  if (decoder_) report_dropped();
+  if (reader_) return;
+  const auto connected = connect();
+  if (connected) return;
+  std::error_code problem;
+  const bool absent = !std::filesystem::exists(path_, problem);
+  const std::string told = absent ? "absent" : connected.error().message();
+  if (told != last_problem_ && !absent) news_.push_back({true, told});
+  last_problem_ = told;
+}
+
+void DeviceSource::read_some(std::int64_t now_ns) {
+  std::array<std::byte, kMostBytes> bytes;
+  std::size_t count = 0;
+  const auto outcome = reader_->read(bytes, count);
+  for (const RawEvent& raw : stream_.feed({bytes.data(), count})) {
+    decoder_->feed(raw, now_ns);
+    if (!decoder_->has_lost()) continue;
+    ++losses_;
+    decoder_->catch_up(reader_->state(), now_ns);
+  }
+  if (outcome == DeviceReader::Outcome::gone) lose(reader_->plays_once() ? "has come to its end" : "has gone");
+}
+
+void DeviceSource::lose(const std::string& why) {
+  report_dropped();
+  left_behind_ = release();
+  played_ = reader_->plays_once();
+  news_.push_back({!played_, path_.string() + ' ' + why + (played_ ? "" : "; waits for it")});
+  last_problem_ = "absent";
+  reader_.reset();
+  decoder_.reset();
+}
+
+void DeviceSource::report_dropped() {
+  if (losses_ > 0) news_.push_back({true, path_.string() + " lost events, " + std::to_string(losses_) + " times"});
+  losses_ = 0;
+  if (decoder_->dropped() == dropped_) return;
+  news_.push_back({true, path_.string() + ": " + std::to_string(decoder_->dropped() - dropped_) +
+                             " presses dropped, faster than a hand"});
+  dropped_ = decoder_->dropped();
+}
+
+std::string DeviceSource::description() const {
+  return path_.string() + (map_name_.empty() ? "" : " by the map " + map_name_);
+}
+
+}  // namespace yars::inputmonitor

@@ -1,0 +1,65 @@
+// One device: reads it, lets go of everything when it goes, and looks for it again four times a second. What a single
+// take() reads is bounded, so that a device that floods holds up nobody.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "inputmonitor/device_decoder.hpp"
+#include "inputmonitor/device_reader.hpp"
+#include "inputmonitor/event_source.hpp"
+#include "inputmonitor/record_stream.hpp"
+#include "lib/failure/error.hpp"
+
+namespace yars::inputmonitor {
+
+using DeviceMaps = std::shared_ptr<const std::vector<radar::Device>>;
+
+inline constexpr std::int64_t kLookAgain_ns = 250'000'000;  // [ns] sooner than a hand that has plugged it in lets go
+
+class DeviceSource final : public EventSource {
+ public:
+  // `map_name` empty: the map that fits; for a descriptor that tells nothing of itself, the only one. A device that is
+  // not there yet is waited for; one that may not be read or has no map is an error.
+  static failure::Expected<std::unique_ptr<DeviceSource>> create(std::filesystem::path path, std::string map_name,
+                                                                 DeviceMaps maps);
+
+  bool add_descriptors(std::vector<pollfd>& wanted) const override;
+  std::optional<std::int64_t> deadline_ns() const override;
+  std::vector<databuffer::InputEvent> take(const Moment& moment) override;
+  std::vector<databuffer::InputEvent> release() override;
+  bool ended() const override { return false; }
+  bool follows_sim_time() const override { return false; }
+  std::vector<News> news() override { return std::exchange(news_, {}); }
+  std::string description() const override;
+
+  const std::filesystem::path& path() const { return path_; }
+  bool is_open() const { return reader_ != nullptr; }
+
+ private:
+  DeviceSource(std::filesystem::path path, std::string map_name, DeviceMaps maps);
+  failure::Expected<void> connect();
+  void look_for_it();
+  void read_some(std::int64_t now_ns);
+  void lose(const std::string& why);
+  void report_dropped();
+
+  std::filesystem::path path_;
+  std::string map_name_;
+  DeviceMaps maps_;
+  std::unique_ptr<DeviceReader> reader_;  // none: it is away
+  std::optional<DeviceDecoder> decoder_;
+  RecordStream stream_;
+  std::vector<databuffer::InputEvent> left_behind_;  // of a device that has gone
+  std::vector<News> news_;
+  std::string last_problem_;  // said once, not at every look
+  std::int64_t look_again_ns_ = 0;
+  std::uint64_t dropped_ = 0;  // presses that the log knows of
+  std::uint64_t losses_ = 0;   // SYN_DROPPED, since the log was told
+  bool played_ = false;        // a recording that has come to its end
+};
+
+}  // namespace yars::inputmonitor

@@ -1,0 +1,229 @@
+#include "inputmonitor/learning.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "config/control_code.hpp"
+
+namespace yars::inputmonitor {
+
+namespace {
+
+// What is asked for, and what it shall do. An axis is asked for in two prompts, one for either way.
+struct Prompt {
+  std::string_view text;
+  std::string_view event;  // empty: half of an axis
+  double repeat_s = 0.0;
+  radar::AxisUse use = radar::AxisUse::tdc_x;
+  bool is_second = false;  // the other way of the axis before it
+};
+
+constexpr std::size_t kFirstAxis = 20;
+constexpr std::array kPrompts{
+    Prompt{"PB 1", "pb 1"},
+    Prompt{"PB 2", "pb 2"},
+    Prompt{"PB 3", "pb 3"},
+    Prompt{"PB 4", "pb 4"},
+    Prompt{"PB 5", "pb 5"},
+    Prompt{"PB 6", "pb 6"},
+    Prompt{"PB 7", "pb 7"},
+    Prompt{"PB 8", "pb 8"},
+    Prompt{"PB 9", "pb 9"},
+    Prompt{"PB 10", "pb 10"},
+    Prompt{"PB 11", "pb 11"},
+    Prompt{"PB 12", "pb 12"},
+    Prompt{"PB 13", "pb 13"},
+    Prompt{"PB 14", "pb 14"},
+    Prompt{"PB 15", "pb 15"},
+    Prompt{"PB 16", "pb 16"},
+    Prompt{"PB 17", "pb 17"},
+    Prompt{"PB 18", "pb 18"},
+    Prompt{"PB 19", "pb 19"},
+    Prompt{"PB 20", "pb 20"},
+    Prompt{"TDC right: push it to the end and let go", "", 0.0, radar::AxisUse::tdc_x},
+    Prompt{"TDC left: push it to the end and let go", "", 0.0, radar::AxisUse::tdc_x, true},
+    Prompt{"TDC up: push it to the end and let go", "", 0.0, radar::AxisUse::tdc_y},
+    Prompt{"TDC down: push it to the end and let go", "", 0.0, radar::AxisUse::tdc_y, true},
+    Prompt{"TDC switch", "tdc press"},
+    Prompt{"quick step (coolie up)", "coolie up"},
+    Prompt{"ACQ forward", "acq fwd"},
+    Prompt{"ACQ aft", "acq aft"},
+    Prompt{"freeze", "freeze"},
+    Prompt{"antenna up", "elevation up", 0.1},
+    Prompt{"antenna down", "elevation down", 0.1},
+    Prompt{"contrast up", "contrast up", 0.2},
+    Prompt{"contrast down", "contrast down", 0.2},
+};
+static_assert(kPrompts[kFirstAxis].event.empty() && !kPrompts[kFirstAxis - 1].event.empty());
+
+bool is_hat(std::uint16_t code) {
+  return code >= ABS_HAT0X && code <= ABS_HAT3Y;
+}
+
+std::string hexadecimal(std::uint16_t number) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (int shift = 12; shift >= 0; shift -= 4) text += kDigits[number >> shift & 0xFU];
+  return text;
+}
+
+}  // namespace
+
+Learning::Learning(const DeviceFacts& facts, const std::vector<std::pair<std::uint16_t, std::int32_t>>& rest)
+    : facts_(facts), results_(kPrompts.size()) {
+  for (const auto& [code, value] : rest) watched_[code] = Watched{double(value), double(value), double(value)};
+}
+
+std::string Learning::prompt() const {
+  if (finished()) return "done";
+  return std::string(kPrompts[next_].text) + " (" + std::to_string(next_ + 1) + " of " +
+         std::to_string(kPrompts.size()) + ")";
+}
+
+std::string Learning::feed(const RawEvent& raw) {
+  if (finished()) return {};
+  if (raw.type == EV_KEY && raw.value == 1) return take_button(raw.code);
+  if (raw.type == EV_ABS && raw.code < ABS_CNT) return take_axis(raw.code, raw.value);
+  return {};
+}
+
+void Learning::begin_prompt() {
+  for (auto& [code, axis] : watched_) axis.least = axis.most = axis.rest;
+}
+
+void Learning::skip() {
+  if (!finished()) results_[next_++] = {};
+  begin_prompt();
+}
+
+void Learning::back() {
+  if (next_ > 0) results_[--next_] = {};
+  begin_prompt();
+}
+
+std::size_t Learning::learned() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(results_, [](const Result& result) { return result.found != Found::nothing; }));
+}
+
+// The first half of the axis that is asked for now; null when this is no second half, or the first was skipped.
+const Learning::Result* Learning::opposite() const {
+  const bool has = kPrompts[next_].is_second && results_[next_ - 1].found != Found::nothing;
+  return has ? &results_[next_ - 1] : nullptr;
+}
+
+std::string Learning::take_button(std::uint16_t code) {
+  const std::string name = config::button_name(code);
+  if (!config::button_code(name)) return {};
+  if (kPrompts[next_].event.empty()) return name + " is a button; an axis is asked for";
+  return take_result({Found::button, code, 1, 0.0, 0.0, 0.0}, name);
+}
+
+std::string Learning::take_axis(std::uint16_t code, std::int32_t value) {
+  // Where nothing is known of its rest, the first value is taken for it; a hat rests at 0.
+  const double first = is_hat(code) ? 0.0 : double(value);
+  Watched& axis = watched_.try_emplace(code, Watched{first, first, first}).first->second;
+  axis.least = std::min(axis.least, double(value));
+  axis.most = std::max(axis.most, double(value));
+  const auto& range = facts_.axes[code];
+  const double far = is_hat(code) ? 1.0 : range ? kTravel * (double(range->high) - range->low) : kTravelUnknown;
+  const bool goes_up = axis.most - axis.rest >= axis.rest - axis.least;
+  const double extreme = goes_up ? axis.most : axis.least;
+  const double travel = std::abs(extreme - axis.rest);
+  const double away = std::abs(double(value) - axis.rest);
+  if (travel < far || away > kBack * travel) return {};
+  const bool wants_axis = kPrompts[next_].event.empty();
+  const Result result{wants_axis ? Found::axis : Found::hat, code, goes_up ? 1 : -1, extreme, axis.rest, away};
+  const std::string name = config::axis_name(code) + (goes_up ? " to its high end" : " to its low end");
+  // The next control is measured from where this one has come back to.
+  axis.rest = double(value);
+  begin_prompt();
+  if (const Result* first_half = opposite(); first_half != nullptr) {
+    if (first_half->code != code) return name + " is not the axis of the other way; move that one, or b to go back";
+    if (first_half->way == result.way) return name + " is the way that was shown before; move it the other way";
+  }
+  return take_result(result, name);
+}
+
+std::string Learning::take_result(const Result& result, const std::string& name) {
+  for (std::size_t i = 0; i < next_; ++i) {
+    const Result& earlier = results_[i];
+    const bool same_kind = (earlier.found == Found::button) == (result.found == Found::button);
+    const bool same_way = result.found == Found::button || earlier.way == result.way;
+    if (earlier.found != Found::nothing && same_kind && earlier.code == result.code && same_way)
+      return name + " is " + std::string(kPrompts[i].text) + " already; move another, or b to go back";
+  }
+  const std::string told = name + " is " + std::string(kPrompts[next_].text);
+  results_[next_++] = result;
+  return told;
+}
+
+radar::Device Learning::device(const std::string& name) const {
+  radar::Device device;
+  device.name = name;
+  if (facts_.known) {
+    device.vendor = hexadecimal(facts_.vendor);
+    device.products = hexadecimal(facts_.product);
+  }
+  for (std::size_t i = 0; i < results_.size(); ++i) {
+    if (kPrompts[i].event.empty())
+      add_axis(device, i);
+    else
+      add_switch(device, i);
+  }
+  return device;
+}
+
+// Both ways together, or one alone mirrored about its rest.
+void Learning::add_axis(radar::Device& device, std::size_t first) const {
+  if (kPrompts[first].is_second) return;
+  const Result& up = results_[first];
+  const Result& down = results_[first + 1];
+  const Result& known = up.found != Found::nothing ? up : down;
+  if (known.found == Found::nothing) return;
+  const double other =
+      down.found != Found::nothing && up.found != Found::nothing ? down.extreme : 2.0 * known.rest - known.extreme;
+  constexpr double kLeastDeadZone = 0.05;
+  constexpr double kMostDeadZone = 0.3;
+  radar::DeviceAxis axis;
+  axis.code = config::axis_name(known.code);
+  axis.use = kPrompts[first].use;
+  axis.low = std::min(known.extreme, other);
+  axis.high = std::max(known.extreme, other);
+  axis.centre =
+      std::clamp(known.rest, axis.low + (axis.high - axis.low) * 0.1, axis.high - (axis.high - axis.low) * 0.1);
+  axis.inverted = (known.way < 0) == (&known == &up);
+  const double half = (axis.high - axis.low) / 2.0;
+  // Twice what it missed its rest by, in hundredths.
+  const double missed = 2.0 * std::max(up.trembling, down.trembling) / half;
+  axis.dead_zone = std::clamp(std::round(missed * 100.0) / 100.0, kLeastDeadZone, kMostDeadZone);
+  device.axes.push_back(axis);
+}
+
+void Learning::add_switch(radar::Device& device, std::size_t index) const {
+  const Result& result = results_[index];
+  const Prompt& prompt = kPrompts[index];
+  if (result.found == Found::nothing) return;
+  if (result.found == Found::button) {
+    device.buttons.push_back({config::button_name(result.code), std::string(prompt.event), {}, prompt.repeat_s});
+    return;
+  }
+  const std::string code = config::axis_name(result.code);
+  const auto is_same = [&](const radar::DeviceAxis& axis) {
+    return axis.code == code && axis.use == radar::AxisUse::directions;
+  };
+  auto place = std::ranges::find_if(device.axes, is_same);
+  if (place == device.axes.end()) {
+    radar::DeviceAxis axis;
+    axis.code = code;
+    axis.use = radar::AxisUse::directions;
+    // Mirrored about its rest until the other way is known.
+    axis.low = result.rest - std::abs(result.extreme - result.rest);
+    axis.high = result.rest + std::abs(result.extreme - result.rest);
+    axis.repeat_s = prompt.repeat_s;
+    place = device.axes.insert(place, axis);
+  }
+  (result.way > 0 ? place->positive : place->negative) = std::string(prompt.event);
+}
+
+}  // namespace yars::inputmonitor
