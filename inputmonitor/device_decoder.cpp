@@ -44,16 +44,23 @@ int place_of(double value, int steps, std::optional<int> before) {
 }  // namespace
 
 DeviceDecoder::DeviceDecoder(DeviceMap map) : map_(std::move(map)) {
-  for (const ButtonAction& button : map_.buttons) switches_.push_back({button.action});
+  for (const ButtonAction& button : map_.buttons) switches_.push_back(switch_of(button.action));
   for (const AxisAction& action : map_.axes) {
-    Axis axis{action};
+    Axis axis;
+    axis.action = action;
     axis.first_switch = switches_.size();
     if (action.use == radar::AxisUse::directions) {
-      switches_.push_back({action.positive});
-      switches_.push_back({action.negative});
+      switches_.push_back(switch_of(action.positive));
+      switches_.push_back(switch_of(action.negative));
     }
     axes_.push_back(std::move(axis));
   }
+}
+
+DeviceDecoder::Switch DeviceDecoder::switch_of(const SwitchAction& action) {
+  Switch one;
+  one.action = action;
+  return one;
 }
 
 void DeviceDecoder::begin(const DeviceState& state) {

@@ -70,6 +70,7 @@ class DeviceDecoder {
     std::size_t first_switch = 0;  // of directions: positive, then negative
   };
 
+  static Switch switch_of(const SwitchAction& action);
   void change_button(std::uint16_t code, bool down, std::int64_t now_ns);
   void change_axis(std::uint16_t code, std::int32_t raw, std::int64_t now_ns, bool first);
   void move_lever(Axis& axis, double value, std::int64_t now_ns, bool first);

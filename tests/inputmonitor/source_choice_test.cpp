@@ -20,17 +20,27 @@ TEST(SourceChoice, EachKindHasItsWord) {
 }
 
 TEST(SourceChoice, AnythingElseIsBadUsage) {
-  for (const char* text : {"", "script", "script:", "keyboard", "evdev:/dev/input/event0"}) {
+  for (const char* text : {"", "script", "script:", "keyboard", "evdev", "evdev:", "evdev:,map"}) {
     const auto choice = parse_source(text);
     ASSERT_FALSE(choice) << text;
     EXPECT_TRUE(choice.error().bad_usage);
-    EXPECT_THAT(choice.error().message(), HasSubstr("window, terminal, script:FILE or auto"));
+    EXPECT_THAT(choice.error().message(), HasSubstr("window, terminal, script:FILE, evdev:PATH[,MAP] or auto"));
   }
-  EXPECT_THAT(parse_source("evdev:/dev/input/event0").error().message(), HasSubstr("later release"));
+}
+
+TEST(SourceChoice, ADeviceMayNameItsMap) {
+  const auto plain = parse_source("evdev:/dev/input/event0");
+  EXPECT_EQ(plain->kind, SourceKind::device);
+  EXPECT_EQ(plain->file, "/dev/input/event0");
+  EXPECT_EQ(plain->map_name, "");
+  const auto named = parse_source("evdev:/tmp/a,b/panel,mfd-cougar");
+  EXPECT_EQ(named->file, "/tmp/a,b/panel");
+  EXPECT_EQ(named->map_name, "mfd-cougar");
+  EXPECT_EQ(parse_source("evdev:/tmp/a,b/panel")->file, "/tmp/a,b/panel");
 }
 
 TEST(SourceChoice, AMissingScriptIsNamed) {
-  const auto source = open_source({SourceKind::script, "/nonexistent/x.script"}, "test");
+  const auto source = open_sources({{SourceKind::script, "/nonexistent/x.script", {}}}, {});
   ASSERT_FALSE(source);
   EXPECT_FALSE(source.error().bad_usage);
   EXPECT_THAT(source.error().message(), HasSubstr("/nonexistent/x.script"));
@@ -39,7 +49,7 @@ TEST(SourceChoice, AMissingScriptIsNamed) {
 TEST(SourceChoice, WithoutADisplayThereIsNoWindow) {
   unsetenv("DISPLAY");
   unsetenv("WAYLAND_DISPLAY");
-  const auto source = open_source({SourceKind::window, {}}, "test");
+  const auto source = open_sources({{SourceKind::window, {}, {}}}, {});
   ASSERT_FALSE(source);
   EXPECT_THAT(source.error().message(), HasSubstr("a display"));
 }

@@ -1,0 +1,68 @@
+// What the tests of devices share: records as a device writes them, maps from GUF, events as texts.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <linux/input.h>
+
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "config/load.hpp"
+#include "config/shipped_devices.hpp"
+#include "databuffer/records/event_text.hpp"
+#include "inputmonitor/device_map.hpp"
+#include "inputmonitor/raw_event.hpp"
+
+namespace yars::inputmonitor::testing {
+
+inline constexpr std::int64_t kMillisecond_ns = 1'000'000;
+
+inline std::vector<std::byte> bytes_of(const std::vector<RawEvent>& events) {
+  std::vector<std::byte> bytes;
+  for (const RawEvent& event : events) {
+    input_event record{};
+    record.type = event.type;
+    record.code = event.code;
+    record.value = event.value;
+    const auto* first = reinterpret_cast<const std::byte*>(&record);
+    bytes.insert(bytes.end(), first, first + sizeof record);
+  }
+  return bytes;
+}
+
+inline RawEvent key(std::uint16_t code, int value) {
+  return {EV_KEY, code, value};
+}
+inline RawEvent axis(std::uint16_t code, int value) {
+  return {EV_ABS, code, value};
+}
+inline constexpr RawEvent kReport{EV_SYN, SYN_REPORT, 0};
+inline constexpr RawEvent kDropped{EV_SYN, SYN_DROPPED, 0};
+
+inline std::vector<std::string> texts_of(const std::vector<databuffer::InputEvent>& events) {
+  std::vector<std::string> texts;
+  for (const auto& event : events) texts.push_back(databuffer::text_of(event));
+  return texts;
+}
+
+// The maps of a text that must be right.
+inline std::vector<radar::Device> maps_of(const std::string& guf) {
+  const auto loaded = config::load_configuration_text(guf, "text.guf");
+  EXPECT_TRUE(loaded) << loaded.error().message();
+  return loaded ? loaded->radar.devices : std::vector<radar::Device>{};
+}
+inline std::vector<radar::Device> shipped_maps() {
+  return maps_of(std::string(config::shipped_devices_text()));
+}
+
+// One device of buttons and axes, ready for a descriptor that tells nothing.
+inline DeviceMap ready(const std::string& controls) {
+  const auto maps = maps_of("( Devices `( ( Device :name \"it\" " + controls + " ) ) )");
+  auto map = ready_map(maps.at(0), {});
+  EXPECT_TRUE(map) << map.error().message();
+  return map ? *map : DeviceMap{};
+}
+
+}  // namespace yars::inputmonitor::testing
