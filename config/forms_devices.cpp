@@ -14,7 +14,7 @@ namespace yars::config {
 namespace {
 
 constexpr std::array<std::string_view, 5> kUses{"tdcX", "tdcY", "elevation", "directions", "lever"};
-constexpr double kLargestRaw = 2147483647;  // what struct input_event can hold
+constexpr double kLargestRaw = 1e10;  // beyond what struct input_event can hold, also mirrored about its rest
 
 SlotSchema text_slot(std::string_view name, std::string& (*of)(Draft&), std::string_view purpose) {
   return {.name = name, .binding = TextSlot{of}, .purpose = purpose};

@@ -17,6 +17,14 @@ void append(std::vector<T>& to, std::vector<T> more) {
   to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
+// std::filesystem::equivalent refuses devices.
+bool is_same_node(const std::filesystem::path& one, const std::filesystem::path& other) {
+  struct stat first {};
+  struct stat second {};
+  return stat(one.c_str(), &first) == 0 && stat(other.c_str(), &second) == 0 && first.st_dev == second.st_dev &&
+         first.st_ino == second.st_ino;
+}
+
 }  // namespace
 
 FoundDevicesSource::FoundDevicesSource(std::filesystem::path folder, DeviceMaps maps,
@@ -82,9 +90,7 @@ void FoundDevicesSource::look_for_new() {
 }
 
 void FoundDevicesSource::try_device(const std::filesystem::path& path) {
-  std::error_code problem;
-  const auto is_same = [&](const auto& other) { return std::filesystem::equivalent(path, other, problem); };
-  if (std::ranges::any_of(others_, is_same)) return;
+  if (std::ranges::any_of(others_, [&path](const auto& other) { return is_same_node(path, other); })) return;
   if (access(path.c_str(), R_OK) != 0) {
     if (!told_of_permission_)
       news_.push_back({true, "devices of " + folder_.string() + " may not be read: " + kDevicePermission});
