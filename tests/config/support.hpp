@@ -124,6 +124,15 @@ inline auto fields(const radar::DeviceAxis& axis) {
                     negative, repeat, lowest, highest, steps);
 }
 
+inline auto fields(const radar::Device& device) {
+  const auto& [name, vendor, products, pattern, has, buttons, axes] = device;
+  std::vector<decltype(fields(buttons[0]))> all_buttons;
+  for (const auto& button : buttons) all_buttons.push_back(fields(button));
+  std::vector<decltype(fields(axes[0]))> all_axes;
+  for (const auto& axis : axes) all_axes.push_back(fields(axis));
+  return std::tuple(name, vendor, products, pattern, has, all_buttons, all_axes);
+}
+
 template <class Record>
 auto fields_of_all(const std::vector<Record>& records) {
   std::vector<decltype(fields(records[0]))> all;
@@ -144,11 +153,6 @@ inline auto fields(const radar::WorldConfiguration& world) {
                     std::tuple(a, b, dielectric, k, exponent, fields_of_all(cells)),
                     std::tuple(radar_power, sidelobes, fields_of_all(jammers)), fields_of_all(movers),
                     fields_of_all(scenes), std::tuple(beacon_code, fields_of_all(beacons)));
-}
-
-inline auto fields(const radar::Device& device) {
-  const auto& [name, vendor, products, pattern, has, buttons, axes] = device;
-  return std::tuple(name, vendor, products, pattern, has, fields_of_all(buttons), fields_of_all(axes));
 }
 
 inline auto fields(const radar::WindowLimits& limits) {
