@@ -124,7 +124,10 @@ void DeviceSource::read_some(std::int64_t now_ns) {
     decoder_->feed(raw, now_ns);
     if (!decoder_->has_lost()) continue;
     ++losses_;
-    decoder_->catch_up(reader_->state(), now_ns);
+    const auto state = reader_->state();
+    decoder_->catch_up(state, now_ns);
+    // What was read with it is older than the state.
+    if (state) break;
   }
   if (outcome == DeviceReader::Outcome::gone) lose(reader_->plays_once() ? "has come to its end" : "has gone");
 }

@@ -92,8 +92,10 @@ void FoundDevicesSource::look_for_new() {
 void FoundDevicesSource::try_device(const std::filesystem::path& path) {
   if (std::ranges::any_of(others_, [&path](const auto& other) { return is_same_node(path, other); })) return;
   if (access(path.c_str(), R_OK) != 0) {
+    // Keyboards and mice are among them as a rule, so that this alone is no trouble.
     if (!told_of_permission_)
-      news_.push_back({true, "devices of " + folder_.string() + " may not be read: " + kDevicePermission});
+      news_.push_back({false, path.string() + " and perhaps others may not be read; if one is a panel of yours, " +
+                                  kDevicePermission});
     told_of_permission_ = true;
     return;
   }
