@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <utility>
 
 #include "databuffer/records/event_text.hpp"
 #include "databuffer/session.hpp"
@@ -65,7 +66,7 @@ class Hardware {
 class Applied {
  public:
   explicit Applied(const std::string& session) : session_(databuffer::Session::open_read_only(session)) {
-    if (session_) cursor_ = session_->layout().applied_events.next();
+    if (session_) cursor_ = std::as_const(*session_).layout().applied_events.next();
   }
   // Waits for the next one; empty when none comes.
   std::string next() {
@@ -73,7 +74,7 @@ class Applied {
     databuffer::AppliedEvent applied{};
     eventually(
         [&] {
-          if (session_->layout().applied_events.read(cursor_, applied).delivered)
+          if (std::as_const(*session_).layout().applied_events.read(cursor_, applied).delivered)
             text = databuffer::text_of(applied.event);
           return !text.empty();
         },
