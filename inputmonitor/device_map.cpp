@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <ranges>
 
 #include "config/control_code.hpp"
 #include "databuffer/records/event_text.hpp"
@@ -112,15 +111,15 @@ Expected<AxisAction> ready_axis(const radar::DeviceAxis& axis, std::uint16_t cod
 
 const radar::Device* fitting_map(const DeviceFacts& facts, std::span<const radar::Device> maps) {
   if (!facts.known) return nullptr;
-  for (const radar::Device& map : std::views::reverse(maps))
-    if (fits(facts, map)) return &map;
-  return nullptr;
+  const auto last =
+      std::find_if(maps.rbegin(), maps.rend(), [&](const radar::Device& map) { return fits(facts, map); });
+  return last == maps.rend() ? nullptr : &*last;
 }
 
 const radar::Device* named_map(std::string_view name, std::span<const radar::Device> maps) {
-  for (const radar::Device& map : std::views::reverse(maps))
-    if (map.name == name) return &map;
-  return nullptr;
+  const auto last =
+      std::find_if(maps.rbegin(), maps.rend(), [&](const radar::Device& map) { return map.name == name; });
+  return last == maps.rend() ? nullptr : &*last;
 }
 
 Expected<DeviceMap> ready_map(const radar::Device& device, const DeviceFacts& facts) {
