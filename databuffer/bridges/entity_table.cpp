@@ -40,8 +40,9 @@ std::vector<TrackedEntity> EntityTable::at(geo::Duration now) const {
   for (const auto& [id, entry] : entries_) {
     const geo::Duration age = std::max(now - entry.received, geo::Duration());
     if (age > kEntityTimeout) continue;
-    const geo::Duration flown = entry.state.frozen ? geo::Duration() : age;
-    all.push_back({id, entry.state.kind, entry.state.domain, dead_reckoned(entry.state.sample, flown), age});
+    Ownship place = dead_reckoned(entry.state.sample, entry.state.frozen ? geo::Duration() : age);
+    if (entry.state.frozen) place.velocity_north_mps = place.velocity_east_mps = place.velocity_down_mps = 0.0;
+    all.push_back({id, entry.state.kind, entry.state.domain, place, age});
   }
   return all;
 }

@@ -191,6 +191,11 @@ TEST_F(Bridge, ADisEntityFliesTheRadar) {
       << set_.log_of("bridge");
   EXPECT_NEAR(latched()->latitude_deg, 36.6, 0.1);
   EXPECT_NEAR(latched()->heading_deg, 80.0, 0.01);
+  // The ship beside it is a moving target of the radar's.
+  databuffer::Traffic traffic{};
+  EXPECT_TRUE(eventually([&] { return layout().traffic.read(traffic) && traffic.count == 1; }, 30.0));
+  EXPECT_NEAR(traffic.entities[0].latitude_deg, 36.7, 0.01);
+  EXPECT_TRUE(eventually([&] { return layout().traffic_latched.next() > 0; }, 30.0));
 }
 
 TEST_F(Bridge, APortInUseIsSaidPlainlyAndLeavesNoSession) {
