@@ -59,6 +59,15 @@ TEST(EntityTable, AnOlderReportDoesNotReplaceANewerOne) {
   EXPECT_EQ(table.at(seconds(11))[0].age.seconds(), 1.0);
 }
 
+TEST(EntityTable, WhoseAccelerationCarriesItBeyondAllBoundsIsLeftOut) {
+  EntityTable table;
+  EntityState state = state_of("dis/ship.bin");
+  state.sample.acceleration_mps2 = geo::Vector3{1'000.0, 0.0, 0.0};
+  table.update(state, seconds(10));
+  EXPECT_EQ(table.at(seconds(12)).size(), 1U);
+  EXPECT_EQ(table.at(seconds(21)).size(), 0U) << "11 km/s";
+}
+
 TEST(EntityTable, ItIsBoundedAndMakesRoomOfTheSilent) {
   EntityTable table;
   EntityState state = state_of("dis/ship.bin");
