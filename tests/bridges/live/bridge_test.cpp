@@ -38,7 +38,7 @@ class Flyer {
     put(packet, 8, place().longitude_deg * geo::kRadiansPerDegree, kBig);
     put(packet, 16, place().latitude_deg * geo::kRadiansPerDegree, kBig);
     for (const std::size_t rate : {56U, 60U, 64U}) put(packet, rate, 0.0F, kBig);
-    put(packet, 76, 0.0F, kBig);
+    for (const std::size_t north_and_down : {76U, 84U}) put(packet, north_and_down, 0.0F, kBig);
     put(packet, 80, static_cast<float>(kSpeed_mps / geo::kMetresPerFoot), kBig);
     return packet;
   }
