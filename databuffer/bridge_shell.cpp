@@ -66,7 +66,8 @@ void BridgeShell::step(const TickLoop::Due& due) {
 }
 
 void BridgeShell::begin_epoch(const ClockState& clock) {
-  if (std::isnan(clock.reposition_latitude_deg)) return;
+  // Also when nobody asked for it: the radar follows a source that has jumped, this one perhaps.
+  if (std::isnan(clock.reposition_latitude_deg) || clock.followed != 0) return;
   const std::string line = "repositioning: " + source_.name + " flies by itself; move it there";
   session_->note(NoteKind::refusal, line);
   log_warning(line);

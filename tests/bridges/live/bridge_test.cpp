@@ -139,7 +139,7 @@ TEST_F(Bridge, ARepositioningIsForTheProgramOutsideToDo) {
   };
   ASSERT_TRUE(eventually(flown, 30.0)) << set_.log_of("bridge");
   ASSERT_EQ(set_.yars({"sim", "reposition", "40", "-100", "20000", "45"}).code, 0);
-  EXPECT_TRUE(eventually([&] { return flown() && latched()->epoch == 1; }, 30.0)) << "it goes on in the new epoch";
+  EXPECT_TRUE(eventually([&] { return flown() && latched()->epoch >= 1; }, 30.0)) << "it goes on in the new epoch";
   EXPECT_TRUE(eventually([&] { return flown() && flyer.distance_m(*latched()) < 40.0; }, 30.0));
   EXPECT_THAT(set_.log_of("bridge"), HasSubstr("flies by itself"));
 }
