@@ -1,9 +1,9 @@
 // A program outside that flies the aircraft of a session: takes its packets, and publishes ownship and nav at the ticks
 // while it is heard. It flies by its own clock, whatever the session's does: while the session is frozen it flies on,
-// and the radar finds it elsewhere afterwards; a rate other than 1 changes nothing for it; a reset or repositioning is
-// for the program itself to do. When nothing has come within the bridge's reach, nothing is published: the lane
-// goes stale, another takes over, and this one comes back with the packets. Traffic that it tells of goes into the
-// session's, unless another program has claimed that.
+// and the radar finds it elsewhere afterwards, which is a new epoch; a rate other than 1 changes nothing for it; a
+// reset or repositioning is for the program itself to do. When nothing has come within the bridge's reach, nothing is
+// published: the lane goes stale, another takes over, and this one comes back with the packets. Traffic that it tells
+// of goes into the session's, unless another program has claimed that.
 #pragma once
 
 #include <cstdint>

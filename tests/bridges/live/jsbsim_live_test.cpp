@@ -28,9 +28,9 @@ using databuffer::Ownship;
 constexpr double kPathBound_m = 10.0;
 constexpr double kAltitudeBound_m = 6.0;  // 12 m/s of climb, half a second late
 constexpr double kHeadingBound_deg = 2.0;
-// [s] What a latched place may be ahead of or behind what JSBSim had sent then: whoever is held up by the machine is
-// late by that, but not by more, or the set would have called it stale.
-constexpr double kTimeBound_s = 1.5;
+// [s] Of the path, around the moment of a latched place, in which it is looked for: who is held up by the machine is
+// late, and JSBSim then catches up. No turn comes back upon itself within it.
+constexpr double kTimeBound_s = 5.0;
 
 std::string jsbsim_program() {
   if (const char* named = std::getenv("YARS_JSBSIM"); named != nullptr) return named;
@@ -170,7 +170,7 @@ TEST_F(JsbsimLive, FliesTheRadarOverTheCoast) {
   EXPECT_LT(worst_.path_m, kPathBound_m);
   EXPECT_LT(worst_.altitude_m, kAltitudeBound_m);
   EXPECT_LT(worst_.heading_deg, kHeadingBound_deg);
-  EXPECT_EQ(notes(databuffer::NoteKind::refusal), 0U) << set_.log_of("bridge");
+  EXPECT_THAT(set_.log_of("bridge"), ::testing::Not(::testing::HasSubstr("refused")));
   for (const char* role : {"bridge", "radar-model"}) set_.kill(role, SIGTERM);
   for (const char* role : {"bridge", "radar-model"}) EXPECT_EQ(set_.wait(role), 0) << set_.log_of(role);
 }
