@@ -69,7 +69,6 @@ SYSTEM_HEADERS = {
     "zstd.h": ["tools/recording"],
     "arpa/": ["databuffer", "tests"],
     "netinet/": ["databuffer", "tests"],
-    "arpa/": ["tests"],
     "sys/mman.h": ["lib/memory", "shells", "shm", "databuffer", "tools", "tests"],
     "gdal.h": ["model/terrain/gdal", "tests"],
     "gdal_utils.h": ["model/terrain/gdal", "tests"],
