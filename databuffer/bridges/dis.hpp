@@ -17,8 +17,8 @@ namespace yars::databuffer::bridges {
 
 struct EntityId {
   std::uint16_t site = 0, application = 0, entity = 0;
-  friend auto operator<=>(const EntityId&,
-                          const EntityId&) = default;  // NOLINT(modernize-use-nullptr): the order made by the compiler
+  // NOLINTNEXTLINE(modernize-use-nullptr): the order is the compiler's
+  friend auto operator<=>(const EntityId&, const EntityId&) = default;
 };
 std::string text_of(EntityId id);  // "SITE,APP,ENTITY"
 
