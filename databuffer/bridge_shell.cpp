@@ -4,13 +4,17 @@
 #include <cmath>
 #include <utility>
 
+#include "databuffer/bridges/surface_traffic.hpp"
 #include "databuffer/log.hpp"
+#include "databuffer/records/validation.hpp"
 
 namespace yars::databuffer {
 
 namespace {
 
 constexpr std::int64_t kTicksBetweenRecords = 4;  // 50 Hz, as our own models
+// 1 Hz: between records the radar sails each entity on by its velocity.
+constexpr std::int64_t kTicksBetweenTraffic = 200;
 
 geo::Duration duration_of(std::int64_t nanoseconds) {
   return geo::Duration::seconds(1e-9 * static_cast<double>(nanoseconds));
@@ -40,9 +44,11 @@ BridgeShell::BridgeShell(Session& session, bridges::BridgeSource source, UdpSock
       flight_(source_.bridge->reach()) {
   log_info((source_.asks ? "asks " : "listens for ") + source_.name + (source_.asks ? " at " : " on ") +
            text_of(socket_.place()));
+  if (source_.bridge->tells_traffic()) claim_traffic();
 }
 
 BridgeShell::~BridgeShell() {
+  if (traffic_claim_) session_->layout().traffic.clear();
   for (const auto& datagram : source_.bridge->farewell()) socket_.send(datagram);
   if (refusals_.count() > 0) log_info(std::to_string(refusals_.count()) + " packets were refused");
 }
@@ -51,6 +57,7 @@ void BridgeShell::step(const TickLoop::Due& due) {
   if (due.new_epoch) begin_epoch(due.clock);
   ask();
   receive();
+  if (traffic_claim_) publish_traffic(due);
   const auto sample = flight_.at(duration_of(moment_of(due)));
   tell_presence(sample.has_value());
   if (!sample) return;
@@ -59,7 +66,8 @@ void BridgeShell::step(const TickLoop::Due& due) {
 }
 
 void BridgeShell::begin_epoch(const ClockState& clock) {
-  if (std::isnan(clock.reposition_latitude_deg)) return;
+  // Also when nobody asked for it: the radar follows a source that has jumped, this one perhaps.
+  if (std::isnan(clock.reposition_latitude_deg) || clock.followed != 0) return;
   const std::string line = "repositioning: " + source_.name + " flies by itself; move it there";
   session_->note(NoteKind::refusal, line);
   log_warning(line);
@@ -124,6 +132,30 @@ void BridgeShell::publish(const TickLoop::Due& due, flight::FlightSample sample)
   layout.nav[lane_].publish(sample.nav);
   layout.ownship[lane_].publish(sample.ownship);
   next_publish_tick_ = due.tick + kTicksBetweenRecords;
+  place_ = {sample.ownship.latitude_deg, sample.ownship.longitude_deg};
+}
+
+void BridgeShell::claim_traffic() {
+  auto claim = session_->claim(Role::traffic);
+  if (claim) {
+    traffic_claim_ = std::move(*claim);
+    return;
+  }
+  log_warning("the traffic of " + source_.name + " is left out: " + claim.error().message());
+}
+
+void BridgeShell::publish_traffic(const TickLoop::Due& due) {
+  const bool is_due = due.tick >= next_traffic_tick_ || due.tick < next_traffic_tick_ - kTicksBetweenTraffic;
+  if (!is_due && !due.new_epoch) return;
+  next_traffic_tick_ = due.tick + kTicksBetweenTraffic;
+  Traffic traffic = bridges::surface_traffic(source_.bridge->traffic(duration_of(monotonic_ns())), place_);
+  // An empty record ends what was told; before there is anything, there is nothing to say.
+  if (traffic.count == 0 && traffic_told_ == 0) return;
+  traffic_told_ = traffic.count;
+  traffic.source_time_ns = due.sim_time_ns;
+  traffic.epoch = due.clock.epoch;
+  if (const auto reason = why_refused(traffic)) return refuse("traffic: " + *reason, duration_of(monotonic_ns()));
+  session_->layout().traffic.publish(traffic);
 }
 
 }  // namespace yars::databuffer

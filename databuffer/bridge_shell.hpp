@@ -1,11 +1,13 @@
 // A program outside that flies the aircraft of a session: takes its packets, and publishes ownship and nav at the ticks
 // while it is heard. It flies by its own clock, whatever the session's does: while the session is frozen it flies on,
-// and the radar finds it elsewhere afterwards; a rate other than 1 changes nothing for it; a reset or repositioning is
-// for the program itself to do. When nothing has come within the bridge's reach, nothing is published: the lane
-// goes stale, another takes over, and this one comes back with the packets.
+// and the radar finds it elsewhere afterwards, which is a new epoch; a rate other than 1 changes nothing for it; a
+// reset or repositioning is for the program itself to do. When nothing has come within the bridge's reach, nothing is
+// published: the lane goes stale, another takes over, and this one comes back with the packets. Traffic that it tells
+// of goes into the session's, unless another program has claimed that.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "databuffer/bridges/bridge_source.hpp"
@@ -43,6 +45,8 @@ class BridgeShell {
   void tell_losses();
   void tell_presence(bool heard);
   void publish(const TickLoop::Due& due, flight::FlightSample sample);
+  void claim_traffic();
+  void publish_traffic(const TickLoop::Due& due);
 
   Session* session_;
   bridges::BridgeSource source_;
@@ -56,6 +60,10 @@ class BridgeShell {
   int jumps_told_ = 0;
   bool heard_ = false;
   std::int64_t next_publish_tick_ = 0;
+  std::optional<Claim> traffic_claim_;
+  geo::GeoPoint place_;  // of the aircraft, as published last
+  std::int64_t next_traffic_tick_ = 0;
+  std::uint32_t traffic_told_ = 0;  // entities
 };
 
 }  // namespace yars::databuffer

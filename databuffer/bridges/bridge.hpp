@@ -29,6 +29,8 @@ class Bridge {
   // To be sent when the bridge ends.
   virtual std::vector<Datagram> farewell() const { return {}; }
 
+  // Whether the program tells of others than the aircraft.
+  virtual bool tells_traffic() const { return false; }
   // Every entity but the aircraft, at this moment.
   virtual std::vector<TrackedEntity> traffic(geo::Duration) const { return {}; }
   // Once after each event: something for the log.

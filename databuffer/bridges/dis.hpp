@@ -17,6 +17,7 @@ namespace yars::databuffer::bridges {
 
 struct EntityId {
   std::uint16_t site = 0, application = 0, entity = 0;
+  // NOLINTNEXTLINE(modernize-use-nullptr): the order is the compiler's
   friend auto operator<=>(const EntityId&, const EntityId&) = default;
 };
 std::string text_of(EntityId id);  // "SITE,APP,ENTITY"

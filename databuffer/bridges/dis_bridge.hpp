@@ -11,6 +11,7 @@ class DisBridge final : public Bridge {
   explicit DisBridge(const std::optional<EntityId>& aircraft) : aircraft_(aircraft) {}
 
   failure::Expected<std::optional<ExternalSample>> receive(Bytes datagram, geo::Duration now) override;
+  bool tells_traffic() const override { return true; }
   std::vector<TrackedEntity> traffic(geo::Duration now) const override { return others_.at(now); }
   std::optional<std::string> take_news() override;
   // A sender reports only what its receivers cannot work out, and else at each heartbeat.

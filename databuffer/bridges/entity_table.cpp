@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "databuffer/bridges/dead_reckoning.hpp"
+#include "databuffer/records/validation.hpp"
 
 namespace yars::databuffer::bridges {
 
@@ -40,8 +41,11 @@ std::vector<TrackedEntity> EntityTable::at(geo::Duration now) const {
   for (const auto& [id, entry] : entries_) {
     const geo::Duration age = std::max(now - entry.received, geo::Duration());
     if (age > kEntityTimeout) continue;
-    const geo::Duration flown = entry.state.frozen ? geo::Duration() : age;
-    all.push_back({id, entry.state.kind, entry.state.domain, dead_reckoned(entry.state.sample, flown), age});
+    Ownship place = dead_reckoned(entry.state.sample, entry.state.frozen ? geo::Duration() : age);
+    if (entry.state.frozen) place.velocity_north_mps = place.velocity_east_mps = place.velocity_down_mps = 0.0;
+    // One that its own acceleration has carried beyond what a record may hold says nothing any more.
+    if (why_refused(place)) continue;
+    all.push_back({id, entry.state.kind, entry.state.domain, place, age});
   }
   return all;
 }

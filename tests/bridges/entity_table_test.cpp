@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "databuffer/bridges/surface_traffic.hpp"
+#include "databuffer/records/validation.hpp"
 #include "lib/geo/geodesic.hpp"
 #include "tests/bridges/packets.hpp"
 
@@ -57,6 +59,15 @@ TEST(EntityTable, AnOlderReportDoesNotReplaceANewerOne) {
   EXPECT_EQ(table.at(seconds(11))[0].age.seconds(), 1.0);
 }
 
+TEST(EntityTable, WhoseAccelerationCarriesItBeyondAllBoundsIsLeftOut) {
+  EntityTable table;
+  EntityState state = state_of("dis/ship.bin");
+  state.sample.acceleration_mps2 = geo::Vector3{1'000.0, 0.0, 0.0};
+  table.update(state, seconds(10));
+  EXPECT_EQ(table.at(seconds(12)).size(), 1U);
+  EXPECT_EQ(table.at(seconds(21)).size(), 0U) << "11 km/s";
+}
+
 TEST(EntityTable, ItIsBoundedAndMakesRoomOfTheSilent) {
   EntityTable table;
   EntityState state = state_of("dis/ship.bin");
@@ -70,6 +81,33 @@ TEST(EntityTable, ItIsBoundedAndMakesRoomOfTheSilent) {
   EXPECT_EQ(table.size(), kMostEntities);
   EXPECT_FALSE(add(kMostEntities, 30)) << "all others have left";
   EXPECT_EQ(table.size(), 1U);
+}
+
+TEST(SurfaceTraffic, ShipsAndVehiclesAreTargetsAndAircraftAreNone) {
+  EntityTable table;
+  for (const char* name : {"dis/air.bin", "dis/ship.bin", "dis/truck.bin"})
+    ASSERT_FALSE(table.update(state_of(name), seconds(10)));
+  const Traffic traffic = surface_traffic(table.at(seconds(10)), {36.6, -121.9});
+  EXPECT_FALSE(why_refused(traffic));
+  ASSERT_EQ(traffic.count, 2U);
+  EXPECT_NEAR(traffic.entities[0].latitude_deg, 36.7, 1e-9);
+  EXPECT_NEAR(traffic.entities[0].velocity_east_mps, -10.0, 1e-3);
+  EXPECT_EQ(traffic.entities[0].cross_section_m2, kShipEcho_m2);
+  EXPECT_EQ(traffic.entities[1].cross_section_m2, kVehicleEcho_m2);
+  EXPECT_NE(traffic.entities[0].id, traffic.entities[1].id);
+}
+
+TEST(SurfaceTraffic, TheNearestAreKeptWhenThereAreMoreThanFit) {
+  EntityTable table;
+  EntityState state = state_of("dis/ship.bin");
+  for (std::size_t number = 0; number < kMostTraffic + 10; ++number) {
+    state.id.entity = static_cast<std::uint16_t>(number);
+    state.sample.ownship.latitude_deg = 40.0 - 0.01 * static_cast<double>(number);
+    ASSERT_FALSE(table.update(state, seconds(10)));
+  }
+  const Traffic traffic = surface_traffic(table.at(seconds(10)), {30.0, -122.1});
+  ASSERT_EQ(traffic.count, kMostTraffic);
+  for (const TrafficEntity& entity : traffic.entities) EXPECT_LT(entity.latitude_deg, 39.905);
 }
 
 TEST(StampOrder, TheHourTurnsWithoutAFault) {

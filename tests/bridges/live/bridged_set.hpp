@@ -39,7 +39,7 @@ class BridgedSet : public ::testing::Test {
     command.insert(command.end(), options.begin(), options.end());
     set_.start("radar-model", command);
     ASSERT_TRUE(eventually([&] { return attach(); }, 20.0)) << set_.log_of("radar-model");
-    ASSERT_TRUE(eventually([&] { return session_->layout().model_status.has_value(); }, 60.0))
+    ASSERT_TRUE(eventually([&] { return layout().model_status.has_value(); }, 60.0))
         << set_.log_of("radar-model");
   }
 

@@ -1,0 +1,179 @@
+// JSBSim itself flies the radar over the coast of California, with the aircraft and the script of tests/bridges/jsbsim.
+// JSBSim sends each state twice: as text to flight-model, and in its other form, with all digits, to this test. What
+// radar-model latches must lie on the path that JSBSim says it flew, at a place where it was about then.
+// YARS_JSBSIM names the program, else it is looked for; YARS_JSBSIM_SECONDS makes the flight longer than 20 s.
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <deque>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "databuffer/bridges/flightgear.hpp"
+#include "lib/geo/frames.hpp"
+#include "tests/bridges/live/bridged_set.hpp"
+#include "tests/bridges/live/udp_peer.hpp"
+
+namespace yars::endtoend {
+namespace {
+
+using databuffer::Ownship;
+
+// JSBSim's text has steps of 9 m in longitude here, of which half; and a second of the hardest turn flown on by dead
+// reckoning, should the machine hold JSBSim up so long, is 3 m off.
+constexpr double kPathBound_m = 10.0;
+constexpr double kAltitudeBound_m = 6.0;  // 12 m/s of climb, half a second late
+constexpr double kHeadingBound_deg = 2.0;
+// [s] Of the path, around the moment of a latched place, in which it is looked for: who is held up by the machine is
+// late, and JSBSim then catches up. No turn comes back upon itself within it.
+constexpr double kTimeBound_s = 5.0;
+
+std::string jsbsim_program() {
+  if (const char* named = std::getenv("YARS_JSBSIM"); named != nullptr) return named;
+  if (tool_exists("JSBSim")) return "JSBSim";
+  const char* games = "/usr/games/JSBSim";
+  return std::filesystem::exists(games) ? games : "";
+}
+
+double flight_seconds() {
+  const char* told = std::getenv("YARS_JSBSIM_SECONDS");
+  return told == nullptr ? 20.0 : std::atof(told);
+}
+
+std::string text_of_file(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Output directives of JSBSim; its script and aircraft stay as they are.
+std::string write_output(const std::filesystem::path& file, std::string text, std::uint16_t port) {
+  const std::string mark = "@PORT@";
+  text.replace(text.find(mark), mark.size(), std::to_string(port));
+  std::ofstream(file) << text;
+  return "--logdirectivefile=" + file.string();
+}
+
+struct Truth {
+  double received_s;
+  Ownship own;
+};
+
+// How far a latched place is from the path through the truth near its time, and from what was true there.
+struct Miss {
+  double path_m = 1e9, altitude_m = 1e9, heading_deg = 1e9, late_s = 1e9;
+};
+
+Miss miss_of(const Ownship& own, double at_s, const std::deque<Truth>& truths) {
+  const geo::LocalTangentFrame frame({own.latitude_deg, own.longitude_deg}, geo::HeightAboveEllipsoid());
+  const auto flat = [&frame](const Ownship& place) {
+    return frame.enu_from_geodetic({place.latitude_deg, place.longitude_deg}, geo::HeightAboveEllipsoid());
+  };
+  Miss best;
+  for (std::size_t i = 1; i < truths.size(); ++i) {
+    const Truth &a = truths[i - 1], &b = truths[i];
+    if (std::abs(a.received_s - at_s) > kTimeBound_s) continue;
+    const auto from = flat(a.own), to = flat(b.own);
+    const double dx = to.x - from.x, dy = to.y - from.y;
+    const double share = std::clamp(-(from.x * dx + from.y * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+    const double path_m = std::hypot(from.x + share * dx, from.y + share * dy);
+    if (path_m >= best.path_m) continue;
+    const double altitude_m = a.own.altitude_msl_m + share * (b.own.altitude_msl_m - a.own.altitude_msl_m);
+    best = {path_m, std::abs(own.altitude_msl_m - altitude_m),
+            std::abs(geo::wrapped_degrees(own.heading_deg - a.own.heading_deg)),
+            at_s - (a.received_s + share * (b.received_s - a.received_s))};
+  }
+  return best;
+}
+
+class JsbsimLive : public BridgedSet {
+ protected:
+  JsbsimLive() : BridgedSet("jsbsim") {}
+
+  void start_jsbsim(const std::string& program, std::uint16_t text_port, std::uint16_t native_port, double seconds) {
+    const std::filesystem::path root = YARS_SOURCE_DIR "/tests/bridges/jsbsim";
+    const std::string native = R"(<output name="localhost" type="FLIGHTGEAR" port="@PORT@" protocol="UDP" rate="50"/>)";
+    set_.start_tool("jsbsim",
+                    {program, "--realtime", "--nice", "--nohighlight", "--root=" + root.string(),
+                     "--script=scripts/coast.xml", "--end=" + std::to_string(seconds),
+                     write_output(set_.folder() / "text.xml", text_of_file(root / "text_output.xml"), text_port),
+                     write_output(set_.folder() / "native.xml", native, native_port)});
+  }
+
+  void hear_truth(const UdpPeer& peer, int patience_ms) {
+    for (auto heard = peer.hear(patience_ms); heard; heard = peer.hear(0)) {
+      const auto sample = databuffer::bridges::decode_flightgear(heard->datagram);
+      ASSERT_TRUE(sample) << sample.error().message();
+      truths_.push_back({1e-9 * static_cast<double>(databuffer::monotonic_ns()), sample->ownship});
+      last_heard_s_ = truths_.back().received_s;
+      if (truths_.size() > 1'000) truths_.pop_front();
+    }
+  }
+
+  // Ticks whose ownship is JSBSim's, kept until the truth around them has come too.
+  void read_ticks() {
+    databuffer::ModelTick tick{};
+    while (layout().model_ticks.read(cursor_, tick).delivered) {
+      if ((tick.flags & databuffer::kTickOwnshipValid) == 0U || databuffer::text_of(tick.ownship.source) != "jsbsim")
+        continue;
+      if (tick.ownship.source_time_ns == last_latched_ns_) continue;
+      last_latched_ns_ = tick.ownship.source_time_ns;
+      const auto clock = session_->clock();
+      latched_.push_back(
+          {1e-9 * static_cast<double>(clock.base_monotonic_ns + last_latched_ns_ - clock.base_sim_ns), tick.ownship});
+    }
+  }
+
+  void compare_settled() {
+    while (!latched_.empty() && !truths_.empty() &&
+           latched_.front().received_s + kTimeBound_s < truths_.back().received_s) {
+      const Miss miss = miss_of(latched_.front().own, latched_.front().received_s, truths_);
+      worst_.path_m = std::max(worst_.path_m, miss.path_m);
+      worst_.altitude_m = std::max(worst_.altitude_m, miss.altitude_m);
+      worst_.heading_deg = std::max(worst_.heading_deg, miss.heading_deg);
+      worst_.late_s = std::max(worst_.late_s, std::abs(miss.late_s));
+      latched_.pop_front();
+      ++compared_;
+    }
+  }
+
+  std::deque<Truth> truths_, latched_;
+  std::uint64_t cursor_ = 0;
+  std::int64_t last_latched_ns_ = -1;
+  double last_heard_s_ = 0.0;
+  Miss worst_{0.0, 0.0, 0.0, 0.0};
+  int compared_ = 0;
+};
+
+TEST_F(JsbsimLive, FliesTheRadarOverTheCoast) {
+  const std::string program = jsbsim_program();
+  if (program.empty()) GTEST_SKIP() << "needs JSBSim (Debian's package flightgear has it), in PATH or by YARS_JSBSIM";
+  const double seconds = flight_seconds();
+  const std::uint16_t port = listen("jsbsim:0");
+  std::vector<std::string> options{"--config", YARS_SOURCE_DIR "/config/california.guf"};
+  if (!shared_data().empty()) options.insert(options.end(), {"--terrain", (shared_data() / "dted").string()});
+  start_radar(options);
+  const UdpPeer truth;
+  start_jsbsim(program, port, truth.port(), seconds);
+  while (set_.runs("jsbsim")) {
+    hear_truth(truth, 20);
+    read_ticks();
+    compare_settled();
+  }
+  std::printf("%d records compared: worst %.2f m from the path, %.2f m of altitude, %.2f deg of heading, %.3f s late\n",
+              compared_, worst_.path_m, worst_.altitude_m, worst_.heading_deg, worst_.late_s);
+  // 50 records a second are published; of a loaded machine no number is asked, but of a flight there must be some.
+  EXPECT_GT(compared_, 100) << set_.log_of("bridge") << set_.output_of("jsbsim");
+  EXPECT_LT(worst_.path_m, kPathBound_m);
+  EXPECT_LT(worst_.altitude_m, kAltitudeBound_m);
+  EXPECT_LT(worst_.heading_deg, kHeadingBound_deg);
+  EXPECT_THAT(set_.log_of("bridge"), ::testing::Not(::testing::HasSubstr("refused")));
+  for (const char* role : {"bridge", "radar-model"}) set_.kill(role, SIGTERM);
+  for (const char* role : {"bridge", "radar-model"}) EXPECT_EQ(set_.wait(role), 0) << set_.log_of(role);
+}
+
+}  // namespace
+}  // namespace yars::endtoend

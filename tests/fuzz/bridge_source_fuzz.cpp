@@ -1,0 +1,11 @@
+// Any text as what `--source` names: an error, or a bridge.
+#include <string_view>
+
+#include "databuffer/bridges/bridge_source.hpp"
+#include "lib/failure/require.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto source = yars::databuffer::bridges::open_bridge({reinterpret_cast<const char*>(data), size});
+  if (source) YARS_REQUIRE((source->bridge != nullptr), ==, true);
+  return 0;
+}

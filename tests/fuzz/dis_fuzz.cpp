@@ -1,0 +1,20 @@
+// Any bytes as DIS: one datagram as it is, then the conversation that the bytes may be; aircraft and traffic validate.
+#include "databuffer/bridges/dis_bridge.hpp"
+#include "databuffer/bridges/surface_traffic.hpp"
+#include "tests/fuzz/flown_on.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace yars::databuffer;
+  using namespace yars::databuffer::bridges;
+  const auto bytes = std::as_bytes(std::span(data, size));
+  DisBridge bridge(std::nullopt);
+  const auto take = [&bridge](std::span<const std::byte> datagram) {
+    const auto sample = bridge.receive(datagram, yars::geo::Duration::seconds(1.0));
+    if (sample && *sample) fly_on(**sample);
+  };
+  take(bytes);
+  each_datagram(bytes, take);
+  const Traffic traffic = surface_traffic(bridge.traffic(yars::geo::Duration::seconds(10.0)), {36.5, -122.0});
+  YARS_REQUIRE(why_refused(traffic).value_or(""), ==, "");
+  return 0;
+}

@@ -1,0 +1,9 @@
+// Any bytes as a FlightGear packet: an error, or a sample that the border accepts and that flies on to one it accepts.
+#include "databuffer/bridges/flightgear.hpp"
+#include "tests/fuzz/flown_on.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace yars::databuffer::bridges;
+  if (const auto sample = decode_flightgear(std::as_bytes(std::span(data, size)))) fly_on(*sample);
+  return 0;
+}

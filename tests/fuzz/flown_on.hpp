@@ -1,0 +1,44 @@
+// What every decoder of packets must give: a sample that validates, and that is flown on to samples that validate.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "databuffer/bridges/external_flight.hpp"
+#include "databuffer/records/validation.hpp"
+#include "lib/failure/require.hpp"
+
+namespace yars::databuffer::bridges {
+
+inline void require_valid(const Ownship& ownship) {
+  YARS_REQUIRE(why_refused(ownship).value_or(""), ==, "");
+}
+
+// Twice the sample, so that what is left of the first goes into the second.
+inline void fly_on(const ExternalSample& sample) {
+  require_valid(sample.ownship);
+  ExternalFlight flight(geo::Duration::seconds(12.0));
+  for (const double received_s : {1.0, 1.2}) {
+    flight.receive(sample, geo::Duration::seconds(received_s));
+    for (const double after_s : {-0.1, 0.0, 0.02, 5.0})
+      if (const auto flown = flight.at(geo::Duration::seconds(received_s + after_s))) {
+        require_valid(flown->ownship);
+        YARS_REQUIRE(why_refused(flown->nav).value_or(""), ==, "");
+      }
+  }
+}
+
+// Datagrams of one input: each is led by its length in two bytes, so that a fuzzer can grow conversations.
+template <class Take>
+void each_datagram(std::span<const std::byte> bytes, Take take) {
+  while (bytes.size() > 2) {
+    const std::size_t told = std::to_integer<std::size_t>(bytes[0]) << 8U | std::to_integer<std::size_t>(bytes[1]);
+    bytes = bytes.subspan(2);
+    const std::size_t length = told < bytes.size() ? told : bytes.size();
+    take(bytes.first(length));
+    bytes = bytes.subspan(length);
+  }
+}
+
+}  // namespace yars::databuffer::bridges

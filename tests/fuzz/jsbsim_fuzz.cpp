@@ -1,0 +1,19 @@
+// Any text as JSBSim's output, a datagram a line: labels, numbers, both in any order.
+#include <string_view>
+
+#include "databuffer/bridges/jsbsim.hpp"
+#include "tests/fuzz/flown_on.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace yars::databuffer::bridges;
+  JsbsimBridge bridge;
+  std::string_view text(reinterpret_cast<const char*>(data), size);
+  // More lines find nothing that these do not, and each costs a flight.
+  for (int line = 0; line < 20 && !text.empty(); ++line) {
+    const std::size_t end = text.find('\n') == std::string_view::npos ? text.size() : text.find('\n') + 1;
+    const auto sample = bridge.receive(std::as_bytes(std::span(text.substr(0, end))), {});
+    if (sample && *sample) fly_on(**sample);
+    text.remove_prefix(end);
+  }
+  return 0;
+}

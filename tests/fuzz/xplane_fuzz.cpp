@@ -1,0 +1,16 @@
+// Any bytes as X-Plane's replies: one datagram as it is, then the conversation that the bytes may be.
+#include "databuffer/bridges/xplane.hpp"
+#include "tests/fuzz/flown_on.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace yars::databuffer::bridges;
+  const auto bytes = std::as_bytes(std::span(data, size));
+  XplaneBridge bridge;
+  const auto take = [&bridge](std::span<const std::byte> datagram) {
+    const auto sample = bridge.receive(datagram, {});
+    if (sample && *sample) fly_on(**sample);
+  };
+  take(bytes);
+  each_datagram(bytes, take);
+  return 0;
+}
