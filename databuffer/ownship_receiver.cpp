@@ -1,5 +1,7 @@
 #include "databuffer/ownship_receiver.hpp"
 
+#include <cmath>
+
 #include "databuffer/records/validation.hpp"
 
 namespace yars::databuffer {
@@ -15,6 +17,7 @@ Nav nav_from_truth(const Ownship& ownship) {
   nav.velocity_north_mps = ownship.velocity_north_mps;
   nav.velocity_east_mps = ownship.velocity_east_mps;
   nav.velocity_down_mps = ownship.velocity_down_mps;
+  nav.magnetic_variation_deg = std::nan("");
   nav.epoch = ownship.epoch;
   return nav;
 }
