@@ -25,12 +25,13 @@ void FlightShell::step(const TickLoop::Due& due) {
   // A repositioning that came while nobody flew is this flight's too.
   const bool placed_before = !started_ && !resume(due) && !std::isnan(due.clock.reposition_latitude_deg);
   if (due.new_epoch || placed_before) begin_epoch(due.clock);
-  if (!every_tick_) stand_by(due);
-  const flight::FlightSample sample = source_.model->step(time_since_last(due));
   const bool first = !started_ || due.new_epoch;
+  const bool publishes = first || every_tick_ || due.tick - last_published_tick_ >= kTicksBetweenRecords;
+  if (publishes && !every_tick_) stand_by(due);
+  const flight::FlightSample sample = source_.model->step(time_since_last(due));
   started_ = true;
   last_tick_ = due.tick;
-  if (first || every_tick_ || due.tick - last_published_tick_ >= kTicksBetweenRecords) publish(due, sample);
+  if (publishes) publish(due, sample);
 }
 
 // A new epoch's time has nothing to do with the one before; ticks that were skipped are flown all the same.
