@@ -104,8 +104,8 @@ struct RadarState {
   std::int64_t message_until_tick;  // the message goes at this tick
   DrawnPoint points[radar::kMaxPointsDrawn];
   char legends[radar::kBezelButtons + 1][8];  // [n]: legend of PB n, zero terminated, empty = none; [0] unused
-  double frame_latitude_deg;   // [deg] apex of the frame in which the cursor is slewed: the aircraft, or where it
-  double frame_longitude_deg;  // was when the picture froze
+  double frame_latitude_deg;   // [deg] apex of the cursor's frame: the aircraft, or where it was when the picture froze
+  double frame_longitude_deg;  // [deg]
   double frame_track_deg;      // [deg] [0, 360) true ground track of that frame, up on the glass
   std::uint8_t ground_mode;    // radar::Mode to go back to from A/A and ranging
   std::uint8_t reserved_bytes[3];
@@ -118,8 +118,9 @@ struct RadarState {
   std::uint64_t map_old;
   std::uint64_t map_stored;
   std::uint64_t map_shown;
-  double cursor_believed_latitude_deg;   // [deg] the cursor's point as the navigator in use has it: what is told to
-  double cursor_believed_longitude_deg;  // others, and what compares with sequence points
+  // The cursor's point as the navigator in use has it: what is told to others, and what compares with sequence points.
+  double cursor_believed_latitude_deg;   // [deg] as the navigator in use has it
+  double cursor_believed_longitude_deg;  // [deg]
   NavigatorError mission;
   NavigatorError ins;
   // UPDT: from the selected sequence point as the glass shows it to the cursor.
