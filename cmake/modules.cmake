@@ -19,12 +19,13 @@ function(yars_module name)
   endif()
 endfunction()
 
-# yars_program(NAME SOURCES ... DEPENDS ...): an executable in build/PRESET/bin.
+# yars_program(NAME SOURCES ... DEPENDS ...): an executable in build/PRESET/bin, installed with the others.
 function(yars_program name)
   cmake_parse_arguments(ARG "" "" "DEPENDS;SOURCES" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_compile_definitions(${name} PRIVATE YARS_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${name} PRIVATE ${ARG_DEPENDS})
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
 # yars_test(FOLDER [ALONE] [SUPPORT sources] [PROGRAMS it runs] DEPENDS ...): one gtest binary from tests/FOLDER/*_test.cpp

@@ -2,6 +2,7 @@
 // publishes ownship and nav.
 #include "databuffer/bridge_shell.hpp"
 #include "databuffer/flight_shell.hpp"
+#include "databuffer/installed_file.hpp"
 #include "databuffer/log.hpp"
 #include "databuffer/program.hpp"
 
@@ -24,8 +25,15 @@ failure::Expected<void> fly(databuffer::Session& session, databuffer::TickLoop& 
   return loop.outcome();
 }
 
+// A route that is installed may be named without its folder.
+std::string with_installed_route(const std::string& source_text) {
+  const std::string kind = "route:";
+  return source_text.starts_with(kind) ? kind + databuffer::installed_file(source_text.substr(kind.size()))
+                                       : source_text;
+}
+
 failure::Expected<void> run_own(const databuffer::ProgramOptions& options, const std::string& source_text) {
-  auto source = databuffer::flight::open_source(source_text);
+  auto source = databuffer::flight::open_source(with_installed_route(source_text));
   if (!source) return tl::unexpected(source.error());
   auto session = databuffer::Session::open(options.session, "flight-model");
   if (!session) return tl::unexpected(session.error());

@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "config/load.hpp"
+#include "databuffer/installed_file.hpp"
 #include "databuffer/log.hpp"
 
 namespace yars::databuffer {
@@ -33,7 +34,8 @@ void add_common_options(CLI::App& app, ProgramOptions& options, bool is_role) {
     options.session = session;
   app.set_version_flag("--version", std::string(YARS_VERSION));
   app.add_option("--session", options.session, "session to join or make (else $YARS_SESSION, else 'default')");
-  app.add_option("--config", options.config, "GUF configuration file (else the built-in APG-70)");
+  app.add_option("--config", options.config, "GUF configuration file (else the built-in APG-70)")
+      ->transform([](const std::string& name) { return installed_file(name); });
   app.add_option("--log-level", options.log_level, "trace, debug, info, warning, error or off");
   if (is_role)
     app.add_option("--lockstep", options.lockstep,

@@ -118,8 +118,7 @@ struct RadarState {
   std::uint64_t map_old;
   std::uint64_t map_stored;
   std::uint64_t map_shown;
-  // The cursor's point as the navigator in use has it: what is told to others, and what compares with sequence points.
-  double cursor_believed_latitude_deg;   // [deg] as the navigator in use has it
+  double cursor_believed_latitude_deg;   // [deg] the cursor as the navigator in use has it: told to others
   double cursor_believed_longitude_deg;  // [deg]
   NavigatorError mission;
   NavigatorError ins;

@@ -1,0 +1,38 @@
+# What `cmake --install` lays out below its prefix beside the programs (yars_program): header, examples, configurations,
+# documents, man pages. Everything is found from where a program lies, so the prefix may be moved.
+set(share ${CMAKE_INSTALL_DATADIR}/yars)
+set(documents ${CMAKE_INSTALL_DATADIR}/doc/yars)
+
+install(FILES ${CMAKE_SOURCE_DIR}/databuffer/yars.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/yars)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/config/ DESTINATION ${share}/config
+  FILES_MATCHING PATTERN "*.guf" PATTERN "*.route" PATTERN "*.script")
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION ${documents} FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.dot")
+install(FILES ${CMAKE_SOURCE_DIR}/README.md DESTINATION ${documents})
+install(FILES ${CMAKE_SOURCE_DIR}/LICENSE DESTINATION ${documents} RENAME copyright)
+
+# Examples in C name the header as it is installed.
+file(GLOB examples CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/examples/*.c ${CMAKE_SOURCE_DIR}/examples/*.py)
+foreach(example IN LISTS examples)
+  get_filename_component(name ${example} NAME)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${example})
+  file(READ ${example} text)
+  string(REPLACE "\"databuffer/yars.h\"" "<yars/yars.h>" text "${text}")
+  string(REPLACE "-I. examples/" "" text "${text}")
+  file(WRITE ${CMAKE_BINARY_DIR}/install/examples/${name} "${text}")
+endforeach()
+install(DIRECTORY ${CMAKE_BINARY_DIR}/install/examples DESTINATION ${documents})
+
+# compressed(SOURCE NAME DESTINATION): a file as man and Debian want it.
+function(compressed source name destination)
+  set(packed ${CMAKE_BINARY_DIR}/install/${name}.gz)
+  add_custom_command(OUTPUT ${packed} COMMAND gzip --best --no-name --stdout ${source} > ${packed} DEPENDS ${source} VERBATIM)
+  set_property(GLOBAL APPEND PROPERTY YARS_COMPRESSED ${packed})
+  install(FILES ${packed} DESTINATION ${destination})
+endfunction()
+file(GLOB pages CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/man/*.[15])
+foreach(page IN LISTS pages)
+  get_filename_component(name ${page} NAME)
+  string(REGEX MATCH "[0-9]$" section ${name})
+  compressed(${page} ${name} ${CMAKE_INSTALL_MANDIR}/man${section})
+endforeach()
+compressed(${CMAKE_SOURCE_DIR}/CHANGELOG.md changelog ${documents})

@@ -1,0 +1,34 @@
+# `cpack -G DEB` in the build folder of the release preset makes yars_VERSION-1_ARCHITECTURE.deb: docs/packaging.md.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME yars)
+set(CPACK_PACKAGE_CONTACT "YARS <yars@users.noreply.example.org>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "air-to-ground radar simulation after the APG-70")
+set(CPACK_PACKAGE_DESCRIPTION "YARS shows the ground map of an airborne radar as a pilot sees it: a real beam map
+computed from digital terrain in real time, high resolution patch maps with
+shadow and speckle, and a glass with twenty bezel buttons. It is a set of
+separate programs over lock-free shared memory: attach a flight model or a
+panel, or read the sweeps, from C, Python or by UDP.")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+# What the programs are linked with, and what they open when the glass is drawn.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1, libgl1")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libgl1-mesa-dri")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+  OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+include(CPack)
+
+# The changes of the package, beside those of the program. The day is that of the build, or of SOURCE_DATE_EPOCH.
+string(TIMESTAMP day "%a, %d %b %Y 00:00:00 +0000" UTC)
+file(WRITE ${CMAKE_BINARY_DIR}/install/changelog_of_package
+  "yars (${PROJECT_VERSION}-1) unstable; urgency=medium\n\n  * Made by CPack from YARS ${PROJECT_VERSION}.\n\n -- ${CPACK_PACKAGE_CONTACT}  ${day}\n")
+compressed(${CMAKE_BINARY_DIR}/install/changelog_of_package changelog.Debian ${documents})
+
+get_property(packed GLOBAL PROPERTY YARS_COMPRESSED)
+add_custom_target(compressed_documents ALL DEPENDS ${packed})

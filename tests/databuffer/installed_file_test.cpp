@@ -1,0 +1,57 @@
+#include "databuffer/installed_file.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace yars::databuffer {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A prefix with two files, as `cmake --install` lays them out.
+class InstalledFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* name : {"share/yars/config/only_here.guf", "share/yars/config/routes/only_here.route"}) {
+      fs::create_directories((prefix_ / name).parent_path());
+      std::ofstream(prefix_ / name) << "text";
+    }
+  }
+  void TearDown() override { fs::remove_all(prefix_); }
+
+  std::string found(const std::string& name) const { return installed_file(name, prefix_ / "bin"); }
+
+  fs::path prefix_ = fs::temp_directory_path() / ("yars_installed_file_" + std::to_string(getpid()));
+};
+
+TEST_F(InstalledFile, ABareNameIsFoundBesideThePrograms) {
+  EXPECT_EQ(found("only_here.guf"), (prefix_ / "share/yars/config/only_here.guf").string());
+  EXPECT_EQ(found("only_here.route"), (prefix_ / "share/yars/config/routes/only_here.route").string());
+}
+
+TEST_F(InstalledFile, AFileThatIsHereComesFirst) {
+  const fs::path before = fs::current_path();
+  fs::create_directories(prefix_ / "here");
+  std::ofstream(prefix_ / "here/only_here.guf") << "text";
+  fs::current_path(prefix_ / "here");
+  const std::string name = found("only_here.guf");
+  fs::current_path(before);
+  EXPECT_EQ(name, "only_here.guf");
+}
+
+TEST_F(InstalledFile, ANameWithAFolderIsNotLookedForElsewhere) {
+  EXPECT_EQ(found("routes/only_here.route"), "routes/only_here.route");
+  EXPECT_EQ(found("../only_here.guf"), "../only_here.guf");
+}
+
+TEST_F(InstalledFile, WhatIsNowhereKeepsItsNameForTheErrorThatFollows) {
+  EXPECT_EQ(found("absent.guf"), "absent.guf");
+  EXPECT_EQ(found(""), "");
+  EXPECT_EQ(found("routes"), "routes");
+}
+
+}  // namespace
+}  // namespace yars::databuffer
