@@ -14,12 +14,9 @@ PLACES = [pathlib.Path(place) for place in ("README.md", "HACKING.md", "docs", "
 
 
 def escaped(text):
-    """Comment text of which Doxygen takes nothing for a command, a tag or a link."""
+    """Comment text of which Doxygen takes nothing for a command, a tag or emphasis."""
     kept = re.split(r"(`[^`]*`)", text)
-    for i in range(0, len(kept), 2):
-        kept[i] = re.sub(r"([\\@<>#$%&*_~|\[\]])", r"\\\1", kept[i]).replace("::", "\\::")
-        kept[i] = kept[i].replace("\\*", "&lowast;").replace("\\_", "_").replace("\\[", "&#91;").replace("\\]", "&#93;")
-        kept[i] = kept[i].replace("\\~", "&#126;").replace("\\|", "\\|")
+    kept[::2] = [re.sub(r"[\\@<>#$%&*]", r"\\\g<0>", part) for part in kept[::2]]
     return "".join(kept)
 
 
