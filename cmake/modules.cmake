@@ -25,7 +25,7 @@ function(yars_program name)
   add_executable(${name} ${ARG_SOURCES})
   target_compile_definitions(${name} PRIVATE YARS_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${name} PRIVATE ${ARG_DEPENDS})
-  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 endfunction()
 
 # yars_test(FOLDER [ALONE] [SUPPORT sources] [PROGRAMS it runs] DEPENDS ...): one gtest binary from tests/FOLDER/*_test.cpp
