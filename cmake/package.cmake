@@ -3,11 +3,11 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME yars)
 set(CPACK_PACKAGE_CONTACT "YARS <yars@users.noreply.example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "air-to-ground radar simulation after the APG-70")
-set(CPACK_PACKAGE_DESCRIPTION "YARS shows the ground map of an airborne radar as a pilot sees it: a real beam map
-computed from digital terrain in real time, high resolution patch maps with
-shadow and speckle, and a glass with twenty bezel buttons. It is a set of
-separate programs over lock-free shared memory: attach a flight model or a
-panel, or read the sweeps, from C, Python or by UDP.")
+set(CPACK_PACKAGE_DESCRIPTION "YARS shows the ground map of an airborne radar as a pilot sees it: a real
+beam map computed from digital terrain in real time, high resolution patch
+maps with shadow and speckle, and a glass with twenty bezel buttons. It is a
+set of separate programs over lock-free shared memory: attach a flight model
+or a panel, or read the sweeps, from C, Python or by UDP.")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
