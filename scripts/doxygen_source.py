@@ -53,6 +53,9 @@ def document(path):
         return "<code>" + match[1].replace("\\", "\\\\") + "</code>" if "\\" in match[1] else match[0]
 
     text = path.read_text(encoding="utf-8")
+    for picture in re.findall(r"!\[[^\]]*\]\(([^)]+)\)", text):
+        if not (path.parent / picture).is_file():
+            sys.exit(f"{path}: expected the picture {picture}, found none; check the path")
     blocks = re.split(r"(^```.*?^```$)", text, flags=re.M | re.S)
     for i in range(0, len(blocks), 2):
         block = re.sub(r"<!-- diagram: (\S+) -->", r"\\dotfile \1", blocks[i])
