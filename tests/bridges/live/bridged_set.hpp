@@ -39,8 +39,7 @@ class BridgedSet : public ::testing::Test {
     command.insert(command.end(), options.begin(), options.end());
     set_.start("radar-model", command);
     ASSERT_TRUE(eventually([&] { return attach(); }, 20.0)) << set_.log_of("radar-model");
-    ASSERT_TRUE(eventually([&] { return layout().model_status.has_value(); }, 60.0))
-        << set_.log_of("radar-model");
+    ASSERT_TRUE(eventually([&] { return layout().model_status.has_value(); }, 60.0)) << set_.log_of("radar-model");
   }
 
   const databuffer::SessionLayout& layout() const { return std::as_const(*session_).layout(); }
