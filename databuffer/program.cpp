@@ -8,6 +8,7 @@
 #include "config/load.hpp"
 #include "databuffer/installed_file.hpp"
 #include "databuffer/log.hpp"
+#include "databuffer/realtime.hpp"
 
 namespace yars::databuffer {
 
@@ -27,6 +28,25 @@ void install_signal_handlers() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
+// What the system refuses is a warning, a list that nobody can read is bad usage.
+std::optional<failure::Error> arrange_cpus(const ProgramOptions& options) {
+  const auto warn = [](const std::optional<std::string>& refusal) {
+    if (refusal) log_warning(*refusal);
+    return !refusal;
+  };
+  if (!options.cpus.empty()) {
+    const auto cpus = parse_cpu_list(options.cpus);
+    if (!cpus) return cpus.error();
+    warn(bind_to_cpus(*cpus));
+  }
+  if (!options.realtime) return std::nullopt;
+  if (warn(lock_memory())) log_info("--realtime: memory is locked");
+  if (warn(take_realtime_priority()))
+    log_info("--realtime: SCHED_FIFO " + std::to_string(kRealtimePriority) + ", at most " +
+             std::to_string(kLongestBurst_ms) + " ms without a wait");
+  return std::nullopt;
+}
+
 }  // namespace
 
 void add_common_options(CLI::App& app, ProgramOptions& options, bool is_role) {
@@ -37,13 +57,17 @@ void add_common_options(CLI::App& app, ProgramOptions& options, bool is_role) {
   app.add_option("--config", options.config, "GUF configuration file (else the built-in APG-70)")
       ->transform([](const std::string& name) { return installed_file(name); });
   app.add_option("--log-level", options.log_level, "trace, debug, info, warning, error or off");
-  if (is_role)
-    app.add_option("--lockstep", options.lockstep,
-                   "roles that step together on sim time, ROLE,ROLE,...[@END_TICK]; the same for all of them");
+  if (!is_role) return;
+  app.add_option("--lockstep", options.lockstep,
+                 "roles that step together on sim time, ROLE,ROLE,...[@END_TICK]; the same for all of them");
+  app.add_option("--log-dir", options.log_dir, "folder in which the log is kept too, rotated (else no file)");
+  app.add_flag("--realtime", options.realtime, "locked memory and SCHED_FIFO for the tick; says what is refused");
+  app.add_option("--cpus", options.cpus, "CPUs to run on, as in 2,3 or 2-3 (else all)");
 }
 
 void print_failure(const std::string& program, const std::string& message) {
   std::fprintf(stderr, "%s: %s\n", program.c_str(), message.c_str());
+  log_to_file(message);
 }
 
 int report_parse_outcome(const CLI::App& app, const CLI::ParseError& outcome) {
@@ -55,6 +79,8 @@ int report_parse_outcome(const CLI::App& app, const CLI::ParseError& outcome) {
 std::optional<failure::Error> begin_program(const std::string& name, const ProgramOptions& options) {
   if (!start_log(name, options.log_level))
     return usage_error("--log-level", "trace, debug, info, warning, error or off", "'" + options.log_level + "'");
+  if (!options.log_dir.empty()) start_log_file(name, options.log_dir);
+  if (auto error = arrange_cpus(options)) return error;
   install_signal_handlers();
   return std::nullopt;
 }

@@ -16,13 +16,16 @@ struct ProgramOptions {
   std::string config;               // --config; empty = built-in defaults
   std::string log_level = "info";
   std::string lockstep;  // --lockstep ROLE,ROLE,...[@END_TICK]; empty = live
+  std::string log_dir;   // --log-dir DIR: the log also goes to DIR/PROGRAM.log; empty = no file
+  bool realtime = false;
+  std::string cpus;  // --cpus 2,3: empty = all
 };
 
 inline constexpr int kExitFailure = 1;
 inline constexpr int kExitUsage = 2;
 
-// Adds --session, --config, --log-level, --version (and --lockstep for a role). The application's name is the
-// program's.
+// Adds --session, --config, --log-level, --version (and for a role --lockstep, --log-dir, --realtime, --cpus). The
+// application's name is the program's.
 void add_common_options(CLI::App& app, ProgramOptions& options, bool is_role);
 
 // Parses, starts the log, installs the handlers of SIGINT and SIGTERM and runs the body; the body's error becomes
@@ -32,8 +35,9 @@ int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& opti
 
 // The parts of run_program, for a program whose subcommands run while it parses.
 int report_parse_outcome(const CLI::App& app, const CLI::ParseError& outcome);  // prints help or one line; exit code
-std::optional<failure::Error> begin_program(const std::string& name, const ProgramOptions& options);  // log, signals
-void print_failure(const std::string& program, const std::string& message);
+// Log, CPUs and priority, signals.
+std::optional<failure::Error> begin_program(const std::string& name, const ProgramOptions& options);
+void print_failure(const std::string& program, const std::string& message);  // into the log file too
 
 // An error that the user's command line caused: exit code 2 instead of 1.
 failure::Error usage_error(failure::Error error);

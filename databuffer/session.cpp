@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "databuffer/layout_identity.hpp"
+#include "databuffer/log.hpp"
 #include "lib/failure/require.hpp"
 
 namespace yars::databuffer {
@@ -24,6 +25,8 @@ using failure::Expected;
 using failure::fail;
 
 constexpr std::size_t kLongestName = 40;
+constexpr std::int64_t kNameLook_ns =
+    500'000'000;                     // [ns] between looks at the segment's name: a role says it within 1 s
 constexpr int kClockAttempts = 200;  // of 1 ms: another `yars sim` holds the clock for far less
 
 bool name_is_valid(std::string_view name) {
@@ -158,12 +161,15 @@ struct Session::State {
   std::string describe_holder(std::size_t byte) const;
   std::optional<Claim> take(std::size_t byte, int lane);
   ClockState clock_now();
-  void note(NoteKind kind, std::string_view text);
+  void note(NoteKind kind, std::string_view text, std::string_view process);
+  void look_for_name(std::int64_t now_ns);
 
   std::shared_ptr<shm::Segment> segment;
   std::string process_name;
-  std::size_t table_byte = 0;  // 0: not in the table
-  std::mutex clock_mutex;      // of this process's threads only
+  std::size_t table_byte = 0;          // 0: not in the table
+  std::int64_t next_name_look_ns = 0;  // CLOCK_MONOTONIC
+  bool had_name = true;
+  std::mutex clock_mutex;  // of this process's threads only
   shm::LatestReader<ClockState> clock;
 };
 
@@ -211,17 +217,29 @@ ClockState Session::State::clock_now() {
   return clock.value();
 }
 
-void Session::State::note(NoteKind kind, std::string_view text) {
+void Session::State::note(NoteKind kind, std::string_view text, std::string_view process) {
   if (!segment->writable()) return;
   Note line{};
   line.monotonic_ns = monotonic_ns();
   line.sim_time_ns = sim_time_at(clock_now(), line.monotonic_ns);
   line.pid = getpid();
   line.kind = static_cast<std::uint32_t>(kind);
-  copy_text(line.process, process_name);
+  copy_text(line.process, process);
   copy_text(line.text, text);
   write().note_counts[line.kind].fetch_add(1, std::memory_order_relaxed);
   write().notes.append(line);
+}
+
+void Session::State::look_for_name(std::int64_t now_ns) {
+  if (!had_name || now_ns < next_name_look_ns) return;
+  next_name_look_ns = now_ns + kNameLook_ns;
+  had_name = segment->has_name();
+  if (had_name) return;
+  note(NoteKind::supervision, "the segment's name was removed (RemoveIPC?); the set goes on without", process_name);
+  log_error(
+      "the segment's file in /dev/shm was removed by somebody else: as a rule by systemd-logind, whose RemoveIPC=yes "
+      "does so when a user's last login ends. The set goes on, and what joins it finds it all the same; to keep the "
+      "file: loginctl enable-linger, or RemoveIPC=no in /etc/systemd/logind.conf");
 }
 
 Session::Session(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -254,6 +272,9 @@ const SessionLayout& Session::layout() const {
 bool Session::created() const {
   return state_->segment->created();
 }
+bool Session::has_name() const {
+  return state_->segment->has_name();
+}
 
 Expected<Claim> Session::claim(Role role) {
   if (!state_->segment->writable()) return fail_read_only(name_of(role));
@@ -265,8 +286,7 @@ Expected<Claim> Session::claim(Role role) {
                 "held by " + state_->describe_holder(byte), "end that process, or choose another --session");
   // Whoever lets a role go in order leaves no pid behind.
   if (previous != 0)
-    state_->note(NoteKind::restart,
-                 std::string(name_of(role)) + " pid " + std::to_string(previous) + " died; taken over");
+    note(NoteKind::restart, std::string(name_of(role)) + " pid " + std::to_string(previous) + " died; taken over");
   return std::move(*claim);
 }
 
@@ -327,8 +347,10 @@ std::vector<ProcessHere> Session::processes() const {
 
 void Session::heartbeat() {
   if (state_->table_byte == 0) return;
-  state_->write().processes[state_->table_byte - kFirstProcessByte].heartbeat_ns.store(monotonic_ns(),
+  const std::int64_t now_ns = monotonic_ns();
+  state_->write().processes[state_->table_byte - kFirstProcessByte].heartbeat_ns.store(now_ns,
                                                                                        std::memory_order_relaxed);
+  state_->look_for_name(now_ns);
 }
 
 void Session::show_progress(std::uint32_t progress) {
@@ -363,7 +385,10 @@ Expected<void> Session::change_clock(const std::function<ClockState(const ClockS
 }
 
 void Session::note(NoteKind kind, std::string_view text) {
-  state_->note(kind, text);
+  state_->note(kind, text, state_->process_name);
+}
+void Session::note(NoteKind kind, std::string_view text, std::string_view process) {
+  state_->note(kind, text, process);
 }
 
 }  // namespace yars::databuffer

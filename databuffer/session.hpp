@@ -67,7 +67,8 @@ class Session {
   // the clock are refused, heartbeats and notes go nowhere.
   static failure::Expected<Session> open_read_only(const std::string& name);
 
-  bool created() const;  // this call made the session
+  bool created() const;   // this call made the session
+  bool has_name() const;  // false: somebody removed the segment's file; the session goes on (docs/operation.md)
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;
   ~Session();  // who leaves last unlinks the segment
@@ -85,7 +86,9 @@ class Session {
   std::vector<ProcessHere> processes() const;  // who takes part, dead entries left out
   // How far this process has come; what it means is the role's (see ProcessEntry).
   void show_progress(std::uint32_t progress);
-  void heartbeat();  // shows in `yars status`; call about once a second or each tick (it is one store)
+  // Shows in `yars status`; call about once a second or each tick (it is one store). Once a second it looks whether
+  // the segment still has its name, and says so once in log and flight recorder when it has not.
+  void heartbeat();
 
   // Session clock: sim time [ns] of this moment; the state behind it.
   ClockState clock() const;
@@ -97,6 +100,7 @@ class Session {
 
   // A line into the flight recorder (also counted): refusals, restarts, losses, late ticks.
   void note(NoteKind kind, std::string_view text);
+  void note(NoteKind kind, std::string_view text, std::string_view process);  // about another process
 
  private:
   struct State;

@@ -17,6 +17,7 @@
 
 #include "lib/failure/require.hpp"
 #include "shm/creation_step.hpp"
+#include "shm/nameless_file.hpp"
 #include "shm/segment_file.hpp"
 
 namespace yars::shm {
@@ -158,6 +159,19 @@ Attempt attach(const std::string& file_name, const LayoutIdentity& layout) {
   return tl::unexpected(usable.error());
 }
 
+// Takes part in a living segment whose name somebody has removed; nullopt: there is none.
+Attempt rejoin(const std::string& file_name, const LayoutIdentity& layout) {
+  for (const std::string& path : nameless_files(path_of(file_name))) {
+    auto file = SegmentFile::reopen(path, SegmentFile::Access::read_write);
+    // Nobody takes part: a reader looks at what has ended. A write lock: the last one is just leaving.
+    if (!file || file->status().st_uid != geteuid() || file->could_write_lock(kParticipation) ||
+        !file->lock(kParticipation, LockKind::read))
+      continue;
+    if (file->map() && check_layout(*file, file_name, layout)) return file;
+  }
+  return std::nullopt;
+}
+
 // Takes the memory, maps it and fills it.
 Expected<void> build(SegmentFile& file, const std::string& file_name, const LayoutIdentity& layout,
                      Segment::Initialize initialize) {
@@ -188,6 +202,8 @@ Attempt create(const std::string& file_name, const LayoutIdentity& layout, Segme
   const auto built = locked ? build(*file, temporary, layout, initialize) : Expected<void>{};
   const bool linked = locked && built && link(path_of(temporary).c_str(), path_of(file_name).c_str()) == 0;
   step("linked");
+  // Without its name and with a lock it would pass for a living segment that has lost its name.
+  if (!linked) file->lock(kParticipation, LockKind::none);
   unlink(path_of(temporary).c_str());
   step("temporary unlinked");
   if (!built) return tl::unexpected(built.error());
@@ -222,11 +238,13 @@ Expected<Segment> Segment::open(const std::string& name, const LayoutIdentity& l
   const std::string file_name = file_name_of(name);
   remove_dead_temporaries(file_name);
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    for (const bool creating : {false, true}) {
-      Attempt result = creating ? create(file_name, layout, initialize) : attach(file_name, layout);
-      if (!result) return tl::unexpected(result.error());
-      if (*result) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**result), true, creating}));
-    }
+    Attempt there = attach(file_name, layout);
+    if (there && !*there) there = rejoin(file_name, layout);
+    if (!there) return tl::unexpected(there.error());
+    if (*there) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**there), true, false}));
+    Attempt made = create(file_name, layout, initialize);
+    if (!made) return tl::unexpected(made.error());
+    if (*made) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**made), true, true}));
   }
   return fail(path_of(file_name), "a segment to attach to or to create", "others creating and leaving it all the time",
               "end the programs that use this session, or choose another --session");
@@ -236,6 +254,11 @@ Expected<Segment> Segment::open_read_only(const std::string& name, const LayoutI
   const std::string file_name = file_name_of(name);
   auto file = SegmentFile::open(file_name, SegmentFile::Access::read_only);
   if (!file && errno != ENOENT) return system_failure(file_name, "a segment that can be read", errno);
+  for (const std::string& path : file ? std::vector<std::string>{} : nameless_files(path_of(file_name))) {
+    file = SegmentFile::reopen(path, SegmentFile::Access::read_only);
+    if (file && !file->could_write_lock(kParticipation)) break;
+    file.reset();
+  }
   if (!file)
     return fail("session " + name, "a running session", "none of that name",
                 "start it (scripts/start --session " + name + "), or name another with --session");
@@ -269,6 +292,9 @@ bool Segment::writable() const {
 }
 bool Segment::created() const {
   return core_->created;
+}
+bool Segment::has_name() const {
+  return core_->file.is_at(path_of(core_->file_name));
 }
 
 bool Segment::try_lock(std::size_t byte) {

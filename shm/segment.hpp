@@ -2,7 +2,9 @@
 // It is built whole under a temporary name and linked to its own: nobody sees half a segment. Every participant holds
 // a read lock on byte 0 of the file (F_OFD_SETLK), which the kernel frees at death; who gets the write lock is alone:
 // leaving, it unlinks the file; arriving, it replaces a leftover. The other lock bytes are claims (roles, lanes).
-// Errors: a full /dev/shm, a file of another user, another build's layout (both values are printed).
+// When somebody else removes the name (systemd-logind's RemoveIPC at a logout), those who take part go on, and who
+// comes finds them by /proc and takes part too; has_name() tells. Errors: a full /dev/shm, a file of another user,
+// another build's layout (both values are printed).
 #pragma once
 
 #include <cstddef>
@@ -32,7 +34,8 @@ class Segment {
   void* memory();  // only of a writable segment
   const void* memory() const;
   bool writable() const;
-  bool created() const;  // this process made it
+  bool created() const;   // this process made it
+  bool has_name() const;  // the segment's path leads to this segment
 
   // A claim on `byte` in [1, kLockBytes): held until unlock, the segment's end or the process's death, also while the
   // process is stopped. Within one Segment a byte can be held once.

@@ -1,6 +1,7 @@
 #include "shm/segment_file.hpp"
 
 #include <fcntl.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <utility>
@@ -20,10 +21,26 @@ struct flock byte_lock(std::size_t byte, LockKind kind) {
   return lock;
 }
 
+// What Boost maps; it wants no more of it than the handle.
+struct OpenFile {
+  int descriptor;
+  bi::mapping_handle_t get_mapping_handle() const { return {descriptor, false}; }
+};
+
 }  // namespace
+
+SegmentFile::Descriptor& SegmentFile::Descriptor::operator=(Descriptor&& other) noexcept {
+  std::swap(number_, other.number_);
+  return *this;
+}
+
+SegmentFile::Descriptor::~Descriptor() {
+  if (number_ >= 0) close(number_);
+}
 
 SegmentFile::SegmentFile(bi::shared_memory_object object, Access access)
     : object_(std::move(object)), access_(access) {}
+SegmentFile::SegmentFile(Descriptor reopened, Access access) : reopened_(std::move(reopened)), access_(access) {}
 
 std::optional<SegmentFile> SegmentFile::open(const std::string& file_name, Access access) {
   try {
@@ -46,6 +63,12 @@ std::optional<SegmentFile> SegmentFile::create(const std::string& file_name) {
   }
 }
 
+std::optional<SegmentFile> SegmentFile::reopen(const std::string& path, Access access) {
+  Descriptor opened(::open(path.c_str(), (access == Access::read_only ? O_RDONLY : O_RDWR) | O_CLOEXEC));
+  if (opened.number() < 0) return std::nullopt;
+  return SegmentFile(std::move(opened), access);
+}
+
 bool SegmentFile::lock(std::size_t byte, LockKind kind) {
   struct flock wanted = byte_lock(byte, kind);
   return fcntl(descriptor(), F_OFD_SETLK, &wanted) == 0;
@@ -64,7 +87,7 @@ int SegmentFile::allocate(std::uint64_t size) {
 
 bool SegmentFile::map() {
   try {
-    bi::mapped_region region(object_, access_ == Access::read_only ? bi::read_only : bi::read_write);
+    bi::mapped_region region(OpenFile{descriptor()}, access_ == Access::read_only ? bi::read_only : bi::read_write);
     region_.swap(region);
     return true;
   } catch (const bi::interprocess_exception& refusal) {

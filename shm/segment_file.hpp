@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace yars::shm {
 
@@ -21,6 +22,8 @@ class SegmentFile {
   // Both: nullopt with errno set when the system refuses; creating fails with EEXIST when the name is taken.
   static std::optional<SegmentFile> open(const std::string& file_name, Access access);
   static std::optional<SegmentFile> create(const std::string& file_name);
+  // Opens what a descriptor of some process has open: `path` is /proc/PID/fd/N.
+  static std::optional<SegmentFile> reopen(const std::string& path, Access access);
 
   bool lock(std::size_t byte, LockKind kind);     // false: somebody else's lock is in the way
   bool could_write_lock(std::size_t byte) const;  // nobody else holds a lock there
@@ -33,10 +36,24 @@ class SegmentFile {
   std::uint64_t size() const { return region_.get_size(); }
 
  private:
-  SegmentFile(boost::interprocess::shared_memory_object object, Access access);
-  int descriptor() const { return object_.get_mapping_handle().handle; }
+  class Descriptor {
+   public:
+    explicit Descriptor(int number = -1) : number_(number) {}
+    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+    Descriptor& operator=(Descriptor&& other) noexcept;
+    ~Descriptor();
+    int number() const { return number_; }
 
-  boost::interprocess::shared_memory_object object_;
+   private:
+    int number_;
+  };
+
+  SegmentFile(boost::interprocess::shared_memory_object object, Access access);
+  SegmentFile(Descriptor reopened, Access access);
+  int descriptor() const { return reopened_.number() >= 0 ? reopened_.number() : object_.get_mapping_handle().handle; }
+
+  boost::interprocess::shared_memory_object object_;  // opened by its name, else
+  Descriptor reopened_;                               // without one
   boost::interprocess::mapped_region region_;
   Access access_;
 };

@@ -32,6 +32,7 @@ void add_scene_command(CLI::App& app, const CommonOptions& common);
 void add_config_command(CLI::App& app, const CommonOptions& common);
 void add_sim_command(CLI::App& app, const CommonOptions& common);
 void add_inject_command(CLI::App& app, const CommonOptions& common);
+void add_note_command(CLI::App& app, const CommonOptions& common);
 void add_status_command(CLI::App& app, const CommonOptions& common);
 void add_watch_command(CLI::App& app, const CommonOptions& common);
 void add_record_command(CLI::App& app, const CommonOptions& common);

@@ -24,6 +24,7 @@ struct RecordOptions {
   std::string file;
   std::string terrain;
   std::string lockstep;
+  std::string log_dir;
   RecordedExtras extras;
 };
 
@@ -69,6 +70,7 @@ std::string absolute(const std::string& path) {
 }
 
 void record(const CommonOptions& common, const RecordOptions& options) {
+  if (!options.log_dir.empty()) databuffer::start_log_file("recorder", options.log_dir);
   auto session = Session::open(common.session, "recorder");
   if (!session) give_up(session.error());
   auto role = session->claim(databuffer::Role::recorder);
@@ -102,6 +104,7 @@ void add_record_command(CLI::App& app, const CommonOptions& common) {
   command->add_flag("--patches", options->extras.patches, "also the patch maps (up to 1 MB each)");
   command->add_option("--terrain", options->terrain, "the directory that radar-model was given, for the replay");
   command->add_option("--lockstep", options->lockstep, "the set's plan, when it runs in lockstep");
+  command->add_option("--log-dir", options->log_dir, "folder in which the log is kept too, rotated (else no file)");
   command->callback([&common, options] { record(common, *options); });
 }
 

@@ -15,6 +15,7 @@ void add_commands(CLI::App& app, const tools::CommonOptions& common) {
   tools::add_config_command(app, common);
   tools::add_sim_command(app, common);
   tools::add_inject_command(app, common);
+  tools::add_note_command(app, common);
   tools::add_status_command(app, common);
   tools::add_watch_command(app, common);
   tools::add_record_command(app, common);

@@ -269,6 +269,37 @@ TEST_F(SessionTest, NotesCarryWhoWhenAndWhat) {
   EXPECT_EQ(session.layout().note_counts[static_cast<std::size_t>(NoteKind::loss)], 1u);
 }
 
+TEST_F(SessionTest, ARemovedNameIsNotedOnceAndTheSessionGoesOn) {
+  Session session = open("radar-model");
+  EXPECT_TRUE(session.has_name());
+  session.heartbeat();
+  EXPECT_EQ(session.layout().notes.total(), 0u);
+  ASSERT_EQ(unlink(path().c_str()), 0);
+  EXPECT_FALSE(session.has_name());
+  EXPECT_TRUE(wait_until([&] {
+    session.heartbeat();
+    return session.layout().notes.total() > 0;
+  }));
+  EXPECT_NE(last_note(session).find("RemoveIPC"), std::string::npos) << last_note(session);
+  Session newcomer = open();
+  EXPECT_FALSE(newcomer.created());
+  const auto before_ns = session.layout().processes[0].heartbeat_ns.load();
+  EXPECT_TRUE(wait_until([&] {
+    session.heartbeat();
+    return session.layout().processes[0].heartbeat_ns > before_ns + 1'100'000'000;
+  }));
+  EXPECT_EQ(session.layout().notes.total(), 1u);
+}
+
+TEST_F(SessionTest, ANoteMayBeAboutAnotherProcess) {
+  Session session = open("yars note");
+  session.note(NoteKind::supervision, "started again", "radar-model");
+  Note note{};
+  ASSERT_TRUE(session.layout().notes.read(0, note));
+  EXPECT_STREQ(note.process, "radar-model");
+  EXPECT_EQ(note.kind, static_cast<std::uint32_t>(NoteKind::supervision));
+}
+
 TEST_F(SessionTest, AReaderSeesAllAndChangesNothing) {
   auto session = std::make_unique<Session>(open("owner"));
   const auto claim = std::make_unique<Claim>(std::move(*session->claim(Role::radar_model)));

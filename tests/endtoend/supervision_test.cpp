@@ -1,0 +1,308 @@
+// A set under scripts/start: what dies comes back and is told of, what cannot start ends it, and a segment whose name
+// was removed flies on.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "tests/endtoend/process_set.hpp"
+
+namespace yars::endtoend {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double kPatience_s = 60.0;
+
+std::size_t occurrences(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++count;
+  return count;
+}
+
+std::string text_of_file(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class Supervision : public ::testing::Test {
+ protected:
+  Supervision() : set_("supervised"), terrain_(set_.folder() / "terrain"), logs_(set_.folder() / "logs") {
+    // A plain at sea level: a cell of zeros.
+    std::filesystem::create_directories(terrain_);
+    std::ofstream(terrain_ / "N37W123.hgt") << "";
+    std::filesystem::resize_file(terrain_ / "N37W123.hgt", std::size_t{1201} * 1201 * 2);
+  }
+  ~Supervision() override {
+    // Whatever a test left: a supervisor that is killed takes nobody along.
+    if (set_.runs("start")) {
+      set_.kill("start", SIGTERM);
+      set_.wait("start");
+    }
+  }
+
+  void start(const std::vector<std::string>& more = {}, const std::string& source = "fixed:37.5,-122.9,15000,90,480") {
+    std::vector<std::string> command{std::string(YARS_SOURCE_DIR) + "/scripts/start",
+                                     "--bin",
+                                     YARS_BIN_DIR,
+                                     "--session",
+                                     set_.session(),
+                                     "--terrain",
+                                     terrain_.string(),
+                                     "--config",
+                                     std::string(YARS_SOURCE_DIR) + "/config/default.guf",
+                                     "--source",
+                                     source,
+                                     "--frames",
+                                     (set_.folder() / "frames").string(),
+                                     "--log-dir",
+                                     logs_.string(),
+                                     "--size",
+                                     "240"};
+    if (std::ranges::find(more, "--headless") == more.end()) command.insert(command.end(), {"--headless", "1000"});
+    command.insert(command.end(), more.begin(), more.end());
+    set_.start_tool("start", command);
+  }
+  void start_and_wait(const std::vector<std::string>& more = {}) {
+    start(more);
+    ASSERT_TRUE(set_.wait_until(
+        [](const auto& watch) {
+          return watch["processes"].size() >= 4 && watch["power"] == "OPR" && watch["sweeps"] > 50;
+        },
+        kPatience_s))
+        << set_.watch().dump() << told();
+  }
+
+  std::string told() const { return set_.log_of("start"); }
+  nlohmann::json status() const {
+    const auto finished = set_.yars({"status", "--json"});
+    return finished.code == 0 ? nlohmann::json::parse(finished.output) : nlohmann::json();
+  }
+  std::string reasons() const { return status()["health"]["reasons"].dump(); }
+  int pid_of(const std::string& role) const {
+    const auto processes = set_.watch()["processes"];
+    return processes.contains(role) ? processes[role]["pid"].get<int>() : 0;
+  }
+  void kill_and_wait_for_the_next(const std::string& role) {
+    const int before = pid_of(role);
+    ASSERT_GT(before, 0) << role << told();
+    ::kill(before, SIGKILL);
+    ASSERT_TRUE(set_.wait_until(
+        [&](const auto& watch) {
+          return watch["processes"].contains(role) && watch["processes"][role]["pid"] != before;
+        },
+        kPatience_s))
+        << role << told();
+  }
+  int end() {
+    set_.kill("start", SIGTERM);
+    return set_.wait("start");
+  }
+
+  ProcessSet set_;
+  std::filesystem::path terrain_;
+  std::filesystem::path logs_;
+};
+
+TEST_F(Supervision, WhatDiesIsStartedAgainAndTold) {
+  start_and_wait();
+  EXPECT_EQ(status()["health"]["state"], "OK") << status().dump(1);
+  kill_and_wait_for_the_next("radar-model");
+  EXPECT_THAT(told(), HasSubstr("radar-model was killed by SIGKILL; starting it again (1 of 5"));
+  kill_and_wait_for_the_next("radar-display");
+  EXPECT_THAT(told(), HasSubstr("radar-display was killed by SIGKILL; starting it again (1 of 5"));
+  const auto sweeps = set_.watch()["sweeps"].get<std::uint64_t>();
+  EXPECT_TRUE(set_.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps + 50; })) << "and it scans";
+  const auto roles = status()["roles"];
+  for (const auto& role : roles) {
+    const bool died = role["name"] == "radar-model" || role["name"] == "radar-display";
+    EXPECT_EQ(role["restarts"], died ? 1 : 0) << role.dump();
+  }
+  EXPECT_THAT(reasons(), HasSubstr("radar-model was started again once in the last minute"));
+  EXPECT_THAT(set_.yars({"status"}).output, HasSubstr("started again: was killed by SIGKILL (1 of 5"));
+  EXPECT_EQ(end(), 0) << told();
+  EXPECT_FALSE(set_.segment_exists());
+}
+
+TEST_F(Supervision, TheLogsOfASetLieInOneFolderForItsOwnerAlone) {
+  start_and_wait();
+  EXPECT_EQ(end(), 0) << told();
+  for (const auto* role : {"state-machine", "radar-model", "flight-model", "radar-display"}) {
+    const auto log = logs_ / (std::string(role) + ".log");
+    EXPECT_THAT(text_of_file(log), HasSubstr("info: ")) << log;
+    struct stat file {};
+    ASSERT_EQ(stat(log.c_str(), &file), 0) << log;
+    EXPECT_EQ(file.st_mode & 0777, 0600u) << log;
+  }
+  struct stat folder {};
+  ASSERT_EQ(stat(logs_.c_str(), &folder), 0);
+  EXPECT_EQ(folder.st_mode & 0777, 0700u);
+  EXPECT_THAT(set_.output_of("start"), HasSubstr("Logs are in " + logs_.string()));
+}
+
+TEST_F(Supervision, TheSixthDeathWithinAMinuteEndsTheSet) {
+  start_and_wait();
+  for (int death = 0; death < 5; ++death) ASSERT_NO_FATAL_FAILURE(kill_and_wait_for_the_next("flight-model"));
+  // The supervisor has seen it too, so that this death is not one before it took part.
+  const int last = pid_of("flight-model");
+  ASSERT_GT(last, 0);
+  ::kill(last, SIGKILL);
+  EXPECT_EQ(set_.wait("start"), 1);
+  EXPECT_THAT(told(), HasSubstr("flight-model was killed by SIGKILL, the 6th time within 60 s"));
+  EXPECT_THAT(told(), HasSubstr("its log is " + (logs_ / "flight-model.log").string()));
+  EXPECT_FALSE(set_.segment_exists()) << "all the others were ended";
+}
+
+TEST_F(Supervision, ARoleThatCannotStartEndsTheSetAtOnceWithItsOwnError) {
+  std::ofstream(set_.folder() / "bad.guf") << "( Apg70 :noSuchSlot 1 )\n";
+  start({"--config", (set_.folder() / "bad.guf").string()});
+  EXPECT_EQ(set_.wait("start"), 1);
+  EXPECT_THAT(told(), HasSubstr("noSuchSlot"));
+  EXPECT_THAT(told(), HasSubstr("before it took part"));
+  EXPECT_THAT(told(), Not(HasSubstr("starting it again")));
+}
+
+TEST_F(Supervision, ARoleThatRefusesItsArgumentsIsNotStartedAgain) {
+  start({}, "nonsense");
+  EXPECT_EQ(set_.wait("start"), 1);
+  EXPECT_THAT(told(), HasSubstr("flight-model refused its arguments"));
+  EXPECT_THAT(told(), Not(HasSubstr("starting it again")));
+}
+
+TEST_F(Supervision, TheTimeOfAHeadlessSetEndsItCleanly) {
+  start({"--headless", "1"});
+  EXPECT_EQ(set_.wait("start"), 0) << told();
+  EXPECT_FALSE(set_.segment_exists());
+  EXPECT_FALSE(std::filesystem::is_empty(set_.folder() / "frames"));
+}
+
+TEST_F(Supervision, ALockstepSetThatLosesARoleEnds) {
+  start({"--lockstep", "--headless", "100000"});
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["sweeps"] > 0; }, kPatience_s)) << told();
+  ::kill(pid_of("radar-model"), SIGKILL);
+  EXPECT_EQ(set_.wait("start"), 1);
+  EXPECT_THAT(told(), HasSubstr("radar-model was killed by SIGKILL"));
+  EXPECT_THAT(told(), Not(HasSubstr("starting it again")));
+}
+
+TEST_F(Supervision, AFolderForLogsThatCannotBeWrittenIsOneWarning) {
+  std::ofstream(set_.folder() / "file") << "in the way";
+  start({"--log-dir", (set_.folder() / "file" / "logs").string(), "--headless", "1"});
+  EXPECT_EQ(set_.wait("start"), 0) << told();
+  EXPECT_EQ(occurrences(told(), "--log-dir: expected a folder to write to"), 1u) << told();
+}
+
+// What systemd-logind does at the user's last logout (RemoveIPC=yes).
+TEST_F(Supervision, ASegmentWithoutItsNameFliesOnAndTakesInWhoComes) {
+  start_and_wait();
+  ASSERT_EQ(set_.yars({"inject", "elevation -7"}).code, 0);
+  ASSERT_TRUE(set_.segment_exists());
+  std::filesystem::remove("/dev/shm/yars." + std::to_string(getuid()) + "." + set_.session());
+  const std::vector<std::string> roles{"state-machine", "radar-model", "flight-model", "radar-display"};
+  EXPECT_TRUE(eventually([&] { return occurrences(told(), "RemoveIPC") >= roles.size(); }, kPatience_s)) << told();
+  const auto lost = status();
+  EXPECT_EQ(lost["named"], false);
+  EXPECT_THAT(reasons(), HasSubstr("name was removed"));
+  const double before_s = set_.watch()["sim_time"];
+  kill_and_wait_for_the_next("radar-model");
+  kill_and_wait_for_the_next("state-machine");
+  const auto sweeps = set_.watch()["sweeps"].get<std::uint64_t>();
+  EXPECT_TRUE(set_.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps + 50; })) << told();
+  const auto watch = set_.watch();
+  EXPECT_GT(watch["sim_time"].get<double>(), before_s) << "the same session's clock";
+  EXPECT_EQ(watch["power"], "OPR");
+  EXPECT_EQ(set_.yars({"inject", "elevation -5"}).code, 0) << "a newcomer takes part";
+  EXPECT_FALSE(set_.segment_exists()) << "nobody made a second one";
+  EXPECT_EQ(end(), 0) << told();
+  const auto after = set_.yars({"status"});
+  EXPECT_EQ(after.code, 1);
+  EXPECT_THAT(after.output, HasSubstr("NOTHING RUNS"));
+}
+
+TEST_F(Supervision, StatusNamesWhoHangsAndWhoIsMissing) {
+  for (const auto* role : {"state-machine", "radar-model"}) set_.start(role, {role});
+  set_.start("radar-display", {"radar-display", "--headless", "--frames", (set_.folder() / "frames").string()});
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 3; }, kPatience_s));
+  EXPECT_TRUE(eventually([&] { return reasons() == R"(["no ownship: nobody flies"])"; }, kPatience_s)) << reasons();
+  set_.kill("radar-display", SIGSTOP);
+  EXPECT_TRUE(eventually([&] { return reasons().find("the glass hangs") != std::string::npos; }, kPatience_s));
+  set_.kill("radar-display", SIGCONT);
+  set_.kill("radar-model", SIGKILL);
+  set_.wait("radar-model");
+  EXPECT_TRUE(eventually([&] { return reasons() == R"(["radar-model is not running"])"; }, kPatience_s)) << reasons();
+  EXPECT_EQ(set_.yars({"status"}).output.rfind("DEGRADED: radar-model is not running\n", 0), 0u)
+      << set_.yars({"status"}).output;
+}
+
+TEST_F(Supervision, ANoteStandsInTheFlightRecorder) {
+  EXPECT_EQ(set_.yars({"note", "nobody is there"}).code, 1);
+  EXPECT_FALSE(set_.segment_exists()) << "a note makes no session";
+  set_.start("state-machine", {"state-machine"});
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kPatience_s));
+  ASSERT_EQ(set_.yars({"note", "the cockpit door is open"}).code, 0);
+  const auto note = status()["notes"].back();
+  EXPECT_EQ(note["text"], "the cockpit door is open");
+  EXPECT_EQ(note["kind"], "supervision");
+  EXPECT_GE(note["age_s"], 0.0);
+}
+
+class Realtime : public Supervision {
+ protected:
+  // Without the capabilities that root has, so that the limits hold.
+  static std::vector<std::string> without_leave() {
+    std::vector<std::string> command;
+    if (geteuid() == 0) command = {"setpriv", "--bounding-set=-sys_nice,-ipc_lock"};
+    command.insert(command.end(), {"prlimit", "--rtprio=0", "--memlock=65536"});
+    return command;
+  }
+};
+
+TEST_F(Realtime, WhatIsRefusedIsSaidAndTheRoleRunsWithout) {
+  auto command = without_leave();
+  if (!tool_exists("setpriv") || !tool_exists("prlimit")) GTEST_SKIP() << "no setpriv or prlimit here";
+  command.insert(command.end(), {std::string(YARS_BIN_DIR) + "/state-machine", "--session", set_.session(),
+                                 "--realtime", "--cpus", "0,1001"});
+  set_.start_tool("state-machine", command);
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kPatience_s))
+      << set_.log_of("state-machine");
+  const auto log = set_.log_of("state-machine");
+  EXPECT_THAT(log, HasSubstr("CPU 1001 is not there"));
+  EXPECT_THAT(log, HasSubstr("memory is not locked: expected RLIMIT_MEMLOCK unlimited, found 65536"));
+  EXPECT_THAT(log, HasSubstr("with RLIMIT_RTPRIO 0; raise rtprio"));
+  EXPECT_EQ(sched_getscheduler(set_.pid("state-machine")), SCHED_OTHER);
+}
+
+TEST_F(Realtime, WhatIsGrantedIsTheTicksAlone) {
+  if (run_tool({"chrt", "-f", "1", "true"}).code != 0) GTEST_SKIP() << "no leave to use SCHED_FIFO here";
+  set_.start("radar-model", {"radar-model", "--realtime"});
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kPatience_s));
+  const pid_t pid = set_.pid("radar-model");
+  int real_time = 0;
+  int threads = 0;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/" + std::to_string(pid) + "/task")) {
+    ++threads;
+    const int policy = sched_getscheduler(std::stoi(task.path().filename().string())) & ~SCHED_RESET_ON_FORK;
+    if (policy == SCHED_FIFO) ++real_time;
+  }
+  EXPECT_EQ(real_time, 1);
+  EXPECT_GT(threads, 1);
+  EXPECT_EQ(sched_getscheduler(pid) & ~SCHED_RESET_ON_FORK, SCHED_FIFO);
+}
+
+TEST_F(Realtime, AListThatNobodyCanReadIsBadUsage) {
+  const auto finished = run_program({"state-machine", "--cpus", "two"});
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_THAT(finished.errors, HasSubstr("--cpus"));
+}
+
+}  // namespace
+}  // namespace yars::endtoend
