@@ -46,10 +46,12 @@ bool was_opened_as(const std::string& target, const std::string& path) {
   return is_number(rest.substr(1, rest.size() - 1 - kTemporary.size()));
 }
 
-// A creator's file is shown as deleted, but lives on under the session's name: the count of names tells.
-bool has_no_name(const std::string& descriptor) {
+// A creator's file is shown as deleted, but lives on under the session's name: the count of names tells. What another
+// user has put there under that name, a pipe for instance, is not opened.
+bool is_own_and_nameless(const std::string& descriptor) {
   struct stat status {};
-  return stat(descriptor.c_str(), &status) == 0 && status.st_nlink == 0;
+  return stat(descriptor.c_str(), &status) == 0 && status.st_nlink == 0 && S_ISREG(status.st_mode) &&
+         status.st_uid == geteuid();
 }
 
 }  // namespace
@@ -58,7 +60,7 @@ std::vector<std::string> nameless_files(const std::string& path) {
   std::vector<std::string> found;
   for (const std::string& process : numbered_entries("/proc"))
     for (const std::string& descriptor : numbered_entries(process + "/fd"))
-      if (was_opened_as(target_of(descriptor), path) && has_no_name(descriptor)) found.push_back(descriptor);
+      if (was_opened_as(target_of(descriptor), path) && is_own_and_nameless(descriptor)) found.push_back(descriptor);
   return found;
 }
 

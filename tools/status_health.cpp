@@ -89,13 +89,19 @@ void judge_radar(const ordered_json& status, std::vector<std::string>& reasons) 
 
 ordered_json roles_json(const databuffer::Session& session, const std::vector<databuffer::Note>& notes) {
   const std::int64_t now_ns = databuffer::monotonic_ns();
-  auto processes = session.processes();
-  std::ranges::stable_sort(processes, {}, [](const auto& process) { return place_of(process.name); });
+  const auto processes = session.processes();
   ordered_json roles = ordered_json::array();
-  for (const auto& role : kSet)
-    if (role.needed && !std::ranges::any_of(processes, [&](const auto& here) { return here.name == role.name; }))
-      roles.push_back({{"name", role.name}, {"pid", 0}, {"heartbeat_ms", nullptr}, {"hangs", false}});
-  for (const auto& process : processes) roles.push_back(role_json(process, now_ns));
+  // In the order of a set, then who is none of its roles.
+  for (std::size_t place = 0; place <= kSet.size(); ++place) {
+    bool here = false;
+    for (const auto& process : processes) {
+      if (place_of(process.name) != place) continue;
+      roles.push_back(role_json(process, now_ns));
+      here = true;
+    }
+    if (!here && place < kSet.size() && kSet[place].needed)
+      roles.push_back({{"name", kSet[place].name}, {"pid", 0}, {"heartbeat_ms", nullptr}, {"hangs", false}});
+  }
   for (auto& role : roles) count_restarts(role, notes, now_ns);
   return roles;
 }

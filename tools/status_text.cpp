@@ -78,9 +78,10 @@ void print_ownship(const ordered_json& status) {
 void print_radar(const ordered_json& status) {
   const auto& watch = status["watch"];
   const auto& model = status["model"];
+  const std::string fidelity = text(model["fidelity"]);
   std::printf("radar: %s %s, %.1f NM, fidelity %s, kernel %s of a core, %llu sweeps, terrain %.1f MB\n",
               text(watch["power"]).c_str(), text(watch["mode"]).c_str(), watch["range_nm"].get<double>(),
-              text(model["fidelity"]).c_str(), load_text(model["load"].get<double>()).c_str(),
+              fidelity.empty() ? "unknown" : fidelity.c_str(), load_text(model["load"].get<double>()).c_str(),
               static_cast<unsigned long long>(watch["sweeps"].get<std::uint64_t>()),
               static_cast<double>(model["terrain_bytes"].get<std::uint64_t>()) / 1e6);
   const auto& recorder = status["recorder"];
