@@ -44,6 +44,7 @@ class Log : public ::testing::Test {
   void write(Body body) const {
     ChildProcess child([&] {
       if (std::freopen((folder_ / "stderr").c_str(), "w", stderr) == nullptr) return 1;
+      std::setvbuf(stderr, nullptr, _IONBF, 0);  // as it is when nobody has reopened it
       umask(0022);
       start_log("role", "info");
       body();

@@ -43,11 +43,11 @@ class Supervision : public ::testing::Test {
     std::filesystem::resize_file(terrain_ / "N37W123.hgt", std::size_t{1201} * 1201 * 2);
   }
   ~Supervision() override {
-    // Whatever a test left: a supervisor that is killed takes nobody along.
-    if (set_.runs("start")) {
-      set_.kill("start", SIGTERM);
-      set_.wait("start");
-    }
+    if (set_.runs("start")) end();
+    // A supervisor that the watchdog had to kill takes nobody along.
+    const auto left = set_.watch();
+    if (left.is_null()) return;
+    for (const auto& process : left["processes"]) ::kill(process["pid"].get<int>(), SIGKILL);
   }
 
   void start(const std::vector<std::string>& more = {}, const std::string& source = "fixed:37.5,-122.9,15000,90,480") {
@@ -163,10 +163,10 @@ TEST_F(Supervision, TheSixthDeathWithinAMinuteEndsTheSet) {
 }
 
 TEST_F(Supervision, ARoleThatCannotStartEndsTheSetAtOnceWithItsOwnError) {
-  std::ofstream(set_.folder() / "bad.guf") << "( Apg70 :noSuchSlot 1 )\n";
+  std::ofstream(set_.folder() / "bad.guf") << "( Apg70 :ranges ( 10 \n";
   start({"--config", (set_.folder() / "bad.guf").string()});
   EXPECT_EQ(set_.wait("start"), 1);
-  EXPECT_THAT(told(), HasSubstr("noSuchSlot"));
+  EXPECT_THAT(told(), HasSubstr("bad.guf:"));
   EXPECT_THAT(told(), HasSubstr("before it took part"));
   EXPECT_THAT(told(), Not(HasSubstr("starting it again")));
 }
