@@ -133,6 +133,18 @@ TEST_F(Supervision, WhatDiesIsStartedAgainAndTold) {
   EXPECT_FALSE(set_.segment_exists());
 }
 
+TEST_F(Supervision, ARecorderThatDiesKeepsWhatItWrote) {
+  const auto recording = set_.folder() / "recording";
+  start_and_wait({"--record", recording.string()});
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["vtr"] == true; }, kPatience_s)) << told();
+  ASSERT_TRUE(eventually([&] { return std::filesystem::file_size(recording) > 10000; }, kPatience_s));
+  const auto before = std::filesystem::file_size(recording);
+  kill_and_wait_for_the_next("recorder");
+  EXPECT_GE(std::filesystem::file_size(recording.string() + ".1"), before);
+  EXPECT_EQ(end(), 0) << told();
+  EXPECT_TRUE(std::filesystem::exists(recording));
+}
+
 TEST_F(Supervision, TheLogsOfASetLieInOneFolderForItsOwnerAlone) {
   start_and_wait();
   EXPECT_EQ(end(), 0) << told();
