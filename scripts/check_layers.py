@@ -46,16 +46,17 @@ LAYERS = {
     "inputmonitor": ROLE,
     "display": ROLE,
     "display/gl": ROLE + ["display"],
+    "display/host": SEGMENT + ["display", "display/gl"],
     "tools/recording": MODEL,
     "tools/trade": MODEL + ["display"],
     "tools": SEGMENT + ["tools/recording", "tools/trade", "model/terrain/gdal"] + MODEL + ["statemachine", "display"],
-    "examples": ["databuffer"],
+    "examples": ["databuffer", "display", "display/host", "lib/failure", "lib/imageio"],
     "tests": None,  # None: everything
 }
 
 # Shells (*_main.cpp, *_shell.*) of the roles see the segment, the log and clocks; nobody else of a role does.
 SHELL = re.compile(r"_(main|shell)\.[ch]pp$")
-SHELL_LAYERS = {"model": SEGMENT, "statemachine": SEGMENT, "inputmonitor": SEGMENT, "display": SEGMENT + ["display/gl"]}
+SHELL_LAYERS = {"model": SEGMENT, "statemachine": SEGMENT, "inputmonitor": SEGMENT, "display": SEGMENT + ["display/gl", "display/host"]}
 SHELL_FOLDERS = ["databuffer", "tools", "tests", "examples"]  # whole folders that may do what shells do
 
 # Third-party and system headers: prefix -> who may include it: folders, single files or "shells".
@@ -76,7 +77,7 @@ SYSTEM_HEADERS = {
     "cpl_error.h": ["model/terrain/gdal", "tests"],
     "ogr_srs_api.h": ["model/terrain/gdal", "tests"],
     "boost/": ["shm", "tests"],
-    "epoxy/": ["display/gl"],
+    "epoxy/": ["display/gl", "examples", "tests/display_gl"],
     "EGL/": ["display/gl"],
     "glm/": ["display/gl"],
     "xxhash.h": ["model/kernel"],
