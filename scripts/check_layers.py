@@ -77,7 +77,7 @@ SYSTEM_HEADERS = {
     "cpl_error.h": ["model/terrain/gdal", "tests"],
     "ogr_srs_api.h": ["model/terrain/gdal", "tests"],
     "boost/": ["shm", "tests"],
-    "epoxy/": ["display/gl", "examples", "tests/display_gl"],
+    "epoxy/": ["display/gl", "examples", "tests"],
     "EGL/": ["display/gl"],
     "glm/": ["display/gl"],
     "xxhash.h": ["model/kernel"],
@@ -226,7 +226,7 @@ def check_names(root, name):
     if not re.fullmatch(r"[a-z][a-z0-9]*(_[a-z0-9]+)*(-inl)?", path.stem):
         yield 1, "name", f"expected lower_snake, found '{path.name}'"
     # The commands' functions are declared together, in tools/*command*.hpp.
-    unpaired = name.startswith(("tests/", "tools/")) or name.endswith(("_main.cpp", "_shell.cpp"))
+    unpaired = name.startswith(("tests/", "tools/", "examples/")) or name.endswith(("_main.cpp", "_shell.cpp"))
     if path.suffix == ".cpp" and not unpaired and not has_header(root, path):
         yield 1, "pair", f"no header {path.stem}.hpp beside it"
 
