@@ -47,7 +47,8 @@ class Glass {
   Glass& operator=(Glass&&) noexcept;
   ~Glass();
 
-  // Takes over what is new in the session; call it at least twice a second: its ring holds 5 s of sweeps.
+  // Takes over what is new in the session. Call it at least once a second, drawn or not: who is silent longer counts as
+  // hung, and after 5 s sweeps are lost.
   void update();
   void update(std::int64_t sim_time_ns);  // as of this time
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "databuffer/patch_pool.hpp"
-#include "databuffer/session.hpp"
 #include "databuffer/records/validation.hpp"
+#include "databuffer/session.hpp"
 #include "databuffer/tick_loop.hpp"
 #include "display/gl/glass.hpp"
 #include "display/gl/headless_egl.hpp"
