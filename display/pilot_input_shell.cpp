@@ -6,21 +6,27 @@
 
 namespace yars::display {
 
-failure::Expected<PilotInput> PilotInput::create(databuffer::Session& session) {
-  auto claim = session.claim_input_lane("radar-display");
+failure::Expected<PilotInput> PilotInput::create(databuffer::Session& session, std::string_view source) {
+  auto claim = session.claim_input_lane(source);
   if (!claim) return tl::unexpected(claim.error());
   return PilotInput(session, std::move(*claim));
 }
 
+void PilotInput::press(int button) {
+  databuffer::InputEvent event{};
+  event.kind = static_cast<std::uint16_t>(databuffer::EventKind::push_button);
+  event.argument = static_cast<std::int16_t>(button);
+  push(event);
+}
+
+bool PilotInput::click(Point at) {
+  const auto button = button_at(at);
+  if (button) press(*button);
+  return button.has_value();
+}
+
 void PilotInput::send(const gl::WindowInput& input) {
-  for (const Point click : input.clicks) {
-    const auto button = button_at(click);
-    if (!button) continue;
-    databuffer::InputEvent event{};
-    event.kind = static_cast<std::uint16_t>(databuffer::EventKind::push_button);
-    event.argument = static_cast<std::int16_t>(*button);
-    push(event);
-  }
+  for (const Point at : input.clicks) click(at);
   for (const gl::KeyEdge& edge : input.keys) {
     for (const databuffer::InputEvent& event : keyboard_.change(edge.key, edge.pressed)) push(event);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "databuffer/records/key_map.hpp"
 #include "databuffer/session.hpp"
@@ -11,8 +12,12 @@ namespace yars::display {
 
 class PilotInput {
  public:
-  static failure::Expected<PilotInput> create(databuffer::Session& session);
+  // `source`: who sends, as `yars status` shows it.
+  static failure::Expected<PilotInput> create(databuffer::Session& session, std::string_view source);
 
+  void press(int button);  // 1..20
+  // The button whose legend lies under the click, if any, is pressed; false: none.
+  bool click(Point at);
   void send(const gl::WindowInput& input);
   void release_all();  // what is held when the window goes away
 

@@ -46,16 +46,17 @@ LAYERS = {
     "inputmonitor": ROLE,
     "display": ROLE,
     "display/gl": ROLE + ["display"],
+    "display/host": SEGMENT + ["display", "display/gl"],
     "tools/recording": MODEL,
     "tools/trade": MODEL + ["display"],
     "tools": SEGMENT + ["tools/recording", "tools/trade", "model/terrain/gdal"] + MODEL + ["statemachine", "display"],
-    "examples": ["databuffer"],
+    "examples": ["databuffer", "display", "display/host", "lib/failure", "lib/imageio"],
     "tests": None,  # None: everything
 }
 
 # Shells (*_main.cpp, *_shell.*) of the roles see the segment, the log and clocks; nobody else of a role does.
 SHELL = re.compile(r"_(main|shell)\.[ch]pp$")
-SHELL_LAYERS = {"model": SEGMENT, "statemachine": SEGMENT, "inputmonitor": SEGMENT, "display": SEGMENT + ["display/gl"]}
+SHELL_LAYERS = {"model": SEGMENT, "statemachine": SEGMENT, "inputmonitor": SEGMENT, "display": SEGMENT + ["display/gl", "display/host"]}
 SHELL_FOLDERS = ["databuffer", "tools", "tests", "examples"]  # whole folders that may do what shells do
 
 # Third-party and system headers: prefix -> who may include it: folders, single files or "shells".
@@ -76,7 +77,7 @@ SYSTEM_HEADERS = {
     "cpl_error.h": ["model/terrain/gdal", "tests"],
     "ogr_srs_api.h": ["model/terrain/gdal", "tests"],
     "boost/": ["shm", "tests"],
-    "epoxy/": ["display/gl"],
+    "epoxy/": ["display/gl", "examples", "tests"],
     "EGL/": ["display/gl"],
     "glm/": ["display/gl"],
     "xxhash.h": ["model/kernel"],
@@ -225,7 +226,7 @@ def check_names(root, name):
     if not re.fullmatch(r"[a-z][a-z0-9]*(_[a-z0-9]+)*(-inl)?", path.stem):
         yield 1, "name", f"expected lower_snake, found '{path.name}'"
     # The commands' functions are declared together, in tools/*command*.hpp.
-    unpaired = name.startswith(("tests/", "tools/")) or name.endswith(("_main.cpp", "_shell.cpp"))
+    unpaired = name.startswith(("tests/", "tools/", "examples/")) or name.endswith(("_main.cpp", "_shell.cpp"))
     if path.suffix == ".cpp" and not unpaired and not has_header(root, path):
         yield 1, "pair", f"no header {path.stem}.hpp beside it"
 

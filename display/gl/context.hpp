@@ -13,6 +13,9 @@ class Context {
   Context& operator=(const Context&) = delete;
 };
 
+// 33 = 3.3, of what is current on this thread; 0: nothing is, or OpenGL ES.
+int opengl_version();
+
 // What draws: "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6".
 std::string renderer_name();
 

@@ -11,21 +11,25 @@ namespace yars::display::gl {
 
 Framebuffer::Framebuffer(int size) {
   glGenFramebuffers(1, &framebuffer_);
-  glGenRenderbuffers(1, &pixels_);
+  glGenTextures(1, &texture_);
+  glBindTexture(GL_TEXTURE_2D, texture_);
+  // Shown pixel by pixel; and a texture whose levels are not all there counts as none.
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   resize(size);
 }
 
 Framebuffer::~Framebuffer() {
-  glDeleteRenderbuffers(1, &pixels_);
   glDeleteFramebuffers(1, &framebuffer_);
+  glDeleteTextures(1, &texture_);
 }
 
 void Framebuffer::resize(int size) {
   size_ = size;
-  glBindRenderbuffer(GL_RENDERBUFFER, pixels_);
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size, size);
+  glBindTexture(GL_TEXTURE_2D, texture_);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size, size, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, pixels_);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
   YARS_REQUIRE(glCheckFramebufferStatus(GL_FRAMEBUFFER), ==, static_cast<GLenum>(GL_FRAMEBUFFER_COMPLETE));
 }
 
@@ -34,10 +38,18 @@ void Framebuffer::bind() const {
   glViewport(0, 0, size_, size_);
 }
 
+void Framebuffer::bind_for_reading() const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
+}
+
+void Framebuffer::bind_texture() const {
+  glBindTexture(GL_TEXTURE_2D, texture_);
+}
+
 imageio::Image Framebuffer::read() const {
   const std::size_t row = static_cast<std::size_t>(size_) * 3;
   std::vector<std::uint8_t> from_below(row * static_cast<std::size_t>(size_));
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
+  bind_for_reading();
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, size_, size_, GL_RGB, GL_UNSIGNED_BYTE, from_below.data());
   // OpenGL's rows run from the bottom up, an image's from the top down.
@@ -48,17 +60,6 @@ imageio::Image Framebuffer::read() const {
     std::copy_n(source, row, image.pixels.begin() + static_cast<std::ptrdiff_t>(y * row));
   }
   return image;
-}
-
-void Framebuffer::copy_to_window(int window_width, int window_height) const {
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-  glViewport(0, 0, window_width, window_height);
-  glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
-  glClear(GL_COLOR_BUFFER_BIT);
-  const int left = (window_width - size_) / 2;
-  const int bottom = (window_height - size_) / 2;
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
-  glBlitFramebuffer(0, 0, size_, size_, left, bottom, left + size_, bottom + size_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 }  // namespace yars::display::gl

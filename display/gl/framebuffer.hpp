@@ -1,4 +1,4 @@
-// A square picture in the graphics memory that can be drawn into, read back and copied to a window.
+// A square picture in the graphics memory that can be drawn into, read back, and drawn from as a texture.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,13 @@ class Framebuffer {
 
   void resize(int size);
   int size() const { return size_; }
-  void bind() const;  // draws go here, over all of it
-  imageio::Image read() const;
-  void copy_to_window(int window_width, int window_height) const;
+  void bind() const;              // draws go here, over all of it
+  void bind_for_reading() const;  // what reads pixels reads these
+  void bind_texture() const;      // on the active texture unit
+  imageio::Image read() const;    // RGB
 
  private:
-  std::uint32_t framebuffer_ = 0, pixels_ = 0;
+  std::uint32_t framebuffer_ = 0, texture_ = 0;
   int size_ = 0;
 };
 

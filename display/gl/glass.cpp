@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "display/draw_list.hpp"
-#include "display/gl/framebuffer.hpp"
 #include "display/gl/light_texture.hpp"
 #include "display/gl/map_pass.hpp"
 #include "display/gl/overlay_pass.hpp"
+#include "display/gl/picture_pass.hpp"
 #include "display/gl/video_pass.hpp"
 #include "display/glass_geometry.hpp"
 #include "display/polar_store.hpp"
@@ -53,8 +53,10 @@ struct Glass::State {
   void render(const Shown& wanted) {
     const std::array<float, 256> light = video_light(wanted.brightness, wanted.contrast);
     framebuffer.bind();
-    glClearColor(colors.ground.red, colors.ground.green, colors.ground.blue, 1.0F);
-    glClear(GL_COLOR_BUFFER_BIT);
+    const std::array<float, 4> ground{colors.ground.red, colors.ground.green, colors.ground.blue, 1.0F};
+    glClearBufferfv(GL_COLOR, 0, ground.data());
+    // Soft edges are blended by their alpha; the picture's own stays 1.
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
     light_texture.set(light);
     if (wanted.video) {
       place_wedges(store, view, wanted.frame, wedges);
@@ -62,6 +64,7 @@ struct Glass::State {
     }
     if (wanted.map != 0) map_pass.draw(wanted.map, light_texture, colors.video, wanted.size);
     overlay_pass.draw(list, colors, light, static_cast<float>(framebuffer.size()) / kGlassUnits);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
 
   radar::RadarConfiguration configuration;
@@ -72,6 +75,7 @@ struct Glass::State {
   VideoPass video_pass;
   MapPass map_pass;
   OverlayPass overlay_pass;
+  PicturePass picture_pass;
   PolarStore store;
   DrawList list, shown_list;
   LabelMemory labels;
@@ -128,8 +132,12 @@ imageio::Image Glass::read() const {
   return state_->framebuffer.read();
 }
 
-void Glass::show(int window_width, int window_height) const {
-  state_->framebuffer.copy_to_window(window_width, window_height);
+const Framebuffer& Glass::picture() const {
+  return state_->framebuffer;
+}
+
+void Glass::show(int left, int bottom) {
+  state_->picture_pass.draw(state_->framebuffer, left, bottom);
 }
 
 }  // namespace yars::display::gl

@@ -1,5 +1,5 @@
 // The glass: keeps the sweeps and the maps, and draws them with the symbols when something that shows has changed.
-// Draws into its own framebuffer, which is then read back or copied into a window's.
+// Draws into a picture of its own, which is then read back or drawn where the current framebuffer wants it.
 // Needs a current context (headless_egl.hpp, window_glfw.hpp) for its lifetime; knows nothing of the session.
 #pragma once
 
@@ -9,6 +9,7 @@
 
 #include "databuffer/records/model_records.hpp"
 #include "display/color_scheme.hpp"
+#include "display/gl/framebuffer.hpp"
 #include "display/glass_input.hpp"
 #include "lib/imageio/png.hpp"
 #include "lib/radar/configuration.hpp"
@@ -34,8 +35,9 @@ class Glass {
   bool draw(const GlassInput& input);
 
   imageio::Image read() const;  // RGB
-  // Copies the picture into the current window's framebuffer, centered; the rest becomes black.
-  void show(int window_width, int window_height) const;
+  const Framebuffer& picture() const;
+  // Draws the picture, pixel by pixel, into the current framebuffer with its lower left corner there.
+  void show(int left, int bottom);
 
  private:
   struct State;

@@ -2,6 +2,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <epoxy/gl.h>
 
 #include <algorithm>
 #include <array>
@@ -69,6 +70,11 @@ class GlfwWindow final : public Window {
       glfwPollEvents();
     }
     return std::exchange(input_, {});
+  }
+  void clear() override {
+    constexpr std::array<float, 4> kBlack{0.0F, 0.0F, 0.0F, 1.0F};
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glClearBufferfv(GL_COLOR, 0, kBlack.data());
   }
   void present() override { glfwSwapBuffers(window_); }
 

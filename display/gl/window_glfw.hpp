@@ -34,6 +34,7 @@ class Window : public Context {
   virtual bool should_close() const = 0;
   // Waits for events up to so long [s]; returns at once when there are any.
   virtual WindowInput take_input(double longest_wait_s) = 0;
+  virtual void clear() = 0;    // black, all of it; the window is what is drawn on from here
   virtual void present() = 0;  // shows what has been drawn; does not wait for the screen
 };
 

@@ -1,0 +1,127 @@
+// A host that has a scene of its own, and the radar's glass in a viewport of it: 1280 x 800 pixels, the glass 600 x
+// 600. No window is needed: EGL without a surface stands for whatever context a host has. Looks at the session for so
+// many seconds, 30 times each, then writes the last picture.
+//   host_glass [SESSION [FILE.png [SECONDS]]]
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+#include <time.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "display/host/glass.hpp"
+#include "lib/imageio/png.hpp"
+
+namespace {
+
+using namespace yars;
+
+constexpr int kWidth = 1280, kHeight = 800;
+constexpr display::host::Viewport kGlass{620, 100, 600, 600};
+
+class Context {
+ public:
+  Context() {
+    display_ = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    if (eglInitialize(display_, nullptr, nullptr) != EGL_TRUE || eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) return;
+    constexpr std::array<EGLint, 7> kCore33{
+        EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, kCore33.data());
+    current_ = eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
+  }
+  ~Context() {
+    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
+  }
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+  bool is_current() const { return current_; }
+
+ private:
+  EGLDisplay display_ = EGL_NO_DISPLAY;
+  EGLContext context_ = EGL_NO_CONTEXT;
+  bool current_ = false;
+};
+
+// Stands for the host's window.
+void make_canvas() {
+  GLuint framebuffer = 0, pixels = 0;
+  glGenFramebuffers(1, &framebuffer);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glGenRenderbuffers(1, &pixels);
+  glBindRenderbuffer(GL_RENDERBUFFER, pixels);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, kWidth, kHeight);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, pixels);
+}
+
+struct Box {
+  int left, bottom, width, height;
+  float red, green, blue;
+};
+
+void fill(const Box& box) {
+  glScissor(box.left, box.bottom, box.width, box.height);
+  glClearColor(box.red, box.green, box.blue, 1.0F);
+  glClear(GL_COLOR_BUFFER_BIT);
+}
+
+// The scene: a sky, a panel, a bezel with a button for each legend. All by scissored clears, which the glass would
+// spoil if it left its own state behind.
+void draw_cockpit() {
+  glEnable(GL_SCISSOR_TEST);
+  for (int row = 0; row < 20; ++row)
+    fill({0, kHeight - 20 * (row + 1), kWidth, 20, 0.2F + 0.02F * static_cast<float>(row), 0.45F, 0.75F});
+  fill({0, 0, kWidth, 400, 0.16F, 0.17F, 0.19F});
+  fill({560, 40, 720, 720, 0.07F, 0.07F, 0.08F});
+  for (int i = 0; i < 5; ++i) {
+    const int along = 90 + 92 * i;
+    for (const auto& [left, bottom] : std::array<std::array<int, 2>, 4>{
+             {{575, 100 + along}, {1235, 100 + along}, {620 + along, 55}, {620 + along, 715}}})
+      fill({left, bottom, 30, 30, 0.35F, 0.36F, 0.38F});
+  }
+}
+
+bool write_canvas(const std::string& path) {
+  imageio::Image image{kWidth, kHeight, 3, std::vector<std::uint8_t>(std::size_t{3} * kWidth * kHeight)};
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, kWidth, kHeight, GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
+  // OpenGL's rows run from the bottom up.
+  const std::ptrdiff_t row = std::ptrdiff_t{3} * kWidth;
+  for (std::ptrdiff_t y = 0; y < kHeight / 2; ++y)
+    std::swap_ranges(image.pixels.begin() + y * row, image.pixels.begin() + (y + 1) * row,
+                     image.pixels.end() - (y + 1) * row);
+  const auto written = imageio::write_png(path, image);
+  if (!written) std::fprintf(stderr, "%s\n", written.error().message().c_str());
+  return written.has_value();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string path = argc > 2 ? argv[2] : "host_glass.png";
+  const int frames = std::clamp(static_cast<int>(30.0 * (argc > 3 ? std::atof(argv[3]) : 5.0)), 1, 1'000'000);
+  const Context context;  // goes after the glass in it
+  if (!context.is_current()) {
+    std::fputs("no OpenGL without a display: install libegl1 and libgl1-mesa-dri\n", stderr);
+    return 1;
+  }
+  make_canvas();
+  auto glass = display::host::Glass::attach({argc > 1 ? argv[1] : "default", "", "host_glass"});
+  if (!glass) {
+    std::fprintf(stderr, "%s\n", glass.error().message().c_str());
+    return 1;
+  }
+  for (int frame = 0; frame < frames; ++frame) {
+    glass->update();
+    draw_cockpit();
+    glass->draw(kGlass);
+    glass->note_shown();
+    const timespec thirtieth{0, 33'000'000};
+    nanosleep(&thirtieth, nullptr);
+  }
+  return write_canvas(path) ? 0 : 1;
+}

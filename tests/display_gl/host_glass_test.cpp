@@ -1,0 +1,240 @@
+// The glass in a host's context: its pixels are those of the glass alone, and nothing of the host's is changed.
+#include <epoxy/gl.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "databuffer/patch_pool.hpp"
+#include "databuffer/records/validation.hpp"
+#include "databuffer/session.hpp"
+#include "databuffer/tick_loop.hpp"
+#include "display/gl/glass.hpp"
+#include "display/gl/headless_egl.hpp"
+#include "display/glass_feed_shell.hpp"
+#include "display/host/glass.hpp"
+#include "tests/databuffer/session_name.hpp"
+#include "tests/display/glass_states.hpp"
+#include "tests/display_gl/host_context.hpp"
+#include "tests/display_gl/made_up_map.hpp"
+#include "tests/display_gl/made_up_sweeps.hpp"
+
+namespace yars::display::host {
+namespace {
+
+using databuffer::Session;
+using display::testing::kHome;
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr double kRange_m = 40.0 * geo::kMetresPerNauticalMile;
+constexpr std::int64_t kTick = 4321;
+
+// A set of one process: what a state machine and a radar-model would have published.
+void put_scene(Session& session) {
+  databuffer::SessionLayout& layout = session.layout();
+  layout.lockstep.roles = 1U << static_cast<unsigned>(databuffer::LockstepRole::state_machine) |
+                          1U << static_cast<unsigned>(databuffer::LockstepRole::radar_model);
+  const GlassInput input = display::testing::operating(radar::Mode::rbm, 40.0);
+  databuffer::RadarState state = input.state;
+  state.tick = kTick;
+  state.channel = 1;
+  databuffer::ModelStatus model = input.model;
+  model.ownship = input.ownship;
+  model.nav = input.nav;
+  ASSERT_EQ(databuffer::why_refused(state), std::nullopt);
+  layout.radar_state.publish(state);
+  layout.model_status.publish(model);
+  for (int i = 0; i < 60; ++i)
+    layout.sweeps.publish(display::testing::toned_sweep(kHome, 5.0 + 0.8 * i, 5.8 + 0.8 * i, kRange_m, 480,
+                                                        static_cast<std::uint8_t>(4 * i)));
+}
+
+// The state machine shows a patch map.
+void put_patch(Session& session) {
+  GlassInput input = display::testing::operating(radar::Mode::patch, 40.0);
+  display::testing::put_map(input, 60.0, 20.0, 4.7);
+  databuffer::publish_patch(session.layout(), input.map, display::testing::made_up_ground(480), {});
+  input.state.channel = 1;
+  session.layout().radar_state.publish(input.state);
+}
+
+class HostGlass : public databuffer::testing::SessionTest {
+ protected:
+  void SetUp() override {
+    auto context = gl::open_headless();
+    if (!context) GTEST_SKIP() << "no OpenGL without a display: " << context.error().message();
+    context_ = std::move(*context);
+    session_.emplace(*Session::open(name_, "tester"));
+    ASSERT_NO_FATAL_FAILURE(put_scene(*session_));
+  }
+
+  Glass glass() { return {*session_, {}, true}; }
+
+  // What the glass shows when it has the context for itself.
+  Bytes alone(int size) {
+    gl::Glass glass({}, size);
+    GlassFeed feed(
+        *session_, true, [&](const databuffer::Sweep& sweep) { glass.add(sweep); },
+        [&](const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels) { glass.add(map, pixels); });
+    feed.refresh(0);
+    glass.draw(feed.input());
+    return glass.read().pixels;
+  }
+
+  std::unique_ptr<gl::Context> context_;
+  std::optional<Session> session_;
+};
+
+TEST_F(HostGlass, IsPixelIdenticalToTheGlassAloneAndTouchesNothingOutsideItsViewport) {
+  const Canvas canvas(1280, 800);
+  Glass glass = this->glass();
+  for (const Viewport viewport : {Viewport{620, 100, 600, 600}, Viewport{0, 0, 480, 480}, Viewport{31, 57, 700, 501},
+                                  Viewport{801, 0, 479, 800}}) {
+    SCOPED_TRACE(std::to_string(viewport.left) + " " + std::to_string(viewport.width));
+    canvas.bind();
+    canvas.fill();
+    const Bytes before = canvas.read();
+    glass.update(0);
+    glass.draw(viewport);
+    const Bytes after = canvas.read();
+    const int size = std::min(viewport.width, viewport.height);
+    const int left = viewport.left + (viewport.width - size) / 2;
+    const int bottom = viewport.bottom + (viewport.height - size) / 2;
+    EXPECT_TRUE(canvas.square(after, left, bottom, size) == alone(size));
+    EXPECT_EQ(canvas.changed_outside(before, after, left, bottom, size), 0);
+  }
+}
+
+TEST_F(HostGlass, DrawsTheSameInTheOddestStateAndLeavesItAsItWas) {
+  const Bytes expected = alone(600);
+  expect_no_error("alone");
+  const Canvas canvas(1280, 800);
+  expect_no_error("canvas");
+  Glass glass = this->glass();
+  expect_no_error("construction");
+  const OddState odd(canvas);
+  odd.set();
+  expect_no_error("the odd state");
+  const auto before = state_of_context();
+  expect_no_error("looking");
+  // Each call by itself: one that forgets may be repaired by the next.
+  const auto expect_unchanged = [&](const char* call) {
+    const auto after = state_of_context();
+    for (const auto& [name, values] : before) EXPECT_EQ(after.at(name), values) << name << " after " << call;
+    expect_no_error(call);
+  };
+  glass.update(0);
+  expect_unchanged("update");
+  EXPECT_TRUE(glass.paint(600));
+  expect_unchanged("paint");
+  EXPECT_TRUE(glass.start_reading());
+  expect_unchanged("start_reading");
+  Picture picture;
+  EXPECT_TRUE(glass.wait_for_read(picture));
+  expect_unchanged("wait_for_read");
+  EXPECT_TRUE(glass.read().pixels == expected);
+  expect_unchanged("read");
+  glass.draw({620, 100, 600, 600});
+  expect_unchanged("draw");
+  { const Glass another = this->glass(); }
+  expect_unchanged("another that came and went");
+  canvas.bind();
+  plain_reading();
+  EXPECT_TRUE(canvas.square(canvas.read(), 620, 100, 600) == expected);
+}
+
+TEST_F(HostGlass, APictureIsReadWithoutWaitingInItsOrderWithItsTime) {
+  Glass glass = this->glass();
+  glass.update(77'000'000);
+  ASSERT_TRUE(glass.paint(480));
+  EXPECT_FALSE(glass.paint(480)) << "nothing is new";
+  Picture picture;
+  EXPECT_FALSE(glass.take_read(picture)) << "none was ordered";
+  EXPECT_TRUE(glass.start_reading());
+  glass.paint(300);
+  EXPECT_TRUE(glass.start_reading());
+  EXPECT_FALSE(glass.start_reading()) << "two are under way";
+  ASSERT_TRUE(glass.wait_for_read(picture));
+  EXPECT_EQ(picture.size, 480);
+  EXPECT_EQ(picture.tick, kTick);
+  EXPECT_EQ(picture.sim_time_ns, 77'000'000);
+  const Bytes expected = alone(480);
+  ASSERT_EQ(picture.pixels.size() / 4, expected.size() / 3);
+  for (std::size_t i = 0; i < expected.size() / 3; ++i) {
+    ASSERT_TRUE(std::equal(&expected[3 * i], &expected[3 * i] + 3, &picture.pixels[4 * i])) << "pixel " << i;
+    ASSERT_EQ(picture.pixels[4 * i + 3], 255) << "pixel " << i;
+  }
+  ASSERT_TRUE(glass.wait_for_read(picture));
+  EXPECT_EQ(picture.size, 300);
+  EXPECT_FALSE(glass.wait_for_read(picture));
+}
+
+TEST_F(HostGlass, SeveralGlassesInOneProgramEachShowTheirOwnSession) {
+  const Bytes scene = alone(480);
+  auto dark_session = Session::open(name_ + "-dark", "tester");
+  ASSERT_TRUE(dark_session);
+  auto dark = std::make_unique<Glass>(*dark_session, radar::RadarConfiguration{}, true);
+  Glass first = glass();
+  Glass second = glass();
+  for (Glass* each : {dark.get(), &first, &second}) {
+    each->update(0);
+    each->paint(480);
+  }
+  EXPECT_TRUE(first.read().pixels == scene);
+  EXPECT_TRUE(second.read().pixels == scene);
+  EXPECT_FALSE(dark->read().pixels == scene);
+  dark.reset();
+  second = glass();
+  second.update(0);
+  second.paint(480);
+  EXPECT_TRUE(first.read().pixels == scene);
+  EXPECT_TRUE(second.read().pixels == scene) << "the one that took its place";
+}
+
+TEST_F(HostGlass, APatchMapComesWithTheUpdate) {
+  const Bytes sweeps = alone(480);
+  Glass glass = this->glass();
+  put_patch(*session_);
+  const Bytes map = alone(480);
+  EXPECT_FALSE(map == sweeps);
+  const Canvas canvas(480, 480);
+  const OddState odd(canvas);
+  odd.set();
+  glass.update(0);
+  glass.paint(480);
+  EXPECT_TRUE(glass.read().pixels == map);
+}
+
+TEST_F(HostGlass, ATouchOnALegendPressesItsButton) {
+  auto attached = Glass::attach({name_, "", "cockpit"});
+  ASSERT_TRUE(attached) << attached.error().message();
+  EXPECT_FALSE(session_->input_lane_is_held(0)) << "a glass that nobody touches takes no lane";
+  // PB 14 is the fourth of 11-15 up the right side.
+  auto hit = attached->click(470.0 / 480.0, 160.0 / 480.0);
+  ASSERT_TRUE(hit) << hit.error().message();
+  EXPECT_TRUE(*hit);
+  EXPECT_EQ(attached->click(0.5, 0.5), false);
+  EXPECT_TRUE(attached->press(7));
+  EXPECT_FALSE(attached->press(21));
+  databuffer::InputEvent event{};
+  for (const int button : {14, 7}) {
+    ASSERT_TRUE(session_->layout().input.pop(0, event));
+    EXPECT_EQ(event.kind, static_cast<std::uint16_t>(databuffer::EventKind::push_button));
+    EXPECT_EQ(event.argument, button);
+  }
+  EXPECT_FALSE(session_->layout().input.pop(0, event));
+  const auto processes = session_->processes();
+  EXPECT_TRUE(std::ranges::any_of(processes, [](const auto& process) { return process.name == "cockpit"; }));
+}
+
+TEST_F(HostGlass, WithoutACurrentContextItsErrorSaysSo) {
+  context_.reset();
+  const auto attached = Glass::attach({name_, "", "cockpit"});
+  ASSERT_FALSE(attached);
+  EXPECT_NE(attached.error().message().find("OpenGL 3.3"), std::string::npos) << attached.error().message();
+}
+
+}  // namespace
+}  // namespace yars::display::host

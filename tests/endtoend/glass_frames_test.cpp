@@ -1,0 +1,257 @@
+// The picture of the glass in the segment (`radar-display --publish`) and in a host's viewport: what programs outside
+// get is what the glass shows, byte by byte, and they survive the display's death.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <random>
+#include <sstream>
+#include <utility>
+
+#include "databuffer/frame_pool.hpp"
+#include "databuffer/session.hpp"
+#include "lib/imageio/png.hpp"
+#include "tests/endtoend/process_set.hpp"
+
+namespace yars::endtoend {
+namespace {
+
+using databuffer::GlassFrame;
+using databuffer::Session;
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr const char* kSource = "fixed:37.5,-123.0,15000,90,480";
+constexpr std::int64_t kTick_ns = 5'000'000;
+
+Bytes rgb_of(const Bytes& rgba) {
+  Bytes rgb;
+  rgb.reserve(rgba.size() / 4 * 3);
+  for (std::size_t i = 0; i + 3 < rgba.size(); i += 4) rgb.insert(rgb.end(), &rgba[i], &rgba[i] + 3);
+  return rgb;
+}
+
+Bytes file_bytes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Bytes png_pixels(const std::filesystem::path& path) {
+  const auto image = imageio::read_png(path);
+  EXPECT_TRUE(image) << path;
+  return image ? image->pixels : Bytes{};
+}
+
+std::size_t lit(const Bytes& rgb) {
+  std::size_t count = 0;
+  for (std::size_t i = 1; i < rgb.size(); i += 3) count += rgb[i] > 60 ? 1 : 0;
+  return count;
+}
+
+struct Frame {
+  GlassFrame about{};
+  Bytes pixels;
+};
+
+// Any newer than `after`.
+std::optional<Frame> newest_frame(const Session& session, std::uint64_t after = 0) {
+  Frame frame;
+  if (!databuffer::read_newest_frame(session.layout(), after, frame.about, frame.pixels)) return std::nullopt;
+  return frame;
+}
+
+void start_live(ProcessSet& set) {
+  set.start("state", {"state-machine"});
+  set.start("model", {"radar-model"});
+  set.start("flight", {"flight-model", "--source", kSource});
+  ASSERT_TRUE(set.wait_until([](const auto& watch) { return watch["tick"] > 10 && !watch["ownship"].is_null(); }));
+  ASSERT_EQ(set.yars({"inject", "power opr"}).code, 0);
+  ASSERT_TRUE(set.wait_until([](const auto& watch) { return watch["sweeps"] > 50; }));
+}
+
+// Every picture that is published is the PNG of its tick; the last one is there after the end, for C and for Python.
+TEST(GlassFrames, InLockstepAreTheBytesOfThePngOfTheirTick) {
+  ProcessSet set("frames-lockstep");
+  auto session = Session::open(set.session(), "tester");
+  ASSERT_TRUE(session) << session.error().message();
+  const auto folder = set.folder();
+  std::ofstream(folder / "script") << "0.5 power opr\n1.5 pb 13\n2.5 pb 9\n";
+  const std::string plan = "flight-model,input-monitor,state-machine,radar-model,radar-display@800";
+  constexpr std::int64_t kEvery_ns = 200'000'000;
+  set.start("flight", {"flight-model", "--source", kSource, "--lockstep", plan});
+  set.start("input", {"input-monitor", "--source", "script:" + (folder / "script").string(), "--lockstep", plan});
+  set.start("state", {"state-machine", "--lockstep", plan});
+  set.start("model", {"radar-model", "--lockstep", plan});
+  set.start("display", {"radar-display", "--headless", "--publish", "--frames", folder.string(), "--every", "0.2",
+                        "--lockstep", plan});
+  std::map<std::uint64_t, Frame> seen;
+  EXPECT_TRUE(eventually(
+      [&] {
+        if (auto frame = newest_frame(*session, seen.empty() ? 0 : seen.rbegin()->first))
+          seen.emplace(frame->about.id, std::move(*frame));
+        return !set.runs("display");
+      },
+      120.0));
+  for (const auto* role : {"flight", "input", "state", "model", "display"})
+    EXPECT_EQ(set.wait(role), 0) << set.log_of(role);
+  auto last = newest_frame(*session);
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->about.sim_time_ns, 800 * kTick_ns);
+  EXPECT_GT(lit(rgb_of(last->pixels)), 3000U);
+  seen.insert_or_assign(last->about.id, *last);
+  std::printf("pictures read while it ran: %zu of %lu\n", seen.size(), last->about.id);
+  for (const auto& [id, frame] : seen) {
+    EXPECT_EQ(frame.about.tick, frame.about.sim_time_ns / kTick_ns);
+    std::array<char, 32> name{};
+    std::snprintf(name.data(), name.size(), "frame_%06ld.png", frame.about.sim_time_ns / kEvery_ns);
+    EXPECT_TRUE(rgb_of(frame.pixels) == png_pixels(folder / name.data())) << name.data();
+  }
+
+  const auto in_c = run_tool({YARS_BIN_DIR "/example_show_frame", set.session(), (folder / "shown.ppm").string()});
+  EXPECT_EQ(in_c.code, 0) << in_c.errors;
+  Bytes expected = rgb_of(last->pixels);
+  const std::string head = "P6\n# tick 800\n480 480\n255\n";
+  expected.insert(expected.begin(), head.begin(), head.end());
+  EXPECT_TRUE(file_bytes(folder / "shown.ppm") == expected);
+
+  const auto in_python = run_tool({"python3", "-B", "-c",
+                                   "import sys; sys.path.insert(0, sys.argv[1]); from yars import Session\n"
+                                   "with Session(sys.argv[2], 'test') as session:\n"
+                                   "    frame, pixels = session.newest_frame()\n"
+                                   "    open(sys.argv[3], 'wb').write(pixels); print(frame['tick'], frame['width'])\n",
+                                   YARS_SOURCE_DIR "/examples", set.session(), (folder / "raw").string()});
+  EXPECT_EQ(in_python.output, "800 480\n") << in_python.errors;
+  EXPECT_TRUE(file_bytes(folder / "raw") == last->pixels);
+}
+
+TEST(GlassFrames, OneDisplayOfASessionPublishesAndASecondIsToldWho) {
+  ProcessSet set("frames-second");
+  set.start("display", {"radar-display", "--headless", "--publish"});
+  auto session = Session::open(set.session(), "tester");
+  ASSERT_TRUE(session);
+  ASSERT_TRUE(eventually([&] { return newest_frame(*session).has_value(); }, 20.0)) << set.log_of("display");
+  const auto second = run_program({"radar-display", "--session", set.session(), "--headless", "--publish"});
+  EXPECT_EQ(second.code, 2);
+  EXPECT_NE(second.errors.find("radar-display, pid " + std::to_string(set.pid("display"))), std::string::npos)
+      << second.errors;
+  const auto large =
+      run_program({"radar-display", "--session", set.session(), "--headless", "--publish", "--size", "1025"});
+  EXPECT_EQ(large.code, 2);
+  EXPECT_NE(large.errors.find("--size 1024 or less"), std::string::npos) << large.errors;
+  EXPECT_EQ(run_program({"radar-display", "--session", set.session(), "--headless"}).code, 2);
+  EXPECT_TRUE(set.runs("display"));
+}
+
+// Killed at any moment, many of them while it writes: what is read is whole, ids go up over all its lives, and the
+// newest picture stays.
+TEST(GlassFrames, OfADisplayThatIsKilledAgainAndAgainAreWhole) {
+  ProcessSet set("frames-kill");
+  ASSERT_NO_FATAL_FAILURE(start_live(set));
+  auto session = Session::open(set.session(), "tester");
+  ASSERT_TRUE(session);
+  std::mt19937 random(20);
+  std::uint64_t newest = 0, read = 0;
+  const auto look = [&] {
+    const auto frame = newest_frame(*session, newest);
+    if (!frame) return;
+    EXPECT_GT(frame->about.id, newest);
+    ASSERT_EQ(frame->about.width, 700U);
+    ASSERT_EQ(frame->pixels.size(), 4U * 700U * 700U);
+    for (std::size_t i = 3; i < frame->pixels.size(); i += 4) ASSERT_EQ(frame->pixels[i], 255);
+    newest = frame->about.id;
+    ++read;
+  };
+  for (int life = 0; life < 10; ++life) {
+    set.start("display", {"radar-display", "--headless", "--publish", "--size", "700"});
+    const std::uint64_t least = newest + 1 + random() % 20;
+    ASSERT_TRUE(eventually([&] { return look(), newest >= least; }, 30.0)) << set.log_of("display");
+    EXPECT_TRUE(session->role_is_held(databuffer::Role::glass_frames));
+    set.kill("display", SIGKILL);
+    EXPECT_EQ(set.wait("display"), 128 + SIGKILL);
+    EXPECT_FALSE(session->role_is_held(databuffer::Role::glass_frames));
+    const auto left = newest_frame(*session);
+    ASSERT_TRUE(left) << "the newest picture stays";
+    EXPECT_GE(left->about.id, newest);
+    newest = left->about.id;
+  }
+  std::printf("pictures read: %lu of %lu\n", read, newest);
+}
+
+// What changes is published, what stands still is not.
+TEST(GlassFrames, OfAWindowComeWhenSomethingDrawnHasChanged) {
+  if (!tool_exists("Xvfb")) GTEST_SKIP() << "needs Xvfb (scripts/setup --test)";
+  ProcessSet set("frames-window");
+  set.start_tool("xvfb", {"Xvfb", "-displayfd", "1", "-screen", "0", "800x600x24", "-nolisten", "tcp"});
+  ASSERT_TRUE(eventually([&] { return set.output_of("xvfb").ends_with("\n"); }, 20.0)) << set.log_of("xvfb");
+  auto display = ":" + set.output_of("xvfb");
+  display.pop_back();
+  setenv("DISPLAY", display.c_str(), 1);
+  ASSERT_NO_FATAL_FAILURE(start_live(set));
+  set.start("display", {"radar-display", "--publish", "--size", "500"});
+  unsetenv("DISPLAY");
+  auto session = Session::open(set.session(), "tester");
+  ASSERT_TRUE(session);
+  const auto newest = [&] {
+    return databuffer::greatest_id<shm::PlainAccess>(std::as_const(*session).layout().frames);
+  };
+  ASSERT_TRUE(eventually([&] { return newest() > 30; }, 30.0)) << set.log_of("display");
+  const auto frame = newest_frame(*session);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->about.width, 500U);
+  EXPECT_GT(lit(rgb_of(frame->pixels)), 3000U);
+  ASSERT_EQ(set.yars({"inject", "power stby"}).code, 0);
+  EXPECT_TRUE(eventually(
+      [&] {
+        const std::uint64_t before = newest();
+        const int tick = set.watch()["tick"];
+        return set.wait_until([&](const auto& watch) { return watch["tick"] > tick + 200; }) && newest() == before;
+      },
+      60.0))
+      << "a glass in standby stands still";
+  const std::uint64_t standby = newest();
+  ASSERT_EQ(set.yars({"inject", "pb 4"}).code, 0);
+  EXPECT_TRUE(eventually([&] { return newest() > standby; }, 20.0)) << "its brightness is another one";
+  EXPECT_TRUE(set.runs("display")) << set.log_of("display");
+}
+
+// The host's scene is round it, untouched.
+TEST(GlassFrames, TheGlassInAHostsViewportIsThePublishedPicture) {
+  ProcessSet set("frames-host");
+  ASSERT_NO_FATAL_FAILURE(start_live(set));
+  auto session = Session::open(set.session(), "tester");
+  ASSERT_TRUE(session);
+  ASSERT_EQ(set.yars({"inject", "freeze"}).code, 0);
+  ASSERT_TRUE(set.wait_until([](const auto& watch) { return watch["freeze"] == true; }));
+  // Else the cursor's distance counts on.
+  ASSERT_EQ(set.yars({"sim", "freeze"}).code, 0);
+  set.start("display", {"radar-display", "--headless", "--publish", "--size", "600"});
+  const auto path = set.folder() / "host.png";
+  Bytes inside, outside;
+  const bool same = eventually(
+      [&] {
+        const auto host = run_tool({YARS_BIN_DIR "/example_host_glass", set.session(), path.string(), "0.5"});
+        EXPECT_EQ(host.code, 0) << host.errors;
+        const Bytes scene = png_pixels(path);
+        if (scene.size() != std::size_t{3} * 1280 * 800) return true;
+        inside.clear();
+        for (std::size_t y = 100; y < 700; ++y) {
+          const auto row = scene.begin() + static_cast<std::ptrdiff_t>(3 * (1280 * y + 620));
+          inside.insert(inside.end(), row, row + 1800);
+        }
+        const std::size_t left_of_it = 3 * (1280 * 500 + 619);
+        outside.assign(&scene[left_of_it], &scene[left_of_it] + 3);
+        const auto frame = newest_frame(*session);
+        return frame && rgb_of(frame->pixels) == inside;
+      },
+      30.0);
+  if (const char* keep = std::getenv("YARS_PICTURES"))
+    std::filesystem::copy(path, std::filesystem::path(keep) / "host_glass.png",
+                          std::filesystem::copy_options::overwrite_existing);
+  EXPECT_TRUE(same) << "the newest picture of the display, which stands still";
+  EXPECT_GT(lit(inside), 5000U);
+  EXPECT_EQ(outside, (Bytes{18, 18, 20})) << "the host's panel beside the glass";
+}
+
+}  // namespace
+}  // namespace yars::endtoend
