@@ -31,6 +31,7 @@ StoredSweep placed(const databuffer::Sweep& sweep) {
   stored.ground_track = geo::Bearing::degrees(sweep.ground_track_deg);
   stored.half_width_rad = (right - left).radians() / 2.0;
   stored.range_m = sweep.range_m;
+  stored.scan = sweep.scan;
   return stored;
 }
 
@@ -113,9 +114,11 @@ std::size_t PolarStore::cover_between(double first_key_deg, double last_key_deg)
   auto end = begin;
   while (end != sweeps_.end() && end->azimuth_key_deg <= last_key_deg) ++end;
   const auto count = static_cast<std::size_t>(end - begin);
+  const bool narrowed = std::ranges::any_of(
+      sweeps_, [this](const StoredSweep& sweep) { return !sweep.covered && sweep.scan + 1 < pass_.scan; });
   auto kept = begin;
   for (auto at = begin; at != end; ++at) {
-    if (at->covered && *at->covered != pass_.scan) {
+    if (at->covered && *at->covered != pass_.scan && !narrowed) {
       free_rows_.push_back(at->row);
       continue;
     }

@@ -3,7 +3,8 @@
 // the last, between two, or in the place of those whose middle its wedge covers. Order runs from the direction
 // opposite to the first sweep of a picture.
 // The aircraft flies on, so an equal azimuth is not yet the same ground: a covered sweep lies beneath the newer ones
-// until their scan has swept its ground from kNearShare of its range on, at the latest until the scan after that.
+// until their scan has swept its ground from kNearShare of its range on, at the latest until the scan after that; but
+// while older sweeps stand beside a narrowed scan, what lies between the two stays.
 // Holds kRows sweeps; covered ones make way first, then the oldest. A sweep of another mode or epoch begins a new
 // picture. Blank sweeps carry no video and are ignored, as are wedges that are not 0-45 degrees wide.
 #pragma once
@@ -32,7 +33,8 @@ struct StoredSweep {
   geo::Vector3 near_ecef;              // [m] on the middle line, kNearShare of the range from the apex
   geo::Bearing ground_track;           // at the time
   double half_width_rad = 0.0;
-  double range_m = 0.0;                  // ground range of the far end
+  double range_m = 0.0;  // ground range of the far end
+  std::uint32_t scan = 0;
   std::optional<std::uint32_t> covered;  // the scan whose wedge has covered its azimuth
 };
 

@@ -170,6 +170,22 @@ TEST(PolarStore, ACoveredSweepGoesAtTheLatestWithTheNextScanOverIt) {
   EXPECT_EQ(measured_at_home(store), 0U);
 }
 
+// FULL, then HALF again and again: what FULL saw between HALF's edge and the sweeps that still stand beyond it stays.
+TEST(PolarStore, BesideANarrowedScanNoGapOpensToWhatStandsBeyondIt) {
+  PolarStore store;
+  for (int left = -60; left < 60; ++left) store.insert(flown_north(left, 0.0, 1));
+  for (std::uint32_t scan = 2; scan <= 5; ++scan)
+    for (int left = -25; left < 25; ++left) store.insert(flown_north(left, 200.0 * scan, scan));
+  const auto covered_at_home = [&store] {
+    const auto sweeps = store.by_azimuth();
+    return std::ranges::count_if(sweeps, [](const StoredSweep& sweep) { return sweep.scan == 1 && sweep.covered; });
+  };
+  EXPECT_GE(covered_at_home(), 2) << "one at either edge";
+  for (std::uint32_t scan = 6; scan <= 8; ++scan)
+    for (int left = -60; left < 60; ++left) store.insert(flown_north(left, 200.0 * scan, scan));
+  EXPECT_EQ(covered_at_home(), 0) << "FULL has swept them all again";
+}
+
 TEST(PolarStore, CoveredSweepsMakeWayBeforeThoseInSight) {
   PolarStore store;
   store.insert(flown_north(359.0, 0.0, 1));
