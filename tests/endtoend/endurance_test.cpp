@@ -1,0 +1,226 @@
+// A set that runs on: sim time, flight, memory and sweeps stay what they were. 20 s here; YARS_ENDURANCE_SECONDS=3600
+// with YARS_ENDURANCE_TERRAIN=DIR is the hour (with a display the glass opens its window). Prints what it saw.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <random>
+
+#include "databuffer/flight/source_reader.hpp"
+#include "databuffer/session.hpp"
+#include "lib/geo/geodesic.hpp"
+#include "lib/radar/limits.hpp"
+#include "tests/endtoend/process_set.hpp"
+
+namespace yars::endtoend {
+namespace {
+
+constexpr double kRate = 10.0;       // times real time
+constexpr double kLook_s = 0.25;     // [s] of wall time between looks
+constexpr double kWarmUp = 0.25;     // share of the run after which memory is to stay
+constexpr double kLate_s = 0.5;      // [s] of sim time by which a record may be behind the clock
+constexpr double kOffTheWay_m = 50;  // ticks that a live role skips are one longer step of its flight
+constexpr long kMemoryGrowth_kB = 8192;
+
+const char* setting(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+double run_time_s() {
+  const std::string text = setting("YARS_ENDURANCE_SECONDS");
+  return text.empty() ? 20.0 : std::stod(text);
+}
+
+// What a process holds.
+struct Holdings {
+  long resident_kB = 0;
+  long files = 0;
+  long threads = 0;
+};
+
+Holdings holdings(pid_t pid) {
+  Holdings found;
+  const auto folder = std::filesystem::path("/proc") / std::to_string(pid);
+  std::ifstream status(folder / "status");
+  for (std::string word; status >> word;) {
+    if (word == "VmRSS:") status >> found.resident_kB;
+    if (word == "Threads:") status >> found.threads;
+  }
+  using Folder = std::filesystem::directory_iterator;
+  found.files = std::distance(Folder(folder / "fd"), Folder());
+  return found;
+}
+
+// The same flight as the set's, flown here tick by tick.
+class ExpectedFlight {
+ public:
+  explicit ExpectedFlight(const std::string& source) : source_(databuffer::flight::open_source(source)) {}
+  // [m] from where the aircraft has to be at that tick; ticks do not go back.
+  double distance_m(std::int64_t tick, const databuffer::Ownship& seen) {
+    const auto one = geo::Duration::seconds(radar::kTickSeconds);
+    for (; tick_ < tick; ++tick_) source_->model->step(one);
+    const auto own = source_->model->step({}).ownship;
+    return geo::geodesic_inverse({own.latitude_deg, own.longitude_deg}, {seen.latitude_deg, seen.longitude_deg})
+        .distance.metres();
+  }
+
+ private:
+  failure::Expected<databuffer::flight::FlightSource> source_;
+  std::int64_t tick_ = 0;
+};
+
+struct Role {
+  std::string name;
+  Holdings warm{};
+  Holdings last{};
+  long most_kB = 0;
+};
+
+class Endurance : public ::testing::Test {
+ protected:
+  Endurance() : set_("endurance") {}
+
+  std::string terrain() {
+    if (const std::string given = setting("YARS_ENDURANCE_TERRAIN"); !given.empty()) return given;
+    const auto folder = set_.folder() / "terrain";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "N37W123.hgt") << "";
+    std::filesystem::resize_file(folder / "N37W123.hgt", std::size_t{1201} * 1201 * 2);
+    return folder.string();
+  }
+
+  void start() {
+    set_.start("state-machine", {"state-machine"});
+    set_.start("radar-model", {"radar-model", "--terrain", terrain()});
+    set_.start("flight-model", {"flight-model", "--source", source_});
+    set_.start("recorder", {"yars", "record", (set_.folder() / "recording").string()});
+    std::vector<std::string> glass{"radar-display"};
+    if (std::string(setting("DISPLAY")).empty())
+      glass.insert(glass.end(), {"--headless", "--frames", (set_.folder() / "frames").string(), "--every", "10"});
+    set_.start("radar-display", glass);
+    for (const auto* name : {"state-machine", "radar-model", "flight-model", "recorder", "radar-display"})
+      roles_.push_back({.name = name});
+    ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() >= 5; }));
+    ASSERT_EQ(set_.yars({"inject", "power opr"}).code, 0);
+    ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["sweeps"] > 50; })) << set_.watch().dump();
+    ASSERT_EQ(set_.yars({"sim", "rate", "10"}).code, 0);
+    ASSERT_EQ(set_.yars({"sim", "reset"}).code, 0);
+    auto session = databuffer::Session::open_read_only(set_.session());
+    ASSERT_TRUE(session) << session.error().message();
+    session_.emplace(std::move(*session));
+  }
+
+  // What a pilot does now and then; the seed makes it the same each time.
+  void press_something() {
+    static constexpr std::array kPresses{"pb 13", "pb 14", "pb 9", "elevation -2", "elevation -4", "pb 3", "pb 4"};
+    const auto* press = kPresses[std::uniform_int_distribution<std::size_t>(0, kPresses.size() - 1)(random_)];
+    EXPECT_EQ(set_.yars({"inject", press}).code, 0) << press;
+  }
+
+  void look_at_roles(bool warm) {
+    for (Role& role : roles_) {
+      role.last = holdings(set_.pid(role.name));
+      role.most_kB = std::max(role.most_kB, role.last.resident_kB);
+      if (!warm)
+        role.warm = {std::max(role.warm.resident_kB, role.last.resident_kB), role.last.files, role.last.threads};
+    }
+  }
+
+  // Sim time and place against what they have to be.
+  void look_at_flight(ExpectedFlight& flight) {
+    databuffer::ModelStatus model{};
+    const auto& layout = std::as_const(*session_).layout();
+    const auto clock = session_->clock();
+    const auto now_ns = databuffer::monotonic_ns();
+    if (!layout.model_status.read(model) || model.epoch != clock.epoch || model.ownship.epoch != clock.epoch) return;
+    if (!first_) first_ = Moment{.wall_ns = now_ns, .sim_ns = databuffer::sim_time_at(clock, now_ns)};
+    const double wall_s = 1e-9 * static_cast<double>(now_ns - first_->wall_ns);
+    const double sim_s = 1e-9 * static_cast<double>(databuffer::sim_time_at(clock, now_ns) - first_->sim_ns);
+    clock_drift_s_ = std::max(clock_drift_s_, std::abs(sim_s - kRate * wall_s));
+    latest_s_ = 1e-9 * static_cast<double>(databuffer::sim_time_at(clock, now_ns) - model.ownship.source_time_ns);
+    behind_s_ = std::max(behind_s_, latest_s_);
+    const auto tick = std::llround(1e-9 * static_cast<double>(model.ownship.source_time_ns) / radar::kTickSeconds);
+    const double off_m = flight.distance_m(tick, model.ownship);
+    if (!first_off_m_) first_off_m_ = off_m;
+    most_off_m_ = std::max(most_off_m_, off_m);
+    late_ticks_ = model.late_ticks;
+    sweeps_ = model.sweeps;
+  }
+
+  std::uint64_t losses() const {
+    return session_->layout().note_counts[static_cast<std::size_t>(databuffer::NoteKind::loss)].load();
+  }
+
+  void print(double wall_s) const {
+    std::cout << std::fixed << "after " << wall_s << " s at " << kRate << " times real time: " << sweeps_
+              << " sweeps, losses " << losses() << ", late ticks " << late_ticks_
+              << "; sim time off its rate by at most " << clock_drift_s_ << " s; records behind by at most "
+              << behind_s_ << " s; place off the flight by " << first_off_m_.value_or(0.0) << " m at first, at most "
+              << most_off_m_ << " m\n";
+    for (const Role& role : roles_)
+      std::cout << "  " << role.name << ": " << role.warm.resident_kB << " kB warm, " << role.last.resident_kB
+                << " kB now, most " << role.most_kB << " kB; files " << role.warm.files << " -> " << role.last.files
+                << "; threads " << role.warm.threads << " -> " << role.last.threads << "\n";
+    std::cout << std::flush;
+  }
+
+  struct Moment {
+    std::int64_t wall_ns;
+    std::int64_t sim_ns;
+  };
+
+  ProcessSet set_;
+  std::string source_ = "route:" YARS_SOURCE_DIR "/config/routes/california.route";
+  std::vector<Role> roles_;
+  std::optional<databuffer::Session> session_;
+  std::mt19937 random_{20261122};
+  std::optional<Moment> first_;
+  std::optional<double> first_off_m_;
+  double clock_drift_s_ = 0.0;
+  double behind_s_ = 0.0;
+  double latest_s_ = 0.0;
+  double most_off_m_ = 0.0;
+  std::uint64_t late_ticks_ = 0;
+  std::uint64_t sweeps_ = 0;
+};
+
+TEST_F(Endurance, AtTenTimesRealTimeNothingGrowsNothingIsLostAndNothingDrifts) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  ExpectedFlight flight(source_);
+  using Clock = std::chrono::steady_clock;
+  const auto began = Clock::now();
+  const double all_s = run_time_s();
+  double next_press_s = 2.0;
+  double next_print_s = 60.0;
+  for (double wall_s = 0.0; wall_s < all_s; wall_s = std::chrono::duration<double>(Clock::now() - began).count()) {
+    usleep(static_cast<useconds_t>(kLook_s * 1e6));
+    look_at_flight(flight);
+    look_at_roles(wall_s > kWarmUp * all_s);
+    if (wall_s >= next_press_s) press_something(), next_press_s += 2.0;
+    if (wall_s >= next_print_s) print(wall_s), next_print_s += 60.0;
+  }
+  print(all_s);
+  ASSERT_TRUE(first_off_m_) << "the flight was never seen" << set_.watch().dump();
+  EXPECT_GT(sweeps_, static_cast<std::uint64_t>(all_s)) << "it scanned";
+  EXPECT_EQ(losses(), 0U) << set_.yars({"status"}).output;
+  EXPECT_LT(clock_drift_s_, 1e-6);
+  EXPECT_LT(latest_s_, kLate_s);
+  EXPECT_LT(most_off_m_, kOffTheWay_m);
+  for (const Role& role : roles_) {
+    SCOPED_TRACE(role.name);
+    EXPECT_LE(role.last.resident_kB, role.warm.resident_kB + kMemoryGrowth_kB);
+    EXPECT_EQ(role.last.files, role.warm.files);
+    EXPECT_EQ(role.last.threads, role.warm.threads);
+  }
+  for (const auto& [role, code] : set_.end_all()) EXPECT_EQ(code, 0) << role << ": " << set_.log_of(role);
+}
+
+}  // namespace
+}  // namespace yars::endtoend
