@@ -3,36 +3,52 @@
 set(share ${CMAKE_INSTALL_DATADIR}/yars)
 set(documents ${CMAKE_INSTALL_DATADIR}/doc/yars)
 
-install(FILES ${CMAKE_SOURCE_DIR}/databuffer/yars.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/yars)
-install(DIRECTORY ${CMAKE_SOURCE_DIR}/config/ DESTINATION ${share}/config
+install(FILES ${PROJECT_SOURCE_DIR}/databuffer/yars.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/yars)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/config/ DESTINATION ${share}/config
   FILES_MATCHING PATTERN "*.guf" PATTERN "*.route" PATTERN "*.script")
-install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION ${documents} FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.dot")
-install(FILES ${CMAKE_SOURCE_DIR}/README.md DESTINATION ${documents})
-install(FILES ${CMAKE_SOURCE_DIR}/LICENSE DESTINATION ${documents} RENAME copyright)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${documents} FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.dot")
+install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${documents})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${documents} RENAME copyright)
+
+# The start script: installed it finds the programs beside it.
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/start DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-start)
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/supervise DESTINATION libexec/yars)
+
+# Units of the user's systemd, for the installed start script.
+foreach(unit yars.service yars@.service)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/systemd/${unit})
+  file(READ ${PROJECT_SOURCE_DIR}/systemd/${unit} text)
+  string(REPLACE "\"$$YARS_HOME/scripts/start\"" "yars-start" text "${text}")
+  string(REPLACE "# Where the checkout lies, built once by scripts/start; with its default options.\nEnvironment=YARS_HOME=%h/yars YARS_OPTIONS=" "Environment=YARS_OPTIONS=" text "${text}")
+  string(REPLACE "# Options, YARS_HOME and YARS_BIN_DIR of this machine." "# Options of this machine." text "${text}")
+  string(REPLACE "scripts/start" "yars-start" text "${text}")
+  file(WRITE ${PROJECT_BINARY_DIR}/install/systemd/${unit} "${text}")
+endforeach()
+install(DIRECTORY ${PROJECT_BINARY_DIR}/install/systemd/ DESTINATION lib/systemd/user)
 
 # Examples in C name the header as it is installed.
-file(GLOB examples CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/examples/*.c ${CMAKE_SOURCE_DIR}/examples/*.py)
+file(GLOB examples CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/*.c ${PROJECT_SOURCE_DIR}/examples/*.py)
 foreach(example IN LISTS examples)
   get_filename_component(name ${example} NAME)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${example})
   file(READ ${example} text)
   string(REPLACE "\"databuffer/yars.h\"" "<yars/yars.h>" text "${text}")
   string(REPLACE "-I. examples/" "" text "${text}")
-  file(WRITE ${CMAKE_BINARY_DIR}/install/examples/${name} "${text}")
+  file(WRITE ${PROJECT_BINARY_DIR}/install/examples/${name} "${text}")
 endforeach()
-install(DIRECTORY ${CMAKE_BINARY_DIR}/install/examples DESTINATION ${documents})
+install(DIRECTORY ${PROJECT_BINARY_DIR}/install/examples DESTINATION ${documents})
 
 # compressed(SOURCE NAME DESTINATION): a file as man and Debian want it.
 function(compressed source name destination)
-  set(packed ${CMAKE_BINARY_DIR}/install/${name}.gz)
+  set(packed ${PROJECT_BINARY_DIR}/install/${name}.gz)
   add_custom_command(OUTPUT ${packed} COMMAND gzip --best --no-name --stdout ${source} > ${packed} DEPENDS ${source} VERBATIM)
   set_property(GLOBAL APPEND PROPERTY YARS_COMPRESSED ${packed})
   install(FILES ${packed} DESTINATION ${destination})
 endfunction()
-file(GLOB pages CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/man/*.[15])
+file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/man/*.[15])
 foreach(page IN LISTS pages)
   get_filename_component(name ${page} NAME)
   string(REGEX MATCH "[0-9]$" section ${name})
   compressed(${page} ${name} ${CMAKE_INSTALL_MANDIR}/man${section})
 endforeach()
-compressed(${CMAKE_SOURCE_DIR}/CHANGELOG.md changelog ${documents})
+compressed(${PROJECT_SOURCE_DIR}/CHANGELOG.md changelog ${documents})

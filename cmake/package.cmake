@@ -16,9 +16,8 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 # What the programs are linked with, and what they open when the glass is drawn.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS libgl1)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libgl1, python3:any")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libgl1-mesa-dri")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
@@ -26,9 +25,9 @@ include(CPack)
 
 # The changes of the package, beside those of the program. The day is that of the build, or of SOURCE_DATE_EPOCH.
 string(TIMESTAMP day "%a, %d %b %Y 00:00:00 +0000" UTC)
-file(WRITE ${CMAKE_BINARY_DIR}/install/changelog_of_package
+file(WRITE ${PROJECT_BINARY_DIR}/install/changelog_of_package
   "yars (${PROJECT_VERSION}-1) unstable; urgency=medium\n\n  * Made by CPack from YARS ${PROJECT_VERSION}.\n\n -- ${CPACK_PACKAGE_CONTACT}  ${day}\n")
-compressed(${CMAKE_BINARY_DIR}/install/changelog_of_package changelog.Debian ${documents})
+compressed(${PROJECT_BINARY_DIR}/install/changelog_of_package changelog.Debian ${documents})
 
 get_property(packed GLOBAL PROPERTY YARS_COMPRESSED)
 add_custom_target(compressed_documents ALL DEPENDS ${packed})

@@ -6,6 +6,7 @@
 
 #include "databuffer/bridges/surface_traffic.hpp"
 #include "databuffer/log.hpp"
+#include "databuffer/publish_flight.hpp"
 #include "databuffer/records/validation.hpp"
 
 namespace yars::databuffer {
@@ -124,13 +125,8 @@ void BridgeShell::tell_presence(bool heard) {
   log_warning(line);
 }
 
-void BridgeShell::publish(const TickLoop::Due& due, flight::FlightSample sample) {
-  sample.ownship.source_time_ns = sample.nav.source_time_ns = due.sim_time_ns;
-  sample.ownship.epoch = sample.nav.epoch = due.clock.epoch;
-  SessionLayout& layout = session_->layout();
-  // Nav first: whoever sees the new ownship finds the nav that goes with it.
-  layout.nav[lane_].publish(sample.nav);
-  layout.ownship[lane_].publish(sample.ownship);
+void BridgeShell::publish(const TickLoop::Due& due, const flight::FlightSample& sample) {
+  publish_flight(session_->layout(), lane_, due, sample);
   next_publish_tick_ = due.tick + kTicksBetweenRecords;
   place_ = {sample.ownship.latitude_deg, sample.ownship.longitude_deg};
 }

@@ -44,7 +44,7 @@ class BridgeShell {
   void refuse(const std::string& reason, geo::Duration now);
   void tell_losses();
   void tell_presence(bool heard);
-  void publish(const TickLoop::Due& due, flight::FlightSample sample);
+  void publish(const TickLoop::Due& due, const flight::FlightSample& sample);
   void claim_traffic();
   void publish_traffic(const TickLoop::Due& due);
 

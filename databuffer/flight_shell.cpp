@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "databuffer/log.hpp"
+#include "databuffer/publish_flight.hpp"
 #include "databuffer/records/select_ownship.hpp"
 #include "databuffer/records/validation.hpp"
 
@@ -31,7 +32,9 @@ void FlightShell::step(const TickLoop::Due& due) {
   const flight::FlightSample sample = source_.model->step(time_since_last(due));
   started_ = true;
   last_tick_ = due.tick;
-  if (publishes) publish(due, sample);
+  if (!publishes) return;
+  publish_flight(session_->layout(), lane_, due, sample);
+  last_published_tick_ = due.tick;
 }
 
 // A new epoch's time has nothing to do with the one before; ticks that were skipped are flown all the same.
@@ -96,16 +99,6 @@ bool FlightShell::resume(const TickLoop::Due& due) {
   session_->note(NoteKind::restart, "flight-model resumes");
   log_info("resumes where its predecessor was");
   return true;
-}
-
-void FlightShell::publish(const TickLoop::Due& due, flight::FlightSample sample) {
-  sample.ownship.source_time_ns = sample.nav.source_time_ns = due.sim_time_ns;
-  sample.ownship.epoch = sample.nav.epoch = due.clock.epoch;
-  SessionLayout& layout = session_->layout();
-  // Nav first: whoever sees the new ownship finds the nav that goes with it.
-  layout.nav[lane_].publish(sample.nav);
-  layout.ownship[lane_].publish(sample.ownship);
-  last_published_tick_ = due.tick;
 }
 
 }  // namespace yars::databuffer

@@ -23,7 +23,6 @@ class FlightShell {
   void stand_by(const TickLoop::Due& due);
   // Goes on where a flight model of the same source died a moment ago: the radar's status still shows it there.
   bool resume(const TickLoop::Due& due);
-  void publish(const TickLoop::Due& due, flight::FlightSample sample);
 
   Session* session_;
   flight::FlightSource source_;

@@ -325,6 +325,10 @@ Expected<Claim> Session::claim_input_lane(std::string_view source) {
 bool Session::role_is_held(Role role) const {
   return state_->segment->is_locked(static_cast<std::size_t>(role));
 }
+
+std::int32_t Session::role_holder(Role role) const {
+  return role_is_held(role) ? state_->segment->holder_pid(static_cast<std::size_t>(role)) : 0;
+}
 bool Session::ownship_lane_is_held(std::size_t lane) const {
   YARS_REQUIRE(lane, <, kOwnshipLanes);
   return state_->segment->is_locked(kFirstOwnshipByte + lane);

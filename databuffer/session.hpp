@@ -80,7 +80,8 @@ class Session {
   failure::Expected<Claim> claim_ownship_lane(std::uint32_t priority);  // higher wins; clears what a dead writer left
   failure::Expected<Claim> claim_input_lane(std::string_view source);
 
-  bool role_is_held(Role role) const;  // by any process, this one included
+  bool role_is_held(Role role) const;         // by any process, this one included
+  std::int32_t role_holder(Role role) const;  // its pid; 0 = nobody holds it
   bool ownship_lane_is_held(std::size_t lane) const;
   bool input_lane_is_held(std::size_t lane) const;
   std::vector<ProcessHere> processes() const;  // who takes part, dead entries left out

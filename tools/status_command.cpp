@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "databuffer/frame_pool.hpp"
 #include "databuffer/layout_json.hpp"
 #include "databuffer/records/plain_text.hpp"
 #include "databuffer/session.hpp"
@@ -65,6 +66,19 @@ ordered_json recorder_json(const databuffer::Session& session) {
           {"problem", problem.empty() ? ordered_json(nullptr) : ordered_json(problem)}};
 }
 
+// Null when nobody publishes them and nobody has.
+ordered_json frames_json(const databuffer::Session& session) {
+  const std::int32_t publisher = session.role_holder(databuffer::Role::glass_frames);
+  databuffer::GlassFrame newest{};
+  std::vector<std::uint8_t> pixels;
+  databuffer::read_newest_frame(session.layout(), 0, newest, pixels);
+  if (publisher == 0 && newest.id == 0) return nullptr;
+  return {{"publisher", publisher == 0 ? ordered_json(nullptr) : ordered_json(publisher)},
+          {"newest", newest.id},
+          {"width", newest.width},
+          {"height", newest.height}};
+}
+
 ordered_json status_object(const databuffer::Session& session, const std::string& name) {
   databuffer::ModelStatus model{};
   session.layout().model_status.read(model);
@@ -77,6 +91,7 @@ ordered_json status_object(const databuffer::Session& session, const std::string
                      {"terrain_bytes", model.terrain_bytes},
                      {"posts_pending", model.posts_pending}};
   object["recorder"] = recorder_json(session);
+  object["glass_frames"] = frames_json(session);
   object["ownship_lanes"] = lanes_json(session.layout());
   ordered_json counts = ordered_json::object();
   for (std::size_t kind = 0; kind < databuffer::kNoteKinds; ++kind)

@@ -92,6 +92,15 @@ void print_radar(const ordered_json& status) {
   std::printf("\n");
 }
 
+void print_frames(const ordered_json& frames) {
+  if (frames.is_null()) return;
+  const auto& pid = frames["publisher"];
+  std::printf("frames of the glass: %s, newest %llu, %u x %u pixels\n",
+              pid.is_null() ? "nobody publishes" : ("pid " + std::to_string(pid.get<int>()) + " publishes").c_str(),
+              static_cast<unsigned long long>(frames["newest"].get<std::uint64_t>()), frames["width"].get<unsigned>(),
+              frames["height"].get<unsigned>());
+}
+
 void print_notes(const ordered_json& status) {
   std::printf("flight recorder:");
   const char* separator = " ";
@@ -113,6 +122,7 @@ void print_status(const ordered_json& status, const std::map<int, double>& loads
   print_roles(status["roles"], loads);
   print_ownship(status);
   print_radar(status);
+  print_frames(status["glass_frames"]);
   print_notes(status);
 }
 

@@ -26,7 +26,11 @@ constexpr double kLook_s = 0.25;     // [s] of wall time between looks
 constexpr double kWarmUp = 0.25;     // share of the run after which memory is to stay
 constexpr double kLate_s = 0.5;      // [s] of sim time by which a record may be behind the clock
 constexpr double kOffTheWay_m = 50;  // ticks that a live role skips are one longer step of its flight
+#ifdef __SANITIZE_ADDRESS__
+constexpr long kMemoryGrowth_kB = 512 * 1024;  // the sanitizer keeps freed memory, up to 256 MB
+#else
 constexpr long kMemoryGrowth_kB = 8192;
+#endif
 
 const char* setting(const char* name) {
   const char* value = std::getenv(name);
