@@ -2,11 +2,13 @@
 // triangles. With Embree 3: the same visibility by its packets in the same run (`of_embree`: against the whole map;
 // `visibility_of_embree`: against the stages that find it, scene and profile).
 // With --threads: two threads of one map against two maps of one thread each at the same time, by the clock.
-// Usage: patch_benchmark DIRECTORY LAT LON [--threads] [TRIANGLES ...] - a directory of DTED or HGT cells, a place in
-// it.
+// With --database: over the number of towns in memory, the window upon the first of them.
+// Usage: patch_benchmark DIRECTORY LAT LON [--threads] [TRIANGLES ...] | --database [TOWNS ...] - a directory of DTED
+// or HGT cells, a place in it.
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -33,19 +35,39 @@ constexpr int kRounds = 15;
 constexpr double kWindow_nm = 0.67;
 constexpr double kRange_nm = 10.0;
 
-model::scene::SceneViewPointer town_of(std::uint64_t triangles, geo::GeoPoint place,
-                                       const model::terrain::TerrainView& ground) {
+// A town at each of the places.
+model::scene::SceneViewPointer towns_of(std::uint64_t triangles, const std::vector<geo::GeoPoint>& places,
+                                        const model::terrain::TerrainView& ground) {
   using namespace model::scene;
-  const GeneratedScene made = generate_scene({GeneratedKind::town, triangles, 1, place});
+  const GeneratedScene made = generate_scene({GeneratedKind::town, triangles, 1, places.front()});
   const auto model = read_openflight(made.file, "town", {});
   if (!model) {
     std::fprintf(stderr, "patch_benchmark: %s\n", model.error().message().c_str());
     std::exit(1);
   }
   KindTable kinds;
-  auto placed = std::make_shared<PlacedScene>(place_model(*model, {place}, ground, 0, kinds));
-  std::vector<SceneObject> objects = placed->objects;
-  return std::make_shared<PlacedView>(1, std::vector<PlacedView::Part>{{placed, 0}}, kinds.kinds(), std::move(objects));
+  std::vector<PlacedView::Part> parts;
+  std::vector<SceneObject> objects;
+  for (const geo::GeoPoint place : places) {
+    auto placed = std::make_shared<PlacedScene>(place_model(*model, {place}, ground, 0, kinds));
+    parts.push_back({placed, static_cast<std::uint32_t>(objects.size())});
+    objects.insert(objects.end(), placed->objects.begin(), placed->objects.end());
+  }
+  return std::make_shared<PlacedView>(1, std::move(parts), kinds.kinds(), std::move(objects));
+}
+
+// The place, and others round it on a grid, nearest first.
+std::vector<geo::GeoPoint> places_round(geo::GeoPoint middle, std::size_t count) {
+  constexpr double kApart_m = 3000.0;
+  std::vector<geo::GeoPoint> places{middle};
+  for (int ring = 1; places.size() < count; ++ring)
+    for (int north = -ring; north <= ring; ++north)
+      for (int east = -ring; east <= ring && places.size() < count; ++east) {
+        if (std::max(std::abs(north), std::abs(east)) != ring) continue;
+        const auto way = geo::Bearing::radians(std::atan2(east, north));
+        places.push_back(geo::geodesic_direct(middle, way, geo::Length::metres(kApart_m * std::hypot(north, east))));
+      }
+  return places;
 }
 
 hrm::PatchOrder order_about(geo::GeoPoint place) {
@@ -86,7 +108,7 @@ void measure(model::terrain::TerrainStore& store, geo::GeoPoint place, std::uint
   const hrm::PatchOrder order = order_about(place);
   process.begin(order);
   const auto ground = store.prepare({place, geo::Length::nautical_miles(1.5 * kRange_nm).metres(), 0});
-  const hrm::PatchDatabase database{ground, ground, town_of(triangles, place, *ground)};
+  const hrm::PatchDatabase database{ground, ground, towns_of(triangles, {place}, *ground)};
   Times times;
   benchmarks::Visibility visibility;
   const double build_s = visibility.build(order, *database.scene, ground->elevation_m(place), size);
@@ -105,6 +127,21 @@ void measure(model::terrain::TerrainStore& store, geo::GeoPoint place, std::uint
         1e3 * rays_s, 1e3 * build_s, visibility.lit(), rays_s / times.whole_s,
         rays_s / (times.stages_s[1] + times.stages_s[2]));
   std::printf("}\n");
+  std::fflush(stdout);
+}
+
+void measure_database(model::terrain::TerrainStore& store, geo::GeoPoint place, std::size_t towns) {
+  constexpr std::uint64_t kTriangles = 100'000;
+  radar::RadarConfiguration configuration;
+  hrm::PatchProcess process(configuration, {});
+  const hrm::PatchOrder order = order_about(place);
+  const auto ground = store.prepare({place, geo::Length::nautical_miles(3.0 * kRange_nm).metres(), 0});
+  const hrm::PatchDatabase database{ground, ground, towns_of(kTriangles, places_round(place, towns), *ground)};
+  Times times;
+  for (int round = 0; round < kRounds; ++round) run(process, order, database, times);
+  std::printf("{\"size\":%d,\"towns\":%zu,\"resident_mb\":%.0f,\"triangles_near\":%zu,\"kernel_ms\":%.2f}\n",
+              configuration.fidelity.map_size, towns, 1e-6 * static_cast<double>(database.scene->resident_bytes()),
+              process.triangles(), 1e3 * times.whole_s);
   std::fflush(stdout);
 }
 
@@ -136,7 +173,7 @@ void measure_threads(model::terrain::TerrainStore& store, geo::GeoPoint place, s
   for (int i = 0; i < 2; ++i) apart.emplace_back(configuration, hrm::Crew{});
   const hrm::PatchOrder order = order_about(place);
   const auto ground = store.prepare({place, geo::Length::nautical_miles(1.5 * kRange_nm).metres(), 0});
-  const hrm::PatchDatabase database{ground, ground, town_of(triangles, place, *ground)};
+  const hrm::PatchDatabase database{ground, ground, towns_of(triangles, {place}, *ground)};
   std::vector<double> shares;
   for (int round = 0; round < kRounds; ++round) {
     const double one_s = maps_s(together, order, database, kMaps);
@@ -153,7 +190,8 @@ void measure_threads(model::terrain::TerrainStore& store, geo::GeoPoint place, s
 
 int main(int argc, char** argv) {
   if (argc < 4) {
-    std::fprintf(stderr, "usage: patch_benchmark DIRECTORY LAT LON [--threads] [TRIANGLES ...]\n");
+    std::fprintf(stderr,
+                 "usage: patch_benchmark DIRECTORY LAT LON [--threads] [TRIANGLES ...] | --database [TOWNS ...]\n");
     return 2;
   }
   radar::TerrainConfiguration terrain;
@@ -164,12 +202,19 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "patch_benchmark: %s\n", store.error().message().c_str());
     return 1;
   }
-  std::vector<std::uint64_t> triangles{10'000, 100'000, 1'000'000, 4'000'000};
-  const bool threads = argc > 4 && std::string_view(argv[4]) == "--threads";
-  const int first = threads ? 5 : 4;
-  if (argc > first) triangles.clear();
-  for (int i = first; i < argc; ++i) triangles.push_back(std::strtoull(argv[i], nullptr, 10));
-  for (const std::uint64_t count : triangles)
+  const std::string_view what = argc > 4 ? argv[4] : "";
+  const bool threads = what == "--threads";
+  const bool database = what == "--database";
+  std::vector<std::uint64_t> counts{10'000, 100'000, 1'000'000, 4'000'000};
+  if (database) counts = {1, 9, 49, 169};
+  const int first = threads || database ? 5 : 4;
+  if (argc > first) counts.clear();
+  for (int i = first; i < argc; ++i) counts.push_back(std::strtoull(argv[i], nullptr, 10));
+  if (database) {
+    for (const std::uint64_t towns : counts) measure_database(**store, place, towns);
+    return 0;
+  }
+  for (const std::uint64_t count : counts)
     for (const int size : {480, 1024}) (threads ? measure_threads : measure)(**store, place, count, size);
   return 0;
 }
