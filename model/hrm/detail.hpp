@@ -18,6 +18,7 @@ class Detail {
   Detail(double contrast, double pixel_m);
 
   double pixel_m() const { return pixel_m_; }
+  double texel_m() const { return 1.0 / static_cast<double>(texels_per_metre_); }  // half its shortest wave
   // gain[i] *= factor at the place; terrain::kRunSlack entries behind the last may be overwritten.
   void modulate(const terrain::PlaceRun& places, float* gain) const;
 

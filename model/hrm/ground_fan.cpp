@@ -20,6 +20,9 @@ constexpr double kMostPathSamples = 4096.0;
 constexpr int kPathColumns = 5;
 static_assert((kStripColumns - 1) % kPathColumns == 0);
 constexpr float kNoHorizon = -1.0e6F;  // below every ray
+// In the window, where posts are many columns apart, every third or fifth column is read, the first and the last of a
+// strip among them, as far apart as so much of the posts' spacing; what lies between is interpolated.
+constexpr double kPostShare = 0.25;
 
 void join_horizons(float* horizon) {
   for (int lane = 0; lane < kStripColumns; ++lane) {
@@ -77,19 +80,37 @@ std::size_t GroundFan::fill(const PatchOrder& order, const PatchGeometry& geomet
                             const PatchTerrain& terrain, const Detail* detail, int first, int last,
                             const GroundArrays& arrays) {
   make_room(geometry, grid);
+  const int step = column_step(grid, *terrain.window, detail);
   std::size_t pending = 0;
   for (int column = first; column < last; ++column) {
     const geo::Bearing azimuth = geometry.up() + geo::Angle::radians(std::atan(grid.tangent(column)));
     const int lane = column % kStripColumns;
     if (lane % kPathColumns == 0) pending += read_path(geometry, grid, azimuth, *terrain.path, arrays.horizon[column]);
-    pending += read_window(order, geometry, azimuth, *terrain.window, detail, static_cast<std::size_t>(lane));
-    level(geometry, static_cast<std::size_t>(lane));
+    if (lane % step == 0) {
+      pending += read_window(order, geometry, azimuth, *terrain.window, detail, static_cast<std::size_t>(lane));
+      level(geometry, static_cast<std::size_t>(lane));
+    }
     fetch_strip(grid, column, arrays);
     if (lane + 1 < kStripColumns) continue;
+    if (step > 1) fill_between(static_cast<std::size_t>(step));
     put_strip(grid, column / kStripColumns, arrays);
     join_horizons(arrays.horizon + column + 1 - kStripColumns);
   }
   return pending;
+}
+
+// Not where what covers the ground is a matter of one post or another, and never for who takes each column's word.
+int GroundFan::column_step(const FanGrid& grid, const terrain::TerrainView& view, const Detail* detail) const {
+  const radar::Fidelity& fidelity = configuration_.fidelity;
+  const bool smooth = fidelity.algorithm == radar::Algorithm::standard && !view.has_materials() &&
+                      fidelity.interpolation != radar::Interpolation::nearest;
+  if (!smooth) return 1;
+  double farthest_m = kPostShare * view.post_spacing_m();
+  if (detail != nullptr) farthest_m = std::min(farthest_m, detail->texel_m());
+  const double width_m = grid.width_m(0.5 * grid.columns, grid.distance_m(grid.rows - 1));
+  for (const int step : {5, 3})
+    if (step * width_m <= farthest_m) return step;
+  return 1;
 }
 
 // Into the column's place in the strip; the slack behind it is the next one's, who comes later.
@@ -164,6 +185,12 @@ void GroundFan::level(const PatchGeometry& geometry, std::size_t lane) {
     height_m[row] = last_m;
     if (hole) gain[row] = 0.0F;
   }
+}
+
+void GroundFan::fill_between(std::size_t step) {
+  const std::size_t rows = window_->places.count;
+  lanes::fill_between(rows, step, strip_height_.data(), pitch_);
+  lanes::fill_between(rows, step, strip_gain_.data(), pitch_);
 }
 
 // Before a strip is put down its place is fetched, a sixteenth with every column that is read for it.

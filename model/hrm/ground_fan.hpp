@@ -44,12 +44,14 @@ class GroundFan {
     rbm::PlaceArrays places;
     std::vector<float> distance_m, elevation_m, water, peak_m;
   };
+  int column_step(const FanGrid& grid, const terrain::TerrainView& view, const Detail* detail) const;
   void make_room(const PatchGeometry& geometry, const FanGrid& grid);
   std::size_t read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
                           const terrain::TerrainView& view, const Detail* detail, std::size_t lane);
   std::size_t read_path(const PatchGeometry& geometry, const FanGrid& grid, geo::Bearing azimuth,
                         const terrain::TerrainView& view, float& horizon);
   void level(const PatchGeometry& geometry, std::size_t lane);
+  void fill_between(std::size_t step);
   void fetch_strip(const FanGrid& grid, int column, const GroundArrays& arrays) const;
   void put_strip(const FanGrid& grid, int strip, const GroundArrays& arrays) const;
 

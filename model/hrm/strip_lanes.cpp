@@ -14,6 +14,22 @@ namespace yars::model::hrm::lanes::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+void fill_between(std::size_t count, std::size_t step, float* columns, std::size_t pitch) {
+  const hn::CappedTag<float, kStripColumns> d;
+  for (std::size_t first = 0; first + step < kStripColumns; first += step) {
+    const float* const near = columns + first * pitch;
+    const float* const far = near + step * pitch;
+    for (std::size_t off = 1; off < step; ++off) {
+      const auto share = hn::Set(d, static_cast<float>(off) / static_cast<float>(step));
+      float* const between = columns + (first + off) * pitch;
+      for (std::size_t row = 0; row < count; row += hn::Lanes(d)) {
+        const auto here = hn::LoadU(d, near + row);
+        hn::StoreU(hn::Add(here, hn::Mul(share, hn::Sub(hn::LoadU(d, far + row), here))), d, between + row);
+      }
+    }
+  }
+}
+
 #if HWY_TARGET == HWY_SCALAR
 void put_side_by_side(std::size_t count, const float* columns, std::size_t pitch, float* rows) {
   for (std::size_t row = 0; row < count; ++row)
@@ -58,8 +74,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace yars::model::hrm::lanes {
 
+HWY_EXPORT(fill_between);
 HWY_EXPORT(put_side_by_side);
 
+void fill_between(std::size_t count, std::size_t step, float* columns, std::size_t pitch) {
+  HWY_DYNAMIC_DISPATCH(fill_between)(count, step, columns, pitch);
+}
 void put_side_by_side(std::size_t count, const float* columns, std::size_t pitch, float* rows) {
   HWY_DYNAMIC_DISPATCH(put_side_by_side)(count, columns, pitch, rows);
 }

@@ -15,7 +15,16 @@ namespace yars::model::terrain {
 namespace {
 
 constexpr Surface kNothing{std::numeric_limits<double>::quiet_NaN(), 0.0};
-constexpr float kMostTurns = 1.0e6F;  // [deg] of longitude: more is no place, but must not overflow
+constexpr double kMetresPerDegree = 111'000.0;  // about
+constexpr float kMostTurns = 1.0e6F;            // [deg] of longitude: more is no place, but must not overflow
+
+// Where its meridians are closest.
+double spacing_m(const Cell& cell) {
+  const int south_deg = cell.place().south_deg;
+  const double farthest_deg = std::max(std::abs(south_deg), std::abs(south_deg + 1));
+  const double east_deg = std::max(0.0, std::cos(farthest_deg * geo::kRadiansPerDegree)) / (cell.columns() - 1);
+  return kMetresPerDegree * std::min(1.0 / (cell.rows() - 1), east_deg);
+}
 
 }  // namespace
 
@@ -30,6 +39,8 @@ void CellView::set_absence(CellPlace place, Absence absence) {
 void CellView::add(TerrainCell cell) {
   table_[slot_of(cell.heights->place())] = static_cast<std::uint16_t>(kFirstCell + cells_.size());
   resident_bytes_ += cell.heights->bytes();
+  const double posts_m = spacing_m(*cell.heights);
+  post_spacing_m_ = cells_.empty() ? posts_m : std::min(post_spacing_m_, posts_m);
   if (cell.peaks) {
     resident_bytes_ += cell.peaks->bytes();
     has_peaks_ = true;

@@ -43,6 +43,7 @@ class CellView final : public TerrainView {
   Surface surface_at(geo::GeoPoint place, Interpolation interpolation) const override;
   bool serves(int detail) const override { return detail == detail_; }
   bool has_peaks() const override { return has_peaks_; }
+  double post_spacing_m() const override { return post_spacing_m_; }
   bool has_materials() const override { return has_materials_; }
   std::size_t surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const override;
 
@@ -65,6 +66,7 @@ class CellView final : public TerrainView {
   std::uint64_t generation_;
   int detail_;
   std::uint64_t resident_bytes_ = 0;
+  double post_spacing_m_ = 0.0;
   bool has_peaks_ = false;
   bool has_materials_ = false;
   std::vector<TerrainCell> cells_;
