@@ -1,5 +1,6 @@
 #include "display/gl/headless_egl.hpp"
 
+#include <dlfcn.h>
 #include <epoxy/egl.h>
 
 #include <array>
@@ -26,11 +27,22 @@ class HeadlessContext final : public Context {
   EGLSurface surface_;
 };
 
+constexpr const char* kLibrary = "libEGL.so.1";
+constexpr const char* kInstall = "install libegl1 and libgl1-mesa-dri";
+
 failure::Expected<std::unique_ptr<Context>> no_context(const char* step) {
   std::array<char, 16> code{};
   std::snprintf(code.data(), code.size(), "0x%04x", static_cast<unsigned>(eglGetError()));
   return failure::fail("headless display", "OpenGL 3.3 through EGL", std::string(step) + " failed with " + code.data(),
-                       "install libegl1 and libgl1-mesa-dri");
+                       kInstall);
+}
+
+// epoxy ends the program where it cannot open the library; so it is opened here first, and stays.
+failure::Expected<void> open_library() {
+  static const void* const library = dlopen(kLibrary, RTLD_LAZY | RTLD_LOCAL);
+  if (library != nullptr) return {};
+  const char* why = dlerror();
+  return failure::fail("headless display", kLibrary, why != nullptr ? why : "none that can be opened", kInstall);
 }
 
 EGLDisplay initialized(EGLDisplay display) {
@@ -52,6 +64,7 @@ EGLDisplay open_display() {
 }  // namespace
 
 failure::Expected<std::unique_ptr<Context>> open_headless() {
+  if (const auto library = open_library(); !library) return tl::unexpected(library.error());
   const EGLDisplay display = open_display();
   if (display == EGL_NO_DISPLAY) return no_context("eglInitialize");
   if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) return no_context("eglBindAPI(EGL_OPENGL_API)");
