@@ -94,10 +94,11 @@ bool FlightShell::resume(const TickLoop::Due& due) {
   if (every_tick_ || !session_->layout().model_status.read(model) || why_refused(model)) return false;
   const Ownship& last = model.ownship;
   const flight::FlightSample own = source_.model->step({});
-  const std::int64_t gap_ns = due.sim_time_ns - last.source_time_ns;
-  if (std::string_view(own.ownship.source) != last.source || last.epoch != due.clock.epoch || gap_ns < 0 ||
-      gap_ns > kLongestGap_ns)
+  // The stamp is whatever the source wrote: compared before a difference is taken.
+  if (std::string_view(own.ownship.source) != last.source || last.epoch != due.clock.epoch ||
+      last.source_time_ns > due.sim_time_ns || last.source_time_ns < due.sim_time_ns - kLongestGap_ns)
     return false;
+  const std::int64_t gap_ns = due.sim_time_ns - last.source_time_ns;
   if (!source_.model->resume(last, geo::Duration::seconds(1e-9 * static_cast<double>(gap_ns)))) return false;
   session_->note(NoteKind::restart, "flight-model resumes");
   log_info("resumes where its predecessor was");

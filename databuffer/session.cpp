@@ -375,8 +375,9 @@ std::vector<ProcessHere> Session::processes() const {
   for (std::size_t i = 0; i < kProcesses; ++i) {
     const ProcessEntry& entry = layout().processes[i];
     if (entry.pid == 0 || !state_->segment->is_locked(kFirstProcessByte + i)) continue;
-    here.push_back(
-        {entry.pid, shm::load_text(entry.name.data(), entry.name.size()), entry.heartbeat_ns, entry.progress});
+    // A beat yet to come would make who has hung seem alive.
+    const std::int64_t beat_ns = std::clamp<std::int64_t>(entry.heartbeat_ns, 0, monotonic_ns());
+    here.push_back({entry.pid, shm::load_text(entry.name.data(), entry.name.size()), beat_ns, entry.progress});
   }
   return here;
 }

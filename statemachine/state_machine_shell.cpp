@@ -139,8 +139,9 @@ void StateMachineShell::take_events(std::int64_t tick) {
   std::uint64_t too_old = 0;
   const std::int64_t now_ns = drop_old_events_ ? databuffer::monotonic_ns() : 0;
   for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) {
-    while (input.pop(lane, event)) {
-      if (drop_old_events_ && now_ns - event.monotonic_ns > kOldestEvent_ns)
+    // A source that floods its lane holds up no tick: the rest waits for the next.
+    for (std::size_t taken = 0; taken < databuffer::kInputLaneDepth && input.pop(lane, event); ++taken) {
+      if (drop_old_events_ && event.monotonic_ns < now_ns - kOldestEvent_ns)
         ++too_old;
       else
         take(event, lane, tick);

@@ -1,9 +1,11 @@
 #include "tools/status_json.hpp"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
 #include "databuffer/frame_pool.hpp"
+#include "databuffer/records/model_validation.hpp"
 #include "databuffer/records/plain_text.hpp"
 #include "databuffer/records/validation.hpp"
 #include "tools/status_health.hpp"
@@ -23,7 +25,11 @@ std::vector<databuffer::Note> notes_of(const databuffer::SessionLayout& layout) 
   const std::uint64_t total = layout.notes.total();
   databuffer::Note note{};
   for (std::uint64_t i = total > databuffer::kNotes ? total - databuffer::kNotes : 0; i < total; ++i)
-    if (layout.notes.read(i, note)) notes.push_back(note);
+    if (layout.notes.read(i, note)) {
+      // Ages are told: a stamp that lies ahead, or before the machine was started, is none.
+      note.monotonic_ns = std::clamp<std::int64_t>(note.monotonic_ns, 0, databuffer::monotonic_ns());
+      notes.push_back(note);
+    }
   return notes;
 }
 
@@ -35,7 +41,7 @@ ordered_json lanes_json(const databuffer::SessionLayout& layout) {
   ordered_json lanes = ordered_json::array();
   for (std::size_t i = 0; i < databuffer::kOwnshipLanes; ++i) {
     databuffer::Ownship own{};
-    if (!layout.ownship[i].read(own)) continue;
+    if (!layout.ownship[i].read(own) || databuffer::why_refused(own)) continue;
     lanes.push_back({{"lane", i},
                      {"source", databuffer::text_of(own.source)},
                      {"priority", layout.ownship_priority[i].load()},
@@ -72,7 +78,7 @@ ordered_json frames_json(const databuffer::Session& session) {
 
 ordered_json status_json(const databuffer::Session& session, const std::string& name) {
   databuffer::ModelStatus model{};
-  session.layout().model_status.read(model);
+  if (!session.layout().model_status.read(model) || databuffer::why_refused(model)) model = {};
   ordered_json object;
   object["session"] = name;
   object["watch"] = watch_object(session);

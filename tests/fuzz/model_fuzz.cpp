@@ -8,7 +8,6 @@
 #include "databuffer/records/validation.hpp"
 #include "lib/failure/require.hpp"
 #include "model/radar_model_shell.hpp"
-#include "model/terrain/analytic_terrain.hpp"
 #include "tests/fuzz/overlaid_session.hpp"
 #include "model/terrain/open_terrain.hpp"
 
@@ -38,26 +37,24 @@ void require_good(const Refusal& refusal) {
 
 class Model {
  public:
-  explicit Model(const std::string& name)
-      : session_(Session::open(name, "radar-model")), shell_(*session_, configuration(), {terrain(), scenes(), patches()}) {
-    sweeps_ = std::as_const(*session_).layout().sweeps.next();
-    ticks_ = std::as_const(*session_).layout().model_ticks.next();
-  }
+  explicit Model(Session session)
+      : session_(std::move(session)), shell_(session_, configuration(), {terrain(), scenes(), patches()}) {}
 
   // Some ticks each time, so that a sweep comes out.
   void step() {
     constexpr int kTicks = 4;
+    const SessionLayout& layout = std::as_const(session_).layout();
+    std::uint64_t sweeps = layout.sweeps.next(), ticks = layout.model_ticks.next();
     for (int i = 0; i < kTicks; ++i) {
-      const ClockState clock = session_->clock();
-      const std::int64_t tick = session_->sim_time_ns() / radar::kTickNanoseconds + i;
+      const ClockState clock = session_.clock();
+      const std::int64_t tick = session_.sim_time_ns() / radar::kTickNanoseconds + i;
       shell_.step({tick, tick * radar::kTickNanoseconds, clock, 0, false}, 0);
     }
-    const SessionLayout& layout = std::as_const(*session_).layout();
     ModelTick tick{};
-    while (layout.model_ticks.read(ticks_, tick).delivered)
+    while (layout.model_ticks.read(ticks, tick).delivered)
       if ((tick.flags & kTickOwnshipValid) != 0) require_good(why_refused(tick.ownship));
     Sweep sweep{};
-    while (layout.sweeps.read(sweeps_, sweep).delivered) require_good(why_refused(sweep));
+    while (layout.sweeps.read(sweeps, sweep).delivered) require_good(why_refused(sweep));
     ModelStatus status{};
     if (layout.model_status.read(status)) require_good(why_refused(status));
   }
@@ -76,9 +73,8 @@ class Model {
     return maker;
   }
 
-  failure::Expected<Session> session_;
+  Session session_;
   model::RadarModelShell shell_;
-  std::uint64_t sweeps_ = 0, ticks_ = 0;
 };
 
 }  // namespace
@@ -87,8 +83,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static fuzz::OverlaidSession session("fuzz-" + std::to_string(getpid()));
   std::optional<Model> model;
   session.play({data, size}, [&] {
-    if (!model) model.emplace(session.name());
-    model->step();
+    // A session whose clock is none is not entered.
+    if (!model)
+      if (auto opened = Session::open(session.name(), "radar-model")) model.emplace(std::move(*opened));
+    if (model) model->step();
   });
   model.reset();
   session.put_back();

@@ -39,54 +39,56 @@ void require_good(const Refusal& refusal) {
   YARS_REQUIRE(refusal.value_or(""), ==, "");
 }
 
-void require_clock(const ClockState& clock) {
-  require_good(why_refused(clock));
-}
-
 // Everything that lives for a whole conversation: a process of each role.
 class Readers {
  public:
-  explicit Readers(const std::string& name)
-      : session_(Session::open(name, "reader")),
-        machine_(*session_, configuration(), false),
+  Readers(Session session, std::string name)
+      : name_(std::move(name)),
+        session_(std::move(session)),
+        machine_(session_, configuration(), false),
         feed_(
-            *session_, false, [this](const Sweep& sweep) { take(sweep); },
+            session_, false, [this](const Sweep& sweep) { take(sweep); },
             [](const PatchMap& map, std::span<const std::uint8_t> pixels) {
               require_good(why_refused(map));
               YARS_REQUIRE(pixels.size(), ==, patch_pixels(map));
             }),
-        flight_(*session_, *flight::open_source("fixed:36.6,-121.9,20000,0,400"), kFlightLane, false),
+        flight_(session_, *flight::open_source("fixed:36.6,-121.9,20000,0,400"), kFlightLane, false),
         writer_(*tools::recording::RecordingWriter::create("/dev/null", {})),
-        recorder_(*session_, writer_, {true, true}, true) {}
+        recorder_(session_, writer_, {true, true}, true) {}
 
   void step() {
-    const ClockState clock = session_->clock();
-    require_clock(clock);
-    const std::int64_t sim_time_ns = session_->sim_time_ns();
+    const ClockState clock = session_.clock();
+    require_good(why_refused(clock));
+    const std::int64_t sim_time_ns = session_.sim_time_ns();
     YARS_REQUIRE(sim_time_ns, >=, 0);
     const std::int64_t tick = sim_time_ns / radar::kTickNanoseconds;
     const TickLoop::Due due{tick, tick * radar::kTickNanoseconds, clock, 0, epoch_ != clock.epoch};
     epoch_ = clock.epoch;
     receive(due);
     flight_.step(due);
-    Ownship own{};
-    if (std::as_const(*session_).layout().ownship[kFlightLane].read(own)) flown_ = own;
-    machine_.step(due);
-    RadarState state{};
-    if (std::as_const(*session_).layout().radar_state.read(state)) require_good(why_refused(state));
+    think(due);
     show(due.sim_time_ns);
     recorder_.drain(tick);
     look();
   }
 
  private:
+  const SessionLayout& layout() const { return session_.layout(); }
+
+  void think(const TickLoop::Due& due) {
+    const std::uint64_t before = layout().radar_state.version();
+    machine_.step(due);
+    RadarState state{};
+    if (layout().radar_state.version() != before && layout().radar_state.read(state)) require_good(why_refused(state));
+  }
+
   void receive(const TickLoop::Due& due) {
-    const auto& selected = ownship_.refresh(std::as_const(*session_).layout(), due.sim_time_ns, due.clock.epoch);
+    const auto& selected = ownship_.refresh(layout(), due.sim_time_ns, due.clock.epoch);
     if (selected.valid && selected.lane != kNoLane) {
       require_good(why_refused(selected.ownship));
       require_good(why_refused(selected.nav));
     }
-    traffic_.refresh(std::as_const(*session_).layout(), due.tick, due.sim_time_ns, due.clock.epoch);
+    traffic_.refresh(layout(), due.tick, due.sim_time_ns, due.clock.epoch);
     require_good(why_refused(traffic_.latched()));
   }
 
@@ -108,7 +110,7 @@ class Readers {
   }
 
   void look() const {
-    const auto session = Session::open_read_only(name_of_session());
+    const auto session = Session::open_read_only(name_);
     if (!session) return;
     const auto object = tools::status_json(*session, "fuzz");
     (void)object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
@@ -118,9 +120,8 @@ class Readers {
     if (read_newest_frame(session->layout(), 0, frame, pixels)) YARS_REQUIRE(pixels.size(), ==, frame_bytes(frame));
   }
 
-  static std::string name_of_session() { return "fuzz-" + std::to_string(getpid()); }
-
-  failure::Expected<Session> session_;
+  std::string name_;
+  Session session_;
   OwnshipReceiver ownship_;
   TrafficReceiver traffic_;
   statemachine::StateMachineShell machine_;
@@ -131,7 +132,6 @@ class Readers {
   FlightShell flight_;
   tools::recording::RecordingWriter writer_;
   tools::Recorder recorder_;
-  Ownship flown_{};
   std::uint32_t epoch_ = 0;
 };
 
@@ -146,8 +146,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static fuzz::OverlaidSession session("fuzz-" + std::to_string(getpid()));
   std::optional<Readers> readers;
   session.play({data, size}, [&] {
-    if (!readers) readers.emplace(session.name());
-    readers->step();
+    // A session whose clock is none is not entered.
+    if (!readers)
+      if (auto opened = Session::open(session.name(), "reader")) readers.emplace(std::move(*opened), session.name());
+    if (readers) readers->step();
   });
   readers.reset();
   session.put_back();
