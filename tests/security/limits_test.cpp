@@ -60,8 +60,12 @@ TEST_F(Limits, AConfigurationOfMessagesHasTheSameLimits) {
               HasSubstr("200000"));
 }
 
-TEST_F(Limits, AConfigurationHasAtMostAThousandForms) {
-  EXPECT_THAT(refusal_of(config::load_configuration_text(repeated("( Route )", 1001), "a")), HasSubstr("expected"));
+TEST_F(Limits, AConfigurationDefinesAtMostAThousandForms) {
+  std::string forms;
+  for (int i = 0; i < 1000; ++i) forms += "( def-form Mine" + std::to_string(i) + " is= Terrain )\n";
+  EXPECT_TRUE(config::load_configuration_text(forms, "a"));
+  forms += "( def-form Last is= Terrain )";
+  EXPECT_THAT(refusal_of(config::load_configuration_text(forms, "a")), HasSubstr("at most 1000 forms defined"));
 }
 
 TEST_F(Limits, DevicesAndTheirControlsAreCounted) {

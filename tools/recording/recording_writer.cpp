@@ -21,7 +21,7 @@ int open_private(const std::filesystem::path& path) {
                      (!S_ISREG(status.st_mode) || fchmod(descriptor, 0600) == 0);  // a device keeps its rights
   if (ready) return descriptor;
   const int problem = errno;
-  close(descriptor);
+  ::close(descriptor);
   errno = problem;
   return -1;
 }
@@ -39,7 +39,7 @@ failure::Expected<RecordingWriter> RecordingWriter::create(const std::filesystem
   const int descriptor = open_private(path);
   if (descriptor >= 0) writer.file_.open("/proc/self/fd/" + std::to_string(descriptor), std::ios::binary);
   const int problem = errno;
-  if (descriptor >= 0) close(descriptor);
+  if (descriptor >= 0) ::close(descriptor);
   if (!writer.file_.is_open())
     return failure::fail(path.string(), "a file that can be written", std::strerror(problem),
                          problem == ELOOP ? "it is a link: name the file that it leads to, or remove it"
