@@ -182,7 +182,7 @@ struct Session::State {
   bool had_name = true;
   std::mutex clock_mutex;  // of this process's threads only
   shm::LatestReader<ClockState> clock;
-  ClockState good_clock{};              // the last one that is in range
+  ClockState good_clock{};  // the last one that is in range
 };
 
 // Published before the segment had a name, and changed seldom: as a rule the first look finds it.

@@ -7,14 +7,14 @@ namespace yars::databuffer {
 
 namespace {
 
-constexpr double kHighest = 200'000.0;             // [m] of an aircraft
+constexpr double kHighest = 200'000.0;                // [m] of an aircraft
 constexpr double kFarthest = 1852.0 * kLargestRange;  // [m]
-constexpr double kLatest_ns = 0x1p62;              // [ns] 146 years of sim time: sums of two still fit
+constexpr double kLatest_ns = 0x1p62;                 // [ns] 146 years of sim time: sums of two still fit
 constexpr double kLatestTick = kLatest_ns / radar::kTickNanoseconds;
-constexpr double kLongestTimer = 1e6;  // [s]
+constexpr double kLongestTimer = 1e6;      // [s]
 constexpr double kFastestScan = 10'000.0;  // [deg/s]
-constexpr int kPhases = 4;             // antenna::Phase, the last
-constexpr int kModes = 7;              // radar::Mode, the last
+constexpr int kPhases = 4;                 // antenna::Phase, the last
+constexpr int kModes = 7;                  // radar::Mode, the last
 constexpr int kFullGain = 3;
 
 void inspect_surroundings(Inspection& inspection, const ModelStatus& status) {

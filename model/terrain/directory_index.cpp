@@ -5,8 +5,8 @@
 #include <tuple>
 #include <utility>
 
-#include "model/terrain/ded_reader.hpp"
 #include "model/terrain/culture_tile.hpp"
+#include "model/terrain/ded_reader.hpp"
 #include "model/terrain/dted_format.hpp"
 #include "model/terrain/gdal/raster.hpp"
 #include "model/terrain/hgt_reader.hpp"

@@ -1,6 +1,6 @@
-#include "databuffer/yars.h"
-
 #include "tests/fuzz/attaching_client.h"
+
+#include "databuffer/yars.h"
 
 int attach_as_a_client(const char* session_name) {
   yars_session session;

@@ -5,6 +5,7 @@
 #ifdef __cplusplus
 extern "C"
 #endif
-int attach_as_a_client(const char* session_name);
+    int
+    attach_as_a_client(const char* session_name);
 
 #endif

@@ -8,8 +8,8 @@
 #include "databuffer/records/validation.hpp"
 #include "lib/failure/require.hpp"
 #include "model/radar_model_shell.hpp"
-#include "tests/fuzz/overlaid_session.hpp"
 #include "model/terrain/open_terrain.hpp"
+#include "tests/fuzz/overlaid_session.hpp"
 
 namespace {
 

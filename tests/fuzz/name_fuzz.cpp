@@ -19,9 +19,9 @@ void require_place(double latitude_deg, double longitude_deg) {
 
 // A name that a session may not have opens no file, whatever stands in it.
 void try_session(const std::string& name) {
-  const bool plain = !name.empty() && name.size() <= 40 &&
-                     name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_") ==
-                         std::string::npos;
+  const bool plain =
+      !name.empty() && name.size() <= 40 &&
+      name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_") == std::string::npos;
   if (plain) return;
   YARS_REQUIRE(databuffer::Session::open(name, "fuzz").has_value(), ==, false);
   YARS_REQUIRE(databuffer::Session::open_read_only(name).has_value(), ==, false);

@@ -158,21 +158,35 @@ void OverlaidSession::publish(std::size_t what, std::size_t offset, std::span<co
   const auto ring = [this](auto& into, const auto& record) {
     using Ring = std::remove_cvref_t<decltype(into)>;
     const auto at = static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&into) - memory());
-    remember(at + Ring::slots_offset() + into.publish(record) % Ring::kDepth * Ring::slot_stride(), Ring::slot_stride());
+    remember(at + Ring::slots_offset() + into.publish(record) % Ring::kDepth * Ring::slot_stride(),
+             Ring::slot_stride());
   };
   switch (what % kKinds) {
-    case 0: return to.clock.publish(with(records_.clock));
-    case 1: return to.ownship[lane].publish(with(records_.ownship[lane]));
-    case 2: return to.nav[lane].publish(with(records_.nav[lane]));
-    case 3: return to.radar_state.publish(with(records_.state));
-    case 4: return to.model_status.publish(with(records_.status));
-    case 5: return to.outputs.publish(with(records_.outputs));
-    case 6: return to.recorder_status.publish(with(records_.recorder));
-    case 7: return ring(to.model_ticks, with(records_.tick));
-    case 8: return ring(to.applied_events, with(records_.applied));
-    case 9: return ring(to.sweeps, with(records_.sweep));
-    case 10: to.input.push(lane, with(records_.event)); break;
-    case 11: return to.traffic.publish(with(records_.traffic));
+    case 0:
+      return to.clock.publish(with(records_.clock));
+    case 1:
+      return to.ownship[lane].publish(with(records_.ownship[lane]));
+    case 2:
+      return to.nav[lane].publish(with(records_.nav[lane]));
+    case 3:
+      return to.radar_state.publish(with(records_.state));
+    case 4:
+      return to.model_status.publish(with(records_.status));
+    case 5:
+      return to.outputs.publish(with(records_.outputs));
+    case 6:
+      return to.recorder_status.publish(with(records_.recorder));
+    case 7:
+      return ring(to.model_ticks, with(records_.tick));
+    case 8:
+      return ring(to.applied_events, with(records_.applied));
+    case 9:
+      return ring(to.sweeps, with(records_.sweep));
+    case 10:
+      to.input.push(lane, with(records_.event));
+      break;
+    case 11:
+      return to.traffic.publish(with(records_.traffic));
     case 12: {
       static const std::vector<std::uint8_t> pixels(kMostPatchPixels * kMostPatchPixels, 128);
       // In place of what an earlier piece put there under the same id.
@@ -184,7 +198,9 @@ void OverlaidSession::publish(std::size_t what, std::size_t offset, std::span<co
       publish_frame(to, with(records_.frame), pixels);
       break;
     }
-    default: to.notes.append(with(records_.note)); break;
+    default:
+      to.notes.append(with(records_.note));
+      break;
   }
 }
 

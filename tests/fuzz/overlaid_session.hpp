@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "databuffer/patch_pool.hpp"
 #include "databuffer/frame_pool.hpp"
+#include "databuffer/patch_pool.hpp"
 #include "databuffer/session.hpp"
 
 namespace yars::fuzz {

@@ -1,8 +1,6 @@
 // Any bytes at the begin of a file where a session's segment lies, of any length: a program attaches if, and only if,
-// every number of the header is its own and the file holds what they promise; by shm::Segment, by Session and by yars.h.
-// Input: length in KiB (two bytes), how (one byte), then the header; how's lowest bit: over a good header.
-#include "tests/fuzz/attaching_client.h"
-
+// every number of the header is its own and the file holds what they promise; by shm::Segment, by Session and by
+// yars.h. Input: length in KiB (two bytes), how (one byte), then the header; how's lowest bit: over a good header.
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/mman.h>
@@ -18,6 +16,7 @@
 #include "databuffer/session.hpp"
 #include "lib/failure/require.hpp"
 #include "shm/segment.hpp"
+#include "tests/fuzz/attaching_client.h"
 
 using namespace yars;
 
@@ -70,8 +69,7 @@ class PlantedFile {
 
 bool matches(const std::vector<std::byte>& front, std::size_t bytes) {
   constexpr std::size_t kIdentity = 28;  // magic, size, hash, version
-  return bytes >= sizeof(databuffer::SessionLayout) &&
-         std::memcmp(front.data(), good_front().data(), kIdentity) == 0;
+  return bytes >= sizeof(databuffer::SessionLayout) && std::memcmp(front.data(), good_front().data(), kIdentity) == 0;
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// A folder that goes with the test; what it holds is made in a line. Watchdog: a reader that hangs is ended by a signal.
+// A folder that goes with the test; what it holds is made in a line. Watchdog: a reader that hangs is ended by a
+// signal.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -51,7 +51,8 @@ std::string repeated(const std::string& text, std::size_t times) {
 // ---- Texts ----
 
 TEST_F(Limits, AConfigurationIsAtMostAMebibyteAFile) {
-  EXPECT_THAT(refusal_of(config::load_configuration(sparse("a.guf", kMebibyte + 1))), HasSubstr("at most 1048576 bytes"));
+  EXPECT_THAT(refusal_of(config::load_configuration(sparse("a.guf", kMebibyte + 1))),
+              HasSubstr("at most 1048576 bytes"));
 }
 
 TEST_F(Limits, AConfigurationOfMessagesHasTheSameLimits) {
@@ -95,7 +96,8 @@ TEST_F(Limits, ADtedCellIsNoLongerThanLevelTwo) {
 }
 
 TEST_F(Limits, AnHgtCellIsNoLongerThanOneArcSecond) {
-  EXPECT_THAT(refusal_of(terrain::read_hgt(sparse("N36W122.hgt", 2UL * 3601 * 3601 + 1), kPlace)), HasSubstr("at most"));
+  EXPECT_THAT(refusal_of(terrain::read_hgt(sparse("N36W122.hgt", 2UL * 3601 * 3601 + 1), kPlace)),
+              HasSubstr("at most"));
 }
 
 TEST_F(Limits, APackedHgtCellIsAtMost64MebibytesLong) {
@@ -163,7 +165,8 @@ TEST_F(Limits, APictureIsAtMost32768PixelsASide) {
 // ---- Scenes ----
 
 TEST_F(Limits, ASceneFileIsAtMostAGibibyteLong) {
-  EXPECT_THAT(refusal_of(scene::read_openflight(sparse("a.flt", 1024 * kMebibyte + 1))), HasSubstr("at most 1073741824"));
+  EXPECT_THAT(refusal_of(scene::read_openflight(sparse("a.flt", 1024 * kMebibyte + 1))),
+              HasSubstr("at most 1073741824"));
 }
 
 std::string external_file(const std::string& name) {

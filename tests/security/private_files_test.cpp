@@ -1,6 +1,5 @@
 // What a session leaves on the disk and in shared memory is the user's alone, and no planted link is written through.
 #include <fcntl.h>
-
 #include <gmock/gmock.h>
 
 #include "databuffer/bridges/bridge_source.hpp"

@@ -1,4 +1,5 @@
-// From a folder that a user names nothing is read that lies elsewhere, and nothing that is no plain file hangs a reader.
+// From a folder that a user names nothing is read that lies elsewhere, and nothing that is no plain file hangs a
+// reader.
 #include <gmock/gmock.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -15,8 +16,8 @@
 #include "model/scene/scene_index.hpp"
 #include "model/terrain/culture_reader.hpp"
 #include "model/terrain/culture_tile.hpp"
-#include "model/terrain/directory_index.hpp"
 #include "model/terrain/ded_reader.hpp"
+#include "model/terrain/directory_index.hpp"
 #include "model/terrain/dted_reader.hpp"
 #include "model/terrain/gdal/raster.hpp"
 #include "model/terrain/hgt_reader.hpp"
@@ -74,8 +75,8 @@ TEST_F(Roots, APipeHangsNoReader) {
 
 TEST_F(Roots, ADeviceThatNeverEndsFillsNoMemory) {
   for (const PathReader& reader : readers())
-    EXPECT_THAT(reader.refusal(link("zero/" + std::string(reader.name) + std::to_string(&reader - readers().data()),
-                                    "/dev/zero")),
+    EXPECT_THAT(reader.refusal(
+                    link("zero/" + std::string(reader.name) + std::to_string(&reader - readers().data()), "/dev/zero")),
                 HasSubstr(": expected "))
         << reader.name;
 }
@@ -215,7 +216,8 @@ TEST_F(TerrainRoots, ALinkOutBesideACellIsAProblemToo) {
 
 TEST_F(TerrainRoots, PipesUnderTheNamesOfCellsHangNothing) {
   write("terrain/w122/n36.dt1", "a cell");
-  for (const char* name : {"w122/n37.dt1", "w122/n38.jp2", "N39W122.hgt", "N40W122.hgt.gz", "N41W122.hgt.zip", "any.ded"})
+  for (const char* name :
+       {"w122/n37.dt1", "w122/n38.jp2", "N39W122.hgt", "N40W122.hgt.gz", "N41W122.hgt.zip", "any.ded"})
     fifo(std::string("terrain/") + name);
   EXPECT_THAT(index(), ::testing::SizeIs(::testing::Ge(1U)));
 }
