@@ -6,6 +6,7 @@
 
 #include "databuffer/log.hpp"
 #include "databuffer/publish_flight.hpp"
+#include "databuffer/records/model_validation.hpp"
 #include "databuffer/records/select_ownship.hpp"
 #include "databuffer/records/validation.hpp"
 
@@ -72,13 +73,15 @@ void FlightShell::begin_epoch(const ClockState& clock) {
 void FlightShell::stand_by(const TickLoop::Due& due) {
   const SessionLayout& layout = session_->layout();
   ModelStatus model{};
-  if (!layout.model_status.read(model) || model.ownship_lane == lane_ || model.ownship_lane >= kOwnshipLanes) return;
+  if (!layout.model_status.read(model) || model.ownship_lane == lane_ || model.ownship_lane >= kOwnshipLanes ||
+      why_refused(model))
+    return;
   const bool follows = (model.flags & kModelStale) == 0 && model.epoch == due.clock.epoch &&
                        model.sim_time_ns + kStaleAfter > due.sim_time_ns;
   const auto priority = [&layout](std::size_t lane) {
     return layout.ownship_priority[lane].load(std::memory_order_relaxed);
   };
-  if (!follows || priority(lane_) > priority(model.ownship_lane) || why_refused(model.ownship)) return;
+  if (!follows || priority(lane_) > priority(model.ownship_lane)) return;
   const Ownship& there = model.ownship;
   source_.model->reposition({{there.latitude_deg, there.longitude_deg},
                              geo::AltitudeMsl::metres(there.altitude_msl_m),
@@ -88,13 +91,14 @@ void FlightShell::stand_by(const TickLoop::Due& due) {
 // True if it took up where a predecessor of this epoch was.
 bool FlightShell::resume(const TickLoop::Due& due) {
   ModelStatus model{};
-  if (every_tick_ || !session_->layout().model_status.read(model) || why_refused(model.ownship)) return false;
+  if (every_tick_ || !session_->layout().model_status.read(model) || why_refused(model)) return false;
   const Ownship& last = model.ownship;
   const flight::FlightSample own = source_.model->step({});
-  const std::int64_t gap_ns = due.sim_time_ns - last.source_time_ns;
-  if (std::string_view(own.ownship.source) != last.source || last.epoch != due.clock.epoch || gap_ns < 0 ||
-      gap_ns > kLongestGap_ns)
+  // The stamp is whatever the source wrote: compared before a difference is taken.
+  if (std::string_view(own.ownship.source) != last.source || last.epoch != due.clock.epoch ||
+      last.source_time_ns > due.sim_time_ns || last.source_time_ns < due.sim_time_ns - kLongestGap_ns)
     return false;
+  const std::int64_t gap_ns = due.sim_time_ns - last.source_time_ns;
   if (!source_.model->resume(last, geo::Duration::seconds(1e-9 * static_cast<double>(gap_ns)))) return false;
   session_->note(NoteKind::restart, "flight-model resumes");
   log_info("resumes where its predecessor was");

@@ -58,6 +58,10 @@ void start_log_file(const std::string& program, const std::string& folder) {
   try {
     const std::filesystem::path path = std::filesystem::absolute(folder).lexically_normal();
     if (!make_folder(path)) throw spdlog::spdlog_ex("cannot make it", errno);
+    // Where others may write they can plant a link under the log's name.
+    if ((std::filesystem::status(path).permissions() & std::filesystem::perms::others_write) !=
+        std::filesystem::perms::none)
+      throw spdlog::spdlog_ex("any user may write there; name a new folder in it");
     auto sink = open_file((path / (program + ".log")).string());
     file_logger() = std::make_shared<spdlog::logger>(program, sink);
     file_logger()->flush_on(spdlog::level::info);

@@ -1,5 +1,7 @@
 #include "databuffer/program.hpp"
 
+#include <sys/stat.h>
+
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -92,6 +94,7 @@ int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& opti
     return report_parse_outcome(app, outcome);
   }
   try {
+    keep_files_private();
     auto error = begin_program(app.get_name(), options);
     // A role outlives whoever reads its log.
     std::signal(SIGPIPE, SIG_IGN);
@@ -105,6 +108,10 @@ int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& opti
     print_failure(app.get_name(), std::string("stopped by ") + problem.what());
     return kExitFailure;
   }
+}
+
+void keep_files_private() {
+  umask(0077);
 }
 
 failure::Error usage_error(failure::Error error) {

@@ -28,8 +28,8 @@ inline constexpr int kExitUsage = 2;
 // application's name is the program's.
 void add_common_options(CLI::App& app, ProgramOptions& options, bool is_role);
 
-// Parses, starts the log, installs the handlers of SIGINT and SIGTERM and runs the body; the body's error becomes
-// one line on standard error and exit code 1. Bad usage is one line and exit code 2.
+// Parses, keeps what is written private, starts the log, installs the handlers of SIGINT and SIGTERM and runs the body;
+// the body's error becomes one line on standard error and exit code 1. Bad usage is one line and exit code 2.
 using ProgramBody = std::function<failure::Expected<void>()>;
 int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& options, const ProgramBody& body);
 
@@ -38,6 +38,9 @@ int report_parse_outcome(const CLI::App& app, const CLI::ParseError& outcome);  
 // Log, CPUs and priority, signals.
 std::optional<failure::Error> begin_program(const std::string& name, const ProgramOptions& options);
 void print_failure(const std::string& program, const std::string& message);  // into the log file too
+
+// Logs, frames and recordings are the user's alone, whatever the umask: new files get 0600, new folders 0700.
+void keep_files_private();
 
 // An error that the user's command line caused: exit code 2 instead of 1.
 failure::Error usage_error(failure::Error error);

@@ -15,6 +15,7 @@
 
 #include "databuffer/layout_identity.hpp"
 #include "databuffer/log.hpp"
+#include "databuffer/records/validation.hpp"
 #include "lib/failure/require.hpp"
 
 namespace yars::databuffer {
@@ -28,6 +29,8 @@ constexpr std::size_t kLongestName = 40;
 constexpr std::int64_t kNameLook_ns =
     500'000'000;                     // [ns] between looks at the segment's name: a role says it within 1 s
 constexpr int kClockAttempts = 200;  // of 1 ms: another `yars sim` holds the clock for far less
+// [ns] 14 years: a base beyond it is no time that a session has come to, and sums with it at rate 10 would not fit.
+constexpr std::int64_t kLatestBase_ns = std::int64_t{1} << 59;
 
 bool name_is_valid(std::string_view name) {
   const auto allowed = [](char letter) {
@@ -72,6 +75,15 @@ SessionLayout& layout_of(shm::Segment& segment) {
   return *static_cast<SessionLayout*>(segment.memory());
 }
 
+// The clock as every process of the session may take it for granted; `found` says why not.
+Expected<void> check_clock(const ClockState& clock) {
+  Refusal refusal = why_refused(clock);
+  if (!refusal && std::max(clock.base_sim_ns, clock.base_monotonic_ns) > kLatestBase_ns)
+    refusal = "base_sim_ns, base_monotonic_ns: expected at most 2^59, found more";
+  if (!refusal) return {};
+  return fail("session clock", "one in range", *refusal, "set it with `yars sim reset 0`, or start the set again");
+}
+
 // What a departed writer left must not pass for fresh with a reader that sees it for the first time.
 void empty_ownship_lane(SessionLayout& layout, std::size_t lane) {
   layout.ownship[lane].clear();
@@ -111,7 +123,8 @@ std::int64_t monotonic_ns() {
 
 std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns) {
   if (clock.running == 0) return clock.base_sim_ns;
-  const std::int64_t elapsed = monotonic_ns - clock.base_monotonic_ns;
+  // A base yet to come has nothing elapsed: sim time never is before it.
+  const std::int64_t elapsed = std::max<std::int64_t>(monotonic_ns - clock.base_monotonic_ns, 0);
   // At rate 1 no rounding: integer nanoseconds outlast the 53 bits of a double.
   if (clock.rate == 1.0) return clock.base_sim_ns + elapsed;
   return clock.base_sim_ns + static_cast<std::int64_t>(std::llround(clock.rate * static_cast<double>(elapsed)));
@@ -145,10 +158,7 @@ Claim::~Claim() = default;
 
 struct Session::State {
   State(shm::Segment opened, std::string_view process)
-      : segment(std::make_shared<shm::Segment>(std::move(opened))), process_name(process), clock(read().clock) {
-    // Published before the segment had a name, and changed seldom: this reads it at once.
-    while (!clock.refresh()) std::this_thread::yield();
-  }
+      : segment(std::make_shared<shm::Segment>(std::move(opened))), process_name(process), clock(read().clock) {}
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() { leave_table(); }
@@ -156,6 +166,7 @@ struct Session::State {
   SessionLayout& write() { return layout_of(*segment); }
   const SessionLayout& read() const { return *static_cast<const SessionLayout*>(std::as_const(*segment).memory()); }
 
+  Expected<void> find_clock();
   void enter_table();
   void leave_table();
   std::string describe_holder(std::size_t byte) const;
@@ -171,7 +182,19 @@ struct Session::State {
   bool had_name = true;
   std::mutex clock_mutex;  // of this process's threads only
   shm::LatestReader<ClockState> clock;
+  ClockState good_clock{};  // the last one that is in range
 };
+
+// Published before the segment had a name, and changed seldom: as a rule the first look finds it.
+Expected<void> Session::State::find_clock() {
+  for (int attempt = 0; attempt < kClockAttempts && !clock.refresh(); ++attempt)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  if (!clock.has_value())
+    return fail("session clock", "one that can be read", "none", "end the programs of this session and start it again");
+  if (auto good = check_clock(clock.value()); !good) return good;
+  good_clock = clock.value();
+  return {};
+}
 
 // A full table is no failure: it is for people, presence is decided by locks.
 void Session::State::enter_table() {
@@ -211,10 +234,16 @@ std::optional<Claim> Session::State::take(std::size_t byte, int lane) {
   return claim;
 }
 
+// One out of range is refused, noted once, and the last good one goes on.
 ClockState Session::State::clock_now() {
-  const std::lock_guard guard(clock_mutex);
-  clock.refresh();
-  return clock.value();
+  std::unique_lock guard(clock_mutex);
+  if (!clock.refresh()) return good_clock;
+  const auto good = check_clock(clock.value());
+  if (good) good_clock = clock.value();
+  const ClockState now = good_clock;
+  guard.unlock();
+  if (!good) note(NoteKind::refusal, "clock: " + good.error().found, process_name);
+  return now;
 }
 
 void Session::State::note(NoteKind kind, std::string_view text, std::string_view process) {
@@ -252,6 +281,7 @@ Expected<Session> Session::open(const std::string& name, std::string_view proces
   auto segment = shm::Segment::open(name, kLayoutIdentity, initialize);
   if (!segment) return tl::unexpected(segment.error());
   auto state = std::make_unique<State>(std::move(*segment), process_name);
+  if (const auto found = state->find_clock(); !found) return tl::unexpected(found.error());
   state->enter_table();
   return Session(std::move(state));
 }
@@ -260,7 +290,9 @@ Expected<Session> Session::open_read_only(const std::string& name) {
   if (const auto valid = check_name(name); !valid) return tl::unexpected(valid.error());
   auto segment = shm::Segment::open_read_only(name, kLayoutIdentity);
   if (!segment) return tl::unexpected(segment.error());
-  return Session(std::make_unique<State>(std::move(*segment), "reader"));
+  auto state = std::make_unique<State>(std::move(*segment), "reader");
+  if (const auto found = state->find_clock(); !found) return tl::unexpected(found.error());
+  return Session(std::move(state));
 }
 
 SessionLayout& Session::layout() {
@@ -343,8 +375,9 @@ std::vector<ProcessHere> Session::processes() const {
   for (std::size_t i = 0; i < kProcesses; ++i) {
     const ProcessEntry& entry = layout().processes[i];
     if (entry.pid == 0 || !state_->segment->is_locked(kFirstProcessByte + i)) continue;
-    here.push_back(
-        {entry.pid, shm::load_text(entry.name.data(), entry.name.size()), entry.heartbeat_ns, entry.progress});
+    // A beat yet to come would make who has hung seem alive.
+    const std::int64_t beat_ns = std::clamp<std::int64_t>(entry.heartbeat_ns, 0, monotonic_ns());
+    here.push_back({entry.pid, shm::load_text(entry.name.data(), entry.name.size()), beat_ns, entry.progress});
   }
   return here;
 }

@@ -91,7 +91,8 @@ class Session {
   // the segment still has its name, and says so once in log and flight recorder when it has not.
   void heartbeat();
 
-  // Session clock: sim time [ns] of this moment; the state behind it.
+  // Session clock: sim time [ns] of this moment; the state behind it. A state out of range is refused and noted, and
+  // the last good one goes on; a session without a good one cannot be opened.
   ClockState clock() const;
   std::int64_t sim_time_ns() const;
   // Takes the clock's byte for the moment of the change, so that of two changes at once none is lost.
@@ -110,7 +111,7 @@ class Session {
 };
 
 std::int64_t monotonic_ns();  // [ns] CLOCK_MONOTONIC
-// Sim time [ns] at a moment of CLOCK_MONOTONIC: base + rate x elapsed while running.
+// Sim time [ns] at a moment of CLOCK_MONOTONIC: base + rate x elapsed while running; before the base, the base.
 std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns);
 
 }  // namespace yars::databuffer

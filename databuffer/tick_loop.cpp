@@ -19,6 +19,7 @@ namespace {
 
 // [ns] a change of the clock is seen within this: at the highest rate, 10, that is 10 ticks, fewer than are skipped.
 constexpr std::int64_t kLongestSleep_ns = 5'000'000;
+constexpr std::int64_t kLatestTick = std::int64_t{1} << 40;  // 174 years; its nanoseconds fit
 constexpr double kFarAhead_ns = 1e15;  // [ns] beyond it a deadline is only 'later'; keeps the cast in range
 constexpr std::int64_t kPartnerPatience_ns =
     60'000'000'000;                                     // [ns] a lockstep partner silent so long is taken for dead
@@ -107,7 +108,11 @@ failure::Expected<TickLoop> TickLoop::create(Session& session, LockstepRole role
   } while ((plan->roles & (1U << before)) == 0U);
   loop.predecessor_ = before;
   loop.first_in_chain_ = before >= loop.role_;
-  loop.next_tick_ = shared.done_tick[loop.role_].load(std::memory_order_acquire) + 1;
+  const std::int64_t done = shared.done_tick[loop.role_].load(std::memory_order_acquire);
+  if (done < -1 || done > kLatestTick)
+    return failure::fail("--lockstep", "a last tick of -1 or more", std::to_string(done),
+                         "the session is damaged: end its programs and start it again");
+  loop.next_tick_ = done + 1;
   return loop;
 }
 

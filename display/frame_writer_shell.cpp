@@ -12,6 +12,11 @@ failure::Expected<FrameWriter> FrameWriter::create(const std::filesystem::path& 
   std::filesystem::create_directories(folder, problem);
   if (problem)
     return failure::fail(folder.string(), "a folder for frames", problem.message(), "choose another --frames");
+  // Where others may write they can plant links under the names to come.
+  const auto rights = std::filesystem::status(folder, problem).permissions();
+  if (problem || (rights & std::filesystem::perms::others_write) != std::filesystem::perms::none)
+    return failure::fail(folder.string(), "a folder that no other user may write to", "one that any user may",
+                         "choose another --frames, such as a new folder in it");
   return FrameWriter(folder);
 }
 

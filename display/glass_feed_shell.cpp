@@ -6,6 +6,7 @@
 
 #include "databuffer/log.hpp"
 #include "databuffer/patch_pool.hpp"
+#include "databuffer/records/model_validation.hpp"
 #include "databuffer/records/validation.hpp"
 #include "databuffer/tick_loop.hpp"
 
@@ -98,8 +99,8 @@ void GlassFeed::take_map(std::uint64_t id) {
 void GlassFeed::take_model(std::int64_t sim_time_ns) {
   // Kept warm while the model is alive, so that it can go on at once when the model dies.
   const auto& selected = receiver_.refresh(session_->layout(), sim_time_ns, session_->clock().epoch);
-  const bool has_status = session_->layout().model_status.read(input_.model).has_value();
-  if (input_.model_alive && has_status) {
+  take_status();
+  if (input_.model_alive && has_status_) {
     input_.ownship = input_.model.ownship;
     input_.nav = input_.model.nav;
     input_.ownship_fresh = (input_.model.flags & databuffer::kModelStale) == 0;
@@ -110,6 +111,21 @@ void GlassFeed::take_model(std::int64_t sim_time_ns) {
   }
 }
 
+void GlassFeed::take_status() {
+  const auto& latest = session_->layout().model_status;
+  if (latest.version() == status_version_) return;
+  databuffer::ModelStatus status{};
+  const auto version = latest.read(status);
+  if (!version) return;
+  status_version_ = *version;
+  if (const auto reason = databuffer::why_refused(status)) {
+    session_->note(databuffer::NoteKind::refusal, "glass: model status: " + *reason);
+    return;
+  }
+  input_.model = status;
+  has_status_ = true;
+}
+
 void GlassFeed::take_sweeps() {
   const auto& ring = session_->layout().sweeps;
   std::uint64_t lost = 0;
@@ -117,7 +133,10 @@ void GlassFeed::take_sweeps() {
     const auto read = ring.read(sweep_cursor_, sweep_);
     lost += read.lost;
     if (!read.delivered) break;
-    sweep_sink_(sweep_);
+    if (const auto reason = databuffer::why_refused(sweep_))
+      session_->note(databuffer::NoteKind::refusal, "glass: sweep: " + *reason);
+    else
+      sweep_sink_(sweep_);
   }
   if (lost == 0) return;
   const std::string text = "glass lost " + std::to_string(lost) + " sweeps";

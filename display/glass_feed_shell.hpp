@@ -34,6 +34,7 @@ class GlassFeed {
   void take_maps();
   void take_map(std::uint64_t id);
   void take_model(std::int64_t sim_time_ns);
+  void take_status();
   void look_who_is_alive();
 
   databuffer::Session* session_;
@@ -48,6 +49,8 @@ class GlassFeed {
   std::vector<std::uint8_t> pixels_;
   std::uint64_t refused_map_ = 0;  // told once
   std::uint64_t state_version_ = 0;
+  std::uint64_t status_version_ = 0;
+  bool has_status_ = false;
   std::int64_t next_look_ns_ = 0;  // CLOCK_MONOTONIC
 };
 

@@ -8,6 +8,7 @@
 
 #include "databuffer/log.hpp"
 #include "databuffer/patch_pool.hpp"
+#include "databuffer/records/model_validation.hpp"
 #include "databuffer/records/radar_command.hpp"
 #include "databuffer/records/validation.hpp"
 #include "lib/radar/fidelity_preset.hpp"
@@ -47,6 +48,11 @@ void RadarModelShell::resume() {
   tick_.resumed_tick = -1;
   databuffer::ModelStatus left{};
   if (!session_->layout().model_status.read(left)) return;
+  if (const auto reason = databuffer::why_refused(left)) {
+    session_->note(databuffer::NoteKind::refusal, "model status left behind: " + *reason);
+    databuffer::log_warning("model status left behind is refused, starting anew: " + *reason);
+    return;
+  }
   kernel_.resume(left);
   status_.sweeps = left.sweeps;
   late_before_ = left.late_ticks;

@@ -81,10 +81,18 @@ template <Record T, std::size_t Lanes, std::size_t Depth, class Access>
 bool InputLanes<T, Lanes, Depth, Access>::pop(std::size_t lane, T& out) {
   Lane& from = lanes_[lane];
   const Word number = Access::load(from.popped, std::memory_order_relaxed);
-  if (number == Access::load(from.pushed_seen, std::memory_order_relaxed)) {
-    const Word pushed = Access::load(from.pushed, std::memory_order_acquire);
+  Word pushed = Access::load(from.pushed_seen, std::memory_order_relaxed);
+  if (number == pushed) {
+    pushed = Access::load(from.pushed, std::memory_order_acquire);
     Access::store(from.pushed_seen, pushed, std::memory_order_relaxed);
     if (number == pushed) return false;
+  }
+  // No producer gets further ahead than the lane is deep: the cursors are damaged, and what lies there is in no order.
+  if (pushed - number > Depth) {
+    pushed = Access::load(from.pushed, std::memory_order_acquire);
+    Access::store(from.pushed_seen, pushed, std::memory_order_relaxed);
+    if (pushed - number > Depth) Access::store(from.popped, pushed, std::memory_order_release);
+    if (pushed - number > Depth || pushed == number) return false;
   }
   load_words<Access>(from.records[number % Depth].data(), &out, kWordsOf<T>);
   Access::store(from.popped, number + 1, std::memory_order_release);

@@ -43,13 +43,15 @@ SegmentFile::SegmentFile(bi::shared_memory_object object, Access access)
 SegmentFile::SegmentFile(Descriptor reopened, Access access) : reopened_(std::move(reopened)), access_(access) {}
 
 std::optional<SegmentFile> SegmentFile::open(const std::string& file_name, Access access) {
-  try {
-    const auto mode = access == Access::read_only ? bi::read_only : bi::read_write;
-    return SegmentFile(bi::shared_memory_object(bi::open_only, file_name.c_str(), mode), access);
-  } catch (const bi::interprocess_exception& refusal) {
-    errno = refusal.get_native_error();
-    return std::nullopt;
-  }
+  // Not by shm_open: any user may put a pipe there, and opening that would wait for its other end.
+  const std::string path = "/dev/shm/" + file_name;
+  const int mode = access == Access::read_only ? O_RDONLY : O_RDWR;
+  Descriptor opened(::open(path.c_str(), mode | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  if (opened.number() < 0) return std::nullopt;
+  SegmentFile file(std::move(opened), access);
+  if (S_ISREG(file.status().st_mode)) return file;
+  errno = EINVAL;
+  return std::nullopt;
 }
 
 std::optional<SegmentFile> SegmentFile::create(const std::string& file_name) {

@@ -9,6 +9,7 @@
 #include "databuffer/log.hpp"
 #include "databuffer/patch_pool.hpp"
 #include "databuffer/records/event_text.hpp"
+#include "databuffer/records/model_validation.hpp"
 #include "databuffer/records/validation.hpp"
 #include "statemachine/outputs.hpp"
 
@@ -64,11 +65,22 @@ void StateMachineShell::latch(const databuffer::TickLoop::Due& due) {
   surroundings_.ownship = selected.ownship;
   surroundings_.nav = selected.nav;
   latch_recorder();
-  const bool told = session_->layout().model_status.read(surroundings_.model).has_value();
-  const bool stale = !told || (surroundings_.model.flags & databuffer::kModelStale) != 0;
+  const bool stale = !latch_model() || (surroundings_.model.flags & databuffer::kModelStale) != 0;
   surroundings_.height_above_ground_m = stale ? std::nan("") : surroundings_.model.height_above_ground_m;
   latch_variation();
   latch_maps();
+}
+
+// False: no model has told anything. A status out of range is refused and noted, and the last good one goes on.
+bool StateMachineShell::latch_model() {
+  databuffer::ModelStatus status{};
+  if (!session_->layout().model_status.read(status)) return false;
+  if (const auto reason = databuffer::why_refused(status)) {
+    session_->note(databuffer::NoteKind::refusal, "model status: " + *reason);
+    return model_told_;
+  }
+  surroundings_.model = status;
+  return model_told_ = true;
 }
 
 // What a recorder that has gone left behind does not count.
@@ -127,8 +139,9 @@ void StateMachineShell::take_events(std::int64_t tick) {
   std::uint64_t too_old = 0;
   const std::int64_t now_ns = drop_old_events_ ? databuffer::monotonic_ns() : 0;
   for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) {
-    while (input.pop(lane, event)) {
-      if (drop_old_events_ && now_ns - event.monotonic_ns > kOldestEvent_ns)
+    // A source that floods its lane holds up no tick: the rest waits for the next.
+    for (std::size_t taken = 0; taken < databuffer::kInputLaneDepth && input.pop(lane, event); ++taken) {
+      if (drop_old_events_ && event.monotonic_ns < now_ns - kOldestEvent_ns)
         ++too_old;
       else
         take(event, lane, tick);

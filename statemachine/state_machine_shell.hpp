@@ -20,6 +20,7 @@ class StateMachineShell {
   void step(const databuffer::TickLoop::Due& due);
 
  private:
+  bool latch_model();
   void latch_maps();
   void latch_recorder();
   void latch_variation();
@@ -34,6 +35,7 @@ class StateMachineShell {
   databuffer::OwnshipReceiver ownship_;
   geo::MagneticField field_;
   Surroundings surroundings_;
+  bool model_told_ = false;        // surroundings_.model holds a status
   std::uint64_t refused_map_ = 0;  // told once
   databuffer::RecorderStatus recorder_{};
   std::uint64_t recorder_version_ = 0;

@@ -70,6 +70,7 @@ std::string absolute(const std::string& path) {
 }
 
 void record(const CommonOptions& common, const RecordOptions& options) {
+  databuffer::keep_files_private();
   if (!options.log_dir.empty()) databuffer::start_log_file("recorder", options.log_dir);
   auto session = Session::open(common.session, "recorder");
   if (!session) give_up(session.error());

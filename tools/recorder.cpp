@@ -8,6 +8,7 @@
 
 #include "databuffer/log.hpp"
 #include "databuffer/patch_pool.hpp"
+#include "databuffer/records/model_validation.hpp"
 #include "databuffer/records/validation.hpp"
 #include "databuffer/session_layout.hpp"
 
@@ -51,7 +52,7 @@ void Recorder::begin_here() {
   traffic_cursor_ = traffic > 0 ? traffic - 1 : 0;  // the last one holds
   // The status may be of a later tick than the cursor: ticks up to it are not written.
   recording::StartingPoint start{};
-  if (!layout.model_status.read(start.status)) return;
+  if (!layout.model_status.read(start.status) || databuffer::why_refused(start.status)) return;
   append(start);
   from_tick_ = start.status.tick + 1;
   from_epoch_ = start.status.epoch;

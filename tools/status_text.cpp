@@ -1,5 +1,6 @@
 #include "tools/status_text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <string>
@@ -12,8 +13,12 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t kNotesShown = 10;  // newest lines of the flight recorder; all of them with --json
 
+// What other programs wrote must not drive the terminal.
 std::string text(const ordered_json& value) {
-  return value.get<std::string>();
+  std::string words = value.get<std::string>();
+  std::replace_if(
+      words.begin(), words.end(), [](char letter) { return letter < ' ' || letter > '~'; }, '?');
+  return words;
 }
 
 std::string age_text(double seconds) {

@@ -4,7 +4,9 @@
 #include <string>
 
 #include "databuffer/records/map_timer.hpp"
+#include "databuffer/records/model_validation.hpp"
 #include "databuffer/records/plain_text.hpp"
+#include "databuffer/records/radar_state_validation.hpp"
 #include "lib/geo/bearing.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/modes.hpp"
@@ -192,8 +194,11 @@ nlohmann::ordered_json watch_object(const databuffer::Session& session) {
   model.map_timer_s = model.map_progress = std::nan("");
   model.flags = databuffer::kModelStale;
   const auto& layout = session.layout();
-  layout.radar_state.read(state);
-  layout.model_status.read(model);
+  // What no role would believe is not shown as if it held.
+  RadarState told_state{};
+  ModelStatus told_model{};
+  if (layout.radar_state.read(told_state) && !databuffer::why_refused(told_state)) state = told_state;
+  if (layout.model_status.read(told_model) && !databuffer::why_refused(told_model)) model = told_model;
   ordered_json object;
   add_clock(object, session, model);
   add_radar_state(object, state);

@@ -78,6 +78,19 @@ void inspect_map(Inspection& inspection, const RadarState& state) {
   inspection.range("map_window_nm", state.map_window_nm, 0.0, kLargestRange);
 }
 
+// Differences of two are taken: far from the ends of their type.
+void inspect_ticks(Inspection& inspection, const RadarState& state) {
+  constexpr double kLatest = 0x1p53;
+  const auto tick = [&inspection](std::string_view name, std::int64_t value) {
+    inspection.range(name, static_cast<double>(value), -1.0, kLatest);
+  };
+  tick("tick", state.tick);
+  tick("message_until_tick", state.message_until_tick);
+  tick("cursor_moved_tick", state.cursor_moved_tick);
+  tick("velocity_updated_tick", state.velocity_updated_tick);
+  tick("velocity_shown_until_tick", state.velocity_shown_until_tick);
+}
+
 void inspect_switches(Inspection& inspection, const RadarState& state) {
   inspection.range("power", state.power, 0, 2);
   inspection.range("mode", state.mode, 0, 7);
@@ -111,6 +124,7 @@ Refusal why_refused(const RadarState& state) {
   inspection.range("frame_track_deg", state.frame_track_deg, 0.0, 360.0);
   inspect_cursor(inspection, state);
   inspect_switches(inspection, state);
+  inspect_ticks(inspection, state);
   inspect_map(inspection, state);
   inspect_designations(inspection, state);
   inspection.text("sequence_point", state.sequence_point);

@@ -1,5 +1,6 @@
 #include "databuffer/records/text_file_reader.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
@@ -11,6 +12,8 @@ namespace {
 
 // [bytes] a day of flight at 50 Hz; what is larger is no text of ours, and would be held in memory whole.
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;
+// What the lines of a text become takes more memory than the text where they are short.
+constexpr std::ptrdiff_t kMostLines = 10'000'000;
 
 }  // namespace
 
@@ -18,13 +21,21 @@ failure::Expected<std::string> read_text_file(const std::filesystem::path& path)
   std::error_code code;
   if (std::filesystem::is_directory(path, code))
     return failure::fail(path.string(), "a text file", "a folder", "name a file in it");
+  // A pipe could block for ever, and a device never end.
+  if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
+    return failure::fail(path.string(), "a text file", "a pipe, a socket or a device", "copy it into a plain file");
   const std::uintmax_t size = std::filesystem::is_regular_file(path, code) ? std::filesystem::file_size(path, code) : 0;
   if (size > kLargestFile)
     return failure::fail(path.string(), "at most 256 MiB of text", std::to_string(size) + " bytes");
   std::ifstream file(path, std::ios::binary);
   if (!file) return failure::fail(path.string(), "a file that can be read", std::strerror(errno), "check the path");
-  std::string text{std::istreambuf_iterator<char>(file), {}};
+  // No more than was there when it was judged, though it may grow meanwhile.
+  std::string text(size, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(size));
+  text.resize(static_cast<std::size_t>(file.gcount()));
   if (file.bad()) return failure::fail(path.string(), "a file that can be read to its end", std::strerror(errno));
+  if (const auto lines = std::ranges::count(text, '\n'); lines > kMostLines)
+    return failure::fail(path.string(), "at most 10 million lines", std::to_string(lines), "split the file");
   return text;
 }
 

@@ -63,6 +63,9 @@ std::vector<PaletteColour> palette_of(const Reading& reading) {
 }  // namespace
 
 failure::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path, int largest_side) {
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(path, code))
+    return failure::fail(path.string(), "a PNG file", code ? code.message() : "not a plain file");
   const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
   if (!file) return failure::fail(path.string(), "a PNG file", "a file that cannot be opened");
   const Reading reading;

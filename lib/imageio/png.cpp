@@ -40,6 +40,9 @@ failure::Expected<void> write_png(const std::filesystem::path& path, const Image
 }
 
 failure::Expected<Image> read_png(const std::filesystem::path& path) {
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(path, code))
+    return failure::fail(path.string(), "a PNG file", code ? code.message() : "not a plain file");
   png_image png;
   std::memset(&png, 0, sizeof png);
   png.version = PNG_IMAGE_VERSION;

@@ -6,6 +6,7 @@
 
 #include "model/scene/openflight_reader.hpp"
 #include "model/scene/scene_source.hpp"
+#include "model/terrain/link_target.hpp"
 
 namespace yars::model::scene {
 
@@ -73,7 +74,14 @@ failure::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<rada
     const std::vector<fs::path> files = files_in(scene.file);
     if (files.empty())
       return failure::fail(scene.file, "a folder with .flt files", "none", "give a file or another folder");
+    const fs::path root = fs::weakly_canonical(scene.file, code);
     for (const fs::path& file : files) {
+      if (terrain::leads_out(file, root)) {
+        problems.push_back(failure::Error{file.string(), "a file inside " + root.string(), "a link that leads out",
+                                          "copy the scene there, or name it by itself", false}
+                               .message());
+        continue;
+      }
       auto found = index_file(file, scene);
       if (found)
         index.push_back(std::move(*found));

@@ -5,10 +5,12 @@
 #include <tuple>
 #include <utility>
 
+#include "model/terrain/culture_tile.hpp"
 #include "model/terrain/ded_reader.hpp"
 #include "model/terrain/dted_format.hpp"
 #include "model/terrain/gdal/raster.hpp"
 #include "model/terrain/hgt_reader.hpp"
+#include "model/terrain/link_target.hpp"
 #include "model/terrain/pack_reader.hpp"
 #include "model/terrain/packed_hgt_reader.hpp"
 
@@ -70,17 +72,26 @@ failure::Expected<void> offer_raster(const std::filesystem::path& path, Director
   return {};
 }
 
-// True when the name is that of elevation data; then `index` or `problems` got something.
-bool offer_file(const std::filesystem::path& path, DirectoryIndex& index, std::vector<std::string>& problems) {
+// The file itself, its map of materials and the other half of a pack.
+bool leads_anywhere_out(const std::filesystem::path& path, const std::filesystem::path& root) {
+  return leads_out(path, root) || leads_out(culture_path(path), root) ||
+         leads_out(std::filesystem::path(path).replace_extension(".side"), root);
+}
+
+bool is_elevation_name(const std::filesystem::path& path) {
+  return cell_named(path.parent_path().filename().string(), path.filename().string()) || is_ded_name(path) ||
+         is_raster_name(path);
+}
+
+// `index` or `problems` gets something.
+void offer_file(const std::filesystem::path& path, DirectoryIndex& index, std::vector<std::string>& problems) {
   const auto named = cell_named(path.parent_path().filename().string(), path.filename().string());
   if (named) {
     offer(named->place, described(path, *named), index);
-    return true;
+    return;
   }
-  if (!is_ded_name(path) && !is_raster_name(path)) return false;
   const auto offered = is_ded_name(path) ? offer_ded(path, index) : offer_raster(path, index);
   if (!offered) problems.push_back(offered.error().message());
-  return true;
 }
 
 }  // namespace
@@ -95,8 +106,16 @@ failure::Expected<DirectoryIndex> index_directory(const std::filesystem::path& d
   std::vector<std::string> found;
   const auto options = std::filesystem::directory_options::skip_permission_denied;
   std::filesystem::recursive_directory_iterator entry(directory, options, code);
-  for (const std::filesystem::recursive_directory_iterator end; !code && entry != end; entry.increment(code))
-    offer_file(entry->path(), index, found);
+  const std::filesystem::path root = std::filesystem::weakly_canonical(directory, code);
+  for (const std::filesystem::recursive_directory_iterator end; !code && entry != end; entry.increment(code)) {
+    if (!is_elevation_name(entry->path())) continue;
+    if (!leads_anywhere_out(entry->path(), root))
+      offer_file(entry->path(), index, found);
+    else
+      found.push_back(failure::Error{entry->path().string(), "a file inside " + root.string(), "a link that leads out",
+                                     "copy the cell there, or give the folder that it lies in", false}
+                          .message());
+  }
   if (code) return failure::fail(directory.string(), "a directory that can be walked", code.message());
   std::sort(found.begin(), found.end());
   if (index.empty() && !found.empty())

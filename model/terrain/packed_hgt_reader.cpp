@@ -39,7 +39,15 @@ bool is_gzip(const std::filesystem::path& path) {
   return lower_case(path.extension().string()) == ".gz";
 }
 
+failure::Expected<std::uintmax_t> packed_length(const std::filesystem::path& path) {
+  const auto length = file_length(path);
+  if (!length || *length <= kLargestPackedFile) return length;
+  return failure::fail(path.string(), "at most " + std::to_string(kLargestPackedFile) + " bytes",
+                       std::to_string(*length) + " bytes", "this is no packed HGT cell");
+}
+
 failure::Expected<std::vector<std::byte>> inflate_gzip(const std::filesystem::path& path) {
+  if (const auto there = packed_length(path); !there) return tl::unexpected(there.error());
   const std::unique_ptr<gzFile_s, CloseGzip> file(gzopen(path.c_str(), "rb"));
   if (!file) return failure::fail(path.string(), "a gzip file", "one that cannot be opened");
   // One byte more than any cell has tells a longer stream.
@@ -86,11 +94,7 @@ std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& p
 }
 
 failure::Expected<ZipArchive> open_zip(const std::filesystem::path& path) {
-  const auto length = file_length(path);
-  if (!length) return tl::unexpected(length.error());
-  if (*length > kLargestPackedFile)
-    return failure::fail(path.string(), "at most " + std::to_string(kLargestPackedFile) + " bytes",
-                         std::to_string(*length) + " bytes", "this is no packed HGT cell");
+  if (const auto there = packed_length(path); !there) return tl::unexpected(there.error());
   int code = 0;
   ZipArchive archive(zip_open(path.c_str(), ZIP_RDONLY, &code));
   if (!archive) return failure::fail(path.string(), "a zip archive", "a damaged one", kFetchAgain);

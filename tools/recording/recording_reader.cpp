@@ -12,6 +12,11 @@
 namespace yars::tools::recording {
 
 failure::Expected<RecordingReader> RecordingReader::open(const std::filesystem::path& path) {
+  std::error_code code;
+  // A pipe could block for ever; seeking it could not.
+  if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
+    return failure::fail(path.string(), "a recording in a plain file", "a folder, a pipe, a socket or a device",
+                         "copy it into a plain file");
   auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
   if (!*file) return failure::fail(path.string(), "a recording that can be read", std::strerror(errno));
   return read(std::move(file), path.string());

@@ -1,9 +1,32 @@
 #include "tools/recording/recording_writer.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
+#include <string>
 
 namespace yars::tools::recording {
+
+namespace {
+
+// The user's alone, an older file of that name too; no link is followed. -1 with errno set.
+int open_private(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600);
+  if (descriptor < 0) return -1;
+  struct stat status {};
+  const bool ready = fstat(descriptor, &status) == 0 &&
+                     (!S_ISREG(status.st_mode) || fchmod(descriptor, 0600) == 0);  // a device keeps its rights
+  if (ready) return descriptor;
+  const int problem = errno;
+  ::close(descriptor);
+  errno = problem;
+  return -1;
+}
+
+}  // namespace
 
 failure::Expected<RecordingWriter> RecordingWriter::create(const std::filesystem::path& path,
                                                            const RecordingHeader& header) {
@@ -12,10 +35,15 @@ failure::Expected<RecordingWriter> RecordingWriter::create(const std::filesystem
                          "a longer one of the configuration or the terrain", "give it a shorter path");
   RecordingWriter writer;
   writer.path_ = path;
-  writer.file_.open(path, std::ios::binary | std::ios::trunc);
-  if (!writer.file_)
-    return failure::fail(path.string(), "a file that can be written", std::strerror(errno),
-                         "check the folder and its rights");
+  // Through the descriptor, so that it is this very file that is written, whatever its name leads to by then.
+  const int descriptor = open_private(path);
+  if (descriptor >= 0) writer.file_.open("/proc/self/fd/" + std::to_string(descriptor), std::ios::binary);
+  const int problem = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!writer.file_.is_open())
+    return failure::fail(path.string(), "a file that can be written", std::strerror(problem),
+                         problem == ELOOP ? "it is a link: name the file that it leads to, or remove it"
+                                          : "check the folder and its rights");
   if (auto written = writer.write(bytes_of(header)); !written) return tl::unexpected(written.error());
   return writer;
 }

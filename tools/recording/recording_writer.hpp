@@ -20,7 +20,8 @@ namespace yars::tools::recording {
 
 class RecordingWriter {
  public:
-  // Replaces a file of this name. An error: it cannot be written, or the header does not fit.
+  // Replaces a file of this name; it is the user's alone (0600). An error: it is a link, it cannot be written, or the
+  // header does not fit.
   static failure::Expected<RecordingWriter> create(const std::filesystem::path& path, const RecordingHeader& header);
 
   // `T`: one of RecordingItem's. An error: the disk took no more; so do all calls after the first. What is in the file

@@ -1,0 +1,69 @@
+// Any bytes as a culture map (an indexed PNG): codes in range or an error; what is read is written and read again the
+// same. The input is laid over sound PNGs; checksums of the chunks are made right again but in one input of eight.
+#include <zlib.h>
+
+#include <string_view>
+
+#include "lib/failure/require.hpp"
+#include "lib/imageio/indexed_png.hpp"
+#include "model/terrain/culture_reader.hpp"
+#include "model/terrain/culture_tile.hpp"
+#include "model/terrain/culture_writer.hpp"
+#include "tests/fuzz/memory_file.hpp"
+#include "tests/fuzz/pieces.hpp"
+
+using namespace yars;
+
+namespace {
+
+constexpr std::size_t kSignature = 8;
+
+std::size_t number_at(const std::vector<std::byte>& file, std::size_t at) {
+  std::size_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i) value = value << 8U | std::to_integer<std::size_t>(file[at + i]);
+  return value;
+}
+
+void make_checksums_right(std::vector<std::byte>& file) {
+  for (std::size_t at = kSignature; at + 12 <= file.size();) {
+    const std::size_t length = number_at(file, at);
+    if (length > file.size() - at - 12) return;
+    const auto sum = crc32(0, reinterpret_cast<const Bytef*>(file.data()) + at + 4, static_cast<uInt>(length + 4));
+    for (std::size_t i = 0; i < 4; ++i) file[at + 8 + length + i] = static_cast<std::byte>(sum >> (24U - 8U * i));
+    at += 12 + length;
+  }
+}
+
+// 21 x 17 posts with every code.
+std::vector<std::byte> sound_map(const std::filesystem::path& path) {
+  std::vector<std::uint8_t> codes(21UL * 17UL);
+  for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = static_cast<std::uint8_t>(i % 32);
+  YARS_REQUIRE(model::terrain::write_culture(path, {{36, -122}, 17, 21, codes}).has_value(), ==, true);
+  std::vector<std::byte> bytes(std::filesystem::file_size(path));
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  YARS_REQUIRE(::read(file, bytes.data(), bytes.size()), ==, static_cast<ssize_t>(bytes.size()));
+  close(file);
+  return bytes;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static fuzz::MemoryFile file("n36.smc.png"), again("again.smc.png");
+  static const std::vector<std::byte> sound = sound_map(file.path());
+  if (size < 1) return 0;
+  std::vector<std::byte> bytes = sound;
+  fuzz::lay_pieces(bytes, {data + 1, size - 1});
+  if (data[0] % 8 != 0) make_checksums_right(bytes);
+  if (data[0] >= 224) bytes.resize(bytes.size() * (256U - data[0]) / 32U);
+  file.write(bytes);
+  const auto culture = model::terrain::read_culture(file.path(), {36, -122});
+  if (!culture) return 0;
+  YARS_REQUIRE(culture->rows(), <=, model::terrain::kMostCulturePosts);
+  for (const std::uint8_t code : culture->codes()) YARS_REQUIRE(code, <=, model::terrain::kLargestMaterial);
+  YARS_REQUIRE(model::terrain::write_culture(again.path(), *culture).has_value(), ==, true);
+  const auto read = model::terrain::read_culture(again.path(), {36, -122});
+  YARS_REQUIRE(read.has_value(), ==, true);
+  YARS_REQUIRE(std::ranges::equal(read->codes(), culture->codes()), ==, true);
+  return 0;
+}

@@ -1,0 +1,50 @@
+// Any bytes as an HGT file: a cell whose posts are the file's, or an error for every other length. The input is laid
+// over a file of 1201 x 1201 posts; its first two bytes cut or lengthen the file.
+#include "lib/failure/require.hpp"
+#include "model/terrain/hgt_reader.hpp"
+#include "tests/fuzz/pieces.hpp"
+
+using namespace yars::model::terrain;
+
+namespace {
+
+constexpr std::size_t kSide = 1201;
+constexpr std::size_t kBytes = 2 * kSide * kSide;
+
+// As the format says it, a post at a time.
+void require_same(const Cell& cell, const std::vector<std::byte>& file) {
+  YARS_REQUIRE(cell.rows(), ==, static_cast<int>(kSide));
+  YARS_REQUIRE(cell.columns(), ==, static_cast<int>(kSide));
+  constexpr std::size_t kStride = 97;  // [posts] between those looked at; no divisor of the side
+  for (std::size_t post = 0; post < kSide * kSide; post += kStride) {
+    const auto high = std::to_integer<unsigned>(file[2 * post]), low = std::to_integer<unsigned>(file[2 * post + 1]);
+    const auto height_m = static_cast<std::int16_t>(high << 8U | low);
+    const auto row = static_cast<int>(kSide - 1 - post / kSide), column = static_cast<int>(post % kSide);
+    YARS_REQUIRE(cell.post(row, column), ==, height_m);
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static std::vector<std::byte> file(kBytes);
+  if (size < 2) return 0;
+  const std::span<const std::uint8_t> input(data + 2, size - 2);
+  file.resize(kBytes);
+  yars::fuzz::lay_pieces(file, input, 45);
+  if (data[0] % 8 == 0) file.resize(kBytes - data[1] * std::size_t{11'000});
+  if (data[0] % 8 == 1) file.resize(kBytes + data[1]);
+  const auto reading = parse_hgt(file, "fuzz", {36, -122});
+  YARS_REQUIRE(reading.has_value(), ==, file.size() == kBytes);
+  if (reading) require_same(reading->cell, file);
+  // Zero again where the input lay.
+  file.resize(kBytes);
+  std::vector<std::uint8_t> zeros(input.begin(), input.end());
+  for (std::size_t at = 0; at + 3 <= zeros.size();) {
+    const std::size_t length = std::min<std::size_t>(zeros[at + 2], zeros.size() - at - 3);
+    std::fill_n(zeros.begin() + static_cast<std::ptrdiff_t>(at) + 3, length, std::uint8_t{0});
+    at += 3 + length;
+  }
+  yars::fuzz::lay_pieces(file, zeros, 45);
+  return 0;
+}

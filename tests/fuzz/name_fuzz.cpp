@@ -1,0 +1,46 @@
+// Any text as a name that means something: of a cell's file, of a scene and its place, of a session.
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "databuffer/session.hpp"
+#include "lib/failure/require.hpp"
+#include "model/scene/scene_source.hpp"
+#include "model/terrain/cell_file.hpp"
+
+using namespace yars;
+
+namespace {
+
+void require_place(double latitude_deg, double longitude_deg) {
+  YARS_REQUIRE(std::abs(latitude_deg), <=, 90.0);
+  YARS_REQUIRE(std::abs(longitude_deg), <=, 180.0);
+}
+
+// A name that a session may not have opens no file, whatever stands in it.
+void try_session(const std::string& name) {
+  const bool plain =
+      !name.empty() && name.size() <= 40 &&
+      name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_") == std::string::npos;
+  if (plain) return;
+  YARS_REQUIRE(databuffer::Session::open(name, "fuzz").has_value(), ==, false);
+  YARS_REQUIRE(databuffer::Session::open_read_only(name).has_value(), ==, false);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const std::string file = text.substr(std::min(slash + 1, text.size()));
+  if (const auto named = model::terrain::cell_named(text.substr(0, slash), file)) {
+    require_place(named->place.south_deg + 0.5, named->place.west_deg + 0.5);
+    YARS_REQUIRE(named->level, <=, 2);
+  }
+  if (const auto place = model::scene::place_in_name(text)) require_place(place->latitude_deg, place->longitude_deg);
+  const auto scene = model::scene::parse_scene(text);
+  if (scene && std::isfinite(scene->place.latitude_deg))
+    require_place(scene->place.latitude_deg, scene->place.longitude_deg);
+  try_session(text);
+  return 0;
+}

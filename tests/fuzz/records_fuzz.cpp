@@ -1,0 +1,157 @@
+// Any bytes in a segment: whatever reads it ends its step, believes nothing out of range and publishes nothing out of
+// range: clock, receivers, state machine, glass, flight model, recorder, the texts of `yars watch` and `yars status`.
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "config/load.hpp"
+#include "databuffer/flight/source_reader.hpp"
+#include "databuffer/flight_shell.hpp"
+#include "databuffer/ownship_receiver.hpp"
+#include "databuffer/records/model_validation.hpp"
+#include "databuffer/records/validation.hpp"
+#include "databuffer/traffic_receiver.hpp"
+#include "display/glass_feed_shell.hpp"
+#include "display/polar_store.hpp"
+#include "display/present_frame.hpp"
+#include "display/symbology.hpp"
+#include "lib/failure/require.hpp"
+#include "statemachine/state_machine_shell.hpp"
+#include "tests/fuzz/overlaid_session.hpp"
+#include "tools/recorder.hpp"
+#include "tools/status_json.hpp"
+#include "tools/status_text.hpp"
+
+namespace {
+
+using namespace yars;
+using namespace yars::databuffer;
+
+constexpr int kFlightLane = 3;
+
+const radar::RadarConfiguration& configuration() {
+  static const auto loaded = *config::load_configuration_text("", "built-in");
+  return loaded.radar;
+}
+
+void require_good(const Refusal& refusal) {
+  YARS_REQUIRE(refusal.value_or(""), ==, "");
+}
+
+// Everything that lives for a whole conversation: a process of each role.
+class Readers {
+ public:
+  Readers(Session session, std::string name)
+      : name_(std::move(name)),
+        session_(std::move(session)),
+        machine_(session_, configuration(), false),
+        feed_(
+            session_, false, [this](const Sweep& sweep) { take(sweep); },
+            [](const PatchMap& map, std::span<const std::uint8_t> pixels) {
+              require_good(why_refused(map));
+              YARS_REQUIRE(pixels.size(), ==, patch_pixels(map));
+            }),
+        flight_(session_, *flight::open_source("fixed:36.6,-121.9,20000,0,400"), kFlightLane, false),
+        writer_(*tools::recording::RecordingWriter::create("/dev/null", {})),
+        recorder_(session_, writer_, {true, true}, true) {}
+
+  void step() {
+    const ClockState clock = session_.clock();
+    require_good(why_refused(clock));
+    const std::int64_t sim_time_ns = session_.sim_time_ns();
+    YARS_REQUIRE(sim_time_ns, >=, 0);
+    const std::int64_t tick = sim_time_ns / radar::kTickNanoseconds;
+    const TickLoop::Due due{tick, tick * radar::kTickNanoseconds, clock, 0, epoch_ != clock.epoch};
+    epoch_ = clock.epoch;
+    receive(due);
+    flight_.step(due);
+    think(due);
+    show(due.sim_time_ns);
+    recorder_.drain(tick);
+    look();
+  }
+
+ private:
+  const SessionLayout& layout() const { return session_.layout(); }
+
+  void think(const TickLoop::Due& due) {
+    const std::uint64_t before = layout().radar_state.version();
+    machine_.step(due);
+    RadarState state{};
+    if (layout().radar_state.version() != before && layout().radar_state.read(state)) require_good(why_refused(state));
+  }
+
+  void receive(const TickLoop::Due& due) {
+    const auto& selected = ownship_.refresh(layout(), due.sim_time_ns, due.clock.epoch);
+    if (selected.valid && selected.lane != kNoLane) {
+      require_good(why_refused(selected.ownship));
+      require_good(why_refused(selected.nav));
+    }
+    traffic_.refresh(layout(), due.tick, due.sim_time_ns, due.clock.epoch);
+    require_good(why_refused(traffic_.latched()));
+  }
+
+  void take(const Sweep& sweep) {
+    require_good(why_refused(sweep));
+    store_.insert(sweep);
+  }
+
+  void show(std::int64_t sim_time_ns) {
+    feed_.refresh(sim_time_ns);
+    list_.clear();
+    const auto frame = display::present_frame(feed_.input(), store_.newest());
+    const display::GlassView view(configuration().view);
+    display::draw_symbology(feed_.input(), configuration(), view, frame, labels_, list_);
+    for (std::size_t layer = 0; layer < display::kLayers; ++layer)
+      for (const display::Segment& stroke : list_.content(static_cast<display::Layer>(layer)).strokes)
+        for (const float number : {stroke.from.x, stroke.from.y, stroke.to.x, stroke.to.y})
+          YARS_REQUIRE(std::isfinite(number), ==, true);
+  }
+
+  void look() const {
+    const auto session = Session::open_read_only(name_);
+    if (!session) return;
+    const auto object = tools::status_json(*session, "fuzz");
+    (void)object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    tools::print_status(object, {});
+    GlassFrame frame{};
+    std::vector<std::uint8_t> pixels;
+    if (read_newest_frame(session->layout(), 0, frame, pixels)) YARS_REQUIRE(pixels.size(), ==, frame_bytes(frame));
+  }
+
+  std::string name_;
+  Session session_;
+  OwnshipReceiver ownship_;
+  TrafficReceiver traffic_;
+  statemachine::StateMachineShell machine_;
+  display::PolarStore store_;
+  display::GlassFeed feed_;
+  display::LabelMemory labels_;
+  display::DrawList list_;
+  FlightShell flight_;
+  tools::recording::RecordingWriter writer_;
+  tools::Recorder recorder_;
+  std::uint32_t epoch_ = 0;
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerInitialize(int* /*count*/, char*** /*arguments*/) {
+  // What `yars status` prints is not wanted, only that it can.
+  return std::freopen("/dev/null", "w", stdout) == nullptr ? 1 : 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static fuzz::OverlaidSession session("fuzz-" + std::to_string(getpid()));
+  std::optional<Readers> readers;
+  session.play({data, size}, [&] {
+    // A session whose clock is none is not entered.
+    if (!readers)
+      if (auto opened = Session::open(session.name(), "reader")) readers.emplace(std::move(*opened), session.name());
+    if (readers) readers->step();
+  });
+  readers.reset();
+  session.put_back();
+  return 0;
+}

@@ -1,0 +1,26 @@
+// Any text as a script of events: an error with its line, or events that the border accepts, in the order of their
+// times.
+#include <cstdint>
+#include <string>
+
+#include "databuffer/records/validation.hpp"
+#include "inputmonitor/script.hpp"
+#include "lib/failure/require.hpp"
+
+using namespace yars;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto script = inputmonitor::parse_script({reinterpret_cast<const char*>(data), size}, "fuzz");
+  if (!script) {
+    YARS_REQUIRE(script.error().message().find("fuzz:"), !=, std::string::npos);
+    return 0;
+  }
+  std::int64_t before_ns = 0;
+  for (const auto& event : script->events) {
+    YARS_REQUIRE(event.time_ns, >=, before_ns);
+    YARS_REQUIRE(databuffer::why_refused(event.event).value_or(""), ==, "");
+    before_ns = event.time_ns;
+  }
+  if (script->end_ns) YARS_REQUIRE(*script->end_ns, >=, before_ns);
+  return 0;
+}

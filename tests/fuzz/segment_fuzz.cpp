@@ -1,0 +1,102 @@
+// Any bytes at the begin of a file where a session's segment lies, of any length: a program attaches if, and only if,
+// every number of the header is its own and the file holds what they promise; by shm::Segment, by Session and by
+// yars.h. Input: length in KiB (two bytes), how (one byte), then the header; how's lowest bit: over a good header.
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "databuffer/layout_identity.hpp"
+#include "databuffer/session.hpp"
+#include "lib/failure/require.hpp"
+#include "shm/segment.hpp"
+#include "tests/fuzz/attaching_client.h"
+
+using namespace yars;
+
+namespace {
+
+constexpr std::size_t kFront = 2048;  // [bytes] header, lockstep and clock: what attaching looks at
+
+const std::string& name() {
+  static const std::string text = "fuzz-" + std::to_string(getpid());
+  return text;
+}
+
+// The first bytes of a session as it is made.
+const std::vector<std::byte>& good_front() {
+  static const std::vector<std::byte> front = [] {
+    auto session = *databuffer::Session::open(name() + "-good", "fuzz");
+    std::vector<std::byte> bytes(kFront);
+    std::memcpy(bytes.data(), &session.layout(), bytes.size());
+    return bytes;
+  }();
+  return front;
+}
+
+// A file at the segment's name that somebody takes part in, else it would be a leftover and be replaced.
+class PlantedFile {
+ public:
+  PlantedFile(const std::vector<std::byte>& front, std::size_t bytes) : path_(shm::segment_path(name())) {
+    descriptor_ = open(path_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    YARS_REQUIRE(descriptor_, >=, 0);
+    YARS_REQUIRE(ftruncate(descriptor_, static_cast<off_t>(bytes)), ==, 0);
+    const std::size_t there = std::min(front.size(), bytes);
+    YARS_REQUIRE(pwrite(descriptor_, front.data(), there, 0), ==, static_cast<ssize_t>(there));
+    struct flock lock {};
+    lock.l_type = F_RDLCK;
+    lock.l_whence = SEEK_SET;
+    lock.l_len = 1;
+    YARS_REQUIRE(fcntl(descriptor_, F_OFD_SETLK, &lock), ==, 0);
+  }
+  PlantedFile(const PlantedFile&) = delete;
+  PlantedFile& operator=(const PlantedFile&) = delete;
+  ~PlantedFile() {
+    close(descriptor_);
+    unlink(path_.c_str());
+  }
+
+ private:
+  std::string path_;
+  int descriptor_;
+};
+
+bool matches(const std::vector<std::byte>& front, std::size_t bytes) {
+  constexpr std::size_t kIdentity = 28;  // magic, size, hash, version
+  return bytes >= sizeof(databuffer::SessionLayout) && std::memcmp(front.data(), good_front().data(), kIdentity) == 0;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size < 3) return 0;
+  std::size_t bytes = (data[0] * 256U + data[1]) * std::size_t{1024} + data[2];
+  std::vector<std::byte> front((data[2] & 1U) != 0 ? good_front() : std::vector<std::byte>(kFront));
+  if ((data[2] & 2U) != 0) bytes = sizeof(databuffer::SessionLayout) + data[1] - std::min<std::size_t>(data[0], 2);
+  bytes = std::min(bytes, databuffer::kLargestSegment);
+  if ((data[2] & 4U) != 0 && size >= 5) {
+    const std::size_t offset = (data[3] * 256U + data[4]) % kFront;
+    std::memcpy(front.data() + offset, data + 5, std::min(size - 5, kFront - offset));
+  } else {
+    std::memcpy(front.data(), data + 3, std::min(size - 3, kFront));
+  }
+  const PlantedFile planted(front, bytes);
+  const bool good = matches(front, bytes);
+
+  const auto bare = shm::Segment::open_read_only(name(), databuffer::kLayoutIdentity);
+  YARS_REQUIRE(bare.has_value(), ==, good);
+  const auto reader = databuffer::Session::open_read_only(name());
+  if (reader) YARS_REQUIRE(good, ==, true);
+  if (reader) YARS_REQUIRE(reader->sim_time_ns(), >=, 0);
+  const auto writer = databuffer::Session::open(name(), "fuzz");
+  if (writer) YARS_REQUIRE(good, ==, true);
+  if (writer) YARS_REQUIRE(std::as_const(*writer).layout().spare.back().load(), ==, 0U);
+  YARS_REQUIRE(attach_as_a_client(name().c_str()) != 0, ==, good);
+  return 0;
+}

@@ -1,0 +1,243 @@
+// Every row of the table of limits in docs/security.md: just beyond it a reader says so, before it takes the memory.
+#include <gmock/gmock.h>
+#include <zip.h>
+#include <zlib.h>
+
+#include <cstring>
+#include <sstream>
+#include <vector>
+
+#include "config/load.hpp"
+#include "config/print.hpp"
+#include "databuffer/bridges/dis_bridge.hpp"
+#include "databuffer/bridges/flightgear.hpp"
+#include "databuffer/bridges/jsbsim.hpp"
+#include "databuffer/records/text_file_reader.hpp"
+#include "lib/imageio/indexed_png.hpp"
+#include "lib/imageio/png.hpp"
+#include "model/scene/openflight_reader.hpp"
+#include "model/scene/openflight_writer.hpp"
+#include "model/terrain/culture_reader.hpp"
+#include "model/terrain/culture_tile.hpp"
+#include "model/terrain/ded_reader.hpp"
+#include "model/terrain/dted_reader.hpp"
+#include "model/terrain/hgt_reader.hpp"
+#include "model/terrain/pack_reader.hpp"
+#include "model/terrain/packed_hgt_reader.hpp"
+#include "tests/security/folder.hpp"
+#include "tools/recording/block_head.hpp"
+#include "tools/recording/recording_reader.hpp"
+#include "tools/recording/recording_writer.hpp"
+
+namespace yars {
+namespace {
+
+using namespace model;
+using test::refusal_of;
+using ::testing::HasSubstr;
+
+constexpr terrain::CellPlace kPlace{36, -122};
+constexpr std::uintmax_t kMebibyte = 1U << 20U;
+
+class Limits : public test::SecureFolder {};
+
+std::string repeated(const std::string& text, std::size_t times) {
+  std::string all;
+  all.reserve(text.size() * times);
+  for (std::size_t i = 0; i < times; ++i) all += text;
+  return all;
+}
+
+// ---- Texts ----
+
+TEST_F(Limits, AConfigurationIsAtMostAMebibyteAFile) {
+  EXPECT_THAT(refusal_of(config::load_configuration(sparse("a.guf", kMebibyte + 1))),
+              HasSubstr("at most 1048576 bytes"));
+}
+
+TEST_F(Limits, AConfigurationOfMessagesHasTheSameLimits) {
+  EXPECT_THAT(refusal_of(config::load_configuration_text("Radar: " + repeated("{ ", 65), "a")), HasSubstr("64"));
+  EXPECT_THAT(refusal_of(config::load_configuration_text("Radar: {" + repeated("1 ", 200'001) + "}", "a")),
+              HasSubstr("200000"));
+}
+
+TEST_F(Limits, AConfigurationDefinesAtMostAThousandForms) {
+  std::string forms;
+  for (int i = 0; i < 1000; ++i) forms += "( def-form Mine" + std::to_string(i) + " is= Terrain )\n";
+  EXPECT_TRUE(config::load_configuration_text(forms, "a"));
+  forms += "( def-form Last is= Terrain )";
+  EXPECT_THAT(refusal_of(config::load_configuration_text(forms, "a")), HasSubstr("at most 1000 forms defined"));
+}
+
+TEST_F(Limits, DevicesAndTheirControlsAreCounted) {
+  const std::string device = "( Device \"x\" :buttons `( ( Button \"button 1\" \"tdc press\" ) ) )";
+  EXPECT_TRUE(config::load_configuration_text("( Devices `( " + repeated(device, 64) + " ) )", "a"));
+  EXPECT_THAT(refusal_of(config::load_configuration_text("( Devices `( " + repeated(device, 65) + " ) )", "a")),
+              HasSubstr("64"));
+}
+
+TEST_F(Limits, ATextIsAtMost256MebibytesLong) {
+  EXPECT_THAT(refusal_of(databuffer::read_text_file(sparse("long.csv", 256 * kMebibyte + 1))),
+              HasSubstr("at most 256 MiB"));
+}
+
+TEST_F(Limits, ATextHasAtMostTenMillionLines) {
+  EXPECT_TRUE(databuffer::read_text_file(write("most.csv", std::string(10'000'000, '\n'))));
+  EXPECT_THAT(refusal_of(databuffer::read_text_file(write("more.csv", std::string(10'000'001, '\n')))),
+              HasSubstr("at most 10 million lines"));
+}
+
+// ---- Terrain ----
+
+TEST_F(Limits, ADtedCellIsNoLongerThanLevelTwo) {
+  constexpr std::uintmax_t kMost = 80 + 648 + 2700 + 3601 * (12 + 2 * 3601) + 8 * 80;
+  EXPECT_THAT(refusal_of(terrain::read_dted(sparse("n36.dt2", kMost + 1), kPlace)), HasSubstr("at most"));
+  EXPECT_THAT(refusal_of(terrain::read_dted(sparse("n37.dt2", kMost), kPlace)), ::testing::Not(HasSubstr("at most")));
+}
+
+TEST_F(Limits, AnHgtCellIsNoLongerThanOneArcSecond) {
+  EXPECT_THAT(refusal_of(terrain::read_hgt(sparse("N36W122.hgt", 2UL * 3601 * 3601 + 1), kPlace)),
+              HasSubstr("at most"));
+}
+
+TEST_F(Limits, APackedHgtCellIsAtMost64MebibytesLong) {
+  for (const char* name : {"N36W122.hgt.zip", "N36W122.hgt.gz"})
+    EXPECT_THAT(refusal_of(terrain::read_packed_hgt(sparse(name, 64 * kMebibyte + 1), kPlace)),
+                HasSubstr("at most 67108864 bytes"))
+        << name;
+}
+
+// A few kilobytes that unpack to more than any cell has.
+TEST_F(Limits, AGzipThatUnpacksToMoreThanACellIsCutThere) {
+  const auto path = folder_ / "N36W122.hgt.gz";
+  gzFile file = gzopen(path.c_str(), "wb9");
+  const std::vector<char> zeros(kMebibyte);
+  for (int i = 0; i < 64; ++i) ASSERT_GT(gzwrite(file, zeros.data(), static_cast<unsigned>(zeros.size())), 0);
+  gzclose(file);
+  ASSERT_LT(std::filesystem::file_size(path), kMebibyte);
+  EXPECT_THAT(refusal_of(terrain::read_packed_hgt(path, kPlace)), HasSubstr("at most 25934402 bytes unpacked"));
+}
+
+TEST_F(Limits, AZipThatUnpacksToMoreThanACellIsRefusedUnread) {
+  const auto path = folder_ / "N36W122.hgt.zip";
+  const std::vector<char> zeros(64 * kMebibyte);
+  int code = 0;
+  zip_t* archive = zip_open(path.c_str(), ZIP_CREATE, &code);
+  zip_file_add(archive, "N36W122.hgt", zip_source_buffer(archive, zeros.data(), zeros.size(), 0), 0);
+  ASSERT_EQ(zip_close(archive), 0);
+  EXPECT_THAT(refusal_of(terrain::read_packed_hgt(path, kPlace)), HasSubstr("2884802 or 25934402 bytes"));
+}
+
+TEST_F(Limits, APackIsAtMost256MebibytesAHalf) {
+  write("w122/n36.jp2", "x");
+  sparse("w122/n36.side", 256 * kMebibyte + 1);
+  EXPECT_THAT(refusal_of(terrain::read_pack(folder_ / "w122/n36.jp2", kPlace, 0)), HasSubstr("at most 268435456"));
+  sparse("w122/n37.jp2", 256 * kMebibyte + 1);
+  EXPECT_THAT(refusal_of(terrain::read_pack(folder_ / "w122/n37.jp2", kPlace, 0)), HasSubstr("at most 268435456"));
+}
+
+std::string big_endian(std::uint32_t value) {
+  std::string bytes;
+  for (const unsigned shift : {24U, 16U, 8U, 0U}) bytes += static_cast<char>(value >> shift & 255U);
+  return bytes;
+}
+
+TEST_F(Limits, ADedFileAnnouncesAtMostTheCellsOfTheEarth) {
+  std::string front = big_endian(128) + "SSYSDED1V1.0";
+  front.resize(128, ' ');
+  EXPECT_THAT(refusal_of(terrain::ded_cells(sparse("a.ded", kMebibyte, front + big_endian(0xffffffffU)))),
+              HasSubstr("cells, found 4294967295"));
+}
+
+TEST_F(Limits, ACultureMapIsAtMost10801PostsASide) {
+  // The header alone says it: the rest is never looked at.
+  const auto path = folder_ / "n36.smc.png";
+  ASSERT_TRUE(imageio::write_indexed_png(path, {2, 10'802, std::vector<std::uint8_t>(2UL * 10'802), {{0, 0, 0}}}));
+  EXPECT_THAT(refusal_of(terrain::read_culture(path, kPlace)), HasSubstr("at most 10801 pixels a side"));
+}
+
+TEST_F(Limits, APictureIsAtMost32768PixelsASide) {
+  const auto path = folder_ / "wide.png";
+  ASSERT_TRUE(imageio::write_png(path, {32'769, 1, 1, std::vector<std::uint8_t>(32'769)}));
+  EXPECT_THAT(refusal_of(imageio::read_png(path)), HasSubstr("at most 32768 pixels a side"));
+}
+
+// ---- Scenes ----
+
+TEST_F(Limits, ASceneFileIsAtMostAGibibyteLong) {
+  EXPECT_THAT(refusal_of(scene::read_openflight(sparse("a.flt", 1024 * kMebibyte + 1))),
+              HasSubstr("at most 1073741824"));
+}
+
+std::string external_file(const std::string& name) {
+  scene::OpenFlightWriter writer(std::nullopt);
+  writer.external(name, {});
+  const auto bytes = writer.take();
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+TEST_F(Limits, ExternalReferencesAreAtMostSixteenDeep) {
+  for (int i = 0; i < 20; ++i) write(std::to_string(i) + ".flt", external_file(std::to_string(i + 1) + ".flt"));
+  EXPECT_THAT(refusal_of(scene::read_openflight(folder_ / "0.flt")), HasSubstr("at most 16 deep"));
+  EXPECT_TRUE(scene::read_openflight(folder_ / "6.flt"));
+}
+
+TEST_F(Limits, ASceneHasAtMost4096Files) {
+  scene::OpenFlightWriter writer(std::nullopt);
+  for (int i = 0; i < 4097; ++i) {
+    const std::string name = "part" + std::to_string(i) + ".flt";
+    writer.external(name, {});
+    write(name, external_file(""));
+  }
+  const auto bytes = writer.take();
+  const auto path = write("all.flt", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  EXPECT_THAT(refusal_of(scene::read_openflight(path)), HasSubstr("at most 4096 files"));
+}
+
+// ---- Recordings ----
+
+std::string recording_with(std::uint32_t configuration_bytes) {
+  std::string bytes = "YARSTLOG";
+  for (const std::uint32_t word : {3U, 0U, configuration_bytes, 0U})
+    bytes.append(reinterpret_cast<const char*>(&word), sizeof word);
+  return bytes;
+}
+
+TEST_F(Limits, ARecordingsHeaderHoldsAtMost64KibibytesOfText) {
+  EXPECT_THAT(refusal_of(tools::recording::RecordingReader::open(write("a.yrec", recording_with(65'537)))),
+              HasSubstr("longer paths"));
+  EXPECT_THAT(refusal_of(tools::recording::RecordingReader::open(write("b.yrec", recording_with(65'536)))),
+              HasSubstr("cut short"));
+}
+
+TEST_F(Limits, ABlockOfARecordingIsAtMostEightMebibytesAnd16384Items) {
+  using namespace tools::recording;
+  BlockHead head{};
+  head.content = BlockContent::items;
+  const auto sound = [](const BlockHead& claimed) {
+    const auto bytes = sealed(claimed, {});
+    BlockHead written{};
+    std::memcpy(&written, bytes.data(), sizeof written);
+    return is_sound(written);
+  };
+  head.raw_bytes = kMostBlockBytes;
+  head.items = kMostBlockItems;
+  EXPECT_TRUE(sound(head));
+  ++head.raw_bytes;
+  EXPECT_FALSE(sound(head));
+  head.raw_bytes = 0;
+  ++head.items;
+  EXPECT_FALSE(sound(head));
+}
+
+// ---- Packets ----
+
+TEST_F(Limits, DatagramsOfAnyOtherLengthAreRefused) {
+  const std::vector<std::byte> longest(16'385);
+  EXPECT_FALSE(databuffer::bridges::decode_flightgear(longest));
+  databuffer::bridges::JsbsimBridge jsbsim;
+  EXPECT_FALSE(jsbsim.receive(longest, {}));
+}
+
+}  // namespace
+}  // namespace yars

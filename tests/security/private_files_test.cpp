@@ -1,0 +1,139 @@
+// What a session leaves on the disk and in shared memory is the user's alone, and no planted link is written through.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+
+#include "databuffer/bridges/bridge_source.hpp"
+#include "databuffer/log.hpp"
+#include "databuffer/program.hpp"
+#include "databuffer/session.hpp"
+#include "databuffer/udp_socket_shell.hpp"
+#include "display/frame_writer_shell.hpp"
+#include "tests/security/folder.hpp"
+#include "tests/shm/child_process.hpp"
+#include "tools/recording/recording_writer.hpp"
+
+namespace yars {
+namespace {
+
+using shm::testing::ChildProcess;
+using test::refusal_of;
+using ::testing::HasSubstr;
+using tools::recording::RecordingWriter;
+
+class PrivateFiles : public test::SecureFolder {
+ protected:
+  PrivateFiles() : session_("sec" + std::to_string(getpid())) { before_ = umask(0); }
+  ~PrivateFiles() override {
+    umask(before_);
+    unlink(shm::segment_path(session_).c_str());
+  }
+  const std::string session_;
+  mode_t before_;
+};
+
+TEST_F(PrivateFiles, ARecordingIsTheUsersAloneWhateverTheUmask) {
+  const auto path = folder_ / "new.yrec";
+  ASSERT_TRUE(RecordingWriter::create(path, {}));
+  EXPECT_EQ(mode_of(path), 0600U);
+}
+
+TEST_F(PrivateFiles, AnOlderFileUnderARecordingsNameBecomesPrivate) {
+  const auto path = write("old.yrec", "what was there before");
+  ASSERT_EQ(mode_of(path), 0666U);
+  ASSERT_TRUE(RecordingWriter::create(path, {}));
+  EXPECT_EQ(mode_of(path), 0600U);
+}
+
+TEST_F(PrivateFiles, ARecordingFollowsNoPlantedLink) {
+  const auto victim = write("victim", "keep this");
+  const auto planted = link("flight.yrec", victim);
+  EXPECT_THAT(refusal_of(RecordingWriter::create(planted, {})), HasSubstr("it is a link"));
+  EXPECT_EQ(content_of(victim), "keep this");
+  EXPECT_EQ(mode_of(victim), 0666U);
+}
+
+TEST_F(PrivateFiles, ARecordingIntoAPipeThatNobodyReadsIsRefusedAtOnce) {
+  EXPECT_FALSE(RecordingWriter::create(fifo("pipe"), {}));
+}
+
+TEST_F(PrivateFiles, ADeviceUnderARecordingsNameKeepsItsRights) {
+  struct stat before {};
+  ASSERT_EQ(stat("/dev/null", &before), 0);
+  EXPECT_TRUE(RecordingWriter::create("/dev/null", {}));
+  struct stat after {};
+  ASSERT_EQ(stat("/dev/null", &after), 0);
+  EXPECT_EQ(after.st_mode, before.st_mode);
+}
+
+TEST_F(PrivateFiles, FramesAndTheirFolderAreTheUsersAlone) {
+  databuffer::keep_files_private();
+  const auto folder = folder_ / "frames";
+  const auto writer = display::FrameWriter::create(folder);
+  ASSERT_TRUE(writer) << writer.error().message();
+  ASSERT_TRUE(writer->write({2, 2, 4, std::vector<std::uint8_t>(16)}, 1));
+  EXPECT_EQ(mode_of(folder), 0700U);
+  EXPECT_EQ(mode_of(folder / "frame_000001.png"), 0600U);
+}
+
+TEST_F(PrivateFiles, FramesGoToNoFolderWhereOthersCouldPlantLinks) {
+  const auto open = folder_ / "open";
+  std::filesystem::create_directories(open);
+  ASSERT_EQ(chmod(open.c_str(), 01777), 0);
+  EXPECT_THAT(refusal_of(display::FrameWriter::create(open)), HasSubstr("no other user may write"));
+}
+
+TEST_F(PrivateFiles, LogsGoToNoFolderWhereOthersCouldPlantLinks) {
+  const auto victim = write("victim", "keep this");
+  const auto open = folder_ / "open";
+  link("open/role.log", victim);
+  ASSERT_EQ(chmod(open.c_str(), 01777), 0);
+  ChildProcess child([&] {
+    databuffer::start_log("role", "off");
+    databuffer::start_log_file("role", open.string());
+    databuffer::log_to_file("into the link");
+    return 0;
+  });
+  ASSERT_EQ(child.wait(), 0);
+  EXPECT_EQ(content_of(victim), "keep this");
+}
+
+TEST_F(PrivateFiles, ASegmentIsTheUsersAloneWhateverTheUmask) {
+  const auto session = databuffer::Session::open(session_, "test");
+  ASSERT_TRUE(session) << session.error().message();
+  EXPECT_EQ(mode_of(shm::segment_path(session_)), 0600U);
+}
+
+TEST_F(PrivateFiles, ALinkPlantedWhereASegmentWillLieIsNotFollowed) {
+  const auto victim = write("victim", "keep this");
+  std::filesystem::create_symlink(victim, shm::segment_path(session_));
+  EXPECT_FALSE(databuffer::Session::open(session_, "test"));
+  EXPECT_FALSE(databuffer::Session::open_read_only(session_));
+  EXPECT_EQ(content_of(victim), "keep this");
+}
+
+TEST_F(PrivateFiles, ALinkPlantedWhereASegmentIsBuiltIsNotFollowed) {
+  const auto victim = write("victim", "keep this");
+  const auto building = shm::segment_path(session_) + "." + std::to_string(getpid()) + ".tmp";
+  std::filesystem::create_symlink(victim, building);
+  (void)databuffer::Session::open(session_, "test");
+  unlink(building.c_str());
+  EXPECT_EQ(content_of(victim), "keep this");
+}
+
+TEST_F(PrivateFiles, APipeWhereASegmentWillLieHangsNobody) {
+  ASSERT_EQ(mkfifo(shm::segment_path(session_).c_str(), 0600), 0);
+  EXPECT_FALSE(databuffer::Session::open_read_only(session_));
+}
+
+TEST(PrivateSockets, AListenerIsReachableFromThisMachineAlone) {
+  for (const char* text : {"flightgear:0", "jsbsim:0", "dis:0"}) {
+    const auto source = databuffer::bridges::open_bridge(text);
+    ASSERT_TRUE(source) << source.error().message();
+    const auto socket = databuffer::UdpSocket::listen(source->host, source->port);
+    ASSERT_TRUE(socket) << socket.error().message();
+    EXPECT_EQ(socket->place().address, 0x7f000001U) << text;
+  }
+}
+
+}  // namespace
+}  // namespace yars

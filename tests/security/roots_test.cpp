@@ -1,0 +1,226 @@
+// From a folder that a user names nothing is read that lies elsewhere, and nothing that is no plain file hangs a
+// reader.
+#include <gmock/gmock.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+
+#include <array>
+#include <functional>
+
+#include "config/load.hpp"
+#include "databuffer/records/text_file_reader.hpp"
+#include "lib/imageio/indexed_png.hpp"
+#include "lib/imageio/png.hpp"
+#include "model/scene/openflight_reader.hpp"
+#include "model/scene/openflight_writer.hpp"
+#include "model/scene/scene_index.hpp"
+#include "model/terrain/culture_reader.hpp"
+#include "model/terrain/culture_tile.hpp"
+#include "model/terrain/ded_reader.hpp"
+#include "model/terrain/directory_index.hpp"
+#include "model/terrain/dted_reader.hpp"
+#include "model/terrain/gdal/raster.hpp"
+#include "model/terrain/hgt_reader.hpp"
+#include "model/terrain/pack_reader.hpp"
+#include "model/terrain/packed_hgt_reader.hpp"
+#include "tests/security/folder.hpp"
+#include "tools/recording/recording_reader.hpp"
+
+namespace yars {
+namespace {
+
+using namespace model;
+using test::refusal_of;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr terrain::CellPlace kPlace{36, -122};
+
+struct PathReader {
+  const char* name;  // of a file that it takes
+  std::string (*refusal)(const std::filesystem::path&);
+};
+
+// Every function that opens a file by its path.
+const std::vector<PathReader>& readers() {
+  static const std::vector<PathReader> all{
+      {"radar.guf", [](const auto& path) { return refusal_of(config::load_configuration(path)); }},
+      {"flight.route", [](const auto& path) { return refusal_of(databuffer::read_text_file(path)); }},
+      {"flight.yrec", [](const auto& path) { return refusal_of(tools::recording::RecordingReader::open(path)); }},
+      {"picture.png", [](const auto& path) { return refusal_of(imageio::read_png(path)); }},
+      {"n36.smc.png", [](const auto& path) { return refusal_of(terrain::read_culture(path, kPlace)); }},
+      {"w122/n36.dt1", [](const auto& path) { return refusal_of(terrain::read_dted(path, kPlace)); }},
+      {"N36W122.hgt", [](const auto& path) { return refusal_of(terrain::read_hgt(path, kPlace)); }},
+      {"N36W122.hgt.zip", [](const auto& path) { return refusal_of(terrain::read_packed_hgt(path, kPlace)); }},
+      {"N36W122.hgt.gz", [](const auto& path) { return refusal_of(terrain::read_packed_hgt(path, kPlace)); }},
+      {"w122/n36.jp2", [](const auto& path) { return refusal_of(terrain::read_pack(path, kPlace, 0)); }},
+      {"N36W122.ded", [](const auto& path) { return refusal_of(terrain::read_ded(path, kPlace)); }},
+      {"heights.tif", [](const auto& path) { return refusal_of(terrain::gdal::describe_raster(path)); }},
+      {"scene.flt", [](const auto& path) { return refusal_of(scene::read_openflight(path)); }},
+      {"scene.flt", [](const auto& path) { return refusal_of(scene::read_openflight_header(path)); }},
+  };
+  return all;
+}
+
+class Roots : public test::SecureFolder {};
+
+TEST_F(Roots, APipeHangsNoReader) {
+  int number = 0;
+  for (const PathReader& reader : readers()) {
+    const auto pipe = fifo(std::to_string(number++) + "/" + reader.name);
+    EXPECT_THAT(reader.refusal(pipe), HasSubstr(": expected ")) << reader.name;
+  }
+}
+
+TEST_F(Roots, ADeviceThatNeverEndsFillsNoMemory) {
+  for (const PathReader& reader : readers())
+    EXPECT_THAT(reader.refusal(
+                    link("zero/" + std::string(reader.name) + std::to_string(&reader - readers().data()), "/dev/zero")),
+                HasSubstr(": expected "))
+        << reader.name;
+}
+
+TEST_F(Roots, AFolderIsNoFile) {
+  for (const PathReader& reader : readers()) {
+    const auto folder = folder_ / reader.name;
+    std::filesystem::create_directories(folder);
+    EXPECT_THAT(reader.refusal(folder), HasSubstr(": expected ")) << reader.name;
+  }
+}
+
+TEST_F(Roots, TheOtherHalfOfAPackMayBeNoPipe) {
+  write("w122/n36.jp2", "any");
+  fifo("w122/n36.side");
+  EXPECT_THAT(refusal_of(terrain::read_pack(folder_ / "w122/n36.jp2", kPlace, 0)), HasSubstr("not a plain file"));
+}
+
+// ---- What a configuration includes ----
+
+TEST_F(Roots, AnIncludeByAnAbsolutePathIsRefused) {
+  const auto secret = write("secret.guf", "( Apg70 )");
+  const auto path = write("inside/a.guf", "( include \"" + secret.string() + "\" )");
+  EXPECT_THAT(refusal_of(config::load_configuration(path)), HasSubstr("expected an include inside "));
+}
+
+TEST_F(Roots, AnIncludeOfAPipeIsRefused) {
+  fifo("pipe.guf");
+  const auto path = write("a.guf", "( include \"pipe.guf\" )");
+  EXPECT_THAT(refusal_of(config::load_configuration(path)), HasSubstr("is no file"));
+}
+
+// ---- What a scene refers to ----
+
+std::string written(scene::OpenFlightWriter writer) {
+  const std::vector<std::byte> bytes = writer.take();
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::string scene_that_refers_to(const std::string& file) {
+  scene::OpenFlightWriter writer(std::nullopt);
+  writer.external(file, {});
+  return written(std::move(writer));
+}
+
+class SceneRoots : public Roots {
+ protected:
+  std::vector<std::string> warnings_of(const std::string& reference) const {
+    const auto model = scene::read_openflight(write("scene/first.flt", scene_that_refers_to(reference)));
+    EXPECT_TRUE(model) << model.error().message();
+    if (!model) return {};
+    EXPECT_THAT(model->files, IsEmpty());
+    return model->warnings;
+  }
+  const std::filesystem::path outside_ = write("outside.flt", scene_that_refers_to("nowhere.flt"));
+};
+
+TEST_F(SceneRoots, AReferenceByAnAbsolutePathIsLeftOut) {
+  EXPECT_THAT(warnings_of(outside_.string()), ElementsAre(HasSubstr("outside the folder")));
+}
+
+TEST_F(SceneRoots, AReferenceUpwardsIsLeftOut) {
+  EXPECT_THAT(warnings_of("../outside.flt"), ElementsAre(HasSubstr("outside the folder")));
+  EXPECT_THAT(warnings_of("..\\outside.flt"), ElementsAre(HasSubstr("outside the folder")));
+}
+
+TEST_F(SceneRoots, AReferenceThroughALinkThatLeadsOutIsLeftOut) {
+  link("scene/inner.flt", outside_);
+  EXPECT_THAT(warnings_of("inner.flt"), ElementsAre(HasSubstr("outside the folder")));
+  link("scene/folder", folder_);
+  EXPECT_THAT(warnings_of("folder/outside.flt"), ElementsAre(HasSubstr("outside the folder")));
+}
+
+TEST_F(SceneRoots, AReferenceToAPipeOrADeviceIsLeftOut) {
+  fifo("scene/pipe.flt");
+  EXPECT_THAT(warnings_of("pipe.flt"), ElementsAre(HasSubstr("is not there")));
+  EXPECT_THAT(warnings_of("/dev/zero"), ElementsAre(HasSubstr("outside the folder")));
+}
+
+TEST_F(SceneRoots, ALinkOutOfAFolderOfScenesIsAProblemAndTheRestGoesOn) {
+  write("scenes/N36_0_0W122_0_0.flt", scene_that_refers_to("nowhere.flt"));
+  link("scenes/N37_0_0W122_0_0.flt", outside_);
+  std::vector<std::string> problems;
+  radar::Scene folder;
+  folder.file = (folder_ / "scenes").string();
+  const auto index = scene::index_scenes({folder}, problems);
+  ASSERT_TRUE(index) << index.error().message();
+  EXPECT_EQ(index->size(), 1U);
+  EXPECT_THAT(problems, ElementsAre(HasSubstr("a link that leads out")));
+}
+
+// ---- What a directory of terrain holds ----
+
+class TerrainRoots : public Roots {
+ protected:
+  terrain::DirectoryIndex index() {
+    auto found = terrain::index_directory(folder_ / "terrain", &problems_);
+    EXPECT_TRUE(found) << found.error().message();
+    return found ? *found : terrain::DirectoryIndex{};
+  }
+  std::vector<std::string> problems_;
+};
+
+TEST_F(TerrainRoots, ACellThatIsALinkOutIsAProblemAndTheRestGoesOn) {
+  write("terrain/w122/n36.dt1", "a cell");
+  link("terrain/w122/n37.dt1", write("elsewhere.dt1", "secret"));
+  link("terrain/N38W122.hgt", "/etc/passwd");
+  link("terrain/any.ded", "/etc/passwd");
+  EXPECT_EQ(index().size(), 1U);
+  EXPECT_EQ(problems_.size(), 3U);
+  EXPECT_THAT(problems_, ::testing::Each(HasSubstr("a link that leads out")));
+}
+
+TEST_F(TerrainRoots, ALinkFromCellToCellWithinIsFollowed) {
+  const auto cell = write("terrain/w122/n36.dt1", "a cell");
+  link("terrain/w123/n36.dt1", cell);
+  EXPECT_EQ(index().size(), 2U);
+  EXPECT_THAT(problems_, IsEmpty());
+}
+
+TEST_F(TerrainRoots, AFolderThatIsALinkIsNotEntered) {
+  write("terrain/w122/n36.dt1", "a cell");
+  write("elsewhere/w123/n36.dt1", "secret");
+  std::filesystem::create_directory_symlink(folder_ / "elsewhere", folder_ / "terrain/elsewhere");
+  EXPECT_EQ(index().size(), 1U);
+}
+
+TEST_F(TerrainRoots, ALinkOutBesideACellIsAProblemToo) {
+  write("terrain/w122/n36.dt1", "a cell");
+  write("terrain/w122/n37.jp2", "a pack");
+  write("terrain/w122/n38.dt1", "a cell");
+  link("terrain/w122/n37.side", "/etc/passwd");
+  link("terrain/w122/n38.smc.png", "/etc/passwd");
+  EXPECT_EQ(index().size(), 1U);
+  EXPECT_EQ(problems_.size(), 2U);
+}
+
+TEST_F(TerrainRoots, PipesUnderTheNamesOfCellsHangNothing) {
+  write("terrain/w122/n36.dt1", "a cell");
+  for (const char* name :
+       {"w122/n37.dt1", "w122/n38.jp2", "N39W122.hgt", "N40W122.hgt.gz", "N41W122.hgt.zip", "any.ded"})
+    fifo(std::string("terrain/") + name);
+  EXPECT_THAT(index(), ::testing::SizeIs(::testing::Ge(1U)));
+}
+
+}  // namespace
+}  // namespace yars

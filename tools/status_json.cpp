@@ -1,0 +1,114 @@
+#include "tools/status_json.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "databuffer/frame_pool.hpp"
+#include "databuffer/records/model_validation.hpp"
+#include "databuffer/records/plain_text.hpp"
+#include "databuffer/records/validation.hpp"
+#include "tools/status_health.hpp"
+#include "tools/watch_json.hpp"
+
+namespace yars::tools {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::array<const char*, databuffer::kNoteKinds> kNoteNames{"restart", "refusal", "loss", "late tick",
+                                                                     "supervision"};
+
+std::vector<databuffer::Note> notes_of(const databuffer::SessionLayout& layout) {
+  std::vector<databuffer::Note> notes;
+  const std::uint64_t total = layout.notes.total();
+  databuffer::Note note{};
+  for (std::uint64_t i = total > databuffer::kNotes ? total - databuffer::kNotes : 0; i < total; ++i)
+    if (layout.notes.read(i, note)) {
+      // Ages are told: a stamp that lies ahead, or before the machine was started, is none.
+      note.monotonic_ns = std::clamp<std::int64_t>(note.monotonic_ns, 0, databuffer::monotonic_ns());
+      notes.push_back(note);
+    }
+  return notes;
+}
+
+const char* note_name(std::uint32_t kind) {
+  return kind < kNoteNames.size() ? kNoteNames[kind] : "?";
+}
+
+ordered_json lanes_json(const databuffer::SessionLayout& layout) {
+  ordered_json lanes = ordered_json::array();
+  for (std::size_t i = 0; i < databuffer::kOwnshipLanes; ++i) {
+    databuffer::Ownship own{};
+    if (!layout.ownship[i].read(own) || databuffer::why_refused(own)) continue;
+    lanes.push_back({{"lane", i},
+                     {"source", databuffer::text_of(own.source)},
+                     {"priority", layout.ownship_priority[i].load()},
+                     {"records", layout.ownship[i].version()}});
+  }
+  return lanes;
+}
+
+// Null without a recorder: what one that has gone left behind does not count.
+ordered_json recorder_json(const databuffer::Session& session) {
+  databuffer::RecorderStatus status{};
+  if (!session.role_is_held(databuffer::Role::recorder) || !session.layout().recorder_status.read(status))
+    return nullptr;
+  const std::string problem(databuffer::text_of(status.problem));
+  return {{"writing", status.writing != 0},
+          {"bytes", status.bytes},
+          {"problem", problem.empty() ? ordered_json(nullptr) : ordered_json(problem)}};
+}
+
+// Null when nobody publishes them and nobody has.
+ordered_json frames_json(const databuffer::Session& session) {
+  const std::int32_t publisher = session.role_holder(databuffer::Role::glass_frames);
+  databuffer::GlassFrame newest{};
+  std::vector<std::uint8_t> pixels;
+  if (!databuffer::read_newest_frame(session.layout(), 0, newest, pixels) || databuffer::why_refused(newest)) newest = {};
+  if (publisher == 0 && newest.id == 0) return nullptr;
+  return {{"publisher", publisher == 0 ? ordered_json(nullptr) : ordered_json(publisher)},
+          {"newest", newest.id},
+          {"width", newest.width},
+          {"height", newest.height}};
+}
+
+}  // namespace
+
+ordered_json status_json(const databuffer::Session& session, const std::string& name) {
+  databuffer::ModelStatus model{};
+  if (!session.layout().model_status.read(model) || databuffer::why_refused(model)) model = {};
+  ordered_json object;
+  object["session"] = name;
+  object["watch"] = watch_object(session);
+  object["model"] = {{"fidelity", databuffer::text_of(model.fidelity)},
+                     {"load", model.load},
+                     {"scan", model.scan},
+                     {"terrain_bytes", model.terrain_bytes},
+                     {"posts_pending", model.posts_pending}};
+  object["recorder"] = recorder_json(session);
+  object["glass_frames"] = frames_json(session);
+  object["ownship_lanes"] = lanes_json(session.layout());
+  ordered_json counts = ordered_json::object();
+  for (std::size_t kind = 0; kind < databuffer::kNoteKinds; ++kind)
+    counts[kNoteNames[kind]] = session.layout().note_counts[kind].load();
+  object["note_counts"] = counts;
+  const std::int64_t now_ns = databuffer::monotonic_ns();
+  const std::vector<databuffer::Note> lines = notes_of(session.layout());
+  ordered_json notes = ordered_json::array();
+  for (const auto& note : lines)
+    notes.push_back({{"sim_time", static_cast<double>(note.sim_time_ns) * 1e-9},
+                     {"age_s", static_cast<double>(now_ns - note.monotonic_ns) * 1e-9},
+                     {"process", databuffer::text_of(note.process)},
+                     {"pid", note.pid},
+                     {"kind", note_name(note.kind)},
+                     {"text", databuffer::text_of(note.text)}});
+  object["notes"] = notes;
+  object["named"] = session.has_name();
+  object["roles"] = roles_json(session, lines);
+  object["health"] = health_json(object);
+  return object;
+}
+
+}  // namespace yars::tools
