@@ -44,8 +44,6 @@ void kill_writers(StormSet& set, const std::string& mode) {
 
 void kill_frame_writers(StormSet& set, const std::string&) {
   set.kill("radar-display");
-  // The lock of the pictures is free when the process is gone.
-  eventually([&] { return !set.processes().runs("radar-display"); }, 20.0);
   kill_writers(set, "frames");
 }
 

@@ -96,21 +96,23 @@ static int push(yars_session* s, double rate_hz) {
   }
 }
 
+/* Only what is not so: a mode chosen anew begins its scan anew, a TDC let go commands a map. */
 static int restore(yars_session* s, uint32_t mark) {
   if (yars_claim_input_lane(s, "restore") < 0) return 1;
   yars_radar_state state;
-  const int known = yars_read_radar_state(s, &state);
-  const yars_input_event steps[] = {{.kind = 12, .argument = 2}, /* power OPR */
-                                    {.kind = 10, .argument = 0}, /* master mode A/G */
-                                    {.kind = 11, .argument = 0}, /* RBM */
-                                    {.kind = 2},                 /* TDC let go */
-                                    {.kind = 4},                 /* and released */
-                                    {.kind = 8, .x = -3.0}};     /* elevation */
-  for (size_t i = 0; i < sizeof steps / sizeof steps[0]; ++i) yars_push_event(s, &steps[i]);
-  const uint32_t freeze_flag = 2;
-  const yars_input_event freeze = {.kind = 7};
-  if (known && (state.flags & freeze_flag) != 0) yars_push_event(s, &freeze);
-  yars_input_event last = {.kind = 2};
+  memset(&state, 0, sizeof state);
+  yars_read_radar_state(s, &state);
+  const uint32_t freeze_flag = 2, pressed_flag = 1U << 11, mapping_flag = 1U << 14;
+  const yars_input_event power = {.kind = 12, .argument = 2}, master = {.kind = 10}, mode = {.kind = 11};
+  const yars_input_event menu = {.kind = 1, .argument = 6};
+  const yars_input_event release = {.kind = 4}, freeze = {.kind = 7};
+  if (state.power != 2) yars_push_event(s, &power);
+  if (state.master != 0) yars_push_event(s, &master);
+  if (state.mode == 7) yars_push_event(s, &menu);
+  if (state.mode != 0 || (state.flags & mapping_flag) != 0) yars_push_event(s, &mode);
+  if ((state.flags & freeze_flag) != 0) yars_push_event(s, &freeze);
+  if ((state.flags & pressed_flag) != 0) yars_push_event(s, &release);
+  yars_input_event last = {.kind = 2}; /* lets go of the TDC */
   snprintf(last.text, sizeof last.text, "mark%u", mark);
   return yars_push_event(s, &last) == 0 ? 0 : 1;
 }

@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -13,7 +14,7 @@ namespace yars::endtoend::storm {
 
 namespace {
 
-// Where it flies: slowly, so that hours do not leave its cells.
+// Where it flies; when it is farther away than this, it is brought back.
 constexpr double kLatitude_deg = 37.4;
 constexpr double kLongitude_deg = -122.6;
 constexpr double kAway_deg = 0.4;
@@ -88,7 +89,7 @@ void StormSet::start(const std::string& role) {
     command.insert(command.end(), more.begin(), more.end());
   };
   if (role == "radar-model") add({"--terrain", terrain_.string(), "--samples", "256"});
-  if (role == "flight-model") add({"--source", "fixed:37.4,-122.6,15000,20,60"});
+  if (role == "flight-model") add({"--source", "fixed:37.4,-122.6,15000,20,250"});
   if (role == "radar-display") add({"--headless", "--publish", "--size", "160"});
   if (role == "input-monitor") add({"--source", "script:" + script_.string()});
   if (role == "recorder") {
@@ -106,6 +107,7 @@ void StormSet::start_all() {
 void StormSet::kill(const std::string& role) {
   killed_.insert(role);
   set_.kill(role, SIGKILL);
+  eventually([&] { return !set_.runs(role); }, 20.0);
 }
 
 void StormSet::mend() {
@@ -134,7 +136,8 @@ double StormSet::recover(double patience_s) {
   constexpr double kAskAgain_s = 0.5;
   const std::uint32_t first_mark = ++mark_;
   const auto is_well = [&] {
-    return watch_->sweeps() >= sweeps + kSweeps && watch_->frames() >= frames + kFrames &&
+    return std::ranges::all_of(kRoles, [this](const auto& role) { return set_.runs(role); }) &&
+           watch_->sweeps() >= sweeps + kSweeps && watch_->frames() >= frames + kFrames &&
            watch_->newest_mark() >= first_mark && watch_->flies() && !is_away();
   };
   while (seconds_since(begin) < patience_s) {
@@ -148,6 +151,15 @@ double StormSet::recover(double patience_s) {
     ++mark_;
   }
   return -1.0;
+}
+
+std::string StormSet::signs_of_life() const {
+  std::ostringstream text;
+  text << watch_->sweeps() << " sweeps, " << watch_->frames() << " pictures, " << watch_->events() << " events, mark "
+       << watch_->newest_mark() << " of " << mark_ << (watch_->flies() ? ", flies at " : ", stale at ")
+       << watch_->latitude_deg() << ' ' << watch_->longitude_deg() << '\n'
+       << set_.yars({"status"}).output;
+  return text.str();
 }
 
 std::string StormSet::client(const std::string& mode, double number) {

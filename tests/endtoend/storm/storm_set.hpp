@@ -37,7 +37,7 @@ class StormSet {
   Watch& watch() { return *watch_; }
   bool alone_in_memory() const { return memory_.is_private(); }  // /dev/shm is this test's own, and small
 
-  // SIGKILL; the death is one that mend() expects.
+  // SIGKILL, and waits until it is dead; the death is one that mend() expects.
   void kill(const std::string& role);
   // The role may end by itself, with exit code 1 and one line on why.
   void may_fail(const std::string& role) { may_fail_.insert(role); }
@@ -46,6 +46,7 @@ class StormSet {
   // Waits until pictures, sweeps and applied events go on, at the set's own place; the seconds it took, < 0: not
   // within the patience.
   double recover(double patience_s);
+  std::string signs_of_life() const;  // for people
 
   // A program of somebody else's, see storm_client.c; the name under which to kill it.
   std::string client(const std::string& mode, double number);
