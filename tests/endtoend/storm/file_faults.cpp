@@ -84,6 +84,8 @@ void terrain_vanishes(StormSet& set, const std::string&) {
     set.rest_ms(50.0, 400.0);
   }
   std::filesystem::rename(away, set.terrain());
+  // Cells that it looked for meanwhile are void for its lifetime.
+  if (!starts_without) begin_radar_anew(set);
 }
 
 // A mount that forbids writing, as a medium is; without root the folder's permissions.
@@ -103,7 +105,9 @@ void terrain_read_only(StormSet& set, const std::string&) {
 void configuration_replaced(StormSet& set, const std::string&) {
   const std::string whole = text_of(set.configuration());
   write_text(set.configuration(), set.below(2) == 0 ? garbage(set, 300) : "( Apg70 :ranges ( 10 \n");
-  const auto& role = kRoles[set.below(kRoles.size())];
+  // Those that read one; flight-model and recorder do not.
+  const std::vector<std::string> readers{"state-machine", "radar-model", "radar-display", "input-monitor"};
+  const auto& role = readers[set.below(readers.size())];
   set.may_fail(role);
   set.kill(role);
   set.mend();
