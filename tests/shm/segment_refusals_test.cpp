@@ -9,8 +9,11 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <utility>
 
+#include "shm/creation_step.hpp"
 #include "shm/segment.hpp"
 #include "tests/shm/child_process.hpp"
 #include "tests/shm/segment_fixture.hpp"
@@ -136,7 +139,8 @@ TEST_F(SegmentTest, RoomThatOthersGiveBackIsWaitedFor) {
     std::ofstream("/dev/shm/another") << std::string(1 << 20, ' ');
     static int unlinked = 0;
     creation_step = [](const char* what) {
-      if (std::string_view(what) == "temporary unlinked" && ++unlinked == 3) std::filesystem::remove("/dev/shm/another");
+      if (std::string_view(what) == "temporary unlinked" && ++unlinked == 3)
+        std::filesystem::remove("/dev/shm/another");
     };
     const auto segment = open();
     creation_step = nullptr;
