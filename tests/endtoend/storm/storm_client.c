@@ -3,7 +3,7 @@
  *   storm_client MODE SESSION [NUMBER [SEED]]     exit 0: done; 1: could not attach or claim; runs until killed else
  *     fly RATE_HZ, push RATE_HZ, frames, clock    NUMBER: a second, 0 = as fast as it goes
  *     restore NUMBER                              one event each that brings the radar back to RBM; the last is NUMBER
- *     bad-ownship, bad-nav, bad-events, bad-traffic, bad-frames COUNT SEED;  die-with-lane;  sleep */
+ *     bad-ownship, bad-nav, bad-events, bad-traffic COUNT SEED;  die-with-lane */
 #include "databuffer/yars.h"
 /* The header asks for its own extensions and comes first. */
 #include <math.h>
@@ -15,6 +15,11 @@
 #define PRIORITY 90
 #define GLASS_FRAMES_BYTE 6
 #define CLOCK_BYTE 4
+
+static volatile sig_atomic_t ended = 0;
+static void end(int signal_number) {
+  ended = signal_number;
+}
 
 static uint64_t random_state;
 static uint64_t random_word(void) {
@@ -65,7 +70,7 @@ static int fly(yars_session* s, double rate_hz) {
   own.heading_deg = own.pitch_deg = own.roll_deg = 0.0;
   own.velocity_north_mps = 30.0;
   own.velocity_east_mps = own.velocity_down_mps = 0.0;
-  for (;;) {
+  while (!ended) {
     const double flown_s = 1e-9 * (double)(yars_monotonic_ns() - begin_ns);
     ++own.source_time_ns;
     own.latitude_deg = begin_deg + own.velocity_north_mps * flown_s / 111000.0;
@@ -78,11 +83,12 @@ static int fly(yars_session* s, double rate_hz) {
     yars_heartbeat(s);
     rest(rate_hz);
   }
+  return 0;
 }
 
 static int push(yars_session* s, double rate_hz) {
   if (yars_claim_input_lane(s, STORM_SOURCE) < 0) return 1;
-  for (;;) {
+  while (!ended) {
     const uint32_t number = s->events + 1;
     yars_input_event event = {0};
     event.kind = 2; /* tdc */
@@ -94,6 +100,7 @@ static int push(yars_session* s, double rate_hz) {
     yars_heartbeat(s);
     rest(rate_hz);
   }
+  return 0;
 }
 
 /* Only what is not so: a mode chosen anew begins its scan anew, a TDC let go commands a map. */
@@ -120,7 +127,7 @@ static int restore(yars_session* s, uint32_t mark) {
 static int frames(yars_session* s) {
   if (yars_claim(s, GLASS_FRAMES_BYTE, 1) < 0) return 1;
   const size_t edge = 128;
-  for (;;) {
+  while (!ended) {
     uint64_t newest = 0, oldest = UINT64_MAX;
     size_t at = 0;
     for (int i = 0; i < YARS_FRAMES; ++i) {
@@ -140,11 +147,12 @@ static int frames(yars_session* s) {
       yars_store(yars_word(s, at + YARS_FRAME_PIXELS + 8 * i), storm_pixels(frame.id, i));
     yars_store(yars_word(s, at), frame.id);
   }
+  return 0;
 }
 
 /* Changes the clock for nothing again and again: the same sim time, told anew. */
 static int set_clock(yars_session* s) {
-  for (;;) {
+  while (!ended) {
     if (yars_claim(s, CLOCK_BYTE, 1) < 0) continue;
     yars_clock clock;
     if (yars_read(s, YARS_AT_CLOCK, &clock, sizeof clock) == 1 && clock.rate == 1.0 && clock.running == 1) {
@@ -155,6 +163,7 @@ static int set_clock(yars_session* s) {
     }
     yars_release(s, CLOCK_BYTE);
   }
+  return 0;
 }
 
 static double hostile_number(void) {
@@ -268,6 +277,7 @@ int main(int argc, char** argv) {
     fprintf(stderr, "%s\n", s.error);
     return 1;
   }
+  signal(SIGTERM, end);
   random_state = argc > 4 ? strtoull(argv[4], NULL, 10) : 1;
   const int outcome = do_as_told(&s, argv[1], argc > 3 ? atof(argv[3]) : 0.0);
   if (outcome != 0) fprintf(stderr, "%s\n", s.error);
