@@ -31,7 +31,8 @@ using failure::fail;
 
 constexpr std::string_view kFolder = "/dev/shm/";  // where glibc's shm_open and Boost keep their objects
 constexpr int kAttempts = 2000;                    // of 1 ms: others arrive and leave in far less
-constexpr std::size_t kParticipation = 0;          // the byte that every participant read-locks
+constexpr int kFullAttempts = 300;         // of 1 ms and more: others that create have given back what they had taken
+constexpr std::size_t kParticipation = 0;  // the byte that every participant read-locks
 
 void step(const char* what) {
   if (creation_step != nullptr) creation_step(what);
@@ -170,11 +171,9 @@ Attempt rejoin(const std::string& file_name, const LayoutIdentity& layout) {
   return std::nullopt;
 }
 
-// Takes the memory, maps it and fills it.
+// Maps the memory, if it could be taken, and fills it.
 Expected<void> build(SegmentFile& file, const std::string& file_name, const LayoutIdentity& layout,
-                     Segment::Initialize initialize) {
-  const int error = file.allocate(layout.size);
-  step("allocated");
+                     Segment::Initialize initialize, int error) {
   if (error != 0) return system_failure(file_name, std::to_string(layout.size) + " bytes of shared memory", error);
   if (!file.map()) return system_failure(file_name, "shared memory that can be mapped", errno);
   step("mapped");
@@ -184,8 +183,10 @@ Expected<void> build(SegmentFile& file, const std::string& file_name, const Layo
   return {};
 }
 
-// Builds the segment under a name of its own and links it to the session's; nullopt when somebody else was faster.
-Attempt create(const std::string& file_name, const LayoutIdentity& layout, Segment::Initialize initialize) {
+// Builds the segment under a name of its own and links it to the session's; nullopt when somebody else was faster, or
+// when there is no room and `room_may_come`.
+Attempt create(const std::string& file_name, const LayoutIdentity& layout, Segment::Initialize initialize,
+               bool room_may_come) {
   const std::string temporary = temporary_of(file_name);
   auto file = SegmentFile::create(temporary);
   if (!file && errno == EEXIST) {
@@ -197,13 +198,19 @@ Attempt create(const std::string& file_name, const LayoutIdentity& layout, Segme
   step("created");
   const bool locked = file->lock(kParticipation, LockKind::read);
   step("locked");
-  const auto built = locked ? build(*file, temporary, layout, initialize) : Expected<void>{};
+  const int error = locked ? file->allocate(layout.size) : 0;
+  step("allocated");
+  const auto built = locked ? build(*file, temporary, layout, initialize, error) : Expected<void>{};
   const bool linked = locked && built && link(path_of(temporary).c_str(), path_of(file_name).c_str()) == 0;
   step("linked");
   // Without its name and with a lock it would pass for a living segment that has lost its name.
   if (!linked) file->lock(kParticipation, LockKind::none);
   unlink(path_of(temporary).c_str());
   step("temporary unlinked");
+  if (error == ENOSPC && room_may_come) {
+    wait_a_moment();
+    return std::nullopt;
+  }
   if (!built) return tl::unexpected(built.error());
   if (!linked) return std::nullopt;
   return file;
@@ -240,7 +247,9 @@ Expected<Segment> Segment::open(const std::string& name, const LayoutIdentity& l
     if (there && !*there) there = rejoin(file_name, layout);
     if (!there) return tl::unexpected(there.error());
     if (*there) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**there), true, false}));
-    Attempt made = create(file_name, layout, initialize);
+    // The programs of a set begin together and each builds a segment, of which one stays: what is too small for all of
+    // them has room for that one.
+    Attempt made = create(file_name, layout, initialize, attempt < kFullAttempts);
     if (!made) return tl::unexpected(made.error());
     if (*made) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**made), true, true}));
   }

@@ -37,11 +37,12 @@ const char* note_name(std::uint32_t kind) {
   return kind < kNoteNames.size() ? kNoteNames[kind] : "?";
 }
 
-ordered_json lanes_json(const databuffer::SessionLayout& layout) {
+ordered_json lanes_json(const databuffer::Session& session) {
+  const databuffer::SessionLayout& layout = session.layout();
   ordered_json lanes = ordered_json::array();
   for (std::size_t i = 0; i < databuffer::kOwnshipLanes; ++i) {
     databuffer::Ownship own{};
-    if (!layout.ownship[i].read(own) || databuffer::why_refused(own)) continue;
+    if (!session.ownship_lane_is_held(i) || !layout.ownship[i].read(own) || databuffer::why_refused(own)) continue;
     lanes.push_back({{"lane", i},
                      {"source", databuffer::text_of(own.source)},
                      {"priority", layout.ownship_priority[i].load()},
@@ -89,7 +90,7 @@ ordered_json status_json(const databuffer::Session& session, const std::string& 
                      {"posts_pending", model.posts_pending}};
   object["recorder"] = recorder_json(session);
   object["glass_frames"] = frames_json(session);
-  object["ownship_lanes"] = lanes_json(session.layout());
+  object["ownship_lanes"] = lanes_json(session);
   ordered_json counts = ordered_json::object();
   for (std::size_t kind = 0; kind < databuffer::kNoteKinds; ++kind)
     counts[kNoteNames[kind]] = session.layout().note_counts[kind].load();

@@ -5,6 +5,24 @@
 
 namespace yars::model::terrain {
 
+namespace {
+// [m] MSL, below the deepest sea floor and above the highest mountain: what the session's records take for ground.
+constexpr std::int16_t kLowestPost_m = -12'000;
+constexpr std::int16_t kHighestPost_m = 10'000;
+}  // namespace
+
+void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::string>& warnings) {
+  std::size_t impossible = 0;
+  for (std::int16_t& post : posts) {
+    if (post == kVoidPost || (post >= kLowestPost_m && post <= kHighestPost_m)) continue;
+    post = kVoidPost;
+    ++impossible;
+  }
+  if (impossible > 0)
+    warnings.push_back("heights that no ground has: " + std::to_string(impossible) +
+                       " posts; they are void, and the file may be damaged");
+}
+
 failure::Expected<std::uintmax_t> file_length(const std::filesystem::path& path) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))

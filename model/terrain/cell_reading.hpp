@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -18,6 +19,9 @@ struct CellReading {
   std::optional<Cell> peaks;          // of a reduced reading, on the same grid; see reduce.hpp
   std::vector<std::string> warnings;  // one sentence each, without the file's name
 };
+
+// Heights that no ground on earth has (below -12,000 m, above 10,000 m) become voids, with a warning that counts them.
+void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::string>& warnings);
 
 // A whole file in memory. Fails on a file that cannot be opened or is larger than `limit_bytes`.
 failure::Expected<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::size_t limit_bytes);

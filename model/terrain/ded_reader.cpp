@@ -116,7 +116,9 @@ CellReading decode(const DedCell& cell, std::span<const std::byte> bytes) {
       const auto height_m = static_cast<std::int16_t>(big_endian_16(&bytes[2 * (column * rows + row)]));
       posts[row * columns + column] = height_m <= -32767 ? kVoidPost : height_m;
     }
-  return {Cell(cell.place, cell.rows, cell.columns, posts), std::nullopt, {}};
+  std::vector<std::string> warnings;
+  void_impossible_heights(posts, warnings);
+  return {Cell(cell.place, cell.rows, cell.columns, posts), std::nullopt, std::move(warnings)};
 }
 
 }  // namespace

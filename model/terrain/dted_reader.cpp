@@ -198,8 +198,10 @@ failure::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, cons
   const failure::Expected<Oddities> odd = gather_words(data, *header, subject, words);
   if (!odd) return tl::unexpected(odd.error());
   const bool twos_complement = is_twos_complement(words);
-  return CellReading{Cell(place, header->rows, header->columns, decode(words, twos_complement)), std::nullopt,
-                     warnings_of(*odd, *header, twos_complement)};
+  std::vector<std::string> warnings = warnings_of(*odd, *header, twos_complement);
+  std::vector<std::int16_t> posts = decode(words, twos_complement);
+  void_impossible_heights(posts, warnings);
+  return CellReading{Cell(place, header->rows, header->columns, posts), std::nullopt, std::move(warnings)};
 }
 
 failure::Expected<CellReading> read_dted(const std::filesystem::path& path, CellPlace place) {

@@ -1,5 +1,7 @@
 #include "model/terrain/hgt_reader.hpp"
 
+#include <utility>
+
 namespace yars::model::terrain {
 
 namespace {
@@ -29,7 +31,9 @@ failure::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const
     for (std::size_t column = 0; column < side; ++column)
       heights[(side - 1 - row) * side + column] =
           static_cast<std::int16_t>(big_endian_16(&bytes[2 * (row * side + column)]));
-  return CellReading{Cell(place, posts, posts, std::move(heights)), std::nullopt, {}};
+  std::vector<std::string> warnings;
+  void_impossible_heights(heights, warnings);
+  return CellReading{Cell(place, posts, posts, heights), std::nullopt, std::move(warnings)};
 }
 
 failure::Expected<CellReading> read_hgt(const std::filesystem::path& path, CellPlace place) {

@@ -128,11 +128,19 @@ ProcessSet::~ProcessSet() {
 void ProcessSet::start(const std::string& name, std::vector<std::string> arguments) {
   std::vector<std::string> command{arguments.front(), "--session", session_};
   command.insert(command.end(), arguments.begin() + 1, arguments.end());
-  pids_[name] = spawn(in_bin(command.front()), command, folder_ / (name + ".out"), folder_ / (name + ".log"));
+  command.front() = in_bin(command.front());
+  start_tool(name, command);
 }
 
 void ProcessSet::start_tool(const std::string& name, const std::vector<std::string>& command) {
   pids_[name] = spawn(command.front(), command, folder_ / (name + ".out"), folder_ / (name + ".log"));
+  commands_[name] = command;
+}
+
+int ProcessSet::start_again(const std::string& name) {
+  const int code = wait(name);
+  start_tool(name, commands_.at(name));
+  return code;
 }
 
 void ProcessSet::kill(const std::string& name, int signal) {

@@ -44,6 +44,8 @@ class ProcessSet {
   // Waits for the end of one process; exit code as in Finished.
   int wait(const std::string& name, double patience_s = 60.0);
   bool runs(const std::string& name);
+  // Collects the end of a process and starts it again as before; gives the end's exit code.
+  int start_again(const std::string& name);
   pid_t pid(const std::string& name) const { return pids_.at(name); }
   std::string log_of(const std::string& name) const;
   std::string output_of(const std::string& name) const;
@@ -60,6 +62,7 @@ class ProcessSet {
   std::string session_;
   std::filesystem::path folder_;
   std::map<std::string, pid_t> pids_;
+  std::map<std::string, std::vector<std::string>> commands_;  // by name, as last started
 };
 
 // The real data beside the checkout; empty where it is absent.

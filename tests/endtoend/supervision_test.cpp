@@ -258,6 +258,19 @@ TEST_F(Supervision, StatusNamesWhoHangsAndWhoIsMissing) {
       << set_.yars({"status"}).output;
 }
 
+TEST_F(Supervision, ASourceThatDiedFliesNobody) {
+  for (const auto* role : {"state-machine", "radar-model"}) set_.start(role, {role});
+  set_.start("flight-model", {"flight-model", "--source", "fixed:37.5,-122.9,15000,90,480"});
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return !watch["ownship"].is_null(); }));
+  set_.kill("flight-model", SIGSTOP);
+  EXPECT_TRUE(eventually([&] { return reasons().find("its source is silent") != std::string::npos; }, kPatience_s));
+  EXPECT_EQ(status()["ownship_lanes"].size(), 1u) << "a stopped source keeps its lane";
+  set_.kill("flight-model", SIGKILL);
+  set_.wait("flight-model");
+  EXPECT_TRUE(eventually([&] { return reasons() == R"(["no ownship: nobody flies"])"; }, kPatience_s)) << reasons();
+  EXPECT_EQ(status()["ownship_lanes"].size(), 0u) << "what it left in its lane is not told as a source";
+}
+
 TEST_F(Supervision, ANoteStandsInTheFlightRecorder) {
   EXPECT_EQ(set_.yars({"note", "nobody is there"}).code, 1);
   EXPECT_FALSE(set_.segment_exists()) << "a note makes no session";

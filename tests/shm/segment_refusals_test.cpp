@@ -9,8 +9,11 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <utility>
 
+#include "shm/creation_step.hpp"
 #include "shm/segment.hpp"
 #include "tests/shm/child_process.hpp"
 #include "tests/shm/segment_fixture.hpp"
@@ -121,6 +124,28 @@ TEST_F(SegmentTest, AFullDevShmIsAnErrorAndLeavesNothing) {
     if (message.find("1048576 bytes of shared memory") == std::string::npos) return 2;
     if (message.find("No space left on device") == std::string::npos) return 3;
     return files_of(name_).empty() ? 0 : 4;
+  });
+  const int code = child.wait();
+  if (code == kNotPermitted) GTEST_SKIP() << "a mount namespace with a small /dev/shm is not permitted here";
+  EXPECT_EQ(code, 0);
+}
+
+// Six programs of a set that begin together take six segments for a moment, of which one stays.
+TEST_F(SegmentTest, RoomThatOthersGiveBackIsWaitedFor) {
+  ChildProcess child([&] {
+    if (unshare(CLONE_NEWNS) != 0 || mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+        mount("tmpfs", "/dev/shm", "tmpfs", 0, "size=1536k,mode=1777") != 0)
+      return kNotPermitted;
+    std::ofstream("/dev/shm/another") << std::string(1 << 20, ' ');
+    static int unlinked = 0;
+    creation_step = [](const char* what) {
+      if (std::string_view(what) == "temporary unlinked" && ++unlinked == 3)
+        std::filesystem::remove("/dev/shm/another");
+    };
+    const auto segment = open();
+    creation_step = nullptr;
+    if (!segment) std::fprintf(stderr, "%s\n", segment.error().message().c_str());
+    return segment && segment->created() && unlinked == 4 ? 0 : 1;
   });
   const int code = child.wait();
   if (code == kNotPermitted) GTEST_SKIP() << "a mount namespace with a small /dev/shm is not permitted here";

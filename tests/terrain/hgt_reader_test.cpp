@@ -38,6 +38,27 @@ TEST_P(HgtOfSide, RowsRunFromNorthToSouthInTwosComplement) {
 
 INSTANTIATE_TEST_SUITE_P(HgtReader, HgtOfSide, ::testing::Values(1201, 3601));
 
+// What a damaged file holds is not flown over: a mountain of 20 km would be believed as far as the cockpit.
+TEST(HgtReader, HeightsThatNoGroundHasAreVoidAndCounted) {
+  constexpr std::size_t kSide = 1201;
+  std::vector<std::byte> bytes(2 * kSide * kSide);
+  put(bytes, 0, 0, kSide, 10'001);
+  put(bytes, 0, 1, kSide, -12'001);
+  put(bytes, 0, 2, kSide, 10'000);
+  put(bytes, 0, 3, kSide, -12'000);
+  put(bytes, 0, 4, kSide, -32768);
+  const auto reading = parse_hgt(bytes, "N36W122.hgt", {36, -122});
+  ASSERT_TRUE(reading.has_value()) << reading.error().message();
+  const int last = static_cast<int>(kSide) - 1;
+  EXPECT_EQ(reading->cell.post(last, 0), kVoidPost);
+  EXPECT_EQ(reading->cell.post(last, 1), kVoidPost);
+  EXPECT_EQ(reading->cell.post(last, 2), 10'000);
+  EXPECT_EQ(reading->cell.post(last, 3), -12'000);
+  EXPECT_EQ(reading->cell.voids(), 3U);
+  ASSERT_EQ(reading->warnings.size(), 1U) << "a void of the file's own is no damage";
+  EXPECT_THAT(reading->warnings.front(), HasSubstr("2 posts"));
+}
+
 TEST(HgtReader, AnyOtherLengthIsRefused) {
   for (const std::size_t length :
        {std::size_t{0}, std::size_t{1}, std::size_t{2 * 1201 * 1201 - 1}, std::size_t{2 * 1201 * 1201 + 2}}) {

@@ -1,0 +1,42 @@
+// What programs of others write by yars.h: more than anybody can take, and what nobody should.
+#include "tests/endtoend/storm/faults.hpp"
+#include "tests/endtoend/storm/storm_set.hpp"
+
+namespace yars::endtoend::storm {
+
+namespace {
+
+void flood(StormSet& set, const std::string& mode, double rate_hz) {
+  const auto client = set.client(mode, rate_hz);
+  set.rest_ms(200.0, 600.0);
+  set.end_client(client);
+}
+
+void flood_events(StormSet& set, const std::string&) {
+  flood(set, "push", 0.0);
+}
+
+void flood_ownship(StormSet& set, const std::string&) {
+  flood(set, "fly", 10'000.0);
+}
+
+void hostile(StormSet& set, const std::string& mode) {
+  constexpr double kRecords = 600.0;
+  const auto client = set.client(mode, kRecords);
+  // 1: nothing to claim just now.
+  if (const int code = set.processes().wait(client); code != 0 && code != 1)
+    set.tell(mode + " ended with code " + std::to_string(code));
+}
+
+}  // namespace
+
+std::vector<Fault> input_faults() {
+  return {{"a flood of events", flood_events},
+          {"ownship 10,000 times a second", flood_ownship},
+          {"hostile ownship by a lane's owner", hostile, "bad-ownship"},
+          {"hostile nav by a lane's owner", hostile, "bad-nav"},
+          {"hostile events", hostile, "bad-events"},
+          {"hostile traffic", hostile, "bad-traffic"}};
+}
+
+}  // namespace yars::endtoend::storm

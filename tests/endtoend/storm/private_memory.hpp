@@ -1,0 +1,23 @@
+// A /dev/shm of this process's and its children's own, of 96 MiB, so that a test may fill it: a tmpfs in a mount
+// namespace of its own. For that it takes root; without, is_private() is false and nothing has changed.
+#pragma once
+
+#include <cstdint>
+
+namespace yars::endtoend::storm {
+
+class PrivateMemory {
+ public:
+  PrivateMemory();
+  ~PrivateMemory();  // back to the namespace before; the children have ended
+  PrivateMemory(const PrivateMemory&) = delete;
+  PrivateMemory& operator=(const PrivateMemory&) = delete;
+
+  bool is_private() const { return private_; }
+
+ private:
+  int before_ = -1;  // the namespace that the process came from
+  bool private_ = false;
+};
+
+}  // namespace yars::endtoend::storm

@@ -1,0 +1,166 @@
+// What befalls the session itself: a full /dev/shm, segments of another layout or user, second sets, clocks.
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <fstream>
+
+#include "shm/segment.hpp"
+#include "shm/segment_header.hpp"
+#include "tests/endtoend/storm/faults.hpp"
+#include "tests/endtoend/storm/storm_set.hpp"
+
+namespace yars::endtoend::storm {
+
+namespace {
+
+constexpr const char* kFiller = "/dev/shm/yars-storm-filler";
+
+// Run with a code, and with one clear line that has `word`.
+void expect_refusal(StormSet& set, const Finished& finished, int code, const std::string& word,
+                    const std::string& what) {
+  if (finished.code != code || finished.errors.find(word) == std::string::npos)
+    set.tell(what + ": expected code " + std::to_string(code) + " and '" + word + "', found code " +
+             std::to_string(finished.code) + ": " + finished.output + finished.errors);
+}
+
+std::string other_session(const StormSet&) {
+  return "storm-other-" + std::to_string(getpid());
+}
+
+// Takes every page that is left.
+void fill_memory() {
+  const int file = open(kFiller, O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+  struct statvfs room {};
+  if (statvfs("/dev/shm", &room) == 0)
+    posix_fallocate(file, 0, static_cast<off_t>(room.f_bavail) * static_cast<off_t>(room.f_frsize));
+  close(file);
+}
+
+// Those who take part have all their memory; who makes a new session is told.
+void full_memory(StormSet& set, const std::string&) {
+  const auto session = other_session(set);
+  if (!set.alone_in_memory()) {
+    // Never the machine's own: a process that may write no large file meets the same error.
+    const auto refused = run_tool({"prlimit", "--fsize=1000000", "env", "--ignore-signal=SIGXFSZ",
+                                   std::string(YARS_BIN_DIR) + "/state-machine", "--session", session});
+    return expect_refusal(set, refused, 1, "/dev/shm", "no room in /dev/shm");
+  }
+  fill_memory();
+  const auto& role = kRoles[set.below(kRoles.size())];
+  set.kill(role);
+  set.mend();
+  expect_refusal(set, set.other({"state-machine", "--session", session}), 1, "/dev/shm", "no room in /dev/shm");
+  set.rest_ms(20.0, 300.0);
+  std::filesystem::remove(kFiller);
+}
+
+// Somebody takes part in a segment of another build: nobody of this build joins it, and ours does not notice.
+void wrong_layout(StormSet& set, const std::string&) {
+  const auto session = other_session(set);
+  const auto path = shm::segment_path(session);
+  set.processes().start_tool("holder", {std::string(YARS_BIN_DIR) + "/state-machine", "--session", session});
+  if (!eventually([&] { return std::filesystem::exists(path); }, 20.0)) set.tell("no segment at " + path);
+  const int file = open(path.c_str(), O_RDWR | O_CLOEXEC);
+  const std::array<std::uint64_t, 2> other{set.chance()(), set.below(2) == 0 ? 1U : 99U};
+  const bool written = pwrite(file, other.data(), sizeof other, 16) == sizeof other;
+  close(file);
+  if (written) {
+    expect_refusal(set, set.other({"yars", "--session", session, "status"}), 1, "version", "status of another layout");
+    expect_refusal(set, set.other({"radar-model", "--session", session}), 1, "version", "a role of another layout");
+    expect_refusal(set, set.other({"storm_client", "restore", session, "1"}), 1, "version",
+                   "a client of another layout");
+  }
+  set.processes().kill("holder", SIGTERM);
+  if (const int code = set.processes().wait("holder"); code != 0)
+    set.tell("the holder ended with " + std::to_string(code));
+  std::filesystem::remove(path);
+}
+
+// They can neither read nor write ours; what they put under one of our names is not taken.
+void another_user(StormSet& set, const std::string&) {
+  if (geteuid() != 0 || !tool_exists("setpriv")) return;
+  const std::vector<std::string> nobody{"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"};
+  const auto as_nobody = [&](std::initializer_list<std::string> words) {
+    auto command = nobody;
+    command.insert(command.end(), words);
+    return run_tool(command);
+  };
+  const auto ours = shm::segment_path(set.processes().session());
+  if (as_nobody({"dd", "if=" + ours, "of=/dev/null", "count=1"}).code == 0) set.tell("another user reads our segment");
+  if (as_nobody({"sh", "-c", "echo >> " + ours}).code == 0) set.tell("another user writes into our segment");
+  if (as_nobody({"rm", "-f", ours}).code == 0) set.tell("another user takes our segment away");
+  const auto theirs = shm::segment_path(other_session(set));
+  as_nobody({"sh", "-c", "head -c 30000000 /dev/zero > " + theirs + " && chmod 666 " + theirs});
+  expect_refusal(set, set.other({"state-machine", "--session", other_session(set)}), 1, "user",
+                 "another user's segment");
+  // A client finds nobody in it, and goes.
+  expect_refusal(set, set.other({"storm_client", "restore", other_session(set), "1"}), 1, theirs,
+                 "another user's segment for a client");
+  std::filesystem::remove(theirs);
+}
+
+// The same session name again: one-writer roles refuse and name the holder, sources fly and press beside the others.
+void second_set(StormSet& set, const std::string&) {
+  const auto& session = set.processes().session();
+  for (const auto* role : {"state-machine", "radar-model"})
+    expect_refusal(set, set.other({role, "--session", session}), 2, std::to_string(set.processes().pid(role)), role);
+  expect_refusal(set,
+                 set.other({"yars", "--session", session, "record", (set.processes().folder() / "second").string()}), 2,
+                 std::to_string(set.processes().pid("recorder")), "a second recorder");
+  set.processes().start("second-flight", {"flight-model", "--source", "fixed:37.41,-122.6,15000,20,60"});
+  set.rest_ms(50.0, 300.0);
+  set.processes().kill("second-flight", SIGTERM);
+  if (const int code = set.processes().wait("second-flight"); code != 0)
+    set.tell("a second flight-model ended with " + std::to_string(code));
+}
+
+void told(StormSet& set, std::vector<std::string> arguments) {
+  const auto finished = set.processes().yars(arguments);
+  if (finished.code != 0) set.tell("yars sim " + arguments[1] + ": " + finished.errors);
+}
+
+// The session's clock: stopped, stepped, raced, set back, and told anew.
+void sim_clock(StormSet& set, const std::string&) {
+  const std::vector<std::vector<std::string>> jumps{
+      {"sim", "freeze"},         {"sim", "step", "400"},
+      {"sim", "rate", "10"},     {"sim", "rate", "0"},
+      {"sim", "rate", "0.3"},    {"sim", "reset"},
+      {"sim", "reset", "90000"}, {"sim", "reposition", "37.45", "-122.5", "9000", "300"}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    told(set, jumps[set.below(jumps.size())]);
+    set.rest_ms(5.0, 150.0);
+  }
+  told(set, {"sim", "rate", "1"});
+  told(set, {"sim", "run"});
+}
+
+// A program whose CLOCK_MONOTONIC is of another machine, so to say: its stamps are hours ahead, or before the boot.
+void foreign_clock(StormSet& set, const std::string&) {
+  const std::string offset = set.below(2) == 0 ? "100000" : "-100";
+  for (const auto* mode : {"push", "fly"}) {
+    set.processes().start_tool("foreign",
+                               {"unshare", "--time", "--fork", "--kill-child", "--monotonic", offset,
+                                std::string(YARS_BIN_DIR) + "/storm_client", mode, set.processes().session(), "100"});
+    set.rest_ms(100.0, 300.0);
+    set.processes().kill("foreign", SIGKILL);
+    set.processes().wait("foreign");
+  }
+}
+
+}  // namespace
+
+std::vector<Fault> session_faults() {
+  return {{"a full /dev/shm", full_memory},
+          {"a segment of another layout version", wrong_layout},
+          {"another user's segment", another_user},
+          {"a second set with the same session name", second_set},
+          {"jumps of the session's clock", sim_clock},
+          {"programs whose CLOCK_MONOTONIC is another one", foreign_clock}};
+}
+
+}  // namespace yars::endtoend::storm

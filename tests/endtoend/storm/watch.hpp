@@ -1,0 +1,77 @@
+// The observer of a storm: a thread that reads everything in the segment, read-only and as fast as its producers
+// write, and judges each record: whole (a hash, a sum of storm_client, two reads of one version that agree), in the
+// ranges of the border, and no sim time that goes back within an epoch. When the whole set has died and another segment
+// has taken the name, it looks at that one.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "databuffer/records/refusal.hpp"
+#include "databuffer/session.hpp"
+
+namespace yars::endtoend::storm {
+
+// What has been read so far, and what was wrong with it.
+struct Verdict {
+  std::uint64_t records = 0;       // read and judged
+  std::uint64_t witnessed = 0;     // of them, those whose wholeness a hash or a sum proves
+  std::uint64_t torn = 0;          // neither one record nor another
+  std::uint64_t out_of_range = 0;  // latched or published although the border would refuse it
+  std::uint64_t time_back = 0;     // sim time went back within an epoch
+  std::vector<std::string> first;  // the first faults in words
+};
+
+class Watch {
+ public:
+  explicit Watch(std::string session);
+  ~Watch();
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+  Verdict verdict() const;
+  // Signs of life, each counted over all segments seen.
+  std::uint64_t sweeps() const { return sweeps_; }
+  std::uint64_t frames() const { return frames_; }
+  std::uint64_t events() const { return events_; }
+  std::uint32_t newest_mark() const {
+    return newest_mark_;
+  }                                                      // number of storm_client's last `restore` that was applied
+  bool flies() const { return flies_; }                  // radar-model has a fresh ownship
+  double latitude_deg() const { return latitude_deg_; }  // latched
+  double longitude_deg() const { return longitude_deg_; }
+
+ private:
+  struct Look;  // of one segment
+  void run(const std::string& session);
+  void look(Look& look);
+  void look_at_values(Look& look);
+  void look_at_rings(Look& look);
+  void look_at_pictures(Look& look);
+  void look_at_clock(Look& look);
+  void judge_tick(Look& look, const databuffer::ModelTick& tick);
+  void judge_event(const databuffer::AppliedEvent& applied);
+  template <class Value, class Memory, class Judge>
+  void look_at(const Value& value, Memory& seen, const char* name, const Judge& judge);
+  template <class Record>
+  void witness(const Record& record, const char* name);
+  void note(std::uint64_t Verdict::*counter, const std::string& what);
+  void refuse(const databuffer::Refusal& reason, const char* name);
+
+  std::atomic<bool> ending_ = false;
+  std::atomic<std::uint64_t> sweeps_ = 0, frames_ = 0, events_ = 0;
+  std::atomic<std::uint32_t> newest_mark_ = 0;
+  std::atomic<bool> flies_ = false;
+  std::atomic<double> latitude_deg_ = 0.0, longitude_deg_ = 0.0;
+  mutable std::mutex mutex_;
+  Verdict verdict_;
+  std::thread thread_;
+};
+
+}  // namespace yars::endtoend::storm
