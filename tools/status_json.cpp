@@ -37,6 +37,7 @@ const char* note_name(std::uint32_t kind) {
   return kind < kNoteNames.size() ? kNoteNames[kind] : "?";
 }
 
+// What a source that has died left in its lane is nobody's.
 ordered_json lanes_json(const databuffer::Session& session) {
   const databuffer::SessionLayout& layout = session.layout();
   ordered_json lanes = ordered_json::array();
