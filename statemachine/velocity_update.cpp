@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "databuffer/records/inspection.hpp"
 #include "databuffer/records/navigation.hpp"
 
 namespace yars::statemachine {
@@ -34,10 +35,13 @@ Difference difference(const RadarState& state, const Surroundings& surroundings)
           model.velocity_down_mps - (nav.velocity_down_mps + state.mission.velocity_down_mps)};
 }
 
-bool believable(const Difference& difference) {
-  // Written so that NaN fails.
-  return std::abs(difference.north_mps) <= kMostDifference_mps &&
-         std::abs(difference.east_mps) <= kMostDifference_mps && std::abs(difference.down_mps) <= kMostDifference_mps;
+// Neither the measurement nor what the navigator's error would be then; written so that NaN fails.
+bool believable(const Difference& difference, const databuffer::NavigatorError& mission) {
+  const auto small = [](double part_mps, double error_mps) {
+    return std::abs(part_mps) <= kMostDifference_mps && std::abs(error_mps + part_mps) <= databuffer::kLargestSpeed;
+  };
+  return small(difference.north_mps, mission.velocity_north_mps) &&
+         small(difference.east_mps, mission.velocity_east_mps) && small(difference.down_mps, mission.velocity_down_mps);
 }
 
 void show(RadarState& state, const Difference& difference, const Surroundings& surroundings) {
@@ -70,7 +74,7 @@ void advance_velocity_update(RadarState& state, const Surroundings& surroundings
   if (surroundings.model.velocity_count == state.velocity_taken) return;
   state.velocity_taken = surroundings.model.velocity_count;
   const Difference measured = difference(state, surroundings);
-  if (!measures || !believable(measured)) return;
+  if (!measures || !believable(measured, state.mission)) return;
   show(state, measured, surroundings);
   // IPVU measures when an update is due, a scan's end earlier or later; PVU all the time.
   if (continuous(state) && !update_is_due(state, surroundings.tick, configuration.navigation.velocity_period_s)) return;

@@ -68,7 +68,8 @@ ordered_json frames_json(const databuffer::Session& session) {
   const std::int32_t publisher = session.role_holder(databuffer::Role::glass_frames);
   databuffer::GlassFrame newest{};
   std::vector<std::uint8_t> pixels;
-  if (!databuffer::read_newest_frame(session.layout(), 0, newest, pixels) || databuffer::why_refused(newest)) newest = {};
+  if (!databuffer::read_newest_frame(session.layout(), 0, newest, pixels) || databuffer::why_refused(newest))
+    newest = {};
   if (publisher == 0 && newest.id == 0) return nullptr;
   return {{"publisher", publisher == 0 ? ordered_json(nullptr) : ordered_json(publisher)},
           {"newest", newest.id},

@@ -73,7 +73,8 @@ class TerrainView {
   virtual bool serves(int /*detail*/) const { return true; }
   // True if peak_m may differ from elevation_m anywhere.
   virtual bool has_peaks() const { return false; }
-  // [m] between the closest posts anywhere in it: between them the ground is what interpolation makes of it. 0: not told.
+  // [m] between the closest posts anywhere in it: between them the ground is what interpolation makes of it. 0: not
+  // told.
   virtual double post_spacing_m() const { return 0.0; }
   // True if a material other than 0 may be found anywhere.
   virtual bool has_materials() const { return false; }

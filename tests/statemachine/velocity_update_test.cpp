@@ -1,6 +1,7 @@
 // PVU and IPVU: what the radar measures against what the navigator has.
 #include <gtest/gtest.h>
 
+#include "databuffer/records/validation.hpp"
 #include "lib/radar/chance.hpp"
 #include "tests/statemachine/pilot.hpp"
 
@@ -53,6 +54,16 @@ TEST_F(VelocityUpdate, DifferencesAreAlongTheTrackAcrossItAndUp) {
   EXPECT_NEAR(pilot.state.velocity_along_mps, 3.0, 1e-9);
   EXPECT_NEAR(pilot.state.velocity_across_mps, 1.0, 1e-9) << "the radar has less to the north: to the right of east";
   EXPECT_NEAR(pilot.state.velocity_vertical_mps, 0.5, 1e-9) << "the navigator sinks, the radar does not";
+}
+
+TEST_F(VelocityUpdate, ManySmallStepsLeadToNoErrorThatTheBorderRefuses) {
+  pilot.press("pb 16");
+  pilot.around.nav.velocity_north_mps = -9000.0;
+  for (double north_mps = -9000.0; north_mps < 9000.0; north_mps += 1500.0) {
+    measure(north_mps, 0.0, 0.0);
+    pilot.wait(20 * kTicksPerSecond);
+    EXPECT_FALSE(databuffer::why_refused(pilot.state)) << *databuffer::why_refused(pilot.state) << " at " << north_mps;
+  }
 }
 
 TEST_F(VelocityUpdate, TheInsKeepsItsOwnVelocity) {
