@@ -1,0 +1,72 @@
+// What a Session and a Claim hold: the segment, the place in the process table, the clock as it was last believed. For
+// session.cpp and session_state.cpp alone.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "databuffer/session.hpp"
+
+namespace yars::databuffer {
+
+inline constexpr int kClockAttempts = 200;  // of 1 ms: another `yars sim` holds the clock for far less
+
+inline SessionLayout& layout_of(shm::Segment& segment) {
+  return *static_cast<SessionLayout*>(segment.memory());
+}
+
+// What a departed writer left must not pass for fresh with a reader that sees it for the first time.
+inline void empty_ownship_lane(SessionLayout& layout, std::size_t lane) {
+  layout.ownship[lane].clear();
+  layout.nav[lane].clear();
+}
+
+struct Claim::Hold {
+  std::shared_ptr<shm::Segment> segment;
+  std::size_t byte;
+
+  Hold(std::shared_ptr<shm::Segment> in, std::size_t locked) : segment(std::move(in)), byte(locked) {}
+  Hold(const Hold&) = delete;
+  Hold& operator=(const Hold&) = delete;
+  ~Hold() {
+    if (const auto lane = byte - kFirstOwnshipByte; lane < kOwnshipLanes) empty_ownship_lane(layout_of(*segment), lane);
+    segment->unlock(byte);
+  }
+};
+
+struct Session::State {
+  State(shm::Segment opened, std::string_view process)
+      : segment(std::make_shared<shm::Segment>(std::move(opened))), process_name(process), clock(read().clock) {}
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State() { leave_table(); }
+
+  SessionLayout& write() { return layout_of(*segment); }
+  const SessionLayout& read() const { return *static_cast<const SessionLayout*>(std::as_const(*segment).memory()); }
+
+  failure::Expected<void> find_clock();
+  void enter_table();
+  void leave_table();
+  std::string describe_holder(std::size_t byte) const;
+  std::optional<Claim> take(std::size_t byte, int lane);
+  ClockState clock_now();
+  void note(NoteKind kind, std::string_view text, std::string_view process);
+  void look_for_name(std::int64_t now_ns);
+
+  std::shared_ptr<shm::Segment> segment;
+  std::string process_name;
+  std::size_t table_byte = 0;          // 0: not in the table
+  std::int64_t next_name_look_ns = 0;  // CLOCK_MONOTONIC
+  bool had_name = true;
+  std::mutex clock_mutex;  // of this process's threads only
+  shm::LatestReader<ClockState> clock;
+  ClockState good_clock{};  // the last one that is in range
+};
+
+}  // namespace yars::databuffer
