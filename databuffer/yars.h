@@ -27,6 +27,10 @@
 #include <time.h>
 #include <unistd.h>
 
+#ifndef CLOCK_MONOTONIC
+#error "include databuffer/yars.h before any system header, or compile with -D_GNU_SOURCE"
+#endif
+
 #ifndef F_OFD_SETLK
 #define F_OFD_GETLK 36
 #define F_OFD_SETLK 37
@@ -623,8 +627,8 @@ static inline int yars_read_frame(const yars_session* s, uint64_t after, yars_gl
   return 0;
 }
 
-/* 1: `sweep` is the next one, and the cursor has moved past it. 0: nothing new; then `sweep` may hold anything. The ring
- * holds the last 1023, some seconds: who comes later finds the gap in cursor->lost. */
+/* 1: `sweep` is the next one, and the cursor has moved past it. 0: nothing new; then `sweep` may hold anything. The
+ * ring holds the last 1023, some seconds: who comes later finds the gap in cursor->lost. */
 static inline int yars_read_sweep(const yars_session* s, yars_sweep_cursor* cursor, yars_sweep* sweep) {
   for (int attempt = 0; attempt < 9; ++attempt) {
     const uint64_t end = yars_load(yars_word(s, YARS_AT_SWEEPS));

@@ -253,7 +253,9 @@ class Session:
         end = self.words[AT_SWEEPS // 8]
         if self.next_sweep is None:
             self.next_sweep = max(0, end - SWEEPS + 1)
-        self.next_sweep = min(self.next_sweep, end)
+        begin = min(max(self.next_sweep, end - SWEEPS), end)
+        self.sweeps_lost += max(0, begin - self.next_sweep)
+        self.next_sweep = begin
         while self.next_sweep < end:
             slot = (AT_SWEEPS + LINE + self.next_sweep % SWEEPS * SWEEP_STRIDE) // 8
             whole = 2 * self.next_sweep + 2

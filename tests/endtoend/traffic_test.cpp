@@ -1,8 +1,8 @@
 // Surface traffic told by a program from outside: the radar shows it, forgets it when its source dies, and a replay
 // makes every sweep of it again.
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <optional>
 
