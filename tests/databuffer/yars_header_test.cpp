@@ -225,8 +225,8 @@ class YarsSweepTest : public YarsHeaderTest {
     if (yars_attach(&s_, name_.c_str(), "c") != 0) throw std::runtime_error(s_.error);
   }
   ~YarsSweepTest() override { yars_detach(&s_); }
-  void publish(std::uint32_t first, std::uint32_t count) {
-    for (std::uint32_t n = 0; n < count; ++n) session_.layout().sweeps.publish(sweep_of(first + n, 5));
+  void publish(std::uint32_t first, std::uint32_t sweeps) {
+    for (std::uint32_t n = 0; n < sweeps; ++n) session_.layout().sweeps.publish(sweep_of(first + n, 5));
   }
   // Numbers of the sweeps that are there to be read.
   std::vector<std::uint32_t> read_all() {
