@@ -98,6 +98,7 @@ class Session:
     """with Session("default", "my-program") as session: ..."""
 
     def __init__(self, name="default", program="python"):
+        shown = text_bytes("program", program[:23], 24)
         self.path = f"/dev/shm/yars.{os.geteuid()}.{name}"
         try:
             self.descriptor = os.open(self.path, os.O_RDWR | os.O_CLOEXEC | os.O_NOFOLLOW)
@@ -125,7 +126,7 @@ class Session:
         self.process = self._claim(FIRST_PROCESS_BYTE, PROCESSES)
         if self.process is not None:
             entry = AT_PROCESSES + PROCESS_STRIDE * self.process
-            self._store(entry + 16, text_bytes("program", program[:23], 24).ljust(24, b"\0"))
+            self._store(entry + 16, shown.ljust(24, b"\0"))
             self.heartbeat()
             self.words[(entry + 8) // 8] = os.getpid()
 
