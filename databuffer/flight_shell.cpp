@@ -60,7 +60,10 @@ void FlightShell::begin_epoch(const ClockState& clock) {
                                     geo::Bearing::degrees(clock.reposition_heading_deg)};
   const bool placed = source_.model->reposition(placement);
   // Nobody asked for it: another source went there.
-  if (clock.followed != 0) return;
+  if (clock.followed != 0) {
+    if (placed && !started_) log_info("begins where the session's aircraft was last placed, not at its own place");
+    return;
+  }
   if (placed) {
     log_info("repositioned, epoch " + std::to_string(clock.epoch));
     return;

@@ -1,7 +1,9 @@
 #include "databuffer/ownship_receiver.hpp"
 
 #include <cmath>
+#include <string_view>
 
+#include "databuffer/records/plain_text.hpp"
 #include "databuffer/records/validation.hpp"
 
 namespace yars::databuffer {
@@ -23,6 +25,11 @@ Nav nav_from_truth(const Ownship& ownship) {
 }
 
 }  // namespace
+
+std::string name_of_source(const Ownship& ownship, std::uint32_t lane) {
+  const std::string_view name = text_of(ownship.source);
+  return name.empty() ? "unnamed (lane " + std::to_string(lane) + ")" : std::string(name);
+}
 
 void OwnshipReceiver::receive(const SessionLayout& layout, std::size_t index) {
   Lane& lane = lanes_[index];
@@ -80,7 +87,10 @@ const OwnshipReceiver::Selected& OwnshipReceiver::refresh(const SessionLayout& l
   const std::int64_t received_ns = selection_.memory[*selection_.lane].received_ns.value_or(sim_time_ns);
   const bool lockstep = layout.lockstep.enabled.load(std::memory_order_relaxed) != 0;
   if (!lockstep && !guard_.believes(lane.ownship, received_ns, sim_time_ns, epoch)) {
-    if (guard_.is_proven()) selected_.jump = lane.ownship;
+    if (guard_.is_proven()) {
+      selected_.jump = lane.ownship;
+      selected_.jump_lane = static_cast<std::uint32_t>(*selection_.lane);
+    }
     return selected_;
   }
   selected_.lane = static_cast<std::uint32_t>(*selection_.lane);

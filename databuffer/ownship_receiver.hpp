@@ -17,6 +17,9 @@ namespace yars::databuffer {
 
 inline constexpr std::uint32_t kNoLane = 0xffffffffU;
 
+// What messages call the source of a lane: by the name that it gives itself, or by its place when it gives none.
+std::string name_of_source(const Ownship& ownship, std::uint32_t lane);
+
 class OwnshipReceiver {
  public:
   struct Selected {
@@ -27,6 +30,7 @@ class OwnshipReceiver {
     std::int64_t received_ns = 0;  // [ns] sim time of the tick that met it first
     // Where the source says that the aircraft is now, far from where it was: it takes a new epoch.
     std::optional<Ownship> jump;
+    std::uint32_t jump_lane = kNoLane;  // of that source
   };
   // `sim_time_ns` is the time of the tick: receipt is judged by it, so that lockstep and live agree.
   const Selected& refresh(const SessionLayout& layout, std::int64_t sim_time_ns, std::uint32_t epoch);

@@ -1,8 +1,9 @@
 /* For a program of one's own, in C99 with GCC's or clang's __atomic: take part in a running YARS session on Linux, feed
  * ownship, navigator and input events, read what radar and pilot do. Include it before any system header (it asks for
- * _GNU_SOURCE). Every function returns -1 and fills yars_session.error when it fails. One thread at a time for each
- * session; nothing here waits. How the segment works: docs/shared_memory.md. The records are those of
- * databuffer/records/, and a test of YARS compares every offset.
+ * _GNU_SOURCE). A function that attaches, claims, publishes or pushes returns -1 and fills yars_session.error when it
+ * fails; 0 of one that feeds means sent, not obeyed. One thread at a time for each session; nothing here waits. How to
+ * use it: docs/attach.md; how the segment works: docs/shared_memory.md. The records are those of databuffer/records/,
+ * and a test of YARS compares every offset.
  *
  *   yars_session s;
  *   if (yars_attach(&s, "default", "my-cockpit") != 0 || yars_claim_ownship_lane(&s, 50) < 0) puts(s.error);
@@ -26,6 +27,10 @@
 #include <time.h>
 #include <unistd.h>
 
+#ifndef CLOCK_MONOTONIC
+#error "include databuffer/yars.h before any system header, or compile with -D_GNU_SOURCE"
+#endif
+
 #ifndef F_OFD_SETLK
 #define F_OFD_GETLK 36
 #define F_OFD_SETLK 37
@@ -45,6 +50,7 @@
 #define YARS_AT_RADAR_STATE 7744
 #define YARS_AT_MODEL_STATUS 13440
 #define YARS_AT_OUTPUTS 16320
+#define YARS_AT_SWEEPS 543680
 #define YARS_AT_INPUT 4934656
 #define YARS_AT_PROCESSES 5051392
 #define YARS_AT_TRAFFIC 13587584
@@ -57,7 +63,14 @@
 #define YARS_FRAME_PIXELS 72
 #define YARS_MOST_FRAME_BYTES 4194304
 
+/* The ring of sweeps: its count, then slots of sequence, words used, words. */
+#define YARS_SWEEPS 1024
+#define YARS_SWEEP_STRIDE 4288
+#define YARS_MOST_SAMPLES 4096
+
 /* Lock bytes of the file, and how many there are of a kind. */
+#define YARS_RADAR_MODEL_BYTE 1
+#define YARS_STATE_MACHINE_BYTE 2
 #define YARS_TRAFFIC_BYTE 5
 #define YARS_FIRST_OWNSHIP_BYTE 8
 #define YARS_FIRST_INPUT_BYTE 16
@@ -213,6 +226,25 @@ typedef struct {
   uint64_t reserved[4];
 } yars_glass_frame;
 
+/* What one position of the antenna returned, on the ground from the apex to range_m between the two azimuths. */
+typedef struct {
+  int64_t tick, sim_time_ns;
+  double apex_latitude_deg, apex_longitude_deg, apex_altitude_msl_m;
+  double azimuth_left_deg, azimuth_right_deg, ground_track_deg, elevation_deg, range_m;
+  uint64_t hash;
+  uint32_t epoch, scan, number, samples, flags;
+  uint8_t mode, gain, direction, reserved0;
+  uint64_t reserved[4];
+  uint8_t video[YARS_MOST_SAMPLES]; /* the first `samples`: near to far, 0 black to 255 white */
+} yars_sweep;
+
+/* Where a reader of sweeps has got to; begin with {0}: with the oldest that the segment holds. */
+typedef struct {
+  uint64_t next;
+  uint64_t lost; /* sweeps overwritten before this reader came to them, counts up */
+  int begun;
+} yars_sweep_cursor;
+
 /* ---- The session ---- */
 typedef struct {
   int descriptor;
@@ -328,6 +360,17 @@ static inline void yars_release(const yars_session* s, int byte) {
   yars_lock(s, byte, F_UNLCK);
 }
 
+/* Whether another open file, of this program or another, holds the byte. */
+static inline int yars_is_held(const yars_session* s, int byte) {
+  struct flock lock;
+  memset(&lock, 0, sizeof lock);
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  lock.l_start = byte;
+  lock.l_len = 1;
+  return fcntl(s->descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+}
+
 /* ---- Joining and leaving ---- */
 static inline int yars_is_at_path(const yars_session* s) {
   struct stat here, there;
@@ -438,6 +481,13 @@ static inline void yars_detach(yars_session* s) {
     yars_release(s, YARS_FIRST_PROCESS_BYTE + s->process);
   }
   yars_leave(s);
+}
+
+/* 1 while radar-model or state-machine takes part, also stopped or hanging; 0 when neither does. One that is killed is
+ * missing until scripts/start has started it again. After 0, detach: a segment lives as long as somebody is attached,
+ * and a set that is started anew may make another one, so attach anew. Two system calls. */
+static inline int yars_set_runs(const yars_session* s) {
+  return s->memory != NULL && (yars_is_held(s, YARS_RADAR_MODEL_BYTE) || yars_is_held(s, YARS_STATE_MACHINE_BYTE));
 }
 
 /* ---- Time ---- */
@@ -573,6 +623,34 @@ static inline int yars_read_frame(const yars_session* s, uint64_t after, yars_gl
       yars_load_words(yars_word(s, at + YARS_FRAME_PIXELS), pixels,
                       ((size_t)frame->width * frame->height * 4 + 7) / 8 * 8);
     if (yars_load(yars_word(s, at)) == newest && frame->id == newest) return 1;
+  }
+  return 0;
+}
+
+/* 1: `sweep` is the next one, and the cursor has moved past it. 0: nothing new; then `sweep` may hold anything. The
+ * ring holds the last 1023, some seconds: who comes later finds the gap in cursor->lost. */
+static inline int yars_read_sweep(const yars_session* s, yars_sweep_cursor* cursor, yars_sweep* sweep) {
+  for (int attempt = 0; attempt < 9; ++attempt) {
+    const uint64_t end = yars_load(yars_word(s, YARS_AT_SWEEPS));
+    const uint64_t oldest = end < YARS_SWEEPS ? 0 : end - YARS_SWEEPS + 1;
+    if (!cursor->begun) cursor->next = oldest, cursor->begun = 1;
+    if (cursor->next > end) cursor->next = end;
+    if (cursor->next < oldest) cursor->lost += oldest - cursor->next, cursor->next = oldest;
+    if (cursor->next == end) return 0;
+    const uint64_t* slot =
+        yars_word(s, YARS_AT_SWEEPS + YARS_LINE + (size_t)(cursor->next % YARS_SWEEPS) * YARS_SWEEP_STRIDE);
+    const uint64_t whole = 2 * cursor->next + 2;
+    if (yars_load(slot) != whole) continue;
+    const uint64_t used = yars_load(slot + 1);
+    if (used > sizeof *sweep / 8) continue;
+    yars_load_words(slot + 2, sweep, (size_t)used * 8);
+    if (yars_load(slot) != whole) continue;
+    if (sweep->samples > YARS_MOST_SAMPLES) { /* nothing that a radar-model writes */
+      ++cursor->next, ++cursor->lost;
+      continue;
+    }
+    ++cursor->next;
+    return 1;
   }
   return 0;
 }

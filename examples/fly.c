@@ -1,5 +1,5 @@
 /* A flight model in C: joins a running set (scripts/start --no-flight, or beside its own flight model, which then
- * stands by) and flies circles off the Californian coast, or round LAT LON. Ctrl-C ends it.
+ * stands by) and flies circles off the Californian coast, or round LAT LON, until the set ends or Ctrl-C.
  *   cc -I. examples/fly.c -o fly -lm  &&  ./fly [SESSION [LAT LON]] */
 #include "databuffer/yars.h"
 /* The header asks for its own extensions and comes first. */
@@ -22,7 +22,9 @@ int main(int argc, char** argv) {
   signal(SIGTERM, end);
   const double degree = 0.017453292519943295, radius_m = 8000.0, speed_mps = 200.0;
   const double latitude_deg = argc > 3 ? atof(argv[2]) : 36.5, longitude_deg = argc > 3 ? atof(argv[3]) : -122.3;
-  for (double time_s = 0.0; !ended; time_s += 0.02) {
+  const int64_t begin_ns = yars_monotonic_ns();
+  while (!ended && yars_set_runs(&s)) {
+    const double time_s = 1e-9 * (double)(yars_monotonic_ns() - begin_ns);
     const double angle = speed_mps / radius_m * time_s; /* [rad] where on the circle, clockwise from north */
     yars_ownship o = {0};
     o.latitude_deg = latitude_deg + radius_m * cos(angle) / 111000.0;

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """A flight model in Python: joins a running set (scripts/start --no-flight, or beside its own flight model, which then
-stands by) and flies circles off the Californian coast, or round LAT LON. Ctrl-C ends it.
+stands by) and flies circles off the Californian coast, or round LAT LON, until the set ends or Ctrl-C.
 
 usage: examples/fly.py [SESSION [LAT LON]]"""
 import math
@@ -14,14 +14,14 @@ from yars import Session, YarsError
 def fly(session, latitude_deg, longitude_deg, radius_m=8000.0, speed_mps=200.0):
     session.claim_ownship_lane(priority=50)
     begin_s = time.monotonic()
-    while True:
+    while session.set_runs():
         angle = speed_mps / radius_m * (time.monotonic() - begin_s)  # [rad] on the circle, clockwise from north
         session.publish_ownship(
             latitude_deg=latitude_deg + radius_m * math.cos(angle) / 111000.0,
             longitude_deg=longitude_deg + radius_m * math.sin(angle) / (111000.0 * math.cos(math.radians(latitude_deg))),
             altitude_msl_m=4500.0, heading_deg=(math.degrees(angle) + 90.0) % 360.0, roll_deg=27.0,
             velocity_north_mps=-speed_mps * math.sin(angle), velocity_east_mps=speed_mps * math.cos(angle),
-            source=b"fly.py")
+            source="fly.py")
         session.heartbeat()
         time.sleep(0.02)
 

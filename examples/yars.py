@@ -1,7 +1,8 @@
 """Takes part in a running YARS session from Python 3.9 or later, without a compiler: a copy of what databuffer/yars.h
-does in C, for ownship, navigator, events, the radar state and pictures of the glass. Linux on x86-64: there one 64-bit
-word goes into memory in one piece and in order. How the segment works: docs/shared_memory.md; a test of YARS compares
-every number here with `yars status --layout`."""
+does in C, for ownship, navigator, events, the radar state, sweeps and pictures of the glass. What cannot be done raises
+YarsError; no error means sent, not obeyed: `yars status` tells what was refused. Linux on x86-64: there one 64-bit word
+goes into memory in one piece and in order. How to use it: docs/attach.md; how the segment works: docs/shared_memory.md.
+A test of YARS compares every number here with `yars status --layout`."""
 import fcntl
 import math
 import mmap
@@ -11,11 +12,13 @@ import time
 
 MAGIC, VERSION, SIZE, HASH = 0x314D485353524159, 3, 27471872, 0xEB33F49407411935
 AT_CLOCK, AT_OWNSHIP_PRIORITY, AT_OWNSHIP, AT_NAV = 448, 1024, 1088, 4416
-AT_RADAR_STATE, AT_INPUT, AT_PROCESSES, AT_FRAMES = 7744, 4934656, 5051392, 13840128
+AT_RADAR_STATE, AT_SWEEPS, AT_INPUT, AT_PROCESSES, AT_FRAMES = 7744, 543680, 4934656, 5051392, 13840128
+RADAR_MODEL_BYTE, STATE_MACHINE_BYTE = 1, 2
 FIRST_OWNSHIP_BYTE, OWNSHIP_LANES, FIRST_INPUT_BYTE, INPUT_LANES = 8, 4, 16, 16
 FIRST_PROCESS_BYTE, PROCESSES, PROCESS_STRIDE = 32, 32, 40
 INPUT_STRIDE, INPUT_DEPTH, INPUT_POPPED, INPUT_RECORDS = 7296, 128, 64, 128
 FRAMES, FRAME_STRIDE, FRAME_PIXELS = 3, 4194376, 72
+SWEEPS, SWEEP_STRIDE, SWEEP_VIDEO_AT, MOST_SAMPLES = 1024, 4288, 144, 4096
 LINE, SLOTS = 64, 4
 
 # Records: (name, struct code) in order; names that begin with an underscore are reserved.
@@ -33,32 +36,69 @@ NAV = [("source_time_ns", "q"), ("mission_latitude_deg", "d"), ("mission_longitu
 INPUT_EVENT = [("session_time_ns", "q"), ("monotonic_ns", "q"), ("x", "d"), ("y", "d"), ("kind", "H"),
                ("argument", "h"), ("number", "I"), ("text", "16s")]
 GLASS_FRAME = [("id", "Q"), ("tick", "q"), ("sim_time_ns", "q"), ("width", "I"), ("height", "I"), ("_reserved", "32s")]
+SWEEP = [("tick", "q"), ("sim_time_ns", "q"), ("apex_latitude_deg", "d"), ("apex_longitude_deg", "d"),
+         ("apex_altitude_msl_m", "d"), ("azimuth_left_deg", "d"), ("azimuth_right_deg", "d"), ("ground_track_deg", "d"),
+         ("elevation_deg", "d"), ("range_m", "d"), ("hash", "Q"), ("epoch", "I"), ("scan", "I"), ("number", "I"),
+         ("samples", "I"), ("flags", "I"), ("mode", "B"), ("gain", "B"), ("direction", "B"), ("_reserved", "33s")]
 RADAR_STATE_SIZE = 1392
 # The fields of the radar state that a panel shows: name, offset, struct code; the legends are of 8 characters each.
 RADAR_STATE = [("tick", 0, "q"), ("range_nm", 8, "d"), ("boxed", 116, "I"), ("power", 120, "B"), ("mode", 121, "B")]
 LEGENDS_AT, LEGENDS = 504, 21
 
 
+# What a field of this struct code takes, for messages.
+EXPECTED = {"d": "a number", "q": "a whole number of 64 bits", "Q": "a whole number of 64 bits, 0 or more",
+            "I": "a whole number 0 to 4294967295", "H": "a whole number 0 to 65535", "B": "a whole number 0 to 255",
+            "h": "a whole number -32768 to 32767"}
+
+
 class YarsError(Exception):
-    pass
+    """Says what was expected, what was found, what to do."""
 
 
 def code_of(fields):
     return "<" + "".join(code for _, code in fields)
 
 
-def pack(fields, values):
-    return struct.pack(code_of(fields), *(values.get(name, b"" if code.endswith("s") else 0) for name, code in fields))
+def text_bytes(what, text, size):
+    """A text, str or bytes, with a zero behind it in a field of so many bytes."""
+    found = text.encode("utf-8", "replace") if isinstance(text, str) else text
+    if not isinstance(found, (bytes, bytearray)) or len(found) >= size or any(not 32 <= byte <= 126 for byte in found):
+        raise YarsError(f"{what}: expected a text of at most {size - 1} printable ASCII characters, found {text!r}; "
+                        "give a str or bytes")
+    return bytes(found)
+
+
+def pack(what, fields, values):
+    """The record of these fields; what is not named is 0. A field that there is not, or a value of another type, is an
+    error: a misspelt latitude would fly at the equator."""
+    names = [name for name, _ in fields if not name.startswith("_")]
+    for name in values:
+        if name not in names:
+            raise YarsError(f"{what}: expected fields of {', '.join(names)}, found {name!r}; see databuffer/records/")
+    parts = []
+    for name, code in fields:
+        value = values.get(name, b"" if code.endswith("s") else 0)
+        if code.endswith("s"):
+            value = text_bytes(f"{what}: {name}", value, int(code[:-1]))
+        try:
+            parts.append(struct.pack("<" + code, value))
+        except (struct.error, OverflowError):
+            raise YarsError(f"{what}: {name}: expected {EXPECTED[code]}, found {value!r}; "
+                            "see databuffer/records/") from None
+    return b"".join(parts)
 
 
 def unpack(fields, record):
-    return dict(zip((name for name, _ in fields), struct.unpack(code_of(fields), record)))
+    return {name: value for (name, _), value in zip(fields, struct.unpack(code_of(fields), record))
+            if not name.startswith("_")}
 
 
 class Session:
     """with Session("default", "my-program") as session: ..."""
 
     def __init__(self, name="default", program="python"):
+        shown = text_bytes("program", program[:23], 24)
         self.path = f"/dev/shm/yars.{os.geteuid()}.{name}"
         try:
             self.descriptor = os.open(self.path, os.O_RDWR | os.O_CLOEXEC | os.O_NOFOLLOW)
@@ -77,6 +117,8 @@ class Session:
         found = (self.words[0], self.words[1], self.words[2], self.words[3] & 0xFFFFFFFF)
         self.lane = self.input_lane = self.process = None
         self.events = 0
+        self.next_sweep = None
+        self.sweeps_lost = 0
         if found != (MAGIC, SIZE, HASH, VERSION):
             self.close()
             raise YarsError(f"{self.path}: expected layout version {VERSION}, hash {HASH:016x}, found version "
@@ -84,7 +126,7 @@ class Session:
         self.process = self._claim(FIRST_PROCESS_BYTE, PROCESSES)
         if self.process is not None:
             entry = AT_PROCESSES + PROCESS_STRIDE * self.process
-            self._store(entry + 16, program.encode()[:23].ljust(24, b"\0"))
+            self._store(entry + 16, shown.ljust(24, b"\0"))
             self.heartbeat()
             self.words[(entry + 8) // 8] = os.getpid()
 
@@ -112,6 +154,12 @@ class Session:
         self.memory.close()
         os.close(self.descriptor)
 
+    def set_runs(self):
+        """True while radar-model or state-machine takes part, also stopped or hanging. One that is killed is missing
+        until scripts/start has started it again. When it is False, close: a segment lives as long as somebody is
+        attached, and a set that is started anew may make another one, so make a new Session."""
+        return self._is_held(RADAR_MODEL_BYTE) or self._is_held(STATE_MACHINE_BYTE)
+
     # ---- time
     def clock(self):
         return self._read(AT_CLOCK, CLOCK)
@@ -134,6 +182,8 @@ class Session:
     # ---- feeding
     def claim_ownship_lane(self, priority):
         """The radar takes the fresh lane of the highest priority; YARS's own flight models have 10."""
+        if not isinstance(priority, int) or not 0 <= priority <= 0xFFFFFFFF:
+            raise YarsError(f"claim_ownship_lane: priority: expected {EXPECTED['I']}, found {priority!r}; take 50")
         self.lane = self._claim(FIRST_OWNSHIP_BYTE, OWNSHIP_LANES)
         if self.lane is None:
             raise YarsError("ownship lane: all are taken; `yars status` names the holders")
@@ -143,38 +193,46 @@ class Session:
         self.memory[at:at + 4] = struct.pack("<I", priority)
 
     def publish_ownship(self, **values):
-        """Fields of the record Ownship (databuffer/records/ownship.hpp); what is not named is 0, the epoch is filled in.
-        20 to 100 times a second."""
-        self._publish(self._ownship_at(), OWNSHIP, {"epoch": self.epoch(), "radar_altitude_m": math.nan, **values})
+        """Fields of the record Ownship (databuffer/records/ownship.hpp), 20 to 100 times a second. What is not named
+        is 0, but radar_altitude_m NaN (no radar altimeter); the epoch is filled in."""
+        self._needs(self.lane, "publish_ownship", "an ownship lane", "claim_ownship_lane(priority)")
+        self._publish("publish_ownship", self._ownship_at(), OWNSHIP,
+                      {"epoch": self.epoch(), "radar_altitude_m": math.nan, **values})
 
     def publish_nav(self, **values):
-        self._publish(self._nav_at(), NAV, {"epoch": self.epoch(), "magnetic_variation_deg": math.nan, **values})
+        """Fields of the record Nav, where the navigators differ from the truth. What is not named is 0, but
+        magnetic_variation_deg NaN (the configuration's); the epoch is filled in."""
+        self._needs(self.lane, "publish_nav", "an ownship lane", "claim_ownship_lane(priority)")
+        self._publish("publish_nav", self._nav_at(), NAV,
+                      {"epoch": self.epoch(), "magnetic_variation_deg": math.nan, **values})
 
     def claim_input_lane(self, source):
-        """A lane that nobody feeds and that has been read empty."""
+        """A lane that nobody feeds and that has been read empty. `source`: who sends, 23 characters."""
+        name = text_bytes("claim_input_lane: source", source, 24)
         for lane in range(INPUT_LANES):
             if self._claim(FIRST_INPUT_BYTE + lane, 1) is None:
                 continue
             at = AT_INPUT + lane * INPUT_STRIDE
             if self.words[at // 8] == self.words[(at + INPUT_POPPED) // 8]:
-                self._store(at + 24, source.encode()[:23].ljust(24, b"\0"))
+                self._store(at + 24, name.ljust(24, b"\0"))
                 self.input_lane = lane
                 return
             self._release(FIRST_INPUT_BYTE + lane)
         raise YarsError("input lane: all are taken; `yars status` names the sources")
 
-    def push_event(self, kind, argument=0, x=0.0, y=0.0, text=b""):
+    def push_event(self, kind, argument=0, x=0.0, y=0.0, text=""):
         """Kinds and arguments: databuffer/records/input_event.hpp; push_button is 1, with the button as argument."""
+        self._needs(self.input_lane, "push_event", "an input lane", "claim_input_lane(source)")
+        record = pack("push_event", INPUT_EVENT, {
+            "session_time_ns": self.sim_time_ns(), "monotonic_ns": time.monotonic_ns(), "x": x, "y": y, "kind": kind,
+            "argument": argument, "number": self.events + 1, "text": text})
         at = AT_INPUT + self.input_lane * INPUT_STRIDE
         number = self.words[at // 8]
         if number - self.words[(at + INPUT_POPPED) // 8] >= INPUT_DEPTH:
             self.words[at // 8 + 1] += 1
             raise YarsError("input lane: full; does the state-machine run?")
         self.events += 1
-        self._store(at + INPUT_RECORDS + number % INPUT_DEPTH * 56,
-                    pack(INPUT_EVENT, {"session_time_ns": self.sim_time_ns(), "monotonic_ns": time.monotonic_ns(),
-                                       "x": x, "y": y, "kind": kind, "argument": argument, "number": self.events,
-                                       "text": text}))
+        self._store(at + INPUT_RECORDS + number % INPUT_DEPTH * 56, record)
         self.words[at // 8] = number + 1
 
     # ---- reading
@@ -188,9 +246,36 @@ class Session:
         state["legends"] = [text.split(b"\0")[0].decode("ascii", "replace") for text in texts]
         return state
 
+    def sweeps(self):
+        """A list of what came since the last call, oldest first; at first, of all that the segment holds, some seconds.
+        Each is a dict of the fields of the record Sweep, and `video`: bytes, near to far, 0 black to 255 white. What
+        was overwritten before it could be read counts in session.sweeps_lost."""
+        found = []
+        end = self.words[AT_SWEEPS // 8]
+        if self.next_sweep is None:
+            self.next_sweep = max(0, end - SWEEPS + 1)
+        begin = min(max(self.next_sweep, end - SWEEPS), end)
+        self.sweeps_lost += max(0, begin - self.next_sweep)
+        self.next_sweep = begin
+        while self.next_sweep < end:
+            slot = (AT_SWEEPS + LINE + self.next_sweep % SWEEPS * SWEEP_STRIDE) // 8
+            whole = 2 * self.next_sweep + 2
+            record = b""
+            if self.words[slot] == whole:
+                used = min(self.words[slot + 1], (SWEEP_VIDEO_AT + MOST_SAMPLES) // 8)
+                record = bytes(self.words[slot + 2:slot + 2 + used])
+            if len(record) >= SWEEP_VIDEO_AT and self.words[slot] == whole:
+                sweep = unpack(SWEEP, record[:SWEEP_VIDEO_AT])
+                sweep["video"] = record[SWEEP_VIDEO_AT:SWEEP_VIDEO_AT + sweep["samples"]]
+                found.append(sweep)
+            else:
+                self.sweeps_lost += 1
+            self.next_sweep += 1
+        return found
+
     def newest_frame(self, after=0):
-        """(frame, pixels) of a glass started with --publish, if newer than the id `after`, else None; rows from the top,
-        red, green, blue, 255."""
+        """(frame, pixels) of a glass started with --publish, if newer than the id `after`, else None: a dict of the
+        record GlassFrame, whose "id" is `after` of the next call, and rows from the top, red, green, blue, 255."""
         for _ in range(8):
             newest = max(range(FRAMES), key=lambda i: self.words[(AT_FRAMES + i * FRAME_STRIDE) // 8])
             at = AT_FRAMES + newest * FRAME_STRIDE
@@ -215,13 +300,18 @@ class Session:
         for i, (word,) in enumerate(struct.iter_unpack("<Q", record)):
             self.words[at // 8 + i] = word
 
-    def _publish(self, at, fields, values):
+    def _needs(self, lane, what, expected, remedy):
+        if lane is None:
+            raise YarsError(f"{what}: expected {expected}, found none; call {remedy} first")
+
+    def _publish(self, what, at, fields, values):
+        record = pack(what, fields, values)
         version = (self.words[at // 8] >> 1) + 1
         slot = (at + LINE + version % SLOTS * slot_stride(fields)) // 8
         odd = (self.words[slot] + 1) | 1
         self.words[slot] = odd
         self.words[slot + 1] = version
-        self._store(8 * (slot + 2), pack(fields, values))
+        self._store(8 * (slot + 2), record)
         self.words[slot] = odd + 1
         self.words[at // 8] = version << 1 | 1
 
@@ -251,6 +341,11 @@ class Session:
             return True
         except OSError:
             return False
+
+    def _is_held(self, byte):
+        """Whether another open file holds it."""
+        asked = struct.pack("@hhqqi0q", fcntl.F_WRLCK, os.SEEK_SET, byte, 1, 0)
+        return struct.unpack_from("@h", fcntl.fcntl(self.descriptor, fcntl.F_OFD_GETLK, asked))[0] != fcntl.F_UNLCK
 
     def _claim(self, first, count):
         for i in range(count):

@@ -90,7 +90,7 @@ void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
     status_.ownship_received_ns = selected.received_ns;
   }
   tick_.ownship_lane = selected.lane;
-  if (selected.jump) tell_of_jump(*selected.jump);
+  if (selected.jump) tell_of_jump(*selected.jump, selected.jump_lane);
   for (const std::string& refusal : ownship_.refusals()) session_->note(databuffer::NoteKind::refusal, refusal);
   latch_command();
   latch_traffic();
@@ -105,7 +105,7 @@ void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
 }
 
 // A new epoch, at the place to which the aircraft's source has jumped: with it the radar believes it.
-void RadarModelShell::tell_of_jump(const databuffer::Ownship& there) {
+void RadarModelShell::tell_of_jump(const databuffer::Ownship& there, std::uint32_t lane) {
   const auto told = session_->change_clock(
       [&there](const databuffer::ClockState& clock) {
         databuffer::ClockState next = clock;
@@ -121,7 +121,7 @@ void RadarModelShell::tell_of_jump(const databuffer::Ownship& there) {
       },
       databuffer::Patience::none);
   if (!told) return;  // somebody else sets the clock just now: the next tick tries again
-  const std::string text = "the aircraft of '" + std::string(there.source) + "' has jumped: a new epoch";
+  const std::string text = "the aircraft of '" + databuffer::name_of_source(there, lane) + "' has jumped: a new epoch";
   session_->note(databuffer::NoteKind::restart, text);
   databuffer::log_info(text);
 }

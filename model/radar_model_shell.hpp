@@ -37,7 +37,7 @@ class RadarModelShell {
   void latch(const databuffer::TickLoop::Due& due);
   void latch_command();
   void latch_traffic();
-  void tell_of_jump(const databuffer::Ownship& there);
+  void tell_of_jump(const databuffer::Ownship& there, std::uint32_t lane);
   void latch_fidelity();
   void govern(double seconds, double rate);
   void run_kernel();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "databuffer/frame_pool.hpp"
+#include "databuffer/ownship_receiver.hpp"
 #include "databuffer/records/model_validation.hpp"
 #include "databuffer/records/plain_text.hpp"
 #include "databuffer/records/validation.hpp"
@@ -45,7 +46,7 @@ ordered_json lanes_json(const databuffer::Session& session) {
     databuffer::Ownship own{};
     if (!session.ownship_lane_is_held(i) || !layout.ownship[i].read(own) || databuffer::why_refused(own)) continue;
     lanes.push_back({{"lane", i},
-                     {"source", databuffer::text_of(own.source)},
+                     {"source", databuffer::name_of_source(own, static_cast<std::uint32_t>(i))},
                      {"priority", layout.ownship_priority[i].load()},
                      {"records", layout.ownship[i].version()}});
   }
@@ -77,6 +78,15 @@ ordered_json frames_json(const databuffer::Session& session) {
           {"height", newest.height}};
 }
 
+// Null when nobody tells of ships and vehicles.
+ordered_json traffic_json(const databuffer::Session& session) {
+  const std::int32_t holder = session.role_holder(databuffer::Role::traffic);
+  if (holder == 0) return nullptr;
+  databuffer::Traffic newest{};
+  if (!session.layout().traffic.read(newest) || databuffer::why_refused(newest)) newest = {};
+  return {{"holder", holder}, {"entities", newest.count}};
+}
+
 }  // namespace
 
 ordered_json status_json(const databuffer::Session& session, const std::string& name) {
@@ -92,6 +102,7 @@ ordered_json status_json(const databuffer::Session& session, const std::string& 
                      {"posts_pending", model.posts_pending}};
   object["recorder"] = recorder_json(session);
   object["glass_frames"] = frames_json(session);
+  object["traffic"] = traffic_json(session);
   object["ownship_lanes"] = lanes_json(session);
   ordered_json counts = ordered_json::object();
   for (std::size_t kind = 0; kind < databuffer::kNoteKinds; ++kind)

@@ -75,8 +75,8 @@ void print_ownship(const ordered_json& status) {
                 own["track_deg"].get<double>(), own["ground_speed_kt"].get<double>(),
                 age_text(own["age_ms"].get<double>() / 1000.0).c_str());
   for (const auto& lane : status["ownship_lanes"])
-    std::printf("  lane %d: %s, priority %u, %llu records\n", lane["lane"].get<int>(), text(lane["source"]).c_str(),
-                lane["priority"].get<unsigned>(),
+    std::printf("  lane %d: %s, priority %u, %llu records in the lane\n", lane["lane"].get<int>(),
+                text(lane["source"]).c_str(), lane["priority"].get<unsigned>(),
                 static_cast<unsigned long long>(lane["records"].get<std::uint64_t>()));
 }
 
@@ -106,6 +106,12 @@ void print_frames(const ordered_json& frames) {
               frames["height"].get<unsigned>());
 }
 
+void print_traffic(const ordered_json& traffic) {
+  if (traffic.is_null()) return;
+  std::printf("traffic: pid %d tells of %u ships and vehicles\n", traffic["holder"].get<int>(),
+              traffic["entities"].get<unsigned>());
+}
+
 void print_notes(const ordered_json& status) {
   std::printf("flight recorder:");
   const char* separator = " ";
@@ -128,6 +134,7 @@ void print_status(const ordered_json& status, const std::map<int, double>& loads
   print_ownship(status);
   print_radar(status);
   print_frames(status["glass_frames"]);
+  print_traffic(status["traffic"]);
   print_notes(status);
 }
 

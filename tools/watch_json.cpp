@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "databuffer/ownship_receiver.hpp"
 #include "databuffer/records/map_timer.hpp"
 #include "databuffer/records/model_validation.hpp"
 #include "databuffer/records/plain_text.hpp"
@@ -135,7 +136,7 @@ void add_navigation(ordered_json& object, const RadarState& state) {
 
 void add_ownship(ordered_json& object, const ModelStatus& model, std::int64_t now_ns) {
   object["antenna"] = {{"az_deg", model.antenna_azimuth_deg}, {"el_deg", model.antenna_elevation_deg}};
-  if ((model.flags & databuffer::kModelStale) != 0U || model.ownship.source[0] == '\0') {
+  if ((model.flags & databuffer::kModelStale) != 0U || model.ownship_lane >= databuffer::kOwnshipLanes) {
     object["ownship"] = nullptr;
     return;
   }
@@ -149,7 +150,7 @@ void add_ownship(ordered_json& object, const ModelStatus& model, std::int64_t no
                        {"track_deg", speed_mps > 0.5 ? track_deg : own.heading_deg},
                        {"ground_speed_kt", geo::Speed::metres_per_second(speed_mps).knots()},
                        {"height_above_ground_ft", number_or_null(model.height_above_ground_m / geo::kMetresPerFoot)},
-                       {"source", text_of(own.source)},
+                       {"source", databuffer::name_of_source(own, model.ownship_lane)},
                        {"age_ms", static_cast<double>(now_ns - model.ownship_received_ns) * 1e-6}};
 }
 

@@ -15,16 +15,16 @@ struct Ownship {
   double latitude_deg;          // [deg] [-90, 90] WGS84
   double longitude_deg;         // [deg] [-180, 180] WGS84
   double altitude_msl_m;        // [m] [-1000, 200000] above mean sea level
-  double heading_deg;           // [deg] [0, 360) true
+  double heading_deg;           // [deg] [0, 360] true
   double pitch_deg;             // [deg] [-90, 90] nose up positive
   double roll_deg;              // [deg] [-180, 180] right wing down positive
-  double velocity_north_mps;    // [m/s]
-  double velocity_east_mps;     // [m/s]
-  double velocity_down_mps;     // [m/s]
-  double radar_altitude_m;      // [m] above ground; NaN = no radar altimeter
+  double velocity_north_mps;    // [m/s] [-10000, 10000] over ground
+  double velocity_east_mps;     // [m/s] [-10000, 10000] over ground
+  double velocity_down_mps;     // [m/s] [-10000, 10000] over ground
+  double radar_altitude_m;      // [m] [0, 200000] above ground; NaN = no radar altimeter
   std::uint32_t epoch;          // session epoch that the writer knew; a new one makes a jump legal
   std::uint32_t flags;          // kOwnship...
-  char source[16];              // "route", "fixed", "csv", "jsbsim": for people
+  char source[16];              // "route", "fixed", "csv", "jsbsim": for people, printable ASCII
   double flight_time_s;         // [s] [0, 1e10] into the source's own recording, for its successor; 0 = not told
   std::uint64_t reserved[3];
 };

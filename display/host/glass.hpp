@@ -33,7 +33,7 @@ struct Viewport {
 
 struct Place {
   std::string session = "default";  // made when it does not run yet
-  std::string configuration;        // GUF file, the one of the set; empty = the built-in APG-70
+  std::string configuration;        // path of the set's GUF file; empty = the built-in APG-70
   std::string name = "host glass";  // what `yars status` calls this program
 };
 

@@ -313,6 +313,37 @@ SAME(yars_mark, Mark, longitude_deg);
 SAME(yars_mark, Mark, elevation_m);
 SAME(yars_mark, Mark, sim_time_ns);
 
+static_assert(YARS_AT_SWEEPS == offsetof(SessionLayout, sweeps));
+static_assert(YARS_LINE == decltype(SessionLayout::sweeps)::slots_offset());
+static_assert(YARS_SWEEPS == decltype(SessionLayout::sweeps)::kDepth);
+static_assert(YARS_SWEEP_STRIDE == decltype(SessionLayout::sweeps)::slot_stride());
+static_assert(YARS_MOST_SAMPLES == radar::kMaxSamples);
+static_assert(YARS_RADAR_MODEL_BYTE == static_cast<int>(Role::radar_model));
+static_assert(YARS_STATE_MACHINE_BYTE == static_cast<int>(Role::state_machine));
+static_assert(sizeof(yars_sweep) == sizeof(Sweep));
+SAME(yars_sweep, Sweep, tick);
+SAME(yars_sweep, Sweep, sim_time_ns);
+SAME(yars_sweep, Sweep, apex_latitude_deg);
+SAME(yars_sweep, Sweep, apex_longitude_deg);
+SAME(yars_sweep, Sweep, apex_altitude_msl_m);
+SAME(yars_sweep, Sweep, azimuth_left_deg);
+SAME(yars_sweep, Sweep, azimuth_right_deg);
+SAME(yars_sweep, Sweep, ground_track_deg);
+SAME(yars_sweep, Sweep, elevation_deg);
+SAME(yars_sweep, Sweep, range_m);
+SAME(yars_sweep, Sweep, hash);
+SAME(yars_sweep, Sweep, epoch);
+SAME(yars_sweep, Sweep, scan);
+SAME(yars_sweep, Sweep, number);
+SAME(yars_sweep, Sweep, samples);
+SAME(yars_sweep, Sweep, flags);
+SAME(yars_sweep, Sweep, mode);
+SAME(yars_sweep, Sweep, gain);
+SAME(yars_sweep, Sweep, direction);
+SAME(yars_sweep, Sweep, reserved0);
+SAME(yars_sweep, Sweep, reserved);
+SAME(yars_sweep, Sweep, video);
+
 #undef SAME
 
 }  // namespace yars::databuffer

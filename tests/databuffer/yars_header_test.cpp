@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 #include <spawn.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "databuffer/frame_pool.hpp"
 #include "databuffer/session.hpp"
@@ -180,6 +182,99 @@ TEST_F(YarsHeaderTest, CDropsAndCountsWhenTheLaneIsFull) {
   EXPECT_FALSE(session->layout().input.pop(0, out));
   EXPECT_EQ(yars_push_event(&s, &event), 0);
   yars_detach(&s);
+}
+
+TEST_F(YarsHeaderTest, ASetRunsWhileRadarModelOrStateMachineHoldsItsRole) {
+  auto session = Session::open(name_, "tester");
+  ASSERT_TRUE(session);
+  yars_session s;
+  ASSERT_EQ(yars_attach(&s, name_.c_str(), "c"), 0) << s.error;
+  EXPECT_EQ(yars_set_runs(&s), 0) << "other programs alone are no set";
+  {
+    const auto model = session->claim(Role::radar_model);
+    ASSERT_TRUE(model);
+    EXPECT_EQ(yars_set_runs(&s), 1);
+    const auto state_machine = session->claim(Role::state_machine);
+    ASSERT_TRUE(state_machine);
+    EXPECT_EQ(yars_set_runs(&s), 1);
+  }
+  EXPECT_EQ(yars_set_runs(&s), 0) << "both have gone";
+  {
+    const auto state_machine = session->claim(Role::state_machine);
+    ASSERT_TRUE(state_machine);
+    EXPECT_EQ(yars_set_runs(&s), 1);
+  }
+  yars_detach(&s);
+  EXPECT_EQ(yars_set_runs(&s), 0) << "without a session";
+}
+
+Sweep sweep_of(std::uint32_t number, std::uint32_t samples) {
+  Sweep sweep{};
+  sweep.number = number;
+  sweep.samples = samples;
+  sweep.range_m = 1000.0 * number;
+  std::fill_n(std::begin(sweep.video), std::min<std::size_t>(samples, radar::kMaxSamples),
+              static_cast<std::uint8_t>(number % 200));
+  return sweep;
+}
+
+// A session of the C++ side, one of yars.h, and what the latter has read of sweeps.
+class YarsSweepTest : public YarsHeaderTest {
+ protected:
+  YarsSweepTest() : session_(std::move(*Session::open(name_, "tester"))) {
+    if (yars_attach(&s_, name_.c_str(), "c") != 0) throw std::runtime_error(s_.error);
+  }
+  ~YarsSweepTest() override { yars_detach(&s_); }
+  void publish(std::uint32_t first, std::uint32_t sweeps) {
+    for (std::uint32_t n = 0; n < sweeps; ++n) session_.layout().sweeps.publish(sweep_of(first + n, 5));
+  }
+  // Numbers of the sweeps that are there to be read.
+  std::vector<std::uint32_t> read_all() {
+    std::vector<std::uint32_t> numbers;
+    while (yars_read_sweep(&s_, &cursor_, &sweep_) == 1) numbers.push_back(sweep_.number);
+    return numbers;
+  }
+
+  Session session_;
+  yars_session s_{};
+  yars_sweep_cursor cursor_{};
+  yars_sweep sweep_{};
+};
+
+TEST_F(YarsSweepTest, EachSweepIsReadOnceWithItsSamples) {
+  EXPECT_EQ(yars_read_sweep(&s_, &cursor_, &sweep_), 0) << "none yet";
+  publish(7, 2);
+  ASSERT_EQ(yars_read_sweep(&s_, &cursor_, &sweep_), 1);
+  EXPECT_EQ(sweep_.number, 7u);
+  EXPECT_EQ(sweep_.range_m, 7000.0);
+  EXPECT_EQ(sweep_.samples, 5u);
+  EXPECT_EQ(std::vector<int>(sweep_.video, sweep_.video + 5), std::vector<int>(5, 7));
+  EXPECT_EQ(read_all(), std::vector<std::uint32_t>{8});
+  EXPECT_EQ(yars_read_sweep(&s_, &cursor_, &sweep_), 0);
+  EXPECT_EQ(cursor_.lost, 0u);
+}
+
+TEST_F(YarsSweepTest, WhoComesLateBeginsWithTheOldestAndHasLostNone) {
+  publish(1, YARS_SWEEPS + 10);
+  const auto numbers = read_all();
+  ASSERT_EQ(numbers.size(), YARS_SWEEPS - 1u);
+  EXPECT_EQ(numbers.front(), 12u);
+  EXPECT_EQ(numbers.back(), YARS_SWEEPS + 10u);
+  EXPECT_EQ(cursor_.lost, 0u);
+}
+
+TEST_F(YarsSweepTest, WhatIsOverwrittenBeforeItIsReadIsCounted) {
+  EXPECT_EQ(yars_read_sweep(&s_, &cursor_, &sweep_), 0) << "from here on it reads";
+  publish(1, YARS_SWEEPS + 10);
+  EXPECT_EQ(read_all().size(), YARS_SWEEPS - 1u);
+  EXPECT_EQ(cursor_.lost, 11u);
+}
+
+TEST_F(YarsSweepTest, ASweepWithMoreSamplesThanThereIsRoomForIsPassedOver) {
+  session_.layout().sweeps.publish(sweep_of(1, YARS_MOST_SAMPLES + 1));
+  publish(2, 1);
+  EXPECT_EQ(read_all(), std::vector<std::uint32_t>{2});
+  EXPECT_EQ(cursor_.lost, 1u);
 }
 
 }  // namespace

@@ -143,5 +143,50 @@ TEST(AttachedFlightModel, OneThatStopsHandsOverAndComesBackWithoutAJumpThatNoEpo
   for (const auto& [role, code] : set.end_all()) EXPECT_EQ(code, 0) << role;
 }
 
+TEST(AttachedFlightModel, TheExampleEndsWithTheSetAndTakesTheSegmentAway) {
+  ProcessSet set("attach-end");
+  set.start("state", {"state-machine"});
+  set.start("model", {"radar-model"});
+  ASSERT_TRUE(set.wait_until([](const auto& watch) { return watch["tick"] > 10; })) << set.log_of("model");
+  set.start_tool("fly", {YARS_BIN_DIR "/example_fly", set.session(), "37.5", "-122.5"});
+  ASSERT_TRUE(set.wait_until([](const auto& watch) { return comes_from(watch, "fly.c"); })) << set.watch().dump();
+  set.kill("model", SIGTERM);
+  EXPECT_EQ(set.wait("model"), 0);
+  EXPECT_TRUE(set.runs("fly")) << "the state machine is there";
+  set.kill("state", SIGTERM);
+  EXPECT_EQ(set.wait("state"), 0);
+  EXPECT_EQ(set.wait("fly"), 0) << set.log_of("fly");
+  EXPECT_FALSE(set.segment_exists());
+}
+
+TEST(AttachedFlightModel, OneThatGivesNoNameIsToldByItsLane) {
+  ProcessSet set("attach-unnamed");
+  set.start("state", {"state-machine"});
+  set.start("model", {"radar-model"});
+  ASSERT_TRUE(set.wait_until([](const auto& watch) { return watch["tick"] > 10; })) << set.log_of("model");
+  auto session = databuffer::Session::open(set.session(), "mine");
+  ASSERT_TRUE(session);
+  const auto lane = session->claim_ownship_lane(50);
+  ASSERT_TRUE(lane);
+  databuffer::Ownship own{};
+  own.longitude_deg = -122.5;
+  own.altitude_msl_m = 4500.0;
+  own.radar_altitude_m = std::nan("");
+  const auto flies = [&](double latitude_deg, const char* sign) {
+    own.latitude_deg = latitude_deg;
+    return eventually(
+        [&] {
+          own.epoch = session->clock().epoch;
+          ++own.source_time_ns;
+          session->layout().ownship[lane->lane()].publish(own);
+          const std::string told = set.yars({"status"}).output;
+          return told.find(sign) != std::string::npos && told.find("no ownship") == std::string::npos;
+        },
+        20.0);
+  };
+  EXPECT_TRUE(flies(37.5, "ownship: unnamed (lane 0), 37.5")) << set.yars({"status"}).output;
+  EXPECT_TRUE(flies(39.5, "the aircraft of 'unnamed (lane 0)' has jumped")) << set.yars({"status"}).output;
+}
+
 }  // namespace
 }  // namespace yars::endtoend

@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
-"""Compares every number of examples/yars.py with `yars status --layout`. usage: yars_py_test.py YARS"""
+"""Compares every number of examples/yars.py with `yars status --layout`, and lets it take part in a made-up session: its
+errors, its sweeps, the end of a set. usage: yars_py_test.py YARS"""
+import fcntl
 import json
+import os
 import pathlib
 import struct
 import subprocess
@@ -23,13 +26,20 @@ same("VERSION", yars.VERSION, layout["version"])
 same("SIZE", yars.SIZE, layout["size"])
 same("HASH", f"{yars.HASH:016x}", layout["hash"])
 for name, key in [("AT_CLOCK", "clock"), ("AT_OWNSHIP_PRIORITY", "ownship_priority"), ("AT_OWNSHIP", "ownship"),
-                  ("AT_NAV", "nav"), ("AT_RADAR_STATE", "radar_state"), ("AT_INPUT", "input"),
+                  ("AT_NAV", "nav"), ("AT_RADAR_STATE", "radar_state"), ("AT_SWEEPS", "sweeps"), ("AT_INPUT", "input"),
                   ("AT_PROCESSES", "processes"), ("AT_FRAMES", "frames")]:
     same(name, getattr(yars, name), layout["offsets"][key])
 locks, parts = layout["lock_bytes"], layout["containers"]
 same("FIRST_OWNSHIP_BYTE", yars.FIRST_OWNSHIP_BYTE, locks["first_ownship_lane"])
 same("FIRST_INPUT_BYTE", yars.FIRST_INPUT_BYTE, locks["first_input_lane"])
 same("FIRST_PROCESS_BYTE", yars.FIRST_PROCESS_BYTE, locks["first_process"])
+same("RADAR_MODEL_BYTE", yars.RADAR_MODEL_BYTE, locks["radar-model"])
+same("STATE_MACHINE_BYTE", yars.STATE_MACHINE_BYTE, locks["state-machine"])
+same("SWEEPS", (yars.LINE, yars.SWEEPS, yars.SWEEP_STRIDE, 0, 8, 16),
+     tuple(parts["sweeps"][key] for key in ("slots", "slot_count", "slot_stride", "slot_sequence", "slot_used_words",
+                                            "slot_words")))
+same("Sweep.video", [yars.SWEEP_VIDEO_AT, yars.MOST_SAMPLES], layout["records"]["Sweep"]["fields"]["video"])
+same("sizeof Sweep", yars.SWEEP_VIDEO_AT + yars.MOST_SAMPLES, layout["records"]["Sweep"]["size"])
 same("OWNSHIP_LANES", yars.OWNSHIP_LANES, parts["ownship"]["count"])
 same("INPUT", (yars.INPUT_LANES, yars.INPUT_STRIDE, yars.INPUT_DEPTH, yars.INPUT_POPPED, yars.INPUT_RECORDS),
      tuple(parts["input"][key] for key in ("count", "stride", "depth", "popped", "records")))
@@ -41,17 +51,115 @@ for name, fields in [("ownship", yars.OWNSHIP), ("nav", yars.NAV), ("clock", yar
     same(f"{name} slots", (yars.LINE, yars.SLOTS, yars.slot_stride(fields), yars.value_size(fields)),
          tuple(parts[name][key] for key in ("slots", "slot_count", "slot_stride", "stride")))
 for record, fields in [("ClockState", yars.CLOCK), ("Ownship", yars.OWNSHIP), ("Nav", yars.NAV),
-                       ("InputEvent", yars.INPUT_EVENT), ("GlassFrame", yars.GLASS_FRAME)]:
+                       ("InputEvent", yars.INPUT_EVENT), ("GlassFrame", yars.GLASS_FRAME), ("Sweep", yars.SWEEP)]:
     expected, at = layout["records"][record], 0
     for name, code in fields:
         if not name.startswith("_"):
             same(f"{record}.{name}", [at, struct.calcsize("<" + code)], expected["fields"][name])
         at += struct.calcsize("<" + code)
-    same(f"sizeof {record}", at, expected["size"])
+    same(f"sizeof {record}", at, yars.SWEEP_VIDEO_AT if record == "Sweep" else expected["size"])
 state = layout["records"]["RadarState"]
 same("sizeof RadarState", yars.RADAR_STATE_SIZE, state["size"])
 for name, at, code in yars.RADAR_STATE:
     same(f"RadarState.{name}", [at, struct.calcsize("<" + code)], state["fields"][name])
 same("RadarState.legends", [yars.LEGENDS_AT, 8 * yars.LEGENDS], state["fields"]["legends"])
+
+
+class MadeUpSession:
+    """A segment with its header alone, and somebody who takes part in it."""
+
+    def __init__(self):
+        self.name = f"py{os.getpid()}"
+        self.path = f"/dev/shm/yars.{os.geteuid()}.{self.name}"
+        self.file = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o600)
+        os.ftruncate(self.file, yars.SIZE)
+        self.write(0, struct.pack("<QQQQ", yars.MAGIC, yars.SIZE, yars.HASH, yars.VERSION))
+        self.lock(0, fcntl.F_RDLCK)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        os.close(self.file)
+        if os.path.exists(self.path):
+            os.unlink(self.path)
+
+    def write(self, at, content):
+        os.pwrite(self.file, content, at)
+
+    def lock(self, byte, kind):
+        fcntl.fcntl(self.file, fcntl.F_OFD_SETLK, struct.pack("@hhqqi0q", kind, os.SEEK_SET, byte, 1, 0))
+
+    def publish_sweep(self, number, samples):
+        slot = yars.AT_SWEEPS + yars.LINE + number % yars.SWEEPS * yars.SWEEP_STRIDE
+        fields = yars.pack("test", yars.SWEEP, {"number": number, "samples": samples, "range_m": 1000.0 * number})
+        self.write(slot, struct.pack("<QQ", 2 * number + 2, (len(fields) + samples + 7) // 8))
+        self.write(slot + 16, fields + bytes([number % 200] * samples))
+        self.write(yars.AT_SWEEPS, struct.pack("<Q", number + 1))
+
+
+def refuses(fragment, function, *arguments, **values):
+    try:
+        function(*arguments, **values)
+    except yars.YarsError as error:
+        if fragment not in str(error):
+            faults.append(f"expected an error with '{fragment}', found '{error}'")
+    else:
+        faults.append(f"expected an error with '{fragment}', found none")
+
+
+def what_cannot_be_done_is_an_error(session):
+    refuses("publish_ownship: expected an ownship lane, found none; call claim_ownship_lane", session.publish_ownship)
+    refuses("publish_nav: expected an ownship lane, found none", session.publish_nav)
+    refuses("push_event: expected an input lane, found none; call claim_input_lane", session.push_event, 1, 13)
+    refuses("priority: expected a whole number 0 to", session.claim_ownship_lane, -1)
+    session.claim_ownship_lane(50)
+    refuses("found 'latitude'; see", session.publish_ownship, latitude=36.5)
+    refuses("latitude_deg: expected a number, found '36.5'", session.publish_ownship, latitude_deg="36.5")
+    refuses("source: expected a text of at most 15", session.publish_ownship, source="sixteen letters!")
+    refuses("source: expected a text of at most 23", session.claim_input_lane, 5)
+    session.claim_input_lane("panel")
+    refuses("kind: expected a whole number 0 to 65535, found 'pb'", session.push_event, "pb", 13)
+    refuses("argument: expected a whole number -32768 to", session.push_event, 1, 1.5)
+    session.publish_ownship(latitude_deg=36.5, source="mine")
+    session.publish_ownship(latitude_deg=36.5, source=b"mine")
+    session.push_event(14, text="2.01")
+    lane = yars.AT_INPUT + session.input_lane * yars.INPUT_STRIDE
+    same("events of faulty calls", session.words[lane // 8], 1)
+    event = yars.unpack(yars.INPUT_EVENT, session.memory[lane + yars.INPUT_RECORDS:lane + yars.INPUT_RECORDS + 56])
+    same("event", (event["kind"], event["text"].rstrip(b"\0"), event["number"]), (14, b"2.01", 1))
+    own = yars.unpack(yars.OWNSHIP, session._read_bytes(session._ownship_at(), 144))
+    same("ownship", (own["latitude_deg"], own["source"].rstrip(b"\0"), own["radar_altitude_m"] > 0), (36.5, b"mine", False))
+    same("radar altitude is NaN", own["radar_altitude_m"] != own["radar_altitude_m"], True)
+
+
+def sweeps_come_once_and_the_lost_are_counted(session, made_up):
+    same("sweeps at first", session.sweeps(), [])
+    made_up.publish_sweep(0, 5)
+    made_up.publish_sweep(1, 12)
+    found = session.sweeps()
+    same("sweeps", [(sweep["number"], sweep["range_m"], sweep["video"]) for sweep in found],
+         [(0, 0.0, bytes(5)), (1, 1000.0, bytes([1] * 12))])
+    same("sweeps again", session.sweeps(), [])
+    for number in range(2, 2 + yars.SWEEPS + 5):
+        made_up.publish_sweep(number, 1)
+    late = session.sweeps()
+    same("sweeps of one who is late", (late[0]["number"], late[-1]["number"], session.sweeps_lost),
+         (7, yars.SWEEPS + 6, 5))
+
+
+def a_set_runs_while_a_role_is_held(session, made_up):
+    same("set_runs of nobody", session.set_runs(), False)
+    for byte in (yars.RADAR_MODEL_BYTE, yars.STATE_MACHINE_BYTE):
+        made_up.lock(byte, fcntl.F_WRLCK)
+        same(f"set_runs with byte {byte}", session.set_runs(), True)
+        made_up.lock(byte, fcntl.F_UNLCK)
+    same("set_runs at the end", session.set_runs(), False)
+
+
+with MadeUpSession() as made_up, yars.Session(made_up.name, "yars_py_test") as session:
+    what_cannot_be_done_is_an_error(session)
+    sweeps_come_once_and_the_lost_are_counted(session, made_up)
+    a_set_runs_while_a_role_is_held(session, made_up)
 print("\n".join(faults) or "yars.py: as the layout")
 sys.exit(1 if faults else 0)
