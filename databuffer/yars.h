@@ -495,7 +495,8 @@ static inline int yars_set_runs(const yars_session* s) {
 static inline int64_t yars_sim_time_ns(const yars_session* s) {
   yars_clock clock;
   if (yars_read(s, YARS_AT_CLOCK, &clock, sizeof clock) == 0) return 0;
-  if (clock.running == 0) return clock.base_sim_ns;
+  /* A rate that is none, as whoever else may write here may leave it, moves nothing. */
+  if (clock.running == 0 || !(clock.rate >= 0.0 && clock.rate <= 10.0)) return clock.base_sim_ns;
   return clock.base_sim_ns + (int64_t)(clock.rate * (double)(yars_monotonic_ns() - clock.base_monotonic_ns));
 }
 
@@ -619,9 +620,10 @@ static inline int yars_read_frame(const yars_session* s, uint64_t after, yars_gl
     }
     if (newest <= after) return 0;
     yars_load_words(yars_word(s, at + YARS_FRAME_WORDS), frame, sizeof *frame);
-    if (frame->width <= 1024 && frame->height <= 1024)
-      yars_load_words(yars_word(s, at + YARS_FRAME_PIXELS), pixels,
-                      ((size_t)frame->width * frame->height * 4 + 7) / 8 * 8);
+    /* Larger than a slot: being written, or nobody's picture. */
+    if (frame->width > 1024 || frame->height > 1024) continue;
+    yars_load_words(yars_word(s, at + YARS_FRAME_PIXELS), pixels,
+                    ((size_t)frame->width * frame->height * 4 + 7) / 8 * 8);
     if (yars_load(yars_word(s, at)) == newest && frame->id == newest) return 1;
   }
   return 0;

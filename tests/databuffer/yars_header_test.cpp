@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "databuffer/frame_pool.hpp"
@@ -268,6 +269,24 @@ TEST_F(YarsSweepTest, WhatIsOverwrittenBeforeItIsReadIsCounted) {
   publish(1, YARS_SWEEPS + 10);
   EXPECT_EQ(read_all().size(), YARS_SWEEPS - 1u);
   EXPECT_EQ(cursor_.lost, 11u);
+}
+
+TEST_F(YarsSweepTest, APictureLargerThanItsSlotIsNone) {
+  GlassFrame frame{};
+  frame.id = 1;
+  frame.width = frame.height = kMostFramePixels + 1;
+  publish_frame(session_.layout(), frame, std::vector<std::uint8_t>(16));
+  yars_glass_frame found{};
+  std::vector<std::uint8_t> pixels(YARS_MOST_FRAME_BYTES);
+  EXPECT_EQ(yars_read_frame(&s_, 0, &found, pixels.data()), 0);
+}
+
+TEST_F(YarsSweepTest, AClockWithoutARateStandsStill) {
+  ClockState clock = session_.clock();
+  clock.base_sim_ns = 5;
+  clock.rate = std::numeric_limits<double>::quiet_NaN();
+  session_.layout().clock.publish(clock);
+  EXPECT_EQ(yars_sim_time_ns(&s_), 5);
 }
 
 TEST_F(YarsSweepTest, ASweepWithMoreSamplesThanThereIsRoomForIsPassedOver) {
