@@ -195,7 +195,7 @@ void GroundFan::fill_between(std::size_t step) {
 
 // Before a strip is put down its place is fetched, a sixteenth with every column that is read for it.
 void GroundFan::fetch_strip(const FanGrid& grid, int column, const GroundArrays& arrays) const {
-  const auto share = static_cast<std::size_t>(grid.rows / kStripColumns + 1);
+  const auto share = static_cast<std::size_t>(grid.rows) / std::size_t{kStripColumns} + 1;
   const std::size_t strip = grid.at(column - column % kStripColumns, 0);
   const std::size_t first = share * static_cast<std::size_t>(column % kStripColumns);
   const std::size_t last = std::min(first + share, static_cast<std::size_t>(grid.rows));
