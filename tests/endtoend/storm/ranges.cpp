@@ -3,6 +3,7 @@
 #include <span>
 
 #include "databuffer/records/inspection.hpp"
+#include "databuffer/records/model_validation.hpp"
 #include "databuffer/records/validation.hpp"
 #include "lib/radar/limits.hpp"
 
@@ -42,42 +43,16 @@ Refusal why_out_of_range(const databuffer::ModelTick& tick) {
 }
 
 Refusal why_out_of_range(const databuffer::ModelStatus& status) {
+  if (auto refusal = databuffer::why_refused(status)) return refusal;
   Inspection inspection;
   inspect_time(inspection, status.tick, status.sim_time_ns);
-  inspect_part(inspection, "ownship", databuffer::why_refused(status.ownship));
-  inspect_part(inspection, "nav", databuffer::why_refused(status.nav));
-  inspection.range("antenna_azimuth_deg", status.antenna_azimuth_deg, -180.0, 180.0);
-  inspection.range("antenna_elevation_deg", status.antenna_elevation_deg, -90.0, 90.0);
-  inspection.range("height_above_ground_m", status.height_above_ground_m, -20'000.0, 220'000.0, Missing::allowed);
-  inspection.range("ground_elevation_m", status.ground_elevation_m, databuffer::kLowestGround,
-                   databuffer::kHighestGround, Missing::allowed);
-  inspection.range("cursor_ground_elevation_m", status.cursor_ground_elevation_m, databuffer::kLowestGround,
-                   databuffer::kHighestGround, Missing::allowed);
-  inspection.range("map_timer_s", status.map_timer_s, 0.0, 1e5, Missing::allowed);
-  inspection.range("map_progress", status.map_progress, 0.0, 1.0, Missing::allowed);
-  inspection.range("load", status.load, 0.0, 1e4);
-  inspection.range("scan_centre_deg", status.scan_centre_deg, -360.0, 360.0);
-  inspection.range("scan_width_deg", status.scan_width_deg, 0.0, 360.0);
-  inspection.range("scan_range_m", status.scan_range_m, 0.0, kFarthest_m);
-  inspection.speed("velocity_north_mps", status.velocity_north_mps);
-  inspection.speed("velocity_east_mps", status.velocity_east_mps);
-  inspection.speed("velocity_down_mps", status.velocity_down_mps);
-  inspection.text("why_not", status.why_not);
   return inspection.result();
 }
 
 Refusal why_out_of_range(const databuffer::Sweep& sweep) {
+  if (auto refusal = databuffer::why_refused(sweep)) return refusal;
   Inspection inspection;
   inspect_time(inspection, sweep.tick, sweep.sim_time_ns);
-  inspection.latitude("apex_latitude_deg", sweep.apex_latitude_deg);
-  inspection.longitude("apex_longitude_deg", sweep.apex_longitude_deg);
-  inspection.range("apex_altitude_msl_m", sweep.apex_altitude_msl_m, -1'000.0, 200'000.0);
-  inspection.range("azimuth_left_deg", sweep.azimuth_left_deg, -360.0, 360.0);
-  inspection.range("azimuth_right_deg", sweep.azimuth_right_deg, -360.0, 360.0);
-  inspection.range("ground_track_deg", sweep.ground_track_deg, -360.0, 360.0);
-  inspection.range("elevation_deg", sweep.elevation_deg, -90.0, 90.0);
-  inspection.range("range_m", sweep.range_m, 0.0, kFarthest_m);
-  inspection.range("samples", sweep.samples, 0, radar::kMaxSamples);
   return inspection.result();
 }
 
