@@ -16,13 +16,14 @@ GEO = ["lib/failure", "lib/geo"]
 RADAR = GEO + ["lib/radar"]
 RECORDS = RADAR + ["databuffer/records"]
 ROLE = RECORDS + ["lib/imageio", "config"]
-MODEL = ROLE + ["lib/memory", "model/terrain", "model/antenna", "model/reflectivity", "model/scene", "model/rbm", "model/hrm", "model/kernel"]
+MODEL = ROLE + ["lib/lanes", "lib/memory", "model/terrain", "model/antenna", "model/reflectivity", "model/scene", "model/rbm", "model/hrm", "model/kernel"]
 SEGMENT = ROLE + ["shm", "databuffer", "databuffer/flight", "databuffer/bridges"]
 
 # Folder -> folders whose headers it may include besides its own. model, statemachine, inputmonitor and display
 # never see each other; tools and tests drive everything.
 LAYERS = {
     "lib/failure": [],
+    "lib/lanes": [],
     "lib/memory": [],
     "lib/geo": GEO,
     "lib/radar": RADAR,
@@ -34,12 +35,12 @@ LAYERS = {
     "databuffer/bridges": RECORDS + ["databuffer/flight"],
     "databuffer": SEGMENT,
     "model/terrain/gdal": ["lib/failure"],
-    "model/terrain": RADAR + ["lib/memory", "lib/imageio", "model/terrain/gdal"],
+    "model/terrain": RADAR + ["lib/lanes", "lib/memory", "lib/imageio", "model/terrain/gdal"],
     "model/antenna": RADAR,
     "model/reflectivity": RADAR + ["model/terrain"],
     "model/scene": RADAR + ["model/terrain", "lib/imageio"],
-    "model/rbm": RADAR + ["lib/memory", "model/terrain", "model/antenna", "model/reflectivity", "model/scene"],
-    "model/hrm": RADAR + ["lib/memory", "model/terrain", "model/reflectivity", "model/rbm", "model/scene"],
+    "model/rbm": RADAR + ["lib/lanes", "lib/memory", "model/terrain", "model/antenna", "model/reflectivity", "model/scene"],
+    "model/hrm": RADAR + ["lib/lanes", "lib/memory", "model/terrain", "model/reflectivity", "model/rbm", "model/scene"],
     "model/kernel": MODEL,
     "model": MODEL,
     "statemachine": ROLE,
@@ -82,7 +83,7 @@ SYSTEM_HEADERS = {
     "EGL/": ["display/gl"],
     "glm/": ["display/gl"],
     "xxhash.h": ["model/kernel"],
-    "hwy/": ["model/terrain", "model/rbm", "model/hrm", "tests"],
+    "hwy/": ["lib/lanes", "model/terrain", "model/rbm", "model/hrm", "tests"],
     "embree3/": ["tests"],
     "GLFW/": ["display/gl", "inputmonitor/window_source.cpp"],
     "spdlog/": ["shells"],

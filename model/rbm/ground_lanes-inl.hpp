@@ -136,9 +136,11 @@ struct GroundReturn {
 
 constexpr std::uint32_t kWaterBit = 1U << static_cast<unsigned>(radar::kWaterMaterial);
 
-// Of the samples from `i` on, seen under these sines of the grazing angle.
+// Of the samples from `i` on, seen under a grazing angle whose sine, times any length, is `level_sine`; `sin_grazing()`
+// is the sine itself, which only the sea asks for.
+template <class Sine>
 HWY_INLINE GroundReturn ground_return(const GroundInputs& in, TextureLanes& texture, std::size_t i,
-                                      GroundFloats sin_grazing) {
+                                      GroundFloats level_sine, const Sine& sin_grazing) {
   const GroundTag d;
   const hn::RebindToSigned<GroundTag> di;
   const auto one = hn::Set(d, 1.0F);
@@ -148,7 +150,7 @@ HWY_INLINE GroundReturn ground_return(const GroundInputs& in, TextureLanes& text
   auto gamma = by_code(in.tables->gamma.data(), code);
   const bool special = !hn::AllFalse(d, in_set(in.textured | in.walled | kWaterBit, code));
   if (special) water = hn::IfThenElse(in_set(kWaterBit, code), one, water);
-  const auto wet = hn::And(hn::Gt(water, zero), hn::Gt(sin_grazing, zero));
+  const auto wet = hn::And(hn::Gt(water, zero), hn::Gt(level_sine, zero));
   const bool textured_land = special && !hn::AllFalse(d, in_set(in.textured, code));
   const bool some_wet = !hn::AllFalse(d, wet);
   const bool textured_sea = in.textured_sea && some_wet;
@@ -164,7 +166,7 @@ HWY_INLINE GroundReturn ground_return(const GroundInputs& in, TextureLanes& text
   }
   GroundReturn result{hn::Mul(hn::Sub(one, water), gamma), zero, some_wet};
   if (!result.wet) return result;
-  auto value = sea_sigma0(in.sigma0, sin_grazing);
+  auto value = sea_sigma0(in.sigma0, sin_grazing());
   if (textured_sea) {
     const float* const levels = &in.tables->texture[radar::kWaterMaterial * reflectivity::kTextureLevels];
     value = hn::Mul(value, hn::GatherIndex(d, levels, level));

@@ -20,7 +20,8 @@ void reflect(std::size_t count, const GroundInputs& ground, const float* sin_gra
   const GroundTag d;
   TextureLanes texture(ground);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const GroundReturn found = ground_return(ground, texture, i, hn::LoadU(d, sin_grazing + i));
+    const auto sine = hn::LoadU(d, sin_grazing + i);
+    const GroundReturn found = ground_return(ground, texture, i, sine, [&] { return sine; });
     hn::StoreU(found.land, d, land + i);
     hn::StoreU(found.sea, d, sea + i);
   }

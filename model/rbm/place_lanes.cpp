@@ -8,11 +8,14 @@
 #define HWY_TARGET_INCLUDE "model/rbm/place_lanes.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+// Behind highway.h, or it would have no target yet.
+#include "lib/lanes/fused-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace yars::model::rbm::places::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
+namespace fused = yars::lanes::HWY_NAMESPACE;
 
 constexpr std::size_t kGroup = 8;  // pieces worked on at once: a vector of doubles
 using DoubleTag = hn::CappedTag<double, kGroup>;
@@ -36,17 +39,17 @@ HWY_INLINE void expand(const Curve& curve, double scale, double shift, const flo
   const auto unit = hn::Set(d, scale);
   const auto store = [&](auto value, float* to) { hn::StoreU(hn::DemoteTo(df, value), df, to); };
   for (std::size_t i = 0; i < kGroup; i += hn::Lanes(d)) {
-    const auto x = hn::Sub(hn::Mul(hn::PromoteTo(d, hn::LoadU(df, middle_m + i)), unit), hn::Set(d, shift));
+    const auto x = fused::mul_sub(hn::PromoteTo(d, hn::LoadU(df, middle_m + i)), unit, hn::Set(d, shift));
     auto value = hn::Set(d, curve.coefficient[curve.terms - 1]);
     auto slope = hn::Zero(d);
     auto bend = hn::Zero(d);
     auto twist = hn::Zero(d);
     // Horner's scheme, four times over: the value and its derivatives over their factorials.
     for (std::size_t k = curve.terms - 1; k-- > 0;) {
-      twist = hn::Add(hn::Mul(twist, x), bend);
-      bend = hn::Add(hn::Mul(bend, x), slope);
-      slope = hn::Add(hn::Mul(slope, x), value);
-      value = hn::Add(hn::Mul(value, x), hn::Set(d, curve.coefficient[k]));
+      twist = fused::mul_add(twist, x, bend);
+      bend = fused::mul_add(bend, x, slope);
+      slope = fused::mul_add(slope, x, value);
+      value = fused::mul_add(value, x, hn::Set(d, curve.coefficient[k]));
     }
     const auto cell = hn::Floor(value);
     const auto within = hn::Sub(value, cell);
@@ -62,9 +65,9 @@ HWY_INLINE void expand(const Curve& curve, double scale, double shift, const flo
 
 HWY_INLINE void put(const Pieces& pieces, std::size_t piece, hn::Vec<FloatTag> s, float* cells, float* degrees) {
   const FloatTag d;
-  auto way = hn::Add(hn::Mul(hn::Set(d, pieces.twist[piece]), s), hn::Set(d, pieces.bend[piece]));
-  way = hn::Add(hn::Mul(way, s), hn::Set(d, pieces.slope[piece]));
-  way = hn::Add(hn::Mul(way, s), hn::Set(d, pieces.rest[piece]));
+  auto way = fused::mul_add(hn::Set(d, pieces.twist[piece]), s, hn::Set(d, pieces.bend[piece]));
+  way = fused::mul_add(way, s, hn::Set(d, pieces.slope[piece]));
+  way = fused::mul_add(way, s, hn::Set(d, pieces.rest[piece]));
   const auto place = hn::Add(way, hn::Set(d, pieces.base[piece]));
   const auto whole = hn::Floor(place);
   hn::StoreU(hn::Add(whole, hn::Set(d, pieces.cell[piece])), d, cells);

@@ -1,6 +1,6 @@
-// Elementary functions for vectors of any width (Highway): no library call, no fused operation, the same bits on every
-// target. Coefficients: Chebyshev interpolation on the reduced interval. Errors are of the polynomial; rounding of
-// float comes on top. Included once for each target.
+// Elementary functions for vectors of any width (Highway): no library call, the same bits on every target.
+// Coefficients: Chebyshev interpolation on the reduced interval. Errors are of the polynomial; rounding of float comes
+// on top. Included once for each target.
 #if defined(YARS_MODEL_RBM_POLYNOMIALS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_RBM_POLYNOMIALS_INL
 #undef YARS_MODEL_RBM_POLYNOMIALS_INL
@@ -12,15 +12,17 @@
 
 #include <cstdint>
 
+#include "lib/lanes/fused-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace yars::model::rbm::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// p * t + c, each rounded: HWY's MulAdd would fuse where the target can.
+// p * t + c
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V step(D d, V p, V t, float c) {
-  return hn::Add(hn::Mul(p, t), hn::Set(d, c));
+  return yars::lanes::HWY_NAMESPACE::mul_add(p, t, hn::Set(d, c));
 }
 
 // Base-2 logarithm of a positive, normal float. Error 4e-7.
@@ -39,7 +41,7 @@ HWY_INLINE V log2(D d, V value) {
   p = step(d, p, t, 0.480842665F);
   p = step(d, p, t, -0.72135008F);
   p = step(d, p, t, 1.44269527F);
-  return hn::Add(hn::ConvertTo(d, exponent), hn::Mul(t, p));
+  return yars::lanes::HWY_NAMESPACE::mul_add(t, p, hn::ConvertTo(d, exponent));
 }
 
 // The same for pictures, at half the cost. Error 1.3e-4: 4e-4 dB.
@@ -49,14 +51,14 @@ HWY_INLINE V rough_log2(D d, V value) {
   // Exponent and mantissa as one number are the logarithm already, linear within each octave; the polynomial over the
   // mantissa in [1, 2) bends it and takes the exponent's bias off.
   const auto bits = hn::BitCast(di, value);
-  const auto linear = hn::Mul(hn::ConvertTo(d, bits), hn::Set(d, 1.0F / 8388608.0F));
+  const auto linear = hn::ConvertTo(d, bits);
   const auto mantissa = hn::BitCast(d, hn::Or(hn::And(bits, hn::Set(di, 0x7fffff)), hn::Set(di, 0x3f800000)));
   auto p = hn::Set(d, -0.0784406762F);
   p = step(d, p, mantissa, 0.626032182F);
   p = step(d, p, mantissa, -2.07833517F);
   p = step(d, p, mantissa, 3.02921139F);
   p = step(d, p, mantissa, -128.498353F);
-  return hn::Add(linear, p);
+  return yars::lanes::HWY_NAMESPACE::mul_add(linear, hn::Set(d, 1.0F / 8388608.0F), p);
 }
 
 // 2 to a power in [-126, 126], else clamped. Error 8e-8, relative.
@@ -105,12 +107,13 @@ HWY_INLINE V angle(D d, V sine, V cosine) {
 // of it. Error 5e-6, relative: 2e-5 dB. (Guess and first step: J. Kadlec's constants, a third of the classic error.)
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V inverse_root(D d, V value) {
+  namespace fused = yars::lanes::HWY_NAMESPACE;
   const hn::RebindToSigned<D> di;
   const auto y = hn::BitCast(d, hn::Sub(hn::Set(di, 0x5f1ffff9), hn::ShiftRight<1>(hn::BitCast(di, value))));
   const auto better =
-      hn::Mul(hn::Mul(y, hn::Set(d, 0.703952253F)), hn::Sub(hn::Set(d, 2.38924456F), hn::Mul(hn::Mul(value, y), y)));
+      hn::Mul(hn::Mul(y, hn::Set(d, 0.703952253F)), fused::neg_mul_add(hn::Mul(value, y), y, hn::Set(d, 2.38924456F)));
   const auto half = hn::Mul(value, hn::Set(d, 0.5F));
-  return hn::Mul(better, hn::Sub(hn::Set(d, 1.5F), hn::Mul(hn::Mul(half, better), better)));
+  return hn::Mul(better, fused::neg_mul_add(hn::Mul(half, better), better, hn::Set(d, 1.5F)));
 }
 
 }  // namespace yars::model::rbm::HWY_NAMESPACE

@@ -7,12 +7,14 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 // Behind highway.h, or it would have no target yet.
+#include "lib/lanes/fused-inl.hpp"
 #include "model/rbm/polynomials-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace yars::model::rbm::lanes::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
+namespace fused = yars::lanes::HWY_NAMESPACE;
 namespace polynomials = rbm::HWY_NAMESPACE;
 
 constexpr std::size_t kMostLanes = 16;
@@ -44,7 +46,7 @@ HWY_INLINE Floats uniform(Bits sixteen, bool counts) {
   if (!counts) return hn::Set(d, 1.0F);
   constexpr float kStep = 1.0F / 65536.0F;
   const auto number = hn::ConvertTo(d, hn::BitCast(SignedTag(), sixteen));
-  return hn::Add(hn::Mul(number, hn::Set(d, kStep)), hn::Set(d, 0.5F * kStep));
+  return polynomials::step(d, number, hn::Set(d, kStep), 0.5F * kStep);
 }
 
 void speckle(std::size_t cells, NoiseState state, int looks, float* variate) {
@@ -106,16 +108,17 @@ void develop(std::size_t count, const VideoInputs& inputs, std::uint8_t* video) 
   const auto first = hn::Set(d, in.weights[0]);
   const auto second = hn::Set(d, in.weights[1]);
   const auto third = hn::Set(d, in.weights[2]);
+  const auto noise = hn::Set(d, in.noise);
   const auto slope = hn::Set(d, 255.0F * kDecibelsPerOctave / in.decibels_per_scale);
   const auto base = hn::Set(d, 255.0F * (1.0F + in.gain_db / in.decibels_per_scale));
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const std::size_t left = count - i;
-    const auto neighbours =
-        hn::Add(hn::Mul(first, load(in.before + i, left)), hn::Mul(second, load(in.centre + i, left)));
-    auto power = hn::Add(hn::Add(neighbours, hn::Mul(third, load(in.after + i, left))), hn::Set(d, in.noise));
+    auto power = fused::mul_add(first, load(in.before + i, left), noise);
+    power = fused::mul_add(second, load(in.centre + i, left), power);
+    power = fused::mul_add(third, load(in.after + i, left), power);
     if (in.variate != nullptr) power = hn::Mul(power, variates(in, i));
     // The least power keeps the logarithm's argument normal.
-    const auto level = hn::Add(base, hn::Mul(slope, polynomials::rough_log2(d, hn::Max(power, hn::Set(d, 1.0e-30F)))));
+    const auto level = fused::mul_add(slope, polynomials::rough_log2(d, hn::Max(power, hn::Set(d, 1.0e-30F))), base);
     // Bytes saturate: that clips.
     const auto bytes = hn::DemoteTo(d8, rounded(level));
     if (left >= hn::Lanes(d)) {

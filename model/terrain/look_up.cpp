@@ -10,11 +10,14 @@
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+// Behind highway.h, or it would have no target yet.
+#include "lib/lanes/fused-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace yars::model::terrain::look_up::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
+namespace fused = yars::lanes::HWY_NAMESPACE;
 
 using FloatLanes = hn::CappedTag<float, kRunSlack>;
 using WholeLanes = hn::RebindToSigned<FloatLanes>;
@@ -138,9 +141,9 @@ HWY_INLINE Posts unpacked(Words words) {
 
 HWY_INLINE Floats blended(Floats south_west, Floats south_east, Floats north_west, Floats north_east, Floats north,
                           Floats east) {
-  const auto south_m = hn::Add(south_west, hn::Mul(east, hn::Sub(south_east, south_west)));
-  const auto north_m = hn::Add(north_west, hn::Mul(east, hn::Sub(north_east, north_west)));
-  return hn::Add(south_m, hn::Mul(north, hn::Sub(north_m, south_m)));
+  const auto south_m = fused::mul_add(east, hn::Sub(south_east, south_west), south_west);
+  const auto north_m = fused::mul_add(east, hn::Sub(north_east, north_west), north_west);
+  return fused::mul_add(north, hn::Sub(north_m, south_m), south_m);
 }
 
 HWY_INLINE Floats shore(const Posts& posts, Floats north, Floats east) {
@@ -187,7 +190,7 @@ HWY_INLINE Joined without_voids(const Posts& posts, Floats north, Floats east) {
     const auto known = hn::RebindMask(d, hn::Ne(post, hn::Set(di, kVoid)));
     const auto counted = hn::IfThenElseZero(known, weight);
     weights = hn::Add(weights, counted);
-    height = hn::Add(height, hn::Mul(counted, hn::ConvertTo(d, post)));
+    height = fused::mul_add(counted, hn::ConvertTo(d, post), height);
     water = hn::Add(water, hn::IfThenElseZero(hn::RebindMask(d, hn::Eq(post, hn::Zero(di))), counted));
   };
   add(posts.south_west, hn::Mul(south, west));

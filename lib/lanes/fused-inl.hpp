@@ -1,0 +1,85 @@
+// Products and sums rounded once, of floats and doubles, for vectors of any width (Highway): the same bits on every
+// target, whether it has an instruction for them or not. Highway's own MulAdd rounds twice where the target has none.
+// Included once for each target.
+#if defined(YARS_LIB_LANES_FUSED_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef YARS_LIB_LANES_FUSED_INL
+#undef YARS_LIB_LANES_FUSED_INL
+#else
+#define YARS_LIB_LANES_FUSED_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+HWY_BEFORE_NAMESPACE();
+namespace yars::lanes::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+#if !HWY_NATIVE_FMA
+// The sum in double rounded to odd, for which rounding to float once more does no harm (Boldo and Melquiond 2008).
+HWY_INLINE float rounded_once(float a, float b, float c) {
+  const double product = static_cast<double>(a) * static_cast<double>(b);  // exact
+  const auto addend = static_cast<double>(c);
+  const double sum = product + addend;
+  const double part = sum - product;
+  const double lost = (product - (sum - part)) + (addend - part);
+  const auto bits = std::bit_cast<std::uint64_t>(sum);
+  const bool inexact = lost > 0.0 || lost < 0.0;  // not so for infinities and what is not a number
+  if (!inexact || (bits & 1U) != 0) return static_cast<float>(sum);
+  const bool outwards = (lost > 0.0) == (sum > 0.0);
+  return static_cast<float>(std::bit_cast<double>(outwards ? bits + 1U : bits - 1U));
+}
+HWY_INLINE double rounded_once(double a, double b, double c) {
+  return std::fma(a, b, c);
+}
+#endif
+
+// a * b + c
+template <class V>
+HWY_INLINE V mul_add(V a, V b, V c) {
+#if HWY_NATIVE_FMA
+  return hn::MulAdd(a, b, c);
+#else
+  const hn::DFromV<V> d;
+  using Number = hn::TFromV<V>;
+  HWY_ALIGN Number first[HWY_MAX_BYTES / sizeof(Number)];
+  HWY_ALIGN Number second[HWY_MAX_BYTES / sizeof(Number)];
+  HWY_ALIGN Number third[HWY_MAX_BYTES / sizeof(Number)];
+  hn::Store(a, d, first);
+  hn::Store(b, d, second);
+  hn::Store(c, d, third);
+  for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane)
+    third[lane] = rounded_once(first[lane], second[lane], third[lane]);
+  return hn::Load(d, third);
+#endif
+}
+
+// c - a * b
+template <class V>
+HWY_INLINE V neg_mul_add(V a, V b, V c) {
+#if HWY_NATIVE_FMA
+  return hn::NegMulAdd(a, b, c);
+#else
+  return mul_add(hn::Neg(a), b, c);
+#endif
+}
+
+// a * b - c
+template <class V>
+HWY_INLINE V mul_sub(V a, V b, V c) {
+#if HWY_NATIVE_FMA
+  return hn::MulSub(a, b, c);
+#else
+  return mul_add(a, b, hn::Neg(c));
+#endif
+}
+
+}  // namespace yars::lanes::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

@@ -1,0 +1,176 @@
+// The same step for several vectors of floats, written once: a vector, a pair of them, a pair of pairs. Steps of one
+// vector wait for each other (a root takes twenty cycles); side by side the machine has something else to do. Included
+// once for each target.
+#if defined(YARS_MODEL_RBM_LANE_GROUPS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef YARS_MODEL_RBM_LANE_GROUPS_INL
+#undef YARS_MODEL_RBM_LANE_GROUPS_INL
+#else
+#define YARS_MODEL_RBM_LANE_GROUPS_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lib/lanes/fused-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace yars::model::rbm::lanes::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+namespace fused = yars::lanes::HWY_NAMESPACE;
+
+using Tag = hn::CappedTag<float, 16>;
+using Floats = hn::Vec<Tag>;
+using Marks = hn::Mask<Tag>;
+
+// Two of a kind, those of the nearer samples first.
+template <class Half>
+struct Pair {
+  Half near, far;
+};
+
+template <class Value>
+inline constexpr bool kIsPair = false;
+template <class Half>
+inline constexpr bool kIsPair<Pair<Half>> = true;
+
+// The step taken for every vector of its groups.
+template <class Step, class Group, class... Groups>
+HWY_INLINE auto each(Step step, const Group& first, const Groups&... others) {
+  if constexpr (kIsPair<Group>) {
+    auto near = each(step, first.near, others.near...);
+    return Pair<decltype(near)>{near, each(step, first.far, others.far...)};
+  } else {
+    return step(first, others...);
+  }
+}
+
+template <class Group>
+HWY_INLINE std::size_t lanes_of() {
+  if constexpr (kIsPair<Group>) {
+    return 2 * lanes_of<decltype(Group::near)>();
+  } else {
+    return hn::Lanes(Tag());
+  }
+}
+
+template <class Group>
+HWY_INLINE Group constant(float value) {
+  if constexpr (kIsPair<Group>) {
+    auto half = constant<decltype(Group::near)>(value);
+    return {half, half};
+  } else {
+    return hn::Set(Tag(), value);
+  }
+}
+
+template <class Group>
+HWY_INLINE Group load(const float* from) {
+  if constexpr (kIsPair<Group>) {
+    using Half = decltype(Group::near);
+    return {load<Half>(from), load<Half>(from + lanes_of<Half>())};
+  } else {
+    return hn::LoadU(Tag(), from);
+  }
+}
+
+template <class Group>
+HWY_INLINE void store(const Group& value, float* to) {
+  if constexpr (kIsPair<Group>) {
+    store(value.near, to);
+    store(value.far, to + lanes_of<decltype(Group::near)>());
+  } else {
+    hn::StoreU(value, Tag(), to);
+  }
+}
+
+template <class Group>
+HWY_INLINE Group add(const Group& a, const Group& b) {
+  return each([](Floats x, Floats y) { return hn::Add(x, y); }, a, b);
+}
+template <class Group>
+HWY_INLINE Group sub(const Group& a, const Group& b) {
+  return each([](Floats x, Floats y) { return hn::Sub(x, y); }, a, b);
+}
+template <class Group>
+HWY_INLINE Group mul(const Group& a, const Group& b) {
+  return each([](Floats x, Floats y) { return hn::Mul(x, y); }, a, b);
+}
+template <class Group>
+HWY_INLINE Group div(const Group& a, const Group& b) {
+  return each([](Floats x, Floats y) { return hn::Div(x, y); }, a, b);
+}
+template <class Group>
+HWY_INLINE Group max(const Group& a, const Group& b) {
+  return each([](Floats x, Floats y) { return hn::Max(x, y); }, a, b);
+}
+template <class Group>
+HWY_INLINE Group abs(const Group& a) {
+  return each([](Floats x) { return hn::Abs(x); }, a);
+}
+template <class Group>
+HWY_INLINE Group sqrt(const Group& a) {
+  return each([](Floats x) { return hn::Sqrt(x); }, a);
+}
+// a * b + c, c - a * b, a * b - c, each rounded once.
+template <class Group>
+HWY_INLINE Group mul_add(const Group& a, const Group& b, const Group& c) {
+  return each([](Floats x, Floats y, Floats z) { return fused::mul_add(x, y, z); }, a, b, c);
+}
+template <class Group>
+HWY_INLINE Group neg_mul_add(const Group& a, const Group& b, const Group& c) {
+  return each([](Floats x, Floats y, Floats z) { return fused::neg_mul_add(x, y, z); }, a, b, c);
+}
+template <class Group>
+HWY_INLINE Group mul_sub(const Group& a, const Group& b, const Group& c) {
+  return each([](Floats x, Floats y, Floats z) { return fused::mul_sub(x, y, z); }, a, b, c);
+}
+
+template <class Group>
+HWY_INLINE auto less(const Group& a, const Group& b) {
+  return each([](Floats x, Floats y) { return hn::Lt(x, y); }, a, b);
+}
+template <class Group>
+HWY_INLINE auto less_or_equal(const Group& a, const Group& b) {
+  return each([](Floats x, Floats y) { return hn::Le(x, y); }, a, b);
+}
+// False for what is not a number.
+template <class Group>
+HWY_INLINE auto number(const Group& a) {
+  return each([](Floats x) { return hn::Eq(x, x); }, a);
+}
+template <class Group>
+HWY_INLINE auto both(const Group& a, const Group& b) {
+  return each([](Marks x, Marks y) { return hn::And(x, y); }, a, b);
+}
+template <class Group>
+HWY_INLINE bool none(const Group& marks) {
+  if constexpr (kIsPair<Group>) {
+    return none(each([](Marks x, Marks y) { return hn::Or(x, y); }, marks.near, marks.far));
+  } else {
+    return hn::AllFalse(Tag(), marks);
+  }
+}
+template <class Group>
+HWY_INLINE bool all(const Group& marks) {
+  if constexpr (kIsPair<Group>) {
+    return all(both(marks.near, marks.far));
+  } else {
+    return hn::AllTrue(Tag(), marks);
+  }
+}
+template <class Group, class GroupMarks>
+HWY_INLINE Group choose(const GroupMarks& marks, const Group& yes, const Group& no) {
+  return each([](Marks m, Floats x, Floats y) { return hn::IfThenElse(m, x, y); }, marks, yes, no);
+}
+template <class Group, class GroupMarks>
+HWY_INLINE Group or_zero(const GroupMarks& marks, const Group& yes) {
+  return each([](Marks m, Floats x) { return hn::IfThenElseZero(m, x); }, marks, yes);
+}
+
+}  // namespace yars::model::rbm::lanes::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target
