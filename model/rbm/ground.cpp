@@ -68,6 +68,9 @@ Ground::Ground(const radar::RadarConfiguration& configuration, std::size_t sampl
     const auto code = static_cast<std::size_t>(material.code);
     if (code < radar::kMaterials) texture(code, material.texture);
   }
+  for (std::size_t code = 0; code < radar::kMaterials; ++code)
+    for (std::size_t level = 0; level < reflectivity::kTextureLevels; ++level)
+      tables_.texture[code * reflectivity::kTextureLevels + level] *= tables_.gamma[code];
   // Water's place in the tables is the sea's.
   texture(kWater, world.sea.texture);
   inputs_.textured_sea = world.sea.texture > 0.0;

@@ -147,7 +147,6 @@ HWY_INLINE GroundReturn ground_return(const GroundInputs& in, TextureLanes& text
   const auto zero = hn::Zero(d);
   const auto code = in.material == nullptr ? hn::Zero(di) : hn::LoadU(di, in.material + i);
   auto water = hn::LoadU(d, in.water + i);
-  auto gamma = by_code(in.tables->gamma.data(), code);
   const bool special = !hn::AllFalse(d, in_set(in.textured | in.walled | kWaterBit, code));
   if (special) water = hn::IfThenElse(in_set(kWaterBit, code), one, water);
   const auto wet = hn::And(hn::Gt(water, zero), hn::Gt(level_sine, zero));
@@ -156,10 +155,8 @@ HWY_INLINE GroundReturn ground_return(const GroundInputs& in, TextureLanes& text
   const bool textured_sea = in.textured_sea && some_wet;
   auto level = hn::Zero(di);
   if (textured_land || textured_sea) level = texture.levels(i);
-  if (textured_land) {
-    const auto entry = hn::Add(hn::ShiftLeft<8>(code), level);
-    gamma = hn::Mul(gamma, hn::GatherIndex(d, in.tables->texture.data(), entry));
-  }
+  auto gamma = textured_land ? hn::GatherIndex(d, in.tables->texture.data(), hn::Add(hn::ShiftLeft<8>(code), level))
+                             : by_code(in.tables->gamma.data(), code);
   if (special) {
     const auto walled = in_set(in.walled, code);
     if (!hn::AllFalse(d, walled)) gamma = hn::Mul(gamma, hn::IfThenElse(walled, hn::LoadU(d, in.wall_gain + i), one));

@@ -18,7 +18,8 @@ namespace yars::model::rbm::lanes {
 // By material code.
 struct MaterialTables {
   std::array<float, radar::kMaterials> gamma{};
-  // Texture levels, one material after the other; a material without texture has ones.
+  // Gamma at each level of texture, one material after the other; the same at all where there is none. Water has the
+  // sea's levels alone.
   std::array<float, radar::kMaterials * reflectivity::kTextureLevels> texture{};
 };
 
