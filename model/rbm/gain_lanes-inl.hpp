@@ -24,43 +24,71 @@ struct Gain {
   Group over, under;
 };
 
-// Of a sight line that leads `out_m` along and `up_m` up: no pattern asks how long it is but by its square.
-template <radar::BeamPattern kBeam, class Group>
-HWY_INLINE Gain<Group> gain_of(const SweepConstants& c, const Group& out_m, const Group& up_m,
-                               const Group& slant_square) {
-  const auto zero = constant<Group>(0.0F);
-  const auto one = constant<Group>(1.0F);
-  const auto sine = constant<Group>(c.sin_elevation);
-  const auto cosine = constant<Group>(c.cos_elevation);
-  // Sine and cosine of the angle below the antenna's centre, times the slant range.
-  const auto below = mul_sub(sine, out_m, mul(cosine, up_m));
-  const auto ahead = [&] { return mul_add(cosine, out_m, mul(sine, up_m)); };
-  if constexpr (kBeam == radar::BeamPattern::hard_edge) {
-    const auto half = constant<Group>(c.sin_half_beam * c.sin_half_beam);
-    const auto narrow = less_or_equal(mul(below, below), mul(half, slant_square));
-    return {or_zero(both(narrow, less(zero, ahead())), one), one};
+// Of sight lines that lead `out_m` along and `up_m` up: no pattern asks how long they are but by their square.
+template <class Group>
+class ElevationGain {
+ public:
+  HWY_INLINE ElevationGain(const SweepConstants& c, const Group& out_m, const Group& up_m, const Group& slant_square)
+      : c_(c),
+        out_m_(out_m),
+        up_m_(up_m),
+        slant_square_(slant_square),
+        below_(mul_sub(constant<Group>(c.sin_elevation), out_m, mul(constant<Group>(c.cos_elevation), up_m))) {}
+
+  HWY_INLINE Gain<Group> of(radar::BeamPattern beam) const {
+    switch (beam) {
+      case radar::BeamPattern::hard_edge:
+        return {hard_edge(), one()};
+      case radar::BeamPattern::gaussian:
+        return {gaussian(), one()};
+      case radar::BeamPattern::cosecant_squared:
+        break;
+    }
+    return cosecant_squared();
   }
-  const auto gaussian = [&] {
+
+ private:
+  static HWY_INLINE Group one() { return constant<Group>(1.0F); }
+  static HWY_INLINE Group zero() { return constant<Group>(0.0F); }
+  HWY_INLINE Group ahead() const {
+    return mul_add(constant<Group>(c_.cos_elevation), out_m_, mul(constant<Group>(c_.sin_elevation), up_m_));
+  }
+
+  HWY_INLINE Group hard_edge() const {
+    const auto half = constant<Group>(c_.sin_half_beam * c_.sin_half_beam);
+    const auto narrow = less_or_equal(mul(below_, below_), mul(half, slant_square_));
+    return or_zero(both(narrow, less(zero(), ahead())), one());
+  }
+
+  HWY_INLINE Group gaussian() const {
     return each(
         [&](Floats off, Floats on) {
           const Tag d;
           const auto angle = polynomials::angle(d, hn::Abs(off), on);
           // A gain below 2^-64 is none: it must not make powers that are too small for normal numbers, and slow.
-          const auto octaves = hn::Neg(hn::Mul(hn::Mul(constant<Floats>(c.gaussian), angle), angle));
+          const auto octaves = hn::Neg(hn::Mul(hn::Mul(constant<Floats>(c_.gaussian), angle), angle));
           return polynomials::exp2(d, hn::Max(octaves, constant<Floats>(-64.0F)));
         },
-        below, ahead());
-  };
-  if constexpr (kBeam == radar::BeamPattern::gaussian) return {gaussian(), one};
-  const auto spread =
-      max(mul_sub(constant<Group>(c.sin_centre_tilt), out_m, mul(constant<Group>(c.cos_centre_tilt), up_m)), zero);
-  const auto over = mul(constant<Group>(c.sin_centre * c.sin_centre), slant_square);
-  const Gain<Group> gain{over, max(mul(spread, spread), over)};
-  // Most ground lies below the centre: what is above it is worth a look before its exponential.
-  const auto above = less(below, zero);
-  if (none(above)) return gain;
-  return {choose(above, gaussian(), gain.over), choose(above, one, gain.under)};
-}
+        below_, ahead());
+  }
+
+  HWY_INLINE Gain<Group> cosecant_squared() const {
+    const auto rise = mul(constant<Group>(c_.cos_centre_tilt), up_m_);
+    const auto spread = max(mul_sub(constant<Group>(c_.sin_centre_tilt), out_m_, rise), zero());
+    const auto over = mul(constant<Group>(c_.sin_centre * c_.sin_centre), slant_square_);
+    const Gain<Group> gain{over, max(mul(spread, spread), over)};
+    // Most ground lies below the centre: what is above it is worth a look before its exponential.
+    const auto above = less(below_, zero());
+    if (none(above)) return gain;
+    return {choose(above, gaussian(), gain.over), choose(above, one(), gain.under)};
+  }
+
+  const SweepConstants& c_;
+  const Group& out_m_;
+  const Group& up_m_;
+  const Group& slant_square_;
+  const Group below_;  // sine of the angle below the antenna's centre, times the slant range
+};
 
 }  // namespace yars::model::rbm::lanes::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

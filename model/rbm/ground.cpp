@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/rbm/sample_places.hpp"
 #include "model/reflectivity/sea.hpp"
 #include "model/terrain/street_grid.hpp"
 
@@ -42,7 +43,7 @@ Ground::Ground(const radar::RadarConfiguration& configuration, std::size_t sampl
     : land_(reflectivity::make_land_return(configuration)),
       sea_(reflectivity::make_sea_table(reflectivity::make_sea_return(configuration))),
       sigma0_(sea_.across.size() + terrain::kRunSlack),
-      codes_(samples + terrain::kRunSlack),
+      codes_(samples + kPairSlack),
       wall_gain_(codes_.size(), 1.0F),
       land_gamma_(codes_.size()),
       sea_sigma0_(codes_.size()) {

@@ -1,6 +1,6 @@
 // What the ground of a sweep reflects, for vectors (Highway, chosen at run time; equal bits on every target): the fast
 // path of surface_return.hpp. ground_lanes-inl.hpp joins it, a vector of samples at a time. Arrays have
-// terrain::kRunSlack entries more than samples.
+// terrain::kRunSlack entries more than samples; in the pass from terrain to power kPairSlack (sample_places.hpp).
 #pragma once
 
 #include <array>

@@ -20,11 +20,14 @@ inline constexpr int kMostKnots = 9;
 inline constexpr int kExactPlaces = 0;  // as knots: the geodesic itself at every sample
 inline constexpr int kSeriesKnots = 5;  // so many or more: a series will do where it is as good
 
+// Entries behind the last sample that a pair of vectors may read.
+inline constexpr std::size_t kPairSlack = 2 * terrain::kRunSlack;
+
 // Room for the places of a sweep, and the run that they make.
 struct PlaceArrays {
   explicit PlaceArrays(std::size_t samples)
       : count(samples),
-        cells_north(samples + terrain::kRunSlack),
+        cells_north(samples + kPairSlack),
         cells_east(cells_north),
         north_deg(cells_north),
         east_deg(cells_north) {}

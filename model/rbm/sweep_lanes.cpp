@@ -20,7 +20,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 namespace polynomials = rbm::HWY_NAMESPACE;
 
 constexpr std::size_t kMostLanes = 16;
-using Together = Pair<Floats>;
 
 // Where points are in the vertical plane of the ray, and the aircraft as seen from them.
 template <class Group>
@@ -115,10 +114,10 @@ HWY_INLINE Group area_inverse(const SweepConstants& c, const Group& sine, const 
 }
 
 // The power of samples of which some are lit, before sensitivity time control but for its third power of range.
-template <radar::BeamPattern kBeam, class Group, class GroupMarks>
-HWY_INLINE Group lit_power(const SweepConstants& c, const SweepInputs& in, TextureLanes& texture, std::size_t i,
-                           const Geometry<Group>& g, const Group& height, const Group& slant_square,
-                           const GroupMarks& lit) {
+template <class Group, class GroupMarks>
+HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, const SweepInputs& in,
+                           TextureLanes& texture, std::size_t i, const Geometry<Group>& g, const Group& height,
+                           const Group& slant_square, const GroupMarks& lit) {
   const auto zero = constant<Group>(0.0F);
   const auto one = constant<Group>(1.0F);
   const auto altitude = constant<Group>(c.altitude_m);
@@ -134,7 +133,7 @@ HWY_INLINE Group lit_power(const SweepConstants& c, const SweepInputs& in, Textu
     const auto across = load<Group>(in.cross_slope + i);
     cosine = sqrt(mul_add(mul(across, across), slant_square, mul(cosine, cosine)));
   }
-  const auto gain = gain_of<kBeam>(c, g.out_m, g.up_m, slant_square);
+  const auto gain = ElevationGain<Group>(c, g.out_m, g.up_m, slant_square).of(beam);
   const auto raised = mul(gain.over, constant<Group>(c.scale));
   // Where the sine is zero so is the power; the area's inverse may be zero there too.
   const auto returns = both(lit, less(zero, sine));
@@ -153,11 +152,12 @@ HWY_INLINE Group lit_power(const SweepConstants& c, const SweepInputs& in, Textu
 }
 
 // One sweep, a group of vectors after the other.
-template <radar::BeamPattern kBeam>
 class SweepLanes {
  public:
-  HWY_INLINE SweepLanes(const SweepConstants& constants, const SweepInputs& in, const SweepOutputs& out)
+  HWY_INLINE SweepLanes(const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& in,
+                        const SweepOutputs& out)
       : c_(constants),
+        beam_(beam),
         in_(in),
         out_(out),
         texture_(in.ground != nullptr ? *in.ground : none_),
@@ -188,7 +188,7 @@ class SweepLanes {
   HWY_INLINE void light(std::size_t i, const Geometry<Group>& g, const Group& height, const GroupMarks& lit) {
     // Nothing is nearer than a metre: a sample without ground may lie at the aircraft itself.
     const auto slant_square = max(mul_add(g.out_m, g.out_m, mul(g.up_m, g.up_m)), constant<Group>(1.0F));
-    auto power = lit_power<kBeam>(c_, in_, texture_, i, g, height, slant_square, lit);
+    auto power = lit_power(c_, beam_, in_, texture_, i, g, height, slant_square, lit);
     if (c_.range_power != 0.0F) {
       const auto control = each(
           [&](Floats x) {
@@ -202,6 +202,7 @@ class SweepLanes {
   }
 
   const SweepConstants c_;
+  const radar::BeamPattern beam_;
   const SweepInputs in_;
   const SweepOutputs out_;
   const GroundInputs none_;
@@ -210,25 +211,11 @@ class SweepLanes {
   const Floats range_octaves_;
 };
 
-template <radar::BeamPattern kBeam>
-HWY_INLINE void sweep_by(std::size_t count, const SweepConstants& constants, const SweepInputs& in,
-                         const SweepOutputs& out) {
-  SweepLanes<kBeam> lanes(constants, in, out);
-  std::size_t i = 0;
-  for (; i + lanes_of<Together>() <= count; i += lanes_of<Together>()) lanes.template measure<Together>(i);
-  for (; i < count; i += lanes_of<Floats>()) lanes.template measure<Floats>(i);
-}
-
 void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& inputs,
            const SweepOutputs& outputs) {
-  switch (beam) {
-    case radar::BeamPattern::hard_edge:
-      return sweep_by<radar::BeamPattern::hard_edge>(count, constants, inputs, outputs);
-    case radar::BeamPattern::gaussian:
-      return sweep_by<radar::BeamPattern::gaussian>(count, constants, inputs, outputs);
-    case radar::BeamPattern::cosecant_squared:
-      return sweep_by<radar::BeamPattern::cosecant_squared>(count, constants, inputs, outputs);
-  }
+  using Together = Pair<Floats>;
+  SweepLanes lanes(constants, beam, inputs, outputs);
+  for (std::size_t i = 0; i < count; i += lanes_of<Together>()) lanes.measure<Together>(i);
 }
 
 // `kReach` samples to either side; negative: as many as told.
