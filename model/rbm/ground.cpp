@@ -90,14 +90,14 @@ const lanes::GroundInputs* Ground::prepare(const Look& look, const terrain::Plac
   const std::size_t count = places.north_deg.size();
   if (!materials && (inputs_.textured & 1U) == 0 && !lanes::any_positive(count, water)) return nullptr;
   const Direction azimuth = middle_direction(look);
-  // Which samples are of a material with walls, or of water, shows in the pass that needs to know.
-  lanes::fill_sigma0(sea_, static_cast<float>(azimuth.north * wind_north_ + azimuth.east * wind_east_), sigma0_.data());
   if (materials) face_walls(places, geo::Bearing::radians(std::atan2(azimuth.east, azimuth.north)));
   inputs_.tables = &tables_;
   inputs_.places = places;
   inputs_.water = water;
   inputs_.material = materials ? codes_.data() : nullptr;
   inputs_.wall_gain = wall_gain_.data();
+  inputs_.sea = &sea_;
+  inputs_.upwind = static_cast<float>(azimuth.north * wind_north_ + azimuth.east * wind_east_);
   inputs_.sigma0 = sigma0_.data();
   inputs_.grid = &grid_;
   return &inputs_;
@@ -115,11 +115,20 @@ Ground::Sample Ground::reflect(const Look& look, const terrain::PlaceRun& places
 void Ground::face_walls(const terrain::PlaceRun& places, geo::Bearing azimuth) {
   const std::size_t count = places.north_deg.size();
   const auto next = [&](std::size_t from) { return lanes::next_in(count, inputs_.walled, codes_.data(), from); };
+  // Neighbours mostly are of one material and one patch of streets.
+  double last_street_deg = -1.0;
+  std::int32_t last_code = -1;
+  float gain = 1.0F;
   for (std::size_t i = next(0); i < count; i = next(i + 1)) {
-    const double cardinal = land_.cardinal[static_cast<std::size_t>(codes_[i])];
-    const double off_deg =
-        reflectivity::off_street_deg(azimuth.degrees(), streets_.bearing_deg(terrain::place_of(places, i)));
-    wall_gain_[i] = static_cast<float>(reflectivity::cardinal_gain(cardinal, off_deg, land_.street_width_deg));
+    const double street_deg = streets_.bearing_deg(terrain::place_of(places, i));
+    if (codes_[i] != last_code || street_deg != last_street_deg) {
+      const double off_deg = reflectivity::off_street_deg(azimuth.degrees(), street_deg);
+      const double cardinal = land_.cardinal[static_cast<std::size_t>(codes_[i])];
+      gain = static_cast<float>(reflectivity::cardinal_gain(cardinal, off_deg, land_.street_width_deg));
+      last_code = codes_[i];
+      last_street_deg = street_deg;
+    }
+    wall_gain_[i] = gain;
   }
 }
 

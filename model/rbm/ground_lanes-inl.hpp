@@ -128,6 +128,29 @@ HWY_INLINE GroundFloats sea_sigma0(const float* sigma0, GroundFloats sine) {
   return hn::IfThenElse(steep, value, hn::Div(hn::Mul(value, sine), least));
 }
 
+// Sigma0 of the look, once it meets water.
+class SeaLanes {
+ public:
+  explicit SeaLanes(const GroundInputs& in) : in_(in) {}
+
+  HWY_INLINE const float* sigma0() {
+    if (!filled_) lanes::fill_sigma0(*in_.sea, in_.upwind, in_.sigma0);
+    filled_ = true;
+    return in_.sigma0;
+  }
+
+ private:
+  const GroundInputs& in_;
+  bool filled_ = false;
+};
+
+// What the vectors of a sweep find out for those behind them.
+struct GroundLanes {
+  explicit GroundLanes(const GroundInputs& in) : texture(in), sea(in) {}
+  TextureLanes texture;
+  SeaLanes sea;
+};
+
 struct GroundReturn {
   GroundFloats land;  // (1 - water) gamma
   GroundFloats sea;   // water * sigma0, >= 0
@@ -139,7 +162,7 @@ constexpr std::uint32_t kWaterBit = 1U << static_cast<unsigned>(radar::kWaterMat
 // Of the samples from `i` on, seen under a grazing angle whose sine, times any length, is `level_sine`; `sin_grazing()`
 // is the sine itself, which only the sea asks for.
 template <class Sine>
-HWY_INLINE GroundReturn ground_return(const GroundInputs& in, TextureLanes& texture, std::size_t i,
+HWY_INLINE GroundReturn ground_return(const GroundInputs& in, GroundLanes& known, std::size_t i,
                                       GroundFloats level_sine, const Sine& sin_grazing) {
   const GroundTag d;
   const hn::RebindToSigned<GroundTag> di;
@@ -154,7 +177,7 @@ HWY_INLINE GroundReturn ground_return(const GroundInputs& in, TextureLanes& text
   const bool some_wet = !hn::AllFalse(d, wet);
   const bool textured_sea = in.textured_sea && some_wet;
   auto level = hn::Zero(di);
-  if (textured_land || textured_sea) level = texture.levels(i);
+  if (textured_land || textured_sea) level = known.texture.levels(i);
   auto gamma = textured_land ? hn::GatherIndex(d, in.tables->texture.data(), hn::Add(hn::ShiftLeft<8>(code), level))
                              : by_code(in.tables->gamma.data(), code);
   if (special) {
@@ -163,7 +186,7 @@ HWY_INLINE GroundReturn ground_return(const GroundInputs& in, TextureLanes& text
   }
   GroundReturn result{hn::Mul(hn::Sub(one, water), gamma), zero, some_wet};
   if (!result.wet) return result;
-  auto value = sea_sigma0(in.sigma0, sin_grazing());
+  auto value = sea_sigma0(known.sea.sigma0(), sin_grazing());
   if (textured_sea) {
     const float* const levels = &in.tables->texture[radar::kWaterMaterial * reflectivity::kTextureLevels];
     value = hn::Mul(value, hn::GatherIndex(d, levels, level));

@@ -18,10 +18,10 @@ namespace polynomials = rbm::HWY_NAMESPACE;
 
 void reflect(std::size_t count, const GroundInputs& ground, const float* sin_grazing, float* land, float* sea) {
   const GroundTag d;
-  TextureLanes texture(ground);
+  GroundLanes known(ground);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto sine = hn::LoadU(d, sin_grazing + i);
-    const GroundReturn found = ground_return(ground, texture, i, sine, [&] { return sine; });
+    const GroundReturn found = ground_return(ground, known, i, sine, [&] { return sine; });
     hn::StoreU(found.land, d, land + i);
     hn::StoreU(found.sea, d, sea + i);
   }

@@ -86,17 +86,17 @@ struct Reflected {
 };
 
 template <class Group, class GroupMarks>
-HWY_INLINE Reflected<Group> reflected(const GroundInputs& ground, TextureLanes& texture, std::size_t i,
+HWY_INLINE Reflected<Group> reflected(const GroundInputs& ground, GroundLanes& known, std::size_t i,
                                       const Group& level_sine, const Group& slant_square, const GroupMarks& lit) {
   if constexpr (kIsPair<Group>) {
     const auto step = lanes_of<decltype(Group::near)>();
-    const auto near = reflected(ground, texture, i, level_sine.near, slant_square.near, lit.near);
-    const auto far = reflected(ground, texture, i + step, level_sine.far, slant_square.far, lit.far);
+    const auto near = reflected(ground, known, i, level_sine.near, slant_square.near, lit.near);
+    const auto far = reflected(ground, known, i + step, level_sine.far, slant_square.far, lit.far);
     return {{near.land, far.land}, {near.sea, far.sea}, near.wet || far.wet};
   } else {
     if (none(lit)) return {hn::Zero(Tag()), hn::Zero(Tag()), false};
     const GroundReturn found =
-        ground_return(ground, texture, i, level_sine, [&] { return mul(level_sine, inverse_root(slant_square)); });
+        ground_return(ground, known, i, level_sine, [&] { return mul(level_sine, inverse_root(slant_square)); });
     return {found.land, found.sea, found.wet};
   }
 }
@@ -115,9 +115,9 @@ HWY_INLINE Group area_inverse(const SweepConstants& c, const Group& sine, const 
 
 // The power of samples of which some are lit, before sensitivity time control but for its third power of range.
 template <class Group, class GroupMarks>
-HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, const SweepInputs& in,
-                           TextureLanes& texture, std::size_t i, const Geometry<Group>& g, const Group& height,
-                           const Group& slant_square, const GroupMarks& lit) {
+HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, const SweepInputs& in, GroundLanes& known,
+                           std::size_t i, const Geometry<Group>& g, const Group& height, const Group& slant_square,
+                           const GroupMarks& lit) {
   const auto zero = constant<Group>(0.0F);
   const auto one = constant<Group>(1.0F);
   const auto altitude = constant<Group>(c.altitude_m);
@@ -140,7 +140,7 @@ HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, con
   const auto under = mul(area_inverse(c, sine, cosine, slant_square, range_inverse), gain.under);
   const auto by_land = div(mul(sine, raised), choose(returns, under, one));
   if (in.ground == nullptr) return or_zero(returns, mul(constant<Group>(c.land_gamma), by_land));
-  const auto ground = reflected(*in.ground, texture, i, level_sine, slant_square, lit);
+  const auto ground = reflected(*in.ground, known, i, level_sine, slant_square, lit);
   const auto land = or_zero(returns, mul(ground.land, by_land));
   if (!ground.wet) return land;
   const auto wet = both(lit, less(zero, ground.sea));
@@ -160,7 +160,7 @@ class SweepLanes {
         beam_(beam),
         in_(in),
         out_(out),
-        texture_(in.ground != nullptr ? *in.ground : none_),
+        ground_(in.ground != nullptr ? *in.ground : none_),
         range_octaves_(hn::Neg(polynomials::log2(Tag(), constant<Floats>(constants.range_inverse)))) {}
 
   template <class Group>
@@ -188,7 +188,7 @@ class SweepLanes {
   HWY_INLINE void light(std::size_t i, const Geometry<Group>& g, const Group& height, const GroupMarks& lit) {
     // Nothing is nearer than a metre: a sample without ground may lie at the aircraft itself.
     const auto slant_square = max(mul_add(g.out_m, g.out_m, mul(g.up_m, g.up_m)), constant<Group>(1.0F));
-    auto power = lit_power(c_, beam_, in_, texture_, i, g, height, slant_square, lit);
+    auto power = lit_power(c_, beam_, in_, ground_, i, g, height, slant_square, lit);
     if (c_.range_power != 0.0F) {
       const auto control = each(
           [&](Floats x) {
@@ -206,7 +206,7 @@ class SweepLanes {
   const SweepInputs in_;
   const SweepOutputs out_;
   const GroundInputs none_;
-  TextureLanes texture_;
+  GroundLanes ground_;
   RunningMaximum horizon_;
   const Floats range_octaves_;
 };

@@ -93,10 +93,11 @@ TEST(SeaTable, LiesWithinTwoHundredthsOfADecibelOfTheModelAtLowGrazing) {
     rbm::lanes::GroundInputs ground;
     ground.tables = &tables;
     ground.water = water.data();
+    ground.sea = &table;
     ground.sigma0 = sigma0.data();
     for (const double look_deg : {0.0, 133.0, 270.0}) {
       const geo::Bearing look = geo::Bearing::degrees(look_deg);
-      rbm::lanes::fill_sigma0(table, static_cast<float>(std::cos((look - sea.wind_from).radians())), sigma0.data());
+      ground.upwind = static_cast<float>(std::cos((look - sea.wind_from).radians()));
       const auto at = [&](float sine_of_grazing) {
         sine[0] = sine_of_grazing;
         rbm::lanes::reflect(1, ground, sine.data(), land.data(), found.data());
