@@ -32,13 +32,13 @@ HWY_INLINE Floats set(float value) {
   return hn::Set(Tag(), value);
 }
 
-// A corner on the grid: column, row, height, and how squarely its surface faces the radar.
+// A corner on the grid.
 struct Corner {
-  Floats column, row, height, facing;
+  Floats column, row, height;
 };
 HWY_INLINE Corner chosen(Mask first, const Corner& a, const Corner& b) {
   return {hn::IfThenElse(first, a.column, b.column), hn::IfThenElse(first, a.row, b.row),
-          hn::IfThenElse(first, a.height, b.height), hn::IfThenElse(first, a.facing, b.facing)};
+          hn::IfThenElse(first, a.height, b.height)};
 }
 HWY_INLINE void order(Corner& a, Corner& b) {
   const auto turned = hn::Lt(b.column, a.column);
@@ -104,15 +104,13 @@ HWY_INLINE Facet facet_of(const Corner& a, const Corner& b, const Corner& c, con
 }
 
 // How much more or less squarely the interpolated normals face the radar than the facet does.
-HWY_INLINE Floats shading(const GridVertices& vertices, const Corner& a, const Corner& b, const Corner& c,
-                          const Facet& facet) {
+HWY_INLINE Floats shading(Floats a, Floats b, Floats c, const Facet& facet) {
   const Tag d;
-  if (vertices.facing == nullptr) return set(1.0F);
   const auto facing = hn::Div(facet.towards, facet.length);
-  const auto off = [&](const Corner& corner) HWY_ATTR { return hn::Abs(hn::Sub(corner.facing, facing)); };
+  const auto off = [&](Floats corner) HWY_ATTR { return hn::Abs(hn::Sub(corner, facing)); };
   const auto smooth =
       hn::And(hn::Gt(hn::Max(hn::Max(off(a), off(b)), off(c)), set(kSmooth)), hn::Gt(facing, hn::Zero(d)));
-  const auto mean = hn::Mul(hn::Add(hn::Add(a.facing, b.facing), c.facing), set(1.0F / 3.0F));
+  const auto mean = hn::Mul(hn::Add(hn::Add(a, b), c), set(1.0F / 3.0F));
   const auto ratio = hn::Min(hn::Max(hn::Div(mean, facing), hn::Zero(d)), set(static_cast<float>(kMostShading)));
   return hn::IfThenElse(smooth, ratio, set(1.0F));
 }

@@ -273,7 +273,7 @@ geo::Duration PatchProcess::formation() const {
 }
 std::size_t PatchProcess::triangles() const {
   std::size_t sum = 0;
-  for (const scene::Tile* tile : work_->tiles) sum += tile->corners.size();
+  for (const scene::Tile* tile : work_->tiles) sum += tile->triangles();
   return sum;
 }
 std::size_t PatchProcess::posts_pending() const {

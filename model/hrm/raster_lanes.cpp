@@ -199,8 +199,12 @@ HWY_INLINE void fill_high(const Triangle& triangle, const Facet& facet, Floats g
 }
 
 HWY_INLINE Corner corner_of(const GridVertices& vertices, std::size_t i) {
-  return {set(vertices.column[i]), set(vertices.row[i]), set(vertices.height_m[i]),
-          set(vertices.facing != nullptr ? vertices.facing[i] : 0.0F)};
+  return {set(vertices.column[i]), set(vertices.row[i]), set(vertices.height_m[i])};
+}
+
+HWY_INLINE std::array<std::size_t, 3> corners_of(const FoundTriangles& triangles, std::size_t i) {
+  const auto corner = [&](std::size_t k) { return static_cast<std::size_t>(triangles.corner[k][i]); };
+  return {corner(0), corner(1), corner(2)};
 }
 
 HWY_INLINE Triangle ordered(Corner a, Corner b, Corner c) {
@@ -210,17 +214,21 @@ HWY_INLINE Triangle ordered(Corner a, Corner b, Corner c) {
   return {a, b, c};
 }
 
-void paint_ground(std::span<const std::uint32_t> triangles, const TileSurfaces& tile, const GridVertices& vertices,
+void paint_ground(const FoundTriangles& triangles, const TileSurfaces& tile, const GridVertices& vertices,
                   const Canvas& canvas) {
   const Tag d;
-  for (const std::uint32_t t : triangles) {
-    const auto& corners = tile.corners[t];
+  for (std::size_t i = 0; i < triangles.count; ++i) {
+    const std::array<std::size_t, 3> corners = corners_of(triangles, i);
     const Corner a = corner_of(vertices, corners[0]);
     const Corner b = corner_of(vertices, corners[1]);
     const Corner c = corner_of(vertices, corners[2]);
     const Facet facet = facet_of(a, b, c, canvas.limits);
     if (!hn::AllTrue(d, hn::Gt(facet.area, hn::Zero(d)))) continue;
-    const auto gain = hn::Mul(set(tile.gamma[tile.kind[t]]), shading(vertices, a, b, c, facet));
+    auto gain = set(tile.gamma[tile.kind[triangles.number[i]]]);
+    if (corners[0] >= vertices.bare) {
+      const auto facing = [&](int k) HWY_ATTR { return set(vertices.facing[corners[k] - vertices.bare]); };
+      gain = hn::Mul(gain, shading(facing(0), facing(1), facing(2), facet));
+    }
     fill_wide(ordered(a, b, c), canvas, 0.0F, [&](std::size_t at, Floats, Floats, Mask wanted) HWY_ATTR {
       const auto old = hn::Load(d, canvas.arrays.gain + at);
       hn::Store(hn::IfThenElse(hn::And(wanted, hn::Ge(old, hn::Zero(d))), gain, old), d, canvas.arrays.gain + at);
@@ -228,27 +236,43 @@ void paint_ground(std::span<const std::uint32_t> triangles, const TileSurfaces& 
   }
 }
 
-// A corner of a vector's triangles.
-HWY_INLINE Corner gather(const GridVertices& vertices, const TileSurfaces& tile, hn::Vec<SignedTag> triangle, int k) {
+// The corners of a vector's triangles.
+struct CornerNumbers {
+  hn::Vec<SignedTag> first, second, third;
+};
+HWY_INLINE CornerNumbers numbers_at(const FoundTriangles& triangles, std::size_t i) {
+  const SignedTag di;
+  return {hn::LoadU(di, &triangles.corner[0][i]), hn::LoadU(di, &triangles.corner[1][i]),
+          hn::LoadU(di, &triangles.corner[2][i])};
+}
+HWY_INLINE Corner gather(const GridVertices& vertices, hn::Vec<SignedTag> i) {
+  const Tag d;
+  return {hn::GatherIndex(d, vertices.column, i), hn::GatherIndex(d, vertices.row, i),
+          hn::GatherIndex(d, vertices.height_m, i)};
+}
+
+HWY_INLINE Floats shaded(Floats gamma, const GridVertices& vertices, const CornerNumbers& corners, const Facet& facet) {
   const Tag d;
   const SignedTag di;
-  const auto* const numbers = reinterpret_cast<const std::int32_t*>(tile.corners);
-  const auto at = hn::Add(hn::Add(triangle, hn::ShiftLeft<1>(triangle)), hn::Set(di, k));
-  const auto i = hn::GatherIndex(di, numbers, at);
-  return {hn::GatherIndex(d, vertices.column, i), hn::GatherIndex(d, vertices.row, i),
-          hn::GatherIndex(d, vertices.height_m, i),
-          vertices.facing != nullptr ? hn::GatherIndex(d, vertices.facing, i) : hn::Zero(d)};
+  const auto bare = hn::Set(di, static_cast<std::int32_t>(vertices.bare));
+  const auto curved = hn::Gt(corners.first, hn::Sub(bare, hn::Set(di, 1)));
+  if (hn::AllFalse(di, curved)) return gamma;
+  const auto facing = [&](hn::Vec<SignedTag> corner) HWY_ATTR {
+    return hn::GatherIndex(d, vertices.facing, hn::Max(hn::Sub(corner, bare), hn::Zero(di)));
+  };
+  const auto factor = shading(facing(corners.first), facing(corners.second), facing(corners.third), facet);
+  return hn::IfThenElse(hn::RebindMask(d, curved), hn::Mul(gamma, factor), gamma);
 }
 
 // Those of a vector that are large, one by one.
-void draw_wide(const std::uint32_t* triangles, const float* gain, Mask wide, const GridVertices& vertices,
-               const TileSurfaces& tile, const Canvas& canvas) {
+void draw_wide(const FoundTriangles& triangles, std::size_t first, const float* gain, Mask wide,
+               const GridVertices& vertices, const Canvas& canvas) {
   const Tag d;
   HWY_ALIGN float which[kStripColumns];
   hn::Store(hn::IfThenElseZero(wide, set(1.0F)), d, which);
   for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
     if (which[lane] == 0.0F) continue;
-    const auto& corners = tile.corners[triangles[lane]];
+    const std::array<std::size_t, 3> corners = corners_of(triangles, first + lane);
     const Corner a = corner_of(vertices, corners[0]);
     const Corner b = corner_of(vertices, corners[1]);
     const Corner c = corner_of(vertices, corners[2]);
@@ -256,29 +280,26 @@ void draw_wide(const std::uint32_t* triangles, const float* gain, Mask wide, con
   }
 }
 
-void draw_standing(std::span<const std::uint32_t> triangles, const TileSurfaces& tile, const GridVertices& vertices,
+void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, const GridVertices& vertices,
                    const Canvas& canvas, Fragments& fragments) {
   const Tag d;
-  const SignedTag di;
-  const BitsTag db;
   SmallTriangles small(canvas, fragments);
   HWY_ALIGN float gamma[kStripColumns] = {};
   HWY_ALIGN float cardinal[kStripColumns] = {};
-  HWY_ALIGN std::uint32_t number[kStripColumns] = {};
   const std::size_t step = hn::Lanes(d);
-  for (std::size_t i = 0; i < triangles.size(); i += step) {
-    const std::size_t count = std::min(step, triangles.size() - i);
-    for (std::size_t lane = 0; lane < step; ++lane) {
-      number[lane] = triangles[i + std::min(lane, count - 1)];
-      const std::size_t kind = tile.kind[number[lane]];
+  for (std::size_t i = 0; i < triangles.count; i += step) {
+    const std::size_t count = std::min(step, triangles.count - i);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const std::size_t kind = tile.kind[triangles.number[i + lane]];
       gamma[lane] = tile.gamma[kind];
       cardinal[lane] = tile.cardinal[kind];
     }
+    // What stands behind the last is an old corner: in the tile's numbers or before them, and not drawn.
     const auto there = hn::FirstN(d, count);
-    const auto numbers = hn::BitCast(di, hn::Load(db, number));
-    const Corner a = gather(vertices, tile, numbers, 0);
-    const Corner b = gather(vertices, tile, numbers, 1);
-    const Corner c = gather(vertices, tile, numbers, 2);
+    const CornerNumbers corners = numbers_at(triangles, i);
+    const Corner a = gather(vertices, corners.first);
+    const Corner b = gather(vertices, corners.second);
+    const Corner c = gather(vertices, corners.third);
     const Facet facet = facet_of(a, b, c, canvas.limits);
     const Triangle triangle = ordered(a, b, c);
     const auto wall = hn::And(there, hn::And(facet.steep, hn::Gt(facet.towards, hn::Zero(d))));
@@ -286,14 +307,14 @@ void draw_standing(std::span<const std::uint32_t> triangles, const TileSurfaces&
       small.stand(triangle, wall_gain(canvas.cardinal, facet, hn::Load(d, gamma), hn::Load(d, cardinal)), wall);
     const auto above = hn::And(there, hn::Gt(facet.area, hn::Zero(d)));
     if (hn::AllFalse(d, above)) continue;
-    const auto gain = hn::Mul(hn::Load(d, gamma), shading(vertices, a, b, c, facet));
+    const auto gain = shaded(hn::Load(d, gamma), vertices, corners, facet);
     const auto wide = hn::And(above, hn::Gt(hn::Sub(triangle.right.column, triangle.left.column), set(kWide)));
     small.fill(triangle, facet, gain, hn::AndNot(wide, above));
     small.flush(false);
     if (hn::AllFalse(d, wide)) continue;
     HWY_ALIGN float gains[kStripColumns];
     hn::Store(gain, d, gains);
-    draw_wide(number, gains, wide, vertices, tile, canvas);
+    draw_wide(triangles, i, gains, wide, vertices, canvas);
   }
   small.flush(true);
 }
@@ -307,11 +328,11 @@ namespace yars::model::hrm::lanes {
 HWY_EXPORT(paint_ground);
 HWY_EXPORT(draw_standing);
 
-void paint_ground(std::span<const std::uint32_t> triangles, const TileSurfaces& tile, const GridVertices& vertices,
+void paint_ground(const FoundTriangles& triangles, const TileSurfaces& tile, const GridVertices& vertices,
                   const Canvas& canvas) {
   HWY_DYNAMIC_DISPATCH(paint_ground)(triangles, tile, vertices, canvas);
 }
-void draw_standing(std::span<const std::uint32_t> triangles, const TileSurfaces& tile, const GridVertices& vertices,
+void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, const GridVertices& vertices,
                    const Canvas& canvas, Fragments& fragments) {
   HWY_DYNAMIC_DISPATCH(draw_standing)(triangles, tile, vertices, canvas, fragments);
 }

@@ -24,7 +24,6 @@ struct SceneArrays {
 
 // A tile's triangles and what they are made of, by kind.
 struct TileSurfaces {
-  const std::array<std::uint32_t, 3>* corners = nullptr;
   const std::uint16_t* kind = nullptr;
   const float* gamma = nullptr;
   const float* cardinal = nullptr;  // how much more a wall returns square on
@@ -64,11 +63,11 @@ struct Fragments {
 };
 
 // Gives the ground between the corners their gamma, in the order of the numbers.
-void paint_ground(std::span<const std::uint32_t> triangles, const TileSurfaces& tile, const GridVertices& vertices,
+void paint_ground(const FoundTriangles& triangles, const TileSurfaces& tile, const GridVertices& vertices,
                   const Canvas& canvas);
 
-// Draws what stands; the numbers as select_triangles() found them.
-void draw_standing(std::span<const std::uint32_t> triangles, const TileSurfaces& tile, const GridVertices& vertices,
+// Draws what stands, as select_triangles() found it.
+void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, const GridVertices& vertices,
                    const Canvas& canvas, Fragments& fragments);
 
 }  // namespace yars::model::hrm::lanes

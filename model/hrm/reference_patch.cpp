@@ -98,18 +98,20 @@ void ReferencePatch::read_tile(const scene::SceneView& scene, const scene::Tile&
   std::vector<MapPoint> points;
   for (std::size_t i = 0; i < tile.east_m.size(); ++i)
     points.push_back(map_point(static_cast<double>(tile.east_m[i]), static_cast<double>(tile.north_m[i])));
-  for (std::size_t t = 0; t < tile.corners.size(); ++t) {
+  for (std::size_t t = 0; t < tile.triangles(); ++t) {
     Face face;
     face.code = scene.kinds()[tile.kind[t]].material;
-    for (std::size_t k = 0; k < face.corners.size(); ++k) {
-      const std::size_t i = tile.corners[t][k];
-      face.corners[k] = place(points[i], static_cast<double>(tile.up_m[i]));
+    const std::array<std::uint16_t, 3> corners = tile.corners(t);
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      face.corners[k] = place(points[corners[k]], static_cast<double>(tile.up_m[corners[k]]));
+    face.normals.fill(face.normal());
+    for (std::size_t k = 0; k < corners.size() && corners[k] >= tile.bare; ++k) {
+      const std::size_t i = corners[k] - tile.bare;
       face.normals[k] = static_cast<double>(tile.normal_east[i]) * east +
                         static_cast<double>(tile.normal_north[i]) * north + static_cast<double>(tile.normal_up[i]) * up;
     }
     if (t < tile.on_ground) {
-      lay_flat({points[tile.corners[t][0]], points[tile.corners[t][1]], points[tile.corners[t][2]]},
-               surface_.gamma(face.code), gain);
+      lay_flat({points[corners[0]], points[corners[1]], points[corners[2]]}, surface_.gamma(face.code), gain);
     } else {
       faces_.push_back(face);
     }
@@ -206,8 +208,7 @@ void ReferencePatch::add_face(const Face& face) {
 void ReferencePatch::add_facet(const Face& face, Point3 place, Point3 weights, double area_m2) {
   if (!seen(place)) return;
   const Point3 way = -1.0 / std::sqrt(dot(place, place)) * place;
-  const Point3 raw = cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
-  const Point3 normal = 1.0 / std::sqrt(dot(raw, raw)) * raw;
+  const Point3 normal = face.normal();
   const double facing = dot(normal, way);
   const Point3 smooth = weights.x * face.normals[0] + weights.y * face.normals[1] + weights.z * face.normals[2];
   const double shaded = std::clamp(dot(smooth, way), 0.0, kMostShading * facing);

@@ -33,6 +33,11 @@ class ReferencePatch {
     Occluders::Corners corners;
     Occluders::Corners normals;  // unit, at the corners
     std::size_t code = 0;        // of its material
+
+    Point3 normal() const {
+      const Point3 raw = cross(corners[1] - corners[0], corners[2] - corners[0]);
+      return 1.0 / std::sqrt(dot(raw, raw)) * raw;
+    }
   };
   struct Ground;
 

@@ -44,7 +44,10 @@ HWY_INLINE void place_vector(std::size_t at, const TileVertices& tile, const Ver
   const auto rows = hn::Mul(beyond, hn::Set(d, map.rows_a_metre));
   hn::StoreU(hn::Add(hn::Set(d, map.middle_row), rows), d, grid.row + at);
   hn::StoreU(hn::Add(hn::LoadU(d, tile.up_m + at), hn::Set(d, map.lift_m)), d, grid.height_m + at);
-  if (grid.facing == nullptr) return;
+}
+
+HWY_INLINE void face_vector(std::size_t at, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
+  const Tag d;
   const auto level = sum_of(map.toward_east, hn::LoadU(d, tile.normal_east + at), map.toward_north,
                             hn::LoadU(d, tile.normal_north + at));
   const auto raised = hn::Mul(hn::Set(d, map.toward_up), hn::LoadU(d, tile.normal_up + at));
@@ -53,39 +56,56 @@ HWY_INLINE void place_vector(std::size_t at, const TileVertices& tile, const Ver
 
 // A few vertices by way of a vector's room.
 void place_few(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
-  float in[6][kMostLanes] = {};
-  float out[4][kMostLanes] = {};
-  const float* const from[6] = {tile.east_m,      tile.north_m,      tile.up_m,
-                                tile.normal_east, tile.normal_north, tile.normal_up};
-  float* const to[4] = {grid.column, grid.row, grid.height_m, grid.facing};
-  const bool facing = grid.facing != nullptr;
-  for (int k = 0; k < 6; ++k) std::copy_n(from[k], count, in[k]);
-  place_vector(0, {in[0], in[1], in[2], in[3], in[4], in[5]}, map, {out[0], out[1], out[2], facing ? out[3] : nullptr});
-  for (int k = 0; k < (facing ? 4 : 3); ++k) std::copy_n(out[k], count, to[k]);
+  float in[3][kMostLanes] = {};
+  float out[3][kMostLanes] = {};
+  std::copy_n(tile.east_m, count, in[0]);
+  std::copy_n(tile.north_m, count, in[1]);
+  std::copy_n(tile.up_m, count, in[2]);
+  place_vector(0, {in[0], in[1], in[2], nullptr, nullptr, nullptr}, map, {out[0], out[1], out[2], nullptr, 0});
+  std::copy_n(out[0], count, grid.column);
+  std::copy_n(out[1], count, grid.row);
+  std::copy_n(out[2], count, grid.height_m);
+}
+void face_few(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
+  float in[3][kMostLanes] = {};
+  float out[kMostLanes] = {};
+  std::copy_n(tile.normal_east, count, in[0]);
+  std::copy_n(tile.normal_north, count, in[1]);
+  std::copy_n(tile.normal_up, count, in[2]);
+  face_vector(0, {nullptr, nullptr, nullptr, in[0], in[1], in[2]}, map, {nullptr, nullptr, nullptr, out, 0});
+  std::copy_n(out, count, grid.facing);
 }
 
 void place_vertices(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
   const Tag d;
   const std::size_t step = hn::Lanes(d);
-  if (count < step) return place_few(count, tile, map, grid);
-  for (std::size_t at = 0; at < count; at += step) place_vector(std::min(at, count - step), tile, map, grid);
+  if (count < step)
+    place_few(count, tile, map, grid);
+  else
+    for (std::size_t at = 0; at < count; at += step) place_vector(std::min(at, count - step), tile, map, grid);
+  const std::size_t with_normals = count - grid.bare;
+  if (with_normals < step)
+    face_few(with_normals, tile, map, grid);
+  else
+    for (std::size_t at = 0; at < with_normals; at += step)
+      face_vector(std::min(at, with_normals - step), tile, map, grid);
 }
 
 // One number of the three corners.
-struct Corners {
+struct ThreeCorners {
   Floats first, second, third;
   HWY_INLINE Floats least() const { return hn::Min(hn::Min(first, second), third); }
   HWY_INLINE Floats most() const { return hn::Max(hn::Max(first, second), third); }
 };
 
 template <class Indices>
-HWY_INLINE Corners gather(const float* numbers, Indices first, Indices second, Indices third) {
+HWY_INLINE ThreeCorners gather(const float* numbers, Indices first, Indices second, Indices third) {
   const Tag d;
   return {hn::GatherIndex(d, numbers, first), hn::GatherIndex(d, numbers, second), hn::GatherIndex(d, numbers, third)};
 }
 
 // The facet's normal as the scalar code has it: right, ahead, up.
-HWY_INLINE hn::Mask<Tag> faces(const Corners& column, const Corners& row, const Corners& height,
+HWY_INLINE hn::Mask<Tag> faces(const ThreeCorners& column, const ThreeCorners& row, const ThreeCorners& height,
                                const GridLimits& limits) {
   const Tag d;
   const auto c1 = hn::Sub(column.second, column.first);
@@ -106,41 +126,46 @@ HWY_INLINE hn::Mask<Tag> faces(const Corners& column, const Corners& row, const 
   return hn::Or(hn::Gt(area, hn::Zero(d)), hn::And(steep, hn::Gt(towards, hn::Zero(d))));
 }
 
-std::size_t select_triangles(std::size_t begin, std::size_t end, const std::array<std::uint32_t, 3>* corners,
-                             const GridVertices& grid, const GridLimits& limits, std::uint32_t* found) {
+// Of the last vector of a tile only what is there.
+HWY_INLINE hn::Vec<SignedTag> corners_at(const std::uint16_t* vertices, std::size_t count) {
+  const SignedTag di;
+  const hn::Rebind<std::uint16_t, SignedTag> narrow;
+  if (count >= hn::Lanes(di)) return hn::PromoteTo(di, hn::LoadU(narrow, vertices));
+  HWY_ALIGN std::uint16_t few[kMostLanes] = {};
+  std::copy_n(vertices, count, few);
+  return hn::PromoteTo(di, hn::Load(narrow, few));
+}
+
+void select_triangles(std::size_t begin, std::size_t end, const Corners& corners, const GridVertices& grid,
+                      const GridLimits& limits, FoundTriangles& found) {
   const Tag d;
   const SignedTag di;
   const BitsTag db;
-  const std::size_t step = hn::Lanes(d);
-  std::size_t number = 0;
-  HWY_ALIGN std::uint32_t few[3 * kMostLanes] = {};
-  for (std::size_t t = begin; t < end; t += step) {
-    const std::uint32_t* from = corners[t].data();
-    if (t + step > end) {
-      std::copy_n(from, 3 * (end - t), few);
-      from = few;
-    }
-    hn::Vec<BitsTag> a, b, c;
-    hn::LoadInterleaved3(db, from, a, b, c);
-    const auto first = hn::BitCast(di, a);
-    const auto second = hn::BitCast(di, b);
-    const auto third = hn::BitCast(di, c);
-    const Corners column = gather(grid.column, first, second, third);
+  found.make_room(end - begin);
+  found.count = 0;
+  for (std::size_t t = begin; t < end; t += hn::Lanes(d)) {
+    const auto first = corners_at(corners[0] + t, end - t);
+    const auto second = corners_at(corners[1] + t, end - t);
+    const auto third = corners_at(corners[2] + t, end - t);
+    const ThreeCorners column = gather(grid.column, first, second, third);
     const auto least = column.least();
     const auto most = column.most();
     auto kept = hn::And(hn::Ge(most, hn::Set(d, limits.first_column)), hn::Lt(least, hn::Set(d, limits.last_column)));
     // Most of a fine scene ends here: too narrow to cross the line of sight of any column.
     kept = hn::And(kept, hn::Lt(hn::Ceil(least), hn::Ceil(most)));
     if (hn::AllFalse(d, kept)) continue;
-    const Corners row = gather(grid.row, first, second, third);
+    const ThreeCorners row = gather(grid.row, first, second, third);
     kept = hn::And(kept, hn::And(hn::Ge(row.most(), hn::Set(d, limits.first_row)),
                                  hn::Lt(row.least(), hn::Set(d, limits.last_row))));
     kept = hn::And(kept, faces(column, row, gather(grid.height_m, first, second, third), limits));
     const auto numbers = hn::Iota(db, static_cast<std::uint32_t>(t));
-    const auto within = hn::Lt(numbers, hn::Set(db, static_cast<std::uint32_t>(end)));
-    number += hn::CompressStore(numbers, hn::And(hn::RebindMask(db, kept), within), db, found + number);
+    kept = hn::And(kept, hn::FirstN(d, end - t));
+    const auto kept_numbers = hn::RebindMask(di, kept);
+    hn::CompressStore(first, kept_numbers, di, &found.corner[0][found.count]);
+    hn::CompressStore(second, kept_numbers, di, &found.corner[1][found.count]);
+    hn::CompressStore(third, kept_numbers, di, &found.corner[2][found.count]);
+    found.count += hn::CompressStore(numbers, hn::RebindMask(db, kept), db, &found.number[found.count]);
   }
-  return number;
 }
 
 }  // namespace yars::model::hrm::lanes::HWY_NAMESPACE
@@ -155,9 +180,9 @@ HWY_EXPORT(select_triangles);
 void place_vertices(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
   HWY_DYNAMIC_DISPATCH(place_vertices)(count, tile, map, grid);
 }
-std::size_t select_triangles(std::size_t begin, std::size_t end, const std::array<std::uint32_t, 3>* corners,
-                             const GridVertices& grid, const GridLimits& limits, std::uint32_t* found) {
-  return HWY_DYNAMIC_DISPATCH(select_triangles)(begin, end, corners, grid, limits, found);
+void select_triangles(std::size_t begin, std::size_t end, const Corners& corners, const GridVertices& grid,
+                      const GridLimits& limits, FoundTriangles& found) {
+  HWY_DYNAMIC_DISPATCH(select_triangles)(begin, end, corners, grid, limits, found);
 }
 
 }  // namespace yars::model::hrm::lanes

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace yars::model::hrm::lanes {
 
@@ -18,15 +19,16 @@ struct VertexMap {
   float columns_a_tangent, middle_column;
   float rows_a_metre, middle_row;
 };
-// Of a tile, by vertex.
+// Of a tile, by vertex; the normals by vertex from the first that has one.
 struct TileVertices {
   const float *east_m, *north_m, *up_m;
   const float *normal_east, *normal_north, *normal_up;
 };
-// On the grid, by vertex: place, height above the map plane, and how squarely the surface faces the radar (null: all
-// normals are those of the triangles, so nobody asks).
+// On the grid, by vertex: place, height above the map plane; and of the vertices from `bare` on, how squarely the
+// surface faces the radar there (the others' triangles are flat, so nobody asks).
 struct GridVertices {
   float *column, *row, *height_m, *facing;
+  std::uint32_t bare;
 };
 void place_vertices(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid);
 
@@ -39,9 +41,27 @@ struct GridLimits {
   float sine, cosine;  // of the grazing angle
   float wall_normal2;  // square of the upward part of a wall's normal against the level part, at most
 };
-// Numbers of the triangles [begin, end) that cross a column within the limits and face up, or are walls and face the
-// radar; ascending. `found` has room for all and fifteen more. Returns how many.
-std::size_t select_triangles(std::size_t begin, std::size_t end, const std::array<std::uint32_t, 3>* corners,
-                             const GridVertices& grid, const GridLimits& limits, std::uint32_t* found);
+// The vertices that a triangle's three corners are, by triangle.
+using Corners = std::array<const std::uint16_t*, 3>;
+
+// Triangles out of a tile: their numbers there, and their corners. Kept by who looks, so that there is room.
+struct FoundTriangles {
+  static constexpr std::size_t kSlack = 16;  // entries that vectors may touch behind the last
+
+  void make_room(std::size_t triangles) {
+    if (number.size() >= triangles + kSlack) return;
+    number.resize(triangles + kSlack);
+    for (std::vector<std::int32_t>& vertices : corner) vertices.resize(triangles + kSlack);
+  }
+
+  std::size_t count = 0;
+  std::vector<std::uint32_t> number;
+  std::array<std::vector<std::int32_t>, 3> corner;
+};
+
+// Those of the triangles [begin, end) that cross a column within the limits and face up, or are walls and face the
+// radar; ascending.
+void select_triangles(std::size_t begin, std::size_t end, const Corners& corners, const GridVertices& grid,
+                      const GridLimits& limits, FoundTriangles& found);
 
 }  // namespace yars::model::hrm::lanes

@@ -138,16 +138,13 @@ void SceneRaster::draw(const PatchGeometry& geometry, const FanGrid& grid, const
 }
 
 void SceneRaster::draw_tile(const scene::Tile& tile, const lanes::Canvas& canvas) {
-  constexpr std::size_t kSlack = 16;  // entries that vectors may touch behind the last
-  if (found_.size() < tile.corners.size() + kSlack) found_.resize(tile.corners.size() + kSlack);
   const lanes::GridVertices vertices = vertices_of(tile);
-  const lanes::TileSurfaces surfaces{tile.corners.data(), tile.kind.data(), gamma_.data(), cardinal_.data()};
-  const auto found = [&](std::size_t begin, std::size_t end) {
-    return std::span<const std::uint32_t>(found_).first(
-        lanes::select_triangles(begin, end, tile.corners.data(), vertices, canvas.limits, found_.data()));
-  };
-  lanes::paint_ground(found(0, tile.on_ground), surfaces, vertices, canvas);
-  lanes::draw_standing(found(tile.on_ground, tile.corners.size()), surfaces, vertices, canvas, fragments_);
+  const lanes::Corners corners{tile.corner[0].data(), tile.corner[1].data(), tile.corner[2].data()};
+  const lanes::TileSurfaces surfaces{tile.kind.data(), gamma_.data(), cardinal_.data()};
+  lanes::select_triangles(0, tile.on_ground, corners, vertices, canvas.limits, found_);
+  lanes::paint_ground(found_, surfaces, vertices, canvas);
+  lanes::select_triangles(tile.on_ground, tile.triangles(), corners, vertices, canvas.limits, found_);
+  lanes::draw_standing(found_, surfaces, vertices, canvas, fragments_);
 }
 
 }  // namespace yars::model::hrm

@@ -44,14 +44,14 @@ class SceneRaster {
   void read_kinds(const scene::SceneView& scene);
   void draw_tile(const scene::Tile& tile, const lanes::Canvas& canvas);
   lanes::GridVertices vertices_of(const scene::Tile& tile) {
-    return {column_.data(), row_.data(), height_m_.data(), tile.curved ? facing_.data() : nullptr};
+    return {column_.data(), row_.data(), height_m_.data(), facing_.data(), tile.bare};
   }
 
   SceneSurface surface_;
   std::vector<float> cardinal_shares_;
   std::vector<float> gamma_, cardinal_;                  // by kind of the scene
   std::vector<float> column_, row_, height_m_, facing_;  // of the tile in hand, by vertex
-  std::vector<std::uint32_t> found_;                     // triangles of it that are drawn
+  lanes::FoundTriangles found_;                          // of it, those that are drawn
   lanes::Fragments fragments_;
 };
 

@@ -26,16 +26,23 @@ struct Bounds {
   float east_least_m = 0, east_most_m = 0, north_least_m = 0, north_most_m = 0, up_least_m = 0, up_most_m = 0;
 };
 
-// Triangles whose middles lie in one square of the earth; large ones reach beyond it, the bounds hold them whole.
-// Arrays of structures are split, so that a row of vertices is one load.
+// Triangles whose middles lie in one square of the earth; large ones reach beyond it, the bounds hold them whole. A
+// square of very many is several tiles. Arrays of structures are split, so that a row of vertices is one load; what a
+// map reads of a tile is kept small, for it waits for memory.
 struct Tile {
+  static constexpr std::size_t kMostVertices = 65536;
+
+  std::size_t triangles() const { return kind.size(); }
+  std::array<std::uint16_t, 3> corners(std::size_t t) const { return {corner[0][t], corner[1][t], corner[2][t]}; }
+
   geo::GeoPoint origin;
   double zero_msl_m = 0.0;  // altitude of up = 0
   Bounds bounds;
-  std::vector<float> east_m, north_m, up_m;                 // a vertex each
-  std::vector<float> normal_east, normal_north, normal_up;  // a vertex each: unit, outwards
-  std::vector<std::array<std::uint32_t, 3>> corners;        // a triangle each, counter-clockwise from outside
-  bool curved = true;  // normals of vertices may differ from those of their triangles; false: they may be ignored
+  std::vector<float> east_m, north_m, up_m;  // a vertex each
+  std::uint32_t bare = 0;  // so many vertices, the first ones, have no normals: each triangle's own is theirs
+  std::vector<float> normal_east, normal_north, normal_up;  // of the others, from `bare` on: unit, outwards
+  // A triangle each: vertices, counter-clockwise from outside; all three bare or none.
+  std::array<std::vector<std::uint16_t>, 3> corner;
   std::uint32_t on_ground = 0;  // so many triangles, the first ones, lie on the ground: paint, no height of their own
   std::vector<std::uint16_t> kind;    // a triangle each: into SceneView::kinds()
   std::vector<std::uint32_t> object;  // a triangle each: into SceneView::objects()

@@ -33,37 +33,40 @@ std::uint64_t bytes_in(const std::vector<Value>& values) {
 
 TileBuilders::TileBuilders(const Plane& plane, std::size_t model_vertices) : plane_(plane), copies_(model_vertices) {}
 
+// No room for a triangle more: bare and curved vertices may both be there, three of each.
+bool TileBuilders::is_full(const Builder& builder) {
+  return 2 * (builder.vertices.size() + 3) > Tile::kMostVertices;
+}
+
 TileBuilders::Builder& TileBuilders::builder_at(PlanePoint point) {
   const Square square{static_cast<std::int32_t>(std::floor(point.north_m / kTileSide_m)),
                       static_cast<std::int32_t>(std::floor(point.east_m / kTileSide_m))};
-  if (last_ != nullptr && square == last_square_) return *last_;
-  std::unique_ptr<Builder>& builder = builders_[square];
-  if (!builder) {
+  if (last_ != nullptr && square == last_square_ && !is_full(*last_)) return *last_;
+  Pieces& pieces = squares_[square];
+  if (pieces.empty()) {
     const PlanePoint middle{(square.second + 0.5) * kTileSide_m, (square.first + 0.5) * kTileSide_m};
-    builder = std::make_unique<Builder>(LocalMap(plane_, middle));
-    builder->tile.origin = builder->map.plane().origin();
-    builder->number = static_cast<std::uint32_t>(builders_.size() - 1);
+    pieces.push_back(std::make_unique<Builder>(LocalMap(plane_, middle), builders_++));
+  } else if (is_full(*pieces.back())) {
+    pieces.push_back(std::make_unique<Builder>(pieces.back()->map, builders_++));
   }
-  last_ = builder.get();
+  last_ = pieces.back().get();
   last_square_ = square;
-  return *builder;
+  return *last_;
 }
 
 const LocalMap& TileBuilders::map_at(PlanePoint point) {
   return builder_at(point).map;
 }
 
-std::uint32_t TileBuilders::vertex_in(Builder& builder, const PlacedCorner& corner) {
+std::uint16_t TileBuilders::vertex_in(Builder& builder, const PlacedCorner& corner) {
   if (corner.vertex != kNone && copies_[corner.vertex].builder == builder.number) return copies_[corner.vertex].vertex;
-  Tile& tile = builder.tile;
-  const auto number = static_cast<std::uint32_t>(tile.east_m.size());
+  const auto number = static_cast<std::uint16_t>(builder.vertices.size());
   const PlanePoint at = builder.map.to_local({corner.place.x, corner.place.y});
-  tile.east_m.push_back(static_cast<float>(at.east_m));
-  tile.north_m.push_back(static_cast<float>(at.north_m));
-  builder.altitude_m.push_back(corner.place.z);
-  tile.normal_east.push_back(static_cast<float>(corner.normal.x));
-  tile.normal_north.push_back(static_cast<float>(corner.normal.y));
-  tile.normal_up.push_back(static_cast<float>(corner.normal.z));
+  builder.vertices.push_back({static_cast<float>(at.east_m),
+                              static_cast<float>(at.north_m),
+                              corner.place.z,
+                              {static_cast<float>(corner.normal.x), static_cast<float>(corner.normal.y),
+                               static_cast<float>(corner.normal.z)}});
   if (corner.vertex != kNone) copies_[corner.vertex] = {builder.number, number};
   return number;
 }
@@ -71,69 +74,38 @@ std::uint32_t TileBuilders::vertex_in(Builder& builder, const PlacedCorner& corn
 void TileBuilders::add(const std::array<PlacedCorner, 3>& corners, SurfaceTag tag) {
   const Vector3 sum = corners[0].place + corners[1].place + corners[2].place;
   Builder& builder = builder_at({sum.x / 3, sum.y / 3});
-  builder.tile.corners.push_back(
-      {vertex_in(builder, corners[0]), vertex_in(builder, corners[1]), vertex_in(builder, corners[2])});
-  builder.tile.kind.push_back(tag.kind);
-  builder.tile.object.push_back(tag.object);
-  builder.on_ground.push_back(tag.on_ground);
-  builder.curved = builder.curved || is_curved(corners);
-}
-
-// Puts the triangles on the ground first; among themselves they stay in order, for the later is painted over the
-// earlier.
-void TileBuilders::sort_by_ground(Builder& builder) {
-  Tile& tile = builder.tile;
-  const std::size_t count = tile.corners.size();
-  Tile sorted;
-  for (const bool on_ground : {true, false}) {
-    for (std::size_t t = 0; t < count; ++t) {
-      if (builder.on_ground[t] != on_ground) continue;
-      sorted.corners.push_back(tile.corners[t]);
-      sorted.kind.push_back(tile.kind[t]);
-      sorted.object.push_back(tile.object[t]);
-    }
-    if (on_ground) tile.on_ground = static_cast<std::uint32_t>(sorted.corners.size());
-  }
-  if (tile.on_ground == 0) return;
-  tile.corners = std::move(sorted.corners);
-  tile.kind = std::move(sorted.kind);
-  tile.object = std::move(sorted.object);
+  builder.triangles.push_back(
+      {{vertex_in(builder, corners[0]), vertex_in(builder, corners[1]), vertex_in(builder, corners[2])},
+       tag,
+       !is_curved(corners)});
 }
 
 std::vector<Tile> TileBuilders::take(double zero_msl_m) {
   copies_.clear();
   last_ = nullptr;
   std::vector<Tile> tiles;
-  for (auto& [square, builder] : builders_) {
-    if (builder->tile.corners.empty()) {
+  for (auto& [square, pieces] : squares_) {
+    for (std::unique_ptr<Builder>& builder : pieces) {
+      if (builder->triangles.empty()) continue;
+      Tile tile;
+      tile.origin = builder->map.plane().origin();
+      tile.zero_msl_m = std::isfinite(zero_msl_m) ? std::floor(zero_msl_m) : 0.0;
+      finish_tile(builder->vertices, builder->triangles, tile);
       builder.reset();
-      continue;
+      find_bounds(tile.east_m, tile.bounds.east_least_m, tile.bounds.east_most_m);
+      find_bounds(tile.north_m, tile.bounds.north_least_m, tile.bounds.north_most_m);
+      find_bounds(tile.up_m, tile.bounds.up_least_m, tile.bounds.up_most_m);
+      tiles.push_back(std::move(tile));
     }
-    sort_by_ground(*builder);
-    Tile tile = std::move(builder->tile);
-    tile.curved = builder->curved;
-    tile.zero_msl_m = std::isfinite(zero_msl_m) ? std::floor(zero_msl_m) : 0.0;
-    tile.up_m.reserve(builder->altitude_m.size());
-    for (const double altitude_m : builder->altitude_m)
-      tile.up_m.push_back(static_cast<float>(altitude_m - tile.zero_msl_m));
-    builder.reset();
-    for (std::vector<float>* values :
-         {&tile.east_m, &tile.north_m, &tile.normal_east, &tile.normal_north, &tile.normal_up})
-      values->shrink_to_fit();
-    tile.corners.shrink_to_fit();
-    tile.kind.shrink_to_fit();
-    tile.object.shrink_to_fit();
-    find_bounds(tile.east_m, tile.bounds.east_least_m, tile.bounds.east_most_m);
-    find_bounds(tile.north_m, tile.bounds.north_least_m, tile.bounds.north_most_m);
-    find_bounds(tile.up_m, tile.bounds.up_least_m, tile.bounds.up_most_m);
-    tiles.push_back(std::move(tile));
+    pieces.clear();
   }
-  builders_.clear();
+  squares_.clear();
   return tiles;
 }
 
 std::uint64_t bytes_of(const Tile& tile) {
-  return sizeof(Tile) + 6 * bytes_in(tile.up_m) + bytes_in(tile.corners) + bytes_in(tile.kind) + bytes_in(tile.object);
+  return sizeof(Tile) + 3 * (bytes_in(tile.up_m) + bytes_in(tile.normal_up)) + 3 * bytes_in(tile.corner[0]) +
+         bytes_in(tile.kind) + bytes_in(tile.object);
 }
 
 }  // namespace yars::model::scene

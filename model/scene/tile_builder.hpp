@@ -1,5 +1,6 @@
 // Tiles of one scene while triangles are sorted into them: the square of a scene's plane that holds a triangle's middle
-// is its tile. Corners that come from one vertex of the model are one vertex of a tile.
+// is its tile. Of a tile's vertices, those of flat triangles are one where they lie in one place; of others, where
+// they come from one vertex of the model.
 #pragma once
 
 #include <array>
@@ -11,6 +12,7 @@
 #include "model/scene/node_tree.hpp"
 #include "model/scene/plane.hpp"
 #include "model/scene/scene_view.hpp"
+#include "model/scene/tile_draft.hpp"
 
 namespace yars::model::scene {
 
@@ -18,12 +20,6 @@ struct PlacedCorner {
   Vector3 place;                 // metres east and north on the scene's plane, altitude MSL
   Vector3 normal;                // unit, along the same axes
   std::uint32_t vertex = kNone;  // of the model; kNone: shared with no other corner
-};
-
-struct SurfaceTag {
-  std::uint16_t kind = 0;
-  std::uint32_t object = 0;
-  bool on_ground = false;
 };
 
 class TileBuilders {
@@ -39,24 +35,25 @@ class TileBuilders {
  private:
   using Square = std::pair<std::int32_t, std::int32_t>;  // row, column
   struct Builder {
-    explicit Builder(const LocalMap& local) : map(local) {}
+    Builder(const LocalMap& local, std::uint32_t order) : map(local), number(order) {}
     LocalMap map;
-    Tile tile;
-    std::vector<double> altitude_m;  // a vertex each
-    std::vector<bool> on_ground;     // a triangle each
-    bool curved = false;
-    std::uint32_t number = 0;
+    std::uint32_t number;
+    std::vector<DraftVertex> vertices;
+    std::vector<DraftTriangle> triangles;
   };
-  static void sort_by_ground(Builder& builder);
+  using Pieces = std::vector<std::unique_ptr<Builder>>;  // of a square, in order
+  static bool is_full(const Builder& builder);
   Builder& builder_at(PlanePoint point);
-  std::uint32_t vertex_in(Builder& builder, const PlacedCorner& corner);
+  std::uint16_t vertex_in(Builder& builder, const PlacedCorner& corner);
 
   Plane plane_;
-  std::map<Square, std::unique_ptr<Builder>> builders_;
+  std::map<Square, Pieces> squares_;
+  std::uint32_t builders_ = 0;
   Builder* last_ = nullptr;
   Square last_square_{};
   struct Copy {
-    std::uint32_t builder = kNone, vertex = 0;
+    std::uint32_t builder = kNone;
+    std::uint16_t vertex = 0;
   };
   std::vector<Copy> copies_;  // the newest copy of each vertex of the model
 };

@@ -112,7 +112,8 @@ double Visibility::build(const model::hrm::PatchOrder& order, const model::scene
       places.push_back(static_cast<float>(origin.up_m + east * sine + north * cosine));
       places.push_back(tile->up_m[i] + static_cast<float>(tile->zero_msl_m - geometry.plane_msl_m()));
     }
-    for (const auto& triangle : tile->corners) corners.insert(corners.end(), triangle.begin(), triangle.end());
+    for (std::size_t t = 0; t < tile->triangles(); ++t)
+      for (const std::uint32_t corner : tile->corners(t)) corners.push_back(corner);
     rays_->add(places, corners);
   }
   constexpr float kFar_m = 3000.0F;

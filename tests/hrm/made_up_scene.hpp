@@ -53,7 +53,7 @@ class MadeUpScene final : public model::scene::SceneView {
 
   // East, north, up [m], counter-clockwise from outside.
   void add_quad(const std::array<std::array<double, 3>, 4>& corners, std::uint8_t material) {
-    const auto first = static_cast<std::uint32_t>(tile_.east_m.size());
+    const std::size_t first = tile_.east_m.size();
     std::array<double, 3> a{}, b{};
     for (std::size_t k = 0; k < 3; ++k) {
       a[k] = corners[1][k] - corners[0][k];
@@ -63,16 +63,15 @@ class MadeUpScene final : public model::scene::SceneView {
     const double length = std::hypot(n[0], n[1], n[2]);
     for (const auto& corner : corners) {
       add_vertex(corner);
-      tile_.normal_east.push_back(static_cast<float>(n[0] / length));
-      tile_.normal_north.push_back(static_cast<float>(n[1] / length));
-      tile_.normal_up.push_back(static_cast<float>(n[2] / length));
+      ++tile_.bare;
     }
     // What is level at the foot of all lies on the ground, and stands first in a tile.
     const bool on_ground = n[2] > 0.98 * length && corners[0][2] < 0.5;
-    for (const std::array<std::uint32_t, 3>& triangle :
-         {std::array<std::uint32_t, 3>{0, 1, 2}, std::array<std::uint32_t, 3>{0, 2, 3}}) {
-      const auto at = static_cast<std::ptrdiff_t>(on_ground ? tile_.on_ground++ : tile_.corners.size());
-      tile_.corners.insert(tile_.corners.begin() + at, {first + triangle[0], first + triangle[1], first + triangle[2]});
+    for (const std::array<std::size_t, 3>& triangle :
+         {std::array<std::size_t, 3>{0, 1, 2}, std::array<std::size_t, 3>{0, 2, 3}}) {
+      const auto at = static_cast<std::ptrdiff_t>(on_ground ? tile_.on_ground++ : tile_.triangles());
+      for (std::size_t k = 0; k < triangle.size(); ++k)
+        tile_.corner[k].insert(tile_.corner[k].begin() + at, static_cast<std::uint16_t>(first + triangle[k]));
       tile_.kind.insert(tile_.kind.begin() + at, static_cast<std::uint16_t>(kinds_.size()));
       tile_.object.push_back(0);
     }

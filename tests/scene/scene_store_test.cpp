@@ -64,8 +64,8 @@ void each_corner(const SceneView& view, const Look& look) {
   std::vector<const Tile*> tiles;
   view.tiles_near(kPlace, 50'000, tiles);
   for (const Tile* tile : tiles)
-    for (std::size_t triangle = 0; triangle < tile->corners.size(); ++triangle)
-      for (const std::uint32_t i : tile->corners[triangle]) {
+    for (std::size_t triangle = 0; triangle < tile->triangles(); ++triangle)
+      for (const std::size_t i : tile->corners(triangle)) {
         const double east = static_cast<double>(tile->east_m[i]), north = static_cast<double>(tile->north_m[i]);
         const geo::GeoPoint at = offset(tile->origin, std::atan2(east, north) * 180.0 / M_PI, std::hypot(east, north));
         look(view.objects()[tile->object[triangle]], at, tile->zero_msl_m + static_cast<double>(tile->up_m[i]));
@@ -101,7 +101,7 @@ TEST(SceneStore, ARoadLiesOnTheGroundHoweverThatSlopes) {
   view->tiles_near(kPlace, 5000, tiles);
   std::size_t painted = 0;
   for (const Tile* tile : tiles)
-    for (std::size_t t = 0; t < tile->corners.size(); ++t) {
+    for (std::size_t t = 0; t < tile->triangles(); ++t) {
       EXPECT_EQ(t < tile->on_ground, view->objects()[tile->object[t]].name == "road");
       painted += t < tile->on_ground ? 1 : 0;
     }
@@ -119,7 +119,7 @@ TEST(SceneStore, ALevelFaceWithItsOwnHeightsLiesOnTheGroundThatIsNear) {
     std::vector<const Tile*> tiles;
     view->tiles_near(kPlace, 50, tiles);
     ASSERT_FALSE(tiles.empty());
-    for (const Tile* tile : tiles) EXPECT_EQ(tile->on_ground, ground_m < -2.0 ? 0 : tile->corners.size()) << ground_m;
+    for (const Tile* tile : tiles) EXPECT_EQ(tile->on_ground, ground_m < -2.0 ? 0 : tile->triangles()) << ground_m;
   }
 }
 
@@ -314,23 +314,29 @@ TEST(SceneView, TrianglesTurnCounterClockwiseAndBoundsHoldThem) {
   view->tiles_near(kPlace, 100'000, tiles);
   std::size_t wrong = 0;
   for (const Tile* tile : tiles) {
-    for (const auto& t : tile->corners) {
+    for (std::size_t triangle = 0; triangle < tile->triangles(); ++triangle) {
+      const auto t = tile->corners(triangle);
       const auto at = [&](std::uint32_t i) {
         return Vector3{static_cast<double>(tile->east_m[i]), static_cast<double>(tile->north_m[i]),
                        static_cast<double>(tile->up_m[i])};
       };
       const Vector3 area = cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
-      for (const std::uint32_t i : t) {
-        const Vector3 normal{static_cast<double>(tile->normal_east[i]), static_cast<double>(tile->normal_north[i]),
-                             static_cast<double>(tile->normal_up[i])};
-        EXPECT_NEAR(length(normal), 1.0, 1e-4);
-        wrong += dot(area, normal) <= 0.0 ? 1 : 0;
+      const bool bare = t[0] < tile->bare;
+      for (const std::size_t i : t) {
+        EXPECT_EQ(i < tile->bare, bare);
+        if (!bare) {
+          const std::size_t n = i - tile->bare;
+          const Vector3 normal{static_cast<double>(tile->normal_east[n]), static_cast<double>(tile->normal_north[n]),
+                               static_cast<double>(tile->normal_up[n])};
+          EXPECT_NEAR(length(normal), 1.0, 1e-4);
+          wrong += dot(area, normal) <= 0.0 ? 1 : 0;
+        }
         EXPECT_LE(tile->east_m[i], tile->bounds.east_most_m);
         EXPECT_GE(tile->up_m[i], tile->bounds.up_least_m);
       }
     }
-    EXPECT_EQ(tile->kind.size(), tile->corners.size());
-    EXPECT_EQ(tile->object.size(), tile->corners.size());
+    for (const auto& corner : tile->corner) EXPECT_EQ(corner.size(), tile->triangles());
+    EXPECT_EQ(tile->object.size(), tile->triangles());
   }
   EXPECT_EQ(wrong, 0U);
 }

@@ -27,11 +27,8 @@ void MarkScene::add(geo::GeoPoint place, double edge_m) {
   tile.east_m = {-half, half, half, -half};
   tile.north_m = {-half, -half, half, half};
   tile.up_m.assign(4, 0.0F);
-  tile.normal_east.assign(4, 0.0F);
-  tile.normal_north.assign(4, 0.0F);
-  tile.normal_up.assign(4, 1.0F);
-  tile.corners = {{0, 1, 2}, {0, 2, 3}};
-  tile.curved = false;
+  tile.bare = 4;
+  tile.corner = {{{0, 0}, {1, 2}, {2, 3}}};
   tile.on_ground = 2;
   tile.kind.assign(2, 0);
   tile.object.assign(2, static_cast<std::uint32_t>(objects_.size()));
