@@ -200,17 +200,16 @@ void GroundFan::fetch_strip(const FanGrid& grid, int column, const GroundArrays&
   const std::size_t first = share * static_cast<std::size_t>(column % kStripColumns);
   const std::size_t last = std::min(first + share, static_cast<std::size_t>(grid.rows));
   for (std::size_t row = first; row < last; ++row) {
-    hwy::Prefetch(arrays.height_m + strip + row * kStripColumns);
-    hwy::Prefetch(arrays.gain + strip + row * kStripColumns);
+    const SurfacePoint* const points = arrays.surface + strip + row * kStripColumns;
+    hwy::Prefetch(points);
+    hwy::Prefetch(points + kStripColumns / 2);
   }
 }
 
 // A column's numbers lie one behind the other when read, and sixteen columns' side by side on the fan.
 void GroundFan::put_strip(const FanGrid& grid, int strip, const GroundArrays& arrays) const {
-  const std::size_t begin = static_cast<std::size_t>(strip) * grid.strip_size();
-  const auto rows = static_cast<std::size_t>(grid.rows);
-  lanes::put_side_by_side(rows, strip_height_.data(), pitch_, arrays.height_m + begin);
-  lanes::put_side_by_side(rows, strip_gain_.data(), pitch_, arrays.gain + begin);
+  lanes::put_side_by_side(static_cast<std::size_t>(grid.rows), strip_gain_.data(), strip_height_.data(), pitch_,
+                          arrays.surface + grid.at(strip * kStripColumns, 0));
 }
 
 }  // namespace yars::model::hrm

@@ -9,6 +9,7 @@
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/detail.hpp"
 #include "model/hrm/fan_grid.hpp"
+#include "model/hrm/fan_point.hpp"
 #include "model/rbm/ground.hpp"
 #include "model/rbm/sample_places.hpp"
 #include "model/terrain/terrain_view.hpp"
@@ -23,9 +24,8 @@ struct PatchTerrain {
 
 // By FanGrid::at(); the horizon by column.
 struct GroundArrays {
-  float* height_m = nullptr;  // above the map plane; a void takes over its nearer neighbour's
-  float* gain = nullptr;      // gamma: cross section [m^2] a square metre seen square on; 0 for a void
-  float* horizon = nullptr;   // greatest (height - above) / distance before row 0
+  SurfacePoint* surface = nullptr;  // a void takes over its nearer neighbour's height, and returns nothing
+  float* horizon = nullptr;         // greatest (height - above) / distance before row 0
 };
 
 class GroundFan {

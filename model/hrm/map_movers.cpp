@@ -72,7 +72,8 @@ bool MapMovers::hidden(const PatchGeometry& geometry, const Horizons& horizons, 
   for (int i = 0; i < std::min(row, grid.rows); ++i) {
     const double there_m = grid.distance_m(i);
     const double raised =
-        (static_cast<double>(horizons.height_m[grid.at(column, i)]) - geometry.above_plane_m(there_m)) / there_m;
+        (static_cast<double>(horizons.surface[grid.at(column, i)].height_m) - geometry.above_plane_m(there_m)) /
+        there_m;
     horizon = std::max(horizon, raised);
   }
   return tangent < horizon;

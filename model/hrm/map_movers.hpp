@@ -8,6 +8,7 @@
 
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/fan_grid.hpp"
+#include "model/hrm/fan_point.hpp"
 #include "model/hrm/response.hpp"
 #include "model/rbm/database.hpp"
 #include "model/terrain/terrain_view.hpp"
@@ -17,7 +18,7 @@ namespace yars::model::hrm {
 // What stands in the way of a point: highest tangent of all that is nearer, by column and row of the fan.
 struct Horizons {
   const FanGrid* grid = nullptr;
-  const float* height_m = nullptr;
+  const SurfacePoint* surface = nullptr;
   const float* horizon = nullptr;  // before row 0
 };
 

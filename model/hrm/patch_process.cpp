@@ -62,8 +62,9 @@ struct PatchProcess::Work {
   std::unique_ptr<ReferencePatch> reference;  // instead of what follows, where the fidelity asks for it
   std::vector<GroundFan> grounds;
   std::vector<SceneRaster> rasters;
-  FanArray<float> height_m, gain, cross_section_m2, horizon, arc;
-  FanArray<std::uint32_t> wall_height, wall_return;
+  FanArray<SurfacePoint> surface;
+  FanArray<WallPoint> walls;
+  FanArray<float> cross_section_m2, horizon, arc;
   bool walls_left = false;  // of a map whose profiles are still to be cast
   std::vector<float> distance_m, inverse_m, above_m, level_m;
   std::vector<std::size_t> pending;
@@ -112,8 +113,7 @@ void PatchProcess::Work::lay_out() {
   if (exact) reference = std::make_unique<ReferencePatch>(configuration, *geometry, grid);
   if (configuration.fidelity.map_detail && (!detail || detail->pixel_m() != grid.spacing_m))
     detail = std::make_unique<Detail>(configuration.high_resolution.detail_contrast, grid.spacing_m);
-  height_m.resize(grid.size());
-  gain.resize(grid.size());
+  surface.resize(grid.size());
   if (!tiles.empty()) clear_walls();
   cross_section_m2.resize(grid.size());
   horizon.resize(static_cast<std::size_t>(grid.columns));
@@ -135,48 +135,46 @@ void PatchProcess::Work::lay_out() {
 
 // Who reads the walls clears them: it is done here for new room only, and after a map that was given up.
 void PatchProcess::Work::clear_walls() {
-  const std::size_t before = wall_height.size();
-  wall_height.resize(grid.size());
-  wall_return.resize(grid.size());
-  if (!walls_left && wall_height.size() == before) return;
-  std::fill_n(wall_height.data(), wall_height.size(), 0U);
-  std::fill_n(wall_return.data(), wall_return.size(), 0U);
+  const std::size_t before = walls.size();
+  walls.resize(grid.size());
+  if (!walls_left && walls.size() == before) return;
+  std::fill_n(walls.data(), walls.size(), WallPoint());
   walls_left = false;
 }
 
 void PatchProcess::Work::read_terrain() {
   share_strips([&](int first, int last, std::size_t thread) {
-    pending[thread] = grounds[thread].fill(order, *geometry, grid, {database.window.get(), database.path.get()},
-                                           detail.get(), first * kStripColumns, last * kStripColumns,
-                                           {height_m.data(), gain.data(), horizon.data()});
+    pending[thread] =
+        grounds[thread].fill(order, *geometry, grid, {database.window.get(), database.path.get()}, detail.get(),
+                             first * kStripColumns, last * kStripColumns, {surface.data(), horizon.data()});
   });
   if (reference) reference->read_terrain({database.window.get(), database.path.get()});
 }
 
 void PatchProcess::Work::draw_scene() {
   if (reference) {
-    if (!tiles.empty()) reference->read_scene(*database.scene, tiles, gain.data());
+    if (!tiles.empty()) reference->read_scene(*database.scene, tiles, surface.data());
     return;
   }
   if (tiles.empty()) return;
   walls_left = true;
   share_strips([&](int first, int last, std::size_t thread) {
     rasters[thread].draw(*geometry, grid, *database.scene, tiles, first * kStripColumns, last * kStripColumns,
-                         {height_m.data(), gain.data(), wall_height.data(), wall_return.data()});
+                         {surface.data(), walls.data()});
   });
 }
 
 // In place of the profiles and of all that follows them.
 void PatchProcess::Work::shade() {
   share_strips([&](int first, int last, std::size_t) {
-    shade_fan(*geometry, grid, {height_m.data(), gain.data(), horizon.data()}, first * kStripColumns,
-              last * kStripColumns, cross_section_m2.data());
+    shade_fan(*geometry, grid, {surface.data(), horizon.data()}, first * kStripColumns, last * kStripColumns,
+              cross_section_m2.data());
   });
 }
 
 void PatchProcess::Work::cast_profiles() {
   if (report_1996) return shade();
-  if (reference) return reference->accumulate(gain.data(), image);
+  if (reference) return reference->accumulate(surface.data(), image);
   const std::size_t size = grid.strip_size();
   const double bounce_db = configuration.high_resolution.double_bounce_db;
   share_strips([&](int first, int last, std::size_t) {
@@ -197,12 +195,8 @@ void PatchProcess::Work::cast_profiles() {
       strip.level_m = level_m.data();
       strip.arc = arc.data() + column;
       strip.horizon = horizon.data() + column;
-      strip.height_m = height_m.data() + at;
-      strip.gain = gain.data() + at;
-      if (!tiles.empty()) {
-        strip.wall_height = wall_height.data() + at;
-        strip.wall_return = wall_return.data() + at;
-      }
+      strip.surface = surface.data() + at;
+      if (!tiles.empty()) strip.walls = walls.data() + at;
       strip.power = cross_section_m2.data() + at;
       lanes::cast_profile(strip);
     }
@@ -228,7 +222,7 @@ void PatchProcess::Work::draw_map() {
   const double floor = std::max(thermal_noise(), reflectivity::ratio(hrm.brightest_gamma_db - hrm.dynamic_range_db));
   if (configuration.fidelity.map_response) response.apply(static_cast<float>(floor), crew, image);
   movers.draw(order, *geometry, formation, {*database.window, nullptr, true, database.traffic},
-              {&grid, height_m.data(), horizon.data()}, response, image);
+              {&grid, surface.data(), horizon.data()}, response, image);
   blank_blind_zone(*geometry, order.ground_track, configuration.high_resolution, image);
 }
 

@@ -35,10 +35,11 @@ HWY_INLINE Point point_at(const Strip& strip, int row, std::size_t lane) {
   const Tag d;
   const auto at = static_cast<std::size_t>(row) * kStripColumns + lane;
   Point point;
-  point.height = hn::Load(d, strip.height_m + at);
+  Floats gain;
+  hn::LoadInterleaved2(d, &strip.surface[at].gain, gain, point.height);
   point.up = hn::Sub(point.height, hn::Set(d, strip.above_m[row]));
   point.tangent = hn::Mul(point.up, hn::Set(d, strip.inverse_m[row]));
-  point.gain = hn::Abs(hn::Load(d, strip.gain + at));
+  point.gain = hn::Abs(gain);
   return point;
 }
 
@@ -125,12 +126,14 @@ HWY_INLINE Walls walls_at(const Strip& strip, std::size_t at, Floats climb, floa
   const Tag d;
   const SignedTag di;
   const auto one = hn::Set(d, 1.0F);
-  if (strip.wall_height == nullptr) return {hn::Lt(one, one), hn::Zero(d), hn::Zero(d)};
+  if (strip.walls == nullptr) return {hn::Lt(one, one), hn::Zero(d), hn::Zero(d)};
   const hn::RebindToUnsigned<Tag> db;
-  const auto height = hn::ConvertTo(d, hn::BitCast(di, hn::Load(db, strip.wall_height + at)));
+  hn::Vec<decltype(db)> steps_returned, steps_high;
+  hn::LoadInterleaved2(db, &strip.walls[at].returned, steps_returned, steps_high);
+  const auto height = hn::ConvertTo(d, hn::BitCast(di, steps_high));
   const auto there = hn::And(hn::Gt(height, hn::Zero(d)), hn::Gt(climb, hn::Set(d, kLeastStep * step)));
   if (hn::AllFalse(d, there)) return {there, hn::Zero(d), hn::Zero(d)};
-  const auto sum = hn::ConvertTo(d, hn::BitCast(di, hn::Load(db, strip.wall_return + at)));
+  const auto sum = hn::ConvertTo(d, hn::BitCast(di, steps_returned));
   const auto tall = hn::IfThenElse(there, height, one);
   const auto share = hn::Min(hn::Div(hn::Mul(tall, hn::Set(d, kWallStep_m)), hn::IfThenElse(there, climb, one)), one);
   return {there, share, hn::Div(sum, tall)};
@@ -192,12 +195,14 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
 
 // Leaves no walls to the next map. Most rows have none: what is not written need not go back to memory.
 HWY_INLINE void clear_walls(const Strip& strip, int row, std::size_t lane) {
-  if (strip.wall_height == nullptr) return;
+  if (strip.walls == nullptr) return;
   const hn::RebindToUnsigned<Tag> db;
   const auto at = static_cast<std::size_t>(row) * kStripColumns + lane;
-  if (hn::AllTrue(db, hn::Eq(hn::Load(db, strip.wall_height + at), hn::Zero(db)))) return;
-  hn::Store(hn::Zero(db), db, strip.wall_height + at);
-  hn::Store(hn::Zero(db), db, strip.wall_return + at);
+  std::uint32_t* const first = &strip.walls[at].returned;
+  std::uint32_t* const second = first + hn::Lanes(db);
+  if (hn::AllTrue(db, hn::Eq(hn::Or(hn::Load(db, first), hn::Load(db, second)), hn::Zero(db)))) return;
+  hn::Store(hn::Zero(db), db, first);
+  hn::Store(hn::Zero(db), db, second);
 }
 
 void cast_profile(const Strip& given) {

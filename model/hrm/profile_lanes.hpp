@@ -9,11 +9,9 @@
 #include <cstdint>
 
 #include "model/hrm/fan_grid.hpp"
+#include "model/hrm/fan_point.hpp"
 
 namespace yars::model::hrm::lanes {
-
-// Whole numbers, so that the order in which walls are drawn is of no account.
-inline constexpr float kWallStep_m = 1.0F / 4096.0F;
 
 struct Strip {
   int rows = 0;
@@ -27,13 +25,10 @@ struct Strip {
   const float* level_m = nullptr;     // aircraft above the horizontal there, by row
   const float* arc = nullptr;         // width of a column over its distance, sixteen
   const float* horizon = nullptr;     // before row 0, sixteen
-  const float* height_m = nullptr;    // above the map plane, by row and column
-  const float* gain = nullptr;        // gamma; its sign is of no account
-  // Of the walls that stand before this row's ground, by row and column: how tall they are together, and the sum of
-  // gamma times height, in steps of kWallStep_m; cleared for the next map. Both null: there are none.
-  std::uint32_t* wall_height = nullptr;
-  std::uint32_t* wall_return = nullptr;
-  float* power = nullptr;  // [m^2] cross section, by row and column as it appears; is added to
+  // By row and column.
+  const SurfacePoint* surface = nullptr;  // the sign of the gain is of no account
+  WallPoint* walls = nullptr;             // cleared for the next map; null: there are none
+  float* power = nullptr;                 // [m^2] cross section, by row and column as it appears; is added to
 };
 
 void cast_profile(const Strip& strip);

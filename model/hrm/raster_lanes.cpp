@@ -1,9 +1,8 @@
 #include "model/hrm/raster_lanes.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
-
-#include "model/hrm/profile_lanes.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "model/hrm/raster_lanes.cpp"
@@ -26,6 +25,24 @@ constexpr std::size_t kFetchAhead = 24;  // of them
 constexpr float kUnderRoof_m = 0.02F;
 constexpr float kMostWall = 1.0e9F;
 constexpr std::uint32_t kFullWall = 0x7fffffffU;
+
+// A point's surface as one number: the height in the upper half, made so that it ascends as an integer too, and the
+// gain in the lower half, where what stands is greater than any ground. Its own inverse.
+static_assert(std::endian::native == std::endian::little);
+HWY_INLINE std::int64_t in_order(std::int64_t point) {
+  constexpr std::int64_t kHeight = 0x7fffffff00000000;
+  return point ^ ((point >> 63) & kHeight);
+}
+// The upper half of a vector of heights; no negative zero, which would be less than zero.
+HWY_INLINE Floats plain(Floats height) {
+  return hn::Add(height, hn::Zero(Tag()));
+}
+HWY_INLINE Bits in_order(Floats height) {
+  const BitsTag db;
+  const auto bits = hn::BitCast(SignedTag(), height);
+  const auto turned = hn::And(hn::ShiftRight<31>(bits), hn::Set(SignedTag(), 0x7fffffff));
+  return hn::BitCast(db, hn::Xor(bits, turned));
+}
 
 // Where a grid point lies in the arrays.
 HWY_INLINE Bits place_on(const FanGrid& grid, Floats column, Floats row) {
@@ -98,27 +115,18 @@ class SmallTriangles {
   // Puts down what was kept, when there is much or all is drawn: places are fetched ahead of their turn.
   void flush(bool all) {
     if (!all && count_ < kFlush && walls_ < kFlush) return;
-    const SceneArrays& to = canvas_.arrays;
     for (std::size_t i = 0; i < count_; ++i) {
-      const std::size_t soon = fragments_.at[std::min(i + kFetchAhead, count_ - 1)];
-      hwy::Prefetch(to.height_m + soon);
-      hwy::Prefetch(to.gain + soon);
-      const std::size_t at = fragments_.at[i];
-      const float height = fragments_.height_m[i];
-      const float gain = fragments_.gain[i];
-      const float there = to.gain[at];
-      const bool higher = height > to.height_m[at];
-      const bool stronger = height == to.height_m[at] && there < 0.0F && gain < there;
-      to.height_m[at] = higher ? height : to.height_m[at];
-      to.gain[at] = higher || stronger ? gain : there;
+      hwy::Prefetch(canvas_.arrays.surface + fragments_.at[std::min(i + kFetchAhead, count_ - 1)]);
+      SurfacePoint& point = canvas_.arrays.surface[fragments_.at[i]];
+      const std::uint64_t height = fragments_.height[i];
+      const auto fragment = static_cast<std::int64_t>(height << 32 | std::bit_cast<std::uint32_t>(fragments_.gain[i]));
+      point = std::bit_cast<SurfacePoint>(in_order(std::max(in_order(std::bit_cast<std::int64_t>(point)), fragment)));
     }
     for (std::size_t i = 0; i < walls_; ++i) {
-      const std::size_t soon = fragments_.wall_at[std::min(i + kFetchAhead, walls_ - 1)];
-      hwy::Prefetch(to.wall_height + soon);
-      hwy::Prefetch(to.wall_return + soon);
-      const std::size_t at = fragments_.wall_at[i];
-      to.wall_height[at] = std::min(to.wall_height[at] + fragments_.wall_height[i], kFullWall);
-      to.wall_return[at] = std::min(to.wall_return[at] + fragments_.wall_return[i], kFullWall);
+      hwy::Prefetch(canvas_.arrays.walls + fragments_.wall_at[std::min(i + kFetchAhead, walls_ - 1)]);
+      WallPoint& point = canvas_.arrays.walls[fragments_.wall_at[i]];
+      point.height = std::min(point.height + fragments_.wall_height[i], kFullWall);
+      point.returned = std::min(point.returned + fragments_.wall_return[i], kFullWall);
     }
     count_ = walls_ = 0;
   }
@@ -128,7 +136,7 @@ class SmallTriangles {
     const BitsTag db;
     if (fragments_.at.size() < count_ + kStripColumns) fragments_.grow();
     hn::CompressStore(at, hn::RebindMask(db, wanted), db, &fragments_.at[count_]);
-    hn::CompressStore(height, wanted, Tag(), &fragments_.height_m[count_]);
+    hn::CompressStore(in_order(plain(height)), hn::RebindMask(db, wanted), db, &fragments_.height[count_]);
     count_ += hn::CompressStore(hn::Neg(gain), wanted, Tag(), &fragments_.gain[count_]);
   }
   void keep_wall(Bits at, Floats tall, Floats gain, Mask wanted) {
@@ -187,14 +195,15 @@ HWY_INLINE void fill_high(const Triangle& triangle, const Facet& facet, Floats g
   const auto negative = hn::Neg(gain);
   fill_wide(triangle, canvas, kSurfaceReach, [&](std::size_t at, Floats column, Floats row, Mask wanted) HWY_ATTR {
     const auto base = hn::Add(facet.value, hn::Mul(facet.by_column, column));
-    const auto height = triangle.within(hn::Add(base, hn::Mul(facet.by_row, row)));
-    const auto old_height = hn::Load(d, canvas.arrays.height_m + at);
-    const auto old_gain = hn::Load(d, canvas.arrays.gain + at);
-    const auto higher = hn::And(wanted, hn::Gt(height, old_height));
-    const auto equal = hn::And(wanted, hn::And(hn::Eq(height, old_height), hn::Lt(old_gain, hn::Zero(d))));
-    const auto stronger = hn::And(equal, hn::Lt(negative, old_gain));
-    hn::Store(hn::IfThenElse(higher, height, old_height), d, canvas.arrays.height_m + at);
-    hn::Store(hn::IfThenElse(hn::Or(higher, stronger), negative, old_gain), d, canvas.arrays.gain + at);
+    const auto height = plain(triangle.within(hn::Add(base, hn::Mul(facet.by_row, row))));
+    auto* const points = &canvas.arrays.surface[at].gain;
+    Floats old_gain, old_height;
+    hn::LoadInterleaved2(d, points, old_gain, old_height);
+    const auto stronger = hn::RebindMask(d, hn::Gt(hn::BitCast(BitsTag(), negative), hn::BitCast(BitsTag(), old_gain)));
+    const auto best = hn::Or(hn::Gt(height, old_height), hn::And(hn::Eq(height, old_height), stronger));
+    const auto drawn = hn::And(wanted, best);
+    hn::StoreInterleaved2(hn::IfThenElse(drawn, negative, old_gain), hn::IfThenElse(drawn, height, old_height), d,
+                          points);
   });
 }
 
@@ -230,8 +239,10 @@ void paint_ground(const FoundTriangles& triangles, const TileSurfaces& tile, con
       gain = hn::Mul(gain, shading(facing(0), facing(1), facing(2), facet));
     }
     fill_wide(ordered(a, b, c), canvas, 0.0F, [&](std::size_t at, Floats, Floats, Mask wanted) HWY_ATTR {
-      const auto old = hn::Load(d, canvas.arrays.gain + at);
-      hn::Store(hn::IfThenElse(hn::And(wanted, hn::Ge(old, hn::Zero(d))), gain, old), d, canvas.arrays.gain + at);
+      auto* const points = &canvas.arrays.surface[at].gain;
+      Floats old, height;
+      hn::LoadInterleaved2(d, points, old, height);
+      hn::StoreInterleaved2(hn::IfThenElse(hn::And(wanted, hn::Ge(old, hn::Zero(d))), gain, old), height, d, points);
     });
   }
 }

@@ -1,6 +1,6 @@
 // Triangles of a scene drawn onto a fan, by vectors (Highway, chosen at run time; equal bits on every target): small
 // ones many at a time, a lane each; those that cross many columns one by one, a lane a column. What stands is drawn in
-// any order with one result: of two surfaces the higher wins, of equal ones the stronger.
+// any order with one result: of two surfaces the higher wins, of equal ones the stronger, and never the ground.
 #pragma once
 
 #include <array>
@@ -10,16 +10,15 @@
 #include <vector>
 
 #include "model/hrm/fan_grid.hpp"
+#include "model/hrm/fan_point.hpp"
 #include "model/hrm/scene_lanes.hpp"
 
 namespace yars::model::hrm::lanes {
 
 // By FanGrid::at().
 struct SceneArrays {
-  float* height_m = nullptr;             // above the map plane; in: the ground, out: the highest surface
-  float* gain = nullptr;                 // gamma; negative where a thing stands on the ground
-  std::uint32_t* wall_height = nullptr;  // facing walls in front of this point, as profile_lanes.hpp has them; in: 0
-  std::uint32_t* wall_return = nullptr;
+  SurfacePoint* surface = nullptr;  // in: the ground
+  WallPoint* walls = nullptr;       // in: none
 };
 
 // A tile's triangles and what they are made of, by kind.
@@ -47,7 +46,7 @@ struct Canvas {
 struct Fragments {
   void grow() {
     at.resize(2 * at.size() + kLeast);
-    height_m.resize(at.size());
+    height.resize(at.size());
     gain.resize(at.size());
   }
   void grow_walls() {
@@ -58,7 +57,8 @@ struct Fragments {
 
   static constexpr std::size_t kLeast = 4096;
   std::vector<std::uint32_t> at, wall_at;
-  std::vector<float> height_m, gain;
+  std::vector<std::uint32_t> height;  // as raster_lanes.cpp compares them
+  std::vector<float> gain;
   std::vector<std::uint32_t> wall_height, wall_return;
 };
 

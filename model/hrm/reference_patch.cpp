@@ -71,15 +71,15 @@ void ReferencePatch::read_terrain(const PatchTerrain& terrain) {
 }
 
 void ReferencePatch::read_scene(const scene::SceneView& scene, const std::vector<const scene::Tile*>& tiles,
-                                float* gain) {
+                                SurfacePoint* surface) {
   faces_.clear();
-  for (const scene::Tile* tile : tiles) read_tile(scene, *tile, gain);
+  for (const scene::Tile* tile : tiles) read_tile(scene, *tile, surface);
   std::vector<Occluders::Corners> triangles;
   for (const Face& face : faces_) triangles.push_back(face.corners);
   occluders_ = Occluders(std::move(triangles));
 }
 
-void ReferencePatch::read_tile(const scene::SceneView& scene, const scene::Tile& tile, float* gain) {
+void ReferencePatch::read_tile(const scene::SceneView& scene, const scene::Tile& tile, SurfacePoint* surface) {
   const double lift_m = tile.zero_msl_m - geometry_->plane_msl_m();
   const auto map_point = [&](double east_m, double north_m) {
     const geo::Bearing bearing = geo::Bearing::degrees(std::atan2(east_m, north_m) / geo::kRadiansPerDegree);
@@ -111,7 +111,7 @@ void ReferencePatch::read_tile(const scene::SceneView& scene, const scene::Tile&
                         static_cast<double>(tile.normal_north[i]) * north + static_cast<double>(tile.normal_up[i]) * up;
     }
     if (t < tile.on_ground) {
-      lay_flat({points[corners[0]], points[corners[1]], points[corners[2]]}, surface_.gamma(face.code), gain);
+      lay_flat({points[corners[0]], points[corners[1]], points[corners[2]]}, surface_.gamma(face.code), surface);
     } else {
       faces_.push_back(face);
     }
@@ -119,7 +119,7 @@ void ReferencePatch::read_tile(const scene::SceneView& scene, const scene::Tile&
 }
 
 // Every place of the fan whose middle lies within the triangle.
-void ReferencePatch::lay_flat(const std::array<MapPoint, 3>& corners, double gamma, float* gain) const {
+void ReferencePatch::lay_flat(const std::array<MapPoint, 3>& corners, double gamma, SurfacePoint* surface) const {
   std::array<double, 3> column{}, row{};
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const double ahead_m = corners[k].up_m + geometry_->distance_m();
@@ -138,20 +138,20 @@ void ReferencePatch::lay_flat(const std::array<MapPoint, 3>& corners, double gam
   for (int x = static_cast<int>(std::max(std::ceil(*left), 0.0)); x <= last_column; ++x)
     for (int y = static_cast<int>(std::max(std::ceil(*near), 0.0)); y <= last_row; ++y)
       if (side(0, x, y) >= 0.0 && side(1, x, y) >= 0.0 && side(2, x, y) >= 0.0)
-        gain[grid_->at(x, y)] = static_cast<float>(gamma);
+        surface[grid_->at(x, y)].gain = static_cast<float>(gamma);
 }
 
-void ReferencePatch::accumulate(const float* gain, MapImage& image) {
+void ReferencePatch::accumulate(const SurfacePoint* surface, MapImage& image) {
   size_ = image.size;
   power_.assign(image.power.size(), 0.0);
-  for (int column = 0; column < grid_->columns; ++column) add_column(column, gain);
+  for (int column = 0; column < grid_->columns; ++column) add_column(column, surface);
   for (const Face& face : faces_) add_face(face);
   const double unit_m2 = unit_return_m2(*geometry_, size_);
   for (std::size_t i = 0; i < power_.size(); ++i) image.power[i] = static_cast<float>(power_[i] / unit_m2);
 }
 
 // The pieces between neighbours of a column, cut where they climb: a cliff is many facets.
-void ReferencePatch::add_column(int column, const float* gain) {
+void ReferencePatch::add_column(int column, const SurfacePoint* surface) {
   const FanGrid& grid = *grid_;
   const double tangent = grid.tangent(column);
   const double turn_rad = std::atan(tangent);
@@ -161,7 +161,7 @@ void ReferencePatch::add_column(int column, const float* gain) {
     const std::size_t far = grid.at(column, row);
     const std::size_t near = grid.at(column, row - 1);
     if (std::isnan(height_m_[near]) || std::isnan(height_m_[far])) continue;
-    const double gamma = 0.5 * (static_cast<double>(gain[near]) + static_cast<double>(gain[far]));
+    const double gamma = 0.5 * (static_cast<double>(surface[near].gain) + static_cast<double>(surface[far].gain));
     const double climb_m = height_m_[far] - height_m_[near];
     const int pieces = std::min(1 + static_cast<int>(std::abs(climb_m) / longest_m), kMostPieces);
     double horizon = horizon_[far];

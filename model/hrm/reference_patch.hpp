@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/hrm/fan_grid.hpp"
+#include "model/hrm/fan_point.hpp"
 #include "model/hrm/ground_fan.hpp"
 #include "model/hrm/map_image.hpp"
 #include "model/hrm/occluders.hpp"
@@ -23,9 +24,9 @@ class ReferencePatch {
 
   void read_terrain(const PatchTerrain& terrain);
   // `gain`: gamma of the ground by FanGrid::at(); what lies flat on it gives it its own.
-  void read_scene(const scene::SceneView& scene, const std::vector<const scene::Tile*>& tiles, float* gain);
+  void read_scene(const scene::SceneView& scene, const std::vector<const scene::Tile*>& tiles, SurfacePoint* surface);
   // Replaces the power of the image, in the unit of map_image.hpp.
-  void accumulate(const float* gain, MapImage& image);
+  void accumulate(const SurfacePoint* surface, MapImage& image);
 
  private:
   // A face of the scene about the radar.
@@ -42,9 +43,9 @@ class ReferencePatch {
   struct Ground;
 
   Point3 position(double distance_m, double turn_rad, double height_m) const;
-  void read_tile(const scene::SceneView& scene, const scene::Tile& tile, float* gain);
-  void lay_flat(const std::array<MapPoint, 3>& corners, double gamma, float* gain) const;
-  void add_column(int column, const float* gain);
+  void read_tile(const scene::SceneView& scene, const scene::Tile& tile, SurfacePoint* surface);
+  void lay_flat(const std::array<MapPoint, 3>& corners, double gamma, SurfacePoint* surface) const;
+  void add_column(int column, const SurfacePoint* surface);
   void add_face(const Face& face);
   void add_facet(const Face& face, Point3 place, Point3 weights, double area_m2);
   bool seen(Point3 place) const;

@@ -12,11 +12,11 @@ namespace {
 constexpr float kWhite = 255.0F;
 
 // Climb across the line of sight [m a m]; at an edge of the fan that to the one neighbour.
-float slope_across(const FanGrid& grid, const float* height_m, int column, int row) {
+float slope_across(const FanGrid& grid, const SurfacePoint* surface, int column, int row) {
   const int left = std::max(column - 1, 0);
   const int right = std::min(column + 1, grid.columns - 1);
   const auto width_m = static_cast<float>(grid.width_m(column, grid.distance_m(row)) * (right - left));
-  return (height_m[grid.at(right, row)] - height_m[grid.at(left, row)]) / width_m;
+  return (surface[grid.at(right, row)].height_m - surface[grid.at(left, row)].height_m) / width_m;
 }
 
 // Of a pixel's place between two samples.
@@ -41,19 +41,20 @@ void shade_fan(const PatchGeometry& geometry, const FanGrid& grid, const Shading
     for (int row = 0; row < grid.rows; ++row) {
       const std::size_t at = grid.at(column, row);
       const auto distance_m = static_cast<float>(grid.distance_m(row));
-      const float height_m = inputs.height_m[at];
+      const float height_m = inputs.surface[at].height_m;
       const float up_m = height_m - static_cast<float>(geometry.above_plane_m(grid.distance_m(row)));
       const float tangent = up_m / distance_m;
       brightness[at] = 0.0F;
       if (!(tangent > horizon)) continue;
       horizon = tangent;
       // What the scene drew has its sign bit set, whatever its gain.
-      if (inputs.gain[at] == 0.0F && !std::signbit(inputs.gain[at])) continue;
+      if (const float gain = inputs.surface[at].gain; gain == 0.0F && !std::signbit(gain)) continue;
       const int nearer = std::max(row - 1, 0);
       const int farther = row == 0 ? 1 : row;
       const float along =
-          (inputs.height_m[grid.at(column, farther)] - inputs.height_m[grid.at(column, nearer)]) / spacing_m;
-      const float across = slope_across(grid, inputs.height_m, column, row);
+          (inputs.surface[grid.at(column, farther)].height_m - inputs.surface[grid.at(column, nearer)].height_m) /
+          spacing_m;
+      const float across = slope_across(grid, inputs.surface, column, row);
       const float normal = std::sqrt(1.0F + along * along + across * across);
       const float slant_m = std::sqrt(distance_m * distance_m + up_m * up_m);
       brightness[at] = std::max(0.0F, (along * distance_m - up_m) / (normal * slant_m));

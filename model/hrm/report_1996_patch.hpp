@@ -11,15 +11,15 @@
 
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/fan_grid.hpp"
+#include "model/hrm/fan_point.hpp"
 #include "model/hrm/map_image.hpp"
 
 namespace yars::model::hrm {
 
 // By FanGrid::at() once ground and scene are drawn; the horizon by column.
 struct ShadingInputs {
-  const float* height_m = nullptr;  // above the map plane
-  const float* gain = nullptr;      // 0 where there is no ground
-  const float* horizon = nullptr;   // greatest tangent before row 0
+  const SurfacePoint* surface = nullptr;  // gain 0 where there is no ground
+  const float* horizon = nullptr;         // greatest tangent before row 0
 };
 
 // Brightness of the columns [first, last), by FanGrid::at(). Their neighbours' heights are read.

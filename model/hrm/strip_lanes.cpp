@@ -30,17 +30,24 @@ void fill_between(std::size_t count, std::size_t step, float* columns, std::size
   }
 }
 
+HWY_INLINE void put_row(const float* gain, const float* height_m, std::size_t pitch, SurfacePoint* points) {
+  for (std::size_t lane = 0; lane < kStripColumns; ++lane) points[lane] = {gain[lane * pitch], height_m[lane * pitch]};
+}
+
 #if HWY_TARGET == HWY_SCALAR
-void put_side_by_side(std::size_t count, const float* columns, std::size_t pitch, float* rows) {
+void put_side_by_side(std::size_t count, const float* gain, const float* height_m, std::size_t pitch,
+                      SurfacePoint* points) {
   for (std::size_t row = 0; row < count; ++row)
-    for (std::size_t lane = 0; lane < kStripColumns; ++lane)
-      rows[row * kStripColumns + lane] = columns[lane * pitch + row];
+    put_row(gain + row, height_m + row, pitch, points + row * kStripColumns);
 }
 #else
 constexpr std::size_t kSquare = 4;
 
-// Four columns by four rows, turned.
-HWY_INLINE void turn(const float* columns, std::size_t pitch, float* rows) {
+// Two rows of four columns' numbers, of four rows.
+struct Rows {
+  hn::Vec<hn::FixedTag<float, kSquare> > first, second, third, fourth;
+};
+HWY_INLINE Rows turned(const float* columns, std::size_t pitch) {
   const hn::FixedTag<float, kSquare> d;
   const hn::FixedTag<double, kSquare / 2> pairs;
   const auto a = hn::LoadU(d, columns);
@@ -51,20 +58,30 @@ HWY_INLINE void turn(const float* columns, std::size_t pitch, float* rows) {
   const auto ab_high = hn::BitCast(pairs, hn::InterleaveUpper(d, a, b));
   const auto ce_low = hn::BitCast(pairs, hn::InterleaveLower(d, c, e));
   const auto ce_high = hn::BitCast(pairs, hn::InterleaveUpper(d, c, e));
-  hn::StoreU(hn::BitCast(d, hn::InterleaveLower(pairs, ab_low, ce_low)), d, rows);
-  hn::StoreU(hn::BitCast(d, hn::InterleaveUpper(pairs, ab_low, ce_low)), d, rows + kStripColumns);
-  hn::StoreU(hn::BitCast(d, hn::InterleaveLower(pairs, ab_high, ce_high)), d, rows + 2 * kStripColumns);
-  hn::StoreU(hn::BitCast(d, hn::InterleaveUpper(pairs, ab_high, ce_high)), d, rows + 3 * kStripColumns);
+  return {hn::BitCast(d, hn::InterleaveLower(pairs, ab_low, ce_low)),
+          hn::BitCast(d, hn::InterleaveUpper(pairs, ab_low, ce_low)),
+          hn::BitCast(d, hn::InterleaveLower(pairs, ab_high, ce_high)),
+          hn::BitCast(d, hn::InterleaveUpper(pairs, ab_high, ce_high))};
 }
 
-void put_side_by_side(std::size_t count, const float* columns, std::size_t pitch, float* rows) {
+// Four columns by four rows.
+HWY_INLINE void put_square(const float* gain, const float* height_m, std::size_t pitch, SurfacePoint* points) {
+  const hn::FixedTag<float, kSquare> d;
+  const Rows gains = turned(gain, pitch);
+  const Rows heights = turned(height_m, pitch);
+  hn::StoreInterleaved2(gains.first, heights.first, d, &points->gain);
+  hn::StoreInterleaved2(gains.second, heights.second, d, &points[kStripColumns].gain);
+  hn::StoreInterleaved2(gains.third, heights.third, d, &points[2 * kStripColumns].gain);
+  hn::StoreInterleaved2(gains.fourth, heights.fourth, d, &points[3 * kStripColumns].gain);
+}
+
+void put_side_by_side(std::size_t count, const float* gain, const float* height_m, std::size_t pitch,
+                      SurfacePoint* points) {
   std::size_t row = 0;
   for (; row + kSquare <= count; row += kSquare)
     for (std::size_t lane = 0; lane < kStripColumns; lane += kSquare)
-      turn(columns + lane * pitch + row, pitch, rows + row * kStripColumns + lane);
-  for (; row < count; ++row)
-    for (std::size_t lane = 0; lane < kStripColumns; ++lane)
-      rows[row * kStripColumns + lane] = columns[lane * pitch + row];
+      put_square(gain + lane * pitch + row, height_m + lane * pitch + row, pitch, points + row * kStripColumns + lane);
+  for (; row < count; ++row) put_row(gain + row, height_m + row, pitch, points + row * kStripColumns);
 }
 #endif
 
@@ -80,8 +97,9 @@ HWY_EXPORT(put_side_by_side);
 void fill_between(std::size_t count, std::size_t step, float* columns, std::size_t pitch) {
   HWY_DYNAMIC_DISPATCH(fill_between)(count, step, columns, pitch);
 }
-void put_side_by_side(std::size_t count, const float* columns, std::size_t pitch, float* rows) {
-  HWY_DYNAMIC_DISPATCH(put_side_by_side)(count, columns, pitch, rows);
+void put_side_by_side(std::size_t count, const float* gain, const float* height_m, std::size_t pitch,
+                      SurfacePoint* points) {
+  HWY_DYNAMIC_DISPATCH(put_side_by_side)(count, gain, height_m, pitch, points);
 }
 
 }  // namespace yars::model::hrm::lanes
