@@ -125,8 +125,11 @@ class SmallTriangles {
     for (std::size_t i = 0; i < walls_; ++i) {
       hwy::Prefetch(canvas_.arrays.walls + fragments_.wall_at[std::min(i + kFetchAhead, walls_ - 1)]);
       WallPoint& point = canvas_.arrays.walls[fragments_.wall_at[i]];
-      point.height = std::min(point.height + fragments_.wall_height[i], kFullWall);
-      point.returned = std::min(point.returned + fragments_.wall_return[i], kFullWall);
+      point.height += fragments_.wall_height[i];
+      point.returned += fragments_.wall_return[i];
+      if (((point.height | point.returned) & ~kFullWall) == 0) [[likely]] continue;
+      point.height = std::min(point.height, kFullWall);
+      point.returned = std::min(point.returned, kFullWall);
     }
     count_ = walls_ = 0;
   }
@@ -135,9 +138,11 @@ class SmallTriangles {
   void keep(Bits at, Floats height, Floats gain, Mask wanted) {
     const BitsTag db;
     if (fragments_.at.size() < count_ + kStripColumns) fragments_.grow();
-    hn::CompressStore(at, hn::RebindMask(db, wanted), db, &fragments_.at[count_]);
-    hn::CompressStore(in_order(plain(height)), hn::RebindMask(db, wanted), db, &fragments_.height[count_]);
-    count_ += hn::CompressStore(hn::Neg(gain), wanted, Tag(), &fragments_.gain[count_]);
+    const auto mask = hn::RebindMask(db, wanted);
+    hn::StoreU(hn::Compress(at, mask), db, &fragments_.at[count_]);
+    hn::StoreU(hn::Compress(in_order(plain(height)), mask), db, &fragments_.height[count_]);
+    hn::StoreU(hn::Compress(hn::Neg(gain), wanted), Tag(), &fragments_.gain[count_]);
+    count_ += hn::CountTrue(Tag(), wanted);
   }
   void keep_wall(Bits at, Floats tall, Floats gain, Mask wanted) {
     const BitsTag db;
@@ -148,9 +153,10 @@ class SmallTriangles {
       return hn::BitCast(db, hn::ConvertTo(di, hn::Add(most, set(0.5F))));
     };
     const auto mask = hn::RebindMask(db, wanted);
-    hn::CompressStore(at, mask, db, &fragments_.wall_at[walls_]);
-    hn::CompressStore(steps(tall), mask, db, &fragments_.wall_height[walls_]);
-    walls_ += hn::CompressStore(steps(hn::Mul(tall, gain)), mask, db, &fragments_.wall_return[walls_]);
+    hn::StoreU(hn::Compress(at, mask), db, &fragments_.wall_at[walls_]);
+    hn::StoreU(hn::Compress(steps(tall), mask), db, &fragments_.wall_height[walls_]);
+    hn::StoreU(hn::Compress(steps(hn::Mul(tall, gain)), mask), db, &fragments_.wall_return[walls_]);
+    walls_ += hn::CountTrue(Tag(), wanted);
   }
 
   const Canvas& canvas_;

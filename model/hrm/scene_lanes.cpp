@@ -161,10 +161,11 @@ void select_triangles(std::size_t begin, std::size_t end, const Corners& corners
     const auto numbers = hn::Iota(db, static_cast<std::uint32_t>(t));
     kept = hn::And(kept, hn::FirstN(d, end - t));
     const auto kept_numbers = hn::RebindMask(di, kept);
-    hn::CompressStore(first, kept_numbers, di, &found.corner[0][found.count]);
-    hn::CompressStore(second, kept_numbers, di, &found.corner[1][found.count]);
-    hn::CompressStore(third, kept_numbers, di, &found.corner[2][found.count]);
-    found.count += hn::CompressStore(numbers, hn::RebindMask(db, kept), db, &found.number[found.count]);
+    hn::StoreU(hn::Compress(first, kept_numbers), di, &found.corner[0][found.count]);
+    hn::StoreU(hn::Compress(second, kept_numbers), di, &found.corner[1][found.count]);
+    hn::StoreU(hn::Compress(third, kept_numbers), di, &found.corner[2][found.count]);
+    hn::StoreU(hn::Compress(numbers, hn::RebindMask(db, kept)), db, &found.number[found.count]);
+    found.count += hn::CountTrue(d, kept);
   }
 }
 
