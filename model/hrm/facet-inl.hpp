@@ -56,16 +56,38 @@ struct Triangle {
     const auto most = hn::Max(hn::Max(left.height, middle.height), right.height);
     return hn::Min(hn::Max(height, least), most);
   }
-  // What lies at a column between the corners along the long edge and on the other two.
-  HWY_INLINE std::pair<Floats, Floats> edges(Floats x, Floats Corner::*number) const {
-    const auto whole = hn::Div(hn::Sub(x, left.column), hn::Sub(right.column, left.column));
-    const auto along = hn::Add(left.*number, hn::Mul(whole, hn::Sub(right.*number, left.*number)));
-    const auto before = hn::Lt(x, middle.column);
-    const Corner begin = chosen(before, left, middle);
-    const Corner end = chosen(before, middle, right);
-    const auto part = hn::Div(hn::Sub(x, begin.column), hn::Sub(end.column, begin.column));
-    return {along, hn::Add(begin.*number, hn::Mul(part, hn::Sub(end.*number, begin.*number)))};
+};
+
+// One number of the corners along the edges of a triangle, by column.
+class Edges {
+ public:
+  HWY_INLINE Edges(const Triangle& triangle, Floats Corner::*number)
+      : triangle_(triangle),
+        number_(number),
+        along_(slope(triangle.left, triangle.right)),
+        before_(slope(triangle.left, triangle.middle)),
+        behind_(slope(triangle.middle, triangle.right)) {}
+
+  // On the long edge, and on the other two.
+  HWY_INLINE std::pair<Floats, Floats> at(Floats x) const {
+    const auto from_left = hn::Sub(x, triangle_.left.column);
+    const auto left = triangle_.left.*number_;
+    const auto before = hn::Lt(x, triangle_.middle.column);
+    const auto from = hn::IfThenElse(before, from_left, hn::Sub(x, triangle_.middle.column));
+    const auto begin = hn::IfThenElse(before, left, triangle_.middle.*number_);
+    return {hn::Add(left, hn::Mul(from_left, along_)),
+            hn::Add(begin, hn::Mul(from, hn::IfThenElse(before, before_, behind_)))};
   }
+
+ private:
+  // Of an edge that no column crosses it is no number, and nobody's.
+  HWY_INLINE Floats slope(const Corner& begin, const Corner& end) const {
+    return hn::Div(hn::Sub(end.*number_, begin.*number_), hn::Sub(end.column, begin.column));
+  }
+
+  const Triangle& triangle_;
+  Floats Corner::*number_;
+  Floats along_, before_, behind_;
 };
 
 // What a triangle is to the radar.

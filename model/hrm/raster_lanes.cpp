@@ -65,9 +65,10 @@ class SmallTriangles {
     const auto end = hn::Min(hn::Ceil(triangle.right.column), set(canvas_.limits.last_column));
     auto column = hn::Max(hn::Ceil(triangle.left.column), set(canvas_.limits.first_column));
     active = hn::And(active, hn::Lt(column, end));
+    const Edges rows_at(triangle, &Corner::row);
     for (; !hn::AllFalse(d, active);
          column = hn::Add(column, set(1.0F)), active = hn::And(active, hn::Lt(column, end))) {
-      const auto [along, beside] = triangle.edges(column, &Corner::row);
+      const auto [along, beside] = rows_at.at(column);
       const auto near = hn::Min(along, beside);
       const auto far = hn::Max(along, beside);
       const auto last = hn::Min(hn::Ceil(hn::Add(far, set(kSurfaceReach))), rows);
@@ -97,13 +98,15 @@ class SmallTriangles {
     const auto end = hn::Min(hn::Ceil(triangle.right.column), set(canvas_.limits.last_column));
     auto column = hn::Max(hn::Ceil(triangle.left.column), set(canvas_.limits.first_column));
     active = hn::And(active, hn::Lt(column, end));
+    const Edges rows_at(triangle, &Corner::row);
+    const Edges heights_at(triangle, &Corner::height);
     for (; !hn::AllFalse(d, active);
          column = hn::Add(column, set(1.0F)), active = hn::And(active, hn::Lt(column, end))) {
-      const auto line = triangle.edges(column, &Corner::row).first;
+      const auto line = rows_at.at(column).first;
       const auto row = hn::Ceil(hn::Sub(line, set(kSurfaceReach)));
       const auto wanted = hn::And(active, hn::And(hn::Ge(row, hn::Zero(d)), hn::Lt(row, rows)));
       if (hn::AllFalse(d, wanted)) continue;
-      const auto [along, beside] = triangle.edges(column, &Corner::height);
+      const auto [along, beside] = heights_at.at(column);
       const auto tall = hn::Abs(hn::Sub(along, beside));
       const auto at = place_on(*canvas_.grid, hn::IfThenElseZero(wanted, column), hn::IfThenElseZero(wanted, row));
       keep_wall(at, tall, gain, wanted);
@@ -176,10 +179,11 @@ HWY_INLINE void fill_wide(const Triangle& triangle, const Canvas& canvas, float 
   if (!(first < last)) return;
   const auto lanes = static_cast<int>(hn::Lanes(d));
   const auto iota = hn::Iota(d, 0.0F);
+  const Edges rows_at(triangle, &Corner::row);
   for (int start = static_cast<int>(first) / lanes * lanes; start < static_cast<int>(last); start += lanes) {
     const auto column = hn::Add(iota, set(static_cast<float>(start)));
     const auto active = hn::And(hn::Ge(column, set(first)), hn::Lt(column, set(last)));
-    const auto [along, beside] = triangle.edges(column, &Corner::row);
+    const auto [along, beside] = rows_at.at(column);
     const auto near = hn::Min(along, beside);
     const auto far = hn::Max(along, beside);
     const auto begin = hn::IfThenElse(active, hn::Max(hn::Ceil(hn::Sub(near, set(reach))), hn::Zero(d)),
