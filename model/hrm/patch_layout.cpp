@@ -39,12 +39,26 @@ Relief relief_of(const PatchGeometry& geometry, const terrain::TerrainView& grou
   return relief;
 }
 
-// Highest thing of the scene above its tile's ground [m].
-double tallest_m(const std::vector<const scene::Tile*>& tiles) {
-  double tallest = 0.0;
-  for (const scene::Tile* tile : tiles)
-    tallest = std::max(tallest, static_cast<double>(tile->bounds.up_most_m - tile->bounds.up_least_m));
-  return tallest;
+// How far before the near edge the things of the scene stand whose shadows reach over it, at most [m]. A shadow is as
+// long as its tile is tall, over the tangent; most tiles are too low to be asked where they lie.
+double shading_m(const PatchGeometry& geometry, const std::vector<const scene::Tile*>& tiles, double tangent) {
+  const double half_m = 0.5 * geometry.window_m();
+  double margin_m = 0.0;
+  for (const scene::Tile* tile : tiles) {
+    const scene::Bounds& bounds = tile->bounds;
+    const double shadow_m = static_cast<double>(bounds.up_most_m - bounds.up_least_m) / tangent;
+    if (!(shadow_m > margin_m)) continue;
+    const double reach_m = std::hypot(static_cast<double>(std::max(-bounds.east_least_m, bounds.east_most_m)),
+                                      static_cast<double>(std::max(-bounds.north_least_m, bounds.north_most_m)));
+    const MapPoint origin = geometry.point_of(tile->origin);
+    const double before_m =
+        geometry.distance_m() - half_m - std::hypot(origin.right_m, origin.up_m + geometry.distance_m());
+    if (before_m - reach_m > shadow_m) continue;
+    // The fan is no wider there than the window.
+    if (std::abs(origin.right_m) - reach_m > half_m) continue;
+    margin_m = std::max(margin_m, std::min(shadow_m, before_m + reach_m));
+  }
+  return margin_m;
 }
 }  // namespace
 
@@ -67,7 +81,7 @@ FanMargins fan_margins(const PatchGeometry& geometry, const terrain::TerrainView
   const double sine = std::max(geometry.sin_grazing(), kLeastSine);
   const double tangent = sine / std::sqrt(std::max(1.0 - sine * sine, 1e-6));
   // Low ground is laid over outwards and high ground inwards; a thing before the near edge shades into the window.
-  return {std::max(-relief.lowest_m * tangent, tallest_m(tiles) / tangent), relief.highest_m * tangent};
+  return {std::max(-relief.lowest_m * tangent, shading_m(geometry, tiles, tangent)), relief.highest_m * tangent};
 }
 
 }  // namespace yars::model::hrm
