@@ -1,8 +1,12 @@
 // Hands that share a piece of work. What they make is the same however many they are.
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace yars::model::hrm {
 
@@ -12,13 +16,46 @@ struct Crew {
   std::function<void(const std::function<void(std::size_t)>&)> run = [](const auto& job) { job(0); };
 };
 
-// job(first, behind the last, thread) on runs of `count` things, one a thread, in order.
+// Pieces [first, last) that are still to be done: their owner takes them from the front, others from behind.
+class Share {
+ public:
+  void begin(std::uint32_t first, std::uint32_t last) { left_.store(pack(first, last), std::memory_order_relaxed); }
+  // The number of a piece, or -1: there are no more.
+  int take(bool own) {
+    std::uint64_t left = left_.load(std::memory_order_relaxed);
+    while (true) {
+      const auto first = static_cast<std::uint32_t>(left >> 32U);
+      const auto last = static_cast<std::uint32_t>(left);
+      if (first >= last) return -1;
+      const std::uint64_t rest = own ? pack(first + 1, last) : pack(first, last - 1);
+      if (left_.compare_exchange_weak(left, rest, std::memory_order_relaxed))
+        return static_cast<int>(own ? first : last - 1);
+    }
+  }
+
+ private:
+  static std::uint64_t pack(std::uint32_t first, std::uint32_t last) { return std::uint64_t{first} << 32U | last; }
+
+  // On a cache line of its own.
+  alignas(64) std::atomic<std::uint64_t> left_{0};
+};
+
+// job(first, behind the last, thread) on `count` things, so many a piece: every thread works through a share of its
+// own, the same in every stage, for what it made is in its cache; then it takes pieces from the ends of the others'.
 template <class Job>
-void share_out(const Crew& crew, int count, const Job& job) {
-  const auto threads = static_cast<int>(crew.threads);
+void share_out(const Crew& crew, int count, int piece, const Job& job) {
+  if (crew.threads == 1) return crew.run([&](std::size_t thread) { job(0, count, thread); });
+  const std::size_t pieces = static_cast<std::size_t>((count + piece - 1) / piece);
+  std::vector<Share> shares(crew.threads);
+  for (std::size_t thread = 0; thread < crew.threads; ++thread)
+    shares[thread].begin(static_cast<std::uint32_t>(thread * pieces / crew.threads),
+                         static_cast<std::uint32_t>((thread + 1) * pieces / crew.threads));
   crew.run([&](std::size_t thread) {
-    const auto number = static_cast<int>(thread);
-    job(number * count / threads, (number + 1) * count / threads, thread);
+    for (std::size_t off = 0; off < crew.threads; ++off) {
+      Share& share = shares[(thread + off) % crew.threads];
+      for (int number = share.take(off == 0); number >= 0; number = share.take(off == 0))
+        job(number * piece, std::min((number + 1) * piece, count), thread);
+    }
   });
 }
 

@@ -46,7 +46,7 @@ GroundFan::GroundFan(const radar::RadarConfiguration& configuration)
     : configuration_(configuration),
       plain_gamma_(static_cast<float>(reflectivity::make_land_return(configuration).gamma[0])) {}
 
-void GroundFan::make_room(const PatchGeometry& geometry, const FanGrid& grid) {
+void GroundFan::begin(const PatchGeometry& geometry, const FanGrid& grid) {
   const auto rows = static_cast<std::size_t>(grid.rows);
   if (!window_ || window_->places.count != rows) {
     window_ = std::make_unique<Column>(rows);
@@ -79,7 +79,6 @@ void GroundFan::make_room(const PatchGeometry& geometry, const FanGrid& grid) {
 std::size_t GroundFan::fill(const PatchOrder& order, const PatchGeometry& geometry, const FanGrid& grid,
                             const PatchTerrain& terrain, const Detail* detail, int first, int last,
                             const GroundArrays& arrays) {
-  make_room(geometry, grid);
   const int step = column_step(grid, *terrain.window, detail);
   std::size_t pending = 0;
   for (int column = first; column < last; ++column) {

@@ -32,6 +32,8 @@ class GroundFan {
  public:
   explicit GroundFan(const radar::RadarConfiguration& configuration);
 
+  // Before the first columns of a map.
+  void begin(const PatchGeometry& geometry, const FanGrid& grid);
   // Fills the columns [first, last), whole strips; `detail` null: none. Returns how many samples met terrain that was
   // not loaded.
   std::size_t fill(const PatchOrder& order, const PatchGeometry& geometry, const FanGrid& grid,
@@ -45,7 +47,6 @@ class GroundFan {
     std::vector<float> distance_m, elevation_m, water, peak_m;
   };
   int column_step(const FanGrid& grid, const terrain::TerrainView& view, const Detail* detail) const;
-  void make_room(const PatchGeometry& geometry, const FanGrid& grid);
   std::size_t read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
                           const terrain::TerrainView& view, const Detail* detail, std::size_t lane);
   std::size_t read_path(const PatchGeometry& geometry, const FanGrid& grid, geo::Bearing azimuth,

@@ -18,11 +18,9 @@ struct Relief {
   double highest_m = 0.0;
 };
 
-Relief relief_of(const PatchGeometry& geometry, const terrain::TerrainView& ground,
-                 const std::vector<const scene::Tile*>& tiles) {
-  Relief relief;
+void widen(const PatchGeometry& geometry, const terrain::TerrainView& ground, int first, int last, Relief& relief) {
   const double reach_m = 0.75 * geometry.window_m();
-  for (int i = 0; i <= kReliefSteps; ++i) {
+  for (int i = first; i < last; ++i) {
     for (int j = 0; j <= kReliefSteps; ++j) {
       const MapPoint point{reach_m * (2.0 * i / kReliefSteps - 1.0), reach_m * (2.0 * j / kReliefSteps - 1.0)};
       if (point.up_m + geometry.distance_m() <= 0.0) continue;
@@ -31,6 +29,18 @@ Relief relief_of(const PatchGeometry& geometry, const terrain::TerrainView& grou
       relief.lowest_m = std::min(relief.lowest_m, kReliefReserve * height_m);
       relief.highest_m = std::max(relief.highest_m, kReliefReserve * height_m);
     }
+  }
+}
+
+Relief relief_of(const PatchGeometry& geometry, const terrain::TerrainView& ground,
+                 const std::vector<const scene::Tile*>& tiles, const Crew& crew) {
+  std::vector<Relief> reliefs(crew.threads);
+  share_out(crew, kReliefSteps + 1, 1,
+            [&](int first, int last, std::size_t thread) { widen(geometry, ground, first, last, reliefs[thread]); });
+  Relief relief;
+  for (const Relief& part : reliefs) {
+    relief.lowest_m = std::min(relief.lowest_m, part.lowest_m);
+    relief.highest_m = std::max(relief.highest_m, part.highest_m);
   }
   for (const scene::Tile* tile : tiles) {
     const double top_m = tile->zero_msl_m + static_cast<double>(tile->bounds.up_most_m) - geometry.plane_msl_m();
@@ -76,8 +86,8 @@ PatchNeed patch_need(const PatchOrder& order, int pixels) {
 }
 
 FanMargins fan_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,
-                       const std::vector<const scene::Tile*>& tiles) {
-  const Relief relief = relief_of(geometry, ground, tiles);
+                       const std::vector<const scene::Tile*>& tiles, const Crew& crew) {
+  const Relief relief = relief_of(geometry, ground, tiles, crew);
   const double sine = std::max(geometry.sin_grazing(), kLeastSine);
   const double tangent = sine / std::sqrt(std::max(1.0 - sine * sine, 1e-6));
   // Low ground is laid over outwards and high ground inwards; a thing before the near edge shades into the window.

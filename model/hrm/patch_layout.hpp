@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "model/hrm/crew.hpp"
 #include "model/hrm/fan_grid.hpp"
 #include "model/scene/scene_view.hpp"
 #include "model/terrain/terrain_view.hpp"
@@ -19,6 +20,6 @@ PatchNeed patch_need(const PatchOrder& order, int pixels);
 // For what stands or lies outside the window and is laid over or shades into it: by the relief of the ground and the
 // things of the tiles.
 FanMargins fan_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,
-                       const std::vector<const scene::Tile*>& tiles);
+                       const std::vector<const scene::Tile*>& tiles, const Crew& crew);
 
 }  // namespace yars::model::hrm

@@ -15,6 +15,10 @@
 
 namespace yars::model::hrm {
 
+namespace {
+constexpr int kRowsAPiece = 32;  // of the map
+}  // namespace
+
 struct PatchProcess::Work {
   Work(const radar::RadarConfiguration& given, Crew hands)
       : configuration(given),
@@ -41,10 +45,11 @@ struct PatchProcess::Work {
   double thermal_noise() const {
     return noise_gamma(configuration.high_resolution, geo::Length::metres(geometry->slant_range_m()), order.window);
   }
-  // job(first strip, behind the last, thread), the strips shared out in runs.
+  // job(first strip, behind the last, thread).
   template <class Job>
   void share_strips(const Job& job) {
-    share_out(crew, grid.strips(), job);
+    constexpr int kStripsAPiece = 2;
+    share_out(crew, grid.strips(), kStripsAPiece, job);
   }
 
   radar::RadarConfiguration configuration;
@@ -68,7 +73,8 @@ struct PatchProcess::Work {
   bool walls_left = false;  // of a map whose profiles are still to be cast
   std::vector<float> distance_m, inverse_m, above_m, level_m;
   std::vector<std::size_t> pending;
-  bool report_1996;  // the map is brightness, see report_1996_patch.hpp
+  std::vector<std::uint8_t> begun;  // by thread: it has its room for this map's ground
+  bool report_1996;                 // the map is brightness, see report_1996_patch.hpp
   MapImage image;
   Response response;
   std::vector<std::uint8_t> picture;
@@ -104,7 +110,7 @@ void PatchProcess::Work::lay_out() {
                                     configuration);
   tiles.clear();
   if (database.scene) database.scene->tiles_near(order.centre, 1.5 * order.window.metres(), tiles);
-  const FanMargins margins = fan_margins(*geometry, *database.window, tiles);
+  const FanMargins margins = fan_margins(*geometry, *database.window, tiles, crew);
   const bool exact = configuration.fidelity.algorithm == radar::Algorithm::reference;
   const int cells = exact ? std::max(kReferenceCells, configuration.fidelity.map_oversampling)
                           : configuration.fidelity.map_oversampling;
@@ -131,6 +137,7 @@ void PatchProcess::Work::lay_out() {
   for (int column = 0; column < grid.columns; ++column)
     arc.data()[column] = static_cast<float>(grid.width_m(column, 1.0));
   pending.assign(crew.threads, 0);
+  begun.assign(crew.threads, 0);
 }
 
 // Who reads the walls clears them: it is done here for new room only, and after a map that was given up.
@@ -144,7 +151,9 @@ void PatchProcess::Work::clear_walls() {
 
 void PatchProcess::Work::read_terrain() {
   share_strips([&](int first, int last, std::size_t thread) {
-    pending[thread] =
+    if (begun[thread] == 0) grounds[thread].begin(*geometry, grid);
+    begun[thread] = 1;
+    pending[thread] +=
         grounds[thread].fill(order, *geometry, grid, {database.window.get(), database.path.get()}, detail.get(),
                              first * kStripColumns, last * kStripColumns, {surface.data(), horizon.data()});
   });
@@ -158,9 +167,14 @@ void PatchProcess::Work::draw_scene() {
   }
   if (tiles.empty()) return;
   walls_left = true;
-  share_strips([&](int first, int last, std::size_t thread) {
-    rasters[thread].draw(*geometry, grid, *database.scene, tiles, first * kStripColumns, last * kStripColumns,
-                         {surface.data(), walls.data()});
+  // Tiles on a border are drawn from both sides of it: few bands, and two a thread, so that one may help the other.
+  const auto bands = static_cast<int>(crew.threads == 1 ? 1 : 2 * crew.threads);
+  const std::vector<PlacedTile> placed = place_tiles(*geometry, grid, tiles, crew);
+  const std::vector<int> begin = even_bands(grid, placed, bands);
+  share_out(crew, bands, 1, [&](int first, int last, std::size_t thread) {
+    for (auto band = static_cast<std::size_t>(first); band < static_cast<std::size_t>(last); ++band)
+      rasters[thread].draw(*geometry, grid, *database.scene, placed, begin[band] * kStripColumns,
+                           begin[band + 1] * kStripColumns, {surface.data(), walls.data()});
   });
 }
 
@@ -206,14 +220,14 @@ void PatchProcess::Work::cast_profiles() {
 
 void PatchProcess::Work::draw_map() {
   if (report_1996) {
-    share_out(crew, image.size, [&](int first, int last, std::size_t) {
+    share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t) {
       draw_brightness(*geometry, grid, cross_section_m2.data(), first, last, image);
     });
     image.blind = false;
     return blank_blind_zone(*geometry, order.ground_track, configuration.high_resolution, image);
   }
   if (!reference)
-    share_out(crew, image.size, [&](int first, int last, std::size_t) {
+    share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t) {
       draw_fan(*geometry, grid, cross_section_m2.data(), first, last, image);
     });
   image.blind = false;
@@ -230,7 +244,8 @@ void PatchProcess::Work::draw_video() {
   if (report_1996) return develop_brightness(configuration, image, order.map, picture);
   const double noise = thermal_noise();
   picture.resize(image.power.size());
-  share_out(crew, image.size, [&](int first, int last, std::size_t) {
+  constexpr int kRowsOfSpeckle = 128;  // a piece: each begins with two rows of cells of its own
+  share_out(crew, image.size, kRowsOfSpeckle, [&](int first, int last, std::size_t) {
     develop(configuration, image, {noise, order.looks, order.map}, first, last, picture);
   });
 }

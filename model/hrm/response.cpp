@@ -10,6 +10,7 @@ namespace yars::model::hrm {
 namespace {
 constexpr int kEqualLobes = 5;           // n-bar: so many sidelobes of one height, falling behind
 constexpr double kMainLobeCells = 1.5;   // the first null of -35 dB lies at 1.4 cells
+constexpr int kRowsAPiece = 32;          // of work
 constexpr double kSidelobeCells = 16.0;  // what lies farther out is below any picture's black
 
 // Taylor's coefficients F_m of w(x) = 1 + 2 sum F_m cos(2 pi m x).
@@ -126,15 +127,18 @@ void Response::make_room(const Crew& crew, const MapImage& image) {
 void Response::apply(float floor, const Crew& crew, MapImage& image) {
   make_room(crew, image);
   if (main_lobe_.size() > 1)
-    share_out(crew, image.size,
+    share_out(crew, image.size, kRowsAPiece,
               [&](int first, int last, std::size_t thread) { smooth_along(first, last, hands_[thread], image); });
   const float strong = sidelobes_.empty() ? 0.0F : floor / *std::max_element(sidelobes_.begin(), sidelobes_.end());
-  share_out(crew, image.size, [&](int first, int last, std::size_t thread) {
+  strong_.resize(static_cast<std::size_t>((image.size + kRowsAPiece - 1) / kRowsAPiece));
+  share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t thread) {
     if (main_lobe_.size() > 1) smooth_down(first, last, hands_[thread], image);
     if (!sidelobes_.empty()) find_strong(strong, first, last, hands_[thread], image);
   });
-  if (std::all_of(hands_.begin(), hands_.end(), [](const Hand& hand) { return hand.strong.empty(); })) return;
-  share_out(crew, image.size, [&](int first, int last, std::size_t) { add_sidelobes(first, last, image); });
+  if (sidelobes_.empty()) return;
+  if (std::all_of(strong_.begin(), strong_.end(), [](const std::vector<Strong>& run) { return run.empty(); })) return;
+  share_out(crew, image.size, kRowsAPiece,
+            [&](int first, int last, std::size_t) { add_sidelobes(first, last, image); });
 }
 
 void Response::smooth_along(int first, int last, Hand& hand, const MapImage& image) {
@@ -156,9 +160,8 @@ void Response::smooth_down(int first, int last, Hand& hand, MapImage& image) con
   }
 }
 
-void Response::find_strong(float limit, int first, int last, Hand& hand, const MapImage& image) const {
+void Response::find_strong(float limit, int first, int last, Hand& hand, const MapImage& image) {
   const auto size = static_cast<std::size_t>(image.size);
-  hand.strong.clear();
   std::fill(hand.row.begin(), hand.row.end(), 0.0F);
   for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
     const float* from = &image.power[row * size];
@@ -166,9 +169,11 @@ void Response::find_strong(float limit, int first, int last, Hand& hand, const M
       std::copy_n(from, size, hand.row.data());
       from = hand.row.data();
     }
+    std::vector<Strong>& strong = strong_[row / kRowsAPiece];
+    if (row % kRowsAPiece == 0) strong.clear();
     Strong found{row, 0, {}};
     for (found.column = 0; found.column < columns_; found.column += lanes::kBlock)
-      if (lanes::keep_above(from + found.column, limit, found.power.data())) hand.strong.push_back(found);
+      if (lanes::keep_above(from + found.column, limit, found.power.data())) strong.push_back(found);
   }
 }
 
@@ -201,8 +206,11 @@ void Response::add_sidelobes(int first, int last, MapImage& image) {
   const auto begin = static_cast<std::size_t>(first);
   const auto end = static_cast<std::size_t>(last);
   for (std::size_t row = begin; row < end; ++row) std::fill_n(&added_[padded(row)] - margin_, pitch_, 0.0F);
-  for (const Hand& hand : hands_)
-    for (const Strong& strong : hand.strong) spread(strong, begin, end);
+  const std::size_t reach = main_lobe_.size() + sidelobes_.size();
+  const std::size_t first_run = (begin > reach ? begin - reach : 0) / kRowsAPiece;
+  const std::size_t last_run = std::min((end + reach) / kRowsAPiece, strong_.size() - 1);
+  for (std::size_t run = first_run; run <= last_run; ++run)
+    for (const Strong& strong : strong_[run]) spread(strong, begin, end);
   for (std::size_t row = begin; row < end; ++row)
     for (std::size_t i = 0; i < size; ++i) image.power[row * size + i] += added_[padded(row) + i];
 }

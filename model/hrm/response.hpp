@@ -29,19 +29,18 @@ class Response {
 
  private:
   void mirror_sidelobes();
-  // A hand's own room: a row of the picture with its margins, a row of the result, the strong points of its rows.
+  // A hand's own room: a row of the picture with its margins, a row of the result.
   struct Strong {
     std::size_t row, column;  // of the first
     std::array<float, lanes::kBlock> power;
   };
   struct Hand {
     memory::LineVector<float> source, row;
-    std::vector<Strong> strong;
   };
   void make_room(const Crew& crew, const MapImage& image);
   void smooth_along(int first, int last, Hand& hand, const MapImage& image);
   void smooth_down(int first, int last, Hand& hand, MapImage& image) const;
-  void find_strong(float limit, int first, int last, Hand& hand, const MapImage& image) const;
+  void find_strong(float limit, int first, int last, Hand& hand, const MapImage& image);
   void spread(const Strong& strong, std::size_t first, std::size_t last);
   void add_sidelobes(int first, int last, MapImage& image);
   // Where a row of the image begins in a copy of it.
@@ -58,6 +57,7 @@ class Response {
   // Kept between maps: the picture spread along its rows, and what sidelobes add to it.
   memory::LineVector<float> across_, added_;
   std::vector<Hand> hands_;
+  std::vector<std::vector<Strong>> strong_;  // points, by runs of rows
 };
 
 }  // namespace yars::model::hrm

@@ -10,71 +10,8 @@ namespace yars::model::hrm {
 SceneRaster::SceneRaster(const radar::RadarConfiguration& configuration)
     : surface_(configuration), cardinal_shares_(surface_.cardinal_shares()) {}
 
-SceneRaster::Placement SceneRaster::place(const PatchGeometry& geometry, const scene::Tile& tile) const {
-  const geo::GeodesicInverse way = geo::geodesic_inverse(geometry.apex(), tile.origin);
-  const double turn_rad = (way.azimuth_at_start - geometry.up()).radians();
-  const double away_rad = way.azimuth_at_end.radians();
-  const double distance_m = way.distance.metres();
-  // Across the line of sight the plane is stretched against the earth.
-  constexpr double kEarthRadius_m = 6371008.8;
-  const double angle_rad = distance_m / kEarthRadius_m;
-  const double stretch = angle_rad > 1e-6 ? angle_rad / std::sin(angle_rad) : 1.0;
-  const double sine = std::sin(turn_rad);
-  const double cosine = std::cos(turn_rad);
-  // East and north as parts along and across the line of sight, then turned onto the map.
-  const double along_east = std::sin(away_rad);
-  const double along_north = std::cos(away_rad);
-  const double across_east = stretch * std::cos(away_rad);
-  const double across_north = -stretch * std::sin(away_rad);
-  Placement placement{};
-  placement.right_m = distance_m * sine;
-  placement.up_m = distance_m * cosine - geometry.distance_m();
-  placement.right_east = along_east * sine + across_east * cosine;
-  placement.right_north = along_north * sine + across_north * cosine;
-  placement.up_east = along_east * cosine - across_east * sine;
-  placement.up_north = along_north * cosine - across_north * sine;
-  placement.lift_m = static_cast<float>(tile.zero_msl_m - geometry.plane_msl_m());
-  const rbm::Sight sight = geometry.earth().sight(geometry.altitude_m() - geometry.plane_msl_m(), distance_m, 0.0);
-  placement.toward_east = static_cast<float>(-along_east * sight.cos_grazing);
-  placement.toward_north = static_cast<float>(-along_north * sight.cos_grazing);
-  placement.toward_up = static_cast<float>(sight.sin_grazing);
-  return placement;
-}
-
-SceneRaster::GridPoint SceneRaster::on_grid(const PatchGeometry& geometry, const FanGrid& grid,
-                                            const Placement& placement, float east_m, float north_m) const {
-  const double right_m = placement.right_m + placement.right_east * static_cast<double>(east_m) +
-                         placement.right_north * static_cast<double>(north_m);
-  const double up_m = placement.up_m + placement.up_east * static_cast<double>(east_m) +
-                      placement.up_north * static_cast<double>(north_m);
-  const double ahead_m = std::max(geometry.distance_m() + up_m, 1.0);
-  const double distance_m = std::sqrt(right_m * right_m + ahead_m * ahead_m);
-  return {static_cast<float>((right_m / ahead_m - grid.first_tangent) / grid.tangent_step),
-          static_cast<float>((distance_m - grid.first_distance_m) / grid.spacing_m)};
-}
-
-bool SceneRaster::overlaps(const PatchGeometry& geometry, const FanGrid& grid, const Placement& placement,
-                           const scene::Tile& tile, int first, int last) const {
-  float least_column = std::numeric_limits<float>::max();
-  float most_column = std::numeric_limits<float>::lowest();
-  float least_row = least_column;
-  float most_row = most_column;
-  for (const float east_m : {tile.bounds.east_least_m, tile.bounds.east_most_m}) {
-    for (const float north_m : {tile.bounds.north_least_m, tile.bounds.north_most_m}) {
-      const GridPoint corner = on_grid(geometry, grid, placement, east_m, north_m);
-      least_column = std::min(least_column, corner.column);
-      most_column = std::max(most_column, corner.column);
-      least_row = std::min(least_row, corner.row);
-      most_row = std::max(most_row, corner.row);
-    }
-  }
-  // A row more: distance curves a little within a large tile.
-  return most_column >= static_cast<float>(first) && least_column < static_cast<float>(last) && most_row >= -1.0F &&
-         least_row < static_cast<float>(grid.rows) + 1.0F;
-}
-
-void SceneRaster::transform(const PatchGeometry& geometry, const FanGrid& grid, const Placement& placement,
-                            const scene::Tile& tile) {
+void SceneRaster::transform(const PatchGeometry& geometry, const FanGrid& grid, const PlacedTile& placement) {
+  const scene::Tile& tile = *placement.tile;
   const std::size_t count = tile.east_m.size();
   for (std::vector<float>* numbers : {&column_, &row_, &height_m_, &facing_})
     if (numbers->size() < count) numbers->resize(count);
@@ -110,8 +47,7 @@ void SceneRaster::read_kinds(const scene::SceneView& scene) {
 }
 
 void SceneRaster::draw(const PatchGeometry& geometry, const FanGrid& grid, const scene::SceneView& scene,
-                       const std::vector<const scene::Tile*>& tiles, int first, int last,
-                       const lanes::SceneArrays& arrays) {
+                       std::span<const PlacedTile> tiles, int first, int last, const lanes::SceneArrays& arrays) {
   read_kinds(scene);
   lanes::Canvas canvas;
   canvas.grid = &grid;
@@ -124,16 +60,15 @@ void SceneRaster::draw(const PatchGeometry& geometry, const FanGrid& grid, const
   limits.last_row = static_cast<float>(grid.rows);
   limits.row_height_m = static_cast<float>(grid.spacing_m);
   limits.wall_normal2 = static_cast<float>(kWallNormal2);
-  for (const scene::Tile* tile : tiles) {
-    const Placement placement = place(geometry, *tile);
-    if (!overlaps(geometry, grid, placement, *tile, first, last)) continue;
+  for (const PlacedTile& placement : tiles) {
+    if (!(placement.most_column >= limits.first_column && placement.least_column < limits.last_column)) continue;
     const double distance_m = std::hypot(placement.right_m, placement.up_m + geometry.distance_m());
     const double tangent = placement.right_m / std::max(placement.up_m + geometry.distance_m(), 1.0);
     limits.column_width_m = static_cast<float>(distance_m * grid.tangent_step / (1.0 + tangent * tangent));
     limits.sine = placement.toward_up;
     limits.cosine = std::sqrt(1.0F - placement.toward_up * placement.toward_up);
-    transform(geometry, grid, placement, *tile);
-    draw_tile(*tile, canvas);
+    transform(geometry, grid, placement);
+    draw_tile(*placement.tile, canvas);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/fan_grid.hpp"
+#include "model/hrm/placed_tile.hpp"
 #include "model/hrm/raster_lanes.hpp"
 #include "model/hrm/scene_surface.hpp"
 #include "model/scene/scene_view.hpp"
@@ -20,27 +21,10 @@ class SceneRaster {
 
   // Draws what of the tiles falls into the columns [first, last), in the order of the tiles.
   void draw(const PatchGeometry& geometry, const FanGrid& grid, const scene::SceneView& scene,
-            const std::vector<const scene::Tile*>& tiles, int first, int last, const lanes::SceneArrays& arrays);
+            std::span<const PlacedTile> tiles, int first, int last, const lanes::SceneArrays& arrays);
 
  private:
-  // From a tile's east, north, up to the plane of the map: exact at the origin, the tangent plane about it.
-  struct Placement {
-    double right_m, up_m;  // of the origin
-    double right_east, right_north, up_east, up_north;
-    float lift_m;                                // up = 0 above the map plane
-    float toward_east, toward_north, toward_up;  // unit vector to the radar
-  };
-  struct GridPoint {
-    float column, row;
-  };
-
-  Placement place(const PatchGeometry& geometry, const scene::Tile& tile) const;
-  bool overlaps(const PatchGeometry& geometry, const FanGrid& grid, const Placement& placement, const scene::Tile& tile,
-                int first, int last) const;
-  GridPoint on_grid(const PatchGeometry& geometry, const FanGrid& grid, const Placement& placement, float east_m,
-                    float north_m) const;
-  void transform(const PatchGeometry& geometry, const FanGrid& grid, const Placement& placement,
-                 const scene::Tile& tile);
+  void transform(const PatchGeometry& geometry, const FanGrid& grid, const PlacedTile& placement);
   void read_kinds(const scene::SceneView& scene);
   void draw_tile(const scene::Tile& tile, const lanes::Canvas& canvas);
   lanes::GridVertices vertices_of(const scene::Tile& tile) {
