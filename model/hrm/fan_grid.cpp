@@ -24,10 +24,13 @@ FanGrid make_fan_grid(const PatchGeometry& geometry, int pixels, int cells, cons
   grid.first_tangent = -0.5 * (grid.columns - 1) * grid.tangent_step;
 
   const double most_m = kMostRowsAPixel * geometry.window_m();
-  const double near_m = std::max(nearest_m - 2.0 * grid.spacing_m - std::min(margins.near_m, most_m), grid.spacing_m);
+  const double near_m = std::max(nearest_m - 3.0 * grid.spacing_m - std::min(margins.near_m, most_m), grid.spacing_m);
   const double far_m = std::hypot(centre_m + half_m, half_m) + 2.0 * grid.spacing_m + std::min(margins.far_m, most_m);
-  grid.first_distance_m = near_m;
-  grid.rows = static_cast<int>(std::ceil((far_m - near_m) / grid.spacing_m)) + 1;
+  // Ahead of the centre rows lie on the middles of pixels, as columns do: what lies between rows is less sharp.
+  const double middle = std::fmod(0.5 * cells * (pixels % 2 == 0 ? 1.0 : 0.0), 1.0);
+  const double before = std::floor((centre_m - near_m) / grid.spacing_m - middle) + middle;
+  grid.first_distance_m = centre_m - before * grid.spacing_m;
+  grid.rows = static_cast<int>(std::ceil((far_m - grid.first_distance_m) / grid.spacing_m)) + 1;
   return grid;
 }
 
