@@ -173,7 +173,9 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   // Ground belongs to the nearer of two rows: half of a piece each.
   const auto half_area = hn::Mul(half, area);
   const auto open = hn::Mul(hn::IfThenElse(halves, half_area, area), far.gain);
-  const auto start = hn::IfThenElse(halves, middle, begin);
+  // A wall stands within half a row of the farther one, and so does its foot.
+  const auto foot_row = hn::IfThenElse(hn::And(walls.there, whole), hn::Add(begin, one), begin);
+  const auto start = hn::IfThenElse(halves, middle, foot_row);
   const auto extent = hn::Max(hn::Abs(hn::Sub(far.row, start)), hn::Set(d, kLeastExtent));
   const auto rows_inverse = hn::Div(one, extent);
   Stretch first, second;
