@@ -192,7 +192,7 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   if (hn::AllFalse(d, foot)) return;
   // From wall to ground and from ground to wall: every such path is as long as to the foot.
   const auto bounce = hn::Mul(hn::Mul(face, walls.gain), hn::Set(d, strip.double_bounce / kLeastExtent));
-  add_far(strip, lane, {near.row, hn::Add(near.row, hn::Set(d, kLeastExtent)), hn::IfThenElseZero(foot, bounce)});
+  add_far(strip, lane, {foot_row, hn::Add(foot_row, hn::Set(d, kLeastExtent)), hn::IfThenElseZero(foot, bounce)});
 }
 
 // Leaves no walls to the next map. Most rows have none: what is not written need not go back to memory.
