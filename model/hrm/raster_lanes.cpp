@@ -130,7 +130,8 @@ class SmallTriangles {
       WallPoint& point = canvas_.arrays.walls[fragments_.wall_at[i]];
       point.height += fragments_.wall_height[i];
       point.returned += fragments_.wall_return[i];
-      if (((point.height | point.returned) & ~kFullWall) == 0) [[likely]] continue;
+      if (((point.height | point.returned) & ~kFullWall) == 0) [[likely]]
+        continue;
       point.height = std::min(point.height, kFullWall);
       point.returned = std::min(point.returned, kFullWall);
     }
