@@ -1,172 +1,22 @@
 #include "model/hrm/raster_lanes.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "model/hrm/raster_lanes.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 // Behind highway.h, or it would have no target yet.
 #include "model/hrm/facet-inl.hpp"
+#include "model/hrm/small_triangles-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace yars::model::hrm::lanes::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Bits = hn::Vec<BitsTag>;
-
-constexpr float kWide = 12.0F;           // columns of a triangle that is drawn by itself
-constexpr std::size_t kFlush = 1024;     // grid points kept before they are put down
-constexpr std::size_t kFetchAhead = 24;  // of them
-constexpr float kUnderRoof_m = 0.02F;
-constexpr float kMostWall = 1.0e9F;
-constexpr std::uint32_t kFullWall = 0x7fffffffU;
-
-// A point's surface as one number: the height in the upper half, made so that it ascends as an integer too, and the
-// gain in the lower half, where what stands is greater than any ground. Its own inverse.
-static_assert(std::endian::native == std::endian::little);
-HWY_INLINE std::int64_t in_order(std::int64_t point) {
-  constexpr std::int64_t kHeight = 0x7fffffff00000000;
-  return point ^ ((point >> 63) & kHeight);
-}
-// The upper half of a vector of heights; no negative zero, which would be less than zero.
-HWY_INLINE Floats plain(Floats height) {
-  return hn::Add(height, hn::Zero(Tag()));
-}
-HWY_INLINE Bits in_order(Floats height) {
-  const BitsTag db;
-  const auto bits = hn::BitCast(SignedTag(), height);
-  const auto turned = hn::And(hn::ShiftRight<31>(bits), hn::Set(SignedTag(), 0x7fffffff));
-  return hn::BitCast(db, hn::Xor(bits, turned));
-}
-
-// Where a grid point lies in the arrays.
-HWY_INLINE Bits place_on(const FanGrid& grid, Floats column, Floats row) {
-  const SignedTag di;
-  const BitsTag db;
-  const auto i = hn::BitCast(db, hn::ConvertTo(di, column));
-  const auto strip = hn::Mul(hn::ShiftRight<4>(i), hn::Set(db, static_cast<std::uint32_t>(grid.strip_size())));
-  const auto line = hn::ShiftLeft<4>(hn::BitCast(db, hn::ConvertTo(di, row)));
-  return hn::Add(hn::Add(strip, line), hn::And(i, hn::Set(db, kStripColumns - 1U)));
-}
-
-// A batch of small triangles, a lane each.
-class SmallTriangles {
- public:
-  SmallTriangles(const Canvas& canvas, Fragments& fragments) : canvas_(canvas), fragments_(fragments) {}
-
-  void fill(const Triangle& triangle, const Facet& facet, Floats gain, Mask active) {
-    const Tag d;
-    const auto rows = set(static_cast<float>(canvas_.grid->rows));
-    const auto end = hn::Min(hn::Ceil(triangle.right.column), set(canvas_.limits.last_column));
-    auto column = hn::Max(hn::Ceil(triangle.left.column), set(canvas_.limits.first_column));
-    active = hn::And(active, hn::Lt(column, end));
-    const Edges rows_at(triangle, &Corner::row);
-    for (; !hn::AllFalse(d, active);
-         column = hn::Add(column, set(1.0F)), active = hn::And(active, hn::Lt(column, end))) {
-      const auto [along, beside] = rows_at.at(column);
-      const auto near = hn::Min(along, beside);
-      const auto far = hn::Max(along, beside);
-      const auto last = hn::Min(hn::Ceil(hn::Add(far, set(kSurfaceReach))), rows);
-      auto row = hn::Max(hn::Ceil(hn::Sub(near, set(kSurfaceReach))), hn::Zero(d));
-      auto wanted = hn::And(active, hn::Lt(row, last));
-      auto at = place_on(*canvas_.grid, hn::IfThenElseZero(active, column), hn::IfThenElseZero(wanted, row));
-      const auto base = hn::Add(facet.value, hn::Mul(facet.by_column, column));
-      while (!hn::AllFalse(d, wanted)) {
-        const auto height = hn::Add(base, hn::Mul(facet.by_row, hn::Min(hn::Max(row, near), far)));
-        keep(at, triangle.within(height), gain, wanted);
-        at = hn::Add(at, hn::Set(BitsTag(), static_cast<std::uint32_t>(kStripColumns)));
-        row = hn::Add(row, set(1.0F));
-        wanted = hn::And(wanted, hn::Lt(row, last));
-      }
-    }
-  }
-
-  // Seen from above a wall is the line between its two corners that lie farthest apart across; the profile steps up at
-  // the first grid point that a surface behind the line reaches. Its columns together return as if they were as wide as
-  // it is; one narrower than a column is met by chance, and counts whole then.
-  void stand(const Triangle& triangle, Floats gain, Mask active) {
-    const Tag d;
-    const auto width = hn::Sub(triangle.right.column, triangle.left.column);
-    const auto columns = hn::Sub(hn::Ceil(triangle.right.column), hn::Ceil(triangle.left.column));
-    gain = hn::IfThenElse(hn::Lt(width, set(1.0F)), gain, hn::Mul(gain, hn::Div(width, columns)));
-    const auto rows = set(static_cast<float>(canvas_.grid->rows));
-    const auto end = hn::Min(hn::Ceil(triangle.right.column), set(canvas_.limits.last_column));
-    auto column = hn::Max(hn::Ceil(triangle.left.column), set(canvas_.limits.first_column));
-    active = hn::And(active, hn::Lt(column, end));
-    const Edges rows_at(triangle, &Corner::row);
-    const Edges heights_at(triangle, &Corner::height);
-    for (; !hn::AllFalse(d, active);
-         column = hn::Add(column, set(1.0F)), active = hn::And(active, hn::Lt(column, end))) {
-      const auto line = rows_at.at(column).first;
-      const auto row = hn::Ceil(hn::Sub(line, set(kSurfaceReach)));
-      const auto wanted = hn::And(active, hn::And(hn::Ge(row, hn::Zero(d)), hn::Lt(row, rows)));
-      if (hn::AllFalse(d, wanted)) continue;
-      const auto [along, beside] = heights_at.at(column);
-      const auto tall = hn::Abs(hn::Sub(along, beside));
-      const auto at = place_on(*canvas_.grid, hn::IfThenElseZero(wanted, column), hn::IfThenElseZero(wanted, row));
-      keep_wall(at, tall, gain, wanted);
-      // A fence has no roof to be seen by: it is its own. Where there is one that one is higher.
-      keep(at, hn::Sub(hn::Max(along, beside), set(kUnderRoof_m)), gain, wanted);
-    }
-  }
-
-  // Puts down what was kept, when there is much or all is drawn: places are fetched ahead of their turn.
-  void flush(bool all) {
-    if (!all && count_ < kFlush && walls_ < kFlush) return;
-    for (std::size_t i = 0; i < count_; ++i) {
-      hwy::Prefetch(canvas_.arrays.surface + fragments_.at[std::min(i + kFetchAhead, count_ - 1)]);
-      SurfacePoint& point = canvas_.arrays.surface[fragments_.at[i]];
-      const std::uint64_t height = fragments_.height[i];
-      const auto fragment = static_cast<std::int64_t>(height << 32 | std::bit_cast<std::uint32_t>(fragments_.gain[i]));
-      point = std::bit_cast<SurfacePoint>(in_order(std::max(in_order(std::bit_cast<std::int64_t>(point)), fragment)));
-    }
-    for (std::size_t i = 0; i < walls_; ++i) {
-      hwy::Prefetch(canvas_.arrays.walls + fragments_.wall_at[std::min(i + kFetchAhead, walls_ - 1)]);
-      WallPoint& point = canvas_.arrays.walls[fragments_.wall_at[i]];
-      point.height += fragments_.wall_height[i];
-      point.returned += fragments_.wall_return[i];
-      if (((point.height | point.returned) & ~kFullWall) == 0) [[likely]]
-        continue;
-      point.height = std::min(point.height, kFullWall);
-      point.returned = std::min(point.returned, kFullWall);
-    }
-    count_ = walls_ = 0;
-  }
-
- private:
-  void keep(Bits at, Floats height, Floats gain, Mask wanted) {
-    const BitsTag db;
-    if (fragments_.at.size() < count_ + kStripColumns) fragments_.grow();
-    const auto mask = hn::RebindMask(db, wanted);
-    hn::StoreU(hn::Compress(at, mask), db, &fragments_.at[count_]);
-    hn::StoreU(hn::Compress(in_order(plain(height)), mask), db, &fragments_.height[count_]);
-    hn::StoreU(hn::Compress(hn::Neg(gain), wanted), Tag(), &fragments_.gain[count_]);
-    count_ += hn::CountTrue(Tag(), wanted);
-  }
-  void keep_wall(Bits at, Floats tall, Floats gain, Mask wanted) {
-    const BitsTag db;
-    const SignedTag di;
-    if (fragments_.wall_at.size() < walls_ + kStripColumns) fragments_.grow_walls();
-    const auto steps = [&](Floats number) HWY_ATTR {
-      const auto most = hn::Min(hn::Mul(number, set(1.0F / kWallStep_m)), set(kMostWall));
-      return hn::BitCast(db, hn::ConvertTo(di, hn::Add(most, set(0.5F))));
-    };
-    const auto mask = hn::RebindMask(db, wanted);
-    hn::StoreU(hn::Compress(at, mask), db, &fragments_.wall_at[walls_]);
-    hn::StoreU(hn::Compress(steps(tall), mask), db, &fragments_.wall_height[walls_]);
-    hn::StoreU(hn::Compress(steps(hn::Mul(tall, gain)), mask), db, &fragments_.wall_return[walls_]);
-    walls_ += hn::CountTrue(Tag(), wanted);
-  }
-
-  const Canvas& canvas_;
-  Fragments& fragments_;
-  std::size_t count_ = 0, walls_ = 0;
-};
+constexpr float kWide = 12.0F;  // columns of a triangle that is drawn by itself
 
 // Column by column, for a column is a profile: a surface reaches half a row beyond its edges, so that on average it is
 // as long as it is, and its height there is that of the edge. One triangle, a lane a column. `put(at, row, near, far,
