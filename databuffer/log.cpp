@@ -1,15 +1,18 @@
 #include "databuffer/log.hpp"
 
-#include <spdlog/sinks/rotating_file_sink.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <filesystem>
 #include <memory>
+#include <mutex>
+#include <utility>
+
+#include "lib/failure/printable.hpp"
+#include "lib/file/log_file.hpp"
 
 namespace yars::databuffer {
 
@@ -25,19 +28,30 @@ std::shared_ptr<spdlog::logger>& file_logger() {
   return logger;
 }
 
-// The folders on the way to it are the user's alone too.
-bool make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  if (std::filesystem::is_directory(folder, error)) return true;
-  if (folder.has_parent_path() && folder.parent_path() != folder && !make_folder(folder.parent_path())) return false;
-  return mkdir(folder.c_str(), 0700) == 0 || std::filesystem::is_directory(folder, error);
-}
+// spdlog's own file sinks follow whatever link lies at the log's name.
+class FileSink : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  explicit FileSink(file::LogFile file) : file_(std::move(file)) {}
 
-std::shared_ptr<spdlog::sinks::sink> open_file(const std::string& path) {
-  spdlog::file_event_handlers handlers;
-  handlers.after_open = [](const spdlog::filename_t&, std::FILE* file) { fchmod(fileno(file), 0600); };
-  auto sink =
-      std::make_shared<spdlog::sinks::rotating_file_sink_mt>(path, kLogFileBytes, kOldLogFiles, false, handlers);
+ private:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    spdlog::memory_buf_t line;
+    formatter_->format(message, line);
+    if (auto written = file_.append({line.data(), line.size()}); !written)
+      throw spdlog::spdlog_ex(written.error().message());
+  }
+  void flush_() override {}
+
+  file::LogFile file_;
+};
+
+failure::Expected<std::shared_ptr<spdlog::sinks::sink>> open_file(const std::string& program,
+                                                                  const std::string& folder) {
+  auto opened = file::Folder::make_private(folder);
+  if (!opened) return tl::unexpected(opened.error());
+  auto file = file::LogFile::open(std::move(*opened), program, {kLogFileBytes, kOldLogFiles});
+  if (!file) return tl::unexpected(file.error());
+  auto sink = std::make_shared<FileSink>(std::move(*file));
   sink->set_pattern(kFilePattern);
   return sink;
 }
@@ -56,13 +70,12 @@ bool start_log(const std::string& program, const std::string& level) {
 
 void start_log_file(const std::string& program, const std::string& folder) {
   try {
-    const std::filesystem::path path = std::filesystem::absolute(folder).lexically_normal();
-    if (!make_folder(path)) throw spdlog::spdlog_ex("cannot make it", errno);
-    // Where others may write they can plant a link under the log's name.
-    if ((std::filesystem::status(path).permissions() & std::filesystem::perms::others_write) !=
-        std::filesystem::perms::none)
-      throw spdlog::spdlog_ex("any user may write there; name a new folder in it");
-    auto sink = open_file((path / (program + ".log")).string());
+    auto opened = open_file(program, folder);
+    if (!opened) {
+      log_warning("--log-dir: expected a folder to write to; " + opened.error().message() + "; no log file is written");
+      return;
+    }
+    auto sink = std::move(*opened);
     file_logger() = std::make_shared<spdlog::logger>(program, sink);
     file_logger()->flush_on(spdlog::level::info);
     spdlog::default_logger()->sinks().push_back(std::move(sink));
@@ -79,19 +92,19 @@ void start_log_file(const std::string& program, const std::string& folder) {
 }
 
 void log_debug(std::string_view text) {
-  spdlog::debug("{}", text);
+  spdlog::debug("{}", failure::printable(text));
 }
 void log_info(std::string_view text) {
-  spdlog::info("{}", text);
+  spdlog::info("{}", failure::printable(text));
 }
 void log_warning(std::string_view text) {
-  spdlog::warn("{}", text);
+  spdlog::warn("{}", failure::printable(text));
 }
 void log_error(std::string_view text) {
-  spdlog::error("{}", text);
+  spdlog::error("{}", failure::printable(text));
 }
 void log_to_file(std::string_view text) {
-  if (file_logger()) file_logger()->critical("{}", text);
+  if (file_logger()) file_logger()->critical("{}", failure::printable(text));
 }
 
 }  // namespace yars::databuffer

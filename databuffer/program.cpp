@@ -2,6 +2,7 @@
 
 #include <sys/stat.h>
 
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +12,9 @@
 #include "databuffer/installed_file.hpp"
 #include "databuffer/log.hpp"
 #include "databuffer/realtime.hpp"
+#include "databuffer/session.hpp"
+#include "databuffer/terminal_guard.hpp"
+#include "lib/failure/printable.hpp"
 
 namespace yars::databuffer {
 
@@ -67,8 +71,25 @@ void add_common_options(CLI::App& app, ProgramOptions& options, bool is_role) {
   app.add_option("--cpus", options.cpus, "CPUs to run on, as in 2,3 or 2-3 (else all)");
 }
 
+void require_finite_numbers(CLI::App& app) {
+  const CLI::Validator finite(
+      [](std::string& text) {
+        char* end = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        const bool number = end != text.c_str() && *end == '\0';  // what is none is refused in the option's own words
+        return !number || std::isfinite(value) ? std::string() : "expected a finite number, found " + text;
+      },
+      "");
+  // The first to look: the range comes after it.
+  for (CLI::Option* option :
+       app.get_options([](const CLI::Option* any) { return any->get_type_name().starts_with("FLOAT"); }))
+    option->transform(finite);
+  for (CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; }))
+    require_finite_numbers(*subcommand);
+}
+
 void print_failure(const std::string& program, const std::string& message) {
-  std::fprintf(stderr, "%s: %s\n", program.c_str(), message.c_str());
+  std::fprintf(stderr, "%s: %s\n", program.c_str(), failure::printable(message).c_str());
   log_to_file(message);
 }
 
@@ -81,6 +102,7 @@ int report_parse_outcome(const CLI::App& app, const CLI::ParseError& outcome) {
 std::optional<failure::Error> begin_program(const std::string& name, const ProgramOptions& options) {
   if (!start_log(name, options.log_level))
     return usage_error("--log-level", "trace, debug, info, warning, error or off", "'" + options.log_level + "'");
+  if (const auto valid = check_session_name(options.session); !valid) return valid.error();
   if (!options.log_dir.empty()) start_log_file(name, options.log_dir);
   if (auto error = arrange_cpus(options)) return error;
   install_signal_handlers();
@@ -88,7 +110,9 @@ std::optional<failure::Error> begin_program(const std::string& name, const Progr
 }
 
 int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& options, const ProgramBody& body) {
+  guard_terminal();
   try {
+    require_finite_numbers(app);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& outcome) {
     return report_parse_outcome(app, outcome);

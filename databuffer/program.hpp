@@ -28,6 +28,10 @@ inline constexpr int kExitUsage = 2;
 // application's name is the program's.
 void add_common_options(CLI::App& app, ProgramOptions& options, bool is_role);
 
+// Every option and argument of the application and its subcommands that takes a number with a fraction refuses NaN and
+// infinity: they pass each comparison of a range. Call it when all options are added and before anything is parsed.
+void require_finite_numbers(CLI::App& app);
+
 // Parses, keeps what is written private, starts the log, installs the handlers of SIGINT and SIGTERM and runs the body;
 // the body's error becomes one line on standard error and exit code 1. Bad usage is one line and exit code 2.
 using ProgramBody = std::function<failure::Expected<void>()>;

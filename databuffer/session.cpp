@@ -12,6 +12,7 @@
 
 #include "databuffer/layout_identity.hpp"
 #include "databuffer/session_state.hpp"
+#include "lib/failure/printable.hpp"
 #include "lib/failure/require.hpp"
 
 namespace yars::databuffer {
@@ -28,12 +29,6 @@ bool name_is_valid(std::string_view name) {
            letter == '_' || letter == '-';
   };
   return !name.empty() && name.size() <= kLongestName && std::all_of(name.begin(), name.end(), allowed);
-}
-
-Expected<void> check_name(const std::string& name) {
-  if (name_is_valid(name)) return {};
-  return tl::unexpected(failure::Error{"session name", "1 to 40 letters, digits, '-' or '_'", "\"" + name + "\"",
-                                       "choose another --session", true});
 }
 
 void initialize(void* memory) {
@@ -73,6 +68,12 @@ std::string_view name_of(Role role) {
   return "unknown role";
 }
 
+Expected<void> check_session_name(const std::string& name) {
+  if (name_is_valid(name)) return {};
+  return tl::unexpected(failure::Error{"session name", "1 to 40 letters, digits, '-' or '_'", "\"" + name + "\"",
+                                       "choose another --session", true});
+}
+
 std::int64_t monotonic_ns() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
@@ -107,7 +108,7 @@ Session& Session::operator=(Session&&) noexcept = default;
 Session::~Session() = default;
 
 Expected<Session> Session::open(const std::string& name, std::string_view process_name) {
-  if (const auto valid = check_name(name); !valid) return tl::unexpected(valid.error());
+  if (const auto valid = check_session_name(name); !valid) return tl::unexpected(valid.error());
   auto segment = shm::Segment::open(name, kLayoutIdentity, initialize);
   if (!segment) return tl::unexpected(segment.error());
   auto state = std::make_unique<State>(std::move(*segment), process_name);
@@ -117,7 +118,7 @@ Expected<Session> Session::open(const std::string& name, std::string_view proces
 }
 
 Expected<Session> Session::open_read_only(const std::string& name) {
-  if (const auto valid = check_name(name); !valid) return tl::unexpected(valid.error());
+  if (const auto valid = check_session_name(name); !valid) return tl::unexpected(valid.error());
   auto segment = shm::Segment::open_read_only(name, kLayoutIdentity);
   if (!segment) return tl::unexpected(segment.error());
   auto state = std::make_unique<State>(std::move(*segment), "reader");
@@ -252,10 +253,10 @@ Expected<void> Session::change_clock(const std::function<ClockState(const ClockS
 }
 
 void Session::note(NoteKind kind, std::string_view text) {
-  state_->note(kind, text, state_->process_name);
+  note(kind, text, state_->process_name);
 }
 void Session::note(NoteKind kind, std::string_view text, std::string_view process) {
-  state_->note(kind, text, process);
+  state_->note(kind, failure::printable(text), process);
 }
 
 }  // namespace yars::databuffer

@@ -110,6 +110,9 @@ class Session {
   std::unique_ptr<State> state_;
 };
 
+// A session's name is part of a path: 1 to 40 letters, digits, `-` or `_`. An error of bad usage.
+failure::Expected<void> check_session_name(const std::string& name);
+
 std::int64_t monotonic_ns();  // [ns] CLOCK_MONOTONIC
 // Sim time [ns] at a moment of CLOCK_MONOTONIC: base + rate x elapsed while running; before the base, the base.
 std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns);

@@ -432,10 +432,20 @@ static inline void yars_enter_table(yars_session* s, const char* program) {
   __atomic_store_n((int32_t*)(void*)(s->memory + entry + 8), (int32_t)getpid(), __ATOMIC_RELEASE);
 }
 
+/* The name is a part of a path: it may lead nowhere else. */
+static inline int yars_is_session_name(const char* name) {
+  const char* const allowed = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz-_";
+  const size_t length = strlen(name);
+  return length >= 1 && length <= 40 && strspn(name, allowed) == length;
+}
+
 /* Joins the running session `name`; `program` is what `yars status` calls this process. */
 static inline int yars_attach(yars_session* s, const char* name, const char* program) {
   memset(s, 0, sizeof *s);
   s->ownship_lane = s->input_lane = s->process = -1;
+  s->descriptor = -1;
+  if (!yars_is_session_name(name))
+    return yars_fail(s, "session", "expected 1 to 40 letters, digits, - or _ as its name");
   snprintf(s->path, sizeof s->path, "/dev/shm/yars.%u.%s", (unsigned)geteuid(), name);
   s->descriptor = open(s->path, O_RDWR | O_CLOEXEC | O_NOFOLLOW);
   if (s->descriptor < 0) return yars_fail(s, s->path, errno == ENOENT ? "no such session runs" : strerror(errno));

@@ -7,6 +7,8 @@ import fcntl
 import math
 import mmap
 import os
+import re
+import stat
 import struct
 import time
 
@@ -99,11 +101,19 @@ class Session:
 
     def __init__(self, name="default", program="python"):
         shown = text_bytes("program", program[:23], 24)
+        if not re.fullmatch("[0-9A-Za-z_-]{1,40}", name):
+            raise YarsError(f"session: expected 1 to 40 letters, digits, '-' or '_', found {name!r}")
         self.path = f"/dev/shm/yars.{os.geteuid()}.{name}"
         try:
             self.descriptor = os.open(self.path, os.O_RDWR | os.O_CLOEXEC | os.O_NOFOLLOW)
         except FileNotFoundError:
             raise YarsError(f"{self.path}: no such session runs") from None
+        except OSError as problem:
+            raise YarsError(f"{self.path}: expected a segment, found: {problem.strerror}") from None
+        status = os.fstat(self.descriptor)
+        if not stat.S_ISREG(status.st_mode) or status.st_uid != os.geteuid():
+            os.close(self.descriptor)
+            raise YarsError(f"{self.path}: expected a file of this user")
         # The write lock on byte 0 can be had only where nobody takes part.
         if self._lock(0, fcntl.F_WRLCK):
             os.close(self.descriptor)

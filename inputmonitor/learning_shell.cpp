@@ -5,7 +5,6 @@
 
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 
 #include "config/print.hpp"
@@ -13,6 +12,7 @@
 #include "inputmonitor/device_reader.hpp"
 #include "inputmonitor/learning.hpp"
 #include "inputmonitor/record_stream.hpp"
+#include "lib/file/new_file.hpp"
 
 namespace yars::inputmonitor {
 
@@ -87,10 +87,7 @@ Expected<void> write_map(const Learning& learning, const std::string& file) {
     std::cout << text;
     return {};
   }
-  std::ofstream out(file);
-  out << text;
-  out.close();
-  if (!out) return fail(file, "a file that can be written", "none", "look at the folder and the disk");
+  if (auto written = file::write_file(file, text); !written) return written;
   std::cerr << "wrote " << file << ": " << learning.learned() << " controls, map " << name
             << "; input-monitor --config " << file << " uses it\n";
   return {};

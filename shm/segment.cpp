@@ -49,9 +49,6 @@ std::string file_name_of(const std::string& name) {
 std::string path_of(const std::string& file_name) {
   return std::string(kFolder) + file_name;
 }
-std::string temporary_of(const std::string& file_name) {
-  return file_name + "." + std::to_string(getpid()) + ".tmp";
-}
 
 // Removes what creators that died left behind: a temporary that nobody locks, or a second name of the segment itself.
 void remove_dead_temporaries(const std::string& file_name) {
@@ -132,6 +129,18 @@ bool leave(SegmentFile& file, const std::string& file_name) {
   return last;
 }
 
+// What lies at a name though it cannot be opened as a segment; `error` is what the system said.
+tl::unexpected<failure::Error> refusal_to_open(const std::string& file_name, int error) {
+  struct stat there {};
+  if (lstat(path_of(file_name).c_str(), &there) != 0 || (S_ISREG(there.st_mode) && there.st_uid == geteuid()))
+    return system_failure(file_name, "a segment that can be opened", error);
+  const std::string owner = "user " + std::to_string(there.st_uid);
+  return fail(
+      path_of(file_name), "a segment of user " + std::to_string(geteuid()),
+      file::name_of_kind(there.st_mode) + (" of " + owner),
+      (there.st_uid == geteuid() ? "remove it" : "ask " + owner + " to remove it") + ", or choose another --session");
+}
+
 using Attempt = Expected<std::optional<SegmentFile>>;  // nullopt: try again
 
 // Attaches to what lies at the name; a leftover, which nobody else locks, is taken away.
@@ -139,7 +148,7 @@ Attempt attach(const std::string& file_name, const LayoutIdentity& layout) {
   auto file = SegmentFile::open(file_name, SegmentFile::Access::read_write);
   if (!file) {
     if (errno == ENOENT) return std::nullopt;
-    return system_failure(file_name, "a segment that can be opened", errno);
+    return refusal_to_open(file_name, errno);
   }
   if (const auto owned = check_owner(*file, file_name); !owned) return tl::unexpected(owned.error());
   if (file->lock(kParticipation, LockKind::write)) {
@@ -183,37 +192,33 @@ Expected<void> build(SegmentFile& file, const std::string& file_name, const Layo
   return {};
 }
 
-// Builds the segment under a name of its own and links it to the session's; nullopt when somebody else was faster, or
+// Builds the segment without a name and links it to the session's; nullopt when somebody else was faster, or
 // when there is no room and `room_may_come`.
 Attempt create(const std::string& file_name, const LayoutIdentity& layout, Segment::Initialize initialize,
                bool room_may_come) {
-  const std::string temporary = temporary_of(file_name);
-  auto file = SegmentFile::create(temporary);
-  if (!file && errno == EEXIST) {
-    remove_dead_temporaries(file_name);
-    wait_a_moment();
-    return std::nullopt;
-  }
-  if (!file) return system_failure(temporary, "a new file in /dev/shm", errno);
+  auto file = SegmentFile::create(file_name);
+  if (!file) return system_failure(file_name, "a new file in /dev/shm", errno);
   step("created");
   const bool locked = file->lock(kParticipation, LockKind::read);
   step("locked");
   const int error = locked ? file->allocate(layout.size) : 0;
   step("allocated");
-  const auto built = locked ? build(*file, temporary, layout, initialize, error) : Expected<void>{};
-  const bool linked = locked && built && link(path_of(temporary).c_str(), path_of(file_name).c_str()) == 0;
+  const auto built = locked ? build(*file, file_name, layout, initialize, error) : Expected<void>{};
+  const bool linked = locked && built && file->link_as(file_name);
+  const int problem = errno;
   step("linked");
   // Without its name and with a lock it would pass for a living segment that has lost its name.
   if (!linked) file->lock(kParticipation, LockKind::none);
-  unlink(path_of(temporary).c_str());
-  step("temporary unlinked");
+  file->remove_temporary();
+  step("temporary removed");
   if (error == ENOSPC && room_may_come) {
     wait_a_moment();
     return std::nullopt;
   }
   if (!built) return tl::unexpected(built.error());
-  if (!linked) return std::nullopt;
-  return file;
+  if (linked) return file;
+  if (locked && problem != EEXIST) return system_failure(file_name, "a name for a new file in /dev/shm", problem);
+  return std::nullopt;
 }
 
 }  // namespace
@@ -260,7 +265,7 @@ Expected<Segment> Segment::open(const std::string& name, const LayoutIdentity& l
 Expected<Segment> Segment::open_read_only(const std::string& name, const LayoutIdentity& layout) {
   const std::string file_name = file_name_of(name);
   auto file = SegmentFile::open(file_name, SegmentFile::Access::read_only);
-  if (!file && errno != ENOENT) return system_failure(file_name, "a segment that can be read", errno);
+  if (!file && errno != ENOENT) return refusal_to_open(file_name, errno);
   for (const std::string& path : file ? std::vector<std::string>{} : nameless_files(path_of(file_name))) {
     file = SegmentFile::reopen(path, SegmentFile::Access::read_only);
     if (file && !file->could_write_lock(kParticipation)) break;

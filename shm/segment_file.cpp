@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <random>
 #include <utility>
 
 namespace yars::shm {
@@ -11,6 +12,13 @@ namespace yars::shm {
 namespace bi = boost::interprocess;
 
 namespace {
+
+constexpr const char* kFolder = "/dev/shm";  // where glibc's shm_open and Boost keep their objects
+constexpr int kAttempts = 20;                // at a random name
+
+std::string path_of(const std::string& file_name) {
+  return std::string(kFolder) + "/" + file_name;
+}
 
 struct flock byte_lock(std::size_t byte, LockKind kind) {
   struct flock lock {};
@@ -29,25 +37,11 @@ struct OpenFile {
 
 }  // namespace
 
-SegmentFile::Descriptor& SegmentFile::Descriptor::operator=(Descriptor&& other) noexcept {
-  std::swap(number_, other.number_);
-  return *this;
-}
-
-SegmentFile::Descriptor::~Descriptor() {
-  if (number_ >= 0) close(number_);
-}
-
-SegmentFile::SegmentFile(bi::shared_memory_object object, Access access)
-    : object_(std::move(object)), access_(access) {}
-SegmentFile::SegmentFile(Descriptor reopened, Access access) : reopened_(std::move(reopened)), access_(access) {}
-
 std::optional<SegmentFile> SegmentFile::open(const std::string& file_name, Access access) {
-  // Not by shm_open: any user may put a pipe there, and opening that would wait for its other end.
-  const std::string path = "/dev/shm/" + file_name;
+  // Any user may put a pipe there, and opening that would wait for its other end.
   const int mode = access == Access::read_only ? O_RDONLY : O_RDWR;
-  Descriptor opened(::open(path.c_str(), mode | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
-  if (opened.number() < 0) return std::nullopt;
+  file::Descriptor opened(::open(path_of(file_name).c_str(), mode | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  if (!opened) return std::nullopt;
   SegmentFile file(std::move(opened), access);
   if (S_ISREG(file.status().st_mode)) return file;
   errno = EINVAL;
@@ -55,19 +49,40 @@ std::optional<SegmentFile> SegmentFile::open(const std::string& file_name, Acces
 }
 
 std::optional<SegmentFile> SegmentFile::create(const std::string& file_name) {
-  try {
-    return SegmentFile(
-        bi::shared_memory_object(bi::create_only, file_name.c_str(), bi::read_write, bi::permissions(0600)),
-        Access::read_write);
-  } catch (const bi::interprocess_exception& refusal) {
-    errno = refusal.get_native_error();
-    return std::nullopt;
+  SegmentFile file(file::Descriptor(::open(kFolder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600)), Access::read_write);
+  for (int attempt = 0; !file.descriptor_ && errno != ENOSPC && errno != ENOMEM && attempt < kAttempts; ++attempt) {
+    file.temporary_ = file_name + "." + std::to_string(std::random_device{}()) + ".tmp";
+    file.descriptor_ = file::Descriptor(
+        ::open(path_of(file.temporary_).c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600));
   }
+  if (file.descriptor_) return file;
+  return std::nullopt;
+}
+
+bool SegmentFile::link_as(const std::string& file_name) {
+  const std::string itself = "/proc/self/fd/" + std::to_string(descriptor());
+  const std::string path = path_of(file_name);
+  const int done = temporary_.empty() ? ::linkat(AT_FDCWD, itself.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW)
+                                      : ::link(path_of(temporary_).c_str(), path.c_str());
+  if (done != 0) return false;
+  remove_temporary();
+  // Opened by its name, the system goes on showing that name when somebody removes it: nameless_file.hpp.
+  auto named = open(file_name, access_);
+  if (named && is_at(path) && named->is_at(path) && named->lock(0, LockKind::read)) {
+    lock(0, LockKind::none);  // the mapping keeps the old description, and its locks, alive
+    std::swap(descriptor_, named->descriptor_);
+  }
+  return true;
+}
+
+void SegmentFile::remove_temporary() {
+  if (!temporary_.empty()) ::unlink(path_of(temporary_).c_str());
+  temporary_.clear();
 }
 
 std::optional<SegmentFile> SegmentFile::reopen(const std::string& path, Access access) {
-  Descriptor opened(::open(path.c_str(), (access == Access::read_only ? O_RDONLY : O_RDWR) | O_CLOEXEC));
-  if (opened.number() < 0) return std::nullopt;
+  file::Descriptor opened(::open(path.c_str(), (access == Access::read_only ? O_RDONLY : O_RDWR) | O_CLOEXEC));
+  if (!opened) return std::nullopt;
   return SegmentFile(std::move(opened), access);
 }
 

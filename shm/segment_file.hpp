@@ -5,12 +5,13 @@
 #include <sys/stat.h>
 
 #include <boost/interprocess/mapped_region.hpp>
-#include <boost/interprocess/shared_memory_object.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
+
+#include "lib/file/folder.hpp"
 
 namespace yars::shm {
 
@@ -19,9 +20,16 @@ enum class LockKind { none, read, write };
 class SegmentFile {
  public:
   enum class Access { read_only, read_write };
-  // Both: nullopt with errno set when the system refuses; creating fails with EEXIST when the name is taken.
+  // Both: nullopt with errno set when the system refuses.
   static std::optional<SegmentFile> open(const std::string& file_name, Access access);
+  // Without a name (O_TMPFILE), so that nothing planted can stand in its way and a creator that dies leaves nothing;
+  // where the system cannot do that, under `file_name`.NUMBER.tmp with a random number.
   static std::optional<SegmentFile> create(const std::string& file_name);
+  // Gives a new file its name; false with errno set: EEXIST, somebody else has it. Of its locks byte 0 stays, for
+  // reading.
+  bool link_as(const std::string& file_name);
+  // Takes the temporary name away, if it has one.
+  void remove_temporary();
   // Opens what a descriptor of some process has open: `path` is /proc/PID/fd/N.
   static std::optional<SegmentFile> reopen(const std::string& path, Access access);
 
@@ -36,24 +44,11 @@ class SegmentFile {
   std::uint64_t size() const { return region_.get_size(); }
 
  private:
-  class Descriptor {
-   public:
-    explicit Descriptor(int number = -1) : number_(number) {}
-    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-    Descriptor& operator=(Descriptor&& other) noexcept;
-    ~Descriptor();
-    int number() const { return number_; }
+  SegmentFile(file::Descriptor descriptor, Access access) : descriptor_(std::move(descriptor)), access_(access) {}
+  int descriptor() const { return descriptor_.number(); }
 
-   private:
-    int number_;
-  };
-
-  SegmentFile(boost::interprocess::shared_memory_object object, Access access);
-  SegmentFile(Descriptor reopened, Access access);
-  int descriptor() const { return reopened_.number() >= 0 ? reopened_.number() : object_.get_mapping_handle().handle; }
-
-  boost::interprocess::shared_memory_object object_;  // opened by its name, else
-  Descriptor reopened_;                               // without one
+  file::Descriptor descriptor_;
+  std::string temporary_;  // its name until it is linked; empty: it has none
   boost::interprocess::mapped_region region_;
   Access access_;
 };

@@ -1,12 +1,13 @@
 // yars config check | print | convert: what a configuration file says, what can be said in one, and old ones as GUF.
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "config/convert.hpp"
 #include "config/load.hpp"
 #include "config/print.hpp"
+#include "databuffer/installed_file.hpp"
+#include "lib/file/new_file.hpp"
 #include "tools/command.hpp"
 
 namespace yars::tools {
@@ -49,13 +50,6 @@ void print(const ConfigOptions& options, const CommonOptions& common) {
   std::fputs(text.c_str(), stdout);
 }
 
-void write_file(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file << text;
-  file.close();
-  if (!file) throw CommandFailed{path + ": expected a file that can be written, found that it cannot", 1};
-}
-
 void convert(const ConfigOptions& options, const CommonOptions& common) {
   const std::string& file = chosen_file(options, common);
   if (file.empty()) throw CommandFailed{"yars config convert: expected a file, found none; name one", 2};
@@ -68,8 +62,8 @@ void convert(const ConfigOptions& options, const CommonOptions& common) {
   for (const std::string& warning : converted->warnings) std::fprintf(stderr, "%s\n", warning.c_str());
   if (options.out.empty()) {
     std::fputs(converted->text.c_str(), stdout);
-  } else {
-    write_file(options.out, converted->text);
+  } else if (const auto written = file::write_file(options.out, converted->text); !written) {
+    give_up(written.error());
   }
 }
 
@@ -79,13 +73,16 @@ void add_config_command(CLI::App& app, const CommonOptions& common) {
   auto* command = app.add_subcommand("config", "check, print and convert configurations");
   command->require_subcommand(1);
   const auto options = std::make_shared<ConfigOptions>();
+  // As --config finds it.
+  const auto installed = [](const std::string& name) { return databuffer::installed_file(name); };
 
   auto* check_command = command->add_subcommand("check", "say whether a file is valid, and what in it is not used");
-  check_command->add_option("file", options->file, "GUF file; else that of --config");
+  check_command->add_option("file", options->file, "GUF file; else that of --config")->transform(installed);
   check_command->callback([options, &common] { check(*options, common); });
 
   auto* print_command = command->add_subcommand("print", "the whole configuration that a file makes, as GUF");
   auto* file = print_command->add_option("file", options->file, "GUF file; else that of --config, else the defaults");
+  file->transform(installed);
   auto* defaults =
       print_command->add_flag("--defaults", options->defaults, "explain every slot: position, kind, range, default");
   auto* markdown = print_command->add_flag("--markdown", options->markdown, "the slots of every form as tables");
@@ -93,7 +90,7 @@ void add_config_command(CLI::App& app, const CommonOptions& common) {
   print_command->callback([options, &common] { print(*options, common); });
 
   auto* convert_command = command->add_subcommand("convert", "messages and old spellings of 1996 as GUF of today");
-  convert_command->add_option("file", options->file, "the file; else that of --config");
+  convert_command->add_option("file", options->file, "the file; else that of --config")->transform(installed);
   convert_command->add_option("--out", options->out, "the GUF file to write; else standard output");
   convert_command->callback([options, &common] { convert(*options, common); });
 }

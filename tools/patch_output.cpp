@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
+#include <span>
 
 #include "databuffer/program.hpp"
+#include "lib/file/new_file.hpp"
 #include "lib/imageio/png.hpp"
 #include "model/terrain/gdal/map_writer.hpp"
 #include "model/terrain/gdal/raster.hpp"
@@ -20,11 +21,8 @@ namespace gdal = model::terrain::gdal;
 namespace hrm = model::hrm;
 
 void write_floats(const std::string& out, const hrm::MapImage& image) {
-  std::ofstream file(out, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(image.power.data()),
-             static_cast<std::streamsize>(image.power.size() * sizeof(float)));
-  file.flush();
-  if (!file) give_up({out, "a file that can be written", "an error", "check the folder and the space left"});
+  const auto written = file::write_file(out, std::as_bytes(std::span(image.power.data(), image.power.size())));
+  if (!written) give_up(written.error());
 }
 
 // The map's plane keeps distance and bearing from the aircraft: the plane of the file about it, turned by the bearing

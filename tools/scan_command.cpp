@@ -5,14 +5,15 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "config/load.hpp"
 #include "databuffer/program.hpp"
+#include "lib/file/new_file.hpp"
 #include "lib/imageio/png.hpp"
 #include "lib/radar/fidelity_preset.hpp"
 #include "model/kernel/offline_scan.hpp"
@@ -85,7 +86,7 @@ model::kernel::ScanRequest request_of(const ScanOptions& options) {
   return request;
 }
 
-void write_csv(std::ofstream& file, std::span<const databuffer::Sweep> sweeps) {
+void write_csv(std::ostream& file, std::span<const databuffer::Sweep> sweeps) {
   file << "sweep,azimuth_left_deg,azimuth_right_deg,range_m,hash,video...\n";
   file.precision(12);
   for (const databuffer::Sweep& sweep : sweeps) {
@@ -97,7 +98,7 @@ void write_csv(std::ofstream& file, std::span<const databuffer::Sweep> sweeps) {
 }
 
 // Rows of little-endian floats, one sweep a row, video 0 to 255.
-void write_floats(std::ofstream& file, std::span<const databuffer::Sweep> sweeps) {
+void write_floats(std::ostream& file, std::span<const databuffer::Sweep> sweeps) {
   for (const databuffer::Sweep& sweep : sweeps) {
     for (std::uint32_t i = 0; i < sweep.samples; ++i) {
       const auto level = static_cast<float>(sweep.video[i]);
@@ -106,9 +107,8 @@ void write_floats(std::ofstream& file, std::span<const databuffer::Sweep> sweeps
   }
 }
 
-void close_whole(std::ofstream& file, const std::string& name) {
-  file.flush();
-  if (!file) give_up({name, "a file that can be written", "an error", "check the folder and the space left"});
+void write_whole(const std::string& path, const std::ostringstream& text) {
+  if (const auto written = file::write_file(path, text.view()); !written) give_up(written.error());
 }
 
 void write_result(const ScanOptions& options, const radar::ViewConfiguration& view,
@@ -119,13 +119,13 @@ void write_result(const ScanOptions& options, const radar::ViewConfiguration& vi
     if (auto written = imageio::write_png(path, scan_picture(sweeps, view, color)); !written) give_up(written.error());
     return;
   }
-  std::ofstream file(path, std::ios::binary);
+  std::ostringstream file;
   if (path.extension() == ".csv") {
     write_csv(file, sweeps);
   } else {
     write_floats(file, sweeps);
   }
-  close_whole(file, options.out);
+  write_whole(options.out, file);
 }
 
 void check_output(const ScanOptions& options) {
@@ -207,9 +207,9 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   line["hash"] = model::kernel::scan_hash(work.sweeps());
   if (!options.out.empty()) write_result(options, configuration.view, work.sweeps());
   if (!options.shadow.empty()) {
-    std::ofstream file(options.shadow);
+    std::ostringstream file;
     write_shadow(file, work.places(), trade::ray_samples(configuration, work.places(), *terrain));
-    close_whole(file, options.shadow);
+    write_whole(options.shadow, file);
   }
   std::printf("%s\n", line.dump().c_str());
 }

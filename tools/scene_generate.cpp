@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
+#include "lib/file/new_file.hpp"
 #include "model/scene/generator.hpp"
 #include "model/scene/scene_source.hpp"
-#include "model/terrain/whole_file_writer.hpp"
 #include "tools/command.hpp"
 #include "tools/progress.hpp"
 #include "tools/scene_commands.hpp"
@@ -37,7 +37,7 @@ void generate(const Options& options) {
   const GeneratedScene made =
       generate_scene(order, [&](std::uint64_t triangles) { progress.done(std::to_string(triangles) + " triangles"); });
   const std::filesystem::path path = std::filesystem::absolute(options.out);
-  if (const auto written = model::terrain::write_whole_file(path, made.file); !written) give_up(written.error());
+  if (const auto written = file::write_file_and_folders(path, made.file); !written) give_up(written.error());
   std::printf("%s  %s of %llu triangles, %zu bytes\n", options.out.c_str(), options.kind.c_str(),
               static_cast<unsigned long long>(made.triangles), made.file.size());
 }

@@ -4,12 +4,12 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "config/load.hpp"
 #include "databuffer/program.hpp"
+#include "lib/file/new_file.hpp"
 #include "lib/imageio/png.hpp"
 #include "lib/radar/fidelity_preset.hpp"
 #include "model/terrain/directory_index.hpp"
@@ -36,13 +36,6 @@ nlohmann::ordered_json json_of(const trade::TradeTable& table) {
     all["points"].push_back(std::move(point));
   }
   return all;
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.flush();
-  if (!file) give_up({path, "a file that can be written", "an error", "check the folder and the space left"});
 }
 
 }  // namespace
@@ -88,7 +81,9 @@ std::vector<trade::Contender> contenders_of(const TradeOptions& options, trade::
 }
 
 void write_trade(const TradeOptions& options, const trade::TradeTable& table, const trade::Front& front) {
-  if (!options.csv.empty()) write_text(options.csv, trade::csv_text(table));
+  if (!options.csv.empty()) {
+    if (auto written = file::write_file(options.csv, trade::csv_text(table)); !written) give_up(written.error());
+  }
   if (!options.out.empty()) {
     if (auto written = imageio::write_png(options.out, trade::front_picture(table, front)); !written)
       give_up(written.error());

@@ -1,5 +1,6 @@
 // The `yars` command: one program, many subcommands; each runs while the command line is parsed.
 #include "databuffer/program.hpp"
+#include "databuffer/terminal_guard.hpp"
 #include "tools/command.hpp"
 
 namespace {
@@ -25,6 +26,7 @@ void add_commands(CLI::App& app, const tools::CommonOptions& common) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  databuffer::guard_terminal();
   CLI::App app("YARS: an open air-to-ground radar simulation", "yars");
   app.require_subcommand(1);
   app.fallthrough();
@@ -41,6 +43,7 @@ int main(int argc, char** argv) {
     common.config = options.config;
   });
   add_commands(app, common);
+  databuffer::require_finite_numbers(app);
   try {
     app.parse(argc, argv);
     return 0;

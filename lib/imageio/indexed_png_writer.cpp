@@ -1,19 +1,15 @@
 #include <png.h>
 
 #include <cstdio>
-#include <memory>
 #include <string>
 
 #include "lib/failure/require.hpp"
+#include "lib/file/new_file.hpp"
 #include "lib/imageio/indexed_png.hpp"
 
 namespace yars::imageio {
 
 namespace {
-
-struct Closer {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
 
 void keep_message(png_structp png, png_const_charp message) {
   *static_cast<std::string*>(png_get_error_ptr(png)) = message;
@@ -47,24 +43,17 @@ failure::Expected<void> write_indexed_png(const std::filesystem::path& path, con
   YARS_REQUIRE(image.pixels.size(), ==, static_cast<std::size_t>(image.width) * image.height);
   YARS_REQUIRE(image.palette.size(), >=, 1U);
   YARS_REQUIRE(image.palette.size(), <=, 256U);
-  const std::string beside = path.string() + ".tmp";
+  auto file = file::NewFile::create(path);
+  if (!file) return tl::unexpected(file.error());
   std::string message = "a failed write";
-  std::unique_ptr<std::FILE, Closer> file(std::fopen(beside.c_str(), "wb"));
-  bool written = false;
-  if (file) {
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, keep_message, ignore_warning);
-    png_infop info = png_create_info_struct(png);
-    written = put_image(png, info, file.get(), image);
-    png_destroy_write_struct(&png, &info);
-    written = std::fclose(file.release()) == 0 && written;
-  }
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, keep_message, ignore_warning);
+  png_infop info = png_create_info_struct(png);
+  const bool written = put_image(png, info, file->stream(), image);
+  png_destroy_write_struct(&png, &info);
   if (!written)
     return failure::fail(path.string(), "a PNG file to be written", message,
                          "check the folder and the space on the disk");
-  std::error_code code;
-  std::filesystem::rename(beside, path, code);
-  if (code) return failure::fail(path.string(), "a file that can be replaced", code.message());
-  return {};
+  return file->finish();
 }
 
 }  // namespace yars::imageio

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "lib/failure/require.hpp"
 
@@ -21,6 +22,12 @@ png_uint_32 format_of(int channels) {
 }  // namespace
 
 failure::Expected<void> write_png(const std::filesystem::path& path, const Image& image) {
+  auto file = file::NewFile::create(path);
+  if (!file) return tl::unexpected(file.error());
+  return write_png(std::move(*file), image);
+}
+
+failure::Expected<void> write_png(file::NewFile file, const Image& image) {
   YARS_REQUIRE(image.pixels.size(), ==, static_cast<std::size_t>(image.width) * image.height * image.channels);
   png_image png;
   std::memset(&png, 0, sizeof png);
@@ -28,15 +35,10 @@ failure::Expected<void> write_png(const std::filesystem::path& path, const Image
   png.width = static_cast<png_uint_32>(image.width);
   png.height = static_cast<png_uint_32>(image.height);
   png.format = format_of(image.channels);
-  // Written beside and renamed, so that whoever watches the folder never reads half a picture.
-  const std::string beside = path.string() + ".tmp";
-  if (png_image_write_to_file(&png, beside.c_str(), 0, image.pixels.data(), 0, nullptr) == 0)
-    return failure::fail(path.string(), "a PNG file to be written", png.message,
+  if (png_image_write_to_stdio(&png, file.stream(), 0, image.pixels.data(), 0, nullptr) == 0)
+    return failure::fail(file.shown(), "a PNG file to be written", png.message,
                          "check the folder and the space on the disk");
-  std::error_code code;
-  std::filesystem::rename(beside, path, code);
-  if (code) return failure::fail(path.string(), "a file that can be replaced", code.message());
-  return {};
+  return file.finish();
 }
 
 failure::Expected<Image> read_png(const std::filesystem::path& path) {

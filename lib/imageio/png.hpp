@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lib/failure/error.hpp"
+#include "lib/file/new_file.hpp"
 
 namespace yars::imageio {
 
@@ -17,7 +18,9 @@ struct Image {
   std::vector<std::uint8_t> pixels;
 };
 
+// An error: the file cannot be written (lib/file/new_file.hpp).
 failure::Expected<void> write_png(const std::filesystem::path& path, const Image& image);
+failure::Expected<void> write_png(file::NewFile file, const Image& image);
 failure::Expected<Image> read_png(const std::filesystem::path& path);
 
 }  // namespace yars::imageio

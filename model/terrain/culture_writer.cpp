@@ -1,8 +1,8 @@
 #include "model/terrain/culture_writer.hpp"
 
 #include <algorithm>
-#include <system_error>
 
+#include "lib/file/folder.hpp"
 #include "lib/imageio/indexed_png.hpp"
 
 namespace yars::model::terrain {
@@ -32,9 +32,7 @@ std::array<std::uint8_t, 3> material_colour(std::uint8_t code) {
 }
 
 failure::Expected<void> write_culture(const std::filesystem::path& path, const Culture& culture) {
-  std::error_code code;
-  std::filesystem::create_directories(path.parent_path(), code);
-  if (code) return failure::fail(path.parent_path().string(), "a folder that can be made", code.message());
+  if (auto folder = file::Folder::make(path.parent_path()); !folder) return tl::unexpected(folder.error());
   imageio::IndexedImage image{culture.columns(), culture.rows(), {}, {}};
   for (std::uint8_t material = 0; material <= kLargestMaterial; ++material)
     image.palette.push_back(material_colour(material));

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "lib/failure/require.hpp"
+#include "lib/file/new_file.hpp"
 #include "model/terrain/dted_format.hpp"
-#include "model/terrain/whole_file_writer.hpp"
 
 namespace yars::model::terrain {
 
@@ -118,7 +118,7 @@ std::vector<std::byte> dted_bytes(const Cell& cell, int level) {
 }
 
 failure::Expected<std::filesystem::path> write_dted(const std::filesystem::path& tree, const Cell& cell, int level) {
-  return write_whole_file(tree / dted_name(cell.place(), level), dted_bytes(cell, level));
+  return file::write_file_and_folders(tree / dted_name(cell.place(), level), dted_bytes(cell, level));
 }
 
 }  // namespace yars::model::terrain

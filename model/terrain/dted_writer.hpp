@@ -14,7 +14,7 @@ namespace yars::model::terrain {
 
 std::vector<std::byte> dted_bytes(const Cell& cell, int level);
 
-// `tree`/wLLL/nBB.dtN, written as whole_file_writer.hpp says.
+// `tree`/wLLL/nBB.dtN, written as lib/file/new_file.hpp says; folders are made.
 failure::Expected<std::filesystem::path> write_dted(const std::filesystem::path& tree, const Cell& cell, int level);
 
 // Below a tree: "w122/n36.dt1".

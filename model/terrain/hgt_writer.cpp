@@ -5,8 +5,8 @@
 #include <cstdlib>
 
 #include "lib/failure/require.hpp"
+#include "lib/file/new_file.hpp"
 #include "model/terrain/hgt_reader.hpp"
-#include "model/terrain/whole_file_writer.hpp"
 
 namespace yars::model::terrain {
 
@@ -34,7 +34,7 @@ std::vector<std::byte> hgt_bytes(const Cell& cell) {
 }
 
 failure::Expected<std::filesystem::path> write_hgt(const std::filesystem::path& tree, const Cell& cell) {
-  return write_whole_file(tree / hgt_name(cell.place()), hgt_bytes(cell));
+  return file::write_file_and_folders(tree / hgt_name(cell.place()), hgt_bytes(cell));
 }
 
 }  // namespace yars::model::terrain

@@ -14,7 +14,7 @@ namespace yars::model::terrain {
 
 std::vector<std::byte> hgt_bytes(const Cell& cell);
 
-// `tree`/N36W122.hgt, written as whole_file_writer.hpp says.
+// `tree`/N36W122.hgt, written as lib/file/new_file.hpp says; folders are made.
 failure::Expected<std::filesystem::path> write_hgt(const std::filesystem::path& tree, const Cell& cell);
 
 // "N36W122.hgt"

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "lib/file/new_file.hpp"
 #include "model/terrain/dted_writer.hpp"
 #include "model/terrain/jpeg2000.hpp"
 #include "model/terrain/pack_side.hpp"
 #include "model/terrain/reduce.hpp"
 #include "model/terrain/void_fill.hpp"
-#include "model/terrain/whole_file_writer.hpp"
 
 namespace yars::model::terrain {
 
@@ -47,9 +47,9 @@ failure::Expected<std::filesystem::path> write_pack(const std::filesystem::path&
   const auto packed = pack_cell(cell);
   if (!packed) return tl::unexpected(packed.error());
   const std::filesystem::path path = tree / pack_name(cell.place());
-  const auto side = write_whole_file(std::filesystem::path(path).replace_extension(".side"), packed->side);
+  const auto side = file::write_file_and_folders(std::filesystem::path(path).replace_extension(".side"), packed->side);
   if (!side) return tl::unexpected(side.error());
-  return write_whole_file(path, packed->jp2);
+  return file::write_file_and_folders(path, packed->jp2);
 }
 
 }  // namespace yars::model::terrain

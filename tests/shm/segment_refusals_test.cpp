@@ -5,6 +5,7 @@
 #include <sys/mount.h>
 #include <sys/stat.h>
 
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +16,7 @@
 
 #include "shm/creation_step.hpp"
 #include "shm/segment.hpp"
+#include "tests/file/refused_call.hpp"
 #include "tests/shm/child_process.hpp"
 #include "tests/shm/segment_fixture.hpp"
 
@@ -102,7 +104,65 @@ TEST_F(SegmentTest, AReaderSeesEverythingLocksNothingAndCannotWrite) {
   EXPECT_EQ(mark_in(const_cast<void*>(std::as_const(*reader).memory())), kMark) << "but may finish reading";
 }
 
+// Somebody else, or this user by mistake, put it where the segment has to lie.
+TEST_F(SegmentTest, WhatIsPlantedAtItsNameIsNamed) {
+  const std::string path = segment_path(name_);
+  const auto refusals = [&] {
+    const auto participant = open();
+    const auto reader = Segment::open_read_only(name_, kLayout);
+    return std::array{participant ? "" : participant.error().message(), reader ? "" : reader.error().message()};
+  };
+  const auto expect_named = [&](const std::string& kind) {
+    for (const std::string& message : refusals()) {
+      EXPECT_NE(message.find(path), std::string::npos) << message;
+      EXPECT_NE(message.find("found " + kind), std::string::npos) << message;
+    }
+    ASSERT_EQ(remove(path.c_str()), 0);
+  };
+  const std::string me = " of user " + std::to_string(geteuid());
+  ASSERT_EQ(mkfifo(path.c_str(), 0666), 0);
+  expect_named("a pipe" + me);
+  ASSERT_EQ(mkdir(path.c_str(), 0777), 0);
+  expect_named("a folder" + me);
+  std::filesystem::create_symlink("/etc/passwd", path);
+  expect_named("a link" + me);
+  std::ofstream(path) << "bait";
+  if (chown(path.c_str(), 65533, 65533) != 0) GTEST_SKIP() << "chown needs root";
+  expect_named("a file of user 65533");
+}
+
+// Names like those that a creator might take for a while.
+TEST_F(SegmentTest, WhatIsPlantedBesideItsNameDeniesNothing) {
+  const std::string building = segment_path(name_) + "." + std::to_string(getpid()) + ".tmp";
+  const auto make = std::to_array<int (*)(const char*)>(
+      {[](const char* path) { return mkfifo(path, 0666); }, [](const char* path) { return mkdir(path, 0777); },
+       [](const char* path) { return symlink("/etc/passwd", path); }});
+  for (const auto& plant : make) {
+    ASSERT_EQ(plant(building.c_str()), 0);
+    const auto segment = open();
+    EXPECT_TRUE(segment) << segment.error().message();
+    ASSERT_EQ(remove(building.c_str()), 0) << "nobody touches it";
+  }
+}
+
 constexpr int kNotPermitted = 77;
+
+// A system without O_TMPFILE.
+TEST_F(SegmentTest, WithoutNamelessFilesItIsBuiltUnderARandomName) {
+  ChildProcess child([&] {
+    if (!test::refuse_nameless_files()) return kNotPermitted;
+    const auto segment = open();
+    if (!segment || !segment->created()) return 1;
+    if (files_of(name_).size() != 1) return 2;
+    std::filesystem::remove(segment_path(name_));
+    const auto again = open();
+    return again && !again->created() ? 0 : 3;
+  });
+  const int code = child.wait();
+  if (code == kNotPermitted) GTEST_SKIP() << "no filters of system calls here";
+  EXPECT_EQ(code, 0);
+  EXPECT_TRUE(files_of(name_).empty());
+}
 
 TEST_F(SegmentTest, AFullDevShmIsAnErrorAndLeavesNothing) {
   ChildProcess child([&] {
@@ -139,8 +199,7 @@ TEST_F(SegmentTest, RoomThatOthersGiveBackIsWaitedFor) {
     std::ofstream("/dev/shm/another") << std::string(1 << 20, ' ');
     static int unlinked = 0;
     creation_step = [](const char* what) {
-      if (std::string_view(what) == "temporary unlinked" && ++unlinked == 3)
-        std::filesystem::remove("/dev/shm/another");
+      if (std::string_view(what) == "temporary removed" && ++unlinked == 3) std::filesystem::remove("/dev/shm/another");
     };
     const auto segment = open();
     creation_step = nullptr;

@@ -6,11 +6,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "lib/failure/error.hpp"
+#include "lib/file/new_file.hpp"
 #include "tools/recording/block_builder.hpp"
 #include "tools/recording/recorded_kinds.hpp"
 #include "tools/recording/recording_header.hpp"
@@ -38,11 +39,12 @@ class RecordingWriter {
   std::uint64_t bytes() const { return bytes_; }  // in the file
 
  private:
+  RecordingWriter(std::filesystem::path path, file::NewFile file) : path_(std::move(path)), file_(std::move(file)) {}
   failure::Expected<void> append(const RecordedKind& kind, const RecordParts& parts, std::optional<std::int64_t> tick);
   failure::Expected<void> write(const std::vector<std::byte>& bytes);
 
   std::filesystem::path path_;
-  std::ofstream file_;
+  file::NewFile file_;
   BlockBuilder block_;
   Packer packer_;
   std::vector<IndexEntry> blocks_;

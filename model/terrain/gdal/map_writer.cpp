@@ -1,14 +1,18 @@
 #include "model/terrain/gdal/map_writer.hpp"
 
+#include <cpl_vsi.h>
 #include <ogr_srs_api.h>
 
 #include <array>
+#include <atomic>
 #include <cstdio>
 #include <limits>
 #include <memory>
-#include <system_error>
+#include <span>
+#include <string>
 #include <type_traits>
 
+#include "lib/file/new_file.hpp"
 #include "model/terrain/gdal/open_raster.hpp"
 
 namespace yars::model::terrain::gdal {
@@ -19,6 +23,27 @@ struct DestroyReference {
   void operator()(OGRSpatialReferenceH reference) const { OSRDestroySpatialReference(reference); }
 };
 using Reference = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>, DestroyReference>;
+
+// File in GDAL's memory, which the library would otherwise open by name; gone with the object.
+class MemoryFile {
+ public:
+  MemoryFile() {
+    static std::atomic<int> count{0};
+    name_ = "/vsimem/yars_map_" + std::to_string(++count) + ".tif";
+  }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  ~MemoryFile() { VSIUnlink(name_.c_str()); }
+  const std::string& name() const { return name_; }
+  std::span<const std::byte> bytes() const {
+    vsi_l_offset size = 0;
+    const GByte* first = VSIGetMemFileBuffer(name_.c_str(), &size, FALSE);
+    return std::as_bytes(std::span(first, first == nullptr ? 0 : static_cast<std::size_t>(size)));
+  }
+
+ private:
+  std::string name_;
+};
 
 Reference plane_about(double latitude_deg, double longitude_deg) {
   Reference plane(OSRNewSpatialReference(nullptr));
@@ -55,19 +80,15 @@ failure::Expected<void> write_map(const std::filesystem::path& path, const MapPi
   const MessageKeeper messages;
   GDALDriverH const driver = GDALGetDriverByName("GTiff");
   const bool bytes = std::holds_alternative<std::vector<std::uint8_t>>(picture.pixels);
-  const std::filesystem::path absolute = std::filesystem::absolute(path);
+  const MemoryFile memory;
   std::array<const char*, 2> creation{"COMPRESS=DEFLATE", nullptr};
-  Dataset dataset(driver != nullptr ? GDALCreate(driver, absolute.c_str(), picture.columns, picture.rows, 1,
+  Dataset dataset(driver != nullptr ? GDALCreate(driver, memory.name().c_str(), picture.columns, picture.rows, 1,
                                                  bytes ? GDT_Byte : GDT_Float32, const_cast<char**>(creation.data()))
                                     : nullptr);
-  const bool created = dataset != nullptr;
-  const bool filled = created && fill(dataset.get(), picture);
+  const bool filled = dataset != nullptr && fill(dataset.get(), picture);
   dataset.reset();  // what is buffered is written at the latest by this
-  if (filled && messages.first_or("").empty()) return {};
-  std::error_code ignored;
-  if (created && std::filesystem::is_regular_file(absolute, ignored)) std::filesystem::remove(absolute, ignored);
-  return failure::fail(path.string(), "a file that can be written", messages.first_or("a failure of GDAL"),
-                       "check the folder and the space left");
+  if (filled && messages.first_or("").empty()) return file::write_file(path, memory.bytes());
+  return failure::fail(path.string(), "a GeoTIFF that can be made", messages.first_or("a failure of GDAL"));
 }
 
 }  // namespace yars::model::terrain::gdal

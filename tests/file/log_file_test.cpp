@@ -1,0 +1,81 @@
+#include "lib/file/log_file.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/security/folder.hpp"
+
+namespace yars::file {
+namespace {
+
+using test::refusal_of;
+using ::testing::HasSubstr;
+
+constexpr LogFile::Limits kLimits{10, 2};
+
+class LogFileTest : public test::SecureFolder {
+ protected:
+  failure::Expected<LogFile> open() const {
+    auto folder = Folder::make_private(folder_ / "logs");
+    if (!folder) return tl::unexpected(folder.error());
+    return LogFile::open(std::move(*folder), "role", kLimits);
+  }
+};
+
+TEST_F(LogFileTest, ItIsContinuedAndSetAsideWhenItIsFull) {
+  ASSERT_TRUE(open()->append("one\n"));
+  auto log = open();
+  ASSERT_TRUE(log);
+  ASSERT_TRUE(log->append("two\n"));
+  EXPECT_EQ(content_of(folder_ / "logs/role.log"), "one\ntwo\n");
+  for (const char* line : {"three\n", "fourfour\n", "fivefive\n"}) ASSERT_TRUE(log->append(line));
+  EXPECT_EQ(content_of(folder_ / "logs/role.log"), "fivefive\n");
+  EXPECT_EQ(content_of(folder_ / "logs/role.1.log"), "fourfour\n");
+  EXPECT_EQ(content_of(folder_ / "logs/role.2.log"), "three\n");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "logs/role.3.log"));
+  EXPECT_EQ(mode_of(folder_ / "logs/role.log"), 0600U);
+}
+
+TEST_F(LogFileTest, NothingPlantedAtItsNameIsWrittenTo) {
+  const auto victim = write("victim", "keep this");
+  const auto name = link("logs/role.log", victim);
+  EXPECT_THAT(refusal_of(open()), HasSubstr("found a link"));
+  std::filesystem::remove(name);
+  std::filesystem::create_hard_link(victim, name);
+  EXPECT_THAT(refusal_of(open()), HasSubstr("found a file with 2 names"));
+  std::filesystem::remove(name);
+  fifo("logs/role.log");
+  EXPECT_THAT(refusal_of(open()), HasSubstr("found a pipe"));
+  std::filesystem::remove(name);
+  std::filesystem::create_directory(name);
+  EXPECT_THAT(refusal_of(open()), HasSubstr("found a folder"));
+  EXPECT_EQ(content_of(victim), "keep this");
+}
+
+TEST_F(LogFileTest, AnotherUsersFileIsNotContinued) {
+  const auto name = write("logs/role.log", "bait");
+  if (chown(name.c_str(), 65533, 65533) != 0) GTEST_SKIP() << "chown needs root";
+  EXPECT_THAT(refusal_of(open()), HasSubstr("found a file of user 65533"));
+  EXPECT_EQ(content_of(name), "bait");
+}
+
+TEST_F(LogFileTest, LinksPlantedWhereOldLogsGoAreReplaced) {
+  const auto victim = write("victim", "keep this");
+  link("logs/role.1.log", victim);
+  auto log = open();
+  ASSERT_TRUE(log);
+  ASSERT_TRUE(log->append("12345678\n"));
+  ASSERT_TRUE(log->append("next\n"));
+  EXPECT_EQ(content_of(victim), "keep this");
+  EXPECT_EQ(content_of(folder_ / "logs/role.1.log"), "12345678\n");
+}
+
+TEST_F(LogFileTest, AFolderPlantedWhereOldLogsGoLetsNoLogGrow) {
+  std::filesystem::create_directories(folder_ / "logs/role.1.log/x");
+  auto log = open();
+  ASSERT_TRUE(log);
+  for (int i = 0; i < 100; ++i) ASSERT_TRUE(log->append("12345678\n"));
+  EXPECT_EQ(content_of(folder_ / "logs/role.log"), "12345678\n");
+}
+
+}  // namespace
+}  // namespace yars::file

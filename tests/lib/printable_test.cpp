@@ -1,0 +1,51 @@
+#include "lib/failure/printable.hpp"
+
+#include <gtest/gtest.h>
+
+#include "lib/failure/error.hpp"
+
+namespace yars::failure {
+namespace {
+
+TEST(Printable, TextWithoutControlCharactersStays) {
+  for (const char* text : {"", "plain", "Zürich 東京 🛩", "a\\b"}) EXPECT_EQ(printable(text), text);
+}
+
+TEST(Printable, ControlCharactersAreEscaped) {
+  EXPECT_EQ(printable("\x1b[31mred\x07"), "\\x1b[31mred\\x07");
+  EXPECT_EQ(printable("a\nb\tc\r\x7f"), "a\\nb\\tc\\x0d\\x7f");
+  EXPECT_EQ(printable(std::string_view("\0", 1)), "\\x00");
+  EXPECT_EQ(printable("\u009b31m"), "\\xc2\\x9b31m") << "the control sequence introducer of ISO 6429 in one character";
+  EXPECT_EQ(printable("a\u202eb"), "a\\xe2\\x80\\xaeb") << "right to left";
+}
+
+TEST(Printable, BytesThatAreNoUtf8AreEscaped) {
+  EXPECT_EQ(printable("\x9b"
+                      "31m"),
+            "\\x9b31m");
+  EXPECT_EQ(printable("\xc3"), "\\xc3");
+  EXPECT_EQ(printable("\xc0\x9b"), "\\xc0\\x9b") << "a longer spelling";
+  EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80") << "half of a pair";
+  EXPECT_EQ(printable("\xf8\x88\x80\x80\x80"), "\\xf8\\x88\\x80\\x80\\x80");
+}
+
+TEST(Printable, LinesMayStayLines) {
+  EXPECT_EQ(printable_lines("a\n\tb\x1b"), "a\n\tb\\x1b");
+}
+
+TEST(Printable, ACharacterMayBeUnfinishedAtTheEnd) {
+  EXPECT_EQ(unfinished_bytes("abc"), 0U);
+  EXPECT_EQ(unfinished_bytes("ab\xc3"), 1U);
+  EXPECT_EQ(unfinished_bytes("ab\xe6\x9d"), 2U);
+  EXPECT_EQ(unfinished_bytes("ab\xf0\x9f\x9b"), 3U);
+  EXPECT_EQ(unfinished_bytes("東"), 0U);
+  EXPECT_EQ(unfinished_bytes("\x80\x80\x80"), 0U);
+}
+
+TEST(Printable, AnErrorIsOneLineWhateverAFileIsCalled) {
+  const Error error{"evil\n\x1b[2J.dt1", "a cell", "none", "", false};
+  EXPECT_EQ(error.message(), "evil\\n\\x1b[2J.dt1: expected a cell, found none");
+}
+
+}  // namespace
+}  // namespace yars::failure
