@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""The default terrain of scripts/start is whole or made again, whoever starts at once and whoever is stopped.
+
+usage: terrain_cache_test.py
+The script runs as it is installed, with programs that stand in for the real ones: `yars` makes 14 small cells, slowly.
+"""
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+HOME = pathlib.Path(__file__).resolve().parents[2]
+YARS = """#!/bin/bash
+[ "$1 $2" = "terrain generate" ] || exit 1
+echo started >>"$YARS_TEST_COUNT"
+mkdir -p "$4/w122"
+for cell in {1..14}; do sleep "${YARS_TEST_PAUSE:-0}"; echo "cell $cell" >"$4/w122/n$cell.dt1"; done
+"""
+WATCHDOG_S = 60
+
+
+class Place:
+    """An installation with a cache of its own."""
+
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        self.terrain = self.folder / "cache/yars/terrain"
+        self.count = self.folder / "count"
+        for name, text in (("bin/yars", YARS), ("libexec/yars/supervise", "#!/bin/sh\necho the set runs\n")):
+            path = self.folder / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+            path.chmod(0o755)
+        shutil.copy(HOME / "scripts/start", self.folder / "bin/yars-start")
+
+    def start(self, pause="0"):
+        environment = dict(os.environ, XDG_CACHE_HOME=str(self.folder / "cache"), YARS_TEST_COUNT=str(self.count),
+                           YARS_TEST_PAUSE=pause)
+        return subprocess.Popen([self.folder / "bin/yars-start", "--headless", "1", "--log-dir", "", "--frames",
+                                 str(self.folder / "frames")], env=environment, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, text=True, start_new_session=True)
+
+    def run(self):
+        process = self.start()
+        text = process.communicate(timeout=WATCHDOG_S)[0]
+        assert process.returncode == 0 and "the set runs" in text, text
+        return text
+
+    def made(self):
+        return len(self.count.read_text().split()) if self.count.exists() else 0
+
+    def check_whole(self):
+        cells = sorted(self.terrain.glob("w122/*.dt1"))
+        assert len(cells) == 14, cells
+        left = sorted(path.name for path in self.terrain.parent.iterdir())
+        assert left == ["terrain", "terrain.lock"], left
+
+
+def wait_for(condition):
+    deadline = time.monotonic() + WATCHDOG_S
+    while not condition():
+        assert time.monotonic() < deadline, "nothing happened"
+        time.sleep(0.01)
+
+
+def is_made_once(place):
+    place.run()
+    place.check_whole()
+    place.run()
+    assert place.made() == 1, place.made()
+
+
+def two_at_once_and_the_maker_is_stopped(place):
+    maker = place.start(pause="0.3")
+    wait_for(lambda: len(list(place.terrain.parent.glob("terrain.making.*/w122/*"))) >= 3)
+    second = place.start()
+    # The second one waits, or would; then somebody presses Ctrl-C in the first one's terminal.
+    time.sleep(0.5)
+    os.killpg(maker.pid, signal.SIGINT)
+    assert maker.wait(WATCHDOG_S) != 0
+    text = second.communicate(timeout=WATCHDOG_S)[0]
+    assert second.returncode == 0 and "the set runs" in text, text
+    place.check_whole()
+
+
+def two_at_once_make_it_once(place):
+    both = [place.start(pause="0.1"), place.start(pause="0.1")]
+    for process in both:
+        text = process.communicate(timeout=WATCHDOG_S)[0]
+        assert process.returncode == 0, text
+    assert place.made() == 1, place.made()
+    place.check_whole()
+
+
+def a_killed_maker_leaves_nothing_that_is_used(place):
+    maker = place.start(pause="0.3")
+    wait_for(lambda: len(list(place.terrain.parent.glob("terrain.making.*/w122/*"))) >= 3)
+    os.killpg(maker.pid, signal.SIGKILL)
+    maker.wait(WATCHDOG_S)
+    assert not place.terrain.exists()
+    place.run()
+    place.check_whole()
+
+
+def what_is_broken_is_made_again(place):
+    place.run()
+    generator = (place.terrain / "complete").read_text().splitlines()[0]
+    # As a start of an earlier version left it: marked, with 6 cells.
+    for cell in range(7, 15):
+        (place.terrain / f"w122/n{cell}.dt1").unlink()
+    (place.terrain / "complete").write_text(generator + "\n")
+    place.run()
+    place.check_whole()
+    breaks = [lambda cell: cell.write_text("cell"), lambda cell: cell.write_text("cell x"), lambda cell: cell.unlink(),
+              lambda cell: (place.terrain / "w122/n99.dt1").write_text("no cell of its own")]
+    for number, damage in enumerate(breaks):
+        damage(place.terrain / "w122/n3.dt1")
+        place.run()
+        place.check_whole()
+        assert place.made() == 3 + number, place.made()
+
+
+def main():
+    for test in (is_made_once, two_at_once_make_it_once, two_at_once_and_the_maker_is_stopped,
+                 a_killed_maker_leaves_nothing_that_is_used, what_is_broken_is_made_again):
+        with tempfile.TemporaryDirectory() as folder:
+            test(Place(folder))
+        print(f"{test.__name__}: ok", flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
