@@ -21,6 +21,7 @@
 #include "model/scene/scene_store.hpp"
 #include "model/terrain/open_terrain.hpp"
 #include "tools/command.hpp"
+#include "tools/radar_limits.hpp"
 #include "tools/scan_picture.hpp"
 #include "tools/scan_shadow.hpp"
 
@@ -40,6 +41,7 @@ struct ScanOptions {
   double time_s = 0.0;
   std::string band = "A";
   std::int64_t seed = -1;
+  bool force = false;
 };
 
 double milliseconds_since(std::chrono::steady_clock::time_point begin) {
@@ -182,6 +184,8 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   check_output(options);
   const radar::RadarConfiguration configuration = configure(common, options);
   const model::kernel::ScanRequest request = request_of(options);
+  if (!options.force)
+    if (const auto problem = beyond_gimbal(request.elevation, request.width, configuration.antenna)) give_up(*problem);
   const auto opening = std::chrono::steady_clock::now();
   auto store = model::terrain::open_terrain(configuration.terrain);
   if (!store) give_up(store.error());
@@ -197,6 +201,9 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   const auto scene = *scenes ? (*scenes)->prepare(region) : nullptr;
   print_problems((*store)->take_problems());
   if (*scenes) print_problems((*scenes)->take_problems());
+  if (!options.force)
+    if (const auto problem = beneath_ground(request.pose.altitude, terrain->elevation_m(request.pose.place)))
+      give_up(*problem);
   const Times times = run_scans(work, {*terrain, scene.get()}, options.repeat, begin);
 
   nlohmann::ordered_json line = summary(work.sweeps(), times, index_ms);
@@ -231,6 +238,7 @@ void add_scan_command(CLI::App& app, const CommonOptions& common) {
   command->add_option("--scan-width", options->width_deg, "[deg]")->check(CLI::Range(1.0, 120.0));
   command->add_option("--elevation", options->elevation_deg, "[deg] of the antenna, against the horizon")
       ->check(CLI::Range(-60.0, 60.0));
+  command->add_flag("--force", options->force, "beyond the gimbal and from below the ground, too");
   command->add_option("--fidelity", options->fidelity, "preset (else the configuration's)")
       ->check(CLI::IsMember(std::vector<std::string>(radar::fidelity_names().begin(), radar::fidelity_names().end())));
   command->add_option("--samples", options->samples, "a sweep")->check(CLI::Range(1, radar::kMaxSamples));
