@@ -217,7 +217,8 @@ void add_patch_command(CLI::App& app, const CommonOptions& common) {
   command->add_option("--seed", options->seed, "of the noise")->check(CLI::NonNegativeNumber);
   command->add_option("--repeat", options->repeat, "warm maps to time; the first comes on top")
       ->check(CLI::Range(1, 1000000));
-  command->add_option("--out", options->output.file, "file: .png, .tif (georeferenced) or .f32");
+  command->add_option("--out", options->output.file,
+                      "file: .png, .tif (georeferenced) or .f32 (power: little-endian floats, rows from the far edge)");
   command->add_option("--pixels", options->output.pixels, "of a .tif: video (8 bits) or power (32-bit float)")
       ->check(CLI::IsMember({"video", "power"}));
   command->callback([options, &common] { patch(common, *options); });

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include "databuffer/program.hpp"
@@ -11,6 +10,7 @@
 #include "model/terrain/gdal/map_writer.hpp"
 #include "model/terrain/gdal/raster.hpp"
 #include "tools/command.hpp"
+#include "tools/float_file.hpp"
 
 namespace yars::tools {
 
@@ -18,14 +18,6 @@ namespace {
 
 namespace gdal = model::terrain::gdal;
 namespace hrm = model::hrm;
-
-void write_floats(const std::string& out, const hrm::MapImage& image) {
-  std::ofstream file(out, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(image.power.data()),
-             static_cast<std::streamsize>(image.power.size() * sizeof(float)));
-  file.flush();
-  if (!file) give_up({out, "a file that can be written", "an error", "check the folder and the space left"});
-}
 
 // The map's plane keeps distance and bearing from the aircraft: the plane of the file about it, turned by the bearing
 // of the map's middle.
@@ -75,7 +67,10 @@ void check_patch_output(const PatchOutput& output) {
 
 void write_patch(const PatchOutput& output, const hrm::PatchOrder& order, const hrm::PatchProcess& process) {
   const std::filesystem::path path(output.file);
-  if (path.extension() == ".f32") return write_floats(output.file, process.image());
+  if (path.extension() == ".f32") {
+    if (auto written = write_floats(path, process.image().power); !written) give_up(written.error());
+    return;
+  }
   if (path.extension() == ".tif") return write_raster(output, order, process);
   imageio::Image picture{process.image().size, process.image().size, 1, process.picture()};
   if (auto written = imageio::write_png(path, picture); !written) give_up(written.error());

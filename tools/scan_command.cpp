@@ -21,6 +21,7 @@
 #include "model/scene/scene_store.hpp"
 #include "model/terrain/open_terrain.hpp"
 #include "tools/command.hpp"
+#include "tools/float_file.hpp"
 #include "tools/radar_limits.hpp"
 #include "tools/scan_picture.hpp"
 #include "tools/scan_shadow.hpp"
@@ -98,35 +99,26 @@ void write_csv(std::ofstream& file, std::span<const databuffer::Sweep> sweeps) {
   }
 }
 
-// Rows of little-endian floats, one sweep a row, video 0 to 255.
-void write_floats(std::ofstream& file, std::span<const databuffer::Sweep> sweeps) {
-  for (const databuffer::Sweep& sweep : sweeps) {
-    for (std::uint32_t i = 0; i < sweep.samples; ++i) {
-      const auto level = static_cast<float>(sweep.video[i]);
-      file.write(reinterpret_cast<const char*>(&level), sizeof level);
-    }
-  }
-}
-
 void close_whole(std::ofstream& file, const std::string& name) {
   file.flush();
   if (!file) give_up({name, "a file that can be written", "an error", "check the folder and the space left"});
 }
 
 void write_result(const ScanOptions& options, const radar::ViewConfiguration& view,
-                  std::span<const databuffer::Sweep> sweeps) {
+                  const model::kernel::OfflineScan& work) {
   const std::filesystem::path path(options.out);
+  const std::span<const databuffer::Sweep> sweeps = work.sweeps();
+  if (path.extension() == ".f32") {
+    if (auto written = write_floats(path, work.power()); !written) give_up(written.error());
+    return;
+  }
   if (path.extension() == ".png") {
     const ScanColor color = options.color == "gray" ? ScanColor::gray : ScanColor::green;
     if (auto written = imageio::write_png(path, scan_picture(sweeps, view, color)); !written) give_up(written.error());
     return;
   }
   std::ofstream file(path, std::ios::binary);
-  if (path.extension() == ".csv") {
-    write_csv(file, sweeps);
-  } else {
-    write_floats(file, sweeps);
-  }
+  write_csv(file, sweeps);
   close_whole(file, options.out);
 }
 
@@ -212,7 +204,7 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   line["threads"] = options.threads;
   line["fidelity"] = configuration.fidelity.name;
   line["hash"] = model::kernel::scan_hash(work.sweeps());
-  if (!options.out.empty()) write_result(options, configuration.view, work.sweeps());
+  if (!options.out.empty()) write_result(options, configuration.view, work);
   if (!options.shadow.empty()) {
     std::ofstream file(options.shadow);
     write_shadow(file, work.places(), trade::ray_samples(configuration, work.places(), *terrain));
@@ -254,7 +246,8 @@ void add_scan_command(CLI::App& app, const CommonOptions& common) {
       ->check(CLI::Range(1, 1000000));
   command->add_option("--size", options->size, "[pixels] of the picture")->check(CLI::Range(16, 8192));
   command->add_option("--color", options->color)->check(CLI::IsMember({"green", "gray"}));
-  command->add_option("--out", options->out, "file: .png, .csv or .f32");
+  command->add_option("--out", options->out,
+                      "file: .png, .csv (video) or .f32 (power: little-endian floats, a row a sweep)");
   command->add_option("--shadow", options->shadow, "file: .csv of every sample's place, height and whether it is lit");
   command->callback([options, &common] { scan(common, *options); });
 }
