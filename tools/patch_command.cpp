@@ -22,6 +22,7 @@
 #include "model/terrain/open_terrain.hpp"
 #include "tools/command.hpp"
 #include "tools/patch_output.hpp"
+#include "tools/radar_limits.hpp"
 
 namespace yars::tools {
 
@@ -34,7 +35,8 @@ struct PatchOptions {
   PatchOutput output;
   std::vector<std::string> scenes;
   double latitude_deg = 37.8, longitude_deg = -122.5, altitude_ft = 15000.0, heading_deg = 0.0, speed_kt = 480.0;
-  double target_latitude_deg = 37.8, target_longitude_deg = -122.3, window_nm = 4.7, time_s = 0.0;
+  double target_latitude_deg = 37.9, target_longitude_deg = -122.3, window_nm = 0.0, time_s = 0.0;
+  bool force = false;
   int looks = 0, size = 0, threads = 1, repeat = 1;
   std::int64_t seed = -1;
 };
@@ -72,7 +74,8 @@ hrm::PatchOrder order_of(const PatchOptions& options, const radar::RadarConfigur
   order.ground_track = geo::Bearing::degrees(options.heading_deg);
   order.ground_speed = geo::Speed::knots(options.speed_kt);
   order.centre = {options.target_latitude_deg, options.target_longitude_deg};
-  order.window = geo::Length::nautical_miles(options.window_nm);
+  order.window = geo::Length::nautical_miles(options.window_nm > 0.0 ? options.window_nm
+                                                                     : configuration.window_limits.power_up_nm);
   order.looks = options.looks > 0 ? options.looks : static_cast<int>(configuration.high_resolution.looks.front());
   order.sim_time = geo::Duration::seconds(options.time_s);
   order.map = 1;
@@ -100,20 +103,42 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-void check_geometry(const PatchOptions& options) {
-  const double distance_nm = geo::geodesic_inverse({options.latitude_deg, options.longitude_deg},
-                                                   {options.target_latitude_deg, options.target_longitude_deg})
-                                 .distance.nautical_miles();
-  if (distance_nm <= options.window_nm)
-    give_up(databuffer::usage_error("--target-lat, --target-lon", "a target farther away than the window is wide",
+// Nearer than this share of its window a map would lie under the aircraft and behind it: that cannot be forced.
+constexpr double kNearestShare = 0.75;
+
+void check_order(const hrm::PatchOrder& order, const radar::RadarConfiguration& configuration, bool force) {
+  if (!force)
+    if (const auto problem = beyond_limits(order, configuration)) give_up(*problem);
+  const double distance_nm = geo::geodesic_inverse(order.apex, order.centre).distance.nautical_miles();
+  if (distance_nm < kNearestShare * order.window.nautical_miles())
+    give_up(databuffer::usage_error("--target-lat, --target-lon", "a target away by 0.75 of the window's side or more",
                                     std::to_string(distance_nm) + " NM"));
+}
+
+void check_heights(const hrm::PatchOrder& order, const hrm::PatchDatabase& database,
+                   const radar::RadarConfiguration& configuration) {
+  if (const auto problem = beneath_ground(order.altitude, database.path->elevation_m(order.apex))) give_up(*problem);
+  const double target_ground_m = database.window->elevation_m(order.centre);
+  if (const auto problem = beyond_depression(order, target_ground_m, configuration)) give_up(*problem);
+}
+
+// A black picture looks the same whatever made it black.
+void tell_what_is_dark(const hrm::MapImage& image) {
+  const auto pixels = static_cast<double>(image.power.size());
+  const auto blind = std::count_if(image.power.begin(), image.power.end(), [](float power) { return power < 0.0F; });
+  const bool seen = std::any_of(image.power.begin(), image.power.end(), [](float power) { return power > 0.0F; });
+  if (blind > 0)
+    std::fprintf(stderr, "yars patch: %.1f %% of the window lie in the blind zone and are blank\n",
+                 100.0 * static_cast<double>(blind) / pixels);
+  if (!seen && static_cast<double>(blind) < pixels)
+    std::fprintf(stderr, "yars patch: nothing of the window is seen: it lies in shadow or beyond the horizon\n");
 }
 
 void patch(const CommonOptions& common, const PatchOptions& options) {
   check_patch_output(options.output);
-  check_geometry(options);
   const radar::RadarConfiguration configuration = configure(common, options);
   const hrm::PatchOrder order = order_of(options, configuration);
+  check_order(order, configuration, options.force);
   // Two stores: what the window needs and what the way needs are of different detail.
   auto window_store = model::terrain::open_terrain(configuration.terrain);
   if (!window_store) give_up(window_store.error());
@@ -135,6 +160,7 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
       std::fprintf(stderr, "yars patch: %s\n", problem.c_str());
   for (const std::string& problem : (*window_store)->take_problems())
     std::fprintf(stderr, "yars patch: %s\n", problem.c_str());
+  if (!options.force) check_heights(order, database, configuration);
   const double database_ms = now_ms() - begin_ms;
   std::vector<double> whole_ms;
   std::array<std::vector<double>, hrm::kPatchStages.size()> stages_ms;
@@ -156,6 +182,7 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   line["terrain_bytes"] = database.window->resident_bytes() + database.path->resident_bytes();
   line["threads"] = options.threads;
   line["fidelity"] = configuration.fidelity.name;
+  tell_what_is_dark(process.image());
   if (!options.output.file.empty()) write_patch(options.output, order, process);
   std::printf("%s\n", line.dump().c_str());
 }
@@ -177,7 +204,9 @@ void add_patch_command(CLI::App& app, const CommonOptions& common) {
   command->add_option("--target-lat", options->target_latitude_deg, "[deg] middle of the map")
       ->check(CLI::Range(-90.0, 90.0));
   command->add_option("--target-lon", options->target_longitude_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
-  command->add_option("--window-nm", options->window_nm, "[NM] edge of the map")->check(CLI::Range(0.01, 200.0));
+  command->add_option("--window-nm", options->window_nm, "[NM] edge of the map (else the configuration's at power-up)")
+      ->check(CLI::Range(0.01, 200.0));
+  command->add_flag("--force", options->force, "beyond the radar's limits too: what is blind stays blank");
   command->add_option("--looks", options->looks, "averaged (else the configuration's ML1)")->check(CLI::Range(1, 16));
   command->add_option("--fidelity", options->fidelity, "preset (else the configuration's)")
       ->check(CLI::IsMember(std::vector<std::string>(radar::fidelity_names().begin(), radar::fidelity_names().end())));
@@ -188,7 +217,8 @@ void add_patch_command(CLI::App& app, const CommonOptions& common) {
   command->add_option("--seed", options->seed, "of the noise")->check(CLI::NonNegativeNumber);
   command->add_option("--repeat", options->repeat, "warm maps to time; the first comes on top")
       ->check(CLI::Range(1, 1000000));
-  command->add_option("--out", options->output.file, "file: .png, .tif (georeferenced) or .f32");
+  command->add_option("--out", options->output.file,
+                      "file: .png, .tif (georeferenced) or .f32 (power: little-endian floats, rows from the far edge)");
   command->add_option("--pixels", options->output.pixels, "of a .tif: video (8 bits) or power (32-bit float)")
       ->check(CLI::IsMember({"video", "power"}));
   command->callback([options, &common] { patch(common, *options); });

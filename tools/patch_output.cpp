@@ -4,14 +4,13 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <span>
 
 #include "databuffer/program.hpp"
-#include "lib/file/new_file.hpp"
 #include "lib/imageio/png.hpp"
 #include "model/terrain/gdal/map_writer.hpp"
 #include "model/terrain/gdal/raster.hpp"
 #include "tools/command.hpp"
+#include "tools/float_file.hpp"
 
 namespace yars::tools {
 
@@ -19,11 +18,6 @@ namespace {
 
 namespace gdal = model::terrain::gdal;
 namespace hrm = model::hrm;
-
-void write_floats(const std::string& out, const hrm::MapImage& image) {
-  const auto written = file::write_file(out, std::as_bytes(std::span(image.power.data(), image.power.size())));
-  if (!written) give_up(written.error());
-}
 
 // The map's plane keeps distance and bearing from the aircraft: the plane of the file about it, turned by the bearing
 // of the map's middle.
@@ -73,7 +67,10 @@ void check_patch_output(const PatchOutput& output) {
 
 void write_patch(const PatchOutput& output, const hrm::PatchOrder& order, const hrm::PatchProcess& process) {
   const std::filesystem::path path(output.file);
-  if (path.extension() == ".f32") return write_floats(output.file, process.image());
+  if (path.extension() == ".f32") {
+    if (auto written = write_floats(path, process.image().power); !written) give_up(written.error());
+    return;
+  }
   if (path.extension() == ".tif") return write_raster(output, order, process);
   imageio::Image picture{process.image().size, process.image().size, 1, process.picture()};
   if (auto written = imageio::write_png(path, picture); !written) give_up(written.error());

@@ -1,4 +1,4 @@
-// What `yars patch` writes: a picture (.png), numbers (.f32: 32-bit floats row by row), or either with its place on the
+// What `yars patch` writes: a picture (.png), power (.f32: float_file.hpp), or either with its place on the
 // earth (.tif, by GDAL). Rows from the far edge. Fails as commands do.
 #pragma once
 

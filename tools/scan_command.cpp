@@ -22,6 +22,8 @@
 #include "model/scene/scene_store.hpp"
 #include "model/terrain/open_terrain.hpp"
 #include "tools/command.hpp"
+#include "tools/float_file.hpp"
+#include "tools/radar_limits.hpp"
 #include "tools/scan_picture.hpp"
 #include "tools/scan_shadow.hpp"
 
@@ -41,6 +43,7 @@ struct ScanOptions {
   double time_s = 0.0;
   std::string band = "A";
   std::int64_t seed = -1;
+  bool force = false;
 };
 
 double milliseconds_since(std::chrono::steady_clock::time_point begin) {
@@ -97,34 +100,25 @@ void write_csv(std::ostream& file, std::span<const databuffer::Sweep> sweeps) {
   }
 }
 
-// Rows of little-endian floats, one sweep a row, video 0 to 255.
-void write_floats(std::ostream& file, std::span<const databuffer::Sweep> sweeps) {
-  for (const databuffer::Sweep& sweep : sweeps) {
-    for (std::uint32_t i = 0; i < sweep.samples; ++i) {
-      const auto level = static_cast<float>(sweep.video[i]);
-      file.write(reinterpret_cast<const char*>(&level), sizeof level);
-    }
-  }
-}
-
 void write_whole(const std::string& path, const std::ostringstream& text) {
   if (const auto written = file::write_file(path, text.view()); !written) give_up(written.error());
 }
 
 void write_result(const ScanOptions& options, const radar::ViewConfiguration& view,
-                  std::span<const databuffer::Sweep> sweeps) {
+                  const model::kernel::OfflineScan& work) {
   const std::filesystem::path path(options.out);
+  const std::span<const databuffer::Sweep> sweeps = work.sweeps();
+  if (path.extension() == ".f32") {
+    if (auto written = write_floats(path, work.power()); !written) give_up(written.error());
+    return;
+  }
   if (path.extension() == ".png") {
     const ScanColor color = options.color == "gray" ? ScanColor::gray : ScanColor::green;
     if (auto written = imageio::write_png(path, scan_picture(sweeps, view, color)); !written) give_up(written.error());
     return;
   }
   std::ostringstream file;
-  if (path.extension() == ".csv") {
-    write_csv(file, sweeps);
-  } else {
-    write_floats(file, sweeps);
-  }
+  write_csv(file, sweeps);
   write_whole(options.out, file);
 }
 
@@ -182,6 +176,8 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   check_output(options);
   const radar::RadarConfiguration configuration = configure(common, options);
   const model::kernel::ScanRequest request = request_of(options);
+  if (!options.force)
+    if (const auto problem = beyond_gimbal(request.elevation, request.width, configuration.antenna)) give_up(*problem);
   const auto opening = std::chrono::steady_clock::now();
   auto store = model::terrain::open_terrain(configuration.terrain);
   if (!store) give_up(store.error());
@@ -197,6 +193,9 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   const auto scene = *scenes ? (*scenes)->prepare(region) : nullptr;
   print_problems((*store)->take_problems());
   if (*scenes) print_problems((*scenes)->take_problems());
+  if (!options.force)
+    if (const auto problem = beneath_ground(request.pose.altitude, terrain->elevation_m(request.pose.place)))
+      give_up(*problem);
   const Times times = run_scans(work, {*terrain, scene.get()}, options.repeat, begin);
 
   nlohmann::ordered_json line = summary(work.sweeps(), times, index_ms);
@@ -205,7 +204,7 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   line["threads"] = options.threads;
   line["fidelity"] = configuration.fidelity.name;
   line["hash"] = model::kernel::scan_hash(work.sweeps());
-  if (!options.out.empty()) write_result(options, configuration.view, work.sweeps());
+  if (!options.out.empty()) write_result(options, configuration.view, work);
   if (!options.shadow.empty()) {
     std::ostringstream file;
     write_shadow(file, work.places(), trade::ray_samples(configuration, work.places(), *terrain));
@@ -231,6 +230,7 @@ void add_scan_command(CLI::App& app, const CommonOptions& common) {
   command->add_option("--scan-width", options->width_deg, "[deg]")->check(CLI::Range(1.0, 120.0));
   command->add_option("--elevation", options->elevation_deg, "[deg] of the antenna, against the horizon")
       ->check(CLI::Range(-60.0, 60.0));
+  command->add_flag("--force", options->force, "beyond the gimbal and from below the ground, too");
   command->add_option("--fidelity", options->fidelity, "preset (else the configuration's)")
       ->check(CLI::IsMember(std::vector<std::string>(radar::fidelity_names().begin(), radar::fidelity_names().end())));
   command->add_option("--samples", options->samples, "a sweep")->check(CLI::Range(1, radar::kMaxSamples));
@@ -246,7 +246,8 @@ void add_scan_command(CLI::App& app, const CommonOptions& common) {
       ->check(CLI::Range(1, 1000000));
   command->add_option("--size", options->size, "[pixels] of the picture")->check(CLI::Range(16, 8192));
   command->add_option("--color", options->color)->check(CLI::IsMember({"green", "gray"}));
-  command->add_option("--out", options->out, "file: .png, .csv or .f32");
+  command->add_option("--out", options->out,
+                      "file: .png, .csv (video) or .f32 (power: little-endian floats, a row a sweep)");
   command->add_option("--shadow", options->shadow, "file: .csv of every sample's place, height and whether it is lit");
   command->callback([options, &common] { scan(common, *options); });
 }

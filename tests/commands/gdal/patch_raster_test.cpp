@@ -33,12 +33,12 @@ std::string text_of(double value) {
   return text.data();
 }
 
-// Seen from where the ground track is square to the line of sight, so that nothing is blind, unless `squint_deg` says
+// Seen from where the line of sight is well off the ground track, so that nothing is blind, unless `squint_deg` says
 // so.
 struct View {
   geo::GeoPoint aircraft, target;
   double window_nm = 0.67;
-  double squint_deg = 90.0;
+  double squint_deg = 50.0;
 };
 
 endtoend::Finished patch(const View& view, const std::filesystem::path& out,
@@ -109,7 +109,7 @@ TEST(PatchRaster, CornersAndMiddleLieWhereTheMapHasThem) {
                            View{{-16.5, 179.9}, {-16.6, -179.9}, 10.0}, View{{-35.0, 149.0}, {-36.2, 148.9}, 1.3}}) {
     SCOPED_TRACE(view.target.latitude_deg);
     const auto file = folder.path() / "map.tif";
-    const auto run = patch(view, file);
+    const auto run = patch(view, file, {"--force"});
     ASSERT_EQ(run.code, 0) << run.errors;
     const Raster raster(file);
     ASSERT_TRUE(raster.open());
@@ -177,7 +177,7 @@ TEST(PatchRaster, VideoIsBytesAndPowerIsRealsWithBlindPixelsAsNoData) {
   EXPECT_EQ(GDALGetRasterDataType(Raster(folder.path() / "video.tif").band()), GDT_Byte);
   // Flying at the target: all of it is blind.
   const auto power = folder.path() / "power.tif";
-  ASSERT_EQ(patch({view.aircraft, view.target, 3.3, 0.0}, power, {"--pixels", "power"}).code, 0);
+  ASSERT_EQ(patch({view.aircraft, view.target, 3.3, 0.0}, power, {"--pixels", "power", "--force"}).code, 0);
   const Raster raster(power);
   EXPECT_EQ(GDALGetRasterDataType(raster.band()), GDT_Float32);
   int declared = 0;

@@ -1,0 +1,158 @@
+// `yars patch` and `yars scan` beyond the limits of the radar: which one, by what numbers, and what is made when
+// forced.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "lib/geo/geodesic.hpp"
+#include "lib/imageio/png.hpp"
+#include "tests/endtoend/process_set.hpp"
+#include "tests/terrain/dted_builder.hpp"
+
+namespace yars {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr geo::GeoPoint kTarget{37.5, -121.5};
+
+std::string text_of(double value) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.9f", value);
+  return text.data();
+}
+
+// Heading north over the built-in hills; the target at a bearing and a distance.
+endtoend::Finished patch(double bearing_deg, double distance_nm, const std::vector<std::string>& more = {}) {
+  const geo::GeoPoint aircraft = geo::geodesic_direct(kTarget, geo::Bearing::degrees(bearing_deg + 180.0),
+                                                      geo::Length::nautical_miles(distance_nm));
+  // The way there leaves at the bearing only where it starts from: a tenth of a degree at these distances.
+  std::vector<std::string> command{"yars",         "patch",
+                                   "--lat",        text_of(aircraft.latitude_deg),
+                                   "--lon",        text_of(aircraft.longitude_deg),
+                                   "--target-lat", text_of(kTarget.latitude_deg),
+                                   "--target-lon", text_of(kTarget.longitude_deg),
+                                   "--size",       "64"};
+  command.insert(command.end(), more.begin(), more.end());
+  return endtoend::run_program(command);
+}
+
+TEST(PatchLimits, EachIsNamedWithItsNumbersAndWhatToDo) {
+  struct Row {
+    double bearing_deg, distance_nm;
+    std::vector<std::string> more;
+    const char *name, *limit, *found;
+  };
+  // Source: spec pvi.md rules 2 to 4.
+  const Row rows[] = {
+      {2.0, 20.0, {}, "BLIND ZONE", "at least 8 deg off the ground track", "found one 2."},
+      {-7.0, 20.0, {}, "BLIND ZONE", "at least 8 deg", "found one 7."},
+      {178.0, 20.0, {}, "BLIND ZONE", "ahead and astern", "found one 178"},
+      {75.0, 20.0, {}, "GIMBAL", "within 60 deg of the nose", "deg right of it"},
+      {-120.0, 20.0, {}, "GIMBAL", "within 60 deg of the nose", "deg left of it"},
+      {30.0, 4.0, {}, "MIN RANGE", "4.7 to 80 NM away", "found 4.00 NM"},
+      {30.0, 85.0, {}, "MAX RANGE", "4.7 to 80 NM away", "found 85.00 NM"},
+      {30.0, 25.0, {"--window-nm", "0.67"}, "MAX RANGE", "for a window of 0.67 NM a target 4.7 to 20 NM", "25.00 NM"},
+      {30.0, 16.0, {"--window-nm", "20"}, "MIN RANGE", "20 to 160 NM away", "16.00 NM"},
+      {30.0, 20.0, {"--window-nm", "5"}, "NO WINDOW", "0.67, 1.3, 3.3, 4.7, 10, 20, 40, 80 NM", "found 5 NM"},
+      {30.0, 5.0, {"--alt-ft", "70000"}, "GIMBAL", "at most 60 deg below the horizon", "deg below it"},
+      {30.0, 20.0, {"--alt-ft", "-2000"}, "--alt-ft", "above the ground", "found -2000 ft"}};
+  for (const Row& row : rows) {
+    const auto run = patch(row.bearing_deg, row.distance_nm, row.more);
+    EXPECT_EQ(run.code, 1) << row.bearing_deg << " deg " << row.distance_nm << " NM";
+    EXPECT_THAT(run.errors,
+                AllOf(HasSubstr(row.name), HasSubstr(row.limit), HasSubstr(row.found), HasSubstr("--force")));
+    EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;
+    EXPECT_EQ(run.output, "");
+    std::vector<std::string> forced = row.more;
+    forced.emplace_back("--force");
+    EXPECT_EQ(patch(row.bearing_deg, row.distance_nm, forced).code, 0) << row.name;
+  }
+}
+
+TEST(PatchLimits, TheHeadingThatIsProposedServes) {
+  for (const double bearing_deg : {3.0, -5.0, 90.0, -170.0}) {
+    const auto refused = patch(bearing_deg, 20.0);
+    ASSERT_EQ(refused.code, 1);
+    const std::size_t at = refused.errors.find("--heading ");
+    ASSERT_NE(at, std::string::npos) << refused.errors;
+    const std::string heading = refused.errors.substr(at + 10, refused.errors.find(',', at) - at - 10);
+    EXPECT_EQ(patch(bearing_deg, 20.0, {"--heading", heading}).code, 0) << heading;
+  }
+}
+
+TEST(PatchLimits, WithoutOptionsTheMapIsWithinThem) {
+  EXPECT_EQ(endtoend::run_program({"yars", "patch"}).code, 0);
+}
+
+// Another radar has other windows, and another one at power-up.
+TEST(PatchLimits, AreThoseOfTheConfiguration) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path() / "other.guf";
+  std::ofstream(file)
+      << "( Apg70 :modes `( ( SarMode :windows `( 1 2.5 ) ) ) :windowLimits ( WindowLimits :windows `( 1 2.5 ) "
+         ":least `( 5 5 ) :greatest `( 20 40 ) :blankWindows `( 2.5 ) :blankUpTo `( 30 ) :powerUp 2.5 ) )\n";
+  const auto usual = patch(30.0, 20.0, {"--config", file});
+  EXPECT_EQ(usual.code, 0) << usual.errors;
+  EXPECT_THAT(usual.output, HasSubstr("\"resolution_ft\":31.6"));  // 2.5 NM over 480
+  EXPECT_THAT(patch(30.0, 45.0, {"--config", file}).errors, HasSubstr("5 to 40 NM away, found 45.00 NM"));
+  EXPECT_THAT(patch(30.0, 20.0, {"--config", file, "--window-nm", "4.7"}).errors, HasSubstr("1, 2.5 NM, found 4.7 NM"));
+}
+
+TEST(PatchLimits, WhatIsDarkForAReasonIsSaid) {
+  EXPECT_THAT(patch(9.0, 12.0).errors, HasSubstr("% of the window lie in the blind zone and are blank"));
+  // 3000 ft over hills: the horizon is at most 67 NM away.
+  EXPECT_THAT(patch(30.0, 79.0, {"--alt-ft", "3000"}).errors,
+              HasSubstr("nothing of the window is seen: it lies in shadow or beyond the horizon"));
+  EXPECT_EQ(patch(30.0, 20.0).errors, "");
+}
+
+TEST(PatchLimits, AForcedMapIsBlankWhereItIsBlindAndHasGroundElsewhere) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path() / "map.f32";
+  // 7 degrees off the track at 12 NM: the zone's edge, 8 degrees, crosses the window.
+  ASSERT_EQ(patch(7.0, 12.0, {"--force", "--out", file}).code, 0);
+  std::ifstream in(file, std::ios::binary);
+  std::vector<float> power(64U * 64U);
+  in.read(reinterpret_cast<char*>(power.data()), static_cast<std::streamsize>(power.size() * sizeof(float)));
+  ASSERT_TRUE(in);
+  const auto blank = std::count_if(power.begin(), power.end(), [](float value) { return value < 0.0F; });
+  const auto ground = std::count_if(power.begin(), power.end(), [](float value) { return value > 0.0F; });
+  EXPECT_GT(blank, 1000);
+  EXPECT_GT(ground, 400);
+}
+
+// Source of the limit: the file itself.
+TEST(ScanLimits, TheGimbalOfTheConfigurationAndTheGroundBound) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path() / "narrow.guf";
+  std::ofstream(file) << "( Apg70 :antenna ( AntennaServo :azimuthLimits `( -40 40 ) :elevationLimits `( -30 30 ) ) "
+                         ":modes `( ( RealBeamMode :antenna ( RbmAntenna :scanWidths `( 80 50 25 ) ) ) ) )\n";
+  struct Row {
+    std::vector<std::string> options;
+    const char* message;
+  };
+  const Row rows[] = {
+      {{"--scan-width", "50", "--elevation", "-31"},
+       "--elevation: expected at most 30 deg by the configuration's gimbal, found -31 deg"},
+      {{"--scan-width", "100"}, "--scan-width: expected at most 80 deg by the configuration's gimbal, found 100 deg"},
+      {{"--scan-width", "50", "--alt-ft", "-2000"}, "--alt-ft: expected an aircraft above the ground, which is at "}};
+  for (const Row& row : rows) {
+    std::vector<std::string> command{"yars", "scan", "--config", file, "--samples", "60", "--range-nm", "10"};
+    command.insert(command.end(), row.options.begin(), row.options.end());
+    const auto run = endtoend::run_program(command);
+    EXPECT_EQ(run.code, 1) << run.output;
+    EXPECT_THAT(run.errors, HasSubstr(row.message));
+    command.emplace_back("--force");
+    EXPECT_EQ(endtoend::run_program(command).code, 0) << row.message;
+  }
+}
+
+}  // namespace
+}  // namespace yars

@@ -1,0 +1,127 @@
+#include "tools/radar_limits.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+#include "lib/radar/windows.hpp"
+#include "model/antenna/stabilization.hpp"
+#include "model/kernel/mappable.hpp"
+
+namespace yars::tools {
+
+namespace {
+
+constexpr const char* kForce = "or --force it all the same";
+constexpr double kEasyOffTrack_deg = 45.0;  // of the heading that is proposed
+
+std::string number(double value, int decimals) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+  return text.data();
+}
+
+// As short as two decimals allow: 0.67, 3.3, 80.
+std::string short_number(double value) {
+  std::string text = number(value, 2);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+std::string list_of(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + short_number(value);
+  return text;
+}
+
+model::antenna::Platform level_flight(const model::hrm::PatchOrder& order) {
+  return {order.ground_track, {}, {}, order.ground_track};
+}
+
+// A heading from which the target is off the track by an angle that every radar maps, on the side where it lies.
+std::string better_heading(const geo::GeodesicInverse& way, double off_track_deg) {
+  const double side = off_track_deg < 0.0 ? 1.0 : -1.0;
+  const geo::Bearing heading = way.azimuth_at_start + geo::Angle::degrees(side * kEasyOffTrack_deg);
+  return "give --heading " + number(std::fmod(std::round(heading.degrees()) + 360.0, 360.0), 0);
+}
+
+failure::Error blind(const geo::GeodesicInverse& way, double off_deg, const radar::RadarConfiguration& configuration) {
+  const std::string zone = short_number(configuration.high_resolution.blind_zone_deg);
+  return {"BLIND ZONE", "a target at least " + zone + " deg off the ground track, ahead and astern",
+          "one " + number(std::abs(off_deg), 1) + " deg off it", better_heading(way, off_deg) + ", " + kForce};
+}
+
+failure::Error turned(const geo::GeodesicInverse& way, double off_deg, const radar::RadarConfiguration& configuration) {
+  return {"GIMBAL", "a target within " + short_number(configuration.antenna.azimuth_limit_deg) + " deg of the nose",
+          "one " + number(std::abs(off_deg), 1) + " deg " + (off_deg < 0.0 ? "left" : "right") + " of it",
+          better_heading(way, off_deg) + ", " + kForce};
+}
+
+failure::Error out_of_range(std::string_view why, const geo::GeodesicInverse& way, geo::Length window,
+                            const radar::WindowLimits& table) {
+  const auto limits = radar::cursor_limits(window, table);
+  const std::string side = short_number(window.nautical_miles());
+  if (!limits)
+    return {std::string(why), "a window of the radar: " + list_of(table.windows_nm) + " NM", side + " NM",
+            std::string("give --window-nm one of them, ") + kForce};
+  return {std::string(why),
+          "for a window of " + side + " NM a target " + short_number(limits->least.nautical_miles()) + " to " +
+              short_number(limits->greatest.nautical_miles()) + " NM away",
+          number(way.distance.nautical_miles(), 2) + " NM",
+          std::string("move the aircraft or give another --window-nm, ") + kForce};
+}
+
+}  // namespace
+
+std::optional<failure::Error> beyond_limits(const model::hrm::PatchOrder& order,
+                                            const radar::RadarConfiguration& configuration) {
+  const auto why =
+      model::kernel::why_not_mappable(level_flight(order), order.apex, order.centre, order.window, configuration);
+  if (!why) return std::nullopt;
+  const geo::GeodesicInverse way = geo::geodesic_inverse(order.apex, order.centre);
+  const double off_deg = (way.azimuth_at_start - order.ground_track).degrees();
+  if (*why == "BLIND ZONE") return blind(way, off_deg, configuration);
+  if (*why == "GIMBAL") return turned(way, off_deg, configuration);
+  return out_of_range(*why, way, order.window, configuration.window_limits);
+}
+
+std::optional<failure::Error> beyond_depression(const model::hrm::PatchOrder& order, double target_ground_m,
+                                                const radar::RadarConfiguration& configuration) {
+  if (std::isnan(target_ground_m)) return std::nullopt;
+  const geo::GeodesicInverse way = geo::geodesic_inverse(order.apex, order.centre);
+  const geo::Angle down =
+      geo::Angle::radians(std::atan2(order.altitude.metres() - target_ground_m, way.distance.metres()));
+  // Azimuth is judged above: here only how far down the dish looks.
+  if (model::antenna::within_gimbal(level_flight(order), configuration.antenna, order.ground_track, -down))
+    return std::nullopt;
+  return failure::Error{
+      "GIMBAL",
+      "a target at most " + short_number(configuration.antenna.elevation_limit_deg) + " deg below the horizon",
+      "one " + number(down.degrees(), 1) + " deg below it", std::string("fly lower or farther away, ") + kForce};
+}
+
+std::optional<failure::Error> beyond_gimbal(geo::Angle elevation, geo::Angle width,
+                                            const radar::AntennaConfiguration& antenna) {
+  const auto broken = [](const char* option, double limit_deg, geo::Angle found) {
+    return failure::Error{option, "at most " + short_number(limit_deg) + " deg by the configuration's gimbal",
+                          short_number(found.degrees()) + " deg", kForce};
+  };
+  if (std::abs(elevation.degrees()) > antenna.elevation_limit_deg)
+    return broken("--elevation", antenna.elevation_limit_deg, elevation);
+  const double widest_deg = 2.0 * antenna.azimuth_limit_deg;
+  if (width.degrees() > widest_deg) return broken("--scan-width", widest_deg, width);
+  return std::nullopt;
+}
+
+std::optional<failure::Error> beneath_ground(geo::AltitudeMsl altitude, double ground_m) {
+  if (!(altitude.metres() < ground_m)) return std::nullopt;
+  return failure::Error{
+      "--alt-ft",
+      "an aircraft above the ground, which is at " + number(geo::Length::metres(ground_m).feet(), 0) + " ft there",
+      number(geo::Length::metres(altitude.metres()).feet(), 0) + " ft", std::string("fly higher, ") + kForce};
+}
+
+}  // namespace yars::tools
