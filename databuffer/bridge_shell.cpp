@@ -56,6 +56,7 @@ BridgeShell::~BridgeShell() {
 
 void BridgeShell::step(const TickLoop::Due& due) {
   if (due.new_epoch) begin_epoch(due.clock);
+  let_go_of_the_silent();
   ask();
   receive();
   if (traffic_claim_) publish_traffic(due);
@@ -90,14 +91,29 @@ void BridgeShell::take(bridges::Bytes datagram, const bridges::Sender& from, std
   const bool one_sender = !source_.bridge->hears_many();
   if (one_sender && !gate_.admits(from, now))
     return refuse(source_.name + ": expected packets of one sender, found another, " + text_of(from), now);
+  source_.bridge->hears_from(from);
   const auto sample = source_.bridge->receive(datagram, now);
   if (const auto news = source_.bridge->take_news()) log_info(*news);
   if (!sample) return refuse(sample.error().message(), now);
   if (!*sample) return;
   if (gate_.taken(from, now) && one_sender) log_info("hears " + source_.name + " from " + text_of(from));
+  if (source_.asks) hold_to_who_answers(from);
   flight_.receive(**sample, now);
   if (flight_.jumps() == std::exchange(jumps_told_, flight_.jumps())) return;
   log_info(source_.name + " put the aircraft elsewhere");
+}
+
+void BridgeShell::hold_to_who_answers(const bridges::Sender& from) {
+  answered_ns_ = latest_ns_;
+  if (!std::exchange(holds_, true)) socket_.hear_only(from);
+}
+
+// It may come back by another port.
+void BridgeShell::let_go_of_the_silent() {
+  constexpr std::int64_t kSilence_ns = 5'000'000'000;
+  if (!holds_ || monotonic_ns() - answered_ns_ < kSilence_ns) return;
+  socket_.hear_all();
+  holds_ = false;
 }
 
 void BridgeShell::refuse(const std::string& reason, geo::Duration now) {

@@ -41,6 +41,8 @@ class BridgeShell {
   void ask();
   void receive();
   void take(bridges::Bytes datagram, const bridges::Sender& from, std::int64_t received_ns);
+  void hold_to_who_answers(const bridges::Sender& from);
+  void let_go_of_the_silent();
   void refuse(const std::string& reason, geo::Duration now);
   void tell_losses();
   void tell_presence(bool heard);
@@ -56,7 +58,9 @@ class BridgeShell {
   bridges::SenderGate gate_;
   bridges::RefusalNotes refusals_;
   std::uint64_t dropped_told_ = 0;
-  std::int64_t latest_ns_ = 0;  // CLOCK_MONOTONIC of the newest packet: time does not go back for the flight
+  std::int64_t latest_ns_ = 0;    // CLOCK_MONOTONIC of the newest packet: time does not go back for the flight
+  bool holds_ = false;            // the socket hears the one that answered alone
+  std::int64_t answered_ns_ = 0;  // CLOCK_MONOTONIC of its newest packet
   int jumps_told_ = 0;
   bool heard_ = false;
   std::int64_t next_publish_tick_ = 0;

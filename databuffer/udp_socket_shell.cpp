@@ -186,6 +186,21 @@ void UdpSocket::receive(std::size_t most, const Taker& take) {
   }
 }
 
+// A connected socket still sends to whom it is told.
+void UdpSocket::hear_only(const Sender& sender) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(sender.address);
+  address.sin_port = htons(sender.port);
+  connect(state_->descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+}
+
+void UdpSocket::hear_all() {
+  sockaddr nobody{};
+  nobody.sa_family = AF_UNSPEC;
+  connect(state_->descriptor, &nobody, sizeof nobody);
+}
+
 bool UdpSocket::send(std::span<const std::byte> datagram) {
   const auto sent = sendto(state_->descriptor, datagram.data(), datagram.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
                            reinterpret_cast<const sockaddr*>(&state_->peer), sizeof state_->peer);

@@ -28,6 +28,11 @@ class UdpSocket {
   UdpSocket(UdpSocket&&) noexcept;
   ~UdpSocket();
 
+  // Hears this sender alone from now on, or again all of the host asked; the rest does not even reach the queue. Where
+  // it sends to stays: X-Plane answers from another port than it is asked at.
+  void hear_only(const bridges::Sender& sender);
+  void hear_all();
+
   // Takes up to `most` datagrams, oldest first; `received_ns` is CLOCK_MONOTONIC.
   using Taker = std::function<void(bridges::Bytes datagram, const bridges::Sender& from, std::int64_t received_ns)>;
   void receive(std::size_t most, const Taker& take);

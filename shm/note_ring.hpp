@@ -1,7 +1,8 @@
 // The last N lines that any process wrote; many writers, none waits, each line belongs to one writer. A writer that
-// dies loses its own line only. A writer that was stopped while the ring went round spoils the line it wakes up in:
-// a checksum tells, and that line counts as lost. Lines are numbered from 0 since the session began. Zero-filled
-// memory is the empty ring.
+// dies loses its own line only. A writer that was stopped while the ring went round gives its line up and counts it:
+// each word is exchanged against the one found while the slot was still its own. Where a newer writer has put the same
+// word meanwhile, the exchange passes and that line is spoilt: a checksum tells. Lines are numbered from 0 since the
+// session began. Zero-filled memory is the empty ring.
 #pragma once
 
 #include <array>
@@ -15,6 +16,8 @@ class NoteRing {
  public:
   // The number that the line got.
   std::uint64_t append(const T& line);
+  // Lines that were given up because the ring had gone round meanwhile.
+  std::uint64_t lost() const { return Access::load(lost_, std::memory_order_relaxed); }
   // Lines begun since the session began.
   std::uint64_t total() const { return Access::load(total_, std::memory_order_acquire); }
   std::uint64_t oldest() const {
@@ -36,6 +39,13 @@ class NoteRing {
     std::array<AtomicWord, kWordsOf<T>> words;
   };
   using Copy = std::array<Word, kWordsOf<T>>;
+  static constexpr int kAttempts = 8;  // more only with a slot that others damage all the time
+
+  // True: the slot is this line's until a newer line takes it.
+  bool take(Slot& slot, std::uint64_t number);
+  // False: a newer line has the slot.
+  static bool put(Slot& slot, AtomicWord& word, Word value, Word own_sequence);
+  bool write(Slot& slot, std::uint64_t number, const Copy& copy);
 
   // FNV-1a over the line's number and words.
   static Word checksum_of(std::uint64_t number, const Copy& words) {
@@ -47,19 +57,49 @@ class NoteRing {
   }
 
   alignas(kCacheLine) AtomicWord total_;
+  AtomicWord lost_;  // in the rest of the line: creators of older builds have zeros there
   alignas(kCacheLine) std::array<Slot, N> slots_;
 };
+
+// A sequence that no line of this slot can have had is damage, and taken over like an older line's.
+template <Record T, std::size_t N, class Access>
+bool NoteRing<T, N, Access>::take(Slot& slot, std::uint64_t number) {
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    Word seen = Access::load(slot.sequence, std::memory_order_acquire);
+    const std::uint64_t there = (seen - 1) / 2;
+    if (seen != 0 && there > number && there < total() && there % N == number % N) return false;
+    if (Access::compare_exchange(slot.sequence, seen, 2 * number + 1, std::memory_order_acq_rel)) return true;
+  }
+  return false;
+}
+
+// The word is looked at first: who has seen a newer line's word also sees its sequence.
+template <Record T, std::size_t N, class Access>
+bool NoteRing<T, N, Access>::put(Slot& slot, AtomicWord& word, Word value, Word own_sequence) {
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    Word seen = Access::load(word, std::memory_order_acquire);
+    if (Access::load(slot.sequence, std::memory_order_acquire) != own_sequence) return false;
+    if (Access::compare_exchange(word, seen, value, std::memory_order_release)) return true;
+  }
+  return false;
+}
+
+template <Record T, std::size_t N, class Access>
+bool NoteRing<T, N, Access>::write(Slot& slot, std::uint64_t number, const Copy& copy) {
+  if (!take(slot, number)) return false;
+  Word own = 2 * number + 1;
+  if (!put(slot, slot.checksum, checksum_of(number, copy), own)) return false;
+  for (std::size_t i = 0; i < copy.size(); ++i)
+    if (!put(slot, slot.words[i], copy[i], own)) return false;
+  return Access::compare_exchange(slot.sequence, own, own + 1, std::memory_order_release);
+}
 
 template <Record T, std::size_t N, class Access>
 std::uint64_t NoteRing<T, N, Access>::append(const T& line) {
   const std::uint64_t number = Access::fetch_add(total_, 1, std::memory_order_acq_rel);
-  Slot& slot = slots_[number % N];
   Copy copy;
   std::memcpy(copy.data(), &line, sizeof(T));
-  Access::store(slot.sequence, 2 * number + 1, std::memory_order_relaxed);
-  Access::store(slot.checksum, checksum_of(number, copy), std::memory_order_release);
-  store_words<Access>(slot.words.data(), copy.data(), kWordsOf<T>);
-  Access::store(slot.sequence, 2 * number + 2, std::memory_order_release);
+  if (!write(slots_[number % N], number, copy)) Access::fetch_add(lost_, 1, std::memory_order_relaxed);
   return number;
 }
 

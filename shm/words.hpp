@@ -34,6 +34,9 @@ struct PlainAccess {
   static void store(AtomicWord& word, Word value, std::memory_order order) { word.store(value, order); }
   static Word load(const AtomicWord& word, std::memory_order order) { return word.load(order); }
   static Word fetch_add(AtomicWord& word, Word value, std::memory_order order) { return word.fetch_add(value, order); }
+  static bool compare_exchange(AtomicWord& word, Word& seen, Word value, std::memory_order order) {
+    return word.compare_exchange_strong(seen, value, order, std::memory_order_relaxed);
+  }
 };
 
 template <class T>

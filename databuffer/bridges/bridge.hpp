@@ -10,6 +10,7 @@
 #include "databuffer/bridges/byte_order.hpp"
 #include "databuffer/bridges/entity_table.hpp"
 #include "databuffer/bridges/external_sample.hpp"
+#include "databuffer/bridges/sender_gate.hpp"
 #include "lib/geo/quantity.hpp"
 
 namespace yars::databuffer::bridges {
@@ -23,6 +24,9 @@ class Bridge {
   // One datagram. Nothing: understood, but no news of the aircraft (names of columns, another entity, a part of a
   // state). An error says why it is refused.
   virtual failure::Expected<std::optional<ExternalSample>> receive(Bytes datagram, geo::Duration now) = 0;
+
+  // Who sent the datagram that receive() gets next.
+  virtual void hears_from(const Sender&) {}
 
   // To be sent to the program at this moment; called at least once a second.
   virtual std::vector<Datagram> requests(geo::Duration) { return {}; }

@@ -1,6 +1,9 @@
 // The aircraft and the traffic of a DIS exercise: one entity flies the aircraft, all others are kept as traffic. The
-// aircraft is the one named, or the first platform of the air that is heard; it stays the aircraft.
+// aircraft is the one named; else the first platform of the air that is heard, until it is deactivated or silent for
+// kEntityTimeout: then the next one that is heard.
 #pragma once
+
+#include <string_view>
 
 #include "databuffer/bridges/bridge.hpp"
 
@@ -8,7 +11,7 @@ namespace yars::databuffer::bridges {
 
 class DisBridge final : public Bridge {
  public:
-  explicit DisBridge(const std::optional<EntityId>& aircraft) : aircraft_(aircraft) {}
+  explicit DisBridge(const std::optional<EntityId>& aircraft) : aircraft_(aircraft), named_(aircraft) {}
 
   failure::Expected<std::optional<ExternalSample>> receive(Bytes datagram, geo::Duration now) override;
   bool tells_traffic() const override { return true; }
@@ -19,7 +22,11 @@ class DisBridge final : public Bridge {
   bool hears_many() const override { return true; }
 
  private:
+  void give_way(std::string_view why);
+
   std::optional<EntityId> aircraft_;
+  bool named_;           // by the user: nobody takes its place
+  geo::Duration heard_;  // of the aircraft, last
   StampOrder order_{kDisStampPeriod};
   EntityTable others_;
   std::optional<std::string> news_;

@@ -100,6 +100,20 @@ failure::Expected<JsbsimState> parse_jsbsim_line(const JsbsimColumns& columns, s
   return JsbsimState{geo::Duration::seconds(values[kTime]), *sample};
 }
 
+void JsbsimBridge::keep(const JsbsimColumns& columns) {
+  std::erase_if(labels_, [this](const Labels& labels) { return labels.sender == sender_; });
+  // Never those of the source that flies: whose line was read last.
+  const auto flies = [this](const Labels& labels) { return labels.sender == flies_; };
+  if (labels_.size() >= kMostSenders) labels_.erase(std::ranges::find_if_not(labels_, flies));
+  labels_.push_back({sender_, columns});
+}
+
+const JsbsimColumns* JsbsimBridge::columns() const {
+  const auto found = std::ranges::find(labels_, sender_, &Labels::sender);
+  if (found != labels_.end()) return &found->columns;
+  return columns_ ? &*columns_ : nullptr;
+}
+
 failure::Expected<std::optional<ExternalSample>> JsbsimBridge::receive(Bytes datagram, geo::Duration) {
   if (datagram.size() > kLongestJsbsimLine)
     return failure::fail("jsbsim", "a line of at most " + std::to_string(kLongestJsbsimLine) + " characters",
@@ -108,16 +122,18 @@ failure::Expected<std::optional<ExternalSample>> JsbsimBridge::receive(Bytes dat
   if (line.starts_with(kLabels)) {
     auto columns = parse_jsbsim_labels(line);
     if (!columns) return tl::unexpected(columns.error());
-    columns_ = *columns;
+    keep(*columns);
     return std::nullopt;
   }
-  if (!columns_)
+  const JsbsimColumns* const columns = this->columns();
+  if (columns == nullptr)
     return failure::fail("jsbsim", "a line of labels first", "a line of numbers",
                          "start flight-model before JSBSim, which sends its labels once, or name them: "
                          "jsbsim:PORT,Time,lat-geod-deg,...");
-  const auto state = parse_jsbsim_line(*columns_, line);
+  const auto state = parse_jsbsim_line(*columns, line);
   if (!state) return tl::unexpected(state.error());
   if (const auto reason = order_.why_not_news(state->time)) return failure::fail("jsbsim", "a newer line", *reason);
+  flies_ = sender_;
   return state->sample;
 }
 

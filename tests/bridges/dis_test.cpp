@@ -151,5 +151,51 @@ TEST(DisBridge, AReportComesOnceAndInOrder) {
   EXPECT_TRUE(bridge.receive(packet_of("dis/air_articulated.bin"), kNow));
 }
 
+// The same PDU of another entity, some time later.
+PacketBytes report_of(std::uint16_t entity, std::uint32_t stamp, bool deactivated = false) {
+  PacketBytes packet = packet_of("dis/air.bin");
+  put<std::uint16_t>(packet, 16, entity, std::endian::big);
+  put<std::uint32_t>(packet, 4, stamp << 1U, std::endian::big);
+  if (deactivated) put<std::uint32_t>(packet, 84, 1U << 23U, std::endian::big);
+  return packet;
+}
+
+bool flies(DisBridge& bridge, const PacketBytes& packet, geo::Duration now) {
+  const auto outcome = bridge.receive(packet, now);
+  EXPECT_TRUE(outcome) << outcome.error().message();
+  return outcome && outcome->has_value();
+}
+
+TEST(DisBridge, AnAircraftThatIsDeactivatedGivesWayToTheNextThatIsHeard) {
+  DisBridge bridge(std::nullopt);
+  EXPECT_TRUE(flies(bridge, report_of(7, 1000), kNow));
+  EXPECT_FALSE(flies(bridge, report_of(8, 1000), kNow)) << "traffic while the first flies";
+  bridge.take_news();
+  EXPECT_FALSE(flies(bridge, report_of(7, 2000, true), kNow));
+  EXPECT_THAT(bridge.take_news().value_or(""), HasSubstr("was deactivated"));
+  EXPECT_TRUE(flies(bridge, report_of(8, 2000), kNow));
+  EXPECT_THAT(bridge.take_news().value_or(""), HasSubstr("1,2,8"));
+  EXPECT_TRUE(bridge.traffic(kNow).empty()) << "it is no traffic any more";
+}
+
+TEST(DisBridge, AnAircraftThatIsSilentForTwelveSecondsGivesWay) {
+  DisBridge bridge(std::nullopt);
+  EXPECT_TRUE(flies(bridge, report_of(7, 1000), kNow));
+  const auto later = kNow + geo::Duration::seconds(11.0);
+  EXPECT_FALSE(flies(bridge, report_of(8, 1000), later));
+  const auto too_late = kNow + geo::Duration::seconds(12.5);
+  EXPECT_TRUE(flies(bridge, report_of(8, 2000), too_late));
+  EXPECT_FALSE(flies(bridge, report_of(7, 9000), too_late)) << "who comes back is traffic";
+}
+
+TEST(DisBridge, AnAircraftThatTheUserNamedIsWaitedFor) {
+  DisBridge bridge(EntityId{1, 2, 7});
+  EXPECT_TRUE(flies(bridge, report_of(7, 1000), kNow));
+  EXPECT_FALSE(flies(bridge, report_of(7, 2000, true), kNow));
+  const auto later = kNow + geo::Duration::seconds(100.0);
+  EXPECT_FALSE(flies(bridge, report_of(8, 1000), later));
+  EXPECT_TRUE(flies(bridge, report_of(7, 90'000'000), later));
+}
+
 }  // namespace
 }  // namespace yars::databuffer::bridges

@@ -150,5 +150,43 @@ TEST(Jsbsim, BrokenLinesAreRefusedWithTheReason) {
   EXPECT_THAT(shown, HasSubstr("\"?[2J?x\"")) << "nothing that drives a terminal";
 }
 
+// A stranger's labels, sent while the source is silent, would make latitude of its longitude.
+TEST(Jsbsim, LabelsSwapNoColumnsOfAnotherSender) {
+  const Sender jsbsim{0x7f000001, 5000};
+  const Sender stranger{0x7f000001, 6000};
+  JsbsimBridge bridge;
+  bridge.hears_from(jsbsim);
+  sample_from(bridge, kLabels);
+  const auto lines = lines_of(text_of_packet("jsbsim/flight.txt"));
+  const auto before = sample_from(bridge, lines[1]);
+  ASSERT_TRUE(before);
+  bridge.hears_from(stranger);
+  sample_from(bridge,
+              "<LABELS> ,Time,phi-deg,long-gc-deg,h-sl-ft,lat-geod-deg,theta-deg,psi-deg,v-north-fps,v-east-fps,"
+              "v-down-fps");
+  bridge.hears_from(jsbsim);
+  const auto after = sample_from(bridge, lines[2]);
+  ASSERT_TRUE(after);
+  EXPECT_NEAR(after->ownship.latitude_deg, before->ownship.latitude_deg, 0.01);
+  EXPECT_NEAR(after->ownship.roll_deg, before->ownship.roll_deg, 5.0);
+  bridge.hears_from({0x7f000001, 7000});
+  EXPECT_THAT(refusal_from(bridge, lines[3]), HasSubstr("labels first")) << "nobody's labels are everybody's";
+}
+
+TEST(Jsbsim, AFloodOfSendersWithLabelsPushesOutNobodyWhoFlies) {
+  const Sender jsbsim{0x7f000001, 5000};
+  JsbsimBridge bridge;
+  bridge.hears_from(jsbsim);
+  sample_from(bridge, kLabels);
+  const auto lines = lines_of(text_of_packet("jsbsim/flight.txt"));
+  ASSERT_TRUE(sample_from(bridge, lines[1]));
+  for (std::uint16_t port = 6000; port < 6100; ++port) {
+    bridge.hears_from({0x7f000001, port});
+    sample_from(bridge, kLabels);
+  }
+  bridge.hears_from(jsbsim);
+  EXPECT_TRUE(sample_from(bridge, lines[2]));
+}
+
 }  // namespace
 }  // namespace yars::databuffer::bridges

@@ -27,21 +27,30 @@ struct HookedAccess {
     if (left == 0) throw WriterKilled{};
     --left;
   }
-  static void store(AtomicWord& word, Word value, std::memory_order order) {
-    spend();
-    word.store(value, order);
-  }
-  static Word load(const AtomicWord& word, std::memory_order order) {
+  static void let_others_in() {
     if (interruption && (loads_before == 0 || --loads_before == 0)) {
       auto action = std::exchange(interruption, nullptr);
       action();
       if (interrupt_always) interruption = std::move(action);
     }
+  }
+  static void store(AtomicWord& word, Word value, std::memory_order order) {
+    spend();
+    word.store(value, order);
+  }
+  static Word load(const AtomicWord& word, std::memory_order order) {
+    let_others_in();
     return word.load(order);
   }
   static Word fetch_add(AtomicWord& word, Word value, std::memory_order order) {
     spend();
     return word.fetch_add(value, order);
+  }
+  // Also a moment at which others may come in: between what was seen and the exchange.
+  static bool compare_exchange(AtomicWord& word, Word& seen, Word value, std::memory_order order) {
+    spend();
+    let_others_in();
+    return word.compare_exchange_strong(seen, value, order, std::memory_order_relaxed);
   }
 };
 

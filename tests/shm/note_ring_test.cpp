@@ -70,30 +70,56 @@ TEST(NoteRing, AReaderInterruptedAtAnyLoadGetsAWholeLineOrNone) {
   }
 }
 
-// One slot, so that the second writer meets the first where it stopped; then the first wakes up and goes on.
-TEST(NoteRing, ALineSpoiltByAWriterThatWakesUpLateCountsAsLost) {
+// A writer is stopped at each of its looks and exchanges, the ring goes round, and it wakes up again.
+TEST(NoteRing, AWriterThatWakesUpLateGivesItsLineUpAndCountsIt) {
+  constexpr std::uint64_t kOthers = 14;
+  long stopped_at = 1;
+  for (bool stopped = true; stopped; ++stopped_at) {
+    SharedMemory<Ring> ring;
+    for (std::uint64_t n = 0; n < 12; ++n) ring->append(Record::make(n));
+    stopped = testing::interrupted_at(
+        stopped_at,
+        [&] {
+          for (std::uint64_t n = 0; n < kOthers; ++n) ring->append(Record::make(100 + n));
+        },
+        [&] { EXPECT_EQ(ring->append(Record::make(500)), 12u); });
+    if (!stopped) break;
+    EXPECT_EQ(ring->total(), 12 + 1 + kOthers);
+    for (std::uint64_t line = ring->oldest(); line < ring->total(); ++line)
+      EXPECT_TRUE(has_line(*ring, line, 100 + line - 13)) << line << ", stopped at " << stopped_at;
+    EXPECT_EQ(ring->lost(), 1u) << stopped_at;
+  }
+  EXPECT_GT(stopped_at, 2 + 3 * 6) << "sequence, checksum and 5 words, each seen and exchanged, sequence";
+}
+
+// The one case that no exchange tells: a newer line has the same word in that place. Its checksum tells.
+TEST(NoteRing, ALineThatIsSpoiltAllTheSameIsNotRead) {
   using SmallRing = NoteRing<Record, 1, HookedAccess>;
   constexpr std::size_t kSlotWords = SmallRing::slot_stride() / sizeof(Word);
-  const auto slot_of = [](SmallRing& of) {
-    return reinterpret_cast<AtomicWord*>(reinterpret_cast<std::byte*>(&of) + SmallRing::slots_offset());
-  };
-  // Stores of an append: the total, the slot's words in order (sequence odd first), the sequence again.
-  const auto has_line_two = [](const SmallRing& ring) {
-    Record out{};
-    return ring.read(1, out) && out.number == 2 && out.is_whole();
-  };
-  for (std::size_t stopped_at = 1; stopped_at < kSlotWords; ++stopped_at) {
-    SharedMemory<SmallRing> ring, first_writer;
-    first_writer->append(Record::make(1));
-    survives(1 + static_cast<long>(stopped_at), [&] { ring->append(Record::make(1)); });
+  for (std::size_t spoilt = 1; spoilt < kSlotWords; ++spoilt) {
+    SharedMemory<SmallRing> ring;
+    ring->append(Record::make(1));
     ring->append(Record::make(2));
-    EXPECT_TRUE(has_line_two(*ring)) << "the second writer's line is whole so far";
-    for (std::size_t i = stopped_at; i < kSlotWords; ++i) {
-      slot_of(*ring)[i].store(slot_of(*first_writer)[i].load());
-      EXPECT_FALSE(has_line_two(*ring)) << "stopped at " << stopped_at << ", awake until " << i;
-    }
-    slot_of(*ring)[0].store(slot_of(*first_writer)[0].load());
-    EXPECT_FALSE(has_line_two(*ring));
+    auto* slot = reinterpret_cast<AtomicWord*>(reinterpret_cast<std::byte*>(&*ring) + SmallRing::slots_offset());
+    slot[spoilt] = slot[spoilt].load() + 1;
+    Record out = Record::make(12345);
+    EXPECT_FALSE(ring->read(1, out)) << spoilt;
+    EXPECT_EQ(out.number, 12345u);
+  }
+}
+
+TEST(NoteRing, ADamagedSequenceHoldsNoSlotForEver) {
+  using SmallRing = NoteRing<Record, 2, HookedAccess>;
+  for (const Word damage : {~Word{0}, ~Word{0} - 1, Word{1} << 63U, Word{1000}, Word{1001}}) {
+    SharedMemory<SmallRing> ring;
+    ring->append(Record::make(0));
+    ring->append(Record::make(1));
+    auto* slot = reinterpret_cast<AtomicWord*>(reinterpret_cast<std::byte*>(&*ring) + SmallRing::slots_offset());
+    slot[0] = damage;
+    ring->append(Record::make(2));
+    Record out{};
+    EXPECT_TRUE(ring->read(2, out) && out.number == 2) << damage;
+    EXPECT_EQ(ring->lost(), 0u) << damage;
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <memory>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -145,7 +146,9 @@ TEST(ContainersStress, LanesDeliverEverythingOnceAndInOrder) {
   EXPECT_TRUE(lanes->empty(0) && lanes->empty(1));
 }
 
-TEST(ContainersStress, NotesOfManyWritersAreWholeAndNumberedOnce) {
+// A writer that was preempted while the ring went round gives its line up and counts it; every other line of the last
+// round is there, whole, and under one number.
+TEST(ContainersStress, NotesOfManyWritersAreWholeNumberedOnceOrCountedAsLost) {
   using Ring = NoteRing<Record, 256>;
   constexpr std::uint64_t kLines = kRecords / 4;
   SharedMemory<Ring> ring;
@@ -167,9 +170,19 @@ TEST(ContainersStress, NotesOfManyWritersAreWholeAndNumberedOnce) {
         }
   });
   EXPECT_EQ(ring->total(), 3 * kLines);
+  std::uint64_t missing = 0;
+  std::set<std::uint64_t> numbers;
   Record out{};
-  for (std::uint64_t line = ring->oldest(); line < ring->total(); ++line) EXPECT_TRUE(ring->read(line, out)) << line;
-  std::printf("lines read whole while three wrote: %lu\n", whole.load());
+  for (std::uint64_t line = ring->oldest(); line < ring->total(); ++line) {
+    if (!ring->read(line, out)) {
+      ++missing;
+      continue;
+    }
+    EXPECT_TRUE(out.is_whole());
+    EXPECT_TRUE(numbers.insert(out.number).second) << out.number << " has two lines";
+  }
+  EXPECT_LE(missing, ring->lost());
+  std::printf("lines read whole while three wrote: %lu; given up by late writers: %lu\n", whole.load(), ring->lost());
 }
 
 }  // namespace

@@ -5,23 +5,33 @@
 #include <sys/mount.h>
 #include <unistd.h>
 
-#include <filesystem>
+#include <cstdio>
+#include <initializer_list>
 
 namespace yars::endtoend::storm {
 
-PrivateMemory::PrivateMemory() : before_(open("/proc/self/ns/mnt", O_RDONLY | O_CLOEXEC)) {
-  if (before_ < 0 || unshare(CLONE_NEWNS) != 0) return;
-  // Nothing that is mounted here reaches the machine.
-  if (mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) return;
+PrivateMemory::PrivateMemory()
+    : before_(open("/proc/self/ns/mnt", O_RDONLY | O_CLOEXEC)),
+      root_before_(open("/", O_PATH | O_DIRECTORY | O_CLOEXEC)),
+      here_before_(open(".", O_PATH | O_DIRECTORY | O_CLOEXEC)) {
+  if (before_ < 0 || root_before_ < 0 || here_before_ < 0 || unshare(CLONE_NEWNS) != 0) return;
+  // Nothing that is mounted here reaches the machine. The root of a chroot need not be a mount: then /dev/shm has to
+  // be.
+  if (mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 &&
+      mount("none", "/dev/shm", nullptr, MS_PRIVATE, nullptr) != 0)
+    return;
   private_ = mount("tmpfs", "/dev/shm", "tmpfs", MS_NOSUID | MS_NODEV, "size=96m,mode=1777") == 0;
 }
 
+// Joining a namespace moves root and working folder to that namespace's root, which in a chroot is another one. The
+// descriptors are of the namespace before.
 PrivateMemory::~PrivateMemory() {
-  if (before_ < 0) return;
-  // Joining a namespace moves the working folder to its root.
-  const auto here = std::filesystem::current_path();
-  if (setns(before_, CLONE_NEWNS) == 0) std::filesystem::current_path(here);
-  close(before_);
+  if (before_ >= 0 && root_before_ >= 0 && here_before_ >= 0 && setns(before_, CLONE_NEWNS) == 0) {
+    const bool is_back = fchdir(root_before_) == 0 && chroot(".") == 0 && fchdir(here_before_) == 0;
+    if (!is_back) std::perror("back to the root and the folder before the storm");
+  }
+  for (const int descriptor : {before_, root_before_, here_before_})
+    if (descriptor >= 0) close(descriptor);
 }
 
 }  // namespace yars::endtoend::storm

@@ -9,14 +9,15 @@ namespace yars::endtoend::storm {
 class PrivateMemory {
  public:
   PrivateMemory();
-  ~PrivateMemory();  // back to the namespace before; the children have ended
+  ~PrivateMemory();  // back to the namespace, the root and the folder before; the children have ended
   PrivateMemory(const PrivateMemory&) = delete;
   PrivateMemory& operator=(const PrivateMemory&) = delete;
 
   bool is_private() const { return private_; }
 
  private:
-  int before_ = -1;  // the namespace that the process came from
+  int before_;  // the namespace that the process came from
+  int root_before_, here_before_;
   bool private_ = false;
 };
 

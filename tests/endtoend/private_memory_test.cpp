@@ -1,0 +1,73 @@
+// The storm's /dev/shm of its own has to leave the process where it was, in a chroot too: scripts/check_fresh runs
+// there.
+#include "tests/endtoend/storm/private_memory.hpp"
+
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+namespace yars::endtoend::storm {
+namespace {
+
+constexpr int kNoLeave = 77;  // a step that this user may not take
+
+struct Place {
+  dev_t device;
+  ino_t file;
+  bool operator==(const Place&) const = default;
+};
+
+Place place_of(const char* path) {
+  struct stat status {};
+  return stat(path, &status) == 0 ? Place{status.st_dev, status.st_ino} : Place{};
+}
+
+// In a process of its own, as it gets lost if this goes wrong. 0: it came back to the chroot's root and folder.
+int come_back_in_a_chroot(const std::filesystem::path& folder) {
+  if (unshare(CLONE_NEWNS) != 0 || mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) return kNoLeave;
+  if (mount("tmpfs", folder.c_str(), "tmpfs", 0, "size=1m") != 0) return kNoLeave;
+  std::filesystem::create_directories(folder / "proc");
+  std::filesystem::create_directories(folder / "dev" / "shm");
+  std::filesystem::create_directories(folder / "work");
+  if (mount("/proc", (folder / "proc").c_str(), nullptr, MS_BIND | MS_REC, nullptr) != 0 ||
+      mount("tmpfs", (folder / "dev/shm").c_str(), "tmpfs", 0, "size=1m") != 0)
+    return kNoLeave;
+  if (chroot(folder.c_str()) != 0 || chdir("/work") != 0) return kNoLeave;
+  const Place root = place_of("/");
+  const Place here = place_of(".");
+  const Place shared = place_of("/dev/shm");
+  {
+    PrivateMemory memory;
+    if (!memory.is_private() || place_of("/dev/shm") == shared) return 1;
+  }
+  if (!(place_of("/") == root)) return 2;
+  if (!(place_of(".") == here)) return 3;
+  return place_of("/dev/shm") == shared ? 0 : 4;
+}
+
+TEST(PrivateMemory, LeavesTheProcessAtTheRootAndInTheFolderOfItsChroot) {
+  std::string name = std::filesystem::temp_directory_path() / "yars-chroot-XXXXXX";
+  ASSERT_NE(mkdtemp(name.data()), nullptr);
+  const pid_t child = fork();
+  if (child == 0) {
+    try {
+      _exit(come_back_in_a_chroot(name));
+    } catch (...) {
+      _exit(5);
+    }
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  std::filesystem::remove(name);
+  ASSERT_TRUE(WIFEXITED(status));
+  if (WEXITSTATUS(status) == kNoLeave) GTEST_SKIP() << "takes root";
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+}  // namespace
+}  // namespace yars::endtoend::storm
