@@ -22,8 +22,9 @@ TEXTS = [
     ["yars", "patch", "--target-lat", "1", "--target-lon", "1", "--scene", "a.flt@1,2,N"],
     ["yars", "scene", "generate", "--out", "a.flt", "--origin", "N,1"],
     ["yars", "scene", "generate", "--out", "a.flt", "--origin", "1,N"],
-    ["yars", "trade", "--knob", "range_interpolation=N"], ["yars", "trade", "--knob", "samples=N"],
-    ["yars", "trade", "scene", "--scene", "N,1,15000,0,40"], ["yars", "trade", "maps", "--view", "1,1,15000,1,N,0.67"],
+    ["yars", "trade", "--knob", "postsPerSample=N"], ["yars", "trade", "--knob", "samples=N"],
+    ["yars", "trade", "--scene", "N,1,15000,0,40"], ["yars", "trade", "--scene", "1,1,15000,0,N"],
+    ["yars", "trade", "maps", "--view", "1,1,15000,1,N,0.67"],
     ["yars", "inject", "tdc N 0"], ["yars", "inject", "tdc 0 N"], ["yars", "inject", "elevation N"],
     ["yars", "inject", "pb N"], ["yars", "inject", "nav error mn N 0"], ["yars", "inject", "nav drift ins 0 N"],
     ["flight-model", "--source", "fixed:N,1,1,1,1"], ["flight-model", "--source", "fixed:1,N,1,1,1"],
@@ -50,14 +51,18 @@ def run(arguments):
 
 
 def number_entries(command):
-    """(command, option) for each option of a number, () for an argument; then those of the commands below."""
+    """(command, option, how many numbers) for each option of a number; the arguments of a command are one entry without
+    an option; then those of the commands below."""
     text = run(command + ["--help"]).stdout
+    arguments = 0
     for line in text.splitlines():
-        found = re.match(r"  (?:(-\S+)|(\S+)) (?:FLOAT|INT|UINT)\b", line)
+        found = re.match(r"  (?:(-\S+)|(\S+)) (?:FLOAT|INT|UINT)\b\S*(?: in \[[^]]*\])?(?: x (\d+))?", line)
         if found and found[1]:
-            yield command, [name for name in found[1].split(",") if name.startswith("--")][0]
+            yield command, [name for name in found[1].split(",") if name.startswith("--")][0], int(found[3] or 1)
         elif found:
-            yield command, None
+            arguments += 1
+    if arguments:
+        yield command, None, arguments
     below = re.search(r"^Subcommands:\n((?:  .*\n?)*)", text, re.M)
     for name in re.findall(r"^  (\S+)", below[1] if below else "", re.M):
         yield from number_entries(command + [name])
@@ -66,15 +71,18 @@ def number_entries(command):
 def problem_of(done, named, value):
     if done.returncode != 2:
         return f"expected exit code 2, found {done.returncode}: {done.stderr.strip()[-300:]}"
-    if value not in done.stderr or (named and named.lstrip("-") not in done.stderr):
+    if (not value.startswith("-") and value not in done.stderr) or (named and named.lstrip("-") not in done.stderr):
         return f"expected a message that names {named} and {value}, found {done.stderr.strip()[-300:]}"
     return None
 
 
 def try_option(case):
-    (command, option), value = case
-    word = f"{option}={value}" if option else value
-    return " ".join(command + [word]), problem_of(run(command + [word]), option, value)
+    (command, option, count), value = case
+    # A second value with a sign would pass for an option; it is bad usage, too.
+    words = ([option] if option and not value.startswith("-") else []) + [value] * count
+    if option and value.startswith("-"):
+        words = [f"{option}={value}"] + words[1:]
+    return " ".join(command + words), problem_of(run(command + words), option, value)
 
 
 def try_text(case):
