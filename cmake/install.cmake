@@ -38,11 +38,12 @@ foreach(example IN LISTS examples)
 endforeach()
 install(DIRECTORY ${PROJECT_BINARY_DIR}/install/examples DESTINATION ${documents})
 
-# compressed(SOURCE NAME DESTINATION): a file as man and Debian want it.
+# compressed(SOURCE NAME DESTINATION): a file as man and Debian want it. Made while configuring: who builds the programs
+# alone, as scripts/start does, can install them.
 function(compressed source name destination)
   set(packed ${PROJECT_BINARY_DIR}/install/${name}.gz)
-  add_custom_command(OUTPUT ${packed} COMMAND gzip --best --no-name --stdout ${source} > ${packed} DEPENDS ${source} VERBATIM)
-  set_property(GLOBAL APPEND PROPERTY YARS_COMPRESSED ${packed})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
+  execute_process(COMMAND gzip --best --no-name --stdout ${source} OUTPUT_FILE ${packed} COMMAND_ERROR_IS_FATAL ANY)
   install(FILES ${packed} DESTINATION ${destination})
 endfunction()
 file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/man/*.[15])

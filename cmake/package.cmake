@@ -28,6 +28,3 @@ string(TIMESTAMP day "%a, %d %b %Y 00:00:00 +0000" UTC)
 file(WRITE ${PROJECT_BINARY_DIR}/install/changelog_of_package
   "yars (${PROJECT_VERSION}-1) unstable; urgency=medium\n\n  * Made by CPack from YARS ${PROJECT_VERSION}.\n\n -- ${CPACK_PACKAGE_CONTACT}  ${day}\n")
 compressed(${PROJECT_BINARY_DIR}/install/changelog_of_package changelog.Debian ${documents})
-
-get_property(packed GLOBAL PROPERTY YARS_COMPRESSED)
-add_custom_target(compressed_documents ALL DEPENDS ${packed})

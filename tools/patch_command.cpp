@@ -61,7 +61,7 @@ radar::RadarConfiguration configure(const CommonOptions& common, const PatchOpti
   if (options.seed >= 0) configuration.seed = static_cast<std::uint64_t>(options.seed);
   for (const std::string& text : options.scenes) {
     auto scene = model::scene::parse_scene(text);
-    if (!scene) give_up(scene.error());
+    if (!scene) give_up(databuffer::usage_error(scene.error()));
     configuration.world.scenes.push_back(*scene);
   }
   return configuration;

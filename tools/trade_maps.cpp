@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "databuffer/program.hpp"
 #include "lib/radar/fidelity_preset.hpp"
 #include "model/scene/scene_source.hpp"
 #include "model/scene/scene_store.hpp"
@@ -169,7 +170,7 @@ void trade_off(const CommonOptions& common, const MapTradeOptions& options) {
   radar::RadarConfiguration configuration = trade_configuration(common, options);
   for (const std::string& text : options.scenes) {
     auto scene = model::scene::parse_scene(text);
-    if (!scene) give_up(scene.error());
+    if (!scene) give_up(databuffer::usage_error(scene.error()));
     configuration.world.scenes.push_back(*scene);
   }
   write_trade(options, run_trade(options, configuration),

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What docs/attach.md shows compiles: programs and parts of programs in C with warnings as errors, those in Python.
-A part is one that a function which has a session could hold. usage: attach_doc_test.py CC"""
+A part is one that a function which has a session could hold. As C99 and as C++. usage: attach_doc_test.py CC CXX"""
 import pathlib
 import re
 import subprocess
@@ -18,6 +18,15 @@ int main(void) {
 }
 """
 
+NAMES = """#include "databuffer/yars.h"
+int main(int argc, char** argv) {
+  yars_session s;
+  const int attached = argc == 2 && yars_attach(&s, argv[1], "mine") == 0;
+  puts(attached ? "attached" : s.error);
+  return 0;
+}
+"""
+
 top = pathlib.Path(__file__).resolve().parents[2]
 text = (top / "docs" / "attach.md").read_text()
 blocks = ["\n".join(line[4:] for line in block.splitlines()) + "\n"
@@ -32,8 +41,21 @@ for block in in_python:
 failed = 0
 with tempfile.TemporaryDirectory() as folder:
     for block in in_c:
-        source = pathlib.Path(folder, "mine.c")
-        source.write_text(block)
-        command = [sys.argv[1], "-Wall", "-Wextra", "-Werror", f"-I{top}", str(source), "-o", str(source.with_suffix(""))]
-        failed |= subprocess.run(command).returncode
+        # The C++ of the document's readers need not be ours: {0} leaves members out there.
+        for compiler, name, more in ((sys.argv[1], "mine.c", []),
+                                     (sys.argv[2], "mine.cpp", ["-Wno-missing-field-initializers"])):
+            source = pathlib.Path(folder, name)
+            source.write_text(block)
+            command = [compiler, "-Wall", "-Wextra", "-Werror", *more, f"-I{top}", str(source), "-o",
+                       str(source.with_suffix(""))]
+            failed |= subprocess.run(command).returncode
+    # The name of a session is a part of a path.
+    source = pathlib.Path(folder, "name.c")
+    source.write_text(NAMES)
+    subprocess.run([sys.argv[1], f"-I{top}", str(source), "-o", str(source.with_suffix(""))], check=True)
+    for name in ("../../x", "", "a/b", "a\x1b[2J", "x" * 41):
+        said = subprocess.run([source.with_suffix(""), name], capture_output=True, text=True).stdout
+        if "1 to 40 letters" not in said or "\x1b" in said:
+            print(f"yars_attach to {name!r}: expected that the name is refused, found {said!r}")
+            failed = 1
 sys.exit(failed)

@@ -79,6 +79,10 @@ class CheckLayers(unittest.TestCase):
     def test_only_readers_open_files(self):
         self.finds("statemachine/machine.hpp", "#pragma once\nstd::ifstream stream;\n", "2: reader")
 
+    def test_only_lib_file_makes_files(self):
+        for text in ("std::ofstream stream;", 'auto* file = fopen(path, "wb");', "std::filesystem::rename(a, b);"):
+            self.finds("tools/table_writer.hpp", f"#pragma once\n{text}\n", "2: writer")
+
     def test_a_comment_is_not_a_call(self):
         _, status = check({"statemachine/machine.hpp": "#pragma once\n// std::ifstream\n/* fopen\n #include <chrono> */\n"})
         self.assertEqual(status, 0)

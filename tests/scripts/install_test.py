@@ -60,6 +60,8 @@ def check(prefix, elsewhere):
     expect("no sources among the configurations", not list((share / "yars").rglob("*.?pp")))
     other_radar = run(prefix / "bin/yars", "--config", "apg68.guf", "config", "print", folder=elsewhere)
     expect("a configuration by its bare name", '"APG-68"' in other_radar.stdout, other_radar.stderr)
+    checked = run(prefix / "bin/yars", "config", "check", "apg68.guf", folder=elsewhere)
+    expect("config check finds what --config finds", checked.returncode == 0 and "valid" in checked.stdout, checked)
     absent = run(prefix / "bin/yars", "--config", "absent.guf", "config", "print", folder=elsewhere)
     expect("an absent configuration keeps its name", absent.returncode == 1 and "yars: absent.guf:" in absent.stderr, absent)
     route = run(prefix / "bin/flight-model", "--session", f"installed-{os.getpid()}", "--source", "route:default.route",
@@ -71,7 +73,19 @@ def check(prefix, elsewhere):
     expect("the example in C compiles with the installed header", compiled.returncode == 0, compiled.stderr)
 
 
+def install_without_a_build(folder):
+    """Documents and man pages need no target of their own: scripts/start builds the programs alone."""
+    build, prefix = pathlib.Path(folder, "bare"), pathlib.Path(folder, "bare_prefix")
+    configured = run(CMAKE, "-S", pathlib.Path(__file__).resolve().parents[2], "-B", build, "-DYARS_TESTS=OFF",
+                     "-G", "Ninja", folder=folder)
+    installed = run(CMAKE, "--install", build, "--component", "Unspecified", "--prefix", prefix, folder=folder)
+    expect("cmake --install before anything is built", configured.returncode == 0 and installed.returncode == 0,
+           configured.stderr + installed.stderr)
+    expect("its man pages", len(list((prefix / "share/man").rglob("*.gz"))) >= 8)
+
+
 with tempfile.TemporaryDirectory(dir=BUILD) as folder:
+    install_without_a_build(folder)
     first, moved, elsewhere = (pathlib.Path(folder, name) for name in ("first", "moved", "elsewhere"))
     elsewhere.mkdir()
     installed = run(CMAKE, "--install", BUILD, "--component", "Unspecified", "--prefix", first, folder=folder)

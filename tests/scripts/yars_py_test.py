@@ -157,6 +157,16 @@ def a_set_runs_while_a_role_is_held(session, made_up):
     same("set_runs at the end", session.set_runs(), False)
 
 
+def a_name_leads_nowhere_else():
+    for name in ("../../x", "", "a/b", "a\x1b[2J", "x" * 41):
+        try:
+            yars.Session(name)
+            faults.append(f"the session {name!r} was taken")
+        except yars.YarsError as error:
+            same(f"session {name!r}", "1 to 40 letters" in str(error) and "\x1b" not in str(error), True)
+
+
+a_name_leads_nowhere_else()
 with MadeUpSession() as made_up, yars.Session(made_up.name, "yars_py_test") as session:
     what_cannot_be_done_is_an_error(session)
     sweeps_come_once_and_the_lost_are_counted(session, made_up)

@@ -1,5 +1,6 @@
 #include "tools/recording/block_head.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "tools/recording/packing.hpp"
@@ -22,9 +23,9 @@ std::vector<std::byte> sealed(BlockHead head, std::span<const std::byte> body) {
   head.body_checksum = checksum_of(body);
   head.reserved = 0;
   head.head_checksum = checksum_of_head(head);
-  std::vector<std::byte> block(sizeof head);
+  std::vector<std::byte> block(sizeof head + body.size());
   std::memcpy(block.data(), &head, sizeof head);
-  block.insert(block.end(), body.begin(), body.end());
+  std::copy(body.begin(), body.end(), block.begin() + sizeof head);
   return block;
 }
 

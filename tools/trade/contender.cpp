@@ -102,7 +102,7 @@ std::string joined(const Names& names) {
 
 tl::unexpected<failure::Error> refuse(std::string subject, std::string expected, std::string_view found) {
   return tl::unexpected<failure::Error>(
-      failure::Error{std::move(subject), std::move(expected), "'" + std::string(found) + "'", "", true});
+      failure::Error{std::move(subject), std::move(expected), std::string("'").append(found) + "'", "", true});
 }
 
 std::vector<const Knob*> knobs_of(Subject subject) {

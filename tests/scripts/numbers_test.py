@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+"""Every number that a program takes refuses NaN and infinity.
+
+usage: numbers_test.py BIN
+Walks all programs and commands by their --help and gives each option and argument of a number `nan`, `inf`, `-inf`
+and `1e999`: exit code 2 and one line that names the option and the value. Then the texts that have numbers in them.
+"""
+import concurrent.futures
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+BIN = pathlib.Path(sys.argv[1])
+PROGRAMS = ["yars", "radar-model", "state-machine", "radar-display", "input-monitor", "flight-model"]
+VALUES = ["nan", "inf", "-inf", "1e999", "-nan"]
+# Texts with numbers in them; N is where the value goes.
+TEXTS = [
+    ["yars", "scan", "--scene", "a.flt@N,2,3"], ["yars", "scan", "--scene", "a.flt@1,N,3"],
+    ["yars", "scan", "--scene", "a.flt@1,2,N"],
+    ["yars", "patch", "--target-lat", "1", "--target-lon", "1", "--scene", "a.flt@1,2,N"],
+    ["yars", "scene", "generate", "--out", "a.flt", "--origin", "N,1"],
+    ["yars", "scene", "generate", "--out", "a.flt", "--origin", "1,N"],
+    ["yars", "trade", "--knob", "postsPerSample=N"], ["yars", "trade", "--knob", "samples=N"],
+    ["yars", "trade", "--scene", "N,1,15000,0,40"], ["yars", "trade", "--scene", "1,1,15000,0,N"],
+    ["yars", "trade", "maps", "--view", "1,1,15000,1,N,0.67"],
+    ["yars", "inject", "tdc N 0"], ["yars", "inject", "tdc 0 N"], ["yars", "inject", "elevation N"],
+    ["yars", "inject", "pb N"], ["yars", "inject", "nav error mn N 0"], ["yars", "inject", "nav drift ins 0 N"],
+    ["flight-model", "--source", "fixed:N,1,1,1,1"], ["flight-model", "--source", "fixed:1,N,1,1,1"],
+    ["flight-model", "--source", "fixed:1,1,N,1,1"], ["flight-model", "--source", "fixed:1,1,1,N,1"],
+    ["flight-model", "--source", "fixed:1,1,1,1,N"], ["flight-model", "--source", "flightgear:N"],
+    ["flight-model", "--cpus", "N"], ["state-machine", "--lockstep", "state-machine@N"],
+]
+# Files with numbers in them: text, and the command that reads it (F: the file). Exit code other than 0.
+FILES = [
+    ("radar.guf", "( Apg70 ( :SEED N ) )", ["yars", "config", "check", "F"]),
+    ("radar.guf", "( Apg70 ( Radar :FREQUENCY-GHZ N ) )", ["yars", "config", "check", "F"]),
+    ("a.route", "lat 1\nlon N\n", ["flight-model", "--source", "route:F"]),
+    ("a.csv", "time_s,latitude_deg,longitude_deg,altitude_msl_m,heading_deg,speed_mps\n0,1,N,1,1,1\n1,1,1,1,1,1\n",
+     ["flight-model", "--source", "csv:F"]),
+    ("a.script", "N freeze\n", ["input-monitor", "--source", "script:F"]),
+    ("a.script", "0 tdc N 0\n", ["input-monitor", "--source", "script:F"]),
+]
+SESSION = ["--session", f"numbers-{pathlib.Path(tempfile.mkdtemp()).name}"[:40]]
+
+
+def run(arguments):
+    command = [str(BIN / arguments[0])] + SESSION + arguments[1:]
+    return subprocess.run(command, capture_output=True, text=True, timeout=120, stdin=subprocess.DEVNULL)
+
+
+def number_entries(command):
+    """(command, option, how many numbers) for each option of a number; the arguments of a command are one entry without
+    an option; then those of the commands below."""
+    text = run(command + ["--help"]).stdout
+    arguments = 0
+    for line in text.splitlines():
+        found = re.match(r"  (?:(-\S+)|(\S+)) (?:FLOAT|INT|UINT)\b\S*(?: in \[[^]]*\])?(?: x (\d+))?", line)
+        if found and found[1]:
+            yield command, [name for name in found[1].split(",") if name.startswith("--")][0], int(found[3] or 1)
+        elif found:
+            arguments += 1
+    if arguments:
+        yield command, None, arguments
+    below = re.search(r"^Subcommands:\n((?:  .*\n?)*)", text, re.M)
+    for name in re.findall(r"^  (\S+)", below[1] if below else "", re.M):
+        yield from number_entries(command + [name])
+
+
+def problem_of(done, named, value):
+    if done.returncode != 2:
+        return f"expected exit code 2, found {done.returncode}: {done.stderr.strip()[-300:]}"
+    if (not value.startswith("-") and value not in done.stderr) or (named and named.lstrip("-") not in done.stderr):
+        return f"expected a message that names {named} and {value}, found {done.stderr.strip()[-300:]}"
+    return None
+
+
+def try_option(case):
+    (command, option, count), value = case
+    # A second value with a sign would pass for an option; it is bad usage, too.
+    words = ([option] if option and not value.startswith("-") else []) + [value] * count
+    if option and value.startswith("-"):
+        words = [f"{option}={value}"] + words[1:]
+    return " ".join(command + words), problem_of(run(command + words), option, value)
+
+
+def try_text(case):
+    text, value = case
+    # What is in the middle of a text is no option: any place where there is an N of its own.
+    words = [re.sub(r"\bN\b", value, word) for word in text]
+    return " ".join(words), problem_of(run(words), None, value)
+
+
+def try_file(case):
+    (name, text, command), value = case
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder, name)
+        path.write_text(re.sub(r"\bN\b", value, text))
+        words = [word.replace("F", str(path)) if word in ("F", "csv:F", "route:F", "script:F") else word
+                 for word in command]
+        done = run(words)
+    fine = done.returncode in (1, 2) and "runtime error" not in done.stderr and "Sanitizer" not in done.stderr
+    return f"{name} {text!r} with {value}", None if fine else f"found {done.returncode}: {done.stderr.strip()[-300:]}"
+
+
+def main():
+    entries = [entry for program in PROGRAMS for entry in number_entries([program])]
+    print(f"{len(entries)} options and arguments of numbers, {len(TEXTS)} texts, {len(FILES)} files")
+    if len(entries) < 60:
+        print("expected at least 60 of them: are the help texts read rightly?")
+        return 1
+    tries = [(try_option, (entry, value)) for entry in entries for value in VALUES]
+    tries += [(try_text, (text, value)) for text in TEXTS for value in VALUES]
+    tries += [(try_file, (file, value)) for file in FILES for value in VALUES]
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        problems = [(what, problem) for what, problem in pool.map(lambda one: one[0](one[1]), tries) if problem]
+    for what, problem in problems:
+        print(f"{what}: {problem}")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
