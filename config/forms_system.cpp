@@ -118,7 +118,10 @@ std::vector<SlotSchema> system_slots() {
         .binding = FormSlot{{"HeightRanges"}, {"HeightRanges"}},
         .purpose = "the range by height"},
        {.name = "beacons", .binding = FormSlot{{"Beacons"}, {"Beacons"}}, .purpose = "radar beacons"},
-       {.name = "devices", .binding = FormSlot{{"Devices"}, {"Devices"}}, .purpose = "maps of cockpit hardware"}});
+       {.name = "devices", .binding = FormSlot{{"Devices"}, {"Devices"}}, .purpose = "maps of cockpit hardware"},
+       {.name = "atmosphere",
+        .binding = FormSlot{{"Atmosphere"}, {"Atmosphere"}},
+        .purpose = "the air, and what its gases take"}});
 }
 
 }  // namespace

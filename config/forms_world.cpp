@@ -159,6 +159,20 @@ FormSchema rain() {
           .begin = [](Draft& draft) { draft.radar.world.rain.cells.clear(); }};
 }
 
+FormSchema atmosphere() {
+  return {.name = "Atmosphere",
+          .purpose = "the air at mean sea level, and what its gases take (ITU-R P.676-13, P.835)",
+          .slots = {{.name = "gases",
+                     .binding = BooleanSlot{YARS_FIELD(radar.world.atmosphere.gases)},
+                     .purpose = "oxygen and water vapour attenuate; the preset 1996 knows none"},
+                    number_slot("temperature", "deg C", -60, 60, {YARS_FIELD(radar.world.atmosphere.temperature_c)},
+                                "6.5 degrees less in each km up to 11 km"),
+                    number_slot("pressure", "hPa", 500, 1100, {YARS_FIELD(radar.world.atmosphere.pressure_hpa)},
+                                "of the dry air"),
+                    number_slot("waterVapour", "g/m3", 0, 50, {YARS_FIELD(radar.world.atmosphere.water_g_m3)},
+                                "density; it falls to 1/e in each 2 km")}};
+}
+
 }  // namespace
 
 std::vector<FormSchema> world_forms() {
@@ -171,7 +185,8 @@ std::vector<FormSchema> world_forms() {
           material(),
           sea(),
           rain(),
-          rain_cell()};
+          rain_cell(),
+          atmosphere()};
 }
 
 }  // namespace yars::config

@@ -62,7 +62,7 @@ struct Fidelity {
   Interpolation interpolation = Interpolation::bilinear;
   // Posts that one sample steps over at most: where the finest level has more, a coarser one serves. 0: always the
   // finest.
-  double posts_per_sample = 4.0;
+  double posts_per_sample = 16.0;
   int sub_beams = 1;         // rays across the beam, joined by its pattern; 1 = the middle alone
   bool slant_range = false;  // samples even in slant instead of ground range
   bool cross_track_slope = false;

@@ -135,10 +135,19 @@ struct Scene {
   SceneHeights heights = SceneHeights::ground;
 };
 
+// Air at mean sea level, and what its gases do; ITU-R P.676 and P.835.
+struct AtmosphereConfiguration {
+  bool gases = true;             // they attenuate
+  double temperature_c = 15.0;   // [deg C]
+  double pressure_hpa = 1013.25;  // [hPa] of the dry air
+  double water_g_m3 = 7.5;       // [g/m^3] density of water vapour
+};
+
 struct WorldConfiguration {
   LandConfiguration land;
   SeaConfiguration sea;
   RainConfiguration rain;
+  AtmosphereConfiguration atmosphere;
   JammingConfiguration jamming;
   std::vector<Mover> movers;
   std::vector<Scene> scenes;

@@ -40,7 +40,8 @@ GroundFan::Column::Column(std::size_t samples)
       distance_m(samples + terrain::kRunSlack),
       elevation_m(distance_m.size()),
       water(distance_m.size()),
-      peak_m(distance_m.size()) {}
+      peak_m(distance_m.size()),
+      crest(distance_m.size()) {}
 
 GroundFan::GroundFan(const radar::RadarConfiguration& configuration)
     : configuration_(configuration),
@@ -162,6 +163,13 @@ std::size_t GroundFan::read_path(const PatchGeometry& geometry, const FanGrid& g
     const float tangent = (top_m[i] - plane_m - above_path_m_[i]) / column.distance_m[i];
     if (tangent > horizon) horizon = tangent;  // never for a void
   }
+  // Lines of posts between the samples.
+  const rbm::EffectiveEarth& earth = geometry.earth();
+  if (view.crests(column.places.run(),
+                  {geometry.altitude_m(), earth.curvature(), std::span(column.distance_m).first(samples)},
+                  std::span(column.crest).first(samples)))
+    horizon = std::max(horizon, *std::max_element(column.crest.begin(),
+                                                  column.crest.begin() + static_cast<std::ptrdiff_t>(samples)));
   return pending;
 }
 

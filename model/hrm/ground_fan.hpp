@@ -44,7 +44,7 @@ class GroundFan {
   struct Column {
     explicit Column(std::size_t samples);
     rbm::PlaceArrays places;
-    std::vector<float> distance_m, elevation_m, water, peak_m;
+    std::vector<float> distance_m, elevation_m, water, peak_m, crest;
   };
   int column_step(const FanGrid& grid, const terrain::TerrainView& view, const Detail* detail) const;
   std::size_t read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,

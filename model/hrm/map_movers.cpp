@@ -26,7 +26,8 @@ void splat(const Response& response, double column, double row, double power, Ma
 }
 }  // namespace
 
-MapMovers::MapMovers(const radar::RadarConfiguration& configuration) : points_(rbm::configured_points(configuration)) {}
+MapMovers::MapMovers(const radar::RadarConfiguration& configuration)
+    : gas_(configuration), points_(rbm::configured_points(configuration)) {}
 
 MapMovers::Trace MapMovers::trace_of(const rbm::MovingPoint& mover, const PatchOrder& order,
                                      const PatchGeometry& geometry, geo::Duration formation, double height_m) const {
@@ -102,7 +103,9 @@ void MapMovers::draw_point(const rbm::MovingPoint& mover, const PatchOrder& orde
   const Trace trace = trace_of(mover, order, geometry, formation, height_m);
   const double length_m = std::hypot(trace.to.right_m - trace.from.right_m, trace.to.up_m - trace.from.up_m);
   const int steps = 1 + static_cast<int>(std::min(std::ceil(length_m / pixel_m), 4.0 * image.size));
-  const double power = mover.cross_section_m2 / (unit_return_m2(geometry, image.size) * steps);
+  const double distance_m = std::hypot(point.right_m, point.up_m + geometry.distance_m());
+  const double loss = gas_.two_way_loss(geometry.earth(), geometry.altitude_m(), distance_m, ground_m);
+  const double power = loss * mover.cross_section_m2 / (unit_return_m2(geometry, image.size) * steps);
   for (int step = 0; step < steps; ++step) {
     const double share = (step + 0.5) / steps;
     const double right_m = trace.from.right_m + share * (trace.to.right_m - trace.from.right_m);

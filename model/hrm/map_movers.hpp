@@ -11,6 +11,7 @@
 #include "model/hrm/fan_point.hpp"
 #include "model/hrm/response.hpp"
 #include "model/rbm/database.hpp"
+#include "model/rbm/gas_path.hpp"
 #include "model/terrain/terrain_view.hpp"
 
 namespace yars::model::hrm {
@@ -41,6 +42,7 @@ class MapMovers {
                  geo::Duration formation, double height_m) const;
   bool hidden(const PatchGeometry& geometry, const Horizons& horizons, MapPoint point, double height_m) const;
 
+  rbm::GasPath gas_;
   std::vector<rbm::MovingPoint> points_;
 };
 

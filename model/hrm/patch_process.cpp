@@ -11,6 +11,7 @@
 #include "model/hrm/profile_lanes.hpp"
 #include "model/hrm/reference_patch.hpp"
 #include "model/hrm/report_1996_patch.hpp"
+#include "model/rbm/gas_path.hpp"
 #include "model/reflectivity/decibels.hpp"
 
 namespace yars::model::hrm {
@@ -23,6 +24,7 @@ struct PatchProcess::Work {
   Work(const radar::RadarConfiguration& given, Crew hands)
       : configuration(given),
         crew(std::move(hands)),
+        gas(configuration),
         movers(configuration),
         report_1996(configuration.fidelity.algorithm == radar::Algorithm::report_1996),
         image(configuration.fidelity.map_size),
@@ -41,6 +43,7 @@ struct PatchProcess::Work {
   void cast_profiles();
   void shade();
   void draw_map();
+  void attenuate();
   void draw_video();
   double thermal_noise() const {
     return noise_gamma(configuration.high_resolution, geo::Length::metres(geometry->slant_range_m()), order.window);
@@ -54,6 +57,7 @@ struct PatchProcess::Work {
 
   radar::RadarConfiguration configuration;
   Crew crew;
+  rbm::GasPath gas;
   MapMovers movers;
   PatchOrder order;
   PatchDatabase database;
@@ -230,6 +234,7 @@ void PatchProcess::Work::draw_map() {
     share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t) {
       draw_fan(*geometry, grid, cross_section_m2.data(), first, last, image);
     });
+  attenuate();
   image.blind = false;
   // What is below thermal noise or black cannot be seen.
   const radar::HighResolutionConfiguration& hrm = configuration.high_resolution;
@@ -238,6 +243,36 @@ void PatchProcess::Work::draw_map() {
   movers.draw(order, *geometry, formation, {*database.window, nullptr, true, database.traffic},
               {&grid, surface.data(), horizon.data()}, response, image);
   blank_blind_zone(*geometry, order.ground_track, configuration.high_resolution, image);
+}
+
+// What the gases of the air take, by distance over ground: a parabola through the nearest, the middle and the farthest,
+// within 0.05 dB over the largest window.
+void PatchProcess::Work::attenuate() {
+  if (gas.none()) return;
+  const double half_m = 0.5 * geometry->window_m();
+  const double middle_m = geometry->distance_m();
+  const double step_m = std::hypot(middle_m + half_m, half_m) - middle_m;
+  const auto loss = [&](double distance_m) {
+    return gas.two_way_loss(geometry->earth(), geometry->altitude_m(), std::max(distance_m, 1.0),
+                            geometry->plane_msl_m());
+  };
+  const double near = loss(middle_m - step_m), here = loss(middle_m), far = loss(middle_m + step_m);
+  const auto constant = static_cast<float>(here);
+  const auto slope = static_cast<float>(0.5 * (far - near));
+  const auto bend = static_cast<float>(0.5 * (far + near) - here);
+  const double pixel_m = geometry->window_m() / image.size;
+  share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t) {
+    for (int row = first; row < last; ++row) {
+      const auto ahead_m = static_cast<float>(middle_m + half_m - (row + 0.5) * pixel_m);
+      float* const power = &image.power[image.at(0, row)];
+      for (int column = 0; column < image.size; ++column) {
+        const auto right_m = static_cast<float>((column + 0.5) * pixel_m - half_m);
+        const float distance_m = std::sqrt(ahead_m * ahead_m + right_m * right_m);
+        const float share = (distance_m - static_cast<float>(middle_m)) / static_cast<float>(step_m);
+        power[column] *= constant + share * (slope + share * bend);
+      }
+    }
+  });
 }
 
 void PatchProcess::Work::draw_video() {

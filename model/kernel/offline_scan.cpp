@@ -13,12 +13,12 @@ OfflineScan::OfflineScan(const radar::RadarConfiguration& configuration, const S
     : seed_(configuration.seed),
       gain_(request.gain),
       samples_(rbm::sample_count(configuration)),
-      strobes_(configuration),
       workers_(static_cast<std::size_t>(std::max(1, threads))),
       measured_(workers_.threads()) {
   place_sweeps(configuration, request);
   for (std::size_t thread = 0; thread < workers_.threads(); ++thread) {
     algorithms_.push_back(rbm::make_algorithm(configuration));
+    strobes_.emplace_back(configuration);
   }
   flags_.assign(places_.size(), 0U);
   jamming_.assign(places_.size(), 0.0);
@@ -49,7 +49,7 @@ void OfflineScan::measure_part(const Part& part, const rbm::Database& database) 
   for (std::size_t sweep = part.first; sweep < part.end; ++sweep) {
     const rbm::Look look = look_of(places_[sweep]);
     const std::size_t pending = algorithms_[part.thread]->measure(look, database, power_of(sweep));
-    jamming_[sweep] = strobes_.level(look, database.terrain);
+    jamming_[sweep] = strobes_[part.thread].level(look, database.terrain);
     flags_[sweep] = pending > 0 || !database.scenes_ready ? databuffer::kSweepNotReady : 0U;
   }
 }

@@ -61,7 +61,7 @@ class OfflineScan {
   int gain_;
   std::size_t samples_;
   std::vector<std::unique_ptr<rbm::Algorithm>> algorithms_;  // one a thread
-  rbm::Strobes strobes_;
+  std::vector<rbm::Strobes> strobes_;                        // one a thread
   std::vector<SweepPlace> places_;
   std::vector<std::uint32_t> flags_;
   std::vector<double> jamming_;

@@ -6,7 +6,6 @@
 
 #include "lib/radar/limits.hpp"
 #include "model/rbm/movers.hpp"
-#include "model/rbm/strobes.hpp"
 #include "model/reflectivity/decibels.hpp"
 
 namespace yars::model::rbm {
@@ -31,6 +30,7 @@ double covered(double sample, double middle, double pulse_samples) {
 
 Beacons::Beacons(const radar::RadarConfiguration& configuration)
     : configuration_(configuration),
+      gas_(configuration),
       distance_m_(static_cast<std::size_t>(std::clamp(configuration.fidelity.samples, 1, radar::kMaxSamples))) {
   const radar::BeaconConfiguration& given = configuration.world.beacons;
   for (const radar::Beacon& beacon : given.beacons) {
@@ -56,7 +56,7 @@ void Beacons::answer(const radar::Beacon& beacon, const Look& look, const Receiv
   // A reply comes later than a return from the beacon's place: what lies behind the range shows nothing.
   if (distance_m >= look.range.metres() || std::abs(off_rad) > 0.5 * receiver.azimuth_beamwidth_rad) return;
   const double altitude_m = mast_m(beacon, terrain);
-  if (!in_sight(configuration_.fidelity, look, terrain, way, altitude_m)) return;
+  if (!sight_line_.clear(configuration_.fidelity, look, terrain, way, altitude_m)) return;
 
   const EffectiveEarth earth = effective_earth(configuration_.fidelity, look.apex, way.azimuth_at_start);
   const Sight sight = earth.sight(look.altitude.metres(), distance_m, altitude_m);
@@ -64,7 +64,8 @@ void Beacons::answer(const radar::Beacon& beacon, const Look& look, const Receiv
                          two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad,
                                       look.elevation.radians(), sight.elevation_rad);
   const double radar_w = reflectivity::ratio(configuration_.world.jamming.radar_power_dbw);
-  const double power = 4.0 * std::numbers::pi * beacon.power_w / radar_w * std::sqrt(two_way) /
+  const double loss = gas_.one_way_loss(earth, look.altitude.metres(), distance_m, altitude_m);
+  const double power = 4.0 * std::numbers::pi * beacon.power_w / radar_w * loss * std::sqrt(two_way) /
                        (sight.slant_range_m * sight.slant_range_m) / receiver.full_scale;
   for (int reply = 0; reply < std::min(beacon.replies, radar::kMostReplies); ++reply) {
     const double later_us = beacon.delay_us + reply * beacon.spacing_us;

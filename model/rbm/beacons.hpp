@@ -10,8 +10,10 @@
 
 #include "lib/radar/configuration.hpp"
 #include "model/rbm/earth.hpp"
+#include "model/rbm/gas_path.hpp"
 #include "model/rbm/look.hpp"
 #include "model/rbm/receiver.hpp"
+#include "model/rbm/sight_line.hpp"
 
 namespace yars::model::rbm {
 
@@ -39,6 +41,8 @@ class Beacons {
               const terrain::TerrainView& terrain);
 
   radar::RadarConfiguration configuration_;
+  GasPath gas_;
+  SightLine sight_line_;
   std::vector<radar::Beacon> answering_;  // to the radar's code
   std::vector<Reply> replies_;
   std::vector<double> distance_m_;  // of the samples

@@ -12,7 +12,7 @@ constexpr double kMetresPerDegree = 110'500.0;  // [m] the shortest degree of la
 }  // namespace
 
 Movers::Movers(const radar::RadarConfiguration& configuration)
-    : beam_(configuration.fidelity.beam), points_(configured_points(configuration)) {
+    : beam_(configuration.fidelity.beam), gas_(configuration), points_(configured_points(configuration)) {
   echoes_.reserve(points_.size() + kMostTraffic);
 }
 
@@ -41,15 +41,20 @@ void Movers::add_echoes(std::span<const MovingPoint> points, const Look& look, c
     const Sight sight = earth.sight(look.altitude.metres(), distance_m, height_m);
     const double gain = gain_across * two_way_gain(beam_, receiver.elevation_beamwidth_rad, look.elevation.radians(),
                                                    sight.elevation_rad);
-    const double power = returned_power(point.cross_section_m2, gain, sight.slant_range_m);
+    const double loss = gas_.two_way_loss(earth, look.altitude.metres(), distance_m, height_m);
+    const double power = returned_power(point.cross_section_m2, loss * gain, sight.slant_range_m);
     echoes_.push_back({distance_m, sight.tangent, received(receiver, power, sight.slant_range_m)});
   }
 }
 
-std::size_t nearest_sample(std::span<const double> distance_m, double wanted_m) {
+std::size_t samples_nearer(std::span<const double> distance_m, double wanted_m) {
   const auto behind = std::partition_point(distance_m.begin(), distance_m.end(),
                                            [wanted_m](double centre_m) { return !(centre_m >= wanted_m); });
-  auto index = static_cast<std::size_t>(behind - distance_m.begin());
+  return static_cast<std::size_t>(behind - distance_m.begin());
+}
+
+std::size_t nearest_sample(std::span<const double> distance_m, double wanted_m) {
+  std::size_t index = samples_nearer(distance_m, wanted_m);
   if (index > 0 && !std::isnan(distance_m[index - 1])) {
     const bool nearer = index == distance_m.size() || wanted_m - distance_m[index - 1] < distance_m[index] - wanted_m;
     if (nearer) --index;

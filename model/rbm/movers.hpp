@@ -9,6 +9,7 @@
 #include "lib/radar/configuration.hpp"
 #include "model/rbm/database.hpp"
 #include "model/rbm/earth.hpp"
+#include "model/rbm/gas_path.hpp"
 #include "model/rbm/look.hpp"
 #include "model/rbm/receiver.hpp"
 
@@ -18,7 +19,7 @@ namespace yars::model::rbm {
 struct Echo {
   double distance_m = 0.0;  // over ground
   double tangent = 0.0;     // of its elevation angle
-  double power = 0.0;       // full scale = 1, after sensitivity time control; gain in azimuth and elevation in it
+  double power = 0.0;       // full scale = 1, after sensitivity time control; gains and what gases take in it
 };
 
 inline constexpr std::size_t kMostTraffic = 64;
@@ -36,6 +37,7 @@ class Movers {
                   const EffectiveEarth& earth, const terrain::TerrainView& terrain);
 
   radar::BeamPattern beam_;
+  GasPath gas_;
   std::vector<MovingPoint> points_;
   std::vector<Echo> echoes_;
 };
@@ -43,5 +45,8 @@ class Movers {
 // The sample that holds a distance over ground: the one whose centre is nearest. Centres ascend, NaN first; no samples
 // or only NaN: the number of samples.
 std::size_t nearest_sample(std::span<const double> distance_m, double wanted_m);
+
+// How many samples are nearer than a distance over ground: their centres are less, or not a number.
+std::size_t samples_nearer(std::span<const double> distance_m, double wanted_m);
 
 }  // namespace yars::model::rbm

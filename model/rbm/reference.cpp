@@ -29,6 +29,7 @@ Reference::Reference(const radar::RadarConfiguration& configuration)
     : configuration_(configuration),
       surface_(configuration),
       rain_(configuration),
+      gas_(configuration),
       movers_(configuration),
       scene_return_(configuration, sample_count(configuration)),
       samples_(sample_count(configuration)),
@@ -41,15 +42,16 @@ std::size_t Reference::measure(const Look& look, const Database& database, std::
   sample_distances(configuration_.fidelity, earth, look, terrain, distance_m_);
   const std::size_t pending = read_terrain(look, terrain);
   if (configuration_.fidelity.cross_track_slope) read_cross_slopes(look, terrain);
-  cast_shadows(earth, look.altitude.metres());
+  const GroundWalk walk(look, earth, terrain, configuration_.fidelity.interpolation);
+  cast_shadows(look, earth, walk);
   const double spacing_m = look.range.metres() / static_cast<double>(samples_.size());
   const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   surface_.use_resolution(receiver.pulse_length_m, spacing_m);
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     samples_[i].power = samples_[i].lit ? cell_power(receiver, earth, look, i) : 0.0;
   }
-  if (scene_return_.enter(look, database.scenes)) see_scenes(look, receiver, earth, *database.scenes, pulse_samples);
-  add_movers(movers_.echoes(look, receiver, earth, database), pulse_samples);
+  if (scene_return_.enter(look, database.scenes)) see_scenes(look, receiver, walk, *database.scenes, pulse_samples);
+  add_movers(movers_.echoes(look, receiver, earth, database), walk, pulse_samples);
   rain_.enter(look);
   if (!rain_.dry()) add_rain(receiver, earth, look);
   smear_pulse(pulse_samples, power);
@@ -94,13 +96,18 @@ void Reference::read_cross_slopes(const Look& look, const terrain::TerrainView& 
   }
 }
 
-void Reference::cast_shadows(const EffectiveEarth& earth, double altitude_m) {
-  // Every terrain sample raises the horizon, also one outside the beam; a void neither raises it nor returns. Shadow is
-  // cast by the highest ground; where a coarser level stands in, that is not the mean that returns.
+void Reference::cast_shadows(const Look& look, const EffectiveEarth& earth, const GroundWalk& walk) {
+  // All ground raises the horizon, between the samples too, also outside the beam; a void neither raises it nor
+  // returns. Shadow is cast by the highest ground; where a coarser level stands in, that is not the mean that returns.
   double horizon = -std::numeric_limits<double>::infinity();
+  double before_m = 0.0;
   for (Sample& sample : samples_) {
+    if (!std::isnan(sample.distance_m)) {
+      horizon = std::max(horizon, walk.highest_tangent(before_m, sample.distance_m));
+      before_m = sample.distance_m;
+    }
     if (!std::isnan(sample.peak_m)) {
-      const double tangent = earth.sight(altitude_m, sample.distance_m, sample.peak_m).tangent;
+      const double tangent = earth.sight(look.altitude.metres(), sample.distance_m, sample.peak_m).tangent;
       sample.lit = tangent > horizon && !std::isnan(sample.height_m);
       horizon = std::max(horizon, tangent);
     }
@@ -131,19 +138,21 @@ double Reference::cell_power(const Receiver& receiver, const EffectiveEarth& ear
       {sample.place, sample.azimuth, sight.slant_range_m, sin_local, sight.sin_grazing, sample.water, sample.material});
   const double gain = two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad,
                                    look.elevation.radians(), sight.elevation_rad);
-  return received(receiver, returned_power(cross_section_m2, gain, sight.slant_range_m), sight.slant_range_m);
+  const double loss = gas_.two_way_loss(earth, look.altitude.metres(), sample.distance_m, sample.height_m);
+  return received(receiver, returned_power(cross_section_m2, loss * gain, sight.slant_range_m), sight.slant_range_m);
 }
 
-void Reference::add_movers(std::span<const Echo> echoes, double pulse_samples) {
+void Reference::add_movers(std::span<const Echo> echoes, const GroundWalk& walk, double pulse_samples) {
   for (const Echo& echo : echoes) {
     const std::size_t index = nearest_sample(distance_m_, echo.distance_m);
     if (index >= samples_.size()) continue;
-    const bool hidden = index > 0 && echo.tangent <= samples_[index - 1].horizon;
+    const auto horizon = [&](std::size_t sample) { return samples_[sample].horizon; };
+    const bool hidden = echo.tangent <= walk.horizon_before(distance_m_, echo.distance_m, horizon);
     if (!hidden) samples_[index].power += point_rise(pulse_samples) * echo.power;
   }
 }
 
-void Reference::see_scenes(const Look& look, const Receiver& receiver, const EffectiveEarth& earth,
+void Reference::see_scenes(const Look& look, const Receiver& receiver, const GroundWalk& walk,
                            const scene::SceneView& scenes, double pulse_samples) {
   SceneReturn::Ground& ground = scene_return_.ground();
   for (std::size_t i = 0; i < samples_.size(); ++i) {
@@ -153,7 +162,7 @@ void Reference::see_scenes(const Look& look, const Receiver& receiver, const Eff
     ground.horizon[i] = samples_[i].horizon;
     ground.power[i] = samples_[i].power;
   }
-  scene_return_.apply(look, receiver, earth, scenes, pulse_samples);
+  scene_return_.apply(look, receiver, walk, scenes, pulse_samples);
   for (std::size_t i = 0; i < samples_.size(); ++i) samples_[i].power = ground.power[i];
 }
 
@@ -166,7 +175,8 @@ void Reference::add_rain(const Receiver& receiver, const EffectiveEarth& earth, 
     const double slant_range_m = earth.sight(altitude_m, sample.distance_m, height_m).slant_range_m;
     const double rain = rain_.power(receiver, earth, look, sample.distance_m, std::atan(sample.horizon));
     const double loss = rain_.two_way_loss(earth, altitude_m, sample.distance_m, height_m, slant_range_m);
-    sample.power = (sample.power + received(receiver, rain, slant_range_m)) * loss;
+    const double gas = gas_.two_way_loss(earth, altitude_m, sample.distance_m, height_m);
+    sample.power = (sample.power + gas * received(receiver, rain, slant_range_m)) * loss;
   }
 }
 

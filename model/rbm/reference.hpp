@@ -8,6 +8,8 @@
 #include "lib/radar/configuration.hpp"
 #include "model/rbm/algorithm.hpp"
 #include "model/rbm/earth.hpp"
+#include "model/rbm/gas_path.hpp"
+#include "model/rbm/ground_walk.hpp"
 #include "model/rbm/movers.hpp"
 #include "model/rbm/rain_path.hpp"
 #include "model/rbm/receiver.hpp"
@@ -35,7 +37,7 @@ class Reference : public Algorithm {
     double water = 0.0;         // share [0, 1]
     std::uint8_t material = 0;  // code
     double cross_slope = 0.0;   // across the sweep, dimensionless
-    double horizon = 0.0;       // greatest tangent of an elevation angle up to here, this one included
+    double horizon = 0.0;       // greatest tangent of all ground up to here, this sample's included
     bool lit = false;
     double power = 0.0;  // before the pulse smear
   };
@@ -44,18 +46,19 @@ class Reference : public Algorithm {
  private:
   std::size_t read_terrain(const Look& look, const terrain::TerrainView& terrain);
   void read_cross_slopes(const Look& look, const terrain::TerrainView& terrain);
-  void cast_shadows(const EffectiveEarth& earth, double altitude_m);
+  void cast_shadows(const Look& look, const EffectiveEarth& earth, const GroundWalk& walk);
   double along_slope(std::size_t index) const;
   double cell_power(const Receiver& receiver, const EffectiveEarth& earth, const Look& look, std::size_t index) const;
-  void add_movers(std::span<const Echo> echoes, double pulse_samples);
-  void see_scenes(const Look& look, const Receiver& receiver, const EffectiveEarth& earth,
-                  const scene::SceneView& scenes, double pulse_samples);
+  void add_movers(std::span<const Echo> echoes, const GroundWalk& walk, double pulse_samples);
+  void see_scenes(const Look& look, const Receiver& receiver, const GroundWalk& walk, const scene::SceneView& scenes,
+                  double pulse_samples);
   void add_rain(const Receiver& receiver, const EffectiveEarth& earth, const Look& look);
   void smear_pulse(double pulse_samples, std::span<float> power) const;
 
   radar::RadarConfiguration configuration_;
   SurfaceReturn surface_;
   RainPath rain_;
+  GasPath gas_;
   Movers movers_;
   SceneReturn scene_return_;
   std::vector<Sample> samples_;

@@ -10,7 +10,6 @@ namespace yars::model::rbm {
 
 namespace {
 constexpr double kMeanRadius_m = 6'371'000.0;
-constexpr double kNoHorizon = -1.0e30;
 constexpr double kSpare_m = 1000.0;  // by which a geodesic may leave its plane and a plane its geodesics
 
 double along_slope(const SceneReturn::Ground& ground, std::size_t index) {
@@ -53,7 +52,7 @@ class RayOverPlane {
 }  // namespace
 
 SceneReturn::SceneReturn(const radar::RadarConfiguration& configuration, std::size_t samples)
-    : beam_(configuration.fidelity.beam), surface_(configuration), ground_(samples) {}
+    : beam_(configuration.fidelity.beam), surface_(configuration), gas_(configuration), ground_(samples) {}
 
 bool SceneReturn::enter(const Look& look, const scene::SceneView* scenes) {
   if (scenes == nullptr || scenes->scatterers().empty()) return false;
@@ -84,11 +83,12 @@ SceneReturn::Ray SceneReturn::ray_in(const scene::Scatterers& scene) const {
           scene.frame.enu_from_ecef_direction(right_)};
 }
 
-void SceneReturn::apply(const Look& look, const Receiver& receiver, const EffectiveEarth& earth,
+void SceneReturn::apply(const Look& look, const Receiver& receiver, const GroundWalk& walk,
                         const scene::SceneView& scenes, double pulse_samples) {
   const double radius_m = geo::radius_of_curvature(look.apex.latitude_deg, look.azimuth).metres();
   const double spacing_m = look.range.metres() / static_cast<double>(ground_.power.size());
-  const Sweep sweep{&look, &receiver, &earth, point_rise(pulse_samples), 1.0 / (radius_m * radius_m), spacing_m};
+  const Sweep sweep{&look, &receiver, &walk.earth(), &walk, point_rise(pulse_samples), 1.0 / (radius_m * radius_m),
+                    spacing_m};
   for (const scene::Scatterers* scene : scenes.scatterers())
     if (in_range(*scene, look)) cover_ground(sweep, *scene);
   for (const scene::Scatterers* scene : scenes.scatterers())
@@ -131,7 +131,9 @@ double SceneReturn::covered_power(const Sweep& sweep, std::size_t sample, double
   const double sigma_m2 = gamma * sin_local * illuminated_area_m2(*sweep.receiver, sight.slant_range_m, sin_local);
   const double gain = two_way_gain(beam_, sweep.receiver->elevation_beamwidth_rad, sweep.look->elevation.radians(),
                                    sight.elevation_rad);
-  return received(*sweep.receiver, returned_power(sigma_m2, gain, sight.slant_range_m), sight.slant_range_m);
+  const double loss = gas_.two_way_loss(*sweep.earth, sweep.look->altitude.metres(), ground_.distance_m[sample],
+                                        ground_.height_m[sample]);
+  return received(*sweep.receiver, returned_power(sigma_m2, loss * gain, sight.slant_range_m), sight.slant_range_m);
 }
 
 void SceneReturn::add_standing(const Sweep& sweep, const scene::Scatterers& scene) {
@@ -169,15 +171,17 @@ void SceneReturn::add_one(const Sweep& sweep, const Ray& ray, const scene::Scatt
   const double gain_across = azimuth_share(sweep.look->share, sweep.receiver->azimuth_beamwidth_rad,
                                            std::atan2(dot(way, ray.right), ahead_m), extent_m / distance_m);
   if (!(gain_across > 0.0)) return;
-  const std::size_t sample = nearest_sample(ground_.distance_m, distance_m);
-  if (sample >= ground_.power.size()) return;
+  if (nearest_sample(ground_.distance_m, distance_m) >= ground_.power.size()) return;
   const Sight sight =
       sweep.earth->sight(sweep.look->altitude.metres(), distance_m, static_cast<double>(one.middle_msl_m));
-  const double lit = lit_share(one, sight, distance_m, sample);
+  const double lit = lit_share(sweep, one, sight, distance_m);
   if (!(lit > 0.0)) return;
   const double gain = gain_across * two_way_gain(beam_, sweep.receiver->elevation_beamwidth_rad,
                                                  sweep.look->elevation.radians(), sight.elevation_rad);
-  const double power = returned_power(lit * cross_section_m2(level, one, ray, sight), gain, sight.slant_range_m);
+  const double loss = gas_.two_way_loss(*sweep.earth, sweep.look->altitude.metres(), distance_m,
+                                        static_cast<double>(one.middle_msl_m));
+  const double power =
+      returned_power(lit * cross_section_m2(level, one, ray, sight), loss * gain, sight.slant_range_m);
   spread(distance_m, extent_m, sweep.rise * received(*sweep.receiver, power, sight.slant_range_m));
 }
 
@@ -201,13 +205,17 @@ double SceneReturn::cross_section_m2(const scene::ScattererLevel& level, const s
 }
 
 // How much of its height rises above the horizon of what lies nearer.
-double SceneReturn::lit_share(const scene::Scatterer& one, const Sight& sight, double distance_m,
-                              std::size_t sample) const {
-  const double horizon = sample > 0 ? ground_.horizon[sample - 1] : kNoHorizon;
+double SceneReturn::lit_share(const Sweep& sweep, const scene::Scatterer& one, const Sight& sight,
+                              double distance_m) const {
   const auto tangent = [&](float height_m) {
     return sight.tangent + static_cast<double>(height_m - one.middle_msl_m) / distance_m;
   };
   const double least = tangent(one.least_msl_m), most = tangent(one.most_msl_m);
+  const std::size_t nearer = samples_nearer(ground_.distance_m, distance_m);
+  // What the samples hide already needs no closer look.
+  if (nearer > 0 && most <= ground_.horizon[nearer - 1]) return 0.0;
+  const double horizon = sweep.walk->horizon_before(ground_.distance_m, distance_m,
+                                                    [&](std::size_t sample) { return ground_.horizon[sample]; });
   if (!(most > least)) return most > horizon ? 1.0 : 0.0;
   return std::clamp((most - horizon) / (most - least), 0.0, 1.0);
 }

@@ -8,6 +8,8 @@
 
 #include "lib/radar/configuration.hpp"
 #include "model/rbm/earth.hpp"
+#include "model/rbm/gas_path.hpp"
+#include "model/rbm/ground_walk.hpp"
 #include "model/rbm/look.hpp"
 #include "model/rbm/receiver.hpp"
 #include "model/reflectivity/scene_surface.hpp"
@@ -34,7 +36,7 @@ class SceneReturn {
   bool enter(const Look& look, const scene::SceneView* scenes);
   Ground& ground() { return ground_; }
   // `pulse_samples`: of the smear that comes behind it.
-  void apply(const Look& look, const Receiver& receiver, const EffectiveEarth& earth, const scene::SceneView& scenes,
+  void apply(const Look& look, const Receiver& receiver, const GroundWalk& walk, const scene::SceneView& scenes,
              double pulse_samples);
 
  private:
@@ -47,6 +49,7 @@ class SceneReturn {
     const Look* look = nullptr;
     const Receiver* receiver = nullptr;
     const EffectiveEarth* earth = nullptr;
+    const GroundWalk* walk = nullptr;
     double rise = 1.0;        // of a point, for the smear
     double curvature2 = 0.0;  // [1/m^2] of the ellipsoid along the ray
     double spacing_m = 0.0;   // of samples
@@ -60,11 +63,12 @@ class SceneReturn {
   void add_one(const Sweep& sweep, const Ray& ray, const scene::ScattererLevel& level, const scene::Scatterer& one);
   double cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& one, const Ray& ray,
                           const Sight& sight) const;
-  double lit_share(const scene::Scatterer& one, const Sight& sight, double distance_m, std::size_t sample) const;
+  double lit_share(const Sweep& sweep, const scene::Scatterer& one, const Sight& sight, double distance_m) const;
   void spread(double distance_m, double extent_m, double power);
 
   radar::BeamPattern beam_;
   reflectivity::SceneSurface surface_;
+  GasPath gas_;
   Ground ground_;
   geo::Vector3 apex_, ahead_, right_;  // earth-centred
 };

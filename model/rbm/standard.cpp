@@ -21,6 +21,8 @@ Standard::Standard(const radar::RadarConfiguration& configuration)
     : configuration_(configuration),
       ground_(configuration, sample_count(configuration)),
       rain_(configuration),
+      gas_(configuration),
+      gas_samples_(configuration, sample_count(configuration)),
       movers_(configuration),
       scene_return_(configuration, sample_count(configuration)),
       count_(sample_count(configuration)),
@@ -33,8 +35,10 @@ Standard::Standard(const radar::RadarConfiguration& configuration)
       water_(count_, 0.0F),
       peak_(count_, kVoid),
       side_(count_, 0.0F),
+      crest_(count_, lanes::kNoHorizon),
       cross_slope_(count_, 0.0F),
       tangent_(count_, lanes::kNoHorizon),
+      before_(count_, lanes::kNoHorizon),
       horizon_(count_, lanes::kNoHorizon),
       power_(count_, 0.0F),
       variate_(count_, 1.0F),
@@ -54,18 +58,22 @@ std::size_t Standard::measure(const Look& look, const Database& database, std::s
   const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   ground_.use_resolution(receiver.pulse_length_m, spacing_m);
   const terrain::PlaceRun places = places_.run();
+  const bool crests = terrain.crests(places, {look.altitude.metres(), earth.curvature(), distance_.first(count_)},
+                                     crest_.first(count_));
   const lanes::SweepInputs inputs{distance_.data(), elevation_.data(),
                                   // Where a coarser level stands in, the highest ground is not the mean that returns.
-                                  terrain.has_peaks() ? peak_.data() : nullptr,
+                                  terrain.has_peaks() ? peak_.data() : nullptr, crests ? crest_.data() : nullptr,
                                   configuration_.fidelity.cross_track_slope ? cross_slope_.data() : nullptr,
                                   one_step_inverse_.data(), two_step_inverse_.data(),
                                   ground_.prepare(look, places, water_.data(), terrain.has_materials())};
   lanes::sweep(count_, constants, configuration_.fidelity.beam, inputs,
-               {tangent_.data(), horizon_.data(), power_.data()});
+               {tangent_.data(), before_.data(), horizon_.data(), power_.data()});
   // What the last vector wrote behind the sweep is no power.
   std::fill_n(power_.data() + count_, lanes::kPad, 0.0F);
-  if (scene_return_.enter(look, database.scenes)) see_scenes(look, earth, receiver, *database.scenes, pulse_samples);
-  add_movers(look, earth, receiver, database, pulse_samples);
+  attenuate(look);
+  const GroundWalk walk(look, earth, terrain, configuration_.fidelity.interpolation);
+  if (scene_return_.enter(look, database.scenes)) see_scenes(look, walk, receiver, *database.scenes, pulse_samples);
+  add_movers(look, walk, receiver, database, pulse_samples);
   rain_.enter(look);
   if (!rain_.dry()) add_rain(look, earth, receiver);
 
@@ -81,12 +89,17 @@ std::size_t Standard::measure(const Look& look, const Database& database, std::s
 }
 
 void Standard::lit(std::span<std::uint8_t> mask) const {
-  const float* const tangent = tangent_.data();
-  const float* const horizon_before = horizon_.data() - 1;
-  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = tangent[i] > horizon_before[i] ? 1 : 0;
+  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = tangent_.data()[i] > before_.data()[i] ? 1 : 0;
 }
 
-void Standard::see_scenes(const Look& look, const EffectiveEarth& earth, const Receiver& receiver,
+void Standard::attenuate(const Look& look) {
+  if (gas_.none()) return;
+  gas_samples_.use(gas_, look.altitude.metres(), look.range.metres(), distance_.first(count_),
+                   !configuration_.fidelity.slant_range);
+  gas_samples_.apply(elevation_.data(), power_.data());
+}
+
+void Standard::see_scenes(const Look& look, const GroundWalk& walk, const Receiver& receiver,
                           const scene::SceneView& scenes, double pulse_samples) {
   SceneReturn::Ground& ground = scene_return_.ground();
   const bool across = configuration_.fidelity.cross_track_slope;
@@ -97,16 +110,17 @@ void Standard::see_scenes(const Look& look, const EffectiveEarth& earth, const R
     ground.horizon[i] = static_cast<double>(horizon_.data()[i]);
     ground.power[i] = static_cast<double>(power_.data()[i]);
   }
-  scene_return_.apply(look, receiver, earth, scenes, pulse_samples);
+  scene_return_.apply(look, receiver, walk, scenes, pulse_samples);
   for (std::size_t i = 0; i < count_; ++i) power_.data()[i] = static_cast<float>(ground.power[i]);
 }
 
-void Standard::add_movers(const Look& look, const EffectiveEarth& earth, const Receiver& receiver,
-                          const Database& database, double pulse_samples) {
-  for (const Echo& echo : movers_.echoes(look, receiver, earth, database)) {
+void Standard::add_movers(const Look& look, const GroundWalk& walk, const Receiver& receiver, const Database& database,
+                          double pulse_samples) {
+  const auto horizon = [&](std::size_t sample) { return static_cast<double>(horizon_.data()[sample]); };
+  for (const Echo& echo : movers_.echoes(look, receiver, walk.earth(), database)) {
     const std::size_t index = nearest_sample(distance_m_, echo.distance_m);
     if (index >= count_) continue;
-    const bool hidden = index > 0 && echo.tangent <= static_cast<double>(horizon_.data()[index - 1]);
+    const bool hidden = echo.tangent <= walk.horizon_before(distance_m_, echo.distance_m, horizon);
     if (!hidden) power_.data()[index] += static_cast<float>(point_rise(pulse_samples) * echo.power);
   }
 }
@@ -125,7 +139,8 @@ void Standard::add_rain(const Look& look, const EffectiveEarth& earth, const Rec
     const double altitude_m = look.altitude.metres();
     const double slant_range_m = earth.sight(altitude_m, distance_m, height_m).slant_range_m;
     const double horizon_rad = std::atan(static_cast<double>(horizon_.data()[i]));
-    return Rain{received(receiver, rain_.power(receiver, earth, look, distance_m, horizon_rad), slant_range_m),
+    const double gas = gas_.two_way_loss(earth, altitude_m, distance_m, height_m);
+    return Rain{gas * received(receiver, rain_.power(receiver, earth, look, distance_m, horizon_rad), slant_range_m),
                 rain_.two_way_loss(earth, altitude_m, distance_m, height_m, slant_range_m)};
   };
   if (holes_ >= count_) return;

@@ -1,6 +1,6 @@
 // The default algorithm: float, by vectors of whatever width the machine has. Positions come from a series of the
 // geodesic (sample_places.hpp), curvature from the first terms of its own. Bound against Reference, without noise:
-// shadow differs in at most 0.1 % of the samples, video by 0.5 gray levels RMS (tests/model/standard_test.cpp). Equal
+// shadow differs in at most 0.5 % of the samples, video by 0.5 gray levels RMS (tests/model/standard_test.cpp). Equal
 // bits for any number of threads and any width.
 #pragma once
 
@@ -12,7 +12,9 @@
 #include "lib/radar/configuration.hpp"
 #include "model/rbm/algorithm.hpp"
 #include "model/rbm/earth.hpp"
+#include "model/rbm/gas_path.hpp"
 #include "model/rbm/ground.hpp"
+#include "model/rbm/ground_walk.hpp"
 #include "model/rbm/movers.hpp"
 #include "model/rbm/rain_path.hpp"
 #include "model/rbm/receiver.hpp"
@@ -43,11 +45,12 @@ class Standard : public Algorithm {
 
   void place_samples(const Look& look, const EffectiveEarth& earth, const terrain::TerrainView& terrain);
   std::size_t read_terrain(const Look& look, const terrain::TerrainView& terrain);
-  void add_movers(const Look& look, const EffectiveEarth& earth, const Receiver& receiver, const Database& database,
+  void add_movers(const Look& look, const GroundWalk& walk, const Receiver& receiver, const Database& database,
                   double pulse_samples);
   void add_rain(const Look& look, const EffectiveEarth& earth, const Receiver& receiver);
-  void see_scenes(const Look& look, const EffectiveEarth& earth, const Receiver& receiver,
-                  const scene::SceneView& scenes, double pulse_samples);
+  void see_scenes(const Look& look, const GroundWalk& walk, const Receiver& receiver, const scene::SceneView& scenes,
+                  double pulse_samples);
+  void attenuate(const Look& look);
   void read_cross_slopes(const Look& look, const terrain::TerrainView& terrain);
   lanes::SweepConstants sweep_constants(const Look& look, const EffectiveEarth& earth, const Receiver& receiver) const;
 
@@ -57,6 +60,8 @@ class Standard : public Algorithm {
   radar::RadarConfiguration configuration_;
   Ground ground_;
   RainPath rain_;
+  GasPath gas_;
+  GasSamples gas_samples_;
   Movers movers_;
   SceneReturn scene_return_;
   Receiver receiver_;  // of the range last asked for
@@ -70,8 +75,8 @@ class Standard : public Algorithm {
   std::vector<double> distance_m_;
   Padded distance_, one_step_inverse_, two_step_inverse_;
   PlaceArrays places_;
-  Padded elevation_, water_, peak_, side_, cross_slope_;
-  Padded tangent_, horizon_;
+  Padded elevation_, water_, peak_, side_, crest_, cross_slope_;
+  Padded tangent_, before_, horizon_;
   Padded power_, variate_;
   memory::LineVector<std::int32_t> cell_;  // of resolution, that each sample lies in
 };

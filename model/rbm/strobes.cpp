@@ -13,8 +13,6 @@ namespace yars::model::rbm {
 namespace {
 constexpr double kMastM = 10.0;           // [m] above the ground: a jammer whose altitude is not given
 constexpr double kLeastDistanceM = 10.0;  // [m] keeps a jammer below the aircraft finite
-constexpr double kProfileStepM = 500.0;   // [m] a ridge narrower than this may be missed
-constexpr double kMostSteps = 400.0;
 
 bool is_jammed(const radar::Jammer& jammer, const Look& look) {
   const bool band = jammer.band == radar::kEveryBand || jammer.band == static_cast<int>(look.band);
@@ -28,22 +26,7 @@ double ground_m(const terrain::TerrainView& terrain, geo::GeoPoint place) {
 }
 }  // namespace
 
-bool in_sight(const radar::Fidelity& fidelity, const Look& look, const terrain::TerrainView& terrain,
-              const geo::GeodesicInverse& way, double altitude_m) {
-  const EffectiveEarth earth = effective_earth(fidelity, look.apex, way.azimuth_at_start);
-  const double distance_m = way.distance.metres();
-  const double tangent = earth.sight(look.altitude.metres(), distance_m, altitude_m).tangent;
-  const geo::GeodesicRay ray(look.apex, way.azimuth_at_start);
-  const double steps = std::clamp(std::ceil(distance_m / kProfileStepM), 2.0, kMostSteps);
-  for (double step = 1.0; step < steps; step += 1.0) {
-    const double there_m = distance_m * step / steps;
-    const double height_m = ground_m(terrain, ray.position(geo::Length::metres(there_m)));
-    if (earth.sight(look.altitude.metres(), there_m, height_m).tangent >= tangent) return false;
-  }
-  return true;
-}
-
-double Strobes::level(const Look& look, const terrain::TerrainView& terrain) const {
+double Strobes::level(const Look& look, const terrain::TerrainView& terrain) {
   const radar::JammingConfiguration& jamming = configuration_.world.jamming;
   if (jamming.jammers.empty()) return 0.0;
   const Receiver receiver = make_receiver(configuration_, look.range);
@@ -56,14 +39,15 @@ double Strobes::level(const Look& look, const terrain::TerrainView& terrain) con
     way.distance = std::max(way.distance, geo::Length::metres(kLeastDistanceM));
     const double altitude_m =
         std::isnan(jammer.altitude_m) ? ground_m(terrain, jammer.place) + kMastM : jammer.altitude_m;
-    if (!in_sight(configuration_.fidelity, look, terrain, way, altitude_m)) continue;
+    if (!sight_line_.clear(configuration_.fidelity, look, terrain, way, altitude_m)) continue;
     const EffectiveEarth earth = effective_earth(configuration_.fidelity, look.apex, way.azimuth_at_start);
     const Sight sight = earth.sight(look.altitude.metres(), way.distance.metres(), altitude_m);
     const double two_way =
         azimuth_gain(receiver.azimuth_beamwidth_rad, (way.azimuth_at_start - look.azimuth).radians()) *
         two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad, look.elevation.radians(),
                      sight.elevation_rad);
-    const double gain = std::max(std::sqrt(two_way), sidelobe);
+    const double loss = gas_.one_way_loss(earth, look.altitude.metres(), way.distance.metres(), altitude_m);
+    const double gain = loss * std::max(std::sqrt(two_way), sidelobe);
     total += 4.0 * std::numbers::pi * jammer.power_w / radar_w * gain / (sight.slant_range_m * sight.slant_range_m);
   }
   return total / receiver.full_scale;

@@ -172,10 +172,13 @@ class SweepLanes {
     const auto g = geometry(c_, distance, height);
     auto tangent =
         in_.peak_m == nullptr ? tangent_of(g, known) : peak_tangent(c_, distance, load<Group>(in_.peak_m + i));
-    const auto [upto, before] = horizon_.after(tangent);
+    const auto crest = in_.crest == nullptr ? constant<Group>(kNoHorizon) : load<Group>(in_.crest + i);
+    const auto [upto, before_crest] = horizon_.after(max(tangent, crest));
+    const auto before = max(before_crest, crest);
     // Beside a void the peak may be known where the mean is not: it hides what is behind it and returns nothing.
     tangent = choose(known, tangent, constant<Group>(kNoHorizon));
     store(tangent, out_.tangent + i);
+    store(before, out_.before + i);
     store(upto, out_.horizon + i);
     const auto lit = less(before, tangent);
     // What lies in shadow as a whole is spared the rest.

@@ -8,11 +8,12 @@
 
 #include "lib/radar/configuration.hpp"
 #include "model/rbm/ground_lanes.hpp"
+#include "model/terrain/terrain_view.hpp"
 
 namespace yars::model::rbm::lanes {
 
 inline constexpr std::size_t kPad = 64;        // entries; the longest pulse smear reaches 32
-inline constexpr float kNoHorizon = -1.0e30F;  // tangent below every terrain
+inline constexpr float kNoHorizon = terrain::kNoTangent;
 
 // One sweep, unwrapped. Lengths [m], angles as sine and cosine.
 struct SweepConstants {
@@ -38,6 +39,7 @@ struct SweepInputs {
   const float* distance_m;
   const float* elevation_m;       // of the ground that returns; NaN = void
   const float* peak_m;            // highest ground, which casts the shadow; null: the same as elevation_m
+  const float* crest;             // tangent of the highest ground since the sample before; null: none stands there
   const float* cross_slope;       // null: none
   const float* one_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i])
   const float* two_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i - 1])
@@ -46,7 +48,8 @@ struct SweepInputs {
 // And what it gives.
 struct SweepOutputs {
   float* tangent;  // of the elevation angle of what casts the shadow; kNoHorizon where nothing returns
-  float* horizon;  // the greatest tangent of all ground up to and with the sample. Exact: only comparisons.
+  float* before;   // the greatest tangent of all ground nearer than the sample. Exact: only comparisons.
+  float* horizon;  // the same with the sample
   float* power;    // after sensitivity time control, full scale = 1, before the pulse smear; 0 in shadow and void
 };
 

@@ -7,6 +7,7 @@
 
 #include "lib/failure/require.hpp"
 #include "model/terrain/code_look_up.hpp"
+#include "model/terrain/crests.hpp"
 #include "model/terrain/interpolation.hpp"
 #include "model/terrain/look_up.hpp"
 
@@ -24,6 +25,16 @@ double spacing_m(const Cell& cell) {
   const double farthest_deg = std::max(std::abs(south_deg), std::abs(south_deg + 1));
   const double east_deg = std::max(0.0, std::cos(farthest_deg * geo::kRadiansPerDegree)) / (cell.columns() - 1);
   return kMetresPerDegree * std::min(1.0 / (cell.rows() - 1), east_deg);
+}
+
+look_up::Grid grid_of(const Cell& cell) {
+  return look_up::Grid{&cell.blocks(), cell.rows(), cell.columns(), cell.voids() > 0, cell.sea_posts() > 0};
+}
+
+// The cell of a place of the run. Shadow is cast by the highest ground.
+crests::CrossedCell crossed(const TerrainCell& cell, const PlaceRun& places, std::size_t place) {
+  return {grid_of(cell.peaks ? *cell.peaks : *cell.heights), places.cells_north[place], places.cells_east[place],
+          static_cast<float>(spacing_m(*cell.heights))};
 }
 
 }  // namespace
@@ -77,6 +88,11 @@ Surface CellView::surface_at(geo::GeoPoint place, Interpolation interpolation) c
   return surface;
 }
 
+double CellView::post_spacing_at(geo::GeoPoint place) const {
+  const std::uint16_t what = entry(cell_holding(place));
+  return what < kFirstCell ? 0.0 : spacing_m(*cells_[what - kFirstCell].heights);
+}
+
 CellView::Run CellView::run_at(const PlaceRun& places, std::size_t first) const {
   Run run;
   run.first = first;
@@ -106,9 +122,6 @@ void CellView::look_up_singly(const Run& run, const PlaceRun& places, Interpolat
 void CellView::look_up_run(const Run& run, const PlaceRun& places, Interpolation interpolation,
                            const SurfaceRun& found) const {
   const TerrainCell& cell = cells_[run.what - kFirstCell];
-  const auto grid_of = [](const Cell& grid) {
-    return look_up::Grid{&grid.blocks(), grid.rows(), grid.columns(), grid.voids() > 0, grid.sea_posts() > 0};
-  };
   const float* const north_deg = &places.north_deg[run.first];
   const float* const east_deg = &places.east_deg[run.first];
   const bool nearest = interpolation == Interpolation::nearest;
@@ -150,6 +163,58 @@ std::size_t CellView::surfaces(const PlaceRun& places, Interpolation interpolati
     first += run.places;
   }
   return not_loaded;
+}
+
+bool CellView::crests(const PlaceRun& places, const RaySight& sight, std::span<float> tangent) const {
+  const std::size_t count = places.north_deg.size();
+  YARS_REQUIRE(sight.distance_m.size(), ==, count);
+  YARS_REQUIRE(tangent.size(), ==, count);
+  std::fill(tangent.begin(), tangent.end(), kNoTangent);
+  const crests::Ray ray{places.cells_north.data(),
+                        places.cells_east.data(),
+                        places.north_deg.data(),
+                        places.east_deg.data(),
+                        sight.distance_m.data(),
+                        static_cast<float>(sight.altitude_m),
+                        static_cast<float>(sight.curvature)};
+  for (std::size_t first = 0; first < count;) {
+    const Run run = run_at(places, first);
+    const std::size_t behind = first + run.places;
+    if (run.what >= kFirstCell && !run.beyond_pole) {
+      const TerrainCell& cell = cells_[run.what - kFirstCell];
+      // The ways into the cell and out of it lie in two: each raises its part.
+      crests::raise(crossed(cell, places, first), ray, std::max<std::size_t>(first, 1), std::min(behind + 1, count), tangent.data());
+    }
+    first = behind;
+  }
+  if (count > 1) raise_first_crest(places, sight, tangent[0]);
+  return true;
+}
+
+// The way to the first place goes on backwards as it does from there to the second.
+void CellView::raise_first_crest(const PlaceRun& places, const RaySight& sight, float& tangent) const {
+  const float step_m = sight.distance_m[1] - sight.distance_m[0];
+  if (!(step_m > 0.0F) || !(sight.distance_m[0] > 0.0F)) return;
+  const Run run = run_at(places, 0);
+  if (run.what < kFirstCell || run.beyond_pole) return;
+  const float share = sight.distance_m[0] / step_m;
+  using Two = std::array<float, 2 + kRunSlack>;
+  const auto back = [&](std::span<const float> cells, std::span<const float> degrees) {
+    return degrees[0] - share * ((cells[1] - cells[0]) + (degrees[1] - degrees[0]));
+  };
+  const Two cells_north{places.cells_north[0], places.cells_north[0]};
+  const Two cells_east{places.cells_east[0], places.cells_east[0]};
+  const Two north_deg{back(places.cells_north, places.north_deg), places.north_deg[0]};
+  const Two east_deg{back(places.cells_east, places.east_deg), places.east_deg[0]};
+  const Two distance_m{0.0F, sight.distance_m[0]};
+  Two found{};
+  found.fill(kNoTangent);
+  const TerrainCell& cell = cells_[run.what - kFirstCell];
+  crests::raise(crossed(cell, places, 0),
+                {cells_north.data(), cells_east.data(), north_deg.data(), east_deg.data(), distance_m.data(),
+                 static_cast<float>(sight.altitude_m), static_cast<float>(sight.curvature)},
+                1, 2, found.data());
+  tangent = std::max(tangent, found[1]);
 }
 
 }  // namespace yars::model::terrain

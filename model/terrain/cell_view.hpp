@@ -44,8 +44,10 @@ class CellView final : public TerrainView {
   bool serves(int detail) const override { return detail == detail_; }
   bool has_peaks() const override { return has_peaks_; }
   double post_spacing_m() const override { return post_spacing_m_; }
+  double post_spacing_at(geo::GeoPoint place) const override;
   bool has_materials() const override { return has_materials_; }
   std::size_t surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const override;
+  bool crests(const PlaceRun& places, const RaySight& sight, std::span<float> tangent) const override;
 
  private:
   static constexpr std::uint16_t kFirstCell = 3;  // entries below are Absence values, from here on cells_
@@ -57,6 +59,7 @@ class CellView final : public TerrainView {
     bool beyond_pole = false;
   };
   Run run_at(const PlaceRun& places, std::size_t first) const;
+  void raise_first_crest(const PlaceRun& places, const RaySight& sight, float& tangent) const;
   void look_up_run(const Run& run, const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const;
   void look_up_singly(const Run& run, const PlaceRun& places, Interpolation interpolation,
                       const SurfaceRun& found) const;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -12,6 +11,7 @@
 #include <hwy/highway.h>
 // Behind highway.h, or it would have no target yet.
 #include "lib/lanes/fused-inl.hpp"
+#include "model/terrain/post_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace yars::model::terrain::look_up::HWY_NAMESPACE {
@@ -19,14 +19,10 @@ namespace yars::model::terrain::look_up::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace fused = yars::lanes::HWY_NAMESPACE;
 
-using FloatLanes = hn::CappedTag<float, kRunSlack>;
-using WholeLanes = hn::RebindToSigned<FloatLanes>;
-using Floats = hn::Vec<FloatLanes>;
-using Wholes = hn::Vec<WholeLanes>;
+using namespace post_lanes::HWY_NAMESPACE;
 
 // Places located ahead of their look-up: their posts have come into the cache by then.
 constexpr std::size_t kAhead = 128;
-constexpr std::int32_t kVoid = -32768;
 
 // Where places lie: the post south-west of each, as bytes from the first, and the way on from it [0, 1].
 struct Located {
@@ -34,19 +30,6 @@ struct Located {
   HWY_ALIGN float north[kAhead];
   HWY_ALIGN float east[kAhead];
 };
-
-// Quotient of a small non-negative whole number by the step of the blocks: times 65536 / step, rounded up, is exact
-// below 13000.
-template <int kStep>
-HWY_INLINE Wholes divided(Wholes number) {
-  constexpr std::uint16_t kInverse = (65536 + kStep - 1) / kStep;
-#if HWY_TARGET == HWY_SCALAR
-  return hn::ShiftRight<16>(hn::Mul(number, hn::Set(WholeLanes(), std::int32_t{kInverse})));
-#else
-  const hn::Repartition<std::uint16_t, WholeLanes> d16;
-  return hn::BitCast(WholeLanes(), hn::MulHigh(hn::BitCast(d16, number), hn::Set(d16, kInverse)));
-#endif
-}
 
 // Not a number counts as 0: what lies in the slack must not lead anywhere. (Of a maximum with no number in it, the
 // other one is left.)
@@ -79,28 +62,19 @@ std::size_t places_per_line(const Grid& grid, const float* north_deg, const floa
 
 HWY_INLINE void locate(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count,
                        std::size_t fetch_step, Located& located) {
-  constexpr auto kPost = static_cast<std::int32_t>(sizeof(std::int16_t));
-  constexpr auto kBlock = static_cast<std::int32_t>(PostBlocks::kPosts);
   const FloatLanes d;
   const WholeLanes di;
   const auto row_intervals = hn::Set(d, static_cast<float>(grid.rows - 1));
   const auto column_intervals = hn::Set(d, static_cast<float>(grid.columns - 1));
   const auto last_row = hn::Set(d, static_cast<float>(grid.rows - 2));
   const auto last_column = hn::Set(d, static_cast<float>(grid.columns - 2));
-  // A post is a row or a column on within its block; a block further, the posts of the one before are taken back.
-  const auto row_of_blocks =
-      hn::Set(di, kPost * (grid.posts->block_columns() * kBlock - PostBlocks::kRowStep * PostBlocks::kColumns));
-  const auto column_of_blocks = hn::Set(di, kPost * (kBlock - PostBlocks::kColumnStep));
+  const BlockLanes blocks(*grid.posts);
   const auto* const bytes = reinterpret_cast<const char*>(grid.posts->data());
-  static_assert(kPost == 2 && PostBlocks::kColumns == 8);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const Apart row = apart(clamped(hn::Mul(hn::LoadU(d, north_deg + i), row_intervals), row_intervals), last_row);
     const Apart column =
         apart(clamped(hn::Mul(hn::LoadU(d, east_deg + i), column_intervals), column_intervals), last_column);
-    const auto blocks = hn::Add(hn::Mul(divided<PostBlocks::kRowStep>(row.whole), row_of_blocks),
-                                hn::Mul(divided<PostBlocks::kColumnStep>(column.whole), column_of_blocks));
-    const auto within = hn::Add(hn::ShiftLeft<4>(row.whole), hn::ShiftLeft<1>(column.whole));
-    hn::Store(hn::Add(blocks, within), di, located.offset + i);
+    hn::Store(blocks.offset(row.whole, column.whole), di, located.offset + i);
     hn::Store(row.share, d, located.north + i);
     hn::Store(column.share, d, located.east + i);
     for (std::size_t place = 0; place < hn::Lanes(d); place += fetch_step)
@@ -113,30 +87,8 @@ struct Posts {
   Wholes south_west, south_east, north_west, north_east;
 };
 
-// Two posts side by side are one word.
-struct Words {
-  Wholes south, north;
-};
-HWY_INLINE Words gather(const std::int16_t* posts, Wholes offset) {
-  const auto* const words = reinterpret_cast<const std::int32_t*>(posts);
-  const auto* const words_north = reinterpret_cast<const std::int32_t*>(posts + PostBlocks::kColumns);
-#if HWY_TARGET == HWY_SCALAR
-  // Highway would load a word where none is aligned.
-  const auto word = [offset](const std::int32_t* from) {
-    std::int32_t both = 0;
-    std::memcpy(&both, reinterpret_cast<const char*>(from) + hn::GetLane(offset), sizeof both);
-    return hn::Set(WholeLanes(), both);
-  };
-  return {word(words), word(words_north)};
-#else
-  const WholeLanes di;
-  return {hn::GatherOffset(di, words, offset), hn::GatherOffset(di, words_north, offset)};
-#endif
-}
-
 HWY_INLINE Posts unpacked(Words words) {
-  return {hn::ShiftRight<16>(hn::ShiftLeft<16>(words.south)), hn::ShiftRight<16>(words.south),
-          hn::ShiftRight<16>(hn::ShiftLeft<16>(words.north)), hn::ShiftRight<16>(words.north)};
+  return {western(words.south), eastern(words.south), western(words.north), eastern(words.north)};
 }
 
 HWY_INLINE Floats blended(Floats south_west, Floats south_east, Floats north_west, Floats north_east, Floats north,

@@ -50,6 +50,14 @@ struct SurfaceRun {
 // Arrays of the fast path have this many entries more behind the last one, which may be read and overwritten.
 inline constexpr std::size_t kRunSlack = 16;
 
+// How a ray sees its ground, for the fast path: from an eye at its beginning, over a sphere.
+struct RaySight {
+  double altitude_m = 0.0;            // MSL of the eye
+  double curvature = 0.0;             // [1/m] of the effective earth
+  std::span<const float> distance_m;  // over ground, of the places, ascending
+};
+inline constexpr float kNoTangent = -1.0e30F;  // of an elevation angle: below every ground
+
 class TerrainView {
  public:
   using Interpolation = radar::Interpolation;
@@ -76,12 +84,21 @@ class TerrainView {
   // [m] between the closest posts anywhere in it: between them the ground is what interpolation makes of it. 0: not
   // told.
   virtual double post_spacing_m() const { return 0.0; }
+  // [m] between the posts about a place; 0: none there, or not told.
+  virtual double post_spacing_at(geo::GeoPoint /*place*/) const { return 0.0; }
   // True if a material other than 0 may be found anywhere.
   virtual bool has_materials() const { return false; }
 
   // The same for a run of places, in float: the fast path. Error against surface_at at most 0.05 m + 1e-6 of the
   // cell's relief, for the same position. Returns how many places met a cell that is not loaded yet (NaN there).
   virtual std::size_t surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const = 0;
+
+  // The greatest tangent of all lines of posts that the ray crosses on its way to each place from the one before (to
+  // the first from the ray's beginning); kNoTangent where it crosses none. Straight between two posts, of the highest
+  // ground where a coarser level stands in. False and nothing written where the ground is not made of posts.
+  virtual bool crests(const PlaceRun& /*places*/, const RaySight& /*sight*/, std::span<float> /*tangent*/) const {
+    return false;
+  }
 };
 
 using TerrainViewPointer = std::shared_ptr<const TerrainView>;

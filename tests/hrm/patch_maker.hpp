@@ -19,6 +19,7 @@ inline constexpr double kGround_m = 50.0;  // above the sea, for 0 is water
 // What is seen is geometry alone: flat earth, no texture, no response, no noise.
 inline radar::RadarConfiguration bare_map(int size = 480) {
   radar::RadarConfiguration configuration;
+  configuration.world.atmosphere.gases = false;  // gamma as it is
   configuration.fidelity.earth = radar::EarthModel::flat;
   configuration.fidelity.map_size = size;
   configuration.fidelity.map_response = false;

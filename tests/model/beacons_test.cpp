@@ -30,6 +30,7 @@ radar::RadarConfiguration with(const radar::Beacon& beacon) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.earth = radar::EarthModel::flat;
   configuration.fidelity.beam = radar::BeamPattern::gaussian;
+  configuration.world.atmosphere.gases = false;
   configuration.world.beacons.beacons.push_back(beacon);
   return configuration;
 }

@@ -13,7 +13,7 @@ namespace yars::test {
 
 inline constexpr geo::GeoPoint kMidLatitude{37.0, -122.0};
 
-// Everything off that is not under test: no noise, no smears, a beam so wide that it has no edge, flat earth.
+// Everything off that is not under test: no noise, no smears, no gases, a beam without edge, flat earth.
 inline radar::RadarConfiguration bare_configuration(int samples) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.algorithm = radar::Algorithm::reference;
@@ -24,6 +24,7 @@ inline radar::RadarConfiguration bare_configuration(int samples) {
   configuration.fidelity.pulse_smear = false;
   configuration.fidelity.beam = radar::BeamPattern::hard_edge;
   configuration.antenna.elevation_beamwidth_deg = 180.0;
+  configuration.world.atmosphere.gases = false;
   return configuration;
 }
 

@@ -325,7 +325,7 @@ class ForeignTerrain : public terrain::TerrainView {
   terrain::Surface surface_at(geo::GeoPoint place, Interpolation interpolation) const override {
     return hills_.surface_at(place, interpolation);
   }
-  bool serves(int detail) const override { return detail == 3; }
+  bool serves(int detail) const override { return detail == 9; }
   std::size_t surfaces(const terrain::PlaceRun& places, Interpolation interpolation,
                        const terrain::SurfaceRun& found) const override {
     return hills_.surfaces(places, interpolation, found);
@@ -350,7 +350,7 @@ std::vector<std::uint32_t> flags_over(const terrain::TerrainView& view, test::Co
 TEST(RadarKernel, ASweepOverTerrainOfAnotherDetailIsNotReady) {
   test::Cockpit cockpit;
   const ForeignTerrain foreign;
-  EXPECT_NE(cockpit.kernel.need(cockpit.tick).region.detail, 3);
+  EXPECT_NE(cockpit.kernel.need(cockpit.tick).region.detail, 9);
   for (const std::uint32_t flags : flags_over(foreign, cockpit)) EXPECT_NE(flags & databuffer::kSweepNotReady, 0U);
 }
 

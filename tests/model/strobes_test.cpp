@@ -31,6 +31,7 @@ radar::Jammer jammer_north(double distance_m, double altitude_m = kAltitudeM) {
 radar::RadarConfiguration jammed_by(const radar::Jammer& jammer) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.beam = radar::BeamPattern::gaussian;
+  configuration.world.atmosphere.gases = false;
   configuration.world.jamming.jammers.push_back(jammer);
   return configuration;
 }

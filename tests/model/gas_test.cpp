@@ -1,0 +1,209 @@
+// What the gases of the air take, against Recommendation ITU-R P.676-13 and against sums over thin layers.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "model/rbm/beacons.hpp"
+#include "model/rbm/gas_path.hpp"
+#include "model/rbm/standard.hpp"
+#include "model/rbm/strobes.hpp"
+#include "model/reflectivity/gases.hpp"
+#include "tests/model/ground.hpp"
+
+namespace yars::model::rbm {
+namespace {
+
+using reflectivity::gas_attenuation;
+using reflectivity::reference_air;
+
+constexpr double kNauticalMile_m = 1852.0;
+
+// Of the ITU's own examples for P.676-13 (CG-3M3J-13-ValEx, sheet "P.676-13 SpAtt"): 1013.25 hPa, 15 C, 7.5 g/m3.
+TEST(Gases, HaveTheRecommendationsSpecificAttenuation) {
+  struct Example {
+    double frequency_ghz, dry, water;
+  };
+  constexpr Example kExamples[] = {{12.0, 0.00869826406877357, 0.00953538822024593},
+                                   {20.0, 0.0118835504778076, 0.0970473048151117},
+                                   {60.0, 14.6234747964861, 0.154841840636247},
+                                   {90.0, 0.0388697110724235, 0.341973394422181},
+                                   {130.0, 0.0415090835995228, 0.75184470364613}};
+  for (const Example& example : kExamples) {
+    const auto found = gas_attenuation(example.frequency_ghz, {288.15, 1013.25, 7.5});
+    EXPECT_NEAR(found.dry / example.dry, 1.0, 1e-9) << example.frequency_ghz;
+    EXPECT_NEAR(found.water / example.water, 1.0, 1e-9) << example.frequency_ghz;
+  }
+  const auto at_ten = gas_attenuation(10.0, {288.15, 1013.25, 7.5});
+  EXPECT_NEAR(at_ten.dry + at_ten.water, 0.0142, 0.00005);
+}
+
+// Recommendation ITU-R P.835-6, Annex 1: 216.65 K from 11 to 20 km; 226.32 and 54.75 hPa at its two ends.
+TEST(Gases, FillTheReferenceAtmosphere) {
+  const radar::AtmosphereConfiguration atmosphere;
+  EXPECT_NEAR(reference_air(atmosphere, 0.0).dry_hpa, 1013.25, 1e-9);
+  EXPECT_NEAR(reference_air(atmosphere, 11000.0).temperature_k, 216.65, 1e-9);
+  EXPECT_NEAR(reference_air(atmosphere, 11000.0).dry_hpa, 226.3226, 0.1);
+  EXPECT_NEAR(reference_air(atmosphere, 20000.0).dry_hpa, 54.7498, 0.1);
+  EXPECT_NEAR(reference_air(atmosphere, 30000.0).temperature_k, 226.65, 1e-9);
+  EXPECT_NEAR(reference_air(atmosphere, 2000.0).water_g_m3, 7.5 / std::exp(1.0), 1e-9);
+}
+
+// Rays that go deeper are below every ground: nothing is seen along them.
+constexpr double kDeepest_m = -450.0;
+double lowest_m(double altitude_m, double distance_m, double height_m) {
+  const double bow_m = 0.5 * distance_m * distance_m / (4.0 / 3.0 * 6371008.8);
+  double lowest = height_m;
+  for (double share = 0.0; share <= 1.0; share += 0.01)
+    lowest = std::min(lowest, altitude_m + share * (height_m - altitude_m) - share * (1.0 - share) * bow_m);
+  return lowest;
+}
+
+// The ray cut into short pieces, each with the air of its middle.
+double in_layers_db(const radar::RadarConfiguration& configuration, double radius_m, double altitude_m, double distance_m,
+                    double height_m) {
+  constexpr int kPieces = 2000;
+  const EffectiveEarth earth(radius_m);
+  const double length_m = earth.sight(altitude_m, distance_m, height_m).slant_range_m;
+  // From the middle of the earth: the ends, and what lies between on a straight line.
+  const double angle = distance_m / radius_m;
+  const double ax = 0.0, ay = radius_m + altitude_m;
+  const double bx = (radius_m + height_m) * std::sin(angle), by = (radius_m + height_m) * std::cos(angle);
+  double sum_db = 0.0;
+  for (int piece = 0; piece < kPieces; ++piece) {
+    const double share = (piece + 0.5) / kPieces;
+    const double above_m = std::hypot(ax + share * (bx - ax), ay + share * (by - ay)) - radius_m;
+    const auto found = gas_attenuation(configuration.receiver.frequency_ghz,
+                                       reference_air(configuration.world.atmosphere, above_m));
+    sum_db += (found.dry + found.water) / 1000.0 * length_m / kPieces;
+  }
+  return sum_db;
+}
+
+TEST(Gases, AreSummedOverTheRay) {
+  const radar::RadarConfiguration configuration;
+  const GasPath path(configuration);
+  const double radius_m = 4.0 / 3.0 * 6371008.8;
+  for (const double altitude_m : {150.0, 1500.0, 4572.0, 12000.0, 18000.0})
+    for (const double range_nm : {4.7, 10.0, 40.0, 80.0, 160.0})
+      for (const double height_m : {-50.0, 0.0, 1500.0, 4000.0}) {
+        const double distance_m = range_nm * kNauticalMile_m;
+        if (lowest_m(altitude_m, distance_m, height_m) < kDeepest_m) continue;
+        const double expected = in_layers_db(configuration, radius_m, altitude_m, distance_m, height_m);
+        EXPECT_NEAR(path.one_way_db(EffectiveEarth(radius_m), altitude_m, distance_m, height_m), expected,
+                    0.002 + 0.002 * expected)
+            << altitude_m << " m, " << range_nm << " NM, " << height_m << " m";
+      }
+}
+
+TEST(Gases, TakeUpToEightDecibelsAt160MilesThereAndBack) {
+  radar::RadarConfiguration configuration;
+  configuration.receiver.frequency_ghz = 10.0;
+  const GasPath path(configuration);
+  const EffectiveEarth flat(std::numeric_limits<double>::infinity());
+  // Level, at sea level.
+  EXPECT_NEAR(2.0 * path.one_way_db(flat, 0.0, 160.0 * kNauticalMile_m, 0.0), 2.0 * 0.0142 * 296.32, 0.05);
+  const EffectiveEarth earth(4.0 / 3.0 * 6371008.8);
+  const double from_15000_ft = 2.0 * path.one_way_db(earth, 4572.0, 140.0 * kNauticalMile_m, 0.0);
+  EXPECT_GT(from_15000_ft, 4.0);
+  EXPECT_LT(from_15000_ft, 8.0);
+}
+
+// The fast factors against the integral.
+TEST(Gases, OfSamplesAgreeWithThoseOfRays) {
+  const radar::RadarConfiguration configuration;
+  const GasPath path(configuration);
+  const EffectiveEarth earth(4.0 / 3.0 * 6371008.8);
+  constexpr std::size_t kSamples = 480;
+  GasSamples samples(configuration, kSamples);
+  for (const double altitude_m : {150.0, 1500.0, 4572.0, 15000.0})
+    for (const double range_nm : {4.7, 40.0, 160.0})
+      for (const float height_m : {-400.0F, 0.0F, 700.0F, 2000.0F, 3500.0F, 6000.0F}) {
+        std::vector<float> distance_m(kSamples), heights(kSamples, height_m), factor(kSamples, 1.0F);
+        for (std::size_t i = 0; i < kSamples; ++i)
+          distance_m[i] = static_cast<float>((static_cast<double>(i) + 0.5) * range_nm * kNauticalMile_m / kSamples);
+        samples.use(path, altitude_m, range_nm * kNauticalMile_m, distance_m, true);
+        samples.apply(heights.data(), factor.data());
+        for (std::size_t i = 0; i < kSamples; ++i) {
+          const auto height = static_cast<double>(height_m);
+          if (lowest_m(altitude_m, static_cast<double>(distance_m[i]), height) < kDeepest_m) continue;
+          const double expected_db = -2.0 * path.one_way_db(earth, altitude_m, static_cast<double>(distance_m[i]),
+                                                            height);
+          ASSERT_NEAR(10.0 * std::log10(static_cast<double>(factor[i])), expected_db, 0.1)
+              << altitude_m << " m, " << range_nm << " NM, " << height_m << " m, sample " << i;
+        }
+      }
+}
+
+radar::RadarConfiguration without_gases(radar::RadarConfiguration configuration) {
+  configuration.world.atmosphere.gases = false;
+  return configuration;
+}
+
+TEST(Gases, SwitchedOffTakeNothing) {
+  const GasPath path(without_gases({}));
+  EXPECT_TRUE(path.none());
+  EXPECT_EQ(path.two_way_loss(EffectiveEarth(8.0e6), 5000.0, 200000.0, 0.0), 1.0);
+}
+
+// Ground, a ship and rain in one sweep; all lose what the ray to them loses.
+TEST(Gases, DimGroundShipsAndRainAlike) {
+  radar::RadarConfiguration configuration;
+  configuration.fidelity.pulse_smear = false;
+  const Look look = test::look_north(4572.0, 80.0 * kNauticalMile_m);
+  const geo::GeoPoint ahead = geo::geodesic_direct(look.apex, look.azimuth, geo::Length::nautical_miles(60.0));
+  const terrain::AnalyticTerrain plain(terrain::flat(100.0));
+  radar::RadarConfiguration ship = configuration, rain = configuration;
+  ship.world.movers.push_back({"ship", ahead, 0.0, 0.0, 1.0e7, 5.0});
+  rain.world.rain.cells.push_back({ahead, 9000.0, 50.0, 4000.0});
+  const EffectiveEarth earth = effective_earth(configuration.fidelity, look.apex, look.azimuth);
+  for (const auto algorithm : {radar::Algorithm::standard, radar::Algorithm::reference})
+    for (radar::RadarConfiguration with : {configuration, ship, rain}) {
+      with.fidelity.algorithm = algorithm;
+      const radar::RadarConfiguration bare = without_gases(with);
+      std::vector<float> dimmed(480), clear(480);
+      make_algorithm(with)->measure(look, plain, dimmed);
+      make_algorithm(bare)->measure(look, plain, clear);
+      const GasPath path(with);
+      for (const std::size_t i : {100U, 359U, 360U, 470U}) {
+        const double distance_m = (static_cast<double>(i) + 0.5) * look.range.metres() / 480.0;
+        ASSERT_GT(clear[i], 0.0F);
+        EXPECT_NEAR(10.0 * std::log10(static_cast<double>(dimmed[i]) / static_cast<double>(clear[i])),
+                    -2.0 * path.one_way_db(earth, 4572.0, distance_m, 100.0), 0.03)
+            << i;
+      }
+    }
+}
+
+TEST(Gases, TakeTheirPartOnceFromJammersAndBeacons) {
+  radar::RadarConfiguration configuration;
+  const Look look = test::look_north(4572.0, 80.0 * kNauticalMile_m);
+  const geo::GeoPoint ahead = geo::geodesic_direct(look.apex, look.azimuth, geo::Length::nautical_miles(60.0));
+  radar::Jammer jammer;
+  jammer.place = ahead;
+  jammer.altitude_m = 500.0;
+  jammer.power_w = 100.0;
+  jammer.band = radar::kEveryBand;
+  jammer.channels = {1};
+  configuration.world.jamming.jammers.push_back(jammer);
+  radar::Beacon beacon;
+  beacon.place = ahead;
+  beacon.altitude_m = 500.0;
+  beacon.code = configuration.world.beacons.code;
+  configuration.world.beacons.beacons.push_back(beacon);
+  const radar::RadarConfiguration bare = without_gases(configuration);
+  const terrain::AnalyticTerrain plain(terrain::flat(100.0));
+  const EffectiveEarth earth = effective_earth(configuration.fidelity, look.apex, look.azimuth);
+  const double expected_db = -GasPath(configuration).one_way_db(earth, 4572.0, 60.0 * kNauticalMile_m, 500.0);
+  const double strobe = Strobes(configuration).level(look, plain) / Strobes(bare).level(look, plain);
+  EXPECT_NEAR(10.0 * std::log10(strobe), expected_db, 1e-6);
+  Beacons heard(configuration), clear(bare);
+  ASSERT_FALSE(heard.replies(look, plain).empty());
+  const double reply = heard.replies(look, plain)[0].power / clear.replies(look, plain)[0].power;
+  EXPECT_NEAR(10.0 * std::log10(reply), expected_db, 1e-6);
+}
+
+}  // namespace
+}  // namespace yars::model::rbm

@@ -1,0 +1,272 @@
+// Light and shadow against brute force: every tenth of the posts' spacing on the exact geodesic, bilinear, on the exact
+// effective earth. A sample is dark if anything nearer stands as high, whatever the number of samples.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lib/radar/fidelity_preset.hpp"
+#include "model/kernel/scan_detail.hpp"
+#include "model/rbm/algorithm.hpp"
+#include "model/rbm/beacons.hpp"
+#include "model/rbm/earth.hpp"
+#include "model/rbm/sample_places.hpp"
+#include "model/rbm/strobes.hpp"
+#include "model/terrain/cell_view.hpp"
+#include "model/terrain/dted_writer.hpp"
+#include "model/terrain/landscape.hpp"
+#include "model/terrain/open_terrain.hpp"
+#include "tests/lanes/vector_targets.hpp"
+#include "tests/terrain/dted_builder.hpp"
+#include "tests/terrain/rough_cell.hpp"
+#include "tests/terrain/shared_data.hpp"
+
+namespace yars::model::rbm {
+namespace {
+
+constexpr int kPosts = 1201;  // of a degree at 3"
+constexpr double kNothing = -std::numeric_limits<double>::infinity();
+
+struct Scan {
+  geo::GeoPoint apex;
+  double altitude_ft = 15000.0;
+  double first_deg = 0.0, last_deg = 0.0, step_deg = 1.0;  // azimuths
+};
+
+Look look_along(const Scan& scan, double azimuth_deg, double range_nm) {
+  return {scan.apex, geo::AltitudeMsl::feet(scan.altitude_ft), geo::Bearing::degrees(azimuth_deg),
+          geo::Angle::degrees(-3.0), geo::Length::nautical_miles(range_nm)};
+}
+
+struct Truth {
+  std::vector<bool> lit, known;
+};
+
+Truth brute_force(const Look& look, const terrain::TerrainView& finest, std::size_t samples) {
+  radar::Fidelity exact;
+  const EffectiveEarth earth = effective_earth(exact, look.apex, look.azimuth);
+  const geo::GeodesicRay ray(look.apex, look.azimuth);
+  const double spacing_m = look.range.metres() / static_cast<double>(samples);
+  const auto steps = static_cast<int>(std::ceil(spacing_m / (0.1 * finest.post_spacing_m())));
+  const auto tangent = [&](double distance_m) {
+    const double height_m = finest.elevation_m(ray.position(geo::Length::metres(distance_m)));
+    return std::isnan(height_m) ? kNothing : earth.sight(look.altitude.metres(), distance_m, height_m).tangent;
+  };
+  Truth truth;
+  double horizon = kNothing;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const double centre_m = (static_cast<double>(i) + 0.5) * spacing_m;
+    for (int step = 1; step < steps; ++step) {
+      const double distance_m = centre_m - spacing_m * (1.0 - static_cast<double>(step) / steps);
+      if (distance_m > 0.0) horizon = std::max(horizon, tangent(distance_m));
+    }
+    const double own = tangent(centre_m);
+    truth.known.push_back(own > kNothing);
+    truth.lit.push_back(own > horizon);
+    horizon = std::max(horizon, own);
+  }
+  return truth;
+}
+
+struct Found {
+  double wrong = 0.0, dark = 0.0, samples = 0.0;
+};
+
+Found compare(const char* preset, const Scan& scan, double range_nm, const terrain::TerrainView& finest,
+              const terrain::TerrainView& served) {
+  radar::RadarConfiguration configuration;
+  configuration.fidelity = *radar::fidelity_preset(preset);
+  configuration.fidelity.sub_beams = 1;  // the middle ray alone
+  const auto algorithm = make_algorithm(configuration);
+  const std::size_t count = sample_count(configuration);
+  std::vector<float> power(count);
+  std::vector<std::uint8_t> lit(count);
+  Found found;
+  for (double azimuth_deg = scan.first_deg; azimuth_deg <= scan.last_deg; azimuth_deg += scan.step_deg) {
+    const Look look = look_along(scan, azimuth_deg, range_nm);
+    const Truth truth = brute_force(look, finest, count);
+    algorithm->measure(look, served, power);
+    algorithm->lit(lit);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!truth.known[i]) continue;
+      found.samples += 1.0;
+      found.dark += truth.lit[i] ? 0.0 : 1.0;
+      found.wrong += truth.lit[i] == (lit[i] != 0) ? 0.0 : 1.0;
+    }
+  }
+  return found;
+}
+
+struct Bound {
+  const char* preset;
+  double share;
+};
+constexpr Bound kBounds[] = {{"reference", 0.001}, {"standard", 0.005}, {"draft", 0.02}};
+
+// Each preset over the level of terrain that it asks for. Returns the greatest share in the dark of all ranges.
+double expect_within_bounds(const std::string& name, const Scan& scan, const std::filesystem::path& folder) {
+  auto store = terrain::open_terrain({folder.string(), true});
+  EXPECT_TRUE(store) << store.error().message();
+  if (!store) return 0.0;
+  double most_dark = 0.0;
+  for (const double range_nm : {4.7, 10.0, 20.0, 40.0, 80.0, 160.0})
+    for (const Bound& bound : kBounds) {
+      const geo::Length range = geo::Length::nautical_miles(range_nm);
+      const auto finest = (*store)->prepare({scan.apex, range.metres(), 0});
+      const int detail = kernel::scan_detail(*radar::fidelity_preset(bound.preset), range);
+      const auto served = (*store)->prepare({scan.apex, range.metres(), detail});
+      const Found found = compare(bound.preset, scan, range_nm, *finest, *served);
+      if (found.samples == 0.0) continue;
+      const double wrong = found.wrong / found.samples;
+      most_dark = std::max(most_dark, found.dark / found.samples);
+      EXPECT_LE(wrong, bound.share) << name << ", " << bound.preset << ", " << range_nm << " NM";
+      std::printf("%s, %s, %g NM: %.0f samples, %.1f %% dark, %.3f %% differ\n", name.c_str(), bound.preset, range_nm,
+                  found.samples, 100.0 * found.dark / found.samples, 100.0 * wrong);
+    }
+  return most_dark;
+}
+
+// Ranges some kilometres apart with ridges and gullies on them down to the posts, and a patch of voids.
+terrain::Cell mountains() {
+  return test::cell_of({38, -115}, kPosts, kPosts, [](int row, int column) {
+    if (row > 700 && row < 715 && column > 600 && column < 640) return int{terrain::kVoidPost};
+    const double x = column + 11.0 * std::sin(row * 0.041), y = row + 9.0 * std::sin(column * 0.053);
+    const double height_m = 2000.0 + 450.0 * std::sin(x * 0.043) * std::cos(y * 0.031) +
+                            170.0 * std::sin(x * 0.171 + y * 0.094) + 60.0 * std::abs(std::sin(x * 0.31 - y * 0.43)) +
+                            14.0 * std::sin(x * 1.1) * std::sin(y * 0.9);
+    return static_cast<int>(height_m);
+  });
+}
+
+// Sea beside them.
+TEST(ShadowBound, HoldsOverMountains) {
+  test::TemporaryFolder folder;
+  ASSERT_TRUE(terrain::write_dted(folder.path(), mountains(), 1));
+  EXPECT_GT(expect_within_bounds("mountains", {{38.3, -114.9}, 15000.0, 20.0, 80.0, 10.0}, folder.path()), 0.3);
+}
+
+TEST(ShadowBound, HoldsOverTheMadeUpCoast) {
+  test::TemporaryFolder folder;
+  const terrain::Landscape landscape(terrain::DefaultLandscape::kSeed);
+  ASSERT_TRUE(terrain::write_dted(folder.path(), landscape.cell({37, -123}, kPosts, kPosts), 1));
+  EXPECT_GT(expect_within_bounds("made-up coast", {{37.1, -122.95}, 4000.0, 10.0, 80.0, 10.0}, folder.path()), 0.02);
+}
+
+TEST(ShadowBound, HoldsOverRealMountains) {
+  YARS_NEEDS_SHARED_DATA();
+  const Scan scan{{38.2, -114.9}, 15000.0, 0.0, 90.0, 3.0};
+  EXPECT_GT(expect_within_bounds("Nevada", scan, test::shared_data() / "srtm"), 0.3);
+}
+
+TEST(ShadowBound, HoldsOverRealHills) {
+  YARS_NEEDS_SHARED_DATA();
+  const Scan scan{{0.25, 6.9}, 8000.0, 230.0, 310.0, 3.0};
+  EXPECT_GT(expect_within_bounds("jungle hills", scan, test::shared_data() / "dted"), 0.1);
+}
+
+TEST(ShadowBound, HoldsOverARealCoast) {
+  YARS_NEEDS_SHARED_DATA();
+  const Scan scan{{36.3, -122.3}, 6000.0, 20.0, 110.0, 3.0};
+  EXPECT_GT(expect_within_bounds("Big Sur", scan, test::shared_data() / "srtm"), 0.1);
+}
+
+// A wall of one post's width, far narrower than a sample: what lies behind it is dark, ships too.
+class LoneWall : public ::testing::Test {
+ protected:
+  static constexpr int kWallRow = 601;  // 30' north of the cell's edge
+  LoneWall() : view_(1, terrain::Absence::none) {
+    view_.add(std::make_shared<const terrain::Cell>(
+        test::cell_of({37, -122}, kPosts, kPosts, [](int row, int) { return row == kWallRow ? 1500 : 10; })));
+  }
+  static Look look(double range_nm) {
+    return {{37.2, -121.5}, geo::AltitudeMsl::metres(1200.0), geo::Bearing::degrees(0.0), geo::Angle::degrees(-2.0),
+            geo::Length::nautical_miles(range_nm)};
+  }
+  static geo::GeoPoint behind(double miles) {
+    return geo::geodesic_direct({37.2, -121.5}, geo::Bearing::degrees(0.0),
+                                geo::Length::nautical_miles(18.05 + miles));
+  }
+  terrain::CellView view_;
+};
+
+TEST_F(LoneWall, HidesTheGroundBehindItAtEveryRange) {
+  for (const char* preset : {"draft", "standard", "reference"})
+    for (const double range_nm : {20.0, 40.0, 80.0, 160.0}) {
+      radar::RadarConfiguration configuration;
+      configuration.fidelity = *radar::fidelity_preset(preset);
+      configuration.fidelity.sub_beams = 1;
+      const auto algorithm = make_algorithm(configuration);
+      const std::size_t count = sample_count(configuration);
+      std::vector<float> power(count);
+      std::vector<std::uint8_t> lit(count);
+      algorithm->measure(look(range_nm), view_, power);
+      algorithm->lit(lit);
+      for (std::size_t i = 0; i < count; ++i) {
+        const double miles = (static_cast<double>(i) + 0.5) * range_nm / static_cast<double>(count);
+        if (miles < 17.9 && miles > 1.0) EXPECT_EQ(lit[i], 1) << preset << ", " << range_nm << ", " << miles;
+        if (miles > 18.2) EXPECT_EQ(lit[i], 0) << preset << ", " << range_nm << ", " << miles;
+      }
+    }
+}
+
+TEST_F(LoneWall, HidesAShipRightBehindIt) {
+  for (const char* preset : {"draft", "standard", "reference"})
+    for (const double range_nm : {20.0, 40.0, 80.0, 160.0}) {
+      radar::RadarConfiguration configuration;
+      configuration.fidelity = *radar::fidelity_preset(preset);
+      configuration.fidelity.sub_beams = 1;
+      const std::size_t count = sample_count(configuration);
+      std::vector<float> with(count), without(count);
+      make_algorithm(configuration)->measure(look(range_nm), view_, without);
+      configuration.world.movers.push_back({"ship", behind(0.2), 0.0, 0.0, 1.0e9, 6.0});
+      make_algorithm(configuration)->measure(look(range_nm), view_, with);
+      EXPECT_EQ(with, without) << preset << ", " << range_nm << " NM";
+    }
+}
+
+TEST_F(LoneWall, HidesJammersAndBeacons) {
+  radar::RadarConfiguration configuration;
+  radar::Jammer jammer;
+  jammer.place = behind(3.0);
+  configuration.world.jamming.jammers.push_back(jammer);
+  radar::Beacon beacon;
+  beacon.place = jammer.place;
+  configuration.world.beacons.beacons.push_back(beacon);
+  EXPECT_EQ(Strobes(configuration).level(look(40.0), view_), 0.0);
+  EXPECT_TRUE(Beacons(configuration).replies(look(40.0), view_).empty());
+  // As high as the wall they are in sight.
+  configuration.world.jamming.jammers[0].altitude_m = configuration.world.beacons.beacons[0].altitude_m = 2500.0;
+  EXPECT_GT(Strobes(configuration).level(look(40.0), view_), 0.0);
+  EXPECT_FALSE(Beacons(configuration).replies(look(40.0), view_).empty());
+}
+
+TEST_F(LoneWall, HasTheSameCrestsForEveryWidthOfVector) {
+  PlaceArrays places(333);
+  std::vector<float> distance_m(333 + kPairSlack);
+  for (std::size_t i = 0; i < distance_m.size(); ++i)
+    distance_m[i] = static_cast<float>(std::min<std::size_t>(i, 332) + 0.5) * 150.0F;
+  const terrain::Cell rough = test::rough_cell({37, -121}, kPosts, kPosts, 7);
+  view_.add(std::make_shared<const terrain::Cell>(rough));
+  for (const double azimuth_deg : {0.0, 33.0, 90.0, 181.0, 275.0}) {
+    sample_places({37.4, -121.1}, geo::Bearing::degrees(azimuth_deg), geo::Length::metres(50000.0), 5,
+                  distance_m.data(), places);
+    std::vector<float> first;
+    test::for_each_vector_target([&](const char* name) {
+      std::vector<float> crests(333 + kPairSlack);
+      ASSERT_TRUE(view_.crests(places.run(), {1500.0, 1.0 / 8.5e6, std::span(distance_m).first(333)},
+                               std::span(crests).first(333)));
+      crests.resize(333);
+      if (first.empty()) first = crests;
+      EXPECT_EQ(crests, first) << name << ", " << azimuth_deg;
+    });
+  }
+}
+
+}  // namespace
+}  // namespace yars::model::rbm
