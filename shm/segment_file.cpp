@@ -38,7 +38,7 @@ SegmentFile::Descriptor::~Descriptor() {
   if (number_ >= 0) close(number_);
 }
 
-SegmentFile::SegmentFile(bi::shared_memory_object object, Access access)
+SegmentFile::SegmentFile(boost::interprocess::shared_memory_object object, Access access)
     : object_(std::move(object)), access_(access) {}
 SegmentFile::SegmentFile(Descriptor reopened, Access access) : reopened_(std::move(reopened)), access_(access) {}
 
