@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
-"""Headers and documents of YARS as Doxygen reads them: usage: doxygen_source.py FOLDER (scripts/docs runs it).
+"""Sources and documents of YARS as Doxygen reads them: usage: doxygen_source.py FOLDER (scripts/docs runs it), or as
+Doxygen's filter: doxygen_source.py --filter FILE
 
-In headers plain comments become documentation: the first is about the file, one above or behind a declaration about that.
-In Markdown `<!-- diagram: FILE.dot -->` becomes the diagram, and links to headings find them.
+FOLDER gets a copy of the tree. In its Markdown `<!-- diagram: FILE.dot -->` is the diagram, and links to headings find them.
+The filter makes plain comments documentation: of headers and sources the first is about the file; of headers one above or
+behind a declaration is about that. It keeps the number of every line but the file's first, so that links into the pages
+of the sources, which show them as they are, hit.
 """
 import pathlib
 import re
@@ -10,7 +13,8 @@ import shutil
 import sys
 
 PLACES = [pathlib.Path(place) for place in ("README.md", "HACKING.md", "docs", "lib", "shm", "config", "databuffer", "model",
-                                            "statemachine", "inputmonitor", "display", "tools")]
+                                            "statemachine", "inputmonitor", "display", "tools", "examples")]
+SOURCES = (".hpp", ".h", ".cpp", ".c")
 
 
 def escaped(text):
@@ -20,23 +24,37 @@ def escaped(text):
     return "".join(kept)
 
 
-def header(lines):
-    inside_first = True
-    for line in lines:
-        whole = re.match(r"(\s*)// ?(.*)", line)
-        if inside_first and line.startswith("//"):
-            yield ("/// \\file\n" if whole and lines[0] is line else "") + "/// " + escaped(whole[2]) + "\n"
-            continue
-        if inside_first:
-            inside_first = False
-            yield "\n"
-        behind = re.match(r"(.*[;,{}] +)// (.*)", line)
-        if whole and not whole[2].startswith(("NOLINT", "clang-format")):
-            yield f"{whole[1]}/// {escaped(whole[2])}\n"
-        elif behind and not behind[2].startswith("NOLINT") and '"' not in behind[2]:
-            yield f"{behind[1]}///< {escaped(behind[2])}\n"
-        else:
-            yield line
+def file_comment(lines):
+    """The comment that a file begins with, as its documentation, and how many lines that took."""
+    count = next((i for i, line in enumerate(lines) if not line.startswith("//")), len(lines))
+    if count == 0:
+        return [], 0
+    return ["/// \\file\n"] + ["/// " + escaped(re.sub("^// ?", "", line)) for line in lines[:count]], count
+
+
+def without_first_blank(lines):
+    """One line less, for the one that the file's documentation has more."""
+    blank = next((i for i, line in enumerate(lines) if not line.strip()), len(lines))
+    return lines[:blank] + lines[blank + 1:]
+
+
+def declaration(line):
+    whole = re.match(r"(\s*)// ?(.*)", line)
+    behind = re.match(r"(.*[;,{}] +)// (.*)", line)
+    if whole and not whole[2].startswith(("NOLINT", "clang-format")):
+        return f"{whole[1]}/// {escaped(whole[2])}\n"
+    if behind and not behind[2].startswith("NOLINT") and '"' not in behind[2]:
+        return f"{behind[1]}///< {escaped(behind[2])}\n"
+    return line
+
+
+def filtered(path):
+    lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
+    if path.suffix not in (".hpp", ".cpp"):
+        return "".join(lines)
+    first, count = file_comment(lines)
+    rest = without_first_blank(lines[count:]) if first else lines
+    return "".join(first + ([declaration(line) for line in rest] if path.suffix == ".hpp" else rest))
 
 
 def slug(heading):
@@ -66,19 +84,18 @@ def document(path):
 
 
 def main():
+    if sys.argv[1] == "--filter":
+        return sys.stdout.write(filtered(pathlib.Path(sys.argv[2])))
     target = pathlib.Path(sys.argv[1])
     shutil.rmtree(target, ignore_errors=True)
     for place in PLACES:
         for path in sorted(place.rglob("*")) if place.is_dir() else [place]:
-            if path.suffix not in (".hpp", ".h", ".md", ".dot", ".png"):
+            if path.suffix not in (*SOURCES, ".md", ".dot", ".png"):
                 continue
             copy = target / path
             copy.parent.mkdir(parents=True, exist_ok=True)
             if path.suffix == ".md":
                 copy.write_text(document(path), encoding="utf-8")
-            elif path.suffix == ".hpp":
-                lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
-                copy.write_text("".join(header(lines)), encoding="utf-8")
             else:
                 shutil.copy(path, copy)
 

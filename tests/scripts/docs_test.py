@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""Pages of sources: Doxygen with docs/Doxyfile over a header and its source, without class diagrams."""
+import html
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+FILTER = ROOT / "scripts" / "doxygen_source.py"
+FILES = ["model/kernel/pose.hpp", "model/kernel/pose.cpp"]
+
+
+class Pages(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        source = pathlib.Path(cls.folder.name) / "source"
+        for file in FILES:
+            (source / file).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / file, source / file)
+        settings = (ROOT / "docs" / "Doxyfile").read_text() + "".join(line + "\n" for line in (
+            "HAVE_DOT = NO", "USE_MDFILE_AS_MAINPAGE =", "IMAGE_PATH =", "DOTFILE_DIRS =",
+            f'INPUT_FILTER = "{sys.executable} {FILTER} --filter"'))
+        cls.run_ = subprocess.run(["doxygen", "-"], input=settings, cwd=source, capture_output=True, text=True, timeout=100)
+        cls.pages = pathlib.Path(cls.folder.name) / "html"
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def page(self, name):
+        return (self.pages / name).read_text(encoding="utf-8")
+
+    def lines_of(self, name):
+        """The text of each line of a source's page."""
+        lines = re.findall(r'<span class="lineno">(?:<[^>]*>)?\s*\d+(?:<[^>]*>)?</span>(.*?)</div>', self.page(name))
+        return [html.unescape(re.sub(r"<[^>]*>", "", line)).strip() for line in lines]
+
+    def test_nothing_is_warned_of(self):
+        self.assertEqual((self.run_.returncode, self.run_.stderr), (0, ""))
+
+    def test_pages_show_the_files_as_they_are(self):
+        for file in FILES:
+            name = pathlib.Path(file)
+            shown = self.lines_of(f"{name.stem}_8{name.suffix[1:]}_source.html")
+            written = [line.strip() for line in (ROOT / file).read_text().splitlines()]
+            self.assertEqual([line for line in shown if line], [line for line in written if line])
+
+    def test_a_headers_page_links_to_the_line_that_declares_and_the_one_that_defines(self):
+        page = self.page("pose_8hpp.html") + "".join(p.read_text() for p in self.pages.glob("namespaceyars*.html"))
+        source = (ROOT / "model/kernel/pose.cpp").read_text().splitlines()
+        line = next(i for i, text in enumerate(source, 1) if "pose_of(const" in text)
+        self.assertIn(f"pose_8cpp_source.html#l{line:05d}", page)
+
+    def test_plain_comments_are_documentation(self):
+        self.assertIn("Nothing if a value is not finite", "".join(p.read_text() for p in self.pages.glob("namespaceyars*.html")))
+
+    def test_the_filter_keeps_the_number_of_every_line(self):
+        for file in sorted((ROOT / "model").rglob("*.hpp"))[:40] + sorted((ROOT / "model").rglob("*.cpp"))[:40]:
+            out = subprocess.run([sys.executable, str(FILTER), "--filter", str(file)], capture_output=True, text=True, check=True)
+            before, after = file.read_text().splitlines(), out.stdout.splitlines()
+            self.assertEqual(len(before), len(after), file)
+            same = [i for i, line in enumerate(before) if line.startswith("#include")]
+            self.assertEqual([before[i] for i in same], [after[i] for i in same], file)
+
+
+if __name__ == "__main__":
+    if shutil.which("doxygen") is None:
+        sys.exit(77)
+    unittest.main()
