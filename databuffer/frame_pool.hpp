@@ -22,22 +22,22 @@ inline std::size_t frame_bytes(const GlassFrame& frame) {
 // Writes a frame in the place of the oldest one. `frame.id` is greater than all before; `pixels` has frame_bytes().
 template <class Access = shm::PlainAccess>
 void publish_frame(SessionLayout& layout, const GlassFrame& frame, std::span<const std::uint8_t> pixels) {
-  FrameSlot* slot = slot_to_fill<Access>(layout.frames, {});
+  FrameSlot* slot = slot_to_fill<Access>(layout.frames, frame.id, {});
   Access::store(slot->id, 0, std::memory_order_relaxed);
   shm::store_words<Access>(slot->frame.data(), &frame, shm::kWordsOf<GlassFrame>);
   store_pixels<Access>(*slot, pixels.first(std::min(pixels.size(), frame_bytes(frame))));
   Access::store(slot->id, frame.id, std::memory_order_release);
 }
 
-// The newest frame if it is newer than `after`; false: there is none, or its writer was faster than this reader 8
-// times.
+// The newest frame if it is another one than `after`; false: there is none, or its writer was faster than this reader 8
+// times. Not "greater than": an id that cannot be would hold the reader for ever.
 template <class Access = shm::PlainAccess>
 bool read_newest_frame(const SessionLayout& layout, std::uint64_t after, GlassFrame& frame,
                        std::vector<std::uint8_t>& pixels) {
   constexpr int kTries = 8;
   for (int attempt = 0; attempt < kTries; ++attempt) {
     const std::uint64_t id = greatest_id<Access>(layout.frames);
-    if (id <= after) return false;
+    if (id == 0 || id == after) return false;
     const FrameSlot* slot = slot_of<Access>(layout.frames, id);
     if (slot == nullptr) continue;
     shm::load_words<Access>(slot->frame.data(), &frame, shm::kWordsOf<GlassFrame>);

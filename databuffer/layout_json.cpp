@@ -150,7 +150,8 @@ std::string offsets() {
                     {"patches", offsetof(SessionLayout, patches)},
                     {"traffic", offsetof(SessionLayout, traffic)},
                     {"traffic_latched", offsetof(SessionLayout, traffic_latched)},
-                    {"frames", offsetof(SessionLayout, frames)}});
+                    {"frames", offsetof(SessionLayout, frames)},
+                    {"counters", offsetof(SessionLayout, counters)}});
 }
 
 std::string lock_bytes() {

@@ -7,10 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <utility>
+#include <vector>
 
+#include "databuffer/repeat_filter.hpp"
 #include "lib/failure/printable.hpp"
 #include "lib/file/log_file.hpp"
 
@@ -26,6 +29,29 @@ constexpr const char* kFilePattern = "%Y-%m-%d %H:%M:%S.%e %n[%P] %l: %v";
 std::shared_ptr<spdlog::logger>& file_logger() {
   static std::shared_ptr<spdlog::logger> logger;
   return logger;
+}
+
+struct Filtered {
+  std::mutex mutex;
+  RepeatFilter filter{10, 200};
+};
+Filtered& filtered() {
+  static Filtered all;
+  return all;
+}
+
+std::int64_t now_ns() {
+  return std::chrono::steady_clock::now().time_since_epoch().count();
+}
+
+bool passes(std::string_view text) {
+  const std::lock_guard guard(filtered().mutex);
+  return filtered().filter.passes(text, now_ns());
+}
+
+std::vector<RepeatFilter::LeftOut> left_out() {
+  const std::lock_guard guard(filtered().mutex);
+  return filtered().filter.take_left_out(now_ns());
 }
 
 // spdlog's own file sinks follow whatever link lies at the log's name.
@@ -91,17 +117,21 @@ void start_log_file(const std::string& program, const std::string& folder) {
   }
 }
 
+void log_left_out() {
+  for (const auto& lines : left_out()) spdlog::info("{}", failure::printable(lines.text()));
+}
+
 void log_debug(std::string_view text) {
   spdlog::debug("{}", failure::printable(text));
 }
 void log_info(std::string_view text) {
-  spdlog::info("{}", failure::printable(text));
+  if (passes(text)) spdlog::info("{}", failure::printable(text));
 }
 void log_warning(std::string_view text) {
-  spdlog::warn("{}", failure::printable(text));
+  if (passes(text)) spdlog::warn("{}", failure::printable(text));
 }
 void log_error(std::string_view text) {
-  spdlog::error("{}", failure::printable(text));
+  if (passes(text)) spdlog::error("{}", failure::printable(text));
 }
 void log_to_file(std::string_view text) {
   if (file_logger()) file_logger()->critical("{}", failure::printable(text));

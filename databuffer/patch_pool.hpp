@@ -29,7 +29,7 @@ std::uint64_t greatest_patch_id(const SessionLayout& layout) {
 template <class Access = shm::PlainAccess>
 bool publish_patch(SessionLayout& layout, const PatchMap& map, std::span<const std::uint8_t> pixels,
                    std::span<const std::uint64_t> keep) {
-  PatchSlot* slot = slot_to_fill<Access>(layout.patches, keep);
+  PatchSlot* slot = slot_to_fill<Access>(layout.patches, map.id, keep);
   if (slot == nullptr) return false;
   constexpr std::uint32_t kWhole_permille = 1000;
   Access::store(slot->id, 0, std::memory_order_relaxed);

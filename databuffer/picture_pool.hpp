@@ -1,6 +1,7 @@
 // A pool of pictures in the segment, found by id: patch maps, frames of the glass. One writer, any readers. The writer
 // takes a slot's id away, writes, and puts the new id in last; so a writer killed anywhere leaves a slot that is empty,
-// never half a picture. A reader copies between two reads of the id. Ids count up and are never used twice.
+// never half a picture. A reader copies between two reads of the id. Ids count up and are never used twice. An id above
+// the writer's own is nobody's: a reader passes over one beyond kLatestPictureId, and the writer fills that slot first.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "databuffer/records/picture_id.hpp"
 #include "shm/words.hpp"
 
 namespace yars::databuffer {
@@ -19,7 +21,9 @@ namespace yars::databuffer {
 template <class Access, class Slots>
 std::uint64_t greatest_id(const Slots& slots) {
   std::uint64_t greatest = 0;
-  for (const auto& slot : slots) greatest = std::max(greatest, Access::load(slot.id, std::memory_order_acquire));
+  for (const auto& slot : slots)
+    if (const std::uint64_t id = Access::load(slot.id, std::memory_order_acquire); id <= kLatestPictureId)
+      greatest = std::max(greatest, id);
   return greatest;
 }
 
@@ -38,17 +42,19 @@ bool still_holds(const Slot& slot, std::uint64_t id) {
   return Access::load(slot.id, std::memory_order_relaxed) == id;
 }
 
-// Empty ones first, then the oldest; nullptr when all are kept.
+// For the picture `next`. Empty ones first, and those with an id that cannot be, then the oldest; nullptr when all are
+// kept.
 template <class Access, class Slots>
-auto slot_to_fill(Slots& slots, std::span<const std::uint64_t> keep) -> decltype(&slots[0]) {
+auto slot_to_fill(Slots& slots, std::uint64_t next, std::span<const std::uint64_t> keep) -> decltype(&slots[0]) {
   decltype(&slots[0]) chosen = nullptr;
   std::uint64_t least = 0;
   for (auto& slot : slots) {
     const std::uint64_t id = Access::load(slot.id, std::memory_order_relaxed);
     if (id != 0 && std::find(keep.begin(), keep.end(), id) != keep.end()) continue;
-    if (chosen != nullptr && id >= least) continue;
+    const std::uint64_t age = id > next ? 0 : id;
+    if (chosen != nullptr && age >= least) continue;
     chosen = &slot;
-    least = id;
+    least = age;
   }
   return chosen;
 }

@@ -3,14 +3,16 @@
 #include <time.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <thread>
 #include <utility>
 
 #include "databuffer/layout_identity.hpp"
+#include "databuffer/log.hpp"
+#include "databuffer/records/validation.hpp"
 #include "databuffer/session_state.hpp"
 #include "lib/failure/printable.hpp"
 #include "lib/failure/require.hpp"
@@ -35,13 +37,7 @@ void initialize(void* memory) {
   auto& layout = *static_cast<SessionLayout*>(memory);
   layout.lockstep.end_tick = -1;
   for (auto& done : layout.lockstep.done_tick) done = -1;
-  ClockState clock{};
-  clock.base_monotonic_ns = monotonic_ns();
-  clock.rate = 1.0;
-  clock.running = 1;
-  clock.reposition_latitude_deg = clock.reposition_longitude_deg = std::numeric_limits<double>::quiet_NaN();
-  clock.reposition_altitude_m = clock.reposition_heading_deg = std::numeric_limits<double>::quiet_NaN();
-  layout.clock.publish(clock);
+  layout.clock.publish(first_clock());
 }
 
 tl::unexpected<failure::Error> fail_read_only(std::string_view subject) {
@@ -72,6 +68,14 @@ Expected<void> check_session_name(const std::string& name) {
   if (name_is_valid(name)) return {};
   return tl::unexpected(failure::Error{"session name", "1 to 40 letters, digits, '-' or '_'", "\"" + name + "\"",
                                        "choose another --session", true});
+}
+
+std::optional<std::size_t> counted_role(std::string_view name) {
+  constexpr std::array<std::string_view, 6> kNames{"flight-model", "input-monitor", "state-machine",
+                                                   "radar-model",  "radar-display", "recorder"};
+  const auto found = std::ranges::find(kNames, name);
+  if (found == kNames.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - kNames.begin());
 }
 
 std::int64_t monotonic_ns() {
@@ -112,9 +116,11 @@ Expected<Session> Session::open(const std::string& name, std::string_view proces
   auto segment = shm::Segment::open(name, kLayoutIdentity, initialize);
   if (!segment) return tl::unexpected(segment.error());
   auto state = std::make_unique<State>(std::move(*segment), process_name);
-  if (const auto found = state->find_clock(); !found) return tl::unexpected(found.error());
+  const bool has_clock = state->find_clock();
   state->enter_table();
-  return Session(std::move(state));
+  Session session(std::move(state));
+  if (!has_clock) session.keep_clock(Patience::some);
+  return session;
 }
 
 Expected<Session> Session::open_read_only(const std::string& name) {
@@ -122,7 +128,7 @@ Expected<Session> Session::open_read_only(const std::string& name) {
   auto segment = shm::Segment::open_read_only(name, kLayoutIdentity);
   if (!segment) return tl::unexpected(segment.error());
   auto state = std::make_unique<State>(std::move(*segment), "reader");
-  if (const auto found = state->find_clock(); !found) return tl::unexpected(found.error());
+  if (!state->find_clock()) state->good_clock.running = 0;
   return Session(std::move(state));
 }
 
@@ -177,6 +183,7 @@ Expected<Claim> Session::claim_input_lane(std::string_view source) {
     // Events that a departed source left are still the consumer's: the lane is free when they are gone.
     if (claim && layout().input.empty(lane)) {
       layout().input.set_source(lane, source);
+      claim->hold_->feeds_input = state_->count_input_sources();
       return std::move(*claim);
     }
     found += (found.empty() ? "" : ", ") + layout().input.source(lane) + (claim ? " (gone, unread events)" : "");
@@ -218,7 +225,12 @@ void Session::heartbeat() {
   const std::int64_t now_ns = monotonic_ns();
   state_->write().processes[state_->table_byte - kFirstProcessByte].heartbeat_ns.store(now_ns,
                                                                                        std::memory_order_relaxed);
-  state_->look_for_name(now_ns);
+  if (now_ns < state_->next_look_ns) return;
+  state_->next_look_ns = now_ns + kLook_ns;
+  state_->keep_entry();
+  state_->look_for_name();
+  state_->tell_left_out(now_ns, false);
+  log_left_out();
 }
 
 void Session::show_progress(std::uint32_t progress) {
@@ -243,7 +255,11 @@ Expected<void> Session::change_clock(const std::function<ClockState(const ClockS
   const int attempts = patience == Patience::none ? 1 : kClockAttempts;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     if (const auto claim = state_->take(kByte, -1)) {
-      layout().clock.publish(change(state_->clock_now()));
+      const ClockState next = change(state_->clock_now());
+      if (auto refusal = why_refused(next))
+        return fail("session clock", "a change that leaves it in range", std::move(*refusal),
+                    "begin at another time: `yars sim reset 0`");
+      layout().clock.publish(next);
       return {};
     }
     if (attempt + 1 < attempts) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -252,11 +268,27 @@ Expected<void> Session::change_clock(const std::function<ClockState(const ClockS
               "held by " + state_->describe_holder(kByte), "let that process go on, or end it");
 }
 
+std::optional<std::string> Session::clock_problem() const {
+  return state_->clock_problem();
+}
+
+void Session::keep_clock(Patience patience) {
+  const auto problem = state_->clock_problem();
+  if (!problem) return;
+  if (change_clock([](const ClockState& good) { return good; }, patience))
+    note(NoteKind::refusal, "clock mended: " + *problem);
+}
+
 void Session::note(NoteKind kind, std::string_view text) {
   note(kind, text, state_->process_name);
 }
 void Session::note(NoteKind kind, std::string_view text, std::string_view process) {
   state_->note(kind, failure::printable(text), process);
+}
+
+void Session::count_restart(std::string_view role) {
+  if (const auto index = counted_role(role); index && state_->segment->writable())
+    layout().counters.restarts[*index].add(monotonic_ns());
 }
 
 }  // namespace yars::databuffer

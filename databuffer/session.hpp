@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -64,7 +65,7 @@ class Session {
   // Attaches to the session, or creates it. `process_name` goes into the process table, for people.
   static failure::Expected<Session> open(const std::string& name, std::string_view process_name);
   // For readers that come and go: maps read-only, is not in the process table, holds no lock. Claims and changes of
-  // the clock are refused, heartbeats and notes go nowhere.
+  // the clock are refused, heartbeats and notes go nowhere. Where the session has no good clock, time stands at 0.
   static failure::Expected<Session> open_read_only(const std::string& name);
 
   bool created() const;   // this call made the session
@@ -87,22 +88,31 @@ class Session {
   std::vector<ProcessHere> processes() const;  // who takes part, dead entries left out
   // How far this process has come; what it means is the role's (see ProcessEntry).
   void show_progress(std::uint32_t progress);
-  // Shows in `yars status`; call about once a second or each tick (it is one store). Once a second it looks whether
-  // the segment still has its name, and says so once in log and flight recorder when it has not.
+  // Shows in `yars status`; call about once a second or each tick (it is one store). Twice a second it writes its entry
+  // in the process table anew where that was damaged, and looks whether the segment still has its name; it says so once
+  // in log and flight recorder when it has not.
   void heartbeat();
 
   // Session clock: sim time [ns] of this moment; the state behind it. A state out of range is refused and noted, and
-  // the last good one goes on; a session without a good one cannot be opened.
+  // the last good one goes on. Who opens a session without a good one sets it to 0 in a new epoch.
   ClockState clock() const;
   std::int64_t sim_time_ns() const;
-  // Takes the clock's byte for the moment of the change, so that of two changes at once none is lost.
+  // Why what lies in the segment is no clock; nothing when it is one.
+  std::optional<std::string> clock_problem() const;
+  // Publishes the last good clock again when what lies there is none; state-machine asks for it at each tick.
+  void keep_clock(Patience patience = Patience::none);
+  // Takes the clock's byte for the moment of the change, so that of two changes at once none is lost. A state out of
+  // range is an error and changes nothing.
   failure::Expected<void> change_clock(const std::function<ClockState(const ClockState&)>& change,
                                        Patience patience = Patience::some);
   failure::Expected<void> set_clock(const ClockState& state);
 
-  // A line into the flight recorder (also counted): refusals, restarts, losses, late ticks.
+  // A line into the flight recorder (also counted): refusals, restarts, losses, late ticks. Of lines of one kind
+  // (RepeatFilter) three pass within 10 s, the rest are counted and told in one line by heartbeat().
   void note(NoteKind kind, std::string_view text);
   void note(NoteKind kind, std::string_view text, std::string_view process);  // about another process
+  // For the supervisor: the role was started again; `role` a name as in a lockstep plan, others are not counted.
+  void count_restart(std::string_view role);
 
  private:
   struct State;
@@ -112,6 +122,8 @@ class Session {
 
 // A session's name is part of a path: 1 to 40 letters, digits, `-` or `_`. An error of bad usage.
 failure::Expected<void> check_session_name(const std::string& name);
+// Index of a role in Counters::restarts, by its name in the process table; nothing for a name that is none.
+std::optional<std::size_t> counted_role(std::string_view name);
 
 std::int64_t monotonic_ns();  // [ns] CLOCK_MONOTONIC
 // Sim time [ns] at a moment of CLOCK_MONOTONIC: base + rate x elapsed while running; before the base, the base.

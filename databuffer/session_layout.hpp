@@ -38,6 +38,35 @@ inline constexpr std::size_t kSpareBytes = std::size_t{1} << 20;
 enum class NoteKind : std::uint32_t { restart = 0, refusal = 1, loss = 2, late_tick = 3, supervision = 4 };
 inline constexpr std::size_t kNoteKinds = 5;
 
+// How often something has happened since the session began, and when last: CLOCK_MONOTONIC of event n at n mod 8.
+struct RecentCount {
+  static constexpr std::size_t kTimes = 8;
+  std::atomic<std::uint64_t> count;
+  std::array<std::atomic<std::int64_t>, kTimes> times_ns;
+
+  void add(std::int64_t now_ns) { times_ns[count.fetch_add(1) % kTimes].store(now_ns); }
+  // Of the last 8, those less than `span_ns` old.
+  int within(std::int64_t span_ns, std::int64_t now_ns) const {
+    int found = 0;
+    const std::uint64_t known = count.load() < kTimes ? count.load() : kTimes;
+    for (std::size_t i = 0; i < known; ++i) {
+      const std::int64_t time_ns = times_ns[i].load();
+      if (time_ns >= 0 && time_ns <= now_ns && now_ns - time_ns < span_ns) ++found;
+    }
+    return found;
+  }
+};
+
+// What a flood of notes may not push out of sight.
+inline constexpr std::size_t kCountedRoles = 8;  // in the order of LockstepRole; two to spare
+struct Counters {
+  std::array<RecentCount, kCountedRoles> restarts;  // by the supervisor
+  RecentCount refusals;                             // notes of records refused, folded ones too
+  std::atomic<std::uint64_t> notes_folded;          // notes that were only counted: repeats of others
+  std::atomic<std::uint64_t> input_sources;         // programs that send events and have not gone in order
+  std::atomic<std::uint64_t> frames_failing;        // 1: the glass could not write its last frame into the folder
+};
+
 // For people: who is here. Presence is decided by locks, not by this table.
 struct ProcessEntry {
   std::atomic<std::int64_t> heartbeat_ns;          // CLOCK_MONOTONIC
@@ -107,7 +136,8 @@ struct SessionLayout {
   shm::LatestValue<Traffic> traffic;                // from outside
   shm::BroadcastRing<Traffic, 64> traffic_latched;  // by radar-model: what a replay needs
   std::array<FrameSlot, kFrameSlots> frames;
-  std::array<std::atomic<std::uint64_t>, kSpareBytes / 8> spare;
+  Counters counters;
+  std::array<std::atomic<std::uint64_t>, (kSpareBytes - sizeof(Counters)) / 8> spare;
 };
 
 }  // namespace yars::databuffer

@@ -2,9 +2,9 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <limits>
 #include <thread>
 
 #include "databuffer/log.hpp"
@@ -14,29 +14,12 @@ namespace yars::databuffer {
 
 namespace {
 
-using failure::Expected;
-using failure::fail;
-
-constexpr std::int64_t kNameLook_ns =
-    500'000'000;  // [ns] between looks at the segment's name: a role says it within 1 s
-// [ns] 14 years: a base beyond it is no time that a session has come to, and sums with it at rate 10 would not fit.
-constexpr std::int64_t kLatestBase_ns = std::int64_t{1} << 59;
-
 // The system's name of a process; for one that is not in the table.
 std::string program_of(std::int32_t pid) {
   std::ifstream file("/proc/" + std::to_string(pid) + "/comm");
   std::string name;
   std::getline(file, name);
   return name.empty() ? "unknown program" : name;
-}
-
-// The clock as every process of the session may take it for granted; `found` says why not.
-Expected<void> check_clock(const ClockState& clock) {
-  Refusal refusal = why_refused(clock);
-  if (!refusal && std::max(clock.base_sim_ns, clock.base_monotonic_ns) > kLatestBase_ns)
-    refusal = "base_sim_ns, base_monotonic_ns: expected at most 2^59, found more";
-  if (!refusal) return {};
-  return fail("session clock", "one in range", *refusal, "set it with `yars sim reset 0`, or start the set again");
 }
 
 template <std::size_t N>
@@ -46,15 +29,35 @@ void copy_text(char (&into)[N], std::string_view text) {
 
 }  // namespace
 
-// Published before the segment had a name, and changed seldom: as a rule the first look finds it.
-Expected<void> Session::State::find_clock() {
-  for (int attempt = 0; attempt < kClockAttempts && !clock.refresh(); ++attempt)
+ClockState first_clock() {
+  ClockState clock{};
+  clock.base_monotonic_ns = monotonic_ns();
+  clock.rate = 1.0;
+  clock.running = 1;
+  clock.reposition_latitude_deg = clock.reposition_longitude_deg = std::numeric_limits<double>::quiet_NaN();
+  clock.reposition_altitude_m = clock.reposition_heading_deg = std::numeric_limits<double>::quiet_NaN();
+  return clock;
+}
+
+// Published before the segment had a name, and changed seldom: as a rule the first look finds it. A bad one is mended
+// by state-machine within a tick.
+bool Session::State::find_clock() {
+  for (int attempt = 0; attempt < kClockAttempts; ++attempt) {
+    if (clock.refresh() && !why_refused(clock.value())) {
+      good_clock = clock.value();
+      return true;
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  if (!clock.has_value())
-    return fail("session clock", "one that can be read", "none", "end the programs of this session and start it again");
-  if (auto good = check_clock(clock.value()); !good) return good;
-  good_clock = clock.value();
-  return {};
+  }
+  good_clock = first_clock();
+  good_clock.epoch = clock.value().epoch + 1;
+  return false;
+}
+
+std::optional<std::string> Session::State::clock_problem() const {
+  ClockState there{};
+  if (!read().clock.read(there)) return "expected one that can be read, found none";
+  return why_refused(there);
 }
 
 // A full table is no failure: it is for people, presence is decided by locks.
@@ -63,12 +66,18 @@ void Session::State::enter_table() {
     if (!segment->try_lock(kFirstProcessByte + i)) continue;
     table_byte = kFirstProcessByte + i;
     ProcessEntry& entry = write().processes[i];
-    shm::store_text(entry.name.data(), entry.name.size(), process_name);
     entry.heartbeat_ns = monotonic_ns();
     entry.progress = 0;
-    entry.pid.store(getpid(), std::memory_order_release);
+    keep_entry();
     return;
   }
+}
+
+// Others may write there: who has lost name or pid would pass for gone.
+void Session::State::keep_entry() {
+  ProcessEntry& entry = write().processes[table_byte - kFirstProcessByte];
+  shm::store_text(entry.name.data(), entry.name.size(), process_name);
+  entry.pid.store(getpid(), std::memory_order_release);
 }
 
 void Session::State::leave_table() {
@@ -99,16 +108,37 @@ std::optional<Claim> Session::State::take(std::size_t byte, int lane) {
 ClockState Session::State::clock_now() {
   std::unique_lock guard(clock_mutex);
   if (!clock.refresh()) return good_clock;
-  const auto good = check_clock(clock.value());
-  if (good) good_clock = clock.value();
+  const auto refusal = why_refused(clock.value());
+  if (!refusal) good_clock = clock.value();
   const ClockState now = good_clock;
   guard.unlock();
-  if (!good) note(NoteKind::refusal, "clock: " + good.error().found, process_name);
+  if (refusal) note(NoteKind::refusal, "clock: " + *refusal, process_name);
   return now;
+}
+
+std::array<RepeatFilter, kNoteKinds> Session::State::filters() {
+  constexpr int kMostOfAKind = 3;
+  constexpr int kMostOfAll = 20;  // and of each kind of note: a set of six fills 1,000 lines in half a minute at most
+  const RepeatFilter filter(kMostOfAKind, kMostOfAll);
+  return {filter, filter, filter, filter, filter};
 }
 
 void Session::State::note(NoteKind kind, std::string_view text, std::string_view process) {
   if (!segment->writable()) return;
+  const std::int64_t now_ns = monotonic_ns();
+  const auto index = static_cast<std::size_t>(kind);
+  write().note_counts[index].fetch_add(1, std::memory_order_relaxed);
+  if (kind == NoteKind::refusal) write().counters.refusals.add(now_ns);
+  std::unique_lock guard(notes_mutex);
+  const bool passes = note_filters[index].passes(text, now_ns);
+  guard.unlock();
+  if (passes)
+    write_note(kind, text, process);
+  else
+    write().counters.notes_folded.fetch_add(1, std::memory_order_relaxed);
+}
+
+void Session::State::write_note(NoteKind kind, std::string_view text, std::string_view process) {
   Note line{};
   line.monotonic_ns = monotonic_ns();
   line.sim_time_ns = sim_time_at(clock_now(), line.monotonic_ns);
@@ -116,13 +146,34 @@ void Session::State::note(NoteKind kind, std::string_view text, std::string_view
   line.kind = static_cast<std::uint32_t>(kind);
   copy_text(line.process, process);
   copy_text(line.text, text);
-  write().note_counts[line.kind].fetch_add(1, std::memory_order_relaxed);
   write().notes.append(line);
 }
 
-void Session::State::look_for_name(std::int64_t now_ns) {
-  if (!had_name || now_ns < next_name_look_ns) return;
-  next_name_look_ns = now_ns + kNameLook_ns;
+// The count comes first: the text is cut to its place.
+void Session::State::tell_left_out(std::int64_t now_ns, bool all) {
+  if (!segment->writable()) return;
+  for (std::size_t kind = 0; kind < note_filters.size(); ++kind) {
+    std::unique_lock guard(notes_mutex);
+    const auto left_out = note_filters[kind].take_left_out(now_ns, all);
+    guard.unlock();
+    for (const auto& lines : left_out)
+      write_note(static_cast<NoteKind>(kind), std::to_string(lines.count) + " more: " + lines.line, process_name);
+  }
+}
+
+// Called where a lane is claimed and given up in order: a source that dies is missing from then on. The yars commands
+// come and go and do not count.
+bool Session::State::count_input_sources() {
+  if (process_name.starts_with("yars ")) return false;
+  std::uint64_t held = 0;
+  for (std::size_t lane = 0; lane < kInputLanes; ++lane)
+    held += segment->is_locked(kFirstInputByte + lane) && read().input.source(lane) != "inject" ? 1 : 0;
+  write().counters.input_sources.store(held);
+  return true;
+}
+
+void Session::State::look_for_name() {
+  if (!had_name) return;
   had_name = segment->has_name();
   if (had_name) return;
   note(NoteKind::supervision, "the segment's name was removed (RemoveIPC?); the set goes on without", process_name);

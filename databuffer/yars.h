@@ -62,6 +62,8 @@
 #define YARS_FRAME_WORDS 8
 #define YARS_FRAME_PIXELS 72
 #define YARS_MOST_FRAME_BYTES 4194304
+#define YARS_LATEST_PICTURE_ID ((uint64_t)1 << 53)
+#define YARS_LATEST_CLOCK_BASE_NS ((int64_t)1 << 59)
 
 /* The ring of sweeps: its count, then slots of sequence, words used, words. */
 #define YARS_SWEEPS 1024
@@ -507,7 +509,11 @@ static inline int64_t yars_sim_time_ns(const yars_session* s) {
   if (yars_read(s, YARS_AT_CLOCK, &clock, sizeof clock) == 0) return 0;
   /* A rate that is none, as whoever else may write here may leave it, moves nothing. */
   if (clock.running == 0 || !(clock.rate >= 0.0 && clock.rate <= 10.0)) return clock.base_sim_ns;
-  return clock.base_sim_ns + (int64_t)(clock.rate * (double)(yars_monotonic_ns() - clock.base_monotonic_ns));
+  if (clock.base_sim_ns < 0 || clock.base_sim_ns > YARS_LATEST_CLOCK_BASE_NS || clock.base_monotonic_ns < 0 ||
+      clock.base_monotonic_ns > YARS_LATEST_CLOCK_BASE_NS)
+    return clock.base_sim_ns;
+  const int64_t elapsed = yars_monotonic_ns() - clock.base_monotonic_ns;
+  return elapsed <= 0 ? clock.base_sim_ns : clock.base_sim_ns + (int64_t)(clock.rate * (double)elapsed);
 }
 
 static inline uint32_t yars_epoch(const yars_session* s) {
@@ -617,7 +623,7 @@ static inline int yars_read_model_status(const yars_session* s, yars_model_statu
   return yars_read(s, YARS_AT_MODEL_STATUS, status, sizeof *status);
 }
 
-/* The newest picture of a glass started with --publish, if it is newer than `after` (0: any). `pixels` has room for
+/* The newest picture of a glass started with --publish, if it is another one than `after` (0: any). `pixels` has room for
  * YARS_MOST_FRAME_BYTES: rows from the top without padding, red, green, blue, 255. */
 static inline int yars_read_frame(const yars_session* s, uint64_t after, yars_glass_frame* frame, void* pixels) {
   for (int attempt = 0; attempt < 8; ++attempt) {
@@ -626,9 +632,9 @@ static inline int yars_read_frame(const yars_session* s, uint64_t after, yars_gl
     for (int i = 0; i < YARS_FRAMES; ++i) {
       const size_t slot = YARS_AT_FRAMES + (size_t)i * YARS_FRAME_STRIDE;
       const uint64_t id = yars_load(yars_word(s, slot));
-      if (id > newest) newest = id, at = slot;
+      if (id > newest && id <= YARS_LATEST_PICTURE_ID) newest = id, at = slot; /* a greater one is damage */
     }
-    if (newest <= after) return 0;
+    if (newest == 0 || newest == after) return 0;
     yars_load_words(yars_word(s, at + YARS_FRAME_WORDS), frame, sizeof *frame);
     /* Larger than a slot: being written, or nobody's picture. */
     if (frame->width > 1024 || frame->height > 1024) continue;

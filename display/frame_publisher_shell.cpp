@@ -49,7 +49,8 @@ void FramePublisher::publish_at_once(host::Glass& glass) {
 
 void FramePublisher::publish() {
   databuffer::GlassFrame frame{};
-  frame.id = ++last_id_;
+  if (++last_id_ > databuffer::kLatestPictureId) last_id_ = 1;
+  frame.id = last_id_;
   frame.tick = picture_.tick;
   frame.sim_time_ns = picture_.sim_time_ns;
   frame.width = static_cast<std::uint32_t>(picture_.size);

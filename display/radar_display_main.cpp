@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -27,6 +28,7 @@ struct DisplayOptions {
   bool headless = false;
   bool publish = false;
   std::string frames;
+  std::size_t keep = 0;  // frames; 0: all
   double every_s = 1.0;
   int size = 0;  // 0: the configuration's
 };
@@ -38,20 +40,22 @@ constexpr std::chrono::milliseconds kHeadlessLook{10};
 // A glass without a window: paints when a picture is due, for the folder, for the segment, or for both.
 class HeadlessGlass {
  public:
-  HeadlessGlass(Glass& glass, int size, const DisplayOptions& options, std::optional<display::FrameWriter> frames,
-                std::optional<display::FramePublisher> publisher)
-      : glass_(glass),
+  HeadlessGlass(databuffer::Session& session, Glass& glass, int size, const DisplayOptions& options,
+                std::optional<display::FrameWriter> frames, std::optional<display::FramePublisher> publisher)
+      : session_(session),
+        glass_(glass),
         size_(size),
         steps_(options.every_s),
         frames_(std::move(frames)),
         publisher_(std::move(publisher)) {}
 
-  failure::Expected<void> look(std::int64_t sim_time_ns) {
+  // A disk that takes no more costs the frames alone; each frame that falls due tries again.
+  void look(std::int64_t sim_time_ns) {
     glass_.update(sim_time_ns);
     const bool due_in_folder = frames_ && steps_.is_due(sim_time_ns);
     if (due_in_folder || is_due_in_segment()) paint();
     if (publisher_) publisher_->work(glass_, size_);
-    return due_in_folder ? write(steps_.number()) : failure::Expected<void>{};
+    if (due_in_folder) settle(write(steps_.number()));
   }
 
   // Every picture shows exactly the tick of its step, in the folder and in the segment.
@@ -62,6 +66,7 @@ class HeadlessGlass {
     return write(steps_.number());
   }
 
+  // An error: the last frame could not be written.
   failure::Expected<void> end(std::int64_t sim_time_ns) {
     glass_.update(sim_time_ns);
     if (paint() && publisher_) publisher_->publish_at_once(glass_);
@@ -90,8 +95,21 @@ class HeadlessGlass {
     return {};
   }
 
+  // Told once in log and flight recorder, and in the status while it lasts.
+  void settle(const failure::Expected<void>& written) {
+    const bool failing = !written;
+    session_.layout().counters.frames_failing.store(failing ? 1 : 0);
+    if (failing == std::exchange(failing_, failing)) return;
+    const std::string line = failing ? "frames are not written: " + written.error().found : "frames are written again";
+    session_.note(databuffer::NoteKind::loss, line);
+    failing ? databuffer::log_warning(written.error().message() + "; each frame tries again")
+            : databuffer::log_info(line);
+  }
+
+  databuffer::Session& session_;
   Glass& glass_;
   int size_;
+  bool failing_ = false;
   display::FrameSteps steps_;
   std::optional<display::FrameWriter> frames_;
   std::optional<display::FramePublisher> publisher_;
@@ -100,7 +118,7 @@ class HeadlessGlass {
 
 failure::Expected<void> run_headless_live(databuffer::Session& session, HeadlessGlass& glass) {
   while (!databuffer::stop_requested()) {
-    if (auto looked = glass.look(session.sim_time_ns()); !looked) return looked;
+    glass.look(session.sim_time_ns());
     std::this_thread::sleep_for(kHeadlessLook);
   }
   return glass.end(session.sim_time_ns());
@@ -123,7 +141,7 @@ failure::Expected<void> run_headless(databuffer::Session& session, const radar::
                                      int size, std::optional<display::FramePublisher> publisher) {
   std::optional<display::FrameWriter> frames;
   if (!display_options.frames.empty()) {
-    auto created = display::FrameWriter::create(display_options.frames);
+    auto created = display::FrameWriter::create(display_options.frames, display_options.keep);
     if (!created) return tl::unexpected(created.error());
     frames = std::move(*created);
   }
@@ -132,7 +150,7 @@ failure::Expected<void> run_headless(databuffer::Session& session, const radar::
   databuffer::log_info("draws by " + display::gl::renderer_name() + ", frames go to " +
                        (frames ? display_options.frames : "the segment"));
   Glass glass(session, configuration, !options.lockstep.empty());
-  HeadlessGlass headless(glass, size, display_options, std::move(frames), std::move(publisher));
+  HeadlessGlass headless(session, glass, size, display_options, std::move(frames), std::move(publisher));
   if (options.lockstep.empty()) return run_headless_live(session, headless);
   auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::radar_display, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
@@ -247,6 +265,9 @@ int main(int argc, char** argv) {
   auto* headless =
       app.add_flag("--headless", display_options.headless, "no window: pictures into a folder or the session");
   app.add_option("--frames", display_options.frames, "folder for frame_NNNNNN.png")->needs(headless);
+  app.add_option("--keep", display_options.keep, "frames that stay in the folder, the newest (else all)")
+      ->needs(headless)
+      ->check(CLI::Range(1, 100'000'000));
   app.add_option("--every", display_options.every_s, "sim seconds between frames (else 1)")
       ->needs(headless)
       ->check(CLI::Range(0.005, 1e6));

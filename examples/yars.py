@@ -20,6 +20,7 @@ FIRST_OWNSHIP_BYTE, OWNSHIP_LANES, FIRST_INPUT_BYTE, INPUT_LANES = 8, 4, 16, 16
 FIRST_PROCESS_BYTE, PROCESSES, PROCESS_STRIDE = 32, 32, 40
 INPUT_STRIDE, INPUT_DEPTH, INPUT_POPPED, INPUT_RECORDS = 7296, 128, 64, 128
 FRAMES, FRAME_STRIDE, FRAME_PIXELS = 3, 4194376, 72
+LATEST_PICTURE_ID = 1 << 53
 SWEEPS, SWEEP_STRIDE, SWEEP_VIDEO_AT, MOST_SAMPLES = 1024, 4288, 144, 4096
 LINE, SLOTS = 64, 4
 
@@ -284,14 +285,15 @@ class Session:
         return found
 
     def newest_frame(self, after=0):
-        """(frame, pixels) of a glass started with --publish, if newer than the id `after`, else None: a dict of the
+        """(frame, pixels) of a glass started with --publish, if of another id than `after`, else None: a dict of the
         record GlassFrame, whose "id" is `after` of the next call, and rows from the top, red, green, blue, 255."""
         for _ in range(8):
-            newest = max(range(FRAMES), key=lambda i: self.words[(AT_FRAMES + i * FRAME_STRIDE) // 8])
-            at = AT_FRAMES + newest * FRAME_STRIDE
-            number = self.words[at // 8]
-            if number <= after:
+            places = [AT_FRAMES + i * FRAME_STRIDE for i in range(FRAMES)]
+            ids = [self.words[place // 8] for place in places]
+            number = max((i for i in ids if i <= LATEST_PICTURE_ID), default=0)
+            if number in (0, after):
                 return None
+            at = places[ids.index(number)]
             frame = unpack(GLASS_FRAME, self.memory[at + 8:at + 72])
             size = min(4 * frame["width"] * frame["height"], FRAME_STRIDE - FRAME_PIXELS)
             pixels = self.memory[at + FRAME_PIXELS:at + FRAME_PIXELS + size]

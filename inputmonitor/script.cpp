@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "databuffer/records/clock_state.hpp"
 #include "databuffer/records/event_text.hpp"
 #include "databuffer/records/plain_text.hpp"
 
@@ -13,12 +14,10 @@ namespace {
 using failure::Expected;
 using failure::fail;
 
-constexpr double kLatest_s = 1e9;  // [s] 30 years of sim time; beyond it nanoseconds would overflow
-
 // The time that a word means, or nothing when it means none.
 std::optional<std::int64_t> time_of(std::string_view word, std::int64_t previous_ns) {
   const auto seconds = databuffer::finite_number(word);
-  if (!seconds || *seconds < 0.0 || *seconds > kLatest_s) return std::nullopt;
+  if (!seconds || *seconds < 0.0 || *seconds > databuffer::kLatestSimTime_s) return std::nullopt;
   const std::int64_t time_ns = std::llround(*seconds * 1e9);
   return word.starts_with('+') ? previous_ns + time_ns : time_ns;
 }

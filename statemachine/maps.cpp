@@ -79,13 +79,14 @@ void cancel_map(RadarState& state, const Surroundings& surroundings) {
 
 void take_map(RadarState& state, const Surroundings& surroundings) {
   const ModelStatus& model = surroundings.model;
+  // Another, not a greater id: one that cannot be would stand for ever.
+  const bool is_new = model.map_newest != 0 && model.map_newest != state.map_newest;
   // Answered without a map: the aircraft has come too near, or was put elsewhere, since the command.
-  if (has(state, databuffer::kMapping) && model.map_done_request == state.map_request &&
-      model.map_newest <= state.map_newest) {
+  if (has(state, databuffer::kMapping) && model.map_done_request == state.map_request && !is_new) {
     cancel_map(state, surroundings);
     return show_message(state, surroundings, "NO MAP");
   }
-  if (model.map_newest <= state.map_newest || model.map_done_request != state.map_request) return;
+  if (!is_new || model.map_done_request != state.map_request) return;
   // Without its record nobody knows where it lies: there is nothing to show, and no frame for the cursor.
   if (map_of(surroundings, model.map_newest) == nullptr) return;
   if (has(state, databuffer::kMapping)) {

@@ -48,6 +48,7 @@ StateMachineShell::StateMachineShell(databuffer::Session& session, const radar::
 }
 
 void StateMachineShell::step(const databuffer::TickLoop::Due& due) {
+  session_->keep_clock();
   latch(due);
   take_events(due.tick);
   advance(state_, surroundings_, *configuration_);

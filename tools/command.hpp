@@ -10,8 +10,8 @@
 namespace yars::tools {
 
 struct CommandFailed {
-  std::string message;
-  int code = 1;  // 1 failure, 2 bad usage
+  std::string message;  // empty: all is said
+  int code = 1;         // 1 failure, 2 bad usage; others: see the command
 };
 
 [[noreturn]] inline void give_up(const failure::Error& error) {

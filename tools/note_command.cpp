@@ -20,8 +20,10 @@ void note(const CommonOptions& common, const NoteOptions& options) {
   if (!session) give_up(session.error());
   if (options.restarted.empty())
     session->note(databuffer::NoteKind::supervision, options.text);
-  else
+  else {
+    session->count_restart(options.restarted);
     session->note(databuffer::NoteKind::supervision, std::string(kRestartNote) + options.text, options.restarted);
+  }
 }
 
 }  // namespace

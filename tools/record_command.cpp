@@ -25,6 +25,8 @@ struct RecordOptions {
   std::string terrain;
   std::string lockstep;
   std::string log_dir;
+  bool overwrite = false;
+  double keep_mb = 0.0;  // 0: no limit
   RecordedExtras extras;
 };
 
@@ -76,12 +78,16 @@ void record(const CommonOptions& common, const RecordOptions& options) {
   if (!session) give_up(session.error());
   auto role = session->claim(databuffer::Role::recorder);
   if (!role) give_up(databuffer::usage_error(role.error()));
-  auto writer = recording::RecordingWriter::create(options.file, {absolute(common.config), absolute(options.terrain)});
+  auto writer = recording::RecordingWriter::create(
+      options.file, {absolute(common.config), absolute(options.terrain)},
+      options.overwrite ? recording::Existing::overwritten : recording::Existing::refused);
   if (!writer) give_up(writer.error());
   const auto recorder_index = static_cast<std::size_t>(databuffer::LockstepRole::recorder);
   const bool from_the_begin =
       !options.lockstep.empty() && session->layout().lockstep.done_tick[recorder_index].load() < 0;
-  Recorder recorder(*session, *writer, options.extras, from_the_begin);
+  RecordedExtras extras = options.extras;
+  extras.keep_bytes = static_cast<std::uint64_t>(options.keep_mb * 1e6);
+  Recorder recorder(*session, *writer, extras, from_the_begin);
   databuffer::log_info("records session " + common.session + " to " + options.file);
   if (options.lockstep.empty())
     record_live(*session, recorder, *writer);
@@ -92,6 +98,8 @@ void record(const CommonOptions& common, const RecordOptions& options) {
   std::printf("%llu ticks, %llu sweeps, %llu bytes in %s\n", static_cast<unsigned long long>(recorder.ticks()),
               static_cast<unsigned long long>(recorder.sweeps()), static_cast<unsigned long long>(writer->bytes()),
               options.file.c_str());
+  if (recorder.refused() > 0)
+    databuffer::log_warning(std::to_string(recorder.refused()) + " records out of range were not recorded");
   if (!outcome) give_up(outcome.error());
 }
 
@@ -101,6 +109,11 @@ void add_record_command(CLI::App& app, const CommonOptions& common) {
   auto* command = app.add_subcommand("record", "record the session's ticks and events until Ctrl-C");
   auto options = std::make_shared<RecordOptions>();
   command->add_option("FILE", options->file, "recording to write")->required();
+  command->add_flag("--overwrite", options->overwrite, "write over FILE when it is there already (else it is refused)");
+  command
+      ->add_option("--keep", options->keep_mb,
+                   "MB of the disk at most: the newest, in FILE and the one before it, FILE.before (else no limit)")
+      ->check(CLI::Range(20.0, 1e9));
   command->add_flag("--sweeps", options->extras.sweeps, "also the video of the sweeps (up to 0.8 MB a second)");
   command->add_flag("--patches", options->extras.patches, "also the patch maps (up to 1 MB each)");
   command->add_option("--terrain", options->terrain, "the directory that radar-model was given, for the replay");

@@ -8,7 +8,9 @@
 
 #include "databuffer/log.hpp"
 #include "databuffer/patch_pool.hpp"
+#include "databuffer/records/event_validation.hpp"
 #include "databuffer/records/model_validation.hpp"
+#include "databuffer/records/radar_state_validation.hpp"
 #include "databuffer/records/validation.hpp"
 #include "databuffer/session_layout.hpp"
 
@@ -17,6 +19,7 @@ namespace yars::tools {
 namespace {
 
 constexpr std::int64_t kTicksBetweenStatus = 200;  // 1 s of sim time
+constexpr std::int64_t kLookForRoom_ns = 5'000'000'000;
 
 template <class Ring, class Record>
 bool take(const Ring& ring, std::uint64_t& cursor, Record& record, std::uint64_t& lost) {
@@ -67,9 +70,40 @@ void Recorder::append(const T& record) {
 void Recorder::settle(failure::Expected<void> written) {
   if (written || !outcome_) return;
   outcome_ = std::move(written);
-  writing_ = false;
-  databuffer::log_warning(outcome_.error().message());
+  resumes_writing_ = std::exchange(writing_, false);
+  next_look_for_room_ns_ = databuffer::monotonic_ns() + kLookForRoom_ns;
+  databuffer::log_warning(outcome_.error().message() + "; it looks for room every 5 s");
   session_->note(databuffer::NoteKind::loss, "recorder stopped: " + outcome_.error().found);
+}
+
+void Recorder::look_for_room() {
+  const std::int64_t now_ns = databuffer::monotonic_ns();
+  if (outcome_ || now_ns < next_look_for_room_ns_) return;
+  next_look_for_room_ns_ = now_ns + kLookForRoom_ns;
+  if (!writer_->resume()) return;
+  outcome_ = {};
+  writing_ = resumes_writing_;
+  databuffer::log_info("there is room on the disk again");
+  session_->note(databuffer::NoteKind::loss, "recorder writes again");
+  if (writing_) begin_here();
+}
+
+// The file that was is set aside before the two together take more than they may.
+void Recorder::begin_next_file() {
+  if (extras_.keep_bytes == 0 || !outcome_ || writer_->bytes() < extras_.keep_bytes / 2) return;
+  settle(writer_->begin_next());
+  if (!outcome_) return;
+  patches_seen_.clear();
+  begin_here();
+}
+
+template <class T>
+bool Recorder::believes(const T& record) {
+  const auto refusal = databuffer::why_refused(record);
+  if (!refusal) return true;
+  ++refused_;
+  session_->note(databuffer::NoteKind::refusal, "not recorded: " + *refusal);
+  return false;
 }
 
 void Recorder::flush() {
@@ -78,7 +112,9 @@ void Recorder::flush() {
 
 void Recorder::drain(std::int64_t tick) {
   state_.refresh();
+  look_for_room();
   if (writing_) take_all(tick);
+  if (writing_) begin_next_file();
   if (state_.has_value()) obey(state_.value().vtr_request);
   publish(tick);
 }
@@ -87,7 +123,11 @@ void Recorder::drain(std::int64_t tick) {
 void Recorder::obey(std::uint32_t vtr_request) {
   const bool changes = (vtr_request - vtr_request_) % 2 != 0;
   vtr_request_ = vtr_request;
-  if (!changes || !outcome_) return;
+  if (!changes) return;
+  if (!outcome_) {
+    resumes_writing_ = !resumes_writing_;
+    return;
+  }
   writing_ = !writing_;
   if (writing_)
     begin_here();
@@ -101,6 +141,7 @@ void Recorder::publish(std::int64_t tick) {
   status.bytes = writer_->bytes();
   status.writing = writing_ ? 1 : 0;
   status.vtr_request = vtr_request_;
+  std::ranges::fill(status.problem, '\0');
   if (!outcome_) outcome_.error().found.copy(status.problem, sizeof status.problem - 1);
   const bool changed = std::memcmp(&status, &published_, sizeof status) != 0;
   const bool due = tick < status.tick || tick - status.tick >= kTicksBetweenStatus;
@@ -116,7 +157,8 @@ void Recorder::take_all(std::int64_t tick) {
   recording::Gap gap{};
   take_ticks(gap.ticks);
   databuffer::AppliedEvent event{};
-  while (take(session_->layout().applied_events, event_cursor_, event, gap.events)) append(event);
+  while (take(session_->layout().applied_events, event_cursor_, event, gap.events))
+    if (believes(event.event)) append(event);
   take_latest(tick);
   take_sweeps(gap.sweeps);
   if (extras_.patches) take_patches();
@@ -134,6 +176,7 @@ void Recorder::take_ticks(std::uint64_t& lost) {
       continue;
     from_tick_.reset();
     take_traffic_before(tick);
+    if (!believes(tick)) continue;
     append(tick);
     ++ticks_;
   }
@@ -143,24 +186,26 @@ void Recorder::take_ticks(std::uint64_t& lost) {
 void Recorder::take_traffic_before(const databuffer::ModelTick& tick) {
   databuffer::Traffic traffic{};
   while (traffic_cursor_ < tick.traffic && session_->layout().traffic_latched.read(traffic_cursor_, traffic).delivered)
-    append(traffic);
+    if (believes(traffic)) append(traffic);
 }
 
 // Latest values, not rings: live, a state that lasted less than a look is passed over.
 void Recorder::take_latest(std::int64_t tick) {
-  if (state_.has_value() && state_pace_.takes(state_.value(), tick)) append(recording::StateChange{state_.value()});
+  if (state_.has_value() && state_pace_.takes(state_.value(), tick) && believes(state_.value()))
+    append(recording::StateChange{state_.value()});
   if (status_pace_.is_due(tick) && status_.refresh()) {
     status_pace_.taken(tick);
-    append(recording::StatusReport{status_.value()});
+    if (believes(status_.value())) append(recording::StatusReport{status_.value()});
   }
   if (outputs_pace_.is_due(tick) && outputs_.refresh()) {
     outputs_pace_.taken(tick);
-    append(outputs_.value());
+    if (believes(outputs_.value())) append(outputs_.value());
   }
 }
 
 void Recorder::take_sweeps(std::uint64_t& lost) {
   while (take(session_->layout().sweeps, sweep_cursor_, sweep_, lost)) {
+    if (!believes(sweep_)) continue;
     if (extras_.sweeps)
       append(sweep_);
     else
@@ -174,10 +219,14 @@ void Recorder::take_patches() {
   std::vector<std::uint64_t> ids;
   for (const databuffer::PatchSlot& slot : layout.patches) ids.push_back(slot.id.load(std::memory_order_acquire));
   std::sort(ids.begin(), ids.end());
+  // By what is there, not by the greatest: an id that cannot be would hide all maps to come.
+  std::erase_if(patches_seen_, [&ids](std::uint64_t id) { return std::ranges::find(ids, id) == ids.end(); });
   for (const std::uint64_t id : ids) {
-    if (id <= newest_patch_ || !databuffer::read_patch(layout, id, patch_.map, patch_.pixels)) continue;
-    newest_patch_ = id;
-    if (!databuffer::why_refused(patch_.map)) append(patch_);
+    if (id == 0 || std::ranges::find(patches_seen_, id) != patches_seen_.end() ||
+        !databuffer::read_patch(layout, id, patch_.map, patch_.pixels))
+      continue;
+    patches_seen_.push_back(id);
+    if (believes(patch_.map)) append(patch_);
   }
 }
 

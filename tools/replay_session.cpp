@@ -49,6 +49,10 @@ failure::Expected<ReplaySession> ReplaySession::create(const std::string& name) 
 }
 
 failure::Expected<void> ReplaySession::set_clock(std::int64_t tick, const double* rate) {
+  constexpr std::int64_t kLatestTick = databuffer::kLatestClockBase_ns / radar::kTickNanoseconds;
+  if (tick < 0 || tick > kLatestTick)
+    return failure::fail("the recording", "ticks of 0 to " + std::to_string(kLatestTick), std::to_string(tick),
+                         "it is damaged there: --seek to another time");
   return machine_.change_clock([&](const ClockState& clock) {
     ClockState next = clock;
     next.base_monotonic_ns = databuffer::monotonic_ns();
@@ -134,6 +138,7 @@ void ReplaySession::publish_status(databuffer::ModelStatus status) {
 
 void ReplaySession::heartbeat() {
   machine_.heartbeat();
+  machine_.keep_clock();
   model_.heartbeat();
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "databuffer/program.hpp"
+#include "databuffer/records/plain_text.hpp"
 #include "databuffer/session.hpp"
 #include "tools/command.hpp"
 
@@ -19,7 +20,6 @@ using databuffer::ClockState;
 using databuffer::Session;
 
 constexpr double kFastestRate = 10.0;      // times real time; beyond it late ticks would be skipped
-constexpr double kLatestTime_s = 1e9;      // 31 years
 constexpr std::int64_t kStepsAtOnce = 10;  // [ticks] below the 20 that a role catches up before it skips
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -110,14 +110,16 @@ void settle_when_frozen(Session& session) {
   pause_for_roles();
   change_clock(session, [](const ClockState& clock) {
     ClockState next = clock;
-    next.base_sim_ns += radar::kTickNanoseconds;
+    next.base_sim_ns = std::min(next.base_sim_ns + radar::kTickNanoseconds, databuffer::kLatestClockBase_ns);
     return next;
   });
 }
 
 void reset(const CommonOptions& common, double time_s) {
-  if (!(time_s >= 0.0 && time_s <= kLatestTime_s))
-    give_up(databuffer::usage_error("reset", "a sim time of 0 to 1e9 s", std::to_string(time_s)));
+  if (!(time_s >= 0.0 && time_s <= databuffer::kLatestSimTime_s))
+    give_up(databuffer::usage_error(
+        "reset", "a sim time of 0 to " + databuffer::text_of_number(databuffer::kLatestSimTime_s) + " s",
+        databuffer::text_of_number(time_s)));
   auto session = open_session(common);
   change_clock(session, [time_s](const ClockState& clock) {
     ClockState next = clock;

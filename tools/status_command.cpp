@@ -27,6 +27,14 @@ struct StatusOptions {
   give_up(error);
 }
 
+// For scripts: 0 OK, 1 nothing runs, 3 degraded.
+void leave_with(const ordered_json& health) {
+  constexpr int kExitDegraded = 3;
+  std::fflush(stdout);
+  if (health["state"] == "DEGRADED") throw CommandFailed{"", kExitDegraded};
+  if (health["state"] != "OK") throw CommandFailed{"", 1};
+}
+
 void status(const CommonOptions& common, const StatusOptions& options) {
   if (options.layout) {
     std::printf("%s\n", databuffer::layout_json().c_str());
@@ -38,11 +46,12 @@ void status(const CommonOptions& common, const StatusOptions& options) {
   const auto object = status_json(*session, common.session);
   if (options.json) {
     std::printf("%s\n", object.dump(2, ' ', false, ordered_json::error_handler_t::replace).c_str());
-    return;
+    return leave_with(object["health"]);
   }
   std::vector<int> pids;
   for (const auto& process : session->processes()) pids.push_back(process.pid);
   print_status(object, measure_loads(pids));
+  leave_with(object["health"]);
 }
 
 }  // namespace

@@ -5,9 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "databuffer/records/plain_text.hpp"
-#include "tools/restart_note.hpp"
-
 namespace yars::tools {
 
 namespace {
@@ -40,19 +37,13 @@ ordered_json role_json(const databuffer::ProcessHere& process, std::int64_t now_
   return {{"name", process.name}, {"pid", process.pid}, {"heartbeat_ms", heartbeat_ms}, {"hangs", hangs}};
 }
 
-void count_restarts(ordered_json& role, const std::vector<databuffer::Note>& notes, std::int64_t now_ns) {
-  int all = 0;
-  int recent = 0;
-  for (const databuffer::Note& note : notes) {
-    if (note.kind != static_cast<std::uint32_t>(databuffer::NoteKind::supervision) ||
-        databuffer::text_of(note.process) != role["name"].get<std::string>() ||
-        !std::string_view(databuffer::text_of(note.text)).starts_with(kRestartNote))
-      continue;
-    ++all;
-    if (now_ns - note.monotonic_ns < kLastMinute_ns) ++recent;
-  }
-  role["restarts"] = all;
-  role["restarts_last_minute"] = recent;
+// Counted beside the flight recorder: a flood of its lines changes nothing here.
+void count_restarts(ordered_json& role, const databuffer::Session& session, std::int64_t now_ns) {
+  const auto index = databuffer::counted_role(role["name"].get<std::string>());
+  const databuffer::RecentCount none{};
+  const auto& restarts = index ? session.layout().counters.restarts[*index] : none;
+  role["restarts"] = restarts.count.load();
+  role["restarts_last_minute"] = restarts.within(kLastMinute_ns, now_ns);
 }
 
 void judge_roles(const ordered_json& roles, std::vector<std::string>& reasons) {
@@ -76,6 +67,8 @@ bool runs(const ordered_json& roles, std::string_view name) {
 void judge_radar(const ordered_json& status, std::vector<std::string>& reasons) {
   const auto& watch = status["watch"];
   const auto& model = status["model"];
+  if (runs(status["roles"], "state-machine") && watch["power"] == "OFF")
+    reasons.emplace_back("the radar is off: yars inject 'power opr' switches it on");
   // What a model that has died left behind tells nothing.
   if (!runs(status["roles"], "radar-model")) return;
   if (watch["ownship"].is_null())
@@ -85,9 +78,23 @@ void judge_radar(const ordered_json& status, std::vector<std::string>& reasons) 
     reasons.emplace_back("terrain missing: none is loaded for where the aircraft is");
 }
 
+// One record out of range is somebody's slip; this many within ten seconds are a writer that goes on with it.
+void judge_borders(const ordered_json& status, std::vector<std::string>& reasons) {
+  constexpr int kManyRefusals = 3;
+  if (!status["clock_problem"].is_null())
+    reasons.push_back("the session's clock is damaged (" + status["clock_problem"].get<std::string>() +
+                      "): yars sim reset sets it");
+  const auto& input = status["input"];
+  if (input["sources"] == 0 && input["missing"] > 0) reasons.emplace_back("no input: who sent events has died");
+  const auto& refusals = status["refusals"];
+  if (refusals["last_10_s"] < kManyRefusals) return;
+  const std::string newest = refusals["newest"].is_null() ? "" : ": " + refusals["newest"].get<std::string>();
+  reasons.push_back("records are being refused" + newest);
+}
+
 }  // namespace
 
-ordered_json roles_json(const databuffer::Session& session, const std::vector<databuffer::Note>& notes) {
+ordered_json roles_json(const databuffer::Session& session) {
   const std::int64_t now_ns = databuffer::monotonic_ns();
   const auto processes = session.processes();
   ordered_json roles = ordered_json::array();
@@ -102,7 +109,7 @@ ordered_json roles_json(const databuffer::Session& session, const std::vector<da
     if (!here && place < kSet.size() && kSet[place].needed)
       roles.push_back({{"name", kSet[place].name}, {"pid", 0}, {"heartbeat_ms", nullptr}, {"hangs", false}});
   }
-  for (auto& role : roles) count_restarts(role, notes, now_ns);
+  for (auto& role : roles) count_restarts(role, session, now_ns);
   return roles;
 }
 
@@ -114,7 +121,10 @@ ordered_json health_json(const ordered_json& status) {
   judge_roles(roles, reasons);
   judge_radar(status, reasons);
   if (const auto& recorder = status["recorder"]; !recorder.is_null() && !recorder["problem"].is_null())
-    reasons.push_back("the recorder has stopped: " + recorder["problem"].get<std::string>());
+    reasons.push_back("the recorder does not write: " + recorder["problem"].get<std::string>());
+  if (status["frames_failing"].get<bool>() && runs(roles, "radar-display"))
+    reasons.emplace_back("the glass cannot write its frames: see its log");
+  judge_borders(status, reasons);
   if (!status["named"].get<bool>())
     reasons.emplace_back(
         "the segment's name was removed from /dev/shm (systemd's RemoveIPC?); the set goes on without");

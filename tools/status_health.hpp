@@ -2,7 +2,6 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "databuffer/session.hpp"
 
@@ -10,11 +9,11 @@ namespace yars::tools {
 
 // Everybody in the process table and the roles that a set cannot be without, in the order of a set:
 // [{name, pid (0: not running), heartbeat_ms (null: not running), hangs, restarts, restarts_last_minute}].
-// A role hangs when its heartbeat is older than 2 s; restarts are the supervisor's, as far as the flight recorder goes.
-nlohmann::ordered_json roles_json(const databuffer::Session& session, const std::vector<databuffer::Note>& notes);
+// A role hangs when its heartbeat is older than 2 s; restarts are the supervisor's.
+nlohmann::ordered_json roles_json(const databuffer::Session& session);
 
 // {"state": "OK", "DEGRADED" or "NOTHING RUNS", "reasons": [words]}, from the object with watch, model, roles,
-// recorder and named.
+// recorder, frames_failing, input, refusals, clock_problem and named.
 nlohmann::ordered_json health_json(const nlohmann::ordered_json& status);
 
 }  // namespace yars::tools

@@ -87,6 +87,23 @@ ordered_json traffic_json(const databuffer::Session& session) {
   return {{"holder", holder}, {"entities", newest.count}};
 }
 
+// Who sends events just now, and how many of those who did are gone without a word.
+ordered_json input_json(const databuffer::Session& session) {
+  std::uint64_t held = 0;
+  for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) held += session.input_lane_is_held(lane) ? 1 : 0;
+  const std::uint64_t known = session.layout().counters.input_sources.load();
+  return {{"sources", held}, {"missing", known > held ? known - held : 0}};
+}
+
+ordered_json refusals_json(const databuffer::Session& session, const std::vector<databuffer::Note>& notes) {
+  constexpr std::int64_t kRecently_ns = 10'000'000'000;
+  const auto newest = std::ranges::find(
+      notes.rbegin(), notes.rend(), static_cast<std::uint32_t>(databuffer::NoteKind::refusal), &databuffer::Note::kind);
+  const auto& refusals = session.layout().counters.refusals;
+  return {{"last_10_s", refusals.within(kRecently_ns, databuffer::monotonic_ns())},
+          {"newest", newest == notes.rend() ? ordered_json(nullptr) : ordered_json(databuffer::text_of(newest->text))}};
+}
+
 }  // namespace
 
 ordered_json status_json(const databuffer::Session& session, const std::string& name) {
@@ -108,6 +125,7 @@ ordered_json status_json(const databuffer::Session& session, const std::string& 
   for (std::size_t kind = 0; kind < databuffer::kNoteKinds; ++kind)
     counts[kNoteNames[kind]] = session.layout().note_counts[kind].load();
   object["note_counts"] = counts;
+  object["notes_folded"] = session.layout().counters.notes_folded.load();
   const std::int64_t now_ns = databuffer::monotonic_ns();
   const std::vector<databuffer::Note> lines = notes_of(session.layout());
   ordered_json notes = ordered_json::array();
@@ -120,7 +138,12 @@ ordered_json status_json(const databuffer::Session& session, const std::string& 
                      {"text", databuffer::text_of(note.text)}});
   object["notes"] = notes;
   object["named"] = session.has_name();
-  object["roles"] = roles_json(session, lines);
+  object["roles"] = roles_json(session);
+  object["input"] = input_json(session);
+  object["refusals"] = refusals_json(session, lines);
+  object["frames_failing"] = session.layout().counters.frames_failing.load() != 0;
+  const auto problem = session.clock_problem();
+  object["clock_problem"] = problem ? ordered_json(*problem) : ordered_json(nullptr);
   object["health"] = health_json(object);
   return object;
 }

@@ -119,6 +119,8 @@ void print_notes(const ordered_json& status) {
     std::printf("%s%s %llu", separator, kind.c_str(), static_cast<unsigned long long>(count.get<std::uint64_t>()));
     separator = ", ";
   }
+  if (const auto folded = status["notes_folded"].get<std::uint64_t>(); folded > 0)
+    std::printf("; %llu were repeats and only counted", static_cast<unsigned long long>(folded));
   std::printf("\n");
   const auto& notes = status["notes"];
   for (std::size_t i = notes.size() > kNotesShown ? notes.size() - kNotesShown : 0; i < notes.size(); ++i)

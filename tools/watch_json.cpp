@@ -203,6 +203,7 @@ nlohmann::ordered_json watch_object(const databuffer::Session& session) {
   ordered_json object;
   add_clock(object, session, model);
   add_radar_state(object, state);
+  object["events_applied"] = state.events_applied;
   const auto timer_s = databuffer::map_timer_s(state, model);
   object["map_timer_s"] = timer_s ? ordered_json(*timer_s) : ordered_json(nullptr);
   object["map_progress"] = number_or_null(model.map_progress);

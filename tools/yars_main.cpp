@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& outcome) {
     return databuffer::report_parse_outcome(app, outcome);
   } catch (const tools::CommandFailed& failed) {
-    databuffer::print_failure("yars", failed.message);
+    if (!failed.message.empty()) databuffer::print_failure("yars", failed.message);
     return failed.code;
   } catch (const std::exception& problem) {
     databuffer::print_failure("yars", std::string("stopped by ") + problem.what());

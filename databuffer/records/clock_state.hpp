@@ -6,6 +6,12 @@
 
 namespace yars::databuffer {
 
+// [ns] 18 years: the latest base of sim time and of CLOCK_MONOTONIC, for who sets the clock and for who reads it. Sums
+// at the highest rate still fit.
+inline constexpr std::int64_t kLatestClockBase_ns = std::int64_t{1} << 59;
+// [s] of sim time that may be asked for.
+inline constexpr double kLatestSimTime_s = static_cast<double>(kLatestClockBase_ns / 1'000'000'000);
+
 struct ClockState {
   std::int64_t base_sim_ns;        // [ns]
   std::int64_t base_monotonic_ns;  // [ns]

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "databuffer/records/picture_id.hpp"
 #include "databuffer/records/plain_text.hpp"
 #include "databuffer/records/refusal.hpp"
 
@@ -38,6 +39,9 @@ class Inspection {
   }
   void longitude(std::string_view field, double value, Missing missing = Missing::refused) {
     range(field, value, -180.0, 180.0, missing);
+  }
+  void picture_id(std::string_view field, std::uint64_t id) {
+    if (id > kLatestPictureId) fault(field, "at most " + std::to_string(kLatestPictureId), std::to_string(id));
   }
   void speed(std::string_view field, double value) { range(field, value, -kLargestSpeed, kLargestSpeed); }
 

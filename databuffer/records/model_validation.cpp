@@ -46,6 +46,7 @@ void inspect_map_under_way(Inspection& inspection, const ModelStatus& status) {
   inspection.range("map_up_deg", status.map_up_deg, 0.0, 360.0);
   inspection.range("map_window_nm", status.map_window_nm, 0.0, kLargestRange);
   inspection.range("mappable", status.mappable, 0, 1);
+  inspection.picture_id("map_newest", status.map_newest);
 }
 
 void inspect_measured(Inspection& inspection, const ModelStatus& status) {
@@ -90,6 +91,21 @@ Refusal why_refused(const Sweep& sweep) {
   inspection.range("mode", sweep.mode, 0, kModes);
   inspection.range("gain", sweep.gain, 0, kFullGain);
   inspection.range("direction", sweep.direction, 0, 1);
+  return inspection.result();
+}
+
+Refusal why_refused(const ModelTick& tick) {
+  Inspection inspection;
+  inspection.range("tick", static_cast<double>(tick.tick), 0.0, kLatestTick);
+  inspection.range("sim_time_ns", static_cast<double>(tick.sim_time_ns), 0.0, kLatest_ns);
+  inspection.range("resumed_tick", static_cast<double>(tick.resumed_tick), -1.0, kLatestTick);
+  inspection.range("samples", tick.samples, 0, radar::kMaxSamples);
+  inspection.range("command.range_nm", tick.command.range_nm, 0.0, kLargestRange);
+  inspection.range("command.scan_width_deg", tick.command.scan_width_deg, 0.0, 360.0);
+  inspection.range("command.antenna_elevation_deg", tick.command.antenna_elevation_deg, -90.0, 90.0);
+  inspection.range("command.mode", tick.command.mode, 0, kModes);
+  inspection.text("fidelity", tick.fidelity);
+  if (const auto refusal = why_refused(tick.ownship)) return "ownship: " + *refusal;
   return inspection.result();
 }
 

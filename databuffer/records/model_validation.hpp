@@ -8,5 +8,6 @@ namespace yars::databuffer {
 
 Refusal why_refused(const ModelStatus& status);
 Refusal why_refused(const Sweep& sweep);
+Refusal why_refused(const ModelTick& tick);
 
 }  // namespace yars::databuffer

@@ -76,6 +76,10 @@ void inspect_map(Inspection& inspection, const RadarState& state) {
   inspection.latitude("map_latitude_deg", state.map_latitude_deg);
   inspection.longitude("map_longitude_deg", state.map_longitude_deg);
   inspection.range("map_window_nm", state.map_window_nm, 0.0, kLargestRange);
+  inspection.picture_id("map_newest", state.map_newest);
+  inspection.picture_id("map_old", state.map_old);
+  inspection.picture_id("map_stored", state.map_stored);
+  inspection.picture_id("map_shown", state.map_shown);
 }
 
 // Differences of two are taken: far from the ends of their type.

@@ -54,9 +54,12 @@ Refusal why_refused(const ClockState& clock) {
   Inspection inspection;
   inspection.range("rate", clock.rate, 0.0, 10.0);
   inspection.range("running", clock.running, 0, 1);
-  if (clock.base_sim_ns < 0) inspection.fault("base_sim_ns", "0 or more", std::to_string(clock.base_sim_ns));
-  if (clock.base_monotonic_ns < 0)
-    inspection.fault("base_monotonic_ns", "0 or more", std::to_string(clock.base_monotonic_ns));
+  const auto base = [&inspection](std::string_view field, std::int64_t value_ns) {
+    if (value_ns < 0 || value_ns > kLatestClockBase_ns)
+      inspection.fault(field, "0 to " + std::to_string(kLatestClockBase_ns) + " ns", std::to_string(value_ns));
+  };
+  base("base_sim_ns", clock.base_sim_ns);
+  base("base_monotonic_ns", clock.base_monotonic_ns);
   // Without a latitude nothing was repositioned, whatever the other fields hold.
   if (std::isnan(clock.reposition_latitude_deg)) return inspection.result();
   inspection.latitude("reposition_latitude_deg", clock.reposition_latitude_deg);
@@ -75,6 +78,7 @@ Refusal why_refused(const RecorderStatus& status) {
 
 Refusal why_refused(const PatchMap& map) {
   Inspection inspection;
+  inspection.picture_id("id", map.id);
   inspection.range("size", map.size, 1, kMostPatchPixels);
   inspection.latitude("latitude_deg", map.latitude_deg);
   inspection.longitude("longitude_deg", map.longitude_deg);
@@ -109,8 +113,22 @@ Refusal why_refused(const Traffic& traffic) {
 
 Refusal why_refused(const GlassFrame& frame) {
   Inspection inspection;
+  inspection.picture_id("id", frame.id);
   inspection.range("width", frame.width, 1, kMostFramePixels);
   inspection.range("height", frame.height, 1, kMostFramePixels);
+  return inspection.result();
+}
+
+Refusal why_refused(const Outputs& outputs) {
+  Inspection inspection;
+  inspection.text("target_name", outputs.target_name);
+  inspection.range("mark_count", outputs.mark_count, 0, kMarks);
+  const auto count = std::min<std::size_t>(outputs.mark_count, kMarks);
+  for (const Mark& mark : std::span(outputs.marks).first(count)) {
+    inspection.latitude("marks.latitude_deg", mark.latitude_deg);
+    inspection.longitude("marks.longitude_deg", mark.longitude_deg);
+  }
+  inspection.range("steering", outputs.steering, 0, static_cast<int>(SteeringCommand::bank));
   return inspection.result();
 }
 

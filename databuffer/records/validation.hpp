@@ -8,6 +8,7 @@
 #include "databuffer/records/clock_state.hpp"
 #include "databuffer/records/event_validation.hpp"
 #include "databuffer/records/glass_frame.hpp"
+#include "databuffer/records/outputs.hpp"
 #include "databuffer/records/ownship.hpp"
 #include "databuffer/records/patch_map.hpp"
 #include "databuffer/records/radar_state_validation.hpp"
@@ -23,5 +24,6 @@ Refusal why_refused(const PatchMap& map);
 Refusal why_refused(const RecorderStatus& status);
 Refusal why_refused(const Traffic& traffic);
 Refusal why_refused(const GlassFrame& frame);
+Refusal why_refused(const Outputs& outputs);
 
 }  // namespace yars::databuffer

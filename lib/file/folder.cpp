@@ -151,4 +151,12 @@ std::optional<struct stat> Folder::look(const std::string& name) const {
   return status;
 }
 
+bool Folder::remove(const std::string& name) const {
+  return ::unlinkat(descriptor(), name.c_str(), 0) == 0;
+}
+
+bool Folder::set_aside(const std::string& name, const std::string& other) const {
+  return ::renameat(descriptor(), name.c_str(), descriptor(), other.c_str()) == 0;
+}
+
 }  // namespace yars::file

@@ -46,6 +46,10 @@ class Folder {
   const std::filesystem::path& path() const { return path_; }
   // What lies at a name, a link itself; nullopt with errno set.
   std::optional<struct stat> look(const std::string& name) const;
+  // Takes a file away, a link itself. False with errno set.
+  bool remove(const std::string& name) const;
+  // Gives a file another name; what had that name goes. False with errno set.
+  bool set_aside(const std::string& name, const std::string& other) const;
 
  private:
   friend class FolderWalk;

@@ -58,9 +58,9 @@ Expected<void> LogFile::open_newest() {
 
 Expected<void> LogFile::set_aside() {
   for (std::size_t age = limits_.old; age > 0; --age)
-    ::renameat(folder_.descriptor(), name_of(age - 1).c_str(), folder_.descriptor(), name_of(age).c_str());
+    folder_.set_aside(name_of(age - 1), name_of(age));
   // Where it cannot be set aside, or is not to be, it ends: no log grows without a limit.
-  ::unlinkat(folder_.descriptor(), name_of(0).c_str(), 0);
+  folder_.remove(name_of(0));
   return open_newest();
 }
 

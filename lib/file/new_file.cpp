@@ -52,8 +52,10 @@ Expected<NewFile> NewFile::create(const std::filesystem::path& path, Rights righ
   return create(std::make_shared<const Folder>(std::move(*folder)), path.filename().string(), rights);
 }
 
-Expected<NewFile> NewFile::create(std::shared_ptr<const Folder> folder, const std::string& name, Rights rights) {
+Expected<NewFile> NewFile::create(std::shared_ptr<const Folder> folder, const std::string& name, Rights rights,
+                                  Existing existing) {
   NewFile file(std::move(folder), name);
+  file.existing_ = existing;
   if (name.empty() || name == "." || name == "..") return no_file(file.shown(), "a folder");
   if (auto free = file.check_place(); !free) return tl::unexpected(free.error());
   auto opened = file.device_ ? file.open_device() : file.open_beside(rights == Rights::user_alone ? 0600 : 0644);
@@ -68,6 +70,7 @@ NewFile& NewFile::operator=(NewFile&& other) noexcept {
   std::swap(name_, other.name_);
   std::swap(beside_, other.beside_);
   std::swap(stream_, other.stream_);
+  std::swap(existing_, other.existing_);
   std::swap(placed_, other.placed_);
   std::swap(device_, other.device_);
   return *this;
@@ -85,6 +88,7 @@ Expected<void> NewFile::check_place() {
     return system_failure(shown(), errno);
   }
   device_ = S_ISCHR(there->st_mode);
+  if (!device_ && existing_ == Existing::refused) return no_file(shown(), name_of_kind(there->st_mode));
   if (S_ISREG(there->st_mode) || device_) return {};
   if (!S_ISLNK(there->st_mode)) return no_file(shown(), name_of_kind(there->st_mode));
   const auto behind = mode_behind(*folder_, name_);
@@ -152,10 +156,28 @@ Expected<void> NewFile::place() {
   // What lies there may have changed since create().
   if (auto free = check_place(); !free) return free;
   if (device_) return no_file(shown(), "a device");
-  if (::renameat(folder_->descriptor(), beside_.c_str(), folder_->descriptor(), name_.c_str()) != 0)
-    return system_failure(shown(), errno);
+  if (auto moved = move_to_place(); !moved) return moved;
   placed_ = true;
   return {};
+}
+
+Expected<void> NewFile::move_to_place() {
+  const int folder = folder_->descriptor();
+  if (existing_ == Existing::overwritten) {
+    if (folder_->set_aside(beside_, name_)) return {};
+    return system_failure(shown(), errno);
+  }
+  if (::renameat2(folder, beside_.c_str(), folder, name_.c_str(), RENAME_NOREPLACE) == 0) return {};
+  // Not every filesystem can do that; one that cannot has hard links.
+  if (errno == EINVAL && ::linkat(folder, beside_.c_str(), folder, name_.c_str(), 0) == 0) {
+    folder_->remove(beside_);
+    return {};
+  }
+  return system_failure(shown(), errno);
+}
+
+int NewFile::descriptor() const {
+  return stream_ ? ::fileno(stream_.get()) : -1;
 }
 
 Expected<void> NewFile::finish() {

@@ -18,11 +18,14 @@
 
 namespace yars::file {
 
+enum class Existing { overwritten, refused };  // what lies at the place already; a device is always written to
+
 class NewFile {
  public:
   static failure::Expected<NewFile> create(const std::filesystem::path& path, Rights rights = Rights::by_umask);
   static failure::Expected<NewFile> create(std::shared_ptr<const Folder> folder, const std::string& name,
-                                           Rights rights = Rights::by_umask);
+                                           Rights rights = Rights::by_umask,
+                                           Existing existing = Existing::overwritten);
   NewFile(NewFile&&) noexcept;
   NewFile& operator=(NewFile&&) noexcept;
   ~NewFile();  // takes back what has not been placed
@@ -30,6 +33,7 @@ class NewFile {
   std::string shown() const { return (folder_->path() / name_).string(); }  // its path, for messages
   // For libraries that write by themselves; place() tells whether all went well.
   std::FILE* stream() { return stream_.get(); }
+  int descriptor() const;  // -1 once it is finished
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text);
 
@@ -47,6 +51,7 @@ class NewFile {
   NewFile(std::shared_ptr<const Folder> folder, std::string name)
       : folder_(std::move(folder)), name_(std::move(name)) {}
   failure::Expected<void> check_place();
+  failure::Expected<void> move_to_place();
   failure::Expected<void> open_beside(mode_t mode);
   failure::Expected<void> open_device();
   failure::Expected<void> give_beside_a_name();
@@ -55,6 +60,7 @@ class NewFile {
   std::string name_;
   std::string beside_;  // its random name for the time being; empty while it has none
   std::unique_ptr<std::FILE, Close> stream_;
+  Existing existing_ = Existing::overwritten;
   bool placed_ = false;
   bool device_ = false;
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "databuffer/records/picture_id.hpp"
 #include "lib/radar/limits.hpp"
 #include "lib/radar/map_formation.hpp"
 #include "lib/radar/modes.hpp"
@@ -40,7 +41,8 @@ MapSchedule::MapSchedule(const radar::RadarConfiguration& configuration) : confi
 
 // A map that a predecessor was forming starts over: its request is one that nobody has taken up.
 void MapSchedule::resume(const ModelStatus& status) {
-  newest_ = status.map_newest;
+  // Half of what is allowed: the ids that follow stay below the limit.
+  newest_ = status.map_newest <= databuffer::kLatestPictureId / 2 ? status.map_newest : 0;
   done_request_ = status.map_done_request;
   request_ = status.map_done_request;
   epoch_ = status.epoch;

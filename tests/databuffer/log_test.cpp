@@ -87,7 +87,7 @@ TEST_F(Log, IsRotatedAndTheOldestGoes) {
     start_log_file("role", folder_);
     const std::string line(64 * 1024, 'x');
     const std::size_t lines = (kOldLogFiles + 2) * kLogFileBytes / line.size();
-    for (std::size_t n = 0; n < lines; ++n) log_info(std::to_string(n) + line);
+    for (std::size_t n = 0; n < lines; ++n) log_to_file(std::to_string(n) + line);
   });
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
@@ -110,6 +110,21 @@ TEST_F(Log, AFolderThatCannotBeWrittenIsOneWarning) {
   EXPECT_THAT(lines, HasSubstr("warning: --log-dir: expected a folder to write to"));
   EXPECT_THAT(lines, HasSubstr("role info: one"));
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 3) << lines;
+}
+
+// Packets of two places in turn: 31 MB in ten seconds, as it once was.
+TEST_F(Log, AFloodOfLinesIsAFewAndACount) {
+  write([&] {
+    start_log_file("role", folder_.string());
+    for (int i = 0; i < 100'000; ++i) {
+      log_info(i % 2 == 0 ? "put the aircraft elsewhere, " + std::to_string(i)
+                          : "hears it from port " + std::to_string(i));
+      if (i % 1000 == 0) log_warning("bad record " + std::to_string(i));
+    }
+  });
+  EXPECT_LT(std::filesystem::file_size(folder_ / "role.log"), 20'000U);
+  EXPECT_LT(terminal().size(), 20'000U);
+  EXPECT_THAT(terminal(), HasSubstr("bad record 0"));
 }
 
 }  // namespace

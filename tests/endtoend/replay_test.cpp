@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "tests/endtoend/lockstep_run.hpp"
+#include "tools/recording/recording_reader.hpp"
 
 namespace yars::endtoend {
 namespace {
@@ -97,6 +98,34 @@ TEST(ReplayToTheGlass, ACutFileEndsCleanlyAndSaysSo) {
   const auto played = set.yars({"replay", cut.string(), "--rate", "10"});
   EXPECT_EQ(played.code, 0) << played.errors;
   EXPECT_NE(played.errors.find("cut short"), std::string::npos) << played.errors;
+}
+
+// One damaged block costs that block; what is missing is said, and the exit code tells scripts.
+TEST(ReplayToTheGlass, ADamagedBlockCostsThatBlockAndIsToldWithItsTicks) {
+  ProcessSet set("replay-damaged");
+  std::string bytes = bytes_of(run().recording());
+  auto reader = tools::recording::RecordingReader::open(run().recording());
+  ASSERT_TRUE(reader);
+  const auto block = reader->blocks()[reader->blocks().size() / 2];
+  bytes[block.offset + 200] ^= 1;
+  const auto damaged = set.folder() / "damaged.yars";
+  std::ofstream(damaged, std::ios::binary) << bytes;
+  const std::string ticks = std::to_string(block.first_tick) + " to " + std::to_string(block.last_tick);
+  const auto compared = set.yars({"replay", "--events", damaged.string()});
+  EXPECT_EQ(compared.code, 1);
+  EXPECT_NE(compared.errors.find("missing are ticks " + ticks), std::string::npos) << compared.errors;
+  const auto result = nlohmann::json::parse(compared.output);
+  const auto whole = nlohmann::json::parse(set.yars({"replay", "--events", run().recording().string()}).output);
+  EXPECT_EQ(result["different"], 0);
+  EXPECT_GT(result["equal"].get<int>(), whole["equal"].get<int>() / 2) << "before it and behind it";
+  ASSERT_EQ(result["missing_ticks"].size(), 1u);
+  EXPECT_EQ(result["missing_ticks"][0][0], block.first_tick);
+  const auto printed = set.yars({"replay", "--print", damaged.string()});
+  EXPECT_EQ(printed.code, 1);
+  EXPECT_NE(printed.errors.find(ticks), std::string::npos) << printed.errors;
+  const auto played = set.yars({"replay", damaged.string(), "--rate", "10"});
+  EXPECT_EQ(played.code, 1);
+  EXPECT_NE(played.errors.find(ticks), std::string::npos) << played.errors;
 }
 
 TEST(ReplayToTheGlass, SaysWhatItCannotDo) {

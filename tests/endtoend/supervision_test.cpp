@@ -11,7 +11,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "tests/endtoend/process_set.hpp"
+#include "tests/endtoend/supervised_set.hpp"
 
 namespace yars::endtoend {
 namespace {
@@ -19,102 +19,12 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr double kPatience_s = 60.0;
-
-std::size_t occurrences(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++count;
-  return count;
-}
-
 std::string text_of_file(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
 }
-
-class Supervision : public ::testing::Test {
- protected:
-  Supervision() : set_("supervised"), terrain_(set_.folder() / "terrain"), logs_(set_.folder() / "logs") {
-    // A plain at sea level: a cell of zeros.
-    std::filesystem::create_directories(terrain_);
-    std::ofstream(terrain_ / "N37W123.hgt") << "";
-    std::filesystem::resize_file(terrain_ / "N37W123.hgt", std::size_t{1201} * 1201 * 2);
-  }
-  ~Supervision() override {
-    if (set_.runs("start")) end();
-    // A supervisor that the watchdog had to kill takes nobody along.
-    const auto left = set_.watch();
-    if (left.is_null()) return;
-    for (const auto& process : left["processes"]) ::kill(process["pid"].get<int>(), SIGKILL);
-  }
-
-  void start(const std::vector<std::string>& more = {}, const std::string& source = "fixed:37.5,-122.9,15000,90,480") {
-    // Leaks are looked for where roles run alone; the search now and then crashes beside Mesa's threads.
-    std::vector<std::string> command{"env",
-                                     "ASAN_OPTIONS=detect_leaks=0",
-                                     std::string(YARS_SOURCE_DIR) + "/scripts/start",
-                                     "--bin",
-                                     YARS_BIN_DIR,
-                                     "--session",
-                                     set_.session(),
-                                     "--terrain",
-                                     terrain_.string(),
-                                     "--config",
-                                     std::string(YARS_SOURCE_DIR) + "/config/default.guf",
-                                     "--source",
-                                     source,
-                                     "--frames",
-                                     (set_.folder() / "frames").string(),
-                                     "--log-dir",
-                                     logs_.string(),
-                                     "--size",
-                                     "240"};
-    if (std::ranges::find(more, "--headless") == more.end()) command.insert(command.end(), {"--headless", "1000"});
-    command.insert(command.end(), more.begin(), more.end());
-    set_.start_tool("start", command);
-  }
-  void start_and_wait(const std::vector<std::string>& more = {}) {
-    start(more);
-    ASSERT_TRUE(set_.wait_until(
-        [](const auto& watch) {
-          return watch["processes"].size() >= 4 && watch["power"] == "OPR" && watch["sweeps"] > 50;
-        },
-        kPatience_s))
-        << set_.watch().dump() << told();
-  }
-
-  std::string told() const { return set_.log_of("start"); }
-  nlohmann::json status() const {
-    const auto finished = set_.yars({"status", "--json"});
-    return finished.code == 0 ? nlohmann::json::parse(finished.output) : nlohmann::json();
-  }
-  std::string reasons() const { return status()["health"]["reasons"].dump(); }
-  int pid_of(const std::string& role) const {
-    const auto processes = set_.watch()["processes"];
-    return processes.contains(role) ? processes[role]["pid"].get<int>() : 0;
-  }
-  void kill_and_wait_for_the_next(const std::string& role) {
-    const int before = pid_of(role);
-    ASSERT_GT(before, 0) << role << told();
-    ::kill(before, SIGKILL);
-    ASSERT_TRUE(set_.wait_until(
-        [&](const auto& watch) {
-          return watch["processes"].contains(role) && watch["processes"][role]["pid"] != before;
-        },
-        kPatience_s))
-        << role << told();
-  }
-  int end() {
-    set_.kill("start", SIGTERM);
-    return set_.wait("start");
-  }
-
-  ProcessSet set_;
-  std::filesystem::path terrain_;
-  std::filesystem::path logs_;
-};
 
 TEST_F(Supervision, WhatDiesIsStartedAgainAndTold) {
   start_and_wait();
@@ -164,16 +74,16 @@ TEST_F(Supervision, TheLogsOfASetLieInOneFolderForItsOwnerAlone) {
   EXPECT_THAT(set_.output_of("start"), HasSubstr("Logs are in " + logs_.string()));
 }
 
-TEST_F(Supervision, TheSixthDeathWithinAMinuteEndsTheSet) {
+TEST_F(Supervision, TheSixthDeathWithinAMinuteOfARoleThatIsNeededEndsTheSet) {
   start_and_wait();
-  for (int death = 0; death < 5; ++death) ASSERT_NO_FATAL_FAILURE(kill_and_wait_for_the_next("flight-model"));
+  for (int death = 0; death < 5; ++death) ASSERT_NO_FATAL_FAILURE(kill_and_wait_for_the_next("state-machine"));
   // The supervisor has seen it too, so that this death is not one before it took part.
-  const int last = pid_of("flight-model");
+  const int last = pid_of("state-machine");
   ASSERT_GT(last, 0);
   ::kill(last, SIGKILL);
   EXPECT_EQ(set_.wait("start"), 1);
-  EXPECT_THAT(told(), HasSubstr("flight-model was killed by SIGKILL, the 6th time within 60 s"));
-  EXPECT_THAT(told(), HasSubstr("its log is " + (logs_ / "flight-model.log").string()));
+  EXPECT_THAT(told(), HasSubstr("state-machine was killed by SIGKILL, the 6th time within 60 s"));
+  EXPECT_THAT(told(), HasSubstr("its log is " + (logs_ / "state-machine.log").string()));
   EXPECT_FALSE(set_.segment_exists()) << "all the others were ended";
 }
 
@@ -247,6 +157,8 @@ TEST_F(Supervision, StatusNamesWhoHangsAndWhoIsMissing) {
   for (const auto* role : {"state-machine", "radar-model"}) set_.start(role, {role});
   set_.start("radar-display", {"radar-display", "--headless", "--frames", (set_.folder() / "frames").string()});
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 3; }, kPatience_s));
+  EXPECT_THAT(reasons(), HasSubstr("the radar is off"));
+  ASSERT_EQ(set_.yars({"inject", "power opr"}).code, 0);
   EXPECT_TRUE(eventually([&] { return reasons() == R"(["no ownship: nobody flies"])"; }, kPatience_s)) << reasons();
   set_.kill("radar-display", SIGSTOP);
   EXPECT_TRUE(eventually([&] { return reasons().find("the glass hangs") != std::string::npos; }, kPatience_s));
@@ -262,6 +174,7 @@ TEST_F(Supervision, ASourceThatDiedFliesNobody) {
   for (const auto* role : {"state-machine", "radar-model"}) set_.start(role, {role});
   set_.start("flight-model", {"flight-model", "--source", "fixed:37.5,-122.9,15000,90,480"});
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return !watch["ownship"].is_null(); }));
+  ASSERT_EQ(set_.yars({"inject", "power opr"}).code, 0);
   set_.kill("flight-model", SIGSTOP);
   EXPECT_TRUE(eventually([&] { return reasons().find("its source is silent") != std::string::npos; }, kPatience_s));
   EXPECT_EQ(status()["ownship_lanes"].size(), 1u) << "a stopped source keeps its lane";

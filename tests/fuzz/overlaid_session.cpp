@@ -136,6 +136,7 @@ std::vector<OverlaidSession::Part> OverlaidSession::parts() {
   add(whole.traffic);
   add(whole.traffic_latched);
   for (const auto& slot : whole.frames) add(slot);
+  add(whole.counters);
   return parts;
 }
 

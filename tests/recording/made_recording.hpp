@@ -1,6 +1,7 @@
 // Recordings made up for tests: items of every kind, and what is in a file of them.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -147,7 +148,8 @@ inline bool same(const RecordingItem& a, const RecordingItem& b) {
 // A whole recording as its file has it.
 inline std::string recorded(const std::vector<RecordingItem>& items) {
   const TemporaryFile file;
-  auto writer = tools::recording::RecordingWriter::create(file.path(), {"made.guf", "hills"});
+  auto writer = tools::recording::RecordingWriter::create(file.path(), {"made.guf", "hills"},
+                                                          tools::recording::Existing::overwritten);
   for (const auto& item : items) std::visit([&](const auto& record) { (void)writer->append(record); }, item);
   (void)writer->close();
   return file.bytes();
@@ -161,6 +163,15 @@ inline std::vector<RecordingItem> rest_of(tools::recording::RecordingReader& rea
   std::vector<RecordingItem> items;
   while (auto item = reader.next()) items.push_back(std::move(*item));
   return items;
+}
+
+inline void expect_same(const std::vector<RecordingItem>& found, const std::vector<RecordingItem>& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) ASSERT_TRUE(same(found[i], expected[i])) << "item " << i;
+}
+
+inline bool is_begin_of(const std::vector<RecordingItem>& found, const std::vector<RecordingItem>& whole) {
+  return found.size() <= whole.size() && std::equal(found.begin(), found.end(), whole.begin(), same);
 }
 
 }  // namespace yars::test

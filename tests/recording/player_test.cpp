@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <utility>
@@ -87,7 +88,7 @@ class Session {
   Seen seen() const { return {state_, status(), picture_of(sweeps_), {}}; }
   std::int64_t tick() const { return cockpit_.tick.tick; }
   void write(const std::filesystem::path& path) const {
-    auto writer = RecordingWriter::create(path, {});
+    auto writer = RecordingWriter::create(path, {}, Existing::overwritten);
     ASSERT_TRUE(writer);
     for (const RecordingItem& item : items_)
       std::visit([&](const auto& record) { EXPECT_TRUE(writer->append(record)); }, item);
@@ -274,6 +275,53 @@ TEST_P(RecordingPlayed, ACutFilePlaysToItsLastWholeSecondAndEnds) {
   EXPECT_GT(player->tick(), 500);
   EXPECT_LT(player->tick(), 1900);
   EXPECT_FALSE(end.sweeps.empty());
+}
+
+TEST_P(RecordingPlayed, ADamagedSecondIsPassedOverAndTheRestPlays) {
+  session.run(2000);
+  session.write(file.path());
+  std::string bytes = file.bytes();
+  const auto blocks = test::reader_of(bytes)->blocks();
+  ASSERT_GE(blocks.size(), 6U);
+  const std::int64_t lost_from = blocks[3].first_tick, lost_to = blocks[3].last_tick;
+  bytes[blocks[3].offset + 100] ^= 1;
+  auto damaged = RecordingReader::read(std::make_unique<std::istringstream>(bytes), "damaged");
+  ASSERT_TRUE(damaged);
+  reader.emplace(std::move(*damaged));
+  start();
+  glass.jump(player->seek(1));
+  glass.take(player->play_to(lost_from));
+  const Played end = player->play_to(1'000'000);
+  EXPECT_TRUE(end.ended);
+  EXPECT_EQ(player->tick(), 2000);
+  EXPECT_FALSE(end.sweeps.empty()) << "they are made again, or read again, behind the hole";
+  EXPECT_EQ(player->different(), 0U) << "and are those that were recorded";
+  ASSERT_EQ(reader->missing().size(), 1U);
+  EXPECT_EQ(reader->missing()[0].first_tick, lost_from);
+  EXPECT_EQ(reader->missing()[0].last_tick, lost_to);
+}
+
+// Nobody waits for 158 years of sim time, and nobody loops.
+TEST(RecordingPlayer, TicksThatJumpAreCutsAndComeToAnEnd) {
+  constexpr auto kMost = std::numeric_limits<std::int64_t>::max();
+  std::vector<RecordingItem> items;
+  for (const std::int64_t tick : {std::int64_t{1}, std::int64_t{2}, std::int64_t{1'000'000'000'000}, std::int64_t{3},
+                                  kMost, -kMost, std::int64_t{5}}) {
+    databuffer::ModelTick record = test::tick_at(0);
+    record.tick = tick;
+    items.emplace_back(record);
+  }
+  auto reader = test::reader_of(test::recorded(items));
+  ASSERT_TRUE(reader);
+  Player player(*reader, std::nullopt);
+  Played played = player.seek(1);
+  int cuts = 0;
+  for (int call = 0; call < 100 && !played.ended; ++call) {
+    played = player.play_to(played.cut_to_tick.value_or(player.tick()));
+    cuts += played.cut_to_tick ? 1 : 0;
+  }
+  EXPECT_TRUE(played.ended);
+  EXPECT_GE(cuts, 4);
 }
 
 TEST_P(RecordingPlayed, APauseOfTheRecorderIsACut) {

@@ -1,9 +1,7 @@
 // What is recorded is read, all of it and in order; what was damaged or cut short is read as far as it is whole.
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <algorithm>
-#include <csignal>
 
 #include "databuffer/flight/route_flight.hpp"
 #include "tests/recording/made_recording.hpp"
@@ -14,20 +12,13 @@ namespace yars::tools::recording {
 namespace {
 
 using databuffer::ModelTick;
+using test::expect_same;
+using test::is_begin_of;
 using test::items_of_every_kind;
 using test::reader_of;
 using test::recorded;
 using test::rest_of;
 using test::same;
-
-void expect_same(const std::vector<RecordingItem>& found, const std::vector<RecordingItem>& expected) {
-  ASSERT_EQ(found.size(), expected.size());
-  for (std::size_t i = 0; i < found.size(); ++i) ASSERT_TRUE(same(found[i], expected[i])) << "item " << i;
-}
-
-bool is_begin_of(const std::vector<RecordingItem>& found, const std::vector<RecordingItem>& whole) {
-  return found.size() <= whole.size() && std::equal(found.begin(), found.end(), whole.begin(), same);
-}
 
 // Where each block ends in a file, and how many items have been read by then.
 struct BlockEnd {
@@ -89,7 +80,7 @@ TEST(Recording, CutAtAnyLengthReadsToItsLastWholeBlock) {
   }
 }
 
-TEST(Recording, FindsAnyByteThatWasChanged) {
+TEST(Recording, AnyByteThatWasChangedCostsAtMostItsBlock) {
   const auto items = items_of_every_kind(24, 25);
   const std::string whole = recorded(items);
   const auto ends = block_ends(whole);
@@ -102,13 +93,60 @@ TEST(Recording, FindsAnyByteThatWasChanged) {
     if (!reader) continue;
     const auto found = rest_of(*reader);
     EXPECT_TRUE(reader->cut_short());
-    EXPECT_TRUE(is_begin_of(found, items));
-    // All before the block with the byte; all of them where it lies in the index.
-    std::size_t expected = 0;
-    for (const auto& end : ends)
-      if (end.bytes <= at) expected = end.items;
-    EXPECT_EQ(found.size(), expected);
+    // All but those of the block with the byte; all of them where it lies in the index.
+    const auto hit = std::ranges::find_if(ends, [at](const auto& end) { return at < end.bytes; });
+    auto expected = items;
+    if (hit != ends.end()) {
+      const std::size_t begin = hit == ends.begin() ? 0 : (hit - 1)->items;
+      expected.erase(expected.begin() + static_cast<std::ptrdiff_t>(begin),
+                     expected.begin() + static_cast<std::ptrdiff_t>(hit->items));
+    }
+    expect_same(found, expected);
+    EXPECT_EQ(reader->missing().size(), hit == ends.end() ? 0U : 1U);
   }
+}
+
+// Without the index, as a recorder that was killed leaves it: what comes behind the damage is found by its head.
+TEST(Recording, WithoutAnIndexADamagedBlockCostsThatBlockAndItsTicksAreNamed) {
+  const auto items = items_of_every_kind(1000);
+  const std::string whole = recorded(items);
+  const auto blocks_of_whole = reader_of(whole)->blocks();
+  const std::vector<IndexEntry> blocks(blocks_of_whole.begin(), blocks_of_whole.end());
+  const auto ends = block_ends(whole);
+  ASSERT_GE(blocks.size(), 4U);
+  for (const std::size_t where : {std::size_t{0}, std::size_t{30}, sizeof(BlockHead) + 20}) {
+    SCOPED_TRACE(where);
+    std::string bytes = whole.substr(0, ends.back().bytes);
+    bytes[blocks[2].offset + where] ^= 1;
+    auto reader = reader_of(bytes);
+    auto expected = items;
+    expected.erase(expected.begin() + static_cast<std::ptrdiff_t>(ends[1].items),
+                   expected.begin() + static_cast<std::ptrdiff_t>(ends[2].items));
+    expect_same(rest_of(*reader), expected);
+    ASSERT_EQ(reader->missing().size(), 1U);
+    EXPECT_NEAR(reader->missing()[0].first_tick, blocks[2].first_tick, 1);
+    EXPECT_NEAR(reader->missing()[0].last_tick, blocks[2].last_tick, 1);
+  }
+}
+
+TEST(Recording, SeveralDamagedBlocksAreEachPassedOverAndTold) {
+  const auto items = items_of_every_kind(2000);
+  std::string bytes = recorded(items);
+  const auto blocks = reader_of(bytes)->blocks();
+  const std::vector<std::uint64_t> hit{blocks[0].offset, blocks[3].offset, blocks[4].offset};
+  for (const std::uint64_t offset : hit) bytes[offset + sizeof(BlockHead) + 9] ^= 4;
+  auto reader = reader_of(bytes);
+  bool hole_told = false;
+  std::size_t found = 0;
+  while (reader->next()) {
+    hole_told = reader->take_hole() || hole_told;
+    ++found;
+  }
+  EXPECT_TRUE(hole_told);
+  EXPECT_GT(found, items.size() / 2);
+  ASSERT_EQ(reader->missing().size(), 3U);
+  for (std::size_t i = 0; i < hit.size(); ++i) EXPECT_EQ(reader->missing()[i].offset, hit[i]);
+  EXPECT_TRUE(reader->last_before<StateChange>()) << "of a whole block before a damaged one";
 }
 
 TEST(Recording, SaysWhereABlockIsDamaged) {
@@ -237,43 +275,6 @@ TEST(Recording, OfAnHourTakesAtMost50Megabytes) {
   const std::size_t bytes = recorded(items).size();
   RecordProperty("megabytes_an_hour", std::to_string(static_cast<double>(bytes) * 60e-6));
   EXPECT_LT(bytes * 60, 50'000'000U);
-}
-
-TEST(Recording, SaysThatTheDiskIsFull) {
-  const auto full = RecordingWriter::create("/dev/full", {});
-  ASSERT_FALSE(full.has_value());
-  EXPECT_NE(full.error().message().find("room on the disk"), std::string::npos) << full.error().message();
-}
-
-// A limit on the file's size stands for a disk that fills up.
-TEST(Recording, OfADiskThatFillsUpReadsToItsLastWholeBlock) {
-  const test::TemporaryFile file;
-  auto writer = RecordingWriter::create(file.path(), {});
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  const auto on_signal = std::signal(SIGXFSZ, SIG_IGN);
-  rlimit limit = before;
-  limit.rlim_cur = 40'000;
-  setrlimit(RLIMIT_FSIZE, &limit);
-  const auto items = items_of_every_kind(3000);
-  failure::Expected<void> outcome;
-  std::size_t taken = 0;
-  for (; outcome && taken < items.size(); ++taken)
-    outcome = std::visit([&](const auto& record) { return writer->append(record); }, items[taken]);
-  const auto again = writer->append(Gap{});
-  const auto closed = writer->close();
-  setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, on_signal);
-  ASSERT_LT(taken, items.size());
-  EXPECT_NE(outcome.error().message().find("room on the disk"), std::string::npos) << outcome.error().message();
-  EXPECT_FALSE(again.has_value());
-  EXPECT_FALSE(closed.has_value());
-  auto reader = RecordingReader::open(file.path());
-  ASSERT_TRUE(reader.has_value());
-  const auto found = rest_of(*reader);
-  EXPECT_GT(found.size(), 100U);
-  EXPECT_TRUE(is_begin_of(found, items));
-  EXPECT_TRUE(reader->cut_short());
 }
 
 TEST(Recording, SaysWhatIsNoneOfIts) {

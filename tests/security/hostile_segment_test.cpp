@@ -2,12 +2,17 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <thread>
+#include <vector>
 
+#include "databuffer/frame_pool.hpp"
 #include "databuffer/records/model_validation.hpp"
 #include "databuffer/records/radar_state_validation.hpp"
+#include "databuffer/records/validation.hpp"
 #include "databuffer/session.hpp"
 #include "databuffer/tick_loop.hpp"
 #include "tests/databuffer/session_name.hpp"
@@ -24,30 +29,133 @@ class HostileSegment : public testing::SessionTest {
   SessionLayout& layout() { return owner_.layout(); }
   // The words of a clock that nobody has published in order.
   void wipe_clock() { std::memset(static_cast<void*>(&layout().clock), 0, sizeof layout().clock); }
-  std::string refusal() const {
-    const auto opened = Session::open_read_only(name_);
-    return opened ? "none" : opened.error().message();
-  }
   Session owner_;
 };
 
-TEST_F(HostileSegment, ASessionWithoutAClockIsRefusedAndHangsNobody) {
+TEST_F(HostileSegment, WhoJoinsASessionWithoutAClockMendsItAndWhoLooksSeesTimeStand) {
   wipe_clock();
-  EXPECT_NE(refusal().find("session clock: expected one that can be read"), std::string::npos) << refusal();
-  EXPECT_FALSE(Session::open(name_, "another"));
+  const auto reader = Session::open_read_only(name_);
+  ASSERT_TRUE(reader) << reader.error().message();
+  EXPECT_EQ(reader->sim_time_ns(), 0);
+  EXPECT_EQ(reader->clock().running, 0U);
+  EXPECT_TRUE(reader->clock_problem());
+  const auto joined = Session::open(name_, "another");
+  ASSERT_TRUE(joined) << joined.error().message();
+  EXPECT_FALSE(joined->clock_problem());
+  EXPECT_LT(joined->sim_time_ns(), 600'000'000'000);
+  EXPECT_EQ(reader->clock().running, 1U) << "who looks sees the mended one";
 }
 
-TEST_F(HostileSegment, ASessionWhoseClockIsOutOfRangeIsRefused) {
-  for (const double rate : {-1.0, 11.0, std::numeric_limits<double>::quiet_NaN()}) {
+TEST_F(HostileSegment, WhoJoinsASessionWhoseClockIsOutOfRangeMendsItInANewEpoch) {
+  std::uint32_t epoch = 0;
+  const auto spoil = [&](auto change) {
     ClockState clock = owner_.clock();
-    clock.rate = rate;
+    change(clock);
+    clock.epoch = epoch += 7;
     layout().clock.publish(clock);
-    EXPECT_NE(refusal().find("rate"), std::string::npos) << refusal();
+    const auto reader = Session::open_read_only(name_);
+    ASSERT_TRUE(reader) << reader.error().message();
+    EXPECT_TRUE(reader->clock_problem());
+    const auto joined = Session::open(name_, "another");
+    ASSERT_TRUE(joined) << joined.error().message();
+    EXPECT_FALSE(joined->clock_problem()) << *joined->clock_problem();
+    EXPECT_EQ(joined->clock().epoch, epoch + 1);
+  };
+  for (const double rate : {-1.0, 11.0, std::numeric_limits<double>::quiet_NaN()})
+    spoil([rate](ClockState& clock) { clock.rate = rate; });
+  for (const std::int64_t base_ns : {kLeast, std::int64_t{-1}, kLatestClockBase_ns + 1, kMost}) {
+    spoil([base_ns](ClockState& clock) { clock.base_sim_ns = base_ns; });
+    spoil([base_ns](ClockState& clock) { clock.base_monotonic_ns = base_ns; });
   }
-  ClockState clock = owner_.clock();
-  clock.base_sim_ns = kMost;
-  layout().clock.publish(clock);
-  EXPECT_NE(refusal().find("base_sim_ns"), std::string::npos) << refusal();
+}
+
+TEST_F(HostileSegment, WhoKeepsTheClockPublishesTheLastGoodOneAgain) {
+  const ClockState good = owner_.clock();
+  ClockState bad = good;
+  bad.rate = 99.0;
+  layout().clock.publish(bad);
+  owner_.keep_clock();
+  EXPECT_FALSE(owner_.clock_problem());
+  const auto joined = Session::open(name_, "another");
+  ASSERT_TRUE(joined);
+  EXPECT_EQ(joined->clock().epoch, good.epoch) << "no new epoch: the same time goes on";
+  EXPECT_EQ(joined->clock().base_monotonic_ns, good.base_monotonic_ns);
+  wipe_clock();
+  owner_.keep_clock();
+  EXPECT_FALSE(owner_.clock_problem());
+  // A version at the end of its range is followed by the first ones, of which one cannot be told from none.
+  reinterpret_cast<std::atomic<std::uint64_t>*>(&layout().clock)->store(~std::uint64_t{0});
+  for (int tick = 0; tick < 3; ++tick) owner_.keep_clock();
+  EXPECT_FALSE(owner_.clock_problem());
+}
+
+TEST_F(HostileSegment, NobodySetsAClockThatNobodyWouldBelieve) {
+  const ClockState good = owner_.clock();
+  for (const std::int64_t base_ns : {std::int64_t{-1}, kLatestClockBase_ns + 1, kMost}) {
+    ClockState bad = good;
+    bad.base_sim_ns = base_ns;
+    const auto refused = owner_.set_clock(bad);
+    ASSERT_FALSE(refused) << base_ns;
+    EXPECT_NE(refused.error().message().find("base_sim_ns"), std::string::npos) << refused.error().message();
+  }
+  EXPECT_EQ(owner_.clock().base_sim_ns, good.base_sim_ns);
+  ClockState last = good;
+  last.base_sim_ns = kLatestClockBase_ns;
+  EXPECT_TRUE(owner_.set_clock(last)) << "what may be set is what is believed";
+  EXPECT_TRUE(Session::open(name_, "another"));
+  EXPECT_FALSE(owner_.clock_problem());
+}
+
+TEST_F(HostileSegment, AnEntryOfTheProcessTableThatWasDamagedIsWrittenAnew) {
+  for (ProcessEntry& entry : layout().processes) {
+    entry.pid = 0;
+    for (auto& word : entry.name) word = 0;
+  }
+  EXPECT_TRUE(owner_.processes().empty());
+  const auto is_back = [&] {
+    owner_.heartbeat();
+    const auto here = owner_.processes();
+    return here.size() == 1 && here[0].pid == getpid() && here[0].name == "owner";
+  };
+  const std::int64_t deadline_ns = monotonic_ns() + 60'000'000'000;
+  while (!is_back() && monotonic_ns() < deadline_ns) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(is_back());
+}
+
+// A frame whose id is the greatest number there is would be the newest for ever.
+TEST_F(HostileSegment, AFrameOfAnIdThatCannotBeIsPassedOverAndWrittenOver) {
+  const std::vector<std::uint8_t> pixels(16);
+  GlassFrame frame{};
+  frame.width = frame.height = 2;
+  frame.id = 1;
+  publish_frame(layout(), frame, pixels);
+  for (const std::uint64_t id : {~std::uint64_t{0}, kLatestPictureId + 1, kLatestPictureId}) {
+    FrameSlot& slot = layout().frames[2];
+    GlassFrame hostile = frame;
+    hostile.id = id;
+    shm::store_words<shm::PlainAccess>(slot.frame.data(), &hostile, shm::kWordsOf<GlassFrame>);
+    slot.id = id;
+    std::uint64_t seen = 0;
+    GlassFrame found{};
+    std::vector<std::uint8_t> there;
+    if (read_newest_frame(layout(), seen, found, there)) seen = found.id;
+    frame.id += 1;
+    publish_frame(layout(), frame, pixels);
+    ASSERT_TRUE(read_newest_frame(layout(), seen, found, there)) << id << ": the reader is frozen";
+    EXPECT_EQ(found.id, frame.id) << id;
+  }
+}
+
+TEST(ModelBorder, APictureOfAnIdThatCannotBeIsRefused) {
+  GlassFrame frame{};
+  frame.width = frame.height = 2;
+  frame.id = kLatestPictureId;
+  EXPECT_FALSE(why_refused(frame));
+  ++frame.id;
+  EXPECT_TRUE(why_refused(frame)->starts_with("id: expected at most 9007199254740992, found"));
+  ModelStatus status{};
+  status.map_newest = kMost;
+  EXPECT_TRUE(why_refused(status)->starts_with("map_newest"));
 }
 
 TEST_F(HostileSegment, WhoIsInsideGoesOnByTheLastGoodClockAndNotesTheOther) {

@@ -40,7 +40,7 @@ TEST_F(PrivateFiles, ARecordingIsTheUsersAloneWhateverTheUmask) {
 TEST_F(PrivateFiles, AnOlderFileUnderARecordingsNameBecomesPrivate) {
   const auto path = write("old.yrec", "what was there before");
   ASSERT_EQ(mode_of(path), 0666U);
-  ASSERT_TRUE(RecordingWriter::create(path, {}));
+  ASSERT_TRUE(RecordingWriter::create(path, {}, tools::recording::Existing::overwritten));
   EXPECT_EQ(mode_of(path), 0600U);
 }
 

@@ -229,6 +229,14 @@ TEST_F(Maps, RequestsGoOnAboveWhatTheModelKnowsOf) {
   EXPECT_TRUE(pilot.is(kMapping)) << "a state that began anew takes no old map for an answer";
 }
 
+// As a damaged status may have left it: the greatest number there is would be the newest for ever.
+TEST_F(Maps, AMapOfAnIdThatCannotBeGivesWayToTheNextOne) {
+  pilot.make_map();
+  pilot.state.map_newest = ~std::uint64_t{0};
+  pilot.make_map();
+  EXPECT_EQ(pilot.state.map_newest, pilot.around.model.map_newest);
+}
+
 TEST_F(Maps, PowerOffForgetsTheMapsAndNoOldOneComesBack) {
   pilot.make_map();
   pilot.make_map();

@@ -17,6 +17,10 @@ std::uint32_t checksum_of_head(const BlockHead& head) {
 
 }  // namespace
 
+std::string_view magic_of_blocks() {
+  return {kMagic.data(), kMagic.size()};
+}
+
 std::vector<std::byte> sealed(BlockHead head, std::span<const std::byte> body) {
   head.magic = kMagic;
   head.packed_bytes = static_cast<std::uint32_t>(body.size());

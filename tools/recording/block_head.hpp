@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace yars::tools::recording {
@@ -29,6 +30,9 @@ struct BlockHead {
   std::uint32_t head_checksum;  // of the head up to here
 };
 static_assert(sizeof(BlockHead) == 56);
+
+// The first bytes of a block.
+std::string_view magic_of_blocks();
 
 // Head and body as they go into the file: fills magic, packed_bytes and checksums in.
 std::vector<std::byte> sealed(BlockHead head, std::span<const std::byte> body);

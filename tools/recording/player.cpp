@@ -1,6 +1,7 @@
 #include "tools/recording/player.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace yars::tools::recording {
@@ -9,6 +10,8 @@ namespace {
 
 using databuffer::ModelStatus;
 using databuffer::ModelTick;
+
+constexpr double kLongestHole_ticks = 2'000.0;  // 10 s without a tick: nobody waits for what is not there
 
 template <class T>
 bool has(const IndexEntry& block) {
@@ -50,6 +53,7 @@ std::uint64_t Player::different() const {
 
 bool Player::look_ahead() {
   if (!ahead_) ahead_ = reader_->next();
+  if (reader_->take_hole()) pass_over_hole();
   return ahead_.has_value();
 }
 
@@ -57,7 +61,10 @@ bool Player::is_cut() const {
   if (!started_) return false;
   if (std::holds_alternative<StartingPoint>(*ahead_)) return true;
   const auto* tick = std::get_if<ModelTick>(&*ahead_);
-  return tick != nullptr && tick->epoch != epoch_;
+  if (tick == nullptr) return false;
+  // Of any two ticks, whatever stands in the file.
+  const double jump = std::abs(static_cast<double>(tick->tick) - static_cast<double>(tick_));
+  return tick->epoch != epoch_ || jump > kLongestHole_ticks;
 }
 
 bool Player::is_due(std::int64_t tick) const {
@@ -188,6 +195,12 @@ void Player::use_traffic(const databuffer::Traffic& traffic) {
   if (!world_) return;
   if (!kernel_) kernel_.emplace(world_->configuration, *world_->store, world_->scenes);
   kernel_->traffic(traffic);
+}
+
+// The kernel's ticks are not whole: it goes on from the next status.
+void Player::pass_over_hole() {
+  waiting_ = world_.has_value();
+  waited_.clear();
 }
 
 // Live, a status is written behind ticks that came after it.

@@ -2,7 +2,8 @@
 // A seek gives a key frame: state, status and outputs at that tick, the sweeps of the picture that was on the glass
 // (the scan under way and the whole one before it, at least kPictureSweeps), the maps that the state names. Sweeps are
 // those recorded; where there are none with video, the kernel makes them of the ticks, from the nearest status before.
-// Time is the ticks'. It is cut where the recorder paused and where a new epoch began: a cut ends a call.
+// Time is the ticks'. It is cut where the recorder paused, where a new epoch began, and where ticks jump by more than
+// 10 s: a cut ends a call. Behind a damaged block the kernel waits for the next status.
 #pragma once
 
 #include <cstddef>
@@ -63,6 +64,7 @@ class Player {
   void take_tick(const databuffer::ModelTick& tick, Played& played);
   void take_status(const databuffer::ModelStatus& status, Played& played);
   void run_kernel(const databuffer::ModelTick& tick, Played& played);
+  void pass_over_hole();
   void start_late(const databuffer::ModelStatus& status, Played& played);
   void start_kernel(const databuffer::ModelStatus& status);
   void use_traffic(const databuffer::Traffic& traffic);

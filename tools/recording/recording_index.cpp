@@ -1,9 +1,13 @@
 #include "tools/recording/recording_index.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "tools/recording/block_head.hpp"
 #include "tools/recording/chunk.hpp"
@@ -68,13 +72,61 @@ std::optional<std::vector<IndexEntry>> written_index(std::istream& file, std::ui
   return blocks;
 }
 
+bool is_whole_at(std::istream& file, std::uint64_t offset, std::uint64_t size, BlockHead& head) {
+  return size - offset >= sizeof head && read_at(file, offset, head) && is_sound(head) &&
+         head.packed_bytes <= size - offset - sizeof head;
+}
+
+// Where the next block begins at or behind `offset`; the file's end when there is none.
+std::uint64_t next_block(std::istream& file, std::uint64_t offset, std::uint64_t size) {
+  constexpr std::size_t kPiece = std::size_t{1} << 16;
+  const std::string_view magic = magic_of_blocks();
+  std::string piece;
+  BlockHead head{};
+  while (size - offset >= sizeof head) {
+    piece.resize(std::min<std::uint64_t>(kPiece, size - offset));
+    file.clear();
+    file.seekg(static_cast<std::streamoff>(offset));
+    if (!file.read(piece.data(), static_cast<std::streamsize>(piece.size()))) return size;
+    for (auto at = piece.find(magic); at != std::string::npos; at = piece.find(magic, at + 1))
+      if (is_whole_at(file, offset + at, size, head)) return offset + at;
+    // The magic may lie across the seam.
+    if (piece.size() < kPiece) return size;
+    offset += kPiece - magic.size();
+  }
+  return size;
+}
+
+// The bytes from `begin` to the next block are none: what should have been there.
+IndexEntry hole_at(std::istream& file, std::uint64_t begin, std::uint64_t next, std::uint64_t size,
+                   const std::vector<IndexEntry>& before) {
+  BlockHead head{};
+  IndexEntry hole{begin, before.empty() ? 0 : before.back().last_tick, 0, 0};
+  hole.last_tick = hole.first_tick;
+  if (size - begin >= sizeof head && read_at(file, begin, head) && is_sound(head) &&
+      head.content == BlockContent::items)
+    return {begin, head.first_tick, head.last_tick, 0};
+  if (!before.empty() && hole.first_tick < std::numeric_limits<std::int64_t>::max()) ++hole.first_tick;
+  hole.last_tick = hole.first_tick;
+  if (read_at(file, next, head) && head.first_tick > hole.first_tick) hole.last_tick = head.first_tick - 1;
+  return hole;
+}
+
 std::vector<IndexEntry> walked_index(std::istream& file, std::uint64_t begin, std::uint64_t size) {
   std::vector<IndexEntry> blocks;
   BlockHead head{};
-  while (size - begin >= sizeof head && read_at(file, begin, head) && is_sound(head) &&
-         head.content == BlockContent::items && head.packed_bytes <= size - begin - sizeof head) {
-    blocks.push_back({begin, head.first_tick, head.last_tick, head.kinds});
-    begin += sizeof head + head.packed_bytes;
+  while (begin < size) {
+    if (is_whole_at(file, begin, size, head)) {
+      if (head.content == BlockContent::items) blocks.push_back({begin, head.first_tick, head.last_tick, head.kinds});
+      begin += sizeof head + head.packed_bytes;
+      // Behind an index nothing follows but its damaged trailer.
+      if (head.content == BlockContent::index) break;
+      continue;
+    }
+    const std::uint64_t next = next_block(file, begin + 1, size);
+    if (next == size) break;  // cut short
+    blocks.push_back(hole_at(file, begin, next, size, blocks));
+    begin = next;
   }
   return blocks;
 }

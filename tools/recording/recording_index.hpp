@@ -1,6 +1,7 @@
 // Where the blocks of a recording lie and what is inside: written behind the last block when the recording is closed,
 // a block of its own and a trailer of 16 bytes that says where it begins. A file without a whole one was cut short: the
-// index is then made again from the heads of the blocks, up to the last whole one.
+// index is then made again from the heads of the blocks, up to the last whole one. Bytes between two of them that are
+// none stand in it as a block of no kind, whose ticks are those that are missing.
 // A block's sim time is its ticks times radar::kTickNanoseconds.
 #pragma once
 

@@ -36,7 +36,7 @@ failure::Expected<RecordingReader> RecordingReader::read(std::unique_ptr<std::is
 failure::Expected<BlockItems> RecordingReader::block_at(std::uint64_t offset) {
   const auto damaged = [&](const std::string& found) {
     return failure::fail(name_, "a block of a recording at byte " + std::to_string(offset), found,
-                         "what lies before it can be read");
+                         "the rest can be read");
   };
   BlockHead head{};
   file_->clear();
@@ -53,20 +53,24 @@ failure::Expected<BlockItems> RecordingReader::block_at(std::uint64_t offset) {
   return std::move(*items);
 }
 
+std::optional<BlockItems> RecordingReader::whole_block(std::size_t block) {
+  const IndexEntry& entry = index_.blocks[block];
+  auto items = block_at(entry.offset);
+  if (items) return std::move(*items);
+  if (!damage_) damage_ = items.error();
+  const auto place = std::ranges::lower_bound(missing_, entry.offset, {}, &IndexEntry::offset);
+  if (place == missing_.end() || place->offset != entry.offset) missing_.insert(place, entry);
+  return std::nullopt;
+}
+
 std::optional<RecordingItem> RecordingReader::next() {
   for (;;) {
     if (block_)
       if (auto item = block_->next()) return item;
     block_.reset();
-    if (ended_ || next_block_ >= index_.blocks.size()) return std::nullopt;
-    auto block = block_at(index_.blocks[next_block_].offset);
-    if (!block) {
-      damage_ = block.error();
-      ended_ = true;
-      return std::nullopt;
-    }
-    block_ = std::move(*block);
-    ++next_block_;
+    if (next_block_ >= index_.blocks.size()) return std::nullopt;
+    block_ = whole_block(next_block_++);
+    hole_ = hole_ || !block_;
   }
 }
 
@@ -85,13 +89,12 @@ std::size_t RecordingReader::block_of(std::int64_t tick) const {
 void RecordingReader::seek_block(std::size_t block) {
   next_block_ = std::min(block, index_.blocks.size());
   block_.reset();
-  ended_ = false;
+  hole_ = false;
 }
 
 std::optional<BlockItems> RecordingReader::items_of(std::size_t block) {
   if (block >= index_.blocks.size()) return std::nullopt;
-  auto items = block_at(index_.blocks[block].offset);
-  return items ? std::optional(std::move(*items)) : std::nullopt;
+  return whole_block(block);
 }
 
 void RecordingReader::seek_time(std::int64_t sim_time_ns) {
@@ -102,8 +105,8 @@ std::optional<RecordingItem> RecordingReader::last_before(std::uint8_t kind) {
   const std::size_t end = next_block_ - (block_ ? 1 : 0);
   for (std::size_t i = end; i-- > 0;) {
     if ((index_.blocks[i].kinds >> kind & 1U) == 0) continue;
-    auto block = block_at(index_.blocks[i].offset);
-    if (!block) return std::nullopt;
+    const auto block = whole_block(i);
+    if (!block) continue;
     if (auto item = block->last_of(kind)) return item;
   }
   return std::nullopt;

@@ -1,41 +1,88 @@
 #include "tools/recording/recording_writer.hpp"
 
-#include <memory>
-#include <string>
-#include <utility>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-#include "lib/file/folder.hpp"
+#include <cerrno>
+#include <cstring>
 
 namespace yars::tools::recording {
 
 namespace {
 
 // Whoever made a link to a large disk does not want the recording beside the link.
-failure::Expected<file::NewFile> create_file(const std::filesystem::path& path) {
-  auto folder = file::Folder::open(path.parent_path());
-  if (!folder) return tl::unexpected(folder.error());
-  const std::string name = path.filename().string();
-  if (const auto there = folder->look(name); there && S_ISLNK(there->st_mode))
-    return failure::fail(path.string(), "a file that can be written", "a link",
+failure::Expected<file::NewFile> create_file(const std::shared_ptr<const file::Folder>& folder, const std::string& name,
+                                             file::Existing existing) {
+  const auto there = folder->look(name);
+  const std::string path = (folder->path() / name).string();
+  if (there && S_ISLNK(there->st_mode))
+    return failure::fail(path, "a file that can be written", "a link",
                          "it is a link: name the file that it leads to, or remove it");
-  return file::NewFile::create(std::make_shared<const file::Folder>(std::move(*folder)), name,
-                               file::Rights::user_alone);
+  if (there && S_ISREG(there->st_mode) && existing == file::Existing::refused)
+    return failure::fail(path, "a new file to record into", "one that is there already",
+                         "name another file, or write over it with --overwrite");
+  auto made = file::NewFile::create(folder, name, file::Rights::user_alone, existing);
+  // A reader may follow it from the first second on.
+  if (made)
+    if (auto placed = made->place(); !placed) return tl::unexpected(placed.error());
+  return made;
+}
+
+constexpr off_t kRoomToGoOn = 1 << 20;  // [bytes] with less the next blocks would be lost again
+
+// 0, or why there is no room for the blocks to come. A device takes what it takes.
+int look_for_room(int descriptor, std::uint64_t at) {
+  struct stat status {};
+  if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return 0;
+  const int problem = posix_fallocate(descriptor, static_cast<off_t>(at), kRoomToGoOn);
+  const bool as_before = ftruncate(descriptor, static_cast<off_t>(at)) == 0;
+  return problem != 0 ? problem : as_before ? 0 : errno;
+}
+
+// All of it, or none: what was written of it is taken back. 0, or why not.
+int append_whole(int descriptor, std::uint64_t at, const std::vector<std::byte>& bytes) {
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t count = ::write(descriptor, bytes.data() + done, bytes.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count > 0) {
+      done += static_cast<std::size_t>(count);
+      continue;
+    }
+    const int problem = count == 0 ? ENOSPC : errno;
+    // A device has no length; there is nothing to take back.
+    if (ftruncate(descriptor, static_cast<off_t>(at)) == 0) lseek(descriptor, static_cast<off_t>(at), SEEK_SET);
+    return problem;
+  }
+  return 0;
 }
 
 }  // namespace
 
 failure::Expected<RecordingWriter> RecordingWriter::create(const std::filesystem::path& path,
-                                                           const RecordingHeader& header) {
+                                                           const RecordingHeader& header, Existing existing) {
   if (header.configuration.size() > kMostHeaderText || header.terrain.size() > kMostHeaderText)
     return failure::fail(path.string(), "paths of at most " + std::to_string(kMostHeaderText) + " bytes to record",
                          "a longer one of the configuration or the terrain", "give it a shorter path");
-  auto file = create_file(path);
+  auto folder = file::Folder::open(path.parent_path());
+  if (!folder) return tl::unexpected(folder.error());
+  RecordingWriter writer(std::make_shared<const file::Folder>(std::move(*folder)), path.filename().string(), header);
+  auto file = create_file(writer.folder_, writer.name_, existing);
   if (!file) return tl::unexpected(file.error());
-  // A reader may follow it from the first second on.
-  if (auto placed = file->place(); !placed) return tl::unexpected(placed.error());
-  RecordingWriter writer(path, std::move(*file));
-  if (auto written = writer.write(bytes_of(header)); !written) return tl::unexpected(written.error());
+  writer.file_ = std::move(*file);
+  writer.write_header();
   return writer;
+}
+
+// False, and an error for the calls to come: there is no room for it.
+bool RecordingWriter::write_header() {
+  const auto bytes = bytes_of(header_);
+  if (const int problem = append_whole(descriptor(), 0, bytes); problem != 0) {
+    no_room(problem);
+    return false;
+  }
+  bytes_ = bytes.size();
+  return true;
 }
 
 failure::Expected<void> RecordingWriter::append(const RecordedKind& kind, const RecordParts& parts,
@@ -50,25 +97,49 @@ failure::Expected<void> RecordingWriter::append(const RecordedKind& kind, const 
 failure::Expected<void> RecordingWriter::flush() {
   if (error_) return tl::unexpected(*error_);
   if (block_.empty()) return {};
-  blocks_.push_back({bytes_, block_.first_tick(), block_.last_tick(), block_.kinds()});
-  return write(block_.take(packer_));
+  const IndexEntry entry{bytes_, block_.first_tick(), block_.last_tick(), block_.kinds()};
+  auto written = write(block_.take(packer_));
+  if (written) blocks_.push_back(entry);
+  return written;
+}
+
+failure::Expected<void> RecordingWriter::resume() {
+  if (!error_) return {};
+  if (const int problem = look_for_room(descriptor(), bytes_); problem != 0) return no_room(problem);
+  block_.take(packer_);
+  error_.reset();
+  if (bytes_ == 0 && !write_header()) return tl::unexpected(*error_);
+  return {};
 }
 
 failure::Expected<void> RecordingWriter::close() {
   if (auto written = flush(); !written) return written;
-  if (auto written = write(bytes_of(blocks_, bytes_, packer_)); !written) return written;
-  return file_.finish();
+  auto written = write(bytes_of(blocks_, bytes_, packer_));
+  file_.reset();
+  return written;
+}
+
+failure::Expected<void> RecordingWriter::begin_next() {
+  if (auto closed = close(); !closed) return closed;
+  if (!folder_->set_aside(name_, name_ + ".before")) return no_room(errno);
+  auto file = create_file(folder_, name_, file::Existing::refused);
+  if (!file) return tl::unexpected(*(error_ = file.error()));
+  file_ = std::move(*file);
+  blocks_.clear();
+  bytes_ = 0;
+  if (!write_header()) return tl::unexpected(*error_);
+  return {};
 }
 
 failure::Expected<void> RecordingWriter::write(const std::vector<std::byte>& bytes) {
-  file_.write(bytes);
-  const auto flushed = file_.flush();
-  if (flushed) {
-    bytes_ += bytes.size();
-    return {};
-  }
-  error_ = failure::Error{path_.string(), "room on the disk", flushed.error().found,
-                          "the recording ends at its last whole second", false};
+  if (const int problem = append_whole(descriptor(), bytes_, bytes); problem != 0) return no_room(problem);
+  bytes_ += bytes.size();
+  return {};
+}
+
+tl::unexpected<failure::Error> RecordingWriter::no_room(int problem) {
+  error_ = failure::Error{(folder_->path() / name_).string(), "room on the disk", std::strerror(problem),
+                          "what is in the file by then can be read", false};
   return tl::unexpected(*error_);
 }
 

@@ -1,0 +1,96 @@
+// What is counted beside the flight recorder, and what a flood leaves of its lines.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "databuffer/session.hpp"
+#include "tests/databuffer/session_name.hpp"
+#include "tests/shm/child_process.hpp"
+
+namespace yars::databuffer {
+namespace {
+
+using shm::testing::ChildProcess;
+using shm::testing::SharedMemory;
+using shm::testing::wait_until;
+
+class CountersTest : public testing::SessionTest {
+ protected:
+  Session open(std::string_view process = "tester") const {
+    auto session = Session::open(name_, process);
+    if (!session) throw std::runtime_error(session.error().message());
+    return std::move(*session);
+  }
+  static std::string last_note(const Session& session) {
+    const auto& notes = session.layout().notes;
+    Note note{};
+    return notes.total() > 0 && notes.read(notes.total() - 1, note) ? note.text : "";
+  }
+};
+
+// 100 bad records a second would else push what the supervisor tells out of the flight recorder.
+TEST_F(CountersTest, AFloodOfNotesIsFoldedAndCounted) {
+  Session session = open("radar-model");
+  session.count_restart("radar-model");
+  session.note(NoteKind::supervision, "started again: was killed", "radar-model");
+  for (int i = 0; i < 5000; ++i)
+    session.note(NoteKind::refusal, "ownship: latitude_deg: expected [-90, 90], found " + std::to_string(i + 91));
+  const auto& layout = session.layout();
+  EXPECT_EQ(layout.note_counts[static_cast<std::size_t>(NoteKind::refusal)], 5000u);
+  EXPECT_EQ(layout.counters.refusals.count, 5000u);
+  EXPECT_EQ(layout.counters.notes_folded, 5000u - 3);
+  EXPECT_LE(layout.notes.total(), 10u);
+  Note note{};
+  ASSERT_TRUE(layout.notes.read(0, note));
+  EXPECT_STREQ(note.text, "started again: was killed");
+  EXPECT_EQ(layout.counters.restarts[*counted_role("radar-model")].within(60'000'000'000, monotonic_ns()), 1);
+}
+
+TEST_F(CountersTest, WhatWasLeftOutOfTheNotesIsToldAtTheEnd) {
+  Session watcher = open("watcher");
+  {
+    Session session = open("radar-model");
+    for (int i = 0; i < 50; ++i) session.note(NoteKind::loss, "fell behind by " + std::to_string(i));
+  }
+  EXPECT_EQ(last_note(watcher), "47 more: fell behind by 49");
+}
+
+TEST_F(CountersTest, ASourceOfEventsThatDiesIsMissedAndOneThatGoesInOrderIsNot) {
+  Session session = open("tester");
+  const auto& sources = session.layout().counters.input_sources;
+  {
+    const auto claim = session.claim_input_lane("panel");
+    ASSERT_TRUE(claim);
+    EXPECT_EQ(sources, 1u);
+  }
+  EXPECT_EQ(sources, 0u);
+  SharedMemory<std::atomic<int>> ready;
+  ChildProcess child([&] {
+    Session own = open("panel");
+    const auto claim = own.claim_input_lane("panel");
+    *ready = claim ? 1 : 2;
+    for (;;) pause();
+  });
+  ASSERT_TRUE(wait_until([&] { return *ready != 0; }));
+  child.kill_now();
+  EXPECT_EQ(sources, 1u);
+  EXPECT_FALSE(session.input_lane_is_held(0));
+}
+
+TEST(RecentCount, KnowsTheLastEightTimesWhateverOthersLeftThere) {
+  RecentCount count{};
+  for (std::int64_t i = 1; i <= 20; ++i) count.add(i * 1000);
+  EXPECT_EQ(count.count, 20u);
+  EXPECT_EQ(count.within(5000, 20'000), 5);
+  EXPECT_EQ(count.within(1'000'000, 20'000), 8);
+  for (auto& time : count.times_ns) time = std::numeric_limits<std::int64_t>::min();
+  EXPECT_EQ(count.within(std::numeric_limits<std::int64_t>::max(), 20'000), 0);
+  for (auto& time : count.times_ns) time = std::numeric_limits<std::int64_t>::max();
+  EXPECT_EQ(count.within(1000, 20'000), 0);
+}
+
+}  // namespace
+}  // namespace yars::databuffer

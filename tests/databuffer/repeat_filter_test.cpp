@@ -1,0 +1,56 @@
+#include "databuffer/repeat_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace yars::databuffer {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+TEST(RepeatFilter, TheFirstLinesOfAKindPassAndTheRestIsCountedAndToldOnce) {
+  RepeatFilter filter(3, 100);
+  int passed = 0;
+  for (int i = 0; i < 1000; ++i)
+    passed += filter.passes("ownship: latitude_deg: expected [-90, 90], found " + std::to_string(i * 1e300), i) ? 1 : 0;
+  EXPECT_EQ(passed, 3);
+  EXPECT_TRUE(filter.take_left_out(9 * kSecond_ns).empty()) << "its time is not over";
+  const auto left_out = filter.take_left_out(11 * kSecond_ns);
+  ASSERT_EQ(left_out.size(), 1U);
+  EXPECT_EQ(left_out[0].count, 997U);
+  EXPECT_NE(left_out[0].text().find("(and 996 more like it)"), std::string::npos) << left_out[0].text();
+  EXPECT_TRUE(filter.take_left_out(12 * kSecond_ns).empty()) << "told once";
+  EXPECT_TRUE(filter.passes("ownship: latitude_deg: expected [-90, 90], found 5", 12 * kSecond_ns));
+}
+
+TEST(RepeatFilter, LinesThatAlternateAreTwoKinds) {
+  RepeatFilter filter(3, 100);
+  int passed = 0;
+  for (int i = 0; i < 1000; ++i) passed += filter.passes(i % 2 == 0 ? "to here" : "to there", i) ? 1 : 0;
+  EXPECT_EQ(passed, 6);
+}
+
+TEST(RepeatFilter, WhatIsRareAlwaysPasses) {
+  RepeatFilter filter(3, 100);
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(filter.passes("radar-model resumes", i * 4 * kSecond_ns)) << i;
+}
+
+// Texts that others choose: each a kind of its own.
+TEST(RepeatFilter, ManyKindsAreBoundedInMemoryAndInLines) {
+  RepeatFilter filter(3, 20);
+  int passed = 0;
+  for (int i = 0; i < 10'000; ++i) {
+    std::string text = "event";
+    for (int rest = i; rest > 0; rest /= 26) text += static_cast<char>('a' + rest % 26);
+    passed += filter.passes(text, i * 1000) ? 1 : 0;
+  }
+  EXPECT_EQ(passed, 20);
+  std::uint64_t left_out = 0;
+  for (const auto& lines : filter.take_left_out(11 * kSecond_ns)) left_out += lines.count;
+  EXPECT_EQ(left_out, 10'000U - 20U) << "none is forgotten";
+  EXPECT_LE(filter.take_left_out(0, true).size(), RepeatFilter::kMostKinds);
+}
+
+}  // namespace
+}  // namespace yars::databuffer

@@ -1,0 +1,213 @@
+// What a set goes on without, and that its user is told: power, input, frames, a recording, a flight model, a clock.
+#include <sys/stat.h>
+
+#include <chrono>
+#include <thread>
+
+#include "databuffer/session.hpp"
+#include "tests/endtoend/supervised_set.hpp"
+
+namespace yars::endtoend {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class Degraded : public Supervision {
+ protected:
+  // Real fast: the shared memory of a machine whose user and set have gone wrong.
+  void kill_all() {
+    for (const auto& process : set_.watch()["processes"]) ::kill(process["pid"].get<int>(), SIGKILL);
+  }
+  bool is_on_and_scans() {
+    const auto first = set_.watch();
+    if (first.is_null() || first["power"] != "OPR") return false;
+    const auto sweeps = first["sweeps"].get<std::uint64_t>();
+    return set_.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps; }, 2.0);
+  }
+  std::string verdict() const { return status()["health"]["state"].dump(); }
+};
+
+// The state machine dies twice, then everybody: power-on was once sent while nobody took it.
+TEST_F(Degraded, PowerOnIsSentUntilTheRadarIsOnAgain) {
+  start_and_wait();
+  ASSERT_NO_FATAL_FAILURE(kill_and_wait_for_the_next("state-machine"));
+  const int second = pid_of("state-machine");
+  ::kill(second, SIGKILL);
+  kill_all();
+  EXPECT_TRUE(eventually([&] { return is_on_and_scans(); }, kPatience_s)) << told() << set_.watch().dump();
+  EXPECT_THAT(told(), HasSubstr("power-on is sent again"));
+}
+
+TEST_F(Degraded, WhatThePilotSwitchedOffStaysOffAndTheStatusSaysSo) {
+  start_and_wait();
+  ASSERT_EQ(set_.yars({"inject", "power off"}).code, 0);
+  ASSERT_NO_FATAL_FAILURE(kill_and_wait_for_the_next("radar-model"));
+  ASSERT_NO_FATAL_FAILURE(kill_and_wait_for_the_next("state-machine"));
+  EXPECT_THAT(reasons(), HasSubstr("the radar is off"));
+  EXPECT_EQ(set_.yars({"status"}).code, 3) << "for scripts";
+  EXPECT_EQ(set_.watch()["power"], "OFF");
+}
+
+TEST_F(Degraded, AnEndThatNobodyAskedForIsADeath) {
+  start_and_wait();
+  const int before = pid_of("flight-model");
+  ASSERT_GT(before, 0);
+  ::kill(before, SIGTERM);
+  EXPECT_TRUE(set_.wait_until(
+      [&](const auto& watch) {
+        return watch["processes"].contains("flight-model") && watch["processes"]["flight-model"]["pid"] != before;
+      },
+      kPatience_s))
+      << told();
+  EXPECT_THAT(told(), HasSubstr("flight-model ended with code 0; starting it again (1 of 5"));
+  EXPECT_TRUE(set_.runs("start"));
+  EXPECT_EQ(end(), 0) << told();
+}
+
+TEST_F(Degraded, ARoleThatTheRadarCanDoWithoutIsTriedAgainAndAgain) {
+  start_and_wait();
+  for (int death = 0; death < 5; ++death) ASSERT_NO_FATAL_FAILURE(kill_and_wait_for_the_next("flight-model"));
+  ::kill(pid_of("flight-model"), SIGKILL);
+  EXPECT_TRUE(eventually([&] { return told().find("tried again every 30 s") != std::string::npos; }, kPatience_s));
+  EXPECT_TRUE(set_.runs("start"));
+  EXPECT_THAT(reasons(), HasSubstr("no ownship: nobody flies"));
+  EXPECT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].contains("flight-model"); }, 120.0));
+  EXPECT_EQ(end(), 0) << told();
+}
+
+// Frames and a recording on a small disk of their own, which is full, and then is not.
+TEST_F(Degraded, AFullDiskCostsFramesAndRecordingAndNoMore) {
+  const auto disk = set_.folder() / "disk";
+  std::filesystem::create_directories(disk);
+  const std::string mount = "mount -t tmpfs -o size=4m tmpfs " + disk.string();
+  if (run_tool({"unshare", "-m", "sh", "-c", mount}).code != 0) GTEST_SKIP() << "takes root";
+  const std::string ballast = "head -c 3900000 /dev/zero >" + disk.string() + "/ballast";
+  start({"--record", (disk / "flight").string(), "--frames", (disk / "frames").string(), "--every", "0.2"},
+        "fixed:37.5,-122.9,15000,90,480",
+        {"unshare", "-m", "sh", "-c", mount + " && " + ballast + " && exec \"$@\"", "sh"});
+  EXPECT_TRUE(eventually(
+      [&] {
+        const auto now = reasons();
+        return now.find("the recorder does not write") != std::string::npos &&
+               now.find("the glass cannot write its frames") != std::string::npos;
+      },
+      kPatience_s))
+      << reasons() << told();
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  EXPECT_TRUE(is_on_and_scans()) << told();
+  EXPECT_EQ(occurrences(told(), "each frame tries again"), 1u) << "said once";
+  EXPECT_THAT(told(), Not(HasSubstr("starting it again")));
+  const auto inside = std::filesystem::path("/proc") / std::to_string(pid_of("recorder")) / "root";
+  std::filesystem::remove(inside.string() + (disk / "ballast").string());
+  EXPECT_TRUE(eventually([&] { return verdict() == R"("OK")"; }, kPatience_s)) << reasons() << told();
+  EXPECT_THAT(told(), HasSubstr("frames are written again"));
+  EXPECT_EQ(end(), 0) << told();
+}
+
+TEST_F(Degraded, FramesThatNobodyKeepsAreTakenAway) {
+  start_and_wait({"--every", "0.1", "--keep-frames", "5"});
+  const auto frames = set_.folder() / "frames";
+  const auto newest = [&] {
+    std::string name;
+    for (const auto& entry : std::filesystem::directory_iterator(frames))
+      name = std::max(name, entry.path().filename().string());
+    return name;
+  };
+  const std::string before = newest();
+  ASSERT_TRUE(eventually([&] { return newest() > before; }, kPatience_s));
+  const std::string later = newest();
+  ASSERT_TRUE(eventually([&] { return newest() > later; }, kPatience_s));
+  EXPECT_EQ(end(), 0) << told();
+  std::ptrdiff_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(frames)) count += entry.is_regular_file() ? 1 : 0;
+  EXPECT_LE(count, 5);
+}
+
+TEST_F(Degraded, ARecordingIsNotWrittenOver) {
+  const auto recording = set_.folder() / "flight";
+  std::ofstream(recording) << "somebody's flight";
+  start({"--record", recording.string()});
+  EXPECT_EQ(set_.wait("start"), 2);
+  EXPECT_THAT(told(), HasSubstr("--overwrite"));
+  EXPECT_EQ(std::filesystem::file_size(recording), 17u);
+}
+
+TEST_F(Degraded, ASimTimeThatNobodyWouldBelieveIsBadUsageAndTheSetGoesOn) {
+  for (const auto* role : {"state-machine", "radar-model"}) set_.start(role, {role});
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 2; }, kPatience_s));
+  EXPECT_EQ(set_.yars({"sim", "reset", "6e8"}).code, 2);
+  EXPECT_EQ(set_.yars({"sim", "reset", "576460752"}).code, 0) << "the last that may be asked for";
+  EXPECT_EQ(set_.yars({"inject", "power opr"}).code, 0) << "newcomers join";
+  EXPECT_EQ(set_.yars({"sim", "reset", "0"}).code, 0);
+  EXPECT_LT(set_.watch()["sim_time"].get<double>(), 600.0);
+}
+
+// Whatever put it there: with a state machine it is mended at its next tick, without one by who joins.
+TEST_F(Degraded, ADamagedClockIsMended) {
+  set_.start("state-machine", {"state-machine"});
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 1; }, kPatience_s));
+  const auto session = databuffer::Session::open(set_.session(), "vandal");
+  ASSERT_TRUE(session);
+  auto& clock = const_cast<databuffer::Session&>(*session).layout().clock;
+  const auto spoil = [&] {
+    databuffer::ClockState bad = session->clock();
+    bad.base_sim_ns = -1;
+    clock.publish(bad);
+  };
+  spoil();
+  EXPECT_TRUE(eventually([&] { return !session->clock_problem(); }, kPatience_s));
+  set_.kill("state-machine", SIGKILL);
+  set_.wait("state-machine");
+  spoil();
+  EXPECT_THAT(reasons(), HasSubstr("the session's clock is damaged"));
+  EXPECT_EQ(set_.yars({"sim", "reset", "5"}).code, 0) << "what the status advises";
+  EXPECT_FALSE(session->clock_problem());
+  spoil();
+  set_.start("radar-model", {"radar-model"});
+  EXPECT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].contains("radar-model"); }));
+  EXPECT_FALSE(session->clock_problem());
+}
+
+TEST_F(Degraded, AnInputThatDiedIsMissed) {
+  const auto script = set_.folder() / "script";
+  std::ofstream(script) << "0.1 power opr\n3000 freeze\n";
+  set_.start("state-machine", {"state-machine"});
+  set_.start("input-monitor", {"input-monitor", "--source", "script:" + script.string()});
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["power"] == "OPR"; }, kPatience_s));
+  EXPECT_THAT(reasons(), Not(HasSubstr("no input")));
+  set_.kill("input-monitor", SIGKILL);
+  set_.wait("input-monitor");
+  EXPECT_THAT(reasons(), HasSubstr("no input: who sent events has died"));
+}
+
+// 100 bad records a second: they are counted and told, and nothing else is pushed out of sight.
+TEST_F(Degraded, AFloodOfBadRecordsHidesNothing) {
+  for (const auto* role : {"state-machine", "radar-model"}) set_.start(role, {role});
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 2; }, kPatience_s));
+  ASSERT_EQ(set_.yars({"note", "--restarted", "radar-model", "was killed"}).code, 0);
+  auto session = databuffer::Session::open(set_.session(), "hostile");
+  ASSERT_TRUE(session);
+  const auto claim = session->claim_ownship_lane(99);
+  ASSERT_TRUE(claim);
+  databuffer::Ownship bad{};
+  const auto lane = static_cast<std::size_t>(claim->lane());
+  nlohmann::json told;
+  const auto is_told = [&] {
+    for (int i = 0; i < 100; ++i) {
+      bad.latitude_deg += 91.0;
+      session->layout().ownship[lane].publish(bad);
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    told = status();
+    return told["note_counts"]["refusal"] > 100 &&
+           told["health"]["reasons"].dump().find("records are being refused") != std::string::npos;
+  };
+  EXPECT_TRUE(eventually(is_told, kPatience_s)) << told.dump(1).substr(0, 2000);
+  EXPECT_LT(told["notes"].size(), 40u) << told["notes"].dump(1).substr(0, 2000);
+  for (const auto& role : told["roles"])
+    if (role["name"] == "radar-model") EXPECT_EQ(role["restarts"], 1);
+}
+
+}  // namespace
+}  // namespace yars::endtoend

@@ -1,0 +1,127 @@
+// A recording and its disk: what is there already, what fills up, what has room again.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/recording/made_recording.hpp"
+
+namespace yars::tools::recording {
+namespace {
+
+using test::expect_same;
+using test::is_begin_of;
+using test::items_of_every_kind;
+using test::rest_of;
+using test::same;
+
+TEST(Recording, SaysThatTheDiskIsFull) {
+  auto full = RecordingWriter::create("/dev/full", {});
+  ASSERT_TRUE(full.has_value()) << full.error().message();
+  const auto outcome = full->append(Gap{});
+  ASSERT_FALSE(outcome.has_value());
+  EXPECT_NE(outcome.error().message().find("room on the disk"), std::string::npos) << outcome.error().message();
+}
+
+TEST(Recording, IsNotWrittenOverWhatIsThere) {
+  const test::TemporaryFile file;
+  std::ofstream(file.path()) << "somebody's flight";
+  const auto refused = RecordingWriter::create(file.path(), {});
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_NE(refused.error().message().find("--overwrite"), std::string::npos) << refused.error().message();
+  EXPECT_EQ(file.bytes(), "somebody's flight");
+  EXPECT_TRUE(RecordingWriter::create(file.path(), {}, Existing::overwritten));
+  EXPECT_EQ(file.bytes().find("somebody"), std::string::npos);
+}
+
+TEST(Recording, BeginsANextFileAndSetsTheOneBeforeAside) {
+  const test::TemporaryFile file;
+  const std::filesystem::path before = file.path().string() + ".before";
+  auto writer = RecordingWriter::create(file.path(), {"made.guf", "hills"});
+  const auto items = items_of_every_kind(600);
+  const auto append_all = [&] {
+    for (const auto& item : items)
+      ASSERT_TRUE(std::visit([&](const auto& record) { return writer->append(record); }, item));
+  };
+  append_all();
+  ASSERT_TRUE(writer->begin_next());
+  append_all();
+  ASSERT_TRUE(writer->close());
+  for (const auto& path : {before, std::filesystem::path(file.path())}) {
+    auto reader = RecordingReader::open(path);
+    ASSERT_TRUE(reader) << path;
+    EXPECT_EQ(reader->header().terrain, "hills");
+    expect_same(rest_of(*reader), items);
+    EXPECT_FALSE(reader->cut_short());
+  }
+  std::filesystem::remove(before);
+}
+
+// A limit on the file's size stands for a disk that fills up.
+TEST(Recording, OfADiskThatFillsUpReadsToItsLastWholeBlock) {
+  const test::TemporaryFile file;
+  auto writer = RecordingWriter::create(file.path(), {});
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto on_signal = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit = before;
+  limit.rlim_cur = 40'000;
+  setrlimit(RLIMIT_FSIZE, &limit);
+  const auto items = items_of_every_kind(3000);
+  failure::Expected<void> outcome;
+  std::size_t taken = 0;
+  for (; outcome && taken < items.size(); ++taken)
+    outcome = std::visit([&](const auto& record) { return writer->append(record); }, items[taken]);
+  const auto again = writer->append(Gap{});
+  const auto closed = writer->close();
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, on_signal);
+  ASSERT_LT(taken, items.size());
+  EXPECT_NE(outcome.error().message().find("room on the disk"), std::string::npos) << outcome.error().message();
+  EXPECT_FALSE(again.has_value());
+  EXPECT_FALSE(closed.has_value());
+  EXPECT_EQ(std::filesystem::file_size(file.path()), writer->bytes()) << "no part of a block is left";
+  auto reader = RecordingReader::open(file.path());
+  ASSERT_TRUE(reader.has_value());
+  const auto found = rest_of(*reader);
+  EXPECT_GT(found.size(), 100U);
+  EXPECT_TRUE(is_begin_of(found, items));
+  EXPECT_TRUE(reader->cut_short());
+}
+
+TEST(Recording, GoesOnWhenTheDiskHasRoomAgain) {
+  const test::TemporaryFile file;
+  auto writer = RecordingWriter::create(file.path(), {});
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto on_signal = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit = before;
+  limit.rlim_cur = 40'000;
+  setrlimit(RLIMIT_FSIZE, &limit);
+  const auto items = items_of_every_kind(3000);
+  failure::Expected<void> outcome;
+  std::size_t taken = 0;
+  for (; outcome && taken < items.size(); ++taken)
+    outcome = std::visit([&](const auto& record) { return writer->append(record); }, items[taken]);
+  const auto too_early = writer->resume();
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, on_signal);
+  EXPECT_FALSE(outcome.has_value());
+  EXPECT_FALSE(too_early.has_value()) << "there is no room yet";
+  ASSERT_TRUE(writer->resume());
+  for (const auto& item : items)
+    ASSERT_TRUE(std::visit([&](const auto& record) { return writer->append(record); }, item));
+  ASSERT_TRUE(writer->close());
+  auto reader = RecordingReader::open(file.path());
+  ASSERT_TRUE(reader.has_value());
+  const auto found = rest_of(*reader);
+  EXPECT_FALSE(reader->cut_short());
+  ASSERT_GT(found.size(), items.size());
+  EXPECT_TRUE(std::equal(items.rbegin(), items.rend(), found.rbegin(), same)) << "all that came after";
+}
+
+}  // namespace
+}  // namespace yars::tools::recording
