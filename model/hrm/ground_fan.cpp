@@ -168,8 +168,8 @@ std::size_t GroundFan::read_path(const PatchGeometry& geometry, const FanGrid& g
   if (view.crests(column.places.run(),
                   {geometry.altitude_m(), earth.curvature(), std::span(column.distance_m).first(samples)},
                   std::span(column.crest).first(samples)))
-    horizon = std::max(horizon, *std::max_element(column.crest.begin(),
-                                                  column.crest.begin() + static_cast<std::ptrdiff_t>(samples)));
+    horizon = std::max(
+        horizon, *std::max_element(column.crest.begin(), column.crest.begin() + static_cast<std::ptrdiff_t>(samples)));
   return pending;
 }
 

@@ -13,14 +13,13 @@ namespace {
 constexpr std::array<double, 4> kPlaces{0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
 constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                          0.1012285362903763};
-constexpr double kEarthRadius_m = 6371008.8;              // mean; the bow of a ray is within 0.4 % for any azimuth
+constexpr double kEarthRadius_m = 6371008.8;                 // mean; the bow of a ray is within 0.4 % for any azimuth
 constexpr std::array<double, 3> kHeights_km{0.0, 2.0, 5.0};  // of the parabola in height
 constexpr float kLowest_m = -500.0F, kHighest_m = 6000.0F;   // in which it holds
 
 EffectiveEarth round_earth(const radar::Fidelity& fidelity) {
   const bool flat = fidelity.earth == radar::EarthModel::flat;
-  return EffectiveEarth(flat ? std::numeric_limits<double>::infinity()
-                             : fidelity.earth_radius_factor * kEarthRadius_m);
+  return EffectiveEarth(flat ? std::numeric_limits<double>::infinity() : fidelity.earth_radius_factor * kEarthRadius_m);
 }
 }  // namespace
 

@@ -30,8 +30,7 @@ double GroundWalk::highest_tangent(double from_m, double to_m) const {
   return highest;
 }
 
-double GroundWalk::highest_of_piece(const geo::GeodesicRay& ray, double from_m, double to_m,
-                                    bool with_end) const {
+double GroundWalk::highest_of_piece(const geo::GeodesicRay& ray, double from_m, double to_m, bool with_end) const {
   const geo::GeoPoint begin = ray.position(geo::Length::metres(from_m));
   const geo::GeoPoint end = ray.position(geo::Length::metres(to_m));
   const double spacing_m = finer(terrain_.post_spacing_at(begin), terrain_.post_spacing_at(end));
@@ -44,9 +43,9 @@ double GroundWalk::highest_of_piece(const geo::GeodesicRay& ray, double from_m, 
   for (double step = 1.0; with_end ? step <= steps : step < steps; step += 1.0) {
     const double share = step / steps;
     const double distance_m = from_m + share * (to_m - from_m);
-    const geo::GeoPoint place = straight ? geo::GeoPoint{begin.latitude_deg + share * north_deg,
-                                                         begin.longitude_deg + share * east_deg}
-                                         : ray.position(geo::Length::metres(distance_m));
+    const geo::GeoPoint place =
+        straight ? geo::GeoPoint{begin.latitude_deg + share * north_deg, begin.longitude_deg + share * east_deg}
+                 : ray.position(geo::Length::metres(distance_m));
     highest = std::max(highest, tangent(place, distance_m));
   }
   return highest;

@@ -87,7 +87,7 @@ void SceneReturn::apply(const Look& look, const Receiver& receiver, const Ground
                         const scene::SceneView& scenes, double pulse_samples) {
   const double radius_m = geo::radius_of_curvature(look.apex.latitude_deg, look.azimuth).metres();
   const double spacing_m = look.range.metres() / static_cast<double>(ground_.power.size());
-  const Sweep sweep{&look, &receiver, &walk.earth(), &walk, point_rise(pulse_samples), 1.0 / (radius_m * radius_m),
+  const Sweep sweep{&look,    &receiver, &walk.earth(), &walk, point_rise(pulse_samples), 1.0 / (radius_m * radius_m),
                     spacing_m};
   for (const scene::Scatterers* scene : scenes.scatterers())
     if (in_range(*scene, look)) cover_ground(sweep, *scene);
@@ -178,10 +178,9 @@ void SceneReturn::add_one(const Sweep& sweep, const Ray& ray, const scene::Scatt
   if (!(lit > 0.0)) return;
   const double gain = gain_across * two_way_gain(beam_, sweep.receiver->elevation_beamwidth_rad,
                                                  sweep.look->elevation.radians(), sight.elevation_rad);
-  const double loss = gas_.two_way_loss(*sweep.earth, sweep.look->altitude.metres(), distance_m,
-                                        static_cast<double>(one.middle_msl_m));
-  const double power =
-      returned_power(lit * cross_section_m2(level, one, ray, sight), loss * gain, sight.slant_range_m);
+  const double loss =
+      gas_.two_way_loss(*sweep.earth, sweep.look->altitude.metres(), distance_m, static_cast<double>(one.middle_msl_m));
+  const double power = returned_power(lit * cross_section_m2(level, one, ray, sight), loss * gain, sight.slant_range_m);
   spread(distance_m, extent_m, sweep.rise * received(*sweep.receiver, power, sight.slant_range_m));
 }
 

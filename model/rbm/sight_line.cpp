@@ -34,7 +34,8 @@ bool SightLine::clear(const radar::Fidelity& fidelity, const Look& look, const t
   double highest = static_cast<double>(terrain::kNoTangent);
   for (std::size_t i = 0; i + 1 < kSamples; ++i) {
     const double height_m = std::isnan(peak_m_[i]) ? 0.0 : static_cast<double>(peak_m_[i]);
-    highest = std::max(highest, earth.sight(look.altitude.metres(), static_cast<double>(distance_m_[i]), height_m).tangent);
+    highest =
+        std::max(highest, earth.sight(look.altitude.metres(), static_cast<double>(distance_m_[i]), height_m).tangent);
   }
   if (terrain.crests(places_.run(), {look.altitude.metres(), earth.curvature(), samples(distance_m_)}, samples(crest_)))
     highest = std::max(highest, static_cast<double>(*std::max_element(crest_.data(), crest_.data() + kSamples)));

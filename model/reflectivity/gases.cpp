@@ -17,8 +17,7 @@ double oxygen(double f, const Air& air, double theta, double vapour_hpa) {
   for (const GasLine& line : kOxygenLines) {
     const double at = line[0];
     const double strength = line[1] * 1e-7 * air.dry_hpa * std::pow(theta, 3.0) * std::exp(line[2] * (1.0 - theta));
-    const double pressed =
-        line[3] * 1e-4 * (air.dry_hpa * std::pow(theta, 0.8 - line[4]) + 1.1 * vapour_hpa * theta);
+    const double pressed = line[3] * 1e-4 * (air.dry_hpa * std::pow(theta, 0.8 - line[4]) + 1.1 * vapour_hpa * theta);
     const double width = std::sqrt(pressed * pressed + 2.25e-6);
     const double mixing = (line[5] + line[6] * theta) * 1e-4 * (air.dry_hpa + vapour_hpa) * std::pow(theta, 0.8);
     const double shape = (width - mixing * (at - f)) / ((at - f) * (at - f) + width * width) +
@@ -41,11 +40,11 @@ double vapour(double f, const Air& air, double theta, double vapour_hpa) {
   for (const GasLine& line : kWaterLines) {
     const double at = line[0];
     const double strength = line[1] * 1e-1 * vapour_hpa * std::pow(theta, 3.5) * std::exp(line[2] * (1.0 - theta));
-    const double pressed = line[3] * 1e-4 *
-                           (air.dry_hpa * std::pow(theta, line[4]) + line[5] * vapour_hpa * std::pow(theta, line[6]));
+    const double pressed =
+        line[3] * 1e-4 * (air.dry_hpa * std::pow(theta, line[4]) + line[5] * vapour_hpa * std::pow(theta, line[6]));
     const double width = 0.535 * pressed + std::sqrt(0.217 * pressed * pressed + 2.1316e-12 * at * at / theta);
-    sum += strength * f / at * (width / ((at - f) * (at - f) + width * width) +
-                                width / ((at + f) * (at + f) + width * width));
+    sum += strength * f / at *
+           (width / ((at - f) * (at - f) + width * width) + width / ((at + f) * (at + f) + width * width));
   }
   return sum;
 }
@@ -55,15 +54,15 @@ GasAttenuation gas_attenuation(double frequency_ghz, const Air& air) {
   const double theta = 300.0 / air.temperature_k;
   const double vapour_hpa = air.water_g_m3 * air.temperature_k / 216.7;
   const double scale = 0.1820 * frequency_ghz;
-  return {scale * (oxygen(frequency_ghz, air, theta, vapour_hpa) +
-                   dry_continuum(frequency_ghz, air, theta, vapour_hpa)),
-          scale * vapour(frequency_ghz, air, theta, vapour_hpa)};
+  return {
+      scale * (oxygen(frequency_ghz, air, theta, vapour_hpa) + dry_continuum(frequency_ghz, air, theta, vapour_hpa)),
+      scale * vapour(frequency_ghz, air, theta, vapour_hpa)};
 }
 
 Air reference_air(const radar::AtmosphereConfiguration& atmosphere, double height_m) {
-  constexpr double kLapse = 6.5, kUpperRise = 1.0;           // [K/km]
+  constexpr double kLapse = 6.5, kUpperRise = 1.0;  // [K/km]
   constexpr double kTropopause_km = 11.0, kMiddle_km = 20.0;
-  constexpr double kExponent = 34.1632;                      // [K/km] of hydrostatic air
+  constexpr double kExponent = 34.1632;  // [K/km] of hydrostatic air
   constexpr double kWaterScale_km = 2.0;
   const double height_km = height_m / 1000.0;
   const double ground_k = atmosphere.temperature_c + kKelvin;

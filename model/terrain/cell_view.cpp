@@ -183,7 +183,8 @@ bool CellView::crests(const PlaceRun& places, const RaySight& sight, std::span<f
     if (run.what >= kFirstCell && !run.beyond_pole) {
       const TerrainCell& cell = cells_[run.what - kFirstCell];
       // The ways into the cell and out of it lie in two: each raises its part.
-      crests::raise(crossed(cell, places, first), ray, std::max<std::size_t>(first, 1), std::min(behind + 1, count), tangent.data());
+      crests::raise(crossed(cell, places, first), ray, std::max<std::size_t>(first, 1), std::min(behind + 1, count),
+                    tangent.data());
     }
     first = behind;
   }

@@ -35,7 +35,8 @@ class Stages {
         ground_(configuration_, count_) {
     cell_.resize(count_ + 16);
     for (auto& array : arrays_) array.assign(count_ + 2 * lanes::kPad, 0.0F);
-    for (const int padded : {kTangent, kBefore, kHorizon}) arrays_[padded].assign(arrays_[padded].size(), lanes::kNoHorizon);
+    for (const int padded : {kTangent, kBefore, kHorizon})
+      arrays_[padded].assign(arrays_[padded].size(), lanes::kNoHorizon);
     receiver_ = make_receiver(configuration_, request.range);
     const double spacing_m = request.range.metres() / samples;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -68,16 +69,18 @@ class Stages {
     });
     if (terrain_->has_materials()) print_ground();
     stage("crests", {kDistance, kNorth, kEast, kNorth, kEast}, {kCrest}, [&](int) {
-      terrain_->crests(places_.run(),
-                       {request_.pose.altitude.metres(), static_cast<double>(constants_.curvature), {at(kDistance), count_}},
-                       {at(kCrest), count_});
+      terrain_->crests(
+          places_.run(),
+          {request_.pose.altitude.metres(), static_cast<double>(constants_.curvature), {at(kDistance), count_}},
+          {at(kCrest), count_});
     });
     const lanes::SweepInputs inputs{at(kDistance), at(kElevation), nullptr,       at(kCrest),
                                     nullptr,       at(kOneStep),   at(kTwoSteps), nullptr};
-    stage("sweep", {kDistance, kElevation, kCrest, kOneStep, kTwoSteps}, {kTangent, kBefore, kHorizon, kPower}, [&](int) {
-      lanes::sweep(count_, constants_, radar::BeamPattern::cosecant_squared, inputs,
-                   {at(kTangent), at(kBefore), at(kHorizon), at(kPower)});
-    });
+    stage("sweep", {kDistance, kElevation, kCrest, kOneStep, kTwoSteps}, {kTangent, kBefore, kHorizon, kPower},
+          [&](int) {
+            lanes::sweep(count_, constants_, radar::BeamPattern::cosecant_squared, inputs,
+                         {at(kTangent), at(kBefore), at(kHorizon), at(kPower)});
+          });
     std::array<float, 2 * PulseSmear::kMostReach + 1> weights{};
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = static_cast<float>(smear_.weights[i]);
     stage("smear", {kPower}, {kSmeared},

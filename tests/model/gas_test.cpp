@@ -62,8 +62,8 @@ double lowest_m(double altitude_m, double distance_m, double height_m) {
 }
 
 // The ray cut into short pieces, each with the air of its middle.
-double in_layers_db(const radar::RadarConfiguration& configuration, double radius_m, double altitude_m, double distance_m,
-                    double height_m) {
+double in_layers_db(const radar::RadarConfiguration& configuration, double radius_m, double altitude_m,
+                    double distance_m, double height_m) {
   constexpr int kPieces = 2000;
   const EffectiveEarth earth(radius_m);
   const double length_m = earth.sight(altitude_m, distance_m, height_m).slant_range_m;
@@ -75,8 +75,8 @@ double in_layers_db(const radar::RadarConfiguration& configuration, double radiu
   for (int piece = 0; piece < kPieces; ++piece) {
     const double share = (piece + 0.5) / kPieces;
     const double above_m = std::hypot(ax + share * (bx - ax), ay + share * (by - ay)) - radius_m;
-    const auto found = gas_attenuation(configuration.receiver.frequency_ghz,
-                                       reference_air(configuration.world.atmosphere, above_m));
+    const auto found =
+        gas_attenuation(configuration.receiver.frequency_ghz, reference_air(configuration.world.atmosphere, above_m));
     sum_db += (found.dry + found.water) / 1000.0 * length_m / kPieces;
   }
   return sum_db;
@@ -129,8 +129,8 @@ TEST(Gases, OfSamplesAgreeWithThoseOfRays) {
         for (std::size_t i = 0; i < kSamples; ++i) {
           const auto height = static_cast<double>(height_m);
           if (lowest_m(altitude_m, static_cast<double>(distance_m[i]), height) < kDeepest_m) continue;
-          const double expected_db = -2.0 * path.one_way_db(earth, altitude_m, static_cast<double>(distance_m[i]),
-                                                            height);
+          const double expected_db =
+              -2.0 * path.one_way_db(earth, altitude_m, static_cast<double>(distance_m[i]), height);
           ASSERT_NEAR(10.0 * std::log10(static_cast<double>(factor[i])), expected_db, 0.1)
               << altitude_m << " m, " << range_nm << " NM, " << height_m << " m, sample " << i;
         }

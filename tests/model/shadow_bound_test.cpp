@@ -185,12 +185,14 @@ class LoneWall : public ::testing::Test {
         test::cell_of({37, -122}, kPosts, kPosts, [](int row, int) { return row == kWallRow ? 1500 : 10; })));
   }
   static Look look(double range_nm) {
-    return {{37.2, -121.5}, geo::AltitudeMsl::metres(1200.0), geo::Bearing::degrees(0.0), geo::Angle::degrees(-2.0),
+    return {{37.2, -121.5},
+            geo::AltitudeMsl::metres(1200.0),
+            geo::Bearing::degrees(0.0),
+            geo::Angle::degrees(-2.0),
             geo::Length::nautical_miles(range_nm)};
   }
   static geo::GeoPoint behind(double miles) {
-    return geo::geodesic_direct({37.2, -121.5}, geo::Bearing::degrees(0.0),
-                                geo::Length::nautical_miles(18.05 + miles));
+    return geo::geodesic_direct({37.2, -121.5}, geo::Bearing::degrees(0.0), geo::Length::nautical_miles(18.05 + miles));
   }
   terrain::CellView view_;
 };
