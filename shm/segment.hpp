@@ -1,5 +1,5 @@
 // A named piece of shared memory, /dev/shm/yars.UID.NAME, that lives as long as somebody takes part in it.
-// It is built whole under a temporary name and linked to its own: nobody sees half a segment. Every participant holds
+// It is built whole without a name and linked to its own: nobody sees half a segment. Every participant holds
 // a read lock on byte 0 of the file (F_OFD_SETLK), which the kernel frees at death; who gets the write lock is alone:
 // leaving, it unlinks the file; arriving, it replaces a leftover. The other lock bytes are claims (roles, lanes).
 // When somebody else removes the name (systemd-logind's RemoveIPC at a logout), those who take part go on, and who

@@ -14,7 +14,7 @@ struct Error {
   std::string action;      // what the reader can do; may be empty
   bool bad_usage = false;  // the command line caused it: exit code 2 instead of 1
 
-  std::string message() const;
+  std::string message() const;  // one line without control characters, whatever a file is called
 };
 
 template <class T>

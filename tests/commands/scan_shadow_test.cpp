@@ -111,7 +111,7 @@ TEST(ScanShadowRefusal, AFileThatCannotBeWrittenIsOneLine) {
   write_wall(folder.path());
   const auto run = scan(folder.path(), "standard", folder.path() / "missing" / "shadow.csv");
   EXPECT_EQ(run.code, 1);
-  EXPECT_THAT(run.errors, HasSubstr("shadow.csv: expected a file that can be written"));
+  EXPECT_THAT(run.errors, HasSubstr("missing: expected a folder, found No such file or directory"));
 }
 
 }  // namespace

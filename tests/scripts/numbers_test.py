@@ -6,6 +6,7 @@ Walks all programs and commands by their --help and gives each option and argume
 and `1e999`: exit code 2 and one line that names the option and the value. Then the texts that have numbers in them.
 """
 import concurrent.futures
+import os
 import pathlib
 import re
 import subprocess
@@ -42,7 +43,7 @@ FILES = [
     ("a.script", "N freeze\n", ["input-monitor", "--source", "script:F"]),
     ("a.script", "0 tdc N 0\n", ["input-monitor", "--source", "script:F"]),
 ]
-SESSION = ["--session", f"numbers-{pathlib.Path(tempfile.mkdtemp()).name}"[:40]]
+SESSION = ["--session", f"numbers-{os.getpid()}"]
 
 
 def run(arguments):

@@ -192,7 +192,7 @@ TEST(PatchRaster, WhatCannotBeWrittenIsOneLine) {
   const View view{{37.6, -122.5}, {37.8, -122.3}, 3.3};
   const auto run = patch(view, folder.path() / "missing" / "map.tif");
   EXPECT_EQ(run.code, 1);
-  EXPECT_THAT(run.errors, HasSubstr("map.tif: expected a file that can be written, found GDAL: "));
+  EXPECT_THAT(run.errors, HasSubstr("missing: expected a folder, found No such file or directory"));
   EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;
   const auto no_place = patch(view, folder.path() / "map.png", {"--pixels", "power"});
   EXPECT_EQ(no_place.code, 2);
