@@ -1,6 +1,8 @@
 #include "model/terrain/directory_index.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <optional>
 #include <system_error>
 #include <tuple>
 #include <utility>
@@ -82,6 +84,22 @@ bool is_elevation_name(const std::filesystem::path& path) {
   return cell_named(path.parent_path().filename().string(), path.filename().string()) || is_ded_name(path) ||
          is_raster_name(path);
 }
+std::string lower_first(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+// A problem where a folder below cannot be looked into.
+std::optional<std::string> closed_folder(const std::filesystem::directory_entry& entry) {
+  std::error_code code;
+  if (!entry.is_directory(code) || entry.is_symlink(code)) return std::nullopt;
+  const std::filesystem::directory_iterator look(entry.path(), code);
+  if (!code) return std::nullopt;
+  return failure::Error{entry.path().string(), "a folder that can be read", lower_first(code.message()),
+                        "check its permissions", false}
+      .message();
+}
+
 
 // `index` or `problems` gets something.
 void offer_file(const std::filesystem::path& path, DirectoryIndex& index, std::vector<std::string>& problems) {
@@ -104,9 +122,12 @@ failure::Expected<DirectoryIndex> index_directory(const std::filesystem::path& d
                          "make one with `yars terrain generate --out DIR`");
   DirectoryIndex index;
   std::vector<std::string> found;
-  const auto options = std::filesystem::directory_options::skip_permission_denied;
-  std::filesystem::recursive_directory_iterator entry(directory, options, code);
+  std::filesystem::recursive_directory_iterator entry(directory, code);
   const std::filesystem::path root = std::filesystem::weakly_canonical(directory, code);
+    if (const auto closed = closed_folder(*entry)) {
+      found.push_back(*closed);
+      entry.disable_recursion_pending();
+    }
   for (const std::filesystem::recursive_directory_iterator end; !code && entry != end; entry.increment(code)) {
     if (!is_elevation_name(entry->path())) continue;
     if (!leads_anywhere_out(entry->path(), root))
@@ -116,7 +137,9 @@ failure::Expected<DirectoryIndex> index_directory(const std::filesystem::path& d
                                      "copy the cell there, or give the folder that it lies in", false}
                           .message());
   }
-  if (code) return failure::fail(directory.string(), "a directory that can be walked", code.message());
+  if (code)
+    return failure::fail(directory.string(), "a directory that can be read", lower_first(code.message()),
+                         "check its permissions");
   std::sort(found.begin(), found.end());
   if (index.empty() && !found.empty())
     return failure::fail(directory.string(), "elevation cells that can be used",
