@@ -107,7 +107,8 @@ void CellView::look_up_run(const Run& run, const PlaceRun& places, Interpolation
                            const SurfaceRun& found) const {
   const TerrainCell& cell = cells_[run.what - kFirstCell];
   const auto grid_of = [](const Cell& grid) {
-    return look_up::Grid{&grid.blocks(), grid.rows(), grid.columns(), grid.voids() > 0, grid.sea_posts() > 0};
+    return look_up::Grid{&grid.blocks(),   grid.rows(),          grid.columns(),
+                         grid.voids() > 0, grid.sea_posts() > 0, static_cast<float>(grid.unit_m())};
   };
   const float* const north_deg = &places.north_deg[run.first];
   const float* const east_deg = &places.east_deg[run.first];

@@ -69,8 +69,7 @@ failure::Expected<void> offer_raster(const std::filesystem::path& path, Director
   if (!raster) return tl::unexpected(raster.error());
   for (const gdal::RasterCell& cell : raster->cells)
     offer({cell.south_deg, cell.west_deg},
-          {path, CellFormat::raster, raster->posts_per_degree_north, raster->posts_per_degree_east, cell.covered},
-          index);
+          {path, CellFormat::raster, cell.posts_per_degree_north, cell.posts_per_degree_east, cell.covered}, index);
   return {};
 }
 
@@ -84,6 +83,7 @@ bool is_elevation_name(const std::filesystem::path& path) {
   return cell_named(path.parent_path().filename().string(), path.filename().string()) || is_ded_name(path) ||
          is_raster_name(path);
 }
+
 std::string lower_first(std::string text) {
   if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
   return text;
@@ -99,7 +99,6 @@ std::optional<std::string> closed_folder(const std::filesystem::directory_entry&
                         "check its permissions", false}
       .message();
 }
-
 
 // `index` or `problems` gets something.
 void offer_file(const std::filesystem::path& path, DirectoryIndex& index, std::vector<std::string>& problems) {
@@ -122,13 +121,13 @@ failure::Expected<DirectoryIndex> index_directory(const std::filesystem::path& d
                          "make one with `yars terrain generate --out DIR`");
   DirectoryIndex index;
   std::vector<std::string> found;
-  std::filesystem::recursive_directory_iterator entry(directory, code);
   const std::filesystem::path root = std::filesystem::weakly_canonical(directory, code);
+  std::filesystem::recursive_directory_iterator entry(directory, code);
+  for (const std::filesystem::recursive_directory_iterator end; !code && entry != end; entry.increment(code)) {
     if (const auto closed = closed_folder(*entry)) {
       found.push_back(*closed);
       entry.disable_recursion_pending();
     }
-  for (const std::filesystem::recursive_directory_iterator end; !code && entry != end; entry.increment(code)) {
     if (!is_elevation_name(entry->path())) continue;
     if (!leads_anywhere_out(entry->path(), root))
       offer_file(entry->path(), index, found);
