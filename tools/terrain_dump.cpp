@@ -3,7 +3,9 @@
 #include <memory>
 #include <string>
 
+#include "model/terrain/coverage.hpp"
 #include "model/terrain/directory_index.hpp"
+#include "model/terrain/reading_notes.hpp"
 #include "tools/command.hpp"
 #include "tools/terrain_commands.hpp"
 
@@ -25,12 +27,15 @@ void dump(const Options& options) {
   const CellPlace place{options.south_deg, options.west_deg};
   const auto file = index->find(slot_of(place));
   if (file == index->end())
-    throw CommandFailed{options.directory + ": expected the cell that --south and --west name, found none", 1};
+    give_up({options.directory, "the cell that --south and --west name", "none: it covers " + coverage_text(*index),
+             "check the numbers and their signs"});
   const auto reading = read_cell(file->second, place);
   if (!reading) give_up(reading.error());
-  for (const std::string& warning : reading->warnings)
-    std::fprintf(stderr, "problem: %s: %s\n", file->second.path.c_str(), warning.c_str());
+  ReadingNotes notes;
+  for (const std::string& sentence : notes.heard(file->second.path, *reading))
+    std::fprintf(stderr, "problem: %s\n", sentence.c_str());
   const Cell& cell = reading->cell;
+  const int decimals = cell.unit_m() < 1.0 ? 1 : 0;
   std::printf("latitude_deg,longitude_deg,elevation_m\n");
   for (int row = 0; row < cell.rows(); ++row)
     for (int column = 0; column < cell.columns(); ++column) {
@@ -40,7 +45,7 @@ void dump(const Options& options) {
       if (cell.post(row, column) == kVoidPost)
         std::printf("\n");
       else
-        std::printf("%d\n", cell.post(row, column));
+        std::printf("%.*f\n", decimals, cell.post(row, column) * cell.unit_m());
     }
 }
 

@@ -34,9 +34,9 @@ failure::Expected<std::filesystem::path> write_output(const TerrainOutput& outpu
   if (output.format == "jp2" && !output.level) return write_pack(tree, cell);
   const int level = level_of(output, cell);
   const int rows = dted::kPostsOfLevel[level];
-  if (output.format == "hgt") return write_hgt(tree, resample(cell, rows, rows));
+  if (output.format == "hgt") return write_hgt(tree, in_whole_metres(resample(cell, rows, rows)));
   const Cell on_level = resample(cell, rows, dted_columns(cell.place(), level));
-  return output.format == "jp2" ? write_pack(tree, on_level) : write_dted(tree, on_level, level);
+  return output.format == "jp2" ? write_pack(tree, on_level) : write_dted(tree, in_whole_metres(on_level), level);
 }
 
 }  // namespace yars::tools

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -17,6 +18,7 @@
 #include "model/terrain/dted_writer.hpp"
 #include "model/terrain/landscape.hpp"
 #include "tools/command.hpp"
+#include "tools/output_name.hpp"
 #include "tools/progress.hpp"
 #include "tools/terrain_commands.hpp"
 
@@ -111,8 +113,8 @@ class Generation {
       if (const auto written = write_culture(culture_path(*path), made.culture); !written)
         return tl::unexpected(written.error());
     written_ += all_sea ? 0 : 1;
-    return path->string() + "  " + std::to_string(made.cell.lowest_m()) + " to " +
-           std::to_string(made.cell.highest_m()) + " m";
+    return path->string() + "  " + std::to_string(std::lround(made.cell.lowest_m())) + " to " +
+           std::to_string(std::lround(made.cell.highest_m())) + " m";
   }
 
   void fail(const failure::Error& error) {
@@ -171,6 +173,7 @@ void add_terrain_generate(CLI::App& terrain) {
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
   command->callback([options] {
+    check_folder_name("--out", options->out);
     if (options->south_deg + options->cells_latitude > 90)
       throw CommandFailed{"--cells-lat: expected an area that ends at the north pole, found one beyond it", 2};
     Generation(*options).run();

@@ -38,10 +38,14 @@ failure::Expected<std::optional<Record>> RecordStream::single() {
   const std::optional<Record> record = record_at(bytes_, at_);
   if (!record) {
     const std::size_t left = bytes_.size() - at_;
-    const std::string length =
-        left < kHeadBytes ? "none" : std::to_string(big_endian<std::uint16_t>(bytes_.data() + at_ + 2));
-    return failure::fail(subject_, "a record of 4 to " + std::to_string(left) + " bytes at byte " + std::to_string(at_),
-                         "a length of " + length, "the file is truncated or damaged; fetch it again");
+    const std::string at = "a whole record at byte " + std::to_string(at_);
+    const std::string end = std::to_string(left) + (left == 1 ? " byte" : " bytes") + " before the file's end";
+    if (left < kHeadBytes)
+      return failure::fail(subject_, at + ", of " + std::to_string(kHeadBytes) + " bytes or more", end,
+                           "the file is truncated or damaged; fetch it again");
+    const std::size_t length = big_endian<std::uint16_t>(bytes_.data() + at_ + 2);
+    return failure::fail(subject_, at, "one that says it has " + std::to_string(length) + " bytes, and " + end,
+                         "the file is truncated or damaged; fetch it again");
   }
   at_ += record->size();
   return record;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/failure/require.hpp"
+
 namespace yars::model::terrain {
 
 CellPlace cell_holding(geo::GeoPoint point) {
@@ -13,17 +15,18 @@ CellPlace cell_holding(geo::GeoPoint point) {
           std::min(static_cast<int>(std::floor(longitude_deg)), 179)};
 }
 
-Cell::Cell(CellPlace place, int rows, int columns, const std::vector<std::int16_t>& posts)
-    : place_(place), rows_(rows), columns_(columns), blocks_(rows, columns, posts) {
+Cell::Cell(CellPlace place, int rows, int columns, const std::vector<std::int16_t>& posts, double unit_m)
+    : place_(place), rows_(rows), columns_(columns), unit_m_(unit_m), blocks_(rows, columns, posts) {
+  YARS_REQUIRE(unit_m, >, 0.0);
   bool any = false;
-  for (const std::int16_t post_m : posts) {
-    if (post_m == kVoidPost) {
+  for (const std::int16_t post : posts) {
+    if (post == kVoidPost) {
       ++voids_;
       continue;
     }
-    if (post_m == 0) ++sea_posts_;
-    lowest_m_ = any ? std::min(lowest_m_, post_m) : post_m;
-    highest_m_ = any ? std::max(highest_m_, post_m) : post_m;
+    if (post == 0) ++sea_posts_;
+    lowest_ = any ? std::min(lowest_, post) : post;
+    highest_ = any ? std::max(highest_, post) : post;
     any = true;
   }
 }
@@ -34,6 +37,16 @@ std::vector<std::int16_t> Cell::posts() const {
   for (int row = 0; row < rows_; ++row)
     for (int column = 0; column < columns_; ++column) posts.push_back(blocks_.post(row, column));
   return posts;
+}
+
+Cell in_whole_metres(const Cell& cell) {
+  std::vector<std::int16_t> posts = cell.posts();
+  for (std::int16_t& post : posts) {
+    if (post == kVoidPost || post == 0) continue;
+    const long metres = std::lround(post * cell.unit_m());
+    post = static_cast<std::int16_t>(metres != 0 ? metres : post > 0 ? 1 : -1);
+  }
+  return {cell.place(), cell.rows(), cell.columns(), posts};
 }
 
 }  // namespace yars::model::terrain

@@ -60,19 +60,34 @@ failure::Expected<CellReading> read_whole(const CellFile& file, CellPlace place)
 failure::Expected<CellReading> reduced(failure::Expected<CellReading> reading, int reduction) {
   if (!reading || reduction == 0) return reading;
   ReducedCell coarse = reduce(reading->cell, reduction);
-  return CellReading{std::move(coarse.means), std::move(coarse.peaks), std::move(reading->warnings)};
+  reading->cell = std::move(coarse.means);
+  reading->peaks = std::move(coarse.peaks);
+  return reading;
+}
+
+struct PostsPerDegree {
+  int north = 0, east = 0;
+};
+
+failure::Expected<PostsPerDegree> posts_of(const CellFile& file, CellPlace place) {
+  if (file.posts_per_degree > 0 && file.posts_per_degree_east > 0)
+    return PostsPerDegree{file.posts_per_degree, file.posts_per_degree_east};
+  const auto summary = gdal::describe_raster(file.path);
+  if (!summary) return tl::unexpected(summary.error());
+  for (const gdal::RasterCell& cell : summary->cells)
+    if (CellPlace{cell.south_deg, cell.west_deg} == place)
+      return PostsPerDegree{cell.posts_per_degree_north, cell.posts_per_degree_east};
+  return failure::fail(file.path.string(),
+                       "a raster that touches the cell with the south-west corner " + std::to_string(place.south_deg) +
+                           ", " + std::to_string(place.west_deg),
+                       "one that lies elsewhere");
 }
 
 failure::Expected<CellReading> read_raster_cell(const CellFile& file, CellPlace place, int reduction) {
   static_assert(gdal::kNoHeight == kVoidPost);
-  int north = file.posts_per_degree;
-  int east = file.posts_per_degree_east;
-  if (north == 0 || east == 0) {
-    const auto summary = gdal::describe_raster(file.path);
-    if (!summary) return tl::unexpected(summary.error());
-    north = summary->posts_per_degree_north;
-    east = summary->posts_per_degree_east;
-  }
+  const auto whole = posts_of(file, place);
+  if (!whole) return tl::unexpected(whole.error());
+  auto [north, east] = *whole;
   // Peaks are of the posts that are read: no coarser than an arc second.
   constexpr int kFinestReduced = 3600;
   int left = reduction;
@@ -82,13 +97,14 @@ failure::Expected<CellReading> read_raster_cell(const CellFile& file, CellPlace 
   }
   auto posts = gdal::read_raster(file.path, place.south_deg, place.west_deg, north, east);
   if (!posts) return tl::unexpected(posts.error());
-  Cell cell(place, posts->rows, posts->columns, posts->posts);
+  CellReading reading{Cell(place, posts->rows, posts->columns, posts->posts, posts->unit_m),
+                      std::nullopt,
+                      {},
+                      std::move(posts->warnings),
+                      posts->impossible};
   // A reduced reading always has peaks, also where smoothing was all of it.
-  if (reduction > 0 && left == 0) {
-    Cell peaks = cell;
-    return CellReading{std::move(cell), std::move(peaks), {}};
-  }
-  return reduced(CellReading{std::move(cell), std::nullopt, {}}, left);
+  if (reduction > 0 && left == 0) reading.peaks = reading.cell;
+  return reduced(std::move(reading), left);
 }
 
 }  // namespace

@@ -9,18 +9,22 @@ namespace {
 // [m] MSL, below the deepest sea floor and above the highest mountain: what the session's records take for ground.
 constexpr std::int16_t kLowestPost_m = -12'000;
 constexpr std::int16_t kHighestPost_m = 10'000;
+constexpr std::int16_t kUsualVoid_m = -9999;
 }  // namespace
 
 void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::string>& warnings) {
   std::size_t impossible = 0;
   for (std::int16_t& post : posts) {
-    if (post == kVoidPost || (post >= kLowestPost_m && post <= kHighestPost_m)) continue;
+    if (post == kVoidPost || (post >= kLowestPost_m && post <= kHighestPost_m && post != kUsualVoid_m)) continue;
     post = kVoidPost;
     ++impossible;
   }
-  if (impossible > 0)
-    warnings.push_back("heights that no ground has: " + std::to_string(impossible) +
-                       " posts; they are void, and the file may be damaged");
+  if (impossible > 0) warnings.push_back(impossible_heights_warning(impossible));
+}
+
+std::string impossible_heights_warning(std::size_t posts) {
+  return "heights that no ground has: " + std::to_string(posts) +
+         " posts; they are void, and the file may be damaged or lack the value that it uses for no data";
 }
 
 failure::Expected<std::uintmax_t> file_length(const std::filesystem::path& path) {

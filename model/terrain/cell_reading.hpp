@@ -18,10 +18,18 @@ struct CellReading {
   Cell cell;                          // its grid is what was achieved: (rows - 1) x (columns - 1) posts per degree
   std::optional<Cell> peaks;          // of a reduced reading, on the same grid; see reduce.hpp
   std::vector<std::string> warnings;  // one sentence each, without the file's name
+  // Of a raster, which serves many cells: what is true of all of it, and posts that no ground has; see ReadingNotes.
+  std::vector<std::string> file_warnings = {};
+  std::size_t impossible = 0;
+  bool damaged = false;  // the file itself shows it: a wrong checksum
 };
 
-// Heights that no ground on earth has (below -12,000 m, above 10,000 m) become voids, with a warning that counts them.
+// Heights that no ground on earth has (below -12,000 m, above 10,000 m; -9999, which some makers write for no data)
+// become voids, with a warning that counts them.
 void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::string>& warnings);
+
+// The sentence that counts such posts.
+std::string impossible_heights_warning(std::size_t posts);
 
 // A whole file in memory. Fails on a file that cannot be opened or is larger than `limit_bytes`.
 failure::Expected<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::size_t limit_bytes);

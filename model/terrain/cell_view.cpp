@@ -28,7 +28,8 @@ double spacing_m(const Cell& cell) {
 }
 
 look_up::Grid grid_of(const Cell& cell) {
-  return look_up::Grid{&cell.blocks(), cell.rows(), cell.columns(), cell.voids() > 0, cell.sea_posts() > 0};
+  return look_up::Grid{&cell.blocks(),   cell.rows(),          cell.columns(),
+                       cell.voids() > 0, cell.sea_posts() > 0, static_cast<float>(cell.unit_m())};
 }
 
 // The cell of a place of the run. Shadow is cast by the highest ground.

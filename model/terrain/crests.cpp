@@ -48,19 +48,17 @@ struct Height {
 HWY_INLINE Height between(const look_up::Grid& grid, Wholes near, Wholes far, Floats share) {
   const FloatLanes d;
   const WholeLanes di;
-  const auto all = hn::FirstN(d, hn::Lanes(d));
+  auto first = near, second = far;
+  auto known = hn::FirstN(d, hn::Lanes(d));
   if (grid.voids) {
     const auto hole = hn::Set(di, kVoid);
-    const auto near_hole = hn::Eq(near, hole);
-    const auto far_hole = hn::Eq(far, hole);
-    const auto first = hn::IfThenElse(near_hole, far, near);
-    const auto second = hn::IfThenElse(far_hole, near, far);
-    const auto a = hn::ConvertTo(d, first);
-    return {fused::mul_add(share, hn::Sub(hn::ConvertTo(d, second), a), a),
-            hn::RebindMask(d, hn::Ne(hn::Max(near, far), hole))};
+    first = hn::IfThenElse(hn::Eq(near, hole), far, near);
+    second = hn::IfThenElse(hn::Eq(far, hole), near, far);
+    known = hn::RebindMask(d, hn::Ne(hn::Max(near, far), hole));
   }
-  const auto a = hn::ConvertTo(d, near);
-  return {fused::mul_add(share, hn::Sub(hn::ConvertTo(d, far), a), a), all};
+  const auto a = hn::ConvertTo(d, first);
+  const auto posts = fused::mul_add(share, hn::Sub(hn::ConvertTo(d, second), a), a);
+  return {grid.unit_m == 1.0F ? posts : hn::Mul(posts, hn::Set(d, grid.unit_m)), known};
 }
 
 // One vector of ways.

@@ -1,6 +1,8 @@
 #include "model/terrain/directory_index.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <optional>
 #include <system_error>
 #include <tuple>
 #include <utility>
@@ -67,8 +69,7 @@ failure::Expected<void> offer_raster(const std::filesystem::path& path, Director
   if (!raster) return tl::unexpected(raster.error());
   for (const gdal::RasterCell& cell : raster->cells)
     offer({cell.south_deg, cell.west_deg},
-          {path, CellFormat::raster, raster->posts_per_degree_north, raster->posts_per_degree_east, cell.covered},
-          index);
+          {path, CellFormat::raster, cell.posts_per_degree_north, cell.posts_per_degree_east, cell.covered}, index);
   return {};
 }
 
@@ -81,6 +82,22 @@ bool leads_anywhere_out(const std::filesystem::path& path, const std::filesystem
 bool is_elevation_name(const std::filesystem::path& path) {
   return cell_named(path.parent_path().filename().string(), path.filename().string()) || is_ded_name(path) ||
          is_raster_name(path);
+}
+
+std::string lower_first(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+// A problem where a folder below cannot be looked into.
+std::optional<std::string> closed_folder(const std::filesystem::directory_entry& entry) {
+  std::error_code code;
+  if (!entry.is_directory(code) || entry.is_symlink(code)) return std::nullopt;
+  const std::filesystem::directory_iterator look(entry.path(), code);
+  if (!code) return std::nullopt;
+  return failure::Error{entry.path().string(), "a folder that can be read", lower_first(code.message()),
+                        "check its permissions", false}
+      .message();
 }
 
 // `index` or `problems` gets something.
@@ -104,10 +121,13 @@ failure::Expected<DirectoryIndex> index_directory(const std::filesystem::path& d
                          "make one with `yars terrain generate --out DIR`");
   DirectoryIndex index;
   std::vector<std::string> found;
-  const auto options = std::filesystem::directory_options::skip_permission_denied;
-  std::filesystem::recursive_directory_iterator entry(directory, options, code);
   const std::filesystem::path root = std::filesystem::weakly_canonical(directory, code);
+  std::filesystem::recursive_directory_iterator entry(directory, code);
   for (const std::filesystem::recursive_directory_iterator end; !code && entry != end; entry.increment(code)) {
+    if (const auto closed = closed_folder(*entry)) {
+      found.push_back(*closed);
+      entry.disable_recursion_pending();
+    }
     if (!is_elevation_name(entry->path())) continue;
     if (!leads_anywhere_out(entry->path(), root))
       offer_file(entry->path(), index, found);
@@ -116,7 +136,9 @@ failure::Expected<DirectoryIndex> index_directory(const std::filesystem::path& d
                                      "copy the cell there, or give the folder that it lies in", false}
                           .message());
   }
-  if (code) return failure::fail(directory.string(), "a directory that can be walked", code.message());
+  if (code)
+    return failure::fail(directory.string(), "a directory that can be read", lower_first(code.message()),
+                         "check its permissions");
   std::sort(found.begin(), found.end());
   if (index.empty() && !found.empty())
     return failure::fail(directory.string(), "elevation cells that can be used",

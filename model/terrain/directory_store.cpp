@@ -1,9 +1,12 @@
 #include "model/terrain/directory_store.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
+#include "model/terrain/coverage.hpp"
 #include "model/terrain/culture_reader.hpp"
 #include "model/terrain/culture_tile.hpp"
 #include "model/terrain/region_cells.hpp"
@@ -11,6 +14,7 @@
 namespace yars::model::terrain {
 
 namespace {
+constexpr double kMetresPerMile = 1852.0;
 constexpr double kMetresPerDegree = 111195.0;  // [m] of a meridian, on the mean sphere
 constexpr int kMostReduction = 6;              // beyond it a cell of level 1 would have fewer than 20 posts a side
 constexpr int kServesNothing = -1;             // detail of a view in which something within reach stands in
@@ -33,15 +37,16 @@ failure::Expected<std::unique_ptr<DirectoryTerrainStore>> DirectoryTerrainStore:
   failure::Expected<DirectoryIndex> index = index_directory(directory, &problems);
   if (!index) return tl::unexpected(index.error());
   return std::unique_ptr<DirectoryTerrainStore>(
-      new DirectoryTerrainStore(std::move(*index), options, std::move(problems)));
+      new DirectoryTerrainStore(directory.string(), std::move(*index), options, std::move(problems)));
 }
 
-DirectoryTerrainStore::DirectoryTerrainStore(DirectoryIndex index, DirectoryStoreOptions options,
+DirectoryTerrainStore::DirectoryTerrainStore(std::string folder, DirectoryIndex index, DirectoryStoreOptions options,
                                              std::vector<std::string> problems)
-    : index_(std::move(index)), options_(options), problems_(std::move(problems)) {}
+    : folder_(std::move(folder)), index_(std::move(index)), options_(options), problems_(std::move(problems)) {}
 
 TerrainViewPointer DirectoryTerrainStore::prepare_in_steps(const TerrainRegion& region, const Interim& interim) {
   ++prepares_;
+  note_bare(region);
   bool changed = view_ == nullptr || !view_->serves(region.detail);
   const std::vector<Level> missing = select(region, changed);
   const double reach_deg = touched_within_deg(region.reach_m);
@@ -59,6 +64,24 @@ TerrainViewPointer DirectoryTerrainStore::prepare_in_steps(const TerrainRegion& 
   while (resident_bytes_ > options_.resident_limit_bytes && drop_longest_unused()) changed = true;
   if (changed) view_ = make_view(region.detail);
   return view_;
+}
+
+// Said once on the way out of what the folder covers. Who asks for a single place knows where it lies.
+void DirectoryTerrainStore::note_bare(const TerrainRegion& region) {
+  if (region.radius_m <= 0.0) return;
+  const bool bare = !touches(index_, region);
+  if (bare && !bare_) {
+    std::array<char, 120> where{};
+    std::snprintf(where.data(), where.size(), "a cell within %.0f NM of latitude %.4f, longitude %.4f",
+                  region.radius_m / kMetresPerMile, region.centre.latitude_deg, region.centre.longitude_deg);
+    problems_.push_back(failure::Error{folder_, where.data(), "none: it covers " + coverage_text(index_),
+                                       std::string("what lies there counts as ") +
+                                           (options_.missing_cell_is_sea ? "sea" : "void") +
+                                           "; check the position and its signs",
+                                       false}
+                            .message());
+  }
+  bare_ = bare;
 }
 
 // Shows what is in memory of the region's cells, and tells which are not, nearest first.
@@ -116,7 +139,7 @@ bool DirectoryTerrainStore::load(Level level) {
     shown_.erase(level.first);
     return false;
   }
-  for (const std::string& warning : reading->warnings) problems_.push_back(file.path.string() + ": " + warning);
+  for (std::string& sentence : notes_.heard(file.path, *reading)) problems_.push_back(std::move(sentence));
   TerrainCell cell{std::make_shared<const Cell>(std::move(reading->cell)), nullptr, read_cover(level, file)};
   if (reading->peaks) cell.peaks = std::make_shared<const Cell>(std::move(*reading->peaks));
   resident_bytes_ += bytes_of(cell);

@@ -16,6 +16,7 @@
 #include "model/terrain/cell.hpp"
 #include "model/terrain/cell_view.hpp"
 #include "model/terrain/directory_index.hpp"
+#include "model/terrain/reading_notes.hpp"
 #include "model/terrain/terrain_view.hpp"
 
 namespace yars::model::terrain {
@@ -45,7 +46,8 @@ class DirectoryTerrainStore final : public TerrainStore {
     std::uint64_t last_use = 0;  // number of the prepare() that wanted it last
   };
 
-  DirectoryTerrainStore(DirectoryIndex index, DirectoryStoreOptions options, std::vector<std::string> problems);
+  DirectoryTerrainStore(std::string folder, DirectoryIndex index, DirectoryStoreOptions options,
+                        std::vector<std::string> problems);
   std::vector<Level> select(const TerrainRegion& region, bool& changed);
   bool show(Level level);
   void show_stand_in(Level level);
@@ -54,16 +56,21 @@ class DirectoryTerrainStore final : public TerrainStore {
   bool drop_longest_unused();
   TerrainViewPointer make_view(int detail);
 
+  void note_bare(const TerrainRegion& region);
+
+  std::string folder_;  // for messages
   DirectoryIndex index_;
   DirectoryStoreOptions options_;
   std::map<Level, Resident> resident_;
   std::map<std::size_t, int> shown_;  // reduction that the view has of a slot
   std::set<std::size_t> unreadable_;  // slots
   std::set<std::size_t> coverless_;   // slots whose culture cannot be read, said once
+  bool bare_ = false;                 // the last region had no cell
   std::size_t resident_bytes_ = 0;
   std::uint64_t prepares_ = 0;
   std::uint64_t generation_ = 0;
   TerrainViewPointer view_;
+  ReadingNotes notes_;
   std::vector<std::string> problems_;
 };
 

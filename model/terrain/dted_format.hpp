@@ -8,7 +8,11 @@ namespace yars::model::terrain::dted {
 
 inline constexpr std::size_t kUserHeaderBytes = 80;    // UHL
 inline constexpr std::size_t kDescriptionBytes = 648;  // DSI
-inline constexpr std::size_t kAccuracyBytes = 2700;    // ACC
+inline constexpr std::size_t kVerticalDatumAt = 141;   // in DSI
+inline constexpr std::size_t kVerticalDatumBytes = 3;
+inline constexpr std::size_t kHorizontalDatumAt = 144;
+inline constexpr std::size_t kHorizontalDatumBytes = 5;
+inline constexpr std::size_t kAccuracyBytes = 2700;  // ACC
 inline constexpr std::size_t kHeaderBytes = kUserHeaderBytes + kDescriptionBytes + kAccuracyBytes;
 inline constexpr std::size_t kRecordHeadBytes = 8;  // sentinel, count, longitude and latitude index
 inline constexpr std::size_t kRecordSumBytes = 4;   // sum of the bytes before it

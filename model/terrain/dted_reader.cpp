@@ -58,6 +58,29 @@ std::string name_of(CellPlace place) {
   return "south-west corner " + std::to_string(place.south_deg) + ", " + std::to_string(place.west_deg);
 }
 
+// A field without blanks and nulls; a question mark for what cannot be printed.
+std::string stripped(std::string_view field) {
+  std::string text;
+  for (const char letter : field)
+    if (letter != ' ' && letter != '\0') text.push_back(letter > ' ' && letter <= '~' ? letter : '?');
+  return text;
+}
+
+// The datums by the description record. Posts of WGS72 lie 0.554 arc seconds (17 m) beside those of WGS84: to move them
+// would smooth them, so that is left to a raster of them.
+failure::Expected<void> check_datums(std::string_view description, const std::string& subject) {
+  constexpr std::string_view kSeaLevels[] = {"", "MSL", "E84", "E96", "E08"};
+  const std::string vertical = stripped(description.substr(dted::kVerticalDatumAt, dted::kVerticalDatumBytes));
+  const std::string horizontal = stripped(description.substr(dted::kHorizontalDatumAt, dted::kHorizontalDatumBytes));
+  if (!horizontal.empty() && horizontal != "WGS84")
+    return failure::fail(subject, "horizontal datum WGS84", "'" + horizontal + "'",
+                         "bring it to WGS84 with gdalwarp -t_srs EPSG:4326 into a .tif");
+  if (std::find(std::begin(kSeaLevels), std::end(kSeaLevels), vertical) == std::end(kSeaLevels))
+    return failure::fail(subject, "heights above mean sea level (vertical datum MSL, E84, E96, E08 or none)",
+                         "'" + vertical + "'", "make them heights above mean sea level");
+  return {};
+}
+
 failure::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject, CellPlace place) {
   std::size_t start = 0;
   // Copies of tapes carry their volume and file labels in front.
@@ -72,6 +95,8 @@ failure::Expected<Header> parse_header(std::span<const std::byte> bytes, const s
   const std::string_view user_header = text_of(bytes.subspan(start, dted::kUserHeaderBytes));
   if (user_header.substr(0, 4) != "UHL1")
     return failure::fail(subject, "a DTED file that begins with UHL1", "other bytes");
+  const std::string_view description = text_of(bytes.subspan(start + dted::kUserHeaderBytes, dted::kDescriptionBytes));
+  if (const auto known = check_datums(description, subject); !known) return tl::unexpected(known.error());
   const std::optional<int> west_deg = whole_degrees(user_header.substr(4, 8));
   const std::optional<int> south_deg = whole_degrees(user_header.substr(12, 8));
   const std::optional<int> interval = number(user_header.substr(20, 4));
@@ -201,7 +226,9 @@ failure::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, cons
   std::vector<std::string> warnings = warnings_of(*odd, *header, twos_complement);
   std::vector<std::int16_t> posts = decode(words, twos_complement);
   void_impossible_heights(posts, warnings);
-  return CellReading{Cell(place, header->rows, header->columns, posts), std::nullopt, std::move(warnings)};
+  CellReading reading{Cell(place, header->rows, header->columns, posts), std::nullopt, std::move(warnings)};
+  reading.damaged = odd->wrong_sums > 0;
+  return reading;
 }
 
 failure::Expected<CellReading> read_dted(const std::filesystem::path& path, CellPlace place) {

@@ -2,7 +2,9 @@
 // length bears them out. Voids become kVoidPost; absent columns and absent ends of columns too, with a warning.
 // A wrong column checksum is a warning and the heights stand (project choice: most such files are merely old).
 // Files written in two's complement (heights that sign-magnitude would put below -16000 m) are read as such.
-// Errors: no UHL, origin not in whole degrees or not `place`, posts that do not span one degree, a torn record.
+// Datums: WGS84 and mean sea level (MSL, E84, E96, E08); blank counts as these. Others are refused, WGS72 too.
+// Errors: no UHL, another datum, origin not in whole degrees or not `place`, posts that do not span one degree, a torn
+// record.
 #pragma once
 
 #include <cstddef>

@@ -109,6 +109,7 @@ int dted_columns(CellPlace place, int level) {
 }
 
 std::vector<std::byte> dted_bytes(const Cell& cell, int level) {
+  YARS_REQUIRE(cell.unit_m(), ==, 1.0);
   YARS_REQUIRE(cell.rows(), ==, dted::kPostsOfLevel[level]);
   std::vector<std::byte> bytes;
   bytes.reserve(dted::kHeaderBytes + static_cast<std::size_t>(cell.columns()) * dted::record_bytes(cell.rows()));

@@ -19,6 +19,7 @@ std::string hgt_name(CellPlace place) {
 
 std::vector<std::byte> hgt_bytes(const Cell& cell) {
   const std::size_t size = 2 * static_cast<std::size_t>(cell.rows()) * static_cast<std::size_t>(cell.columns());
+  YARS_REQUIRE(cell.unit_m(), ==, 1.0);
   YARS_REQUIRE(cell.rows(), ==, cell.columns());
   YARS_REQUIRE(hgt_posts_for_size(size), ==, cell.rows());
   static_assert(kVoidPost == -32768, "the void of HGT");

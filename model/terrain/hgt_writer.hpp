@@ -1,4 +1,4 @@
-// Writes a cell as SRTM HGT (see hgt_reader.hpp): 1201 x 1201 or 3601 x 3601 posts, which it must have.
+// Writes a cell as SRTM HGT (see hgt_reader.hpp): 1201 x 1201 or 3601 x 3601 posts in whole metres, which it must have.
 // Errors of write_hgt: the file cannot be written.
 #pragma once
 

@@ -26,19 +26,19 @@ Position position_in(const Cell& cell, double north_deg, double east_deg) {
 
 Surface bilinear(const Cell& cell, const Position& at) {
   double total = 0.0;
-  double height_m = 0.0;
+  double height = 0.0;  // [unit_m]
   double water = 0.0;
   for (const int up : {0, 1})
     for (const int right : {0, 1}) {
-      const std::int16_t post_m = cell.post(at.row + up, at.column + right);
-      if (post_m == kVoidPost) continue;
+      const std::int16_t post = cell.post(at.row + up, at.column + right);
+      if (post == kVoidPost) continue;
       const double weight = (up == 1 ? at.north : 1 - at.north) * (right == 1 ? at.east : 1 - at.east);
       total += weight;
-      height_m += weight * post_m;
-      if (post_m == 0) water += weight;
+      height += weight * post;
+      if (post == 0) water += weight;
     }
   if (total <= 0.0) return {std::numeric_limits<double>::quiet_NaN(), 0.0};
-  return {height_m / total, water / total};
+  return {height / total * cell.unit_m(), water / total};
 }
 
 // Catmull-Rom weights of the four posts about a way of t behind the second.
@@ -59,7 +59,7 @@ std::optional<double> cubic_height_m(const Cell& cell, const Position& at) {
       if (post_m == kVoidPost) return std::nullopt;
       height_m += along[up] * across[right] * post_m;
     }
-  return height_m;
+  return height_m * cell.unit_m();
 }
 
 }  // namespace

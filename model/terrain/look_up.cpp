@@ -188,6 +188,12 @@ HWY_INLINE void join(const Grid& grid, std::size_t count, const Located& located
   }
 }
 
+void to_metres(float unit_m, std::size_t count, float* elevation_m) {
+  const FloatLanes d;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d))
+    hn::StoreU(hn::Mul(hn::LoadU(d, elevation_m + i), hn::Set(d, unit_m)), d, elevation_m + i);
+}
+
 void heights(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count, bool nearest,
              float* elevation_m, float* water) {
   if (count == 0) return;
@@ -200,6 +206,7 @@ void heights(const Grid& grid, const float* north_deg, const float* east_deg, st
     if (next < count) locate(grid, north_deg + next, east_deg + next, batch(next), fetch_step, located[1 - turn]);
     join(grid, batch(start), located[turn], nearest, elevation_m + start, water == nullptr ? nullptr : water + start);
   }
+  if (grid.unit_m != 1.0F) to_metres(grid.unit_m, count, elevation_m);
 }
 
 std::size_t places_alike(const float* cells_north, const float* cells_east, std::size_t count) {

@@ -15,8 +15,9 @@ namespace yars::model::terrain::look_up {
 struct Grid {
   const PostBlocks* posts = nullptr;
   int rows = 0, columns = 0;
-  bool voids = false;  // whether any post is kVoidPost
-  bool sea = false;    // whether any post is exactly 0 m
+  bool voids = false;   // whether any post is kVoidPost
+  bool sea = false;     // whether any post is exactly 0 m
+  float unit_m = 1.0F;  // [m] of a post
 };
 
 // How many of the places from the first on lie in the cell of the first: both numbers are equal.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kLargestFile = 256UL << 20U;  // [bytes] above what 7201 x 7201 posts take uncoded
 
-Cell from_south(const HeightGrid& grid, CellPlace place) {
+Cell from_south(const HeightGrid& grid, CellPlace place, double unit_m) {
   const auto columns = static_cast<std::ptrdiff_t>(grid.columns);
   std::vector<std::int16_t> posts;
   posts.reserve(grid.heights.size());
@@ -20,14 +20,14 @@ Cell from_south(const HeightGrid& grid, CellPlace place) {
     posts.insert(posts.end(), grid.heights.begin() + row * columns, grid.heights.begin() + (row + 1) * columns);
   // Where the wavelet comes out at the lowest word it is no void: those are marked in the side file.
   std::replace(posts.begin(), posts.end(), kVoidPost, static_cast<std::int16_t>(kVoidPost + 1));
-  return {place, grid.rows, grid.columns, posts};
+  return {place, grid.rows, grid.columns, posts, unit_m};
 }
 
 // A wavelet rings beside cliffs, and land is never at exactly 0 m.
-std::int16_t land_below(std::int16_t peak_m, std::int16_t height_m) {
-  const std::int16_t lower_m = std::min(peak_m, height_m);
-  if (lower_m != 0) return lower_m;
-  return peak_m > 0 ? std::int16_t{1} : std::int16_t{-1};
+std::int16_t land_below(std::int16_t peak, std::int16_t height) {
+  const std::int16_t lower = std::min(peak, height);
+  if (lower != 0) return lower;
+  return peak > 0 ? std::int16_t{1} : std::int16_t{-1};
 }
 
 // The posts with what the side file says put over them.
@@ -56,7 +56,7 @@ Cell marked(const Cell& cell, const SideLevel& level, int reduction) {
       posts[index(row, columns - 1)] = level.edges[3][static_cast<std::size_t>(row)];
     }
   }
-  return {cell.place(), rows, columns, posts};
+  return {cell.place(), rows, columns, posts, cell.unit_m()};
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ failure::Expected<CellReading> parse_pack(std::span<const std::byte> jp2, std::s
   if (!grid) return tl::unexpected(grid.error());
   auto level = parse_side_level(side, place, wanted, subject);
   if (!level) return tl::unexpected(level.error());
-  const Cell decoded = from_south(*grid, place);
+  const Cell decoded = from_south(*grid, place, head->unit_m);
   const int rows = reduced_posts(head->rows, wanted);
   const int columns = reduced_posts(head->columns, wanted);
   const int row_factor = (decoded.rows() - 1) / (rows - 1);

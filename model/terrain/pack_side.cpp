@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -17,10 +18,12 @@ namespace yars::model::terrain {
 namespace {
 
 constexpr std::string_view kMagic = "YARSSIDE";
-constexpr std::uint32_t kVersion = 1;
-constexpr std::size_t kHeadBytes = 36;   // up to and with the number of levels
-constexpr std::size_t kChecksumAt = 28;  // of all behind it
-constexpr std::size_t kLevelBytes = 12;  // a row of the table
+constexpr std::uint32_t kVersion = 1;  // posts in metres
+constexpr std::uint32_t kVersionWithUnit = 2;
+constexpr std::size_t kHeadBytes = 36;    // up to and with the number of levels
+constexpr std::size_t kChecksumAt = 28;   // of all behind it
+constexpr std::size_t kLevelBytes = 12;   // a row of the table
+constexpr double kUnitsPerMetre = 100.0;  // the unit of posts stands in centimetres
 constexpr std::uint32_t kMostReductions = 16;
 constexpr std::uint32_t kMostPosts = 7201;  // a side: 0.5 arc seconds
 
@@ -122,6 +125,13 @@ class Words {
   const std::byte* at_;
 };
 
+// [m] of a post; 0 where the file states none that can be.
+double unit_of(std::span<const std::byte> side) {
+  if (big_endian_32(side.data() + kMagic.size()) == kVersion) return 1.0;
+  const std::uint32_t centimetres = big_endian_32(side.data() + side.size() - 4);
+  return centimetres <= 100 ? centimetres / kUnitsPerMetre : 0.0;
+}
+
 std::vector<bool> take_bits(std::span<const std::byte>& bytes, Sides sides) {
   std::vector<bool> bits(sides.posts());
   for (std::size_t post = 0; post < bits.size(); ++post)
@@ -149,8 +159,15 @@ failure::Expected<std::vector<std::byte>> inflated(std::span<const std::byte> pa
   return plain;
 }
 
-failure::Expected<Cell> parse_peaks(std::span<const std::byte> packed, const std::vector<bool>& voids, Sides sides,
-                                    CellPlace place, const std::string& subject) {
+struct CellFrame {
+  CellPlace place;
+  Sides sides;
+  double unit_m;
+};
+
+failure::Expected<Cell> parse_peaks(std::span<const std::byte> packed, const std::vector<bool>& voids,
+                                    const CellFrame& frame, const std::string& subject) {
+  const Sides sides = frame.sides;
   const auto grid = decode_jpeg2000(packed, subject, sides.rows, sides.columns, 0);
   if (!grid) return tl::unexpected(grid.error());
   const auto columns = static_cast<std::ptrdiff_t>(sides.columns);
@@ -160,7 +177,7 @@ failure::Expected<Cell> parse_peaks(std::span<const std::byte> packed, const std
     posts.insert(posts.end(), grid->heights.begin() + row * columns, grid->heights.begin() + (row + 1) * columns);
   for (std::size_t post = 0; post < posts.size(); ++post)
     if (voids[post]) posts[post] = kVoidPost;
-  return Cell(place, sides.rows, sides.columns, posts);
+  return Cell(frame.place, sides.rows, sides.columns, posts, frame.unit_m);
 }
 
 }  // namespace
@@ -180,9 +197,11 @@ failure::Expected<std::vector<std::byte>> side_bytes(const Cell& cell, int reduc
     append(level.marks, body);
     append(level.peaks, body);
   }
+  const bool metres = cell.unit_m() == 1.0;
+  if (!metres) append_32(static_cast<std::size_t>(std::lround(cell.unit_m() * kUnitsPerMetre)), body);
   std::vector<std::byte> side;
   for (const char letter : kMagic) side.push_back(static_cast<std::byte>(letter));
-  append_32(kVersion, side);
+  append_32(metres ? kVersion : kVersionWithUnit, side);
   append_32(static_cast<std::size_t>(cell.rows()), side);
   append_32(static_cast<std::size_t>(cell.columns()), side);
   append_32(jp2.size(), side);
@@ -200,8 +219,8 @@ failure::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std
   if (side.size() < kHeadBytes || std::string_view(reinterpret_cast<const char*>(side.data()), 8) != kMagic)
     return refuse("the side file of a packed cell (YARSSIDE)", "other bytes");
   Words words(side.data() + kMagic.size());
-  if (const std::uint32_t version = words.next(); version != kVersion)
-    return refuse("version " + std::to_string(kVersion), "version " + std::to_string(version));
+  if (const std::uint32_t version = words.next(); version != kVersion && version != kVersionWithUnit)
+    return refuse("version 1 or 2", "version " + std::to_string(version));
   const std::uint32_t rows = words.next();
   const std::uint32_t columns = words.next();
   const std::uint32_t jp2_bytes = words.next();
@@ -214,7 +233,9 @@ failure::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std
       levels > kMostReductions + 1 || kHeadBytes + levels * kLevelBytes > side.size())
     return refuse("sizes of a cell", std::to_string(columns) + " x " + std::to_string(rows) + " posts, " +
                                          std::to_string(levels) + " levels");
-  return SideHead{static_cast<int>(rows), static_cast<int>(columns), static_cast<int>(levels) - 1};
+  const double unit_m = unit_of(side);
+  if (unit_m <= 0.0) return refuse("posts of 1 to 100 cm", "another unit");
+  return SideHead{static_cast<int>(rows), static_cast<int>(columns), static_cast<int>(levels) - 1, unit_m};
 }
 
 failure::Expected<SideLevel> parse_side_level(std::span<const std::byte> side, CellPlace place, int reduction,
@@ -245,7 +266,8 @@ failure::Expected<SideLevel> parse_side_level(std::span<const std::byte> side, C
   level.sea = take_bits(rest, sides);
   for (std::size_t edge = 0; edge < level.edges.size(); ++edge)
     level.edges[edge] = take_edge(rest, edge < 2 ? sides.columns : sides.rows);
-  auto peak_cell = parse_peaks(side.subspan(at + marks, peaks), take_bits(rest, sides), sides, place, subject);
+  auto peak_cell =
+      parse_peaks(side.subspan(at + marks, peaks), take_bits(rest, sides), {place, sides, unit_of(side)}, subject);
   if (!peak_cell) return tl::unexpected(peak_cell.error());
   level.peaks = std::move(*peak_cell);
   return level;

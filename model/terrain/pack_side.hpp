@@ -3,9 +3,9 @@
 // of one reduction unpacks that one only. The checksum of the .jp2 ties both files together.
 // Layout, big-endian: "YARSSIDE", u32 version, rows, columns, bytes and CRC-32 of the .jp2, CRC-32 of all that
 // follows, u32 reductions + 1; for each {u32 bytes of marks unpacked, u32 bytes of marks, u32 bytes of peaks}; then
-// for each the marks (zlib) and the peaks (JPEG 2000).
-// Marks: bits of void posts; from reduction 1 on bits of sea posts, edges (i16: south, north, west, east), bits of
-// void peaks. Bits lie eight a byte, the first the highest, row by row from the south.
+// for each the marks (zlib) and the peaks (JPEG 2000); in version 2, last, u32 centimetres of a unit of the posts,
+// which are metres in version 1. Marks: bits of void posts; from reduction 1 on bits of sea posts, edges (i16: south,
+// north, west, east), bits of void peaks. Bits lie eight a byte, the first the highest, row by row from the south.
 #pragma once
 
 #include <array>
@@ -36,6 +36,7 @@ struct SideHead {
   int rows = 0;
   int columns = 0;
   int reductions = 0;
+  double unit_m = 1.0;  // [m] of a post
 };
 
 // Checks all but the level's own contents. Errors: another magic or version, damage, a side of another .jp2.

@@ -35,6 +35,12 @@ std::string lower_case(std::string text) {
   return text;
 }
 
+std::string printable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; }, '?');
+  return text;
+}
+
 bool is_gzip(const std::filesystem::path& path) {
   return lower_case(path.extension().string()) == ".gz";
 }
@@ -46,8 +52,33 @@ failure::Expected<std::uintmax_t> packed_length(const std::filesystem::path& pat
                        std::to_string(*length) + " bytes", "this is no packed HGT cell");
 }
 
+// The name that a gzip stream may keep of what was packed; empty: none.
+std::string name_in_gzip(const std::filesystem::path& path) {
+  constexpr std::size_t kHeadBytes = 10;
+  constexpr unsigned kExtra = 4, kName = 8;  // flags, RFC 1952
+  const auto length = file_length(path);
+  const auto head = length ? read_file_part(path, 0, std::min<std::uintmax_t>(*length, 512))
+                           : failure::Expected<std::vector<std::byte>>{};
+  if (!head || head->size() < kHeadBytes) return {};
+  const auto at = [&](std::size_t byte) { return std::to_integer<unsigned>((*head)[byte]); };
+  if (at(0) != 0x1f || at(1) != 0x8b || (at(3) & kName) == 0) return {};
+  std::size_t start = kHeadBytes;
+  if ((at(3) & kExtra) != 0) {
+    if (head->size() < start + 2) return {};
+    start += 2 + at(start) + 256 * at(start + 1);
+  }
+  std::string name;
+  for (std::size_t byte = start; byte < head->size() && at(byte) != 0; ++byte)
+    name.push_back(static_cast<char>(at(byte)));
+  return name;
+}
+
 failure::Expected<std::vector<std::byte>> inflate_gzip(const std::filesystem::path& path) {
   if (const auto there = packed_length(path); !there) return tl::unexpected(there.error());
+  const std::filesystem::path inside = lower_case(name_in_gzip(path));
+  if (inside.extension() == ".hgt" && inside.filename() != lower_case(path.stem().string()))
+    return failure::fail(path.string(), path.stem().string() + " as it was packed",
+                         "'" + printable(inside.filename().string()) + "'", "give the file the name of the cell in it");
   const std::unique_ptr<gzFile_s, CloseGzip> file(gzopen(path.c_str(), "rb"));
   if (!file) return failure::fail(path.string(), "a gzip file", "one that cannot be opened");
   // One byte more than any cell has tells a longer stream.
@@ -74,11 +105,10 @@ struct ZipEntry {
   zip_uint64_t bytes = 0;
 };
 
-// The entry named like the archive without `.zip`, else the only one that ends in .hgt.
-std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& path) {
+// The entry named like the archive without `.zip`. Another name is another cell: heights of one place at another.
+// `others` gets the names of such entries.
+std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& path, std::string* others = nullptr) {
   const std::string wanted = lower_case(path.stem().string());
-  std::optional<ZipEntry> found;
-  int candidates = 0;
   for (zip_int64_t index = 0; index < zip_get_num_entries(archive, 0); ++index) {
     zip_stat_t status;
     if (zip_stat_index(archive, static_cast<zip_uint64_t>(index), 0, &status) != 0) continue;
@@ -86,11 +116,10 @@ std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& p
     const std::filesystem::path name = lower_case(status.name);
     const ZipEntry entry{static_cast<zip_uint64_t>(index), status.size};
     if (name.filename() == wanted) return entry;
-    if (name.extension() != ".hgt") continue;
-    found = entry;
-    ++candidates;
+    const bool cell = name.extension() == ".hgt";
+    if (others != nullptr && (others->empty() || cell)) *others = printable(name.filename().string());
   }
-  return candidates == 1 ? found : std::nullopt;
+  return std::nullopt;
 }
 
 failure::Expected<ZipArchive> open_zip(const std::filesystem::path& path) {
@@ -104,10 +133,12 @@ failure::Expected<ZipArchive> open_zip(const std::filesystem::path& path) {
 failure::Expected<std::vector<std::byte>> inflate_zip(const std::filesystem::path& path) {
   const auto archive = open_zip(path);
   if (!archive) return tl::unexpected(archive.error());
-  const std::optional<ZipEntry> entry = hgt_entry(archive->get(), path);
+  std::string other;
+  const std::optional<ZipEntry> entry = hgt_entry(archive->get(), path, &other);
   if (!entry)
-    return failure::fail(path.string(), "an entry " + path.stem().string() + " or a single .hgt",
-                         "none in the archive");
+    return failure::fail(path.string(), "an entry " + path.stem().string(),
+                         other.empty() ? "an archive without entries" : "'" + other + "'",
+                         "give the archive the name of the cell that is in it");
   if (hgt_posts_for_size(entry->bytes) == 0)
     return failure::fail(path.string(), "an entry of 2884802 or 25934402 bytes",
                          "one of " + std::to_string(entry->bytes) + " bytes", "this is no HGT cell");

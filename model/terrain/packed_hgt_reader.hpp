@@ -1,4 +1,5 @@
-// Reads an SRTM cell out of `N36W122.hgt.zip` (the entry of that name, else the only .hgt) or `N36W122.hgt.gz`.
+// Reads an SRTM cell out of `N36W122.hgt.zip` (the entry of that name; case does not matter) or `N36W122.hgt.gz`
+// (whose own note of a name, if it has one, is that too).
 // Only an entry that is as long as an HGT file is unpacked, and never more than that: a bomb is an error.
 // Errors: a damaged archive, no such entry, another length; else those of hgt_reader.hpp.
 #pragma once

@@ -130,7 +130,8 @@ ReducedCell reduce_by(const Cell& cell, int row_factor, int column_factor) {
     append_mean_row(cell, grid, row, sums_down, means);
     append_peak_row(cell, grid, row, highest_down, peaks);
   }
-  return {Cell(cell.place(), grid.rows, grid.columns, means), Cell(cell.place(), grid.rows, grid.columns, peaks)};
+  return {Cell(cell.place(), grid.rows, grid.columns, means, cell.unit_m()),
+          Cell(cell.place(), grid.rows, grid.columns, peaks, cell.unit_m())};
 }
 
 ReducedCell reduce(const Cell& cell, int reduction) {

@@ -1,7 +1,7 @@
 // Coarser grids of a cell, co-sited with it: every factor-th post of a dimension, so that both edges stay.
 // means: box mean over half the new spacing to either side (a post exactly there counts half), voids left out. Posts
 //   of an edge take only posts of that edge and a corner only itself: neighbours with equal edges stay equal. Sea
-//   (0 m) stays where more than half is sea; any other mean is at least 1 m away from 0, with its sign.
+//   (0 m) stays where more than half is sea; any other mean is at least one unit away from 0, with its sign.
 // peaks: the highest post less than one new spacing away in each dimension: bilinear interpolation between peaks is
 //   never below the original surface. They see their own cell alone: neighbours' peaks may differ along the edge.
 // A post is void only where all posts that it takes are.

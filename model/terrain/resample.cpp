@@ -21,11 +21,11 @@ int whole_factor(int old_posts, int new_posts) {
   return 1;
 }
 
-std::int16_t rounded(const Surface& surface) {
+std::int16_t rounded(const Surface& surface, double unit_m) {
   if (std::isnan(surface.elevation_m)) return kVoidPost;
   if (surface.water > 0.5) return 0;
-  const long height_m = std::lround(surface.elevation_m);
-  if (height_m != 0) return static_cast<std::int16_t>(height_m);
+  const long units = std::lround(surface.elevation_m / unit_m);
+  if (units != 0) return static_cast<std::int16_t>(units);
   return surface.elevation_m < 0 ? std::int16_t{-1} : std::int16_t{1};
 }
 
@@ -42,8 +42,9 @@ Cell resample(const Cell& cell, int rows, int columns) {
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column)
       posts.push_back(rounded(
-          interpolate(means, static_cast<double>(row) / (rows - 1), static_cast<double>(column) / (columns - 1))));
-  return {cell.place(), rows, columns, std::move(posts)};
+          interpolate(means, static_cast<double>(row) / (rows - 1), static_cast<double>(column) / (columns - 1)),
+          cell.unit_m()));
+  return {cell.place(), rows, columns, posts, cell.unit_m()};
 }
 
 }  // namespace yars::model::terrain

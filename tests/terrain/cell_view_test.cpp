@@ -11,6 +11,7 @@
 
 #include "tests/lanes/vector_targets.hpp"
 #include "tests/terrain/fast_path.hpp"
+#include "tests/terrain/rough_cell.hpp"
 
 namespace yars::model::terrain {
 namespace {
@@ -158,6 +159,38 @@ TEST(CellView, TheFastPathKeepsItsBoundAgainstTheTruth) {
       ASSERT_NEAR(found.water[i], truth.water, 1e-4);
     }
   }
+}
+
+TEST(CellView, PostsInDecimetresAreHeightsInMetresOnBothPaths) {
+  const Cell whole = test::rough_cell({36, -122}, 61, 61, 7);
+  for (const auto interpolation :
+       {radar::Interpolation::nearest, radar::Interpolation::bilinear, radar::Interpolation::cubic}) {
+    CellView metres(1, Absence::none);
+    metres.add(std::make_shared<const Cell>(whole));
+    CellView decimetres(2, Absence::none);
+    decimetres.add(std::make_shared<const Cell>(whole.place(), 61, 61, whole.posts(), 0.1));
+    std::vector<geo::GeoPoint> places;
+    for (int i = 0; i < 300; ++i) places.push_back({36.0 + i / 301.0, -122.0 + (i * 37 % 301) / 301.0});
+    const auto fast = test::fast_path(decimetres, places, interpolation);
+    const auto coarse = test::fast_path(metres, places, interpolation);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (std::isnan(coarse.elevation_m[i])) {
+        EXPECT_TRUE(std::isnan(fast.elevation_m[i]));
+        continue;
+      }
+      EXPECT_NEAR(fast.elevation_m[i], coarse.elevation_m[i] / 10, 1e-3);
+      EXPECT_EQ(fast.water[i], coarse.water[i]);
+      EXPECT_NEAR(decimetres.surface_at(fast.places[i], interpolation).elevation_m, fast.elevation_m[i], 0.05);
+    }
+  }
+}
+
+TEST(Cell, InWholeMetresItIsRoundedAndLandStaysOffZero) {
+  const Cell fine({36, -122}, 2, 3, {0, 4, -4, 16, kVoidPost, -1234}, 0.1);
+  EXPECT_DOUBLE_EQ(fine.lowest_m(), -123.4);
+  EXPECT_DOUBLE_EQ(fine.highest_m(), 1.6);
+  EXPECT_EQ(in_whole_metres(fine).posts(), (std::vector<std::int16_t>{0, 1, -1, 2, kVoidPost, -123}));
+  EXPECT_EQ(in_whole_metres(fine).unit_m(), 1.0);
 }
 
 TEST(CellView, APlaceGetsTheSameBitsWhateverItsCompany) {

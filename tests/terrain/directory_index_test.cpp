@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
 
 #include "model/terrain/gdal/raster.hpp"
 #include "tests/terrain/ded_builder.hpp"
@@ -10,6 +13,7 @@
 namespace yars::model::terrain {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -104,6 +108,42 @@ TEST(DirectoryIndex, AFileThatCannotBeUsedIsAProblemAndTheRestGoesOn) {
   EXPECT_THAT(problems, ElementsAre(HasSubstr("broken.ded"), HasSubstr("gdal_translate")));
   std::filesystem::remove_all(folder.path() / "w122");
   EXPECT_THAT(index_directory(folder.path()).error().message(), HasSubstr("broken.ded"));
+}
+
+// As somebody who may not read everything: root gives that up for the test.
+class WithoutRights {
+ public:
+  WithoutRights() : user_(geteuid()) {
+    if (user_ == 0 && seteuid(65534) != 0) std::abort();
+  }
+  WithoutRights(const WithoutRights&) = delete;
+  WithoutRights& operator=(const WithoutRights&) = delete;
+  ~WithoutRights() {
+    if (seteuid(user_) != 0) std::abort();
+  }
+
+ private:
+  uid_t user_;
+};
+
+TEST(DirectoryIndex, AFolderThatMayNotBeReadIsSaidToBeSo) {
+  const test::TemporaryFolder folder;
+  folder.write("open/w122/n36.dt0", test::level_dted(36, -122, 5).bytes());
+  folder.write("closed/w121/n36.dt0", test::level_dted(36, -121, 5).bytes());
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::all);
+  std::filesystem::permissions(folder.path() / "closed", std::filesystem::perms::none);
+  {
+    const WithoutRights nobody;
+    const auto closed = index_directory(folder.path() / "closed");
+    ASSERT_FALSE(closed.has_value());
+    EXPECT_THAT(closed.error().message(), HasSubstr("found permission denied"));
+    std::vector<std::string> problems;
+    const auto index = index_directory(folder.path(), &problems);
+    ASSERT_TRUE(index.has_value()) << index.error().message();
+    EXPECT_EQ(index->size(), 1U);
+    EXPECT_THAT(problems, ElementsAre(AllOf(HasSubstr("closed"), HasSubstr("found permission denied"))));
+  }
+  std::filesystem::permissions(folder.path() / "closed", std::filesystem::perms::all);
 }
 
 TEST(DirectoryIndex, WithoutGdalEachRasterIsNamedWithWhatToDo) {

@@ -15,6 +15,7 @@
 namespace yars::model::terrain {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -61,6 +62,26 @@ TEST(DirectoryStore, AMissingCellIsVoidWhenTheOptionSaysSo) {
   write_cells(folder);
   const auto store = store_over(folder, {.missing_cell_is_sea = false});
   EXPECT_TRUE(std::isnan(store->prepare({middle(20), kNear})->elevation_m(middle(100))));
+}
+
+TEST(DirectoryStore, ARegionWithoutACellIsSaidOnceWithWhatTheFolderCovers) {
+  const test::TemporaryFolder folder;
+  write_cells(folder);
+  const auto store = store_over(folder);
+  store->prepare({middle(20), kNear});
+  EXPECT_THAT(store->take_problems(), IsEmpty());
+  store->prepare({middle(-20), 40 * 1852.0});
+  store->prepare({middle(-20), 40 * 1852.0});
+  EXPECT_THAT(
+      store->take_problems(),
+      ElementsAre(AllOf(HasSubstr("expected a cell within 40 NM of latitude 0.5000, longitude -19.5000"),
+                        HasSubstr("it covers latitude 0 to 1, longitude 0 to 61"), HasSubstr("counts as sea"))));
+  store->prepare({middle(20), kNear});
+  store->prepare({middle(-20), kNear});
+  EXPECT_EQ(store->take_problems().size(), 1U) << "again after it was over land";
+  store->prepare({middle(20), kNear});
+  store->prepare({middle(-20), 0.0});
+  EXPECT_THAT(store->take_problems(), IsEmpty()) << "who asks for one place looks for itself";
 }
 
 TEST(DirectoryStore, TheSameViewComesBackWhileNothingChanges) {

@@ -32,12 +32,16 @@ struct DtedFile {
   std::string latitude_interval = "9000";
   std::string longitude_count = "0005";
   std::string latitude_count = "0005";
+  std::string vertical_datum = "MSL";
+  std::string horizontal_datum = "WGS84";
   std::vector<DtedColumn> columns;
 
   std::vector<std::byte> bytes() const {
     std::string header = magic + longitude + latitude + longitude_interval + latitude_interval;
     header.resize(47, ' ');
     header += longitude_count + latitude_count;
+    header.resize(80 + 141, ' ');
+    header += vertical_datum + horizontal_datum;
     header.resize(3428, ' ');
     std::vector<std::byte> file;
     for (const char letter : labels + header) file.push_back(static_cast<std::byte>(letter));

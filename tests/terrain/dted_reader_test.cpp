@@ -40,6 +40,24 @@ TEST(DtedReader, NegativeHeightsAreSignMagnitude) {
   EXPECT_EQ(reading->cell.lowest_m(), -42);
 }
 
+TEST(DtedReader, OnlyWgs84AndMeanSeaLevelAreRead) {
+  test::DtedFile file = test::small_dted();
+  for (const char* vertical : {"MSL", "E96", "E08", "   "}) {
+    file.vertical_datum = vertical;
+    EXPECT_TRUE(parse(file).has_value()) << vertical;
+  }
+  file.vertical_datum = "ELL";
+  EXPECT_THAT(parse(file).error().message(), HasSubstr("vertical datum"));
+  file.vertical_datum = "MSL";
+  file.horizontal_datum = "     ";
+  EXPECT_TRUE(parse(file).has_value());
+  file.horizontal_datum = "WGS72";
+  ASSERT_FALSE(parse(file).has_value());
+  EXPECT_THAT(parse(file).error().message(), HasSubstr("expected horizontal datum WGS84, found 'WGS72'"));
+  file.horizontal_datum = "\x1b[31m";
+  EXPECT_THAT(parse(file).error().message(), ::testing::Not(HasSubstr("\x1b")));
+}
+
 TEST(DtedReader, MinusZeroIsZero) {
   test::DtedFile file = test::small_dted();
   file.columns[1].words[2] = 0x8000;

@@ -47,6 +47,7 @@ TEST(HgtReader, HeightsThatNoGroundHasAreVoidAndCounted) {
   put(bytes, 0, 2, kSide, 10'000);
   put(bytes, 0, 3, kSide, -12'000);
   put(bytes, 0, 4, kSide, -32768);
+  put(bytes, 0, 5, kSide, -9999);
   const auto reading = parse_hgt(bytes, "N36W122.hgt", {36, -122});
   ASSERT_TRUE(reading.has_value()) << reading.error().message();
   const int last = static_cast<int>(kSide) - 1;
@@ -54,9 +55,10 @@ TEST(HgtReader, HeightsThatNoGroundHasAreVoidAndCounted) {
   EXPECT_EQ(reading->cell.post(last, 1), kVoidPost);
   EXPECT_EQ(reading->cell.post(last, 2), 10'000);
   EXPECT_EQ(reading->cell.post(last, 3), -12'000);
-  EXPECT_EQ(reading->cell.voids(), 3U);
+  EXPECT_EQ(reading->cell.post(last, 5), kVoidPost) << "what some write for no data";
+  EXPECT_EQ(reading->cell.voids(), 4U);
   ASSERT_EQ(reading->warnings.size(), 1U) << "a void of the file's own is no damage";
-  EXPECT_THAT(reading->warnings.front(), HasSubstr("2 posts"));
+  EXPECT_THAT(reading->warnings.front(), HasSubstr("3 posts"));
 }
 
 TEST(HgtReader, AnyOtherLengthIsRefused) {

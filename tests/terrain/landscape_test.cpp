@@ -83,7 +83,7 @@ TEST(Landscape, TheDefaultRegionHasSeaPlainAndMountains) {
       sea += cell.sea_posts();
       plain += static_cast<std::size_t>(
           std::count_if(heights.begin(), heights.end(), [](std::int16_t post) { return post > 0 && post < 300; }));
-      highest_m = std::max<int>(highest_m, cell.highest_m());
+      highest_m = std::max(highest_m, static_cast<int>(cell.highest_m()));
       EXPECT_GE(cell.lowest_m(), 0);
       EXPECT_EQ(cell.voids(), 0U);
     }

@@ -103,6 +103,27 @@ TEST(Pack, ACellOfVoidsAndTheLowestAndHighestHeightsSurvive) {
   EXPECT_TRUE(same_posts(read_back(*pack_cell(cliffs), 0)->cell, cliffs));
 }
 
+TEST(Pack, PostsOfDecimetresKeepTheirUnitAtEveryReduction) {
+  const Cell rough = rough_cell(kPlace, 61, 61, 4);
+  const Cell cell(kPlace, 61, 61, rough.posts(), 0.3);
+  const auto packed = pack_cell(cell);
+  ASSERT_TRUE(packed.has_value()) << packed.error().message();
+  EXPECT_EQ(packed->side[11], std::byte{2}) << "its version";
+  EXPECT_EQ(pack_cell(rough)->side[11], std::byte{1}) << "in metres it is the pack that older readers know";
+  for (const int reduction : {0, 1, 2}) {
+    const auto reading = read_back(*packed, reduction);
+    ASSERT_TRUE(reading.has_value()) << reading.error().message();
+    EXPECT_DOUBLE_EQ(reading->cell.unit_m(), 0.3);
+    if (reduction == 0) {
+      EXPECT_TRUE(same_posts(reading->cell, cell));
+      continue;
+    }
+    EXPECT_DOUBLE_EQ(reading->peaks.value().unit_m(), 0.3);
+    EXPECT_TRUE(same_posts(*reading->peaks, reduce(cell, reduction).peaks));
+    EXPECT_DOUBLE_EQ(reading->peaks->highest_m(), cell.highest_m());
+  }
+}
+
 TEST(Pack, ASmoothCellIsMuchSmallerThanItsPosts) {
   const auto packed = pack_cell(smooth_cell(241, 241));
   ASSERT_TRUE(packed.has_value());

@@ -73,11 +73,32 @@ TEST(PackedHgt, ZipAndGzipGiveTheCellThatWasPacked) {
   }
 }
 
-TEST(PackedHgt, TheEntryMayLieInAFolderOrBeTheOnlyOneOfItsKind) {
+TEST(PackedHgt, TheEntryMayLieInAFolder) {
   const test::TemporaryFolder folder;
   EXPECT_EQ(reason(zipped(folder, "eurasia/n43e007.HGT", hgt())), "none");
-  const test::TemporaryFolder other;
-  EXPECT_EQ(reason(zipped(other, "cell.hgt", hgt())), "none");
+}
+
+TEST(PackedHgt, AnEntryOfAnotherNameIsAnotherCellAndRefused) {
+  for (const char* name : {"N43E008.hgt", "cell.hgt", "\x1b[31mN43E008.hgt"}) {
+    const test::TemporaryFolder folder;
+    const auto zip = zipped(folder, name, hgt());
+    EXPECT_THAT(reason(zip), ::testing::AllOf(HasSubstr("expected an entry N43E007.hgt"), HasSubstr(".hgt'")));
+    EXPECT_THAT(reason(zip), ::testing::Not(HasSubstr("\x1b")));
+    EXPECT_EQ(packed_hgt_posts(zip), 0);
+  }
+}
+
+TEST(PackedHgt, AGzipThatNotesAnotherCellIsRefused) {
+  for (const auto& [note, expected] : {std::pair("N43E008.hgt", false), std::pair("n43e007.hgt", true)}) {
+    const test::TemporaryFolder folder;
+    const auto path = gzipped(folder, hgt());
+    std::ifstream in(path, std::ios::binary);
+    std::string bytes((std::istreambuf_iterator<char>(in)), {});
+    bytes[3] = 8;  // RFC 1952: a name follows the head
+    bytes.insert(10, std::string(note) + '\0');
+    std::ofstream(path, std::ios::binary) << bytes;
+    EXPECT_EQ(reason(path) == "none", expected) << reason(path);
+  }
 }
 
 TEST(PackedHgt, AnArchiveWithoutACellIsRefused) {

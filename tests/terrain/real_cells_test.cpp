@@ -50,8 +50,8 @@ TEST(RealCells, NevadaLiesBetween1281And3959MetresAndHasVoids) {
     for (const int west : {-114, -115}) {
       const std::string name = "srtm/N" + std::to_string(south) + "W" + std::to_string(-west) + ".hgt";
       const Cell cell = cell_of(name.c_str(), CellFormat::hgt, {south, west});
-      lowest_m = std::min<int>(lowest_m, cell.lowest_m());
-      highest_m = std::max<int>(highest_m, cell.highest_m());
+      lowest_m = std::min(lowest_m, static_cast<int>(cell.lowest_m()));
+      highest_m = std::max(highest_m, static_cast<int>(cell.highest_m()));
       EXPECT_GE(cell.voids(), 132U);
       EXPECT_LE(cell.voids(), 34964U);
     }

@@ -2,13 +2,13 @@
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
-#include <ogr_srs_api.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
+#include <string_view>
 #include <system_error>
-#include <vector>
+#include <utility>
 
 namespace yars::model::terrain::gdal {
 
@@ -17,15 +17,6 @@ namespace {
 // Drivers of plain local files. No VRT and nothing that follows names or addresses in a file.
 constexpr std::array<const char*, 12> kDrivers = {"GTiff",   "JP2OpenJPEG",    "HFA", "AAIGrid", "EHdr",    "ENVI",
                                                   "USGSDEM", "GRASSASCIIGrid", "BT",  "DTED",    "SRTMHGT", nullptr};
-
-struct DestroyTransform {
-  void operator()(OGRCoordinateTransformationH transform) const { OCTDestroyCoordinateTransformation(transform); }
-};
-using Transform = std::unique_ptr<std::remove_pointer_t<OGRCoordinateTransformationH>, DestroyTransform>;
-struct DestroyReference {
-  void operator()(OGRSpatialReferenceH reference) const { OSRDestroySpatialReference(reference); }
-};
-using Reference = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>, DestroyReference>;
 
 void register_once() {
   static const bool done = [] {
@@ -58,70 +49,31 @@ std::string bands_of(GDALDatasetH dataset) {
   return std::to_string(count) + " of " + GDALGetDataTypeName(type);
 }
 
-// Longitude and latitude of a place in the raster.
-class Locator {
- public:
-  Locator(GDALDatasetH dataset, const std::array<double, 6>& geotransform) : geotransform_(geotransform) {
-    const OGRSpatialReferenceH own = GDALGetSpatialRef(dataset);
-    geographic_ = own != nullptr && OSRIsGeographic(own) != 0;
-    if (own == nullptr || geographic_) return;
-    const Reference from(OSRClone(own));
-    const Reference to(OSRNewSpatialReference(nullptr));
-    OSRImportFromEPSG(to.get(), 4326);
-    OSRSetAxisMappingStrategy(from.get(), OAMS_TRADITIONAL_GIS_ORDER);
-    OSRSetAxisMappingStrategy(to.get(), OAMS_TRADITIONAL_GIS_ORDER);
-    transform_.reset(OCTNewCoordinateTransformation(from.get(), to.get()));
-  }
-  bool geographic() const { return geographic_; }
-  bool works() const { return geographic_ || transform_ != nullptr; }
-
-  struct Place {
-    double longitude_deg, latitude_deg;
-  };
-  std::optional<Place> operator()(double column, double row) const {
-    double x = geotransform_[0] + column * geotransform_[1] + row * geotransform_[2];
-    double y = geotransform_[3] + column * geotransform_[4] + row * geotransform_[5];
-    if (transform_ && OCTTransform(transform_.get(), 1, &x, &y, nullptr) == 0) return std::nullopt;
-    if (!std::isfinite(x) || !std::isfinite(y) || std::abs(y) > 90.5 || std::abs(x) > 1080.0) return std::nullopt;
-    return Place{x, y};
-  }
-
- private:
-  std::array<double, 6> geotransform_;
-  bool geographic_ = false;
-  Transform transform_;
-};
-
-double beside(double longitude_deg, double other_deg) {
-  return longitude_deg - 360.0 * std::round((longitude_deg - other_deg) / 360.0);
+// Metres of one unit of the band; the coordinate system's where the band does not say.
+double metres_of(GDALRasterBandH band, double by_system) {
+  constexpr double kFoot = 0.3048;
+  constexpr double kSurveyFoot = 1200.0 / 3937.0;
+  const std::string_view unit = GDALGetRasterUnitType(band);
+  if (unit == "ft" || unit == "foot" || unit == "feet") return kFoot;
+  if (unit == "US survey foot" || unit == "ftUS" || unit == "us-ft") return kSurveyFoot;
+  return unit.empty() && by_system > 0.0 ? by_system : 1.0;
 }
 
-// Widens the extent over a net of pixel middles, the rim among them. False where one of them is nowhere on earth.
-bool widen(Extent& extent, const Locator& locate, int columns, int rows) {
-  constexpr int kSteps = 32;
-  const auto middle = locate(columns / 2.0, rows / 2.0);
-  if (!middle) return false;
-  extent = {90.0, -90.0, middle->longitude_deg, middle->longitude_deg, 0.0, 0.0};
-  for (int down = 0; down <= kSteps; ++down)
-    for (int right = 0; right <= kSteps; ++right) {
-      const auto place = locate(0.5 + (columns - 1.0) * right / kSteps, 0.5 + (rows - 1.0) * down / kSteps);
-      if (!place) return false;
-      const double longitude_deg =
-          locate.geographic() ? place->longitude_deg : beside(place->longitude_deg, middle->longitude_deg);
-      extent.south_deg = std::min(extent.south_deg, place->latitude_deg);
-      extent.north_deg = std::max(extent.north_deg, place->latitude_deg);
-      extent.west_deg = std::min(extent.west_deg, longitude_deg);
-      extent.east_deg = std::max(extent.east_deg, longitude_deg);
-    }
-  const auto right = locate(columns / 2.0 + 1, rows / 2.0);
-  const auto below = locate(columns / 2.0, rows / 2.0 + 1);
-  if (!right || !below) return false;
-  extent.pixel_north_deg = std::max(std::abs(right->latitude_deg - middle->latitude_deg),
-                                    std::abs(below->latitude_deg - middle->latitude_deg));
-  extent.pixel_east_deg =
-      std::max(std::abs(beside(right->longitude_deg, middle->longitude_deg) - middle->longitude_deg),
-               std::abs(beside(below->longitude_deg, middle->longitude_deg) - middle->longitude_deg));
-  return extent.pixel_north_deg > 0.0 && extent.pixel_east_deg > 0.0;
+bool is_whole(GDALDataType type) {
+  return type == GDT_Int16 || type == GDT_UInt16 || type == GDT_Int32 || type == GDT_UInt32;
+}
+
+void describe_numbers(Raster& raster) {
+  const Georeference& place = raster.georeference;
+  const double metres = metres_of(raster.heights, place.metres_of_a_unit()) * (place.points_down() ? -1.0 : 1.0);
+  raster.scale = GDALGetRasterScale(raster.heights, nullptr) * metres;
+  raster.offset_m = GDALGetRasterOffset(raster.heights, nullptr) * metres;
+  int stated = 0;
+  const double number = GDALGetRasterNoDataValue(raster.heights, &stated);
+  if (stated != 0) raster.void_number = number;
+  raster.masked = (GDALGetMaskFlags(raster.heights) & (GMF_ALL_VALID | GMF_NODATA)) == 0;
+  raster.whole_metres = is_whole(GDALGetRasterDataType(raster.heights)) && std::abs(raster.scale) == 1.0 &&
+                        raster.offset_m == std::round(raster.offset_m) && !place.heights_are_ellipsoidal();
 }
 
 void keep(CPLErr severity, CPLErrorNum /*number*/, const char* text) {
@@ -158,17 +110,14 @@ failure::Expected<Raster> open_raster(const std::filesystem::path& path) {
                          messages.first_or("one that GDAL does not open"));
   if (!holds_heights(dataset))
     return failure::fail(subject, "one band of heights, 16 bits or more", bands_of(dataset), "this is a picture");
+  raster.subject = subject;
   raster.heights = GDALGetRasterBand(dataset, 1);
-  std::array<double, 6> geotransform{};
-  if (GDALGetGeoTransform(dataset, geotransform.data()) != CE_None || GDALGetSpatialRef(dataset) == nullptr)
-    return failure::fail(subject, "a coordinate system and a geotransform", "none",
-                         "give it one with gdal_translate -a_srs -a_ullr");
-  const Locator locate(dataset, geotransform);
-  raster.geographic = locate.geographic();
-  if (!locate.works() || !widen(raster.extent, locate, GDALGetRasterXSize(dataset), GDALGetRasterYSize(dataset)) ||
-      (!raster.geographic && raster.extent.east_deg - raster.extent.west_deg > 180.0))
-    return failure::fail(subject, "a raster that lies on the earth, over less than half of it when projected",
-                         messages.first_or("one whose place cannot be told"), "warp it with gdalwarp -t_srs EPSG:4326");
+  raster.columns = GDALGetRasterXSize(dataset);
+  raster.rows = GDALGetRasterYSize(dataset);
+  auto georeference = Georeference::of(dataset, subject);
+  if (!georeference) return tl::unexpected(georeference.error());
+  raster.georeference = std::move(*georeference);
+  describe_numbers(raster);
   return raster;
 }
 

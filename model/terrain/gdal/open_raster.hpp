@@ -1,15 +1,16 @@
-// Opens a raster of heights with GDAL and works out where on the earth it lies. GDAL's own messages become part of
-// the error; nothing goes to stderr. Private to this folder.
+// Opens a raster of heights with GDAL: one band, its place on the earth, and what makes metres of its numbers.
+// GDAL's own messages become part of the error; nothing goes to stderr. Private to this folder.
 #pragma once
 
 #include <gdal.h>
 
-#include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "lib/failure/error.hpp"
+#include "model/terrain/gdal/georeference.hpp"
 
 namespace yars::model::terrain::gdal {
 
@@ -32,17 +33,18 @@ class MessageKeeper {
   std::string first_;
 };
 
-// Between the middles of the outermost pixels; longitudes not wrapped, west <= east.
-struct Extent {
-  double south_deg = 0.0, north_deg = 0.0, west_deg = 0.0, east_deg = 0.0;
-  double pixel_north_deg = 0.0, pixel_east_deg = 0.0;  // spacing in the middle of the raster
-};
-
 struct Raster {
+  std::string subject;  // its path, for errors
   Dataset dataset;
   GDALRasterBandH heights = nullptr;  // belongs to the dataset
-  bool geographic = false;            // its own coordinates are degrees
-  Extent extent;
+  int columns = 0, rows = 0;
+  Georeference georeference;
+  // Of the band: height [m] = number * scale + offset.
+  double scale = 1.0;
+  double offset_m = 0.0;
+  std::optional<double> void_number;  // what stands for no data
+  bool masked = false;                // a mask of its own says where there is no data
+  bool whole_metres = false;          // its numbers are metres without fractions
 };
 
 // `path` must be a plain file.

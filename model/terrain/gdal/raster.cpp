@@ -1,140 +1,177 @@
 #include "model/terrain/gdal/raster.hpp"
 
-#include <gdal_utils.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <set>
-#include <string_view>
+#include <limits>
+#include <optional>
 #include <utility>
 
+#include "model/terrain/gdal/cell_posts.hpp"
+#include "model/terrain/gdal/height_window.hpp"
 #include "model/terrain/gdal/open_raster.hpp"
+#include "model/terrain/gdal/post_lattice.hpp"
+#include "model/terrain/gdal/raster_cover.hpp"
 
 namespace yars::model::terrain::gdal {
 
 namespace {
 
-constexpr int kStripRows = 1024;  // of a cell at a time, so that its real numbers never stand whole in memory
-constexpr double kDeepest_m = -12000.0;
-constexpr double kHighest_m = 9000.0;
-constexpr double kSea_m = 0.05;  // [m] interpolated sea is not exactly 0
+constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 
-int friendly_posts(double pixel_deg) {
-  const double wanted = std::min(1.0 / pixel_deg, static_cast<double>(kMostPostsPerDegree));
-  int best = 15;
-  for (const int odd : {15, 75, 225})
-    for (int posts = odd; posts <= kMostPostsPerDegree; posts *= 2)
-      if (std::abs(std::log(posts / wanted)) < std::abs(std::log(best / wanted))) best = posts;
-  return best;
-}
-
-// How much of [edge, edge + 1] lies in [low, high].
-double overlap(double edge, double low, double high) {
-  return std::min(edge + 1.0, high) - std::max(edge, low);
-}
-
-struct Conversion {
-  double scale = 1.0;  // metres of one unit of the band
-  double offset_m = 0.0;
+// The middle of the block nearest to a post, and the ways to its neighbours.
+struct Near {
+  int column, row;
+  double right, down;  // [blocks] of the post from the block's middle, [-0.5, 0.5]
 };
 
-Conversion conversion_of(GDALRasterBandH band) {
-  const std::string_view unit = GDALGetRasterUnitType(band);
-  constexpr double kFoot = 0.3048;
-  constexpr double kSurveyFoot = 1200.0 / 3937.0;
-  double metres = 1.0;
-  if (unit == "ft" || unit == "foot" || unit == "feet") metres = kFoot;
-  if (unit == "US survey foot" || unit == "ftUS" || unit == "us-ft") metres = kSurveyFoot;
-  return {GDALGetRasterScale(band, nullptr) * metres, GDALGetRasterOffset(band, nullptr) * metres};
-}
+// One cell as it is read.
+class CellReader {
+ public:
+  CellReader(const Raster& raster, const Grid& grid, bool pixels)
+      : raster_(raster), grid_(grid), pixels_(pixels), posts_(grid.rows, grid.columns, pixels && raster.whole_metres) {}
 
-std::int16_t rounded(float value, const Conversion& conversion) {
-  if (!std::isfinite(value) || value <= kNoHeight + 1) return kNoHeight;
-  const double height_m = value * conversion.scale + conversion.offset_m;
-  if (!(height_m >= kDeepest_m && height_m <= kHighest_m)) return kNoHeight;
-  if (std::abs(height_m) < kSea_m) return 0;
-  const long whole_m = std::lround(height_m);
-  if (whole_m != 0) return static_cast<std::int16_t>(whole_m);
-  return height_m < 0 ? std::int16_t{-1} : std::int16_t{1};
-}
+  failure::Expected<RasterPosts> read() {
+    size_ = block_size();
+    for (int row = 0; row < grid_.rows; row += kTile)
+      for (int column = 0; column < grid_.columns; column += kTile)
+        if (const auto done = read_tile(row, column); !done) return tl::unexpected(done.error());
+    const double unit_m = posts_.unit_m();
+    return RasterPosts{grid_.rows, grid_.columns, unit_m, posts_.take(), impossible_, raster_.georeference.warnings()};
+  }
 
-std::string number(double value) {
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.15g", value);
-  return text.data();
-}
+ private:
+  static constexpr int kTile = 256;  // [posts] a side
 
-struct DestroyOptions {
-  void operator()(GDALWarpAppOptions* options) const { GDALWarpAppOptionsFree(options); }
+  // Blocks of half a post or less, so that means of them lose no relief that posts can hold.
+  BlockSize block_size() const {
+    const PostLattice middle(raster_.georeference, grid_, {grid_.rows / 2 - 1, grid_.columns / 2 - 1, 1, 1});
+    const PixelStep step = middle.step(0, 0);
+    const auto blocks = [](double a, double b) {
+      const double pixels = std::max(std::abs(a), std::abs(b));
+      return std::isfinite(pixels) ? std::max(1, static_cast<int>(std::min(pixels, 1e4) / 2.0)) : 1;
+    };
+    return {blocks(step.column_north, step.column_east), blocks(step.row_north, step.row_east)};
+  }
+
+  int block_columns() const { return (raster_.columns + size_.across - 1) / size_.across; }
+  int block_rows() const { return (raster_.rows + size_.along - 1) / size_.along; }
+
+  failure::Expected<void> read_tile(int first_row, int first_column) {
+    const PostLattice lattice(raster_.georeference, grid_,
+                              {first_row, first_column, std::min(kTile, grid_.rows - 1 - first_row),
+                               std::min(kTile, grid_.columns - 1 - first_column)});
+    const auto bounds = lattice.bounds();
+    if (!bounds) return {};
+    constexpr int kMargin = 2;  // for the neighbours of the outermost, and what the lattice leaves out
+    const Box around = blocks_within(*bounds, kMargin);
+    if (around.columns <= 0 || around.rows <= 0) return {};
+    const auto window = read_window(raster_, size_, around, blocks_within(*bounds, 0));
+    if (!window) return tl::unexpected(window.error());
+    impossible_ += window->impossible;
+    const int end_row = std::min(first_row + kTile, grid_.rows);
+    const int end_column = std::min(first_column + kTile, grid_.columns);
+    for (int row = first_row; row < end_row; ++row)
+      for (int column = first_column; column < end_column; ++column)
+        posts_.put(row, column, height_m(*window, lattice, row - first_row, column - first_column));
+    return {};
+  }
+
+  // The last block belongs to the next tile, unless it is the raster's last.
+  Box blocks_within(const PixelBounds& bounds, int margin) const {
+    const auto span = [&](double low, double high, int pixels, int count) {
+      const int first = std::max(0, static_cast<int>(std::floor(low / pixels)) - margin);
+      int end = static_cast<int>(std::min(std::floor(high / pixels), count - 1.0)) + margin;
+      if (end >= count - 1) end = count;
+      return std::pair(first, std::min(count, end) - first);
+    };
+    const auto [column, columns] = span(std::max(bounds.left, -1.0), bounds.right, size_.across, block_columns());
+    const auto [row, rows] = span(std::max(bounds.top, -1.0), bounds.bottom, size_.along, block_rows());
+    return {column, row, columns, rows};
+  }
+
+  std::optional<Near> nearest(const PixelPlace& place) const {
+    constexpr double kSlack = 1e-6;  // [pixels]
+    if (!(place.column >= -kSlack && place.row >= -kSlack && place.column <= raster_.columns + kSlack &&
+          place.row <= raster_.rows + kSlack))
+      return std::nullopt;
+    // Half a pixel at the rim repeats its outermost posts.
+    const double across = std::clamp(place.column / size_.across - 0.5, 0.0, block_columns() - 1.0);
+    const double along = std::clamp(place.row / size_.along - 0.5, 0.0, block_rows() - 1.0);
+    const auto column = static_cast<int>(std::lround(across));
+    const auto row = static_cast<int>(std::lround(along));
+    return Near{column, row, across - column, along - row};
+  }
+
+  double height_m(const HeightWindow& window, const PostLattice& lattice, int row, int column) const {
+    const auto near = nearest(lattice.place(row, column));
+    if (!near || !contains(window.blocks, *near)) return static_cast<double>(kNothing);
+    const float middle_m = window.at(near->column, near->row);
+    if (std::isnan(middle_m)) return static_cast<double>(kNothing);
+    const double above_m = lattice.above_sea_level_m(row, column);
+    if (pixels_) return static_cast<double>(middle_m) + above_m;
+    if (is_summit(window, *near) && is_closest_post(*near, lattice.step(row, column)))
+      return static_cast<double>(middle_m) + above_m;
+    return between(window, *near) + above_m;
+  }
+
+  static bool contains(const Box& box, const Near& near) {
+    return near.column >= box.first_column && near.row >= box.first_row &&
+           near.column < box.first_column + box.columns && near.row < box.first_row + box.rows;
+  }
+
+  // Bilinear between the middles of blocks; those without a height are left out.
+  static double between(const HeightWindow& window, const Near& near) {
+    const int column = near.column + (near.right < 0 ? -1 : 1);
+    const int row = near.row + (near.down < 0 ? -1 : 1);
+    const double right = std::abs(near.right);
+    const double down = std::abs(near.down);
+    double total = 0.0;
+    double height_m = 0.0;
+    const auto add = [&](int at_column, int at_row, double weight) {
+      if (weight <= 0.0 || !contains(window.blocks, {at_column, at_row, 0, 0})) return;
+      const float block_m = window.at(at_column, at_row);
+      if (std::isnan(block_m)) return;
+      total += weight;
+      height_m += weight * static_cast<double>(block_m);
+    };
+    add(near.column, near.row, (1 - right) * (1 - down));
+    add(column, near.row, right * (1 - down));
+    add(near.column, row, (1 - right) * down);
+    add(column, row, right * down);
+    return height_m / total;
+  }
+
+  // True for one post alone: that which lies nearest to the middle of the block, along the cell's own rows and columns.
+  bool is_closest_post(const Near& near, const PixelStep& step) const {
+    const double right = near.right * size_.across;
+    const double down = near.down * size_.along;
+    const double area = step.column_north * step.row_east - step.column_east * step.row_north;
+    if (area == 0.0) return false;
+    const double north = (right * step.row_east - down * step.column_east) / area;
+    const double east = (down * step.column_north - right * step.row_north) / area;
+    return std::abs(north) <= 0.5 && std::abs(east) <= 0.5;
+  }
+
+  static bool is_summit(const HeightWindow& window, const Near& near) {
+    const float middle_m = window.at(near.column, near.row);
+    bool higher = false;
+    for (int row = near.row - 1; row <= near.row + 1; ++row)
+      for (int column = near.column - 1; column <= near.column + 1; ++column) {
+        if (!contains(window.blocks, {column, row, 0, 0})) continue;
+        if (window.at(column, row) > middle_m) return false;
+        higher = higher || window.at(column, row) < middle_m;
+      }
+    return higher;
+  }
+
+  const Raster& raster_;
+  Grid grid_;
+  bool pixels_;  // the posts are the raster's own
+  BlockSize size_;
+  CellPosts posts_;
+  std::size_t impossible_ = 0;
 };
-
-// Rows [first, first + count) from the north of a cell's grid.
-struct Strip {
-  double west_deg = 0.0;   // of the cell, in the raster's own turn
-  double north_deg = 0.0;  // of the cell
-  int rows_per_degree = 0, columns_per_degree = 0;
-  int first = 0, count = 0;
-};
-
-std::vector<std::string> warp_arguments(const Raster& raster, const Strip& strip) {
-  const double down_deg = 1.0 / strip.rows_per_degree;
-  const double right_deg = 1.0 / strip.columns_per_degree;
-  // Posts are the middles of pixels.
-  const double north_deg = strip.north_deg - (strip.first - 0.5) * down_deg;
-  std::vector<std::string> arguments = {
-      "-q",
-      "-of",
-      "MEM",
-      "-ot",
-      "Float32",
-      "-r",
-      "bilinear",
-      "-ovr",
-      "AUTO",
-      "-novshift",
-      "-wm",
-      "64",
-      "-dstnodata",
-      number(kNoHeight),
-      "-te",
-      number(strip.west_deg - right_deg / 2),
-      number(north_deg - strip.count * down_deg),
-      number(strip.west_deg + 1.0 + right_deg / 2),
-      number(north_deg),
-      "-ts",
-      std::to_string(strip.columns_per_degree + 1),
-      std::to_string(strip.count),
-      "-et",
-      raster.geographic ? "0" : "0.02"};  // [pixels] a fiftieth moves a height less than its rounding
-  if (!raster.geographic) arguments.insert(arguments.end(), {"-t_srs", "EPSG:4326"});
-  int has_void = 0;
-  (void)GDALGetRasterNoDataValue(raster.heights, &has_void);
-  // What elevation rasters use where they do not say so.
-  if (has_void == 0) arguments.insert(arguments.end(), {"-srcnodata", number(kNoHeight)});
-  return arguments;
-}
-
-failure::Expected<std::vector<float>> warp(const Raster& raster, const Strip& strip, const std::string& subject) {
-  const MessageKeeper messages;
-  std::vector<std::string> arguments = warp_arguments(raster, strip);
-  std::vector<char*> pointers;
-  pointers.reserve(arguments.size() + 1);
-  for (std::string& argument : arguments) pointers.push_back(argument.data());
-  pointers.push_back(nullptr);
-  const std::unique_ptr<GDALWarpAppOptions, DestroyOptions> options(GDALWarpAppOptionsNew(pointers.data(), nullptr));
-  GDALDatasetH source = raster.dataset.get();
-  int wrong_usage = 0;
-  const Dataset warped(options ? GDALWarp("", nullptr, 1, &source, options.get(), &wrong_usage) : nullptr);
-  const int columns = strip.columns_per_degree + 1;
-  std::vector<float> heights(static_cast<std::size_t>(columns) * static_cast<std::size_t>(strip.count));
-  if (!warped || GDALRasterIO(GDALGetRasterBand(warped.get(), 1), GF_Read, 0, 0, columns, strip.count, heights.data(),
-                              columns, strip.count, GDT_Float32, 0, 0) != CE_None)
-    return failure::fail(subject, "heights that can be read", messages.first_or("a failure of GDAL"),
-                         "the file may be damaged; fetch it again");
-  return heights;
-}
 
 }  // namespace
 
@@ -145,20 +182,7 @@ bool available() {
 failure::Expected<RasterSummary> describe_raster(const std::filesystem::path& path) {
   const auto raster = open_raster(path);
   if (!raster) return tl::unexpected(raster.error());
-  const Extent& extent = raster->extent;
-  RasterSummary summary{friendly_posts(extent.pixel_north_deg), friendly_posts(extent.pixel_east_deg), {}};
-  std::set<std::pair<int, int>> seen;
-  const int last_south = std::min(89, static_cast<int>(std::floor(extent.north_deg)));
-  for (int south = std::max(-90, static_cast<int>(std::floor(extent.south_deg))); south <= last_south; ++south) {
-    const double high = overlap(south, extent.south_deg, extent.north_deg);
-    if (high < extent.pixel_north_deg / 4) continue;
-    for (int west = static_cast<int>(std::floor(extent.west_deg)); west <= std::floor(extent.east_deg); ++west) {
-      const double wide = overlap(west, extent.west_deg, extent.east_deg);
-      const int wrapped = ((west + 180) % 360 + 360) % 360 - 180;
-      if (wide < extent.pixel_east_deg / 4 || !seen.emplace(south, wrapped).second) continue;
-      summary.cells.push_back({south, wrapped, high * wide});
-    }
-  }
+  RasterSummary summary{cells_of(*raster)};
   if (summary.cells.empty())
     return failure::fail(path.string(), "a raster of several pixels", "one that touches no cell of a degree");
   return summary;
@@ -168,34 +192,8 @@ failure::Expected<RasterPosts> read_raster(const std::filesystem::path& path, in
                                            int posts_per_degree_north, int posts_per_degree_east) {
   const auto raster = open_raster(path);
   if (!raster) return tl::unexpected(raster.error());
-  const Extent& extent = raster->extent;
-  RasterPosts cell{posts_per_degree_north + 1, posts_per_degree_east + 1, {}};
-  const auto columns = static_cast<std::size_t>(cell.columns);
-  cell.posts.assign(static_cast<std::size_t>(cell.rows) * columns, kNoHeight);
-  const Conversion conversion = conversion_of(raster->heights);
-  // The turn of the earth that brings the cell beside the raster's middle.
-  const double middle_deg = (extent.west_deg + extent.east_deg) / 2;
-  const double turned_deg = west_deg + 360.0 * std::round((middle_deg - west_deg - 0.5) / 360.0);
-  for (int first = 0; first < cell.rows; first += kStripRows) {
-    const Strip strip{turned_deg,
-                      south_deg + 1.0,
-                      posts_per_degree_north,
-                      posts_per_degree_east,
-                      first,
-                      std::min(kStripRows, cell.rows - first)};
-    const double north_deg = strip.north_deg - static_cast<double>(first) / posts_per_degree_north;
-    const double south_edge_deg = north_deg - static_cast<double>(strip.count - 1) / posts_per_degree_north;
-    if (south_edge_deg > extent.north_deg + extent.pixel_north_deg ||
-        north_deg < extent.south_deg - extent.pixel_north_deg)
-      continue;
-    const auto heights = warp(*raster, strip, path.string());
-    if (!heights) return tl::unexpected(heights.error());
-    for (std::size_t i = 0; i < heights->size(); ++i) {
-      const std::size_t row_from_south = static_cast<std::size_t>(cell.rows - 1 - first) - i / columns;
-      cell.posts[row_from_south * columns + i % columns] = rounded((*heights)[i], conversion);
-    }
-  }
-  return cell;
+  const Grid grid{south_deg, west_deg, posts_per_degree_north + 1, posts_per_degree_east + 1};
+  return CellReader(*raster, grid, posts_are_pixels(*raster, posts_per_degree_north, posts_per_degree_east)).read();
 }
 
 }  // namespace yars::model::terrain::gdal

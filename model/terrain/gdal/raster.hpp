@@ -2,9 +2,12 @@
 // functions, which fail with a word (raster_absent.cpp).
 // Opened are plain files through drivers that read one local file: GeoTIFF, JPEG 2000, Erdas Imagine, ASCII and BIL
 // grids, ENVI, USGS DEM, DTED, HGT. Never a .vrt: it may name any path or address.
-// A raster needs one band of 16-bit or real heights, a coordinate system and a geotransform; feet become metres.
-// Posts: rows from south to north, both edges of the degree included, metres; kNoHeight outside the raster and where
-// it has no data. Bilinear; a height that is not 0 m rounds to at least 1 m away from it (0 m means sea).
+// A raster needs one band of 16-bit or real heights, a coordinate system and a geotransform; any datum is brought to
+// WGS84, any unit to metres, ellipsoidal heights to mean sea level, each by PROJ (georeference.hpp).
+// Posts: rows from south to north, both edges of the degree included; kNoHeight outside the raster and where it has no
+// data. Between its posts a cell is what lies between the raster's, to within a quarter of their own error of slope
+// (rms; half a spacing times the slope), and a summit keeps its height. A height that is not 0 m is at least a unit
+// away from it (0 m means sea).
 // Errors: GDAL cannot open or read it, or it is not such a raster. Thread-safe: each call opens the file anew.
 #pragma once
 
@@ -27,12 +30,12 @@ struct RasterCell {
   int south_deg = 0;
   int west_deg = 0;
   double covered = 0.0;  // (0, 1] share of the degree that the raster spans
+  // The raster's own posts where they are the cell's too; else twice as fine or more.
+  int posts_per_degree_north = 0;
+  int posts_per_degree_east = 0;
 };
 
 struct RasterSummary {
-  // Nearest to the raster's own spacing of 15, 75 and 225 times a power of two, so that it halves often.
-  int posts_per_degree_north = 0;
-  int posts_per_degree_east = 0;
   std::vector<RasterCell> cells;  // that the raster touches by more than a quarter of a pixel
 };
 
@@ -42,10 +45,13 @@ failure::Expected<RasterSummary> describe_raster(const std::filesystem::path& pa
 struct RasterPosts {
   int rows = 0;
   int columns = 0;
-  std::vector<std::int16_t> posts;  // [m]
+  double unit_m = 1.0;                // [m] of a post; a tenth or a few where the raster has fractions
+  std::vector<std::int16_t> posts;    // [unit_m]
+  std::size_t impossible = 0;         // of the raster's own posts, heights that no ground has; they are void
+  std::vector<std::string> warnings;  // about the whole raster
 };
 
-// The posts of one degree, so many intervals a side; coarser than the raster: smoothed, through its overviews.
+// The posts of one degree, so many intervals a side; coarser than the raster: of means over half a post or less.
 failure::Expected<RasterPosts> read_raster(const std::filesystem::path& path, int south_deg, int west_deg,
                                            int posts_per_degree_north, int posts_per_degree_east);
 

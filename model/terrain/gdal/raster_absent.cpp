@@ -1,5 +1,6 @@
 // In place of raster.cpp in a build without GDAL.
 #include "model/terrain/gdal/raster.hpp"
+#include "model/terrain/gdal/raster_survey.hpp"
 
 namespace yars::model::terrain::gdal {
 
@@ -22,6 +23,11 @@ failure::Expected<RasterSummary> describe_raster(const std::filesystem::path& pa
 
 failure::Expected<RasterPosts> read_raster(const std::filesystem::path& path, int /*south_deg*/, int /*west_deg*/,
                                            int /*posts_per_degree_north*/, int /*posts_per_degree_east*/) {
+  return built_without(path);
+}
+
+failure::Expected<std::optional<RasterFacts>> survey_raster(const std::filesystem::path& path,
+                                                            const std::function<void(double)>& /*progress*/) {
   return built_without(path);
 }
 

@@ -9,20 +9,43 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace yars::test {
+
+struct DestroyTransform {
+  void operator()(OGRCoordinateTransformationH transform) const { OCTDestroyCoordinateTransformation(transform); }
+};
+using Transform = std::unique_ptr<std::remove_pointer_t<OGRCoordinateTransformationH>, DestroyTransform>;
+
+// PROJ's way by GDAL, longitude and easting first.
+inline Transform transform_between(const char* from_system, const char* to_system) {
+  const OGRSpatialReferenceH from = OSRNewSpatialReference(nullptr);
+  const OGRSpatialReferenceH to = OSRNewSpatialReference(nullptr);
+  OSRSetFromUserInput(from, from_system);
+  OSRSetFromUserInput(to, to_system);
+  OSRSetAxisMappingStrategy(from, OAMS_TRADITIONAL_GIS_ORDER);
+  OSRSetAxisMappingStrategy(to, OAMS_TRADITIONAL_GIS_ORDER);
+  Transform made(OCTNewCoordinateTransformation(from, to));
+  OSRDestroySpatialReference(from);
+  OSRDestroySpatialReference(to);
+  return made;
+}
 
 struct RasterFields {
   int columns = 0, rows = 0;
   std::array<double, 6> geotransform{};  // of pixel corners, north up
   int epsg = 4326;                       // 0: no coordinate system
+  const char* system = nullptr;          // in its place, as OSRSetFromUserInput() takes it
   GDALDataType type = GDT_Int16;
   int bands = 1;
   std::optional<double> void_value = {};
   const char* unit = nullptr;
+  double scale = 1.0, offset = 0.0;  // of the band
   const char* driver = "GTiff";
 };
 
@@ -41,9 +64,12 @@ inline void write_raster(const std::filesystem::path& path, const RasterFields& 
   const GDALDatasetH dataset = GDALCreate(memory, "", fields.columns, fields.rows, fields.bands, fields.type, nullptr);
   std::array<double, 6> geotransform = fields.geotransform;
   GDALSetGeoTransform(dataset, geotransform.data());
-  if (fields.epsg != 0) {
+  if (fields.epsg != 0 || fields.system != nullptr) {
     const OGRSpatialReferenceH reference = OSRNewSpatialReference(nullptr);
-    OSRImportFromEPSG(reference, fields.epsg);
+    if (fields.system != nullptr)
+      OSRSetFromUserInput(reference, fields.system);
+    else
+      OSRImportFromEPSG(reference, fields.epsg);
     OSRSetAxisMappingStrategy(reference, OAMS_TRADITIONAL_GIS_ORDER);
     GDALSetSpatialRef(dataset, reference);
     OSRDestroySpatialReference(reference);
@@ -51,6 +77,8 @@ inline void write_raster(const std::filesystem::path& path, const RasterFields& 
   const GDALRasterBandH band = GDALGetRasterBand(dataset, 1);
   if (fields.void_value) GDALSetRasterNoDataValue(band, *fields.void_value);
   if (fields.unit != nullptr) GDALSetRasterUnitType(band, fields.unit);
+  if (fields.scale != 1.0) GDALSetRasterScale(band, fields.scale);
+  if (fields.offset != 0.0) GDALSetRasterOffset(band, fields.offset);
   std::vector<double> line(static_cast<std::size_t>(fields.columns));
   for (int row = 0; row < fields.rows; ++row) {
     for (int column = 0; column < fields.columns; ++column)

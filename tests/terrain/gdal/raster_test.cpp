@@ -51,9 +51,9 @@ TEST_P(RasterOf, ADegreeOfPostsIsReadPostByPost) {
   write_raster(path, fields, [](int row, int column) { return 100 + 7 * row - 3 * column; });
   const auto summary = gdal::describe_raster(path);
   ASSERT_TRUE(summary.has_value()) << summary.error().message();
-  EXPECT_EQ(summary->posts_per_degree_north, 120);
-  EXPECT_EQ(summary->posts_per_degree_east, 120);
   ASSERT_EQ(summary->cells.size(), 1U) << "half a pixel beyond the edge is no other cell";
+  EXPECT_EQ(summary->cells[0].posts_per_degree_north, 120);
+  EXPECT_EQ(summary->cells[0].posts_per_degree_east, 120);
   EXPECT_NEAR(summary->cells[0].covered, 1.0, 1e-6);
   const Cell cell = read(path, {-36, 149});
   for (int row = 0; row < 121; ++row)
@@ -122,18 +122,18 @@ TEST(Raster, AProjectedGridIsPutWhereItLies) {
     for (int column = 0; column < cell.columns(); ++column) {
       if (cell.post(row, column) == kVoidPost) continue;
       ++known;
-      ASSERT_NEAR(cell.post(row, column),
+      ASSERT_NEAR(cell.post(row, column) * cell.unit_m(),
                   height_m(37 + static_cast<double>(row) / (cell.rows() - 1),
                            -123 + static_cast<double>(column) / (cell.columns() - 1)),
-                  // Rounding, a fiftieth of a pixel, and half a pixel of extrapolation at the rim.
-                  0.5 + 1.5 + 2.0);
+                  // Rounding, the lattice, and half a pixel of repetition at the rim.
+                  0.05 + 0.02 + 2.0);
     }
   EXPECT_GT(known, cell.rows() * cell.columns() / 3);
   EXPECT_GT(cell.voids(), 0U);
   // Its east neighbour is another cell of the same file; both give the same heights on the edge.
   const Cell east = read(folder.path() / "mercator.tif", {37, -122});
   ASSERT_EQ(east.rows(), cell.rows());
-  for (int row = 0; row < cell.rows(); ++row) EXPECT_NEAR(east.post(row, 0), cell.post(row, cell.columns() - 1), 1);
+  for (int row = 0; row < cell.rows(); ++row) EXPECT_EQ(east.post(row, 0), cell.post(row, cell.columns() - 1));
 }
 
 TEST(Raster, LongitudesFromZeroTo360AreTheSameEarth) {
@@ -158,9 +158,10 @@ TEST(Raster, FeetBecomeMetresAndLandStaysOffZero) {
     return row < 40 ? 0.0 : row < 80 ? 1.0 : 1000.0;
   });
   const Cell cell = read(folder.path() / "feet.tif", {10, 20});
+  EXPECT_DOUBLE_EQ(cell.unit_m(), 0.1);
   EXPECT_EQ(cell.post(120, 0), 0);
-  EXPECT_EQ(cell.post(60, 0), 1) << "0.3 m is land";
-  EXPECT_EQ(cell.post(0, 0), 305);
+  EXPECT_EQ(cell.post(60, 0), 3) << "0.3 m is land";
+  EXPECT_EQ(cell.post(0, 0), 3048);
 }
 
 TEST(Raster, ReducedItIsWhatReduceMakesOfItsPosts) {
@@ -182,7 +183,7 @@ TEST(Raster, APartialOneServesOnlyWhereNothingWholeDoes) {
   write_raster(folder.path() / "fine.tif", {100, 100, {-121.5, step, 0, 36.5, 0, -step}}, [](int, int) { return 9; });
   auto index = index_directory(folder.path());
   ASSERT_TRUE(index.has_value()) << index.error().message();
-  EXPECT_EQ(index->at(slot_of({36, -122})).posts_per_degree, 3600);
+  EXPECT_EQ(index->at(slot_of({36, -122})).posts_per_degree, 7200) << "its posts lie between those of a cell";
   folder.write("w122/n36.dt0", test::level_dted(36, -122, 5).bytes());
   index = index_directory(folder.path());
   EXPECT_EQ(index->at(slot_of({36, -122})).format, CellFormat::dted);
@@ -243,8 +244,8 @@ TEST(RealRasters, AnSrtmGeoTiffIsOneCellWithItsVoids) {
     const auto path = test::shared_data() / "geotiff" / name;
     const auto summary = gdal::describe_raster(path);
     ASSERT_TRUE(summary.has_value()) << summary.error().message();
-    EXPECT_EQ(summary->posts_per_degree_north, 1200) << name;
     ASSERT_EQ(summary->cells.size(), 1U) << name;
+    EXPECT_EQ(summary->cells[0].posts_per_degree_north, 1200) << name;
     EXPECT_EQ((CellPlace{summary->cells[0].south_deg, summary->cells[0].west_deg}), place) << name;
   }
   const Cell rainier = read(test::shared_data() / "geotiff/mt_rainier_90m.tif", {46, -122});
@@ -267,7 +268,7 @@ TEST(RealRasters, AMercatorGridOfSanFranciscoIsFoundAndFiner) {
   ASSERT_EQ(summary->cells.size(), 1U);
   EXPECT_EQ(summary->cells[0].south_deg, 37);
   EXPECT_EQ(summary->cells[0].west_deg, -123);
-  EXPECT_EQ(summary->posts_per_degree_north, gdal::kMostPostsPerDegree);
+  EXPECT_EQ(summary->cells[0].posts_per_degree_north, gdal::kMostPostsPerDegree);
   const Cell cell = read(path, {37, -123}, 1);
   EXPECT_EQ(cell.rows(), 3601);
   // Half of Telegraph Hill to Twin Peaks: the city's heights.

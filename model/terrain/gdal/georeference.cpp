@@ -1,0 +1,291 @@
+#include "model/terrain/gdal/georeference.hpp"
+
+#include <cpl_conv.h>
+#include <ogr_srs_api.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <type_traits>
+#include <utility>
+
+#include "model/terrain/gdal/operations.hpp"
+
+namespace yars::model::terrain::gdal {
+
+namespace {
+
+constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* kWarpIt = "warp it with gdalwarp -t_srs EPSG:4326";
+
+std::string well_known_text(OGRSpatialReferenceH reference) {
+  char* text = nullptr;
+  const std::array<const char*, 2> options{"FORMAT=WKT2_2019", nullptr};
+  const bool made = OSRExportToWktEx(reference, &text, options.data()) == OGRERR_NONE && text != nullptr;
+  std::string wkt = made ? text : "";
+  CPLFree(text);
+  return wkt;
+}
+
+struct DestroyReference {
+  void operator()(OGRSpatialReferenceH reference) const { OSRDestroySpatialReference(reference); }
+};
+using Reference = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>, DestroyReference>;
+
+// The system without its heights, or with ellipsoidal ones: as OSRDemoteTo2D() or OSRPromoteTo3D() change it.
+using Change = OGRErr (*)(OGRSpatialReferenceH, const char*);
+Projection changed(PJ_CONTEXT* context, PJ* system, Change change) {
+  const char* const text = proj_as_wkt(context, system, PJ_WKT2_2019, nullptr);
+  const Reference reference(OSRNewSpatialReference(text));
+  if (text == nullptr || change(reference.get(), nullptr) != OGRERR_NONE) return nullptr;
+  return Projection(proj_create(context, well_known_text(reference.get()).c_str()));
+}
+
+std::string name_of(PJ* object) {
+  const char* name = proj_get_name(object);
+  return name == nullptr ? "without a name" : name;
+}
+
+bool says_ellipsoid(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return name.find("ellipsoid") != std::string::npos;
+}
+
+struct Axis {
+  std::string direction;
+  double unit = 1.0;  // [m] or [rad]
+};
+
+struct Axes {
+  int count = 0;
+  bool angles = false;  // of a geographic system
+  std::array<Axis, 3> axes;
+};
+
+Axes axes_of(PJ_CONTEXT* context, PJ* system) {
+  Axes axes;
+  // A system with its own parameters to WGS84 is bound; its axes are those of the one inside.
+  const Projection inside(proj_get_type(system) == PJ_TYPE_BOUND_CRS ? proj_get_source_crs(context, system) : nullptr);
+  const Projection coordinates(proj_crs_get_coordinate_system(context, inside ? inside.get() : system));
+  if (!coordinates) return axes;
+  axes.angles = proj_cs_get_type(context, coordinates.get()) == PJ_CS_TYPE_ELLIPSOIDAL;
+  axes.count = std::clamp(proj_cs_get_axis_count(context, coordinates.get()), 0, 3);
+  for (int axis = 0; axis < axes.count; ++axis) {
+    const char* direction = nullptr;
+    double unit = 1.0;
+    proj_cs_get_axis_info(context, coordinates.get(), axis, nullptr, nullptr, &direction, &unit, nullptr, nullptr,
+                          nullptr);
+    axes.axes[static_cast<std::size_t>(axis)] = {direction == nullptr ? "" : direction, unit};
+  }
+  return axes;
+}
+
+}  // namespace
+
+failure::Expected<Georeference> Georeference::of(GDALDatasetH dataset, const std::string& subject) {
+  Georeference georeference;
+  if (GDALGetGeoTransform(dataset, georeference.data_from_pixel_.data()) != CE_None ||
+      GDALGetSpatialRef(dataset) == nullptr)
+    return failure::fail(subject, "a coordinate system and a geotransform", "none",
+                         "give it one with gdal_translate -a_srs -a_ullr");
+  if (GDALInvGeoTransform(georeference.data_from_pixel_.data(), georeference.pixel_from_data_.data()) == 0)
+    return failure::fail(subject, "a geotransform that spans a plane", "one that does not", kWarpIt);
+  georeference.width_ = GDALGetRasterXSize(dataset);
+  georeference.height_ = GDALGetRasterYSize(dataset);
+  georeference.context_.reset(proj_context_create());
+  proj_context_set_enable_network(georeference.context_.get(), 0);
+  proj_log_func(georeference.context_.get(), nullptr, [](void*, int, const char*) {});
+  if (const auto read = georeference.read_system(dataset, subject); !read) return tl::unexpected(read.error());
+  return georeference;
+}
+
+failure::Expected<void> Georeference::read_system(GDALDatasetH dataset, const std::string& subject) {
+  const OGRSpatialReferenceH reference = GDALGetSpatialRef(dataset);
+  int count = 0;
+  const int* const mapping = OSRGetDataAxisToSRSAxisMapping(reference, &count);
+  if (mapping != nullptr && count >= 2 && std::abs(mapping[0]) + std::abs(mapping[1]) == 3)
+    axis_ = {mapping[0], mapping[1]};
+  PJ_CONTEXT* const context = context_.get();
+  const Projection whole(proj_create(context, well_known_text(reference).c_str()));
+  if (!whole) return failure::fail(subject, "a coordinate system that PROJ knows", "one that it does not", kWarpIt);
+  Projection horizontal, vertical;
+  if (proj_get_type(whole.get()) == PJ_TYPE_COMPOUND_CRS) {
+    horizontal.reset(proj_crs_get_sub_crs(context, whole.get(), 0));
+    vertical.reset(proj_crs_get_sub_crs(context, whole.get(), 1));
+  } else {
+    horizontal = changed(context, whole.get(), OSRDemoteTo2D);
+  }
+  if (!horizontal) return failure::fail(subject, "a coordinate system on the earth", name_of(whole.get()), kWarpIt);
+  if (const auto found = find_way(horizontal.get(), subject); !found) return found;
+  find_turn(horizontal.get());
+  const Axes axes = axes_of(context, whole.get());
+  if (!vertical && axes.count == 3) {
+    metres_of_a_unit_ = axes.axes[2].unit;
+    return find_geoid(horizontal.get(), subject);
+  }
+  return vertical ? read_vertical(vertical.get(), horizontal.get(), subject) : failure::Expected<void>{};
+}
+
+failure::Expected<void> Georeference::read_vertical(PJ* vertical, PJ* horizontal, const std::string& subject) {
+  const Axes axes = axes_of(context_.get(), vertical);
+  if (axes.count > 0) {
+    metres_of_a_unit_ = axes.axes[0].unit;
+    points_down_ = axes.axes[0].direction == "down";
+  }
+  return says_ellipsoid(name_of(vertical)) ? find_geoid(horizontal, subject) : failure::Expected<void>{};
+}
+
+failure::Expected<void> Georeference::find_geoid(PJ* horizontal, const std::string& subject) {
+  const Projection spatial = changed(context_.get(), horizontal, OSRPromoteTo3D);
+  const Projection above_sea(proj_create(context_.get(), "EPSG:4326+5773"));
+  Found found = spatial && above_sea ? operation_between(context_.get(), spatial.get(), above_sea.get(),
+                                                         net_of_pixels(), Ways::exact_only)
+                                     : Found{};
+  if (!found.operation)
+    return failure::fail(subject, "heights above mean sea level",
+                         "heights above the ellipsoid, and no geoid (EGM96) that PROJ has",
+                         "install proj-data, or make them heights above mean sea level with gdalwarp -t_srs "
+                         "EPSG:4326+5773");
+  geoid_ = std::move(found.operation);
+  warnings_.push_back(
+      "heights are above the ellipsoid; by the geoid EGM96 they are made heights above mean sea level, " +
+      accuracy_text(context_.get(), geoid_.get()));
+  return {};
+}
+
+// Pixels all over the raster, in the order and the units of its system: what a way has to serve.
+Net Georeference::net_of_pixels() const {
+  constexpr int kSteps = 8;
+  Net net;
+  for (int down = 0; down <= kSteps; ++down)
+    for (int right = 0; right <= kSteps; ++right) {
+      net.x.push_back(0.5 + (width_ - 1.0) * right / kSteps);
+      net.y.push_back(0.5 + (height_ - 1.0) * down / kSteps);
+    }
+  to_system(net.x, net.y);
+  if (longitude_first_) std::swap(net.x, net.y);
+  return net;
+}
+
+failure::Expected<void> Georeference::find_way(PJ* horizontal, const std::string& subject) {
+  PJ_CONTEXT* const context = context_.get();
+  const Projection wgs84(proj_create(context, "EPSG:4326"));
+  if (proj_is_equivalent_to_with_ctx(context, horizontal, wgs84.get(), PJ_COMP_EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS) !=
+      0) {
+    take_as_wgs84(axes_of(context, horizontal).axes[0].direction == "east");
+    return {};
+  }
+  Found found = operation_between(context, horizontal, wgs84.get(), net_of_pixels(), Ways::all);
+  if (!found.operation)
+    return failure::fail(subject, "a raster that lies on the earth",
+                         "coordinates of " + name_of(horizontal) + " that PROJ cannot bring to WGS84", kWarpIt);
+  to_wgs84_ = std::move(found.operation);
+  if (!found.warning.empty()) warnings_.push_back(name_of(horizontal) + ": " + found.warning);
+  return {};
+}
+
+// The system's degrees are those of WGS84, whose order here is latitude first.
+void Georeference::take_as_wgs84(bool longitude_first) {
+  to_wgs84_.reset();
+  longitude_first_ = longitude_first;
+  if (longitude_first) axis_ = {3 - std::abs(axis_[0]), 3 - std::abs(axis_[1])};
+}
+
+// Angles come round again: of a raster in degrees, grads, ... the turn that brings a place beside its middle counts.
+void Georeference::find_turn(PJ* horizontal) {
+  middle_x_ = data_from_pixel_[0] + data_from_pixel_[1] * width_ / 2.0 + data_from_pixel_[2] * height_ / 2.0;
+  if (!to_wgs84_) {
+    turn_ = 360.0;
+    return;
+  }
+  const Axes axes = axes_of(context_.get(), horizontal);
+  if (!axes.angles || !(axes.axes[0].unit > 0.0)) return;
+  turn_ = 2.0 * std::numbers::pi / axes.axes[0].unit;
+  // Where a datum makes no difference, the degrees may be taken as they are.
+  constexpr double kNoPixels = 1e-3;
+  std::vector<double> across{0.5, width_ - 0.5, width_ - 0.5, width_ / 2.0};
+  std::vector<double> along{0.5, 0.5, height_ - 0.5, height_ / 2.0};
+  const std::vector<double> pixels_across = across, pixels_along = along;
+  if (std::abs(turn_ - 360.0) > 1e-9) return;
+  to_earth(across, along);
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < across.size(); ++i) {
+    const double x = across[i] + 360.0 * std::round((middle_x_ - across[i]) / 360.0);
+    const double column = pixel_from_data_[0] + pixel_from_data_[1] * x + pixel_from_data_[2] * along[i];
+    const double row = pixel_from_data_[3] + pixel_from_data_[4] * x + pixel_from_data_[5] * along[i];
+    farthest = std::max(
+        farthest, std::isfinite(column + row) ? std::hypot(column - pixels_across[i], row - pixels_along[i]) : 1.0);
+  }
+  if (farthest < kNoPixels) take_as_wgs84(axes.axes[0].direction == "east");
+}
+
+// From pixels to the system's coordinates in its own order, and back.
+void Georeference::to_system(std::span<double> x, std::span<double> y) const {
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const std::array<double, 2> data{data_from_pixel_[0] + data_from_pixel_[1] * x[i] + data_from_pixel_[2] * y[i],
+                                     data_from_pixel_[3] + data_from_pixel_[4] * x[i] + data_from_pixel_[5] * y[i]};
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      (std::abs(axis_[axis]) == 1 ? x : y)[i] = axis_[axis] < 0 ? -data[axis] : data[axis];
+  }
+}
+
+double Georeference::near_middle(double x) const {
+  return turn_ > 0.0 ? x + turn_ * std::round((middle_x_ - x) / turn_) : x;
+}
+
+// `near_x`: of the data; where angles come round, beside it.
+void Georeference::from_system(std::span<double> x, std::span<double> y, double near_x) const {
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    std::array<double, 2> data{};
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const double value = std::abs(axis_[axis]) == 1 ? x[i] : y[i];
+      data[axis] = axis_[axis] < 0 ? -value : value;
+    }
+    if (turn_ > 0.0) data[0] += turn_ * std::round((near_x - data[0]) / turn_);
+    x[i] = pixel_from_data_[0] + pixel_from_data_[1] * data[0] + pixel_from_data_[2] * data[1];
+    y[i] = pixel_from_data_[3] + pixel_from_data_[4] * data[0] + pixel_from_data_[5] * data[1];
+    if (!std::isfinite(x[i]) || !std::isfinite(y[i])) x[i] = y[i] = kNowhere;
+  }
+}
+
+void Georeference::to_earth(std::span<double> across, std::span<double> along) const {
+  to_system(across, along);
+  // PROJ's WGS84 has the latitude first.
+  if (to_wgs84_) transform(to_wgs84_.get(), PJ_FWD, across, along, nullptr);
+  for (std::size_t i = 0; i < across.size(); ++i) {
+    std::swap(across[i], along[i]);
+    if (!(std::abs(along[i]) <= 90.5) || !(std::abs(across[i]) <= 1080.0)) across[i] = along[i] = kNowhere;
+  }
+}
+
+void Georeference::to_pixels(std::span<double> across, std::span<double> along, EarthPlace reference) const {
+  std::array<double, 2> first{reference.latitude_deg, reference.longitude_deg};
+  const std::span<double> latitude(&first[0], 1);
+  const std::span<double> longitude(&first[1], 1);
+  for (std::size_t i = 0; i < across.size(); ++i) std::swap(across[i], along[i]);
+  if (to_wgs84_) {
+    transform(to_wgs84_.get(), PJ_INV, latitude, longitude, nullptr);
+    transform(to_wgs84_.get(), PJ_INV, across, along, nullptr);
+  }
+  const double reference_x = (axis_[0] < 0 ? -1.0 : 1.0) * first[static_cast<std::size_t>(std::abs(axis_[0]) - 1)];
+  from_system(across, along, near_middle(reference_x));
+}
+
+std::vector<double> Georeference::above_sea_level_m(std::span<const double> longitudes_deg,
+                                                    std::span<const double> latitudes_deg) const {
+  std::vector<double> first(latitudes_deg.begin(), latitudes_deg.end());
+  std::vector<double> second(longitudes_deg.begin(), longitudes_deg.end());
+  std::vector<double> height_m(first.size(), 0.0);
+  // To the raster's own system and from there with a height of 0.
+  if (to_wgs84_) transform(to_wgs84_.get(), PJ_INV, first, second, nullptr);
+  if (longitude_first_) std::swap(first, second);
+  transform(geoid_.get(), PJ_FWD, first, second, height_m.data());
+  for (double& height : height_m)
+    if (!std::isfinite(height)) height = kNowhere;
+  return height_m;
+}
+
+}  // namespace yars::model::terrain::gdal

@@ -1,0 +1,134 @@
+#include "model/terrain/gdal/raster_survey.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "model/terrain/gdal/height_window.hpp"
+#include "model/terrain/gdal/open_raster.hpp"
+#include "model/terrain/gdal/raster_cover.hpp"
+
+namespace yars::model::terrain::gdal {
+
+namespace {
+
+// Pixels [first, first + count) of a dimension that lie in a degree, both edges included.
+struct Span {
+  int edge_deg = 0;  // south or west, not wrapped
+  int first = 0, count = 0;
+};
+
+// `degrees`: of the middles of pixels, rising or falling.
+std::vector<Span> spans_of(const std::vector<double>& degrees) {
+  constexpr double kEdge_deg = 1e-7;
+  std::vector<Span> spans;
+  std::map<int, std::size_t> known;
+  const auto add = [&](int edge_deg, int pixel) {
+    const auto [entry, fresh] = known.try_emplace(edge_deg, spans.size());
+    if (fresh) spans.push_back({edge_deg, pixel, 0});
+    ++spans[entry->second].count;
+  };
+  for (std::size_t pixel = 0; pixel < degrees.size(); ++pixel) {
+    const int edge_deg = static_cast<int>(std::floor(degrees[pixel] + kEdge_deg));
+    add(edge_deg, static_cast<int>(pixel));
+    if (std::abs(degrees[pixel] - edge_deg) < kEdge_deg) add(edge_deg - 1, static_cast<int>(pixel));
+  }
+  return spans;
+}
+
+void add_pixels(const float* heights_m, int count, RasterCellFacts& facts) {
+  float lowest_m = facts.posts == facts.voids ? INFINITY : facts.lowest_m;
+  float highest_m = facts.posts == facts.voids ? -INFINITY : facts.highest_m;
+  std::size_t known = 0;
+  std::size_t sea = 0;
+  for (int i = 0; i < count; ++i) {
+    const float height_m = heights_m[i];
+    const bool is_known = std::isfinite(height_m);
+    known += is_known ? 1 : 0;
+    sea += height_m == 0.0F ? 1 : 0;
+    lowest_m = is_known && height_m < lowest_m ? height_m : lowest_m;
+    highest_m = is_known && height_m > highest_m ? height_m : highest_m;
+  }
+  facts.posts += static_cast<std::size_t>(count);
+  facts.voids += static_cast<std::size_t>(count) - known;
+  facts.sea += sea;
+  if (facts.posts > facts.voids) {
+    facts.lowest_m = lowest_m;
+    facts.highest_m = highest_m;
+  }
+}
+
+class Survey {
+ public:
+  explicit Survey(const Raster& raster) : raster_(raster) {
+    std::vector<double> across(static_cast<std::size_t>(raster.columns), 0.0), along(across.size(), 0.5);
+    for (std::size_t i = 0; i < across.size(); ++i) across[i] = static_cast<double>(i) + 0.5;
+    raster.georeference.to_earth(across, along);
+    wests_ = spans_of(across);
+    across.assign(static_cast<std::size_t>(raster.rows), 0.5);
+    along.resize(across.size());
+    for (std::size_t i = 0; i < along.size(); ++i) along[i] = static_cast<double>(i) + 0.5;
+    raster.georeference.to_earth(across, along);
+    souths_ = spans_of(along);
+    for (const RasterCell& cell : cells_of(raster)) facts_[{cell.south_deg, cell.west_deg}] = {};
+  }
+
+  failure::Expected<RasterFacts> run(const std::function<void(double)>& progress) {
+    const int rows_at_once = std::clamp((1 << 22) / raster_.columns, 1, raster_.rows);
+    for (int row = 0; row < raster_.rows; row += rows_at_once) {
+      const Box box{0, row, raster_.columns, std::min(rows_at_once, raster_.rows - row)};
+      const auto heights = read_heights(raster_, box);
+      if (!heights) return tl::unexpected(heights.error());
+      add_rows(*heights, box);
+      if (progress) progress(static_cast<double>(row + box.rows) / raster_.rows);
+    }
+    RasterFacts facts{{}, impossible_, raster_.georeference.warnings()};
+    for (auto& [place, cell] : facts_) {
+      cell.south_deg = place.first;
+      cell.west_deg = place.second;
+      facts.cells.push_back(cell);
+    }
+    return facts;
+  }
+
+ private:
+  void add_rows(const std::vector<float>& heights, const Box& box) {
+    impossible_ += static_cast<std::size_t>(
+        std::count_if(heights.begin(), heights.end(), [](float height_m) { return std::isinf(height_m); }));
+    for (const Span& south : souths_)
+      for (int row = std::max(south.first, box.first_row);
+           row < std::min(south.first + south.count, box.first_row + box.rows); ++row)
+        add_row(heights.data() + static_cast<std::size_t>(row - box.first_row) * static_cast<std::size_t>(box.columns),
+                south.edge_deg, row == south.first);
+  }
+
+  void add_row(const float* heights_m, int south_deg, bool first) {
+    for (const Span& west : wests_) {
+      const auto found = facts_.find({south_deg, ((west.edge_deg + 180) % 360 + 360) % 360 - 180});
+      if (found == facts_.end()) continue;
+      if (first) found->second.columns += west.count;
+      add_pixels(heights_m + west.first, west.count, found->second);
+    }
+  }
+
+  const Raster& raster_;
+  std::vector<Span> wests_, souths_;
+  std::map<std::pair<int, int>, RasterCellFacts> facts_;
+  std::size_t impossible_ = 0;
+};
+
+}  // namespace
+
+failure::Expected<std::optional<RasterFacts>> survey_raster(const std::filesystem::path& path,
+                                                            const std::function<void(double)>& progress) {
+  const auto raster = open_raster(path);
+  if (!raster) return tl::unexpected(raster.error());
+  if (!raster->georeference.is_plain()) return std::nullopt;
+  auto facts = Survey(*raster).run(progress);
+  if (!facts) return tl::unexpected(facts.error());
+  return std::move(*facts);
+}
+
+}  // namespace yars::model::terrain::gdal

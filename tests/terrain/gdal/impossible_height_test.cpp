@@ -1,0 +1,120 @@
+// Numbers of rasters that are no heights never enter what is made of heights: void value or not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "model/terrain/cell_file.hpp"
+#include "model/terrain/directory_store.hpp"
+#include "tests/terrain/dted_builder.hpp"
+#include "tests/terrain/gdal/raster_builder.hpp"
+
+namespace yars::model::terrain {
+namespace {
+
+using test::RasterFields;
+using test::write_raster;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr int kBadRow = 41, kBadColumn = 57;
+
+// Half a pixel beside the posts of the cell, so that every post is made of several pixels.
+RasterFields shifted_fields(GDALDataType type) {
+  RasterFields fields{120, 120, {20, 1.0 / 120, 0, 11, 0, -1.0 / 120}};
+  fields.type = type;
+  return fields;
+}
+
+double hilly(int row, int column) {
+  return 700 + std::round(300 * std::sin(row / 9.0) * std::cos(column / 7.0));
+}
+
+struct Bad {
+  double number;
+  GDALDataType type;
+  std::size_t counted;
+};
+
+class RasterNumber : public ::testing::TestWithParam<Bad> {};
+
+TEST_P(RasterNumber, ThatIsNoHeightIsVoidBeforeAnythingIsMadeOfIt) {
+  const test::TemporaryFolder folder;
+  write_raster(folder.path() / "a.tif", shifted_fields(GetParam().type), [](int row, int column) {
+    return row == kBadRow && std::abs(column - kBadColumn) <= 1 ? GetParam().number : hilly(row, column);
+  });
+  const auto index = index_directory(folder.path());
+  ASSERT_TRUE(index.has_value()) << index.error().message();
+  for (const int reduction : {0, 1, 3}) {
+    const auto reading = read_cell(index->begin()->second, {10, 20}, reduction);
+    ASSERT_TRUE(reading.has_value()) << reading.error().message();
+    EXPECT_GE(reading->cell.lowest_m(), 400) << reduction;
+    EXPECT_LE(reading->cell.highest_m(), 1000) << reduction;
+    EXPECT_EQ(reading->impossible, GetParam().counted) << reduction;
+    if (reduction == 0) {
+      const Cell& cell = reading->cell;
+      const int row = static_cast<int>(std::lround((120 - kBadRow - 0.5) / 120 * (cell.rows() - 1)));
+      const int column = static_cast<int>(std::lround((kBadColumn + 0.5) / 120 * (cell.columns() - 1)));
+      EXPECT_EQ(cell.post(row, column), kVoidPost);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Values, RasterNumber,
+                         ::testing::Values(Bad{-32767, GDT_Int16, 3}, Bad{-32768, GDT_Int16, 3},
+                                           Bad{-9999, GDT_Int16, 3}, Bad{30000, GDT_Int16, 3},
+                                           Bad{-9999, GDT_Float32, 3}, Bad{-3.4028234663852886e38, GDT_Float32, 3},
+                                           Bad{1e20, GDT_Float64, 3}, Bad{65535, GDT_UInt16, 3},
+                                           Bad{kInfinity, GDT_Float32, 3}, Bad{-kInfinity, GDT_Float32, 3},
+                                           Bad{kNan, GDT_Float32, 0}, Bad{-2147483648.0, GDT_Int32, 3}));
+
+TEST(RasterVoids, AStatedValueOfAnyKindIsVoidWithoutAWord) {
+  for (const double stated : {-9999.0, 0.0, 9999.0, -3.4028234663852886e38}) {
+    const test::TemporaryFolder folder;
+    RasterFields fields = shifted_fields(GDT_Float32);
+    fields.void_value = stated;
+    write_raster(folder.path() / "a.tif", fields,
+                 [&](int row, int column) { return row < 30 ? stated : hilly(row, column); });
+    const auto reading = read_cell({folder.path() / "a.tif", CellFormat::raster}, {10, 20});
+    ASSERT_TRUE(reading.has_value()) << reading.error().message();
+    EXPECT_EQ(reading->impossible, 0U) << stated;
+    EXPECT_GE(reading->cell.lowest_m(), 400) << stated;
+    EXPECT_NEAR(static_cast<double>(reading->cell.voids()) / static_cast<double>(reading->cell.post_count()), 0.25,
+                0.01);
+  }
+}
+
+TEST(RasterVoids, ScaleAndOffsetOfTheBandComeBeforeTheLimits) {
+  const test::TemporaryFolder folder;
+  RasterFields fields = shifted_fields(GDT_Int16);
+  fields.scale = 0.5;
+  fields.offset = 1000;
+  // 18000 would be no height in metres; here it is 10,000 m, and 18002 is none.
+  write_raster(folder.path() / "a.tif", fields, [](int row, int) {
+    return row == 60 ? 18002 : row < 60 ? 18000 : -800;
+  });
+  const auto reading = read_cell({folder.path() / "a.tif", CellFormat::raster}, {10, 20});
+  ASSERT_TRUE(reading.has_value()) << reading.error().message();
+  EXPECT_NEAR(reading->cell.highest_m(), 10'000, 0.2);
+  EXPECT_NEAR(reading->cell.lowest_m(), 600, 0.2);
+  EXPECT_EQ(reading->impossible, 120U);
+}
+
+TEST(RasterVoids, TheyAreCountedInOneWarningForTheRaster) {
+  const test::TemporaryFolder folder;
+  RasterFields fields{240, 120, {20, 1.0 / 120, 0, 11, 0, -1.0 / 120}};
+  write_raster(folder.path() / "wide.tif", fields,
+               [](int row, int column) { return row == 40 && column % 60 == 7 ? -9999 : hilly(row, column); });
+  auto store = DirectoryTerrainStore::open(folder.path(), {});
+  ASSERT_TRUE(store.has_value()) << store.error().message();
+  (*store)->prepare({{10.5, 21.0}, 100e3});
+  EXPECT_THAT((*store)->take_problems(),
+              ElementsAre(AllOf(HasSubstr("wide.tif: heights that no ground has: 2 posts"))));
+}
+
+}  // namespace
+}  // namespace yars::model::terrain
