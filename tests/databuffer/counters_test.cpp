@@ -3,11 +3,9 @@
 
 #include <atomic>
 #include <limits>
-#include <stdexcept>
-#include <utility>
 
 #include "databuffer/session.hpp"
-#include "tests/databuffer/session_name.hpp"
+#include "tests/databuffer/open_session.hpp"
 #include "tests/shm/child_process.hpp"
 
 namespace yars::databuffer {
@@ -17,19 +15,7 @@ using shm::testing::ChildProcess;
 using shm::testing::SharedMemory;
 using shm::testing::wait_until;
 
-class CountersTest : public testing::SessionTest {
- protected:
-  Session open(std::string_view process = "tester") const {
-    auto session = Session::open(name_, process);
-    if (!session) throw std::runtime_error(session.error().message());
-    return std::move(*session);
-  }
-  static std::string last_note(const Session& session) {
-    const auto& notes = session.layout().notes;
-    Note note{};
-    return notes.total() > 0 && notes.read(notes.total() - 1, note) ? note.text : "";
-  }
-};
+using CountersTest = testing::OpenSessionTest;
 
 // 100 bad records a second would else push what the supervisor tells out of the flight recorder.
 TEST_F(CountersTest, AFloodOfNotesIsFoldedAndCounted) {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/databuffer/session_name.hpp"
+#include "tests/databuffer/open_session.hpp"
 #include "tests/shm/child_process.hpp"
 
 namespace yars::databuffer {
@@ -18,19 +18,7 @@ using shm::testing::ChildProcess;
 using shm::testing::SharedMemory;
 using shm::testing::wait_until;
 
-class SessionTest : public testing::SessionTest {
- protected:
-  Session open(std::string_view process = "tester") const {
-    auto session = Session::open(name_, process);
-    if (!session) throw std::runtime_error(session.error().message());
-    return std::move(*session);
-  }
-  static std::string last_note(const Session& session) {
-    const auto& notes = session.layout().notes;
-    Note note{};
-    return notes.total() > 0 && notes.read(notes.total() - 1, note) ? note.text : "";
-  }
-};
+using SessionTest = testing::OpenSessionTest;
 
 TEST_F(SessionTest, AFreshSessionRunsAtRateOneFromSimTimeZero) {
   const std::int64_t before = monotonic_ns();

@@ -6,6 +6,9 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "tests/recording/made_recording.hpp"
 
@@ -61,25 +64,43 @@ TEST(Recording, BeginsANextFileAndSetsTheOneBeforeAside) {
 }
 
 // A limit on the file's size stands for a disk that fills up.
+class SmallDisk {
+ public:
+  SmallDisk() : on_signal_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = 40'000;
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+  ~SmallDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, on_signal_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*on_signal_)(int);
+};
+
+failure::Expected<void> append_while_there_is_room(RecordingWriter& writer, const std::vector<RecordingItem>& items) {
+  failure::Expected<void> outcome;
+  for (std::size_t i = 0; outcome && i < items.size(); ++i)
+    outcome = std::visit([&](const auto& record) { return writer.append(record); }, items[i]);
+  return outcome;
+}
+
 TEST(Recording, OfADiskThatFillsUpReadsToItsLastWholeBlock) {
   const test::TemporaryFile file;
   auto writer = RecordingWriter::create(file.path(), {});
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  const auto on_signal = std::signal(SIGXFSZ, SIG_IGN);
-  rlimit limit = before;
-  limit.rlim_cur = 40'000;
-  setrlimit(RLIMIT_FSIZE, &limit);
+  std::optional<SmallDisk> disk(std::in_place);
   const auto items = items_of_every_kind(3000);
-  failure::Expected<void> outcome;
-  std::size_t taken = 0;
-  for (; outcome && taken < items.size(); ++taken)
-    outcome = std::visit([&](const auto& record) { return writer->append(record); }, items[taken]);
+  const auto outcome = append_while_there_is_room(*writer, items);
   const auto again = writer->append(Gap{});
   const auto closed = writer->close();
-  setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, on_signal);
-  ASSERT_LT(taken, items.size());
+  disk.reset();
+  ASSERT_FALSE(outcome);
   EXPECT_NE(outcome.error().message().find("room on the disk"), std::string::npos) << outcome.error().message();
   EXPECT_FALSE(again.has_value());
   EXPECT_FALSE(closed.has_value());
@@ -95,20 +116,11 @@ TEST(Recording, OfADiskThatFillsUpReadsToItsLastWholeBlock) {
 TEST(Recording, GoesOnWhenTheDiskHasRoomAgain) {
   const test::TemporaryFile file;
   auto writer = RecordingWriter::create(file.path(), {});
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  const auto on_signal = std::signal(SIGXFSZ, SIG_IGN);
-  rlimit limit = before;
-  limit.rlim_cur = 40'000;
-  setrlimit(RLIMIT_FSIZE, &limit);
+  std::optional<SmallDisk> disk(std::in_place);
   const auto items = items_of_every_kind(3000);
-  failure::Expected<void> outcome;
-  std::size_t taken = 0;
-  for (; outcome && taken < items.size(); ++taken)
-    outcome = std::visit([&](const auto& record) { return writer->append(record); }, items[taken]);
+  const auto outcome = append_while_there_is_room(*writer, items);
   const auto too_early = writer->resume();
-  setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, on_signal);
+  disk.reset();
   EXPECT_FALSE(outcome.has_value());
   EXPECT_FALSE(too_early.has_value()) << "there is no room yet";
   ASSERT_TRUE(writer->resume());

@@ -94,7 +94,7 @@ void StormSet::start(const std::string& role) {
   if (role == "input-monitor") add({"--source", "script:" + script_.string()});
   if (role == "recorder") {
     command.front() = "yars";
-    add({"record", (set_.folder() / "recording").string()});
+    add({"record", "--overwrite", (set_.folder() / "recording").string()});
   }
   set_.start(role, command);
 }

@@ -1,0 +1,28 @@
+// Sessions for tests that need them open, and what their flight recorder says last.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "databuffer/session.hpp"
+#include "tests/databuffer/session_name.hpp"
+
+namespace yars::databuffer::testing {
+
+class OpenSessionTest : public SessionTest {
+ protected:
+  Session open(std::string_view process = "tester") const {
+    auto session = Session::open(name_, process);
+    if (!session) throw std::runtime_error(session.error().message());
+    return std::move(*session);
+  }
+  static std::string last_note(const Session& session) {
+    const auto& notes = session.layout().notes;
+    Note note{};
+    return notes.total() > 0 && notes.read(notes.total() - 1, note) ? note.text : "";
+  }
+};
+
+}  // namespace yars::databuffer::testing
