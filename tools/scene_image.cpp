@@ -23,6 +23,8 @@ struct Options {
 };
 
 void draw(const Options& options) {
+  if (!options.window.empty() && !(options.window[2] > 0.0))
+    throw CommandFailed{"--window: expected a side longer than 0 m, found " + std::to_string(options.window[2]), 2};
   model::scene::NameFilter filter = name_filter(options.without);
   const auto model = model::scene::read_openflight(options.file, &filter);
   if (!model) give_up(model.error());

@@ -55,6 +55,9 @@ std::optional<double> take_angle(std::string_view& text, char positive, char neg
 
 failure::Expected<void> leave_out(std::vector<radar::Scene>& scenes, const std::string& name) {
   NameFilter all(name);
+  if (scenes.empty() || all.unmet().empty())
+    return failure::fail("--scene-without", "a scene, and the name of what is left out of it",
+                         scenes.empty() ? "no scene" : "an empty name", "give --scene and a name");
   bool met = false;
   for (radar::Scene& scene : scenes) {
     std::error_code code;

@@ -137,6 +137,9 @@ TEST(NameFilter, OfSeveralScenesEachLeavesOutWhatItHas) {
   const auto refused = add_scenes(scenes, {}, {"tower"});
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().message(), HasSubstr("it has 3 names"));
+  EXPECT_FALSE(add_scenes(scenes, {}, {" , "})) << "no name";
+  std::vector<radar::Scene> none;
+  EXPECT_FALSE(add_scenes(none, {}, {""})) << "no scene";
 }
 
 }  // namespace
