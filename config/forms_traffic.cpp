@@ -128,7 +128,11 @@ FormSchema scene() {
                      kSceneHeights, [](const Draft& draft) { return static_cast<int>(draft.scene.heights); },
                      [](Draft& draft, int index) { draft.scene.heights = static_cast<radar::SceneHeights>(index); }},
                  .purpose = "ground: each object on the ground below it, flat things along it; anchor: all of it on "
-                            "the ground at its place; seaLevel: its heights are above mean sea level"}},
+                            "the ground at its place; seaLevel: its heights are above mean sea level"},
+                {.name = "without",
+                 .binding = TextSlot{YARS_FIELD(scene.without)},
+                 .purpose = "names of objects and groups that are left out, apart by commas; * and ? as in names of "
+                            "files. A name that nothing in a file has is an error; left out: none"}},
       .part_of_value = true,
       .begin = [](Draft& draft) { draft.scene = {}; },
       .check = check_scene,

@@ -23,6 +23,7 @@
 #include "tools/command.hpp"
 #include "tools/patch_output.hpp"
 #include "tools/radar_limits.hpp"
+#include "tools/read_input.hpp"
 
 namespace yars::tools {
 
@@ -33,7 +34,7 @@ namespace hrm = model::hrm;
 struct PatchOptions {
   std::string terrain, fidelity;
   PatchOutput output;
-  std::vector<std::string> scenes;
+  std::vector<std::string> scenes, without;
   double latitude_deg = 37.8, longitude_deg = -122.5, altitude_ft = 15000.0, heading_deg = 0.0, speed_kt = 480.0;
   double target_latitude_deg = 37.9, target_longitude_deg = -122.3, window_nm = 0.0, time_s = 0.0;
   bool force = false;
@@ -59,11 +60,8 @@ radar::RadarConfiguration configure(const CommonOptions& common, const PatchOpti
   if (!options.terrain.empty()) configuration.terrain.directory = options.terrain;
   if (options.size > 0) configuration.fidelity.map_size = options.size;
   if (options.seed >= 0) configuration.seed = static_cast<std::uint64_t>(options.seed);
-  for (const std::string& text : options.scenes) {
-    auto scene = model::scene::parse_scene(text);
-    if (!scene) give_up(databuffer::usage_error(scene.error()));
-    configuration.world.scenes.push_back(*scene);
-  }
+  if (auto added = model::scene::add_scenes(configuration.world.scenes, options.scenes, options.without); !added)
+    give_up(databuffer::usage_error(added.error()));
   return configuration;
 }
 
@@ -155,11 +153,8 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   if (!scenes) give_up(scenes.error());
   const hrm::PatchDatabase database{(*window_store)->prepare(need.window), (*path_store)->prepare(need.path),
                                     *scenes ? (*scenes)->prepare(need.window) : nullptr};
-  if (*scenes)
-    for (const std::string& problem : (*scenes)->take_problems())
-      std::fprintf(stderr, "yars patch: %s\n", problem.c_str());
-  for (const std::string& problem : (*window_store)->take_problems())
-    std::fprintf(stderr, "yars patch: %s\n", problem.c_str());
+  if (*scenes) check_scenes_read("yars patch", **scenes);
+  check_terrain_read("yars patch", configuration.terrain.directory, **window_store);
   if (!options.force) check_heights(order, database, configuration);
   const double database_ms = now_ms() - begin_ms;
   std::vector<double> whole_ms;
@@ -194,6 +189,10 @@ void add_patch_command(CLI::App& app, const CommonOptions& common) {
   CLI::App* command = app.add_subcommand("patch", "one patch map, without processes");
   command->add_option("--terrain", options->terrain, "directory of terrain cells (else the configuration's)");
   command->add_option("--scene", options->scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; may come again");
+  command
+      ->add_option("--scene-without", options->without,
+                   "name of what is left out of scenes, as * and ? allow; may come again")
+      ->allow_extra_args(false);
   command->add_option("--lat", options->latitude_deg, "[deg] of the aircraft")->check(CLI::Range(-90.0, 90.0));
   command->add_option("--lon", options->longitude_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
   command->add_option("--alt-ft", options->altitude_ft, "[ft] above mean sea level")

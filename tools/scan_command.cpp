@@ -24,6 +24,7 @@
 #include "tools/command.hpp"
 #include "tools/float_file.hpp"
 #include "tools/radar_limits.hpp"
+#include "tools/read_input.hpp"
 #include "tools/scan_picture.hpp"
 #include "tools/scan_shadow.hpp"
 
@@ -35,7 +36,7 @@ using Milliseconds = std::chrono::duration<double, std::milli>;
 
 struct ScanOptions {
   std::string terrain, fidelity, out, shadow;
-  std::vector<std::string> scenes;
+  std::vector<std::string> scenes, without;
   std::string color = "green";
   double latitude_deg = 37.8, longitude_deg = -122.5, altitude_ft = 15000.0, heading_deg = 0.0;
   double range_nm = 40.0, width_deg = 100.0, elevation_deg = 0.0;
@@ -65,11 +66,8 @@ radar::RadarConfiguration configure(const CommonOptions& common, const ScanOptio
   if (options.samples > 0) configuration.fidelity.samples = options.samples;
   if (options.size > 0) configuration.view.size_pixels = options.size;
   if (options.seed >= 0) configuration.seed = static_cast<std::uint64_t>(options.seed);
-  for (const std::string& text : options.scenes) {
-    auto scene = model::scene::parse_scene(text);
-    if (!scene) give_up(databuffer::usage_error(scene.error()));
-    configuration.world.scenes.push_back(*scene);
-  }
+  if (auto added = model::scene::add_scenes(configuration.world.scenes, options.scenes, options.without); !added)
+    give_up(databuffer::usage_error(added.error()));
   return configuration;
 }
 
@@ -168,10 +166,6 @@ nlohmann::ordered_json summary(std::span<const databuffer::Sweep> sweeps, const 
   return line;
 }
 
-void print_problems(const std::vector<std::string>& problems) {
-  for (const std::string& problem : problems) std::fprintf(stderr, "yars scan: %s\n", problem.c_str());
-}
-
 void scan(const CommonOptions& common, const ScanOptions& options) {
   check_output(options);
   const radar::RadarConfiguration configuration = configure(common, options);
@@ -191,8 +185,8 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
                                              model::kernel::scan_detail(configuration.fidelity, request.range)};
   const auto terrain = (*store)->prepare(region);
   const auto scene = *scenes ? (*scenes)->prepare(region) : nullptr;
-  print_problems((*store)->take_problems());
-  if (*scenes) print_problems((*scenes)->take_problems());
+  check_terrain_read("yars scan", configuration.terrain.directory, **store);
+  if (*scenes) check_scenes_read("yars scan", **scenes);
   if (!options.force)
     if (const auto problem = beneath_ground(request.pose.altitude, terrain->elevation_m(request.pose.place)))
       give_up(*problem);
@@ -220,6 +214,10 @@ void add_scan_command(CLI::App& app, const CommonOptions& common) {
   CLI::App* command = app.add_subcommand("scan", "one scan of the real beam map, without processes");
   command->add_option("--terrain", options->terrain, "directory of DTED or HGT cells (else the configuration's)");
   command->add_option("--scene", options->scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; may come again");
+  command
+      ->add_option("--scene-without", options->without,
+                   "name of what is left out of scenes, as * and ? allow; may come again")
+      ->allow_extra_args(false);
   command->add_option("--lat", options->latitude_deg, "[deg]")->check(CLI::Range(-90.0, 90.0));
   command->add_option("--lon", options->longitude_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
   command->add_option("--alt-ft", options->altitude_ft, "[ft] above mean sea level")

@@ -22,6 +22,7 @@ using namespace model::scene;
 
 struct Options {
   std::vector<std::string> files;
+  std::vector<std::string> without;
   bool json = false;
 };
 
@@ -120,12 +121,23 @@ void print(const nlohmann::json& told) {
 
 void tell(const Options& options) {
   nlohmann::json all = nlohmann::json::array();
+  NameFilter filter = name_filter(options.without);
+  std::size_t unreadable = 0;
   for (const std::string& file : options.files) {
-    const auto model = read_openflight(file);
-    if (!model) give_up(model.error());
+    const auto model = read_openflight(file, &filter);
+    if (!model && options.files.size() == 1) give_up(model.error());
+    if (!model) {
+      std::fprintf(stderr, "yars scene info: %s\n", model.error().message().c_str());
+      ++unreadable;
+      continue;
+    }
     all.push_back(describe(file, *model));
     if (!options.json) print(all.back());
   }
+  if (unreadable > 0)
+    throw CommandFailed{"expected OpenFlight files, found " + std::to_string(unreadable) + " of " +
+                        std::to_string(options.files.size()) + " that cannot be read"};
+  if (const auto complaint = filter.complaint("--without")) give_up(*complaint);
   if (options.json) std::printf("%s\n", all.dump(2).c_str());
 }
 
@@ -135,6 +147,7 @@ void add_scene_info(CLI::App& scene) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = scene.add_subcommand("info", "what OpenFlight files hold: counts, materials, extent, origin");
   command->add_option("files", options->files, "OpenFlight files")->required();
+  add_without(*command, options->without);
   command->add_flag("--json", options->json, "as JSON");
   command->callback([options] { tell(*options); });
 }

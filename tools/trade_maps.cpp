@@ -24,7 +24,7 @@ namespace {
 namespace hrm = model::hrm;
 
 struct MapTradeOptions : TradeOptions {
-  std::vector<std::string> views, scenes;
+  std::vector<std::string> views, scenes, without;
   int ruler_size = 480;
 };
 
@@ -168,11 +168,8 @@ trade::TradeTable run_trade(const MapTradeOptions& options, const radar::RadarCo
 void trade_off(const CommonOptions& common, const MapTradeOptions& options) {
   check_trade_output(options);
   radar::RadarConfiguration configuration = trade_configuration(common, options);
-  for (const std::string& text : options.scenes) {
-    auto scene = model::scene::parse_scene(text);
-    if (!scene) give_up(databuffer::usage_error(scene.error()));
-    configuration.world.scenes.push_back(*scene);
-  }
+  if (auto added = model::scene::add_scenes(configuration.world.scenes, options.scenes, options.without); !added)
+    give_up(databuffer::usage_error(added.error()));
   write_trade(options, run_trade(options, configuration),
               {trade::kMapMs,
                "time a map (ms of one core)",
@@ -186,6 +183,10 @@ void add_trade_maps(CLI::App& trade, const CommonOptions& common) {
   CLI::App* command = trade.add_subcommand("maps", "speed against accuracy of patch maps");
   add_trade_options(*command, *options);
   command->add_option("--scene", options->scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; repeatable")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--scene-without", options->without,
+                   "name of what is left out of scenes, as * and ? allow; repeatable")
       ->allow_extra_args(false);
   command->add_option("--view", options->views, "LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM; repeatable")
       ->allow_extra_args(false);

@@ -133,6 +133,7 @@ struct Scene {
   geo::GeoPoint place{kNotGiven, kNotGiven};  // of its origin; not given: as its header or its name says
   double heading_deg = 0.0;                   // [deg] true, where its y axis points
   SceneHeights heights = SceneHeights::ground;
+  std::string without{};  // names of what is left out, apart by commas; `*` and `?` as in names of files
 };
 
 // Air at mean sea level, and what its gases do; ITU-R P.676 and P.835.

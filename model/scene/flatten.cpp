@@ -29,8 +29,9 @@ bool is_sound(Vector3 place) {
 
 class Flattening {
  public:
-  Flattening(const NodeTree& tree, std::string subject, const LoadExternal& load, FlattenLimits limits)
-      : tree_(tree), subject_(std::move(subject)), load_(load), limits_(limits) {
+  Flattening(const NodeTree& tree, std::string subject, const LoadExternal& load, FlattenLimits limits,
+             NameFilter* filter)
+      : tree_(tree), subject_(std::move(subject)), load_(load), limits_(limits), filter_(filter) {
     model_.header = tree.header;
     model_.counts = tree.counts;
     model_.warnings = tree.warnings;
@@ -59,6 +60,7 @@ class Flattening {
       return failure::fail(subject_, "nodes nested at most " + std::to_string(kDeepestNode) + " deep",
                            "deeper ones, as when an instance contains itself", "mend the file's instances");
     if (node.kind == NodeKind::ignored) return {};
+    if (filter_ != nullptr && filter_->leaves_out(node.name)) return {};
     if (node.matrix == kNone) return show_once(node, above, object, depth);
     const Affine& matrix = tree_.matrices[node.matrix];
     Affine moved = node.replications > 0 ? Affine{} : matrix;
@@ -233,6 +235,7 @@ class Flattening {
   std::string subject_;
   const LoadExternal& load_;
   FlattenLimits limits_;
+  NameFilter* filter_;
   Model model_;
   KindTable kinds_;
   std::vector<std::uint16_t> kind_numbers_;  // of the tree's kinds
@@ -246,8 +249,8 @@ class Flattening {
 }  // namespace
 
 failure::Expected<Model> flatten(const NodeTree& tree, const std::string& subject, const LoadExternal& load,
-                                 FlattenLimits limits) {
-  return Flattening(tree, subject, load, limits).run();
+                                 FlattenLimits limits, NameFilter* filter) {
+  return Flattening(tree, subject, load, limits, filter).run();
 }
 
 }  // namespace yars::model::scene

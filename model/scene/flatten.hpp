@@ -1,7 +1,7 @@
 // A tree of nodes to a model: transforms multiplied out, instances and replications multiplied, the finest level of
-// detail chosen. External files come through `load`, which answers null where one is to be left out.
-// Errors: what load() fails with; more than the limits allow; nodes nested deeper than kDeepestNode, as instances that
-// contain themselves are.
+// detail chosen, what `filter` (null: none) leaves out left out. External files come through `load`, which answers null
+// where one is to be left out. Errors: what load() fails with; more than the limits allow; nodes nested deeper than
+// kDeepestNode, as instances that contain themselves are.
 #pragma once
 
 #include <functional>
@@ -10,6 +10,7 @@
 
 #include "lib/failure/error.hpp"
 #include "model/scene/model.hpp"
+#include "model/scene/name_filter.hpp"
 
 namespace yars::model::scene {
 
@@ -25,6 +26,6 @@ struct FlattenLimits {
 using LoadExternal = std::function<failure::Expected<std::shared_ptr<const Model>>(const std::string& name)>;
 
 failure::Expected<Model> flatten(const NodeTree& tree, const std::string& subject, const LoadExternal& load,
-                                 FlattenLimits limits = {});
+                                 FlattenLimits limits = {}, NameFilter* filter = nullptr);
 
 }  // namespace yars::model::scene

@@ -46,7 +46,7 @@ void add_counts(FileCounts& sum, const FileCounts& more) {
 // The files of one scene, each read once.
 class FileSet {
  public:
-  explicit FileSet(const fs::path& first) : root_(first.parent_path()) {}
+  FileSet(const fs::path& first, NameFilter* filter) : root_(first.parent_path()), filter_(filter) {}
 
   failure::Expected<Model> read_first(const fs::path& path) {
     open_.push_back(path);
@@ -85,7 +85,8 @@ class FileSet {
     if (!tree) return tl::unexpected(tree.error());
     add_counts(counts_, tree->counts);
     if (open_.size() > 1) names_.push_back(subject);
-    return flatten(*tree, subject, [this, &path](const std::string& name) { return refer(path, name); });
+    return flatten(
+        *tree, subject, [this, &path](const std::string& name) { return refer(path, name); }, {}, filter_);
   }
 
   // Null, with a warning, for what cannot be shown.
@@ -109,6 +110,7 @@ class FileSet {
   }
 
   fs::path root_;
+  NameFilter* filter_;
   std::map<fs::path, std::shared_ptr<const Model>> read_;
   std::vector<fs::path> open_;  // from the first file to the one being read
   std::size_t files_ = 0;
@@ -119,10 +121,10 @@ class FileSet {
 
 }  // namespace
 
-failure::Expected<Model> read_openflight(const fs::path& path) {
+failure::Expected<Model> read_openflight(const fs::path& path, NameFilter* filter) {
   std::error_code code;
   const fs::path canonical = fs::weakly_canonical(path, code);
-  FileSet files(canonical);
+  FileSet files(canonical, filter);
   auto model = files.read_first(canonical);
   if (!model) return model;
   model->counts = files.counts();

@@ -20,7 +20,9 @@ inline constexpr std::size_t kLargestFile = std::size_t{1} << 30;
 inline constexpr int kDeepestReference = 16;
 inline constexpr std::size_t kMostFiles = 4096;
 
-failure::Expected<Model> read_openflight(const std::filesystem::path& path);
+// `filter`: what is left out, null: nothing. It remembers what names there are; who asks for its complaint is told of
+// names that nothing has.
+failure::Expected<Model> read_openflight(const std::filesystem::path& path, NameFilter* filter = nullptr);
 
 // From memory; external references are counted and left out.
 failure::Expected<Model> read_openflight(std::span<const std::byte> bytes, const std::string& subject,

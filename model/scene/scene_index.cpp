@@ -32,7 +32,7 @@ double reach_of(const Header& header) {
 failure::Expected<IndexedScene> index_file(const fs::path& file, const radar::Scene& scene) {
   const auto header = read_openflight_header(file);
   if (!header) return tl::unexpected(header.error());
-  IndexedScene found{file, {scene.place, scene.heading_deg, scene.heights}, reach_of(*header)};
+  IndexedScene found{file, {scene.place, scene.heading_deg, scene.heights}, reach_of(*header), scene.without};
   if (std::isfinite(scene.place.latitude_deg) && std::isfinite(scene.place.longitude_deg)) return found;
   if (const auto named = place_in_name(file.filename().string())) {
     found.placement.place = *named;
@@ -43,6 +43,15 @@ failure::Expected<IndexedScene> index_file(const fs::path& file, const radar::Sc
                          "none", "give latitude and longitude, or FILE@LAT,LON,HDG");
   }
   return found;
+}
+
+// Of a folder each file leaves out what it has of the names.
+failure::Expected<void> check_names(const radar::Scene& scene) {
+  if (scene.without.empty()) return {};
+  NameFilter filter(scene.without);
+  if (const auto model = read_openflight(scene.file, &filter); !model) return tl::unexpected(model.error());
+  if (const auto complaint = filter.complaint(scene.file)) return tl::unexpected(*complaint);
+  return {};
 }
 
 std::vector<fs::path> files_in(const fs::path& folder) {
@@ -68,6 +77,7 @@ failure::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<rada
     if (!fs::is_directory(scene.file, code)) {
       auto found = index_file(scene.file, scene);
       if (!found) return tl::unexpected(found.error());
+      if (auto known = check_names(scene); !known) return tl::unexpected(known.error());
       index.push_back(std::move(*found));
       continue;
     }

@@ -3,8 +3,12 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <string_view>
 #include <vector>
+
+#include "model/scene/name_filter.hpp"
+#include "model/scene/openflight_reader.hpp"
 
 namespace yars::model::scene {
 
@@ -49,6 +53,27 @@ std::optional<double> take_angle(std::string_view& text, char positive, char neg
   return side == negative ? -degrees : degrees;
 }
 
+failure::Expected<void> leave_out(std::vector<radar::Scene>& scenes, const std::string& name) {
+  NameFilter all(name);
+  if (scenes.empty() || all.unmet().empty())
+    return failure::fail("--scene-without", "a scene, and the name of what is left out of it",
+                         scenes.empty() ? "no scene" : "an empty name", "give --scene and a name");
+  bool met = false;
+  for (radar::Scene& scene : scenes) {
+    std::error_code code;
+    if (!std::filesystem::is_directory(scene.file, code)) {
+      NameFilter filter(name);
+      if (const auto model = read_openflight(scene.file, &filter); !model) return tl::unexpected(model.error());
+      all.add_seen(filter);
+      if (!filter.unmet().empty()) continue;
+    }
+    met = true;
+    scene.without += (scene.without.empty() ? "" : ",") + name;
+  }
+  if (met) return {};
+  return tl::unexpected(*all.complaint("--scene-without"));
+}
+
 }  // namespace
 
 failure::Expected<radar::Scene> parse_scene(const std::string& text) {
@@ -65,6 +90,18 @@ failure::Expected<radar::Scene> parse_scene(const std::string& text) {
   scene.place = {(*values)[0], geo::wrapped_degrees((*values)[1])};
   if (values->size() == 3) scene.heading_deg = (*values)[2];
   return scene;
+}
+
+failure::Expected<void> add_scenes(std::vector<radar::Scene>& scenes, const std::vector<std::string>& texts,
+                                   const std::vector<std::string>& names) {
+  for (const std::string& text : texts) {
+    auto scene = parse_scene(text);
+    if (!scene) return tl::unexpected(scene.error());
+    scenes.push_back(std::move(*scene));
+  }
+  for (const std::string& name : names)
+    if (auto done = leave_out(scenes, name); !done) return done;
+  return {};
 }
 
 std::optional<geo::GeoPoint> place_in_name(const std::string& name) {

@@ -40,9 +40,11 @@ SceneViewPointer SceneStore::prepare(const terrain::TerrainRegion& region) {
   places_.find(region.centre, region.radius_m, hits);
   std::sort(hits.begin(), hits.end());
   bool changed = false;
+  wanted_ = {hits.size(), 0};
   for (const GridIndex::Hit& hit : hits) {
     scenes_[hit.disc].last_use = prepares_;
     if (!scenes_[hit.disc].placed && !scenes_[hit.disc].unreadable) changed |= load(hit.disc);
+    if (scenes_[hit.disc].unreadable) ++wanted_.unreadable;
   }
   while (resident_bytes_ > options_.resident_limit_bytes && drop_longest_unused()) changed = true;
   if (changed) make_view();
@@ -52,7 +54,8 @@ SceneViewPointer SceneStore::prepare(const terrain::TerrainRegion& region) {
 bool SceneStore::load(std::size_t number) {
   Resident& resident = scenes_[number];
   const IndexedScene& scene = index_[number];
-  const auto model = read_openflight(scene.file);
+  NameFilter filter(scene.without);
+  const auto model = read_openflight(scene.file, &filter);
   if (!model) {
     resident.unreadable = true;
     problems_.push_back(model.error().message() + "; the scene is left out");

@@ -38,6 +38,11 @@ class SceneStore {
   std::vector<std::string> take_problems();
 
   const std::vector<IndexedScene>& index() const { return index_; }
+  // Of the files that the region last prepared wanted: how many, and how many of them cannot be read.
+  struct Wanted {
+    std::size_t files = 0, unreadable = 0;
+  };
+  Wanted wanted() const { return wanted_; }
 
  private:
   struct Resident {
@@ -62,6 +67,7 @@ class SceneStore {
   std::vector<SceneObject> objects_;
   std::uint64_t resident_bytes_ = 0;
   std::uint64_t prepares_ = 0;
+  Wanted wanted_;
   std::uint64_t generation_ = 0;
   SceneViewPointer view_;
   std::vector<std::string> problems_;

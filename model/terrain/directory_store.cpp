@@ -87,10 +87,16 @@ void DirectoryTerrainStore::note_bare(const TerrainRegion& region) {
 // Shows what is in memory of the region's cells, and tells which are not, nearest first.
 std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const TerrainRegion& region, bool& changed) {
   std::vector<Level> missing;
+  region_cells_ = {};
   for (const CellPlace place : cells_within(region)) {
     const std::size_t slot = slot_of(place);
     const auto file = index_.find(slot);
-    if (file == index_.end() || unreadable_.contains(slot)) continue;
+    if (file == index_.end()) continue;
+    ++region_cells_.files;
+    if (unreadable_.contains(slot)) {
+      ++region_cells_.unreadable;
+      continue;
+    }
     const Level level{slot, reduction_for(file->second, region.detail)};
     const auto resident = resident_.find(level);
     if (resident == resident_.end()) {
@@ -136,6 +142,7 @@ bool DirectoryTerrainStore::load(Level level) {
   if (!reading) {
     problems_.push_back(reading.error().message() + "; the cell counts as void");
     unreadable_.insert(level.first);
+    ++region_cells_.unreadable;
     shown_.erase(level.first);
     return false;
   }

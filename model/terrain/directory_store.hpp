@@ -26,6 +26,12 @@ struct DirectoryStoreOptions {
   std::size_t resident_limit_bytes = 512U << 20;  // [bytes] of cells; only a region that needs more goes beyond it
 };
 
+// Cells of the region that a store was last asked for.
+struct RegionCells {
+  std::size_t files = 0;       // that have a file
+  std::size_t unreadable = 0;  // of those: the file cannot be read, and the cell counts as void
+};
+
 // How far a file is reduced for a detail: every 2^reduction-th post lies at most 2^detail metres from the next, along a
 // meridian. 0 where the file's spacing is not known.
 int reduction_for(const CellFile& file, int detail);
@@ -38,6 +44,7 @@ class DirectoryTerrainStore final : public TerrainStore {
   TerrainViewPointer prepare(const TerrainRegion& region) override { return prepare_in_steps(region, {}); }
   TerrainViewPointer prepare_in_steps(const TerrainRegion& region, const Interim& interim) override;
   std::vector<std::string> take_problems() override;
+  RegionCells region_cells() const { return region_cells_; }
 
  private:
   using Level = std::pair<std::size_t, int>;  // slot, reduction
@@ -69,6 +76,7 @@ class DirectoryTerrainStore final : public TerrainStore {
   std::size_t resident_bytes_ = 0;
   std::uint64_t prepares_ = 0;
   std::uint64_t generation_ = 0;
+  RegionCells region_cells_;
   TerrainViewPointer view_;
   ReadingNotes notes_;
   std::vector<std::string> problems_;

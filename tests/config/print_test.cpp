@@ -209,7 +209,7 @@ class RandomConfiguration {
       made.movers.push_back({"M", place(), number(0, 1000) * (1852.0 / 3600.0), number(0, 360), number(0, 1e7),
                              number(0, 1000) * 0.3048});
       made.scenes.push_back({"/s.flt", coin() ? place() : radar::Scene{}.place, number(-360, 360),
-                             static_cast<radar::SceneHeights>(random_() % 3)});
+                             static_cast<radar::SceneHeights>(random_() % 3), coin() ? "box, env*" : ""});
       made.beacons.code = static_cast<int>(1 + random_() % 99);
       made.beacons.beacons.push_back({"B", place(), coin() ? kUnknown : number(0, 90'000) * 0.3048,
                                       static_cast<int>(1 + random_() % 99), number(0, 1000),

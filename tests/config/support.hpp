@@ -101,9 +101,9 @@ inline auto fields(const radar::Mover& mover) {
 }
 
 inline auto fields(const radar::Scene& scene) {
-  const auto& [file, place, heading, heights] = scene;
+  const auto& [file, place, heading, heights, without] = scene;
   const auto& [latitude, longitude] = place;
-  return std::tuple(file, comparable(latitude), comparable(longitude), heading, heights);
+  return std::tuple(file, comparable(latitude), comparable(longitude), heading, heights, without);
 }
 
 inline auto fields(const radar::Beacon& beacon) {

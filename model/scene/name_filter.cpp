@@ -1,0 +1,116 @@
+#include "model/scene/name_filter.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+
+namespace yars::model::scene {
+
+namespace {
+
+constexpr std::size_t kNamesListed = 6;
+constexpr std::size_t kMostSeen = 100'000;  // names that are remembered for a list of near ones
+
+std::string lower(std::string_view text) {
+  std::string made(text);
+  std::transform(made.begin(), made.end(), made.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return made;
+}
+
+// Both in lower case. Goes back to the last star alone: time is the product of the lengths at most.
+bool matches(std::string_view pattern, std::string_view name) {
+  std::size_t p = 0, n = 0, star = std::string_view::npos, from = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      from = n;
+    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
+      ++p;
+      ++n;
+    } else if (star != std::string_view::npos) {
+      p = star + 1;
+      n = ++from;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', p) == std::string_view::npos;
+}
+
+// Letters to change, add or take away (Levenshtein); none for a name that holds the other.
+std::size_t distance(std::string_view a, std::string_view b) {
+  if (!a.empty() && b.find(a) != std::string_view::npos) return 0;
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t corner = row[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = corner + (a[i] == b[j] ? 0 : 1);
+      corner = row[j + 1];
+      row[j + 1] = std::min({changed, row[j] + 1, corner + 1});
+    }
+  }
+  return row.back();
+}
+
+std::string near_to(const std::string& wanted, const std::set<std::string>& seen) {
+  std::vector<std::pair<std::size_t, std::string>> names;
+  const std::string small = lower(wanted);
+  for (const std::string& name : seen) names.emplace_back(distance(small, lower(name)), name);
+  const std::size_t listed = std::min(kNamesListed, names.size());
+  std::partial_sort(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(listed), names.end());
+  std::string text;
+  for (std::size_t i = 0; i < listed; ++i) {
+    text += i == 0 ? "'" : ", '";
+    text += names[i].second;
+    text += "'";
+  }
+  return text;
+}
+
+}  // namespace
+
+NameFilter::NameFilter(std::string_view names) {
+  while (!names.empty()) {
+    const std::size_t comma = std::min(names.find(','), names.size());
+    std::string_view name = names.substr(0, comma);
+    names.remove_prefix(std::min(comma + 1, names.size()));
+    const std::size_t first = name.find_first_not_of(" \t");
+    if (first == std::string_view::npos) continue;
+    name = name.substr(first, name.find_last_not_of(" \t") - first + 1);
+    wanted_.push_back({std::string(name)});
+  }
+}
+
+bool NameFilter::leaves_out(const std::string& name) {
+  if (wanted_.empty() || name.empty()) return false;
+  if (seen_.size() < kMostSeen) seen_.insert(name);
+  bool out = false;
+  const std::string small = lower(name);
+  for (Wanted& wanted : wanted_) {
+    if (!matches(lower(wanted.name), small)) continue;
+    wanted.met = true;
+    out = true;
+  }
+  return out;
+}
+
+std::vector<std::string> NameFilter::unmet() const {
+  std::vector<std::string> names;
+  for (const Wanted& wanted : wanted_)
+    if (!wanted.met) names.push_back(wanted.name);
+  return names;
+}
+
+std::optional<failure::Error> NameFilter::complaint(const std::string& subject) const {
+  const std::vector<std::string> names = unmet();
+  if (names.empty()) return std::nullopt;
+  return failure::Error{subject, "something to leave out that is called '" + names.front() + "'", "none",
+                        seen_.empty() ? "nothing in it has a name"
+                                      : "it has " + std::to_string(seen_.size()) + " names; near to it are " +
+                                            near_to(names.front(), seen_),
+                        false};
+}
+
+}  // namespace yars::model::scene

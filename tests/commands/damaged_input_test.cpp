@@ -1,0 +1,99 @@
+// Commands of which all the input is damaged or missing end with 1 and say why; a part that is damaged is counted.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "model/terrain/dted_writer.hpp"
+#include "tests/endtoend/process_set.hpp"
+#include "tests/terrain/dted_builder.hpp"
+#include "tests/terrain/rough_cell.hpp"
+
+namespace yars {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+namespace fs = std::filesystem;
+
+void put(const fs::path& file, const std::string& text) {
+  fs::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+void write_cell(const fs::path& tree, int south_deg, int west_deg) {
+  ASSERT_TRUE(model::terrain::write_dted(
+      tree, test::cell_of({south_deg, west_deg}, 121, 121, [](int, int) { return 100; }), 0));
+}
+
+endtoend::Finished view(const std::string& command, const std::vector<std::string>& more) {
+  std::vector<std::string> words{"yars", command, "--lat", "37.5", "--lon", "-121.02", "--heading", "10"};
+  if (command == "patch") words.insert(words.end(), {"--target-lat", "37.6", "--target-lon", "-120.9", "--size", "64"});
+  if (command == "scan") words.insert(words.end(), {"--range-nm", "10", "--samples", "60"});
+  words.insert(words.end(), more.begin(), more.end());
+  return endtoend::run_program(words);
+}
+
+TEST(DamagedInput, TerrainOfWhichNothingCanBeReadFailsAndAPartIsCounted) {
+  for (const std::string command : {"scan", "patch"}) {
+    const test::TemporaryFolder folder;
+    const std::string tree = folder.path();
+    write_cell(folder.path(), 37, -122);
+    write_cell(folder.path(), 37, -121);
+    EXPECT_EQ(view(command, {"--terrain", tree}).errors, "") << command;
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
+      if (entry.is_regular_file()) files.push_back(entry.path());
+    ASSERT_EQ(files.size(), 2U);
+    fs::resize_file(files[0], 4000);
+    const auto half = view(command, {"--terrain", tree});
+    EXPECT_EQ(half.code, 0) << command << half.errors;
+    EXPECT_THAT(half.errors, HasSubstr("1 of 2 cells of the region cannot be read")) << command;
+    fs::resize_file(files[1], 4000);
+    const auto none = view(command, {"--terrain", tree});
+    EXPECT_EQ(none.code, 1) << command;
+    EXPECT_EQ(none.output, "") << command;
+    EXPECT_THAT(none.errors, HasSubstr("expected cells of the region that can be read, found none: 2 of 2 cannot"));
+  }
+}
+
+fs::path airfield(const fs::path& folder) {
+  fs::path file = folder / "whole.flt";
+  const auto made = endtoend::run_program({"yars", "scene", "generate", "--kind", "airfield", "--triangles", "2000",
+                                           "--origin", "37.55,-120.97", "--out", file.string()});
+  EXPECT_EQ(made.code, 0) << made.errors;
+  return file;
+}
+
+TEST(DamagedInput, ScenesOfWhichNoneCanBeReadFail) {
+  const test::TemporaryFolder folder;
+  const fs::path whole = airfield(folder.path());
+  const fs::path torn = folder.path() / "torn.flt";
+  fs::copy_file(whole, torn);
+  fs::resize_file(torn, 3000);
+  for (const std::string command : {"scan", "patch"}) {
+    EXPECT_EQ(view(command, {"--scene", whole}).code, 0) << command;
+    const auto none = view(command, {"--scene", torn});
+    EXPECT_EQ(none.code, 1) << command << none.errors;
+    EXPECT_THAT(none.errors, HasSubstr("torn.flt")) << command;
+    const auto missing = view(command, {"--scene", folder.path() / "missing.flt"});
+    EXPECT_EQ(missing.code, 1) << command;
+    EXPECT_THAT(missing.errors, HasSubstr("missing.flt")) << command;
+  }
+}
+
+TEST(DamagedInput, SceneInfoTellsOfEveryFileItCanReadAndFailsForTheOthers) {
+  const test::TemporaryFolder folder;
+  const fs::path whole = airfield(folder.path());
+  put(folder.path() / "text.flt", "no scene");
+  const auto run = endtoend::run_program({"yars", "scene", "info", folder.path() / "text.flt", whole});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.output, HasSubstr("whole.flt"));
+  EXPECT_THAT(run.errors, HasSubstr("1 of 2 that cannot be read"));
+}
+
+}  // namespace
+}  // namespace yars

@@ -1,0 +1,146 @@
+// What is left out of a scene by its name.
+#include "model/scene/name_filter.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <memory>
+#include <vector>
+
+#include "model/scene/openflight_reader.hpp"
+#include "model/scene/openflight_writer.hpp"
+#include "model/scene/scene_source.hpp"
+#include "model/scene/scene_store.hpp"
+#include "model/scene/sketch.hpp"
+#include "model/terrain/analytic_terrain.hpp"
+#include "tests/terrain/dted_builder.hpp"
+
+namespace yars::model::scene {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+TEST(NameFilter, StarsAndQuestionMarksStandForLettersAndCaseIsOfNoAccount) {
+  struct Row {
+    const char *names, *name;
+    bool out;
+  };
+  const Row rows[] = {{"env_box", "env_box", true},
+                      {"ENV_box", "env_BOX", true},
+                      {"env*", "env_box", true},
+                      {"*box", "env_box", true},
+                      {"e?v*x", "env_box", true},
+                      {"env", "env_box", false},
+                      {"a, env_box ,b", "env_box", true},
+                      {"*", "anything", true},
+                      {"**a*a*b", "aaaaaaaaac", false},
+                      {"", "env_box", false},
+                      {"?", "", false},
+                      {"env_boxx", "env_box", false}};
+  for (const Row& row : rows) EXPECT_EQ(NameFilter(row.names).leaves_out(row.name), row.out) << row.names;
+}
+
+TEST(NameFilter, ANameThatNothingHasIsAnErrorThatListsNearOnes) {
+  NameFilter filter("hull,enviroment");
+  for (const char* name : {"hull", "mast", "environment", "funnel", "deck", "bridge", "environment_box", "boat"})
+    filter.leaves_out(name);
+  EXPECT_THAT(filter.unmet(), ElementsAre("enviroment"));
+  const std::string message = filter.complaint("ship.flt")->message();
+  EXPECT_THAT(message, HasSubstr("ship.flt: expected something to leave out that is called 'enviroment', found none"));
+  EXPECT_THAT(message, HasSubstr("it has 8 names; near to it are 'environment', 'environment_box'"));
+  EXPECT_FALSE(NameFilter("").complaint("ship.flt"));
+}
+
+constexpr geo::GeoPoint kPlace{37.5, -122.5};
+
+void write_bytes(const std::filesystem::path& file, const std::vector<std::byte>& bytes) {
+  std::ofstream out(file, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+// A hull 20 m high within a box of 2 km, as some ships come.
+std::filesystem::path boxed_ship(const std::filesystem::path& folder) {
+  OpenFlightWriter writer(kPlace);
+  Sketch sketch(writer);
+  writer.begin_object("hull");
+  sketch.box({0, 0, 0}, 20, 100, 20);
+  writer.end();
+  writer.begin_object("environment");
+  sketch.box({0, 0, 0}, 2000, 2000, 500);
+  writer.end();
+  const std::filesystem::path file = folder / "ship.flt";
+  write_bytes(file, writer.take());
+  return file;
+}
+
+TEST(NameFilter, AnObjectLeftOutIsGoneWithAllThatIsBelowIt) {
+  const test::TemporaryFolder folder;
+  const auto file = boxed_ship(folder.path());
+  const auto whole = read_openflight(file);
+  ASSERT_TRUE(whole);
+  EXPECT_THAT(whole->objects, ElementsAre("", "hull", "environment"));
+  NameFilter filter("env*");
+  const auto part = read_openflight(file, &filter);
+  ASSERT_TRUE(part);
+  EXPECT_THAT(part->objects, ElementsAre("", "hull"));
+  EXPECT_EQ(2 * part->triangles.size(), whole->triangles.size());
+  EXPECT_FALSE(filter.complaint("ship.flt"));
+}
+
+TEST(NameFilter, AStoreLeavesOutWhatItsSceneSaysAndRefusesANameThatNothingHas) {
+  const test::TemporaryFolder folder;
+  radar::Scene scene;
+  scene.file = boxed_ship(folder.path());
+  const auto open = [&scene] {
+    return SceneStore::open({scene},
+                            std::make_unique<terrain::FixedTerrainStore>(
+                                std::make_shared<terrain::AnalyticTerrain>([](geo::GeoPoint) { return 10.0; })));
+  };
+  const auto triangles = [&](SceneStore& store) {
+    const auto view = store.prepare({kPlace, 3000.0, 0});
+    std::vector<const Tile*> tiles;
+    view->tiles_near(kPlace, 3000.0, tiles);
+    std::size_t sum = 0;
+    for (const Tile* tile : tiles) sum += tile->triangles();
+    return sum;
+  };
+  auto whole = open();
+  ASSERT_TRUE(whole);
+  scene.without = "environment";
+  auto part = open();
+  ASSERT_TRUE(part);
+  EXPECT_GT(triangles(**whole), triangles(**part));
+  EXPECT_GT(triangles(**part), 0U);
+  scene.without = "environmint";
+  const auto refused = open();
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message(), HasSubstr("'environment'"));
+}
+
+TEST(NameFilter, OfSeveralScenesEachLeavesOutWhatItHas) {
+  const test::TemporaryFolder folder;
+  const std::string ship = boxed_ship(folder.path());
+  std::filesystem::create_directory(folder.path() / "other");
+  const std::string other = folder.path() / "other" / "pier.flt";
+  OpenFlightWriter writer(kPlace);
+  Sketch sketch(writer);
+  writer.begin_object("pier");
+  sketch.box({0, 0, 0}, 10, 50, 2);
+  writer.end();
+  write_bytes(other, writer.take());
+  std::vector<radar::Scene> scenes;
+  ASSERT_TRUE(add_scenes(scenes, {ship, other}, {"environment", "p*"}));
+  EXPECT_EQ(scenes[0].without, "environment");
+  EXPECT_EQ(scenes[1].without, "p*");
+  const auto refused = add_scenes(scenes, {}, {"tower"});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message(), HasSubstr("it has 3 names"));
+  EXPECT_FALSE(add_scenes(scenes, {}, {" , "})) << "no name";
+  std::vector<radar::Scene> none;
+  EXPECT_FALSE(add_scenes(none, {}, {""})) << "no scene";
+}
+
+}  // namespace
+}  // namespace yars::model::scene
