@@ -119,7 +119,7 @@ const SlotSchema* FormReader::row_of(const Slot& slot, int place, const Form& fo
   if (slot.name == "is=") reject(slot.where, "is= in a def-form only", "it in " + form.name);
   const auto found = find_slot(schema, slot.name);
   if (found.schema != nullptr) {
-    warn_spelling(slot.where, ":" + slot.name, ":" + std::string(found.schema->name), found.spelling);
+    warn_spelling(slot.where, ":" + slot.name, std::string(":").append(found.schema->name), found.spelling);
     return found.schema;
   }
   warn_unread(slot, form, known);
@@ -140,7 +140,7 @@ void FormReader::warn_unread(const Slot& slot, const Form& form, const KnownForm
 
 void FormReader::read_slot(const SlotSchema& schema, const Value& value, const std::string& form) {
   const bool used = is_used(schema);
-  if (!used && !unused_) warn(value.where, ":" + std::string(schema.name) + " of " + form + " is read, not used");
+  if (!used && !unused_) warn(value.where, std::string(":").append(schema.name) + " of " + form + " is read, not used");
   const bool outer = std::exchange(unused_, unused_ || !used);
   if (const auto* kind = std::get_if<FormSlot>(&schema.binding)) {
     read_forms(schema, *kind, value);

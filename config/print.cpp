@@ -24,7 +24,7 @@ std::string default_text(const FormSchema& form, const SlotSchema& slot) {
 std::string explanation(const FormSchema& form, std::size_t index) {
   const SlotSchema& slot = form.slots[index];
   const std::string usual = default_text(form, slot);
-  return ":" + std::string(slot.name) + " (" + std::to_string(index + 1) + ") " + value_kind(slot) +
+  return std::string(":").append(slot.name) + " (" + std::to_string(index + 1) + ") " + value_kind(slot) +
          (usual.empty() ? "" : ", default " + usual) + ": " + std::string(slot.purpose) + use_of(form, slot);
 }
 
@@ -51,7 +51,7 @@ class Printer {
   void write_form(const FormSchema& form, int depth) {
     written_.insert(form.name);
     if (explained_) line(depth, "; " + heading(form));
-    line(depth, "( " + std::string(form.name));
+    line(depth, std::string("( ").append(form.name));
     for (std::size_t i = 0; i < form.slots.size(); ++i) write_slot(form, i, depth + 1);
     line(depth, ")");
   }
@@ -65,12 +65,12 @@ class Printer {
       return;
     }
     const std::string value = slot_text(draft_, slot);
-    if (!value.empty()) line(depth, ":" + std::string(slot.name) + " " + value);
+    if (!value.empty()) line(depth, std::string(":").append(slot.name) + " " + value);
   }
 
   void write_forms(const SlotSchema& slot, const FormSlot& forms, int depth) {
     if (forms.printed.empty()) return;
-    line(depth, ":" + std::string(slot.name) + (forms.many ? " `(" : ""));
+    line(depth, std::string(":").append(slot.name) + (forms.many ? " `(" : ""));
     if (forms.give) forms.give(draft_);
     for (const std::string_view name : forms.printed) {
       const FormSchema& form = *find_form(name).schema;

@@ -104,7 +104,8 @@ std::string string_of(std::string_view text, const ScanState& state) {
     } else if (escaped == '"' || escaped == '\\') {
       value += escaped;
     } else {
-      reject(state.token, R"(one of \" \\ \n \t after a backslash)", "\\" + printable({&escaped, 1}));
+      reject(state.token, R"(one of \" \\ \n \t after a backslash)",
+             std::string("\\").append(printable({&escaped, 1})));
     }
   }
   return value;
@@ -135,7 +136,7 @@ Value list_value(const Location& where, std::vector<Slot> arguments) {
     }
     if (argument.position != 0 && argument.position != place) {
       reject(argument.where, "position :" + std::to_string(place) + " here in the list",
-             ":" + std::to_string(argument.position));
+             std::string(":").append(std::to_string(argument.position)));
     }
     list.items.push_back(std::move(argument.value));
   }

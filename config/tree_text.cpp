@@ -18,7 +18,7 @@ std::string atom_text(const Value& value) {
 std::string label(const Slot& slot) {
   if (slot.name == "is=") return "is= ";
   if (!slot.name.empty()) return ":" + slot.name + " ";
-  return slot.position == 0 ? std::string() : ":" + std::to_string(slot.position) + " ";
+  return slot.position == 0 ? std::string() : std::string(":").append(std::to_string(slot.position)) + " ";
 }
 
 // Writes a value on one line; gives up where the line would become too long.

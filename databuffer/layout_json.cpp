@@ -32,7 +32,7 @@ class ObjectText {
 };
 
 std::string quoted(std::string_view text) {
-  return "\"" + std::string(text) + "\"";
+  return std::string("\"").append(text) + "\"";
 }
 
 std::string object_of(Numbers numbers) {
@@ -171,7 +171,8 @@ std::string records() {
   for (const RecordFields& record : record_fields()) {
     ObjectText fields;
     for (const RecordField& field : record.fields)
-      fields.add(field.name, "[" + std::to_string(field.offset) + ", " + std::to_string(field.size) + "]");
+      fields.add(field.name,
+                 std::string("[").append(std::to_string(field.offset)) + ", " + std::to_string(field.size) + "]");
     ObjectText object;
     object.add("size", record.size);
     object.add("fields", fields.text());

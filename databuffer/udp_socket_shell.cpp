@@ -56,7 +56,7 @@ std::int64_t realtime_ns() {
 std::string text_of(const Sender& sender) {
   std::string text;
   for (const int shift : {24, 16, 8, 0})
-    text += (text.empty() ? "" : ".") + std::to_string(sender.address >> shift & 255U);
+    text.append(text.empty() ? "" : ".").append(std::to_string(sender.address >> shift & 255U));
   return text + ':' + std::to_string(sender.port);
 }
 

@@ -8,8 +8,8 @@
 namespace yars::shm {
 
 // Paths /proc/PID/fd/N that open files which had the name `path`, or the name under which a creator built it
-// (path.NUMBER.tmp), and have none now; regular files of this user alone. Looks at every process that this user may look
-// into; a few milliseconds.
+// (path.NUMBER.tmp), and have none now; regular files of this user alone. Looks at every process that this user may
+// look into; a few milliseconds.
 std::vector<std::string> nameless_files(const std::string& path);
 
 }  // namespace yars::shm

@@ -133,8 +133,9 @@ void draw_points(RadarState& state, const Surroundings& surroundings, const rada
   }
 
   const auto entries = nearest.entries();
-  std::sort(entries.begin(), entries.end(),
-            [](const auto& a, const auto& b) { return radar::precedes(a.point->name, b.point->name); });
+  const auto precedes = [](const auto& a, const auto& b) { return radar::precedes(a.point->name, b.point->name); };
+  for (auto next = entries.begin(); next != entries.end(); ++next)
+    std::rotate(std::upper_bound(entries.begin(), next, *next, precedes), next, next + 1);
   std::fill(std::begin(state.points), std::end(state.points), DrawnPoint{});
   std::transform(entries.begin(), entries.end(), state.points,
                  [selected](const auto& entry) { return drawn(*entry.point, entry.point->name == selected); });

@@ -98,7 +98,7 @@ void OpenFlightWriter::end_subfaces() {
 }
 
 void OpenFlightWriter::instance(std::uint16_t number, const Affine& matrix) {
-  begin_group("i" + std::to_string(number), &matrix);
+  begin_group(std::string("i").append(std::to_string(number)), &matrix);
   nodes_.begin(kInstanceReference, kInstanceBytes);
   nodes_.put(6, number);
   end();

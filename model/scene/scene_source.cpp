@@ -86,7 +86,7 @@ failure::Expected<radar::Scene> parse_scene(const std::string& text) {
                      std::abs((*values)[1]) <= 360.0;
   if (!right || scene.file.empty())
     return failure::fail(text, "FILE@LATITUDE,LONGITUDE or FILE@LATITUDE,LONGITUDE,HEADING in degrees",
-                         "'" + text.substr(at) + "'", "write it as airfield.flt@37.5,-122.3,45");
+                         std::string("'").append(text, at) + "'", "write it as airfield.flt@37.5,-122.3,45");
   scene.place = {(*values)[0], geo::wrapped_degrees((*values)[1])};
   if (values->size() == 3) scene.heading_deg = (*values)[2];
   return scene;

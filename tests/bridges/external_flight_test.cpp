@@ -75,7 +75,8 @@ Outcome fly(const Circle& circle, double rate_hz, double jitter_s, bool with_rat
   ExternalFlight flight(kReach);
   Outcome outcome;
   double report_s = 0.0, next_s = 0.0, received_s = 0.0;
-  std::optional<Ownship> before, true_before;
+  bool has_before = false;
+  Ownship before{}, true_before{};
   for (double now_s = 0.02; now_s < 60.0; now_s += 0.02) {
     while (next_s <= now_s) {
       if (chance(random) >= lost_share) {
@@ -88,7 +89,7 @@ Outcome fly(const Circle& circle, double rate_hz, double jitter_s, bool with_rat
     const auto sample = flight.at(seconds(now_s));
     if (!sample) {
       outcome.missing += now_s > 2.0 ? 1 : 0;
-      before.reset();
+      has_before = false;
       continue;
     }
     EXPECT_FALSE(why_refused(sample->ownship));
@@ -102,10 +103,11 @@ Outcome fly(const Circle& circle, double rate_hz, double jitter_s, bool with_rat
       outcome.worst_velocity_mps =
           std::max(outcome.worst_velocity_mps, std::hypot(own.velocity_north_mps - truth.velocity_north_mps,
                                                           own.velocity_east_mps - truth.velocity_east_mps));
-      if (before)
+      if (has_before)
         outcome.worst_step_m =
-            std::max(outcome.worst_step_m, std::abs(distance_m(*before, own) - distance_m(*true_before, truth)));
+            std::max(outcome.worst_step_m, std::abs(distance_m(before, own) - distance_m(true_before, truth)));
     }
+    has_before = true;
     before = own;
     true_before = truth;
   }

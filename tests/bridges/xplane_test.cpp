@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -65,9 +66,9 @@ TEST(Xplane, AStateMayComeInPieces) {
   XplaneBridge bridge;
   const PacketBytes whole = packet_of("xplane/level.bin");
   const auto piece = [&whole](std::size_t from, std::size_t to) {
-    PacketBytes packet(whole.begin(), whole.begin() + 5);
-    packet.insert(packet.end(), whole.begin() + static_cast<std::ptrdiff_t>(5 + 8 * from),
-                  whole.begin() + static_cast<std::ptrdiff_t>(5 + 8 * to));
+    const auto at = [&whole](std::size_t index) { return whole.begin() + static_cast<std::ptrdiff_t>(5 + 8 * index); };
+    PacketBytes packet(5 + 8 * (to - from));
+    std::copy(at(from), at(to), std::copy(whole.begin(), whole.begin() + 5, packet.begin()));
     return packet;
   };
   EXPECT_FALSE(*bridge.receive(piece(0, 5), {}));

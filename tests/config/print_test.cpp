@@ -53,7 +53,7 @@ TEST(Defaults, AreWrittenOutSlotBySlotInTheFiles) {
     for (const SlotSchema& slot : form.slots) {
       if (form.part_of_value || !slot.same_as.empty() || slot_text(draft, slot).empty()) continue;
       ++slots;
-      EXPECT_THAT(text, HasSubstr(":" + std::string(slot.name) + " ")) << form.name;
+      EXPECT_THAT(text, HasSubstr(std::string(":").append(slot.name) + " ")) << form.name;
     }
   }
   EXPECT_GT(slots, 30);
@@ -255,7 +255,7 @@ TEST(Print, ExplainsEverySlotOfTheSchema) {
   for (const FormSchema& form : schema()) {
     EXPECT_THAT(tables, HasSubstr("### " + std::string(form.name)));
     for (const SlotSchema& slot : form.slots) {
-      EXPECT_THAT(text, HasSubstr(":" + std::string(slot.name) + " (")) << form.name;
+      EXPECT_THAT(text, HasSubstr(std::string(":").append(slot.name) + " (")) << form.name;
       EXPECT_FALSE(slot.purpose.empty()) << form.name << " :" << slot.name;
     }
   }

@@ -12,7 +12,7 @@ namespace yars::databuffer::testing {
 
 class SessionTest : public ::testing::Test {
  protected:
-  SessionTest() : name_("t" + std::to_string(getpid()) + "-" + std::to_string(++count)) {}
+  SessionTest() : name_(std::string("t").append(std::to_string(getpid())) + "-" + std::to_string(++count)) {}
   ~SessionTest() override { unlink(path().c_str()); }
   std::string path() const { return shm::segment_path(name_); }
   bool file_exists() const { return access(path().c_str(), F_OK) == 0; }

@@ -17,7 +17,7 @@ inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 template <std::size_t N>
 void set_text(char (&field)[N], const std::string& text) {
-  std::snprintf(field, N, "%s", text.c_str());
+  field[text.copy(field, N - 1)] = '\0';
 }
 
 inline std::map<int, std::string> legends_of(radar::Mode mode) {

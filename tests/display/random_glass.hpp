@@ -121,8 +121,8 @@ class RandomGlass {
       const auto kind = static_cast<PointKind>(whole(0, 4));
       std::string name = std::to_string(10 * whole(0, 9) + i + 1);
       if (kind == PointKind::target) name += ".";
-      if (kind == PointKind::steer_offset) name += "." + std::to_string(whole(1, 9));
-      if (kind == PointKind::target_offset) name += "." + std::to_string(whole(10, 99));
+      if (kind == PointKind::steer_offset) name.append(".").append(std::to_string(whole(1, 9)));
+      if (kind == PointKind::target_offset) name.append(".").append(std::to_string(whole(10, 99)));
       const geo::GeoPoint place = place_of(input, at);
       add_point(input, name, kind, place);
       input.state.points[i].selected = i == selected ? 1 : 0;

@@ -190,7 +190,7 @@ TEST(GlassFrames, OfAWindowComeWhenSomethingDrawnHasChanged) {
   ProcessSet set("frames-window");
   set.start_tool("xvfb", {"Xvfb", "-displayfd", "1", "-screen", "0", "800x600x24", "-nolisten", "tcp"});
   ASSERT_TRUE(eventually([&] { return set.output_of("xvfb").ends_with("\n"); }, 20.0)) << set.log_of("xvfb");
-  auto display = ":" + set.output_of("xvfb");
+  auto display = std::string(":").append(set.output_of("xvfb"));
   display.pop_back();
   setenv("DISPLAY", display.c_str(), 1);
   ASSERT_NO_FATAL_FAILURE(start_live(set));

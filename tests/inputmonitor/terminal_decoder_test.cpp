@@ -26,7 +26,7 @@ std::string name_of(Key key) {
 std::string text_of(const std::vector<KeyChange>& changes) {
   std::string text;
   for (const KeyChange& change : changes)
-    text += (text.empty() ? "" : " ") + std::string(change.pressed ? "+" : "-") + name_of(change.key);
+    text.append(text.empty() ? "" : " ").append(change.pressed ? "+" : "-").append(name_of(change.key));
   return text;
 }
 

@@ -76,7 +76,8 @@ def check_session_names(folder):
     """A name that leads elsewhere is bad usage for every program, and nothing is made for it."""
     top = pathlib.Path(__file__).resolve().parents[2]
     programs = ["yars scan", "yars status", "yars watch", "yars inject freeze", "radar-model", "state-machine",
-                "radar-display", "input-monitor", "flight-model"]
+                "radar-display", "input-monitor",
+                "flight-model --source fixed:1,1,1,1,1"]
     starts = [[str(BIN / words.split()[0])] + words.split()[1:] for words in programs]
     starts += [[str(top / "scripts/start")], [str(top / "scripts/supervise"), "--name", "n", "--bin", str(BIN), "--role",
                                               "a", "true"]]

@@ -19,7 +19,7 @@ faults = []
 
 
 def run(*command, folder):
-    return subprocess.run([str(word) for word in command], cwd=folder, capture_output=True, text=True, timeout=60, check=False)
+    return subprocess.run([str(word) for word in command], cwd=folder, capture_output=True, text=True, timeout=300, check=False)
 
 
 def expect(what, good, found=""):
