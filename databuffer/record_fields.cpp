@@ -170,6 +170,10 @@ constexpr std::array kRadarStateFields = {
     YARS_FIELD(RadarState, velocity_vertical_mps),
     YARS_FIELD(RadarState, marks),
     YARS_FIELD(RadarState, magnetic_variation_deg),
+    YARS_FIELD(RadarState, asked_latitude_deg),
+    YARS_FIELD(RadarState, asked_longitude_deg),
+    YARS_FIELD(RadarState, asked_tick),
+    YARS_FIELD(RadarState, asked_for),
 };
 
 constexpr std::array kRadarCommandFields = {
@@ -283,6 +287,10 @@ constexpr std::array kModelStatusFields = {
     YARS_FIELD(ModelStatus, velocity_count),
     YARS_FIELD(ModelStatus, velocity_dwell),
     YARS_FIELD(ModelStatus, velocity_beam),
+    YARS_FIELD(ModelStatus, answered_latitude_deg),
+    YARS_FIELD(ModelStatus, answered_longitude_deg),
+    YARS_FIELD(ModelStatus, answered_elevation_m),
+    YARS_FIELD(ModelStatus, map_stopped),
 };
 
 constexpr std::array kOutputsFields = {

@@ -168,7 +168,10 @@ typedef struct {
   double velocity_along_mps, velocity_across_mps, velocity_vertical_mps;
   yars_mark marks[10];
   double magnetic_variation_deg;
-  uint64_t reserved[7];
+  double asked_latitude_deg, asked_longitude_deg;
+  int64_t asked_tick;
+  uint32_t asked_for, reserved_word;
+  uint64_t reserved[3];
 } yars_radar_state;
 
 typedef struct {
@@ -194,7 +197,9 @@ typedef struct {
   int64_t velocity_due_tick;
   uint32_t velocity_count, velocity_dwell;
   uint8_t velocity_beam, reserved_bytes[7];
-  uint64_t reserved[8];
+  double answered_latitude_deg, answered_longitude_deg, answered_elevation_m;
+  char map_stopped[16];
+  uint64_t reserved[3];
 } yars_model_status;
 
 typedef struct {

@@ -45,8 +45,8 @@ struct LayerContent {
 };
 
 // Texts and scales stand at fixed places, labels where label_layout.hpp puts them, points and the cursor where the
-// ground is.
-enum class BoxKind : std::uint8_t { text, label, scale, point, cursor };
+// ground is. A scale is lines with room between them; a solid one has none.
+enum class BoxKind : std::uint8_t { text, label, scale, solid, point, cursor };
 
 struct OccupiedBox {
   std::string name;  // the text itself, or what the scale or symbol is

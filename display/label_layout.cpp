@@ -18,12 +18,13 @@ struct Clearance {
   float around;          // the text
   float beside_line;     // the line that leads to it
   float beyond_line;     // its ends, which come to no other line
-  bool crosses_symbols;  // its line may run under points, outline and steering line: so it stays, so it comes at last
+  bool crosses_symbols;  // its line may run under points, solid scales, outline and steering line: to stay, or at last
 };
 constexpr Clearance kToStay{2.5F, 1.0F, 0.0F, true};
 // More to come than to stay, or it would leave with the next picture; more still to come nearer.
 constexpr Clearance kToCome{3.5F, 2.0F, 2.0F, false}, kToComeAtLast{3.5F, 2.0F, 2.0F, true};
 constexpr Clearance kToReturn{7.0F, 3.0F, 3.0F, false};
+constexpr float kInsideEdge = 1.5F;  // so much less than from words is enough from the edge
 constexpr float kOffWords = 3.0F;    // more than that beside another text, with which it would read as one word
 constexpr float kOffSymbols = 2.0F;  // more than that off another point's symbol, whose name it would seem
 
@@ -101,7 +102,8 @@ class Search {
   bool is_free(std::size_t index, const Clearance& clearance) const {
     const Place place = place_of(label_.role, index);
     const Rect box = text_box(words_of(label_.words), moved(label_.anchor, place.offset), {kText, place.align});
-    return on_glass(grown(box, 1.0F)) && is_clear(grown(box, clearance.around)) &&
+    // From the edge as from words: a picture that jitters there must not blink.
+    return on_glass(grown(box, clearance.around - kInsideEdge)) && is_clear(grown(box, clearance.around)) &&
            (place.ring == 0 || line_is_clear(place, clearance));
   }
 
@@ -161,7 +163,8 @@ class Search {
     const Segment own = line(place);
     for (const OccupiedBox& box : list_.occupied()) {
       const bool symbol = box.kind == BoxKind::point;
-      if (box.kind == BoxKind::scale || (symbol && clearance.crosses_symbols)) continue;
+      const bool may_give_way = symbol || box.kind == BoxKind::solid;
+      if (box.kind == BoxKind::scale || (may_give_way && clearance.crosses_symbols)) continue;
       const bool fixed = symbol || box.kind == BoxKind::text;
       const float reach = 2.0F - clearance.beside_line / 2.0F;
       if (fixed && crosses(grown(box.rect, reach), label_.anchor, own.from)) continue;
@@ -197,6 +200,11 @@ class Search {
 };
 
 }  // namespace
+
+bool LabelMemory::names(std::string_view words) const {
+  return std::ranges::any_of(
+      kept(), [words](const Kept& one) { return one.role == LabelRole::name && words_of(one.words) == words; });
+}
 
 Label label_of(LabelRole role, std::string_view words, Point anchor) {
   Label label{role, {}, anchor};

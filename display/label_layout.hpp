@@ -49,6 +49,7 @@ class LabelMemory {
     std::array<char, 16> words{};  // of a name; there is one heading, whatever it reads
     std::size_t place = 0;
   };
+  bool names(std::string_view words) const;  // a point of this name had its label
   std::span<const Kept> kept() const { return {kept_.data(), count_}; }
   void clear() { count_ = 0; }
   void keep(const Kept& kept);

@@ -18,7 +18,9 @@ namespace {
 
 constexpr float kRadius = 6.0F;                   // [units] of a point's symbol
 constexpr float kGapInside = 7.0F, kArm = 16.0F;  // [units] of the plus: a point's symbol fits into its middle
-constexpr float kInk = 2.0F;                      // [units] that an arm covers, with its halo, beside its middle
+// [units] from a symbol to the next word, with its ink; less to stay than to come, or a jitter would make it blink.
+constexpr float kMarginToStay = 2.5F, kMarginToCome = 4.0F;
+constexpr float kInk = 2.0F;  // [units] that an arm covers, with its halo, beside its middle
 
 bool on_glass(Point at) {
   return at.x >= 0.0F && at.y >= 0.0F && at.x <= kGlassUnits && at.y <= kGlassUnits;
@@ -91,6 +93,16 @@ NameRank rank_of(const databuffer::DrawnPoint& point, const databuffer::RadarSta
   return designated ? NameRank::target : NameRank::other;
 }
 
+// Where the display has a word or a solid scale there is no room for a symbol: neither could be read. Carets, ticks
+// of the elevation scale and the pitch ball are symbols themselves, thin and few: a point may lie on them.
+bool is_covered(Point at, float margin, const DrawList& list) {
+  const Rect symbol = grown({at.x, at.y, at.x, at.y}, kRadius + margin);
+  return std::ranges::any_of(list.occupied(), [&symbol](const OccupiedBox& box) {
+    const bool covers = box.kind == BoxKind::text || box.kind == BoxKind::solid;
+    return covers && intersect(symbol, box.rect);
+  });
+}
+
 }  // namespace
 
 void draw_cursor(const GlassInput& input, const GlassView& view, const GlassFrame& frame, DrawList& list) {
@@ -129,26 +141,37 @@ void draw_window_outline(const GlassInput& input, const GlassView& view, const G
   list.draw_on(Layer::symbols);
 }
 
-void draw_points(const GlassInput& input, std::span<const radar::RoutePoint> route, const GlassView& view,
-                 const GlassFrame& frame, DrawList& list) {
-  list.draw_on(Layer::points);
+PlacedPoints place_points(const GlassInput& input, const GlassView& view, const GlassFrame& frame,
+                          const LabelMemory& labels, const DrawList& list) {
+  PlacedPoints placed;
   const auto belief = databuffer::belief_in_use(input.ownship, input.nav, input.state);
-  for (const databuffer::DrawnPoint& point : points_of(input.state)) {
-    const Point at = view.at_ground(frame, belief.on_video({point.latitude_deg, point.longitude_deg}));
-    if (!on_glass(at)) continue;
-    draw_symbol(point, route, at, list);
+  const auto points = points_of(input.state);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point at = view.at_ground(frame, belief.on_video({points[i].latitude_deg, points[i].longitude_deg}));
+    const float margin = labels.names(databuffer::text_of(points[i].name)) ? kMarginToStay : kMarginToCome;
+    if (on_glass(at) && !is_covered(at, margin, list)) placed[i] = at;
+  }
+  return placed;
+}
+
+void draw_points(const databuffer::RadarState& state, std::span<const radar::RoutePoint> route,
+                 const PlacedPoints& placed, DrawList& list) {
+  list.draw_on(Layer::points);
+  const auto points = points_of(state);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!placed[i]) continue;
+    const Point at = *placed[i];
+    draw_symbol(points[i], route, at, list);
     list.occupy("point", grown({at.x, at.y, at.x, at.y}, kRadius + 1.0F), BoxKind::point);
   }
   list.draw_on(Layer::symbols);
 }
 
-void add_names(const GlassInput& input, const GlassView& view, const GlassFrame& frame, NameRank rank,
-               LabelQueue& queue) {
-  const auto belief = databuffer::belief_in_use(input.ownship, input.nav, input.state);
-  for (const databuffer::DrawnPoint& point : points_of(input.state)) {
-    if (rank_of(point, input.state) != rank) continue;
-    const Point at = view.at_ground(frame, belief.on_video({point.latitude_deg, point.longitude_deg}));
-    if (on_glass(at)) queue.add(label_of(LabelRole::name, databuffer::text_of(point.name), at));
+void add_names(const databuffer::RadarState& state, const PlacedPoints& placed, NameRank rank, LabelQueue& queue) {
+  const auto points = points_of(state);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (placed[i] && rank_of(points[i], state) == rank)
+      queue.add(label_of(LabelRole::name, databuffer::text_of(points[i].name), *placed[i]));
   }
 }
 

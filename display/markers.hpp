@@ -1,7 +1,9 @@
 // What lies on the ground: the cursor, the sequence points and their names, the outline of a map that forms.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "display/draw_list.hpp"
@@ -9,6 +11,7 @@
 #include "display/glass_input.hpp"
 #include "display/label_layout.hpp"
 #include "lib/radar/configuration.hpp"
+#include "lib/radar/limits.hpp"
 
 namespace yars::display {
 
@@ -18,15 +21,20 @@ void draw_cursor(const GlassInput& input, const GlassView& view, const GlassFram
 // The window of the map that was commanded, while it forms: a square about its centre, sides along its line of sight.
 void draw_window_outline(const GlassInput& input, const GlassView& view, const GlassFrame& frame, DrawList& list);
 
+// Where the points of the state are drawn, by their order there. A point off the glass has no place, nor one where a
+// word or a solid scale stands: neither could be read. `labels` are those of the last picture.
+using PlacedPoints = std::array<std::optional<Point>, radar::kMaxPointsDrawn>;
+PlacedPoints place_points(const GlassInput& input, const GlassView& view, const GlassFrame& frame,
+                          const LabelMemory& labels, const DrawList& list);
+
 // Steer point circle, initial point square, target triangle; offsets dashed. The route tells whether an offset belongs
-// to an initial point. Points off the glass are not drawn.
-void draw_points(const GlassInput& input, std::span<const radar::RoutePoint> route, const GlassView& view,
-                 const GlassFrame& frame, DrawList& list);
+// to an initial point.
+void draw_points(const databuffer::RadarState& state, std::span<const radar::RoutePoint> route,
+                 const PlacedPoints& placed, DrawList& list);
 
 // Where there is no room for all names, these come first: of the selected point, of the designated target.
 enum class NameRank : std::uint8_t { selected, target, other };
-// The names of that rank of points on the glass, in the order of the state.
-void add_names(const GlassInput& input, const GlassView& view, const GlassFrame& frame, NameRank rank,
-               LabelQueue& queue);
+// The names of that rank of points that are drawn, in the order of the state.
+void add_names(const databuffer::RadarState& state, const PlacedPoints& placed, NameRank rank, LabelQueue& queue);
 
 }  // namespace yars::display

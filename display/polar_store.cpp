@@ -49,6 +49,7 @@ PolarStore::PolarStore() : video_(static_cast<std::size_t>(kRows) * kRowSamples)
 void PolarStore::clear() {
   sweeps_.clear();
   pass_ = {};
+  ended_.reset();
   free_rows_.resize(kRows);
   for (int row = 0; row < kRows; ++row) free_rows_[static_cast<std::size_t>(row)] = kRows - 1 - row;
   ++version_;
@@ -57,7 +58,11 @@ void PolarStore::clear() {
 Insertion PolarStore::insert(const databuffer::Sweep& sweep) {
   const geo::Bearing left = geo::Bearing::degrees(sweep.azimuth_left_deg);
   const double width_deg = (geo::Bearing::degrees(sweep.azimuth_right_deg) - left).degrees();
-  if ((sweep.flags & databuffer::kSweepBlank) != 0 || sweep.samples == 0) return Insertion::ignored;
+  if ((sweep.flags & databuffer::kSweepBlank) != 0 || sweep.samples == 0) {
+    const bool of_this_picture = !sweeps_.empty() && sweep.epoch == epoch_ && sweep.mode == mode_;
+    if (of_this_picture && (sweep.flags & databuffer::kSweepScanEnd) != 0) end_scan(sweep.scan);
+    return Insertion::ignored;
+  }
   if (!std::isfinite(sweep.apex_latitude_deg) || !std::isfinite(sweep.apex_longitude_deg)) return Insertion::ignored;
   if (!(width_deg > 0.0 && width_deg <= kMostWidth_deg) || !(sweep.range_m > 0.0)) return Insertion::ignored;
 
@@ -83,6 +88,7 @@ Insertion PolarStore::insert(const databuffer::Sweep& sweep) {
   const bool at_back = place == sweeps_.end();
   sweeps_.insert(place, stored);
   ++version_;
+  if ((sweep.flags & databuffer::kSweepScanEnd) != 0) end_scan(sweep.scan);
   if (was_empty) return Insertion::first;
   if (covered > 0) return Insertion::replaced;
   if (at_front) return Insertion::before_first;
@@ -147,6 +153,15 @@ void PolarStore::erase_swept(geo::GeoPoint apex) {
     const geo::Vector3 near = here.enu_from_ecef(sweep.near_ecef);
     return pass_.has_swept(geo::Bearing::degrees(std::atan2(near.x, near.y) / geo::kRadiansPerDegree));
   });
+}
+
+// A scan that is broken off, by another range or width, has renewed nothing: whole ones count.
+void PolarStore::end_scan(std::uint32_t scan) {
+  if (ended_ && *ended_ < scan) {
+    erase_if([this](const StoredSweep& sweep) { return sweep.scan < *ended_; });
+    ++version_;
+  }
+  ended_ = scan;
 }
 
 int PolarStore::take_row() {

@@ -5,6 +5,7 @@
 // The aircraft flies on, so an equal azimuth is not yet the same ground: a covered sweep lies beneath the newer ones
 // until their scan has swept its ground from kNearShare of its range on, at the latest until the scan after that; but
 // while older sweeps stand beside a narrowed scan, what lies between the two stays.
+// What two whole scans have not swept again, because they are narrower or look elsewhere, is erased.
 // Holds kRows sweeps; covered ones make way first, then the oldest. A sweep of another mode or epoch begins a new
 // picture. Blank sweeps carry no video and are ignored, as are wedges that are not 0-45 degrees wide.
 #pragma once
@@ -69,6 +70,7 @@ class PolarStore {
   std::size_t cover(double left_key_deg, double width_deg);
   std::size_t cover_between(double first_key_deg, double last_key_deg);
   void erase_swept(geo::GeoPoint apex);
+  void end_scan(std::uint32_t scan);
   template <typename Predicate>
   void erase_if(Predicate gone);
   int take_row();
@@ -79,6 +81,7 @@ class PolarStore {
   std::vector<int> free_rows_;
   geo::Bearing reference_;
   Pass pass_;
+  std::optional<std::uint32_t> ended_;  // the last scan that came to its end
   std::uint64_t serial_ = 0;
   std::uint64_t version_ = 0;
   std::uint32_t epoch_ = 0;

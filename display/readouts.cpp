@@ -10,6 +10,7 @@
 #include "display/bezel.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/limits.hpp"
+#include "lib/radar/modes.hpp"
 
 namespace yars::display {
 
@@ -55,7 +56,7 @@ void draw_number(std::string_view words, Point at, const TextStyle& style, DrawL
     return other.kind == BoxKind::cursor && intersect(grown(box, 1.0F), other.rect);
   };
   if (std::ranges::any_of(list.occupied(), stands_on)) {
-    list.occupy("number beneath the cursor", box, BoxKind::scale);
+    list.occupy("number beneath the cursor", box, BoxKind::solid);
   } else {
     list.text(words, at, style);
   }
@@ -129,6 +130,13 @@ void draw_map_timer(double seconds, DrawList& list) {
   Buffer buffer;
   draw_number(formatted(buffer, "%.0f SEC", std::ceil(seconds)), {kGlassUnits - 6.0F, 32.0F}, {kText, Align::right},
               list);
+}
+
+void draw_mode_name(const databuffer::RadarState& state, DrawList& list) {
+  const auto mode = static_cast<radar::Mode>(state.mode);
+  const bool air_to_air = mode == radar::Mode::air_to_air;
+  if (!air_to_air && mode != radar::Mode::ranging) return;
+  list.text(air_to_air ? "A/A" : "A/G RANGING", {kGlassUnits / 2.0F, 52.0F}, centered(kText + 1.0F));
 }
 
 void draw_freeze(DrawList& list) {

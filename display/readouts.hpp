@@ -20,6 +20,8 @@ void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list);  
 // UPDT: north and east errors in feet, beyond 3000 ft in NM, or INV; for the INS the seconds left above PB 7.
 void draw_update_errors(const databuffer::RadarState& state, DrawList& list);
 void draw_map_timer(double seconds, DrawList& list);  // nothing while NaN
+// Air to air and A/G ranging, which have no legend that names them.
+void draw_mode_name(const databuffer::RadarState& state, DrawList& list);
 void draw_freeze(DrawList& list);
 void draw_message(const databuffer::RadarState& state, DrawList& list);
 void draw_banner(std::string_view words, DrawList& list);   // STBY, NO VIDEO

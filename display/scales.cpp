@@ -64,6 +64,8 @@ void draw_azimuth_scale(double antenna_right_of_track_deg, DrawList& list) {
               {x_of(-kAzimuthTrack) - kCaretHalf, tip - kCaretLength - 1.0F, x_of(kAzimuthTrack) + kCaretHalf,
                kAzimuthTickBottom + 1.0F},
               BoxKind::scale);
+  list.occupy("azimuth ticks", {x_of(-60.0F) - 2.0F, kAzimuthTickTop - 1.0F, x_of(60.0F) + 2.0F, kAzimuthTickBottom},
+              BoxKind::solid);
 }
 
 void draw_limit_balls(double left_deg, double right_deg, double blind_zone_deg, DrawList& list) {
@@ -157,7 +159,7 @@ void draw_gray_scale(DrawList& list) {
                                    Point{kGrayScale.right, kGrayScale.bottom},
                                    Point{kGrayScale.left, kGrayScale.bottom}, Point{kGrayScale.left, kGrayScale.top}};
   list.polyline(frame, Ink::dim);
-  list.occupy("gray scale", kGrayScale, BoxKind::scale);
+  list.occupy("gray scale", kGrayScale, BoxKind::solid);
 }
 
 }  // namespace yars::display

@@ -27,8 +27,9 @@ struct Format {
   bool scales = false;       // azimuth and elevation scale, carets, pitch ball
   bool limit_balls = false;  // on the azimuth scale
   bool gray_scale = false;
-  bool ground = false;    // cursor with its readout, sequence points
-  bool window = false;    // window size, outline, map timer
+  bool ground = false;  // cursor with its readout, sequence points
+  bool window_size = false;
+  bool mapping = false;   // outline and timer of a map
   bool readouts = false;  // range, brightness
   bool velocity = false;  // differences of velocity and the beam under way
 };
@@ -39,7 +40,8 @@ constexpr Format kRbm{.video = true,
                       .scales = true,
                       .gray_scale = true,
                       .ground = true,
-                      .window = true,
+                      .window_size = true,
+                      .mapping = true,
                       .readouts = true};
 constexpr Format kHrm{.video = true,
                       .arcs = true,
@@ -47,15 +49,26 @@ constexpr Format kHrm{.video = true,
                       .limit_balls = true,
                       .gray_scale = true,
                       .ground = true,
-                      .window = true,
+                      .window_size = true,
+                      .mapping = true,
                       .readouts = true};
-constexpr Format kPatch{
-    .map = true, .scales = true, .limit_balls = true, .ground = true, .window = true, .readouts = true};
+constexpr Format kPatch{.map = true,
+                        .scales = true,
+                        .limit_balls = true,
+                        .ground = true,
+                        .window_size = true,
+                        .mapping = true,
+                        .readouts = true};
 // Over which A/A or ranging has the radar: no map is made.
 constexpr Format kStandingMap{.map = true, .scales = true, .limit_balls = true, .ground = true, .readouts = true};
-constexpr Format kBeacon{
-    .video = true, .arcs = true, .zero_line = true, .scales = true, .ground = true, .readouts = true};
-constexpr Format kPvu{.scales = true, .readouts = true, .velocity = true};
+constexpr Format kBeacon{.video = true,
+                         .arcs = true,
+                         .zero_line = true,
+                         .scales = true,
+                         .ground = true,
+                         .window_size = true,
+                         .readouts = true};
+constexpr Format kPvu{.scales = true, .window_size = true, .mapping = true, .readouts = true, .velocity = true};
 constexpr Format kLegendsOnly{};
 
 const Format& format_of(const databuffer::RadarState& state) {
@@ -127,10 +140,9 @@ void draw_readouts(const GlassInput& input, const Format& format, DrawList& list
   const databuffer::RadarState& state = input.state;
   draw_brightness(state, list);
   draw_range(state, list);
-  if (format.window) {
-    draw_window_size(state, list);
+  if (format.window_size) draw_window_size(state, list);
+  if (format.mapping)
     if (const auto seconds = databuffer::map_timer_s(state, input.model)) draw_map_timer(*seconds, list);
-  }
   if (format.ground) {
     draw_cursor_readout(state, list);
     draw_update_errors(state, list);
@@ -142,13 +154,14 @@ void draw_readouts(const GlassInput& input, const Format& format, DrawList& list
 // Symbols before labels, which keep clear of them.
 void draw_ground(const GlassInput& input, std::span<const radar::RoutePoint> route, const GlassView& view,
                  const GlassFrame& frame, LabelMemory& labels, DrawList& list) {
-  draw_points(input, route, view, frame, list);
+  const PlacedPoints placed = place_points(input, view, frame, labels, list);
+  draw_points(input.state, route, placed, list);
   const auto heading = draw_steering_line(input, view, frame, list);
   LabelQueue queue;
-  add_names(input, view, frame, NameRank::selected, queue);
-  add_names(input, view, frame, NameRank::target, queue);
+  add_names(input.state, placed, NameRank::selected, queue);
+  add_names(input.state, placed, NameRank::target, queue);
   if (heading) queue.add(*heading);
-  add_names(input, view, frame, NameRank::other, queue);
+  add_names(input.state, placed, NameRank::other, queue);
   place_labels(queue.labels(), labels, list);
 }
 
@@ -168,7 +181,7 @@ void draw_format(const GlassInput& input, const Format& format, const radar::Rad
   if (format.gray_scale) draw_gray_scale(list);
   if (format.readouts) draw_readouts(input, format, list);
   if (format.velocity) draw_velocity_format(input, list);
-  if (placed && format.window) draw_window_outline(input, view, frame, list);
+  if (placed && format.mapping) draw_window_outline(input, view, frame, list);
   if (placed) draw_ground(input, configuration.route, view, frame, labels, list);
   list.blank_behind_texts();
 }
@@ -197,6 +210,7 @@ void draw_symbology(const GlassInput& input, const radar::RadarConfiguration& co
   draw_legends(state, list);
   draw_message(state, list);
   draw_silent(input, list);
+  draw_mode_name(state, list);
   if (has_power(state, radar::Power::standby)) {
     draw_banner("STBY", list);
   } else if (shows_map(input)) {

@@ -1,6 +1,7 @@
 #include "display/velocity_readouts.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <string_view>
 
@@ -72,6 +73,14 @@ void draw_velocity_format(const GlassInput& input, DrawList& list) {
                                     ? std::string_view("-")
                                     : std::string_view(buffer.data(), static_cast<std::size_t>(length));
   list.text(beam, {right, y}, {kLargeText, Align::right});
+  // There is no picture to draw a window on: a map that forms is told in words.
+  if (!(input.model.map_window_nm > 0.0)) return;
+  constexpr float map_row = 140.0F;
+  Buffer share;
+  const double percent = std::isfinite(input.model.map_progress) ? 100.0 * input.model.map_progress : 0.0;
+  const int written = std::snprintf(share.data(), share.size(), "%.0f %%", std::floor(percent));
+  list.text("MAP", {left, map_row}, {kLargeText, Align::left});
+  list.text({share.data(), static_cast<std::size_t>(written)}, {right, map_row}, {kLargeText, Align::right});
 }
 
 }  // namespace yars::display

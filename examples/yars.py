@@ -15,6 +15,7 @@ import time
 MAGIC, VERSION, SIZE, HASH = 0x314D485353524159, 3, 27471872, 0xEB33F49407411935
 AT_CLOCK, AT_OWNSHIP_PRIORITY, AT_OWNSHIP, AT_NAV = 448, 1024, 1088, 4416
 AT_RADAR_STATE, AT_SWEEPS, AT_INPUT, AT_PROCESSES, AT_FRAMES = 7744, 543680, 4934656, 5051392, 13840128
+AT_OUTPUTS = 16320
 RADAR_MODEL_BYTE, STATE_MACHINE_BYTE = 1, 2
 FIRST_OWNSHIP_BYTE, OWNSHIP_LANES, FIRST_INPUT_BYTE, INPUT_LANES = 8, 4, 16, 16
 FIRST_PROCESS_BYTE, PROCESSES, PROCESS_STRIDE = 32, 32, 40
@@ -43,6 +44,13 @@ SWEEP = [("tick", "q"), ("sim_time_ns", "q"), ("apex_latitude_deg", "d"), ("apex
          ("apex_altitude_msl_m", "d"), ("azimuth_left_deg", "d"), ("azimuth_right_deg", "d"), ("ground_track_deg", "d"),
          ("elevation_deg", "d"), ("range_m", "d"), ("hash", "Q"), ("epoch", "I"), ("scan", "I"), ("number", "I"),
          ("samples", "I"), ("flags", "I"), ("mode", "B"), ("gain", "B"), ("direction", "B"), ("_reserved", "33s")]
+OUTPUTS = [("tick", "q"), ("sim_time_ns", "q"), ("cue_latitude_deg", "d"), ("cue_longitude_deg", "d"),
+           ("cue_elevation_m", "d"), ("target_latitude_deg", "d"), ("target_longitude_deg", "d"),
+           ("target_elevation_m", "d"), ("target_name", "8s"), ("slant_range_m", "d"), ("bearing_deg", "d"),
+           ("depression_deg", "d"), ("steering_deg", "d"), ("approach_deg", "d"), ("epoch", "I"), ("cue_count", "I"),
+           ("target_count", "I"), ("steering", "B"), ("mark_count", "B"), ("_reserved_bytes", "2s"),
+           ("marks", "320s"), ("_reserved", "64s")]
+MARK = [("latitude_deg", "d"), ("longitude_deg", "d"), ("elevation_m", "d"), ("sim_time_ns", "q")]
 RADAR_STATE_SIZE = 1392
 # The fields of the radar state that a panel shows: name, offset, struct code; the legends are of 8 characters each.
 RADAR_STATE = [("tick", 0, "q"), ("range_nm", 8, "d"), ("boxed", 116, "I"), ("power", 120, "B"), ("mode", 121, "B")]
@@ -256,6 +264,19 @@ class Session:
         texts = (record[LEGENDS_AT + 8 * i:LEGENDS_AT + 8 * i + 8] for i in range(LEGENDS))
         state["legends"] = [text.split(b"\0")[0].decode("ascii", "replace") for text in texts]
         return state
+
+    def outputs(self):
+        """What the radar tells the rest of the aircraft: the cue, the designated target with its ranging (NaN: none)
+        and steering, and `marks`, a list of dicts, oldest first; a point's elevation is NaN where it is not known, or not
+        yet. Fields of the record Outputs (databuffer/records/outputs.hpp); None before there is one."""
+        outputs = self._read(AT_OUTPUTS, OUTPUTS)
+        if outputs is None:
+            return None
+        outputs["target_name"] = outputs["target_name"].split(b"\0")[0].decode("ascii", "replace")
+        size = struct.calcsize(code_of(MARK))
+        records = (outputs["marks"][size * i:size * (i + 1)] for i in range(outputs["mark_count"]))
+        outputs["marks"] = [unpack(MARK, record) for record in records if len(record) == size]
+        return outputs
 
     def sweeps(self):
         """A list of what came since the last call, oldest first; at first, of all that the segment holds, some seconds.

@@ -158,6 +158,7 @@ void RadarModelShell::latch_command() {
     session_->note(databuffer::NoteKind::refusal, "radar state: " + std::string(*reason));
     return;
   }
+  asked_ = state;
   tick_.command = databuffer::command_from_state(state);
   maps_named_ = {state.map_newest, state.map_old, state.map_stored, state.map_shown};
 }
@@ -192,6 +193,7 @@ void RadarModelShell::run_kernel() {
   }
   ask_for_map();
   kernel_.describe(*view, status_);
+  kernel::answer_elevation(asked_, *view, status_);
   status_.terrain_bytes = view->resident_bytes();
   status_.terrain_generation = view->generation();
 }
@@ -246,7 +248,8 @@ void RadarModelShell::publish_map(const PatchMaker::Picture& picture) {
   map.request = under_way.request;
   map.size = picture.size;
   map.looks = static_cast<std::uint32_t>(under_way.order.looks);
-  map.flags = (picture.ready ? 0U : databuffer::kPatchNotReady) | (picture.blind ? databuffer::kPatchBlind : 0U);
+  map.flags = (picture.ready ? 0U : databuffer::kPatchNotReady) | (picture.blind ? databuffer::kPatchBlind : 0U) |
+              (under_way.blank_window ? databuffer::kPatchWindowBlank : 0U);
   configuration_->fidelity.name.copy(map.fidelity, sizeof map.fidelity - 1);
   map.hash = kernel::map_hash(map, picture.pixels);
   std::array<std::uint64_t, 5> keep{};

@@ -63,6 +63,7 @@ class RadarModelShell {
   std::uint64_t state_version_ = 0;
   std::uint64_t map_asked_ = 0;  // id and start of the map that was asked for last
   std::int64_t map_asked_tick_ = -1;
+  databuffer::RadarState asked_{};             // the last one latched
   std::array<std::uint64_t, 4> maps_named_{};  // by the radar state: they stay
   std::uint64_t refused_ = 0;                  // radar states
   std::uint64_t late_before_ = 0;              // ticks that predecessors skipped

@@ -18,7 +18,8 @@ class InputLanes {
  public:
   // The lane's producer. False: the lane was full, the record is dropped and counted.
   bool push(std::size_t lane, const T& record);
-  // The consumer. False: nothing there.
+  // The consumer. False: nothing there. What it has peeked at is still there to be popped.
+  bool peek(std::size_t lane, T& out);
   bool pop(std::size_t lane, T& out);
 
   bool empty(std::size_t lane) const { return pushed(lane) == popped(lane); }
@@ -78,7 +79,7 @@ bool InputLanes<T, Lanes, Depth, Access>::push(std::size_t lane, const T& record
 }
 
 template <Record T, std::size_t Lanes, std::size_t Depth, class Access>
-bool InputLanes<T, Lanes, Depth, Access>::pop(std::size_t lane, T& out) {
+bool InputLanes<T, Lanes, Depth, Access>::peek(std::size_t lane, T& out) {
   Lane& from = lanes_[lane];
   const Word number = Access::load(from.popped, std::memory_order_relaxed);
   Word pushed = Access::load(from.pushed_seen, std::memory_order_relaxed);
@@ -95,7 +96,14 @@ bool InputLanes<T, Lanes, Depth, Access>::pop(std::size_t lane, T& out) {
     if (pushed - number > Depth || pushed == number) return false;
   }
   load_words<Access>(from.records[number % Depth].data(), &out, kWordsOf<T>);
-  Access::store(from.popped, number + 1, std::memory_order_release);
+  return true;
+}
+
+template <Record T, std::size_t Lanes, std::size_t Depth, class Access>
+bool InputLanes<T, Lanes, Depth, Access>::pop(std::size_t lane, T& out) {
+  if (!peek(lane, out)) return false;
+  Lane& from = lanes_[lane];
+  Access::store(from.popped, Access::load(from.popped, std::memory_order_relaxed) + 1, std::memory_order_release);
   return true;
 }
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "databuffer/records/navigation.hpp"
 #include "lib/geo/geodesic.hpp"
+#include "statemachine/elevations.hpp"
 #include "statemachine/maps.hpp"
 #include "statemachine/sequence_points.hpp"
 #include "statemachine/steering.hpp"
@@ -20,6 +22,7 @@ using geo::Bearing;
 using geo::GeoPoint;
 using geo::Length;
 
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kCrossingSeconds = 2.0;  // [s] full deflection across the glass: pvi.md, hands-on controls
 constexpr radar::ViewConfiguration kMapView{-0.5, 0.5, -0.5, 0.5};  // the window fills the glass, its centre is 0, 0
 
@@ -63,6 +66,8 @@ GeoPoint cursor_of(const RadarState& state) {
 }
 
 void put_cursor(RadarState& state, GeoPoint place, std::int64_t tick) {
+  if (place.latitude_deg != state.cursor_latitude_deg || place.longitude_deg != state.cursor_longitude_deg)
+    state.cursor_elevation_m = kUnknown;
   state.cursor_latitude_deg = place.latitude_deg;
   state.cursor_longitude_deg = place.longitude_deg;
   state.cursor_moved_tick = tick;
@@ -134,7 +139,8 @@ void read_out(RadarState& state, const Surroundings& surroundings) {
   const auto inverse = geo::geodesic_inverse(aircraft_of(surroundings), cursor_of(state));
   state.cursor_bearing_deg = (inverse.azimuth_at_start - geo::Angle::degrees(state.magnetic_variation_deg)).degrees();
   state.cursor_range_nm = inverse.distance.nautical_miles();
-  state.cursor_elevation_m = surroundings.model.cursor_ground_elevation_m;
+  if (const auto elevation_m = answered_elevation_m(surroundings, cursor_of(state)))
+    state.cursor_elevation_m = *elevation_m;
   const auto belief = databuffer::belief_in_use(surroundings.ownship, surroundings.nav, state);
   const GeoPoint known = belief.known_from_video(cursor_of(state));
   state.cursor_believed_latitude_deg = known.latitude_deg;

@@ -9,7 +9,7 @@
 namespace yars::statemachine {
 
 void cue_sensor(Step& step);
-void designate_target(Step& step);  // also cues
+void designate_target(Step& step);  // also cues; on a point of the route it takes that one
 void store_mark(Step& step);        // ten are kept: the oldest makes way
 
 // The designated target as a point among the sequence points; nothing when none is.

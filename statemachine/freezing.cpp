@@ -75,7 +75,7 @@ void freeze(RadarState& state) {
 }
 
 void thaw(RadarState& state) {
-  set_flag(state, databuffer::kFreeze | databuffer::kFrozenByHrmExit, false);
+  set_flag(state, databuffer::kFreeze | databuffer::kFrozenByHrmExit | databuffer::kRecalledByHrmExit, false);
   state.map_stored = 0;
   put_recall(state, Recall::none);
 }
@@ -87,13 +87,23 @@ void freeze_silent_hrm(RadarState& state) {
 }
 
 void freeze_on_leaving(RadarState& state) {
-  if (state.map_shown == 0 || has(state, databuffer::kFreeze)) return;
-  freeze(state);
-  set_flag(state, databuffer::kFrozenByHrmExit, true);
+  const Mode mode = running_mode(state);
+  if (state.map_newest == 0 || (mode != Mode::hrm && mode != Mode::patch)) return;
+  if (!has(state, databuffer::kFreeze)) {
+    freeze(state);
+    set_flag(state, databuffer::kFrozenByHrmExit, true);
+  }
+  if (recall_of(state) != Recall::none) return;
+  put_recall(state, Recall::newest);
+  set_flag(state, databuffer::kRecalledByHrmExit, true);
 }
 
 void thaw_on_return(RadarState& state) {
-  if (!has(state, databuffer::kFrozenByHrmExit) || has(state, databuffer::kSet)) return;
+  if (has(state, databuffer::kSet)) return;
+  // A PPI that the pilot had frozen stands again.
+  if (has(state, databuffer::kRecalledByHrmExit)) put_recall(state, Recall::none);
+  set_flag(state, databuffer::kRecalledByHrmExit, false);
+  if (!has(state, databuffer::kFrozenByHrmExit)) return;
   thaw(state);
   freeze_silent_hrm(state);
 }

@@ -19,7 +19,8 @@ void thaw(databuffer::RadarState& state);  // forgets what was recalled and stor
 // Rule 19: HRM that may not transmit keeps the picture it has.
 void freeze_silent_hrm(databuffer::RadarState& state);
 
-// Rule 21: a map that A/G leaves on the glass stands frozen; back in A/G that freeze ends, but for SET.
+// Rule 21: when A/G leaves HRM, the map on the display, or over a PPI the newest, stands frozen; back in A/G that
+// freeze ends, but for SET. Source: report, appendix A, "Set Function": "the last HRM map is automatically frozen".
 void freeze_on_leaving(databuffer::RadarState& state);
 void thaw_on_return(databuffer::RadarState& state);
 

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "statemachine/cursor.hpp"
+#include "statemachine/elevations.hpp"
 #include "statemachine/freezing.hpp"
 #include "statemachine/legends.hpp"
 #include "statemachine/maps.hpp"
@@ -43,7 +44,8 @@ bool same_bytes(const RadarState& a, const RadarState& b) {
 }
 
 void end_message(RadarState& state, std::int64_t tick) {
-  if (state.message[0] == '\0' || tick < state.message_until_tick) return;
+  if (state.message[0] == '\0' || state.message_until_tick == databuffer::kUntilCauseEnds) return;
+  if (tick < state.message_until_tick) return;
   std::memset(state.message, 0, sizeof(state.message));
   state.message_until_tick = 0;
 }
@@ -56,17 +58,18 @@ RadarState initial_state(const radar::RadarConfiguration& configuration) {
   return state;
 }
 
-bool apply(RadarState& state, const databuffer::InputEvent& event, const Surroundings& surroundings,
-           const radar::RadarConfiguration& configuration) {
+Effect apply(RadarState& state, const databuffer::InputEvent& event, const Surroundings& surroundings,
+             const radar::RadarConfiguration& configuration) {
   const Action action = action_for(state, event);
-  if (!action) return false;
+  if (!action) return Effect::none;
   const RadarState before = state;
   Step step{state, event, surroundings, configuration};
   action(step);
   state.map_shown = map_to_show(state);
-  if (same_bytes(before, state)) return false;
+  if (step.refused) return Effect::refused;
+  if (same_bytes(before, state)) return Effect::none;
   draw_points(state, surroundings, configuration);
-  return true;
+  return Effect::done;
 }
 
 void advance(RadarState& state, const Surroundings& surroundings, const radar::RadarConfiguration& configuration) {
@@ -75,6 +78,7 @@ void advance(RadarState& state, const Surroundings& surroundings, const radar::R
     enter_epoch(state, surroundings);
     points_due = true;
   }
+  take_elevation(state, surroundings);
   take_map(state, surroundings);
   state.map_shown = map_to_show(state);
   if (power_of(state) != radar::Power::off && surroundings.ownship_valid) {
@@ -92,6 +96,8 @@ void advance(RadarState& state, const Surroundings& surroundings, const radar::R
   advance_recorder(state, surroundings);
   if (points_due) draw_points(state, surroundings, configuration);
   end_message(state, surroundings.tick);
+  tell_why_map_stopped(state, surroundings);
+  ask_for_cursor(state);
   write_legends(state);
 }
 

@@ -39,9 +39,16 @@ struct Surroundings {
 // A session's first state: power off.
 databuffer::RadarState initial_state(const radar::RadarConfiguration& configuration);
 
-// Applies one event. True when it did something; false when it is dead here.
-bool apply(databuffer::RadarState& state, const databuffer::InputEvent& event, const Surroundings& surroundings,
-           const radar::RadarConfiguration& configuration);
+// What an event came to.
+enum class Effect : std::uint32_t {
+  none = databuffer::kEventDead,        // dead here, or everything stands so already
+  done = databuffer::kEventDone,        // it changed something
+  refused = databuffer::kEventRefused,  // it cannot be done, and the display says why
+};
+
+// Applies one event.
+Effect apply(databuffer::RadarState& state, const databuffer::InputEvent& event, const Surroundings& surroundings,
+             const radar::RadarConfiguration& configuration);
 
 // What passes with time, once a tick after the events: cursor slew, messages that end, the points drawn, legends.
 void advance(databuffer::RadarState& state, const Surroundings& surroundings,

@@ -1,9 +1,13 @@
 #include "statemachine/maps.hpp"
 
 #include <algorithm>
-#include <iterator>
+#include <cstring>
+#include <optional>
 #include <string_view>
 
+#include "databuffer/records/navigation.hpp"
+#include "databuffer/records/plain_text.hpp"
+#include "lib/radar/mappable.hpp"
 #include "lib/radar/windows.hpp"
 #include "statemachine/modes.hpp"
 #include "statemachine/switches.hpp"
@@ -16,21 +20,35 @@ using databuffer::ModelStatus;
 using databuffer::PatchMap;
 using databuffer::RadarState;
 
+geo::Length range_to_cursor(const Step& step) {
+  const databuffer::Ownship& ownship = step.surroundings.ownship;
+  return geo::geodesic_inverse({ownship.latitude_deg, ownship.longitude_deg},
+                               {step.state.cursor_latitude_deg, step.state.cursor_longitude_deg})
+      .distance;
+}
+
 // [NM] of the map to command; 0 when a blank window stands for none at this range.
-double window_to_map_nm(const RadarState& state, const radar::RadarConfiguration& configuration) {
-  if (state.window_nm > 0.0) return state.window_nm;
-  const auto window =
-      radar::window_while_blank(geo::Length::nautical_miles(state.cursor_range_nm), configuration.window_limits);
+double window_to_map_nm(const Step& step) {
+  if (step.state.window_nm > 0.0) return step.state.window_nm;
+  const auto window = radar::window_while_blank(range_to_cursor(step), step.configuration.window_limits);
   return window ? window->nautical_miles() : 0.0;
 }
 
-// The model's word goes onto the glass and into a record that must stay readable, whoever wrote it.
-std::string_view reason_of(const ModelStatus& model) {
-  const auto* const end = std::find(std::begin(model.why_not), std::end(model.why_not), '\0');
-  const bool readable =
-      std::all_of(std::begin(model.why_not), end, [](char letter) { return letter >= ' ' && letter <= '~'; });
-  if (!readable) return {};
-  return {model.why_not, static_cast<std::size_t>(end - std::begin(model.why_not))};
+// Judged here: what the model says of the cursor is of the tick before, and the cursor may have jumped since.
+std::optional<std::string_view> why_not_here(const Step& step) {
+  const databuffer::Ownship& ownship = step.surroundings.ownship;
+  const radar::MapViewpoint from{{ownship.latitude_deg, ownship.longitude_deg},
+                                 geo::Bearing::degrees(ownship.heading_deg),
+                                 databuffer::ground_track_of(ownship)};
+  return radar::why_not_mappable(from, {step.state.cursor_latitude_deg, step.state.cursor_longitude_deg},
+                                 {geo::Length::nautical_miles(step.state.window_nm)}, step.configuration);
+}
+
+// The model's word goes onto the display and into a record that must stay readable, whoever wrote it.
+std::string_view why_stopped(const ModelStatus& model) {
+  const std::string_view words = databuffer::text_of(model.map_stopped);
+  return std::ranges::all_of(words, [](char letter) { return letter >= ' ' && letter <= '~'; }) ? words
+                                                                                                : std::string_view();
 }
 
 // Above every request that either side knows of: a state that began anew must not take an old map for an answer.
@@ -51,18 +69,15 @@ void take_commanded(RadarState& state, std::uint64_t id) {
 
 void command_map(Step& step) {
   RadarState& state = step.state;
-  const ModelStatus& model = step.surroundings.model;
   if (!step.surroundings.ownship_valid || !has(state, databuffer::kCursorValid)) return;
-  if (model.mappable == 0) {
-    if (const auto reason = reason_of(model); !reason.empty()) show_message(step, reason);
-    return;
-  }
-  const double window_nm = window_to_map_nm(state, step.configuration);
-  if (!(window_nm > 0.0)) return show_message(step, "NO WINDOW");
-  state.map_request = next_request(state, model);
+  if (const auto reason = why_not_here(step)) return refuse(step, *reason);
+  const double window_nm = window_to_map_nm(step);
+  if (!(window_nm > 0.0)) return refuse(step, "NO WINDOW");
+  state.map_request = next_request(state, step.surroundings.model);
   state.map_latitude_deg = state.cursor_latitude_deg;
   state.map_longitude_deg = state.cursor_longitude_deg;
   state.map_window_nm = window_nm;
+  set_flag(state, databuffer::kMapWindowBlank, state.window_nm == 0.0);
   set_flag(state, databuffer::kMapping, true);
 }
 
@@ -75,6 +90,7 @@ void cancel_map(RadarState& state, const Surroundings& surroundings) {
   state.map_latitude_deg = newest->latitude_deg;
   state.map_longitude_deg = newest->longitude_deg;
   state.map_window_nm = newest->window_nm;
+  set_flag(state, databuffer::kMapWindowBlank, (newest->flags & databuffer::kPatchWindowBlank) != 0);
 }
 
 void take_map(RadarState& state, const Surroundings& surroundings) {
@@ -94,6 +110,19 @@ void take_map(RadarState& state, const Surroundings& surroundings) {
   } else if (power_of(state) == radar::Power::operate && running_mode(state) == radar::Mode::patch) {
     state.map_newest = model.map_newest;
   }
+}
+
+void tell_why_map_stopped(RadarState& state, const Surroundings& surroundings) {
+  const bool maps_again = power_of(state) == radar::Power::operate && running_mode(state) == radar::Mode::patch &&
+                          !has(state, databuffer::kMapping | databuffer::kFreeze | databuffer::kSniff);
+  const std::string_view reason = maps_again ? why_stopped(surroundings.model) : std::string_view();
+  const bool stands = state.message_until_tick == databuffer::kUntilCauseEnds;
+  // A word that the pilot has just called forth comes first.
+  if (state.message[0] != '\0' && !stands) return;
+  if (!stands && reason.empty()) return;
+  std::memset(state.message, 0, sizeof state.message);
+  reason.copy(state.message, sizeof state.message - 1);
+  state.message_until_tick = reason.empty() ? 0 : databuffer::kUntilCauseEnds;
 }
 
 const PatchMap* map_of(const Surroundings& surroundings, std::uint64_t id) {

@@ -19,6 +19,9 @@ void cancel_map(databuffer::RadarState& state, const Surroundings& surroundings)
 // re-map takes the place of NEW; any other is ignored.
 void take_map(databuffer::RadarState& state, const Surroundings& surroundings);
 
+// Says why the patch shown is not mapped again, for as long as it is not.
+void tell_why_map_stopped(databuffer::RadarState& state, const Surroundings& surroundings);
+
 // What is known of a map; nullptr when there is none of this id.
 const databuffer::PatchMap* map_of(const Surroundings& surroundings, std::uint64_t id);
 

@@ -90,6 +90,10 @@ RadarState forgotten(const Step& step) {
   // The navigators are not the radar's, and marks outlive its power (rule 18).
   fresh.mission = step.state.mission;
   fresh.ins = step.state.ins;
+  fresh.asked_latitude_deg = step.state.asked_latitude_deg;
+  fresh.asked_longitude_deg = step.state.asked_longitude_deg;
+  fresh.asked_tick = step.state.asked_tick;
+  fresh.asked_for = step.state.asked_for & ~databuffer::kAskedForTarget;
   fresh.mark_count = step.state.mark_count;
   std::ranges::copy(step.state.marks, fresh.marks);
   fresh.velocity_taken = step.state.velocity_taken;

@@ -55,8 +55,10 @@ Outputs outputs_of(const RadarState& state, const Surroundings& surroundings) {
   outputs.target_elevation_m = state.target_elevation_m;
   std::ranges::copy(state.target_name, outputs.target_name);
   if (!surroundings.ownship_valid) return outputs;
-  put_ranging(outputs, state, surroundings);
   put_steering(outputs, state, surroundings);
+  // Without its elevation a range would be that of another point.
+  if ((state.asked_for & databuffer::kAskedForTarget) != 0) return outputs;
+  put_ranging(outputs, state, surroundings);
   return outputs;
 }
 

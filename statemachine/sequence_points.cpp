@@ -5,6 +5,7 @@
 #include <cstring>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "databuffer/records/navigation.hpp"
 #include "databuffer/records/plain_text.hpp"
@@ -12,6 +13,7 @@
 #include "lib/radar/point_name.hpp"
 #include "statemachine/cursor.hpp"
 #include "statemachine/designating.hpp"
+#include "statemachine/switches.hpp"
 
 namespace yars::statemachine {
 
@@ -100,7 +102,10 @@ void next_sequence_point(Step& step) {
 }
 
 void select_sequence_point(Step& step) {
-  select(step, find_point(text_of(step.event.text), step.state, step.configuration));
+  const std::string_view name = text_of(step.event.text);
+  const auto point = find_point(name, step.state, step.configuration);
+  if (!point) return refuse(step, "NO POINT " + std::string(name));
+  select(step, point);
 }
 
 void select_first_sequence_point(RadarState& state, const radar::RadarConfiguration& configuration) {
@@ -119,9 +124,11 @@ void draw_points(RadarState& state, const Surroundings& surroundings, const rada
   const std::optional<RoutePoint> target = designated_point(state);
   Nearest nearest;
   if (target) nearest.take(&*target, geo::Length());
+  const auto is_target = [&target](const RoutePoint& point) { return target && point.name == target->name; };
   const geo::GeoPoint aircraft{surroundings.ownship.latitude_deg, surroundings.ownship.longitude_deg};
   const geo::Length range = geo::Length::nautical_miles(state.range_nm);
   for (const RoutePoint& point : configuration.route) {
+    if (is_target(point)) continue;  // a point adopted is drawn once, as the target
     if (point.name == selected) {
       nearest.take(&point, geo::Length());
       continue;

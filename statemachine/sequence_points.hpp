@@ -9,7 +9,7 @@ namespace yars::statemachine {
 
 // The next of the points drawn, in their order, round and round; the cursor jumps to it.
 void next_sequence_point(Step& step);
-// The point with the event's name, of the route or designated; an unknown name does nothing.
+// The point with the event's name, of the route or designated; an unknown name is refused.
 void select_sequence_point(Step& step);
 
 // The first of the route in the order of stepping; none when there is no route.

@@ -11,6 +11,7 @@
 #include "databuffer/records/event_text.hpp"
 #include "databuffer/records/model_validation.hpp"
 #include "databuffer/records/validation.hpp"
+#include "statemachine/elevations.hpp"
 #include "statemachine/outputs.hpp"
 
 namespace yars::statemachine {
@@ -141,7 +142,10 @@ void StateMachineShell::take_events(std::int64_t tick) {
   const std::int64_t now_ns = drop_old_events_ ? databuffer::monotonic_ns() : 0;
   for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) {
     // A source that floods its lane holds up no tick: the rest waits for the next.
-    for (std::size_t taken = 0; taken < databuffer::kInputLaneDepth && input.pop(lane, event); ++taken) {
+    for (std::size_t taken = 0; taken < databuffer::kInputLaneDepth && input.peek(lane, event); ++taken) {
+      // A lane is in order: what follows waits, too.
+      if (waits_for_elevation(state_, event, surroundings_)) break;
+      input.pop(lane, event);
       if (drop_old_events_ && event.monotonic_ns < now_ns - kOldestEvent_ns)
         ++too_old;
       else
@@ -157,14 +161,15 @@ void StateMachineShell::take(const databuffer::InputEvent& event, std::size_t la
     return;
   }
   databuffer::AppliedEvent applied{};
-  applied.effective = apply(state_, event, surroundings_, *configuration_) ? 1 : 0;
+  applied.effective = static_cast<std::uint32_t>(apply(state_, event, surroundings_, *configuration_));
   ++state_.events_applied;
   applied.tick = tick;
   applied.monotonic_ns = databuffer::monotonic_ns();
   applied.event = event;
   applied.lane = static_cast<std::uint32_t>(lane);
   session_->layout().applied_events.publish(applied);
-  databuffer::log_debug(databuffer::text_of(event) + (applied.effective != 0 ? "" : " (dead here)"));
+  databuffer::log_debug(databuffer::text_of(event) +
+                        (applied.effective != databuffer::kEventDead ? "" : " (dead here)"));
 }
 
 void StateMachineShell::publish_if_changed(std::int64_t tick) {

@@ -12,6 +12,7 @@ struct Step {
   const databuffer::InputEvent& event;
   const Surroundings& surroundings;
   const radar::RadarConfiguration& configuration;
+  bool refused = false;  // it cannot be done; the display says why
 };
 
 inline bool has(const databuffer::RadarState& state, std::uint32_t flag) {

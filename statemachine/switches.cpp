@@ -60,9 +60,9 @@ void step_contrast(Step& step) {
 
 void toggle_recorder(Step& step) {
   if (!step.surroundings.recorder_present) {
-    show_message(step, "NO RECORDER");
+    refuse(step, "NO RECORDER");
   } else if (step.surroundings.recorder_failed) {
-    show_message(step, kRecorderFull);
+    refuse(step, kRecorderFull);
   } else {
     ++step.state.vtr_request;
   }
@@ -111,8 +111,9 @@ void show_message(databuffer::RadarState& state, const Surroundings& surrounding
   state.message_until_tick = surroundings.tick + kMessageTicks;
 }
 
-void show_message(Step& step, std::string_view text) {
-  show_message(step.state, step.surroundings, text);
+void refuse(Step& step, std::string_view reason) {
+  show_message(step.state, step.surroundings, reason);
+  step.refused = true;
 }
 
 }  // namespace yars::statemachine

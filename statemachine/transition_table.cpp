@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <optional>
 
 #include "statemachine/cursor.hpp"
 #include "statemachine/designating.hpp"
@@ -93,7 +95,7 @@ constexpr std::array kControls{
     ControlRow{EventKind::tdc_release, kWithCursor, kWithMark | kOperating, store_mark},
     ControlRow{EventKind::tdc_release, kRanging, kWithMark | kOperating | kSetOn, store_mark},
     ControlRow{EventKind::coolie_up, kRadar, kAlways, next_sequence_point},
-    ControlRow{EventKind::acquisition, kRbm | kBothHrm, kWithMap, step_window},
+    ControlRow{EventKind::acquisition, kAllGround, kWithMap, step_window},
     ControlRow{EventKind::acquisition, kWithCursor, kWithTarget | kOperating, steer_slewing},
     ControlRow{EventKind::acquisition, kRanging, kWithTarget | kOperating | kSetOn, steer_slewing},
     ControlRow{EventKind::freeze, kRbm | kBcn, kAlways, toggle_freeze},
@@ -169,7 +171,9 @@ Columns control_column(const databuffer::RadarState& state) {
   return power_of(state) == radar::Power::off ? kOff : column_of(running_mode(state));
 }
 
-bool hold(Conditions conditions, const databuffer::RadarState& state) {
+namespace {
+
+Conditions present_conditions(const databuffer::RadarState& state) {
   const bool frozen = has(state, databuffer::kFreeze);
   Conditions present = frozen ? kFrozen : kThawed;
   present |= condition_of(static_cast<radar::CursorFunction>(state.cursor_function));
@@ -179,7 +183,60 @@ bool hold(Conditions conditions, const databuffer::RadarState& state) {
   present |= has(state, databuffer::kSet) ? kSetOn : kSetOff;
   if (state.map_newest != 0) present |= kHasMap;
   if (state.map_shown != 0) present |= kMapStands;
-  return (conditions & ~present) == 0;
+  return present;
+}
+
+// What a condition that does not hold makes of an event.
+struct MissingCondition {
+  Conditions condition;
+  const char* words;
+};
+constexpr std::array kMissing{MissingCondition{kOperating, "dead in STBY"},
+                              MissingCondition{kThawed, "dead while frozen"},
+                              MissingCondition{kFrozen, "dead unless frozen"},
+                              MissingCondition{kSniffOff, "dead while SNIFF is on"},
+                              MissingCondition{kSetOff, "dead while SET is on"},
+                              MissingCondition{kSetOn, "dead without SET"},
+                              MissingCondition{kHasMap, "dead without a map"},
+                              MissingCondition{kMapStands, "dead without a map on the display"},
+                              MissingCondition{kWithMap, "dead but with cursor function MAP"}};
+
+// The row that lacks least of all that name the event in this column; nothing when none does.
+template <typename Rows, typename IsOfEvent>
+std::optional<Conditions> least_missing(const Rows& rows, Columns column, Conditions present,
+                                        const IsOfEvent& is_of_event) {
+  std::optional<Conditions> least;
+  for (const auto& row : rows) {
+    if (!is_of_event(row) || (row.columns & column) == 0) continue;
+    const auto missing = static_cast<Conditions>(row.live_when & ~present);
+    if (!least || std::popcount(missing) < std::popcount(*least)) least = missing;
+  }
+  return least;
+}
+
+}  // namespace
+
+bool hold(Conditions conditions, const databuffer::RadarState& state) {
+  return (conditions & ~present_conditions(state)) == 0;
+}
+
+std::string why_without_effect(const databuffer::RadarState& state, const databuffer::InputEvent& event) {
+  if (action_for(state, event)) return "changed nothing: it is so already, or at its stop";
+  if (power_of(state) == radar::Power::off) return "dead while the power is OFF";
+  const Conditions present = present_conditions(state);
+  const bool button = event.kind == static_cast<std::uint16_t>(EventKind::push_button);
+  const auto missing = button
+                           ? least_missing(kButtons, button_column(state), present,
+                                           [&event](const ButtonRow& row) { return row.button == event.argument; })
+                           : least_missing(kControls, control_column(state), present, [&event](const ControlRow& row) {
+                               return static_cast<std::uint16_t>(row.kind) == event.kind;
+                             });
+  const auto mode = button ? static_cast<radar::Mode>(state.mode) : running_mode(state);
+  const std::string in_mode = "dead in " + std::string(name_of(mode));
+  if (!missing) return in_mode;
+  const auto first = std::ranges::find_if(
+      kMissing, [missing](const MissingCondition& one) { return (*missing & one.condition) != 0; });
+  return first == kMissing.end() ? in_mode + " with this cursor function" : first->words;
 }
 
 Action action_for(const databuffer::RadarState& state, const databuffer::InputEvent& event) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "statemachine/step.hpp"
@@ -78,5 +79,8 @@ bool hold(Conditions conditions, const databuffer::RadarState& state);
 
 // What the event does in this state; nullptr when it is dead.
 Action action_for(const databuffer::RadarState& state, const databuffer::InputEvent& event);
+
+// Why the event changes nothing in this state, for people: "dead in PVU", "dead while frozen".
+std::string why_without_effect(const databuffer::RadarState& state, const databuffer::InputEvent& event);
 
 }  // namespace yars::statemachine

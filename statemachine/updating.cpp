@@ -66,8 +66,11 @@ std::int32_t seconds_left(const RadarState& state, std::int64_t tick, double val
 
 void accept_update(Step& step) {
   RadarState& state = step.state;
-  if (!has(state, databuffer::kUpdateShown) || has(state, databuffer::kUpdateInvalid)) return;
   if (!step.surroundings.ownship_valid) return;
+  // What stands in the state is of the tick before, and the cursor may have jumped since.
+  RadarState present = state;
+  advance_update(present, step.surroundings, step.configuration);
+  if (!has(present, databuffer::kUpdateShown) || has(present, databuffer::kUpdateInvalid)) return;
   const auto offset = offset_to_cursor(state, step.surroundings, step.configuration);
   constexpr double kNothing_m = 1e-3;
   if (!offset || std::hypot(offset->north_m, offset->east_m) < kNothing_m) return;

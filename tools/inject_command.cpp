@@ -1,4 +1,5 @@
 // `yars inject`: sends events into the session and waits until the state machine says that it applied them.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <string>
@@ -7,7 +8,10 @@
 
 #include "databuffer/program.hpp"
 #include "databuffer/records/event_text.hpp"
+#include "databuffer/records/plain_text.hpp"
+#include "databuffer/records/radar_state_validation.hpp"
 #include "databuffer/session.hpp"
+#include "statemachine/transition_table.hpp"
 #include "tools/command.hpp"
 
 namespace yars::tools {
@@ -41,25 +45,67 @@ std::vector<InputEvent> parse_events(const std::vector<std::string>& arguments) 
   return events;
 }
 
-struct Outcome {
-  std::size_t applied = 0;
-  std::size_t dead = 0;
-};
+// What became of each event, in the order in which they were sent: kEvent...
+using Outcome = std::vector<std::uint32_t>;
 
 // Applied events of our lane come back in the order in which they were sent.
 Outcome wait_until_applied(Session& session, std::uint32_t lane, std::uint64_t cursor, std::size_t count) {
   Outcome outcome;
   const std::int64_t deadline_ns = databuffer::monotonic_ns() + kPatience_ns;
   AppliedEvent applied{};
-  while (outcome.applied < count && databuffer::monotonic_ns() < deadline_ns && !databuffer::stop_requested()) {
+  while (outcome.size() < count && databuffer::monotonic_ns() < deadline_ns && !databuffer::stop_requested()) {
     while (session.layout().applied_events.read(cursor, applied).delivered) {
-      if (applied.lane != lane) continue;
-      ++outcome.applied;
-      if (applied.effective == 0) ++outcome.dead;
+      if (applied.lane == lane) outcome.push_back(applied.effective);
     }
-    if (outcome.applied < count) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (outcome.size() < count) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   return outcome;
+}
+
+std::string events_text(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " event" : " events");
+}
+
+// The state in which the events have left the radar; false: there is none that may be believed.
+bool read_state(Session& session, databuffer::RadarState& state) {
+  return session.layout().radar_state.read(state) && !databuffer::why_refused(state);
+}
+
+// The state machine publishes its state after the events of a tick: a little later than what it says of them.
+databuffer::RadarState state_afterwards(Session& session) {
+  databuffer::RadarState state{};
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  read_state(session, state);
+  return state;
+}
+
+// "3 events: 1 done, 1 without effect, 1 refused", and a line for each that was not done.
+void report(const std::vector<InputEvent>& events, const Outcome& outcome, const databuffer::RadarState& state) {
+  const auto count = [&outcome](std::uint32_t of) {
+    return static_cast<std::size_t>(std::count(outcome.begin(), outcome.end(), of));
+  };
+  std::printf("%s: %zu done", events_text(events.size()).c_str(), count(databuffer::kEventDone));
+  if (const auto dead = count(databuffer::kEventDead)) std::printf(", %zu without effect", dead);
+  if (const auto refused = count(databuffer::kEventRefused)) std::printf(", %zu refused", refused);
+  std::printf("\n");
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (outcome[i] == databuffer::kEventDead)
+      std::printf("  %s: %s\n", databuffer::text_of(events[i]).c_str(),
+                  statemachine::why_without_effect(state, events[i]).c_str());
+  }
+}
+
+[[noreturn]] void give_up_refused(const std::vector<InputEvent>& events, const Outcome& outcome,
+                                  const databuffer::RadarState& state) {
+  std::string refused;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (outcome[i] != databuffer::kEventRefused) continue;
+    if (!refused.empty()) refused += ", ";
+    refused += "'" + databuffer::text_of(events[i]) + "'";
+  }
+  const std::string message(databuffer::text_of(state.message));
+  give_up({"inject", "events that can be done", refused + " refused" + (message.empty() ? "" : ": " + message),
+           "`yars watch --json` tells points, cursor and limits", false});
 }
 
 void inject(const CommonOptions& common, const std::vector<std::string>& arguments) {
@@ -87,12 +133,13 @@ void inject(const CommonOptions& common, const std::vector<std::string>& argumen
                false});
   }
   const Outcome outcome = wait_until_applied(*session, static_cast<std::uint32_t>(lane->lane()), cursor, events.size());
-  if (outcome.applied < events.size())
-    give_up({"inject", std::to_string(events.size()) + " events applied within 2 s", std::to_string(outcome.applied),
+  if (outcome.size() < events.size())
+    give_up({"inject", events_text(events.size()) + " applied within 2 s", std::to_string(outcome.size()),
              "is state-machine running, and the clock not frozen? (yars status)", false});
-  std::printf("%zu applied", outcome.applied);
-  if (outcome.dead > 0) std::printf(", %zu of them dead in this mode", outcome.dead);
-  std::printf("\n");
+  const bool all_done = std::ranges::count(outcome, databuffer::kEventDone) == std::ssize(outcome);
+  const databuffer::RadarState state = all_done ? databuffer::RadarState{} : state_afterwards(*session);
+  report(events, outcome, state);
+  if (std::ranges::find(outcome, databuffer::kEventRefused) != outcome.end()) give_up_refused(events, outcome, state);
 }
 
 }  // namespace

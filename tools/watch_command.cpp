@@ -1,4 +1,5 @@
 // `yars watch`: the state of a session as it changes.
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 
@@ -20,6 +21,23 @@ struct WatchOptions {
   bool once = false;
 };
 
+// Marks, cue and target, those that there are.
+void print_designations(const nlohmann::ordered_json& object) {
+  if (!object["marks"].empty()) std::printf("  MARKS %zu", object["marks"].size());
+  const auto& cue = object["cue"];
+  const auto degrees = [](const nlohmann::ordered_json& value) {
+    return value.is_null() ? std::nan("") : value.get<double>();
+  };
+  if (!cue.is_null()) std::printf("  CUE %.4f %.4f", degrees(cue["lat"]), degrees(cue["lon"]));
+  const auto& target = object["target"];
+  if (target.is_null()) return;
+  std::printf("  TGT %s", target["name"].get<std::string>().c_str());
+  const auto& ranging = object["ranging"];
+  if (!ranging.is_null())
+    std::printf(" %.1f NM %03.0f true %.1f down", degrees(ranging["slant_range_nm"]),
+                degrees(ranging["bearing_true_deg"]), degrees(ranging["depression_deg"]));
+}
+
 void print_line_for_people(const nlohmann::ordered_json& object) {
   const auto& own = object["ownship"];
   std::printf("%9.2f s  %-4s %-5s %5.1f NM %-4s GAIN %d %s%s%s", object["sim_time"].get<double>(),
@@ -30,6 +48,7 @@ void print_line_for_people(const nlohmann::ordered_json& object) {
   if (!own.is_null())
     std::printf("  %.4f %.4f %.0f ft %.0f deg %.0f kt", own["lat"].get<double>(), own["lon"].get<double>(),
                 own["alt_ft"].get<double>(), own["track_deg"].get<double>(), own["ground_speed_kt"].get<double>());
+  print_designations(object);
   std::printf("  sweeps %llu\n", static_cast<unsigned long long>(object["sweeps"].get<std::uint64_t>()));
 }
 

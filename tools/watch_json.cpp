@@ -1,6 +1,8 @@
 #include "tools/watch_json.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "databuffer/ownship_receiver.hpp"
@@ -16,6 +18,7 @@ namespace yars::tools {
 
 namespace {
 
+using databuffer::kMarks;
 using databuffer::ModelStatus;
 using databuffer::RadarState;
 using databuffer::text_of;
@@ -134,6 +137,42 @@ void add_navigation(ordered_json& object, const RadarState& state) {
   object["psl"] = steering_line(state);
 }
 
+// A place that another sensor or the pilot keeps, as the navigator had it.
+ordered_json kept_place(double latitude_deg, double longitude_deg, double elevation_m) {
+  return {{"lat", number_or_null(latitude_deg)},
+          {"lon", number_or_null(longitude_deg)},
+          {"elevation_ft", number_or_null(elevation_m / geo::kMetresPerFoot)}};
+}
+
+// What CUE, TGT and MARK have left.
+void add_designations(ordered_json& object, const RadarState& state) {
+  ordered_json marks = ordered_json::array();
+  for (const databuffer::Mark& mark : std::span(state.marks).first(std::min<std::size_t>(state.mark_count, kMarks))) {
+    ordered_json entry = kept_place(mark.latitude_deg, mark.longitude_deg, mark.elevation_m);
+    entry["sim_time"] = static_cast<double>(mark.sim_time_ns) * 1e-9;
+    marks.push_back(entry);
+  }
+  object["marks"] = marks;
+  object["cue"] = nullptr;
+  if (state.cue_count > 0) {
+    object["cue"] = kept_place(state.cue_latitude_deg, state.cue_longitude_deg, state.cue_elevation_m);
+    object["cue"]["count"] = state.cue_count;
+  }
+  object["target"] = nullptr;
+  if (has(state, databuffer::kTargetDesignated)) {
+    object["target"] = kept_place(state.target_latitude_deg, state.target_longitude_deg, state.target_elevation_m);
+    object["target"]["name"] = text_of(state.target_name);
+  }
+}
+
+// From the aircraft to the designated target.
+ordered_json ranging(const databuffer::Outputs& outputs) {
+  if (!std::isfinite(outputs.slant_range_m)) return nullptr;
+  return {{"slant_range_nm", outputs.slant_range_m / geo::kMetresPerNauticalMile},
+          {"bearing_true_deg", number_or_null(outputs.bearing_deg)},
+          {"depression_deg", number_or_null(outputs.depression_deg)}};
+}
+
 void add_ownship(ordered_json& object, const ModelStatus& model, std::int64_t now_ns) {
   object["antenna"] = {{"az_deg", model.antenna_azimuth_deg}, {"el_deg", model.antenna_elevation_deg}};
   if ((model.flags & databuffer::kModelStale) != 0U || model.ownship_lane >= databuffer::kOwnshipLanes) {
@@ -186,6 +225,7 @@ void add_radar_state(ordered_json& object, const RadarState& state) {
   add_cursor(object, state);
   add_map(object, state);
   add_navigation(object, state);
+  add_designations(object, state);
   add_legends(object, state);
 }
 
@@ -207,6 +247,10 @@ nlohmann::ordered_json watch_object(const databuffer::Session& session) {
   const auto timer_s = databuffer::map_timer_s(state, model);
   object["map_timer_s"] = timer_s ? ordered_json(*timer_s) : ordered_json(nullptr);
   object["map_progress"] = number_or_null(model.map_progress);
+  databuffer::Outputs outputs{};
+  outputs.slant_range_m = std::nan("");
+  layout.outputs.read(outputs);
+  object["ranging"] = ranging(outputs);
   add_ownship(object, model, session.sim_time_ns());
   add_health(object, session, model);
   return object;

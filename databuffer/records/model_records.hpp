@@ -56,12 +56,17 @@ struct ModelTick {
 };
 static_assert(sizeof(ModelTick) == 16 + 144 + 88 + 8 + 16 + 16 + 32 && std::is_trivially_copyable_v<ModelTick>);
 
+// Values of AppliedEvent::effective.
+inline constexpr std::uint32_t kEventDead = 0;     // dead in this mode, or it changed nothing
+inline constexpr std::uint32_t kEventDone = 1;     // it changed something
+inline constexpr std::uint32_t kEventRefused = 2;  // it cannot be done; the display says why
+
 struct AppliedEvent {
   std::int64_t tick;          // of the state machine that applied it
   std::int64_t monotonic_ns;  // [ns] when it was applied
   InputEvent event;
   std::uint32_t lane;       // input lane it came by
-  std::uint32_t effective;  // 1: it changed something; 0: dead in this mode
+  std::uint32_t effective;  // kEvent...
 };
 static_assert(sizeof(AppliedEvent) == 80 && std::is_trivially_copyable_v<AppliedEvent>);
 
@@ -165,7 +170,12 @@ struct ModelStatus {
   std::uint32_t velocity_dwell;    // ticks that the beam under way has stood
   std::uint8_t velocity_beam;      // 1, 2, ... under way; 0 = none
   std::uint8_t reserved_bytes[7];
-  std::uint64_t reserved[8];
+  // The ground that RadarState asked for.
+  double answered_latitude_deg;   // [deg] as asked
+  double answered_longitude_deg;  // [deg]
+  double answered_elevation_m;    // [m] MSL; NaN = unknown
+  char map_stopped[16];           // why the patch is not mapped again: "BLIND ZONE", ...; empty = it is
+  std::uint64_t reserved[3];
 };
 static_assert(sizeof(ModelStatus) % 8 == 0 && std::is_trivially_copyable_v<ModelStatus>);
 

@@ -68,7 +68,12 @@ Refusal why_refused(const ModelStatus& status) {
   inspect_scan(inspection, status);
   inspect_map_under_way(inspection, status);
   inspect_measured(inspection, status);
+  inspection.latitude("answered_latitude_deg", status.answered_latitude_deg);
+  inspection.longitude("answered_longitude_deg", status.answered_longitude_deg);
+  inspection.range("answered_elevation_m", status.answered_elevation_m, kLowestGround, kHighestGround,
+                   Missing::allowed);
   inspection.text("why_not", status.why_not);
+  inspection.text("map_stopped", status.map_stopped);
   inspection.text("fidelity", status.fidelity);
   if (const auto refusal = why_refused(status.ownship)) return "ownship: " + *refusal;
   if (const auto refusal = why_refused(status.nav)) return "nav: " + *refusal;

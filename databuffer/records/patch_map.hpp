@@ -10,8 +10,9 @@ namespace yars::databuffer {
 
 inline constexpr std::uint32_t kMostPatchPixels = 1024;  // on an edge
 
-inline constexpr std::uint32_t kPatchNotReady = 1U;  // some posts were not loaded yet
-inline constexpr std::uint32_t kPatchBlind = 2U;     // part of it lies in the blind zone and is blank
+inline constexpr std::uint32_t kPatchNotReady = 1U;     // some posts were not loaded yet
+inline constexpr std::uint32_t kPatchBlind = 2U;        // part of it lies in the blind zone and is blank
+inline constexpr std::uint32_t kPatchWindowBlank = 4U;  // its window was chosen by range: none was selected
 
 // A place on the picture: right and up of the centre [m] are those of the plane that keeps distance and bearing
 // from the apex (azimuthal equidistant), turned so that the bearing of the centre points up.

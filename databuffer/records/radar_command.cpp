@@ -13,7 +13,8 @@ RadarCommand command_from_state(const RadarState& state) {
   command.cursor_longitude_deg = state.cursor_longitude_deg;
   command.window_nm = state.window_nm;
   command.scan_restart = state.scan_restart;
-  command.flags = state.flags & (kFreeze | kSniff | kIpvu | kMultiLook2 | kProgressive | kCursorValid | kMapping);
+  command.flags =
+      state.flags & (kFreeze | kSniff | kIpvu | kMultiLook2 | kProgressive | kCursorValid | kMapping | kMapWindowBlank);
   command.power = state.power;
   // Under the main menu the radar keeps running in the mode below it.
   const bool menu = state.mode == static_cast<std::uint8_t>(radar::Mode::menu);

@@ -64,7 +64,15 @@ inline constexpr std::uint32_t kRangeSet = 1U << 13;       // the range rule has
 inline constexpr std::uint32_t kUpdateShown = 1U << 15;    // update_north_m and update_east_m hold
 inline constexpr std::uint32_t kUpdateInvalid = 1U << 16;  // INV: the cursor's place is too old for an INS update
 inline constexpr std::uint32_t kTargetDesignated = 1U << 17;
-inline constexpr std::uint32_t kVelocityShown = 1U << 18;  // velocity_along_mps and its sisters hold
+inline constexpr std::uint32_t kVelocityShown = 1U << 18;   // velocity_along_mps and its sisters hold
+inline constexpr std::uint32_t kMapWindowBlank = 1U << 19;  // map_window_nm was chosen by range: none was selected
+inline constexpr std::uint32_t kRecalledByHrmExit = 1U << 20;
+
+inline constexpr std::int64_t kUntilCauseEnds = -1;  // of message_until_tick
+
+// Bits of RadarState::asked_for: whose elevation is awaited. Bit n below these: marks[n].
+inline constexpr std::uint32_t kAskedForTarget = 1U << 16;
+inline constexpr std::uint32_t kAskedForCue = 1U << 17;
 
 struct RadarState {
   std::int64_t tick;             // tick of the last change
@@ -101,7 +109,7 @@ struct RadarState {
   std::uint8_t recall;              // radar::Recall
   char sequence_point[8];           // name of the selected one, zero terminated
   char message[32];                 // for the pilot, zero terminated; empty = none
-  std::int64_t message_until_tick;  // the message goes at this tick
+  std::int64_t message_until_tick;  // the message goes at this tick; kUntilCauseEnds
   DrawnPoint points[radar::kMaxPointsDrawn];
   char legends[radar::kBezelButtons + 1][8];  // [n]: legend of PB n, zero terminated, empty = none; [0] unused
   double frame_latitude_deg;   // [deg] apex of the cursor's frame: the aircraft, or where it was when the picture froze
@@ -150,7 +158,13 @@ struct RadarState {
   double velocity_vertical_mps;            // [m/s] up
   Mark marks[kMarks];
   double magnetic_variation_deg;  // [deg] east positive: of the navigator, of the field's model, or configured
-  std::uint64_t reserved[7];
+  // The ground whose elevation the model is to tell: a point that was designated, else the cursor's.
+  double asked_latitude_deg;   // [deg] on the video
+  double asked_longitude_deg;  // [deg]
+  std::int64_t asked_tick;     // when it was designated
+  std::uint32_t asked_for;     // kAskedFor...; 0 = the cursor alone
+  std::uint32_t reserved_word;
+  std::uint64_t reserved[3];
 };
 static_assert(sizeof(RadarState) % 8 == 0 && std::is_trivially_copyable_v<RadarState>);
 static_assert(offsetof(RadarState, power) == 120);

@@ -65,6 +65,8 @@ void inspect_designations(Inspection& inspection, const RadarState& state) {
   inspection.speed("velocity_along_mps", state.velocity_along_mps);
   inspection.speed("velocity_across_mps", state.velocity_across_mps);
   inspection.speed("velocity_vertical_mps", state.velocity_vertical_mps);
+  inspection.latitude("asked_latitude_deg", state.asked_latitude_deg);
+  inspection.longitude("asked_longitude_deg", state.asked_longitude_deg);
   inspection.range("magnetic_variation_deg", state.magnetic_variation_deg, -180.0, 180.0);
   inspection.range("mark_count", state.mark_count, 0, kMarks);
   const auto count = std::min<std::size_t>(state.mark_count, kMarks);
@@ -90,6 +92,7 @@ void inspect_ticks(Inspection& inspection, const RadarState& state) {
   };
   tick("tick", state.tick);
   tick("message_until_tick", state.message_until_tick);
+  tick("asked_tick", state.asked_tick);
   tick("cursor_moved_tick", state.cursor_moved_tick);
   tick("velocity_updated_tick", state.velocity_updated_tick);
   tick("velocity_shown_until_tick", state.velocity_shown_until_tick);

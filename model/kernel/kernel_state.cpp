@@ -184,6 +184,11 @@ bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::Anten
                    sim_time_of(given.sim_time_ns),
                    given.command.band,
                    given.command.channel};
+  if (const antenna::ScanPattern& pattern = antenna.pattern(); pattern.bars > 1) {
+    const geo::Angle commanded = geo::Angle::degrees(given.command.antenna_elevation_deg);
+    place.bars_above = commanded + geo::Angle::degrees(pattern.bar_deg(0)) - step.elevation;
+    place.bars_below = step.elevation - commanded - geo::Angle::degrees(pattern.bar_deg(pattern.bars - 1));
+  }
   SweepChain::Labels labels;
   labels.tick = given.tick;
   labels.sim_time_ns = given.sim_time_ns;

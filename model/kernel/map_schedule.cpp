@@ -1,11 +1,14 @@
 #include "model/kernel/map_schedule.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "databuffer/records/picture_id.hpp"
 #include "lib/radar/limits.hpp"
 #include "lib/radar/map_formation.hpp"
+#include "lib/radar/mappable.hpp"
 #include "lib/radar/modes.hpp"
 
 namespace yars::model::kernel {
@@ -67,7 +70,7 @@ geo::GeoPoint MapSchedule::centre_of(const RadarCommand& command, const Pose& po
 
 std::optional<geo::GeoPoint> MapSchedule::looked_at(const ModelTick& tick, const Pose& pose) const {
   if (map_) return map_->order.centre;
-  if (!shows_map(tick.command) || holds_still(tick.command)) return std::nullopt;
+  if (!shows_map(tick.command) || holds_still(tick.command) || stopped_) return std::nullopt;
   const geo::GeoPoint centre = centre_of(tick.command, pose, false);
   return is_place(centre) ? std::optional(centre) : std::nullopt;
 }
@@ -105,10 +108,10 @@ void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m
   map.order = *order;
   const geo::GeodesicInverse way = geo::geodesic_inverse(order->apex, order->centre);
   const geo::Angle squint = way.azimuth_at_start - order->ground_track;
-  if (!commanded && radar::in_blind_zone(squint, configuration_->high_resolution)) return;
   map.id = newest_ + 1;
   map.request = request_;
   map.start_tick = tick.tick;
+  map.blank_window = (tick.command.flags & databuffer::kMapWindowBlank) != 0U;
   map.up_deg = way.azimuth_at_start.degrees();
   map.distance_m = way.distance.metres();
   const double height_m = pose.altitude.metres() - (std::isnan(ground_m) ? 0.0 : ground_m);
@@ -122,10 +125,20 @@ void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m
   placed_ = true;
 }
 
+// A re-map obeys every limit of a first map.
+std::optional<std::string_view> MapSchedule::why_not_again(const RadarCommand& command, const Pose& pose) const {
+  const geo::GeoPoint centre = centre_of(command, pose, false);
+  if (!is_place(centre) || !(command.map_window_nm > 0.0F)) return std::nullopt;  // there is no map to make again
+  const radar::MapWindow window{geo::Length::nautical_miles(static_cast<double>(command.map_window_nm)),
+                                (command.flags & databuffer::kMapWindowBlank) != 0U};
+  return radar::why_not_mappable(viewpoint_of(pose), centre, window, *configuration_);
+}
+
 void MapSchedule::step(const ModelTick& tick, const Pose& pose, double ground_m, bool dish_free) {
   const RadarCommand& command = tick.command;
   const bool jumped = tick.epoch != epoch_;
   epoch_ = tick.epoch;
+  stopped_.reset();
   if (is_commanded(command)) {
     if (command.map_request == done_request_) return;  // the state machine has not seen it yet
     if (!map_ || map_->request != command.map_request || jumped) start(tick, pose, ground_m, true);
@@ -138,7 +151,9 @@ void MapSchedule::step(const ModelTick& tick, const Pose& pose, double ground_m,
   // A re-map in progress is finished also when the picture is to freeze; a jump makes it worthless, and SNIFF ends it.
   const bool silent = (command.flags & databuffer::kSniff) != 0U;
   if (map_ && (map_->request != command.map_request || jumped || silent)) map_.reset();
-  if (!map_ && dish_free && !holds_still(command)) start(tick, pose, ground_m, false);
+  if (map_ || holds_still(command)) return;
+  stopped_ = why_not_again(command, pose);
+  if (!stopped_ && dish_free) start(tick, pose, ground_m, false);
 }
 
 void MapSchedule::complete() {
@@ -168,6 +183,8 @@ void MapSchedule::describe(std::int64_t tick, ModelStatus& status) const {
   status.map_up_deg = map_ ? map_->up_deg : 0.0;
   status.map_window_nm = map_ ? map_->order.window.nautical_miles() : 0.0;
   status.map_progress = kUnknown;
+  std::fill(std::begin(status.map_stopped), std::end(status.map_stopped), '\0');
+  if (stopped_) stopped_->copy(status.map_stopped, sizeof status.map_stopped - 1);
   if (!map_) return;
   const double left_s = static_cast<double>(map_->end_tick - tick) * radar::kTickSeconds;
   status.map_timer_s = std::max(left_s, 0.0);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "databuffer/records/model_records.hpp"
 #include "lib/radar/configuration.hpp"
@@ -20,6 +21,7 @@ struct MapUnderWay {
   std::uint32_t request = 0;
   std::int64_t start_tick = 0;
   std::int64_t end_tick = 0;  // complete at this one
+  bool blank_window = false;  // its window was chosen by range: none was selected
   double up_deg = 0.0;        // true bearing of the centre
   double distance_m = 0.0;    // over ground, to the centre
   geo::Duration formation{};
@@ -55,6 +57,7 @@ class MapSchedule {
   geo::GeoPoint centre_of(const databuffer::RadarCommand& command, const Pose& pose, bool commanded) const;
   std::optional<hrm::PatchOrder> order_of(const databuffer::ModelTick& tick, const Pose& pose, bool commanded) const;
   void start(const databuffer::ModelTick& tick, const Pose& pose, double ground_m, bool commanded);
+  std::optional<std::string_view> why_not_again(const databuffer::RadarCommand& command, const Pose& pose) const;
   int looks_of(const databuffer::RadarCommand& command) const;
 
   const radar::RadarConfiguration* configuration_;
@@ -67,6 +70,7 @@ class MapSchedule {
   double off_track_deg_ = 0.0;
   double distance_m_ = 0.0;
   bool placed_ = false;
+  std::optional<std::string_view> stopped_;  // why the patch shown is not mapped again
 };
 
 }  // namespace yars::model::kernel

@@ -36,6 +36,10 @@ std::optional<Pose> pose_of(const databuffer::Ownship& ownship) {
   return pose;
 }
 
+radar::MapViewpoint viewpoint_of(const Pose& pose) {
+  return {pose.place, pose.platform.heading, pose.platform.ground_track};
+}
+
 bool asks_for_video(const databuffer::RadarCommand& command) {
   const bool scans = command.mode == static_cast<std::uint8_t>(radar::Mode::rbm) ||
                      command.mode == static_cast<std::uint8_t>(radar::Mode::hrm) ||

@@ -7,6 +7,7 @@
 #include "lib/geo/geodesic.hpp"
 #include "lib/geo/height.hpp"
 #include "lib/geo/vector.hpp"
+#include "lib/radar/mappable.hpp"
 #include "model/antenna/stabilization.hpp"
 
 namespace yars::model::kernel {
@@ -21,6 +22,8 @@ struct Pose {
 
 // Nothing if a value is not finite or outside the record's range.
 std::optional<Pose> pose_of(const databuffer::Ownship& ownship);
+
+radar::MapViewpoint viewpoint_of(const Pose& pose);
 
 // True if the command asks for a scan in this mode (RBM, HRM PPI, BCN) with a range that can be scanned, [0.01, 1000]
 // NM.

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "lib/radar/mappable.hpp"
 #include "model/kernel/kernel_state.hpp"
-#include "model/kernel/mappable.hpp"
 #include "model/kernel/scan_detail.hpp"
 
 namespace yars::model::kernel {
@@ -96,6 +96,12 @@ bool RadarKernel::step(const ModelTick& tick, const rbm::Database& database, dat
                               : state.sweep_tick(tick, beam, database, sweep);
 }
 
+void answer_elevation(const databuffer::RadarState& asked, const terrain::TerrainView& terrain, ModelStatus& status) {
+  status.answered_latitude_deg = asked.asked_latitude_deg;
+  status.answered_longitude_deg = asked.asked_longitude_deg;
+  status.answered_elevation_m = terrain.elevation_m({asked.asked_latitude_deg, asked.asked_longitude_deg});
+}
+
 const MapSchedule& RadarKernel::maps() const {
   return state_->maps;
 }
@@ -140,10 +146,10 @@ void RadarKernel::describe(const terrain::TerrainView& terrain, ModelStatus& sta
   status.height_above_ground_m = state.pose ? state.pose->altitude.metres() - status.ground_elevation_m : kUnknown;
 
   std::fill(std::begin(status.why_not), std::end(status.why_not), '\0');
-  const auto reason = !state.pose
-                          ? std::optional<std::string_view>("NO POSITION")
-                          : why_not_mappable(state.pose->platform, state.pose->place, cursor,
-                                             geo::Length::nautical_miles(state.command.window_nm), state.configuration);
+  const auto reason = !state.pose ? std::optional<std::string_view>("NO POSITION")
+                                  : radar::why_not_mappable(viewpoint_of(*state.pose), cursor,
+                                                            {geo::Length::nautical_miles(state.command.window_nm)},
+                                                            state.configuration);
   status.mappable = reason ? 0 : 1;
   // While nothing forms the timer says what a map at the cursor would take.
   status.map_timer_s = kUnknown;

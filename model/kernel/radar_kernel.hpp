@@ -45,4 +45,8 @@ class RadarKernel {
   std::unique_ptr<State> state_;
 };
 
+// Tells the elevation [m] of the ground that the state machine asked for, and which ground that is.
+void answer_elevation(const databuffer::RadarState& asked, const terrain::TerrainView& terrain,
+                      databuffer::ModelStatus& status);
+
 }  // namespace yars::model::kernel

@@ -29,6 +29,8 @@ rbm::Look look_of(const SweepPlace& place) {
   rbm::Look look{place.apex,      place.altitude, place.looked_at.value_or(place.left + 0.5 * width),
                  place.elevation, place.range,    place.sim_time,
                  place.band,      place.channel};
+  look.bars_above = place.bars_above;
+  look.bars_below = place.bars_below;
   if (place.resolved) {
     look.share.left_rad = -0.5 * place.resolved->radians();
     look.share.right_rad = 0.5 * place.resolved->radians();

@@ -26,6 +26,8 @@ struct SweepPlace {
   std::uint8_t channel = 1;                 // 1..8
   std::optional<geo::Bearing> looked_at{};  // where the beam's centre looks if not to the middle of the wedge
   std::optional<geo::Angle> resolved{};     // width of the cell of a sharpened beam
+  geo::Angle bars_above{};                  // as in rbm::Look
+  geo::Angle bars_below{};
 };
 
 // Sim time as movers go by it.

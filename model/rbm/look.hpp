@@ -25,6 +25,9 @@ struct Look {
   std::uint8_t band = 0;     // 0..4: A..E
   std::uint8_t channel = 1;  // 1..8
   RayShare share{};          // of points
+  // How far the highest and the lowest bar of the scan lie above and below the antenna's elevation; 0 with one bar.
+  geo::Angle bars_above{};
+  geo::Angle bars_below{};
 };
 
 // Names the noise of a sweep: equal numbers, equal noise.

@@ -12,6 +12,14 @@ namespace {
 constexpr std::array<float, 3> kPostWeights{0.25F, 0.5F, 0.25F};
 constexpr float kNoHorizon = -1.0e30F;  // tangent below every terrain
 constexpr int kGainSteps = 4;
+constexpr double kReferenceShare = 0.5;      // of the selected range
+constexpr double kLeastReference_m = 100.0;  // [m] of altitude: below it the darkest slope would be white
+
+// Intensity of level ground at sea level, so far away as the reference says: the same for every bar and azimuth.
+float reference_intensity(const Look& look) {
+  const double altitude_m = std::max(look.altitude.metres(), kLeastReference_m);
+  return static_cast<float>(altitude_m / std::hypot(altitude_m, kReferenceShare * look.range.metres()));
+}
 
 // Weighted sum of a value and its neighbours; at an end the value stands in for the neighbour it lacks.
 float joined(float before, float centre, float after) {
@@ -41,9 +49,10 @@ std::size_t Report1996::measure(const Look& look, const Database& database, std:
                                                         {{elevation_m_.data(), count}, {water_.data(), count}, {}, {}});
 
   // The report's Y_min and Y_max: tangents of the beam's lower and upper edge.
-  const auto lower = static_cast<float>(std::tan(look.elevation.radians() - half_beam_rad_));
-  const auto upper = static_cast<float>(std::tan(look.elevation.radians() + half_beam_rad_));
+  const auto lower = static_cast<float>(std::tan((look.elevation - look.bars_below).radians() - half_beam_rad_));
+  const auto upper = static_cast<float>(std::tan((look.elevation + look.bars_above).radians() + half_beam_rad_));
   const auto altitude_m = static_cast<float>(look.altitude.metres());
+  const float reference = reference_intensity(look);
   float horizon = kNoHorizon;
   for (std::size_t i = 0; i < count; ++i) {
     intensity_[i] = 0.0F;
@@ -57,7 +66,7 @@ std::size_t Report1996::measure(const Look& look, const Database& database, std:
     const float rise = slope(i, static_cast<float>(spacing_m));
     const float normal = std::sqrt(1.0F + rise * rise);
     const float cosine = (rise * distance_m - up_m) / (normal * std::sqrt(distance_m * distance_m + up_m * up_m));
-    intensity_[i] = std::max(0.0F, cosine);
+    intensity_[i] = std::max(0.0F, cosine) / reference;
   }
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t before = i > 0 ? i - 1 : i;
@@ -85,8 +94,8 @@ void Report1996::develop(const PowerWindow& window, geo::Length /*range*/, int g
                          std::span<std::uint8_t> video) {
   const float scale = 255.0F * static_cast<float>(gain + 1) / static_cast<float>(kGainSteps);
   for (std::size_t i = 0; i < video.size(); ++i) {
-    const float level = scale * joined(window.before[i], window.centre[i], window.after[i]) + 0.5F;
-    video[i] = static_cast<std::uint8_t>(std::min(level, 255.0F));
+    const float power = std::min(joined(window.before[i], window.centre[i], window.after[i]), 1.0F);
+    video[i] = static_cast<std::uint8_t>(scale * power + 0.5F);
   }
 }
 

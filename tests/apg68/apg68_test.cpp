@@ -158,6 +158,47 @@ TEST(Apg68, ABlankWindowTakesTheOneOfItsTable) {
   }
 }
 
+// State machine and kernel together: an airfield passed abeam is mapped again to the gimbal's limit, then the display
+// says why not, and the last map stays; turned back, mapping goes on.
+TEST(Apg70, APatchHeldOnAnAirfieldPassedAbeamStopsAtTheGimbalAndSaysSo) {
+  Radar radar(configuration_of("apg70.guf"));
+  radar.send("power opr");
+  radar.send("pb 13");
+  radar.put_cursor(40.0, 12.0);
+  const geo::GeoPoint airfield{radar.state.cursor_latitude_deg, radar.state.cursor_longitude_deg};
+  ASSERT_TRUE(radar.send("tdc release"));
+  const auto off_nose_deg = [&] {
+    const geo::GeoPoint at{radar.around.ownship.latitude_deg, radar.around.ownship.longitude_deg};
+    return (geo::geodesic_inverse(at, airfield).azimuth_at_start - geo::Bearing::degrees(20.0)).degrees();
+  };
+  std::uint64_t made_within = 0;
+  std::uint64_t last = 0;
+  int stopped_ticks = 0;
+  for (int tick = 0; tick < 40'000 && off_nose_deg() < 122.0; ++tick) {
+    radar.fly(220.0 * radar::kTickSeconds);
+    radar.step_with_maps();
+    if (off_nose_deg() < 59.5) {
+      made_within = radar.around.model.map_newest;
+      EXPECT_STREQ(radar.state.message, "") << off_nose_deg();
+    } else if (off_nose_deg() > 63.0) {
+      ++stopped_ticks;
+      ASSERT_STREQ(radar.state.message, "GIMBAL") << off_nose_deg();
+      if (stopped_ticks == 1) last = radar.around.model.map_newest;
+      ASSERT_EQ(radar.around.model.map_newest, last) << "the one under way at the limit was finished, and no other";
+      EXPECT_EQ(radar.around.model.map_window_nm, 0.0);
+    }
+  }
+  ASSERT_GT(made_within, 2U);
+  ASSERT_GT(stopped_ticks, 100);
+  EXPECT_EQ(radar.state.mode, static_cast<std::uint8_t>(radar::Mode::patch));
+  EXPECT_EQ(radar.state.map_shown, radar.around.model.map_newest) << "the old map stays";
+  const std::uint64_t before = radar.around.model.map_newest;
+  radar.turn_to(120.0);
+  for (int tick = 0; tick < 4000; ++tick) radar.step_with_maps();
+  EXPECT_STREQ(radar.state.message, "");
+  EXPECT_GT(radar.around.model.map_newest, before);
+}
+
 // With YARS_PICTURES=FOLDER the pictures are written there, to be looked at.
 TEST(Apg68, IsDrawnOnTheGlass) {
   auto context = display::gl::open_headless();

@@ -57,12 +57,46 @@ class Radar {
     tick.tick = around.tick;
     tick.sim_time_ns = around.tick * radar::kTickNanoseconds;
     tick.epoch = 1;
-    tick.flags = databuffer::kTickOwnshipValid;
+    tick.flags = databuffer::kTickOwnshipValid | (due_ ? databuffer::kTickMapComplete : 0U);
     tick.ownship = around.ownship;
     tick.command = databuffer::command_from_state(state);
     const bool came = kernel.step(tick, {terrain, nullptr, true}, sweep);
     kernel.describe(terrain, around.model);
+    model::kernel::answer_elevation(state, terrain, around.model);
     return came;
+  }
+  // A tick in which a map that is due goes out, and the state machine finds its record.
+  void step_with_maps() {
+    due_ = kernel.maps().due(around.tick + 1);
+    if (due_) {
+      const model::kernel::MapUnderWay& under_way = kernel.maps().map();
+      databuffer::PatchMap& map = around.maps[under_way.id % around.maps.size()];
+      map = {};
+      map.id = under_way.id;
+      map.request = under_way.request;
+      map.latitude_deg = under_way.order.centre.latitude_deg;
+      map.longitude_deg = under_way.order.centre.longitude_deg;
+      map.window_nm = under_way.order.window.nautical_miles();
+      map.apex_latitude_deg = under_way.order.apex.latitude_deg;
+      map.apex_longitude_deg = under_way.order.apex.longitude_deg;
+      map.up_deg = under_way.up_deg;
+      map.distance_m = under_way.distance_m;
+    }
+    step();
+    due_ = false;
+  }
+  void fly(double metres) {
+    databuffer::Ownship& ownship = around.ownship;
+    const auto there = geo::geodesic_direct({ownship.latitude_deg, ownship.longitude_deg},
+                                            geo::Bearing::degrees(ownship.heading_deg), geo::Length::metres(metres));
+    ownship.latitude_deg = there.latitude_deg;
+    ownship.longitude_deg = there.longitude_deg;
+  }
+  void turn_to(double heading_deg) {
+    databuffer::Ownship& ownship = around.ownship;
+    ownship.heading_deg = heading_deg;
+    ownship.velocity_north_mps = 220.0 * std::cos(heading_deg * geo::kRadiansPerDegree);
+    ownship.velocity_east_mps = 220.0 * std::sin(heading_deg * geo::kRadiansPerDegree);
   }
   std::vector<databuffer::Sweep> run(double seconds) {
     std::vector<databuffer::Sweep> sweeps;
@@ -86,7 +120,7 @@ class Radar {
   bool send(const std::string& text) {
     const auto event = databuffer::event_from_text(text);
     EXPECT_TRUE(event.has_value()) << text;
-    return event && apply(state, *event, around, configuration);
+    return event && apply(state, *event, around, configuration) != statemachine::Effect::none;
   }
   void put_cursor(double right_of_track_deg, double range_nm) {
     const geo::GeoPoint place =
@@ -113,6 +147,9 @@ class Radar {
   statemachine::Surroundings around{};
   databuffer::ModelTick tick{};
   databuffer::Sweep sweep{};
+
+ private:
+  bool due_ = false;
 };
 
 }  // namespace yars::apg68

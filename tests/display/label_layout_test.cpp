@@ -196,7 +196,7 @@ TEST(LabelLayout, TheSelectedPointsNameIsShownWhereverItsSymbolIs) {
     const auto symbol = std::ranges::find(alone.occupied(), BoxKind::point, &OccupiedBox::kind);
     if (symbol == alone.occupied().end()) continue;
     // In the outermost strip legends and the cursor may take up all there is.
-    const Rect inside{30.0F, 30.0F, 450.0F, 450.0F};
+    const Rect inside{40.0F, 40.0F, 440.0F, 440.0F};
     if (!intersect(symbol->rect, inside)) continue;
     ++seen;
     EXPECT_TRUE(place_of(words, crowd)) << words << " in state " << i;

@@ -55,11 +55,18 @@ TEST(Markers, TheCursorIsDrawnOverEverythingAndANumberBeneathItIsLeftOut) {
   EXPECT_THAT(words(list), Contains("FULL"));
 }
 
-TEST(Markers, ATextOverAPointHasABlackGround) {
+// Where a word or a solid scale stands neither of the two could be read.
+TEST(Markers, APointWhereAWordOrAScaleStandsIsLeftOutWithItsName) {
   GlassInput input = testing::operating(Mode::rbm, 40.0);
-  EXPECT_TRUE(drawn(input).content(Layer::symbols).plates.empty());
-  testing::add_point(input, "1", radar::PointKind::steer, testing::at(210.0, 1.2));
-  EXPECT_EQ(drawn(input).content(Layer::symbols).plates.size(), 1U);
+  const DrawList without = drawn(input);
+  testing::add_point(input, "7", radar::PointKind::steer, testing::at(210.0, 1.2));  // behind: on the window size
+  EXPECT_EQ(drawn(input), without);
+  GlassInput on_gray = testing::operating(Mode::rbm, 40.0);
+  const double right_nm = (427.0 - 240.0) / 10.0, ahead_nm = (440.0 - 380.0) / 10.0;
+  testing::add_point(
+      on_gray, "7", radar::PointKind::steer,
+      testing::at(30.0 + std::atan2(right_nm, ahead_nm) / geo::kRadiansPerDegree, std::hypot(right_nm, ahead_nm)));
+  EXPECT_THAT(words(on_gray), ::testing::Not(Contains("7")));
 }
 
 TEST(Markers, PointsStandAtTheirPlacesAndOffTheGlassAtNone) {

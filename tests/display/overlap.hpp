@@ -1,7 +1,7 @@
 // Whether anything on the glass lies over anything that it must not, told from the list. Allowed is:
-// - a symbol over a symbol (points, cursor, scales): each stands where the ground or its scale has it;
-// - the cursor over a fixed text: it is drawn over everything, with a black margin;
-// - a point or a line of the ground behind a fixed text that is on a black ground of its own;
+// - a symbol over a symbol (points, cursor, ticks and carets): each stands where the ground or its scale has it;
+// - the cursor over a fixed text or scale: it is drawn over everything, with a black margin;
+// - a line of the ground behind a fixed text that is on a black ground of its own;
 // - whatever over range arcs and the zero azimuth line.
 #pragma once
 
@@ -34,9 +34,19 @@ inline bool is_blanked(const DrawList& list, const OccupiedBox& text) {
          std::ranges::any_of(list.content(Layer::notices).plates, covers);
 }
 
-// Of a point behind a fixed text the strokes are judged, not the box.
 inline bool may_overlap(const OccupiedBox& word, const OccupiedBox& other) {
-  return word.kind == BoxKind::text && (other.kind == BoxKind::cursor || other.kind == BoxKind::point);
+  return word.kind == BoxKind::text && other.kind == BoxKind::cursor;
+}
+
+// Points on the gray scale, on the ticks of the azimuth scale.
+inline void add_points_on_scales(const DrawList& list, std::vector<std::string>& found) {
+  for (const OccupiedBox& scale : list.occupied()) {
+    if (scale.kind != BoxKind::solid) continue;
+    for (const OccupiedBox& point : list.occupied()) {
+      if (point.kind == BoxKind::point && intersect(scale.rect, point.rect))
+        found.push_back("a point on the " + scale.name);
+    }
+  }
 }
 
 inline bool touch(const OccupiedBox& word, const OccupiedBox& other, int size) {
@@ -66,6 +76,7 @@ inline std::vector<std::string> overlaps(const DrawList& list, int size) {
                      std::ranges::any_of(list.content(Layer::points).strokes, lies_behind)))
       found.push_back(word.name + " over a line of the ground");
   }
+  add_points_on_scales(list, found);
   return found;
 }
 

@@ -50,6 +50,21 @@ TEST(Overlap, ThereIsNoneWithATargetDesignatedAnywhere) {
   }
 }
 
+TEST(Overlap, APointBehindTheAircraftOnTheGrayScaleOrUnderAMessageStandsClear) {
+  for (const Mode mode : {Mode::rbm, Mode::hrm, Mode::beacon}) {
+    for (const char* message : {"", "BLIND ZONE"}) {
+      for (double right_deg = 0.0; right_deg < 360.0; right_deg += 5.0) {
+        for (const double range_nm : {0.5, 1.0, 2.0, 3.0, 4.0, 12.0, 16.0, 18.0, 20.0, 21.0}) {
+          GlassInput input = testing::operating(mode, 40.0);
+          testing::set_text(input.state.message, message);
+          testing::add_point(input, "7.", radar::PointKind::target, testing::at(30.0 + right_deg, range_nm));
+          expect_no_overlap(drawn(input), std::to_string(right_deg) + " at " + std::to_string(range_nm));
+        }
+      }
+    }
+  }
+}
+
 TEST(Overlap, ThereIsNoneInAnyOfManyRandomStates) {
   const unsigned seed = 20261122;
   RecordProperty("seed", static_cast<int>(seed));

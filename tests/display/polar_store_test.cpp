@@ -186,6 +186,60 @@ TEST(PolarStore, BesideANarrowedScanNoGapOpensToWhatStandsBeyondIt) {
   EXPECT_EQ(covered_at_home(), 0) << "FULL has swept them all again";
 }
 
+// A whole scan from `left` to `right`; its last sweep says that it is one.
+void scan_over(PolarStore& store, int left_deg, int right_deg, std::uint32_t scan, std::uint32_t end_flags = 0) {
+  for (int left = left_deg; left < right_deg; ++left) {
+    databuffer::Sweep sweep = flown_north(left, 0.0, scan);
+    if (left + 1 == right_deg) sweep.flags = databuffer::kSweepScanEnd | end_flags;
+    store.insert(sweep);
+  }
+}
+
+std::ptrdiff_t sweeps_of_scan(const PolarStore& store, std::uint32_t scan) {
+  return std::ranges::count(store.by_azimuth(), scan, &StoredSweep::scan);
+}
+
+TEST(PolarStore, WhatANarrowerScanCannotRenewGoesAfterTwoWholeScans) {
+  PolarStore store;
+  scan_over(store, -50, 50, 1);
+  scan_over(store, -25, 25, 2);
+  EXPECT_EQ(sweeps_of_scan(store, 1), 50) << "after one scan the rest of the wide one stands";
+  for (int left = -25; left < 24; ++left) store.insert(flown_north(left, 0.0, 3));
+  EXPECT_EQ(sweeps_of_scan(store, 1), 50) << "until the second has come to its end";
+  scan_over(store, -25, 25, 3);
+  EXPECT_EQ(sweeps_of_scan(store, 1), 0);
+  EXPECT_EQ(sweeps_of_scan(store, 3), 50);
+}
+
+TEST(PolarStore, WhatAScanElsewhereCannotRenewGoesAfterTwoWholeScans) {
+  PolarStore store;
+  scan_over(store, 0, 25, 1);
+  for (std::uint32_t scan = 2; scan <= 3; ++scan) scan_over(store, 90, 115, scan);
+  EXPECT_EQ(sweeps_of_scan(store, 1), 0) << "a sector that went along with the cursor or the track";
+}
+
+TEST(PolarStore, ScansThatAreBrokenOffEraseNothing) {
+  PolarStore store;
+  scan_over(store, -50, 50, 1);
+  for (std::uint32_t scan = 2; scan <= 9; ++scan) store.insert(flown_north(0.0, 0.0, scan));
+  EXPECT_EQ(sweeps_of_scan(store, 1), 99);
+}
+
+TEST(PolarStore, AScanMayEndInABlankSweep) {
+  PolarStore store;
+  scan_over(store, -50, 50, 1);
+  for (std::uint32_t scan = 2; scan <= 3; ++scan) scan_over(store, -25, 25, scan, databuffer::kSweepBlank);
+  EXPECT_EQ(sweeps_of_scan(store, 1), 0);
+}
+
+TEST(PolarStore, AScanThatIsRenewedIsNeverErasedByItsEnd) {
+  PolarStore store;
+  for (std::uint32_t scan = 1; scan <= 20; ++scan) {
+    scan_over(store, -50, 50, scan);
+    EXPECT_EQ(store.by_azimuth().size(), 100U);
+  }
+}
+
 TEST(PolarStore, CoveredSweepsMakeWayBeforeThoseInSight) {
   PolarStore store;
   store.insert(flown_north(359.0, 0.0, 1));

@@ -53,7 +53,7 @@ class RandomGlass {
   Point anywhere() {
     const auto x = static_cast<float>(number(0.0, 480.0)), y = static_cast<float>(number(0.0, 480.0));
     const auto near = static_cast<float>(number(0.0, 50.0));
-    switch (whole(0, 9)) {
+    switch (whole(0, 13)) {
       case 0:
         return {x, near};
       case 1:
@@ -62,6 +62,14 @@ class RandomGlass {
         return {near, y};
       case 3:
         return {kGlassUnits - near, y};
+      case 10:  // behind the aircraft
+        return {x, 440.0F + 0.8F * near};
+      case 11:  // about the gray scale
+        return {400.0F + near, static_cast<float>(number(330.0, 440.0))};
+      case 12:  // about the message
+        return {240.0F + 5.0F * (near - 25.0F), 388.0F + near};
+      case 13:  // about the name of the mode
+        return {240.0F + 4.0F * (near - 25.0F), 20.0F + near};
       case 4:
         return {240.0F + near - 25.0F, 425.0F + near};
       default:

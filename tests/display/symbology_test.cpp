@@ -110,6 +110,37 @@ TEST(Symbology, RangeWindowBrightnessAndTimerAreRead) {
   EXPECT_THAT(words(input), Not(Contains("12 SEC")));
 }
 
+TEST(Symbology, TheWindowIsReadWhereverItCanBeStepped) {
+  for (const Mode mode : {Mode::rbm, Mode::hrm, Mode::patch, Mode::beacon, Mode::pvu}) {
+    GlassInput input = testing::operating(mode, 40.0);
+    input.state.window_nm = 3.3;
+    EXPECT_THAT(words(input), Contains("3.3")) << radar::name_of(mode);
+  }
+}
+
+TEST(Symbology, PvuTellsThatAMapFormsHowLongItTakesAndHowMuchIsDone) {
+  GlassInput input = testing::operating(Mode::pvu, 40.0);
+  input.state.resume_mode = static_cast<std::uint8_t>(Mode::pvu);
+  input.model.map_timer_s = 11.2;
+  EXPECT_THAT(words(input), Not(Contains("MAP")));
+  EXPECT_THAT(words(input), Not(Contains("12 SEC"))) << "there is no cursor for which it would hold";
+  testing::put_forming_map(input, 40.0, 20.0, 4.7);
+  input.model.map_progress = 0.425;
+  EXPECT_THAT(words(input), IsSupersetOf({"MAP", "42 %", "12 SEC", "ALONG"}));
+}
+
+TEST(Symbology, AirToAirAndRangingAreNamedWithAndWithoutAMap) {
+  for (const auto& [mode, name] : {std::pair{Mode::air_to_air, "A/A"}, std::pair{Mode::ranging, "A/G RANGING"}}) {
+    GlassInput input = testing::operating(mode, 40.0);
+    EXPECT_THAT(words(input), Contains(name));
+    testing::put_map(input, 40.0, 20.0, 4.7);
+    EXPECT_THAT(words(input), Contains(name));
+    input.state.power = static_cast<std::uint8_t>(radar::Power::standby);
+    EXPECT_THAT(words(input), Contains(name)) << "in STBY, too";
+  }
+  EXPECT_THAT(words(testing::operating(Mode::rbm, 40.0)), Not(Contains("A/A")));
+}
+
 TEST(Symbology, FreezeIsShownFromTheCommandOn) {
   GlassInput input = testing::operating(Mode::rbm, 40.0);
   EXPECT_THAT(words(input), Not(Contains("FREEZE")));

@@ -83,6 +83,45 @@ TEST_F(LiveSet, AButtonReachesTheLegendAndASweepReachesTheFrame) {
   EXPECT_FALSE(set_.segment_exists());
 }
 
+// An event without effect is told apart from one that cannot be done, and each is named with its reason.
+TEST_F(LiveSet, WhatDoesNothingIsNamedAndWhatCannotBeDoneIsAnError) {
+  start_all();
+  inject({"power opr", "radar pvu"});
+  const auto mixed = set_.yars({"inject", "pb 2", "pb 3", "nav mn"});
+  EXPECT_EQ(mixed.code, 0) << mixed.errors;
+  EXPECT_EQ(mixed.output,
+            "3 events: 1 done, 2 without effect\n"
+            "  pb 3: dead in PVU\n"
+            "  nav mn: changed nothing: it is so already, or at its stop\n");
+  EXPECT_EQ(set_.yars({"inject", "pb 2"}).output, "1 event: 1 done\n");
+  const auto unknown = set_.yars({"inject", "sp 99"});
+  EXPECT_EQ(unknown.code, 1);
+  EXPECT_NE(unknown.errors.find("'sp 99' refused: NO POINT 99"), std::string::npos) << unknown.errors;
+  EXPECT_EQ(set_.watch()["message"], "NO POINT 99");
+}
+
+TEST_F(LiveSet, MarksCueTargetAndRangingAreWatched) {
+  start_all();
+  EXPECT_EQ(set_.watch()["marks"], nlohmann::json::array());
+  for (const char* field : {"cue", "target", "ranging"}) EXPECT_TRUE(set_.watch()[field].is_null()) << field;
+  inject({"power opr"});
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["cursor"].is_object(); }));
+  inject({"pb 7", "pb 7", "pb 7", "tdc release", "pb 7", "tdc release"});  // TGT, then MARK
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) {
+    return watch["marks"].size() == 1 && watch["marks"][0]["elevation_ft"].is_number() && !watch["ranging"].is_null();
+  })) << set_.watch().dump();
+  const auto watch = set_.watch();
+  EXPECT_EQ(watch["target"]["name"], "1.");
+  EXPECT_EQ(watch["cue"]["count"], 1);
+  EXPECT_EQ(watch["cue"]["lat"], watch["target"]["lat"]);
+  EXPECT_NEAR(watch["target"]["elevation_ft"].get<double>(), watch["marks"][0]["elevation_ft"].get<double>(), 1.0);
+  EXPECT_GT(watch["ranging"]["slant_range_nm"].get<double>(), 1.0);
+  EXPECT_GT(watch["ranging"]["depression_deg"].get<double>(), 0.0);
+  const std::string line = set_.yars({"watch", "--once"}).output;
+  EXPECT_NE(line.find("MARKS 1  CUE "), std::string::npos) << line;
+  EXPECT_NE(line.find("TGT 1. "), std::string::npos) << line;
+}
+
 TEST_F(LiveSet, ASecondInstanceOfAOneWriterRoleEndsWithCodeTwoAndNamesTheHolder) {
   start_all();
   set_.start("second", {"radar-model"});

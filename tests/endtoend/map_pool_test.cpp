@@ -122,19 +122,22 @@ TEST(MapPool, AMapCommandedIsShownAndShownAgainByProcessesThatStartAnew) {
   ASSERT_EQ(set.yars({"inject", "power opr"}).code, 0);
   ASSERT_TRUE(set.wait_until([](const json& state) { return state["cursor"].is_object(); }));
 
-  model.tell([](databuffer::ModelStatus& status) {
-    status.mappable = 0;
-    std::strcpy(status.why_not, "BLIND ZONE");
-  });
+  // The cursor stands half the range ahead.
   EXPECT_TRUE(eventually(
       [&] {
-        set.yars({"inject", "tdc release"});
+        EXPECT_EQ(set.yars({"inject", "tdc release"}).code, 1);
         return set.watch()["message"] == "BLIND ZONE";
       },
       20.0));
   EXPECT_EQ(model.state().map_request, 0U);
 
-  model.tell([](databuffer::ModelStatus& status) { status.mappable = 1; });
+  // To the right, at most to the edge of the glass.
+  const double ahead_deg = set.watch()["cursor"]["bearing_deg"];
+  ASSERT_EQ(set.yars({"inject", "tdc 1 0"}).code, 0);
+  EXPECT_TRUE(set.wait_until([ahead_deg](const json& state) {
+    return std::remainder(state["cursor"]["bearing_deg"].get<double>() - ahead_deg, 360.0) > 12.0;
+  }));
+  ASSERT_EQ(set.yars({"inject", "tdc 0 0"}).code, 0);
   EXPECT_TRUE(eventually(
       [&] {
         set.yars({"inject", "tdc release"});

@@ -34,6 +34,23 @@ class MapScheduleTest : public testing::Test {
   geo::GeoPoint place_at(double bearing_deg, double range_nm) const {
     return geo::geodesic_direct(pose_.place, geo::Bearing::degrees(bearing_deg), geo::Length::nautical_miles(range_nm));
   }
+  void command_at(double bearing_deg, double range_nm) {
+    const geo::GeoPoint target = place_at(bearing_deg, range_nm);
+    tick_.command.map_latitude_deg = target.latitude_deg;
+    tick_.command.map_longitude_deg = target.longitude_deg;
+  }
+  void restart() {
+    schedule_ = MapSchedule(configuration_);
+    tick_.command.flags = 0;
+    tick_.command.mode = static_cast<std::uint8_t>(radar::Mode::rbm);
+    tick_.command.map_request = 0;
+    schedule_.step(tick_, pose_, kGround_m);
+  }
+  databuffer::ModelStatus status() const {
+    databuffer::ModelStatus status{};
+    schedule_.describe(tick_.tick, status);
+    return status;
+  }
   void command_map() {
     ++tick_.command.map_request;
     tick_.command.flags |= databuffer::kMapping;
@@ -130,6 +147,91 @@ TEST_F(MapScheduleTest, StabMapsTheSameGroundAgainAndProgTheSameBearingAndRange)
       geo::geodesic_inverse(pose_.place, {tick_.command.map_latitude_deg, tick_.command.map_longitude_deg});
   EXPECT_NEAR(way.azimuth_at_start.degrees(), before.azimuth_at_start.degrees(), 1e-6);
   EXPECT_NEAR(way.distance.metres(), before.distance.metres(), 1e-3);
+}
+
+// Table 4 of the report for 4.7 NM, the blind zone and the gimbal: as for a first map.
+TEST_F(MapScheduleTest, ReMappingStopsOutsideTheLimitsOfAFirstMapAndResumesWithinThem) {
+  struct Case {
+    double right_deg, range_nm;
+    const char* why;
+  };
+  for (const std::uint32_t mode : {0U, databuffer::kProgressive}) {
+    for (const Case& one : {Case{7.9, 15.0, "BLIND ZONE"}, Case{-60.1, 15.0, "GIMBAL"}, Case{122.0, 15.0, "GIMBAL"},
+                            Case{30.0, 4.6, "MIN RANGE"}, Case{30.0, 80.1, "MAX RANGE"}}) {
+      restart();
+      tick_.command.flags |= mode;
+      command_at(one.right_deg, one.range_nm);
+      command_map();
+      ticks_until_done();
+      const std::uint64_t newest = schedule_.newest();
+      show_patch();
+      step();
+      EXPECT_FALSE(schedule_.forming()) << one.why;
+      EXPECT_STREQ(status().map_stopped, one.why);
+      EXPECT_FALSE(schedule_.looked_at(tick_, pose_)) << "the dish does not strain at its stop";
+      EXPECT_EQ(schedule_.newest(), newest) << "the map that was made stays";
+      command_at(30.0, 15.0);
+      if (mode == 0U) {
+        step();
+        EXPECT_TRUE(schedule_.forming()) << one.why;
+        EXPECT_STREQ(status().map_stopped, "");
+      }
+    }
+  }
+}
+
+TEST_F(MapScheduleTest, AnAirfieldPassedAbeamIsMappedToTheGimbalAndNoFurther) {
+  command_map();
+  ticks_until_done();
+  show_patch();
+  double last_formed_deg = 0.0;
+  const geo::GeoPoint target{tick_.command.map_latitude_deg, tick_.command.map_longitude_deg};
+  for (int leg = 0; leg < 120; ++leg) {  // 30 NM to the north, past the target
+    pose_.place = geo::geodesic_direct(pose_.place, geo::Bearing::degrees(0.0), geo::Length::nautical_miles(0.25));
+    step();
+    const double off_deg = geo::geodesic_inverse(pose_.place, target).azimuth_at_start.degrees();
+    EXPECT_EQ(schedule_.forming(), off_deg <= 60.0) << off_deg;
+    EXPECT_STREQ(status().map_stopped, off_deg <= 60.0 ? "" : "GIMBAL") << off_deg;
+    if (schedule_.forming()) last_formed_deg = off_deg;
+    if (schedule_.forming()) schedule_.complete();
+  }
+  EXPECT_GT(last_formed_deg, 55.0);
+  // Turned back towards it.
+  pose_.platform.heading = pose_.platform.ground_track = geo::Bearing::degrees(140.0);
+  step();
+  EXPECT_TRUE(schedule_.forming());
+  EXPECT_STREQ(status().map_stopped, "");
+}
+
+TEST_F(MapScheduleTest, AMapOfABlankWindowIsMadeAgainWithinTheBlankWindowsLimits) {
+  for (const std::uint32_t blank : {0U, databuffer::kMapWindowBlank}) {
+    restart();
+    tick_.command.flags |= blank;
+    tick_.command.map_window_nm = 3.3F;
+    command_at(30.0, 3.0);
+    command_map();
+    ticks_until_done();
+    show_patch();
+    step();
+    EXPECT_EQ(schedule_.forming(), blank != 0U);
+    EXPECT_STREQ(status().map_stopped, blank != 0U ? "" : "MIN RANGE");
+  }
+}
+
+TEST_F(MapScheduleTest, WhatIsNotToBeMappedAgainGivesNoReason) {
+  command_at(122.0, 15.0);
+  command_map();
+  ticks_until_done();
+  show_patch();
+  step();
+  ASSERT_STREQ(status().map_stopped, "GIMBAL");
+  tick_.command.flags |= databuffer::kFreeze;
+  step();
+  EXPECT_STREQ(status().map_stopped, "");
+  tick_.command.flags &= ~databuffer::kFreeze;
+  tick_.command.mode = static_cast<std::uint8_t>(radar::Mode::rbm);
+  step();
+  EXPECT_STREQ(status().map_stopped, "");
 }
 
 TEST_F(MapScheduleTest, AFrozenPatchIsNotMappedAgain) {

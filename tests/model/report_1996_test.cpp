@@ -15,12 +15,17 @@ constexpr double kRangeM = 40000.0;
 constexpr std::size_t kSamples = 1000;
 constexpr double kSpacingM = kRangeM / kSamples;
 
-std::vector<float> intensity(const terrain::AnalyticTerrain::Height& height, double elevation_deg) {
+// Level ground at half the range.
+const double kReference = kAltitudeM / std::hypot(kAltitudeM, 0.5 * kRangeM);
+
+std::vector<float> intensity(const terrain::AnalyticTerrain::Height& height, double elevation_deg,
+                             double bars_deg = 0.0) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.samples = static_cast<int>(kSamples);
   Report1996 report(configuration);
   Look look = test::look_north(kAltitudeM, kRangeM);
   look.elevation = geo::Angle::degrees(elevation_deg);
+  look.bars_above = look.bars_below = geo::Angle::degrees(bars_deg);
   std::vector<float> power(kSamples);
   report.measure(look, terrain::AnalyticTerrain(height), power);
   return power;
@@ -37,11 +42,51 @@ TEST(Report1996, AFlatPlaneReturnsTheSineOfItsDepressionWithinTheBeamAlone) {
     const double depression_deg = std::atan(kAltitudeM / distance_m) / geo::kRadiansPerDegree;
     const double sine = kAltitudeM / std::hypot(kAltitudeM, distance_m);
     if (std::abs(depression_deg - 5.0) < 1.2) {
-      EXPECT_NEAR(static_cast<double>(power[i]), sine, 1e-3) << distance_m;
+      EXPECT_NEAR(static_cast<double>(power[i]), sine / kReference, 1e-3 / kReference) << distance_m;
     }
     if (std::abs(depression_deg - 5.0) > 1.3) {
       EXPECT_EQ(power[i], 0.0F) << distance_m;
     }
+  }
+}
+
+TEST(Report1996, LevelGroundIsHalfAsBrightAtTheRangeAsAtHalfOfIt) {
+  const auto power = intensity(terrain::flat(0.0), -4.0, 2.0);
+  EXPECT_NEAR(static_cast<double>(power[kSamples / 2]), 1.0, 0.01);
+  EXPECT_NEAR(static_cast<double>(power[kSamples - 2]), 0.5, 0.01);
+}
+
+// Each bar of a scan lights the same ground equally.
+TEST(Report1996, WithSeveralBarsEveryBarMakesTheSamePicture) {
+  const auto hills = [](geo::GeoPoint place) { return 400.0 + 400.0 * std::sin(place.latitude_deg * 300.0); };
+  std::vector<std::vector<float>> bars;
+  constexpr double kBeam_deg = 2.5;
+  for (int bar = 0; bar < 4; ++bar) {
+    radar::RadarConfiguration configuration;
+    configuration.fidelity.samples = static_cast<int>(kSamples);
+    Report1996 report(configuration);
+    Look look = test::look_north(kAltitudeM, kRangeM);
+    look.elevation = geo::Angle::degrees(-5.0 + kBeam_deg * (1.5 - bar));
+    look.bars_above = geo::Angle::degrees(kBeam_deg * bar);
+    look.bars_below = geo::Angle::degrees(kBeam_deg * (3 - bar));
+    bars.emplace_back(kSamples);
+    report.measure(look, terrain::AnalyticTerrain(hills), bars.back());
+  }
+  std::size_t lit = 0;
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    lit += bars[0][i] > 0.0F ? 1U : 0U;
+    for (int bar = 1; bar < 4; ++bar) EXPECT_NEAR(bars[static_cast<std::size_t>(bar)][i], bars[0][i], 1e-4F) << i;
+  }
+  EXPECT_GT(lit, kSamples / 10);
+}
+
+TEST(Report1996, GroundBrighterThanFullScaleIsWhiteAtFullGainAndGainGoesOnFromThere) {
+  Report1996 report{radar::RadarConfiguration{}};
+  const std::vector<float> power(4, 3.0F);
+  std::vector<std::uint8_t> video(4);
+  for (int gain = 0; gain <= 3; ++gain) {
+    report.develop({power, power, power}, geo::Length::metres(kRangeM), gain, {}, video);
+    EXPECT_NEAR(video[1], 255.0 * (gain + 1) / 4.0, 0.51);
   }
 }
 

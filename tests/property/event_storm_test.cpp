@@ -115,8 +115,17 @@ class MapMaker {
  public:
   void disturb(Storm& storm, Pilot& pilot) {
     databuffer::ModelStatus& model = pilot.around.model;
-    model.mappable = storm.pick(0, 4) == 0 ? 0 : 1;
-    storm.pick(0, 1) == 0 ? put_reason(model, "BLIND ZONE") : put_reason(model, "\x07\xff");
+    switch (storm.pick(0, 3)) {
+      case 0:
+        put_reason(model, "BLIND ZONE");
+        break;
+      case 1:
+        put_reason(model, "\x07\xff");
+        break;
+      default:
+        put_reason(model, "");
+    }
+    answer(storm, pilot);
     if (storm.pick(0, 9) == 0) complete(storm, pilot);
     know(pilot);
   }
@@ -124,7 +133,17 @@ class MapMaker {
  private:
   template <std::size_t N>
   static void put_reason(databuffer::ModelStatus& model, const char (&reason)[N]) {
-    std::memcpy(model.why_not, reason, N);
+    std::memcpy(model.map_stopped, reason, N);
+  }
+
+  // Late, now and then; of ground that it does not know, sometimes; and once in a while of ground that nobody asked
+  // for.
+  static void answer(Storm& storm, Pilot& pilot) {
+    databuffer::ModelStatus& model = pilot.around.model;
+    if (storm.pick(0, 3) == 0) return;
+    model.answered_latitude_deg = storm.pick(0, 9) == 0 ? storm.number(-90.0, 90.0) : pilot.state.asked_latitude_deg;
+    model.answered_longitude_deg = pilot.state.asked_longitude_deg;
+    model.answered_elevation_m = storm.pick(0, 4) == 0 ? kNaN : storm.number(-400.0, 8000.0);
   }
 
   void complete(Storm& storm, Pilot& pilot) {
@@ -314,7 +333,7 @@ TEST_P(EventStorm, KeepsEveryInvariantAndNeverWedges) {
     const RadarState before = pilot.state;
     const InputEvent event = storm.event();
     SCOPED_TRACE("event " + std::to_string(count) + ": " + databuffer::text_of(event));
-    const bool did = apply(pilot.state, event, pilot.around, pilot.configuration);
+    const bool did = apply(pilot.state, event, pilot.around, pilot.configuration) != Effect::none;
     ASSERT_EQ(did, std::memcmp(&before, &pilot.state, sizeof before) != 0);
     dead += did ? 0 : 1;
     storm.disturb(pilot.around);

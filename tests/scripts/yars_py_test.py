@@ -26,8 +26,8 @@ same("VERSION", yars.VERSION, layout["version"])
 same("SIZE", yars.SIZE, layout["size"])
 same("HASH", f"{yars.HASH:016x}", layout["hash"])
 for name, key in [("AT_CLOCK", "clock"), ("AT_OWNSHIP_PRIORITY", "ownship_priority"), ("AT_OWNSHIP", "ownship"),
-                  ("AT_NAV", "nav"), ("AT_RADAR_STATE", "radar_state"), ("AT_SWEEPS", "sweeps"), ("AT_INPUT", "input"),
-                  ("AT_PROCESSES", "processes"), ("AT_FRAMES", "frames")]:
+                  ("AT_NAV", "nav"), ("AT_OUTPUTS", "outputs"), ("AT_RADAR_STATE", "radar_state"),
+                  ("AT_SWEEPS", "sweeps"), ("AT_INPUT", "input"), ("AT_PROCESSES", "processes"), ("AT_FRAMES", "frames")]:
     same(name, getattr(yars, name), layout["offsets"][key])
 locks, parts = layout["lock_bytes"], layout["containers"]
 same("FIRST_OWNSHIP_BYTE", yars.FIRST_OWNSHIP_BYTE, locks["first_ownship_lane"])
@@ -47,11 +47,12 @@ same("INPUT dropped, source", (8, 24), (parts["input"]["dropped"], parts["input"
 same("PROCESSES", (yars.PROCESSES, yars.PROCESS_STRIDE), (parts["processes"]["count"], parts["processes"]["stride"]))
 same("FRAMES", (yars.FRAMES, yars.FRAME_STRIDE, 8, yars.FRAME_PIXELS),
      tuple(parts["frames"][key] for key in ("slot_count", "slot_stride", "slot_words", "slot_pixels")))
-for name, fields in [("ownship", yars.OWNSHIP), ("nav", yars.NAV), ("clock", yars.CLOCK)]:
+for name, fields in [("ownship", yars.OWNSHIP), ("nav", yars.NAV), ("clock", yars.CLOCK), ("outputs", yars.OUTPUTS)]:
     same(f"{name} slots", (yars.LINE, yars.SLOTS, yars.slot_stride(fields), yars.value_size(fields)),
          tuple(parts[name][key] for key in ("slots", "slot_count", "slot_stride", "stride")))
 for record, fields in [("ClockState", yars.CLOCK), ("Ownship", yars.OWNSHIP), ("Nav", yars.NAV),
-                       ("InputEvent", yars.INPUT_EVENT), ("GlassFrame", yars.GLASS_FRAME), ("Sweep", yars.SWEEP)]:
+                       ("InputEvent", yars.INPUT_EVENT), ("Outputs", yars.OUTPUTS), ("Mark", yars.MARK),
+                       ("GlassFrame", yars.GLASS_FRAME), ("Sweep", yars.SWEEP)]:
     expected, at = layout["records"][record], 0
     for name, code in fields:
         if not name.startswith("_"):
@@ -122,6 +123,14 @@ def what_cannot_be_done_is_an_error(session):
     refuses("kind: expected a whole number 0 to 65535, found 'pb'", session.push_event, "pb", 13)
     refuses("argument: expected a whole number -32768 to", session.push_event, 1, 1.5)
     session.publish_ownship(latitude_deg=36.5, source="mine")
+    same("outputs before there are any", session.outputs(), None)
+    marks = b"".join(yars.pack("test", yars.MARK, {"latitude_deg": 36.0 + i, "sim_time_ns": i}) for i in range(10))
+    session._publish("test", yars.AT_OUTPUTS, yars.OUTPUTS, {
+        "target_name": b"4.", "slant_range_m": 9260.0, "cue_count": 2, "mark_count": 3, "marks": marks})
+    told = session.outputs()
+    same("target, ranging, cue", (told["target_name"], told["slant_range_m"], told["cue_count"]), ("4.", 9260.0, 2))
+    same("marks", [(mark["latitude_deg"], mark["sim_time_ns"]) for mark in told["marks"]],
+         [(36.0, 0), (37.0, 1), (38.0, 2)])
     session.publish_ownship(latitude_deg=36.5, source=b"mine")
     session.push_event(14, text="2.01")
     lane = yars.AT_INPUT + session.input_lane * yars.INPUT_STRIDE

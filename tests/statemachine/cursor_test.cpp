@@ -101,8 +101,12 @@ TEST_F(Glass, BearingIsMagneticFromTheNavigatorElseFromTheConfiguration) {
 }
 
 TEST_F(Glass, TheCursorTakesItsElevationFromTheModel) {
-  pilot.around.model.cursor_ground_elevation_m = 321.0;
-  pilot.wait();
+  pilot.ground = [](geo::GeoPoint) { return 321.0; };
+  pilot.wait(2);
+  EXPECT_EQ(pilot.state.cursor_elevation_m, 321.0);
+  pilot.send("sp 3.");
+  EXPECT_TRUE(std::isnan(pilot.state.cursor_elevation_m)) << "not that of the ground before";
+  pilot.wait(2);
   EXPECT_EQ(pilot.state.cursor_elevation_m, 321.0);
 }
 

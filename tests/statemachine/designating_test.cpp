@@ -17,8 +17,8 @@ class Designating : public ::testing::Test {
   void put_cursor_on(geo::GeoPoint where) {
     pilot.state.cursor_latitude_deg = where.latitude_deg;
     pilot.state.cursor_longitude_deg = where.longitude_deg;
-    pilot.around.model.cursor_ground_elevation_m = 120.0;
-    pilot.wait();
+    pilot.ground = [](geo::GeoPoint) { return 120.0; };
+    pilot.wait(2);
   }
   void designate(geo::GeoPoint where) {
     select_function(radar::CursorFunction::target);
@@ -92,6 +92,52 @@ TEST_F(Designating, MarksKeepPlaceElevationAndTimeAndOutlivePower) {
   EXPECT_NEAR(mark.latitude_deg, place(10.0, 12.0).latitude_deg, 1e-12);
   EXPECT_EQ(mark.elevation_m, 120.0);
   EXPECT_EQ(mark.sim_time_ns, 77'000'000);
+}
+
+TEST_F(Designating, APointThatExistsIsAdoptedAndDrawnOnce) {
+  select_function(radar::CursorFunction::target);
+  for (const char* name : {"3.", "2.01", "1", "1.1", "2"}) {
+    pilot.press(std::string("sp ") + name);
+    ASSERT_TRUE(pilot.press("tdc release"));
+    EXPECT_STREQ(pilot.state.target_name, name);
+    EXPECT_STREQ(pilot.state.sequence_point, name);
+    const auto names = points_drawn();
+    EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+    EXPECT_EQ(outputs().target_elevation_m, 100.0) << "the route's";
+    for (int a = 0; a < pilot.state.points_drawn; ++a)
+      for (int b = 0; b < a; ++b)
+        EXPECT_GT(geo::geodesic_inverse({pilot.state.points[a].latitude_deg, pilot.state.points[a].longitude_deg},
+                                        {pilot.state.points[b].latitude_deg, pilot.state.points[b].longitude_deg})
+                      .distance.metres(),
+                  1.0)
+            << "one symbol on top of another";
+  }
+}
+
+TEST_F(Designating, ATargetAdoptedIsATriangleAndLeavesThePointAsItWas) {
+  select_function(radar::CursorFunction::target);
+  pilot.press("sp 1");
+  ASSERT_TRUE(pilot.press("tdc release"));
+  const auto kind_of = [&](const std::string& name) {
+    for (int point = 0; point < pilot.state.points_drawn; ++point)
+      if (name == pilot.state.points[point].name) return static_cast<radar::PointKind>(pilot.state.points[point].kind);
+    return radar::PointKind::initial;
+  };
+  EXPECT_EQ(kind_of("1"), radar::PointKind::target);
+  put_cursor_on(place(40.0, 20.0));
+  ASSERT_TRUE(pilot.press("tdc release"));
+  EXPECT_STREQ(pilot.state.sequence_point, "1") << "the selection is the route's, not the target's";
+  EXPECT_EQ(kind_of("1"), radar::PointKind::steer);
+  EXPECT_STREQ(pilot.state.target_name, "4.");
+}
+
+TEST_F(Designating, AnUpdateSelectedAndAcceptedInOneTickIsJudgedAsItStandsThen) {
+  pilot.press("nav error mn 2500 0");
+  put_cursor_on(pilot.configuration.route[0].place);
+  ASSERT_FALSE(pilot.is(databuffer::kUpdateShown));
+  pilot.send("pb 7");
+  ASSERT_TRUE(pilot.send("tdc release"));
+  EXPECT_LT(std::hypot(pilot.state.mission.north_m, pilot.state.mission.east_m), 0.1);
 }
 
 TEST_F(Designating, TheEleventhMarkTakesThePlaceOfTheOldest) {

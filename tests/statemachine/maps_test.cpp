@@ -21,6 +21,14 @@ class Maps : public ::testing::Test {
     pilot.press("power opr");
     pilot.press("pb 13");  // 40 NM
   }
+  void put_cursor_on(geo::GeoPoint where) {
+    pilot.state.cursor_latitude_deg = where.latitude_deg;
+    pilot.state.cursor_longitude_deg = where.longitude_deg;
+    pilot.wait();
+  }
+  Effect effect_of(const std::string& text) {
+    return apply(pilot.state, *databuffer::event_from_text(text), pilot.around, pilot.configuration);
+  }
   std::string field(const std::string& name) const { return fields_of(pilot).at(name); }
   Pilot pilot;
 };
@@ -41,15 +49,92 @@ TEST_F(Maps, ACommandAsksForTheCursorsPlaceAndTheSelectedWindowAndThePictureStay
 }
 
 TEST_F(Maps, ARejectedCommandSaysWhyAndNothingElseHappens) {
-  pilot.around.model.mappable = 0;
-  for (const char* why : {"BLIND ZONE", "MIN RANGE", "MAX RANGE", "GIMBAL", "NO WINDOW"}) {
-    put_text(pilot.around.model.why_not, why);
+  pilot.configuration.high_resolution.blind_zone_deg = 8.0;
+  struct Case {
+    double bearing_deg, range_nm;
+    const char* why;
+  };
+  // Of a 4.7 NM window; the aircraft flies north.
+  for (const Case& one : {Case{7.9, 20.0, "BLIND ZONE"}, Case{-7.9, 20.0, "BLIND ZONE"}, Case{61.0, 20.0, "GIMBAL"},
+                          Case{30.0, 4.6, "MIN RANGE"}, Case{30.0, 80.1, "MAX RANGE"}}) {
+    put_cursor_on(place(one.bearing_deg, one.range_nm));
     Fields expected = fields_of(pilot);
-    expected["message"] = why;
-    EXPECT_TRUE(pilot.press("tdc release"));
+    expected["message"] = one.why;
+    EXPECT_EQ(effect_of("tdc release"), Effect::refused);
     EXPECT_EQ(fields_of(pilot), expected);
     EXPECT_EQ(pilot.state.map_request, 0U);
   }
+}
+
+// The model's word on the cursor is of the tick before.
+TEST_F(Maps, AJumpAndACommandInOneTickAreJudgedWhereTheCursorIs) {
+  pilot.configuration.high_resolution.blind_zone_deg = 8.0;
+  put_cursor_on(place(30.0, 20.0));
+  pilot.send("sp 2");  // straight ahead
+  EXPECT_EQ(effect_of("tdc release"), Effect::refused);
+  EXPECT_STREQ(pilot.state.message, "BLIND ZONE");
+  pilot.around.model.mappable = 0;
+  pilot.send("sp 3.");
+  EXPECT_EQ(effect_of("tdc release"), Effect::done);
+}
+
+TEST_F(Maps, AWindowSteppedAndACommandInOneTickAreJudgedByThatWindow) {
+  put_cursor_on(place(30.0, 30.0));
+  while (pilot.state.window_nm > 1.4) pilot.press("acq aft");
+  pilot.send("acq aft");
+  EXPECT_EQ(effect_of("tdc release"), Effect::refused) << ".67 NM reaches to 20 NM";
+  EXPECT_STREQ(pilot.state.message, "MAX RANGE");
+}
+
+TEST_F(Maps, TheDisplaySaysWhyAPatchIsNotMappedAgainForAsLongAsItIsNot) {
+  pilot.make_map();
+  for (const char* why : {"BLIND ZONE", "MIN RANGE", "MAX RANGE", "GIMBAL"}) {
+    put_text(pilot.around.model.map_stopped, why);
+    pilot.wait(2000);
+    EXPECT_STREQ(pilot.state.message, why);
+  }
+  EXPECT_EQ(field("shown"), "1") << "the map that was made stays";
+  pilot.press("pb 12");
+  EXPECT_STREQ(pilot.state.message, "NO RECORDER") << "what the pilot calls forth comes first";
+  pilot.wait(600);
+  EXPECT_STREQ(pilot.state.message, "GIMBAL");
+  put_text(pilot.around.model.map_stopped, "");
+  pilot.wait();
+  EXPECT_STREQ(pilot.state.message, "");
+}
+
+TEST_F(Maps, NothingIsSaidOfRemappingWhereNothingWouldBeMapped) {
+  pilot.make_map();
+  put_text(pilot.around.model.map_stopped, "GIMBAL");
+  pilot.wait();
+  ASSERT_STREQ(pilot.state.message, "GIMBAL");
+  for (const char* event : {"freeze", "pb 14", "mode aa", "power stby", "power off", "tdc release"}) {
+    Pilot other = pilot;
+    other.press(event);
+    EXPECT_STREQ(other.state.message, "") << event;
+  }
+}
+
+TEST_F(Maps, AReasonThatNobodyCanReadIsNotShown) {
+  pilot.make_map();
+  put_text(pilot.around.model.map_stopped, "\x1b[2J");
+  pilot.wait();
+  EXPECT_STREQ(pilot.state.message, "");
+  put_text(pilot.around.model.map_stopped, "WITHOUT A ZERO AT ITS END");
+  pilot.wait();
+  EXPECT_STREQ(pilot.state.message, "WITHOUT A ZERO A");
+}
+
+TEST_F(Maps, AMapOfABlankWindowSaysSoUntilAnotherIsCommanded) {
+  while (pilot.press("acq aft")) {
+  }
+  put_cursor_on(place(30.0, 20.0));
+  pilot.make_map();
+  EXPECT_TRUE(pilot.is(databuffer::kMapWindowBlank));
+  pilot.press("acq fwd");
+  put_cursor_on(place(30.0, 10.0));
+  pilot.press("tdc release");
+  EXPECT_FALSE(pilot.is(databuffer::kMapWindowBlank));
 }
 
 TEST_F(Maps, ACommandThatIsAnsweredWithoutAMapIsTakenBackAndTheGlassSaysSo) {
@@ -59,16 +144,6 @@ TEST_F(Maps, ACommandThatIsAnsweredWithoutAMapIsTakenBackAndTheGlassSaysSo) {
   EXPECT_EQ(pilot.state.flags & kMapping, 0U);
   EXPECT_EQ(field("mode"), "RBM");
   EXPECT_STREQ(pilot.state.message, "NO MAP");
-}
-
-TEST_F(Maps, AReasonThatNobodyCanReadIsNotShown) {
-  pilot.around.model.mappable = 0;
-  EXPECT_FALSE(pilot.press("tdc release")) << "no reason at all";
-  put_text(pilot.around.model.why_not, "\x1b[2J");
-  EXPECT_FALSE(pilot.press("tdc release"));
-  put_text(pilot.around.model.why_not, "WITHOUT A ZERO AT ITS END");
-  EXPECT_TRUE(pilot.press("tdc release"));
-  EXPECT_STREQ(pilot.state.message, "WITHOUT A ZERO AT IT");
 }
 
 TEST_F(Maps, ABlankWindowStandsForOneByTheCursorsRange) {

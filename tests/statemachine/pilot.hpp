@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -48,6 +49,7 @@ class Pilot {
     around.ownship.radar_altitude_m = 200.0;
     around.nav.magnetic_variation_deg = kNaN;
     around.model.mappable = 1;
+    configuration.high_resolution.blind_zone_deg = 0.0;  // most points lie ahead; who tests the limits sets it
     state = initial_state(configuration);
   }
 
@@ -55,14 +57,22 @@ class Pilot {
   bool send(const std::string& text) {
     const auto event = databuffer::event_from_text(text);
     EXPECT_TRUE(event.has_value()) << text;
-    return event && apply(state, *event, around, configuration);
+    return event && apply(state, *event, around, configuration) != Effect::none;
   }
 
   void wait(int ticks = 1) {
     for (int tick = 0; tick < ticks; ++tick) {
       ++around.tick;
       advance(state, around, configuration);
+      answer();
     }
+  }
+
+  // As the model does after each tick.
+  void answer() {
+    around.model.answered_latitude_deg = state.asked_latitude_deg;
+    around.model.answered_longitude_deg = state.asked_longitude_deg;
+    around.model.answered_elevation_m = ground({state.asked_latitude_deg, state.asked_longitude_deg});
   }
 
   // Sends, and lets one tick pass.
@@ -108,6 +118,7 @@ class Pilot {
   bool is(std::uint32_t flag) const { return (state.flags & flag) != 0; }
 
   radar::RadarConfiguration configuration;
+  std::function<double(geo::GeoPoint)> ground = [](geo::GeoPoint) { return 0.0; };  // [m] MSL
   Surroundings around;
   databuffer::RadarState state;
 };

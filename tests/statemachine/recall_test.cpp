@@ -118,10 +118,43 @@ TEST_F(FrozenMap, SetEndsOnlyWhenDeselected) {
 
 TEST_F(FrozenMap, HrmLeftWithoutAMapOffersNoSet) {
   Pilot ppi;
-  bring_into(ppi, "MAPS", false);
+  bring_into(ppi, "HRM", false);
   ppi.press("mode agr");
   EXPECT_EQ(ppi.legend(18), "");
   EXPECT_FALSE(ppi.is(kFreeze));
+}
+
+// Report, appendix A, "Set Function": "the last HRM map is automatically frozen".
+TEST_F(FrozenMap, AnHrmPpiLeftWithAMapInMemoryOffersSetOverThatMap) {
+  for (const bool frozen : {false, true}) {
+    Pilot ppi;
+    bring_into(ppi, "MAPS", frozen);
+    const std::uint64_t newest = ppi.state.map_newest;
+    EXPECT_EQ(ppi.state.map_shown, 0U);
+    ppi.press("mode agr");
+    EXPECT_EQ(ppi.state.map_shown, newest);
+    EXPECT_TRUE(ppi.is(kFreeze));
+    ASSERT_EQ(ppi.legend(18), "SET");
+    Pilot back = ppi;
+    back.press("mode ag");
+    EXPECT_EQ(fields_of(back).at("mode"), "HRM");
+    EXPECT_EQ(back.state.map_shown, 0U) << "the PPI again";
+    EXPECT_EQ(back.is(kFreeze), frozen) << "frozen as the pilot had it";
+    ASSERT_TRUE(ppi.press("pb 18"));
+    ppi.press("mode ag");
+    EXPECT_EQ(ppi.state.map_shown, newest) << "SET goes on";
+    ppi.press("pb 18");
+    EXPECT_EQ(ppi.state.map_shown, 0U);
+    EXPECT_EQ(ppi.is(kFreeze), frozen);
+  }
+}
+
+TEST_F(FrozenMap, RbmLeftWithAMapInMemoryOffersNoSet) {
+  Pilot rbm;
+  bring_into(rbm, "MAPS", false);
+  rbm.press("radar rbm");
+  rbm.press("mode aa");
+  EXPECT_EQ(rbm.legend(18), "");
 }
 
 TEST_F(FrozenMap, ASilentRadarStaysFrozenWhenItComesBack) {

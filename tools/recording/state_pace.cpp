@@ -17,6 +17,7 @@ RadarState without_what_moves(RadarState state) {
   state.tdc_x = state.tdc_y = 0.0;
   state.cursor_believed_latitude_deg = state.cursor_believed_longitude_deg = 0.0;
   state.cursor_moved_tick = 0;
+  state.asked_latitude_deg = state.asked_longitude_deg = 0.0;
   state.update_north_m = state.update_east_m = 0.0;
   state.mission = state.ins = {};
   state.velocity_along_mps = state.velocity_across_mps = state.velocity_vertical_mps = 0.0;
