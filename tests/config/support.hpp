@@ -142,15 +142,17 @@ auto fields_of_all(const std::vector<Record>& records) {
 }
 
 inline auto fields(const radar::WorldConfiguration& world) {
-  const auto& [land, sea, rain, jamming, movers, scenes, beaconing] = world;
+  const auto& [land, sea, rain, atmosphere, jamming, movers, scenes, beaconing] = world;
   const auto& [slope, reference, street, land_texture, materials] = land;
   const auto& [state, wind, from, polarization, horizontal, vertical, factor, sea_texture] = sea;
   const auto& [a, b, dielectric, k, exponent, cells] = rain;
+  const auto& [gases, temperature, pressure, water] = atmosphere;
   const auto& [radar_power, sidelobes, jammers] = jamming;
   const auto& [beacon_code, beacons] = beaconing;
   return std::tuple(std::tuple(slope, reference, street, land_texture, fields_of_all(materials)),
                     std::tuple(comparable(state), wind, from, polarization, horizontal, vertical, factor, sea_texture),
                     std::tuple(a, b, dielectric, k, exponent, fields_of_all(cells)),
+                    std::tuple(gases, temperature, pressure, water),
                     std::tuple(radar_power, sidelobes, fields_of_all(jammers)), fields_of_all(movers),
                     fields_of_all(scenes), std::tuple(beacon_code, fields_of_all(beacons)));
 }

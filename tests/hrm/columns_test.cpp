@@ -24,7 +24,7 @@ std::shared_ptr<const terrain::Cell> mountains(int posts) {
   return std::make_shared<const terrain::Cell>(terrain::CellPlace{37, -123}, posts, posts, heights);
 }
 
-// The same ground without a word on its posts: every column is read.
+// The same ground without a word on the posts' spacing: every column is read.
 class Silent final : public terrain::TerrainView {
  public:
   explicit Silent(terrain::TerrainViewPointer of) : of_(std::move(of)) {}
@@ -36,6 +36,10 @@ class Silent final : public terrain::TerrainView {
   std::size_t surfaces(const terrain::PlaceRun& places, Interpolation interpolation,
                        const terrain::SurfaceRun& found) const override {
     return of_->surfaces(places, interpolation, found);
+  }
+  bool crests(const terrain::PlaceRun& places, const terrain::RaySight& sight,
+              std::span<float> tangent) const override {
+    return of_->crests(places, sight, tangent);
   }
 
  private:
