@@ -628,8 +628,8 @@ static inline int yars_read_model_status(const yars_session* s, yars_model_statu
   return yars_read(s, YARS_AT_MODEL_STATUS, status, sizeof *status);
 }
 
-/* The newest picture of a glass started with --publish, if it is another one than `after` (0: any). `pixels` has room for
- * YARS_MOST_FRAME_BYTES: rows from the top without padding, red, green, blue, 255. */
+/* The newest picture of a glass started with --publish, if it is another one than `after` (0: any). `pixels` has room
+ * for YARS_MOST_FRAME_BYTES: rows from the top without padding, red, green, blue, 255. */
 static inline int yars_read_frame(const yars_session* s, uint64_t after, yars_glass_frame* frame, void* pixels) {
   for (int attempt = 0; attempt < 8; ++attempt) {
     uint64_t newest = 0;

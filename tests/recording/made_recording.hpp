@@ -159,6 +159,11 @@ inline failure::Expected<tools::recording::RecordingReader> reader_of(const std:
   return tools::recording::RecordingReader::read(std::make_unique<std::istringstream>(bytes), "made");
 }
 
+inline std::vector<tools::recording::IndexEntry> blocks_of(const std::string& bytes) {
+  const auto reader = reader_of(bytes);
+  return {reader->blocks().begin(), reader->blocks().end()};
+}
+
 inline std::vector<RecordingItem> rest_of(tools::recording::RecordingReader& reader) {
   std::vector<RecordingItem> items;
   while (auto item = reader.next()) items.push_back(std::move(*item));

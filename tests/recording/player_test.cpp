@@ -281,7 +281,7 @@ TEST_P(RecordingPlayed, ADamagedSecondIsPassedOverAndTheRestPlays) {
   session.run(2000);
   session.write(file.path());
   std::string bytes = file.bytes();
-  const auto blocks = test::reader_of(bytes)->blocks();
+  const auto blocks = test::blocks_of(bytes);
   ASSERT_GE(blocks.size(), 6U);
   const std::int64_t lost_from = blocks[3].first_tick, lost_to = blocks[3].last_tick;
   bytes[blocks[3].offset + 100] ^= 1;
@@ -317,7 +317,7 @@ TEST(RecordingPlayer, TicksThatJumpAreCutsAndComeToAnEnd) {
   Played played = player.seek(1);
   int cuts = 0;
   for (int call = 0; call < 100 && !played.ended; ++call) {
-    played = player.play_to(played.cut_to_tick.value_or(player.tick()));
+    played = player.play_to(played.cut_to_tick ? *played.cut_to_tick : player.tick() + 1);
     cuts += played.cut_to_tick ? 1 : 0;
   }
   EXPECT_TRUE(played.ended);

@@ -68,7 +68,7 @@ TEST_F(PrivateFiles, ADeviceUnderARecordingsNameKeepsItsRights) {
 TEST_F(PrivateFiles, FramesAndTheirFolderAreTheUsersAlone) {
   databuffer::keep_files_private();
   const auto folder = folder_ / "frames";
-  const auto writer = display::FrameWriter::create(folder);
+  auto writer = display::FrameWriter::create(folder);
   ASSERT_TRUE(writer) << writer.error().message();
   ASSERT_TRUE(writer->write({2, 2, 4, std::vector<std::uint8_t>(16)}, 1));
   EXPECT_EQ(mode_of(folder), 0700U);
