@@ -8,6 +8,7 @@
 #include "config/load.hpp"
 #include "config/print.hpp"
 #include "tools/command.hpp"
+#include "tools/output_name.hpp"
 
 namespace yars::tools {
 namespace {
@@ -57,6 +58,7 @@ void write_file(const std::string& path, const std::string& text) {
 }
 
 void convert(const ConfigOptions& options, const CommonOptions& common) {
+  check_file_name("--out", options.out, {".guf"});
   const std::string& file = chosen_file(options, common);
   if (file.empty()) throw CommandFailed{"yars config convert: expected a file, found none; name one", 2};
   std::error_code problem;

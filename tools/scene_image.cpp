@@ -6,6 +6,7 @@
 
 #include "model/scene/openflight_reader.hpp"
 #include "tools/command.hpp"
+#include "tools/output_name.hpp"
 #include "tools/scene_commands.hpp"
 #include "tools/scene_plan.hpp"
 
@@ -22,6 +23,7 @@ struct Options {
 };
 
 void draw(const Options& options) {
+  check_file_name("--out", options.out, {".png"});
   const auto model = model::scene::read_openflight(options.file);
   if (!model) give_up(model.error());
   PlanFrame frame = plan_frame(*model, options.width);
