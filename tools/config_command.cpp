@@ -9,6 +9,7 @@
 #include "databuffer/installed_file.hpp"
 #include "lib/file/new_file.hpp"
 #include "tools/command.hpp"
+#include "tools/output_name.hpp"
 
 namespace yars::tools {
 namespace {
@@ -51,6 +52,7 @@ void print(const ConfigOptions& options, const CommonOptions& common) {
 }
 
 void convert(const ConfigOptions& options, const CommonOptions& common) {
+  check_file_name("--out", options.out, {".guf"});
   const std::string& file = chosen_file(options, common);
   if (file.empty()) throw CommandFailed{"yars config convert: expected a file, found none; name one", 2};
   std::error_code problem;

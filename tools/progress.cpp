@@ -1,5 +1,7 @@
 #include "tools/progress.hpp"
 
+#include <unistd.h>
+
 #include <cmath>
 
 namespace yars::tools {
@@ -30,6 +32,17 @@ void Progress::done(const std::string& note) {
   const std::string left = done_ == total_ ? "" : "  about " + duration_text(left_s) + " left";
   std::fprintf(out_, "%zu/%zu  %s%s\n", done_, total_, note.c_str(), left.c_str());
   std::fflush(out_);
+}
+
+ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
+
+void ProgressLine::say(const std::string& text) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!terminal_ || (text.empty() ? !shown_ : now - said_ < std::chrono::milliseconds(100))) return;
+  std::fprintf(stderr, "\r\033[K%s", text.c_str());
+  std::fflush(stderr);
+  shown_ = !text.empty();
+  said_ = now;
 }
 
 }  // namespace yars::tools

@@ -23,4 +23,20 @@ class Progress {
   std::chrono::steady_clock::time_point said_;
 };
 
+// A line on standard error that is written over, at most ten times a second, where that is a terminal; else nothing.
+class ProgressLine {
+ public:
+  ProgressLine();
+  ~ProgressLine() { say(""); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  // Empty: the line is wiped.
+  void say(const std::string& text);
+
+ private:
+  bool shown_ = false;
+  bool terminal_;
+  std::chrono::steady_clock::time_point said_;
+};
+
 }  // namespace yars::tools

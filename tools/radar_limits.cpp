@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
+#include "lib/radar/mappable.hpp"
 #include "lib/radar/windows.hpp"
 #include "model/antenna/stabilization.hpp"
-#include "model/kernel/mappable.hpp"
 
 namespace yars::tools {
 
@@ -78,8 +78,8 @@ failure::Error out_of_range(std::string_view why, const geo::GeodesicInverse& wa
 
 std::optional<failure::Error> beyond_limits(const model::hrm::PatchOrder& order,
                                             const radar::RadarConfiguration& configuration) {
-  const auto why =
-      model::kernel::why_not_mappable(level_flight(order), order.apex, order.centre, order.window, configuration);
+  const auto why = radar::why_not_mappable({order.apex, order.ground_track, order.ground_track}, order.centre,
+                                           {order.window}, configuration);
   if (!why) return std::nullopt;
   const geo::GeodesicInverse way = geo::geodesic_inverse(order.apex, order.centre);
   const double off_deg = (way.azimuth_at_start - order.ground_track).degrees();

@@ -1,5 +1,5 @@
 // The radar's limits as `yars patch` and `yars scan` tell of them: which one is broken, by what numbers, and what to
-// do. The limits themselves are those of the radar: model/kernel/mappable.hpp and the gimbal.
+// do. The limits themselves are those of the radar: lib/radar/mappable.hpp and the gimbal.
 #pragma once
 
 #include <optional>

@@ -8,6 +8,7 @@
 #include "model/scene/generator.hpp"
 #include "model/scene/scene_source.hpp"
 #include "tools/command.hpp"
+#include "tools/output_name.hpp"
 #include "tools/progress.hpp"
 #include "tools/scene_commands.hpp"
 
@@ -26,6 +27,7 @@ struct Options {
 };
 
 void generate(const Options& options) {
+  check_file_name("--out", options.out, {".flt"});
   SceneOrder order{.triangles = options.triangles, .seed = options.seed, .origin = {}};
   order.kind = *generated_kind(options.kind);
   const auto place = parse_scene("--origin@" + options.origin);

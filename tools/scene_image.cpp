@@ -6,6 +6,7 @@
 
 #include "model/scene/openflight_reader.hpp"
 #include "tools/command.hpp"
+#include "tools/output_name.hpp"
 #include "tools/scene_commands.hpp"
 #include "tools/scene_plan.hpp"
 
@@ -23,6 +24,7 @@ struct Options {
 };
 
 void draw(const Options& options) {
+  check_file_name("--out", options.out, {".png"});
   if (!options.window.empty() && !(options.window[2] > 0.0))
     throw CommandFailed{"--window: expected a side longer than 0 m, found " + std::to_string(options.window[2]), 2};
   model::scene::NameFilter filter = name_filter(options.without);

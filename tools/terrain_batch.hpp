@@ -1,6 +1,7 @@
 // Goes through the cells of a folder or a file of elevation, writes each below another folder, and says how it goes:
-// a line for each cell, at the end what became of the size. A cell that cannot be read or written is a problem; the
-// others go on, and the command fails in the end. The input is never written over.
+// a line for each cell, at the end what became of the size. Culture beside a cell goes with it. A cell or a file that
+// cannot be read or written is a problem; the others go on, and the command fails in the end. The input is never
+// written over.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +24,8 @@ struct TerrainBatch {
   std::function<failure::Expected<std::filesystem::path>(const std::filesystem::path& tree,
                                                          const model::terrain::Cell&)>
       write;
+  // Posts along a meridian of a cell as written: culture is thinned to no fewer. Null: it stays as it is.
+  std::function<int(const model::terrain::Cell&)> culture_posts = {};
 };
 
 // Throws CommandFailed.

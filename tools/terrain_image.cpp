@@ -5,11 +5,14 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "model/terrain/coverage.hpp"
 #include "model/terrain/culture_reader.hpp"
 #include "model/terrain/culture_tile.hpp"
 #include "model/terrain/directory_index.hpp"
 #include "tools/command.hpp"
+#include "tools/output_name.hpp"
 #include "tools/terrain_commands.hpp"
 #include "tools/terrain_shade.hpp"
 
@@ -28,17 +31,11 @@ struct Options {
 };
 
 MapFrame frame_of(const Options& options, const DirectoryIndex& index) {
-  CellPlace lowest{90, 180};
-  CellPlace highest{-90, -180};
-  for (const auto& [slot, file] : index) {
-    const CellPlace place = place_of_slot(slot);
-    lowest = {std::min(lowest.south_deg, place.south_deg), std::min(lowest.west_deg, place.west_deg)};
-    highest = {std::max(highest.south_deg, place.south_deg), std::max(highest.west_deg, place.west_deg)};
-  }
-  const double south_deg = options.south_deg.value_or(lowest.south_deg);
-  const double north_deg = options.north_deg.value_or(highest.south_deg + 1);
-  const double west_deg = options.west_deg.value_or(lowest.west_deg);
-  const double east_deg = options.east_deg.value_or(highest.west_deg + 1);
+  const Coverage all = coverage_of(index);
+  const double south_deg = options.south_deg.value_or(all.south_deg);
+  const double north_deg = options.north_deg.value_or(all.north_deg);
+  const double west_deg = options.west_deg.value_or(all.west_deg);
+  const double east_deg = options.east_deg.value_or(all.east_deg);
   if (south_deg >= north_deg || west_deg >= east_deg)
     throw CommandFailed{"yars terrain image: expected south < north and west < east, found an empty region", 2};
   return map_frame(south_deg, north_deg, west_deg, east_deg, options.width);
@@ -54,32 +51,47 @@ void say_problem(const failure::Error& error) {
 }
 
 // Nothing where it is not asked for, absent or unreadable.
-std::optional<Culture> culture_of(const Options& options, const CellFile& file, CellPlace place) {
+std::optional<Culture> culture_of(const Options& options, const CellFile& file, CellPlace place, std::size_t& failed) {
   const auto path = options.culture ? find_culture(file.path) : std::nullopt;
   if (!path) return std::nullopt;
   auto culture = read_culture(*path, place);
   if (culture) return std::move(*culture);
   say_problem(culture.error());
+  ++failed;
   return std::nullopt;
 }
 
 // Cell by cell: no more than one is in memory, whatever the region.
 void draw(const Options& options) {
-  const auto index = index_directory(options.directory);
+  check_file_name("--out", options.out, {".png"});
+  std::vector<std::string> unusable;
+  const auto index = index_directory(options.directory, &unusable);
   if (!index) give_up(index.error());
   const MapFrame frame = frame_of(options, *index);
   imageio::Image image = blank_map(frame);
+  for (const std::string& problem : unusable) std::fprintf(stderr, "problem: %s\n", problem.c_str());
+  std::size_t failed = unusable.size();
+  std::size_t painted = 0;
   for (const auto& [slot, file] : *index) {
     if (!overlap(place_of_slot(slot), frame)) continue;
     const auto reading = read_cell(file, place_of_slot(slot));
     if (!reading) {
       say_problem(reading.error());
+      ++failed;
       continue;
     }
-    const std::optional<Culture> culture = culture_of(options, file, place_of_slot(slot));
+    const std::optional<Culture> culture = culture_of(options, file, place_of_slot(slot), failed);
     paint_cell(reading->cell, culture ? &*culture : nullptr, frame, image);
+    ++painted;
   }
   if (const auto written = imageio::write_png(options.out, image); !written) give_up(written.error());
+  if (painted + failed == 0)
+    give_up({options.directory, "cells in the region that is drawn", "none: it covers " + coverage_text(*index),
+             "check --south, --north, --west and --east and their signs"});
+  if (failed > 0)
+    throw CommandFailed{"yars terrain image: expected all cells to be drawn, found " + std::to_string(failed) +
+                            " that could not be; see the problems",
+                        1};
 }
 
 }  // namespace

@@ -3,9 +3,12 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lib/geo/geodesic.hpp"
+#include "model/terrain/coverage.hpp"
+#include "model/terrain/directory_index.hpp"
 #include "model/terrain/open_terrain.hpp"
 #include "tools/command.hpp"
 #include "tools/terrain_commands.hpp"
@@ -26,6 +29,32 @@ bool on_the_earth(const std::vector<double>& place_deg) {
   return std::abs(place_deg[0]) <= 90.0 && std::abs(place_deg[1]) <= 360.0;
 }
 
+// What a folder's cells cover; the built-in hills cover all.
+class CoveredPlaces {
+ public:
+  explicit CoveredPlaces(const std::string& directory) {
+    if (directory.empty()) return;
+    if (auto index = model::terrain::index_directory(directory)) index_ = std::move(*index);
+  }
+  bool holds(geo::GeoPoint place) const {
+    return index_.empty() || index_.contains(slot_of(model::terrain::cell_holding(place)));
+  }
+  std::string text() const { return coverage_text(index_); }
+
+ private:
+  model::terrain::DirectoryIndex index_;
+};
+
+// Places without a cell read as sea; a way that lies wholly there is no profile of the folder.
+void say_outside(const Options& options, const CoveredPlaces& covered, long outside, long places) {
+  const failure::Error error{
+      options.terrain.directory, "cells along the way",
+      "none at " + std::to_string(outside) + " of " + std::to_string(places) + " places: it covers " + covered.text(),
+      "they count as sea; check --from and --to and their signs", false};
+  if (outside == places) give_up(error);
+  std::fprintf(stderr, "yars terrain profile: %s\n", error.message().c_str());
+}
+
 void profile(const Options& options) {
   if (!on_the_earth(options.from_deg) || !on_the_earth(options.to_deg))
     give_up({"terrain profile", "latitudes in [-90, 90] and longitudes in [-360, 360] degrees", "one outside",
@@ -37,10 +66,13 @@ void profile(const Options& options) {
   const geo::GeodesicRay ray(from, way.azimuth_at_start);
   const double length_m = way.distance.metres();
   const auto steps = static_cast<long>(std::ceil(length_m / options.step_m));
+  const CoveredPlaces covered(options.terrain.directory);
+  long outside = 0;
   std::printf("distance_m,latitude_deg,longitude_deg,elevation_m\n");
   for (long step = 0; step <= steps; ++step) {
     const double distance_m = std::min(length_m, static_cast<double>(step) * options.step_m);
     const geo::GeoPoint place = ray.position(geo::Length::metres(distance_m));
+    if (!covered.holds(place)) ++outside;
     const double elevation_m = (*store)->prepare({place, 0.0})->elevation_m(place);
     std::printf("%.1f,%.7f,%.7f,", distance_m, place.latitude_deg, place.longitude_deg);
     // A void is an empty field.
@@ -49,7 +81,14 @@ void profile(const Options& options) {
     else
       std::printf("%.2f\n", elevation_m);
   }
-  for (const std::string& problem : (*store)->take_problems()) std::fprintf(stderr, "problem: %s\n", problem.c_str());
+  std::fflush(stdout);
+  const auto problems = (*store)->take_problems();
+  for (const std::string& problem : problems) std::fprintf(stderr, "problem: %s\n", problem.c_str());
+  if (outside > 0) say_outside(options, covered, outside, steps + 1);
+  if (!problems.empty())
+    throw CommandFailed{"yars terrain profile: expected heights of whole files, found " +
+                            std::to_string(problems.size()) + " problems; see above",
+                        1};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 
+#include "model/terrain/dted_format.hpp"
 #include "tools/command.hpp"
 #include "tools/terrain_batch.hpp"
 #include "tools/terrain_commands.hpp"
@@ -29,6 +30,9 @@ void reduce_all(const Options& options) {
                      },
                      [&](const std::filesystem::path& tree, const model::terrain::Cell& cell) {
                        return write_output(output, tree, cell);
+                     },
+                     [&](const model::terrain::Cell& cell) {
+                       return options.level ? model::terrain::dted::kPostsOfLevel[*options.level] : cell.rows();
                      }});
 }
 

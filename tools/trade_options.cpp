@@ -13,6 +13,7 @@
 #include "lib/imageio/png.hpp"
 #include "lib/radar/fidelity_preset.hpp"
 #include "model/terrain/directory_index.hpp"
+#include "tools/output_name.hpp"
 
 namespace yars::tools {
 
@@ -56,8 +57,8 @@ void add_trade_options(CLI::App& command, TradeOptions& options) {
 }
 
 void check_trade_output(const TradeOptions& options) {
-  if (!options.out.empty() && std::filesystem::path(options.out).extension() != ".png")
-    give_up(databuffer::usage_error("--out", "a name that ends in .png", options.out));
+  check_file_name("--out", options.out, {".png"});
+  check_file_name("--csv", options.csv, {".csv"});
 }
 
 radar::RadarConfiguration trade_configuration(const CommonOptions& common, const TradeOptions& options) {

@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
+#include "model/terrain/culture_reader.hpp"
+#include "model/terrain/culture_writer.hpp"
 #include "model/terrain/directory_index.hpp"
 #include "model/terrain/dted_writer.hpp"
 #include "model/terrain/reduce.hpp"
@@ -123,6 +126,66 @@ TEST_F(TerrainBatch, PackedItOpensWithTheSamePostsAndCoarserOnesWithMeansAndPeak
     EXPECT_EQ(reduced.cell.voids(), expected.means.voids());
     EXPECT_EQ(reduced.cell.sea_posts(), expected.means.sea_posts());
   }
+}
+
+// Codes that tell where they are.
+terrain::Culture culture_at(CellPlace place, int posts) {
+  std::vector<std::uint8_t> codes;
+  for (int row = 0; row < posts; ++row)
+    for (int column = 0; column < posts; ++column)
+      codes.push_back(static_cast<std::uint8_t>((row * 3 + column + (place == kPlace ? 0 : 5)) % 14));
+  return {place, posts, posts, codes};
+}
+
+TEST_F(TerrainBatch, CultureTravelsWithItsCell) {
+  ASSERT_TRUE(terrain::write_culture(in() / "w122/n36.smc.png", culture_at(kPlace, 241)));
+  struct Case {
+    std::string command, elevation, culture;
+    std::vector<std::string> more;
+    int posts;
+  };
+  for (const Case& each : {Case{"convert", "w122/n36.dt0", "w122/n36.smc.png", {}, 241},
+                           Case{"convert", "N36W122.hgt", "N36W122.smc.png", {"--to", "hgt"}, 241},
+                           Case{"convert", "w122/n36.jp2", "w122/n36.smc.png", {"--to", "jp2"}, 241},
+                           Case{"pack", "w122/n36.jp2", "w122/n36.smc.png", {}, 241},
+                           Case{"reduce", "w122/n36.jp2", "w122/n36.smc.png", {"--reduction", "2"}, 31},
+                           Case{"reduce", "w122/n36.dt0", "w122/n36.smc.png", {"--level", "0"}, 121}}) {
+    const auto tree = folder_.path() / (each.command + std::to_string(each.posts) + each.elevation.substr(0, 3));
+    const auto done = run(each.command, in(), tree, each.more);
+    ASSERT_EQ(done.code, 0) << done.errors;
+    ASSERT_TRUE(std::filesystem::exists(tree / each.elevation));
+    const auto found = terrain::read_culture(tree / each.culture, kPlace);
+    ASSERT_TRUE(found.has_value()) << each.command << ": " << found.error().message();
+    ASSERT_EQ(found->rows(), each.posts) << each.command;
+    const int step = 240 / (each.posts - 1);
+    for (int row = 0; row < each.posts; ++row)
+      for (int column = 0; column < each.posts; ++column)
+        ASSERT_EQ(found->code(row, column), culture_at(kPlace, 241).code(row * step, column * step)) << each.command;
+    EXPECT_FALSE(std::filesystem::exists(tree / "w121/n36.smc.png")) << "its neighbour has none";
+  }
+}
+
+TEST_F(TerrainBatch, CultureThatCannotBeReadIsAProblemAndTheCellIsWritten) {
+  std::filesystem::create_directories(in() / "w122");
+  std::ofstream(in() / "w122/n36.smc.png") << "no picture";
+  for (const std::string command : {"convert", "pack"}) {
+    expect_refused(run(command, in(), out() / command), 1, {"problem: ", "n36.smc.png", "1 of 2"});
+    EXPECT_TRUE(std::filesystem::exists(out() / command / "w122"));
+  }
+}
+
+TEST_F(TerrainBatch, AnOutputThatEndsLikeAFileIsRefused) {
+  for (const std::string command : {"convert", "pack"})
+    expect_refused(run(command, in(), folder_.path() / "a.tif"), 2, {"--out", "the name of a folder", "a.tif"});
+  expect_refused(run("reduce", in(), in() / "w122/n36.dt0", {"--level", "0"}), 2, {"--out", "the name of a folder"});
+  expect_refused(endtoend::run_program({"yars", "terrain", "generate", "--out", folder_.path() / "a.dt1"}), 2,
+                 {"--out", "the name of a folder"});
+}
+
+TEST_F(TerrainBatch, AFileThatCannotBeUsedMakesTheCommandFail) {
+  std::ofstream(in() / "broken.ded") << "nothing";
+  expect_refused(run("convert", in(), out()), 1, {"problem: ", "broken.ded"});
+  EXPECT_TRUE(std::filesystem::exists(out() / "w122/n36.dt0"));
 }
 
 TEST_F(TerrainBatch, AFolderThatIsNotThereIsOneClearError) {
