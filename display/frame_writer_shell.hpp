@@ -17,8 +17,8 @@ namespace yars::display {
 
 class FrameWriter {
  public:
-  // Makes the folder, mode 0700. Only the `keep` newest frames stay in it, those of earlier runs among them; 0: all stay.
-  // An error: folder.hpp's make_private.
+  // Makes the folder, mode 0700. Only the `keep` newest frames stay in it, those of earlier runs among them; 0: all
+  // stay. An error: folder.hpp's make_private.
   static failure::Expected<FrameWriter> create(const std::filesystem::path& folder, std::size_t keep = 0);
 
   failure::Expected<void> write(const imageio::Image& image, std::int64_t number);

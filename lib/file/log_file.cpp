@@ -57,8 +57,7 @@ Expected<void> LogFile::open_newest() {
 }
 
 Expected<void> LogFile::set_aside() {
-  for (std::size_t age = limits_.old; age > 0; --age)
-    folder_.set_aside(name_of(age - 1), name_of(age));
+  for (std::size_t age = limits_.old; age > 0; --age) folder_.set_aside(name_of(age - 1), name_of(age));
   // Where it cannot be set aside, or is not to be, it ends: no log grows without a limit.
   folder_.remove(name_of(0));
   return open_newest();

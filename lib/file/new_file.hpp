@@ -24,8 +24,7 @@ class NewFile {
  public:
   static failure::Expected<NewFile> create(const std::filesystem::path& path, Rights rights = Rights::by_umask);
   static failure::Expected<NewFile> create(std::shared_ptr<const Folder> folder, const std::string& name,
-                                           Rights rights = Rights::by_umask,
-                                           Existing existing = Existing::overwritten);
+                                           Rights rights = Rights::by_umask, Existing existing = Existing::overwritten);
   NewFile(NewFile&&) noexcept;
   NewFile& operator=(NewFile&&) noexcept;
   ~NewFile();  // takes back what has not been placed
