@@ -137,10 +137,10 @@ struct Scene {
 
 // Air at mean sea level, and what its gases do; ITU-R P.676 and P.835.
 struct AtmosphereConfiguration {
-  bool gases = true;             // they attenuate
-  double temperature_c = 15.0;   // [deg C]
+  bool gases = true;              // they attenuate
+  double temperature_c = 15.0;    // [deg C]
   double pressure_hpa = 1013.25;  // [hPa] of the dry air
-  double water_g_m3 = 7.5;       // [g/m^3] density of water vapour
+  double water_g_m3 = 7.5;        // [g/m^3] density of water vapour
 };
 
 struct WorldConfiguration {

@@ -31,7 +31,8 @@ class GasPath {
 };
 
 // The two-way factor for the samples of a sweep in float, as a parabola in height between distances: within 0.1 dB of
-// GasPath for ground in sight from -400 to 6,000 m (tests/model/gas_test.cpp). Made anew only for another altitude or range.
+// GasPath for ground in sight from -400 to 6,000 m (tests/model/gas_test.cpp). Made anew only for another altitude or
+// range.
 class GasSamples {
  public:
   GasSamples(const radar::RadarConfiguration& configuration, std::size_t samples);

@@ -22,10 +22,7 @@ class GroundWalk {
   // All are kept by reference.
   GroundWalk(const Look& look, const EffectiveEarth& earth, const terrain::TerrainView& terrain,
              radar::Interpolation interpolation)
-      : look_(look),
-        earth_(earth),
-        terrain_(terrain),
-        interpolation_(interpolation) {}
+      : look_(look), earth_(earth), terrain_(terrain), interpolation_(interpolation) {}
 
   const EffectiveEarth& earth() const { return earth_; }
 

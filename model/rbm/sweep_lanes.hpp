@@ -12,7 +12,7 @@
 
 namespace yars::model::rbm::lanes {
 
-inline constexpr std::size_t kPad = 64;        // entries; the longest pulse smear reaches 32
+inline constexpr std::size_t kPad = 64;  // entries; the longest pulse smear reaches 32
 inline constexpr float kNoHorizon = terrain::kNoTangent;
 
 // One sweep, unwrapped. Lengths [m], angles as sine and cosine.

@@ -11,7 +11,7 @@ namespace yars::model::reflectivity {
 
 struct Air {
   double temperature_k = 0.0;
-  double dry_hpa = 0.0;    // pressure without the water vapour's
+  double dry_hpa = 0.0;     // pressure without the water vapour's
   double water_g_m3 = 0.0;  // density of water vapour
 };
 

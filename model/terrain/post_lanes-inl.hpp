@@ -43,8 +43,8 @@ HWY_INLINE Wholes divided(Wholes number) {
 class BlockLanes {
  public:
   HWY_INLINE explicit BlockLanes(const PostBlocks& posts)
-      : row_of_blocks_(hn::Set(WholeLanes(), kPost * (posts.block_columns() * kBlock -
-                                                      PostBlocks::kRowStep * PostBlocks::kColumns))),
+      : row_of_blocks_(hn::Set(WholeLanes(),
+                               kPost * (posts.block_columns() * kBlock - PostBlocks::kRowStep * PostBlocks::kColumns))),
         column_of_blocks_(hn::Set(WholeLanes(), kPost * (kBlock - PostBlocks::kColumnStep))) {}
 
   // [bytes] from the first post to this one; neither the last row nor the last column.
