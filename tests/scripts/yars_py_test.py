@@ -124,9 +124,11 @@ def what_cannot_be_done_is_an_error(session):
     refuses("argument: expected a whole number -32768 to", session.push_event, 1, 1.5)
     session.publish_ownship(latitude_deg=36.5, source="mine")
     same("outputs before there are any", session.outputs(), None)
-    marks = b"".join(yars.pack("test", yars.MARK, {"latitude_deg": 36.0 + i, "sim_time_ns": i}) for i in range(10))
-    session._publish("test", yars.AT_OUTPUTS, yars.OUTPUTS, {
-        "target_name": b"4.", "slant_range_m": 9260.0, "cue_count": 2, "mark_count": 3, "marks": marks})
+    each = [(f"{name}_{i}", code) for i in range(10) for name, code in yars.MARK]
+    spread = [entry for field in yars.OUTPUTS for entry in (each if field[0] == "marks" else [field])]
+    session._publish("test", yars.AT_OUTPUTS, spread, {
+        "target_name": b"4.", "slant_range_m": 9260.0, "cue_count": 2, "mark_count": 3,
+        **{f"latitude_deg_{i}": 36.0 + i for i in range(10)}, **{f"sim_time_ns_{i}": i for i in range(10)}})
     told = session.outputs()
     same("target, ranging, cue", (told["target_name"], told["slant_range_m"], told["cue_count"]), ("4.", 9260.0, 2))
     same("marks", [(mark["latitude_deg"], mark["sim_time_ns"]) for mark in told["marks"]],
