@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <system_error>
 
 #include "databuffer/program.hpp"
 #include "tools/command.hpp"
@@ -34,9 +33,6 @@ void check_folder_name(const std::string& option, const std::string& name) {
   const std::string ending = ending_of(name);
   if (std::find(kFiles.begin(), kFiles.end(), ending) != kFiles.end())
     give_up(databuffer::usage_error(option, "the name of a folder", name + ", which ends like that of a file"));
-  std::error_code code;
-  if (std::filesystem::exists(name, code) && !std::filesystem::is_directory(name, code))
-    give_up(databuffer::usage_error(option, "the name of a folder", name + ", which is a file"));
 }
 
 }  // namespace yars::tools

@@ -138,7 +138,8 @@ terrain::Culture culture_at(CellPlace place, int posts) {
 }
 
 TEST_F(TerrainBatch, CultureTravelsWithItsCell) {
-  ASSERT_TRUE(terrain::write_culture(in() / "w122/n36.smc.png", culture_at(kPlace, 241)));
+  const terrain::Culture culture = culture_at(kPlace, 241);
+  ASSERT_TRUE(terrain::write_culture(in() / "w122/n36.smc.png", culture));
   struct Case {
     std::string command, elevation, culture;
     std::vector<std::string> more;
@@ -160,7 +161,7 @@ TEST_F(TerrainBatch, CultureTravelsWithItsCell) {
     const int step = 240 / (each.posts - 1);
     for (int row = 0; row < each.posts; ++row)
       for (int column = 0; column < each.posts; ++column)
-        ASSERT_EQ(found->code(row, column), culture_at(kPlace, 241).code(row * step, column * step)) << each.command;
+        ASSERT_EQ(found->code(row, column), culture.code(row * step, column * step)) << each.command;
     EXPECT_FALSE(std::filesystem::exists(tree / "w121/n36.smc.png")) << "its neighbour has none";
   }
 }
