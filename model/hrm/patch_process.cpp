@@ -252,9 +252,8 @@ void PatchProcess::Work::attenuate() {
   const double half_m = 0.5 * geometry->window_m();
   const double middle_m = geometry->distance_m();
   const double step_m = std::hypot(middle_m + half_m, half_m) - middle_m;
-  const auto loss = [&](double distance_m) {
-    return gas.two_way_loss(geometry->earth(), geometry->altitude_m(), std::max(distance_m, 1.0),
-                            geometry->plane_msl_m());
+  const auto loss = [&](double along_m) {
+    return gas.two_way_loss(geometry->earth(), geometry->altitude_m(), std::max(along_m, 1.0), geometry->plane_msl_m());
   };
   const double near = loss(middle_m - step_m), here = loss(middle_m), far = loss(middle_m + step_m);
   const auto constant = static_cast<float>(here);
@@ -267,8 +266,8 @@ void PatchProcess::Work::attenuate() {
       float* const power = &image.power[image.at(0, row)];
       for (int column = 0; column < image.size; ++column) {
         const auto right_m = static_cast<float>((column + 0.5) * pixel_m - half_m);
-        const float distance_m = std::sqrt(ahead_m * ahead_m + right_m * right_m);
-        const float share = (distance_m - static_cast<float>(middle_m)) / static_cast<float>(step_m);
+        const float along_m = std::sqrt(ahead_m * ahead_m + right_m * right_m);
+        const float share = (along_m - static_cast<float>(middle_m)) / static_cast<float>(step_m);
         power[column] *= constant + share * (slope + share * bend);
       }
     }
