@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "lib/file/new_file.hpp"
+
 namespace yars::display {
 
 namespace {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lib/failure/require.hpp"
+#include "lib/file/new_file.hpp"
 
 namespace yars::imageio {
 

@@ -6,7 +6,10 @@
 #include <vector>
 
 #include "lib/failure/error.hpp"
-#include "lib/file/new_file.hpp"
+
+namespace yars::file {
+class NewFile;
+}
 
 namespace yars::imageio {
 

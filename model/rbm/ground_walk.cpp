@@ -9,7 +9,6 @@ namespace yars::model::rbm {
 namespace {
 constexpr double kStepsAPost = 10.0;
 constexpr double kPiece_m = 500.0;
-constexpr double kStraightTo_deg = 88.0;  // of latitude
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
 // Of two spacings; 0 is none.
@@ -19,6 +18,7 @@ double finer(double a_m, double b_m) {
 }  // namespace
 
 double GroundWalk::highest_tangent(double from_m, double to_m) const {
+  if (near_pole(look_)) return kNothing;
   const double pieces = std::max(1.0, std::ceil((to_m - from_m) / kPiece_m));
   const geo::GeodesicRay ray(look_.apex, look_.azimuth);
   double highest = kNothing;
@@ -37,15 +37,12 @@ double GroundWalk::highest_of_piece(const geo::GeodesicRay& ray, double from_m, 
   if (!(spacing_m > 0.0)) return kNothing;
   const double north_deg = end.latitude_deg - begin.latitude_deg;
   const double east_deg = geo::wrapped_degrees(end.longitude_deg - begin.longitude_deg);
-  const bool straight = std::max(std::abs(begin.latitude_deg), std::abs(end.latitude_deg)) < kStraightTo_deg;
   const double steps = std::ceil((to_m - from_m) * kStepsAPost / spacing_m);
   double highest = kNothing;
   for (double step = 1.0; with_end ? step <= steps : step < steps; step += 1.0) {
     const double share = step / steps;
     const double distance_m = from_m + share * (to_m - from_m);
-    const geo::GeoPoint place =
-        straight ? geo::GeoPoint{begin.latitude_deg + share * north_deg, begin.longitude_deg + share * east_deg}
-                 : ray.position(geo::Length::metres(distance_m));
+    const geo::GeoPoint place{begin.latitude_deg + share * north_deg, begin.longitude_deg + share * east_deg};
     highest = std::max(highest, tangent(place, distance_m));
   }
   return highest;

@@ -1,6 +1,6 @@
 // The ground along a ray between two distances, in plain double: what the reference raises its horizon with between its
 // samples. Steps of a tenth of the posts' spacing, exact geodesic places at most 500 m apart and straight ways in
-// latitude and longitude between them (5 mm off up to 60 degrees of latitude, 0.2 m at 88; exact places beyond).
+// latitude and longitude between them (5 mm off up to 60 degrees of latitude, 0.2 m at 88).
 // Source: spec physics.md "Shadow".
 #pragma once
 
@@ -16,6 +16,13 @@
 #include "model/terrain/terrain_view.hpp"
 
 namespace yars::model::rbm {
+
+// Where an aircraft is so near to a pole, the samples alone raise the horizon: ways between them are not straight in
+// latitude and longitude.
+inline bool near_pole(const Look& look) {
+  constexpr double kStraightTo_deg = 88.0;  // of latitude
+  return std::abs(look.apex.latitude_deg) > kStraightTo_deg;
+}
 
 class GroundWalk {
  public:

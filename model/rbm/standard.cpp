@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "model/rbm/ground_walk.hpp"
 #include "model/rbm/noise.hpp"
 #include "model/rbm/sample_places.hpp"
 #include "model/rbm/video_lanes.hpp"
@@ -58,8 +59,9 @@ std::size_t Standard::measure(const Look& look, const Database& database, std::s
   const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   ground_.use_resolution(receiver.pulse_length_m, spacing_m);
   const terrain::PlaceRun places = places_.run();
-  const bool crests = terrain.crests(places, {look.altitude.metres(), earth.curvature(), distance_.first(count_)},
-                                     crest_.first(count_));
+  const bool crests =
+      !near_pole(look) && terrain.crests(places, {look.altitude.metres(), earth.curvature(), distance_.first(count_)},
+                                         crest_.first(count_));
   const lanes::SweepInputs inputs{distance_.data(), elevation_.data(),
                                   // Where a coarser level stands in, the highest ground is not the mean that returns.
                                   terrain.has_peaks() ? peak_.data() : nullptr, crests ? crest_.data() : nullptr,

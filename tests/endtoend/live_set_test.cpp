@@ -39,7 +39,7 @@ class LiveSet : public ::testing::Test {
   void start(const std::string& role) {
     if (role == "state-machine" || role == "radar-model") set_.start(role, {role});
     if (role == "flight-model") set_.start(role, {role, "--source", "fixed:37.5,-123.0,15000,90,480"});
-    if (role == "recorder") set_.start(role, {"yars", "record", (set_.folder() / "recording").string()});
+    if (role == "recorder") set_.start(role, {"yars", "record", "--overwrite", (set_.folder() / "recording").string()});
     if (role == "input-monitor") {
       // Has nothing to send within a test's life.
       std::ofstream(set_.folder() / "script") << "100000 pb 1\n";

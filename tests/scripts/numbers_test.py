@@ -31,7 +31,7 @@ TEXTS = [
     ["flight-model", "--source", "fixed:N,1,1,1,1"], ["flight-model", "--source", "fixed:1,N,1,1,1"],
     ["flight-model", "--source", "fixed:1,1,N,1,1"], ["flight-model", "--source", "fixed:1,1,1,N,1"],
     ["flight-model", "--source", "fixed:1,1,1,1,N"], ["flight-model", "--source", "flightgear:N"],
-    ["flight-model", "--cpus", "N"], ["state-machine", "--lockstep", "state-machine@N"],
+    ["state-machine", "--cpus", "N"], ["state-machine", "--lockstep", "state-machine@N"],
 ]
 # Files with numbers in them: text, and the command that reads it (F: the file). Exit code other than 0.
 FILES = [
