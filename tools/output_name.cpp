@@ -5,23 +5,26 @@
 #include <filesystem>
 
 #include "databuffer/program.hpp"
+#include "lib/file/new_file.hpp"
 #include "tools/command.hpp"
 
 namespace yars::tools {
 
-namespace {
-// ".png", of whatever case.
 std::string ending_of(const std::string& name) {
   std::string ending = std::filesystem::path(name).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
   return ending;
 }
-}  // namespace
 
 void check_file_name(const std::string& option, const std::string& name, const std::vector<std::string>& endings) {
   const std::string ending = ending_of(name);
-  if (name.empty() || std::find(endings.begin(), endings.end(), ending) != endings.end()) return;
+  if (name.empty()) return;
+  if (std::find(endings.begin(), endings.end(), ending) != endings.end()) {
+    // A file that is begun and given up leaves nothing behind.
+    if (const auto begun = file::NewFile::create(name); !begun) give_up(begun.error());
+    return;
+  }
   std::string expected = "a name that ends in " + endings.front();
   for (std::size_t i = 1; i < endings.size(); ++i) expected += (i + 1 < endings.size() ? ", " : " or ") + endings[i];
   give_up(databuffer::usage_error(option, expected, name));

@@ -154,7 +154,7 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   const hrm::PatchDatabase database{(*window_store)->prepare(need.window), (*path_store)->prepare(need.path),
                                     *scenes ? (*scenes)->prepare(need.window) : nullptr};
   if (*scenes) check_scenes_read("yars patch", **scenes);
-  check_terrain_read("yars patch", configuration.terrain.directory, **window_store);
+  check_terrain_read("yars patch", configuration.terrain.directory, **window_store, path_store->get());
   if (!options.force) check_heights(order, database, configuration);
   const double database_ms = now_ms() - begin_ms;
   std::vector<double> whole_ms;

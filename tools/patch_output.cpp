@@ -11,6 +11,7 @@
 #include "model/terrain/gdal/raster.hpp"
 #include "tools/command.hpp"
 #include "tools/float_file.hpp"
+#include "tools/output_name.hpp"
 
 namespace yars::tools {
 
@@ -54,24 +55,24 @@ void write_raster(const PatchOutput& output, const hrm::PatchOrder& order, const
 }  // namespace
 
 void check_patch_output(const PatchOutput& output) {
-  const auto suffix = std::filesystem::path(output.file).extension();
-  if (!output.file.empty() && suffix != ".png" && suffix != ".f32" && suffix != ".tif")
-    give_up(databuffer::usage_error("--out", "a name that ends in .png, .tif or .f32", output.file));
+  const std::string suffix = ending_of(output.file);
   if (output.pixels != "video" && suffix != ".tif")
     give_up(
         databuffer::usage_error("--pixels", "an --out that ends in .tif", output.file.empty() ? "none" : output.file));
   if (suffix == ".tif" && !gdal::available())
     give_up({output.file, "a YARS built with GDAL to write a GeoTIFF", "one built without it",
              "run `scripts/setup --gdal` and build again, or write a .png"});
+  check_file_name("--out", output.file, {".png", ".tif", ".f32"});
 }
 
 void write_patch(const PatchOutput& output, const hrm::PatchOrder& order, const hrm::PatchProcess& process) {
   const std::filesystem::path path(output.file);
-  if (path.extension() == ".f32") {
+  const std::string suffix = ending_of(output.file);
+  if (suffix == ".f32") {
     if (auto written = write_floats(path, process.image().power); !written) give_up(written.error());
     return;
   }
-  if (path.extension() == ".tif") return write_raster(output, order, process);
+  if (suffix == ".tif") return write_raster(output, order, process);
   imageio::Image picture{process.image().size, process.image().size, 1, process.picture()};
   if (auto written = imageio::write_png(path, picture); !written) give_up(written.error());
 }

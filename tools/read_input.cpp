@@ -1,7 +1,9 @@
 #include "tools/read_input.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/terrain/directory_store.hpp"
@@ -26,8 +28,12 @@ void tell(const char* command, const std::vector<std::string>& problems) {
 
 }  // namespace
 
-void check_terrain_read(const char* command, const std::string& folder, model::terrain::TerrainStore& store) {
-  tell(command, store.take_problems());
+void check_terrain_read(const char* command, const std::string& folder, model::terrain::TerrainStore& store,
+                        model::terrain::TerrainStore* way) {
+  std::vector<std::string> problems = store.take_problems();
+  for (std::string& problem : way == nullptr ? std::vector<std::string>() : way->take_problems())
+    if (std::find(problems.begin(), problems.end(), problem) == problems.end()) problems.push_back(std::move(problem));
+  tell(command, problems);
   const auto* const directory = dynamic_cast<const model::terrain::DirectoryTerrainStore*>(&store);
   if (directory == nullptr) return;  // the built-in hills are not read
   const model::terrain::RegionCells cells = directory->region_cells();

@@ -8,8 +8,10 @@
 
 namespace yars::tools {
 
-// After prepare(). `command`: "yars scan"; `folder`: the terrain's.
-void check_terrain_read(const char* command, const std::string& folder, model::terrain::TerrainStore& store);
+// After prepare(). `command`: "yars scan"; `folder`: the terrain's; `way`: a second store of the same folder, for the
+// ground between the aircraft and the picture: its problems are told, but the picture can do without it.
+void check_terrain_read(const char* command, const std::string& folder, model::terrain::TerrainStore& store,
+                        model::terrain::TerrainStore* way = nullptr);
 void check_scenes_read(const char* command, model::scene::SceneStore& scenes);
 
 }  // namespace yars::tools

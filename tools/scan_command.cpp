@@ -23,6 +23,7 @@
 #include "model/terrain/open_terrain.hpp"
 #include "tools/command.hpp"
 #include "tools/float_file.hpp"
+#include "tools/output_name.hpp"
 #include "tools/radar_limits.hpp"
 #include "tools/read_input.hpp"
 #include "tools/scan_picture.hpp"
@@ -106,11 +107,11 @@ void write_result(const ScanOptions& options, const radar::ViewConfiguration& vi
                   const model::kernel::OfflineScan& work) {
   const std::filesystem::path path(options.out);
   const std::span<const databuffer::Sweep> sweeps = work.sweeps();
-  if (path.extension() == ".f32") {
+  if (ending_of(options.out) == ".f32") {
     if (auto written = write_floats(path, work.power()); !written) give_up(written.error());
     return;
   }
-  if (path.extension() == ".png") {
+  if (ending_of(options.out) == ".png") {
     const ScanColor color = options.color == "gray" ? ScanColor::gray : ScanColor::green;
     if (auto written = imageio::write_png(path, scan_picture(sweeps, view, color)); !written) give_up(written.error());
     return;
@@ -121,11 +122,8 @@ void write_result(const ScanOptions& options, const radar::ViewConfiguration& vi
 }
 
 void check_output(const ScanOptions& options) {
-  const auto suffix = std::filesystem::path(options.out).extension();
-  if (!options.out.empty() && suffix != ".png" && suffix != ".csv" && suffix != ".f32")
-    give_up(databuffer::usage_error("--out", "a name that ends in .png, .csv or .f32", options.out));
-  if (!options.shadow.empty() && std::filesystem::path(options.shadow).extension() != ".csv")
-    give_up(databuffer::usage_error("--shadow", "a name that ends in .csv", options.shadow));
+  check_file_name("--out", options.out, {".png", ".csv", ".f32"});
+  check_file_name("--shadow", options.shadow, {".csv"});
 }
 
 struct Times {

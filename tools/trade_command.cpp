@@ -12,6 +12,7 @@
 #include "model/terrain/open_terrain.hpp"
 #include "tools/command.hpp"
 #include "tools/progress.hpp"
+#include "tools/read_input.hpp"
 #include "tools/trade/scan_table.hpp"
 #include "tools/trade_options.hpp"
 
@@ -40,7 +41,7 @@ class SceneTerrain {
     auto store = model::terrain::open_terrain(configuration_);
     if (!store) give_up(store.error());
     auto view = (*store)->prepare({request_.pose.place, request_.range.metres(), detail});
-    for (const std::string& problem : (*store)->take_problems()) std::fprintf(stderr, "yars: %s\n", problem.c_str());
+    check_terrain_read("yars trade", configuration_.directory, **store);
     return *by_detail_.emplace(detail, std::move(view)).first->second;
   }
 

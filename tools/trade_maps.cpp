@@ -13,6 +13,7 @@
 #include "model/scene/scene_store.hpp"
 #include "model/terrain/open_terrain.hpp"
 #include "tools/progress.hpp"
+#include "tools/read_input.hpp"
 #include "tools/trade/map_evidence.hpp"
 #include "tools/trade/map_table.hpp"
 #include "tools/trade_options.hpp"
@@ -27,10 +28,6 @@ struct MapTradeOptions : TradeOptions {
   std::vector<std::string> views, scenes, without;
   int ruler_size = 480;
 };
-
-void tell(const std::vector<std::string>& problems) {
-  for (const std::string& problem : problems) std::fprintf(stderr, "yars: %s\n", problem.c_str());
-}
 
 // Terrain and scene of one view: by detail, each from a store of its own, so that what is resident is what it needs.
 class ViewDatabase {
@@ -52,7 +49,7 @@ class ViewDatabase {
     auto store = model::terrain::open_terrain(configuration_.terrain);
     if (!store) give_up(store.error());
     auto view = (*store)->prepare(region);
-    tell((*store)->take_problems());
+    check_terrain_read("yars trade maps", configuration_.terrain.directory, **store);
     return known.emplace(region.detail, std::move(view)).first->second;
   }
 
@@ -61,7 +58,7 @@ class ViewDatabase {
     if (!scenes) give_up(scenes.error());
     if (!*scenes) return nullptr;
     auto view = (*scenes)->prepare(need.window);
-    tell((*scenes)->take_problems());
+    check_scenes_read("yars trade maps", **scenes);
     return view;
   }
 

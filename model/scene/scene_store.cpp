@@ -21,6 +21,7 @@ failure::Expected<std::unique_ptr<SceneStore>> SceneStore::open(const std::vecto
   auto index = index_scenes(scenes, problems);
   if (!index) return tl::unexpected(index.error());
   auto store = std::unique_ptr<SceneStore>(new SceneStore(std::move(*index), std::move(ground), options));
+  store->without_place_ = problems.size();
   store->problems_ = std::move(problems);
   return store;
 }
@@ -40,7 +41,7 @@ SceneViewPointer SceneStore::prepare(const terrain::TerrainRegion& region) {
   places_.find(region.centre, region.radius_m, hits);
   std::sort(hits.begin(), hits.end());
   bool changed = false;
-  wanted_ = {hits.size(), 0};
+  wanted_ = {hits.size() + without_place_, without_place_};
   for (const GridIndex::Hit& hit : hits) {
     scenes_[hit.disc].last_use = prepares_;
     if (!scenes_[hit.disc].placed && !scenes_[hit.disc].unreadable) changed |= load(hit.disc);

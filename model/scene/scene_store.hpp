@@ -38,7 +38,8 @@ class SceneStore {
   std::vector<std::string> take_problems();
 
   const std::vector<IndexedScene>& index() const { return index_; }
-  // Of the files that the region last prepared wanted: how many, and how many of them cannot be read.
+  // Of the files that the region last prepared wanted: how many, and how many of them cannot be read. A file that gave
+  // no place when the folder was looked through may belong to any region.
   struct Wanted {
     std::size_t files = 0, unreadable = 0;
   };
@@ -67,6 +68,7 @@ class SceneStore {
   std::vector<SceneObject> objects_;
   std::uint64_t resident_bytes_ = 0;
   std::uint64_t prepares_ = 0;
+  std::size_t without_place_ = 0;
   Wanted wanted_;
   std::uint64_t generation_ = 0;
   SceneViewPointer view_;

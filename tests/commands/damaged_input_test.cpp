@@ -15,6 +15,7 @@
 namespace yars {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 namespace fs = std::filesystem;
@@ -60,6 +61,58 @@ TEST(DamagedInput, TerrainOfWhichNothingCanBeReadFailsAndAPartIsCounted) {
   }
 }
 
+TEST(DamagedInput, TheWayToAPatchIsToldOfToo) {
+  const test::TemporaryFolder folder;
+  write_cell(folder.path(), 37, -121);
+  write_cell(folder.path(), 37, -120);
+  fs::resize_file(folder.path() / "w121" / "n37.dt0", 4000);
+  const auto patch =
+      endtoend::run_program({"yars", "patch", "--lat", "37.5", "--lon", "-120.3", "--heading", "60", "--target-lat",
+                             "37.6", "--target-lon", "-119.8", "--size", "64", "--terrain", folder.path()});
+  EXPECT_EQ(patch.code, 0) << patch.errors;
+  EXPECT_THAT(patch.errors, HasSubstr("n37.dt0"));
+}
+
+TEST(DamagedInput, ATradeOverTerrainOfWhichNothingCanBeReadFails) {
+  const test::TemporaryFolder folder;
+  write_cell(folder.path(), 37, -121);
+  fs::resize_file(folder.path() / "w121" / "n37.dt0", 4000);
+  const std::vector<std::vector<std::string>> trades = {
+      {"yars", "trade", "--scene", "37.5,-120.5,15000,10,10"},
+      {"yars", "trade", "maps", "--view", "37.5,-120.5,15000,37.7,-120.4,4.7"}};
+  for (std::vector<std::string> words : trades) {
+    words.insert(words.end(), {"--presets", "draft", "--repeat", "1", "--terrain", folder.path()});
+    const auto trade = endtoend::run_program(words);
+    EXPECT_EQ(trade.code, 1) << trade.errors;
+    EXPECT_EQ(trade.output, "");
+    EXPECT_THAT(trade.errors, HasSubstr("expected cells of the region that can be read, found none"));
+  }
+}
+
+// Before the work: an hour of `trade` is not lost to a misspelt folder.
+TEST(DamagedInput, AnOutputThatCannotBeWrittenIsToldOfBeforeAnythingElse) {
+  const test::TemporaryFolder folder;
+  const std::string missing = folder.path() / "missing" / "file";
+  const std::vector<std::vector<std::string>> commands = {
+      {"trade", "--out", missing + ".png"},
+      {"trade", "maps", "--csv", missing + ".csv"},
+      {"scan", "--out", missing + ".f32"},
+      {"scan", "--shadow", missing + ".csv"},
+      {"patch", "--out", missing + ".png"},
+      {"terrain", "image", "--terrain", "none", "--out", missing + ".png"},
+      {"scene", "image", "none.flt", "--out", missing + ".png"},
+      {"scene", "generate", "--origin", "37,-121", "--out", missing + ".flt"}};
+  for (std::vector<std::string> words : commands) {
+    words.insert(words.begin(), "yars");
+    if (words[1] == "scan" || words[1] == "patch")
+      words.insert(words.end(), {"--lat", "37.5", "--lon", "-121.02", "--terrain", "none-there"});
+    if (words[1] == "patch") words.insert(words.end(), {"--target-lat", "37.6", "--target-lon", "-120.9"});
+    const auto done = endtoend::run_program(words);
+    EXPECT_EQ(done.code, 1) << words[1] << done.errors;
+    EXPECT_THAT(done.errors, HasSubstr((folder.path() / "missing").string())) << words[1];
+  }
+}
+
 fs::path airfield(const fs::path& folder) {
   fs::path file = folder / "whole.flt";
   const auto made = endtoend::run_program({"yars", "scene", "generate", "--kind", "airfield", "--triangles", "2000",
@@ -82,6 +135,23 @@ TEST(DamagedInput, ScenesOfWhichNoneCanBeReadFail) {
     const auto missing = view(command, {"--scene", folder.path() / "missing.flt"});
     EXPECT_EQ(missing.code, 1) << command;
     EXPECT_THAT(missing.errors, HasSubstr("missing.flt")) << command;
+  }
+}
+
+TEST(DamagedInput, FilesOfASceneFolderThatGiveNoPlaceAreCounted) {
+  const test::TemporaryFolder folder;
+  airfield(folder.path());
+  put(folder.path() / "text.flt", "no scene");
+  for (const std::string command : {"scan", "patch"}) {
+    const auto part = view(command, {"--scene", folder.path()});
+    EXPECT_EQ(part.code, 0) << command << part.errors;
+    EXPECT_THAT(part.errors, AllOf(HasSubstr("text.flt"), HasSubstr("1 of 2 scenes of the region cannot be read")));
+  }
+  fs::remove(folder.path() / "whole.flt");
+  for (const std::string command : {"scan", "patch"}) {
+    const auto none = view(command, {"--scene", folder.path()});
+    EXPECT_EQ(none.code, 1) << command << none.errors;
+    EXPECT_THAT(none.errors, HasSubstr("none: 1 of 1 cannot"));
   }
 }
 
