@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "lib/failure/printable.hpp"
+
 namespace yars::tools {
 
 namespace {
@@ -39,8 +41,10 @@ ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
 void ProgressLine::say(const std::string& text) {
   const auto now = std::chrono::steady_clock::now();
   if (!terminal_ || (text.empty() ? !shown_ : now - said_ < std::chrono::milliseconds(100))) return;
-  std::fprintf(stderr, "\r\033[K%s", text.c_str());
-  std::fflush(stderr);
+  // Past the guard of the terminal (databuffer/terminal_guard.hpp), which lets no control characters through.
+  const std::string line = "\r\033[K" + failure::printable(text);
+  const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
+  if (written < 0) return;
   shown_ = !text.empty();
   said_ = now;
 }

@@ -49,6 +49,15 @@ TEST_F(TerrainLook, InfoOfWholeCellsEndsWith0) {
   EXPECT_THAT(info.output, HasSubstr("1 cell, latitude 36 to 37, longitude -122 to -121"));
 }
 
+// The guard of the terminal makes visible text of control characters; the line that is drawn again needs its own.
+TEST_F(TerrainLook, ProgressIsOneLineOfTheTerminalThatIsDrawnAgain) {
+  const std::string command = YARS_BIN_DIR "/yars terrain info --terrain " + tree().string() + " >/dev/null";
+  const Finished shown = endtoend::run_tool({"script", "-qec", command, "/dev/null"});
+  EXPECT_EQ(shown.code, 0) << shown.errors;
+  EXPECT_THAT(shown.output, HasSubstr("\r\033[K1 of 1 cells"));
+  EXPECT_THAT(shown.output, Not(HasSubstr("\\x1b")));
+}
+
 TEST_F(TerrainLook, InfoOfDamagedCellsEndsWith1) {
   damage(3428 + 40);
   Finished info = look("info");
