@@ -366,13 +366,15 @@ TEST_P(EventStorm, KeepsEveryInvariantAndNeverWedges) {
   // A storm in which all is dead, or nothing, has tested little.
   EXPECT_GT(dead, events / 10);
   EXPECT_LT(dead, events * 9 / 10);
-  EXPECT_GT(patches, events / 200);  // commands are judged by the limits, and the cursor is mostly beyond them
-  EXPECT_GT(targets, events / 20000);
+  // In a million events a map is shown after one in 6 and one in 530 designates a target. A storm may stay for ten
+  // thousands of events where maps are out of reach, so short ones differ tenfold.
+  EXPECT_GT(patches, events / 100);
+  EXPECT_GT(targets, events / 5000);
   EXPECT_GT(updates, events / 1000);
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEachRadar, EventStorm,
-                         ::testing::Values(StormOver{"", 1'000'000}, StormOver{"apg68.guf", 100'000}),
+                         ::testing::Values(StormOver{"", 1'000'000}, StormOver{"apg68.guf", 400'000}),
                          [](const auto& storm) { return std::string(storm.index == 0 ? "Apg70" : "Apg68"); });
 
 // Held to its ground point the cursor may leave the glass; slewed it is on it.
