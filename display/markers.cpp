@@ -149,7 +149,7 @@ PlacedPoints place_points(const GlassInput& input, const GlassView& view, const 
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point at = view.at_ground(frame, belief.on_video({points[i].latitude_deg, points[i].longitude_deg}));
     const float margin = labels.names(databuffer::text_of(points[i].name)) ? kMarginToStay : kMarginToCome;
-    if (on_glass(at) && !is_covered(at, margin, list)) placed[i] = at;
+    if (on_glass(at) && (points[i].selected != 0 || !is_covered(at, margin, list))) placed[i] = at;
   }
   return placed;
 }
@@ -162,7 +162,8 @@ void draw_points(const databuffer::RadarState& state, std::span<const radar::Rou
     if (!placed[i]) continue;
     const Point at = *placed[i];
     draw_symbol(points[i], route, at, list);
-    list.occupy("point", grown({at.x, at.y, at.x, at.y}, kRadius + 1.0F), BoxKind::point);
+    const char* const name = points[i].selected != 0 ? "selected point" : "point";
+    list.occupy(name, grown({at.x, at.y, at.x, at.y}, kRadius + 1.0F), BoxKind::point);
   }
   list.draw_on(Layer::symbols);
 }

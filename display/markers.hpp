@@ -22,7 +22,8 @@ void draw_cursor(const GlassInput& input, const GlassView& view, const GlassFram
 void draw_window_outline(const GlassInput& input, const GlassView& view, const GlassFrame& frame, DrawList& list);
 
 // Where the points of the state are drawn, by their order there. A point off the glass has no place, nor one where a
-// word or a solid scale stands: neither could be read. `labels` are those of the last picture.
+// word or a solid scale stands: neither could be read. The selected point is drawn there, too; the word covers it.
+// `labels` are those of the last picture.
 using PlacedPoints = std::array<std::optional<Point>, radar::kMaxPointsDrawn>;
 PlacedPoints place_points(const GlassInput& input, const GlassView& view, const GlassFrame& frame,
                           const LabelMemory& labels, const DrawList& list);

@@ -18,6 +18,12 @@ constexpr std::size_t kLargestHgt = 2UL * 3601 * 3601;   // [bytes]
 constexpr std::size_t kLargestPackedFile = 64UL << 20U;  // [bytes] more is no packed cell
 constexpr const char* kFetchAgain = "fetch the file again";
 
+std::string quoted(std::string text) {
+  text.insert(text.begin(), '\'');
+  text.push_back('\'');
+  return text;
+}
+
 struct CloseGzip {
   void operator()(gzFile file) const { gzclose_r(file); }
 };
@@ -78,7 +84,7 @@ failure::Expected<std::vector<std::byte>> inflate_gzip(const std::filesystem::pa
   const std::filesystem::path inside = lower_case(name_in_gzip(path));
   if (inside.extension() == ".hgt" && inside.filename() != lower_case(path.stem().string()))
     return failure::fail(path.string(), path.stem().string() + " as it was packed",
-                         "'" + printable(inside.filename().string()) + "'", "give the file the name of the cell in it");
+                         quoted(printable(inside.filename().string())), "give the file the name of the cell in it");
   const std::unique_ptr<gzFile_s, CloseGzip> file(gzopen(path.c_str(), "rb"));
   if (!file) return failure::fail(path.string(), "a gzip file", "one that cannot be opened");
   // One byte more than any cell has tells a longer stream.
@@ -137,7 +143,7 @@ failure::Expected<std::vector<std::byte>> inflate_zip(const std::filesystem::pat
   const std::optional<ZipEntry> entry = hgt_entry(archive->get(), path, &other);
   if (!entry)
     return failure::fail(path.string(), "an entry " + path.stem().string(),
-                         other.empty() ? "an archive without entries" : "'" + other + "'",
+                         other.empty() ? "an archive without entries" : quoted(other),
                          "give the archive the name of the cell that is in it");
   if (hgt_posts_for_size(entry->bytes) == 0)
     return failure::fail(path.string(), "an entry of 2884802 or 25934402 bytes",

@@ -69,6 +69,19 @@ TEST(Markers, APointWhereAWordOrAScaleStandsIsLeftOutWithItsName) {
   EXPECT_THAT(words(on_gray), ::testing::Not(Contains("7")));
 }
 
+TEST(Markers, TheSelectedPointIsDrawnUnderAWordToo) {
+  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  const DrawList without = drawn(input);
+  testing::add_point(input, "7", radar::PointKind::steer, testing::at(210.0, 1.2));  // behind: on the window size
+  input.state.points[0].selected = 1;
+  const DrawList with = drawn(input);
+  EXPECT_EQ(with.content(Layer::points).strokes.size(), without.content(Layer::points).strokes.size() + 24);
+  EXPECT_THAT(words(with), Contains("4.7"));
+  EXPECT_GT(with.content(Layer::symbols).plates.size(), without.content(Layer::symbols).plates.size())
+      << "the word lies on a black field";
+  expect_no_overlap(with, "the selected point under the window size");
+}
+
 TEST(Markers, PointsStandAtTheirPlacesAndOffTheGlassAtNone) {
   GlassInput input = testing::operating(Mode::rbm, 40.0);
   const DrawList without = drawn(input);

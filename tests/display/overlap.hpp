@@ -1,7 +1,8 @@
 // Whether anything on the glass lies over anything that it must not, told from the list. Allowed is:
 // - a symbol over a symbol (points, cursor, ticks and carets): each stands where the ground or its scale has it;
 // - the cursor over a fixed text or scale: it is drawn over everything, with a black margin;
-// - a line of the ground behind a fixed text that is on a black ground of its own;
+// - a line of the ground, or the selected point, behind a fixed text that is on a black ground of its own;
+// - the selected point, which is drawn always, under a scale;
 // - whatever over range arcs and the zero azimuth line.
 #pragma once
 
@@ -34,16 +35,21 @@ inline bool is_blanked(const DrawList& list, const OccupiedBox& text) {
          std::ranges::any_of(list.content(Layer::notices).plates, covers);
 }
 
-inline bool may_overlap(const OccupiedBox& word, const OccupiedBox& other) {
-  return word.kind == BoxKind::text && other.kind == BoxKind::cursor;
+inline bool is_selected(const OccupiedBox& box) {
+  return box.kind == BoxKind::point && box.name == "selected point";
 }
 
-// Points on the gray scale, on the ticks of the azimuth scale.
+// The strokes of the selected point are looked at with the lines of the ground.
+inline bool may_overlap(const OccupiedBox& word, const OccupiedBox& other) {
+  return word.kind == BoxKind::text && (other.kind == BoxKind::cursor || is_selected(other));
+}
+
+// Points that are not selected on the gray scale, on the ticks of the azimuth scale.
 inline void add_points_on_scales(const DrawList& list, std::vector<std::string>& found) {
   for (const OccupiedBox& scale : list.occupied()) {
     if (scale.kind != BoxKind::solid) continue;
     for (const OccupiedBox& point : list.occupied()) {
-      if (point.kind == BoxKind::point && intersect(scale.rect, point.rect))
+      if (point.kind == BoxKind::point && !is_selected(point) && intersect(scale.rect, point.rect))
         found.push_back("a point on the " + scale.name);
     }
   }
