@@ -1,5 +1,5 @@
-// The pattern steering line: from the designated target back along the heading on which it is to be approached. Source:
-// spec pvi.md rule 15.
+// The pattern steering line: from the designated target back along the heading on which it is to be approached.
+// Source: docs/spec/pilots_interface.md#rule-15.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// Everything that is drawn over the video, by power and mode: the table of spec pvi.md "Symbology".
-// OFF draws nothing; STBY legends and STBY; a mode without video its legends, its symbols and NO VIDEO. A patch map has
+// Everything that is drawn over the video, by power and mode: the table of docs/spec/pilots_interface.md#symbology.
+// OFF draws nothing; STBY legends and STBY; a mode without video its legends and its symbols. A patch map has
 // the format of the patch, whichever mode shows it, and a view and a frame of its own. What has gone silent is named,
 // whatever the power, but for a radar that is off.
 // Pure: the same input and memory give the same list; with the memory that it leaves, again.

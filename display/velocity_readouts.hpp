@@ -1,4 +1,5 @@
-// What the radar measures of the aircraft's velocity against what the navigator has. Source: spec pvi.md rule 16.
+// What the radar measures of the aircraft's velocity against what the navigator has.
+// Source: docs/spec/pilots_interface.md#rule-16.
 #pragma once
 
 #include "display/draw_list.hpp"

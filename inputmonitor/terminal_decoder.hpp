@@ -16,9 +16,9 @@
 
 namespace yars::inputmonitor {
 
-inline constexpr std::int64_t kEscapeAlone_ns =
-    50'000'000;  // [ns] spec commands.md; a serial line at 9600 Bd needs 1 ms
-inline constexpr std::int64_t kArrowPulse_ns = 100'000'000;  // [ns] spec commands.md; longer than a key's repeat
+// Source: docs/spec/commands.md#terminal.
+inline constexpr std::int64_t kEscapeAlone_ns = 50'000'000;  // [ns] a serial line at 9600 Bd needs 1 ms
+inline constexpr std::int64_t kArrowPulse_ns = 100'000'000;  // [ns] longer than a key's repeat
 
 struct KeyChange {
   databuffer::Key key = databuffer::Key::none;

@@ -2,12 +2,14 @@
 """Sources and documents of YARS as Doxygen reads them: usage: doxygen_source.py FOLDER (scripts/docs runs it), or as
 Doxygen's filter: doxygen_source.py --filter FILE
 
-FOLDER gets a copy of the tree. In its Markdown `<!-- diagram: FILE.dot -->` is the diagram, and links to headings find them.
+FOLDER gets a copy of the tree. In its Markdown `<!-- diagram: FILE.dot -->` is the diagram, and links to headings and to
+anchors (`<a id="NAME"></a>`) find them.
 The filter makes plain comments documentation: of headers and sources the first is about the file; of headers one above or
 behind a declaration is about that. It keeps the number of every line but the file's first, so that links into the pages
 of the sources, which show them as they are, hit.
 """
 import pathlib
+import posixpath
 import re
 import shutil
 import sys
@@ -15,6 +17,7 @@ import sys
 PLACES = [pathlib.Path(place) for place in ("README.md", "HACKING.md", "docs", "lib", "shm", "config", "databuffer", "model",
                                             "statemachine", "inputmonitor", "display", "tools", "examples")]
 SOURCES = (".hpp", ".h", ".cpp", ".c")
+ANCHOR = r'<a id="([^"]*)"></a>'
 
 
 def escaped(text):
@@ -62,24 +65,37 @@ def slug(heading):
     return re.sub(r"[^\w-]", "", heading.lower().replace(" ", "-"))
 
 
+def label(path, anchor):
+    """Doxygen's name for an anchor: one of its own over all documents."""
+    return "_".join((*path.with_suffix("").parts, anchor))
+
+
 def document(path):
-    """Markdown with diagrams, and with labels where headings are linked to."""
-    def label(match):
-        return f"{match[0]} {{#{path.stem}_{slug(match[1])}}}"
+    """Markdown with diagrams, and with labels where headings and anchors are linked to."""
+    def heading(match):
+        anchor = slug(match[1])
+        return match[0] if anchor in anchors else f"{match[0]} {{#{label(path, anchor)}}}"
+
+    def link(match):
+        target = pathlib.Path(posixpath.normpath(path.parent / match[1])) if match[1] else path
+        return f"](#{label(target, match[2])})"
 
     def code(match):
         return "<code>" + match[1].replace("\\", "\\\\") + "</code>" if "\\" in match[1] else match[0]
 
     text = path.read_text(encoding="utf-8")
+    anchors = set(re.findall(ANCHOR, text))
     for picture in re.findall(r"!\[[^\]]*\]\(([^)]+)\)", text):
         if not (path.parent / picture).is_file():
             sys.exit(f"{path}: expected the picture {picture}, found none; check the path")
     blocks = re.split(r"(^```.*?^```$)", text, flags=re.M | re.S)
     for i in range(0, len(blocks), 2):
         block = re.sub(r"<!-- diagram: (\S+) -->", r"\\dotfile \1", blocks[i])
-        block = re.sub(r"^##+ (.*)$", label, block, flags=re.M)
-        block = re.sub(r"`([^`\n]*)`", code, block)
-        blocks[i] = re.sub(r"\]\((?:(\w+)\.md)?#([\w-]+)\)", lambda m: f"](#{m[1] or path.stem}_{m[2]})", block)
+        block = re.sub(r"^##+ (.*)$", heading, block, flags=re.M)
+        parts = re.split(r"(`[^`\n]*`)", block)
+        parts[::2] = [re.sub(ANCHOR, lambda match: f"\\anchor {label(path, match[1])} ", part) for part in parts[::2]]
+        block = re.sub(r"`([^`\n]*)`", code, "".join(parts))
+        blocks[i] = re.sub(r"\]\(([\w./-]+\.md)?#([\w-]+)\)", link, block)
     return "".join(blocks)
 
 

@@ -23,7 +23,7 @@ using geo::GeoPoint;
 using geo::Length;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kCrossingSeconds = 2.0;  // [s] full deflection across the glass: pvi.md, hands-on controls
+constexpr double kCrossingSeconds = 2.0;  // [s] full deflection across the glass: docs/spec/pilots_interface.md#tdc
 constexpr radar::ViewConfiguration kMapView{-0.5, 0.5, -0.5, 0.5};  // the window fills the glass, its centre is 0, 0
 
 // A place on the glass, right and up; its unit and its zero are the plane's.

@@ -1,7 +1,8 @@
-// The cursor: held on its ground point (rule 12), slewed by the TDC in the frame of the glass: ground track up, or, on
-// a patch map, line of sight up, fixed at its start (rule 5). Its place is that on the video; what the navigator makes
-// of it stands beside it, for whoever is told. It may lie off the glass (the aircraft has passed it, the
-// range is shorter, the point jumped to is far); slewing brings it to the edge first.
+// The cursor: held on its ground point (docs/spec/pilots_interface.md#rule-12), slewed by the TDC in the frame of the
+// glass: ground track up, or, on a patch map, line of sight up, fixed at its start
+// (docs/spec/pilots_interface.md#rule-5). Its place is that on the video; what the navigator makes of it stands beside
+// it, for whoever is told. It may lie off the glass (the aircraft has passed it, the range is shorter, the point jumped
+// to is far); slewing brings it to the edge first.
 #pragma once
 
 #include "statemachine/step.hpp"

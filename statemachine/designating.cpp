@@ -24,7 +24,7 @@ using databuffer::RadarState;
 using databuffer::text_of;
 using radar::PointName;
 
-constexpr int kGreatestNumber = 100;  // rule 11
+constexpr int kGreatestNumber = 100;  // docs/spec/pilots_interface.md#rule-11
 constexpr int kGreatestOffset = 99;
 
 bool has_cursor(const Step& step) {

@@ -1,5 +1,5 @@
 // CUE, TGT and MARK: what the point under the cursor is given to. Points are told as the navigator in use has them.
-// Source: spec pvi.md rule 14.
+// Source: docs/spec/pilots_interface.md#rule-14.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // The frozen picture: freeze, the maps recalled on it, and SET, which works on it while the radar does something
-// else. Source: spec pvi.md rules 8 to 10, 19 to 21.
+// else. Source: docs/spec/pilots_interface.md#rule-8, #rule-9, #rule-10, #rule-19, #rule-20, #rule-21.
 #pragma once
 
 #include <cstdint>

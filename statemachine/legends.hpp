@@ -1,4 +1,4 @@
-// The words beside the buttons. Source: spec pvi.md, "Legends, exactly".
+// The words beside the buttons. Source: docs/spec/pilots_interface.md#legends.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
 // Patch maps: commanded by the pilot, taken up when the model has made them, cancelled when the radar leaves for
-// something else. Source: spec pvi.md rules 3 to 8.
+// something else. Source: docs/spec/pilots_interface.md#rule-3, #rule-4, #rule-5, #rule-6, #rule-7, #rule-8.
 #pragma once
 
 #include <cstdint>

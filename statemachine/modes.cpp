@@ -37,7 +37,7 @@ void show_menu(RadarState& state, bool on) {
   state.mode = on ? static_cast<std::uint8_t>(Mode::menu) : state.resume_mode;
 }
 
-// A mode change by the pilot's hand also sets the range (rule 1).
+// A mode change by the pilot's hand also sets the range (docs/spec/pilots_interface.md#rule-1).
 void change_mode(Step& step, Mode mode) {
   if (mode == running_mode(step.state)) return;
   cancel_map(step.state, step.surroundings);
@@ -87,7 +87,7 @@ RadarState forgotten(const Step& step) {
   fresh.cue_longitude_deg = step.state.cue_longitude_deg;
   fresh.cue_elevation_m = step.state.cue_elevation_m;
   fresh.target_count = step.state.target_count;
-  // The navigators are not the radar's, and marks outlive its power (rule 18).
+  // The navigators are not the radar's, and marks outlive its power (docs/spec/pilots_interface.md#rule-18).
   fresh.mission = step.state.mission;
   fresh.ins = step.state.ins;
   fresh.asked_latitude_deg = step.state.asked_latitude_deg;

@@ -1,4 +1,4 @@
-// Power, master mode, radar mode and menu. Source: spec pvi.md rules 18, 20, 21, 23.
+// Power, master mode, radar mode and menu. Source: docs/spec/pilots_interface.md#rule-18, #rule-20, #rule-21, #rule-23.
 #pragma once
 
 #include "statemachine/step.hpp"

@@ -1,5 +1,6 @@
 // What the navigators have wrong: there from the start, put in by the instructor, grown by drift, taken out by updates.
-// Truth and video never see it; symbols do. Source: spec physics.md, "Navigation errors"; pvi.md rule 13.
+// Truth and video never see it; symbols do. Source: docs/spec/physics.md#navigation-errors;
+// docs/spec/pilots_interface.md#rule-13.
 #pragma once
 
 #include "statemachine/step.hpp"

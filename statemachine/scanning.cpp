@@ -16,7 +16,7 @@ using databuffer::RadarState;
 using geo::Length;
 
 constexpr std::uint8_t kBlankWindow = 255;  // of window_index
-constexpr double kElevationStep_deg = 0.5;  // pvi.md, hands-on controls: the keys [ and ]
+constexpr double kElevationStep_deg = 0.5;  // docs/spec/pilots_interface.md#elevation: the keys [ and ]
 
 void choose_range(Step& step, std::size_t index) {
   set_flag(step.state, databuffer::kRangeSet, true);

@@ -1,4 +1,5 @@
-// What the radar looks at: range, scan width, window, antenna elevation. Source: spec pvi.md rules 1, 2, 4.
+// What the radar looks at: range, scan width, window, antenna elevation. Source: docs/spec/pilots_interface.md#rule-1,
+// #rule-2, #rule-4.
 #pragma once
 
 #include <cstddef>

@@ -24,7 +24,7 @@ using databuffer::RadarState;
 using databuffer::text_of;
 using radar::RoutePoint;
 
-constexpr std::size_t kMostDrawn = 5;  // rule 11; the record holds more
+constexpr std::size_t kMostDrawn = 5;  // docs/spec/pilots_interface.md#rule-11; the record holds more
 static_assert(kMostDrawn <= radar::kMaxPointsDrawn);
 
 void put_name(char (&field)[8], std::string_view name) {

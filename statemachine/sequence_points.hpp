@@ -1,4 +1,4 @@
-// The sequence points on the glass and stepping over them. Source: spec pvi.md rule 11.
+// The sequence points on the glass and stepping over them. Source: docs/spec/pilots_interface.md#rule-11.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // The pattern steering line: the heading on which the designated target is to be approached, and the steering to it.
-// Source: spec pvi.md rule 15.
+// Source: docs/spec/pilots_interface.md#rule-15.
 #pragma once
 
 #include "databuffer/records/outputs.hpp"

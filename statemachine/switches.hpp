@@ -1,4 +1,5 @@
-// Actions that turn one switch: cyclic ones go round, levels stop at their ends. Source: spec pvi.md, the tables.
+// Actions that turn one switch: cyclic ones go round, levels stop at their ends.
+// Source: docs/spec/pilots_interface.md#buttons, #controls, #rule-9, #rule-19, #rule-22.
 #pragma once
 
 #include "statemachine/step.hpp"

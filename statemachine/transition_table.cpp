@@ -48,7 +48,8 @@ bool stored(const RadarState& state) {
   return state.map_stored != 0;
 }
 
-// pvi.md, "Bezel buttons", and rules 8, 10, 20, 21 of what frozen, SET and maps make of them.
+// docs/spec/pilots_interface.md#buttons; #rule-8, #rule-10, #rule-20, #rule-21 say what frozen, SET and maps make of
+// them.
 constexpr std::array kButtons{
     ButtonRow{2, kAllGround | kRanging, kSetOff, toggle_declutter, "DCL", kAlways, kDeclutterOn},
     ButtonRow{3, kRbm | kBcn, kSetOff, cycle_gain, gain_legend, kAlways},
@@ -78,7 +79,7 @@ constexpr std::array kButtons{
     ButtonRow{20, kAllGround, kSetOff, next_band, band_legend, kAlways},
 };
 
-// pvi.md, "Hands-on and other controls". The TDC's release acts by cursor function; over a picture that A/A or ranging
+// docs/spec/pilots_interface.md#controls. The TDC's release acts by cursor function; over a picture that A/A or ranging
 // leave standing in SET alone. The deflection is taken also where no cursor is slewed, so that letting go is never
 // missed.
 constexpr std::array kControls{
@@ -163,7 +164,8 @@ Columns button_column(const databuffer::RadarState& state) {
   if (power_of(state) == radar::Power::off) return kOff;
   if (has(state, databuffer::kMenu)) return kMenu;
   const Columns column = column_of(running_mode(state));
-  // Rule 18: in standby the buttons are live as in RBM; A/A and ranging have no radar page to go back to.
+  // docs/spec/pilots_interface.md#rule-18: in standby the buttons are live as in RBM; A/A and ranging have no radar
+  // page to go back to.
   return power_of(state) == radar::Power::standby && column != kRanging ? kRbm : column;
 }
 

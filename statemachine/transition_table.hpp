@@ -1,5 +1,6 @@
 // The transition table: which button and which control does what in which mode, and which legend a button bears.
-// transition_table.cpp holds it as data, in the order of spec pvi.md, to be checked against it row by row.
+// transition_table.cpp holds it as data, in the order of docs/spec/pilots_interface.md#buttons, to be checked against
+// it row by row.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,7 @@
 
 namespace yars::statemachine {
 
-// Columns of the spec's table; a row names those in which it holds.
+// Columns of the table docs/spec/pilots_interface.md#buttons; a row names those in which it holds.
 using Columns = std::uint16_t;
 inline constexpr Columns kRbm = 1U << 0;
 inline constexpr Columns kHrm = 1U << 1;    // HRM PPI

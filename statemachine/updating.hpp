@@ -1,5 +1,5 @@
-// UPDT: the navigator chosen is put right by a sequence point that the pilot finds on the video. Source: spec pvi.md
-// rule 13.
+// UPDT: the navigator chosen is put right by a sequence point that the pilot finds on the video.
+// Source: docs/spec/pilots_interface.md#rule-13.
 #pragma once
 
 #include "statemachine/step.hpp"

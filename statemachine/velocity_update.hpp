@@ -1,4 +1,5 @@
-// PVU and IPVU: the mission navigator's velocity is put right by what the radar measures. Source: spec pvi.md rule 16.
+// PVU and IPVU: the mission navigator's velocity is put right by what the radar measures.
+// Source: docs/spec/pilots_interface.md#rule-16.
 #pragma once
 
 #include "statemachine/step.hpp"

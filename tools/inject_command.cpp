@@ -22,7 +22,7 @@ using databuffer::AppliedEvent;
 using databuffer::InputEvent;
 using databuffer::Session;
 
-constexpr std::int64_t kPatience_ns = 2'000'000'000;  // [ns] spec: waits at most 2 s
+constexpr std::int64_t kPatience_ns = 2'000'000'000;  // [ns] 2 s: docs/spec/commands.md#inject
 
 // Each argument is a whole event ("pb 13"); a single list of bare words is one event too (pb 13).
 std::vector<InputEvent> parse_events(const std::vector<std::string>& arguments) {

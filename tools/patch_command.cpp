@@ -1,5 +1,5 @@
 // `yars patch`: one patch map without processes, to a picture or to numbers; one JSON line says how long it took.
-// Source of the option names and of the line: spec commands.md.
+// Source of the option names and of the line: docs/spec/commands.md#patch.
 #include <algorithm>
 #include <array>
 #include <chrono>

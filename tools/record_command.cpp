@@ -40,7 +40,8 @@ void drain_the_rest(Session& session, Recorder& recorder) {
 }
 
 // Live it looks now and then; in lockstep it is the last of each tick, so that nothing is lost at any speed. When the
-// disk takes no more it stays all the same: the pilot sees it (rule 22), and the set does not end for it.
+// disk takes no more it stays all the same: the pilot sees it (docs/spec/pilots_interface.md#rule-22), and the set does
+// not end for it.
 void record_live(Session& session, Recorder& recorder, const recording::RecordingWriter& writer) {
   int quiet_looks = 0;
   while (!databuffer::stop_requested()) {

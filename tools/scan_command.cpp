@@ -1,5 +1,5 @@
 // `yars scan`: one scan of the real beam map without processes, to a picture or to numbers; one JSON line says how
-// long it took. Source of the option names and of the line: spec commands.md.
+// long it took. Source of the option names and of the line: docs/spec/commands.md#scan.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

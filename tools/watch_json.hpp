@@ -1,4 +1,4 @@
-// The object that `yars watch --json` prints: spec of its fields in docs/commands.md.
+// The object that `yars watch --json` prints. Source of its fields: docs/spec/commands.md#watch.
 #pragma once
 
 #include <nlohmann/json.hpp>

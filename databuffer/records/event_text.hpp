@@ -2,7 +2,7 @@
 //   pb 13 | tdc 0.5 0 | tdc press | tdc release | coolie up | acq fwd|aft | freeze | elevation -5 |
 //   elevation up|down [STEPS] (0.5 deg each, project choice) | mode ag|aa|agr | radar rbm|hrm|bcn|pvu |
 //   power off|stby|opr | nav mn|ins|toggle | sp 2.1 | altimeter ok|fail | contrast up|down
-// Words are separated by blanks, letters of either case. Source: spec pvi.md "Hands-on and other controls".
+// Words are separated by blanks, letters of either case. Source: docs/spec/pilots_interface.md#controls.
 #pragma once
 
 #include <string>
@@ -16,8 +16,8 @@ namespace yars::databuffer {
 // The event without times and number (zero). An error lists the forms that would have been right.
 failure::Expected<InputEvent> event_from_text(std::string_view text);
 
-// The shortest text that event_from_text turns back into the same event; an event outside pvi.md gives a text
-// that says so and that event_from_text refuses.
+// The shortest text that event_from_text turns back into the same event; one that is none of
+// docs/spec/pilots_interface.md#controls gives a text that says so and that event_from_text refuses.
 std::string text_of(const InputEvent& event);
 
 // Sets the name of a sequence point, as `sp NAME` does; a longer name is cut, and validation then refuses it.

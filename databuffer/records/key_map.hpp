@@ -1,4 +1,5 @@
-// Keys of a keyboard, whatever read them (a window, a terminal, the glass), and what they do: spec pvi.md.
+// Keys of a keyboard, whatever read them (a window, a terminal, the glass), and what they do.
+// Source: docs/spec/pilots_interface.md#buttons, #controls.
 //   2..9 a..k: pb 2..20 | arrows: tdc while held | Enter: tdc press, release | Tab: coolie up |
 //   Page Up, Page Down: acq fwd, aft | Space: freeze | [ ]: elevation down, up | F1 F2 F3: mode ag, aa, agr |
 //   F4: nav toggle | Escape: nothing here; it ends the input monitor.

@@ -1,4 +1,4 @@
-// When the pilot is told how long a patch map takes. Source: spec pvi.md rule 6.
+// When the pilot is told how long a patch map takes. Source: docs/spec/pilots_interface.md#rule-6.
 #pragma once
 
 #include <optional>

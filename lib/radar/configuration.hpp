@@ -14,7 +14,7 @@
 
 namespace yars::radar {
 
-// Servo of the dish. Source: tables of the 1996 report and spec pvi.md rule 2.
+// Servo of the dish. Source: tables of the 1996 report and docs/spec/pilots_interface.md#rule-2.
 struct AntennaConfiguration {
   double azimuth_rate_dps = 110.0;       // [deg/s] scanning; FULL (100 deg) then takes 0.91 s + turn-around = 1 s
   double elevation_rate_dps = 110.0;     // [deg/s]
@@ -80,7 +80,7 @@ struct Fidelity {
   double map_noise = 0.10;  // of the 1996 algorithm: random part of the brightness, [0, 1]
 };
 
-// Receiver and land/sea return; spec physics.md "Power and video".
+// Receiver and land/sea return; docs/spec/physics.md#power-and-video.
 struct ReceiverConfiguration {
   double frequency_ghz = 9.6;
   double stc_exponent = 3.0;       // sensitivity time control (R/R0)^n
@@ -91,7 +91,7 @@ struct ReceiverConfiguration {
   int looks = 4;                   // of land and sea speckle
 };
 
-// The high resolution map; spec physics.md "HRM".
+// The high resolution map; docs/spec/physics.md#hrm.
 struct HighResolutionConfiguration {
   std::vector<double> looks{2, 3};  // averaged at ML1, ML2: ML2 takes half as long again
   double broadening = 1.2;          // k of the weighting: how much wider than 1 / bandwidth the response is
@@ -109,7 +109,8 @@ struct HighResolutionConfiguration {
   double detail_contrast = 0.5;     // standard deviation of the made-up detail below the posts, as a share
 };
 
-// What the navigators have wrong from the start, and how the radar puts it right; spec physics.md "Navigation errors".
+// What the navigators have wrong from the start, and how the radar puts it right;
+// docs/spec/physics.md#navigation-errors.
 struct NavigationConfiguration {
   double error_north_m = 0.0;       // [m] of position when the session begins
   double error_east_m = 0.0;        // [m]
@@ -136,7 +137,7 @@ struct TerrainConfiguration {
   bool missing_cell_is_sea = true;  // an absent cell is sea at 0 m; false: void
 };
 
-// One point of the route; names as in pvi.md rule 11.
+// One point of the route; names as in docs/spec/pilots_interface.md#rule-11.
 struct RoutePoint {
   std::string name;  // "2", "2.", "2.1", "2.01"
   PointKind kind = PointKind::steer;
@@ -144,7 +145,8 @@ struct RoutePoint {
   double elevation_m = 0.0;  // [m] MSL; NaN = unknown
 };
 
-// Where the cursor may be for each display window, and what a blank window stands for. Source: spec pvi.md rule 4.
+// Where the cursor may be for each display window, and what a blank window stands for.
+// Source: docs/spec/pilots_interface.md#rule-4.
 struct WindowLimits {
   std::vector<double> windows_nm{0.67, 1.3, 3.3, 4.7, 10, 20, 40, 80};  // [NM] side of the square, ascending
   std::vector<double> least_nm{4.7, 4.7, 4.7, 4.7, 10, 20, 40, 80};     // [NM] cursor range, a number a window
@@ -155,7 +157,7 @@ struct WindowLimits {
   double power_up_nm = 4.7;                                             // [NM] selected at power-up
 };
 
-// Low over ground a short range, high up a long one. Source: spec pvi.md rule 1.
+// Low over ground a short range, high up a long one. Source: docs/spec/pilots_interface.md#rule-1.
 struct HeightRanges {
   std::vector<double> heights_ft{500, 1000};  // [ft] ascending; each belongs to the lower range
   std::vector<double> ranges_nm{10, 20, 40};  // [NM] one more than heights; the last holds above all of them

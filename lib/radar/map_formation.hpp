@@ -1,7 +1,8 @@
 // How long the radar takes to form a map, and what it resolves. Azimuth resolution of a synthetic array of length L:
 // rho = k lambda R / (2 L sin(squint)); it is held, so the time T = k lambda R / (2 V rho sin(squint)) follows, once a
-// look and once a strip where the window is wider than the beam. Source: spec physics.md "HRM"; Carrara, Goodman,
-// Majewski, "Spotlight Synthetic Aperture Radar", 2.3. Check: 480 kt, 9.6 GHz, 8.5 ft, 20 NM, 90 degrees: 1.1 s.
+// look and once a strip where the window is wider than the beam.
+// Source: docs/spec/physics.md#formation-time; Carrara, Goodman, Majewski, "Spotlight Synthetic Aperture Radar", 2.3.
+// Check: 480 kt, 9.6 GHz, 8.5 ft, 20 NM, 90 degrees: 1.1 s.
 #pragma once
 
 #include "lib/geo/bearing.hpp"
@@ -29,7 +30,8 @@ struct MapLook {
 // Never longer than the cap of the configuration: at small squints and speeds, where the formula goes to infinity.
 geo::Duration formation_time(const MapLook& look, const RadarConfiguration& configuration);
 
-// True if the line of sight lies so near the ground track that there is too little Doppler to map (pvi.md rule 3).
+// True if the line of sight lies so near the ground track that there is too little Doppler to map
+// (docs/spec/pilots_interface.md#rule-3).
 bool in_blind_zone(geo::Angle squint, const HighResolutionConfiguration& configuration);
 
 // Angle that the Doppler beam sharpened scan resolves: lambda / (2 V T sin(squint)), at most the beam's own width.

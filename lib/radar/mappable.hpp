@@ -1,5 +1,5 @@
 // Whether the radar can make a patch map of a place, and if not, what the display says. Holds for a first map and for
-// every re-map. Source: spec pvi.md rules 2 to 5; tables 3 and 4 of the report.
+// every re-map. Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-4, #rule-5; tables 3 and 4 of the report.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// Names of sequence points and their order. Source: spec pvi.md rule 11: steer and initial points `n`, targets `n.`,
-// offsets `n.1` to `n.9`, target offsets `n.01` to `n.99`, n from 1 to 100.
+// Names of sequence points and their order. Source: docs/spec/pilots_interface.md#rule-11. Steer and initial points
+// `n`, targets `n.`, offsets `n.1` to `n.9`, target offsets `n.01` to `n.99`, n from 1 to 100.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,6 @@
 // Which range the radar takes by itself: low over ground a short one, high up a long one.
-// Source: spec pvi.md rule 1, by the table of the configuration (a height belongs to the lower range).
+// Source: docs/spec/pilots_interface.md#rule-1, by the table of the configuration (a height belongs to the lower
+// range).
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // Display windows of patch maps: which fit the selected range, where the cursor may be for each, and which one a
-// blank window stands for. Source: spec pvi.md rule 4 (tables 1 to 3 of the report), by the tables of the
-// configuration.
+// blank window stands for. Source: docs/spec/pilots_interface.md#rule-4 (tables 1 to 3 of the report), by the tables of
+// the configuration.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // What a configuration settles about the world that the radar looks at: what surfaces return, the sea's state, rain,
-// jammers, moving targets, polygonal scenes, beacons. Pure values; defaults are those of GUF. Sources: spec physics.md
-// "Power and video".
+// jammers, moving targets, polygonal scenes, beacons. Pure values; defaults are those of GUF.
+// Source: docs/spec/physics.md#power-and-video.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,8 @@
 // The course of one scan over its ticks: pure numbers, derived from the tick within the scan, so that no error adds
 // up however long the radar runs. A sector scan goes from one edge to the other in `sweep_ticks` ticks (one sweep
 // each), then turns round, blanked, in `turn_ticks`. A circular scan goes round clockwise and never turns.
-// Source: spec pvi.md rule 2: 100 deg at 110 deg/s and a turn-around of a tenth of that make 1 s; others in proportion.
+// Source: docs/spec/pilots_interface.md#rule-2. 100 deg at 110 deg/s and a turn-around of a tenth of that make 1 s;
+// others in proportion.
 #pragma once
 
 namespace yars::radar {

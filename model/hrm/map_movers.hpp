@@ -1,7 +1,7 @@
 // Moving targets, and points that stand (a corner reflector is one), on a map: displaced along the track by what their
 // radial speed adds to the Doppler, and smeared over the time that the map takes. Radial speed v_r, positive towards
 // the radar, shifts the bearing by v_r / (V sin(squint)) forwards: R v_r / V across a broadside line of sight.
-// Source: spec physics.md "HRM"; Raney, "Synthetic Aperture Imaging Radar and Moving Targets" (1971).
+// Source: docs/spec/physics.md#movers; Raney, "Synthetic Aperture Imaging Radar and Moving Targets" (1971).
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // The impulse response of the synthetic array: what a point becomes, in range and in azimuth alike. Amplitude after
 // Taylor (n-bar 5), scaled so that its half-power width is one resolution cell; on the map its square counts.
-// Source: Carrara, Goodman, Majewski, "Spotlight SAR", D.2 (Taylor weighting); spec physics.md "HRM".
+// Source: Carrara, Goodman, Majewski, "Spotlight SAR", D.2 (Taylor weighting); docs/spec/physics.md#response.
 #pragma once
 
 #include <array>

@@ -2,7 +2,7 @@
 // a field of circular complex Gaussian numbers, one a cell, and the intensity is the mean of their squares: mean 1 and
 // variance 1 / looks at every pixel. Where pixels are finer than cells the field is interpolated, its weights scaled
 // to unit energy, so that the statistics hold between the cells too.
-// Source: Goodman, "Statistical properties of laser speckle patterns" (1975); spec physics.md "Power and video".
+// Source: Goodman, "Statistical properties of laser speckle patterns" (1975); docs/spec/physics.md#speckle.
 #pragma once
 
 #include <cstdint>

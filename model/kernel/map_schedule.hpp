@@ -1,6 +1,7 @@
 // When the radar forms which patch map, as a pure step: radar command, place and tick in; what is forming out. The
 // picture is another's work (hrm::PatchProcess); it is complete at the tick that the formation time gives, and whoever
-// drives the kernel has it ready by then. Source: spec pvi.md rules 5 to 8, formation time physics.md "HRM".
+// drives the kernel has it ready by then. Source: docs/spec/pilots_interface.md#rule-5, #rule-6, #rule-7, #rule-8;
+// docs/spec/physics.md#formation-time.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // The HRM PPI: a Doppler beam sharpened sector. FULL takes 18 s, other widths in proportion; it looks ahead of and
 // beside the cursor, resolves the range over 480 cells, and in azimuth as fine as the squint allows; nothing returns
-// about the ground track. Source: spec pvi.md rules 2 and 3, physics.md "HRM".
+// about the ground track. Source: docs/spec/pilots_interface.md#rule-2, #rule-3; docs/spec/physics.md#hrm-resolution.
 #pragma once
 
 #include "databuffer/records/model_records.hpp"

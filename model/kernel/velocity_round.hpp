@@ -2,7 +2,7 @@
 // that a whole round measures. Each beam gives the Doppler speed along its line of sight with noise of its own, least
 // squares make a velocity of them; what the aircraft accelerates between the beams counts as known, so all speeds are
 // those at the end of the round. A round that the gimbal cannot fly measures nothing. Pure: one call a tick, no
-// allocation after construction. Source: spec pvi.md rule 16.
+// allocation after construction. Source: docs/spec/pilots_interface.md#rule-16.
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,8 @@
 // shows as short arcs, one a reply, behind its place by c / 2 for each microsecond of its delay and spacing. It
 // transmits itself: P = 4 pi (ERP_beacon / ERP_radar) G / R^2 as a jammer's, G the one-way gain; a reply lasts as long
 // as the radar's pulse. It hears the main beam alone, so its arcs are a beam width wide. The receiver listens on the
-// beacons' frequency: ground returns nothing, sensitivity time control is off. Source: spec pvi.md rule 17.
+// beacons' frequency: ground returns nothing, sensitivity time control is off.
+// Source: docs/spec/pilots_interface.md#rule-17.
 #pragma once
 
 #include <span>

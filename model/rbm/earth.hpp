@@ -1,7 +1,7 @@
 // The earth that a ray feels, and how a point on it is seen from the aircraft, in double precision. The geometry: a
 // sphere of radius k R, R the ellipsoid's radius of curvature at the apex along the azimuth (or the mean radius, or
 // none: flat). Distances over ground are kept, heights above mean sea level count as heights above that sphere.
-// Source: spec physics.md "Geometry and propagation".
+// Source: docs/spec/physics.md#geometry.
 #pragma once
 
 #include <span>

@@ -1,7 +1,7 @@
 // The ground along a ray between two distances, in plain double: what the reference raises its horizon with between its
 // samples. Steps of a tenth of the posts' spacing, exact geodesic places at most 500 m apart and straight ways in
 // latitude and longitude between them (5 mm off up to 60 degrees of latitude, 0.2 m at 88).
-// Source: spec physics.md "Shadow".
+// Source: docs/spec/physics.md#shadow.
 #pragma once
 
 #include <algorithm>

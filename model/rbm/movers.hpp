@@ -1,5 +1,5 @@
 // Ships and vehicles as a sweep sees them: points that go their geodesics with sim time, on the ground where they are.
-// Shadow is the caller's: it knows the horizon. Source: spec physics.md; power by the radar equation of a point.
+// Shadow is the caller's: it knows the horizon. Source: docs/spec/physics.md#power, the radar equation of a point.
 // Those of the configuration and those of the traffic, of which no more than kMostTraffic are looked at.
 #pragma once
 

@@ -1,5 +1,5 @@
 // What the transmitter, the antenna and the receiver make of a return: the radar equation at image level, shared by
-// all algorithms as plain numbers. Source: spec physics.md "Power and video".
+// all algorithms as plain numbers. Source: docs/spec/physics.md#power, #receiver.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
-// The picture as the 1996 report makes it, where the report is silent as spec physics.md defines it: intensity is
-// the cosine between facet normal and direction to the radar, both in the plane of the sweep; flat earth, no
-// refraction; nothing outside half a beam width of the antenna's elevations, those of all bars; a horizon that lit
+// The picture as the 1996 report makes it, where the report is silent as docs/spec/physics.md#preset-1996 defines it:
+// intensity is the cosine between facet normal and direction to the radar, both in the plane of the sweep; flat earth,
+// no refraction; nothing outside half a beam width of the antenna's elevations, those of all bars; a horizon that lit
 // posts alone raise; weights 1/4 1/2 1/4 over three posts and over three sweeps; gain steps 1/4 1/2 3/4 1; no noise.
 // Power is intensity over that of level ground at sea level at half the selected range; video is proportional to it,
 // white from 1 on. Why: docs/decisions/0020. Only samples and beam width are read from the configuration.

@@ -1,7 +1,7 @@
 // What polygonal scenes make of a sweep: what stands returns sigma = sum of gamma times the area that faces the radar,
 // at its range and bearing, lit as far as it rises above the ground's horizon; what covers the ground is seen instead
 // of the ground. Plain double, one function for all algorithms. No allocation after construction; with no scene in
-// view enter() is all that it costs. Source: spec physics.md "Power and video"; docs/radar_maths.md "Scenes".
+// view enter() is all that it costs. Source: docs/spec/physics.md#power; docs/radar_maths.md#scenes.
 #pragma once
 
 #include <vector>

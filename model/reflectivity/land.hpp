@@ -1,6 +1,6 @@
 // What land returns: sigma0 = gamma sin(psi), gamma by surface material, 5 dB more a decade of frequency. Walls that
 // face the radar return more (cardinal effect). Gammas are power ratios at the radar's frequency.
-// Source: spec physics.md "Power and video"; the constant-gamma model after Barton, "Modern Radar System Analysis".
+// Source: docs/spec/physics.md#land; the constant-gamma model after Barton, "Modern Radar System Analysis".
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // OpenFlight 14 to 16.5 by number: opcodes, and where fields stand in records, counted from the opcode.
-// Source: spec formats.md "OpenFlight" and the OpenFlight Scene Description Database Specification.
+// Source: docs/spec/formats.md#openflight and the OpenFlight Scene Description Database Specification.
 #pragma once
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 // A file holds several cells; each must be one degree on whole degrees (project choice: no resampling, which would
 // move heights by up to half a post and open cracks to the neighbours).
 // Errors: another magic, counts or spacings that do not fit a degree, a length that is not that of its cells.
-// Layout: spec formats.md "MultiGen DED".
+// Layout: docs/spec/formats.md#ded.
 #pragma once
 
 #include <cstddef>

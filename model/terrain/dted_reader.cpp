@@ -179,7 +179,7 @@ failure::Expected<Oddities> gather_words(std::span<const std::byte> data, const 
 
 // True when some word makes sense as two's complement only.
 bool is_twos_complement(const std::vector<std::uint16_t>& words) {
-  constexpr std::int16_t kDeepestSignMagnitude = -16000;  // [m] deeper than any place; spec formats.md "DTED"
+  constexpr std::int16_t kDeepestSignMagnitude = -16000;  // [m] deeper than any place; docs/spec/formats.md#dted
   return std::any_of(words.begin(), words.end(), [](std::uint16_t word) {
     return word != dted::kVoidWord && sign_magnitude(word) < kDeepestSignMagnitude;
   });

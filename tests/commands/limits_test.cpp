@@ -49,7 +49,7 @@ TEST(PatchLimits, EachIsNamedWithItsNumbersAndWhatToDo) {
     std::vector<std::string> more;
     const char *name, *limit, *found;
   };
-  // Source: spec pvi.md rules 2 to 4.
+  // Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-4.
   const Row rows[] = {
       {2.0, 20.0, {}, "BLIND ZONE", "at least 8 deg off the ground track", "found one 2."},
       {-7.0, 20.0, {}, "BLIND ZONE", "at least 8 deg", "found one 7."},

@@ -13,7 +13,8 @@
 
 namespace yars::endtoend {
 
-// An event of the script, whether it does something there, and one field of the state after it (pvi.md).
+// An event of the script, whether it does something there, and one field of the state after it
+// (docs/spec/pilots_interface.md#controls).
 struct ScriptedStep {
   std::string event;
   bool effective = false;

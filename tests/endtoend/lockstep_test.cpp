@@ -75,7 +75,7 @@ const std::vector<ScriptedStep>& steps() {
   return kSteps;
 }
 
-// Legends and boxes of the real beam map, as pvi.md's table "Bezel buttons" words them.
+// Legends and boxes of the real beam map, as docs/spec/pilots_interface.md#legends words them.
 void expect_rbm_legends(const json& state) {
   const auto& legends = state["legends"];
   EXPECT_EQ(legends["2"], "DCL");

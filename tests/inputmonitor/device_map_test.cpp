@@ -49,7 +49,8 @@ TEST(FittingMap, TheLastOneThatFitsIsTaken) {
 TEST(ReadyMap, TheCougarsButtonsAreTheBezelsTurnedRound) {
   const auto maps = shipped_maps();
   DeviceDecoder decoder(*ready_map(*named_map("mfd-cougar", maps), {}));
-  // Clockwise from the top left, against counter-clockwise from the top of the left side (spec pvi.md).
+  // Clockwise from the top left, against counter-clockwise from the top of the left side
+  // (docs/spec/pilots_interface.md#buttons).
   for (int button = 1; button <= 20; ++button) {
     const auto code = std::uint16_t(button <= 16 ? 0x120 + button - 1 : 0x2c0 + button - 17);
     const std::int64_t now_ns = button * 1'000'000'000LL;

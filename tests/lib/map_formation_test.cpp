@@ -1,4 +1,4 @@
-// How long a map takes and what it resolves. Source: spec physics.md "HRM".
+// How long a map takes and what it resolves. Source: docs/spec/physics.md#formation-time, #hrm-resolution.
 #include "lib/radar/map_formation.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Facts of the radar: ranges by height, windows, names of points, words of the modes. Source: spec pvi.md rules 1,
-// 4, 11.
+// Facts of the radar: ranges by height, windows, names of points, words of the modes.
+// Source: docs/spec/pilots_interface.md#rule-1, #rule-4, #rule-11.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -18,7 +18,7 @@ TEST(EffectiveEarth, DropsAsTheSpecificationSays) {
   struct Row {
     double range_nm, refracted_m, true_m;
   };
-  // Source: spec physics.md, "Drop at 20/40/80/160 NM", to the metre by the parabola; the exact form is a little less.
+  // Source: docs/spec/physics.md#refraction, drops to the metre by the parabola; the exact form is a little less.
   constexpr std::array<Row, 4> kRows{{{20, 81, 108}, {40, 323, 431}, {80, 1292, 1723}, {160, 5168, 6891}}};
   for (const Row& row : kRows) {
     const double distance_m = row.range_nm * geo::kMetresPerNauticalMile;
@@ -61,7 +61,7 @@ TEST(EffectiveEarth, SeesAPointAsVectorsOnTheSphereDo) {
       const long double z = (8.5e6L + height_m) * std::cos(angle) - (8.5e6L + altitude_m);
       EXPECT_NEAR(sight.tangent, static_cast<double>(z / x), 1e-9 * (1.0 + std::abs(sight.tangent)));
       EXPECT_NEAR(sight.slant_range_m, static_cast<double>(std::hypot(x, z)), 1e-6);
-      // Law of cosines, spec physics.md with the height of the point in the radius.
+      // Law of cosines, docs/spec/physics.md#incidence with the height of the point in the radius.
       const double centre_m = 8.5e6 + height_m;
       const double above_m = altitude_m - height_m;
       const double range_m = sight.slant_range_m;

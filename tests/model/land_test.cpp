@@ -27,7 +27,7 @@ TEST(Land, HasTheGammasOfItsMaterialsAndLandsOwnElsewhere) {
   radar::RadarConfiguration configuration;
   configuration.receiver.frequency_ghz = 10.0;
   const LandReturn land = make_land_return(configuration);
-  // Source: spec physics.md, start table by surface material code.
+  // Source: docs/spec/physics.md#land, start table by surface material code.
   const double gamma_db[] = {-14, 5, 2, 0, -3, -8, -14, -22, -8, -28, -17, -16, -12, -20, -14};
   for (std::size_t code = 0; code < std::size(gamma_db); ++code) {
     EXPECT_NEAR(decibels(land.gamma[code]), gamma_db[code], 1e-9) << code;

@@ -39,7 +39,7 @@ TEST(Receiver, LooksStraightDownThroughTheBeamAndFlatThroughThePulse) {
 }
 
 TEST(Receiver, ThePulseOfTheShortestRangeCoversTheReports127Feet) {
-  // 0.26 us, spec physics.md.
+  // 0.26 us, docs/spec/physics.md#pulse.
   EXPECT_NEAR(receiver_at(4.7).pulse_length_m / geo::kMetresPerFoot, 127.0, 1.5);
   EXPECT_NEAR(receiver_at(160.0).pulse_length_m, 6.0 * 149.896, 0.01);
   EXPECT_NEAR(receiver_at(300.0).pulse_length_m, 6.0 * 149.896, 0.01);

@@ -172,7 +172,7 @@ TEST(Reference, UniformClutterFluctuatesAsTheMeanOfItsLooks) {
   configuration.fidelity.noise = true;
   configuration.receiver.dynamic_range_db = 60.0;
   configuration.receiver.noise_floor_db = -60.0;
-  // Standard deviations in decibels: spec physics.md.
+  // Standard deviations in decibels: docs/spec/physics.md#speckle.
   struct Row {
     int looks;
     double deviation_db;

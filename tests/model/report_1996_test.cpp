@@ -1,4 +1,4 @@
-// The preset `1996` as spec physics.md defines it.
+// The preset `1996` as docs/spec/physics.md#preset-1996 defines it.
 #include "model/rbm/report_1996.hpp"
 
 #include <gtest/gtest.h>

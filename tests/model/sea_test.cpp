@@ -20,7 +20,7 @@ double decibels(double ratio) {
 }
 
 TEST(Sea, GivesTheNrlModelsCheckValue) {
-  // Source: spec physics.md.
+  // Source: docs/spec/physics.md#sea.
   EXPECT_NEAR(std::pow(10.0, 0.1 * nrl_sigma0_db(kHorizontal, 10.0, 30.0, 2.0)), 2.1555e-4, 5e-9);
 }
 

@@ -9,7 +9,7 @@
 namespace yars::databuffer {
 namespace {
 
-// Rule 6: cursor MAP, a window selected, the cursor mappable.
+// docs/spec/pilots_interface.md#rule-6: cursor MAP, a window selected, the cursor mappable.
 class MapTimer : public ::testing::Test {
  protected:
   MapTimer() {

@@ -103,16 +103,16 @@ class CheckLayers(unittest.TestCase):
         self.finds("statemachine/MachineTable.hpp", "#pragma once\n", "1: name")
 
     def test_a_folder_called_utils_is_found(self):
-        self.finds("docs/utils/page.md", "\n", "1: name")
+        self.finds("notes/utils/page.md", "\n", "1: name")
 
     def test_a_folder_without_a_row_is_found(self):
         self.finds("novel/thing.hpp", "#pragma once\n", "1: layer")
 
     def test_a_path_of_one_machine_is_found(self):
-        self.finds("docs/page.md", f"see {MACHINE_PATH}\n", "1: path")
+        self.finds("notes/page.md", f"see {MACHINE_PATH}\n", "1: path")
 
     def test_a_registry_host_is_found(self):
-        self.finds("docs/page.md", f"see {REGISTRY}\n", "1: registry")
+        self.finds("notes/page.md", f"see {REGISTRY}\n", "1: registry")
 
     def test_a_long_file_is_only_warned_of(self):
         output, status = check({"statemachine/machine.hpp": "#pragma once\n" + "int x;\n" * 500})

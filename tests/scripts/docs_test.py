@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Pages of sources: Doxygen with docs/Doxyfile over a header and its source, without class diagrams."""
+"""Doxygen with docs/Doxyfile: pages of a header and its source, and pages of all documents, without diagrams."""
 import html
 import pathlib
 import re
@@ -66,6 +66,25 @@ class Pages(unittest.TestCase):
             self.assertEqual(len(before), len(after), file)
             same = [i for i, line in enumerate(before) if line.startswith("#include")]
             self.assertEqual([before[i] for i in same], [after[i] for i in same], file)
+
+
+class Documents(unittest.TestCase):
+    def test_links_to_headings_and_anchors_lead_there_and_one_page_is_the_first(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source = pathlib.Path(folder) / "source"
+            subprocess.run([sys.executable, str(FILTER), str(source)], cwd=ROOT, check=True, timeout=100)
+            documents = [str(path.relative_to(source)) for path in sorted(source.rglob("*.md"))]
+            drawing = source / "docs" / "architecture.md"
+            drawing.write_text(re.sub(r"\\dotfile \S+", "", drawing.read_text(encoding="utf-8")), encoding="utf-8")
+            settings = (ROOT / "docs" / "Doxyfile").read_text() + f"HAVE_DOT = NO\nINPUT = {' '.join(documents)}\n"
+            run = subprocess.run(["doxygen", "-"], input=settings, cwd=source, capture_output=True, text=True, timeout=100)
+            self.assertEqual((run.returncode, run.stderr), (0, ""))
+            html_folder = pathlib.Path(folder) / "html"
+            rules = (html_folder / "md_docs_spec_pilots_interface.html").read_text(encoding="utf-8")
+            self.assertIn('id="docs_spec_pilots_interface_rule-5"', rules)
+            self.assertIn("an open air-to-ground radar simulation", (html_folder / "index.html").read_text(encoding="utf-8"))
+            choices = (html_folder / "md_docs_decisions_0013_maps_under_the_pilots_hand.html").read_text(encoding="utf-8")
+            self.assertIn('href="md_docs_spec_pilots_interface.html#docs_spec_pilots_interface_rule-5"', choices)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-// The frozen map: NEW, OLD and STORE, SET, and the cursor on it: rules 5, 8, 10, 21 of spec pvi.md.
+// The frozen map: NEW, OLD and STORE, SET, and the cursor on it: docs/spec/pilots_interface.md#rule-5, #rule-8,
+// #rule-10, #rule-21.
 #include <gtest/gtest.h>
 
 #include "tests/statemachine/pilot.hpp"

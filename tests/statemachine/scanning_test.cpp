@@ -1,4 +1,4 @@
-// Range, window, scan width and elevation: rules 1, 2 and 4 of spec pvi.md.
+// Range, window, scan width and elevation: docs/spec/pilots_interface.md#rule-1, #rule-2, #rule-4.
 #include <gtest/gtest.h>
 
 #include "tests/statemachine/pilot.hpp"

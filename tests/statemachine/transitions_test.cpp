@@ -1,4 +1,5 @@
-// Every mode x event x frozen or not, from tables written by hand from the spec.
+// Every mode x event x frozen or not, from tables written by hand from docs/spec/pilots_interface.md#buttons and
+// #controls.
 #include <gtest/gtest.h>
 
 #include <set>
