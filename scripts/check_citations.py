@@ -11,15 +11,13 @@ Prints one line a finding, `file:line: rule: what was found, what is allowed`; e
   anchor    an anchor stands once in its file
 An anchor of docs/spec is explicit, so that a heading may be reworded; headings of other documents are anchors as well.
 """
-import argparse
 import difflib
-import pathlib
 import posixpath
 import re
 import sys
 
 sys.dont_write_bytecode = True
-from check_layers import tracked_files  # noqa: E402
+from check_layers import run, tracked_files  # noqa: E402
 from doxygen_source import slug  # noqa: E402
 
 SPECIFICATION = "docs/spec/"
@@ -188,17 +186,6 @@ def findings_of(root):
             yield from ((name, *finding) for finding in check)
 
 
-def main():
-    parser = argparse.ArgumentParser(description="Checks citations, links and decisions of the YARS tree.")
-    parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent)
-    root = parser.parse_args().root
-    count = 0
-    for name, line, rule, message in findings_of(root):
-        print(f"{name}:{line}: {rule}: {message}")
-        count += 1
-    print(f"check_citations: {count} findings" if count else "check_citations: every citation leads somewhere")
-    return 1 if count else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run("check_citations", "Checks citations, links and decisions of the YARS tree.", findings_of,
+                 "every citation leads somewhere"))

@@ -274,17 +274,18 @@ def findings_of(root):
                 print(f"{name}: warning: {text.count(chr(10))} lines; aim at 300")
 
 
-def main():
-    parser = argparse.ArgumentParser(description="Checks layers, names and paths of the YARS tree.")
+def run(checker, purpose, findings, clean):
+    """The program of a checker: its findings over the tree of --root, a line each; 1 when there is one."""
+    parser = argparse.ArgumentParser(description=purpose)
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent)
     root = parser.parse_args().root
     count = 0
-    for name, line, rule, message in findings_of(root):
+    for name, line, rule, message in findings(root):
         print(f"{name}:{line}: {rule}: {message}")
         count += 1
-    print(f"check_layers: {count} findings" if count else "check_layers: the layers hold")
+    print(f"{checker}: {count} findings" if count else f"{checker}: {clean}")
     return 1 if count else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run("check_layers", "Checks layers, names and paths of the YARS tree.", findings_of, "the layers hold"))
