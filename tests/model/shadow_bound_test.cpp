@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,12 +49,12 @@ struct Truth {
   std::vector<bool> lit, known;
 };
 
-Truth brute_force(const Look& look, const terrain::TerrainView& finest, std::size_t samples) {
+Truth brute_force(const Look& look, const terrain::TerrainView& finest, double posts_m, std::size_t samples) {
   radar::Fidelity exact;
   const EffectiveEarth earth = effective_earth(exact, look.apex, look.azimuth);
   const geo::GeodesicRay ray(look.apex, look.azimuth);
   const double spacing_m = look.range.metres() / static_cast<double>(samples);
-  const auto steps = static_cast<int>(std::ceil(spacing_m / (0.1 * finest.post_spacing_m())));
+  const auto steps = static_cast<int>(std::ceil(spacing_m / (0.1 * posts_m)));
   const auto tangent = [&](double distance_m) {
     const double height_m = finest.elevation_m(ray.position(geo::Length::metres(distance_m)));
     return std::isnan(height_m) ? kNothing : earth.sight(look.altitude.metres(), distance_m, height_m).tangent;
@@ -78,8 +79,13 @@ struct Found {
   double wrong = 0.0, dark = 0.0, samples = 0.0;
 };
 
-Found compare(const char* preset, const Scan& scan, double range_nm, const terrain::TerrainView& finest,
-              const terrain::TerrainView& served) {
+// Ground at its finest, `posts_m` [m] between posts, and as a preset gets it.
+struct Ground {
+  std::shared_ptr<const terrain::TerrainView> finest, served;
+  double posts_m;
+};
+
+Found compare(const char* preset, const Scan& scan, double range_nm, const Ground& ground) {
   radar::RadarConfiguration configuration;
   configuration.fidelity = *radar::fidelity_preset(preset);
   configuration.fidelity.sub_beams = 1;  // the middle ray alone
@@ -90,8 +96,8 @@ Found compare(const char* preset, const Scan& scan, double range_nm, const terra
   Found found;
   for (double azimuth_deg = scan.first_deg; azimuth_deg <= scan.last_deg; azimuth_deg += scan.step_deg) {
     const Look look = look_along(scan, azimuth_deg, range_nm);
-    const Truth truth = brute_force(look, finest, count);
-    algorithm->measure(look, served, power);
+    const Truth truth = brute_force(look, *ground.finest, ground.posts_m, count);
+    algorithm->measure(look, *ground.served, power);
     algorithm->lit(lit);
     for (std::size_t i = 0; i < count; ++i) {
       if (!truth.known[i]) continue;
@@ -109,25 +115,36 @@ struct Bound {
 };
 constexpr Bound kBounds[] = {{"reference", 0.001}, {"standard", 0.005}, {"draft", 0.02}};
 
+// Returns the share in the dark; 0 where no ground is known.
+double expect_within(const Bound& bound, const std::string& name, const Scan& scan, double range_nm,
+                     const Ground& ground) {
+  const Found found = compare(bound.preset, scan, range_nm, ground);
+  if (found.samples == 0.0) return 0.0;
+  const double wrong = found.wrong / found.samples;
+  const double dark = found.dark / found.samples;
+  EXPECT_LE(wrong, bound.share) << name << ", " << bound.preset << ", " << range_nm << " NM";
+  std::printf("%s, %s, %g NM: %.0f samples, %.1f %% dark, %.3f %% differ\n", name.c_str(), bound.preset, range_nm,
+              found.samples, 100.0 * dark, 100.0 * wrong);
+  return dark;
+}
+
+constexpr double kRanges_nm[] = {4.7, 10.0, 20.0, 40.0, 80.0, 160.0};
+
 // Each preset over the level of terrain that it asks for. Returns the greatest share in the dark of all ranges.
-double expect_within_bounds(const std::string& name, const Scan& scan, const std::filesystem::path& folder) {
+double expect_within_bounds(const std::string& name, const Scan& scan, const std::filesystem::path& folder,
+                            std::span<const double> ranges_nm = kRanges_nm) {
   auto store = terrain::open_terrain({folder.string(), true});
   EXPECT_TRUE(store) << store.error().message();
   if (!store) return 0.0;
   double most_dark = 0.0;
-  for (const double range_nm : {4.7, 10.0, 20.0, 40.0, 80.0, 160.0})
+  for (const double range_nm : ranges_nm)
     for (const Bound& bound : kBounds) {
       const geo::Length range = geo::Length::nautical_miles(range_nm);
       const auto finest = (*store)->prepare({scan.apex, range.metres(), 0});
       const int detail = kernel::scan_detail(*radar::fidelity_preset(bound.preset), range);
       const auto served = (*store)->prepare({scan.apex, range.metres(), detail});
-      const Found found = compare(bound.preset, scan, range_nm, *finest, *served);
-      if (found.samples == 0.0) continue;
-      const double wrong = found.wrong / found.samples;
-      most_dark = std::max(most_dark, found.dark / found.samples);
-      EXPECT_LE(wrong, bound.share) << name << ", " << bound.preset << ", " << range_nm << " NM";
-      std::printf("%s, %s, %g NM: %.0f samples, %.1f %% dark, %.3f %% differ\n", name.c_str(), bound.preset, range_nm,
-                  found.samples, 100.0 * found.dark / found.samples, 100.0 * wrong);
+      const Ground ground{finest, served, finest->post_spacing_m()};
+      most_dark = std::max(most_dark, expect_within(bound, name, scan, range_nm, ground));
     }
   return most_dark;
 }
@@ -156,6 +173,57 @@ TEST(ShadowBound, HoldsOverTheMadeUpCoast) {
   const terrain::Landscape landscape(terrain::DefaultLandscape::kSeed);
   ASSERT_TRUE(terrain::write_dted(folder.path(), landscape.cell({37, -123}, kPosts, kPosts), 1));
   EXPECT_GT(expect_within_bounds("made-up coast", {{37.1, -122.95}, 4000.0, 10.0, 80.0, 10.0}, folder.path()), 0.02);
+}
+
+// Ranges, ridges and gullies about a pole: heights are a function of the place in the plane of the pole, so that the
+// columns of all cells meet there. Rows every 10", columns every 60" (DTED: six times as far as rows beyond 80
+// degrees).
+constexpr int kPolarRows = 361, kPolarColumns = 61;
+constexpr double kPolarDegree_m = 111'694.0;  // WGS84, of a meridian at the pole
+
+terrain::Cell polar_mountains(terrain::CellPlace place) {
+  return test::cell_of(place, kPolarRows, kPolarColumns, [&](int row, int column) {
+    const double r = kPolarDegree_m * (90.0 - std::abs(place.south_deg + row / (kPolarRows - 1.0)));
+    const double east_rad = (place.west_deg + column / (kPolarColumns - 1.0)) * geo::kRadiansPerDegree;
+    const double x = r * std::sin(east_rad) + 900.0, y = r * std::cos(east_rad);
+    return static_cast<int>(1700.0 + 600.0 * std::sin(x / 3500.0) * std::cos(y / 4800.0) +
+                            240.0 * std::sin(x / 900.0 + y / 1650.0) +
+                            90.0 * std::abs(std::sin(x / 700.0 - y / 520.0)));
+  });
+}
+
+std::shared_ptr<const terrain::CellView> polar_cap(std::initializer_list<int> souths_deg) {
+  auto view = std::make_shared<terrain::CellView>(1, terrain::Absence::sea);
+  for (const int south_deg : souths_deg)
+    for (int west_deg = -180; west_deg < 180; ++west_deg)
+      view->add(std::make_shared<const terrain::Cell>(polar_mountains({south_deg, west_deg})));
+  return view;
+}
+
+void expect_polar_bounds(const std::shared_ptr<const terrain::CellView>& cap, const Scan& scan,
+                         std::initializer_list<double> ranges_nm) {
+  // Columns close up towards the pole; it is walked by a tenth of what they are 30' from it.
+  const Ground ground{cap, cap, kPolarDegree_m / (kPolarColumns - 1) * 0.5 * geo::kRadiansPerDegree};
+  for (const double range_nm : ranges_nm)
+    for (const Bound& bound : kBounds) {
+      const std::string name = "from " + std::to_string(scan.apex.latitude_deg);
+      EXPECT_GT(expect_within(bound, name, scan, range_nm, ground), 0.02);
+    }
+}
+
+// From beside the pole past it and over it, along the parallels, from the pole itself; the antimeridian on the way.
+TEST(ShadowBound, HoldsNearTheNorthPole) {
+  const auto cap = polar_cap({88, 89});
+  expect_polar_bounds(cap, {{88.5, 20.5}, 12000.0, 351.0, 369.0, 4.5}, {10.0, 40.0, 160.0});
+  expect_polar_bounds(cap, {{89.5, -179.9}, 12000.0, 240.0, 480.0, 40.0}, {10.0, 80.0});
+  expect_polar_bounds(cap, {{89.999, 100.0}, 12000.0, 0.0, 350.0, 70.0}, {10.0, 80.0});
+  expect_polar_bounds(cap, {{90.0, 0.0}, 12000.0, 0.0, 350.0, 70.0}, {10.0, 80.0});
+}
+
+TEST(ShadowBound, HoldsNearTheSouthPole) {
+  const auto cap = polar_cap({-90});
+  expect_polar_bounds(cap, {{-89.5, 179.9}, 12000.0, 60.0, 300.0, 40.0}, {40.0});
+  expect_polar_bounds(cap, {{-90.0, 0.0}, 12000.0, 0.0, 350.0, 70.0}, {40.0});
 }
 
 TEST(ShadowBound, HoldsOverRealMountains) {
