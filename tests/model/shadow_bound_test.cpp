@@ -175,6 +175,22 @@ TEST(ShadowBound, HoldsOverTheMadeUpCoast) {
   EXPECT_GT(expect_within_bounds("made-up coast", {{37.1, -122.95}, 4000.0, 10.0, 80.0, 10.0}, folder.path()), 0.02);
 }
 
+// The same mountains with 1" posts and what such posts show of gullies and crags.
+TEST(ShadowBound, HoldsOverMountainsOfFinePosts) {
+  constexpr int kFine = 3601;
+  const terrain::Cell fine = test::cell_of({38, -115}, kFine, kFine, [](int row, int column) {
+    const double x = column + 33.0 * std::sin(row * 0.0137), y = row + 27.0 * std::sin(column * 0.0177);
+    return static_cast<int>(2000.0 + 450.0 * std::sin(x * 0.0143) * std::cos(y * 0.0103) +
+                            170.0 * std::sin(x * 0.057 + y * 0.031) + 60.0 * std::abs(std::sin(x * 0.103 - y * 0.143)) +
+                            22.0 * std::sin(x * 0.33) * std::sin(y * 0.27) + 6.0 * std::sin(x * 0.97 + y * 0.71));
+  });
+  test::TemporaryFolder folder;
+  ASSERT_TRUE(terrain::write_dted(folder.path(), fine, 2));
+  constexpr double kFar_nm[] = {40.0, 80.0, 160.0};
+  const Scan scan{{38.3, -114.9}, 15000.0, 20.0, 80.0, 20.0};
+  EXPECT_GT(expect_within_bounds("fine mountains", scan, folder.path(), kFar_nm), 0.3);
+}
+
 // Ranges, ridges and gullies about a pole: heights are a function of the place in the plane of the pole, so that the
 // columns of all cells meet there. Rows every 10", columns every 60" (DTED: six times as far as rows beyond 80
 // degrees).
