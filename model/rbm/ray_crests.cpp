@@ -13,11 +13,12 @@ constexpr double kBend_m = 1.0;            // a thirtieth of the spacing of 1" p
 constexpr double kShortest_m = 3.0;        // a tenth of it
 constexpr double kOwnGround_m = 1.0;       // no piece ends so near before a place
 
-// [m] of the longest way between two places.
-float longest_step(std::span<const float> distance_m) {
-  float longest = distance_m.empty() ? 0.0F : distance_m[0];
-  for (std::size_t i = 1; i < distance_m.size(); ++i) longest = std::max(longest, distance_m[i] - distance_m[i - 1]);
-  return longest;
+// [m] of the longest way between two places that are even over ground or in slant range: one of the first that is any.
+double longest_way(std::span<const float> distance_m) {
+  const auto first = std::upper_bound(distance_m.begin(), distance_m.end(), 0.0F);
+  if (first == distance_m.end()) return 0.0;
+  const auto next = first + 1;
+  return static_cast<double>(next == distance_m.end() ? *first : std::max(*first, *next - *first));
 }
 }  // namespace
 
@@ -33,8 +34,8 @@ RayCrests::RayCrests(std::size_t places)
 bool RayCrests::find(const terrain::TerrainView& terrain, const Ray& ray, const PlaceArrays& places,
                      const terrain::RaySight& sight, std::span<float> tangent) {
   const PoleWay way(ray.apex, ray.azimuth, kBend_m, kShortest_m);
-  const auto longest_m = static_cast<double>(longest_step(sight.distance_m));
-  if (way.least_straight_m(0.0, ray.range.metres()) >= longest_m) return terrain.crests(places.run(), sight, tangent);
+  if (way.least_straight_m(0.0, ray.range.metres()) >= longest_way(sight.distance_m))
+    return terrain.crests(places.run(), sight, tangent);
   split(way, sight.distance_m);
   const std::size_t count = pieces_.count;
   sample_places(ray.apex, ray.azimuth, ray.range, ray.knots, distance_m_.data(), pieces_);
