@@ -37,12 +37,12 @@ double GroundWalk::highest_tangent(double from_m, double to_m) const {
 
 // All as long.
 double GroundWalk::highest_of_pieces(const geo::GeodesicRay& ray, double from_m, double to_m) const {
-  const double pieces = std::max(1.0, std::ceil((to_m - from_m) / kPiece_m));
+  const int pieces = static_cast<int>(std::max(1.0, std::ceil((to_m - from_m) / kPiece_m)));
   double highest = kNothing;
-  for (double piece = 0.0; piece < pieces; piece += 1.0) {
+  for (int piece = 0; piece < pieces; ++piece) {
     const double begin_m = from_m + (to_m - from_m) * piece / pieces;
-    const double end_m = from_m + (to_m - from_m) * (piece + 1.0) / pieces;
-    highest = std::max(highest, highest_of_piece(ray, begin_m, end_m, piece + 1.0 < pieces));
+    const double end_m = from_m + (to_m - from_m) * (piece + 1) / pieces;
+    highest = std::max(highest, highest_of_piece(ray, begin_m, end_m, piece + 1 < pieces));
   }
   return highest;
 }
@@ -77,10 +77,12 @@ double GroundWalk::highest_of_columns(const Piece& piece) const {
   const double columns = piece.east_deg / piece.posts.columns_deg;
   const double steps = (piece.to_m - piece.from_m) * kStepsAPost / piece.posts.walked_m;
   const double stride = std::max(1.0, std::floor(std::abs(columns) / std::max(steps, 1.0)));
-  const double last = std::max(first, first + columns);
+  const double first_line = std::floor(std::min(first, first + columns)) + 1.0;
+  const double last_line = std::ceil(std::max(first, first + columns)) - 1.0;
+  const int lines = static_cast<int>(std::floor((last_line - first_line) / stride)) + 1;
   double highest = kNothing;
-  for (double line = std::floor(std::min(first, first + columns)) + 1.0; line < last; line += stride)
-    highest = std::max(highest, tangent_along(piece, (line - first) / columns));
+  for (int line = 0; line < lines; ++line)
+    highest = std::max(highest, tangent_along(piece, (first_line + line * stride - first) / columns));
   return highest;
 }
 

@@ -212,7 +212,9 @@ void CellView::raise_first_crest(const PlaceRun& places, const RaySight& sight, 
   const float share = sight.distance_m[0] / step_m;
   using Two = std::array<float, 2 + kRunSlack>;
   const auto back = [&](std::span<const float> cells, std::span<const float> degrees) {
-    return degrees[0] - share * ((cells[1] - cells[0]) + (degrees[1] - degrees[0]));
+    // Beside a pole neighbours may be named a turn apart.
+    const float cells_on = std::remainder(cells[1] - cells[0], 360.0F);
+    return degrees[0] - share * (cells_on + (degrees[1] - degrees[0]));
   };
   const Two cells_north{places.cells_north[0], places.cells_north[0]};
   const Two cells_east{places.cells_east[0], places.cells_east[0]};

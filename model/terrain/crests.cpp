@@ -162,20 +162,21 @@ class Ways {
     const auto one = hn::Set(d, 1.0F);
     const Lines lines = lines_between(axis, static_cast<float>(lines_of_grid - 2));
     const auto count = hn::IfThenElseZero(wanted_, lines.count);
-    const auto most = hn::GetLane(hn::MaxOfLanes(d, count));
-    if (most < 1.0F) return;
+    const int most = static_cast<int>(hn::GetLane(hn::MaxOfLanes(d, count)));
+    if (most < 1) return;
     const auto run = hn::Sub(axis.to, axis.from);
     const auto inverse = hn::Div(one, hn::IfThenElse(hn::Eq(run, zero), one, run));
     const auto drift = hn::Sub(other.to, other.from);
     const auto farthest_m = hn::Sub(way_m_, hn::Set(d, kOwnGround_m));
     const auto line_end = hn::Set(d, static_cast<float>(posts_of_line - 1));
     const auto last_post = hn::Set(d, static_cast<float>(posts_of_line - 2));
-    for (float number = 0.0F; number < most; number += 1.0F) {
-      const auto line = fused::mul_add(hn::Set(d, number), axis.step, lines.first);
+    for (int i = 0; i < most; ++i) {
+      const auto number = hn::Set(d, static_cast<float>(i));
+      const auto line = fused::mul_add(number, axis.step, lines.first);
       const auto share = hn::Mul(hn::Sub(line, axis.from), inverse);
       const auto at = fused::mul_add(share, drift, other.from);
       const auto on_m = hn::Mul(share, way_m_);
-      auto counts = hn::And(hn::Lt(hn::Set(d, number), count), hn::Lt(on_m, farthest_m));
+      auto counts = hn::And(hn::Lt(number, count), hn::Lt(on_m, farthest_m));
       counts = hn::And(counts, hn::And(hn::Ge(at, zero), hn::Le(at, line_end)));
       const auto post = hn::Min(hn::Floor(at), last_post);
       const Posts posts = posts_at(whole(counts, line), whole(counts, post));
