@@ -27,7 +27,7 @@ Fidelity draft() {
   Fidelity fidelity;
   fidelity.earth = EarthModel::sphere;
   fidelity.geodesic_knots = 3;
-  fidelity.posts_per_sample = 8.0;
+  fidelity.posts_per_sample = 20.0;
   fidelity.samples = 240;
   fidelity.azimuth_smear = false;
   fidelity.pulse_smear = false;

@@ -1,6 +1,7 @@
 // The ground along a ray between two distances, in plain double: what the reference raises its horizon with between its
 // samples. Steps of a tenth of the posts' spacing, exact geodesic places at most 500 m apart and straight ways in
-// latitude and longitude between them (5 mm off up to 60 degrees of latitude, 0.2 m at 88).
+// latitude and longitude between them: 5 mm off up to 60 degrees of latitude, 0.2 m from 88 to the pole, where places
+// lie closer.
 // Source: spec physics.md "Shadow".
 #pragma once
 
@@ -16,13 +17,6 @@
 #include "model/terrain/terrain_view.hpp"
 
 namespace yars::model::rbm {
-
-// Where an aircraft is so near to a pole, the samples alone raise the horizon: ways between them are not straight in
-// latitude and longitude.
-inline bool near_pole(const Look& look) {
-  constexpr double kStraightTo_deg = 88.0;  // of latitude
-  return std::abs(look.apex.latitude_deg) > kStraightTo_deg;
-}
 
 class GroundWalk {
  public:
@@ -48,7 +42,17 @@ class GroundWalk {
   }
 
  private:
+  double highest_of_pieces(const geo::GeodesicRay& ray, double from_m, double to_m) const;
+  // A way that counts as straight in latitude and longitude, `east_deg` unwrapped.
+  struct Piece {
+    geo::GeoPoint begin;
+    double north_deg, east_deg;
+    double from_m, to_m;
+    terrain::PostSpacing posts;
+  };
   double highest_of_piece(const geo::GeodesicRay& ray, double from_m, double to_m, bool with_end) const;
+  double highest_of_columns(const Piece& piece) const;
+  double tangent_along(const Piece& piece, double share) const;
   double tangent(geo::GeoPoint place, double distance_m) const;
 
   const Look& look_;

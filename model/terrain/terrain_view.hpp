@@ -50,6 +50,12 @@ struct SurfaceRun {
 // Arrays of the fast path have this many entries more behind the last one, which may be read and overwritten.
 inline constexpr std::size_t kRunSlack = 16;
 
+// How close the posts of a cell stand.
+struct PostSpacing {
+  double walked_m = 0.0;     // between the closest, but columns nearer than a third of the rows count as that far apart
+  double columns_deg = 0.0;  // of longitude, between columns; one lies on every whole degree
+};
+
 // How a ray sees its ground, for the fast path: from an eye at its beginning, over a sphere.
 struct RaySight {
   double altitude_m = 0.0;            // MSL of the eye
@@ -84,8 +90,8 @@ class TerrainView {
   // [m] between the closest posts anywhere in it: between them the ground is what interpolation makes of it. 0: not
   // told.
   virtual double post_spacing_m() const { return 0.0; }
-  // [m] between the posts about a place; 0: none there, or not told.
-  virtual double post_spacing_at(geo::GeoPoint /*place*/) const { return 0.0; }
+  // The posts about a place; all 0: none there, or not told.
+  virtual PostSpacing post_spacing_at(geo::GeoPoint /*place*/) const { return {}; }
   // True if a material other than 0 may be found anywhere.
   virtual bool has_materials() const { return false; }
 
