@@ -7,7 +7,6 @@
 namespace yars::model::rbm {
 
 namespace {
-constexpr double kStepsAPost = 10.0;
 constexpr double kPiece_m = 500.0;
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
@@ -37,7 +36,7 @@ double GroundWalk::highest_of_piece(const geo::GeodesicRay& ray, double from_m, 
   if (!(spacing_m > 0.0)) return kNothing;
   const double north_deg = end.latitude_deg - begin.latitude_deg;
   const double east_deg = geo::wrapped_degrees(end.longitude_deg - begin.longitude_deg);
-  const double steps = std::ceil((to_m - from_m) * kStepsAPost / spacing_m);
+  const double steps = std::ceil((to_m - from_m) * steps_a_post_ / spacing_m);
   double highest = kNothing;
   for (double step = 1.0; with_end ? step <= steps : step < steps; step += 1.0) {
     const double share = step / steps;
