@@ -246,6 +246,7 @@ void GroundFan::raise_to_summits(const PatchGeometry& geometry, std::size_t lane
   const std::size_t rows = window_->places.count;
   const float* const distance_m = window_->distance_m.data();
   const float* const height_m = &strip_height_[lane * pitch_];
+  const float* const gain = &strip_gain_[lane * pitch_];
   float* const crest_m = &strip_crest_[lane * pitch_];
   const auto plane_m = static_cast<float>(geometry.plane_msl_m());
   const auto above_m = [&](std::size_t row) { return row_sight_[row].above_m - plane_m; };
@@ -254,7 +255,9 @@ void GroundFan::raise_to_summits(const PatchGeometry& geometry, std::size_t lane
   float before = tangent(0), here = tangent(1);
   for (std::size_t row = 1; row + 1 < rows; ++row) {
     const float after = tangent(row + 1);
-    if (here >= before && here >= after && (here > before || here > after)) {
+    // A void's height is its neighbour's: the step behind it is no summit.
+    const bool known = gain[row - 1] > 0.0F && gain[row] > 0.0F && gain[row + 1] > 0.0F;
+    if (known && here >= before && here >= after && (here > before || here > after)) {
       const float lean = after - before;
       const float summit = here + 0.125F * lean * lean / (here - before + (here - after));
       const std::size_t hidden = lean < 0.0F ? row : row + 1;
@@ -284,7 +287,9 @@ void GroundFan::level(const PatchGeometry& geometry, std::size_t lane) {
     holes += std::isnan(height_m[row]) ? 1 : 0;
   }
   if (holes == 0) return;
-  float last_m = 0.0F;
+  // Voids before all ground are as high as the first: they hide nothing of it.
+  const float* const known = std::find_if(height_m, height_m + rows, [](float height) { return !std::isnan(height); });
+  float last_m = known < height_m + rows ? *known : 0.0F;
   for (std::size_t row = 0; row < rows; ++row) {
     const bool hole = std::isnan(height_m[row]);
     if (!hole) last_m = height_m[row];

@@ -35,7 +35,8 @@ struct PatchTerrain {
 
 // By FanGrid::at(); the horizon by column.
 struct GroundArrays {
-  SurfacePoint* surface = nullptr;  // a void takes over its nearer neighbour's height, and returns nothing
+  SurfacePoint* surface = nullptr;  // a void takes over its nearer neighbour's height (the first one's, where none is
+                                    // nearer), and returns nothing
   float* horizon = nullptr;         // greatest (height - above) / distance before row 0
   // The ground on the way from the row before, raised to where a line of sight over its top passes this row: height
   // above the map plane; far below it where there is none. Null: not asked.

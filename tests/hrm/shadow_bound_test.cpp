@@ -16,6 +16,7 @@
 #include "model/hrm/ground_fan.hpp"
 #include "model/hrm/patch_layout.hpp"
 #include "model/hrm/reference_patch.hpp"
+#include "model/terrain/cell_view.hpp"
 #include "model/terrain/dted_writer.hpp"
 #include "model/terrain/landscape.hpp"
 #include "model/terrain/open_terrain.hpp"
@@ -219,6 +220,34 @@ double expect_within_bounds(const Country& country) {
                   window_nm, found.points, 100.0 * found.dark / found.points, 100.0 * wrong);
     }
   return most_dark;
+}
+
+// Whole maps: a wall of one post's width, far narrower than a row, darkens the ground behind it.
+TEST(PatchShadow, OfAWallBetweenRowsLiesOnTheMap) {
+  auto view = std::make_shared<terrain::CellView>(1, terrain::Absence::none);
+  for (const int south : {36, 37, 38})
+    view->add(std::make_shared<const terrain::Cell>(
+        cell_of({south, -123}, 1201, 1201, [&](int row, int) { return south == 37 && row == 601 ? 1000 : 10; })));
+  for (const auto algorithm : {radar::Algorithm::standard, radar::Algorithm::reference})
+    for (const double window_nm : {20.0, 40.0}) {
+      radar::RadarConfiguration configuration = bare_map(48);
+      configuration.fidelity.algorithm = algorithm;
+      hrm::PatchOrder order;
+      order.centre = {37.5, -122.5};
+      order.apex = {36.6, -122.5};
+      order.altitude = geo::AltitudeMsl::metres(5000.0);
+      order.window = geo::Length::nautical_miles(window_nm);
+      const auto process = make_patch(configuration, order, view);
+      const hrm::MapImage& image = process.image();
+      const double pixel_m = process.geometry().window_m() / image.size;
+      // The wall stands 93 m beyond the centre; its shadow is 25 km long.
+      for (int row = 0; row < image.size; ++row) {
+        const double beyond_m = 0.5 * process.geometry().window_m() - (row + 0.5) * pixel_m - 93.0;
+        if (std::abs(beyond_m) < 2.0 * pixel_m || beyond_m > 20000.0) continue;
+        EXPECT_EQ(image.power[image.at(image.size / 2, row)] > 0.0F, beyond_m < 0.0)
+            << window_nm << " NM, " << beyond_m << " m behind the wall";
+      }
+    }
 }
 
 TEST(PatchShadowBound, HoldsOverTheMadeUpCoast) {
