@@ -12,9 +12,10 @@
 namespace yars::model::hrm {
 
 namespace {
-// Spacing [m] of the samples on the way to the window: about that of fine posts; a narrower ridge hides next to
-// nothing.
+// Spacing [m] of the samples on the way to the window: of ground without posts, and of ground whose lines of posts are
+// looked at between them, where ways are straight in latitude and longitude within 5 mm.
 constexpr double kPathSpacing_m = 60.0;
+constexpr double kWaySpacing_m = 500.0;
 constexpr double kMostPathSamples = 4096.0;
 constexpr float kNoHorizon = -1.0e6F;  // below every ray, and below every ground [m]
 // Where posts are many columns apart, every third or fifth column is read, the first and the last of a strip among
@@ -74,7 +75,7 @@ GroundFan::GroundFan(const radar::RadarConfiguration& configuration)
     : configuration_(configuration),
       plain_gamma_(static_cast<float>(reflectivity::make_land_return(configuration).gamma[0])) {}
 
-void GroundFan::begin(const PatchGeometry& geometry, const FanGrid& grid) {
+void GroundFan::begin(const PatchGeometry& geometry, const FanGrid& grid, const terrain::TerrainView& path) {
   const auto rows = static_cast<std::size_t>(grid.rows);
   if (!window_ || window_->places.count != rows) {
     window_ = std::make_unique<Column>(rows);
@@ -96,7 +97,8 @@ void GroundFan::begin(const PatchGeometry& geometry, const FanGrid& grid) {
     sin_grazing_[row] = static_cast<float>(std::max(0.0, geometry.earth().sight(above_m, distance_m, 0.0).sin_grazing));
   }
   const double path_m = grid.first_distance_m;
-  const auto samples = static_cast<std::size_t>(std::clamp(std::ceil(path_m / kPathSpacing_m), 1.0, kMostPathSamples));
+  const double spacing_m = path.post_spacing_m() > 0.0 ? kWaySpacing_m : kPathSpacing_m;
+  const auto samples = static_cast<std::size_t>(std::clamp(std::ceil(path_m / spacing_m), 1.0, kMostPathSamples));
   if (!path_ || path_->places.count != samples) path_ = std::make_unique<Column>(samples);
   // The last one lies below row 0 and is no part of the way.
   path_sight_.clear();

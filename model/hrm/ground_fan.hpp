@@ -48,7 +48,7 @@ class GroundFan {
   explicit GroundFan(const radar::RadarConfiguration& configuration);
 
   // Before the first columns of a map.
-  void begin(const PatchGeometry& geometry, const FanGrid& grid);
+  void begin(const PatchGeometry& geometry, const FanGrid& grid, const terrain::TerrainView& path);
   // Fills the columns [first, last), whole strips; `detail` null: none. Returns how many samples met terrain that was
   // not loaded.
   std::size_t fill(const PatchOrder& order, const PatchGeometry& geometry, const FanGrid& grid,

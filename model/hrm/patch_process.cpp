@@ -164,7 +164,7 @@ void PatchProcess::Work::clear_walls() {
 
 void PatchProcess::Work::read_terrain() {
   share_strips([&](int first, int last, std::size_t thread) {
-    if (begun[thread] == 0) grounds[thread].begin(*geometry, grid);
+    if (begun[thread] == 0) grounds[thread].begin(*geometry, grid, *database.path);
     begun[thread] = 1;
     pending[thread] +=
         grounds[thread].fill(order, *geometry, grid, {database.window.get(), database.path.get(), crests}, detail.get(),

@@ -109,7 +109,7 @@ std::unique_ptr<Fan> fan_of(const radar::RadarConfiguration& configuration, cons
   }
   fan->crests = hrm::crests_between_rows(grid, *window, smooth != window);
   hrm::GroundFan ground(configuration);
-  ground.begin(geometry, grid);
+  ground.begin(geometry, grid, *path);
   ground.fill(order, geometry, grid, {smooth.get(), path.get(), fan->crests}, nullptr, 0, grid.columns,
               {fan->surface.data(), fan->horizon.data(), fan->crests.any() ? fan->crest_m.data() : nullptr});
   return fan;
@@ -236,6 +236,7 @@ TEST(PatchShadow, OfAWallBetweenRowsLiesOnTheMap) {
       order.centre = {37.5, -122.5};
       order.apex = {36.6, -122.5};
       order.altitude = geo::AltitudeMsl::metres(5000.0);
+      order.ground_track = geo::Bearing::degrees(90.0);
       order.window = geo::Length::nautical_miles(window_nm);
       const auto process = make_patch(configuration, order, view);
       const hrm::MapImage& image = process.image();
