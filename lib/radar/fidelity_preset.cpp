@@ -19,6 +19,7 @@ Fidelity of_1996() {
   fidelity.map_layover = false;
   fidelity.map_response = false;
   fidelity.map_detail = false;
+  fidelity.map_smooth_ground = false;
   return fidelity;
 }
 
@@ -33,6 +34,7 @@ Fidelity draft() {
   fidelity.pulse_smear = false;
   fidelity.map_response = false;
   fidelity.map_detail = false;
+  fidelity.map_smooth_ground = false;
   return fidelity;
 }
 

@@ -9,7 +9,6 @@
 namespace yars::model::rbm {
 
 namespace {
-constexpr double kStepsAPost = 10.0;
 constexpr double kPiece_m = 500.0;              // longest
 constexpr double kShortest_m = 1.0;             // beside a pole
 constexpr double kBend_m = 0.2;                 // that a piece may lie off the straight way
@@ -60,7 +59,7 @@ double GroundWalk::highest_of_piece(const geo::GeodesicRay& ray, double from_m, 
                     from_m,
                     to_m,
                     posts};
-  const double steps = std::ceil((to_m - from_m) * kStepsAPost / posts.walked_m);
+  const double steps = std::ceil((to_m - from_m) * steps_a_post_ / posts.walked_m);
   double highest = highest_of_columns(piece);
   for (double step = 1.0; with_end ? step <= steps : step < steps; step += 1.0)
     highest = std::max(highest, tangent_along(piece, step / steps));
@@ -75,7 +74,7 @@ double GroundWalk::highest_of_columns(const Piece& piece) const {
   if (column_m >= piece.posts.walked_m) return kNothing;
   const double first = piece.begin.longitude_deg / piece.posts.columns_deg;
   const double columns = piece.east_deg / piece.posts.columns_deg;
-  const double steps = (piece.to_m - piece.from_m) * kStepsAPost / piece.posts.walked_m;
+  const double steps = (piece.to_m - piece.from_m) * steps_a_post_ / piece.posts.walked_m;
   const double stride = std::max(1.0, std::floor(std::abs(columns) / std::max(steps, 1.0)));
   const double first_line = std::floor(std::min(first, first + columns)) + 1.0;
   const double last_line = std::ceil(std::max(first, first + columns)) - 1.0;

@@ -20,10 +20,12 @@ namespace yars::model::rbm {
 
 class GroundWalk {
  public:
+  static constexpr double kStepsAPost = 10.0;
+
   // All are kept by reference.
   GroundWalk(const Look& look, const EffectiveEarth& earth, const terrain::TerrainView& terrain,
-             radar::Interpolation interpolation)
-      : look_(look), earth_(earth), terrain_(terrain), interpolation_(interpolation) {}
+             radar::Interpolation interpolation, double steps_a_post = kStepsAPost)
+      : look_(look), earth_(earth), terrain_(terrain), interpolation_(interpolation), steps_a_post_(steps_a_post) {}
 
   const EffectiveEarth& earth() const { return earth_; }
 
@@ -59,6 +61,7 @@ class GroundWalk {
   const EffectiveEarth& earth_;
   const terrain::TerrainView& terrain_;
   radar::Interpolation interpolation_;
+  double steps_a_post_;
 };
 
 }  // namespace yars::model::rbm

@@ -104,6 +104,18 @@ PostSpacing CellView::post_spacing_at(geo::GeoPoint place) const {
   return {walked_spacing_m(cell), 1.0 / (cell.columns() - 1)};
 }
 
+std::vector<std::shared_ptr<const Cell>> CellView::cells_within(const GeoBox& box) const {
+  std::vector<std::shared_ptr<const Cell>> found;
+  const auto first_of = [](double edge_deg) { return static_cast<int>(std::floor(edge_deg)); };
+  const int last_west = std::min(first_of(box.east_deg), first_of(box.west_deg) + kCellColumns - 1);
+  for (int south = std::max(first_of(box.south_deg), -90); south <= std::min(first_of(box.north_deg), 89); ++south)
+    for (int west = first_of(box.west_deg); west <= last_west; ++west) {
+      const std::uint16_t what = entry(cell_holding({south + 0.5, geo::wrapped_degrees(west + 0.5)}));
+      if (what >= kFirstCell) found.push_back(cells_[what - kFirstCell].heights);
+    }
+  return found;
+}
+
 CellView::Run CellView::run_at(const PlaceRun& places, std::size_t first) const {
   Run run;
   run.first = first;

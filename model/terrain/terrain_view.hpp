@@ -16,6 +16,14 @@
 
 namespace yars::model::terrain {
 
+class Cell;
+
+// A part of the earth between two parallels and two meridians. West is less than east, which may be beyond 180.
+struct GeoBox {
+  double south_deg = 0.0, north_deg = 0.0;
+  double west_deg = 0.0, east_deg = 0.0;
+};
+
 // The ground at one place.
 struct Surface {
   double elevation_m = 0.0;     // [m] MSL; NaN = void
@@ -92,6 +100,8 @@ class TerrainView {
   virtual double post_spacing_m() const { return 0.0; }
   // The posts about a place; all 0: none there, or not told.
   virtual PostSpacing post_spacing_at(geo::GeoPoint /*place*/) const { return {}; }
+  // The cells of posts that have a part in a box; none where the ground is not made of posts.
+  virtual std::vector<std::shared_ptr<const Cell>> cells_within(const GeoBox& /*box*/) const { return {}; }
   // True if a material other than 0 may be found anywhere.
   virtual bool has_materials() const { return false; }
 
