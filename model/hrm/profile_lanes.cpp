@@ -119,7 +119,8 @@ HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const Str
   }
   auto row = begin;
   float* power = strip.power + static_cast<std::size_t>(hn::GetLane(begin)) * kStripColumns + lane;
-  for (float left = rows; left >= 0.0F; left -= 1.0F) {
+  const int count = rows >= 0.0F ? static_cast<int>(rows) + 1 : 0;
+  for (int i = 0; i < count; ++i) {
     hn::Store(hn::Add(hn::Add(hn::Load(d, power), share_of(first, row)), share_of(second, row)), d, power);
     row = hn::Add(row, hn::Set(d, 1.0F));
     power += kStripColumns;

@@ -74,8 +74,11 @@ void ReferencePatch::read_column(const PatchTerrain& terrain, int column) {
   };
   // Ground without posts is looked at itself: the sea, which hides what lies beyond its horizon.
   const auto look_between = [&](const terrain::TerrainView& view, double from_m, double to_m, double step_m) {
-    for (double distance_m = from_m + step_m; distance_m < to_m; distance_m += step_m)
+    const auto steps = static_cast<int>(std::ceil((to_m - from_m) / step_m));
+    for (int step = 1; step < steps; ++step) {
+      const double distance_m = from_m + step * step_m;
       raise(tangent(distance_m, height_m(view, distance_m)));
+    }
   };
   const bool posts = terrain.path->post_spacing_m() > 0.0;
   look_between(*terrain.path, 0.0, grid.first_distance_m, posts ? kSeaSpacing_m : kPathSpacing_m);

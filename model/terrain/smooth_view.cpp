@@ -243,7 +243,7 @@ void Grid::flatten(const std::vector<GeoBox>& boxes) {
 
 // One interval of posts with all its edges: neighbours make the same of them.
 void Grid::blend(int row, int column, const std::vector<float>& share, const memory::LineVector<float>& smooth_m) {
-  const auto pitch = static_cast<std::size_t>(part_.last_column - part_.first_column + 1);
+  const std::size_t pitch = static_cast<std::size_t>(part_.last_column - part_.first_column) + 1;
   const std::size_t at = static_cast<std::size_t>(row) * pitch + static_cast<std::size_t>(column);
   const std::array<float, 4> keep{share[at], share[at + 1], share[at + pitch], share[at + pitch + 1]};
   if (keep == std::array{1.0F, 1.0F, 1.0F, 1.0F}) return;

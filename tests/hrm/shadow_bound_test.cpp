@@ -29,7 +29,6 @@ namespace yars::test {
 namespace {
 
 namespace terrain = model::terrain;
-namespace rbm = model::rbm;
 
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 constexpr double kWindows_nm[] = {0.67, 1.3, 2.0, 3.3, 4.7, 10.0, 20.0, 40.0, 80.0};
@@ -128,7 +127,8 @@ class Truth {
     const double first_m = fan.grid.first_distance_m;
     // Where rows are closer than a tenth their shadows' ends are told as closely.
     const double path_step_m = std::clamp(0.3 * fan.grid.spacing_m, 0.1 * step_m, step_m);
-    for (double distance_m = path_step_m; distance_m < first_m; distance_m += path_step_m) add(path, distance_m);
+    const int path_steps = static_cast<int>(std::ceil(first_m / path_step_m));
+    for (int step = 1; step < path_steps; ++step) add(path, step * path_step_m);
     const int steps = static_cast<int>(std::ceil(fan.grid.spacing_m / step_m));
     for (int row = 0; row + 1 < fan.grid.rows; ++row)
       for (int step = 0; step < steps; ++step)
