@@ -117,7 +117,9 @@ std::vector<SlotSchema> fidelity_slots() {
        .lowest = 0,
        .highest = 1,
        .binding = NumberSlot{YARS_FIELD(radar.fidelity.map_noise)},
-       .purpose = "random part of the brightness of a patch map of the preset 1996"}};
+       .purpose = "random part of the brightness of a patch map of the preset 1996"},
+      flag("mapSmoothGround", YARS_FIELD(radar.fidelity.map_smooth_ground),
+           "ground of patch maps is smooth between posts that lie farther apart than two pixels; else facets")};
 }
 
 SlotSchema number(std::string_view name, std::string_view unit, double lowest, double highest, double& (*of)(Draft&),

@@ -49,9 +49,9 @@ bool passes(std::string_view text) {
   return filtered().filter.passes(text, now_ns());
 }
 
-std::vector<RepeatFilter::LeftOut> left_out() {
+std::vector<RepeatFilter::LeftOut> left_out(LeftOut which) {
   const std::lock_guard guard(filtered().mutex);
-  return filtered().filter.take_left_out(now_ns());
+  return filtered().filter.take_left_out(now_ns(), which == LeftOut::all);
 }
 
 // spdlog's own file sinks follow whatever link lies at the log's name.
@@ -117,8 +117,8 @@ void start_log_file(const std::string& program, const std::string& folder) {
   }
 }
 
-void log_left_out() {
-  for (const auto& lines : left_out()) spdlog::info("{}", failure::printable(lines.text()));
+void log_left_out(LeftOut which) {
+  for (const auto& lines : left_out(which)) spdlog::info("{}", failure::printable(lines.text()));
 }
 
 void log_debug(std::string_view text) {

@@ -21,8 +21,9 @@ void log_info(std::string_view text);
 void log_warning(std::string_view text);
 void log_error(std::string_view text);
 // Of lines of one kind (RepeatFilter) ten pass within 10 s, of all kinds two hundred; the rest are counted. This tells
-// of those whose time is over; Session::heartbeat() calls it.
-void log_left_out();
+// of those whose time is over, or at the end of the program of all. Session::heartbeat() and run_program() call it.
+enum class LeftOut { over, all };
+void log_left_out(LeftOut which);
 // A line for the file alone: standard error has it already, in other words.
 void log_to_file(std::string_view text);
 

@@ -125,6 +125,7 @@ int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& opti
     if (!error) {
       if (auto outcome = body(); !outcome) error = outcome.error();
     }
+    log_left_out(LeftOut::all);
     if (!error) return 0;
     print_failure(app.get_name(), error->message());
     return error->bad_usage ? kExitUsage : kExitFailure;

@@ -230,7 +230,7 @@ void Session::heartbeat() {
   state_->keep_entry();
   state_->look_for_name();
   state_->tell_left_out(now_ns, false);
-  log_left_out();
+  log_left_out(LeftOut::over);
 }
 
 void Session::show_progress(std::uint32_t progress) {

@@ -71,11 +71,12 @@ struct Fidelity {
   bool pulse_smear = true;
   BeamPattern beam = BeamPattern::cosecant_squared;
   // Of patch maps.
-  int map_size = 480;        // [pixels] on an edge, 16..1024
-  int map_oversampling = 1;  // profiles and heights a pixel, along and across, 1..4
-  bool map_layover = true;   // slant geometry; else orthographic
-  bool map_response = true;  // impulse response with its sidelobes
-  bool map_detail = true;    // made-up texture below the spacing of the posts
+  int map_size = 480;             // [pixels] on an edge, 16..1024
+  int map_oversampling = 1;       // profiles and heights a pixel, along and across, 1..4
+  bool map_layover = true;        // slant geometry; else orthographic
+  bool map_response = true;       // impulse response with its sidelobes
+  bool map_detail = true;         // made-up texture below the spacing of the posts
+  bool map_smooth_ground = true;  // slopes between posts where pixels are finer; else facets
   bool map_double_bounce = false;
   double map_noise = 0.10;  // of the 1996 algorithm: random part of the brightness, [0, 1]
 };

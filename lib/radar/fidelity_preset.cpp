@@ -19,6 +19,7 @@ Fidelity of_1996() {
   fidelity.map_layover = false;
   fidelity.map_response = false;
   fidelity.map_detail = false;
+  fidelity.map_smooth_ground = false;
   return fidelity;
 }
 
@@ -27,12 +28,13 @@ Fidelity draft() {
   Fidelity fidelity;
   fidelity.earth = EarthModel::sphere;
   fidelity.geodesic_knots = 3;
-  fidelity.posts_per_sample = 8.0;
+  fidelity.posts_per_sample = 20.0;
   fidelity.samples = 240;
   fidelity.azimuth_smear = false;
   fidelity.pulse_smear = false;
   fidelity.map_response = false;
   fidelity.map_detail = false;
+  fidelity.map_smooth_ground = false;
   return fidelity;
 }
 

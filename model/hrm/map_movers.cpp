@@ -72,9 +72,10 @@ bool MapMovers::hidden(const PatchGeometry& geometry, const Horizons& horizons, 
   double horizon = static_cast<double>(horizons.horizon[column]);
   for (int i = 0; i < std::min(row, grid.rows); ++i) {
     const double there_m = grid.distance_m(i);
-    const double raised =
-        (static_cast<double>(horizons.surface[grid.at(column, i)].height_m) - geometry.above_plane_m(there_m)) /
-        there_m;
+    const std::size_t at = grid.at(column, i);
+    float top_m = horizons.surface[at].height_m;
+    if (horizons.crest_m != nullptr) top_m = std::max(top_m, horizons.crest_m[at]);
+    const double raised = (static_cast<double>(top_m) - geometry.above_plane_m(there_m)) / there_m;
     horizon = std::max(horizon, raised);
   }
   return tangent < horizon;

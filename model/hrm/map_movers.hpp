@@ -20,6 +20,7 @@ namespace yars::model::hrm {
 struct Horizons {
   const FanGrid* grid = nullptr;
   const SurfacePoint* surface = nullptr;
+  const float* crest_m = nullptr;  // as lanes::Strip has it; null: none
   const float* horizon = nullptr;  // before row 0
 };
 

@@ -30,6 +30,15 @@ geo::GeoPoint PatchGeometry::place_of(MapPoint point) const {
   return geo::geodesic_direct(apex_, azimuth, geo::Length::metres(std::hypot(point.right_m, ahead_m)));
 }
 
+double PatchGeometry::height_on_sight_m(double distance_m, double tangent) const {
+  const double angle_rad = distance_m * earth_.curvature();
+  const double sine = std::sin(angle_rad);
+  const double chord_m = angle_rad > 0.0 ? earth_.radius_m() * sine : distance_m;
+  // tangent = (height cos - drop - altitude) / (chord + height sin)
+  const double above_m = altitude_m_ + earth_.drop_m(distance_m);
+  return (above_m + tangent * chord_m) / (std::cos(angle_rad) - tangent * sine) - plane_msl_m_;
+}
+
 double PatchGeometry::slant_range_m() const {
   return std::hypot(distance_m_, above_plane_m(distance_m_));
 }

@@ -55,6 +55,9 @@ class PatchGeometry {
   double above_plane_m(double distance_m) const { return altitude_m_ - plane_msl_m_ + earth_.drop_m(distance_m); }
   // The same against the horizontal there: how much nearer a point comes when it is raised (layover).
   double above_level_m(double distance_m) const { return altitude_m_ - plane_msl_m_ - earth_.drop_m(distance_m); }
+  // Height above the map plane [m] at which a line of sight passes a distance over ground. `tangent`: of its elevation,
+  // as rbm::EffectiveEarth has it for heights above mean sea level.
+  double height_on_sight_m(double distance_m, double tangent) const;
   double slant_range_m() const;  // aircraft to centre
   double sin_grazing() const;    // on the map plane at the centre
   geo::Angle squint(geo::Bearing ground_track) const { return up_ - ground_track; }

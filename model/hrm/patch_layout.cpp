@@ -6,11 +6,30 @@
 namespace yars::model::hrm {
 
 namespace {
-// Terrain for the way is at most this much coarser than a sixtieth of it.
-constexpr double kPathDetail_m = 60.0;
+constexpr double kPathDetail_m = 60.0;  // between samples on the way, at least
 constexpr int kReliefSteps = 24;        // places along an edge of the window at which the relief is looked at
 constexpr double kReliefReserve = 1.2;  // what lies between them may stand out so much more
 constexpr double kLeastSine = 0.02;     // shadows grow beyond any margin below a degree
+
+constexpr double kPixelsANode = 2.0;  // of smooth ground
+constexpr double kPixelsAPost = 3.0;  // closer posts are not smoothed: no picture shows their facets
+constexpr int kReferenceParts = 10;   // of an interval of posts, at least
+constexpr int kOutlineSteps = 8;
+constexpr double kOutlineMargin = 0.01;  // of the box about the fan
+
+// What a tile covers, seen from above.
+terrain::GeoBox box_of(const scene::Tile& tile) {
+  constexpr double kMetresADegree = 111'000.0;
+  const double level = std::max(std::cos(tile.origin.latitude_deg * geo::kRadiansPerDegree), 0.01);
+  const auto north = [&](float metres) {
+    return tile.origin.latitude_deg + static_cast<double>(metres) / kMetresADegree;
+  };
+  const auto east = [&](float metres) {
+    return tile.origin.longitude_deg + static_cast<double>(metres) / (kMetresADegree * level);
+  };
+  return {north(tile.bounds.north_least_m), north(tile.bounds.north_most_m), east(tile.bounds.east_least_m),
+          east(tile.bounds.east_most_m)};
+}
 
 // The span of heights [m] above the map plane in and about the window.
 struct Relief {
@@ -72,17 +91,48 @@ double shading_m(const PatchGeometry& geometry, const std::vector<const scene::T
 }
 }  // namespace
 
-PatchNeed patch_need(const PatchOrder& order, int pixels) {
+PatchNeed patch_need(const PatchOrder& order, const radar::Fidelity& fidelity) {
   const geo::GeodesicInverse to_centre = geo::geodesic_inverse(order.apex, order.centre);
-  const double pixel_m = order.window.metres() / pixels;
+  const double pixel_m = order.window.metres() / std::max(fidelity.map_size, 1);
+  const double posts = fidelity.posts_per_sample;
+  const auto detail = [&](double sample_m) { return posts > 0.0 ? terrain::detail_for(sample_m / posts) : 0; };
   PatchNeed need;
   // The corners, and what beyond them is laid over into the picture.
-  need.window = {order.centre, 1.5 * order.window.metres(), terrain::detail_for(pixel_m)};
+  need.window = {order.centre, 1.5 * order.window.metres(), detail(pixel_m)};
   const geo::GeodesicRay way(order.apex, to_centre.azimuth_at_start);
   const double half_way_m = 0.5 * to_centre.distance.metres();
   need.path = {way.position(geo::Length::metres(half_way_m)), half_way_m + 0.5 * order.window.metres(),
-               terrain::detail_for(std::max(pixel_m, kPathDetail_m))};
+               detail(std::max(pixel_m, kPathDetail_m))};
   return need;
+}
+
+terrain::SmoothOrder smooth_order(const PatchGeometry& geometry, const FanGrid& grid, const radar::Fidelity& fidelity,
+                                  const std::vector<const scene::Tile*>& tiles) {
+  const geo::GeoPoint middle = geometry.place_of({});
+  terrain::SmoothOrder order{{90.0, -90.0, middle.longitude_deg + 180.0, middle.longitude_deg - 180.0},
+                             kPixelsANode * grid.spacing_m,
+                             kPixelsAPost * geometry.window_m() / std::max(fidelity.map_size, 1)};
+  if (fidelity.algorithm == radar::Algorithm::reference) order.least_parts = kReferenceParts;
+  terrain::GeoBox& box = order.box;
+  // Outlines of the fan curve little: between so many places of them nothing stands out but what the margin holds.
+  for (int i = 0; i <= kOutlineSteps; ++i) {
+    const double share = static_cast<double>(i) / kOutlineSteps;
+    for (const double column : {0.0, share * (grid.columns - 1), grid.columns - 1.0})
+      for (const double row : {0.0, share * (grid.rows - 1), grid.rows - 1.0}) {
+        const double tangent = grid.tangent(column);
+        const double ahead_m = grid.distance_m(row) / std::sqrt(1.0 + tangent * tangent);
+        const geo::GeoPoint place = geometry.place_of({tangent * ahead_m, ahead_m - geometry.distance_m()});
+        const double east_deg = middle.longitude_deg + geo::wrapped_degrees(place.longitude_deg - middle.longitude_deg);
+        box = {std::min(box.south_deg, place.latitude_deg), std::max(box.north_deg, place.latitude_deg),
+               std::min(box.west_deg, east_deg), std::max(box.east_deg, east_deg)};
+      }
+  }
+  const double margin_north_deg = kOutlineMargin * (box.north_deg - box.south_deg);
+  const double margin_east_deg = kOutlineMargin * (box.east_deg - box.west_deg);
+  box = {box.south_deg - margin_north_deg, box.north_deg + margin_north_deg, box.west_deg - margin_east_deg,
+         box.east_deg + margin_east_deg};
+  for (const scene::Tile* tile : tiles) order.plain.push_back(box_of(*tile));
+  return order;
 }
 
 FanMargins fan_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,

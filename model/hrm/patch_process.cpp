@@ -43,7 +43,7 @@ struct PatchProcess::Work {
   void cast_profiles();
   void shade();
   void draw_map();
-  void attenuate();
+  void lay_out_gases();
   void draw_video();
   double thermal_noise() const {
     return noise_gamma(configuration.high_resolution, geo::Length::metres(geometry->slant_range_m()), order.window);
@@ -73,9 +73,11 @@ struct PatchProcess::Work {
   std::vector<SceneRaster> rasters;
   FanArray<SurfacePoint> surface;
   FanArray<WallPoint> walls;
-  FanArray<float> cross_section_m2, horizon, arc;
-  bool walls_left = false;  // of a map whose profiles are still to be cast
+  FanArray<float> cross_section_m2, horizon, arc, crest_m;
+  CrestsBetweenRows crests;  // if any crest_m is filled
+  bool walls_left = false;   // of a map whose profiles are still to be cast
   std::vector<float> distance_m, inverse_m, above_m, level_m;
+  std::vector<lanes::GasRow> gas_rows;  // none: no gas takes anything
   std::vector<std::size_t> pending;
   std::vector<std::uint8_t> begun;  // by thread: it has its room for this map's ground
   bool report_1996;                 // the map is brightness, see report_1996_patch.hpp
@@ -96,7 +98,7 @@ PatchNeed PatchProcess::begin(const PatchOrder& order) {
   work.database = {};
   work.state = PatchState::database;
   work.done = 0;
-  return patch_need(order, work.configuration.fidelity.map_size);
+  return patch_need(order, work.configuration.fidelity);
 }
 
 void PatchProcess::give(const PatchDatabase& database) {
@@ -119,12 +121,18 @@ void PatchProcess::Work::lay_out() {
   const int cells = exact ? std::max(kReferenceCells, configuration.fidelity.map_oversampling)
                           : configuration.fidelity.map_oversampling;
   grid = make_fan_grid(*geometry, image.size, cells, margins);
+  const terrain::TerrainViewPointer facets = database.window;
+  if (configuration.fidelity.map_smooth_ground)
+    database.window =
+        terrain::smooth_between_posts(database.window, smooth_order(*geometry, grid, configuration.fidelity, tiles));
   reference.reset();
   if (exact) reference = std::make_unique<ReferencePatch>(configuration, *geometry, grid);
   if (configuration.fidelity.map_detail && (!detail || detail->pixel_m() != grid.spacing_m))
     detail = std::make_unique<Detail>(configuration.high_resolution.detail_contrast, grid.spacing_m);
   surface.resize(grid.size());
   if (!tiles.empty()) clear_walls();
+  crests = report_1996 ? CrestsBetweenRows{} : crests_between_rows(grid, *facets, database.window != facets);
+  if (crests.any()) crest_m.resize(grid.size());
   cross_section_m2.resize(grid.size());
   horizon.resize(static_cast<std::size_t>(grid.columns));
   distance_m.clear();
@@ -137,6 +145,7 @@ void PatchProcess::Work::lay_out() {
     above_m.push_back(static_cast<float>(geometry->above_plane_m(grid.distance_m(row))));
     level_m.push_back(static_cast<float>(geometry->above_level_m(grid.distance_m(row))));
   }
+  lay_out_gases();
   arc.resize(static_cast<std::size_t>(grid.columns));
   for (int column = 0; column < grid.columns; ++column)
     arc.data()[column] = static_cast<float>(grid.width_m(column, 1.0));
@@ -155,11 +164,12 @@ void PatchProcess::Work::clear_walls() {
 
 void PatchProcess::Work::read_terrain() {
   share_strips([&](int first, int last, std::size_t thread) {
-    if (begun[thread] == 0) grounds[thread].begin(*geometry, grid);
+    if (begun[thread] == 0) grounds[thread].begin(*geometry, grid, *database.path);
     begun[thread] = 1;
     pending[thread] +=
-        grounds[thread].fill(order, *geometry, grid, {database.window.get(), database.path.get()}, detail.get(),
-                             first * kStripColumns, last * kStripColumns, {surface.data(), horizon.data()});
+        grounds[thread].fill(order, *geometry, grid, {database.window.get(), database.path.get(), crests}, detail.get(),
+                             first * kStripColumns, last * kStripColumns,
+                             {surface.data(), horizon.data(), crests.any() ? crest_m.data() : nullptr});
   });
   if (reference) reference->read_terrain({database.window.get(), database.path.get()});
 }
@@ -211,9 +221,11 @@ void PatchProcess::Work::cast_profiles() {
       strip.inverse_m = inverse_m.data();
       strip.above_m = above_m.data();
       strip.level_m = level_m.data();
+      if (!gas_rows.empty()) strip.gas = gas_rows.data();
       strip.arc = arc.data() + column;
       strip.horizon = horizon.data() + column;
       strip.surface = surface.data() + at;
+      if (crests.any()) strip.crest_m = crest_m.data() + at;
       if (!tiles.empty()) strip.walls = walls.data() + at;
       strip.power = cross_section_m2.data() + at;
       lanes::cast_profile(strip);
@@ -234,44 +246,46 @@ void PatchProcess::Work::draw_map() {
     share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t) {
       draw_fan(*geometry, grid, cross_section_m2.data(), first, last, image);
     });
-  attenuate();
   image.blind = false;
   // What is below thermal noise or black cannot be seen.
   const radar::HighResolutionConfiguration& hrm = configuration.high_resolution;
   const double floor = std::max(thermal_noise(), reflectivity::ratio(hrm.brightest_gamma_db - hrm.dynamic_range_db));
   if (configuration.fidelity.map_response) response.apply(static_cast<float>(floor), crew, image);
   movers.draw(order, *geometry, formation, {*database.window, nullptr, true, database.traffic},
-              {&grid, surface.data(), horizon.data()}, response, image);
+              {&grid, surface.data(), crests.any() ? crest_m.data() : nullptr, horizon.data()}, response, image);
   blank_blind_zone(*geometry, order.ground_track, configuration.high_resolution, image);
 }
 
-// What the gases of the air take, by distance over ground: a parabola through the nearest, the middle and the farthest,
-// within 0.05 dB over the largest window.
-void PatchProcess::Work::attenuate() {
+// Exact at some rows and three heights.
+void PatchProcess::Work::lay_out_gases() {
+  gas_rows.clear();
   if (gas.none()) return;
-  const double half_m = 0.5 * geometry->window_m();
-  const double middle_m = geometry->distance_m();
-  const double step_m = std::hypot(middle_m + half_m, half_m) - middle_m;
-  const auto loss = [&](double along_m) {
-    return gas.two_way_loss(geometry->earth(), geometry->altitude_m(), std::max(along_m, 1.0), geometry->plane_msl_m());
-  };
-  const double near = loss(middle_m - step_m), here = loss(middle_m), far = loss(middle_m + step_m);
-  const auto constant = static_cast<float>(here);
-  const auto slope = static_cast<float>(0.5 * (far - near));
-  const auto bend = static_cast<float>(0.5 * (far + near) - here);
-  const double pixel_m = geometry->window_m() / image.size;
-  share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t) {
-    for (int row = first; row < last; ++row) {
-      const auto ahead_m = static_cast<float>(middle_m + half_m - (row + 0.5) * pixel_m);
-      float* const power = &image.power[image.at(0, row)];
-      for (int column = 0; column < image.size; ++column) {
-        const auto right_m = static_cast<float>((column + 0.5) * pixel_m - half_m);
-        const float along_m = std::sqrt(ahead_m * ahead_m + right_m * right_m);
-        const float share = (along_m - static_cast<float>(middle_m)) / static_cast<float>(step_m);
-        power[column] *= constant + share * (slope + share * bend);
-      }
-    }
-  });
+  constexpr int kKnots = 9;
+  constexpr std::array<double, 3> kHeights_m{0.0, 2000.0, 5000.0};
+  constexpr double kLowest_m = -500.0, kHighest_m = 6000.0;  // within 0.1 dB
+  const double plane_m = geometry->plane_msl_m();
+  std::array<lanes::GasRow, kKnots> knots{};
+  for (int knot = 0; knot < kKnots; ++knot) {
+    const double along_m = std::max(grid.distance_m((grid.rows - 1.0) * knot / (kKnots - 1)), 1.0);
+    const auto loss = [&](std::size_t height) {
+      return gas.two_way_loss(geometry->earth(), geometry->altitude_m(), along_m, kHeights_m[height]);
+    };
+    const double low = loss(0), first = (loss(1) - low) / kHeights_m[1], second = (loss(2) - low) / kHeights_m[2];
+    const double bend = (second - first) / (kHeights_m[2] - kHeights_m[1]);
+    const double slope = first - bend * kHeights_m[1];
+    knots[static_cast<std::size_t>(knot)] = {
+        static_cast<float>(low + plane_m * (slope + plane_m * bend)), static_cast<float>(slope + 2.0 * plane_m * bend),
+        static_cast<float>(bend), static_cast<float>(kLowest_m - plane_m), static_cast<float>(kHighest_m - plane_m)};
+  }
+  for (int row = 0; row < grid.rows; ++row) {
+    const float place = static_cast<float>(row) * (kKnots - 1) / static_cast<float>(std::max(grid.rows - 1, 1));
+    const auto near = static_cast<std::size_t>(std::min(static_cast<int>(place), kKnots - 2));
+    const float share = place - static_cast<float>(near);
+    const lanes::GasRow &one = knots[near], &two = knots[near + 1];
+    gas_rows.push_back({one.constant + share * (two.constant - one.constant),
+                        one.slope + share * (two.slope - one.slope), one.bend + share * (two.bend - one.bend),
+                        one.lowest_m, one.highest_m});
+  }
 }
 
 void PatchProcess::Work::draw_video() {

@@ -43,6 +43,17 @@ HWY_INLINE Point point_at(const Strip& strip, int row, std::size_t lane) {
   return point;
 }
 
+// What is seen of the way up to a point: the point itself, or ground before it that stands higher to the eye. Such
+// ground is seen on its near side and returns at the point's row.
+HWY_INLINE Point topped(const Strip& strip, int row, std::size_t lane, Point point) {
+  if (strip.crest_m == nullptr) return point;
+  const Tag d;
+  const auto crest = hn::Load(d, strip.crest_m + static_cast<std::size_t>(row) * kStripColumns + lane);
+  point.up = hn::Max(point.up, hn::Sub(crest, hn::Set(d, strip.above_m[row])));
+  point.tangent = hn::Mul(point.up, hn::Set(d, strip.inverse_m[row]));
+  return point;
+}
+
 HWY_INLINE Point placed(const Strip& strip, int row, Point point) {
   const Tag d;
   point.row = hn::Set(d, static_cast<float>(row));
@@ -108,7 +119,8 @@ HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const Str
   }
   auto row = begin;
   float* power = strip.power + static_cast<std::size_t>(hn::GetLane(begin)) * kStripColumns + lane;
-  for (float left = rows; left >= 0.0F; left -= 1.0F) {
+  const int count = rows >= 0.0F ? static_cast<int>(rows) + 1 : 0;
+  for (int i = 0; i < count; ++i) {
     hn::Store(hn::Add(hn::Add(hn::Load(d, power), share_of(first, row)), share_of(second, row)), d, power);
     row = hn::Add(row, hn::Set(d, 1.0F));
     power += kStripColumns;
@@ -139,6 +151,13 @@ HWY_INLINE Walls walls_at(const Strip& strip, std::size_t at, Floats climb, floa
   return {there, share, hn::Div(sum, tall)};
 }
 
+HWY_INLINE Floats left_by_gases(const GasRow& gas, Floats height_m) {
+  const Tag d;
+  const auto within = hn::Min(hn::Max(height_m, hn::Set(d, gas.lowest_m)), hn::Set(d, gas.highest_m));
+  const auto slope = hn::Add(hn::Set(d, gas.slope), hn::Mul(within, hn::Set(d, gas.bend)));
+  return hn::Add(hn::Set(d, gas.constant), hn::Mul(within, slope));
+}
+
 HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const Point& near, const Point& far,
                            Mask seen, Floats horizon) {
   const Tag d;
@@ -160,7 +179,8 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   const auto climb = hn::Sub(far.up, near.up);
   const auto across = hn::Sub(hn::Mul(distance, climb), hn::Mul(up, hn::Set(d, step)));
   const auto slant = hn::Sqrt(hn::Add(hn::Mul(distance, distance), hn::Mul(up, up)));
-  const auto width = hn::Div(hn::Mul(hn::Mul(hn::Load(d, strip.arc + lane), distance), share), slant);
+  auto width = hn::Div(hn::Mul(hn::Mul(hn::Load(d, strip.arc + lane), distance), share), slant);
+  if (strip.gas != nullptr) width = hn::Mul(width, left_by_gases(strip.gas[row], far.height));
   const auto area = hn::Mul(width, hn::Max(across, zero));
 
   const Walls walls = walls_at(strip, static_cast<std::size_t>(row) * kStripColumns + lane, climb, step);
@@ -217,16 +237,18 @@ void cast_profile(const Strip& given) {
     clear_walls(strip, 0, lane);
     for (int row = 1; row < strip.rows; ++row) {
       Point far = point_at(strip, row, lane);
-      const auto seen = hn::Gt(far.tangent, horizon);
+      Point top = topped(strip, row, lane, far);
+      const auto seen = hn::Gt(top.tangent, horizon);
       const bool any = !hn::AllFalse(d, seen);
       if (any) {
         if (!near_placed) near = placed(strip, row - 1, near);
         far = placed(strip, row, far);
-        cast_piece(strip, row, lane, near, far, seen, horizon);
+        top.row = far.row;
+        cast_piece(strip, row, lane, near, top, seen, horizon);
       }
       clear_walls(strip, row, lane);
       near_placed = any;
-      horizon = hn::Max(horizon, far.tangent);
+      horizon = hn::Max(horizon, top.tangent);
       near = far;
     }
   }

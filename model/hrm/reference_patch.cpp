@@ -5,12 +5,18 @@
 #include <cmath>
 #include <limits>
 
+#include "model/rbm/ground_walk.hpp"
 #include "model/reflectivity/decibels.hpp"
 
 namespace yars::model::hrm {
 
 namespace {
-constexpr double kPathSpacing_m = 15.0;  // between samples on the way to the fan; posts are farther apart
+// Between samples on the way to the fan: of ground without posts, and of other ground, all of which is walked besides.
+constexpr double kPathSpacing_m = 15.0;
+constexpr double kSeaSpacing_m = 100.0;
+constexpr double kWalkShare = 0.1;   // of the posts' spacing: rows as close walk by themselves
+constexpr double kFineSteps = 40.0;  // a post, on the way to such rows: a crest's foot of shadow is a row
+constexpr double kNothing = -std::numeric_limits<double>::infinity();
 constexpr double kFacetPixels = 1.0 / 3.0;
 constexpr int kMostPieces = 512;  // of an edge: a face as large as the window
 constexpr double kBuried_m = 0.05;
@@ -28,10 +34,12 @@ ReferencePatch::ReferencePatch(const radar::RadarConfiguration& configuration, c
                                const FanGrid& grid)
     : fidelity_(configuration.fidelity),
       surface_(configuration),
+      gas_(configuration),
       bounce_(fidelity_.map_double_bounce ? reflectivity::ratio(configuration.high_resolution.double_bounce_db) : 0.0),
       geometry_(&geometry),
       grid_(&grid),
       height_m_(grid.size()),
+      top_m_(grid.size()),
       horizon_(grid.size()) {}
 
 // About the radar, on the effective earth; heights count from the map plane.
@@ -43,31 +51,66 @@ Point3 ReferencePatch::position(double distance_m, double turn_rad, double heigh
 }
 
 void ReferencePatch::read_terrain(const PatchTerrain& terrain) {
+  for (int column = 0; column < grid_->columns; ++column) read_column(terrain, column);
+}
+
+void ReferencePatch::read_column(const PatchTerrain& terrain, int column) {
   const FanGrid& grid = *grid_;
-  const double altitude_m = geometry_->altitude_m() - geometry_->plane_msl_m();
-  for (int column = 0; column < grid.columns; ++column) {
-    const geo::GeodesicRay ray(geometry_->apex(),
-                               geometry_->up() + geo::Angle::radians(std::atan(grid.tangent(column))));
-    double horizon = std::numeric_limits<double>::lowest();
-    const auto height_m = [&](const terrain::TerrainView& view, double distance_m) {
-      const terrain::Surface found =
-          view.surface_at(ray.position(geo::Length::metres(distance_m)), fidelity_.interpolation);
-      return found.elevation_m - geometry_->plane_msl_m();
-    };
-    // A void is NaN, and raises nothing.
-    const auto raise = [&](double distance_m, double height) {
-      const double tangent = geometry_->earth().sight(altitude_m, distance_m, height).tangent;
-      if (tangent > horizon) horizon = tangent;
-    };
-    for (double distance_m = kPathSpacing_m; distance_m < grid.first_distance_m; distance_m += kPathSpacing_m)
-      raise(distance_m, height_m(*terrain.path, distance_m));
-    for (int row = 0; row < grid.rows; ++row) {
-      const std::size_t at = grid.at(column, row);
-      height_m_[at] = height_m(*terrain.window, grid.distance_m(row));
-      horizon_[at] = horizon;
-      raise(grid.distance_m(row), height_m_[at]);
+  const rbm::EffectiveEarth& earth = geometry_->earth();
+  rbm::Look look;
+  look.apex = geometry_->apex();
+  look.altitude = geo::AltitudeMsl::metres(geometry_->altitude_m());
+  look.azimuth = geometry_->up() + geo::Angle::radians(std::atan(grid.tangent(column)));
+  const geo::GeodesicRay ray(look.apex, look.azimuth);
+  double horizon = kNothing;
+  const auto height_m = [&](const terrain::TerrainView& view, double distance_m) {
+    const terrain::Surface found =
+        view.surface_at(ray.position(geo::Length::metres(distance_m)), fidelity_.interpolation);
+    return found.elevation_m - geometry_->plane_msl_m();
+  };
+  // A void is NaN, and raises nothing.
+  const auto raise = [&](double there) {
+    if (there > horizon) horizon = there;
+  };
+  // Ground without posts is looked at itself: the sea, which hides what lies beyond its horizon.
+  const auto look_between = [&](const terrain::TerrainView& view, double from_m, double to_m, double step_m) {
+    const auto steps = static_cast<int>(std::ceil((to_m - from_m) / step_m));
+    for (int step = 1; step < steps; ++step) {
+      const double distance_m = from_m + step * step_m;
+      raise(tangent(distance_m, height_m(view, distance_m)));
     }
+  };
+  const bool posts = terrain.path->post_spacing_m() > 0.0;
+  look_between(*terrain.path, 0.0, grid.first_distance_m, posts ? kSeaSpacing_m : kPathSpacing_m);
+  const double posts_m = terrain.window->post_spacing_m();
+  const bool walk = grid.spacing_m > kWalkShare * posts_m;
+  const double steps = walk ? rbm::GroundWalk::kStepsAPost : kFineSteps;
+  raise(rbm::GroundWalk(look, earth, *terrain.path, fidelity_.interpolation, steps)
+            .highest_tangent(0.0, grid.first_distance_m));
+  const rbm::GroundWalk way(look, earth, *terrain.window, fidelity_.interpolation);
+  for (int row = 0; row < grid.rows; ++row) {
+    const std::size_t at = grid.at(column, row);
+    const double distance_m = grid.distance_m(row);
+    top_m_[at] = height_m_[at] = height_m(*terrain.window, distance_m);
+    if (walk && row > 0) {
+      const double crest = way.highest_tangent(grid.distance_m(row - 1.0), distance_m);
+      raise(crest);
+      if (!(crest > kNothing)) look_between(*terrain.window, grid.distance_m(row - 1.0), distance_m, kSeaSpacing_m);
+      if (crest > tangent(distance_m, height_m_[at])) top_m_[at] = geometry_->height_on_sight_m(distance_m, crest);
+    }
+    horizon_[at] = horizon;
+    raise(tangent(distance_m, height_m_[at]));
   }
+}
+
+// As GroundWalk has it: of heights above mean sea level.
+double ReferencePatch::tangent(double distance_m, double height_m) const {
+  return geometry_->earth().sight(geometry_->altitude_m(), distance_m, height_m + geometry_->plane_msl_m()).tangent;
+}
+
+bool ReferencePatch::lit(int column, int row) const {
+  const std::size_t at = grid_->at(column, row);
+  return tangent(grid_->distance_m(row), height_m_[at]) > horizon_[at];
 }
 
 void ReferencePatch::read_scene(const scene::SceneView& scene, const std::vector<const scene::Tile*>& tiles,
@@ -153,19 +196,19 @@ void ReferencePatch::accumulate(const SurfacePoint* surface, MapImage& image) {
 // The pieces between neighbours of a column, cut where they climb: a cliff is many facets.
 void ReferencePatch::add_column(int column, const SurfacePoint* surface) {
   const FanGrid& grid = *grid_;
-  const double tangent = grid.tangent(column);
-  const double turn_rad = std::atan(tangent);
-  const double angle_rad = grid.tangent_step / (1.0 + tangent * tangent);
+  const double off = grid.tangent(column);
+  const double turn_rad = std::atan(off);
+  const double angle_rad = grid.tangent_step / (1.0 + off * off);
   const double longest_m = kFacetPixels * geometry_->window_m() / size_;
   for (int row = 1; row < grid.rows; ++row) {
     const std::size_t far = grid.at(column, row);
     const std::size_t near = grid.at(column, row - 1);
     if (std::isnan(height_m_[near]) || std::isnan(height_m_[far])) continue;
     const double gamma = 0.5 * (static_cast<double>(surface[near].gain) + static_cast<double>(surface[far].gain));
-    const double climb_m = height_m_[far] - height_m_[near];
+    const double climb_m = top_m_[far] - height_m_[near];
     const int pieces = std::min(1 + static_cast<int>(std::abs(climb_m) / longest_m), kMostPieces);
-    double horizon = horizon_[far];
     Point3 begin = position(grid.distance_m(row - 1), turn_rad, height_m_[near]);
+    double horizon = std::max(horizon_[near], tangent(grid.distance_m(row - 1), height_m_[near]));
     for (int piece = 1; piece <= pieces; ++piece) {
       const double share = static_cast<double>(piece) / pieces;
       const Point3 end = position(grid.distance_m(row - 1.0 + share), turn_rad, height_m_[near] + share * climb_m);
@@ -175,9 +218,12 @@ void ReferencePatch::add_column(int column, const SurfacePoint* surface) {
       const double out_middle = 0.5 * (out_begin + out_end);
       // Twice the area of the triangle radar, begin, end: the angle that the piece fills.
       const double facing = out_begin * end.z - begin.z * out_end;
-      if (facing > 0.0 && middle.z / out_middle >= horizon && !occluders_.hide(middle))
+      const double middle_share = share - 0.5 / pieces;
+      const double seen_at =
+          tangent(grid.distance_m(row - 1.0 + middle_share), height_m_[near] + middle_share * climb_m);
+      if (facing > 0.0 && seen_at >= horizon && !occluders_.hide(middle))
         add(middle, gamma * angle_rad * out_middle * facing / std::hypot(out_middle, middle.z));
-      horizon = std::max(horizon, end.z / out_end);
+      horizon = std::max(horizon, tangent(grid.distance_m(row - 1.0 + share), height_m_[near] + share * climb_m));
       begin = end;
     }
   }
@@ -231,8 +277,8 @@ void ReferencePatch::add_facet(const Face& face, Point3 place, Point3 weights, d
   if (seen(foot)) add(foot, bounce_ * power);
 }
 
-ReferencePatch::Ground ReferencePatch::ground_at(Point3 place) const {
-  const FanGrid& grid = *grid_;
+// The distance and the point's own height alone.
+ReferencePatch::Ground ReferencePatch::below(Point3 place) const {
   const double radius_m = geometry_->earth().radius_m();
   const double altitude_m = geometry_->altitude_m() - geometry_->plane_msl_m();
   const double out_m = std::hypot(place.x, place.y);
@@ -242,6 +288,12 @@ ReferencePatch::Ground ReferencePatch::ground_at(Point3 place) const {
     ground.distance_m = radius_m * std::atan2(out_m, down_m);
     ground.point_m = std::hypot(out_m, down_m) - radius_m;
   }
+  return ground;
+}
+
+ReferencePatch::Ground ReferencePatch::ground_at(Point3 place) const {
+  const FanGrid& grid = *grid_;
+  Ground ground = below(place);
   const double column = std::round((place.x / place.y - grid.first_tangent) / grid.tangent_step);
   const double row = std::floor((ground.distance_m - grid.first_distance_m) / grid.spacing_m);
   if (!(column >= 0.0 && column < grid.columns && row >= 0.0 && row + 1.0 < grid.rows)) return ground;
@@ -258,11 +310,16 @@ bool ReferencePatch::seen(Point3 place) const {
   if (!(place.y > 0.0)) return false;
   const Ground ground = ground_at(place);
   if (ground.point_m < ground.height_m - kBuried_m) return false;
-  return place.z / std::hypot(place.x, place.y) >= ground.horizon && !occluders_.hide(place);
+  return tangent(ground.distance_m, ground.point_m) >= ground.horizon && !occluders_.hide(place);
 }
 
-// Bilinear, where the map plane is as far away.
+// Bilinear, where the map plane is as far away, less what the gases of the air take.
 void ReferencePatch::add(Point3 place, double cross_section_m2) {
+  if (!gas_.none()) {
+    const Ground here = below(place);
+    cross_section_m2 *= gas_.two_way_loss(geometry_->earth(), geometry_->altitude_m(), here.distance_m,
+                                          here.point_m + geometry_->plane_msl_m());
+  }
   double distance_m = std::hypot(place.x, place.y);
   const double sine = place.x / distance_m;
   const double cosine = place.y / distance_m;

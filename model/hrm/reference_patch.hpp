@@ -1,7 +1,8 @@
 // The algorithm `reference` of patches, the oracle of `standard`: plain double precision, facet by facet. Terrain is a
 // fan of pieces finer than a pixel at exact geodesic places; a scene is its triangles, cut until they are smaller than
 // a third of a pixel. What is seen adds gamma times the area seen square on at the place on the map that is as far
-// from the radar on the effective earth. Terrain hides by the running maximum along its column, the scene by rays.
+// from the radar on the effective earth. Terrain hides by the running maximum along its column, a tenth of
+// the posts' spacing at a time; the scene hides by rays.
 #pragma once
 
 #include <vector>
@@ -12,6 +13,7 @@
 #include "model/hrm/map_image.hpp"
 #include "model/hrm/occluders.hpp"
 #include "model/hrm/scene_surface.hpp"
+#include "model/rbm/gas_path.hpp"
 #include "model/scene/scene_view.hpp"
 
 namespace yars::model::hrm {
@@ -23,6 +25,8 @@ class ReferencePatch {
   ReferencePatch(const radar::RadarConfiguration& configuration, const PatchGeometry& geometry, const FanGrid& grid);
 
   void read_terrain(const PatchTerrain& terrain);
+  // Whether no nearer ground on its line of sight stands as high as that of a point of the grid; false for a void.
+  bool lit(int column, int row) const;
   // `gain`: gamma of the ground by FanGrid::at(); what lies flat on it gives it its own.
   void read_scene(const scene::SceneView& scene, const std::vector<const scene::Tile*>& tiles, SurfacePoint* surface);
   // Replaces the power of the image, in the unit of map_image.hpp.
@@ -42,6 +46,8 @@ class ReferencePatch {
   };
   struct Ground;
 
+  void read_column(const PatchTerrain& terrain, int column);
+  double tangent(double distance_m, double height_m) const;
   Point3 position(double distance_m, double turn_rad, double height_m) const;
   void read_tile(const scene::SceneView& scene, const scene::Tile& tile, SurfacePoint* surface);
   void lay_flat(const std::array<MapPoint, 3>& corners, double gamma, SurfacePoint* surface) const;
@@ -49,16 +55,20 @@ class ReferencePatch {
   void add_face(const Face& face);
   void add_facet(const Face& face, Point3 place, Point3 weights, double area_m2);
   bool seen(Point3 place) const;
+  Ground below(Point3 place) const;
   Ground ground_at(Point3 place) const;
   void add(Point3 place, double cross_section_m2);
 
   radar::Fidelity fidelity_;
   SceneSurface surface_;
+  rbm::GasPath gas_;
   double bounce_;  // of a wall's foot against the wall; 0 = none
   const PatchGeometry* geometry_;
   const FanGrid* grid_;
-  std::vector<double> height_m_;  // above the map plane, by FanGrid::at(); NaN = void
-  std::vector<double> horizon_;   // greatest tangent of all that is nearer
+  // By FanGrid::at().
+  std::vector<double> height_m_;  // above the map plane; NaN = void
+  std::vector<double> top_m_;    // the same, raised to the line of sight over the ground on the way from the row before
+  std::vector<double> horizon_;  // greatest tangent of all that is nearer
   std::vector<Face> faces_;
   Occluders occluders_;
   int size_ = 0;

@@ -1,6 +1,7 @@
 // The ground along a ray between two distances, in plain double: what the reference raises its horizon with between its
 // samples. Steps of a tenth of the posts' spacing, exact geodesic places at most 500 m apart and straight ways in
-// latitude and longitude between them (5 mm off up to 60 degrees of latitude, 0.2 m at 88).
+// latitude and longitude between them: 5 mm off up to 60 degrees of latitude, 0.2 m from 88 to the pole, where places
+// lie closer.
 // Source: docs/spec/physics.md#shadow.
 #pragma once
 
@@ -17,19 +18,14 @@
 
 namespace yars::model::rbm {
 
-// Where an aircraft is so near to a pole, the samples alone raise the horizon: ways between them are not straight in
-// latitude and longitude.
-inline bool near_pole(const Look& look) {
-  constexpr double kStraightTo_deg = 88.0;  // of latitude
-  return std::abs(look.apex.latitude_deg) > kStraightTo_deg;
-}
-
 class GroundWalk {
  public:
+  static constexpr double kStepsAPost = 10.0;
+
   // All are kept by reference.
   GroundWalk(const Look& look, const EffectiveEarth& earth, const terrain::TerrainView& terrain,
-             radar::Interpolation interpolation)
-      : look_(look), earth_(earth), terrain_(terrain), interpolation_(interpolation) {}
+             radar::Interpolation interpolation, double steps_a_post = kStepsAPost)
+      : look_(look), earth_(earth), terrain_(terrain), interpolation_(interpolation), steps_a_post_(steps_a_post) {}
 
   const EffectiveEarth& earth() const { return earth_; }
 
@@ -48,13 +44,24 @@ class GroundWalk {
   }
 
  private:
+  double highest_of_pieces(const geo::GeodesicRay& ray, double from_m, double to_m) const;
+  // A way that counts as straight in latitude and longitude, `east_deg` unwrapped.
+  struct Piece {
+    geo::GeoPoint begin;
+    double north_deg, east_deg;
+    double from_m, to_m;
+    terrain::PostSpacing posts;
+  };
   double highest_of_piece(const geo::GeodesicRay& ray, double from_m, double to_m, bool with_end) const;
+  double highest_of_columns(const Piece& piece) const;
+  double tangent_along(const Piece& piece, double share) const;
   double tangent(geo::GeoPoint place, double distance_m) const;
 
   const Look& look_;
   const EffectiveEarth& earth_;
   const terrain::TerrainView& terrain_;
   radar::Interpolation interpolation_;
+  double steps_a_post_;
 };
 
 }  // namespace yars::model::rbm

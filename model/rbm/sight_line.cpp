@@ -13,6 +13,7 @@ constexpr std::size_t kSamples = 512;
 
 SightLine::SightLine()
     : places_(kSamples),
+      ray_crests_(kSamples),
       distance_m_(kSamples + kPairSlack),
       elevation_m_(distance_m_),
       water_(distance_m_),
@@ -37,7 +38,8 @@ bool SightLine::clear(const radar::Fidelity& fidelity, const Look& look, const t
     highest =
         std::max(highest, earth.sight(look.altitude.metres(), static_cast<double>(distance_m_[i]), height_m).tangent);
   }
-  if (terrain.crests(places_.run(), {look.altitude.metres(), earth.curvature(), samples(distance_m_)}, samples(crest_)))
+  if (ray_crests_.find(terrain, {look.apex, way.azimuth_at_start, way.distance, fidelity.geodesic_knots}, places_,
+                       {look.altitude.metres(), earth.curvature(), samples(distance_m_)}, samples(crest_)))
     highest = std::max(highest, static_cast<double>(*std::max_element(crest_.data(), crest_.data() + kSamples)));
   return highest < earth.sight(look.altitude.metres(), distance_m, altitude_m).tangent;
 }

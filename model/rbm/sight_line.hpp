@@ -6,6 +6,7 @@
 #include "lib/memory/line_vector.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/rbm/look.hpp"
+#include "model/rbm/ray_crests.hpp"
 #include "model/rbm/sample_places.hpp"
 #include "model/terrain/terrain_view.hpp"
 
@@ -23,6 +24,7 @@ class SightLine {
 
  private:
   PlaceArrays places_;
+  RayCrests ray_crests_;
   memory::LineVector<float> distance_m_, elevation_m_, water_, peak_m_, crest_;
 };
 

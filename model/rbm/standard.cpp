@@ -32,6 +32,7 @@ Standard::Standard(const radar::RadarConfiguration& configuration)
       one_step_inverse_(count_, 0.0F),
       two_step_inverse_(count_, 0.0F),
       places_(count_),
+      ray_crests_(count_),
       elevation_(count_, kVoid),
       water_(count_, 0.0F),
       peak_(count_, kVoid),
@@ -60,8 +61,8 @@ std::size_t Standard::measure(const Look& look, const Database& database, std::s
   ground_.use_resolution(receiver.pulse_length_m, spacing_m);
   const terrain::PlaceRun places = places_.run();
   const bool crests =
-      !near_pole(look) && terrain.crests(places, {look.altitude.metres(), earth.curvature(), distance_.first(count_)},
-                                         crest_.first(count_));
+      ray_crests_.find(terrain, {look.apex, look.azimuth, look.range, configuration_.fidelity.geodesic_knots}, places_,
+                       {look.altitude.metres(), earth.curvature(), distance_.first(count_)}, crest_.first(count_));
   const lanes::SweepInputs inputs{distance_.data(), elevation_.data(),
                                   // Where a coarser level stands in, the highest ground is not the mean that returns.
                                   terrain.has_peaks() ? peak_.data() : nullptr, crests ? crest_.data() : nullptr,

@@ -17,6 +17,7 @@
 #include "model/rbm/ground_walk.hpp"
 #include "model/rbm/movers.hpp"
 #include "model/rbm/rain_path.hpp"
+#include "model/rbm/ray_crests.hpp"
 #include "model/rbm/receiver.hpp"
 #include "model/rbm/sample_places.hpp"
 #include "model/rbm/scene_return.hpp"
@@ -75,6 +76,7 @@ class Standard : public Algorithm {
   std::vector<double> distance_m_;
   Padded distance_, one_step_inverse_, two_step_inverse_;
   PlaceArrays places_;
+  RayCrests ray_crests_;
   Padded elevation_, water_, peak_, side_, crest_, cross_slope_;
   Padded tangent_, before_, horizon_;
   Padded power_, variate_;

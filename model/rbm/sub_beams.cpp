@@ -13,7 +13,7 @@ constexpr double kHalfSpan = 0.75;  // of the beam width: the two-way gain is be
 }  // namespace
 
 SubBeams::SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfiguration& configuration)
-    : ray_(std::move(ray)), power_(sample_count(configuration)) {
+    : ray_(std::move(ray)), power_(sample_count(configuration)), lit_(power_.size()) {
   const int count = std::clamp(configuration.fidelity.sub_beams, 1, radar::kMostSubBeams);
   double sum = 0.0;
   std::vector<double> weights;
@@ -38,18 +38,20 @@ SubBeams::SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfigurati
 std::size_t SubBeams::measure(const Look& look, const Database& database, std::span<float> power) {
   std::fill(power.begin(), power.end(), 0.0F);
   std::size_t pending = 0;
-  for (const Ray& ray : rays_) {
+  for (std::size_t k = 0; k < rays_.size(); ++k) {
+    const Ray& ray = rays_[k];
     Look aside = look;
     aside.azimuth = look.azimuth + ray.offset;
     aside.share = ray.share;
     pending += ray_->measure(aside, database, power_);
+    if (k == rays_.size() / 2) ray_->lit(lit_);
     for (std::size_t i = 0; i < power.size(); ++i) power[i] += ray.weight * power_[i];
   }
   return pending;
 }
 
 void SubBeams::lit(std::span<std::uint8_t> mask) const {
-  ray_->lit(mask);
+  std::copy_n(lit_.begin(), std::min(lit_.size(), mask.size()), mask.begin());
 }
 
 void SubBeams::develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,

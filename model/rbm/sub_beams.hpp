@@ -3,6 +3,7 @@
 // ground.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -28,6 +29,7 @@ class SubBeams : public Algorithm {
   std::unique_ptr<Algorithm> ray_;
   std::vector<Ray> rays_;
   std::vector<float> power_;
+  std::vector<std::uint8_t> lit_;  // of the middle ray
 };
 
 }  // namespace yars::model::rbm

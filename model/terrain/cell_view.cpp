@@ -27,6 +27,13 @@ double spacing_m(const Cell& cell) {
   return kMetresPerDegree * std::min(1.0 / (cell.rows() - 1), east_deg);
 }
 
+// How close a walk has to look. Columns nearer than a third of the rows' spacing count as that far apart: towards a
+// pole they close up to nothing, and the ground that they tell does not.
+double walked_spacing_m(const Cell& cell) {
+  const double rows_m = kMetresPerDegree / (cell.rows() - 1);
+  return std::clamp(spacing_m(cell), rows_m / 3.0, rows_m);
+}
+
 look_up::Grid grid_of(const Cell& cell) {
   return look_up::Grid{&cell.blocks(),   cell.rows(),          cell.columns(),
                        cell.voids() > 0, cell.sea_posts() > 0, static_cast<float>(cell.unit_m())};
@@ -34,8 +41,9 @@ look_up::Grid grid_of(const Cell& cell) {
 
 // The cell of a place of the run. Shadow is cast by the highest ground.
 crests::CrossedCell crossed(const TerrainCell& cell, const PlaceRun& places, std::size_t place) {
+  const double walked_m = walked_spacing_m(*cell.heights);
   return {grid_of(cell.peaks ? *cell.peaks : *cell.heights), places.cells_north[place], places.cells_east[place],
-          static_cast<float>(spacing_m(*cell.heights))};
+          static_cast<float>(walked_m), spacing_m(*cell.heights) < walked_m};
 }
 
 }  // namespace
@@ -89,9 +97,23 @@ Surface CellView::surface_at(geo::GeoPoint place, Interpolation interpolation) c
   return surface;
 }
 
-double CellView::post_spacing_at(geo::GeoPoint place) const {
+PostSpacing CellView::post_spacing_at(geo::GeoPoint place) const {
   const std::uint16_t what = entry(cell_holding(place));
-  return what < kFirstCell ? 0.0 : spacing_m(*cells_[what - kFirstCell].heights);
+  if (what < kFirstCell) return {};
+  const Cell& cell = *cells_[what - kFirstCell].heights;
+  return {walked_spacing_m(cell), 1.0 / (cell.columns() - 1)};
+}
+
+std::vector<std::shared_ptr<const Cell>> CellView::cells_within(const GeoBox& box) const {
+  std::vector<std::shared_ptr<const Cell>> found;
+  const auto first_of = [](double edge_deg) { return static_cast<int>(std::floor(edge_deg)); };
+  const int last_west = std::min(first_of(box.east_deg), first_of(box.west_deg) + kCellColumns - 1);
+  for (int south = std::max(first_of(box.south_deg), -90); south <= std::min(first_of(box.north_deg), 89); ++south)
+    for (int west = first_of(box.west_deg); west <= last_west; ++west) {
+      const std::uint16_t what = entry(cell_holding({south + 0.5, geo::wrapped_degrees(west + 0.5)}));
+      if (what >= kFirstCell) found.push_back(cells_[what - kFirstCell].heights);
+    }
+  return found;
 }
 
 CellView::Run CellView::run_at(const PlaceRun& places, std::size_t first) const {
@@ -202,7 +224,9 @@ void CellView::raise_first_crest(const PlaceRun& places, const RaySight& sight, 
   const float share = sight.distance_m[0] / step_m;
   using Two = std::array<float, 2 + kRunSlack>;
   const auto back = [&](std::span<const float> cells, std::span<const float> degrees) {
-    return degrees[0] - share * ((cells[1] - cells[0]) + (degrees[1] - degrees[0]));
+    // Beside a pole neighbours may be named a turn apart.
+    const float cells_on = std::remainder(cells[1] - cells[0], 360.0F);
+    return degrees[0] - share * (cells_on + (degrees[1] - degrees[0]));
   };
   const Two cells_north{places.cells_north[0], places.cells_north[0]};
   const Two cells_east{places.cells_east[0], places.cells_east[0]};

@@ -44,7 +44,8 @@ class CellView final : public TerrainView {
   bool serves(int detail) const override { return detail == detail_; }
   bool has_peaks() const override { return has_peaks_; }
   double post_spacing_m() const override { return post_spacing_m_; }
-  double post_spacing_at(geo::GeoPoint place) const override;
+  PostSpacing post_spacing_at(geo::GeoPoint place) const override;
+  std::vector<std::shared_ptr<const Cell>> cells_within(const GeoBox& box) const override;
   bool has_materials() const override { return has_materials_; }
   std::size_t surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const override;
   bool crests(const PlaceRun& places, const RaySight& sight, std::span<float> tangent) const override;

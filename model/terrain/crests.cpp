@@ -21,11 +21,13 @@ using Marks = hn::Mask<FloatLanes>;
 
 // [m] What lies nearer before a place is the place's own ground: closer, rounding would decide which stands higher.
 constexpr float kOwnGround_m = 0.5F;
-constexpr float kSlopeShare = 0.1F;  // of the spacing: how far before a place its slope is taken
+constexpr float kSlopeShare = 0.1F;   // of the spacing: how far before a place its slope is taken
+constexpr float kColumnShare = 0.3F;  // of the spacing: columns that close together are not all looked at
 
-// Ways along one axis of a cell, counted in posts.
+// Ways along one axis of a cell, counted in posts. Of the lines across it every `step`th is looked at.
 struct Axis {
-  Floats from, to;
+  Floats from, to, step;
+  bool every = true;  // all steps are 1
 };
 
 // Lines of posts strictly between the two ends of a way.
@@ -37,7 +39,14 @@ HWY_INLINE Lines lines_between(const Axis& axis, float most) {
   const auto one = hn::Set(d, 1.0F);
   const auto first = hn::Max(hn::Add(hn::Floor(hn::Min(axis.from, axis.to)), one), hn::Zero(d));
   const auto last = hn::Min(hn::Sub(hn::Ceil(hn::Max(axis.from, axis.to)), one), hn::Set(d, most));
-  return {first, hn::Add(hn::Sub(last, first), one)};
+  const auto between = hn::Sub(last, first);
+  return {first, hn::Add(axis.every ? between : hn::Floor(hn::Div(between, axis.step)), one)};
+}
+
+HWY_INLINE Floats without_turns(Floats cells) {
+  const FloatLanes d;
+  constexpr float kTurn = 360.0F;
+  return fused::neg_mul_add(hn::Round(hn::Mul(cells, hn::Set(d, 1.0F / kTurn))), hn::Set(d, kTurn), cells);
 }
 
 // A height between two posts; a void leaves it to the other one, two leave none.
@@ -76,18 +85,25 @@ class Ways {
     const auto along = [&](const float* cells, const float* degrees, float cell_number, Floats intervals,
                            std::size_t at) {
       const auto cells_on = hn::Sub(hn::LoadU(d, cells + at), hn::Set(d, cell_number));
-      return hn::Mul(hn::Add(cells_on, hn::LoadU(d, degrees + at)), intervals);
+      const auto on = cell.close_columns ? without_turns(cells_on) : cells_on;
+      return hn::Mul(hn::Add(on, hn::LoadU(d, degrees + at)), intervals);
     };
+    const auto one = hn::Set(d, 1.0F);
     rows_ = {along(ray.cells_north, ray.north_deg, cell.cells_north, row_intervals, i - 1),
-             along(ray.cells_north, ray.north_deg, cell.cells_north, row_intervals, i)};
+             along(ray.cells_north, ray.north_deg, cell.cells_north, row_intervals, i), one};
     columns_ = {along(ray.cells_east, ray.east_deg, cell.cells_east, column_intervals, i - 1),
-                along(ray.cells_east, ray.east_deg, cell.cells_east, column_intervals, i)};
+                along(ray.cells_east, ray.east_deg, cell.cells_east, column_intervals, i), one};
     from_m_ = hn::LoadU(d, ray.distance_m + i - 1);
     way_m_ = hn::Sub(hn::LoadU(d, ray.distance_m + i), from_m_);
     // A way of more than a cell goes past a pole: it is not straight.
     const auto straight = hn::And(hn::Lt(hn::Abs(hn::Sub(rows_.to, rows_.from)), row_intervals),
                                   hn::Lt(hn::Abs(hn::Sub(columns_.to, columns_.from)), column_intervals));
     wanted_ = hn::And(straight, hn::FirstN(d, end - i));
+    if (!cell.close_columns) return;
+    const auto columns = hn::Abs(hn::Sub(columns_.to, columns_.from));
+    const auto wanted_lines = hn::Div(way_m_, hn::Set(d, kColumnShare * cell.spacing_m));
+    columns_.step = hn::Max(hn::Floor(hn::Div(columns, hn::Max(wanted_lines, one))), one);
+    columns_.every = false;
   }
 
   // Two posts of a row stand about each crossing.
@@ -146,19 +162,21 @@ class Ways {
     const auto one = hn::Set(d, 1.0F);
     const Lines lines = lines_between(axis, static_cast<float>(lines_of_grid - 2));
     const auto count = hn::IfThenElseZero(wanted_, lines.count);
-    const auto most = hn::GetLane(hn::MaxOfLanes(d, count));
+    const int most = static_cast<int>(hn::GetLane(hn::MaxOfLanes(d, count)));
+    if (most < 1) return;
     const auto run = hn::Sub(axis.to, axis.from);
     const auto inverse = hn::Div(one, hn::IfThenElse(hn::Eq(run, zero), one, run));
     const auto drift = hn::Sub(other.to, other.from);
     const auto farthest_m = hn::Sub(way_m_, hn::Set(d, kOwnGround_m));
     const auto line_end = hn::Set(d, static_cast<float>(posts_of_line - 1));
     const auto last_post = hn::Set(d, static_cast<float>(posts_of_line - 2));
-    for (float number = 0.0F; number < most; number += 1.0F) {
-      const auto line = hn::Add(lines.first, hn::Set(d, number));
+    for (int i = 0; i < most; ++i) {
+      const auto number = hn::Set(d, static_cast<float>(i));
+      const auto line = fused::mul_add(number, axis.step, lines.first);
       const auto share = hn::Mul(hn::Sub(line, axis.from), inverse);
       const auto at = fused::mul_add(share, drift, other.from);
       const auto on_m = hn::Mul(share, way_m_);
-      auto counts = hn::And(hn::Lt(hn::Set(d, number), count), hn::Lt(on_m, farthest_m));
+      auto counts = hn::And(hn::Lt(number, count), hn::Lt(on_m, farthest_m));
       counts = hn::And(counts, hn::And(hn::Ge(at, zero), hn::Le(at, line_end)));
       const auto post = hn::Min(hn::Floor(at), last_post);
       const Posts posts = posts_at(whole(counts, line), whole(counts, post));

@@ -26,7 +26,10 @@ struct Ray {
 struct CrossedCell {
   look_up::Grid grid;
   float cells_north = 0.0F, cells_east = 0.0F;
-  float spacing_m = 0.0F;  // of its posts
+  float spacing_m = 0.0F;  // of its posts, as a walk takes it (PostSpacing)
+  // Whether columns stand closer than that, as towards a pole. Then as many are left out as stand closer than 0.3 of
+  // it, and longitudes count without whole turns, which a ray past a pole may differ by.
+  bool close_columns = false;
 };
 
 // For each i in [first, end), first >= 1: raises tangent[i] to the greatest one between the places i - 1 and i, as far

@@ -16,6 +16,14 @@
 
 namespace yars::model::terrain {
 
+class Cell;
+
+// A part of the earth between two parallels and two meridians. West is less than east, which may be beyond 180.
+struct GeoBox {
+  double south_deg = 0.0, north_deg = 0.0;
+  double west_deg = 0.0, east_deg = 0.0;
+};
+
 // The ground at one place.
 struct Surface {
   double elevation_m = 0.0;     // [m] MSL; NaN = void
@@ -49,6 +57,12 @@ struct SurfaceRun {
 
 // Arrays of the fast path have this many entries more behind the last one, which may be read and overwritten.
 inline constexpr std::size_t kRunSlack = 16;
+
+// How close the posts of a cell stand.
+struct PostSpacing {
+  double walked_m = 0.0;     // between the closest, but columns nearer than a third of the rows count as that far apart
+  double columns_deg = 0.0;  // of longitude, between columns; one lies on every whole degree
+};
 
 // How a ray sees its ground, for the fast path: from an eye at its beginning, over a sphere.
 struct RaySight {
@@ -84,8 +98,10 @@ class TerrainView {
   // [m] between the closest posts anywhere in it: between them the ground is what interpolation makes of it. 0: not
   // told.
   virtual double post_spacing_m() const { return 0.0; }
-  // [m] between the posts about a place; 0: none there, or not told.
-  virtual double post_spacing_at(geo::GeoPoint /*place*/) const { return 0.0; }
+  // The posts about a place; all 0: none there, or not told.
+  virtual PostSpacing post_spacing_at(geo::GeoPoint /*place*/) const { return {}; }
+  // The cells of posts that have a part in a box; none where the ground is not made of posts.
+  virtual std::vector<std::shared_ptr<const Cell>> cells_within(const GeoBox& /*box*/) const { return {}; }
   // True if a material other than 0 may be found anywhere.
   virtual bool has_materials() const { return false; }
 

@@ -152,6 +152,7 @@ class RandomConfiguration {
     made.azimuth_smear = coin();
     made.pulse_smear = coin();
     made.map_noise = number(0, 1);
+    made.map_smooth_ground = coin();
     return made;
   }
 

@@ -35,11 +35,11 @@ inline auto fields(const radar::ViewConfiguration& view) {
 
 inline auto fields(const radar::Fidelity& fidelity) {
   const auto& [name, automatic, share, algorithm, earth, factor, samples, knots, interpolation, posts, beams, slant,
-               slope, noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, bounce, random] =
-      fidelity;
+               slope, noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, ground, bounce,
+               random] = fidelity;
   return std::tuple(name, automatic, share, algorithm, earth, factor, samples, knots, interpolation, posts, beams,
-                    slant, slope, noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, bounce,
-                    random);
+                    slant, slope, noise, azimuth, pulse, beam, size, oversampling, layover, response, detail, ground,
+                    bounce, random);
 }
 
 inline auto fields(const radar::ReceiverConfiguration& receiver) {

@@ -121,10 +121,12 @@ TEST_F(Log, AFloodOfLinesIsAFewAndACount) {
                           : "hears it from port " + std::to_string(i));
       if (i % 1000 == 0) log_warning("bad record " + std::to_string(i));
     }
+    log_left_out(LeftOut::all);  // as at the program's end
   });
   EXPECT_LT(std::filesystem::file_size(folder_ / "role.log"), 20'000U);
   EXPECT_LT(terminal().size(), 20'000U);
   EXPECT_THAT(terminal(), HasSubstr("bad record 0"));
+  EXPECT_THAT(terminal(), HasSubstr("bad record 99000 (and 89 more like it)"));
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ class Windows : public ::testing::Test {
       GTEST_SKIP() << "needs Xvfb and xdotool (scripts/setup --test)";
     set_.start_tool("xvfb", {"Xvfb", "-displayfd", "1", "-screen", "0", "800x600x24", "-nolisten", "tcp"});
     ASSERT_TRUE(eventually([&] { return set_.output_of("xvfb").ends_with("\n"); }, 20.0)) << set_.log_of("xvfb");
-    auto display = ":" + set_.output_of("xvfb");
+    std::string display = set_.output_of("xvfb");
+    display.insert(display.begin(), ':');
     display.pop_back();
     setenv("DISPLAY", display.c_str(), 1);
     set_.start("state-machine", {"state-machine"});

@@ -24,10 +24,10 @@ std::shared_ptr<const terrain::Cell> mountains(int posts) {
   return std::make_shared<const terrain::Cell>(terrain::CellPlace{37, -123}, posts, posts, heights);
 }
 
-// The same ground without a word on the posts' spacing: every column is read.
-class Silent final : public terrain::TerrainView {
+// The same ground, which may have materials: every column is read.
+class Covered final : public terrain::TerrainView {
  public:
-  explicit Silent(terrain::TerrainViewPointer of) : of_(std::move(of)) {}
+  explicit Covered(terrain::TerrainViewPointer of) : of_(std::move(of)) {}
   std::uint64_t generation() const override { return of_->generation(); }
   std::uint64_t resident_bytes() const override { return of_->resident_bytes(); }
   terrain::Surface surface_at(geo::GeoPoint place, Interpolation interpolation) const override {
@@ -36,6 +36,11 @@ class Silent final : public terrain::TerrainView {
   std::size_t surfaces(const terrain::PlaceRun& places, Interpolation interpolation,
                        const terrain::SurfaceRun& found) const override {
     return of_->surfaces(places, interpolation, found);
+  }
+  double post_spacing_m() const override { return of_->post_spacing_m(); }
+  bool has_materials() const override { return true; }
+  std::vector<std::shared_ptr<const terrain::Cell>> cells_within(const terrain::GeoBox& box) const override {
+    return of_->cells_within(box);
   }
   bool crests(const terrain::PlaceRun& places, const terrain::RaySight& sight,
               std::span<float> tangent) const override {
@@ -87,10 +92,10 @@ TEST(ColumnsBetween, LieOnAStraightLineOnEveryVectorTarget) {
 
 TEST(ColumnsBetween, ChangeAMapOfMountainsByLessThanHalfADecibel) {
   const auto known = view_of(1201);
-  const auto silent = std::make_shared<Silent>(known);
+  const auto covered = std::make_shared<Covered>(known);
   const radar::RadarConfiguration configuration = bare_map(1024);
   const auto quick = make_patch(configuration, order_over_mountains(), known);
-  const auto whole = make_patch(configuration, order_over_mountains(), silent);
+  const auto whole = make_patch(configuration, order_over_mountains(), covered);
   const auto& one = quick.image().power;
   const auto& two = whole.image().power;
   ASSERT_EQ(one.size(), two.size());
@@ -118,7 +123,7 @@ TEST(ColumnsBetween, AreReadWherePostsAreCloseOrTheNearestDecides) {
   const auto same = [](const radar::RadarConfiguration& configuration, int posts) {
     const auto known = view_of(posts);
     return make_patch(configuration, order_over_mountains(), known).image().power ==
-           make_patch(configuration, order_over_mountains(), std::make_shared<Silent>(known)).image().power;
+           make_patch(configuration, order_over_mountains(), std::make_shared<Covered>(known)).image().power;
   };
   radar::RadarConfiguration configuration = bare_map(240);
   EXPECT_TRUE(same(configuration, 3601)) << "pixels of 5 m, posts of 24 m";

@@ -90,6 +90,24 @@ TEST(Void, IsDarkAndHidesNothing) {
   EXPECT_NEAR(at(0.0, 80.0), gamma_of(configuration, 0), 0.02 * gamma_of(configuration, 0));
 }
 
+// A valley far below the middle of the map begins with voids.
+TEST(Void, AtTheNearEdgeHidesNoLowGroundBehindIt) {
+  const radar::RadarConfiguration configuration = bare_map(240);
+  const hrm::PatchOrder order = order_from({});
+  const hrm::PatchGeometry geometry(order, configuration.fidelity, kGround_m);
+  const auto valley = [&](geo::GeoPoint place) {
+    const double up_m = geometry.point_of(place).up_m;
+    if (up_m < -560.0) return std::numeric_limits<double>::quiet_NaN();
+    return up_m < -100.0 ? kGround_m - 300.0 : kGround_m;
+  };
+  const auto process = make_patch(configuration, order, ground_of(valley));
+  const double pixel_m = geometry.window_m() / process.image().size;
+  // Low ground is laid over outwards, by 300 m over the tangent's inverse.
+  const int row = static_cast<int>((0.5 * geometry.window_m() + 520.0 - 45.0) / pixel_m);
+  for (const int column : {40, 120, 200})
+    EXPECT_GT(process.image().power[process.image().at(column, row)], 0.5 * gamma_of(configuration, 0)) << column;
+}
+
 TEST(Void, AllOverGivesABlackMap) {
   const auto nothing = ground_of(terrain::flat(std::numeric_limits<double>::quiet_NaN()));
   const auto process = make_patch(bare_map(64), order_from({}), nothing);

@@ -6,12 +6,15 @@
 #include <limits>
 #include <vector>
 
+#include "model/kernel/sharpened_scan.hpp"
 #include "model/rbm/beacons.hpp"
 #include "model/rbm/gas_path.hpp"
 #include "model/rbm/standard.hpp"
 #include "model/rbm/strobes.hpp"
 #include "model/reflectivity/gases.hpp"
+#include "tests/model/gas_layers.hpp"
 #include "tests/model/ground.hpp"
+#include "tests/model/made_up_objects.hpp"
 
 namespace yars::model::rbm {
 namespace {
@@ -61,27 +64,6 @@ double lowest_m(double altitude_m, double distance_m, double height_m) {
   return lowest;
 }
 
-// The ray cut into short pieces, each with the air of its middle.
-double in_layers_db(const radar::RadarConfiguration& configuration, double radius_m, double altitude_m,
-                    double distance_m, double height_m) {
-  constexpr int kPieces = 2000;
-  const EffectiveEarth earth(radius_m);
-  const double length_m = earth.sight(altitude_m, distance_m, height_m).slant_range_m;
-  // From the middle of the earth: the ends, and what lies between on a straight line.
-  const double angle = distance_m / radius_m;
-  const double ax = 0.0, ay = radius_m + altitude_m;
-  const double bx = (radius_m + height_m) * std::sin(angle), by = (radius_m + height_m) * std::cos(angle);
-  double sum_db = 0.0;
-  for (int piece = 0; piece < kPieces; ++piece) {
-    const double share = (piece + 0.5) / kPieces;
-    const double above_m = std::hypot(ax + share * (bx - ax), ay + share * (by - ay)) - radius_m;
-    const auto found =
-        gas_attenuation(configuration.receiver.frequency_ghz, reference_air(configuration.world.atmosphere, above_m));
-    sum_db += (found.dry + found.water) / 1000.0 * length_m / kPieces;
-  }
-  return sum_db;
-}
-
 TEST(Gases, AreSummedOverTheRay) {
   const radar::RadarConfiguration configuration;
   const GasPath path(configuration);
@@ -91,7 +73,7 @@ TEST(Gases, AreSummedOverTheRay) {
       for (const double height_m : {-50.0, 0.0, 1500.0, 4000.0}) {
         const double distance_m = range_nm * kNauticalMile_m;
         if (lowest_m(altitude_m, distance_m, height_m) < kDeepest_m) continue;
-        const double expected = in_layers_db(configuration, radius_m, altitude_m, distance_m, height_m);
+        const double expected = test::gases_in_layers_db(configuration, radius_m, altitude_m, distance_m, height_m);
         EXPECT_NEAR(path.one_way_db(EffectiveEarth(radius_m), altitude_m, distance_m, height_m), expected,
                     0.002 + 0.002 * expected)
             << altitude_m << " m, " << range_nm << " NM, " << height_m << " m";
@@ -203,6 +185,72 @@ TEST(Gases, TakeTheirPartOnceFromJammersAndBeacons) {
   ASSERT_FALSE(heard.replies(look, plain).empty());
   const double reply = heard.replies(look, plain)[0].power / clear.replies(look, plain)[0].power;
   EXPECT_NEAR(10.0 * std::log10(reply), expected_db, 1e-6);
+}
+
+// Power with gases over power without, by sample [dB]; NaN where nothing returns.
+std::vector<double> loss_db(const radar::RadarConfiguration& configuration, const Look& look,
+                            const terrain::TerrainView& ground, const scene::SceneView* scenes) {
+  const std::size_t count = sample_count(configuration);
+  std::vector<float> dimmed(count), clear(count);
+  make_algorithm(configuration)->measure(look, {ground, scenes, true, {}}, dimmed);
+  make_algorithm(without_gases(configuration))->measure(look, {ground, scenes, true, {}}, clear);
+  std::vector<double> found;
+  for (std::size_t i = 0; i < count; ++i)
+    found.push_back(clear[i] > 0.0F ? 10.0 * std::log10(static_cast<double>(dimmed[i]) / static_cast<double>(clear[i]))
+                                    : std::numeric_limits<double>::quiet_NaN());
+  return found;
+}
+
+// The sweeps of the HRM PPI: over ground of 100 and of 2,500 m.
+TEST(Gases, DimTheHrmPpiByTheirIntegral) {
+  for (const double ground_m : {100.0, 2500.0})
+    for (const auto algorithm : {radar::Algorithm::standard, radar::Algorithm::reference}) {
+      radar::RadarConfiguration configuration = kernel::sharpened_configuration({});
+      configuration.fidelity.algorithm = algorithm;
+      configuration.fidelity.pulse_smear = false;
+      Look look = test::look_north(6000.0, 80.0 * kNauticalMile_m);
+      look.share.sharpened = true;
+      const terrain::AnalyticTerrain plain(terrain::flat(ground_m));
+      const double radius_m = effective_earth(configuration.fidelity, look.apex, look.azimuth).radius_m();
+      const std::vector<double> found = loss_db(configuration, look, plain, nullptr);
+      ASSERT_EQ(found.size(), 480U);
+      for (const std::size_t i : {60U, 240U, 360U, 479U}) {
+        const double distance_m = (static_cast<double>(i) + 0.5) * look.range.metres() / 480.0;
+        EXPECT_NEAR(found[i], -2.0 * test::gases_in_layers_db(configuration, radius_m, 6000.0, distance_m, ground_m),
+                    0.1)
+            << i << ", " << ground_m << " m";
+      }
+    }
+}
+
+// A hall of 200 m whose ground returns nothing: all power of its samples is its own.
+TEST(Gases, DimObjectsOfScenesByTheirIntegral) {
+  for (const double miles : {20.0, 60.0})
+    for (const auto algorithm : {radar::Algorithm::standard, radar::Algorithm::reference}) {
+      radar::RadarConfiguration configuration;
+      configuration.fidelity.algorithm = algorithm;
+      configuration.fidelity.pulse_smear = false;
+      configuration.receiver.land_gamma_db = -60.0;
+      const Look look = test::look_north(6000.0, 80.0 * kNauticalMile_m);
+      const geo::GeoPoint place = geo::geodesic_direct(look.apex, look.azimuth, geo::Length::nautical_miles(miles));
+      const auto ground = terrain::flat(300.0);
+      const auto scene = test::scene_of({{0.0, 0.0, 100.0, 100.0, 200.0}}, place, 0.0, ground);
+      const double radius_m = effective_earth(configuration.fidelity, look.apex, look.azimuth).radius_m();
+      radar::RadarConfiguration bare = without_gases(configuration);
+      std::vector<float> with(480), without(480);
+      make_algorithm(bare)->measure(look, {terrain::AnalyticTerrain(ground), scene.get(), true, {}}, with);
+      make_algorithm(bare)->measure(look, {terrain::AnalyticTerrain(ground), nullptr, true, {}}, without);
+      const std::vector<double> found = loss_db(configuration, look, terrain::AnalyticTerrain(ground), scene.get());
+      int of_the_hall = 0;
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        if (!(with[i] > 1000.0F * without[i])) continue;
+        ++of_the_hall;
+        const double distance_m = (static_cast<double>(i) + 0.5) * look.range.metres() / 480.0;
+        EXPECT_NEAR(found[i], -2.0 * test::gases_in_layers_db(configuration, radius_m, 6000.0, distance_m, 400.0), 0.1)
+            << i << ", " << miles << " NM";
+      }
+      EXPECT_GT(of_the_hall, 0);
+    }
 }
 
 }  // namespace

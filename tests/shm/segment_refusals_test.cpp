@@ -94,7 +94,7 @@ TEST_F(SegmentTest, AReaderSeesEverythingLocksNothingAndCannotWrite) {
   EXPECT_FALSE(reader->is_locked(4));
   EXPECT_FALSE(reader->try_lock(4));
   ChildProcess writer([&] {
-    std::freopen("/dev/null", "w", stderr);
+    if (std::freopen("/dev/null", "w", stderr) == nullptr) return 0;
     mark_in(const_cast<void*>(std::as_const(*reader).memory())) = 1;
     return 0;
   });

@@ -69,8 +69,8 @@ bool set_geodesic_knots(Fidelity& fidelity, std::string_view text) {
   return true;
 }
 
-const std::array<Knob, 16>& knobs() {
-  static const std::array<Knob, 16> all{{
+const std::array<Knob, 17>& knobs() {
+  static const std::array<Knob, 17> all{{
       {"samples", "whole numbers 1 to 4096", whole_number(&Fidelity::samples, 1, radar::kMaxSamples), true, false},
       {"geodesicKnots", "0 or whole numbers 2 to 9", set_geodesic_knots, true, true},
       {"interpolation", "nearest, bilinear, cubic", choice(&Fidelity::interpolation, {"nearest", "bilinear", "cubic"}),
@@ -87,6 +87,7 @@ const std::array<Knob, 16>& knobs() {
       {"mapOversampling", "whole numbers 1 to 4", whole_number(&Fidelity::map_oversampling, 1, 4), false, true},
       {"mapLayover", "true, false", flag(&Fidelity::map_layover), false, true},
       {"mapResponse", "true, false", flag(&Fidelity::map_response), false, true},
+      {"mapSmoothGround", "true, false", flag(&Fidelity::map_smooth_ground), false, true},
       {"mapDetail", "true, false", flag(&Fidelity::map_detail), false, true},
       {"mapDoubleBounce", "true, false", flag(&Fidelity::map_double_bounce), false, true},
   }};

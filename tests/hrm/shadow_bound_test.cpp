@@ -1,0 +1,277 @@
+// Light and shadow within the windows of patch maps against brute force: every tenth of the posts' spacing from the
+// aircraft on and from row to row, on the exact geodesic, on the exact effective earth, over the finest posts. A point
+// of the polar grid is dark if anything nearer on its line of sight stands as high, whatever the number of rows.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lib/radar/fidelity_preset.hpp"
+#include "model/hrm/ground_fan.hpp"
+#include "model/hrm/patch_layout.hpp"
+#include "model/hrm/reference_patch.hpp"
+#include "model/terrain/cell_view.hpp"
+#include "model/terrain/dted_writer.hpp"
+#include "model/terrain/landscape.hpp"
+#include "model/terrain/open_terrain.hpp"
+#include "tests/hrm/patch_maker.hpp"
+#include "tests/terrain/dted_builder.hpp"
+#include "tests/terrain/rough_cell.hpp"
+#include "tests/terrain/shared_data.hpp"
+
+namespace yars::test {
+namespace {
+
+namespace terrain = model::terrain;
+
+constexpr double kNothing = -std::numeric_limits<double>::infinity();
+constexpr double kWindows_nm[] = {0.67, 1.3, 2.0, 3.3, 4.7, 10.0, 20.0, 40.0, 80.0};
+constexpr int kColumns = 8;           // that are looked at
+constexpr int kReferencePixels = 64;  // of its maps: it walks as far between few rows as between many
+
+struct Country {
+  std::string name;
+  std::filesystem::path folder;
+  geo::GeoPoint centre;
+  double from_deg = 180.0;
+  double altitude_ft = 15000.0;
+};
+
+hrm::PatchOrder order_of(const Country& country, double window_nm) {
+  // As near as a window allows, and no nearer than 10 NM: the grazing angle is that of low flight.
+  const double distance_nm = std::max(10.0, 1.2 * window_nm);
+  hrm::PatchOrder order;
+  order.centre = country.centre;
+  order.apex = geo::geodesic_direct(country.centre, geo::Bearing::degrees(country.from_deg),
+                                    geo::Length::nautical_miles(distance_nm));
+  order.altitude = geo::AltitudeMsl::feet(country.altitude_ft);
+  order.ground_speed = geo::Speed::knots(480.0);
+  order.window = geo::Length::nautical_miles(window_nm);
+  return order;
+}
+
+// What a preset makes of the window: the fan of its ground.
+struct Fan {
+  hrm::PatchGeometry geometry;
+  hrm::FanGrid grid;
+  std::vector<hrm::SurfacePoint> surface;
+  std::vector<float> horizon, crest_m;
+  hrm::CrestsBetweenRows crests{};
+  std::shared_ptr<hrm::ReferencePatch> reference{};  // null: not asked
+
+  // Along a column, by row.
+  std::vector<bool> lit(int column) const {
+    std::vector<bool> found;
+    for (int row = 0; reference && row < grid.rows; ++row) found.push_back(reference->lit(column, row));
+    if (reference) return found;
+    double highest = static_cast<double>(horizon[static_cast<std::size_t>(column)]);
+    for (int row = 0; row < grid.rows; ++row) {
+      const std::size_t at = grid.at(column, row);
+      const double distance_m = grid.distance_m(row);
+      const auto tangent = [&](float height_m) {
+        return (static_cast<double>(height_m) - geometry.above_plane_m(distance_m)) / distance_m;
+      };
+      if (crests.any()) highest = std::max(highest, tangent(crest_m[at]));
+      found.push_back(tangent(surface[at].height_m) > highest);
+      highest = std::max(highest, tangent(surface[at].height_m));
+    }
+    return found;
+  }
+};
+
+// The same steps as hrm::PatchProcess takes.
+std::unique_ptr<Fan> fan_of(const radar::RadarConfiguration& configuration, const hrm::PatchOrder& order,
+                            const terrain::TerrainViewPointer& window, const terrain::TerrainViewPointer& path) {
+  const double elevation_m = window->elevation_m(order.centre);
+  const hrm::PatchGeometry geometry(order, configuration.fidelity, std::isnan(elevation_m) ? 0.0 : elevation_m);
+  const int pixels = configuration.fidelity.map_size;
+  const bool exact = configuration.fidelity.algorithm == radar::Algorithm::reference;
+  const int cells = exact ? hrm::kReferenceCells : configuration.fidelity.map_oversampling;
+  const hrm::FanGrid grid = hrm::make_fan_grid(geometry, pixels, cells, {});
+  auto fan = std::make_unique<Fan>(Fan{geometry, grid, std::vector<hrm::SurfacePoint>(grid.size()),
+                                       std::vector<float>(static_cast<std::size_t>(grid.columns)),
+                                       std::vector<float>(grid.size())});
+  const auto smooth =
+      configuration.fidelity.map_smooth_ground
+          ? terrain::smooth_between_posts(window, hrm::smooth_order(geometry, grid, configuration.fidelity, {}))
+          : window;
+  if (exact) {
+    fan->reference = std::make_shared<hrm::ReferencePatch>(configuration, fan->geometry, fan->grid);
+    fan->reference->read_terrain({smooth.get(), path.get()});
+    return fan;
+  }
+  fan->crests = hrm::crests_between_rows(grid, *window, smooth != window);
+  hrm::GroundFan ground(configuration);
+  ground.begin(geometry, grid, *path);
+  ground.fill(order, geometry, grid, {smooth.get(), path.get(), fan->crests}, nullptr, 0, grid.columns,
+              {fan->surface.data(), fan->horizon.data(), fan->crests.any() ? fan->crest_m.data() : nullptr});
+  return fan;
+}
+
+// Along a column: tangents at so many places, ascending, and the highest of all before.
+class Truth {
+ public:
+  Truth(const Fan& fan, const hrm::PatchOrder& order, const terrain::TerrainView& path,
+        const terrain::TerrainView& window, int column)
+      : geometry_(fan.geometry),
+        altitude_m_(order.altitude.metres()),
+        window_(window),
+        ray_(order.apex, fan.geometry.up() + geo::Angle::radians(std::atan(fan.grid.tangent(column)))) {
+    const double step_m = 0.1 * path.post_spacing_m();
+    const double first_m = fan.grid.first_distance_m;
+    // Where rows are closer than a tenth their shadows' ends are told as closely.
+    const double path_step_m = std::clamp(0.3 * fan.grid.spacing_m, 0.1 * step_m, step_m);
+    const int path_steps = static_cast<int>(std::ceil(first_m / path_step_m));
+    for (int step = 1; step < path_steps; ++step) add(path, step * path_step_m);
+    const int steps = static_cast<int>(std::ceil(fan.grid.spacing_m / step_m));
+    for (int row = 0; row + 1 < fan.grid.rows; ++row)
+      for (int step = 0; step < steps; ++step)
+        add(window, fan.grid.distance_m(row + static_cast<double>(step) / steps));
+  }
+  double own(double distance_m) const { return tangent(window_, distance_m); }
+  double before(double distance_m) const {
+    const auto behind = std::lower_bound(distance_m_.begin(), distance_m_.end(), distance_m - 1e-3);
+    return behind == distance_m_.begin() ? kNothing
+                                         : highest_[static_cast<std::size_t>(behind - distance_m_.begin()) - 1];
+  }
+
+ private:
+  void add(const terrain::TerrainView& view, double distance_m) {
+    const double before = highest_.empty() ? kNothing : highest_.back();
+    distance_m_.push_back(distance_m);
+    highest_.push_back(std::max(before, tangent(view, distance_m)));
+  }
+  double tangent(const terrain::TerrainView& view, double distance_m) const {
+    const double height_m = view.elevation_m(ray_.position(geo::Length::metres(distance_m)));
+    return std::isnan(height_m) ? kNothing : geometry_.earth().sight(altitude_m_, distance_m, height_m).tangent;
+  }
+
+  const hrm::PatchGeometry& geometry_;
+  double altitude_m_;
+  const terrain::TerrainView& window_;
+  geo::GeodesicRay ray_;
+  std::vector<double> distance_m_, highest_;
+};
+
+struct Found {
+  double wrong = 0.0, dark = 0.0, points = 0.0;
+};
+
+Found compare(const char* preset, const Country& country, double window_nm, terrain::TerrainStore& store) {
+  radar::RadarConfiguration configuration;
+  configuration.fidelity = *radar::fidelity_preset(preset);
+  const bool exact = configuration.fidelity.algorithm == radar::Algorithm::reference;
+  if (exact) configuration.fidelity.map_size = kReferencePixels;
+  const hrm::PatchOrder order = order_of(country, window_nm);
+  const hrm::PatchNeed need = hrm::patch_need(order, configuration.fidelity);
+  const auto window = store.prepare(need.window), path = store.prepare(need.path);
+  const std::unique_ptr<Fan> made = fan_of(configuration, order, window, path);
+  const Fan& fan = *made;
+  const geo::Length reach = geo::Length::metres(1.5 * fan.grid.distance_m(fan.grid.rows - 1));
+  const auto finest = store.prepare({order.apex, reach.metres(), 0});
+  // Nodes of smooth ground a tenth of the posts apart.
+  terrain::SmoothOrder finer = hrm::smooth_order(fan.geometry, fan.grid, configuration.fidelity, {});
+  finer.least_parts = std::max(finer.least_parts, 10);
+  const auto ground = configuration.fidelity.map_smooth_ground ? terrain::smooth_between_posts(finest, finer) : finest;
+  Found found;
+  const int columns = exact ? 3 * kColumns : kColumns;
+  for (int i = 0; i < columns; ++i) {
+    const int column = static_cast<int>((i + 0.37) / columns * fan.grid.columns);
+    const Truth truth(fan, order, *finest, *ground, column);
+    const std::vector<bool> lit = fan.lit(column);
+    for (int row = 0; row < fan.grid.rows; ++row) {
+      const double own = truth.own(fan.grid.distance_m(row));
+      if (!(own > kNothing)) continue;
+      const bool truly = own > truth.before(fan.grid.distance_m(row));
+      found.points += 1.0;
+      found.dark += truly ? 0.0 : 1.0;
+      found.wrong += truly == lit[static_cast<std::size_t>(row)] ? 0.0 : 1.0;
+    }
+  }
+  return found;
+}
+
+struct Bound {
+  const char* preset;
+  double share;
+};
+constexpr Bound kBounds[] = {{"reference", 0.001}, {"standard", 0.005}, {"fine", 0.005}, {"draft", 0.02}};
+
+// Returns the greatest share in the dark of all windows.
+double expect_within_bounds(const Country& country) {
+  auto store = terrain::open_terrain({country.folder.string(), true});
+  EXPECT_TRUE(store) << store.error().message();
+  if (!store) return 0.0;
+  double most_dark = 0.0;
+  for (const double window_nm : kWindows_nm)
+    for (const Bound& bound : kBounds) {
+      const Found found = compare(bound.preset, country, window_nm, **store);
+      if (found.points == 0.0) continue;
+      const double wrong = found.wrong / found.points;
+      most_dark = std::max(most_dark, found.dark / found.points);
+      EXPECT_LE(wrong, bound.share) << country.name << ", " << bound.preset << ", " << window_nm << " NM";
+      std::printf("%s, %s, %g NM: %.0f points, %.1f %% dark, %.3f %% differ\n", country.name.c_str(), bound.preset,
+                  window_nm, found.points, 100.0 * found.dark / found.points, 100.0 * wrong);
+    }
+  return most_dark;
+}
+
+// Whole maps: a wall of one post's width, far narrower than a row, darkens the ground behind it.
+TEST(PatchShadow, OfAWallBetweenRowsLiesOnTheMap) {
+  auto view = std::make_shared<terrain::CellView>(1, terrain::Absence::none);
+  for (const int south : {36, 37, 38})
+    view->add(std::make_shared<const terrain::Cell>(
+        cell_of({south, -123}, 1201, 1201, [&](int row, int) { return south == 37 && row == 601 ? 1000 : 10; })));
+  for (const auto algorithm : {radar::Algorithm::standard, radar::Algorithm::reference})
+    for (const double window_nm : {20.0, 40.0}) {
+      radar::RadarConfiguration configuration = bare_map(48);
+      configuration.fidelity.algorithm = algorithm;
+      hrm::PatchOrder order;
+      order.centre = {37.5, -122.5};
+      order.apex = {36.6, -122.5};
+      order.altitude = geo::AltitudeMsl::metres(5000.0);
+      order.ground_track = geo::Bearing::degrees(90.0);
+      order.window = geo::Length::nautical_miles(window_nm);
+      const auto process = make_patch(configuration, order, view);
+      const hrm::MapImage& image = process.image();
+      const double pixel_m = process.geometry().window_m() / image.size;
+      // The wall stands 93 m beyond the centre; its shadow is 25 km long.
+      for (int row = 0; row < image.size; ++row) {
+        const double beyond_m = 0.5 * process.geometry().window_m() - (row + 0.5) * pixel_m - 93.0;
+        if (std::abs(beyond_m) < 2.0 * pixel_m || beyond_m > 20000.0) continue;
+        EXPECT_EQ(image.power[image.at(image.size / 2, row)] > 0.0F, beyond_m < 0.0)
+            << window_nm << " NM, " << beyond_m << " m behind the wall";
+      }
+    }
+}
+
+TEST(PatchShadowBound, HoldsOverTheMadeUpCoast) {
+  TemporaryFolder folder;
+  const terrain::Landscape landscape(terrain::DefaultLandscape::kSeed);
+  ASSERT_TRUE(terrain::write_dted(folder.path(), landscape.cell({37, -123}, 1201, 1201), 1));
+  EXPECT_GT(expect_within_bounds({"made-up coast", folder.path(), {37.5, -122.45}, 200.0, 5000.0}), 0.02);
+}
+
+TEST(PatchShadowBound, HoldsOverRealMountains) {
+  YARS_NEEDS_SHARED_DATA();
+  EXPECT_GT(expect_within_bounds({"Nevada", shared_data() / "srtm", {38.9, -114.3}, 200.0, 15000.0}), 0.3);
+}
+
+TEST(PatchShadowBound, HoldsOverRealHills) {
+  YARS_NEEDS_SHARED_DATA();
+  EXPECT_GT(expect_within_bounds({"jungle hills", shared_data() / "dted", {0.4, 6.6}, 120.0, 8000.0}), 0.01);
+}
+
+TEST(PatchShadowBound, HoldsOverARealCoast) {
+  YARS_NEEDS_SHARED_DATA();
+  EXPECT_GT(expect_within_bounds({"Big Sur", shared_data() / "srtm", {36.25, -121.7}, 250.0, 6000.0}), 0.1);
+}
+
+}  // namespace
+}  // namespace yars::test

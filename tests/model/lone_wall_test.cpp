@@ -1,0 +1,187 @@
+// A wall of one post's width, far narrower than a sample: what lies behind it is dark, whatever the preset and range.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "lib/radar/fidelity_preset.hpp"
+#include "model/rbm/algorithm.hpp"
+#include "model/rbm/beacons.hpp"
+#include "model/rbm/sample_places.hpp"
+#include "model/rbm/strobes.hpp"
+#include "model/terrain/cell_view.hpp"
+#include "tests/lanes/vector_targets.hpp"
+#include "tests/terrain/rough_cell.hpp"
+
+namespace yars::model::rbm {
+namespace {
+
+constexpr int kPosts = 1201;             // of a degree at 3"
+constexpr double kDegree_m = 111'694.0;  // WGS84, of a meridian at the pole
+
+// A wall of one post's width, far narrower than a sample: what lies behind it is dark, ships too.
+class LoneWall : public ::testing::Test {
+ protected:
+  static constexpr int kWallRow = 601;  // 30' north of the cell's edge
+  LoneWall() : view_(1, terrain::Absence::none) {
+    view_.add(std::make_shared<const terrain::Cell>(
+        test::cell_of({37, -122}, kPosts, kPosts, [](int row, int) { return row == kWallRow ? 1500 : 10; })));
+  }
+  static Look look(double range_nm) {
+    return {{37.2, -121.5},
+            geo::AltitudeMsl::metres(1200.0),
+            geo::Bearing::degrees(0.0),
+            geo::Angle::degrees(-2.0),
+            geo::Length::nautical_miles(range_nm)};
+  }
+  static geo::GeoPoint behind(double miles) {
+    return geo::geodesic_direct({37.2, -121.5}, geo::Bearing::degrees(0.0), geo::Length::nautical_miles(18.05 + miles));
+  }
+  terrain::CellView view_;
+};
+
+// From 1 NM on light up to a wall, and dark behind it, whatever the number of samples.
+void expect_dark_behind(const terrain::TerrainView& view, Look look, double wall_nm) {
+  for (const char* preset : {"draft", "standard", "reference"})
+    for (const double range_nm : {20.0, 40.0, 80.0, 160.0}) {
+      radar::RadarConfiguration configuration;
+      configuration.fidelity = *radar::fidelity_preset(preset);
+      configuration.fidelity.sub_beams = 1;
+      const auto algorithm = make_algorithm(configuration);
+      const std::size_t count = sample_count(configuration);
+      std::vector<float> power(count);
+      std::vector<std::uint8_t> lit(count);
+      look.range = geo::Length::nautical_miles(range_nm);
+      algorithm->measure(look, view, power);
+      algorithm->lit(lit);
+      for (std::size_t i = 0; i < count; ++i) {
+        const double miles = (static_cast<double>(i) + 0.5) * range_nm / static_cast<double>(count);
+        const bool before = miles > 1.0 && miles < wall_nm - 0.15;
+        if (!before && miles < wall_nm + 0.15) continue;
+        EXPECT_EQ(lit[i], before ? 1 : 0) << preset << ", " << range_nm << ", " << miles;
+      }
+    }
+}
+
+TEST_F(LoneWall, HidesTheGroundBehindItAtEveryRange) {
+  expect_dark_behind(view_, look(160.0), 18.05);
+}
+
+// 24' from the pole a ray goes over it, or nearly so, to a wall along a parallel 12' beyond.
+TEST_F(LoneWall, HidesTheGroundBehindItBeyondThePole) {
+  constexpr int kRows = 601, kColumns = 101, kRing = 480;
+  constexpr double kSouthDeg = 89.0 + kRing / (kRows - 1.0);
+  terrain::CellView view(1, terrain::Absence::sea);
+  for (int west_deg = -180; west_deg < -120; ++west_deg)
+    view.add(std::make_shared<const terrain::Cell>(
+        test::cell_of({89, west_deg}, kRows, kColumns, [](int row, int) { return row == kRing ? 1500 : 10; })));
+  for (const double longitude_deg : {30.0, 30.1, 29.7})
+    for (const double azimuth_deg : {0.0, 0.2, 359.0}) {
+      Look over = look(160.0);
+      over.apex = {89.6, longitude_deg};
+      over.azimuth = geo::Bearing::degrees(azimuth_deg);
+      SCOPED_TRACE(azimuth_deg);
+      const double offset = 90.0 - over.apex.latitude_deg, ring = 90.0 - kSouthDeg;
+      const double miss = offset * std::sin(over.azimuth.radians());
+      const double way_deg = offset * std::cos(over.azimuth.radians()) + std::sqrt(ring * ring - miss * miss);
+      expect_dark_behind(view, over, way_deg * kDegree_m / geo::kMetresPerNauticalMile);
+    }
+}
+
+// A ray that passes the pole 2.3 km off turns by fifteen degrees of longitude from one sample to the next. One of them
+// is land, 40 m wide there.
+TEST_F(LoneWall, HidesTheGroundBehindItBesideThePole) {
+  for (const int west_deg : {100, 110, 117, 125, 140}) {
+    terrain::CellView view(1, terrain::Absence::sea);
+    view.add(
+        std::make_shared<const terrain::Cell>(test::cell_of({89, west_deg}, 601, 101, [](int, int) { return 1500; })));
+    Look past = look(160.0);
+    past.apex = {89.6, 30.0};
+    past.azimuth = geo::Bearing::degrees(3.0);
+    SCOPED_TRACE(west_deg);
+    const double turn_rad = (west_deg + 0.5 - 30.0) * geo::kRadiansPerDegree;
+    // By the law of sines in the triangle of aircraft, pole and crossing.
+    const double way_deg = 0.4 * std::sin(turn_rad) / std::sin(turn_rad + past.azimuth.radians());
+    expect_dark_behind(view, past, way_deg * kDegree_m / geo::kMetresPerNauticalMile);
+  }
+}
+
+TEST_F(LoneWall, HidesAShipRightBehindIt) {
+  for (const char* preset : {"draft", "standard", "reference"})
+    for (const double range_nm : {20.0, 40.0, 80.0, 160.0}) {
+      radar::RadarConfiguration configuration;
+      configuration.fidelity = *radar::fidelity_preset(preset);
+      configuration.fidelity.sub_beams = 1;
+      const std::size_t count = sample_count(configuration);
+      std::vector<float> with(count), without(count);
+      make_algorithm(configuration)->measure(look(range_nm), view_, without);
+      configuration.world.movers.push_back({"ship", behind(0.2), 0.0, 0.0, 1.0e9, 6.0});
+      make_algorithm(configuration)->measure(look(range_nm), view_, with);
+      EXPECT_EQ(with, without) << preset << ", " << range_nm << " NM";
+    }
+}
+
+TEST_F(LoneWall, HidesJammersAndBeacons) {
+  radar::RadarConfiguration configuration;
+  radar::Jammer jammer;
+  jammer.place = behind(3.0);
+  configuration.world.jamming.jammers.push_back(jammer);
+  radar::Beacon beacon;
+  beacon.place = jammer.place;
+  configuration.world.beacons.beacons.push_back(beacon);
+  EXPECT_EQ(Strobes(configuration).level(look(40.0), view_), 0.0);
+  EXPECT_TRUE(Beacons(configuration).replies(look(40.0), view_).empty());
+  // As high as the wall they are in sight.
+  configuration.world.jamming.jammers[0].altitude_m = configuration.world.beacons.beacons[0].altitude_m = 2500.0;
+  EXPECT_GT(Strobes(configuration).level(look(40.0), view_), 0.0);
+  EXPECT_FALSE(Beacons(configuration).replies(look(40.0), view_).empty());
+}
+
+// Beyond a pole neighbours may be named a turn apart.
+TEST_F(LoneWall, CountsNoWholeTurnsOfLongitude) {
+  terrain::CellView view(1, terrain::Absence::sea);
+  view.add(std::make_shared<const terrain::Cell>(test::rough_cell({89, 20}, 601, 101, 7)));
+  PlaceArrays places(100);
+  std::vector<float> distance_m(100 + kPairSlack, 10000.0F);
+  for (std::size_t i = 0; i < 100; ++i) distance_m[i] = (static_cast<float>(i) + 0.5F) * 100.0F;
+  sample_places({89.3, 20.2}, geo::Bearing::degrees(5.0), geo::Length::metres(10000.0), 5, distance_m.data(), places);
+  const auto crests = [&] {
+    std::vector<float> found(100 + kPairSlack);
+    EXPECT_TRUE(
+        view.crests(places.run(), {9000.0, 0.0, std::span(distance_m).first(100)}, std::span(found).first(100)));
+    return found;
+  };
+  const std::vector<float> named_alike = crests();
+  EXPECT_GT(named_alike[50], terrain::kNoTangent);
+  for (std::size_t i = 1; i < 100; i += 2) places.cells_east[i] -= 360.0F;
+  EXPECT_EQ(crests(), named_alike);
+}
+
+TEST_F(LoneWall, HasTheSameCrestsForEveryWidthOfVector) {
+  PlaceArrays places(333);
+  std::vector<float> distance_m(333 + kPairSlack);
+  for (std::size_t i = 0; i < distance_m.size(); ++i)
+    distance_m[i] = (static_cast<float>(std::min<std::size_t>(i, 332)) + 0.5F) * 150.0F;
+  for (const terrain::CellPlace place : {terrain::CellPlace{37, -121}, {89, 20}, {89, -160}})
+    view_.add(std::make_shared<const terrain::Cell>(test::rough_cell(place, kPosts, kPosts, 7)));
+  for (const geo::GeoPoint apex : {geo::GeoPoint{37.4, -121.1}, {89.8, 20.3}})
+    for (const double azimuth_deg : {0.0, 33.0, 90.0, 181.0, 275.0}) {
+      sample_places(apex, geo::Bearing::degrees(azimuth_deg), geo::Length::metres(50000.0), 5, distance_m.data(),
+                    places);
+      std::vector<float> first;
+      test::for_each_vector_target([&](const char* name) {
+        std::vector<float> crests(333 + kPairSlack);
+        ASSERT_TRUE(view_.crests(places.run(), {1500.0, 1.0 / 8.5e6, std::span(distance_m).first(333)},
+                                 std::span(crests).first(333)));
+        crests.resize(333);
+        EXPECT_GT(*std::max_element(crests.begin(), crests.end()), terrain::kNoTangent) << azimuth_deg;
+        if (first.empty()) first = crests;
+        EXPECT_EQ(crests, first) << name << ", " << azimuth_deg;
+      });
+    }
+}
+
+}  // namespace
+}  // namespace yars::model::rbm

@@ -1,0 +1,51 @@
+// Several rays across the beam: which of them says what is lit.
+#include "model/rbm/sub_beams.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "tests/model/ground.hpp"
+
+namespace yars::model::rbm {
+namespace {
+
+// West of the meridian of the look a wall stands, east of it there is none.
+terrain::AnalyticTerrain wall_to_the_west() {
+  return terrain::AnalyticTerrain([](geo::GeoPoint place) {
+    const bool wall = place.latitude_deg > 37.05 && place.latitude_deg < 37.06;
+    return wall && place.longitude_deg < test::kMidLatitude.longitude_deg - 0.0002 ? 900.0 : 0.0;
+  });
+}
+
+std::vector<std::uint8_t> lit_by(int rays, double azimuth_deg) {
+  radar::RadarConfiguration configuration = test::bare_configuration(240);
+  configuration.fidelity.sub_beams = rays;
+  const auto algorithm = make_algorithm(configuration);
+  Look look = test::look_north(1000.0, 30000.0);
+  look.azimuth = geo::Bearing::degrees(azimuth_deg);
+  std::vector<float> power(240);
+  algorithm->measure(look, wall_to_the_west(), power);
+  std::vector<std::uint8_t> lit(240);
+  algorithm->lit(lit);
+  return lit;
+}
+
+TEST(SubBeams, SayWhatIsLitAlongTheirMiddleRay) {
+  for (const double azimuth_deg : {-0.5, 0.0, 0.5})
+    for (const int rays : {3, 5, 15}) EXPECT_EQ(lit_by(rays, azimuth_deg), lit_by(1, azimuth_deg)) << azimuth_deg;
+}
+
+// The parts are 1.5 beam widths over the number of rays; half a part right of the beam lies the right one.
+TEST(SubBeams, SayOfAnEvenNumberWhatTheRightOneOfTheMiddleSees) {
+  const double beam_deg = test::bare_configuration(240).antenna.azimuth_beamwidth_deg;
+  for (const double azimuth_deg : {-0.9, -0.1, 0.5}) {
+    EXPECT_EQ(lit_by(2, azimuth_deg), lit_by(1, azimuth_deg + 0.375 * beam_deg)) << azimuth_deg;
+    EXPECT_EQ(lit_by(4, azimuth_deg), lit_by(1, azimuth_deg + 0.1875 * beam_deg)) << azimuth_deg;
+  }
+}
+
+}  // namespace
+}  // namespace yars::model::rbm
