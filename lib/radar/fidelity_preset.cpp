@@ -34,7 +34,6 @@ Fidelity draft() {
   fidelity.pulse_smear = false;
   fidelity.map_response = false;
   fidelity.map_detail = false;
-  fidelity.map_smooth_ground = false;
   return fidelity;
 }
 

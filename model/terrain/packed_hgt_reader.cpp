@@ -52,7 +52,7 @@ bool is_gzip(const std::filesystem::path& path) {
 }
 
 failure::Expected<std::uintmax_t> packed_length(const std::filesystem::path& path) {
-  const auto length = file_length(path);
+  auto length = file_length(path);
   if (!length || *length <= kLargestPackedFile) return length;
   return failure::fail(path.string(), "at most " + std::to_string(kLargestPackedFile) + " bytes",
                        std::to_string(*length) + " bytes", "this is no packed HGT cell");
