@@ -119,7 +119,7 @@ std::vector<SlotSchema> fidelity_slots() {
        .binding = NumberSlot{YARS_FIELD(radar.fidelity.map_noise)},
        .purpose = "random part of the brightness of a patch map of the preset 1996"},
       flag("mapSmoothGround", YARS_FIELD(radar.fidelity.map_smooth_ground),
-           "ground of patch maps is smooth between posts that lie farther apart than two pixels; else facets")};
+           "ground of patch maps is smooth between posts that lie farther apart than three pixels; else facets")};
 }
 
 SlotSchema number(std::string_view name, std::string_view unit, double lowest, double highest, double& (*of)(Draft&),
