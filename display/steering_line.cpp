@@ -16,10 +16,6 @@ using databuffer::SteeringLine;
 constexpr float kBegin = 10.0F, kEnd = 70.0F;  // [units] from the target: clear of its symbol, long enough to aim by
 constexpr float kArrow = 8.0F, kRing = 4.0F;   // [units]
 
-bool on_glass(Point at) {
-  return at.x >= 0.0F && at.y >= 0.0F && at.x <= kGlassUnits && at.y <= kGlassUnits;
-}
-
 // Off along a direction of the glass, degrees clockwise from up.
 Point off(Point from, double direction_deg, float distance) {
   const double angle_rad = direction_deg * geo::kRadiansPerDegree;

@@ -30,7 +30,6 @@ bool shown(const databuffer::RadarState& state) {
   return (state.flags & databuffer::kVelocityShown) != 0;
 }
 
-using Buffer = std::array<char, 32>;
 
 // "+0.0" and "-0.0" are one thing.
 std::string_view feet_per_second(Buffer& buffer, const char* format, double value_mps) {

@@ -15,7 +15,7 @@ namespace yars::tools {
 
 namespace {
 
-constexpr long kPause_ns = 5'000'000;  // between looks: a tick at rate 1
+constexpr long kLookPause_ns = 5'000'000;  // between looks: a tick at rate 1
 
 double seconds_of(std::int64_t tick) {
   return static_cast<double>(tick) * radar::kTickSeconds;
@@ -87,7 +87,7 @@ failure::Expected<void> play_recording(recording::RecordingReader& reader, std::
     const auto more = look(*session, player, reader.blocks().front().first_tick);
     if (!more) return tl::unexpected(more.error());
     if (!*more) break;
-    const timespec pause{0, kPause_ns};
+    const timespec pause{0, kLookPause_ns};
     nanosleep(&pause, nullptr);
   }
   std::printf("%s: played from %s to %s s of sim time\n", options.file.c_str(), text_of_seconds(*begin).c_str(),

@@ -17,10 +17,10 @@ using databuffer::Session;
 
 // A glass looks 60 times a second: so many at a time never overtake it.
 constexpr std::size_t kSweepsAtOnce = 400;
-constexpr long kPause_ns = 30'000'000;
+constexpr long kReaderPause_ns = 30'000'000;
 
 void pause_for_readers() {
-  const timespec pause{0, kPause_ns};
+  const timespec pause{0, kReaderPause_ns};
   nanosleep(&pause, nullptr);
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 using namespace model::scene;
 
-struct Options {
+struct GenerateOptions {
   std::string kind = "airfield";
   std::uint64_t triangles = 20'000;
   std::uint64_t seed = 1;
@@ -26,7 +26,7 @@ struct Options {
   std::string out;
 };
 
-void generate(const Options& options) {
+void generate(const GenerateOptions& options) {
   check_file_name("--out", options.out, {".flt"});
   SceneOrder order{.triangles = options.triangles, .seed = options.seed, .origin = {}};
   order.kind = *generated_kind(options.kind);
@@ -47,7 +47,7 @@ void generate(const Options& options) {
 }  // namespace
 
 void add_scene_generate(CLI::App& scene) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<GenerateOptions>();
   CLI::App* command = scene.add_subcommand("generate", "a made-up scene as an OpenFlight file");
   command->add_option("--kind", options->kind, "what it is")
       ->check(CLI::IsMember({"airfield", "harbour", "bridge", "town"}))

@@ -20,7 +20,7 @@ namespace {
 
 using namespace model::scene;
 
-struct Options {
+struct InfoOptions {
   std::vector<std::string> files;
   std::vector<std::string> without;
   bool json = false;
@@ -119,7 +119,7 @@ void print(const nlohmann::json& told) {
   for (const auto& warning : told["warnings"]) std::printf("  warning: %s\n", warning.get<std::string>().c_str());
 }
 
-void tell(const Options& options) {
+void tell(const InfoOptions& options) {
   nlohmann::json all = nlohmann::json::array();
   NameFilter filter = name_filter(options.without);
   std::size_t unreadable = 0;
@@ -144,7 +144,7 @@ void tell(const Options& options) {
 }  // namespace
 
 void add_scene_info(CLI::App& scene) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InfoOptions>();
   CLI::App* command = scene.add_subcommand("info", "what OpenFlight files hold: counts, materials, extent, origin");
   command->add_option("files", options->files, "OpenFlight files")->required();
   add_without(*command, options->without);

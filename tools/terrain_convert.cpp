@@ -10,12 +10,12 @@ namespace yars::tools {
 
 namespace {
 
-struct Options {
+struct ConvertOptions {
   std::string in, out;
   TerrainOutput output;
 };
 
-void convert(const Options& options) {
+void convert(const ConvertOptions& options) {
   run_terrain_batch({"convert", options.in, options.out, 0,
                      [&](model::terrain::CellPlace place, const model::terrain::Cell& cell) {
                        return output_name(options.output, place, cell);
@@ -28,7 +28,7 @@ void convert(const Options& options) {
 }  // namespace
 
 void add_terrain_convert(CLI::App& terrain) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ConvertOptions>();
   CLI::App* command = terrain.add_subcommand("convert", "elevation of any format read, as DTED, HGT or packed cells");
   command->add_option("--in", options->in, "folder of cells, or one file of any name (rasters too)")->required();
   command->add_option("--out", options->out, "folder for the cells")->required();

@@ -15,13 +15,13 @@ namespace {
 
 using namespace model::terrain;
 
-struct Options {
+struct DumpOptions {
   std::string directory;
   int south_deg = 0;
   int west_deg = 0;
 };
 
-void dump(const Options& options) {
+void dump(const DumpOptions& options) {
   const auto index = index_directory(options.directory);
   if (!index) give_up(index.error());
   const CellPlace place{options.south_deg, options.west_deg};
@@ -52,7 +52,7 @@ void dump(const Options& options) {
 }  // namespace
 
 void add_terrain_dump(CLI::App& terrain) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DumpOptions>();
   CLI::App* command = terrain.add_subcommand("dump", "posts of one cell as CSV, from the south-west, row by row");
   command->add_option("--terrain", options->directory, "folder with DTED or HGT cells")->required();
   command->add_option("--south", options->south_deg, "[deg] the cell's south edge")

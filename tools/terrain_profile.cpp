@@ -17,7 +17,7 @@ namespace yars::tools {
 
 namespace {
 
-struct Options {
+struct ProfileOptions {
   radar::TerrainConfiguration terrain;
   std::vector<double> from_deg;  // latitude, longitude
   std::vector<double> to_deg;
@@ -46,7 +46,7 @@ class CoveredPlaces {
 };
 
 // Places without a cell read as sea; a way that lies wholly there is no profile of the folder.
-void say_outside(const Options& options, const CoveredPlaces& covered, long outside, long places) {
+void say_outside(const ProfileOptions& options, const CoveredPlaces& covered, long outside, long places) {
   const failure::Error error{
       options.terrain.directory, "cells along the way",
       "none at " + std::to_string(outside) + " of " + std::to_string(places) + " places: it covers " + covered.text(),
@@ -55,7 +55,7 @@ void say_outside(const Options& options, const CoveredPlaces& covered, long outs
   std::fprintf(stderr, "yars terrain profile: %s\n", error.message().c_str());
 }
 
-void profile(const Options& options) {
+void profile(const ProfileOptions& options) {
   if (!on_the_earth(options.from_deg) || !on_the_earth(options.to_deg))
     give_up({"terrain profile", "latitudes in [-90, 90] and longitudes in [-360, 360] degrees", "one outside",
              "check --from and --to", true});
@@ -94,7 +94,7 @@ void profile(const Options& options) {
 }  // namespace
 
 void add_terrain_profile(CLI::App& terrain) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ProfileOptions>();
   CLI::App* command = terrain.add_subcommand("profile", "elevation along the shortest way between two places, as CSV");
   command->add_option("--terrain", options->terrain.directory,
                       "folder with DTED or HGT cells; without it the built-in hills");

@@ -12,13 +12,13 @@ namespace yars::tools {
 
 namespace {
 
-struct Options {
+struct ReduceOptions {
   std::string in, out;
   std::optional<int> reduction;
   std::optional<int> level;
 };
 
-void reduce_all(const Options& options) {
+void reduce_all(const ReduceOptions& options) {
   if (options.reduction.has_value() == options.level.has_value())
     throw CommandFailed{"yars terrain reduce: expected one of --reduction and --level, found " +
                             std::string(options.level ? "both" : "none"),
@@ -39,7 +39,7 @@ void reduce_all(const Options& options) {
 }  // namespace
 
 void add_terrain_reduce(CLI::App& terrain) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReduceOptions>();
   CLI::App* command = terrain.add_subcommand("reduce", "a coarser database: means of the posts around each kept one");
   command->add_option("--in", options->in, "folder of cells, or one file")->required();
   command->add_option("--out", options->out, "folder for the coarser cells")->required();

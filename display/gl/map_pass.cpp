@@ -11,7 +11,7 @@ namespace yars::display::gl {
 
 namespace {
 
-constexpr const char* kVertex = R"(#version 330 core
+constexpr const char* kMapVertex = R"(#version 330 core
 out vec2 place;  // 0..1 from the upper left
 void main() {
   place = vec2(gl_VertexID & 1, gl_VertexID >> 1);
@@ -19,7 +19,7 @@ void main() {
 }
 )";
 
-constexpr const char* kFragment = R"(#version 330 core
+constexpr const char* kMapFragment = R"(#version 330 core
 in vec2 place;
 uniform sampler2D map;
 uniform sampler2D light;
@@ -40,7 +40,7 @@ std::uint32_t texture_of(std::uint32_t size, std::span<const std::uint8_t> pixel
 
 }  // namespace
 
-MapPass::MapPass() : program_("map", kVertex, kFragment) {
+MapPass::MapPass() : program_("map", kMapVertex, kMapFragment) {
   glGenVertexArrays(1, &vertex_array_);
   program_.use();
   glUniform1i(program_.uniform("map"), 0);

@@ -13,7 +13,7 @@ namespace {
 constexpr int kFloatsPerInstance = 8;
 constexpr float kRectangle = -1.0F;
 
-constexpr const char* kVertex = R"(#version 330 core
+constexpr const char* kOverlayVertex = R"(#version 330 core
 layout(location = 0) in vec4 ends;
 layout(location = 1) in vec4 style;  // half width, color
 uniform float pixels_per_unit;
@@ -39,7 +39,7 @@ void main() {
 }
 )";
 
-constexpr const char* kFragment = R"(#version 330 core
+constexpr const char* kOverlayFragment = R"(#version 330 core
 in vec2 at;
 flat in vec4 segment;
 flat in vec4 look;
@@ -71,7 +71,7 @@ Color scaled(const Color& color, float factor) {
 
 }  // namespace
 
-OverlayPass::OverlayPass() : program_("overlay", kVertex, kFragment) {
+OverlayPass::OverlayPass() : program_("overlay", kOverlayVertex, kOverlayFragment) {
   glGenVertexArrays(1, &vertex_array_);
   glGenBuffers(1, &instances_);
   glBindVertexArray(vertex_array_);

@@ -6,7 +6,7 @@ namespace yars::display::gl {
 
 namespace {
 
-constexpr const char* kVertex = R"(#version 330 core
+constexpr const char* kPictureVertex = R"(#version 330 core
 void main() {
   vec2 place = vec2(gl_VertexID & 1, gl_VertexID >> 1);
   gl_Position = vec4(place * 2.0 - 1.0, 0.0, 1.0);
@@ -14,7 +14,7 @@ void main() {
 )";
 
 // By texel: a filter or a rounded place could mix two pixels. A blit would do the same, but not into every framebuffer.
-constexpr const char* kFragment = R"(#version 330 core
+constexpr const char* kPictureFragment = R"(#version 330 core
 uniform sampler2D picture;
 uniform ivec2 corner;
 out vec4 fragment;
@@ -25,7 +25,7 @@ void main() {
 
 }  // namespace
 
-PicturePass::PicturePass() : program_("picture", kVertex, kFragment) {
+PicturePass::PicturePass() : program_("picture", kPictureVertex, kPictureFragment) {
   glGenVertexArrays(1, &vertex_array_);
   program_.use();
   glUniform1i(program_.uniform("picture"), 0);

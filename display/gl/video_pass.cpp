@@ -18,7 +18,7 @@ constexpr int kFloatsPerWedge = 10;
 // has flown across it, 0.22 units between two sweeps of a Doppler beam sharpened scan at 4.7 NM and 250 m/s. Each wedge
 // is drawn this much wider on either side, and the newer one covers the seam. Larger blurs the azimuth of the oldest
 // edge.
-constexpr const char* kVertex = R"(#version 330 core
+constexpr const char* kVideoVertex = R"(#version 330 core
 layout(location = 0) in vec2 apex;
 layout(location = 1) in vec4 edges;
 layout(location = 2) in vec4 shape;  // range, half width, row, samples
@@ -36,7 +36,7 @@ void main() {
 }
 )";
 
-constexpr const char* kFragment = R"(#version 330 core
+constexpr const char* kVideoFragment = R"(#version 330 core
 in vec2 offset;
 flat in vec3 wedge;
 uniform sampler2D video;
@@ -63,7 +63,7 @@ void instance_attribute(GLuint location, GLint components, int first_float) {
 
 }  // namespace
 
-VideoPass::VideoPass() : program_("video", kVertex, kFragment), uploaded_serial_(PolarStore::kRows) {
+VideoPass::VideoPass() : program_("video", kVideoVertex, kVideoFragment), uploaded_serial_(PolarStore::kRows) {
   glGenVertexArrays(1, &vertex_array_);
   glGenBuffers(1, &instances_);
   glBindVertexArray(vertex_array_);

@@ -101,11 +101,6 @@ std::string joined(const Names& names) {
   return text;
 }
 
-tl::unexpected<failure::Error> refuse(std::string subject, std::string expected, std::string_view found) {
-  return tl::unexpected<failure::Error>(
-      failure::Error{std::move(subject), std::move(expected), std::string("'").append(found) + "'", "", true});
-}
-
 std::vector<const Knob*> knobs_of(Subject subject) {
   std::vector<const Knob*> found;
   for (const Knob& knob : knobs())

@@ -19,7 +19,6 @@ using model::kernel::ScanRequest;
 using model::rbm::Look;
 using radar::RadarConfiguration;
 
-constexpr float kNothing = 1e-8F;  // of full scale: far below the noise, and what float still tells from zero
 
 double position_error_m(const RadarConfiguration& configuration, const OfflineScan& scan,
                         const model::terrain::TerrainView& terrain) {

@@ -8,7 +8,7 @@ namespace yars::tools::trade {
 
 namespace {
 
-constexpr std::array<Bounds, 6> kBounds{{{"latitude [deg]", -90.0, 90.0},
+constexpr std::array<Bounds, 6> kViewBounds{{{"latitude [deg]", -90.0, 90.0},
                                          {"longitude [deg]", -180.0, 180.0},
                                          {"altitude [ft]", -3000.0, 600000.0},
                                          {"target's latitude [deg]", -90.0, 90.0},
@@ -22,7 +22,7 @@ double distance_nm(const MapView& view) {
 }  // namespace
 
 failure::Expected<MapView> map_view_of(std::string_view text) {
-  const auto values = numbers_of(text, kBounds, "--view", "LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM");
+  const auto values = numbers_of(text, kViewBounds, "--view", "LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM");
   if (!values) return tl::unexpected(values.error());
   const MapView view{{(*values)[0], (*values)[1]}, (*values)[2], {(*values)[3], (*values)[4]}, (*values)[5]};
   if (distance_nm(view) <= view.window_nm)

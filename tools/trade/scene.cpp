@@ -10,7 +10,7 @@ namespace yars::tools::trade {
 
 namespace {
 
-constexpr std::array<Bounds, 5> kBounds{{{"latitude [deg]", -90.0, 90.0},
+constexpr std::array<Bounds, 5> kSceneBounds{{{"latitude [deg]", -90.0, 90.0},
                                          {"longitude [deg]", -180.0, 180.0},
                                          {"altitude [ft]", -3000.0, 600000.0},
                                          {"heading [deg]", -360.0, 360.0},
@@ -20,7 +20,7 @@ constexpr double kLowestElevationDeg = -60.0;  // of the antenna, its gimbal's s
 }  // namespace
 
 failure::Expected<Scene> scene_of(std::string_view text) {
-  const auto values = numbers_of(text, kBounds, "--scene", "LAT,LON,ALT_FT,HDG,RANGE_NM");
+  const auto values = numbers_of(text, kSceneBounds, "--scene", "LAT,LON,ALT_FT,HDG,RANGE_NM");
   if (!values) return tl::unexpected(values.error());
   return Scene{{(*values)[0], (*values)[1]}, (*values)[2], (*values)[3], (*values)[4]};
 }
