@@ -8,8 +8,6 @@ namespace yars::model {
 
 namespace {
 
-// A request is wider than the need by this much [m]; the next one begins when half of it is flown.
-constexpr double kSlack_m = 20'000.0;
 
 bool covers(const terrain::TerrainRegion& wide, const terrain::TerrainRegion& region, double spare_m) {
   if (region.radius_m + spare_m > wide.radius_m) return false;

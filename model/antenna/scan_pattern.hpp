@@ -5,9 +5,7 @@
 // others in proportion.
 #pragma once
 
-namespace yars::radar {
-struct AntennaConfiguration;
-}
+#include "lib/radar/configuration.hpp"
 
 namespace yars::model::antenna {
 

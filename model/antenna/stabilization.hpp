@@ -4,9 +4,7 @@
 #include "lib/geo/bearing.hpp"
 #include "lib/geo/quantity.hpp"
 
-namespace yars::radar {
-struct AntennaConfiguration;
-}
+#include "lib/radar/configuration.hpp"
 
 namespace yars::model::antenna {
 

@@ -1,6 +1,5 @@
 #include "model/kernel/sweep_record.hpp"
 
-#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include <algorithm>

@@ -12,8 +12,6 @@ namespace yars::model::rbm {
 
 namespace {
 constexpr double kMetresPerMicrosecond = 149.896229;  // [m] c / 2 over 1 us: what a delay adds to the range
-constexpr double kMastM = 10.0;                       // [m] above the ground: a beacon whose altitude is not given
-constexpr double kLeastDistanceM = 10.0;              // [m] keeps a beacon below the aircraft finite
 
 double mast_m(const radar::Beacon& beacon, const terrain::TerrainView& terrain) {
   if (!std::isnan(beacon.altitude_m)) return beacon.altitude_m;

@@ -15,7 +15,7 @@ constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873,
                                          0.1012285362903763};
 constexpr double kEarthRadius_m = 6371008.8;                 // mean; the bow of a ray is within 0.4 % for any azimuth
 constexpr std::array<double, 3> kHeights_km{0.0, 2.0, 5.0};  // of the parabola in height
-constexpr float kLowest_m = -500.0F, kHighest_m = 6000.0F;   // in which it holds
+constexpr float kParabolaLowest_m = -500.0F, kParabolaHighest_m = 6000.0F;   // in which it holds
 
 EffectiveEarth round_earth(const radar::Fidelity& fidelity) {
   const bool flat = fidelity.earth == radar::EarthModel::flat;
@@ -85,7 +85,7 @@ void GasSamples::use(const GasPath& path, double altitude_m, double range_m, std
 void GasSamples::apply(const float* height_m, float* power) const {
   for (std::size_t i = 0; i < constant_.size(); ++i) {
     const float known_m = height_m[i] == height_m[i] ? height_m[i] : 0.0F;
-    const float up_m = std::min(std::max(known_m, kLowest_m), kHighest_m);
+    const float up_m = std::min(std::max(known_m, kParabolaLowest_m), kParabolaHighest_m);
     power[i] *= constant_[i] + up_m * (slope_[i] + up_m * bend_[i]);
   }
 }

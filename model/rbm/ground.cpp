@@ -11,7 +11,6 @@ namespace yars::model::rbm {
 
 namespace {
 constexpr double kEarthRadiusM = 6371008.8;  // [m] mean
-constexpr auto kWater = static_cast<std::size_t>(radar::kWaterMaterial);
 
 void put_texture(lanes::MaterialTables& tables, std::size_t code, double shape) {
   const reflectivity::TextureLevels levels = reflectivity::make_texture_levels(shape);

@@ -6,14 +6,14 @@
 namespace yars::model::rbm {
 
 namespace {
-constexpr double kMetresPerDegree = 111'694.0;  // WGS84, of a meridian at the pole
+constexpr double kPolarMetresPerDegree = 111'694.0;  // WGS84, of a meridian at the pole
 constexpr double kMostTurn_rad = 0.5 * geo::kRadiansPerDegree;
 constexpr double kShareOfWay = 0.25;  // of the way to the pole, so that what a piece begins with holds to its end
 }  // namespace
 
 PoleWay::PoleWay(geo::GeoPoint apex, geo::Bearing azimuth, double bend_m, double shortest_m)
     : bend_m_(bend_m), shortest_m_(shortest_m) {
-  const double to_pole_m = (90.0 - std::abs(apex.latitude_deg)) * kMetresPerDegree;
+  const double to_pole_m = (90.0 - std::abs(apex.latitude_deg)) * kPolarMetresPerDegree;
   const double towards = apex.latitude_deg >= 0.0 ? 1.0 : -1.0;
   nearest_m_ = to_pole_m * std::cos(azimuth.radians()) * towards;
   offset_m_ = std::abs(to_pole_m * std::sin(azimuth.radians()));

@@ -11,8 +11,8 @@
 namespace yars::model::rbm {
 
 namespace {
-constexpr double kMastM = 10.0;           // [m] above the ground: a jammer whose altitude is not given
-constexpr double kLeastDistanceM = 10.0;  // [m] keeps a jammer below the aircraft finite
+constexpr double kMastM = 10.0;           // [m] above the ground: a jammer or beacon whose altitude is not given
+constexpr double kLeastDistanceM = 10.0;  // [m] keeps one below the aircraft finite
 
 bool is_jammed(const radar::Jammer& jammer, const Look& look) {
   const bool band = jammer.band == radar::kEveryBand || jammer.band == static_cast<int>(look.band);
