@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "display/host/glass.hpp"
+#include "display/host/display.hpp"
 #include "lib/imageio/png.hpp"
 
 namespace {

@@ -8,8 +8,8 @@
 #include "config/print.hpp"
 #include "databuffer/installed_file.hpp"
 #include "lib/file/new_file.hpp"
-#include "tools/command.hpp"
-#include "tools/output_name.hpp"
+#include "tools/command/command.hpp"
+#include "tools/command/output.hpp"
 
 namespace yars::tools {
 namespace {

@@ -1,7 +1,7 @@
 // The `yars` command: one program, many subcommands; each runs while the command line is parsed.
 #include "databuffer/program.hpp"
 #include "databuffer/terminal_guard.hpp"
-#include "tools/command.hpp"
+#include "tools/command/command.hpp"
 
 namespace {
 

@@ -3,9 +3,133 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/radar/configuration.hpp"
 #include "lib/radar/limits.hpp"
 
 namespace yars::model::antenna {
+
+using geo::Angle;
+using geo::Bearing;
+
+Bearing scan_centre(const Platform& platform, const radar::AntennaConfiguration& antenna) {
+  const double drift_deg = (platform.ground_track - platform.heading).degrees();
+  const double followed_deg = std::clamp(drift_deg, -antenna.drift_limit_deg, antenna.drift_limit_deg);
+  return platform.heading + Angle::degrees(followed_deg);
+}
+
+GimbalAngles gimbal_from_space(const Platform& platform, Bearing azimuth, Angle elevation) {
+  const double relative_rad = (azimuth - platform.heading).radians();
+  const double sin_elevation = std::sin(elevation.radians());
+  const double cos_elevation = std::cos(elevation.radians());
+  // Heading axes: forward, right, down.
+  const double forward = cos_elevation * std::cos(relative_rad);
+  const double right = cos_elevation * std::sin(relative_rad);
+  const double down = -sin_elevation;
+  const double sin_pitch = std::sin(platform.pitch.radians());
+  const double cos_pitch = std::cos(platform.pitch.radians());
+  const double sin_roll = std::sin(platform.roll.radians());
+  const double cos_roll = std::cos(platform.roll.radians());
+  // Pitch about the right axis, then roll about the nose.
+  const double nose = cos_pitch * forward - sin_pitch * down;
+  const double pitched_down = sin_pitch * forward + cos_pitch * down;
+  const double wing = cos_roll * right + sin_roll * pitched_down;
+  const double belly = -sin_roll * right + cos_roll * pitched_down;
+  return {Angle::radians(std::atan2(wing, nose)), Angle::radians(std::asin(std::clamp(-belly, -1.0, 1.0)))};
+}
+
+bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& antenna, Bearing azimuth,
+                   Angle elevation) {
+  const GimbalAngles gimbal = gimbal_from_space(platform, azimuth, elevation);
+  const bool azimuth_reached =
+      antenna.circular_scan || std::abs(gimbal.azimuth.degrees()) <= antenna.azimuth_limit_deg + antenna.tolerance_deg;
+  return azimuth_reached && std::abs(gimbal.elevation.degrees()) <= antenna.elevation_limit_deg + antenna.tolerance_deg;
+}
+
+namespace {
+// Share of the sweeping time that a turn-around takes; makes FULL 1 s at 110 deg/s. Another value changes the period.
+constexpr double kTurnShare = 0.1;
+constexpr double kLeastWidthDeg = 1.0;  // [deg] a narrower sector would be all turn-around
+constexpr double kLeastRateDps = 1.0;   // [deg/s] below it a scan takes minutes: a mistake in the configuration
+constexpr int kMostBars = 4;
+// A quotient that should be whole may come out a rounding error above: without this, ceil() adds a tick.
+constexpr double kWholeSlack = 1e-9;
+}  // namespace
+
+double ScanPattern::edge_deg(int index, int direction) const {
+  return direction * (width_deg * index / sweep_ticks - 0.5 * width_deg);
+}
+
+double ScanPattern::turn_deg(int ticks, int direction) const {
+  if (turn_ticks == 0) return edge_deg(sweep_ticks, direction);
+  // Constant deceleration from +rate to -rate: a parabola beyond the edge.
+  const double share = static_cast<double>(ticks) / turn_ticks;
+  const double degrees_per_tick = width_deg / sweep_ticks;
+  return edge_deg(sweep_ticks, direction) + direction * degrees_per_tick * turn_ticks * share * (1.0 - share);
+}
+
+double ScanPattern::bar_deg(int bar) const {
+  return (0.5 * (bars - 1) - bar) * bar_spacing_deg;
+}
+
+ScanPattern make_scan_pattern(const radar::AntennaConfiguration& antenna, double width_deg) {
+  ScanPattern pattern;
+  const double rate_dps = std::max(antenna.azimuth_rate_dps, kLeastRateDps);
+  pattern.circular = antenna.circular_scan;
+  pattern.bars = std::clamp(antenna.scan_bars, 1, kMostBars);
+  pattern.bar_spacing_deg = antenna.elevation_beamwidth_deg;
+  const double widest_deg = pattern.circular ? 360.0 : 2.0 * antenna.azimuth_limit_deg;
+  // min and max in this order also take a width that is not a number to the least.
+  pattern.width_deg = pattern.circular ? 360.0 : std::min(std::max(kLeastWidthDeg, width_deg), widest_deg);
+  const double sweeping_ticks = pattern.width_deg / rate_dps / radar::kTickSeconds;
+  pattern.sweep_ticks = std::max(1, static_cast<int>(std::ceil(sweeping_ticks - kWholeSlack)));
+  const auto period_ticks = static_cast<int>(std::lround((1.0 + kTurnShare) * sweeping_ticks));
+  pattern.turn_ticks = pattern.circular ? 0 : std::max(1, period_ticks - pattern.sweep_ticks);
+  return pattern;
+}
+
+void Axis::command_rate(double rate_dps) {
+  if (!std::isfinite(rate_dps)) return;
+  mode_ = AxisMode::rate;
+  commanded_ = rate_dps;
+}
+
+void Axis::command_position(double position_deg) {
+  if (!std::isfinite(position_deg)) return;
+  mode_ = AxisMode::position;
+  commanded_ = std::clamp(position_deg, -limits_.position_deg, limits_.position_deg);
+}
+
+void Axis::place(double position_deg) {
+  if (!std::isfinite(position_deg)) return;
+  position_deg_ = std::clamp(position_deg, -limits_.position_deg, limits_.position_deg);
+}
+
+void Axis::step() {
+  switch (mode_) {
+    case AxisMode::freeze:
+      return;
+    case AxisMode::rate:
+      return move(commanded_);
+    case AxisMode::position: {
+      const double distance_deg = commanded_ - position_deg_;
+      // The last stretch lands on the commanded value itself, so that no rounding is left to add up.
+      if (std::abs(distance_deg) <= limits_.rate_dps * radar::kTickSeconds) {
+        position_deg_ = commanded_;
+        return;
+      }
+      return move(std::copysign(limits_.rate_dps, distance_deg));
+    }
+  }
+}
+
+bool Axis::reached() const {
+  return mode_ == AxisMode::position && std::abs(commanded_ - position_deg_) <= limits_.tolerance_deg;
+}
+
+void Axis::move(double rate_dps) {
+  const double limited_dps = std::clamp(rate_dps, -limits_.rate_dps, limits_.rate_dps);
+  place(position_deg_ + limited_dps * radar::kTickSeconds);
+}
 
 using geo::Angle;
 using geo::Bearing;

@@ -1,18 +1,105 @@
-// The dish: goes to an edge of its sector, then scans it, held in space about the ground track. Pure: one call a
-// tick of 5 ms, the platform and the commanded elevation in, what the beam swept during the tick out. The pointing
-// within a scan comes from the tick number alone and is exactly periodic; edges of neighbouring sweeps are equal,
-// also while the aircraft turns, so that wedges tile without gaps.
+// Antenna servo: stabilization, scan pattern, one axis, and the antenna that joins them.
 #pragma once
 
 #include <cstdint>
 
+#include "lib/geo/bearing.hpp"
+#include "lib/geo/quantity.hpp"
 #include "lib/radar/configuration.hpp"
-#include "model/antenna/axis.hpp"
-#include "model/antenna/scan_pattern.hpp"
-#include "model/antenna/stabilization.hpp"
 
 namespace yars::model::antenna {
 
+// How a scan is held in space: which way its centre points, and whether the gimbal can point the dish there.
+
+// What the servo knows of the aircraft. Heading and track true; pitch nose up, roll right wing down positive.
+struct Platform {
+  geo::Bearing heading;
+  geo::Angle pitch;
+  geo::Angle roll;
+  geo::Bearing ground_track;  // the heading where the aircraft hardly moves
+};
+
+// The scan centre: the ground track, but not further from the nose than the drift limit.
+geo::Bearing scan_centre(const Platform& platform, const radar::AntennaConfiguration& antenna);
+
+// A direction in space as the gimbal sees it: azimuth and elevation in the axes of the airframe.
+struct GimbalAngles {
+  geo::Angle azimuth;    // right of the nose positive
+  geo::Angle elevation;  // above the wing plane positive
+};
+GimbalAngles gimbal_from_space(const Platform& platform, geo::Bearing azimuth, geo::Angle elevation);
+
+// True if the gimbal reaches the direction, within the servo's tolerance. A circular scan has no azimuth limit.
+bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& antenna, geo::Bearing azimuth,
+                   geo::Angle elevation);
+
+// The course of one scan over its ticks: pure numbers, derived from the tick within the scan, so that no error adds
+// up however long the radar runs. A sector scan goes from one edge to the other in `sweep_ticks` ticks (one sweep
+// each), then turns round, blanked, in `turn_ticks`. A circular scan goes round clockwise and never turns.
+// Source: docs/spec/pilots_interface.md#rule-2. 100 deg at 110 deg/s and a turn-around of a tenth of that make 1 s;
+// others in proportion.
+struct ScanPattern {
+  double width_deg = 100.0;
+  double bar_spacing_deg = 2.5;  // [deg] between elevation bars: one beam width
+  int sweep_ticks = 182;         // >= 1
+  int turn_ticks = 18;           // 0 only when circular
+  int bars = 1;                  // 1..4; a scan is all of them
+  bool circular = false;
+
+  int pass_ticks() const { return sweep_ticks + turn_ticks; }
+  int scan_ticks() const { return bars * pass_ticks(); }
+
+  // Edge `index` in [0, sweep_ticks] of the sweeps of a pass [deg] against the scan centre, clockwise positive.
+  // Direction +1 starts at the left. Sweep i lies between edges i and i + 1.
+  double edge_deg(int index, int direction) const;
+  // Where the dish is in the turn-around after `ticks` in [0, turn_ticks] of it [deg]: it brakes and comes back evenly.
+  double turn_deg(int ticks, int direction) const;
+  // Elevation of a bar against the commanded one [deg]: bars are stepped from the top down.
+  double bar_deg(int bar) const;
+};
+
+ScanPattern make_scan_pattern(const radar::AntennaConfiguration& antenna, double width_deg);
+
+// One axis of the dish's servo: position, rate, limits, in degrees against the nose (azimuth) or the horizon
+// (elevation). Modes: freeze holds, rate turns at a commanded rate, position goes to a commanded place at full
+// rate. A step is one tick of 5 ms; no lag and no overshoot is modelled. Inputs that are not finite are ignored.
+enum class AxisMode : std::uint8_t { freeze, rate, position };
+
+struct AxisLimits {
+  double rate_dps = 110.0;     // [deg/s] greatest, either way
+  double position_deg = 60.0;  // [deg] either side of zero
+  double tolerance_deg = 0.1;  // [deg] a commanded position counts as reached within this
+};
+
+class Axis {
+ public:
+  explicit Axis(const AxisLimits& limits) : limits_(limits) {}
+
+  void freeze() { mode_ = AxisMode::freeze; }
+  void command_rate(double rate_dps);
+  void command_position(double position_deg);  // clamped to the limits
+  void place(double position_deg);             // sets the position: a pattern drives the axis, or a restart resumes it
+
+  // Advances by one tick.
+  void step();
+
+  double position_deg() const { return position_deg_; }
+  AxisMode mode() const { return mode_; }
+  bool reached() const;  // in position mode, within the tolerance
+
+ private:
+  void move(double rate_dps);
+
+  AxisLimits limits_;
+  AxisMode mode_ = AxisMode::freeze;
+  double position_deg_ = 0.0;
+  double commanded_ = 0.0;  // [deg/s] or [deg], by mode
+};
+
+// The dish: goes to an edge of its sector, then scans it, held in space about the ground track. Pure: one call a
+// tick of 5 ms, the platform and the commanded elevation in, what the beam swept during the tick out. The pointing
+// within a scan comes from the tick number alone and is exactly periodic; edges of neighbouring sweeps are equal,
+// also while the aircraft turns, so that wedges tile without gaps.
 enum class Phase : std::uint8_t { parked, slewing, sweeping, turning, pointing };
 
 // What happened in one tick.

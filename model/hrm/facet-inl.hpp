@@ -11,9 +11,9 @@
 
 #include <utility>
 
-#include "model/hrm/fan_grid.hpp"
-#include "model/hrm/raster_lanes.hpp"
-#include "model/hrm/scene_surface.hpp"
+#include "model/hrm/patch_geometry.hpp"
+#include "model/hrm/scene_raster_simd.hpp"
+#include "model/physics/reflectivity.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace yars::model::hrm::lanes::HWY_NAMESPACE {

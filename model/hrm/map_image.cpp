@@ -1,10 +1,13 @@
 #include "model/hrm/map_image.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lib/radar/map_formation.hpp"
-#include "model/hrm/fan_lanes.hpp"
+#include "model/hrm/map_image_simd.hpp"
+#include "model/physics/clutter_simd.hpp"
+#include "model/physics/reflectivity.hpp"
 
 namespace yars::model::hrm {
 
@@ -53,6 +56,113 @@ void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
       image.power[image.at(column, row)] = -1.0F;
       image.blind = true;
     }
+  }
+}
+
+namespace {
+constexpr std::size_t kSlack = 16;  // entries that vectors may touch behind a row
+// Rows of cells count from -1: the first pixels lie before the middle of the first cell.
+constexpr int kCellRows = radar::kCellsOfMap + 2;
+
+std::size_t padded(std::size_t count) {
+  return (count + kSlack - 1) / kSlack * kSlack;
+}
+}  // namespace
+
+Speckle::Speckle(int size, int looks, std::uint64_t seed, std::uint32_t map)
+    : size_(size),
+      looks_(looks),
+      seed_(seed),
+      map_(map),
+      finer_(size > radar::kCellsOfMap),
+      pitch_(padded(static_cast<std::size_t>(size))),
+      intensity_(pitch_ + kSlack) {
+  if (!finer_) return;
+  cell_.assign(pitch_, 0);
+  first_.assign(pitch_, 0.0F);
+  second_.assign(pitch_, 0.0F);
+  for (int pixel = 0; pixel < size_; ++pixel) {
+    const auto i = static_cast<std::size_t>(pixel);
+    const Between place = between(pixel);
+    cell_[i] = place.cell;
+    first_[i] = place.first;
+    second_[i] = place.second;
+  }
+  cells_.assign(2 * padded(kCellRows), 0.0F);
+  near_.assign(2 * static_cast<std::size_t>(looks_) * pitch_, 0.0F);
+  far_ = near_;
+}
+
+Speckle::Between Speckle::between(int pixel) const {
+  const double place = (pixel + 0.5) * radar::kCellsOfMap / size_ - 0.5;
+  const double cell = std::floor(place);
+  const double second = place - cell;
+  const double first = 1.0 - second;
+  const double scale = 1.0 / std::sqrt(first * first + second * second);
+  return {static_cast<std::int32_t>(cell) + 1, static_cast<float>(first * scale), static_cast<float>(second * scale)};
+}
+
+void Speckle::draw_cells(int cell_row, std::vector<float>& field) {
+  const std::size_t half = cells_.size() / 2;
+  for (int look = 0; look < looks_; ++look) {
+    const auto name = static_cast<std::uint32_t>(cell_row * looks_ + look);
+    lanes::draw_gaussian(half, rbm::make_noise_state({seed_, map_, name}), cells_.data(), &cells_[half]);
+    float* real = &field[2 * static_cast<std::size_t>(look) * pitch_];
+    lanes::interpolate(pitch_, {cell_.data(), first_.data(), second_.data()}, cells_.data(), real);
+    lanes::interpolate(pitch_, {cell_.data(), first_.data(), second_.data()}, &cells_[half], real + pitch_);
+  }
+}
+
+const float* Speckle::row(int row) {
+  if (!finer_) {
+    const auto name = static_cast<std::uint32_t>(row);
+    rbm::lanes::speckle(static_cast<std::size_t>(size_), rbm::make_noise_state({seed_, map_, name}), looks_,
+                        intensity_.data());
+    return intensity_.data();
+  }
+  const Between place = between(row);
+  while (drawn_ < place.cell + 1) {
+    near_.swap(far_);
+    drawn_ = drawn_ < place.cell ? place.cell : drawn_ + 1;
+    draw_cells(drawn_, far_);
+  }
+  lanes::intensity(pitch_, looks_, {near_.data(), place.first}, {far_.data(), place.second}, intensity_.data());
+  return intensity_.data();
+}
+
+namespace {
+// Where the configured figure holds.
+constexpr double kNoiseRange_m = 20.0 * geo::kMetresPerNauticalMile;
+constexpr double kNoiseWindow_m = 0.67 * geo::kMetresPerNauticalMile;
+}  // namespace
+
+double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo::Length slant_range,
+                   geo::Length window) {
+  return reflectivity::ratio(configuration.noise_gamma_db) * std::pow(slant_range.metres() / kNoiseRange_m, 3.0) *
+         kNoiseWindow_m / window.metres();
+}
+
+void develop(const radar::RadarConfiguration& configuration, const MapImage& image, const MapNoise& noise, int first,
+             int last, std::vector<std::uint8_t>& picture) {
+  const radar::HighResolutionConfiguration& hrm = configuration.high_resolution;
+  const auto size = static_cast<std::size_t>(image.size);
+  Speckle speckle(image.size, noise.looks, configuration.seed, noise.map);
+  constexpr std::array<float, 3> kAlone{0.0F, 1.0F, 0.0F};
+  for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
+    const float* power = &image.power[row * size];
+    const rbm::lanes::VideoInputs inputs{power,
+                                         power,
+                                         power,
+                                         kAlone.data(),
+                                         static_cast<float>(noise.thermal),
+                                         configuration.fidelity.noise ? speckle.row(static_cast<int>(row)) : nullptr,
+                                         nullptr,
+                                         static_cast<float>(-hrm.brightest_gamma_db),
+                                         static_cast<float>(hrm.dynamic_range_db)};
+    rbm::lanes::develop(size, inputs, &picture[row * size]);
+    if (!image.blind) continue;
+    for (std::size_t i = 0; i < size; ++i)
+      if (power[i] < 0.0F) picture[row * size + i] = 0;
   }
 }
 

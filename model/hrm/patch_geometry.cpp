@@ -1,5 +1,6 @@
 #include "model/hrm/patch_geometry.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace yars::model::hrm {
@@ -50,6 +51,175 @@ double PatchGeometry::sin_grazing() const {
 double laid_over_m(double distance_m, double height_m, double above_level_m) {
   const double square = distance_m * distance_m + height_m * (height_m - 2.0 * above_level_m);
   return square > 0.0 ? std::sqrt(square) : 0.0;
+}
+
+namespace {
+// A margin taller than the picture by this factor is cut: mountains above the aircraft would ask for any number.
+constexpr double kMostRowsAPixel = 4.0;
+}  // namespace
+
+FanGrid make_fan_grid(const PatchGeometry& geometry, int pixels, int cells, const FanMargins& margins) {
+  const double half_m = 0.5 * geometry.window_m();
+  const double centre_m = geometry.distance_m();
+  FanGrid grid;
+  grid.centre_distance_m = centre_m;
+  grid.spacing_m = geometry.window_m() / (pixels * cells);
+  grid.tangent_step = grid.spacing_m / centre_m;
+  // The near corners are seen under the widest angle; a pixel more, for interpolation looks at both neighbours.
+  const double nearest_m = std::max(centre_m - half_m, grid.spacing_m);
+  const double widest = half_m / nearest_m + 2.0 * grid.tangent_step;
+  const int columns = static_cast<int>(std::ceil(2.0 * widest / grid.tangent_step));
+  grid.columns = (columns + kStripColumns - 1) / kStripColumns * kStripColumns;
+  grid.first_tangent = -0.5 * (grid.columns - 1) * grid.tangent_step;
+
+  const double most_m = kMostRowsAPixel * geometry.window_m();
+  const double near_m = std::max(nearest_m - 3.0 * grid.spacing_m - std::min(margins.near_m, most_m), grid.spacing_m);
+  const double far_m = std::hypot(centre_m + half_m, half_m) + 2.0 * grid.spacing_m + std::min(margins.far_m, most_m);
+  // Ahead of the centre rows lie on the middles of pixels, as columns do: what lies between rows is less sharp.
+  const double middle = std::fmod(0.5 * cells * (pixels % 2 == 0 ? 1.0 : 0.0), 1.0);
+  const double before = std::floor((centre_m - near_m) / grid.spacing_m - middle) + middle;
+  grid.first_distance_m = centre_m - before * grid.spacing_m;
+  grid.rows = static_cast<int>(std::ceil((far_m - grid.first_distance_m) / grid.spacing_m)) + 1;
+  return grid;
+}
+
+namespace {
+constexpr double kPathDetail_m = 60.0;  // between samples on the way, at least
+constexpr int kReliefSteps = 24;        // places along an edge of the window at which the relief is looked at
+constexpr double kReliefReserve = 1.2;  // what lies between them may stand out so much more
+constexpr double kLeastSine = 0.02;     // shadows grow beyond any margin below a degree
+
+constexpr double kPixelsANode = 2.0;  // of smooth ground
+constexpr double kPixelsAPost = 3.0;  // closer posts are not smoothed: no picture shows their facets
+constexpr int kReferenceParts = 10;   // of an interval of posts, at least
+constexpr int kOutlineSteps = 8;
+constexpr double kOutlineMargin = 0.01;  // of the box about the fan
+
+// What a tile covers, seen from above.
+terrain::GeoBox box_of(const scene::Tile& tile) {
+  constexpr double kMetresADegree = 111'000.0;
+  const double level = std::max(std::cos(tile.origin.latitude_deg * geo::kRadiansPerDegree), 0.01);
+  const auto north = [&](float metres) {
+    return tile.origin.latitude_deg + static_cast<double>(metres) / kMetresADegree;
+  };
+  const auto east = [&](float metres) {
+    return tile.origin.longitude_deg + static_cast<double>(metres) / (kMetresADegree * level);
+  };
+  return {north(tile.bounds.north_least_m), north(tile.bounds.north_most_m), east(tile.bounds.east_least_m),
+          east(tile.bounds.east_most_m)};
+}
+
+// The span of heights [m] above the map plane in and about the window.
+struct Relief {
+  double lowest_m = 0.0;
+  double highest_m = 0.0;
+};
+
+void widen(const PatchGeometry& geometry, const terrain::TerrainView& ground, int first, int last, Relief& relief) {
+  const double reach_m = 0.75 * geometry.window_m();
+  for (int i = first; i < last; ++i) {
+    for (int j = 0; j <= kReliefSteps; ++j) {
+      const MapPoint point{reach_m * (2.0 * i / kReliefSteps - 1.0), reach_m * (2.0 * j / kReliefSteps - 1.0)};
+      if (point.up_m + geometry.distance_m() <= 0.0) continue;
+      const double height_m = ground.elevation_m(geometry.place_of(point)) - geometry.plane_msl_m();
+      if (std::isnan(height_m)) continue;
+      relief.lowest_m = std::min(relief.lowest_m, kReliefReserve * height_m);
+      relief.highest_m = std::max(relief.highest_m, kReliefReserve * height_m);
+    }
+  }
+}
+
+Relief relief_of(const PatchGeometry& geometry, const terrain::TerrainView& ground,
+                 const std::vector<const scene::Tile*>& tiles, const Crew& crew) {
+  std::vector<Relief> reliefs(crew.threads);
+  share_out(crew, kReliefSteps + 1, 1,
+            [&](int first, int last, std::size_t thread) { widen(geometry, ground, first, last, reliefs[thread]); });
+  Relief relief;
+  for (const Relief& part : reliefs) {
+    relief.lowest_m = std::min(relief.lowest_m, part.lowest_m);
+    relief.highest_m = std::max(relief.highest_m, part.highest_m);
+  }
+  for (const scene::Tile* tile : tiles) {
+    const double top_m = tile->zero_msl_m + static_cast<double>(tile->bounds.up_most_m) - geometry.plane_msl_m();
+    relief.highest_m = std::max(relief.highest_m, top_m);
+  }
+  return relief;
+}
+
+// How far before the near edge the things of the scene stand whose shadows reach over it, at most [m]. A shadow is as
+// long as its tile is tall, over the tangent; most tiles are too low to be asked where they lie.
+double shading_m(const PatchGeometry& geometry, const std::vector<const scene::Tile*>& tiles, double tangent) {
+  const double half_m = 0.5 * geometry.window_m();
+  double margin_m = 0.0;
+  for (const scene::Tile* tile : tiles) {
+    const scene::Bounds& bounds = tile->bounds;
+    const double shadow_m = static_cast<double>(bounds.up_most_m - bounds.up_least_m) / tangent;
+    if (!(shadow_m > margin_m)) continue;
+    const double reach_m = std::hypot(static_cast<double>(std::max(-bounds.east_least_m, bounds.east_most_m)),
+                                      static_cast<double>(std::max(-bounds.north_least_m, bounds.north_most_m)));
+    const MapPoint origin = geometry.point_of(tile->origin);
+    const double before_m =
+        geometry.distance_m() - half_m - std::hypot(origin.right_m, origin.up_m + geometry.distance_m());
+    if (before_m - reach_m > shadow_m) continue;
+    // The fan is no wider there than the window.
+    if (std::abs(origin.right_m) - reach_m > half_m) continue;
+    margin_m = std::max(margin_m, std::min(shadow_m, before_m + reach_m));
+  }
+  return margin_m;
+}
+}  // namespace
+
+PatchNeed patch_need(const PatchOrder& order, const radar::Fidelity& fidelity) {
+  const geo::GeodesicInverse to_centre = geo::geodesic_inverse(order.apex, order.centre);
+  const double pixel_m = order.window.metres() / std::max(fidelity.map_size, 1);
+  const double posts = fidelity.posts_per_sample;
+  const auto detail = [&](double sample_m) { return posts > 0.0 ? terrain::detail_for(sample_m / posts) : 0; };
+  PatchNeed need;
+  // The corners, and what beyond them is laid over into the picture.
+  need.window = {order.centre, 1.5 * order.window.metres(), detail(pixel_m)};
+  const geo::GeodesicRay way(order.apex, to_centre.azimuth_at_start);
+  const double half_way_m = 0.5 * to_centre.distance.metres();
+  need.path = {way.position(geo::Length::metres(half_way_m)), half_way_m + 0.5 * order.window.metres(),
+               detail(std::max(pixel_m, kPathDetail_m))};
+  return need;
+}
+
+terrain::SmoothOrder smooth_order(const PatchGeometry& geometry, const FanGrid& grid, const radar::Fidelity& fidelity,
+                                  const std::vector<const scene::Tile*>& tiles) {
+  const geo::GeoPoint middle = geometry.place_of({});
+  terrain::SmoothOrder order{{90.0, -90.0, middle.longitude_deg + 180.0, middle.longitude_deg - 180.0},
+                             kPixelsANode * grid.spacing_m,
+                             kPixelsAPost * geometry.window_m() / std::max(fidelity.map_size, 1)};
+  if (fidelity.algorithm == radar::Algorithm::reference) order.least_parts = kReferenceParts;
+  terrain::GeoBox& box = order.box;
+  // Outlines of the fan curve little: between so many places of them nothing stands out but what the margin holds.
+  for (int i = 0; i <= kOutlineSteps; ++i) {
+    const double share = static_cast<double>(i) / kOutlineSteps;
+    for (const double column : {0.0, share * (grid.columns - 1), grid.columns - 1.0})
+      for (const double row : {0.0, share * (grid.rows - 1), grid.rows - 1.0}) {
+        const double tangent = grid.tangent(column);
+        const double ahead_m = grid.distance_m(row) / std::sqrt(1.0 + tangent * tangent);
+        const geo::GeoPoint place = geometry.place_of({tangent * ahead_m, ahead_m - geometry.distance_m()});
+        const double east_deg = middle.longitude_deg + geo::wrapped_degrees(place.longitude_deg - middle.longitude_deg);
+        box = {std::min(box.south_deg, place.latitude_deg), std::max(box.north_deg, place.latitude_deg),
+               std::min(box.west_deg, east_deg), std::max(box.east_deg, east_deg)};
+      }
+  }
+  const double margin_north_deg = kOutlineMargin * (box.north_deg - box.south_deg);
+  const double margin_east_deg = kOutlineMargin * (box.east_deg - box.west_deg);
+  box = {box.south_deg - margin_north_deg, box.north_deg + margin_north_deg, box.west_deg - margin_east_deg,
+         box.east_deg + margin_east_deg};
+  for (const scene::Tile* tile : tiles) order.plain.push_back(box_of(*tile));
+  return order;
+}
+
+FanMargins fan_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,
+                       const std::vector<const scene::Tile*>& tiles, const Crew& crew) {
+  const Relief relief = relief_of(geometry, ground, tiles, crew);
+  const double sine = std::max(geometry.sin_grazing(), kLeastSine);
+  const double tangent = sine / std::sqrt(std::max(1.0 - sine * sine, 1e-6));
+  // Low ground is laid over outwards and high ground inwards; a thing before the near edge shades into the window.
+  return {std::max(-relief.lowest_m * tangent, shading_m(geometry, tiles, tangent)), relief.highest_m * tangent};
 }
 
 }  // namespace yars::model::hrm

@@ -1,18 +1,27 @@
-// Where a patch map lies, and how a place becomes a point on it. The plane: distance and bearing from the aircraft are
-// kept (azimuthal equidistant), turned so that the bearing of the centre points up; straight lines through the aircraft
-// are its lines of sight. `right` and `up` are metres from the centre; `ahead` = up + the centre's distance.
-// Heights count from the map plane, which is level at the centre's elevation and bends with the effective earth.
+// Geometry of a patch map: its plane, its polar grid (range x azimuth), and the terrain that it needs.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "lib/geo/bearing.hpp"
 #include "lib/geo/geodesic.hpp"
 #include "lib/geo/height.hpp"
+#include "lib/parallel/thread_pool.hpp"
 #include "lib/radar/configuration.hpp"
-#include "model/rbm/earth.hpp"
+#include "model/physics/sweep_geometry.hpp"
+#include "model/scene/placement/scene_view.hpp"
+#include "model/terrain/sampling/smooth_view.hpp"
+#include "model/terrain/sampling/terrain_view.hpp"
 
 namespace yars::model::hrm {
+
+// Where a patch map lies, and how a place becomes a point on it. The plane: distance and bearing from the aircraft are
+// kept (azimuthal equidistant), turned so that the bearing of the centre points up; straight lines through the aircraft
+// are its lines of sight. `right` and `up` are metres from the centre; `ahead` = up + the centre's distance.
+// Heights count from the map plane, which is level at the centre's elevation and bends with the effective earth.
 
 // Every value finite, the window greater than 0, the centre farther from the apex than the window's half diagonal: the
 // kernel sees to it.
@@ -77,5 +86,79 @@ class PatchGeometry {
 // d'^2 = d^2 + height (height - 2 above); 0 where nothing on the plane is as near. Height over earth radius of the
 // layover is left out: 0.1 % at 9 km.
 double laid_over_m(double distance_m, double height_m, double above_level_m);
+
+// The grid on which a patch is computed: columns are lines of sight, even in the tangent of their bearing against the
+// centre's; rows are even in distance over ground. Shadow and layover run along columns alone. Kept in strips of
+// sixteen columns, row by row: a row of a strip is a cache line of floats, and a vector.
+inline constexpr int kStripColumns = 16;
+
+struct FanGrid {
+  int columns = 0;  // a multiple of kStripColumns
+  int rows = 0;
+  double first_tangent = 0.0;  // of column 0
+  double tangent_step = 0.0;
+  double first_distance_m = 0.0;  // of row 0, over ground
+  double spacing_m = 0.0;         // between rows
+  double centre_distance_m = 0.0;
+
+  int strips() const { return columns / kStripColumns; }
+  // An odd number of cache lines: a row across many strips does not meet itself in the cache.
+  std::size_t strip_size() const { return static_cast<std::size_t>(rows | 1) * kStripColumns; }
+  std::size_t size() const { return strip_size() * static_cast<std::size_t>(strips()); }
+  std::size_t at(int column, int row) const {
+    return static_cast<std::size_t>(column / kStripColumns) * strip_size() +
+           static_cast<std::size_t>(row) * kStripColumns + static_cast<std::size_t>(column % kStripColumns);
+  }
+  double tangent(double column) const { return first_tangent + column * tangent_step; }
+  double distance_m(double row) const { return first_distance_m + row * spacing_m; }
+  // Width [m] of a column at a distance: what a step of the tangent is worth as an arc.
+  double width_m(double column, double distance) const {
+    const double t = tangent(column);
+    return distance * tangent_step / (1.0 + t * t);
+  }
+};
+
+// How far beyond the window's edges something may lie that returns or shades within it [m].
+struct FanMargins {
+  double near_m = 0.0;
+  double far_m = 0.0;
+};
+
+// `cells` a pixel, along and across. Holds the window and the margins, as far as they lie ahead of the aircraft.
+FanGrid make_fan_grid(const PatchGeometry& geometry, int pixels, int cells, const FanMargins& margins);
+
+// What the fan knows of its points before profiles are cast, by FanGrid::at(). What is read together lies together: who
+// draws small triangles meets one line of the cache a point.
+struct SurfacePoint {
+  float gain = 0.0F;      // gamma: cross section [m^2] a square metre seen square on; negative where a thing stands
+  float height_m = 0.0F;  // above the map plane, of what is highest
+};
+
+// Facing walls that stand before this point's ground: the sum of gamma times height, and how tall they are together, in
+// steps of kWallStep_m. Whole numbers, so that the order in which walls are drawn is of no account.
+struct WallPoint {
+  std::uint32_t returned = 0;
+  std::uint32_t height = 0;
+};
+inline constexpr float kWallStep_m = 1.0F / 4096.0F;
+
+// What a patch map needs before it can be made: which terrain, and how far beyond its window it has to look.
+
+// Terrain about the window, and on the way to it, which may be coarser: by the fidelity's posts a sample, for all posts
+// of what is read raise the horizon (decision 19).
+struct PatchNeed {
+  terrain::TerrainRegion window;
+  terrain::TerrainRegion path;
+};
+PatchNeed patch_need(const PatchOrder& order, const radar::Fidelity& fidelity);
+
+// Where on the earth the fan reads its ground, and how finely; `tiles` stand on ground that is straight between posts.
+terrain::SmoothOrder smooth_order(const PatchGeometry& geometry, const FanGrid& grid, const radar::Fidelity& fidelity,
+                                  const std::vector<const scene::Tile*>& tiles);
+
+// For what stands or lies outside the window and is laid over or shades into it: by the relief of the ground and the
+// things of the tiles.
+FanMargins fan_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,
+                       const std::vector<const scene::Tile*>& tiles, const Crew& crew);
 
 }  // namespace yars::model::hrm

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "model/rbm/ground_walk.hpp"
-#include "model/reflectivity/decibels.hpp"
+#include "model/physics/ray.hpp"
+#include "model/physics/reflectivity.hpp"
 
 namespace yars::model::hrm {
 

@@ -7,14 +7,13 @@
 
 #include <vector>
 
-#include "model/hrm/fan_grid.hpp"
-#include "model/hrm/fan_point.hpp"
-#include "model/hrm/ground_fan.hpp"
 #include "model/hrm/map_image.hpp"
 #include "model/hrm/occluders.hpp"
-#include "model/hrm/scene_surface.hpp"
-#include "model/rbm/gas_path.hpp"
-#include "model/scene/scene_view.hpp"
+#include "model/hrm/patch_geometry.hpp"
+#include "model/hrm/polar_ground.hpp"
+#include "model/physics/atmosphere.hpp"
+#include "model/physics/reflectivity.hpp"
+#include "model/scene/placement/scene_view.hpp"
 
 namespace yars::model::hrm {
 

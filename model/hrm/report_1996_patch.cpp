@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/rbm/noise.hpp"
+#include "model/physics/clutter.hpp"
 
 namespace yars::model::hrm {
 

@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "lib/radar/configuration.hpp"
-#include "model/hrm/fan_grid.hpp"
-#include "model/hrm/fan_point.hpp"
 #include "model/hrm/map_image.hpp"
+#include "model/hrm/patch_geometry.hpp"
 
 namespace yars::model::hrm {
 

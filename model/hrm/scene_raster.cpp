@@ -7,6 +7,118 @@
 
 namespace yars::model::hrm {
 
+namespace {
+
+constexpr int kTilesAPiece = 16;  // of work
+
+PlacedTile placed(const PatchGeometry& geometry, const scene::Tile& tile) {
+  const geo::GeodesicInverse way = geo::geodesic_inverse(geometry.apex(), tile.origin);
+  const double turn_rad = (way.azimuth_at_start - geometry.up()).radians();
+  const double away_rad = way.azimuth_at_end.radians();
+  const double distance_m = way.distance.metres();
+  // Across the line of sight the plane is stretched against the earth.
+  constexpr double kEarthRadius_m = 6371008.8;
+  const double angle_rad = distance_m / kEarthRadius_m;
+  const double stretch = angle_rad > 1e-6 ? angle_rad / std::sin(angle_rad) : 1.0;
+  const double sine = std::sin(turn_rad);
+  const double cosine = std::cos(turn_rad);
+  // East and north as parts along and across the line of sight, then turned onto the map.
+  const double along_east = std::sin(away_rad);
+  const double along_north = std::cos(away_rad);
+  const double across_east = stretch * std::cos(away_rad);
+  const double across_north = -stretch * std::sin(away_rad);
+  PlacedTile placement;
+  placement.tile = &tile;
+  placement.right_m = distance_m * sine;
+  placement.up_m = distance_m * cosine - geometry.distance_m();
+  placement.right_east = along_east * sine + across_east * cosine;
+  placement.right_north = along_north * sine + across_north * cosine;
+  placement.up_east = along_east * cosine - across_east * sine;
+  placement.up_north = along_north * cosine - across_north * sine;
+  placement.lift_m = static_cast<float>(tile.zero_msl_m - geometry.plane_msl_m());
+  const rbm::Sight sight = geometry.earth().sight(geometry.altitude_m() - geometry.plane_msl_m(), distance_m, 0.0);
+  placement.toward_east = static_cast<float>(-along_east * sight.cos_grazing);
+  placement.toward_north = static_cast<float>(-along_north * sight.cos_grazing);
+  placement.toward_up = static_cast<float>(sight.sin_grazing);
+  return placement;
+}
+
+struct GridPoint {
+  float column, row;
+};
+GridPoint on_grid(const PatchGeometry& geometry, const FanGrid& grid, const PlacedTile& placement, float east_m,
+                  float north_m) {
+  const double right_m = placement.right_m + placement.right_east * static_cast<double>(east_m) +
+                         placement.right_north * static_cast<double>(north_m);
+  const double up_m = placement.up_m + placement.up_east * static_cast<double>(east_m) +
+                      placement.up_north * static_cast<double>(north_m);
+  const double ahead_m = std::max(geometry.distance_m() + up_m, 1.0);
+  const double distance_m = std::sqrt(right_m * right_m + ahead_m * ahead_m);
+  return {static_cast<float>((right_m / ahead_m - grid.first_tangent) / grid.tangent_step),
+          static_cast<float>((distance_m - grid.first_distance_m) / grid.spacing_m)};
+}
+
+// Notes the columns; false: off the fan.
+bool find_columns(const PatchGeometry& geometry, const FanGrid& grid, PlacedTile& placement) {
+  const scene::Bounds& bounds = placement.tile->bounds;
+  placement.least_column = std::numeric_limits<float>::max();
+  placement.most_column = std::numeric_limits<float>::lowest();
+  float least_row = placement.least_column;
+  float most_row = placement.most_column;
+  for (const float east_m : {bounds.east_least_m, bounds.east_most_m}) {
+    for (const float north_m : {bounds.north_least_m, bounds.north_most_m}) {
+      const GridPoint corner = on_grid(geometry, grid, placement, east_m, north_m);
+      placement.least_column = std::min(placement.least_column, corner.column);
+      placement.most_column = std::max(placement.most_column, corner.column);
+      least_row = std::min(least_row, corner.row);
+      most_row = std::max(most_row, corner.row);
+    }
+  }
+  // A row more: distance curves a little within a large tile.
+  return placement.most_column >= 0.0F && placement.least_column < static_cast<float>(grid.columns) &&
+         most_row >= -1.0F && least_row < static_cast<float>(grid.rows) + 1.0F;
+}
+
+}  // namespace
+
+std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const FanGrid& grid,
+                                    const std::vector<const scene::Tile*>& tiles, const Crew& crew) {
+  std::vector<PlacedTile> all(tiles.size());
+  share_out(crew, static_cast<int>(tiles.size()), kTilesAPiece, [&](int first, int last, std::size_t) {
+    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
+      all[i] = placed(geometry, *tiles[i]);
+      if (!find_columns(geometry, grid, all[i])) all[i].tile = nullptr;
+    }
+  });
+  std::erase_if(all, [](const PlacedTile& tile) { return tile.tile == nullptr; });
+  return all;
+}
+
+std::vector<int> even_bands(const FanGrid& grid, std::span<const PlacedTile> tiles, int bands) {
+  std::vector<double> work(static_cast<std::size_t>(grid.strips()), 1.0);
+  const auto strip_of = [&](float column) {
+    return std::clamp(static_cast<int>(column) / kStripColumns, 0, grid.strips() - 1);
+  };
+  double sum = grid.strips();
+  for (const PlacedTile& tile : tiles) {
+    const int first = strip_of(std::max(tile.least_column, 0.0F));
+    const int last = strip_of(std::min(tile.most_column, static_cast<float>(grid.columns)));
+    const auto triangles = static_cast<double>(tile.tile->triangles());
+    for (int strip = first; strip <= last; ++strip)
+      work[static_cast<std::size_t>(strip)] += triangles / (last - first + 1);
+    sum += triangles;
+  }
+  std::vector<int> begin{0};
+  double done = 0.0;
+  for (int strip = 0; strip < grid.strips(); ++strip) {
+    const auto next = static_cast<double>(begin.size());
+    if (done >= next * sum / bands && begin.size() < static_cast<std::size_t>(bands)) begin.push_back(strip);
+    done += work[static_cast<std::size_t>(strip)];
+  }
+  begin.resize(static_cast<std::size_t>(bands) + 1, grid.strips());
+  return begin;
+}
+
 SceneRaster::SceneRaster(const radar::RadarConfiguration& configuration)
     : surface_(configuration), cardinal_shares_(surface_.cardinal_shares()) {}
 

@@ -5,7 +5,7 @@
 #include "lib/radar/limits.hpp"
 #include "lib/radar/modes.hpp"
 #include "model/kernel/sweep_chain.hpp"
-#include "model/rbm/receiver.hpp"
+#include "model/physics/receiver.hpp"
 
 namespace yars::model::kernel {
 

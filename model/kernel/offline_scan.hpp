@@ -11,12 +11,12 @@
 
 #include "databuffer/records/model_records.hpp"
 #include "lib/memory/line_vector.hpp"
+#include "lib/parallel/thread_pool.hpp"
 #include "lib/radar/configuration.hpp"
-#include "model/kernel/pose.hpp"
-#include "model/kernel/sweep_record.hpp"
-#include "model/kernel/workers.hpp"
+#include "model/kernel/sweep_chain.hpp"
+#include "model/kernel/tick_inputs.hpp"
 #include "model/rbm/algorithm.hpp"
-#include "model/rbm/strobes.hpp"
+#include "model/rbm/emitters.hpp"
 
 namespace yars::model::kernel {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "lib/radar/mappable.hpp"
-#include "model/kernel/kernel_state.hpp"
-#include "model/kernel/scan_detail.hpp"
+#include "model/kernel/scan_state.hpp"
+#include "model/kernel/tick_inputs.hpp"
 
 namespace yars::model::kernel {
 

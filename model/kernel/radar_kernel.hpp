@@ -7,7 +7,7 @@
 #include "databuffer/records/model_records.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/kernel/map_schedule.hpp"
-#include "model/rbm/database.hpp"
+#include "model/physics/environment.hpp"
 
 namespace yars::model::kernel {
 

@@ -1,24 +1,65 @@
-// From what the beam sweeps, tick by tick, to finished sweep records: measures each sweep, keeps the three newest, and
-// finishes the middle one when its successor is there. So a sweep comes out one tick after it was measured, with its
-// own place, and the azimuth smear shifts nothing. At an end of a pass the last sweep stands in for its successor.
-// No allocation after construction.
+// Finished sweep records from measured sweeps: position, video, hash.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "databuffer/records/model_records.hpp"
 #include "lib/memory/line_vector.hpp"
 #include "lib/radar/configuration.hpp"
-#include "model/kernel/sweep_record.hpp"
+#include "model/antenna/antenna.hpp"
+#include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"
-#include "model/rbm/beacons.hpp"
-#include "model/rbm/strobes.hpp"
+#include "model/rbm/emitters.hpp"
 
 namespace yars::model::kernel {
 
+// The record of a sweep but for its video, and its hash.
+
+// Where and how one sweep was measured: the fields of its record, without video and hash.
+struct SweepPlace {
+  geo::GeoPoint apex;
+  geo::AltitudeMsl altitude;
+  geo::Bearing left;
+  geo::Bearing right;
+  geo::Bearing ground_track;
+  geo::Angle elevation;
+  geo::Length range;
+  int direction = 1;
+  geo::Duration sim_time{};                 // not part of the record's place
+  std::uint8_t band = 0;                    // 0..4: A..E
+  std::uint8_t channel = 1;                 // 1..8
+  std::optional<geo::Bearing> looked_at{};  // where the beam's centre looks if not to the middle of the wedge
+  std::optional<geo::Angle> resolved{};     // width of the cell of a sharpened beam
+  geo::Angle bars_above{};                  // as in rbm::Look
+  geo::Angle bars_below{};
+};
+
+// Sim time as movers go by it.
+inline geo::Duration sim_time_of(std::int64_t sim_time_ns) {
+  return geo::Duration::seconds(static_cast<double>(sim_time_ns) * 1e-9);
+}
+
+// Fills all of `sweep` but video, hash, times, numbers and flags.
+void write_place(const SweepPlace& place, databuffer::Sweep& sweep);
+
+// What the beam's centre looks at: the middle of the wedge, unless the place says otherwise.
+rbm::Look look_of(const SweepPlace& place);
+
+// XXH3 64 over the record's fields before `hash` but for the times, then, seeded with that, over the used samples.
+std::uint64_t sweep_hash(const databuffer::Sweep& sweep);
+
+// One number for a scan: XXH3 64 over the hashes of its sweeps, in order, each seeded with the one before.
+std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps);
+
+// From what the beam sweeps, tick by tick, to finished sweep records: measures each sweep, keeps the three newest, and
+// finishes the middle one when its successor is there. So a sweep comes out one tick after it was measured, with its
+// own place, and the azimuth smear shifts nothing. At an end of a pass the last sweep stands in for its successor.
+// No allocation after construction.
 class SweepChain {
  public:
   explicit SweepChain(const radar::RadarConfiguration& configuration);

@@ -8,8 +8,8 @@
 #include <span>
 
 #include "lib/radar/configuration.hpp"
-#include "model/rbm/database.hpp"
-#include "model/rbm/look.hpp"
+#include "model/physics/environment.hpp"
+#include "model/physics/sweep_geometry.hpp"
 
 namespace yars::model::rbm {
 

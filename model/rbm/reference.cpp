@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "model/rbm/noise.hpp"
+#include "model/physics/clutter.hpp"
 
 namespace yars::model::rbm {
 

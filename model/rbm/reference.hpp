@@ -6,15 +6,14 @@
 #include <vector>
 
 #include "lib/radar/configuration.hpp"
+#include "model/physics/atmosphere.hpp"
+#include "model/physics/environment.hpp"
+#include "model/physics/ground_return.hpp"
+#include "model/physics/ray.hpp"
+#include "model/physics/receiver.hpp"
+#include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"
-#include "model/rbm/earth.hpp"
-#include "model/rbm/gas_path.hpp"
-#include "model/rbm/ground_walk.hpp"
-#include "model/rbm/movers.hpp"
-#include "model/rbm/rain_path.hpp"
-#include "model/rbm/receiver.hpp"
 #include "model/rbm/scene_return.hpp"
-#include "model/rbm/surface_return.hpp"
 
 namespace yars::model::rbm {
 

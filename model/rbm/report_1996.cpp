@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "model/rbm/sample_places.hpp"
+#include "model/physics/ray.hpp"
 
 namespace yars::model::rbm {
 

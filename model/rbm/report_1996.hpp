@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "lib/radar/configuration.hpp"
+#include "model/physics/ray.hpp"
 #include "model/rbm/algorithm.hpp"
-#include "model/rbm/sample_places.hpp"
 
 namespace yars::model::rbm {
 

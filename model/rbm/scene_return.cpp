@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/rbm/movers.hpp"
-#include "model/rbm/ray_share.hpp"
+#include "model/physics/environment.hpp"
+#include "model/physics/sweep_geometry.hpp"
 
 namespace yars::model::rbm {
 

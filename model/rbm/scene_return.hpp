@@ -7,13 +7,12 @@
 #include <vector>
 
 #include "lib/radar/configuration.hpp"
-#include "model/rbm/earth.hpp"
-#include "model/rbm/gas_path.hpp"
-#include "model/rbm/ground_walk.hpp"
-#include "model/rbm/look.hpp"
-#include "model/rbm/receiver.hpp"
-#include "model/reflectivity/scene_surface.hpp"
-#include "model/scene/scene_view.hpp"
+#include "model/physics/atmosphere.hpp"
+#include "model/physics/ray.hpp"
+#include "model/physics/receiver.hpp"
+#include "model/physics/reflectivity.hpp"
+#include "model/physics/sweep_geometry.hpp"
+#include "model/scene/placement/scene_view.hpp"
 
 namespace yars::model::rbm {
 

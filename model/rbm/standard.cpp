@@ -6,10 +6,9 @@
 #include <limits>
 #include <numbers>
 
-#include "model/rbm/ground_walk.hpp"
-#include "model/rbm/noise.hpp"
-#include "model/rbm/sample_places.hpp"
-#include "model/rbm/video_lanes.hpp"
+#include "model/physics/clutter.hpp"
+#include "model/physics/clutter_simd.hpp"
+#include "model/physics/ray.hpp"
 
 namespace yars::model::rbm {
 

@@ -1,5 +1,5 @@
 // The default algorithm: float, by vectors of whatever width the machine has. Positions come from a series of the
-// geodesic (sample_places.hpp), curvature from the first terms of its own. Bound against Reference, without noise:
+// geodesic (ray.hpp), curvature from the first terms of its own. Bound against Reference, without noise:
 // shadow differs in at most 0.5 % of the samples, video by 0.5 gray levels RMS (tests/model/standard_test.cpp). Equal
 // bits for any number of threads and any width.
 #pragma once
@@ -10,18 +10,16 @@
 
 #include "lib/memory/line_vector.hpp"
 #include "lib/radar/configuration.hpp"
+#include "model/physics/atmosphere.hpp"
+#include "model/physics/environment.hpp"
+#include "model/physics/ground_return.hpp"
+#include "model/physics/ray.hpp"
+#include "model/physics/receiver.hpp"
+#include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"
-#include "model/rbm/earth.hpp"
-#include "model/rbm/gas_path.hpp"
-#include "model/rbm/ground.hpp"
-#include "model/rbm/ground_walk.hpp"
-#include "model/rbm/movers.hpp"
-#include "model/rbm/rain_path.hpp"
-#include "model/rbm/ray_crests.hpp"
-#include "model/rbm/receiver.hpp"
-#include "model/rbm/sample_places.hpp"
+#include "model/rbm/line_of_sight.hpp"
 #include "model/rbm/scene_return.hpp"
-#include "model/rbm/sweep_lanes.hpp"
+#include "model/rbm/sweep_simd.hpp"
 
 namespace yars::model::rbm {
 

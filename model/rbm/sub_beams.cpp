@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "model/rbm/receiver.hpp"
+#include "model/physics/receiver.hpp"
 
 namespace yars::model::rbm {
 

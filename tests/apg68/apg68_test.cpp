@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <map>
 
-#include "display/gl/glass.hpp"
-#include "display/gl/headless_egl.hpp"
+#include "display/gl/context.hpp"
+#include "display/gl/display.hpp"
 #include "model/antenna/antenna.hpp"
 #include "tests/apg68/radar.hpp"
 

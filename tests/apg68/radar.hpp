@@ -12,10 +12,10 @@
 #include "config/load.hpp"
 #include "databuffer/records/event_text.hpp"
 #include "databuffer/records/radar_command.hpp"
-#include "display/glass_input.hpp"
+#include "display/symbology/plan_view.hpp"
 #include "lib/radar/limits.hpp"
 #include "model/kernel/radar_kernel.hpp"
-#include "model/terrain/analytic_terrain.hpp"
+#include "model/terrain/sampling/analytic_terrain.hpp"
 #include "statemachine/machine.hpp"
 
 namespace yars::apg68 {

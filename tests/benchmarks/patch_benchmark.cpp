@@ -16,15 +16,15 @@
 #include <thread>
 #include <vector>
 
-#include "model/hrm/patch_process.hpp"
-#include "model/kernel/workers.hpp"
-#include "model/scene/generator.hpp"
-#include "model/scene/openflight_reader.hpp"
-#include "model/scene/placed_view.hpp"
-#include "model/scene/placing.hpp"
-#include "model/terrain/open_terrain.hpp"
+#include "lib/parallel/thread_pool.hpp"
+#include "model/hrm/patch_formation.hpp"
+#include "model/scene/index/scene_store.hpp"
+#include "model/scene/openflight/reader.hpp"
+#include "model/scene/placement/placed_scene.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/benchmarks/timing.hpp"
 #include "tests/benchmarks/visibility.hpp"
+#include "worldgen/scene/scene_builder.hpp"
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "model/kernel/offline_scan.hpp"
-#include "model/terrain/open_terrain.hpp"
-#include "model/terrain/post_blocks.hpp"
+#include "model/terrain/formats/cell.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/benchmarks/gather_limit.hpp"
 #include "tests/benchmarks/rbm_stages.hpp"
 #include "tests/benchmarks/timing.hpp"

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "model/rbm/earth.hpp"
-#include "model/rbm/ground.hpp"
-#include "model/rbm/receiver.hpp"
-#include "model/rbm/sample_places.hpp"
-#include "model/rbm/sweep_lanes.hpp"
-#include "model/rbm/video_lanes.hpp"
+#include "model/physics/clutter_simd.hpp"
+#include "model/physics/ground_return.hpp"
+#include "model/physics/ray.hpp"
+#include "model/physics/receiver.hpp"
+#include "model/physics/sweep_geometry.hpp"
+#include "model/rbm/sweep_simd.hpp"
 #include "tests/benchmarks/timing.hpp"
 
 namespace yars::benchmarks {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "model/kernel/offline_scan.hpp"
-#include "model/terrain/terrain_view.hpp"
+#include "model/terrain/sampling/terrain_view.hpp"
 
 namespace yars::benchmarks {
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "model/hrm/patch_geometry.hpp"
-#include "model/scene/scene_view.hpp"
+#include "model/scene/placement/scene_view.hpp"
 
 namespace yars::benchmarks {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "model/terrain/dted_writer.hpp"
+#include "model/terrain/formats/dted.hpp"
 #include "tests/endtoend/process_set.hpp"
 #include "tests/terrain/dted_builder.hpp"
 #include "tests/terrain/rough_cell.hpp"

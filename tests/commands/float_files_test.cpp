@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "config/load.hpp"
-#include "model/hrm/patch_process.hpp"
+#include "model/hrm/patch_formation.hpp"
 #include "model/kernel/offline_scan.hpp"
-#include "model/kernel/scan_detail.hpp"
-#include "model/terrain/open_terrain.hpp"
+#include "model/kernel/tick_inputs.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/endtoend/process_set.hpp"
 #include "tests/terrain/dted_builder.hpp"
 

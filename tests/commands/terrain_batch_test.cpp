@@ -8,11 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "model/terrain/culture_reader.hpp"
-#include "model/terrain/culture_writer.hpp"
-#include "model/terrain/directory_index.hpp"
-#include "model/terrain/dted_writer.hpp"
-#include "model/terrain/reduce.hpp"
+#include "model/terrain/formats/cell.hpp"
+#include "model/terrain/formats/culture.hpp"
+#include "model/terrain/formats/dted.hpp"
+#include "model/terrain/store/cell_files.hpp"
 #include "tests/endtoend/process_set.hpp"
 #include "tests/terrain/dted_builder.hpp"
 #include "tests/terrain/rough_cell.hpp"

@@ -1,9 +1,8 @@
-#include "display/bezel.hpp"
-
 #include <gtest/gtest.h>
 
 #include <set>
 
+#include "display/symbology/readouts.hpp"
 #include "lib/radar/limits.hpp"
 
 namespace yars::display {

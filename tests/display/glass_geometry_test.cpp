@@ -1,12 +1,9 @@
-#include "display/glass_geometry.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "databuffer/records/navigation.hpp"
-#include "display/present_frame.hpp"
-#include "display/wedge.hpp"
+#include "display/symbology/plan_view.hpp"
 #include "tests/display/glass_states.hpp"
 
 namespace yars::display {

@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "display/glass_input.hpp"
+#include "display/symbology/plan_view.hpp"
 #include "lib/geo/geodesic.hpp"
 #include "lib/radar/configuration.hpp"
 

@@ -1,5 +1,5 @@
 // Places of labels: around the symbol, farther out on a line, or none; who comes first, and what stays where it is.
-#include "display/label_layout.hpp"
+#include "display/symbology/label_layout.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,4 @@
 // What lies on the ground: the cursor, and sequence points with their names.
-#include "display/markers.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "display/symbology/ground_symbols.hpp"
 #include "tests/display/overlap.hpp"
 #include "tests/display/symbology_checks.hpp"
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "display/draw_list.hpp"
+#include "display/symbology/draw_list.hpp"
 
 namespace yars::display::testing {
 

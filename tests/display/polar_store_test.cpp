@@ -1,11 +1,11 @@
-#include "display/polar_store.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
+
+#include "display/symbology/radar_video.hpp"
 
 namespace yars::display {
 namespace {

@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-#include "display/point.hpp"
+#include "display/symbology/draw_list.hpp"
 #include "tests/display/glass_states.hpp"
 
 namespace yars::display::testing {

@@ -1,11 +1,10 @@
 // Range arcs, the scales with their carets, and the pitch ball.
-#include "display/scales.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
+#include "display/symbology/symbology.hpp"
 #include "tests/display/symbology_checks.hpp"
 
 namespace yars::display {

@@ -1,10 +1,10 @@
-#include "display/stroke_font.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
+
+#include "display/symbology/draw_list.hpp"
 
 namespace yars::display {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "display/present_frame.hpp"
-#include "display/symbology.hpp"
+#include "display/symbology/plan_view.hpp"
+#include "display/symbology/symbology.hpp"
 #include "tests/display/glass_states.hpp"
 
 namespace yars::display::testing {

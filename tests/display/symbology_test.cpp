@@ -1,5 +1,5 @@
 // What is on the glass by power and mode: legends, readouts, notices.
-#include "display/symbology.hpp"
+#include "display/symbology/symbology.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

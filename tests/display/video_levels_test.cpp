@@ -1,8 +1,8 @@
-#include "display/video_levels.hpp"
-
 #include <gtest/gtest.h>
 
 #include <set>
+
+#include "display/symbology/radar_video.hpp"
 
 namespace yars::display {
 namespace {

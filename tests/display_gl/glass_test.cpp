@@ -1,12 +1,11 @@
-#include "display/gl/glass.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "display/gl/headless_egl.hpp"
+#include "display/gl/context.hpp"
+#include "display/gl/display.hpp"
 #include "tests/display/glass_states.hpp"
 #include "tests/display_gl/made_up_sweeps.hpp"
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 
-#include "display/gl/glass.hpp"
-#include "display/gl/headless_egl.hpp"
-#include "display/video_levels.hpp"
+#include "display/gl/context.hpp"
+#include "display/gl/display.hpp"
+#include "display/symbology/radar_video.hpp"
 #include "tests/display/glass_states.hpp"
 #include "tests/display_gl/made_up_map.hpp"
 #include "tests/display_gl/made_up_sweeps.hpp"

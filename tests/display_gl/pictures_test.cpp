@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <functional>
 
-#include "display/gl/glass.hpp"
-#include "display/gl/headless_egl.hpp"
+#include "display/gl/context.hpp"
+#include "display/gl/display.hpp"
 #include "tests/display/glass_states.hpp"
 #include "tests/display_gl/made_up_map.hpp"
 #include "tests/display_gl/made_up_sweeps.hpp"

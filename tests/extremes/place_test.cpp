@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "model/terrain/directory_store.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/extremes/islands.hpp"
 #include "tests/terrain/dted_builder.hpp"
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/terrain/directory_store.hpp"
-#include "model/terrain/dted_reader.hpp"
-#include "model/terrain/hgt_reader.hpp"
+#include "model/terrain/formats/dted.hpp"
+#include "model/terrain/formats/hgt.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/extremes/islands.hpp"
 #include "tests/model/cockpit.hpp"
 #include "tests/terrain/dted_builder.hpp"

@@ -6,9 +6,7 @@
 
 #include "lib/failure/require.hpp"
 #include "lib/imageio/indexed_png.hpp"
-#include "model/terrain/culture_reader.hpp"
-#include "model/terrain/culture_tile.hpp"
-#include "model/terrain/culture_writer.hpp"
+#include "model/terrain/formats/culture.hpp"
 #include "tests/fuzz/memory_file.hpp"
 #include "tests/fuzz/pieces.hpp"
 

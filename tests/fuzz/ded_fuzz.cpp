@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lib/failure/require.hpp"
-#include "model/terrain/ded_reader.hpp"
+#include "model/terrain/formats/ded.hpp"
 #include "tests/terrain/ded_builder.hpp"
 
 using namespace yars::model::terrain;

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/terrain/dted_reader.hpp"
+#include "model/terrain/formats/dted.hpp"
 
 using namespace yars::model::terrain;
 

@@ -1,7 +1,7 @@
 // Any bytes as an HGT file: a cell whose posts are the file's, or an error for every other length. The input is laid
 // over a file of 1201 x 1201 posts; its first two bytes cut or lengthen the file.
 #include "lib/failure/require.hpp"
-#include "model/terrain/hgt_reader.hpp"
+#include "model/terrain/formats/hgt.hpp"
 #include "tests/fuzz/pieces.hpp"
 
 using namespace yars::model::terrain;

@@ -7,8 +7,8 @@
 #include "databuffer/records/model_validation.hpp"
 #include "databuffer/records/validation.hpp"
 #include "lib/failure/require.hpp"
-#include "model/radar_model_shell.hpp"
-#include "model/terrain/open_terrain.hpp"
+#include "model/app/radar_model_shell.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/fuzz/overlaid_session.hpp"
 
 namespace {

@@ -5,8 +5,8 @@
 
 #include "databuffer/session.hpp"
 #include "lib/failure/require.hpp"
-#include "model/scene/scene_source.hpp"
-#include "model/terrain/cell_file.hpp"
+#include "model/scene/index/scene_index.hpp"
+#include "model/terrain/store/cell_files.hpp"
 
 using namespace yars;
 

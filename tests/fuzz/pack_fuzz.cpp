@@ -8,8 +8,7 @@
 #include <cstring>
 #include <vector>
 
-#include "model/terrain/pack_reader.hpp"
-#include "model/terrain/pack_writer.hpp"
+#include "model/terrain/formats/pack.hpp"
 #include "tests/terrain/rough_cell.hpp"
 
 using namespace yars::model::terrain;

@@ -4,7 +4,7 @@
 #include <zlib.h>
 
 #include "lib/failure/require.hpp"
-#include "model/terrain/packed_hgt_reader.hpp"
+#include "model/terrain/formats/hgt.hpp"
 #include "tests/fuzz/memory_file.hpp"
 #include "tests/fuzz/pieces.hpp"
 

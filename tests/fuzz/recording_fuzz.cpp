@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "tests/recording/made_recording.hpp"
-#include "tools/recording/block_head.hpp"
+#include "tools/recording/block.hpp"
 
 using namespace yars;
 using namespace yars::tools::recording;

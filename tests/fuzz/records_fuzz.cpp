@@ -12,16 +12,16 @@
 #include "databuffer/records/model_validation.hpp"
 #include "databuffer/records/validation.hpp"
 #include "databuffer/traffic_receiver.hpp"
-#include "display/glass_feed_shell.hpp"
-#include "display/polar_store.hpp"
-#include "display/present_frame.hpp"
-#include "display/symbology.hpp"
+#include "display/host/session_link_shell.hpp"
+#include "display/symbology/plan_view.hpp"
+#include "display/symbology/radar_video.hpp"
+#include "display/symbology/symbology.hpp"
 #include "lib/failure/require.hpp"
 #include "statemachine/state_machine_shell.hpp"
 #include "tests/fuzz/overlaid_session.hpp"
-#include "tools/recorder.hpp"
-#include "tools/status_json.hpp"
-#include "tools/status_text.hpp"
+#include "tools/session/recorder.hpp"
+#include "tools/session/status_json.hpp"
+#include "tools/session/status_text.hpp"
 
 namespace {
 

@@ -3,8 +3,7 @@
 
 #include <cmath>
 
-#include "model/reflectivity/decibels.hpp"
-#include "model/reflectivity/land.hpp"
+#include "model/physics/reflectivity.hpp"
 #include "tests/hrm/made_up_scene.hpp"
 #include "tests/hrm/patch_maker.hpp"
 

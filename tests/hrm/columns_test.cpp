@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "model/hrm/strip_lanes.hpp"
-#include "model/terrain/cell_view.hpp"
+#include "model/hrm/polar_ground_simd.hpp"
+#include "model/terrain/sampling/cell_view.hpp"
 #include "tests/hrm/patch_maker.hpp"
 #include "tests/lanes/vector_targets.hpp"
 

@@ -1,11 +1,10 @@
 // Work shared out among threads: every piece is done, and by one of them alone.
-#include "model/hrm/crew.hpp"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <vector>
 
+#include "lib/parallel/thread_pool.hpp"
 #include "tests/hrm/patch_maker.hpp"
 
 namespace yars::test {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lib/geo/quantity.hpp"
-#include "model/scene/scene_view.hpp"
+#include "model/scene/placement/scene_view.hpp"
 
 namespace yars::test {
 

@@ -1,10 +1,9 @@
 // How far before the window a fan looks for what shades into it.
-#include "model/hrm/patch_layout.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "model/hrm/patch_geometry.hpp"
 #include "tests/hrm/made_up_scene.hpp"
 #include "tests/hrm/patch_maker.hpp"
 

@@ -5,9 +5,9 @@
 #include <thread>
 #include <vector>
 
-#include "model/hrm/patch_process.hpp"
-#include "model/reflectivity/land.hpp"
-#include "model/terrain/analytic_terrain.hpp"
+#include "model/hrm/patch_formation.hpp"
+#include "model/physics/reflectivity.hpp"
+#include "model/terrain/sampling/analytic_terrain.hpp"
 
 namespace yars::test {
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <functional>
 
-#include "model/scene/generator.hpp"
-#include "model/scene/openflight_reader.hpp"
-#include "model/scene/placed_view.hpp"
+#include "model/scene/index/scene_store.hpp"
+#include "model/scene/openflight/reader.hpp"
 #include "tests/hrm/made_up_scene.hpp"
 #include "tests/hrm/patch_maker.hpp"
+#include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::test {
 namespace {

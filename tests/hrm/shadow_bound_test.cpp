@@ -13,17 +13,17 @@
 #include <vector>
 
 #include "lib/radar/fidelity_preset.hpp"
-#include "model/hrm/ground_fan.hpp"
-#include "model/hrm/patch_layout.hpp"
+#include "model/hrm/patch_geometry.hpp"
+#include "model/hrm/polar_ground.hpp"
 #include "model/hrm/reference_patch.hpp"
-#include "model/terrain/cell_view.hpp"
-#include "model/terrain/dted_writer.hpp"
-#include "model/terrain/landscape.hpp"
-#include "model/terrain/open_terrain.hpp"
+#include "model/terrain/formats/dted.hpp"
+#include "model/terrain/sampling/cell_view.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/hrm/patch_maker.hpp"
 #include "tests/terrain/dted_builder.hpp"
 #include "tests/terrain/rough_cell.hpp"
 #include "tests/terrain/shared_data.hpp"
+#include "worldgen/terrain/landscape.hpp"
 
 namespace yars::test {
 namespace {

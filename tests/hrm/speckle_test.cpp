@@ -1,13 +1,11 @@
 // The statistics of speckle on a uniform field: as the receiver shows it, and at every place between the cells.
-#include "model/hrm/speckle.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
 #include "lib/radar/map_formation.hpp"
-#include "model/hrm/develop.hpp"
+#include "model/hrm/map_image.hpp"
 #include "tests/lanes/vector_targets.hpp"
 
 namespace yars::test {

@@ -1,7 +1,5 @@
 // Beacons: where their replies lie, how bright and how wide, whom they answer, what hides them, and BCN as the radar
 // makes it of them.
-#include "model/rbm/beacons.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "model/rbm/emitters.hpp"
 #include "tests/model/cockpit.hpp"
 #include "tests/model/ground.hpp"
 

@@ -1,12 +1,11 @@
 // The effective earth: drops, horizon, slant range.
-#include "model/rbm/earth.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "model/physics/sweep_geometry.hpp"
 #include "tests/model/ground.hpp"
 
 namespace yars::model::rbm {

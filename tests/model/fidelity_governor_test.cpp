@@ -1,10 +1,10 @@
-#include "model/kernel/fidelity_governor.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <map>
 #include <string>
+
+#include "model/kernel/tick_inputs.hpp"
 
 namespace yars::model::kernel {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "model/rbm/earth.hpp"
-#include "model/reflectivity/gases.hpp"
+#include "model/physics/atmosphere.hpp"
+#include "model/physics/sweep_geometry.hpp"
 
 namespace yars::test {
 

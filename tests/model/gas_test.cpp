@@ -6,12 +6,10 @@
 #include <limits>
 #include <vector>
 
-#include "model/kernel/sharpened_scan.hpp"
-#include "model/rbm/beacons.hpp"
-#include "model/rbm/gas_path.hpp"
+#include "model/kernel/doppler_modes.hpp"
+#include "model/physics/atmosphere.hpp"
+#include "model/rbm/emitters.hpp"
 #include "model/rbm/standard.hpp"
-#include "model/rbm/strobes.hpp"
-#include "model/reflectivity/gases.hpp"
 #include "tests/model/gas_layers.hpp"
 #include "tests/model/ground.hpp"
 #include "tests/model/made_up_objects.hpp"

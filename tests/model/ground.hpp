@@ -7,7 +7,7 @@
 #include "lib/geo/geodesic.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/rbm/reference.hpp"
-#include "model/terrain/analytic_terrain.hpp"
+#include "model/terrain/sampling/analytic_terrain.hpp"
 
 namespace yars::test {
 

@@ -1,16 +1,15 @@
 // The ground of a sweep by vectors against its plain version.
-#include "model/rbm/ground.hpp"
+#include "tests/model/ground.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "model/rbm/sample_places.hpp"
-#include "model/rbm/surface_return.hpp"
-#include "model/terrain/street_grid.hpp"
+#include "model/physics/ground_return.hpp"
+#include "model/physics/ray.hpp"
+#include "model/physics/reflectivity.hpp"
 #include "tests/lanes/vector_targets.hpp"
-#include "tests/model/ground.hpp"
 
 namespace yars::model::rbm {
 namespace {

@@ -1,13 +1,11 @@
 // What land returns: gamma, materials, frequency, walls; and where texture lies.
-#include "model/reflectivity/land.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
-#include "model/reflectivity/ground_grid.hpp"
-#include "model/reflectivity/texture.hpp"
+#include "model/physics/clutter.hpp"
+#include "model/physics/reflectivity.hpp"
 
 namespace yars::model::reflectivity {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/rbm/reference.hpp"
-#include "model/terrain/open_terrain.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/model/ground.hpp"
 #include "tests/terrain/shared_data.hpp"
 

@@ -7,11 +7,10 @@
 #include <vector>
 
 #include "lib/radar/fidelity_preset.hpp"
+#include "model/physics/ray.hpp"
 #include "model/rbm/algorithm.hpp"
-#include "model/rbm/beacons.hpp"
-#include "model/rbm/sample_places.hpp"
-#include "model/rbm/strobes.hpp"
-#include "model/terrain/cell_view.hpp"
+#include "model/rbm/emitters.hpp"
+#include "model/terrain/sampling/cell_view.hpp"
 #include "tests/lanes/vector_targets.hpp"
 #include "tests/terrain/rough_cell.hpp"
 

@@ -4,11 +4,11 @@
 #include <memory>
 #include <vector>
 
-#include "model/scene/openflight_reader.hpp"
-#include "model/scene/openflight_writer.hpp"
-#include "model/scene/placed_view.hpp"
-#include "model/scene/sketch.hpp"
-#include "model/terrain/analytic_terrain.hpp"
+#include "model/scene/index/scene_store.hpp"
+#include "model/scene/openflight/reader.hpp"
+#include "model/terrain/sampling/analytic_terrain.hpp"
+#include "worldgen/scene/openflight_writer.hpp"
+#include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::test {
 

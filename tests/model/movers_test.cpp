@@ -1,13 +1,12 @@
 // Ships and vehicles: where they are, what comes back, what hides them.
-#include "model/rbm/movers.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "model/kernel/traffic_points.hpp"
+#include "model/kernel/tick_inputs.hpp"
+#include "model/physics/environment.hpp"
 #include "tests/model/ground.hpp"
 
 namespace yars::model::rbm {

@@ -10,8 +10,8 @@
 #include <fstream>
 #include <map>
 
-#include "model/hrm/patch_process.hpp"
-#include "model/scene/scene_store.hpp"
+#include "model/hrm/patch_formation.hpp"
+#include "model/scene/index/scene_store.hpp"
 #include "tests/hrm/patch_maker.hpp"
 #include "tests/model/cockpit.hpp"
 #include "tests/model/made_up_objects.hpp"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "model/kernel/sharpened_scan.hpp"
+#include "model/kernel/doppler_modes.hpp"
 #include "tests/model/cockpit.hpp"
 
 namespace yars::test {

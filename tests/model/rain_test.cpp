@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "model/rbm/rain_path.hpp"
+#include "model/physics/atmosphere.hpp"
 #include "tests/model/ground.hpp"
 
 namespace yars::model::rbm {

@@ -1,5 +1,5 @@
 // The radar equation and the receiver in closed form.
-#include "model/rbm/receiver.hpp"
+#include "model/physics/receiver.hpp"
 
 #include <gtest/gtest.h>
 

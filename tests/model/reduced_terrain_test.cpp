@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "model/rbm/standard.hpp"
-#include "model/terrain/directory_store.hpp"
-#include "model/terrain/dted_writer.hpp"
+#include "model/terrain/formats/dted.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/model/ground.hpp"
 #include "tests/terrain/dted_builder.hpp"
 #include "tests/terrain/rough_cell.hpp"

@@ -8,9 +8,8 @@
 #include <cmath>
 #include <limits>
 
-#include "model/rbm/noise.hpp"
-#include "model/reflectivity/land.hpp"
-#include "model/reflectivity/sea.hpp"
+#include "model/physics/clutter.hpp"
+#include "model/physics/reflectivity.hpp"
 #include "tests/model/ground.hpp"
 
 namespace yars::model::rbm {

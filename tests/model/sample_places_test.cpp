@@ -1,6 +1,4 @@
-// Where samples lie against the exact geodesic, within the bounds that model/rbm/sample_places.hpp states.
-#include "model/rbm/sample_places.hpp"
-
+// Where samples lie against the exact geodesic, within the bounds that model/physics/ray.hpp states.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "lib/geo/geodesic.hpp"
+#include "model/physics/ray.hpp"
 
 namespace yars::model::rbm {
 namespace {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "model/scene_loader_shell.hpp"
+#include "model/app/background_shell.hpp"
 #include "tests/model/made_up_objects.hpp"
 
 namespace yars::model {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "model/physics/reflectivity.hpp"
 #include "model/rbm/standard.hpp"
-#include "model/reflectivity/land.hpp"
 #include "tests/model/ground.hpp"
 #include "tests/model/made_up_objects.hpp"
 

@@ -1,13 +1,11 @@
 // The sea's return against its sources.
-#include "model/reflectivity/sea.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "model/rbm/ground_lanes.hpp"
-#include "model/reflectivity/sea_table.hpp"
+#include "model/physics/clutter_simd.hpp"
+#include "model/physics/reflectivity.hpp"
 
 namespace yars::model::reflectivity {
 namespace {

@@ -13,16 +13,16 @@
 #include <vector>
 
 #include "lib/radar/fidelity_preset.hpp"
-#include "model/kernel/scan_detail.hpp"
+#include "model/kernel/tick_inputs.hpp"
+#include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"
-#include "model/rbm/earth.hpp"
-#include "model/terrain/cell_view.hpp"
-#include "model/terrain/dted_writer.hpp"
-#include "model/terrain/landscape.hpp"
-#include "model/terrain/open_terrain.hpp"
+#include "model/terrain/formats/dted.hpp"
+#include "model/terrain/sampling/cell_view.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/terrain/dted_builder.hpp"
 #include "tests/terrain/rough_cell.hpp"
 #include "tests/terrain/shared_data.hpp"
+#include "worldgen/terrain/landscape.hpp"
 
 namespace yars::model::rbm {
 namespace {

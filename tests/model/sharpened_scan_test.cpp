@@ -1,10 +1,9 @@
 // The HRM PPI: how long its scans take, where they look, and when they stop.
-#include "model/kernel/sharpened_scan.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "model/kernel/doppler_modes.hpp"
 #include "tests/model/cockpit.hpp"
 
 namespace yars::test {

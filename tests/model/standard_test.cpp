@@ -7,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
-#include "model/rbm/polynomials-inl.hpp"
-#include "model/rbm/polynomials.hpp"
-#include "model/terrain/open_terrain.hpp"
+#include "model/physics/polynomials-inl.hpp"
+#include "model/physics/ray.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/lanes/vector_targets.hpp"
 #include "tests/model/ground.hpp"
 #include "tests/terrain/shared_data.hpp"

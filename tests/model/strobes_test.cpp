@@ -1,13 +1,12 @@
 // Jammers: level, pattern, bands and channels, what hides them, and what the radar shows of them in SNIFF.
-#include "model/rbm/strobes.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
-#include "model/rbm/receiver.hpp"
+#include "model/physics/receiver.hpp"
+#include "model/rbm/emitters.hpp"
 #include "tests/model/cockpit.hpp"
 #include "tests/model/ground.hpp"
 

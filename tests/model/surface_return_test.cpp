@@ -1,11 +1,10 @@
 // The ground as the reference sees it through materials, sea, walls and texture.
-#include "model/rbm/surface_return.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "model/terrain/street_grid.hpp"
+#include "model/physics/ground_return.hpp"
+#include "model/physics/reflectivity.hpp"
 #include "tests/model/ground.hpp"
 
 namespace yars::model::rbm {

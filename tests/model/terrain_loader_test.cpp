@@ -7,8 +7,8 @@
 #include <thread>
 #include <utility>
 
-#include "model/terrain/analytic_terrain.hpp"
-#include "model/terrain_loader_shell.hpp"
+#include "model/app/background_shell.hpp"
+#include "model/terrain/sampling/analytic_terrain.hpp"
 
 namespace yars::model {
 namespace {

@@ -1,12 +1,11 @@
 // PVU and IPVU: what the beams measure, when, and what becomes of the scan meanwhile.
-#include "model/kernel/velocity_round.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "model/kernel/doppler_modes.hpp"
 #include "tests/model/cockpit.hpp"
 
 namespace yars::test {

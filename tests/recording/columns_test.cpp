@@ -1,6 +1,4 @@
 // Records go into columns and come out as they were.
-#include "tools/recording/columns.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,8 @@
 #include <cstdint>
 #include <cstring>
 #include <random>
+
+#include "tools/recording/compression.hpp"
 
 namespace yars::tools::recording {
 namespace {

@@ -1,7 +1,5 @@
 // A recording played at any time shows what the session showed then: with its sweeps' video, and with the kernel that
 // makes them again.
-#include "tools/recording/player.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -10,9 +8,10 @@
 #include <sstream>
 #include <utility>
 
-#include "display/polar_store.hpp"
+#include "display/symbology/radar_video.hpp"
 #include "tests/model/cockpit.hpp"
 #include "tests/recording/made_recording.hpp"
+#include "tools/recording/replay.hpp"
 
 namespace yars::tools::recording {
 namespace {

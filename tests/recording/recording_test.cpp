@@ -6,8 +6,8 @@
 
 #include "databuffer/flight/route_flight.hpp"
 #include "tests/recording/made_recording.hpp"
-#include "tools/recording/block_head.hpp"
-#include "tools/recording/state_pace.hpp"
+#include "tools/recording/block.hpp"
+#include "tools/recording/recorded_kinds.hpp"
 
 namespace yars::tools::recording {
 namespace {

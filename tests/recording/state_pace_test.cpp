@@ -1,9 +1,9 @@
 // Of the radar's states those are recorded that tell something.
-#include "tools/recording/state_pace.hpp"
-
 #include <gtest/gtest.h>
 
 #include <functional>
+
+#include "tools/recording/recorded_kinds.hpp"
 
 namespace yars::tools::recording {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "model/scene/openflight_format.hpp"
-#include "model/scene/openflight_writer.hpp"
+#include "model/scene/openflight/records.hpp"
 #include "tests/scene/support.hpp"
+#include "worldgen/scene/openflight_writer.hpp"
 
 namespace yars::model::scene {
 

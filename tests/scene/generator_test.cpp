@@ -1,11 +1,10 @@
 // What the generators make.
-#include "model/scene/generator.hpp"
-
 #include <gtest/gtest.h>
 
 #include <map>
 
 #include "tests/scene/support.hpp"
+#include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::model::scene {
 namespace {

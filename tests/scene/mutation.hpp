@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "model/scene/generator_yard.hpp"
-#include "model/scene/record_stream.hpp"
+#include "model/scene/openflight/records.hpp"
+#include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::model::scene {
 

@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <map>
 
-#include "model/scene/placing.hpp"
-#include "model/terrain/analytic_terrain.hpp"
-#include "model/terrain/cell_reading.hpp"
+#include "model/scene/placement/placed_scene.hpp"
+#include "model/terrain/formats/cell_reading.hpp"
+#include "model/terrain/sampling/analytic_terrain.hpp"
 #include "tests/scene/every_record.hpp"
 #include "tests/scene/support.hpp"
 #include "tests/terrain/shared_data.hpp"

@@ -1,6 +1,4 @@
 // What is left out of a scene by its name.
-#include "model/scene/name_filter.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,13 +6,14 @@
 #include <memory>
 #include <vector>
 
-#include "model/scene/openflight_reader.hpp"
-#include "model/scene/openflight_writer.hpp"
-#include "model/scene/scene_source.hpp"
-#include "model/scene/scene_store.hpp"
-#include "model/scene/sketch.hpp"
-#include "model/terrain/analytic_terrain.hpp"
+#include "model/scene/index/scene_index.hpp"
+#include "model/scene/index/scene_store.hpp"
+#include "model/scene/openflight/node_tree.hpp"
+#include "model/scene/openflight/reader.hpp"
+#include "model/terrain/sampling/analytic_terrain.hpp"
 #include "tests/terrain/dted_builder.hpp"
+#include "worldgen/scene/openflight_writer.hpp"
+#include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::model::scene {
 namespace {

@@ -9,11 +9,11 @@
 #include <string>
 #include <utility>
 
-#include "model/scene/generator.hpp"
-#include "model/scene/openflight_parser.hpp"
-#include "model/terrain/cell_reading.hpp"
+#include "model/scene/openflight/parser.hpp"
+#include "model/terrain/formats/cell_reading.hpp"
 #include "tests/scene/every_record.hpp"
 #include "tests/terrain/shared_data.hpp"
+#include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::model::scene {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/scene/openflight_parser.hpp"
+#include "model/scene/openflight/parser.hpp"
 #include "tests/scene/every_record.hpp"
 
 namespace yars::model::scene {

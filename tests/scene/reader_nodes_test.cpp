@@ -3,14 +3,14 @@
 
 #include <cmath>
 
-#include "model/scene/generator_yard.hpp"
-#include "model/scene/openflight_parser.hpp"
-#include "model/scene/record_stream.hpp"
-#include "model/scene/triangulation.hpp"
-#include "model/terrain/cell_reading.hpp"
+#include "model/scene/openflight/model.hpp"
+#include "model/scene/openflight/parser.hpp"
+#include "model/scene/openflight/records.hpp"
+#include "model/terrain/formats/cell_reading.hpp"
 #include "tests/scene/every_record.hpp"
 #include "tests/scene/read_bytes.hpp"
 #include "tests/terrain/shared_data.hpp"
+#include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::model::scene {
 namespace {

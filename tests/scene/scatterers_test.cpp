@@ -1,5 +1,5 @@
 // A scene summed up: nothing of it is lost, and what is near a ray is found.
-#include "model/scene/scatterers.hpp"
+#include "model/scene/placement/scatterers.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,8 @@
 #include <random>
 #include <set>
 
-#include "model/scene/placing.hpp"
-#include "model/scene/scatter_builder.hpp"
-#include "model/terrain/analytic_terrain.hpp"
+#include "model/scene/placement/placed_scene.hpp"
+#include "model/terrain/sampling/analytic_terrain.hpp"
 #include "tests/scene/support.hpp"
 
 namespace yars::model::scene {

@@ -1,15 +1,15 @@
 // Scenes on the earth: where they stand, how they meet the ground, what a store reads and what a view finds.
-#include "model/scene/scene_store.hpp"
+#include "model/scene/index/scene_store.hpp"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "model/scene/generator.hpp"
-#include "model/scene/scene_source.hpp"
-#include "model/terrain/analytic_terrain.hpp"
+#include "model/scene/index/scene_index.hpp"
+#include "model/terrain/sampling/analytic_terrain.hpp"
 #include "tests/scene/support.hpp"
+#include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::model::scene {
 namespace {

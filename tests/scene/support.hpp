@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "model/scene/openflight_reader.hpp"
-#include "model/scene/openflight_writer.hpp"
-#include "model/scene/sketch.hpp"
+#include "model/scene/openflight/reader.hpp"
+#include "worldgen/scene/openflight_writer.hpp"
+#include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::model::scene {
 

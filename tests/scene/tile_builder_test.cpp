@@ -1,5 +1,5 @@
 // How triangles become tiles: which vertices they share, and when a square is more than one tile.
-#include "model/scene/tile_builder.hpp"
+#include "model/scene/placement/tile_builder.hpp"
 
 #include <gtest/gtest.h>
 

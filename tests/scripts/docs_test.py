@@ -11,7 +11,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FILTER = ROOT / "scripts" / "doxygen_source.py"
-FILES = ["model/kernel/pose.hpp", "model/kernel/pose.cpp"]
+FILES = ["model/kernel/tick_inputs.hpp", "model/kernel/tick_inputs.cpp"]
 
 
 class Pages(unittest.TestCase):
@@ -52,7 +52,7 @@ class Pages(unittest.TestCase):
 
     def test_a_headers_page_links_to_the_line_that_declares_and_the_one_that_defines(self):
         page = self.page("pose_8hpp.html") + "".join(p.read_text() for p in self.pages.glob("namespaceyars*.html"))
-        source = (ROOT / "model/kernel/pose.cpp").read_text().splitlines()
+        source = (ROOT / "model/kernel/tick_inputs.cpp").read_text().splitlines()
         line = next(i for i, text in enumerate(source, 1) if "pose_of(const" in text)
         self.assertIn(f"pose_8cpp_source.html#l{line:05d}", page)
 

@@ -7,7 +7,7 @@
 #include "databuffer/program.hpp"
 #include "databuffer/session.hpp"
 #include "databuffer/udp_socket_shell.hpp"
-#include "display/frame_writer_shell.hpp"
+#include "display/app/frame_output_shell.hpp"
 #include "tests/security/folder.hpp"
 #include "tests/shm/child_process.hpp"
 #include "tools/recording/recording_writer.hpp"

@@ -1,4 +1,4 @@
-#include "model/terrain/analytic_terrain.hpp"
+#include "model/terrain/sampling/analytic_terrain.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,11 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/terrain/directory_store.hpp"
-#include "model/terrain/dted_format.hpp"
-#include "model/terrain/dted_writer.hpp"
-#include "model/terrain/pack_writer.hpp"
-#include "model/terrain/reduce.hpp"
+#include "model/terrain/formats/cell.hpp"
+#include "model/terrain/formats/dted.hpp"
+#include "model/terrain/formats/pack.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/terrain/dted_builder.hpp"
 #include "tests/terrain/fast_path.hpp"
 #include "tests/terrain/rough_cell.hpp"

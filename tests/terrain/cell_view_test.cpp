@@ -1,4 +1,4 @@
-#include "model/terrain/cell_view.hpp"
+#include "model/terrain/sampling/cell_view.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Culture: the tile's file, where it lies, how streets run.
-#include "model/terrain/culture.hpp"
+#include "model/terrain/formats/culture.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,7 @@
 
 #include "lib/imageio/indexed_png.hpp"
 #include "lib/imageio/png.hpp"
-#include "model/terrain/culture_reader.hpp"
-#include "model/terrain/culture_tile.hpp"
-#include "model/terrain/culture_writer.hpp"
-#include "model/terrain/street_grid.hpp"
+#include "model/physics/reflectivity.hpp"
 #include "tests/terrain/dted_builder.hpp"
 
 namespace yars::model::terrain {

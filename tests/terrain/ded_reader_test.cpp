@@ -1,12 +1,11 @@
-#include "model/terrain/ded_reader.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <random>
 
-#include "model/terrain/directory_store.hpp"
+#include "model/terrain/formats/ded.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/terrain/ded_builder.hpp"
 #include "tests/terrain/dted_builder.hpp"
 

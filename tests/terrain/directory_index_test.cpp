@@ -1,5 +1,3 @@
-#include "model/terrain/directory_index.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -7,6 +5,7 @@
 #include <cstdlib>
 
 #include "model/terrain/gdal/raster.hpp"
+#include "model/terrain/store/cell_files.hpp"
 #include "tests/terrain/ded_builder.hpp"
 #include "tests/terrain/dted_builder.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "model/terrain/directory_store.hpp"
-#include "model/terrain/dted_writer.hpp"
+#include "model/terrain/formats/dted.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/terrain/dted_builder.hpp"
 #include "tests/terrain/fast_path.hpp"
 #include "tests/terrain/rough_cell.hpp"

@@ -1,4 +1,4 @@
-#include "model/terrain/directory_store.hpp"
+#include "model/terrain/store/directory_store.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "model/terrain/dted_writer.hpp"
-#include "model/terrain/open_terrain.hpp"
+#include "model/terrain/formats/dted.hpp"
 #include "tests/terrain/dted_builder.hpp"
 #include "tests/terrain/fast_path.hpp"
 

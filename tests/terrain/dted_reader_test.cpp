@@ -1,11 +1,10 @@
 // DTED files made byte by byte: every quirk that producers are known for, and files that lie.
-#include "model/terrain/dted_reader.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <random>
 
+#include "model/terrain/formats/dted.hpp"
 #include "tests/terrain/dted_builder.hpp"
 
 namespace yars::model::terrain {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "model/terrain/cell.hpp"
-#include "model/terrain/terrain_view.hpp"
+#include "model/terrain/formats/cell.hpp"
+#include "model/terrain/sampling/terrain_view.hpp"
 
 namespace yars::test {
 

@@ -1,7 +1,7 @@
-#include "model/terrain/hgt_reader.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "model/terrain/formats/hgt.hpp"
 
 namespace yars::model::terrain {
 namespace {

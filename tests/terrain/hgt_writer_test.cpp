@@ -1,9 +1,7 @@
-#include "model/terrain/hgt_writer.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "model/terrain/hgt_reader.hpp"
+#include "model/terrain/formats/hgt.hpp"
 #include "tests/terrain/dted_builder.hpp"
 #include "tests/terrain/rough_cell.hpp"
 

@@ -5,10 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "model/terrain/dted_writer.hpp"
-#include "model/terrain/landscape.hpp"
-#include "model/terrain/landscape_cover.hpp"
-#include "model/terrain/landscape_rows.hpp"
+#include "model/terrain/formats/dted.hpp"
+#include "worldgen/terrain/landscape.hpp"
 
 namespace yars::model::terrain {
 namespace {

@@ -1,13 +1,11 @@
 // The generator and the DTED writer.
-#include "model/terrain/landscape.hpp"
+#include "worldgen/terrain/landscape.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "model/terrain/dted_format.hpp"
-#include "model/terrain/dted_reader.hpp"
-#include "model/terrain/dted_writer.hpp"
+#include "model/terrain/formats/dted.hpp"
 #include "tests/terrain/dted_builder.hpp"
 
 namespace yars::model::terrain {

@@ -1,15 +1,15 @@
+#include "model/terrain/formats/pack.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "model/terrain/directory_index.hpp"
-#include "model/terrain/directory_store.hpp"
-#include "model/terrain/pack_reader.hpp"
-#include "model/terrain/pack_writer.hpp"
-#include "model/terrain/reduce.hpp"
-#include "model/terrain/void_fill.hpp"
+#include "model/terrain/formats/cell.hpp"
+#include "model/terrain/formats/jpeg2000.hpp"
+#include "model/terrain/store/cell_files.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/terrain/dted_builder.hpp"
 #include "tests/terrain/rough_cell.hpp"
 

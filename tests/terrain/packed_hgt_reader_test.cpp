@@ -1,12 +1,10 @@
-#include "model/terrain/packed_hgt_reader.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <zip.h>
 #include <zlib.h>
 
-#include "model/terrain/cell_file.hpp"
-#include "model/terrain/directory_index.hpp"
+#include "model/terrain/formats/hgt.hpp"
+#include "model/terrain/store/cell_files.hpp"
 #include "tests/terrain/dted_builder.hpp"
 
 namespace yars::model::terrain {

@@ -3,11 +3,10 @@
 
 #include <cmath>
 
-#include "model/terrain/directory_index.hpp"
-#include "model/terrain/directory_store.hpp"
-#include "model/terrain/pack_reader.hpp"
-#include "model/terrain/pack_writer.hpp"
-#include "model/terrain/reduce.hpp"
+#include "model/terrain/formats/cell.hpp"
+#include "model/terrain/formats/pack.hpp"
+#include "model/terrain/store/cell_files.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/terrain/rough_cell.hpp"
 #include "tests/terrain/shared_data.hpp"
 

@@ -1,12 +1,10 @@
-#include "model/terrain/reduce.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "model/terrain/interpolation.hpp"
-#include "model/terrain/resample.hpp"
+#include "model/terrain/formats/cell.hpp"
+#include "model/terrain/sampling/cell_view.hpp"
 #include "tests/terrain/rough_cell.hpp"
 
 namespace yars::model::terrain {

@@ -1,10 +1,10 @@
-#include "model/terrain/region_cells.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <random>
 #include <set>
+
+#include "model/terrain/sampling/terrain_view.hpp"
 
 namespace yars::model::terrain {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/terrain/cell.hpp"
+#include "model/terrain/formats/cell.hpp"
 
 namespace yars::test {
 

@@ -1,5 +1,5 @@
 // Ground that is smooth between posts: how near it comes to finer posts, and what it must leave alone.
-#include "model/terrain/smooth_view.hpp"
+#include "model/terrain/sampling/smooth_view.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <memory>
 #include <vector>
 
-#include "model/terrain/cell_view.hpp"
-#include "model/terrain/open_terrain.hpp"
+#include "model/terrain/sampling/cell_view.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/lanes/vector_targets.hpp"
 #include "tests/terrain/rough_cell.hpp"
 #include "tests/terrain/shared_data.hpp"

@@ -4,15 +4,13 @@
 #include <cmath>
 
 #include "lib/radar/fidelity_preset.hpp"
-#include "model/scene/generator.hpp"
-#include "model/scene/openflight_reader.hpp"
-#include "model/scene/placed_view.hpp"
-#include "model/terrain/analytic_terrain.hpp"
-#include "tools/trade/contender.hpp"
-#include "tools/trade/map_evidence.hpp"
-#include "tools/trade/map_table.hpp"
-#include "tools/trade/map_view.hpp"
-#include "tools/trade/mark_scene.hpp"
+#include "model/scene/index/scene_store.hpp"
+#include "model/scene/openflight/reader.hpp"
+#include "model/terrain/sampling/analytic_terrain.hpp"
+#include "tools/trade/candidate.hpp"
+#include "tools/trade/map_errors.hpp"
+#include "tools/trade/scenes.hpp"
+#include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::tools::trade {
 namespace {

@@ -7,13 +7,11 @@
 #include <sstream>
 
 #include "lib/radar/fidelity_preset.hpp"
-#include "model/terrain/analytic_terrain.hpp"
-#include "tools/trade/contender.hpp"
-#include "tools/trade/evidence.hpp"
-#include "tools/trade/fields.hpp"
-#include "tools/trade/front_picture.hpp"
-#include "tools/trade/scan_table.hpp"
-#include "tools/trade/scene.hpp"
+#include "model/terrain/sampling/analytic_terrain.hpp"
+#include "tools/trade/candidate.hpp"
+#include "tools/trade/pareto_front.hpp"
+#include "tools/trade/scan_errors.hpp"
+#include "tools/trade/scenes.hpp"
 #include "tools/trade/trade_table.hpp"
 
 namespace yars::tools::trade {

@@ -1,7 +1,4 @@
-// What a recording holds, by kind. A kind has a number that never changes its meaning, the record's name for messages,
-// and a version that counts up when the record changes its meaning and not its size. One more kind: its number and
-// name below, its type at the end of RecordingItem.
-// A record is kept as it lies in memory (little-endian): a part of fixed size, then, for sweeps and maps, a tail.
+// What a recording holds, by kind, and which radar states are worth a record.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +13,16 @@
 #include "databuffer/records/model_records.hpp"
 #include "databuffer/records/outputs.hpp"
 #include "databuffer/records/patch_map.hpp"
+#include "databuffer/records/radar_state.hpp"
 #include "databuffer/records/recorder_status.hpp"
 #include "databuffer/records/traffic.hpp"
 
 namespace yars::tools::recording {
+
+// What a recording holds, by kind. A kind has a number that never changes its meaning, the record's name for messages,
+// and a version that counts up when the record changes its meaning and not its size. One more kind: its number and
+// name below, its type at the end of RecordingItem.
+// A record is kept as it lies in memory (little-endian): a part of fixed size, then, for sweeps and maps, a tail.
 
 // What identifies a sweep, without its video.
 struct SweepMark {
@@ -144,5 +147,32 @@ std::optional<std::int64_t> tick_of(const T& record) {
   else
     return std::nullopt;
 }
+
+// Which radar states are worth recording: each one in which something was switched, and of those that only move (the
+// cursor, its readouts, what the aircraft carries along) ten a second.
+inline constexpr std::int64_t kPaceTicks = 20;  // 0.1 s of sim time
+
+// Whether as much time has passed since the last one, or time has begun anew.
+class Pace {
+ public:
+  bool is_due(std::int64_t tick) const { return !last_ || tick < *last_ || tick - *last_ >= kPaceTicks; }
+  void taken(std::int64_t tick) { last_ = tick; }
+
+ private:
+  std::optional<std::int64_t> last_;
+};
+
+class StatePace {
+ public:
+  // The newest state at `tick`; true: record it. One that is not recorded is offered again until it is, or is another.
+  bool takes(const databuffer::RadarState& state, std::int64_t tick);
+
+ private:
+  Pace pace_;
+  std::optional<databuffer::RadarState> last_;
+};
+
+// Whether the two differ in anything but what moves by itself.
+bool switched(const databuffer::RadarState& before, const databuffer::RadarState& after);
 
 }  // namespace yars::tools::recording

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "lib/radar/limits.hpp"
-#include "tools/recording/block_head.hpp"
+#include "tools/recording/block.hpp"
 
 namespace yars::tools::recording {
 

@@ -13,10 +13,9 @@
 #include <vector>
 
 #include "lib/failure/error.hpp"
-#include "tools/recording/block_items.hpp"
+#include "tools/recording/block.hpp"
 #include "tools/recording/recorded_kinds.hpp"
-#include "tools/recording/recording_header.hpp"
-#include "tools/recording/recording_index.hpp"
+#include "tools/recording/recording_file.hpp"
 
 namespace yars::tools::recording {
 

@@ -14,10 +14,9 @@
 
 #include "lib/failure/error.hpp"
 #include "lib/file/new_file.hpp"
-#include "tools/recording/block_builder.hpp"
+#include "tools/recording/block.hpp"
 #include "tools/recording/recorded_kinds.hpp"
-#include "tools/recording/recording_header.hpp"
-#include "tools/recording/recording_index.hpp"
+#include "tools/recording/recording_file.hpp"
 
 namespace yars::tools::recording {
 

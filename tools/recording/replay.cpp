@@ -1,6 +1,38 @@
 #include "tools/recording/replay.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 namespace yars::tools::recording {
+
+namespace {
+constexpr std::uint64_t kFnvPrime = 0x100000001b3ULL;
+}  // namespace
+
+void Comparison::made(const databuffer::Sweep& sweep) {
+  settle(made_, recorded_, {sweep.epoch, sweep.number}, sweep.hash);
+}
+
+void Comparison::recorded(const SweepMark& mark) {
+  for (int byte = 0; byte < 8; ++byte) run_hash_ = (run_hash_ ^ (mark.hash >> (8 * byte) & 0xffU)) * kFnvPrime;
+  // A sweep over posts that were still loading is not a function of the ticks.
+  if ((mark.flags & databuffer::kSweepNotReady) != 0U)
+    ++not_ready_;
+  else
+    settle(recorded_, made_, {mark.epoch, mark.number}, mark.hash);
+}
+
+void Comparison::settle(Hashes& own, Hashes& other, Key sweep, std::uint64_t hash) {
+  const auto [first, end] = other.equal_range(sweep);
+  if (first == end) {
+    own.emplace(sweep, hash);
+    return;
+  }
+  const auto partner = std::find_if(first, end, [hash](const auto& candidate) { return candidate.second == hash; });
+  ++(partner != end ? equal_ : different_);
+  other.erase(partner != end ? partner : first);
+}
 
 namespace {
 constexpr std::uint64_t kSmearMemory = 2;  // sweeps: the smear of the first ones needs those from before the log began
@@ -47,6 +79,271 @@ void Replay::restart(std::int64_t resumed_tick) {
   const databuffer::ModelStatus& left = before_last_.tick == resumed_tick ? before_last_ : last_;
   kernel_ = model::kernel::RadarKernel(*configuration_);
   kernel_.resume(left);
+}
+
+namespace {
+
+using databuffer::ModelStatus;
+using databuffer::ModelTick;
+
+constexpr double kLongestHole_ticks = 2'000.0;  // 10 s without a tick: nobody waits for what is not there
+
+template <class T>
+bool has(const IndexEntry& block) {
+  return (block.kinds >> kKindOf<T>.number & 1U) != 0;
+}
+
+template <class T>
+bool any_has(const RecordingReader& reader) {
+  return std::ranges::any_of(reader.blocks(), has<T>);
+}
+
+// The time at which an item came; others come with what was before them: a status or an event may be of the epoch that
+// has just ended.
+std::optional<std::int64_t> time_of(const RecordingItem& item) {
+  if (const auto* tick = std::get_if<ModelTick>(&item)) return tick->tick;
+  if (const auto* start = std::get_if<StartingPoint>(&item)) return start->status.tick;
+  return std::nullopt;
+}
+
+void add(std::deque<databuffer::Sweep>& sweeps, const databuffer::Sweep& sweep) {
+  if ((sweep.flags & databuffer::kSweepBlank) == 0) sweeps.push_back(sweep);
+}
+
+}  // namespace
+
+bool Player::has_video(const RecordingReader& reader) {
+  return any_has<databuffer::Sweep>(reader);
+}
+bool Player::has_ticks(const RecordingReader& reader) {
+  return any_has<ModelTick>(reader);
+}
+
+Player::Player(RecordingReader& reader, std::optional<PlayerWorld> world)
+    : reader_(&reader), world_(std::move(world)) {}
+
+std::uint64_t Player::different() const {
+  return kernel_ ? kernel_->comparison().different() : 0;
+}
+
+bool Player::look_ahead() {
+  if (!ahead_) ahead_ = reader_->next();
+  if (reader_->take_hole()) pass_over_hole();
+  return ahead_.has_value();
+}
+
+bool Player::is_cut() const {
+  if (!started_) return false;
+  if (std::holds_alternative<StartingPoint>(*ahead_)) return true;
+  const auto* tick = std::get_if<ModelTick>(&*ahead_);
+  if (tick == nullptr) return false;
+  // Of any two ticks, whatever stands in the file.
+  const double jump = std::abs(static_cast<double>(tick->tick) - static_cast<double>(tick_));
+  return tick->epoch != epoch_ || jump > kLongestHole_ticks;
+}
+
+bool Player::is_due(std::int64_t tick) const {
+  return time_of(*ahead_).value_or(tick) <= tick;
+}
+
+Played Player::play_to(std::int64_t tick) {
+  Played played;
+  while (look_ahead()) {
+    if (is_cut() && !cut_told_) {
+      cut_told_ = true;
+      played.cut_to_tick = time_of(*ahead_);
+      break;
+    }
+    if (!is_due(tick)) break;
+    take(played);
+  }
+  played.ended = !ahead_;
+  return played;
+}
+
+Played Player::seek(std::int64_t tick) {
+  const std::size_t block = reader_->block_of(tick);
+  const std::size_t begin = picture_begin(block, tick);
+  reader_->seek_block(begin);
+  ahead_.reset();
+  started_ = cut_told_ = false;
+  kernel_.reset();
+  newest_tick_.reset();
+  status_.reset();
+  Played played;
+  if (const auto change = reader_->last_before<StateChange>()) played.state = change->state;
+  played.outputs = reader_->last_before<databuffer::Outputs>();
+  if (const auto report = reader_->last_before<StatusReport>()) {
+    take_status(report->status, played);
+  }
+  if (const auto traffic = reader_->last_before<databuffer::Traffic>()) use_traffic(*traffic);
+  // The status before the block may be some ticks older than the block: the kernel waits for the first one inside.
+  waiting_ = world_.has_value() && begin > 0;
+  waited_.clear();
+  while (look_ahead() && is_due(tick)) {
+    if (is_cut()) played.sweeps.clear();
+    take(played);
+    if (played.sweeps.size() > kMostSweepsOfASeek) played.sweeps.pop_front();
+  }
+  played.maps.clear();
+  find_maps(block, played);
+  played.ended = !ahead_;
+  return played;
+}
+
+void Player::take(Played& played) {
+  const RecordingItem item = std::move(*ahead_);
+  ahead_.reset();
+  cut_told_ = false;
+  if (const auto* tick = std::get_if<ModelTick>(&item)) {
+    take_tick(*tick, played);
+  } else if (const auto* report = std::get_if<StatusReport>(&item)) {
+    take_status(report->status, played);
+    if (waiting_) start_late(report->status, played);
+  } else if (const auto* start = std::get_if<StartingPoint>(&item)) {
+    started_ = true;
+    tick_ = start->status.tick;
+    epoch_ = start->status.epoch;
+    take_status(start->status, played);
+    waiting_ = false;
+    start_kernel(start->status);
+  } else if (const auto* change = std::get_if<StateChange>(&item)) {
+    played.state = change->state;
+  } else if (const auto* outputs = std::get_if<databuffer::Outputs>(&item)) {
+    played.outputs = *outputs;
+  } else if (const auto* sweep = std::get_if<databuffer::Sweep>(&item)) {
+    add(played.sweeps, *sweep);
+  } else if (const auto* mark = std::get_if<SweepMark>(&item)) {
+    if (kernel_) kernel_->recorded(*mark);
+  } else if (const auto* traffic = std::get_if<databuffer::Traffic>(&item)) {
+    if (waiting_)
+      waited_.push_back(item);
+    else
+      use_traffic(*traffic);
+  } else if (const auto* patch = std::get_if<Patch>(&item)) {
+    played.maps.push_back(*patch);
+  }
+}
+
+void Player::take_tick(const ModelTick& tick, Played& played) {
+  started_ = true;
+  tick_ = tick.tick;
+  epoch_ = tick.epoch;
+  newest_tick_ = tick;
+  // The status comes ten times a second; the aircraft moves with every tick.
+  if (status_) {
+    status_->ownship = tick.ownship;
+    played.status = status_;
+  }
+  if (waiting_)
+    waited_.emplace_back(tick);
+  else
+    run_kernel(tick, played);
+}
+
+void Player::run_kernel(const ModelTick& tick, Played& played) {
+  if (!world_) return;
+  const bool restart = (tick.flags & databuffer::kTickRestart) != 0;
+  if (tick.tick <= kernel_from_tick_ && tick.epoch == kernel_from_epoch_ && !restart) return;
+  kernel_from_tick_ = -1;
+  world_->configuration.fidelity.samples = static_cast<int>(tick.samples);
+  if (!kernel_) kernel_.emplace(world_->configuration, *world_->store, world_->scenes);
+  if (const databuffer::Sweep* sweep = kernel_->tick(tick)) add(played.sweeps, *sweep);
+}
+
+void Player::take_status(const ModelStatus& status, Played& played) {
+  status_ = status;
+  const bool older = newest_tick_ && newest_tick_->epoch == status.epoch && newest_tick_->tick > status.tick;
+  if (older) status_->ownship = newest_tick_->ownship;
+  played.status = status_;
+}
+
+void Player::start_kernel(const ModelStatus& status) {
+  if (!world_) return;
+  if (!kernel_) kernel_.emplace(world_->configuration, *world_->store, world_->scenes);
+  kernel_->start({status});
+  kernel_from_tick_ = status.tick;
+  kernel_from_epoch_ = status.epoch;
+}
+
+void Player::use_traffic(const databuffer::Traffic& traffic) {
+  if (!world_) return;
+  if (!kernel_) kernel_.emplace(world_->configuration, *world_->store, world_->scenes);
+  kernel_->traffic(traffic);
+}
+
+// The kernel's ticks are not whole: it goes on from the next status.
+void Player::pass_over_hole() {
+  waiting_ = world_.has_value();
+  waited_.clear();
+}
+
+// Live, a status is written behind ticks that came after it.
+void Player::start_late(const ModelStatus& status, Played& played) {
+  waiting_ = false;
+  start_kernel(status);
+  for (const RecordingItem& item : std::exchange(waited_, {})) {
+    if (const auto* traffic = std::get_if<databuffer::Traffic>(&item)) use_traffic(*traffic);
+    const auto* tick = std::get_if<ModelTick>(&item);
+    if (tick != nullptr && tick->epoch == status.epoch && tick->tick > status.tick) run_kernel(*tick, played);
+  }
+}
+
+// The newest status of the block up to the tick, else the last before the block.
+std::optional<ModelStatus> Player::status_at(std::size_t block, std::int64_t tick) {
+  std::optional<ModelStatus> status;
+  if (auto items = reader_->items_of(block)) {
+    while (const auto item = items->next()) {
+      if (time_of(*item).value_or(tick) > tick) break;
+      if (const auto* report = std::get_if<StatusReport>(&*item)) status = report->status;
+    }
+  }
+  if (status) return status;
+  reader_->seek_block(block);
+  if (const auto report = reader_->last_before<StatusReport>()) return report->status;
+  return std::nullopt;
+}
+
+// Where to begin so that the whole picture at the tick has come by then.
+std::size_t Player::picture_begin(std::size_t block, std::int64_t tick) {
+  const auto at = status_at(block, tick);
+  const auto& blocks = reader_->blocks();
+  const auto begins_enough_before = [&](std::size_t candidate) {
+    reader_->seek_block(candidate);
+    const auto before = reader_->last_before<StatusReport>();
+    if (!at || !before || before->status.epoch != at->epoch) return true;
+    return before->status.scan + 2 <= at->scan && before->status.sweep + kPictureSweeps <= at->sweep;
+  };
+  std::size_t enough = block;
+  while (enough > 0 && !has<StartingPoint>(blocks[enough])) --enough;
+  // Scans count up within an epoch; halving, because a picture may have been frozen for hours.
+  for (std::size_t too_late = block + 1; too_late - enough > 1;) {
+    const std::size_t middle = enough + (too_late - enough) / 2;
+    (begins_enough_before(middle) ? enough : too_late) = middle;
+  }
+  return enough;
+}
+
+// A map may have been recorded long before: the index says in which blocks there are any.
+void Player::find_maps(std::size_t block, Played& played) {
+  if (!played.state) return;
+  const databuffer::RadarState& state = *played.state;
+  std::vector<std::uint64_t> wanted{state.map_newest, state.map_old, state.map_stored, state.map_shown};
+  std::ranges::sort(wanted);
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  std::erase(wanted, 0U);
+  const auto& blocks = reader_->blocks();
+  for (std::size_t i = std::min(block + 1, blocks.size()); i-- > 0 && !wanted.empty();) {
+    if (!has<Patch>(blocks[i])) continue;
+    auto items = reader_->items_of(i);
+    while (items) {
+      const auto item = items->next();
+      if (!item) break;
+      const auto* patch = std::get_if<Patch>(&*item);
+      if (patch == nullptr || std::erase(wanted, patch->map.id) == 0) continue;
+      played.maps.push_back(*patch);
+    }
+  }
 }
 
 }  // namespace yars::tools::recording

@@ -1,17 +1,36 @@
-// The results of a trade, contender by contender and scene by scene, as a table for people, as CSV, and as mean and
-// worst case over the scenes. What the columns and the scenes are, scan_table.hpp and map_table.hpp say.
+// Results of a trade, candidate by candidate and scene by scene, and their statistics.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "tools/trade/contender.hpp"
+#include "tools/trade/candidate.hpp"
 
 namespace yars::tools::trade {
 
+// Mean square of what is added, as its root; NaN of nothing.
+class RootMeanSquare {
+ public:
+  void add(double value) {
+    sum_ += value * value;
+    ++count_;
+  }
+  double value() const {
+    return count_ > 0 ? std::sqrt(sum_ / static_cast<double>(count_)) : std::numeric_limits<double>::quiet_NaN();
+  }
+
+ private:
+  double sum_ = 0.0;
+  std::size_t count_ = 0;
+};
+
+// The results of a trade, contender by contender and scene by scene, as a table for people, as CSV, and as mean and
+// worst case over the scenes. What the columns and the scenes are, scenes.hpp and scenes.hpp say.
 struct Column {
   std::string_view name;   // of CSV and JSON, with its unit
   std::string_view title;  // for people

@@ -1,5 +1,5 @@
 // Writes a picture as a GeoTIFF that says where on the earth it lies, through GDAL. A build without GDAL has the same
-// function, which fails with a word (map_writer_absent.cpp).
+// function, which fails with a word (gdal_absent.cpp).
 // The picture's plane is azimuthal equidistant on WGS84 about `origin`: x east, y north [m], distances and bearings
 // from there are true. The affine transform places the upper left corner and turns the rows, as the picture lies.
 #pragma once

@@ -1,19 +1,22 @@
-// Opens a raster of heights with GDAL: one band, its place on the earth, and what makes metres of its numbers.
-// GDAL's own messages become part of the error; nothing goes to stderr. Private to this folder.
+// Raster opened by GDAL, and windows of its heights.
 #pragma once
 
 #include <gdal.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lib/failure/error.hpp"
 #include "model/terrain/gdal/georeference.hpp"
 
 namespace yars::model::terrain::gdal {
 
+// Opens a raster of heights with GDAL: one band, its place on the earth, and what makes metres of its numbers.
+// GDAL's own messages become part of the error; nothing goes to stderr. Private to this folder.
 struct CloseDataset {
   void operator()(GDALDatasetH dataset) const { GDALClose(dataset); }
 };
@@ -49,5 +52,39 @@ struct Raster {
 
 // `path` must be a plain file.
 failure::Expected<Raster> open_raster(const std::filesystem::path& path);
+
+// A part of a raster as heights in metres, every number judged before anything is made of it.
+// Private to this folder.
+
+// Positions [first, first + count) in each dimension.
+struct Box {
+  int first_column = 0, first_row = 0;
+  int columns = 0, rows = 0;
+  std::size_t area() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+};
+
+// Pixels as heights [m], row by row. NaN: no data. Infinite: a number that only looks like a height: below -12,000 m,
+// above 10,000 m, and -32768, -32767 and -9999, which makers of rasters write for no data without saying so.
+failure::Expected<std::vector<float>> read_heights(const Raster& raster, const Box& pixels);
+
+// Blocks of pixels, from the raster's own first pixel on.
+struct BlockSize {
+  int across = 1, along = 1;  // [pixels]
+};
+
+// Means of blocks; of 1 x 1 the pixels themselves.
+struct HeightWindow {
+  Box blocks;                   // which
+  std::vector<float> height_m;  // NaN where no pixel of a block has a height
+  std::size_t impossible = 0;   // pixels that read_heights() makes infinite
+  float at(int column, int row) const {
+    return height_m[static_cast<std::size_t>(row - blocks.first_row) * static_cast<std::size_t>(blocks.columns) +
+                    static_cast<std::size_t>(column - blocks.first_column)];
+  }
+};
+
+// Of impossible pixels those in blocks of `counted` are counted.
+failure::Expected<HeightWindow> read_window(const Raster& raster, BlockSize size, const Box& blocks,
+                                            const Box& counted);
 
 }  // namespace yars::model::terrain::gdal

@@ -3,17 +3,72 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
-#include "model/terrain/gdal/cell_posts.hpp"
-#include "model/terrain/gdal/height_window.hpp"
+#include "model/terrain/gdal/georeference.hpp"
 #include "model/terrain/gdal/open_raster.hpp"
-#include "model/terrain/gdal/post_lattice.hpp"
 #include "model/terrain/gdal/raster_cover.hpp"
 
 namespace yars::model::terrain::gdal {
+
+// Heights as the whole numbers that a cell holds. Private to this folder.
+
+// Begins with the finest unit and takes the next coarser one when a height does not fit: what is there then is rounded
+// again.
+class CellPosts {
+ public:
+  // All void; `whole_metres`: the unit is a metre, else the least multiple of a decimetre that holds all heights.
+  CellPosts(int rows, int columns, bool whole_metres);
+
+  // `height_m` NaN: stays void. Within 0.05 m of 0 m it is sea.
+  void put(int row, int column, double height_m);
+
+  double unit_m() const { return tenths_ / 10.0; }
+  std::vector<std::int16_t> take() { return std::move(posts_); }
+
+ private:
+  std::int16_t rounded(double height_m) const;
+  void coarsen(double height_m);
+
+  int columns_;
+  int tenths_;  // of a metre, a unit
+  std::vector<std::int16_t> posts_;
+};
+
+namespace {
+constexpr double kSea_m = 0.05;  // [m] interpolated sea is not exactly 0
+constexpr int kLargestPost = 32767;
+}  // namespace
+
+CellPosts::CellPosts(int rows, int columns, bool whole_metres)
+    : columns_(columns),
+      tenths_(whole_metres ? 10 : 1),
+      posts_(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns), kNoHeight) {}
+
+void CellPosts::put(int row, int column, double height_m) {
+  if (std::isnan(height_m)) return;
+  if (std::abs(height_m) > kLargestPost * unit_m()) coarsen(height_m);
+  posts_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column)] =
+      rounded(height_m);
+}
+
+std::int16_t CellPosts::rounded(double height_m) const {
+  if (std::abs(height_m) < kSea_m) return 0;
+  const long units = std::lround(height_m / unit_m());
+  if (units != 0) return static_cast<std::int16_t>(units);
+  return height_m < 0 ? std::int16_t{-1} : std::int16_t{1};
+}
+
+void CellPosts::coarsen(double height_m) {
+  const double old_m = unit_m();
+  tenths_ = static_cast<int>(std::ceil(std::abs(height_m) * 10.0 / kLargestPost));
+  for (std::int16_t& post : posts_)
+    if (post != kNoHeight && post != 0) post = rounded(post * old_m);
+}
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Rasters of heights that GDAL opens, as one-degree cells. The only door to GDAL; a build without it has the same
-// functions, which fail with a word (raster_absent.cpp).
+// functions, which fail with a word (gdal_absent.cpp).
 // Opened are plain files through drivers that read one local file: GeoTIFF, JPEG 2000, Erdas Imagine, ASCII and BIL
 // grids, ENVI, USGS DEM, DTED, HGT. Never a .vrt: it may name any path or address.
 // A raster needs one band of 16-bit or real heights, a coordinate system and a geotransform; any datum is brought to

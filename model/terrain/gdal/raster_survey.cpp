@@ -6,7 +6,6 @@
 #include <map>
 #include <utility>
 
-#include "model/terrain/gdal/height_window.hpp"
 #include "model/terrain/gdal/open_raster.hpp"
 #include "model/terrain/gdal/raster_cover.hpp"
 

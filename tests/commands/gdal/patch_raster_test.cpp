@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "model/hrm/patch_geometry.hpp"
-#include "model/scene/openflight_writer.hpp"
-#include "model/scene/sketch.hpp"
-#include "model/terrain/dted_writer.hpp"
+#include "model/terrain/formats/dted.hpp"
 #include "tests/endtoend/process_set.hpp"
 #include "tests/terrain/dted_builder.hpp"
 #include "tests/terrain/rough_cell.hpp"
+#include "worldgen/scene/openflight_writer.hpp"
+#include "worldgen/scene/scene_builder.hpp"
 
 namespace yars {
 namespace {

@@ -11,8 +11,8 @@
 #include "databuffer/patch_pool.hpp"
 #include "databuffer/records/plain_text.hpp"
 #include "databuffer/records/validation.hpp"
-#include "model/kernel/map_record.hpp"
-#include "model/kernel/sweep_record.hpp"
+#include "model/kernel/map_schedule.hpp"
+#include "model/kernel/sweep_chain.hpp"
 #include "tests/endtoend/storm/ranges.hpp"
 #include "tests/endtoend/storm/witness.h"
 

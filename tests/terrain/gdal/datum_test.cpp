@@ -9,10 +9,10 @@
 #include <string>
 
 #include "lib/geo/quantity.hpp"
-#include "model/terrain/cell_file.hpp"
-#include "model/terrain/directory_store.hpp"
 #include "model/terrain/gdal/raster.hpp"
-#include "model/terrain/interpolation.hpp"
+#include "model/terrain/sampling/cell_view.hpp"
+#include "model/terrain/store/cell_files.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/terrain/dted_builder.hpp"
 #include "tests/terrain/gdal/raster_builder.hpp"
 

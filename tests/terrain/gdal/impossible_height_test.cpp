@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "model/terrain/cell_file.hpp"
-#include "model/terrain/directory_store.hpp"
+#include "model/terrain/store/cell_files.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/terrain/dted_builder.hpp"
 #include "tests/terrain/gdal/raster_builder.hpp"
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <fstream>
 
-#include "model/terrain/directory_index.hpp"
-#include "model/terrain/directory_store.hpp"
-#include "model/terrain/interpolation.hpp"
-#include "model/terrain/reduce.hpp"
+#include "model/terrain/formats/cell.hpp"
+#include "model/terrain/sampling/cell_view.hpp"
+#include "model/terrain/store/cell_files.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "tests/terrain/dted_builder.hpp"
 #include "tests/terrain/gdal/raster_builder.hpp"
 #include "tests/terrain/rough_cell.hpp"

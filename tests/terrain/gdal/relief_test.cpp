@@ -9,10 +9,9 @@
 #include <random>
 #include <string>
 
-#include "model/terrain/cell_file.hpp"
-#include "model/terrain/directory_index.hpp"
 #include "model/terrain/gdal/raster.hpp"
-#include "model/terrain/interpolation.hpp"
+#include "model/terrain/sampling/cell_view.hpp"
+#include "model/terrain/store/cell_files.hpp"
 #include "tests/terrain/dted_builder.hpp"
 #include "tests/terrain/gdal/raster_builder.hpp"
 #include "tests/terrain/shared_data.hpp"

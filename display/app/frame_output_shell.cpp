@@ -1,0 +1,128 @@
+#include "display/app/frame_output_shell.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cinttypes>
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "databuffer/frame_pool.hpp"
+#include "databuffer/log.hpp"
+#include "databuffer/program.hpp"
+#include "lib/file/new_file.hpp"
+
+namespace yars::display {
+
+namespace {
+
+bool is_frame(const std::string& name) {
+  constexpr std::string_view kBegin = "frame_";
+  constexpr std::string_view kEnd = ".png";
+  if (!name.starts_with(kBegin) || !name.ends_with(kEnd) || name.size() <= kBegin.size() + kEnd.size()) return false;
+  const auto number = std::string_view(name).substr(kBegin.size(), name.size() - kBegin.size() - kEnd.size());
+  return std::ranges::all_of(number, [](char digit) { return digit >= '0' && digit <= '9'; });
+}
+
+// What was there before, by age.
+std::deque<std::string> frames_in(const std::filesystem::path& folder) {
+  std::vector<std::pair<std::filesystem::file_time_type, std::string>> found;
+  std::error_code problem;
+  for (auto it = std::filesystem::directory_iterator(folder, problem); it != end(it); it.increment(problem)) {
+    const std::string name = it->path().filename().string();
+    std::error_code gone;
+    const auto time = std::filesystem::last_write_time(it->path(), gone);
+    if (is_frame(name) && !gone) found.emplace_back(time, name);
+  }
+  std::ranges::sort(found);
+  std::deque<std::string> names;
+  for (auto& [time, name] : found) names.push_back(std::move(name));
+  return names;
+}
+
+}  // namespace
+
+FrameWriter::FrameWriter(std::shared_ptr<const file::Folder> folder, std::size_t keep)
+    : folder_(std::move(folder)), keep_(keep) {
+  if (keep_ > 0) names_ = frames_in(folder_->path());
+}
+
+failure::Expected<FrameWriter> FrameWriter::create(const std::filesystem::path& folder, std::size_t keep) {
+  auto opened = file::Folder::make_private(folder);
+  if (!opened) return tl::unexpected(opened.error());
+  return FrameWriter(std::make_shared<const file::Folder>(std::move(*opened)), keep);
+}
+
+failure::Expected<void> FrameWriter::write(const imageio::Image& image, std::int64_t number) {
+  std::array<char, 40> name{};
+  std::snprintf(name.data(), name.size(), "frame_%06" PRId64 ".png", number);
+  make_room_for(name.data());
+  auto frame = file::NewFile::create(folder_, name.data(), file::Rights::user_alone);
+  if (!frame) return tl::unexpected(frame.error());
+  if (auto written = imageio::write_png(std::move(*frame), image); !written) return written;
+  if (keep_ > 0) names_.emplace_back(name.data());
+  return {};
+}
+
+// Before it is written: a disk that is full takes it then. A frame of the same number is replaced.
+void FrameWriter::make_room_for(const std::string& name) {
+  std::erase(names_, name);
+  while (keep_ > 0 && names_.size() >= keep_) {
+    folder_->remove(names_.front());
+    names_.pop_front();
+  }
+}
+
+namespace {
+
+constexpr int kMostPixels = static_cast<int>(databuffer::kMostFramePixels);
+
+}  // namespace
+
+failure::Expected<FramePublisher> FramePublisher::create(databuffer::Session& session, int size) {
+  if (size > kMostPixels)
+    return tl::unexpected(databuffer::usage_error(
+        "--publish", "a glass of at most " + std::to_string(kMostPixels) + " pixels, as a frame in the segment has",
+        std::to_string(size), "give --size " + std::to_string(kMostPixels) + " or less"));
+  auto claim = session.claim(databuffer::Role::glass_frames);
+  if (!claim) return tl::unexpected(databuffer::usage_error(claim.error()));
+  return FramePublisher(session, std::move(*claim));
+}
+
+FramePublisher::FramePublisher(databuffer::Session& session, databuffer::Claim claim)
+    : session_(&session),
+      claim_(std::move(claim)),
+      last_id_(databuffer::greatest_id<shm::PlainAccess>(session.layout().frames)) {}
+
+void FramePublisher::work(host::Glass& glass, int size) {
+  while (glass.take_read(picture_)) publish();
+  if (size > kMostPixels) {
+    if (!std::exchange(told_of_size_, true))
+      databuffer::log_warning("the window is larger than a frame may be (" + std::to_string(kMostPixels) +
+                              " pixels): none is published until it is smaller");
+    return;
+  }
+  if (unpublished_ && glass.start_reading()) unpublished_ = false;
+}
+
+void FramePublisher::publish_at_once(host::Glass& glass) {
+  unpublished_ = false;
+  while (glass.wait_for_read(picture_)) publish();  // what was under way
+  if (glass.start_reading() && glass.wait_for_read(picture_)) publish();
+}
+
+void FramePublisher::publish() {
+  databuffer::GlassFrame frame{};
+  if (++last_id_ > databuffer::kLatestPictureId) last_id_ = 1;
+  frame.id = last_id_;
+  frame.tick = picture_.tick;
+  frame.sim_time_ns = picture_.sim_time_ns;
+  frame.width = static_cast<std::uint32_t>(picture_.size);
+  frame.height = frame.width;
+  databuffer::publish_frame(session_->layout(), frame, picture_.pixels);
+}
+
+}  // namespace yars::display

@@ -1,0 +1,138 @@
+#include "display/gl/display.hpp"
+
+#include <epoxy/gl.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "display/gl/framebuffer.hpp"
+#include "display/gl/passes.hpp"
+#include "display/gl/shaders.hpp"
+#include "display/symbology/draw_list.hpp"
+#include "display/symbology/plan_view.hpp"
+#include "display/symbology/radar_video.hpp"
+#include "display/symbology/symbology.hpp"
+
+namespace yars::display::gl {
+
+namespace {
+
+// [units] a shift of the video below it is not worth a redraw: a fifth of a pixel at 480.
+constexpr double kVisibleShift = 0.2;
+
+// Of what the picture in the framebuffer was made; the symbols are compared as drawn.
+struct Shown {
+  std::uint64_t video_version = 0;
+  bool video = false;
+  std::uint64_t map = 0;  // 0: none
+  GlassFrame frame;
+  std::uint8_t brightness = 0, contrast = 0;
+  int size = 0;
+};
+
+}  // namespace
+
+struct Glass::State {
+  State(const radar::RadarConfiguration& configuration_used, int size, const ColorScheme& colors_used)
+      : configuration(configuration_used), colors(colors_used), view(configuration_used.view), framebuffer(size) {}
+
+  bool is_shown(const Shown& wanted) const {
+    return shown && shown->size == wanted.size && shown->video == wanted.video && shown->map == wanted.map &&
+           shown->brightness == wanted.brightness && shown->contrast == wanted.contrast &&
+           (!wanted.video || (shown->video_version == wanted.video_version &&
+                              displacement_units(view, shown->frame, wanted.frame) < kVisibleShift)) &&
+           list == shown_list;
+  }
+
+  void render(const Shown& wanted) {
+    const std::array<float, 256> light = video_light(wanted.brightness, wanted.contrast);
+    framebuffer.bind();
+    const std::array<float, 4> ground{colors.ground.red, colors.ground.green, colors.ground.blue, 1.0F};
+    glClearBufferfv(GL_COLOR, 0, ground.data());
+    // Soft edges are blended by their alpha; the picture's own stays 1.
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
+    light_texture.set(light);
+    if (wanted.video) {
+      place_wedges(store, view, wanted.frame, wedges);
+      video_pass.draw(store, wedges, light_texture, colors.video);
+    }
+    if (wanted.map != 0) map_pass.draw(wanted.map, light_texture, colors.video, wanted.size);
+    overlay_pass.draw(list, colors, light, static_cast<float>(framebuffer.size()) / kGlassUnits);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  }
+
+  radar::RadarConfiguration configuration;
+  ColorScheme colors;
+  GlassView view;
+  Framebuffer framebuffer;
+  LightTexture light_texture;
+  VideoPass video_pass;
+  MapPass map_pass;
+  OverlayPass overlay_pass;
+  PicturePass picture_pass;
+  PolarStore store;
+  DrawList list, shown_list;
+  LabelMemory labels;
+  std::vector<Wedge> wedges;
+  std::optional<Shown> shown;
+};
+
+Glass::Glass(const radar::RadarConfiguration& configuration, int size)
+    : Glass(configuration, size, color_scheme(configuration.view.colors)) {}
+Glass::Glass(const radar::RadarConfiguration& configuration, int size, const ColorScheme& colors)
+    : state_(std::make_unique<State>(configuration, size, colors)) {}
+Glass::~Glass() = default;
+Glass::Glass(Glass&&) noexcept = default;
+Glass& Glass::operator=(Glass&&) noexcept = default;
+
+void Glass::add(const databuffer::Sweep& sweep) {
+  state_->store.insert(sweep);
+}
+
+void Glass::add(const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels) {
+  state_->map_pass.add(map.id, map.size, pixels);
+}
+
+void Glass::resize(int size) {
+  state_->framebuffer.resize(size);
+}
+
+int Glass::size() const {
+  return state_->framebuffer.size();
+}
+
+bool Glass::draw(const GlassInput& input) {
+  State& state = *state_;
+  // Sweeps of another mode are no picture of this one.
+  const bool video = shows_video(input.state) && state.store.mode() == input.state.mode;
+  Shown wanted;
+  wanted.video_version = state.store.version();
+  wanted.video = video;
+  state.map_pass.keep(std::array{input.state.map_newest, input.state.map_old, input.state.map_stored});
+  wanted.map = shows_map(input) && state.map_pass.has(input.map.id) ? input.map.id : 0;
+  wanted.frame = present_frame(input, video ? state.store.newest() : nullptr);
+  wanted.brightness = input.state.brightness;
+  wanted.contrast = input.state.contrast;
+  wanted.size = state.framebuffer.size();
+  draw_symbology(input, state.configuration, state.view, wanted.frame, state.labels, state.list);
+  if (state.is_shown(wanted)) return false;
+  state.render(wanted);
+  state.shown = wanted;
+  std::swap(state.list, state.shown_list);
+  return true;
+}
+
+imageio::Image Glass::read() const {
+  return state_->framebuffer.read();
+}
+
+const Framebuffer& Glass::picture() const {
+  return state_->framebuffer;
+}
+
+void Glass::show(int left, int bottom) {
+  state_->picture_pass.draw(state_->framebuffer, left, bottom);
+}
+
+}  // namespace yars::display::gl

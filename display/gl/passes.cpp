@@ -1,0 +1,330 @@
+#include "display/gl/passes.hpp"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include "display/gl/shaders.hpp"
+#include "lib/radar/limits.hpp"
+
+namespace yars::display::gl {
+
+namespace {
+
+// Attributes of an instance: apex 2, left 2, right 2, range, half width, row, samples.
+constexpr int kFloatsPerWedge = 10;
+
+// Neighbours measured from apexes a few metres apart leave cracks: the strip between them is as wide as the aircraft
+// has flown across it, 0.22 units between two sweeps of a Doppler beam sharpened scan at 4.7 NM and 250 m/s. Each wedge
+// is drawn this much wider on either side, and the newer one covers the seam. Larger blurs the azimuth of the oldest
+// edge.
+constexpr const char* kVideoVertex = R"(#version 330 core
+layout(location = 0) in vec2 apex;
+layout(location = 1) in vec4 edges;
+layout(location = 2) in vec4 shape;  // range, half width, row, samples
+out vec2 offset;
+flat out vec3 wedge;                 // range, row, samples
+const float kMargin = 0.25;          // units
+void main() {
+  float reach = shape.x / cos(shape.y);
+  vec2 edge = (gl_VertexID & 1) == 0 ? edges.xy : edges.zw;
+  vec2 outward = normalize(edge - (edges.xy + edges.zw) * 0.5) * kMargin;
+  offset = outward + (gl_VertexID < 2 ? vec2(0.0) : edge * reach);
+  wedge = vec3(shape.x, shape.z, shape.w);
+  vec2 at = (apex + offset) / 240.0 - 1.0;
+  gl_Position = vec4(at.x, -at.y, 0.0, 1.0);
+}
+)";
+
+constexpr const char* kVideoFragment = R"(#version 330 core
+in vec2 offset;
+flat in vec3 wedge;
+uniform sampler2D video;
+uniform sampler2D light;
+uniform vec3 color;
+out vec4 fragment;
+void main() {
+  float fraction = length(offset) / wedge.x;
+  if (fraction > 1.0) discard;
+  vec2 size = vec2(textureSize(video, 0));
+  float column = clamp(fraction * wedge.z, 0.5, wedge.z - 0.5);
+  float level = texture(video, vec2(column, wedge.y + 0.5) / size).r;
+  fragment = vec4(color * texture(light, vec2((level * 255.0 + 0.5) / 256.0, 0.5)).r, 1.0);
+}
+)";
+
+void instance_attribute(GLuint location, GLint components, int first_float) {
+  glEnableVertexAttribArray(location);
+  glVertexAttribPointer(location, components, GL_FLOAT, GL_FALSE, kFloatsPerWedge * sizeof(float),
+                        // OpenGL takes an offset in the shape of a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
+                        reinterpret_cast<const void*>(static_cast<std::size_t>(first_float) * sizeof(float)));
+  glVertexAttribDivisor(location, 1);
+}
+
+}  // namespace
+
+VideoPass::VideoPass() : program_("video", kVideoVertex, kVideoFragment), uploaded_serial_(PolarStore::kRows) {
+  glGenVertexArrays(1, &vertex_array_);
+  glGenBuffers(1, &instances_);
+  glBindVertexArray(vertex_array_);
+  glBindBuffer(GL_ARRAY_BUFFER, instances_);
+  instance_attribute(0, 2, 0);
+  instance_attribute(1, 4, 2);
+  instance_attribute(2, 4, 6);
+
+  video_texture_ = new_texture();
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, PolarStore::kRowSamples, PolarStore::kRows, 0, GL_RED, GL_UNSIGNED_BYTE,
+               nullptr);
+
+  program_.use();
+  glUniform1i(program_.uniform("video"), 0);
+  glUniform1i(program_.uniform("light"), 1);
+  color_location_ = program_.uniform("color");
+}
+
+VideoPass::~VideoPass() {
+  glDeleteTextures(1, &video_texture_);
+  glDeleteBuffers(1, &instances_);
+  glDeleteVertexArrays(1, &vertex_array_);
+}
+
+void VideoPass::upload_new_rows(const PolarStore& store, std::span<const Wedge> wedges) {
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, video_texture_);
+  for (const Wedge& wedge : wedges) {
+    std::uint64_t& uploaded = uploaded_serial_[static_cast<std::size_t>(wedge.row)];
+    if (uploaded == wedge.serial) continue;
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, wedge.row, wedge.samples, 1, GL_RED, GL_UNSIGNED_BYTE,
+                    store.video(wedge.row).data());
+    uploaded = wedge.serial;
+  }
+}
+
+void VideoPass::draw(const PolarStore& store, std::span<const Wedge> wedges, const LightTexture& light,
+                     const Color& color) {
+  if (wedges.empty()) return;
+  upload_new_rows(store, wedges);
+  instance_data_.clear();
+  for (const Wedge& wedge : wedges) {
+    instance_data_.insert(instance_data_.end(), {wedge.apex.x, wedge.apex.y, wedge.left.x, wedge.left.y, wedge.right.x,
+                                                 wedge.right.y, wedge.range, wedge.half_width,
+                                                 static_cast<float>(wedge.row), static_cast<float>(wedge.samples)});
+  }
+  glBindVertexArray(vertex_array_);
+  glBindBuffer(GL_ARRAY_BUFFER, instances_);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instance_data_.size() * sizeof(float)), instance_data_.data(),
+               GL_STREAM_DRAW);
+  light.bind(1);
+  program_.use();
+  glUniform3f(color_location_, color.red, color.green, color.blue);
+  glDisable(GL_BLEND);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(wedges.size()));
+}
+
+namespace {
+
+constexpr const char* kMapVertex = R"(#version 330 core
+out vec2 place;  // 0..1 from the upper left
+void main() {
+  place = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  gl_Position = vec4(place.x * 2.0 - 1.0, 1.0 - place.y * 2.0, 0.0, 1.0);
+}
+)";
+
+constexpr const char* kMapFragment = R"(#version 330 core
+in vec2 place;
+uniform sampler2D map;
+uniform sampler2D light;
+uniform vec3 color;
+out vec4 fragment;
+void main() {
+  float level = texture(map, place).r;
+  fragment = vec4(color * texture(light, vec2((level * 255.0 + 0.5) / 256.0, 0.5)).r, 1.0);
+}
+)";
+
+std::uint32_t texture_of(std::uint32_t size, std::span<const std::uint8_t> pixels) {
+  const std::uint32_t texture = new_texture();
+  const auto edge = static_cast<GLsizei>(size);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, edge, edge, 0, GL_RED, GL_UNSIGNED_BYTE, pixels.data());
+  return texture;
+}
+
+}  // namespace
+
+MapPass::MapPass() : program_("map", kMapVertex, kMapFragment) {
+  glGenVertexArrays(1, &vertex_array_);
+  program_.use();
+  glUniform1i(program_.uniform("map"), 0);
+  glUniform1i(program_.uniform("light"), 1);
+  color_location_ = program_.uniform("color");
+}
+
+MapPass::~MapPass() {
+  keep({});
+  glDeleteVertexArrays(1, &vertex_array_);
+}
+
+void MapPass::add(std::uint64_t id, std::uint32_t size, std::span<const std::uint8_t> pixels) {
+  if (id == 0 || size == 0 || pixels.size() < std::size_t{size} * size || has(id)) return;
+  maps_.push_back({id, texture_of(size, pixels), static_cast<int>(size)});
+}
+
+void MapPass::keep(std::span<const std::uint64_t> ids) {
+  std::erase_if(maps_, [ids](const Kept& map) {
+    if (std::ranges::find(ids, map.id) != ids.end()) return false;
+    glDeleteTextures(1, &map.texture);
+    return true;
+  });
+}
+
+bool MapPass::has(std::uint64_t id) const {
+  return std::ranges::find(maps_, id, &Kept::id) != maps_.end();
+}
+
+// A map finer than the glass is averaged down by the mean of its pixels, or speckle would turn into sparkle. A software
+// renderer takes a while to make the levels: only then.
+void MapPass::bind(Kept& map, int glass_size) {
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, map.texture);
+  if (map.averaged || map.size <= glass_size) return;
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  map.averaged = true;
+}
+
+void MapPass::draw(std::uint64_t id, const LightTexture& light, const Color& color, int glass_size) {
+  const auto map = std::ranges::find(maps_, id, &Kept::id);
+  if (map == maps_.end()) return;
+  glBindVertexArray(vertex_array_);
+  light.bind(1);
+  bind(*map, glass_size);
+  program_.use();
+  glUniform3f(color_location_, color.red, color.green, color.blue);
+  glDisable(GL_BLEND);
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+namespace {
+
+// Attributes of an instance: from 2, to 2, half width; color 3. A half width below 0 makes a rectangle of the two
+// corners.
+constexpr int kFloatsPerInstance = 8;
+constexpr float kRectangle = -1.0F;
+
+constexpr const char* kOverlayVertex = R"(#version 330 core
+layout(location = 0) in vec4 ends;
+layout(location = 1) in vec4 style;  // half width, color
+uniform float pixels_per_unit;
+out vec2 at;                         // pixels, as all below
+flat out vec4 segment;
+flat out vec4 look;
+void main() {
+  segment = ends * pixels_per_unit;
+  look = vec4(style.x * pixels_per_unit, style.yzw);
+  vec2 side = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  if (style.x < 0.0) {
+    at = mix(segment.xy, segment.zw, side);
+  } else {
+    vec2 along = segment.zw - segment.xy;
+    float size = length(along);
+    along = size > 0.0 ? along / size : vec2(1.0, 0.0);
+    float margin = look.x + 1.0;
+    at = mix(segment.xy - along * margin, segment.zw + along * margin, side.x) +
+         vec2(-along.y, along.x) * (side.y * 2.0 - 1.0) * margin;
+  }
+  vec2 clip = at / (240.0 * pixels_per_unit) - 1.0;
+  gl_Position = vec4(clip.x, -clip.y, 0.0, 1.0);
+}
+)";
+
+constexpr const char* kOverlayFragment = R"(#version 330 core
+in vec2 at;
+flat in vec4 segment;
+flat in vec4 look;
+out vec4 fragment;
+void main() {
+  float cover = 1.0;
+  if (look.x >= 0.0) {
+    vec2 along = segment.zw - segment.xy;
+    vec2 from = at - segment.xy;
+    float place = clamp(dot(from, along) / max(dot(along, along), 1e-6), 0.0, 1.0);
+    cover = clamp(look.x + 0.5 - length(from - along * place), 0.0, 1.0);
+    if (cover <= 0.0) discard;
+  }
+  fragment = vec4(look.yzw, cover);
+}
+)";
+
+void instance_attribute(GLuint location, int first_float) {
+  glEnableVertexAttribArray(location);
+  glVertexAttribPointer(location, 4, GL_FLOAT, GL_FALSE, kFloatsPerInstance * sizeof(float),
+                        // OpenGL takes an offset in the shape of a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
+                        reinterpret_cast<const void*>(static_cast<std::size_t>(first_float) * sizeof(float)));
+  glVertexAttribDivisor(location, 1);
+}
+
+Color scaled(const Color& color, float factor) {
+  return {color.red * factor, color.green * factor, color.blue * factor};
+}
+
+}  // namespace
+
+OverlayPass::OverlayPass() : program_("overlay", kOverlayVertex, kOverlayFragment) {
+  glGenVertexArrays(1, &vertex_array_);
+  glGenBuffers(1, &instances_);
+  glBindVertexArray(vertex_array_);
+  glBindBuffer(GL_ARRAY_BUFFER, instances_);
+  instance_attribute(0, 0);
+  instance_attribute(1, 4);
+  scale_location_ = program_.uniform("pixels_per_unit");
+}
+
+OverlayPass::~OverlayPass() {
+  glDeleteBuffers(1, &instances_);
+  glDeleteVertexArrays(1, &vertex_array_);
+}
+
+void OverlayPass::add_rectangle(const Rect& rect, const Color& color) {
+  instance_data_.insert(instance_data_.end(),
+                        {rect.left, rect.top, rect.right, rect.bottom, kRectangle, color.red, color.green, color.blue});
+}
+
+void OverlayPass::add_strokes(std::span<const Segment> segments, const ColorScheme& colors, bool halo) {
+  for (const Segment& segment : segments) {
+    if (halo && segment.halo <= 0.0F) continue;
+    const Color color = halo ? colors.ground : colors.of(segment.ink);
+    const float half_width = segment.width / 2.0F + (halo ? segment.halo : 0.0F);
+    instance_data_.insert(instance_data_.end(), {segment.from.x, segment.from.y, segment.to.x, segment.to.y, half_width,
+                                                 color.red, color.green, color.blue});
+  }
+}
+
+void OverlayPass::flush(float pixels_per_unit) {
+  glBindVertexArray(vertex_array_);
+  glBindBuffer(GL_ARRAY_BUFFER, instances_);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instance_data_.size() * sizeof(float)), instance_data_.data(),
+               GL_STREAM_DRAW);
+  program_.use();
+  glUniform1f(scale_location_, pixels_per_unit);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instance_data_.size() / kFloatsPerInstance));
+}
+
+void OverlayPass::draw(const DrawList& list, const ColorScheme& colors, const std::array<float, 256>& light,
+                       float pixels_per_unit) {
+  // Instances are drawn in their order: the list's layers, from the video up.
+  instance_data_.clear();
+  for (const VideoStep& step : list.video_steps()) add_rectangle(step.rect, scaled(colors.video, light[step.video]));
+  for (std::size_t layer = 0; layer < kLayers; ++layer) {
+    const LayerContent& content = list.content(static_cast<Layer>(layer));
+    for (const Rect& plate : content.plates) add_rectangle(plate, colors.ground);
+    add_strokes(content.strokes, colors, true);
+    add_strokes(content.strokes, colors, false);
+  }
+  if (!instance_data_.empty()) flush(pixels_per_unit);
+}
+
+}  // namespace yars::display::gl

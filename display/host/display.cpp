@@ -1,0 +1,155 @@
+#include "display/host/display.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "config/load.hpp"
+#include "databuffer/log.hpp"
+#include "databuffer/session.hpp"
+#include "display/gl/context.hpp"
+#include "display/gl/display.hpp"
+#include "display/gl/framebuffer.hpp"
+#include "display/gl/plain_state.hpp"
+#include "display/host/session_link_shell.hpp"
+
+namespace yars::display::host {
+
+namespace {
+
+constexpr int kFirstSize = 480;    // [pixels] until somebody says another
+constexpr int kNeededOpengl = 33;  // 3.3: version 330 of the shaders' language, sampler objects
+constexpr int kButtons = 20;
+
+}  // namespace
+
+struct Glass::State {
+  State(std::optional<databuffer::Session> own_session, databuffer::Session* joined,
+        const radar::RadarConfiguration& configuration, bool lockstep)
+      : own(std::move(own_session)),
+        session(own ? &*own : joined),
+        glass(configuration, kFirstSize),
+        feed(
+            *session, lockstep, [this](const databuffer::Sweep& sweep) { glass.add(sweep); },
+            [this](const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels) {
+              const gl::PlainState plain;
+              glass.add(map, pixels);
+            }) {}
+
+  failure::Expected<PilotInput*> pilot_of_session() {
+    if (!pilot) {
+      auto created = PilotInput::create(*session, name);
+      if (!created) return tl::unexpected(created.error());
+      pilot.emplace(std::move(*created));
+    }
+    return &*pilot;
+  }
+
+  std::optional<databuffer::Session> own;  // of a glass that attached by itself
+  databuffer::Session* session;
+  std::string name = "glass";
+  gl::Glass glass;
+  gl::Readback readback;
+  GlassFeed feed;
+  std::optional<PilotInput> pilot;  // once somebody touches the glass: the session has 16 lanes
+  std::int64_t sim_time_ns = 0;     // of the last update
+  std::int64_t painted_tick = 0, painted_sim_time_ns = 0;
+};
+
+Glass::Glass(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Glass::Glass(Glass&&) noexcept = default;
+Glass& Glass::operator=(Glass&&) noexcept = default;
+Glass::~Glass() = default;
+
+Glass::Glass(databuffer::Session& session, const radar::RadarConfiguration& configuration, bool lockstep) {
+  const gl::PlainState plain;
+  state_ = std::make_unique<State>(std::nullopt, &session, configuration, lockstep);
+}
+
+failure::Expected<Glass> Glass::attach(const Place& place) {
+  if (const int version = gl::opengl_version(); version < kNeededOpengl)
+    return failure::fail("glass", "a current context of OpenGL 3.3 or later",
+                         version == 0 ? "none" : std::to_string(version / 10) + "." + std::to_string(version % 10),
+                         "make one current on this thread first");
+  auto configuration = config::load_configuration(place.configuration);
+  if (!configuration) return tl::unexpected(configuration.error());
+  for (const std::string& warning : configuration->warnings) databuffer::log_warning(warning);
+  auto session = databuffer::Session::open(place.session, place.name);
+  if (!session) return tl::unexpected(session.error());
+  const gl::PlainState plain;
+  auto state = std::make_unique<State>(std::move(*session), nullptr, configuration->radar, false);
+  state->name = place.name;
+  return Glass(std::move(state));
+}
+
+void Glass::update() {
+  update(state_->session->sim_time_ns());
+}
+
+void Glass::update(std::int64_t sim_time_ns) {
+  state_->session->heartbeat();
+  state_->sim_time_ns = sim_time_ns;
+  state_->feed.refresh(sim_time_ns);
+}
+
+bool Glass::paint(int size) {
+  State& state = *state_;
+  const gl::PlainState plain;
+  const int wanted = std::clamp(size, 1, kMostPixels);
+  if (wanted != state.glass.size()) state.glass.resize(wanted);
+  if (!state.glass.draw(state.feed.input())) return false;
+  state.painted_tick = state.feed.input().state.tick;
+  state.painted_sim_time_ns = state.sim_time_ns;
+  return true;
+}
+
+void Glass::draw(const Viewport& viewport) {
+  const int size = std::min({viewport.width, viewport.height, kMostPixels});
+  if (size <= 0) return;
+  // Painting leaves the host's framebuffer bound as it was.
+  paint(size);
+  const gl::PlainState plain;
+  state_->glass.show(viewport.left + (viewport.width - size) / 2, viewport.bottom + (viewport.height - size) / 2);
+}
+
+void Glass::note_shown() {
+  state_->feed.note_shown();
+}
+
+imageio::Image Glass::read() const {
+  const gl::PlainState plain;
+  return state_->glass.read();
+}
+
+bool Glass::start_reading() {
+  const gl::PlainState plain;
+  return state_->readback.start(state_->glass.picture(), state_->painted_tick, state_->painted_sim_time_ns);
+}
+
+bool Glass::take_read(Picture& picture) {
+  const gl::PlainState plain;
+  return state_->readback.take(picture, gl::Patience::none);
+}
+
+bool Glass::wait_for_read(Picture& picture) {
+  const gl::PlainState plain;
+  return state_->readback.take(picture, gl::Patience::until_it_is_there);
+}
+
+failure::Expected<void> Glass::press(int button) {
+  if (button < 1 || button > kButtons)
+    return failure::fail("glass", "a button 1 to 20", std::to_string(button), "see display/symbology/readouts.hpp");
+  auto pilot = state_->pilot_of_session();
+  if (!pilot) return tl::unexpected(pilot.error());
+  (*pilot)->press(button);
+  return {};
+}
+
+failure::Expected<bool> Glass::click(double right, double down) {
+  auto pilot = state_->pilot_of_session();
+  if (!pilot) return tl::unexpected(pilot.error());
+  return (*pilot)->click({static_cast<float>(right) * kGlassUnits, static_cast<float>(down) * kGlassUnits});
+}
+
+}  // namespace yars::display::host

@@ -1,0 +1,188 @@
+#include "display/host/session_link_shell.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "databuffer/log.hpp"
+#include "databuffer/patch_pool.hpp"
+#include "databuffer/records/event_text.hpp"
+#include "databuffer/records/model_validation.hpp"
+#include "databuffer/records/validation.hpp"
+#include "databuffer/tick_loop.hpp"
+#include "display/symbology/readouts.hpp"
+
+namespace yars::display {
+
+namespace {
+
+constexpr std::int64_t kLookEvery_ns = 200'000'000;      // [ns] the table of processes costs a system call an entry
+constexpr std::int64_t kSilentAfter_ns = 1'000'000'000;  // [ns] without a heartbeat: stopped, though it keeps its lock
+
+bool takes_part(const databuffer::SessionLayout& layout, databuffer::LockstepRole role) {
+  return (layout.lockstep.roles.load(std::memory_order_relaxed) >> static_cast<unsigned>(role) & 1U) != 0;
+}
+
+}  // namespace
+
+GlassFeed::GlassFeed(databuffer::Session& session, bool lockstep, SweepSink sweeps, MapSink maps)
+    : session_(&session),
+      lockstep_(lockstep),
+      sweep_sink_(std::move(sweeps)),
+      map_sink_(std::move(maps)),
+      sweep_cursor_(std::as_const(session).layout().sweeps.oldest()) {}
+
+void GlassFeed::refresh(std::int64_t sim_time_ns) {
+  look_who_is_alive();
+  take_state();
+  take_maps();
+  take_model(sim_time_ns);
+  take_sweeps();
+}
+
+void GlassFeed::look_who_is_alive() {
+  if (lockstep_) {
+    input_.state_machine_alive = takes_part(session_->layout(), databuffer::LockstepRole::state_machine);
+    input_.model_alive = takes_part(session_->layout(), databuffer::LockstepRole::radar_model);
+    return;
+  }
+  const std::int64_t now_ns = databuffer::monotonic_ns();
+  if (now_ns < next_look_ns_) return;
+  next_look_ns_ = now_ns + kLookEvery_ns;
+  const auto processes = session_->processes();
+  const auto beats = [&](databuffer::Role role) {
+    return std::ranges::any_of(processes, [&](const databuffer::ProcessHere& process) {
+      return process.name == databuffer::name_of(role) && now_ns - process.heartbeat_ns < kSilentAfter_ns;
+    });
+  };
+  input_.state_machine_alive = beats(databuffer::Role::state_machine);
+  input_.model_alive = beats(databuffer::Role::radar_model);
+}
+
+void GlassFeed::take_state() {
+  const auto& latest = session_->layout().radar_state;
+  if (latest.version() == state_version_) return;
+  databuffer::RadarState state{};
+  const auto version = latest.read(state);
+  if (!version) return;
+  state_version_ = *version;
+  if (const auto reason = databuffer::why_refused(state)) {
+    session_->note(databuffer::NoteKind::refusal, "glass: radar state: " + *reason);
+    return;
+  }
+  input_.state = state;
+}
+
+// A map is read once, and kept while it is named.
+void GlassFeed::take_maps() {
+  const std::array named{input_.state.map_newest, input_.state.map_old, input_.state.map_stored};
+  for (databuffer::PatchMap& map : maps_)
+    if (std::ranges::find(named, map.id) == named.end()) map = {};
+  for (const std::uint64_t id : named) {
+    const bool here = std::ranges::find(maps_, id, &databuffer::PatchMap::id) != maps_.end();
+    if (id != 0 && id != refused_map_ && !here) take_map(id);
+  }
+  const auto shown = std::ranges::find(maps_, input_.state.map_shown, &databuffer::PatchMap::id);
+  input_.map = shown == maps_.end() ? databuffer::PatchMap{} : *shown;
+}
+
+void GlassFeed::take_map(std::uint64_t id) {
+  databuffer::PatchMap map{};
+  if (!databuffer::read_patch(session_->layout(), id, map, pixels_)) return;
+  if (const auto reason = databuffer::why_refused(map)) {
+    refused_map_ = id;
+    session_->note(databuffer::NoteKind::refusal, "glass: patch map: " + *reason);
+    return;
+  }
+  *std::ranges::find(maps_, std::uint64_t{0}, &databuffer::PatchMap::id) = map;
+  map_sink_(map, pixels_);
+}
+
+void GlassFeed::take_model(std::int64_t sim_time_ns) {
+  // Kept warm while the model is alive, so that it can go on at once when the model dies.
+  const auto& selected = receiver_.refresh(session_->layout(), sim_time_ns, session_->clock().epoch);
+  take_status();
+  if (input_.model_alive && has_status_) {
+    input_.ownship = input_.model.ownship;
+    input_.nav = input_.model.nav;
+    input_.ownship_fresh = (input_.model.flags & databuffer::kModelStale) == 0;
+  } else {
+    input_.ownship = selected.ownship;
+    input_.nav = selected.nav;
+    input_.ownship_fresh = selected.valid;
+  }
+}
+
+void GlassFeed::take_status() {
+  const auto& latest = session_->layout().model_status;
+  if (latest.version() == status_version_) return;
+  databuffer::ModelStatus status{};
+  const auto version = latest.read(status);
+  if (!version) return;
+  status_version_ = *version;
+  if (const auto reason = databuffer::why_refused(status)) {
+    session_->note(databuffer::NoteKind::refusal, "glass: model status: " + *reason);
+    return;
+  }
+  input_.model = status;
+  has_status_ = true;
+}
+
+void GlassFeed::take_sweeps() {
+  const auto& ring = session_->layout().sweeps;
+  std::uint64_t lost = 0;
+  while (true) {
+    const auto read = ring.read(sweep_cursor_, sweep_);
+    lost += read.lost;
+    if (!read.delivered) break;
+    if (const auto reason = databuffer::why_refused(sweep_))
+      session_->note(databuffer::NoteKind::refusal, "glass: sweep: " + *reason);
+    else
+      sweep_sink_(sweep_);
+  }
+  if (lost == 0) return;
+  const std::string text = "glass lost " + std::to_string(lost) + " sweeps";
+  session_->note(databuffer::NoteKind::loss, text);
+  databuffer::log_warning(text);
+}
+
+failure::Expected<PilotInput> PilotInput::create(databuffer::Session& session, std::string_view source) {
+  auto claim = session.claim_input_lane(source);
+  if (!claim) return tl::unexpected(claim.error());
+  return PilotInput(session, std::move(*claim));
+}
+
+void PilotInput::press(int button) {
+  databuffer::InputEvent event{};
+  event.kind = static_cast<std::uint16_t>(databuffer::EventKind::push_button);
+  event.argument = static_cast<std::int16_t>(button);
+  push(event);
+}
+
+bool PilotInput::click(Point at) {
+  const auto button = button_at(at);
+  if (button) press(*button);
+  return button.has_value();
+}
+
+void PilotInput::send(const gl::WindowInput& input) {
+  for (const Point at : input.clicks) click(at);
+  for (const gl::KeyEdge& edge : input.keys) {
+    for (const databuffer::InputEvent& event : keyboard_.change(edge.key, edge.pressed)) push(event);
+  }
+  if (input.focus_lost) release_all();
+}
+
+void PilotInput::release_all() {
+  for (const databuffer::InputEvent& event : keyboard_.release_all()) push(event);
+}
+
+void PilotInput::push(databuffer::InputEvent event) {
+  event.session_time_ns = session_->sim_time_ns();
+  event.monotonic_ns = databuffer::monotonic_ns();
+  event.number = ++number_;
+  if (session_->layout().input.push(static_cast<std::size_t>(claim_.lane()), event)) return;
+  databuffer::log_warning("the state machine takes no events: '" + databuffer::text_of(event) + "' is dropped");
+}
+
+}  // namespace yars::display

@@ -1,0 +1,309 @@
+#include "display/symbology/draw_list.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace yars::display {
+
+namespace {
+
+// Glyphs are drawn on a grid 8 wide and 12 high: a point is a digit 0-8 for x and a letter a-m for y, upwards from
+// the base line; a blank lifts the pen.
+struct Glyph {
+  char32_t code;
+  std::string_view strokes;
+  int width = 8;  // grid columns
+};
+
+constexpr std::array kGlyphs{
+    Glyph{U' ', "", 6},
+    Glyph{U'A', "0a4m8a 1d7d"},
+    Glyph{U'B', "0a0m6m8k8i6g0g 6g8e8c6a0a"},
+    Glyph{U'C', "8k6m2m0k0c2a6a8c"},
+    Glyph{U'D', "0a0m5m8j8d5a0a"},
+    Glyph{U'E', "8a0a0m8m 0g6g"},
+    Glyph{U'F', "0a0m8m 0g6g"},
+    Glyph{U'G', "8k6m2m0k0c2a6a8c8f5f"},
+    Glyph{U'H', "0a0m 8a8m 0g8g"},
+    Glyph{U'I', "4a4m 2a6a 2m6m"},
+    Glyph{U'J', "0d0c2a6a8c8m"},
+    Glyph{U'K', "0a0m 8m0f 3h8a"},
+    Glyph{U'L', "0m0a8a"},
+    Glyph{U'M', "0a0m4g8m8a"},
+    Glyph{U'N', "0a0m8a8m"},
+    Glyph{U'O', "2a0c0k2m6m8k8c6a2a"},
+    Glyph{U'P', "0a0m6m8k8h6f0f"},
+    Glyph{U'Q', "2a0c0k2m6m8k8c6a2a 5d8a"},
+    Glyph{U'R', "0a0m6m8k8h6f0f 4f8a"},
+    Glyph{U'S', "8k6m2m0k0i2g6g8e8c6a2a0c"},
+    Glyph{U'T', "4a4m 0m8m"},
+    Glyph{U'U', "0m0c2a6a8c8m"},
+    Glyph{U'V', "0m4a8m"},
+    Glyph{U'W', "0m2a4h6a8m"},
+    Glyph{U'X', "0a8m 0m8a"},
+    Glyph{U'Y', "0m4g8m 4g4a"},
+    Glyph{U'Z', "0m8m0a8a"},
+    Glyph{U'0', "2a0c0k2m5m7k7c5a2a", 7},
+    Glyph{U'1', "1k4m4a 1a7a"},
+    Glyph{U'2', "0k2m6m8k8i0a8a"},
+    Glyph{U'3', "0k2m6m8k8i6g3g 6g8e8c6a2a0c"},
+    Glyph{U'4', "6a6m0d8d"},
+    Glyph{U'5', "8m0m0h6h8f8c6a2a0c"},
+    Glyph{U'6', "8k6m2m0k0c2a6a8c8e6g2g0e"},
+    Glyph{U'7', "0m8m3a"},
+    Glyph{U'8', "2g0i0k2m6m8k8i6g2g0e0c2a6a8c8e6g"},
+    Glyph{U'9', "0c2a6a8c8k6m2m0k0i2g6g8i"},
+    Glyph{U'+', "4c4k 0g8g"},
+    Glyph{U'-', "1g7g"},
+    Glyph{U'.', "1a1b", 2},
+    Glyph{U':', "1c1d 1i1j", 2},
+    Glyph{U'/', "0a8m"},
+    Glyph{U'<', "7l1g7b"},
+    Glyph{U'>', "1l7g1b"},
+    Glyph{U'(', "3m1j1d3a", 4},
+    Glyph{U')', "1m3j3d1a", 4},
+    Glyph{U'?', "0k2m6m8k8i4g4e 4a4b"},
+    Glyph{U'!', "1m1e 1a1b", 2},
+    Glyph{U'=', "1e7e 1i7i"},
+    Glyph{U'%', "0a8m 0k1m3m3k2j0k 5b6d8c7a5b"},
+    Glyph{U'\u00b0', "1m3m4l4j3i1i0j0l1m", 4},
+    Glyph{U'^', "4a4m 0h4m8h"},
+    Glyph{U'v', "4m4a 0f4a8f"},
+};
+constexpr Glyph kUnknown{U'\ufffd', "0a0m8m8a0a"};
+
+constexpr int kGap = 3;                  // grid columns between glyphs
+constexpr float kColumn = 0.58F / 8.0F;  // cap heights a grid column: capitals are 0.58 as wide as high
+constexpr float kRow = 1.0F / 12.0F;     // cap heights a grid row
+constexpr std::size_t kMostPoints = 24;  // of one polyline; the longest above has 16
+
+const Glyph& glyph_of(char32_t code) {
+  if (code >= U'a' && code <= U'z' && code != U'v') code -= U'a' - U'A';
+  for (const Glyph& glyph : kGlyphs) {
+    if (glyph.code == code) return glyph;
+  }
+  return kUnknown;
+}
+
+// Takes one character off the front. Only two-byte UTF-8 is decoded; other high bytes read as unknown.
+char32_t take(std::string_view& text) {
+  const auto first = static_cast<unsigned char>(text.front());
+  text.remove_prefix(1);
+  if (first < 0x80U) return first;
+  if ((first & 0xe0U) != 0xc0U || text.empty()) return kUnknown.code;
+  const auto second = static_cast<unsigned char>(text.front());
+  text.remove_prefix(1);
+  return ((first & 0x1fU) << 6U) | (second & 0x3fU);
+}
+
+void stroke_glyph(const Glyph& glyph, float left, StrokeSink& sink) {
+  std::array<Point, kMostPoints> points;
+  std::size_t count = 0;
+  const auto lift_pen = [&] {
+    if (count > 0) sink.polyline({points.data(), count});
+    count = 0;
+  };
+  for (std::size_t i = 0; i < glyph.strokes.size();) {
+    if (glyph.strokes[i] == ' ') {
+      lift_pen();
+      ++i;
+      continue;
+    }
+    const float column = static_cast<float>(glyph.strokes[i] - '0');
+    const float row = static_cast<float>(glyph.strokes[i + 1] - 'a');
+    if (count < kMostPoints) points[count++] = {left + column * kColumn, -row * kRow};
+    i += 2;
+  }
+  lift_pen();
+}
+
+}  // namespace
+
+void stroke_text(std::string_view text, StrokeSink& sink) {
+  int column = 0;
+  while (!text.empty()) {
+    const Glyph& glyph = glyph_of(take(text));
+    stroke_glyph(glyph, static_cast<float>(column) * kColumn, sink);
+    column += glyph.width + kGap;
+  }
+}
+
+float text_width(std::string_view text) {
+  int columns = 0;
+  while (!text.empty()) columns += glyph_of(take(text)).width + kGap;
+  return static_cast<float>(columns > 0 ? columns - kGap : 0) * kColumn;
+}
+
+namespace {
+
+constexpr float kStroke = 1.35F;      // [units] a pixel and a bit at 480: thinner fades, thicker clogs 10-unit text
+constexpr float kThin = 1.0F;         // [units] arcs, which video must not drown in
+constexpr float kHalo = 1.4F;         // [units] enough that bright video does not touch a stroke
+constexpr float kDash = 3.0F;         // [units] dash and gap of an offset's outline
+constexpr float kBoxMargin = 3.0F;    // [units] between a legend and its frame
+constexpr float kPlateMargin = 2.0F;  // [units] of black around a text, as wide as its halo
+constexpr int kCircleSides = 24;
+
+float rounded(float value) {
+  return std::round(value * 8.0F) / 8.0F;
+}
+Point rounded(Point point) {
+  return {rounded(point.x), rounded(point.y)};
+}
+
+Point on_circle(Point center, float radius, float degrees) {
+  const float angle = degrees * std::numbers::pi_v<float> / 180.0F;
+  return {center.x + radius * std::sin(angle), center.y - radius * std::cos(angle)};
+}
+
+// Places the font's unit strokes on the glass.
+class PlacedText final : public StrokeSink {
+ public:
+  PlacedText(DrawList& list, Point base_left, float height) : list_(list), base_left_(base_left), height_(height) {}
+  void polyline(std::span<const Point> points) override {
+    for (std::size_t i = 1; i < points.size(); ++i) list_.line(placed(points[i - 1]), placed(points[i]));
+  }
+
+ private:
+  Point placed(Point point) const { return {base_left_.x + point.x * height_, base_left_.y + point.y * height_}; }
+  DrawList& list_;
+  Point base_left_;
+  float height_;
+};
+
+}  // namespace
+
+void DrawList::clear() {
+  for (LayerContent& layer : layers_) {
+    layer.plates.clear();
+    layer.strokes.clear();
+  }
+  layer_ = Layer::symbols;
+  video_steps_.clear();
+  occupied_.clear();
+}
+
+void DrawList::line(Point from, Point to, Ink ink) {
+  if (!std::isfinite(from.x + from.y + to.x + to.y)) return;
+  const bool thin = ink == Ink::dim;
+  current().strokes.push_back({rounded(from), rounded(to), thin ? kThin : kStroke, thin ? 0.0F : kHalo, ink});
+}
+
+void DrawList::leader(Point from, Point to) {
+  current().strokes.push_back({rounded(from), rounded(to), kThin, kHalo, Ink::dim});
+}
+
+void DrawList::polyline(std::span<const Point> points, Ink ink) {
+  for (std::size_t i = 1; i < points.size(); ++i) line(points[i - 1], points[i], ink);
+}
+
+void DrawList::circle(Point center, float radius, bool dashed) {
+  std::array<Point, kCircleSides> corners;
+  for (int i = 0; i < kCircleSides; ++i) {
+    corners[static_cast<std::size_t>(i)] = on_circle(center, radius, 360.0F * static_cast<float>(i) / kCircleSides);
+  }
+  polygon(corners, dashed);
+}
+
+void DrawList::polygon(std::span<const Point> corners, bool dashed) {
+  float travelled = 0.0F;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Point from = corners[i];
+    const Point to = corners[(i + 1) % corners.size()];
+    if (!dashed) {
+      line(from, to);
+      continue;
+    }
+    const float length = std::hypot(to.x - from.x, to.y - from.y);
+    // Cut at every multiple of the dash length along the outline; ink the even pieces.
+    for (float done = 0.0F; done < length;) {
+      const float phase = std::floor((travelled + 1e-3F) / kDash);
+      const float step = std::min(length - done, (phase + 1.0F) * kDash - travelled);
+      const auto at = [&](float along) {
+        return Point{from.x + (to.x - from.x) * along / length, from.y + (to.y - from.y) * along / length};
+      };
+      if (std::fmod(phase, 2.0F) < 0.5F) line(at(done), at(done + step));
+      done += std::max(step, 1e-2F);
+      travelled += std::max(step, 1e-2F);
+    }
+  }
+}
+
+void DrawList::thin_arc(Point center, float radius, float from_deg, float to_deg) {
+  // A side of 8 units leaves the true arc by 8^2 / (8 r): 0.08 units at the smallest radius drawn, 100.
+  const int sides = std::max(2, static_cast<int>(radius * (to_deg - from_deg) / 57.3F / 8.0F));
+  Point last = on_circle(center, radius, from_deg);
+  for (int i = 1; i <= sides; ++i) {
+    const Point next =
+        on_circle(center, radius, from_deg + (to_deg - from_deg) * static_cast<float>(i) / static_cast<float>(sides));
+    line(last, next, Ink::dim);
+    last = next;
+  }
+}
+
+void DrawList::video_step(const Rect& rect, std::uint8_t video) {
+  video_steps_.push_back({rect, video});
+}
+
+void DrawList::plate(const Rect& rect) {
+  current().plates.push_back(rect);
+}
+
+void DrawList::occupy(std::string_view name, const Rect& rect, BoxKind kind) {
+  const Point from = rounded(Point{rect.left, rect.top}), to = rounded(Point{rect.right, rect.bottom});
+  occupied_.push_back({std::string(name), {from.x, from.y, to.x, to.y}, kind});
+}
+
+void DrawList::blank_behind_texts() {
+  draw_on(Layer::symbols);
+  for (const OccupiedBox& box : occupied_) {
+    if (box.kind != BoxKind::text) continue;
+    const Rect field = grown(box.rect, kPlateMargin);
+    const auto lies_behind = [&](const Segment& line) { return crosses(field, line.from, line.to); };
+    if (std::ranges::any_of(content(Layer::lines).strokes, lies_behind) ||
+        std::ranges::any_of(content(Layer::points).strokes, lies_behind)) {
+      plate(field);
+    }
+  }
+}
+
+Rect text_box(std::string_view words, Point at, const TextStyle& style) {
+  const float width = text_width(words) * style.height;
+  const float left = style.align == Align::left     ? at.x
+                     : style.align == Align::center ? at.x - width / 2.0F
+                                                    : at.x - width;
+  const Rect ink{left, at.y - style.height / 2.0F, left + width, at.y + style.height / 2.0F};
+  return style.boxed ? grown(ink, kBoxMargin) : ink;
+}
+
+Rect DrawList::text(std::string_view words, Point at, const TextStyle& style, BoxKind kind) {
+  const Rect box = text_box(words, at, style);
+  if (style.plate) plate(grown(box, kPlateMargin));
+  if (style.boxed) {
+    const std::array<Point, 4> corners{Point{box.left, box.top}, Point{box.right, box.top},
+                                       Point{box.right, box.bottom}, Point{box.left, box.bottom}};
+    polygon(corners, false);
+  }
+  const float margin = style.boxed ? kBoxMargin : 0.0F;
+  PlacedText placed(*this, {box.left + margin, box.bottom - margin}, style.height);
+  stroke_text(words, placed);
+  occupy(words, box, kind);
+  return box;
+}
+
+namespace {
+
+Color color(const radar::Rgb& rgb) {
+  return {static_cast<float>(rgb.red), static_cast<float>(rgb.green), static_cast<float>(rgb.blue)};
+}
+
+}  // namespace
+
+ColorScheme color_scheme(const radar::ColorConfiguration& colors) {
+  return {{}, color(colors.video), color(colors.symbols), color(colors.lines)};
+}
+
+}  // namespace yars::display

@@ -1,0 +1,233 @@
+#include "display/symbology/ground_symbols.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <numbers>
+#include <optional>
+#include <string_view>
+
+#include "databuffer/records/navigation.hpp"
+#include "databuffer/records/plain_text.hpp"
+#include "lib/radar/limits.hpp"
+#include "lib/radar/modes.hpp"
+
+namespace yars::display {
+
+namespace {
+
+constexpr float kRadius = 6.0F;                   // [units] of a point's symbol
+constexpr float kGapInside = 7.0F, kArm = 16.0F;  // [units] of the plus: a point's symbol fits into its middle
+// [units] from a symbol to the next word, with its ink; less to stay than to come, or a jitter would make it blink.
+constexpr float kMarginToStay = 2.5F, kMarginToCome = 4.0F;
+constexpr float kInk = 2.0F;  // [units] that an arm covers, with its halo, beside its middle
+
+bool on_glass(Point at) {
+  return at.x >= 0.0F && at.y >= 0.0F && at.x <= kGlassUnits && at.y <= kGlassUnits;
+}
+
+void draw_square(Point at, bool dashed, DrawList& list) {
+  constexpr float r = kRadius - 0.5F;
+  const std::array<Point, 4> corners{Point{at.x - r, at.y - r}, Point{at.x + r, at.y - r}, Point{at.x + r, at.y + r},
+                                     Point{at.x - r, at.y + r}};
+  list.polygon(corners, dashed);
+}
+
+void draw_triangle(Point at, bool dashed, DrawList& list) {
+  constexpr float r = kRadius + 1.5F;
+  const float half = r * std::numbers::sqrt3_v<float> / 2.0F;
+  const std::array<Point, 3> corners{Point{at.x, at.y - r}, Point{at.x + half, at.y + r / 2.0F},
+                                     Point{at.x - half, at.y + r / 2.0F}};
+  list.polygon(corners, dashed);
+}
+
+// "3.2" belongs to point "3".
+bool is_offset_of_initial_point(std::string_view name, std::span<const radar::RoutePoint> route) {
+  const std::string_view base = name.substr(0, name.find('.'));
+  return std::ranges::any_of(route, [&](const radar::RoutePoint& point) {
+    return point.kind == radar::PointKind::initial && point.name == base;
+  });
+}
+
+void draw_symbol(const databuffer::DrawnPoint& point, std::span<const radar::RoutePoint> route, Point at,
+                 DrawList& list) {
+  switch (static_cast<radar::PointKind>(point.kind)) {
+    case radar::PointKind::steer:
+      list.circle(at, kRadius, false);
+      return;
+    case radar::PointKind::initial:
+      draw_square(at, false, list);
+      return;
+    case radar::PointKind::target:
+      draw_triangle(at, false, list);
+      return;
+    case radar::PointKind::steer_offset:
+      if (is_offset_of_initial_point(databuffer::text_of(point.name), route)) {
+        draw_square(at, true, list);
+      } else {
+        list.circle(at, kRadius, true);
+      }
+      return;
+    case radar::PointKind::target_offset:
+      draw_triangle(at, true, list);
+      return;
+  }
+}
+
+// Where the open plus stands; nothing when it is not on the glass.
+std::optional<Point> cursor_at(const GlassInput& input, const GlassView& view, const GlassFrame& frame) {
+  if ((input.state.flags & databuffer::kCursorValid) == 0) return std::nullopt;
+  const geo::GeoPoint place{input.state.cursor_latitude_deg, input.state.cursor_longitude_deg};
+  const Point at = view.at_ground(frame, place);
+  return on_glass(at) ? std::optional(at) : std::nullopt;
+}
+
+std::span<const databuffer::DrawnPoint> points_of(const databuffer::RadarState& state) {
+  return std::span(state.points).first(std::min<std::size_t>(state.points_drawn, radar::kMaxPointsDrawn));
+}
+
+NameRank rank_of(const databuffer::DrawnPoint& point, const databuffer::RadarState& state) {
+  if (point.selected != 0) return NameRank::selected;
+  const bool designated = (state.flags & databuffer::kTargetDesignated) != 0 &&
+                          databuffer::text_of(point.name) == databuffer::text_of(state.target_name);
+  return designated ? NameRank::target : NameRank::other;
+}
+
+// Where the display has a word or a solid scale there is no room for a symbol: neither could be read. Carets, ticks
+// of the elevation scale and the pitch ball are symbols themselves, thin and few: a point may lie on them.
+bool is_covered(Point at, float margin, const DrawList& list) {
+  const Rect symbol = grown({at.x, at.y, at.x, at.y}, kRadius + margin);
+  return std::ranges::any_of(list.occupied(), [&symbol](const OccupiedBox& box) {
+    const bool covers = box.kind == BoxKind::text || box.kind == BoxKind::solid;
+    return covers && intersect(symbol, box.rect);
+  });
+}
+
+}  // namespace
+
+void draw_cursor(const GlassInput& input, const GlassView& view, const GlassFrame& frame, DrawList& list) {
+  const std::optional<Point> cursor = cursor_at(input, view, frame);
+  if (!cursor) return;
+  const Point at = *cursor;
+  list.draw_on(Layer::steered);
+  list.line({at.x - kArm, at.y}, {at.x - kGapInside, at.y});
+  list.line({at.x + kGapInside, at.y}, {at.x + kArm, at.y});
+  list.line({at.x, at.y - kArm}, {at.x, at.y - kGapInside});
+  list.line({at.x, at.y + kGapInside}, {at.x, at.y + kArm});
+  list.draw_on(Layer::symbols);
+  // A name may stand in the corners between the arms.
+  list.occupy("cursor", {at.x - kArm - kInk, at.y - kInk, at.x + kArm + kInk, at.y + kInk}, BoxKind::cursor);
+  list.occupy("cursor", {at.x - kInk, at.y - kArm - kInk, at.x + kInk, at.y + kArm + kInk}, BoxKind::cursor);
+}
+
+void draw_window_outline(const GlassInput& input, const GlassView& view, const GlassFrame& frame, DrawList& list) {
+  const databuffer::ModelStatus& model = input.model;
+  // Until the model has taken the command up it tells of another map, or of none.
+  const bool forms = (input.state.flags & databuffer::kMapping) != 0 && model.map_request == input.state.map_request &&
+                     model.map_window_nm > 0.0;
+  if (!forms) return;
+  const Point centre = view.at_ground(frame, {model.map_latitude_deg, model.map_longitude_deg});
+  const double turn_rad = (geo::Bearing::degrees(model.map_up_deg) - frame.up).radians();
+  const double half_m = model.map_window_nm * geo::kMetresPerNauticalMile / 2.0;
+  const auto half = static_cast<float>(half_m / frame.range_m * static_cast<double>(view.units_per_range()));
+  const Point up{half * static_cast<float>(std::sin(turn_rad)), -half * static_cast<float>(std::cos(turn_rad))};
+  const Point right{-up.y, up.x};
+  const std::array<Point, 4> corners{Point{centre.x - right.x + up.x, centre.y - right.y + up.y},
+                                     Point{centre.x + right.x + up.x, centre.y + right.y + up.y},
+                                     Point{centre.x + right.x - up.x, centre.y + right.y - up.y},
+                                     Point{centre.x - right.x - up.x, centre.y - right.y - up.y}};
+  list.draw_on(Layer::lines);
+  list.polygon(corners, false);
+  list.draw_on(Layer::symbols);
+}
+
+PlacedPoints place_points(const GlassInput& input, const GlassView& view, const GlassFrame& frame,
+                          const LabelMemory& labels, const DrawList& list) {
+  PlacedPoints placed;
+  const auto belief = databuffer::belief_in_use(input.ownship, input.nav, input.state);
+  const auto points = points_of(input.state);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point at = view.at_ground(frame, belief.on_video({points[i].latitude_deg, points[i].longitude_deg}));
+    const float margin = labels.names(databuffer::text_of(points[i].name)) ? kMarginToStay : kMarginToCome;
+    if (on_glass(at) && (points[i].selected != 0 || !is_covered(at, margin, list))) placed[i] = at;
+  }
+  return placed;
+}
+
+void draw_points(const databuffer::RadarState& state, std::span<const radar::RoutePoint> route,
+                 const PlacedPoints& placed, DrawList& list) {
+  list.draw_on(Layer::points);
+  const auto points = points_of(state);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!placed[i]) continue;
+    const Point at = *placed[i];
+    draw_symbol(points[i], route, at, list);
+    const char* const name = points[i].selected != 0 ? "selected point" : "point";
+    list.occupy(name, grown({at.x, at.y, at.x, at.y}, kRadius + 1.0F), BoxKind::point);
+  }
+  list.draw_on(Layer::symbols);
+}
+
+void add_names(const databuffer::RadarState& state, const PlacedPoints& placed, NameRank rank, LabelQueue& queue) {
+  const auto points = points_of(state);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (placed[i] && rank_of(points[i], state) == rank)
+      queue.add(label_of(LabelRole::name, databuffer::text_of(points[i].name), *placed[i]));
+  }
+}
+
+namespace {
+
+using databuffer::SteeringLine;
+
+constexpr float kBegin = 10.0F, kEnd = 70.0F;  // [units] from the target: clear of its symbol, long enough to aim by
+constexpr float kArrow = 8.0F, kRing = 4.0F;   // [units]
+
+// Off along a direction of the glass, degrees clockwise from up.
+Point off(Point from, double direction_deg, float distance) {
+  const double angle_rad = direction_deg * geo::kRadiansPerDegree;
+  return {from.x + distance * static_cast<float>(std::sin(angle_rad)),
+          from.y - distance * static_cast<float>(std::cos(angle_rad))};
+}
+
+// Points the way the aircraft is to fly.
+void draw_arrowhead(Point end, double approach_deg, DrawList& list) {
+  constexpr double kSpread_deg = 150.0;
+  const std::array<Point, 3> head{off(end, approach_deg - kSpread_deg, kArrow), end,
+                                  off(end, approach_deg + kSpread_deg, kArrow)};
+  list.polyline(head);
+}
+
+Label heading_label(double magnetic_deg, Point target) {
+  std::array<char, 16> text{};
+  // 359.6 rounds to 360, which reads 000.
+  const double shown_deg = std::fmod(std::round(magnetic_deg) + 720.0, 360.0);
+  const int length = std::snprintf(text.data(), text.size(), "%03.0f\u00b0", shown_deg);
+  return label_of(LabelRole::heading, {text.data(), static_cast<std::size_t>(length)}, target);
+}
+
+}  // namespace
+
+std::optional<Label> draw_steering_line(const GlassInput& input, const GlassView& view, const GlassFrame& frame,
+                                        DrawList& list) {
+  const databuffer::RadarState& state = input.state;
+  const auto line = static_cast<SteeringLine>(state.steering_line);
+  if ((state.flags & databuffer::kTargetDesignated) == 0 || line == SteeringLine::none) return std::nullopt;
+  const auto belief = databuffer::belief_in_use(input.ownship, input.nav, state);
+  const Point target = view.at_ground(frame, belief.on_video({state.target_latitude_deg, state.target_longitude_deg}));
+  if (!on_glass(target)) return std::nullopt;
+  const double approach_deg = (geo::Bearing::degrees(state.steering_line_deg) - frame.up).degrees();
+  const double back_deg = approach_deg + 180.0;
+  const Point end = off(target, back_deg, kEnd);
+  list.draw_on(Layer::lines);
+  const bool ring = line == SteeringLine::fixed;
+  list.line(off(target, back_deg, kBegin), ring ? off(target, back_deg, kEnd - kRing) : end);
+  if (ring) list.circle(end, kRing);
+  if (line == SteeringLine::slewing) draw_arrowhead(end, approach_deg, list);
+  list.draw_on(Layer::symbols);
+  return heading_label(state.steering_line_deg - state.magnetic_variation_deg, target);
+}
+
+}  // namespace yars::display

@@ -1,0 +1,130 @@
+#include "display/symbology/plan_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "databuffer/records/navigation.hpp"
+#include "lib/geo/frames.hpp"
+
+namespace yars::display {
+
+GlassView::GlassView(const radar::ViewConfiguration& view) {
+  const double width = view.width_max - view.width_min;
+  const double height = view.height_max - view.height_min;
+  const double edge = static_cast<double>(kGlassUnits);
+  const double scale = edge / std::max(width, height);
+  // The shorter side is centered, so that a circle stays a circle.
+  const double left = (edge - width * scale) / 2.0;
+  const double bottom = edge - (edge - height * scale) / 2.0;
+  apex_ = {static_cast<float>(left - view.width_min * scale), static_cast<float>(bottom + view.height_min * scale)};
+  units_per_range_ = static_cast<float>(scale);
+}
+
+GlassView::GlassView(const databuffer::PatchMap& map) {
+  const double edge = static_cast<double>(kGlassUnits);
+  const double distance = map.distance_m / frame_of(map).range_m;
+  apex_ = {kGlassUnits / 2.0F, static_cast<float>(edge / 2.0 + distance * edge)};
+  units_per_range_ = kGlassUnits;
+}
+
+Point GlassView::at_polar(double right_deg, double fraction) const {
+  const double angle = right_deg * geo::kRadiansPerDegree;
+  const double length = fraction * static_cast<double>(units_per_range_);
+  return {apex_.x + static_cast<float>(length * std::sin(angle)),
+          apex_.y - static_cast<float>(length * std::cos(angle))};
+}
+
+Point GlassView::at_ground(const GlassFrame& frame, geo::GeoPoint place) const {
+  const geo::GeodesicInverse line = geo::geodesic_inverse(frame.apex, place);
+  return at_polar((line.azimuth_at_start - frame.up).degrees(), line.distance.metres() / frame.range_m);
+}
+
+GlassFrame frame_of(const databuffer::PatchMap& map) {
+  return {{map.apex_latitude_deg, map.apex_longitude_deg},
+          geo::Bearing::degrees(map.up_deg),
+          map.window_nm * geo::kMetresPerNauticalMile};
+}
+
+double displacement_units(const GlassView& view, const GlassFrame& drawn, const GlassFrame& present) {
+  if (drawn.range_m != present.range_m) return std::numeric_limits<double>::infinity();
+  const double moved = geo::geodesic_inverse(drawn.apex, present.apex).distance.metres() / present.range_m;
+  const double turned = std::abs((present.up - drawn.up).radians());
+  return (moved + turned) * static_cast<double>(view.units_per_range());
+}
+
+namespace {
+
+constexpr double kLeastRange_m = 1852.0;  // [m] stands in for a state that names no range yet: nothing divides by 0
+
+}  // namespace
+
+GlassFrame present_frame(const GlassInput& input, const StoredSweep* newest) {
+  const double range_m = input.state.range_nm * geo::kMetresPerNauticalMile;
+  GlassFrame frame;
+  frame.range_m = range_m > 0.0 ? range_m : kLeastRange_m;
+  const bool frozen = (input.model.flags & databuffer::kModelFrozen) != 0;
+  if (frozen && newest != nullptr) {
+    frame.apex = newest->apex;
+    frame.up = newest->ground_track;
+  } else {
+    frame.apex = {input.ownship.latitude_deg, input.ownship.longitude_deg};
+    frame.up = databuffer::ground_track_of(input.ownship);
+  }
+  return frame;
+}
+
+namespace {
+
+// Turns east and north metres of the frame's apex into units on the glass.
+class GroundPlan {
+ public:
+  GroundPlan(const GlassView& view, const GlassFrame& frame)
+      : tangent_(frame.apex, geo::HeightAboveEllipsoid::metres(0.0)),
+        apex_(view.apex()),
+        units_per_metre_(static_cast<double>(view.units_per_range()) / frame.range_m),
+        sine_(std::sin(frame.up.radians())),
+        cosine_(std::cos(frame.up.radians())) {}
+
+  Point at(geo::Vector3 ecef) const {
+    const geo::Vector3 enu = tangent_.enu_from_ecef(ecef);
+    const double right_m = enu.x * cosine_ - enu.y * sine_;
+    const double up_m = enu.x * sine_ + enu.y * cosine_;
+    return {apex_.x + static_cast<float>(right_m * units_per_metre_),
+            apex_.y - static_cast<float>(up_m * units_per_metre_)};
+  }
+
+  Point direction(geo::Vector3 from_ecef, geo::Vector3 to_ecef) const {
+    const geo::Vector3 from = tangent_.enu_from_ecef(from_ecef);
+    const geo::Vector3 to = tangent_.enu_from_ecef(to_ecef);
+    const double east = to.x - from.x;
+    const double north = to.y - from.y;
+    const double length = std::hypot(east, north);
+    return {static_cast<float>((east * cosine_ - north * sine_) / length),
+            static_cast<float>(-(east * sine_ + north * cosine_) / length)};
+  }
+
+  double units_per_metre() const { return units_per_metre_; }
+
+ private:
+  geo::LocalTangentFrame tangent_;
+  Point apex_;
+  double units_per_metre_;
+  double sine_, cosine_;
+};
+
+}  // namespace
+
+void place_wedges(const PolarStore& store, const GlassView& view, const GlassFrame& frame, std::vector<Wedge>& wedges) {
+  const GroundPlan plan(view, frame);
+  wedges.clear();
+  for (const StoredSweep& sweep : store.by_azimuth()) {
+    wedges.push_back({plan.at(sweep.apex_ecef), plan.direction(sweep.apex_ecef, sweep.left_ecef),
+                      plan.direction(sweep.apex_ecef, sweep.right_ecef),
+                      static_cast<float>(sweep.range_m * plan.units_per_metre()),
+                      static_cast<float>(sweep.half_width_rad), sweep.row, sweep.samples, sweep.serial});
+  }
+  std::sort(wedges.begin(), wedges.end(), [](const Wedge& a, const Wedge& b) { return a.serial < b.serial; });
+}
+
+}  // namespace yars::display

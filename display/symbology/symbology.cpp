@@ -1,0 +1,375 @@
+#include "display/symbology/symbology.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "databuffer/records/map_timer.hpp"
+#include "databuffer/records/navigation.hpp"
+#include "display/symbology/ground_symbols.hpp"
+#include "display/symbology/plan_view.hpp"
+#include "display/symbology/radar_video.hpp"
+#include "display/symbology/readouts.hpp"
+#include "lib/radar/modes.hpp"
+
+namespace yars::display {
+
+namespace {
+
+// Azimuth scale, along the bottom at the apex. The window size stands below it, the message above.
+constexpr float kAzimuthZero = 240.0F;  // [units] x of 0 deg
+constexpr float kAzimuthUnitsPerDegree = 2.0F;
+constexpr float kAzimuthTickTop = 438.0F, kAzimuthTickBottom = 445.0F;
+constexpr float kAzimuthTrack = 64.0F;  // [deg] the caret stops here
+constexpr float kLimitBallRadius = 3.0F;
+constexpr float kLimitBallTrack = 115.0F;  // [deg] the limit balls stop here, at the edge of the glass
+
+// Elevation scale, in the column between the legends of the left side and the picture.
+constexpr float kElevationZero = 240.0F;  // [units] y of the horizon
+constexpr float kElevationUnitsPerDegree = 8.0F;
+constexpr float kElevationTickLeft = 68.0F;
+constexpr float kTrackTop = 46.0F, kTrackBottom = 434.0F;  // [units] carets and ball stop here
+constexpr float kBallColumn = 92.0F;
+constexpr float kBallRadius = 5.5F;
+constexpr float kWing = 5.0F;
+constexpr float kCaretLength = 8.0F, kCaretHalf = 4.0F;
+
+// Gray scale, in the lower right, where no beam of +-60 deg reaches.
+constexpr Rect kGrayScale{420.0F, 344.0F, 434.0F, 424.0F};
+
+constexpr float kSector = 60.0F;      // [deg] arcs reach to the gimbal limit
+constexpr double kUsualArcs = 0.25;   // of the range from arc to arc
+constexpr double kFinestArcs = 0.05;  // closer arcs would hide the video
+
+float on_track(double degrees) {
+  const float y = kElevationZero - kElevationUnitsPerDegree * static_cast<float>(degrees);
+  return std::clamp(y, kTrackTop, kTrackBottom);
+}
+
+float x_of(float degrees) {
+  return kAzimuthZero + kAzimuthUnitsPerDegree * degrees;
+}
+
+float tick_length(int degrees) {
+  return degrees == 0 ? 12.0F : std::abs(degrees) >= 5 ? 8.0F : 5.0F;
+}
+
+}  // namespace
+
+void draw_azimuth_scale(double antenna_right_of_track_deg, DrawList& list) {
+  for (const float degrees : {-60.0F, 0.0F, 60.0F}) {
+    list.line({x_of(degrees), kAzimuthTickTop}, {x_of(degrees), kAzimuthTickBottom});
+  }
+  const float x = x_of(std::clamp(static_cast<float>(antenna_right_of_track_deg), -kAzimuthTrack, kAzimuthTrack));
+  const float tip = kAzimuthTickTop - 1.0F;
+  const std::array<Point, 3> caret{Point{x - kCaretHalf, tip - kCaretLength}, Point{x, tip},
+                                   Point{x + kCaretHalf, tip - kCaretLength}};
+  list.polyline(caret);
+  list.occupy("azimuth scale",
+              {x_of(-kAzimuthTrack) - kCaretHalf, tip - kCaretLength - 1.0F, x_of(kAzimuthTrack) + kCaretHalf,
+               kAzimuthTickBottom + 1.0F},
+              BoxKind::scale);
+  list.occupy("azimuth ticks", {x_of(-60.0F) - 2.0F, kAzimuthTickTop - 1.0F, x_of(60.0F) + 2.0F, kAzimuthTickBottom},
+              BoxKind::solid);
+}
+
+void draw_limit_balls(double left_deg, double right_deg, double blind_zone_deg, DrawList& list) {
+  constexpr float middle = (kAzimuthTickTop + kAzimuthTickBottom) / 2.0F;
+  const auto blind = static_cast<float>(blind_zone_deg);
+  for (const float degrees : {-blind, blind}) list.line({x_of(degrees), middle}, {x_of(degrees), kAzimuthTickBottom});
+  for (const double degrees : {left_deg, right_deg}) {
+    const float x = x_of(std::clamp(static_cast<float>(degrees), -kLimitBallTrack, kLimitBallTrack));
+    list.circle({x, middle}, kLimitBallRadius);
+    list.occupy("limit ball", grown({x, middle, x, middle}, kLimitBallRadius + 1.0F), BoxKind::scale);
+  }
+}
+
+void draw_elevation_scale(double antenna_deg, DrawList& list) {
+  for (const int degrees : {-10, -5, -2, -1, 0, 1, 2, 5, 10}) {
+    const float y = on_track(degrees);
+    list.line({kElevationTickLeft, y}, {kElevationTickLeft + tick_length(degrees), y});
+  }
+  const float y = on_track(antenna_deg);
+  const float tip = kElevationTickLeft - 1.0F;
+  const std::array<Point, 3> caret{Point{tip - kCaretLength, y - kCaretHalf}, Point{tip, y},
+                                   Point{tip - kCaretLength, y + kCaretHalf}};
+  list.polyline(caret);
+  list.occupy("elevation scale",
+              {tip - kCaretLength, kTrackTop - kBallRadius - kWing, kBallColumn + kBallRadius + kWing,
+               kTrackBottom + kBallRadius},
+              BoxKind::scale);
+}
+
+void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, DrawList& list) {
+  const Point center{kBallColumn, on_track(pitch_deg)};
+  const float r = kBallRadius;
+  if (source == AttitudeSource::ahrs) {
+    const std::array<Point, 4> corners{Point{center.x - r, center.y - r}, Point{center.x + r, center.y - r},
+                                       Point{center.x + r, center.y + r}, Point{center.x - r, center.y + r}};
+    list.polygon(corners, false);
+  } else {
+    list.circle(center, r);
+  }
+  if (source == AttitudeSource::invalid) {
+    const float d = r + 2.0F;
+    list.line({center.x - d, center.y - d}, {center.x + d, center.y + d});
+    list.line({center.x - d, center.y + d}, {center.x + d, center.y - d});
+    return;
+  }
+  // Wings show the bank: right wing down, right stub down.
+  const auto cosine = static_cast<float>(std::cos(roll_deg * geo::kRadiansPerDegree));
+  const auto sine = static_cast<float>(std::sin(roll_deg * geo::kRadiansPerDegree));
+  for (const float side : {-1.0F, 1.0F}) {
+    const auto out = [&](float length) {
+      return Point{center.x + side * length * cosine, center.y + side * length * sine};
+    };
+    list.line(out(r), out(r + kWing));
+  }
+}
+
+double arc_spacing(double range_nm, std::size_t range_index, std::span<const double> spacing_nm) {
+  if (spacing_nm.empty()) return kUsualArcs;
+  double spacing = spacing_nm[std::min(range_index, spacing_nm.size() - 1)] / range_nm;
+  if (!(spacing > 0.0)) return kUsualArcs;
+  while (spacing < kFinestArcs) spacing *= 2.0;
+  return spacing;
+}
+
+void draw_range_arcs(const GlassView& view, double spacing, DrawList& list) {
+  constexpr double kWhole = 1e-9;  // a spacing that divides the range may miss its end by rounding
+  list.draw_on(Layer::grid);
+  const auto arc = [&](double fraction) {
+    list.thin_arc(view.apex(), static_cast<float>(fraction) * view.units_per_range(), -kSector, kSector);
+  };
+  for (int i = 1; i * spacing < 1.0 - kWhole; ++i) arc(i * spacing);
+  arc(1.0);
+  list.draw_on(Layer::symbols);
+}
+
+void draw_zero_azimuth_line(const GlassView& view, DrawList& list) {
+  list.draw_on(Layer::grid);
+  list.line(view.apex(), view.at_polar(0.0, 1.0), Ink::dim);
+  list.draw_on(Layer::symbols);
+}
+
+void draw_gray_scale(DrawList& list) {
+  const float height = (kGrayScale.bottom - kGrayScale.top) / kGrays;
+  for (int gray = 0; gray < kGrays; ++gray) {
+    // The middle of the gray's eighth of the video's reach, black at the bottom.
+    const auto video = static_cast<std::uint8_t>((gray * 256 + 128) / kGrays);
+    const float bottom = kGrayScale.bottom - height * static_cast<float>(gray);
+    list.video_step({kGrayScale.left, bottom - height, kGrayScale.right, bottom}, video);
+  }
+  const std::array<Point, 5> frame{Point{kGrayScale.left, kGrayScale.top}, Point{kGrayScale.right, kGrayScale.top},
+                                   Point{kGrayScale.right, kGrayScale.bottom},
+                                   Point{kGrayScale.left, kGrayScale.bottom}, Point{kGrayScale.left, kGrayScale.top}};
+  list.polyline(frame, Ink::dim);
+  list.occupy("gray scale", kGrayScale, BoxKind::solid);
+}
+
+namespace {
+
+// A row of the table: what the format of a mode has.
+struct Format {
+  bool video = false;  // sweeps
+  bool map = false;    // a patch map
+  bool arcs = false;
+  bool zero_line = false;
+  bool scales = false;       // azimuth and elevation scale, carets, pitch ball
+  bool limit_balls = false;  // on the azimuth scale
+  bool gray_scale = false;
+  bool ground = false;  // cursor with its readout, sequence points
+  bool window_size = false;
+  bool mapping = false;   // outline and timer of a map
+  bool readouts = false;  // range, brightness
+  bool velocity = false;  // differences of velocity and the beam under way
+};
+
+constexpr Format kRbm{.video = true,
+                      .arcs = true,
+                      .zero_line = true,
+                      .scales = true,
+                      .gray_scale = true,
+                      .ground = true,
+                      .window_size = true,
+                      .mapping = true,
+                      .readouts = true};
+constexpr Format kHrm{.video = true,
+                      .arcs = true,
+                      .scales = true,
+                      .limit_balls = true,
+                      .gray_scale = true,
+                      .ground = true,
+                      .window_size = true,
+                      .mapping = true,
+                      .readouts = true};
+constexpr Format kPatch{.map = true,
+                        .scales = true,
+                        .limit_balls = true,
+                        .ground = true,
+                        .window_size = true,
+                        .mapping = true,
+                        .readouts = true};
+// Over which A/A or ranging has the radar: no map is made.
+constexpr Format kStandingMap{.map = true, .scales = true, .limit_balls = true, .ground = true, .readouts = true};
+constexpr Format kBeacon{.video = true,
+                         .arcs = true,
+                         .zero_line = true,
+                         .scales = true,
+                         .ground = true,
+                         .window_size = true,
+                         .readouts = true};
+constexpr Format kPvu{.scales = true, .window_size = true, .mapping = true, .readouts = true, .velocity = true};
+constexpr Format kLegendsOnly{};
+
+const Format& format_of(const databuffer::RadarState& state) {
+  switch (static_cast<radar::Mode>(state.mode)) {
+    case radar::Mode::rbm:
+      return kRbm;
+    case radar::Mode::hrm:
+      return state.map_shown != 0 ? kPatch : kHrm;
+    case radar::Mode::patch:
+      return kPatch;
+    case radar::Mode::beacon:
+      return kBeacon;
+    case radar::Mode::pvu:
+      return kPvu;
+    case radar::Mode::air_to_air:
+    case radar::Mode::ranging:
+      return state.map_shown != 0 ? kStandingMap : kLegendsOnly;
+    case radar::Mode::menu:
+      break;
+  }
+  return kLegendsOnly;
+}
+
+bool has_power(const databuffer::RadarState& state, radar::Power power) {
+  return state.power == static_cast<std::uint8_t>(power);
+}
+
+AttitudeSource attitude_source(const databuffer::Nav& nav) {
+  if ((nav.flags & databuffer::kNavAttitudeInvalid) != 0) return AttitudeSource::invalid;
+  return (nav.flags & databuffer::kNavAttitudeFromAhrs) != 0 ? AttitudeSource::ahrs : AttitudeSource::ins;
+}
+
+void draw_scales(const GlassInput& input, DrawList& list) {
+  const geo::Bearing antenna = geo::Bearing::degrees(input.ownship.heading_deg + input.model.antenna_azimuth_deg);
+  draw_azimuth_scale((antenna - databuffer::ground_track_of(input.ownship)).degrees(), list);
+  draw_elevation_scale(input.model.antenna_elevation_deg, list);
+  draw_pitch_ball(input.ownship.pitch_deg, input.ownship.roll_deg, attitude_source(input.nav), list);
+}
+
+// A sector as it is seen from the aircraft.
+struct Sector {
+  geo::Bearing middle;
+  double half_width_deg = 0.0;
+};
+
+Sector sector_of_window(const databuffer::Ownship& ownship, geo::GeoPoint centre, double window_nm) {
+  const auto line = geo::geodesic_inverse({ownship.latitude_deg, ownship.longitude_deg}, centre);
+  const double half_m = window_nm * geo::kMetresPerNauticalMile / 2.0;
+  return {line.azimuth_at_start, std::atan2(half_m, line.distance.metres()) / geo::kRadiansPerDegree};
+}
+
+// What the antenna covers: the map that forms, else the one on the glass, else the scan.
+Sector covered_sector(const GlassInput& input) {
+  const databuffer::ModelStatus& model = input.model;
+  if (model.map_window_nm > 0.0)
+    return sector_of_window(input.ownship, {model.map_latitude_deg, model.map_longitude_deg}, model.map_window_nm);
+  if (shows_map(input))
+    return sector_of_window(input.ownship, {input.map.latitude_deg, input.map.longitude_deg}, input.map.window_nm);
+  return {geo::Bearing::degrees(model.scan_centre_deg), model.scan_width_deg / 2.0};
+}
+
+void draw_limits(const GlassInput& input, double blind_zone_deg, DrawList& list) {
+  const Sector sector = covered_sector(input);
+  const double middle_deg = (sector.middle - databuffer::ground_track_of(input.ownship)).degrees();
+  draw_limit_balls(middle_deg - sector.half_width_deg, middle_deg + sector.half_width_deg, blind_zone_deg, list);
+}
+
+void draw_readouts(const GlassInput& input, const Format& format, DrawList& list) {
+  const databuffer::RadarState& state = input.state;
+  draw_brightness(state, list);
+  draw_range(state, list);
+  if (format.window_size) draw_window_size(state, list);
+  if (format.mapping)
+    if (const auto seconds = databuffer::map_timer_s(state, input.model)) draw_map_timer(*seconds, list);
+  if (format.ground) {
+    draw_cursor_readout(state, list);
+    draw_update_errors(state, list);
+    draw_velocity_differences(state, list);
+  }
+  if ((state.flags & databuffer::kFreeze) != 0) draw_freeze(list);
+}
+
+// Symbols before labels, which keep clear of them.
+void draw_ground(const GlassInput& input, std::span<const radar::RoutePoint> route, const GlassView& view,
+                 const GlassFrame& frame, LabelMemory& labels, DrawList& list) {
+  const PlacedPoints placed = place_points(input, view, frame, labels, list);
+  draw_points(input.state, route, placed, list);
+  const auto heading = draw_steering_line(input, view, frame, list);
+  LabelQueue queue;
+  add_names(input.state, placed, NameRank::selected, queue);
+  add_names(input.state, placed, NameRank::target, queue);
+  if (heading) queue.add(*heading);
+  add_names(input.state, placed, NameRank::other, queue);
+  place_labels(queue.labels(), labels, list);
+}
+
+void draw_format(const GlassInput& input, const Format& format, const radar::RadarConfiguration& configuration,
+                 const GlassView& view, const GlassFrame& frame, LabelMemory& labels, DrawList& list) {
+  // On a map that could not be read nobody knows where anything lies.
+  const bool placed = format.ground && (!format.map || shows_map(input));
+  // Before the readouts, which give way to it.
+  if (placed) draw_cursor(input, view, frame, list);
+  if (format.arcs) {
+    const databuffer::RadarState& state = input.state;
+    draw_range_arcs(view, arc_spacing(state.range_nm, state.range_index, configuration.view.arc_spacing_nm), list);
+  }
+  if (format.zero_line) draw_zero_azimuth_line(view, list);
+  if (format.scales) draw_scales(input, list);
+  if (format.limit_balls) draw_limits(input, configuration.high_resolution.blind_zone_deg, list);
+  if (format.gray_scale) draw_gray_scale(list);
+  if (format.readouts) draw_readouts(input, format, list);
+  if (format.velocity) draw_velocity_format(input, list);
+  if (placed && format.mapping) draw_window_outline(input, view, frame, list);
+  if (placed) draw_ground(input, configuration.route, view, frame, labels, list);
+  list.blank_behind_texts();
+}
+
+}  // namespace
+
+bool shows_video(const databuffer::RadarState& state) {
+  return has_power(state, radar::Power::operate) && format_of(state).video;
+}
+
+bool shows_map(const GlassInput& input) {
+  const databuffer::RadarState& state = input.state;
+  return has_power(state, radar::Power::operate) && format_of(state).map && input.map.id != 0 &&
+         input.map.id == state.map_shown;
+}
+
+void draw_symbology(const GlassInput& input, const radar::RadarConfiguration& configuration, const GlassView& view,
+                    const GlassFrame& frame, LabelMemory& labels, DrawList& list) {
+  const databuffer::RadarState& state = input.state;
+  list.clear();
+  if (has_power(state, radar::Power::off)) {
+    // A radar that is off is dark; but a set whose state machine is gone would be dark as well.
+    if (!input.state_machine_alive) draw_silent({.state_machine_alive = false}, list);
+    return;
+  }
+  draw_legends(state, list);
+  draw_message(state, list);
+  draw_silent(input, list);
+  draw_mode_name(state, list);
+  if (has_power(state, radar::Power::standby)) {
+    draw_banner("STBY", list);
+  } else if (shows_map(input)) {
+    draw_format(input, format_of(state), configuration, GlassView(input.map), frame_of(input.map), labels, list);
+  } else {
+    draw_format(input, format_of(state), configuration, view, frame, labels, list);
+  }
+}
+
+}  // namespace yars::display

@@ -1,0 +1,78 @@
+// radar-model: antenna and real beam map; sweeps out.
+#include "databuffer/log.hpp"
+#include "databuffer/program.hpp"
+#include "model/app/radar_model_shell.hpp"
+#include "model/terrain/store/directory_store.hpp"
+
+namespace {
+
+using namespace yars;
+
+struct ModelOptions {
+  std::string terrain;
+  int samples = 0;
+};
+
+failure::Expected<radar::RadarConfiguration> configure(const databuffer::ProgramOptions& options,
+                                                       const ModelOptions& model_options) {
+  auto configuration = databuffer::load_program_configuration(options);
+  if (!configuration) return configuration;
+  if (!model_options.terrain.empty()) configuration->terrain.directory = model_options.terrain;
+  if (model_options.samples != 0) configuration->fidelity.samples = model_options.samples;
+  return configuration;
+}
+
+// Maps have stores of their own: what a window needs must not push out what the scan has.
+failure::Expected<model::PatchStores> open_patch_stores(const radar::RadarConfiguration& configuration) {
+  auto window = model::terrain::open_terrain(configuration.terrain);
+  if (!window) return tl::unexpected(window.error());
+  auto path = model::terrain::open_terrain(configuration.terrain);
+  if (!path) return tl::unexpected(path.error());
+  auto scenes = model::scene::open_scenes(configuration);
+  if (!scenes) return tl::unexpected(scenes.error());
+  return model::PatchStores{std::move(*window), std::move(*path), std::move(*scenes)};
+}
+
+failure::Expected<void> run(const databuffer::ProgramOptions& options, const ModelOptions& model_options) {
+  auto configuration = configure(options, model_options);
+  if (!configuration) return tl::unexpected(configuration.error());
+  auto store = model::terrain::open_terrain(configuration->terrain);
+  if (!store) return tl::unexpected(store.error());
+  auto patch_stores = open_patch_stores(*configuration);
+  if (!patch_stores) return tl::unexpected(patch_stores.error());
+  auto scenes = model::scene::open_scenes(*configuration, model::scene::SceneUse::scatterers);
+  if (!scenes) return tl::unexpected(scenes.error());
+  auto session = databuffer::Session::open(options.session, "radar-model");
+  if (!session) return tl::unexpected(session.error());
+  auto role = session->claim(databuffer::Role::radar_model);
+  if (!role) return tl::unexpected(databuffer::usage_error(role.error()));
+  auto loop = databuffer::TickLoop::create(*session, databuffer::LockstepRole::radar_model, options.lockstep);
+  if (!loop) return tl::unexpected(loop.error());
+  model::TerrainLoader terrain(std::move(*store), loop->lockstep());
+  model::SceneLoader scene_loader(std::move(*scenes), loop->lockstep());
+  model::PatchMaker patches(*configuration, std::move(*patch_stores), loop->lockstep());
+  model::RadarModelShell shell(*session, *configuration, {terrain, scene_loader, patches});
+  databuffer::log_info(
+      "runs in session " + options.session + ", terrain " +
+      (configuration->terrain.directory.empty() ? "built-in hills" : configuration->terrain.directory));
+  while (const auto due = loop->wait()) {
+    shell.step(*due, loop->late_ticks());
+    loop->done(*due);
+    if (due->skipped > 0)
+      session->note(databuffer::NoteKind::late_tick, "radar-model skipped " + std::to_string(due->skipped));
+  }
+  return loop->outcome();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("YARS radar model: antenna and real beam map", "radar-model");
+  databuffer::ProgramOptions options;
+  databuffer::add_common_options(app, options, true);
+  ModelOptions model_options;
+  app.add_option("--terrain", model_options.terrain, "directory of DTED or HGT cells (else the configuration's)");
+  app.add_option("--samples", model_options.samples, "samples a sweep (else the configuration's)")
+      ->check(CLI::Range(1, radar::kMaxSamples));
+  return databuffer::run_program(argc, argv, app, options, [&] { return run(options, model_options); });
+}

@@ -1,0 +1,121 @@
+#include "model/hrm/ground_detail.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lib/geo/quantity.hpp"
+#include "lib/random/gradient_noise.hpp"
+#include "model/hrm/polar_ground_simd.hpp"
+#include "model/terrain/sampling/height_simd.hpp"
+
+namespace yars::model::hrm {
+
+namespace {
+constexpr int kFinestEdge = 512;        // texels: 1 MiB, which the second-level cache holds
+constexpr double kFinestTexel_m = 4.0;  // detail below it is speckle's
+constexpr double kCoarsest_m = 256.0;   // [m] longest wave; beyond it the posts say what there is
+constexpr double kMetresPerDegree = 60.0 * geo::kMetresPerNauticalMile;
+constexpr float kMostByte = 255.0F;
+constexpr std::uint32_t kSeed = 0x59a75u;
+
+// Periodic fractal noise: octaves from the longest wave down to two texels, each as strong as the one before.
+std::vector<float> fractal_table(int edge, double texel_m) {
+  std::vector<float> table(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge), 0.0F);
+  for (double wave_m = kCoarsest_m; wave_m >= 2.0 * texel_m; wave_m *= 0.5) {
+    const int cells = std::max(1, static_cast<int>(std::lround(edge * texel_m / wave_m)));
+    const double cell_texels = static_cast<double>(edge) / cells;
+    const auto knot = [&](int x, int y) {
+      const auto wrapped = [cells](int k) { return (k % cells + cells) % cells; };
+      return 2.0 * terrain::share_of(terrain::lattice_hash(wrapped(x), wrapped(y), cells, kSeed)) - 1.0;
+    };
+    for (int y = 0; y < edge; ++y) {
+      for (int x = 0; x < edge; ++x) {
+        const double u = x / cell_texels;
+        const double v = y / cell_texels;
+        const int i = static_cast<int>(u);
+        const int j = static_cast<int>(v);
+        const double a = terrain::smooth_step(0.0, 1.0, u - i);
+        const double b = terrain::smooth_step(0.0, 1.0, v - j);
+        const double low = knot(i, j) + a * (knot(i + 1, j) - knot(i, j));
+        const double high = knot(i, j + 1) + a * (knot(i + 1, j + 1) - knot(i, j + 1));
+        table[static_cast<std::size_t>(y) * static_cast<std::size_t>(edge) + static_cast<std::size_t>(x)] +=
+            static_cast<float>(low + b * (high - low));
+      }
+    }
+  }
+  return table;
+}
+
+// Mean 1; half of the variance, for two of them are multiplied; never below a tenth.
+void shape(std::vector<float>& table, double contrast) {
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const float value : table) {
+    sum += static_cast<double>(value);
+    squares += static_cast<double>(value) * static_cast<double>(value);
+  }
+  const double mean = sum / static_cast<double>(table.size());
+  const double deviation = std::sqrt(std::max(squares / static_cast<double>(table.size()) - mean * mean, 1e-12));
+  double total = 0.0;
+  for (float& value : table) {
+    const double shaped = std::exp(contrast / std::sqrt(2.0) * (static_cast<double>(value) - mean) / deviation);
+    value = static_cast<float>(shaped);
+    total += shaped;
+  }
+  const auto scale = static_cast<float>(static_cast<double>(table.size()) / total);
+  for (float& value : table) value *= scale;
+}
+}  // namespace
+
+Detail::Detail(double contrast, double pixel_m) : pixel_m_(pixel_m), texels_per_metre_(0.0F), edge_(kFinestEdge) {
+  // A texel no smaller than half a pixel: finer waves would only flicker.
+  double texel_m = kFinestTexel_m;
+  while (texel_m < 0.5 * pixel_m && edge_ > lanes::kDetailBlock) {
+    texel_m *= 2.0;
+    edge_ /= 2;
+  }
+  texels_per_metre_ = static_cast<float>(1.0 / texel_m);
+  std::vector<float> texels = fractal_table(edge_, texel_m);
+  shape(texels, contrast);
+  unit_ = *std::max_element(texels.begin(), texels.end()) / kMostByte;
+  pack(texels);
+}
+
+void Detail::pack(const std::vector<float>& texels) {
+  const auto edge = static_cast<std::size_t>(edge_);
+  table_.resize(texels.size());
+  const auto byte = [&](std::size_t x, std::size_t y) {
+    return static_cast<std::uint32_t>(std::lround(texels[y % edge * edge + x % edge] / unit_));
+  };
+  constexpr std::size_t kBlock = lanes::kDetailBlock;
+  for (std::size_t y = 0; y < edge; ++y)
+    for (std::size_t x = 0; x < edge; ++x)
+      table_[y / kBlock * kBlock * edge + x / kBlock * kBlock * kBlock + y % kBlock * kBlock + x % kBlock] =
+          byte(x, y) | byte(x + 1, y) << 8 | byte(x, y + 1) << 16 | byte(x + 1, y + 1) << 24;
+}
+
+// Within its cell of one degree a place counts from the cell's corner, with degrees of longitude as long as in the
+// cell's middle. A ray runs through few cells: each run in one is one call.
+void Detail::modulate(const terrain::PlaceRun& places, float* gain) const {
+  const lanes::DetailTable table{table_.data(), edge_, unit_ * unit_};
+  const auto north_scale = static_cast<float>(kMetresPerDegree) * texels_per_metre_;
+  const std::size_t count = places.north_deg.size();
+  std::size_t first = 0;
+  while (first < count) {
+    const std::size_t last =
+        first + terrain::look_up::places_alike(&places.cells_north[first], &places.cells_east[first], count - first);
+    const double middle_deg = places.corner.south_deg + static_cast<double>(places.cells_north[first]) + 0.5;
+    const auto east_scale = north_scale * static_cast<float>(std::cos(middle_deg * geo::kRadiansPerDegree));
+    // Vectors overrun the end of a run: what they touch of the next is put back.
+    std::array<float, terrain::kRunSlack> behind{};
+    const std::size_t kept = std::min(behind.size(), count - last);
+    std::copy_n(gain + last, kept, behind.begin());
+    lanes::modulate(last - first, table, &places.east_deg[first], &places.north_deg[first], east_scale, north_scale,
+                    gain + first);
+    std::copy_n(behind.begin(), kept, gain + last);
+    first = last;
+  }
+}
+
+}  // namespace yars::model::hrm

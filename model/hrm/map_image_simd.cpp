@@ -1,0 +1,272 @@
+#include "model/hrm/map_image_simd.hpp"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "model/hrm/map_image_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// Behind highway.h, or it would have no target yet.
+#include "model/physics/polynomials-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace yars::model::hrm::lanes::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr std::size_t kMostLanes = 16;
+using Tag = hn::CappedTag<float, kMostLanes>;
+using SignedTag = hn::RebindToSigned<Tag>;
+using Floats = hn::Vec<Tag>;
+constexpr std::ptrdiff_t kFetchAhead = 4;  // rows
+
+// Where a column begins in the fan: its strip, and its place in a row of it.
+HWY_INLINE hn::Vec<SignedTag> start_of(hn::Vec<SignedTag> column, std::int32_t strip_size) {
+  const SignedTag di;
+  const auto strip = hn::ShiftRight<4>(column);
+  return hn::Add(hn::Mul(strip, hn::Set(di, strip_size)), hn::And(column, hn::Set(di, kStripColumns - 1)));
+}
+
+void draw_row(const FanGrid& grid, const float* fan, const MapRow& row, float* pixel) {
+  const Tag d;
+  const SignedTag di;
+  const auto ahead2 = hn::Set(d, row.ahead_m * row.ahead_m);
+  const auto middle_column = hn::Set(d, static_cast<float>(-grid.first_tangent / grid.tangent_step));
+  const auto columns_a_metre = hn::Set(d, static_cast<float>(1.0 / grid.tangent_step) / row.ahead_m);
+  const auto first_distance = hn::Set(d, static_cast<float>(grid.first_distance_m));
+  const auto rows_a_metre = hn::Set(d, static_cast<float>(1.0 / grid.spacing_m));
+  const auto last_column = hn::Set(di, grid.columns - 2);
+  const auto last_row = hn::Set(di, grid.rows - 2);
+  const auto nothing = hn::Zero(di);
+  const auto strip_size = static_cast<std::int32_t>(grid.strip_size());
+  // A column is as wide as distance * step / (1 + tangent^2), which is step * ahead^2 / distance.
+  const double ahead_m = static_cast<double>(row.ahead_m);
+  const auto scale_a_metre = hn::Set(
+      d, static_cast<float>(static_cast<double>(row.scale) / (grid.tangent_step * grid.spacing_m * ahead_m * ahead_m)));
+  const auto lanes = hn::ConvertTo(d, hn::Iota(di, 0));
+  for (int i = 0; i < row.columns; i += static_cast<int>(hn::Lanes(d))) {
+    const auto number = hn::Add(lanes, hn::Set(d, static_cast<float>(i)));
+    const auto right = hn::Add(hn::Set(d, row.first_right_m), hn::Mul(number, hn::Set(d, row.pixel_m)));
+    const auto distance = hn::Sqrt(hn::Add(hn::Mul(right, right), ahead2));
+    const auto x = hn::Add(middle_column, hn::Mul(right, columns_a_metre));
+    const auto y = hn::Mul(hn::Sub(distance, first_distance), rows_a_metre);
+    const auto column = hn::Min(hn::Max(hn::ConvertTo(di, x), nothing), last_column);
+    const auto line = hn::Min(hn::Max(hn::ConvertTo(di, y), nothing), last_row);
+    const auto across = hn::Sub(x, hn::ConvertTo(d, column));
+    const auto along = hn::Sub(y, hn::ConvertTo(d, line));
+    const auto offset = hn::ShiftLeft<4>(line);
+    const auto left_at = hn::Add(start_of(column, strip_size), offset);
+    // The rows below will look nearer: their streams, one a strip, are too many for the processor to see.
+    hwy::Prefetch(fan + hn::GetLane(left_at) - kFetchAhead * kStripColumns);
+    const auto right_at = hn::Add(start_of(hn::Add(column, hn::Set(di, 1)), strip_size), offset);
+    const auto near_left = hn::GatherIndex(d, fan, left_at);
+    const auto near_right = hn::GatherIndex(d, fan, right_at);
+    const auto far_left = hn::GatherIndex(d, fan + kStripColumns, left_at);
+    const auto far_right = hn::GatherIndex(d, fan + kStripColumns, right_at);
+    const auto near = hn::Add(near_left, hn::Mul(across, hn::Sub(near_right, near_left)));
+    const auto far = hn::Add(far_left, hn::Mul(across, hn::Sub(far_right, far_left)));
+    const auto value = hn::Add(near, hn::Mul(along, hn::Sub(far, near)));
+    const auto drawn = hn::Mul(value, hn::Mul(scale_a_metre, distance));
+    const auto left = static_cast<std::size_t>(row.columns - i);
+    if (left >= hn::Lanes(d)) {
+      hn::StoreU(drawn, d, pixel + i);
+    } else {
+      HWY_ALIGN float last[kMostLanes];
+      hn::StoreU(drawn, d, last);
+      std::copy_n(last, left, pixel + i);
+    }
+  }
+}
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Tag = hn::CappedTag<float, kBlock>;
+
+void smooth(std::size_t count, const float* from, std::ptrdiff_t stride, std::span<const float> weights, float* to) {
+  const Tag d;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    auto sum = hn::Mul(hn::Set(d, weights[0]), hn::LoadU(d, from + i));
+    const float* before = from + i;
+    const float* behind = from + i;
+    for (const float weight : weights.subspan(1)) {
+      before -= stride;
+      behind += stride;
+      sum = hn::Add(sum, hn::Mul(hn::Set(d, weight), hn::Add(hn::LoadU(d, before), hn::LoadU(d, behind))));
+    }
+    hn::StoreU(sum, d, to + i);
+  }
+}
+
+bool keep_above(const float* from, float limit, float* to) {
+  const Tag d;
+  bool any = false;
+  for (std::size_t i = 0; i < kBlock; i += hn::Lanes(d)) {
+    const auto value = hn::LoadU(d, from + i);
+    const auto strong = hn::Gt(value, hn::Set(d, limit));
+    any = any || !hn::AllFalse(d, strong);
+    hn::StoreU(hn::IfThenElseZero(strong, value), d, to + i);
+  }
+  return any;
+}
+
+void spread(const float* from, std::ptrdiff_t stride, std::span<const float> weights, float* to) {
+  const Tag d;
+  for (const float weight : weights) {
+    for (std::size_t i = 0; i < kBlock; i += hn::Lanes(d))
+      hn::StoreU(hn::Add(hn::LoadU(d, to + i), hn::Mul(hn::Set(d, weight), hn::LoadU(d, from + i))), d, to + i);
+    to += stride;
+  }
+}
+
+// What a block receives from each of the points in turn, summed before it is stored: neighbours' sums would wait for
+// one another.
+void spread_along(const float* from, std::size_t reach, const float* middle, float* to) {
+  const Tag d;
+  std::size_t points[kBlock];
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kBlock; ++i)
+    if (from[i] != 0.0F) points[count++] = i;
+  const auto begin = -static_cast<std::ptrdiff_t>(reach * kBlock);
+  for (std::ptrdiff_t at = begin; at < -begin + static_cast<std::ptrdiff_t>(kBlock);
+       at += static_cast<std::ptrdiff_t>(hn::Lanes(d))) {
+    auto sum = hn::LoadU(d, to + at);
+    for (std::size_t k = 0; k < count; ++k)
+      sum = hn::Add(sum, hn::Mul(hn::Set(d, from[points[k]]),
+                                 hn::LoadU(d, middle + at - static_cast<std::ptrdiff_t>(points[k]))));
+    hn::StoreU(sum, d, to + at);
+  }
+}
+
+namespace hn = hwy::HWY_NAMESPACE;
+namespace polynomials = rbm::HWY_NAMESPACE;
+
+using Tag = hn::CappedTag<float, 16>;
+using SignedTag = hn::RebindToSigned<Tag>;
+using BitsTag = hn::RebindToUnsigned<Tag>;
+using Floats = hn::Vec<Tag>;
+
+constexpr float kLn2 = 0.693147181F;
+
+// noise_bits() of rbm/noise.hpp for a vector of cells, draw 0.
+HWY_INLINE hn::Vec<BitsTag> random_bits(rbm::NoiseState state, hn::Vec<BitsTag> cell) {
+  const BitsTag d;
+  auto x = hn::Xor(hn::Mul(cell, hn::Set(d, rbm::kDrawsPerCell)), hn::Set(d, state.first));
+  x = hn::Xor(x, hn::ShiftRight<16>(x));
+  x = hn::Mul(x, hn::Set(d, 0x7feb352dU));
+  x = hn::Xor(x, hn::ShiftRight<15>(x));
+  x = hn::Mul(x, hn::Set(d, 0x846ca68bU));
+  x = hn::Xor(x, hn::Xor(hn::ShiftRight<16>(x), hn::Set(d, state.second)));
+  x = hn::Mul(x, hn::Set(d, 0x9e3779b1U));
+  return hn::Xor(x, hn::ShiftRight<15>(x));
+}
+
+// Sine of a number of half turns in [-1/2, 1/2]: Taylor's series, error 4e-6.
+HWY_INLINE Floats sine(Floats half_turns) {
+  const Tag d;
+  const auto y = hn::Mul(half_turns, half_turns);
+  auto p = hn::Set(d, 0.0821458866F);
+  p = polynomials::step(d, p, y, -0.599264529F);
+  p = polynomials::step(d, p, y, 2.55016404F);
+  p = polynomials::step(d, p, y, -5.16771278F);
+  p = polynomials::step(d, p, y, 3.14159265F);
+  return hn::Mul(p, half_turns);
+}
+
+void draw_gaussian(std::size_t count, rbm::NoiseState state, float* real, float* imaginary) {
+  const Tag d;
+  const BitsTag db;
+  const SignedTag di;
+  constexpr float kStep = 1.0F / 65536.0F;
+  const auto lane = hn::Iota(db, 0U);
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const auto bits = random_bits(state, hn::Add(lane, hn::Set(db, static_cast<std::uint32_t>(i))));
+    const auto high = hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<16>(bits)));
+    const auto uniform = hn::Add(hn::Mul(high, hn::Set(d, kStep)), hn::Set(d, 0.5F * kStep));
+    const auto radius = hn::Sqrt(hn::Mul(hn::Set(d, -kLn2), polynomials::log2(d, uniform)));
+    // Fifteen bits are an angle within half a turn, the last one is the sign of both parts.
+    const auto low = hn::And(hn::ShiftRight<1>(bits), hn::Set(db, 0x7fffU));
+    const auto angle =
+        hn::Sub(hn::Mul(hn::ConvertTo(d, hn::BitCast(di, low)), hn::Set(d, 2.0F * kStep)), hn::Set(d, 0.5F));
+    const auto sign = hn::BitCast(d, hn::ShiftLeft<31>(bits));
+    const auto signed_radius = hn::Xor(radius, sign);
+    // cos(x) = sin(1/2 - |x|), in half turns.
+    const auto cosine = sine(hn::Sub(hn::Set(d, 0.5F), hn::Abs(angle)));
+    hn::StoreU(hn::Mul(signed_radius, cosine), d, real + i);
+    hn::StoreU(hn::Mul(signed_radius, sine(angle)), d, imaginary + i);
+  }
+}
+
+void interpolate(std::size_t count, const Neighbours& where, const float* cells, float* field) {
+  const Tag d;
+  const SignedTag di;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const auto cell = hn::LoadU(di, where.cell + i);
+    const auto first = hn::Mul(hn::LoadU(d, where.first + i), hn::GatherIndex(d, cells, cell));
+    const auto second = hn::Mul(hn::LoadU(d, where.second + i), hn::GatherIndex(d, cells + 1, cell));
+    hn::StoreU(hn::Add(first, second), d, field + i);
+  }
+}
+
+void intensity(std::size_t count, int looks, WeightedField near, WeightedField far, float* mean) {
+  const Tag d;
+  const auto scale = hn::Set(d, 1.0F / static_cast<float>(looks));
+  const auto near_weight = hn::Set(d, near.weight);
+  const auto far_weight = hn::Set(d, far.weight);
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    auto sum = hn::Zero(d);
+    for (std::size_t part = 0; part < 2 * static_cast<std::size_t>(looks); ++part) {
+      const std::size_t at = part * count + i;
+      const auto field = hn::Add(hn::Mul(near_weight, hn::LoadU(d, near.numbers + at)),
+                                 hn::Mul(far_weight, hn::LoadU(d, far.numbers + at)));
+      sum = hn::Add(sum, hn::Mul(field, field));
+    }
+    hn::StoreU(hn::Mul(sum, scale), d, mean + i);
+  }
+}
+
+}  // namespace yars::model::hrm::lanes::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace yars::model::hrm::lanes {
+
+HWY_EXPORT(draw_row);
+
+void draw_row(const FanGrid& grid, const float* fan, const MapRow& row, float* pixel) {
+  HWY_DYNAMIC_DISPATCH(draw_row)(grid, fan, row, pixel);
+}
+
+HWY_EXPORT(smooth);
+HWY_EXPORT(keep_above);
+HWY_EXPORT(spread);
+HWY_EXPORT(spread_along);
+
+void smooth(std::size_t count, const float* from, std::ptrdiff_t stride, std::span<const float> weights, float* to) {
+  HWY_DYNAMIC_DISPATCH(smooth)(count, from, stride, weights, to);
+}
+bool keep_above(const float* from, float limit, float* to) {
+  return HWY_DYNAMIC_DISPATCH(keep_above)(from, limit, to);
+}
+void spread(const float* from, std::ptrdiff_t stride, std::span<const float> weights, float* to) {
+  HWY_DYNAMIC_DISPATCH(spread)(from, stride, weights, to);
+}
+void spread_along(const float* from, std::size_t reach, const float* middle, float* to) {
+  HWY_DYNAMIC_DISPATCH(spread_along)(from, reach, middle, to);
+}
+
+HWY_EXPORT(draw_gaussian);
+HWY_EXPORT(interpolate);
+HWY_EXPORT(intensity);
+
+void draw_gaussian(std::size_t count, rbm::NoiseState state, float* real, float* imaginary) {
+  HWY_DYNAMIC_DISPATCH(draw_gaussian)(count, state, real, imaginary);
+}
+void interpolate(std::size_t count, const Neighbours& where, const float* cells, float* field) {
+  HWY_DYNAMIC_DISPATCH(interpolate)(count, where, cells, field);
+}
+void intensity(std::size_t count, int looks, WeightedField near, WeightedField far, float* mean) {
+  HWY_DYNAMIC_DISPATCH(intensity)(count, looks, near, far, mean);
+}
+
+}  // namespace yars::model::hrm::lanes
+#endif  // HWY_ONCE

@@ -1,0 +1,361 @@
+#include "model/hrm/patch_formation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "lib/failure/require.hpp"
+#include "lib/memory/line_vector.hpp"
+#include "lib/radar/map_formation.hpp"
+#include "model/hrm/map_image.hpp"
+#include "model/hrm/profile_simd.hpp"
+#include "model/hrm/reference_patch.hpp"
+#include "model/hrm/report_1996_patch.hpp"
+#include "model/physics/atmosphere.hpp"
+#include "model/physics/reflectivity.hpp"
+
+namespace yars::model::hrm {
+
+// Numbers on a fan: grows, never shrinks, does not keep what it held; each row of a strip on a cache line of its own.
+
+template <class Number>
+class FanArray {
+ public:
+  void resize(std::size_t size) {
+    if (size <= numbers_.size()) return;
+    numbers_ = {};  // first, so that both are not there at once
+    numbers_.resize(size);
+  }
+  Number* data() { return numbers_.data(); }
+  const Number* data() const { return numbers_.data(); }
+  std::size_t size() const { return numbers_.size(); }
+
+ private:
+  memory::LineVector<Number> numbers_;
+};
+
+namespace {
+constexpr int kRowsAPiece = 32;  // of the map
+}  // namespace
+
+struct PatchProcess::Work {
+  Work(const radar::RadarConfiguration& given, Crew hands)
+      : configuration(given),
+        crew(std::move(hands)),
+        gas(configuration),
+        movers(configuration),
+        report_1996(configuration.fidelity.algorithm == radar::Algorithm::report_1996),
+        image(configuration.fidelity.map_size),
+        response(configuration.high_resolution.sidelobe_db,
+                 static_cast<double>(radar::kCellsOfMap) / std::max(configuration.fidelity.map_size, 1)) {
+    for (std::size_t thread = 0; thread < crew.threads; ++thread) {
+      rasters.emplace_back(configuration);
+      grounds.emplace_back(configuration);
+    }
+  }
+
+  void lay_out();
+  void clear_walls();
+  void read_terrain();
+  void draw_scene();
+  void cast_profiles();
+  void shade();
+  void draw_map();
+  void lay_out_gases();
+  void draw_video();
+  double thermal_noise() const {
+    return noise_gamma(configuration.high_resolution, geo::Length::metres(geometry->slant_range_m()), order.window);
+  }
+  // job(first strip, behind the last, thread).
+  template <class Job>
+  void share_strips(const Job& job) {
+    constexpr int kStripsAPiece = 2;
+    share_out(crew, grid.strips(), kStripsAPiece, job);
+  }
+
+  radar::RadarConfiguration configuration;
+  Crew crew;
+  rbm::GasPath gas;
+  MapMovers movers;
+  PatchOrder order;
+  PatchDatabase database;
+  PatchState state = PatchState::reset;
+  int done = 0;
+  std::optional<PatchGeometry> geometry;
+  geo::Duration formation{};
+  FanGrid grid;
+  std::vector<const scene::Tile*> tiles;
+  std::unique_ptr<Detail> detail;
+  std::unique_ptr<ReferencePatch> reference;  // instead of what follows, where the fidelity asks for it
+  std::vector<GroundFan> grounds;
+  std::vector<SceneRaster> rasters;
+  FanArray<SurfacePoint> surface;
+  FanArray<WallPoint> walls;
+  FanArray<float> cross_section_m2, horizon, arc, crest_m;
+  CrestsBetweenRows crests;  // if any crest_m is filled
+  bool walls_left = false;   // of a map whose profiles are still to be cast
+  std::vector<float> distance_m, inverse_m, above_m, level_m;
+  std::vector<lanes::GasRow> gas_rows;  // none: no gas takes anything
+  std::vector<std::size_t> pending;
+  std::vector<std::uint8_t> begun;  // by thread: it has its room for this map's ground
+  bool report_1996;                 // the map is brightness, see report_1996_patch.hpp
+  MapImage image;
+  Response response;
+  std::vector<std::uint8_t> picture;
+};
+
+PatchProcess::PatchProcess(const radar::RadarConfiguration& configuration, Crew crew)
+    : work_(std::make_unique<Work>(configuration, std::move(crew))) {}
+PatchProcess::~PatchProcess() = default;
+PatchProcess::PatchProcess(PatchProcess&&) noexcept = default;
+PatchProcess& PatchProcess::operator=(PatchProcess&&) noexcept = default;
+
+PatchNeed PatchProcess::begin(const PatchOrder& order) {
+  Work& work = *work_;
+  work.order = order;
+  work.database = {};
+  work.state = PatchState::database;
+  work.done = 0;
+  return patch_need(order, work.configuration.fidelity);
+}
+
+void PatchProcess::give(const PatchDatabase& database) {
+  YARS_REQUIRE(static_cast<int>(work_->state), ==, static_cast<int>(PatchState::database));
+  work_->database = database;
+  work_->lay_out();
+  work_->state = PatchState::processing;
+}
+
+void PatchProcess::Work::lay_out() {
+  const double elevation_m = database.window->elevation_m(order.centre);
+  geometry.emplace(order, configuration.fidelity, std::isnan(elevation_m) ? 0.0 : elevation_m);
+  formation = radar::formation_time({geo::Length::metres(geometry->slant_range_m()), order.window,
+                                     geometry->squint(order.ground_track), order.ground_speed, order.looks},
+                                    configuration);
+  tiles.clear();
+  if (database.scene) database.scene->tiles_near(order.centre, 1.5 * order.window.metres(), tiles);
+  const FanMargins margins = fan_margins(*geometry, *database.window, tiles, crew);
+  const bool exact = configuration.fidelity.algorithm == radar::Algorithm::reference;
+  const int cells = exact ? std::max(kReferenceCells, configuration.fidelity.map_oversampling)
+                          : configuration.fidelity.map_oversampling;
+  grid = make_fan_grid(*geometry, image.size, cells, margins);
+  const terrain::TerrainViewPointer facets = database.window;
+  if (configuration.fidelity.map_smooth_ground)
+    database.window =
+        terrain::smooth_between_posts(database.window, smooth_order(*geometry, grid, configuration.fidelity, tiles));
+  reference.reset();
+  if (exact) reference = std::make_unique<ReferencePatch>(configuration, *geometry, grid);
+  if (configuration.fidelity.map_detail && (!detail || detail->pixel_m() != grid.spacing_m))
+    detail = std::make_unique<Detail>(configuration.high_resolution.detail_contrast, grid.spacing_m);
+  surface.resize(grid.size());
+  if (!tiles.empty()) clear_walls();
+  crests = report_1996 ? CrestsBetweenRows{} : crests_between_rows(grid, *facets, database.window != facets);
+  if (crests.any()) crest_m.resize(grid.size());
+  cross_section_m2.resize(grid.size());
+  horizon.resize(static_cast<std::size_t>(grid.columns));
+  distance_m.clear();
+  inverse_m.clear();
+  above_m.clear();
+  level_m.clear();
+  for (int row = 0; row < grid.rows; ++row) {
+    distance_m.push_back(static_cast<float>(grid.distance_m(row)));
+    inverse_m.push_back(static_cast<float>(1.0 / grid.distance_m(row)));
+    above_m.push_back(static_cast<float>(geometry->above_plane_m(grid.distance_m(row))));
+    level_m.push_back(static_cast<float>(geometry->above_level_m(grid.distance_m(row))));
+  }
+  lay_out_gases();
+  arc.resize(static_cast<std::size_t>(grid.columns));
+  for (int column = 0; column < grid.columns; ++column)
+    arc.data()[column] = static_cast<float>(grid.width_m(column, 1.0));
+  pending.assign(crew.threads, 0);
+  begun.assign(crew.threads, 0);
+}
+
+// Who reads the walls clears them: it is done here for new room only, and after a map that was given up.
+void PatchProcess::Work::clear_walls() {
+  const std::size_t before = walls.size();
+  walls.resize(grid.size());
+  if (!walls_left && walls.size() == before) return;
+  std::fill_n(walls.data(), walls.size(), WallPoint());
+  walls_left = false;
+}
+
+void PatchProcess::Work::read_terrain() {
+  share_strips([&](int first, int last, std::size_t thread) {
+    if (begun[thread] == 0) grounds[thread].begin(*geometry, grid, *database.path);
+    begun[thread] = 1;
+    pending[thread] +=
+        grounds[thread].fill(order, *geometry, grid, {database.window.get(), database.path.get(), crests}, detail.get(),
+                             first * kStripColumns, last * kStripColumns,
+                             {surface.data(), horizon.data(), crests.any() ? crest_m.data() : nullptr});
+  });
+  if (reference) reference->read_terrain({database.window.get(), database.path.get()});
+}
+
+void PatchProcess::Work::draw_scene() {
+  if (reference) {
+    if (!tiles.empty()) reference->read_scene(*database.scene, tiles, surface.data());
+    return;
+  }
+  if (tiles.empty()) return;
+  walls_left = true;
+  // Tiles on a border are drawn from both sides of it: few bands, and two a thread, so that one may help the other.
+  const auto bands = static_cast<int>(crew.threads == 1 ? 1 : 2 * crew.threads);
+  const std::vector<PlacedTile> placed = place_tiles(*geometry, grid, tiles, crew);
+  const std::vector<int> begin = even_bands(grid, placed, bands);
+  share_out(crew, bands, 1, [&](int first, int last, std::size_t thread) {
+    for (auto band = static_cast<std::size_t>(first); band < static_cast<std::size_t>(last); ++band)
+      rasters[thread].draw(*geometry, grid, *database.scene, placed, begin[band] * kStripColumns,
+                           begin[band + 1] * kStripColumns, {surface.data(), walls.data()});
+  });
+}
+
+// In place of the profiles and of all that follows them.
+void PatchProcess::Work::shade() {
+  share_strips([&](int first, int last, std::size_t) {
+    shade_fan(*geometry, grid, {surface.data(), horizon.data()}, first * kStripColumns, last * kStripColumns,
+              cross_section_m2.data());
+  });
+}
+
+void PatchProcess::Work::cast_profiles() {
+  if (report_1996) return shade();
+  if (reference) return reference->accumulate(surface.data(), image);
+  const std::size_t size = grid.strip_size();
+  const double bounce_db = configuration.high_resolution.double_bounce_db;
+  share_strips([&](int first, int last, std::size_t) {
+    for (int number = first; number < last; ++number) {
+      const auto at = static_cast<std::size_t>(number) * size;
+      const auto column = static_cast<std::size_t>(number) * kStripColumns;
+      std::fill_n(cross_section_m2.data() + at, size, 0.0F);
+      lanes::Strip strip;
+      strip.rows = grid.rows;
+      strip.first_distance_m = static_cast<float>(grid.first_distance_m);
+      strip.spacing_m = static_cast<float>(grid.spacing_m);
+      strip.layover = configuration.fidelity.map_layover;
+      strip.double_bounce =
+          configuration.fidelity.map_double_bounce ? static_cast<float>(reflectivity::ratio(bounce_db)) : 0.0F;
+      strip.distance_m = distance_m.data();
+      strip.inverse_m = inverse_m.data();
+      strip.above_m = above_m.data();
+      strip.level_m = level_m.data();
+      if (!gas_rows.empty()) strip.gas = gas_rows.data();
+      strip.arc = arc.data() + column;
+      strip.horizon = horizon.data() + column;
+      strip.surface = surface.data() + at;
+      if (crests.any()) strip.crest_m = crest_m.data() + at;
+      if (!tiles.empty()) strip.walls = walls.data() + at;
+      strip.power = cross_section_m2.data() + at;
+      lanes::cast_profile(strip);
+    }
+  });
+  walls_left = false;
+}
+
+void PatchProcess::Work::draw_map() {
+  if (report_1996) {
+    share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t) {
+      draw_brightness(*geometry, grid, cross_section_m2.data(), first, last, image);
+    });
+    image.blind = false;
+    return blank_blind_zone(*geometry, order.ground_track, configuration.high_resolution, image);
+  }
+  if (!reference)
+    share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t) {
+      draw_fan(*geometry, grid, cross_section_m2.data(), first, last, image);
+    });
+  image.blind = false;
+  // What is below thermal noise or black cannot be seen.
+  const radar::HighResolutionConfiguration& hrm = configuration.high_resolution;
+  const double floor = std::max(thermal_noise(), reflectivity::ratio(hrm.brightest_gamma_db - hrm.dynamic_range_db));
+  if (configuration.fidelity.map_response) response.apply(static_cast<float>(floor), crew, image);
+  movers.draw(order, *geometry, formation, {*database.window, nullptr, true, database.traffic},
+              {&grid, surface.data(), crests.any() ? crest_m.data() : nullptr, horizon.data()}, response, image);
+  blank_blind_zone(*geometry, order.ground_track, configuration.high_resolution, image);
+}
+
+// Exact at some rows and three heights.
+void PatchProcess::Work::lay_out_gases() {
+  gas_rows.clear();
+  if (gas.none()) return;
+  constexpr int kKnots = 9;
+  constexpr std::array<double, 3> kHeights_m{0.0, 2000.0, 5000.0};
+  constexpr double kLowest_m = -500.0, kHighest_m = 6000.0;  // within 0.1 dB
+  const double plane_m = geometry->plane_msl_m();
+  std::array<lanes::GasRow, kKnots> knots{};
+  for (int knot = 0; knot < kKnots; ++knot) {
+    const double along_m = std::max(grid.distance_m((grid.rows - 1.0) * knot / (kKnots - 1)), 1.0);
+    const auto loss = [&](std::size_t height) {
+      return gas.two_way_loss(geometry->earth(), geometry->altitude_m(), along_m, kHeights_m[height]);
+    };
+    const double low = loss(0), first = (loss(1) - low) / kHeights_m[1], second = (loss(2) - low) / kHeights_m[2];
+    const double bend = (second - first) / (kHeights_m[2] - kHeights_m[1]);
+    const double slope = first - bend * kHeights_m[1];
+    knots[static_cast<std::size_t>(knot)] = {
+        static_cast<float>(low + plane_m * (slope + plane_m * bend)), static_cast<float>(slope + 2.0 * plane_m * bend),
+        static_cast<float>(bend), static_cast<float>(kLowest_m - plane_m), static_cast<float>(kHighest_m - plane_m)};
+  }
+  for (int row = 0; row < grid.rows; ++row) {
+    const float place = static_cast<float>(row) * (kKnots - 1) / static_cast<float>(std::max(grid.rows - 1, 1));
+    const auto near = static_cast<std::size_t>(std::min(static_cast<int>(place), kKnots - 2));
+    const float share = place - static_cast<float>(near);
+    const lanes::GasRow &one = knots[near], &two = knots[near + 1];
+    gas_rows.push_back({one.constant + share * (two.constant - one.constant),
+                        one.slope + share * (two.slope - one.slope), one.bend + share * (two.bend - one.bend),
+                        one.lowest_m, one.highest_m});
+  }
+}
+
+void PatchProcess::Work::draw_video() {
+  if (report_1996) return develop_brightness(configuration, image, order.map, picture);
+  const double noise = thermal_noise();
+  picture.resize(image.power.size());
+  constexpr int kRowsOfSpeckle = 128;  // a piece: each begins with two rows of cells of its own
+  share_out(crew, image.size, kRowsOfSpeckle, [&](int first, int last, std::size_t) {
+    develop(configuration, image, {noise, order.looks, order.map}, first, last, picture);
+  });
+}
+
+void PatchProcess::advance() {
+  Work& work = *work_;
+  using Stage = void (Work::*)();
+  constexpr std::array<Stage, kPatchStages.size()> kStages{&Work::read_terrain, &Work::draw_scene, &Work::cast_profiles,
+                                                           &Work::draw_map, &Work::draw_video};
+  if (work.state != PatchState::processing && work.state != PatchState::output) return;
+  (work.*kStages[static_cast<std::size_t>(work.done)])();
+  ++work.done;
+  if (work.done == static_cast<int>(kStages.size()) - 1) work.state = PatchState::output;
+  if (work.done == static_cast<int>(kStages.size())) work.state = PatchState::done;
+}
+
+PatchState PatchProcess::state() const {
+  return work_->state;
+}
+int PatchProcess::stages_done() const {
+  return work_->done;
+}
+const std::vector<std::uint8_t>& PatchProcess::picture() const {
+  return work_->picture;
+}
+const MapImage& PatchProcess::image() const {
+  return work_->image;
+}
+const PatchGeometry& PatchProcess::geometry() const {
+  return *work_->geometry;
+}
+geo::Duration PatchProcess::formation() const {
+  return work_->formation;
+}
+std::size_t PatchProcess::triangles() const {
+  std::size_t sum = 0;
+  for (const scene::Tile* tile : work_->tiles) sum += tile->triangles();
+  return sum;
+}
+std::size_t PatchProcess::posts_pending() const {
+  std::size_t sum = 0;
+  for (const std::size_t count : work_->pending) sum += count;
+  return sum;
+}
+
+}  // namespace yars::model::hrm

@@ -1,0 +1,328 @@
+#include "model/hrm/point_response.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+namespace yars::model::hrm {
+
+namespace {
+constexpr int kEqualLobes = 5;           // n-bar: so many sidelobes of one height, falling behind
+constexpr double kMainLobeCells = 1.5;   // the first null of -35 dB lies at 1.4 cells
+constexpr int kRowsAPiece = 32;          // of work
+constexpr double kSidelobeCells = 16.0;  // what lies farther out is below any picture's black
+
+// Taylor's coefficients F_m of w(x) = 1 + 2 sum F_m cos(2 pi m x).
+std::vector<double> taylor_coefficients(double sidelobe_db) {
+  const double a = std::acosh(std::pow(10.0, std::abs(sidelobe_db) / 20.0)) / std::numbers::pi;
+  constexpr double n = kEqualLobes;
+  const double sigma2 = n * n / (a * a + (n - 0.5) * (n - 0.5));
+  std::vector<double> coefficients{1.0};
+  for (int m = 1; m < kEqualLobes; ++m) {
+    double above = 1.0;
+    double below = 1.0;
+    for (int i = 1; i < kEqualLobes; ++i) {
+      above *= 1.0 - m * m / (sigma2 * (a * a + (i - 0.5) * (i - 0.5)));
+      if (i != m) below *= 1.0 - static_cast<double>(m * m) / (i * i);
+    }
+    coefficients.push_back((m % 2 == 1 ? 0.5 : -0.5) * above / below);
+  }
+  return coefficients;
+}
+
+double sinc(double x) {
+  const double y = std::numbers::pi * x;
+  return std::abs(y) < 1e-9 ? 1.0 : std::sin(y) / y;
+}
+
+double amplitude(const std::vector<double>& coefficients, double x) {
+  double sum = coefficients[0] * sinc(x);
+  for (std::size_t m = 1; m < coefficients.size(); ++m) {
+    const auto shift = static_cast<double>(m);
+    sum += coefficients[m] * (sinc(x - shift) + sinc(x + shift));
+  }
+  return sum / coefficients[0];
+}
+
+// Where the power has fallen to a half, in units of 1 / bandwidth.
+double half_power_point(const std::vector<double>& coefficients) {
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    const double a = amplitude(coefficients, middle);
+    (a * a > 0.5 ? low : high) = middle;
+  }
+  return low;
+}
+}  // namespace
+
+Response::Response(double sidelobe_db, double cells_a_pixel)
+    : coefficients_(taylor_coefficients(sidelobe_db)), cells_a_pixel_(cells_a_pixel) {
+  stretch_ = 2.0 * half_power_point(coefficients_);
+  double sum = 0.0;
+  std::vector<double> tail;
+  for (int pixel = 0; pixel * cells_a_pixel <= kSidelobeCells; ++pixel) {
+    const double value = power(pixel * cells_a_pixel);
+    if (pixel == 0 || pixel * cells_a_pixel <= kMainLobeCells) {
+      main_lobe_.push_back(static_cast<float>(value));
+      sum += pixel == 0 ? value : 2.0 * value;
+    } else {
+      sidelobes_.push_back(static_cast<float>(value));
+    }
+  }
+  for (float& value : main_lobe_) value = static_cast<float>(static_cast<double>(value) / sum);
+  for (float& value : sidelobes_) value = static_cast<float>(static_cast<double>(value) / sum);
+  mirror_sidelobes();
+}
+
+void Response::mirror_sidelobes() {
+  const std::size_t taps = main_lobe_.size() + sidelobes_.size();
+  along_reach_ = (taps + lanes::kBlock - 1) / lanes::kBlock;
+  along_middle_ = (along_reach_ + 1) * lanes::kBlock;
+  along_.assign(2 * along_middle_ + lanes::kBlock, 0.0F);
+  for (std::size_t i = 0; i < sidelobes_.size(); ++i) {
+    const std::size_t off = main_lobe_.size() + i;
+    along_[along_middle_ - off] = along_[along_middle_ + off] = sidelobes_[i];
+  }
+}
+
+double Response::power(double cells) const {
+  const double a = amplitude(coefficients_, cells * stretch_);
+  return a * a;
+}
+
+std::vector<float> Response::weights(double pixel, int& first) const {
+  const int reach = static_cast<int>(std::ceil(kSidelobeCells / cells_a_pixel_));
+  first = static_cast<int>(std::lround(pixel)) - reach;
+  std::vector<double> values;
+  double sum = 0.0;
+  for (int i = first; i <= first + 2 * reach; ++i) {
+    values.push_back(power((i - pixel) * cells_a_pixel_));
+    sum += values.back();
+  }
+  std::vector<float> weights;
+  for (const double value : values) weights.push_back(static_cast<float>(value / sum));
+  return weights;
+}
+
+// Rows and columns of black about a copy of the image, so that no sum looks over an edge.
+void Response::make_room(const Crew& crew, const MapImage& image) {
+  const auto size = static_cast<std::size_t>(image.size);
+  margin_ = along_reach_ * lanes::kBlock;
+  columns_ = (size + lanes::kBlock - 1) / lanes::kBlock * lanes::kBlock;
+  pitch_ = columns_ + 2 * margin_;
+  const std::size_t room = pitch_ * (size + 2 * margin_);
+  if (across_.size() == room && hands_.size() == crew.threads) return;
+  across_.assign(room, 0.0F);
+  added_.assign(room, 0.0F);
+  hands_.resize(crew.threads);
+  for (Hand& hand : hands_) {
+    hand.source.assign(pitch_, 0.0F);
+    hand.row.assign(columns_, 0.0F);
+  }
+}
+
+void Response::apply(float floor, const Crew& crew, MapImage& image) {
+  make_room(crew, image);
+  if (main_lobe_.size() > 1)
+    share_out(crew, image.size, kRowsAPiece,
+              [&](int first, int last, std::size_t thread) { smooth_along(first, last, hands_[thread], image); });
+  const float strong = sidelobes_.empty() ? 0.0F : floor / *std::max_element(sidelobes_.begin(), sidelobes_.end());
+  strong_.resize(static_cast<std::size_t>((image.size + kRowsAPiece - 1) / kRowsAPiece));
+  share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t thread) {
+    if (main_lobe_.size() > 1) smooth_down(first, last, hands_[thread], image);
+    if (!sidelobes_.empty()) find_strong(strong, first, last, hands_[thread], image);
+  });
+  if (sidelobes_.empty()) return;
+  if (std::all_of(strong_.begin(), strong_.end(), [](const std::vector<Strong>& run) { return run.empty(); })) return;
+  share_out(crew, image.size, kRowsAPiece,
+            [&](int first, int last, std::size_t) { add_sidelobes(first, last, image); });
+}
+
+void Response::smooth_along(int first, int last, Hand& hand, const MapImage& image) {
+  const auto size = static_cast<std::size_t>(image.size);
+  float* from = &hand.source[margin_];
+  for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
+    std::copy_n(&image.power[row * size], size, from);
+    lanes::smooth(columns_, from, 1, main_lobe_, &across_[padded(row)]);
+  }
+}
+
+void Response::smooth_down(int first, int last, Hand& hand, MapImage& image) const {
+  const auto size = static_cast<std::size_t>(image.size);
+  for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
+    // In place where rows are whole blocks.
+    float* to = columns_ == size ? &image.power[row * size] : hand.row.data();
+    lanes::smooth(columns_, &across_[padded(row)], static_cast<std::ptrdiff_t>(pitch_), main_lobe_, to);
+    if (columns_ != size) std::copy_n(to, size, &image.power[row * size]);
+  }
+}
+
+void Response::find_strong(float limit, int first, int last, Hand& hand, const MapImage& image) {
+  const auto size = static_cast<std::size_t>(image.size);
+  std::fill(hand.row.begin(), hand.row.end(), 0.0F);
+  for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
+    const float* from = &image.power[row * size];
+    if (columns_ != size) {
+      std::copy_n(from, size, hand.row.data());
+      from = hand.row.data();
+    }
+    std::vector<Strong>& strong = strong_[row / kRowsAPiece];
+    if (row % kRowsAPiece == 0) strong.clear();
+    Strong found{row, 0, {}};
+    for (found.column = 0; found.column < columns_; found.column += lanes::kBlock)
+      if (lanes::keep_above(from + found.column, limit, found.power.data())) strong.push_back(found);
+  }
+}
+
+// What of a block's sidelobes falls onto the rows [first, last).
+void Response::spread(const Strong& strong, std::size_t first, std::size_t last) {
+  const std::size_t lobe = main_lobe_.size();
+  const std::size_t taps = lobe + sidelobes_.size();
+  const std::span<const float> weights(sidelobes_);
+  float* at = &added_[padded(strong.row) + strong.column];
+  const auto pitch = static_cast<std::ptrdiff_t>(pitch_);
+  if (strong.row >= first && strong.row < last)
+    lanes::spread_along(strong.power.data(), along_reach_, &along_[along_middle_], at);
+  // Rows before: from row - taps + 1 to row - lobe; behind likewise.
+  const std::size_t nearest = strong.row >= last ? std::max(lobe, strong.row - last + 1) : lobe;
+  const std::size_t farthest = strong.row >= first ? std::min(taps, strong.row - first + 1) : 0;
+  if (nearest < farthest)
+    lanes::spread(strong.power.data(), -pitch, weights.subspan(nearest - lobe, farthest - nearest),
+                  at - static_cast<std::ptrdiff_t>(nearest) * pitch);
+  const std::size_t next = strong.row < first ? std::max(lobe, first - strong.row) : lobe;
+  const std::size_t end = strong.row < last ? std::min(taps, last - strong.row) : 0;
+  if (next < end)
+    lanes::spread(strong.power.data(), pitch, weights.subspan(next - lobe, end - next),
+                  at + static_cast<std::ptrdiff_t>(next) * pitch);
+}
+
+// Strong points were found first, all of them: what one adds must not make another strong. Few pixels of a picture are,
+// as a rule, so it is these that are spread, not their neighbours that are summed.
+void Response::add_sidelobes(int first, int last, MapImage& image) {
+  const auto size = static_cast<std::size_t>(image.size);
+  const auto begin = static_cast<std::size_t>(first);
+  const auto end = static_cast<std::size_t>(last);
+  for (std::size_t row = begin; row < end; ++row) std::fill_n(&added_[padded(row)] - margin_, pitch_, 0.0F);
+  const std::size_t reach = main_lobe_.size() + sidelobes_.size();
+  const std::size_t first_run = (begin > reach ? begin - reach : 0) / kRowsAPiece;
+  const std::size_t last_run = std::min((end + reach) / kRowsAPiece, strong_.size() - 1);
+  for (std::size_t run = first_run; run <= last_run; ++run)
+    for (const Strong& strong : strong_[run]) spread(strong, begin, end);
+  for (std::size_t row = begin; row < end; ++row)
+    for (std::size_t i = 0; i < size; ++i) image.power[row * size + i] += added_[padded(row) + i];
+}
+
+namespace {
+constexpr double kLeastDoppler_mps = 1.0;  // of V sin(squint): nearer the track nothing can be mapped anyway
+
+// A weighted copy of the response, its peak at a place between the pixels [pixels].
+void splat(const Response& response, double column, double row, double power, MapImage& image) {
+  int first_column = 0;
+  int first_row = 0;
+  const std::vector<float> across = response.weights(column, first_column);
+  const std::vector<float> down = response.weights(row, first_row);
+  for (std::size_t j = 0; j < down.size(); ++j) {
+    const int y = first_row + static_cast<int>(j);
+    if (y < 0 || y >= image.size) continue;
+    for (std::size_t i = 0; i < across.size(); ++i) {
+      const int x = first_column + static_cast<int>(i);
+      if (x < 0 || x >= image.size) continue;
+      image.power[image.at(x, y)] += static_cast<float>(power) * across[i] * down[j];
+    }
+  }
+}
+}  // namespace
+
+MapMovers::MapMovers(const radar::RadarConfiguration& configuration)
+    : gas_(configuration), points_(rbm::configured_points(configuration)) {}
+
+MapMovers::Trace MapMovers::trace_of(const rbm::MovingPoint& mover, const PatchOrder& order,
+                                     const PatchGeometry& geometry, geo::Duration formation, double height_m) const {
+  const double time_s = formation.seconds();
+  const MapPoint start = geometry.point_of(mover.place(order.sim_time));
+  const MapPoint end = geometry.point_of(mover.place(order.sim_time + formation));
+  const MapPoint middle{0.5 * (start.right_m + end.right_m), 0.5 * (start.up_m + end.up_m)};
+  const double ahead_m = middle.up_m + geometry.distance_m();
+  const double distance_m = std::hypot(middle.right_m, ahead_m);
+  // Along and across the line of sight to the target.
+  const double out_right = middle.right_m / distance_m;
+  const double out_up = ahead_m / distance_m;
+  const double speed_right = time_s > 0.0 ? (end.right_m - start.right_m) / time_s : 0.0;
+  const double speed_up = time_s > 0.0 ? (end.up_m - start.up_m) / time_s : 0.0;
+  const double receding_mps = speed_right * out_right + speed_up * out_up;
+  const double crossing_mps = speed_right * out_up - speed_up * out_right;
+
+  const double squint_rad = geometry.squint(order.ground_track).radians() + std::atan2(middle.right_m, ahead_m);
+  const double doppler_mps = order.ground_speed.metres_per_second() * std::sin(squint_rad);
+  const double steady_mps = std::copysign(std::max(std::abs(doppler_mps), kLeastDoppler_mps), doppler_mps);
+  // Looking right (positive squint) forwards is left on the map.
+  const double shift_m = receding_mps / steady_mps * distance_m;
+  const double seen_m = laid_over_m(distance_m, height_m, geometry.above_level_m(distance_m)) - distance_m;
+  const MapPoint shown{middle.right_m + out_right * seen_m + out_up * shift_m,
+                       middle.up_m + out_up * seen_m - out_right * shift_m};
+  // What it goes outwards walks in range; what it goes across defocuses it in azimuth, twice its way.
+  const double walk_m = receding_mps * time_s;
+  const double blur_m = 2.0 * std::abs(crossing_mps) * time_s;
+  const MapPoint half{0.5 * (out_right * walk_m + out_up * blur_m), 0.5 * (out_up * walk_m - out_right * blur_m)};
+  return {{shown.right_m - half.right_m, shown.up_m - half.up_m},
+          {shown.right_m + half.right_m, shown.up_m + half.up_m}};
+}
+
+bool MapMovers::hidden(const PatchGeometry& geometry, const Horizons& horizons, MapPoint point, double height_m) const {
+  const FanGrid& grid = *horizons.grid;
+  const double ahead_m = point.up_m + geometry.distance_m();
+  const double distance_m = std::hypot(point.right_m, ahead_m);
+  const int column = static_cast<int>(std::lround((point.right_m / ahead_m - grid.first_tangent) / grid.tangent_step));
+  const int row = static_cast<int>(std::floor((distance_m - grid.first_distance_m) / grid.spacing_m));
+  if (!(ahead_m > 0.0) || column < 0 || column >= grid.columns || row < 0) return false;
+  const double tangent = (height_m - geometry.above_plane_m(distance_m)) / distance_m;
+  double horizon = static_cast<double>(horizons.horizon[column]);
+  for (int i = 0; i < std::min(row, grid.rows); ++i) {
+    const double there_m = grid.distance_m(i);
+    const std::size_t at = grid.at(column, i);
+    float top_m = horizons.surface[at].height_m;
+    if (horizons.crest_m != nullptr) top_m = std::max(top_m, horizons.crest_m[at]);
+    const double raised = (static_cast<double>(top_m) - geometry.above_plane_m(there_m)) / there_m;
+    horizon = std::max(horizon, raised);
+  }
+  return tangent < horizon;
+}
+
+void MapMovers::draw(const PatchOrder& order, const PatchGeometry& geometry, geo::Duration formation,
+                     const rbm::Database& database, const Horizons& horizons, const Response& response,
+                     MapImage& image) const {
+  for (const std::span<const rbm::MovingPoint> points : {std::span(points_), database.traffic})
+    for (const rbm::MovingPoint& mover : points)
+      draw_point(mover, order, geometry, formation, database.terrain, horizons, response, image);
+}
+
+void MapMovers::draw_point(const rbm::MovingPoint& mover, const PatchOrder& order, const PatchGeometry& geometry,
+                           geo::Duration formation, const terrain::TerrainView& terrain, const Horizons& horizons,
+                           const Response& response, MapImage& image) const {
+  const double pixel_m = geometry.window_m() / image.size;
+  const geo::GeoPoint place = mover.place(order.sim_time);
+  const MapPoint point = geometry.point_of(place);
+  // Far outside it costs no more than this; displacement may bring it in from about a window away.
+  if (std::hypot(point.right_m, point.up_m) > 2.0 * geometry.window_m()) return;
+  const double ground_m = terrain.elevation_m(place);
+  if (std::isnan(ground_m)) return;
+  const double height_m = ground_m + mover.height_m - geometry.plane_msl_m();
+  if (hidden(geometry, horizons, point, height_m)) return;
+  const Trace trace = trace_of(mover, order, geometry, formation, height_m);
+  const double length_m = std::hypot(trace.to.right_m - trace.from.right_m, trace.to.up_m - trace.from.up_m);
+  const int steps = 1 + static_cast<int>(std::min(std::ceil(length_m / pixel_m), 4.0 * image.size));
+  const double distance_m = std::hypot(point.right_m, point.up_m + geometry.distance_m());
+  const double loss = gas_.two_way_loss(geometry.earth(), geometry.altitude_m(), distance_m, ground_m);
+  const double power = loss * mover.cross_section_m2 / (unit_return_m2(geometry, image.size) * steps);
+  for (int step = 0; step < steps; ++step) {
+    const double share = (step + 0.5) / steps;
+    const double right_m = trace.from.right_m + share * (trace.to.right_m - trace.from.right_m);
+    const double up_m = trace.from.up_m + share * (trace.to.up_m - trace.from.up_m);
+    splat(response, right_m / pixel_m + 0.5 * image.size - 0.5, 0.5 * image.size - 0.5 - up_m / pixel_m, power, image);
+  }
+}
+
+}  // namespace yars::model::hrm

@@ -1,0 +1,328 @@
+#include "model/hrm/polar_ground.hpp"
+
+#include <hwy/cache_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/hrm/polar_ground_simd.hpp"
+#include "model/physics/reflectivity.hpp"
+
+namespace yars::model::hrm {
+
+namespace {
+// Spacing [m] of the samples on the way to the window: of ground without posts, and of ground whose lines of posts are
+// looked at between them, where ways are straight in latitude and longitude within 5 mm.
+constexpr double kPathSpacing_m = 60.0;
+constexpr double kWaySpacing_m = 500.0;
+constexpr double kMostPathSamples = 4096.0;
+constexpr float kNoHorizon = -1.0e6F;  // below every ray, and below every ground [m]
+// Where posts are many columns apart, every third or fifth column is read, the first and the last of a strip among
+// them, as far apart as so much of the posts' spacing; what lies between is interpolated. On the way to the window
+// columns are closer still: the horizon alone is asked.
+constexpr double kPostShare = 0.25;
+constexpr double kPathShare = 0.5;
+// Rows as close as this share of the posts' spacing meet every crest themselves, straight or smooth; smooth ground has
+// no posts closer than two rows.
+constexpr double kLineShare = 0.2;
+constexpr double kSummitShare = 0.1;
+constexpr double kSmoothShare = 0.5;
+
+// Columns read of a strip: as far apart as the width allows.
+int step_within(double farthest_m, double width_m) {
+  for (const int step : {5, 3})
+    if (step * width_m <= farthest_m) return step;
+  return 1;
+}
+
+void join_horizons(int step, float* horizon) {
+  for (int lane = 0; lane < kStripColumns; ++lane) {
+    const int off = lane % step;
+    if (off == 0) continue;
+    const float first = horizon[lane - off];
+    const float second = horizon[lane - off + step];
+    horizon[lane] = first + static_cast<float>(off) / static_cast<float>(step) * (second - first);
+  }
+}
+}  // namespace
+
+CrestsBetweenRows crests_between_rows(const FanGrid& grid, const terrain::TerrainView& window, bool smooth) {
+  const double posts_m = window.post_spacing_m();
+  if (!(posts_m > 0.0)) return {};
+  return {grid.spacing_m > (smooth ? kSmoothShare : kLineShare) * posts_m,
+          smooth && grid.spacing_m > kSummitShare * posts_m};
+}
+
+GroundFan::Sight::Sight(const PatchGeometry& geometry, double distance_m) {
+  const rbm::EffectiveEarth& earth = geometry.earth();
+  const double angle_rad = distance_m * earth.curvature();
+  above_m = static_cast<float>(geometry.altitude_m() + earth.drop_m(distance_m));
+  chord_m = static_cast<float>(angle_rad > 0.0 ? earth.radius_m() * std::sin(angle_rad) : distance_m);
+  sine = static_cast<float>(std::sin(angle_rad));
+  cosine = static_cast<float>(std::cos(angle_rad));
+}
+
+GroundFan::Column::Column(std::size_t samples)
+    : places(samples),
+      distance_m(samples + terrain::kRunSlack),
+      elevation_m(distance_m.size()),
+      water(distance_m.size()),
+      peak_m(distance_m.size()),
+      crest(distance_m.size()) {}
+
+GroundFan::GroundFan(const radar::RadarConfiguration& configuration)
+    : configuration_(configuration),
+      plain_gamma_(static_cast<float>(reflectivity::make_land_return(configuration).gamma[0])) {}
+
+void GroundFan::begin(const PatchGeometry& geometry, const FanGrid& grid, const terrain::TerrainView& path) {
+  const auto rows = static_cast<std::size_t>(grid.rows);
+  if (!window_ || window_->places.count != rows) {
+    window_ = std::make_unique<Column>(rows);
+    ground_ = std::make_unique<rbm::Ground>(configuration_, rows);
+    sin_grazing_.assign(rows + terrain::kRunSlack, 0.0F);
+    // No power of two: rows of sixteen columns shall not meet in one place of the cache.
+    pitch_ = (rows / terrain::kRunSlack + 1) * terrain::kRunSlack;
+    if (pitch_ / terrain::kRunSlack % 2 == 0) pitch_ += terrain::kRunSlack;
+    strip_height_.assign(kStripColumns * pitch_ + terrain::kRunSlack, 0.0F);
+    strip_gain_.assign(strip_height_.size(), 0.0F);
+    strip_crest_.clear();
+  }
+  row_sight_.clear();
+  for (std::size_t row = 0; row < window_->distance_m.size(); ++row) {
+    const double distance_m = grid.distance_m(static_cast<double>(std::min(row, rows - 1)));
+    window_->distance_m[row] = static_cast<float>(distance_m);
+    row_sight_.emplace_back(geometry, distance_m);
+    const double above_m = geometry.altitude_m() - geometry.plane_msl_m();
+    sin_grazing_[row] = static_cast<float>(std::max(0.0, geometry.earth().sight(above_m, distance_m, 0.0).sin_grazing));
+  }
+  const double path_m = grid.first_distance_m;
+  const double spacing_m = path.post_spacing_m() > 0.0 ? kWaySpacing_m : kPathSpacing_m;
+  const auto samples = static_cast<std::size_t>(std::clamp(std::ceil(path_m / spacing_m), 1.0, kMostPathSamples));
+  if (!path_ || path_->places.count != samples) path_ = std::make_unique<Column>(samples);
+  // The last one lies below row 0 and is no part of the way.
+  path_sight_.clear();
+  for (std::size_t i = 0; i < path_->distance_m.size(); ++i) {
+    const double share = (static_cast<double>(std::min(i, samples - 1)) + 1.0) / static_cast<double>(samples);
+    path_->distance_m[i] = static_cast<float>(share * path_m);
+    path_sight_.emplace_back(geometry, share * path_m);
+  }
+  ground_->use_resolution(grid.spacing_m, grid.spacing_m);
+}
+
+std::size_t GroundFan::fill(const PatchOrder& order, const PatchGeometry& geometry, const FanGrid& grid,
+                            const PatchTerrain& terrain, const Detail* detail, int first, int last,
+                            const GroundArrays& arrays) {
+  const int step = arrays.crest_m == nullptr ? column_step(grid, *terrain.window, detail) : 1;
+  const int path_columns = path_step(grid, *terrain.path);
+  if (arrays.crest_m != nullptr) strip_crest_.resize(strip_height_.size());
+  std::size_t pending = 0;
+  for (int column = first; column < last; ++column) {
+    const geo::Bearing azimuth = geometry.up() + geo::Angle::radians(std::atan(grid.tangent(column)));
+    const int lane = column % kStripColumns;
+    if (lane % path_columns == 0) pending += read_path(geometry, grid, azimuth, *terrain.path, arrays.horizon[column]);
+    if (lane % step == 0) {
+      pending += read_window(order, geometry, azimuth, *terrain.window, detail, static_cast<std::size_t>(lane));
+      level(geometry, static_cast<std::size_t>(lane));
+      if (arrays.crest_m != nullptr) read_crests(geometry, terrain, static_cast<std::size_t>(lane));
+    }
+    fetch_strip(grid, column, arrays);
+    if (lane + 1 < kStripColumns) continue;
+    if (step > 1) fill_between(static_cast<std::size_t>(step));
+    put_strip(grid, column / kStripColumns, arrays);
+    if (arrays.crest_m != nullptr) put_crests(grid, column / kStripColumns, arrays.crest_m);
+    join_horizons(path_columns, arrays.horizon + column + 1 - kStripColumns);
+  }
+  return pending;
+}
+
+// Not where what covers the ground is a matter of one post or another, and never for who takes each column's word.
+int GroundFan::column_step(const FanGrid& grid, const terrain::TerrainView& view, const Detail* detail) const {
+  const radar::Fidelity& fidelity = configuration_.fidelity;
+  const bool smooth = fidelity.algorithm == radar::Algorithm::standard && !view.has_materials() &&
+                      fidelity.interpolation != radar::Interpolation::nearest;
+  if (!smooth) return 1;
+  double farthest_m = kPostShare * view.post_spacing_m();
+  if (detail != nullptr) farthest_m = std::min(farthest_m, detail->texel_m());
+  return step_within(farthest_m, grid.width_m(0.5 * grid.columns, grid.distance_m(grid.rows - 1)));
+}
+
+// Ground that is not made of posts tells no spacing: every fifth column does.
+int GroundFan::path_step(const FanGrid& grid, const terrain::TerrainView& view) const {
+  const double spacing_m = view.post_spacing_m();
+  const double farthest_m = spacing_m > 0.0 ? kPathShare * spacing_m : std::numeric_limits<double>::infinity();
+  return step_within(farthest_m, grid.width_m(0.5 * grid.columns, grid.first_distance_m));
+}
+
+// Into the column's place in the strip; the slack behind it is the next one's, who comes later.
+std::size_t GroundFan::read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
+                                   const terrain::TerrainView& view, const Detail* detail, std::size_t lane) {
+  Column& column = *window_;
+  const std::size_t rows = column.places.count;
+  float* height_m = &strip_height_[lane * pitch_];
+  float* gain = &strip_gain_[lane * pitch_];
+  const geo::Length range = geo::Length::metres(static_cast<double>(column.distance_m[rows - 1]));
+  rbm::sample_places(geometry.apex(), azimuth, range, configuration_.fidelity.geodesic_knots, column.distance_m.data(),
+                     column.places);
+  const terrain::SurfaceRun found{
+      {height_m, rows},
+      {column.water.data(), rows},
+      {},
+      view.has_materials() ? std::span(ground_->materials()).first(rows) : std::span<std::int32_t>{}};
+  const std::size_t pending = view.surfaces(column.places.run(), configuration_.fidelity.interpolation, found);
+  const rbm::Look look{geometry.apex(), order.altitude, azimuth, {}, range, order.sim_time, order.band, order.channel};
+  const rbm::Ground::Sample reflects =
+      ground_->reflect(look, column.places.run(), column.water.data(), sin_grazing_.data(), view.has_materials());
+  if (reflects.land != nullptr)
+    std::copy_n(reflects.land, rows, gain);
+  else
+    std::fill_n(gain, rows, plain_gamma_);
+  // The sea's sigma0 is of level water; what is seen square on is less by the sine.
+  if (reflects.sea != nullptr)
+    for (std::size_t row = 0; row < rows; ++row)
+      if (sin_grazing_[row] > 0.0F) gain[row] += reflects.sea[row] / sin_grazing_[row];
+  if (detail != nullptr) detail->modulate(column.places.run(), gain);
+  return pending;
+}
+
+std::size_t GroundFan::read_path(const PatchGeometry& geometry, const FanGrid& grid, geo::Bearing azimuth,
+                                 const terrain::TerrainView& view, float& horizon) {
+  Column& column = *path_;
+  const std::size_t samples = column.places.count;
+  rbm::sample_places(geometry.apex(), azimuth, geo::Length::metres(grid.first_distance_m),
+                     configuration_.fidelity.geodesic_knots, column.distance_m.data(), column.places);
+  const bool peaks = view.has_peaks();
+  const terrain::SurfaceRun found{{column.elevation_m.data(), samples},
+                                  {column.water.data(), samples},
+                                  peaks ? std::span(column.peak_m).first(samples) : std::span<float>{},
+                                  {}};
+  const std::size_t pending = view.surfaces(column.places.run(), configuration_.fidelity.interpolation, found);
+  const std::vector<float>& top_m = peaks ? column.peak_m : column.elevation_m;
+  float tangent = terrain::kNoTangent;
+  for (std::size_t i = 0; i + 1 < samples; ++i) {
+    const Sight& sight = path_sight_[i];
+    const float there = (top_m[i] * sight.cosine - sight.above_m) / (sight.chord_m + top_m[i] * sight.sine);
+    if (there > tangent) tangent = there;  // never for a void
+  }
+  // Lines of posts between the samples.
+  const rbm::EffectiveEarth& earth = geometry.earth();
+  if (view.crests(column.places.run(),
+                  {geometry.altitude_m(), earth.curvature(), std::span(column.distance_m).first(samples)},
+                  std::span(column.crest).first(samples)))
+    tangent = std::max(
+        tangent, *std::max_element(column.crest.begin(), column.crest.begin() + static_cast<std::ptrdiff_t>(samples)));
+  horizon = kNoHorizon;
+  if (tangent > terrain::kNoTangent) {
+    // Rows count the tangent in their own way: what matters is how high the sight line passes the first one.
+    const double height_m = geometry.height_on_sight_m(grid.first_distance_m, static_cast<double>(tangent));
+    horizon = static_cast<float>((height_m - geometry.above_plane_m(grid.first_distance_m)) / grid.first_distance_m);
+  }
+  return pending;
+}
+
+// Of the column just read: lines of posts between its rows. What lies before row 0 is the path's.
+void GroundFan::read_crests(const PatchGeometry& geometry, const PatchTerrain& terrain, std::size_t lane) {
+  Column& column = *window_;
+  const std::size_t rows = column.places.count;
+  float* crest_m = &strip_crest_[lane * pitch_];
+  std::fill_n(crest_m, rows, kNoHorizon);
+  if (terrain.crests.summits) raise_to_summits(geometry, lane);
+  if (!terrain.crests.lines || !terrain.window->crests(column.places.run(),
+                                                       {geometry.altitude_m(), geometry.earth().curvature(),
+                                                        std::span(column.distance_m).first(rows)},
+                                                       std::span(column.crest).first(rows)))
+    return;
+  column.crest[0] = terrain::kNoTangent;
+  const auto plane_m = static_cast<float>(geometry.plane_msl_m());
+  for (std::size_t row = 0; row < rows; ++row) {
+    const Sight& sight = row_sight_[row];
+    const float tangent = column.crest[row];
+    const float height_m = (sight.above_m + tangent * sight.chord_m) / (sight.cosine - tangent * sight.sine) - plane_m;
+    if (tangent > terrain::kNoTangent) crest_m[row] = std::max(crest_m[row], height_m);
+  }
+}
+
+// Where a row stands higher to the eye than both its neighbours, the parabola through the three tells the summit: it
+// hides the row itself if it lies before it, and else the next one.
+void GroundFan::raise_to_summits(const PatchGeometry& geometry, std::size_t lane) {
+  const std::size_t rows = window_->places.count;
+  const float* const distance_m = window_->distance_m.data();
+  const float* const height_m = &strip_height_[lane * pitch_];
+  const float* const gain = &strip_gain_[lane * pitch_];
+  float* const crest_m = &strip_crest_[lane * pitch_];
+  const auto plane_m = static_cast<float>(geometry.plane_msl_m());
+  const auto above_m = [&](std::size_t row) { return row_sight_[row].above_m - plane_m; };
+  const auto tangent = [&](std::size_t row) { return (height_m[row] - above_m(row)) / distance_m[row]; };
+  if (rows < 3) return;
+  float before = tangent(0), here = tangent(1);
+  for (std::size_t row = 1; row + 1 < rows; ++row) {
+    const float after = tangent(row + 1);
+    // A void's height is its neighbour's: the step behind it is no summit.
+    const bool known = gain[row - 1] > 0.0F && gain[row] > 0.0F && gain[row + 1] > 0.0F;
+    if (known && here >= before && here >= after && (here > before || here > after)) {
+      const float lean = after - before;
+      const float summit = here + 0.125F * lean * lean / (here - before + (here - after));
+      const std::size_t hidden = lean < 0.0F ? row : row + 1;
+      crest_m[hidden] = summit * distance_m[hidden] + above_m(hidden);
+    }
+    before = here;
+    here = after;
+  }
+}
+
+void GroundFan::put_crests(const FanGrid& grid, int strip, float* crest_m) const {
+  float* const points = crest_m + grid.at(strip * kStripColumns, 0);
+  for (std::size_t row = 0; row < static_cast<std::size_t>(grid.rows); ++row)
+    for (std::size_t lane = 0; lane < std::size_t{kStripColumns}; ++lane)
+      points[row * kStripColumns + lane] = strip_crest_[lane * pitch_ + row];
+}
+
+// Heights of the column just read count from the map plane; a void takes over its nearer neighbour's.
+void GroundFan::level(const PatchGeometry& geometry, std::size_t lane) {
+  const auto plane_m = static_cast<float>(geometry.plane_msl_m());
+  const std::size_t rows = window_->places.count;
+  float* height_m = &strip_height_[lane * pitch_];
+  float* gain = &strip_gain_[lane * pitch_];
+  int holes = 0;
+  for (std::size_t row = 0; row < rows; ++row) {
+    height_m[row] -= plane_m;
+    holes += std::isnan(height_m[row]) ? 1 : 0;
+  }
+  if (holes == 0) return;
+  // Voids before all ground are as high as the first: they hide nothing of it.
+  const float* const known = std::find_if(height_m, height_m + rows, [](float height) { return !std::isnan(height); });
+  float last_m = known < height_m + rows ? *known : 0.0F;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const bool hole = std::isnan(height_m[row]);
+    if (!hole) last_m = height_m[row];
+    height_m[row] = last_m;
+    if (hole) gain[row] = 0.0F;
+  }
+}
+
+void GroundFan::fill_between(std::size_t step) {
+  const std::size_t rows = window_->places.count;
+  lanes::fill_between(rows, step, strip_height_.data(), pitch_);
+  lanes::fill_between(rows, step, strip_gain_.data(), pitch_);
+}
+
+// Before a strip is put down its place is fetched, a sixteenth with every column that is read for it.
+void GroundFan::fetch_strip(const FanGrid& grid, int column, const GroundArrays& arrays) const {
+  const auto share = static_cast<std::size_t>(grid.rows) / std::size_t{kStripColumns} + 1;
+  const std::size_t strip = grid.at(column - column % kStripColumns, 0);
+  const std::size_t first = share * static_cast<std::size_t>(column % kStripColumns);
+  const std::size_t last = std::min(first + share, static_cast<std::size_t>(grid.rows));
+  for (std::size_t row = first; row < last; ++row) {
+    const SurfacePoint* const points = arrays.surface + strip + row * kStripColumns;
+    hwy::Prefetch(points);
+    hwy::Prefetch(points + kStripColumns / 2);
+  }
+}
+
+// A column's numbers lie one behind the other when read, and sixteen columns' side by side on the fan.
+void GroundFan::put_strip(const FanGrid& grid, int strip, const GroundArrays& arrays) const {
+  lanes::put_side_by_side(static_cast<std::size_t>(grid.rows), strip_gain_.data(), strip_height_.data(), pitch_,
+                          arrays.surface + grid.at(strip * kStripColumns, 0));
+}
+
+}  // namespace yars::model::hrm

@@ -1,0 +1,270 @@
+#include "model/hrm/profile_simd.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "model/hrm/profile_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace yars::model::hrm::lanes::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Tag = hn::CappedTag<float, kStripColumns>;
+using SignedTag = hn::RebindToSigned<Tag>;
+using Floats = hn::Vec<Tag>;
+using Mask = hn::Mask<Tag>;
+
+// Where a wall stands, a step steeper than this is its face; less is ground that has buried it.
+constexpr float kLeastStep = 0.2F;
+// A piece seen end on still covers this share of a row: nothing is divided by zero.
+constexpr float kLeastExtent = 1.0e-3F;
+// So many rows of a strip are added to as rows; what spreads over more is put lane by lane.
+constexpr int kMostRows = 8;
+
+// A point of the profile.
+struct Point {
+  Floats height;  // above the map plane
+  Floats up;      // against the aircraft
+  Floats tangent;
+  Floats gain;
+  Floats row;  // where it appears: placed() fills it in
+};
+
+HWY_INLINE Point point_at(const Strip& strip, int row, std::size_t lane) {
+  const Tag d;
+  const auto at = static_cast<std::size_t>(row) * kStripColumns + lane;
+  Point point;
+  Floats gain;
+  hn::LoadInterleaved2(d, &strip.surface[at].gain, gain, point.height);
+  point.up = hn::Sub(point.height, hn::Set(d, strip.above_m[row]));
+  point.tangent = hn::Mul(point.up, hn::Set(d, strip.inverse_m[row]));
+  point.gain = hn::Abs(gain);
+  return point;
+}
+
+// What is seen of the way up to a point: the point itself, or ground before it that stands higher to the eye. Such
+// ground is seen on its near side and returns at the point's row.
+HWY_INLINE Point topped(const Strip& strip, int row, std::size_t lane, Point point) {
+  if (strip.crest_m == nullptr) return point;
+  const Tag d;
+  const auto crest = hn::Load(d, strip.crest_m + static_cast<std::size_t>(row) * kStripColumns + lane);
+  point.up = hn::Max(point.up, hn::Sub(crest, hn::Set(d, strip.above_m[row])));
+  point.tangent = hn::Mul(point.up, hn::Set(d, strip.inverse_m[row]));
+  return point;
+}
+
+HWY_INLINE Point placed(const Strip& strip, int row, Point point) {
+  const Tag d;
+  point.row = hn::Set(d, static_cast<float>(row));
+  if (!strip.layover) return point;
+  const auto distance = hn::Set(d, strip.distance_m[row]);
+  const auto level = hn::Set(d, strip.level_m[row]);
+  const auto shift = hn::Mul(point.height, hn::Sub(point.height, hn::Add(level, level)));
+  const auto square = hn::Add(hn::Mul(distance, distance), shift);
+  const auto seen_at = hn::Sqrt(hn::Max(square, hn::Zero(d)));
+  point.row = hn::Mul(hn::Sub(seen_at, hn::Set(d, strip.first_distance_m)), hn::Set(d, 1.0F / strip.spacing_m));
+  return point;
+}
+
+// Power spread evenly from one row to another (row k reaches from k - 1/2 to k + 1/2). What falls off the strip is
+// lost.
+struct Stretch {
+  Floats low, high;
+  Floats density;  // power a row; 0 where there is none
+};
+
+// What of it falls onto a row.
+HWY_INLINE Floats share_of(const Stretch& stretch, Floats row) {
+  const Tag d;
+  const auto half = hn::Set(d, 0.5F);
+  const auto covered = hn::Sub(hn::Min(stretch.high, hn::Add(row, half)), hn::Max(stretch.low, hn::Sub(row, half)));
+  return hn::Mul(stretch.density, hn::Max(covered, hn::Zero(d)));
+}
+
+// Lane by lane: each writes to its own column alone; one at rest adds nothing to row 0, which every strip has.
+HWY_INLINE void add_far(const Strip& strip, std::size_t lane, const Stretch& stretch) {
+  const Tag d;
+  const SignedTag di;
+  const auto half = hn::Set(d, 0.5F);
+  const auto most = hn::Set(d, static_cast<float>(strip.rows - 1));
+  auto row = hn::Max(hn::Floor(hn::Add(stretch.low, half)), hn::Zero(d));
+  const auto last = hn::Min(hn::Floor(hn::Add(stretch.high, half)), most);
+  auto active = hn::And(hn::Gt(stretch.density, hn::Zero(d)), hn::Le(row, last));
+  const auto lanes = hn::Add(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(lane)));
+  while (!hn::AllFalse(d, active)) {
+    const auto share = hn::IfThenElseZero(active, share_of(stretch, row));
+    const auto index = hn::Add(hn::ShiftLeft<4>(hn::ConvertTo(di, hn::IfThenElseZero(active, row))), lanes);
+    hn::ScatterIndex(hn::Add(hn::GatherIndex(d, strip.power, index), share), d, strip.power, index);
+    row = hn::Add(row, hn::Set(d, 1.0F));
+    active = hn::And(active, hn::Le(row, last));
+  }
+}
+
+// Both stretches, the first one first. Neighbouring columns look alike, so they fall onto few rows as a rule.
+HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const Stretch& first, const Stretch& second) {
+  const Tag d;
+  const auto half = hn::Set(d, 0.5F);
+  const auto most = hn::Set(d, static_cast<float>(strip.rows - 1));
+  const auto nowhere = hn::Set(d, static_cast<float>(strip.rows));
+  const auto low = hn::IfThenElse(wanted, hn::Min(first.low, second.low), nowhere);
+  const auto high = hn::IfThenElse(wanted, hn::Max(first.high, second.high), hn::Neg(nowhere));
+  const auto begin = hn::Max(hn::Floor(hn::Add(hn::MinOfLanes(d, low), half)), hn::Zero(d));
+  const auto end = hn::Min(hn::Floor(hn::Add(hn::MaxOfLanes(d, high), half)), most);
+  const float rows = hn::GetLane(hn::Sub(end, begin));
+  if (rows >= static_cast<float>(kMostRows)) {
+    add_far(strip, lane, first);
+    add_far(strip, lane, second);
+    return;
+  }
+  auto row = begin;
+  float* power = strip.power + static_cast<std::size_t>(hn::GetLane(begin)) * kStripColumns + lane;
+  const int count = rows >= 0.0F ? static_cast<int>(rows) + 1 : 0;
+  for (int i = 0; i < count; ++i) {
+    hn::Store(hn::Add(hn::Add(hn::Load(d, power), share_of(first, row)), share_of(second, row)), d, power);
+    row = hn::Add(row, hn::Set(d, 1.0F));
+    power += kStripColumns;
+  }
+}
+
+// The faces that stand between two points of the profile.
+struct Walls {
+  Mask there;
+  Floats share;  // of the climb that they fill
+  Floats gain;
+};
+
+HWY_INLINE Walls walls_at(const Strip& strip, std::size_t at, Floats climb, float step) {
+  const Tag d;
+  const SignedTag di;
+  const auto one = hn::Set(d, 1.0F);
+  if (strip.walls == nullptr) return {hn::Lt(one, one), hn::Zero(d), hn::Zero(d)};
+  const hn::RebindToUnsigned<Tag> db;
+  hn::Vec<decltype(db)> steps_returned, steps_high;
+  hn::LoadInterleaved2(db, &strip.walls[at].returned, steps_returned, steps_high);
+  const auto height = hn::ConvertTo(d, hn::BitCast(di, steps_high));
+  const auto there = hn::And(hn::Gt(height, hn::Zero(d)), hn::Gt(climb, hn::Set(d, kLeastStep * step)));
+  if (hn::AllFalse(d, there)) return {there, hn::Zero(d), hn::Zero(d)};
+  const auto sum = hn::ConvertTo(d, hn::BitCast(di, steps_returned));
+  const auto tall = hn::IfThenElse(there, height, one);
+  const auto share = hn::Min(hn::Div(hn::Mul(tall, hn::Set(d, kWallStep_m)), hn::IfThenElse(there, climb, one)), one);
+  return {there, share, hn::Div(sum, tall)};
+}
+
+HWY_INLINE Floats left_by_gases(const GasRow& gas, Floats height_m) {
+  const Tag d;
+  const auto within = hn::Min(hn::Max(height_m, hn::Set(d, gas.lowest_m)), hn::Set(d, gas.highest_m));
+  const auto slope = hn::Add(hn::Set(d, gas.slope), hn::Mul(within, hn::Set(d, gas.bend)));
+  return hn::Add(hn::Set(d, gas.constant), hn::Mul(within, slope));
+}
+
+HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const Point& near, const Point& far,
+                           Mask seen, Floats horizon) {
+  const Tag d;
+  const auto zero = hn::Zero(d);
+  const auto one = hn::Set(d, 1.0F);
+  const auto half = hn::Set(d, 0.5F);
+  // The horizon is never below the nearer end: where it is not above, all of the piece is seen.
+  const auto whole = hn::And(seen, hn::Ge(near.tangent, horizon));
+  auto share = hn::IfThenElseZero(seen, one);
+  if (!hn::AllTrue(d, hn::Or(whole, hn::Not(seen)))) {
+    const auto rise = hn::Max(hn::Sub(far.tangent, near.tangent), hn::Set(d, 1.0e-20F));
+    const auto part = hn::Min(hn::Div(hn::Sub(far.tangent, horizon), rise), one);
+    share = hn::IfThenElseZero(seen, hn::IfThenElse(whole, one, part));
+  }
+
+  const float step = strip.distance_m[row] - strip.distance_m[row - 1];
+  const auto distance = hn::Set(d, 0.5F * (strip.distance_m[row] + strip.distance_m[row - 1]));
+  const auto up = hn::Mul(half, hn::Add(near.up, far.up));
+  const auto climb = hn::Sub(far.up, near.up);
+  const auto across = hn::Sub(hn::Mul(distance, climb), hn::Mul(up, hn::Set(d, step)));
+  const auto slant = hn::Sqrt(hn::Add(hn::Mul(distance, distance), hn::Mul(up, up)));
+  auto width = hn::Div(hn::Mul(hn::Mul(hn::Load(d, strip.arc + lane), distance), share), slant);
+  if (strip.gas != nullptr) width = hn::Mul(width, left_by_gases(strip.gas[row], far.height));
+  const auto area = hn::Mul(width, hn::Max(across, zero));
+
+  const Walls walls = walls_at(strip, static_cast<std::size_t>(row) * kStripColumns + lane, climb, step);
+  const auto halves = hn::AndNot(walls.there, whole);
+  const auto middle = hn::Mul(half, hn::Add(near.row, far.row));
+  const auto begin = hn::Sub(far.row, hn::Mul(share, hn::Sub(far.row, near.row)));
+  // A wall is its climb alone; what is level of the piece, and what no wall fills, is the ground before it.
+  const auto face = hn::Mul(hn::Mul(width, hn::Mul(distance, climb)), walls.share);
+  const auto built = hn::Add(hn::Mul(face, walls.gain), hn::Mul(hn::Max(hn::Sub(area, face), zero), near.gain));
+  // Ground belongs to the nearer of two rows: half of a piece each.
+  const auto half_area = hn::Mul(half, area);
+  const auto open = hn::Mul(hn::IfThenElse(halves, half_area, area), far.gain);
+  // A wall stands within half a row of the farther one, and so does its foot.
+  const auto foot_row = hn::IfThenElse(hn::And(walls.there, whole), hn::Add(begin, one), begin);
+  const auto start = hn::IfThenElse(halves, middle, foot_row);
+  const auto extent = hn::Max(hn::Abs(hn::Sub(far.row, start)), hn::Set(d, kLeastExtent));
+  const auto rows_inverse = hn::Div(one, extent);
+  Stretch first, second;
+  first.low = hn::Min(near.row, middle);
+  first.high = hn::Add(first.low, extent);
+  first.density = hn::IfThenElseZero(halves, hn::Mul(hn::Mul(half_area, near.gain), rows_inverse));
+  second.low = hn::Min(start, far.row);
+  second.high = hn::Add(second.low, extent);
+  second.density = hn::IfThenElseZero(seen, hn::Mul(hn::IfThenElse(walls.there, built, open), rows_inverse));
+  add(strip, lane, seen, first, second);
+
+  if (!(strip.double_bounce > 0.0F)) return;
+  const auto foot = hn::And(walls.there, whole);
+  if (hn::AllFalse(d, foot)) return;
+  // From wall to ground and from ground to wall: every such path is as long as to the foot.
+  const auto bounce = hn::Mul(hn::Mul(face, walls.gain), hn::Set(d, strip.double_bounce / kLeastExtent));
+  add_far(strip, lane, {foot_row, hn::Add(foot_row, hn::Set(d, kLeastExtent)), hn::IfThenElseZero(foot, bounce)});
+}
+
+// Leaves no walls to the next map. Most rows have none: what is not written need not go back to memory.
+HWY_INLINE void clear_walls(const Strip& strip, int row, std::size_t lane) {
+  if (strip.walls == nullptr) return;
+  const hn::RebindToUnsigned<Tag> db;
+  const auto at = static_cast<std::size_t>(row) * kStripColumns + lane;
+  std::uint32_t* const first = &strip.walls[at].returned;
+  std::uint32_t* const second = first + hn::Lanes(db);
+  if (hn::AllTrue(db, hn::Eq(hn::Or(hn::Load(db, first), hn::Load(db, second)), hn::Zero(db)))) return;
+  hn::Store(hn::Zero(db), db, first);
+  hn::Store(hn::Zero(db), db, second);
+}
+
+void cast_profile(const Strip& given) {
+  const Tag d;
+  const Strip strip = given;  // a copy, so that no store of power could be one to it
+  for (std::size_t lane = 0; lane < kStripColumns; lane += hn::Lanes(d)) {
+    Point near = point_at(strip, 0, lane);
+    auto horizon = hn::Max(hn::Load(d, strip.horizon + lane), near.tangent);
+    bool near_placed = false;
+    clear_walls(strip, 0, lane);
+    for (int row = 1; row < strip.rows; ++row) {
+      Point far = point_at(strip, row, lane);
+      Point top = topped(strip, row, lane, far);
+      const auto seen = hn::Gt(top.tangent, horizon);
+      const bool any = !hn::AllFalse(d, seen);
+      if (any) {
+        if (!near_placed) near = placed(strip, row - 1, near);
+        far = placed(strip, row, far);
+        top.row = far.row;
+        cast_piece(strip, row, lane, near, top, seen, horizon);
+      }
+      clear_walls(strip, row, lane);
+      near_placed = any;
+      horizon = hn::Max(horizon, top.tangent);
+      near = far;
+    }
+  }
+}
+
+}  // namespace yars::model::hrm::lanes::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace yars::model::hrm::lanes {
+
+HWY_EXPORT(cast_profile);
+
+void cast_profile(const Strip& strip) {
+  HWY_DYNAMIC_DISPATCH(cast_profile)(strip);
+}
+
+}  // namespace yars::model::hrm::lanes
+#endif  // HWY_ONCE

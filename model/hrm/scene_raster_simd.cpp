@@ -1,0 +1,213 @@
+#include "model/hrm/scene_raster_simd.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "model/hrm/scene_raster_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// Behind highway.h, or it would have no target yet.
+#include "model/hrm/facet-inl.hpp"
+#include "model/hrm/small_triangles-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace yars::model::hrm::lanes::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr float kWide = 12.0F;  // columns of a triangle that is drawn by itself
+
+// Column by column, for a column is a profile: a surface reaches half a row beyond its edges, so that on average it is
+// as long as it is, and its height there is that of the edge. One triangle, a lane a column. `put(at, row, near, far,
+// wanted)` draws a vector of grid points.
+template <class Put>
+HWY_INLINE void fill_wide(const Triangle& triangle, const Canvas& canvas, float reach, const Put& put) {
+  const Tag d;
+  const FanGrid& grid = *canvas.grid;
+  const float first = std::max(hn::GetLane(hn::Ceil(triangle.left.column)), canvas.limits.first_column);
+  const float last = std::min(hn::GetLane(hn::Ceil(triangle.right.column)), canvas.limits.last_column);
+  if (!(first < last)) return;
+  const auto lanes = static_cast<int>(hn::Lanes(d));
+  const auto iota = hn::Iota(d, 0.0F);
+  const Edges rows_at(triangle, &Corner::row);
+  for (int start = static_cast<int>(first) / lanes * lanes; start < static_cast<int>(last); start += lanes) {
+    const auto column = hn::Add(iota, set(static_cast<float>(start)));
+    const auto active = hn::And(hn::Ge(column, set(first)), hn::Lt(column, set(last)));
+    const auto [along, beside] = rows_at.at(column);
+    const auto near = hn::Min(along, beside);
+    const auto far = hn::Max(along, beside);
+    const auto begin = hn::IfThenElse(active, hn::Max(hn::Ceil(hn::Sub(near, set(reach))), hn::Zero(d)),
+                                      set(static_cast<float>(grid.rows)));
+    const auto end =
+        hn::IfThenElseZero(active, hn::Min(hn::Ceil(hn::Add(far, set(reach))), set(static_cast<float>(grid.rows))));
+    const auto from = static_cast<int>(hn::GetLane(hn::MinOfLanes(d, begin)));
+    const auto to = static_cast<int>(hn::GetLane(hn::MaxOfLanes(d, end)));
+    for (int line = from; line < to; ++line) {
+      const auto row = set(static_cast<float>(line));
+      put(grid.at(start, line), column, hn::Min(hn::Max(row, near), far),
+          hn::And(hn::Ge(row, begin), hn::Lt(row, end)));
+    }
+  }
+}
+
+HWY_INLINE void fill_high(const Triangle& triangle, const Facet& facet, Floats gain, const Canvas& canvas) {
+  const Tag d;
+  const auto negative = hn::Neg(gain);
+  fill_wide(triangle, canvas, kSurfaceReach, [&](std::size_t at, Floats column, Floats row, Mask wanted) HWY_ATTR {
+    const auto base = hn::Add(facet.value, hn::Mul(facet.by_column, column));
+    const auto height = plain(triangle.within(hn::Add(base, hn::Mul(facet.by_row, row))));
+    auto* const points = &canvas.arrays.surface[at].gain;
+    Floats old_gain, old_height;
+    hn::LoadInterleaved2(d, points, old_gain, old_height);
+    const auto stronger = hn::RebindMask(d, hn::Gt(hn::BitCast(BitsTag(), negative), hn::BitCast(BitsTag(), old_gain)));
+    const auto best = hn::Or(hn::Gt(height, old_height), hn::And(hn::Eq(height, old_height), stronger));
+    const auto drawn = hn::And(wanted, best);
+    hn::StoreInterleaved2(hn::IfThenElse(drawn, negative, old_gain), hn::IfThenElse(drawn, height, old_height), d,
+                          points);
+  });
+}
+
+HWY_INLINE Corner corner_of(const GridVertices& vertices, std::size_t i) {
+  return {set(vertices.column[i]), set(vertices.row[i]), set(vertices.height_m[i])};
+}
+
+HWY_INLINE std::array<std::size_t, 3> corners_of(const FoundTriangles& triangles, std::size_t i) {
+  const auto corner = [&](std::size_t k) { return static_cast<std::size_t>(triangles.corner[k][i]); };
+  return {corner(0), corner(1), corner(2)};
+}
+
+HWY_INLINE Triangle ordered(Corner a, Corner b, Corner c) {
+  order(a, b);
+  order(b, c);
+  order(a, b);
+  return {a, b, c};
+}
+
+void paint_ground(const FoundTriangles& triangles, const TileSurfaces& tile, const GridVertices& vertices,
+                  const Canvas& canvas) {
+  const Tag d;
+  for (std::size_t i = 0; i < triangles.count; ++i) {
+    const std::array<std::size_t, 3> corners = corners_of(triangles, i);
+    const Corner a = corner_of(vertices, corners[0]);
+    const Corner b = corner_of(vertices, corners[1]);
+    const Corner c = corner_of(vertices, corners[2]);
+    const Facet facet = facet_of(a, b, c, canvas.limits);
+    if (!hn::AllTrue(d, hn::Gt(facet.area, hn::Zero(d)))) continue;
+    auto gain = set(tile.gamma[tile.kind[triangles.number[i]]]);
+    if (corners[0] >= vertices.bare) {
+      const auto facing = [&](int k) HWY_ATTR { return set(vertices.facing[corners[k] - vertices.bare]); };
+      gain = hn::Mul(gain, shading(facing(0), facing(1), facing(2), facet));
+    }
+    fill_wide(ordered(a, b, c), canvas, 0.0F, [&](std::size_t at, Floats, Floats, Mask wanted) HWY_ATTR {
+      auto* const points = &canvas.arrays.surface[at].gain;
+      Floats old, height;
+      hn::LoadInterleaved2(d, points, old, height);
+      hn::StoreInterleaved2(hn::IfThenElse(hn::And(wanted, hn::Ge(old, hn::Zero(d))), gain, old), height, d, points);
+    });
+  }
+}
+
+// The corners of a vector's triangles.
+struct CornerNumbers {
+  hn::Vec<SignedTag> first, second, third;
+};
+HWY_INLINE CornerNumbers numbers_at(const FoundTriangles& triangles, std::size_t i) {
+  const SignedTag di;
+  return {hn::LoadU(di, &triangles.corner[0][i]), hn::LoadU(di, &triangles.corner[1][i]),
+          hn::LoadU(di, &triangles.corner[2][i])};
+}
+HWY_INLINE Corner gather(const GridVertices& vertices, hn::Vec<SignedTag> i) {
+  const Tag d;
+  return {hn::GatherIndex(d, vertices.column, i), hn::GatherIndex(d, vertices.row, i),
+          hn::GatherIndex(d, vertices.height_m, i)};
+}
+
+HWY_INLINE Floats shaded(Floats gamma, const GridVertices& vertices, const CornerNumbers& corners, const Facet& facet) {
+  const Tag d;
+  const SignedTag di;
+  const auto bare = hn::Set(di, static_cast<std::int32_t>(vertices.bare));
+  const auto curved = hn::Gt(corners.first, hn::Sub(bare, hn::Set(di, 1)));
+  if (hn::AllFalse(di, curved)) return gamma;
+  const auto facing = [&](hn::Vec<SignedTag> corner) HWY_ATTR {
+    return hn::GatherIndex(d, vertices.facing, hn::Max(hn::Sub(corner, bare), hn::Zero(di)));
+  };
+  const auto factor = shading(facing(corners.first), facing(corners.second), facing(corners.third), facet);
+  return hn::IfThenElse(hn::RebindMask(d, curved), hn::Mul(gamma, factor), gamma);
+}
+
+// Those of a vector that are large, one by one.
+void draw_wide(const FoundTriangles& triangles, std::size_t first, const float* gain, Mask wide,
+               const GridVertices& vertices, const Canvas& canvas) {
+  const Tag d;
+  HWY_ALIGN float which[kStripColumns];
+  hn::Store(hn::IfThenElseZero(wide, set(1.0F)), d, which);
+  for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+    if (which[lane] == 0.0F) continue;
+    const std::array<std::size_t, 3> corners = corners_of(triangles, first + lane);
+    const Corner a = corner_of(vertices, corners[0]);
+    const Corner b = corner_of(vertices, corners[1]);
+    const Corner c = corner_of(vertices, corners[2]);
+    fill_high(ordered(a, b, c), facet_of(a, b, c, canvas.limits), set(gain[lane]), canvas);
+  }
+}
+
+void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, const GridVertices& vertices,
+                   const Canvas& canvas, Fragments& fragments) {
+  const Tag d;
+  SmallTriangles small(canvas, fragments);
+  HWY_ALIGN float gamma[kStripColumns] = {};
+  HWY_ALIGN float cardinal[kStripColumns] = {};
+  const std::size_t step = hn::Lanes(d);
+  for (std::size_t i = 0; i < triangles.count; i += step) {
+    const std::size_t count = std::min(step, triangles.count - i);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const std::size_t kind = tile.kind[triangles.number[i + lane]];
+      gamma[lane] = tile.gamma[kind];
+      cardinal[lane] = tile.cardinal[kind];
+    }
+    // What stands behind the last is an old corner: in the tile's numbers or before them, and not drawn.
+    const auto there = hn::FirstN(d, count);
+    const CornerNumbers corners = numbers_at(triangles, i);
+    const Corner a = gather(vertices, corners.first);
+    const Corner b = gather(vertices, corners.second);
+    const Corner c = gather(vertices, corners.third);
+    const Facet facet = facet_of(a, b, c, canvas.limits);
+    const Triangle triangle = ordered(a, b, c);
+    const auto wall = hn::And(there, hn::And(facet.steep, hn::Gt(facet.towards, hn::Zero(d))));
+    if (!hn::AllFalse(d, wall))
+      small.stand(triangle, wall_gain(canvas.cardinal, facet, hn::Load(d, gamma), hn::Load(d, cardinal)), wall);
+    const auto above = hn::And(there, hn::Gt(facet.area, hn::Zero(d)));
+    if (hn::AllFalse(d, above)) continue;
+    const auto gain = shaded(hn::Load(d, gamma), vertices, corners, facet);
+    const auto wide = hn::And(above, hn::Gt(hn::Sub(triangle.right.column, triangle.left.column), set(kWide)));
+    small.fill(triangle, facet, gain, hn::AndNot(wide, above));
+    small.flush(false);
+    if (hn::AllFalse(d, wide)) continue;
+    HWY_ALIGN float gains[kStripColumns];
+    hn::Store(gain, d, gains);
+    draw_wide(triangles, i, gains, wide, vertices, canvas);
+  }
+  small.flush(true);
+}
+
+}  // namespace yars::model::hrm::lanes::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace yars::model::hrm::lanes {
+
+HWY_EXPORT(paint_ground);
+HWY_EXPORT(draw_standing);
+
+void paint_ground(const FoundTriangles& triangles, const TileSurfaces& tile, const GridVertices& vertices,
+                  const Canvas& canvas) {
+  HWY_DYNAMIC_DISPATCH(paint_ground)(triangles, tile, vertices, canvas);
+}
+void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, const GridVertices& vertices,
+                   const Canvas& canvas, Fragments& fragments) {
+  HWY_DYNAMIC_DISPATCH(draw_standing)(triangles, tile, vertices, canvas, fragments);
+}
+
+}  // namespace yars::model::hrm::lanes
+#endif  // HWY_ONCE

@@ -1,0 +1,197 @@
+#include "model/kernel/doppler_modes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "lib/failure/require.hpp"
+#include "lib/radar/chance.hpp"
+#include "lib/radar/limits.hpp"
+#include "lib/radar/map_formation.hpp"
+#include "lib/radar/modes.hpp"
+
+namespace yars::model::kernel {
+
+namespace {
+// Of the scan that takes sector_time_s, and that the others stay within.
+double full_width_deg(const radar::RadarConfiguration& configuration) {
+  const std::vector<double>& widths = configuration.scan_widths_deg;
+  return *std::max_element(widths.begin(), widths.end());
+}
+// A scan turns round in a tenth of the time that it sweeps: so much faster it has to sweep.
+constexpr double kWithTurn = 1.1;
+
+double sector_rate_dps(const radar::RadarConfiguration& configuration) {
+  return kWithTurn * full_width_deg(configuration) / configuration.high_resolution.sector_time_s;
+}
+}  // namespace
+
+radar::RadarConfiguration sharpened_configuration(const radar::RadarConfiguration& configuration) {
+  radar::RadarConfiguration sharpened = configuration;
+  sharpened.fidelity.samples = radar::kCellsOfMap;
+  // Neighbours are seen apart: nothing of them is smeared into one another.
+  sharpened.fidelity.azimuth_smear = false;
+  sharpened.fidelity.sub_beams = 1;
+  constexpr double kMetresAMicrosecond = 149.896229;  // c / 2
+  for (std::size_t i = 0; i < sharpened.pulse_us.size() && i < sharpened.ranges_nm.size(); ++i) {
+    const double cell_m = geo::Length::nautical_miles(sharpened.ranges_nm[i]).metres() / radar::kCellsOfMap;
+    sharpened.pulse_us[i] = std::min(sharpened.pulse_us[i], cell_m / kMetresAMicrosecond);
+  }
+  return sharpened;
+}
+
+int ticks_a_sharpened_sweep(const radar::RadarConfiguration& configuration) {
+  const double degrees_a_tick = sector_rate_dps(configuration) * radar::kTickSeconds;
+  return std::max(1, static_cast<int>(std::lround(configuration.high_resolution.sector_step_deg / degrees_a_tick)));
+}
+
+antenna::Sector sharpened_sector(const databuffer::RadarCommand& command, const Pose& pose,
+                                 const radar::RadarConfiguration& configuration) {
+  antenna::Sector sector;
+  sector.width_deg = command.scan_width_deg;
+  sector.rate_dps = sector_rate_dps(configuration);
+  const geo::GeoPoint cursor{command.cursor_latitude_deg, command.cursor_longitude_deg};
+  const bool known = (command.flags & databuffer::kCursorValid) != 0U && std::isfinite(cursor.latitude_deg) &&
+                     std::isfinite(cursor.longitude_deg);
+  const double spare_deg = 0.5 * (full_width_deg(configuration) - sector.width_deg);
+  if (!known || !(spare_deg > 0.0)) return sector;
+  const geo::Bearing middle = antenna::scan_centre(pose.platform, configuration.antenna);
+  const geo::Angle off = geo::geodesic_inverse(pose.place, cursor).azimuth_at_start - middle;
+  sector.offset_deg = std::clamp(off.degrees(), -spare_deg, spare_deg);
+  return sector;
+}
+
+SharpenedCell sharpened_cell(geo::Bearing left, geo::Bearing right, const Pose& pose,
+                             const radar::RadarConfiguration& configuration) {
+  const geo::Angle width = right - left;
+  const geo::Bearing azimuth = left + 0.5 * width;
+  const geo::Angle squint = azimuth - pose.platform.ground_track;
+  const double cell_deg = radar::sharpened_beamwidth(squint, pose.ground_speed, configuration).degrees();
+  if (cell_deg <= configuration.high_resolution.sector_step_deg) return {azimuth, width};
+  const double middle_deg = (std::floor(squint.degrees() / cell_deg) + 0.5) * cell_deg;
+  return {pose.platform.ground_track + geo::Angle::degrees(middle_deg), geo::Angle::degrees(cell_deg)};
+}
+
+geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m) {
+  const double distance_m = geo::geodesic_inverse(pose.place, target).distance.metres();
+  const double height_m = pose.altitude.metres() - (std::isnan(ground_m) ? 0.0 : ground_m);
+  return geo::Angle::radians(-std::atan2(height_m, std::max(distance_m, 1.0)));
+}
+
+using databuffer::ModelStatus;
+using databuffer::ModelTick;
+using geo::Vector3;
+using radar::Mode;
+
+namespace {
+
+std::int64_t ticks_of(double seconds) {
+  return std::max<std::int64_t>(1, std::llround(seconds / radar::kTickSeconds));
+}
+
+bool is_finite(Vector3 vector) {
+  return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);
+}
+
+bool transmits(const databuffer::RadarCommand& command) {
+  return command.power == static_cast<std::uint8_t>(radar::Power::operate) &&
+         (command.flags & databuffer::kSniff) == 0U;
+}
+
+bool lets_interleave(std::uint8_t mode) {
+  return mode <= static_cast<std::uint8_t>(Mode::beacon);  // RBM, HRM PPI, patch, BCN
+}
+
+}  // namespace
+
+VelocityRound::VelocityRound(const radar::RadarConfiguration& configuration)
+    : configuration_(&configuration),
+      // The noise that is configured is the solution's; a beam has what the geometry makes of it.
+      beam_noise_mps_(configuration.navigation.velocity_noise_mps /
+                      radar::horizontal_dilution(configuration.navigation).value_or(1.0)),
+      dwell_ticks_(static_cast<std::uint32_t>(ticks_of(configuration.navigation.beam_dwell_s))),
+      period_ticks_(ticks_of(configuration.navigation.velocity_period_s)) {
+  YARS_REQUIRE(configuration.navigation.beam_depressions_deg.size(), ==, beams());
+  YARS_REQUIRE(beams(), >=, radar::kLeastVelocityBeams);
+  YARS_REQUIRE(beams(), <=, radar::kMostVelocityBeams);
+}
+
+void VelocityRound::resume(const ModelStatus& status) {
+  const Vector3 measured{status.velocity_north_mps, status.velocity_east_mps, status.velocity_down_mps};
+  measured_mps_ = is_finite(measured) ? measured : Vector3{};
+  due_tick_ = status.velocity_due_tick;
+  count_ = status.velocity_count;
+  beam_ = status.velocity_beam <= beams() ? status.velocity_beam : std::uint8_t{0};
+  dwell_ = beam_ > 0 ? std::min(status.velocity_dwell, dwell_ticks_) : 0U;
+}
+
+void VelocityRound::describe(ModelStatus& status) const {
+  status.velocity_north_mps = measured_mps_.x;
+  status.velocity_east_mps = measured_mps_.y;
+  status.velocity_down_mps = measured_mps_.z;
+  status.velocity_due_tick = due_tick_;
+  status.velocity_count = count_;
+  status.velocity_dwell = dwell_;
+  status.velocity_beam = beam_;
+}
+
+void VelocityRound::follow(const ModelTick& tick) {
+  const databuffer::RadarCommand& command = tick.command;
+  if ((command.flags & databuffer::kIpvu) == 0U) {
+    due_tick_ = -1;
+  } else if (due_tick_ < 0 || due_tick_ - period_ticks_ > tick.tick) {
+    // Just selected, or the ticks began anew.
+    due_tick_ = tick.tick;
+  }
+  const bool interleaves = due_tick_ >= 0 && tick.tick >= due_tick_ && lets_interleave(command.mode);
+  wanted_ = transmits(command) && (command.mode == static_cast<std::uint8_t>(Mode::pvu) || interleaves);
+  if (!wanted_) give_up();
+}
+
+void VelocityRound::give_up() {
+  beam_ = 0;
+  dwell_ = 0;
+}
+
+VelocityRound::Direction VelocityRound::direction_of(std::size_t beam, const antenna::Platform& platform) const {
+  const radar::NavigationConfiguration& navigation = configuration_->navigation;
+  return {
+      antenna::scan_centre(platform, configuration_->antenna) + geo::Angle::degrees(navigation.beam_azimuths_deg[beam]),
+      geo::Angle::degrees(-navigation.beam_depressions_deg[beam])};
+}
+
+void VelocityRound::step(const ModelTick& tick, const Pose& pose, bool arrived, bool within_gimbal) {
+  if (!within_gimbal) return end(tick);
+  if (beam_ == 0) beam_ = 1;
+  if (arrived) ++dwell_;
+  if (dwell_ < dwell_ticks_) return;
+  dwell_ = 0;
+  ++beam_;
+  if (beam_ <= beams()) return;
+  measure(pose);
+  end(tick);
+}
+
+void VelocityRound::end(const ModelTick& tick) {
+  give_up();
+  if (due_tick_ >= 0) due_tick_ = tick.tick + period_ticks_;
+  follow(tick);
+}
+
+void VelocityRound::measure(const Pose& pose) {
+  std::array<Vector3, radar::kMostVelocityBeams> lines;
+  std::array<double, radar::kMostVelocityBeams> speeds_mps{};
+  for (std::size_t i = 0; i < beams(); ++i) {
+    const Direction beam = direction_of(i, pose.platform);
+    lines[i] = radar::line_of_sight(beam.azimuth, beam.elevation);
+    speeds_mps[i] =
+        dot(lines[i], pose.velocity_mps) + beam_noise_mps_ * radar::standard_normal(configuration_->seed, count_, i);
+  }
+  const auto velocity_mps = radar::velocity_of({lines.data(), beams()}, {speeds_mps.data(), beams()});
+  if (!velocity_mps) return;
+  measured_mps_ = *velocity_mps;
+  ++count_;
+}
+
+}  // namespace yars::model::kernel

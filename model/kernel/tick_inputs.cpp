@@ -1,0 +1,100 @@
+#include "model/kernel/tick_inputs.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "databuffer/records/navigation.hpp"
+#include "lib/radar/limits.hpp"
+#include "lib/radar/modes.hpp"
+#include "model/kernel/sweep_chain.hpp"
+#include "model/terrain/sampling/terrain_view.hpp"
+
+namespace yars::model::kernel {
+
+namespace {
+constexpr double kLeastAltitudeM = -1000.0;  // [m] MSL, of the record
+constexpr double kGreatestAltitudeM = 200000.0;
+// [NM] 18 m, a tenth of the shortest pulse: below it a sample's inverse cube leaves the numbers of float
+constexpr double kLeastRangeNm = 0.01;
+constexpr double kGreatestRangeNm = 1000.0;  // [NM] beyond it the series of the earth's curvature lose accuracy
+}  // namespace
+
+std::optional<Pose> pose_of(const databuffer::Ownship& ownship) {
+  const std::array<double, 9> values{ownship.latitude_deg,       ownship.longitude_deg,     ownship.altitude_msl_m,
+                                     ownship.heading_deg,        ownship.pitch_deg,         ownship.roll_deg,
+                                     ownship.velocity_north_mps, ownship.velocity_east_mps, ownship.velocity_down_mps};
+  if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) return {};
+  if (std::abs(ownship.latitude_deg) > 90.0 || std::abs(ownship.longitude_deg) > 180.0) return {};
+  if (ownship.altitude_msl_m < kLeastAltitudeM || ownship.altitude_msl_m > kGreatestAltitudeM) return {};
+  Pose pose;
+  pose.place = {ownship.latitude_deg, ownship.longitude_deg};
+  pose.altitude = geo::AltitudeMsl::metres(ownship.altitude_msl_m);
+  pose.platform.heading = geo::Bearing::degrees(ownship.heading_deg);
+  pose.platform.pitch = geo::Angle::degrees(ownship.pitch_deg);
+  pose.platform.roll = geo::Angle::degrees(ownship.roll_deg);
+  pose.platform.ground_track = databuffer::ground_track_of(ownship);
+  pose.ground_speed = geo::Speed::metres_per_second(std::hypot(ownship.velocity_north_mps, ownship.velocity_east_mps));
+  pose.velocity_mps = {ownship.velocity_north_mps, ownship.velocity_east_mps, ownship.velocity_down_mps};
+  return pose;
+}
+
+radar::MapViewpoint viewpoint_of(const Pose& pose) {
+  return {pose.place, pose.platform.heading, pose.platform.ground_track};
+}
+
+bool asks_for_video(const databuffer::RadarCommand& command) {
+  const bool scans = command.mode == static_cast<std::uint8_t>(radar::Mode::rbm) ||
+                     command.mode == static_cast<std::uint8_t>(radar::Mode::hrm) ||
+                     command.mode == static_cast<std::uint8_t>(radar::Mode::beacon);
+  return command.power == static_cast<std::uint8_t>(radar::Power::operate) && scans &&
+         command.range_nm >= kLeastRangeNm && command.range_nm <= kGreatestRangeNm;
+}
+
+std::vector<rbm::MovingPoint> points_of(const databuffer::Traffic& traffic) {
+  const geo::Duration since = sim_time_of(traffic.tick * radar::kTickNanoseconds);
+  const auto count = std::min<std::size_t>(traffic.count, databuffer::kMostTraffic);
+  std::vector<rbm::MovingPoint> points;
+  points.reserve(count);
+  for (const databuffer::TrafficEntity& entity : std::span(traffic.entities).first(count)) {
+    const auto heading = geo::Bearing::radians(std::atan2(entity.velocity_east_mps, entity.velocity_north_mps));
+    points.push_back({geo::GeodesicRay({entity.latitude_deg, entity.longitude_deg}, heading),
+                      std::hypot(entity.velocity_north_mps, entity.velocity_east_mps), entity.cross_section_m2,
+                      entity.height_m, since});
+  }
+  return points;
+}
+
+int scan_detail(const radar::Fidelity& fidelity, geo::Length range) {
+  if (!(fidelity.posts_per_sample > 0.0)) return 0;
+  const int samples = std::clamp(fidelity.samples, 1, radar::kMaxSamples);
+  return terrain::detail_for(range.metres() / samples / fidelity.posts_per_sample);
+}
+
+namespace {
+// What a rung costs times the one below, until it has been tried: samples, rays and effects by count,
+// docs/performance.md.
+constexpr std::array<double, FidelityGovernor::kLadder.size()> kCostOverLower{1.0, 3.0, 30.0, 25.0};
+constexpr double kMargin = 0.7;    // of the share: a finer preset must promise to stay below, or it would come and go
+constexpr int kMemoryScans = 120;  // [scans] two minutes at FULL: after that the scene is another one
+}  // namespace
+
+double FidelityGovernor::expected_load(std::size_t rung, double load) const {
+  const Memory& memory = memory_[rung];
+  if (memory.known && memory.scans_ago < kMemoryScans) return memory.load;
+  return load * kCostOverLower[rung];
+}
+
+void FidelityGovernor::scanned(double load) {
+  if (!std::isfinite(load)) return;
+  for (Memory& memory : memory_) ++memory.scans_ago;
+  memory_[rung_] = {load, 0, true};
+  if (load > core_share_) {
+    if (rung_ > 0) --rung_;
+    return;
+  }
+  if (rung_ + 1 < kLadder.size() && expected_load(rung_ + 1, load) < kMargin * core_share_) ++rung_;
+}
+
+}  // namespace yars::model::kernel

@@ -1,0 +1,140 @@
+#include "model/physics/clutter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/geo/quantity.hpp"
+
+namespace yars::model::rbm {
+
+namespace {
+// One step of splitmix64 (Steele, Lea, Flood 2014).
+std::uint64_t mixed(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15ULL;
+  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31U);
+}
+}  // namespace
+
+NoiseState make_noise_state(const NoiseKey& key) {
+  const std::uint64_t place = (static_cast<std::uint64_t>(key.scan) << 32U) | key.sweep;
+  const std::uint64_t bits = mixed(mixed(key.seed) ^ place);
+  return {static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32U)};
+}
+
+}  // namespace yars::model::rbm
+
+namespace yars::model::reflectivity {
+
+namespace {
+constexpr double kMetresPerDegree = 60.0 * geo::kMetresPerNauticalMile;  // [m] of latitude, to half a percent
+
+// The finalizer "lowbias32" (C. Wellons, "hash prospector"): every bit in moves every bit out.
+std::uint32_t mixed(std::uint32_t x) {
+  x ^= x >> 16U;
+  x *= 0x7feb352dU;
+  x ^= x >> 15U;
+  x *= 0x846ca68bU;
+  return x ^ (x >> 16U);
+}
+}  // namespace
+
+GroundGrid make_ground_grid(double edge_m) {
+  GroundGrid grid;
+  grid.rows_per_degree = kMetresPerDegree / edge_m;
+  for (std::size_t band = 0; band < grid.columns.size(); ++band) {
+    const double latitude_deg = static_cast<double>(band) - 89.5;
+    const double around = 360.0 * grid.rows_per_degree * std::cos(latitude_deg * geo::kRadiansPerDegree);
+    grid.columns[band] = std::max(1.0, std::round(around));
+  }
+  return grid;
+}
+
+std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint place) {
+  const double north_deg = place.latitude_deg + 90.0;
+  const auto band = static_cast<std::size_t>(std::clamp(north_deg, 0.0, 179.0));
+  const double turns = place.longitude_deg / 360.0 + 0.5;
+  // By way of signed integers: those a loop converts many at a time.
+  const auto row = static_cast<std::int32_t>(std::max(0.0, north_deg * grid.rows_per_degree));
+  const auto column = static_cast<std::int32_t>((turns - std::floor(turns)) * grid.columns[band]);
+  return mixed(static_cast<std::uint32_t>(row) * kRowFactor + static_cast<std::uint32_t>(column));
+}
+
+namespace {
+constexpr double kSmall = 1e-15;  // a term or a factor that changes nothing any more
+constexpr int kMostTerms = 10000;
+
+// By the power series; quick below the mean.
+double lower_series(double shape, double x) {
+  double term = 1.0 / shape;
+  double sum = term;
+  for (int n = 1; n < kMostTerms && term > sum * kSmall; ++n) {
+    term *= x / (shape + n);
+    sum += term;
+  }
+  return sum * std::exp(shape * std::log(x) - x - std::lgamma(shape));
+}
+
+// The upper one by the continued fraction x + 1 - a - 1(1 - a)/(x + 3 - a - 2(2 - a)/(...)), Lentz's method.
+double upper_fraction(double shape, double x) {
+  double b = x + 1.0 - shape;
+  double d = 1.0 / b;
+  double c = 1e300;
+  double product = d;
+  for (int n = 1; n < kMostTerms; ++n) {
+    const double a = -n * (n - shape);
+    b += 2.0;
+    d = 1.0 / (a * d + b);
+    c = b + a / c;
+    product *= c * d;
+    if (std::abs(c * d - 1.0) < kSmall) break;
+  }
+  return product * std::exp(shape * std::log(x) - x - std::lgamma(shape));
+}
+
+// Where P(shape, x) reaches a share, beyond `low`: Newton's steps by the density, halved into the bracket.
+double quantile(double shape, double share, double low) {
+  double high = std::max(2.0 * low, shape + 1.0);
+  while (incomplete_gamma(shape, high) < share) high *= 2.0;
+  double x = 0.5 * (low + high);
+  for (int step = 0; step < 60 && high - low > 1e-9 * high; ++step) {
+    const double excess = incomplete_gamma(shape, x) - share;
+    (excess < 0.0 ? low : high) = x;
+    if (std::abs(excess) < 1e-12) break;
+    const double density = std::exp((shape - 1.0) * std::log(x) - x - std::lgamma(shape));
+    const double next = x - excess / density;
+    x = next > low && next < high ? next : 0.5 * (low + high);
+  }
+  return x;
+}
+}  // namespace
+
+double incomplete_gamma(double shape, double x) {
+  if (!(x > 0.0)) return 0.0;
+  return x < shape + 1.0 ? lower_series(shape, x) : 1.0 - upper_fraction(shape, x);
+}
+
+TextureLevels make_texture_levels(double shape) {
+  TextureLevels levels;
+  levels.fill(1.0F);
+  if (!(shape > 0.0)) return levels;
+  // The mean over a share of the distribution is that of x p(x): a gamma distribution of the next shape.
+  double below = 0.0;
+  double edge = 0.0;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const bool last = i + 1 == levels.size();
+    const double share = static_cast<double>(i + 1) / static_cast<double>(levels.size());
+    if (!last) edge = quantile(shape, share, edge);
+    const double through = last ? 1.0 : incomplete_gamma(shape + 1.0, edge);
+    levels[i] = static_cast<float>((through - below) * static_cast<double>(levels.size()));
+    below = through;
+  }
+  return levels;
+}
+
+double texture_cell_m(double pulse_length_m, double spacing_m) {
+  return std::exp2(std::ceil(std::log2(std::max({pulse_length_m, spacing_m, 1.0}))));
+}
+
+}  // namespace yars::model::reflectivity

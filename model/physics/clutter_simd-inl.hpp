@@ -1,0 +1,201 @@
+// What one vector of samples reflects: land by material with texture and walls, sea by grazing angle. Included once for
+// each target; the same bits on every one, each sample's its own whatever its company.
+#if defined(YARS_MODEL_RBM_GROUND_LANES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef YARS_MODEL_RBM_GROUND_LANES_INL
+#undef YARS_MODEL_RBM_GROUND_LANES_INL
+#else
+#define YARS_MODEL_RBM_GROUND_LANES_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <cmath>
+#include <cstdint>
+
+#include "model/physics/clutter_simd.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace yars::model::rbm::lanes::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using GroundTag = hn::CappedTag<float, terrain::kRunSlack>;
+using GroundWholes = hn::Vec<hn::RebindToSigned<GroundTag>>;
+using GroundFloats = hn::Vec<GroundTag>;
+
+// Lanes whose code's bit is in the set.
+HWY_INLINE hn::Mask<GroundTag> in_set(std::uint32_t set, GroundWholes code) {
+  const hn::RebindToUnsigned<GroundTag> du;
+  const auto bits = hn::Shr(hn::Set(du, set), hn::BitCast(du, code));
+  return hn::RebindMask(GroundTag(), hn::TestBit(bits, hn::Set(du, 1U)));
+}
+
+// Entry of a table by code.
+HWY_INLINE GroundFloats by_code(const float* table, GroundWholes code) {
+  const GroundTag d;
+#if HWY_CAP_GE512
+  static_assert(radar::kMaterials == 32);
+  const hn::RebindToSigned<GroundTag> di;
+  const auto index = hn::IndicesFromVec(d, hn::And(code, hn::Set(di, 15)));
+  const auto low = hn::TableLookupLanes(hn::LoadU(d, table), index);
+  const auto high = hn::TableLookupLanes(hn::LoadU(d, table + 16), index);
+  return hn::IfThenElse(hn::RebindMask(d, hn::Lt(code, hn::Set(di, 16))), low, high);
+#else
+  return hn::GatherIndex(d, table, code);
+#endif
+}
+
+// The first eight bits of mixed() of ground_grid.cpp: its last step leaves them as they are.
+template <class V>
+HWY_INLINE V first_bits(V x) {
+  const hn::DFromV<V> d;
+  x = hn::Xor(x, hn::ShiftRight<16>(x));
+  x = hn::Mul(x, hn::Set(d, 0x7feb352dU));
+  x = hn::Xor(x, hn::ShiftRight<15>(x));
+  return hn::ShiftRight<24>(hn::Mul(x, hn::Set(d, 0x846ca68bU)));
+}
+
+// Texture level [0, 255] of the ground cells that places lie in: ground_bits() counted from the corner of each degree,
+// so that float is enough. Off by one cell where a place lies within a centimetre of its edge.
+class TextureLanes {
+ public:
+  explicit TextureLanes(const GroundInputs& in) : in_(in) {}
+
+  HWY_INLINE GroundWholes levels(std::size_t i) {
+    const GroundTag d;
+    const auto north = hn::LoadU(d, in_.places.cells_north.data() + i);
+    const auto east = hn::LoadU(d, in_.places.cells_east.data() + i);
+    const auto in_degree = [&] { return hn::And(hn::Eq(north, hn::Set(d, north_)), hn::Eq(east, hn::Set(d, east_))); };
+    // Mostly one degree for the whole vector, and that of the one before.
+    if (hn::AllTrue(d, in_degree())) return levels_in_degree(i);
+    auto found = hn::Zero(hn::RebindToSigned<GroundTag>());
+    // What is not a number is in none.
+    auto left = hn::And(hn::Eq(north, north), hn::Eq(east, east));
+    while (!hn::AllFalse(d, left)) {
+      const auto lane = static_cast<std::size_t>(hn::FindFirstTrue(d, left));
+      use_degree(in_.places.cells_north[i + lane], in_.places.cells_east[i + lane]);
+      const auto here = in_degree();
+      found = hn::IfThenElse(hn::RebindMask(hn::RebindToSigned<GroundTag>(), here), levels_in_degree(i), found);
+      left = hn::AndNot(here, left);
+    }
+    return found;
+  }
+
+ private:
+  HWY_INLINE void use_degree(float cells_north, float cells_east) {
+    north_ = cells_north;
+    east_ = cells_east;
+    degree_ = texture_degree(in_, cells_north, cells_east);
+  }
+
+  HWY_INLINE GroundWholes levels_in_degree(std::size_t i) const {
+    const GroundTag d;
+    const hn::RebindToSigned<GroundTag> di;
+    const hn::RebindToUnsigned<GroundTag> du;
+    const auto cell = [&](const float* within, float per_degree, float share, std::int32_t first) {
+      const auto on = hn::Add(hn::Mul(hn::LoadU(d, within + i), hn::Set(d, per_degree)), hn::Set(d, share));
+      return hn::Add(hn::ConvertTo(di, on), hn::Set(di, first));
+    };
+    const auto row = cell(in_.places.north_deg.data(), degree_.rows, degree_.row_share, degree_.row);
+    const auto column = cell(in_.places.east_deg.data(), degree_.columns, degree_.column_share, degree_.column);
+    const auto number =
+        hn::Add(hn::Mul(hn::BitCast(du, row), hn::Set(du, reflectivity::kRowFactor)), hn::BitCast(du, column));
+    return hn::BitCast(di, first_bits(number));
+  }
+
+  const GroundInputs& in_;
+  float north_ = NAN, east_ = NAN;  // whole degrees that degree_ is for
+  TextureDegree degree_;
+};
+
+// Sigma0 of the sea by the table of fill_sigma0(), at sines above 0.
+HWY_INLINE GroundFloats sea_sigma0(const float* sigma0, GroundFloats sine) {
+  using Table = reflectivity::SeaTable;
+  const GroundTag d;
+  const hn::RebindToSigned<GroundTag> di;
+  constexpr int kShift = static_cast<int>(Table::kShift);
+  constexpr float kStep = 1.0F / static_cast<float>(1U << Table::kShift);
+  const auto first = hn::Set(di, static_cast<std::int32_t>(Table::kFirst));
+  const auto least = hn::BitCast(d, first);
+  const auto steep = hn::Gt(sine, least);
+  const auto place = hn::Sub(hn::BitCast(di, hn::IfThenElse(steep, sine, least)), first);
+  const auto last_piece = hn::Set(di, static_cast<std::int32_t>(Table::kPieces - 1));
+  const auto piece = hn::Min(hn::ShiftRight<kShift>(place), last_piece);
+  const auto share = hn::Mul(hn::ConvertTo(d, hn::Sub(place, hn::ShiftLeft<kShift>(piece))), hn::Set(d, kStep));
+  const auto low = hn::GatherIndex(d, sigma0, piece);
+  const auto high = hn::GatherIndex(d, sigma0 + 1, piece);
+  const auto value = hn::Add(low, hn::Mul(share, hn::Sub(high, low)));
+  return hn::IfThenElse(steep, value, hn::Div(hn::Mul(value, sine), least));
+}
+
+// Sigma0 of the look, once it meets water.
+class SeaLanes {
+ public:
+  explicit SeaLanes(const GroundInputs& in) : in_(in) {}
+
+  HWY_INLINE const float* sigma0() {
+    if (!filled_) lanes::fill_sigma0(*in_.sea, in_.upwind, in_.sigma0);
+    filled_ = true;
+    return in_.sigma0;
+  }
+
+ private:
+  const GroundInputs& in_;
+  bool filled_ = false;
+};
+
+// What the vectors of a sweep find out for those behind them.
+struct GroundLanes {
+  explicit GroundLanes(const GroundInputs& in) : texture(in), sea(in) {}
+  TextureLanes texture;
+  SeaLanes sea;
+};
+
+struct GroundReturn {
+  GroundFloats land;  // (1 - water) gamma
+  GroundFloats sea;   // water * sigma0, >= 0
+  bool wet;           // false: `sea` is 0 in every lane
+};
+
+constexpr std::uint32_t kWaterBit = 1U << static_cast<unsigned>(radar::kWaterMaterial);
+
+// Of the samples from `i` on, seen under a grazing angle whose sine, times any length, is `level_sine`; `sin_grazing()`
+// is the sine itself, which only the sea asks for.
+template <class Sine>
+HWY_INLINE GroundReturn ground_return(const GroundInputs& in, GroundLanes& known, std::size_t i,
+                                      GroundFloats level_sine, const Sine& sin_grazing) {
+  const GroundTag d;
+  const hn::RebindToSigned<GroundTag> di;
+  const auto one = hn::Set(d, 1.0F);
+  const auto zero = hn::Zero(d);
+  const auto code = in.material == nullptr ? hn::Zero(di) : hn::LoadU(di, in.material + i);
+  auto water = hn::LoadU(d, in.water + i);
+  const bool special = !hn::AllFalse(d, in_set(in.textured | in.walled | kWaterBit, code));
+  if (special) water = hn::IfThenElse(in_set(kWaterBit, code), one, water);
+  const auto wet = hn::And(hn::Gt(water, zero), hn::Gt(level_sine, zero));
+  const bool textured_land = special && !hn::AllFalse(d, in_set(in.textured, code));
+  const bool some_wet = !hn::AllFalse(d, wet);
+  const bool textured_sea = in.textured_sea && some_wet;
+  auto level = hn::Zero(di);
+  if (textured_land || textured_sea) level = known.texture.levels(i);
+  auto gamma = textured_land ? hn::GatherIndex(d, in.tables->texture.data(), hn::Add(hn::ShiftLeft<8>(code), level))
+                             : by_code(in.tables->gamma.data(), code);
+  if (special) {
+    const auto walled = in_set(in.walled, code);
+    if (!hn::AllFalse(d, walled)) gamma = hn::Mul(gamma, hn::IfThenElse(walled, hn::LoadU(d, in.wall_gain + i), one));
+  }
+  GroundReturn result{hn::Mul(hn::Sub(one, water), gamma), zero, some_wet};
+  if (!result.wet) return result;
+  auto value = sea_sigma0(known.sea.sigma0(), sin_grazing());
+  if (textured_sea) {
+    const float* const levels = &in.tables->texture[radar::kWaterMaterial * reflectivity::kTextureLevels];
+    value = hn::Mul(value, hn::GatherIndex(d, levels, level));
+  }
+  result.sea = hn::IfThenElseZero(wet, hn::Mul(water, value));
+  return result;
+}
+
+}  // namespace yars::model::rbm::lanes::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

@@ -1,0 +1,234 @@
+#include "model/physics/clutter_simd.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "model/physics/clutter_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// Behind highway.h, or it would have no target yet.
+#include "lib/lanes/fused-inl.hpp"
+#include "model/physics/clutter_simd-inl.hpp"
+#include "model/physics/polynomials-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace yars::model::rbm::lanes::HWY_NAMESPACE {
+
+namespace polynomials = rbm::HWY_NAMESPACE;
+
+void reflect(std::size_t count, const GroundInputs& ground, const float* sin_grazing, float* land, float* sea) {
+  const GroundTag d;
+  GroundLanes known(ground);
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const auto sine = hn::LoadU(d, sin_grazing + i);
+    const GroundReturn found = ground_return(ground, known, i, sine, [&] { return sine; });
+    hn::StoreU(found.land, d, land + i);
+    hn::StoreU(found.sea, d, sea + i);
+  }
+}
+
+bool any_positive(std::size_t count, const float* values) {
+  const GroundTag d;
+  std::size_t i = 0;
+  for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d))
+    if (!hn::AllFalse(d, hn::Gt(hn::LoadU(d, values + i), hn::Zero(d)))) return true;
+  return std::any_of(values + i, values + count, [](float value) { return value > 0.0F; });
+}
+
+std::size_t next_in(std::size_t count, std::uint32_t codes, const std::int32_t* material, std::size_t from) {
+  const GroundTag d;
+  const hn::RebindToSigned<GroundTag> di;
+  for (std::size_t i = from; i < count; i += hn::Lanes(d)) {
+    const auto inside = in_set(codes, hn::LoadU(di, material + i));
+    if (hn::AllFalse(d, inside)) continue;
+    return std::min(count, i + static_cast<std::size_t>(hn::FindFirstTrue(d, inside)));
+  }
+  return count;
+}
+
+void fill_sigma0(const reflectivity::SeaTable& table, float cosine, float* sigma0) {
+  const GroundTag d;
+  // The last entry stands alone behind whole vectors: sixteen divide the others.
+  constexpr std::size_t kEntries = reflectivity::SeaTable::kPieces;
+  static_assert(kEntries % terrain::kRunSlack == 0);
+  const auto octaves_at = [&](std::size_t i) {
+    return hn::Add(hn::LoadU(d, table.across.data() + i),
+                   hn::Mul(hn::Set(d, cosine), hn::LoadU(d, table.upwind.data() + i)));
+  };
+  for (std::size_t i = 0; i < kEntries; i += hn::Lanes(d))
+    hn::StoreU(polynomials::exp2(d, octaves_at(i)), d, sigma0 + i);
+  const float last = table.across[kEntries] + cosine * table.upwind[kEntries];
+  hn::StoreU(polynomials::exp2(d, hn::Set(d, last)), d, sigma0 + kEntries);
+}
+
+namespace hn = hwy::HWY_NAMESPACE;
+namespace fused = yars::lanes::HWY_NAMESPACE;
+namespace polynomials = rbm::HWY_NAMESPACE;
+
+constexpr std::size_t kMostLanes = 16;
+using Tag = hn::CappedTag<float, kMostLanes>;
+using SignedTag = hn::RebindToSigned<Tag>;
+using BitsTag = hn::RebindToUnsigned<Tag>;
+using Floats = hn::Vec<Tag>;
+using Bits = hn::Vec<BitsTag>;
+
+constexpr float kDecibelsPerOctave = 3.01029996F;  // 10 log10(2)
+constexpr float kLn2 = 0.693147181F;
+
+// noise_bits() of clutter.hpp for a vector of cells.
+HWY_INLINE Bits random_bits(NoiseState state, Bits cell, std::uint32_t draw) {
+  const BitsTag d;
+  auto x = hn::Xor(hn::Add(hn::Mul(cell, hn::Set(d, kDrawsPerCell)), hn::Set(d, draw)), hn::Set(d, state.first));
+  x = hn::Xor(x, hn::ShiftRight<16>(x));
+  x = hn::Mul(x, hn::Set(d, 0x7feb352dU));
+  x = hn::Xor(x, hn::ShiftRight<15>(x));
+  x = hn::Mul(x, hn::Set(d, 0x846ca68bU));
+  x = hn::Xor(x, hn::Xor(hn::ShiftRight<16>(x), hn::Set(d, state.second)));
+  x = hn::Mul(x, hn::Set(d, 0x9e3779b1U));
+  return hn::Xor(x, hn::ShiftRight<15>(x));
+}
+
+// A uniform variate in (0, 1) from 16 bits; beyond the looks it counts as 1.
+HWY_INLINE Floats uniform(Bits sixteen, bool counts) {
+  const Tag d;
+  if (!counts) return hn::Set(d, 1.0F);
+  constexpr float kStep = 1.0F / 65536.0F;
+  const auto number = hn::ConvertTo(d, hn::BitCast(SignedTag(), sixteen));
+  return polynomials::step(d, number, hn::Set(d, kStep), 0.5F * kStep);
+}
+
+void speckle(std::size_t cells, NoiseState state, int looks, float* variate) {
+  const Tag d;
+  const BitsTag db;
+  const auto low = hn::Set(db, 0xffffU);
+  const auto scale = hn::Set(d, kLn2 / static_cast<float>(looks));
+  // Once: Iota goes through memory.
+  const auto lane = hn::Iota(db, 0U);
+  for (std::size_t i = 0; i < cells; i += hn::Lanes(d)) {
+    const auto cell = hn::Add(lane, hn::Set(db, static_cast<std::uint32_t>(i)));
+    auto sum = hn::Zero(d);
+    for (int first = 0; first < looks; first += kLooksPerGroup) {
+      // The logarithm of a product of up to four uniform variates.
+      const auto draw = static_cast<std::uint32_t>(first / 2);
+      const auto one = random_bits(state, cell, draw);
+      const auto two = random_bits(state, cell, draw + 1U);
+      const auto a = uniform(hn::ShiftRight<16>(one), true);
+      const auto b = uniform(hn::And(one, low), looks - first > 1);
+      const auto c = uniform(hn::ShiftRight<16>(two), looks - first > 2);
+      const auto e = uniform(hn::And(two, low), looks - first > 3);
+      sum = hn::Sub(sum, polynomials::log2(d, hn::Mul(hn::Mul(a, b), hn::Mul(c, e))));
+    }
+    hn::StoreU(hn::Mul(sum, scale), d, variate + i);
+  }
+}
+
+// Up to `left` entries; none is read behind the last.
+HWY_INLINE Floats load(const float* from, std::size_t left) {
+  const Tag d;
+  if (left >= hn::Lanes(d)) return hn::LoadU(d, from);
+  HWY_ALIGN float entries[kMostLanes] = {};
+  std::copy_n(from, left, entries);
+  return hn::Load(d, entries);
+}
+
+// The variates of a vector's cells lie side by side: one load, and each lane takes its own.
+HWY_INLINE Floats variates(const VideoInputs& in, std::size_t i) {
+  const Tag d;
+  const SignedTag di;
+  if (in.cell == nullptr) return hn::LoadU(d, in.variate + i);
+  const std::int32_t first = in.cell[i];
+  const auto place = hn::Sub(hn::LoadU(di, in.cell + i), hn::Set(di, first));
+  return hn::TableLookupLanes(hn::LoadU(d, in.variate + first), hn::IndicesFromVec(d, place));
+}
+
+// The nearest whole number of one below 2^21: in the sum the last bit counts ones.
+HWY_INLINE hn::Vec<SignedTag> rounded(Floats value) {
+  constexpr float kOnes = 12582912.0F;  // 1.5 * 2^23
+  const SignedTag di;
+  return hn::Sub(hn::BitCast(di, hn::Add(value, hn::Set(Tag(), kOnes))), hn::Set(di, 0x4b400000));
+}
+
+void develop(std::size_t count, const VideoInputs& inputs, std::uint8_t* video) {
+  const Tag d;
+  const hn::Rebind<std::uint8_t, Tag> d8;
+  // A copy, so that no store of video could be one to it.
+  const VideoInputs in = inputs;
+  const auto first = hn::Set(d, in.weights[0]);
+  const auto second = hn::Set(d, in.weights[1]);
+  const auto third = hn::Set(d, in.weights[2]);
+  const auto noise = hn::Set(d, in.noise);
+  const auto slope = hn::Set(d, 255.0F * kDecibelsPerOctave / in.decibels_per_scale);
+  const auto base = hn::Set(d, 255.0F * (1.0F + in.gain_db / in.decibels_per_scale));
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const std::size_t left = count - i;
+    auto power = fused::mul_add(first, load(in.before + i, left), noise);
+    power = fused::mul_add(second, load(in.centre + i, left), power);
+    power = fused::mul_add(third, load(in.after + i, left), power);
+    if (in.variate != nullptr) power = hn::Mul(power, variates(in, i));
+    // The least power keeps the logarithm's argument normal.
+    const auto level = fused::mul_add(slope, polynomials::rough_log2(d, hn::Max(power, hn::Set(d, 1.0e-30F))), base);
+    // Bytes saturate: that clips.
+    const auto bytes = hn::DemoteTo(d8, rounded(level));
+    if (left >= hn::Lanes(d)) {
+      hn::StoreU(bytes, d8, video + i);
+    } else {
+      HWY_ALIGN std::uint8_t last[kMostLanes];
+      hn::StoreU(bytes, d8, last);
+      std::copy_n(last, left, video + i);
+    }
+  }
+}
+
+}  // namespace yars::model::rbm::lanes::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace yars::model::rbm::lanes {
+
+HWY_EXPORT(reflect);
+HWY_EXPORT(any_positive);
+HWY_EXPORT(next_in);
+HWY_EXPORT(fill_sigma0);
+
+void reflect(std::size_t count, const GroundInputs& ground, const float* sin_grazing, float* land, float* sea) {
+  HWY_DYNAMIC_DISPATCH(reflect)(count, ground, sin_grazing, land, sea);
+}
+bool any_positive(std::size_t count, const float* values) {
+  return HWY_DYNAMIC_DISPATCH(any_positive)(count, values);
+}
+std::size_t next_in(std::size_t count, std::uint32_t codes, const std::int32_t* material, std::size_t from) {
+  return HWY_DYNAMIC_DISPATCH(next_in)(count, codes, material, from);
+}
+void fill_sigma0(const reflectivity::SeaTable& table, float cosine, float* sigma0) {
+  HWY_DYNAMIC_DISPATCH(fill_sigma0)(table, cosine, sigma0);
+}
+
+TextureDegree texture_degree(const GroundInputs& ground, float cells_north, float cells_east) {
+  const terrain::CellPlace corner = ground.places.corner;
+  const double north_deg = std::clamp(corner.south_deg + 90.0 + static_cast<double>(cells_north), 0.0, 180.0);
+  const double turns = (corner.west_deg + static_cast<double>(cells_east)) / 360.0 + 0.5;
+  const auto band = static_cast<std::size_t>(std::min(north_deg, 179.0));
+  const double round = ground.grid->columns[band];
+  const double row = north_deg * ground.grid->rows_per_degree;
+  const double column = (turns - std::floor(turns)) * round;
+  return {static_cast<std::int32_t>(row),
+          static_cast<std::int32_t>(column),
+          static_cast<float>(row - std::floor(row)),
+          static_cast<float>(column - std::floor(column)),
+          static_cast<float>(ground.grid->rows_per_degree),
+          static_cast<float>(round / 360.0)};
+}
+
+HWY_EXPORT(speckle);
+HWY_EXPORT(develop);
+
+void speckle(std::size_t cells, NoiseState state, int looks, float* variate) {
+  HWY_DYNAMIC_DISPATCH(speckle)(cells, state, looks, variate);
+}
+void develop(std::size_t count, const VideoInputs& inputs, std::uint8_t* video) {
+  HWY_DYNAMIC_DISPATCH(develop)(count, inputs, video);
+}
+
+}  // namespace yars::model::rbm::lanes
+#endif  // HWY_ONCE

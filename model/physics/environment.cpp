@@ -1,0 +1,76 @@
+#include "model/physics/environment.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/physics/sweep_geometry.hpp"
+
+namespace yars::model::rbm {
+
+std::vector<MovingPoint> configured_points(const radar::RadarConfiguration& configuration) {
+  std::vector<MovingPoint> points;
+  for (const radar::Mover& mover : configuration.world.movers)
+    points.push_back({geo::GeodesicRay(mover.place, geo::Bearing::degrees(mover.heading_deg)),
+                      mover.speed_mps,
+                      mover.cross_section_m2,
+                      mover.height_m,
+                      {}});
+  return points;
+}
+
+namespace {
+constexpr double kMetresPerDegree = 110'500.0;  // [m] the shortest degree of latitude: no mover in range is missed
+}  // namespace
+
+Movers::Movers(const radar::RadarConfiguration& configuration)
+    : beam_(configuration.fidelity.beam), gas_(configuration), points_(configured_points(configuration)) {
+  echoes_.reserve(points_.size() + kMostTraffic);
+}
+
+std::span<const Echo> Movers::echoes(const Look& look, const Receiver& receiver, const EffectiveEarth& earth,
+                                     const Database& database) {
+  echoes_.clear();
+  add_echoes(points_, look, receiver, earth, database.terrain);
+  add_echoes(database.traffic.first(std::min(database.traffic.size(), kMostTraffic)), look, receiver, earth,
+             database.terrain);
+  return echoes_;
+}
+
+void Movers::add_echoes(std::span<const MovingPoint> points, const Look& look, const Receiver& receiver,
+                        const EffectiveEarth& earth, const terrain::TerrainView& terrain) {
+  for (const MovingPoint& point : points) {
+    const geo::GeoPoint there = point.place(look.sim_time);
+    if (std::abs(there.latitude_deg - look.apex.latitude_deg) * kMetresPerDegree > look.range.metres()) continue;
+    const geo::GeodesicInverse way = geo::geodesic_inverse(look.apex, there);
+    const double off_rad = (way.azimuth_at_start - look.azimuth).radians();
+    const double distance_m = way.distance.metres();
+    if (distance_m >= look.range.metres() || distance_m <= 0.0) continue;
+    const double gain_across = azimuth_share(look.share, receiver.azimuth_beamwidth_rad, off_rad);
+    if (!(gain_across > 0.0)) continue;
+    const double ground_m = terrain.elevation_m(there);
+    const double height_m = (std::isnan(ground_m) ? 0.0 : ground_m) + point.height_m;
+    const Sight sight = earth.sight(look.altitude.metres(), distance_m, height_m);
+    const double gain = gain_across * two_way_gain(beam_, receiver.elevation_beamwidth_rad, look.elevation.radians(),
+                                                   sight.elevation_rad);
+    const double loss = gas_.two_way_loss(earth, look.altitude.metres(), distance_m, height_m);
+    const double power = returned_power(point.cross_section_m2, loss * gain, sight.slant_range_m);
+    echoes_.push_back({distance_m, sight.tangent, received(receiver, power, sight.slant_range_m)});
+  }
+}
+
+std::size_t samples_nearer(std::span<const double> distance_m, double wanted_m) {
+  const auto behind = std::partition_point(distance_m.begin(), distance_m.end(),
+                                           [wanted_m](double centre_m) { return !(centre_m >= wanted_m); });
+  return static_cast<std::size_t>(behind - distance_m.begin());
+}
+
+std::size_t nearest_sample(std::span<const double> distance_m, double wanted_m) {
+  std::size_t index = samples_nearer(distance_m, wanted_m);
+  if (index > 0 && !std::isnan(distance_m[index - 1])) {
+    const bool nearer = index == distance_m.size() || wanted_m - distance_m[index - 1] < distance_m[index] - wanted_m;
+    if (nearer) --index;
+  }
+  return index;
+}
+
+}  // namespace yars::model::rbm

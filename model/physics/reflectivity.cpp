@@ -1,0 +1,231 @@
+#include "model/physics/reflectivity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "lib/geo/quantity.hpp"
+#include "lib/random/gradient_noise.hpp"
+
+namespace yars::model::terrain {
+
+namespace {
+
+constexpr double kMetresPerDegree = 111195.0;  // [m] of a sphere of 6371 km
+constexpr double kPatchM = 5000.0;             // [m] a town of middle size
+constexpr double kRowDeg = kPatchM / kMetresPerDegree;
+constexpr std::uint32_t kSeed = 0;  // whatever the landscape's: real culture has streets too
+
+}  // namespace
+
+void StreetFinder::use_row(std::int32_t middle_row) {
+  if (middle_row == middle_row_) return;
+  middle_row_ = middle_row;
+  for (int i = 0; i < 3; ++i) {
+    Row& row = rows_[static_cast<std::size_t>(i)];
+    const double row_middle_deg = std::clamp((middle_row - 1 + i + 0.5) * kRowDeg - 90.0, -90.0, 90.0);
+    row.columns = std::max(1, static_cast<int>(360.0 * std::cos(row_middle_deg * geo::kRadiansPerDegree) / kRowDeg));
+    row.column_deg = 360.0 / row.columns;
+    row.middle = kNoRow;
+  }
+}
+
+void StreetFinder::use_column(Row& row, std::int32_t number, int middle) {
+  if (middle == row.middle) return;
+  row.middle = middle;
+  for (int i = 0; i < 3; ++i) {
+    const int column = middle - 1 + i;
+    StreetPatch& patch = row.neighbours[static_cast<std::size_t>(i)];
+    const std::uint32_t hash = lattice_hash((column + row.columns) % row.columns, number, 3, kSeed);
+    patch.origin = {(number + static_cast<double>(hash & 0xFFFFU) / 65536.0) * kRowDeg - 90.0,
+                    (column + static_cast<double>(hash >> 16U) / 65536.0) * row.column_deg - 180.0};
+    // Half of all towns keep near the compass, as surveyors like it.
+    const std::uint32_t turn = lattice_hash((column + row.columns) % row.columns, number, 4, kSeed);
+    patch.bearing_deg = (turn & 1U) != 0 ? 90.0 * share_of(turn) : std::fmod(97.5 - 15.0 * share_of(turn), 90.0);
+  }
+}
+
+const StreetPatch& StreetFinder::nearest(geo::GeoPoint place) {
+  const double latitude_deg = std::clamp(place.latitude_deg, -90.0, 90.0);
+  const double longitude_deg = geo::wrapped_degrees(place.longitude_deg);
+  const double parallel = std::cos(latitude_deg * geo::kRadiansPerDegree);
+  use_row(static_cast<std::int32_t>(std::floor((latitude_deg + 90.0) / kRowDeg)));
+  const StreetPatch* nearest = &rows_[0].neighbours[0];
+  double least = 1e9;
+  for (std::int32_t i = 0; i < 3; ++i) {
+    Row& row = rows_[static_cast<std::size_t>(i)];
+    use_column(row, middle_row_ - 1 + i, static_cast<int>((longitude_deg + 180.0) / row.column_deg));
+    for (const StreetPatch& patch : row.neighbours) {
+      const double east = (longitude_deg - patch.origin.longitude_deg) * parallel;
+      const double north = latitude_deg - patch.origin.latitude_deg;
+      const double square = east * east + north * north;
+      if (square >= least) continue;
+      least = square;
+      nearest = &patch;
+    }
+  }
+  return *nearest;
+}
+
+StreetPatch StreetFinder::patch(geo::GeoPoint place) {
+  StreetPatch found = nearest(place);
+  found.origin.longitude_deg = geo::wrapped_degrees(found.origin.longitude_deg);
+  return found;
+}
+
+StreetPatch street_patch(geo::GeoPoint place) {
+  return StreetFinder().patch(place);
+}
+
+}  // namespace yars::model::terrain
+
+namespace yars::model::reflectivity {
+
+double frequency_term_db(const radar::LandConfiguration& land, double frequency_ghz) {
+  return land.frequency_slope_db * std::log10(frequency_ghz / land.reference_frequency_ghz);
+}
+
+LandReturn make_land_return(const radar::RadarConfiguration& configuration) {
+  const radar::LandConfiguration& land = configuration.world.land;
+  const double frequency_db = frequency_term_db(land, configuration.receiver.frequency_ghz);
+  LandReturn made;
+  made.street_width_deg = land.street_width_deg;
+  made.gamma.fill(ratio(configuration.receiver.land_gamma_db + frequency_db));
+  for (const radar::Material& material : land.materials) {
+    const auto code = static_cast<std::size_t>(material.code);
+    if (code >= made.gamma.size()) continue;
+    made.gamma[code] = ratio(material.gamma_db + frequency_db);
+    made.cardinal[code] = ratio(material.cardinal_db) - 1.0;
+  }
+  return made;
+}
+
+double off_street_deg(double look_deg, double street_deg) {
+  constexpr double kQuarterTurn = 90.0;  // walls stand along and across the streets
+  const double turn = look_deg - street_deg;
+  return turn - kQuarterTurn * std::floor(turn / kQuarterTurn + 0.5);
+}
+
+double cardinal_gain(double cardinal, double off_deg, double width_deg) {
+  const double share = off_deg / width_deg;
+  return 1.0 + cardinal * std::exp(-4.0 * std::numbers::ln2 * share * share);
+}
+
+namespace {
+constexpr double kFaded = 4.0;  // widths of the cardinal effect off it: 2^-64 of it is left
+constexpr double kMostOff_deg = 89.0;
+constexpr int kSteps = 256;  // of the table: a sixty-fourth of the effect's width, 1e-4 of it between them
+}  // namespace
+
+SceneSurface::SceneSurface(const radar::RadarConfiguration& configuration)
+    : street_width_deg_(configuration.world.land.street_width_deg),
+      faded_deg_(std::min(kFaded * street_width_deg_, kMostOff_deg)),
+      faded_tangent_(std::tan(faded_deg_ * geo::kRadiansPerDegree)) {
+  const LandReturn land = make_land_return(configuration);
+  for (std::size_t code = 0; code < land.gamma.size(); ++code) {
+    const std::size_t known = code == 0 ? static_cast<std::size_t>(configuration.high_resolution.plain_material) : code;
+    gamma_.push_back(land.gamma[known]);
+    cardinal_.push_back(land.cardinal[known]);
+  }
+}
+
+double SceneSurface::wall_gamma(std::size_t code, double across, double towards) const {
+  if (std::abs(across) > faded_tangent_ * towards) return gamma(code);
+  const double off_deg = std::atan2(across, towards) / geo::kRadiansPerDegree;
+  return gamma(code) * cardinal_gain(cardinal_[code % cardinal_.size()], off_deg, street_width_deg_);
+}
+
+double SceneSurface::steps_a_sine() const {
+  return kSteps / std::sin(faded_deg_ * geo::kRadiansPerDegree);
+}
+
+std::vector<float> SceneSurface::cardinal_shares() const {
+  std::vector<float> shares;
+  for (int step = 0; step < kSteps; ++step) {
+    const double off_deg = std::asin(std::min(step / steps_a_sine(), 1.0)) / geo::kRadiansPerDegree;
+    shares.push_back(static_cast<float>(cardinal_gain(1.0, off_deg, street_width_deg_) - 1.0));
+  }
+  shares.push_back(0.0F);
+  shares.push_back(0.0F);
+  return shares;
+}
+
+namespace {
+constexpr double kGreatestState = 6.0;                          // of the model
+constexpr double kSteepestRad = 60.0 * geo::kRadiansPerDegree;  // of the model
+
+// Greatest wind [kt] of Beaufort forces 1 to 6, and the WMO state of the sea that goes with each; then state 6.
+struct Force {
+  double greatest_kt;
+  double state;
+};
+constexpr std::array<Force, 6> kForces{{{3, 1}, {6, 2}, {10, 2}, {16, 3}, {21, 4}, {27, 5}}};
+
+SeaCoefficients coefficients_of(const std::vector<double>& given) {
+  SeaCoefficients coefficients{};
+  std::copy_n(given.begin(), std::min(given.size(), coefficients.size()), coefficients.begin());
+  return coefficients;
+}
+}  // namespace
+
+double nrl_sigma0_db(const SeaCoefficients& c, double grazing_deg, double frequency_ghz, double sea_state) {
+  const double a = grazing_deg;
+  const double sine = std::sin(a * geo::kRadiansPerDegree);
+  return c[0] + c[1] * std::log10(sine) + (27.5 + c[2] * a) * std::log10(frequency_ghz) / (1.0 + 0.95 * a) +
+         c[3] * std::pow(1.0 + sea_state, 1.0 / (2.0 + 0.085 * a + 0.033 * sea_state)) + c[4] * a * a;
+}
+
+double sea_state_of_wind(geo::Speed wind) {
+  const double wind_kt = std::round(wind.knots());  // the scale is one of whole knots
+  if (wind_kt < 1.0) return 0.0;
+  for (const Force& force : kForces) {
+    if (wind_kt <= force.greatest_kt) return force.state;
+  }
+  return kGreatestState;
+}
+
+double upwind_db(double factor, double wavelength_m, double grazing_rad) {
+  const double steepness = std::max(0.0, 1.0 - 2.8 * grazing_rad);
+  return 10.0 * std::numbers::log10e * factor * steepness * std::pow(wavelength_m + 0.015, -0.4);
+}
+
+SeaReturn make_sea_return(const radar::RadarConfiguration& configuration) {
+  const radar::SeaConfiguration& given = configuration.world.sea;
+  SeaReturn sea;
+  const bool horizontal = given.polarization == radar::Polarization::horizontal;
+  sea.coefficients = coefficients_of(horizontal ? given.horizontal : given.vertical);
+  sea.frequency_ghz = configuration.receiver.frequency_ghz;
+  sea.wavelength_m = wavelength_m(sea.frequency_ghz);
+  const double state =
+      std::isnan(given.state) ? sea_state_of_wind(geo::Speed::metres_per_second(given.wind_speed_mps)) : given.state;
+  sea.state = std::clamp(state, 0.0, kGreatestState);
+  sea.wind_factor = given.wind_factor;
+  sea.wind_from = geo::Bearing::degrees(given.wind_from_deg);
+  return sea;
+}
+
+double sea_sigma0(const SeaReturn& sea, double sin_grazing, geo::Bearing look) {
+  if (!(sin_grazing > 0.0)) return 0.0;
+  const double grazing_rad = std::min(std::asin(std::min(sin_grazing, 1.0)), kSteepestRad);
+  const double isotropic_db =
+      nrl_sigma0_db(sea.coefficients, grazing_rad / geo::kRadiansPerDegree, sea.frequency_ghz, sea.state);
+  const double upwind = upwind_db(sea.wind_factor, sea.wavelength_m, grazing_rad);
+  return ratio(isotropic_db + upwind * std::cos((look - sea.wind_from).radians()));
+}
+
+SeaTable make_sea_table(const SeaReturn& sea) {
+  SeaTable table;
+  const geo::Bearing across = sea.wind_from + geo::Angle::degrees(90.0);
+  for (std::size_t i = 0; i < table.across.size(); ++i) {
+    const auto bits = SeaTable::kFirst + (static_cast<std::uint32_t>(i) << SeaTable::kShift);
+    const auto sine = static_cast<double>(std::bit_cast<float>(bits));
+    const double octaves = std::log2(sea_sigma0(sea, sine, across));
+    table.across[i] = static_cast<float>(octaves);
+    table.upwind[i] = static_cast<float>(std::log2(sea_sigma0(sea, sine, sea.wind_from)) - octaves);
+  }
+  return table;
+}
+
+}  // namespace yars::model::reflectivity

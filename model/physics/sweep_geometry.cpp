@@ -1,0 +1,103 @@
+#include "model/physics/sweep_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/physics/receiver.hpp"
+
+namespace yars::model::rbm {
+
+namespace {
+constexpr double kBeamsAside = 2.0;
+}  // namespace
+
+Angles seen_angles(const RayShare& share, double beamwidth_rad) {
+  const double most_rad = kBeamsAside * beamwidth_rad;
+  if (share.sharpened) return {share.left_rad, share.right_rad};
+  return {std::max(share.left_rad, share.beam_rad - most_rad), std::min(share.right_rad, share.beam_rad + most_rad)};
+}
+
+double azimuth_share(const RayShare& share, double beamwidth_rad, double off_rad, double wide_rad) {
+  const Angles seen = seen_angles(share, beamwidth_rad);
+  if (share.sharpened) {
+    const double cell_rad = seen.right_rad - seen.left_rad;
+    const double within_rad =
+        std::min(seen.right_rad, off_rad + 0.5 * wide_rad) - std::max(seen.left_rad, off_rad - 0.5 * wide_rad);
+    // A point without width belongs to the cell that it lies in, on its left edge too.
+    const bool inside = off_rad >= seen.left_rad && off_rad < seen.right_rad;
+    const double part = wide_rad > 0.0 ? std::clamp(within_rad / wide_rad, 0.0, 1.0) : inside ? 1.0 : 0.0;
+    return part * share.factor * beamwidth_rad / cell_rad;
+  }
+  if (!(off_rad >= seen.left_rad && off_rad < seen.right_rad)) return 0.0;
+  return share.factor * azimuth_gain(beamwidth_rad, off_rad - share.beam_rad);
+}
+
+namespace {
+constexpr double kMeanEarthRadiusM = 6371008.8;  // [m] WGS84 mean (2a + b) / 3; the curvature of EarthModel::sphere
+constexpr double kLeastFactor = 0.1;             // k below it would curl the earth up inside the range
+}  // namespace
+
+double EffectiveEarth::drop_m(double distance_m) const {
+  if (std::isinf(radius_m_)) return 0.0;
+  // 1 - cos a = 2 sin^2(a/2), without the cancellation.
+  const double half_sine = std::sin(0.5 * distance_m / radius_m_);
+  return 2.0 * radius_m_ * half_sine * half_sine;
+}
+
+Sight EffectiveEarth::sight(double altitude_m, double distance_m, double height_m) const {
+  const bool flat = std::isinf(radius_m_);
+  const double angle_rad = flat ? 0.0 : distance_m / radius_m_;
+  const double sine = std::sin(angle_rad);
+  const double cosine = std::cos(angle_rad);
+  const double chord_m = flat ? distance_m : radius_m_ * sine;
+  const double drop = drop_m(distance_m);
+  // The point in the vertical plane of the ray: out and up from the aircraft.
+  const double out_m = chord_m + height_m * sine;
+  const double up_m = height_m * cosine - drop - altitude_m;
+  Sight sight{};
+  sight.tangent = up_m / out_m;
+  sight.elevation_rad = std::atan2(up_m, out_m);
+  sight.slant_range_m = std::hypot(out_m, up_m);
+  // The way back to the aircraft, against the point's own vertical and horizontal.
+  sight.sin_grazing = (altitude_m * cosine - drop - height_m) / sight.slant_range_m;
+  sight.cos_grazing = (chord_m + altitude_m * sine) / sight.slant_range_m;
+  return sight;
+}
+
+double EffectiveEarth::distance_at_slant_range(double altitude_m, double height_m, double slant_range_m) const {
+  const double above_m = altitude_m - height_m;
+  const double square = slant_range_m * slant_range_m - above_m * above_m;
+  if (!(square > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  if (std::isinf(radius_m_)) return std::sqrt(square);
+  // Law of cosines in the triangle aircraft, centre of the earth, point, solved for the half angle.
+  const double half_sine = std::sqrt(square / (4.0 * (radius_m_ + altitude_m) * (radius_m_ + height_m)));
+  return half_sine > 1.0 ? std::numeric_limits<double>::quiet_NaN() : 2.0 * radius_m_ * std::asin(half_sine);
+}
+
+EffectiveEarth effective_earth(const radar::Fidelity& fidelity, geo::GeoPoint apex, geo::Bearing azimuth) {
+  const double factor = fidelity.earth_radius_factor > kLeastFactor ? fidelity.earth_radius_factor : kLeastFactor;
+  switch (fidelity.earth) {
+    case radar::EarthModel::flat:
+      break;
+    case radar::EarthModel::sphere:
+      return EffectiveEarth(factor * kMeanEarthRadiusM);
+    case radar::EarthModel::ellipsoid:
+      return EffectiveEarth(factor * geo::radius_of_curvature(apex.latitude_deg, azimuth).metres());
+  }
+  return EffectiveEarth(std::numeric_limits<double>::infinity());
+}
+
+void sample_distances(const radar::Fidelity& fidelity, const EffectiveEarth& earth, const Look& look,
+                      const terrain::TerrainView& terrain, std::span<double> distance_m) {
+  const double spacing_m = look.range.metres() / static_cast<double>(distance_m.size());
+  for (std::size_t i = 0; i < distance_m.size(); ++i) distance_m[i] = (static_cast<double>(i) + 0.5) * spacing_m;
+  if (!fidelity.slant_range) return;
+  const double below_m = terrain.elevation_m(look.apex);
+  const double ground_m = std::isfinite(below_m) ? below_m : 0.0;
+  for (double& distance : distance_m) {
+    distance = earth.distance_at_slant_range(look.altitude.metres(), ground_m, distance);
+  }
+}
+
+}  // namespace yars::model::rbm

@@ -1,0 +1,142 @@
+#include "model/rbm/emitters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lib/radar/limits.hpp"
+#include "model/physics/environment.hpp"
+#include "model/physics/receiver.hpp"
+#include "model/physics/reflectivity.hpp"
+#include "model/physics/sweep_geometry.hpp"
+
+namespace yars::model::rbm {
+
+namespace {
+constexpr double kMastM = 10.0;           // [m] above the ground: a jammer or beacon whose altitude is not given
+constexpr double kLeastDistanceM = 10.0;  // [m] keeps one below the aircraft finite
+
+bool is_jammed(const radar::Jammer& jammer, const Look& look) {
+  const bool band = jammer.band == radar::kEveryBand || jammer.band == static_cast<int>(look.band);
+  const auto channel = static_cast<double>(look.channel);
+  return band && std::find(jammer.channels.begin(), jammer.channels.end(), channel) != jammer.channels.end();
+}
+
+double ground_m(const terrain::TerrainView& terrain, geo::GeoPoint place) {
+  const double elevation_m = terrain.elevation_m(place);
+  return std::isnan(elevation_m) ? 0.0 : elevation_m;
+}
+}  // namespace
+
+double Strobes::level(const Look& look, const terrain::TerrainView& terrain) {
+  const radar::JammingConfiguration& jamming = configuration_.world.jamming;
+  if (jamming.jammers.empty()) return 0.0;
+  const Receiver receiver = make_receiver(configuration_, look.range);
+  const double radar_w = reflectivity::ratio(jamming.radar_power_dbw);
+  const double sidelobe = reflectivity::ratio(jamming.sidelobe_db);
+  double total = 0.0;
+  for (const radar::Jammer& jammer : jamming.jammers) {
+    if (!is_jammed(jammer, look)) continue;
+    geo::GeodesicInverse way = geo::geodesic_inverse(look.apex, jammer.place);
+    way.distance = std::max(way.distance, geo::Length::metres(kLeastDistanceM));
+    const double altitude_m =
+        std::isnan(jammer.altitude_m) ? ground_m(terrain, jammer.place) + kMastM : jammer.altitude_m;
+    if (!sight_line_.clear(configuration_.fidelity, look, terrain, way, altitude_m)) continue;
+    const EffectiveEarth earth = effective_earth(configuration_.fidelity, look.apex, way.azimuth_at_start);
+    const Sight sight = earth.sight(look.altitude.metres(), way.distance.metres(), altitude_m);
+    const double two_way =
+        azimuth_gain(receiver.azimuth_beamwidth_rad, (way.azimuth_at_start - look.azimuth).radians()) *
+        two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad, look.elevation.radians(),
+                     sight.elevation_rad);
+    const double loss = gas_.one_way_loss(earth, look.altitude.metres(), way.distance.metres(), altitude_m);
+    const double gain = loss * std::max(std::sqrt(two_way), sidelobe);
+    total += 4.0 * std::numbers::pi * jammer.power_w / radar_w * gain / (sight.slant_range_m * sight.slant_range_m);
+  }
+  return total / receiver.full_scale;
+}
+
+namespace {
+constexpr double kMetresPerMicrosecond = 149.896229;  // [m] c / 2 over 1 us: what a delay adds to the range
+
+double mast_m(const radar::Beacon& beacon, const terrain::TerrainView& terrain) {
+  if (!std::isnan(beacon.altitude_m)) return beacon.altitude_m;
+  const double ground_m = terrain.elevation_m(beacon.place);
+  return (std::isnan(ground_m) ? 0.0 : ground_m) + kMastM;
+}
+
+// The share [0, 1] of a sample that a pulse about `middle` covers, both in samples.
+double covered(double sample, double middle, double pulse_samples) {
+  const double half = 0.5 * pulse_samples;
+  return std::clamp(std::min(sample + 0.5, middle + half) - std::max(sample - 0.5, middle - half), 0.0, 1.0);
+}
+}  // namespace
+
+Beacons::Beacons(const radar::RadarConfiguration& configuration)
+    : configuration_(configuration),
+      gas_(configuration),
+      distance_m_(static_cast<std::size_t>(std::clamp(configuration.fidelity.samples, 1, radar::kMaxSamples))) {
+  const radar::BeaconConfiguration& given = configuration.world.beacons;
+  for (const radar::Beacon& beacon : given.beacons) {
+    if (beacon.code == given.code) answering_.push_back(beacon);
+  }
+  replies_.reserve(answering_.size() * radar::kMostReplies);
+}
+
+std::span<const Reply> Beacons::replies(const Look& look, const terrain::TerrainView& terrain) {
+  replies_.clear();
+  if (none()) return {};
+  const Receiver receiver = make_receiver(configuration_, look.range);
+  for (const radar::Beacon& beacon : answering_) answer(beacon, look, receiver, terrain);
+  return replies_;
+}
+
+void Beacons::answer(const radar::Beacon& beacon, const Look& look, const Receiver& receiver,
+                     const terrain::TerrainView& terrain) {
+  geo::GeodesicInverse way = geo::geodesic_inverse(look.apex, beacon.place);
+  way.distance = std::max(way.distance, geo::Length::metres(kLeastDistanceM));
+  const double distance_m = way.distance.metres();
+  const double off_rad = (way.azimuth_at_start - look.azimuth).radians();
+  // A reply comes later than a return from the beacon's place: what lies behind the range shows nothing.
+  if (distance_m >= look.range.metres() || std::abs(off_rad) > 0.5 * receiver.azimuth_beamwidth_rad) return;
+  const double altitude_m = mast_m(beacon, terrain);
+  if (!sight_line_.clear(configuration_.fidelity, look, terrain, way, altitude_m)) return;
+
+  const EffectiveEarth earth = effective_earth(configuration_.fidelity, look.apex, way.azimuth_at_start);
+  const Sight sight = earth.sight(look.altitude.metres(), distance_m, altitude_m);
+  const double two_way = azimuth_gain(receiver.azimuth_beamwidth_rad, off_rad) *
+                         two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad,
+                                      look.elevation.radians(), sight.elevation_rad);
+  const double radar_w = reflectivity::ratio(configuration_.world.jamming.radar_power_dbw);
+  const double loss = gas_.one_way_loss(earth, look.altitude.metres(), distance_m, altitude_m);
+  const double power = 4.0 * std::numbers::pi * beacon.power_w / radar_w * loss * std::sqrt(two_way) /
+                       (sight.slant_range_m * sight.slant_range_m) / receiver.full_scale;
+  for (int reply = 0; reply < std::min(beacon.replies, radar::kMostReplies); ++reply) {
+    const double later_us = beacon.delay_us + reply * beacon.spacing_us;
+    const double slant_range_m = sight.slant_range_m + later_us * kMetresPerMicrosecond;
+    replies_.push_back(
+        {slant_range_m, earth.distance_at_slant_range(look.altitude.metres(), altitude_m, slant_range_m), power});
+  }
+}
+
+void Beacons::measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) {
+  std::fill(power.begin(), power.end(), 0.0F);
+  const std::span<const Reply> arrived = replies(look, terrain);
+  if (arrived.empty()) return;
+  const EffectiveEarth earth = effective_earth(configuration_.fidelity, look.apex, look.azimuth);
+  sample_distances(configuration_.fidelity, earth, look, terrain, distance_m_);
+  const double spacing_m = look.range.metres() / static_cast<double>(power.size());
+  const double pulse_samples = point_rise(pulse_length(configuration_, look.range).metres() / spacing_m);
+  for (const Reply& reply : arrived) {
+    const std::size_t middle = nearest_sample(distance_m_, reply.distance_m);
+    const double drawn_m = configuration_.fidelity.slant_range ? reply.slant_range_m : reply.distance_m;
+    if (!(drawn_m < look.range.metres()) || middle >= power.size()) continue;
+    const auto reach = static_cast<std::size_t>(std::ceil(0.5 * pulse_samples));
+    const std::size_t end = std::min(middle + reach + 1, power.size());
+    for (std::size_t i = middle - std::min(middle, reach); i < end; ++i) {
+      const double share = covered(static_cast<double>(i), static_cast<double>(middle), pulse_samples);
+      power[i] += static_cast<float>(share * reply.power);
+    }
+  }
+}
+
+}  // namespace yars::model::rbm

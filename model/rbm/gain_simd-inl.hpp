@@ -1,0 +1,96 @@
+// The two-way gain in elevation of each beam pattern, for groups of vectors. Included once for each target.
+#if defined(YARS_MODEL_RBM_GAIN_LANES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef YARS_MODEL_RBM_GAIN_LANES_INL
+#undef YARS_MODEL_RBM_GAIN_LANES_INL
+#else
+#define YARS_MODEL_RBM_GAIN_LANES_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "model/physics/polynomials-inl.hpp"
+#include "model/rbm/sample_groups-inl.hpp"
+#include "model/rbm/sweep_simd.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace yars::model::rbm::lanes::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+namespace polynomials = rbm::HWY_NAMESPACE;
+
+// A gain as a fraction: its division joins that of the power.
+template <class Group>
+struct Gain {
+  Group over, under;
+};
+
+// Of sight lines that lead `out_m` along and `up_m` up: no pattern asks how long they are but by their square.
+template <class Group>
+class ElevationGain {
+ public:
+  HWY_INLINE ElevationGain(const SweepConstants& c, const Group& out_m, const Group& up_m, const Group& slant_square)
+      : c_(c),
+        out_m_(out_m),
+        up_m_(up_m),
+        slant_square_(slant_square),
+        below_(mul_sub(constant<Group>(c.sin_elevation), out_m, mul(constant<Group>(c.cos_elevation), up_m))) {}
+
+  HWY_INLINE Gain<Group> of(radar::BeamPattern beam) const {
+    switch (beam) {
+      case radar::BeamPattern::hard_edge:
+        return {hard_edge(), one()};
+      case radar::BeamPattern::gaussian:
+        return {gaussian(), one()};
+      case radar::BeamPattern::cosecant_squared:
+        break;
+    }
+    return cosecant_squared();
+  }
+
+ private:
+  static HWY_INLINE Group one() { return constant<Group>(1.0F); }
+  static HWY_INLINE Group zero() { return constant<Group>(0.0F); }
+  HWY_INLINE Group ahead() const {
+    return mul_add(constant<Group>(c_.cos_elevation), out_m_, mul(constant<Group>(c_.sin_elevation), up_m_));
+  }
+
+  HWY_INLINE Group hard_edge() const {
+    const auto half = constant<Group>(c_.sin_half_beam * c_.sin_half_beam);
+    const auto narrow = less_or_equal(mul(below_, below_), mul(half, slant_square_));
+    return or_zero(both(narrow, less(zero(), ahead())), one());
+  }
+
+  HWY_INLINE Group gaussian() const {
+    return each(
+        [&](Floats off, Floats on) {
+          const Tag d;
+          const auto angle = polynomials::angle(d, hn::Abs(off), on);
+          // A gain below 2^-64 is none: it must not make powers that are too small for normal numbers, and slow.
+          const auto octaves = hn::Neg(hn::Mul(hn::Mul(constant<Floats>(c_.gaussian), angle), angle));
+          return polynomials::exp2(d, hn::Max(octaves, constant<Floats>(-64.0F)));
+        },
+        below_, ahead());
+  }
+
+  HWY_INLINE Gain<Group> cosecant_squared() const {
+    const auto rise = mul(constant<Group>(c_.cos_centre_tilt), up_m_);
+    const auto spread = max(mul_sub(constant<Group>(c_.sin_centre_tilt), out_m_, rise), zero());
+    const auto over = mul(constant<Group>(c_.sin_centre * c_.sin_centre), slant_square_);
+    const Gain<Group> gain{over, max(mul(spread, spread), over)};
+    // Most ground lies below the centre: what is above it is worth a look before its exponential.
+    const auto above = less(below_, zero());
+    if (none(above)) return gain;
+    return {choose(above, gaussian(), gain.over), choose(above, one(), gain.under)};
+  }
+
+  const SweepConstants& c_;
+  const Group& out_m_;
+  const Group& up_m_;
+  const Group& slant_square_;
+  const Group below_;  // sine of the angle below the antenna's centre, times the slant range
+};
+
+}  // namespace yars::model::rbm::lanes::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

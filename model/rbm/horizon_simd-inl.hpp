@@ -1,0 +1,84 @@
+// The greatest tangent up to each sample of a sweep, for groups of vectors. Included once for each target.
+#if defined(YARS_MODEL_RBM_HORIZON_LANES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef YARS_MODEL_RBM_HORIZON_LANES_INL
+#undef YARS_MODEL_RBM_HORIZON_LANES_INL
+#else
+#define YARS_MODEL_RBM_HORIZON_LANES_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "model/rbm/sample_groups-inl.hpp"
+#include "model/rbm/sweep_simd.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace yars::model::rbm::lanes::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Each lane's index less `back`, at least the first's: what is taken twice changes no maximum.
+HWY_INLINE auto lanes_before(std::size_t back) {
+  const hn::RebindToSigned<Tag> di;
+  const auto lane = hn::Sub(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(back)));
+  return hn::IndicesFromVec(Tag(), hn::Max(lane, hn::Zero(di)));
+}
+
+HWY_INLINE auto last_lane() {
+  const hn::RebindToSigned<Tag> di;
+  return hn::IndicesFromVec(Tag(), hn::Set(di, static_cast<std::int32_t>(hn::Lanes(Tag())) - 1));
+}
+
+// The greatest tangent of all samples up to each.
+template <class Group>
+struct Horizon {
+  Group upto;    // with the sample itself
+  Group before;  // without
+};
+
+// From vector to vector.
+class RunningMaximum {
+ public:
+  HWY_INLINE RunningMaximum()
+      : back_{lanes_before(1), lanes_before(2), lanes_before(4), lanes_before(8)},
+        last_(last_lane()),
+        carry_(constant<Floats>(kNoHorizon)) {}
+
+  template <class Group>
+  HWY_INLINE Horizon<Group> after(const Group& tangent) {
+    auto most = tangent;
+    // Doubling: after each step a lane holds the maximum of twice as many up to itself.
+    for (std::size_t step = 0; std::size_t{1} << step < hn::Lanes(Tag()); ++step)
+      most = max(most, each([&](Floats x) { return hn::TableLookupLanes(x, back_[step]); }, most));
+    return joined(most);
+  }
+
+ private:
+  static_assert(hn::MaxLanes(Tag()) <= 16);
+
+  template <class Group>
+  HWY_INLINE Horizon<Group> joined(const Group& most) {
+    if constexpr (kIsPair<Group>) {
+      const auto near = joined(most.near);
+      const auto far = joined(most.far);
+      return {{near.upto, far.upto}, {near.before, far.before}};
+    } else {
+      const auto upto = hn::Max(most, carry_);
+      const auto before = hn::IfThenElse(hn::FirstN(Tag(), 1), carry_, hn::TableLookupLanes(upto, back_[0]));
+      carry_ = hn::TableLookupLanes(upto, last_);
+      return {upto, before};
+    }
+  }
+
+  using Indices = decltype(last_lane());
+  Indices back_[4];
+  Indices last_;
+  Floats carry_;
+};
+
+}  // namespace yars::model::rbm::lanes::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per target

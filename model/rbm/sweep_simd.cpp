@@ -1,0 +1,275 @@
+#include "model/rbm/sweep_simd.hpp"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "model/rbm/sweep_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// Behind highway.h, or it would have no target yet.
+#include "model/physics/clutter_simd-inl.hpp"
+#include "model/physics/polynomials-inl.hpp"
+#include "model/rbm/gain_simd-inl.hpp"
+#include "model/rbm/horizon_simd-inl.hpp"
+#include "model/rbm/sample_groups-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace yars::model::rbm::lanes::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+namespace polynomials = rbm::HWY_NAMESPACE;
+
+constexpr std::size_t kMostLanes = 16;
+
+// Where points are in the vertical plane of the ray, and the aircraft as seen from them.
+template <class Group>
+struct Geometry {
+  Group out_m, up_m;
+  Group drop_m, chord_m, sine, cosine;
+};
+
+// Sine and cosine of the angle at the earth's centre, as the lengths that they stand for. Their series end at the fifth
+// power of an angle below 0.04 (0.1 at 320 NM and k = 1: drop within 0.01 m, chord within 1e-6 of itself).
+template <class Group>
+HWY_INLINE Geometry<Group> geometry(const SweepConstants& c, const Group& distance, const Group& height) {
+  const auto curvature = constant<Group>(c.curvature);
+  const auto angle = mul(distance, curvature);
+  const auto square = mul(angle, angle);
+  Geometry<Group> g{};
+  const auto fall = neg_mul_add(square, constant<Group>(0.0416666667F), constant<Group>(0.5F));
+  g.drop_m = mul(mul(distance, angle), fall);
+  g.chord_m = neg_mul_add(mul(distance, square), constant<Group>(0.166666667F), distance);
+  g.sine = mul(g.chord_m, curvature);
+  g.cosine = neg_mul_add(g.drop_m, curvature, constant<Group>(1.0F));
+  g.out_m = mul_add(height, g.sine, g.chord_m);
+  g.up_m = mul_sub(height, g.cosine, add(g.drop_m, constant<Group>(c.altitude_m)));
+  return g;
+}
+
+template <class Group, class GroupMarks>
+HWY_INLINE Group tangent_of(const Geometry<Group>& g, const GroupMarks& known) {
+  return choose(known, div(g.up_m, g.out_m), constant<Group>(kNoHorizon));
+}
+
+// Of the highest ground.
+template <class Group>
+HWY_INLINE Group peak_tangent(const SweepConstants& c, const Group& distance, const Group& peak) {
+  const auto known = number(peak);
+  return tangent_of(geometry(c, distance, or_zero(known, peak)), known);
+}
+
+// Slope along the sweep: the central difference; towards a void or an end, the difference to the other side alone.
+template <class Group>
+HWY_INLINE Group along_slope(const SweepInputs& in, const Group& here, std::size_t i) {
+  const auto near = load<Group>(in.elevation_m + i - 1);
+  const auto far = load<Group>(in.elevation_m + i + 1);
+  const auto both_steps = load<Group>(in.two_step_inverse + i);
+  const auto near_known = number(near);
+  const auto far_known = number(far);
+  if (all(both(near_known, far_known))) return mul(sub(far, near), both_steps);
+  const auto rise = sub(choose(far_known, far, here), choose(near_known, near, here));
+  const auto to_far = load<Group>(in.one_step_inverse + i);
+  const auto to_near = load<Group>(in.one_step_inverse + i - 1);
+  return mul(rise, choose(near_known, choose(far_known, both_steps, to_near), to_far));
+}
+
+template <class Group>
+HWY_INLINE Group inverse_root(const Group& value) {
+  return each([](Floats x) { return polynomials::inverse_root(Tag(), x); }, value);
+}
+
+// What a group's ground reflects; vectors that lie in shadow are not looked at.
+template <class Group>
+struct Reflected {
+  Group land, sea;
+  bool wet;  // false: `sea` is 0
+};
+
+template <class Group, class GroupMarks>
+HWY_INLINE Reflected<Group> reflected(const GroundInputs& ground, GroundLanes& known, std::size_t i,
+                                      const Group& level_sine, const Group& slant_square, const GroupMarks& lit) {
+  if constexpr (kIsPair<Group>) {
+    const auto step = lanes_of<decltype(Group::near)>();
+    const auto near = reflected(ground, known, i, level_sine.near, slant_square.near, lit.near);
+    const auto far = reflected(ground, known, i + step, level_sine.far, slant_square.far, lit.far);
+    return {{near.land, far.land}, {near.sea, far.sea}, near.wet || far.wet};
+  } else {
+    if (none(lit)) return {hn::Zero(Tag()), hn::Zero(Tag()), false};
+    const GroundReturn found =
+        ground_return(ground, known, i, level_sine, [&] { return mul(level_sine, inverse_root(slant_square)); });
+    return {found.land, found.sea, found.wet};
+  }
+}
+
+// What limits the area that is lit, as an inverse: the larger one of pulse and beam. Sine and cosine of the grazing
+// angle come times any length, and so does what is returned: most often the beam does not limit anything, and the slant
+// range is not asked for.
+template <class Group, class RangeInverse>
+HWY_INLINE Group area_inverse(const SweepConstants& c, const Group& sine, const Group& cosine,
+                              const Group& slant_square, const RangeInverse& range_inverse) {
+  const auto by_pulse = mul(cosine, constant<Group>(c.pulse_inverse));
+  const auto by_beam = mul(sine, constant<Group>(c.beam_inverse));
+  if (none(less(mul(mul(by_pulse, by_pulse), slant_square), mul(by_beam, by_beam)))) return by_pulse;
+  return max(by_pulse, mul(by_beam, range_inverse()));
+}
+
+// The power of samples of which some are lit, before sensitivity time control but for its third power of range.
+template <class Group, class GroupMarks>
+HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, const SweepInputs& in, GroundLanes& known,
+                           std::size_t i, const Geometry<Group>& g, const Group& height, const Group& slant_square,
+                           const GroupMarks& lit) {
+  const auto zero = constant<Group>(0.0F);
+  const auto one = constant<Group>(1.0F);
+  const auto altitude = constant<Group>(c.altitude_m);
+  const auto range_inverse = [&] { return inverse_root(slant_square); };
+  // Sine and cosine of the grazing angle, times the slant range.
+  const auto level_sine = mul_sub(altitude, g.cosine, add(height, g.drop_m));
+  const auto level_cosine = mul_add(altitude, g.sine, g.chord_m);
+  // Of the local one, times the length of the facet's normal too: both cancel in the power.
+  const auto slope = along_slope(in, height, i);
+  const auto sine = max(mul_add(slope, level_cosine, level_sine), zero);
+  auto cosine = abs(neg_mul_add(slope, level_sine, level_cosine));
+  if (in.cross_slope != nullptr) {
+    const auto across = load<Group>(in.cross_slope + i);
+    cosine = sqrt(mul_add(mul(across, across), slant_square, mul(cosine, cosine)));
+  }
+  const auto gain = ElevationGain<Group>(c, g.out_m, g.up_m, slant_square).of(beam);
+  const auto raised = mul(gain.over, constant<Group>(c.scale));
+  // Where the sine is zero so is the power; the area's inverse may be zero there too.
+  const auto returns = both(lit, less(zero, sine));
+  const auto under = mul(area_inverse(c, sine, cosine, slant_square, range_inverse), gain.under);
+  const auto by_land = div(mul(sine, raised), choose(returns, under, one));
+  if (in.ground == nullptr) return or_zero(returns, mul(constant<Group>(c.land_gamma), by_land));
+  const auto ground = reflected(*in.ground, known, i, level_sine, slant_square, lit);
+  const auto land = or_zero(returns, mul(ground.land, by_land));
+  if (!ground.wet) return land;
+  const auto wet = both(lit, less(zero, ground.sea));
+  // The sea lies level: its area goes by the ray's own grazing angle.
+  const auto inverse = range_inverse();
+  const auto level = mul(area_inverse(c, level_sine, level_cosine, slant_square, [&] { return inverse; }), inverse);
+  const auto below = choose(wet, mul(level, gain.under), one);
+  return add(land, or_zero(wet, div(mul(ground.sea, raised), below)));
+}
+
+// One sweep, a group of vectors after the other.
+class SweepLanes {
+ public:
+  HWY_INLINE SweepLanes(const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& in,
+                        const SweepOutputs& out)
+      : c_(constants),
+        beam_(beam),
+        in_(in),
+        out_(out),
+        ground_(in.ground != nullptr ? *in.ground : none_),
+        range_octaves_(hn::Neg(polynomials::log2(Tag(), constant<Floats>(constants.range_inverse)))) {}
+
+  template <class Group>
+  HWY_INLINE void measure(std::size_t i) {
+    const auto distance = load<Group>(in_.distance_m + i);
+    const auto elevation = load<Group>(in_.elevation_m + i);
+    const auto known = number(elevation);
+    const auto height = or_zero(known, elevation);
+    const auto g = geometry(c_, distance, height);
+    auto tangent =
+        in_.peak_m == nullptr ? tangent_of(g, known) : peak_tangent(c_, distance, load<Group>(in_.peak_m + i));
+    const auto crest = in_.crest == nullptr ? constant<Group>(kNoHorizon) : load<Group>(in_.crest + i);
+    const auto [upto, before_crest] = horizon_.after(max(tangent, crest));
+    const auto before = max(before_crest, crest);
+    // Beside a void the peak may be known where the mean is not: it hides what is behind it and returns nothing.
+    tangent = choose(known, tangent, constant<Group>(kNoHorizon));
+    store(tangent, out_.tangent + i);
+    store(before, out_.before + i);
+    store(upto, out_.horizon + i);
+    const auto lit = less(before, tangent);
+    // What lies in shadow as a whole is spared the rest.
+    if (none(lit)) return store(constant<Group>(0.0F), out_.power + i);
+    light(i, g, height, lit);
+  }
+
+ private:
+  template <class Group, class GroupMarks>
+  HWY_INLINE void light(std::size_t i, const Geometry<Group>& g, const Group& height, const GroupMarks& lit) {
+    // Nothing is nearer than a metre: a sample without ground may lie at the aircraft itself.
+    const auto slant_square = max(mul_add(g.out_m, g.out_m, mul(g.up_m, g.up_m)), constant<Group>(1.0F));
+    auto power = lit_power(c_, beam_, in_, ground_, i, g, height, slant_square, lit);
+    if (c_.range_power != 0.0F) {
+      const auto control = each(
+          [&](Floats x) {
+            const auto octaves = hn::Sub(hn::Mul(polynomials::log2(Tag(), x), constant<Floats>(0.5F)), range_octaves_);
+            return polynomials::exp2(Tag(), hn::Mul(constant<Floats>(c_.range_power), octaves));
+          },
+          slant_square);
+      power = mul(power, control);
+    }
+    store(power, out_.power + i);
+  }
+
+  const SweepConstants c_;
+  const radar::BeamPattern beam_;
+  const SweepInputs in_;
+  const SweepOutputs out_;
+  const GroundInputs none_;
+  GroundLanes ground_;
+  RunningMaximum horizon_;
+  const Floats range_octaves_;
+};
+
+void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& inputs,
+           const SweepOutputs& outputs) {
+  using Together = Pair<Floats>;
+  SweepLanes lanes(constants, beam, inputs, outputs);
+  for (std::size_t i = 0; i < count; i += lanes_of<Together>()) lanes.measure<Together>(i);
+}
+
+// `kReach` samples to either side; negative: as many as told.
+template <std::ptrdiff_t kReach>
+HWY_INLINE void smear_by(std::size_t count, const float* power, const float* weights, std::ptrdiff_t told,
+                         float* result) {
+  const Tag d;
+  const std::ptrdiff_t reach = kReach < 0 ? told : kReach;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    auto sum = hn::Zero(d);
+    for (std::ptrdiff_t k = -reach; k <= reach; ++k)
+      sum = fused::mul_add(hn::Set(d, weights[reach + k]), hn::LoadU(d, power + i + k), sum);
+    if (count - i >= hn::Lanes(d)) {
+      hn::StoreU(sum, d, result + i);
+    } else {
+      HWY_ALIGN float last[kMostLanes];
+      hn::Store(sum, d, last);
+      std::copy_n(last, count - i, result + i);
+    }
+  }
+}
+
+void smear(std::size_t count, const float* power, const float* weights, std::ptrdiff_t reach, float* result) {
+  switch (reach) {
+    case 0:
+      return smear_by<0>(count, power, weights, reach, result);
+    case 1:
+      return smear_by<1>(count, power, weights, reach, result);
+    case 2:
+      return smear_by<2>(count, power, weights, reach, result);
+    default:
+      return smear_by<-1>(count, power, weights, reach, result);
+  }
+}
+
+}  // namespace yars::model::rbm::lanes::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace yars::model::rbm::lanes {
+
+HWY_EXPORT(sweep);
+HWY_EXPORT(smear);
+
+void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& inputs,
+           const SweepOutputs& outputs) {
+  HWY_DYNAMIC_DISPATCH(sweep)(count, constants, beam, inputs, outputs);
+}
+void smear(std::size_t count, const float* power, const float* weights, std::ptrdiff_t reach, float* result) {
+  HWY_DYNAMIC_DISPATCH(smear)(count, power, weights, reach, result);
+}
+
+}  // namespace yars::model::rbm::lanes
+#endif  // HWY_ONCE

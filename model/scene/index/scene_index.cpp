@@ -1,0 +1,214 @@
+#include "model/scene/index/scene_index.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "model/scene/openflight/node_tree.hpp"
+#include "model/scene/openflight/reader.hpp"
+#include "model/terrain/store/cell_files.hpp"
+
+namespace yars::model::scene {
+
+namespace {
+
+std::optional<double> number(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::optional<std::vector<double>> numbers(std::string_view text) {
+  std::vector<double> found;
+  for (;;) {
+    const std::size_t comma = text.find(',');
+    const std::optional<double> value = number(text.substr(0, comma));
+    if (!value) return std::nullopt;
+    found.push_back(*value);
+    if (comma == std::string_view::npos) return found;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+// Degrees_minutes_seconds behind one of two letters, taken off the front of `text`.
+std::optional<double> take_angle(std::string_view& text, char positive, char negative) {
+  if (text.empty()) return std::nullopt;
+  const char side = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  if (side != positive && side != negative) return std::nullopt;
+  text.remove_prefix(1);
+  double degrees = 0.0;
+  for (const double parts : {1.0, 60.0, 3600.0}) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || value < 0 || (parts > 1.0 && value >= 60)) return std::nullopt;
+    degrees += value / parts;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    if (parts == 3600.0) break;
+    if (text.empty() || text[0] != '_') return std::nullopt;
+    text.remove_prefix(1);
+  }
+  return side == negative ? -degrees : degrees;
+}
+
+failure::Expected<void> leave_out(std::vector<radar::Scene>& scenes, const std::string& name) {
+  NameFilter all(name);
+  if (scenes.empty() || all.unmet().empty())
+    return failure::fail("--scene-without", "a scene, and the name of what is left out of it",
+                         scenes.empty() ? "no scene" : "an empty name", "give --scene and a name");
+  bool met = false;
+  for (radar::Scene& scene : scenes) {
+    std::error_code code;
+    if (!std::filesystem::is_directory(scene.file, code)) {
+      NameFilter filter(name);
+      if (const auto model = read_openflight(scene.file, &filter); !model) return tl::unexpected(model.error());
+      all.add_seen(filter);
+      if (!filter.unmet().empty()) continue;
+    }
+    met = true;
+    scene.without += (scene.without.empty() ? "" : ",") + name;
+  }
+  if (met) return {};
+  return tl::unexpected(*all.complaint("--scene-without"));
+}
+
+}  // namespace
+
+failure::Expected<radar::Scene> parse_scene(const std::string& text) {
+  radar::Scene scene;
+  const std::size_t at = text.rfind('@');
+  scene.file = text.substr(0, at);
+  if (at == std::string::npos) return scene;
+  const auto values = numbers(std::string_view(text).substr(at + 1));
+  const bool right = values && (values->size() == 2 || values->size() == 3) && std::abs((*values)[0]) <= 90.0 &&
+                     std::abs((*values)[1]) <= 360.0;
+  if (!right || scene.file.empty())
+    return failure::fail(text, "FILE@LATITUDE,LONGITUDE or FILE@LATITUDE,LONGITUDE,HEADING in degrees",
+                         std::string("'").append(text, at) + "'", "write it as airfield.flt@37.5,-122.3,45");
+  scene.place = {(*values)[0], geo::wrapped_degrees((*values)[1])};
+  if (values->size() == 3) scene.heading_deg = (*values)[2];
+  return scene;
+}
+
+failure::Expected<void> add_scenes(std::vector<radar::Scene>& scenes, const std::vector<std::string>& texts,
+                                   const std::vector<std::string>& names) {
+  for (const std::string& text : texts) {
+    auto scene = parse_scene(text);
+    if (!scene) return tl::unexpected(scene.error());
+    scenes.push_back(std::move(*scene));
+  }
+  for (const std::string& name : names)
+    if (auto done = leave_out(scenes, name); !done) return done;
+  return {};
+}
+
+std::optional<geo::GeoPoint> place_in_name(const std::string& name) {
+  for (std::size_t start = 0; start < name.size(); ++start) {
+    std::string_view rest = std::string_view(name).substr(start);
+    const std::optional<double> latitude_deg = take_angle(rest, 'N', 'S');
+    if (!latitude_deg) continue;
+    if (!rest.empty() && rest[0] == '_') rest.remove_prefix(1);
+    const std::optional<double> longitude_deg = take_angle(rest, 'E', 'W');
+    if (longitude_deg && std::abs(*latitude_deg) <= 90.0 && std::abs(*longitude_deg) <= 180.0)
+      return geo::GeoPoint{*latitude_deg, *longitude_deg};
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+double distance_m(geo::GeoPoint a, geo::GeoPoint b) {
+  return geo::geodesic_inverse(a, b).distance.metres();
+}
+
+// From the header's corners; they count from the header's own origin, wherever the scene is put.
+double reach_of(const Header& header) {
+  if (!header.origin || !header.south_west || !header.north_east) return kUnknownReach_m;
+  const geo::GeoPoint south_east{header.south_west->latitude_deg, header.north_east->longitude_deg};
+  const geo::GeoPoint north_west{header.north_east->latitude_deg, header.south_west->longitude_deg};
+  double most_m = 0.0;
+  for (const geo::GeoPoint corner : {*header.south_west, *header.north_east, south_east, north_west})
+    most_m = std::max(most_m, distance_m(*header.origin, corner));
+  return most_m;
+}
+
+failure::Expected<IndexedScene> index_file(const fs::path& file, const radar::Scene& scene) {
+  const auto header = read_openflight_header(file);
+  if (!header) return tl::unexpected(header.error());
+  IndexedScene found{file, {scene.place, scene.heading_deg, scene.heights}, reach_of(*header), scene.without};
+  if (std::isfinite(scene.place.latitude_deg) && std::isfinite(scene.place.longitude_deg)) return found;
+  if (const auto named = place_in_name(file.filename().string())) {
+    found.placement.place = *named;
+  } else if (header->origin) {
+    found.placement.place = *header->origin;
+  } else {
+    return failure::fail(file.string(), "a scene with a place: given with it, in its name, or as its header's origin",
+                         "none", "give latitude and longitude, or FILE@LAT,LON,HDG");
+  }
+  return found;
+}
+
+// Of a folder each file leaves out what it has of the names.
+failure::Expected<void> check_names(const radar::Scene& scene) {
+  if (scene.without.empty()) return {};
+  NameFilter filter(scene.without);
+  if (const auto model = read_openflight(scene.file, &filter); !model) return tl::unexpected(model.error());
+  if (const auto complaint = filter.complaint(scene.file)) return tl::unexpected(*complaint);
+  return {};
+}
+
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code code;
+  for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code)) {
+    std::string extension = entry->path().extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    if (extension == ".flt") files.push_back(entry->path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+failure::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<radar::Scene>& scenes,
+                                                          std::vector<std::string>& problems) {
+  std::vector<IndexedScene> index;
+  for (const radar::Scene& scene : scenes) {
+    std::error_code code;
+    if (!fs::is_directory(scene.file, code)) {
+      auto found = index_file(scene.file, scene);
+      if (!found) return tl::unexpected(found.error());
+      if (auto known = check_names(scene); !known) return tl::unexpected(known.error());
+      index.push_back(std::move(*found));
+      continue;
+    }
+    const std::vector<fs::path> files = files_in(scene.file);
+    if (files.empty())
+      return failure::fail(scene.file, "a folder with .flt files", "none", "give a file or another folder");
+    const fs::path root = fs::weakly_canonical(scene.file, code);
+    for (const fs::path& file : files) {
+      if (terrain::leads_out(file, root)) {
+        problems.push_back(failure::Error{file.string(), "a file inside " + root.string(), "a link that leads out",
+                                          "copy the scene there, or name it by itself", false}
+                               .message());
+        continue;
+      }
+      auto found = index_file(file, scene);
+      if (found)
+        index.push_back(std::move(*found));
+      else
+        problems.push_back(found.error().message());
+    }
+  }
+  return index;
+}
+
+}  // namespace yars::model::scene

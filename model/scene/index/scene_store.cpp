@@ -1,0 +1,199 @@
+#include "model/scene/index/scene_store.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "model/scene/openflight/reader.hpp"
+#include "model/scene/placement/plan_geometry.hpp"
+#include "model/terrain/store/directory_store.hpp"
+
+namespace yars::model::scene {
+
+namespace {
+
+constexpr double kSceneCell_deg = 0.25;  // scenes are some kilometres across
+
+using Hits = std::vector<GridIndex::Hit>;
+
+// Reused by every query of a thread: a patch asks hundreds of times a second.
+Hits& scratch(int which) {
+  thread_local std::array<Hits, 2> hits;
+  hits[static_cast<std::size_t>(which)].clear();
+  return hits[static_cast<std::size_t>(which)];
+}
+
+double beyond(double value, double least, double most) {
+  return std::max({0.0, least - value, value - most});
+}
+
+bool is_within(const Tile& tile, double reach_m, geo::GeoPoint place, double distance_m, double radius_m) {
+  if (distance_m + reach_m <= radius_m) return true;
+  const PlanePoint at = Plane(tile.origin).point_of(place);
+  const Bounds& b = tile.bounds;
+  return std::hypot(beyond(at.east_m, static_cast<double>(b.east_least_m), static_cast<double>(b.east_most_m)),
+                    beyond(at.north_m, static_cast<double>(b.north_least_m), static_cast<double>(b.north_most_m))) <=
+         radius_m;
+}
+
+}  // namespace
+
+PlacedView::PlacedView(std::uint64_t generation, std::vector<Part> parts, std::vector<SurfaceKind> kinds,
+                       std::vector<SceneObject> objects)
+    : generation_(generation), parts_(std::move(parts)), kinds_(std::move(kinds)), objects_(std::move(objects)) {
+  std::vector<Disc> discs;
+  for (const Part& part : parts_) {
+    // Bounds of tiles are boxes; their corners reach somewhat farther than what is in them.
+    discs.push_back({part.scene->placement.place, 1.5 * part.scene->reach_m + kTileSide_m});
+    bytes_ += part.scene->bytes;
+    if (part.scene->scatterers) scatterers_.push_back(part.scene->scatterers.get());
+  }
+  places_ = GridIndex(discs, kSceneCell_deg);
+  bytes_ += places_.bytes() + objects_.capacity() * sizeof(SceneObject) + kinds_.capacity() * sizeof(SurfaceKind);
+}
+
+void PlacedView::tiles_near(geo::GeoPoint place, double radius_m, std::vector<const Tile*>& found) const {
+  found.clear();
+  Hits& scenes = scratch(0);
+  places_.find(place, radius_m, scenes);
+  std::sort(scenes.begin(), scenes.end());
+  for (const GridIndex::Hit& scene : scenes) {
+    const PlacedScene& placed = *parts_[scene.disc].scene;
+    Hits& tiles = scratch(1);
+    placed.tile_index.find(place, radius_m, tiles);
+    std::sort(tiles.begin(), tiles.end());
+    for (const GridIndex::Hit& tile : tiles)
+      if (is_within(placed.tiles[tile.disc], placed.tile_reach_m[tile.disc], place, tile.distance_m, radius_m))
+        found.push_back(&placed.tiles[tile.disc]);
+  }
+}
+
+void PlacedView::objects_near(geo::GeoPoint place, double radius_m, std::vector<std::uint32_t>& found) const {
+  found.clear();
+  Hits& scenes = scratch(0);
+  places_.find(place, radius_m, scenes);
+  for (const GridIndex::Hit& scene : scenes) {
+    Hits& objects = scratch(1);
+    parts_[scene.disc].scene->object_index.find(place, radius_m, objects);
+    for (const GridIndex::Hit& object : objects) found.push_back(parts_[scene.disc].first_object + object.disc);
+  }
+  std::sort(found.begin(), found.end());
+}
+
+namespace {
+constexpr double kIndexCell_deg = 0.25;
+}
+
+failure::Expected<std::unique_ptr<SceneStore>> SceneStore::open(const std::vector<radar::Scene>& scenes,
+                                                                std::unique_ptr<terrain::TerrainStore> ground,
+                                                                SceneStoreOptions options) {
+  std::vector<std::string> problems;
+  auto index = index_scenes(scenes, problems);
+  if (!index) return tl::unexpected(index.error());
+  auto store = std::unique_ptr<SceneStore>(new SceneStore(std::move(*index), std::move(ground), options));
+  store->without_place_ = problems.size();
+  store->problems_ = std::move(problems);
+  return store;
+}
+
+SceneStore::SceneStore(std::vector<IndexedScene> index, std::unique_ptr<terrain::TerrainStore> ground,
+                       SceneStoreOptions options)
+    : index_(std::move(index)), ground_(std::move(ground)), options_(options), scenes_(index_.size()) {
+  std::vector<Disc> discs;
+  for (const IndexedScene& scene : index_) discs.push_back({scene.placement.place, scene.reach_m});
+  places_ = GridIndex(discs, kIndexCell_deg);
+  make_view();
+}
+
+SceneViewPointer SceneStore::prepare(const terrain::TerrainRegion& region) {
+  ++prepares_;
+  std::vector<GridIndex::Hit> hits;
+  places_.find(region.centre, region.radius_m, hits);
+  std::sort(hits.begin(), hits.end());
+  bool changed = false;
+  wanted_ = {hits.size() + without_place_, without_place_};
+  for (const GridIndex::Hit& hit : hits) {
+    scenes_[hit.disc].last_use = prepares_;
+    if (!scenes_[hit.disc].placed && !scenes_[hit.disc].unreadable) changed |= load(hit.disc);
+    if (scenes_[hit.disc].unreadable) ++wanted_.unreadable;
+  }
+  while (resident_bytes_ > options_.resident_limit_bytes && drop_longest_unused()) changed = true;
+  if (changed) make_view();
+  return view_;
+}
+
+bool SceneStore::load(std::size_t number) {
+  Resident& resident = scenes_[number];
+  const IndexedScene& scene = index_[number];
+  NameFilter filter(scene.without);
+  const auto model = read_openflight(scene.file, &filter);
+  if (!model) {
+    resident.unreadable = true;
+    problems_.push_back(model.error().message() + "; the scene is left out");
+    return false;
+  }
+  for (const std::string& warning : model->warnings) problems_.push_back(scene.file.string() + ": " + warning);
+  const auto objects = static_cast<std::uint32_t>(model->objects.size());
+  // A file that was changed meanwhile gets new numbers; its old ones stay empty.
+  if (resident.objects != objects) {
+    resident.first_object = static_cast<std::uint32_t>(objects_.size());
+    resident.objects = objects;
+    objects_.resize(objects_.size() + objects);
+  }
+  double reach_m = 0.0;
+  for (const ModelVertex& vertex : model->vertices)
+    reach_m = std::max(reach_m, std::hypot(static_cast<double>(vertex.place_m[0]) + model->base.x,
+                                           static_cast<double>(vertex.place_m[1]) + model->base.y));
+  if (reach_m > scene.reach_m + kTileSide_m)
+    problems_.push_back(scene.file.string() + ": expected a scene within " +
+                        std::to_string(static_cast<long>(scene.reach_m)) + " m of its origin, found one to " +
+                        std::to_string(static_cast<long>(reach_m)) +
+                        " m; it is shown only when its nearer part is looked at");
+  const terrain::TerrainViewPointer ground = ground_->prepare({scene.placement.place, reach_m + kTileSide_m, 0});
+  // Scatterers that the index does not know of would come and go with what else was looked at.
+  auto placed = std::make_shared<PlacedScene>(place_model(*model, scene.placement, *ground, resident.first_object,
+                                                          kinds_, options_.use, scene.reach_m + kTileSide_m));
+  if (placed->objects.front().name.empty()) placed->objects.front().name = scene.file.stem().string();
+  std::copy(placed->objects.begin(), placed->objects.end(), objects_.begin() + resident.first_object);
+  resident_bytes_ += placed->bytes;
+  resident.placed = std::move(placed);
+  return true;
+}
+
+bool SceneStore::drop_longest_unused() {
+  Resident* oldest = nullptr;
+  for (Resident& resident : scenes_)
+    if (resident.placed && resident.last_use != prepares_ &&
+        (oldest == nullptr || resident.last_use < oldest->last_use))
+      oldest = &resident;
+  if (oldest == nullptr) return false;
+  resident_bytes_ -= oldest->placed->bytes;
+  oldest->placed.reset();
+  return true;
+}
+
+void SceneStore::make_view() {
+  std::vector<PlacedView::Part> parts;
+  for (const Resident& resident : scenes_)
+    if (resident.placed) parts.push_back({resident.placed, resident.first_object});
+  view_ = std::make_shared<const PlacedView>(++generation_, std::move(parts), kinds_.kinds(), objects_);
+}
+
+std::vector<std::string> SceneStore::take_problems() {
+  std::vector<std::string> problems = std::exchange(problems_, {});
+  for (std::string& problem : ground_->take_problems()) problems.push_back(std::move(problem));
+  return problems;
+}
+
+failure::Expected<std::unique_ptr<SceneStore>> open_scenes(const radar::RadarConfiguration& configuration,
+                                                           SceneUse use) {
+  if (configuration.world.scenes.empty()) return std::unique_ptr<SceneStore>();
+  auto ground = terrain::open_terrain(configuration.terrain);
+  if (!ground) return tl::unexpected(ground.error());
+  SceneStoreOptions options;
+  options.use = use;
+  return SceneStore::open(configuration.world.scenes, std::move(*ground), options);
+}
+
+}  // namespace yars::model::scene

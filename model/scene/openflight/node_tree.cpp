@@ -1,0 +1,191 @@
+#include "model/scene/openflight/node_tree.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "model/scene/openflight/records.hpp"
+
+namespace yars::model::scene {
+
+std::uint16_t KindTable::number_of(const SurfaceKind& kind) {
+  constexpr std::size_t kMost = 65'536;
+  const auto key = std::tuple(kind.material, kind.feature_id, kind.color_rgb);
+  if (const auto known = numbers_.find(key); known != numbers_.end()) return known->second;
+  if (kinds_.size() >= kMost) {
+    const auto alike = std::find_if(kinds_.begin(), kinds_.end(),
+                                    [&](const SurfaceKind& other) { return other.material == kind.material; });
+    return alike == kinds_.end() ? std::uint16_t{0} : static_cast<std::uint16_t>(alike - kinds_.begin());
+  }
+  const auto number = static_cast<std::uint16_t>(kinds_.size());
+  kinds_.push_back(kind);
+  numbers_.emplace(key, number);
+  return number;
+}
+
+namespace {
+
+constexpr std::size_t kNamesListed = 6;
+constexpr std::size_t kMostSeen = 100'000;  // names that are remembered for a list of near ones
+
+std::string lower(std::string_view text) {
+  std::string made(text);
+  std::transform(made.begin(), made.end(), made.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return made;
+}
+
+// Both in lower case. Goes back to the last star alone: time is the product of the lengths at most.
+bool matches(std::string_view pattern, std::string_view name) {
+  std::size_t p = 0, n = 0, star = std::string_view::npos, from = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      from = n;
+    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
+      ++p;
+      ++n;
+    } else if (star != std::string_view::npos) {
+      p = star + 1;
+      n = ++from;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', p) == std::string_view::npos;
+}
+
+// Letters to change, add or take away (Levenshtein); none for a name that holds the other.
+std::size_t distance(std::string_view a, std::string_view b) {
+  if (!a.empty() && b.find(a) != std::string_view::npos) return 0;
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t corner = row[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = corner + (a[i] == b[j] ? 0 : 1);
+      corner = row[j + 1];
+      row[j + 1] = std::min({changed, row[j] + 1, corner + 1});
+    }
+  }
+  return row.back();
+}
+
+std::string near_to(const std::string& wanted, const std::set<std::string>& seen) {
+  std::vector<std::pair<std::size_t, std::string>> names;
+  const std::string small = lower(wanted);
+  for (const std::string& name : seen) names.emplace_back(distance(small, lower(name)), name);
+  const std::size_t listed = std::min(kNamesListed, names.size());
+  std::partial_sort(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(listed), names.end());
+  std::string text;
+  for (std::size_t i = 0; i < listed; ++i) {
+    text += i == 0 ? "'" : ", '";
+    text += names[i].second;
+    text += "'";
+  }
+  return text;
+}
+
+}  // namespace
+
+NameFilter::NameFilter(std::string_view names) {
+  while (!names.empty()) {
+    const std::size_t comma = std::min(names.find(','), names.size());
+    std::string_view name = names.substr(0, comma);
+    names.remove_prefix(std::min(comma + 1, names.size()));
+    const std::size_t first = name.find_first_not_of(" \t");
+    if (first == std::string_view::npos) continue;
+    name = name.substr(first, name.find_last_not_of(" \t") - first + 1);
+    wanted_.push_back({std::string(name)});
+  }
+}
+
+bool NameFilter::leaves_out(const std::string& name) {
+  if (wanted_.empty() || name.empty()) return false;
+  if (seen_.size() < kMostSeen) seen_.insert(name);
+  bool out = false;
+  const std::string small = lower(name);
+  for (Wanted& wanted : wanted_) {
+    if (!matches(lower(wanted.name), small)) continue;
+    wanted.met = true;
+    out = true;
+  }
+  return out;
+}
+
+std::vector<std::string> NameFilter::unmet() const {
+  std::vector<std::string> names;
+  for (const Wanted& wanted : wanted_)
+    if (!wanted.met) names.push_back(wanted.name);
+  return names;
+}
+
+std::optional<failure::Error> NameFilter::complaint(const std::string& subject) const {
+  const std::vector<std::string> names = unmet();
+  if (names.empty()) return std::nullopt;
+  return failure::Error{subject, "something to leave out that is called '" + names.front() + "'", "none",
+                        seen_.empty() ? "nothing in it has a name"
+                                      : "it has " + std::to_string(seen_.size()) + " names; near to it are " +
+                                            near_to(names.front(), seen_),
+                        false};
+}
+
+using namespace openflight;
+
+namespace {
+
+std::optional<double> metres_per_unit(int code) {
+  switch (code) {
+    case 0:
+      return 1.0;
+    case 1:
+      return 1000.0;
+    case 4:
+      return 0.3048;
+    case 5:
+      return 0.0254;
+    case 8:
+      return 1852.0;
+    default:
+      return std::nullopt;
+  }
+}
+
+// Nothing when it is absent, no place, or exactly 0, 0, which files write that have none.
+std::optional<geo::GeoPoint> place_at(const Record& record, std::size_t latitude_at, std::size_t longitude_at) {
+  const double latitude_deg = record.number_or<double>(latitude_at, 0.0);
+  const double longitude_deg = record.number_or<double>(longitude_at, 0.0);
+  if (!(std::abs(latitude_deg) <= 90.0) || !(std::abs(longitude_deg) <= 360.0)) return std::nullopt;
+  if (latitude_deg == 0.0 && longitude_deg == 0.0) return std::nullopt;
+  return geo::GeoPoint{latitude_deg, geo::wrapped_degrees(longitude_deg)};
+}
+
+}  // namespace
+
+failure::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject) {
+  const std::optional<Record> record = record_at(bytes, 0);
+  if (!record || record->opcode() != kHeader || !record->has(header::kRevision, 4))
+    return failure::fail(subject, "an OpenFlight file, which begins with a header record", "other bytes",
+                         "give a .flt file of OpenFlight 14 to 16.5");
+  Header found;
+  found.revision = *record->number<std::int32_t>(header::kRevision);
+  // 14.2 was written as 14, 142 and 1420 by different programs.
+  while (found.revision > 0 && found.revision < 1000) found.revision *= 10;
+  if (found.revision < header::kOldestRevision || found.revision > header::kNewestRevision)
+    return failure::fail(subject, "OpenFlight revision 1400 to 1650", std::to_string(found.revision),
+                         "save it as OpenFlight 16");
+  const int units = record->number_or<std::uint8_t>(header::kUnits, 0);
+  const std::optional<double> scale = metres_per_unit(units);
+  if (!scale)
+    return failure::fail(subject, "units 0 (m), 1 (km), 4 (ft), 5 (in) or 8 (NM)", std::to_string(units),
+                         "save it in metres");
+  found.metres_per_unit = *scale;
+  found.origin = place_at(*record, header::kOriginLatitude, header::kOriginLongitude);
+  found.south_west = place_at(*record, header::kSouthLatitude, header::kWestLongitude);
+  found.north_east = place_at(*record, header::kNorthLatitude, header::kEastLongitude);
+  return found;
+}
+
+}  // namespace yars::model::scene

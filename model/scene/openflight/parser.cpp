@@ -1,0 +1,390 @@
+#include "model/scene/openflight/parser.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "model/scene/openflight/node_tree.hpp"
+#include "model/scene/openflight/records.hpp"
+#include "model/scene/openflight/surface_records.hpp"
+
+namespace yars::model::scene {
+
+failure::Expected<NodeTree> parse_openflight(std::span<const std::byte> bytes, const std::string& subject) {
+  return TreeParser(bytes, subject).parse();
+}
+
+using namespace openflight;
+
+failure::Expected<NodeTree> TreeParser::parse() {
+  const auto header = parse_header(bytes_, subject_);
+  if (!header) return tl::unexpected(header.error());
+  tree_.header = *header;
+  surfaces_.set_revision(header->revision);
+  tree_.nodes.emplace_back();
+  current_.node = 0;
+  for (;;) {
+    const auto record = stream_.next();
+    if (!record) return tl::unexpected(record.error());
+    if (!*record) break;
+    if (const auto done = take(**record); !done) return tl::unexpected(done.error());
+  }
+  if (!levels_.empty())
+    tree_.warnings.emplace_back("the file ends inside " + std::to_string(levels_.size()) + " open levels");
+  if (surfaces_.foreign_codes() > 0)
+    tree_.warnings.emplace_back("faces with a surface material code beyond 31: " +
+                                std::to_string(surfaces_.foreign_codes()) + "; they count as without one");
+  tree_.counts.materials = surfaces_.colors().materials();
+  tree_.counts.hidden_faces = surfaces_.hidden_faces();
+  tree_.kinds = surfaces_.kinds();
+  return std::move(tree_);
+}
+
+TreeParser::Done TreeParser::take(const Record& record) {
+  if (const int step = nesting_of_skipped(record.opcode()); step != 0 || skipped_ > 0) {
+    skipped_ = std::max(0, skipped_ + step);
+    return {};
+  }
+  switch (record.opcode()) {
+    case kPushLevel:
+      return push();
+    case kPopLevel:
+      return pop();
+    case kPushSubface:
+      ++subface_level_;
+      return push();
+    case kPopSubface:
+      subface_level_ = std::max(0, subface_level_ - 1);
+      return pop();
+    case kColorPalette:
+      surfaces_.colors().read_colors(record, tree_.header.revision);
+      return {};
+    case kMaterial:
+      surfaces_.colors().read_material(record);
+      return {};
+    case kFace:
+      return add_face(record);
+    case kMesh:
+      return add_mesh(record);
+    case kLocalVertexPool:
+      return add_pool(record);
+    case kMeshPrimitive:
+      return add_primitive(record);
+    case kVertexPalette:
+      palette_.begin(record);
+      return {};
+    case kVertexColor:
+    case kVertexColorNormal:
+    case kVertexColorNormalTexture:
+    case kVertexColorTexture:
+      return add_vertex(record);
+    case kVertexList:
+      return add_corners(record);
+    case kMatrix:
+      return add_matrix(record);
+    case kReplicate:
+      return add_replication(record);
+    case kLongId:
+      name_it(record);
+      return {};
+    default:
+      return add_node(record);
+  }
+}
+
+// +1 and -1 around records that nobody here reads, else 0.
+int TreeParser::nesting_of_skipped(std::uint16_t opcode) {
+  if (opcode == kPushExtension || opcode == kPushAttribute) return 1;
+  return opcode == kPopExtension || opcode == kPopAttribute ? -1 : 0;
+}
+
+tl::unexpected<failure::Error> TreeParser::too_many(std::size_t most, const std::string& what) {
+  return failure::fail(subject_, "at most " + std::to_string(most) + " " + what, "more", "split the file");
+}
+
+TreeParser::Done TreeParser::push() {
+  if (levels_.size() >= kDeepestPush) return too_many(kDeepestPush, "levels of records");
+  levels_.push_back(current_);
+  return {};
+}
+
+TreeParser::Done TreeParser::pop() {
+  if (levels_.empty())
+    return failure::fail(subject_, "as many pop records as push records", "one pop more",
+                         "the file is damaged; fetch it again");
+  current_ = levels_.back();
+  levels_.pop_back();
+  return {};
+}
+
+// Groups, objects, switches and what moves them.
+
+using namespace openflight;
+
+TreeParser::Done TreeParser::new_node(NodeKind kind, bool attached) {
+  if (tree_.nodes.size() >= kMostNodes) return too_many(kMostNodes, "nodes");
+  const auto number = static_cast<std::uint32_t>(tree_.nodes.size());
+  tree_.nodes.emplace_back().kind = kind;
+  if (attached && parent().node != kNone) link_child(parent().node, number);
+  current_ = {.node = number};
+  return {};
+}
+
+void TreeParser::link_child(std::uint32_t parent, std::uint32_t child) {
+  Node& above = tree_.nodes[parent];
+  if (above.first_child == kNone)
+    above.first_child = child;
+  else
+    tree_.nodes[above.last_child].next_sibling = child;
+  above.last_child = child;
+}
+
+TreeParser::Done TreeParser::add_node(const Record& record) {
+  switch (record.opcode()) {
+    case kGroup:
+      return add_group(record);
+    case kObject:
+      ++tree_.counts.objects;
+      return add_named(record, NodeKind::object);
+    case kLevelOfDetail:
+      return add_level_of_detail(record);
+    case kSwitch:
+      return add_switch(record);
+    case kInstanceDefinition:
+      return add_definition(record);
+    case kInstanceReference:
+      ++tree_.counts.instances;
+      return new_node(NodeKind::instance).map([&] {
+        tree_.nodes.back().instance = record.number_or<std::uint16_t>(6, 0);
+      });
+    case kExternalReference:
+      ++tree_.counts.external_references;
+      return new_node(NodeKind::external).map([&] { tree_.nodes.back().name = record.text(4, 200); });
+    case kDegreeOfFreedom:
+    case kBinarySeparatingPlane:
+    case kRoadSegment:
+    case kClipRegion:
+    case kExtension:
+    case kContinuouslyAdaptive:
+    case kRoadConstruction:
+      return add_named(record, NodeKind::group);
+    case kSound:
+    case kPath:
+    case kText:
+    case kLightSource:
+    case kLightPoint:
+    case kCurve:
+    case kIndexedLightPoint:
+    case kLightPointSystem:
+      return new_node(NodeKind::ignored);
+    default:
+      return {};
+  }
+}
+
+TreeParser::Done TreeParser::add_named(const Record& record, NodeKind kind) {
+  return new_node(kind).map([&] { tree_.nodes.back().name = record.text(kNameAt, kNameBytes); });
+}
+
+TreeParser::Done TreeParser::add_group(const Record& record) {
+  constexpr std::uint32_t kForward = 1U << 30, kSwing = 1U << 29, kBackward = 1U << 26;
+  constexpr std::int32_t kBackwardRevision = 1580;  // the bit meant nothing before; a swing alone was an animation
+  const auto flags = record.number_or<std::uint32_t>(16, 0);
+  const std::uint32_t animation = kForward | (tree_.header.revision >= kBackwardRevision ? kBackward : kSwing);
+  return add_named(record, NodeKind::group).map([&] {
+    tree_.nodes.back().first_child_only = (flags & animation) != 0;
+  });
+}
+
+TreeParser::Done TreeParser::add_level_of_detail(const Record& record) {
+  ++tree_.counts.levels_of_detail;
+  return add_named(record, NodeKind::level_of_detail).map([&] {
+    const double switch_out = record.number_or<double>(24, 0.0);
+    tree_.nodes.back().switch_out_m = std::isfinite(switch_out) ? switch_out * tree_.header.metres_per_unit : 0.0;
+  });
+}
+
+TreeParser::Done TreeParser::add_switch(const Record& record) {
+  constexpr std::size_t kCurrentAt = 16, kMasksAt = 20, kWordsAt = 24, kFirstWordAt = 28;
+  return add_named(record, NodeKind::choice).map([&] {
+    const std::size_t current = record.number_or<std::uint32_t>(kCurrentAt, 0);
+    const std::size_t words = record.number_or<std::uint32_t>(kWordsAt, 0);
+    if (current >= record.number_or<std::uint32_t>(kMasksAt, 0)) return;
+    for (std::size_t word = 0; word < words; ++word) {
+      const auto mask = record.number<std::uint32_t>(kFirstWordAt + 4 * (current * words + word));
+      if (!mask) break;
+      tree_.nodes.back().choice_mask.push_back(*mask);
+    }
+  });
+}
+
+TreeParser::Done TreeParser::add_definition(const Record& record) {
+  return new_node(NodeKind::group, false).map([&] {
+    tree_.definitions[record.number_or<std::uint16_t>(6, 0)] = current_.node;
+  });
+}
+
+void TreeParser::name_it(const Record& record) {
+  constexpr std::size_t kLongestName = 128;
+  if (current_.node == kNone || current_.face != kNone || current_.mesh >= 0) return;
+  Node& node = tree_.nodes[current_.node];
+  if (node.kind != NodeKind::external) node.name = record.text(4, kLongestName);
+}
+
+// A face that is moved becomes the content of a node of its own. Records that follow a face at once can do that;
+// later the list of its siblings has gone on, and it stays where it is.
+TreeParser::Done TreeParser::own_node() {
+  const std::uint32_t face = current_.face;
+  const std::uint32_t above = parent().node;
+  if (tree_.faces.size() != std::size_t{face} + 1 || above == kNone) return {};
+  if (auto made = new_node(NodeKind::group); !made) return made;
+  Node& before = tree_.nodes[above];
+  before.last_face = face_before_;
+  if (face_before_ == kNone)
+    before.first_face = kNone;
+  else
+    tree_.faces[face_before_].next = kNone;
+  tree_.nodes.back().first_face = tree_.nodes.back().last_face = face;
+  current_.face = face;
+  return {};
+}
+
+TreeParser::Done TreeParser::add_matrix(const Record& record) {
+  constexpr std::size_t kNumbers = 16;
+  std::array<double, kNumbers> m{};
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    m[i] = static_cast<double>(record.number_or<float>(4 + 4 * i, i % 5 == 0 ? 1.0F : 0.0F));
+    if (!std::isfinite(m[i]))
+      return failure::fail(subject_, "a matrix of finite numbers", "NaN or infinity", "the file is damaged");
+  }
+  if (is_loose_face())
+    if (auto done = own_node(); !done) return done;
+  if (current_.node == kNone || is_loose_face()) return {};
+  const Affine matrix{{m[0], m[1], m[2]},
+                      {m[4], m[5], m[6]},
+                      {m[8], m[9], m[10]},
+                      tree_.header.metres_per_unit * Vector3{m[12], m[13], m[14]}};
+  if (tree_.nodes[current_.node].matrix == kNone) {
+    tree_.nodes[current_.node].matrix = static_cast<std::uint32_t>(tree_.matrices.size());
+    tree_.matrices.push_back(matrix);
+  } else {
+    tree_.matrices[tree_.nodes[current_.node].matrix] = matrix;
+  }
+  return {};
+}
+
+TreeParser::Done TreeParser::add_replication(const Record& record) {
+  const int copies = record.number_or<std::int16_t>(4, 0);
+  if (copies <= 0) return {};
+  if (is_loose_face())
+    if (auto done = own_node(); !done) return done;
+  if (current_.node != kNone && !is_loose_face())
+    tree_.nodes[current_.node].replications = static_cast<std::uint16_t>(copies);
+  return {};
+}
+
+// Faces, their corners, and meshes.
+
+using namespace openflight;
+
+TreeParser::Done TreeParser::append_face(TreeFace face, std::uint32_t node) {
+  if (tree_.faces.size() >= kMostFaces) return too_many(kMostFaces, "faces");
+  const auto number = static_cast<std::uint32_t>(tree_.faces.size());
+  tree_.faces.push_back(face);
+  Node& owner = tree_.nodes[node];
+  face_before_ = owner.last_face;
+  if (owner.first_face == kNone)
+    owner.first_face = number;
+  else
+    tree_.faces[owner.last_face].next = number;
+  owner.last_face = number;
+  return {};
+}
+
+TreeParser::Done TreeParser::add_face(const Record& record) {
+  ++tree_.counts.faces;
+  current_ = {.node = parent().node};
+  if (current_.node == kNone) return {};
+  const std::optional<TreeFace> face = surfaces_.of(record, 0, subface_level_);
+  if (!face) {
+    current_.node = kNone;  // what is below it belongs to nothing
+    return {};
+  }
+  current_.face = static_cast<std::uint32_t>(tree_.faces.size());
+  return append_face(*face, current_.node);
+}
+
+TreeParser::Done TreeParser::add_vertex(const Record& record) {
+  if (tree_.vertices.size() >= kMostVertices) return too_many(kMostVertices, "vertices");
+  palette_.add(record, tree_.header.metres_per_unit, tree_.vertices);
+  ++tree_.counts.vertices;
+  return {};
+}
+
+TreeParser::Done TreeParser::add_corners(const Record& record) {
+  const std::uint32_t face_number = parent().face;
+  const std::size_t count = (record.size() - 4) / 4;
+  tree_.counts.corners += count;
+  if (face_number == kNone) return {};
+  if (tree_.corners.size() + count > kMostVertices) return too_many(kMostVertices, "corners of faces");
+  TreeFace& face = tree_.faces[face_number];
+  if (face.count > 0) return {};
+  face.first_corner = static_cast<std::uint32_t>(tree_.corners.size());
+  face.count = static_cast<std::uint32_t>(count);
+  if (const auto strange = palette_.find_corners(record, tree_.corners))
+    return failure::fail(
+        subject_, "corners that are vertices of the palette",
+        "offset " + std::to_string(*strange) + " in the vertex list at byte " + std::to_string(record.start()),
+        "the file is damaged; fetch it again");
+  return {};
+}
+
+TreeParser::Done TreeParser::add_mesh(const Record& record) {
+  ++tree_.counts.meshes;
+  current_ = {.node = parent().node};
+  const std::optional<TreeFace> surface = surfaces_.of(record, face::kMeshShift, subface_level_);
+  meshes_.push_back({.surface = surface.value_or(TreeFace{}), .visible = surface && current_.node != kNone});
+  const int mesh = static_cast<int>(meshes_.size()) - 1;
+  // A node of its own: its primitives come behind a push, a matrix before it.
+  if (current_.node != kNone)
+    if (auto made = new_node(NodeKind::group); !made) return made;
+  current_.mesh = mesh;
+  return {};
+}
+
+TreeParser::Done TreeParser::add_pool(const Record& record) {
+  const int mesh = mesh_here();
+  if (mesh < 0) return {};
+  if (tree_.vertices.size() + record.size() / 24 > kMostVertices) return too_many(kMostVertices, "vertices");
+  MeshState& state = meshes_[static_cast<std::size_t>(mesh)];
+  state.first_vertex = tree_.vertices.size();
+  const auto count = read_local_pool(record, tree_.header.metres_per_unit, subject_, tree_.vertices);
+  if (!count) return tl::unexpected(count.error());
+  state.vertices = *count;
+  tree_.counts.vertices += *count;
+  return {};
+}
+
+TreeParser::Done TreeParser::add_primitive(const Record& record) {
+  ++tree_.counts.faces;
+  const Level& above = parent();
+  if (above.mesh < 0) return {};
+  const MeshState& state = meshes_[static_cast<std::size_t>(above.mesh)];
+  const auto polygons = read_primitive(record, state.vertices, subject_);
+  if (!polygons) return tl::unexpected(polygons.error());
+  tree_.counts.corners += polygons->listed;
+  if (!state.visible || above.node == kNone) return {};
+  if (tree_.corners.size() + polygons->corners.size() > kMostVertices)
+    return too_many(kMostVertices, "corners of faces");
+  for (std::size_t first = 0; first < polygons->corners.size(); first += polygons->each) {
+    TreeFace face = state.surface;
+    face.first_corner = static_cast<std::uint32_t>(tree_.corners.size());
+    face.count = static_cast<std::uint32_t>(polygons->each);
+    for (std::size_t i = first; i < first + polygons->each; ++i)
+      tree_.corners.push_back(static_cast<std::uint32_t>(state.first_vertex + polygons->corners[i]));
+    if (auto done = append_face(face, above.node); !done) return done;
+  }
+  return {};
+}
+
+}  // namespace yars::model::scene

@@ -1,0 +1,101 @@
+// Parser of one OpenFlight file into a node tree.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lib/failure/error.hpp"
+#include "model/scene/openflight/node_tree.hpp"
+#include "model/scene/openflight/records.hpp"
+#include "model/scene/openflight/surface_records.hpp"
+
+namespace yars::model::scene {
+
+// Reads the records of one OpenFlight file, revisions 14 to 16.5, into a tree; opens no other file. Skipped: textures,
+// lights, sounds, extensions, switches' other masks, transforms 76-82 and 94 (record 49 holds their product). Wireframe
+// and light faces are no surfaces; hidden ones are counted and left out. Errors: no header, a foreign revision or unit,
+// torn records, more pops than pushes, corners outside their pool, and the limits below.
+inline constexpr std::size_t kDeepestPush = 512;      // levels of records; deeper ones are damage
+inline constexpr std::size_t kMostNodes = 4'000'000;  // bounds on memory: about 0.5, 0.8 and 2.6 GB
+inline constexpr std::size_t kMostFaces = 32'000'000;
+inline constexpr std::size_t kMostVertices = 64'000'000;
+
+// `subject` names the file in errors.
+failure::Expected<NodeTree> parse_openflight(std::span<const std::byte> bytes, const std::string& subject);
+
+// The records of an OpenFlight file turned into a tree of nodes, one after the other: the state that this takes, for
+// the length of one file. Levels, nodes and surfaces have a source each.
+class TreeParser {
+ public:
+  TreeParser(std::span<const std::byte> bytes, std::string subject)
+      : bytes_(bytes), subject_(std::move(subject)), stream_(bytes, subject_) {}
+
+  failure::Expected<NodeTree> parse();
+
+ private:
+  using Done = failure::Expected<void>;
+
+  // What the records of one level belong to.
+  struct Level {
+    std::uint32_t node = kNone;
+    std::uint32_t face = kNone;  // the face that a vertex list is of
+    int mesh = -1;               // the mesh that primitives are of
+  };
+  struct MeshState {
+    TreeFace surface;
+    bool visible = true;
+    std::size_t first_vertex = 0;
+    std::size_t vertices = 0;
+  };
+
+  Done take(const Record& record);
+  // +1 and -1 around records that nobody here reads, else 0.
+  static int nesting_of_skipped(std::uint16_t opcode);
+  tl::unexpected<failure::Error> too_many(std::size_t most, const std::string& what);
+  Done push();
+  Done pop();
+
+  Done new_node(NodeKind kind, bool attached = true);
+  void link_child(std::uint32_t parent, std::uint32_t child);
+  Done add_node(const Record& record);
+  Done add_named(const Record& record, NodeKind kind);
+  Done add_group(const Record& record);
+  Done add_level_of_detail(const Record& record);
+  Done add_switch(const Record& record);
+  Done add_definition(const Record& record);
+  void name_it(const Record& record);
+  Done own_node();
+  Done add_matrix(const Record& record);
+  Done add_replication(const Record& record);
+
+  Done append_face(TreeFace face, std::uint32_t node);
+  Done add_face(const Record& record);
+  Done add_vertex(const Record& record);
+  Done add_corners(const Record& record);
+  Done add_mesh(const Record& record);
+  Done add_pool(const Record& record);
+  Done add_primitive(const Record& record);
+
+  const Level& parent() const { return levels_.empty() ? root_ : levels_.back(); }
+  bool is_loose_face() const { return current_.face != kNone && current_.node == parent().node; }
+  int mesh_here() const { return current_.mesh >= 0 ? current_.mesh : parent().mesh; }
+
+  std::span<const std::byte> bytes_;
+  std::string subject_;
+  RecordStream stream_;
+  NodeTree tree_;
+  SurfaceReader surfaces_;
+  VertexPalette palette_;
+  std::vector<Level> levels_;
+  Level root_{.node = 0};
+  Level current_;
+  std::uint32_t face_before_ = kNone;  // the newest face's elder sibling
+  int skipped_ = 0;                    // depth of extensions and attributes
+  int subface_level_ = 0;
+  std::vector<MeshState> meshes_;
+};
+
+}  // namespace yars::model::scene

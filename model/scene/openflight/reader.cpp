@@ -1,0 +1,149 @@
+#include "model/scene/openflight/reader.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "model/scene/openflight/model.hpp"
+#include "model/scene/openflight/node_tree.hpp"
+#include "model/scene/openflight/parser.hpp"
+#include "model/scene/openflight/records.hpp"
+#include "model/terrain/formats/cell_reading.hpp"
+
+namespace yars::model::scene {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The first `most` bytes of a file.
+failure::Expected<std::vector<std::byte>> read_bytes(const fs::path& path, std::uintmax_t most) {
+  std::error_code code;
+  if (!fs::is_regular_file(path, code))
+    return failure::fail(path.string(), "an OpenFlight file", code ? code.message() : "not a plain file",
+                         "give the path of a .flt file");
+  const std::uintmax_t size = fs::file_size(path, code);
+  if (code) return failure::fail(path.string(), "a readable file", code.message());
+  if (size > kLargestFile)
+    return failure::fail(path.string(), "at most " + std::to_string(kLargestFile) + " bytes",
+                         std::to_string(size) + " bytes", "split the scene into several files");
+  return terrain::read_file_part(path, 0, std::min(size, most));
+}
+
+void add_counts(FileCounts& sum, const FileCounts& more) {
+  sum.vertices += more.vertices;
+  sum.faces += more.faces;
+  sum.corners += more.corners;
+  sum.hidden_faces += more.hidden_faces;
+  sum.objects += more.objects;
+  sum.meshes += more.meshes;
+  sum.materials += more.materials;
+  sum.levels_of_detail += more.levels_of_detail;
+  sum.instances += more.instances;
+  sum.external_references += more.external_references;
+}
+
+// The files of one scene, each read once.
+class FileSet {
+ public:
+  FileSet(const fs::path& first, NameFilter* filter) : root_(first.parent_path()), filter_(filter) {}
+
+  failure::Expected<Model> read_first(const fs::path& path) {
+    open_.push_back(path);
+    return read_now(path);
+  }
+
+  std::vector<std::string> take_warnings() { return std::move(warnings_); }
+  FileCounts counts() const { return counts_; }
+  std::vector<std::string> names() const { return names_; }
+
+ private:
+  failure::Expected<std::shared_ptr<const Model>> read(const fs::path& path) {
+    if (const auto known = read_.find(path); known != read_.end()) return known->second;
+    if (open_.size() > kDeepestReference)
+      return failure::fail(path.string(), "external references at most " + std::to_string(kDeepestReference) + " deep",
+                           "deeper ones", "join some of the files");
+    if (++files_ > kMostFiles)
+      return failure::fail(path.string(), "at most " + std::to_string(kMostFiles) + " files in a scene", "more",
+                           "split the scene");
+    open_.push_back(path);
+    auto model = read_now(path);
+    open_.pop_back();
+    if (!model) return tl::unexpected(model.error());
+    auto shared = std::make_shared<const Model>(std::move(*model));
+    read_.emplace(path, shared);
+    return shared;
+  }
+
+  failure::Expected<Model> read_now(const fs::path& path) {
+    const std::string subject = path.string();
+    failure::Expected<NodeTree> tree = [&]() -> failure::Expected<NodeTree> {
+      const auto bytes = read_bytes(path, kLargestFile);
+      if (!bytes) return tl::unexpected(bytes.error());
+      return parse_openflight(*bytes, subject);
+    }();
+    if (!tree) return tl::unexpected(tree.error());
+    add_counts(counts_, tree->counts);
+    if (open_.size() > 1) names_.push_back(subject);
+    return flatten(
+        *tree, subject, [this, &path](const std::string& name) { return refer(path, name); }, {}, filter_);
+  }
+
+  // Null, with a warning, for what cannot be shown.
+  failure::Expected<std::shared_ptr<const Model>> refer(const fs::path& from, std::string name) {
+    name = name.substr(0, name.find('<'));
+    std::replace(name.begin(), name.end(), '\\', '/');
+    std::error_code code;
+    const fs::path path = fs::weakly_canonical(from.parent_path() / name, code);
+    const auto reason = [&]() -> std::string {
+      if (name.empty() || code) return "has no usable name";
+      const auto step = std::mismatch(root_.begin(), root_.end(), path.begin(), path.end());
+      if (step.first != root_.end()) return "lies outside the folder of the scene";
+      if (std::find(open_.begin(), open_.end(), path) != open_.end()) return "leads back to itself";
+      if (!fs::is_regular_file(path, code)) return "is not there";
+      return {};
+    }();
+    if (reason.empty()) return read(path);
+    const std::string warning = "external file " + name + " " + reason + "; it is left out";
+    if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) warnings_.push_back(warning);
+    return nullptr;
+  }
+
+  fs::path root_;
+  NameFilter* filter_;
+  std::map<fs::path, std::shared_ptr<const Model>> read_;
+  std::vector<fs::path> open_;  // from the first file to the one being read
+  std::size_t files_ = 0;
+  FileCounts counts_;
+  std::vector<std::string> names_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+failure::Expected<Model> read_openflight(const fs::path& path, NameFilter* filter) {
+  std::error_code code;
+  const fs::path canonical = fs::weakly_canonical(path, code);
+  FileSet files(canonical, filter);
+  auto model = files.read_first(canonical);
+  if (!model) return model;
+  model->counts = files.counts();
+  model->files = files.names();
+  for (std::string& warning : files.take_warnings()) model->warnings.push_back(std::move(warning));
+  return model;
+}
+
+failure::Expected<Model> read_openflight(std::span<const std::byte> bytes, const std::string& subject,
+                                         FlattenLimits limits) {
+  const auto tree = parse_openflight(bytes, subject);
+  if (!tree) return tl::unexpected(tree.error());
+  return flatten(*tree, subject, {}, limits);
+}
+
+failure::Expected<Header> read_openflight_header(const fs::path& path) {
+  const auto bytes = read_bytes(path, openflight::header::kBytes);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return parse_header(*bytes, path.string());
+}
+
+}  // namespace yars::model::scene

@@ -1,0 +1,70 @@
+#include "model/scene/openflight/records.hpp"
+
+namespace yars::model::scene {
+
+namespace {
+
+constexpr std::size_t kHeadBytes = 4;
+constexpr std::size_t kMostJoinedBytes = 256U << 20;  // a local vertex pool of 7 M vertices; stops runaway memory
+
+bool is_continuation(std::span<const std::byte> bytes, std::size_t at) {
+  return at + kHeadBytes <= bytes.size() && big_endian<std::uint16_t>(bytes.data() + at) == openflight::kContinuation;
+}
+
+}  // namespace
+
+std::string Record::text(std::size_t offset, std::size_t most) const {
+  std::string text;
+  for (std::size_t i = offset; i < bytes_.size() && text.size() < most; ++i) {
+    const auto letter = std::to_integer<unsigned char>(bytes_[i]);
+    if (letter == 0) break;
+    text.push_back(letter >= 0x20 && letter < 0x7F ? static_cast<char>(letter) : '?');
+  }
+  return text;
+}
+
+std::optional<Record> record_at(std::span<const std::byte> bytes, std::size_t start) {
+  if (start > bytes.size() || bytes.size() - start < kHeadBytes) return std::nullopt;
+  const auto opcode = big_endian<std::uint16_t>(bytes.data() + start);
+  const std::size_t length = big_endian<std::uint16_t>(bytes.data() + start + 2);
+  if (length < kHeadBytes || length > bytes.size() - start) return std::nullopt;
+  return Record(start, opcode, bytes.subspan(start, length));
+}
+
+failure::Expected<std::optional<Record>> RecordStream::single() {
+  if (at_ == bytes_.size()) return std::nullopt;
+  const std::optional<Record> record = record_at(bytes_, at_);
+  if (!record) {
+    const std::size_t left = bytes_.size() - at_;
+    const std::string at = "a whole record at byte " + std::to_string(at_);
+    const std::string end = std::to_string(left) + (left == 1 ? " byte" : " bytes") + " before the file's end";
+    if (left < kHeadBytes)
+      return failure::fail(subject_, at + ", of " + std::to_string(kHeadBytes) + " bytes or more", end,
+                           "the file is truncated or damaged; fetch it again");
+    const std::size_t length = big_endian<std::uint16_t>(bytes_.data() + at_ + 2);
+    return failure::fail(subject_, at, "one that says it has " + std::to_string(length) + " bytes, and " + end,
+                         "the file is truncated or damaged; fetch it again");
+  }
+  at_ += record->size();
+  return record;
+}
+
+failure::Expected<std::optional<Record>> RecordStream::next() {
+  failure::Expected<std::optional<Record>> record = single();
+  if (!record || !*record || !is_continuation(bytes_, at_)) return record;
+  const Record first = **record;
+  const auto begin = bytes_.begin() + static_cast<std::ptrdiff_t>(first.start());
+  joined_.assign(begin, begin + static_cast<std::ptrdiff_t>(first.size()));
+  while (is_continuation(bytes_, at_)) {
+    record = single();
+    if (!record) return record;
+    const std::span<const std::byte> more = bytes_.subspan((*record)->start(), (*record)->size()).subspan(kHeadBytes);
+    if (joined_.size() + more.size() > kMostJoinedBytes)
+      return failure::fail(subject_, "a record of at most " + std::to_string(kMostJoinedBytes) + " bytes",
+                           "more with its continuations", "split it into several meshes");
+    joined_.insert(joined_.end(), more.begin(), more.end());
+  }
+  return Record(first.start(), first.opcode(), joined_);
+}
+
+}  // namespace yars::model::scene

@@ -1,0 +1,175 @@
+// Records of an OpenFlight file: opcodes, field offsets, and the stream that reads them.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "lib/failure/error.hpp"
+
+namespace yars::model::scene::openflight {
+
+// OpenFlight 14 to 16.5 by number: opcodes, and where fields stand in records, counted from the opcode.
+// Source: docs/spec/formats.md#openflight and the OpenFlight Scene Description Database Specification.
+enum Opcode : std::uint16_t {
+  kHeader = 1,
+  kGroup = 2,
+  kObject = 4,
+  kFace = 5,
+  kPushLevel = 10,
+  kPopLevel = 11,
+  kDegreeOfFreedom = 14,
+  kPushSubface = 19,
+  kPopSubface = 20,
+  kPushExtension = 21,
+  kPopExtension = 22,
+  kContinuation = 23,
+  kColorPalette = 32,
+  kLongId = 33,
+  kMatrix = 49,
+  kBinarySeparatingPlane = 55,
+  kReplicate = 60,
+  kInstanceReference = 61,
+  kInstanceDefinition = 62,
+  kExternalReference = 63,
+  kVertexPalette = 67,
+  kVertexColor = 68,
+  kVertexColorNormal = 69,
+  kVertexColorNormalTexture = 70,
+  kVertexColorTexture = 71,
+  kVertexList = 72,
+  kLevelOfDetail = 73,
+  kMesh = 84,
+  kLocalVertexPool = 85,
+  kMeshPrimitive = 86,
+  kRoadSegment = 87,
+  kSound = 91,
+  kPath = 92,
+  kText = 95,
+  kSwitch = 96,
+  kClipRegion = 98,
+  kExtension = 100,
+  kLightSource = 101,
+  kLightPoint = 111,
+  kMaterial = 113,
+  kContinuouslyAdaptive = 115,
+  kPushAttribute = 122,
+  kPopAttribute = 123,
+  kCurve = 126,
+  kRoadConstruction = 127,
+  kIndexedLightPoint = 130,
+  kLightPointSystem = 131,
+};
+
+inline constexpr std::size_t kNameAt = 4, kNameBytes = 8;  // of every node
+
+namespace header {
+inline constexpr std::size_t kRevision = 12, kUnits = 62, kFlags = 64, kVertexStorage = 126, kDatabaseOrigin = 128;
+inline constexpr std::size_t kSouthLatitude = 188, kWestLongitude = 196, kNorthLatitude = 204, kEastLongitude = 212;
+inline constexpr std::size_t kOriginLatitude = 220, kOriginLongitude = 228, kBytes = 324;
+inline constexpr std::int32_t kOldestRevision = 1400, kNewestRevision = 1650, kWrittenRevision = 1600;
+}  // namespace header
+
+// Of a face; those of a mesh lie 4 bytes further on.
+namespace face {
+inline constexpr std::size_t kDrawType = 18, kColorName = 20, kMaterial = 30, kSurfaceMaterial = 32, kFeatureId = 34;
+inline constexpr std::size_t kTransparency = 40, kFlags = 44, kLightMode = 48, kPackedColor = 56, kColorIndex = 68;
+inline constexpr std::size_t kBytes = 80, kMeshShift = 4;
+inline constexpr std::uint32_t kNoColor = 1U << 30, kPacked = 1U << 28, kHidden = 1U << 26;
+inline constexpr std::uint8_t kSolidOneSided = 0, kSolidTwoSided = 1, kWireClosed = 2, kWireOpen = 3, kSurround = 4;
+inline constexpr std::uint8_t kLitFaceColor = 2;
+}  // namespace face
+
+namespace vertex {
+inline constexpr std::size_t kFlags = 6, kX = 8, kY = 16, kZ = 24, kNormal = 32;
+inline constexpr std::size_t kColorNormalBytes = 56;
+inline constexpr std::uint16_t kNoColor = 1U << 13;
+}  // namespace vertex
+
+// Bits of a local vertex pool: what each of its vertices has, in this order.
+namespace pool {
+inline constexpr std::uint32_t kPosition = 1U << 31, kColorIndex = 1U << 30, kColor = 1U << 29, kNormal = 1U << 28;
+inline constexpr std::uint32_t kFirstTexture = 1U << 27;
+inline constexpr int kTextures = 8;
+}  // namespace pool
+
+namespace palette {
+inline constexpr std::size_t kFirstColor = 132, kColors = 1024, kBytes = kFirstColor + 4 * kColors;
+inline constexpr int kIntensities = 128;  // an index is 128 times the colour plus its intensity
+}  // namespace palette
+
+}  // namespace yars::model::scene::openflight
+
+namespace yars::model::scene {
+
+// Records of an OpenFlight file, one after another: big-endian, u16 opcode, u16 length of the whole record.
+// Continuation records (23) are joined to the one before. A field past the end of a shorter record is absent: older
+// revisions are shorter. Nothing is read outside the bytes. Errors: a length below 4, a record past the end, a joined
+// record too long.
+template <class Number>
+Number big_endian(const std::byte* bytes) {
+  std::array<std::byte, sizeof(Number)> reversed;
+  for (std::size_t i = 0; i < sizeof(Number); ++i) reversed[i] = bytes[sizeof(Number) - 1 - i];
+  return std::bit_cast<Number>(reversed);
+}
+
+// One record; offsets count from its opcode, as format descriptions do.
+class Record {
+ public:
+  Record() = default;
+  Record(std::size_t start, std::uint16_t opcode, std::span<const std::byte> bytes)
+      : start_(start), opcode_(opcode), bytes_(bytes) {}
+
+  std::size_t start() const { return start_; }  // of the opcode, in the file
+  std::uint16_t opcode() const { return opcode_; }
+  std::size_t size() const { return bytes_.size(); }
+  bool has(std::size_t offset, std::size_t bytes) const {
+    return offset <= bytes_.size() && bytes <= bytes_.size() - offset;
+  }
+
+  template <class Number>
+  std::optional<Number> number(std::size_t offset) const {
+    static_assert(std::is_arithmetic_v<Number>);
+    if (!has(offset, sizeof(Number))) return std::nullopt;
+    return big_endian<Number>(bytes_.data() + offset);
+  }
+  template <class Number>
+  Number number_or(std::size_t offset, Number absent) const {
+    return has(offset, sizeof(Number)) ? big_endian<Number>(bytes_.data() + offset) : absent;
+  }
+  // Up to a zero or `most` characters, whichever comes first; what is not printable ASCII becomes '?'.
+  std::string text(std::size_t offset, std::size_t most) const;
+
+ private:
+  std::size_t start_ = 0;
+  std::uint16_t opcode_ = 0;
+  std::span<const std::byte> bytes_;
+};
+
+class RecordStream {
+ public:
+  RecordStream(std::span<const std::byte> bytes, std::string subject) : bytes_(bytes), subject_(std::move(subject)) {}
+
+  // The next record, valid until the next call; nothing at the end of the file.
+  failure::Expected<std::optional<Record>> next();
+
+ private:
+  failure::Expected<std::optional<Record>> single();
+
+  std::span<const std::byte> bytes_;
+  std::string subject_;
+  std::size_t at_ = 0;
+  std::vector<std::byte> joined_;
+};
+
+// The record that begins at `start`, nothing when none fits there.
+std::optional<Record> record_at(std::span<const std::byte> bytes, std::size_t start);
+
+}  // namespace yars::model::scene

@@ -1,0 +1,167 @@
+// Geometry of a scene seen from above: plane, polygons, cuts, footprints.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "lib/geo/geodesic.hpp"
+#include "lib/geo/vector.hpp"
+
+namespace yars::model::scene {
+
+// The azimuthal-equidistant plane about a place: x east, y north in metres; exact by the geodesic, and near a point of
+// it by a linear map.
+struct PlanePoint {
+  double east_m = 0.0, north_m = 0.0;
+};
+
+class Plane {
+ public:
+  explicit Plane(geo::GeoPoint origin) : origin_(origin) {}
+  geo::GeoPoint origin() const { return origin_; }
+  geo::GeoPoint place_of(PlanePoint point) const;
+  PlanePoint point_of(geo::GeoPoint place) const;
+
+ private:
+  geo::GeoPoint origin_;
+};
+
+// What a point of one plane is in another, linear about `middle`: off by less than 1 mm within 300 m, for planes whose
+// origins lie within 20 km; places off by less than 10 mm (on a plane's own origin, below 80 degrees of latitude).
+class LocalMap {
+ public:
+  LocalMap(const Plane& from, PlanePoint middle);
+
+  const Plane& plane() const { return to_; }  // about the middle
+  PlanePoint to_local(PlanePoint point) const {
+    const double e = point.east_m - middle_.east_m, n = point.north_m - middle_.north_m;
+    return {e * east_.east_m + n * north_.east_m, e * east_.north_m + n * north_.north_m};
+  }
+  geo::GeoPoint place_of(PlanePoint point) const {
+    const double e = point.east_m - middle_.east_m, n = point.north_m - middle_.north_m;
+    const geo::GeoPoint o = to_.origin();
+    return {o.latitude_deg + e * latitude_.east_m + n * latitude_.north_m,
+            o.longitude_deg + e * longitude_.east_m + n * longitude_.north_m};
+  }
+
+ private:
+  PlanePoint middle_;
+  Plane to_;
+  PlanePoint east_, north_;          // where a metre east and north go
+  PlanePoint latitude_, longitude_;  // [deg/m]
+};
+
+// A convex polygon seen from above, cut by lines along the axes (Sutherland and Hodgman 1974).
+class PlanPolygon {
+ public:
+  using Axis = double geo::Vector3::*;
+
+  PlanPolygon() = default;
+  explicit PlanPolygon(const std::array<geo::Vector3, 3>& corners) : corners_(3) {
+    std::copy(corners.begin(), corners.end(), at_.begin());
+  }
+
+  // Least and most along an axis; of nothing: zero.
+  std::pair<double, double> bounds(Axis axis) const {
+    if (corners_ == 0) return {0.0, 0.0};
+    const auto less = [axis](const geo::Vector3& a, const geo::Vector3& b) { return a.*axis < b.*axis; };
+    const auto [least, most] = std::minmax_element(at_.begin(), at_.begin() + corners_, less);
+    return {(*least).*axis, (*most).*axis};
+  }
+  PlanPolygon between(Axis axis, double least, double most) const {
+    return beyond(axis, least, 1.0).beyond(axis, most, -1.0);
+  }
+  // Positive where corners turn counter-clockwise.
+  double area() const {
+    double twice = 0.0;
+    for (std::ptrdiff_t i = 1; i + 1 < corners_; ++i)
+      twice += cross(corner(i) - corner(0), corner(i + 1) - corner(0)).z;
+    return 0.5 * twice;
+  }
+
+ private:
+  const geo::Vector3& corner(std::ptrdiff_t i) const { return at_[static_cast<std::size_t>(i)]; }
+  // What is on the side of the line to which `sign` points.
+  PlanPolygon beyond(Axis axis, double line, double sign) const {
+    PlanPolygon cut;
+    const auto put = [&cut](const geo::Vector3& at) { cut.at_[static_cast<std::size_t>(cut.corners_++)] = at; };
+    for (std::ptrdiff_t i = 0; i < corners_; ++i) {
+      const geo::Vector3 from = corner(i), to = corner(i + 1 < corners_ ? i + 1 : 0);
+      const double from_m = sign * (from.*axis - line), to_m = sign * (to.*axis - line);
+      if (from_m >= 0.0) put(from);
+      if ((from_m >= 0.0) != (to_m >= 0.0)) put(from + (from_m / (from_m - to_m)) * (to - from));
+    }
+    return cut;
+  }
+
+  std::array<geo::Vector3, 16> at_{};  // a triangle cut by four lines has seven corners, and rounding adds few
+  std::ptrdiff_t corners_ = 0;
+};
+
+// Triangles cut in two across their longest edge, seen from above, until none is too long. Both triangles of an edge
+// cut it in the middle, so that there are no cracks.
+
+using Corners3 = std::array<geo::Vector3, 3>;
+
+struct PlanEdge {
+  std::size_t from = 0;  // corner, to the next one
+  double length_m = 0.0;
+};
+
+inline PlanEdge longest_plan_edge(const Corners3& corners) {
+  PlanEdge longest;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const geo::Vector3 edge = corners[(i + 1) % 3] - corners[i];
+    const double length_m = std::hypot(edge.x, edge.y);
+    if (length_m > longest.length_m) longest = {i, length_m};
+  }
+  return longest;
+}
+
+class Cutter {
+ public:
+  // Calls visit(piece) for pieces no edge of which is longer.
+  template <class Visit>
+  void cut(const Corners3& corners, double most_m, const Visit& visit) {
+    pieces_.assign(1, corners);
+    while (!pieces_.empty()) {
+      const Corners3 piece = pieces_.back();
+      pieces_.pop_back();
+      const PlanEdge edge = longest_plan_edge(piece);
+      if (edge.length_m <= most_m) {
+        visit(piece);
+        continue;
+      }
+      const geo::Vector3 a = piece[edge.from], b = piece[(edge.from + 1) % 3], c = piece[(edge.from + 2) % 3];
+      const geo::Vector3 middle = 0.5 * (a + b);
+      pieces_.push_back({a, middle, c});
+      pieces_.push_back({middle, b, c});
+    }
+  }
+
+ private:
+  std::vector<Corners3> pieces_;
+};
+
+// What a thing covers seen from above: the rectangle of least area around its corners. The hull's edges are tried in
+// turn (the least rectangle has a side on one of them: Freeman and Shapira, CACM 18, 1975).
+struct PlanPoint {
+  double x_m = 0.0, y_m = 0.0;
+};
+
+struct Footprint {
+  PlanPoint middle;
+  double length_m = 0.0;  // the longer side
+  double width_m = 0.0;
+  double direction_rad = 0.0;  // of the longer side, counter-clockwise from x, [0, pi)
+};
+
+// `points` is reordered; of no points all is zero.
+Footprint footprint_of(std::vector<PlanPoint>& points);
+
+}  // namespace yars::model::scene

@@ -1,0 +1,161 @@
+#include "model/scene/placement/spatial_index.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace yars::model::scene {
+
+namespace {
+
+constexpr double kMetresPerDegree = 110'500.0;  // [m] below the least of a meridian: ranges of cells err outwards
+constexpr double kMeanRadius_m = 6'371'000.0;
+constexpr double kMostCellsAcross = 512;  // queries wider than this look at every disc instead
+
+geo::Vector3 on_earth(geo::GeoPoint place) {
+  return geo::ecef_from_geodetic(place, geo::HeightAboveEllipsoid::metres(0.0));
+}
+
+// Arc over a chord, to the third order.
+double arc_m(geo::Vector3 a, geo::Vector3 b) {
+  const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
+  const double square = x * x + y * y + z * z;
+  return std::sqrt(square) * (1.0 + square / (24.0 * kMeanRadius_m * kMeanRadius_m));
+}
+
+std::uint64_t key_of(std::int64_t row, std::int64_t column) {
+  return static_cast<std::uint64_t>(row) << 32U | static_cast<std::uint64_t>(column);
+}
+
+}  // namespace
+
+GridIndex::GridIndex(const std::vector<Disc>& discs, double cell_deg) : cell_deg_(cell_deg) {
+  const double large_m = 2.0 * cell_deg * kMetresPerDegree;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
+  for (const Disc& disc : discs) {
+    const auto number = static_cast<std::uint32_t>(middles_.size());
+    middles_.push_back(on_earth(disc.middle));
+    reaches_m_.push_back(disc.reach_m);
+    if (disc.reach_m > large_m) {
+      large_.push_back(number);
+      continue;
+    }
+    most_reach_m_ = std::max(most_reach_m_, disc.reach_m);
+    const Row row = row_of(disc.middle.latitude_deg);
+    keyed.emplace_back(key_of(row.number, column_of(row, disc.middle.longitude_deg)), number);
+  }
+  std::sort(keyed.begin(), keyed.end());
+  for (const auto& [key, number] : keyed) {
+    const auto at = static_cast<std::uint32_t>(ordered_.size());
+    cells_.try_emplace(key, at, at).first->second.second = at + 1;
+    ordered_.push_back(number);
+  }
+}
+
+GridIndex::Row GridIndex::row_of(double latitude_deg) const {
+  Row row;
+  row.number = static_cast<std::int64_t>(std::floor((std::clamp(latitude_deg, -90.0, 90.0) + 90.0) / cell_deg_));
+  const double middle_deg = std::min(90.0, (static_cast<double>(row.number) + 0.5) * cell_deg_ - 90.0);
+  row.columns = std::max<std::int64_t>(
+      1, static_cast<std::int64_t>(360.0 * std::cos(middle_deg * geo::kRadiansPerDegree) / cell_deg_));
+  return row;
+}
+
+std::int64_t GridIndex::column_of(const Row& row, double longitude_deg) const {
+  const double share = (geo::wrapped_degrees(longitude_deg) + 180.0) / 360.0;
+  return std::clamp<std::int64_t>(static_cast<std::int64_t>(share * static_cast<double>(row.columns)), 0,
+                                  row.columns - 1);
+}
+
+void GridIndex::test(std::uint32_t disc, geo::Vector3 place, double radius_m, std::vector<Hit>& hits) const {
+  const double distance_m = arc_m(middles_[disc], place);
+  if (distance_m <= radius_m + reaches_m_[disc]) hits.push_back({disc, distance_m});
+}
+
+void GridIndex::find_in_row(std::int64_t number, geo::GeoPoint place, double reach_deg, geo::Vector3 at,
+                            double radius_m, std::vector<Hit>& hits) const {
+  const Row row = row_of((static_cast<double>(number) + 0.5) * cell_deg_ - 90.0);
+  // The parallel of the row that is nearest to a pole, or the place's own: there a metre is most of longitude.
+  const double south_deg = static_cast<double>(number) * cell_deg_ - 90.0;
+  const double widest_deg =
+      std::min(90.0, std::max({std::abs(south_deg), std::abs(south_deg + cell_deg_), std::abs(place.latitude_deg)}));
+  const double parallel = std::cos(widest_deg * geo::kRadiansPerDegree);
+  const double half_deg = parallel > 1e-3 ? 1.02 * reach_deg / parallel : 360.0;
+  const double column_deg = 360.0 / static_cast<double>(row.columns);
+  const auto half = static_cast<std::int64_t>(std::min(half_deg / column_deg, 1e9)) + 1;
+  const std::int64_t middle = column_of(row, place.longitude_deg);
+  const bool all = 2 * half + 1 >= row.columns;
+  const std::int64_t first = all ? 0 : middle - half;
+  const std::int64_t last = all ? row.columns - 1 : middle + half;
+  for (std::int64_t column = first; column <= last; ++column) {
+    const auto cell = cells_.find(key_of(number, (column + row.columns) % row.columns));
+    if (cell == cells_.end()) continue;
+    for (std::uint32_t i = cell->second.first; i < cell->second.second; ++i) test(ordered_[i], at, radius_m, hits);
+  }
+}
+
+void GridIndex::find(geo::GeoPoint place, double radius_m, std::vector<Hit>& hits) const {
+  const geo::Vector3 at = on_earth(place);
+  for (const std::uint32_t disc : large_) test(disc, at, radius_m, hits);
+  if (ordered_.empty()) return;
+  const double reach_deg = (radius_m + most_reach_m_) / kMetresPerDegree;
+  const double across = 2.0 * reach_deg / cell_deg_;
+  if (across > kMostCellsAcross || across * across > static_cast<double>(ordered_.size()) + 64.0) {
+    for (const std::uint32_t disc : ordered_) test(disc, at, radius_m, hits);
+    return;
+  }
+  const std::int64_t first = row_of(place.latitude_deg - reach_deg).number;
+  const std::int64_t last = row_of(place.latitude_deg + reach_deg).number;
+  for (std::int64_t row = first; row <= last; ++row) find_in_row(row, place, reach_deg, at, radius_m, hits);
+}
+
+std::uint64_t GridIndex::bytes() const {
+  return middles_.capacity() * sizeof(geo::Vector3) + reaches_m_.capacity() * sizeof(double) +
+         (large_.capacity() + ordered_.capacity()) * sizeof(std::uint32_t) + cells_.size() * 64;
+}
+
+namespace {
+constexpr std::uint32_t kLeaf = 8;        // balls that are looked at one by one
+constexpr double kRounding = 1.0 + 1e-6;  // nodes are in float: their balls may not become smaller by it
+constexpr double kRounding_m = 0.01;      // the same of places, up to 80 km from the origin
+}  // namespace
+
+SphereTree::SphereTree(const std::vector<Ball>& balls, std::vector<std::uint32_t>& order) {
+  order.resize(balls.size());
+  std::iota(order.begin(), order.end(), 0U);
+  if (!balls.empty()) grow(balls, order, 0, static_cast<std::uint32_t>(balls.size()));
+}
+
+void SphereTree::grow(const std::vector<Ball>& balls, std::vector<std::uint32_t>& order, std::uint32_t first,
+                      std::uint32_t end) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  geo::Vector3 least{kFar, kFar, kFar}, most{-kFar, -kFar, -kFar};
+  for (std::uint32_t i = first; i < end; ++i) {
+    const geo::Vector3 at = balls[order[i]].middle;
+    least = {std::min(least.x, at.x), std::min(least.y, at.y), std::min(least.z, at.z)};
+    most = {std::max(most.x, at.x), std::max(most.y, at.y), std::max(most.z, at.z)};
+  }
+  const geo::Vector3 middle = 0.5 * (least + most);
+  double radius_m = 0.0;
+  for (std::uint32_t i = first; i < end; ++i)
+    radius_m = std::max(radius_m, length(balls[order[i]].middle - middle) + balls[order[i]].radius_m);
+  const std::size_t own = nodes_.size();
+  nodes_.push_back({static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z),
+                    static_cast<float>(radius_m * kRounding + kRounding_m), first, end, 0});
+  if (end - first > kLeaf) {
+    const bool by_x = most.x - least.x >= most.y - least.y;
+    const auto nearer = [&](std::uint32_t a, std::uint32_t b) {
+      const double at_a = by_x ? balls[a].middle.x : balls[a].middle.y;
+      const double at_b = by_x ? balls[b].middle.x : balls[b].middle.y;
+      return at_a != at_b ? at_a < at_b : a < b;
+    };
+    const std::uint32_t half = first + (end - first) / 2;
+    std::nth_element(order.begin() + first, order.begin() + half, order.begin() + end, nearer);
+    grow(balls, order, first, half);
+    grow(balls, order, half, end);
+  }
+  nodes_[own].behind = static_cast<std::uint32_t>(nodes_.size());
+}
+
+}  // namespace yars::model::scene

@@ -1,0 +1,201 @@
+#include "model/scene/placement/tile_builder.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <unordered_map>
+
+#include "model/scene/placement/placed_scene.hpp"
+
+namespace yars::model::scene {
+
+namespace {
+
+constexpr std::uint32_t kNoNumber = 0xffffffffU;
+
+struct Place {
+  explicit Place(const DraftVertex& vertex)
+      : level(std::uint64_t{std::bit_cast<std::uint32_t>(vertex.east_m)} << 32U |
+              std::bit_cast<std::uint32_t>(vertex.north_m)),
+        altitude(std::bit_cast<std::uint64_t>(vertex.altitude_m)) {}
+  bool operator==(const Place& other) const = default;
+
+  std::uint64_t level, altitude;
+};
+struct PlaceHash {
+  std::size_t operator()(const Place& place) const {
+    const std::uint64_t mixed = (place.level ^ (place.altitude * 0x9e3779b97f4a7c15U)) * 0xbf58476d1ce4e5b9U;
+    return static_cast<std::size_t>(mixed ^ (mixed >> 32U));
+  }
+};
+
+// New numbers for the vertices of a tile, and the vertices by them.
+class Numbering {
+ public:
+  Numbering(const std::vector<DraftVertex>& vertices, Tile& tile)
+      : vertices_(vertices), tile_(tile), bare_(vertices.size(), kNoNumber), curved_(bare_) {}
+
+  std::uint16_t bare(std::uint16_t vertex) {
+    std::uint32_t& number = bare_[vertex];
+    if (number == kNoNumber) {
+      const auto [found, is_new] = by_place_.try_emplace(Place(vertices_[vertex]), tile_.east_m.size());
+      if (is_new) put(vertices_[vertex]);
+      number = found->second;
+    }
+    return static_cast<std::uint16_t>(number);
+  }
+  std::uint16_t curved(std::uint16_t vertex) {
+    std::uint32_t& number = curved_[vertex];
+    if (number == kNoNumber) {
+      number = static_cast<std::uint32_t>(tile_.east_m.size());
+      put(vertices_[vertex]);
+      tile_.normal_east.push_back(vertices_[vertex].normal[0]);
+      tile_.normal_north.push_back(vertices_[vertex].normal[1]);
+      tile_.normal_up.push_back(vertices_[vertex].normal[2]);
+    }
+    return static_cast<std::uint16_t>(number);
+  }
+
+ private:
+  void put(const DraftVertex& vertex) {
+    tile_.east_m.push_back(vertex.east_m);
+    tile_.north_m.push_back(vertex.north_m);
+    tile_.up_m.push_back(static_cast<float>(vertex.altitude_m - tile_.zero_msl_m));
+  }
+
+  const std::vector<DraftVertex>& vertices_;
+  Tile& tile_;
+  std::vector<std::uint32_t> bare_, curved_;
+  std::unordered_map<Place, std::uint32_t, PlaceHash> by_place_;
+};
+
+}  // namespace
+
+void finish_tile(const std::vector<DraftVertex>& vertices, std::vector<DraftTriangle>& triangles, Tile& tile) {
+  const auto standing = std::stable_partition(triangles.begin(), triangles.end(),
+                                              [](const DraftTriangle& triangle) { return triangle.tag.on_ground; });
+  tile.on_ground = static_cast<std::uint32_t>(standing - triangles.begin());
+  Numbering numbering(vertices, tile);
+  for (DraftTriangle& triangle : triangles)
+    if (triangle.flat)
+      for (std::uint16_t& corner : triangle.corners) corner = numbering.bare(corner);
+  tile.bare = static_cast<std::uint32_t>(tile.east_m.size());
+  for (DraftTriangle& triangle : triangles)
+    if (!triangle.flat)
+      for (std::uint16_t& corner : triangle.corners) corner = numbering.curved(corner);
+  for (std::vector<float>* numbers :
+       {&tile.east_m, &tile.north_m, &tile.up_m, &tile.normal_east, &tile.normal_north, &tile.normal_up})
+    numbers->shrink_to_fit();
+  for (std::vector<std::uint16_t>& corner : tile.corner) corner.reserve(triangles.size());
+  tile.kind.reserve(triangles.size());
+  tile.object.reserve(triangles.size());
+  for (const DraftTriangle& triangle : triangles) {
+    for (std::size_t k = 0; k < triangle.corners.size(); ++k) tile.corner[k].push_back(triangle.corners[k]);
+    tile.kind.push_back(triangle.tag.kind);
+    tile.object.push_back(triangle.tag.object);
+  }
+}
+
+namespace {
+
+constexpr double kEqualNormals = 0.9999;  // cosine: less than a degree apart
+
+bool is_curved(const std::array<PlacedCorner, 3>& corners) {
+  const Vector3 area = cross(corners[1].place - corners[0].place, corners[2].place - corners[0].place);
+  const double least = kEqualNormals * length(area);
+  return std::any_of(corners.begin(), corners.end(),
+                     [&](const PlacedCorner& corner) { return dot(corner.normal, area) < least; });
+}
+
+void find_bounds(const std::vector<float>& values, float& least, float& most) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  least = *low;
+  most = *high;
+}
+
+template <class Value>
+std::uint64_t bytes_in(const std::vector<Value>& values) {
+  return values.capacity() * sizeof(Value);
+}
+
+}  // namespace
+
+TileBuilders::TileBuilders(const Plane& plane, std::size_t model_vertices) : plane_(plane), copies_(model_vertices) {}
+
+// No room for a triangle more: bare and curved vertices may both be there, three of each.
+bool TileBuilders::is_full(const Builder& builder) {
+  return 2 * (builder.vertices.size() + 3) > Tile::kMostVertices;
+}
+
+TileBuilders::Builder& TileBuilders::builder_at(PlanePoint point) {
+  const Square square{static_cast<std::int32_t>(std::floor(point.north_m / kTileSide_m)),
+                      static_cast<std::int32_t>(std::floor(point.east_m / kTileSide_m))};
+  if (last_ != nullptr && square == last_square_ && !is_full(*last_)) return *last_;
+  Pieces& pieces = squares_[square];
+  if (pieces.empty()) {
+    const PlanePoint middle{(square.second + 0.5) * kTileSide_m, (square.first + 0.5) * kTileSide_m};
+    pieces.push_back(std::make_unique<Builder>(LocalMap(plane_, middle), builders_++));
+  } else if (is_full(*pieces.back())) {
+    pieces.push_back(std::make_unique<Builder>(pieces.back()->map, builders_++));
+  }
+  last_ = pieces.back().get();
+  last_square_ = square;
+  return *last_;
+}
+
+const LocalMap& TileBuilders::map_at(PlanePoint point) {
+  return builder_at(point).map;
+}
+
+std::uint16_t TileBuilders::vertex_in(Builder& builder, const PlacedCorner& corner) {
+  if (corner.vertex != kNone && copies_[corner.vertex].builder == builder.number) return copies_[corner.vertex].vertex;
+  const auto number = static_cast<std::uint16_t>(builder.vertices.size());
+  const PlanePoint at = builder.map.to_local({corner.place.x, corner.place.y});
+  builder.vertices.push_back({static_cast<float>(at.east_m),
+                              static_cast<float>(at.north_m),
+                              corner.place.z,
+                              {static_cast<float>(corner.normal.x), static_cast<float>(corner.normal.y),
+                               static_cast<float>(corner.normal.z)}});
+  if (corner.vertex != kNone) copies_[corner.vertex] = {builder.number, number};
+  return number;
+}
+
+void TileBuilders::add(const std::array<PlacedCorner, 3>& corners, SurfaceTag tag) {
+  const Vector3 sum = corners[0].place + corners[1].place + corners[2].place;
+  Builder& builder = builder_at({sum.x / 3, sum.y / 3});
+  builder.triangles.push_back(
+      {{vertex_in(builder, corners[0]), vertex_in(builder, corners[1]), vertex_in(builder, corners[2])},
+       tag,
+       !is_curved(corners)});
+}
+
+std::vector<Tile> TileBuilders::take(double zero_msl_m) {
+  copies_.clear();
+  last_ = nullptr;
+  std::vector<Tile> tiles;
+  for (auto& [square, pieces] : squares_) {
+    for (std::unique_ptr<Builder>& builder : pieces) {
+      if (builder->triangles.empty()) continue;
+      Tile tile;
+      tile.origin = builder->map.plane().origin();
+      tile.zero_msl_m = std::isfinite(zero_msl_m) ? std::floor(zero_msl_m) : 0.0;
+      finish_tile(builder->vertices, builder->triangles, tile);
+      builder.reset();
+      find_bounds(tile.east_m, tile.bounds.east_least_m, tile.bounds.east_most_m);
+      find_bounds(tile.north_m, tile.bounds.north_least_m, tile.bounds.north_most_m);
+      find_bounds(tile.up_m, tile.bounds.up_least_m, tile.bounds.up_most_m);
+      tiles.push_back(std::move(tile));
+    }
+    pieces.clear();
+  }
+  squares_.clear();
+  return tiles;
+}
+
+std::uint64_t bytes_of(const Tile& tile) {
+  return sizeof(Tile) + 3 * (bytes_in(tile.up_m) + bytes_in(tile.normal_up)) + 3 * bytes_in(tile.corner[0]) +
+         bytes_in(tile.kind) + bytes_in(tile.object);
+}
+
+}  // namespace yars::model::scene

@@ -1,0 +1,210 @@
+#include "model/terrain/formats/cell.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "lib/failure/require.hpp"
+
+namespace yars::model::terrain {
+
+namespace {
+int blocks_over(int intervals, int step) {
+  return (intervals + step - 1) / step;
+}
+}  // namespace
+
+PostBlocks::PostBlocks(int rows, int columns, std::span<const std::int16_t> posts)
+    : block_rows_(blocks_over(rows - 1, kRowStep)), block_columns_(blocks_over(columns - 1, kColumnStep)) {
+  YARS_REQUIRE(rows, >=, 2);
+  YARS_REQUIRE(columns, >=, 2);
+  YARS_REQUIRE(posts.size(), ==, static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+  blocks_.resize(static_cast<std::size_t>(block_rows_) * static_cast<std::size_t>(block_columns_));
+  auto block = blocks_.begin();
+  for (int block_row = 0; block_row < block_rows_; ++block_row)
+    for (int block_column = 0; block_column < block_columns_; ++block_column, ++block)
+      for (int entry = 0; entry < static_cast<int>(kPosts); ++entry) {
+        // What a last block overhangs repeats the edge: never looked up, yet no accident.
+        const int row = std::min(block_row * kRowStep + entry / kColumns, rows - 1);
+        const int column = std::min(block_column * kColumnStep + entry % kColumns, columns - 1);
+        block->posts[static_cast<std::size_t>(entry)] =
+            posts[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)];
+      }
+}
+
+CellPlace cell_holding(geo::GeoPoint point) {
+  const double latitude_deg = std::clamp(point.latitude_deg, -90.0, 90.0);
+  const double longitude_deg = geo::wrapped_degrees(point.longitude_deg);
+  // The pole itself belongs to the last row; rounding may lift a longitude just below 180 to 180.
+  return {std::min(static_cast<int>(std::floor(latitude_deg)), 89),
+          std::min(static_cast<int>(std::floor(longitude_deg)), 179)};
+}
+
+Cell::Cell(CellPlace place, int rows, int columns, const std::vector<std::int16_t>& posts, double unit_m)
+    : place_(place), rows_(rows), columns_(columns), unit_m_(unit_m), blocks_(rows, columns, posts) {
+  YARS_REQUIRE(unit_m, >, 0.0);
+  bool any = false;
+  for (const std::int16_t post : posts) {
+    if (post == kVoidPost) {
+      ++voids_;
+      continue;
+    }
+    if (post == 0) ++sea_posts_;
+    lowest_ = any ? std::min(lowest_, post) : post;
+    highest_ = any ? std::max(highest_, post) : post;
+    any = true;
+  }
+}
+
+std::vector<std::int16_t> Cell::posts() const {
+  std::vector<std::int16_t> posts;
+  posts.reserve(post_count());
+  for (int row = 0; row < rows_; ++row)
+    for (int column = 0; column < columns_; ++column) posts.push_back(blocks_.post(row, column));
+  return posts;
+}
+
+Cell in_whole_metres(const Cell& cell) {
+  std::vector<std::int16_t> posts = cell.posts();
+  for (std::int16_t& post : posts) {
+    if (post == kVoidPost || post == 0) continue;
+    const long metres = std::lround(post * cell.unit_m());
+    post = static_cast<std::int16_t>(metres != 0 ? metres : post > 0 ? 1 : -1);
+  }
+  return {cell.place(), cell.rows(), cell.columns(), posts};
+}
+
+namespace {
+
+// The posts that a coarse post takes along one dimension.
+struct Window {
+  int first;
+  int last;
+};
+
+Window mean_window(int coarse, int posts, int factor) {
+  const int middle = coarse * factor;
+  if (middle == 0 || middle == posts - 1) return {middle, middle};
+  return {middle - factor / 2, middle + factor / 2};
+}
+
+Window peak_window(int coarse, int posts, int factor) {
+  return {std::max(0, coarse * factor - factor + 1), std::min(posts - 1, coarse * factor + factor - 1)};
+}
+
+// In halves: a post midway between two coarse posts belongs half to each.
+int weight(int post, Window window, int factor) {
+  const bool shared = factor % 2 == 0 && window.first != window.last && (post == window.first || post == window.last);
+  return shared ? 1 : 2;
+}
+
+// What a mean is made of.
+struct Sums {
+  std::int64_t height = 0;  // [m] weighted
+  std::int64_t weight = 0;  // of posts that have a height
+  std::int64_t sea = 0;     // of those, weight at exactly 0 m
+};
+
+std::int16_t mean_of(const Sums& sums) {
+  if (sums.weight == 0) return kVoidPost;
+  if (2 * sums.sea > sums.weight) return 0;
+  const std::int64_t half = sums.height < 0 ? -sums.weight / 2 : sums.weight / 2;
+  const std::int64_t rounded = (sums.height + half) / sums.weight;
+  if (rounded != 0) return static_cast<std::int16_t>(rounded);
+  return sums.height < 0 ? std::int16_t{-1} : std::int16_t{1};
+}
+
+struct Grid {
+  int rows, columns;
+  int row_factor, column_factor;
+};
+
+void append_mean_row(const Cell& cell, const Grid& grid, int coarse_row, std::vector<Sums>& down,
+                     std::vector<std::int16_t>& means) {
+  const Window rows = mean_window(coarse_row, cell.rows(), grid.row_factor);
+  std::fill(down.begin(), down.end(), Sums{});
+  for (int row = rows.first; row <= rows.last; ++row) {
+    const int share = weight(row, rows, grid.row_factor);
+    for (int column = 0; column < cell.columns(); ++column) {
+      const std::int16_t post_m = cell.post(row, column);
+      if (post_m == kVoidPost) continue;
+      Sums& sums = down[static_cast<std::size_t>(column)];
+      sums.height += share * post_m;
+      sums.weight += share;
+      if (post_m == 0) sums.sea += share;
+    }
+  }
+  for (int coarse = 0; coarse < grid.columns; ++coarse) {
+    const Window columns = mean_window(coarse, cell.columns(), grid.column_factor);
+    Sums total;
+    for (int column = columns.first; column <= columns.last; ++column) {
+      const int share = weight(column, columns, grid.column_factor);
+      const Sums& sums = down[static_cast<std::size_t>(column)];
+      total.height += share * sums.height;
+      total.weight += share * sums.weight;
+      total.sea += share * sums.sea;
+    }
+    means.push_back(mean_of(total));
+  }
+}
+
+void append_peak_row(const Cell& cell, const Grid& grid, int coarse_row, std::vector<std::int16_t>& down,
+                     std::vector<std::int16_t>& peaks) {
+  static_assert(kVoidPost == INT16_MIN, "a void is below every height");
+  const Window rows = peak_window(coarse_row, cell.rows(), grid.row_factor);
+  std::fill(down.begin(), down.end(), kVoidPost);
+  for (int row = rows.first; row <= rows.last; ++row)
+    for (int column = 0; column < cell.columns(); ++column) {
+      std::int16_t& highest = down[static_cast<std::size_t>(column)];
+      highest = std::max(highest, cell.post(row, column));
+    }
+  for (int coarse = 0; coarse < grid.columns; ++coarse) {
+    const Window columns = peak_window(coarse, cell.columns(), grid.column_factor);
+    peaks.push_back(*std::max_element(down.begin() + columns.first, down.begin() + columns.last + 1));
+  }
+}
+
+}  // namespace
+
+int halvings(int posts) {
+  YARS_REQUIRE(posts, >=, 2);
+  int count = 0;
+  for (int intervals = posts - 1; intervals % 2 == 0; intervals /= 2) ++count;
+  return count;
+}
+
+int reduced_posts(int posts, int reduction) {
+  return ((posts - 1) >> std::min(reduction, halvings(posts))) + 1;
+}
+
+ReducedCell reduce_by(const Cell& cell, int row_factor, int column_factor) {
+  YARS_REQUIRE(row_factor, >=, 1);
+  YARS_REQUIRE(column_factor, >=, 1);
+  YARS_REQUIRE((cell.rows() - 1) % row_factor, ==, 0);
+  YARS_REQUIRE((cell.columns() - 1) % column_factor, ==, 0);
+  const Grid grid{(cell.rows() - 1) / row_factor + 1, (cell.columns() - 1) / column_factor + 1, row_factor,
+                  column_factor};
+  const std::size_t posts = static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(grid.columns);
+  std::vector<std::int16_t> means;
+  std::vector<std::int16_t> peaks;
+  means.reserve(posts);
+  peaks.reserve(posts);
+  std::vector<Sums> sums_down(static_cast<std::size_t>(cell.columns()));
+  std::vector<std::int16_t> highest_down(static_cast<std::size_t>(cell.columns()));
+  for (int row = 0; row < grid.rows; ++row) {
+    append_mean_row(cell, grid, row, sums_down, means);
+    append_peak_row(cell, grid, row, highest_down, peaks);
+  }
+  return {Cell(cell.place(), grid.rows, grid.columns, means, cell.unit_m()),
+          Cell(cell.place(), grid.rows, grid.columns, peaks, cell.unit_m())};
+}
+
+ReducedCell reduce(const Cell& cell, int reduction) {
+  YARS_REQUIRE(reduction, >=, 0);
+  return reduce_by(cell, 1 << std::min(reduction, halvings(cell.rows())),
+                   1 << std::min(reduction, halvings(cell.columns())));
+}
+
+}  // namespace yars::model::terrain

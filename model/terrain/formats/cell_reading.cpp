@@ -1,0 +1,108 @@
+#include "model/terrain/formats/cell_reading.hpp"
+
+#include <fstream>
+#include <system_error>
+
+namespace yars::model::terrain {
+
+namespace {
+// [m] MSL, below the deepest sea floor and above the highest mountain: what the session's records take for ground.
+constexpr std::int16_t kLowestPost_m = -12'000;
+constexpr std::int16_t kHighestPost_m = 10'000;
+constexpr std::int16_t kUsualVoid_m = -9999;
+}  // namespace
+
+void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::string>& warnings) {
+  std::size_t impossible = 0;
+  for (std::int16_t& post : posts) {
+    if (post == kVoidPost || (post >= kLowestPost_m && post <= kHighestPost_m && post != kUsualVoid_m)) continue;
+    post = kVoidPost;
+    ++impossible;
+  }
+  if (impossible > 0) warnings.push_back(impossible_heights_warning(impossible));
+}
+
+std::string impossible_heights_warning(std::size_t posts) {
+  return "heights that no ground has: " + std::to_string(posts) +
+         " posts; they are void, and the file may be damaged or lack the value that it uses for no data";
+}
+
+failure::Expected<std::uintmax_t> file_length(const std::filesystem::path& path) {
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(path, code))
+    return failure::fail(path.string(), "an elevation file", code ? code.message() : "not a plain file");
+  const std::uintmax_t size = std::filesystem::file_size(path, code);
+  if (code) return failure::fail(path.string(), "a readable file", code.message());
+  return size;
+}
+
+failure::Expected<std::vector<std::byte>> read_file_part(const std::filesystem::path& path, std::uintmax_t offset,
+                                                         std::size_t bytes) {
+  const failure::Expected<std::uintmax_t> length = file_length(path);
+  if (!length) return tl::unexpected(length.error());
+  if (offset > *length || bytes > *length - offset)
+    return failure::fail(path.string(), "at least " + std::to_string(offset + bytes) + " bytes",
+                         std::to_string(*length) + " bytes", "the file is truncated; fetch it again");
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(static_cast<std::streamoff>(offset));
+  std::vector<std::byte> part(bytes);
+  file.read(reinterpret_cast<char*>(part.data()), static_cast<std::streamsize>(bytes));
+  if (!file)
+    return failure::fail(path.string(), "a readable file of " + std::to_string(*length) + " bytes", "a failed read");
+  return part;
+}
+
+failure::Expected<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::size_t limit_bytes) {
+  const failure::Expected<std::uintmax_t> length = file_length(path);
+  if (!length) return tl::unexpected(length.error());
+  if (*length > limit_bytes)
+    return failure::fail(path.string(), "at most " + std::to_string(limit_bytes) + " bytes",
+                         std::to_string(*length) + " bytes", "this is not a one-degree cell");
+  return read_file_part(path, 0, *length);
+}
+
+namespace {
+
+std::vector<std::string> new_sentences(const std::filesystem::path& path, const std::vector<std::string>& warnings,
+                                       std::set<std::string>& said) {
+  std::vector<std::string> sentences;
+  for (const std::string& warning : warnings) {
+    std::string sentence = path.string() + ": " + warning;
+    if (said.insert(sentence).second) sentences.push_back(std::move(sentence));
+  }
+  return sentences;
+}
+
+void append(std::vector<std::string> more, std::vector<std::string>& sentences) {
+  for (std::string& sentence : more) sentences.push_back(std::move(sentence));
+}
+
+}  // namespace
+
+std::vector<std::string> ReadingNotes::heard(const std::filesystem::path& path, const CellReading& reading) {
+  std::vector<std::string> sentences;
+  for (const std::string& warning : reading.warnings) sentences.push_back(path.string() + ": " + warning);
+  append(new_sentences(path, reading.file_warnings, said_), sentences);
+  if (reading.impossible > 0 && said_.insert(path.string()).second)
+    sentences.push_back(path.string() + ": " + impossible_heights_warning(reading.impossible));
+  return sentences;
+}
+
+void AllReadingNotes::add(const std::filesystem::path& path, const CellReading& reading) {
+  for (const std::string& warning : reading.warnings) sentences_.push_back(path.string() + ": " + warning);
+  add_file(path, reading.file_warnings, reading.impossible);
+}
+
+void AllReadingNotes::add_file(const std::filesystem::path& path, const std::vector<std::string>& warnings,
+                               std::size_t impossible) {
+  append(new_sentences(path, warnings, said_), sentences_);
+  if (impossible > 0) impossible_[path.string()] += impossible;
+}
+
+std::vector<std::string> AllReadingNotes::sentences() const {
+  std::vector<std::string> sentences = sentences_;
+  for (const auto& [path, posts] : impossible_) sentences.push_back(path + ": " + impossible_heights_warning(posts));
+  return sentences;
+}
+
+}  // namespace yars::model::terrain

@@ -1,0 +1,118 @@
+#include "model/terrain/formats/culture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "lib/failure/require.hpp"
+#include "lib/file/folder.hpp"
+#include "lib/imageio/indexed_png.hpp"
+
+namespace yars::model::terrain {
+
+Culture::Culture(CellPlace place, int rows, int columns, std::vector<std::uint8_t> codes)
+    : place_(place), rows_(rows), columns_(columns), codes_(std::move(codes)) {
+  YARS_REQUIRE(rows, >=, 2);
+  YARS_REQUIRE(columns, >=, 2);
+  YARS_REQUIRE(codes_.size(), ==, static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+  YARS_REQUIRE(static_cast<int>(*std::max_element(codes_.begin(), codes_.end())), <=,
+               static_cast<int>(kLargestMaterial));
+  codes_.resize(codes_.size() + kSpareBytes);
+}
+
+Culture Culture::reduced(int reduction) const {
+  const auto step_of = [reduction](int intervals) {
+    int step = 1;
+    for (int halving = 0; halving < reduction && intervals % (2 * step) == 0 && intervals > 2 * step; ++halving)
+      step *= 2;
+    return step;
+  };
+  const int up = step_of(rows_ - 1);
+  const int right = step_of(columns_ - 1);
+  std::vector<std::uint8_t> codes;
+  for (int row = 0; row < rows_; row += up)
+    for (int column = 0; column < columns_; column += right) codes.push_back(code(row, column));
+  return {place_, (rows_ - 1) / up + 1, (columns_ - 1) / right + 1, std::move(codes)};
+}
+
+std::uint8_t Culture::nearest(double north_deg, double east_deg) const {
+  const auto row = static_cast<int>(std::lround(std::clamp(north_deg, 0.0, 1.0) * (rows_ - 1)));
+  const auto column = static_cast<int>(std::lround(std::clamp(east_deg, 0.0, 1.0) * (columns_ - 1)));
+  return code(row, column);
+}
+
+std::filesystem::path culture_path(const std::filesystem::path& elevation) {
+  std::filesystem::path stem = elevation;
+  if (stem.extension() == ".zip" || stem.extension() == ".gz") stem.replace_extension();
+  return stem.replace_extension(".smc.png");
+}
+
+std::optional<std::filesystem::path> find_culture(const std::filesystem::path& elevation) {
+  std::filesystem::path path = culture_path(elevation);
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(path, code)) return std::nullopt;
+  return path;
+}
+
+failure::Expected<Culture> read_culture(const std::filesystem::path& path, CellPlace place) {
+  const failure::Expected<imageio::IndexedImage> image = imageio::read_indexed_png(path, kMostCulturePosts);
+  if (!image) return tl::unexpected(image.error());
+  if (image->width < 2 || image->height < 2)
+    return failure::fail(path.string(), "at least 2 x 2 posts",
+                         std::to_string(image->width) + " x " + std::to_string(image->height));
+  const auto width = static_cast<std::ptrdiff_t>(image->width);
+  const auto wrong = std::find_if(image->pixels.begin(), image->pixels.end(),
+                                  [](std::uint8_t code) { return code > kLargestMaterial; });
+  if (wrong != image->pixels.end()) {
+    const std::ptrdiff_t at = wrong - image->pixels.begin();
+    return failure::fail(path.string(), "surface material codes from 0 to " + std::to_string(kLargestMaterial),
+                         "code " + std::to_string(*wrong) + " at column " + std::to_string(at % width) + " of row " +
+                             std::to_string(at / width) + " from the north",
+                         "number the palette by the codes of DFAD");
+  }
+  std::vector<std::uint8_t> codes(image->pixels.size());
+  for (std::ptrdiff_t row = 0; row < image->height; ++row)
+    std::copy_n(image->pixels.begin() + row * width, width, codes.end() - (row + 1) * width);
+  return Culture(place, image->height, image->width, std::move(codes));
+}
+
+namespace {
+
+constexpr std::array<std::array<std::uint8_t, 3>, 14> kColours = {{{0, 0, 0},
+                                                                   {214, 64, 64},
+                                                                   {190, 110, 96},
+                                                                   {168, 96, 104},
+                                                                   {196, 152, 132},
+                                                                   {150, 120, 80},
+                                                                   {48, 86, 140},
+                                                                   {226, 208, 150},
+                                                                   {132, 124, 116},
+                                                                   {84, 84, 92},
+                                                                   {170, 172, 110},
+                                                                   {104, 138, 122},
+                                                                   {62, 104, 58},
+                                                                   {246, 248, 252}}};
+
+}  // namespace
+
+std::array<std::uint8_t, 3> material_colour(std::uint8_t code) {
+  constexpr std::array<std::uint8_t, 3> kUnnamed = {128, 128, 128};
+  return code < kColours.size() ? kColours[code] : kUnnamed;
+}
+
+failure::Expected<void> write_culture(const std::filesystem::path& path, const Culture& culture) {
+  if (auto folder = file::Folder::make(path.parent_path()); !folder) return tl::unexpected(folder.error());
+  imageio::IndexedImage image{culture.columns(), culture.rows(), {}, {}};
+  for (std::uint8_t material = 0; material <= kLargestMaterial; ++material)
+    image.palette.push_back(material_colour(material));
+  image.pixels.resize(culture.codes().size());
+  const auto width = static_cast<std::ptrdiff_t>(culture.columns());
+  for (std::ptrdiff_t row = 0; row < culture.rows(); ++row)
+    std::copy_n(culture.codes().begin() + row * width, width, image.pixels.end() - (row + 1) * width);
+  return imageio::write_indexed_png(path, image);
+}
+
+}  // namespace yars::model::terrain

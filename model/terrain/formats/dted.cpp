@@ -1,0 +1,356 @@
+#include "model/terrain/formats/dted.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "lib/failure/require.hpp"
+#include "lib/file/new_file.hpp"
+
+namespace yars::model::terrain {
+
+namespace {
+
+using dted::kHeaderBytes;
+using dted::kRecordHeadBytes;
+using dted::kRecordSumBytes;
+
+struct Header {
+  CellPlace place;
+  int columns = 0;
+  int rows = 0;
+  std::size_t data_offset = 0;
+};
+
+// What the columns turned out to be; becomes the warnings.
+struct Oddities {
+  std::size_t wrong_sums = 0;
+  std::size_t columns_read = 0;
+  std::size_t partial_columns = 0;
+};
+
+std::string_view text_of(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::optional<int> number(std::string_view digits) {
+  int value = 0;
+  for (const char digit : digits) {
+    if (digit < '0' || digit > '9') return std::nullopt;
+    value = value * 10 + (digit - '0');
+  }
+  return value;
+}
+
+// DDDMMSSH in whole degrees; nothing when it is not that.
+std::optional<int> whole_degrees(std::string_view field) {
+  const std::optional<int> degrees = number(field.substr(0, 3));
+  const std::optional<int> rest = number(field.substr(3, 4));
+  const char side = field[7];
+  if (!degrees || !rest || *rest != 0) return std::nullopt;
+  if (side == 'N' || side == 'E') return *degrees;
+  if (side == 'S' || side == 'W') return -*degrees;
+  return std::nullopt;
+}
+
+std::string name_of(CellPlace place) {
+  return "south-west corner " + std::to_string(place.south_deg) + ", " + std::to_string(place.west_deg);
+}
+
+// A field without blanks and nulls; a question mark for what cannot be printed.
+std::string stripped(std::string_view field) {
+  std::string text;
+  for (const char letter : field)
+    if (letter != ' ' && letter != '\0') text.push_back(letter > ' ' && letter <= '~' ? letter : '?');
+  return text;
+}
+
+// The datums by the description record. Posts of WGS72 lie 0.554 arc seconds (17 m) beside those of WGS84: to move them
+// would smooth them, so that is left to a raster of them.
+failure::Expected<void> check_datums(std::string_view description, const std::string& subject) {
+  constexpr std::string_view kSeaLevels[] = {"", "MSL", "E84", "E96", "E08"};
+  const std::string vertical = stripped(description.substr(dted::kVerticalDatumAt, dted::kVerticalDatumBytes));
+  const std::string horizontal = stripped(description.substr(dted::kHorizontalDatumAt, dted::kHorizontalDatumBytes));
+  if (!horizontal.empty() && horizontal != "WGS84")
+    return failure::fail(subject, "horizontal datum WGS84", "'" + horizontal + "'",
+                         "bring it to WGS84 with gdalwarp -t_srs EPSG:4326 into a .tif");
+  if (std::find(std::begin(kSeaLevels), std::end(kSeaLevels), vertical) == std::end(kSeaLevels))
+    return failure::fail(subject, "heights above mean sea level (vertical datum MSL, E84, E96, E08 or none)",
+                         "'" + vertical + "'", "make them heights above mean sea level");
+  return {};
+}
+
+failure::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject, CellPlace place) {
+  std::size_t start = 0;
+  // Copies of tapes carry their volume and file labels in front.
+  while (bytes.size() >= start + dted::kLabelBytes) {
+    const std::string_view label = text_of(bytes.subspan(start, 3));
+    if (label != "VOL" && label != "HDR") break;
+    start += dted::kLabelBytes;
+  }
+  if (bytes.size() < start + kHeaderBytes)
+    return failure::fail(subject, "a DTED header of " + std::to_string(kHeaderBytes) + " bytes",
+                         std::to_string(bytes.size() - start) + " bytes", "the file is truncated; fetch it again");
+  const std::string_view user_header = text_of(bytes.subspan(start, dted::kUserHeaderBytes));
+  if (user_header.substr(0, 4) != "UHL1")
+    return failure::fail(subject, "a DTED file that begins with UHL1", "other bytes");
+  const std::string_view description = text_of(bytes.subspan(start + dted::kUserHeaderBytes, dted::kDescriptionBytes));
+  if (const auto known = check_datums(description, subject); !known) return tl::unexpected(known.error());
+  const std::optional<int> west_deg = whole_degrees(user_header.substr(4, 8));
+  const std::optional<int> south_deg = whole_degrees(user_header.substr(12, 8));
+  const std::optional<int> interval = number(user_header.substr(20, 4));
+  const std::optional<int> latitude_interval = number(user_header.substr(24, 4));
+  const std::optional<int> columns = number(user_header.substr(47, 4));
+  const std::optional<int> rows = number(user_header.substr(51, 4));
+  if (!west_deg || !south_deg || !interval || !latitude_interval || !columns || !rows)
+    return failure::fail(subject, "UHL fields in digits, origin in whole degrees",
+                         std::string(user_header.substr(0, 55)));
+  if (CellPlace{*south_deg, *west_deg} != place)
+    return failure::fail(subject, name_of(place) + " as the name says",
+                         name_of({*south_deg, *west_deg}) + " in its header", "rename or replace the file");
+  const int most = dted::kPostsOfLevel[2];
+  if (*columns < 2 || *rows < 2 || *columns > most || *rows > most ||
+      (*columns - 1) * *interval != dted::kTenthsPerDegree ||
+      (*rows - 1) * *latitude_interval != dted::kTenthsPerDegree)
+    return failure::fail(subject, "posts that span one degree, 2 to 3601 a side",
+                         std::to_string(*columns) + " x " + std::to_string(*rows) + " posts at " +
+                             std::to_string(*interval) + " x " + std::to_string(*latitude_interval) +
+                             " tenths of a second");
+  return Header{place, *columns, *rows, start + kHeaderBytes};
+}
+
+bool sum_matches(std::span<const std::byte> record) {
+  std::uint32_t sum = 0;
+  const std::size_t body = record.size() - kRecordSumBytes;
+  for (const std::byte byte : record.first(body)) sum += std::to_integer<std::uint32_t>(byte);
+  return sum == big_endian_32(record.data() + body);
+}
+
+// The record at the front of `rest`. A column that begins north of the south edge is written either in full
+// length or without its tail; its checksum tells which.
+std::optional<std::span<const std::byte>> next_record(std::span<const std::byte> rest, int rows, int first_row) {
+  const std::size_t whole = dted::record_bytes(rows);
+  const std::size_t cut = dted::record_bytes(rows - first_row);
+  if (rest.size() >= whole && (first_row == 0 || sum_matches(rest.first(whole)))) return rest.first(whole);
+  if (first_row > 0 && rest.size() >= cut && sum_matches(rest.first(cut))) return rest.first(cut);
+  if (rest.size() >= whole) return rest.first(whole);
+  return std::nullopt;
+}
+
+std::int16_t sign_magnitude(std::uint16_t word) {
+  const auto magnitude = static_cast<std::int16_t>(word & 0x7FFFU);
+  return (word & 0x8000U) != 0U ? static_cast<std::int16_t>(-magnitude) : magnitude;
+}
+
+// The words of all columns, rows first, voids where no record says anything.
+failure::Expected<Oddities> gather_words(std::span<const std::byte> data, const Header& header,
+                                         const std::string& subject, std::vector<std::uint16_t>& words) {
+  Oddities odd;
+  std::vector<bool> seen(static_cast<std::size_t>(header.columns));
+  for (std::span<const std::byte> rest = data; !rest.empty();) {
+    const std::string at = "column record " + std::to_string(odd.columns_read + 1);
+    if (rest.size() < kRecordHeadBytes)
+      return failure::fail(subject, "a whole " + at, std::to_string(rest.size()) + " bytes",
+                           "the file is truncated; fetch it again");
+    const int column = big_endian_16(rest.data() + 4);
+    const int first_row = big_endian_16(rest.data() + 6);
+    if (std::to_integer<std::uint8_t>(rest[0]) != dted::kRecordSentinel || column >= header.columns ||
+        first_row >= header.rows)
+      return failure::fail(
+          subject, at + " that begins with AA and lies inside the cell",
+          "longitude index " + std::to_string(column) + ", latitude index " + std::to_string(first_row));
+    const auto record = next_record(rest, header.rows, first_row);
+    if (!record)
+      return failure::fail(subject, "a whole " + at, std::to_string(rest.size()) + " bytes",
+                           "the file is truncated; fetch it again");
+    if (!sum_matches(*record)) ++odd.wrong_sums;
+    if (first_row > 0) ++odd.partial_columns;
+    for (int row = first_row; row < header.rows; ++row)
+      words[static_cast<std::size_t>(row) * static_cast<std::size_t>(header.columns) +
+            static_cast<std::size_t>(column)] =
+          big_endian_16(record->data() + kRecordHeadBytes + 2 * static_cast<std::size_t>(row - first_row));
+    if (!seen[static_cast<std::size_t>(column)]) ++odd.columns_read;
+    seen[static_cast<std::size_t>(column)] = true;
+    rest = rest.subspan(record->size());
+  }
+  return odd;
+}
+
+// True when some word makes sense as two's complement only.
+bool is_twos_complement(const std::vector<std::uint16_t>& words) {
+  constexpr std::int16_t kDeepestSignMagnitude = -16000;  // [m] deeper than any place; docs/spec/formats.md#dted
+  return std::any_of(words.begin(), words.end(), [](std::uint16_t word) {
+    return word != dted::kVoidWord && sign_magnitude(word) < kDeepestSignMagnitude;
+  });
+}
+
+std::vector<std::int16_t> decode(const std::vector<std::uint16_t>& words, bool twos_complement) {
+  std::vector<std::int16_t> posts(words.size());
+  std::transform(words.begin(), words.end(), posts.begin(), [twos_complement](std::uint16_t word) {
+    if (word == dted::kVoidWord) return kVoidPost;
+    if (!twos_complement) return sign_magnitude(word);
+    const auto height_m = static_cast<std::int16_t>(word);
+    return height_m <= -32767 ? kVoidPost : height_m;
+  });
+  return posts;
+}
+
+std::vector<std::string> warnings_of(const Oddities& odd, const Header& header, bool twos_complement) {
+  std::vector<std::string> warnings;
+  const auto count = [&](const char* what, std::size_t number, const char* consequence) {
+    if (number > 0) warnings.push_back(what + std::to_string(number) + consequence);
+  };
+  count("columns with a wrong checksum: ", odd.wrong_sums, "; their heights are kept");
+  count("absent columns: ", static_cast<std::size_t>(header.columns) - odd.columns_read, "; they are void");
+  count("partial columns: ", odd.partial_columns, "; the rest of them is void");
+  if (twos_complement) warnings.emplace_back("negative heights are in two's complement, not in sign-magnitude");
+  return warnings;
+}
+
+}  // namespace
+
+failure::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const std::string& subject,
+                                          CellPlace place) {
+  const failure::Expected<Header> header = parse_header(bytes, subject, place);
+  if (!header) return tl::unexpected(header.error());
+  const std::span<const std::byte> data = bytes.subspan(header->data_offset);
+  if (data.empty())
+    return failure::fail(subject, std::to_string(header->columns) + " columns of posts", "a header alone",
+                         "the file is truncated; fetch it again");
+  std::vector<std::uint16_t> words(static_cast<std::size_t>(header->rows) * static_cast<std::size_t>(header->columns),
+                                   dted::kVoidWord);
+  const failure::Expected<Oddities> odd = gather_words(data, *header, subject, words);
+  if (!odd) return tl::unexpected(odd.error());
+  const bool twos_complement = is_twos_complement(words);
+  std::vector<std::string> warnings = warnings_of(*odd, *header, twos_complement);
+  std::vector<std::int16_t> posts = decode(words, twos_complement);
+  void_impossible_heights(posts, warnings);
+  CellReading reading{Cell(place, header->rows, header->columns, posts), std::nullopt, std::move(warnings)};
+  reading.damaged = odd->wrong_sums > 0;
+  return reading;
+}
+
+failure::Expected<CellReading> read_dted(const std::filesystem::path& path, CellPlace place) {
+  // Level 2 with labels in front; whatever is larger is not DTED 0, 1 or 2.
+  constexpr std::size_t kLargestFile = kHeaderBytes + 3601 * dted::record_bytes(3601) + 8 * dted::kLabelBytes;
+  const auto bytes = read_file(path, kLargestFile);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return parse_dted(*bytes, path.string(), place);
+}
+
+namespace {
+
+// Fixed-width text fields at their offsets; the rest of a header is blanks.
+class HeaderText {
+ public:
+  explicit HeaderText(std::size_t bytes) : text_(bytes, ' ') {}
+  void put(std::size_t offset, std::string_view field) {
+    std::copy(field.begin(), field.end(), text_.begin() + static_cast<std::ptrdiff_t>(offset));
+  }
+  void append_to(std::vector<std::byte>& bytes) const {
+    for (const char letter : text_) bytes.push_back(static_cast<std::byte>(letter));
+  }
+
+ private:
+  std::string text_;
+};
+
+std::string padded(int value, int digits) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%0*d", digits, value);
+  return text.data();
+}
+
+std::string longitude_field(int degrees) {
+  return padded(std::abs(degrees), 3) + "0000" + (degrees < 0 ? "W" : "E");
+}
+std::string latitude_field(int degrees) {
+  return padded(std::abs(degrees), 3) + "0000" + (degrees < 0 ? "S" : "N");
+}
+
+void append_header(const Cell& cell, int level, std::vector<std::byte>& bytes) {
+  const std::string longitude_interval = padded(dted::kTenthsPerDegree / (cell.columns() - 1), 4);
+  const std::string latitude_interval = padded(dted::kTenthsPerDegree / (cell.rows() - 1), 4);
+  HeaderText user(dted::kUserHeaderBytes);
+  user.put(0, "UHL1");
+  user.put(4, longitude_field(cell.place().west_deg));
+  user.put(12, latitude_field(cell.place().south_deg));
+  user.put(20, longitude_interval);
+  user.put(24, latitude_interval);
+  user.put(28, "NA  U");  // vertical accuracy not known; unclassified
+  user.put(47, padded(cell.columns(), 4));
+  user.put(51, padded(cell.rows(), 4));
+  user.put(55, "0");  // one accuracy for the cell
+  user.append_to(bytes);
+  HeaderText description(dted::kDescriptionBytes);
+  description.put(0, "DSIU");
+  description.put(59, "DTED" + std::to_string(level));
+  description.put(141, "MSLWGS84");  // vertical and horizontal datum
+  description.put(273, latitude_interval);
+  description.put(277, longitude_interval);
+  description.put(281, padded(cell.rows(), 4));
+  description.put(285, padded(cell.columns(), 4));
+  description.put(289, "00");  // complete
+  description.append_to(bytes);
+  HeaderText accuracy(dted::kAccuracyBytes);
+  accuracy.put(0, "ACCNA  NA  NA  NA  ");
+  accuracy.put(55, "00");
+  accuracy.append_to(bytes);
+}
+
+void append_16(std::uint32_t word, std::vector<std::byte>& bytes) {
+  bytes.push_back(static_cast<std::byte>(word >> 8U & 0xFFU));
+  bytes.push_back(static_cast<std::byte>(word & 0xFFU));
+}
+
+std::uint32_t sign_magnitude_word(std::int16_t post_m) {
+  if (post_m == kVoidPost) return dted::kVoidWord;
+  return post_m < 0 ? 0x8000U | static_cast<std::uint32_t>(-post_m) : static_cast<std::uint32_t>(post_m);
+}
+
+void append_column(const Cell& cell, int column, std::vector<std::byte>& bytes) {
+  const std::size_t start = bytes.size();
+  append_16(static_cast<std::uint32_t>(dted::kRecordSentinel) << 8U, bytes);  // sentinel and the count's high byte
+  append_16(static_cast<std::uint32_t>(column), bytes);                       // count
+  append_16(static_cast<std::uint32_t>(column), bytes);                       // longitude index
+  append_16(0, bytes);                                                        // latitude index
+  for (int row = 0; row < cell.rows(); ++row) append_16(sign_magnitude_word(cell.post(row, column)), bytes);
+  std::uint32_t sum = 0;
+  for (std::size_t at = start; at < bytes.size(); ++at) sum += std::to_integer<std::uint32_t>(bytes[at]);
+  append_16(sum >> 16U, bytes);
+  append_16(sum & 0xFFFFU, bytes);
+}
+
+}  // namespace
+
+std::string dted_name(CellPlace place, int level) {
+  std::array<char, 32> name{};
+  std::snprintf(name.data(), name.size(), "%c%03d/%c%02d.dt%d", place.west_deg < 0 ? 'w' : 'e',
+                std::abs(place.west_deg), place.south_deg < 0 ? 's' : 'n', std::abs(place.south_deg), level);
+  return name.data();
+}
+
+int dted_columns(CellPlace place, int level) {
+  return (dted::kPostsOfLevel[level] - 1) / dted::zone_factor(place.south_deg) + 1;
+}
+
+std::vector<std::byte> dted_bytes(const Cell& cell, int level) {
+  YARS_REQUIRE(cell.unit_m(), ==, 1.0);
+  YARS_REQUIRE(cell.rows(), ==, dted::kPostsOfLevel[level]);
+  std::vector<std::byte> bytes;
+  bytes.reserve(dted::kHeaderBytes + static_cast<std::size_t>(cell.columns()) * dted::record_bytes(cell.rows()));
+  append_header(cell, level, bytes);
+  for (int column = 0; column < cell.columns(); ++column) append_column(cell, column, bytes);
+  return bytes;
+}
+
+failure::Expected<std::filesystem::path> write_dted(const std::filesystem::path& tree, const Cell& cell, int level) {
+  return file::write_file_and_folders(tree / dted_name(cell.place(), level), dted_bytes(cell, level));
+}
+
+}  // namespace yars::model::terrain

@@ -1,0 +1,258 @@
+#include "model/terrain/formats/hgt.hpp"
+
+#include <zip.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "lib/failure/require.hpp"
+#include "lib/file/new_file.hpp"
+
+namespace yars::model::terrain {
+
+namespace {
+constexpr int kPosts[] = {1201, 3601};  // a side: 3 arc seconds, 1 arc second
+constexpr std::size_t bytes_of(int posts) {
+  return 2 * static_cast<std::size_t>(posts) * static_cast<std::size_t>(posts);
+}
+}  // namespace
+
+int hgt_posts_for_size(std::uintmax_t bytes) {
+  for (const int posts : kPosts)
+    if (bytes == bytes_of(posts)) return posts;
+  return 0;
+}
+
+failure::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const std::string& subject,
+                                         CellPlace place) {
+  const int posts = hgt_posts_for_size(bytes.size());
+  if (posts == 0)
+    return failure::fail(subject,
+                         "an HGT file of " + std::to_string(bytes_of(kPosts[0])) + " or " +
+                             std::to_string(bytes_of(kPosts[1])) + " bytes",
+                         std::to_string(bytes.size()) + " bytes", "the file is truncated or no HGT; fetch it again");
+  const auto side = static_cast<std::size_t>(posts);
+  std::vector<std::int16_t> heights(side * side);
+  for (std::size_t row = 0; row < side; ++row)
+    for (std::size_t column = 0; column < side; ++column)
+      heights[(side - 1 - row) * side + column] =
+          static_cast<std::int16_t>(big_endian_16(&bytes[2 * (row * side + column)]));
+  std::vector<std::string> warnings;
+  void_impossible_heights(heights, warnings);
+  return CellReading{Cell(place, posts, posts, heights), std::nullopt, std::move(warnings)};
+}
+
+failure::Expected<CellReading> read_hgt(const std::filesystem::path& path, CellPlace place) {
+  const auto bytes = read_file(path, bytes_of(kPosts[1]));
+  if (!bytes) return tl::unexpected(bytes.error());
+  return parse_hgt(*bytes, path.string(), place);
+}
+
+namespace {
+
+constexpr std::size_t kLargestHgt = 2UL * 3601 * 3601;   // [bytes]
+constexpr std::size_t kLargestPackedFile = 64UL << 20U;  // [bytes] more is no packed cell
+constexpr const char* kFetchAgain = "fetch the file again";
+
+std::string quoted(std::string text) {
+  text.insert(text.begin(), '\'');
+  text.push_back('\'');
+  return text;
+}
+
+struct CloseGzip {
+  void operator()(gzFile file) const { gzclose_r(file); }
+};
+struct DiscardZip {
+  void operator()(zip_t* archive) const { zip_discard(archive); }
+};
+struct CloseZipEntry {
+  void operator()(zip_file_t* file) const { zip_fclose(file); }
+};
+using ZipArchive = std::unique_ptr<zip_t, DiscardZip>;
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return text;
+}
+
+std::string printable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; }, '?');
+  return text;
+}
+
+bool is_gzip(const std::filesystem::path& path) {
+  return lower_case(path.extension().string()) == ".gz";
+}
+
+failure::Expected<std::uintmax_t> packed_length(const std::filesystem::path& path) {
+  auto length = file_length(path);
+  if (!length || *length <= kLargestPackedFile) return length;
+  return failure::fail(path.string(), "at most " + std::to_string(kLargestPackedFile) + " bytes",
+                       std::to_string(*length) + " bytes", "this is no packed HGT cell");
+}
+
+// The name that a gzip stream may keep of what was packed; empty: none.
+std::string name_in_gzip(const std::filesystem::path& path) {
+  constexpr std::size_t kHeadBytes = 10;
+  constexpr unsigned kExtra = 4, kName = 8;  // flags, RFC 1952
+  const auto length = file_length(path);
+  const auto head = length ? read_file_part(path, 0, std::min<std::uintmax_t>(*length, 512))
+                           : failure::Expected<std::vector<std::byte>>{};
+  if (!head || head->size() < kHeadBytes) return {};
+  const auto at = [&](std::size_t byte) { return std::to_integer<unsigned>((*head)[byte]); };
+  if (at(0) != 0x1f || at(1) != 0x8b || (at(3) & kName) == 0) return {};
+  std::size_t start = kHeadBytes;
+  if ((at(3) & kExtra) != 0) {
+    if (head->size() < start + 2) return {};
+    start += 2 + at(start) + 256 * at(start + 1);
+  }
+  std::string name;
+  for (std::size_t byte = start; byte < head->size() && at(byte) != 0; ++byte)
+    name.push_back(static_cast<char>(at(byte)));
+  return name;
+}
+
+failure::Expected<std::vector<std::byte>> inflate_gzip(const std::filesystem::path& path) {
+  if (const auto there = packed_length(path); !there) return tl::unexpected(there.error());
+  const std::filesystem::path inside = lower_case(name_in_gzip(path));
+  if (inside.extension() == ".hgt" && inside.filename() != lower_case(path.stem().string()))
+    return failure::fail(path.string(), path.stem().string() + " as it was packed",
+                         quoted(printable(inside.filename().string())), "give the file the name of the cell in it");
+  const std::unique_ptr<gzFile_s, CloseGzip> file(gzopen(path.c_str(), "rb"));
+  if (!file) return failure::fail(path.string(), "a gzip file", "one that cannot be opened");
+  // One byte more than any cell has tells a longer stream.
+  std::vector<std::byte> bytes(kLargestHgt + 1);
+  std::size_t filled = 0;
+  while (filled < bytes.size()) {
+    const int got = gzread(file.get(), bytes.data() + filled, static_cast<unsigned>(bytes.size() - filled));
+    if (got < 0) return failure::fail(path.string(), "a whole gzip stream", "a damaged one", kFetchAgain);
+    if (got == 0) break;
+    filled += static_cast<std::size_t>(got);
+  }
+  int status = Z_OK;
+  gzerror(file.get(), &status);
+  if (status != Z_OK) return failure::fail(path.string(), "a whole gzip stream", "a truncated one", kFetchAgain);
+  if (filled > kLargestHgt)
+    return failure::fail(path.string(), "at most " + std::to_string(kLargestHgt) + " bytes unpacked", "more",
+                         "this is no HGT cell");
+  bytes.resize(filled);
+  return bytes;
+}
+
+struct ZipEntry {
+  zip_uint64_t index = 0;
+  zip_uint64_t bytes = 0;
+};
+
+// The entry named like the archive without `.zip`. Another name is another cell: heights of one place at another.
+// `others` gets the names of such entries.
+std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& path, std::string* others = nullptr) {
+  const std::string wanted = lower_case(path.stem().string());
+  for (zip_int64_t index = 0; index < zip_get_num_entries(archive, 0); ++index) {
+    zip_stat_t status;
+    if (zip_stat_index(archive, static_cast<zip_uint64_t>(index), 0, &status) != 0) continue;
+    if ((status.valid & ZIP_STAT_NAME) == 0 || (status.valid & ZIP_STAT_SIZE) == 0) continue;
+    const std::filesystem::path name = lower_case(status.name);
+    const ZipEntry entry{static_cast<zip_uint64_t>(index), status.size};
+    if (name.filename() == wanted) return entry;
+    const bool cell = name.extension() == ".hgt";
+    if (others != nullptr && (others->empty() || cell)) *others = printable(name.filename().string());
+  }
+  return std::nullopt;
+}
+
+failure::Expected<ZipArchive> open_zip(const std::filesystem::path& path) {
+  if (const auto there = packed_length(path); !there) return tl::unexpected(there.error());
+  int code = 0;
+  ZipArchive archive(zip_open(path.c_str(), ZIP_RDONLY, &code));
+  if (!archive) return failure::fail(path.string(), "a zip archive", "a damaged one", kFetchAgain);
+  return archive;
+}
+
+failure::Expected<std::vector<std::byte>> inflate_zip(const std::filesystem::path& path) {
+  const auto archive = open_zip(path);
+  if (!archive) return tl::unexpected(archive.error());
+  std::string other;
+  const std::optional<ZipEntry> entry = hgt_entry(archive->get(), path, &other);
+  if (!entry)
+    return failure::fail(path.string(), "an entry " + path.stem().string(),
+                         other.empty() ? "an archive without entries" : quoted(other),
+                         "give the archive the name of the cell that is in it");
+  if (hgt_posts_for_size(entry->bytes) == 0)
+    return failure::fail(path.string(), "an entry of 2884802 or 25934402 bytes",
+                         "one of " + std::to_string(entry->bytes) + " bytes", "this is no HGT cell");
+  const std::unique_ptr<zip_file_t, CloseZipEntry> file(zip_fopen_index(archive->get(), entry->index, 0));
+  if (!file) return failure::fail(path.string(), "an entry that can be unpacked", zip_strerror(archive->get()));
+  std::vector<std::byte> bytes(entry->bytes);
+  const zip_int64_t got = zip_fread(file.get(), bytes.data(), bytes.size());
+  // Reading on to the end is what makes the library compare the checksum; it also finds a stream that is longer.
+  std::byte beyond{};
+  if (got != static_cast<zip_int64_t>(bytes.size()) || zip_fread(file.get(), &beyond, 1) != 0)
+    return failure::fail(path.string(), "a whole entry with its checksum", "a damaged one", kFetchAgain);
+  return bytes;
+}
+
+}  // namespace
+
+failure::Expected<CellReading> read_packed_hgt(const std::filesystem::path& path, CellPlace place) {
+  const auto bytes = is_gzip(path) ? inflate_gzip(path) : inflate_zip(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return parse_hgt(*bytes, path.string(), place);
+}
+
+int packed_hgt_posts(const std::filesystem::path& path) {
+  if (is_gzip(path)) {
+    // A gzip stream ends with its unpacked length, little-endian.
+    const auto length = file_length(path);
+    if (!length || *length < 18) return 0;
+    const auto tail = read_file_part(path, *length - 4, 4);
+    if (!tail) return 0;
+    std::uint32_t bytes = 0;
+    for (std::size_t i = 4; i-- > 0;) bytes = bytes << 8U | std::to_integer<std::uint32_t>((*tail)[i]);
+    return hgt_posts_for_size(bytes);
+  }
+  const auto archive = open_zip(path);
+  if (!archive) return 0;
+  const std::optional<ZipEntry> entry = hgt_entry(archive->get(), path);
+  return entry ? hgt_posts_for_size(entry->bytes) : 0;
+}
+
+std::string hgt_name(CellPlace place) {
+  std::array<char, 32> name{};
+  std::snprintf(name.data(), name.size(), "%c%02d%c%03d.hgt", place.south_deg < 0 ? 'S' : 'N',
+                std::abs(place.south_deg), place.west_deg < 0 ? 'W' : 'E', std::abs(place.west_deg));
+  return name.data();
+}
+
+std::vector<std::byte> hgt_bytes(const Cell& cell) {
+  const std::size_t size = 2 * static_cast<std::size_t>(cell.rows()) * static_cast<std::size_t>(cell.columns());
+  YARS_REQUIRE(cell.unit_m(), ==, 1.0);
+  YARS_REQUIRE(cell.rows(), ==, cell.columns());
+  YARS_REQUIRE(hgt_posts_for_size(size), ==, cell.rows());
+  static_assert(kVoidPost == -32768, "the void of HGT");
+  std::vector<std::byte> bytes;
+  bytes.reserve(size);
+  for (int row = cell.rows() - 1; row >= 0; --row)
+    for (int column = 0; column < cell.columns(); ++column) {
+      const auto word = static_cast<std::uint16_t>(cell.post(row, column));
+      bytes.push_back(static_cast<std::byte>(word >> 8U));
+      bytes.push_back(static_cast<std::byte>(word & 0xFFU));
+    }
+  return bytes;
+}
+
+failure::Expected<std::filesystem::path> write_hgt(const std::filesystem::path& tree, const Cell& cell) {
+  return file::write_file_and_folders(tree / hgt_name(cell.place()), hgt_bytes(cell));
+}
+
+}  // namespace yars::model::terrain

@@ -1,0 +1,275 @@
+#include "model/terrain/formats/pack_side.hpp"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "lib/failure/require.hpp"
+#include "model/terrain/formats/cell.hpp"
+#include "model/terrain/formats/cell_reading.hpp"
+#include "model/terrain/formats/jpeg2000.hpp"
+
+namespace yars::model::terrain {
+
+namespace {
+
+constexpr std::string_view kMagic = "YARSSIDE";
+constexpr std::uint32_t kVersion = 1;  // posts in metres
+constexpr std::uint32_t kVersionWithUnit = 2;
+constexpr std::size_t kHeadBytes = 36;    // up to and with the number of levels
+constexpr std::size_t kChecksumAt = 28;   // of all behind it
+constexpr std::size_t kLevelBytes = 12;   // a row of the table
+constexpr double kUnitsPerMetre = 100.0;  // the unit of posts stands in centimetres
+constexpr std::uint32_t kMostReductions = 16;
+constexpr std::uint32_t kMostPosts = 7201;  // a side: 0.5 arc seconds
+
+struct Sides {
+  int rows = 0;
+  int columns = 0;
+  std::size_t posts() const { return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns); }
+};
+
+Sides reduced(Sides sides, int reduction) {
+  return {reduced_posts(sides.rows, reduction), reduced_posts(sides.columns, reduction)};
+}
+
+std::uint32_t checksum(std::span<const std::byte> bytes) {
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+void append_16(std::int16_t value, std::vector<std::byte>& bytes) {
+  const auto word = static_cast<std::uint16_t>(value);
+  bytes.push_back(static_cast<std::byte>(word >> 8U));
+  bytes.push_back(static_cast<std::byte>(word & 0xFFU));
+}
+void append_32(std::size_t value, std::vector<std::byte>& bytes) {
+  for (const unsigned shift : {24U, 16U, 8U, 0U}) bytes.push_back(static_cast<std::byte>(value >> shift & 0xFFU));
+}
+void append(std::span<const std::byte> more, std::vector<std::byte>& bytes) {
+  bytes.insert(bytes.end(), more.begin(), more.end());
+}
+
+// A bit for each post that equals `value`.
+void append_bits(const Cell& cell, std::int16_t value, std::vector<std::byte>& bytes) {
+  const std::size_t start = bytes.size();
+  std::size_t post = 0;
+  for (int row = 0; row < cell.rows(); ++row)
+    for (int column = 0; column < cell.columns(); ++column, ++post) {
+      if (post % 8 == 0) bytes.push_back(std::byte{0});
+      if (cell.post(row, column) == value) bytes[start + post / 8] |= std::byte{0x80} >> (post % 8);
+    }
+}
+
+void append_edges(const Cell& cell, std::vector<std::byte>& bytes) {
+  for (const int row : {0, cell.rows() - 1})
+    for (int column = 0; column < cell.columns(); ++column) append_16(cell.post(row, column), bytes);
+  for (const int column : {0, cell.columns() - 1})
+    for (int row = 0; row < cell.rows(); ++row) append_16(cell.post(row, column), bytes);
+}
+
+std::size_t bit_bytes(Sides sides) {
+  return (sides.posts() + 7) / 8;
+}
+std::size_t mark_bytes(Sides sides, int reduction) {
+  if (reduction == 0) return bit_bytes(sides);
+  return 3 * bit_bytes(sides) + 4 * static_cast<std::size_t>(sides.rows + sides.columns);
+}
+
+std::vector<std::byte> deflated(std::span<const std::byte> bytes) {
+  uLongf size = compressBound(bytes.size());
+  std::vector<std::byte> packed(size);
+  const int status = compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
+                               reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), Z_BEST_COMPRESSION);
+  YARS_REQUIRE(status, ==, Z_OK);
+  packed.resize(size);
+  return packed;
+}
+
+struct PackedLevel {
+  std::size_t plain_marks = 0;
+  std::vector<std::byte> marks;
+  std::vector<std::byte> peaks;
+};
+
+failure::Expected<PackedLevel> packed_level(const Cell& cell, int reduction) {
+  std::vector<std::byte> marks;
+  if (reduction == 0) {
+    append_bits(cell, kVoidPost, marks);
+    return PackedLevel{marks.size(), deflated(marks), {}};
+  }
+  const ReducedCell level = reduce(cell, reduction);
+  append_bits(level.means, kVoidPost, marks);
+  append_bits(level.means, 0, marks);
+  append_edges(level.means, marks);
+  append_bits(level.peaks, kVoidPost, marks);
+  HeightGrid grid{level.peaks.rows(), level.peaks.columns(), {}};
+  for (int row = grid.rows - 1; row >= 0; --row)
+    for (int column = 0; column < grid.columns; ++column) grid.heights.push_back(level.peaks.post(row, column));
+  fill_voids(grid);
+  auto peaks = encode_jpeg2000(grid, std::min({halvings(grid.rows), halvings(grid.columns), 5}));
+  if (!peaks) return tl::unexpected(peaks.error());
+  return PackedLevel{marks.size(), deflated(marks), std::move(*peaks)};
+}
+
+// Reads words in turn; the caller has checked that they are there.
+class Words {
+ public:
+  explicit Words(const std::byte* at) : at_(at) {}
+  std::uint32_t next() { return big_endian_32(std::exchange(at_, at_ + 4)); }
+
+ private:
+  const std::byte* at_;
+};
+
+// [m] of a post; 0 where the file states none that can be.
+double unit_of(std::span<const std::byte> side) {
+  if (big_endian_32(side.data() + kMagic.size()) == kVersion) return 1.0;
+  const std::uint32_t centimetres = big_endian_32(side.data() + side.size() - 4);
+  return centimetres <= 100 ? centimetres / kUnitsPerMetre : 0.0;
+}
+
+std::vector<bool> take_bits(std::span<const std::byte>& bytes, Sides sides) {
+  std::vector<bool> bits(sides.posts());
+  for (std::size_t post = 0; post < bits.size(); ++post)
+    bits[post] = (bytes[post / 8] & (std::byte{0x80} >> (post % 8))) != std::byte{0};
+  bytes = bytes.subspan(bit_bytes(sides));
+  return bits;
+}
+
+std::vector<std::int16_t> take_edge(std::span<const std::byte>& bytes, int posts) {
+  std::vector<std::int16_t> edge;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(posts); ++i)
+    edge.push_back(static_cast<std::int16_t>(big_endian_16(&bytes[2 * i])));
+  bytes = bytes.subspan(2 * static_cast<std::size_t>(posts));
+  return edge;
+}
+
+failure::Expected<std::vector<std::byte>> inflated(std::span<const std::byte> packed, std::size_t bytes,
+                                                   const std::string& subject) {
+  std::vector<std::byte> plain(bytes);
+  uLongf size = bytes;
+  const int status = uncompress(reinterpret_cast<Bytef*>(plain.data()), &size,
+                                reinterpret_cast<const Bytef*>(packed.data()), packed.size());
+  if (status != Z_OK || size != bytes)
+    return failure::fail(subject, std::to_string(bytes) + " bytes of marks", "damaged ones", "pack the cell again");
+  return plain;
+}
+
+struct CellFrame {
+  CellPlace place;
+  Sides sides;
+  double unit_m;
+};
+
+failure::Expected<Cell> parse_peaks(std::span<const std::byte> packed, const std::vector<bool>& voids,
+                                    const CellFrame& frame, const std::string& subject) {
+  const Sides sides = frame.sides;
+  const auto grid = decode_jpeg2000(packed, subject, sides.rows, sides.columns, 0);
+  if (!grid) return tl::unexpected(grid.error());
+  const auto columns = static_cast<std::ptrdiff_t>(sides.columns);
+  std::vector<std::int16_t> posts;
+  posts.reserve(sides.posts());
+  for (std::ptrdiff_t row = sides.rows - 1; row >= 0; --row)
+    posts.insert(posts.end(), grid->heights.begin() + row * columns, grid->heights.begin() + (row + 1) * columns);
+  for (std::size_t post = 0; post < posts.size(); ++post)
+    if (voids[post]) posts[post] = kVoidPost;
+  return Cell(frame.place, sides.rows, sides.columns, posts, frame.unit_m);
+}
+
+}  // namespace
+
+failure::Expected<std::vector<std::byte>> side_bytes(const Cell& cell, int reductions, std::span<const std::byte> jp2) {
+  std::vector<PackedLevel> levels;
+  for (int reduction = 0; reduction <= reductions; ++reduction) {
+    auto level = packed_level(cell, reduction);
+    if (!level) return tl::unexpected(level.error());
+    levels.push_back(std::move(*level));
+  }
+  std::vector<std::byte> body;
+  append_32(levels.size(), body);
+  for (const PackedLevel& level : levels)
+    for (const std::size_t size : {level.plain_marks, level.marks.size(), level.peaks.size()}) append_32(size, body);
+  for (const PackedLevel& level : levels) {
+    append(level.marks, body);
+    append(level.peaks, body);
+  }
+  const bool metres = cell.unit_m() == 1.0;
+  if (!metres) append_32(static_cast<std::size_t>(std::lround(cell.unit_m() * kUnitsPerMetre)), body);
+  std::vector<std::byte> side;
+  for (const char letter : kMagic) side.push_back(static_cast<std::byte>(letter));
+  append_32(metres ? kVersion : kVersionWithUnit, side);
+  append_32(static_cast<std::size_t>(cell.rows()), side);
+  append_32(static_cast<std::size_t>(cell.columns()), side);
+  append_32(jp2.size(), side);
+  append_32(checksum(jp2), side);
+  append_32(checksum(body), side);
+  append(body, side);
+  return side;
+}
+
+failure::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std::span<const std::byte> jp2,
+                                            const std::string& subject) {
+  const auto refuse = [&](const std::string& expected, const std::string& found) {
+    return failure::fail(subject, expected, found, "pack the cell again");
+  };
+  if (side.size() < kHeadBytes || std::string_view(reinterpret_cast<const char*>(side.data()), 8) != kMagic)
+    return refuse("the side file of a packed cell (YARSSIDE)", "other bytes");
+  Words words(side.data() + kMagic.size());
+  if (const std::uint32_t version = words.next(); version != kVersion && version != kVersionWithUnit)
+    return refuse("version 1 or 2", "version " + std::to_string(version));
+  const std::uint32_t rows = words.next();
+  const std::uint32_t columns = words.next();
+  const std::uint32_t jp2_bytes = words.next();
+  const std::uint32_t jp2_sum = words.next();
+  if (jp2_bytes != jp2.size() || jp2_sum != checksum(jp2))
+    return refuse("the side file of the .jp2 beside it", "that of another, or a damaged .jp2");
+  if (words.next() != checksum(side.subspan(kChecksumAt + 4))) return refuse("a whole side file", "a wrong checksum");
+  const std::uint32_t levels = words.next();
+  if (rows < 2 || columns < 2 || rows > kMostPosts || columns > kMostPosts || levels == 0 ||
+      levels > kMostReductions + 1 || kHeadBytes + levels * kLevelBytes > side.size())
+    return refuse("sizes of a cell", std::to_string(columns) + " x " + std::to_string(rows) + " posts, " +
+                                         std::to_string(levels) + " levels");
+  const double unit_m = unit_of(side);
+  if (unit_m <= 0.0) return refuse("posts of 1 to 100 cm", "another unit");
+  return SideHead{static_cast<int>(rows), static_cast<int>(columns), static_cast<int>(levels) - 1, unit_m};
+}
+
+failure::Expected<SideLevel> parse_side_level(std::span<const std::byte> side, CellPlace place, int reduction,
+                                              const std::string& subject) {
+  Words words(side.data() + kMagic.size() + 4);
+  const int rows = static_cast<int>(words.next());
+  const int columns = static_cast<int>(words.next());
+  const std::size_t levels = big_endian_32(side.data() + kHeadBytes - 4);
+  const Sides sides = reduced({rows, columns}, reduction);
+  Words table(side.data() + kHeadBytes);
+  std::size_t at = kHeadBytes + levels * kLevelBytes;
+  for (int before = 0; before < reduction; ++before) {
+    table.next();
+    at += table.next();
+    at += table.next();
+  }
+  const std::size_t plain = table.next();
+  const std::size_t marks = table.next();
+  const std::size_t peaks = table.next();
+  if (plain != mark_bytes(sides, reduction) || at > side.size() || marks > side.size() - at ||
+      peaks > side.size() - at - marks)
+    return failure::fail(subject, "sections inside the file", "one beyond its end", "pack the cell again");
+  const auto unpacked = inflated(side.subspan(at, marks), plain, subject);
+  if (!unpacked) return tl::unexpected(unpacked.error());
+  std::span<const std::byte> rest = *unpacked;
+  SideLevel level{take_bits(rest, sides), {}, {}, std::nullopt};
+  if (reduction == 0) return level;
+  level.sea = take_bits(rest, sides);
+  for (std::size_t edge = 0; edge < level.edges.size(); ++edge)
+    level.edges[edge] = take_edge(rest, edge < 2 ? sides.columns : sides.rows);
+  auto peak_cell =
+      parse_peaks(side.subspan(at + marks, peaks), take_bits(rest, sides), {place, sides, unit_of(side)}, subject);
+  if (!peak_cell) return tl::unexpected(peak_cell.error());
+  level.peaks = std::move(*peak_cell);
+  return level;
+}
+
+}  // namespace yars::model::terrain

@@ -1,0 +1,177 @@
+#include "model/terrain/gdal/coordinate_operations.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+namespace yars::model::terrain::gdal {
+
+namespace {
+
+struct DestroyList {
+  void operator()(PJ_OBJ_LIST* list) const { proj_list_destroy(list); }
+};
+using List = std::unique_ptr<PJ_OBJ_LIST, DestroyList>;
+struct DestroyFactory {
+  void operator()(PJ_OPERATION_FACTORY_CONTEXT* factory) const { proj_operation_factory_context_destroy(factory); }
+};
+using Factory = std::unique_ptr<PJ_OPERATION_FACTORY_CONTEXT, DestroyFactory>;
+
+struct Area {
+  double south_deg, west_deg, north_deg, east_deg;
+};
+
+List ways_between(PJ_CONTEXT* context, PJ* from, PJ* to, Ways ways, const std::optional<Area>& area) {
+  const Factory factory(proj_create_operation_factory_context(context, nullptr));
+  proj_operation_factory_context_set_spatial_criterion(context, factory.get(),
+                                                       PROJ_SPATIAL_CRITERION_PARTIAL_INTERSECTION);
+  const bool exact = ways == Ways::exact_only;
+  proj_operation_factory_context_set_grid_availability_use(
+      context, factory.get(),
+      exact ? PROJ_GRID_AVAILABILITY_DISCARD_OPERATION_IF_MISSING_GRID : PROJ_GRID_AVAILABILITY_USED_FOR_SORTING);
+  if (exact) proj_operation_factory_context_set_allow_ballpark_transformations(context, factory.get(), 0);
+  if (area)
+    proj_operation_factory_context_set_area_of_interest(context, factory.get(), area->west_deg, area->south_deg,
+                                                        area->east_deg, area->north_deg);
+  return List(proj_create_operations(context, from, to, factory.get()));
+}
+
+// How many places of the net reach the earth and lead back; `reached` gets where: latitude, longitude [deg].
+std::size_t served(PJ* operation, const Net& net, Net& reached) {
+  constexpr double kSame_deg = 1e-5;
+  reached = net;
+  transform(operation, PJ_FWD, reached.x, reached.y, nullptr);
+  Net again = reached;
+  transform(operation, PJ_INV, again.x, again.y, nullptr);
+  transform(operation, PJ_FWD, again.x, again.y, nullptr);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < net.x.size(); ++i) {
+    const double turned_deg = std::remainder(again.y[i] - reached.y[i], 360.0);
+    const bool at_pole = std::abs(reached.x[i]) > 89.99;  // any longitude
+    if (std::abs(again.x[i] - reached.x[i]) < kSame_deg && (at_pole || std::abs(turned_deg) < kSame_deg)) ++count;
+  }
+  return count;
+}
+
+std::optional<Area> area_of(const Net& reached) {
+  std::optional<Area> area;
+  double middle_deg = 0.0;
+  for (std::size_t i = 0; i < reached.x.size(); ++i) {
+    if (!std::isfinite(reached.x[i]) || !std::isfinite(reached.y[i])) continue;
+    if (!area) {
+      middle_deg = reached.y[i];
+      area = Area{reached.x[i], middle_deg, reached.x[i], middle_deg};
+    }
+    const double longitude_deg = reached.y[i] - 360.0 * std::round((reached.y[i] - middle_deg) / 360.0);
+    area->south_deg = std::min(area->south_deg, reached.x[i]);
+    area->north_deg = std::max(area->north_deg, reached.x[i]);
+    area->west_deg = std::min(area->west_deg, longitude_deg);
+    area->east_deg = std::max(area->east_deg, longitude_deg);
+  }
+  if (!area || area->east_deg - area->west_deg > 180.0) return std::nullopt;
+  const auto turned = [](double degrees) { return degrees - 360.0 * std::round(degrees / 360.0); };
+  area->west_deg = turned(area->west_deg);
+  area->east_deg = turned(area->east_deg);
+  return area;
+}
+
+struct Choice {
+  Projection operation;
+  Net reached;
+  int position = -1;
+};
+
+Choice choose(PJ_CONTEXT* context, PJ_OBJ_LIST* list, const Net& net) {
+  constexpr int kMostTried = 16;
+  Choice best;
+  std::size_t most = 0;
+  for (int position = 0; list != nullptr && position < std::min(proj_list_get_count(list), kMostTried); ++position) {
+    Projection candidate(proj_list_get(context, list, position));
+    if (!candidate || proj_coordoperation_is_instantiable(context, candidate.get()) == 0) continue;
+    Net reached;
+    const std::size_t count = net.x.empty() ? 1 : served(candidate.get(), net, reached);
+    if (count <= most) continue;
+    most = count;
+    best = {std::move(candidate), std::move(reached), position};
+    if (count >= net.x.size()) break;
+  }
+  return best;
+}
+
+std::string metres(double accuracy_m) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.6g m", accuracy_m);
+  return text.data();
+}
+
+std::string missing_grid(PJ_CONTEXT* context, PJ* operation) {
+  for (int grid = 0; grid < proj_coordoperation_get_grid_used_count(context, operation); ++grid) {
+    const char* name = nullptr;
+    int available = 0;
+    if (proj_coordoperation_get_grid_used(context, operation, grid, &name, nullptr, nullptr, nullptr, nullptr, nullptr,
+                                          &available) != 0 &&
+        available == 0 && name != nullptr)
+      return name;
+  }
+  return {};
+}
+
+// The best way that lacks nothing but a grid, where it is a metre better than the one taken.
+std::string better_without_grid(PJ_CONTEXT* context, PJ_OBJ_LIST* list, double accuracy_m) {
+  std::string best;
+  double best_m = accuracy_m < 0.0 ? 1e9 : accuracy_m - 1.0;
+  for (int position = 0; position < proj_list_get_count(list); ++position) {
+    const Projection candidate(proj_list_get(context, list, position));
+    if (!candidate || proj_coordoperation_is_instantiable(context, candidate.get()) != 0) continue;
+    const double candidate_m = proj_coordoperation_get_accuracy(context, candidate.get());
+    const std::string grid = missing_grid(context, candidate.get());
+    if (grid.empty() || candidate_m < 0.0 || candidate_m >= best_m) continue;
+    best_m = candidate_m;
+    best = "the grid " + grid + " (" + metres(candidate_m) + ") is not installed";
+  }
+  return best;
+}
+
+std::string warning_of(PJ_CONTEXT* context, PJ_OBJ_LIST* list, PJ* operation) {
+  const bool ballpark = proj_coordoperation_has_ballpark_transformation(context, operation) != 0;
+  const std::string better =
+      better_without_grid(context, list, ballpark ? -1.0 : proj_coordoperation_get_accuracy(context, operation));
+  if (!ballpark && better.empty()) return {};
+  const std::string what =
+      ballpark ? "PROJ has only a ballpark transformation to WGS84: heights may lie hundreds of metres off"
+               : "it is brought to WGS84 with " + accuracy_text(context, operation);
+  return better.empty() ? what : what + "; " + better;
+}
+
+}  // namespace
+
+void transform(PJ* operation, PJ_DIRECTION direction, std::span<double> first, std::span<double> second,
+               double* third) {
+  proj_trans_generic(operation, direction, first.data(), sizeof(double), first.size(), second.data(), sizeof(double),
+                     second.size(), third, sizeof(double), third == nullptr ? 0 : first.size(), nullptr, 0, 0);
+}
+
+std::string accuracy_text(PJ_CONTEXT* context, PJ* operation) {
+  const double accuracy_m = proj_coordoperation_get_accuracy(context, operation);
+  return accuracy_m < 0.0 ? "no stated accuracy" : "a stated accuracy of " + metres(accuracy_m);
+}
+
+Found operation_between(PJ_CONTEXT* context, PJ* from, PJ* to, const Net& net, Ways ways) {
+  List list = ways_between(context, from, to, ways, std::nullopt);
+  Choice choice = choose(context, list.get(), net);
+  // Where the raster lies is known only by a first way; the best way there may be another.
+  if (const std::optional<Area> area = choice.operation ? area_of(choice.reached) : std::nullopt) {
+    List nearby = ways_between(context, from, to, ways, area);
+    if (Choice better = choose(context, nearby.get(), net); better.operation) {
+      choice = std::move(better);
+      list = std::move(nearby);
+    }
+  }
+  if (!choice.operation) return {};
+  std::string warning = warning_of(context, list.get(), choice.operation.get());
+  return {std::move(choice.operation), std::move(warning)};
+}
+
+}  // namespace yars::model::terrain::gdal

@@ -1,0 +1,43 @@
+#include "model/terrain/gdal/map_writer.hpp"
+#include "model/terrain/gdal/raster.hpp"
+#include "model/terrain/gdal/raster_survey.hpp"
+
+namespace yars::model::terrain::gdal {
+
+// In place of raster.cpp in a build without GDAL.
+
+namespace {
+
+tl::unexpected<failure::Error> built_without(const std::filesystem::path& path) {
+  return failure::fail(path.string(), "a YARS built with GDAL to read this raster", "one built without it",
+                       "run `scripts/setup --gdal` and build again");
+}
+
+}  // namespace
+
+bool available() {
+  return false;
+}
+
+failure::Expected<RasterSummary> describe_raster(const std::filesystem::path& path) {
+  return built_without(path);
+}
+
+failure::Expected<RasterPosts> read_raster(const std::filesystem::path& path, int /*south_deg*/, int /*west_deg*/,
+                                           int /*posts_per_degree_north*/, int /*posts_per_degree_east*/) {
+  return built_without(path);
+}
+
+failure::Expected<std::optional<RasterFacts>> survey_raster(const std::filesystem::path& path,
+                                                            const std::function<void(double)>& /*progress*/) {
+  return built_without(path);
+}
+
+// In place of map_writer.cpp in a build without GDAL.
+
+failure::Expected<void> write_map(const std::filesystem::path& path, const MapPicture& /*picture*/) {
+  return failure::fail(path.string(), "a YARS built with GDAL to write a GeoTIFF", "one built without it",
+                       "run `scripts/setup --gdal` and build again, or write a .png");
+}
+
+}  // namespace yars::model::terrain::gdal

@@ -1,0 +1,111 @@
+#include "model/terrain/sampling/analytic_terrain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "lib/failure/require.hpp"
+#include "model/terrain/formats/culture.hpp"
+
+namespace yars::model::terrain {
+
+namespace {
+
+struct AxisPosition {
+  double along_m = 0.0;
+  double across_m = 0.0;
+};
+
+AxisPosition on_axis(const TerrainAxis& axis, geo::GeoPoint place) {
+  const geo::GeodesicInverse way = geo::geodesic_inverse(axis.origin, place);
+  const double angle = (way.azimuth_at_start - axis.direction).radians();
+  return {way.distance.metres() * std::cos(angle), way.distance.metres() * std::sin(angle)};
+}
+
+// A shape that depends on the way along the axis alone.
+template <class Profile>
+AnalyticTerrain::Height along(TerrainAxis axis, Profile profile) {
+  return [axis, profile](geo::GeoPoint place) { return profile(on_axis(axis, place).along_m); };
+}
+
+}  // namespace
+
+AnalyticTerrain::AnalyticTerrain(Height height_m, std::uint64_t generation, Material material)
+    : height_m_(std::move(height_m)), generation_(generation), material_(std::move(material)) {}
+
+Surface AnalyticTerrain::surface_at(geo::GeoPoint place, Interpolation /*interpolation*/) const {
+  if (!std::isfinite(place.latitude_deg) || !std::isfinite(place.longitude_deg))
+    return {std::numeric_limits<double>::quiet_NaN(), 0.0};
+  const geo::GeoPoint wrapped{std::clamp(place.latitude_deg, -90.0, 90.0), geo::wrapped_degrees(place.longitude_deg)};
+  const double height_m = height_m_(wrapped);
+  const std::uint8_t given = material_ ? material_(wrapped) : std::uint8_t{0};
+  const std::uint8_t material = given <= kLargestMaterial ? given : std::uint8_t{0};
+  return {height_m, height_m == 0.0 ? 1.0 : 0.0, material};
+}
+
+std::size_t AnalyticTerrain::surfaces(const PlaceRun& places, Interpolation interpolation,
+                                      const SurfaceRun& found) const {
+  const std::size_t count = places.north_deg.size();
+  YARS_REQUIRE(places.east_deg.size(), ==, count);
+  YARS_REQUIRE(found.elevation_m.size(), ==, count);
+  YARS_REQUIRE(found.water.size(), ==, count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Surface surface = surface_at(place_of(places, i), interpolation);
+    found.elevation_m[i] = static_cast<float>(surface.elevation_m);
+    found.water[i] = static_cast<float>(surface.water);
+    if (!found.peak_m.empty()) found.peak_m[i] = found.elevation_m[i];
+    if (!found.material.empty()) found.material[i] = surface.material;
+  }
+  return 0;
+}
+
+AnalyticTerrain::Height flat(double height_m) {
+  return [height_m](geo::GeoPoint) { return height_m; };
+}
+
+AnalyticTerrain::Height plane(TerrainAxis axis, double height_m, double slope) {
+  return along(axis, [=](double along_m) { return height_m + slope * along_m; });
+}
+
+AnalyticTerrain::Height wedge(TerrainAxis axis, double start_m, double slope) {
+  return along(axis, [=](double along_m) { return slope * std::max(0.0, along_m - start_m); });
+}
+
+AnalyticTerrain::Height plateau(TerrainAxis axis, double start_m, double end_m, double height_m) {
+  return along(axis, [=](double along_m) { return along_m >= start_m && along_m < end_m ? height_m : 0.0; });
+}
+
+AnalyticTerrain::Height ridge(TerrainAxis axis, double crest_m, double half_width_m, double height_m) {
+  return along(
+      axis, [=](double along_m) { return height_m * std::max(0.0, 1.0 - std::abs(along_m - crest_m) / half_width_m); });
+}
+
+AnalyticTerrain::Height step_wall(TerrainAxis axis, double wall_m, double near_m, double far_m) {
+  return along(axis, [=](double along_m) { return along_m < wall_m ? near_m : far_m; });
+}
+
+AnalyticTerrain::Height sine_hills(TerrainAxis axis, double amplitude_m, double wavelength_m) {
+  return [=](geo::GeoPoint place) {
+    const AxisPosition at = on_axis(axis, place);
+    const double turn = 2.0 * std::numbers::pi / wavelength_m;
+    return amplitude_m * (1.0 + 0.5 * (std::sin(turn * at.along_m) + std::sin(turn * at.across_m)));
+  };
+}
+
+AnalyticTerrain::Height built_in_hills() {
+  return [](geo::GeoPoint place) {
+    // Whole waves round the earth, so that the antimeridian shows no seam; numbers without common factors, so
+    // that the pattern does not repeat within sight. The poles are pinched but finite.
+    const double north = place.latitude_deg * geo::kRadiansPerDegree;
+    const double east = place.longitude_deg * geo::kRadiansPerDegree;
+    const double ranges =
+        std::sin(311.0 * east + 0.9 * std::sin(97.0 * north)) * std::sin(353.0 * north + 0.7 * std::sin(83.0 * east));
+    const double hills = std::sin(1301.0 * east + 401.0 * north) * std::sin(1499.0 * north - 307.0 * east);
+    const double spurs = std::sin(4099.0 * east - 1103.0 * north) * std::sin(4507.0 * north + 1201.0 * east);
+    return std::max(0.0, 400.0 + 520.0 * ranges + 200.0 * hills + 50.0 * spurs);
+  };
+}
+
+}  // namespace yars::model::terrain

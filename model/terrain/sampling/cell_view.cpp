@@ -1,0 +1,353 @@
+#include "model/terrain/sampling/cell_view.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "lib/failure/require.hpp"
+#include "model/terrain/formats/cell.hpp"
+#include "model/terrain/sampling/crests_simd.hpp"
+#include "model/terrain/sampling/height_simd.hpp"
+
+namespace yars::model::terrain {
+
+namespace {
+
+// A place between posts: the post south-west of it and the way on from there [0, 1].
+struct Position {
+  int row, column;
+  double north, east;
+};
+
+Position position_in(const Cell& cell, double north_deg, double east_deg) {
+  const double row = std::clamp(north_deg, 0.0, 1.0) * (cell.rows() - 1);
+  const double column = std::clamp(east_deg, 0.0, 1.0) * (cell.columns() - 1);
+  const int south = std::min(static_cast<int>(row), cell.rows() - 2);
+  const int west = std::min(static_cast<int>(column), cell.columns() - 2);
+  return {south, west, row - south, column - west};
+}
+
+Surface bilinear(const Cell& cell, const Position& at) {
+  double total = 0.0;
+  double height = 0.0;  // [unit_m]
+  double water = 0.0;
+  for (const int up : {0, 1})
+    for (const int right : {0, 1}) {
+      const std::int16_t post = cell.post(at.row + up, at.column + right);
+      if (post == kVoidPost) continue;
+      const double weight = (up == 1 ? at.north : 1 - at.north) * (right == 1 ? at.east : 1 - at.east);
+      total += weight;
+      height += weight * post;
+      if (post == 0) water += weight;
+    }
+  if (total <= 0.0) return {std::numeric_limits<double>::quiet_NaN(), 0.0};
+  return {height / total * cell.unit_m(), water / total};
+}
+
+// Catmull-Rom weights of the four posts about a way of t behind the second.
+std::array<double, 4> cubic_weights(double t) {
+  return {0.5 * t * ((2.0 - t) * t - 1.0), 0.5 * (t * t * (3.0 * t - 5.0) + 2.0), 0.5 * t * ((4.0 - 3.0 * t) * t + 1.0),
+          0.5 * t * t * (t - 1.0)};
+}
+
+std::optional<double> cubic_height_m(const Cell& cell, const Position& at) {
+  const std::array<double, 4> along = cubic_weights(at.north);
+  const std::array<double, 4> across = cubic_weights(at.east);
+  double height_m = 0.0;
+  for (std::size_t up = 0; up < 4; ++up)
+    for (std::size_t right = 0; right < 4; ++right) {
+      const int row = std::clamp(at.row + static_cast<int>(up) - 1, 0, cell.rows() - 1);
+      const int column = std::clamp(at.column + static_cast<int>(right) - 1, 0, cell.columns() - 1);
+      const std::int16_t post_m = cell.post(row, column);
+      if (post_m == kVoidPost) return std::nullopt;
+      height_m += along[up] * across[right] * post_m;
+    }
+  return height_m * cell.unit_m();
+}
+
+}  // namespace
+
+Surface interpolate(const Cell& cell, double north_deg, double east_deg, radar::Interpolation interpolation) {
+  Position at = position_in(cell, north_deg, east_deg);
+  if (interpolation == radar::Interpolation::nearest) {
+    at.north = at.north >= 0.5 ? 1.0 : 0.0;
+    at.east = at.east >= 0.5 ? 1.0 : 0.0;
+  }
+  Surface surface = bilinear(cell, at);
+  if (interpolation != radar::Interpolation::cubic) return surface;
+  if (const std::optional<double> height_m = cubic_height_m(cell, at)) surface.elevation_m = surface.peak_m = *height_m;
+  return surface;
+}
+
+namespace {
+
+// The whole number of old intervals in a new one; 1 where the new grid is finer.
+int whole_factor(int old_posts, int new_posts) {
+  const int old_intervals = old_posts - 1;
+  for (int factor = old_intervals / (new_posts - 1); factor > 1; --factor)
+    if (old_intervals % factor == 0) return factor;
+  return 1;
+}
+
+std::int16_t rounded(const Surface& surface, double unit_m) {
+  if (std::isnan(surface.elevation_m)) return kVoidPost;
+  if (surface.water > 0.5) return 0;
+  const long units = std::lround(surface.elevation_m / unit_m);
+  if (units != 0) return static_cast<std::int16_t>(units);
+  return surface.elevation_m < 0 ? std::int16_t{-1} : std::int16_t{1};
+}
+
+}  // namespace
+
+Cell resample(const Cell& cell, int rows, int columns) {
+  YARS_REQUIRE(rows, >=, 2);
+  YARS_REQUIRE(columns, >=, 2);
+  if (rows == cell.rows() && columns == cell.columns()) return cell;
+  Cell means = reduce_by(cell, whole_factor(cell.rows(), rows), whole_factor(cell.columns(), columns)).means;
+  if (rows == means.rows() && columns == means.columns()) return means;
+  std::vector<std::int16_t> posts;
+  posts.reserve(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column)
+      posts.push_back(rounded(
+          interpolate(means, static_cast<double>(row) / (rows - 1), static_cast<double>(column) / (columns - 1)),
+          cell.unit_m()));
+  return {cell.place(), rows, columns, posts, cell.unit_m()};
+}
+
+namespace {
+
+constexpr Surface kNothing{std::numeric_limits<double>::quiet_NaN(), 0.0};
+constexpr double kMetresPerDegree = 111'000.0;  // about
+constexpr float kMostTurns = 1.0e6F;            // [deg] of longitude: more is no place, but must not overflow
+
+// Where its meridians are closest.
+double spacing_m(const Cell& cell) {
+  const int south_deg = cell.place().south_deg;
+  const double farthest_deg = std::max(std::abs(south_deg), std::abs(south_deg + 1));
+  const double east_deg = std::max(0.0, std::cos(farthest_deg * geo::kRadiansPerDegree)) / (cell.columns() - 1);
+  return kMetresPerDegree * std::min(1.0 / (cell.rows() - 1), east_deg);
+}
+
+// How close a walk has to look. Columns nearer than a third of the rows' spacing count as that far apart: towards a
+// pole they close up to nothing, and the ground that they tell does not.
+double walked_spacing_m(const Cell& cell) {
+  const double rows_m = kMetresPerDegree / (cell.rows() - 1);
+  return std::clamp(spacing_m(cell), rows_m / 3.0, rows_m);
+}
+
+look_up::Grid grid_of(const Cell& cell) {
+  return look_up::Grid{&cell.blocks(),   cell.rows(),          cell.columns(),
+                       cell.voids() > 0, cell.sea_posts() > 0, static_cast<float>(cell.unit_m())};
+}
+
+// The cell of a place of the run. Shadow is cast by the highest ground.
+crests::CrossedCell crossed(const TerrainCell& cell, const PlaceRun& places, std::size_t place) {
+  const double walked_m = walked_spacing_m(*cell.heights);
+  return {grid_of(cell.peaks ? *cell.peaks : *cell.heights), places.cells_north[place], places.cells_east[place],
+          static_cast<float>(walked_m), spacing_m(*cell.heights) < walked_m};
+}
+
+}  // namespace
+
+CellView::CellView(std::uint64_t generation, Absence elsewhere, int detail) : generation_(generation), detail_(detail) {
+  table_.fill(static_cast<std::uint16_t>(elsewhere));
+}
+
+void CellView::set_absence(CellPlace place, Absence absence) {
+  table_[slot_of(place)] = static_cast<std::uint16_t>(absence);
+}
+
+void CellView::add(TerrainCell cell) {
+  table_[slot_of(cell.heights->place())] = static_cast<std::uint16_t>(kFirstCell + cells_.size());
+  resident_bytes_ += cell.heights->bytes();
+  const double posts_m = spacing_m(*cell.heights);
+  post_spacing_m_ = cells_.empty() ? posts_m : std::min(post_spacing_m_, posts_m);
+  if (cell.peaks) {
+    resident_bytes_ += cell.peaks->bytes();
+    has_peaks_ = true;
+  }
+  if (cell.culture) {
+    resident_bytes_ += cell.culture->bytes();
+    has_materials_ = true;
+  }
+  cells_.push_back(std::move(cell));
+}
+
+Surface CellView::surface_at(geo::GeoPoint place, Interpolation interpolation) const {
+  if (!std::isfinite(place.latitude_deg) || !std::isfinite(place.longitude_deg)) return kNothing;
+  const CellPlace corner = cell_holding(place);
+  const std::uint16_t what = entry(corner);
+  if (what == static_cast<std::uint16_t>(Absence::sea)) return {0.0, 1.0};
+  if (what < kFirstCell) {
+    Surface nothing = kNothing;
+    nothing.loaded = what != static_cast<std::uint16_t>(Absence::not_loaded);
+    return nothing;
+  }
+  const TerrainCell& cell = cells_[what - kFirstCell];
+  const double north_deg = place.latitude_deg - corner.south_deg;
+  const double east_deg = geo::wrapped_degrees(place.longitude_deg) - corner.west_deg;
+  Surface surface = interpolate(*cell.heights, north_deg, east_deg, interpolation);
+  if (cell.peaks) {
+    // Between peaks a cubic could dip below the ground that they stand for.
+    const bool nearest = interpolation == Interpolation::nearest;
+    surface.peak_m =
+        interpolate(*cell.peaks, north_deg, east_deg, nearest ? Interpolation::nearest : Interpolation::bilinear)
+            .elevation_m;
+  }
+  if (cell.culture) surface.material = cell.culture->nearest(north_deg, east_deg);
+  return surface;
+}
+
+PostSpacing CellView::post_spacing_at(geo::GeoPoint place) const {
+  const std::uint16_t what = entry(cell_holding(place));
+  if (what < kFirstCell) return {};
+  const Cell& cell = *cells_[what - kFirstCell].heights;
+  return {walked_spacing_m(cell), 1.0 / (cell.columns() - 1)};
+}
+
+std::vector<std::shared_ptr<const Cell>> CellView::cells_within(const GeoBox& box) const {
+  std::vector<std::shared_ptr<const Cell>> found;
+  const auto first_of = [](double edge_deg) { return static_cast<int>(std::floor(edge_deg)); };
+  const int last_west = std::min(first_of(box.east_deg), first_of(box.west_deg) + kCellColumns - 1);
+  for (int south = std::max(first_of(box.south_deg), -90); south <= std::min(first_of(box.north_deg), 89); ++south)
+    for (int west = first_of(box.west_deg); west <= last_west; ++west) {
+      const std::uint16_t what = entry(cell_holding({south + 0.5, geo::wrapped_degrees(west + 0.5)}));
+      if (what >= kFirstCell) found.push_back(cells_[what - kFirstCell].heights);
+    }
+  return found;
+}
+
+CellView::Run CellView::run_at(const PlaceRun& places, std::size_t first) const {
+  Run run;
+  run.first = first;
+  const float cells_north = places.cells_north[first];
+  const float cells_east = places.cells_east[first];
+  if (!(std::abs(cells_north) <= kMostTurns) || !(std::abs(cells_east) <= kMostTurns)) return run;
+  const int south = places.corner.south_deg + static_cast<int>(cells_north);
+  const int west = places.corner.west_deg + 180 + static_cast<int>(cells_east);
+  run.beyond_pole = south < -90 || south > 89;
+  run.what =
+      entry({std::clamp(south, -90, 89), (west % kCellColumns + kCellColumns) % kCellColumns - kCellColumns / 2});
+  run.places =
+      look_up::places_alike(&places.cells_north[first], &places.cells_east[first], places.cells_north.size() - first);
+  return run;
+}
+
+// What vectors do not do: cubic, and places on a pole, which belong to the cell before it.
+void CellView::look_up_singly(const Run& run, const PlaceRun& places, Interpolation interpolation,
+                              const SurfaceRun& found) const {
+  for (std::size_t i = run.first; i < run.first + run.places; ++i) {
+    const Surface surface = surface_at(place_of(places, i), interpolation);
+    found.elevation_m[i] = static_cast<float>(surface.elevation_m);
+    found.water[i] = static_cast<float>(surface.water);
+  }
+}
+
+void CellView::look_up_run(const Run& run, const PlaceRun& places, Interpolation interpolation,
+                           const SurfaceRun& found) const {
+  const TerrainCell& cell = cells_[run.what - kFirstCell];
+  const float* const north_deg = &places.north_deg[run.first];
+  const float* const east_deg = &places.east_deg[run.first];
+  const bool nearest = interpolation == Interpolation::nearest;
+  if (interpolation == Interpolation::cubic || run.beyond_pole)
+    look_up_singly(run, places, interpolation, found);
+  else
+    look_up::heights(grid_of(*cell.heights), north_deg, east_deg, run.places, nearest, &found.elevation_m[run.first],
+                     &found.water[run.first]);
+  if (!found.material.empty() && cell.culture)
+    look_up::codes(*cell.culture, north_deg, east_deg, run.places, &found.material[run.first]);
+  if (found.peak_m.empty()) return;
+  if (cell.peaks)
+    look_up::heights(grid_of(*cell.peaks), north_deg, east_deg, run.places, nearest, &found.peak_m[run.first], nullptr);
+  else
+    std::copy_n(&found.elevation_m[run.first], run.places, &found.peak_m[run.first]);
+}
+
+std::size_t CellView::surfaces(const PlaceRun& places, Interpolation interpolation, const SurfaceRun& found) const {
+  const std::size_t count = places.north_deg.size();
+  YARS_REQUIRE(places.east_deg.size(), ==, count);
+  YARS_REQUIRE(places.cells_north.size(), ==, count);
+  YARS_REQUIRE(places.cells_east.size(), ==, count);
+  YARS_REQUIRE(found.elevation_m.size(), ==, count);
+  YARS_REQUIRE(found.water.size(), ==, count);
+  std::size_t not_loaded = 0;
+  for (std::size_t first = 0; first < count;) {
+    const Run run = run_at(places, first);
+    if (!found.material.empty()) std::fill_n(&found.material[first], run.places, 0);
+    if (run.what >= kFirstCell) {
+      look_up_run(run, places, interpolation, found);
+    } else {
+      const bool sea = run.what == static_cast<std::uint16_t>(Absence::sea);
+      const float height_m = sea ? 0.0F : std::numeric_limits<float>::quiet_NaN();
+      std::fill_n(&found.elevation_m[first], run.places, height_m);
+      std::fill_n(&found.water[first], run.places, sea ? 1.0F : 0.0F);
+      if (!found.peak_m.empty()) std::fill_n(&found.peak_m[first], run.places, height_m);
+      if (run.what == static_cast<std::uint16_t>(Absence::not_loaded)) not_loaded += run.places;
+    }
+    first += run.places;
+  }
+  return not_loaded;
+}
+
+bool CellView::crests(const PlaceRun& places, const RaySight& sight, std::span<float> tangent) const {
+  const std::size_t count = places.north_deg.size();
+  YARS_REQUIRE(sight.distance_m.size(), ==, count);
+  YARS_REQUIRE(tangent.size(), ==, count);
+  std::fill(tangent.begin(), tangent.end(), kNoTangent);
+  const crests::Ray ray{places.cells_north.data(),
+                        places.cells_east.data(),
+                        places.north_deg.data(),
+                        places.east_deg.data(),
+                        sight.distance_m.data(),
+                        static_cast<float>(sight.altitude_m),
+                        static_cast<float>(sight.curvature)};
+  for (std::size_t first = 0; first < count;) {
+    const Run run = run_at(places, first);
+    const std::size_t behind = first + run.places;
+    if (run.what >= kFirstCell && !run.beyond_pole) {
+      const TerrainCell& cell = cells_[run.what - kFirstCell];
+      // The ways into the cell and out of it lie in two: each raises its part.
+      crests::raise(crossed(cell, places, first), ray, std::max<std::size_t>(first, 1), std::min(behind + 1, count),
+                    tangent.data());
+    }
+    first = behind;
+  }
+  if (count > 1) raise_first_crest(places, sight, tangent[0]);
+  return true;
+}
+
+// The way to the first place goes on backwards as it does from there to the second.
+void CellView::raise_first_crest(const PlaceRun& places, const RaySight& sight, float& tangent) const {
+  const float step_m = sight.distance_m[1] - sight.distance_m[0];
+  if (!(step_m > 0.0F) || !(sight.distance_m[0] > 0.0F)) return;
+  const Run run = run_at(places, 0);
+  if (run.what < kFirstCell || run.beyond_pole) return;
+  const float share = sight.distance_m[0] / step_m;
+  using Two = std::array<float, 2 + kRunSlack>;
+  const auto back = [&](std::span<const float> cells, std::span<const float> degrees) {
+    // Beside a pole neighbours may be named a turn apart.
+    const float cells_on = std::remainder(cells[1] - cells[0], 360.0F);
+    return degrees[0] - share * (cells_on + (degrees[1] - degrees[0]));
+  };
+  const Two cells_north{places.cells_north[0], places.cells_north[0]};
+  const Two cells_east{places.cells_east[0], places.cells_east[0]};
+  const Two north_deg{back(places.cells_north, places.north_deg), places.north_deg[0]};
+  const Two east_deg{back(places.cells_east, places.east_deg), places.east_deg[0]};
+  const Two distance_m{0.0F, sight.distance_m[0]};
+  Two found{};
+  found.fill(kNoTangent);
+  const TerrainCell& cell = cells_[run.what - kFirstCell];
+  crests::raise(crossed(cell, places, 0),
+                {cells_north.data(), cells_east.data(), north_deg.data(), east_deg.data(), distance_m.data(),
+                 static_cast<float>(sight.altitude_m), static_cast<float>(sight.curvature)},
+                1, 2, found.data());
+  tangent = std::max(tangent, found[1]);
+}
+
+}  // namespace yars::model::terrain

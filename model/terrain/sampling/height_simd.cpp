@@ -1,0 +1,284 @@
+#include "model/terrain/sampling/height_simd.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/terrain/sampling/terrain_view.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "model/terrain/sampling/height_simd.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// Behind highway.h, or it would have no target yet.
+#include "lib/lanes/fused-inl.hpp"
+#include "model/terrain/sampling/post_simd-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace yars::model::terrain::look_up::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+namespace fused = yars::lanes::HWY_NAMESPACE;
+
+using namespace post_lanes::HWY_NAMESPACE;
+
+// Places located ahead of their look-up: their posts have come into the cache by then.
+constexpr std::size_t kAhead = 128;
+
+// Where places lie: the post south-west of each, as bytes from the first, and the way on from it [0, 1].
+struct Located {
+  HWY_ALIGN std::int32_t offset[kAhead];
+  HWY_ALIGN float north[kAhead];
+  HWY_ALIGN float east[kAhead];
+};
+
+// Not a number counts as 0: what lies in the slack must not lead anywhere. (Of a maximum with no number in it, the
+// other one is left.)
+HWY_INLINE Floats clamped(Floats value, Floats most) {
+  return hn::Min(hn::Max(value, hn::Zero(FloatLanes())), most);
+}
+
+// A place along rows or columns [posts], apart: the last interval keeps what lies on its end.
+struct Apart {
+  Floats share;  // [0, 1]
+  Wholes whole;
+};
+HWY_INLINE Apart apart(Floats place, Floats last) {
+  constexpr float kOnes = 8388608.0F;  // 2^23: in the sum the last bit counts ones
+  const WholeLanes di;
+  const auto whole = hn::Min(hn::Floor(place), last);
+  const auto bits = hn::BitCast(di, hn::Add(whole, hn::Set(FloatLanes(), kOnes)));
+  return {hn::Sub(place, whole), hn::Sub(bits, hn::Set(di, 0x4b000000))};
+}
+
+// Of how many neighbours one place shall be fetched, for about one fetch a line of posts.
+std::size_t places_per_line(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count) {
+  if (count < 2) return 1;
+  const float rows = std::abs(north_deg[count - 1] - north_deg[0]) * static_cast<float>(grid.rows - 1);
+  const float columns = std::abs(east_deg[count - 1] - east_deg[0]) * static_cast<float>(grid.columns - 1);
+  const float lines =
+      rows / static_cast<float>(PostBlocks::kRowStep) + columns / static_cast<float>(PostBlocks::kColumnStep) + 1.0F;
+  return std::max<std::size_t>(1, static_cast<std::size_t>(static_cast<float>(count) / lines));
+}
+
+HWY_INLINE void locate(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count,
+                       std::size_t fetch_step, Located& located) {
+  const FloatLanes d;
+  const WholeLanes di;
+  const auto row_intervals = hn::Set(d, static_cast<float>(grid.rows - 1));
+  const auto column_intervals = hn::Set(d, static_cast<float>(grid.columns - 1));
+  const auto last_row = hn::Set(d, static_cast<float>(grid.rows - 2));
+  const auto last_column = hn::Set(d, static_cast<float>(grid.columns - 2));
+  const BlockLanes blocks(*grid.posts);
+  const auto* const bytes = reinterpret_cast<const char*>(grid.posts->data());
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const Apart row = apart(clamped(hn::Mul(hn::LoadU(d, north_deg + i), row_intervals), row_intervals), last_row);
+    const Apart column =
+        apart(clamped(hn::Mul(hn::LoadU(d, east_deg + i), column_intervals), column_intervals), last_column);
+    hn::Store(blocks.offset(row.whole, column.whole), di, located.offset + i);
+    hn::Store(row.share, d, located.north + i);
+    hn::Store(column.share, d, located.east + i);
+    for (std::size_t place = 0; place < hn::Lanes(d); place += fetch_step)
+      hwy::Prefetch(bytes + located.offset[i + place]);
+  }
+}
+
+// The four posts about a place.
+struct Posts {
+  Wholes south_west, south_east, north_west, north_east;
+};
+
+HWY_INLINE Posts unpacked(Words words) {
+  return {western(words.south), eastern(words.south), western(words.north), eastern(words.north)};
+}
+
+HWY_INLINE Floats blended(Floats south_west, Floats south_east, Floats north_west, Floats north_east, Floats north,
+                          Floats east) {
+  const auto south_m = fused::mul_add(east, hn::Sub(south_east, south_west), south_west);
+  const auto north_m = fused::mul_add(east, hn::Sub(north_east, north_west), north_west);
+  return fused::mul_add(north, hn::Sub(north_m, south_m), south_m);
+}
+
+HWY_INLINE Floats shore(const Posts& posts, Floats north, Floats east) {
+  const FloatLanes d;
+  const WholeLanes di;
+  const auto one = hn::Set(d, 1.0F);
+  const auto at_sea = [&](Wholes post) {
+    return hn::IfThenElseZero(hn::RebindMask(d, hn::Eq(post, hn::Zero(di))), one);
+  };
+  return blended(at_sea(posts.south_west), at_sea(posts.south_east), at_sea(posts.north_west), at_sea(posts.north_east),
+                 north, east);
+}
+
+HWY_INLINE hn::Mask<WholeLanes> any_equal(const Posts& posts, Wholes value) {
+  return hn::Or(hn::Or(hn::Eq(posts.south_west, value), hn::Eq(posts.south_east, value)),
+                hn::Or(hn::Eq(posts.north_west, value), hn::Eq(posts.north_east, value)));
+}
+
+// Whether no post of the whole vector lies at 0 m: the least of posts taken as unsigned numbers.
+HWY_INLINE bool none_at_sea([[maybe_unused]] Words words, [[maybe_unused]] const Posts& posts) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::AllFalse(WholeLanes(), any_equal(posts, hn::Zero(WholeLanes())));
+#else
+  const hn::Repartition<std::uint16_t, WholeLanes> d16;
+  const auto least = hn::Min(hn::BitCast(d16, words.south), hn::BitCast(d16, words.north));
+  return hn::AllFalse(d16, hn::Eq(least, hn::Zero(d16)));
+#endif
+}
+
+// Voids are left out: sums of weighted posts and of their weights, divided at the end.
+struct Joined {
+  Floats height, water;
+};
+HWY_INLINE Joined without_voids(const Posts& posts, Floats north, Floats east) {
+  const FloatLanes d;
+  const WholeLanes di;
+  const auto one = hn::Set(d, 1.0F);
+  const auto south = hn::Sub(one, north);
+  const auto west = hn::Sub(one, east);
+  auto weights = hn::Zero(d);
+  auto height = hn::Zero(d);
+  auto water = hn::Zero(d);
+  const auto add = [&](Wholes post, Floats weight) {
+    const auto known = hn::RebindMask(d, hn::Ne(post, hn::Set(di, kVoid)));
+    const auto counted = hn::IfThenElseZero(known, weight);
+    weights = hn::Add(weights, counted);
+    height = fused::mul_add(counted, hn::ConvertTo(d, post), height);
+    water = hn::Add(water, hn::IfThenElseZero(hn::RebindMask(d, hn::Eq(post, hn::Zero(di))), counted));
+  };
+  add(posts.south_west, hn::Mul(south, west));
+  add(posts.south_east, hn::Mul(south, east));
+  add(posts.north_west, hn::Mul(north, west));
+  add(posts.north_east, hn::Mul(north, east));
+  const auto some = hn::Gt(weights, hn::Zero(d));
+  const auto divisor = hn::IfThenElse(some, weights, one);
+  const auto nothing = hn::Set(d, std::numeric_limits<float>::quiet_NaN());
+  return {hn::IfThenElse(some, hn::Div(height, divisor), nothing), hn::Div(water, divisor)};
+}
+
+HWY_INLINE void join(const Grid& grid, std::size_t count, const Located& located, bool nearest, float* elevation_m,
+                     float* water) {
+  const FloatLanes d;
+  const WholeLanes di;
+  const auto one = hn::Set(d, 1.0F);
+  const auto half = hn::Set(d, 0.5F);
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const Words words = gather(grid.posts->data(), hn::Load(di, located.offset + i));
+    const Posts posts = unpacked(words);
+    auto north = hn::Load(d, located.north + i);
+    auto east = hn::Load(d, located.east + i);
+    if (nearest) {
+      north = hn::IfThenElseZero(hn::Ge(north, half), one);
+      east = hn::IfThenElseZero(hn::Ge(east, half), one);
+    }
+    auto height = blended(hn::ConvertTo(d, posts.south_west), hn::ConvertTo(d, posts.south_east),
+                          hn::ConvertTo(d, posts.north_west), hn::ConvertTo(d, posts.north_east), north, east);
+    // Where a vector has none of a kind the work is spared; a place's result is its own whatever its company.
+    const bool dry = water == nullptr || !grid.sea || none_at_sea(words, posts);
+    auto share = dry ? hn::Zero(d) : shore(posts, north, east);
+    if (grid.voids) {
+      const auto holed = any_equal(posts, hn::Set(di, kVoid));
+      if (!hn::AllFalse(di, holed)) {
+        const Joined joined = without_voids(posts, north, east);
+        height = hn::IfThenElse(hn::RebindMask(d, holed), joined.height, height);
+        share = hn::IfThenElse(hn::RebindMask(d, holed), joined.water, share);
+      }
+    }
+    hn::StoreU(height, d, elevation_m + i);
+    if (water != nullptr) hn::StoreU(share, d, water + i);
+  }
+}
+
+void to_metres(float unit_m, std::size_t count, float* elevation_m) {
+  const FloatLanes d;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d))
+    hn::StoreU(hn::Mul(hn::LoadU(d, elevation_m + i), hn::Set(d, unit_m)), d, elevation_m + i);
+}
+
+void heights(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count, bool nearest,
+             float* elevation_m, float* water) {
+  if (count == 0) return;
+  Located located[2];
+  const auto batch = [count](std::size_t start) { return std::min(kAhead, count - start); };
+  const std::size_t fetch_step = places_per_line(grid, north_deg, east_deg, count);
+  locate(grid, north_deg, east_deg, batch(0), fetch_step, located[0]);
+  for (std::size_t start = 0, turn = 0; start < count; start += kAhead, turn = 1 - turn) {
+    const std::size_t next = start + kAhead;
+    if (next < count) locate(grid, north_deg + next, east_deg + next, batch(next), fetch_step, located[1 - turn]);
+    join(grid, batch(start), located[turn], nearest, elevation_m + start, water == nullptr ? nullptr : water + start);
+  }
+  if (grid.unit_m != 1.0F) to_metres(grid.unit_m, count, elevation_m);
+}
+
+std::size_t places_alike(const float* cells_north, const float* cells_east, std::size_t count) {
+  const FloatLanes d;
+  const auto north = hn::Set(d, cells_north[0]);
+  const auto east = hn::Set(d, cells_east[0]);
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const auto alike =
+        hn::And(hn::Eq(hn::LoadU(d, cells_north + i), north), hn::Eq(hn::LoadU(d, cells_east + i), east));
+    if (hn::AllTrue(d, alike)) continue;
+    return std::min(count, i + static_cast<std::size_t>(hn::FindFirstTrue(d, hn::Not(alike))));
+  }
+  return count;
+}
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FloatLanes = hn::CappedTag<float, kRunSlack>;
+using WholeLanes = hn::RebindToSigned<FloatLanes>;
+
+// The nearest post; half up, as std::lround does with what is not negative. Not a number counts as 0: what lies in the
+// slack must not lead anywhere.
+HWY_INLINE hn::Vec<WholeLanes> nearest(const float* degrees, float intervals) {
+  const FloatLanes d;
+  const auto most = hn::Set(d, intervals);
+  const auto inside = hn::Min(hn::Max(hn::Mul(hn::LoadU(d, degrees), most), hn::Zero(d)), most);
+  return hn::ConvertTo(WholeLanes(), hn::Add(inside, hn::Set(d, 0.5F)));
+}
+
+void codes(const Culture& culture, const float* north_deg, const float* east_deg, std::size_t count,
+           std::int32_t* material) {
+  const WholeLanes di;
+  const std::uint8_t* const posts = culture.codes().data();
+  for (std::size_t i = 0; i < count; i += hn::Lanes(di)) {
+    const auto row = nearest(north_deg + i, static_cast<float>(culture.rows() - 1));
+    const auto column = nearest(east_deg + i, static_cast<float>(culture.columns() - 1));
+    const auto entry = hn::Add(hn::Mul(row, hn::Set(di, culture.columns())), column);
+#if HWY_TARGET == HWY_SCALAR
+    // Highway would load a word where none is aligned.
+    const auto word = hn::Set(di, std::int32_t{posts[hn::GetLane(entry)]});
+#else
+    const auto word = hn::GatherOffset(di, reinterpret_cast<const std::int32_t*>(posts), entry);
+#endif
+    hn::StoreU(hn::And(word, hn::Set(di, 0xff)), di, material + i);
+  }
+}
+
+}  // namespace yars::model::terrain::look_up::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace yars::model::terrain::look_up {
+
+HWY_EXPORT(heights);
+HWY_EXPORT(places_alike);
+
+void heights(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count, bool nearest,
+             float* elevation_m, float* water) {
+  HWY_DYNAMIC_DISPATCH(heights)(grid, north_deg, east_deg, count, nearest, elevation_m, water);
+}
+
+std::size_t places_alike(const float* cells_north, const float* cells_east, std::size_t count) {
+  return HWY_DYNAMIC_DISPATCH(places_alike)(cells_north, cells_east, count);
+}
+
+HWY_EXPORT(codes);
+
+void codes(const Culture& culture, const float* north_deg, const float* east_deg, std::size_t count,
+           std::int32_t* material) {
+  HWY_DYNAMIC_DISPATCH(codes)(culture, north_deg, east_deg, count, material);
+}
+
+}  // namespace yars::model::terrain::look_up
+#endif  // HWY_ONCE

@@ -1,0 +1,69 @@
+#include "model/terrain/sampling/terrain_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace yars::model::terrain {
+
+int detail_for(double spacing_m) {
+  constexpr double kLeast_m = 2.0;
+  if (!std::isfinite(spacing_m) || spacing_m < kLeast_m) return 0;
+  return static_cast<int>(std::floor(std::log2(spacing_m)));
+}
+
+namespace {
+
+// [m] the smallest radius of curvature of WGS84 (meridian at the equator, 6335.4 km) less a little: an angle
+// derived from it is never too small, so no cell is missed.
+constexpr double kSmallestRadiusM = 6.33e6;
+
+double angle_between_deg(geo::GeoPoint a, geo::GeoPoint b) {
+  const double half_latitude = (b.latitude_deg - a.latitude_deg) * geo::kRadiansPerDegree / 2;
+  const double half_longitude = (b.longitude_deg - a.longitude_deg) * geo::kRadiansPerDegree / 2;
+  const double haversine =
+      std::pow(std::sin(half_latitude), 2) + std::cos(a.latitude_deg * geo::kRadiansPerDegree) *
+                                                 std::cos(b.latitude_deg * geo::kRadiansPerDegree) *
+                                                 std::pow(std::sin(half_longitude), 2);
+  return 2 * std::asin(std::min(1.0, std::sqrt(haversine))) / geo::kRadiansPerDegree;
+}
+
+double angle_of(double radius_m) {
+  return std::clamp(radius_m / kSmallestRadiusM, 0.0, geo::kRadiansPerDegree * 180.0);
+}
+
+}  // namespace
+
+double angle_to_middle_deg(geo::GeoPoint point, CellPlace place) {
+  return angle_between_deg(point, {place.south_deg + 0.5, place.west_deg + 0.5});
+}
+
+// Conservative: the disc against a circle about the cell's middle.
+double touched_within_deg(double radius_m) {
+  constexpr double kHalfDiagonalDeg = 0.7072;  // that of a square degree; a cell is nowhere wider
+  return angle_of(radius_m) / geo::kRadiansPerDegree + kHalfDiagonalDeg;
+}
+
+std::vector<CellPlace> cells_within(const TerrainRegion& region) {
+  const double reach = angle_of(region.radius_m);
+  const double reach_deg = reach / geo::kRadiansPerDegree;
+  const geo::GeoPoint centre = region.centre;
+  const int south = cell_holding({centre.latitude_deg - reach_deg, 0}).south_deg;
+  const int north = cell_holding({centre.latitude_deg + reach_deg, 0}).south_deg;
+  // Meridians touch the disc to either side at asin(sin reach / cos latitude); a disc over a pole meets all.
+  const bool over_pole = std::abs(centre.latitude_deg) + reach_deg >= 90.0;
+  const double sine = over_pole ? 1.0 : std::sin(reach) / std::cos(centre.latitude_deg * geo::kRadiansPerDegree);
+  const double side_deg = over_pole || sine >= 1.0 ? 180.0 : std::asin(sine) / geo::kRadiansPerDegree;
+  const int first = static_cast<int>(std::floor(centre.longitude_deg - side_deg));
+  const int last = std::min(static_cast<int>(std::floor(centre.longitude_deg + side_deg)), first + kCellColumns - 1);
+  const double touched_deg = touched_within_deg(region.radius_m);
+  std::vector<CellPlace> places;
+  for (int row = south; row <= north; ++row)
+    for (int column = first; column <= last; ++column) {
+      const CellPlace place{row, cell_holding({0, column + 0.5}).west_deg};
+      if (angle_to_middle_deg(centre, place) <= touched_deg) places.push_back(place);
+    }
+  std::sort(places.begin(), places.end(), [](CellPlace a, CellPlace b) { return slot_of(a) < slot_of(b); });
+  return places;
+}
+
+}  // namespace yars::model::terrain

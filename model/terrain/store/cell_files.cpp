@@ -1,0 +1,331 @@
+#include "model/terrain/store/cell_files.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+#include "lib/failure/require.hpp"
+#include "model/terrain/formats/cell.hpp"
+#include "model/terrain/formats/culture.hpp"
+#include "model/terrain/formats/ded.hpp"
+#include "model/terrain/formats/dted.hpp"
+#include "model/terrain/formats/hgt.hpp"
+#include "model/terrain/formats/pack.hpp"
+#include "model/terrain/gdal/raster.hpp"
+#include "model/terrain/sampling/terrain_view.hpp"
+
+namespace yars::model::terrain {
+
+namespace {
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return text;
+}
+
+// A hemisphere letter and so many digits, as signed degrees.
+std::optional<int> signed_degrees(std::string_view text, char positive, char negative, std::size_t digits) {
+  if (text.size() != digits + 1 || (text[0] != positive && text[0] != negative)) return std::nullopt;
+  int degrees = 0;
+  for (const char digit : text.substr(1)) {
+    if (digit < '0' || digit > '9') return std::nullopt;
+    degrees = degrees * 10 + (digit - '0');
+  }
+  return text[0] == positive ? degrees : -degrees;
+}
+
+std::optional<CellPlace> place_named(std::string_view latitude, std::string_view longitude) {
+  const std::optional<int> south_deg = signed_degrees(latitude, 'n', 's', 2);
+  const std::optional<int> west_deg = signed_degrees(longitude, 'e', 'w', 3);
+  if (!south_deg || !west_deg) return std::nullopt;
+  if (*south_deg < -90 || *south_deg > 89 || *west_deg < -180 || *west_deg > 179) return std::nullopt;
+  return CellPlace{*south_deg, *west_deg};
+}
+
+failure::Expected<CellReading> read_whole(const CellFile& file, CellPlace place) {
+  switch (file.format) {
+    case CellFormat::dted:
+      return read_dted(file.path, place);
+    case CellFormat::hgt:
+      return read_hgt(file.path, place);
+    case CellFormat::ded:
+      return read_ded(file.path, place);
+    default:
+      return read_packed_hgt(file.path, place);
+  }
+}
+
+failure::Expected<CellReading> reduced(failure::Expected<CellReading> reading, int reduction) {
+  if (!reading || reduction == 0) return reading;
+  ReducedCell coarse = reduce(reading->cell, reduction);
+  reading->cell = std::move(coarse.means);
+  reading->peaks = std::move(coarse.peaks);
+  return reading;
+}
+
+struct PostsPerDegree {
+  int north = 0, east = 0;
+};
+
+failure::Expected<PostsPerDegree> posts_of(const CellFile& file, CellPlace place) {
+  if (file.posts_per_degree > 0 && file.posts_per_degree_east > 0)
+    return PostsPerDegree{file.posts_per_degree, file.posts_per_degree_east};
+  const auto summary = gdal::describe_raster(file.path);
+  if (!summary) return tl::unexpected(summary.error());
+  for (const gdal::RasterCell& cell : summary->cells)
+    if (CellPlace{cell.south_deg, cell.west_deg} == place)
+      return PostsPerDegree{cell.posts_per_degree_north, cell.posts_per_degree_east};
+  return failure::fail(file.path.string(),
+                       "a raster that touches the cell with the south-west corner " + std::to_string(place.south_deg) +
+                           ", " + std::to_string(place.west_deg),
+                       "one that lies elsewhere");
+}
+
+failure::Expected<CellReading> read_raster_cell(const CellFile& file, CellPlace place, int reduction) {
+  static_assert(gdal::kNoHeight == kVoidPost);
+  const auto whole = posts_of(file, place);
+  if (!whole) return tl::unexpected(whole.error());
+  auto [north, east] = *whole;
+  // Peaks are of the posts that are read: no coarser than an arc second.
+  constexpr int kFinestReduced = 3600;
+  int left = reduction;
+  for (; left > 0 && std::max(north, east) > kFinestReduced && north % 2 == 0 && east % 2 == 0; --left) {
+    north /= 2;
+    east /= 2;
+  }
+  auto posts = gdal::read_raster(file.path, place.south_deg, place.west_deg, north, east);
+  if (!posts) return tl::unexpected(posts.error());
+  CellReading reading{Cell(place, posts->rows, posts->columns, posts->posts, posts->unit_m),
+                      std::nullopt,
+                      {},
+                      std::move(posts->warnings),
+                      posts->impossible};
+  // A reduced reading always has peaks, also where smoothing was all of it.
+  if (reduction > 0 && left == 0) reading.peaks = reading.cell;
+  return reduced(std::move(reading), left);
+}
+
+}  // namespace
+
+std::optional<NamedCell> cell_named(const std::string& folder, const std::string& file) {
+  const std::string name = lower_case(file);
+  const std::string_view view = name;
+  if (view.size() == 7 && view[3] == '.') {
+    const std::optional<CellPlace> place = place_named(view.substr(0, 3), lower_case(folder));
+    if (place && view.substr(4, 2) == "dt" && view[6] >= '0' && view[6] <= '2')
+      return NamedCell{*place, CellFormat::dted, view[6] - '0'};
+    if (place && view.substr(4) == "jp2") return NamedCell{*place, CellFormat::pack};
+  }
+  if (view.size() >= 11 && view.substr(7, 4) == ".hgt") {
+    const std::string_view packing = view.substr(11);
+    const std::optional<CellPlace> place = place_named(view.substr(0, 3), view.substr(3, 4));
+    if (place && packing.empty()) return NamedCell{*place, CellFormat::hgt};
+    if (place && (packing == ".zip" || packing == ".gz")) return NamedCell{*place, CellFormat::packed_hgt};
+  }
+  return std::nullopt;
+}
+
+bool is_ded_name(const std::filesystem::path& path) {
+  return lower_case(path.extension().string()) == ".ded";
+}
+
+bool is_raster_name(const std::filesystem::path& path) {
+  constexpr std::array<std::string_view, 5> kExtensions = {".tif", ".tiff", ".jp2", ".img", ".vrt"};
+  return std::find(kExtensions.begin(), kExtensions.end(), lower_case(path.extension().string())) != kExtensions.end();
+}
+
+bool is_virtual_raster_name(const std::filesystem::path& path) {
+  return lower_case(path.extension().string()) == ".vrt";
+}
+
+failure::Expected<CellReading> read_cell(const CellFile& file, CellPlace place, int reduction) {
+  YARS_REQUIRE(reduction, >=, 0);
+  if (file.format == CellFormat::pack) return read_pack(file.path, place, reduction);
+  if (file.format == CellFormat::raster) return read_raster_cell(file, place, reduction);
+  return reduced(read_whole(file, place), reduction);
+}
+
+bool leads_out(const std::filesystem::path& path, const std::filesystem::path& root) {
+  std::error_code code;
+  if (!std::filesystem::is_symlink(path, code)) return false;
+  const std::filesystem::path target = std::filesystem::weakly_canonical(path, code);
+  return code || std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first != root.end();
+}
+
+namespace {
+
+constexpr double kWhole = 0.99;  // share of a cell: a raster may miss the last row and column
+
+// Smaller is better.
+auto rank(const CellFile& file) {
+  return std::tuple(file.covered < kWhole, -file.posts_per_degree, static_cast<int>(file.format), file.path.string());
+}
+
+void offer(CellPlace place, CellFile file, DirectoryIndex& index) {
+  const auto [entry, fresh] = index.try_emplace(slot_of(place), file);
+  if (!fresh && rank(file) < rank(entry->second)) entry->second = std::move(file);
+}
+
+CellFile described(const std::filesystem::path& path, const NamedCell& named) {
+  const auto with_posts = [&](int rows, int columns) {
+    return CellFile{path, named.format, std::max(0, rows - 1), std::max(0, columns - 1)};
+  };
+  std::error_code code;
+  if (named.format == CellFormat::dted) {
+    const int rows = dted::kPostsOfLevel[named.level];
+    return with_posts(rows, (rows - 1) / dted::zone_factor(named.place.south_deg) + 1);
+  }
+  if (named.format == CellFormat::pack) {
+    const GridSize size = pack_size(path);
+    return with_posts(size.rows, size.columns);
+  }
+  // An HGT file's spacing is its length's: the directory knows that without opening it.
+  const std::uintmax_t size = std::filesystem::file_size(path, code);
+  const int posts = named.format == CellFormat::packed_hgt ? packed_hgt_posts(path)
+                    : code                                 ? 0
+                                                           : hgt_posts_for_size(size);
+  return with_posts(posts, posts);
+}
+
+// The cells of a file whose header tells them; its error where it cannot be used.
+failure::Expected<void> offer_ded(const std::filesystem::path& path, DirectoryIndex& index) {
+  const auto cells = ded_cells(path);
+  if (!cells) return tl::unexpected(cells.error());
+  for (const DedCell& cell : *cells) offer(cell.place, {path, CellFormat::ded, cell.rows - 1, cell.columns - 1}, index);
+  return {};
+}
+
+failure::Expected<void> offer_raster(const std::filesystem::path& path, DirectoryIndex& index) {
+  if (is_virtual_raster_name(path))
+    return failure::fail(path.string(), "a raster that holds its own heights",
+                         "a .vrt, which may name any file or address", "make a GeoTIFF of it with gdal_translate");
+  const auto raster = gdal::describe_raster(path);
+  if (!raster) return tl::unexpected(raster.error());
+  for (const gdal::RasterCell& cell : raster->cells)
+    offer({cell.south_deg, cell.west_deg},
+          {path, CellFormat::raster, cell.posts_per_degree_north, cell.posts_per_degree_east, cell.covered}, index);
+  return {};
+}
+
+// The file itself, its map of materials and the other half of a pack.
+bool leads_anywhere_out(const std::filesystem::path& path, const std::filesystem::path& root) {
+  return leads_out(path, root) || leads_out(culture_path(path), root) ||
+         leads_out(std::filesystem::path(path).replace_extension(".side"), root);
+}
+
+bool is_elevation_name(const std::filesystem::path& path) {
+  return cell_named(path.parent_path().filename().string(), path.filename().string()) || is_ded_name(path) ||
+         is_raster_name(path);
+}
+
+std::string lower_first(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+// A problem where a folder below cannot be looked into.
+std::optional<std::string> closed_folder(const std::filesystem::directory_entry& entry) {
+  std::error_code code;
+  if (!entry.is_directory(code) || entry.is_symlink(code)) return std::nullopt;
+  const std::filesystem::directory_iterator look(entry.path(), code);
+  if (!code) return std::nullopt;
+  return failure::Error{entry.path().string(), "a folder that can be read", lower_first(code.message()),
+                        "check its permissions", false}
+      .message();
+}
+
+// `index` or `problems` gets something.
+void offer_file(const std::filesystem::path& path, DirectoryIndex& index, std::vector<std::string>& problems) {
+  const auto named = cell_named(path.parent_path().filename().string(), path.filename().string());
+  if (named) {
+    offer(named->place, described(path, *named), index);
+    return;
+  }
+  const auto offered = is_ded_name(path) ? offer_ded(path, index) : offer_raster(path, index);
+  if (!offered) problems.push_back(offered.error().message());
+}
+
+}  // namespace
+
+failure::Expected<DirectoryIndex> index_directory(const std::filesystem::path& directory,
+                                                  std::vector<std::string>* problems) {
+  std::error_code code;
+  if (!std::filesystem::is_directory(directory, code))
+    return failure::fail(directory.string(), "a directory with elevation cells", code ? code.message() : "no directory",
+                         "make one with `yars terrain generate --out DIR`");
+  DirectoryIndex index;
+  std::vector<std::string> found;
+  const std::filesystem::path root = std::filesystem::weakly_canonical(directory, code);
+  std::filesystem::recursive_directory_iterator entry(directory, code);
+  for (const std::filesystem::recursive_directory_iterator end; !code && entry != end; entry.increment(code)) {
+    if (const auto closed = closed_folder(*entry)) {
+      found.push_back(*closed);
+      entry.disable_recursion_pending();
+    }
+    if (!is_elevation_name(entry->path())) continue;
+    if (!leads_anywhere_out(entry->path(), root))
+      offer_file(entry->path(), index, found);
+    else
+      found.push_back(failure::Error{entry->path().string(), "a file inside " + root.string(), "a link that leads out",
+                                     "copy the cell there, or give the folder that it lies in", false}
+                          .message());
+  }
+  if (code)
+    return failure::fail(directory.string(), "a directory that can be read", lower_first(code.message()),
+                         "check its permissions");
+  std::sort(found.begin(), found.end());
+  if (index.empty() && !found.empty())
+    return failure::fail(directory.string(), "elevation cells that can be used",
+                         "none; of " + std::to_string(found.size()) + " the first: " + found.front());
+  if (index.empty())
+    return failure::fail(directory.string(), "elevation cells named like w122/n36.dt1 or N36W122.hgt", "none",
+                         "give another directory or make cells with `yars terrain generate`");
+  if (problems != nullptr) problems->insert(problems->end(), found.begin(), found.end());
+  return index;
+}
+
+failure::Expected<DirectoryIndex> index_file(const std::filesystem::path& path) {
+  DirectoryIndex index;
+  const auto length = file_length(path);
+  if (!length) return tl::unexpected(length.error());
+  const std::filesystem::path whole = std::filesystem::absolute(path);
+  const auto named = cell_named(whole.parent_path().filename().string(), whole.filename().string());
+  if (named) {
+    offer(named->place, described(path, *named), index);
+    return index;
+  }
+  const auto offered = is_ded_name(path) ? offer_ded(path, index) : offer_raster(path, index);
+  if (!offered) return tl::unexpected(offered.error());
+  return index;
+}
+
+bool touches(const DirectoryIndex& index, const TerrainRegion& region) {
+  const std::vector<CellPlace> places = cells_within(region);
+  return std::any_of(places.begin(), places.end(), [&](CellPlace place) { return index.contains(slot_of(place)); });
+}
+
+Coverage coverage_of(const DirectoryIndex& index) {
+  YARS_REQUIRE(index.empty(), ==, false);
+  CellPlace lowest{90, 180};
+  CellPlace highest{-90, -180};
+  for (const auto& [slot, file] : index) {
+    const CellPlace place = place_of_slot(slot);
+    lowest = {std::min(lowest.south_deg, place.south_deg), std::min(lowest.west_deg, place.west_deg)};
+    highest = {std::max(highest.south_deg, place.south_deg), std::max(highest.west_deg, place.west_deg)};
+  }
+  return {lowest.south_deg, highest.south_deg + 1, lowest.west_deg, highest.west_deg + 1};
+}
+
+std::string coverage_text(const DirectoryIndex& index) {
+  const Coverage all = coverage_of(index);
+  return "latitude " + std::to_string(all.south_deg) + " to " + std::to_string(all.north_deg) + ", longitude " +
+         std::to_string(all.west_deg) + " to " + std::to_string(all.east_deg);
+}
+
+}  // namespace yars::model::terrain

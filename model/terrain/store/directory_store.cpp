@@ -1,0 +1,201 @@
+#include "model/terrain/store/directory_store.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "model/terrain/formats/culture.hpp"
+#include "model/terrain/sampling/analytic_terrain.hpp"
+#include "model/terrain/sampling/terrain_view.hpp"
+#include "model/terrain/store/cell_files.hpp"
+
+namespace yars::model::terrain {
+
+namespace {
+constexpr double kMetresPerMile = 1852.0;
+constexpr double kMetresPerDegree = 111195.0;  // [m] of a meridian, on the mean sphere
+constexpr int kMostReduction = 6;              // beyond it a cell of level 1 would have fewer than 20 posts a side
+constexpr int kServesNothing = -1;             // detail of a view in which something within reach stands in
+
+std::size_t bytes_of(const TerrainCell& cell) {
+  return cell.heights->bytes() + (cell.peaks ? cell.peaks->bytes() : 0) + (cell.culture ? cell.culture->bytes() : 0);
+}
+}  // namespace
+
+int reduction_for(const CellFile& file, int detail) {
+  if (file.posts_per_degree <= 0 || detail <= 0) return 0;
+  const double spacing_m = kMetresPerDegree / file.posts_per_degree;
+  const double halvings = std::log2(std::ldexp(1.0, detail) / spacing_m);
+  return std::clamp(static_cast<int>(std::floor(halvings)), 0, kMostReduction);
+}
+
+failure::Expected<std::unique_ptr<DirectoryTerrainStore>> DirectoryTerrainStore::open(
+    const std::filesystem::path& directory, DirectoryStoreOptions options) {
+  std::vector<std::string> problems;
+  failure::Expected<DirectoryIndex> index = index_directory(directory, &problems);
+  if (!index) return tl::unexpected(index.error());
+  return std::unique_ptr<DirectoryTerrainStore>(
+      new DirectoryTerrainStore(directory.string(), std::move(*index), options, std::move(problems)));
+}
+
+DirectoryTerrainStore::DirectoryTerrainStore(std::string folder, DirectoryIndex index, DirectoryStoreOptions options,
+                                             std::vector<std::string> problems)
+    : folder_(std::move(folder)), index_(std::move(index)), options_(options), problems_(std::move(problems)) {}
+
+TerrainViewPointer DirectoryTerrainStore::prepare_in_steps(const TerrainRegion& region, const Interim& interim) {
+  ++prepares_;
+  note_bare(region);
+  bool changed = view_ == nullptr || !view_->serves(region.detail);
+  const std::vector<Level> missing = select(region, changed);
+  const double reach_deg = touched_within_deg(region.reach_m);
+  const auto beyond_reach = [&](Level level) {
+    return angle_to_middle_deg(region.centre, place_of_slot(level.first)) > reach_deg;
+  };
+  for (std::size_t i = 0; i < missing.size(); ++i) {
+    if (load(missing[i])) show(missing[i]);
+    changed = true;
+    if (!interim || i + 1 == missing.size()) continue;
+    // They come by distance: if the next one lies beyond the reach, so do all after it.
+    view_ = make_view(beyond_reach(missing[i + 1]) ? region.detail : kServesNothing);
+    if (!interim(view_)) return view_;
+  }
+  while (resident_bytes_ > options_.resident_limit_bytes && drop_longest_unused()) changed = true;
+  if (changed) view_ = make_view(region.detail);
+  return view_;
+}
+
+// Said once on the way out of what the folder covers. Who asks for a single place knows where it lies.
+void DirectoryTerrainStore::note_bare(const TerrainRegion& region) {
+  if (region.radius_m <= 0.0) return;
+  const bool bare = !touches(index_, region);
+  if (bare && !bare_) {
+    std::array<char, 120> where{};
+    std::snprintf(where.data(), where.size(), "a cell within %.0f NM of latitude %.4f, longitude %.4f",
+                  region.radius_m / kMetresPerMile, region.centre.latitude_deg, region.centre.longitude_deg);
+    problems_.push_back(failure::Error{folder_, where.data(), "none: it covers " + coverage_text(index_),
+                                       std::string("what lies there counts as ") +
+                                           (options_.missing_cell_is_sea ? "sea" : "void") +
+                                           "; check the position and its signs",
+                                       false}
+                            .message());
+  }
+  bare_ = bare;
+}
+
+// Shows what is in memory of the region's cells, and tells which are not, nearest first.
+std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const TerrainRegion& region, bool& changed) {
+  std::vector<Level> missing;
+  region_cells_ = {};
+  for (const CellPlace place : cells_within(region)) {
+    const std::size_t slot = slot_of(place);
+    const auto file = index_.find(slot);
+    if (file == index_.end()) continue;
+    ++region_cells_.files;
+    if (unreadable_.contains(slot)) {
+      ++region_cells_.unreadable;
+      continue;
+    }
+    const Level level{slot, reduction_for(file->second, region.detail)};
+    const auto resident = resident_.find(level);
+    if (resident == resident_.end()) {
+      show_stand_in(level);
+      missing.push_back(level);
+      continue;
+    }
+    resident->second.last_use = prepares_;
+    if (show(level)) changed = true;
+  }
+  const auto angle_and_slot = [&](Level level) {
+    return std::pair(angle_to_middle_deg(region.centre, place_of_slot(level.first)), level.first);
+  };
+  std::sort(missing.begin(), missing.end(), [&](Level a, Level b) { return angle_and_slot(a) < angle_and_slot(b); });
+  return missing;
+}
+
+// True if that is another version of the cell than the view has.
+bool DirectoryTerrainStore::show(Level level) {
+  const auto [shown, fresh] = shown_.try_emplace(level.first, level.second);
+  const bool changed = fresh || shown->second != level.second;
+  shown->second = level.second;
+  return changed;
+}
+
+// Until the level itself is there: of the cell's versions in memory the next coarser, else the next finer.
+void DirectoryTerrainStore::show_stand_in(Level level) {
+  auto found = resident_.upper_bound(level);
+  if (found == resident_.end() || found->first.first != level.first) {
+    if (found == resident_.begin()) return;
+    --found;
+  }
+  if (found->first.first == level.first) show(found->first);
+}
+
+std::vector<std::string> DirectoryTerrainStore::take_problems() {
+  return std::exchange(problems_, {});
+}
+
+bool DirectoryTerrainStore::load(Level level) {
+  const CellFile& file = index_.at(level.first);
+  failure::Expected<CellReading> reading = read_cell(file, place_of_slot(level.first), level.second);
+  if (!reading) {
+    problems_.push_back(reading.error().message() + "; the cell counts as void");
+    unreadable_.insert(level.first);
+    ++region_cells_.unreadable;
+    shown_.erase(level.first);
+    return false;
+  }
+  for (std::string& sentence : notes_.heard(file.path, *reading)) problems_.push_back(std::move(sentence));
+  TerrainCell cell{std::make_shared<const Cell>(std::move(reading->cell)), nullptr, read_cover(level, file)};
+  if (reading->peaks) cell.peaks = std::make_shared<const Cell>(std::move(*reading->peaks));
+  resident_bytes_ += bytes_of(cell);
+  resident_[level] = {std::move(cell), prepares_};
+  return true;
+}
+
+// What covers the cell; null where no file tells, or where it cannot be read: then plain land and sea.
+std::shared_ptr<const Culture> DirectoryTerrainStore::read_cover(Level level, const CellFile& file) {
+  const auto path = find_culture(file.path);
+  if (!path) return nullptr;
+  const failure::Expected<Culture> culture = read_culture(*path, place_of_slot(level.first));
+  if (culture) return std::make_shared<const Culture>(culture->reduced(level.second));
+  if (coverless_.insert(level.first).second)
+    problems_.push_back(culture.error().message() + "; the cell counts as land and sea");
+  return nullptr;
+}
+
+// False when nothing is left that this prepare() did not want.
+bool DirectoryTerrainStore::drop_longest_unused() {
+  auto oldest = resident_.end();
+  for (auto candidate = resident_.begin(); candidate != resident_.end(); ++candidate) {
+    if (candidate->second.last_use == prepares_) continue;
+    if (oldest == resident_.end() || candidate->second.last_use < oldest->second.last_use) oldest = candidate;
+  }
+  if (oldest == resident_.end()) return false;
+  const auto shown = shown_.find(oldest->first.first);
+  if (shown != shown_.end() && shown->second == oldest->first.second) shown_.erase(shown);
+  resident_bytes_ -= bytes_of(oldest->second.cell);
+  resident_.erase(oldest);
+  return true;
+}
+
+TerrainViewPointer DirectoryTerrainStore::make_view(int detail) {
+  auto view =
+      std::make_shared<CellView>(++generation_, options_.missing_cell_is_sea ? Absence::sea : Absence::none, detail);
+  for (const auto& [slot, file] : index_)
+    view->set_absence(place_of_slot(slot), unreadable_.contains(slot) ? Absence::none : Absence::not_loaded);
+  for (const auto& [slot, reduction] : shown_) view->add(resident_.at({slot, reduction}).cell);
+  return view;
+}
+
+failure::Expected<std::unique_ptr<TerrainStore>> open_terrain(const radar::TerrainConfiguration& configuration) {
+  if (configuration.directory.empty())
+    return std::make_unique<FixedTerrainStore>(std::make_shared<const AnalyticTerrain>(built_in_hills()));
+  auto store =
+      DirectoryTerrainStore::open(configuration.directory, {.missing_cell_is_sea = configuration.missing_cell_is_sea});
+  if (!store) return tl::unexpected(store.error());
+  return std::move(*store);
+}
+
+}  // namespace yars::model::terrain

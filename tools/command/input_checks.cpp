@@ -1,0 +1,166 @@
+#include "tools/command/input_checks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "lib/radar/mappable.hpp"
+#include "lib/radar/windows.hpp"
+#include "model/antenna/antenna.hpp"
+#include "model/terrain/store/directory_store.hpp"
+
+namespace yars::tools {
+
+namespace {
+
+constexpr const char* kForce = "or --force it all the same";
+constexpr double kEasyOffTrack_deg = 45.0;  // of the heading that is proposed
+
+std::string number(double value, int decimals) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+  return text.data();
+}
+
+// As short as two decimals allow: 0.67, 3.3, 80.
+std::string short_number(double value) {
+  std::string text = number(value, 2);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+std::string list_of(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + short_number(value);
+  return text;
+}
+
+model::antenna::Platform level_flight(const model::hrm::PatchOrder& order) {
+  return {order.ground_track, {}, {}, order.ground_track};
+}
+
+// A heading from which the target is off the track by an angle that every radar maps, on the side where it lies.
+std::string better_heading(const geo::GeodesicInverse& way, double off_track_deg) {
+  const double side = off_track_deg < 0.0 ? 1.0 : -1.0;
+  const geo::Bearing heading = way.azimuth_at_start + geo::Angle::degrees(side * kEasyOffTrack_deg);
+  return "give --heading " + number(std::fmod(std::round(heading.degrees()) + 360.0, 360.0), 0);
+}
+
+failure::Error blind(const geo::GeodesicInverse& way, double off_deg, const radar::RadarConfiguration& configuration) {
+  const std::string zone = short_number(configuration.high_resolution.blind_zone_deg);
+  return {"BLIND ZONE", "a target at least " + zone + " deg off the ground track, ahead and astern",
+          "one " + number(std::abs(off_deg), 1) + " deg off it", better_heading(way, off_deg) + ", " + kForce};
+}
+
+failure::Error turned(const geo::GeodesicInverse& way, double off_deg, const radar::RadarConfiguration& configuration) {
+  return {"GIMBAL", "a target within " + short_number(configuration.antenna.azimuth_limit_deg) + " deg of the nose",
+          "one " + number(std::abs(off_deg), 1) + " deg " + (off_deg < 0.0 ? "left" : "right") + " of it",
+          better_heading(way, off_deg) + ", " + kForce};
+}
+
+failure::Error out_of_range(std::string_view why, const geo::GeodesicInverse& way, geo::Length window,
+                            const radar::WindowLimits& table) {
+  const auto limits = radar::cursor_limits(window, table);
+  const std::string side = short_number(window.nautical_miles());
+  if (!limits)
+    return {std::string(why), "a window of the radar: " + list_of(table.windows_nm) + " NM", side + " NM",
+            std::string("give --window-nm one of them, ") + kForce};
+  return {std::string(why),
+          "for a window of " + side + " NM a target " + short_number(limits->least.nautical_miles()) + " to " +
+              short_number(limits->greatest.nautical_miles()) + " NM away",
+          number(way.distance.nautical_miles(), 2) + " NM",
+          std::string("move the aircraft or give another --window-nm, ") + kForce};
+}
+
+}  // namespace
+
+std::optional<failure::Error> beyond_limits(const model::hrm::PatchOrder& order,
+                                            const radar::RadarConfiguration& configuration) {
+  const auto why = radar::why_not_mappable({order.apex, order.ground_track, order.ground_track}, order.centre,
+                                           {order.window}, configuration);
+  if (!why) return std::nullopt;
+  const geo::GeodesicInverse way = geo::geodesic_inverse(order.apex, order.centre);
+  const double off_deg = (way.azimuth_at_start - order.ground_track).degrees();
+  if (*why == "BLIND ZONE") return blind(way, off_deg, configuration);
+  if (*why == "GIMBAL") return turned(way, off_deg, configuration);
+  return out_of_range(*why, way, order.window, configuration.window_limits);
+}
+
+std::optional<failure::Error> beyond_depression(const model::hrm::PatchOrder& order, double target_ground_m,
+                                                const radar::RadarConfiguration& configuration) {
+  if (std::isnan(target_ground_m)) return std::nullopt;
+  const geo::GeodesicInverse way = geo::geodesic_inverse(order.apex, order.centre);
+  const geo::Angle down =
+      geo::Angle::radians(std::atan2(order.altitude.metres() - target_ground_m, way.distance.metres()));
+  // Azimuth is judged above: here only how far down the dish looks.
+  if (model::antenna::within_gimbal(level_flight(order), configuration.antenna, order.ground_track, -down))
+    return std::nullopt;
+  return failure::Error{
+      "GIMBAL",
+      "a target at most " + short_number(configuration.antenna.elevation_limit_deg) + " deg below the horizon",
+      "one " + number(down.degrees(), 1) + " deg below it", std::string("fly lower or farther away, ") + kForce};
+}
+
+std::optional<failure::Error> beyond_gimbal(geo::Angle elevation, geo::Angle width,
+                                            const radar::AntennaConfiguration& antenna) {
+  const auto broken = [](const char* option, double limit_deg, geo::Angle found) {
+    return failure::Error{option, "at most " + short_number(limit_deg) + " deg by the configuration's gimbal",
+                          short_number(found.degrees()) + " deg", kForce};
+  };
+  if (std::abs(elevation.degrees()) > antenna.elevation_limit_deg)
+    return broken("--elevation", antenna.elevation_limit_deg, elevation);
+  const double widest_deg = 2.0 * antenna.azimuth_limit_deg;
+  if (width.degrees() > widest_deg) return broken("--scan-width", widest_deg, width);
+  return std::nullopt;
+}
+
+std::optional<failure::Error> beneath_ground(geo::AltitudeMsl altitude, double ground_m) {
+  if (!(altitude.metres() < ground_m)) return std::nullopt;
+  return failure::Error{
+      "--alt-ft",
+      "an aircraft above the ground, which is at " + number(geo::Length::metres(ground_m).feet(), 0) + " ft there",
+      number(geo::Length::metres(altitude.metres()).feet(), 0) + " ft", std::string("fly higher, ") + kForce};
+}
+
+namespace {
+
+// Of what there is, how much cannot be read; fails where that is all of it.
+void judge(const char* command, const std::string& subject, const char* things, std::size_t all, std::size_t lost) {
+  if (lost == 0) return;
+  const std::string count = std::to_string(lost) + " of " + std::to_string(all);
+  if (lost == all)
+    give_up({subject, std::string(things) + " that can be read", "none: " + count + " cannot",
+             "see the lines above; mend or replace the files", false});
+  std::fprintf(stderr, "%s: %s %s cannot be read, the picture is made without them\n", command, count.c_str(), things);
+}
+
+void tell(const char* command, const std::vector<std::string>& problems) {
+  for (const std::string& problem : problems) std::fprintf(stderr, "%s: %s\n", command, problem.c_str());
+}
+
+}  // namespace
+
+void check_terrain_read(const char* command, const std::string& folder, model::terrain::TerrainStore& store,
+                        model::terrain::TerrainStore* way) {
+  std::vector<std::string> problems = store.take_problems();
+  for (std::string& problem : way == nullptr ? std::vector<std::string>() : way->take_problems())
+    if (std::find(problems.begin(), problems.end(), problem) == problems.end()) problems.push_back(std::move(problem));
+  tell(command, problems);
+  const auto* const directory = dynamic_cast<const model::terrain::DirectoryTerrainStore*>(&store);
+  if (directory == nullptr) return;  // the built-in hills are not read
+  const model::terrain::RegionCells cells = directory->region_cells();
+  judge(command, folder, "cells of the region", cells.files, cells.unreadable);
+}
+
+void check_scenes_read(const char* command, model::scene::SceneStore& scenes) {
+  tell(command, scenes.take_problems());
+  judge(command, "--scene", "scenes of the region", scenes.wanted().files, scenes.wanted().unreadable);
+}
+
+}  // namespace yars::tools

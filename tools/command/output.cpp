@@ -1,0 +1,100 @@
+#include "tools/command/output.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "databuffer/program.hpp"
+#include "lib/failure/printable.hpp"
+#include "lib/file/new_file.hpp"
+#include "tools/command/command.hpp"
+
+namespace yars::tools {
+
+std::string ending_of(const std::string& name) {
+  std::string ending = std::filesystem::path(name).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return ending;
+}
+
+void check_file_name(const std::string& option, const std::string& name, const std::vector<std::string>& endings) {
+  const std::string ending = ending_of(name);
+  if (name.empty()) return;
+  if (std::find(endings.begin(), endings.end(), ending) != endings.end()) {
+    // A file that is begun and given up leaves nothing behind.
+    if (const auto begun = file::NewFile::create(name); !begun) give_up(begun.error());
+    return;
+  }
+  std::string expected = "a name that ends in " + endings.front();
+  for (std::size_t i = 1; i < endings.size(); ++i) expected += (i + 1 < endings.size() ? ", " : " or ") + endings[i];
+  give_up(databuffer::usage_error(option, expected, name));
+}
+
+void check_folder_name(const std::string& option, const std::string& name) {
+  static const std::vector<std::string> kFiles = {".png", ".tif", ".tiff", ".jp2", ".img", ".csv", ".f32", ".hgt",
+                                                  ".zip", ".gz",  ".dt0",  ".dt1", ".dt2", ".ded", ".flt", ".guf"};
+  const std::string ending = ending_of(name);
+  if (std::find(kFiles.begin(), kFiles.end(), ending) != kFiles.end())
+    give_up(databuffer::usage_error(option, "the name of a folder", name + ", which ends like that of a file"));
+}
+
+failure::Expected<void> write_floats(const std::filesystem::path& path, std::span<const float> values) {
+  std::vector<char> bytes;
+  bytes.reserve(values.size() * sizeof(float));
+  for (const float value : values) {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    for (const unsigned shift : {0U, 8U, 16U, 24U}) bytes.push_back(static_cast<char>((bits >> shift) & 0xFFU));
+  }
+  return file::write_file(path, std::as_bytes(std::span(bytes)));
+}
+
+namespace {
+
+constexpr std::size_t kShort = 64;  // things; each has its line
+
+std::string duration_text(double seconds) {
+  const long whole = std::lround(seconds);
+  if (whole < 60) return std::to_string(whole) + " s";
+  return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+}
+
+}  // namespace
+
+Progress::Progress(std::size_t total, std::FILE* out)
+    : out_(out), total_(total), began_(std::chrono::steady_clock::now()), said_(began_) {}
+
+void Progress::done(const std::string& note) {
+  ++done_;
+  const auto now = std::chrono::steady_clock::now();
+  const bool each = total_ <= kShort && !note.empty();
+  if (!each && now - said_ < std::chrono::seconds(1)) return;
+  said_ = now;
+  const double elapsed_s = std::chrono::duration<double>(now - began_).count();
+  const double left_s = elapsed_s / static_cast<double>(done_) * static_cast<double>(total_ - done_);
+  const std::string left = done_ == total_ ? "" : "  about " + duration_text(left_s) + " left";
+  std::fprintf(out_, "%zu/%zu  %s%s\n", done_, total_, note.c_str(), left.c_str());
+  std::fflush(out_);
+}
+
+ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
+
+void ProgressLine::say(const std::string& text) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!terminal_ || (text.empty() ? !shown_ : now - said_ < std::chrono::milliseconds(100))) return;
+  // Past the guard of the terminal (databuffer/terminal_guard.hpp), which lets no control characters through.
+  const std::string line = "\r\033[K" + failure::printable(text);
+  const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
+  if (written < 0) return;
+  shown_ = !text.empty();
+  said_ = now;
+}
+
+}  // namespace yars::tools

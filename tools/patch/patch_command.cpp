@@ -1,0 +1,308 @@
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "config/load.hpp"
+#include "databuffer/program.hpp"
+#include "lib/imageio/png.hpp"
+#include "lib/parallel/thread_pool.hpp"
+#include "lib/radar/fidelity_preset.hpp"
+#include "lib/radar/map_formation.hpp"
+#include "model/hrm/patch_formation.hpp"
+#include "model/scene/index/scene_index.hpp"
+#include "model/scene/index/scene_store.hpp"
+#include "model/terrain/gdal/map_writer.hpp"
+#include "model/terrain/gdal/raster.hpp"
+#include "model/terrain/store/directory_store.hpp"
+#include "tools/command/command.hpp"
+#include "tools/command/input_checks.hpp"
+#include "tools/command/output.hpp"
+
+namespace yars::tools {
+
+// What `yars patch` writes: a picture (.png), power (.f32: output.hpp), or either with its place on the
+// earth (.tif, by GDAL). Rows from the far edge. Fails as commands do.
+
+struct PatchOutput {
+  std::string file;              // empty: none
+  std::string pixels = "video";  // of a .tif: "video" or "power"
+};
+
+// Before the work: a name that no writer knows, or GDAL that is not built in.
+void check_patch_output(const PatchOutput& output);
+
+// Power: gamma of level ground, of the preset 1996 brightness; what the blind zone hides is no data in a .tif, -1 else.
+void write_patch(const PatchOutput& output, const model::hrm::PatchOrder& order,
+                 const model::hrm::PatchProcess& process);
+
+namespace {
+
+namespace gdal = model::terrain::gdal;
+namespace hrm = model::hrm;
+
+// The map's plane keeps distance and bearing from the aircraft: the plane of the file about it, turned by the bearing
+// of the map's middle.
+std::array<double, 6> plane_from_pixel(const hrm::PatchGeometry& geometry, int size) {
+  const double pixel_m = geometry.window_m() / size;
+  const double sine = std::sin(geometry.up().radians());
+  const double cosine = std::cos(geometry.up().radians());
+  const double left_m = -0.5 * geometry.window_m();
+  const double top_m = geometry.distance_m() + 0.5 * geometry.window_m();
+  return {left_m * cosine + top_m * sine,  pixel_m * cosine, -pixel_m * sine,
+          -left_m * sine + top_m * cosine, -pixel_m * sine,  -pixel_m * cosine};
+}
+
+void write_raster(const PatchOutput& output, const hrm::PatchOrder& order, const hrm::PatchProcess& process) {
+  const int size = process.image().size;
+  gdal::MapPicture picture;
+  picture.columns = picture.rows = size;
+  picture.origin_latitude_deg = order.apex.latitude_deg;
+  picture.origin_longitude_deg = order.apex.longitude_deg;
+  picture.plane_from_pixel = plane_from_pixel(process.geometry(), size);
+  if (output.pixels == "video") {
+    picture.pixels = process.picture();
+    picture.description = "video, 0 black to 255 white";
+  } else {
+    std::vector<float> power(process.image().power.begin(), process.image().power.end());
+    std::replace_if(
+        power.begin(), power.end(), [](float value) { return value < 0.0F; }, std::numeric_limits<float>::quiet_NaN());
+    picture.pixels = std::move(power);
+    picture.description = "power as gamma of level ground, before speckle and noise";
+  }
+  if (auto written = gdal::write_map(output.file, picture); !written) give_up(written.error());
+}
+
+}  // namespace
+
+void check_patch_output(const PatchOutput& output) {
+  const std::string suffix = ending_of(output.file);
+  if (output.pixels != "video" && suffix != ".tif")
+    give_up(
+        databuffer::usage_error("--pixels", "an --out that ends in .tif", output.file.empty() ? "none" : output.file));
+  if (suffix == ".tif" && !gdal::available())
+    give_up({output.file, "a YARS built with GDAL to write a GeoTIFF", "one built without it",
+             "run `scripts/setup --gdal` and build again, or write a .png"});
+  check_file_name("--out", output.file, {".png", ".tif", ".f32"});
+}
+
+void write_patch(const PatchOutput& output, const hrm::PatchOrder& order, const hrm::PatchProcess& process) {
+  const std::filesystem::path path(output.file);
+  const std::string suffix = ending_of(output.file);
+  if (suffix == ".f32") {
+    if (auto written = write_floats(path, process.image().power); !written) give_up(written.error());
+    return;
+  }
+  if (suffix == ".tif") return write_raster(output, order, process);
+  imageio::Image picture{process.image().size, process.image().size, 1, process.picture()};
+  if (auto written = imageio::write_png(path, picture); !written) give_up(written.error());
+}
+
+// `yars patch`: one patch map without processes, to a picture or to numbers; one JSON line says how long it took.
+// Source of the option names and of the line: docs/spec/commands.md#patch.
+
+namespace {
+
+namespace hrm = model::hrm;
+
+struct PatchOptions {
+  std::string terrain, fidelity;
+  PatchOutput output;
+  std::vector<std::string> scenes, without;
+  double latitude_deg = 37.8, longitude_deg = -122.5, altitude_ft = 15000.0, heading_deg = 0.0, speed_kt = 480.0;
+  double target_latitude_deg = 37.9, target_longitude_deg = -122.3, window_nm = 0.0, time_s = 0.0;
+  bool force = false;
+  int looks = 0, size = 0, threads = 1, repeat = 1;
+  std::int64_t seed = -1;
+};
+
+// What one run took.
+struct Timing {
+  double whole_ms = 0.0;
+  std::array<double, hrm::kPatchStages.size()> stages_ms{};
+};
+
+double now_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+radar::RadarConfiguration configure(const CommonOptions& common, const PatchOptions& options) {
+  auto loaded = config::load_configuration(common.config);
+  if (!loaded) give_up(loaded.error());
+  radar::RadarConfiguration configuration = std::move(loaded->radar);
+  if (!options.fidelity.empty()) configuration.fidelity = *radar::fidelity_preset(options.fidelity);
+  if (!options.terrain.empty()) configuration.terrain.directory = options.terrain;
+  if (options.size > 0) configuration.fidelity.map_size = options.size;
+  if (options.seed >= 0) configuration.seed = static_cast<std::uint64_t>(options.seed);
+  if (auto added = model::scene::add_scenes(configuration.world.scenes, options.scenes, options.without); !added)
+    give_up(databuffer::usage_error(added.error()));
+  return configuration;
+}
+
+hrm::PatchOrder order_of(const PatchOptions& options, const radar::RadarConfiguration& configuration) {
+  hrm::PatchOrder order;
+  order.apex = {options.latitude_deg, options.longitude_deg};
+  order.altitude = geo::AltitudeMsl::feet(options.altitude_ft);
+  order.ground_track = geo::Bearing::degrees(options.heading_deg);
+  order.ground_speed = geo::Speed::knots(options.speed_kt);
+  order.centre = {options.target_latitude_deg, options.target_longitude_deg};
+  order.window = geo::Length::nautical_miles(options.window_nm > 0.0 ? options.window_nm
+                                                                     : configuration.window_limits.power_up_nm);
+  order.looks = options.looks > 0 ? options.looks : static_cast<int>(configuration.high_resolution.looks.front());
+  order.sim_time = geo::Duration::seconds(options.time_s);
+  order.map = 1;
+  return order;
+}
+
+Timing run_once(hrm::PatchProcess& process, const hrm::PatchOrder& order, const hrm::PatchDatabase& database) {
+  Timing timing;
+  process.begin(order);
+  const double begin_ms = now_ms();
+  process.give(database);
+  while (process.state() != hrm::PatchState::done) {
+    const auto stage = static_cast<std::size_t>(process.stages_done());
+    const double stage_begin_ms = now_ms();
+    process.advance();
+    timing.stages_ms[stage] = now_ms() - stage_begin_ms;
+  }
+  timing.whole_ms = now_ms() - begin_ms;
+  return timing;
+}
+
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Nearer than this share of its window a map would lie under the aircraft and behind it: that cannot be forced.
+constexpr double kNearestShare = 0.75;
+
+void check_order(const hrm::PatchOrder& order, const radar::RadarConfiguration& configuration, bool force) {
+  if (!force)
+    if (const auto problem = beyond_limits(order, configuration)) give_up(*problem);
+  const double distance_nm = geo::geodesic_inverse(order.apex, order.centre).distance.nautical_miles();
+  if (distance_nm < kNearestShare * order.window.nautical_miles())
+    give_up(databuffer::usage_error("--target-lat, --target-lon", "a target away by 0.75 of the window's side or more",
+                                    std::to_string(distance_nm) + " NM"));
+}
+
+void check_heights(const hrm::PatchOrder& order, const hrm::PatchDatabase& database,
+                   const radar::RadarConfiguration& configuration) {
+  if (const auto problem = beneath_ground(order.altitude, database.path->elevation_m(order.apex))) give_up(*problem);
+  const double target_ground_m = database.window->elevation_m(order.centre);
+  if (const auto problem = beyond_depression(order, target_ground_m, configuration)) give_up(*problem);
+}
+
+// A black picture looks the same whatever made it black.
+void tell_what_is_dark(const hrm::MapImage& image) {
+  const auto pixels = static_cast<double>(image.power.size());
+  const auto blind = std::count_if(image.power.begin(), image.power.end(), [](float power) { return power < 0.0F; });
+  const bool seen = std::any_of(image.power.begin(), image.power.end(), [](float power) { return power > 0.0F; });
+  if (blind > 0)
+    std::fprintf(stderr, "yars patch: %.1f %% of the window lie in the blind zone and are blank\n",
+                 100.0 * static_cast<double>(blind) / pixels);
+  if (!seen && static_cast<double>(blind) < pixels)
+    std::fprintf(stderr, "yars patch: nothing of the window is seen: it lies in shadow or beyond the horizon\n");
+}
+
+void patch(const CommonOptions& common, const PatchOptions& options) {
+  check_patch_output(options.output);
+  const radar::RadarConfiguration configuration = configure(common, options);
+  const hrm::PatchOrder order = order_of(options, configuration);
+  check_order(order, configuration, options.force);
+  // Two stores: what the window needs and what the way needs are of different detail.
+  auto window_store = model::terrain::open_terrain(configuration.terrain);
+  if (!window_store) give_up(window_store.error());
+  auto path_store = model::terrain::open_terrain(configuration.terrain);
+  if (!path_store) give_up(path_store.error());
+
+  model::kernel::Workers workers(static_cast<std::size_t>(options.threads));
+  hrm::PatchProcess process(configuration, {workers.threads(), [&workers](const std::function<void(std::size_t)>& job) {
+                                              workers.run(job);
+                                            }});
+  const double begin_ms = now_ms();
+  const hrm::PatchNeed need = process.begin(order);
+  auto scenes = model::scene::open_scenes(configuration);
+  if (!scenes) give_up(scenes.error());
+  const hrm::PatchDatabase database{(*window_store)->prepare(need.window), (*path_store)->prepare(need.path),
+                                    *scenes ? (*scenes)->prepare(need.window) : nullptr};
+  if (*scenes) check_scenes_read("yars patch", **scenes);
+  check_terrain_read("yars patch", configuration.terrain.directory, **window_store, path_store->get());
+  if (!options.force) check_heights(order, database, configuration);
+  const double database_ms = now_ms() - begin_ms;
+  std::vector<double> whole_ms;
+  std::array<std::vector<double>, hrm::kPatchStages.size()> stages_ms;
+  for (int run = 0; run <= options.repeat; ++run) {
+    const Timing timing = run_once(process, order, database);
+    if (run == 0) continue;
+    whole_ms.push_back(timing.whole_ms);
+    for (std::size_t stage = 0; stage < stages_ms.size(); ++stage) stages_ms[stage].push_back(timing.stages_ms[stage]);
+  }
+  nlohmann::ordered_json line;
+  line["size"] = process.image().size;
+  line["triangles"] = process.triangles();
+  line["kernel_ms"] = median_of(whole_ms);
+  for (std::size_t stage = 0; stage < stages_ms.size(); ++stage)
+    line["stages_ms"][std::string(hrm::kPatchStages[stage])] = median_of(stages_ms[stage]);
+  line["database_ms"] = database_ms;
+  line["formation_s"] = process.formation().seconds();
+  line["resolution_ft"] = radar::map_resolution(order.window).feet();
+  line["terrain_bytes"] = database.window->resident_bytes() + database.path->resident_bytes();
+  line["threads"] = options.threads;
+  line["fidelity"] = configuration.fidelity.name;
+  tell_what_is_dark(process.image());
+  if (!options.output.file.empty()) write_patch(options.output, order, process);
+  std::printf("%s\n", line.dump().c_str());
+}
+
+}  // namespace
+
+void add_patch_command(CLI::App& app, const CommonOptions& common) {
+  auto options = std::make_shared<PatchOptions>();
+  CLI::App* command = app.add_subcommand("patch", "one patch map, without processes");
+  command->add_option("--terrain", options->terrain, "directory of terrain cells (else the configuration's)");
+  command->add_option("--scene", options->scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; may come again");
+  command
+      ->add_option("--scene-without", options->without,
+                   "name of what is left out of scenes, as * and ? allow; may come again")
+      ->allow_extra_args(false);
+  command->add_option("--lat", options->latitude_deg, "[deg] of the aircraft")->check(CLI::Range(-90.0, 90.0));
+  command->add_option("--lon", options->longitude_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
+  command->add_option("--alt-ft", options->altitude_ft, "[ft] above mean sea level")
+      ->check(CLI::Range(-3000.0, 600000.0));
+  command->add_option("--heading", options->heading_deg, "[deg] true; also the ground track")
+      ->check(CLI::Range(-360.0, 360.0));
+  command->add_option("--speed-kt", options->speed_kt, "[kt] over ground")->check(CLI::Range(0.0, 10000.0));
+  command->add_option("--target-lat", options->target_latitude_deg, "[deg] middle of the map")
+      ->check(CLI::Range(-90.0, 90.0));
+  command->add_option("--target-lon", options->target_longitude_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
+  command->add_option("--window-nm", options->window_nm, "[NM] edge of the map (else the configuration's at power-up)")
+      ->check(CLI::Range(0.01, 200.0));
+  command->add_flag("--force", options->force, "beyond the radar's limits too: what is blind stays blank");
+  command->add_option("--looks", options->looks, "averaged (else the configuration's ML1)")->check(CLI::Range(1, 16));
+  command->add_option("--fidelity", options->fidelity, "preset (else the configuration's)")
+      ->check(CLI::IsMember(std::vector<std::string>(radar::fidelity_names().begin(), radar::fidelity_names().end())));
+  command->add_option("--size", options->size, "[pixels] on an edge")->check(CLI::Range(16, 1024));
+  command->add_option("--time-s", options->time_s, "[s] sim time at the start, for what moves")
+      ->check(CLI::Range(0.0, 1e8));
+  command->add_option("--threads", options->threads)->check(CLI::Range(1, 256));
+  command->add_option("--seed", options->seed, "of the noise")->check(CLI::NonNegativeNumber);
+  command->add_option("--repeat", options->repeat, "warm maps to time; the first comes on top")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--out", options->output.file,
+                      "file: .png, .tif (georeferenced) or .f32 (power: little-endian floats, rows from the far edge)");
+  command->add_option("--pixels", options->output.pixels, "of a .tif: video (8 bits) or power (32-bit float)")
+      ->check(CLI::IsMember({"video", "power"}));
+  command->callback([options, &common] { patch(common, *options); });
+}
+
+}  // namespace yars::tools

@@ -1,0 +1,209 @@
+#include "tools/recording/compression.hpp"
+
+#include <zlib.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+namespace yars::tools::recording {
+
+namespace {
+// Level 5 takes twice the time and makes a recording 1.6 % smaller; zlib at its best takes ten times as long for that.
+constexpr int kLevel = 3;
+}  // namespace
+
+void Packer::Release::operator()(void* tables) const {
+  ZSTD_freeCCtx(static_cast<ZSTD_CCtx*>(tables));
+}
+
+Packer::Packer() : tables_(ZSTD_createCCtx()) {}
+
+bool Packer::pack(std::span<const std::byte> bytes, std::vector<std::byte>& packed) {
+  const std::size_t begin = packed.size();
+  packed.resize(begin + bytes.size());
+  const std::size_t size = ZSTD_compressCCtx(static_cast<ZSTD_CCtx*>(tables_.get()), packed.data() + begin,
+                                             bytes.size(), bytes.data(), bytes.size(), kLevel);
+  const bool gains = ZSTD_isError(size) == 0U && size < bytes.size();
+  packed.resize(gains ? begin + size : begin);
+  return gains;
+}
+
+bool unpack(std::span<const std::byte> packed, std::span<std::byte> bytes) {
+  return ZSTD_decompress(bytes.data(), bytes.size(), packed.data(), packed.size()) == bytes.size();
+}
+
+std::uint32_t checksum_of(std::span<const std::byte> bytes) {
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+namespace {
+
+using Word = std::uint64_t;
+constexpr std::size_t kWord = sizeof(Word);
+constexpr std::size_t kGreatestOrder = 3;
+
+std::size_t words_in(std::size_t record_bytes) {
+  return (record_bytes + kWord - 1) / kWord;
+}
+
+// The last word of a record may be a part; the rest counts as zero.
+Word load(const std::byte* record, std::size_t word, std::size_t record_bytes) {
+  Word value = 0;
+  std::memcpy(&value, record + word * kWord, std::min(kWord, record_bytes - word * kWord));
+  return value;
+}
+
+void store(std::byte* record, std::size_t word, std::size_t record_bytes, Word value) {
+  std::memcpy(record + word * kWord, &value, std::min(kWord, record_bytes - word * kWord));
+}
+
+// From the values before `at`, of which there are `at`: near the begin of a column a lower order has to do.
+Word predicted(std::span<const Word> column, std::size_t at, std::size_t order) {
+  switch (std::min(order, at)) {
+    case 1:
+      return column[at - 1];
+    case 2:
+      return 2 * column[at - 1] - column[at - 2];
+    default:
+      return 3 * (column[at - 1] - column[at - 2]) + column[at - 3];
+  }
+}
+
+// Small differences of either sign have high bytes of zero: 0, -1, 1, -2 ... become 0, 1, 2, 3 ...
+Word folded(Word difference) {
+  return (difference << 1U) ^ (0 - (difference >> 63U));
+}
+Word unfolded(Word value) {
+  return (value >> 1U) ^ (0 - (value & 1U));
+}
+
+std::size_t best_order(std::span<const Word> column) {
+  std::size_t best = 1, least = SIZE_MAX;
+  for (std::size_t order = 1; order <= kGreatestOrder; ++order) {
+    std::size_t bits = 0;
+    for (std::size_t at = 1; at < column.size(); ++at)
+      bits += static_cast<std::size_t>(std::bit_width(folded(column[at] - predicted(column, at, order))));
+    if (bits < least) {
+      least = bits;
+      best = order;
+    }
+  }
+  return best;
+}
+
+// Makes of a column, in place, what its prediction misses.
+void take_differences(std::span<Word> column, std::size_t order) {
+  for (std::size_t at = column.size() - 1; at > 0; --at) column[at] = folded(column[at] - predicted(column, at, order));
+}
+
+}  // namespace
+
+void encode_columns(std::span<const std::byte> records, std::size_t record_bytes, std::vector<std::byte>& coded) {
+  const std::size_t count = records.size() / record_bytes;
+  if (count == 0) return;
+  coded.insert(coded.end(), records.begin(), records.begin() + static_cast<std::ptrdiff_t>(record_bytes));
+  const std::size_t words = words_in(record_bytes);
+  std::size_t describe = coded.size();
+  coded.resize(describe + 2 * words);
+  std::vector<Word> column(count);
+  for (std::size_t word = 0; word < words; ++word) {
+    for (std::size_t i = 0; i < count; ++i) column[i] = load(records.data() + i * record_bytes, word, record_bytes);
+    const std::size_t order = best_order(column);
+    take_differences(column, order);
+    Word any = 0;
+    for (std::size_t i = 1; i < count; ++i) any |= column[i];
+    unsigned planes = 0;
+    for (unsigned plane = 0; plane < kWord; ++plane) {
+      if ((any >> (8U * plane) & 0xffU) == 0) continue;
+      planes |= 1U << plane;
+      for (std::size_t i = 1; i < count; ++i) coded.push_back(static_cast<std::byte>(column[i] >> (8U * plane)));
+    }
+    coded[describe++] = static_cast<std::byte>(order);
+    coded[describe++] = static_cast<std::byte>(planes);
+  }
+}
+
+bool decode_columns(std::span<const std::byte> coded, std::size_t count, std::size_t record_bytes,
+                    std::vector<std::byte>& records) {
+  if (count == 0) return coded.empty();
+  const std::size_t words = words_in(record_bytes);
+  if (coded.size() < record_bytes + 2 * words) return false;
+  const auto orders_and_planes = coded.subspan(record_bytes, 2 * words);
+  std::size_t planes_in_all = 0;
+  for (std::size_t word = 0; word < words; ++word) {
+    const auto order = std::to_integer<std::size_t>(orders_and_planes[2 * word]);
+    if (order < 1 || order > kGreatestOrder) return false;
+    planes_in_all +=
+        static_cast<std::size_t>(std::popcount(std::to_integer<unsigned>(orders_and_planes[2 * word + 1])));
+  }
+  if (coded.size() != record_bytes + 2 * words + planes_in_all * (count - 1)) return false;
+
+  const std::size_t begin = records.size();
+  records.resize(begin + count * record_bytes);
+  std::byte* const first = records.data() + begin;
+  const std::byte* plane_bytes = orders_and_planes.data() + orders_and_planes.size();
+  std::vector<Word> column(count);
+  for (std::size_t word = 0; word < words; ++word) {
+    const auto order = std::to_integer<std::size_t>(orders_and_planes[2 * word]);
+    const auto planes = std::to_integer<unsigned>(orders_and_planes[2 * word + 1]);
+    std::fill(column.begin(), column.end(), 0);
+    column[0] = load(coded.data(), word, record_bytes);
+    for (unsigned plane = 0; plane < kWord; ++plane) {
+      if ((planes >> plane & 1U) == 0) continue;
+      for (std::size_t i = 1; i < count; ++i) column[i] |= std::to_integer<Word>(*plane_bytes++) << (8U * plane);
+    }
+    for (std::size_t at = 1; at < count; ++at) column[at] = unfolded(column[at]) + predicted(column, at, order);
+    for (std::size_t i = 0; i < count; ++i) store(first + i * record_bytes, word, record_bytes, column[i]);
+  }
+  return true;
+}
+
+namespace {
+
+enum class Packing : std::uint8_t { none = 0, zstd = 1 };
+
+struct ChunkHead {
+  std::uint8_t kind;
+  ChunkPart part;
+  Packing packing;
+  std::uint8_t reserved;
+  std::uint32_t raw_bytes;
+  std::uint32_t packed_bytes;
+};
+static_assert(sizeof(ChunkHead) == 12);
+
+}  // namespace
+
+void append_chunk(ChunkName name, std::span<const std::byte> bytes, Packer& packer, std::vector<std::byte>& body) {
+  ChunkHead head{name.kind, name.part, Packing::zstd, 0, static_cast<std::uint32_t>(bytes.size()), 0};
+  const std::size_t begin = body.size();
+  body.resize(begin + sizeof head);
+  if (!packer.pack(bytes, body)) {
+    head.packing = Packing::none;
+    body.insert(body.end(), bytes.begin(), bytes.end());
+  }
+  head.packed_bytes = static_cast<std::uint32_t>(body.size() - begin - sizeof head);
+  std::memcpy(body.data() + begin, &head, sizeof head);
+}
+
+std::optional<std::vector<std::byte>> take_chunk(ChunkName name, std::size_t most, std::span<const std::byte>& body) {
+  ChunkHead head{};
+  if (body.size() < sizeof head) return std::nullopt;
+  std::memcpy(&head, body.data(), sizeof head);
+  if (head.kind != name.kind || head.part != name.part || head.raw_bytes > most) return std::nullopt;
+  if (head.packed_bytes > body.size() - sizeof head) return std::nullopt;
+  const auto packed = body.subspan(sizeof head, head.packed_bytes);
+  body = body.subspan(sizeof head + head.packed_bytes);
+  if (head.packing == Packing::none) {
+    if (head.packed_bytes != head.raw_bytes) return std::nullopt;
+    return std::vector<std::byte>(packed.begin(), packed.end());
+  }
+  std::vector<std::byte> bytes(head.raw_bytes);
+  if (head.packing != Packing::zstd || !unpack(packed, bytes)) return std::nullopt;
+  return bytes;
+}
+
+}  // namespace yars::tools::recording

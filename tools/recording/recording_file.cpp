@@ -1,0 +1,260 @@
+#include "tools/recording/recording_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "tools/recording/block.hpp"
+#include "tools/recording/compression.hpp"
+#include "tools/recording/recorded_kinds.hpp"
+
+namespace yars::tools::recording {
+
+namespace {
+
+constexpr std::array<char, 8> kMagic{'Y', 'A', 'R', 'S', 'T', 'L', 'O', 'G'};
+constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kMostKinds = 63;
+
+struct Preamble {
+  std::array<char, 8> magic;
+  std::uint32_t version;
+  std::uint32_t kinds;
+  std::uint32_t configuration_bytes;
+  std::uint32_t terrain_bytes;
+};
+
+struct KindEntry {
+  std::uint8_t number, reserved;
+  std::uint16_t version;
+  std::uint32_t bytes;
+};
+static_assert(sizeof(Preamble) == 24 && sizeof(KindEntry) == 8);
+
+template <class T>
+void append(std::vector<std::byte>& bytes, const T& value) {
+  const auto more = std::as_bytes(std::span(&value, 1));
+  bytes.insert(bytes.end(), more.begin(), more.end());
+}
+
+void append(std::vector<std::byte>& bytes, const std::string& text) {
+  const auto more = std::as_bytes(std::span(text));
+  bytes.insert(bytes.end(), more.begin(), more.end());
+}
+
+// The next `count` bytes of the file behind `bytes`.
+bool read_on(std::istream& file, std::size_t count, std::vector<std::byte>& bytes) {
+  const std::size_t begin = bytes.size();
+  bytes.resize(begin + count);
+  file.read(reinterpret_cast<char*>(bytes.data() + begin), static_cast<std::streamsize>(count));
+  return static_cast<bool>(file);
+}
+
+std::string described(const KindEntry& entry, const RecordedKind* kind) {
+  return (kind != nullptr ? std::string(kind->name) : "kind " + std::to_string(entry.number)) + " " +
+         std::to_string(entry.version) + " of " + std::to_string(entry.bytes) + " bytes";
+}
+
+failure::Expected<void> check_kinds(std::span<const std::byte> entries, const std::string& file_name) {
+  for (; !entries.empty(); entries = entries.subspan(sizeof(KindEntry))) {
+    KindEntry entry{};
+    std::memcpy(&entry, entries.data(), sizeof entry);
+    const RecordedKind* kind = recorded_kind(entry.number);
+    if (kind != nullptr && kind->version == entry.version && kind->bytes == entry.bytes) continue;
+    const std::string expected = kind == nullptr ? "a kind of records that this release knows"
+                                                 : described({entry.number, 0, kind->version, kind->bytes}, kind);
+    return failure::fail(file_name, expected, described(entry, kind), "replay it with the release that recorded it");
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::byte> bytes_of(const RecordingHeader& header) {
+  std::vector<std::byte> bytes;
+  append(bytes, Preamble{kMagic, kVersion, static_cast<std::uint32_t>(recorded_kinds().size()),
+                         static_cast<std::uint32_t>(header.configuration.size()),
+                         static_cast<std::uint32_t>(header.terrain.size())});
+  for (const RecordedKind& kind : recorded_kinds()) append(bytes, KindEntry{kind.number, 0, kind.version, kind.bytes});
+  append(bytes, header.configuration);
+  append(bytes, header.terrain);
+  append(bytes, checksum_of(bytes));
+  return bytes;
+}
+
+failure::Expected<RecordingHeader> read_header(std::istream& file, const std::string& file_name) {
+  const auto damaged = [&](const std::string& found) {
+    return failure::fail(file_name, "a whole header of a recording", found, "record again");
+  };
+  std::vector<std::byte> bytes;
+  Preamble preamble{};
+  const bool begins = read_on(file, sizeof preamble, bytes);
+  std::memcpy(&preamble, bytes.data(), sizeof preamble);
+  if (!begins || preamble.magic != kMagic)
+    return failure::fail(file_name, "a recording made by yars record", "another kind of file");
+  if (preamble.version != kVersion)
+    return failure::fail(file_name, "version " + std::to_string(kVersion) + " of the recording format",
+                         std::to_string(preamble.version), "replay it with the release that recorded it");
+  if (preamble.kinds > kMostKinds || preamble.configuration_bytes > kMostHeaderText ||
+      preamble.terrain_bytes > kMostHeaderText)
+    return damaged("one with longer paths or more kinds of records than there can be");
+  const std::size_t kinds_bytes = preamble.kinds * sizeof(KindEntry);
+  std::uint32_t checksum = 0;
+  if (!read_on(file, kinds_bytes + preamble.configuration_bytes + preamble.terrain_bytes, bytes) ||
+      !file.read(reinterpret_cast<char*>(&checksum), sizeof checksum))
+    return damaged("a file cut short");
+  if (checksum != checksum_of(bytes)) return damaged("a checksum of other bytes");
+  if (auto same = check_kinds(std::span(bytes).subspan(sizeof preamble, kinds_bytes), file_name); !same)
+    return tl::unexpected(same.error());
+  const auto* text = reinterpret_cast<const char*>(bytes.data()) + sizeof preamble + kinds_bytes;
+  return RecordingHeader{std::string(text, preamble.configuration_bytes),
+                         std::string(text + preamble.configuration_bytes, preamble.terrain_bytes)};
+}
+
+namespace {
+
+constexpr std::array<char, 4> kTrailerMagic{'Y', 'E', 'N', 'D'};
+
+struct Trailer {
+  std::uint64_t index_offset;
+  std::uint32_t checksum;  // of the offset
+  std::array<char, 4> magic;
+};
+static_assert(sizeof(Trailer) == 16);
+
+std::uint32_t checksum_of_offset(std::uint64_t offset) {
+  return checksum_of(std::as_bytes(std::span(&offset, 1)));
+}
+
+template <class T>
+bool read_at(std::istream& file, std::uint64_t offset, T& value) {
+  file.clear();
+  file.seekg(static_cast<std::streamoff>(offset));
+  return static_cast<bool>(file.read(reinterpret_cast<char*>(&value), sizeof value));
+}
+
+// Blocks lie one behind the other, from the first on.
+bool is_plausible(const std::vector<IndexEntry>& blocks, std::uint64_t begin, std::uint64_t end) {
+  for (const IndexEntry& block : blocks) {
+    if (block.offset < begin || block.offset > end || end - block.offset < sizeof(BlockHead)) return false;
+    begin = block.offset + sizeof(BlockHead);
+  }
+  return true;
+}
+
+// Nothing where the file does not end with an index.
+std::optional<std::vector<IndexEntry>> written_index(std::istream& file, std::uint64_t begin, std::uint64_t size) {
+  Trailer trailer{};
+  if (size < begin + sizeof(BlockHead) + sizeof trailer || !read_at(file, size - sizeof trailer, trailer))
+    return std::nullopt;
+  const std::uint64_t end = size - sizeof trailer;
+  if (trailer.magic != kTrailerMagic || trailer.checksum != checksum_of_offset(trailer.index_offset) ||
+      trailer.index_offset < begin || trailer.index_offset > end - sizeof(BlockHead))
+    return std::nullopt;
+  BlockHead head{};
+  if (!read_at(file, trailer.index_offset, head) || !is_sound(head) || head.content != BlockContent::index ||
+      head.packed_bytes != end - trailer.index_offset - sizeof head || head.items > size / sizeof(BlockHead))
+    return std::nullopt;
+  std::vector<std::byte> body(head.packed_bytes);
+  file.read(reinterpret_cast<char*>(body.data()), static_cast<std::streamsize>(body.size()));
+  if (!file || !belongs(head, body)) return std::nullopt;
+  std::span<const std::byte> rest(body);
+  const auto coded = take_chunk({0, ChunkPart::index}, (head.items + std::size_t{2}) * sizeof(IndexEntry), rest);
+  std::vector<std::byte> records;
+  if (!coded || !decode_columns(*coded, head.items, sizeof(IndexEntry), records)) return std::nullopt;
+  std::vector<IndexEntry> blocks(head.items);
+  if (!blocks.empty()) std::memcpy(blocks.data(), records.data(), records.size());
+  if (!is_plausible(blocks, begin, trailer.index_offset)) return std::nullopt;
+  return blocks;
+}
+
+bool is_whole_at(std::istream& file, std::uint64_t offset, std::uint64_t size, BlockHead& head) {
+  return size - offset >= sizeof head && read_at(file, offset, head) && is_sound(head) &&
+         head.packed_bytes <= size - offset - sizeof head;
+}
+
+// Where the next block begins at or behind `offset`; the file's end when there is none.
+std::uint64_t next_block(std::istream& file, std::uint64_t offset, std::uint64_t size) {
+  constexpr std::size_t kPiece = std::size_t{1} << 16;
+  const std::string_view magic = magic_of_blocks();
+  std::string piece;
+  BlockHead head{};
+  while (size - offset >= sizeof head) {
+    piece.resize(std::min<std::uint64_t>(kPiece, size - offset));
+    file.clear();
+    file.seekg(static_cast<std::streamoff>(offset));
+    if (!file.read(piece.data(), static_cast<std::streamsize>(piece.size()))) return size;
+    for (auto at = piece.find(magic); at != std::string::npos; at = piece.find(magic, at + 1))
+      if (is_whole_at(file, offset + at, size, head)) return offset + at;
+    // The magic may lie across the seam.
+    if (piece.size() < kPiece) return size;
+    offset += kPiece - magic.size();
+  }
+  return size;
+}
+
+// The bytes from `begin` to the next block are none: what should have been there.
+IndexEntry hole_at(std::istream& file, std::uint64_t begin, std::uint64_t next, std::uint64_t size,
+                   const std::vector<IndexEntry>& before) {
+  BlockHead head{};
+  IndexEntry hole{begin, before.empty() ? 0 : before.back().last_tick, 0, 0};
+  hole.last_tick = hole.first_tick;
+  if (size - begin >= sizeof head && read_at(file, begin, head) && is_sound(head) &&
+      head.content == BlockContent::items)
+    return {begin, head.first_tick, head.last_tick, 0};
+  if (!before.empty() && hole.first_tick < std::numeric_limits<std::int64_t>::max()) ++hole.first_tick;
+  hole.last_tick = hole.first_tick;
+  if (read_at(file, next, head) && head.first_tick > hole.first_tick) hole.last_tick = head.first_tick - 1;
+  return hole;
+}
+
+std::vector<IndexEntry> walked_index(std::istream& file, std::uint64_t begin, std::uint64_t size) {
+  std::vector<IndexEntry> blocks;
+  BlockHead head{};
+  while (begin < size) {
+    if (is_whole_at(file, begin, size, head)) {
+      if (head.content == BlockContent::items) blocks.push_back({begin, head.first_tick, head.last_tick, head.kinds});
+      begin += sizeof head + head.packed_bytes;
+      // Behind an index nothing follows but its damaged trailer.
+      if (head.content == BlockContent::index) break;
+      continue;
+    }
+    const std::uint64_t next = next_block(file, begin + 1, size);
+    if (next == size) break;  // cut short
+    blocks.push_back(hole_at(file, begin, next, size, blocks));
+    begin = next;
+  }
+  return blocks;
+}
+
+}  // namespace
+
+std::vector<std::byte> bytes_of(const std::vector<IndexEntry>& blocks, std::uint64_t offset, Packer& packer) {
+  std::vector<std::byte> coded, body;
+  encode_columns(std::as_bytes(std::span(blocks)), sizeof(IndexEntry), coded);
+  append_chunk({0, ChunkPart::index}, coded, packer, body);
+  BlockHead head{};
+  head.content = BlockContent::index;
+  head.items = static_cast<std::uint32_t>(blocks.size());
+  std::vector<std::byte> bytes = sealed(head, body);
+  const Trailer trailer{offset, checksum_of_offset(offset), kTrailerMagic};
+  const auto end = std::as_bytes(std::span(&trailer, 1));
+  bytes.insert(bytes.end(), end.begin(), end.end());
+  return bytes;
+}
+
+RecordingIndex read_index(std::istream& file, std::uint64_t begin) {
+  file.clear();
+  file.seekg(0, std::ios::end);
+  const auto size = static_cast<std::uint64_t>(file.tellg());
+  if (auto written = written_index(file, begin, size)) return {std::move(*written), false};
+  return {walked_index(file, begin, size), true};
+}
+
+}  // namespace yars::tools::recording

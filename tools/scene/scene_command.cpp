@@ -1,0 +1,231 @@
+#include "tools/scene/scene_command.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lib/file/new_file.hpp"
+#include "model/scene/index/scene_index.hpp"
+#include "model/scene/openflight/reader.hpp"
+#include "tools/command/command.hpp"
+#include "tools/command/output.hpp"
+#include "worldgen/scene/scene_builder.hpp"
+
+namespace yars::tools {
+
+// `yars scene`: makes polygonal scenes and looks into them.
+
+void add_scene_command(CLI::App& app, const CommonOptions& /*common*/) {
+  CLI::App* scene = app.add_subcommand("scene", "polygonal scenes (OpenFlight): generate, info, image");
+  scene->require_subcommand(1);
+  add_scene_generate(*scene);
+  add_scene_info(*scene);
+  add_scene_image(*scene);
+}
+
+void add_without(CLI::App& command, std::vector<std::string>& names) {
+  command.add_option("--without", names, "name of what is left out, as * and ? allow; may come again")
+      ->allow_extra_args(false);
+}
+
+model::scene::NameFilter name_filter(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all += name + ",";
+  return model::scene::NameFilter(all);
+}
+
+// `yars scene info`: what OpenFlight files hold.
+
+namespace {
+
+using namespace model::scene;
+
+struct InfoOptions {
+  std::vector<std::string> files;
+  std::vector<std::string> without;
+  bool json = false;
+};
+
+struct Extent {
+  Vector3 least{INFINITY, INFINITY, INFINITY}, most{-INFINITY, -INFINITY, -INFINITY};
+};
+
+Extent extent_of(const Model& model) {
+  Extent extent;
+  for (const ModelVertex& vertex : model.vertices) {
+    const double x = static_cast<double>(vertex.place_m[0]) + model.base.x;
+    const double y = static_cast<double>(vertex.place_m[1]) + model.base.y;
+    const double z = static_cast<double>(vertex.place_m[2]) + model.base.z;
+    extent.least = {std::min(extent.least.x, x), std::min(extent.least.y, y), std::min(extent.least.z, z)};
+    extent.most = {std::max(extent.most.x, x), std::max(extent.most.y, y), std::max(extent.most.z, z)};
+  }
+  return extent;
+}
+
+std::map<int, std::uint64_t> triangles_by_material(const Model& model) {
+  std::map<int, std::uint64_t> counts;
+  for (const ModelTriangle& triangle : model.triangles) ++counts[model.kinds[triangle.kind].material];
+  return counts;
+}
+
+nlohmann::json origin_json(const std::optional<geo::GeoPoint>& place) {
+  if (!place) return nullptr;
+  return {{"latitude_deg", place->latitude_deg}, {"longitude_deg", place->longitude_deg}};
+}
+
+nlohmann::json describe(const std::string& file, const Model& model) {
+  nlohmann::json told{{"file", file}, {"revision", model.header.revision}};
+  told["metres_per_unit"] = model.header.metres_per_unit;
+  told["origin"] = origin_json(model.header.origin);
+  told["origin_in_name"] = origin_json(place_in_name(file.substr(file.find_last_of('/') + 1)));
+  const FileCounts& c = model.counts;
+  told["in_file"] = {{"vertices", c.vertices},   {"faces", c.faces},
+                     {"corners", c.corners},     {"hidden_faces", c.hidden_faces},
+                     {"objects", c.objects},     {"meshes", c.meshes},
+                     {"materials", c.materials}, {"levels_of_detail", c.levels_of_detail},
+                     {"instances", c.instances}, {"external_references", c.external_references}};
+  told["shown"] = {{"polygons", model.polygons},
+                   {"triangles", model.triangles.size()},
+                   {"vertices", model.vertices.size()},
+                   {"objects", model.objects.size() - 1},
+                   {"kinds_of_surface", model.kinds.size()}};
+  for (const auto& [material, count] : triangles_by_material(model))
+    told["triangles_by_material"][std::to_string(material)] = count;
+  if (!model.vertices.empty()) {
+    const Extent extent = extent_of(model);
+    told["extent_m"] = {{"west", extent.least.x}, {"east", extent.most.x},    {"south", extent.least.y},
+                        {"north", extent.most.y}, {"lowest", extent.least.z}, {"highest", extent.most.z}};
+  }
+  told["external_files"] = model.files;
+  told["warnings"] = model.warnings;
+  return told;
+}
+
+std::string place_text(const nlohmann::json& place) {
+  if (place.is_null()) return "none";
+  char text[64];
+  std::snprintf(text, sizeof text, "%.6f, %.6f", place["latitude_deg"].get<double>(),
+                place["longitude_deg"].get<double>());
+  return text;
+}
+
+void print_counts(const char* title, const nlohmann::json& counts) {
+  std::printf("  %s:", title);
+  for (const auto& [name, count] : counts.items()) {
+    std::string words = name;
+    std::replace(words.begin(), words.end(), '_', ' ');
+    std::printf("  %s %llu", words.c_str(), static_cast<unsigned long long>(count.get<std::uint64_t>()));
+  }
+  std::printf("\n");
+}
+
+void print(const nlohmann::json& told) {
+  std::printf("%s\n  revision %.2f, unit %g m, origin %s\n", told["file"].get<std::string>().c_str(),
+              told["revision"].get<int>() / 100.0, told["metres_per_unit"].get<double>(),
+              place_text(told["origin"]).c_str());
+  if (!told["origin_in_name"].is_null())
+    std::printf("  origin in the name %s\n", place_text(told["origin_in_name"]).c_str());
+  print_counts("in the file", told["in_file"]);
+  print_counts("shown", told["shown"]);
+  if (told.contains("triangles_by_material"))
+    print_counts("triangles by surface material code", told["triangles_by_material"]);
+  if (told.contains("extent_m")) {
+    const auto& e = told["extent_m"];
+    std::printf("  east %.1f to %.1f m, north %.1f to %.1f m, up %.1f to %.1f m\n", e["west"].get<double>(),
+                e["east"].get<double>(), e["south"].get<double>(), e["north"].get<double>(), e["lowest"].get<double>(),
+                e["highest"].get<double>());
+  }
+  for (const auto& file : told["external_files"]) std::printf("  with %s\n", file.get<std::string>().c_str());
+  for (const auto& warning : told["warnings"]) std::printf("  warning: %s\n", warning.get<std::string>().c_str());
+}
+
+void tell(const InfoOptions& options) {
+  nlohmann::json all = nlohmann::json::array();
+  NameFilter filter = name_filter(options.without);
+  std::size_t unreadable = 0;
+  for (const std::string& file : options.files) {
+    const auto model = read_openflight(file, &filter);
+    if (!model && options.files.size() == 1) give_up(model.error());
+    if (!model) {
+      std::fprintf(stderr, "yars scene info: %s\n", model.error().message().c_str());
+      ++unreadable;
+      continue;
+    }
+    all.push_back(describe(file, *model));
+    if (!options.json) print(all.back());
+  }
+  if (unreadable > 0)
+    throw CommandFailed{"expected OpenFlight files, found " + std::to_string(unreadable) + " of " +
+                        std::to_string(options.files.size()) + " that cannot be read"};
+  if (const auto complaint = filter.complaint("--without")) give_up(*complaint);
+  if (options.json) std::printf("%s\n", all.dump(2).c_str());
+}
+
+}  // namespace
+
+void add_scene_info(CLI::App& scene) {
+  const auto options = std::make_shared<InfoOptions>();
+  CLI::App* command = scene.add_subcommand("info", "what OpenFlight files hold: counts, materials, extent, origin");
+  command->add_option("files", options->files, "OpenFlight files")->required();
+  add_without(*command, options->without);
+  command->add_flag("--json", options->json, "as JSON");
+  command->callback([options] { tell(*options); });
+}
+
+// `yars scene generate`: a made-up airfield, harbour, bridge or town as an OpenFlight file.
+
+namespace {
+
+using namespace model::scene;
+
+struct GenerateOptions {
+  std::string kind = "airfield";
+  std::uint64_t triangles = 20'000;
+  std::uint64_t seed = 1;
+  std::string origin;
+  std::string out;
+};
+
+void generate(const GenerateOptions& options) {
+  check_file_name("--out", options.out, {".flt"});
+  SceneOrder order{.triangles = options.triangles, .seed = options.seed, .origin = {}};
+  order.kind = *generated_kind(options.kind);
+  const auto place = parse_scene("--origin@" + options.origin);
+  if (!place)
+    throw CommandFailed{"--origin: expected LATITUDE,LONGITUDE in degrees, found '" + options.origin + "'", 2};
+  order.origin = place->place;
+  constexpr std::uint64_t kStep = 10'000;
+  Progress progress(options.triangles / kStep + 1, stderr);
+  const GeneratedScene made =
+      generate_scene(order, [&](std::uint64_t triangles) { progress.done(std::to_string(triangles) + " triangles"); });
+  const std::filesystem::path path = std::filesystem::absolute(options.out);
+  if (const auto written = file::write_file_and_folders(path, made.file); !written) give_up(written.error());
+  std::printf("%s  %s of %llu triangles, %zu bytes\n", options.out.c_str(), options.kind.c_str(),
+              static_cast<unsigned long long>(made.triangles), made.file.size());
+}
+
+}  // namespace
+
+void add_scene_generate(CLI::App& scene) {
+  const auto options = std::make_shared<GenerateOptions>();
+  CLI::App* command = scene.add_subcommand("generate", "a made-up scene as an OpenFlight file");
+  command->add_option("--kind", options->kind, "what it is")
+      ->check(CLI::IsMember({"airfield", "harbour", "bridge", "town"}))
+      ->capture_default_str();
+  command->add_option("--triangles", options->triangles, "about how many, instances counted each time")
+      ->check(CLI::Range(std::uint64_t{1}, kMostGenerated))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "another seed, another scene")->capture_default_str();
+  command->add_option("--origin", options->origin, "LAT,LON [deg]: where its middle stands")->required();
+  command->add_option("--out", options->out, "OpenFlight file")->required();
+  command->callback([options] { generate(*options); });
+}
+
+}  // namespace yars::tools

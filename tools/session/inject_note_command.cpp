@@ -1,0 +1,195 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "databuffer/program.hpp"
+#include "databuffer/records/event_text.hpp"
+#include "databuffer/records/plain_text.hpp"
+#include "databuffer/records/radar_state_validation.hpp"
+#include "databuffer/session.hpp"
+#include "statemachine/transition_table.hpp"
+#include "tools/command/command.hpp"
+
+namespace yars::tools {
+
+// How the supervisor's notes of the flight recorder begin when it has started a role again: `yars note` writes them,
+// `yars status` counts them.
+
+inline constexpr std::string_view kRestartNote = "started again: ";
+
+// `yars note`: a line into the flight recorder of a running session; for scripts that look after it.
+
+namespace {
+
+struct NoteOptions {
+  std::string text;
+  std::string restarted;  // role; empty = a plain note
+};
+
+void note(const CommonOptions& common, const NoteOptions& options) {
+  if (auto running = databuffer::Session::open_read_only(common.session); !running) give_up(running.error());
+  auto session = databuffer::Session::open(common.session, "yars note");
+  if (!session) give_up(session.error());
+  if (options.restarted.empty())
+    session->note(databuffer::NoteKind::supervision, options.text);
+  else {
+    session->count_restart(options.restarted);
+    session->note(databuffer::NoteKind::supervision, std::string(kRestartNote) + options.text, options.restarted);
+  }
+}
+
+}  // namespace
+
+void add_note_command(CLI::App& app, const CommonOptions& common) {
+  auto* command = app.add_subcommand("note", "a line into the session's flight recorder, for `yars status`");
+  auto options = std::make_shared<NoteOptions>();
+  command->add_option("TEXT", options->text, "what happened; 87 characters are kept")->required();
+  command->add_option("--restarted", options->restarted, "the role that was started again, and TEXT says why");
+  command->callback([&common, options] { note(common, *options); });
+}
+
+// `yars inject`: sends events into the session and waits until the state machine says that it applied them.
+
+namespace {
+
+using databuffer::AppliedEvent;
+using databuffer::InputEvent;
+using databuffer::Session;
+
+constexpr std::int64_t kPatience_ns = 2'000'000'000;  // [ns] 2 s: docs/spec/commands.md#inject
+
+// Each argument is a whole event ("pb 13"); a single list of bare words is one event too (pb 13).
+std::vector<InputEvent> parse_events(const std::vector<std::string>& arguments) {
+  std::vector<InputEvent> events;
+  std::string joined;
+  for (const auto& argument : arguments) joined += (joined.empty() ? "" : " ") + argument;
+  if (auto whole = databuffer::event_from_text(joined)) {
+    events.push_back(*whole);
+    return events;
+  }
+  for (const auto& argument : arguments) {
+    auto event = databuffer::event_from_text(argument);
+    if (!event) {
+      auto error = event.error();
+      error.bad_usage = true;
+      give_up(error);
+    }
+    events.push_back(*event);
+  }
+  return events;
+}
+
+// What became of each event, in the order in which they were sent: kEvent...
+using Outcome = std::vector<std::uint32_t>;
+
+// Applied events of our lane come back in the order in which they were sent.
+Outcome wait_until_applied(Session& session, std::uint32_t lane, std::uint64_t cursor, std::size_t count) {
+  Outcome outcome;
+  const std::int64_t deadline_ns = databuffer::monotonic_ns() + kPatience_ns;
+  AppliedEvent applied{};
+  while (outcome.size() < count && databuffer::monotonic_ns() < deadline_ns && !databuffer::stop_requested()) {
+    while (session.layout().applied_events.read(cursor, applied).delivered) {
+      if (applied.lane == lane) outcome.push_back(applied.effective);
+    }
+    if (outcome.size() < count) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return outcome;
+}
+
+std::string events_text(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " event" : " events");
+}
+
+// The state in which the events have left the radar; false: there is none that may be believed.
+bool read_state(Session& session, databuffer::RadarState& state) {
+  return session.layout().radar_state.read(state) && !databuffer::why_refused(state);
+}
+
+// The state machine publishes its state after the events of a tick: a little later than what it says of them.
+databuffer::RadarState state_afterwards(Session& session) {
+  databuffer::RadarState state{};
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  read_state(session, state);
+  return state;
+}
+
+// "3 events: 1 done, 1 without effect, 1 refused", and a line for each that was not done.
+void report(const std::vector<InputEvent>& events, const Outcome& outcome, const databuffer::RadarState& state) {
+  const auto count = [&outcome](std::uint32_t of) {
+    return static_cast<std::size_t>(std::count(outcome.begin(), outcome.end(), of));
+  };
+  std::printf("%s: %zu done", events_text(events.size()).c_str(), count(databuffer::kEventDone));
+  if (const auto dead = count(databuffer::kEventDead)) std::printf(", %zu without effect", dead);
+  if (const auto refused = count(databuffer::kEventRefused)) std::printf(", %zu refused", refused);
+  std::printf("\n");
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (outcome[i] == databuffer::kEventDead)
+      std::printf("  %s: %s\n", databuffer::text_of(events[i]).c_str(),
+                  statemachine::why_without_effect(state, events[i]).c_str());
+  }
+}
+
+[[noreturn]] void give_up_refused(const std::vector<InputEvent>& events, const Outcome& outcome,
+                                  const databuffer::RadarState& state) {
+  std::string refused;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    if (outcome[i] != databuffer::kEventRefused) continue;
+    if (!refused.empty()) refused += ", ";
+    refused += "'" + databuffer::text_of(events[i]) + "'";
+  }
+  const std::string message(databuffer::text_of(state.message));
+  give_up({"inject", "events that can be done", refused + " refused" + (message.empty() ? "" : ": " + message),
+           "`yars watch --json` tells points, cursor and limits", false});
+}
+
+void inject(const CommonOptions& common, const std::vector<std::string>& arguments) {
+  auto events = parse_events(arguments);
+  if (auto running = Session::open_read_only(common.session); !running) give_up(running.error());
+  auto session = Session::open(common.session, "yars inject");
+  if (!session) give_up(session.error());
+  auto lane = session->claim_input_lane("inject");
+  if (!lane) give_up(lane.error());
+  const std::uint64_t cursor = session->layout().applied_events.next();
+  std::uint32_t number = 0;
+  for (auto& event : events) {
+    event.session_time_ns = session->sim_time_ns();
+    event.monotonic_ns = databuffer::monotonic_ns();
+    event.number = ++number;
+    const auto push = [&] { return session->layout().input.push(static_cast<std::size_t>(lane->lane()), event); };
+    const std::int64_t deadline_ns = event.monotonic_ns + kPatience_ns;
+    bool sent = push();
+    while (!sent && databuffer::monotonic_ns() < deadline_ns && !databuffer::stop_requested()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      sent = push();
+    }
+    if (!sent)
+      give_up({"inject", "room in the input lane", "a full lane", "start state-machine, or send fewer events at once",
+               false});
+  }
+  const Outcome outcome = wait_until_applied(*session, static_cast<std::uint32_t>(lane->lane()), cursor, events.size());
+  if (outcome.size() < events.size())
+    give_up({"inject", events_text(events.size()) + " applied within 2 s", std::to_string(outcome.size()),
+             "is state-machine running, and the clock not frozen? (yars status)", false});
+  const bool all_done = std::ranges::count(outcome, databuffer::kEventDone) == std::ssize(outcome);
+  const databuffer::RadarState state = all_done ? databuffer::RadarState{} : state_afterwards(*session);
+  report(events, outcome, state);
+  if (std::ranges::find(outcome, databuffer::kEventRefused) != outcome.end()) give_up_refused(events, outcome, state);
+}
+
+}  // namespace
+
+void add_inject_command(CLI::App& app, const CommonOptions& common) {
+  auto* command = app.add_subcommand("inject", "send events, e.g. yars inject 'power opr' 'pb 13' 'elevation -5'");
+  auto arguments = std::make_shared<std::vector<std::string>>();
+  command->add_option("EVENT", *arguments, "an event as the pilot's interface writes it")
+      ->required()
+      ->allow_extra_args();
+  command->prefix_command(false);
+  command->callback([&common, arguments] { inject(common, *arguments); });
+}
+
+}  // namespace yars::tools

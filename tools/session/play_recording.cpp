@@ -1,0 +1,283 @@
+#include "tools/session/play_recording.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <ctime>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "databuffer/log.hpp"
+#include "databuffer/patch_pool.hpp"
+#include "databuffer/program.hpp"
+#include "databuffer/session.hpp"
+#include "lib/radar/limits.hpp"
+#include "tools/recording/replay.hpp"
+
+namespace yars::tools {
+
+// A session in which a recording plays: state-machine and radar-model to whoever looks on, with the clock set to the
+// recording's time. Each jump begins a new epoch, so that no picture mixes what was before with what is after; all
+// records bear the session's epoch instead of the recorded one. What is pressed there goes nowhere.
+
+class ReplaySession {
+ public:
+  // An error: somebody runs one of the two roles there, or the session steps in lockstep.
+  static failure::Expected<ReplaySession> create(const std::string& name);
+
+  // Clock to this tick, a new epoch; with a rate, it runs by it.
+  failure::Expected<void> jump_to(std::int64_t tick);
+  failure::Expected<void> start(std::int64_t tick, double rate);
+  std::int64_t tick() const;
+  // Somebody else began an epoch (`yars sim reset`); true once for each.
+  bool was_reset();
+
+  // The key frame of a jump takes the place of what stood before, also where it has nothing.
+  void publish_key_frame(const recording::Played& played);
+  void publish(const recording::Played& played);
+  void heartbeat();
+  void drop_events();
+
+ private:
+  ReplaySession(databuffer::Session machine, databuffer::Session model);
+  failure::Expected<void> set_clock(std::int64_t tick, const double* rate);
+  void publish_maps(const recording::Played& played);
+  void publish_sweeps(const recording::Played& played);
+  void publish_status(databuffer::ModelStatus status);
+
+  // Two, because the process table has a name for each role, and a glass takes a role without one for dead.
+  databuffer::Session machine_, model_;
+  databuffer::Claim machine_role_, model_role_, lane_;
+  std::uint32_t epoch_ = 0;
+  std::array<std::uint64_t, 4> maps_named_{};
+};
+
+namespace {
+
+using databuffer::ClockState;
+using databuffer::Session;
+
+// A glass looks 60 times a second: so many at a time never overtake it.
+constexpr std::size_t kSweepsAtOnce = 400;
+constexpr long kReaderPause_ns = 30'000'000;
+
+void pause_for_readers() {
+  const timespec pause{0, kReaderPause_ns};
+  nanosleep(&pause, nullptr);
+}
+
+}  // namespace
+
+ReplaySession::ReplaySession(Session machine, Session model) : machine_(std::move(machine)), model_(std::move(model)) {}
+
+failure::Expected<ReplaySession> ReplaySession::create(const std::string& name) {
+  auto machine = Session::open(name, databuffer::name_of(databuffer::Role::state_machine));
+  if (!machine) return tl::unexpected(machine.error());
+  auto model = Session::open(name, databuffer::name_of(databuffer::Role::radar_model));
+  if (!model) return tl::unexpected(model.error());
+  if (std::as_const(*machine).layout().lockstep.enabled.load() != 0)
+    return failure::fail("session " + name, "one that is live", "one in lockstep", "replay into another --session");
+  ReplaySession session(std::move(*machine), std::move(*model));
+  auto machine_role = session.machine_.claim(databuffer::Role::state_machine);
+  if (!machine_role) return tl::unexpected(databuffer::usage_error(machine_role.error()));
+  auto model_role = session.model_.claim(databuffer::Role::radar_model);
+  if (!model_role) return tl::unexpected(databuffer::usage_error(model_role.error()));
+  auto lane = session.model_.claim_ownship_lane(0);
+  if (!lane) return tl::unexpected(lane.error());
+  session.machine_role_ = std::move(*machine_role);
+  session.model_role_ = std::move(*model_role);
+  session.lane_ = std::move(*lane);
+  return session;
+}
+
+failure::Expected<void> ReplaySession::set_clock(std::int64_t tick, const double* rate) {
+  constexpr std::int64_t kLatestTick = databuffer::kLatestClockBase_ns / radar::kTickNanoseconds;
+  if (tick < 0 || tick > kLatestTick)
+    return failure::fail("the recording", "ticks of 0 to " + std::to_string(kLatestTick), std::to_string(tick),
+                         "it is damaged there: --seek to another time");
+  return machine_.change_clock([&](const ClockState& clock) {
+    ClockState next = clock;
+    next.base_monotonic_ns = databuffer::monotonic_ns();
+    next.base_sim_ns = tick * radar::kTickNanoseconds;
+    if (rate != nullptr) {
+      next.rate = *rate;
+      next.running = 1;
+    }
+    next.epoch = epoch_ = clock.epoch + 1;
+    next.reposition_latitude_deg = std::numeric_limits<double>::quiet_NaN();
+    return next;
+  });
+}
+
+failure::Expected<void> ReplaySession::jump_to(std::int64_t tick) {
+  return set_clock(tick, nullptr);
+}
+
+failure::Expected<void> ReplaySession::start(std::int64_t tick, double rate) {
+  return set_clock(tick, &rate);
+}
+
+std::int64_t ReplaySession::tick() const {
+  return machine_.sim_time_ns() / radar::kTickNanoseconds;
+}
+
+bool ReplaySession::was_reset() {
+  const std::uint32_t epoch = machine_.clock().epoch;
+  return std::exchange(epoch_, epoch) != epoch;
+}
+
+void ReplaySession::publish_key_frame(const recording::Played& played) {
+  if (!played.state) machine_.layout().radar_state.clear();
+  if (!played.outputs) machine_.layout().outputs.clear();
+  if (!played.status) model_.layout().model_status.clear();
+  publish(played);
+}
+
+// Maps before the state that names them, sweeps before the status that counts them.
+void ReplaySession::publish(const recording::Played& played) {
+  if (played.state)
+    maps_named_ = {played.state->map_newest, played.state->map_old, played.state->map_stored, played.state->map_shown};
+  publish_maps(played);
+  publish_sweeps(played);
+  if (played.status) publish_status(*played.status);
+  if (played.outputs) {
+    databuffer::Outputs outputs = *played.outputs;
+    outputs.epoch = epoch_;
+    machine_.layout().outputs.publish(outputs);
+  }
+  if (played.state) {
+    databuffer::RadarState state = *played.state;
+    state.epoch = epoch_;
+    machine_.layout().radar_state.publish(state);
+  }
+}
+
+void ReplaySession::publish_maps(const recording::Played& played) {
+  databuffer::PatchMap there{};
+  for (const recording::Patch& patch : played.maps) {
+    if (databuffer::read_patch(std::as_const(model_).layout(), patch.map.id, there)) continue;
+    if (!databuffer::publish_patch(model_.layout(), patch.map, patch.pixels, maps_named_))
+      model_.note(databuffer::NoteKind::loss, "no free slot for patch map " + std::to_string(patch.map.id));
+  }
+}
+
+void ReplaySession::publish_sweeps(const recording::Played& played) {
+  std::size_t published = 0;
+  for (databuffer::Sweep sweep : played.sweeps) {
+    sweep.epoch = epoch_;
+    model_.layout().sweeps.publish(sweep);
+    if (++published % kSweepsAtOnce == 0) pause_for_readers();
+  }
+}
+
+void ReplaySession::publish_status(databuffer::ModelStatus status) {
+  status.epoch = status.ownship.epoch = status.nav.epoch = epoch_;
+  const auto lane = static_cast<std::size_t>(lane_.lane());
+  model_.layout().ownship[lane].publish(status.ownship);
+  model_.layout().nav[lane].publish(status.nav);
+  model_.layout().model_status.publish(status);
+}
+
+void ReplaySession::heartbeat() {
+  machine_.heartbeat();
+  machine_.keep_clock();
+  model_.heartbeat();
+}
+
+// Else lanes fill up, and whoever presses is told of a machine that has died.
+void ReplaySession::drop_events() {
+  databuffer::InputEvent event{};
+  for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane)
+    while (machine_.layout().input.pop(lane, event)) {
+    }
+}
+
+namespace {
+
+constexpr long kLookPause_ns = 5'000'000;  // between looks: a tick at rate 1
+
+double seconds_of(std::int64_t tick) {
+  return static_cast<double>(tick) * radar::kTickSeconds;
+}
+
+std::string text_of_seconds(std::int64_t tick) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f", seconds_of(tick));
+  return text;
+}
+
+failure::Expected<std::int64_t> first_tick(const recording::RecordingReader& reader, const PlayOptions& options) {
+  const auto blocks = reader.blocks();
+  if (!options.seek_s) return blocks.front().first_tick;
+  const auto least = std::ranges::min_element(blocks, {}, &recording::IndexEntry::first_tick)->first_tick;
+  const auto most = std::ranges::max_element(blocks, {}, &recording::IndexEntry::last_tick)->last_tick;
+  const double tick = std::round(*options.seek_s / radar::kTickSeconds);  // NaN lies in no recording
+  if (tick >= static_cast<double>(least) && tick <= static_cast<double>(most)) return static_cast<std::int64_t>(tick);
+  return tl::unexpected(databuffer::usage_error(
+      "--seek", "a time of " + options.file + ", " + text_of_seconds(least) + " to " + text_of_seconds(most) + " s",
+      std::to_string(*options.seek_s)));
+}
+
+failure::Expected<void> seek(ReplaySession& session, recording::Player& player, std::int64_t tick) {
+  const recording::Played played = player.seek(tick);
+  if (auto jumped = session.jump_to(tick); !jumped) return jumped;
+  session.publish_key_frame(played);
+  return {};
+}
+
+// One look: true while there is more to come.
+failure::Expected<bool> look(ReplaySession& session, recording::Player& player, std::int64_t begin) {
+  session.heartbeat();
+  session.drop_events();
+  if (session.was_reset()) {
+    if (auto sought = seek(session, player, std::max(session.tick(), begin)); !sought)
+      return tl::unexpected(sought.error());
+    return true;
+  }
+  const std::int64_t now = session.tick();
+  const recording::Played played = player.play_to(now);
+  session.publish(played);
+  if (played.cut_to_tick) {
+    databuffer::log_info("at " + text_of_seconds(player.tick()) + " s the recording goes on at " +
+                         text_of_seconds(*played.cut_to_tick) + " s");
+    if (auto jumped = session.jump_to(*played.cut_to_tick); !jumped) return tl::unexpected(jumped.error());
+    return true;
+  }
+  // With the clock held, the last picture stands.
+  return !played.ended || now <= player.tick();
+}
+
+}  // namespace
+
+failure::Expected<void> play_recording(recording::RecordingReader& reader, std::optional<recording::PlayerWorld> world,
+                                       const PlayOptions& options) {
+  if (std::isnan(options.rate)) return tl::unexpected(databuffer::usage_error("--rate", "0 to 10", "not a number"));
+  const auto begin = first_tick(reader, options);
+  if (!begin) return tl::unexpected(begin.error());
+  auto session = ReplaySession::create(options.session);
+  if (!session) return tl::unexpected(session.error());
+  recording::Player player(reader, std::move(world));
+  const recording::Played key_frame = player.seek(*begin);
+  if (auto started = session->start(*begin, options.rate); !started) return started;
+  session->publish_key_frame(key_frame);
+  databuffer::log_info("plays " + options.file + " in session " + options.session + " from " + text_of_seconds(*begin) +
+                       " s");
+  while (!databuffer::stop_requested()) {
+    const auto more = look(*session, player, reader.blocks().front().first_tick);
+    if (!more) return tl::unexpected(more.error());
+    if (!*more) break;
+    const timespec pause{0, kLookPause_ns};
+    nanosleep(&pause, nullptr);
+  }
+  std::printf("%s: played from %s to %s s of sim time\n", options.file.c_str(), text_of_seconds(*begin).c_str(),
+              text_of_seconds(player.tick()).c_str());
+  if (player.different() > 0)
+    databuffer::log_warning(std::to_string(player.different()) +
+                            " sweeps are not those that were recorded; replay with the same terrain and configuration");
+  return {};
+}
+
+}  // namespace yars::tools

@@ -1,0 +1,126 @@
+// `yars record`: the recorder of a session, until Ctrl-C or the end of a lockstep run.
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+
+#include "databuffer/log.hpp"
+#include "databuffer/program.hpp"
+#include "databuffer/session.hpp"
+#include "databuffer/tick_loop.hpp"
+#include "tools/command/command.hpp"
+#include "tools/recording/recording_writer.hpp"
+#include "tools/session/recorder.hpp"
+
+namespace yars::tools {
+
+namespace {
+
+using databuffer::Session;
+
+constexpr std::int64_t kPause_ns = 50'000'000;  // [ns] between looks; the rings hold 5 s of sim time
+constexpr int kQuietLooks = 40;                 // 2 s: what was gathered by then is written, though time stands still
+
+struct RecordOptions {
+  std::string file;
+  std::string terrain;
+  std::string lockstep;
+  std::string log_dir;
+  bool overwrite = false;
+  double keep_mb = 0.0;  // 0: no limit
+  RecordedExtras extras;
+};
+
+std::int64_t tick_of(const Session& session) {
+  return session.sim_time_ns() / radar::kTickNanoseconds;
+}
+
+// What came since the last look, and the last state though it is not due yet.
+void drain_the_rest(Session& session, Recorder& recorder) {
+  recorder.drain(tick_of(session) + recording::kPaceTicks);
+}
+
+// Live it looks now and then; in lockstep it is the last of each tick, so that nothing is lost at any speed. When the
+// disk takes no more it stays all the same: the pilot sees it (docs/spec/pilots_interface.md#rule-22), and the set does
+// not end for it.
+void record_live(Session& session, Recorder& recorder, const recording::RecordingWriter& writer) {
+  int quiet_looks = 0;
+  while (!databuffer::stop_requested()) {
+    const std::uint64_t bytes_before = writer.bytes();
+    recorder.drain(tick_of(session));
+    quiet_looks = writer.bytes() == bytes_before ? quiet_looks + 1 : 0;
+    if (quiet_looks >= kQuietLooks) recorder.flush();
+    session.heartbeat();
+    const timespec pause{0, kPause_ns};
+    nanosleep(&pause, nullptr);
+  }
+  drain_the_rest(session, recorder);
+}
+
+void record_in_lockstep(Session& session, Recorder& recorder, const std::string& lockstep) {
+  auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::recorder, lockstep);
+  if (!loop) give_up(loop.error());
+  while (const auto due = loop->wait()) {
+    recorder.drain(due->tick);
+    loop->done(*due);
+  }
+  if (auto ended = loop->outcome(); !ended) give_up(ended.error());
+  drain_the_rest(session, recorder);
+}
+
+// A recording may be replayed from another folder.
+std::string absolute(const std::string& path) {
+  return path.empty() ? path : std::filesystem::absolute(path).string();
+}
+
+void record(const CommonOptions& common, const RecordOptions& options) {
+  databuffer::keep_files_private();
+  if (!options.log_dir.empty()) databuffer::start_log_file("recorder", options.log_dir);
+  auto session = Session::open(common.session, "recorder");
+  if (!session) give_up(session.error());
+  auto role = session->claim(databuffer::Role::recorder);
+  if (!role) give_up(databuffer::usage_error(role.error()));
+  auto writer = recording::RecordingWriter::create(
+      options.file, {absolute(common.config), absolute(options.terrain)},
+      options.overwrite ? recording::Existing::overwritten : recording::Existing::refused);
+  if (!writer) give_up(writer.error());
+  const auto recorder_index = static_cast<std::size_t>(databuffer::LockstepRole::recorder);
+  const bool from_the_begin =
+      !options.lockstep.empty() && session->layout().lockstep.done_tick[recorder_index].load() < 0;
+  RecordedExtras extras = options.extras;
+  extras.keep_bytes = static_cast<std::uint64_t>(options.keep_mb * 1e6);
+  Recorder recorder(*session, *writer, extras, from_the_begin);
+  databuffer::log_info("records session " + common.session + " to " + options.file);
+  if (options.lockstep.empty())
+    record_live(*session, recorder, *writer);
+  else
+    record_in_lockstep(*session, recorder, options.lockstep);
+  failure::Expected<void> outcome = recorder.outcome();
+  if (outcome) outcome = writer->close();
+  std::printf("%llu ticks, %llu sweeps, %llu bytes in %s\n", static_cast<unsigned long long>(recorder.ticks()),
+              static_cast<unsigned long long>(recorder.sweeps()), static_cast<unsigned long long>(writer->bytes()),
+              options.file.c_str());
+  if (recorder.refused() > 0)
+    databuffer::log_warning(std::to_string(recorder.refused()) + " records out of range were not recorded");
+  if (!outcome) give_up(outcome.error());
+}
+
+}  // namespace
+
+void add_record_command(CLI::App& app, const CommonOptions& common) {
+  auto* command = app.add_subcommand("record", "record the session's ticks and events until Ctrl-C");
+  auto options = std::make_shared<RecordOptions>();
+  command->add_option("FILE", options->file, "recording to write")->required();
+  command->add_flag("--overwrite", options->overwrite, "write over FILE when it is there already (else it is refused)");
+  command
+      ->add_option("--keep", options->keep_mb,
+                   "MB of the disk at most: the newest, in FILE and the one before it, FILE.before (else no limit)")
+      ->check(CLI::Range(20.0, 1e9));
+  command->add_flag("--sweeps", options->extras.sweeps, "also the video of the sweeps (up to 0.8 MB a second)");
+  command->add_flag("--patches", options->extras.patches, "also the patch maps (up to 1 MB each)");
+  command->add_option("--terrain", options->terrain, "the directory that radar-model was given, for the replay");
+  command->add_option("--lockstep", options->lockstep, "the set's plan, when it runs in lockstep");
+  command->add_option("--log-dir", options->log_dir, "folder in which the log is kept too, rotated (else no file)");
+  command->callback([&common, options] { record(common, *options); });
+}
+
+}  // namespace yars::tools

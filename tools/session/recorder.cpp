@@ -1,0 +1,233 @@
+#include "tools/session/recorder.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "databuffer/log.hpp"
+#include "databuffer/patch_pool.hpp"
+#include "databuffer/records/event_validation.hpp"
+#include "databuffer/records/model_validation.hpp"
+#include "databuffer/records/radar_state_validation.hpp"
+#include "databuffer/records/validation.hpp"
+#include "databuffer/session_layout.hpp"
+
+namespace yars::tools {
+
+namespace {
+
+constexpr std::int64_t kTicksBetweenStatus = 200;  // 1 s of sim time
+constexpr std::int64_t kLookForRoom_ns = 5'000'000'000;
+
+template <class Ring, class Record>
+bool take(const Ring& ring, std::uint64_t& cursor, Record& record, std::uint64_t& lost) {
+  const auto outcome = ring.read(cursor, record);
+  lost += outcome.lost;
+  return outcome.delivered;
+}
+
+}  // namespace
+
+Recorder::Recorder(databuffer::Session& session, recording::RecordingWriter& writer, RecordedExtras extras,
+                   bool from_the_begin)
+    : session_(&session),
+      writer_(&writer),
+      extras_(extras),
+      state_(session.layout().radar_state),
+      status_(session.layout().model_status),
+      outputs_(session.layout().outputs) {
+  databuffer::RadarState state{};
+  if (session.layout().radar_state.read(state)) vtr_request_ = state.vtr_request;
+  if (!from_the_begin) begin_here();
+}
+
+void Recorder::begin_here() {
+  const auto& layout = session_->layout();
+  // What stands at a begin is written though it does not change.
+  state_pace_ = {};
+  status_pace_ = outputs_pace_ = {};
+  tick_cursor_ = layout.model_ticks.next();
+  event_cursor_ = layout.applied_events.next();
+  sweep_cursor_ = layout.sweeps.next();
+  const std::uint64_t traffic = layout.traffic_latched.next();
+  traffic_cursor_ = traffic > 0 ? traffic - 1 : 0;  // the last one holds
+  // The status may be of a later tick than the cursor: ticks up to it are not written.
+  recording::StartingPoint start{};
+  if (!layout.model_status.read(start.status) || databuffer::why_refused(start.status)) return;
+  append(start);
+  from_tick_ = start.status.tick + 1;
+  from_epoch_ = start.status.epoch;
+}
+
+template <class T>
+void Recorder::append(const T& record) {
+  if (outcome_) settle(writer_->append(record));
+}
+
+// A disk that takes no more ends the recording, not the recorder: who flies shall read it.
+void Recorder::settle(failure::Expected<void> written) {
+  if (written || !outcome_) return;
+  outcome_ = std::move(written);
+  resumes_writing_ = std::exchange(writing_, false);
+  next_look_for_room_ns_ = databuffer::monotonic_ns() + kLookForRoom_ns;
+  databuffer::log_warning(outcome_.error().message() + "; it looks for room every 5 s");
+  session_->note(databuffer::NoteKind::loss, "recorder stopped: " + outcome_.error().found);
+}
+
+void Recorder::look_for_room() {
+  const std::int64_t now_ns = databuffer::monotonic_ns();
+  if (outcome_ || now_ns < next_look_for_room_ns_) return;
+  next_look_for_room_ns_ = now_ns + kLookForRoom_ns;
+  if (!writer_->resume()) return;
+  outcome_ = {};
+  writing_ = resumes_writing_;
+  databuffer::log_info("there is room on the disk again");
+  session_->note(databuffer::NoteKind::loss, "recorder writes again");
+  if (writing_) begin_here();
+}
+
+// The file that was is set aside before the two together take more than they may.
+void Recorder::begin_next_file() {
+  if (extras_.keep_bytes == 0 || !outcome_ || writer_->bytes() < extras_.keep_bytes / 2) return;
+  settle(writer_->begin_next());
+  if (!outcome_) return;
+  patches_seen_.clear();
+  begin_here();
+}
+
+template <class T>
+bool Recorder::believes(const T& record) {
+  const auto refusal = databuffer::why_refused(record);
+  if (!refusal) return true;
+  ++refused_;
+  session_->note(databuffer::NoteKind::refusal, "not recorded: " + *refusal);
+  return false;
+}
+
+void Recorder::flush() {
+  if (outcome_) settle(writer_->flush());
+}
+
+void Recorder::drain(std::int64_t tick) {
+  state_.refresh();
+  look_for_room();
+  if (writing_) take_all(tick);
+  if (writing_) begin_next_file();
+  if (state_.has_value()) obey(state_.value().vtr_request);
+  publish(tick);
+}
+
+// Two presses between two looks: as it was. The press that stops is in the recording, the one that starts is not.
+void Recorder::obey(std::uint32_t vtr_request) {
+  const bool changes = (vtr_request - vtr_request_) % 2 != 0;
+  vtr_request_ = vtr_request;
+  if (!changes) return;
+  if (!outcome_) {
+    resumes_writing_ = !resumes_writing_;
+    return;
+  }
+  writing_ = !writing_;
+  if (writing_)
+    begin_here();
+  else
+    flush();
+  databuffer::log_info(writing_ ? "writes on" : "stopped writing");
+}
+
+void Recorder::publish(std::int64_t tick) {
+  databuffer::RecorderStatus status = published_;
+  status.bytes = writer_->bytes();
+  status.writing = writing_ ? 1 : 0;
+  status.vtr_request = vtr_request_;
+  std::ranges::fill(status.problem, '\0');
+  if (!outcome_) outcome_.error().found.copy(status.problem, sizeof status.problem - 1);
+  const bool changed = std::memcmp(&status, &published_, sizeof status) != 0;
+  const bool due = tick < status.tick || tick - status.tick >= kTicksBetweenStatus;
+  if (!changed && !due && has_published_) return;
+  status.tick = tick;
+  status.sim_time_ns = tick * radar::kTickNanoseconds;
+  session_->layout().recorder_status.publish(status);
+  published_ = status;
+  has_published_ = true;
+}
+
+void Recorder::take_all(std::int64_t tick) {
+  recording::Gap gap{};
+  take_ticks(gap.ticks);
+  databuffer::AppliedEvent event{};
+  while (take(session_->layout().applied_events, event_cursor_, event, gap.events))
+    if (believes(event.event)) append(event);
+  take_latest(tick);
+  take_sweeps(gap.sweeps);
+  if (extras_.patches) take_patches();
+  if (gap.ticks + gap.events + gap.sweeps > 0) {
+    append(gap);
+    session_->note(databuffer::NoteKind::loss, "recorder fell behind by " + std::to_string(gap.ticks) + " ticks");
+  }
+}
+
+void Recorder::take_ticks(std::uint64_t& lost) {
+  databuffer::ModelTick tick{};
+  while (take(session_->layout().model_ticks, tick_cursor_, tick, lost)) {
+    if (from_tick_ && tick.tick < *from_tick_ && tick.epoch == from_epoch_ &&
+        (tick.flags & databuffer::kTickRestart) == 0U)
+      continue;
+    from_tick_.reset();
+    take_traffic_before(tick);
+    if (!believes(tick)) continue;
+    append(tick);
+    ++ticks_;
+  }
+}
+
+// What holds at the tick stands before it. A record lost to a slow recorder is one that a later one has replaced.
+void Recorder::take_traffic_before(const databuffer::ModelTick& tick) {
+  databuffer::Traffic traffic{};
+  while (traffic_cursor_ < tick.traffic && session_->layout().traffic_latched.read(traffic_cursor_, traffic).delivered)
+    if (believes(traffic)) append(traffic);
+}
+
+// Latest values, not rings: live, a state that lasted less than a look is passed over.
+void Recorder::take_latest(std::int64_t tick) {
+  if (state_.has_value() && state_pace_.takes(state_.value(), tick) && believes(state_.value()))
+    append(recording::StateChange{state_.value()});
+  if (status_pace_.is_due(tick) && status_.refresh()) {
+    status_pace_.taken(tick);
+    if (believes(status_.value())) append(recording::StatusReport{status_.value()});
+  }
+  if (outputs_pace_.is_due(tick) && outputs_.refresh()) {
+    outputs_pace_.taken(tick);
+    if (believes(outputs_.value())) append(outputs_.value());
+  }
+}
+
+void Recorder::take_sweeps(std::uint64_t& lost) {
+  while (take(session_->layout().sweeps, sweep_cursor_, sweep_, lost)) {
+    if (!believes(sweep_)) continue;
+    if (extras_.sweeps)
+      append(sweep_);
+    else
+      append(recording::mark_of(sweep_));
+    ++sweeps_;
+  }
+}
+
+void Recorder::take_patches() {
+  const auto& layout = session_->layout();
+  std::vector<std::uint64_t> ids;
+  for (const databuffer::PatchSlot& slot : layout.patches) ids.push_back(slot.id.load(std::memory_order_acquire));
+  std::sort(ids.begin(), ids.end());
+  // By what is there, not by the greatest: an id that cannot be would hide all maps to come.
+  std::erase_if(patches_seen_, [&ids](std::uint64_t id) { return std::ranges::find(ids, id) == ids.end(); });
+  for (const std::uint64_t id : ids) {
+    if (id == 0 || std::ranges::find(patches_seen_, id) != patches_seen_.end() ||
+        !databuffer::read_patch(layout, id, patch_.map, patch_.pixels))
+      continue;
+    patches_seen_.push_back(id);
+    if (believes(patch_.map)) append(patch_);
+  }
+}
+
+}  // namespace yars::tools

@@ -1,0 +1,273 @@
+// `yars replay`: plays a recording into a session for a glass; --events runs the kernel again over its ticks and
+// compares every sweep; --print says what happened.
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "config/load.hpp"
+#include "databuffer/log.hpp"
+#include "databuffer/program.hpp"
+#include "databuffer/records/event_text.hpp"
+#include "model/terrain/store/directory_store.hpp"
+#include "tools/command/command.hpp"
+#include "tools/recording/recording_reader.hpp"
+#include "tools/recording/replay.hpp"
+#include "tools/session/play_recording.hpp"
+#include "tools/session/watch_json.hpp"
+
+namespace yars::tools {
+
+namespace {
+
+using databuffer::ModelTick;
+
+struct ReplayOptions {
+  std::string file;
+  std::string terrain;
+  bool events = false;
+  bool print = false;
+  double rate = 1.0;
+  std::optional<double> seek_s;
+};
+
+// What the kernel makes sweeps of.
+struct World {
+  radar::RadarConfiguration configuration;
+  std::unique_ptr<model::terrain::TerrainStore> store;
+  std::unique_ptr<model::scene::SceneStore> scenes;
+};
+
+radar::RadarConfiguration configuration_of(const CommonOptions& common, const recording::RecordingHeader& header,
+                                           const ReplayOptions& options) {
+  auto loaded = config::load_configuration(common.config.empty() ? header.configuration : common.config);
+  if (!loaded) give_up(loaded.error());
+  if (!header.terrain.empty()) loaded->radar.terrain.directory = header.terrain;
+  if (!options.terrain.empty()) loaded->radar.terrain.directory = options.terrain;
+  return std::move(loaded->radar);
+}
+
+World open_world(const CommonOptions& common, const recording::RecordingHeader& header, const ReplayOptions& options) {
+  World world{configuration_of(common, header, options), nullptr, nullptr};
+  auto store = model::terrain::open_terrain(world.configuration.terrain);
+  if (!store) give_up(store.error());
+  auto scenes = model::scene::open_scenes(world.configuration, model::scene::SceneUse::scatterers);
+  if (!scenes) give_up(scenes.error());
+  world.store = std::move(*store);
+  world.scenes = std::move(*scenes);
+  return world;
+}
+
+std::string text_of_ticks(const recording::IndexEntry& block) {
+  return std::to_string(block.first_tick) +
+         (block.last_tick > block.first_tick ? " to " + std::to_string(block.last_tick) : "");
+}
+
+// Where it ends early or has holes; what was read stands.
+void tell_what_is_missing(const recording::RecordingReader& reader, const std::string& file) {
+  constexpr std::size_t kMostTold = 20;
+  const auto& missing = reader.missing();
+  if (missing.empty()) {
+    if (reader.cut_short()) databuffer::log_warning(file + ": cut short; it was read to its last whole block");
+    return;
+  }
+  std::string ticks;
+  for (std::size_t i = 0; i < std::min(missing.size(), kMostTold); ++i)
+    ticks += (i == 0 ? "" : ", ") + text_of_ticks(missing[i]);
+  if (missing.size() > kMostTold) ticks += ", and more";
+  give_up({file, "whole blocks",
+           std::to_string(missing.size()) + (missing.size() == 1 ? " damaged one" : " damaged ones") +
+               "; missing are ticks " + ticks,
+           "the rest was read", false});
+}
+
+// Texts of a file that others have made need not be UTF-8.
+std::string text_of(const nlohmann::ordered_json& object) {
+  return object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+void print_entries(recording::RecordingReader& reader) {
+  while (const auto entry = reader.next()) {
+    if (databuffer::stop_requested()) return;
+    nlohmann::ordered_json object;
+    if (const auto* event = std::get_if<databuffer::AppliedEvent>(&*entry)) {
+      object["tick"] = event->tick;
+      object["event"] = databuffer::text_of(event->event);
+      object["effective"] = event->effective != 0;
+    } else if (const auto* change = std::get_if<recording::StateChange>(&*entry)) {
+      object["tick"] = change->state.tick;
+      add_radar_state(object["state"], change->state);
+    } else if (const auto* patch = std::get_if<recording::Patch>(&*entry)) {
+      object["tick"] = patch->map.end_tick;
+      object["patch"] = {{"id", patch->map.id}, {"size", patch->map.size}, {"hash", patch->map.hash}};
+    } else {
+      continue;
+    }
+    std::printf("%s\n", text_of(object).c_str());
+  }
+}
+
+failure::Error no_ticks(const std::string& file) {
+  return {file, "at least one tick", "none", "record while radar-model runs", false};
+}
+
+void play(const CommonOptions& common, recording::RecordingReader& reader, const ReplayOptions& options,
+          const std::string& session) {
+  if (!recording::Player::has_ticks(reader)) give_up(no_ticks(options.file));
+  std::optional<World> world;
+  std::optional<recording::PlayerWorld> seen;
+  if (!recording::Player::has_video(reader)) {
+    world = open_world(common, reader.header(), options);
+    seen = recording::PlayerWorld{world->configuration, world->store.get(), world->scenes.get()};
+  }
+  if (auto played = play_recording(reader, std::move(seen), {options.file, session, options.rate, options.seek_s});
+      !played)
+    give_up(played.error());
+  tell_what_is_missing(reader, options.file);
+}
+
+// The kernel's second run over the items of a recording. Behind a damaged block it waits for a status to go on from;
+// what comes meanwhile is done after it.
+class SecondRun {
+ public:
+  explicit SecondRun(World& world) : world_(world) {}
+
+  void take(const recording::RecordingItem& item) {
+    if (const auto* gap = std::get_if<recording::Gap>(&item)) lost_ += gap->ticks;
+    if (std::holds_alternative<databuffer::AppliedEvent>(item)) ++events_;
+    if (const auto* start = std::get_if<recording::StartingPoint>(&item)) begin(*start);
+    const auto* report = std::get_if<recording::StatusReport>(&item);
+    if (waiting_ && report != nullptr) return go_on(report->status);
+    if (waiting_)
+      waited_.push_back(item);
+    else
+      run(item);
+  }
+  void pass_over_hole() {
+    waiting_ = true;
+    waited_.clear();
+  }
+
+  bool has_run() const { return run_.has_value(); }
+  const recording::Replay& replay() const { return *run_; }
+  std::uint64_t lost() const { return lost_; }
+  nlohmann::ordered_json result(const recording::RecordingReader& reader) const;
+
+ private:
+  recording::Replay& kernel() {
+    if (!run_) run_.emplace(world_.configuration, *world_.store, world_.scenes.get());
+    return *run_;
+  }
+  void begin(const recording::StartingPoint& start) {
+    if (kernel().ticks() > 0 && !waiting_) ++pauses_;
+    kernel().start(start);
+    waiting_ = false;
+    waited_.clear();
+  }
+  void go_on(const databuffer::ModelStatus& status) {
+    begin({status});
+    for (const auto& item : std::exchange(waited_, {})) {
+      const auto tick = std::visit([](const auto& record) { return recording::tick_of(record); }, item);
+      const bool done = tick && *tick <= status.tick;
+      if (!done || std::holds_alternative<databuffer::Traffic>(item)) run(item);
+    }
+  }
+  void run(const recording::RecordingItem& item) {
+    if (const auto* tick = std::get_if<ModelTick>(&item)) {
+      world_.configuration.fidelity.samples = static_cast<int>(tick->samples);
+      kernel().tick(*tick);
+    } else if (const auto* traffic = std::get_if<databuffer::Traffic>(&item)) {
+      kernel().traffic(*traffic);
+    } else if (const auto* mark = std::get_if<recording::SweepMark>(&item)) {
+      if (run_) run_->recorded(*mark);
+    } else if (const auto* sweep = std::get_if<databuffer::Sweep>(&item)) {
+      if (run_) run_->recorded(recording::mark_of(*sweep));
+    }
+  }
+
+  World& world_;
+  std::optional<recording::Replay> run_;
+  bool waiting_ = false;
+  std::vector<recording::RecordingItem> waited_;
+  std::uint64_t events_ = 0, lost_ = 0, pauses_ = 0;
+};
+
+nlohmann::ordered_json SecondRun::result(const recording::RecordingReader& reader) const {
+  nlohmann::ordered_json missing = nlohmann::ordered_json::array();
+  for (const auto& block : reader.missing()) missing.push_back({block.first_tick, block.last_tick});
+  const auto& comparison = run_->comparison();
+  return {{"ticks", run_->ticks()},
+          {"events", events_},
+          {"sweeps", run_->sweeps()},
+          {"equal", comparison.equal()},
+          {"different", comparison.different()},
+          {"missing", comparison.missing()},
+          {"extra", comparison.extra()},
+          {"not_ready", comparison.not_ready()},
+          {"run_hash", comparison.run_hash()},
+          {"ticks_lost", lost_},
+          {"pauses", pauses_},
+          {"cut_short", reader.cut_short()},
+          {"missing_ticks", missing}};
+}
+
+void compare(const CommonOptions& common, recording::RecordingReader& reader, const ReplayOptions& options) {
+  World world = open_world(common, reader.header(), options);
+  SecondRun run(world);
+  while (auto entry = reader.next()) {
+    if (databuffer::stop_requested())
+      give_up({options.file, "time to read it to its end", "a request to stop", "", false});
+    if (reader.take_hole()) run.pass_over_hole();
+    run.take(*entry);
+  }
+  if (!run.has_run()) {
+    tell_what_is_missing(reader, options.file);
+    give_up(no_ticks(options.file));
+  }
+  std::printf("%s\n", text_of(run.result(reader)).c_str());
+  std::fflush(stdout);
+  const auto& comparison = run.replay().comparison();
+  if (comparison.different() > 0)
+    give_up({options.file, "the sweeps of the recording", std::to_string(comparison.different()) + " different ones",
+             run.lost() > 0 ? std::to_string(run.lost()) + " ticks are missing in the recording"
+                            : "replay with the same terrain and configuration",
+             false});
+  if (comparison.equal() == 0 && comparison.missing() > 0)
+    give_up({options.file, "the sweeps of the recording", "none of them", "replay with the same configuration", false});
+  tell_what_is_missing(reader, options.file);
+}
+
+}  // namespace
+
+void add_replay_command(CLI::App& app, const CommonOptions& common) {
+  auto* command = app.add_subcommand(
+      "replay", "play a recording into a session of its own (--session, else 'replay'), for a radar-display there");
+  auto options = std::make_shared<ReplayOptions>();
+  command->add_option("FILE", options->file, "recording made by yars record")->required();
+  auto* events =
+      command->add_flag("--events", options->events, "make the sweeps again from the ticks, offline, and compare them");
+  auto* print =
+      command->add_flag("--print", options->print, "print events, radar states and patch maps, a JSON object a line");
+  events->excludes(print);
+  auto* rate = command->add_option("--rate", options->rate, "times real time, 0 to 10 (else 1); 0 holds the picture");
+  rate->check(CLI::Range(0.0, 10.0))->excludes(events)->excludes(print);
+  auto* seek = command->add_option("--seek", options->seek_s, "sim time in s to begin at (else the recording's begin)");
+  seek->check(CLI::Range(0.0, databuffer::kLatestSimTime_s))->excludes(events)->excludes(print);
+  command->add_option("--terrain", options->terrain, "terrain directory (else the recording's)");
+  const auto* session = app.get_option("--session");
+  command->callback([&common, options, session] {
+    const bool named = session->count() > 0;
+    auto reader = recording::RecordingReader::open(options->file);
+    if (!reader) give_up(reader.error());
+    if (options->events) return compare(common, *reader, *options);
+    // Never into the session that the environment names: that is where people fly.
+    if (!options->print) return play(common, *reader, *options, named ? common.session : "replay");
+    print_entries(*reader);
+    tell_what_is_missing(*reader, options->file);
+  });
+}
+
+}  // namespace yars::tools

@@ -1,0 +1,289 @@
+#include "tools/session/status_json.hpp"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "databuffer/frame_pool.hpp"
+#include "databuffer/ownship_receiver.hpp"
+#include "databuffer/records/model_validation.hpp"
+#include "databuffer/records/plain_text.hpp"
+#include "databuffer/records/validation.hpp"
+#include "databuffer/session.hpp"
+#include "tools/session/watch_json.hpp"
+
+namespace yars::tools {
+
+// What `yars status` makes of a session at a glance.
+
+// Everybody in the process table and the roles that a set cannot be without, in the order of a set:
+// [{name, pid (0: not running), heartbeat_ms (null: not running), hangs, restarts, restarts_last_minute}].
+// A role hangs when its heartbeat is older than 2 s; restarts are the supervisor's.
+nlohmann::ordered_json roles_json(const databuffer::Session& session);
+
+// {"state": "OK", "DEGRADED" or "NOTHING RUNS", "reasons": [words]}, from the object with watch, model, roles,
+// recorder, frames_failing, input, refusals, clock_problem and named.
+nlohmann::ordered_json health_json(const nlohmann::ordered_json& status);
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr double kHangsAfter_ms = 2000.0;
+constexpr std::int64_t kLastMinute_ns = 60'000'000'000;
+
+struct SetRole {
+  const char* name;
+  bool needed;  // without it there is no radar
+};
+constexpr std::array<SetRole, 6> kSet{{{"state-machine", true},
+                                       {"radar-model", true},
+                                       {"flight-model", false},
+                                       {"input-monitor", false},
+                                       {"radar-display", false},
+                                       {"recorder", false}}};
+
+std::size_t place_of(std::string_view name) {
+  return static_cast<std::size_t>(
+      std::ranges::find(kSet, name, [](const SetRole& role) { return std::string_view(role.name); }) - kSet.begin());
+}
+
+ordered_json role_json(const databuffer::ProcessHere& process, std::int64_t now_ns) {
+  const double heartbeat_ms = static_cast<double>(now_ns - process.heartbeat_ns) * 1e-6;
+  // Only of the set's own roles is it known that they beat.
+  const bool hangs = place_of(process.name) < kSet.size() && heartbeat_ms > kHangsAfter_ms;
+  return {{"name", process.name}, {"pid", process.pid}, {"heartbeat_ms", heartbeat_ms}, {"hangs", hangs}};
+}
+
+// Counted beside the flight recorder: a flood of its lines changes nothing here.
+void count_restarts(ordered_json& role, const databuffer::Session& session, std::int64_t now_ns) {
+  const auto index = databuffer::counted_role(role["name"].get<std::string>());
+  const databuffer::RecentCount none{};
+  const auto& restarts = index ? session.layout().counters.restarts[*index] : none;
+  role["restarts"] = restarts.count.load();
+  role["restarts_last_minute"] = restarts.within(kLastMinute_ns, now_ns);
+}
+
+void judge_roles(const ordered_json& roles, std::vector<std::string>& reasons) {
+  for (const auto& role : roles) {
+    const auto name = role["name"].get<std::string>();
+    if (role["pid"] == 0) reasons.push_back(name + " is not running");
+    if (role["hangs"].get<bool>())
+      reasons.push_back((name == "radar-display" ? "the glass" : name) + " hangs (heartbeat " +
+                        std::to_string(static_cast<int>(role["heartbeat_ms"].get<double>() / 1000.0)) + " s old)");
+    const int restarts = role["restarts_last_minute"];
+    if (restarts == 0) continue;
+    reasons.push_back(name + " was started again " + (restarts == 1 ? "once" : std::to_string(restarts) + " times") +
+                      " in the last minute");
+  }
+}
+
+bool runs(const ordered_json& roles, std::string_view name) {
+  return std::ranges::any_of(roles, [name](const auto& role) { return role["name"] == name && role["pid"] != 0; });
+}
+
+void judge_radar(const ordered_json& status, std::vector<std::string>& reasons) {
+  const auto& watch = status["watch"];
+  const auto& model = status["model"];
+  if (runs(status["roles"], "state-machine") && watch["power"] == "OFF")
+    reasons.emplace_back("the radar is off: yars inject 'power opr' switches it on");
+  // What a model that has died left behind tells nothing.
+  if (!runs(status["roles"], "radar-model")) return;
+  if (watch["ownship"].is_null())
+    reasons.push_back(status["ownship_lanes"].empty() ? "no ownship: nobody flies"
+                                                      : "no ownship: its source is silent");
+  else if (model["terrain_bytes"] == 0 && watch["power"] == "OPR" && watch["sweeps"] > 0)
+    reasons.emplace_back("terrain missing: none is loaded for where the aircraft is");
+}
+
+// One record out of range is somebody's slip; this many within ten seconds are a writer that goes on with it.
+void judge_borders(const ordered_json& status, std::vector<std::string>& reasons) {
+  constexpr int kManyRefusals = 3;
+  if (!status["clock_problem"].is_null())
+    reasons.push_back("the session's clock is damaged (" + status["clock_problem"].get<std::string>() +
+                      "): yars sim reset sets it");
+  const auto& input = status["input"];
+  if (input["sources"] == 0 && input["missing"] > 0) reasons.emplace_back("no input: who sent events has died");
+  const auto& refusals = status["refusals"];
+  if (refusals["last_10_s"] < kManyRefusals) return;
+  const std::string newest = refusals["newest"].is_null() ? "" : ": " + refusals["newest"].get<std::string>();
+  reasons.push_back("records are being refused" + newest);
+}
+
+}  // namespace
+
+ordered_json roles_json(const databuffer::Session& session) {
+  const std::int64_t now_ns = databuffer::monotonic_ns();
+  const auto processes = session.processes();
+  ordered_json roles = ordered_json::array();
+  // In the order of a set, then who is none of its roles.
+  for (std::size_t place = 0; place <= kSet.size(); ++place) {
+    bool here = false;
+    for (const auto& process : processes) {
+      if (place_of(process.name) != place) continue;
+      roles.push_back(role_json(process, now_ns));
+      here = true;
+    }
+    if (!here && place < kSet.size() && kSet[place].needed)
+      roles.push_back({{"name", kSet[place].name}, {"pid", 0}, {"heartbeat_ms", nullptr}, {"hangs", false}});
+  }
+  for (auto& role : roles) count_restarts(role, session, now_ns);
+  return roles;
+}
+
+ordered_json health_json(const ordered_json& status) {
+  const auto& roles = status["roles"];
+  if (std::ranges::none_of(roles, [](const auto& role) { return role["pid"] != 0; }))
+    return {{"state", "NOTHING RUNS"}, {"reasons", {"the session is there, but nobody takes part"}}};
+  std::vector<std::string> reasons;
+  judge_roles(roles, reasons);
+  judge_radar(status, reasons);
+  if (const auto& recorder = status["recorder"]; !recorder.is_null() && !recorder["problem"].is_null())
+    reasons.push_back("the recorder does not write: " + recorder["problem"].get<std::string>());
+  if (status["frames_failing"].get<bool>() && runs(roles, "radar-display"))
+    reasons.emplace_back("the glass cannot write its frames: see its log");
+  judge_borders(status, reasons);
+  if (!status["named"].get<bool>())
+    reasons.emplace_back(
+        "the segment's name was removed from /dev/shm (systemd's RemoveIPC?); the set goes on without");
+  return {{"state", reasons.empty() ? "OK" : "DEGRADED"}, {"reasons", reasons}};
+}
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::array<const char*, databuffer::kNoteKinds> kNoteNames{"restart", "refusal", "loss", "late tick",
+                                                                     "supervision"};
+
+std::vector<databuffer::Note> notes_of(const databuffer::SessionLayout& layout) {
+  std::vector<databuffer::Note> notes;
+  const std::uint64_t total = layout.notes.total();
+  databuffer::Note note{};
+  for (std::uint64_t i = total > databuffer::kNotes ? total - databuffer::kNotes : 0; i < total; ++i)
+    if (layout.notes.read(i, note)) {
+      // Ages are told: a stamp that lies ahead, or before the machine was started, is none.
+      note.monotonic_ns = std::clamp<std::int64_t>(note.monotonic_ns, 0, databuffer::monotonic_ns());
+      notes.push_back(note);
+    }
+  return notes;
+}
+
+const char* note_name(std::uint32_t kind) {
+  return kind < kNoteNames.size() ? kNoteNames[kind] : "?";
+}
+
+// What a source that has died left in its lane is nobody's.
+ordered_json lanes_json(const databuffer::Session& session) {
+  const databuffer::SessionLayout& layout = session.layout();
+  ordered_json lanes = ordered_json::array();
+  for (std::size_t i = 0; i < databuffer::kOwnshipLanes; ++i) {
+    databuffer::Ownship own{};
+    if (!session.ownship_lane_is_held(i) || !layout.ownship[i].read(own) || databuffer::why_refused(own)) continue;
+    lanes.push_back({{"lane", i},
+                     {"source", databuffer::name_of_source(own, static_cast<std::uint32_t>(i))},
+                     {"priority", layout.ownship_priority[i].load()},
+                     {"records", layout.ownship[i].version()}});
+  }
+  return lanes;
+}
+
+// Null without a recorder: what one that has gone left behind does not count.
+ordered_json recorder_json(const databuffer::Session& session) {
+  databuffer::RecorderStatus status{};
+  if (!session.role_is_held(databuffer::Role::recorder) || !session.layout().recorder_status.read(status))
+    return nullptr;
+  const std::string problem(databuffer::text_of(status.problem));
+  return {{"writing", status.writing != 0},
+          {"bytes", status.bytes},
+          {"problem", problem.empty() ? ordered_json(nullptr) : ordered_json(problem)}};
+}
+
+// Null when nobody publishes them and nobody has.
+ordered_json frames_json(const databuffer::Session& session) {
+  const std::int32_t publisher = session.role_holder(databuffer::Role::glass_frames);
+  databuffer::GlassFrame newest{};
+  std::vector<std::uint8_t> pixels;
+  if (!databuffer::read_newest_frame(session.layout(), 0, newest, pixels) || databuffer::why_refused(newest))
+    newest = {};
+  if (publisher == 0 && newest.id == 0) return nullptr;
+  return {{"publisher", publisher == 0 ? ordered_json(nullptr) : ordered_json(publisher)},
+          {"newest", newest.id},
+          {"width", newest.width},
+          {"height", newest.height}};
+}
+
+// Null when nobody tells of ships and vehicles.
+ordered_json traffic_json(const databuffer::Session& session) {
+  const std::int32_t holder = session.role_holder(databuffer::Role::traffic);
+  if (holder == 0) return nullptr;
+  databuffer::Traffic newest{};
+  if (!session.layout().traffic.read(newest) || databuffer::why_refused(newest)) newest = {};
+  return {{"holder", holder}, {"entities", newest.count}};
+}
+
+// Who sends events just now, and how many of those who did are gone without a word.
+ordered_json input_json(const databuffer::Session& session) {
+  std::uint64_t held = 0;
+  for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) held += session.input_lane_is_held(lane) ? 1 : 0;
+  const std::uint64_t known = session.layout().counters.input_sources.load();
+  return {{"sources", held}, {"missing", known > held ? known - held : 0}};
+}
+
+ordered_json refusals_json(const databuffer::Session& session, const std::vector<databuffer::Note>& notes) {
+  constexpr std::int64_t kRecently_ns = 10'000'000'000;
+  const auto newest = std::ranges::find(
+      notes.rbegin(), notes.rend(), static_cast<std::uint32_t>(databuffer::NoteKind::refusal), &databuffer::Note::kind);
+  const auto& refusals = session.layout().counters.refusals;
+  return {{"last_10_s", refusals.within(kRecently_ns, databuffer::monotonic_ns())},
+          {"newest", newest == notes.rend() ? ordered_json(nullptr) : ordered_json(databuffer::text_of(newest->text))}};
+}
+
+}  // namespace
+
+ordered_json status_json(const databuffer::Session& session, const std::string& name) {
+  databuffer::ModelStatus model{};
+  if (!session.layout().model_status.read(model) || databuffer::why_refused(model)) model = {};
+  ordered_json object;
+  object["session"] = name;
+  object["watch"] = watch_object(session);
+  object["model"] = {{"fidelity", databuffer::text_of(model.fidelity)},
+                     {"load", model.load},
+                     {"scan", model.scan},
+                     {"terrain_bytes", model.terrain_bytes},
+                     {"posts_pending", model.posts_pending}};
+  object["recorder"] = recorder_json(session);
+  object["glass_frames"] = frames_json(session);
+  object["traffic"] = traffic_json(session);
+  object["ownship_lanes"] = lanes_json(session);
+  ordered_json counts = ordered_json::object();
+  for (std::size_t kind = 0; kind < databuffer::kNoteKinds; ++kind)
+    counts[kNoteNames[kind]] = session.layout().note_counts[kind].load();
+  object["note_counts"] = counts;
+  object["notes_folded"] = session.layout().counters.notes_folded.load();
+  const std::int64_t now_ns = databuffer::monotonic_ns();
+  const std::vector<databuffer::Note> lines = notes_of(session.layout());
+  ordered_json notes = ordered_json::array();
+  for (const auto& note : lines)
+    notes.push_back({{"sim_time", static_cast<double>(note.sim_time_ns) * 1e-9},
+                     {"age_s", static_cast<double>(now_ns - note.monotonic_ns) * 1e-9},
+                     {"process", databuffer::text_of(note.process)},
+                     {"pid", note.pid},
+                     {"kind", note_name(note.kind)},
+                     {"text", databuffer::text_of(note.text)}});
+  object["notes"] = notes;
+  object["named"] = session.has_name();
+  object["roles"] = roles_json(session);
+  object["input"] = input_json(session);
+  object["refusals"] = refusals_json(session, lines);
+  object["frames_failing"] = session.layout().counters.frames_failing.load() != 0;
+  const auto problem = session.clock_problem();
+  object["clock_problem"] = problem ? ordered_json(*problem) : ordered_json(nullptr);
+  object["health"] = health_json(object);
+  return object;
+}
+
+}  // namespace yars::tools

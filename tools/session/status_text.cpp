@@ -1,0 +1,143 @@
+#include "tools/session/status_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <string>
+
+namespace yars::tools {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t kNotesShown = 10;  // newest lines of the flight recorder; all of them with --json
+
+// What other programs wrote must not drive the terminal.
+std::string text(const ordered_json& value) {
+  std::string words = value.get<std::string>();
+  std::replace_if(
+      words.begin(), words.end(), [](char letter) { return letter < ' ' || letter > '~'; }, '?');
+  return words;
+}
+
+std::string age_text(double seconds) {
+  std::array<char, 32> buffer;
+  if (seconds < 1.0)
+    std::snprintf(buffer.data(), buffer.size(), "%.0f ms", 1000.0 * seconds);
+  else if (seconds < 120.0)
+    std::snprintf(buffer.data(), buffer.size(), "%.1f s", seconds);
+  else if (seconds < 7200.0)
+    std::snprintf(buffer.data(), buffer.size(), "%.0f min", seconds / 60.0);
+  else
+    std::snprintf(buffer.data(), buffer.size(), "%.1f h", seconds / 3600.0);
+  return buffer.data();
+}
+
+std::string load_text(double share) {
+  std::array<char, 32> buffer;
+  std::snprintf(buffer.data(), buffer.size(), "%.1f %%", 100.0 * share);
+  return buffer.data();
+}
+
+void print_verdict(const ordered_json& status) {
+  const auto& health = status["health"];
+  std::string reasons;
+  for (const auto& reason : health["reasons"]) reasons += (reasons.empty() ? "" : "; ") + text(reason);
+  if (reasons.empty()) reasons = "the set runs";
+  std::printf("%s: %s\n", text(health["state"]).c_str(), reasons.c_str());
+  const auto& watch = status["watch"];
+  std::printf("session %s: sim time %.1f s, %s, rate %g, epoch %u\n", text(status["session"]).c_str(),
+              watch["sim_time"].get<double>(), watch["running"].get<bool>() ? "running" : "frozen",
+              watch["rate"].get<double>(), watch["epoch"].get<unsigned>());
+}
+
+void print_roles(const ordered_json& roles, const std::map<int, double>& loads) {
+  std::printf("  %-20s %8s %10s %8s %9s\n", "role", "pid", "heartbeat", "load", "restarts");
+  for (const auto& role : roles) {
+    const int pid = role["pid"];
+    const auto load = loads.find(pid);
+    const std::string beat = pid == 0 ? "none" : age_text(role["heartbeat_ms"].get<double>() / 1000.0);
+    std::printf("  %-20s %8s %10s %8s %9d%s\n", text(role["name"]).c_str(),
+                pid == 0 ? "-" : std::to_string(pid).c_str(), beat.c_str(),
+                load == loads.end() ? "-" : load_text(load->second).c_str(), role["restarts"].get<int>(),
+                role["hangs"].get<bool>() ? "  hangs" : "");
+  }
+}
+
+void print_ownship(const ordered_json& status) {
+  const auto& own = status["watch"]["ownship"];
+  if (own.is_null())
+    std::printf("ownship: none\n");
+  else
+    std::printf("ownship: %s, %.4f %.4f, %.0f ft, %.0f deg, %.0f kt, %s old\n", text(own["source"]).c_str(),
+                own["lat"].get<double>(), own["lon"].get<double>(), own["alt_ft"].get<double>(),
+                own["track_deg"].get<double>(), own["ground_speed_kt"].get<double>(),
+                age_text(own["age_ms"].get<double>() / 1000.0).c_str());
+  for (const auto& lane : status["ownship_lanes"])
+    std::printf("  lane %d: %s, priority %u, %llu records in the lane\n", lane["lane"].get<int>(),
+                text(lane["source"]).c_str(), lane["priority"].get<unsigned>(),
+                static_cast<unsigned long long>(lane["records"].get<std::uint64_t>()));
+}
+
+void print_radar(const ordered_json& status) {
+  const auto& watch = status["watch"];
+  const auto& model = status["model"];
+  const std::string fidelity = text(model["fidelity"]);
+  std::printf("radar: %s %s, %.1f NM, fidelity %s, kernel %s of a core, %llu sweeps, terrain %.1f MB\n",
+              text(watch["power"]).c_str(), text(watch["mode"]).c_str(), watch["range_nm"].get<double>(),
+              fidelity.empty() ? "unknown" : fidelity.c_str(), load_text(model["load"].get<double>()).c_str(),
+              static_cast<unsigned long long>(watch["sweeps"].get<std::uint64_t>()),
+              static_cast<double>(model["terrain_bytes"].get<std::uint64_t>()) / 1e6);
+  const auto& recorder = status["recorder"];
+  if (recorder.is_null()) return;
+  std::printf("recorder: %s, %.1f MB", recorder["writing"].get<bool>() ? "writing" : "stopped",
+              static_cast<double>(recorder["bytes"].get<std::uint64_t>()) / 1e6);
+  if (!recorder["problem"].is_null()) std::printf(", %s", text(recorder["problem"]).c_str());
+  std::printf("\n");
+}
+
+void print_frames(const ordered_json& frames) {
+  if (frames.is_null()) return;
+  const auto& pid = frames["publisher"];
+  std::printf("frames of the glass: %s, newest %llu, %u x %u pixels\n",
+              pid.is_null() ? "nobody publishes" : ("pid " + std::to_string(pid.get<int>()) + " publishes").c_str(),
+              static_cast<unsigned long long>(frames["newest"].get<std::uint64_t>()), frames["width"].get<unsigned>(),
+              frames["height"].get<unsigned>());
+}
+
+void print_traffic(const ordered_json& traffic) {
+  if (traffic.is_null()) return;
+  std::printf("traffic: pid %d tells of %u ships and vehicles\n", traffic["holder"].get<int>(),
+              traffic["entities"].get<unsigned>());
+}
+
+void print_notes(const ordered_json& status) {
+  std::printf("flight recorder:");
+  const char* separator = " ";
+  for (const auto& [kind, count] : status["note_counts"].items()) {
+    std::printf("%s%s %llu", separator, kind.c_str(), static_cast<unsigned long long>(count.get<std::uint64_t>()));
+    separator = ", ";
+  }
+  if (const auto folded = status["notes_folded"].get<std::uint64_t>(); folded > 0)
+    std::printf("; %llu were repeats and only counted", static_cast<unsigned long long>(folded));
+  std::printf("\n");
+  const auto& notes = status["notes"];
+  for (std::size_t i = notes.size() > kNotesShown ? notes.size() - kNotesShown : 0; i < notes.size(); ++i)
+    std::printf("  %7s ago  %-14s %-11s %s\n", age_text(notes[i]["age_s"].get<double>()).c_str(),
+                text(notes[i]["process"]).c_str(), text(notes[i]["kind"]).c_str(), text(notes[i]["text"]).c_str());
+}
+
+}  // namespace
+
+void print_status(const ordered_json& status, const std::map<int, double>& loads) {
+  print_verdict(status);
+  print_roles(status["roles"], loads);
+  print_ownship(status);
+  print_radar(status);
+  print_frames(status["glass_frames"]);
+  print_traffic(status["traffic"]);
+  print_notes(status);
+}
+
+}  // namespace yars::tools

@@ -1,0 +1,207 @@
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "databuffer/layout_json.hpp"
+#include "databuffer/log.hpp"
+#include "databuffer/program.hpp"
+#include "databuffer/session.hpp"
+#include "tools/command/command.hpp"
+#include "tools/session/status_json.hpp"
+#include "tools/session/status_text.hpp"
+#include "tools/session/watch_json.hpp"
+
+namespace yars::tools {
+
+// What processes take of the CPU, as the kernel counts it.
+
+// Shares of a core (2.0 = two cores) over the next 0.1 s, by pid; a process that may not be looked at is left out.
+std::map<int, double> measure_loads(const std::vector<int>& pids);
+
+namespace {
+
+constexpr std::chrono::milliseconds kWindow{100};
+
+// [ns] that all threads of a process have run; none when the system does not tell.
+std::optional<std::uint64_t> run_time_ns(int pid) {
+  std::error_code error;
+  std::filesystem::directory_iterator threads("/proc/" + std::to_string(pid) + "/task", error);
+  if (error) return std::nullopt;
+  std::uint64_t total_ns = 0;
+  bool told = false;
+  for (const std::filesystem::directory_iterator end; !error && threads != end; threads.increment(error)) {
+    std::ifstream file(threads->path() / "schedstat");
+    std::uint64_t run_ns = 0;
+    if (!(file >> run_ns)) continue;
+    total_ns += run_ns;
+    told = true;
+  }
+  return told ? std::optional(total_ns) : std::nullopt;
+}
+
+}  // namespace
+
+std::map<int, double> measure_loads(const std::vector<int>& pids) {
+  std::map<int, std::uint64_t> before;
+  const std::int64_t began_ns = databuffer::monotonic_ns();
+  for (const int pid : pids)
+    if (const auto run_ns = run_time_ns(pid)) before[pid] = *run_ns;
+  std::this_thread::sleep_for(kWindow);
+  const auto elapsed_ns = static_cast<double>(databuffer::monotonic_ns() - began_ns);
+  std::map<int, double> loads;
+  for (const auto& [pid, before_ns] : before)
+    // A thread that has ended takes its time along.
+    if (const auto run_ns = run_time_ns(pid); run_ns && *run_ns >= before_ns)
+      loads[pid] = static_cast<double>(*run_ns - before_ns) / elapsed_ns;
+  return loads;
+}
+
+// `yars status`: a session's health for people, as JSON, or the segment's layout.
+
+namespace {
+
+using nlohmann::ordered_json;
+
+struct StatusOptions {
+  bool json = false;
+  bool layout = false;
+};
+
+// Nobody to ask: the verdict is the same word as of a session that is there.
+[[noreturn]] void print_nothing_runs(const failure::Error& error) {
+  std::printf("NOTHING RUNS: %s\n", error.found.c_str());
+  give_up(error);
+}
+
+// For scripts: 0 OK, 1 nothing runs, 3 degraded.
+void leave_with(const ordered_json& health) {
+  constexpr int kExitDegraded = 3;
+  std::fflush(stdout);
+  if (health["state"] == "DEGRADED") throw CommandFailed{"", kExitDegraded};
+  if (health["state"] != "OK") throw CommandFailed{"", 1};
+}
+
+void status(const CommonOptions& common, const StatusOptions& options) {
+  if (options.layout) {
+    std::printf("%s\n", databuffer::layout_json().c_str());
+    return;
+  }
+  const auto session = databuffer::Session::open_read_only(common.session);
+  if (!session && !options.json) print_nothing_runs(session.error());
+  if (!session) give_up(session.error());
+  const auto object = status_json(*session, common.session);
+  if (options.json) {
+    std::printf("%s\n", object.dump(2, ' ', false, ordered_json::error_handler_t::replace).c_str());
+    return leave_with(object["health"]);
+  }
+  std::vector<int> pids;
+  for (const auto& process : session->processes()) pids.push_back(process.pid);
+  print_status(object, measure_loads(pids));
+  leave_with(object["health"]);
+}
+
+}  // namespace
+
+void add_status_command(CLI::App& app, const CommonOptions& common) {
+  auto* command = app.add_subcommand("status", "health of a session");
+  auto options = std::make_shared<StatusOptions>();
+  command->add_flag("--json", options->json, "as JSON");
+  command->add_flag("--layout", options->layout, "offsets of every record in the segment, as JSON; needs no session");
+  command->callback([&common, options] { status(common, *options); });
+}
+
+// `yars watch`: the state of a session as it changes.
+
+namespace {
+
+constexpr std::int64_t kLook_ns = 20'000'000;        // [ns] between looks: a change is printed within it
+constexpr std::int64_t kAtLeast_ns = 1'000'000'000;  // [ns] position and antenna are printed so often without a change
+
+struct WatchOptions {
+  bool json = false;
+  bool once = false;
+};
+
+// Marks, cue and target, those that there are.
+void print_designations(const nlohmann::ordered_json& object) {
+  if (!object["marks"].empty()) std::printf("  MARKS %zu", object["marks"].size());
+  const auto& cue = object["cue"];
+  const auto degrees = [](const nlohmann::ordered_json& value) {
+    return value.is_null() ? std::nan("") : value.get<double>();
+  };
+  if (!cue.is_null()) std::printf("  CUE %.4f %.4f", degrees(cue["lat"]), degrees(cue["lon"]));
+  const auto& target = object["target"];
+  if (target.is_null()) return;
+  std::printf("  TGT %s", target["name"].get<std::string>().c_str());
+  const auto& ranging = object["ranging"];
+  if (!ranging.is_null())
+    std::printf(" %.1f NM %03.0f true %.1f down", degrees(ranging["slant_range_nm"]),
+                degrees(ranging["bearing_true_deg"]), degrees(ranging["depression_deg"]));
+}
+
+void print_line_for_people(const nlohmann::ordered_json& object) {
+  const auto& own = object["ownship"];
+  std::printf("%9.2f s  %-4s %-5s %5.1f NM %-4s GAIN %d %s%s%s", object["sim_time"].get<double>(),
+              object["power"].get<std::string>().c_str(), object["mode"].get<std::string>().c_str(),
+              object["range_nm"].get<double>(), object["scan"].get<std::string>().c_str(), object["gain"].get<int>(),
+              object["freeze"].get<bool>() ? "FREEZE " : "", object["sniff"].get<bool>() ? "SNIFF " : "",
+              object["message"].get<std::string>().c_str());
+  if (!own.is_null())
+    std::printf("  %.4f %.4f %.0f ft %.0f deg %.0f kt", own["lat"].get<double>(), own["lon"].get<double>(),
+                own["alt_ft"].get<double>(), own["track_deg"].get<double>(), own["ground_speed_kt"].get<double>());
+  print_designations(object);
+  std::printf("  sweeps %llu\n", static_cast<unsigned long long>(object["sweeps"].get<std::uint64_t>()));
+}
+
+// False when nobody reads any more.
+bool print(const nlohmann::ordered_json& object, bool json) {
+  if (json)
+    std::printf("%s\n", object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+  else
+    print_line_for_people(object);
+  return std::fflush(stdout) == 0;
+}
+
+void watch(const CommonOptions& common, const WatchOptions& options) {
+  const auto session = databuffer::Session::open_read_only(common.session);
+  if (!session) give_up(session.error());
+  std::uint64_t seen = ~0ULL;
+  std::int64_t printed_ns = 0;
+  while (!databuffer::stop_requested()) {
+    const std::uint64_t version = session->layout().radar_state.version();
+    const std::int64_t now_ns = databuffer::monotonic_ns();
+    if (version != seen || now_ns - printed_ns >= kAtLeast_ns) {
+      seen = version;
+      printed_ns = now_ns;
+      if (!print(watch_object(*session), options.json)) return;
+    }
+    if (options.once) return;
+    if (session->processes().empty()) {
+      databuffer::log_info("session " + common.session + " has ended");
+      return;
+    }
+    const timespec pause{0, kLook_ns};
+    nanosleep(&pause, nullptr);
+  }
+}
+
+}  // namespace
+
+void add_watch_command(CLI::App& app, const CommonOptions& common) {
+  auto* command = app.add_subcommand("watch", "the session's state as it changes, one line each");
+  auto options = std::make_shared<WatchOptions>();
+  command->add_flag("--json", options->json, "one JSON object a line");
+  command->add_flag("--once", options->once, "print one line and end");
+  command->callback([&common, options] { watch(common, *options); });
+}
+
+}  // namespace yars::tools

@@ -1,0 +1,299 @@
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "lib/failure/error.hpp"
+#include "model/terrain/formats/cell.hpp"
+#include "model/terrain/formats/cell_reading.hpp"
+#include "model/terrain/formats/culture.hpp"
+#include "model/terrain/formats/dted.hpp"
+#include "model/terrain/formats/hgt.hpp"
+#include "model/terrain/formats/pack.hpp"
+#include "model/terrain/sampling/cell_view.hpp"
+#include "model/terrain/store/cell_files.hpp"
+#include "tools/command/command.hpp"
+#include "tools/command/output.hpp"
+#include "tools/terrain/terrain_command.hpp"
+
+namespace yars::tools {
+
+// Writers of elevation cells by the word of the command line.
+
+// "dted", "hgt" or "jp2", and the grid: DTED level 0, 1 or 2; none: the finest level that the cell fills, a pack as
+// it is. HGT has the grids of levels 1 and 2 without thinned columns.
+struct TerrainOutput {
+  std::string format = "dted";
+  std::optional<int> level;
+};
+
+std::string output_name(const TerrainOutput& output, model::terrain::CellPlace place, const model::terrain::Cell& cell);
+
+// The cell on the output's grid (see resample.hpp), in its file below `tree`.
+failure::Expected<std::filesystem::path> write_output(const TerrainOutput& output, const std::filesystem::path& tree,
+                                                      const model::terrain::Cell& cell);
+
+namespace {
+
+using namespace model::terrain;
+
+int level_of(const TerrainOutput& output, const Cell& cell) {
+  const int least = output.format == "hgt" ? 1 : 0;
+  if (output.level) return std::max(least, *output.level);
+  int level = least;
+  while (level < 2 && dted::kPostsOfLevel[level + 1] <= cell.rows()) ++level;
+  return level;
+}
+
+}  // namespace
+
+std::string output_name(const TerrainOutput& output, CellPlace place, const Cell& cell) {
+  if (output.format == "jp2") return pack_name(place);
+  return output.format == "hgt" ? hgt_name(place) : dted_name(place, level_of(output, cell));
+}
+
+failure::Expected<std::filesystem::path> write_output(const TerrainOutput& output, const std::filesystem::path& tree,
+                                                      const Cell& cell) {
+  if (output.format == "jp2" && !output.level) return write_pack(tree, cell);
+  const int level = level_of(output, cell);
+  const int rows = dted::kPostsOfLevel[level];
+  if (output.format == "hgt") return write_hgt(tree, in_whole_metres(resample(cell, rows, rows)));
+  const Cell on_level = resample(cell, rows, dted_columns(cell.place(), level));
+  return output.format == "jp2" ? write_pack(tree, on_level) : write_dted(tree, in_whole_metres(on_level), level);
+}
+
+// Goes through the cells of a folder or a file of elevation, writes each below another folder, and says how it goes:
+// a line for each cell, at the end what became of the size. Culture beside a cell goes with it. A cell or a file that
+// cannot be read or written is a problem; the others go on, and the command fails in the end. The input is never
+// written over.
+
+struct TerrainBatch {
+  std::string command;  // for messages
+  std::string in;
+  std::string out;
+  int reduction = 0;  // at which cells are read
+  // Below `out`, for a cell read from this file; the second function writes it there.
+  std::function<std::string(model::terrain::CellPlace, const model::terrain::Cell&)> name;
+  std::function<failure::Expected<std::filesystem::path>(const std::filesystem::path& tree,
+                                                         const model::terrain::Cell&)>
+      write;
+  // Posts along a meridian of a cell as written: culture is thinned to no fewer. Null: it stays as it is.
+  std::function<int(const model::terrain::Cell&)> culture_posts = {};
+};
+
+// Throws CommandFailed.
+void run_terrain_batch(const TerrainBatch& batch);
+
+namespace {
+
+using namespace model::terrain;
+
+constexpr double kMegabyte = 1e6;
+
+std::uintmax_t bytes_of(const std::filesystem::path& path) {
+  std::error_code code;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, code);
+  return code ? 0 : bytes;
+}
+
+// What a cell takes on disk: a pack is two files, and culture another.
+std::uintmax_t bytes_on_disk(const std::filesystem::path& path) {
+  const std::uintmax_t beside =
+      path.extension() == ".jp2" ? bytes_of(std::filesystem::path(path).replace_extension(".side")) : 0;
+  return bytes_of(path) + beside + bytes_of(culture_path(path));
+}
+
+Culture thinned(const Culture& culture, int posts) {
+  int reduction = 0;
+  while ((culture.rows() - 1) >> (reduction + 1) >= posts - 1) ++reduction;
+  return culture.reduced(reduction);
+}
+
+// What covers the ground of a cell, from beside its file to beside the one that was written.
+failure::Expected<void> take_culture_along(const TerrainBatch& batch, const CellFile& file, const Cell& cell,
+                                           const std::filesystem::path& written) {
+  const auto from = find_culture(file.path);
+  const std::filesystem::path to = culture_path(written);
+  std::error_code code;
+  if (!from || std::filesystem::equivalent(*from, to, code)) return {};
+  const auto culture = read_culture(*from, cell.place());
+  if (!culture) return tl::unexpected(culture.error());
+  return write_culture(to, batch.culture_posts ? thinned(*culture, batch.culture_posts(cell)) : *culture);
+}
+
+bool lies_in(const std::filesystem::path& inner, const std::filesystem::path& outer) {
+  const std::filesystem::path way =
+      std::filesystem::weakly_canonical(inner).lexically_relative(std::filesystem::weakly_canonical(outer));
+  return !way.empty() && *way.begin() != "..";
+}
+
+failure::Expected<DirectoryIndex> index_of(const TerrainBatch& batch, std::vector<std::string>& problems) {
+  if (!std::filesystem::is_directory(batch.in)) return index_file(batch.in);
+  if (lies_in(batch.out, batch.in))
+    return tl::unexpected(failure::Error{"yars terrain " + batch.command, "--out outside of --in",
+                                         batch.out + " inside of " + batch.in,
+                                         "give another folder: the input is never written over", true});
+  return index_directory(batch.in, &problems);
+}
+
+failure::Expected<std::filesystem::path> convert_cell(const TerrainBatch& batch, const CellFile& file, CellPlace place,
+                                                      AllReadingNotes& notes) {
+  const auto reading = read_cell(file, place, batch.reduction);
+  if (!reading) return tl::unexpected(reading.error());
+  notes.add(file.path, *reading);
+  const std::filesystem::path target = std::filesystem::path(batch.out) / batch.name(place, reading->cell);
+  std::error_code code;
+  if (std::filesystem::equivalent(target, file.path, code))
+    return failure::fail(target.string(), "an output that is not the input", "the input itself", "give another --out");
+  auto written = batch.write(batch.out, reading->cell);
+  if (!written) return written;
+  if (const auto taken = take_culture_along(batch, file, reading->cell, *written); !taken)
+    return tl::unexpected(taken.error());
+  return written;
+}
+
+}  // namespace
+
+void run_terrain_batch(const TerrainBatch& batch) {
+  check_folder_name("--out", batch.out);
+  std::vector<std::string> unusable;
+  const auto index = index_of(batch, unusable);
+  if (!index) give_up(index.error());
+  AllReadingNotes notes;
+  for (const std::string& file : unusable) notes.add_problem(file);
+  std::size_t seen = 0;
+  std::size_t failed = 0;
+  std::uintmax_t bytes_in = 0;
+  std::uintmax_t bytes_out = 0;
+  std::set<std::filesystem::path> files;  // a file of several cells counts once
+  for (const auto& [slot, file] : *index) {
+    ++seen;
+    const auto written = convert_cell(batch, file, place_of_slot(slot), notes);
+    if (!written) {
+      notes.add_problem(written.error().message());
+      ++failed;
+      continue;
+    }
+    if (files.insert(file.path).second) bytes_in += bytes_on_disk(file.path);
+    bytes_out += bytes_on_disk(*written);
+    std::printf("%3zu/%zu  %s  %.3f MB\n", seen, index->size(), written->c_str(),
+                static_cast<double>(bytes_on_disk(*written)) / kMegabyte);
+    std::fflush(stdout);
+  }
+  for (const std::string& problem : notes.sentences()) std::fprintf(stderr, "problem: %s\n", problem.c_str());
+  std::printf("%zu cells, %.3f MB to %.3f MB, ratio %.2f\n", seen - failed, static_cast<double>(bytes_in) / kMegabyte,
+              static_cast<double>(bytes_out) / kMegabyte,
+              bytes_out == 0 ? 0.0 : static_cast<double>(bytes_in) / static_cast<double>(bytes_out));
+  if (failed > 0)
+    throw CommandFailed{"yars terrain " + batch.command + ": expected all cells to be written, found " +
+                            std::to_string(failed) + " of " + std::to_string(seen) + " that were not; see the problems",
+                        1};
+  if (!unusable.empty())
+    throw CommandFailed{"yars terrain " + batch.command + ": expected all files to be used, found " +
+                            std::to_string(unusable.size()) + " that could not be; see the problems",
+                        1};
+}
+
+// `yars terrain convert`: elevation of any format that YARS reads, as DTED, HGT or packed cells.
+
+namespace {
+
+struct ConvertOptions {
+  std::string in, out;
+  TerrainOutput output;
+};
+
+void convert(const ConvertOptions& options) {
+  run_terrain_batch({"convert", options.in, options.out, 0,
+                     [&](model::terrain::CellPlace place, const model::terrain::Cell& cell) {
+                       return output_name(options.output, place, cell);
+                     },
+                     [&](const std::filesystem::path& tree, const model::terrain::Cell& cell) {
+                       return write_output(options.output, tree, cell);
+                     }});
+}
+
+}  // namespace
+
+void add_terrain_convert(CLI::App& terrain) {
+  const auto options = std::make_shared<ConvertOptions>();
+  CLI::App* command = terrain.add_subcommand("convert", "elevation of any format read, as DTED, HGT or packed cells");
+  command->add_option("--in", options->in, "folder of cells, or one file of any name (rasters too)")->required();
+  command->add_option("--out", options->out, "folder for the cells")->required();
+  command->add_option("--to", options->output.format, "format")
+      ->check(CLI::IsMember({"dted", "hgt", "jp2"}))
+      ->capture_default_str();
+  command->add_option("--level", options->output.level, "DTED level of the grid; else the finest that the cell fills")
+      ->check(CLI::Range(0, 2));
+  command->callback([options] { convert(*options); });
+}
+
+// `yars terrain reduce`: a coarser database: by halvings as packed cells, or as DTED of a level.
+
+namespace {
+
+struct ReduceOptions {
+  std::string in, out;
+  std::optional<int> reduction;
+  std::optional<int> level;
+};
+
+void reduce_all(const ReduceOptions& options) {
+  if (options.reduction.has_value() == options.level.has_value())
+    throw CommandFailed{"yars terrain reduce: expected one of --reduction and --level, found " +
+                            std::string(options.level ? "both" : "none"),
+                        2};
+  const TerrainOutput output{options.level ? "dted" : "jp2", options.level};
+  run_terrain_batch({"reduce", options.in, options.out, options.reduction.value_or(0),
+                     [&](model::terrain::CellPlace place, const model::terrain::Cell& cell) {
+                       return output_name(output, place, cell);
+                     },
+                     [&](const std::filesystem::path& tree, const model::terrain::Cell& cell) {
+                       return write_output(output, tree, cell);
+                     },
+                     [&](const model::terrain::Cell& cell) {
+                       return options.level ? model::terrain::dted::kPostsOfLevel[*options.level] : cell.rows();
+                     }});
+}
+
+}  // namespace
+
+void add_terrain_reduce(CLI::App& terrain) {
+  const auto options = std::make_shared<ReduceOptions>();
+  CLI::App* command = terrain.add_subcommand("reduce", "a coarser database: means of the posts around each kept one");
+  command->add_option("--in", options->in, "folder of cells, or one file")->required();
+  command->add_option("--out", options->out, "folder for the coarser cells")->required();
+  command->add_option("--reduction", options->reduction, "keep every 2^N-th post; written as packed cells")
+      ->check(CLI::Range(1, 12));
+  command->add_option("--level", options->level, "DTED of this level")->check(CLI::Range(0, 2));
+  command->callback([options] { reduce_all(*options); });
+}
+
+// `yars terrain pack`: cells as lossless JPEG 2000, which is read at the resolution that a range needs.
+
+void add_terrain_pack(CLI::App& terrain) {
+  struct Folders {
+    std::string in, out;
+  };
+  const auto folders = std::make_shared<Folders>();
+  CLI::App* command = terrain.add_subcommand("pack", "cells as lossless JPEG 2000 with coarser grids inside");
+  command->add_option("--in", folders->in, "folder of cells, or one file")->required();
+  command->add_option("--out", folders->out, "folder for the packed cells")->required();
+  command->callback([folders] {
+    run_terrain_batch(
+        {"pack", folders->in, folders->out, 0,
+         [](model::terrain::CellPlace place, const model::terrain::Cell&) { return model::terrain::pack_name(place); },
+         [](const std::filesystem::path& tree, const model::terrain::Cell& cell) {
+           return model::terrain::write_pack(tree, cell);
+         }});
+  });
+}
+
+}  // namespace yars::tools

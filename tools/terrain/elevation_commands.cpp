@@ -1,0 +1,165 @@
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lib/geo/geodesic.hpp"
+#include "model/terrain/formats/cell_reading.hpp"
+#include "model/terrain/store/cell_files.hpp"
+#include "model/terrain/store/directory_store.hpp"
+#include "tools/command/command.hpp"
+#include "tools/terrain/terrain_command.hpp"
+
+namespace yars::tools {
+
+// `yars terrain profile`: elevation along a geodesic, as CSV.
+
+namespace {
+
+struct ProfileOptions {
+  radar::TerrainConfiguration terrain;
+  std::vector<double> from_deg;  // latitude, longitude
+  std::vector<double> to_deg;
+  double step_m = 100.0;
+};
+
+// Written so that a NaN does not pass.
+bool on_the_earth(const std::vector<double>& place_deg) {
+  return std::abs(place_deg[0]) <= 90.0 && std::abs(place_deg[1]) <= 360.0;
+}
+
+// What a folder's cells cover; the built-in hills cover all.
+class CoveredPlaces {
+ public:
+  explicit CoveredPlaces(const std::string& directory) {
+    if (directory.empty()) return;
+    if (auto index = model::terrain::index_directory(directory)) index_ = std::move(*index);
+  }
+  bool holds(geo::GeoPoint place) const {
+    return index_.empty() || index_.contains(slot_of(model::terrain::cell_holding(place)));
+  }
+  std::string text() const { return coverage_text(index_); }
+
+ private:
+  model::terrain::DirectoryIndex index_;
+};
+
+// Places without a cell read as sea; a way that lies wholly there is no profile of the folder.
+void say_outside(const ProfileOptions& options, const CoveredPlaces& covered, long outside, long places) {
+  const failure::Error error{
+      options.terrain.directory, "cells along the way",
+      "none at " + std::to_string(outside) + " of " + std::to_string(places) + " places: it covers " + covered.text(),
+      "they count as sea; check --from and --to and their signs", false};
+  if (outside == places) give_up(error);
+  std::fprintf(stderr, "yars terrain profile: %s\n", error.message().c_str());
+}
+
+void profile(const ProfileOptions& options) {
+  if (!on_the_earth(options.from_deg) || !on_the_earth(options.to_deg))
+    give_up({"terrain profile", "latitudes in [-90, 90] and longitudes in [-360, 360] degrees", "one outside",
+             "check --from and --to", true});
+  auto store = model::terrain::open_terrain(options.terrain);
+  if (!store) give_up(store.error());
+  const geo::GeoPoint from{options.from_deg[0], options.from_deg[1]};
+  const geo::GeodesicInverse way = geo::geodesic_inverse(from, {options.to_deg[0], options.to_deg[1]});
+  const geo::GeodesicRay ray(from, way.azimuth_at_start);
+  const double length_m = way.distance.metres();
+  const auto steps = static_cast<long>(std::ceil(length_m / options.step_m));
+  const CoveredPlaces covered(options.terrain.directory);
+  long outside = 0;
+  std::printf("distance_m,latitude_deg,longitude_deg,elevation_m\n");
+  for (long step = 0; step <= steps; ++step) {
+    const double distance_m = std::min(length_m, static_cast<double>(step) * options.step_m);
+    const geo::GeoPoint place = ray.position(geo::Length::metres(distance_m));
+    if (!covered.holds(place)) ++outside;
+    const double elevation_m = (*store)->prepare({place, 0.0})->elevation_m(place);
+    std::printf("%.1f,%.7f,%.7f,", distance_m, place.latitude_deg, place.longitude_deg);
+    // A void is an empty field.
+    if (std::isnan(elevation_m))
+      std::printf("\n");
+    else
+      std::printf("%.2f\n", elevation_m);
+  }
+  std::fflush(stdout);
+  const auto problems = (*store)->take_problems();
+  for (const std::string& problem : problems) std::fprintf(stderr, "problem: %s\n", problem.c_str());
+  if (outside > 0) say_outside(options, covered, outside, steps + 1);
+  if (!problems.empty())
+    throw CommandFailed{"yars terrain profile: expected heights of whole files, found " +
+                            std::to_string(problems.size()) + " problems; see above",
+                        1};
+}
+
+}  // namespace
+
+void add_terrain_profile(CLI::App& terrain) {
+  const auto options = std::make_shared<ProfileOptions>();
+  CLI::App* command = terrain.add_subcommand("profile", "elevation along the shortest way between two places, as CSV");
+  command->add_option("--terrain", options->terrain.directory,
+                      "folder with DTED or HGT cells; without it the built-in hills");
+  command->add_option("--from", options->from_deg, "[deg] latitude and longitude")->expected(2)->required();
+  command->add_option("--to", options->to_deg, "[deg] latitude and longitude")->expected(2)->required();
+  command->add_option("--step", options->step_m, "[m] between samples")
+      ->check(CLI::Range(0.1, 1e6))
+      ->capture_default_str();
+  command->callback([options] { profile(*options); });
+}
+
+// `yars terrain dump`: the posts of one cell, as CSV.
+
+namespace {
+
+using namespace model::terrain;
+
+struct DumpOptions {
+  std::string directory;
+  int south_deg = 0;
+  int west_deg = 0;
+};
+
+void dump(const DumpOptions& options) {
+  const auto index = index_directory(options.directory);
+  if (!index) give_up(index.error());
+  const CellPlace place{options.south_deg, options.west_deg};
+  const auto file = index->find(slot_of(place));
+  if (file == index->end())
+    give_up({options.directory, "the cell that --south and --west name", "none: it covers " + coverage_text(*index),
+             "check the numbers and their signs"});
+  const auto reading = read_cell(file->second, place);
+  if (!reading) give_up(reading.error());
+  ReadingNotes notes;
+  for (const std::string& sentence : notes.heard(file->second.path, *reading))
+    std::fprintf(stderr, "problem: %s\n", sentence.c_str());
+  const Cell& cell = reading->cell;
+  const int decimals = cell.unit_m() < 1.0 ? 1 : 0;
+  std::printf("latitude_deg,longitude_deg,elevation_m\n");
+  for (int row = 0; row < cell.rows(); ++row)
+    for (int column = 0; column < cell.columns(); ++column) {
+      std::printf("%.7f,%.7f,", place.south_deg + static_cast<double>(row) / (cell.rows() - 1),
+                  place.west_deg + static_cast<double>(column) / (cell.columns() - 1));
+      // A void is an empty field.
+      if (cell.post(row, column) == kVoidPost)
+        std::printf("\n");
+      else
+        std::printf("%.*f\n", decimals, cell.post(row, column) * cell.unit_m());
+    }
+}
+
+}  // namespace
+
+void add_terrain_dump(CLI::App& terrain) {
+  const auto options = std::make_shared<DumpOptions>();
+  CLI::App* command = terrain.add_subcommand("dump", "posts of one cell as CSV, from the south-west, row by row");
+  command->add_option("--terrain", options->directory, "folder with DTED or HGT cells")->required();
+  command->add_option("--south", options->south_deg, "[deg] the cell's south edge")
+      ->check(CLI::Range(-90, 89))
+      ->required();
+  command->add_option("--west", options->west_deg, "[deg] the cell's west edge")
+      ->check(CLI::Range(-180, 179))
+      ->required();
+  command->callback([options] { dump(*options); });
+}
+
+}  // namespace yars::tools

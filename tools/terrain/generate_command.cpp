@@ -1,0 +1,180 @@
+// `yars terrain generate`: a made-up landscape as a DTED tree, with its culture beside each cell.
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "model/terrain/formats/culture.hpp"
+#include "model/terrain/formats/dted.hpp"
+#include "tools/command/command.hpp"
+#include "tools/command/output.hpp"
+#include "tools/terrain/terrain_command.hpp"
+#include "worldgen/terrain/landscape.hpp"
+
+namespace yars::tools {
+
+namespace {
+
+using namespace model::terrain;
+
+struct Options {
+  using Default = DefaultLandscape;
+  std::string out;
+  int south_deg = Default::kSouthDeg;
+  int west_deg = Default::kWestDeg;
+  int cells_latitude = Default::kCellsNorth;
+  int cells_longitude = Default::kCellsEast;
+  int level = 1;
+  std::uint64_t seed = Default::kSeed;
+  std::string edge = "coast";
+  bool culture = true;
+  bool sea = false;
+  int threads = 0;  // 0: as many as the machine has
+};
+
+// The box's cells in blocks of 8 x 8, so that neighbours are made while what they share is still known.
+std::vector<CellPlace> places_of(const Options& options) {
+  constexpr int kBlock = 8;
+  std::vector<CellPlace> places;
+  for (int south = 0; south < options.cells_latitude; south += kBlock)
+    for (int west = 0; west < options.cells_longitude; west += kBlock)
+      for (int row = south; row < std::min(south + kBlock, options.cells_latitude); ++row)
+        for (int column = west; column < std::min(west + kBlock, options.cells_longitude); ++column)
+          places.push_back(neighbour_of({options.south_deg, options.west_deg}, row, column));
+  return places;
+}
+
+// The cells of a box, made by several threads, each cell by one unless there are too few cells.
+class Generation {
+ public:
+  explicit Generation(const Options& options)
+      : options_(options),
+        landscape_(options.seed, island_of(options)),
+        places_(places_of(options)),
+        progress_(places_.size()) {
+    const int threads =
+        options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    const int cells = static_cast<int>(places_.size());
+    workers_ = std::min(threads, cells);
+    threads_per_cell_ = cells >= 2 * threads ? 1 : std::max(1, threads / workers_);
+  }
+
+  void run() {
+    std::vector<std::thread> others;
+    for (int worker = 1; worker < workers_; ++worker) others.emplace_back([this] { work(); });
+    work();
+    for (std::thread& other : others) other.join();
+    if (failed_) give_up(*failed_);
+    const std::size_t land = written_;
+    std::printf("%zu cells of land in %s; %zu of sea alone %s\n", land, options_.out.c_str(), places_.size() - land,
+                options_.sea ? "among them" : "have no file");
+  }
+
+ private:
+  static std::optional<LandscapeBox> island_of(const Options& options) {
+    if (options.edge == "cut") return std::nullopt;
+    return LandscapeBox{options.south_deg, options.west_deg, options.cells_latitude, options.cells_longitude};
+  }
+
+  void work() {
+    for (std::size_t number = next_++; number < places_.size() && !stop_; number = next_++) {
+      const CellPlace place = places_[number];
+      std::string note;
+      if (options_.sea || landscape_.may_have_land(place)) {
+        const auto made = make(place);
+        if (!made) return fail(made.error());
+        note = *made;
+      }
+      const std::lock_guard lock(mutex_);
+      progress_.done(note);
+    }
+  }
+
+  // A line about the cell; empty when it is sea alone and was not written.
+  failure::Expected<std::string> make(CellPlace place) {
+    const MadeCell made = landscape_.make(place, dted::kPostsOfLevel[options_.level],
+                                          dted_columns(place, options_.level), threads_per_cell_);
+    const bool all_sea = made.cell.highest_m() <= 0;
+    if (all_sea && !options_.sea) return std::string();
+    const auto path = write_dted(options_.out, made.cell, options_.level);
+    if (!path) return tl::unexpected(path.error());
+    if (options_.culture)
+      if (const auto written = write_culture(culture_path(*path), made.culture); !written)
+        return tl::unexpected(written.error());
+    written_ += all_sea ? 0 : 1;
+    return path->string() + "  " + std::to_string(std::lround(made.cell.lowest_m())) + " to " +
+           std::to_string(std::lround(made.cell.highest_m())) + " m";
+  }
+
+  void fail(const failure::Error& error) {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+    if (!failed_) failed_ = error;
+  }
+
+  Options options_;
+  Landscape landscape_;
+  std::vector<CellPlace> places_;
+  int workers_ = 1;
+  int threads_per_cell_ = 1;
+  std::atomic<std::size_t> next_ = 0;
+  std::atomic<std::size_t> written_ = 0;
+  std::atomic<bool> stop_ = false;
+  std::mutex mutex_;  // guards what follows
+  Progress progress_;
+  std::optional<failure::Error> failed_;
+};
+
+void add_area(CLI::App& command, Options& options) {
+  command.add_option("--south", options.south_deg, "[deg] south edge")
+      ->check(CLI::Range(-90, 89))
+      ->capture_default_str();
+  command.add_option("--west", options.west_deg, "[deg] west edge")
+      ->check(CLI::Range(-180, 179))
+      ->capture_default_str();
+  command.add_option("--cells-lat", options.cells_latitude, "cells northward")
+      ->check(CLI::Range(1, 180))
+      ->capture_default_str();
+  command.add_option("--cells-lon", options.cells_longitude, "cells eastward")
+      ->check(CLI::Range(1, 360))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_terrain_generate(CLI::App& terrain) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = terrain.add_subcommand("generate", "a made-up landscape with rivers and towns, as DTED cells");
+  command->add_option("--out", options->out, "folder for the cells")->required();
+  add_area(*command, *options);
+  command->add_option("--level", options->level, "DTED level")->check(CLI::Range(0, 2))->capture_default_str();
+  command->add_option("--seed", options->seed, "another seed, another earth")->capture_default_str();
+  command
+      ->add_option("--edge", options->edge,
+                   "coast: land falls to the sea before the area's edge; cut: it goes on, for areas that join")
+      ->check(CLI::IsMember({"coast", "cut"}))
+      ->capture_default_str();
+  command
+      ->add_flag("--culture,!--no-culture", options->culture, "surface materials beside each cell (wLLL/nBB.smc.png)")
+      ->capture_default_str();
+  command->add_flag("--sea", options->sea, "write cells of sea alone too (else they have no file, which means sea)");
+  command->add_option("--threads", options->threads, "0: as many as the machine has; the files are the same")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command->callback([options] {
+    check_folder_name("--out", options->out);
+    if (options->south_deg + options->cells_latitude > 90)
+      throw CommandFailed{"--cells-lat: expected an area that ends at the north pole, found one beyond it", 2};
+    Generation(*options).run();
+  });
+}
+
+}  // namespace yars::tools

@@ -1,0 +1,268 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lib/geo/quantity.hpp"
+#include "lib/imageio/png.hpp"
+#include "model/terrain/formats/cell.hpp"
+#include "model/terrain/formats/culture.hpp"
+#include "model/terrain/sampling/cell_view.hpp"
+#include "model/terrain/store/cell_files.hpp"
+#include "tools/command/command.hpp"
+#include "tools/command/output.hpp"
+#include "tools/terrain/terrain_command.hpp"
+
+namespace yars::tools {
+
+// A map of elevation as a picture: hill shade lit from the north-west, tinted by height or by what covers the
+// ground; sea and voids in colours of their own. Plate carree stretched so that the middle parallel has true shape.
+// Pure.
+
+struct MapFrame {
+  double south_deg = 0.0, north_deg = 0.0, west_deg = 0.0, east_deg = 0.0;
+  int width = 0, height = 0;  // [pixels]
+};
+
+// A frame of this width, its height chosen for true shape.
+MapFrame map_frame(double south_deg, double north_deg, double west_deg, double east_deg, int width);
+
+// A picture of the colour of absent cells, RGB.
+imageio::Image blank_map(const MapFrame& frame);
+
+// Paints the pixels whose middle lies in the cell; `culture` may be null.
+void paint_cell(const model::terrain::Cell& cell, const model::terrain::Culture* culture, const MapFrame& frame,
+                imageio::Image& image);
+
+namespace {
+
+using model::terrain::Cell;
+using model::terrain::Culture;
+using model::terrain::Material;
+using Colour = std::array<double, 3>;
+
+constexpr double kMetresPerDegree = 111195.0;  // [m] of a sphere of 6371 km: a picture, no navigation
+constexpr double kExaggeration = 1.6;          // of slopes; more hides plains in the shade of hills
+constexpr Colour kSea{38, 66, 112};
+constexpr Colour kVoid{200, 60, 160};
+constexpr Colour kAbsent{24, 34, 56};
+
+struct Tint {
+  double height_m;
+  Colour colour;
+};
+constexpr Tint kTints[] = {{-500, {92, 128, 84}},  {0, {104, 142, 88}},     {300, {150, 162, 104}},
+                           {900, {186, 166, 118}}, {1800, {160, 134, 110}}, {2800, {206, 200, 196}},
+                           {4000, {250, 250, 250}}};
+
+Colour tint(double height_m) {
+  const Tint* above = std::begin(kTints);
+  while (above != std::end(kTints) && above->height_m < height_m) ++above;
+  if (above == std::begin(kTints)) return above->colour;
+  if (above == std::end(kTints)) return std::prev(above)->colour;
+  const Tint* below = std::prev(above);
+  const double t = (height_m - below->height_m) / (above->height_m - below->height_m);
+  Colour mixed{};
+  for (std::size_t i = 0; i < mixed.size(); ++i)
+    mixed[i] = below->colour[i] + t * (above->colour[i] - below->colour[i]);
+  return mixed;
+}
+
+// Lambert's cosine, light from the north-west 40 degrees up, with some light in the shade.
+double light(double slope_east, double slope_north) {
+  constexpr double kEast = -0.542, kNorth = 0.542, kUp = 0.643;
+  const double east = -slope_east * kExaggeration;
+  const double north = -slope_north * kExaggeration;
+  const double cosine = (east * kEast + north * kNorth + kUp) / std::sqrt(east * east + north * north + 1.0);
+  return 0.25 + 1.15 * std::max(0.0, cosine);
+}
+
+struct PixelStep {
+  double north_deg, east_deg;
+};
+
+struct Ground {
+  const Cell& cell;
+  const Culture* culture;  // may be null
+};
+
+// What covers the ground; by height where culture is absent or says nothing.
+Colour cover_of(const Ground& ground, double north_deg, double east_deg, double height_m) {
+  const std::uint8_t code = ground.culture != nullptr ? ground.culture->nearest(north_deg, east_deg) : 0;
+  if (code == static_cast<std::uint8_t>(Material::none)) return tint(height_m);
+  const auto colour = model::terrain::material_colour(code);
+  return {static_cast<double>(colour[0]), static_cast<double>(colour[1]), static_cast<double>(colour[2])};
+}
+
+Colour colour_at(const Ground& ground, double north_deg, double east_deg, PixelStep step, double east_m_per_deg) {
+  const Cell& cell = ground.cell;
+  const model::terrain::Surface here = model::terrain::interpolate(cell, north_deg, east_deg);
+  if (std::isnan(here.elevation_m)) return kVoid;
+  if (here.water > 0.5) return kSea;
+  // Slope over two pixels or two posts, whichever is wider, inside the cell.
+  const double reach_north = std::max(step.north_deg, 1.0 / (cell.rows() - 1));
+  const double reach_east = std::max(step.east_deg, 1.0 / (cell.columns() - 1));
+  const double north = std::min(1.0, north_deg + reach_north);
+  const double south = std::max(0.0, north_deg - reach_north);
+  const double east = std::min(1.0, east_deg + reach_east);
+  const double west = std::max(0.0, east_deg - reach_east);
+  const auto rise = [&](double from_north, double from_east, double to_north, double to_east) {
+    const double difference = model::terrain::interpolate(cell, to_north, to_east).elevation_m -
+                              model::terrain::interpolate(cell, from_north, from_east).elevation_m;
+    return std::isnan(difference) ? 0.0 : difference;
+  };
+  const double shade = light(rise(north_deg, west, north_deg, east) / ((east - west) * east_m_per_deg),
+                             rise(south, east_deg, north, east_deg) / ((north - south) * kMetresPerDegree));
+  Colour colour = cover_of(ground, north_deg, east_deg, here.elevation_m);
+  for (double& channel : colour) channel *= shade;
+  return colour;
+}
+
+void put(imageio::Image& image, int x, int y, const Colour& colour) {
+  std::uint8_t* pixel = &image.pixels[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                                           static_cast<std::size_t>(x))];
+  for (std::size_t i = 0; i < colour.size(); ++i)
+    pixel[i] = static_cast<std::uint8_t>(std::clamp(colour[i], 0.0, 255.0));
+}
+
+}  // namespace
+
+MapFrame map_frame(double south_deg, double north_deg, double west_deg, double east_deg, int width) {
+  const double middle = 0.5 * (south_deg + north_deg) * geo::kRadiansPerDegree;
+  const double shape = (north_deg - south_deg) / ((east_deg - west_deg) * std::max(0.05, std::cos(middle)));
+  return {south_deg, north_deg, west_deg,
+          east_deg,  width,     std::clamp(static_cast<int>(std::lround(width * shape)), 1, 16384)};
+}
+
+imageio::Image blank_map(const MapFrame& frame) {
+  imageio::Image image{frame.width, frame.height, 3, {}};
+  image.pixels.resize(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height) * 3);
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x) put(image, x, y, kAbsent);
+  return image;
+}
+
+void paint_cell(const Cell& cell, const Culture* culture, const MapFrame& frame, imageio::Image& image) {
+  const PixelStep step{(frame.north_deg - frame.south_deg) / frame.height,
+                       (frame.east_deg - frame.west_deg) / frame.width};
+  const double west_deg = cell.place().west_deg;
+  const double north_deg = cell.place().south_deg + 1.0;
+  const int left = std::max(0, static_cast<int>(std::ceil((west_deg - frame.west_deg) / step.east_deg - 0.5)));
+  const int top = std::max(0, static_cast<int>(std::ceil((frame.north_deg - north_deg) / step.north_deg - 0.5)));
+  for (int y = top; y < frame.height; ++y) {
+    const double latitude_deg = frame.north_deg - (y + 0.5) * step.north_deg;
+    if (latitude_deg < north_deg - 1.0) break;
+    const double east_m_per_deg = kMetresPerDegree * std::max(0.01, std::cos(latitude_deg * geo::kRadiansPerDegree));
+    for (int x = left; x < frame.width; ++x) {
+      const double longitude_deg = frame.west_deg + (x + 0.5) * step.east_deg;
+      if (longitude_deg >= west_deg + 1.0) break;
+      put(image, x, y,
+          colour_at({cell, culture}, latitude_deg - cell.place().south_deg, longitude_deg - west_deg, step,
+                    east_m_per_deg));
+    }
+  }
+}
+
+// `yars terrain image`: a hill-shaded map of a directory of elevation cells.
+
+namespace {
+
+using namespace model::terrain;
+
+struct Options {
+  std::string directory;
+  std::string out;
+  std::optional<double> south_deg, north_deg, west_deg, east_deg;  // else what the directory covers
+  int width = 1024;
+  bool culture = false;
+};
+
+MapFrame frame_of(const Options& options, const DirectoryIndex& index) {
+  const Coverage all = coverage_of(index);
+  const double south_deg = options.south_deg.value_or(all.south_deg);
+  const double north_deg = options.north_deg.value_or(all.north_deg);
+  const double west_deg = options.west_deg.value_or(all.west_deg);
+  const double east_deg = options.east_deg.value_or(all.east_deg);
+  if (south_deg >= north_deg || west_deg >= east_deg)
+    throw CommandFailed{"yars terrain image: expected south < north and west < east, found an empty region", 2};
+  return map_frame(south_deg, north_deg, west_deg, east_deg, options.width);
+}
+
+bool overlap(CellPlace place, const MapFrame& frame) {
+  return place.south_deg < frame.north_deg && place.south_deg + 1 > frame.south_deg &&
+         place.west_deg < frame.east_deg && place.west_deg + 1 > frame.west_deg;
+}
+
+void say_problem(const failure::Error& error) {
+  std::fprintf(stderr, "problem: %s\n", error.message().c_str());
+}
+
+// Nothing where it is not asked for, absent or unreadable.
+std::optional<Culture> culture_of(const Options& options, const CellFile& file, CellPlace place, std::size_t& failed) {
+  const auto path = options.culture ? find_culture(file.path) : std::nullopt;
+  if (!path) return std::nullopt;
+  auto culture = read_culture(*path, place);
+  if (culture) return std::move(*culture);
+  say_problem(culture.error());
+  ++failed;
+  return std::nullopt;
+}
+
+// Cell by cell: no more than one is in memory, whatever the region.
+void draw(const Options& options) {
+  check_file_name("--out", options.out, {".png"});
+  std::vector<std::string> unusable;
+  const auto index = index_directory(options.directory, &unusable);
+  if (!index) give_up(index.error());
+  const MapFrame frame = frame_of(options, *index);
+  imageio::Image image = blank_map(frame);
+  for (const std::string& problem : unusable) std::fprintf(stderr, "problem: %s\n", problem.c_str());
+  std::size_t failed = unusable.size();
+  std::size_t painted = 0;
+  for (const auto& [slot, file] : *index) {
+    if (!overlap(place_of_slot(slot), frame)) continue;
+    const auto reading = read_cell(file, place_of_slot(slot));
+    if (!reading) {
+      say_problem(reading.error());
+      ++failed;
+      continue;
+    }
+    const std::optional<Culture> culture = culture_of(options, file, place_of_slot(slot), failed);
+    paint_cell(reading->cell, culture ? &*culture : nullptr, frame, image);
+    ++painted;
+  }
+  if (const auto written = imageio::write_png(options.out, image); !written) give_up(written.error());
+  if (painted + failed == 0)
+    give_up({options.directory, "cells in the region that is drawn", "none: it covers " + coverage_text(*index),
+             "check --south, --north, --west and --east and their signs"});
+  if (failed > 0)
+    throw CommandFailed{"yars terrain image: expected all cells to be drawn, found " + std::to_string(failed) +
+                            " that could not be; see the problems",
+                        1};
+}
+
+}  // namespace
+
+void add_terrain_image(CLI::App& terrain) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = terrain.add_subcommand("image", "hill-shaded map as PNG; sea blue, voids magenta");
+  command->add_option("--terrain", options->directory, "folder with DTED or HGT cells")->required();
+  command->add_option("--out", options->out, "PNG file")->required();
+  command->add_option("--south", options->south_deg, "[deg] edge of the map; else what the folder covers")
+      ->check(CLI::Range(-90.0, 90.0));
+  command->add_option("--north", options->north_deg, "[deg]")->check(CLI::Range(-90.0, 90.0));
+  command->add_option("--west", options->west_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
+  command->add_option("--east", options->east_deg, "[deg]")->check(CLI::Range(-180.0, 180.0));
+  command->add_option("--width", options->width, "[pixels]")->check(CLI::Range(16, 16384))->capture_default_str();
+  command->add_flag("--culture", options->culture,
+                    "colours by surface material where a cell has its culture beside it");
+  command->callback([options] { draw(*options); });
+}
+
+}  // namespace yars::tools

@@ -1,0 +1,211 @@
+#include "tools/terrain/terrain_command.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "model/terrain/formats/cell_reading.hpp"
+#include "model/terrain/gdal/raster_survey.hpp"
+#include "model/terrain/store/cell_files.hpp"
+#include "tools/command/command.hpp"
+#include "tools/command/output.hpp"
+
+namespace yars::tools {
+
+// `yars terrain`: makes elevation databases and looks into them.
+
+void add_terrain_command(CLI::App& app, const CommonOptions& /*common*/) {
+  CLI::App* terrain =
+      app.add_subcommand("terrain", "elevation databases: generate, info, image, profile, dump, reduce, convert, pack");
+  terrain->require_subcommand(1);
+  add_terrain_generate(*terrain);
+  add_terrain_info(*terrain);
+  add_terrain_image(*terrain);
+  add_terrain_profile(*terrain);
+  add_terrain_dump(*terrain);
+  add_terrain_reduce(*terrain);
+  add_terrain_convert(*terrain);
+  add_terrain_pack(*terrain);
+}
+
+// `yars terrain info`: what a directory of elevation cells holds.
+
+namespace {
+
+using namespace model::terrain;
+
+struct Facts {
+  int columns = 0, rows = 0;
+  std::size_t posts = 0, voids = 0, sea = 0;
+  double lowest_m = 0.0, highest_m = 0.0;  // where there are heights
+};
+
+Facts facts_of(const Cell& cell) {
+  return {cell.columns(),   cell.rows(),     cell.post_count(), cell.voids(),
+          cell.sea_posts(), cell.lowest_m(), cell.highest_m()};
+}
+
+Facts facts_of(const gdal::RasterCellFacts& cell) {
+  const int rows = cell.columns == 0 ? 0 : static_cast<int>(cell.posts / static_cast<std::size_t>(cell.columns));
+  return {cell.columns,
+          rows,
+          cell.posts,
+          cell.voids,
+          cell.sea,
+          static_cast<double>(cell.lowest_m),
+          static_cast<double>(cell.highest_m)};
+}
+
+// Metres, with a decimal where there is a fraction.
+std::string metres(double height_m) {
+  std::array<char, 32> text{};
+  const bool whole = std::abs(height_m - std::round(height_m)) < 0.05;
+  std::snprintf(text.data(), text.size(), "%.*f", whole ? 0 : 1, height_m);
+  return text.data();
+}
+
+struct Totals {
+  std::size_t cells = 0;
+  std::size_t posts = 0;
+  std::size_t voids = 0;
+  int south_deg = 90, north_deg = -90, west_deg = 180, east_deg = -180;
+  double lowest_m = std::numeric_limits<double>::infinity();
+  double highest_m = -std::numeric_limits<double>::infinity();
+
+  void add(CellPlace place, const Facts& cell) {
+    ++cells;
+    posts += cell.posts;
+    voids += cell.voids;
+    south_deg = std::min(south_deg, place.south_deg);
+    north_deg = std::max(north_deg, place.south_deg + 1);
+    west_deg = std::min(west_deg, place.west_deg);
+    east_deg = std::max(east_deg, place.west_deg + 1);
+    if (cell.voids == cell.posts) return;
+    lowest_m = std::min(lowest_m, cell.lowest_m);
+    highest_m = std::max(highest_m, cell.highest_m);
+  }
+
+  void print() const {
+    const std::string heights = voids == posts ? "no heights" : metres(lowest_m) + " to " + metres(highest_m) + " m";
+    std::printf("%zu %s, latitude %d to %d, longitude %d to %d, %s, %zu of %zu posts void\n", cells,
+                cells == 1 ? "cell" : "cells", south_deg, north_deg, west_deg, east_deg, heights.c_str(), voids, posts);
+  }
+};
+
+void print_cell(CellPlace place, const Facts& cell, const CellFile& file) {
+  const bool empty = cell.voids == cell.posts;
+  std::printf("%5d %6d %6d x %-5d %7s %7s %8zu %7.2f  %s\n", place.south_deg, place.west_deg, cell.columns, cell.rows,
+              empty ? "void" : metres(cell.lowest_m).c_str(), empty ? "void" : metres(cell.highest_m).c_str(),
+              cell.voids,
+              100.0 * static_cast<double>(cell.sea) / static_cast<double>(std::max<std::size_t>(1, cell.posts)),
+              file.path.c_str());
+}
+
+// Goes through a folder; what it finds out is printed as it comes.
+class Inspection {
+ public:
+  explicit Inspection(const std::string& directory) {
+    std::vector<std::string> unusable;
+    auto index = index_directory(directory, &unusable);
+    if (!index) give_up(index.error());
+    index_ = std::move(*index);
+    for (std::string& file : unusable) notes_.add_problem(std::move(file));
+    failed_ = unusable.size();
+  }
+
+  void run() {
+    survey_rasters();
+    std::printf("south   west  columns x rows   min_m   max_m    voids   sea_%%  file\n");
+    for (const auto& [slot, file] : index_) look_into(slot, file);
+    say_progress("");
+    if (totals_.cells > 0) totals_.print();
+    for (const std::string& problem : notes_.sentences()) std::printf("problem: %s\n", problem.c_str());
+    std::fflush(stdout);
+    if (failed_ > 0)
+      throw CommandFailed{"yars terrain info: expected files without damage, found " + std::to_string(failed_) +
+                              " cells or files that cannot be used or are damaged; see the problems",
+                          1};
+  }
+
+ private:
+  // Rasters in degrees may serve thousands of cells: each is read once from end to end.
+  void survey_rasters() {
+    std::set<std::filesystem::path> rasters;
+    for (const auto& [slot, file] : index_)
+      if (file.format == CellFormat::raster) rasters.insert(file.path);
+    for (const auto& path : rasters) {
+      const auto progress = [&](double share) {
+        say_progress(path.string() + "  " + std::to_string(std::lround(100 * share)) + " %");
+      };
+      const auto found = gdal::survey_raster(path, progress);
+      if (!found) {
+        unreadable_[path] = found.error().message();
+        continue;
+      }
+      if (!*found) continue;
+      notes_.add_file(path, (*found)->warnings, (*found)->impossible);
+      for (const gdal::RasterCellFacts& cell : (*found)->cells)
+        surveyed_[{path, slot_of({cell.south_deg, cell.west_deg})}] = facts_of(cell);
+    }
+  }
+
+  void look_into(std::size_t slot, const CellFile& file) {
+    const CellPlace place = place_of_slot(slot);
+    if (const auto known = surveyed_.find({file.path, slot}); known != surveyed_.end())
+      return show(place, known->second, file);
+    if (const auto unreadable = unreadable_.find(file.path); unreadable != unreadable_.end()) {
+      if (told_.insert(file.path).second) notes_.add_problem(unreadable->second);
+      ++failed_;
+      return;
+    }
+    const auto reading = read_cell(file, place);
+    if (!reading) {
+      notes_.add_problem(reading.error().message());
+      ++failed_;
+      return;
+    }
+    if (reading->damaged) ++failed_;
+    notes_.add(file.path, *reading);
+    show(place, facts_of(reading->cell), file);
+    if (isatty(STDOUT_FILENO) == 0)
+      say_progress(std::to_string(totals_.cells) + " of " + std::to_string(index_.size()) + " cells");
+  }
+
+  void show(CellPlace place, const Facts& facts, const CellFile& file) {
+    say_progress("");
+    totals_.add(place, facts);
+    print_cell(place, facts, file);
+  }
+
+  void say_progress(const std::string& text) { progress_.say(text); }
+
+  DirectoryIndex index_;
+  AllReadingNotes notes_;
+  Totals totals_;
+  std::map<std::pair<std::filesystem::path, std::size_t>, Facts> surveyed_;
+  std::map<std::filesystem::path, std::string> unreadable_;
+  std::set<std::filesystem::path> told_;
+  std::size_t failed_ = 0;
+  ProgressLine progress_;
+};
+
+}  // namespace
+
+void add_terrain_info(CLI::App& terrain) {
+  const auto directory = std::make_shared<std::string>();
+  CLI::App* command = terrain.add_subcommand("info", "cells of a directory: posts, heights, voids, problems");
+  command->add_option("--terrain,directory", *directory, "folder with DTED or HGT cells")->required();
+  command->callback([directory] { Inspection(*directory).run(); });
+}
+
+}  // namespace yars::tools

@@ -1,0 +1,208 @@
+#include "tools/trade/candidate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include "lib/radar/fidelity_preset.hpp"
+#include "lib/radar/limits.hpp"
+
+namespace yars::tools::trade {
+
+namespace {
+template <class Number>
+std::optional<Number> parse(std::string_view text) {
+  Number value{};
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+tl::unexpected<failure::Error> refuse(std::string_view subject, std::string expected, std::string_view found) {
+  return tl::unexpected<failure::Error>(
+      failure::Error{std::string(subject), std::move(expected), std::string("'").append(found).append("'"), "", true});
+}
+}  // namespace
+
+std::vector<std::string_view> fields_of(std::string_view list) {
+  std::vector<std::string_view> fields;
+  for (std::size_t comma = list.find(','); comma != std::string_view::npos; comma = list.find(',')) {
+    fields.push_back(list.substr(0, comma));
+    list.remove_prefix(comma + 1);
+  }
+  fields.push_back(list);
+  return fields;
+}
+
+std::optional<int> whole_number_of(std::string_view text) {
+  return parse<int>(text);
+}
+
+std::optional<double> number_of(std::string_view text) {
+  const auto value = parse<double>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+failure::Expected<std::vector<double>> numbers_of(std::string_view list, std::span<const Bounds> bounds,
+                                                  std::string_view subject, std::string_view form) {
+  const auto fields = fields_of(list);
+  if (fields.size() != bounds.size())
+    return refuse(subject, std::to_string(bounds.size()).append(" numbers ").append(form), list);
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    const auto value = number_of(fields[i]);
+    if (!value || *value < bounds[i].least || *value > bounds[i].most)
+      return refuse(subject,
+                    std::string(bounds[i].name) + " from " + short_number(bounds[i].least) + " to " +
+                        short_number(bounds[i].most),
+                    fields[i]);
+    numbers.push_back(*value);
+  }
+  return numbers;
+}
+
+std::string short_number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
+}
+
+namespace {
+
+using failure::Expected;
+using radar::Fidelity;
+
+// Puts a value into a fidelity; false when the knob does not take it.
+using Setter = std::function<bool(Fidelity&, std::string_view)>;
+
+struct Knob {
+  std::string_view name;
+  std::string_view takes;  // for a person
+  Setter set;
+  bool of_scan, of_map;  // what it touches
+};
+
+Setter whole_number(int Fidelity::*slot, int least, int most) {
+  return [=](Fidelity& fidelity, std::string_view text) {
+    const auto value = whole_number_of(text);
+    if (!value || *value < least || *value > most) return false;
+    fidelity.*slot = *value;
+    return true;
+  };
+}
+
+Setter flag(bool Fidelity::*slot) {
+  return [=](Fidelity& fidelity, std::string_view text) {
+    if (text != "true" && text != "false") return false;
+    fidelity.*slot = text == "true";
+    return true;
+  };
+}
+
+template <class Choice>
+Setter choice(Choice Fidelity::*slot, std::array<std::string_view, 3> names) {
+  return [=](Fidelity& fidelity, std::string_view text) {
+    const auto found = std::find(names.begin(), names.end(), text);
+    if (found == names.end()) return false;
+    fidelity.*slot = static_cast<Choice>(found - names.begin());
+    return true;
+  };
+}
+
+bool set_posts_per_sample(Fidelity& fidelity, std::string_view text) {
+  constexpr double kMostPosts = 1000.0;  // as GUF
+  const auto value = number_of(text);
+  if (!value || *value < 0.0 || *value > kMostPosts) return false;
+  fidelity.posts_per_sample = *value;
+  return true;
+}
+
+// 1 is no number of knots: one point has no direction.
+bool set_geodesic_knots(Fidelity& fidelity, std::string_view text) {
+  constexpr int kMostKnots = 9;
+  const auto value = whole_number_of(text);
+  if (!value || *value < 0 || *value == 1 || *value > kMostKnots) return false;
+  fidelity.geodesic_knots = *value;
+  return true;
+}
+
+const std::array<Knob, 17>& knobs() {
+  static const std::array<Knob, 17> all{{
+      {"samples", "whole numbers 1 to 4096", whole_number(&Fidelity::samples, 1, radar::kMaxSamples), true, false},
+      {"geodesicKnots", "0 or whole numbers 2 to 9", set_geodesic_knots, true, true},
+      {"interpolation", "nearest, bilinear, cubic", choice(&Fidelity::interpolation, {"nearest", "bilinear", "cubic"}),
+       true, true},
+      {"postsPerSample", "numbers 0 to 1000", set_posts_per_sample, true, false},
+      {"earth", "flat, sphere, ellipsoid", choice(&Fidelity::earth, {"flat", "sphere", "ellipsoid"}), true, true},
+      {"subBeams", "whole numbers 1 to 15", whole_number(&Fidelity::sub_beams, 1, radar::kMostSubBeams), true, false},
+      {"crossTrackSlope", "true, false", flag(&Fidelity::cross_track_slope), true, false},
+      {"pulseSmear", "true, false", flag(&Fidelity::pulse_smear), true, false},
+      {"azimuthSmear", "true, false", flag(&Fidelity::azimuth_smear), true, false},
+      {"beam", "hard-edge, gaussian, cosecant-squared",
+       choice(&Fidelity::beam, {"hard-edge", "gaussian", "cosecant-squared"}), true, false},
+      {"mapSize", "whole numbers 16 to 1024", whole_number(&Fidelity::map_size, 16, 1024), false, true},
+      {"mapOversampling", "whole numbers 1 to 4", whole_number(&Fidelity::map_oversampling, 1, 4), false, true},
+      {"mapLayover", "true, false", flag(&Fidelity::map_layover), false, true},
+      {"mapResponse", "true, false", flag(&Fidelity::map_response), false, true},
+      {"mapSmoothGround", "true, false", flag(&Fidelity::map_smooth_ground), false, true},
+      {"mapDetail", "true, false", flag(&Fidelity::map_detail), false, true},
+      {"mapDoubleBounce", "true, false", flag(&Fidelity::map_double_bounce), false, true},
+  }};
+  return all;
+}
+
+template <class Names>
+std::string joined(const Names& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + std::string(name);
+  return text;
+}
+
+std::vector<const Knob*> knobs_of(Subject subject) {
+  std::vector<const Knob*> found;
+  for (const Knob& knob : knobs())
+    if (subject == Subject::scan ? knob.of_scan : knob.of_map) found.push_back(&knob);
+  return found;
+}
+
+}  // namespace
+
+Expected<std::vector<Contender>> preset_contenders(std::string_view list) {
+  std::vector<Contender> found;
+  if (list == "none") return found;
+  std::vector<std::string_view> names = fields_of(list);
+  if (list == "all") names.assign(radar::fidelity_names().begin(), radar::fidelity_names().end());
+  for (const std::string_view name : names) {
+    const auto fidelity = radar::fidelity_preset(name);
+    if (!fidelity) return refuse("--presets", joined(radar::fidelity_names()) + ", or all, or none", name);
+    found.push_back({std::string(name), "preset", *fidelity});
+  }
+  return found;
+}
+
+Expected<std::vector<Contender>> knob_contenders(std::string_view sweep, const Fidelity& base, Subject subject) {
+  const std::size_t equals = sweep.find('=');
+  if (equals == std::string_view::npos) return refuse("--knob", "KNOB=VALUE,VALUE,...", sweep);
+  const std::string_view name = sweep.substr(0, equals);
+  const std::vector<const Knob*> known = knobs_of(subject);
+  const auto named = std::find_if(known.begin(), known.end(), [&](const Knob* knob) { return knob->name == name; });
+  if (named == known.end()) {
+    std::vector<std::string_view> names;
+    for (const Knob* knob : known) names.push_back(knob->name);
+    return refuse("--knob", "one of " + joined(names), name);
+  }
+  std::vector<Contender> found;
+  for (const std::string_view value : fields_of(sweep.substr(equals + 1))) {
+    Contender contender{std::string(name) + "=" + std::string(value), std::string(name), base};
+    contender.fidelity.name = contender.name;
+    if (!(*named)->set(contender.fidelity, value))
+      return refuse("--knob " + std::string(name), std::string((*named)->takes), value);
+    found.push_back(std::move(contender));
+  }
+  return found;
+}
+
+}  // namespace yars::tools::trade

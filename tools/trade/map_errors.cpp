@@ -1,0 +1,175 @@
+#include "tools/trade/map_errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "model/hrm/map_image.hpp"
+#include "model/physics/reflectivity.hpp"
+#include "tools/trade/trade_table.hpp"
+
+namespace yars::tools::trade {
+
+namespace {
+constexpr std::uint8_t kMarkMaterial = 1;
+constexpr double kMarkGammaDb = 40.0;  // water, which alone returns beside them, is far below
+constexpr double kNothingDb = -150.0;
+constexpr double kEdgeShare = 0.03;  // of the window: pixels enough for their raster to average out
+}  // namespace
+
+MarkScene::MarkScene(const model::hrm::PatchOrder& order) {
+  kinds_.push_back({kMarkMaterial, 0, 0});
+  const model::hrm::PatchGeometry geometry(order, radar::Fidelity(), 0.0);
+  for (int row = 0; row < kMarksAnEdge; ++row)
+    for (int column = 0; column < kMarksAnEdge; ++column)
+      add(geometry.place_of({((column + 0.5) / kMarksAnEdge - 0.5) * geometry.window_m(),
+                             (0.5 - (row + 0.5) / kMarksAnEdge) * geometry.window_m()}),
+          kEdgeShare * geometry.window_m());
+}
+
+void MarkScene::add(geo::GeoPoint place, double edge_m) {
+  model::scene::Tile tile;
+  tile.origin = place;
+  const auto half = static_cast<float>(0.5 * edge_m);
+  tile.bounds = {-half, half, -half, half, 0.0F, 0.0F};
+  tile.east_m = {-half, half, half, -half};
+  tile.north_m = {-half, -half, half, half};
+  tile.up_m.assign(4, 0.0F);
+  tile.bare = 4;
+  tile.corner = {{{0, 0}, {1, 2}, {2, 3}}};
+  tile.on_ground = 2;
+  tile.kind.assign(2, 0);
+  tile.object.assign(2, static_cast<std::uint32_t>(objects_.size()));
+  objects_.push_back({"mark", place, 0.0, 0.0, edge_m, edge_m, 0.0, 0});
+  tiles_.push_back(std::move(tile));
+}
+
+void MarkScene::tiles_near(geo::GeoPoint /*place*/, double /*radius_m*/,
+                           std::vector<const model::scene::Tile*>& found) const {
+  found.clear();
+  for (const model::scene::Tile& tile : tiles_) found.push_back(&tile);
+}
+
+void MarkScene::objects_near(geo::GeoPoint /*place*/, double /*radius_m*/, std::vector<std::uint32_t>& found) const {
+  found.clear();
+  for (std::size_t i = 0; i < objects_.size(); ++i) found.push_back(static_cast<std::uint32_t>(i));
+}
+
+radar::RadarConfiguration marks_alone(radar::RadarConfiguration configuration) {
+  configuration.fidelity.map_detail = false;
+  configuration.fidelity.map_response = false;
+  configuration.receiver.land_gamma_db = kNothingDb;
+  for (radar::Material& material : configuration.world.land.materials)
+    material.gamma_db = material.code == kMarkMaterial ? kMarkGammaDb : kNothingDb;
+  configuration.world.movers.clear();
+  return configuration;
+}
+
+namespace {
+
+namespace hrm = model::hrm;
+using radar::RadarConfiguration;
+
+constexpr double kDarkShare = 0.05;
+constexpr double kNothing = 1e-8;    // of level ground: what float still tells from zero
+constexpr double kHalfHidden = 0.2;  // of the brightest mark: less is a mark that the ground mostly hides
+
+RadarConfiguration quiet(RadarConfiguration configuration) {
+  configuration.fidelity.noise = false;
+  configuration.fidelity.map_noise = 0.0;
+  return configuration;
+}
+
+// Middle of what returns in a mark's share of the window.
+std::vector<std::optional<hrm::MapPoint>> marks_of(const hrm::MapImage& image, double window_m) {
+  const double pixel_m = window_m / image.size;
+  struct Sum {
+    double power = 0.0, right_m = 0.0, up_m = 0.0;
+  };
+  std::vector<Sum> sums(static_cast<std::size_t>(kMarksAnEdge) * kMarksAnEdge);
+  for (int row = 0; row < image.size; ++row) {
+    for (int column = 0; column < image.size; ++column) {
+      const auto power = std::max(0.0, static_cast<double>(image.power[image.at(column, row)]));
+      const int mark = row * kMarksAnEdge / image.size * kMarksAnEdge + column * kMarksAnEdge / image.size;
+      Sum& sum = sums[static_cast<std::size_t>(mark)];
+      sum.power += power;
+      sum.right_m += power * ((column + 0.5) * pixel_m - 0.5 * window_m);
+      sum.up_m += power * (0.5 * window_m - (row + 0.5) * pixel_m);
+    }
+  }
+  const double brightest =
+      std::max_element(sums.begin(), sums.end(), [](const Sum& a, const Sum& b) { return a.power < b.power; })->power;
+  std::vector<std::optional<hrm::MapPoint>> marks(sums.size());
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    if (sums[i].power > kHalfHidden * brightest)
+      marks[i] = hrm::MapPoint{sums[i].right_m / sums[i].power, sums[i].up_m / sums[i].power};
+  return marks;
+}
+
+}  // namespace
+
+double time_map(hrm::PatchProcess& process, const hrm::PatchOrder& order, const hrm::PatchDatabase& database,
+                Clock clock) {
+  const double begin_ms = clock();
+  process.begin(order);
+  process.give(database);
+  while (process.state() != hrm::PatchState::done) process.advance();
+  return clock() - begin_ms;
+}
+
+MapEvidence observe_map(const RadarConfiguration& configuration, const hrm::PatchOrder& order,
+                        const hrm::PatchDatabase& database, Clock clock) {
+  const RadarConfiguration silent = quiet(configuration);
+  hrm::PatchProcess process(silent, {});
+  MapEvidence evidence;
+  evidence.took_ms = time_map(process, order, database, clock);
+  evidence.size = process.image().size;
+  evidence.power.assign(process.image().power.begin(), process.image().power.end());
+  evidence.video = process.picture();
+  evidence.power_is_radar = configuration.fidelity.algorithm != radar::Algorithm::report_1996;
+  evidence.noise =
+      hrm::noise_gamma(configuration.high_resolution, geo::Length::metres(process.geometry().slant_range_m()),
+                       geo::Length::metres(process.geometry().window_m()));
+  const double level = evidence.power_is_radar ? model::reflectivity::make_land_return(silent).gamma[0]
+                                               : process.geometry().sin_grazing();
+  for (const float power : evidence.power)
+    evidence.dark.push_back(static_cast<double>(power) < kDarkShare * level ? 1 : 0);
+
+  RadarConfiguration marked = marks_alone(silent);
+  // Brightness knows no materials: the plain algorithm on the same plane puts things where 1996 does.
+  if (!evidence.power_is_radar) marked.fidelity.algorithm = radar::Algorithm::standard;
+  hrm::PatchProcess marks(marked, {});
+  time_map(marks, order, {database.window, database.path, std::make_shared<MarkScene>(order)}, clock);
+  evidence.marks = marks_of(marks.image(), marks.geometry().window_m());
+  return evidence;
+}
+
+MapErrors errors_against(const MapEvidence& ruler, const MapEvidence& found) {
+  RootMeanSquare decibels, grays;
+  std::size_t mismatches = 0;
+  for (int row = 0; row < ruler.size; ++row) {
+    const int there_row = (2 * row + 1) * found.size / (2 * ruler.size);
+    for (int column = 0; column < ruler.size; ++column) {
+      const int there_column = (2 * column + 1) * found.size / (2 * ruler.size);
+      const auto here = static_cast<std::size_t>(row * ruler.size + column);
+      const auto there = static_cast<std::size_t>(there_row * found.size + there_column);
+      grays.add(static_cast<double>(ruler.video[here]) - static_cast<double>(found.video[there]));
+      if (ruler.dark[here] != found.dark[there]) ++mismatches;
+      const auto exact = static_cast<double>(ruler.power[here]);
+      const bool both = ruler.dark[here] == 0 && found.dark[there] == 0 && found.power_is_radar && exact > ruler.noise;
+      if (both) decibels.add(10.0 * std::log10(std::max(static_cast<double>(found.power[there]), kNothing) / exact));
+    }
+  }
+  double farthest_m = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t mark = 0; mark < ruler.marks.size(); ++mark) {
+    if (!ruler.marks[mark] || !found.marks[mark]) continue;
+    const double away_m = std::hypot(found.marks[mark]->right_m - ruler.marks[mark]->right_m,
+                                     found.marks[mark]->up_m - ruler.marks[mark]->up_m);
+    farthest_m = std::isnan(farthest_m) ? away_m : std::max(farthest_m, away_m);
+  }
+  return {farthest_m, 100.0 * static_cast<double>(mismatches) / static_cast<double>(ruler.power.size()),
+          decibels.value(), grays.value()};
+}
+
+}  // namespace yars::tools::trade

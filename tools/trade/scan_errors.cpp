@@ -1,0 +1,187 @@
+#include "tools/trade/scan_errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lib/failure/require.hpp"
+#include "lib/geo/geodesic.hpp"
+#include "model/physics/ray.hpp"
+#include "model/physics/receiver.hpp"
+#include "model/physics/sweep_geometry.hpp"
+#include "model/rbm/algorithm.hpp"
+#include "tools/trade/trade_table.hpp"
+
+namespace yars::tools::trade {
+
+namespace {
+
+using model::rbm::Look;
+using radar::RadarConfiguration;
+
+constexpr float kNothing = 1e-8F;  // of full scale: far below the noise, and what float still tells from zero
+
+// One ray, no smear, and a beam without edge about the horizon: what is outside a beam has no power and, by the 1996
+// report, is not lit.
+RadarConfiguration bare(RadarConfiguration configuration) {
+  constexpr double kWholeViewDeg = 179.9;
+  configuration.fidelity.sub_beams = 1;
+  configuration.fidelity.pulse_smear = false;
+  configuration.fidelity.beam = radar::BeamPattern::hard_edge;
+  configuration.antenna.elevation_beamwidth_deg = kWholeViewDeg;
+  return configuration;
+}
+
+RaySample sample_at(const RadarConfiguration& configuration, const geo::GeodesicRay& ray, double distance_m,
+                    const model::terrain::TerrainView& terrain) {
+  RaySample sample;
+  sample.distance_m = distance_m;
+  sample.ground.elevation_m = std::numeric_limits<double>::quiet_NaN();
+  const bool hole = std::isnan(distance_m);
+  sample.place = ray.position(geo::Length::metres(hole ? 0.0 : distance_m));
+  if (!hole) sample.ground = terrain.surface_at(sample.place, configuration.fidelity.interpolation);
+  return sample;
+}
+
+}  // namespace
+
+std::vector<RaySample> ray_samples(const RadarConfiguration& given, std::span<const model::kernel::SweepPlace> places,
+                                   const model::terrain::TerrainView& terrain) {
+  const RadarConfiguration configuration = bare(given);
+  const auto algorithm = model::rbm::make_algorithm(configuration);
+  const std::size_t count = model::rbm::sample_count(configuration);
+  std::vector<double> distance_m(count);
+  std::vector<float> power(count);
+  std::vector<std::uint8_t> lit(count);
+  std::vector<RaySample> samples;
+  samples.reserve(places.size() * count);
+  for (const model::kernel::SweepPlace& place : places) {
+    Look look = model::kernel::look_of(place);
+    look.elevation = geo::Angle();
+    algorithm->measure(look, terrain, power);
+    algorithm->lit(lit);
+    const auto earth = model::rbm::effective_earth(configuration.fidelity, look.apex, look.azimuth);
+    model::rbm::sample_distances(configuration.fidelity, earth, look, terrain, distance_m);
+    const geo::GeodesicRay ray(look.apex, look.azimuth);
+    for (std::size_t i = 0; i < count; ++i) {
+      samples.push_back(sample_at(configuration, ray, distance_m[i], terrain));
+      samples.back().lit = lit[i] != 0;
+      samples.back().returns = power[i] > kNothing;
+    }
+  }
+  return samples;
+}
+
+namespace {
+
+using model::kernel::OfflineScan;
+using model::kernel::ScanRequest;
+using model::rbm::Look;
+using radar::RadarConfiguration;
+
+double position_error_m(const RadarConfiguration& configuration, const OfflineScan& scan,
+                        const model::terrain::TerrainView& terrain) {
+  // It asks the geodesic for every sample.
+  if (configuration.fidelity.algorithm == radar::Algorithm::reference) return 0.0;
+  constexpr std::size_t kStep = 4;  // of sweeps and samples: the error is smooth in both
+  model::rbm::PlaceArrays places(model::rbm::sample_count(configuration));
+  double worst_m = 0.0;
+  for (std::size_t sweep = 0; sweep < scan.places().size(); sweep += kStep) {
+    const Look look = model::kernel::look_of(scan.places()[sweep]);
+    std::vector<double> exact_m(places.count);
+    const auto earth = model::rbm::effective_earth(configuration.fidelity, look.apex, look.azimuth);
+    model::rbm::sample_distances(configuration.fidelity, earth, look, terrain, exact_m);
+    // What nothing is near enough for lies below the aircraft.
+    std::replace_if(
+        exact_m.begin(), exact_m.end(), [](double value) { return std::isnan(value); }, 0.0);
+    std::vector<float> distance_m(exact_m.begin(), exact_m.end());
+    distance_m.resize(distance_m.size() + model::terrain::kRunSlack, 0.0F);
+    model::rbm::sample_places(look.apex, look.azimuth, look.range, configuration.fidelity.geodesic_knots,
+                              distance_m.data(), places);
+    const geo::GeodesicRay ray(look.apex, look.azimuth);
+    for (std::size_t i = 0; i < places.count; i += kStep) {
+      geo::GeoPoint found = model::terrain::place_of(places.run(), i);
+      found.longitude_deg = geo::wrapped_degrees(found.longitude_deg);
+      const geo::GeoPoint exact = ray.position(geo::Length::metres(static_cast<double>(distance_m[i])));
+      worst_m = std::max(worst_m, geo::geodesic_inverse(exact, found).distance.metres());
+    }
+  }
+  return worst_m;
+}
+
+template <class Fact>
+std::vector<std::uint8_t> facts_of(std::span<const RaySample> samples, Fact fact) {
+  std::vector<std::uint8_t> facts(samples.size());
+  std::transform(samples.begin(), samples.end(), facts.begin(),
+                 [&](const RaySample& sample) { return fact(sample) ? std::uint8_t{1} : std::uint8_t{0}; });
+  return facts;
+}
+
+Evidence observe_scan(const RadarConfiguration& configuration, const model::terrain::TerrainView& terrain,
+                      OfflineScan& scan, std::span<const RaySample> ray) {
+  scan.run(terrain);
+  Evidence evidence;
+  evidence.sweeps = scan.places().size();
+  evidence.samples = model::rbm::sample_count(configuration);
+  evidence.power.assign(scan.power().begin(), scan.power().end());
+  for (const databuffer::Sweep& sweep : scan.sweeps())
+    evidence.video.insert(evidence.video.end(), &sweep.video[0], &sweep.video[0] + sweep.samples);
+  evidence.seen = facts_of(ray, [](const RaySample& sample) { return sample.lit; });
+  evidence.returns = facts_of(ray, [](const RaySample& sample) { return sample.returns; });
+  evidence.position_m = position_error_m(configuration, scan, terrain);
+  evidence.power_is_radar = configuration.fidelity.algorithm != radar::Algorithm::report_1996;
+  return evidence;
+}
+
+RadarConfiguration without_noise(RadarConfiguration configuration) {
+  configuration.fidelity.noise = false;
+  return configuration;
+}
+
+}  // namespace
+
+Evidence observe(const RadarConfiguration& configuration, const ScanRequest& request,
+                 const model::terrain::TerrainView& terrain) {
+  const RadarConfiguration quiet = without_noise(configuration);
+  OfflineScan scan(quiet, request, 1);
+  return observe_scan(quiet, terrain, scan, ray_samples(quiet, scan.places(), terrain));
+}
+
+Ruler make_ruler(const RadarConfiguration& configuration, const ScanRequest& request,
+                 const model::terrain::TerrainView& terrain) {
+  const RadarConfiguration quiet = without_noise(configuration);
+  OfflineScan scan(quiet, request, 1);
+  const std::vector<RaySample> ray = ray_samples(quiet, scan.places(), terrain);
+  Ruler ruler;
+  ruler.evidence = observe_scan(quiet, terrain, scan, ray);
+  ruler.ground = facts_of(ray, [](const RaySample& sample) { return !std::isnan(sample.ground.elevation_m); });
+  ruler.noise = model::rbm::make_receiver(quiet, request.range).noise;
+  return ruler;
+}
+
+Errors errors_against(const Ruler& ruler, const Evidence& found) {
+  const Evidence& exact = ruler.evidence;
+  YARS_REQUIRE(exact.sweeps, ==, found.sweeps);
+  RootMeanSquare decibels, grays;
+  std::size_t ground = 0, mismatches = 0;
+  for (std::size_t sweep = 0; sweep < exact.sweeps; ++sweep) {
+    for (std::size_t i = 0; i < exact.samples; ++i) {
+      const std::size_t here = sweep * exact.samples + i;
+      // The sample whose part of the range holds the middle of the ruler's.
+      const std::size_t there = sweep * found.samples + (2 * i + 1) * found.samples / (2 * exact.samples);
+      grays.add(static_cast<double>(exact.video[here]) - static_cast<double>(found.video[there]));
+      if (ruler.ground[here] == 0) continue;
+      ++ground;
+      if (exact.seen[here] != found.seen[there]) ++mismatches;
+      const bool both = exact.returns[here] != 0 && found.returns[there] != 0;
+      if (!both || !found.power_is_radar || static_cast<double>(exact.power[here]) <= ruler.noise) continue;
+      const double ratio =
+          static_cast<double>(std::max(found.power[there], kNothing)) / static_cast<double>(exact.power[here]);
+      decibels.add(10.0 * std::log10(ratio));
+    }
+  }
+  const double share = ground > 0 ? static_cast<double>(mismatches) / static_cast<double>(ground) : 0.0;
+  return {found.position_m, 100.0 * share, decibels.value(), grays.value()};
+}
+
+}  // namespace yars::tools::trade

@@ -1,0 +1,117 @@
+#include "tools/trade/scenes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tools/trade/candidate.hpp"
+
+namespace yars::tools::trade {
+
+namespace {
+
+constexpr std::array<Bounds, 5> kSceneBounds{{{"latitude [deg]", -90.0, 90.0},
+                                              {"longitude [deg]", -180.0, 180.0},
+                                              {"altitude [ft]", -3000.0, 600000.0},
+                                              {"heading [deg]", -360.0, 360.0},
+                                              {"range [NM]", 0.1, 1000.0}}};
+constexpr double kLowestElevationDeg = -60.0;  // of the antenna, its gimbal's stop
+
+}  // namespace
+
+failure::Expected<Scene> scene_of(std::string_view text) {
+  const auto values = numbers_of(text, kSceneBounds, "--scene", "LAT,LON,ALT_FT,HDG,RANGE_NM");
+  if (!values) return tl::unexpected(values.error());
+  return Scene{{(*values)[0], (*values)[1]}, (*values)[2], (*values)[3], (*values)[4]};
+}
+
+std::string scene_name(const Scene& scene) {
+  return short_number(scene.place.latitude_deg) + " " + short_number(scene.place.longitude_deg) + " " +
+         short_number(scene.altitude_ft) + " ft " + short_number(scene.heading_deg) + " deg " +
+         short_number(scene.range_nm) + " NM";
+}
+
+model::kernel::ScanRequest request_of(const Scene& scene, geo::Angle width) {
+  model::kernel::ScanRequest request;
+  request.pose.place = scene.place;
+  request.pose.altitude = geo::AltitudeMsl::feet(scene.altitude_ft);
+  request.pose.platform.heading = geo::Bearing::degrees(scene.heading_deg);
+  request.pose.platform.ground_track = request.pose.platform.heading;
+  request.range = geo::Length::nautical_miles(scene.range_nm);
+  request.width = width;
+  const double down_deg = std::atan2(-request.pose.altitude.metres(), request.range.metres()) / geo::kRadiansPerDegree;
+  request.elevation = geo::Angle::degrees(std::clamp(down_deg, kLowestElevationDeg, 0.0));
+  return request;
+}
+
+namespace {
+
+constexpr std::array<Bounds, 6> kViewBounds{{{"latitude [deg]", -90.0, 90.0},
+                                             {"longitude [deg]", -180.0, 180.0},
+                                             {"altitude [ft]", -3000.0, 600000.0},
+                                             {"target's latitude [deg]", -90.0, 90.0},
+                                             {"target's longitude [deg]", -180.0, 180.0},
+                                             {"window [NM]", 0.01, 200.0}}};
+
+double distance_nm(const MapView& view) {
+  return geo::geodesic_inverse(view.place, view.target).distance.nautical_miles();
+}
+
+}  // namespace
+
+failure::Expected<MapView> map_view_of(std::string_view text) {
+  const auto values = numbers_of(text, kViewBounds, "--view", "LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM");
+  if (!values) return tl::unexpected(values.error());
+  const MapView view{{(*values)[0], (*values)[1]}, (*values)[2], {(*values)[3], (*values)[4]}, (*values)[5]};
+  if (distance_nm(view) <= view.window_nm)
+    return tl::unexpected<failure::Error>(failure::Error{"--view", "a target farther away than the window is wide",
+                                                         short_number(distance_nm(view)) + " NM", "", true});
+  return view;
+}
+
+std::string map_view_name(const MapView& view) {
+  return short_number(view.target.latitude_deg) + " " + short_number(view.target.longitude_deg) + " " +
+         short_number(view.window_nm) + " NM from " + short_number(distance_nm(view)) + " NM, " +
+         short_number(view.altitude_ft) + " ft";
+}
+
+MapView view_of_target(geo::GeoPoint target, double distance_nm, double bearing_deg, double altitude_ft,
+                       double window_nm) {
+  return {geo::geodesic_direct(target, geo::Bearing::degrees(bearing_deg), geo::Length::nautical_miles(distance_nm)),
+          altitude_ft, target, window_nm};
+}
+
+model::hrm::PatchOrder order_of(const MapView& view) {
+  model::hrm::PatchOrder order;
+  order.apex = view.place;
+  order.altitude = geo::AltitudeMsl::feet(view.altitude_ft);
+  order.centre = view.target;
+  order.ground_track = geo::geodesic_inverse(view.place, view.target).azimuth_at_start - geo::Angle::degrees(90.0);
+  order.ground_speed = geo::Speed::knots(480.0);
+  order.window = geo::Length::nautical_miles(view.window_nm);
+  order.looks = 1;
+  return order;
+}
+
+Values values_of(const Cost& cost, const Errors& errors) {
+  return {cost.scan_ms,          cost.samples_per_second, cost.terrain_bytes, errors.position_m,
+          errors.shadow_percent, errors.power_db,         errors.gray_levels};
+}
+
+SceneRow row_of(const Scene& scene) {
+  return {scene_name(scene),
+          {scene.place.latitude_deg, scene.place.longitude_deg, scene.altitude_ft, scene.heading_deg, scene.range_nm}};
+}
+
+Values values_of(const MapCost& cost, const MapErrors& errors) {
+  return {cost.map_ms,           cost.terrain_bytes, errors.position_m,
+          errors.shadow_percent, errors.power_db,    errors.gray_levels};
+}
+
+SceneRow row_of(const MapView& view) {
+  return {map_view_name(view),
+          {view.place.latitude_deg, view.place.longitude_deg, view.altitude_ft, view.target.latitude_deg,
+           view.target.longitude_deg, view.window_nm}};
+}
+
+}  // namespace yars::tools::trade

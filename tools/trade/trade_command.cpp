@@ -1,0 +1,290 @@
+#include "tools/trade/trade_command.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "config/load.hpp"
+#include "databuffer/program.hpp"
+#include "lib/file/new_file.hpp"
+#include "lib/imageio/png.hpp"
+#include "lib/radar/fidelity_preset.hpp"
+#include "lib/radar/limits.hpp"
+#include "model/kernel/tick_inputs.hpp"
+#include "model/terrain/store/cell_files.hpp"
+#include "model/terrain/store/directory_store.hpp"
+#include "tools/command/command.hpp"
+#include "tools/command/input_checks.hpp"
+#include "tools/command/output.hpp"
+#include "tools/trade/scenes.hpp"
+
+namespace yars::tools {
+
+namespace {
+
+nlohmann::ordered_json json_of(const trade::TradeTable& table) {
+  // NaN becomes null.
+  nlohmann::ordered_json all;
+  for (const trade::SceneRow& scene : table.scenes) all["scenes"].push_back(scene.name);
+  for (std::size_t i = 0; i < table.contenders.size(); ++i) {
+    nlohmann::ordered_json point{{"point", table.contenders[i].name}, {"family", table.contenders[i].family}};
+    for (std::size_t column = 0; column < table.columns.size(); ++column) {
+      const auto summary = trade::summary_of(table, i, column);
+      nlohmann::ordered_json values;
+      for (const trade::Values& row : table.values[i]) values.push_back(row[column]);
+      point[std::string(table.columns[column].name)] = {{"mean", summary.mean},
+                                                        {"worst", summary.worst},
+                                                        {"worst_scene", summary.worst_scene + 1},
+                                                        {"scenes", values}};
+    }
+    all["points"].push_back(std::move(point));
+  }
+  return all;
+}
+
+}  // namespace
+
+void add_trade_options(CLI::App& command, TradeOptions& options) {
+  command.add_option("--presets", options.presets, "names between commas, all or none");
+  command.add_option("--knob", options.knobs, "KNOB=VALUE,VALUE,... about the base; repeatable")
+      ->allow_extra_args(false);
+  command.add_option("--base", options.base, "preset that the knobs vary")
+      ->check(CLI::IsMember(std::vector<std::string>(radar::fidelity_names().begin(), radar::fidelity_names().end())));
+  command.add_option("--terrain", options.terrain, "directory of cells (else the configuration's, else hills)");
+  command.add_option("--ruler", options.ruler, "reference, or same: the reference algorithm with each point's knobs")
+      ->check(CLI::IsMember({"reference", "same"}));
+  command.add_option("--repeat", options.repeat, "warm runs to time; their median counts")->check(CLI::Range(1, 1000));
+  command.add_option("--csv", options.csv, "file: a row a point and scene");
+  command.add_option("--out", options.out, "file: .png of the front");
+  command.add_flag("--json", options.json, "instead of the table");
+}
+
+void check_trade_output(const TradeOptions& options) {
+  check_file_name("--out", options.out, {".png"});
+  check_file_name("--csv", options.csv, {".csv"});
+}
+
+radar::RadarConfiguration trade_configuration(const CommonOptions& common, const TradeOptions& options) {
+  auto loaded = config::load_configuration(common.config);
+  if (!loaded) give_up(loaded.error());
+  radar::RadarConfiguration configuration = std::move(loaded->radar);
+  if (!options.terrain.empty()) configuration.terrain.directory = options.terrain;
+  return configuration;
+}
+
+std::vector<trade::Contender> contenders_of(const TradeOptions& options, trade::Subject subject) {
+  auto contenders = trade::preset_contenders(options.presets);
+  if (!contenders) give_up(contenders.error());
+  for (const std::string& sweep : options.knobs) {
+    auto more = trade::knob_contenders(sweep, *radar::fidelity_preset(options.base), subject);
+    if (!more) give_up(more.error());
+    std::move(more->begin(), more->end(), std::back_inserter(*contenders));
+  }
+  if (contenders->empty()) give_up(databuffer::usage_error("yars trade", "a preset or a knob to compare", "none"));
+  return std::move(*contenders);
+}
+
+void write_trade(const TradeOptions& options, const trade::TradeTable& table, const trade::Front& front) {
+  if (!options.csv.empty()) {
+    if (auto written = file::write_file(options.csv, trade::csv_text(table)); !written) give_up(written.error());
+  }
+  if (!options.out.empty()) {
+    if (auto written = imageio::write_png(options.out, trade::front_picture(table, front)); !written)
+      give_up(written.error());
+  }
+  std::printf("%s\n", options.json ? json_of(table).dump(2).c_str() : trade::table_text(table).c_str());
+}
+
+geo::GeoPoint default_place(const std::string& directory) {
+  if (directory.empty()) return {37.0, -122.0};
+  const auto index = model::terrain::index_directory(directory);
+  if (!index) give_up(index.error());
+  const auto middle = std::next(index->begin(), static_cast<std::ptrdiff_t>(index->size() / 2));
+  const auto cell = model::terrain::place_of_slot(middle->first);
+  return {cell.south_deg + 0.5, cell.west_deg + 0.5};
+}
+
+double thread_ms() {
+  std::timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// `yars trade`: speed against accuracy of the real beam map: presets and knob sweeps over scenes, against the
+// reference. Table (or --json) on standard output, --csv and --out FILE.png beside it, progress on standard error.
+
+namespace {
+
+using model::kernel::ScanRequest;
+using model::terrain::TerrainView;
+
+struct ScanTradeOptions : TradeOptions {
+  std::vector<std::string> scenes;
+  double width_deg = 100.0;
+  int ruler_samples = 1024;
+};
+
+// The terrain of one scene by detail: each from a store of its own, so that what is resident is what it needs.
+class SceneTerrain {
+ public:
+  SceneTerrain(const radar::TerrainConfiguration& configuration, const ScanRequest& request)
+      : configuration_(configuration), request_(request) {}
+
+  const TerrainView& at(int detail) {
+    const auto known = by_detail_.find(detail);
+    if (known != by_detail_.end()) return *known->second;
+    auto store = model::terrain::open_terrain(configuration_);
+    if (!store) give_up(store.error());
+    auto view = (*store)->prepare({request_.pose.place, request_.range.metres(), detail});
+    check_terrain_read("yars trade", configuration_.directory, **store);
+    return *by_detail_.emplace(detail, std::move(view)).first->second;
+  }
+
+ private:
+  const radar::TerrainConfiguration& configuration_;
+  const ScanRequest& request_;
+  std::map<int, model::terrain::TerrainViewPointer> by_detail_;
+};
+
+// The whole chain to video, warm, one thread; noise as the fidelity has it.
+trade::Cost cost_of(const radar::RadarConfiguration& configuration, const ScanRequest& request,
+                    const TerrainView& terrain, int repeat) {
+  model::kernel::OfflineScan scan(configuration, request, 1);
+  std::vector<double> took_ms;
+  for (int run = 0; run <= repeat; ++run) {
+    const double begin_ms = thread_ms();
+    scan.run(terrain);
+    if (run > 0) took_ms.push_back(thread_ms() - begin_ms);  // the first warms the caches
+  }
+  const double middle_ms = median_of(took_ms);
+  return {middle_ms, static_cast<double>(scan.power().size()) / (middle_ms * 1e-3),
+          static_cast<double>(terrain.resident_bytes())};
+}
+
+// `same` judges the arithmetic alone: the reference algorithm with the contender's own knobs.
+radar::Fidelity ruler_of(const ScanTradeOptions& options, const radar::Fidelity& contender) {
+  radar::Fidelity ruler = *radar::fidelity_preset("reference");
+  if (options.ruler == "same") {
+    ruler = contender;
+    ruler.algorithm = radar::Algorithm::reference;
+    return ruler;
+  }
+  ruler.samples = options.ruler_samples;
+  return ruler;
+}
+
+// The contenders of one scene in turn, with the ruler that they share.
+class SceneTrade {
+ public:
+  SceneTrade(const ScanTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::Scene& scene)
+      : options_(options),
+        configuration_(configuration),
+        request_(trade::request_of(scene, geo::Angle::degrees(options.width_deg))),
+        terrain_(configuration_.terrain, request_) {
+    // Jammers reach the video alone, rain and ships hide nothing: the world stays as configured.
+    if (options_.ruler == "reference") shared_ = measured_ruler(configuration_.fidelity);
+  }
+
+  trade::Values values(const radar::Fidelity& fidelity) {
+    const radar::RadarConfiguration contender = with(fidelity);
+    const TerrainView& terrain = terrain_.at(model::kernel::scan_detail(fidelity, request_.range));
+    const trade::Cost cost = cost_of(contender, request_, terrain, options_.repeat);
+    const trade::Evidence found = trade::observe(contender, request_, terrain);
+    if (options_.ruler == "reference") return trade::values_of(cost, trade::errors_against(shared_, found));
+    return trade::values_of(cost, trade::errors_against(measured_ruler(fidelity), found));
+  }
+
+ private:
+  radar::RadarConfiguration with(const radar::Fidelity& fidelity) const {
+    radar::RadarConfiguration configuration = configuration_;
+    configuration.fidelity = fidelity;
+    return configuration;
+  }
+  trade::Ruler measured_ruler(const radar::Fidelity& contender) {
+    const radar::Fidelity ruler = ruler_of(options_, contender);
+    return trade::make_ruler(with(ruler), request_, terrain_.at(model::kernel::scan_detail(ruler, request_.range)));
+  }
+
+  const ScanTradeOptions& options_;
+  const radar::RadarConfiguration& configuration_;
+  ScanRequest request_;
+  SceneTerrain terrain_;
+  trade::Ruler shared_;
+};
+
+std::vector<trade::Scene> scenes_of(const ScanTradeOptions& options, const std::string& directory) {
+  std::vector<trade::Scene> scenes;
+  for (const std::string& text : options.scenes) {
+    const auto scene = trade::scene_of(text);
+    if (!scene) give_up(scene.error());
+    scenes.push_back(*scene);
+  }
+  if (!scenes.empty()) return scenes;
+  trade::Scene scene;
+  scene.place = default_place(directory);
+  for (const double range_nm : {10.0, 40.0, 160.0}) {
+    scene.range_nm = range_nm;
+    scenes.push_back(scene);
+  }
+  return scenes;
+}
+
+trade::TradeTable run_trade(const ScanTradeOptions& options, const radar::RadarConfiguration& configuration) {
+  trade::TradeTable table;
+  table.columns = trade::kScanColumns;
+  table.scene_fields = trade::kScanFields;
+  table.contenders = contenders_of(options, trade::Subject::scan);
+  table.values.resize(table.contenders.size());
+  const std::vector<trade::Scene> scenes = scenes_of(options, configuration.terrain.directory);
+  Progress progress(table.contenders.size() * scenes.size(), stderr);
+  for (const trade::Scene& scene : scenes) {
+    table.scenes.push_back(trade::row_of(scene));
+    SceneTrade scene_trade(options, configuration, scene);
+    for (std::size_t i = 0; i < table.contenders.size(); ++i) {
+      table.values[i].push_back(scene_trade.values(table.contenders[i].fidelity));
+      progress.done(table.contenders[i].name + ", " + trade::scene_name(scene));
+    }
+  }
+  return table;
+}
+
+void trade_off(const CommonOptions& common, const ScanTradeOptions& options) {
+  check_trade_output(options);
+  const radar::RadarConfiguration configuration = trade_configuration(common, options);
+  write_trade(options, run_trade(options, configuration),
+              {trade::kScanMs,
+               "time a scan (ms of one core)",
+               {{{trade::kScanGray, "video error (gray levels of 255 RMS)"},
+                 {trade::kScanShadow, "shadow mismatch (% of ground)"}}}});
+}
+
+}  // namespace
+
+void add_trade_command(CLI::App& app, const CommonOptions& common) {
+  auto options = std::make_shared<ScanTradeOptions>();
+  CLI::App* command =
+      app.add_subcommand("trade", "speed against accuracy of the real beam map; `trade maps`: of patches");
+  add_trade_options(*command, *options);
+  command->add_option("--scene", options->scenes, "LAT,LON,ALT_FT,HDG,RANGE_NM; repeatable")->allow_extra_args(false);
+  command->add_option("--scan-width", options->width_deg, "[deg]")->check(CLI::Range(1.0, 120.0));
+  command->add_option("--ruler-samples", options->ruler_samples, "a sweep")->check(CLI::Range(1, radar::kMaxSamples));
+  add_trade_maps(*command, common);
+  command->callback([command, options, &common] {
+    if (command->get_subcommands().empty()) trade_off(common, *options);
+  });
+}
+
+}  // namespace yars::tools

@@ -1,0 +1,195 @@
+// `yars trade maps`: speed against accuracy of patch maps: presets and knob sweeps over views of terrain and scenes,
+// against the reference. Table (or --json) on standard output, --csv and --out beside it, progress on standard error.
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "databuffer/program.hpp"
+#include "lib/radar/fidelity_preset.hpp"
+#include "model/scene/index/scene_index.hpp"
+#include "model/scene/index/scene_store.hpp"
+#include "model/terrain/store/directory_store.hpp"
+#include "tools/command/input_checks.hpp"
+#include "tools/command/output.hpp"
+#include "tools/trade/map_errors.hpp"
+#include "tools/trade/scenes.hpp"
+#include "tools/trade/trade_command.hpp"
+
+namespace yars::tools {
+
+namespace {
+
+namespace hrm = model::hrm;
+
+struct MapTradeOptions : TradeOptions {
+  std::vector<std::string> views, scenes, without;
+  int ruler_size = 480;
+};
+
+// Terrain and scene of one view: by detail, each from a store of its own, so that what is resident is what it needs.
+class ViewDatabase {
+ public:
+  explicit ViewDatabase(const radar::RadarConfiguration& configuration) : configuration_(configuration) {}
+
+  hrm::PatchDatabase of(const hrm::PatchNeed& need) {
+    if (!scene_known_) scene_ = read_scene(need);
+    scene_known_ = true;
+    return {terrain(need.window, window_), terrain(need.path, path_), scene_};
+  }
+
+ private:
+  using ByDetail = std::map<int, model::terrain::TerrainViewPointer>;
+
+  const model::terrain::TerrainViewPointer& terrain(const model::terrain::TerrainRegion& region, ByDetail& known) {
+    const auto found = known.find(region.detail);
+    if (found != known.end()) return found->second;
+    auto store = model::terrain::open_terrain(configuration_.terrain);
+    if (!store) give_up(store.error());
+    auto view = (*store)->prepare(region);
+    check_terrain_read("yars trade maps", configuration_.terrain.directory, **store);
+    return known.emplace(region.detail, std::move(view)).first->second;
+  }
+
+  model::scene::SceneViewPointer read_scene(const hrm::PatchNeed& need) const {
+    auto scenes = model::scene::open_scenes(configuration_);
+    if (!scenes) give_up(scenes.error());
+    if (!*scenes) return nullptr;
+    auto view = (*scenes)->prepare(need.window);
+    check_scenes_read("yars trade maps", **scenes);
+    return view;
+  }
+
+  const radar::RadarConfiguration& configuration_;
+  ByDetail window_, path_;
+  model::scene::SceneViewPointer scene_;
+  bool scene_known_ = false;
+};
+
+// The contenders of one view in turn, with the ruler that they share.
+class ViewTrade {
+ public:
+  ViewTrade(const MapTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::MapView& view)
+      : options_(options), configuration_(configuration), order_(trade::order_of(view)), database_(configuration_) {
+    if (options_.ruler == "same") return;
+    radar::Fidelity reference = *radar::fidelity_preset("reference");
+    reference.map_size = options_.ruler_size;
+    shared_ = observe(reference);
+  }
+
+  trade::Values values(const radar::Fidelity& fidelity) {
+    const trade::MapEvidence found = observe(fidelity);
+    const hrm::PatchDatabase database = database_of(fidelity);
+    const auto bytes = static_cast<double>(database.window->resident_bytes() + database.path->resident_bytes());
+    const trade::MapCost cost{time_of(fidelity, database, found), bytes};
+    if (options_.ruler == "reference") return trade::values_of(cost, trade::errors_against(shared_, found));
+    radar::Fidelity same = fidelity;
+    same.algorithm = radar::Algorithm::reference;
+    return trade::values_of(cost, trade::errors_against(observe(same), found));
+  }
+
+ private:
+  radar::RadarConfiguration with(const radar::Fidelity& fidelity) const {
+    radar::RadarConfiguration configuration = configuration_;
+    configuration.fidelity = fidelity;
+    return configuration;
+  }
+  hrm::PatchDatabase database_of(const radar::Fidelity& fidelity) {
+    return database_.of(hrm::PatchProcess(with(fidelity), {}).begin(order_));
+  }
+  trade::MapEvidence observe(const radar::Fidelity& fidelity) {
+    return trade::observe_map(with(fidelity), order_, database_of(fidelity), thread_ms);
+  }
+  // Warm, one thread, noise as the fidelity has it. The reference takes so long that its one run without noise counts.
+  double time_of(const radar::Fidelity& fidelity, const hrm::PatchDatabase& database,
+                 const trade::MapEvidence& found) const {
+    if (fidelity.algorithm == radar::Algorithm::reference) return found.took_ms;
+    hrm::PatchProcess process(with(fidelity), {});
+    trade::time_map(process, order_, database, thread_ms);
+    std::vector<double> took_ms;
+    for (int run = 0; run < options_.repeat; ++run)
+      took_ms.push_back(trade::time_map(process, order_, database, thread_ms));
+    return median_of(std::move(took_ms));
+  }
+
+  const MapTradeOptions& options_;
+  const radar::RadarConfiguration& configuration_;
+  hrm::PatchOrder order_;
+  ViewDatabase database_;
+  trade::MapEvidence shared_;
+};
+
+// Near and narrow to far and wide; where the ground is made up, also far north and across the antimeridian.
+std::vector<trade::MapView> default_views(const std::string& directory) {
+  const geo::GeoPoint middle = default_place(directory);
+  std::vector<trade::MapView> views{trade::view_of_target(middle, 10.0, 200.0, 15000.0, 0.67),
+                                    trade::view_of_target(middle, 20.0, 200.0, 15000.0, 4.7),
+                                    trade::view_of_target(middle, 80.0, 200.0, 30000.0, 20.0)};
+  if (!directory.empty()) return views;
+  views.push_back(trade::view_of_target({78.2, 16.0}, 80.0, 120.0, 30000.0, 20.0));
+  views.push_back(trade::view_of_target({-16.5, 179.9}, 40.0, 100.0, 15000.0, 10.0));
+  return views;
+}
+
+std::vector<trade::MapView> views_of(const MapTradeOptions& options, const std::string& directory) {
+  std::vector<trade::MapView> views;
+  for (const std::string& text : options.views) {
+    const auto view = trade::map_view_of(text);
+    if (!view) give_up(view.error());
+    views.push_back(*view);
+  }
+  return views.empty() ? default_views(directory) : views;
+}
+
+trade::TradeTable run_trade(const MapTradeOptions& options, const radar::RadarConfiguration& configuration) {
+  trade::TradeTable table;
+  table.columns = trade::kMapColumns;
+  table.scene_fields = trade::kMapFields;
+  table.contenders = contenders_of(options, trade::Subject::map);
+  table.values.resize(table.contenders.size());
+  const std::vector<trade::MapView> views = views_of(options, configuration.terrain.directory);
+  Progress progress(table.contenders.size() * views.size(), stderr);
+  for (const trade::MapView& view : views) {
+    table.scenes.push_back(trade::row_of(view));
+    ViewTrade view_trade(options, configuration, view);
+    for (std::size_t i = 0; i < table.contenders.size(); ++i) {
+      table.values[i].push_back(view_trade.values(table.contenders[i].fidelity));
+      progress.done(table.contenders[i].name + ", " + trade::map_view_name(view));
+    }
+  }
+  return table;
+}
+
+void trade_off(const CommonOptions& common, const MapTradeOptions& options) {
+  check_trade_output(options);
+  radar::RadarConfiguration configuration = trade_configuration(common, options);
+  if (auto added = model::scene::add_scenes(configuration.world.scenes, options.scenes, options.without); !added)
+    give_up(databuffer::usage_error(added.error()));
+  write_trade(options, run_trade(options, configuration),
+              {trade::kMapMs,
+               "time a map (ms of one core)",
+               {{{trade::kMapPower, "power error (dB RMS)"}, {trade::kMapShadow, "shadow mismatch (% of pixels)"}}}});
+}
+
+}  // namespace
+
+void add_trade_maps(CLI::App& trade, const CommonOptions& common) {
+  auto options = std::make_shared<MapTradeOptions>();
+  CLI::App* command = trade.add_subcommand("maps", "speed against accuracy of patch maps");
+  add_trade_options(*command, *options);
+  command->add_option("--scene", options->scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; repeatable")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--scene-without", options->without,
+                   "name of what is left out of scenes, as * and ? allow; repeatable")
+      ->allow_extra_args(false);
+  command->add_option("--view", options->views, "LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM; repeatable")
+      ->allow_extra_args(false);
+  command->add_option("--ruler-size", options->ruler_size, "[pixels] of the reference on an edge")
+      ->check(CLI::Range(16, 1024));
+  command->callback([options, &common] { trade_off(common, *options); });
+}
+
+}  // namespace yars::tools

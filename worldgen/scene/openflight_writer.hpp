@@ -1,0 +1,103 @@
+// Writer of OpenFlight files.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "model/scene/openflight/node_tree.hpp"
+#include "model/scene/placement/scene_view.hpp"
+
+namespace yars::model::scene {
+
+// Bytes of big-endian records, one behind the other.
+class RecordBuilder {
+ public:
+  // A record of this length, zeros; what follows is put into it by offsets from its opcode.
+  void begin(std::uint16_t opcode, std::size_t bytes) {
+    start_ = bytes_.size();
+    bytes_.resize(start_ + bytes);
+    put<std::uint16_t>(0, opcode);
+    put<std::uint16_t>(2, static_cast<std::uint16_t>(bytes));
+  }
+
+  template <class Number>
+  void put(std::size_t offset, Number value) {
+    const auto raw = std::bit_cast<std::array<std::byte, sizeof(Number)>>(value);
+    std::reverse_copy(raw.begin(), raw.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(start_ + offset));
+  }
+
+  void put_text(std::size_t offset, const std::string& text, std::size_t most) {
+    for (std::size_t i = 0; i < std::min(text.size(), most); ++i)
+      bytes_[start_ + offset + i] = static_cast<std::byte>(text[i]);
+  }
+
+  void append(const RecordBuilder& other) { bytes_.insert(bytes_.end(), other.bytes_.begin(), other.bytes_.end()); }
+  std::size_t size() const { return bytes_.size(); }
+  std::vector<std::byte>& bytes() { return bytes_; }
+
+ private:
+  std::vector<std::byte> bytes_;
+  std::size_t start_ = 0;
+};
+
+// Makes an OpenFlight 16.0 file in metres: nodes in the order of the calls, corners shared in one vertex palette with
+// normals, colours in the palette, one material for each surface material. take() gives the whole file; whoever opens
+// files writes it. What is begun has to be ended. Colours beyond 1024 become the last one.
+struct WriterVertex {
+  Vector3 place;
+  Vector3 normal;
+};
+
+class OpenFlightWriter {
+ public:
+  explicit OpenFlightWriter(std::optional<geo::GeoPoint> origin, std::int32_t revision = 1600);
+
+  void begin_group(const std::string& name, const Affine* matrix = nullptr);
+  void begin_object(const std::string& name);
+  // Shown from switch_out to switch_in metres away.
+  void begin_level_of_detail(const std::string& name, double switch_in_m, double switch_out_m, Vector3 centre);
+  void begin_switch(const std::string& name, std::uint32_t mask);
+  void begin_definition(std::uint16_t number);
+  void end();
+
+  void instance(std::uint16_t number, const Affine& matrix);
+  void external(const std::string& file, const Affine& matrix);
+  // Counter-clockwise from outside; a two-sided face is seen from both sides.
+  void face(std::span<const WriterVertex> corners, const SurfaceKind& kind, bool two_sided = false);
+  // Faces from here to the end lie on the face written last.
+  void begin_subfaces();
+  void end_subfaces();
+
+  // What the header says of the ground that is covered.
+  void set_corners(geo::GeoPoint south_west, geo::GeoPoint north_east);
+  std::vector<std::byte> take();
+
+ private:
+  void named(std::uint16_t opcode, const std::string& name, std::size_t bytes, RecordBuilder& record);
+  void long_name(const std::string& name);
+  void write_matrix(const Affine& matrix);
+  std::uint32_t vertex(const WriterVertex& vertex);
+  std::int32_t color_index(std::uint32_t rgb);
+  void write_header(RecordBuilder& out) const;
+  void write_palettes(RecordBuilder& out) const;
+
+  std::optional<geo::GeoPoint> origin_;
+  std::optional<geo::GeoPoint> south_west_, north_east_;
+  std::int32_t revision_;
+  RecordBuilder nodes_, vertices_;
+  std::unordered_map<std::string, std::uint32_t> vertex_offsets_;  // by their bytes
+  std::vector<std::uint32_t> colors_;
+  std::map<std::uint32_t, std::int32_t> color_numbers_;
+  std::map<std::uint8_t, std::uint32_t> materials_;  // surface material -> first colour seen
+};
+
+}  // namespace yars::model::scene

@@ -1,0 +1,175 @@
+#include "worldgen/scene/scene_builder.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "model/scene/openflight/model.hpp"
+#include "model/scene/placement/plan_geometry.hpp"
+
+namespace yars::model::scene {
+
+namespace {
+
+Vector3 unit(Vector3 v) {
+  const double size = length(v);
+  return size > 0.0 ? (1.0 / size) * v : v;
+}
+
+// Two directions that make a right-handed set with an axis.
+std::pair<Vector3, Vector3> across(Vector3 axis) {
+  const Vector3 helper = std::abs(axis.z) < 0.9 ? Vector3{0, 0, 1} : Vector3{1, 0, 0};
+  const Vector3 first = unit(cross(helper, axis));
+  return {first, cross(axis, first)};
+}
+
+}  // namespace
+
+void Sketch::emit(const std::vector<WriterVertex>& corners, bool two_sided) {
+  std::vector<WriterVertex> placed;
+  placed.reserve(corners.size());
+  for (const WriterVertex& corner : corners)
+    placed.push_back({map.apply(corner.place), unit(map.turn_normal(corner.normal))});
+  out_.face(placed, kind, two_sided);
+  triangles_ += (corners.size() - 2) * (two_sided ? 2 : 1);
+}
+
+void Sketch::polygon(const std::vector<Vector3>& corners, bool two_sided) {
+  const Vector3 normal = unit(newell_normal(corners));
+  std::vector<WriterVertex> vertices;
+  for (const Vector3& corner : corners) vertices.push_back({corner, normal});
+  emit(vertices, two_sided);
+}
+
+void Sketch::box(Vector3 base, double east_m, double north_m, double height_m) {
+  const double x = east_m / 2, y = north_m / 2;
+  prism({base + Vector3{-x, -y, 0}, base + Vector3{x, -y, 0}, base + Vector3{x, y, 0}, base + Vector3{-x, y, 0}},
+        height_m);
+}
+
+void Sketch::prism(const std::vector<Vector3>& outline, double height_m) {
+  const Vector3 up{0, 0, height_m};
+  std::vector<Vector3> top;
+  for (const Vector3& corner : outline) top.push_back(corner + up);
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const std::size_t next = (i + 1) % outline.size();
+    polygon({outline[i], outline[next], top[next], top[i]});
+  }
+  polygon(top);
+}
+
+void Sketch::gable(Vector3 eaves, double east_m, double north_m, double rise_m, double overhang_m) {
+  const double x = east_m / 2 + overhang_m, y = north_m / 2 + overhang_m, wall = north_m / 2;
+  const double drop = rise_m * overhang_m / wall;  // the slope goes on below the eaves
+  const Vector3 west_ridge = eaves + Vector3{-x, 0, rise_m}, east_ridge = eaves + Vector3{x, 0, rise_m};
+  polygon({eaves + Vector3{-x, -y, -drop}, eaves + Vector3{x, -y, -drop}, east_ridge, west_ridge});
+  polygon({eaves + Vector3{x, y, -drop}, eaves + Vector3{-x, y, -drop}, west_ridge, east_ridge});
+  const double end = east_m / 2;
+  polygon({eaves + Vector3{end, -wall, 0}, eaves + Vector3{end, wall, 0}, eaves + Vector3{end, 0, rise_m}});
+  polygon({eaves + Vector3{-end, wall, 0}, eaves + Vector3{-end, -wall, 0}, eaves + Vector3{-end, 0, rise_m}});
+}
+
+void Sketch::turned(Vector3 from, Vector3 axis, const std::vector<TurnedPoint>& profile, int sides) {
+  const std::pair<Vector3, Vector3> sideways = across(axis);
+  const auto around = [&](int side) {
+    const double angle = 2 * std::numbers::pi * (side % sides) / sides;
+    return std::cos(angle) * sideways.first + std::sin(angle) * sideways.second;
+  };
+  const auto at = [&](TurnedPoint point, int side) {
+    return from + point.along_m * axis + point.radius_m * around(side);
+  };
+  for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
+    const TurnedPoint a = profile[i], b = profile[i + 1];
+    const auto normal = [&](int side) {
+      return unit((b.along_m - a.along_m) * around(side) + (a.radius_m - b.radius_m) * axis);
+    };
+    for (int side = 0; side < sides; ++side) {
+      std::vector<WriterVertex> corners{{at(a, side), normal(side)}};
+      if (a.radius_m > 0.0) corners.push_back({at(a, side + 1), normal(side + 1)});
+      if (b.radius_m > 0.0) corners.push_back({at(b, side + 1), normal(side + 1)});
+      corners.push_back({at(b, side), normal(side)});
+      if (corners.size() >= 3) emit(corners, false);
+    }
+  }
+  std::vector<Vector3> front, back;
+  for (int side = 0; side < sides; ++side) {
+    front.push_back(at(profile.front(), sides - side));
+    back.push_back(at(profile.back(), side));
+  }
+  if (profile.front().radius_m > 0.0) polygon(front);
+  if (profile.back().radius_m > 0.0) polygon(back);
+}
+
+void Sketch::cylinder(Vector3 base, double radius_m, double height_m, int sides) {
+  turned(base, {0, 0, 1}, {{0, radius_m}, {height_m, radius_m}}, sides);
+}
+
+void Sketch::bar(Vector3 from, Vector3 to, double side_m) {
+  const auto [u, v] = across(unit(to - from));
+  const Vector3 a = (side_m / 2) * u, b = (side_m / 2) * v;
+  const std::vector<Vector3> ring{-1.0 * a - b, a - b, a + b, b - a};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t next = (i + 1) % 4;
+    polygon({from + ring[i], from + ring[next], to + ring[next], to + ring[i]});
+  }
+}
+
+void Sketch::plate(const std::vector<Vector3>& outline, double thickness_m) {
+  const Vector3 half = (thickness_m / 2) * unit(newell_normal(outline));
+  std::vector<Vector3> top, bottom;
+  for (const Vector3& corner : outline) top.push_back(corner + half);
+  for (auto corner = outline.rbegin(); corner != outline.rend(); ++corner) bottom.push_back(*corner - half);
+  polygon(top);
+  polygon(bottom);
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vector3 a = outline[i], b = outline[(i + 1) % outline.size()];
+    polygon({a - half, b - half, b + half, a + half});
+  }
+}
+
+void Sketch::bank(Vector3 from, Vector3 to, double foot_m, double top_m, double height_m) {
+  const Vector3 along = unit(to - from);
+  const Vector3 left{-along.y, along.x, 0};
+  const Vector3 up{0, 0, height_m};
+  const Vector3 foot = (foot_m / 2) * left, top = (top_m / 2) * left;
+  polygon({from - foot, to - foot, to - top + up, from - top + up});
+  polygon({to + foot, from + foot, from + top + up, to + top + up});
+  polygon({from - top + up, to - top + up, to + top + up, from + top + up});
+  polygon({from + foot, from - foot, from - top + up, from + top + up});
+  polygon({to - foot, to + foot, to + top + up, to - top + up});
+}
+
+namespace {
+
+struct Named {
+  std::string_view name;
+  GeneratedKind kind;
+  void (*generate)(Yard&);
+};
+
+constexpr std::array<Named, 4> kKinds{{{"airfield", GeneratedKind::airfield, generate_airfield},
+                                       {"harbour", GeneratedKind::harbour, generate_harbour},
+                                       {"bridge", GeneratedKind::bridge, generate_bridge},
+                                       {"town", GeneratedKind::town, generate_town}}};
+
+}  // namespace
+
+std::optional<GeneratedKind> generated_kind(std::string_view name) {
+  for (const Named& known : kKinds)
+    if (known.name == name) return known.kind;
+  return std::nullopt;
+}
+
+GeneratedScene generate_scene(const SceneOrder& order, const GenerationProgress& progress) {
+  Yard yard(order, progress);
+  for (const Named& known : kKinds) {
+    if (known.kind != order.kind) continue;
+    known.generate(yard);
+    const Plane plane(order.origin);
+    yard.out.set_corners(plane.place_of({-yard.reach_m, -yard.reach_m}), plane.place_of({yard.reach_m, yard.reach_m}));
+  }
+  return {yard.out.take(), yard.triangles()};
+}
+
+}  // namespace yars::model::scene

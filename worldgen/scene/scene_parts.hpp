@@ -1,0 +1,22 @@
+// Things that stand about in more than one kind of scene. Each stands on z = 0 around the origin, its front along +x.
+#pragma once
+
+#include "worldgen/scene/scene_builder.hpp"
+
+namespace yars::model::scene {
+
+void draw_fighter(Sketch& sketch, int sides);
+void draw_transport(Sketch& sketch, int sides);
+void draw_truck(Sketch& sketch, const SurfaceKind& body);
+void draw_tanker(Sketch& sketch, int sides);
+void draw_car(Sketch& sketch, const SurfaceKind& body);
+void draw_conifer(Sketch& sketch, double height_m, int sides);
+void draw_leafy_tree(Sketch& sketch, double height_m, int sides);
+// A pitched-roof house with chimney, by chance with a porch, dormers, a garage.
+void draw_house(Sketch& sketch, Chance& chance);
+// Flats: a slab of storeys with window bands, parapet and stair heads.
+void draw_block(Sketch& sketch, Chance& chance);
+// A tower on a base, stepped back towards its top, with plant on the roof.
+void draw_tower(Sketch& sketch, Chance& chance);
+
+}  // namespace yars::model::scene

@@ -1,0 +1,207 @@
+#include "worldgen/terrain/drainage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <utility>
+
+#include "lib/random/gradient_noise.hpp"
+
+namespace yars::model::terrain {
+
+namespace {
+
+constexpr double kSeaM = -10.0;    // [m] deeper is the sea that rivers end in; shoals before it are crossed
+constexpr double kWindingM = 4.0;  // [m] of chance in what a flood meets: plains have winding rivers
+// [m] [nodes] Rivers cross a tile's border at gates alone, so they shall not run along it.
+constexpr double kBorderM = 45.0;
+constexpr double kBorderNodes = 9.0;
+constexpr double kLeastFall = 1e-7;  // [m/m] small enough for every gate, see kLeastFallM in river_basins.cpp
+constexpr int kNodes = kTileNodes * kTileNodes;
+constexpr int kEnd = -1;
+
+int index_of(TileNode node) {
+  return node.row * kTileNodes + node.column;
+}
+
+// The flood's result: where each node drains to, and the order in which the flood met the nodes.
+class Flood {
+ public:
+  Flood(const ReliefTile& relief, const std::vector<RiverGate>& gates);
+
+  std::vector<int> downstream;  // node, or kEnd
+  std::vector<int> exits;       // gate that water leaves a node by, or kEnd
+  std::vector<int> order;       // downstream before upstream
+  bool landlocked = false;      // neither sea nor gate
+
+ private:
+  struct Front {
+    float level_m;
+    int node;
+    bool operator<(const Front& other) const {
+      return level_m != other.level_m ? level_m > other.level_m : node > other.node;
+    }
+  };
+  void seed(int node, double level_m) {
+    if (met_[static_cast<std::size_t>(node)]) return;
+    met_[static_cast<std::size_t>(node)] = true;
+    open_.push({static_cast<float>(level_m), node});
+  }
+  bool beside_sea(int row, int column) const;
+  void seed_outlets(const std::vector<RiverGate>& gates);
+  double courted_m(TileNode at) const;
+  void spread(const Front& front);
+
+  const ReliefTile& relief_;
+  std::vector<bool> met_;
+  std::priority_queue<Front> open_;
+};
+
+Flood::Flood(const ReliefTile& relief, const std::vector<RiverGate>& gates)
+    : downstream(kNodes, kEnd), exits(kNodes, kEnd), relief_(relief), met_(kNodes, false) {
+  order.reserve(kNodes);
+  seed_outlets(gates);
+  while (!open_.empty()) {
+    const Front front = open_.top();
+    open_.pop();
+    order.push_back(front.node);
+    spread(front);
+  }
+}
+
+// A node of the tile's border that faces deep sea in the next tile.
+bool Flood::beside_sea(int row, int column) const {
+  return (row == 0 && relief_.height_m(-1, column) < kSeaM) ||
+         (row == kTileNodes - 1 && relief_.height_m(kTileNodes, column) < kSeaM) ||
+         (column == 0 && relief_.height_m(row, -1) < kSeaM) ||
+         (column == kTileNodes - 1 && relief_.height_m(row, kTileNodes) < kSeaM);
+}
+
+void Flood::seed_outlets(const std::vector<RiverGate>& gates) {
+  int lowest = 0;
+  for (int node = 0; node < kNodes; ++node) {
+    const int row = node / kTileNodes;
+    const int column = node % kTileNodes;
+    const double height_m = relief_.height_m(row, column);
+    if (height_m < kSeaM || beside_sea(row, column)) seed(node, height_m);
+    if (height_m < relief_.height_m(lowest / kTileNodes, lowest % kTileNodes)) lowest = node;
+  }
+  for (std::size_t gate = 0; gate < gates.size(); ++gate) {
+    const TileNode node = gate_source(gates[gate]);
+    if (met_[static_cast<std::size_t>(index_of(node))]) continue;
+    exits[static_cast<std::size_t>(index_of(node))] = static_cast<int>(gate);
+    seed(index_of(node), relief_.height_m(node.row, node.column));
+  }
+  // Without an outlet the water stays at the lowest place.
+  landlocked = open_.empty();
+  if (landlocked) seed(lowest, relief_.height_m(lowest / kTileNodes, lowest % kTileNodes));
+}
+
+// The flood goes for the lowest ground that it sees (r.watershed's search, Ehlschlaeger 1989): into a basin by its
+// steepest side, then up from its bottom.
+double Flood::courted_m(TileNode at) const {
+  const CellPlace place = relief_.place();
+  const std::uint32_t hash =
+      lattice_hash(place.south_deg * kTileNodes + at.row, place.west_deg * kTileNodes + at.column, 1, 5U);
+  const int border = std::min({at.row, at.column, kTileNodes - 1 - at.row, kTileNodes - 1 - at.column});
+  const double near = std::max(0.0, 1.0 - border / kBorderNodes);
+  return relief_.height_m(at.row, at.column) + kWindingM * share_of(hash) + kBorderM * near * near;
+}
+
+void Flood::spread(const Front& front) {
+  const int row = front.node / kTileNodes;
+  const int column = front.node % kTileNodes;
+  for (int north = -1; north <= 1; ++north)
+    for (int east = -1; east <= 1; ++east) {
+      const TileNode to{row + north, column + east};
+      if (to.row < 0 || to.row >= kTileNodes || to.column < 0 || to.column >= kTileNodes) continue;
+      const int node = index_of(to);
+      if (met_[static_cast<std::size_t>(node)]) continue;
+      downstream[static_cast<std::size_t>(node)] = front.node;
+      seed(node, courted_m(to));
+    }
+}
+
+std::vector<double> areas_km2(const ReliefTile& relief, const Flood& flood, const std::vector<RiverEntry>& entries) {
+  std::vector<double> areas(kNodes);
+  for (int node = 0; node < kNodes; ++node) {
+    const double north_km = kNodeMetres / 1000.0;
+    const double latitude_deg = relief.node(node / kTileNodes, 0).latitude_deg;
+    areas[static_cast<std::size_t>(node)] = north_km * east_m_per_degree(latitude_deg) / kTileNodes / 1000.0;
+  }
+  for (const RiverEntry& entry : entries)
+    areas[static_cast<std::size_t>(index_of(gate_target(entry.gate)))] += entry.area_km2;
+  for (auto node = flood.order.rbegin(); node != flood.order.rend(); ++node) {
+    const int to = flood.downstream[static_cast<std::size_t>(*node)];
+    if (to != kEnd) areas[static_cast<std::size_t>(to)] += areas[static_cast<std::size_t>(*node)];
+  }
+  return areas;
+}
+
+// Rivers lie a little below the ground, and never above water upstream: first down from the springs, cutting
+// through what is in the way, then up from the outlets, so that no water lies below what it runs to.
+void set_water(Drainage& drainage) {
+  std::vector<RiverNode>& nodes = drainage.nodes;
+  std::vector<double> upstream_m(nodes.size(), 1e9);
+  for (const RiverEntry& entry : drainage.entries)
+    for (std::size_t index = 0; index < nodes.size(); ++index) {
+      const TileNode target = gate_target(entry.gate);
+      const bool here = nodes[index].row == target.row && nodes[index].column == target.column;
+      if (here && entry.area_km2 >= kRiverKm2) upstream_m[index] = std::min(upstream_m[index], entry.gate.bed_m);
+    }
+  for (std::size_t index = nodes.size(); index-- > 0;) {
+    RiverNode& node = nodes[index];
+    const double depth_m = 2.0 + std::min(8.0, 0.05 * std::sqrt(node.area_km2));
+    node.water_m = std::max(0.0, std::min(node.ground_m - depth_m, upstream_m[index]));
+    if (node.downstream >= 0) {
+      double& below_m = upstream_m[static_cast<std::size_t>(node.downstream)];
+      below_m = std::min(below_m, node.water_m - kLeastFall * kNodeMetres);
+    }
+  }
+  for (RiverNode& node : nodes) {
+    if (node.downstream >= 0)
+      node.water_m = std::max(node.water_m, nodes[static_cast<std::size_t>(node.downstream)].water_m);
+    else if (node.exit >= 0)
+      node.water_m = std::max(node.water_m, drainage.exits[static_cast<std::size_t>(node.exit)].bed_m);
+    else if (!drainage.landlocked)
+      node.water_m = 0.0;  // the sea, also where it lies just beyond the tile
+  }
+}
+
+}  // namespace
+
+TileNode gate_source(const RiverGate& gate) {
+  const int line = gate.north + gate.east > 0 ? kTileNodes - 1 : 0;
+  return gate.north != 0 ? TileNode{line, gate.along} : TileNode{gate.along, line};
+}
+
+TileNode gate_target(const RiverGate& gate) {
+  const int line = gate.north + gate.east > 0 ? 0 : kTileNodes - 1;
+  return gate.north != 0 ? TileNode{line, gate.along} : TileNode{gate.along, line};
+}
+
+Drainage drain(const ReliefTile& relief, std::vector<RiverGate> exits, std::vector<RiverEntry> entries) {
+  const Flood flood(relief, exits);
+  const std::vector<double> areas = areas_km2(relief, flood, entries);
+  Drainage drainage{{}, std::move(exits), {}, std::move(entries), flood.landlocked};
+  std::vector<int> numbers(kNodes, -1);
+  for (const int node : flood.order) {
+    const double area_km2 = areas[static_cast<std::size_t>(node)];
+    if (area_km2 < kRiverKm2) continue;
+    const int to = flood.downstream[static_cast<std::size_t>(node)];
+    const int row = node / kTileNodes;
+    const int column = node % kTileNodes;
+    numbers[static_cast<std::size_t>(node)] = static_cast<int>(drainage.nodes.size());
+    drainage.nodes.push_back({row, column, to == kEnd ? -1 : numbers[static_cast<std::size_t>(to)],
+                              flood.exits[static_cast<std::size_t>(node)], area_km2, relief.height_m(row, column),
+                              0.0});
+  }
+  for (std::size_t exit = 0; exit < drainage.exits.size(); ++exit) {
+    const auto node = static_cast<std::size_t>(index_of(gate_source(drainage.exits[exit])));
+    drainage.exits_km2.push_back(flood.exits[node] == kEnd ? 0.0 : areas[node]);
+  }
+  set_water(drainage);
+  return drainage;
+}
+
+}  // namespace yars::model::terrain

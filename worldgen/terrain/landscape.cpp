@@ -1,0 +1,279 @@
+#include "worldgen/terrain/landscape.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "lib/failure/require.hpp"
+#include "lib/random/gradient_noise.hpp"
+#include "model/physics/reflectivity.hpp"
+
+namespace yars::model::terrain {
+
+namespace {
+
+constexpr double kWoodsBelowSnowM = 900.0;  // [m] between the last trees and the snow lies rock and meadow
+constexpr double kSteepRock = 0.55;         // [m/m] soil does not hold
+constexpr double kBuildable = 0.15;         // [m/m] houses stand on gentler ground
+
+double noise_at(const CoverSite& site, double wavelength_m, int octaves, std::uint32_t seed) {
+  const double scale = 6371000.0 / wavelength_m;
+  return fractal_noise({site.upward.x * scale, site.upward.y * scale, site.upward.z * scale}, seed, octaves, 0.6);
+}
+
+}  // namespace
+
+double snow_line_m(double latitude_deg) {
+  const double parallel = std::max(0.0, std::cos(latitude_deg * geo::kRadiansPerDegree));
+  return 4100.0 * parallel * std::sqrt(parallel) - 500.0 * smooth_step(64.0, 78.0, std::abs(latitude_deg));
+}
+
+Material natural_cover(const CoverSite& site, std::uint32_t seed) {
+  if (site.height_m <= 0.0 || site.valley < 0.0) return Material::water;
+  const double snow_m = snow_line_m(site.place.latitude_deg);
+  const double ground = noise_at(site, 6500.0, 5, seed);
+  if (site.height_m > snow_m + 250.0 * ground && site.steepness < 1.1) return Material::snow;
+  if (site.height_m < 12.0 && site.valley > 0.5) {
+    if (site.steepness > 0.09) return Material::rock;
+    if (site.height_m < 2.2) return ground < 0.3 ? Material::sand : Material::marsh;
+  }
+  if (site.height_m < 9.0 && site.steepness < 0.012 && ground > 0.25) return Material::marsh;
+  if (site.steepness > kSteepRock) return Material::rock;
+  const double above_m = site.height_m - (snow_m - kWoodsBelowSnowM);
+  if (above_m > 200.0 * ground)
+    return above_m > 450.0 * (1.0 + ground) - 400.0 * site.steepness ? Material::rock : Material::soil;
+  // Fields on the plain and the valley floors, woods on hills and slopes.
+  const double hilly = smooth_step(0.03, 0.16, site.steepness) + 0.5 * smooth_step(150.0, 700.0, site.height_m);
+  const double wooded = ground + 0.45 * hilly - 0.15 + (site.valley < 0.4 ? -0.12 : 0.0);
+  return wooded > 0.12 ? Material::trees : Material::soil;
+}
+
+Material town_cover(const CoverSite& site, double radii, Material natural, std::uint32_t seed) {
+  if (natural == Material::water || site.steepness > kBuildable) return natural;
+  // The edge is ragged: arms along the roads, fields between.
+  const double edge = radii * (1.0 + 0.55 * noise_at(site, 1700.0, 3, seed + 7U));
+  if (edge > 1.0) return natural;
+  const StreetPatch patch = street_patch(site.place);
+  double way_deg = geo::wrapped_degrees(site.place.longitude_deg - patch.origin.longitude_deg);
+  const double east_m = way_deg * east_m_per_degree(patch.origin.latitude_deg);
+  const double north_m = (site.place.latitude_deg - patch.origin.latitude_deg) * kTileMetres;
+  const double turn = patch.bearing_deg * geo::kRadiansPerDegree;
+  const double along_m = east_m * std::sin(turn) + north_m * std::cos(turn);
+  const double across_m = east_m * std::cos(turn) - north_m * std::sin(turn);
+  // Avenues cut the town into quarters, quarters into blocks.
+  constexpr double kAvenueM = 880.0, kAvenueWidthM = 44.0, kBlockM = 220.0;
+  const auto in_avenue = [](double way_m) { return way_m - kAvenueM * std::floor(way_m / kAvenueM) < kAvenueWidthM; };
+  if (in_avenue(along_m) || in_avenue(across_m)) return Material::asphalt;
+  const auto number = [](double way_m, double step_m) { return static_cast<std::int32_t>(std::floor(way_m / step_m)); };
+  const double quarter = share_of(lattice_hash(number(along_m, kAvenueM), number(across_m, kAvenueM), 11, seed));
+  const double block = share_of(lattice_hash(number(along_m, kBlockM), number(across_m, kBlockM), 12, seed));
+  if (edge > 0.35 && quarter < 0.13)
+    return block < 0.12 ? Material::metal : (block < 0.7 ? Material::part_metal : Material::asphalt);
+  if (quarter > 0.95 || block > 0.94) return Material::trees;
+  if (edge < 0.3 || (edge < 0.45 && block < 0.5)) return Material::stone;
+  if (edge > 0.8 && block < 0.3) return natural;
+  return Material::composition;
+}
+
+Material airfield_cover(const Airfield& airfield, geo::GeoPoint place, Material natural) {
+  const OnAirfield at = on_airfield(airfield, place);
+  const double along_m = std::abs(at.along_m);
+  const double half_m = 0.5 * airfield.length_m;
+  if (along_m > half_m + kPadBeyondM || std::abs(at.across_m) > kPadHalfWidthM) return natural;
+  if (along_m <= half_m && std::abs(at.across_m) <= kRunwayHalfWidthM) return Material::asphalt;
+  // A taxiway beside the runway, links at its ends, the apron with hangars behind it.
+  const bool taxiway = along_m <= half_m && std::abs(at.across_m - 250.0) <= 45.0;
+  const bool link = std::abs(along_m - half_m + 60.0) <= 60.0 && at.across_m > 0.0 && at.across_m < 250.0;
+  if (taxiway || link) return Material::asphalt;
+  if (along_m <= 350.0 && at.across_m > 250.0 && at.across_m < 420.0) return Material::asphalt;
+  if (along_m <= 300.0 && at.across_m >= 420.0) return Material::metal;
+  return Material::soil;
+}
+
+namespace {
+
+constexpr double kDeepSeaM = -100.0;  // [m] ground below does not reach the surface by any gully's spur
+constexpr GullyOctave kGullies[] = {{2000, 0.17}, {980, 0.12}, {500, 0.08}, {240, 0.06}, {115, 0.05}};
+constexpr double kRoughM = 2.5;  // [m] of stones and ledges on steep ground
+constexpr double kRoughWavelengthM = 75.0;
+constexpr double kTownReach = 2.2;  // radii: a town's ragged edge ends within
+constexpr double kHighestM = 9000.0;
+
+// Sea is exactly 0 m and land at least 1 m: zero means water to the radar.
+std::int16_t post_of(double height_m, bool water) {
+  if (height_m <= 0.0) return 0;
+  return static_cast<std::int16_t>(std::clamp(std::round(height_m), water ? 0.0 : 1.0, kHighestM));
+}
+
+double way_deg(double from_deg, double to_deg) {
+  const double way = to_deg - from_deg;
+  return way > 180.0 ? way - 360.0 : (way < -180.0 ? way + 360.0 : way);
+}
+
+}  // namespace
+
+struct LandscapeRows::Row {
+  double latitude_deg;
+  double cosine, sine;  // of the latitude
+  std::vector<double> heights_m;
+  std::vector<float> steepness;
+  std::vector<float> valley;
+  std::vector<const Town*> towns;  // that reach this row
+};
+
+LandscapeRows::LandscapeRows(LandscapeTiles& tiles, std::uint32_t seed, CellPlace place, int rows, int columns)
+    : seed_(seed), rows_(rows), columns_(columns), place_(place), bands_(kTileNodes + 1) {
+  std::vector<std::shared_ptr<const ReliefTile>> reliefs;
+  lattice_ = std::make_unique<LandscapeLattice>(
+      place, columns, [&](CellPlace at) -> const ReliefTile& { return *reliefs.emplace_back(tiles.relief(at)); });
+  for (int column = 0; column < columns; ++column) {
+    longitudes_deg_.push_back(lattice_->longitude_deg(column));
+    cosines_.push_back(std::cos(longitudes_deg_.back() * geo::kRadiansPerDegree));
+    sines_.push_back(std::sin(longitudes_deg_.back() * geo::kRadiansPerDegree));
+  }
+  for (int north = -1; north <= 1; ++north)
+    for (int east = -1; east <= 1; ++east) {
+      const CellPlace at = neighbour_of(place, north, east);
+      if (at.south_deg < -90 || at.south_deg > 89) continue;
+      const TileFeatures& tile = *features_.emplace_back(tiles.features(at));
+      for (const RiverPiece& piece : tile.rivers) {
+        const double from_m = (piece.from.latitude_deg - place.south_deg) * kTileMetres;
+        const double low = (from_m + std::min(0.0, piece.north_m) - piece.reach_m()) / kNodeMetres - 1.0;
+        const double high = (from_m + std::max(0.0, piece.north_m) + piece.reach_m()) / kNodeMetres + 1.0;
+        for (int band = std::max(0, static_cast<int>(low)); band <= std::min<double>(kTileNodes, high); ++band)
+          bands_[static_cast<std::size_t>(band)].push_back(&piece);
+      }
+      for (const Town& town : tile.places.towns) towns_.push_back(&town);
+      for (const Airfield& airfield : tile.places.airfields) airfields_.push_back(&airfield);
+    }
+}
+
+void LandscapeRows::lay_ground(Row& row, const LandscapeLattice::Row& lattice) const {
+  GullyRow gullies({seed_ + 3072U, kGullies}, std::clamp(row.latitude_deg, -90.0, 90.0));
+  constexpr double kRoughScale = 6371000.0 / kRoughWavelengthM;
+  for (std::size_t column = 0; column < row.heights_m.size(); ++column) {
+    const LandscapeLattice::Ground ground = lattice.at(static_cast<int>(column));
+    row.heights_m[column] = ground.height_m;
+    // Deep under the sea nothing shows: spare the gullies.
+    if (ground.height_m < kDeepSeaM) continue;
+    const GullyRow::Relief relief = gullies.at(longitudes_deg_[column], ground.slope);
+    row.heights_m[column] += relief.height_m;
+    const double steepness = std::sqrt(relief.slope.east * relief.slope.east + relief.slope.north * relief.slope.north);
+    row.steepness[column] = static_cast<float>(steepness);
+    if (steepness < 0.12 || row.heights_m[column] < 0.0) continue;
+    const double across = row.cosine * kRoughScale;
+    const geo::Vector3 at{across * cosines_[column], across * sines_[column], row.sine * kRoughScale};
+    row.heights_m[column] += kRoughM * smooth_step(0.12, 0.6, steepness) * gradient_noise(at, seed_ + 3090U);
+  }
+}
+
+void LandscapeRows::lay_rivers(Row& row) const {
+  const double from_south = (row.latitude_deg - place_.south_deg) * kTileNodes;
+  const auto band = static_cast<std::size_t>(std::clamp(from_south, 0.0, static_cast<double>(kTileNodes)));
+  RiverRow rivers(row.latitude_deg, longitudes_deg_);
+  for (const RiverPiece* piece : bands_[band]) rivers.add(*piece);
+  rivers.shape(row.heights_m, row.valley);
+}
+
+// The level ground is the airfield's height to the bit; beyond it the land rises or falls to what it was.
+void LandscapeRows::level_airfields(Row& row) const {
+  constexpr double kAcrossM = kPadHalfWidthM + kPadBlendM;
+  for (const Airfield* airfield : airfields_) {
+    const double half_m = 0.5 * airfield->length_m + kPadBeyondM;
+    const double north_m = std::abs(row.latitude_deg - airfield->centre.latitude_deg) * kTileMetres;
+    if (north_m > half_m + kPadBlendM + kAcrossM) continue;
+    for (std::size_t column = 0; column < row.heights_m.size(); ++column) {
+      const OnAirfield at = on_airfield(*airfield, {row.latitude_deg, longitudes_deg_[column]});
+      const double beyond_m =
+          std::max({0.0, std::abs(at.along_m) - half_m, std::abs(at.across_m) - kPadHalfWidthM}) / kPadBlendM;
+      if (beyond_m >= 1.0 || row.valley[column] < 0.0F) continue;
+      const double part = smooth_step(0.0, 1.0, beyond_m);
+      row.heights_m[column] = airfield->elevation_m + (row.heights_m[column] - airfield->elevation_m) * part;
+      row.steepness[column] *= static_cast<float>(part);
+    }
+  }
+}
+
+Material LandscapeRows::cover(const Row& row, std::size_t column) const {
+  CoverSite site{{row.latitude_deg, longitudes_deg_[column]},
+                 {row.cosine * cosines_[column], row.cosine * sines_[column], row.sine},
+                 row.heights_m[column],
+                 row.steepness[column] * std::max(0.0, static_cast<double>(row.valley[column])),
+                 row.valley[column]};
+  Material material = natural_cover(site, seed_ + 3100U);
+  double radii = kTownReach;
+  for (const Town* town : row.towns) {
+    const double north_m = (row.latitude_deg - town->centre.latitude_deg) * kTileMetres;
+    const double east_m =
+        way_deg(town->centre.longitude_deg, site.place.longitude_deg) * east_m_per_degree(town->centre.latitude_deg);
+    radii = std::min(radii, std::sqrt(north_m * north_m + east_m * east_m) / town->radius_m);
+  }
+  if (radii < kTownReach) material = town_cover(site, radii, material, seed_ + 3110U);
+  if (material == Material::water) return material;
+  for (const Airfield* airfield : airfields_)
+    if (std::abs(row.latitude_deg - airfield->centre.latitude_deg) * kTileMetres < kLargestTownM)
+      material = airfield_cover(*airfield, site.place, material);
+  return material;
+}
+
+void LandscapeRows::make(int number, std::span<std::int16_t> posts_m, std::span<std::uint8_t> codes) const {
+  const LandscapeLattice::Row lattice(*lattice_, number, rows_ - 1);
+  const auto columns = static_cast<std::size_t>(columns_);
+  const double latitude = lattice.latitude_deg() * geo::kRadiansPerDegree;
+  Row row{lattice.latitude_deg(),
+          std::cos(latitude),
+          std::sin(latitude),
+          std::vector<double>(columns),
+          std::vector<float>(columns),
+          std::vector<float>(columns, 2.0F),
+          {}};
+  for (const Town* town : towns_)
+    if (std::abs(town->centre.latitude_deg - row.latitude_deg) * kTileMetres < kTownReach * town->radius_m)
+      row.towns.push_back(town);
+  lay_ground(row, lattice);
+  lay_rivers(row);
+  level_airfields(row);
+  for (std::size_t column = 0; column < columns; ++column) {
+    posts_m[column] = post_of(row.heights_m[column], row.valley[column] < 0.0F);
+    codes[column] = static_cast<std::uint8_t>(cover(row, column));
+  }
+}
+
+Landscape::Landscape(std::uint64_t seed, std::optional<LandscapeBox> island)
+    : seed_(static_cast<std::uint32_t>(seed ^ (seed >> 32U)) * 4096U),
+      tiles_(std::make_unique<LandscapeTiles>(seed_, island)) {}
+
+MadeCell Landscape::make(CellPlace place, int rows, int columns, int threads) const {
+  YARS_REQUIRE(threads, >=, 1);
+  const LandscapeRows maker(*tiles_, seed_, place, rows, columns);
+  const auto width = static_cast<std::size_t>(columns);
+  std::vector<std::int16_t> posts(static_cast<std::size_t>(rows) * width);
+  std::vector<std::uint8_t> codes(posts.size());
+  // Each thread takes every so many rows: they cost alike.
+  const auto work = [&](int first) {
+    for (int row = first; row < rows; row += threads) {
+      const std::size_t start = static_cast<std::size_t>(row) * width;
+      maker.make(row, std::span(posts).subspan(start, width), std::span(codes).subspan(start, width));
+    }
+  };
+  std::vector<std::thread> others;
+  for (int first = 1; first < threads; ++first) others.emplace_back(work, first);
+  work(0);
+  for (std::thread& other : others) other.join();
+  return {Cell(place, rows, columns, std::move(posts)), Culture(place, rows, columns, std::move(codes))};
+}
+
+bool Landscape::may_have_land(CellPlace place) const {
+  const auto land = tiles_->relief(place);
+  // The ring about the tile holds the nodes of its far edges; a spline and its gullies rise no higher than this.
+  constexpr double kCannotRiseM = -100.0;
+  for (int row = -1; row <= kTileNodes; ++row)
+    for (int column = -1; column <= kTileNodes; ++column)
+      if (land->height_m(row, column) > kCannotRiseM) return true;
+  return false;
+}
+
+}  // namespace yars::model::terrain

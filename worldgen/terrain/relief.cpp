@@ -1,0 +1,242 @@
+#include "worldgen/terrain/relief.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/geo/frames.hpp"
+#include "lib/random/gradient_noise.hpp"
+
+namespace yars::model::terrain {
+
+namespace {
+
+constexpr double kKmPerDegree = 111.195;  // [km] of a sphere of 6371 km: shape only, no navigation
+constexpr double kCornerKm = 45.0;        // [km] radius of a corner; sharper ones show the box
+constexpr double kNoEdgeKm = 1e6;
+
+}  // namespace
+
+double LandscapeBox::inside_km(geo::GeoPoint place) const {
+  double north_km = kNoEdgeKm;  // to the nearer of the south and the north edge
+  if (south_deg > -90) north_km = (place.latitude_deg - south_deg) * kKmPerDegree;
+  const int north_deg = south_deg + cells_north;
+  if (north_deg < 90) north_km = std::min(north_km, (north_deg - place.latitude_deg) * kKmPerDegree);
+  double east_km = kNoEdgeKm;
+  if (cells_east < 360) {
+    double east_deg = place.longitude_deg - west_deg;
+    if (east_deg < 0) east_deg += 360.0;
+    const double km_per_degree = kKmPerDegree * std::max(0.0, std::cos(place.latitude_deg * geo::kRadiansPerDegree));
+    east_km = std::min(east_deg, cells_east - east_deg) * km_per_degree;
+  }
+  const double radius_km = std::min(kCornerKm, 0.5 * kKmPerDegree * cells_north);
+  if (north_km <= 0.0 || east_km <= 0.0 || north_km >= radius_km || east_km >= radius_km)
+    return std::min(north_km, east_km);
+  const double north = radius_km - north_km;
+  const double east = radius_km - east_km;
+  return radius_km - std::sqrt(north * north + east * east);
+}
+
+namespace {
+
+constexpr double kEarthRadiusKm = 6371.0;  // [km] sphere: shape only, no navigation
+constexpr double kShelfMPerKm = 14.0;      // [m/km] the sea deepens so much with the way out
+constexpr double kOpenSeaKm = -130.0;      // [km] inland: so far out no coast, island or range reaches
+// [m] No sea is deeper: a bottom that falls off has gullies, whose spurs would rise above the water at a box's edge.
+constexpr double kSeaBottomM = -150.0;
+
+double bell(double offset, double half_width) {
+  const double t = offset / half_width;
+  return std::exp(-t * t);
+}
+
+geo::Vector3 at_wavelength(geo::Vector3 point_km, double wavelength_km) {
+  return {point_km.x / wavelength_km, point_km.y / wavelength_km, point_km.z / wavelength_km};
+}
+
+// A chain of mountains along a line of equal way inland.
+struct Range {
+  double axis_km;  // way inland of its middle; negative: at sea, its tops are islands
+  double half_width_km;
+  double crest_m;
+  std::uint32_t layer;  // of the noise
+};
+constexpr Range kRanges[] = {{20, 12, 1250, 70}, {96, 27, 3000, 90}, {210, 40, 2300, 110}, {-30, 9, 680, 130}};
+
+}  // namespace
+
+double BroadRelief::noise(geo::Vector3 point_km, double wavelength_km, std::uint32_t layer, int octaves) const {
+  return fractal_noise(at_wavelength(point_km, wavelength_km), seed_ + layer, octaves, 0.5);
+}
+
+double BroadRelief::ridges(geo::Vector3 point_km, double wavelength_km, std::uint32_t layer, int octaves) const {
+  return ridged_noise(at_wavelength(point_km, wavelength_km), seed_ + layer, octaves);
+}
+
+// The coast that ends a box keeps 11 to 81 km from its edge, in bays and capes of its own;
+// at the edge the sea has its full depth.
+BroadRelief::Shore BroadRelief::beside_edge(double coast_km, geo::GeoPoint place, geo::Vector3 bent) const {
+  constexpr double kReachKm = 125.0;  // [km] farther inside the edge is not felt
+  const double inside_km = island_ ? island_->inside_km(place) : kReachKm;
+  if (inside_km >= kReachKm) return {coast_km, 1.0};
+  const double margin_km = 11.0 + 70.0 * std::clamp(0.42 + 1.15 * noise(bent, 115, 170, 6), 0.0, 1.0);
+  const double shore_km = inside_km - margin_km;
+  return {std::min(coast_km, shore_km), smooth_step(0.0, 22.0, shore_km)};
+}
+
+double BroadRelief::height_m(geo::GeoPoint place) const {
+  if (island_ && island_->inside_km(place) <= 0.0) return kSeaBottomM;
+  const double latitude = place.latitude_deg * geo::kRadiansPerDegree;
+  const double longitude = place.longitude_deg * geo::kRadiansPerDegree;
+  const geo::Vector3 at{kEarthRadiusKm * std::cos(latitude) * std::cos(longitude),
+                        kEarthRadiusKm * std::cos(latitude) * std::sin(longitude), kEarthRadiusKm * std::sin(latitude)};
+  // Bend space a little: what is straight in noise becomes winding.
+  const geo::Vector3 bent{at.x + 9.0 * noise(at, 55, 10, 3), at.y + 9.0 * noise(at, 55, 20, 3),
+                          at.z + 9.0 * noise(at, 55, 30, 3)};
+  // Way inland from the coast's general line, negative at sea.
+  const double inland_km = 260.0 * (noise(bent, 1100, 40) + 0.45 * noise(bent, 430, 41) + 0.16 * noise(bent, 170, 42));
+  if (inland_km < kOpenSeaKm) return kSeaBottomM;
+  // The coast itself wanders about that line, here in beaches, there in capes; inlets reach in.
+  const double rugged = smooth_step(-0.3, 0.4, noise(at, 130, 43));
+  const double inlets = smooth_step(0.42, 0.8, ridges(bent, 85, 44, 3));
+  const Shore shore = beside_edge(
+      inland_km + (9.0 + 26.0 * rugged) * noise(bent, 62, 50, 6) - 22.0 * inlets * bell(inland_km, 28.0), place, bent);
+  const double coast_km = shore.coast_km;
+  // Shelf, coastal plain and the slow rise behind it.
+  double height_m = coast_km < 0 ? kShelfMPerKm * coast_km
+                                 : 95.0 * (1.0 - std::exp(-coast_km / 14.0)) + 1.6 * std::min(coast_km, 90.0);
+  if (shore.fade <= 0.0) return std::max(height_m, kSeaBottomM);
+  // Ranges follow the general line at their own distance and with their own gaps.
+  const double wander_km = 26.0 * noise(at, 120, 60, 3);
+  for (const Range& range : kRanges) {
+    const double envelope = bell(inland_km - range.axis_km - wander_km, range.half_width_km);
+    if (envelope < 1e-3) continue;
+    const double presence = 0.45 + 0.75 * smooth_step(-0.45, 0.35, noise(at, 95, range.layer, 2));
+    height_m += range.crest_m * envelope * presence * shore.fade * (0.28 + 1.05 * ridges(bent, 34, range.layer + 5, 4));
+  }
+  // Low hills here and there.
+  const double hilly = smooth_step(2.0, 25.0, coast_km) * smooth_step(-0.1, 0.5, noise(at, 60, 160, 2)) * shore.fade;
+  if (hilly > 0.0) height_m += 190.0 * hilly * ridges(bent, 17, 150, 4);
+  return std::max(height_m, kSeaBottomM);
+}
+
+geo::GeoPoint lattice_node(int row, int column) {
+  constexpr int kRound = kCellColumns * kTileNodes;
+  const int wrapped = (column % kRound + kRound) % kRound;
+  return {static_cast<double>(row) / kTileNodes - 90.0, static_cast<double>(wrapped) / kTileNodes - 180.0};
+}
+
+double east_m_per_degree(double latitude_deg) {
+  return kTileMetres * std::max(0.01, std::cos(latitude_deg * geo::kRadiansPerDegree));
+}
+
+CellPlace neighbour_of(CellPlace place, int north, int east) {
+  return {place.south_deg + north, (place.west_deg + east + 180 + kCellColumns) % kCellColumns - 180};
+}
+
+ReliefTile::ReliefTile(CellPlace place, const BroadRelief& broad, const Gullies& valleys)
+    : place_(place), heights_m_(static_cast<std::size_t>(kSide) * kSide) {
+  for (int row = -1; row <= kTileNodes; ++row)
+    for (int column = -1; column <= kTileNodes; ++column)
+      heights_m_[slot(row, column)] = static_cast<float>(broad.height_m(node(row, column)));
+  const std::vector<float> before = heights_m_;
+  constexpr double kHalfSteps = kTileNodes / 2.0;
+  for (int row = 0; row < kTileNodes; ++row) {
+    const double latitude_deg = node(row, 0).latitude_deg;
+    GullyRow cuts(valleys, std::clamp(latitude_deg, -90.0, 90.0));
+    for (int column = 0; column < kTileNodes; ++column) {
+      const std::size_t here = slot(row, column);
+      const Slope slope{(before[here + 1] - before[here - 1]) * kHalfSteps / east_m_per_degree(latitude_deg),
+                        (before[here + kSide] - before[here - kSide]) * kHalfSteps / kTileMetres};
+      heights_m_[here] += static_cast<float>(cuts.at(node(row, column).longitude_deg, slope).height_m);
+    }
+  }
+}
+
+geo::GeoPoint ReliefTile::node(int row, int column) const {
+  return lattice_node((place_.south_deg + 90) * kTileNodes + row, (place_.west_deg + 180) * kTileNodes + column);
+}
+
+double ReliefTile::steepness(int row, int column) const {
+  const double east = (height_m(row, column + 1) - height_m(row, column - 1)) * (kTileNodes / 2.0) /
+                      east_m_per_degree(node(row, column).latitude_deg);
+  const double north = (height_m(row + 1, column) - height_m(row - 1, column)) / (2.0 * kNodeMetres);
+  return std::sqrt(east * east + north * north);
+}
+
+namespace {
+
+// Weights of a uniform cubic B-spline over four lattice points, and their derivatives.
+struct Spline {
+  std::array<double, 4> value;
+  std::array<double, 4> change;
+};
+Spline spline_at(double t) {
+  const double s = 1.0 - t;
+  return {
+      {s * s * s / 6.0, (3 * t * t * t - 6 * t * t + 4) / 6.0, (3 * s * s * s - 6 * s * s + 4) / 6.0, t * t * t / 6.0},
+      {-s * s / 2.0, (3 * t * t - 4 * t) / 2.0, (4 * s - 3 * s * s) / 2.0, t * t / 2.0}};
+}
+
+}  // namespace
+
+LandscapeLattice::LandscapeLattice(CellPlace place, int columns,
+                                   const std::function<const ReliefTile&(CellPlace)>& tile_at)
+    : place_(place), heights_m_(static_cast<std::size_t>(kNodes) * kNodes) {
+  for (int north = -1; north <= 1; ++north)
+    for (int east = -1; east <= 1; ++east) {
+      const ReliefTile& tile = tile_at(neighbour_of(place, north, east));
+      // Nodes of this tile among ours.
+      for (int row = std::max(0, kMargin + north * kTileNodes);
+           row < std::min(kNodes, kMargin + (north + 1) * kTileNodes); ++row)
+        for (int column = std::max(0, kMargin + east * kTileNodes);
+             column < std::min(kNodes, kMargin + (east + 1) * kTileNodes); ++column)
+          heights_m_[static_cast<std::size_t>(row) * kNodes + static_cast<std::size_t>(column)] =
+              tile.height_m(row - kMargin - north * kTileNodes, column - kMargin - east * kTileNodes);
+    }
+  columns_.reserve(static_cast<std::size_t>(columns));
+  constexpr int kRound = kCellColumns * kTileNodes;
+  for (int column = 0; column < columns; ++column) {
+    const int steps = column * kTileNodes;
+    const double fraction = static_cast<double>(steps % (columns - 1)) / (columns - 1);
+    const int node = steps / (columns - 1);
+    const int of_earth = ((place.west_deg + 180) * kTileNodes + node) % kRound;
+    const Spline spline = spline_at(fraction);
+    columns_.push_back({node + kMargin - 1, (of_earth + fraction) / kTileNodes - 180.0, spline.value, spline.change});
+  }
+}
+
+LandscapeLattice::Row::Row(const LandscapeLattice& lattice, int post, int intervals)
+    : lattice_(&lattice), value_m_(kNodes), change_m_(kNodes) {
+  const int steps = post * kTileNodes;
+  const double fraction = static_cast<double>(steps % intervals) / intervals;
+  const int node = steps / intervals;
+  latitude_deg_ = ((lattice.place_.south_deg + 90) * kTileNodes + node + fraction) / kTileNodes - 90.0;
+  east_per_node_m_ = east_m_per_degree(latitude_deg_) / kTileNodes;
+  const Spline spline = spline_at(fraction);
+  for (std::size_t tap = 0; tap < 4; ++tap) {
+    // On the cell's north edge the fourth tap has no weight and may stay inside.
+    const int row = std::min(node + kMargin - 1 + static_cast<int>(tap), kNodes - 1);
+    const double* nodes = &lattice.heights_m_[static_cast<std::size_t>(row) * kNodes];
+    for (std::size_t column = 0; column < kNodes; ++column) {
+      value_m_[column] += spline.value[tap] * nodes[column];
+      change_m_[column] += spline.change[tap] * nodes[column];
+    }
+  }
+}
+
+LandscapeLattice::Ground LandscapeLattice::Row::at(int column) const {
+  const Column& taps = lattice_->columns_[static_cast<std::size_t>(column)];
+  Ground ground;
+  double east = 0.0;
+  double north = 0.0;
+  for (std::size_t tap = 0; tap < 4; ++tap) {
+    const auto node = static_cast<std::size_t>(std::min(taps.first + static_cast<int>(tap), kNodes - 1));
+    ground.height_m += taps.value[tap] * value_m_[node];
+    east += taps.change[tap] * value_m_[node];
+    north += taps.value[tap] * change_m_[node];
+  }
+  ground.slope = {east / east_per_node_m_, north / kNodeMetres};
+  return ground;
+}
+
+}  // namespace yars::model::terrain

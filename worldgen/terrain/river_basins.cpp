@@ -1,0 +1,233 @@
+#include "worldgen/terrain/river_basins.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <tuple>
+
+#include "lib/random/gradient_noise.hpp"
+
+namespace yars::model::terrain {
+
+namespace {
+
+// These heights and slopes fit together: bed heights of gates fall on every way, see exits_of().
+constexpr int kFrozenDeg = 72;    // [deg] no river poleward: ice
+constexpr double kDeepM = -10.0;  // [m] sea, not a puddle of a spline
+constexpr int kSamples = 8;       // a side of a tile
+constexpr int kFarthest = 25000;  // cost of a way, about 20 tiles; beyond, water stays
+constexpr int kNoWay = std::numeric_limits<int>::max() / 4;
+constexpr double kLeastFallM = 15.0;  // [m] from gate to gate: leaves a fall for any path between
+constexpr double kMostFallM = 180.0;  // [m] what is higher is cut through, so that basins do not fill
+constexpr double kGateFallM = 5.0;    // [m] the same between tiles on the coast
+constexpr int kGatesAnEdge = 3;       // of tiles on the coast
+constexpr double kDryM = 1.0;         // [m] gates are on land
+constexpr double kNoGateM = 1e9;
+constexpr int kGateMargin = 12;  // nodes that gates keep from the ends of an edge
+
+struct Step {
+  int north, east;
+};
+constexpr std::array<Step, 4> kSteps = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+
+std::pair<int, int> key_of(CellPlace place) {
+  return {place.south_deg, place.west_deg};
+}
+
+double tile_km2(CellPlace place) {
+  constexpr double kSideKm = kTileMetres / 1000.0;
+  return kSideKm * kSideKm * std::cos((place.south_deg + 0.5) * geo::kRadiansPerDegree);
+}
+
+}  // namespace
+
+bool RiverBasins::frozen(CellPlace place) const {
+  return place.south_deg >= kFrozenDeg || place.south_deg + 1 <= -kFrozenDeg;
+}
+
+bool RiverBasins::coastal(CellPlace place) {
+  const std::lock_guard lock(mutex_);
+  return is_coastal(place);
+}
+
+std::vector<RiverGate> RiverBasins::exits(CellPlace place) {
+  const std::lock_guard lock(mutex_);
+  return exits_of(place);
+}
+
+std::vector<RiverGate> RiverBasins::entries(CellPlace place) {
+  const std::lock_guard lock(mutex_);
+  std::vector<RiverGate> entries;
+  for (const Step step : kSteps)
+    for (const RiverGate& gate : exits_of(neighbour_of(place, step.north, step.east)))
+      if (gate.to == place) entries.push_back(gate);
+  return entries;
+}
+
+double RiverBasins::drained_km2(CellPlace inland) {
+  const std::lock_guard lock(mutex_);
+  return area_leaving(inland);
+}
+
+const RiverBasins::Outline& RiverBasins::outline(CellPlace place) {
+  const auto [found, fresh] = outlines_.try_emplace(key_of(place));
+  if (!fresh) return found->second;
+  double sum_m = 0.0;
+  constexpr int kStride = kTileNodes / kSamples;
+  for (int row = 0; row < kSamples; ++row)
+    for (int column = 0; column < kSamples; ++column) {
+      const double height_m =
+          broad_.height_m(lattice_node((place.south_deg + 90) * kTileNodes + row * kStride + kStride / 2,
+                                       (place.west_deg + 180) * kTileNodes + column * kStride + kStride / 2));
+      found->second.deep += static_cast<int>(height_m < kDeepM);
+      sum_m += std::max(0.0, height_m);
+    }
+  found->second.mean_m = static_cast<int>(sum_m / (kSamples * kSamples));
+  return found->second;
+}
+
+// High ground is a long way; a hash decides between equals.
+int RiverBasins::step_cost(CellPlace from, CellPlace to) {
+  return 1000 + outline(from).mean_m + outline(to).mean_m +
+         static_cast<int>(lattice_hash(to.south_deg, to.west_deg, 0, 7U) % 64U);
+}
+
+// Dijkstra's search outward until the first coast; a tile whose way is known ends it too.
+int RiverBasins::way_to_sea(CellPlace start) {
+  if (const auto known = ways_.find(key_of(start)); known != ways_.end()) return known->second;
+  struct Candidate {
+    int cost;
+    int rank;  // 0: the end of a way, 1: a tile
+    CellPlace place;
+    bool operator<(const Candidate& other) const {
+      return std::tuple(cost, rank, key_of(place)) > std::tuple(other.cost, other.rank, key_of(other.place));
+    }
+  };
+  std::priority_queue<Candidate> open;
+  std::map<Key, bool> done;
+  open.push({0, 1, start});
+  int way = kNoWay;
+  while (!open.empty() && open.top().cost <= kFarthest) {
+    const Candidate best = open.top();
+    open.pop();
+    if (best.rank == 0 || is_coastal(best.place)) {
+      way = best.cost;
+      break;
+    }
+    if (!done.try_emplace(key_of(best.place), true).second) continue;
+    if (const auto known = ways_.find(key_of(best.place)); known != ways_.end()) {
+      if (known->second < kNoWay) open.push({best.cost + known->second, 0, best.place});
+      continue;
+    }
+    for (const Step step : kSteps) {
+      const CellPlace to = neighbour_of(best.place, step.north, step.east);
+      if (frozen(to) || done.contains(key_of(to))) continue;
+      open.push({best.cost + step_cost(best.place, to), 1, to});
+    }
+  }
+  ways_[key_of(start)] = way;
+  return way;
+}
+
+std::optional<CellPlace> RiverBasins::next(CellPlace place) {
+  if (const auto known = nexts_.find(key_of(place)); known != nexts_.end()) return known->second;
+  std::optional<CellPlace> chosen;
+  if (!frozen(place) && !is_coastal(place) && way_to_sea(place) < kNoWay) {
+    int least = kNoWay;
+    for (const Step step : kSteps) {
+      const CellPlace to = neighbour_of(place, step.north, step.east);
+      if (frozen(to)) continue;
+      const int way = way_to_sea(to);
+      if (way >= kNoWay || way + step_cost(place, to) >= least) continue;
+      least = way + step_cost(place, to);
+      chosen = to;
+    }
+  }
+  nexts_[key_of(place)] = chosen;
+  return chosen;
+}
+
+// The lowest pair of nodes that face each other over an edge, between two places on it; bed_m is the higher's height,
+// kNoGateM where there is no land.
+RiverGate RiverBasins::gate_between(CellPlace from, int north, int east, int first, int last) const {
+  RiverGate gate{from, neighbour_of(from, north, east), north, east, (first + last) / 2, kNoGateM};
+  const int row = (from.south_deg + 90) * kTileNodes;
+  const int column = (from.west_deg + 180) * kTileNodes;
+  for (int along = first; along < last; along += 2) {
+    const auto height_m = [&](int beyond) {
+      const int line = (north + east > 0 ? kTileNodes - 1 + beyond : -beyond);
+      return broad_.height_m(north != 0 ? lattice_node(row + line, column + along)
+                                        : lattice_node(row + along, column + line));
+    };
+    const double level_m = std::max(height_m(0), height_m(1));
+    if (level_m >= gate.bed_m || std::min(height_m(0), height_m(1)) < kDryM) continue;
+    gate.bed_m = level_m;
+    gate.along = along;
+  }
+  return gate;
+}
+
+// No water that enters a tile may lie below what it can leave by.
+double RiverBasins::highest_exit_m(CellPlace place) {
+  double highest_m = 0.0;
+  for (const RiverGate& gate : exits_of(place)) highest_m = std::max(highest_m, gate.bed_m);
+  return highest_m;
+}
+
+std::optional<RiverGate> RiverBasins::inland_exit(CellPlace place) {
+  const std::optional<CellPlace> to = next(place);
+  if (!to) return std::nullopt;
+  const double base_m = highest_exit_m(*to);
+  for (const Step step : kSteps) {
+    if (!(neighbour_of(place, step.north, step.east) == *to)) continue;
+    RiverGate gate = gate_between(place, step.north, step.east, kGateMargin, kTileNodes - kGateMargin);
+    gate.bed_m = std::clamp(gate.bed_m, base_m + kLeastFallM, base_m + kMostFallM);
+    return gate;
+  }
+  return std::nullopt;
+}
+
+// Toward each neighbour with more sea, in each stretch of the edge that has land.
+std::vector<RiverGate> RiverBasins::coastal_exits(CellPlace place) {
+  std::vector<RiverGate> exits;
+  for (const Step step : kSteps) {
+    const CellPlace to = neighbour_of(place, step.north, step.east);
+    if (frozen(to) || outline(to).deep <= outline(place).deep) continue;
+    const double base_m = highest_exit_m(to);
+    constexpr int kStretch = (kTileNodes - 2 * kGateMargin) / kGatesAnEdge;
+    for (int stretch = 0; stretch < kGatesAnEdge; ++stretch) {
+      const int first = kGateMargin + stretch * kStretch;
+      RiverGate gate = gate_between(place, step.north, step.east, first, first + kStretch);
+      if (gate.bed_m >= kNoGateM) continue;
+      gate.bed_m = std::clamp(gate.bed_m, base_m + kGateFallM, base_m + kMostFallM);
+      exits.push_back(gate);
+    }
+  }
+  return exits;
+}
+
+std::vector<RiverGate> RiverBasins::exits_of(CellPlace place) {
+  if (const auto known = exits_.find(key_of(place)); known != exits_.end()) return known->second;
+  std::vector<RiverGate> exits;
+  if (!frozen(place) && is_coastal(place)) exits = coastal_exits(place);
+  if (!frozen(place) && !is_coastal(place))
+    if (const auto gate = inland_exit(place)) exits.push_back(*gate);
+  exits_[key_of(place)] = exits;
+  return exits;
+}
+
+double RiverBasins::area_leaving(CellPlace place) {
+  if (const auto known = areas_km2_.find(key_of(place)); known != areas_km2_.end()) return known->second;
+  double area_km2 = tile_km2(place);
+  for (const Step step : kSteps) {
+    const CellPlace from = neighbour_of(place, step.north, step.east);
+    if (frozen(from) || is_coastal(from)) continue;
+    if (const auto to = next(from); to && *to == place) area_km2 += area_leaving(from);
+  }
+  areas_km2_[key_of(place)] = area_km2;
+  return area_km2;
+}
+
+}  // namespace yars::model::terrain
