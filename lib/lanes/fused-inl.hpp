@@ -16,7 +16,7 @@
 #include <cstdint>
 
 HWY_BEFORE_NAMESPACE();
-namespace yars::lanes::HWY_NAMESPACE {
+namespace yars::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -79,7 +79,7 @@ HWY_INLINE V mul_sub(V a, V b, V c) {
 #endif
 }
 
-}  // namespace yars::lanes::HWY_NAMESPACE
+}  // namespace yars::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // per target

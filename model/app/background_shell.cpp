@@ -170,7 +170,7 @@ PatchMaker::~PatchMaker() {
   thread_.join();
 }
 
-void PatchMaker::request(const kernel::MapUnderWay& map, const std::vector<rbm::MovingPoint>& traffic) {
+void PatchMaker::request(const kernel::MapUnderWay& map, const std::vector<physics::MovingPoint>& traffic) {
   const Wanted wanted{map.order, map.id, map.start_tick, traffic};
   if (may_wait_) return make(wanted);
   {

@@ -118,7 +118,7 @@ class PatchMaker {
   };
 
   // `traffic`: as it is when the map begins.
-  void request(const kernel::MapUnderWay& map, const std::vector<rbm::MovingPoint>& traffic);
+  void request(const kernel::MapUnderWay& map, const std::vector<physics::MovingPoint>& traffic);
   // The picture of this map, once it is done.
   const Picture* finished(const kernel::MapUnderWay& map);
   std::vector<std::string> take_problems();
@@ -128,7 +128,7 @@ class PatchMaker {
     hrm::PatchOrder order;
     std::uint64_t id = 0;
     std::int64_t start_tick = 0;
-    std::vector<rbm::MovingPoint> traffic{};
+    std::vector<physics::MovingPoint> traffic{};
   };
   void serve();
   void make(const Wanted& wanted);

@@ -54,7 +54,7 @@ class RadarModelShell {
   kernel::RadarKernel kernel_;
   databuffer::OwnshipReceiver ownship_;
   databuffer::TrafficReceiver traffic_;
-  std::vector<rbm::MovingPoint> traffic_points_;
+  std::vector<physics::MovingPoint> traffic_points_;
   databuffer::ModelTick tick_{};
   databuffer::ModelStatus status_{};
   databuffer::Sweep sweep_{};

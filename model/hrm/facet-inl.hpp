@@ -16,7 +16,7 @@
 #include "model/physics/reflectivity.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace yars::model::hrm::lanes::HWY_NAMESPACE {
+namespace yars::model::hrm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -154,7 +154,7 @@ HWY_INLINE Floats wall_gain(const CardinalShape& shape, const Facet& facet, Floa
   return hn::Mul(gamma, hn::Add(set(1.0F), hn::IfThenElseZero(ahead, hn::Mul(cardinal, share))));
 }
 
-}  // namespace yars::model::hrm::lanes::HWY_NAMESPACE
+}  // namespace yars::model::hrm::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // per target

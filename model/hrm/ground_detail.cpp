@@ -71,7 +71,7 @@ void shape(std::vector<float>& table, double contrast) {
 Detail::Detail(double contrast, double pixel_m) : pixel_m_(pixel_m), texels_per_metre_(0.0F), edge_(kFinestEdge) {
   // A texel no smaller than half a pixel: finer waves would only flicker.
   double texel_m = kFinestTexel_m;
-  while (texel_m < 0.5 * pixel_m && edge_ > lanes::kDetailBlock) {
+  while (texel_m < 0.5 * pixel_m && edge_ > simd::kDetailBlock) {
     texel_m *= 2.0;
     edge_ /= 2;
   }
@@ -88,7 +88,7 @@ void Detail::pack(const std::vector<float>& texels) {
   const auto byte = [&](std::size_t x, std::size_t y) {
     return static_cast<std::uint32_t>(std::lround(texels[y % edge * edge + x % edge] / unit_));
   };
-  constexpr std::size_t kBlock = lanes::kDetailBlock;
+  constexpr std::size_t kBlock = simd::kDetailBlock;
   for (std::size_t y = 0; y < edge; ++y)
     for (std::size_t x = 0; x < edge; ++x)
       table_[y / kBlock * kBlock * edge + x / kBlock * kBlock * kBlock + y % kBlock * kBlock + x % kBlock] =
@@ -98,7 +98,7 @@ void Detail::pack(const std::vector<float>& texels) {
 // Within its cell of one degree a place counts from the cell's corner, with degrees of longitude as long as in the
 // cell's middle. A ray runs through few cells: each run in one is one call.
 void Detail::modulate(const terrain::PlaceRun& places, float* gain) const {
-  const lanes::DetailTable table{table_.data(), edge_, unit_ * unit_};
+  const simd::DetailTable table{table_.data(), edge_, unit_ * unit_};
   const auto north_scale = static_cast<float>(kMetresPerDegree) * texels_per_metre_;
   const std::size_t count = places.north_deg.size();
   std::size_t first = 0;
@@ -111,7 +111,7 @@ void Detail::modulate(const terrain::PlaceRun& places, float* gain) const {
     std::array<float, terrain::kRunSlack> behind{};
     const std::size_t kept = std::min(behind.size(), count - last);
     std::copy_n(gain + last, kept, behind.begin());
-    lanes::modulate(last - first, table, &places.east_deg[first], &places.north_deg[first], east_scale, north_scale,
+    simd::modulate(last - first, table, &places.east_deg[first], &places.north_deg[first], east_scale, north_scale,
                     gain + first);
     std::copy_n(behind.begin(), kept, gain + last);
     first = last;

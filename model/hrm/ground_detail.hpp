@@ -29,7 +29,7 @@ class Detail {
   float texels_per_metre_;
   int edge_;           // texels, a power of two
   float unit_ = 1.0F;  // what one step of a byte is worth
-  // As lanes::DetailTable has them: a byte each of the texel itself, the one to its right, and the two above them, so
+  // As simd::DetailTable has them: a byte each of the texel itself, the one to its right, and the two above them, so
   // that what lies between the four is one look.
   std::vector<std::uint32_t> table_;
 };

@@ -25,14 +25,14 @@ void draw_fan(const PatchGeometry& geometry, const FanGrid& grid, const float* c
               MapImage& image) {
   const double pixel_m = geometry.window_m() / image.size;
   const double edge_m = 0.5 * geometry.window_m();
-  lanes::MapRow row;
+  simd::MapRow row;
   row.columns = image.size;
   row.first_right_m = static_cast<float>(0.5 * pixel_m - edge_m);
   row.pixel_m = static_cast<float>(pixel_m);
   row.scale = static_cast<float>(pixel_m * pixel_m / unit_return_m2(geometry, image.size));
   for (int line = first; line < last; ++line) {
     row.ahead_m = static_cast<float>(geometry.distance_m() + edge_m - (line + 0.5) * pixel_m);
-    lanes::draw_row(grid, cross_section_m2, row, &image.power[image.at(0, line)]);
+    simd::draw_row(grid, cross_section_m2, row, &image.power[image.at(0, line)]);
   }
 }
 
@@ -106,17 +106,17 @@ void Speckle::draw_cells(int cell_row, std::vector<float>& field) {
   const std::size_t half = cells_.size() / 2;
   for (int look = 0; look < looks_; ++look) {
     const auto name = static_cast<std::uint32_t>(cell_row * looks_ + look);
-    lanes::draw_gaussian(half, rbm::make_noise_state({seed_, map_, name}), cells_.data(), &cells_[half]);
+    simd::draw_gaussian(half, physics::make_noise_state({seed_, map_, name}), cells_.data(), &cells_[half]);
     float* real = &field[2 * static_cast<std::size_t>(look) * pitch_];
-    lanes::interpolate(pitch_, {cell_.data(), first_.data(), second_.data()}, cells_.data(), real);
-    lanes::interpolate(pitch_, {cell_.data(), first_.data(), second_.data()}, &cells_[half], real + pitch_);
+    simd::interpolate(pitch_, {cell_.data(), first_.data(), second_.data()}, cells_.data(), real);
+    simd::interpolate(pitch_, {cell_.data(), first_.data(), second_.data()}, &cells_[half], real + pitch_);
   }
 }
 
 const float* Speckle::row(int row) {
   if (!finer_) {
     const auto name = static_cast<std::uint32_t>(row);
-    rbm::lanes::speckle(static_cast<std::size_t>(size_), rbm::make_noise_state({seed_, map_, name}), looks_,
+    physics::simd::speckle(static_cast<std::size_t>(size_), physics::make_noise_state({seed_, map_, name}), looks_,
                         intensity_.data());
     return intensity_.data();
   }
@@ -126,7 +126,7 @@ const float* Speckle::row(int row) {
     drawn_ = drawn_ < place.cell ? place.cell : drawn_ + 1;
     draw_cells(drawn_, far_);
   }
-  lanes::intensity(pitch_, looks_, {near_.data(), place.first}, {far_.data(), place.second}, intensity_.data());
+  simd::intensity(pitch_, looks_, {near_.data(), place.first}, {far_.data(), place.second}, intensity_.data());
   return intensity_.data();
 }
 
@@ -138,7 +138,7 @@ constexpr double kNoiseWindow_m = 0.67 * geo::kMetresPerNauticalMile;
 
 double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo::Length slant_range,
                    geo::Length window) {
-  return reflectivity::ratio(configuration.noise_gamma_db) * std::pow(slant_range.metres() / kNoiseRange_m, 3.0) *
+  return physics::ratio(configuration.noise_gamma_db) * std::pow(slant_range.metres() / kNoiseRange_m, 3.0) *
          kNoiseWindow_m / window.metres();
 }
 
@@ -150,7 +150,7 @@ void develop(const radar::RadarConfiguration& configuration, const MapImage& ima
   constexpr std::array<float, 3> kAlone{0.0F, 1.0F, 0.0F};
   for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
     const float* power = &image.power[row * size];
-    const rbm::lanes::VideoInputs inputs{power,
+    const physics::simd::VideoInputs inputs{power,
                                          power,
                                          power,
                                          kAlone.data(),
@@ -159,7 +159,7 @@ void develop(const radar::RadarConfiguration& configuration, const MapImage& ima
                                          nullptr,
                                          static_cast<float>(-hrm.brightest_gamma_db),
                                          static_cast<float>(hrm.dynamic_range_db)};
-    rbm::lanes::develop(size, inputs, &picture[row * size]);
+    physics::simd::develop(size, inputs, &picture[row * size]);
     if (!image.blind) continue;
     for (std::size_t i = 0; i < size; ++i)
       if (power[i] < 0.0F) picture[row * size + i] = 0;

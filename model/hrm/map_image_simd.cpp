@@ -10,7 +10,7 @@
 #include "model/physics/polynomials-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace yars::model::hrm::lanes::HWY_NAMESPACE {
+namespace yars::model::hrm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -148,9 +148,9 @@ using Floats = hn::Vec<Tag>;
 constexpr float kLn2 = 0.693147181F;
 
 // noise_bits() of rbm/noise.hpp for a vector of cells, draw 0.
-HWY_INLINE hn::Vec<BitsTag> random_bits(rbm::NoiseState state, hn::Vec<BitsTag> cell) {
+HWY_INLINE hn::Vec<BitsTag> random_bits(physics::NoiseState state, hn::Vec<BitsTag> cell) {
   const BitsTag d;
-  auto x = hn::Xor(hn::Mul(cell, hn::Set(d, rbm::kDrawsPerCell)), hn::Set(d, state.first));
+  auto x = hn::Xor(hn::Mul(cell, hn::Set(d, physics::kDrawsPerCell)), hn::Set(d, state.first));
   x = hn::Xor(x, hn::ShiftRight<16>(x));
   x = hn::Mul(x, hn::Set(d, 0x7feb352dU));
   x = hn::Xor(x, hn::ShiftRight<15>(x));
@@ -172,7 +172,7 @@ HWY_INLINE Floats sine(Floats half_turns) {
   return hn::Mul(p, half_turns);
 }
 
-void draw_gaussian(std::size_t count, rbm::NoiseState state, float* real, float* imaginary) {
+void draw_gaussian(std::size_t count, physics::NoiseState state, float* real, float* imaginary) {
   const Tag d;
   const BitsTag db;
   const SignedTag di;
@@ -224,11 +224,11 @@ void intensity(std::size_t count, int looks, WeightedField near, WeightedField f
   }
 }
 
-}  // namespace yars::model::hrm::lanes::HWY_NAMESPACE
+}  // namespace yars::model::hrm::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace yars::model::hrm::lanes {
+namespace yars::model::hrm::simd {
 
 HWY_EXPORT(draw_row);
 
@@ -258,7 +258,7 @@ HWY_EXPORT(draw_gaussian);
 HWY_EXPORT(interpolate);
 HWY_EXPORT(intensity);
 
-void draw_gaussian(std::size_t count, rbm::NoiseState state, float* real, float* imaginary) {
+void draw_gaussian(std::size_t count, physics::NoiseState state, float* real, float* imaginary) {
   HWY_DYNAMIC_DISPATCH(draw_gaussian)(count, state, real, imaginary);
 }
 void interpolate(std::size_t count, const Neighbours& where, const float* cells, float* field) {
@@ -268,5 +268,5 @@ void intensity(std::size_t count, int looks, WeightedField near, WeightedField f
   HWY_DYNAMIC_DISPATCH(intensity)(count, looks, near, far, mean);
 }
 
-}  // namespace yars::model::hrm::lanes
+}  // namespace yars::model::hrm::simd
 #endif  // HWY_ONCE

@@ -8,7 +8,7 @@
 #include "model/hrm/patch_geometry.hpp"
 #include "model/physics/clutter.hpp"
 
-namespace yars::model::hrm::lanes {
+namespace yars::model::hrm::simd {
 
 // The fan drawn onto the rows of the map, by vectors (Highway, chosen at run time; equal bits on every target).
 struct MapRow {
@@ -43,7 +43,7 @@ void spread_along(const float* from, std::size_t reach, const float* middle, flo
 // sixteen.
 
 // Real and imaginary parts of variance 1/2 each: mean square 1. One draw of 32 bits a cell, after Box and Muller.
-void draw_gaussian(std::size_t count, rbm::NoiseState state, float* real, float* imaginary);
+void draw_gaussian(std::size_t count, physics::NoiseState state, float* real, float* imaginary);
 
 // Two neighbours of a row, and their weights.
 struct Neighbours {
@@ -61,4 +61,4 @@ struct WeightedField {
 // Mean over the looks of the squares of the weighted sum.
 void intensity(std::size_t count, int looks, WeightedField near, WeightedField far, float* mean);
 
-}  // namespace yars::model::hrm::lanes
+}  // namespace yars::model::hrm::simd

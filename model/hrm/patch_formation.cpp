@@ -76,7 +76,7 @@ struct PatchProcess::Work {
 
   radar::RadarConfiguration configuration;
   Crew crew;
-  rbm::GasPath gas;
+  physics::GasPath gas;
   MapMovers movers;
   PatchOrder order;
   PatchDatabase database;
@@ -96,7 +96,7 @@ struct PatchProcess::Work {
   CrestsBetweenRows crests;  // if any crest_m is filled
   bool walls_left = false;   // of a map whose profiles are still to be cast
   std::vector<float> distance_m, inverse_m, above_m, level_m;
-  std::vector<lanes::GasRow> gas_rows;  // none: no gas takes anything
+  std::vector<simd::GasRow> gas_rows;  // none: no gas takes anything
   std::vector<std::size_t> pending;
   std::vector<std::uint8_t> begun;  // by thread: it has its room for this map's ground
   bool report_1996;                 // the map is brightness, see report_1996_patch.hpp
@@ -229,13 +229,13 @@ void PatchProcess::Work::cast_profiles() {
       const auto at = static_cast<std::size_t>(number) * size;
       const auto column = static_cast<std::size_t>(number) * kStripColumns;
       std::fill_n(cross_section_m2.data() + at, size, 0.0F);
-      lanes::Strip strip;
+      simd::Strip strip;
       strip.rows = grid.rows;
       strip.first_distance_m = static_cast<float>(grid.first_distance_m);
       strip.spacing_m = static_cast<float>(grid.spacing_m);
       strip.layover = configuration.fidelity.map_layover;
       strip.double_bounce =
-          configuration.fidelity.map_double_bounce ? static_cast<float>(reflectivity::ratio(bounce_db)) : 0.0F;
+          configuration.fidelity.map_double_bounce ? static_cast<float>(physics::ratio(bounce_db)) : 0.0F;
       strip.distance_m = distance_m.data();
       strip.inverse_m = inverse_m.data();
       strip.above_m = above_m.data();
@@ -247,7 +247,7 @@ void PatchProcess::Work::cast_profiles() {
       if (crests.any()) strip.crest_m = crest_m.data() + at;
       if (!tiles.empty()) strip.walls = walls.data() + at;
       strip.power = cross_section_m2.data() + at;
-      lanes::cast_profile(strip);
+      simd::cast_profile(strip);
     }
   });
   walls_left = false;
@@ -268,7 +268,7 @@ void PatchProcess::Work::draw_map() {
   image.blind = false;
   // What is below thermal noise or black cannot be seen.
   const radar::HighResolutionConfiguration& hrm = configuration.high_resolution;
-  const double floor = std::max(thermal_noise(), reflectivity::ratio(hrm.brightest_gamma_db - hrm.dynamic_range_db));
+  const double floor = std::max(thermal_noise(), physics::ratio(hrm.brightest_gamma_db - hrm.dynamic_range_db));
   if (configuration.fidelity.map_response) response.apply(static_cast<float>(floor), crew, image);
   movers.draw(order, *geometry, formation, {*database.window, nullptr, true, database.traffic},
               {&grid, surface.data(), crests.any() ? crest_m.data() : nullptr, horizon.data()}, response, image);
@@ -283,7 +283,7 @@ void PatchProcess::Work::lay_out_gases() {
   constexpr std::array<double, 3> kHeights_m{0.0, 2000.0, 5000.0};
   constexpr double kLowest_m = -500.0, kHighest_m = 6000.0;  // within 0.1 dB
   const double plane_m = geometry->plane_msl_m();
-  std::array<lanes::GasRow, kKnots> knots{};
+  std::array<simd::GasRow, kKnots> knots{};
   for (int knot = 0; knot < kKnots; ++knot) {
     const double along_m = std::max(grid.distance_m((grid.rows - 1.0) * knot / (kKnots - 1)), 1.0);
     const auto loss = [&](std::size_t height) {
@@ -300,7 +300,7 @@ void PatchProcess::Work::lay_out_gases() {
     const float place = static_cast<float>(row) * (kKnots - 1) / static_cast<float>(std::max(grid.rows - 1, 1));
     const auto near = static_cast<std::size_t>(std::min(static_cast<int>(place), kKnots - 2));
     const float share = place - static_cast<float>(near);
-    const lanes::GasRow &one = knots[near], &two = knots[near + 1];
+    const simd::GasRow &one = knots[near], &two = knots[near + 1];
     gas_rows.push_back({one.constant + share * (two.constant - one.constant),
                         one.slope + share * (two.slope - one.slope), one.bend + share * (two.bend - one.bend),
                         one.lowest_m, one.highest_m});

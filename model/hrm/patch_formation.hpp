@@ -28,7 +28,7 @@ struct PatchDatabase {
   terrain::TerrainViewPointer window;
   terrain::TerrainViewPointer path;
   scene::SceneViewPointer scene;  // null: no scene
-  std::vector<rbm::MovingPoint> traffic{};
+  std::vector<physics::MovingPoint> traffic{};
 };
 
 inline constexpr std::array<std::string_view, 5> kPatchStages{"terrain", "scene", "profile", "map", "video"};

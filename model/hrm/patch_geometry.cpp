@@ -15,7 +15,7 @@ PatchGeometry::PatchGeometry(const PatchOrder& order, const radar::Fidelity& fid
   const geo::GeodesicInverse way = geo::geodesic_inverse(order.apex, order.centre);
   distance_m_ = way.distance.metres();
   up_ = way.azimuth_at_start;
-  earth_ = rbm::effective_earth(fidelity, apex_, up_);
+  earth_ = physics::effective_earth(fidelity, apex_, up_);
 }
 
 MapPoint PatchGeometry::point_of(geo::GeoPoint place) const {

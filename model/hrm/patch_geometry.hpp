@@ -58,14 +58,14 @@ class PatchGeometry {
   double window_m() const { return window_m_; }
   double plane_msl_m() const { return plane_msl_m_; }
   double altitude_m() const { return altitude_m_; }  // of the aircraft, MSL
-  const rbm::EffectiveEarth& earth() const { return earth_; }
+  const physics::EffectiveEarth& earth() const { return earth_; }
 
   // How far the aircraft is above the map plane where it has bent away, at a distance over ground [m].
   double above_plane_m(double distance_m) const { return altitude_m_ - plane_msl_m_ + earth_.drop_m(distance_m); }
   // The same against the horizontal there: how much nearer a point comes when it is raised (layover).
   double above_level_m(double distance_m) const { return altitude_m_ - plane_msl_m_ - earth_.drop_m(distance_m); }
   // Height above the map plane [m] at which a line of sight passes a distance over ground. `tangent`: of its elevation,
-  // as rbm::EffectiveEarth has it for heights above mean sea level.
+  // as physics::EffectiveEarth has it for heights above mean sea level.
   double height_on_sight_m(double distance_m, double tangent) const;
   double slant_range_m() const;  // aircraft to centre
   double sin_grazing() const;    // on the map plane at the centre
@@ -78,7 +78,7 @@ class PatchGeometry {
   double distance_m_;
   geo::Bearing up_;
   double window_m_;
-  rbm::EffectiveEarth earth_;
+  physics::EffectiveEarth earth_;
 };
 
 // Where a scatterer appears: distance over ground [m] of the point on the map plane that is as far from the aircraft

@@ -79,9 +79,9 @@ Response::Response(double sidelobe_db, double cells_a_pixel)
 
 void Response::mirror_sidelobes() {
   const std::size_t taps = main_lobe_.size() + sidelobes_.size();
-  along_reach_ = (taps + lanes::kBlock - 1) / lanes::kBlock;
-  along_middle_ = (along_reach_ + 1) * lanes::kBlock;
-  along_.assign(2 * along_middle_ + lanes::kBlock, 0.0F);
+  along_reach_ = (taps + simd::kBlock - 1) / simd::kBlock;
+  along_middle_ = (along_reach_ + 1) * simd::kBlock;
+  along_.assign(2 * along_middle_ + simd::kBlock, 0.0F);
   for (std::size_t i = 0; i < sidelobes_.size(); ++i) {
     const std::size_t off = main_lobe_.size() + i;
     along_[along_middle_ - off] = along_[along_middle_ + off] = sidelobes_[i];
@@ -110,8 +110,8 @@ std::vector<float> Response::weights(double pixel, int& first) const {
 // Rows and columns of black about a copy of the image, so that no sum looks over an edge.
 void Response::make_room(const Crew& crew, const MapImage& image) {
   const auto size = static_cast<std::size_t>(image.size);
-  margin_ = along_reach_ * lanes::kBlock;
-  columns_ = (size + lanes::kBlock - 1) / lanes::kBlock * lanes::kBlock;
+  margin_ = along_reach_ * simd::kBlock;
+  columns_ = (size + simd::kBlock - 1) / simd::kBlock * simd::kBlock;
   pitch_ = columns_ + 2 * margin_;
   const std::size_t room = pitch_ * (size + 2 * margin_);
   if (across_.size() == room && hands_.size() == crew.threads) return;
@@ -146,7 +146,7 @@ void Response::smooth_along(int first, int last, Hand& hand, const MapImage& ima
   float* from = &hand.source[margin_];
   for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
     std::copy_n(&image.power[row * size], size, from);
-    lanes::smooth(columns_, from, 1, main_lobe_, &across_[padded(row)]);
+    simd::smooth(columns_, from, 1, main_lobe_, &across_[padded(row)]);
   }
 }
 
@@ -155,7 +155,7 @@ void Response::smooth_down(int first, int last, Hand& hand, MapImage& image) con
   for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
     // In place where rows are whole blocks.
     float* to = columns_ == size ? &image.power[row * size] : hand.row.data();
-    lanes::smooth(columns_, &across_[padded(row)], static_cast<std::ptrdiff_t>(pitch_), main_lobe_, to);
+    simd::smooth(columns_, &across_[padded(row)], static_cast<std::ptrdiff_t>(pitch_), main_lobe_, to);
     if (columns_ != size) std::copy_n(to, size, &image.power[row * size]);
   }
 }
@@ -172,8 +172,8 @@ void Response::find_strong(float limit, int first, int last, Hand& hand, const M
     std::vector<Strong>& strong = strong_[row / kRowsAPiece];
     if (row % kRowsAPiece == 0) strong.clear();
     Strong found{row, 0, {}};
-    for (found.column = 0; found.column < columns_; found.column += lanes::kBlock)
-      if (lanes::keep_above(from + found.column, limit, found.power.data())) strong.push_back(found);
+    for (found.column = 0; found.column < columns_; found.column += simd::kBlock)
+      if (simd::keep_above(from + found.column, limit, found.power.data())) strong.push_back(found);
   }
 }
 
@@ -185,17 +185,17 @@ void Response::spread(const Strong& strong, std::size_t first, std::size_t last)
   float* at = &added_[padded(strong.row) + strong.column];
   const auto pitch = static_cast<std::ptrdiff_t>(pitch_);
   if (strong.row >= first && strong.row < last)
-    lanes::spread_along(strong.power.data(), along_reach_, &along_[along_middle_], at);
+    simd::spread_along(strong.power.data(), along_reach_, &along_[along_middle_], at);
   // Rows before: from row - taps + 1 to row - lobe; behind likewise.
   const std::size_t nearest = strong.row >= last ? std::max(lobe, strong.row - last + 1) : lobe;
   const std::size_t farthest = strong.row >= first ? std::min(taps, strong.row - first + 1) : 0;
   if (nearest < farthest)
-    lanes::spread(strong.power.data(), -pitch, weights.subspan(nearest - lobe, farthest - nearest),
+    simd::spread(strong.power.data(), -pitch, weights.subspan(nearest - lobe, farthest - nearest),
                   at - static_cast<std::ptrdiff_t>(nearest) * pitch);
   const std::size_t next = strong.row < first ? std::max(lobe, first - strong.row) : lobe;
   const std::size_t end = strong.row < last ? std::min(taps, last - strong.row) : 0;
   if (next < end)
-    lanes::spread(strong.power.data(), pitch, weights.subspan(next - lobe, end - next),
+    simd::spread(strong.power.data(), pitch, weights.subspan(next - lobe, end - next),
                   at + static_cast<std::ptrdiff_t>(next) * pitch);
 }
 
@@ -237,9 +237,9 @@ void splat(const Response& response, double column, double row, double power, Ma
 }  // namespace
 
 MapMovers::MapMovers(const radar::RadarConfiguration& configuration)
-    : gas_(configuration), points_(rbm::configured_points(configuration)) {}
+    : gas_(configuration), points_(physics::configured_points(configuration)) {}
 
-MapMovers::Trace MapMovers::trace_of(const rbm::MovingPoint& mover, const PatchOrder& order,
+MapMovers::Trace MapMovers::trace_of(const physics::MovingPoint& mover, const PatchOrder& order,
                                      const PatchGeometry& geometry, geo::Duration formation, double height_m) const {
   const double time_s = formation.seconds();
   const MapPoint start = geometry.point_of(mover.place(order.sim_time));
@@ -292,14 +292,14 @@ bool MapMovers::hidden(const PatchGeometry& geometry, const Horizons& horizons, 
 }
 
 void MapMovers::draw(const PatchOrder& order, const PatchGeometry& geometry, geo::Duration formation,
-                     const rbm::Database& database, const Horizons& horizons, const Response& response,
+                     const physics::Database& database, const Horizons& horizons, const Response& response,
                      MapImage& image) const {
-  for (const std::span<const rbm::MovingPoint> points : {std::span(points_), database.traffic})
-    for (const rbm::MovingPoint& mover : points)
+  for (const std::span<const physics::MovingPoint> points : {std::span(points_), database.traffic})
+    for (const physics::MovingPoint& mover : points)
       draw_point(mover, order, geometry, formation, database.terrain, horizons, response, image);
 }
 
-void MapMovers::draw_point(const rbm::MovingPoint& mover, const PatchOrder& order, const PatchGeometry& geometry,
+void MapMovers::draw_point(const physics::MovingPoint& mover, const PatchOrder& order, const PatchGeometry& geometry,
                            geo::Duration formation, const terrain::TerrainView& terrain, const Horizons& horizons,
                            const Response& response, MapImage& image) const {
   const double pixel_m = geometry.window_m() / image.size;

@@ -38,7 +38,7 @@ class Response {
   // A hand's own room: a row of the picture with its margins, a row of the result.
   struct Strong {
     std::size_t row, column;  // of the first
-    std::array<float, lanes::kBlock> power;
+    std::array<float, simd::kBlock> power;
   };
   struct Hand {
     memory::LineVector<float> source, row;
@@ -75,7 +75,7 @@ class Response {
 struct Horizons {
   const FanGrid* grid = nullptr;
   const SurfacePoint* surface = nullptr;
-  const float* crest_m = nullptr;  // as lanes::Strip has it; null: none
+  const float* crest_m = nullptr;  // as simd::Strip has it; null: none
   const float* horizon = nullptr;  // before row 0
 };
 
@@ -85,21 +85,21 @@ class MapMovers {
 
   // Those of the configuration and of the traffic.
   void draw(const PatchOrder& order, const PatchGeometry& geometry, geo::Duration formation,
-            const rbm::Database& database, const Horizons& horizons, const Response& response, MapImage& image) const;
+            const physics::Database& database, const Horizons& horizons, const Response& response, MapImage& image) const;
 
  private:
   struct Trace {
     MapPoint from, to;  // on the map, where it appears at the start and at the end
   };
-  void draw_point(const rbm::MovingPoint& mover, const PatchOrder& order, const PatchGeometry& geometry,
+  void draw_point(const physics::MovingPoint& mover, const PatchOrder& order, const PatchGeometry& geometry,
                   geo::Duration formation, const terrain::TerrainView& terrain, const Horizons& horizons,
                   const Response& response, MapImage& image) const;
-  Trace trace_of(const rbm::MovingPoint& mover, const PatchOrder& order, const PatchGeometry& geometry,
+  Trace trace_of(const physics::MovingPoint& mover, const PatchOrder& order, const PatchGeometry& geometry,
                  geo::Duration formation, double height_m) const;
   bool hidden(const PatchGeometry& geometry, const Horizons& horizons, MapPoint point, double height_m) const;
 
-  rbm::GasPath gas_;
-  std::vector<rbm::MovingPoint> points_;
+  physics::GasPath gas_;
+  std::vector<physics::MovingPoint> points_;
 };
 
 }  // namespace yars::model::hrm

@@ -55,7 +55,7 @@ CrestsBetweenRows crests_between_rows(const FanGrid& grid, const terrain::Terrai
 }
 
 GroundFan::Sight::Sight(const PatchGeometry& geometry, double distance_m) {
-  const rbm::EffectiveEarth& earth = geometry.earth();
+  const physics::EffectiveEarth& earth = geometry.earth();
   const double angle_rad = distance_m * earth.curvature();
   above_m = static_cast<float>(geometry.altitude_m() + earth.drop_m(distance_m));
   chord_m = static_cast<float>(angle_rad > 0.0 ? earth.radius_m() * std::sin(angle_rad) : distance_m);
@@ -73,13 +73,13 @@ GroundFan::Column::Column(std::size_t samples)
 
 GroundFan::GroundFan(const radar::RadarConfiguration& configuration)
     : configuration_(configuration),
-      plain_gamma_(static_cast<float>(reflectivity::make_land_return(configuration).gamma[0])) {}
+      plain_gamma_(static_cast<float>(physics::make_land_return(configuration).gamma[0])) {}
 
 void GroundFan::begin(const PatchGeometry& geometry, const FanGrid& grid, const terrain::TerrainView& path) {
   const auto rows = static_cast<std::size_t>(grid.rows);
   if (!window_ || window_->places.count != rows) {
     window_ = std::make_unique<Column>(rows);
-    ground_ = std::make_unique<rbm::Ground>(configuration_, rows);
+    ground_ = std::make_unique<physics::Ground>(configuration_, rows);
     sin_grazing_.assign(rows + terrain::kRunSlack, 0.0F);
     // No power of two: rows of sixteen columns shall not meet in one place of the cache.
     pitch_ = (rows / terrain::kRunSlack + 1) * terrain::kRunSlack;
@@ -162,7 +162,7 @@ std::size_t GroundFan::read_window(const PatchOrder& order, const PatchGeometry&
   float* height_m = &strip_height_[lane * pitch_];
   float* gain = &strip_gain_[lane * pitch_];
   const geo::Length range = geo::Length::metres(static_cast<double>(column.distance_m[rows - 1]));
-  rbm::sample_places(geometry.apex(), azimuth, range, configuration_.fidelity.geodesic_knots, column.distance_m.data(),
+  physics::sample_places(geometry.apex(), azimuth, range, configuration_.fidelity.geodesic_knots, column.distance_m.data(),
                      column.places);
   const terrain::SurfaceRun found{
       {height_m, rows},
@@ -170,8 +170,8 @@ std::size_t GroundFan::read_window(const PatchOrder& order, const PatchGeometry&
       {},
       view.has_materials() ? std::span(ground_->materials()).first(rows) : std::span<std::int32_t>{}};
   const std::size_t pending = view.surfaces(column.places.run(), configuration_.fidelity.interpolation, found);
-  const rbm::Look look{geometry.apex(), order.altitude, azimuth, {}, range, order.sim_time, order.band, order.channel};
-  const rbm::Ground::Sample reflects =
+  const physics::Look look{geometry.apex(), order.altitude, azimuth, {}, range, order.sim_time, order.band, order.channel};
+  const physics::Ground::Sample reflects =
       ground_->reflect(look, column.places.run(), column.water.data(), sin_grazing_.data(), view.has_materials());
   if (reflects.land != nullptr)
     std::copy_n(reflects.land, rows, gain);
@@ -189,7 +189,7 @@ std::size_t GroundFan::read_path(const PatchGeometry& geometry, const FanGrid& g
                                  const terrain::TerrainView& view, float& horizon) {
   Column& column = *path_;
   const std::size_t samples = column.places.count;
-  rbm::sample_places(geometry.apex(), azimuth, geo::Length::metres(grid.first_distance_m),
+  physics::sample_places(geometry.apex(), azimuth, geo::Length::metres(grid.first_distance_m),
                      configuration_.fidelity.geodesic_knots, column.distance_m.data(), column.places);
   const bool peaks = view.has_peaks();
   const terrain::SurfaceRun found{{column.elevation_m.data(), samples},
@@ -205,7 +205,7 @@ std::size_t GroundFan::read_path(const PatchGeometry& geometry, const FanGrid& g
     if (there > tangent) tangent = there;  // never for a void
   }
   // Lines of posts between the samples.
-  const rbm::EffectiveEarth& earth = geometry.earth();
+  const physics::EffectiveEarth& earth = geometry.earth();
   if (view.crests(column.places.run(),
                   {geometry.altitude_m(), earth.curvature(), std::span(column.distance_m).first(samples)},
                   std::span(column.crest).first(samples)))
@@ -302,8 +302,8 @@ void GroundFan::level(const PatchGeometry& geometry, std::size_t lane) {
 
 void GroundFan::fill_between(std::size_t step) {
   const std::size_t rows = window_->places.count;
-  lanes::fill_between(rows, step, strip_height_.data(), pitch_);
-  lanes::fill_between(rows, step, strip_gain_.data(), pitch_);
+  simd::fill_between(rows, step, strip_height_.data(), pitch_);
+  simd::fill_between(rows, step, strip_gain_.data(), pitch_);
 }
 
 // Before a strip is put down its place is fetched, a sixteenth with every column that is read for it.
@@ -321,7 +321,7 @@ void GroundFan::fetch_strip(const FanGrid& grid, int column, const GroundArrays&
 
 // A column's numbers lie one behind the other when read, and sixteen columns' side by side on the fan.
 void GroundFan::put_strip(const FanGrid& grid, int strip, const GroundArrays& arrays) const {
-  lanes::put_side_by_side(static_cast<std::size_t>(grid.rows), strip_gain_.data(), strip_height_.data(), pitch_,
+  simd::put_side_by_side(static_cast<std::size_t>(grid.rows), strip_gain_.data(), strip_height_.data(), pitch_,
                           arrays.surface + grid.at(strip * kStripColumns, 0));
 }
 

@@ -57,7 +57,7 @@ class GroundFan {
   // Room for a column of so many samples.
   struct Column {
     explicit Column(std::size_t samples);
-    rbm::PlaceArrays places;
+    physics::PlaceArrays places;
     std::vector<float> distance_m, elevation_m, water, peak_m, crest;
   };
   // A line of sight at a distance over ground: tangent = (height cosine - above) / (chord + height sine).
@@ -81,7 +81,7 @@ class GroundFan {
 
   radar::RadarConfiguration configuration_;
   std::unique_ptr<Column> window_, path_;
-  std::unique_ptr<rbm::Ground> ground_;
+  std::unique_ptr<physics::Ground> ground_;
   std::vector<float> sin_grazing_;                       // on the map plane, by row
   std::vector<Sight> path_sight_, row_sight_;            // by sample of the path and by row
   std::size_t pitch_ = 0;                                // of the columns of a strip in hand, as they were read

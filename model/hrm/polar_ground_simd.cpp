@@ -11,7 +11,7 @@
 // Behind highway.h, or it would have no target yet.
 
 HWY_BEFORE_NAMESPACE();
-namespace yars::model::hrm::lanes::HWY_NAMESPACE {
+namespace yars::model::hrm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -156,11 +156,11 @@ void put_side_by_side(std::size_t count, const float* gain, const float* height_
 }
 #endif
 
-}  // namespace yars::model::hrm::lanes::HWY_NAMESPACE
+}  // namespace yars::model::hrm::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace yars::model::hrm::lanes {
+namespace yars::model::hrm::simd {
 
 HWY_EXPORT(modulate);
 
@@ -180,5 +180,5 @@ void put_side_by_side(std::size_t count, const float* gain, const float* height_
   HWY_DYNAMIC_DISPATCH(put_side_by_side)(count, gain, height_m, pitch, points);
 }
 
-}  // namespace yars::model::hrm::lanes
+}  // namespace yars::model::hrm::simd
 #endif  // HWY_ONCE

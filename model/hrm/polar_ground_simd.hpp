@@ -6,7 +6,7 @@
 
 #include "model/hrm/patch_geometry.hpp"
 
-namespace yars::model::hrm::lanes {
+namespace yars::model::hrm::simd {
 
 // The look-up of the made-up detail, by vectors (Highway, chosen at run time; equal bits on every target).
 
@@ -38,4 +38,4 @@ void fill_between(std::size_t count, std::size_t step, float* columns, std::size
 void put_side_by_side(std::size_t count, const float* gain, const float* height_m, std::size_t pitch,
                       SurfacePoint* points);
 
-}  // namespace yars::model::hrm::lanes
+}  // namespace yars::model::hrm::simd

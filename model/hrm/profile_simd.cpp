@@ -6,7 +6,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace yars::model::hrm::lanes::HWY_NAMESPACE {
+namespace yars::model::hrm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -254,11 +254,11 @@ void cast_profile(const Strip& given) {
   }
 }
 
-}  // namespace yars::model::hrm::lanes::HWY_NAMESPACE
+}  // namespace yars::model::hrm::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace yars::model::hrm::lanes {
+namespace yars::model::hrm::simd {
 
 HWY_EXPORT(cast_profile);
 
@@ -266,5 +266,5 @@ void cast_profile(const Strip& strip) {
   HWY_DYNAMIC_DISPATCH(cast_profile)(strip);
 }
 
-}  // namespace yars::model::hrm::lanes
+}  // namespace yars::model::hrm::simd
 #endif  // HWY_ONCE

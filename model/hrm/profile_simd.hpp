@@ -10,7 +10,7 @@
 
 #include "model/hrm/patch_geometry.hpp"
 
-namespace yars::model::hrm::lanes {
+namespace yars::model::hrm::simd {
 
 // What the gases of the air leave of the power from a row: a parabola in the height above the map plane, which holds
 // between two of them [m].
@@ -43,4 +43,4 @@ struct Strip {
 
 void cast_profile(const Strip& strip);
 
-}  // namespace yars::model::hrm::lanes
+}  // namespace yars::model::hrm::simd

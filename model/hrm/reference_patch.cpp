@@ -35,7 +35,7 @@ ReferencePatch::ReferencePatch(const radar::RadarConfiguration& configuration, c
     : fidelity_(configuration.fidelity),
       surface_(configuration),
       gas_(configuration),
-      bounce_(fidelity_.map_double_bounce ? reflectivity::ratio(configuration.high_resolution.double_bounce_db) : 0.0),
+      bounce_(fidelity_.map_double_bounce ? physics::ratio(configuration.high_resolution.double_bounce_db) : 0.0),
       geometry_(&geometry),
       grid_(&grid),
       height_m_(grid.size()),
@@ -44,7 +44,7 @@ ReferencePatch::ReferencePatch(const radar::RadarConfiguration& configuration, c
 
 // About the radar, on the effective earth; heights count from the map plane.
 Point3 ReferencePatch::position(double distance_m, double turn_rad, double height_m) const {
-  const rbm::Sight sight =
+  const physics::Sight sight =
       geometry_->earth().sight(geometry_->altitude_m() - geometry_->plane_msl_m(), distance_m, height_m);
   const double out_m = sight.slant_range_m * std::cos(sight.elevation_rad);
   return {out_m * std::sin(turn_rad), out_m * std::cos(turn_rad), sight.slant_range_m * std::sin(sight.elevation_rad)};
@@ -56,8 +56,8 @@ void ReferencePatch::read_terrain(const PatchTerrain& terrain) {
 
 void ReferencePatch::read_column(const PatchTerrain& terrain, int column) {
   const FanGrid& grid = *grid_;
-  const rbm::EffectiveEarth& earth = geometry_->earth();
-  rbm::Look look;
+  const physics::EffectiveEarth& earth = geometry_->earth();
+  physics::Look look;
   look.apex = geometry_->apex();
   look.altitude = geo::AltitudeMsl::metres(geometry_->altitude_m());
   look.azimuth = geometry_->up() + geo::Angle::radians(std::atan(grid.tangent(column)));
@@ -84,10 +84,10 @@ void ReferencePatch::read_column(const PatchTerrain& terrain, int column) {
   look_between(*terrain.path, 0.0, grid.first_distance_m, posts ? kSeaSpacing_m : kPathSpacing_m);
   const double posts_m = terrain.window->post_spacing_m();
   const bool walk = grid.spacing_m > kWalkShare * posts_m;
-  const double steps = walk ? rbm::GroundWalk::kStepsAPost : kFineSteps;
-  raise(rbm::GroundWalk(look, earth, *terrain.path, fidelity_.interpolation, steps)
+  const double steps = walk ? physics::GroundWalk::kStepsAPost : kFineSteps;
+  raise(physics::GroundWalk(look, earth, *terrain.path, fidelity_.interpolation, steps)
             .highest_tangent(0.0, grid.first_distance_m));
-  const rbm::GroundWalk way(look, earth, *terrain.window, fidelity_.interpolation);
+  const physics::GroundWalk way(look, earth, *terrain.window, fidelity_.interpolation);
   for (int row = 0; row < grid.rows; ++row) {
     const std::size_t at = grid.at(column, row);
     const double distance_m = grid.distance_m(row);

@@ -60,7 +60,7 @@ class ReferencePatch {
 
   radar::Fidelity fidelity_;
   SceneSurface surface_;
-  rbm::GasPath gas_;
+  physics::GasPath gas_;
   double bounce_;  // of a wall's foot against the wall; 0 = none
   const PatchGeometry* geometry_;
   const FanGrid* grid_;

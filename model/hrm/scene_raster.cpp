@@ -36,7 +36,7 @@ PlacedTile placed(const PatchGeometry& geometry, const scene::Tile& tile) {
   placement.up_east = along_east * cosine - across_east * sine;
   placement.up_north = along_north * cosine - across_north * sine;
   placement.lift_m = static_cast<float>(tile.zero_msl_m - geometry.plane_msl_m());
-  const rbm::Sight sight = geometry.earth().sight(geometry.altitude_m() - geometry.plane_msl_m(), distance_m, 0.0);
+  const physics::Sight sight = geometry.earth().sight(geometry.altitude_m() - geometry.plane_msl_m(), distance_m, 0.0);
   placement.toward_east = static_cast<float>(-along_east * sight.cos_grazing);
   placement.toward_north = static_cast<float>(-along_north * sight.cos_grazing);
   placement.toward_up = static_cast<float>(sight.sin_grazing);
@@ -127,7 +127,7 @@ void SceneRaster::transform(const PatchGeometry& geometry, const FanGrid& grid, 
   const std::size_t count = tile.east_m.size();
   for (std::vector<float>* numbers : {&column_, &row_, &height_m_, &facing_})
     if (numbers->size() < count) numbers->resize(count);
-  lanes::VertexMap map{};
+  simd::VertexMap map{};
   map.right_m = static_cast<float>(placement.right_m);
   map.up_m = static_cast<float>(placement.up_m);
   map.right_east = static_cast<float>(placement.right_east);
@@ -143,7 +143,7 @@ void SceneRaster::transform(const PatchGeometry& geometry, const FanGrid& grid, 
   map.middle_column = static_cast<float>(-grid.first_tangent / grid.tangent_step);
   map.rows_a_metre = static_cast<float>(1.0 / grid.spacing_m);
   map.middle_row = static_cast<float>((geometry.distance_m() - grid.first_distance_m) / grid.spacing_m);
-  lanes::place_vertices(count,
+  simd::place_vertices(count,
                         {tile.east_m.data(), tile.north_m.data(), tile.up_m.data(), tile.normal_east.data(),
                          tile.normal_north.data(), tile.normal_up.data()},
                         map, vertices_of(tile));
@@ -159,16 +159,16 @@ void SceneRaster::read_kinds(const scene::SceneView& scene) {
 }
 
 void SceneRaster::draw(const PatchGeometry& geometry, const FanGrid& grid, const scene::SceneView& scene,
-                       std::span<const PlacedTile> tiles, int first, int last, const lanes::SceneArrays& arrays) {
+                       std::span<const PlacedTile> tiles, int first, int last, const simd::SceneArrays& arrays) {
   read_kinds(scene);
-  lanes::Canvas canvas;
+  simd::Canvas canvas;
   canvas.grid = &grid;
   canvas.arrays = arrays;
   canvas.cardinal = {cardinal_shares_, static_cast<float>(surface_.steps_a_sine())};
-  lanes::GridLimits& limits = canvas.limits;
+  simd::GridLimits& limits = canvas.limits;
   limits.first_column = static_cast<float>(first);
   limits.last_column = static_cast<float>(last);
-  limits.first_row = -lanes::kSurfaceReach;
+  limits.first_row = -simd::kSurfaceReach;
   limits.last_row = static_cast<float>(grid.rows);
   limits.row_height_m = static_cast<float>(grid.spacing_m);
   limits.wall_normal2 = static_cast<float>(kWallNormal2);
@@ -184,14 +184,14 @@ void SceneRaster::draw(const PatchGeometry& geometry, const FanGrid& grid, const
   }
 }
 
-void SceneRaster::draw_tile(const scene::Tile& tile, const lanes::Canvas& canvas) {
-  const lanes::GridVertices vertices = vertices_of(tile);
-  const lanes::Corners corners{tile.corner[0].data(), tile.corner[1].data(), tile.corner[2].data()};
-  const lanes::TileSurfaces surfaces{tile.kind.data(), gamma_.data(), cardinal_.data()};
-  lanes::select_triangles(0, tile.on_ground, corners, vertices, canvas.limits, found_);
-  lanes::paint_ground(found_, surfaces, vertices, canvas);
-  lanes::select_triangles(tile.on_ground, tile.triangles(), corners, vertices, canvas.limits, found_);
-  lanes::draw_standing(found_, surfaces, vertices, canvas, fragments_);
+void SceneRaster::draw_tile(const scene::Tile& tile, const simd::Canvas& canvas) {
+  const simd::GridVertices vertices = vertices_of(tile);
+  const simd::Corners corners{tile.corner[0].data(), tile.corner[1].data(), tile.corner[2].data()};
+  const simd::TileSurfaces surfaces{tile.kind.data(), gamma_.data(), cardinal_.data()};
+  simd::select_triangles(0, tile.on_ground, corners, vertices, canvas.limits, found_);
+  simd::paint_ground(found_, surfaces, vertices, canvas);
+  simd::select_triangles(tile.on_ground, tile.triangles(), corners, vertices, canvas.limits, found_);
+  simd::draw_standing(found_, surfaces, vertices, canvas, fragments_);
 }
 
 }  // namespace yars::model::hrm

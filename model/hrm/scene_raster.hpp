@@ -42,13 +42,13 @@ class SceneRaster {
 
   // Draws what of the tiles falls into the columns [first, last), in the order of the tiles.
   void draw(const PatchGeometry& geometry, const FanGrid& grid, const scene::SceneView& scene,
-            std::span<const PlacedTile> tiles, int first, int last, const lanes::SceneArrays& arrays);
+            std::span<const PlacedTile> tiles, int first, int last, const simd::SceneArrays& arrays);
 
  private:
   void transform(const PatchGeometry& geometry, const FanGrid& grid, const PlacedTile& placement);
   void read_kinds(const scene::SceneView& scene);
-  void draw_tile(const scene::Tile& tile, const lanes::Canvas& canvas);
-  lanes::GridVertices vertices_of(const scene::Tile& tile) {
+  void draw_tile(const scene::Tile& tile, const simd::Canvas& canvas);
+  simd::GridVertices vertices_of(const scene::Tile& tile) {
     return {column_.data(), row_.data(), height_m_.data(), facing_.data(), tile.bare};
   }
 
@@ -56,8 +56,8 @@ class SceneRaster {
   std::vector<float> cardinal_shares_;
   std::vector<float> gamma_, cardinal_;                  // by kind of the scene
   std::vector<float> column_, row_, height_m_, facing_;  // of the tile in hand, by vertex
-  lanes::FoundTriangles found_;                          // of it, those that are drawn
-  lanes::Fragments fragments_;
+  simd::FoundTriangles found_;                          // of it, those that are drawn
+  simd::Fragments fragments_;
 };
 
 }  // namespace yars::model::hrm

@@ -12,7 +12,7 @@
 #include "model/hrm/small_triangles-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace yars::model::hrm::lanes::HWY_NAMESPACE {
+namespace yars::model::hrm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -191,11 +191,11 @@ void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, co
   small.flush(true);
 }
 
-}  // namespace yars::model::hrm::lanes::HWY_NAMESPACE
+}  // namespace yars::model::hrm::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace yars::model::hrm::lanes {
+namespace yars::model::hrm::simd {
 
 HWY_EXPORT(paint_ground);
 HWY_EXPORT(draw_standing);
@@ -209,5 +209,5 @@ void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, co
   HWY_DYNAMIC_DISPATCH(draw_standing)(triangles, tile, vertices, canvas, fragments);
 }
 
-}  // namespace yars::model::hrm::lanes
+}  // namespace yars::model::hrm::simd
 #endif  // HWY_ONCE

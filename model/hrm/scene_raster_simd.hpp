@@ -12,7 +12,7 @@
 #include "model/hrm/patch_geometry.hpp"
 #include "model/hrm/scene_vertices_simd.hpp"
 
-namespace yars::model::hrm::lanes {
+namespace yars::model::hrm::simd {
 
 // By FanGrid::at().
 struct SceneArrays {
@@ -69,4 +69,4 @@ void paint_ground(const FoundTriangles& triangles, const TileSurfaces& tile, con
 void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, const GridVertices& vertices,
                    const Canvas& canvas, Fragments& fragments);
 
-}  // namespace yars::model::hrm::lanes
+}  // namespace yars::model::hrm::simd

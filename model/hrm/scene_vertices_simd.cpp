@@ -8,7 +8,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace yars::model::hrm::lanes::HWY_NAMESPACE {
+namespace yars::model::hrm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -169,11 +169,11 @@ void select_triangles(std::size_t begin, std::size_t end, const Corners& corners
   }
 }
 
-}  // namespace yars::model::hrm::lanes::HWY_NAMESPACE
+}  // namespace yars::model::hrm::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace yars::model::hrm::lanes {
+namespace yars::model::hrm::simd {
 
 HWY_EXPORT(place_vertices);
 HWY_EXPORT(select_triangles);
@@ -186,5 +186,5 @@ void select_triangles(std::size_t begin, std::size_t end, const Corners& corners
   HWY_DYNAMIC_DISPATCH(select_triangles)(begin, end, corners, grid, limits, found);
 }
 
-}  // namespace yars::model::hrm::lanes
+}  // namespace yars::model::hrm::simd
 #endif  // HWY_ONCE

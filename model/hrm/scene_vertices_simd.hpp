@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace yars::model::hrm::lanes {
+namespace yars::model::hrm::simd {
 
 // From a tile's east, north and up to the grid: counted from the centre of the map, so that float is precise.
 struct VertexMap {
@@ -64,4 +64,4 @@ struct FoundTriangles {
 void select_triangles(std::size_t begin, std::size_t end, const Corners& corners, const GridVertices& grid,
                       const GridLimits& limits, FoundTriangles& found);
 
-}  // namespace yars::model::hrm::lanes
+}  // namespace yars::model::hrm::simd

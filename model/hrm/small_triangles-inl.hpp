@@ -18,7 +18,7 @@
 #include "model/hrm/facet-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace yars::model::hrm::lanes::HWY_NAMESPACE {
+namespace yars::model::hrm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -172,7 +172,7 @@ class SmallTriangles {
   std::size_t count_ = 0, walls_ = 0;
 };
 
-}  // namespace yars::model::hrm::lanes::HWY_NAMESPACE
+}  // namespace yars::model::hrm::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // per target

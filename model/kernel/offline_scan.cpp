@@ -45,9 +45,9 @@ OfflineScan::Part OfflineScan::part(std::size_t thread) const {
   return {thread, thread * places_.size() / threads, (thread + 1) * places_.size() / threads};
 }
 
-void OfflineScan::measure_part(const Part& part, const rbm::Database& database) {
+void OfflineScan::measure_part(const Part& part, const physics::Database& database) {
   for (std::size_t sweep = part.first; sweep < part.end; ++sweep) {
-    const rbm::Look look = look_of(places_[sweep]);
+    const physics::Look look = look_of(places_[sweep]);
     const std::size_t pending = algorithms_[part.thread]->measure(look, database, power_of(sweep));
     jamming_[sweep] = strobes_[part.thread].level(look, database.terrain);
     flags_[sweep] = pending > 0 || !database.scenes_ready ? databuffer::kSweepNotReady : 0U;
@@ -61,7 +61,7 @@ void OfflineScan::develop_sweep(std::size_t sweep, std::size_t thread) {
   SweepChain::Labels labels;
   labels.scan = 1;
   labels.number = static_cast<std::uint32_t>(sweep);
-  labels.gain = static_cast<std::uint8_t>(std::clamp(gain_, 0, rbm::kFullGain));
+  labels.gain = static_cast<std::uint8_t>(std::clamp(gain_, 0, physics::kFullGain));
   labels.mode = static_cast<std::uint8_t>(radar::Mode::rbm);
   labels.flags = flags_[before] | flags_[sweep] | flags_[after];
   if (sweep == 0) labels.flags |= databuffer::kSweepScanStart;
@@ -70,7 +70,7 @@ void OfflineScan::develop_sweep(std::size_t sweep, std::size_t thread) {
                {power_of(before), power_of(sweep), power_of(after), jamming_[sweep]}, sweeps_[sweep]);
 }
 
-void OfflineScan::measure(const rbm::Database& database) {
+void OfflineScan::measure(const physics::Database& database) {
   workers_.run([&](std::size_t thread) { measure_part(part(thread), database); });
 }
 
@@ -79,7 +79,7 @@ void OfflineScan::await_measured(std::size_t thread) {
   for (std::uint32_t seen = scans.load(std::memory_order_acquire); seen != scans_;) seen = wait_for_change(scans, seen);
 }
 
-void OfflineScan::run(const rbm::Database& database) {
+void OfflineScan::run(const physics::Database& database) {
   ++scans_;
   workers_.run([&](std::size_t thread) {
     const Part own = part(thread);

@@ -66,7 +66,7 @@ RadarKernel::Need RadarKernel::need(const ModelTick& tick) const {
   return need;
 }
 
-bool RadarKernel::step(const ModelTick& tick, const rbm::Database& database, databuffer::Sweep& sweep) {
+bool RadarKernel::step(const ModelTick& tick, const physics::Database& database, databuffer::Sweep& sweep) {
   const terrain::TerrainView& terrain = database.terrain;
   State& state = *state_;
   state.tick = tick.tick;

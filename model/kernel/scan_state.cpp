@@ -64,7 +64,7 @@ geo::Angle RadarKernel::State::wanted_elevation(const terrain::TerrainView& terr
 }
 
 // A sharpened sweep takes several ticks: its edges are those of the first and of the last.
-bool RadarKernel::State::gather(const ModelTick& given, const antenna::AntennaStep& step, const rbm::Database& database,
+bool RadarKernel::State::gather(const ModelTick& given, const antenna::AntennaStep& step, const physics::Database& database,
                                 databuffer::Sweep& sweep) {
   if (gathered_ticks == 0) {
     gathered = step;
@@ -168,7 +168,7 @@ void RadarKernel::State::start_scan(const databuffer::RadarCommand& given) {
 }
 
 bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::AntennaStep& step,
-                                    const rbm::Database& database, databuffer::Sweep& sweep) {
+                                    const physics::Database& database, databuffer::Sweep& sweep) {
   if (step.scan_start || scan_range_m <= 0.0) {
     if (configuration.fidelity.automatic) use_fidelity(given);
     start_scan(given.command);
@@ -196,7 +196,7 @@ bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::Anten
   labels.scan = scan;
   labels.number = next_sweep++;
   labels.mode = given.command.mode;
-  labels.gain = std::min<std::uint8_t>(given.command.gain, rbm::kFullGain);
+  labels.gain = std::min<std::uint8_t>(given.command.gain, physics::kFullGain);
   // A pose that is not a pose: the place is the last good one, and nothing is received.
   const bool lost = !pose_fresh && (given.flags & databuffer::kTickOwnshipValid) != 0U;
   if (!step.reachable || lost) labels.flags |= databuffer::kSweepBlank;
@@ -206,7 +206,7 @@ bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::Anten
     const SharpenedCell cell = sharpened_cell(step.left, step.right, *pose, configuration);
     place.looked_at = cell.middle;
     place.resolved = cell.width;
-    labels.gain = rbm::kFullGain;
+    labels.gain = physics::kFullGain;
   }
   if (noise_only) labels.flags |= databuffer::kSweepNoiseOnly;
   if (step.scan_start) labels.flags |= databuffer::kSweepScanStart;

@@ -57,10 +57,10 @@ struct RadarKernel::State {
   void stop_scanning();
   void point_unless_scanning(const ModelTick& tick, const terrain::TerrainView& terrain);
   geo::Angle wanted_elevation(const terrain::TerrainView& terrain) const;
-  bool gather(const ModelTick& tick, const antenna::AntennaStep& step, const rbm::Database& database,
+  bool gather(const ModelTick& tick, const antenna::AntennaStep& step, const physics::Database& database,
               databuffer::Sweep& sweep);
   void start_scan(const databuffer::RadarCommand& command);
-  bool sweep_tick(const ModelTick& tick, const antenna::AntennaStep& step, const rbm::Database& database,
+  bool sweep_tick(const ModelTick& tick, const antenna::AntennaStep& step, const physics::Database& database,
                   databuffer::Sweep& sweep);
   void remember(ModelStatus& status) const;
 

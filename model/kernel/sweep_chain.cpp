@@ -26,9 +26,9 @@ void write_place(const SweepPlace& place, databuffer::Sweep& sweep) {
   sweep.direction = place.direction > 0 ? 1 : 0;
 }
 
-rbm::Look look_of(const SweepPlace& place) {
+physics::Look look_of(const SweepPlace& place) {
   const geo::Angle width = place.right - place.left;
-  rbm::Look look{place.apex,      place.altitude, place.looked_at.value_or(place.left + 0.5 * width),
+  physics::Look look{place.apex,      place.altitude, place.looked_at.value_or(place.left + 0.5 * width),
                  place.elevation, place.range,    place.sim_time,
                  place.band,      place.channel};
   look.bars_above = place.bars_above;
@@ -69,7 +69,7 @@ SweepChain::SweepChain(const radar::RadarConfiguration& configuration)
   for (Measured& measured : measured_) measured.power.assign(samples_, 0.0F);
 }
 
-bool SweepChain::advance(const SweepPlace& place, const Labels& labels, const rbm::Database& database,
+bool SweepChain::advance(const SweepPlace& place, const Labels& labels, const physics::Database& database,
                          databuffer::Sweep& sweep) {
   Measured& measured = measured_[next_];
   next_ = (next_ + 1) % measured_.size();
@@ -82,9 +82,9 @@ bool SweepChain::advance(const SweepPlace& place, const Labels& labels, const rb
   return ready;
 }
 
-void SweepChain::receive(Measured& measured, const rbm::Database& database) {
+void SweepChain::receive(Measured& measured, const physics::Database& database) {
   const Labels& labels = measured.labels;
-  const rbm::Look look = look_of(measured.place);
+  const physics::Look look = look_of(measured.place);
   const bool deaf = (labels.flags & databuffer::kSweepBlank) != 0U;
   measured.jamming = deaf ? 0.0 : strobes_.level(look, database.terrain);
   if ((labels.flags & kNothingReceived) != 0U || labels.dark) {
@@ -115,7 +115,7 @@ void SweepChain::finish(const Measured& before, const Measured& centre, const Me
 }
 
 void finish_sweep(rbm::Algorithm& algorithm, std::uint64_t seed, const SweepPlace& place,
-                  const SweepChain::Labels& labels, const rbm::PowerWindow& window, databuffer::Sweep& sweep) {
+                  const SweepChain::Labels& labels, const physics::PowerWindow& window, databuffer::Sweep& sweep) {
   write_place(place, sweep);
   sweep.tick = labels.tick;
   sweep.sim_time_ns = labels.sim_time_ns;

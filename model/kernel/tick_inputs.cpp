@@ -52,10 +52,10 @@ bool asks_for_video(const databuffer::RadarCommand& command) {
          command.range_nm >= kLeastRangeNm && command.range_nm <= kGreatestRangeNm;
 }
 
-std::vector<rbm::MovingPoint> points_of(const databuffer::Traffic& traffic) {
+std::vector<physics::MovingPoint> points_of(const databuffer::Traffic& traffic) {
   const geo::Duration since = sim_time_of(traffic.tick * radar::kTickNanoseconds);
   const auto count = std::min<std::size_t>(traffic.count, databuffer::kMostTraffic);
-  std::vector<rbm::MovingPoint> points;
+  std::vector<physics::MovingPoint> points;
   points.reserve(count);
   for (const databuffer::TrafficEntity& entity : std::span(traffic.entities).first(count)) {
     const auto heading = geo::Bearing::radians(std::atan2(entity.velocity_east_mps, entity.velocity_north_mps));

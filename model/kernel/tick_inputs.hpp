@@ -41,7 +41,7 @@ bool asks_for_video(const databuffer::RadarCommand& command);
 // The traffic that a tick latched, as points that the radar sees.
 
 // Each goes on from where it was at the tick at which it was latched.
-std::vector<rbm::MovingPoint> points_of(const databuffer::Traffic& traffic);
+std::vector<physics::MovingPoint> points_of(const databuffer::Traffic& traffic);
 
 // How fine the terrain of a scan has to be: the fidelity's posts a sample at a range. "A scene costs what is in view."
 

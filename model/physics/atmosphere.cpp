@@ -8,7 +8,7 @@
 
 #include "model/physics/reflectivity.hpp"
 
-namespace yars::model::reflectivity {
+namespace yars::model::physics {
 
 // Spectral lines of the air: frequency [GHz] and six coefficients each, as Recommendation ITU-R P.676-13, Annex 1,
 // lists them: Table 1 (oxygen, a1 to a6) and Table 2 (water vapour, b1 to b6).
@@ -145,9 +145,9 @@ double GasProfile::db_per_m(double height_m) const {
   return db_per_m_[below] + share * (db_per_m_[below + 1] - db_per_m_[below]);
 }
 
-}  // namespace yars::model::reflectivity
+}  // namespace yars::model::physics
 
-namespace yars::model::rbm {
+namespace yars::model::physics {
 
 namespace {
 // Gauss and Legendre's eight places and weights on [-1, 1]. Source: Abramowitz and Stegun 1964, table 25.4.
@@ -180,11 +180,11 @@ double GasPath::one_way_db(const EffectiveEarth& earth, double altitude_m, doubl
 }
 
 double GasPath::two_way_loss(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const {
-  return none() ? 1.0 : reflectivity::ratio(-2.0 * one_way_db(earth, altitude_m, distance_m, height_m));
+  return none() ? 1.0 : ratio(-2.0 * one_way_db(earth, altitude_m, distance_m, height_m));
 }
 
 double GasPath::one_way_loss(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const {
-  return none() ? 1.0 : reflectivity::ratio(-one_way_db(earth, altitude_m, distance_m, height_m));
+  return none() ? 1.0 : ratio(-one_way_db(earth, altitude_m, distance_m, height_m));
 }
 
 GasSamples::GasSamples(const radar::RadarConfiguration& configuration, std::size_t samples)
@@ -231,9 +231,9 @@ void GasSamples::apply(const float* height_m, float* power) const {
   }
 }
 
-}  // namespace yars::model::rbm
+}  // namespace yars::model::physics
 
-namespace yars::model::reflectivity {
+namespace yars::model::physics {
 
 namespace {
 constexpr double kMeanEarthRadiusM = 6371008.8;  // [m] how a great circle passes a place: to 0.3 % of the distance
@@ -280,17 +280,17 @@ RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint mid
   return chord;
 }
 
-}  // namespace yars::model::reflectivity
+}  // namespace yars::model::physics
 
-namespace yars::model::rbm {
+namespace yars::model::physics {
 
 RainPath::RainPath(const radar::RadarConfiguration& configuration) : beam_(configuration.fidelity.beam) {
   const radar::RainConfiguration& rain = configuration.world.rain;
-  const double wavelength_m = reflectivity::wavelength_m(configuration.receiver.frequency_ghz);
+  const double wavelength_m = wavelength_m(configuration.receiver.frequency_ghz);
   for (const radar::RainCell& cell : rain.cells) {
     showers_.push_back({cell.place, cell.radius_m, cell.top_m,
-                        reflectivity::rain_reflectivity(rain, cell.rate_mmh, wavelength_m),
-                        reflectivity::rain_attenuation_db_per_m(rain, cell.rate_mmh)});
+                        rain_reflectivity(rain, cell.rate_mmh, wavelength_m),
+                        rain_attenuation_db_per_m(rain, cell.rate_mmh)});
   }
   crossed_.reserve(showers_.size());
 }
@@ -298,8 +298,8 @@ RainPath::RainPath(const radar::RadarConfiguration& configuration) : beam_(confi
 void RainPath::enter(const Look& look) {
   crossed_.clear();
   for (const Shower& shower : showers_) {
-    const reflectivity::RainChord chord =
-        reflectivity::rain_chord(look.apex, look.azimuth, shower.place, shower.radius_m);
+    const RainChord chord =
+        rain_chord(look.apex, look.azimuth, shower.place, shower.radius_m);
     const bool ahead = chord.middle_m + chord.half_m > 0.0 && chord.middle_m - chord.half_m < look.range.metres();
     if (chord.half_m > 0.0 && ahead) crossed_.push_back({chord, &shower});
   }
@@ -313,7 +313,7 @@ double RainPath::two_way_loss(const EffectiveEarth& earth, double altitude_m, do
     const Stretch wet = stretch_below(earth, altitude_m, distance_m, height_m, crossing.shower->top_m);
     loss_db += 2.0 * slope * crossing.shower->attenuation_db_per_m * crossing.chord.integral_m(wet.from_m, wet.to_m);
   }
-  return reflectivity::ratio(-loss_db);
+  return ratio(-loss_db);
 }
 
 double RainPath::power(const Receiver& receiver, const EffectiveEarth& earth, const Look& look, double distance_m,
@@ -353,4 +353,4 @@ Stretch stretch_below(const EffectiveEarth& earth, double altitude_m, double dis
   return {std::clamp(from, 0.0, 1.0) * distance_m, std::clamp(to, 0.0, 1.0) * distance_m};
 }
 
-}  // namespace yars::model::rbm
+}  // namespace yars::model::physics

@@ -13,7 +13,7 @@
 #include "model/physics/receiver.hpp"
 #include "model/physics/sweep_geometry.hpp"
 
-namespace yars::model::reflectivity {
+namespace yars::model::physics {
 
 // What the gases of the air take from a ray: specific attenuation line by line (Recommendation ITU-R P.676-13, Annex 1,
 // section 1), through the mean annual global reference atmosphere (ITU-R P.835, Annex 1): temperature in layers,
@@ -50,9 +50,9 @@ class GasProfile {
   std::vector<double> db_per_m_;
 };
 
-}  // namespace yars::model::reflectivity
+}  // namespace yars::model::physics
 
-namespace yars::model::rbm {
+namespace yars::model::physics {
 
 // What the gases of the air take along rays from the aircraft: the attenuation at each height, integrated over the ray.
 // The ray is straight over the effective earth; its height is a parabola in the share of the way (1 m in 300 km).
@@ -70,7 +70,7 @@ class GasPath {
   double one_way_loss(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
 
  private:
-  reflectivity::GasProfile profile_;
+  GasProfile profile_;
 };
 
 // The two-way factor for the samples of a sweep in float, as a parabola in height between distances: within 0.1 dB of
@@ -98,9 +98,9 @@ class GasSamples {
   memory::LineVector<float> constant_, slope_, bend_;
 };
 
-}  // namespace yars::model::rbm
+}  // namespace yars::model::physics
 
-namespace yars::model::reflectivity {
+namespace yars::model::physics {
 
 // What rain returns and takes: volume reflectivity and attenuation by rate, and the profile across a shower, whose
 // closed integral serves the ray. Sources: Z = a r^b, Marshall and Palmer 1948; eta = pi^5 |K|^2 Z / lambda^4, Probert-
@@ -127,9 +127,9 @@ struct RainChord {
 };
 RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint middle, double radius_m);
 
-}  // namespace yars::model::reflectivity
+}  // namespace yars::model::physics
 
-namespace yars::model::rbm {
+namespace yars::model::physics {
 
 // Rain along one sweep: what it returns at each range and what it takes from everything behind it. Showers are vertical
 // cylinders with a soft rim; a ray is in one as long as it is over its ground and below its top. Return: eta times the
@@ -160,7 +160,7 @@ class RainPath {
     double attenuation_db_per_m = 0.0;  // one way, in the middle
   };
   struct Crossing {
-    reflectivity::RainChord chord;
+    RainChord chord;
     const Shower* shower = nullptr;
   };
 
@@ -177,4 +177,4 @@ struct Stretch {
 };
 Stretch stretch_below(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m, double top_m);
 
-}  // namespace yars::model::rbm
+}  // namespace yars::model::physics

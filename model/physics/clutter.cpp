@@ -5,7 +5,7 @@
 
 #include "lib/geo/quantity.hpp"
 
-namespace yars::model::rbm {
+namespace yars::model::physics {
 
 namespace {
 // One step of splitmix64 (Steele, Lea, Flood 2014).
@@ -23,9 +23,9 @@ NoiseState make_noise_state(const NoiseKey& key) {
   return {static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32U)};
 }
 
-}  // namespace yars::model::rbm
+}  // namespace yars::model::physics
 
-namespace yars::model::reflectivity {
+namespace yars::model::physics {
 
 namespace {
 constexpr double kMetresPerDegree = 60.0 * geo::kMetresPerNauticalMile;  // [m] of latitude, to half a percent
@@ -137,4 +137,4 @@ double texture_cell_m(double pulse_length_m, double spacing_m) {
   return std::exp2(std::ceil(std::log2(std::max({pulse_length_m, spacing_m, 1.0}))));
 }
 
-}  // namespace yars::model::reflectivity
+}  // namespace yars::model::physics

@@ -7,7 +7,7 @@
 #include "lib/geo/geodesic.hpp"
 #include "model/physics/sweep_geometry.hpp"
 
-namespace yars::model::rbm {
+namespace yars::model::physics {
 
 // Counter-based noise: the number depends on (seed, scan, sweep, sample) alone, so any thread may compute it in any
 // order. Integers only: every algorithm, lane count and build draws the same bits. Quality is that of a picture, not
@@ -43,9 +43,9 @@ inline std::uint32_t resolution_cell(std::uint32_t sample, float cells) {
   return static_cast<std::uint32_t>((static_cast<float>(static_cast<std::int32_t>(sample)) + 0.5F) * cells);
 }
 
-}  // namespace yars::model::rbm
+}  // namespace yars::model::physics
 
-namespace yars::model::reflectivity {
+namespace yars::model::physics {
 
 // The earth cut into cells of about one size, each with random bits of its own: what stays on the ground from scan to
 // scan is keyed by them. Rows of equal latitude; the columns of a row follow the cosine at the middle of its degree.
@@ -81,4 +81,4 @@ double incomplete_gamma(double shape, double x);
 // place keeps its cell while the samples move over it.
 double texture_cell_m(double pulse_length_m, double spacing_m);
 
-}  // namespace yars::model::reflectivity
+}  // namespace yars::model::physics

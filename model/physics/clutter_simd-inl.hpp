@@ -15,7 +15,7 @@
 #include "model/physics/clutter_simd.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace yars::model::rbm::lanes::HWY_NAMESPACE {
+namespace yars::model::physics::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -99,7 +99,7 @@ class TextureLanes {
     const auto row = cell(in_.places.north_deg.data(), degree_.rows, degree_.row_share, degree_.row);
     const auto column = cell(in_.places.east_deg.data(), degree_.columns, degree_.column_share, degree_.column);
     const auto number =
-        hn::Add(hn::Mul(hn::BitCast(du, row), hn::Set(du, reflectivity::kRowFactor)), hn::BitCast(du, column));
+        hn::Add(hn::Mul(hn::BitCast(du, row), hn::Set(du, kRowFactor)), hn::BitCast(du, column));
     return hn::BitCast(di, first_bits(number));
   }
 
@@ -110,7 +110,7 @@ class TextureLanes {
 
 // Sigma0 of the sea by the table of fill_sigma0(), at sines above 0.
 HWY_INLINE GroundFloats sea_sigma0(const float* sigma0, GroundFloats sine) {
-  using Table = reflectivity::SeaTable;
+  using Table = SeaTable;
   const GroundTag d;
   const hn::RebindToSigned<GroundTag> di;
   constexpr int kShift = static_cast<int>(Table::kShift);
@@ -134,7 +134,7 @@ class SeaLanes {
   explicit SeaLanes(const GroundInputs& in) : in_(in) {}
 
   HWY_INLINE const float* sigma0() {
-    if (!filled_) lanes::fill_sigma0(*in_.sea, in_.upwind, in_.sigma0);
+    if (!filled_) simd::fill_sigma0(*in_.sea, in_.upwind, in_.sigma0);
     filled_ = true;
     return in_.sigma0;
   }
@@ -188,14 +188,14 @@ HWY_INLINE GroundReturn ground_return(const GroundInputs& in, GroundLanes& known
   if (!result.wet) return result;
   auto value = sea_sigma0(known.sea.sigma0(), sin_grazing());
   if (textured_sea) {
-    const float* const levels = &in.tables->texture[radar::kWaterMaterial * reflectivity::kTextureLevels];
+    const float* const levels = &in.tables->texture[radar::kWaterMaterial * kTextureLevels];
     value = hn::Mul(value, hn::GatherIndex(d, levels, level));
   }
   result.sea = hn::IfThenElseZero(wet, hn::Mul(water, value));
   return result;
 }
 
-}  // namespace yars::model::rbm::lanes::HWY_NAMESPACE
+}  // namespace yars::model::physics::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // per target

@@ -13,9 +13,9 @@
 #include "model/physics/polynomials-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace yars::model::rbm::lanes::HWY_NAMESPACE {
+namespace yars::model::physics::simd::HWY_NAMESPACE {
 
-namespace polynomials = rbm::HWY_NAMESPACE;
+namespace polynomials = HWY_NAMESPACE;
 
 void reflect(std::size_t count, const GroundInputs& ground, const float* sin_grazing, float* land, float* sea) {
   const GroundTag d;
@@ -47,10 +47,10 @@ std::size_t next_in(std::size_t count, std::uint32_t codes, const std::int32_t* 
   return count;
 }
 
-void fill_sigma0(const reflectivity::SeaTable& table, float cosine, float* sigma0) {
+void fill_sigma0(const SeaTable& table, float cosine, float* sigma0) {
   const GroundTag d;
   // The last entry stands alone behind whole vectors: sixteen divide the others.
-  constexpr std::size_t kEntries = reflectivity::SeaTable::kPieces;
+  constexpr std::size_t kEntries = SeaTable::kPieces;
   static_assert(kEntries % terrain::kRunSlack == 0);
   const auto octaves_at = [&](std::size_t i) {
     return hn::Add(hn::LoadU(d, table.across.data() + i),
@@ -63,8 +63,8 @@ void fill_sigma0(const reflectivity::SeaTable& table, float cosine, float* sigma
 }
 
 namespace hn = hwy::HWY_NAMESPACE;
-namespace fused = yars::lanes::HWY_NAMESPACE;
-namespace polynomials = rbm::HWY_NAMESPACE;
+namespace fused = yars::simd::HWY_NAMESPACE;
+namespace polynomials = HWY_NAMESPACE;
 
 constexpr std::size_t kMostLanes = 16;
 using Tag = hn::CappedTag<float, kMostLanes>;
@@ -180,11 +180,11 @@ void develop(std::size_t count, const VideoInputs& inputs, std::uint8_t* video) 
   }
 }
 
-}  // namespace yars::model::rbm::lanes::HWY_NAMESPACE
+}  // namespace yars::model::physics::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace yars::model::rbm::lanes {
+namespace yars::model::physics::simd {
 
 HWY_EXPORT(reflect);
 HWY_EXPORT(any_positive);
@@ -200,7 +200,7 @@ bool any_positive(std::size_t count, const float* values) {
 std::size_t next_in(std::size_t count, std::uint32_t codes, const std::int32_t* material, std::size_t from) {
   return HWY_DYNAMIC_DISPATCH(next_in)(count, codes, material, from);
 }
-void fill_sigma0(const reflectivity::SeaTable& table, float cosine, float* sigma0) {
+void fill_sigma0(const SeaTable& table, float cosine, float* sigma0) {
   HWY_DYNAMIC_DISPATCH(fill_sigma0)(table, cosine, sigma0);
 }
 
@@ -230,5 +230,5 @@ void develop(std::size_t count, const VideoInputs& inputs, std::uint8_t* video) 
   HWY_DYNAMIC_DISPATCH(develop)(count, inputs, video);
 }
 
-}  // namespace yars::model::rbm::lanes
+}  // namespace yars::model::physics::simd
 #endif  // HWY_ONCE

@@ -10,7 +10,7 @@
 #include "model/physics/reflectivity.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 
-namespace yars::model::rbm::lanes {
+namespace yars::model::physics::simd {
 
 // What the ground of a sweep reflects, for vectors (Highway, chosen at run time; equal bits on every target): the fast
 // path of ground_return.hpp. clutter_simd-inl.hpp joins it, a vector of samples at a time. Arrays have
@@ -21,7 +21,7 @@ struct MaterialTables {
   std::array<float, radar::kMaterials> gamma{};
   // Gamma at each level of texture, one material after the other; the same at all where there is none. Water has the
   // sea's levels alone.
-  std::array<float, radar::kMaterials * reflectivity::kTextureLevels> texture{};
+  std::array<float, radar::kMaterials * kTextureLevels> texture{};
 };
 
 // The ground of one sweep. Sets of materials have a bit a code.
@@ -31,10 +31,10 @@ struct GroundInputs {
   const float* water = nullptr;            // [0, 1]
   const std::int32_t* material = nullptr;  // codes; null: none anywhere. Water is all water.
   const float* wall_gain = nullptr;        // factor on the gamma of samples of a material with walls; else not read
-  const reflectivity::SeaTable* sea = nullptr;  // may be null where neither water nor material is
+  const SeaTable* sea = nullptr;  // may be null where neither water nor material is
   float upwind = 0.0F;                          // cosine of the angle between the look and the wind
   float* sigma0 = nullptr;                      // room for fill_sigma0(), which a look that meets water fills
-  const reflectivity::GroundGrid* grid = nullptr;
+  const GroundGrid* grid = nullptr;
   std::uint32_t textured = 0;  // land
   std::uint32_t walled = 0;
   bool textured_sea = false;
@@ -59,7 +59,7 @@ std::size_t next_in(std::size_t count, std::uint32_t codes, const std::int32_t* 
 
 // Sigma0 of the table's entries for a look: 2^(across + cosine * upwind). `sigma0` has room for as many and a vector
 // more.
-void fill_sigma0(const reflectivity::SeaTable& table, float cosine, float* sigma0);
+void fill_sigma0(const SeaTable& table, float cosine, float* sigma0);
 
 // The loops of the standard algorithm from power to video, by vectors (Highway, chosen at run time; equal bits on every
 // target).
@@ -84,4 +84,4 @@ struct VideoInputs {
 // clipped. `video` has exactly `count` entries.
 void develop(std::size_t count, const VideoInputs& inputs, std::uint8_t* video);
 
-}  // namespace yars::model::rbm::lanes
+}  // namespace yars::model::physics::simd

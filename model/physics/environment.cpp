@@ -5,7 +5,7 @@
 
 #include "model/physics/sweep_geometry.hpp"
 
-namespace yars::model::rbm {
+namespace yars::model::physics {
 
 std::vector<MovingPoint> configured_points(const radar::RadarConfiguration& configuration) {
   std::vector<MovingPoint> points;
@@ -73,4 +73,4 @@ std::size_t nearest_sample(std::span<const double> distance_m, double wanted_m) 
   return index;
 }
 
-}  // namespace yars::model::rbm
+}  // namespace yars::model::physics

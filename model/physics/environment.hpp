@@ -12,7 +12,7 @@
 #include "model/scene/placement/scene_view.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 
-namespace yars::model::rbm {
+namespace yars::model::physics {
 
 // A ship or a vehicle as a point that goes its geodesic at a steady speed: one of the configuration from sim time 0 on,
 // one of the traffic from the moment at which it was heard of.
@@ -82,4 +82,4 @@ std::size_t nearest_sample(std::span<const double> distance_m, double wanted_m);
 // How many samples are nearer than a distance over ground: their centres are less, or not a number.
 std::size_t samples_nearer(std::span<const double> distance_m, double wanted_m);
 
-}  // namespace yars::model::rbm
+}  // namespace yars::model::physics

@@ -6,7 +6,7 @@
 #include "model/physics/ray.hpp"
 #include "model/physics/reflectivity.hpp"
 
-namespace yars::model::rbm {
+namespace yars::model::physics {
 
 namespace {
 constexpr auto kWater = static_cast<std::size_t>(radar::kWaterMaterial);
@@ -26,26 +26,26 @@ std::array<double, radar::kMaterials> texture_shapes(const radar::RadarConfigura
 }  // namespace
 
 SurfaceReturn::SurfaceReturn(const radar::RadarConfiguration& configuration)
-    : land_(reflectivity::make_land_return(configuration)), sea_(reflectivity::make_sea_return(configuration)) {
+    : land_(make_land_return(configuration)), sea_(make_sea_return(configuration)) {
   const auto shapes = texture_shapes(configuration);
   for (std::size_t code = 0; code < shapes.size(); ++code) {
     textured_[code] = shapes[code] > 0.0;
     // Equal shapes share their work.
     const auto twin = static_cast<std::size_t>(std::find(shapes.begin(), shapes.end(), shapes[code]) - shapes.begin());
-    texture_[code] = twin < code ? texture_[twin] : reflectivity::make_texture_levels(shapes[code]);
+    texture_[code] = twin < code ? texture_[twin] : make_texture_levels(shapes[code]);
   }
 }
 
 void SurfaceReturn::use_resolution(double pulse_length_m, double spacing_m) {
-  const double cell_m = reflectivity::texture_cell_m(pulse_length_m, spacing_m);
+  const double cell_m = texture_cell_m(pulse_length_m, spacing_m);
   if (cell_m == cell_m_) return;
   cell_m_ = cell_m;
-  grid_ = reflectivity::make_ground_grid(cell_m);
+  grid_ = make_ground_grid(cell_m);
 }
 
 double SurfaceReturn::texture(std::size_t material, geo::GeoPoint place) const {
   if (!textured_[material]) return 1.0;
-  return static_cast<double>(texture_[material][reflectivity::ground_bits(grid_, place) >> 24U]);
+  return static_cast<double>(texture_[material][ground_bits(grid_, place) >> 24U]);
 }
 
 double SurfaceReturn::cross_section_m2(const Receiver& receiver, const Facet& facet) const {
@@ -56,14 +56,14 @@ double SurfaceReturn::cross_section_m2(const Receiver& receiver, const Facet& fa
     double gamma = land_.gamma[material];
     if (land_.cardinal[material] > 0.0) {
       const double off_deg =
-          reflectivity::off_street_deg(facet.look.degrees(), terrain::street_bearing_deg(facet.place));
-      gamma *= reflectivity::cardinal_gain(land_.cardinal[material], off_deg, land_.street_width_deg);
+          off_street_deg(facet.look.degrees(), terrain::street_bearing_deg(facet.place));
+      gamma *= cardinal_gain(land_.cardinal[material], off_deg, land_.street_width_deg);
     }
     total_m2 += (1.0 - water) * gamma * facet.sin_local * texture(material, facet.place) *
                 illuminated_area_m2(receiver, facet.slant_range_m, facet.sin_local);
   }
   if (water > 0.0 && facet.sin_grazing > 0.0) {
-    total_m2 += water * reflectivity::sea_sigma0(sea_, facet.sin_grazing, facet.look) * texture(kWater, facet.place) *
+    total_m2 += water * sea_sigma0(sea_, facet.sin_grazing, facet.look) * texture(kWater, facet.place) *
                 illuminated_area_m2(receiver, facet.slant_range_m, facet.sin_grazing);
   }
   return total_m2;
@@ -72,10 +72,10 @@ double SurfaceReturn::cross_section_m2(const Receiver& receiver, const Facet& fa
 namespace {
 constexpr double kEarthRadiusM = 6371008.8;  // [m] mean
 
-void put_texture(lanes::MaterialTables& tables, std::size_t code, double shape) {
-  const reflectivity::TextureLevels levels = reflectivity::make_texture_levels(shape);
+void put_texture(simd::MaterialTables& tables, std::size_t code, double shape) {
+  const TextureLevels levels = make_texture_levels(shape);
   std::copy(levels.begin(), levels.end(),
-            tables.texture.begin() + static_cast<std::ptrdiff_t>(code * reflectivity::kTextureLevels));
+            tables.texture.begin() + static_cast<std::ptrdiff_t>(code * kTextureLevels));
 }
 
 // A unit vector over ground.
@@ -99,14 +99,14 @@ Direction middle_direction(const Look& look) {
 }  // namespace
 
 Ground::Ground(const radar::RadarConfiguration& configuration, std::size_t samples)
-    : land_(reflectivity::make_land_return(configuration)),
-      sea_(reflectivity::make_sea_table(reflectivity::make_sea_return(configuration))),
+    : land_(make_land_return(configuration)),
+      sea_(make_sea_table(make_sea_return(configuration))),
       sigma0_(sea_.across.size() + terrain::kRunSlack),
       codes_(samples + kPairSlack),
       wall_gain_(codes_.size(), 1.0F),
       land_gamma_(codes_.size()),
       sea_sigma0_(codes_.size()) {
-  const double wind_rad = reflectivity::make_sea_return(configuration).wind_from.radians();
+  const double wind_rad = make_sea_return(configuration).wind_from.radians();
   wind_north_ = std::cos(wind_rad);
   wind_east_ = std::sin(wind_rad);
   const radar::WorldConfiguration& world = configuration.world;
@@ -129,8 +129,8 @@ Ground::Ground(const radar::RadarConfiguration& configuration, std::size_t sampl
     if (code < radar::kMaterials) texture(code, material.texture);
   }
   for (std::size_t code = 0; code < radar::kMaterials; ++code)
-    for (std::size_t level = 0; level < reflectivity::kTextureLevels; ++level)
-      tables_.texture[code * reflectivity::kTextureLevels + level] *= tables_.gamma[code];
+    for (std::size_t level = 0; level < kTextureLevels; ++level)
+      tables_.texture[code * kTextureLevels + level] *= tables_.gamma[code];
   // Water's place in the tables is the sea's.
   texture(kWater, world.sea.texture);
   inputs_.textured_sea = world.sea.texture > 0.0;
@@ -138,16 +138,16 @@ Ground::Ground(const radar::RadarConfiguration& configuration, std::size_t sampl
 }
 
 void Ground::use_resolution(double pulse_length_m, double spacing_m) {
-  const double cell_m = reflectivity::texture_cell_m(pulse_length_m, spacing_m);
+  const double cell_m = texture_cell_m(pulse_length_m, spacing_m);
   if (cell_m == cell_m_) return;
   cell_m_ = cell_m;
-  grid_ = reflectivity::make_ground_grid(cell_m);
+  grid_ = make_ground_grid(cell_m);
 }
 
-const lanes::GroundInputs* Ground::prepare(const Look& look, const terrain::PlaceRun& places, const float* water,
+const simd::GroundInputs* Ground::prepare(const Look& look, const terrain::PlaceRun& places, const float* water,
                                            bool materials) {
   const std::size_t count = places.north_deg.size();
-  if (!materials && (inputs_.textured & 1U) == 0 && !lanes::any_positive(count, water)) return nullptr;
+  if (!materials && (inputs_.textured & 1U) == 0 && !simd::any_positive(count, water)) return nullptr;
   const Direction azimuth = middle_direction(look);
   if (materials) face_walls(places, geo::Bearing::radians(std::atan2(azimuth.east, azimuth.north)));
   inputs_.tables = &tables_;
@@ -164,16 +164,16 @@ const lanes::GroundInputs* Ground::prepare(const Look& look, const terrain::Plac
 
 Ground::Sample Ground::reflect(const Look& look, const terrain::PlaceRun& places, const float* water,
                                const float* sin_grazing, bool materials) {
-  const lanes::GroundInputs* const ground = prepare(look, places, water, materials);
+  const simd::GroundInputs* const ground = prepare(look, places, water, materials);
   if (ground == nullptr) return {};
-  lanes::reflect(places.north_deg.size(), *ground, sin_grazing, land_gamma_.data(), sea_sigma0_.data());
+  simd::reflect(places.north_deg.size(), *ground, sin_grazing, land_gamma_.data(), sea_sigma0_.data());
   return {land_gamma_.data(), sea_sigma0_.data()};
 }
 
 // The cardinal effect: few samples have walls, so one by one.
 void Ground::face_walls(const terrain::PlaceRun& places, geo::Bearing azimuth) {
   const std::size_t count = places.north_deg.size();
-  const auto next = [&](std::size_t from) { return lanes::next_in(count, inputs_.walled, codes_.data(), from); };
+  const auto next = [&](std::size_t from) { return simd::next_in(count, inputs_.walled, codes_.data(), from); };
   // Neighbours mostly are of one material and one patch of streets.
   double last_street_deg = -1.0;
   std::int32_t last_code = -1;
@@ -181,9 +181,9 @@ void Ground::face_walls(const terrain::PlaceRun& places, geo::Bearing azimuth) {
   for (std::size_t i = next(0); i < count; i = next(i + 1)) {
     const double street_deg = streets_.bearing_deg(terrain::place_of(places, i));
     if (codes_[i] != last_code || street_deg != last_street_deg) {
-      const double off_deg = reflectivity::off_street_deg(azimuth.degrees(), street_deg);
+      const double off_deg = off_street_deg(azimuth.degrees(), street_deg);
       const double cardinal = land_.cardinal[static_cast<std::size_t>(codes_[i])];
-      gain = static_cast<float>(reflectivity::cardinal_gain(cardinal, off_deg, land_.street_width_deg));
+      gain = static_cast<float>(cardinal_gain(cardinal, off_deg, land_.street_width_deg));
       last_code = codes_[i];
       last_street_deg = street_deg;
     }
@@ -191,4 +191,4 @@ void Ground::face_walls(const terrain::PlaceRun& places, geo::Bearing azimuth) {
   }
 }
 
-}  // namespace yars::model::rbm
+}  // namespace yars::model::physics

@@ -12,7 +12,7 @@
 #include "model/physics/reflectivity.hpp"
 #include "model/physics/sweep_geometry.hpp"
 
-namespace yars::model::rbm {
+namespace yars::model::physics {
 
 // The cross section of the ground in one resolution cell: land by material with its cardinal effect, sea by wind and
 // grazing angle, both under a texture that stays on the ground. Plain double: what `reference` computes a sample.
@@ -41,11 +41,11 @@ class SurfaceReturn {
  private:
   double texture(std::size_t material, geo::GeoPoint place) const;
 
-  reflectivity::LandReturn land_;
-  reflectivity::SeaReturn sea_;
-  std::array<reflectivity::TextureLevels, radar::kMaterials> texture_{};  // by material, water's the sea's
+  LandReturn land_;
+  SeaReturn sea_;
+  std::array<TextureLevels, radar::kMaterials> texture_{};  // by material, water's the sea's
   std::array<bool, radar::kMaterials> textured_{};
-  reflectivity::GroundGrid grid_;
+  GroundGrid grid_;
   double cell_m_ = 0.0;
 };
 
@@ -62,9 +62,9 @@ class Ground {
   // Codes of the samples that prepare() and reflect() read; terrain::kRunSlack more.
   memory::LineVector<std::int32_t>& materials() { return codes_; }
 
-  // The ground below a sweep's places, for lanes::sweep(); null: plain dry land everywhere. `water` as the terrain gave
+  // The ground below a sweep's places, for simd::sweep(); null: plain dry land everywhere. `water` as the terrain gave
   // it; `materials`: whether materials() was filled. Lasts until the next call; the places have to last as long.
-  const lanes::GroundInputs* prepare(const Look& look, const terrain::PlaceRun& places, const float* water,
+  const simd::GroundInputs* prepare(const Look& look, const terrain::PlaceRun& places, const float* water,
                                      bool materials);
 
   // The same as arrays, for who has the sines of the grazing angle already.
@@ -78,17 +78,17 @@ class Ground {
  private:
   void face_walls(const terrain::PlaceRun& places, geo::Bearing azimuth);
 
-  reflectivity::LandReturn land_;
-  reflectivity::SeaTable sea_;
+  LandReturn land_;
+  SeaTable sea_;
   double wind_north_, wind_east_;  // unit vector to where the wind comes from
-  lanes::MaterialTables tables_;
-  lanes::GroundInputs inputs_;
+  simd::MaterialTables tables_;
+  simd::GroundInputs inputs_;
   memory::LineVector<float> sigma0_;  // of the sea over the grazing angle, this sweep
-  reflectivity::GroundGrid grid_;
+  GroundGrid grid_;
   double cell_m_ = 0.0;
   memory::LineVector<std::int32_t> codes_;
   memory::LineVector<float> wall_gain_, land_gamma_, sea_sigma0_;
   terrain::StreetFinder streets_;
 };
 
-}  // namespace yars::model::rbm
+}  // namespace yars::model::physics

@@ -15,14 +15,14 @@
 #include "lib/lanes/fused-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace yars::model::rbm::HWY_NAMESPACE {
+namespace yars::model::physics::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
 // p * t + c
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V step(D d, V p, V t, float c) {
-  return yars::lanes::HWY_NAMESPACE::mul_add(p, t, hn::Set(d, c));
+  return yars::simd::HWY_NAMESPACE::mul_add(p, t, hn::Set(d, c));
 }
 
 // Base-2 logarithm of a positive, normal float. Error 4e-7.
@@ -41,7 +41,7 @@ HWY_INLINE V log2(D d, V value) {
   p = step(d, p, t, 0.480842665F);
   p = step(d, p, t, -0.72135008F);
   p = step(d, p, t, 1.44269527F);
-  return yars::lanes::HWY_NAMESPACE::mul_add(t, p, hn::ConvertTo(d, exponent));
+  return yars::simd::HWY_NAMESPACE::mul_add(t, p, hn::ConvertTo(d, exponent));
 }
 
 // The same for pictures, at half the cost. Error 1.3e-4: 4e-4 dB.
@@ -58,7 +58,7 @@ HWY_INLINE V rough_log2(D d, V value) {
   p = step(d, p, mantissa, -2.07833517F);
   p = step(d, p, mantissa, 3.02921139F);
   p = step(d, p, mantissa, -128.498353F);
-  return yars::lanes::HWY_NAMESPACE::mul_add(linear, hn::Set(d, 1.0F / 8388608.0F), p);
+  return yars::simd::HWY_NAMESPACE::mul_add(linear, hn::Set(d, 1.0F / 8388608.0F), p);
 }
 
 // 2 to a power in [-126, 126], else clamped. Error 8e-8, relative.
@@ -107,7 +107,7 @@ HWY_INLINE V angle(D d, V sine, V cosine) {
 // of it. Error 5e-6, relative: 2e-5 dB. (Guess and first step: J. Kadlec's constants, a third of the classic error.)
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V inverse_root(D d, V value) {
-  namespace fused = yars::lanes::HWY_NAMESPACE;
+  namespace fused = yars::simd::HWY_NAMESPACE;
   const hn::RebindToSigned<D> di;
   const auto y = hn::BitCast(d, hn::Sub(hn::Set(di, 0x5f1ffff9), hn::ShiftRight<1>(hn::BitCast(di, value))));
   const auto better =
@@ -116,7 +116,7 @@ HWY_INLINE V inverse_root(D d, V value) {
   return hn::Mul(better, fused::neg_mul_add(hn::Mul(half, better), better, hn::Set(d, 1.5F)));
 }
 
-}  // namespace yars::model::rbm::HWY_NAMESPACE
+}  // namespace yars::model::physics::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // per target

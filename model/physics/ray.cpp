@@ -10,7 +10,7 @@
 #include "model/physics/ray_simd.hpp"
 #include "model/terrain/formats/cell.hpp"
 
-namespace yars::model::rbm {
+namespace yars::model::physics {
 
 namespace {
 constexpr double kPolarMetresPerDegree = 111'694.0;  // WGS84, of a meridian at the pole
@@ -84,9 +84,9 @@ Newton newton_form(int knots, const Knots& points, const Knots& values) {
 }
 
 // The same in powers of t, counted from the corner.
-places::Curve curve_of(const Newton& form, int corner_deg) {
+simd::Curve curve_of(const Newton& form, int corner_deg) {
   const auto knots = static_cast<std::size_t>(form.knots);
-  places::Curve curve{knots, {}};
+  simd::Curve curve{knots, {}};
   curve.coefficient[0] = form.difference[knots - 1];
   for (std::size_t k = knots - 1; k-- > 0;) {
     // Times (t - knot), plus the next difference.
@@ -125,16 +125,16 @@ void place_by_vector(geo::GeoPoint apex, const float* distance_m, double scale, 
          longitude_rad / geo::kRadiansPerDegree});
   }
 }
-double value_at(const places::Curve& curve, double x) {
+double value_at(const simd::Curve& curve, double x) {
   double sum = 0.0;
   for (std::size_t k = curve.terms; k-- > 0;) sum = sum * x + curve.coefficient[k];
   return sum;
 }
 
 // The curves count from the corner.
-void place_by_curves(geo::GeoPoint apex, const float* distance_m, const places::Curves& curves, PlaceArrays& places) {
-  if (const std::size_t piece = places::piece_samples(places.count); piece > 0) {
-    places::along_curves(
+void place_by_curves(geo::GeoPoint apex, const float* distance_m, const simd::Curves& curves, PlaceArrays& places) {
+  if (const std::size_t piece = simd::piece_samples(places.count); piece > 0) {
+    simd::along_curves(
         places.count, piece, distance_m, curves,
         {places.cells_north.data(), places.cells_east.data(), places.north_deg.data(), places.east_deg.data()});
     return;
@@ -146,9 +146,9 @@ void place_by_curves(geo::GeoPoint apex, const float* distance_m, const places::
   }
 }
 
-places::Curves curves_of(const geo::GeodesicSeries& series, terrain::CellPlace corner) {
+simd::Curves curves_of(const geo::GeodesicSeries& series, terrain::CellPlace corner) {
   const auto terms = static_cast<std::size_t>(series.order) + 1;
-  places::Curves curves{1.0, 0.0, {terms, series.latitude_deg}, {terms, series.longitude_deg}};
+  simd::Curves curves{1.0, 0.0, {terms, series.latitude_deg}, {terms, series.longitude_deg}};
   curves.north.coefficient[0] -= corner.south_deg;
   curves.east.coefficient[0] -= corner.west_deg;
   return curves;
@@ -294,4 +294,4 @@ double GroundWalk::tangent(geo::GeoPoint place, double distance_m) const {
   return std::isnan(peak_m) ? kNothing : earth_.sight(look_.altitude.metres(), distance_m, peak_m).tangent;
 }
 
-}  // namespace yars::model::rbm
+}  // namespace yars::model::physics

@@ -14,7 +14,7 @@
 #include "model/physics/sweep_geometry.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 
-namespace yars::model::rbm::polynomials {
+namespace yars::model::physics::polynomials {
 
 // Elementary functions in double without a library call: the same bits whatever the machine's library picks.
 // Coefficients: Chebyshev interpolation on the reduced interval.
@@ -44,9 +44,9 @@ inline double arctangent(double y, double x) {
   return y < 0.0 ? -upper : upper;
 }
 
-}  // namespace yars::model::rbm::polynomials
+}  // namespace yars::model::physics::polynomials
 
-namespace yars::model::rbm {
+namespace yars::model::physics {
 
 // How a ray passes the nearer pole, and how long a piece of it may be there to count as straight in latitude and
 // longitude. The ray is a straight line in the plane of the pole: its way past the pole is right within 20 m for 320
@@ -161,4 +161,4 @@ class GroundWalk {
   double steps_a_post_;
 };
 
-}  // namespace yars::model::rbm
+}  // namespace yars::model::physics

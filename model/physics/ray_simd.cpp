@@ -12,10 +12,10 @@
 #include "lib/lanes/fused-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace yars::model::rbm::places::HWY_NAMESPACE {
+namespace yars::model::physics::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-namespace fused = yars::lanes::HWY_NAMESPACE;
+namespace fused = yars::simd::HWY_NAMESPACE;
 
 constexpr std::size_t kGroup = 8;  // pieces worked on at once: a vector of doubles
 using DoubleTag = hn::CappedTag<double, kGroup>;
@@ -102,11 +102,11 @@ void along_curves(std::size_t count, std::size_t piece_size, const float* distan
   }
 }
 
-}  // namespace yars::model::rbm::places::HWY_NAMESPACE
+}  // namespace yars::model::physics::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace yars::model::rbm::places {
+namespace yars::model::physics::simd {
 
 HWY_EXPORT(along_curves);
 
@@ -121,5 +121,5 @@ void along_curves(std::size_t count, std::size_t piece, const float* distance_m,
   HWY_DYNAMIC_DISPATCH(along_curves)(count, piece, distance_m, curves, places);
 }
 
-}  // namespace yars::model::rbm::places
+}  // namespace yars::model::physics::simd
 #endif  // HWY_ONCE

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstddef>
 
-namespace yars::model::rbm::places {
+namespace yars::model::physics::simd {
 
 inline constexpr std::size_t kMostTerms = 9;
 
@@ -36,4 +36,4 @@ std::size_t piece_samples(std::size_t count);
 void along_curves(std::size_t count, std::size_t piece, const float* distance_m, const Curves& curves,
                   const Places& places);
 
-}  // namespace yars::model::rbm::places
+}  // namespace yars::model::physics::simd

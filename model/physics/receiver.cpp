@@ -6,9 +6,9 @@
 
 #include "model/physics/reflectivity.hpp"
 
-namespace yars::model::rbm {
+namespace yars::model::physics {
 
-using reflectivity::ratio;
+using ratio;
 
 namespace {
 constexpr double kMetresPerMicrosecond = 149.896229;  // [m] c/2 over 1 us: range resolution, hence brightness and smear
@@ -60,7 +60,7 @@ Receiver make_receiver(const radar::RadarConfiguration& configuration, geo::Leng
   receiver.azimuth_beamwidth_rad = configuration.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
   receiver.elevation_beamwidth_rad = configuration.antenna.elevation_beamwidth_deg * geo::kRadiansPerDegree;
   receiver.pulse_length_m = pulse_length(configuration, range).metres();
-  const double frequency_db = reflectivity::frequency_term_db(configuration.world.land, given.frequency_ghz);
+  const double frequency_db = frequency_term_db(configuration.world.land, given.frequency_ghz);
   receiver.land_gamma = ratio(given.land_gamma_db + frequency_db);
   receiver.stc_exponent = given.stc_exponent;
   receiver.stc_range_m = range.metres();
@@ -141,4 +141,4 @@ PulseSmear make_pulse_smear(double pulse_samples) {
   return smear;
 }
 
-}  // namespace yars::model::rbm
+}  // namespace yars::model::physics

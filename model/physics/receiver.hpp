@@ -8,7 +8,7 @@
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/configuration.hpp"
 
-namespace yars::model::rbm {
+namespace yars::model::physics {
 
 // The configuration at one selected range, unwrapped for hot loops.
 struct Receiver {
@@ -74,4 +74,4 @@ PulseSmear make_pulse_smear(double pulse_samples);
 // ground fills the pulse. At least 1.
 double point_rise(double pulse_samples);
 
-}  // namespace yars::model::rbm
+}  // namespace yars::model::physics

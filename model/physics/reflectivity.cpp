@@ -9,7 +9,7 @@
 #include "lib/geo/quantity.hpp"
 #include "lib/random/gradient_noise.hpp"
 
-namespace yars::model::terrain {
+namespace yars::model::physics {
 
 namespace {
 
@@ -79,9 +79,9 @@ StreetPatch street_patch(geo::GeoPoint place) {
   return StreetFinder().patch(place);
 }
 
-}  // namespace yars::model::terrain
+}  // namespace yars::model::physics
 
-namespace yars::model::reflectivity {
+namespace yars::model::physics {
 
 double frequency_term_db(const radar::LandConfiguration& land, double frequency_ghz) {
   return land.frequency_slope_db * std::log10(frequency_ghz / land.reference_frequency_ghz);
@@ -228,4 +228,4 @@ SeaTable make_sea_table(const SeaReturn& sea) {
   return table;
 }
 
-}  // namespace yars::model::reflectivity
+}  // namespace yars::model::physics

@@ -6,7 +6,7 @@
 
 #include "model/physics/receiver.hpp"
 
-namespace yars::model::rbm {
+namespace yars::model::physics {
 
 namespace {
 constexpr double kBeamsAside = 2.0;
@@ -100,4 +100,4 @@ void sample_distances(const radar::Fidelity& fidelity, const EffectiveEarth& ear
   }
 }
 
-}  // namespace yars::model::rbm
+}  // namespace yars::model::physics

@@ -14,7 +14,7 @@
 #include "lib/radar/configuration.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 
-namespace yars::model::rbm {
+namespace yars::model::physics {
 
 // Which part of the beam a ray stands for, where points are concerned: of several rays across the beam each sees those
 // in its own part, so that none is seen twice; of a sharpened beam a ray sees its resolution cell and nothing else.
@@ -114,4 +114,4 @@ EffectiveEarth effective_earth(const radar::Fidelity& fidelity, geo::GeoPoint ap
 void sample_distances(const radar::Fidelity& fidelity, const EffectiveEarth& earth, const Look& look,
                       const terrain::TerrainView& terrain, std::span<double> distance_m);
 
-}  // namespace yars::model::rbm
+}  // namespace yars::model::physics

@@ -22,14 +22,14 @@ class Algorithm {
 
   // Fills `power` (near to far, samples of the fidelity): 1 = full scale, after sensitivity time control and pulse
   // smear, without noise; never NaN, never negative. Returns how many samples met terrain that is not loaded yet.
-  virtual std::size_t measure(const Look& look, const Database& database, std::span<float> power) = 0;
+  virtual std::size_t measure(const physics::Look& look, const physics::Database& database, std::span<float> power) = 0;
 
   // Of the last measure(): 1 where no nearer ground hides the sample, 0 in shadow, over a void and, by the 1996 report,
   // outside the beam. Of several rays the middle one counts, of two middle ones the right. `mask` as long as the power.
   virtual void lit(std::span<std::uint8_t> mask) const = 0;
 
   // Azimuth smear, noise, log receiver and gain (0..3): 8-bit video, as long as the power.
-  virtual void develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
+  virtual void develop(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                        std::span<std::uint8_t> video) = 0;
 };
 

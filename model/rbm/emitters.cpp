@@ -16,7 +16,7 @@ namespace {
 constexpr double kMastM = 10.0;           // [m] above the ground: a jammer or beacon whose altitude is not given
 constexpr double kLeastDistanceM = 10.0;  // [m] keeps one below the aircraft finite
 
-bool is_jammed(const radar::Jammer& jammer, const Look& look) {
+bool is_jammed(const radar::Jammer& jammer, const physics::Look& look) {
   const bool band = jammer.band == radar::kEveryBand || jammer.band == static_cast<int>(look.band);
   const auto channel = static_cast<double>(look.channel);
   return band && std::find(jammer.channels.begin(), jammer.channels.end(), channel) != jammer.channels.end();
@@ -28,12 +28,12 @@ double ground_m(const terrain::TerrainView& terrain, geo::GeoPoint place) {
 }
 }  // namespace
 
-double Strobes::level(const Look& look, const terrain::TerrainView& terrain) {
+double Strobes::level(const physics::Look& look, const terrain::TerrainView& terrain) {
   const radar::JammingConfiguration& jamming = configuration_.world.jamming;
   if (jamming.jammers.empty()) return 0.0;
-  const Receiver receiver = make_receiver(configuration_, look.range);
-  const double radar_w = reflectivity::ratio(jamming.radar_power_dbw);
-  const double sidelobe = reflectivity::ratio(jamming.sidelobe_db);
+  const physics::Receiver receiver = physics::make_receiver(configuration_, look.range);
+  const double radar_w = physics::ratio(jamming.radar_power_dbw);
+  const double sidelobe = physics::ratio(jamming.sidelobe_db);
   double total = 0.0;
   for (const radar::Jammer& jammer : jamming.jammers) {
     if (!is_jammed(jammer, look)) continue;
@@ -42,11 +42,11 @@ double Strobes::level(const Look& look, const terrain::TerrainView& terrain) {
     const double altitude_m =
         std::isnan(jammer.altitude_m) ? ground_m(terrain, jammer.place) + kMastM : jammer.altitude_m;
     if (!sight_line_.clear(configuration_.fidelity, look, terrain, way, altitude_m)) continue;
-    const EffectiveEarth earth = effective_earth(configuration_.fidelity, look.apex, way.azimuth_at_start);
-    const Sight sight = earth.sight(look.altitude.metres(), way.distance.metres(), altitude_m);
+    const physics::EffectiveEarth earth = physics::effective_earth(configuration_.fidelity, look.apex, way.azimuth_at_start);
+    const physics::Sight sight = earth.sight(look.altitude.metres(), way.distance.metres(), altitude_m);
     const double two_way =
-        azimuth_gain(receiver.azimuth_beamwidth_rad, (way.azimuth_at_start - look.azimuth).radians()) *
-        two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad, look.elevation.radians(),
+        physics::azimuth_gain(receiver.azimuth_beamwidth_rad, (way.azimuth_at_start - look.azimuth).radians()) *
+        physics::two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad, look.elevation.radians(),
                      sight.elevation_rad);
     const double loss = gas_.one_way_loss(earth, look.altitude.metres(), way.distance.metres(), altitude_m);
     const double gain = loss * std::max(std::sqrt(two_way), sidelobe);
@@ -82,15 +82,15 @@ Beacons::Beacons(const radar::RadarConfiguration& configuration)
   replies_.reserve(answering_.size() * radar::kMostReplies);
 }
 
-std::span<const Reply> Beacons::replies(const Look& look, const terrain::TerrainView& terrain) {
+std::span<const Reply> Beacons::replies(const physics::Look& look, const terrain::TerrainView& terrain) {
   replies_.clear();
   if (none()) return {};
-  const Receiver receiver = make_receiver(configuration_, look.range);
+  const physics::Receiver receiver = physics::make_receiver(configuration_, look.range);
   for (const radar::Beacon& beacon : answering_) answer(beacon, look, receiver, terrain);
   return replies_;
 }
 
-void Beacons::answer(const radar::Beacon& beacon, const Look& look, const Receiver& receiver,
+void Beacons::answer(const radar::Beacon& beacon, const physics::Look& look, const physics::Receiver& receiver,
                      const terrain::TerrainView& terrain) {
   geo::GeodesicInverse way = geo::geodesic_inverse(look.apex, beacon.place);
   way.distance = std::max(way.distance, geo::Length::metres(kLeastDistanceM));
@@ -101,12 +101,12 @@ void Beacons::answer(const radar::Beacon& beacon, const Look& look, const Receiv
   const double altitude_m = mast_m(beacon, terrain);
   if (!sight_line_.clear(configuration_.fidelity, look, terrain, way, altitude_m)) return;
 
-  const EffectiveEarth earth = effective_earth(configuration_.fidelity, look.apex, way.azimuth_at_start);
-  const Sight sight = earth.sight(look.altitude.metres(), distance_m, altitude_m);
-  const double two_way = azimuth_gain(receiver.azimuth_beamwidth_rad, off_rad) *
-                         two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad,
+  const physics::EffectiveEarth earth = physics::effective_earth(configuration_.fidelity, look.apex, way.azimuth_at_start);
+  const physics::Sight sight = earth.sight(look.altitude.metres(), distance_m, altitude_m);
+  const double two_way = physics::azimuth_gain(receiver.azimuth_beamwidth_rad, off_rad) *
+                         physics::two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad,
                                       look.elevation.radians(), sight.elevation_rad);
-  const double radar_w = reflectivity::ratio(configuration_.world.jamming.radar_power_dbw);
+  const double radar_w = physics::ratio(configuration_.world.jamming.radar_power_dbw);
   const double loss = gas_.one_way_loss(earth, look.altitude.metres(), distance_m, altitude_m);
   const double power = 4.0 * std::numbers::pi * beacon.power_w / radar_w * loss * std::sqrt(two_way) /
                        (sight.slant_range_m * sight.slant_range_m) / receiver.full_scale;
@@ -118,16 +118,16 @@ void Beacons::answer(const radar::Beacon& beacon, const Look& look, const Receiv
   }
 }
 
-void Beacons::measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power) {
+void Beacons::measure(const physics::Look& look, const terrain::TerrainView& terrain, std::span<float> power) {
   std::fill(power.begin(), power.end(), 0.0F);
   const std::span<const Reply> arrived = replies(look, terrain);
   if (arrived.empty()) return;
-  const EffectiveEarth earth = effective_earth(configuration_.fidelity, look.apex, look.azimuth);
-  sample_distances(configuration_.fidelity, earth, look, terrain, distance_m_);
+  const physics::EffectiveEarth earth = physics::effective_earth(configuration_.fidelity, look.apex, look.azimuth);
+  physics::sample_distances(configuration_.fidelity, earth, look, terrain, distance_m_);
   const double spacing_m = look.range.metres() / static_cast<double>(power.size());
-  const double pulse_samples = point_rise(pulse_length(configuration_, look.range).metres() / spacing_m);
+  const double pulse_samples = physics::point_rise(physics::pulse_length(configuration_, look.range).metres() / spacing_m);
   for (const Reply& reply : arrived) {
-    const std::size_t middle = nearest_sample(distance_m_, reply.distance_m);
+    const std::size_t middle = physics::nearest_sample(distance_m_, reply.distance_m);
     const double drawn_m = configuration_.fidelity.slant_range ? reply.slant_range_m : reply.distance_m;
     if (!(drawn_m < look.range.metres()) || middle >= power.size()) continue;
     const auto reach = static_cast<std::size_t>(std::ceil(0.5 * pulse_samples));

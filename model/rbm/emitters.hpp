@@ -13,9 +13,9 @@
 
 namespace yars::model::rbm {
 
-// What jammers add to a sweep: noise of one level at every range, received while the radar's band and channel are
+// What jammers add to a sweep: noise of one level at every range, physics::received while the radar's band and channel are
 // jammed and the jammer is in sight over terrain and effective earth; also in SNIFF, for it needs no transmission.
-// One way: P = 4 pi (ERP_jammer / ERP_radar) G / R^2 in the units of returned_power(), G the one-way gain: the root of
+// One way: P = 4 pi (ERP_jammer / ERP_radar) G / R^2 in the units of physics::returned_power(), G the one-way gain: the root of
 // the two-way pattern, never below the sidelobes; gases take their part once. Sensitivity time control and rain leave
 // it alone. One instance a thread.
 class Strobes {
@@ -24,11 +24,11 @@ class Strobes {
       : configuration_(configuration), gas_(configuration) {}
 
   // Full scale = 1; 0 where nothing jams.
-  double level(const Look& look, const terrain::TerrainView& terrain);
+  double level(const physics::Look& look, const terrain::TerrainView& terrain);
 
  private:
   radar::RadarConfiguration configuration_;
-  GasPath gas_;
+  physics::GasPath gas_;
   SightLine sight_line_;
 };
 
@@ -53,17 +53,17 @@ class Beacons {
   bool none() const { return answering_.empty(); }
 
   // What arrives from all beacons, also from beyond the range. Valid until the next call; allocates nothing.
-  std::span<const Reply> replies(const Look& look, const terrain::TerrainView& terrain);
+  std::span<const Reply> replies(const physics::Look& look, const terrain::TerrainView& terrain);
 
   // The same as power by samples, near to far, as Algorithm::measure() gives it; what is no reply is 0.
-  void measure(const Look& look, const terrain::TerrainView& terrain, std::span<float> power);
+  void measure(const physics::Look& look, const terrain::TerrainView& terrain, std::span<float> power);
 
  private:
-  void answer(const radar::Beacon& beacon, const Look& look, const Receiver& receiver,
+  void answer(const radar::Beacon& beacon, const physics::Look& look, const physics::Receiver& receiver,
               const terrain::TerrainView& terrain);
 
   radar::RadarConfiguration configuration_;
-  GasPath gas_;
+  physics::GasPath gas_;
   SightLine sight_line_;
   std::vector<radar::Beacon> answering_;  // to the radar's code
   std::vector<Reply> replies_;

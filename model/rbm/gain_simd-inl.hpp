@@ -13,7 +13,7 @@
 #include "model/rbm/sweep_simd.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace yars::model::rbm::lanes::HWY_NAMESPACE {
+namespace yars::model::rbm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 namespace polynomials = rbm::HWY_NAMESPACE;
@@ -90,7 +90,7 @@ class ElevationGain {
   const Group below_;  // sine of the angle below the antenna's centre, times the slant range
 };
 
-}  // namespace yars::model::rbm::lanes::HWY_NAMESPACE
+}  // namespace yars::model::rbm::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // per target

@@ -15,7 +15,7 @@
 #include "model/rbm/sweep_simd.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace yars::model::rbm::lanes::HWY_NAMESPACE {
+namespace yars::model::rbm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -78,7 +78,7 @@ class RunningMaximum {
   Floats carry_;
 };
 
-}  // namespace yars::model::rbm::lanes::HWY_NAMESPACE
+}  // namespace yars::model::rbm::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // per target

@@ -24,21 +24,21 @@ double longest_way(std::span<const float> distance_m) {
 
 RayCrests::RayCrests(std::size_t places)
     : pieces_(places + kMostPieces),
-      distance_m_(places + kMostPieces + kPairSlack),
+      distance_m_(places + kMostPieces + physics::kPairSlack),
       elevation_m_(distance_m_),
       water_(distance_m_),
       peak_m_(distance_m_),
       crest_(distance_m_),
       ends_(places) {}
 
-bool RayCrests::find(const terrain::TerrainView& terrain, const Ray& ray, const PlaceArrays& places,
+bool RayCrests::find(const terrain::TerrainView& terrain, const Ray& ray, const physics::PlaceArrays& places,
                      const terrain::RaySight& sight, std::span<float> tangent) {
-  const PoleWay way(ray.apex, ray.azimuth, kBend_m, kShortest_m);
+  const physics::PoleWay way(ray.apex, ray.azimuth, kBend_m, kShortest_m);
   if (way.least_straight_m(0.0, ray.range.metres()) >= longest_way(sight.distance_m))
     return terrain.crests(places.run(), sight, tangent);
   split(way, sight.distance_m);
   const std::size_t count = pieces_.count;
-  sample_places(ray.apex, ray.azimuth, ray.range, ray.knots, distance_m_.data(), pieces_);
+  physics::sample_places(ray.apex, ray.azimuth, ray.range, ray.knots, distance_m_.data(), pieces_);
   const terrain::RaySight pieces{sight.altitude_m, sight.curvature, std::span(distance_m_).first(count)};
   if (!terrain.crests(pieces_.run(), pieces, std::span(crest_).first(count))) return false;
   look_up_short_pieces(terrain, sight);
@@ -51,13 +51,13 @@ bool RayCrests::find(const terrain::TerrainView& terrain, const Ray& ray, const 
   return true;
 }
 
-void RayCrests::split(const PoleWay& way, std::span<const float> distance_m) {
+void RayCrests::split(const physics::PoleWay& way, std::span<const float> distance_m) {
   std::size_t count = 0;
   first_short_ = last_short_ = 0;
   double at_m = 0.0;
   for (std::size_t i = 0; i < distance_m.size(); ++i) {
     const auto end_m = static_cast<double>(distance_m[i]);
-    const std::size_t room = pieces_.north_deg.size() - kPairSlack - (distance_m.size() - i);
+    const std::size_t room = pieces_.north_deg.size() - physics::kPairSlack - (distance_m.size() - i);
     for (double piece_m = way.straight_m(at_m); at_m + piece_m < end_m - kOwnGround_m && count < room;
          piece_m = way.straight_m(at_m)) {
       at_m += piece_m;
@@ -71,13 +71,13 @@ void RayCrests::split(const PoleWay& way, std::span<const float> distance_m) {
     distance_m_[count++] = distance_m[i];
   }
   pieces_.count = count;
-  std::fill_n(&distance_m_[count], kPairSlack, static_cast<float>(at_m));
+  std::fill_n(&distance_m_[count], physics::kPairSlack, static_cast<float>(at_m));
 }
 
 // A place's own ground is no crest.
 void RayCrests::look_up_short_pieces(const terrain::TerrainView& terrain, const terrain::RaySight& sight) {
   if (last_short_ == 0) return;
-  const EffectiveEarth earth(1.0 / sight.curvature);
+  const physics::EffectiveEarth earth(1.0 / sight.curvature);
   const std::size_t count = last_short_ - first_short_;
   const terrain::PlaceRun all = pieces_.run();
   const auto of_short = [&](std::span<const float> values) { return values.subspan(first_short_, count); };
@@ -93,7 +93,7 @@ void RayCrests::look_up_short_pieces(const terrain::TerrainView& terrain, const 
     }
     if (std::isnan(peak_m_[i])) continue;
     const double distance_m = static_cast<double>(distance_m_[i]);
-    const Sight seen = earth.sight(sight.altitude_m, distance_m, static_cast<double>(peak_m_[i]));
+    const physics::Sight seen = earth.sight(sight.altitude_m, distance_m, static_cast<double>(peak_m_[i]));
     crest_[i] = std::max(crest_[i], static_cast<float>(seen.tangent));
   }
 }
@@ -105,21 +105,21 @@ constexpr std::size_t kSamples = 512;
 SightLine::SightLine()
     : places_(kSamples),
       ray_crests_(kSamples),
-      distance_m_(kSamples + kPairSlack),
+      distance_m_(kSamples + physics::kPairSlack),
       elevation_m_(distance_m_),
       water_(distance_m_),
       peak_m_(distance_m_),
       crest_(distance_m_) {}
 
-bool SightLine::clear(const radar::Fidelity& fidelity, const Look& look, const terrain::TerrainView& terrain,
+bool SightLine::clear(const radar::Fidelity& fidelity, const physics::Look& look, const terrain::TerrainView& terrain,
                       const geo::GeodesicInverse& way, double altitude_m) {
-  const EffectiveEarth earth = effective_earth(fidelity, look.apex, way.azimuth_at_start);
+  const physics::EffectiveEarth earth = physics::effective_earth(fidelity, look.apex, way.azimuth_at_start);
   const double distance_m = way.distance.metres();
   // The last sample lies under the point itself and hides it no more than its own ground does.
   for (std::size_t i = 0; i < kSamples; ++i)
     distance_m_[i] = static_cast<float>(distance_m * static_cast<double>(i + 1) / static_cast<double>(kSamples));
-  std::fill_n(distance_m_.data() + kSamples, kPairSlack, static_cast<float>(distance_m));
-  sample_places(look.apex, way.azimuth_at_start, way.distance, fidelity.geodesic_knots, distance_m_.data(), places_);
+  std::fill_n(distance_m_.data() + kSamples, physics::kPairSlack, static_cast<float>(distance_m));
+  physics::sample_places(look.apex, way.azimuth_at_start, way.distance, fidelity.geodesic_knots, distance_m_.data(), places_);
   const auto samples = [](memory::LineVector<float>& values) { return std::span(values).first(kSamples); };
   terrain.surfaces(places_.run(), radar::Interpolation::bilinear,
                    {samples(elevation_m_), samples(water_), samples(peak_m_), {}});

@@ -27,17 +27,17 @@ class RayCrests {
     geo::GeoPoint apex;
     geo::Bearing azimuth;
     geo::Length range;
-    int knots = kExactPlaces;  // of sample_places()
+    int knots = kExactPlaces;  // of physics::sample_places()
   };
   // As TerrainView::crests() for the places of this ray.
-  bool find(const terrain::TerrainView& terrain, const Ray& ray, const PlaceArrays& places,
+  bool find(const terrain::TerrainView& terrain, const Ray& ray, const physics::PlaceArrays& places,
             const terrain::RaySight& sight, std::span<float> tangent);
 
  private:
-  void split(const PoleWay& way, std::span<const float> distance_m);
+  void split(const physics::PoleWay& way, std::span<const float> distance_m);
   void look_up_short_pieces(const terrain::TerrainView& terrain, const terrain::RaySight& sight);
 
-  PlaceArrays pieces_;  // their ends
+  physics::PlaceArrays pieces_;  // their ends
   memory::LineVector<float> distance_m_, elevation_m_, water_, peak_m_, crest_;
   std::vector<std::size_t> ends_;  // for each place, the piece that ends there
   // Pieces too short for lines of posts: [first, last).
@@ -54,11 +54,11 @@ class SightLine {
 
   // True if nothing on the ground hides a point at this altitude [m MSL] from the look's place. A void hides nothing
   // above sea level. Distance over ground > 0.
-  bool clear(const radar::Fidelity& fidelity, const Look& look, const terrain::TerrainView& terrain,
+  bool clear(const radar::Fidelity& fidelity, const physics::Look& look, const terrain::TerrainView& terrain,
              const geo::GeodesicInverse& way, double altitude_m);
 
  private:
-  PlaceArrays places_;
+  physics::PlaceArrays places_;
   RayCrests ray_crests_;
   memory::LineVector<float> distance_m_, elevation_m_, water_, peak_m_, crest_;
 };

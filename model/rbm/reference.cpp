@@ -14,10 +14,10 @@ namespace {
 constexpr double kSideShare = 0.25;
 
 // Mean 1, variance 1/looks: the mean of `looks` exponential variates, each from 16 random bits.
-double speckle(NoiseState state, std::uint32_t cell, int looks) {
+double speckle(physics::NoiseState state, std::uint32_t cell, int looks) {
   double sum = 0.0;
   for (int look = 0; look < looks; ++look) {
-    const std::uint32_t bits = noise_bits(state, cell, static_cast<std::uint32_t>(look / 2));
+    const std::uint32_t bits = physics::noise_bits(state, cell, static_cast<std::uint32_t>(look / 2));
     const std::uint32_t half = look % 2 == 0 ? bits >> 16U : bits & 0xffffU;
     sum -= std::log((half + 0.5) / 65536.0);
   }
@@ -35,14 +35,14 @@ Reference::Reference(const radar::RadarConfiguration& configuration)
       samples_(sample_count(configuration)),
       distance_m_(samples_.size()) {}
 
-std::size_t Reference::measure(const Look& look, const Database& database, std::span<float> power) {
+std::size_t Reference::measure(const physics::Look& look, const physics::Database& database, std::span<float> power) {
   const terrain::TerrainView& terrain = database.terrain;
-  const EffectiveEarth earth = effective_earth(configuration_.fidelity, look.apex, look.azimuth);
-  const Receiver receiver = make_receiver(configuration_, look.range);
-  sample_distances(configuration_.fidelity, earth, look, terrain, distance_m_);
+  const physics::EffectiveEarth earth = physics::effective_earth(configuration_.fidelity, look.apex, look.azimuth);
+  const physics::Receiver receiver = physics::make_receiver(configuration_, look.range);
+  physics::sample_distances(configuration_.fidelity, earth, look, terrain, distance_m_);
   const std::size_t pending = read_terrain(look, terrain);
   if (configuration_.fidelity.cross_track_slope) read_cross_slopes(look, terrain);
-  const GroundWalk walk(look, earth, terrain, configuration_.fidelity.interpolation);
+  const physics::GroundWalk walk(look, earth, terrain, configuration_.fidelity.interpolation);
   cast_shadows(look, earth, walk);
   const double spacing_m = look.range.metres() / static_cast<double>(samples_.size());
   const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
@@ -58,7 +58,7 @@ std::size_t Reference::measure(const Look& look, const Database& database, std::
   return pending;
 }
 
-std::size_t Reference::read_terrain(const Look& look, const terrain::TerrainView& terrain) {
+std::size_t Reference::read_terrain(const physics::Look& look, const terrain::TerrainView& terrain) {
   constexpr terrain::Surface kHole{std::numeric_limits<double>::quiet_NaN(), 0.0, 0};
   const geo::GeodesicRay ray(look.apex, look.azimuth);
   std::size_t pending = 0;
@@ -81,7 +81,7 @@ std::size_t Reference::read_terrain(const Look& look, const terrain::TerrainView
   return pending;
 }
 
-void Reference::read_cross_slopes(const Look& look, const terrain::TerrainView& terrain) {
+void Reference::read_cross_slopes(const physics::Look& look, const terrain::TerrainView& terrain) {
   const double side_rad = kSideShare * configuration_.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
   const geo::GeodesicRay left(look.apex, look.azimuth - geo::Angle::radians(side_rad));
   const geo::GeodesicRay right(look.apex, look.azimuth + geo::Angle::radians(side_rad));
@@ -96,7 +96,7 @@ void Reference::read_cross_slopes(const Look& look, const terrain::TerrainView& 
   }
 }
 
-void Reference::cast_shadows(const Look& look, const EffectiveEarth& earth, const GroundWalk& walk) {
+void Reference::cast_shadows(const physics::Look& look, const physics::EffectiveEarth& earth, const physics::GroundWalk& walk) {
   // All ground raises the horizon, between the samples too, also outside the beam; a void neither raises it nor
   // returns. Shadow is cast by the highest ground; where a coarser level stands in, that is not the mean that returns.
   double horizon = -std::numeric_limits<double>::infinity();
@@ -125,10 +125,10 @@ double Reference::along_slope(std::size_t index) const {
   return run_m > 0.0 ? (far.height_m - near.height_m) / run_m : 0.0;
 }
 
-double Reference::cell_power(const Receiver& receiver, const EffectiveEarth& earth, const Look& look,
+double Reference::cell_power(const physics::Receiver& receiver, const physics::EffectiveEarth& earth, const physics::Look& look,
                              std::size_t index) const {
   const Sample& sample = samples_[index];
-  const Sight sight = earth.sight(look.altitude.metres(), sample.distance_m, sample.height_m);
+  const physics::Sight sight = earth.sight(look.altitude.metres(), sample.distance_m, sample.height_m);
   // The facet's normal against the direction to the radar, which lies in the plane of the sweep.
   const double slope = along_slope(index);
   const double normal = std::sqrt(1.0 + slope * slope + sample.cross_slope * sample.cross_slope);
@@ -136,23 +136,23 @@ double Reference::cell_power(const Receiver& receiver, const EffectiveEarth& ear
   const double cross_section_m2 = surface_.cross_section_m2(
       receiver,
       {sample.place, sample.azimuth, sight.slant_range_m, sin_local, sight.sin_grazing, sample.water, sample.material});
-  const double gain = two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad,
+  const double gain = physics::two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad,
                                    look.elevation.radians(), sight.elevation_rad);
   const double loss = gas_.two_way_loss(earth, look.altitude.metres(), sample.distance_m, sample.height_m);
-  return received(receiver, returned_power(cross_section_m2, loss * gain, sight.slant_range_m), sight.slant_range_m);
+  return physics::received(receiver, physics::returned_power(cross_section_m2, loss * gain, sight.slant_range_m), sight.slant_range_m);
 }
 
-void Reference::add_movers(std::span<const Echo> echoes, const GroundWalk& walk, double pulse_samples) {
-  for (const Echo& echo : echoes) {
-    const std::size_t index = nearest_sample(distance_m_, echo.distance_m);
+void Reference::add_movers(std::span<const physics::Echo> echoes, const physics::GroundWalk& walk, double pulse_samples) {
+  for (const physics::Echo& echo : echoes) {
+    const std::size_t index = physics::nearest_sample(distance_m_, echo.distance_m);
     if (index >= samples_.size()) continue;
     const auto horizon = [&](std::size_t sample) { return samples_[sample].horizon; };
     const bool hidden = echo.tangent <= walk.horizon_before(distance_m_, echo.distance_m, horizon);
-    if (!hidden) samples_[index].power += point_rise(pulse_samples) * echo.power;
+    if (!hidden) samples_[index].power += physics::point_rise(pulse_samples) * echo.power;
   }
 }
 
-void Reference::see_scenes(const Look& look, const Receiver& receiver, const GroundWalk& walk,
+void Reference::see_scenes(const physics::Look& look, const physics::Receiver& receiver, const physics::GroundWalk& walk,
                            const scene::SceneView& scenes, double pulse_samples) {
   SceneReturn::Ground& ground = scene_return_.ground();
   for (std::size_t i = 0; i < samples_.size(); ++i) {
@@ -166,7 +166,7 @@ void Reference::see_scenes(const Look& look, const Receiver& receiver, const Gro
   for (std::size_t i = 0; i < samples_.size(); ++i) samples_[i].power = ground.power[i];
 }
 
-void Reference::add_rain(const Receiver& receiver, const EffectiveEarth& earth, const Look& look) {
+void Reference::add_rain(const physics::Receiver& receiver, const physics::EffectiveEarth& earth, const physics::Look& look) {
   const double altitude_m = look.altitude.metres();
   for (Sample& sample : samples_) {
     if (std::isnan(sample.distance_m)) continue;
@@ -176,12 +176,12 @@ void Reference::add_rain(const Receiver& receiver, const EffectiveEarth& earth, 
     const double rain = rain_.power(receiver, earth, look, sample.distance_m, std::atan(sample.horizon));
     const double loss = rain_.two_way_loss(earth, altitude_m, sample.distance_m, height_m, slant_range_m);
     const double gas = gas_.two_way_loss(earth, altitude_m, sample.distance_m, height_m);
-    sample.power = (sample.power + gas * received(receiver, rain, slant_range_m)) * loss;
+    sample.power = (sample.power + gas * physics::received(receiver, rain, slant_range_m)) * loss;
   }
 }
 
 void Reference::smear_pulse(double pulse_samples, std::span<float> power) const {
-  const PulseSmear smear = make_pulse_smear(pulse_samples);
+  const physics::PulseSmear smear = physics::make_pulse_smear(pulse_samples);
   const auto count = static_cast<std::ptrdiff_t>(samples_.size());
   const std::ptrdiff_t reach = smear.reach;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
@@ -200,23 +200,23 @@ void Reference::lit(std::span<std::uint8_t> mask) const {
                  [](const Sample& sample) { return sample.lit ? std::uint8_t{1} : std::uint8_t{0}; });
 }
 
-void Reference::develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
+void Reference::develop(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                         std::span<std::uint8_t> video) {
-  const Receiver receiver = make_receiver(configuration_, range);
-  const NoiseState state = make_noise_state(key);
+  const physics::Receiver receiver = physics::make_receiver(configuration_, range);
+  const physics::NoiseState state = physics::make_noise_state(key);
   const double spacing_m = range.metres() / static_cast<double>(video.size());
-  const float cells = cells_per_sample(spacing_m, receiver.pulse_length_m);
-  const double gain_db = (gain - kFullGain) * receiver.gain_step_db;
+  const float cells = physics::cells_per_sample(spacing_m, receiver.pulse_length_m);
+  const double gain_db = (gain - physics::kFullGain) * receiver.gain_step_db;
   for (std::size_t i = 0; i < video.size(); ++i) {
     double power = static_cast<double>(window.centre[i]);
     if (configuration_.fidelity.azimuth_smear) {
-      power = kAzimuthWeights[0] * static_cast<double>(window.before[i]) + kAzimuthWeights[1] * power +
-              kAzimuthWeights[2] * static_cast<double>(window.after[i]);
+      power = physics::kAzimuthWeights[0] * static_cast<double>(window.before[i]) + physics::kAzimuthWeights[1] * power +
+              physics::kAzimuthWeights[2] * static_cast<double>(window.after[i]);
     }
     // Clutter, thermal noise and jamming add as voltages, so their sum fluctuates as one.
     double total = power + receiver.noise + window.jamming;
     if (configuration_.fidelity.noise) {
-      total *= speckle(state, resolution_cell(static_cast<std::uint32_t>(i), cells), receiver.looks);
+      total *= speckle(state, physics::resolution_cell(static_cast<std::uint32_t>(i), cells), receiver.looks);
     }
     const double level = 1.0 + (10.0 * std::log10(total) + gain_db) / receiver.decibels_per_scale;
     video[i] = static_cast<std::uint8_t>(std::lround(std::clamp(255.0 * level, 0.0, 255.0)));

@@ -21,9 +21,9 @@ class Reference : public Algorithm {
  public:
   explicit Reference(const radar::RadarConfiguration& configuration);
 
-  std::size_t measure(const Look& look, const Database& database, std::span<float> power) override;
+  std::size_t measure(const physics::Look& look, const physics::Database& database, std::span<float> power) override;
   void lit(std::span<std::uint8_t> mask) const override;
-  void develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
+  void develop(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                std::span<std::uint8_t> video) override;
 
   // What the last measure() found for a sample; for tests and `yars trade`.
@@ -43,22 +43,22 @@ class Reference : public Algorithm {
   std::span<const Sample> samples() const { return samples_; }
 
  private:
-  std::size_t read_terrain(const Look& look, const terrain::TerrainView& terrain);
-  void read_cross_slopes(const Look& look, const terrain::TerrainView& terrain);
-  void cast_shadows(const Look& look, const EffectiveEarth& earth, const GroundWalk& walk);
+  std::size_t read_terrain(const physics::Look& look, const terrain::TerrainView& terrain);
+  void read_cross_slopes(const physics::Look& look, const terrain::TerrainView& terrain);
+  void cast_shadows(const physics::Look& look, const physics::EffectiveEarth& earth, const physics::GroundWalk& walk);
   double along_slope(std::size_t index) const;
-  double cell_power(const Receiver& receiver, const EffectiveEarth& earth, const Look& look, std::size_t index) const;
-  void add_movers(std::span<const Echo> echoes, const GroundWalk& walk, double pulse_samples);
-  void see_scenes(const Look& look, const Receiver& receiver, const GroundWalk& walk, const scene::SceneView& scenes,
+  double cell_power(const physics::Receiver& receiver, const physics::EffectiveEarth& earth, const physics::Look& look, std::size_t index) const;
+  void add_movers(std::span<const physics::Echo> echoes, const physics::GroundWalk& walk, double pulse_samples);
+  void see_scenes(const physics::Look& look, const physics::Receiver& receiver, const physics::GroundWalk& walk, const scene::SceneView& scenes,
                   double pulse_samples);
-  void add_rain(const Receiver& receiver, const EffectiveEarth& earth, const Look& look);
+  void add_rain(const physics::Receiver& receiver, const physics::EffectiveEarth& earth, const physics::Look& look);
   void smear_pulse(double pulse_samples, std::span<float> power) const;
 
   radar::RadarConfiguration configuration_;
-  SurfaceReturn surface_;
-  RainPath rain_;
-  GasPath gas_;
-  Movers movers_;
+  physics::SurfaceReturn surface_;
+  physics::RainPath rain_;
+  physics::GasPath gas_;
+  physics::Movers movers_;
   SceneReturn scene_return_;
   std::vector<Sample> samples_;
   std::vector<double> distance_m_;

@@ -16,7 +16,7 @@ constexpr double kReferenceShare = 0.5;      // of the selected range
 constexpr double kLeastReference_m = 100.0;  // [m] of altitude: below it the darkest slope would be white
 
 // Intensity of level ground at sea level, so far away as the reference says: the same for every bar and azimuth.
-float reference_intensity(const Look& look) {
+float reference_intensity(const physics::Look& look) {
   const double altitude_m = std::max(look.altitude.metres(), kLeastReference_m);
   return static_cast<float>(altitude_m / std::hypot(altitude_m, kReferenceShare * look.range.metres()));
 }
@@ -39,12 +39,12 @@ Report1996::Report1996(const radar::RadarConfiguration& configuration)
       intensity_(count_),
       lit_(count_) {}
 
-std::size_t Report1996::measure(const Look& look, const Database& database, std::span<float> power) {
+std::size_t Report1996::measure(const physics::Look& look, const physics::Database& database, std::span<float> power) {
   const std::size_t count = count_;
   const double spacing_m = look.range.metres() / static_cast<double>(count);
   for (std::size_t i = 0; i < count; ++i)
     distance_m_[i] = static_cast<float>((static_cast<double>(i) + 0.5) * spacing_m);
-  sample_places(look.apex, look.azimuth, look.range, knots_, distance_m_.data(), places_);
+  physics::sample_places(look.apex, look.azimuth, look.range, knots_, distance_m_.data(), places_);
   const std::size_t pending = database.terrain.surfaces(places_.run(), interpolation_,
                                                         {{elevation_m_.data(), count}, {water_.data(), count}, {}, {}});
 
@@ -90,7 +90,7 @@ float Report1996::slope(std::size_t index, float spacing_m) const {
   return (elevation_m_[far] - elevation_m_[near]) / (static_cast<float>(far - near) * spacing_m);
 }
 
-void Report1996::develop(const PowerWindow& window, geo::Length /*range*/, int gain, const NoiseKey& /*key*/,
+void Report1996::develop(const physics::PowerWindow& window, geo::Length /*range*/, int gain, const physics::NoiseKey& /*key*/,
                          std::span<std::uint8_t> video) {
   const float scale = 255.0F * static_cast<float>(gain + 1) / static_cast<float>(kGainSteps);
   for (std::size_t i = 0; i < video.size(); ++i) {

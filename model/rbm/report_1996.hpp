@@ -18,9 +18,9 @@ class Report1996 : public Algorithm {
  public:
   explicit Report1996(const radar::RadarConfiguration& configuration);
 
-  std::size_t measure(const Look& look, const Database& database, std::span<float> power) override;
+  std::size_t measure(const physics::Look& look, const physics::Database& database, std::span<float> power) override;
   void lit(std::span<std::uint8_t> mask) const override;
-  void develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
+  void develop(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                std::span<std::uint8_t> video) override;
 
  private:
@@ -31,7 +31,7 @@ class Report1996 : public Algorithm {
   radar::Interpolation interpolation_;
   std::size_t count_;
   std::vector<float> distance_m_;
-  PlaceArrays places_;
+  physics::PlaceArrays places_;
   std::vector<float> elevation_m_, water_;  // and terrain::kRunSlack more
   std::vector<float> intensity_;
   std::vector<std::uint8_t> lit_;

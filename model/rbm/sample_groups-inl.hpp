@@ -16,10 +16,10 @@
 #include "lib/lanes/fused-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace yars::model::rbm::lanes::HWY_NAMESPACE {
+namespace yars::model::rbm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-namespace fused = yars::lanes::HWY_NAMESPACE;
+namespace fused = yars::simd::HWY_NAMESPACE;
 
 using Tag = hn::CappedTag<float, 16>;
 using Floats = hn::Vec<Tag>;
@@ -170,7 +170,7 @@ HWY_INLINE Group or_zero(const GroupMarks& marks, const Group& yes) {
   return each([](Marks m, Floats x) { return hn::IfThenElseZero(m, x); }, marks, yes);
 }
 
-}  // namespace yars::model::rbm::lanes::HWY_NAMESPACE
+}  // namespace yars::model::rbm::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // per target

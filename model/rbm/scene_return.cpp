@@ -24,7 +24,7 @@ double along_slope(const SceneReturn::Ground& ground, std::size_t index) {
 // some metres of the ellipsoid for scenes of some tens of kilometres.
 class RayOverPlane {
  public:
-  RayOverPlane(const Look& look, geo::GeoPoint place) {
+  RayOverPlane(const physics::Look& look, geo::GeoPoint place) {
     const geo::GeodesicInverse way = geo::geodesic_inverse(look.apex, place);
     distance_m_ = way.distance.metres();
     const double off_rad = (look.azimuth - way.azimuth_at_start).radians();
@@ -54,7 +54,7 @@ class RayOverPlane {
 SceneReturn::SceneReturn(const radar::RadarConfiguration& configuration, std::size_t samples)
     : beam_(configuration.fidelity.beam), surface_(configuration), gas_(configuration), ground_(samples) {}
 
-bool SceneReturn::enter(const Look& look, const scene::SceneView* scenes) {
+bool SceneReturn::enter(const physics::Look& look, const scene::SceneView* scenes) {
   if (scenes == nullptr || scenes->scatterers().empty()) return false;
   const auto sea_level = geo::HeightAboveEllipsoid::metres(0.0);
   const geo::LocalTangentFrame level(look.apex, sea_level);
@@ -66,7 +66,7 @@ bool SceneReturn::enter(const Look& look, const scene::SceneView* scenes) {
   return std::any_of(all.begin(), all.end(), [&](const scene::Scatterers* scene) { return in_range(*scene, look); });
 }
 
-bool SceneReturn::in_range(const scene::Scatterers& scene, const Look& look) const {
+bool SceneReturn::in_range(const scene::Scatterers& scene, const physics::Look& look) const {
   // Straight through the earth it is nearer than over ground.
   return length(scene.frame.enu_from_ecef(apex_)) <= look.range.metres() + scene.reach_m;
 }
@@ -83,11 +83,11 @@ SceneReturn::Ray SceneReturn::ray_in(const scene::Scatterers& scene) const {
           scene.frame.enu_from_ecef_direction(right_)};
 }
 
-void SceneReturn::apply(const Look& look, const Receiver& receiver, const GroundWalk& walk,
+void SceneReturn::apply(const physics::Look& look, const physics::Receiver& receiver, const physics::GroundWalk& walk,
                         const scene::SceneView& scenes, double pulse_samples) {
   const double radius_m = geo::radius_of_curvature(look.apex.latitude_deg, look.azimuth).metres();
   const double spacing_m = look.range.metres() / static_cast<double>(ground_.power.size());
-  const Sweep sweep{&look,    &receiver, &walk.earth(), &walk, point_rise(pulse_samples), 1.0 / (radius_m * radius_m),
+  const Sweep sweep{&look,    &receiver, &walk.earth(), &walk, physics::point_rise(pulse_samples), 1.0 / (radius_m * radius_m),
                     spacing_m};
   for (const scene::Scatterers* scene : scenes.scatterers())
     if (in_range(*scene, look)) cover_ground(sweep, *scene);
@@ -102,7 +102,7 @@ void SceneReturn::cover_ground(const Sweep& sweep, const scene::Scatterers& scen
   const double side_m = scene::kScattererSides_m[number];
   const RayOverPlane ray(*sweep.look, scene.place);
   const double nearest_m = ray.distance_m() - scene.reach_m, farthest_m = ray.distance_m() + scene.reach_m;
-  for (std::size_t i = nearest_sample(ground_.distance_m, nearest_m); i < ground_.power.size(); ++i) {
+  for (std::size_t i = physics::nearest_sample(ground_.distance_m, nearest_m); i < ground_.power.size(); ++i) {
     const double distance_m = ground_.distance_m[i];
     if (distance_m > farthest_m) break;
     if (!(ground_.power[i] > 0.0)) continue;
@@ -122,24 +122,24 @@ void SceneReturn::cover_ground(const Sweep& sweep, const scene::Scatterers& scen
 
 // What ground of this gamma would return, the same slopes under it.
 double SceneReturn::covered_power(const Sweep& sweep, std::size_t sample, double gamma) const {
-  const Sight sight =
+  const physics::Sight sight =
       sweep.earth->sight(sweep.look->altitude.metres(), ground_.distance_m[sample], ground_.height_m[sample]);
   const double slope = along_slope(ground_, sample);
   const double cross_slope = ground_.cross_slope[sample];
   const double normal = std::sqrt(1.0 + slope * slope + cross_slope * cross_slope);
   const double sin_local = std::clamp((slope * sight.cos_grazing + sight.sin_grazing) / normal, 0.0, 1.0);
-  const double sigma_m2 = gamma * sin_local * illuminated_area_m2(*sweep.receiver, sight.slant_range_m, sin_local);
-  const double gain = two_way_gain(beam_, sweep.receiver->elevation_beamwidth_rad, sweep.look->elevation.radians(),
+  const double sigma_m2 = gamma * sin_local * physics::illuminated_area_m2(*sweep.receiver, sight.slant_range_m, sin_local);
+  const double gain = physics::two_way_gain(beam_, sweep.receiver->elevation_beamwidth_rad, sweep.look->elevation.radians(),
                                    sight.elevation_rad);
   const double loss = gas_.two_way_loss(*sweep.earth, sweep.look->altitude.metres(), ground_.distance_m[sample],
                                         ground_.height_m[sample]);
-  return received(*sweep.receiver, returned_power(sigma_m2, loss * gain, sight.slant_range_m), sight.slant_range_m);
+  return physics::received(*sweep.receiver, physics::returned_power(sigma_m2, loss * gain, sight.slant_range_m), sight.slant_range_m);
 }
 
 void SceneReturn::add_standing(const Sweep& sweep, const scene::Scatterers& scene) {
   const scene::ScattererLevel& level = scene.levels[scene.level_for(sweep.spacing_m)];
   const Ray ray = ray_in(scene);
-  const Angles seen = seen_angles(sweep.look->share, sweep.receiver->azimuth_beamwidth_rad);
+  const physics::Angles seen = physics::seen_angles(sweep.look->share, sweep.receiver->azimuth_beamwidth_rad);
   const double sin_left = std::sin(seen.left_rad), cos_left = std::cos(seen.left_rad);
   const double sin_right = std::sin(seen.right_rad), cos_right = std::cos(seen.right_rad);
   const double range_m = sweep.look->range.metres();
@@ -168,24 +168,24 @@ void SceneReturn::add_one(const Sweep& sweep, const Ray& ray, const scene::Scatt
   const double distance_m = std::sqrt(chord2) * (1.0 + chord2 * sweep.curvature2 / 24.0);
   if (distance_m >= sweep.look->range.metres()) return;
   const auto extent_m = static_cast<double>(one.extent_m);
-  const double gain_across = azimuth_share(sweep.look->share, sweep.receiver->azimuth_beamwidth_rad,
+  const double gain_across = physics::azimuth_share(sweep.look->share, sweep.receiver->azimuth_beamwidth_rad,
                                            std::atan2(dot(way, ray.right), ahead_m), extent_m / distance_m);
   if (!(gain_across > 0.0)) return;
-  if (nearest_sample(ground_.distance_m, distance_m) >= ground_.power.size()) return;
-  const Sight sight =
+  if (physics::nearest_sample(ground_.distance_m, distance_m) >= ground_.power.size()) return;
+  const physics::Sight sight =
       sweep.earth->sight(sweep.look->altitude.metres(), distance_m, static_cast<double>(one.middle_msl_m));
   const double lit = lit_share(sweep, one, sight, distance_m);
   if (!(lit > 0.0)) return;
-  const double gain = gain_across * two_way_gain(beam_, sweep.receiver->elevation_beamwidth_rad,
+  const double gain = gain_across * physics::two_way_gain(beam_, sweep.receiver->elevation_beamwidth_rad,
                                                  sweep.look->elevation.radians(), sight.elevation_rad);
   const double loss =
       gas_.two_way_loss(*sweep.earth, sweep.look->altitude.metres(), distance_m, static_cast<double>(one.middle_msl_m));
-  const double power = returned_power(lit * cross_section_m2(level, one, ray, sight), loss * gain, sight.slant_range_m);
-  spread(distance_m, extent_m, sweep.rise * received(*sweep.receiver, power, sight.slant_range_m));
+  const double power = physics::returned_power(lit * cross_section_m2(level, one, ray, sight), loss * gain, sight.slant_range_m);
+  spread(distance_m, extent_m, sweep.rise * physics::received(*sweep.receiver, power, sight.slant_range_m));
 }
 
 double SceneReturn::cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& one, const Ray& ray,
-                                     const Sight& sight) const {
+                                     const physics::Sight& sight) const {
   const double east = ray.apex.x - static_cast<double>(one.east_m);
   const double north = ray.apex.y - static_cast<double>(one.north_m);
   const double level_m = std::hypot(east, north);
@@ -204,13 +204,13 @@ double SceneReturn::cross_section_m2(const scene::ScattererLevel& level, const s
 }
 
 // How much of its height rises above the horizon of what lies nearer.
-double SceneReturn::lit_share(const Sweep& sweep, const scene::Scatterer& one, const Sight& sight,
+double SceneReturn::lit_share(const Sweep& sweep, const scene::Scatterer& one, const physics::Sight& sight,
                               double distance_m) const {
   const auto tangent = [&](float height_m) {
     return sight.tangent + static_cast<double>(height_m - one.middle_msl_m) / distance_m;
   };
   const double least = tangent(one.least_msl_m), most = tangent(one.most_msl_m);
-  const std::size_t nearer = samples_nearer(ground_.distance_m, distance_m);
+  const std::size_t nearer = physics::samples_nearer(ground_.distance_m, distance_m);
   // What the samples hide already needs no closer look.
   if (nearer > 0 && most <= ground_.horizon[nearer - 1]) return 0.0;
   const double horizon = sweep.walk->horizon_before(ground_.distance_m, distance_m,
@@ -223,8 +223,8 @@ double SceneReturn::lit_share(const Sweep& sweep, const scene::Scatterer& one, c
 void SceneReturn::spread(double distance_m, double extent_m, double power) {
   const std::vector<double>& centre_m = ground_.distance_m;
   const double from_m = distance_m - 0.5 * extent_m, to_m = distance_m + 0.5 * extent_m;
-  const std::size_t first = nearest_sample(centre_m, from_m);
-  const std::size_t last = std::min(nearest_sample(centre_m, to_m), centre_m.size() - 1);
+  const std::size_t first = physics::nearest_sample(centre_m, from_m);
+  const std::size_t last = std::min(physics::nearest_sample(centre_m, to_m), centre_m.size() - 1);
   double begin_m = from_m;
   for (std::size_t i = first; i <= last; ++i) {
     const double end_m = i == last ? to_m : 0.5 * (centre_m[i] + centre_m[i + 1]);

@@ -21,8 +21,8 @@ class SceneReturn {
   SceneReturn(const radar::RadarConfiguration& configuration, std::size_t samples);
 
   // The sweep as the ground alone makes it, near to far.
-  struct Ground {
-    explicit Ground(std::size_t samples)
+  struct physics::Ground {
+    explicit physics::Ground(std::size_t samples)
         : distance_m(samples), height_m(samples), cross_slope(samples), horizon(samples), power(samples) {}
     std::vector<double> distance_m;   // over ground, ascending, NaN first
     std::vector<double> height_m;     // MSL; NaN = void
@@ -32,10 +32,10 @@ class SceneReturn {
   };
 
   // True if a scene comes within range: then ground() is to be filled, and apply() changes its power.
-  bool enter(const Look& look, const scene::SceneView* scenes);
-  Ground& ground() { return ground_; }
+  bool enter(const physics::Look& look, const scene::SceneView* scenes);
+  physics::Ground& ground() { return ground_; }
   // `pulse_samples`: of the smear that comes behind it.
-  void apply(const Look& look, const Receiver& receiver, const GroundWalk& walk, const scene::SceneView& scenes,
+  void apply(const physics::Look& look, const physics::Receiver& receiver, const physics::GroundWalk& walk, const scene::SceneView& scenes,
              double pulse_samples);
 
  private:
@@ -45,30 +45,30 @@ class SceneReturn {
   };
   // What changes from sweep to sweep but not from scene to scene.
   struct Sweep {
-    const Look* look = nullptr;
-    const Receiver* receiver = nullptr;
-    const EffectiveEarth* earth = nullptr;
-    const GroundWalk* walk = nullptr;
+    const physics::Look* look = nullptr;
+    const physics::Receiver* receiver = nullptr;
+    const physics::EffectiveEarth* earth = nullptr;
+    const physics::GroundWalk* walk = nullptr;
     double rise = 1.0;        // of a point, for the smear
     double curvature2 = 0.0;  // [1/m^2] of the ellipsoid along the ray
     double spacing_m = 0.0;   // of samples
   };
   Ray ray_in(const scene::Scatterers& scene) const;
-  bool in_range(const scene::Scatterers& scene, const Look& look) const;
+  bool in_range(const scene::Scatterers& scene, const physics::Look& look) const;
   bool under_ray(const scene::Scatterers& scene) const;
   void cover_ground(const Sweep& sweep, const scene::Scatterers& scene);
   double covered_power(const Sweep& sweep, std::size_t sample, double gamma) const;
   void add_standing(const Sweep& sweep, const scene::Scatterers& scene);
   void add_one(const Sweep& sweep, const Ray& ray, const scene::ScattererLevel& level, const scene::Scatterer& one);
   double cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& one, const Ray& ray,
-                          const Sight& sight) const;
-  double lit_share(const Sweep& sweep, const scene::Scatterer& one, const Sight& sight, double distance_m) const;
+                          const physics::Sight& sight) const;
+  double lit_share(const Sweep& sweep, const scene::Scatterer& one, const physics::Sight& sight, double distance_m) const;
   void spread(double distance_m, double extent_m, double power);
 
   radar::BeamPattern beam_;
-  reflectivity::SceneSurface surface_;
-  GasPath gas_;
-  Ground ground_;
+  physics::SceneSurface surface_;
+  physics::GasPath gas_;
+  physics::Ground ground_;
   geo::Vector3 apex_, ahead_, right_;  // earth-centred
 };
 

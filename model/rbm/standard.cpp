@@ -36,25 +36,25 @@ Standard::Standard(const radar::RadarConfiguration& configuration)
       water_(count_, 0.0F),
       peak_(count_, kVoid),
       side_(count_, 0.0F),
-      crest_(count_, lanes::kNoHorizon),
+      crest_(count_, simd::kNoHorizon),
       cross_slope_(count_, 0.0F),
-      tangent_(count_, lanes::kNoHorizon),
-      before_(count_, lanes::kNoHorizon),
-      horizon_(count_, lanes::kNoHorizon),
+      tangent_(count_, simd::kNoHorizon),
+      before_(count_, simd::kNoHorizon),
+      horizon_(count_, simd::kNoHorizon),
       power_(count_, 0.0F),
       variate_(count_, 1.0F),
       cell_(count_ + terrain::kRunSlack) {}
 
-std::size_t Standard::measure(const Look& look, const Database& database, std::span<float> power) {
+std::size_t Standard::measure(const physics::Look& look, const physics::Database& database, std::span<float> power) {
   const terrain::TerrainView& terrain = database.terrain;
-  const EffectiveEarth earth = effective_earth(configuration_.fidelity, look.apex, look.azimuth);
-  const Receiver& receiver = receiver_at(look.range);
+  const physics::EffectiveEarth earth = physics::effective_earth(configuration_.fidelity, look.apex, look.azimuth);
+  const physics::Receiver& receiver = receiver_at(look.range);
   place_samples(look, earth, terrain);
   // The side rays first: the places that stay are those of the sweep.
   if (configuration_.fidelity.cross_track_slope) read_cross_slopes(look, terrain);
   const std::size_t pending = read_terrain(look, terrain);
 
-  const lanes::SweepConstants constants = sweep_constants(look, earth, receiver);
+  const simd::SweepConstants constants = sweep_constants(look, earth, receiver);
   const double spacing_m = look.range.metres() / static_cast<double>(count_);
   const double pulse_samples = configuration_.fidelity.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   ground_.use_resolution(receiver.pulse_length_m, spacing_m);
@@ -62,18 +62,18 @@ std::size_t Standard::measure(const Look& look, const Database& database, std::s
   const bool crests =
       ray_crests_.find(terrain, {look.apex, look.azimuth, look.range, configuration_.fidelity.geodesic_knots}, places_,
                        {look.altitude.metres(), earth.curvature(), distance_.first(count_)}, crest_.first(count_));
-  const lanes::SweepInputs inputs{distance_.data(), elevation_.data(),
+  const simd::SweepInputs inputs{distance_.data(), elevation_.data(),
                                   // Where a coarser level stands in, the highest ground is not the mean that returns.
                                   terrain.has_peaks() ? peak_.data() : nullptr, crests ? crest_.data() : nullptr,
                                   configuration_.fidelity.cross_track_slope ? cross_slope_.data() : nullptr,
                                   one_step_inverse_.data(), two_step_inverse_.data(),
                                   ground_.prepare(look, places, water_.data(), terrain.has_materials())};
-  lanes::sweep(count_, constants, configuration_.fidelity.beam, inputs,
+  simd::sweep(count_, constants, configuration_.fidelity.beam, inputs,
                {tangent_.data(), before_.data(), horizon_.data(), power_.data()});
   // What the last vector wrote behind the sweep is no power.
-  std::fill_n(power_.data() + count_, lanes::kPad, 0.0F);
+  std::fill_n(power_.data() + count_, simd::kPad, 0.0F);
   attenuate(look);
-  const GroundWalk walk(look, earth, terrain, configuration_.fidelity.interpolation);
+  const physics::GroundWalk walk(look, earth, terrain, configuration_.fidelity.interpolation);
   if (scene_return_.enter(look, database.scenes)) see_scenes(look, walk, receiver, *database.scenes, pulse_samples);
   add_movers(look, walk, receiver, database, pulse_samples);
   rain_.enter(look);
@@ -81,12 +81,12 @@ std::size_t Standard::measure(const Look& look, const Database& database, std::s
 
   if (pulse_samples != smeared_samples_) {
     smeared_samples_ = pulse_samples;
-    const PulseSmear smear = make_pulse_smear(pulse_samples);
+    const physics::PulseSmear smear = physics::make_pulse_smear(pulse_samples);
     smear_reach_ = smear.reach;
     std::transform(smear.weights.begin(), smear.weights.end(), smear_weights_.begin(),
                    [](double weight) { return static_cast<float>(weight); });
   }
-  lanes::smear(count_, power_.data(), smear_weights_.data(), smear_reach_, power.data());
+  simd::smear(count_, power_.data(), smear_weights_.data(), smear_reach_, power.data());
   return pending;
 }
 
@@ -94,14 +94,14 @@ void Standard::lit(std::span<std::uint8_t> mask) const {
   for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = tangent_.data()[i] > before_.data()[i] ? 1 : 0;
 }
 
-void Standard::attenuate(const Look& look) {
+void Standard::attenuate(const physics::Look& look) {
   if (gas_.none()) return;
   gas_samples_.use(gas_, look.altitude.metres(), look.range.metres(), distance_.first(count_),
                    !configuration_.fidelity.slant_range);
   gas_samples_.apply(elevation_.data(), power_.data());
 }
 
-void Standard::see_scenes(const Look& look, const GroundWalk& walk, const Receiver& receiver,
+void Standard::see_scenes(const physics::Look& look, const physics::GroundWalk& walk, const physics::Receiver& receiver,
                           const scene::SceneView& scenes, double pulse_samples) {
   SceneReturn::Ground& ground = scene_return_.ground();
   const bool across = configuration_.fidelity.cross_track_slope;
@@ -116,20 +116,20 @@ void Standard::see_scenes(const Look& look, const GroundWalk& walk, const Receiv
   for (std::size_t i = 0; i < count_; ++i) power_.data()[i] = static_cast<float>(ground.power[i]);
 }
 
-void Standard::add_movers(const Look& look, const GroundWalk& walk, const Receiver& receiver, const Database& database,
+void Standard::add_movers(const physics::Look& look, const physics::GroundWalk& walk, const physics::Receiver& receiver, const physics::Database& database,
                           double pulse_samples) {
   const auto horizon = [&](std::size_t sample) { return static_cast<double>(horizon_.data()[sample]); };
-  for (const Echo& echo : movers_.echoes(look, receiver, walk.earth(), database)) {
-    const std::size_t index = nearest_sample(distance_m_, echo.distance_m);
+  for (const physics::Echo& echo : movers_.echoes(look, receiver, walk.earth(), database)) {
+    const std::size_t index = physics::nearest_sample(distance_m_, echo.distance_m);
     if (index >= count_) continue;
     const bool hidden = echo.tangent <= walk.horizon_before(distance_m_, echo.distance_m, horizon);
-    if (!hidden) power_.data()[index] += static_cast<float>(point_rise(pulse_samples) * echo.power);
+    if (!hidden) power_.data()[index] += static_cast<float>(physics::point_rise(pulse_samples) * echo.power);
   }
 }
 
 // Only sweeps that cross a shower pay for it: in double, linear between every so many samples where they lie closer
 // than a 512th of the range.
-void Standard::add_rain(const Look& look, const EffectiveEarth& earth, const Receiver& receiver) {
+void Standard::add_rain(const physics::Look& look, const physics::EffectiveEarth& earth, const physics::Receiver& receiver) {
   const std::size_t step = std::max<std::size_t>(1, count_ / 512);
   struct Rain {
     double power = 0.0, loss = 1.0;
@@ -142,7 +142,7 @@ void Standard::add_rain(const Look& look, const EffectiveEarth& earth, const Rec
     const double slant_range_m = earth.sight(altitude_m, distance_m, height_m).slant_range_m;
     const double horizon_rad = std::atan(static_cast<double>(horizon_.data()[i]));
     const double gas = gas_.two_way_loss(earth, altitude_m, distance_m, height_m);
-    return Rain{gas * received(receiver, rain_.power(receiver, earth, look, distance_m, horizon_rad), slant_range_m),
+    return Rain{gas * physics::received(receiver, rain_.power(receiver, earth, look, distance_m, horizon_rad), slant_range_m),
                 rain_.two_way_loss(earth, altitude_m, distance_m, height_m, slant_range_m)};
   };
   if (holes_ >= count_) return;
@@ -160,17 +160,17 @@ void Standard::add_rain(const Look& look, const EffectiveEarth& earth, const Rec
   }
 }
 
-const Receiver& Standard::receiver_at(geo::Length range) {
-  if (receiver_.stc_range_m != range.metres()) receiver_ = make_receiver(configuration_, range);
+const physics::Receiver& Standard::receiver_at(geo::Length range) {
+  if (receiver_.stc_range_m != range.metres()) receiver_ = physics::make_receiver(configuration_, range);
   return receiver_;
 }
 
 // Distances, and the inverse steps between them. Even in ground range they are a range scale's: computed once.
-void Standard::place_samples(const Look& look, const EffectiveEarth& earth, const terrain::TerrainView& terrain) {
+void Standard::place_samples(const physics::Look& look, const physics::EffectiveEarth& earth, const terrain::TerrainView& terrain) {
   const bool slant = configuration_.fidelity.slant_range;
   if (!slant && spaced_range_m_ == look.range.metres()) return;
   spaced_range_m_ = look.range.metres();
-  sample_distances(configuration_.fidelity, earth, look, terrain, distance_m_);
+  physics::sample_distances(configuration_.fidelity, earth, look, terrain, distance_m_);
   // What is nearer than the ground is looked up below the aircraft and made a void afterwards.
   holes_ = 0;
   while (holes_ < count_ && std::isnan(distance_m_[holes_])) distance_m_[holes_++] = 0.0;
@@ -182,8 +182,8 @@ void Standard::place_samples(const Look& look, const EffectiveEarth& earth, cons
   }
 }
 
-std::size_t Standard::read_terrain(const Look& look, const terrain::TerrainView& terrain) {
-  sample_places(look.apex, look.azimuth, look.range, configuration_.fidelity.geodesic_knots, distance_.data(), places_);
+std::size_t Standard::read_terrain(const physics::Look& look, const terrain::TerrainView& terrain) {
+  physics::sample_places(look.apex, look.azimuth, look.range, configuration_.fidelity.geodesic_knots, distance_.data(), places_);
   const bool peaks = terrain.has_peaks();
   const terrain::SurfaceRun found{elevation_.first(count_),
                                   water_.first(count_),
@@ -197,10 +197,10 @@ std::size_t Standard::read_terrain(const Look& look, const terrain::TerrainView&
   return pending;
 }
 
-void Standard::read_cross_slopes(const Look& look, const terrain::TerrainView& terrain) {
+void Standard::read_cross_slopes(const physics::Look& look, const terrain::TerrainView& terrain) {
   const double side_rad = kSideShare * configuration_.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
   const auto read = [&](double turn_rad, Padded& out) {
-    sample_places(look.apex, look.azimuth + geo::Angle::radians(turn_rad), look.range,
+    physics::sample_places(look.apex, look.azimuth + geo::Angle::radians(turn_rad), look.range,
                   configuration_.fidelity.geodesic_knots, distance_.data(), places_);
     terrain.surfaces(places_.run(), configuration_.fidelity.interpolation,
                      {out.first(count_), water_.first(count_), {}, {}});
@@ -214,13 +214,13 @@ void Standard::read_cross_slopes(const Look& look, const terrain::TerrainView& t
   }
 }
 
-lanes::SweepConstants Standard::sweep_constants(const Look& look, const EffectiveEarth& earth,
-                                                const Receiver& receiver) const {
+simd::SweepConstants Standard::sweep_constants(const physics::Look& look, const physics::EffectiveEarth& earth,
+                                                const physics::Receiver& receiver) const {
   const double elevation_rad = look.elevation.radians();
   const double beam_rad = receiver.elevation_beamwidth_rad;
   const double centre_rad = std::max(-elevation_rad, 0.5 * beam_rad);
   const double range_m = receiver.stc_range_m;
-  lanes::SweepConstants c;
+  simd::SweepConstants c;
   c.altitude_m = static_cast<float>(look.altitude.metres());
   c.curvature = static_cast<float>(earth.curvature());
   c.land_gamma = static_cast<float>(receiver.land_gamma);
@@ -234,45 +234,45 @@ lanes::SweepConstants Standard::sweep_constants(const Look& look, const Effectiv
   c.sin_centre = static_cast<float>(std::sin(centre_rad));
   c.sin_centre_tilt = static_cast<float>(std::sin(centre_rad + elevation_rad));
   c.cos_centre_tilt = static_cast<float>(std::cos(centre_rad + elevation_rad));
-  c.gaussian = static_cast<float>(kTwoWayExponent * std::numbers::log2e / (beam_rad * beam_rad));
+  c.gaussian = static_cast<float>(physics::kTwoWayExponent * std::numbers::log2e / (beam_rad * beam_rad));
   c.sin_half_beam = static_cast<float>(std::sin(0.5 * beam_rad));
   return c;
 }
 
 // Which samples share a resolution cell is a range scale's.
-void Standard::use_cells(float cells_per_sample) {
-  if (cells_per_sample == cells_per_sample_) return;
-  cells_per_sample_ = cells_per_sample;
+void Standard::use_cells(float physics::cells_per_sample) {
+  if (physics::cells_per_sample == cells_per_sample_) return;
+  cells_per_sample_ = physics::cells_per_sample;
   for (std::size_t i = 0; i < count_; ++i)
-    cell_[i] = static_cast<std::int32_t>(resolution_cell(static_cast<std::uint32_t>(i), cells_per_sample));
+    cell_[i] = static_cast<std::int32_t>(physics::resolution_cell(static_cast<std::uint32_t>(i), physics::cells_per_sample));
 }
 
-void Standard::develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
+void Standard::develop(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                        std::span<std::uint8_t> video) {
-  const Receiver& receiver = receiver_at(range);
+  const physics::Receiver& receiver = receiver_at(range);
   const radar::Fidelity& fidelity = configuration_.fidelity;
   std::array<float, 3> weights{0.0F, 1.0F, 0.0F};
   if (fidelity.azimuth_smear) {
-    std::transform(kAzimuthWeights.begin(), kAzimuthWeights.end(), weights.begin(),
+    std::transform(physics::kAzimuthWeights.begin(), physics::kAzimuthWeights.end(), weights.begin(),
                    [](double weight) { return static_cast<float>(weight); });
   }
   const std::size_t count = video.size();
-  lanes::VideoInputs inputs{};
+  physics::simd::VideoInputs inputs{};
   inputs.before = window.before.data();
   inputs.centre = window.centre.data();
   inputs.after = window.after.data();
   inputs.weights = weights.data();
   inputs.noise = static_cast<float>(receiver.noise + window.jamming);
-  inputs.gain_db = static_cast<float>((gain - kFullGain) * receiver.gain_step_db);
+  inputs.gain_db = static_cast<float>((gain - physics::kFullGain) * receiver.gain_step_db);
   inputs.decibels_per_scale = static_cast<float>(receiver.decibels_per_scale);
   if (fidelity.noise) {
-    use_cells(cells_per_sample(range.metres() / static_cast<double>(count), receiver.pulse_length_m));
-    lanes::speckle(static_cast<std::size_t>(cell_[count - 1]) + 1, make_noise_state(key), receiver.looks,
+    use_cells(physics::cells_per_sample(range.metres() / static_cast<double>(count), receiver.pulse_length_m));
+    physics::simd::speckle(static_cast<std::size_t>(cell_[count - 1]) + 1, physics::make_noise_state(key), receiver.looks,
                    variate_.data());
     inputs.variate = variate_.data();
     if (cells_per_sample_ < 1.0F) inputs.cell = cell_.data();
   }
-  lanes::develop(count, inputs, video.data());
+  physics::simd::develop(count, inputs, video.data());
 }
 
 }  // namespace yars::model::rbm

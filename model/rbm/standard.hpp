@@ -27,53 +27,53 @@ class Standard : public Algorithm {
  public:
   explicit Standard(const radar::RadarConfiguration& configuration);
 
-  std::size_t measure(const Look& look, const Database& database, std::span<float> power) override;
+  std::size_t measure(const physics::Look& look, const physics::Database& database, std::span<float> power) override;
   void lit(std::span<std::uint8_t> mask) const override;
-  void develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
+  void develop(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                std::span<std::uint8_t> video) override;
 
  private:
   // Entries for `samples` and kPad either side.
   struct Padded {
-    Padded(std::size_t samples, float fill) : values(samples + 2 * lanes::kPad, fill) {}
-    float* data() { return values.data() + lanes::kPad; }
-    const float* data() const { return values.data() + lanes::kPad; }
+    Padded(std::size_t samples, float fill) : values(samples + 2 * simd::kPad, fill) {}
+    float* data() { return values.data() + simd::kPad; }
+    const float* data() const { return values.data() + simd::kPad; }
     std::span<float> first(std::size_t count) { return {data(), count}; }
     memory::LineVector<float> values;
   };
 
-  void place_samples(const Look& look, const EffectiveEarth& earth, const terrain::TerrainView& terrain);
-  std::size_t read_terrain(const Look& look, const terrain::TerrainView& terrain);
-  void add_movers(const Look& look, const GroundWalk& walk, const Receiver& receiver, const Database& database,
+  void place_samples(const physics::Look& look, const physics::EffectiveEarth& earth, const terrain::TerrainView& terrain);
+  std::size_t read_terrain(const physics::Look& look, const terrain::TerrainView& terrain);
+  void add_movers(const physics::Look& look, const physics::GroundWalk& walk, const physics::Receiver& receiver, const physics::Database& database,
                   double pulse_samples);
-  void add_rain(const Look& look, const EffectiveEarth& earth, const Receiver& receiver);
-  void see_scenes(const Look& look, const GroundWalk& walk, const Receiver& receiver, const scene::SceneView& scenes,
+  void add_rain(const physics::Look& look, const physics::EffectiveEarth& earth, const physics::Receiver& receiver);
+  void see_scenes(const physics::Look& look, const physics::GroundWalk& walk, const physics::Receiver& receiver, const scene::SceneView& scenes,
                   double pulse_samples);
-  void attenuate(const Look& look);
-  void read_cross_slopes(const Look& look, const terrain::TerrainView& terrain);
-  lanes::SweepConstants sweep_constants(const Look& look, const EffectiveEarth& earth, const Receiver& receiver) const;
+  void attenuate(const physics::Look& look);
+  void read_cross_slopes(const physics::Look& look, const terrain::TerrainView& terrain);
+  simd::SweepConstants sweep_constants(const physics::Look& look, const physics::EffectiveEarth& earth, const physics::Receiver& receiver) const;
 
-  const Receiver& receiver_at(geo::Length range);
-  void use_cells(float cells_per_sample);
+  const physics::Receiver& receiver_at(geo::Length range);
+  void use_cells(float physics::cells_per_sample);
 
   radar::RadarConfiguration configuration_;
-  Ground ground_;
-  RainPath rain_;
-  GasPath gas_;
-  GasSamples gas_samples_;
-  Movers movers_;
+  physics::Ground ground_;
+  physics::RainPath rain_;
+  physics::GasPath gas_;
+  physics::GasSamples gas_samples_;
+  physics::Movers movers_;
   SceneReturn scene_return_;
-  Receiver receiver_;  // of the range last asked for
+  physics::Receiver receiver_;  // of the range last asked for
   std::size_t count_;
   std::size_t holes_ = 0;         // first samples that nothing is near enough for (slant range)
   double spaced_range_m_ = 0.0;   // range that the distances are for; 0: none yet
   double smeared_samples_ = 0.0;  // pulse that the weights are for; 0: none yet
   std::ptrdiff_t smear_reach_ = 0;
   float cells_per_sample_ = 0.0F;  // that the cells are for; 0: none yet
-  std::array<float, 2 * PulseSmear::kMostReach + 1> smear_weights_{};
+  std::array<float, 2 * physics::PulseSmear::kMostReach + 1> smear_weights_{};
   std::vector<double> distance_m_;
   Padded distance_, one_step_inverse_, two_step_inverse_;
-  PlaceArrays places_;
+  physics::PlaceArrays places_;
   RayCrests ray_crests_;
   Padded elevation_, water_, peak_, side_, crest_, cross_slope_;
   Padded tangent_, before_, horizon_;

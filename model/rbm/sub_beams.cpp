@@ -20,14 +20,14 @@ SubBeams::SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfigurati
   for (int k = 0; k < count; ++k) {
     // Middles of equal parts of the span.
     const double share = kHalfSpan * ((2.0 * k + 1.0) / count - 1.0);
-    weights.push_back(std::exp(-kTwoWayExponent * share * share));
+    weights.push_back(std::exp(-physics::kTwoWayExponent * share * share));
     sum += weights.back();
     rays_.push_back({geo::Angle::degrees(share * configuration.antenna.azimuth_beamwidth_deg), 0.0F, {}});
   }
   const double half_step_rad = kHalfSpan / count * configuration.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
   for (std::size_t k = 0; k < rays_.size(); ++k) {
     rays_[k].weight = static_cast<float>(weights[k] / sum);
-    RayShare& share = rays_[k].share;
+    physics::RayShare& share = rays_[k].share;
     if (k > 0) share.left_rad = -half_step_rad;
     if (k + 1 < rays_.size()) share.right_rad = half_step_rad;
     share.beam_rad = -rays_[k].offset.radians();
@@ -35,12 +35,12 @@ SubBeams::SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfigurati
   }
 }
 
-std::size_t SubBeams::measure(const Look& look, const Database& database, std::span<float> power) {
+std::size_t SubBeams::measure(const physics::Look& look, const physics::Database& database, std::span<float> power) {
   std::fill(power.begin(), power.end(), 0.0F);
   std::size_t pending = 0;
   for (std::size_t k = 0; k < rays_.size(); ++k) {
     const Ray& ray = rays_[k];
-    Look aside = look;
+    physics::Look aside = look;
     aside.azimuth = look.azimuth + ray.offset;
     aside.share = ray.share;
     pending += ray_->measure(aside, database, power_);
@@ -54,7 +54,7 @@ void SubBeams::lit(std::span<std::uint8_t> mask) const {
   std::copy_n(lit_.begin(), std::min(lit_.size(), mask.size()), mask.begin());
 }
 
-void SubBeams::develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
+void SubBeams::develop(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                        std::span<std::uint8_t> video) {
   ray_->develop(window, range, gain, key, video);
 }

@@ -15,16 +15,16 @@ class SubBeams : public Algorithm {
  public:
   SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfiguration& configuration);
 
-  std::size_t measure(const Look& look, const Database& database, std::span<float> power) override;
+  std::size_t measure(const physics::Look& look, const physics::Database& database, std::span<float> power) override;
   void lit(std::span<std::uint8_t> mask) const override;
-  void develop(const PowerWindow& window, geo::Length range, int gain, const NoiseKey& key,
+  void develop(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                std::span<std::uint8_t> video) override;
 
  private:
   struct Ray {
     geo::Angle offset;  // from the beam's centre
     float weight;       // their sum is 1
-    RayShare share;     // of points: those nearest to this ray
+    physics::RayShare share;     // of points: those nearest to this ray
   };
   std::unique_ptr<Algorithm> ray_;
   std::vector<Ray> rays_;

@@ -14,7 +14,7 @@
 #include "model/rbm/sample_groups-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace yars::model::rbm::lanes::HWY_NAMESPACE {
+namespace yars::model::rbm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 namespace polynomials = rbm::HWY_NAMESPACE;
@@ -254,11 +254,11 @@ void smear(std::size_t count, const float* power, const float* weights, std::ptr
   }
 }
 
-}  // namespace yars::model::rbm::lanes::HWY_NAMESPACE
+}  // namespace yars::model::rbm::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace yars::model::rbm::lanes {
+namespace yars::model::rbm::simd {
 
 HWY_EXPORT(sweep);
 HWY_EXPORT(smear);
@@ -271,5 +271,5 @@ void smear(std::size_t count, const float* power, const float* weights, std::ptr
   HWY_DYNAMIC_DISPATCH(smear)(count, power, weights, reach, result);
 }
 
-}  // namespace yars::model::rbm::lanes
+}  // namespace yars::model::rbm::simd
 #endif  // HWY_ONCE

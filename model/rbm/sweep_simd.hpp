@@ -10,7 +10,7 @@
 #include "model/physics/clutter_simd.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 
-namespace yars::model::rbm::lanes {
+namespace yars::model::rbm::simd {
 
 inline constexpr std::size_t kPad = 64;  // entries; the longest pulse smear reaches 32
 inline constexpr float kNoHorizon = terrain::kNoTangent;
@@ -61,4 +61,4 @@ void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPatter
 // result[i] = sum of weights[reach + k] * power[i + k] over k = -reach..reach; `result` has exactly `count` entries.
 void smear(std::size_t count, const float* power, const float* weights, std::ptrdiff_t reach, float* result);
 
-}  // namespace yars::model::rbm::lanes
+}  // namespace yars::model::rbm::simd

@@ -34,10 +34,10 @@ class Stages {
         places_(count_),
         ground_(configuration_, count_) {
     cell_.resize(count_ + 16);
-    for (auto& array : arrays_) array.assign(count_ + 2 * lanes::kPad, 0.0F);
+    for (auto& array : arrays_) array.assign(count_ + 2 * simd::kPad, 0.0F);
     for (const int padded : {kTangent, kBefore, kHorizon})
-      arrays_[padded].assign(arrays_[padded].size(), lanes::kNoHorizon);
-    receiver_ = make_receiver(configuration_, request.range);
+      arrays_[padded].assign(arrays_[padded].size(), simd::kNoHorizon);
+    receiver_ = physics::make_receiver(configuration_, request.range);
     const double spacing_m = request.range.metres() / samples;
     for (std::size_t i = 0; i < count_; ++i) {
       at(kDistance)[i] = static_cast<float>((static_cast<double>(i) + 0.5) * spacing_m);
@@ -53,15 +53,15 @@ class Stages {
     constants_.sin_elevation = -0.05F;
     constants_.sin_centre = 0.05F;
     constants_.gaussian = 4000.0F;
-    smear_ = make_pulse_smear(receiver_.pulse_length_m / spacing_m);
-    const float cells = cells_per_sample(spacing_m, receiver_.pulse_length_m);
+    smear_ = physics::make_pulse_smear(receiver_.pulse_length_m / spacing_m);
+    const float cells = physics::cells_per_sample(spacing_m, receiver_.pulse_length_m);
     for (std::size_t i = 0; i < count_; ++i)
-      cell_[i] = static_cast<std::int32_t>(resolution_cell(static_cast<std::uint32_t>(i), cells));
+      cell_[i] = static_cast<std::int32_t>(physics::resolution_cell(static_cast<std::uint32_t>(i), cells));
   }
 
   void print() {
     stage("places", {kDistance}, {kNorth, kEast, kNorth, kEast}, [&](int sweep) {
-      sample_places(request_.pose.place, azimuth(sweep), request_.range, 5, at(kDistance), places_);
+      physics::sample_places(request_.pose.place, azimuth(sweep), request_.range, 5, at(kDistance), places_);
     });
     stage("terrain", {kNorth, kEast, kNorth, kEast}, {kElevation, kWater}, [&](int) {
       terrain_->surfaces(places_.run(), radar::Interpolation::bilinear,
@@ -74,25 +74,25 @@ class Stages {
           {request_.pose.altitude.metres(), static_cast<double>(constants_.curvature), {at(kDistance), count_}},
           {at(kCrest), count_});
     });
-    const lanes::SweepInputs inputs{at(kDistance), at(kElevation), nullptr,       at(kCrest),
+    const simd::SweepInputs inputs{at(kDistance), at(kElevation), nullptr,       at(kCrest),
                                     nullptr,       at(kOneStep),   at(kTwoSteps), nullptr};
     stage("sweep", {kDistance, kElevation, kCrest, kOneStep, kTwoSteps}, {kTangent, kBefore, kHorizon, kPower},
           [&](int) {
-            lanes::sweep(count_, constants_, radar::BeamPattern::cosecant_squared, inputs,
+            simd::sweep(count_, constants_, radar::BeamPattern::cosecant_squared, inputs,
                          {at(kTangent), at(kBefore), at(kHorizon), at(kPower)});
           });
-    std::array<float, 2 * PulseSmear::kMostReach + 1> weights{};
+    std::array<float, 2 * physics::PulseSmear::kMostReach + 1> weights{};
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = static_cast<float>(smear_.weights[i]);
     stage("smear", {kPower}, {kSmeared},
-          [&](int) { lanes::smear(count_, at(kPower), weights.data(), smear_.reach, at(kSmeared)); });
+          [&](int) { simd::smear(count_, at(kPower), weights.data(), smear_.reach, at(kSmeared)); });
     stage("speckle", {}, {kVariate}, [&](int sweep) {
-      lanes::speckle(static_cast<std::size_t>(cell_[count_ - 1]) + 1,
-                     make_noise_state({1, 1, static_cast<std::uint32_t>(sweep)}), 4, at(kVariate));
+      physics::simd::speckle(static_cast<std::size_t>(cell_[count_ - 1]) + 1,
+                     physics::make_noise_state({1, 1, static_cast<std::uint32_t>(sweep)}), 4, at(kVariate));
     });
     const std::array<float, 3> join{0.25F, 0.5F, 0.25F};
-    const lanes::VideoInputs video{at(kSmeared), at(kSmeared), at(kSmeared), join.data(), 1e-4F,
+    const physics::simd::VideoInputs video{at(kSmeared), at(kSmeared), at(kSmeared), join.data(), 1e-4F,
                                    at(kVariate), cell_.data(), 0.0F,         45.0F};
-    stage("video", {kSmeared, kVariate}, {kSpare}, [&](int) { lanes::develop(count_, video, video_.data()); });
+    stage("video", {kSmeared, kVariate}, {kSpare}, [&](int) { physics::simd::develop(count_, video, video_.data()); });
     std::printf("{\"stages_ns\":{%s},\"floors_ns\":{%s}}\n", stages_.c_str(), floors_.c_str());
   }
 
@@ -131,7 +131,7 @@ class Stages {
     kArrays
   };
 
-  float* at(int array) { return arrays_[static_cast<std::size_t>(array)].data() + lanes::kPad; }
+  float* at(int array) { return arrays_[static_cast<std::size_t>(array)].data() + simd::kPad; }
   geo::Bearing azimuth(int sweep) const {
     return request_.pose.platform.heading + geo::Angle::degrees(-50.0 + 0.5 * sweep);
   }
@@ -176,12 +176,12 @@ class Stages {
   std::array<memory::LineVector<float>, kArrays> arrays_;
   std::vector<float> scratch_ = std::vector<float>(8192);
   std::vector<std::uint8_t> video_;
-  Receiver receiver_;
-  lanes::SweepConstants constants_;
-  PulseSmear smear_;
+  physics::Receiver receiver_;
+  simd::SweepConstants constants_;
+  physics::PulseSmear smear_;
   memory::LineVector<std::int32_t> cell_;
-  PlaceArrays places_;
-  Ground ground_;
+  physics::PlaceArrays places_;
+  physics::Ground ground_;
   std::string stages_, floors_;
 };
 

@@ -58,7 +58,7 @@ TEST(ExtremeAttitudes, AtSixtyDegreesDownAHardBeamLightsTheGroundWithinHalfItsWi
   test::for_each_algorithm(1000, [&](radar::RadarConfiguration& configuration) {
     configuration.fidelity.earth = radar::EarthModel::flat;
     configuration.antenna.elevation_beamwidth_deg = 2.5;
-    rbm::Look look = look_from(test::kMidLatitude, 0.0, 100.0 + kHeightM, kRangeM);
+    physics::Look look = look_from(test::kMidLatitude, 0.0, 100.0 + kHeightM, kRangeM);
     look.elevation = geo::Angle::degrees(-60.0);
     test::expect_lit_between(seen(configuration, look, plain), kRangeM, near_m, far_m);
   });
@@ -67,7 +67,7 @@ TEST(ExtremeAttitudes, AtSixtyDegreesDownAHardBeamLightsTheGroundWithinHalfItsWi
 TEST(ExtremeAttitudes, AtSixtyDegreesUpAHardBeamSeesNoGround) {
   test::for_each_algorithm(1000, [&](radar::RadarConfiguration& configuration) {
     configuration.antenna.elevation_beamwidth_deg = 2.5;
-    rbm::Look look = look_from(test::kMidLatitude, 0.0, 8000.0, 40000.0);
+    physics::Look look = look_from(test::kMidLatitude, 0.0, 8000.0, 40000.0);
     look.elevation = geo::Angle::degrees(60.0);
     EXPECT_TRUE(test::is_dark(seen(configuration, look, terrain::AnalyticTerrain(terrain::flat(100.0)))));
   });
@@ -78,7 +78,7 @@ TEST(ExtremeAttitudes, EveryBeamGivesNumbersAtEveryElevationFromSixtyDownToSixty
   test::for_each_algorithm_and_beam(240, [&](radar::RadarConfiguration& configuration) {
     configuration.antenna.elevation_beamwidth_deg = 2.5;
     for (const double elevation_deg : {-60.0, -30.0, -1.25, -0.0, 0.0, 1.25, 60.0}) {
-      rbm::Look look = look_from(test::kMidLatitude, 20.0, 3000.0, 40000.0);
+      physics::Look look = look_from(test::kMidLatitude, 20.0, 3000.0, 40000.0);
       look.elevation = geo::Angle::degrees(elevation_deg);
       seen(configuration, look, hills);  // sees to it that each is finite and not negative
     }

@@ -65,7 +65,7 @@ inline bool is_dark(const std::vector<float>& power) {
 }
 
 // Power of one look; whatever was asked, each value of it is a number that a receiver can receive.
-inline std::vector<float> seen(const radar::RadarConfiguration& configuration, const model::rbm::Look& look,
+inline std::vector<float> seen(const radar::RadarConfiguration& configuration, const model::physics::Look& look,
                                const model::terrain::TerrainView& terrain) {
   const auto algorithm = model::rbm::make_algorithm(configuration);
   std::vector<float> power(model::rbm::sample_count(configuration), -1.0F);
@@ -75,8 +75,8 @@ inline std::vector<float> seen(const radar::RadarConfiguration& configuration, c
   return power;
 }
 
-inline model::rbm::Look look_from(geo::GeoPoint apex, double azimuth_deg, double altitude_m, double range_m) {
-  model::rbm::Look look = look_north(altitude_m, range_m, apex);
+inline model::physics::Look look_from(geo::GeoPoint apex, double azimuth_deg, double altitude_m, double range_m) {
+  model::physics::Look look = look_north(altitude_m, range_m, apex);
   look.azimuth = geo::Bearing::degrees(azimuth_deg);
   return look;
 }

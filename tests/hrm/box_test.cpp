@@ -81,9 +81,9 @@ TEST_P(BoxSeen, ReturnsGammaTimesTheAreaThatFacesTheRadar) {
     const auto process = make_patch(configuration, order_from(view), ground_of(model::terrain::flat(kGround_m)), scene);
     const double slant_m = std::hypot(seen.distance_m, seen.above_m);
     const double turn_rad = turn_deg * geo::kRadiansPerDegree;
-    const model::reflectivity::LandReturn land = model::reflectivity::make_land_return(configuration);
+    const model::physics::LandReturn land = model::physics::make_land_return(configuration);
     const auto wall = [&](double wide_m, double off_deg) {
-      const double cardinal = model::reflectivity::cardinal_gain(land.cardinal[kStone], off_deg, land.street_width_deg);
+      const double cardinal = model::physics::cardinal_gain(land.cardinal[kStone], off_deg, land.street_width_deg);
       return cardinal * wide_m * box.height_m * std::cos(off_deg * geo::kRadiansPerDegree) * seen.distance_m / slant_m;
     };
     const double roof_m2 = box.length_m * box.width_m * seen.above_m / slant_m;
@@ -112,7 +112,7 @@ TEST(Fence, ReturnsItsFaceAndCastsAShadowThoughItHasNoRoof) {
   const double shadow_m = 6.0 * view.distance_m / view.above_m;
   const double pixel_m = lit.geometry().window_m() / lit.image().size;
   const int column = lit.image().size / 2;
-  const auto half = static_cast<float>(0.5 * model::reflectivity::ratio(-10.0));
+  const auto half = static_cast<float>(0.5 * model::physics::ratio(-10.0));
   double dark_m = 0.0;
   for (int row = 0; row < lit.image().size; ++row)
     if (lit.image().power[lit.image().at(column, row)] < half) dark_m += pixel_m;

@@ -75,7 +75,7 @@ inline hrm::PatchProcess make_patch(const radar::RadarConfiguration& configurati
 }
 
 inline double gamma_of(const radar::RadarConfiguration& configuration, std::size_t material) {
-  return model::reflectivity::make_land_return(configuration).gamma[material];
+  return model::physics::make_land_return(configuration).gamma[material];
 }
 
 // Sum over a map [m^2]: what a scene of this cross section returns.

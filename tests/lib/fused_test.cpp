@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace yars::fused_test::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-namespace fused = yars::lanes::HWY_NAMESPACE;
+namespace fused = yars::simd::HWY_NAMESPACE;
 
 // a * b + c, c - a * b and a * b - c of every entry.
 template <class Number>

@@ -34,13 +34,13 @@ radar::RadarConfiguration with(const radar::Beacon& beacon) {
   return configuration;
 }
 
-Look look_off(double off_deg) {
-  Look look = test::look_north(kAltitudeM, kRangeM);
+physics::Look look_off(double off_deg) {
+  physics::Look look = test::look_north(kAltitudeM, kRangeM);
   look.azimuth = geo::Bearing::degrees(off_deg);
   return look;
 }
 
-std::vector<Reply> replies(const radar::RadarConfiguration& configuration, const Look& look = look_off(0.0),
+std::vector<Reply> replies(const radar::RadarConfiguration& configuration, const physics::Look& look = look_off(0.0),
                            const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0)) {
   Beacons beacons(configuration);
   const auto found = beacons.replies(look, terrain::AnalyticTerrain(height));
@@ -76,10 +76,10 @@ TEST(Beacons, ReplyBehindTheirPlaceByDelayAndSpacing) {
 
 TEST(Beacons, ReplyWithThePowerOfTheOneWayRadarEquation) {
   const radar::RadarConfiguration configuration = with(beacon_north(50000.0));
-  const Receiver receiver = make_receiver(configuration, geo::Length::metres(kRangeM));
+  const physics::Receiver receiver = physics::make_receiver(configuration, geo::Length::metres(kRangeM));
   const double slant_m = std::hypot(50000.0, kAltitudeM - 10.0);
   const double below = std::atan2(kAltitudeM - 10.0, 50000.0) / receiver.elevation_beamwidth_rad;
-  const double one_way = std::exp(-0.5 * kTwoWayExponent * below * below);
+  const double one_way = std::exp(-0.5 * physics::kTwoWayExponent * below * below);
   const double expected =
       4.0 * std::numbers::pi * 100.0 / std::pow(10.0, 7.2) * one_way / (slant_m * slant_m) / receiver.full_scale;
   const auto found = replies(configuration);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMeanRadiusM = 6371008.8;
 
-TEST(EffectiveEarth, DropsAsTheSpecificationSays) {
+TEST(physics::EffectiveEarth, DropsAsTheSpecificationSays) {
   struct Row {
     double range_nm, refracted_m, true_m;
   };
@@ -21,14 +21,14 @@ TEST(EffectiveEarth, DropsAsTheSpecificationSays) {
   constexpr std::array<Row, 4> kRows{{{20, 81, 108}, {40, 323, 431}, {80, 1292, 1723}, {160, 5168, 6891}}};
   for (const Row& row : kRows) {
     const double distance_m = row.range_nm * geo::kMetresPerNauticalMile;
-    EXPECT_NEAR(EffectiveEarth(kMeanRadiusM * 4.0 / 3.0).drop_m(distance_m), row.refracted_m,
+    EXPECT_NEAR(physics::EffectiveEarth(kMeanRadiusM * 4.0 / 3.0).drop_m(distance_m), row.refracted_m,
                 0.5 + 3e-4 * row.refracted_m)
         << row.range_nm;
-    EXPECT_NEAR(EffectiveEarth(kMeanRadiusM).drop_m(distance_m), row.true_m, 0.5 + 3e-4 * row.true_m) << row.range_nm;
+    EXPECT_NEAR(physics::EffectiveEarth(kMeanRadiusM).drop_m(distance_m), row.true_m, 0.5 + 3e-4 * row.true_m) << row.range_nm;
   }
 }
 
-TEST(EffectiveEarth, TheHorizonLiesAtTheRootOfTwiceKTimesRadiusTimesHeight) {
+TEST(physics::EffectiveEarth, TheHorizonLiesAtTheRootOfTwiceKTimesRadiusTimesHeight) {
   radar::RadarConfiguration configuration = test::bare_configuration(4096);
   configuration.fidelity.earth = radar::EarthModel::sphere;
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
@@ -42,18 +42,18 @@ TEST(EffectiveEarth, TheHorizonLiesAtTheRootOfTwiceKTimesRadiusTimesHeight) {
   EXPECT_NEAR(last_lit_m, horizon_m, range_m / 4096.0);
 }
 
-TEST(EffectiveEarth, OnTheFlatEarthThereIsNoHorizon) {
+TEST(physics::EffectiveEarth, OnTheFlatEarthThereIsNoHorizon) {
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
   const auto samples = test::seen_by_reference(test::bare_configuration(512), test::look_north(100.0, 300000.0), sea);
   for (const auto& sample : samples) ASSERT_TRUE(sample.lit) << sample.distance_m;
 }
 
-TEST(EffectiveEarth, SeesAPointAsVectorsOnTheSphereDo) {
-  const EffectiveEarth earth(8.5e6);
+TEST(physics::EffectiveEarth, SeesAPointAsVectorsOnTheSphereDo) {
+  const physics::EffectiveEarth earth(8.5e6);
   for (const double distance_m : {10.0, 5000.0, 300000.0}) {
     for (const double height_m : {-100.0, 0.0, 4000.0}) {
       const double altitude_m = 4500.0;
-      const Sight sight = earth.sight(altitude_m, distance_m, height_m);
+      const physics::Sight sight = earth.sight(altitude_m, distance_m, height_m);
       // The same by vectors from the earth's centre.
       const long double angle = distance_m / 8.5e6L;
       const long double x = (8.5e6L + height_m) * std::sin(angle);
@@ -72,15 +72,15 @@ TEST(EffectiveEarth, SeesAPointAsVectorsOnTheSphereDo) {
   }
 }
 
-TEST(EffectiveEarth, SlantRangeAndGroundRangeAreInverse) {
-  const EffectiveEarth earth(8.5e6);
+TEST(physics::EffectiveEarth, SlantRangeAndGroundRangeAreInverse) {
+  const physics::EffectiveEarth earth(8.5e6);
   for (const double distance_m : {100.0, 20000.0, 300000.0}) {
     const double slant_m = earth.sight(4500.0, distance_m, 200.0).slant_range_m;
     EXPECT_NEAR(earth.distance_at_slant_range(4500.0, 200.0, slant_m), distance_m, 1e-3);
   }
 }
 
-TEST(EffectiveEarth, NothingReturnsFromNearerThanTheGroundBelow) {
+TEST(physics::EffectiveEarth, NothingReturnsFromNearerThanTheGroundBelow) {
   radar::RadarConfiguration configuration = test::bare_configuration(100);
   configuration.fidelity.slant_range = true;
   const terrain::AnalyticTerrain land(terrain::flat(500.0));

@@ -17,8 +17,8 @@
 namespace yars::model::rbm {
 namespace {
 
-using reflectivity::gas_attenuation;
-using reflectivity::reference_air;
+using physics::gas_attenuation;
+using physics::reference_air;
 
 constexpr double kNauticalMile_m = 1852.0;
 
@@ -64,7 +64,7 @@ double lowest_m(double altitude_m, double distance_m, double height_m) {
 
 TEST(Gases, AreSummedOverTheRay) {
   const radar::RadarConfiguration configuration;
-  const GasPath path(configuration);
+  const physics::GasPath path(configuration);
   const double radius_m = 4.0 / 3.0 * 6371008.8;
   for (const double altitude_m : {150.0, 1500.0, 4572.0, 12000.0, 18000.0})
     for (const double range_nm : {4.7, 10.0, 40.0, 80.0, 160.0})
@@ -72,7 +72,7 @@ TEST(Gases, AreSummedOverTheRay) {
         const double distance_m = range_nm * kNauticalMile_m;
         if (lowest_m(altitude_m, distance_m, height_m) < kDeepest_m) continue;
         const double expected = test::gases_in_layers_db(configuration, radius_m, altitude_m, distance_m, height_m);
-        EXPECT_NEAR(path.one_way_db(EffectiveEarth(radius_m), altitude_m, distance_m, height_m), expected,
+        EXPECT_NEAR(path.one_way_db(physics::EffectiveEarth(radius_m), altitude_m, distance_m, height_m), expected,
                     0.002 + 0.002 * expected)
             << altitude_m << " m, " << range_nm << " NM, " << height_m << " m";
       }
@@ -81,11 +81,11 @@ TEST(Gases, AreSummedOverTheRay) {
 TEST(Gases, TakeUpToEightDecibelsAt160MilesThereAndBack) {
   radar::RadarConfiguration configuration;
   configuration.receiver.frequency_ghz = 10.0;
-  const GasPath path(configuration);
-  const EffectiveEarth flat(std::numeric_limits<double>::infinity());
+  const physics::GasPath path(configuration);
+  const physics::EffectiveEarth flat(std::numeric_limits<double>::infinity());
   // Level, at sea level.
   EXPECT_NEAR(2.0 * path.one_way_db(flat, 0.0, 160.0 * kNauticalMile_m, 0.0), 2.0 * 0.0142 * 296.32, 0.05);
-  const EffectiveEarth earth(4.0 / 3.0 * 6371008.8);
+  const physics::EffectiveEarth earth(4.0 / 3.0 * 6371008.8);
   const double from_15000_ft = 2.0 * path.one_way_db(earth, 4572.0, 140.0 * kNauticalMile_m, 0.0);
   EXPECT_GT(from_15000_ft, 4.0);
   EXPECT_LT(from_15000_ft, 8.0);
@@ -94,10 +94,10 @@ TEST(Gases, TakeUpToEightDecibelsAt160MilesThereAndBack) {
 // The fast factors against the integral.
 TEST(Gases, OfSamplesAgreeWithThoseOfRays) {
   const radar::RadarConfiguration configuration;
-  const GasPath path(configuration);
-  const EffectiveEarth earth(4.0 / 3.0 * 6371008.8);
+  const physics::GasPath path(configuration);
+  const physics::EffectiveEarth earth(4.0 / 3.0 * 6371008.8);
   constexpr std::size_t kSamples = 480;
-  GasSamples samples(configuration, kSamples);
+  physics::GasSamples samples(configuration, kSamples);
   for (const double altitude_m : {150.0, 1500.0, 4572.0, 15000.0})
     for (const double range_nm : {4.7, 40.0, 160.0})
       for (const float height_m : {-400.0F, 0.0F, 700.0F, 2000.0F, 3500.0F, 6000.0F}) {
@@ -123,22 +123,22 @@ radar::RadarConfiguration without_gases(radar::RadarConfiguration configuration)
 }
 
 TEST(Gases, SwitchedOffTakeNothing) {
-  const GasPath path(without_gases({}));
+  const physics::GasPath path(without_gases({}));
   EXPECT_TRUE(path.none());
-  EXPECT_EQ(path.two_way_loss(EffectiveEarth(8.0e6), 5000.0, 200000.0, 0.0), 1.0);
+  EXPECT_EQ(path.two_way_loss(physics::EffectiveEarth(8.0e6), 5000.0, 200000.0, 0.0), 1.0);
 }
 
-// Ground, a ship and rain in one sweep; all lose what the ray to them loses.
+// physics::Ground, a ship and rain in one sweep; all lose what the ray to them loses.
 TEST(Gases, DimGroundShipsAndRainAlike) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.pulse_smear = false;
-  const Look look = test::look_north(4572.0, 80.0 * kNauticalMile_m);
+  const physics::Look look = test::look_north(4572.0, 80.0 * kNauticalMile_m);
   const geo::GeoPoint ahead = geo::geodesic_direct(look.apex, look.azimuth, geo::Length::nautical_miles(60.0));
   const terrain::AnalyticTerrain plain(terrain::flat(100.0));
   radar::RadarConfiguration ship = configuration, rain = configuration;
   ship.world.movers.push_back({"ship", ahead, 0.0, 0.0, 1.0e7, 5.0});
   rain.world.rain.cells.push_back({ahead, 9000.0, 50.0, 4000.0});
-  const EffectiveEarth earth = effective_earth(configuration.fidelity, look.apex, look.azimuth);
+  const physics::EffectiveEarth earth = physics::effective_earth(configuration.fidelity, look.apex, look.azimuth);
   for (const auto algorithm : {radar::Algorithm::standard, radar::Algorithm::reference})
     for (radar::RadarConfiguration with : {configuration, ship, rain}) {
       with.fidelity.algorithm = algorithm;
@@ -146,7 +146,7 @@ TEST(Gases, DimGroundShipsAndRainAlike) {
       std::vector<float> dimmed(480), clear(480);
       make_algorithm(with)->measure(look, plain, dimmed);
       make_algorithm(bare)->measure(look, plain, clear);
-      const GasPath path(with);
+      const physics::GasPath path(with);
       for (const std::size_t i : {100U, 359U, 360U, 470U}) {
         const double distance_m = (static_cast<double>(i) + 0.5) * look.range.metres() / 480.0;
         ASSERT_GT(clear[i], 0.0F);
@@ -159,7 +159,7 @@ TEST(Gases, DimGroundShipsAndRainAlike) {
 
 TEST(Gases, TakeTheirPartOnceFromJammersAndBeacons) {
   radar::RadarConfiguration configuration;
-  const Look look = test::look_north(4572.0, 80.0 * kNauticalMile_m);
+  const physics::Look look = test::look_north(4572.0, 80.0 * kNauticalMile_m);
   const geo::GeoPoint ahead = geo::geodesic_direct(look.apex, look.azimuth, geo::Length::nautical_miles(60.0));
   radar::Jammer jammer;
   jammer.place = ahead;
@@ -175,8 +175,8 @@ TEST(Gases, TakeTheirPartOnceFromJammersAndBeacons) {
   configuration.world.beacons.beacons.push_back(beacon);
   const radar::RadarConfiguration bare = without_gases(configuration);
   const terrain::AnalyticTerrain plain(terrain::flat(100.0));
-  const EffectiveEarth earth = effective_earth(configuration.fidelity, look.apex, look.azimuth);
-  const double expected_db = -GasPath(configuration).one_way_db(earth, 4572.0, 60.0 * kNauticalMile_m, 500.0);
+  const physics::EffectiveEarth earth = physics::effective_earth(configuration.fidelity, look.apex, look.azimuth);
+  const double expected_db = -physics::GasPath(configuration).one_way_db(earth, 4572.0, 60.0 * kNauticalMile_m, 500.0);
   const double strobe = Strobes(configuration).level(look, plain) / Strobes(bare).level(look, plain);
   EXPECT_NEAR(10.0 * std::log10(strobe), expected_db, 1e-6);
   Beacons heard(configuration), clear(bare);
@@ -186,7 +186,7 @@ TEST(Gases, TakeTheirPartOnceFromJammersAndBeacons) {
 }
 
 // Power with gases over power without, by sample [dB]; NaN where nothing returns.
-std::vector<double> loss_db(const radar::RadarConfiguration& configuration, const Look& look,
+std::vector<double> loss_db(const radar::RadarConfiguration& configuration, const physics::Look& look,
                             const terrain::TerrainView& ground, const scene::SceneView* scenes) {
   const std::size_t count = sample_count(configuration);
   std::vector<float> dimmed(count), clear(count);
@@ -206,10 +206,10 @@ TEST(Gases, DimTheHrmPpiByTheirIntegral) {
       radar::RadarConfiguration configuration = kernel::sharpened_configuration({});
       configuration.fidelity.algorithm = algorithm;
       configuration.fidelity.pulse_smear = false;
-      Look look = test::look_north(6000.0, 80.0 * kNauticalMile_m);
+      physics::Look look = test::look_north(6000.0, 80.0 * kNauticalMile_m);
       look.share.sharpened = true;
       const terrain::AnalyticTerrain plain(terrain::flat(ground_m));
-      const double radius_m = effective_earth(configuration.fidelity, look.apex, look.azimuth).radius_m();
+      const double radius_m = physics::effective_earth(configuration.fidelity, look.apex, look.azimuth).radius_m();
       const std::vector<double> found = loss_db(configuration, look, plain, nullptr);
       ASSERT_EQ(found.size(), 480U);
       for (const std::size_t i : {60U, 240U, 360U, 479U}) {
@@ -229,11 +229,11 @@ TEST(Gases, DimObjectsOfScenesByTheirIntegral) {
       configuration.fidelity.algorithm = algorithm;
       configuration.fidelity.pulse_smear = false;
       configuration.receiver.land_gamma_db = -60.0;
-      const Look look = test::look_north(6000.0, 80.0 * kNauticalMile_m);
+      const physics::Look look = test::look_north(6000.0, 80.0 * kNauticalMile_m);
       const geo::GeoPoint place = geo::geodesic_direct(look.apex, look.azimuth, geo::Length::nautical_miles(miles));
       const auto ground = terrain::flat(300.0);
       const auto scene = test::scene_of({{0.0, 0.0, 100.0, 100.0, 200.0}}, place, 0.0, ground);
-      const double radius_m = effective_earth(configuration.fidelity, look.apex, look.azimuth).radius_m();
+      const double radius_m = physics::effective_earth(configuration.fidelity, look.apex, look.azimuth).radius_m();
       radar::RadarConfiguration bare = without_gases(configuration);
       std::vector<float> with(480), without(480);
       make_algorithm(bare)->measure(look, {terrain::AnalyticTerrain(ground), scene.get(), true, {}}, with);

@@ -17,17 +17,17 @@ namespace {
 constexpr std::size_t kCount = 1000;
 constexpr double kRangeM = 200'000.0;  // over some degrees of latitude and longitude
 
-Look look_from(geo::GeoPoint apex, double azimuth_deg) {
+physics::Look look_from(geo::GeoPoint apex, double azimuth_deg) {
   return {apex, geo::AltitudeMsl::metres(3000.0), geo::Bearing::degrees(azimuth_deg), geo::Angle(),
           geo::Length::metres(kRangeM)};
 }
 
-PlaceArrays places_of(const Look& look) {
-  PlaceArrays places(kCount);
+physics::PlaceArrays places_of(const physics::Look& look) {
+  physics::PlaceArrays places(kCount);
   std::vector<float> distance_m(kCount + terrain::kRunSlack);
   for (std::size_t i = 0; i < distance_m.size(); ++i)
     distance_m[i] = static_cast<float>((static_cast<double>(i) + 0.5) * kRangeM / kCount);
-  sample_places(look.apex, look.azimuth, look.range, kSeriesKnots, distance_m.data(), places);
+  physics::sample_places(look.apex, look.azimuth, look.range, physics::kSeriesKnots, distance_m.data(), places);
   return places;
 }
 
@@ -44,40 +44,40 @@ struct Returns {
   bool operator==(const Returns&) const = default;
 };
 
-Returns returns_of(const radar::RadarConfiguration& configuration, const Look& look, const PlaceArrays& places) {
+Returns returns_of(const radar::RadarConfiguration& configuration, const physics::Look& look, const physics::PlaceArrays& places) {
   constexpr std::size_t kRoom = kCount + terrain::kRunSlack;
-  Ground ground(configuration, kCount);
+  physics::Ground ground(configuration, kCount);
   ground.use_resolution(300.0, kRangeM / kCount);
   std::vector<std::int32_t> code(kRoom);
   std::vector<float> water(kRoom);
   const std::vector<float> sine(kRoom, 0.02F);
   fill(code, water);
   std::copy(code.begin(), code.end(), ground.materials().begin());
-  const Ground::Sample found = ground.reflect(look, places.run(), water.data(), sine.data(), true);
+  const physics::Ground::Sample found = ground.reflect(look, places.run(), water.data(), sine.data(), true);
   return {{found.land, found.land + kCount}, {found.sea, found.sea + kCount}};
 }
 
-TEST(Ground, ReflectsWhatItsPlainVersionDoes) {
+TEST(physics::Ground, ReflectsWhatItsPlainVersionDoes) {
   radar::RadarConfiguration configuration;
   configuration.world.land.texture = 3.0;
   for (const geo::GeoPoint apex : {geo::GeoPoint{37.6, -122.4}, {-0.3, 179.2}, {-66.0, 10.0}}) {
     for (const double azimuth_deg : {20.0, 65.0, 190.0, 300.0}) {
-      const Look look = look_from(apex, azimuth_deg);
-      const PlaceArrays places = places_of(look);
+      const physics::Look look = look_from(apex, azimuth_deg);
+      const physics::PlaceArrays places = places_of(look);
       const Returns fast = returns_of(configuration, look, places);
-      SurfaceReturn exact(configuration);
+      physics::SurfaceReturn exact(configuration);
       exact.use_resolution(300.0, kRangeM / kCount);
-      Receiver receiver = make_receiver(configuration, look.range);
+      physics::Receiver receiver = physics::make_receiver(configuration, look.range);
       std::vector<std::int32_t> code(kCount + terrain::kRunSlack);
       std::vector<float> water(code.size());
       fill(code, water);
       const geo::Bearing azimuth = geo::GeodesicRay(apex, look.azimuth).place(0.5 * look.range).azimuth;
       int different = 0;
       for (std::size_t i = 0; i < kCount; ++i) {
-        const Facet facet{
+        const physics::Facet facet{
             terrain::place_of(places.run(), i), azimuth, 50'000.0, 0.02, 0.02, static_cast<double>(water[i]),
             static_cast<std::uint8_t>(code[i])};
-        const double area_m2 = illuminated_area_m2(receiver, facet.slant_range_m, 0.02);
+        const double area_m2 = physics::illuminated_area_m2(receiver, facet.slant_range_m, 0.02);
         const double expected = exact.cross_section_m2(receiver, facet) / area_m2;
         const double found = static_cast<double>(fast.land[i]) * 0.02 + static_cast<double>(fast.sea[i]);
         different += std::abs(found / expected - 1.0) < 0.02 ? 0 : 1;
@@ -88,9 +88,9 @@ TEST(Ground, ReflectsWhatItsPlainVersionDoes) {
   }
 }
 
-TEST(Ground, IsTheSameForEveryWidthOfVector) {
-  const Look look = look_from({37.6, -122.4}, 65.0);
-  const PlaceArrays places = places_of(look);
+TEST(physics::Ground, IsTheSameForEveryWidthOfVector) {
+  const physics::Look look = look_from({37.6, -122.4}, 65.0);
+  const physics::PlaceArrays places = places_of(look);
   Returns first;
   test::for_each_vector_target([&](const char* name) {
     const Returns found = returns_of(radar::RadarConfiguration(), look, places);
@@ -99,13 +99,13 @@ TEST(Ground, IsTheSameForEveryWidthOfVector) {
   });
 }
 
-TEST(Ground, IsPlainAndDryWhereNothingIsGiven) {
+TEST(physics::Ground, IsPlainAndDryWhereNothingIsGiven) {
   radar::RadarConfiguration configuration;
-  const Look look = look_from({37.6, -122.4}, 65.0);
-  const PlaceArrays places = places_of(look);
-  Ground ground(configuration, kCount);
+  const physics::Look look = look_from({37.6, -122.4}, 65.0);
+  const physics::PlaceArrays places = places_of(look);
+  physics::Ground ground(configuration, kCount);
   const std::vector<float> none(kCount + terrain::kRunSlack, 0.0F);
-  const Ground::Sample found = ground.reflect(look, places.run(), none.data(), none.data(), false);
+  const physics::Ground::Sample found = ground.reflect(look, places.run(), none.data(), none.data(), false);
   EXPECT_EQ(found.land, nullptr);
   EXPECT_EQ(found.sea, nullptr);
 }

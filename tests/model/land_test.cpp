@@ -7,7 +7,7 @@
 #include "model/physics/clutter.hpp"
 #include "model/physics/reflectivity.hpp"
 
-namespace yars::model::reflectivity {
+namespace yars::model::physics {
 namespace {
 
 double decibels(double ratio) {
@@ -103,4 +103,4 @@ TEST(Texture, LiesInCellsThatHoldPulseAndSample) {
 }
 
 }  // namespace
-}  // namespace yars::model::reflectivity
+}  // namespace yars::model::physics

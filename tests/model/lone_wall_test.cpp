@@ -28,7 +28,7 @@ class LoneWall : public ::testing::Test {
     view_.add(std::make_shared<const terrain::Cell>(
         test::cell_of({37, -122}, kPosts, kPosts, [](int row, int) { return row == kWallRow ? 1500 : 10; })));
   }
-  static Look look(double range_nm) {
+  static physics::Look look(double range_nm) {
     return {{37.2, -121.5},
             geo::AltitudeMsl::metres(1200.0),
             geo::Bearing::degrees(0.0),
@@ -42,7 +42,7 @@ class LoneWall : public ::testing::Test {
 };
 
 // From 1 NM on light up to a wall, and dark behind it, whatever the number of samples.
-void expect_dark_behind(const terrain::TerrainView& view, Look look, double wall_nm) {
+void expect_dark_behind(const terrain::TerrainView& view, physics::Look look, double wall_nm) {
   for (const char* preset : {"draft", "standard", "reference"})
     for (const double range_nm : {20.0, 40.0, 80.0, 160.0}) {
       radar::RadarConfiguration configuration;
@@ -78,7 +78,7 @@ TEST_F(LoneWall, HidesTheGroundBehindItBeyondThePole) {
         test::cell_of({89, west_deg}, kRows, kColumns, [](int row, int) { return row == kRing ? 1500 : 10; })));
   for (const double longitude_deg : {30.0, 30.1, 29.7})
     for (const double azimuth_deg : {0.0, 0.2, 359.0}) {
-      Look over = look(160.0);
+      physics::Look over = look(160.0);
       over.apex = {89.6, longitude_deg};
       over.azimuth = geo::Bearing::degrees(azimuth_deg);
       SCOPED_TRACE(azimuth_deg);
@@ -96,7 +96,7 @@ TEST_F(LoneWall, HidesTheGroundBehindItBesideThePole) {
     terrain::CellView view(1, terrain::Absence::sea);
     view.add(
         std::make_shared<const terrain::Cell>(test::cell_of({89, west_deg}, 601, 101, [](int, int) { return 1500; })));
-    Look past = look(160.0);
+    physics::Look past = look(160.0);
     past.apex = {89.6, 30.0};
     past.azimuth = geo::Bearing::degrees(3.0);
     SCOPED_TRACE(west_deg);
@@ -142,12 +142,12 @@ TEST_F(LoneWall, HidesJammersAndBeacons) {
 TEST_F(LoneWall, CountsNoWholeTurnsOfLongitude) {
   terrain::CellView view(1, terrain::Absence::sea);
   view.add(std::make_shared<const terrain::Cell>(test::rough_cell({89, 20}, 601, 101, 7)));
-  PlaceArrays places(100);
-  std::vector<float> distance_m(100 + kPairSlack, 10000.0F);
+  physics::PlaceArrays places(100);
+  std::vector<float> distance_m(100 + physics::kPairSlack, 10000.0F);
   for (std::size_t i = 0; i < 100; ++i) distance_m[i] = (static_cast<float>(i) + 0.5F) * 100.0F;
-  sample_places({89.3, 20.2}, geo::Bearing::degrees(5.0), geo::Length::metres(10000.0), 5, distance_m.data(), places);
+  physics::sample_places({89.3, 20.2}, geo::Bearing::degrees(5.0), geo::Length::metres(10000.0), 5, distance_m.data(), places);
   const auto crests = [&] {
-    std::vector<float> found(100 + kPairSlack);
+    std::vector<float> found(100 + physics::kPairSlack);
     EXPECT_TRUE(
         view.crests(places.run(), {9000.0, 0.0, std::span(distance_m).first(100)}, std::span(found).first(100)));
     return found;
@@ -159,19 +159,19 @@ TEST_F(LoneWall, CountsNoWholeTurnsOfLongitude) {
 }
 
 TEST_F(LoneWall, HasTheSameCrestsForEveryWidthOfVector) {
-  PlaceArrays places(333);
-  std::vector<float> distance_m(333 + kPairSlack);
+  physics::PlaceArrays places(333);
+  std::vector<float> distance_m(333 + physics::kPairSlack);
   for (std::size_t i = 0; i < distance_m.size(); ++i)
     distance_m[i] = (static_cast<float>(std::min<std::size_t>(i, 332)) + 0.5F) * 150.0F;
   for (const terrain::CellPlace place : {terrain::CellPlace{37, -121}, {89, 20}, {89, -160}})
     view_.add(std::make_shared<const terrain::Cell>(test::rough_cell(place, kPosts, kPosts, 7)));
   for (const geo::GeoPoint apex : {geo::GeoPoint{37.4, -121.1}, {89.8, 20.3}})
     for (const double azimuth_deg : {0.0, 33.0, 90.0, 181.0, 275.0}) {
-      sample_places(apex, geo::Bearing::degrees(azimuth_deg), geo::Length::metres(50000.0), 5, distance_m.data(),
+      physics::sample_places(apex, geo::Bearing::degrees(azimuth_deg), geo::Length::metres(50000.0), 5, distance_m.data(),
                     places);
       std::vector<float> first;
       test::for_each_vector_target([&](const char* name) {
-        std::vector<float> crests(333 + kPairSlack);
+        std::vector<float> crests(333 + physics::kPairSlack);
         ASSERT_TRUE(view_.crests(places.run(), {1500.0, 1.0 / 8.5e6, std::span(distance_m).first(333)},
                                  std::span(crests).first(333)));
         crests.resize(333);

@@ -34,7 +34,7 @@ radar::RadarConfiguration with(const radar::Mover& mover) {
   return configuration;
 }
 
-std::vector<float> power_of(const radar::RadarConfiguration& configuration, const Look& look,
+std::vector<float> power_of(const radar::RadarConfiguration& configuration, const physics::Look& look,
                             const terrain::AnalyticTerrain::Height& height) {
   Reference reference(configuration);
   std::vector<float> power(1000);
@@ -43,7 +43,7 @@ std::vector<float> power_of(const radar::RadarConfiguration& configuration, cons
 }
 
 // What a mover adds, with the ground taken off.
-std::vector<double> added_by(radar::RadarConfiguration configuration, const Look& look,
+std::vector<double> added_by(radar::RadarConfiguration configuration, const physics::Look& look,
                              const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0)) {
   const auto with_it = power_of(configuration, look, height);
   configuration.world.movers.clear();
@@ -58,18 +58,18 @@ std::size_t brightest(const std::vector<double>& power) {
   return static_cast<std::size_t>(std::max_element(power.begin(), power.end()) - power.begin());
 }
 
-TEST(Movers, GoTheirGeodesicWithSimTime) {
+TEST(physics::Movers, GoTheirGeodesicWithSimTime) {
   radar::Mover ship = ship_at(10000.0);
   ship.speed_mps = geo::Speed::knots(30.0).metres_per_second();
   ship.heading_deg = 45.0;
-  const auto points = configured_points(with(ship));
+  const auto points = physics::configured_points(with(ship));
   EXPECT_LT(geo::geodesic_inverse(ship.place, points.at(0).place(geo::Duration())).distance.metres(), 1e-6);
   const auto way = geo::geodesic_inverse(ship.place, points.at(0).place(geo::Duration::seconds(3600.0)));
   EXPECT_NEAR(way.distance.nautical_miles(), 30.0, 1e-6);
   EXPECT_NEAR(way.azimuth_at_start.degrees(), 45.0, 1e-6);
 }
 
-TEST(Movers, ReturnAPointInTheSampleOfTheirRange) {
+TEST(physics::Movers, ReturnAPointInTheSampleOfTheirRange) {
   const auto power = added_by(with(ship_at(20020.0)), test::look_north(kAltitudeM, kRangeM));
   EXPECT_EQ(brightest(power), 500U);
   for (std::size_t i = 0; i < power.size(); ++i) {
@@ -79,21 +79,21 @@ TEST(Movers, ReturnAPointInTheSampleOfTheirRange) {
   }
 }
 
-TEST(Movers, ReturnSigmaOverTheFourthPowerOfTheRange) {
+TEST(physics::Movers, ReturnSigmaOverTheFourthPowerOfTheRange) {
   radar::Mover ship = ship_at(20020.0);
   ship.cross_section_m2 = 5000.0;
-  const Look look = test::look_north(kAltitudeM, kRangeM);
-  const Receiver receiver = make_receiver(with(ship), look.range);
+  const physics::Look look = test::look_north(kAltitudeM, kRangeM);
+  const physics::Receiver receiver = physics::make_receiver(with(ship), look.range);
   const double slant_m = std::hypot(20020.0, kAltitudeM - ship.height_m);
   const double expected = 5000.0 / std::pow(slant_m, 4.0) / receiver.full_scale;
   EXPECT_NEAR(added_by(with(ship), look)[500] / expected, 1.0, 1e-3);
 }
 
-TEST(Movers, AreTwelveDecibelsDownAtTwiceTheRange) {
+TEST(physics::Movers, AreTwelveDecibelsDownAtTwiceTheRange) {
   // Level with the aircraft's keel, so that slant range is ground range.
   radar::Mover near = ship_at(18000.0), far = ship_at(36000.0);
   near.height_m = far.height_m = 300.0;
-  const Look look = test::look_north(300.0, kRangeM);
+  const physics::Look look = test::look_north(300.0, kRangeM);
   const auto power_at = [&](const radar::Mover& mover) {
     const auto power = added_by(with(mover), look);
     return power[brightest(power)];
@@ -101,45 +101,45 @@ TEST(Movers, AreTwelveDecibelsDownAtTwiceTheRange) {
   EXPECT_NEAR(decibels(power_at(far) / power_at(near)), -12.04, 0.01);
 }
 
-TEST(Movers, FadeAcrossTheBeam) {
-  const Look look = test::look_north(kAltitudeM, kRangeM);
+TEST(physics::Movers, FadeAcrossTheBeam) {
+  const physics::Look look = test::look_north(kAltitudeM, kRangeM);
   const double centre = added_by(with(ship_at(20020.0)), look)[500];
   EXPECT_NEAR(decibels(added_by(with(ship_at(20020.0, 1.25)), look)[500] / centre), -6.02, 0.05);
   EXPECT_EQ(added_by(with(ship_at(20020.0, 6.0)), look)[500], 0.0);
 }
 
-TEST(Movers, AreAsLongAsThePulseAndNoDimmerForIt) {
+TEST(physics::Movers, AreAsLongAsThePulseAndNoDimmerForIt) {
   radar::RadarConfiguration configuration = with(ship_at(20020.0));
-  const Look look = test::look_north(kAltitudeM, kRangeM);
+  const physics::Look look = test::look_north(kAltitudeM, kRangeM);
   const double sharp = added_by(configuration, look)[500];
   configuration.fidelity.pulse_smear = true;
   const auto smeared = added_by(configuration, look);
-  const double pulse_samples = pulse_length(configuration, look.range).metres() / kSpacingM;
+  const double pulse_samples = physics::pulse_length(configuration, look.range).metres() / kSpacingM;
   EXPECT_NEAR(smeared[500] / sharp, 1.0, 1e-3);
   double sum = 0.0;
   for (const double power : smeared) sum += power;
   EXPECT_NEAR(sum / sharp, pulse_samples, 0.01 * pulse_samples);
 }
 
-TEST(Movers, AreHiddenBehindAHill) {
-  const Look look = test::look_north(kAltitudeM, kRangeM);
+TEST(physics::Movers, AreHiddenBehindAHill) {
+  const physics::Look look = test::look_north(kAltitudeM, kRangeM);
   const auto hill = terrain::ridge(test::axis_north(), 15000.0, 1000.0, 900.0);
   for (const double power : added_by(with(ship_at(20020.0)), look, hill)) EXPECT_EQ(power, 0.0);
   EXPECT_GT(added_by(with(ship_at(12020.0)), look, hill)[300], 0.0);
 }
 
-TEST(Movers, FarAwayOrBehindCostNothing) {
+TEST(physics::Movers, FarAwayOrBehindCostNothing) {
   const radar::RadarConfiguration configuration = with(ship_at(60000.0));
-  Movers movers(configuration);
-  const Look look = test::look_north(kAltitudeM, kRangeM);
-  const Receiver receiver = make_receiver(configuration, look.range);
+  physics::Movers movers(configuration);
+  const physics::Look look = test::look_north(kAltitudeM, kRangeM);
+  const physics::Receiver receiver = physics::make_receiver(configuration, look.range);
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
-  EXPECT_TRUE(movers.echoes(look, receiver, EffectiveEarth(8.5e6), sea).empty());
+  EXPECT_TRUE(movers.echoes(look, receiver, physics::EffectiveEarth(8.5e6), sea).empty());
 }
 
 // An hour after it was heard of an entity of the traffic is where a ship of the configuration is that was there at
 // sim time 0, and returns the same.
-TEST(Movers, OfTheTrafficReturnWhatThoseOfTheConfigurationDo) {
+TEST(physics::Movers, OfTheTrafficReturnWhatThoseOfTheConfigurationDo) {
   radar::Mover ship = ship_at(20020.0);
   ship.speed_mps = 10.0;
   ship.heading_deg = 300.0;
@@ -155,13 +155,13 @@ TEST(Movers, OfTheTrafficReturnWhatThoseOfTheConfigurationDo) {
                          7,
                          0};
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
-  const EffectiveEarth earth(8.5e6);
-  Look look = test::look_north(kAltitudeM, kRangeM);
-  Movers configured(with(ship));
-  Movers none(test::bare_configuration(1000));
-  const Receiver receiver = make_receiver(with(ship), look.range);
+  const physics::EffectiveEarth earth(8.5e6);
+  physics::Look look = test::look_north(kAltitudeM, kRangeM);
+  physics::Movers configured(with(ship));
+  physics::Movers none(test::bare_configuration(1000));
+  const physics::Receiver receiver = physics::make_receiver(with(ship), look.range);
   look.sim_time = geo::Duration::seconds(30.0);
-  const Echo expected = configured.echoes(look, receiver, earth, sea)[0];
+  const physics::Echo expected = configured.echoes(look, receiver, earth, sea)[0];
   look.sim_time = geo::Duration::seconds(30.0 + 60.0);
   const auto points = kernel::points_of(traffic);
   const auto echoes = none.echoes(look, receiver, earth, {sea, nullptr, true, points});
@@ -173,11 +173,11 @@ TEST(Movers, OfTheTrafficReturnWhatThoseOfTheConfigurationDo) {
 TEST(NearestSample, IsTheOneAroundTheDistance) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> centres{nan, nan, 25.0, 35.0, 45.0};
-  EXPECT_EQ(nearest_sample(centres, 1.0), 2U);
-  EXPECT_EQ(nearest_sample(centres, 29.0), 2U);
-  EXPECT_EQ(nearest_sample(centres, 31.0), 3U);
-  EXPECT_EQ(nearest_sample(centres, 49.0), 4U);
-  EXPECT_EQ(nearest_sample(std::vector<double>{nan, nan}, 3.0), 2U);
+  EXPECT_EQ(physics::nearest_sample(centres, 1.0), 2U);
+  EXPECT_EQ(physics::nearest_sample(centres, 29.0), 2U);
+  EXPECT_EQ(physics::nearest_sample(centres, 31.0), 3U);
+  EXPECT_EQ(physics::nearest_sample(centres, 49.0), 4U);
+  EXPECT_EQ(physics::nearest_sample(std::vector<double>{nan, nan}, 3.0), 2U);
 }
 
 }  // namespace

@@ -27,13 +27,13 @@ TEST(Rain, OfTenMillimetresReturns39DbzAndTakesAFifthOfADecibelAKilometre) {
   const double z = 200.0 * std::pow(10.0, 1.6);
   EXPECT_NEAR(decibels(z), 39.0, 0.05);
   const double eta = std::pow(std::numbers::pi, 5.0) * 0.93 * z * 1e-18 / std::pow(wavelength_m, 4.0);
-  EXPECT_NEAR(reflectivity::rain_reflectivity(rain, 10.0, wavelength_m) / eta, 1.0, 1e-9);
+  EXPECT_NEAR(physics::rain_reflectivity(rain, 10.0, wavelength_m) / eta, 1.0, 1e-9);
   EXPECT_NEAR(decibels(eta), -56.2, 0.1);
-  EXPECT_NEAR(1000.0 * reflectivity::rain_attenuation_db_per_m(rain, 10.0), 0.193, 0.001);
+  EXPECT_NEAR(1000.0 * physics::rain_attenuation_db_per_m(rain, 10.0), 0.193, 0.001);
 }
 
 TEST(RainChord, ThroughTheMiddleIsSixteenFifteenthsOfTheRadius) {
-  const auto chord = reflectivity::rain_chord(test::kMidLatitude, geo::Bearing(), north_of(30000.0), 6000.0);
+  const auto chord = physics::rain_chord(test::kMidLatitude, geo::Bearing(), north_of(30000.0), 6000.0);
   EXPECT_NEAR(chord.middle_m, 30000.0, 100.0);
   EXPECT_NEAR(chord.half_m, 6000.0, 1.0);
   EXPECT_NEAR(chord.integral_m(0.0, 1e9), 6400.0, 1.0);
@@ -42,7 +42,7 @@ TEST(RainChord, ThroughTheMiddleIsSixteenFifteenthsOfTheRadius) {
 }
 
 TEST(RainChord, AsideEqualsTheSumOverItsProfile) {
-  const auto chord = reflectivity::rain_chord(test::kMidLatitude, geo::Bearing(), north_of(30000.0, 7.0), 6000.0);
+  const auto chord = physics::rain_chord(test::kMidLatitude, geo::Bearing(), north_of(30000.0, 7.0), 6000.0);
   EXPECT_NEAR(chord.depth, 1.0 - std::pow(30.0 * std::sin(7.0 * geo::kRadiansPerDegree) / 6.0, 2.0), 5e-3);
   double sum_m = 0.0;
   for (double d = 25000.5; d < 31000.0; d += 1.0) sum_m += chord.profile(d);
@@ -50,29 +50,29 @@ TEST(RainChord, AsideEqualsTheSumOverItsProfile) {
 }
 
 TEST(RainChord, ThatMissesIsEmpty) {
-  const auto chord = reflectivity::rain_chord(test::kMidLatitude, geo::Bearing(), north_of(30000.0, 20.0), 6000.0);
+  const auto chord = physics::rain_chord(test::kMidLatitude, geo::Bearing(), north_of(30000.0, 20.0), 6000.0);
   EXPECT_EQ(chord.half_m, 0.0);
   EXPECT_EQ(chord.profile(30000.0), 0.0);
   EXPECT_EQ(chord.integral_m(0.0, 1e6), 0.0);
 }
 
 TEST(StretchBelow, OverFlatEarthIsProportionalToTheFall) {
-  const EffectiveEarth flat(kInfinity);
-  const Stretch below = stretch_below(flat, 3000.0, 30000.0, 0.0, 1000.0);
+  const physics::EffectiveEarth flat(kInfinity);
+  const physics::Stretch below = physics::stretch_below(flat, 3000.0, 30000.0, 0.0, 1000.0);
   EXPECT_NEAR(below.from_m, 20000.0, 1e-6);
   EXPECT_NEAR(below.to_m, 30000.0, 1e-6);
-  const Stretch climbing = stretch_below(flat, 500.0, 30000.0, 2000.0, 1000.0);
+  const physics::Stretch climbing = physics::stretch_below(flat, 500.0, 30000.0, 2000.0, 1000.0);
   EXPECT_NEAR(climbing.from_m, 0.0, 1e-6);
   EXPECT_NEAR(climbing.to_m, 10000.0, 1e-6);
-  const Stretch above = stretch_below(flat, 3000.0, 30000.0, 2000.0, 1000.0);
+  const physics::Stretch above = physics::stretch_below(flat, 3000.0, 30000.0, 2000.0, 1000.0);
   EXPECT_GE(above.from_m, above.to_m);
 }
 
 TEST(StretchBelow, OverARoundEarthIsWhereTheRayIsBelow) {
-  const EffectiveEarth round(8.5e6);
+  const physics::EffectiveEarth round(8.5e6);
   for (const double altitude_m : {500.0, 3000.0, 12000.0}) {
     for (const double distance_m : {5000.0, 80000.0, 250000.0}) {
-      const Stretch below = stretch_below(round, altitude_m, distance_m, 100.0, 2000.0);
+      const physics::Stretch below = physics::stretch_below(round, altitude_m, distance_m, 100.0, 2000.0);
       for (double share = 0.0005; share < 1.0; share += 0.001) {
         const double height_m =
             altitude_m + (100.0 - altitude_m) * share - distance_m * distance_m * share * (1.0 - share) / (2.0 * 8.5e6);
@@ -94,13 +94,13 @@ TEST(BeamIntegral, EqualsTheSumOverThePattern) {
       const double step = 1e-5;
       double sum = 0.0;
       for (double elevation = -0.9 + 0.5 * step; elevation < 0.2; elevation += step) {
-        sum += step * two_way_gain(pattern, theta, antenna, elevation);
+        sum += step * physics::two_way_gain(pattern, theta, antenna, elevation);
       }
-      EXPECT_NEAR(beam_integral(pattern, theta, antenna, -0.9, 0.2) / sum, 1.0, 1e-3)
+      EXPECT_NEAR(physics::beam_integral(pattern, theta, antenna, -0.9, 0.2) / sum, 1.0, 1e-3)
           << static_cast<int>(pattern) << " at " << antenna_deg;
     }
   }
-  EXPECT_EQ(beam_integral(radar::BeamPattern::gaussian, theta, 0.0, 0.1, 0.0), 0.0);
+  EXPECT_EQ(physics::beam_integral(radar::BeamPattern::gaussian, theta, 0.0, 0.1, 0.0), 0.0);
 }
 
 radar::RadarConfiguration rainy(double distance_m, double radius_m, double rate_mmh = 10.0, double top_m = 9000.0) {
@@ -109,15 +109,15 @@ radar::RadarConfiguration rainy(double distance_m, double radius_m, double rate_
   return configuration;
 }
 
-TEST(RainPath, ReturnsWithTheInverseSquareOfTheRange) {
+TEST(physics::RainPath, ReturnsWithTheInverseSquareOfTheRange) {
   radar::RadarConfiguration configuration = rainy(40000.0, 39000.0, 10.0, 30000.0);
   configuration.antenna.elevation_beamwidth_deg = 2.0;  // filled by the rain
-  RainPath path(configuration);
-  const Look look = test::look_north(2000.0, 80000.0);
+  physics::RainPath path(configuration);
+  const physics::Look look = test::look_north(2000.0, 80000.0);
   path.enter(look);
-  const Receiver receiver = make_receiver(configuration, look.range);
-  const EffectiveEarth flat(kInfinity);
-  const auto chord = reflectivity::rain_chord(look.apex, look.azimuth, north_of(40000.0), 39000.0);
+  const physics::Receiver receiver = physics::make_receiver(configuration, look.range);
+  const physics::EffectiveEarth flat(kInfinity);
+  const auto chord = physics::rain_chord(look.apex, look.azimuth, north_of(40000.0), 39000.0);
   const auto per_profile = [&](double distance_m) {
     return path.power(receiver, flat, look, distance_m, -1.0) / chord.profile(distance_m);
   };
@@ -126,13 +126,13 @@ TEST(RainPath, ReturnsWithTheInverseSquareOfTheRange) {
   EXPECT_NEAR(per_profile(40000.0) / per_profile(20000.0), near_m * near_m / (far_m * far_m), 1e-6);
 }
 
-TEST(RainPath, TakesTwiceTheChordFromWhatLiesBehind) {
+TEST(physics::RainPath, TakesTwiceTheChordFromWhatLiesBehind) {
   const terrain::AnalyticTerrain plain(terrain::flat(100.0));
-  const Look look = test::look_north(2000.0, 40000.0);
+  const physics::Look look = test::look_north(2000.0, 40000.0);
   radar::RadarConfiguration configuration = rainy(15000.0, 5000.0);
   const auto wet = test::seen_by_reference(configuration, look, plain);
   const double one_way_db_per_m =
-      reflectivity::rain_attenuation_db_per_m(configuration.world.rain, configuration.world.rain.cells[0].rate_mmh);
+      physics::rain_attenuation_db_per_m(configuration.world.rain, configuration.world.rain.cells[0].rate_mmh);
   configuration.world.rain.cells.clear();
   const auto dry = test::seen_by_reference(configuration, look, plain);
   // 15 km away the ray is 1 : 20 steep at most; its slope adds a thousandth.
@@ -140,17 +140,17 @@ TEST(RainPath, TakesTwiceTheChordFromWhatLiesBehind) {
   EXPECT_NEAR(wet[200].power, dry[200].power, 1e-12) << "nearer than the rain";
 }
 
-TEST(RainPath, SpendsNothingOverTheTop) {
+TEST(physics::RainPath, SpendsNothingOverTheTop) {
   radar::RadarConfiguration configuration = rainy(15000.0, 5000.0, 10.0, 500.0);
-  RainPath path(configuration);
+  physics::RainPath path(configuration);
   path.enter(test::look_north(8000.0, 40000.0));
   // The ray to 35 km is above 500 m until 33 km.
-  EXPECT_EQ(path.two_way_loss(EffectiveEarth(kInfinity), 8000.0, 35000.0, 0.0, 36000.0), 1.0);
+  EXPECT_EQ(path.two_way_loss(physics::EffectiveEarth(kInfinity), 8000.0, 35000.0, 0.0, 36000.0), 1.0);
 }
 
-TEST(RainPath, IsSeenAboveTheShadowOfARidge) {
+TEST(physics::RainPath, IsSeenAboveTheShadowOfARidge) {
   const terrain::AnalyticTerrain ridge(terrain::ridge(test::axis_north(), 10000.0, 1000.0, 1500.0));
-  const Look look = test::look_north(2000.0, 40000.0);
+  const physics::Look look = test::look_north(2000.0, 40000.0);
   const auto wet = test::seen_by_reference(rainy(25000.0, 6000.0), look, ridge);
   const std::size_t middle = 25000 / 40;
   EXPECT_FALSE(wet[middle].lit);

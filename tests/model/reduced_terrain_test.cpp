@@ -25,12 +25,12 @@ terrain::Cell mountains() {
   });
 }
 
-Look look_from(double azimuth_deg) {
+physics::Look look_from(double azimuth_deg) {
   return {kApex, geo::AltitudeMsl::metres(1500.0), geo::Bearing::degrees(azimuth_deg), geo::Angle::degrees(-3.0),
           geo::Length::nautical_miles(20.0)};
 }
 
-std::vector<std::uint8_t> lit_by(Algorithm& algorithm, const Look& look, const terrain::TerrainView& view,
+std::vector<std::uint8_t> lit_by(Algorithm& algorithm, const physics::Look& look, const terrain::TerrainView& view,
                                  std::size_t count) {
   std::vector<float> power(count);
   std::vector<std::uint8_t> lit(count);

@@ -105,7 +105,7 @@ TEST(Reference, AStepUpShinesAndAStepDownHides) {
 TEST(Reference, ARidgeAboveTheBeamStillCastsItsShadow) {
   radar::RadarConfiguration configuration = bare_configuration(kSamples);
   configuration.antenna.elevation_beamwidth_deg = 2.5;
-  Look look = look_north(kAltitudeM, kRangeM);
+  physics::Look look = look_north(kAltitudeM, kRangeM);
   // The beam points at the ground 20 km away, 5.7 degrees down; the ridge's crest is 1.1 degrees down, above it.
   look.elevation = geo::Angle::degrees(-5.71);
   const terrain::AnalyticTerrain ridge(terrain::ridge(axis_north(), 10000.0, 1000.0, 1800.0));
@@ -133,8 +133,8 @@ TEST(Reference, WaterReturnsAsTheSeaModelSaysAndLandByItsGamma) {
   const radar::RadarConfiguration configuration = bare_configuration(kSamples);
   const double sine = kAltitudeM / std::hypot(kAltitudeM, sea[500].distance_m);
   const double sea_sigma0 =
-      reflectivity::sea_sigma0(reflectivity::make_sea_return(configuration), sine, geo::Bearing::degrees(0.0));
-  const double land_sigma0 = reflectivity::make_land_return(configuration).gamma[0] * sine;
+      physics::sea_sigma0(physics::make_sea_return(configuration), sine, geo::Bearing::degrees(0.0));
+  const double land_sigma0 = physics::make_land_return(configuration).gamma[0] * sine;
   EXPECT_NEAR(10.0 * std::log10(sea[500].power / land[500].power), 10.0 * std::log10(sea_sigma0 / land_sigma0), 0.01);
 }
 
@@ -152,7 +152,7 @@ TEST(Reference, ASlopeAcrossTheSweepTurnsTheFaceAway) {
 TEST(Reference, SmearsConservePower) {
   radar::RadarConfiguration configuration = bare_configuration(kSamples);
   const terrain::AnalyticTerrain ridge(terrain::ridge(axis_north(), 20000.0, 1500.0, 700.0));
-  const Look look = look_north(kAltitudeM, kRangeM);
+  const physics::Look look = look_north(kAltitudeM, kRangeM);
   const auto total = [&](bool smear) {
     configuration.fidelity.pulse_smear = smear;
     Reference reference(configuration);

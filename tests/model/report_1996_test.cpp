@@ -23,7 +23,7 @@ std::vector<float> intensity(const terrain::AnalyticTerrain::Height& height, dou
   radar::RadarConfiguration configuration;
   configuration.fidelity.samples = static_cast<int>(kSamples);
   Report1996 report(configuration);
-  Look look = test::look_north(kAltitudeM, kRangeM);
+  physics::Look look = test::look_north(kAltitudeM, kRangeM);
   look.elevation = geo::Angle::degrees(elevation_deg);
   look.bars_above = look.bars_below = geo::Angle::degrees(bars_deg);
   std::vector<float> power(kSamples);
@@ -65,7 +65,7 @@ TEST(Report1996, WithSeveralBarsEveryBarMakesTheSamePicture) {
     radar::RadarConfiguration configuration;
     configuration.fidelity.samples = static_cast<int>(kSamples);
     Report1996 report(configuration);
-    Look look = test::look_north(kAltitudeM, kRangeM);
+    physics::Look look = test::look_north(kAltitudeM, kRangeM);
     look.elevation = geo::Angle::degrees(-5.0 + kBeam_deg * (1.5 - bar));
     look.bars_above = geo::Angle::degrees(kBeam_deg * bar);
     look.bars_below = geo::Angle::degrees(kBeam_deg * (3 - bar));

@@ -16,8 +16,8 @@ double farthest_m(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, s
   std::vector<float> distance_m(count + terrain::kRunSlack);
   for (std::size_t i = 0; i < count; ++i)
     distance_m[i] = static_cast<float>(range.metres() * static_cast<double>(i) / static_cast<double>(count - 1));
-  PlaceArrays places(count);
-  sample_places(apex, azimuth, range, 5, distance_m.data(), places);
+  physics::PlaceArrays places(count);
+  physics::sample_places(apex, azimuth, range, 5, distance_m.data(), places);
   const geo::GeodesicRay ray(apex, azimuth);
   double worst_m = 0.0;
   for (std::size_t i = 0; i < count; i += 11) {

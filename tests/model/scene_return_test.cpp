@@ -35,7 +35,7 @@ geo::GeoPoint north_by(double distance_m, double bearing_deg = 0.0) {
   return geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(bearing_deg), geo::Length::metres(distance_m));
 }
 
-std::vector<float> power_of(const radar::RadarConfiguration& configuration, const Look& look,
+std::vector<float> power_of(const radar::RadarConfiguration& configuration, const physics::Look& look,
                             const scene::SceneView* scenes,
                             const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0)) {
   const auto algorithm = make_algorithm(configuration);
@@ -48,7 +48,7 @@ std::vector<float> power_of(const radar::RadarConfiguration& configuration, cons
 // What a scene adds to the ground's power.
 std::vector<double> added_by(const radar::RadarConfiguration& configuration, const scene::SceneView& scenes,
                              const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0),
-                             const Look& look = test::look_north(kAltitudeM, kRangeM)) {
+                             const physics::Look& look = test::look_north(kAltitudeM, kRangeM)) {
   const auto with_it = power_of(configuration, look, &scenes, height);
   const auto without = power_of(configuration, look, nullptr, height);
   std::vector<double> difference(kSamples);
@@ -67,12 +67,12 @@ std::size_t brightest(const std::vector<double>& power) {
 
 // Power of a cross section at a distance over flat ground, its middle at a height.
 double expected(const radar::RadarConfiguration& configuration, double sigma_m2, double distance_m, double height_m) {
-  const Receiver receiver = make_receiver(configuration, geo::Length::metres(kRangeM));
+  const physics::Receiver receiver = physics::make_receiver(configuration, geo::Length::metres(kRangeM));
   return sigma_m2 / std::pow(std::hypot(distance_m, kAltitudeM - height_m), 4.0) / receiver.full_scale;
 }
 
 double gamma_of(std::size_t material) {
-  return reflectivity::make_land_return(bare()).gamma[material];
+  return physics::make_land_return(bare()).gamma[material];
 }
 
 TEST(SceneReturn, OfABoxIsGammaTimesTheAreaThatFacesTheRadarAtItsRange) {
@@ -122,7 +122,7 @@ TEST(SceneReturn, IsTheSameWithSeveralRaysAcrossTheBeam) {
 }
 
 TEST(SceneReturn, IsAllInOneCellOfASharpenedBeamAndStrongerByHowMuchSharperItIs) {
-  Look look = test::look_north(kAltitudeM, kRangeM);
+  physics::Look look = test::look_north(kAltitudeM, kRangeM);
   look.share.sharpened = true;
   const double half_rad = 0.05 * geo::kRadiansPerDegree;
   look.share.left_rad = -half_rad;
@@ -192,13 +192,13 @@ TEST(SceneReturn, OfManyObjectsIsTheSumOfEach) {
 
 TEST(SceneReturn, OfARunwayTakesThePlaceOfTheGroundsReturn) {
   const auto scenes = test::scene_of({{0.0, 0.0, 600.0, 2000.0, 0.0, 9}}, north_by(20000.0));
-  const Look look = test::look_north(kAltitudeM, kRangeM);
+  const physics::Look look = test::look_north(kAltitudeM, kRangeM);
   for (const bool fast : {false, true}) {
     radar::RadarConfiguration configuration = bare();
     if (fast) configuration.fidelity.algorithm = radar::Algorithm::standard;
     const auto with_it = power_of(configuration, look, scenes.get(), terrain::flat(50.0));
     const auto without = power_of(configuration, look, nullptr, terrain::flat(50.0));
-    const double ratio = gamma_of(9) / make_receiver(configuration, look.range).land_gamma;
+    const double ratio = gamma_of(9) / physics::make_receiver(configuration, look.range).land_gamma;
     for (std::size_t i = 478; i < 522; ++i)
       EXPECT_NEAR(static_cast<double>(with_it[i] / without[i]), ratio, 0.01 * ratio) << i;
     for (const std::size_t i : {400U, 470U, 530U, 600U}) EXPECT_EQ(with_it[i], without[i]) << i;
@@ -206,7 +206,7 @@ TEST(SceneReturn, OfARunwayTakesThePlaceOfTheGroundsReturn) {
 }
 
 TEST(SceneReturn, ElsewhereChangesNoBit) {
-  const Look look = test::look_north(kAltitudeM, kRangeM);
+  const physics::Look look = test::look_north(kAltitudeM, kRangeM);
   const auto without = power_of(bare(), look, nullptr);
   for (const auto& place : {north_by(60000.0), north_by(20000.0, 90.0), north_by(20000.0, 180.0)}) {
     const auto scenes = test::scene_of({Building{}, {200, 0, 100, 100, 0.0, 9}}, place);
@@ -221,7 +221,7 @@ TEST(SceneReturn, OfStandardIsThatOfReference) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.noise = false;
   configuration.fidelity.samples = static_cast<int>(kSamples);
-  const Look look = test::look_north(kAltitudeM, kRangeM);
+  const physics::Look look = test::look_north(kAltitudeM, kRangeM);
   configuration.fidelity.algorithm = radar::Algorithm::standard;
   const auto fast = power_of(configuration, look, scenes.get(), terrain::flat(20.0));
   configuration.fidelity.algorithm = radar::Algorithm::reference;

@@ -7,7 +7,7 @@
 #include "model/physics/clutter_simd.hpp"
 #include "model/physics/reflectivity.hpp"
 
-namespace yars::model::reflectivity {
+namespace yars::model::physics {
 namespace {
 
 constexpr SeaCoefficients kHorizontal{-73.0, 20.781, 7.351, 25.65, 0.0054};
@@ -87,8 +87,8 @@ TEST(SeaTable, LiesWithinTwoHundredthsOfADecibelOfTheModelAtLowGrazing) {
     std::vector<float> sigma0(kRoom), sine(2 * terrain::kRunSlack, 0.0F), found(sine.size());
     const std::vector<float> water(sine.size(), 1.0F);
     std::vector<float> land(sine.size());
-    const rbm::lanes::MaterialTables tables;
-    rbm::lanes::GroundInputs ground;
+    const physics::simd::MaterialTables tables;
+    physics::simd::GroundInputs ground;
     ground.tables = &tables;
     ground.water = water.data();
     ground.sea = &table;
@@ -98,7 +98,7 @@ TEST(SeaTable, LiesWithinTwoHundredthsOfADecibelOfTheModelAtLowGrazing) {
       ground.upwind = static_cast<float>(std::cos((look - sea.wind_from).radians()));
       const auto at = [&](float sine_of_grazing) {
         sine[0] = sine_of_grazing;
-        rbm::lanes::reflect(1, ground, sine.data(), land.data(), found.data());
+        physics::simd::reflect(1, ground, sine.data(), land.data(), found.data());
         return static_cast<double>(found[0]);
       };
       for (double grazing_deg = 0.02; grazing_deg < 90.0; grazing_deg *= 1.01) {
@@ -115,4 +115,4 @@ TEST(SeaTable, LiesWithinTwoHundredthsOfADecibelOfTheModelAtLowGrazing) {
 }
 
 }  // namespace
-}  // namespace yars::model::reflectivity
+}  // namespace yars::model::physics

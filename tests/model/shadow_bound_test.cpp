@@ -36,7 +36,7 @@ struct Scan {
   double first_deg = 0.0, last_deg = 0.0, step_deg = 1.0;  // azimuths
 };
 
-Look look_along(const Scan& scan, double azimuth_deg, double range_nm) {
+physics::Look look_along(const Scan& scan, double azimuth_deg, double range_nm) {
   return {scan.apex, geo::AltitudeMsl::feet(scan.altitude_ft), geo::Bearing::degrees(azimuth_deg),
           geo::Angle::degrees(-3.0), geo::Length::nautical_miles(range_nm)};
 }
@@ -45,9 +45,9 @@ struct Truth {
   std::vector<bool> lit, known;
 };
 
-Truth brute_force(const Look& look, const terrain::TerrainView& finest, double posts_m, std::size_t samples) {
+Truth brute_force(const physics::Look& look, const terrain::TerrainView& finest, double posts_m, std::size_t samples) {
   radar::Fidelity exact;
-  const EffectiveEarth earth = effective_earth(exact, look.apex, look.azimuth);
+  const physics::EffectiveEarth earth = physics::effective_earth(exact, look.apex, look.azimuth);
   const geo::GeodesicRay ray(look.apex, look.azimuth);
   const double spacing_m = look.range.metres() / static_cast<double>(samples);
   const auto steps = static_cast<int>(std::ceil(spacing_m / (0.1 * posts_m)));
@@ -75,13 +75,13 @@ struct Found {
   double wrong = 0.0, dark = 0.0, samples = 0.0;
 };
 
-// Ground at its finest, `posts_m` [m] between posts, and as a preset gets it.
-struct Ground {
+// physics::Ground at its finest, `posts_m` [m] between posts, and as a preset gets it.
+struct physics::Ground {
   std::shared_ptr<const terrain::TerrainView> finest, served;
   double posts_m;
 };
 
-Found compare(const char* preset, const Scan& scan, double range_nm, const Ground& ground) {
+Found compare(const char* preset, const Scan& scan, double range_nm, const physics::Ground& ground) {
   radar::RadarConfiguration configuration;
   configuration.fidelity = *radar::fidelity_preset(preset);
   configuration.fidelity.sub_beams = 1;  // the middle ray alone
@@ -91,7 +91,7 @@ Found compare(const char* preset, const Scan& scan, double range_nm, const Groun
   std::vector<std::uint8_t> lit(count);
   Found found;
   for (double azimuth_deg = scan.first_deg; azimuth_deg <= scan.last_deg; azimuth_deg += scan.step_deg) {
-    const Look look = look_along(scan, azimuth_deg, range_nm);
+    const physics::Look look = look_along(scan, azimuth_deg, range_nm);
     const Truth truth = brute_force(look, *ground.finest, ground.posts_m, count);
     algorithm->measure(look, *ground.served, power);
     algorithm->lit(lit);
@@ -113,7 +113,7 @@ constexpr Bound kBounds[] = {{"reference", 0.001}, {"standard", 0.005}, {"draft"
 
 // Returns the share in the dark; 0 where no ground is known.
 double expect_within(const Bound& bound, const std::string& name, const Scan& scan, double range_nm,
-                     const Ground& ground) {
+                     const physics::Ground& ground) {
   const Found found = compare(bound.preset, scan, range_nm, ground);
   if (found.samples == 0.0) return 0.0;
   const double wrong = found.wrong / found.samples;
@@ -139,7 +139,7 @@ double expect_within_bounds(const std::string& name, const Scan& scan, const std
       const auto finest = (*store)->prepare({scan.apex, range.metres(), 0});
       const int detail = kernel::scan_detail(*radar::fidelity_preset(bound.preset), range);
       const auto served = (*store)->prepare({scan.apex, range.metres(), detail});
-      const Ground ground{finest, served, finest->post_spacing_m()};
+      const physics::Ground ground{finest, served, finest->post_spacing_m()};
       most_dark = std::max(most_dark, expect_within(bound, name, scan, range_nm, ground));
     }
   return most_dark;
@@ -215,7 +215,7 @@ std::shared_ptr<const terrain::CellView> polar_cap(std::initializer_list<int> so
 void expect_polar_bounds(const std::shared_ptr<const terrain::CellView>& cap, const Scan& scan,
                          std::initializer_list<double> ranges_nm) {
   // Columns close up towards the pole; it is walked by a tenth of what they are 30' from it.
-  const Ground ground{cap, cap, kPolarDegree_m / (kPolarColumns - 1) * 0.5 * geo::kRadiansPerDegree};
+  const physics::Ground ground{cap, cap, kPolarDegree_m / (kPolarColumns - 1) * 0.5 * geo::kRadiansPerDegree};
   for (const double range_nm : ranges_nm)
     for (const Bound& bound : kBounds) {
       const std::string name = "from " + std::to_string(scan.apex.latitude_deg);

@@ -35,13 +35,13 @@ radar::RadarConfiguration jammed_by(const radar::Jammer& jammer) {
   return configuration;
 }
 
-Look look_off(double off_deg) {
-  Look look = test::look_north(kAltitudeM, kRangeM);
+physics::Look look_off(double off_deg) {
+  physics::Look look = test::look_north(kAltitudeM, kRangeM);
   look.azimuth = geo::Bearing::degrees(off_deg);
   return look;
 }
 
-double level(const radar::RadarConfiguration& configuration, const Look& look,
+double level(const radar::RadarConfiguration& configuration, const physics::Look& look,
              const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0)) {
   return Strobes(configuration).level(look, terrain::AnalyticTerrain(height));
 }
@@ -49,7 +49,7 @@ double level(const radar::RadarConfiguration& configuration, const Look& look,
 TEST(Strobes, HaveThePowerOfTheOneWayRadarEquation) {
   radar::RadarConfiguration configuration = jammed_by(jammer_north(50000.0));
   configuration.fidelity.earth = radar::EarthModel::flat;
-  const Receiver receiver = make_receiver(configuration, geo::Length::metres(kRangeM));
+  const physics::Receiver receiver = physics::make_receiver(configuration, geo::Length::metres(kRangeM));
   const double radar_w = std::pow(10.0, 7.2);
   const double expected = 4.0 * std::numbers::pi * 10.0 / radar_w / (50000.0 * 50000.0) / receiver.full_scale;
   EXPECT_NEAR(level(configuration, look_off(0.0)) / expected, 1.0, 1e-6);
@@ -79,7 +79,7 @@ TEST(Strobes, AreThereOnTheJammedBandAndChannelsAlone) {
   const radar::RadarConfiguration configuration = jammed_by(jammer);
   for (std::uint8_t band = 0; band < 5; ++band) {
     for (std::uint8_t channel = 1; channel <= 8; ++channel) {
-      Look look = look_off(0.0);
+      physics::Look look = look_off(0.0);
       look.band = band;
       look.channel = channel;
       const bool jammed = band == 1 && (channel == 3 || channel == 4);
@@ -92,7 +92,7 @@ TEST(Strobes, AreHiddenBehindARidgeAndBelowTheHorizon) {
   const radar::RadarConfiguration low = jammed_by(jammer_north(50000.0, 20.0));
   EXPECT_GT(level(low, look_off(0.0)), 0.0);
   EXPECT_EQ(level(low, look_off(0.0), terrain::ridge(test::axis_north(), 40000.0, 2000.0, 900.0)), 0.0);
-  Look skimming = look_off(0.0);
+  physics::Look skimming = look_off(0.0);
   skimming.altitude = geo::AltitudeMsl::metres(30.0);
   // 4/3 earth: 30 m see 22.6 km, 20 m another 18.4 km.
   EXPECT_EQ(level(low, skimming), 0.0);

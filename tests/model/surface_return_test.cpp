@@ -16,12 +16,12 @@ double decibels(double ratio) {
 
 // One sample in the middle of a sweep over level ground of one material.
 Reference::Sample middle(const radar::RadarConfiguration& configuration, std::uint8_t material, double height_m = 100.0,
-                         const Look& look = test::look_north(2000.0, 40000.0)) {
+                         const physics::Look& look = test::look_north(2000.0, 40000.0)) {
   const terrain::AnalyticTerrain ground(terrain::flat(height_m), 1, [material](geo::GeoPoint) { return material; });
   return test::seen_by_reference(configuration, look, ground)[500];
 }
 
-TEST(SurfaceReturn, OfMaterialsDiffersByTheirGammas) {
+TEST(physics::SurfaceReturn, OfMaterialsDiffersByTheirGammas) {
   const radar::RadarConfiguration configuration = test::bare_configuration(1000);
   const double land = middle(configuration, 0).power;
   for (const radar::Material& material : configuration.world.land.materials) {
@@ -33,7 +33,7 @@ TEST(SurfaceReturn, OfMaterialsDiffersByTheirGammas) {
   EXPECT_NEAR(middle(configuration, 30).power, land, 1e-9 * land) << "a code that nobody describes is land";
 }
 
-TEST(SurfaceReturn, OfWaterIsTheSeasAtAnyHeight) {
+TEST(physics::SurfaceReturn, OfWaterIsTheSeasAtAnyHeight) {
   const radar::RadarConfiguration configuration = test::bare_configuration(1000);
   // The sea at 0 m by elevation, a lake at 100 m by its material: the same but for the aircraft's height above it.
   const Reference::Sample sea = middle(configuration, 0, 0.0);
@@ -43,9 +43,9 @@ TEST(SurfaceReturn, OfWaterIsTheSeasAtAnyHeight) {
   EXPECT_NEAR(lake.power / sea.power, 1.0, 1e-6);
 }
 
-TEST(SurfaceReturn, OfWallsDependsOnTheStreetsBearing) {
+TEST(physics::SurfaceReturn, OfWallsDependsOnTheStreetsBearing) {
   const radar::RadarConfiguration configuration = test::bare_configuration(1000);
-  Look look = test::look_north(2000.0, 40000.0);
+  physics::Look look = test::look_north(2000.0, 40000.0);
   double least = 1e9, most = 0.0;
   for (double azimuth_deg = 0.0; azimuth_deg < 360.0; azimuth_deg += 1.0) {
     // Always the same town in the middle of the sweep.
@@ -54,7 +54,7 @@ TEST(SurfaceReturn, OfWallsDependsOnTheStreetsBearing) {
                                      geo::Length::metres(500.5 * 40.0));
     const Reference::Sample sample = middle(configuration, 1, 100.0, look);
     const double off_deg =
-        reflectivity::off_street_deg(sample.azimuth.degrees(), terrain::street_bearing_deg(sample.place));
+        physics::off_street_deg(sample.azimuth.degrees(), physics::street_bearing_deg(sample.place));
     if (std::abs(off_deg) < 1.0) most = std::max(most, sample.power);
     if (std::abs(off_deg) > 12.0) least = std::min(least, sample.power);
   }
@@ -74,7 +74,7 @@ Moments k_clutter(double shape, int looks) {
   configuration.receiver.gain_step_db = 10.0;  // at gain 0 nothing clips
   configuration.receiver.looks = looks;
   configuration.world.land.texture = shape;
-  Look look = test::look_north(3000.0, 80000.0);
+  physics::Look look = test::look_north(3000.0, 80000.0);
   const terrain::AnalyticTerrain plain(terrain::flat(100.0));
   Reference textured(configuration);
   configuration.world.land.texture = 0.0;
@@ -97,7 +97,7 @@ Moments k_clutter(double shape, int looks) {
   return {sum / count, squares / count - sum / count * sum / count};
 }
 
-TEST(SurfaceReturn, FluctuatesAsKWhereItHasTexture) {
+TEST(physics::SurfaceReturn, FluctuatesAsKWhereItHasTexture) {
   for (const double shape : {0.0, 2.0, 4.0}) {
     for (const int looks : {1, 4}) {
       const Moments found = k_clutter(shape, looks);
@@ -109,14 +109,14 @@ TEST(SurfaceReturn, FluctuatesAsKWhereItHasTexture) {
   }
 }
 
-TEST(SurfaceReturn, HasTheSameTextureFromEverywhere) {
+TEST(physics::SurfaceReturn, HasTheSameTextureFromEverywhere) {
   radar::RadarConfiguration configuration = test::bare_configuration(1000);
   configuration.fidelity.noise = true;
   configuration.world.land.texture = 1.0;
-  SurfaceReturn surface(configuration);
-  const Receiver receiver = make_receiver(configuration, geo::Length::metres(40000.0));
+  physics::SurfaceReturn surface(configuration);
+  const physics::Receiver receiver = physics::make_receiver(configuration, geo::Length::metres(40000.0));
   surface.use_resolution(receiver.pulse_length_m, 40.0);
-  Facet facet{{37.2, -122.3}, geo::Bearing(), 20000.0, 0.1, 0.1, 0.0, 0};
+  physics::Facet facet{{37.2, -122.3}, geo::Bearing(), 20000.0, 0.1, 0.1, 0.0, 0};
   const double once = surface.cross_section_m2(receiver, facet);
   facet.look = geo::Bearing::degrees(200.0);
   EXPECT_EQ(surface.cross_section_m2(receiver, facet), once);

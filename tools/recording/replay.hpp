@@ -72,7 +72,7 @@ class Replay {
   model::terrain::TerrainViewPointer view_;
   model::scene::SceneStore* scenes_;
   model::scene::SceneViewPointer scene_view_;
-  std::vector<model::rbm::MovingPoint> traffic_;
+  std::vector<model::physics::MovingPoint> traffic_;
   databuffer::Sweep sweep_{};
   databuffer::ModelStatus last_{}, before_last_{};  // after the newest tick and after the one before
   Comparison comparison_;

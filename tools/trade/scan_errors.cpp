@@ -16,7 +16,7 @@ namespace yars::tools::trade {
 
 namespace {
 
-using model::rbm::Look;
+using model::physics::Look;
 using radar::RadarConfiguration;
 
 constexpr float kNothing = 1e-8F;  // of full scale: far below the noise, and what float still tells from zero
@@ -60,8 +60,8 @@ std::vector<RaySample> ray_samples(const RadarConfiguration& given, std::span<co
     look.elevation = geo::Angle();
     algorithm->measure(look, terrain, power);
     algorithm->lit(lit);
-    const auto earth = model::rbm::effective_earth(configuration.fidelity, look.apex, look.azimuth);
-    model::rbm::sample_distances(configuration.fidelity, earth, look, terrain, distance_m);
+    const auto earth = model::physics::effective_earth(configuration.fidelity, look.apex, look.azimuth);
+    model::physics::sample_distances(configuration.fidelity, earth, look, terrain, distance_m);
     const geo::GeodesicRay ray(look.apex, look.azimuth);
     for (std::size_t i = 0; i < count; ++i) {
       samples.push_back(sample_at(configuration, ray, distance_m[i], terrain));
@@ -76,7 +76,7 @@ namespace {
 
 using model::kernel::OfflineScan;
 using model::kernel::ScanRequest;
-using model::rbm::Look;
+using model::physics::Look;
 using radar::RadarConfiguration;
 
 double position_error_m(const RadarConfiguration& configuration, const OfflineScan& scan,
@@ -84,19 +84,19 @@ double position_error_m(const RadarConfiguration& configuration, const OfflineSc
   // It asks the geodesic for every sample.
   if (configuration.fidelity.algorithm == radar::Algorithm::reference) return 0.0;
   constexpr std::size_t kStep = 4;  // of sweeps and samples: the error is smooth in both
-  model::rbm::PlaceArrays places(model::rbm::sample_count(configuration));
+  model::physics::PlaceArrays places(model::rbm::sample_count(configuration));
   double worst_m = 0.0;
   for (std::size_t sweep = 0; sweep < scan.places().size(); sweep += kStep) {
     const Look look = model::kernel::look_of(scan.places()[sweep]);
     std::vector<double> exact_m(places.count);
-    const auto earth = model::rbm::effective_earth(configuration.fidelity, look.apex, look.azimuth);
-    model::rbm::sample_distances(configuration.fidelity, earth, look, terrain, exact_m);
+    const auto earth = model::physics::effective_earth(configuration.fidelity, look.apex, look.azimuth);
+    model::physics::sample_distances(configuration.fidelity, earth, look, terrain, exact_m);
     // What nothing is near enough for lies below the aircraft.
     std::replace_if(
         exact_m.begin(), exact_m.end(), [](double value) { return std::isnan(value); }, 0.0);
     std::vector<float> distance_m(exact_m.begin(), exact_m.end());
     distance_m.resize(distance_m.size() + model::terrain::kRunSlack, 0.0F);
-    model::rbm::sample_places(look.apex, look.azimuth, look.range, configuration.fidelity.geodesic_knots,
+    model::physics::sample_places(look.apex, look.azimuth, look.range, configuration.fidelity.geodesic_knots,
                               distance_m.data(), places);
     const geo::GeodesicRay ray(look.apex, look.azimuth);
     for (std::size_t i = 0; i < places.count; i += kStep) {
@@ -155,7 +155,7 @@ Ruler make_ruler(const RadarConfiguration& configuration, const ScanRequest& req
   Ruler ruler;
   ruler.evidence = observe_scan(quiet, terrain, scan, ray);
   ruler.ground = facts_of(ray, [](const RaySample& sample) { return !std::isnan(sample.ground.elevation_m); });
-  ruler.noise = model::rbm::make_receiver(quiet, request.range).noise;
+  ruler.noise = model::physics::make_receiver(quiet, request.range).noise;
   return ruler;
 }
 

@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace yars::model::terrain::crests::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-namespace fused = yars::lanes::HWY_NAMESPACE;
+namespace fused = yars::simd::HWY_NAMESPACE;
 using namespace post_lanes::HWY_NAMESPACE;
 
 using Marks = hn::Mask<FloatLanes>;

@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace yars::model::terrain::smooth::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-namespace fused = yars::lanes::HWY_NAMESPACE;
+namespace fused = yars::simd::HWY_NAMESPACE;
 
 using FloatLanes = hn::CappedTag<float, kRunSlack>;
 using WholeLanes = hn::RebindToSigned<FloatLanes>;
