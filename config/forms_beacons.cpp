@@ -7,7 +7,6 @@
 namespace yars::config {
 namespace {
 
-constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMostCode = 99;
 
 std::optional<Complaint> check_beacon(const Draft& draft) {

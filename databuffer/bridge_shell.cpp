@@ -13,7 +13,6 @@ namespace yars::databuffer {
 
 namespace {
 
-constexpr std::int64_t kTicksBetweenRecords = 4;  // 50 Hz, as our own models
 // 1 Hz: between records the radar sails each entity on by its velocity.
 constexpr std::int64_t kTicksBetweenTraffic = 200;
 

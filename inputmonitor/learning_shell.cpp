@@ -21,7 +21,6 @@ namespace {
 using failure::Expected;
 using failure::fail;
 
-constexpr int kLongestWait_ms = 200;  // [ms] a request to stop waits no longer
 
 // Who moves the controls, and what was typed to it.
 class Teacher {

@@ -1,6 +1,5 @@
 #include "inputmonitor/window_source.hpp"
 
-#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #include "display/gl/context.hpp"
 
+#include <GLFW/glfw3.h>
 #include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -114,8 +115,6 @@ failure::Expected<std::unique_ptr<Context>> open_headless() {
 
 }  // namespace yars::display::gl
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 #include <epoxy/gl.h>
 
 #include <algorithm>

@@ -14,11 +14,6 @@ struct Closer {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-void keep_message(png_structp png, png_const_charp message) {
-  *static_cast<std::string*>(png_get_error_ptr(png)) = message;
-  png_longjmp(png, 1);
-}
-void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
 // A PNG being read; freed whatever happens.
 struct Reading {

@@ -7,9 +7,7 @@
 
 #include "lib/failure/error.hpp"
 
-namespace yars::file {
-class NewFile;
-}
+#include "lib/file/new_file.hpp"
 
 namespace yars::imageio {
 

@@ -13,8 +13,6 @@ bool is_finite(geo::GeoPoint point) {
   return std::isfinite(point.latitude_deg) && std::isfinite(point.longitude_deg);
 }
 
-// [NM] Two sizes closer than this are one, as in the tables: a command's window has passed through float.
-constexpr double kSameWindow_nm = 0.005;
 
 // True if a blank selection stands for this window at this range, or, without a size, for any.
 bool blank_allows(geo::Length range, geo::Length size, const WindowLimits& table) {
