@@ -1,7 +1,7 @@
 /* A flight model in C: joins a running set (scripts/start --no-flight, or beside its own flight model, which then
  * stands by) and flies circles off the Californian coast, or round LAT LON, until the set ends or Ctrl-C.
  *   cc -I. examples/fly.c -o fly -lm  &&  ./fly [SESSION [LAT LON]] */
-#include "databuffer/yars.h"
+#include "databuffer/client/yars.h"
 /* The header asks for its own extensions and comes first. */
 #include <math.h>
 #include <signal.h>

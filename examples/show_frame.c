@@ -1,7 +1,7 @@
 /* The picture of the glass in C: joins a running set with a `radar-display --publish`, and prints number, tick, sim
  * time and size of each picture that comes; or writes the newest one as FILE.ppm, and ends. Ctrl-C ends it. cc -I.
  * examples/show_frame.c -o show_frame  &&  ./show_frame [SESSION [FILE.ppm]] */
-#include "databuffer/yars.h"
+#include "databuffer/client/yars.h"
 /* The header asks for its own extensions and comes first. */
 #include <signal.h>
 #include <stdlib.h>

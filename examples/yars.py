@@ -1,4 +1,4 @@
-"""Takes part in a running YARS session from Python 3.9 or later, without a compiler: a copy of what databuffer/yars.h
+"""Takes part in a running YARS session from Python 3.9 or later, without a compiler: a copy of what databuffer/client/yars.h
 does in C, for ownship, navigator, events, the radar state, sweeps and pictures of the glass. What cannot be done raises
 YarsError; no error means sent, not obeyed: `yars status` tells what was refused. Linux on x86-64: there one 64-bit word
 goes into memory in one piece and in order. How to use it: docs/attach.md; how the segment works: docs/shared_memory.md.
@@ -212,7 +212,7 @@ class Session:
         self.memory[at:at + 4] = struct.pack("<I", priority)
 
     def publish_ownship(self, **values):
-        """Fields of the record Ownship (databuffer/records/ownship.hpp), 20 to 100 times a second. What is not named
+        """Fields of the record Ownship (databuffer/messages/world_state.hpp), 20 to 100 times a second. What is not named
         is 0, but radar_altitude_m NaN (no radar altimeter); the epoch is filled in."""
         self._needs(self.lane, "publish_ownship", "an ownship lane", "claim_ownship_lane(priority)")
         self._publish("publish_ownship", self._ownship_at(), OWNSHIP,
@@ -240,7 +240,7 @@ class Session:
         raise YarsError("input lane: all are taken; `yars status` names the sources")
 
     def push_event(self, kind, argument=0, x=0.0, y=0.0, text=""):
-        """Kinds and arguments: databuffer/records/input_event.hpp; push_button is 1, with the button as argument."""
+        """Kinds and arguments: databuffer/messages/input_event.hpp; push_button is 1, with the button as argument."""
         self._needs(self.input_lane, "push_event", "an input lane", "claim_input_lane(source)")
         record = pack("push_event", INPUT_EVENT, {
             "session_time_ns": self.sim_time_ns(), "monotonic_ns": time.monotonic_ns(), "x": x, "y": y, "kind": kind,
@@ -268,7 +268,7 @@ class Session:
     def outputs(self):
         """What the radar tells the rest of the aircraft: the cue, the designated target with its ranging (NaN: none)
         and steering, and `marks`, a list of dicts, oldest first; a point's elevation is NaN where it is not known, or not
-        yet. Fields of the record Outputs (databuffer/records/outputs.hpp); None before there is one."""
+        yet. Fields of the record Outputs (databuffer/messages/radar_state.hpp); None before there is one."""
         outputs = self._read(AT_OUTPUTS, OUTPUTS)
         if outputs is None:
             return None

@@ -1,23 +1,48 @@
-// What a device says, by its map, into events. Pure: it is told the time. The TDC's deflection is the sum of its axes
-// and of the buttons held that deflect it, cut to [-1, 1], in hundredths; elevation goes in tenths of a degree. Such a
-// value is sent when it changes, at most every 10 ms, and before any press. A lever or an elevation at rest when the
-// device comes sends nothing, nor does a button that is held then.
+// Device's bytes into raw events, and these, by its map, into input events.
 #pragma once
 
 #include <linux/input-event-codes.h>
 
+#include <array>
 #include <bitset>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "databuffer/records/input_event.hpp"
+#include "databuffer/messages/input_event.hpp"
 #include "inputmonitor/device_map.hpp"
-#include "inputmonitor/raw_event.hpp"
 
 namespace yars::inputmonitor {
+
+// What a device of the kernel's input layer says: struct input_event without its time.
+struct RawEvent {
+  std::uint16_t type = 0;  // EV_SYN, EV_KEY, EV_ABS ...
+  std::uint16_t code = 0;
+  std::int32_t value = 0;
+};
+
+// Bytes of struct input_event (linux/input.h, this machine's layout), cut anywhere, into events. Any bytes are allowed;
+// a record whose end has not come yet is kept.
+inline constexpr std::size_t kRecordBytes = 24;
+
+class RecordStream {
+ public:
+  std::vector<RawEvent> feed(std::span<const std::byte> bytes);
+  // Another stream begins: half a record is forgotten.
+  void restart() { kept_ = 0; }
+
+ private:
+  std::array<std::byte, kRecordBytes> record_{};
+  std::size_t kept_ = 0;  // bytes of record_ that have come
+};
+
+// What a device says, by its map, into events. Pure: it is told the time. The TDC's deflection is the sum of its axes
+// and of the buttons held that deflect it, cut to [-1, 1], in hundredths; elevation goes in tenths of a degree. Such a
+// value is sent when it changes, at most every 10 ms, and before any press. A lever or an elevation at rest when the
+// device comes sends nothing, nor does a button that is held then.
 
 // [ns] between values of a stick; faster than the glass is drawn, slower than the fastest devices report
 inline constexpr std::int64_t kValueInterval_ns = 10'000'000;

@@ -6,11 +6,20 @@
 #include <charconv>
 #include <cmath>
 
-#include "config/control_code.hpp"
-#include "databuffer/records/event_text.hpp"
-#include "databuffer/records/plain_text.hpp"
+#include "config/schema/devices.hpp"
+#include "databuffer/messages/input_event.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::inputmonitor {
+
+double shaped(std::int32_t raw, const AxisShape& shape) {
+  const double offset = static_cast<double>(raw) - shape.centre;
+  const double travel = offset >= 0.0 ? shape.high - shape.centre : shape.centre - shape.low;
+  const double plain = std::clamp(offset / travel, -1.0, 1.0) * (shape.inverted ? -1.0 : 1.0);
+  const double beyond = (std::abs(plain) - shape.dead_zone) / (1.0 - shape.dead_zone);
+  if (beyond <= 0.0) return 0.0;
+  return std::copysign((1.0 - shape.curve) * beyond + shape.curve * beyond * beyond * beyond, plain);
+}
 
 namespace {
 

@@ -1,4 +1,4 @@
-// A map of GUF made ready for one device: codes as numbers, texts as events, travels as the device or the map has them.
+// Map of a device made ready: codes, events, travel and shape of its axes.
 #pragma once
 
 #include <linux/input-event-codes.h>
@@ -11,13 +11,28 @@
 #include <string>
 #include <vector>
 
-#include "databuffer/records/input_event.hpp"
-#include "inputmonitor/axis_shape.hpp"
-#include "lib/failure/error.hpp"
+#include "databuffer/messages/input_event.hpp"
+#include "lib/error/error.hpp"
 #include "lib/radar/devices.hpp"
 
 namespace yars::inputmonitor {
 
+// From an axis's raw value to what the hand means, in [-1, 1].
+//   v = (raw - centre) / (the end on its side - centre), cut to [-1, 1]; negated when inverted
+//   t = (|v| - dead) / (1 - dead), 0 within the dead zone
+//   result = sign(v) ((1 - curve) t + curve t^3): continuous, odd, 1 at the end
+struct AxisShape {
+  double low = -1.0;  // raw values; low < centre < high
+  double high = 1.0;
+  double centre = 0.0;
+  double dead_zone = 0.0;  // [0, 0.9]
+  double curve = 0.0;      // [0, 1]
+  bool inverted = false;
+};
+
+double shaped(std::int32_t raw, const AxisShape& shape);
+
+// A map of GUF made ready for one device: codes as numbers, texts as events, travels as the device or the map has them.
 struct AxisRange {
   std::int32_t low = 0;
   std::int32_t high = 0;

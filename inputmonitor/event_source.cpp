@@ -1,6 +1,13 @@
 #include "inputmonitor/event_source.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "databuffer/messages/input_event.hpp"
+#include "databuffer/messages/world_state.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::inputmonitor {
 
@@ -20,6 +27,138 @@ void EventSource::wait(const Moment& moment, int longest_ms) {
   std::vector<pollfd> wanted;
   add_descriptors(wanted);
   poll(wanted.data(), wanted.size(), longest_ms);
+}
+
+using databuffer::InputEvent;
+
+void SourceGroup::wait(const Moment& moment, int longest_ms) {
+  std::vector<pollfd> unused;
+  const auto deaf =
+      std::ranges::find_if(sources_, [&](const auto& source) { return !source->add_descriptors(unused); });
+  if (deaf == sources_.end())
+    EventSource::wait(moment, longest_ms);
+  else
+    (*deaf)->wait(moment, std::min(longest_ms, kLongestDeaf_ms));
+}
+
+bool SourceGroup::add_descriptors(std::vector<pollfd>& wanted) const {
+  bool all = true;
+  for (const auto& source : sources_) all = source->add_descriptors(wanted) && all;
+  return all;
+}
+
+std::optional<std::int64_t> SourceGroup::deadline_ns() const {
+  std::optional<std::int64_t> first_ns;
+  for (const auto& source : sources_)
+    if (const auto due_ns = source->deadline_ns()) first_ns = std::min(first_ns.value_or(*due_ns), *due_ns);
+  return first_ns;
+}
+
+std::vector<InputEvent> SourceGroup::take(const Moment& moment) {
+  std::vector<InputEvent> events;
+  for (const auto& source : sources_) {
+    const auto more = source->take(moment);
+    events.insert(events.end(), more.begin(), more.end());
+  }
+  return events;
+}
+
+std::vector<InputEvent> SourceGroup::release() {
+  std::vector<InputEvent> events;
+  for (const auto& source : sources_) {
+    const auto more = source->release();
+    events.insert(events.end(), more.begin(), more.end());
+  }
+  return events;
+}
+
+bool SourceGroup::ended() const {
+  return std::ranges::any_of(sources_, [](const auto& source) { return source->ended(); });
+}
+
+bool SourceGroup::follows_sim_time() const {
+  return std::ranges::any_of(sources_, [](const auto& source) { return source->follows_sim_time(); });
+}
+
+std::vector<News> SourceGroup::news() {
+  std::vector<News> all;
+  for (const auto& source : sources_)
+    for (News& one : source->news()) all.push_back(std::move(one));
+  return all;
+}
+
+std::string SourceGroup::description() const {
+  std::string all;
+  for (const auto& source : sources_) all += (all.empty() ? "" : "; ") + source->description();
+  return all;
+}
+
+namespace {
+
+using failure::Expected;
+using failure::fail;
+
+// The time that a word means, or nothing when it means none.
+std::optional<std::int64_t> time_of(std::string_view word, std::int64_t previous_ns) {
+  const auto seconds = databuffer::finite_number(word);
+  if (!seconds || *seconds < 0.0 || *seconds > databuffer::kLatestSimTime_s) return std::nullopt;
+  const std::int64_t time_ns = std::llround(*seconds * 1e9);
+  return word.starts_with('+') ? previous_ns + time_ns : time_ns;
+}
+
+}  // namespace
+
+Expected<Script> parse_script(std::string_view text, std::string_view name) {
+  Script script;
+  std::int64_t previous_ns = 0;
+  for (const auto& line : databuffer::numbered_lines(text)) {
+    const std::string place = std::string(name) + ':' + std::to_string(line.number);
+    const std::string found = '"' + std::string(line.text) + '"';
+    if (script.end_ns) return fail(place, "nothing behind end", found);
+    if (line.text == "end") {
+      script.end_ns = previous_ns;
+      continue;
+    }
+    const std::string_view word = databuffer::words_of(line.text).front();
+    const auto time_ns = time_of(word, previous_ns);
+    if (!time_ns) return fail(place, "TIME_S EVENT, +DT_S EVENT or end", found);
+    if (*time_ns < previous_ns)
+      return fail(place, "a time not before that of the line above", found,
+                  "put the lines in the order of their times");
+    if (script.events.empty()) script.from_start = word.starts_with('+');
+    previous_ns = *time_ns;
+    const std::string_view rest = databuffer::trimmed(line.text.substr(word.size()));
+    if (rest == "end") {
+      script.end_ns = previous_ns;
+      continue;
+    }
+    const auto event = databuffer::event_from_text(rest);
+    if (!event) return fail(place, event.error().expected, event.error().found);
+    script.events.push_back({previous_ns, *event});
+  }
+  return script;
+}
+
+ScriptSource::ScriptSource(Script script, std::string name) : script_(std::move(script)), name_(std::move(name)) {}
+
+std::vector<databuffer::InputEvent> ScriptSource::take(const Moment& moment) {
+  const bool went_back = last_sim_time_ns_ && moment.sim_time_ns < *last_sim_time_ns_;
+  if (script_.from_start && (went_back || !last_sim_time_ns_)) origin_ns_ = moment.sim_time_ns;
+  last_sim_time_ns_ = moment.sim_time_ns;
+  const std::int64_t time_ns = moment.sim_time_ns - origin_ns_;
+  if (went_back) {
+    const auto later = std::ranges::lower_bound(script_.events, time_ns, {}, &ScriptedEvent::time_ns);
+    next_ = static_cast<std::size_t>(later - script_.events.begin());
+  }
+  std::vector<databuffer::InputEvent> due;
+  for (; next_ < script_.events.size() && script_.events[next_].time_ns <= time_ns; ++next_)
+    due.push_back(script_.events[next_].event);
+  ended_ = script_.end_ns && time_ns >= *script_.end_ns;
+  return due;
+}
+
+std::string ScriptSource::description() const {
+  return "script " + name_ + ", " + std::to_string(script_.events.size()) + " events";
 }
 
 }  // namespace yars::inputmonitor

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/control_code.hpp"
+#include "config/schema/devices.hpp"
 
 namespace yars::inputmonitor {
 

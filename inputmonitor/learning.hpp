@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "inputmonitor/device_decoder.hpp"
 #include "inputmonitor/device_map.hpp"
-#include "inputmonitor/raw_event.hpp"
 #include "lib/radar/devices.hpp"
 
 namespace yars::inputmonitor {

@@ -23,7 +23,7 @@ class LatestValue {
   std::uint64_t version() const { return Access::load(state_, std::memory_order_acquire) >> 1; }
   bool has_value() const { return (Access::load(state_, std::memory_order_acquire) & kPresent) != 0; }
 
-  // Where things lie, for databuffer/yars.h and `yars status --layout`.
+  // Where things lie, for databuffer/client/yars.h and `yars status --layout`.
   static constexpr std::size_t kSlots = 4;
   static constexpr std::size_t state_offset() { return offsetof(LatestValue, state_); }
   static constexpr std::size_t slots_offset() { return offsetof(LatestValue, slots_); }

@@ -15,9 +15,7 @@
 #include <string_view>
 #include <utility>
 
-#include "lib/failure/require.hpp"
-#include "shm/creation_step.hpp"
-#include "shm/nameless_file.hpp"
+#include "lib/error/error.hpp"
 #include "shm/segment_file.hpp"
 
 namespace yars::shm {

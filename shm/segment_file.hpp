@@ -1,5 +1,4 @@
-// The file behind a segment: opened, locked, mapped and linked through Boost.Interprocess and the system's own calls.
-// One open file description each, so that locks belong to the object and not to the process. For segment.cpp.
+// File behind a segment: opened, locked, mapped, linked; found again when its name was removed.
 #pragma once
 
 #include <sys/stat.h>
@@ -10,11 +9,22 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "lib/file/folder.hpp"
 
 namespace yars::shm {
 
+// Files that processes of this user hold open though their name is gone from /dev/shm: somebody else removed it, as
+// systemd-logind does at a user's logout (RemoveIPC=yes). What is mapped goes on; this finds the way back in.
+
+// Paths /proc/PID/fd/N that open files which had the name `path`, or the name under which a creator built it
+// (path.NUMBER.tmp), and have none now; regular files of this user alone. Looks at every process that this user may
+// look into; a few milliseconds.
+std::vector<std::string> nameless_files(const std::string& path);
+
+// The file behind a segment: opened, locked, mapped and linked through Boost.Interprocess and the system's own calls.
+// One open file description each, so that locks belong to the object and not to the process. For segment.cpp.
 enum class LockKind { none, read, write };
 
 class SegmentFile {

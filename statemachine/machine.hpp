@@ -1,4 +1,4 @@
-// The state machine as one pure step: state and inputs in, next state out.
+// State machine as one pure step: state and inputs in, next state and outputs out.
 #pragma once
 
 #include <array>
@@ -6,13 +6,21 @@
 #include <limits>
 #include <span>
 
-#include "databuffer/records/model_records.hpp"
-#include "databuffer/records/ownship.hpp"
-#include "databuffer/records/patch_map.hpp"
-#include "databuffer/records/radar_state.hpp"
+#include "databuffer/messages/model_records.hpp"
+#include "databuffer/messages/pictures.hpp"
+#include "databuffer/messages/radar_state.hpp"
+#include "databuffer/messages/world_state.hpp"
 #include "lib/radar/configuration.hpp"
+#include "statemachine/step.hpp"
 
 namespace yars::statemachine {
+
+// What the state machine tells sensors, weapons and the head-up display.
+
+// Ranging and steering are NaN without a designated target or without a valid ownship.
+databuffer::Outputs outputs_of(const databuffer::RadarState& state, const Surroundings& surroundings);
+
+// The state machine as one pure step: state and inputs in, next state out.
 
 // NEW, OLD and STORE, and the one that the model has just completed.
 inline constexpr std::size_t kMapsKnown = 4;

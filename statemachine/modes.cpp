@@ -4,11 +4,10 @@
 #include <limits>
 #include <optional>
 
-#include "lib/radar/ranges.hpp"
-#include "statemachine/freezing.hpp"
+#include "lib/radar/mapping.hpp"
+#include "statemachine/cursor.hpp"
 #include "statemachine/maps.hpp"
-#include "statemachine/scanning.hpp"
-#include "statemachine/sequence_points.hpp"
+#include "statemachine/settings.hpp"
 
 namespace yars::statemachine {
 

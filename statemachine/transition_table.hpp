@@ -1,6 +1,4 @@
-// The transition table: which button and which control does what in which mode, and which legend a button bears.
-// transition_table.cpp holds it as data, in the order of docs/spec/pilots_interface.md#buttons, to be checked against
-// it row by row.
+// Transition table of buttons and controls, and the legends beside the buttons.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +6,29 @@
 #include <string>
 #include <string_view>
 
+#include "databuffer/messages/radar_state.hpp"
 #include "statemachine/step.hpp"
 
 namespace yars::statemachine {
+
+// The words beside the buttons. Source: docs/spec/pilots_interface.md#legends.
+std::string_view gain_legend(const databuffer::RadarState& state);
+std::string_view looks_legend(const databuffer::RadarState& state);
+std::string_view mode_legend(const databuffer::RadarState& state);
+std::string_view cursor_function_legend(const databuffer::RadarState& state);
+std::string_view stabilizing_legend(const databuffer::RadarState& state);
+std::string_view recall_legend(const databuffer::RadarState& state);
+std::string_view scan_legend(const databuffer::RadarState& state);
+std::string_view sequence_point_legend(const databuffer::RadarState& state);
+std::string_view channel_legend(const databuffer::RadarState& state);
+std::string_view band_legend(const databuffer::RadarState& state);
+
+// Fills `legends` and `boxed` from the transition table.
+void write_legends(databuffer::RadarState& state);
+
+// The transition table: which button and which control does what in which mode, and which legend a button bears.
+// transition_table.cpp holds it as data, in the order of docs/spec/pilots_interface.md#buttons, to be checked against
+// it row by row.
 
 // Columns of the table docs/spec/pilots_interface.md#buttons; a row names those in which it holds.
 using Columns = std::uint16_t;

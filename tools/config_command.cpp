@@ -3,11 +3,10 @@
 #include <filesystem>
 #include <memory>
 
-#include "config/convert.hpp"
-#include "config/load.hpp"
-#include "config/print.hpp"
-#include "databuffer/installed_file.hpp"
-#include "lib/file/new_file.hpp"
+#include "config/schema/load.hpp"
+#include "config/schema/slot_text.hpp"
+#include "databuffer/runtime/program.hpp"
+#include "lib/file/output_file.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/output.hpp"
 

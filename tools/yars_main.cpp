@@ -1,6 +1,6 @@
 // The `yars` command: one program, many subcommands; each runs while the command line is parsed.
-#include "databuffer/program.hpp"
-#include "databuffer/terminal_guard.hpp"
+#include "databuffer/runtime/process.hpp"
+#include "databuffer/runtime/program.hpp"
 #include "tools/command/command.hpp"
 
 namespace {

@@ -1,19 +1,50 @@
-// The protocol of a program outside that flies the aircraft: what its datagrams mean, and what it is to be sent.
-// Pure: no socket, no clock; `now` is any clock that does not go back.
+// Bridge to a program outside: its protocol's interface, and which of several senders counts.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "databuffer/bridges/byte_order.hpp"
-#include "databuffer/bridges/entity_table.hpp"
-#include "databuffer/bridges/external_sample.hpp"
-#include "databuffer/bridges/sender_gate.hpp"
+#include "databuffer/bridges/dis.hpp"
+#include "databuffer/bridges/external_flight.hpp"
 #include "lib/geo/quantity.hpp"
+#include "lib/memory/byte_order.hpp"
 
 namespace yars::databuffer::bridges {
+
+// Of several senders to one port, one flies the aircraft: whose report was taken last, until it has been silent for a
+// while. Two programs that send to the same port by mistake would else tear the aircraft to and fro.
+struct Sender {
+  std::uint32_t address = 0;  // IPv4, the first number highest
+  std::uint16_t port = 0;
+  friend bool operator==(const Sender&, const Sender&) = default;
+};
+
+// Silence after which another sender may take over: as long as a lane is taken for fresh.
+inline constexpr geo::Duration kSenderSilence = geo::Duration::seconds(0.5);
+
+class SenderGate {
+ public:
+  bool admits(const Sender& sender, geo::Duration now) const {
+    return !holder_ || *holder_ == sender || now - heard_ > kSenderSilence;
+  }
+  // A report of this sender was taken. True: another one than before.
+  bool taken(const Sender& sender, geo::Duration now) {
+    const bool is_new = holder_ != sender;
+    holder_ = sender;
+    heard_ = now;
+    return is_new;
+  }
+
+ private:
+  std::optional<Sender> holder_;
+  geo::Duration heard_;
+};
+
+// The protocol of a program outside that flies the aircraft: what its datagrams mean, and what it is to be sent.
+// Pure: no socket, no clock; `now` is any clock that does not go back.
 
 using Datagram = std::vector<std::byte>;
 

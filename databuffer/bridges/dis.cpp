@@ -1,9 +1,13 @@
 #include "databuffer/bridges/dis.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
-#include "lib/geo/frames.hpp"
+#include "databuffer/bridges/external_flight.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "lib/geo/geodesy.hpp"
 
 namespace yars::databuffer::bridges {
 
@@ -175,6 +179,94 @@ failure::Expected<EntityState> decode_entity_state(Bytes packet) {
   state.deactivated = (appearance & kDeactivatedBit) != 0U;
   state.sample = *std::move(sample);
   return state;
+}
+
+void EntityTable::forget_silent(geo::Duration now) {
+  std::erase_if(entries_, [now](const auto& entry) { return now - entry.second.received > kEntityTimeout; });
+}
+
+std::optional<std::string> EntityTable::update(const EntityState& state, geo::Duration now) {
+  auto found = entries_.find(state.id);
+  if (found != entries_.end() && now - found->second.received > kEntityTimeout) {
+    entries_.erase(found);
+    found = entries_.end();
+  }
+  if (found == entries_.end()) {
+    if (state.deactivated) return std::nullopt;
+    if (entries_.size() >= kMostEntities) forget_silent(now);
+    if (entries_.size() >= kMostEntities)
+      return "expected at most " + std::to_string(kMostEntities) + " entities, found one more";
+    found = entries_.try_emplace(state.id).first;
+  }
+  Entry& entry = found->second;
+  if (const auto reason = entry.order.why_not_news(state.stamp))
+    return "entity " + text_of(state.id) + ": expected a newer report, found " + *reason;
+  if (state.deactivated) {
+    entries_.erase(found);
+    return std::nullopt;
+  }
+  entry.state = state;
+  entry.received = now;
+  return std::nullopt;
+}
+
+std::vector<TrackedEntity> EntityTable::at(geo::Duration now) const {
+  std::vector<TrackedEntity> all;
+  for (const auto& [id, entry] : entries_) {
+    const geo::Duration age = std::max(now - entry.received, geo::Duration());
+    if (age > kEntityTimeout) continue;
+    Ownship place = dead_reckoned(entry.state.sample, entry.state.frozen ? geo::Duration() : age);
+    if (entry.state.frozen) place.velocity_north_mps = place.velocity_east_mps = place.velocity_down_mps = 0.0;
+    // One that its own acceleration has carried beyond what a record may hold says nothing any more.
+    if (why_refused(place)) continue;
+    all.push_back({id, entry.state.kind, entry.state.domain, place, age});
+  }
+  return all;
+}
+
+namespace {
+
+// The record has one number for what DIS says in three; sites that count alike may share one.
+std::uint32_t number_of(EntityId id) {
+  const std::uint32_t sender = (static_cast<std::uint32_t>(id.site) << 8U) ^ id.application;
+  return sender << 16U | id.entity;
+}
+
+TrafficEntity target_of(const TrackedEntity& entity) {
+  const bool ship = entity.domain == EntityDomain::surface;
+  const Ownship& place = entity.place;
+  return {place.latitude_deg,
+          place.longitude_deg,
+          place.velocity_north_mps,
+          place.velocity_east_mps,
+          ship ? kShipHeight_m : kVehicleHeight_m,
+          ship ? kShipEcho_m2 : kVehicleEcho_m2,
+          number_of(entity.id),
+          0};
+}
+
+}  // namespace
+
+Traffic surface_traffic(std::span<const TrackedEntity> entities, geo::GeoPoint near) {
+  struct Target {
+    double distance_m;
+    const TrackedEntity* entity;
+  };
+  std::vector<Target> targets;
+  for (const TrackedEntity& entity : entities) {
+    const bool on_ground = entity.domain == EntityDomain::land || entity.domain == EntityDomain::surface;
+    if (entity.kind != EntityKind::platform || !on_ground) continue;
+    const geo::GeoPoint place{entity.place.latitude_deg, entity.place.longitude_deg};
+    targets.push_back({geo::geodesic_inverse(near, place).distance.metres(), &entity});
+  }
+  if (targets.size() > kMostTraffic) {
+    std::ranges::stable_sort(targets, {}, &Target::distance_m);
+    targets.resize(kMostTraffic);
+  }
+  Traffic traffic{};
+  traffic.count = static_cast<std::uint32_t>(targets.size());
+  for (std::size_t i = 0; i < targets.size(); ++i) traffic.entities[i] = target_of(*targets[i].entity);
+  return traffic;
 }
 
 }  // namespace yars::databuffer::bridges

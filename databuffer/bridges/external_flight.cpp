@@ -2,13 +2,165 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 
-#include "databuffer/bridges/dead_reckoning.hpp"
 #include "databuffer/flight/motion.hpp"
-#include "databuffer/records/plain_text.hpp"
-#include "databuffer/records/validation.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "lib/geo/quantity.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer::bridges {
+
+// The way from one stamp to another, the shorter one where stamps run in a circle.
+geo::Duration StampOrder::since(geo::Duration before, geo::Duration stamp) const {
+  const double way_s = (stamp - before).seconds();
+  return geo::Duration::seconds(period_ ? std::remainder(way_s, period_->seconds()) : way_s);
+}
+
+std::optional<std::string> StampOrder::why_not_news(geo::Duration stamp) {
+  const auto take = [&] {
+    last_ = stamp;
+    restarted_.reset();
+    return std::nullopt;
+  };
+  if (!last_) return take();
+  const geo::Duration ahead = since(*last_, stamp);
+  if (ahead > geo::Duration()) return take();
+  const std::string found = "stamp " + text_of_number(stamp.seconds()) + " s ";
+  if (ahead == geo::Duration()) return found + "for the second time";
+  const std::string after = "after " + text_of_number(last_->seconds()) + " s";
+  if (ahead >= -kLongestDelay) return found + after;
+  if (restarted_) {
+    const geo::Duration on = since(*restarted_, stamp);
+    if (on > geo::Duration() && on <= kLongestDelay) return take();
+  }
+  restarted_ = stamp;
+  return found + after + ", a first of a sender that began again";
+}
+
+namespace {
+
+// Below this cosine of the pitch, 0.6 deg from the vertical, heading and roll turn without bound.
+constexpr double kLeastCosine = 0.01;
+
+std::optional<failure::Error> outside(std::string_view source, std::string_view field, double value, double least,
+                                      double most) {
+  // Written so that NaN fails.
+  if (value >= least && value <= most) return std::nullopt;
+  return failure::Error{std::string(source),
+                        std::string(field) + " in [" + text_of_number(least) + ", " + text_of_number(most) + ']',
+                        text_of_number(value),
+                        {},
+                        false};
+}
+
+// [deg] What is left over when a float of radians says 90 or 180 degrees.
+constexpr double kRounding = 1e-4;
+
+// Angles that other programs count from another zero, and what has no field in the record.
+std::optional<failure::Error> fault_of(std::string_view source, const Reading& reading,
+                                       const std::optional<AttitudeRates>& rates,
+                                       const std::optional<geo::Vector3>& acceleration) {
+  if (auto fault = outside(source, "heading_deg", reading.heading_deg, -360.0, 720.0)) return fault;
+  if (auto fault = outside(source, "longitude_deg", reading.longitude_deg, -180.0, 360.0)) return fault;
+  if (rates) {
+    for (const double rate : {rates->heading_dps, rates->pitch_dps, rates->roll_dps})
+      if (auto fault = outside(source, "attitude rate [deg/s]", rate, -kFastestTurn, kFastestTurn)) return fault;
+  }
+  if (acceleration) {
+    for (const double part : {acceleration->x, acceleration->y, acceleration->z})
+      if (auto fault = outside(source, "acceleration [m/s^2]", part, -kHardestPull, kHardestPull)) return fault;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+failure::Expected<ExternalSample> checked_sample(std::string_view source, const Reading& reading,
+                                                 const std::optional<AttitudeRates>& rates,
+                                                 const std::optional<geo::Vector3>& acceleration_mps2) {
+  if (auto fault = fault_of(source, reading, rates, acceleration_mps2)) return tl::unexpected(std::move(*fault));
+  ExternalSample sample;
+  Ownship& ownship = sample.ownship;
+  ownship.latitude_deg = reading.latitude_deg;
+  ownship.longitude_deg = geo::wrapped_degrees(reading.longitude_deg);
+  ownship.altitude_msl_m = reading.altitude_msl_m;
+  ownship.heading_deg = geo::Bearing::degrees(reading.heading_deg).degrees();
+  const auto rounded = [](double angle_deg, double most_deg) {
+    return std::abs(angle_deg) <= most_deg + kRounding ? std::clamp(angle_deg, -most_deg, most_deg) : angle_deg;
+  };
+  ownship.pitch_deg = rounded(reading.pitch_deg, 90.0);
+  ownship.roll_deg = rounded(reading.roll_deg, 180.0);
+  ownship.velocity_north_mps = reading.velocity_north_mps;
+  ownship.velocity_east_mps = reading.velocity_east_mps;
+  ownship.velocity_down_mps = reading.velocity_down_mps;
+  ownship.radar_altitude_m = std::numeric_limits<double>::quiet_NaN();
+  source.copy(ownship.source, sizeof ownship.source - 1);
+  if (const auto refusal = why_refused(ownship))
+    return failure::fail(std::string(source), "a flight that can be", *refusal);
+  sample.rates = rates;
+  sample.acceleration_mps2 = acceleration_mps2;
+  return sample;
+}
+
+std::optional<AttitudeRates> rates_from_body(double roll_rate_dps, double pitch_rate_dps, double yaw_rate_dps,
+                                             double pitch_deg, double roll_deg) {
+  const double cos_pitch = std::cos(pitch_deg * geo::kRadiansPerDegree);
+  if (std::abs(cos_pitch) < kLeastCosine) return std::nullopt;
+  const double sin_roll = std::sin(roll_deg * geo::kRadiansPerDegree);
+  const double cos_roll = std::cos(roll_deg * geo::kRadiansPerDegree);
+  AttitudeRates rates;
+  rates.heading_dps = (pitch_rate_dps * sin_roll + yaw_rate_dps * cos_roll) / cos_pitch;
+  rates.pitch_dps = pitch_rate_dps * cos_roll - yaw_rate_dps * sin_roll;
+  rates.roll_dps = roll_rate_dps + rates.heading_dps * std::sin(pitch_deg * geo::kRadiansPerDegree);
+  return rates;
+}
+
+namespace {
+
+struct Way {
+  geo::GeoPoint point;
+  geo::Angle meridian_turn;  // by which north, there, is turned against north here
+};
+
+Way way_over_ground(const Ownship& from, double north_m, double east_m) {
+  const double distance_m = std::hypot(north_m, east_m);
+  const geo::GeoPoint point{from.latitude_deg, from.longitude_deg};
+  if (distance_m == 0.0) return {point, {}};
+  const auto azimuth = geo::Bearing::radians(std::atan2(east_m, north_m));
+  const flight::Motion motion{point, geo::AltitudeMsl::metres(from.altitude_msl_m), azimuth, {}, {}};
+  const auto there =
+      geo::GeodesicRay(point, azimuth).place(flight::surface_distance(motion, geo::Length::metres(distance_m)));
+  return {there.point, there.azimuth - azimuth};
+}
+
+}  // namespace
+
+Ownship dead_reckoned(const ExternalSample& sample, geo::Duration after) {
+  const double t = after.seconds();
+  const geo::Vector3 a = sample.acceleration_mps2.value_or(geo::Vector3{});
+  const Ownship& from = sample.ownship;
+  Ownship there = from;
+  const Way way = way_over_ground(from, from.velocity_north_mps * t + 0.5 * a.x * t * t,
+                                  from.velocity_east_mps * t + 0.5 * a.y * t * t);
+  there.latitude_deg = way.point.latitude_deg;
+  there.longitude_deg = way.point.longitude_deg;
+  there.altitude_msl_m -= from.velocity_down_mps * t + 0.5 * a.z * t * t;
+  const double north_mps = from.velocity_north_mps + a.x * t;
+  const double east_mps = from.velocity_east_mps + a.y * t;
+  const double cos_turn = std::cos(way.meridian_turn.radians());
+  const double sin_turn = std::sin(way.meridian_turn.radians());
+  there.velocity_north_mps = north_mps * cos_turn - east_mps * sin_turn;
+  there.velocity_east_mps = north_mps * sin_turn + east_mps * cos_turn;
+  there.velocity_down_mps += a.z * t;
+  const AttitudeRates rates = sample.rates.value_or(AttitudeRates{});
+  const double heading_deg = from.heading_deg + rates.heading_dps * t + way.meridian_turn.degrees();
+  there.heading_deg = geo::Bearing::degrees(heading_deg).degrees();
+  there.pitch_deg = std::clamp(from.pitch_deg + rates.pitch_dps * t, -90.0, 90.0);
+  there.roll_deg = geo::wrapped_degrees(from.roll_deg + rates.roll_dps * t);
+  return there;
+}
 
 namespace {
 

@@ -1,20 +1,43 @@
+// Flight along a route of waypoints, and the route's file.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "databuffer/flight/motion.hpp"
+#include "lib/error/error.hpp"
+#include "lib/geo/geodesy.hpp"
+#include "lib/geo/quantity.hpp"
+
+namespace yars::databuffer::flight {
+
+// A route: waypoints in the order in which they are flown. One a line, `LAT LON ALT_FT KT` (degrees, degrees, feet
+// above sea level, knots over ground), `#` begins a comment; a line `loop` at the end goes back to the first.
+// Altitude and speed belong to the leg that ends at the waypoint.
+struct Waypoint {
+  geo::GeoPoint point;
+  geo::AltitudeMsl altitude;
+  geo::Speed ground_speed;
+};
+
+struct Route {
+  std::vector<Waypoint> waypoints;  // at least two, neighbours at least 100 m apart
+  bool loop = false;
+
+  // Index of the waypoint after this one; the size of the route after the last of a route without loop.
+  std::size_t after(std::size_t waypoint) const;
+};
+
+// `name` is the file's, for errors: they carry the line.
+failure::Expected<Route> parse_route(std::string_view text, std::string_view name);
+
 // Flies a route: great-circle legs, coordinated turns (turn rate = g tan(bank) / V) of at most 30 deg bank with a
 // limited roll rate, begun early so that they end on the next leg; climbs with limited rate, speed changes with
 // limited acceleration. Placed elsewhere, it flies to the end of the nearest leg. After the last waypoint of a
 // route without loop it goes straight on.
 // Guidance: the leg is met along a circle tangent to it; the turn rate is proportional to what the track misses
 // of that circle's direction.
-#pragma once
-
-#include <optional>
-
-#include "databuffer/flight/flight_model.hpp"
-#include "databuffer/flight/leg.hpp"
-#include "databuffer/flight/motion.hpp"
-#include "databuffer/flight/route.hpp"
-
-namespace yars::databuffer::flight {
-
 inline constexpr geo::Angle kBankLimit = geo::Angle::degrees(30.0);  // an airliner's and a ferry flight's habit
 inline constexpr double kRollRate_dps = 15.0;                        // [deg/s]
 inline constexpr geo::Speed kClimbLimit = geo::Speed::metres_per_second(20.0);  // 3,900 ft/min

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "databuffer/frame_pool.hpp"
-#include "databuffer/log.hpp"
-#include "databuffer/program.hpp"
-#include "lib/file/new_file.hpp"
+#include "databuffer/runtime/program.hpp"
+#include "databuffer/session/picture_pool.hpp"
+#include "lib/file/output_file.hpp"
+#include "lib/log/log.hpp"
 
 namespace yars::display {
 

@@ -9,10 +9,10 @@
 #include <memory>
 #include <string>
 
-#include "databuffer/session.hpp"
+#include "databuffer/session/session.hpp"
 #include "display/gl/framebuffer.hpp"
 #include "display/host/display.hpp"
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "lib/file/folder.hpp"
 #include "lib/imageio/png.hpp"
 
@@ -59,9 +59,9 @@ class FrameWriter {
   std::deque<std::string> names_;  // of the frames in the folder, the oldest first; empty where all stay
 };
 
-// Puts the pictures of the glass into the session's pool of frames (databuffer/frame_pool.hpp), where other programs
-// read the newest. One process of a session does so, the holder of Role::glass_frames. What it has published stays when
-// it stops or dies; a successor's ids go on above it.
+// Puts the pictures of the glass into the session's pool of frames (databuffer/session/picture_pool.hpp), where other
+// programs read the newest. One process of a session does so, the holder of Role::glass_frames. What it has published
+// stays when it stops or dies; a successor's ids go on above it.
 class FramePublisher {
  public:
   // `size` [pixels] of the glass. Errors, all of the command line: a glass that the pool has no room for, another

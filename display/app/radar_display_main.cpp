@@ -7,13 +7,13 @@
 #include <thread>
 #include <utility>
 
-#include "databuffer/log.hpp"
-#include "databuffer/program.hpp"
-#include "databuffer/tick_loop.hpp"
+#include "databuffer/runtime/program.hpp"
+#include "databuffer/runtime/tick_loop.hpp"
 #include "display/app/frame_output_shell.hpp"
 #include "display/gl/context.hpp"
 #include "display/host/display.hpp"
 #include "display/host/session_link_shell.hpp"
+#include "lib/log/log.hpp"
 
 namespace {
 

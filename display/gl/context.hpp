@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "databuffer/records/key_map.hpp"
+#include "databuffer/messages/key_map.hpp"
 #include "display/symbology/draw_list.hpp"
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 
 namespace yars::display::gl {
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <span>
 
-#include "databuffer/records/model_records.hpp"
+#include "databuffer/messages/model_records.hpp"
 #include "display/gl/framebuffer.hpp"
 #include "display/symbology/draw_list.hpp"
 #include "display/symbology/plan_view.hpp"

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "lib/failure/require.hpp"
+#include "lib/error/error.hpp"
 
 namespace yars::display::gl {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "display/gl/shaders.hpp"
-#include "lib/radar/limits.hpp"
+#include "lib/radar/modes.hpp"
 
 namespace yars::display::gl {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-#include "lib/failure/require.hpp"
+#include "lib/error/error.hpp"
 
 namespace yars::display::gl {
 

@@ -5,14 +5,14 @@
 #include <span>
 #include <utility>
 
-#include "config/load.hpp"
-#include "databuffer/log.hpp"
-#include "databuffer/session.hpp"
+#include "config/schema/load.hpp"
+#include "databuffer/session/session.hpp"
 #include "display/gl/context.hpp"
 #include "display/gl/display.hpp"
 #include "display/gl/framebuffer.hpp"
 #include "display/gl/plain_state.hpp"
 #include "display/host/session_link_shell.hpp"
+#include "lib/log/log.hpp"
 
 namespace yars::display::host {
 

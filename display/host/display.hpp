@@ -12,7 +12,7 @@
 #include <string>
 
 #include "display/gl/framebuffer.hpp"
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "lib/imageio/png.hpp"
 
 namespace yars::databuffer {

@@ -4,13 +4,12 @@
 #include <string>
 #include <utility>
 
-#include "databuffer/log.hpp"
-#include "databuffer/patch_pool.hpp"
-#include "databuffer/records/event_text.hpp"
-#include "databuffer/records/model_validation.hpp"
-#include "databuffer/records/validation.hpp"
-#include "databuffer/tick_loop.hpp"
+#include "databuffer/messages/input_event.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "databuffer/runtime/tick_loop.hpp"
+#include "databuffer/session/picture_pool.hpp"
 #include "display/symbology/readouts.hpp"
+#include "lib/log/log.hpp"
 
 namespace yars::display {
 

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "databuffer/ownship_receiver.hpp"
-#include "databuffer/records/key_map.hpp"
-#include "databuffer/session.hpp"
+#include "databuffer/messages/key_map.hpp"
+#include "databuffer/runtime/receivers.hpp"
+#include "databuffer/session/session.hpp"
 #include "display/gl/context.hpp"
 #include "display/symbology/plan_view.hpp"
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lib/radar/colors.hpp"
+#include "lib/radar/configuration.hpp"
 
 namespace yars::display {
 

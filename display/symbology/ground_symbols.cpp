@@ -9,10 +9,9 @@
 #include <optional>
 #include <string_view>
 
-#include "databuffer/records/navigation.hpp"
-#include "databuffer/records/plain_text.hpp"
-#include "lib/radar/limits.hpp"
+#include "databuffer/messages/derived_values.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::display {
 

@@ -10,7 +10,7 @@
 #include "display/symbology/label_layout.hpp"
 #include "display/symbology/plan_view.hpp"
 #include "lib/radar/configuration.hpp"
-#include "lib/radar/limits.hpp"
+#include "lib/radar/modes.hpp"
 
 namespace yars::display {
 

@@ -14,7 +14,7 @@
 #include <string_view>
 
 #include "display/symbology/draw_list.hpp"
-#include "lib/radar/limits.hpp"
+#include "lib/radar/modes.hpp"
 
 namespace yars::display {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "databuffer/records/navigation.hpp"
-#include "lib/geo/frames.hpp"
+#include "databuffer/messages/derived_values.hpp"
+#include "lib/geo/geodesy.hpp"
 
 namespace yars::display {
 

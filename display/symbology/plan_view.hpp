@@ -3,14 +3,14 @@
 
 #include <vector>
 
-#include "databuffer/records/model_records.hpp"
-#include "databuffer/records/ownship.hpp"
-#include "databuffer/records/patch_map.hpp"
-#include "databuffer/records/radar_state.hpp"
+#include "databuffer/messages/model_records.hpp"
+#include "databuffer/messages/pictures.hpp"
+#include "databuffer/messages/radar_state.hpp"
+#include "databuffer/messages/world_state.hpp"
 #include "display/symbology/draw_list.hpp"
 #include "display/symbology/radar_video.hpp"
-#include "lib/geo/bearing.hpp"
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
+#include "lib/geo/quantity.hpp"
 #include "lib/radar/configuration.hpp"
 
 namespace yars::display {

@@ -7,10 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "databuffer/records/model_records.hpp"
-#include "lib/geo/bearing.hpp"
-#include "lib/geo/frames.hpp"
-#include "lib/geo/geodesic.hpp"
+#include "databuffer/messages/model_records.hpp"
+#include "lib/geo/geodesy.hpp"
+#include "lib/geo/quantity.hpp"
 
 namespace yars::display {
 

@@ -7,11 +7,10 @@
 #include <cstdio>
 #include <string_view>
 
-#include "databuffer/records/plain_text.hpp"
-#include "lib/failure/require.hpp"
+#include "lib/error/error.hpp"
 #include "lib/geo/quantity.hpp"
-#include "lib/radar/limits.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::display {
 

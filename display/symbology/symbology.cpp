@@ -5,8 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "databuffer/records/map_timer.hpp"
-#include "databuffer/records/navigation.hpp"
+#include "databuffer/messages/derived_values.hpp"
 #include "display/symbology/ground_symbols.hpp"
 #include "display/symbology/plan_view.hpp"
 #include "display/symbology/radar_video.hpp"

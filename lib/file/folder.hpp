@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 
 namespace yars::file {
 

@@ -12,4 +12,24 @@ double Decibels::ratio() const {
   return std::pow(10.0, si_ / 10.0);
 }
 
+double wrapped_degrees(double degrees) {
+  const double turned = std::remainder(degrees, 360.0);
+  return turned >= 180.0 ? turned - 360.0 : turned;
+}
+
+Bearing Bearing::degrees(double value) {
+  double turned = std::fmod(value, 360.0);
+  if (turned < 0.0) turned += 360.0;
+  // A tiny negative input rounds up to a whole turn: that is north.
+  return Bearing(turned >= 360.0 ? 0.0 : turned);
+}
+
+Bearing Bearing::radians(double value) {
+  return degrees(value / kRadiansPerDegree);
+}
+
+Angle operator-(Bearing to, Bearing from) {
+  return Angle::degrees(wrapped_degrees(to.degrees_ - from.degrees_));
+}
+
 }  // namespace yars::geo

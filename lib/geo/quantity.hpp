@@ -1,11 +1,13 @@
-// Quantities with a unit: one double, SI inside, named factories and getters. In a hot loop unwrap once
-// (`const double range_m = range.metres()`).
+// Quantities with a unit: lengths, angles, speeds, durations, decibels, bearings, heights.
 #pragma once
 
 #include <compare>
 #include <numbers>
 
 namespace yars::geo {
+
+// Quantities with a unit: one double, SI inside, named factories and getters. In a hot loop unwrap once
+// (`const double range_m = range.metres()`).
 
 // What every quantity can do: add, subtract, scale, compare, and a ratio of two is a number.
 template <class Derived>
@@ -98,5 +100,53 @@ class Decibels : public Quantity<Decibels> {
  private:
   constexpr explicit Decibels(double si) : Quantity(si) {}
 };
+
+// A direction over ground: a point on the circle, clockwise from true north. Bearings are not added to each
+// other; their difference is an Angle wrapped to [-180, 180) degrees.
+class Bearing {
+ public:
+  constexpr Bearing() = default;
+  static Bearing degrees(double value);
+  static Bearing radians(double value);
+  double degrees() const { return degrees_; }  // [deg] [0, 360)
+  double radians() const { return degrees_ * kRadiansPerDegree; }
+
+  friend Bearing operator+(Bearing bearing, Angle turn) { return degrees(bearing.degrees_ + turn.degrees()); }
+  friend Bearing operator-(Bearing bearing, Angle turn) { return degrees(bearing.degrees_ - turn.degrees()); }
+  friend Angle operator-(Bearing to, Bearing from);
+  friend bool operator==(Bearing a, Bearing b) { return a.degrees_ == b.degrees_; }
+
+ private:
+  constexpr explicit Bearing(double degrees) : degrees_(degrees) {}
+  double degrees_ = 0.0;
+};
+
+// Wraps to [-180, 180) degrees; accurate for any finite input.
+double wrapped_degrees(double degrees);
+
+// Three heights that must not be mixed up.
+
+// A height over one reference surface. Two of a kind differ by a Length; different kinds do not mix.
+template <class Datum>
+class HeightOver {
+ public:
+  constexpr HeightOver() = default;
+  constexpr explicit HeightOver(Length height) : height_(height) {}
+  static constexpr HeightOver metres(double value) { return HeightOver(Length::metres(value)); }
+  static constexpr HeightOver feet(double value) { return HeightOver(Length::feet(value)); }
+  constexpr double metres() const { return height_.metres(); }
+  constexpr double feet() const { return height_.feet(); }
+  friend constexpr Length operator-(HeightOver a, HeightOver b) { return a.height_ - b.height_; }
+  friend constexpr HeightOver operator+(HeightOver a, Length rise) { return HeightOver(a.height_ + rise); }
+  friend constexpr auto operator<=>(HeightOver a, HeightOver b) { return a.height_ <=> b.height_; }
+  friend constexpr bool operator==(HeightOver a, HeightOver b) { return a.height_ == b.height_; }
+
+ private:
+  Length height_;
+};
+
+using AltitudeMsl = HeightOver<struct MeanSeaLevel>;             // above mean sea level, as in DTED
+using HeightAboveEllipsoid = HeightOver<struct Wgs84Ellipsoid>;  // above WGS84
+using HeightAboveGround = HeightOver<struct GroundBelow>;        // above the terrain below the point
 
 }  // namespace yars::geo

@@ -1,18 +1,42 @@
-// What a configuration file settles about one radar: pure values, defaults are the APG-70's. config/ fills it
-// from GUF; every role reads the same structure.
+// Configuration of one radar: colours, antenna, receiver, maps, fidelity and its presets.
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "lib/geo/geodesic.hpp"
-#include "lib/radar/colors.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/radar/devices.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/radar/world.hpp"
 
 namespace yars::radar {
+
+// Colours of the glass: what a configuration may choose. The ground is black, as on any tube.
+struct Rgb {
+  double red = 0.0, green = 0.0, blue = 0.0;  // [1] 0 to 1, as the display takes them (sRGB)
+};
+
+enum class ColorPreset : std::uint8_t { green = 0, gray = 1, night = 2 };
+
+struct ColorConfiguration {
+  ColorPreset preset = ColorPreset::green;  // what the colours began as
+  Rgb video{0.30, 0.95, 0.42};              // full light; grays are fractions of it
+  Rgb symbols{0.72, 1.0, 0.76};             // stand out from the brightest video
+  Rgb lines{0.22, 0.55, 0.28};              // arcs and lines below the symbols
+};
+
+// Green phosphor; neutral grays; a dim red that spares the eyes at night.
+ColorConfiguration color_preset(ColorPreset preset);
+
+// Hue [deg] 0 to 360, red at 0 and green at 120; saturation and value [1] 0 to 1.
+Rgb rgb_from_hsv(double hue_deg, double saturation, double value);
+
+// What a configuration file settles about one radar: pure values, defaults are the APG-70's. config/ fills it
+// from GUF; every role reads the same structure.
 
 // Servo of the dish. Source: tables of the 1996 report and docs/spec/pilots_interface.md#rule-2.
 struct AntennaConfiguration {
@@ -185,5 +209,12 @@ struct RadarConfiguration {
   HeightRanges height_ranges;
   std::vector<Device> devices;  // maps of cockpit hardware, the last that fits wins
 };
+
+// The named settings of the trade of speed against accuracy; slot `preset` of GUF and `--fidelity` of the tools.
+
+// "1996", "draft", "standard", "fine", "reference": from least to most work.
+std::span<const std::string_view> fidelity_names();
+
+std::optional<Fidelity> fidelity_preset(std::string_view name);
 
 }  // namespace yars::radar

@@ -1,4 +1,4 @@
-// The radar's modes and switch positions, as fixed numbers: records in shared memory carry them.
+// Fixed numbers and names that records carry: counts, tick, modes, switch positions, points.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,15 @@
 
 namespace yars::radar {
 
+// Counts that shape records: changing one changes the layout version.
+inline constexpr int kMaxSamples = 4096;  // samples of a sweep
+inline constexpr int kBezelButtons = 20;
+inline constexpr int kMaxPointsDrawn = 8;  // five nearest, the selected one, two spare
+inline constexpr std::int64_t kTickNanoseconds =
+    5'000'000;  // [ns] of sim time; radar-model and state-machine step by it
+inline constexpr double kTickSeconds = 0.005;
+
+// The radar's modes and switch positions, as fixed numbers: records in shared memory carry them.
 enum class Power : std::uint8_t { off = 0, standby = 1, operate = 2 };
 enum class Mode : std::uint8_t {
   rbm = 0,
@@ -32,5 +41,20 @@ std::string_view name_of(Master master);
 std::string_view name_of(ScanWidth scan);
 std::string_view name_of(CursorFunction function);
 std::string_view name_of(Navigator navigator);
+
+// Names of sequence points and their order. Source: docs/spec/pilots_interface.md#rule-11. Steer and initial points
+// `n`, targets `n.`, offsets `n.1` to `n.9`, target offsets `n.01` to `n.99`, n from 1 to 100.
+struct PointName {
+  int number = 0;       // 1..100
+  int offset = 0;       // 1..99; 0 = the point itself
+  bool target = false;  // a target, or an offset of one
+  friend bool operator==(const PointName&, const PointName&) = default;
+};
+
+// Nothing when the text is no name.
+std::optional<PointName> point_name(std::string_view text);
+
+// The order of stepping: ascending number, each point before its offsets; texts that are no names last, by spelling.
+bool precedes(std::string_view left, std::string_view right);
 
 }  // namespace yars::radar

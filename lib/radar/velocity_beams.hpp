@@ -6,9 +6,8 @@
 #include <optional>
 #include <span>
 
-#include "lib/geo/bearing.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
-#include "lib/geo/vector.hpp"
 #include "lib/radar/configuration.hpp"
 
 namespace yars::radar {

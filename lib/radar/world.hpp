@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
 
 namespace yars::radar {
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "lib/geo/frames.hpp"
+#include "lib/geo/geodesy.hpp"
 
 namespace yars::model::terrain {
 

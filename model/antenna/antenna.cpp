@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lib/radar/configuration.hpp"
-#include "lib/radar/limits.hpp"
+#include "lib/radar/modes.hpp"
 
 namespace yars::model::antenna {
 

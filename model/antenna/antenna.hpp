@@ -3,7 +3,6 @@
 
 #include <cstdint>
 
-#include "lib/geo/bearing.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/configuration.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
 
 namespace yars::model {
 

@@ -1,6 +1,6 @@
 // radar-model: antenna and real beam map; sweeps out.
-#include "databuffer/log.hpp"
-#include "databuffer/program.hpp"
+#include "databuffer/runtime/program.hpp"
+#include "lib/log/log.hpp"
 #include "model/app/radar_model_shell.hpp"
 #include "model/terrain/store/directory_store.hpp"
 

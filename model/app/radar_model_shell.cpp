@@ -6,13 +6,12 @@
 #include <ctime>
 #include <string>
 
-#include "databuffer/log.hpp"
-#include "databuffer/patch_pool.hpp"
-#include "databuffer/records/model_validation.hpp"
-#include "databuffer/records/radar_command.hpp"
-#include "databuffer/records/validation.hpp"
-#include "lib/radar/fidelity_preset.hpp"
-#include "lib/radar/map_formation.hpp"
+#include "databuffer/messages/derived_values.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "databuffer/session/picture_pool.hpp"
+#include "lib/log/log.hpp"
+#include "lib/radar/configuration.hpp"
+#include "lib/radar/mapping.hpp"
 #include "model/kernel/map_schedule.hpp"
 #include "model/kernel/tick_inputs.hpp"
 

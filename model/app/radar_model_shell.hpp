@@ -8,10 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "databuffer/ownship_receiver.hpp"
-#include "databuffer/session.hpp"
-#include "databuffer/tick_loop.hpp"
-#include "databuffer/traffic_receiver.hpp"
+#include "databuffer/runtime/receivers.hpp"
+#include "databuffer/runtime/tick_loop.hpp"
+#include "databuffer/session/session.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/app/background_shell.hpp"
 #include "model/kernel/radar_kernel.hpp"

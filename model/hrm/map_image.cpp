@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "lib/radar/map_formation.hpp"
+#include "lib/radar/mapping.hpp"
 #include "model/hrm/map_image_simd.hpp"
 #include "model/physics/clutter_simd.hpp"
 #include "model/physics/reflectivity.hpp"
@@ -117,7 +117,7 @@ const float* Speckle::row(int row) {
   if (!finer_) {
     const auto name = static_cast<std::uint32_t>(row);
     physics::simd::speckle(static_cast<std::size_t>(size_), physics::make_noise_state({seed_, map_, name}), looks_,
-                        intensity_.data());
+                           intensity_.data());
     return intensity_.data();
   }
   const Between place = between(row);
@@ -151,14 +151,14 @@ void develop(const radar::RadarConfiguration& configuration, const MapImage& ima
   for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
     const float* power = &image.power[row * size];
     const physics::simd::VideoInputs inputs{power,
-                                         power,
-                                         power,
-                                         kAlone.data(),
-                                         static_cast<float>(noise.thermal),
-                                         configuration.fidelity.noise ? speckle.row(static_cast<int>(row)) : nullptr,
-                                         nullptr,
-                                         static_cast<float>(-hrm.brightest_gamma_db),
-                                         static_cast<float>(hrm.dynamic_range_db)};
+                                            power,
+                                            power,
+                                            kAlone.data(),
+                                            static_cast<float>(noise.thermal),
+                                            configuration.fidelity.noise ? speckle.row(static_cast<int>(row)) : nullptr,
+                                            nullptr,
+                                            static_cast<float>(-hrm.brightest_gamma_db),
+                                            static_cast<float>(hrm.dynamic_range_db)};
     physics::simd::develop(size, inputs, &picture[row * size]);
     if (!image.blind) continue;
     for (std::size_t i = 0; i < size; ++i)

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "lib/geo/vector.hpp"
+#include "lib/geo/geodesy.hpp"
 
 namespace yars::model::hrm {
 

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <optional>
 
-#include "lib/failure/require.hpp"
+#include "lib/error/error.hpp"
 #include "lib/memory/line_vector.hpp"
-#include "lib/radar/map_formation.hpp"
+#include "lib/radar/mapping.hpp"
 #include "model/hrm/map_image.hpp"
 #include "model/hrm/profile_simd.hpp"
 #include "model/hrm/reference_patch.hpp"

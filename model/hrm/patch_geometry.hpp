@@ -6,9 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "lib/geo/bearing.hpp"
-#include "lib/geo/geodesic.hpp"
-#include "lib/geo/height.hpp"
+#include "lib/geo/geodesy.hpp"
+#include "lib/geo/quantity.hpp"
 #include "lib/parallel/thread_pool.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/physics/sweep_geometry.hpp"

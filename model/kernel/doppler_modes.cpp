@@ -5,11 +5,10 @@
 #include <cmath>
 #include <span>
 
-#include "lib/failure/require.hpp"
-#include "lib/radar/chance.hpp"
-#include "lib/radar/limits.hpp"
-#include "lib/radar/map_formation.hpp"
+#include "lib/error/error.hpp"
+#include "lib/radar/mapping.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/random/counter_rng.hpp"
 
 namespace yars::model::kernel {
 

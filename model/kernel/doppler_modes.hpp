@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "databuffer/records/model_records.hpp"
+#include "databuffer/messages/model_records.hpp"
 #include "lib/radar/configuration.hpp"
 #include "lib/radar/velocity_beams.hpp"
 #include "model/antenna/antenna.hpp"

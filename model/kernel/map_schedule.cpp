@@ -8,10 +8,8 @@
 #include <iterator>
 #include <limits>
 
-#include "databuffer/records/picture_id.hpp"
-#include "lib/radar/limits.hpp"
-#include "lib/radar/map_formation.hpp"
-#include "lib/radar/mappable.hpp"
+#include "databuffer/messages/pictures.hpp"
+#include "lib/radar/mapping.hpp"
 #include "lib/radar/modes.hpp"
 
 namespace yars::model::kernel {

@@ -6,8 +6,8 @@
 #include <span>
 #include <string_view>
 
-#include "databuffer/records/model_records.hpp"
-#include "databuffer/records/patch_map.hpp"
+#include "databuffer/messages/model_records.hpp"
+#include "databuffer/messages/pictures.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/kernel/tick_inputs.hpp"

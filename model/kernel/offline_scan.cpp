@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "lib/radar/limits.hpp"
 #include "lib/radar/modes.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "model/physics/receiver.hpp"

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "databuffer/records/model_records.hpp"
+#include "databuffer/messages/model_records.hpp"
 #include "lib/memory/line_vector.hpp"
 #include "lib/parallel/thread_pool.hpp"
 #include "lib/radar/configuration.hpp"

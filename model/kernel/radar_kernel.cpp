@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "lib/radar/mappable.hpp"
+#include "lib/radar/mapping.hpp"
 #include "model/kernel/scan_state.hpp"
 #include "model/kernel/tick_inputs.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "databuffer/records/model_records.hpp"
+#include "databuffer/messages/model_records.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/kernel/map_schedule.hpp"
 #include "model/physics/environment.hpp"

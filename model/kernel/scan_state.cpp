@@ -5,9 +5,9 @@
 #include <limits>
 #include <string_view>
 
-#include "databuffer/records/plain_text.hpp"
-#include "lib/radar/fidelity_preset.hpp"
-#include "lib/radar/map_formation.hpp"
+#include "lib/radar/configuration.hpp"
+#include "lib/radar/mapping.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/kernel/tick_inputs.hpp"
 #include "model/physics/receiver.hpp"
 
@@ -64,8 +64,8 @@ geo::Angle RadarKernel::State::wanted_elevation(const terrain::TerrainView& terr
 }
 
 // A sharpened sweep takes several ticks: its edges are those of the first and of the last.
-bool RadarKernel::State::gather(const ModelTick& given, const antenna::AntennaStep& step, const physics::Database& database,
-                                databuffer::Sweep& sweep) {
+bool RadarKernel::State::gather(const ModelTick& given, const antenna::AntennaStep& step,
+                                const physics::Database& database, databuffer::Sweep& sweep) {
   if (gathered_ticks == 0) {
     gathered = step;
   } else {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "databuffer/records/model_records.hpp"
+#include "databuffer/messages/model_records.hpp"
 #include "lib/memory/line_vector.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/antenna/antenna.hpp"
@@ -78,7 +78,8 @@ class SweepChain {
   };
 
   // Takes in the next sweep. Finishes its predecessor into `sweep` and returns true if there is one.
-  bool advance(const SweepPlace& place, const Labels& labels, const physics::Database& database, databuffer::Sweep& sweep);
+  bool advance(const SweepPlace& place, const Labels& labels, const physics::Database& database,
+               databuffer::Sweep& sweep);
   // Ends the pass: finishes the sweep that still waits for a successor.
   bool flush(databuffer::Sweep& sweep);
   // Forgets what is under way.

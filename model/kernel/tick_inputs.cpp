@@ -5,8 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "databuffer/records/navigation.hpp"
-#include "lib/radar/limits.hpp"
+#include "databuffer/messages/derived_values.hpp"
 #include "lib/radar/modes.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"

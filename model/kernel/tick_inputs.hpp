@@ -7,14 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "databuffer/records/model_records.hpp"
-#include "databuffer/records/traffic.hpp"
-#include "lib/geo/geodesic.hpp"
-#include "lib/geo/height.hpp"
+#include "databuffer/messages/model_records.hpp"
+#include "databuffer/messages/world_state.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
-#include "lib/geo/vector.hpp"
 #include "lib/radar/configuration.hpp"
-#include "lib/radar/mappable.hpp"
+#include "lib/radar/mapping.hpp"
 #include "model/antenna/antenna.hpp"
 #include "model/physics/environment.hpp"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "model/physics/sweep_geometry.hpp"
 
 namespace yars::model::physics {

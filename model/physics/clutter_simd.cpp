@@ -8,7 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 // Behind highway.h, or it would have no target yet.
-#include "lib/lanes/fused-inl.hpp"
+#include "lib/simd/fused-inl.hpp"
 #include "model/physics/clutter_simd-inl.hpp"
 #include "model/physics/polynomials-inl.hpp"
 

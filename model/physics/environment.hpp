@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/physics/atmosphere.hpp"
 #include "model/physics/receiver.hpp"

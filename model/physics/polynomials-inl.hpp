@@ -12,7 +12,7 @@
 
 #include <cstdint>
 
-#include "lib/lanes/fused-inl.hpp"
+#include "lib/simd/fused-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace yars::model::physics::HWY_NAMESPACE {

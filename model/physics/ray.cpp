@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "lib/geo/geodesic_series.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "model/physics/ray_simd.hpp"
 #include "model/terrain/formats/cell.hpp"
 

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <span>
 
-#include "lib/geo/bearing.hpp"
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
+#include "lib/geo/quantity.hpp"
 #include "lib/memory/line_vector.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/physics/environment.hpp"

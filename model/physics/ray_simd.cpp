@@ -9,7 +9,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 // Behind highway.h, or it would have no target yet.
-#include "lib/lanes/fused-inl.hpp"
+#include "lib/simd/fused-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace yars::model::physics::simd::HWY_NAMESPACE {

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "lib/geo/bearing.hpp"
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
+#include "lib/geo/quantity.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/scene/placement/scatterers.hpp"
 

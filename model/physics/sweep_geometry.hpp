@@ -7,9 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "lib/geo/bearing.hpp"
-#include "lib/geo/geodesic.hpp"
-#include "lib/geo/height.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"

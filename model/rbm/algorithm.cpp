@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "lib/radar/limits.hpp"
+#include "lib/radar/modes.hpp"
 #include "model/rbm/reference.hpp"
 #include "model/rbm/report_1996.hpp"
 #include "model/rbm/standard.hpp"

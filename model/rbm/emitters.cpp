@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "lib/radar/limits.hpp"
+#include "lib/radar/modes.hpp"
 #include "model/physics/environment.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/physics/reflectivity.hpp"
@@ -42,12 +42,13 @@ double Strobes::level(const physics::Look& look, const terrain::TerrainView& ter
     const double altitude_m =
         std::isnan(jammer.altitude_m) ? ground_m(terrain, jammer.place) + kMastM : jammer.altitude_m;
     if (!sight_line_.clear(configuration_.fidelity, look, terrain, way, altitude_m)) continue;
-    const physics::EffectiveEarth earth = physics::effective_earth(configuration_.fidelity, look.apex, way.azimuth_at_start);
+    const physics::EffectiveEarth earth =
+        physics::effective_earth(configuration_.fidelity, look.apex, way.azimuth_at_start);
     const physics::Sight sight = earth.sight(look.altitude.metres(), way.distance.metres(), altitude_m);
     const double two_way =
         physics::azimuth_gain(receiver.azimuth_beamwidth_rad, (way.azimuth_at_start - look.azimuth).radians()) *
         physics::two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad, look.elevation.radians(),
-                     sight.elevation_rad);
+                              sight.elevation_rad);
     const double loss = gas_.one_way_loss(earth, look.altitude.metres(), way.distance.metres(), altitude_m);
     const double gain = loss * std::max(std::sqrt(two_way), sidelobe);
     total += 4.0 * std::numbers::pi * jammer.power_w / radar_w * gain / (sight.slant_range_m * sight.slant_range_m);
@@ -101,11 +102,12 @@ void Beacons::answer(const radar::Beacon& beacon, const physics::Look& look, con
   const double altitude_m = mast_m(beacon, terrain);
   if (!sight_line_.clear(configuration_.fidelity, look, terrain, way, altitude_m)) return;
 
-  const physics::EffectiveEarth earth = physics::effective_earth(configuration_.fidelity, look.apex, way.azimuth_at_start);
+  const physics::EffectiveEarth earth =
+      physics::effective_earth(configuration_.fidelity, look.apex, way.azimuth_at_start);
   const physics::Sight sight = earth.sight(look.altitude.metres(), distance_m, altitude_m);
   const double two_way = physics::azimuth_gain(receiver.azimuth_beamwidth_rad, off_rad) *
                          physics::two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad,
-                                      look.elevation.radians(), sight.elevation_rad);
+                                               look.elevation.radians(), sight.elevation_rad);
   const double radar_w = physics::ratio(configuration_.world.jamming.radar_power_dbw);
   const double loss = gas_.one_way_loss(earth, look.altitude.metres(), distance_m, altitude_m);
   const double power = 4.0 * std::numbers::pi * beacon.power_w / radar_w * loss * std::sqrt(two_way) /
@@ -125,7 +127,8 @@ void Beacons::measure(const physics::Look& look, const terrain::TerrainView& ter
   const physics::EffectiveEarth earth = physics::effective_earth(configuration_.fidelity, look.apex, look.azimuth);
   physics::sample_distances(configuration_.fidelity, earth, look, terrain, distance_m_);
   const double spacing_m = look.range.metres() / static_cast<double>(power.size());
-  const double pulse_samples = physics::point_rise(physics::pulse_length(configuration_, look.range).metres() / spacing_m);
+  const double pulse_samples =
+      physics::point_rise(physics::pulse_length(configuration_, look.range).metres() / spacing_m);
   for (const Reply& reply : arrived) {
     const std::size_t middle = physics::nearest_sample(distance_m_, reply.distance_m);
     const double drawn_m = configuration_.fidelity.slant_range ? reply.slant_range_m : reply.distance_m;

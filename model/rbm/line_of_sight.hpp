@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/memory/line_vector.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/physics/ray.hpp"

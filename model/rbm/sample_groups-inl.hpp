@@ -13,7 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "lib/lanes/fused-inl.hpp"
+#include "lib/simd/fused-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace yars::model::rbm::simd::HWY_NAMESPACE {

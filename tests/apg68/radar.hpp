@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "config/load.hpp"
-#include "databuffer/records/event_text.hpp"
-#include "databuffer/records/radar_command.hpp"
+#include "config/schema/load.hpp"
+#include "databuffer/messages/derived_values.hpp"
+#include "databuffer/messages/input_event.hpp"
 #include "display/symbology/plan_view.hpp"
-#include "lib/radar/limits.hpp"
+#include "lib/radar/modes.hpp"
 #include "model/kernel/radar_kernel.hpp"
 #include "model/terrain/sampling/analytic_terrain.hpp"
 #include "statemachine/machine.hpp"

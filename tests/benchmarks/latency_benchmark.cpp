@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "databuffer/records/event_text.hpp"
-#include "databuffer/session.hpp"
+#include "databuffer/messages/input_event.hpp"
+#include "databuffer/session/session.hpp"
 
 namespace {
 

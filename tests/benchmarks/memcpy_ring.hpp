@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "shm/broadcast_ring.hpp"
+#include "shm/ring_buffers.hpp"
 
 namespace yars::benchmarks {
 

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "databuffer/records/model_records.hpp"
+#include "databuffer/messages/model_records.hpp"
 #include "shm/input_lanes.hpp"
 #include "shm/latest_value.hpp"
 #include "tests/benchmarks/memcpy_ring.hpp"

@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "databuffer/bridges/refusal_notes.hpp"
-#include "databuffer/bridges/sender_gate.hpp"
+#include "databuffer/bridges/bridge.hpp"
 
 namespace yars::databuffer::bridges {
 namespace {

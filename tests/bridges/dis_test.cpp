@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "databuffer/bridges/dis_bridge.hpp"
+#include "databuffer/bridges/bridge_source.hpp"
 #include "tests/bridges/packets.hpp"
 
 namespace yars::databuffer::bridges {

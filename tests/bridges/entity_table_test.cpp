@@ -1,10 +1,8 @@
-#include "databuffer/bridges/entity_table.hpp"
-
 #include <gmock/gmock.h>
 
-#include "databuffer/bridges/surface_traffic.hpp"
-#include "databuffer/records/validation.hpp"
-#include "lib/geo/geodesic.hpp"
+#include "databuffer/bridges/dis.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "tests/bridges/packets.hpp"
 
 namespace yars::databuffer::bridges {

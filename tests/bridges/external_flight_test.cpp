@@ -8,9 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "databuffer/bridges/dead_reckoning.hpp"
-#include "databuffer/records/validation.hpp"
-#include "lib/geo/geodesic.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "lib/geo/geodesy.hpp"
 
 namespace yars::databuffer::bridges {
 namespace {

@@ -1,11 +1,10 @@
 // FlightGear's packets, recorded and made by tests/bridges/make_packets.py, against the numbers that went into them.
-#include "databuffer/bridges/flightgear.hpp"
-
 #include <gmock/gmock.h>
 
 #include <limits>
 
-#include "databuffer/records/validation.hpp"
+#include "databuffer/bridges/flight_simulators.hpp"
+#include "databuffer/messages/validation.hpp"
 #include "tests/bridges/packets.hpp"
 
 namespace yars::databuffer::bridges {

@@ -1,8 +1,7 @@
 // JSBSim's text output, recorded from JSBSim (tests/bridges/jsbsim/record_jsbsim.py) and bent.
-#include "databuffer/bridges/jsbsim.hpp"
-
 #include <gmock/gmock.h>
 
+#include "databuffer/bridges/flight_simulators.hpp"
 #include "tests/bridges/packets.hpp"
 
 namespace yars::databuffer::bridges {

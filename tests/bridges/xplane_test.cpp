@@ -1,13 +1,12 @@
 // X-Plane's datarefs: requests byte by byte, and replies made by tests/bridges/make_packets.py.
-#include "databuffer/bridges/xplane.hpp"
-
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "databuffer/bridges/byte_order.hpp"
+#include "databuffer/bridges/flight_simulators.hpp"
+#include "lib/memory/byte_order.hpp"
 #include "tests/bridges/packets.hpp"
 
 namespace yars::databuffer::bridges {

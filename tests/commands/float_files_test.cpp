@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "config/load.hpp"
+#include "config/schema/load.hpp"
 #include "model/hrm/patch_formation.hpp"
 #include "model/kernel/offline_scan.hpp"
 #include "model/kernel/tick_inputs.hpp"

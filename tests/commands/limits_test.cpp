@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/imageio/png.hpp"
 #include "tests/endtoend/process_set.hpp"
 #include "tests/terrain/dted_builder.hpp"

@@ -1,8 +1,7 @@
 // What convert writes configures what the file did, in today's spelling.
-#include "config/convert.hpp"
-
 #include <gmock/gmock.h>
 
+#include "config/schema/load.hpp"
 #include "tests/config/support.hpp"
 
 namespace yars::config {

@@ -2,9 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "config/control_code.hpp"
-#include "config/print.hpp"
-#include "config/shipped_devices.hpp"
+#include "config/schema/devices.hpp"
+#include "config/schema/slot_text.hpp"
 #include "tests/config/support.hpp"
 
 namespace yars::config {

@@ -1,7 +1,7 @@
 // The messages of 1996 say what their GUF twins say.
 #include <gmock/gmock.h>
 
-#include "config/message_text.hpp"
+#include "config/guf/messages.hpp"
 #include "tests/config/support.hpp"
 
 namespace yars::config {

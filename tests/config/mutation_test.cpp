@@ -6,8 +6,8 @@
 #include <random>
 #include <span>
 
-#include "config/convert.hpp"
-#include "config/print.hpp"
+#include "config/schema/load.hpp"
+#include "config/schema/slot_text.hpp"
 #include "tests/config/support.hpp"
 
 namespace yars::config {

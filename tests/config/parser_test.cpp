@@ -1,4 +1,4 @@
-#include "config/parser.hpp"
+#include "config/guf/parser.hpp"
 
 #include <gmock/gmock.h>
 

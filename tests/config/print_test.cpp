@@ -1,14 +1,12 @@
 // What is printed reads back, and the files of config/ are the defaults.
-#include "config/print.hpp"
-
 #include <gmock/gmock.h>
 
 #include <limits>
 #include <random>
 
-#include "config/schema.hpp"
-#include "config/slot_text.hpp"
-#include "lib/radar/fidelity_preset.hpp"
+#include "config/schema/schema.hpp"
+#include "config/schema/slot_text.hpp"
+#include "lib/radar/configuration.hpp"
 #include "tests/config/support.hpp"
 
 namespace yars::config {

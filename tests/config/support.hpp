@@ -10,7 +10,7 @@
 #include <string>
 #include <tuple>
 
-#include "config/load.hpp"
+#include "config/schema/load.hpp"
 
 namespace yars::config::testing {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "config/parser.hpp"
+#include "config/guf/parser.hpp"
 
 namespace yars::config {
 namespace {

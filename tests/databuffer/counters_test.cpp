@@ -4,7 +4,7 @@
 #include <atomic>
 #include <limits>
 
-#include "databuffer/session.hpp"
+#include "databuffer/session/session.hpp"
 #include "tests/databuffer/open_session.hpp"
 #include "tests/shm/child_process.hpp"
 

@@ -1,10 +1,10 @@
-#include "databuffer/installed_file.hpp"
-
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+
+#include "databuffer/runtime/program.hpp"
 
 namespace yars::databuffer {
 namespace {

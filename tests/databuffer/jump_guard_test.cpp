@@ -1,7 +1,7 @@
 // A jump in place is believed with a new epoch only.
-#include "databuffer/jump_guard.hpp"
-
 #include <gtest/gtest.h>
+
+#include "databuffer/runtime/receivers.hpp"
 
 namespace yars::databuffer {
 namespace {

@@ -1,13 +1,13 @@
-#include "databuffer/layout_json.hpp"
+#include "databuffer/session/layout_json.hpp"
 
 #include <gtest/gtest.h>
 
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "databuffer/layout_identity.hpp"
-#include "databuffer/record_fields.hpp"
-#include "databuffer/session.hpp"
+#include "databuffer/session/record_fields.hpp"
+#include "databuffer/session/session.hpp"
+#include "databuffer/session/session_layout.hpp"
 #include "tests/databuffer/session_name.hpp"
 
 namespace yars::databuffer {

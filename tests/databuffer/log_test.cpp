@@ -1,4 +1,4 @@
-#include "databuffer/log.hpp"
+#include "lib/log/log.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "databuffer/program.hpp"
+#include "databuffer/runtime/program.hpp"
 #include "tests/shm/child_process.hpp"
 
 namespace yars::databuffer {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "databuffer/records/patch_map.hpp"
+#include "databuffer/messages/pictures.hpp"
 
 namespace yars::databuffer::testing {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "databuffer/session.hpp"
+#include "databuffer/session/session.hpp"
 #include "tests/databuffer/session_name.hpp"
 
 namespace yars::databuffer::testing {

@@ -1,10 +1,9 @@
-#include "databuffer/patch_pool.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <utility>
 
+#include "databuffer/session/picture_pool.hpp"
 #include "tests/databuffer/made_up_map.hpp"
 #include "tests/shm/child_process.hpp"
 #include "tests/shm/hooked_access.hpp"

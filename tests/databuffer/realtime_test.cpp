@@ -1,5 +1,3 @@
-#include "databuffer/realtime.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -7,6 +5,7 @@
 #include <atomic>
 #include <thread>
 
+#include "databuffer/runtime/process.hpp"
 #include "tests/shm/child_process.hpp"
 
 namespace yars::databuffer {

@@ -1,8 +1,8 @@
-#include "databuffer/repeat_filter.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
+
+#include "lib/log/log.hpp"
 
 namespace yars::databuffer {
 namespace {

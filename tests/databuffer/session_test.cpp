@@ -1,4 +1,4 @@
-#include "databuffer/session.hpp"
+#include "databuffer/session/session.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Surface traffic at the border of the radar model.
-#include "databuffer/traffic_receiver.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <memory>
+
+#include "databuffer/runtime/receivers.hpp"
 
 namespace yars::databuffer {
 namespace {

@@ -1,6 +1,6 @@
-/* A user's own program as databuffer/yars.h promises it, in strict C99: takes the session's name, feeds an aircraft
- * and one event, and tells what it reads. yars_header_test.cpp starts it and looks at the other end. */
-#include "databuffer/yars.h"
+/* A user's own program as databuffer/client/yars.h promises it, in strict C99: takes the session's name, feeds an
+ * aircraft and one event, and tells what it reads. yars_header_test.cpp starts it and looks at the other end. */
+#include "databuffer/client/yars.h"
 /* The header asks for its own extensions and comes first. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,10 +1,10 @@
-// databuffer/yars.h against the C++ records, word by word at compile time. An assertion that breaks here means: the
-// layout has changed, so change yars.h with it (`yars status --layout` prints the numbers).
+// databuffer/client/yars.h against the C++ records, word by word at compile time. An assertion that breaks here means:
+// the layout has changed, so change yars.h with it (`yars status --layout` prints the numbers).
 #pragma once
 
-#include "databuffer/layout_identity.hpp"
-#include "databuffer/session.hpp"
-#include "databuffer/yars.h"
+#include "databuffer/client/yars.h"
+#include "databuffer/session/session.hpp"
+#include "databuffer/session/session_layout.hpp"
 
 namespace yars::databuffer {
 

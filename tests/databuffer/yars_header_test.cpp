@@ -1,4 +1,4 @@
-// databuffer/yars.h: a C program against a live session.
+// databuffer/client/yars.h: a C program against a live session.
 #include <gtest/gtest.h>
 #include <spawn.h>
 
@@ -8,9 +8,9 @@
 #include <limits>
 #include <vector>
 
-#include "databuffer/frame_pool.hpp"
-#include "databuffer/session.hpp"
-#include "databuffer/yars.h"
+#include "databuffer/client/yars.h"
+#include "databuffer/session/picture_pool.hpp"
+#include "databuffer/session/session.hpp"
 #include "tests/databuffer/session_name.hpp"
 #include "tests/databuffer/yars_header_layout.hpp"
 #include "tests/shm/child_process.hpp"

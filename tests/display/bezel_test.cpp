@@ -3,7 +3,7 @@
 #include <set>
 
 #include "display/symbology/readouts.hpp"
-#include "lib/radar/limits.hpp"
+#include "lib/radar/modes.hpp"
 
 namespace yars::display {
 namespace {

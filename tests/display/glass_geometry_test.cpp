@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "databuffer/records/navigation.hpp"
+#include "databuffer/messages/derived_values.hpp"
 #include "display/symbology/plan_view.hpp"
 #include "tests/display/glass_states.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "display/symbology/plan_view.hpp"
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/radar/configuration.hpp"
 
 namespace yars::display::testing {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "databuffer/patch_pool.hpp"
-#include "databuffer/records/validation.hpp"
-#include "databuffer/session.hpp"
-#include "databuffer/tick_loop.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "databuffer/runtime/tick_loop.hpp"
+#include "databuffer/session/picture_pool.hpp"
+#include "databuffer/session/session.hpp"
 #include "display/gl/context.hpp"
 #include "display/gl/display.hpp"
 #include "display/host/display.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "databuffer/records/model_records.hpp"
-#include "lib/geo/geodesic.hpp"
+#include "databuffer/messages/model_records.hpp"
+#include "lib/geo/geodesy.hpp"
 
 namespace yars::display::testing {
 

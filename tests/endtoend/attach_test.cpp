@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "databuffer/jump_guard.hpp"
-#include "databuffer/session.hpp"
-#include "lib/geo/geodesic.hpp"
+#include "databuffer/runtime/receivers.hpp"
+#include "databuffer/session/session.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "tests/endtoend/process_set.hpp"
 
 namespace yars::endtoend {

@@ -11,8 +11,8 @@
 #include <fstream>
 #include <utility>
 
-#include "databuffer/records/event_text.hpp"
-#include "databuffer/session.hpp"
+#include "databuffer/messages/input_event.hpp"
+#include "databuffer/session/session.hpp"
 #include "tests/endtoend/process_set.hpp"
 
 namespace yars::endtoend {

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "databuffer/session.hpp"
+#include "databuffer/session/session.hpp"
 #include "tests/endtoend/supervised_set.hpp"
 
 namespace yars::endtoend {

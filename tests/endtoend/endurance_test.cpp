@@ -13,9 +13,9 @@
 #include <random>
 
 #include "databuffer/flight/source_reader.hpp"
-#include "databuffer/session.hpp"
-#include "lib/geo/geodesic.hpp"
-#include "lib/radar/limits.hpp"
+#include "databuffer/session/session.hpp"
+#include "lib/geo/geodesy.hpp"
+#include "lib/radar/modes.hpp"
 #include "tests/endtoend/process_set.hpp"
 
 namespace yars::endtoend {

@@ -10,8 +10,8 @@
 #include <sstream>
 #include <utility>
 
-#include "databuffer/frame_pool.hpp"
-#include "databuffer/session.hpp"
+#include "databuffer/session/picture_pool.hpp"
+#include "databuffer/session/session.hpp"
 #include "lib/imageio/png.hpp"
 #include "tests/endtoend/process_set.hpp"
 

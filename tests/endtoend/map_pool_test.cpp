@@ -12,8 +12,8 @@
 #include <optional>
 #include <thread>
 
-#include "databuffer/patch_pool.hpp"
-#include "databuffer/session.hpp"
+#include "databuffer/session/picture_pool.hpp"
+#include "databuffer/session/session.hpp"
 #include "lib/imageio/png.hpp"
 #include "tests/databuffer/made_up_map.hpp"
 #include "tests/endtoend/process_set.hpp"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
 
 namespace yars::endtoend {
 

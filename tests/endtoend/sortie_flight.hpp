@@ -10,7 +10,7 @@ namespace yars::endtoend {
 inline constexpr double kRunwayElevation_m = 195.0;  // of the land that the test generates
 inline constexpr double kSortie_s = 262.0;           // [s] how long it takes, standing still at both ends
 
-// Columns of databuffer/flight/track.hpp, a row each quarter of a second.
+// Columns of databuffer/flight/track_flight.hpp, a row each quarter of a second.
 std::string sortie_track();
 
 }  // namespace yars::endtoend

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/imageio/png.hpp"
 #include "tests/endtoend/lockstep_run.hpp"
 #include "tests/endtoend/sortie_flight.hpp"

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "databuffer/session.hpp"
+#include "databuffer/session/session.hpp"
 #include "tests/endtoend/process_set.hpp"
 #include "tools/recording/recording_reader.hpp"
 

@@ -1,12 +1,11 @@
 // Heights at the ends of the scale, of the aircraft and of the ground. Expected results come from triangles: over a
 // sphere of radius k R an aircraft H above level ground sees as far as k R acos(k R / (k R + H)), about sqrt(2 k R H).
-#include "lib/geo/height.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "lib/geo/quantity.hpp"
 #include "tests/extremes/islands.hpp"
 
 namespace yars::model {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "model/rbm/algorithm.hpp"
 #include "tests/model/ground.hpp"
 

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "databuffer/ownship_receiver.hpp"
-#include "databuffer/records/validation.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "databuffer/runtime/receivers.hpp"
 #include "tests/extremes/islands.hpp"
 #include "tests/model/cockpit.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "lib/radar/limits.hpp"
+#include "lib/radar/modes.hpp"
 #include "tests/extremes/islands.hpp"
 #include "tests/model/cockpit.hpp"
 

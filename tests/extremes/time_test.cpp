@@ -9,11 +9,11 @@
 #include <memory>
 #include <vector>
 
-#include "databuffer/flight/fixed_flight.hpp"
 #include "databuffer/flight/route_flight.hpp"
+#include "databuffer/flight/source_reader.hpp"
 #include "databuffer/flight/track_flight.hpp"
-#include "databuffer/records/validation.hpp"
-#include "lib/radar/limits.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "lib/radar/modes.hpp"
 #include "model/antenna/antenna.hpp"
 #include "tests/model/cockpit.hpp"
 

@@ -1,7 +1,6 @@
-#include "lib/file/log_file.hpp"
-
 #include <gmock/gmock.h>
 
+#include "lib/file/output_file.hpp"
 #include "tests/security/folder.hpp"
 
 namespace yars::file {

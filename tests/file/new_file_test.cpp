@@ -1,6 +1,4 @@
 // Files are made in folders where others may plant what they like; nothing planted is written through.
-#include "lib/file/new_file.hpp"
-
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/socket.h>
@@ -8,6 +6,7 @@
 
 #include <iterator>
 
+#include "lib/file/output_file.hpp"
 #include "tests/file/refused_call.hpp"
 #include "tests/security/folder.hpp"
 #include "tests/shm/child_process.hpp"

@@ -1,7 +1,6 @@
-#include "databuffer/flight/fixed_flight.hpp"
-
 #include <gmock/gmock.h>
 
+#include "databuffer/flight/source_reader.hpp"
 #include "tests/flight/flight_checks.hpp"
 
 namespace yars::databuffer::flight {

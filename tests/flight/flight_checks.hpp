@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "databuffer/flight/flight_model.hpp"
-#include "databuffer/records/validation.hpp"
-#include "lib/geo/frames.hpp"
+#include "databuffer/flight/motion.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "lib/geo/geodesy.hpp"
 
 namespace yars::databuffer::flight {
 

@@ -1,10 +1,10 @@
-#include "databuffer/flight/leg.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 #include <string>
+
+#include "databuffer/flight/motion.hpp"
 
 namespace yars::databuffer::flight {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "databuffer/records/text_file_reader.hpp"
+#include "lib/file/text_file.hpp"
 #include "tests/flight/flight_checks.hpp"
 
 namespace yars::databuffer::flight {

@@ -1,7 +1,7 @@
-#include "databuffer/flight/route.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "databuffer/flight/route_flight.hpp"
 
 namespace yars::databuffer::flight {
 namespace {

@@ -1,6 +1,6 @@
 #include "tests/fuzz/attaching_client.h"
 
-#include "databuffer/yars.h"
+#include "databuffer/client/yars.h"
 
 int attach_as_a_client(const char* session_name) {
   yars_session session;

@@ -1,4 +1,5 @@
-/* A program of one's own, by databuffer/yars.h: attaches, looks at everything, feeds, leaves. 1: it was let in. */
+/* A program of one's own, by databuffer/client/yars.h: attaches, looks at everything, feeds, leaves. 1: it was let in.
+ */
 #ifndef YARS_TESTS_FUZZ_ATTACHING_CLIENT_H
 #define YARS_TESTS_FUZZ_ATTACHING_CLIENT_H
 

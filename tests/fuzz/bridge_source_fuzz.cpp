@@ -2,7 +2,7 @@
 #include <string_view>
 
 #include "databuffer/bridges/bridge_source.hpp"
-#include "lib/failure/require.hpp"
+#include "lib/error/error.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto source = yars::databuffer::bridges::open_bridge({reinterpret_cast<const char*>(data), size});

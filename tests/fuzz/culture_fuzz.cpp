@@ -4,8 +4,8 @@
 
 #include <string_view>
 
-#include "lib/failure/require.hpp"
-#include "lib/imageio/indexed_png.hpp"
+#include "lib/error/error.hpp"
+#include "lib/imageio/png.hpp"
 #include "model/terrain/formats/culture.hpp"
 #include "tests/fuzz/memory_file.hpp"
 #include "tests/fuzz/pieces.hpp"

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-#include "lib/failure/require.hpp"
+#include "lib/error/error.hpp"
 #include "model/terrain/formats/ded.hpp"
 #include "tests/terrain/ded_builder.hpp"
 

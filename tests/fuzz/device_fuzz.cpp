@@ -3,13 +3,12 @@
 #include <cstdint>
 #include <string>
 
-#include "config/load.hpp"
-#include "config/print.hpp"
-#include "databuffer/records/validation.hpp"
+#include "config/schema/load.hpp"
+#include "config/schema/slot_text.hpp"
+#include "databuffer/messages/validation.hpp"
 #include "inputmonitor/device_decoder.hpp"
 #include "inputmonitor/learning.hpp"
-#include "inputmonitor/record_stream.hpp"
-#include "lib/failure/require.hpp"
+#include "lib/error/error.hpp"
 
 using namespace yars;
 using namespace yars::inputmonitor;

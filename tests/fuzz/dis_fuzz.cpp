@@ -1,6 +1,6 @@
 // Any bytes as DIS: one datagram as it is, then the conversation that the bytes may be; aircraft and traffic validate.
-#include "databuffer/bridges/dis_bridge.hpp"
-#include "databuffer/bridges/surface_traffic.hpp"
+#include "databuffer/bridges/bridge_source.hpp"
+#include "databuffer/bridges/dis.hpp"
 #include "tests/fuzz/flown_on.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -3,9 +3,9 @@
 #include <cstring>
 #include <string_view>
 
-#include "databuffer/records/event_text.hpp"
-#include "databuffer/records/validation.hpp"
-#include "lib/failure/require.hpp"
+#include "databuffer/messages/input_event.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "lib/error/error.hpp"
 
 using namespace yars::databuffer;
 

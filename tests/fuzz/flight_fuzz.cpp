@@ -5,8 +5,8 @@
 
 #include "databuffer/flight/route_flight.hpp"
 #include "databuffer/flight/track_flight.hpp"
-#include "databuffer/records/validation.hpp"
-#include "lib/failure/require.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "lib/error/error.hpp"
 
 using namespace yars::databuffer;
 

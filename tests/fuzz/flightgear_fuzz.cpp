@@ -1,5 +1,5 @@
 // Any bytes as a FlightGear packet: an error, or a sample that the border accepts and that flies on to one it accepts.
-#include "databuffer/bridges/flightgear.hpp"
+#include "databuffer/bridges/flight_simulators.hpp"
 #include "tests/fuzz/flown_on.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -6,8 +6,8 @@
 #include <span>
 
 #include "databuffer/bridges/external_flight.hpp"
-#include "databuffer/records/validation.hpp"
-#include "lib/failure/require.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "lib/error/error.hpp"
 
 namespace yars::databuffer::bridges {
 

@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "config/load.hpp"
-#include "lib/failure/require.hpp"
+#include "config/schema/load.hpp"
+#include "lib/error/error.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto loaded = yars::config::load_configuration_text({reinterpret_cast<const char*>(data), size}, "fuzz");

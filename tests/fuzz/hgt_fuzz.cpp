@@ -1,6 +1,6 @@
 // Any bytes as an HGT file: a cell whose posts are the file's, or an error for every other length. The input is laid
 // over a file of 1201 x 1201 posts; its first two bytes cut or lengthen the file.
-#include "lib/failure/require.hpp"
+#include "lib/error/error.hpp"
 #include "model/terrain/formats/hgt.hpp"
 #include "tests/fuzz/pieces.hpp"
 

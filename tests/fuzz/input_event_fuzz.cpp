@@ -2,9 +2,9 @@
 #include <cstdint>
 #include <cstring>
 
-#include "databuffer/records/event_text.hpp"
-#include "databuffer/records/validation.hpp"
-#include "lib/failure/require.hpp"
+#include "databuffer/messages/input_event.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "lib/error/error.hpp"
 
 using namespace yars::databuffer;
 

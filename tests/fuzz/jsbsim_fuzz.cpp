@@ -1,7 +1,7 @@
 // Any text as JSBSim's output, a datagram a line: labels, numbers, both in any order.
 #include <string_view>
 
-#include "databuffer/bridges/jsbsim.hpp"
+#include "databuffer/bridges/flight_simulators.hpp"
 #include "tests/fuzz/flown_on.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "lib/failure/require.hpp"
+#include "lib/error/error.hpp"
 
 namespace yars::fuzz {
 

@@ -2,11 +2,10 @@
 #include <cstdint>
 #include <string>
 
-#include "config/convert.hpp"
-#include "config/load.hpp"
-#include "config/message_text.hpp"
-#include "config/print.hpp"
-#include "lib/failure/require.hpp"
+#include "config/guf/messages.hpp"
+#include "config/schema/load.hpp"
+#include "config/schema/slot_text.hpp"
+#include "lib/error/error.hpp"
 
 using namespace yars;
 

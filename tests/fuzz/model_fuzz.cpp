@@ -3,10 +3,9 @@
 
 #include <optional>
 
-#include "config/load.hpp"
-#include "databuffer/records/model_validation.hpp"
-#include "databuffer/records/validation.hpp"
-#include "lib/failure/require.hpp"
+#include "config/schema/load.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "lib/error/error.hpp"
 #include "model/app/radar_model_shell.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tests/fuzz/overlaid_session.hpp"

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "databuffer/session.hpp"
-#include "lib/failure/require.hpp"
+#include "databuffer/session/session.hpp"
+#include "lib/error/error.hpp"
 #include "model/scene/index/scene_index.hpp"
 #include "model/terrain/store/cell_files.hpp"
 

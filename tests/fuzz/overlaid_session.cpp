@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "config/load.hpp"
-#include "databuffer/records/validation.hpp"
-#include "lib/failure/require.hpp"
+#include "config/schema/load.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "lib/error/error.hpp"
 #include "statemachine/machine.hpp"
 
 namespace yars::fuzz {

@@ -11,9 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "databuffer/frame_pool.hpp"
-#include "databuffer/patch_pool.hpp"
-#include "databuffer/session.hpp"
+#include "databuffer/session/picture_pool.hpp"
+#include "databuffer/session/session.hpp"
 
 namespace yars::fuzz {
 

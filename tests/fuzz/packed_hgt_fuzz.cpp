@@ -3,7 +3,7 @@
 #include <zip.h>
 #include <zlib.h>
 
-#include "lib/failure/require.hpp"
+#include "lib/error/error.hpp"
 #include "model/terrain/formats/hgt.hpp"
 #include "tests/fuzz/memory_file.hpp"
 #include "tests/fuzz/pieces.hpp"

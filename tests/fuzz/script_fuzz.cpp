@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <string>
 
-#include "databuffer/records/validation.hpp"
-#include "inputmonitor/script.hpp"
-#include "lib/failure/require.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "inputmonitor/event_source.hpp"
+#include "lib/error/error.hpp"
 
 using namespace yars;
 

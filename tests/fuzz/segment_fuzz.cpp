@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "databuffer/layout_identity.hpp"
-#include "databuffer/session.hpp"
-#include "lib/failure/require.hpp"
+#include "databuffer/session/session.hpp"
+#include "databuffer/session/session_layout.hpp"
+#include "lib/error/error.hpp"
 #include "shm/segment.hpp"
 #include "tests/fuzz/attaching_client.h"
 

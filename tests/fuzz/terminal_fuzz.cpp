@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "inputmonitor/terminal_decoder.hpp"
-#include "lib/failure/require.hpp"
+#include "inputmonitor/terminal.hpp"
+#include "lib/error/error.hpp"
 
 using namespace yars;
 

@@ -1,5 +1,5 @@
 // Any bytes as X-Plane's replies: one datagram as it is, then the conversation that the bytes may be.
-#include "databuffer/bridges/xplane.hpp"
+#include "databuffer/bridges/flight_simulators.hpp"
 #include "tests/fuzz/flown_on.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/radar/map_formation.hpp"
+#include "lib/radar/mapping.hpp"
 #include "tests/hrm/patch_maker.hpp"
 
 namespace yars::test {

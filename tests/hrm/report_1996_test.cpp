@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/radar/fidelity_preset.hpp"
+#include "lib/radar/configuration.hpp"
 #include "tests/hrm/made_up_scene.hpp"
 #include "tests/hrm/patch_maker.hpp"
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/radar/fidelity_preset.hpp"
+#include "lib/radar/configuration.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/hrm/polar_ground.hpp"
 #include "model/hrm/reference_patch.hpp"

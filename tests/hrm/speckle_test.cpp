@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "lib/radar/map_formation.hpp"
+#include "lib/radar/mapping.hpp"
 #include "model/hrm/map_image.hpp"
 #include "tests/lanes/vector_targets.hpp"
 

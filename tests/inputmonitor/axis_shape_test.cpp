@@ -1,6 +1,6 @@
-#include "inputmonitor/axis_shape.hpp"
-
 #include <gtest/gtest.h>
+
+#include "inputmonitor/device_map.hpp"
 
 namespace yars::inputmonitor {
 namespace {

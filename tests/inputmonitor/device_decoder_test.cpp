@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "databuffer/records/validation.hpp"
+#include "databuffer/messages/validation.hpp"
 #include "tests/inputmonitor/device_support.hpp"
 
 namespace yars::inputmonitor {

@@ -10,9 +10,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "inputmonitor/found_devices_source.hpp"
+#include "inputmonitor/event_source.hpp"
 #include "inputmonitor/source_choice.hpp"
-#include "inputmonitor/source_group.hpp"
 #include "tests/inputmonitor/device_support.hpp"
 
 namespace yars::inputmonitor {

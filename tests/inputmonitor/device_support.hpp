@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "config/load.hpp"
-#include "config/shipped_devices.hpp"
-#include "databuffer/records/event_text.hpp"
+#include "config/schema/devices.hpp"
+#include "config/schema/load.hpp"
+#include "databuffer/messages/input_event.hpp"
+#include "inputmonitor/device_decoder.hpp"
 #include "inputmonitor/device_map.hpp"
-#include "inputmonitor/raw_event.hpp"
 
 namespace yars::inputmonitor::testing {
 

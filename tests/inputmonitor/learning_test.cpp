@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "config/print.hpp"
+#include "config/schema/slot_text.hpp"
 #include "inputmonitor/device_decoder.hpp"
 #include "tests/inputmonitor/device_support.hpp"
 

@@ -1,7 +1,6 @@
-#include "inputmonitor/record_stream.hpp"
-
 #include <gtest/gtest.h>
 
+#include "inputmonitor/device_decoder.hpp"
 #include "tests/inputmonitor/device_support.hpp"
 
 namespace yars::inputmonitor {

@@ -1,13 +1,11 @@
-#include "inputmonitor/script.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "databuffer/records/event_text.hpp"
-#include "databuffer/records/text_file_reader.hpp"
-#include "inputmonitor/script_source.hpp"
+#include "databuffer/messages/input_event.hpp"
+#include "inputmonitor/event_source.hpp"
+#include "lib/file/text_file.hpp"
 
 namespace yars::inputmonitor {
 namespace {

@@ -1,11 +1,11 @@
-#include "inputmonitor/terminal_decoder.hpp"
-
 #include <gtest/gtest.h>
 
 #include <map>
 #include <random>
 #include <string>
 #include <vector>
+
+#include "inputmonitor/terminal.hpp"
 
 namespace yars::inputmonitor {
 namespace {

@@ -1,6 +1,4 @@
 // The terminal source on a pseudo terminal, in a child process of which that is the controlling terminal.
-#include "inputmonitor/terminal_source.hpp"
-
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <pty.h>
@@ -14,7 +12,8 @@
 #include <ctime>
 #include <string>
 
-#include "databuffer/records/event_text.hpp"
+#include "databuffer/messages/input_event.hpp"
+#include "inputmonitor/keyboard_source.hpp"
 
 namespace yars::inputmonitor {
 namespace {

@@ -2,8 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "lib/failure/error.hpp"
-#include "lib/failure/require.hpp"
+#include "lib/error/error.hpp"
 
 namespace yars::failure {
 namespace {

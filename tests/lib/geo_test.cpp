@@ -5,8 +5,6 @@
 #include <random>
 #include <type_traits>
 
-#include "lib/geo/bearing.hpp"
-#include "lib/geo/height.hpp"
 #include "lib/geo/quantity.hpp"
 
 namespace yars::geo {

@@ -1,6 +1,4 @@
 // The series of a ray against the exact geodesic.
-#include "lib/geo/geodesic_series.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,8 @@
 #include <cstdint>
 #include <random>
 #include <string>
+
+#include "lib/geo/geodesy.hpp"
 
 namespace yars::geo {
 namespace {

@@ -1,12 +1,10 @@
 // Geodesics and frames against what the ellipsoid's definition gives.
-#include "lib/geo/geodesic.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "lib/geo/frames.hpp"
+#include "lib/geo/geodesy.hpp"
 
 namespace yars::geo {
 namespace {

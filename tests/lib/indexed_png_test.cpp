@@ -1,6 +1,4 @@
 // Indexed PNG in and out.
-#include "lib/imageio/indexed_png.hpp"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,7 +1,5 @@
 // The magnetic field by a model whose answer is known: a dipole, of which GeographicLib reads the two files that are
 // written here (its format "WMMF-1": metadata, and Schmidt coefficients as binary numbers).
-#include "lib/geo/magnetic.hpp"
-
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -9,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 #include <vector>
+
+#include "lib/geo/geodesy.hpp"
 
 namespace yars::geo {
 namespace {

@@ -1,9 +1,9 @@
 // How long a map takes and what it resolves. Source: docs/spec/physics.md#formation-time, #hrm-resolution.
-#include "lib/radar/map_formation.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "lib/radar/mapping.hpp"
 
 namespace yars::radar {
 namespace {

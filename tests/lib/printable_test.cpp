@@ -1,8 +1,7 @@
-#include "lib/failure/printable.hpp"
-
 #include <gtest/gtest.h>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::failure {
 namespace {

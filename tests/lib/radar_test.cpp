@@ -8,13 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "lib/radar/chance.hpp"
+#include "databuffer/messages/derived_values.hpp"
 #include "lib/radar/configuration.hpp"
-#include "lib/radar/ground_track.hpp"
+#include "lib/radar/mapping.hpp"
 #include "lib/radar/modes.hpp"
-#include "lib/radar/point_name.hpp"
-#include "lib/radar/ranges.hpp"
-#include "lib/radar/windows.hpp"
+#include "lib/random/counter_rng.hpp"
 
 namespace yars::radar {
 namespace {

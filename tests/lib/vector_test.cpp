@@ -1,7 +1,7 @@
 // The algebra of vectors: facts by hand.
-#include "lib/geo/vector.hpp"
-
 #include <gtest/gtest.h>
+
+#include "lib/geo/geodesy.hpp"
 
 namespace yars::geo {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "lib/radar/limits.hpp"
+#include "lib/radar/modes.hpp"
 
 namespace yars::model::antenna {
 namespace {

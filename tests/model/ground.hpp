@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/rbm/reference.hpp"
 #include "model/terrain/sampling/analytic_terrain.hpp"

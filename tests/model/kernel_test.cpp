@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "lib/geo/bearing.hpp"
+#include "lib/geo/quantity.hpp"
 #include "model/kernel/radar_kernel.hpp"
 #include "tests/model/cockpit.hpp"
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "lib/radar/fidelity_preset.hpp"
+#include "lib/radar/configuration.hpp"
 #include "model/physics/ray.hpp"
 #include "model/rbm/algorithm.hpp"
 #include "model/rbm/emitters.hpp"
@@ -145,7 +145,8 @@ TEST_F(LoneWall, CountsNoWholeTurnsOfLongitude) {
   physics::PlaceArrays places(100);
   std::vector<float> distance_m(100 + physics::kPairSlack, 10000.0F);
   for (std::size_t i = 0; i < 100; ++i) distance_m[i] = (static_cast<float>(i) + 0.5F) * 100.0F;
-  physics::sample_places({89.3, 20.2}, geo::Bearing::degrees(5.0), geo::Length::metres(10000.0), 5, distance_m.data(), places);
+  physics::sample_places({89.3, 20.2}, geo::Bearing::degrees(5.0), geo::Length::metres(10000.0), 5, distance_m.data(),
+                         places);
   const auto crests = [&] {
     std::vector<float> found(100 + physics::kPairSlack);
     EXPECT_TRUE(
@@ -167,8 +168,8 @@ TEST_F(LoneWall, HasTheSameCrestsForEveryWidthOfVector) {
     view_.add(std::make_shared<const terrain::Cell>(test::rough_cell(place, kPosts, kPosts, 7)));
   for (const geo::GeoPoint apex : {geo::GeoPoint{37.4, -121.1}, {89.8, 20.3}})
     for (const double azimuth_deg : {0.0, 33.0, 90.0, 181.0, 275.0}) {
-      physics::sample_places(apex, geo::Bearing::degrees(azimuth_deg), geo::Length::metres(50000.0), 5, distance_m.data(),
-                    places);
+      physics::sample_places(apex, geo::Bearing::degrees(azimuth_deg), geo::Length::metres(50000.0), 5,
+                             distance_m.data(), places);
       std::vector<float> first;
       test::for_each_vector_target([&](const char* name) {
         std::vector<float> crests(333 + physics::kPairSlack);

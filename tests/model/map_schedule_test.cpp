@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "lib/radar/map_formation.hpp"
+#include "lib/radar/mapping.hpp"
 #include "lib/radar/modes.hpp"
 
 namespace yars::model::kernel {

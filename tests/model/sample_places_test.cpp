@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "model/physics/ray.hpp"
 
 namespace yars::model::rbm {

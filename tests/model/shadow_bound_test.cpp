@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/radar/fidelity_preset.hpp"
+#include "lib/radar/configuration.hpp"
 #include "model/kernel/tick_inputs.hpp"
 #include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"

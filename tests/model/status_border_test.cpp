@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "databuffer/records/model_validation.hpp"
+#include "databuffer/messages/validation.hpp"
 #include "tests/model/cockpit.hpp"
 
 namespace yars::model::kernel {

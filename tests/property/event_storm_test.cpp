@@ -10,9 +10,9 @@
 #include <string>
 #include <utility>
 
-#include "config/load.hpp"
-#include "databuffer/records/radar_command.hpp"
-#include "databuffer/records/validation.hpp"
+#include "config/schema/load.hpp"
+#include "databuffer/messages/derived_values.hpp"
+#include "databuffer/messages/validation.hpp"
 #include "tests/statemachine/pilot.hpp"
 
 namespace yars::statemachine::testing {

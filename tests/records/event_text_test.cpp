@@ -1,5 +1,3 @@
-#include "databuffer/records/event_text.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "databuffer/records/validation.hpp"
+#include "databuffer/messages/input_event.hpp"
+#include "databuffer/messages/validation.hpp"
 
 namespace yars::databuffer {
 namespace {

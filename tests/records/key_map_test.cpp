@@ -1,4 +1,4 @@
-#include "databuffer/records/key_map.hpp"
+#include "databuffer/messages/key_map.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "databuffer/records/event_text.hpp"
-#include "databuffer/records/validation.hpp"
+#include "databuffer/messages/input_event.hpp"
+#include "databuffer/messages/validation.hpp"
 
 namespace yars::databuffer {
 namespace {

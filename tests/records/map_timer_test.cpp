@@ -1,9 +1,8 @@
-#include "databuffer/records/map_timer.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "databuffer/messages/derived_values.hpp"
 #include "lib/radar/modes.hpp"
 
 namespace yars::databuffer {

@@ -1,4 +1,4 @@
-#include "databuffer/records/plain_text.hpp"
+#include "lib/text/plain_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "databuffer/records/text_file_reader.hpp"
+#include "lib/file/text_file.hpp"
 
 namespace yars::databuffer {
 namespace {

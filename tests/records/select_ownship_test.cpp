@@ -1,11 +1,11 @@
-#include "databuffer/records/select_ownship.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <optional>
 #include <random>
 #include <string>
+
+#include "databuffer/runtime/receivers.hpp"
 
 namespace yars::databuffer {
 namespace {

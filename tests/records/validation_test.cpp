@@ -1,4 +1,4 @@
-#include "databuffer/records/validation.hpp"
+#include "databuffer/messages/validation.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@ import sys
 import tempfile
 import textwrap
 
-PART = """#include "databuffer/yars.h"
+PART = """#include "databuffer/client/yars.h"
 #include <stdlib.h>
 
 int main(void) {
@@ -18,7 +18,7 @@ int main(void) {
 }
 """
 
-NAMES = """#include "databuffer/yars.h"
+NAMES = """#include "databuffer/client/yars.h"
 int main(int argc, char** argv) {
   yars_session s;
   const int attached = argc == 2 && yars_attach(&s, argv[1], "mine") == 0;

@@ -8,13 +8,13 @@ import unittest
 CHECKER = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "check_layers.py"
 
 CLEAN = {
-    "lib/geo/bearing.hpp": "#pragma once\n#include <cmath>\n",
-    "lib/geo/bearing.cpp": '#include "lib/geo/bearing.hpp"\n#include <GeographicLib/Geodesic.hpp>\n',
-    "databuffer/session.hpp": "#pragma once\n",
-    "databuffer/records/ownship.hpp": "#pragma once\n",
-    "statemachine/machine.hpp": '#pragma once\n#include "databuffer/records/ownship.hpp"\n',
+    "lib/geo/quantity.hpp": "#pragma once\n#include <cmath>\n",
+    "lib/geo/quantity.cpp": '#include "lib/geo/quantity.hpp"\n#include <GeographicLib/Geodesic.hpp>\n',
+    "databuffer/session/session.hpp": "#pragma once\n",
+    "databuffer/messages/world_state.hpp": "#pragma once\n",
+    "statemachine/machine.hpp": '#pragma once\n#include "databuffer/messages/world_state.hpp"\n',
     "display/symbology/symbology.hpp": "#pragma once\n",
-    "model/app/radar_model_main.cpp": '#include <chrono>\n#include <spdlog/spdlog.h>\n#include "databuffer/session.hpp"\n',
+    "model/app/radar_model_main.cpp": '#include <chrono>\n#include <spdlog/spdlog.h>\n#include "databuffer/session/session.hpp"\n',
     "model/terrain/formats/dted.hpp": "#pragma once\n",
     "model/terrain/formats/dted.cpp": '#include "model/terrain/formats/dted.hpp"\nstd::ifstream open(const char* path);\n',
     "README.md": "YARS\n",
@@ -51,10 +51,10 @@ class CheckLayers(unittest.TestCase):
         self.finds("statemachine/machine.hpp", '#pragma once\n#include "display/symbology/symbology.hpp"\n', "2: layer")
 
     def test_a_lower_layer_may_not_include_a_higher(self):
-        self.finds("lib/geo/bearing.hpp", '#pragma once\n#include "databuffer/records/ownship.hpp"\n', "2: layer")
+        self.finds("lib/geo/quantity.hpp", '#pragma once\n#include "databuffer/messages/world_state.hpp"\n', "2: layer")
 
     def test_the_segment_is_for_shells(self):
-        self.finds("statemachine/machine.hpp", '#pragma once\n#include "databuffer/session.hpp"\n', "2: layer")
+        self.finds("statemachine/machine.hpp", '#pragma once\n#include "databuffer/session/session.hpp"\n', "2: layer")
 
     def test_the_log_is_for_shells(self):
         self.finds("model/terrain/formats/dted.cpp",
@@ -64,7 +64,7 @@ class CheckLayers(unittest.TestCase):
         self.finds("statemachine/machine.hpp", "#pragma once\nauto now = std::chrono::steady_clock::now();\n", "2: clock")
 
     def test_records_are_pure_though_they_live_below_databuffer(self):
-        self.finds("databuffer/records/ownship.hpp", "#pragma once\n#include <chrono>\n", "2: layer")
+        self.finds("databuffer/messages/world_state.hpp", "#pragma once\n#include <chrono>\n", "2: layer")
 
     def test_geographiclib_has_one_caller(self):
         self.finds("model/terrain/formats/dted.cpp",
@@ -94,7 +94,7 @@ class CheckLayers(unittest.TestCase):
         self.finds("statemachine/machine.hpp", "int x;\n", "1: header")
 
     def test_heavy_headers_stay_in_sources(self):
-        self.finds("databuffer/session.hpp", "#pragma once\n#include <spdlog/spdlog.h>\n", "2: header")
+        self.finds("databuffer/session/session.hpp", "#pragma once\n#include <spdlog/spdlog.h>\n", "2: header")
 
     def test_a_source_has_its_header(self):
         self.finds("statemachine/table.cpp", "\n", "1: pair")

@@ -9,12 +9,10 @@
 #include <thread>
 #include <vector>
 
-#include "databuffer/frame_pool.hpp"
-#include "databuffer/records/model_validation.hpp"
-#include "databuffer/records/radar_state_validation.hpp"
-#include "databuffer/records/validation.hpp"
-#include "databuffer/session.hpp"
-#include "databuffer/tick_loop.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "databuffer/runtime/tick_loop.hpp"
+#include "databuffer/session/picture_pool.hpp"
+#include "databuffer/session/session.hpp"
 #include "tests/databuffer/session_name.hpp"
 
 namespace yars::databuffer {

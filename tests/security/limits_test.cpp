@@ -7,13 +7,11 @@
 #include <sstream>
 #include <vector>
 
-#include "config/load.hpp"
-#include "config/print.hpp"
-#include "databuffer/bridges/dis_bridge.hpp"
-#include "databuffer/bridges/flightgear.hpp"
-#include "databuffer/bridges/jsbsim.hpp"
-#include "databuffer/records/text_file_reader.hpp"
-#include "lib/imageio/indexed_png.hpp"
+#include "config/schema/load.hpp"
+#include "config/schema/slot_text.hpp"
+#include "databuffer/bridges/bridge_source.hpp"
+#include "databuffer/bridges/flight_simulators.hpp"
+#include "lib/file/text_file.hpp"
 #include "lib/imageio/png.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "model/terrain/formats/culture.hpp"

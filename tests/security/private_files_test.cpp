@@ -2,12 +2,12 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 
+#include "databuffer/app/udp_socket_shell.hpp"
 #include "databuffer/bridges/bridge_source.hpp"
-#include "databuffer/log.hpp"
-#include "databuffer/program.hpp"
-#include "databuffer/session.hpp"
-#include "databuffer/udp_socket_shell.hpp"
+#include "databuffer/runtime/program.hpp"
+#include "databuffer/session/session.hpp"
 #include "display/app/frame_output_shell.hpp"
+#include "lib/log/log.hpp"
 #include "tests/security/folder.hpp"
 #include "tests/shm/child_process.hpp"
 #include "tools/recording/recording_writer.hpp"

@@ -7,9 +7,8 @@
 #include <array>
 #include <functional>
 
-#include "config/load.hpp"
-#include "databuffer/records/text_file_reader.hpp"
-#include "lib/imageio/indexed_png.hpp"
+#include "config/schema/load.hpp"
+#include "lib/file/text_file.hpp"
 #include "lib/imageio/png.hpp"
 #include "model/scene/index/scene_index.hpp"
 #include "model/scene/openflight/reader.hpp"

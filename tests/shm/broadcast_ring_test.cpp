@@ -1,9 +1,8 @@
-#include "shm/broadcast_ring.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "shm/ring_buffers.hpp"
 #include "tests/shm/child_process.hpp"
 #include "tests/shm/hooked_access.hpp"
 #include "tests/shm/numbered_record.hpp"

@@ -1,7 +1,6 @@
-#include "shm/note_ring.hpp"
-
 #include <gtest/gtest.h>
 
+#include "shm/ring_buffers.hpp"
 #include "tests/shm/child_process.hpp"
 #include "tests/shm/hooked_access.hpp"
 #include "tests/shm/numbered_record.hpp"

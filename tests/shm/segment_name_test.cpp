@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "shm/nameless_file.hpp"
+#include "shm/segment_file.hpp"
 #include "tests/shm/child_process.hpp"
 #include "tests/shm/segment_fixture.hpp"
 

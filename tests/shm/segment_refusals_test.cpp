@@ -14,7 +14,6 @@
 #include <string_view>
 #include <utility>
 
-#include "shm/creation_step.hpp"
 #include "shm/segment.hpp"
 #include "tests/file/refused_call.hpp"
 #include "tests/shm/child_process.hpp"

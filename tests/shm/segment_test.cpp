@@ -9,7 +9,6 @@
 #include <fstream>
 #include <vector>
 
-#include "shm/creation_step.hpp"
 #include "tests/shm/child_process.hpp"
 #include "tests/shm/segment_fixture.hpp"
 

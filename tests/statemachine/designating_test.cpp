@@ -1,7 +1,7 @@
 // CUE, TGT and MARK, and the pattern steering line to what TGT designated.
 #include <gtest/gtest.h>
 
-#include "statemachine/outputs.hpp"
+#include "statemachine/machine.hpp"
 #include "tests/statemachine/pilot.hpp"
 
 namespace yars::statemachine::testing {

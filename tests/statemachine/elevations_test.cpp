@@ -1,9 +1,8 @@
 // The elevations of CUE, TGT and MARK: those of the ground that was designated, however soon the cursor goes.
-#include "statemachine/elevations.hpp"
-
 #include <gtest/gtest.h>
 
-#include "statemachine/outputs.hpp"
+#include "statemachine/designation.hpp"
+#include "statemachine/machine.hpp"
 #include "tests/statemachine/pilot.hpp"
 
 namespace yars::statemachine::testing {

@@ -1,9 +1,8 @@
 // Errors of the navigators: what the glass and the cursor make of them, how they grow, and how UPDT takes them out.
-#include "statemachine/navigators.hpp"
-
 #include <gtest/gtest.h>
 
-#include "databuffer/records/navigation.hpp"
+#include "databuffer/messages/derived_values.hpp"
+#include "statemachine/navigation_errors.hpp"
 #include "tests/statemachine/pilot.hpp"
 
 namespace yars::statemachine::testing {

@@ -11,9 +11,9 @@
 #include <sstream>
 #include <string>
 
-#include "databuffer/records/event_text.hpp"
-#include "databuffer/records/patch_map.hpp"
-#include "lib/geo/geodesic.hpp"
+#include "databuffer/messages/input_event.hpp"
+#include "databuffer/messages/pictures.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/radar/modes.hpp"
 #include "statemachine/machine.hpp"
 

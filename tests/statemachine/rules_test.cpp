@@ -1,7 +1,7 @@
 // The rules of docs/spec/pilots_interface.md#rules as sentences, as far as they need no map and no designation.
 #include <gtest/gtest.h>
 
-#include "databuffer/records/radar_command.hpp"
+#include "databuffer/messages/derived_values.hpp"
 #include "tests/statemachine/pilot.hpp"
 
 namespace yars::statemachine::testing {

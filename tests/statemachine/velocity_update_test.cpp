@@ -1,8 +1,8 @@
 // PVU and IPVU: what the radar measures against what the navigator has.
 #include <gtest/gtest.h>
 
-#include "databuffer/records/validation.hpp"
-#include "lib/radar/chance.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "lib/random/counter_rng.hpp"
 #include "tests/statemachine/pilot.hpp"
 
 namespace yars::statemachine::testing {

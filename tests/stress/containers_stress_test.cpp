@@ -8,10 +8,9 @@
 #include <thread>
 #include <vector>
 
-#include "shm/broadcast_ring.hpp"
 #include "shm/input_lanes.hpp"
 #include "shm/latest_value.hpp"
-#include "shm/note_ring.hpp"
+#include "shm/ring_buffers.hpp"
 #include "tests/shm/child_process.hpp"
 #include "tests/shm/numbered_record.hpp"
 

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "databuffer/frame_pool.hpp"
+#include "databuffer/session/picture_pool.hpp"
 #include "tests/shm/child_process.hpp"
 
 namespace yars::databuffer {

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "databuffer/patch_pool.hpp"
+#include "databuffer/session/picture_pool.hpp"
 #include "tests/databuffer/made_up_map.hpp"
 #include "tests/shm/child_process.hpp"
 

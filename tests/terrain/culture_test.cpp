@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "lib/imageio/indexed_png.hpp"
 #include "lib/imageio/png.hpp"
 #include "model/physics/reflectivity.hpp"
 #include "tests/terrain/dted_builder.hpp"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "lib/radar/fidelity_preset.hpp"
+#include "lib/radar/configuration.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "model/terrain/sampling/analytic_terrain.hpp"

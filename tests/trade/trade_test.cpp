@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "lib/radar/fidelity_preset.hpp"
+#include "lib/radar/configuration.hpp"
 #include "model/terrain/sampling/analytic_terrain.hpp"
 #include "tools/trade/candidate.hpp"
 #include "tools/trade/pareto_front.hpp"

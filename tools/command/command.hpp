@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 
 namespace yars::tools {
 

@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/radar/mappable.hpp"
-#include "lib/radar/windows.hpp"
+#include "lib/radar/mapping.hpp"
 #include "model/antenna/antenna.hpp"
 #include "model/terrain/store/directory_store.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/scene/index/scene_store.hpp"
@@ -13,7 +13,7 @@
 namespace yars::tools {
 
 // The radar's limits as `yars patch` and `yars scan` tell of them: which one is broken, by what numbers, and what to
-// do. The limits themselves are those of the radar: lib/radar/mappable.hpp and the gimbal.
+// do. The limits themselves are those of the radar: lib/radar/mapping.hpp and the gimbal.
 
 // Nothing: within them, in all that follows. A map's blind zone, gimbal in azimuth, windows and their ranges, before
 // terrain is read.

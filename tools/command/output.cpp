@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
-#include "databuffer/program.hpp"
-#include "lib/failure/printable.hpp"
-#include "lib/file/new_file.hpp"
+#include "databuffer/runtime/program.hpp"
+#include "lib/file/output_file.hpp"
+#include "lib/text/plain_text.hpp"
 #include "tools/command/command.hpp"
 
 namespace yars::tools {
@@ -89,7 +89,7 @@ ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
 void ProgressLine::say(const std::string& text) {
   const auto now = std::chrono::steady_clock::now();
   if (!terminal_ || (text.empty() ? !shown_ : now - said_ < std::chrono::milliseconds(100))) return;
-  // Past the guard of the terminal (databuffer/terminal_guard.hpp), which lets no control characters through.
+  // Past the guard of the terminal (databuffer/runtime/process.hpp), which lets no control characters through.
   const std::string line = "\r\033[K" + failure::printable(text);
   const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
   if (written < 0) return;

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "config/load.hpp"
-#include "databuffer/program.hpp"
+#include "config/schema/load.hpp"
+#include "databuffer/runtime/program.hpp"
 #include "lib/imageio/png.hpp"
 #include "lib/parallel/thread_pool.hpp"
-#include "lib/radar/fidelity_preset.hpp"
-#include "lib/radar/map_formation.hpp"
+#include "lib/radar/configuration.hpp"
+#include "lib/radar/mapping.hpp"
 #include "model/hrm/patch_formation.hpp"
 #include "model/scene/index/scene_index.hpp"
 #include "model/scene/index/scene_store.hpp"

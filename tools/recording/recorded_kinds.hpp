@@ -10,12 +10,10 @@
 #include <variant>
 #include <vector>
 
-#include "databuffer/records/model_records.hpp"
-#include "databuffer/records/outputs.hpp"
-#include "databuffer/records/patch_map.hpp"
-#include "databuffer/records/radar_state.hpp"
-#include "databuffer/records/recorder_status.hpp"
-#include "databuffer/records/traffic.hpp"
+#include "databuffer/messages/model_records.hpp"
+#include "databuffer/messages/pictures.hpp"
+#include "databuffer/messages/radar_state.hpp"
+#include "databuffer/messages/world_state.hpp"
 
 namespace yars::tools::recording {
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <utility>
 
-#include "lib/radar/limits.hpp"
+#include "lib/radar/modes.hpp"
 #include "tools/recording/block.hpp"
 
 namespace yars::tools::recording {

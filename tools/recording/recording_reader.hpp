@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "tools/recording/block.hpp"
 #include "tools/recording/recorded_kinds.hpp"
 #include "tools/recording/recording_file.hpp"

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "lib/failure/error.hpp"
-#include "lib/file/new_file.hpp"
+#include "lib/error/error.hpp"
+#include "lib/file/output_file.hpp"
 #include "tools/recording/block.hpp"
 #include "tools/recording/recorded_kinds.hpp"
 #include "tools/recording/recording_file.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "databuffer/records/model_records.hpp"
+#include "databuffer/messages/model_records.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/kernel/radar_kernel.hpp"
 #include "model/kernel/tick_inputs.hpp"

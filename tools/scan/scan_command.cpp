@@ -14,14 +14,13 @@
 #include <string>
 #include <vector>
 
-#include "config/load.hpp"
-#include "databuffer/program.hpp"
-#include "databuffer/records/model_records.hpp"
-#include "lib/file/new_file.hpp"
-#include "lib/geo/bearing.hpp"
+#include "config/schema/load.hpp"
+#include "databuffer/messages/model_records.hpp"
+#include "databuffer/runtime/program.hpp"
+#include "lib/file/output_file.hpp"
+#include "lib/geo/quantity.hpp"
 #include "lib/imageio/png.hpp"
 #include "lib/radar/configuration.hpp"
-#include "lib/radar/fidelity_preset.hpp"
 #include "model/kernel/offline_scan.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "model/kernel/tick_inputs.hpp"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/file/new_file.hpp"
+#include "lib/file/output_file.hpp"
 #include "model/scene/index/scene_index.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "tools/command/command.hpp"

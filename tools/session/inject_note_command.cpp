@@ -6,11 +6,11 @@
 #include <thread>
 #include <vector>
 
-#include "databuffer/program.hpp"
-#include "databuffer/records/event_text.hpp"
-#include "databuffer/records/plain_text.hpp"
-#include "databuffer/records/radar_state_validation.hpp"
-#include "databuffer/session.hpp"
+#include "databuffer/messages/input_event.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "databuffer/runtime/program.hpp"
+#include "databuffer/session/session.hpp"
+#include "lib/text/plain_text.hpp"
 #include "statemachine/transition_table.hpp"
 #include "tools/command/command.hpp"
 

@@ -10,11 +10,11 @@
 #include <string>
 #include <utility>
 
-#include "databuffer/log.hpp"
-#include "databuffer/patch_pool.hpp"
-#include "databuffer/program.hpp"
-#include "databuffer/session.hpp"
-#include "lib/radar/limits.hpp"
+#include "databuffer/runtime/program.hpp"
+#include "databuffer/session/picture_pool.hpp"
+#include "databuffer/session/session.hpp"
+#include "lib/log/log.hpp"
+#include "lib/radar/modes.hpp"
 #include "tools/recording/replay.hpp"
 
 namespace yars::tools {

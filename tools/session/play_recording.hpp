@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "tools/recording/replay.hpp"
 
 namespace yars::tools {

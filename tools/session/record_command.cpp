@@ -3,10 +3,10 @@
 #include <ctime>
 #include <filesystem>
 
-#include "databuffer/log.hpp"
-#include "databuffer/program.hpp"
-#include "databuffer/session.hpp"
-#include "databuffer/tick_loop.hpp"
+#include "databuffer/runtime/program.hpp"
+#include "databuffer/runtime/tick_loop.hpp"
+#include "databuffer/session/session.hpp"
+#include "lib/log/log.hpp"
 #include "tools/command/command.hpp"
 #include "tools/recording/recording_writer.hpp"
 #include "tools/session/recorder.hpp"

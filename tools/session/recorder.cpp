@@ -6,13 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "databuffer/log.hpp"
-#include "databuffer/patch_pool.hpp"
-#include "databuffer/records/event_validation.hpp"
-#include "databuffer/records/model_validation.hpp"
-#include "databuffer/records/radar_state_validation.hpp"
-#include "databuffer/records/validation.hpp"
-#include "databuffer/session_layout.hpp"
+#include "databuffer/messages/input_event.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "databuffer/session/picture_pool.hpp"
+#include "databuffer/session/session_layout.hpp"
+#include "lib/log/log.hpp"
 
 namespace yars::tools {
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "databuffer/session.hpp"
+#include "databuffer/session/session.hpp"
 #include "tools/recording/recorded_kinds.hpp"
 #include "tools/recording/recording_writer.hpp"
 

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "config/load.hpp"
-#include "databuffer/log.hpp"
-#include "databuffer/program.hpp"
-#include "databuffer/records/event_text.hpp"
+#include "config/schema/load.hpp"
+#include "databuffer/messages/input_event.hpp"
+#include "databuffer/runtime/program.hpp"
+#include "lib/log/log.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tools/command/command.hpp"
 #include "tools/recording/recording_reader.hpp"

@@ -7,9 +7,9 @@
 #include <thread>
 #include <utility>
 
-#include "databuffer/program.hpp"
-#include "databuffer/records/plain_text.hpp"
-#include "databuffer/session.hpp"
+#include "databuffer/runtime/program.hpp"
+#include "databuffer/session/session.hpp"
+#include "lib/text/plain_text.hpp"
 #include "tools/command/command.hpp"
 
 namespace yars::tools {

@@ -7,12 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "databuffer/frame_pool.hpp"
-#include "databuffer/ownship_receiver.hpp"
-#include "databuffer/records/model_validation.hpp"
-#include "databuffer/records/plain_text.hpp"
-#include "databuffer/records/validation.hpp"
-#include "databuffer/session.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "databuffer/runtime/receivers.hpp"
+#include "databuffer/session/picture_pool.hpp"
+#include "databuffer/session/session.hpp"
+#include "lib/text/plain_text.hpp"
 #include "tools/session/watch_json.hpp"
 
 namespace yars::tools {

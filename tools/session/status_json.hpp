@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "databuffer/session.hpp"
+#include "databuffer/session/session.hpp"
 
 namespace yars::tools {
 

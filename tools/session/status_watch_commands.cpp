@@ -11,10 +11,10 @@
 #include <thread>
 #include <vector>
 
-#include "databuffer/layout_json.hpp"
-#include "databuffer/log.hpp"
-#include "databuffer/program.hpp"
-#include "databuffer/session.hpp"
+#include "databuffer/runtime/program.hpp"
+#include "databuffer/session/layout_json.hpp"
+#include "databuffer/session/session.hpp"
+#include "lib/log/log.hpp"
 #include "tools/command/command.hpp"
 #include "tools/session/status_json.hpp"
 #include "tools/session/status_text.hpp"

@@ -5,14 +5,12 @@
 #include <span>
 #include <string>
 
-#include "databuffer/ownship_receiver.hpp"
-#include "databuffer/records/map_timer.hpp"
-#include "databuffer/records/model_validation.hpp"
-#include "databuffer/records/plain_text.hpp"
-#include "databuffer/records/radar_state_validation.hpp"
-#include "lib/geo/bearing.hpp"
+#include "databuffer/messages/derived_values.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "databuffer/runtime/receivers.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::tools {
 

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "databuffer/session.hpp"
+#include "databuffer/session/session.hpp"
 
 namespace yars::tools {
 

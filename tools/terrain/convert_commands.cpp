@@ -10,7 +10,7 @@
 #include <system_error>
 #include <vector>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
 #include "model/terrain/formats/culture.hpp"

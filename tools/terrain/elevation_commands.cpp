@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "model/terrain/store/directory_store.hpp"

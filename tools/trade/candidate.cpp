@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <functional>
 
-#include "lib/radar/fidelity_preset.hpp"
-#include "lib/radar/limits.hpp"
+#include "lib/radar/configuration.hpp"
+#include "lib/radar/modes.hpp"
 
 namespace yars::tools::trade {
 

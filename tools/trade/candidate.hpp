@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "lib/radar/configuration.hpp"
 
 namespace yars::tools::trade {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/failure/require.hpp"
-#include "lib/geo/geodesic.hpp"
+#include "lib/error/error.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "model/physics/ray.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/physics/sweep_geometry.hpp"
@@ -97,7 +97,7 @@ double position_error_m(const RadarConfiguration& configuration, const OfflineSc
     std::vector<float> distance_m(exact_m.begin(), exact_m.end());
     distance_m.resize(distance_m.size() + model::terrain::kRunSlack, 0.0F);
     model::physics::sample_places(look.apex, look.azimuth, look.range, configuration.fidelity.geodesic_knots,
-                              distance_m.data(), places);
+                                  distance_m.data(), places);
     const geo::GeodesicRay ray(look.apex, look.azimuth);
     for (std::size_t i = 0; i < places.count; i += kStep) {
       geo::GeoPoint found = model::terrain::place_of(places.run(), i);

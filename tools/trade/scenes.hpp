@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "lib/failure/error.hpp"
-#include "lib/geo/geodesic.hpp"
+#include "lib/error/error.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/kernel/offline_scan.hpp"
 #include "tools/trade/map_errors.hpp"

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "config/load.hpp"
-#include "databuffer/program.hpp"
-#include "lib/file/new_file.hpp"
+#include "config/schema/load.hpp"
+#include "databuffer/runtime/program.hpp"
+#include "lib/file/output_file.hpp"
 #include "lib/imageio/png.hpp"
-#include "lib/radar/fidelity_preset.hpp"
-#include "lib/radar/limits.hpp"
+#include "lib/radar/configuration.hpp"
+#include "lib/radar/modes.hpp"
 #include "model/kernel/tick_inputs.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "model/terrain/store/directory_store.hpp"

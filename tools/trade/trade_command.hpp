@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/radar/configuration.hpp"
 #include "tools/command/command.hpp"
 #include "tools/trade/candidate.hpp"

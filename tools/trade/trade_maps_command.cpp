@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "databuffer/program.hpp"
-#include "lib/radar/fidelity_preset.hpp"
+#include "databuffer/runtime/program.hpp"
+#include "lib/radar/configuration.hpp"
 #include "model/scene/index/scene_index.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/terrain/store/directory_store.hpp"

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "worldgen/scene/openflight_writer.hpp"
 
 namespace yars::model::scene {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/failure/require.hpp"
+#include "lib/error/error.hpp"
 #include "lib/random/gradient_noise.hpp"
 #include "model/physics/reflectivity.hpp"
 

@@ -8,8 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "lib/geo/frames.hpp"
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "worldgen/terrain/gullies.hpp"
 

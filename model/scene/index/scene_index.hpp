@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "lib/radar/world.hpp"
 #include "model/scene/placement/placed_scene.hpp"
 

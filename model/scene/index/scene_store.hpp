@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "model/scene/index/scene_index.hpp"
 #include "model/scene/placement/placed_scene.hpp"
 #include "model/scene/placement/scene_view.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "model/scene/openflight/node_tree.hpp"
 
 namespace yars::model::scene {

@@ -14,8 +14,8 @@
 #include <tuple>
 #include <vector>
 
-#include "lib/failure/error.hpp"
-#include "lib/geo/vector.hpp"
+#include "lib/error/error.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "model/scene/placement/scene_view.hpp"
 
 namespace yars::model::scene {

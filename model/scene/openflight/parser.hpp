@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "model/scene/openflight/node_tree.hpp"
 #include "model/scene/openflight/records.hpp"
 #include "model/scene/openflight/surface_records.hpp"

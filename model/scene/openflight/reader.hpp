@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "model/scene/openflight/model.hpp"
 
 namespace yars::model::scene {

@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 
 namespace yars::model::scene::openflight {
 

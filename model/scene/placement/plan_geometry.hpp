@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/geo/geodesic.hpp"
-#include "lib/geo/vector.hpp"
+#include "lib/geo/geodesy.hpp"
 
 namespace yars::model::scene {
 

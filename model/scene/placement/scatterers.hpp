@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "lib/geo/frames.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "model/scene/placement/plan_geometry.hpp"
 #include "model/scene/placement/spatial_index.hpp"
 

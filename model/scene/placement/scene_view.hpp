@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "model/scene/placement/scatterers.hpp"
 
 namespace yars::model::scene {

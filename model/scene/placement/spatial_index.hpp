@@ -7,8 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/geo/frames.hpp"
-#include "lib/geo/vector.hpp"
+#include "lib/geo/geodesy.hpp"
 
 namespace yars::model::scene {
 

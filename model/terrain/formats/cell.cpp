@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/failure/require.hpp"
+#include "lib/error/error.hpp"
 
 namespace yars::model::terrain {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/memory/line_vector.hpp"
 
 namespace yars::model::terrain {

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "lib/failure/require.hpp"
+#include "lib/error/error.hpp"
 #include "lib/file/folder.hpp"
-#include "lib/imageio/indexed_png.hpp"
+#include "lib/imageio/png.hpp"
 
 namespace yars::model::terrain {
 

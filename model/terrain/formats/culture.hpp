@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "model/terrain/formats/cell.hpp"
 
 namespace yars::model::terrain {

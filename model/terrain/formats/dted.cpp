@@ -9,8 +9,8 @@
 #include <string_view>
 #include <utility>
 
-#include "lib/failure/require.hpp"
-#include "lib/file/new_file.hpp"
+#include "lib/error/error.hpp"
+#include "lib/file/output_file.hpp"
 
 namespace yars::model::terrain {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
 
@@ -65,7 +65,7 @@ failure::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, cons
 // Errors of write_dted: the file cannot be written. The cell needs kPostsOfLevel[level] rows.
 std::vector<std::byte> dted_bytes(const Cell& cell, int level);
 
-// `tree`/wLLL/nBB.dtN, written as lib/file/new_file.hpp says; folders are made.
+// `tree`/wLLL/nBB.dtN, written as lib/file/output_file.hpp says; folders are made.
 failure::Expected<std::filesystem::path> write_dted(const std::filesystem::path& tree, const Cell& cell, int level);
 
 // Below a tree: "w122/n36.dt1".

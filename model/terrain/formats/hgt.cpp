@@ -12,8 +12,8 @@
 #include <optional>
 #include <utility>
 
-#include "lib/failure/require.hpp"
-#include "lib/file/new_file.hpp"
+#include "lib/error/error.hpp"
+#include "lib/file/output_file.hpp"
 
 namespace yars::model::terrain {
 

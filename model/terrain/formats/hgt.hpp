@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
 
@@ -37,7 +37,7 @@ int packed_hgt_posts(const std::filesystem::path& path);
 // Errors of write_hgt: the file cannot be written.
 std::vector<std::byte> hgt_bytes(const Cell& cell);
 
-// `tree`/N36W122.hgt, written as lib/file/new_file.hpp says; folders are made.
+// `tree`/N36W122.hgt, written as lib/file/output_file.hpp says; folders are made.
 failure::Expected<std::filesystem::path> write_hgt(const std::filesystem::path& tree, const Cell& cell);
 
 // "N36W122.hgt"

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string_view>
 
-#include "lib/failure/require.hpp"
+#include "lib/error/error.hpp"
 #include "model/terrain/formats/cell.hpp"
 
 namespace yars::model::terrain {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 
 namespace yars::model::terrain {
 

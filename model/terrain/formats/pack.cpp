@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "lib/file/new_file.hpp"
+#include "lib/file/output_file.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/dted.hpp"
 #include "model/terrain/formats/jpeg2000.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
 #include "model/terrain/formats/jpeg2000.hpp"

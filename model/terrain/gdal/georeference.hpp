@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "model/terrain/gdal/coordinate_operations.hpp"
 
 namespace yars::model::terrain::gdal {

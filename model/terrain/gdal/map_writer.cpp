@@ -12,7 +12,7 @@
 #include <string>
 #include <type_traits>
 
-#include "lib/file/new_file.hpp"
+#include "lib/file/output_file.hpp"
 #include "model/terrain/gdal/open_raster.hpp"
 
 namespace yars::model::terrain::gdal {

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 
 namespace yars::model::terrain::gdal {
 

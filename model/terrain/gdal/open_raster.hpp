@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "model/terrain/gdal/georeference.hpp"
 
 namespace yars::model::terrain::gdal {

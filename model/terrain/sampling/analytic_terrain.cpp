@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "lib/failure/require.hpp"
+#include "lib/error/error.hpp"
 #include "model/terrain/formats/culture.hpp"
 
 namespace yars::model::terrain {

@@ -8,7 +8,7 @@
 #include <functional>
 #include <utility>
 
-#include "lib/geo/bearing.hpp"
+#include "lib/geo/quantity.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 
 namespace yars::model::terrain {

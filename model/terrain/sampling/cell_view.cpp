@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/failure/require.hpp"
+#include "lib/error/error.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/sampling/crests_simd.hpp"
 #include "model/terrain/sampling/height_simd.hpp"

@@ -11,7 +11,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 // Behind highway.h, or it would have no target yet.
-#include "lib/lanes/fused-inl.hpp"
+#include "lib/simd/fused-inl.hpp"
 #include "model/terrain/sampling/post_simd-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/terrain/formats/cell.hpp"
 

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "lib/failure/require.hpp"
+#include "lib/error/error.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/culture.hpp"
 #include "model/terrain/formats/ded.hpp"

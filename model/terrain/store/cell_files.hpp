@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/failure/error.hpp"
+#include "lib/error/error.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/cell_reading.hpp"

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "databuffer/bridges/byte_order.hpp"
-#include "lib/geo/geodesic.hpp"
+#include "lib/geo/geodesy.hpp"
+#include "lib/memory/byte_order.hpp"
 #include "tests/bridges/live/bridged_set.hpp"
 #include "tests/bridges/live/udp_peer.hpp"
 #include "tests/bridges/packets.hpp"

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "databuffer/records/plain_text.hpp"
-#include "databuffer/session.hpp"
+#include "databuffer/session/session.hpp"
+#include "lib/text/plain_text.hpp"
 #include "tests/endtoend/process_set.hpp"
 
 namespace yars::endtoend {

@@ -13,8 +13,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "databuffer/bridges/flightgear.hpp"
-#include "lib/geo/frames.hpp"
+#include "databuffer/bridges/flight_simulators.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "tests/bridges/live/bridged_set.hpp"
 #include "tests/bridges/live/udp_peer.hpp"
 

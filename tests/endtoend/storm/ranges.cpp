@@ -2,10 +2,9 @@
 
 #include <span>
 
-#include "databuffer/records/inspection.hpp"
-#include "databuffer/records/model_validation.hpp"
-#include "databuffer/records/validation.hpp"
-#include "lib/radar/limits.hpp"
+#include "databuffer/messages/inspection.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "lib/radar/modes.hpp"
 
 namespace yars::endtoend::storm {
 

@@ -2,9 +2,9 @@
 // model status, sweeps, outputs. What comes in them from outside has passed validation.hpp and must still pass it.
 #pragma once
 
-#include "databuffer/records/model_records.hpp"
-#include "databuffer/records/outputs.hpp"
-#include "databuffer/records/refusal.hpp"
+#include "databuffer/messages/inspection.hpp"
+#include "databuffer/messages/model_records.hpp"
+#include "databuffer/messages/radar_state.hpp"
 
 namespace yars::endtoend::storm {
 

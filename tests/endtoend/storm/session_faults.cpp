@@ -10,7 +10,6 @@
 #include <fstream>
 
 #include "shm/segment.hpp"
-#include "shm/segment_header.hpp"
 #include "tests/endtoend/storm/faults.hpp"
 #include "tests/endtoend/storm/storm_set.hpp"
 

@@ -1,10 +1,10 @@
 /* A program of somebody else's in a running set, for faults: it writes as fast as told until it is killed, or writes
- * what no program should. By databuffer/yars.h alone.
+ * what no program should. By databuffer/client/yars.h alone.
  *   storm_client MODE SESSION [NUMBER [SEED]]     exit 0: done; 1: could not attach or claim; runs until killed else
  *     fly RATE_HZ, push RATE_HZ, frames, clock    NUMBER: a second, 0 = as fast as it goes
  *     restore NUMBER                              one event each that brings the radar back to RBM; the last is NUMBER
  *     bad-ownship, bad-nav, bad-events, bad-traffic COUNT SEED;  die-with-lane */
-#include "databuffer/yars.h"
+#include "databuffer/client/yars.h"
 /* The header asks for its own extensions and comes first. */
 #include <math.h>
 #include <signal.h>

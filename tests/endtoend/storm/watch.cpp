@@ -7,10 +7,9 @@
 #include <string_view>
 #include <utility>
 
-#include "databuffer/frame_pool.hpp"
-#include "databuffer/patch_pool.hpp"
-#include "databuffer/records/plain_text.hpp"
-#include "databuffer/records/validation.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "databuffer/session/picture_pool.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/kernel/map_schedule.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "tests/endtoend/storm/ranges.hpp"

@@ -13,8 +13,8 @@
 #include <thread>
 #include <vector>
 
-#include "databuffer/records/refusal.hpp"
-#include "databuffer/session.hpp"
+#include "databuffer/messages/inspection.hpp"
+#include "databuffer/session/session.hpp"
 
 namespace yars::endtoend::storm {
 

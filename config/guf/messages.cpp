@@ -1,0 +1,100 @@
+#include "config/guf/messages.hpp"
+
+#include <cctype>
+#include <new>
+
+#include "message_lexer.hpp"
+#include "message_parser.hpp"
+
+namespace yars::config {
+
+namespace {
+
+constexpr std::string_view kBlank = " \t";
+constexpr std::string_view kSpace = " \t\r\n\f";
+
+// Owns the scanner and its copy of the text.
+class Scanner {
+ public:
+  Scanner(std::string_view text, ScanState& state) {
+    if (message_lex_init_extra(&state, &handle_) != 0) throw std::bad_alloc();
+    message__scan_bytes(text.data(), static_cast<int>(text.size()), handle_);
+  }
+  ~Scanner() { message_lex_destroy(handle_); }
+  Scanner(const Scanner&) = delete;
+  Scanner& operator=(const Scanner&) = delete;
+  void* handle() const { return handle_; }
+
+ private:
+  yyscan_t handle_ = nullptr;
+};
+
+std::string_view behind(std::string_view text, std::string_view end) {
+  const std::size_t place = text.find(end);
+  return place == std::string_view::npos ? std::string_view() : text.substr(place + end.size());
+}
+
+// What is left behind spaces and comments, those of GUF among them: they may stand before either language.
+std::string_view from_first_word(std::string_view text) {
+  while (!text.empty()) {
+    if (kSpace.find(text.front()) != std::string_view::npos) {
+      text.remove_prefix(1);
+    } else if (text.front() == ';' || text.starts_with("//")) {
+      text = behind(text, "\n");
+    } else if (text.starts_with("/*")) {
+      text = behind(text.substr(2), "*/");
+    } else {
+      break;
+    }
+  }
+  return text;
+}
+
+bool is_in_name(char letter) {
+  return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_' || letter == '.' || letter == '-';
+}
+
+}  // namespace
+
+failure::Expected<ParsedText> parse_messages(std::string_view text, const std::string& name) {
+  if (const auto problem = oversize(text, name)) return tl::unexpected(*problem);
+  ScanState state;
+  state.next.file = std::make_shared<const std::string>(name);
+  try {
+    const Scanner scanner(without_mark(text), state);
+    MessageParser parser(scanner.handle(), state);
+    parser.parse();
+  } catch (const Rejection& rejection) {
+    return tl::unexpected(rejection.error);
+  }
+  return std::move(state.result);
+}
+
+bool is_in_messages(std::string_view text) {
+  text = from_first_word(without_mark(text));
+  if (text.starts_with('#')) return true;
+  if (text.empty() || std::isdigit(static_cast<unsigned char>(text.front())) != 0) return false;
+  std::size_t length = 0;
+  while (length < text.size() && is_in_name(text[length])) ++length;
+  if (length == 0) return false;
+  const std::size_t next = text.find_first_not_of(kBlank, length);
+  return next != std::string_view::npos && text[next] == ':';
+}
+
+Form coordinate_of(std::string_view text, const ScanState& state) {
+  const std::size_t at = text.find('@');
+  const auto part = [&](auto value) { return Slot{"", 0, state.token, Value{state.token, value}}; };
+  return {"lat-long",
+          {part(Identifier{std::string(text.substr(0, 1))}), part(number_of(text.substr(1, at - 1), state)),
+           part(number_of(text.substr(at + 1), state))}};
+}
+
+std::string first_name(std::string_view text) {
+  return std::string(text.substr(0, text.find_first_of(" \t:")));
+}
+
+Slot include_slot(const Location& where, const std::string& file) {
+  return {"", 0, where, Value{where, Form{"include", {Slot{"", 0, where, Value{where, file}}}}}};
+}
+
+}  // namespace yars::config

@@ -1,0 +1,276 @@
+#include "config/schema/devices.hpp"
+
+#include <linux/input-event-codes.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <span>
+
+#include "config/guf/tree.hpp"
+#include "config/schema/schema.hpp"
+#include "databuffer/messages/input_event.hpp"
+#include "lib/text/plain_text.hpp"
+
+namespace yars::config {
+
+namespace {
+
+struct Row {
+  std::string_view name;
+  std::uint16_t code;
+};
+
+#define YARS_ROW(code) \
+  Row {                \
+#code, code        \
+  }
+constexpr std::array kButtons{
+    YARS_ROW(BTN_TRIGGER),   YARS_ROW(BTN_THUMB),     YARS_ROW(BTN_THUMB2),    YARS_ROW(BTN_TOP),
+    YARS_ROW(BTN_TOP2),      YARS_ROW(BTN_PINKIE),    YARS_ROW(BTN_BASE),      YARS_ROW(BTN_BASE2),
+    YARS_ROW(BTN_BASE3),     YARS_ROW(BTN_BASE4),     YARS_ROW(BTN_BASE5),     YARS_ROW(BTN_BASE6),
+    YARS_ROW(BTN_DEAD),      YARS_ROW(BTN_SOUTH),     YARS_ROW(BTN_EAST),      YARS_ROW(BTN_C),
+    YARS_ROW(BTN_NORTH),     YARS_ROW(BTN_WEST),      YARS_ROW(BTN_Z),         YARS_ROW(BTN_TL),
+    YARS_ROW(BTN_TR),        YARS_ROW(BTN_TL2),       YARS_ROW(BTN_TR2),       YARS_ROW(BTN_SELECT),
+    YARS_ROW(BTN_START),     YARS_ROW(BTN_MODE),      YARS_ROW(BTN_THUMBL),    YARS_ROW(BTN_THUMBR),
+    YARS_ROW(BTN_DPAD_UP),   YARS_ROW(BTN_DPAD_DOWN), YARS_ROW(BTN_DPAD_LEFT), YARS_ROW(BTN_DPAD_RIGHT),
+    YARS_ROW(BTN_GEAR_DOWN), YARS_ROW(BTN_GEAR_UP)};
+constexpr std::array kAxes{YARS_ROW(ABS_X),     YARS_ROW(ABS_Y),     YARS_ROW(ABS_Z),        YARS_ROW(ABS_RX),
+                           YARS_ROW(ABS_RY),    YARS_ROW(ABS_RZ),    YARS_ROW(ABS_THROTTLE), YARS_ROW(ABS_RUDDER),
+                           YARS_ROW(ABS_WHEEL), YARS_ROW(ABS_GAS),   YARS_ROW(ABS_BRAKE),    YARS_ROW(ABS_HAT0X),
+                           YARS_ROW(ABS_HAT0Y), YARS_ROW(ABS_HAT1X), YARS_ROW(ABS_HAT1Y),    YARS_ROW(ABS_HAT2X),
+                           YARS_ROW(ABS_HAT2Y), YARS_ROW(ABS_HAT3X), YARS_ROW(ABS_HAT3Y),    YARS_ROW(ABS_MISC)};
+#undef YARS_ROW
+
+// The kernel numbers a joystick's buttons in two runs (hid-input.c).
+constexpr int kFirstRun = 16;
+constexpr int kMostNumbered = kFirstRun + (KEY_MAX - BTN_TRIGGER_HAPPY1 + 1);
+constexpr std::string_view kNumbered = "button ";
+
+std::optional<int> number_of(std::string_view text) {
+  const bool hexadecimal = text.starts_with("0x");
+  if (hexadecimal) text.remove_prefix(2);
+  int value = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value, hexadecimal ? 16 : 10);
+  if (problem != std::errc{} || end != text.data() + text.size() || value < 0) return std::nullopt;
+  return value;
+}
+
+std::optional<std::uint16_t> code_of(std::span<const Row> rows, std::string_view text, int least, int most) {
+  const auto named = std::ranges::find(rows, text, &Row::name);
+  if (named != rows.end()) return named->code;
+  const auto number = number_of(text);
+  if (!number || *number < least || *number > most) return std::nullopt;
+  return static_cast<std::uint16_t>(*number);
+}
+
+std::string name_of(std::span<const Row> rows, std::uint16_t code) {
+  const auto named = std::ranges::find(rows, code, &Row::code);
+  return named != rows.end() ? std::string(named->name) : std::to_string(code);
+}
+
+}  // namespace
+
+std::optional<std::uint16_t> button_code(std::string_view text) {
+  if (!text.starts_with(kNumbered)) return code_of(kButtons, text, 1, KEY_MAX);
+  const auto number = number_of(text.substr(kNumbered.size()));
+  if (!number || *number < 1 || *number > kMostNumbered) return std::nullopt;
+  const int code = *number <= kFirstRun ? BTN_JOYSTICK + *number - 1 : BTN_TRIGGER_HAPPY1 + *number - 1 - kFirstRun;
+  return static_cast<std::uint16_t>(code);
+}
+
+std::optional<std::uint16_t> axis_code(std::string_view text) {
+  return code_of(kAxes, text, 0, ABS_MAX);
+}
+
+std::string button_name(std::uint16_t code) {
+  if (code >= BTN_JOYSTICK && code < BTN_JOYSTICK + kFirstRun)
+    return std::string(kNumbered) + std::to_string(code - BTN_JOYSTICK + 1);
+  if (code >= BTN_TRIGGER_HAPPY1 && code <= KEY_MAX)
+    return std::string(kNumbered) + std::to_string(code - BTN_TRIGGER_HAPPY1 + 1 + kFirstRun);
+  return name_of(kButtons, code);
+}
+
+std::string axis_name(std::uint16_t code) {
+  return name_of(kAxes, code);
+}
+
+namespace {
+
+constexpr std::array<std::string_view, 5> kUses{"tdcX", "tdcY", "elevation", "directions", "lever"};
+constexpr double kLargestRaw = 1e10;  // beyond what struct input_event can hold, also mirrored about its rest
+
+SlotSchema text_slot(std::string_view name, std::string& (*of)(Draft&), std::string_view purpose) {
+  return {.name = name, .binding = TextSlot{of}, .purpose = purpose};
+}
+
+// What an event's text has wrong, if anything; an empty one does nothing.
+std::optional<Complaint> check_event(std::string_view slot, const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const auto event = databuffer::event_from_text(text);
+  if (event) return std::nullopt;
+  return Complaint{slot, "an event: " + event.error().expected, event.error().found};
+}
+
+std::optional<Complaint> too_many(std::size_t count, std::size_t most, std::string_view slot, const char* what) {
+  if (count < most) return std::nullopt;
+  return Complaint{slot, "at most " + std::to_string(most) + ' ' + what, "one more"};
+}
+
+std::optional<Complaint> check_button(const Draft& draft) {
+  const auto& button = draft.device_button;
+  if (!button_code(button.code))
+    return Complaint{"code", "a button as BTN_TRIGGER, \"button 17\" or 0x120", quoted_text(button.code)};
+  if (auto wrong = too_many(draft.device.buttons.size(), radar::kMostControls, "code", "buttons")) return wrong;
+  if (auto wrong = check_event("press", button.press)) return wrong;
+  return check_event("release", button.release);
+}
+
+FormSchema button() {
+  return {
+      .name = "Button",
+      .purpose = "a button of a device",
+      .slots = {text_slot("code", YARS_FIELD(device_button.code),
+                          "BTN_SOUTH, \"button 17\" (of a joystick) or a number as 0x12c"),
+                text_slot("press", YARS_FIELD(device_button.press),
+                          "the event when it goes down, as `yars inject` takes it; `tdc X Y` holds while it is down"),
+                text_slot("release", YARS_FIELD(device_button.release),
+                          "the event when it comes up; left out: none, and `tdc release` for `tdc press`"),
+                number_slot("repeat", "s", 0, 10, {YARS_FIELD(device_button.repeat_s)},
+                            "between repetitions while it is down; left out: none")},
+      .part_of_value = true,
+      .begin = [](Draft& draft) { draft.device_button = {}; },
+      .check = check_button,
+      .end = [](Draft& draft) { draft.device.buttons.push_back(draft.device_button); },
+      .count = [](const Draft& draft) { return draft.device.buttons.size(); },
+      .select = [](Draft& draft, std::size_t index) { draft.device_button = draft.device.buttons[index]; }};
+}
+
+// The ends in order, and the centre between them, as far as they are given.
+std::optional<Complaint> check_travel(const radar::DeviceAxis& axis) {
+  const bool has_ends = !std::isnan(axis.low) && !std::isnan(axis.high);
+  if (std::isnan(axis.low) != std::isnan(axis.high)) return Complaint{"low", "low and high, or neither", "one of them"};
+  if (has_ends && axis.low >= axis.high)
+    return Complaint{"high", "more than low, " + number_text(axis.low), number_text(axis.high)};
+  if (has_ends && (axis.centre <= axis.low || axis.centre >= axis.high))
+    return Complaint{"centre", "a value between low and high", number_text(axis.centre)};
+  if (axis.lowest_deg >= axis.highest_deg)
+    return Complaint{"highest", "more than lowest, " + number_text(axis.lowest_deg), number_text(axis.highest_deg)};
+  return std::nullopt;
+}
+
+std::optional<Complaint> check_axis(const Draft& draft) {
+  const auto& axis = draft.device_axis;
+  if (!axis_code(axis.code)) return Complaint{"code", "an axis as ABS_X, or a number up to 63", quoted_text(axis.code)};
+  if (auto wrong = too_many(draft.device.axes.size(), radar::kMostControls, "code", "axes")) return wrong;
+  if (auto wrong = check_travel(axis)) return wrong;
+  if (auto wrong = check_event("positive", axis.positive)) return wrong;
+  return check_event("negative", axis.negative);
+}
+
+std::vector<SlotSchema> axis_slots() {
+  const auto raw = [](std::string_view name, double& (*of)(Draft&), std::string_view purpose) {
+    return number_slot(name, "", -kLargestRaw, kLargestRaw, {of}, purpose);
+  };
+  return {text_slot("code", YARS_FIELD(device_axis.code), "ABS_X, ABS_HAT0Y ... or a number"),
+          {.name = "drives",
+           .binding =
+               ChoiceSlot{kUses, [](const Draft& draft) { return static_cast<int>(draft.device_axis.use); },
+                          [](Draft& draft, int index) { draft.device_axis.use = static_cast<radar::AxisUse>(index); }},
+           .purpose = "TDC right, TDC up, antenna elevation (absolute), two buttons, or steps; left out: tdcX"},
+          raw("low", YARS_FIELD(device_axis.low), "value at the low end; left out: the device tells"),
+          raw("high", YARS_FIELD(device_axis.high), "value at the high end; left out: the device tells"),
+          raw("centre", YARS_FIELD(device_axis.centre), "value at rest; left out: half way"),
+          number_slot("deadZone", "", 0, 0.9, {YARS_FIELD(device_axis.dead_zone)},
+                      "share of the travel from the centre that counts as none; left out: 0.05"),
+          number_slot("curve", "", 0, 1, {YARS_FIELD(device_axis.curve)},
+                      "0 = straight, 1 = the cube: fine about the centre; left out: 0"),
+          {.name = "inverted",
+           .binding = BooleanSlot{YARS_FIELD(device_axis.inverted)},
+           .purpose = "the low end is up or right; left out: false"},
+          text_slot("positive", YARS_FIELD(device_axis.positive),
+                    "of directions and lever: the event of a move to the high end"),
+          text_slot("negative", YARS_FIELD(device_axis.negative), "the same to the low end"),
+          number_slot("repeat", "s", 0, 10, {YARS_FIELD(device_axis.repeat_s)},
+                      "of directions: between repetitions at full deflection, slower before; left out: none"),
+          number_slot("lowest", "deg", -60, 60, {YARS_FIELD(device_axis.lowest_deg)},
+                      "of elevation: at the low end; left out: -60"),
+          number_slot("highest", "deg", -60, 60, {YARS_FIELD(device_axis.highest_deg)},
+                      "of elevation: at the high end; left out: 60"),
+          {.name = "steps",
+           .lowest = 2,
+           .highest = 256,
+           .binding = IntegerSlot{YARS_FIELD(device_axis.steps)},
+           .purpose = "of a lever: places over its travel; left out: 16"}};
+}
+
+FormSchema axis() {
+  return {.name = "Axis",
+          .purpose = "an axis of a device: a stick, a hat, a rocker, a lever",
+          .slots = axis_slots(),
+          .part_of_value = true,
+          .begin = [](Draft& draft) { draft.device_axis = {}; },
+          .check = check_axis,
+          .end = [](Draft& draft) { draft.device.axes.push_back(draft.device_axis); },
+          .count = [](const Draft& draft) { return draft.device.axes.size(); },
+          .select = [](Draft& draft, std::size_t index) { draft.device_axis = draft.device.axes[index]; }};
+}
+
+bool is_identity(std::string_view word) {
+  constexpr std::size_t kDigits = 4;
+  return word.size() == kDigits && std::ranges::all_of(word, [](char character) {
+           return std::isxdigit(static_cast<unsigned char>(character)) != 0;
+         });
+}
+
+std::optional<Complaint> check_device(const Draft& draft) {
+  const auto& device = draft.device;
+  if (auto wrong = too_many(draft.radar.devices.size(), radar::kMostDevices, "name", "devices")) return wrong;
+  if (device.name.empty() || device.name.find_first_of("/,") != std::string::npos)
+    return Complaint{"name", "a name without comma and slash", quoted_text(device.name)};
+  if (!device.vendor.empty() && !is_identity(device.vendor))
+    return Complaint{"vendor", "four hexadecimal digits", quoted_text(device.vendor)};
+  if (!std::ranges::all_of(databuffer::words_of(device.products), is_identity))
+    return Complaint{"products", "four hexadecimal digits each", quoted_text(device.products)};
+  if (!device.has.empty() && !button_code(device.has) && !axis_code(device.has))
+    return Complaint{"has", "a button or an axis, as BTN_SOUTH or ABS_X", quoted_text(device.has)};
+  return std::nullopt;
+}
+
+FormSchema device() {
+  return {.name = "Device",
+          .purpose =
+              "what the controls of a device do; one with neither vendor, pattern nor has is taken by its name alone",
+          .slots = {text_slot("name", YARS_FIELD(device.name), "of this map, as in `--source evdev:PATH,NAME`"),
+                    text_slot("vendor", YARS_FIELD(device.vendor), "that it must be of, as lsusb shows it: 044f"),
+                    text_slot("products", YARS_FIELD(device.products), "one of which it must be: b351 b352"),
+                    text_slot("pattern", YARS_FIELD(device.pattern), "that its own name must fit, with * and ?"),
+                    text_slot("has", YARS_FIELD(device.has), "a control that it must have, as BTN_SOUTH"),
+                    {.name = "buttons",
+                     .binding = FormSlot{{"Button"}, {"Button"}, true},
+                     .purpose = "at most 256 buttons"},
+                    {.name = "axes", .binding = FormSlot{{"Axis"}, {"Axis"}, true}, .purpose = "at most 256 axes"}},
+          .part_of_value = true,
+          .begin = [](Draft& draft) { draft.device = {}; },
+          .check = check_device,
+          .end = [](Draft& draft) { draft.radar.devices.push_back(draft.device); },
+          .count = [](const Draft& draft) { return draft.radar.devices.size(); },
+          .select = [](Draft& draft, std::size_t index) { draft.device = draft.radar.devices[index]; }};
+}
+
+}  // namespace
+
+std::vector<FormSchema> device_forms() {
+  return {{.name = "Devices",
+           .purpose = "maps of cockpit hardware, added to earlier ones; the last that fits a device is taken",
+           .slots = {{.name = "devices",
+                      .binding = FormSlot{{"Device"}, {"Device"}, true},
+                      .purpose = "at most 64 maps; those of config/devices.guf are built in before them"}}},
+          device(),
+          button(),
+          axis()};
+}
+
+}  // namespace yars::config

@@ -1,0 +1,230 @@
+#include <array>
+
+#include "config/schema/schema.hpp"
+
+namespace yars::config {
+
+namespace {
+
+constexpr std::array<std::string_view, 8> kDirections{"N", "S", "E", "W", "north", "south", "east", "west"};
+
+SlotSchema share(std::string_view name, NumberSlot binding, std::string_view purpose) {
+  return {.name = name, .lowest = 0, .highest = 1, .binding = binding, .purpose = purpose};
+}
+
+std::vector<SlotSchema> red_green_blue() {
+  return {share("red", {YARS_FIELD(color.red)}, "share of red"),
+          share("green", {YARS_FIELD(color.green)}, "share of green"),
+          share("blue", {YARS_FIELD(color.blue)}, "share of blue")};
+}
+
+std::vector<SlotSchema> hue_saturation_value() {
+  return {{.name = "hue",
+           .unit = "deg",
+           .lowest = 0,
+           .highest = 360,
+           .binding = NumberSlot{YARS_FIELD(hue.hue_deg)},
+           .purpose = "place on the colour wheel"},
+          share("saturation", {YARS_FIELD(hue.saturation)}, "1 = pure hue, also where it is left out"),
+          share("value", {YARS_FIELD(hue.value)}, "1 = full intensity, also where it is left out")};
+}
+
+FormSchema lat_long() {
+  return {.name = "lat-long",
+          .purpose = "a latitude or longitude in degrees, minutes and seconds",
+          .slots = {{.name = "direction",
+                     .binding = ChoiceSlot{kDirections, [](const Draft& draft) { return draft.angle.direction; },
+                                           [](Draft& draft, int index) { draft.angle.direction = index % 4; }},
+                     .purpose = "hemisphere"},
+                    {.name = "degrees",
+                     .unit = "deg",
+                     .lowest = 0,
+                     .highest = 180,
+                     .binding = NumberSlot{YARS_FIELD(angle.degrees)},
+                     .purpose = "whole or decimal degrees"},
+                    {.name = "minutes",
+                     .unit = "arcmin",
+                     .lowest = 0,
+                     .highest = 60,
+                     .binding = NumberSlot{YARS_FIELD(angle.minutes)},
+                     .purpose = "added to the degrees"},
+                    {.name = "seconds",
+                     .unit = "arcsec",
+                     .lowest = 0,
+                     .highest = 60,
+                     .binding = NumberSlot{YARS_FIELD(angle.seconds)},
+                     .purpose = "added to the minutes"}},
+          .part_of_value = true,
+          .begin = [](Draft& draft) { draft.angle = {}; }};
+}
+
+}  // namespace
+
+std::vector<FormSchema> value_forms() {
+  const SlotSchema alpha = share("alpha", {}, "0 = transparent, 1 = opaque");
+  const auto black = [](Draft& draft) { draft.color = {}; };
+  const auto pure_red = [](Draft& draft) { draft.hue = {0.0, 1.0, 1.0}; };
+  const auto convert = [](Draft& draft) {
+    draft.color = radar::rgb_from_hsv(draft.hue.hue_deg, draft.hue.saturation, draft.hue.value);
+  };
+  return {{.name = "rgb",
+           .purpose = "a colour by red, green and blue",
+           .slots = red_green_blue(),
+           .part_of_value = true,
+           .begin = black},
+          {.name = "rgba",
+           .base = "rgb",
+           .purpose = "rgb with transparency",
+           .slots = with_base(red_green_blue(), {alpha}),
+           .part_of_value = true,
+           .begin = black},
+          {.name = "hsv",
+           .purpose = "a colour by hue, saturation and value",
+           .slots = hue_saturation_value(),
+           .part_of_value = true,
+           .begin = pure_red,
+           .end = convert},
+          {.name = "hsva",
+           .base = "hsv",
+           .purpose = "hsv with transparency",
+           .slots = with_base(hue_saturation_value(), {alpha}),
+           .part_of_value = true,
+           .begin = pure_red,
+           .end = convert},
+          lat_long()};
+}
+
+namespace {
+
+constexpr std::array<std::string_view, 2> kColourModes{"colormap", "rgb"};
+constexpr std::array<std::string_view, 4> kBufferModes{"doublebuffer", "singlebuffer", "double", "single"};
+
+constexpr std::array<std::string_view, 3> kColorPresets{"green", "gray", "night"};
+
+// A slot that holds a colour: `take` puts the draft's colour in hand into its place, `give` takes it from there.
+SlotSchema color_slot(std::string_view name, void (*take)(Draft&), void (*give)(Draft&), std::string_view purpose) {
+  return {.name = name,
+          .binding = FormSlot{{"rgb", "rgba", "hsv", "hsva"}, {"rgb"}, false, take, give},
+          .purpose = purpose};
+}
+
+FormSchema color_scheme() {
+  return {
+      .name = "ColorScheme",
+      .purpose = "the colours of the glass",
+      .slots = {
+          {.name = "preset",
+           .binding = ChoiceSlot{
+               kColorPresets, [](const Draft& draft) { return static_cast<int>(draft.radar.view.colors.preset); },
+               [](Draft& draft, int index) {
+                 draft.radar.view.colors = radar::color_preset(static_cast<radar::ColorPreset>(index));
+               }},
+           .purpose = "all colours at once: green phosphor, gray, or a dim red for the night",
+           .before_others = true},
+          color_slot(
+              "video", [](Draft& draft) { draft.radar.view.colors.video = draft.color; },
+              [](Draft& draft) { draft.color = draft.radar.view.colors.video; },
+              "the brightest video; its grays are fractions of it"),
+          color_slot(
+              "symbols", [](Draft& draft) { draft.radar.view.colors.symbols = draft.color; },
+              [](Draft& draft) { draft.color = draft.radar.view.colors.symbols; }, "legends and symbols"),
+          color_slot(
+              "lines", [](Draft& draft) { draft.radar.view.colors.lines = draft.color; },
+              [](Draft& draft) { draft.color = draft.radar.view.colors.lines; }, "range arcs and zero azimuth line")}};
+}
+
+std::vector<SlotSchema> view_slots() {
+  return {{.name = "width",
+           .unit = "ranges",
+           .lowest = -4,
+           .highest = 4,
+           .binding = SpanSlot{YARS_FIELD(radar.view.width_min), YARS_FIELD(radar.view.width_max), true},
+           .purpose = "left and right edge of the glass, the aircraft at 0"},
+          {.name = "height",
+           .unit = "ranges",
+           .lowest = -4,
+           .highest = 4,
+           .binding = SpanSlot{YARS_FIELD(radar.view.height_min), YARS_FIELD(radar.view.height_max), false},
+           .purpose = "bottom and top edge of the glass, the aircraft at 0"}};
+}
+
+std::vector<SlotSchema> unused_view_slots() {
+  return {{.name = "width", .lowest = -4, .highest = 4, .binding = SpanSlot{}, .purpose = "left and right edge"},
+          {.name = "height",
+           .lowest = -4,
+           .highest = 4,
+           .binding = SpanSlot{nullptr, nullptr, false},
+           .purpose = "bottom and top edge"}};
+}
+
+std::optional<Complaint> check_square(const Draft& draft) {
+  if (draft.window_height_pixels == draft.radar.view.size_pixels) return std::nullopt;
+  return Complaint{"height", "the width, " + std::to_string(draft.radar.view.size_pixels) + " (the glass is square)",
+                   std::to_string(draft.window_height_pixels)};
+}
+
+FormSchema window() {
+  return {.name = "Window",
+          .purpose = "the window of the glass",
+          .slots = {{.name = "width",
+                     .unit = "pixels",
+                     .lowest = 64,
+                     .highest = 4096,
+                     .binding = IntegerSlot{YARS_FIELD(radar.view.size_pixels)},
+                     .purpose = "width of the glass"},
+                    {.name = "height",
+                     .unit = "pixels",
+                     .lowest = 64,
+                     .highest = 4096,
+                     .binding = IntegerSlot{YARS_FIELD(window_height_pixels)},
+                     .purpose = "height of the glass, equal to the width"},
+                    {.name = "colorIndex",
+                     .lowest = 0,
+                     .highest = 4095,
+                     .binding = IntegerSlot{},
+                     .purpose = "first entry in the colour map of 1996"},
+                    {.name = "colors",
+                     .binding = FormSlot{{"rgb", "rgba", "hsv", "hsva"},
+                                         {},
+                                         true,
+                                         [](Draft& draft) { draft.radar.view.colors.video = draft.color; }},
+                     .purpose = "the video's, from dark to bright; the last is taken",
+                     .same_as = "video of ColorScheme"},
+                    {.name = "cmode", .binding = ChoiceSlot{kColourModes}, .purpose = "colour mode of 1996"},
+                    {.name = "bmode",
+                     .binding = ChoiceSlot{kBufferModes},
+                     .purpose = "buffer mode of 1996",
+                     .old_name = "mode"},
+                    {.name = "scheme",
+                     .binding = FormSlot{{"ColorScheme"}, {"ColorScheme"}},
+                     .purpose = "the colours of the glass"}},
+          .check = check_square};
+}
+
+}  // namespace
+
+std::vector<FormSchema> display_forms() {
+  return {
+      window(),
+      color_scheme(),
+      {.name = "Display", .purpose = "what part of the ground the glass shows", .slots = view_slots()},
+      {.name = "RbmDisplay",
+       .base = "Display",
+       .purpose = "the picture of the real beam map",
+       .slots = with_base(
+           view_slots(),
+           {{.name = "rangeRings",
+             .unit = "NM",
+             .lowest = 0,
+             .highest = 500,
+             .binding = ListSlot{YARS_FIELD(radar.view.arc_spacing_nm), 0, 16},
+             .purpose =
+                 "from range arc to range arc, a number a range, the last for all beyond; none: 25, 50, 75, 100 %"}})},
+      {.name = "SarDisplay",
+       .base = "Display",
+       .purpose = "the picture of the high resolution map",
+       .slots = unused_view_slots()},
+      {.name = "MgDisplay", .base = "Display", .purpose = "the test picture of 1996", .slots = unused_view_slots()}};
+}
+
+}  // namespace yars::config

@@ -1,0 +1,337 @@
+#include <algorithm>
+#include <array>
+
+#include "config/guf/tree.hpp"
+#include "config/schema/schema.hpp"
+#include "lib/radar/configuration.hpp"
+
+namespace yars::config {
+
+namespace {
+
+std::optional<Complaint> check_widths_against_gimbal(const Draft& draft) {
+  const auto& radar = draft.radar;
+  const double widest_deg = radar.scan_widths_deg.front();
+  const double reach_deg = 2.0 * radar.antenna.azimuth_limit_deg;
+  if (radar.antenna.circular_scan || widest_deg <= reach_deg) return std::nullopt;
+  return Complaint{"modes", "scan widths within the gimbal's " + number_text(reach_deg) + " deg",
+                   number_text(widest_deg) + " deg"};
+}
+
+// Positions 1 to 11 are the report's.
+std::vector<SlotSchema> reported_slots() {
+  return {
+      {.name = "display",
+       .binding = FormSlot{{"Window", "Display", "RbmDisplay", "SarDisplay", "MgDisplay"}, {"Window"}},
+       .purpose = "the glass"},
+      {.name = "antenna",
+       .binding = FormSlot{{"AntennaServo", "RbmAntenna"}, {"AntennaServo"}},
+       .purpose = "the dish and its servo"},
+      {.name = "databases",
+       .binding = FormSlot{{"Database", "DedDbase", "MgDbase", "Terrain"}, {}, true},
+       .purpose = "terrain of all modes",
+       .same_as = "terrain"},
+      {.name = "samples",
+       .lowest = 1,
+       .highest = 4096,
+       .binding = IntegerSlot{YARS_FIELD(radar.fidelity.samples)},
+       .purpose = "samples of a sweep",
+       .same_as = "samples of Fidelity"},
+      {.name = "modes",
+       .binding = FormSlot{{"Mode", "OffMode", "StbyMode", "RealBeamMode", "SarMode"},
+                           {"OffMode", "StbyMode", "RealBeamMode", "SarMode"},
+                           true},
+       .purpose = "the modes of the radar"},
+      {.name = "ranges",
+       .unit = "NM",
+       .lowest = 0.1,
+       .highest = 500,
+       .binding = ListSlot{YARS_FIELD(radar.ranges_nm), 1, 16, Order::ascending},
+       .purpose = "ranges that can be selected"},
+      {.name = "rate",
+       .unit = "Hz",
+       .lowest = 1,
+       .highest = 1000,
+       .binding = NumberSlot{},
+       .purpose = "updates of the 1996 main loop"},
+      {.name = "latitude",
+       .unit = "deg",
+       .lowest = -90,
+       .highest = 90,
+       .binding = AngleSlot{nullptr, true},
+       .purpose = "place of the radar at start"},
+      {.name = "longitude",
+       .unit = "deg",
+       .lowest = -180,
+       .highest = 180,
+       .binding = AngleSlot{nullptr, false},
+       .purpose = "place of the radar at start"},
+      {.name = "altitude",
+       .unit = "ft",
+       .lowest = -1500,
+       .highest = 100'000,
+       .binding = NumberSlot{},
+       .purpose = "height of the radar at start"},
+      {.name = "heading",
+       .unit = "deg",
+       .lowest = -360,
+       .highest = 360,
+       .binding = NumberSlot{},
+       .purpose = "heading of the radar at start"},
+  };
+}
+
+std::vector<SlotSchema> system_slots() {
+  return with_base(
+      reported_slots(),
+      {{.name = "name", .binding = TextSlot{YARS_FIELD(radar.name)}, .purpose = "what people call this radar"},
+       {.name = "pulseWidths",
+        .unit = "us",
+        .lowest = 0.01,
+        .highest = 100,
+        .binding = ListSlot{YARS_FIELD(radar.pulse_us), 1, 16, Order::any},
+        .purpose = "pulse length by range; the last serves whatever lies beyond"},
+       {.name = "magneticVariation",
+        .unit = "deg",
+        .lowest = -180,
+        .highest = 180,
+        .binding = NumberSlot{YARS_FIELD(radar.magnetic_variation_deg)},
+        .purpose = "magnetic from true, east positive"},
+       {.name = "fidelity", .binding = FormSlot{{"Fidelity"}, {"Fidelity"}}, .purpose = "speed against accuracy"},
+       {.name = "receiver", .binding = FormSlot{{"Receiver"}, {"Receiver"}}, .purpose = "receiver and ground return"},
+       {.name = "noise", .binding = FormSlot{{"Noise"}, {"Noise"}}, .purpose = "thermal noise and speckle"},
+       {.name = "terrain", .binding = FormSlot{{"Terrain"}, {"Terrain"}}, .purpose = "where the ground comes from"},
+       {.name = "route", .binding = FormSlot{{"Route"}, {"Route"}}, .purpose = "sequence points"},
+       {.name = "land", .binding = FormSlot{{"Land"}, {"Land"}}, .purpose = "what land returns"},
+       {.name = "materials", .binding = FormSlot{{"Materials"}, {"Materials"}}, .purpose = "what materials return"},
+       {.name = "sea", .binding = FormSlot{{"Sea"}, {"Sea"}}, .purpose = "what the sea returns"},
+       {.name = "rain", .binding = FormSlot{{"Rain"}, {"Rain"}}, .purpose = "showers"},
+       {.name = "jammers", .binding = FormSlot{{"Jammers"}, {"Jammers"}}, .purpose = "jammers"},
+       {.name = "movers", .binding = FormSlot{{"Movers"}, {"Movers"}}, .purpose = "ships and vehicles"},
+       {.name = "scenes", .binding = FormSlot{{"Scenes"}, {"Scenes"}}, .purpose = "polygonal scenes"},
+       {.name = "highResolution",
+        .binding = FormSlot{{"HighResolution"}, {"HighResolution"}},
+        .purpose = "high resolution maps"},
+       {.name = "navigation",
+        .binding = FormSlot{{"Navigation"}, {"Navigation"}},
+        .purpose = "errors of the navigators, and their updates"},
+       {.name = "windowLimits",
+        .binding = FormSlot{{"WindowLimits"}, {"WindowLimits"}},
+        .purpose = "where the cursor may be for each display window"},
+       {.name = "heightRanges",
+        .binding = FormSlot{{"HeightRanges"}, {"HeightRanges"}},
+        .purpose = "the range by height"},
+       {.name = "beacons", .binding = FormSlot{{"Beacons"}, {"Beacons"}}, .purpose = "radar beacons"},
+       {.name = "devices", .binding = FormSlot{{"Devices"}, {"Devices"}}, .purpose = "maps of cockpit hardware"},
+       {.name = "atmosphere",
+        .binding = FormSlot{{"Atmosphere"}, {"Atmosphere"}},
+        .purpose = "the air, and what its gases take"}});
+}
+
+}  // namespace
+
+std::vector<FormSchema> system_forms() {
+  return {{.name = "System",
+           .purpose = "a radar of any type",
+           .slots = system_slots(),
+           .old_name = "Radar",
+           .check = check_widths_against_gimbal},
+          {.name = "Apg70",
+           .base = "System",
+           .purpose = "the radar",
+           .slots = system_slots(),
+           .check = check_widths_against_gimbal}};
+}
+
+namespace {
+
+// In the order of the enumerations.
+constexpr std::array<std::string_view, 3> kAlgorithms{"standard", "reference", "report-1996"};
+constexpr std::array<std::string_view, 3> kEarthModels{"flat", "sphere", "ellipsoid"};
+constexpr std::array<std::string_view, 3> kInterpolations{"nearest", "bilinear", "cubic"};
+constexpr std::array<std::string_view, 3> kBeams{"hard-edge", "gaussian", "cosecant-squared"};
+
+// The named presets, and the one that picks among them.
+constexpr std::array<std::string_view, 6> kPresets{"1996", "draft", "standard", "fine", "reference", "auto"};
+
+int preset_of(const Draft& draft) {
+  const auto* const found = std::find(kPresets.begin(), kPresets.end(), draft.radar.fidelity.name);
+  return found == kPresets.end() ? -1 : static_cast<int>(found - kPresets.begin());
+}
+
+void set_preset(Draft& draft, int index) {
+  const std::string_view name = kPresets[static_cast<std::size_t>(index)];
+  if (const auto preset = radar::fidelity_preset(name)) {
+    draft.radar.fidelity = *preset;
+    return;
+  }
+  // auto begins where everybody does.
+  draft.radar.fidelity = radar::Fidelity();
+  draft.radar.fidelity.automatic = true;
+}
+
+SlotSchema flag(std::string_view name, bool& (*of)(Draft&), std::string_view purpose) {
+  return {.name = name, .binding = BooleanSlot{of}, .purpose = purpose};
+}
+
+std::vector<SlotSchema> fidelity_slots() {
+  return {
+      {.name = "preset",
+       .binding = ChoiceSlot{kPresets, preset_of, set_preset},
+       .purpose = "sets all knobs, each can then be set alone; auto: standard with automatic",
+       .before_others = true},
+      {.name = "algorithm",
+       .binding = ChoiceSlot{kAlgorithms, [](const Draft& draft) { return int(draft.radar.fidelity.algorithm); },
+                             [](Draft& draft, int index) { draft.radar.fidelity.algorithm = radar::Algorithm(index); }},
+       .purpose = "reference: plain and exact, the ruler of the tests"},
+      {.name = "earth",
+       .binding = ChoiceSlot{kEarthModels, [](const Draft& draft) { return int(draft.radar.fidelity.earth); },
+                             [](Draft& draft, int index) { draft.radar.fidelity.earth = radar::EarthModel(index); }},
+       .purpose = "shape of the earth"},
+      {.name = "earthRadiusFactor",
+       .lowest = 0.5,
+       .highest = 10,
+       .binding = NumberSlot{YARS_FIELD(radar.fidelity.earth_radius_factor)},
+       .purpose = "refraction as an effective earth radius; 1 = none"},
+      {.name = "samples",
+       .lowest = 1,
+       .highest = 4096,
+       .binding = IntegerSlot{YARS_FIELD(radar.fidelity.samples)},
+       .purpose = "samples of a sweep"},
+      {.name = "geodesicKnots",
+       .lowest = 0,
+       .highest = 9,
+       .binding = IntegerSlot{YARS_FIELD(radar.fidelity.geodesic_knots)},
+       .purpose =
+           "exact points of the geodesic a sweep, at least 2, between which places are interpolated (from 5 on a "
+           "series where it is as good); 0 = all exact"},
+      {.name = "interpolation",
+       .binding = ChoiceSlot{
+           kInterpolations, [](const Draft& draft) { return int(draft.radar.fidelity.interpolation); },
+           [](Draft& draft, int index) { draft.radar.fidelity.interpolation = radar::Interpolation(index); }},
+       .purpose = "between posts of the terrain"},
+      {.name = "postsPerSample",
+       .lowest = 0,
+       .highest = 1000,
+       .binding = NumberSlot{YARS_FIELD(radar.fidelity.posts_per_sample)},
+       .purpose = "terrain with more posts a sample is read from a coarser level; 0 = always the finest"},
+      {.name = "subBeams",
+       .lowest = 1,
+       .highest = radar::kMostSubBeams,
+       .binding = IntegerSlot{YARS_FIELD(radar.fidelity.sub_beams)},
+       .purpose = "rays across the beam in azimuth; 1 = the middle alone"},
+      flag("automatic", YARS_FIELD(radar.fidelity.automatic), "the finest preset that holds coreShare is taken, live"),
+      {.name = "coreShare",
+       .lowest = 0.001,
+       .highest = 1,
+       .binding = NumberSlot{YARS_FIELD(radar.fidelity.core_share)},
+       .purpose = "of a core, for automatic"},
+      flag("slantRange", YARS_FIELD(radar.fidelity.slant_range), "samples even in slant instead of ground range"),
+      flag("crossTrackSlope", YARS_FIELD(radar.fidelity.cross_track_slope),
+           "incidence with the slope across the sweep"),
+      flag("noise", YARS_FIELD(radar.fidelity.noise), "thermal noise, speckle and texture"),
+      flag("azimuthSmear", YARS_FIELD(radar.fidelity.azimuth_smear), "smear over the beam width"),
+      flag("pulseSmear", YARS_FIELD(radar.fidelity.pulse_smear), "smear over the pulse length"),
+      {.name = "beam",
+       .binding = ChoiceSlot{kBeams, [](const Draft& draft) { return int(draft.radar.fidelity.beam); },
+                             [](Draft& draft, int index) { draft.radar.fidelity.beam = radar::BeamPattern(index); }},
+       .purpose = "beam in elevation"},
+      {.name = "mapSize",
+       .lowest = 16,
+       .highest = 1024,
+       .binding = IntegerSlot{YARS_FIELD(radar.fidelity.map_size)},
+       .purpose = "pixels of a patch map on an edge; its cells stay 480"},
+      {.name = "mapOversampling",
+       .lowest = 1,
+       .highest = 4,
+       .binding = IntegerSlot{YARS_FIELD(radar.fidelity.map_oversampling)},
+       .purpose = "profiles and heights a pixel of a patch map"},
+      flag("mapLayover", YARS_FIELD(radar.fidelity.map_layover), "patch maps in slant geometry; else orthographic"),
+      flag("mapResponse", YARS_FIELD(radar.fidelity.map_response), "impulse response with its sidelobes"),
+      flag("mapDetail", YARS_FIELD(radar.fidelity.map_detail), "made-up texture below the spacing of the posts"),
+      flag("mapDoubleBounce", YARS_FIELD(radar.fidelity.map_double_bounce), "between walls and ground"),
+      {.name = "mapNoise",
+       .lowest = 0,
+       .highest = 1,
+       .binding = NumberSlot{YARS_FIELD(radar.fidelity.map_noise)},
+       .purpose = "random part of the brightness of a patch map of the preset 1996"},
+      flag("mapSmoothGround", YARS_FIELD(radar.fidelity.map_smooth_ground),
+           "ground of patch maps is smooth between posts that lie farther apart than three pixels; else facets")};
+}
+
+SlotSchema number(std::string_view name, std::string_view unit, double lowest, double highest, double& (*of)(Draft&),
+                  std::string_view purpose) {
+  return {
+      .name = name, .unit = unit, .lowest = lowest, .highest = highest, .binding = NumberSlot{of}, .purpose = purpose};
+}
+
+std::vector<SlotSchema> receiver_slots() {
+  return {number("frequency", "GHz", 1, 40, YARS_FIELD(radar.receiver.frequency_ghz), "carrier"),
+          number("stcExponent", "", 0, 6, YARS_FIELD(radar.receiver.stc_exponent),
+                 "sensitivity time control, power of range over its reference"),
+          number("dynamicRange", "dB", 10, 120, YARS_FIELD(radar.receiver.dynamic_range_db), "black to white"),
+          number("gainStep", "dB", 0, 40, YARS_FIELD(radar.receiver.gain_step_db), "a step of GAIN 3 to 0"),
+          number("landGamma", "dB", -60, 20, YARS_FIELD(radar.receiver.land_gamma_db),
+                 "return of land at vertical incidence")};
+}
+
+std::vector<SlotSchema> high_resolution_slots() {
+  return {
+      {.name = "looks",
+       .lowest = 1,
+       .highest = 16,
+       .binding = ListSlot{YARS_FIELD(radar.high_resolution.looks), 2, 2, Order::ascending},
+       .purpose = "independent looks that a map averages at ML1 and ML2"},
+      number("broadening", "", 1, 3, YARS_FIELD(radar.high_resolution.broadening),
+             "of the response by its weighting: factor on the formation time"),
+      number("sidelobes", "dB", -60, -13, YARS_FIELD(radar.high_resolution.sidelobe_db),
+             "of the impulse response, against its peak"),
+      number("formationCap", "s", 0.1, 600, YARS_FIELD(radar.high_resolution.formation_cap_s), "no map takes longer"),
+      number("blindZone", "deg", 0, 45, YARS_FIELD(radar.high_resolution.blind_zone_deg),
+             "either side of the ground track, where nothing returns"),
+      number("sectorTime", "s", 0.5, 120, YARS_FIELD(radar.high_resolution.sector_time_s),
+             "of an HRM PPI scan of FULL width; others in proportion"),
+      number("dwell", "s", 0.01, 10, YARS_FIELD(radar.high_resolution.dwell_s),
+             "for which the HRM PPI looks into each direction: its resolution"),
+      number("sectorStep", "deg", 0.02, 5, YARS_FIELD(radar.high_resolution.sector_step_deg),
+             "between sweeps of the HRM PPI"),
+      number("dynamicRange", "dB", 10, 120, YARS_FIELD(radar.high_resolution.dynamic_range_db), "black to white"),
+      number("brightestGamma", "dB", -40, 60, YARS_FIELD(radar.high_resolution.brightest_gamma_db),
+             "gamma of level ground that is white"),
+      number("noiseGamma", "dB", -120, 20, YARS_FIELD(radar.high_resolution.noise_gamma_db),
+             "gamma of level ground that thermal noise at 20 NM, window 0.67 NM, is worth"),
+      number("doubleBounce", "dB", -60, 40, YARS_FIELD(radar.high_resolution.double_bounce_db),
+             "of a wall's foot against the wall"),
+      {.name = "plainMaterial",
+       .lowest = 0,
+       .highest = radar::kMaterials - 1,
+       .binding = IntegerSlot{YARS_FIELD(radar.high_resolution.plain_material)},
+       .purpose = "surface material code of a scene's faces that have none"},
+      number("detailContrast", "", 0, 2, YARS_FIELD(radar.high_resolution.detail_contrast),
+             "standard deviation of the made-up detail below the posts, against the mean")};
+}
+
+std::vector<SlotSchema> noise_slots() {
+  return {number("floor", "dB", -120, 0, YARS_FIELD(radar.receiver.noise_floor_db), "thermal noise below full scale"),
+          {.name = "looks",
+           .lowest = 1,
+           .highest = 64,
+           .binding = IntegerSlot{YARS_FIELD(radar.receiver.looks)},
+           .purpose = "independent looks that speckle is averaged over"},
+          {.name = "seed",
+           .lowest = 0,
+           .highest = 9'007'199'254'740'992.0,  // 2^53: every integer up to it is a double
+           .binding = CounterSlot{YARS_FIELD(radar.seed)},
+           .purpose = "equal seeds give equal noise"}};
+}
+
+}  // namespace
+
+std::vector<FormSchema> model_forms() {
+  return {{.name = "Fidelity", .purpose = "speed against accuracy", .slots = fidelity_slots()},
+          {.name = "HighResolution", .purpose = "high resolution maps", .slots = high_resolution_slots()},
+          {.name = "Receiver", .purpose = "receiver and ground return", .slots = receiver_slots()},
+          {.name = "Noise", .purpose = "thermal noise and speckle", .slots = noise_slots()}};
+}
+
+}  // namespace yars::config

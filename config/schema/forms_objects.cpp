@@ -1,0 +1,232 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "config/guf/tree.hpp"
+#include "config/schema/schema.hpp"
+
+namespace yars::config {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> kBands{"A", "B", "C", "D", "E", "all"};
+constexpr int kAllBands = 5;  // index of "all"
+constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
+
+std::optional<Complaint> check_place(geo::GeoPoint place) {
+  if (std::isnan(place.latitude_deg)) return Complaint{"latitude", "a latitude", "none"};
+  if (std::isnan(place.longitude_deg)) return Complaint{"longitude", "a longitude", "none"};
+  return std::nullopt;
+}
+
+std::optional<Complaint> check_jammer(const Draft& draft) {
+  const auto& channels = draft.jammer.channels;
+  const auto broken =
+      std::find_if(channels.begin(), channels.end(), [](double channel) { return channel != std::floor(channel); });
+  if (broken != channels.end()) return Complaint{"channels", "whole numbers", number_text(*broken)};
+  if (draft.radar.world.jamming.jammers.size() >= radar::kMostJammers) {
+    return Complaint{"latitude", "at most " + std::to_string(radar::kMostJammers) + " jammers", "one more"};
+  }
+  return check_place(draft.jammer.place);
+}
+
+FormSchema jammer() {
+  return {.name = "Jammer",
+          .purpose = "a transmitter of noise, seen as a strobe",
+          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(jammer.name)}, .purpose = "what people call it"},
+                    latitude_slot(YARS_FIELD(jammer.place.latitude_deg)),
+                    longitude_slot(YARS_FIELD(jammer.place.longitude_deg)),
+                    number_slot("altitude", "ft", -1500, 100'000, {YARS_FIELD(jammer.altitude_m), geo::kMetresPerFoot},
+                                "above mean sea level; left out: a mast of 10 m on the ground"),
+                    {.name = "band",
+                     .binding = ChoiceSlot{kBands,
+                                           [](const Draft& draft) {
+                                             return draft.jammer.band == radar::kEveryBand ? kAllBands
+                                                                                           : draft.jammer.band;
+                                           },
+                                           [](Draft& draft, int index) {
+                                             draft.jammer.band = index == kAllBands ? radar::kEveryBand : index;
+                                           }},
+                     .purpose = "band that it jams; left out: all"},
+                    {.name = "channels",
+                     .lowest = 1,
+                     .highest = 8,
+                     .binding = ListSlot{YARS_FIELD(jammer.channels), 1, 8, Order::ascending},
+                     .purpose = "channels that it jams; left out: all"},
+                    number_slot("power", "W", 0, 1e9, {YARS_FIELD(jammer.power_w)},
+                                "effective radiated, within the receiver's bandwidth; left out: 10")},
+          .part_of_value = true,
+          .begin =
+              [](Draft& draft) {
+                draft.jammer = {.name = {}, .place = {kNotGiven, kNotGiven}};
+              },
+          .check = check_jammer,
+          .end = [](Draft& draft) { draft.radar.world.jamming.jammers.push_back(draft.jammer); },
+          .count = [](const Draft& draft) { return draft.radar.world.jamming.jammers.size(); },
+          .select = [](Draft& draft, std::size_t index) { draft.jammer = draft.radar.world.jamming.jammers[index]; }};
+}
+
+std::optional<Complaint> check_mover(const Draft& draft) {
+  if (draft.radar.world.movers.size() >= radar::kMostMovers) {
+    return Complaint{"latitude", "at most " + std::to_string(radar::kMostMovers) + " movers", "one more"};
+  }
+  return check_place(draft.mover.place);
+}
+
+FormSchema mover() {
+  constexpr double kMetresPerSecondPerKnot = geo::kMetresPerNauticalMile / 3600.0;
+  return {.name = "Mover",
+          .purpose = "a ship or a vehicle: a point on its great circle",
+          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(mover.name)}, .purpose = "what people call it"},
+                    latitude_slot(YARS_FIELD(mover.place.latitude_deg)),
+                    longitude_slot(YARS_FIELD(mover.place.longitude_deg)),
+                    number_slot("speed", "kt", 0, 1000, {YARS_FIELD(mover.speed_mps), kMetresPerSecondPerKnot},
+                                "over ground; left out: 0"),
+                    number_slot("heading", "deg", 0, 360, {YARS_FIELD(mover.heading_deg)},
+                                "true, at sim time 0; later the great circle's"),
+                    number_slot("crossSection", "m2", 0, 1e7, {YARS_FIELD(mover.cross_section_m2)},
+                                "radar cross section; left out: 1000"),
+                    number_slot("height", "ft", 0, 1000, {YARS_FIELD(mover.height_m), geo::kMetresPerFoot},
+                                "of what returns, above the ground; left out: 20")},
+          .part_of_value = true,
+          .begin =
+              [](Draft& draft) {
+                draft.mover = {.name = {}, .place = {kNotGiven, kNotGiven}};
+              },
+          .check = check_mover,
+          .end = [](Draft& draft) { draft.radar.world.movers.push_back(draft.mover); },
+          .count = [](const Draft& draft) { return draft.radar.world.movers.size(); },
+          .select = [](Draft& draft, std::size_t index) { draft.mover = draft.radar.world.movers[index]; }};
+}
+
+constexpr std::array<std::string_view, 3> kSceneHeights{"ground", "anchor", "seaLevel"};  // radar::SceneHeights
+
+std::optional<Complaint> check_scene(const Draft& draft) {
+  if (draft.radar.world.scenes.size() >= radar::kMostScenes) {
+    return Complaint{"file", "at most " + std::to_string(radar::kMostScenes) + " scenes", "one more"};
+  }
+  const radar::Scene& scene = draft.scene;
+  if (scene.file.empty()) return Complaint{"file", "an OpenFlight file or a folder of them", "none"};
+  if (std::isnan(scene.place.latitude_deg) == std::isnan(scene.place.longitude_deg)) return std::nullopt;
+  return Complaint{"latitude", "latitude and longitude together, or neither", "one of them"};
+}
+
+FormSchema scene() {
+  return {
+      .name = "Scene",
+      .purpose = "a polygonal scene on the earth",
+      .slots = {{.name = "file",
+                 .binding = PathSlot{YARS_FIELD(scene.file)},
+                 .purpose = "OpenFlight file, or a folder: each .flt in it"},
+                latitude_slot(YARS_FIELD(scene.place.latitude_deg)),
+                longitude_slot(YARS_FIELD(scene.place.longitude_deg)),
+                number_slot("heading", "deg", -360, 360, {YARS_FIELD(scene.heading_deg)},
+                            "true, where the scene's north points; left out: 0"),
+                {.name = "elevation",
+                 .binding = ChoiceSlot{
+                     kSceneHeights, [](const Draft& draft) { return static_cast<int>(draft.scene.heights); },
+                     [](Draft& draft, int index) { draft.scene.heights = static_cast<radar::SceneHeights>(index); }},
+                 .purpose = "ground: each object on the ground below it, flat things along it; anchor: all of it on "
+                            "the ground at its place; seaLevel: its heights are above mean sea level"},
+                {.name = "without",
+                 .binding = TextSlot{YARS_FIELD(scene.without)},
+                 .purpose = "names of objects and groups that are left out, apart by commas; * and ? as in names of "
+                            "files. A name that nothing in a file has is an error; left out: none"}},
+      .part_of_value = true,
+      .begin = [](Draft& draft) { draft.scene = {}; },
+      .check = check_scene,
+      .end = [](Draft& draft) { draft.radar.world.scenes.push_back(draft.scene); },
+      .count = [](const Draft& draft) { return draft.radar.world.scenes.size(); },
+      .select = [](Draft& draft, std::size_t index) { draft.scene = draft.radar.world.scenes[index]; }};
+}
+
+}  // namespace
+
+std::vector<FormSchema> traffic_forms() {
+  return {
+      {.name = "Jammers",
+       .purpose = "jammers, and the radar that they are measured by; replaces earlier ones",
+       .slots = {{.name = "jammers",
+                  .binding = FormSlot{{"Jammer"}, {"Jammer"}, true},
+                  .purpose = "at most 16 jammers"},
+                 number_slot("radarPower", "dBW", 0, 120, {YARS_FIELD(radar.world.jamming.radar_power_dbw)},
+                             "the radar's effective radiated peak power"),
+                 number_slot("sidelobes", "dB", -80, 0, {YARS_FIELD(radar.world.jamming.sidelobe_db)},
+                             "least gain of the antenna one way, below the beam's centre")},
+       .begin = [](Draft& draft) { draft.radar.world.jamming.jammers.clear(); }},
+      jammer(),
+      {.name = "Movers",
+       .purpose = "ships and vehicles; replaces earlier ones",
+       .slots = {{.name = "movers", .binding = FormSlot{{"Mover"}, {"Mover"}, true}, .purpose = "at most 64 movers"}},
+       .begin = [](Draft& draft) { draft.radar.world.movers.clear(); }},
+      mover(),
+      {.name = "Scenes",
+       .purpose = "polygonal scenes; replaces earlier ones",
+       .slots = {{.name = "scenes",
+                  .binding = FormSlot{{"Scene"}, {"Scene"}, true},
+                  .purpose =
+                      "at most 1024 scenes; without a place: at the place in the file's name, or in its header"}},
+       .begin = [](Draft& draft) { draft.radar.world.scenes.clear(); }},
+      scene()};
+}
+
+namespace {
+
+constexpr double kMostCode = 99;
+
+std::optional<Complaint> check_beacon(const Draft& draft) {
+  if (draft.radar.world.beacons.beacons.size() >= radar::kMostBeacons)
+    return Complaint{"latitude", "at most " + std::to_string(radar::kMostBeacons) + " beacons", "one more"};
+  if (std::isnan(draft.beacon.place.latitude_deg)) return Complaint{"latitude", "a latitude", "none"};
+  if (std::isnan(draft.beacon.place.longitude_deg)) return Complaint{"longitude", "a longitude", "none"};
+  return std::nullopt;
+}
+
+SlotSchema whole_number(std::string_view name, double lowest, double highest, int& (*of)(Draft&),
+                        std::string_view purpose) {
+  return {.name = name, .lowest = lowest, .highest = highest, .binding = IntegerSlot{of}, .purpose = purpose};
+}
+
+FormSchema beacon() {
+  return {
+      .name = "Beacon",
+      .purpose = "a radar beacon on the ground: it answers a pulse of its code by a train of pulses",
+      .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(beacon.name)}, .purpose = "what people call it"},
+                latitude_slot(YARS_FIELD(beacon.place.latitude_deg)),
+                longitude_slot(YARS_FIELD(beacon.place.longitude_deg)),
+                number_slot("altitude", "ft", -1500, 100'000, {YARS_FIELD(beacon.altitude_m), geo::kMetresPerFoot},
+                            "above mean sea level; left out: a mast of 10 m on the ground"),
+                whole_number("code", 1, kMostCode, YARS_FIELD(beacon.code), "that it answers to; left out: 1"),
+                number_slot("delay", "us", 0, 1000, {YARS_FIELD(beacon.delay_us)},
+                            "from the pulse that it hears to its first reply; left out: 2"),
+                whole_number("replies", 2, radar::kMostReplies, YARS_FIELD(beacon.replies), "to a pulse; left out: 2"),
+                number_slot("spacing", "us", 0.1, 1000, {YARS_FIELD(beacon.spacing_us)},
+                            "between replies; left out: 10"),
+                number_slot("power", "W", 0, 1e9, {YARS_FIELD(beacon.power_w)}, "effective radiated; left out: 100")},
+      .part_of_value = true,
+      .begin =
+          [](Draft& draft) {
+            draft.beacon = {.name = {}, .place = {kNotGiven, kNotGiven}};
+          },
+      .check = check_beacon,
+      .end = [](Draft& draft) { draft.radar.world.beacons.beacons.push_back(draft.beacon); },
+      .count = [](const Draft& draft) { return draft.radar.world.beacons.beacons.size(); },
+      .select = [](Draft& draft, std::size_t index) { draft.beacon = draft.radar.world.beacons.beacons[index]; }};
+}
+
+}  // namespace
+
+std::vector<FormSchema> beacon_forms() {
+  return {{.name = "Beacons",
+           .purpose = "radar beacons, and the code that the radar asks for; replaces earlier ones",
+           .slots = {{.name = "beacons",
+                      .binding = FormSlot{{"Beacon"}, {"Beacon"}, true},
+                      .purpose = "at most 64 beacons"},
+                     whole_number("beaconCode", 1, kMostCode, YARS_FIELD(radar.world.beacons.code),
+                                  "that the radar asks for: beacons of another stay silent")},
+           .begin = [](Draft& draft) { draft.radar.world.beacons.beacons.clear(); }},
+          beacon()};
+}
+
+}  // namespace yars::config

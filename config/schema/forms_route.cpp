@@ -1,0 +1,223 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "config/guf/tree.hpp"
+#include "config/schema/schema.hpp"
+#include "lib/radar/modes.hpp"
+#include "lib/radar/velocity_beams.hpp"
+
+namespace yars::config {
+
+namespace {
+
+// In the order of radar::PointKind.
+constexpr std::array<std::string_view, 5> kKinds{"steer", "initial", "target", "steer-offset", "target-offset"};
+
+radar::PointKind kind_by_name(const radar::PointName& name) {
+  if (name.offset != 0) return name.target ? radar::PointKind::target_offset : radar::PointKind::steer_offset;
+  return name.target ? radar::PointKind::target : radar::PointKind::steer;
+}
+
+bool is_point(const radar::PointName& name) {
+  return name.offset == 0;
+}
+
+// Steer and initial points share a spelling; every other kind is told by the name.
+std::optional<Complaint> check_point(const Draft& draft) {
+  const auto name = radar::point_name(draft.point.name);
+  if (!name) {
+    return Complaint{"name", "a name of a sequence point: \"2\", \"2.\", \"2.1\" or \"2.01\", 1 to 100",
+                     quoted_text(draft.point.name)};
+  }
+  if (std::isnan(draft.point.place.latitude_deg)) return Complaint{"latitude", "a latitude", "none"};
+  if (std::isnan(draft.point.place.longitude_deg)) return Complaint{"longitude", "a longitude", "none"};
+  for (const auto& other : draft.radar.route) {
+    if (other.name == draft.point.name) return Complaint{"name", "a name once in a route", quoted_text(other.name)};
+    // So a route has at most a hundred points, offsets apart: one a number.
+    const auto before = radar::point_name(other.name);
+    if (is_point(*name) && before && is_point(*before) && before->number == name->number) {
+      return Complaint{"name", "a number once in a route: steer point or target",
+                       quoted_text(draft.point.name) + " beside " + quoted_text(other.name)};
+    }
+  }
+  if (draft.point_kind == kKindByName) return std::nullopt;
+  const auto given = static_cast<radar::PointKind>(draft.point_kind);
+  const auto by_name = kind_by_name(*name);
+  if (given == by_name || (given == radar::PointKind::initial && by_name == radar::PointKind::steer)) {
+    return std::nullopt;
+  }
+  return Complaint{
+      "kind",
+      "the kind that the name " + draft.point.name + " has, " + std::string(kKinds[static_cast<std::size_t>(by_name)]),
+      std::string(kKinds[static_cast<std::size_t>(draft.point_kind)])};
+}
+
+void begin_point(Draft& draft) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  draft.point = {};
+  draft.point.place = {kUnknown, kUnknown};
+  draft.point.elevation_m = kUnknown;
+  draft.point_kind = kKindByName;
+}
+
+void end_point(Draft& draft) {
+  draft.point.kind = draft.point_kind == kKindByName ? kind_by_name(*radar::point_name(draft.point.name))
+                                                     : static_cast<radar::PointKind>(draft.point_kind);
+  if (draft.point_kind == kKindByName) draft.kinds_left_open.insert(draft.point.name);
+  draft.radar.route.push_back(draft.point);
+}
+
+void begin_route(Draft& draft) {
+  draft.radar.route.clear();
+  draft.kinds_left_open.clear();
+}
+
+// The last steer point before a target, by number, is the initial point: unless the file says what kind it is, or names
+// an initial point on the way from the target before.
+void derive_initial_points(Draft& draft) {
+  std::vector<radar::RoutePoint*> points;
+  for (radar::RoutePoint& point : draft.radar.route) {
+    if (is_point(*radar::point_name(point.name))) points.push_back(&point);
+  }
+  std::sort(points.begin(), points.end(),
+            [](const auto* left, const auto* right) { return radar::precedes(left->name, right->name); });
+  radar::RoutePoint* last_steer = nullptr;
+  for (radar::RoutePoint* point : points) {
+    if (point->kind == radar::PointKind::target) {
+      if (last_steer != nullptr && draft.kinds_left_open.contains(last_steer->name))
+        last_steer->kind = radar::PointKind::initial;
+      last_steer = nullptr;
+    } else {
+      const bool named = last_steer != nullptr && last_steer->kind == radar::PointKind::initial;
+      if (!named) last_steer = point;
+    }
+  }
+}
+
+FormSchema point() {
+  return {.name = "Point",
+          .purpose = "a sequence point",
+          .slots = {{.name = "name",
+                     .binding = TextSlot{YARS_FIELD(point.name)},
+                     .purpose = "\"2\", target \"2.\", offset \"2.1\", target offset \"2.01\""},
+                    {.name = "latitude",
+                     .unit = "deg",
+                     .lowest = -90,
+                     .highest = 90,
+                     .binding = AngleSlot{YARS_FIELD(point.place.latitude_deg), true},
+                     .purpose = "WGS84, north positive"},
+                    {.name = "longitude",
+                     .unit = "deg",
+                     .lowest = -180,
+                     .highest = 180,
+                     .binding = AngleSlot{YARS_FIELD(point.place.longitude_deg), false},
+                     .purpose = "WGS84, east positive"},
+                    {.name = "elevation",
+                     .unit = "ft",
+                     .lowest = -1500,
+                     .highest = 30'000,
+                     .binding = NumberSlot{YARS_FIELD(point.elevation_m), geo::kMetresPerFoot},
+                     .purpose = "above mean sea level; left out: unknown"},
+                    {.name = "kind",
+                     .binding = ChoiceSlot{kKinds, [](const Draft& draft) { return draft.point_kind; },
+                                           [](Draft& draft, int index) { draft.point_kind = index; }},
+                     .purpose = "left out: by the name; a steer point is initial when it is the last before a target"}},
+          .part_of_value = true,
+          .begin = begin_point,
+          .check = check_point,
+          .end = end_point,
+          .count = [](const Draft& draft) { return draft.radar.route.size(); },
+          .select =
+              [](Draft& draft, std::size_t index) {
+                draft.point = draft.radar.route[index];
+                draft.point_kind = static_cast<int>(draft.point.kind);
+              }};
+}
+
+}  // namespace
+
+std::vector<FormSchema> route_forms() {
+  return {{.name = "Route",
+           .purpose = "the sequence points; replaces an earlier route",
+           .slots = {{.name = "points",
+                      .binding = FormSlot{{"Point"}, {"Point"}, true},
+                      .purpose = "at most 100 points and their offsets"}},
+           .begin = begin_route,
+           .end = derive_initial_points},
+          point()};
+}
+
+namespace {
+
+std::optional<Complaint> check_beams(const Draft& draft) {
+  const radar::NavigationConfiguration& navigation = draft.radar.navigation;
+  const std::size_t azimuths = navigation.beam_azimuths_deg.size();
+  const std::size_t depressions = navigation.beam_depressions_deg.size();
+  if (azimuths != depressions)
+    return Complaint{"beamDepressions", "as many as beamAzimuths, " + std::to_string(azimuths),
+                     std::to_string(depressions)};
+  if (radar::horizontal_dilution(navigation)) return std::nullopt;
+  return Complaint{"beamAzimuths", "beams that do not all lie in one plane", "a plane of beams"};
+}
+
+}  // namespace
+
+std::vector<FormSchema> navigation_forms() {
+  constexpr double kMostError_ft = 600'000.0;
+  constexpr double kMostDrift_fps = 1'000.0;
+  const auto feet = [](double& (*of)(Draft&)) { return NumberSlot{of, geo::kMetresPerFoot}; };
+  return {
+      {.name = "Navigation",
+       .purpose = "what the navigators have wrong, and how the radar puts it right",
+       .slots = {number_slot("errorNorth", "ft", -kMostError_ft, kMostError_ft,
+                             feet(YARS_FIELD(radar.navigation.error_north_m)),
+                             "of both navigators' position when the session begins"),
+                 number_slot("errorEast", "ft", -kMostError_ft, kMostError_ft,
+                             feet(YARS_FIELD(radar.navigation.error_east_m)), "as errorNorth, to the east"),
+                 number_slot("driftNorth", "ft/s", -kMostDrift_fps, kMostDrift_fps,
+                             feet(YARS_FIELD(radar.navigation.drift_north_mps)),
+                             "of both navigators' velocity when the session begins; their position drifts with it"),
+                 number_slot("driftEast", "ft/s", -kMostDrift_fps, kMostDrift_fps,
+                             feet(YARS_FIELD(radar.navigation.drift_east_mps)), "as driftNorth, to the east"),
+                 number_slot("driftDown", "ft/s", -kMostDrift_fps, kMostDrift_fps,
+                             feet(YARS_FIELD(radar.navigation.drift_down_mps)), "as driftNorth, downward"),
+                 number_slot("velocityWalk", "ft/s", 0, kMostDrift_fps, feet(YARS_FIELD(radar.navigation.walk_mps)),
+                             "random walk of the velocity's error: standard deviation after an hour"),
+                 number_slot("updateValidity", "s", 1, 3600, {YARS_FIELD(radar.navigation.update_validity_s)},
+                             "how long a cursor placed serves an INS update"),
+                 number_slot("velocityPeriod", "s", 5, 3600, {YARS_FIELD(radar.navigation.velocity_period_s)},
+                             "between the velocity updates of IPVU and PVU"),
+                 number_slot("velocityNoise", "ft/s", 0, 100, feet(YARS_FIELD(radar.navigation.velocity_noise_mps)),
+                             "standard deviation of a horizontal component that the radar measures"),
+                 {.name = "magneticModel",
+                  .binding = TextSlot{YARS_FIELD(radar.navigation.magnetic_model)},
+                  .purpose = "model of the earth's field for the variation, where its data is installed; left out: the "
+                             "World Magnetic Model, else magneticVariation"},
+                 {.name = "magneticFolder",
+                  .binding = PathSlot{YARS_FIELD(radar.navigation.magnetic_folder)},
+                  .purpose = "where the data of that model lies; left out: the system's place"},
+                 number_slot("magneticYear", "a", 1900, 2100, {YARS_FIELD(radar.navigation.magnetic_year)},
+                             "date for that model"),
+                 {.name = "beamAzimuths",
+                  .unit = "deg",
+                  .lowest = -90,
+                  .highest = 90,
+                  .binding = ListSlot{YARS_FIELD(radar.navigation.beam_azimuths_deg), radar::kLeastVelocityBeams,
+                                      radar::kMostVelocityBeams, Order::any},
+                  .purpose = "of the beams that measure velocity, against the ground track, in their order"},
+                 {.name = "beamDepressions",
+                  .unit = "deg",
+                  .lowest = 1,
+                  .highest = 90,
+                  .binding = ListSlot{YARS_FIELD(radar.navigation.beam_depressions_deg), radar::kLeastVelocityBeams,
+                                      radar::kMostVelocityBeams, Order::any},
+                  .purpose = "of the same beams, below the horizon"},
+                 number_slot("beamDwell", "s", 0.05, 10, {YARS_FIELD(radar.navigation.beam_dwell_s)},
+                             "how long the dish stands on each of them")},
+       .check = check_beams}};
+}
+
+}  // namespace yars::config

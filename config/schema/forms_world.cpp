@@ -1,0 +1,297 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <utility>
+
+#include "config/guf/tree.hpp"
+#include "config/schema/schema.hpp"
+
+namespace yars::config {
+
+namespace {
+
+// Terrain cells carry their place; a scene may have to be told its own.
+std::vector<SlotSchema> database_slots(AngleSlot latitude = {nullptr, true}, AngleSlot longitude = {nullptr, false}) {
+  return {{.name = "latitude",
+           .unit = "deg",
+           .lowest = -90,
+           .highest = 90,
+           .binding = latitude,
+           .purpose = "centre of the database"},
+          {.name = "longitude",
+           .unit = "deg",
+           .lowest = -180,
+           .highest = 180,
+           .binding = longitude,
+           .purpose = "centre of the database"},
+          {.name = "elevation",
+           .unit = "ft",
+           .lowest = -1500,
+           .highest = 30'000,
+           .binding = NumberSlot{},
+           .purpose = "centre of the database"},
+          {.name = "samples",
+           .lowest = 1,
+           .highest = 65'536,
+           .binding = IntegerSlot{},
+           .purpose = "samples of the database of 1996"},
+          {.name = "range",
+           .unit = "m",
+           .lowest = 0,
+           .highest = 1e7,
+           .binding = NumberSlot{},
+           .purpose = "reach of the database of 1996"}};
+}
+
+SlotSchema path_slot() {
+  return {.name = "path",
+          .binding = PathSlot{YARS_FIELD(radar.terrain.directory)},
+          .purpose = "folder of the elevation files",
+          .same_as = "directory of Terrain"};
+}
+
+void begin_polygons(Draft& draft) {
+  draft.scene = {};
+  draft.scene_folder.clear();
+}
+
+std::optional<Complaint> check_polygons(const Draft& draft) {
+  if (draft.scene_folder.empty() && !draft.scene.file.empty())
+    return Complaint{"path", "the folder of the polygon file", "none"};
+  if (draft.radar.world.scenes.size() >= radar::kMostScenes)
+    return Complaint{"path", "at most " + std::to_string(radar::kMostScenes) + " scenes", "one more"};
+  if (std::isnan(draft.scene.place.latitude_deg) == std::isnan(draft.scene.place.longitude_deg)) return std::nullopt;
+  return Complaint{"latitude", "latitude and longitude together, or neither", "one of them"};
+}
+
+// Polygons are a scene. A database that a file names for the radar and again for a mode is one.
+void end_polygons(Draft& draft) {
+  if (draft.scene_folder.empty()) return;
+  draft.scene.file = (std::filesystem::path(draft.scene_folder) / draft.scene.file).string();
+  auto& scenes = draft.radar.world.scenes;
+  const bool known = std::any_of(scenes.begin(), scenes.end(),
+                                 [&](const radar::Scene& scene) { return scene.file == draft.scene.file; });
+  if (!known) scenes.push_back(draft.scene);
+}
+
+FormSchema polygons() {
+  return {.name = "MgDbase",
+          .base = "Database",
+          .purpose = "polygons of the visual scene: one of Scenes",
+          .slots = with_base(database_slots({YARS_FIELD(scene.place.latitude_deg), true},
+                                            {YARS_FIELD(scene.place.longitude_deg), false}),
+                             {{.name = "files",
+                               .binding = TextSlot{YARS_FIELD(scene.file)},
+                               .purpose = "OpenFlight file in the folder; left out: each .flt there",
+                               .same_as = "file of Scene"},
+                              {.name = "path",
+                               .binding = PathSlot{YARS_FIELD(scene_folder)},
+                               .purpose = "folder of the polygon files",
+                               .same_as = "file of Scene"}}),
+          .begin = begin_polygons,
+          .check = check_polygons,
+          .end = end_polygons};
+}
+
+}  // namespace
+
+std::vector<FormSchema> database_forms() {
+  return {{.name = "Database", .purpose = "any terrain database", .slots = database_slots()},
+          {.name = "DedDbase",
+           .base = "Database",
+           .purpose = "elevation files",
+           .slots = with_base(database_slots(), {path_slot()})},
+          polygons(),
+          {.name = "Terrain",
+           .purpose = "where the ground comes from",
+           .slots = {{.name = "directory",
+                      .binding = PathSlot{YARS_FIELD(radar.terrain.directory)},
+                      .purpose = "folder of DTED and HGT files; empty: hills that are built in"},
+                     {.name = "missingCellIsSea",
+                      .binding = BooleanSlot{YARS_FIELD(radar.terrain.missing_cell_is_sea)},
+                      .purpose = "a cell without a file is sea; false: it is void"}}}};
+}
+
+namespace {
+
+constexpr std::array<std::string_view, 2> kPolarizations{"horizontal", "vertical"};  // as radar::Polarization
+constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
+
+FormSchema land() {
+  return {.name = "Land",
+          .purpose = "what land returns: sigma0 = gamma sin(grazing)",
+          .slots = {number_slot("frequencySlope", "dB", -20, 20, {YARS_FIELD(radar.world.land.frequency_slope_db)},
+                                "added to every gamma a decade of frequency"),
+                    number_slot("referenceFrequency", "GHz", 1, 40,
+                                {YARS_FIELD(radar.world.land.reference_frequency_ghz)}, "where the gammas hold"),
+                    number_slot("streetWidth", "deg", 0.1, 45, {YARS_FIELD(radar.world.land.street_width_deg)},
+                                "cardinal effect: between half powers as walls turn away"),
+                    number_slot("texture", "", 0, 100, {YARS_FIELD(radar.world.land.texture)},
+                                "shape of the texture of land without material; small = spiky, 0 = none")}};
+}
+
+std::optional<Complaint> check_material(const Draft& draft) {
+  if (draft.material.code == 0) return Complaint{"code", "a code of 1 to 31", "none"};
+  if (draft.material.code != radar::kWaterMaterial) return std::nullopt;
+  return Complaint{"code", "any code but water's (Sea says what water returns)", "6"};
+}
+
+// What a material leaves out stays as it was, or is land without walls and texture.
+void end_material(Draft& draft) {
+  auto& materials = draft.radar.world.land.materials;
+  const radar::Material& given = draft.material;
+  const auto place = std::lower_bound(materials.begin(), materials.end(), given.code,
+                                      [](const radar::Material& one, int code) { return one.code < code; });
+  const bool known = place != materials.end() && place->code == given.code;
+  radar::Material made = known ? *place : radar::Material{.code = given.code, .name = {}};
+  if (!given.name.empty()) made.name = given.name;
+  if (!std::isnan(given.gamma_db)) made.gamma_db = given.gamma_db;
+  if (!std::isnan(given.cardinal_db)) made.cardinal_db = given.cardinal_db;
+  if (!std::isnan(given.texture)) made.texture = given.texture;
+  if (known) {
+    *place = std::move(made);
+  } else {
+    materials.insert(place, std::move(made));
+  }
+}
+
+FormSchema material() {
+  return {.name = "Material",
+          .purpose = "what a surface material returns",
+          .slots = {{.name = "code",
+                     .lowest = 1,
+                     .highest = radar::kMaterials - 1,
+                     .binding = IntegerSlot{YARS_FIELD(material.code)},
+                     .purpose = "surface material code of the culture; 0 is land without, 6 water"},
+                    {.name = "name", .binding = TextSlot{YARS_FIELD(material.name)}, .purpose = "what people call it"},
+                    number_slot("gamma", "dB", -60, 30, {YARS_FIELD(material.gamma_db)},
+                                "its return; left out: as it was, or 0"),
+                    number_slot("cardinal", "dB", 0, 30, {YARS_FIELD(material.cardinal_db)},
+                                "more where its walls face the radar; left out: as it was, or 0"),
+                    number_slot("texture", "", 0, 100, {YARS_FIELD(material.texture)},
+                                "shape of its texture; small = spiky, 0 = none; left out: as it was, or 0")},
+          .part_of_value = true,
+          .begin =
+              [](Draft& draft) {
+                draft.material = {
+                    .code = 0, .name = {}, .gamma_db = kNotGiven, .cardinal_db = kNotGiven, .texture = kNotGiven};
+              },
+          .check = check_material,
+          .end = end_material,
+          .count = [](const Draft& draft) { return draft.radar.world.land.materials.size(); },
+          .select = [](Draft& draft, std::size_t index) { draft.material = draft.radar.world.land.materials[index]; }};
+}
+
+SlotSchema sea_coefficients(std::string_view name, std::vector<double>& (*of)(Draft&)) {
+  return {.name = name,
+          .lowest = -200,
+          .highest = 200,
+          .binding = ListSlot{of, 5, 5, Order::any},
+          .purpose = "c1 to c5 of the NRL model (2012) for this polarization"};
+}
+
+FormSchema sea() {
+  return {
+      .name = "Sea",
+      .purpose = "what the sea returns: the NRL model, with the wind's side of the GIT model",
+      .slots = {number_slot("state", "", 0, 6, {YARS_FIELD(radar.world.sea.state)},
+                            "state of the sea, WMO code 3700; left out: by the wind's Beaufort force"),
+                number_slot("windSpeed", "kt", 0, 120,
+                            {YARS_FIELD(radar.world.sea.wind_speed_mps), geo::kMetresPerNauticalMile / 3600.0},
+                            "wind over the sea; used where state is left out"),
+                number_slot("windFrom", "deg", 0, 360, {YARS_FIELD(radar.world.sea.wind_from_deg)},
+                            "where the wind comes from, true; the sea is brightest that way"),
+                {.name = "polarization",
+                 .binding = ChoiceSlot{
+                     kPolarizations, [](const Draft& draft) { return int(draft.radar.world.sea.polarization); },
+                     [](Draft& draft, int index) { draft.radar.world.sea.polarization = radar::Polarization(index); }},
+                 .purpose = "of the radar"},
+                sea_coefficients("horizontal", YARS_FIELD(radar.world.sea.horizontal)),
+                sea_coefficients("vertical", YARS_FIELD(radar.world.sea.vertical)),
+                number_slot("windFactor", "", 0, 2, {YARS_FIELD(radar.world.sea.wind_factor)},
+                            "0.2: 3 dB more upwind and less downwind at X band; 0: the same all round"),
+                number_slot("texture", "", 0, 100, {YARS_FIELD(radar.world.sea.texture)},
+                            "shape of the sea's texture; small = spiky, 0 = none")}};
+}
+
+std::optional<Complaint> check_rain_cell(const Draft& draft) {
+  if (std::isnan(draft.rain_cell.place.latitude_deg)) return Complaint{"latitude", "a latitude", "none"};
+  if (std::isnan(draft.rain_cell.place.longitude_deg)) return Complaint{"longitude", "a longitude", "none"};
+  if (draft.radar.world.rain.cells.size() < radar::kMostRainCells) return std::nullopt;
+  return Complaint{"latitude", "at most " + std::to_string(radar::kMostRainCells) + " showers", "one more"};
+}
+
+FormSchema rain_cell() {
+  return {
+      .name = "RainCell",
+      .purpose = "a shower: heaviest in the middle, nothing at the rim",
+      .slots = {latitude_slot(YARS_FIELD(rain_cell.place.latitude_deg)),
+                longitude_slot(YARS_FIELD(rain_cell.place.longitude_deg)),
+                number_slot("radius", "NM", 0.1, 100, {YARS_FIELD(rain_cell.radius_m), geo::kMetresPerNauticalMile},
+                            "of the rim; left out: 5"),
+                number_slot("rate", "mm/h", 0.1, 300, {YARS_FIELD(rain_cell.rate_mmh)}, "in the middle; left out: 10"),
+                number_slot("top", "ft", 500, 60'000, {YARS_FIELD(rain_cell.top_m), geo::kMetresPerFoot},
+                            "of the rain, above mean sea level; left out: 15,000")},
+      .part_of_value = true,
+      .begin =
+          [](Draft& draft) {
+            draft.rain_cell = {.place = {kNotGiven, kNotGiven}};
+          },
+      .check = check_rain_cell,
+      .end = [](Draft& draft) { draft.radar.world.rain.cells.push_back(draft.rain_cell); },
+      .count = [](const Draft& draft) { return draft.radar.world.rain.cells.size(); },
+      .select = [](Draft& draft, std::size_t index) { draft.rain_cell = draft.radar.world.rain.cells[index]; }};
+}
+
+FormSchema rain() {
+  return {.name = "Rain",
+          .purpose = "showers, and how rain returns and attenuates; its cells replace earlier ones",
+          .slots = {{.name = "cells",
+                     .binding = FormSlot{{"RainCell"}, {"RainCell"}, true},
+                     .purpose = "at most 64 showers"},
+                    number_slot("reflectivityFactor", "", 0, 2000, {YARS_FIELD(radar.world.rain.reflectivity_factor)},
+                                "a of Z = a r^b, mm^6/m^3 by mm/h (Marshall and Palmer)"),
+                    number_slot("reflectivityExponent", "", 0.5, 3,
+                                {YARS_FIELD(radar.world.rain.reflectivity_exponent)}, "b of Z = a r^b"),
+                    number_slot("dielectricFactor", "", 0, 1, {YARS_FIELD(radar.world.rain.dielectric_factor)},
+                                "K squared of water; 0.2 is ice"),
+                    number_slot("attenuationFactor", "dB/km", 0, 10, {YARS_FIELD(radar.world.rain.attenuation_factor)},
+                                "k of k r^b, one way (ITU-R P.838-3, 9.6 GHz, horizontal)"),
+                    number_slot("attenuationExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.attenuation_exponent)},
+                                "b of k r^b")},
+          .begin = [](Draft& draft) { draft.radar.world.rain.cells.clear(); }};
+}
+
+FormSchema atmosphere() {
+  return {.name = "Atmosphere",
+          .purpose = "the air at mean sea level, and what its gases take (ITU-R P.676-13, P.835)",
+          .slots = {{.name = "gases",
+                     .binding = BooleanSlot{YARS_FIELD(radar.world.atmosphere.gases)},
+                     .purpose = "oxygen and water vapour attenuate; the preset 1996 knows none"},
+                    number_slot("temperature", "deg C", -60, 60, {YARS_FIELD(radar.world.atmosphere.temperature_c)},
+                                "6.5 degrees less in each km up to 11 km"),
+                    number_slot("pressure", "hPa", 500, 1100, {YARS_FIELD(radar.world.atmosphere.pressure_hpa)},
+                                "of the dry air"),
+                    number_slot("waterVapour", "g/m3", 0, 50, {YARS_FIELD(radar.world.atmosphere.water_g_m3)},
+                                "density; it falls to 1/e in each 2 km")}};
+}
+
+}  // namespace
+
+std::vector<FormSchema> world_forms() {
+  return {land(),
+          {.name = "Materials",
+           .purpose = "what surface materials return; adds to those that are built in, or changes them by code",
+           .slots = {{.name = "materials",
+                      .binding = FormSlot{{"Material"}, {"Material"}, true},
+                      .purpose = "materials of culture"}}},
+          material(),
+          sea(),
+          rain(),
+          rain_cell(),
+          atmosphere()};
+}
+
+}  // namespace yars::config

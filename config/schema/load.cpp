@@ -1,0 +1,304 @@
+#include "config/schema/load.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "config/guf/messages.hpp"
+#include "config/guf/parser.hpp"
+#include "config/guf/tree.hpp"
+#include "config/schema/form_reader.hpp"
+#include "config/schema/message_translation.hpp"
+#include "config/schema/schema.hpp"
+
+namespace yars::config {
+
+// A file and what it includes, as one tree of GUF. `( include "part.guf" )` stands for what is in that file: several
+// arguments where it is an argument by position, one value where it is the value of a slot. The path is relative to
+// the including file and stays inside the folder of the first file. A first file in the messages of 1996 is translated,
+// and `#include "part"` in it, under the same rules, takes messages. Errors: file, cycle, depth, count, outside.
+
+inline constexpr int kMaxIncludeDepth = 8;
+inline constexpr int kMaxIncludes = 64;  // files of one configuration, repetitions counted
+
+failure::Expected<ParsedText> read_tree(const std::filesystem::path& path);
+
+// The same of a text in memory; includes are left as they stand in GUF, and refused in messages.
+failure::Expected<ParsedText> tree_of_text(std::string_view text, const std::string& name);
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The text of a regular file; a pipe or a device could block or never end.
+std::string text_of_file(const fs::path& path, const std::string& subject) {
+  std::error_code problem;
+  if (!fs::is_regular_file(path, problem)) {
+    const std::string found = fs::exists(path, problem) ? " is no file" : " does not exist";
+    throw Rejection{failure::fail(subject, "a GUF file", path.string() + found, "check the path").value()};
+  }
+  if (fs::file_size(path, problem) > kMaxTextBytes) {
+    throw Rejection{failure::fail(subject, "at most " + std::to_string(kMaxTextBytes) + " bytes in a file",
+                                  path.string() + " is larger", "split the file")
+                        .value()};
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  if (file.bad() || !file.is_open()) {
+    throw Rejection{failure::fail(subject, "a file that can be read", path.string(), "check its permissions").value()};
+  }
+  return text;
+}
+
+bool is_inside(const fs::path& path, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+class TreeReader {
+ public:
+  ParsedText read(const fs::path& path) {
+    root_ = fs::weakly_canonical(path).parent_path();
+    result_.arguments = arguments_of(path, path.string());
+    return in_messages_ ? guf_from_messages(std::move(result_)) : std::move(result_);
+  }
+
+ private:
+  std::vector<Slot> arguments_of(const fs::path& path, const std::string& subject) {
+    const std::string text = text_of_file(path, subject);
+    if (open_.empty()) in_messages_ = is_in_messages(text);
+    auto parsed = in_messages_ ? parse_messages(text, path.string()) : parse_text(text, path.string());
+    if (!parsed) throw Rejection{parsed.error()};
+    result_.tokens += parsed->tokens;
+    if (result_.tokens > kMaxTokens) {
+      throw Rejection{failure::fail(subject, "at most " + std::to_string(kMaxTokens) + " words with all includes",
+                                    std::to_string(result_.tokens), "include less")
+                          .value()};
+    }
+    std::move(parsed->warnings.begin(), parsed->warnings.end(), std::back_inserter(result_.warnings));
+    open_.push_back(fs::weakly_canonical(path));
+    std::vector<Slot> arguments = expanded(std::move(parsed->arguments));
+    open_.pop_back();
+    return arguments;
+  }
+
+  // The arguments that an include form stands for.
+  std::vector<Slot> included(const Value& value) {
+    const Form& form = std::get<Form>(value.data);
+    const auto* name = form.slots.size() == 1 ? std::get_if<std::string>(&form.slots[0].value.data) : nullptr;
+    if (name == nullptr) reject(value.where, R"(( include "file" ))", std::to_string(form.slots.size()) + " arguments");
+    const fs::path path = fs::path(*value.where.file).parent_path() / *name;
+    const fs::path canonical = fs::weakly_canonical(path);
+    if (!is_inside(canonical, root_)) {
+      reject(value.where, "an include inside " + root_.string(), path.string(), "copy the file there");
+    }
+    if (std::find(open_.begin(), open_.end(), canonical) != open_.end()) {
+      reject(value.where, "an include that does not come back to its own file", path.string());
+    }
+    if (open_.size() >= static_cast<std::size_t>(kMaxIncludeDepth)) {
+      reject(value.where, "at most " + std::to_string(kMaxIncludeDepth) + " files deep", path.string());
+    }
+    if (++includes_ > kMaxIncludes) {
+      reject(value.where, "at most " + std::to_string(kMaxIncludes) + " includes", "one more");
+    }
+    return arguments_of(path, text_of(value.where));
+  }
+
+  std::vector<Slot> expanded(std::vector<Slot> arguments) {
+    std::vector<Slot> result;
+    for (Slot& argument : arguments) {
+      const bool by_place = argument.name.empty() && argument.position == 0;
+      if (by_place && is_include(argument.value)) {
+        auto part = included(argument.value);
+        std::move(part.begin(), part.end(), std::back_inserter(result));
+        continue;
+      }
+      argument.value = expanded(std::move(argument.value));
+      result.push_back(std::move(argument));
+    }
+    return result;
+  }
+
+  Value expanded(Value value) {
+    if (is_include(value)) {
+      auto part = included(value);
+      if (part.size() != 1 || !part[0].name.empty()) {
+        reject(value.where, "a file with one value for the slot", std::to_string(part.size()) + " arguments in it");
+      }
+      return std::move(part[0].value);
+    }
+    if (auto* form = std::get_if<Form>(&value.data)) form->slots = expanded(std::move(form->slots));
+    if (auto* list = std::get_if<List>(&value.data)) list->items = expanded(std::move(list->items));
+    return value;
+  }
+
+  std::vector<Value> expanded(std::vector<Value> items) {
+    std::vector<Value> result;
+    for (Value& item : items) {
+      if (!is_include(item)) {
+        result.push_back(expanded(std::move(item)));
+        continue;
+      }
+      for (Slot& part : included(item)) {
+        if (!part.name.empty()) reject(part.where, "values by position in a list", "the slot :" + part.name);
+        result.push_back(std::move(part.value));
+      }
+    }
+    return result;
+  }
+
+  static bool is_include(const Value& value) {
+    const auto* form = std::get_if<Form>(&value.data);
+    return form != nullptr && form->name == "include";
+  }
+
+  fs::path root_;
+  std::vector<fs::path> open_;  // the files being read, from the first to the innermost
+  bool in_messages_ = false;    // the first file is, and with it what it includes
+  int includes_ = 0;
+  ParsedText result_;
+};
+
+}  // namespace
+
+failure::Expected<ParsedText> read_tree(const fs::path& path) {
+  try {
+    return TreeReader().read(path);
+  } catch (const Rejection& rejection) {
+    return tl::unexpected(rejection.error);
+  } catch (const fs::filesystem_error& problem) {
+    return failure::fail(path.string(), "a path that the system can follow", problem.code().message());
+  }
+}
+
+failure::Expected<ParsedText> tree_of_text(std::string_view text, const std::string& name) {
+  if (!is_in_messages(text)) return parse_text(text, name);
+  auto messages = parse_messages(text, name);
+  if (!messages) return messages;
+  try {
+    return guf_from_messages(std::move(*messages));
+  } catch (const Rejection& rejection) {
+    return tl::unexpected(rejection.error);
+  }
+}
+
+namespace {
+
+failure::Expected<LoadedConfiguration> configuration_from(ParsedText tree) {
+  LoadedConfiguration loaded;
+  loaded.warnings = std::move(tree.warnings);
+  Draft draft;
+  try {
+    FormReader(draft, loaded.warnings).read_all(tree.arguments);
+  } catch (const Rejection& rejection) {
+    return tl::unexpected(rejection.error);
+  }
+  loaded.radar = std::move(draft.radar);
+  return loaded;
+}
+
+}  // namespace
+
+failure::Expected<LoadedConfiguration> load_configuration(const std::filesystem::path& path) {
+  if (path.empty()) return LoadedConfiguration{};
+  return read_tree(path).and_then(configuration_from);
+}
+
+failure::Expected<LoadedConfiguration> load_configuration_text(std::string_view text, const std::string& name) {
+  return tree_of_text(text, name).and_then(configuration_from);
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Gives forms and slots the names of the schema, and paths the folder of the new file.
+class Modernizer {
+ public:
+  explicit Modernizer(const fs::path& folder) : folder_((fs::current_path() / folder / "").lexically_normal()) {}
+
+  void rename(std::vector<Slot>& arguments) {
+    for (Slot& argument : arguments) {
+      const auto* form = std::get_if<Form>(&argument.value.data);
+      if (form != nullptr && form->name == "def-form") {
+        book_.define(*form, argument.where);
+      } else {
+        rename(argument.value);
+      }
+    }
+  }
+
+ private:
+  void rename(Value& value) {
+    if (auto* list = std::get_if<List>(&value.data)) {
+      for (Value& item : list->items) rename(item);
+    } else if (auto* form = std::get_if<Form>(&value.data)) {
+      rename(*form);
+    }
+  }
+
+  void rename(Form& form) {
+    const KnownForm known = book_.look_up(form.name);
+    if (known.schema != nullptr && !known.defined_in_text) form.name = known.schema->name;
+    std::size_t place = 0;
+    for (Slot& slot : form.slots) {
+      ++place;
+      rename(slot.value);
+      const SlotSchema* row = known.schema == nullptr ? nullptr : row_of(*known.schema, slot, place);
+      if (row == nullptr) continue;
+      if (!slot.name.empty()) slot.name = row->name;
+      if (std::holds_alternative<PathSlot>(row->binding)) move_path(slot.value);
+    }
+  }
+
+  static const SlotSchema* row_of(const FormSchema& form, const Slot& slot, std::size_t place) {
+    if (!slot.name.empty()) return find_slot(form, slot.name).schema;
+    const std::size_t position = slot.position == 0 ? place : static_cast<std::size_t>(slot.position);
+    return position <= form.slots.size() ? &form.slots[position - 1] : nullptr;
+  }
+
+  void move_path(Value& value) const {
+    auto* text = std::get_if<std::string>(&value.data);
+    if (text == nullptr || text->empty() || fs::path(*text).is_absolute() || !value.where.file) return;
+    const fs::path here = (fs::current_path() / fs::path(*value.where.file).parent_path() / "").lexically_normal();
+    if (here != folder_) *text = (here / *text).lexically_normal().lexically_relative(folder_).string();
+  }
+
+  fs::path folder_;
+  FormBook book_;
+};
+
+failure::Expected<ConvertedConfiguration> converted_from(ParsedText tree, const std::string& name,
+                                                         const fs::path& folder) {
+  ConvertedConfiguration converted{{}, std::move(tree.warnings)};
+  try {
+    Draft draft;
+    FormReader(draft, converted.warnings).read_all(tree.arguments);
+    Modernizer(folder).rename(tree.arguments);
+  } catch (const Rejection& rejection) {
+    return tl::unexpected(rejection.error);
+  } catch (const fs::filesystem_error& problem) {
+    return failure::fail(name, "a current folder, for the paths in the file", problem.code().message());
+  }
+  converted.text = tree_text(tree.arguments);
+  const auto again = parse_text(converted.text, name);  // with all it includes in one file, it can exceed the limits
+  if (again) return converted;
+  return failure::fail(name, "what fits into one file of GUF: " + again.error().expected, again.error().found,
+                       "convert its parts one by one");
+}
+
+}  // namespace
+
+failure::Expected<ConvertedConfiguration> convert_configuration(const fs::path& path, const fs::path& folder) {
+  return read_tree(path).and_then(
+      [&](ParsedText tree) { return converted_from(std::move(tree), path.string(), folder); });
+}
+
+failure::Expected<ConvertedConfiguration> convert_configuration_text(std::string_view text, const std::string& name) {
+  const fs::path folder = fs::path(name).parent_path();
+  return tree_of_text(text, name).and_then([&](ParsedText tree) {
+    return converted_from(std::move(tree), name, folder);
+  });
+}
+
+}  // namespace yars::config

@@ -1,0 +1,331 @@
+#include "config/schema/message_translation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include "config/guf/messages.hpp"
+#include "config/guf/tree.hpp"
+#include "config/schema/schema.hpp"
+
+namespace yars::config {
+
+// What the keywords of the messages of 1996 are called in GUF. Most have kept their names; the rest stands here.
+// Source: the report's sample in section 4.3.1; the forms behind it are those of its tables 4 to 26.
+
+// The form that `keyword: { ... }` makes inside the form `owner` (empty: outside all braces): `Display` is the Window
+// of the radar, and the RbmDisplay of its real beam map. Empty: the keyword names no form that GUF has.
+std::string_view form_of_keyword(std::string_view keyword, std::string_view owner);
+
+// The slot of `owner` that a keyword sets; the keyword itself where GUF has kept it.
+std::string_view slot_of_keyword(std::string_view keyword, std::string_view owner);
+
+// Some keywords of a form are slots of another form inside it: scanBars of RealBeamMode belongs to its RbmAntenna.
+struct InnerForm {
+  std::string_view slot;  // of the owner; empty: the keyword is its own
+  std::string_view form;  // in that slot
+};
+InnerForm inner_form_of_keyword(std::string_view keyword, std::string_view owner);
+
+namespace {
+
+constexpr std::string_view kAnyOwner = "*";
+constexpr std::string_view kOutermost;
+
+struct Row {
+  std::string_view keyword;
+  std::string_view owner;
+  std::string_view meant;
+};
+
+constexpr std::array kForms{Row{"Radar", kAnyOwner, "System"},
+                            Row{"MgDmaDatabase", kAnyOwner, "DedDbase"},  // MultiGen's files of DMA elevations
+                            Row{"Display", kOutermost, "Window"},
+                            Row{"Display", "System", "Window"},
+                            Row{"Display", "Apg70", "Window"},
+                            Row{"Display", "RealBeamMode", "RbmDisplay"},
+                            Row{"Display", "SarMode", "SarDisplay"},
+                            Row{"Antenna", kOutermost, "AntennaServo"},
+                            Row{"Antenna", "System", "AntennaServo"},
+                            Row{"Antenna", "Apg70", "AntennaServo"},
+                            Row{"Antenna", kAnyOwner, "RbmAntenna"}};
+
+constexpr std::array kSlots{Row{"samplesPerSweep", kAnyOwner, "samples"}, Row{"mode", "Window", "bmode"}};
+
+template <std::size_t count>
+std::string_view meant(const std::array<Row, count>& rows, std::string_view keyword, std::string_view owner) {
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& one) {
+    return one.keyword == keyword && (one.owner == owner || one.owner == kAnyOwner);
+  });
+  return row == rows.end() ? std::string_view() : row->meant;
+}
+
+}  // namespace
+
+std::string_view form_of_keyword(std::string_view keyword, std::string_view owner) {
+  const std::string_view renamed = meant(kForms, keyword, owner);
+  if (!renamed.empty()) return renamed;
+  const auto form = find_form(keyword);
+  return form.schema != nullptr && form.schema->name == keyword ? form.schema->name : std::string_view();
+}
+
+std::string_view slot_of_keyword(std::string_view keyword, std::string_view owner) {
+  const std::string_view renamed = meant(kSlots, keyword, owner);
+  return renamed.empty() ? keyword : renamed;
+}
+
+InnerForm inner_form_of_keyword(std::string_view keyword, std::string_view owner) {
+  if (keyword == "scanBars" && owner == "RealBeamMode") return {"antenna", "RbmAntenna"};
+  return {};
+}
+
+namespace {
+
+using Slots = std::vector<Slot>;
+
+// The arguments in braces; null for any other value.
+Slots* arguments_in_braces(Value& value) {
+  auto* form = std::get_if<Form>(&value.data);
+  return form != nullptr && form->name == kBraces ? &form->slots : nullptr;
+}
+
+bool is_value_alone(const Slot& argument) {
+  return argument.name.empty();
+}
+
+std::string shown(const Slot& argument) {
+  if (argument.name == kInstance) return "a name with :=";
+  if (!argument.name.empty()) return argument.name + ":";
+  const auto* form = std::get_if<Form>(&argument.value.data);
+  return form != nullptr && form->name == kBraces ? "values in braces" : description(argument.value);
+}
+
+// What a form holds is either set by keywords or listed; a place among keywords would mean nothing.
+void refuse_mixture(const Slots& arguments) {
+  const auto value = std::find_if(arguments.begin(), arguments.end(), is_value_alone);
+  const auto message = std::find_if_not(arguments.begin(), arguments.end(), is_value_alone);
+  if (value == arguments.end() || message == arguments.end()) return;
+  reject(value->where, "messages alone or values alone in these braces", shown(*value), "give it a keyword");
+}
+
+// `Display { ... }`, as the report's prose has it, would be a word and a list.
+void refuse_missing_colon(const Slots& arguments) {
+  for (std::size_t i = 0; i + 1 < arguments.size(); ++i) {
+    const auto* word = std::get_if<Identifier>(&arguments[i].value.data);
+    const auto* next = std::get_if<Form>(&arguments[i + 1].value.data);
+    if (word == nullptr || !is_value_alone(arguments[i]) || !is_value_alone(arguments[i + 1])) continue;
+    if (next != nullptr && next->name == kBraces) {
+      reject(arguments[i].where, word->name + ": { ... }", word->name + " { ... }", "put a colon behind the keyword");
+    }
+  }
+}
+
+// A form that GUF does not know keeps its keyword; one of GUF's own words would then mean something there.
+void refuse_word_of_guf(const Slot& message) {
+  constexpr std::array<std::string_view, 7> kWords{"include", "guf", "def-form", "true", "false", "TRUE", "FALSE"};
+  if (std::find(kWords.begin(), kWords.end(), message.name) == kWords.end()) return;
+  reject(message.where, "a keyword of the radar", message.name + ":", "it is a word of GUF; name it otherwise");
+}
+
+// A slot of `owner` that takes the form; null: there is none.
+const SlotSchema* slot_for_form(const FormSchema& owner, std::string_view form) {
+  for (const SlotSchema& slot : owner.slots) {
+    const auto* kind = std::get_if<FormSlot>(&slot.binding);
+    if (kind == nullptr) continue;
+    if (std::find(kind->accepted.begin(), kind->accepted.end(), form) != kind->accepted.end()) return &slot;
+  }
+  return nullptr;
+}
+
+Slot* named(Slots& slots, std::string_view name) {
+  const auto found = std::find_if(slots.begin(), slots.end(), [&](const Slot& slot) { return slot.name == name; });
+  return found == slots.end() ? nullptr : &*found;
+}
+
+// GCC 12 destroys a half-made aggregate twice when a part of it throws: what can be refused is made before what holds
+// it.
+class Translator {
+  using Places = std::map<std::string_view, std::size_t>;  // of the slots that were made for forms
+
+ public:
+  explicit Translator(std::vector<std::string>& warnings) : warnings_(warnings) {}
+
+  Slots outermost(Slots arguments) {
+    refuse_missing_colon(arguments);
+    Slots forms;
+    for (Slot& argument : arguments) {
+      if (take_instance(argument)) continue;
+      refuse_include(argument.value);
+      if (is_value_alone(argument) || arguments_in_braces(argument.value) == nullptr) {
+        reject(argument.where, "a message that makes a form, as Radar: { ... }", shown(argument));
+      }
+      Value form = form_of(argument, "");
+      forms.push_back({"", 0, argument.where, std::move(form)});
+    }
+    return forms;
+  }
+
+ private:
+  // The form that a message makes; one that GUF does not know keeps its keyword, and the reader of forms warns of it.
+  Value form_of(Slot& message, std::string_view owner) {
+    const std::string_view name = form_of_keyword(message.name, owner);
+    Slots* arguments = arguments_in_braces(message.value);
+    if (arguments == nullptr) {
+      reject(message.value.where, "{ ... } after " + message.name + ":", description(message.value));
+    }
+    const auto instance = std::exchange(instance_, {});
+    if (name.empty()) refuse_word_of_guf(message);
+    Slots slots = name.empty() ? plain_slots(*arguments) : slots_of(*find_form(name).schema, *arguments);
+    const bool radar = name == "System" || name == "Apg70";
+    if (radar && !instance.name.empty() && named(slots, "name") == nullptr) {
+      slots.push_back({"name", 0, instance.where, {instance.where, instance.name}});
+    } else {
+      warn_unused(instance);
+    }
+    return {message.where, Form{name.empty() ? message.name : std::string(name), std::move(slots)}};
+  }
+
+  Slots slots_of(const FormSchema& owner, Slots& arguments) {
+    refuse_missing_colon(arguments);
+    refuse_mixture(arguments);
+    Slots slots;
+    Places made;
+    Slots inner;  // for forms inside this one
+    for (Slot& argument : arguments) {
+      if (take_instance(argument)) continue;
+      if (!is_value_alone(argument) && !form_of_keyword(argument.name, owner.name).empty()) {
+        add_form(slots, made, owner, argument);
+      } else if (!inner_form_of_keyword(argument.name, owner.name).slot.empty()) {
+        inner.push_back(std::move(argument));
+      } else {
+        slots.push_back(slot_of(owner, argument));
+      }
+      warn_unused(std::exchange(instance_, {}));
+    }
+    for (Slot& argument : inner) add_to_inner_form(slots, made, owner, argument);
+    return slots;
+  }
+
+  // `Antenna: { ... }` goes into the slot that takes such a form; several of them are a list where the slot is one.
+  void add_form(Slots& slots, Places& made, const FormSchema& owner, Slot& message) {
+    const SlotSchema* slot = slot_for_form(owner, form_of_keyword(message.name, owner.name));
+    if (slot == nullptr) {
+      reject(message.where, "a message that belongs into " + std::string(owner.name), message.name + ":");
+    }
+    const bool many = std::get<FormSlot>(slot->binding).many;
+    Value form = form_of(message, owner.name);
+    const auto [place, first] = made.emplace(slot->name, slots.size());
+    if (many && !first) {
+      std::get<List>(slots[place->second].value.data).items.push_back(std::move(form));
+      return;
+    }
+    if (many) form = {message.where, List{{std::move(form)}}};
+    slots.push_back({std::string(slot->name), 0, message.where, std::move(form)});
+  }
+
+  void add_to_inner_form(Slots& slots, Places& made, const FormSchema& owner, Slot& message) {
+    const InnerForm inner = inner_form_of_keyword(message.name, owner.name);
+    const auto [place, first] = made.emplace(inner.slot, slots.size());
+    if (first) {
+      slots.push_back({std::string(inner.slot), 0, message.where, {message.where, Form{std::string(inner.form), {}}}});
+    }
+    Slot slot = slot_of(*find_form(inner.form).schema, message);
+    std::get<Form>(slots[place->second].value.data).slots.push_back(std::move(slot));
+  }
+
+  Slot slot_of(const FormSchema& owner, Slot& argument) {
+    const std::string name(slot_of_keyword(argument.name, owner.name));
+    const SlotSchema* slot = name.empty() ? nullptr : find_slot(owner, name).schema;
+    if (slot == nullptr && !name.empty()) return plain_slot(argument);
+    const auto* forms = slot == nullptr ? nullptr : std::get_if<FormSlot>(&slot->binding);
+    Value value = forms == nullptr ? plain(argument.value) : forms_of_slot(owner, *forms, argument);
+    return {name, 0, argument.where, std::move(value)};
+  }
+
+  // `modes: { modeOne := RealBeamMode: { ... } }`: what a slot of forms holds.
+  Value forms_of_slot(const FormSchema& owner, const FormSlot& kind, Slot& argument) {
+    Slots* arguments = arguments_in_braces(argument.value);
+    if (arguments == nullptr) return std::move(argument.value);
+    List forms;
+    for (Slot& item : *arguments) {
+      if (take_instance(item)) continue;
+      refuse_include(item.value);
+      if (is_value_alone(item)) reject(item.where, "messages that make forms in " + argument.name + ":", shown(item));
+      forms.items.push_back(form_of(item, owner.name));
+    }
+    if (!kind.many && forms.items.size() == 1) return std::move(forms.items.front());
+    return {argument.value.where, std::move(forms)};
+  }
+
+  // Values, and messages that no form knows: as they stand.
+  Value plain(Value& value) {
+    refuse_include(value);
+    Slots* arguments = arguments_in_braces(value);
+    if (arguments == nullptr) return std::move(value);
+    List list;
+    for (Slot& argument : *arguments) {
+      if (!is_value_alone(argument)) reject(argument.where, "values, as { 1, 2 }", shown(argument));
+      list.items.push_back(plain(argument.value));
+    }
+    return {value.where, std::move(list)};
+  }
+
+  Slots plain_slots(Slots& arguments) {
+    refuse_mixture(arguments);
+    Slots slots;
+    for (Slot& argument : arguments) {
+      if (argument.name != kInstance) slots.push_back(plain_slot(argument));
+    }
+    return slots;
+  }
+
+  Slot plain_slot(Slot& argument) {
+    Slots* arguments = arguments_in_braces(argument.value);
+    const bool messages = arguments != nullptr && !arguments->empty() && !is_value_alone(arguments->front());
+    if (messages) refuse_word_of_guf(argument);
+    Slots slots = messages ? plain_slots(*arguments) : Slots();
+    Value value = messages ? Value{argument.where, Form{argument.name, std::move(slots)}} : plain(argument.value);
+    return {argument.name, 0, argument.where, std::move(value)};
+  }
+
+  // `name :=`, which the next message is about.
+  bool take_instance(const Slot& argument) {
+    if (argument.name != kInstance) return false;
+    instance_ = {argument.where, std::get<Identifier>(argument.value.data).name};
+    return true;
+  }
+
+  // Files are included before they are translated, so what is left stands in a text without a folder.
+  static void refuse_include(const Value& value) {
+    const auto* form = std::get_if<Form>(&value.data);
+    if (form != nullptr && form->name == "include") reject(value.where, "#include in a file alone", "it in a text");
+  }
+
+  struct Instance {
+    Location where;
+    std::string name;
+  };
+
+  void warn_unused(const Instance& instance) {
+    if (instance.name.empty() || warnings_.size() >= kMaxWarnings) return;
+    warnings_.push_back(text_of(instance.where) + ": the name " + instance.name + " is read, not used");
+  }
+
+  std::vector<std::string>& warnings_;
+  Instance instance_;  // of the message that comes next
+};
+
+}  // namespace
+
+ParsedText guf_from_messages(ParsedText messages) {
+  if (!messages.arguments.empty() && messages.warnings.size() < kMaxWarnings) {
+    messages.warnings.push_back(text_of(messages.arguments.front().where) +
+                                ": messages are the syntax of 1996; `yars config convert` writes them as GUF");
+  }
+  messages.arguments = Translator(messages.warnings).outermost(std::move(messages.arguments));
+  return messages;
+}
+
+}  // namespace yars::config

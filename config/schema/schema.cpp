@@ -1,0 +1,153 @@
+#include "config/schema/schema.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "config/guf/tree.hpp"
+
+namespace yars::config {
+
+namespace {
+
+char lower(char letter) {
+  return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+}
+
+bool equal_but_case(std::string_view left, std::string_view right) {
+  return std::equal(left.begin(), left.end(), right.begin(), right.end(),
+                    [](char a, char b) { return lower(a) == lower(b); });
+}
+
+template <class Schema>
+Found<Schema> find_named(const std::vector<Schema>& rows, std::string_view name) {
+  for (const Schema& row : rows) {
+    if (row.name == name) return {&row, Spelling::exact};
+  }
+  for (const Schema& row : rows) {
+    if (equal_but_case(row.name, name)) return {&row, Spelling::other_case};
+    if (!row.old_name.empty() && equal_but_case(row.old_name, name)) return {&row, Spelling::old_name};
+  }
+  return {};
+}
+
+// Levenshtein distance, letters' case apart. Names are short.
+std::size_t edit_distance(std::string_view left, std::string_view right) {
+  std::vector<std::size_t> row(right.size() + 1);
+  for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= left.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j < row.size(); ++j) {
+      const std::size_t changed = diagonal + (lower(left[i - 1]) == lower(right[j - 1]) ? 0 : 1);
+      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, changed}));
+    }
+  }
+  return row.back();
+}
+
+std::vector<FormSchema> all_forms() {
+  std::vector<FormSchema> forms;
+  for (const auto group :
+       {system_forms, mode_forms, antenna_forms, display_forms, database_forms, model_forms, route_forms, world_forms,
+        navigation_forms, traffic_forms, limit_forms, beacon_forms, device_forms, value_forms}) {
+    for (FormSchema& form : group()) forms.push_back(std::move(form));
+  }
+  return forms;
+}
+
+std::string joined(const auto& words) {
+  std::string text;
+  for (const std::string_view word : words) text += (text.empty() ? "" : ", ") + std::string(word);
+  return text;
+}
+
+std::string range_text(const SlotSchema& slot) {
+  std::string text;
+  if (slot.lowest > -std::numeric_limits<double>::infinity()) {
+    text = " in [" + number_text(slot.lowest) + ", " + number_text(slot.highest) + "]";
+  }
+  return slot.unit.empty() ? text : text + " " + std::string(slot.unit);
+}
+
+struct KindText {
+  const SlotSchema& slot;
+  std::string operator()(const NumberSlot&) const { return "a number" + range_text(slot); }
+  std::string operator()(const IntegerSlot&) const { return "a whole number" + range_text(slot); }
+  std::string operator()(const CounterSlot&) const { return "a whole number" + range_text(slot); }
+  std::string operator()(const BooleanSlot&) const { return "true or false"; }
+  std::string operator()(const TextSlot&) const { return "a string"; }
+  std::string operator()(const PathSlot&) const { return "a string, a path relative to its file"; }
+  std::string operator()(const AngleSlot&) const { return "a number or a lat-long" + range_text(slot); }
+  std::string operator()(const ChoiceSlot& choice) const { return "one of " + joined(choice.words); }
+  std::string operator()(const ListSlot& list) const {
+    const std::string count = list.least == list.most ? std::to_string(list.least)
+                                                      : std::to_string(list.least) + " to " + std::to_string(list.most);
+    constexpr std::string_view kOrders[] = {"", " ascending", " descending"};
+    return "a list of " + count + std::string(kOrders[static_cast<std::size_t>(list.order)]) + " numbers" +
+           range_text(slot);
+  }
+  std::string operator()(const FirstSlot&) const { return "a whole number or a list of them" + range_text(slot); }
+  std::string operator()(const PairSlot&) const { return "a list of 2 numbers" + range_text(slot); }
+  std::string operator()(const SpanSlot&) const { return "a list of low and high, or a number," + range_text(slot); }
+  std::string operator()(const SymmetricSlot&) const {
+    return "a list of -limit and limit, the limit" + range_text(slot);
+  }
+  std::string operator()(const FormSlot& form) const {
+    return (form.many ? "a list of the forms " : "a form: ") + joined(form.accepted);
+  }
+};
+
+struct UsedBy {
+  bool operator()(const FormSlot& form) const {
+    // A form is used when it can be of a kind that is: colours are not, yet.
+    return std::any_of(form.accepted.begin(), form.accepted.end(), [](std::string_view name) {
+      const FormSchema* accepted = find_form(name).schema;
+      return accepted != nullptr && std::any_of(accepted->slots.begin(), accepted->slots.end(), is_used);
+    });
+  }
+  bool operator()(const ChoiceSlot& choice) const { return choice.set != nullptr; }
+  bool operator()(const PairSlot& pair) const { return pair.first != nullptr; }
+  bool operator()(const SpanSlot& span) const { return span.low != nullptr; }
+  bool operator()(const auto& simple) const { return simple.of != nullptr; }
+};
+
+}  // namespace
+
+const std::vector<FormSchema>& schema() {
+  static const std::vector<FormSchema> forms = all_forms();
+  return forms;
+}
+
+Found<FormSchema> find_form(std::string_view name) {
+  return find_named(schema(), name);
+}
+
+Found<SlotSchema> find_slot(const FormSchema& form, std::string_view name) {
+  return find_named(form.slots, name);
+}
+
+std::string_view nearest_slot(const FormSchema& form, std::string_view name) {
+  constexpr std::size_t kNear = 2;          // changed letters of a slip of the hand
+  constexpr std::size_t kLongestName = 40;  // longer ones are no slip, and would cost
+  std::string_view nearest;
+  std::size_t least = kNear + 1;
+  if (name.size() > kLongestName) return nearest;
+  for (const SlotSchema& slot : form.slots) {
+    const std::size_t distance = edit_distance(slot.name, name);
+    if (distance < least) {
+      least = distance;
+      nearest = slot.name;
+    }
+  }
+  return nearest;
+}
+
+bool is_used(const SlotSchema& slot) {
+  return std::visit(UsedBy{}, slot.binding);
+}
+
+std::string value_kind(const SlotSchema& slot) {
+  return std::visit(KindText{slot}, slot.binding);
+}
+
+}  // namespace yars::config

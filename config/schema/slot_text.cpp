@@ -1,0 +1,367 @@
+#include "config/schema/slot_text.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "config/guf/tree.hpp"
+#include "config/schema/schema.hpp"
+#include "lib/error/error.hpp"
+
+namespace yars::config {
+
+namespace {
+
+constexpr const char* kManual = "`yars config print --defaults` explains every slot";
+
+class Reader {
+ public:
+  Reader(Draft& draft, const SlotSchema& slot, const Value& value) : draft_(draft), slot_(slot), value_(value) {}
+
+  void operator()(const NumberSlot& kind) const {
+    const double number = in_range(value_);
+    if (kind.of) kind.of(draft_) = number * kind.si_per_unit;
+  }
+  void operator()(const IntegerSlot& kind) const {
+    const double number = whole(value_);
+    if (kind.of) kind.of(draft_) = static_cast<int>(number);
+  }
+  void operator()(const CounterSlot& kind) const {
+    const double number = whole(value_);
+    if (kind.of) kind.of(draft_) = static_cast<std::uint64_t>(number);
+  }
+  void operator()(const BooleanSlot& kind) const {
+    const auto* flag = std::get_if<bool>(&value_.data);
+    if (flag == nullptr) wrong(value_);
+    if (kind.of) kind.of(draft_) = *flag;
+  }
+  void operator()(const TextSlot& kind) const {
+    const std::string& text = string();
+    if (kind.of) kind.of(draft_) = text;
+  }
+  void operator()(const PathSlot& kind) const {
+    const std::filesystem::path path = string();
+    if (kind.of == nullptr) return;
+    const bool alone = path.empty() || path.is_absolute();
+    const auto folder = value_.where.file ? std::filesystem::path(*value_.where.file).parent_path() : path;
+    kind.of(draft_) = (alone ? path : (folder / path).lexically_normal()).string();
+  }
+  void operator()(const AngleSlot& kind) const {
+    const double degrees = in_range(value_);
+    if (kind.of) kind.of(draft_) = degrees;
+  }
+  void operator()(const ChoiceSlot& kind) const {
+    const std::string word = chosen_word();
+    const auto found = std::find(kind.words.begin(), kind.words.end(), word);
+    if (found == kind.words.end()) wrong(value_);
+    if (kind.set) kind.set(draft_, static_cast<int>(found - kind.words.begin()));
+  }
+  void operator()(const ListSlot& kind) const {
+    std::vector<double> numbers = list(kind.least, kind.most);
+    const bool falls = kind.order == Order::descending;
+    for (std::size_t i = 1; i < numbers.size() && kind.order != Order::any; ++i) {
+      if (falls ? numbers[i] >= numbers[i - 1] : numbers[i] <= numbers[i - 1]) {
+        const Value& item = std::get<List>(value_.data).items[i];
+        wrong(item, number_text(numbers[i]) + " after " + number_text(numbers[i - 1]));
+      }
+    }
+    if (kind.of) kind.of(draft_) = std::move(numbers);
+  }
+  void operator()(const FirstSlot& kind) const {
+    constexpr std::size_t kMost = 16;
+    const auto* items = std::get_if<List>(&value_.data);
+    if (items == nullptr) {
+      kind.of(draft_) = static_cast<int>(whole(value_));
+      return;
+    }
+    if (items->items.empty() || items->items.size() > kMost) wrong(value_);
+    for (const Value& item : items->items) whole(item);
+    kind.of(draft_) = static_cast<int>(whole(items->items.front()));
+  }
+  void operator()(const PairSlot& kind) const {
+    const auto numbers = list(2, 2);
+    if (kind.first == nullptr) return;
+    kind.first(draft_) = numbers[0];
+    kind.second(draft_) = numbers[1];
+  }
+  void operator()(const SpanSlot& kind) const {
+    const auto [low, high] = span(kind.centred);
+    if (low >= high) wrong(value_, number_text(low) + " and " + number_text(high));
+    if (kind.low == nullptr) return;
+    kind.low(draft_) = low;
+    kind.high(draft_) = high;
+  }
+  void operator()(const SymmetricSlot& kind) const {
+    const auto* items = std::get_if<List>(&value_.data);
+    if (items == nullptr || items->items.size() != 2) wrong(value_);
+    const double low = number(items->items[0]);
+    const double high = in_range(items->items[1]);
+    if (low != -high) wrong(items->items[0], number_text(low) + " and " + number_text(high));
+    if (kind.of) kind.of(draft_) = high;
+  }
+  void operator()(const FormSlot&) const {
+    failure::requirement_broken("a slot of forms is read by FormReader", slot_.name, __FILE__, __LINE__);
+  }
+
+ private:
+  [[noreturn]] void wrong(const Value& value, std::string found = {}) const {
+    if (found.empty()) found = description(value);
+    reject(value.where, value_kind(slot_) + " for :" + std::string(slot_.name), std::move(found), kManual);
+  }
+
+  double number(const Value& value) const {
+    const auto* number = std::get_if<double>(&value.data);
+    if (number == nullptr) wrong(value);
+    return *number;
+  }
+
+  double in_range(const Value& value) const {
+    const double found = number(value);
+    if (!(found >= slot_.lowest && found <= slot_.highest)) wrong(value);
+    return found;
+  }
+
+  double whole(const Value& value) const {
+    const double found = in_range(value);
+    if (found != std::floor(found)) wrong(value);
+    return found;
+  }
+
+  const std::string& string() const {
+    const auto* text = std::get_if<std::string>(&value_.data);
+    if (text == nullptr) wrong(value_);
+    return *text;
+  }
+
+  // `1996`, `draft` and "draft" are all words to choose from.
+  std::string chosen_word() const {
+    if (const auto* identifier = std::get_if<Identifier>(&value_.data)) return identifier->name;
+    if (const auto* number = std::get_if<double>(&value_.data)) return number_text(*number);
+    return string();
+  }
+
+  std::vector<double> list(std::size_t least, std::size_t most) const {
+    const auto* items = std::get_if<List>(&value_.data);
+    if (items == nullptr || items->items.size() < least || items->items.size() > most) wrong(value_);
+    std::vector<double> numbers;
+    for (const Value& item : items->items) numbers.push_back(in_range(item));
+    return numbers;
+  }
+
+  std::pair<double, double> span(bool centred) const {
+    if (std::holds_alternative<double>(value_.data)) {
+      const double whole_span = in_range(value_);
+      return centred ? std::pair(-whole_span / 2, whole_span / 2) : std::pair(0.0, whole_span);
+    }
+    const auto numbers = list(2, 2);
+    return {numbers[0], numbers[1]};
+  }
+
+  Draft& draft_;
+  const SlotSchema& slot_;
+  const Value& value_;
+};
+
+}  // namespace
+
+void read_simple(Draft& draft, const SlotSchema& slot, const Value& value) {
+  std::visit(Reader(draft, slot, value), slot.binding);
+}
+
+void read_sexagesimal(Draft& draft, const SlotSchema& slot, const Location& where) {
+  const auto& kind = std::get<AngleSlot>(slot.binding);
+  const SexagesimalAngle& angle = draft.angle;
+  const bool north_south = angle.direction < 2;
+  if (north_south != kind.latitude) {
+    reject(where, kind.latitude ? "N or S for a latitude" : "E or W for a longitude",
+           north_south ? "N or S" : "E or W");
+  }
+  const double size_deg = angle.degrees + angle.minutes / 60.0 + angle.seconds / 3600.0;
+  const bool negative = angle.direction % 2 == 1;
+  read_simple(draft, slot, {where, negative ? -size_deg : size_deg});
+}
+
+namespace {
+
+// The shortest number of units whose product with the unit is the same SI value; division alone can miss by a bit.
+double in_units(double si, double si_per_unit) {
+  const double quotient = si / si_per_unit;
+  for (const double candidate : {quotient, std::nextafter(quotient, -1e308), std::nextafter(quotient, 1e308)}) {
+    if (candidate * si_per_unit == si) return candidate;
+  }
+  return quotient;
+}
+
+std::string list_text(const std::vector<double>& numbers) {
+  std::string text = "`( ";
+  for (const double number : numbers) text += number_text(number) + " ";
+  return text + ")";
+}
+
+struct Writer {
+  Draft& draft;
+
+  std::string operator()(const NumberSlot& kind) const {
+    if (kind.of == nullptr) return {};
+    const double value = kind.of(draft);
+    return std::isnan(value) ? std::string() : number_text(in_units(value, kind.si_per_unit));
+  }
+  std::string operator()(const IntegerSlot& kind) const { return kind.of ? std::to_string(kind.of(draft)) : ""; }
+  std::string operator()(const CounterSlot& kind) const { return kind.of ? std::to_string(kind.of(draft)) : ""; }
+  std::string operator()(const BooleanSlot& kind) const {
+    if (kind.of == nullptr) return {};
+    return kind.of(draft) ? "true" : "false";
+  }
+  std::string operator()(const TextSlot& kind) const { return kind.of ? quoted_text(kind.of(draft)) : ""; }
+  std::string operator()(const PathSlot& kind) const { return kind.of ? quoted_text(kind.of(draft)) : ""; }
+  std::string operator()(const AngleSlot& kind) const {
+    return kind.of == nullptr || std::isnan(kind.of(draft)) ? std::string() : number_text(kind.of(draft));
+  }
+  std::string operator()(const ChoiceSlot& kind) const {
+    const int index = kind.get ? kind.get(draft) : -1;
+    return index < 0 ? std::string() : std::string(kind.words[static_cast<std::size_t>(index)]);
+  }
+  std::string operator()(const ListSlot& kind) const { return kind.of ? list_text(kind.of(draft)) : ""; }
+  std::string operator()(const FirstSlot& kind) const { return std::to_string(kind.of(draft)); }
+  std::string operator()(const PairSlot& kind) const {
+    return kind.first ? list_text({kind.first(draft), kind.second(draft)}) : "";
+  }
+  std::string operator()(const SpanSlot& kind) const {
+    return kind.low ? list_text({kind.low(draft), kind.high(draft)}) : "";
+  }
+  std::string operator()(const SymmetricSlot& kind) const {
+    return kind.of ? list_text({-kind.of(draft), kind.of(draft)}) : "";
+  }
+  std::string operator()(const FormSlot&) const { return {}; }
+};
+
+}  // namespace
+
+std::string slot_text(Draft& draft, const SlotSchema& slot) {
+  return std::visit(Writer{draft}, slot.binding);
+}
+
+namespace {
+
+// What print leaves out, and why.
+std::string use_of(const FormSchema& form, const SlotSchema& slot) {
+  if (!slot.same_as.empty()) return "; the same as " + std::string(slot.same_as);
+  return is_used(slot) || form.part_of_value ? "" : "; read, not used";
+}
+
+// Empty where a slot has no default: it holds forms, belongs to one of many, or nothing uses it.
+std::string default_text(const FormSchema& form, const SlotSchema& slot) {
+  Draft defaults;
+  return form.part_of_value ? std::string() : slot_text(defaults, slot);
+}
+
+std::string explanation(const FormSchema& form, std::size_t index) {
+  const SlotSchema& slot = form.slots[index];
+  const std::string usual = default_text(form, slot);
+  return std::string(":").append(slot.name) + " (" + std::to_string(index + 1) + ") " + value_kind(slot) +
+         (usual.empty() ? "" : ", default " + usual) + ": " + std::string(slot.purpose) + use_of(form, slot);
+}
+
+std::string heading(const FormSchema& form) {
+  const std::string base = form.base.empty() ? std::string() : ", is= " + std::string(form.base);
+  return std::string(form.name) + base + ": " + std::string(form.purpose);
+}
+
+// Writes one tree of forms.
+class Printer {
+ public:
+  Printer(const radar::RadarConfiguration& configuration, bool explained)
+      : draft_(draft_of(configuration)), explained_(explained) {}
+
+  std::string print(std::string_view outermost = "Apg70") {
+    write_form(*find_form(outermost).schema, 0);
+    return std::move(text_);
+  }
+  const std::set<std::string_view>& written() const { return written_; }
+
+ private:
+  void line(int depth, const std::string& text) { text_ += std::string(std::size_t(depth) * 2, ' ') + text + "\n"; }
+
+  void write_form(const FormSchema& form, int depth) {
+    written_.insert(form.name);
+    if (explained_) line(depth, "; " + heading(form));
+    line(depth, std::string("( ").append(form.name));
+    for (std::size_t i = 0; i < form.slots.size(); ++i) write_slot(form, i, depth + 1);
+    line(depth, ")");
+  }
+
+  void write_slot(const FormSchema& form, std::size_t index, int depth) {
+    const SlotSchema& slot = form.slots[index];
+    if (explained_) line(depth, "; " + explanation(form, index));
+    if (!slot.same_as.empty()) return;
+    if (const auto* forms = std::get_if<FormSlot>(&slot.binding)) {
+      write_forms(slot, *forms, depth);
+      return;
+    }
+    const std::string value = slot_text(draft_, slot);
+    if (!value.empty()) line(depth, std::string(":").append(slot.name) + " " + value);
+  }
+
+  void write_forms(const SlotSchema& slot, const FormSlot& forms, int depth) {
+    if (forms.printed.empty()) return;
+    line(depth, std::string(":").append(slot.name) + (forms.many ? " `(" : ""));
+    if (forms.give) forms.give(draft_);
+    for (const std::string_view name : forms.printed) {
+      const FormSchema& form = *find_form(name).schema;
+      const std::size_t count = form.count ? form.count(draft_) : 1;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (form.select) form.select(draft_, i);
+        write_form(form, depth + 1);
+      }
+    }
+    if (forms.many) line(depth, ")");
+  }
+
+  Draft draft_;
+  bool explained_;
+  std::string text_;
+  std::set<std::string_view> written_;
+};
+
+}  // namespace
+
+std::string print_configuration(const radar::RadarConfiguration& configuration) {
+  return Printer(configuration, false).print();
+}
+
+std::string print_explained(const radar::RadarConfiguration& configuration) {
+  Printer printer(configuration, true);
+  std::string text = "; A slot is given by name, or by the position in parentheses.\n\n" + printer.print();
+  text += "\n; Further forms.\n";
+  for (const FormSchema& form : schema()) {
+    if (printer.written().contains(form.name)) continue;
+    text += ";\n; " + heading(form) + "\n";
+    for (std::size_t i = 0; i < form.slots.size(); ++i) text += ";   " + explanation(form, i) + "\n";
+  }
+  return text;
+}
+
+std::string print_devices(const radar::RadarConfiguration& configuration) {
+  return Printer(configuration, false).print("Devices");
+}
+
+std::string print_markdown() {
+  std::string text;
+  for (const FormSchema& form : schema()) {
+    text +=
+        "### " + heading(form) + "\n\n| position | slot | value | default | for |\n| --- | --- | --- | --- | --- |\n";
+    for (std::size_t i = 0; i < form.slots.size(); ++i) {
+      const SlotSchema& slot = form.slots[i];
+      const std::string usual = default_text(form, slot);
+      text += "| " + std::to_string(i + 1) + " | `" + std::string(slot.name) + "` | " + value_kind(slot) + " | " +
+              (usual.empty() ? "" : "`` " + usual + " ``") + " | " + std::string(slot.purpose) + use_of(form, slot) +
+              " |\n";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace yars::config

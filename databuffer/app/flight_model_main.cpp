@@ -1,0 +1,88 @@
+// flight-model: flies a route, a fixed course or a recorded track, or takes the aircraft from a program outside, and
+// publishes ownship and nav.
+#include "databuffer/app/flight_shell.hpp"
+#include "databuffer/runtime/program.hpp"
+#include "lib/log/log.hpp"
+
+namespace {
+
+using namespace yars;
+
+constexpr std::uint32_t kPriority = 10;  // of our own models; a user's program may go above or below
+// Of a program outside: while it is heard it flies, and else a flight-model of our own beside it.
+constexpr std::uint32_t kBridgePriority = 20;
+
+template <class Shell>
+failure::Expected<void> fly(databuffer::Session& session, databuffer::TickLoop& loop, Shell& shell) {
+  while (const auto due = loop.wait()) {
+    shell.step(*due);
+    loop.done(*due);
+    if (due->skipped > 0)
+      session.note(databuffer::NoteKind::late_tick, "flight-model skipped " + std::to_string(due->skipped));
+  }
+  return loop.outcome();
+}
+
+// A route that is installed may be named without its folder.
+std::string with_installed_route(const std::string& source_text) {
+  const std::string kind = "route:";
+  return source_text.starts_with(kind) ? kind + databuffer::installed_file(source_text.substr(kind.size()))
+                                       : source_text;
+}
+
+failure::Expected<void> run_own(const databuffer::ProgramOptions& options, const std::string& source_text) {
+  auto source = databuffer::flight::open_source(with_installed_route(source_text));
+  if (!source) return tl::unexpected(source.error());
+  auto session = databuffer::Session::open(options.session, "flight-model");
+  if (!session) return tl::unexpected(session.error());
+  auto lane = session->claim_ownship_lane(kPriority);
+  if (!lane) return tl::unexpected(lane.error());
+  auto loop = databuffer::TickLoop::create(*session, databuffer::LockstepRole::flight_model, options.lockstep);
+  if (!loop) return tl::unexpected(loop.error());
+  databuffer::log_info("flies " + source->description + " in session " + options.session);
+  databuffer::FlightShell shell(*session, std::move(*source), lane->lane(), loop->lockstep());
+  return fly(*session, *loop, shell);
+}
+
+failure::Expected<void> run_bridge(const databuffer::ProgramOptions& options, const std::string& source_text) {
+  auto source = databuffer::bridges::open_bridge(source_text);
+  if (!source) return tl::unexpected(source.error());
+  if (!options.lockstep.empty())
+    return tl::unexpected(databuffer::usage_error("--lockstep", "a source that flies by sim time: route, fixed or csv",
+                                                  source->name + ", which flies by its own clock"));
+  // Before the session: a port that is taken leaves no trace there.
+  auto socket = databuffer::open_socket(*source);
+  if (!socket) return tl::unexpected(socket.error());
+  auto session = databuffer::Session::open(options.session, "flight-model");
+  if (!session) return tl::unexpected(session.error());
+  auto lane = session->claim_ownship_lane(kBridgePriority);
+  if (!lane) return tl::unexpected(lane.error());
+  auto loop = databuffer::TickLoop::create(*session, databuffer::LockstepRole::flight_model, {});
+  if (!loop) return tl::unexpected(loop.error());
+  databuffer::BridgeShell shell(*session, std::move(*source), std::move(*socket), lane->lane());
+  return fly(*session, *loop, shell);
+}
+
+constexpr const char* kSources =
+    "where the aircraft is from:\n"
+    "route:FILE  a route of waypoints\n"
+    "fixed:LAT,LON,ALT_FT,HDG,KT  straight and level\n"
+    "csv:FILE  a recorded track\n"
+    "flightgear:[HOST:]PORT  FlightGear's native FDM by UDP\n"
+    "jsbsim:[HOST:]PORT[,COLUMN,...]  JSBSim's text output by UDP\n"
+    "xplane:HOST:PORT  X-Plane, which is asked there (49000)\n"
+    "dis:[HOST:]PORT[,SITE,APP,ENTITY]  a DIS entity, else the first of the air\n"
+    "(HOST to listen on is 127.0.0.1 unless told otherwise)";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("YARS flight model: where the aircraft is", "flight-model");
+  databuffer::ProgramOptions options;
+  std::string source;
+  databuffer::add_common_options(app, options, true);
+  app.add_option("--source", source, kSources)->required();
+  return databuffer::run_program(argc, argv, app, options, [&] {
+    return databuffer::bridges::names_bridge(source) ? run_bridge(options, source) : run_own(options, source);
+  });
+}

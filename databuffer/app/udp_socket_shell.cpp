@@ -1,0 +1,218 @@
+#include "databuffer/app/udp_socket_shell.hpp"
+
+#include <netdb.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <optional>
+#include <vector>
+
+#include "databuffer/session/session.hpp"
+
+namespace yars::databuffer {
+
+namespace {
+
+using bridges::Sender;
+
+constexpr std::size_t kBatch = 16;
+// [bytes] a second of 400 Hz; more would only keep old packets while the session is frozen.
+constexpr int kQueueBytes = 256 * 1024;
+// [ns] older than this no packet can be: the wall clock was set.
+constexpr std::int64_t kOldestPacket_ns = 60'000'000'000;
+
+failure::Expected<sockaddr_in> resolve(const std::string& host, std::uint16_t port) {
+  addrinfo hints{};
+  hints.ai_family = AF_INET;
+  hints.ai_socktype = SOCK_DGRAM;
+  addrinfo* found = nullptr;
+  if (const int problem = getaddrinfo(host.c_str(), nullptr, &hints, &found); problem != 0 || found == nullptr)
+    return failure::fail("--source", "a host by name or IPv4 address", "'" + host + "': " + gai_strerror(problem));
+  sockaddr_in address{};
+  std::memcpy(&address, found->ai_addr, sizeof address);
+  freeaddrinfo(found);
+  address.sin_port = htons(port);
+  return address;
+}
+
+Sender sender_of(const sockaddr_in& address) {
+  return {ntohl(address.sin_addr.s_addr), ntohs(address.sin_port)};
+}
+
+std::int64_t realtime_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_REALTIME, &now);
+  return now.tv_sec * 1'000'000'000 + now.tv_nsec;
+}
+
+}  // namespace
+
+std::string text_of(const Sender& sender) {
+  std::string text;
+  for (const int shift : {24, 16, 8, 0})
+    text.append(text.empty() ? "" : ".").append(std::to_string(sender.address >> shift & 255U));
+  return text + ':' + std::to_string(sender.port);
+}
+
+struct UdpSocket::State {
+  int descriptor = -1;
+  Sender place;
+  bool one_host = false;
+  sockaddr_in peer{};
+  std::uint32_t dropped_mark = 0;  // the kernel's count, which wraps
+  std::uint64_t dropped = 0;
+
+  struct Slot {
+    std::array<std::byte, kLongestDatagram> bytes;
+    sockaddr_in from;
+    iovec span;
+    alignas(cmsghdr) std::array<std::byte, 128> control;
+  };
+  std::vector<Slot> slots{kBatch};
+  std::array<mmsghdr, kBatch> headers{};
+
+  State() = default;
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State() {
+    if (descriptor >= 0) close(descriptor);
+  }
+
+  failure::Expected<void> open() {
+    descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    if (descriptor < 0) return failure::fail("UDP", "a socket", std::strerror(errno));
+    const int yes = 1;
+    // None of them is vital: without, packets count as received when they are read, and losses are not counted.
+    setsockopt(descriptor, SOL_SOCKET, SO_TIMESTAMPNS, &yes, sizeof yes);
+    setsockopt(descriptor, SOL_SOCKET, SO_RXQ_OVFL, &yes, sizeof yes);
+    setsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &kQueueBytes, sizeof kQueueBytes);
+    return {};
+  }
+
+  int read_batch(std::size_t most) {
+    const std::size_t count = std::min(most, kBatch);
+    for (std::size_t i = 0; i < count; ++i) {
+      Slot& slot = slots[i];
+      slot.span = {slot.bytes.data(), slot.bytes.size()};
+      msghdr& header = headers[i].msg_hdr;
+      header = {};
+      header.msg_name = &slot.from;
+      header.msg_namelen = sizeof slot.from;
+      header.msg_iov = &slot.span;
+      header.msg_iovlen = 1;
+      header.msg_control = slot.control.data();
+      header.msg_controllen = slot.control.size();
+    }
+    return recvmmsg(descriptor, headers.data(), static_cast<unsigned>(count), MSG_DONTWAIT, nullptr);
+  }
+
+  // Age [ns] of the datagram by the kernel's stamp; also counts what the kernel dropped before it.
+  std::int64_t read_control(msghdr& header, std::int64_t now_ns) {
+    std::int64_t age_ns = 0;
+    for (cmsghdr* part = CMSG_FIRSTHDR(&header); part != nullptr; part = CMSG_NXTHDR(&header, part)) {
+      if (part->cmsg_level != SOL_SOCKET) continue;
+      if (part->cmsg_type == SO_TIMESTAMPNS) {
+        timespec stamp{};
+        std::memcpy(&stamp, CMSG_DATA(part), sizeof stamp);
+        age_ns = now_ns - (stamp.tv_sec * 1'000'000'000 + stamp.tv_nsec);
+      } else if (part->cmsg_type == SO_RXQ_OVFL) {
+        std::uint32_t count = 0;
+        std::memcpy(&count, CMSG_DATA(part), sizeof count);
+        dropped += count - dropped_mark;
+        dropped_mark = count;
+      }
+    }
+    return age_ns >= 0 && age_ns <= kOldestPacket_ns ? age_ns : 0;
+  }
+};
+
+UdpSocket::UdpSocket(std::unique_ptr<State> state) : state_(std::move(state)) {}
+UdpSocket::UdpSocket(UdpSocket&&) noexcept = default;
+UdpSocket::~UdpSocket() = default;
+
+failure::Expected<UdpSocket> UdpSocket::listen(const std::string& host, std::uint16_t port) {
+  auto address = resolve(host, port);
+  if (!address) return tl::unexpected(address.error());
+  auto state = std::make_unique<State>();
+  if (auto opened = state->open(); !opened) return tl::unexpected(opened.error());
+  if (bind(state->descriptor, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0) {
+    const std::string place = "UDP " + text_of(sender_of(*address));
+    if (errno == EADDRINUSE)
+      return failure::fail(place, "a free port", "one that another program listens on",
+                           "end that program (ss -ulpn names it), or take another port on both sides");
+    return failure::fail(place, "an address of this machine", std::strerror(errno));
+  }
+  sockaddr_in bound{};
+  socklen_t size = sizeof bound;
+  getsockname(state->descriptor, reinterpret_cast<sockaddr*>(&bound), &size);
+  state->place = sender_of(bound);
+  return UdpSocket(std::move(state));
+}
+
+failure::Expected<UdpSocket> UdpSocket::ask(const std::string& host, std::uint16_t port) {
+  auto address = resolve(host, port);
+  if (!address) return tl::unexpected(address.error());
+  auto state = std::make_unique<State>();
+  if (auto opened = state->open(); !opened) return tl::unexpected(opened.error());
+  state->peer = *address;
+  state->place = sender_of(*address);
+  state->one_host = true;
+  return UdpSocket(std::move(state));
+}
+
+void UdpSocket::receive(std::size_t most, const Taker& take) {
+  while (most > 0) {
+    const int count = state_->read_batch(most);
+    // Also what a send before it met (nobody listens there yet) is told here; the next call goes on.
+    if (count <= 0) return;
+    const std::int64_t wall_ns = realtime_ns();
+    const std::int64_t now_ns = monotonic_ns();
+    for (int i = 0; i < count; ++i) {
+      auto& slot = state_->slots[static_cast<std::size_t>(i)];
+      auto& header = state_->headers[static_cast<std::size_t>(i)];
+      const Sender from = sender_of(slot.from);
+      const std::int64_t age_ns = state_->read_control(header.msg_hdr, wall_ns);
+      if (state_->one_host && from.address != state_->place.address) continue;
+      take(std::span(slot.bytes).first(header.msg_len), from, now_ns - age_ns);
+    }
+    most -= static_cast<std::size_t>(count);
+    if (static_cast<std::size_t>(count) < kBatch) return;
+  }
+}
+
+// A connected socket still sends to whom it is told.
+void UdpSocket::hear_only(const Sender& sender) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(sender.address);
+  address.sin_port = htons(sender.port);
+  connect(state_->descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+}
+
+void UdpSocket::hear_all() {
+  sockaddr nobody{};
+  nobody.sa_family = AF_UNSPEC;
+  connect(state_->descriptor, &nobody, sizeof nobody);
+}
+
+bool UdpSocket::send(std::span<const std::byte> datagram) {
+  const auto sent = sendto(state_->descriptor, datagram.data(), datagram.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
+                           reinterpret_cast<const sockaddr*>(&state_->peer), sizeof state_->peer);
+  return sent == static_cast<ssize_t>(datagram.size());
+}
+
+const Sender& UdpSocket::place() const {
+  return state_->place;
+}
+
+std::uint64_t UdpSocket::dropped() const {
+  return state_->dropped;
+}
+
+}  // namespace yars::databuffer

@@ -1,0 +1,314 @@
+#include "databuffer/bridges/flight_simulators.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "lib/geo/geodesy.hpp"
+#include "lib/geo/quantity.hpp"
+#include "lib/text/plain_text.hpp"
+
+namespace yars::databuffer::bridges {
+
+namespace {
+
+struct Form {
+  std::uint32_t version;
+  std::size_t bytes;
+};
+constexpr std::array<Form, 2> kForms{{{24, 408}, {25, 552}}};
+
+// Where the fields stand [bytes].
+constexpr std::size_t kLongitude = 8, kLatitude = 16, kAltitude = 24;      // f64: rad, rad, m
+constexpr std::size_t kRoll = 36, kPitch = 40, kHeading = 44;              // f32: rad
+constexpr std::size_t kRollRate = 56, kPitchRate = 60, kHeadingRate = 64;  // f32: rad/s
+constexpr std::size_t kNorth = 76, kEast = 80, kDown = 84;                 // f32: ft/s
+
+double degrees_at(Bytes packet, std::size_t offset) {
+  return static_cast<double>(big_endian<float>(packet, offset)) / geo::kRadiansPerDegree;
+}
+
+double speed_at(Bytes packet, std::size_t offset) {
+  return static_cast<double>(big_endian<float>(packet, offset)) * geo::kMetresPerFoot;
+}
+
+bool is_known_form(Bytes packet) {
+  if (packet.size() < sizeof(std::uint32_t)) return false;
+  const auto version = big_endian<std::uint32_t>(packet, 0);
+  for (const Form& form : kForms)
+    if (form.version == version && form.bytes == packet.size()) return true;
+  return false;
+}
+
+std::string form_of(Bytes packet) {
+  const std::string bytes = std::to_string(packet.size()) + " bytes";
+  if (packet.size() < sizeof(std::uint32_t)) return bytes;
+  return "version " + std::to_string(big_endian<std::uint32_t>(packet, 0)) + " and " + bytes;
+}
+
+}  // namespace
+
+failure::Expected<ExternalSample> decode_flightgear(Bytes packet) {
+  if (!is_known_form(packet))
+    return failure::fail("flightgear", "version 24 and 408 bytes, or 25 and 552", form_of(packet),
+                         "send it by --native-fdm=socket,out,30,HOST,PORT,udp");
+  Reading reading{};
+  reading.latitude_deg = big_endian<double>(packet, kLatitude) / geo::kRadiansPerDegree;
+  reading.longitude_deg = big_endian<double>(packet, kLongitude) / geo::kRadiansPerDegree;
+  reading.altitude_msl_m = big_endian<double>(packet, kAltitude);
+  reading.heading_deg = degrees_at(packet, kHeading);
+  reading.pitch_deg = degrees_at(packet, kPitch);
+  reading.roll_deg = degrees_at(packet, kRoll);
+  reading.velocity_north_mps = speed_at(packet, kNorth);
+  reading.velocity_east_mps = speed_at(packet, kEast);
+  reading.velocity_down_mps = speed_at(packet, kDown);
+  const AttitudeRates rates{degrees_at(packet, kHeadingRate), degrees_at(packet, kPitchRate),
+                            degrees_at(packet, kRollRate)};
+  return checked_sample("flightgear", reading, rates);
+}
+
+namespace {
+
+constexpr std::string_view kLabels = "<LABELS>";
+
+enum Value : std::size_t { kLatitude, kLongitude, kAltitude, kRoll, kPitch, kHeading, kNorth, kEast, kDown, kTime };
+
+constexpr std::array<std::string_view, kJsbsimValues> kNames{"position/lat-geod-deg",  "position/long-gc-deg",
+                                                             "position/h-sl-ft",       "attitude/phi-deg",
+                                                             "attitude/theta-deg",     "attitude/psi-deg",
+                                                             "velocities/v-north-fps", "velocities/v-east-fps",
+                                                             "velocities/v-down-fps",  "Time"};
+
+// Geocentric: 0.19 deg beside the geodetic one at 45 degrees, 11 NM off.
+constexpr std::array<std::string_view, 4> kGeocentric{"lat-gc-deg", "lat-gc-rad", "Latitude (deg)",
+                                                      "Latitude Geocentric (deg)"};
+
+constexpr std::size_t kLongestShown = 24;  // [characters] of a broken field in a message
+
+std::string_view last_part(std::string_view name) {
+  return name.substr(name.find_last_of('/') + 1);
+}
+
+// JSBSim prints "lat-geod-deg" of "position/lat-geod-deg"; other versions, and other programs, print the whole.
+bool names(std::string_view label, std::string_view property) {
+  return label == property || last_part(label) == last_part(property);
+}
+
+// A field from outside as a message may hold it.
+std::string shown(std::string_view field) {
+  std::string text(field.substr(0, kLongestShown));
+  std::ranges::replace_if(
+      text, [](char character) { return character < ' ' || character > '~'; }, '?');
+  return text;
+}
+
+failure::Error missing_columns(const std::vector<std::string_view>& labels, const std::string& missing) {
+  const bool geocentric = std::ranges::any_of(labels, [](std::string_view label) {
+    return std::ranges::find(kGeocentric, last_part(label)) != kGeocentric.end();
+  });
+  const std::string found = std::to_string(labels.size()) + " columns without " + missing +
+                            (geocentric ? " (the latitude that is there is geocentric, up to 11 NM off)" : "");
+  return {"jsbsim", "columns of place, attitude and velocity", found,
+          "put <property>NAME</property> for each of them into the <output> of the aircraft", false};
+}
+
+}  // namespace
+
+failure::Expected<JsbsimColumns> parse_jsbsim_labels(std::string_view line) {
+  if (!line.starts_with(kLabels)) return failure::fail("jsbsim", std::string(kLabels), "another line");
+  line.remove_prefix(kLabels.size());
+  std::vector<std::string_view> labels = fields_of(line, ',');
+  // The mark is followed by a comma: what stands between is no column.
+  if (labels.front().empty()) labels.erase(labels.begin());
+  JsbsimColumns columns;
+  columns.count = labels.size();
+  std::string missing;
+  for (std::size_t value = 0; value < kJsbsimValues; ++value) {
+    const auto found =
+        std::ranges::find_if(labels, [&](std::string_view label) { return names(label, kNames[value]); });
+    columns.of_value[value] = static_cast<std::size_t>(found - labels.begin());
+    if (found == labels.end()) missing += (missing.empty() ? "" : ", ") + std::string(kNames[value]);
+  }
+  if (!missing.empty()) return tl::unexpected(missing_columns(labels, missing));
+  return columns;
+}
+
+failure::Expected<JsbsimState> parse_jsbsim_line(const JsbsimColumns& columns, std::string_view line) {
+  const std::vector<std::string_view> fields = fields_of(line, ',');
+  if (fields.size() != columns.count)
+    return failure::fail("jsbsim", std::to_string(columns.count) + " columns, as the labels name",
+                         std::to_string(fields.size()));
+  std::array<double, kJsbsimValues> values{};
+  for (std::size_t value = 0; value < kJsbsimValues; ++value) {
+    const std::string_view field = fields[columns.of_value[value]];
+    const auto number = finite_number(field);
+    if (!number) return failure::fail("jsbsim", std::string(kNames[value]) + ", a number", '"' + shown(field) + '"');
+    values[value] = *number;
+  }
+  const Reading reading{values[kLatitude],
+                        values[kLongitude],
+                        values[kAltitude] * geo::kMetresPerFoot,
+                        values[kHeading],
+                        values[kPitch],
+                        values[kRoll],
+                        values[kNorth] * geo::kMetresPerFoot,
+                        values[kEast] * geo::kMetresPerFoot,
+                        values[kDown] * geo::kMetresPerFoot};
+  auto sample = checked_sample("jsbsim", reading);
+  if (!sample) return tl::unexpected(sample.error());
+  return JsbsimState{geo::Duration::seconds(values[kTime]), *sample};
+}
+
+void JsbsimBridge::keep(const JsbsimColumns& columns) {
+  std::erase_if(labels_, [this](const Labels& labels) { return labels.sender == sender_; });
+  // Never those of the source that flies: whose line was read last.
+  const auto flies = [this](const Labels& labels) { return labels.sender == flies_; };
+  if (labels_.size() >= kMostSenders) labels_.erase(std::ranges::find_if_not(labels_, flies));
+  labels_.push_back({sender_, columns});
+}
+
+const JsbsimColumns* JsbsimBridge::columns() const {
+  const auto found = std::ranges::find(labels_, sender_, &Labels::sender);
+  if (found != labels_.end()) return &found->columns;
+  return columns_ ? &*columns_ : nullptr;
+}
+
+failure::Expected<std::optional<ExternalSample>> JsbsimBridge::receive(Bytes datagram, geo::Duration) {
+  if (datagram.size() > kLongestJsbsimLine)
+    return failure::fail("jsbsim", "a line of at most " + std::to_string(kLongestJsbsimLine) + " characters",
+                         std::to_string(datagram.size()));
+  const std::string_view line = trimmed({reinterpret_cast<const char*>(datagram.data()), datagram.size()});
+  if (line.starts_with(kLabels)) {
+    auto columns = parse_jsbsim_labels(line);
+    if (!columns) return tl::unexpected(columns.error());
+    keep(*columns);
+    return std::nullopt;
+  }
+  const JsbsimColumns* const columns = this->columns();
+  if (columns == nullptr)
+    return failure::fail("jsbsim", "a line of labels first", "a line of numbers",
+                         "start flight-model before JSBSim, which sends its labels once, or name them: "
+                         "jsbsim:PORT,Time,lat-geod-deg,...");
+  const auto state = parse_jsbsim_line(*columns, line);
+  if (!state) return tl::unexpected(state.error());
+  if (const auto reason = order_.why_not_news(state->time)) return failure::fail("jsbsim", "a newer line", *reason);
+  flies_ = sender_;
+  return state->sample;
+}
+
+namespace {
+
+constexpr std::size_t kRequestBytes = 413;
+constexpr std::size_t kHeadBytes = 5;  // "RREF" and a byte that is X-Plane's own
+constexpr std::size_t kPairBytes = 8;
+constexpr std::string_view kMark = "RREF";
+constexpr std::uint32_t kAllCame = (1U << kXplaneDatarefs) - 1U;
+constexpr geo::Duration kPatience = geo::Duration::seconds(1.0);  // without replies, before asking again
+
+enum Dataref : std::size_t {
+  kLatitude,
+  kLongitude,
+  kElevation,
+  kVx,
+  kVy,
+  kVz,
+  kRefLatitude,
+  kRefLongitude,
+  kHeading,
+  kPitch,
+  kRoll,
+  kRollRate,
+  kPitchRate,
+  kYawRate
+};
+
+// X-Plane's frame: x east, y up, z south, level at its reference point.
+geo::Vector3 enu_velocity(const std::array<float, kXplaneDatarefs>& values) {
+  const auto frame_at = [](double latitude_deg, double longitude_deg) {
+    return geo::LocalTangentFrame({latitude_deg, longitude_deg}, geo::HeightAboveEllipsoid());
+  };
+  const geo::Vector3 at_reference{values[kVx], -static_cast<double>(values[kVz]), values[kVy]};
+  const geo::Vector3 ecef = frame_at(values[kRefLatitude], values[kRefLongitude]).ecef_from_enu_direction(at_reference);
+  return frame_at(values[kLatitude], values[kLongitude]).enu_from_ecef_direction(ecef);
+}
+
+failure::Expected<ExternalSample> sample_of(const std::array<float, kXplaneDatarefs>& values) {
+  // Frames are for places on the Earth alone.
+  for (const std::size_t latitude : {kLatitude, kRefLatitude})
+    if (!(std::abs(values[latitude]) <= 90.0F))
+      return failure::fail("xplane", std::string(kXplaneNames[latitude]) + " in [-90, 90]",
+                           text_of_number(values[latitude]));
+  for (const std::size_t longitude : {kLongitude, kRefLongitude})
+    if (!(std::abs(values[longitude]) <= 180.0F))
+      return failure::fail("xplane", std::string(kXplaneNames[longitude]) + " in [-180, 180]",
+                           text_of_number(values[longitude]));
+  const geo::Vector3 velocity = enu_velocity(values);
+  const Reading reading{values[kLatitude], values[kLongitude], values[kElevation], values[kHeading], values[kPitch],
+                        values[kRoll],     velocity.y,         velocity.x,         -velocity.z};
+  return checked_sample(
+      "xplane", reading,
+      rates_from_body(values[kRollRate], values[kPitchRate], values[kYawRate], values[kPitch], values[kRoll]));
+}
+
+}  // namespace
+
+const std::array<std::string_view, kXplaneDatarefs> kXplaneNames{
+    "sim/flightmodel/position/latitude",   "sim/flightmodel/position/longitude", "sim/flightmodel/position/elevation",
+    "sim/flightmodel/position/local_vx",   "sim/flightmodel/position/local_vy",  "sim/flightmodel/position/local_vz",
+    "sim/flightmodel/position/lat_ref",    "sim/flightmodel/position/lon_ref",   "sim/flightmodel/position/true_psi",
+    "sim/flightmodel/position/true_theta", "sim/flightmodel/position/true_phi",  "sim/flightmodel/position/P",
+    "sim/flightmodel/position/Q",          "sim/flightmodel/position/R"};
+
+Datagram xplane_request(std::size_t number, int times_a_second) {
+  Datagram request(kRequestBytes, std::byte{0});
+  const auto put = [&request](std::size_t offset, std::uint32_t word) {
+    for (std::size_t byte = 0; byte < sizeof word; ++byte)
+      request[offset + byte] = static_cast<std::byte>(word >> (8 * byte) & 0xffU);
+  };
+  std::memcpy(request.data(), kMark.data(), kMark.size());
+  put(kHeadBytes, static_cast<std::uint32_t>(times_a_second));
+  put(kHeadBytes + 4, static_cast<std::uint32_t>(number));
+  std::memcpy(request.data() + kHeadBytes + 8, kXplaneNames[number].data(), kXplaneNames[number].size());
+  return request;
+}
+
+failure::Expected<std::optional<ExternalSample>> XplaneBridge::receive(Bytes datagram, geo::Duration now) {
+  const bool marked = datagram.size() >= kHeadBytes && std::memcmp(datagram.data(), kMark.data(), kMark.size()) == 0;
+  if (!marked || (datagram.size() - kHeadBytes) % kPairBytes != 0)
+    return failure::fail("xplane", "RREF, a byte, and pairs of 8 bytes", std::to_string(datagram.size()) + " bytes");
+  for (std::size_t offset = kHeadBytes; offset < datagram.size(); offset += kPairBytes) {
+    const auto number = little_endian<std::uint32_t>(datagram, offset);
+    if (number >= kXplaneDatarefs) continue;
+    const auto value = little_endian<float>(datagram, offset + 4);
+    if (!std::isfinite(value))
+      return failure::fail("xplane", std::string(kXplaneNames[number]) + ", a number", text_of_number(value));
+    values_[number] = value;
+    come_ |= 1U << number;
+    heard_ = now;
+  }
+  if (come_ != kAllCame) return std::nullopt;
+  come_ = 0;
+  const auto sample = sample_of(values_);
+  if (!sample) return tl::unexpected(sample.error());
+  return *sample;
+}
+
+std::vector<Datagram> XplaneBridge::requests(geo::Duration now) {
+  const auto over = [now](const std::optional<geo::Duration>& then) { return !then || now - *then >= kPatience; };
+  if (!over(asked_) || !over(heard_)) return {};
+  asked_ = now;
+  std::vector<Datagram> all;
+  for (std::size_t number = 0; number < kXplaneDatarefs; ++number) all.push_back(xplane_request(number, kXplaneRate));
+  return all;
+}
+
+std::vector<Datagram> XplaneBridge::farewell() const {
+  std::vector<Datagram> all;
+  for (std::size_t number = 0; number < kXplaneDatarefs; ++number) all.push_back(xplane_request(number, 0));
+  return all;
+}
+
+}  // namespace yars::databuffer::bridges

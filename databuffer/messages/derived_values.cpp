@@ -1,0 +1,122 @@
+#include "databuffer/messages/derived_values.hpp"
+
+#include <cmath>
+
+#include "lib/radar/modes.hpp"
+
+namespace yars::radar {
+
+geo::Bearing ground_track(geo::Speed north, geo::Speed east, geo::Bearing heading) {
+  const double north_mps = north.metres_per_second();
+  const double east_mps = east.metres_per_second();
+  // Slower than this an aircraft stands or is towed, and its track would swing with every bit of noise.
+  constexpr double kStanding_mps = 1.0;
+  if (std::hypot(north_mps, east_mps) < kStanding_mps) return heading;
+  return geo::Bearing::radians(std::atan2(east_mps, north_mps));
+}
+
+}  // namespace yars::radar
+
+namespace yars::databuffer {
+
+namespace {
+
+using geo::GeoPoint;
+
+bool same(GeoPoint a, GeoPoint b) {
+  return a.latitude_deg == b.latitude_deg && a.longitude_deg == b.longitude_deg;
+}
+
+bool is_set(GeoPoint point) {
+  return std::isfinite(point.latitude_deg) && std::isfinite(point.longitude_deg) &&
+         (point.latitude_deg != 0.0 || point.longitude_deg != 0.0);
+}
+
+// A place as seen from one point, laid off from another.
+GeoPoint carried(GeoPoint from, GeoPoint to, GeoPoint place) {
+  if (same(from, to)) return place;
+  const geo::GeodesicInverse line = geo::geodesic_inverse(from, place);
+  return geo::geodesic_direct(to, line.azimuth_at_start, line.distance);
+}
+
+GeoPoint moved(GeoPoint place, double north_m, double east_m) {
+  if (north_m == 0.0 && east_m == 0.0) return place;
+  const auto azimuth = geo::Bearing::radians(std::atan2(east_m, north_m));
+  return geo::geodesic_direct(place, azimuth, geo::Length::metres(std::hypot(north_m, east_m)));
+}
+
+}  // namespace
+
+geo::Bearing ground_track_of(const Ownship& ownship) {
+  return radar::ground_track(geo::Speed::metres_per_second(ownship.velocity_north_mps),
+                             geo::Speed::metres_per_second(ownship.velocity_east_mps),
+                             geo::Bearing::degrees(ownship.heading_deg));
+}
+
+GeoPoint Belief::on_video(GeoPoint known) const {
+  return carried(believed, truth, known);
+}
+
+GeoPoint Belief::known_from_video(GeoPoint place) const {
+  return carried(truth, believed, place);
+}
+
+Belief belief_of(radar::Navigator navigator, const Ownship& ownship, const Nav& nav, const RadarState& state) {
+  const bool ins = navigator == radar::Navigator::ins;
+  const GeoPoint truth{ownship.latitude_deg, ownship.longitude_deg};
+  const GeoPoint given = ins ? GeoPoint{nav.ins_latitude_deg, nav.ins_longitude_deg}
+                             : GeoPoint{nav.mission_latitude_deg, nav.mission_longitude_deg};
+  const NavigatorError& error = ins ? state.ins : state.mission;
+  return {truth, moved(is_set(given) ? given : truth, error.north_m, error.east_m)};
+}
+
+Belief belief_in_use(const Ownship& ownship, const Nav& nav, const RadarState& state) {
+  return belief_of(static_cast<radar::Navigator>(state.navigator), ownship, nav, state);
+}
+
+RadarCommand command_from_state(const RadarState& state) {
+  RadarCommand command{};
+  command.range_nm = state.range_nm;
+  command.scan_width_deg = state.scan_width_deg;
+  command.antenna_elevation_deg = state.antenna_elevation_deg;
+  command.cursor_latitude_deg = state.cursor_latitude_deg;
+  command.cursor_longitude_deg = state.cursor_longitude_deg;
+  command.window_nm = state.window_nm;
+  command.scan_restart = state.scan_restart;
+  command.flags =
+      state.flags & (kFreeze | kSniff | kIpvu | kMultiLook2 | kProgressive | kCursorValid | kMapping | kMapWindowBlank);
+  command.power = state.power;
+  // Under the main menu the radar keeps running in the mode below it.
+  const bool menu = state.mode == static_cast<std::uint8_t>(radar::Mode::menu);
+  command.mode = menu ? state.resume_mode : state.mode;
+  command.scan = state.scan;
+  command.gain = state.gain;
+  command.range_index = state.range_index;
+  command.channel = state.channel;
+  command.band = state.band;
+  command.map_latitude_deg = state.map_latitude_deg;
+  command.map_longitude_deg = state.map_longitude_deg;
+  command.map_window_nm = static_cast<float>(state.map_window_nm);
+  command.map_request = state.map_request;
+  return command;
+}
+
+namespace {
+
+bool maps_from(radar::Mode mode) {
+  return mode == radar::Mode::rbm || mode == radar::Mode::hrm || mode == radar::Mode::patch;
+}
+
+}  // namespace
+
+std::optional<double> map_timer_s(const RadarState& state, const ModelStatus& model) {
+  if (!std::isfinite(model.map_timer_s)) return std::nullopt;
+  const bool forms = model.map_window_nm > 0.0;
+  const bool could = maps_from(static_cast<radar::Mode>(state.resume_mode)) &&
+                     state.cursor_function == static_cast<std::uint8_t>(radar::CursorFunction::map) &&
+                     state.window_nm > 0.0 && model.mappable != 0;
+  if (!forms && !could) return std::nullopt;
+  return model.map_timer_s;
+}
+
+}  // namespace yars::databuffer

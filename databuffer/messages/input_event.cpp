@@ -1,0 +1,309 @@
+#include "databuffer/messages/input_event.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <optional>
+#include <vector>
+
+#include "databuffer/messages/inspection.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "lib/radar/modes.hpp"
+#include "lib/text/plain_text.hpp"
+
+namespace yars::databuffer {
+
+namespace {
+
+// [ft] and [ft/s] that the instructor may put in: 100 NM, and the speed of sound.
+constexpr double kLargestInjectedError = 600'000.0;
+constexpr double kLargestInjectedDrift = 1'000.0;
+
+void inspect_word(Inspection& inspection, const InputEvent& event, int least, int most) {
+  inspection.range("argument", event.argument, least, most);
+}
+
+void inspect_sign(Inspection& inspection, const InputEvent& event) {
+  if (event.argument != 1 && event.argument != -1)
+    inspection.fault("argument", "+1 or -1", std::to_string(event.argument));
+}
+
+void inspect_radar_mode(Inspection& inspection, const InputEvent& event) {
+  constexpr std::array kCommanded{radar::Mode::rbm, radar::Mode::hrm, radar::Mode::beacon, radar::Mode::pvu};
+  const auto matches = [&event](radar::Mode mode) { return event.argument == static_cast<int>(mode); };
+  if (std::ranges::none_of(kCommanded, matches))
+    inspection.fault("argument", "RBM 0, HRM 1, BCN 3 or PVU 4", std::to_string(event.argument));
+}
+
+void inspect_injected(Inspection& inspection, const InputEvent& event, double most) {
+  inspect_word(inspection, event, 0, 1);
+  inspection.range("x", event.x, -most, most);
+  inspection.range("y", event.y, -most, most);
+}
+
+void inspect_name(Inspection& inspection, const InputEvent& event) {
+  inspection.text("text", event.text);
+  const auto end = std::ranges::find(event.text, '\0');
+  if (!radar::point_name({event.text, static_cast<std::size_t>(end - event.text)}))
+    inspection.fault("text", "a sequence point like 2, 2., 2.1, 2.01", "another name");
+}
+
+}  // namespace
+
+Refusal why_refused(const InputEvent& event) {
+  Inspection inspection;
+  switch (static_cast<EventKind>(event.kind)) {
+    case EventKind::push_button:
+      inspect_word(inspection, event, 1, radar::kBezelButtons);
+      break;
+    case EventKind::tdc:
+      inspection.range("x", event.x, -1.0, 1.0);
+      inspection.range("y", event.y, -1.0, 1.0);
+      break;
+    case EventKind::elevation:
+      inspection.range("x", event.x, -60.0, 60.0);
+      break;
+    case EventKind::elevation_step:
+      // Whole travel of the antenna; zero steps are no event.
+      inspect_word(inspection, event, -240, 240);
+      if (event.argument == 0) inspection.fault("argument", "a step up or down", "0");
+      break;
+    case EventKind::acquisition:
+    case EventKind::contrast:
+      inspect_sign(inspection, event);
+      break;
+    case EventKind::master_mode:
+    case EventKind::power:
+      inspect_word(inspection, event, 0, 2);
+      break;
+    case EventKind::radar_mode:
+      inspect_radar_mode(inspection, event);
+      break;
+    case EventKind::navigator:
+      inspect_word(inspection, event, -1, 1);
+      break;
+    case EventKind::altimeter:
+      inspect_word(inspection, event, 0, 1);
+      break;
+    case EventKind::sequence_point:
+      inspect_name(inspection, event);
+      break;
+    case EventKind::navigator_error:
+      inspect_injected(inspection, event, kLargestInjectedError);
+      break;
+    case EventKind::navigator_drift:
+      inspect_injected(inspection, event, kLargestInjectedDrift);
+      break;
+    case EventKind::tdc_press:
+    case EventKind::tdc_release:
+    case EventKind::coolie_up:
+    case EventKind::freeze:
+      break;
+    case EventKind::none:
+    default:
+      inspection.fault("kind", "1..18", std::to_string(event.kind));
+  }
+  return inspection.result();
+}
+
+namespace {
+
+using failure::Expected;
+using Words = std::vector<std::string_view>;
+
+// What stands behind the verb.
+enum class Operand { none, word, steps, integer, number, pair, error, name };
+
+struct Form {
+  std::string_view verb;
+  Operand operand;
+  std::string_view word;  // word, steps and error: the words themselves; else how the operand is shown to people
+  EventKind kind;
+  int argument;  // word, steps and error: what the words mean
+};
+
+template <class Enum>
+constexpr int code(Enum value) {
+  return static_cast<int>(value);
+}
+
+constexpr std::array kForms{
+    Form{"pb", Operand::integer, "1..20", EventKind::push_button, 0},
+    Form{"tdc", Operand::pair, "X Y (-1..1)", EventKind::tdc, 0},
+    Form{"tdc", Operand::word, "press", EventKind::tdc_press, 0},
+    Form{"tdc", Operand::word, "release", EventKind::tdc_release, 0},
+    Form{"coolie", Operand::word, "up", EventKind::coolie_up, 0},
+    Form{"acq", Operand::word, "fwd", EventKind::acquisition, 1},
+    Form{"acq", Operand::word, "aft", EventKind::acquisition, -1},
+    Form{"freeze", Operand::none, "", EventKind::freeze, 0},
+    Form{"elevation", Operand::number, "DEGREES (-60..60)", EventKind::elevation, 0},
+    Form{"elevation", Operand::steps, "up", EventKind::elevation_step, 1},
+    Form{"elevation", Operand::steps, "down", EventKind::elevation_step, -1},
+    Form{"mode", Operand::word, "ag", EventKind::master_mode, code(radar::Master::air_to_ground)},
+    Form{"mode", Operand::word, "aa", EventKind::master_mode, code(radar::Master::air_to_air)},
+    Form{"mode", Operand::word, "agr", EventKind::master_mode, code(radar::Master::ranging)},
+    Form{"radar", Operand::word, "rbm", EventKind::radar_mode, code(radar::Mode::rbm)},
+    Form{"radar", Operand::word, "hrm", EventKind::radar_mode, code(radar::Mode::hrm)},
+    Form{"radar", Operand::word, "bcn", EventKind::radar_mode, code(radar::Mode::beacon)},
+    Form{"radar", Operand::word, "pvu", EventKind::radar_mode, code(radar::Mode::pvu)},
+    Form{"power", Operand::word, "off", EventKind::power, code(radar::Power::off)},
+    Form{"power", Operand::word, "stby", EventKind::power, code(radar::Power::standby)},
+    Form{"power", Operand::word, "opr", EventKind::power, code(radar::Power::operate)},
+    Form{"nav", Operand::word, "mn", EventKind::navigator, code(radar::Navigator::mission)},
+    Form{"nav", Operand::word, "ins", EventKind::navigator, code(radar::Navigator::ins)},
+    Form{"nav", Operand::word, "toggle", EventKind::navigator, -1},
+    Form{"nav", Operand::error, "error mn", EventKind::navigator_error, code(radar::Navigator::mission)},
+    Form{"nav", Operand::error, "error ins", EventKind::navigator_error, code(radar::Navigator::ins)},
+    Form{"nav", Operand::error, "drift mn", EventKind::navigator_drift, code(radar::Navigator::mission)},
+    Form{"nav", Operand::error, "drift ins", EventKind::navigator_drift, code(radar::Navigator::ins)},
+    Form{"sp", Operand::name, "NAME (like 2, 2., 2.1, 2.01)", EventKind::sequence_point, 0},
+    Form{"altimeter", Operand::word, "ok", EventKind::altimeter, 1},
+    Form{"altimeter", Operand::word, "fail", EventKind::altimeter, 0},
+    Form{"contrast", Operand::word, "up", EventKind::contrast, 1},
+    Form{"contrast", Operand::word, "down", EventKind::contrast, -1},
+};
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& character : lower) character = static_cast<char>(std::tolower(static_cast<unsigned char>(character)));
+  return lower;
+}
+
+std::optional<std::int16_t> whole_number(std::string_view word) {
+  std::int16_t value = 0;
+  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (problem != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+std::string expected_forms(std::string_view verb) {
+  const bool known = std::ranges::any_of(kForms, [verb](const Form& form) { return form.verb == verb; });
+  std::string list;
+  for (const Form& form : kForms) {
+    if (known && form.verb != verb) continue;
+    if (!list.empty()) list += " | ";
+    list += form.verb;
+    if (!form.word.empty()) list += ' ' + std::string(form.word);
+    if (form.operand == Operand::steps) list += " [STEPS]";
+    if (form.operand == Operand::error) list += form.kind == EventKind::navigator_error ? " N_FT E_FT" : " N_FPS E_FPS";
+  }
+  return list;
+}
+
+// A count that does not fit the record is no number of it.
+bool put_argument(InputEvent& event, std::optional<std::int16_t> value) {
+  if (value) event.argument = *value;
+  return value.has_value();
+}
+
+bool put_steps(InputEvent& event, const Form& form, const Words& words) {
+  if (words.size() < 2 || words.size() > 3 || words[1] != form.word) return false;
+  const auto count = words.size() == 3 ? whole_number(words[2]) : std::int16_t{1};
+  if (!count || *count < 1) return false;
+  return put_argument(event, static_cast<std::int16_t>(*count * form.argument));
+}
+
+// One number or two, from words[first] on.
+bool put_numbers(InputEvent& event, const Words& words, std::size_t first = 1) {
+  const auto x = finite_number(words[first]);
+  const auto y = words.size() > first + 1 ? finite_number(words[first + 1]) : 0.0;
+  if (!x || !y) return false;
+  event.x = *x;
+  event.y = *y;
+  return true;
+}
+
+// "error mn 2500 0": what, whose, north, east.
+bool put_error(InputEvent& event, const Form& form, const Words& words) {
+  return words.size() == 5 && std::string(words[1]) + ' ' + std::string(words[2]) == form.word &&
+         put_numbers(event, words, 3);
+}
+
+// Fills the event from the words; false when they do not have this form.
+bool read_form(InputEvent& event, const Form& form, const Words& words) {
+  event.kind = static_cast<std::uint16_t>(form.kind);
+  event.argument = static_cast<std::int16_t>(form.argument);
+  switch (form.operand) {
+    case Operand::none:
+      return words.size() == 1;
+    case Operand::word:
+      return words.size() == 2 && words[1] == form.word;
+    case Operand::steps:
+      return put_steps(event, form, words);
+    case Operand::integer:
+      return words.size() == 2 && put_argument(event, whole_number(words[1]));
+    case Operand::number:
+      return words.size() == 2 && put_numbers(event, words);
+    case Operand::pair:
+      return words.size() == 3 && put_numbers(event, words);
+    case Operand::error:
+      return put_error(event, form, words);
+    case Operand::name:
+      if (words.size() == 2) set_text(event, words[1]);
+      return words.size() == 2;
+  }
+  return false;
+}
+
+// Whether the form is the one that writes this event.
+bool writes(const Form& form, const InputEvent& event) {
+  if (static_cast<std::uint16_t>(form.kind) != event.kind) return false;
+  if (form.operand == Operand::word || form.operand == Operand::error) return event.argument == form.argument;
+  if (form.operand == Operand::steps) return event.argument * form.argument > 0;
+  return true;
+}
+
+std::string operand_text(const Form& form, const InputEvent& event) {
+  const int steps = event.argument * form.argument;
+  switch (form.operand) {
+    case Operand::none:
+      return {};
+    case Operand::word:
+      return ' ' + std::string(form.word);
+    case Operand::steps:
+      return ' ' + std::string(form.word) + (steps == 1 ? "" : ' ' + std::to_string(steps));
+    case Operand::integer:
+      return ' ' + std::to_string(event.argument);
+    case Operand::number:
+      return ' ' + text_of_number(event.x);
+    case Operand::pair:
+      return ' ' + text_of_number(event.x) + ' ' + text_of_number(event.y);
+    case Operand::error:
+      return ' ' + std::string(form.word) + ' ' + text_of_number(event.x) + ' ' + text_of_number(event.y);
+    case Operand::name:
+      return ' ' + std::string(event.text, std::find(event.text, event.text + sizeof event.text, '\0'));
+  }
+  return {};
+}
+
+}  // namespace
+
+void set_text(InputEvent& event, std::string_view name) {
+  name = name.substr(0, name.find('\0'));  // a zero inside would leave bytes behind the end that readers see
+  std::fill_n(event.text, sizeof event.text, '\0');
+  std::copy_n(name.data(), std::min(name.size(), sizeof event.text), event.text);
+}
+
+Expected<InputEvent> event_from_text(std::string_view text) {
+  const std::string lower = lower_case(text);
+  const Words words = words_of(lower);
+  for (const Form& form : kForms) {
+    InputEvent event{};
+    if (words.empty() || form.verb != words[0] || !read_form(event, form, words)) continue;
+    // The border's own rules hold here too, so that a text never makes an event that is refused later.
+    if (why_refused(event)) break;
+    return event;
+  }
+  const std::string_view verb = words.empty() ? std::string_view() : words[0];
+  return failure::fail("event", expected_forms(verb), '"' + std::string(text) + '"');
+}
+
+std::string text_of(const InputEvent& event) {
+  const auto form = std::ranges::find_if(kForms, [&event](const Form& candidate) { return writes(candidate, event); });
+  if (form == kForms.end())
+    return "unknown event (kind " + std::to_string(event.kind) + ", argument " + std::to_string(event.argument) + ')';
+  return std::string(form->verb) + operand_text(*form, event);
+}
+
+}  // namespace yars::databuffer

@@ -1,0 +1,99 @@
+#include "databuffer/messages/key_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "lib/radar/modes.hpp"
+
+namespace yars::databuffer {
+
+namespace {
+
+struct Stroke {
+  Key key;
+  EventKind kind;
+  int argument;
+};
+
+// What a key does when it goes down; buttons and arrows follow rules of their own.
+constexpr std::array kStrokes{
+    Stroke{Key::enter, EventKind::tdc_press, 0},
+    Stroke{Key::tab, EventKind::coolie_up, 0},
+    Stroke{Key::page_up, EventKind::acquisition, 1},
+    Stroke{Key::page_down, EventKind::acquisition, -1},
+    Stroke{Key::space, EventKind::freeze, 0},
+    Stroke{Key{'['}, EventKind::elevation_step, -1},
+    Stroke{Key{']'}, EventKind::elevation_step, 1},
+    Stroke{Key::f1, EventKind::master_mode, static_cast<int>(radar::Master::air_to_ground)},
+    Stroke{Key::f2, EventKind::master_mode, static_cast<int>(radar::Master::air_to_air)},
+    Stroke{Key::f3, EventKind::master_mode, static_cast<int>(radar::Master::ranging)},
+    Stroke{Key::f4, EventKind::navigator, -1},
+};
+
+InputEvent event_of(EventKind kind, int argument = 0) {
+  InputEvent event{};
+  event.kind = static_cast<std::uint16_t>(kind);
+  event.argument = static_cast<std::int16_t>(argument);
+  return event;
+}
+
+// 2..9 are buttons 2..9, a..k are buttons 10..20.
+std::optional<int> button_of(Key key) {
+  const int character = static_cast<int>(key);
+  if (character >= '2' && character <= '9') return character - '0';
+  if (character >= 'a' && character <= 'k') return character - 'a' + 10;
+  return std::nullopt;
+}
+
+bool is_arrow(Key key) {
+  return key == Key::up || key == Key::down || key == Key::left || key == Key::right;
+}
+
+std::optional<InputEvent> stroke_of(Key key) {
+  if (const auto button = button_of(key)) return event_of(EventKind::push_button, *button);
+  const auto stroke = std::ranges::find(kStrokes, key, &Stroke::key);
+  if (stroke == kStrokes.end()) return std::nullopt;
+  return event_of(stroke->kind, stroke->argument);
+}
+
+}  // namespace
+
+Key key_of_character(char character) {
+  if (character < ' ' || character > '~') return Key::none;
+  const bool upper = character >= 'A' && character <= 'Z';
+  return static_cast<Key>(upper ? character - 'A' + 'a' : character);
+}
+
+InputEvent KeyboardState::deflection() const {
+  const auto held = [this](Key key) { return held_.test(static_cast<std::size_t>(key)) ? 1.0 : 0.0; };
+  InputEvent event = event_of(EventKind::tdc);
+  event.x = held(Key::right) - held(Key::left);
+  event.y = held(Key::up) - held(Key::down);
+  return event;
+}
+
+std::vector<InputEvent> KeyboardState::change(Key key, bool pressed) {
+  const auto index = static_cast<std::size_t>(key);
+  if (key == Key::none || held_.test(index) == pressed) return {};
+  const InputEvent before = deflection();
+  held_.set(index, pressed);
+  if (is_arrow(key)) {
+    const InputEvent after = deflection();
+    return before.x == after.x && before.y == after.y ? std::vector<InputEvent>{} : std::vector{after};
+  }
+  if (!pressed) return key == Key::enter ? std::vector{event_of(EventKind::tdc_release)} : std::vector<InputEvent>{};
+  const auto event = stroke_of(key);
+  return event ? std::vector{*event} : std::vector<InputEvent>{};
+}
+
+std::vector<InputEvent> KeyboardState::release_all() {
+  const InputEvent deflected = deflection();
+  std::vector<InputEvent> events;
+  if (deflected.x != 0.0 || deflected.y != 0.0) events.push_back(event_of(EventKind::tdc));
+  if (held_.test(static_cast<std::size_t>(Key::enter))) events.push_back(event_of(EventKind::tdc_release));
+  held_.reset();
+  return events;
+}
+
+}  // namespace yars::databuffer

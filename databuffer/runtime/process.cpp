@@ -1,0 +1,197 @@
+#include "databuffer/runtime/process.hpp"
+
+#include <linux/capability.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <ext/stdio_sync_filebuf.h>
+#include <iostream>
+#include <string>
+#include <utility>
+
+#include "databuffer/runtime/program.hpp"
+#include "lib/text/plain_text.hpp"
+
+namespace yars::databuffer {
+
+namespace {
+
+struct Outlet {
+  int descriptor;
+  std::string unfinished;  // the first bytes of a character whose others are still to come
+};
+
+bool write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = ::write(descriptor, text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+ssize_t write_printable(void* cookie, const char* bytes, std::size_t size) {
+  auto& outlet = *static_cast<Outlet*>(cookie);
+  std::string text = std::exchange(outlet.unfinished, {}) + std::string(bytes, size);
+  const std::size_t held = failure::unfinished_bytes(text);
+  outlet.unfinished = text.substr(text.size() - held);
+  text.resize(text.size() - held);
+  return write_all(outlet.descriptor, failure::printable_lines(text)) ? static_cast<ssize_t>(size) : 0;
+}
+
+// nullptr: the system has no room for it; the stream stays as it is.
+std::FILE* guarded(Outlet& outlet, int buffering) {
+  cookie_io_functions_t functions{};
+  functions.write = write_printable;
+  std::FILE* stream = ::fopencookie(&outlet, "w", functions);
+  if (stream != nullptr) std::setvbuf(stream, nullptr, buffering, BUFSIZ);
+  return stream;
+}
+
+}  // namespace
+
+void guard_terminal() {
+  // They outlive what is printed while the process ends.
+  static auto* const outlets = new Outlet[]{{STDOUT_FILENO, {}}, {STDERR_FILENO, {}}};
+  static const bool done = [] {
+    std::FILE* out = guarded(outlets[0], ::isatty(STDOUT_FILENO) != 0 ? _IOLBF : _IOFBF);
+    std::FILE* error = guarded(outlets[1], _IONBF);
+    if (out == nullptr || error == nullptr) return false;
+    stdout = out;
+    stderr = error;
+    static auto* const cout_buffer = new __gnu_cxx::stdio_sync_filebuf<char>(out);
+    static auto* const cerr_buffer = new __gnu_cxx::stdio_sync_filebuf<char>(error);
+    std::cout.rdbuf(cout_buffer);
+    std::cerr.rdbuf(cerr_buffer);
+    std::clog.rdbuf(cerr_buffer);
+    return true;
+  }();
+  (void)done;
+}
+
+namespace {
+
+constexpr std::string_view kLimitsFile = "/etc/security/limits.d or systemd (docs/operation.md)";
+constexpr int kHighestCpu = CPU_SETSIZE - 1;
+
+bool has_capability(unsigned capability) {
+  __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
+  std::array<__user_cap_data_struct, 2> data{};
+  if (syscall(SYS_capget, &header, data.data()) != 0) return false;
+  return (data[capability / 32].effective >> (capability % 32) & 1U) != 0;
+}
+
+std::string bytes_or_unlimited(rlim_t limit) {
+  return limit == RLIM_INFINITY ? "unlimited" : std::to_string(limit);
+}
+
+// Runs where a signal may: one system call, one write. The process's first thread is the one that ticks.
+void step_back(int) {
+  const sched_param normal{};
+  sched_setscheduler(getpid(), SCHED_OTHER, &normal);
+  constexpr char kText[] = "a step took 0.5 s of CPU without a wait: normal priority from here on\n";
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kText, sizeof kText - 1);
+}
+
+// The kernel sends SIGXCPU when a real-time thread has computed so long without a wait.
+bool limit_bursts() {
+  struct sigaction action {};
+  action.sa_handler = step_back;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  if (sigaction(SIGXCPU, &action, nullptr) != 0) return false;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_RTTIME, &limit) != 0) return false;
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, rlim_t{kLongestBurst_ms} * 1000);  // [us]
+  return setrlimit(RLIMIT_RTTIME, &limit) == 0;
+}
+
+failure::Expected<int> parse_cpu(std::string_view text) {
+  int number = -1;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (code != std::errc{} || end != text.data() + text.size() || number < 0 || number > kHighestCpu)
+    return tl::unexpected(
+        usage_error("--cpus", "numbers and ranges from 0, as in 2,3 or 2-3", "'" + std::string(text) + "'"));
+  return number;
+}
+
+}  // namespace
+
+failure::Expected<std::vector<int>> parse_cpu_list(std::string_view text) {
+  std::vector<int> cpus;
+  for (bool more = true; more;) {
+    const auto comma = text.find(',');
+    const std::string_view part = text.substr(0, comma);
+    const auto dash = part.find('-');
+    const auto first = parse_cpu(part.substr(0, dash));
+    if (!first) return tl::unexpected(first.error());
+    const auto last = dash == std::string_view::npos ? first : parse_cpu(part.substr(dash + 1));
+    if (!last) return tl::unexpected(last.error());
+    if (*last < *first) return tl::unexpected(usage_error("--cpus", "a range from low to high", std::string(part)));
+    for (int cpu = *first; cpu <= *last; ++cpu) cpus.push_back(cpu);
+    more = comma != std::string_view::npos;
+    if (more) text.remove_prefix(comma + 1);
+  }
+  std::sort(cpus.begin(), cpus.end());
+  cpus.erase(std::unique(cpus.begin(), cpus.end()), cpus.end());
+  return cpus;
+}
+
+std::optional<std::string> bind_to_cpus(const std::vector<int>& cpus) {
+  cpu_set_t allowed;
+  cpu_set_t wanted;
+  CPU_ZERO(&allowed);
+  CPU_ZERO(&wanted);
+  sched_getaffinity(0, sizeof allowed, &allowed);
+  std::string absent;
+  for (const int cpu : cpus) {
+    CPU_SET(static_cast<std::size_t>(cpu), &wanted);
+    if (!CPU_ISSET(static_cast<std::size_t>(cpu), &allowed))
+      absent += (absent.empty() ? "" : ",") + std::to_string(cpu);
+  }
+  if (!absent.empty())
+    return "--cpus: CPU " + absent + " is not there for this program (taskset -p $$ shows which are); all are used";
+  if (sched_setaffinity(0, sizeof wanted, &wanted) == 0) return std::nullopt;
+  return std::string("--cpus: refused: ") + std::strerror(errno) + "; all CPUs are used";
+}
+
+// With a finite limit a later allocation would fail for the lock's sake: all or nothing.
+std::optional<std::string> lock_memory() {
+  rlimit limit{};
+  getrlimit(RLIMIT_MEMLOCK, &limit);
+  if (limit.rlim_cur != RLIM_INFINITY && !has_capability(CAP_IPC_LOCK))
+    return "--realtime: memory is not locked: expected RLIMIT_MEMLOCK unlimited, found " +
+           bytes_or_unlimited(limit.rlim_cur) + " bytes; raise memlock in " + std::string(kLimitsFile);
+  if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return std::nullopt;
+  return std::string("--realtime: memory is not locked: ") + std::strerror(errno) + "; raise memlock in " +
+         std::string(kLimitsFile);
+}
+
+std::optional<std::string> take_realtime_priority() {
+  if (!limit_bursts())
+    return std::string("--realtime: normal priority: expected to limit bursts by RLIMIT_RTTIME, found ") +
+           std::strerror(errno);
+  // Threads made later work at normal priority: only the one that ticks must be on time.
+  sched_param priority{};
+  priority.sched_priority = kRealtimePriority;
+  if (sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &priority) == 0) return std::nullopt;
+  const int error = errno;
+  rlimit limit{};
+  getrlimit(RLIMIT_RTPRIO, &limit);
+  return "--realtime: normal priority: expected leave to use SCHED_FIFO " + std::to_string(kRealtimePriority) +
+         ", found " + std::strerror(error) + " with RLIMIT_RTPRIO " + bytes_or_unlimited(limit.rlim_cur) +
+         "; raise rtprio in " + std::string(kLimitsFile);
+}
+
+}  // namespace yars::databuffer

@@ -1,0 +1,251 @@
+#include "databuffer/runtime/receivers.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <string_view>
+
+#include "databuffer/messages/validation.hpp"
+#include "lib/geo/geodesy.hpp"
+#include "lib/text/plain_text.hpp"
+
+namespace yars::databuffer {
+
+namespace {
+
+using Memory = OwnshipSelection::Memory;
+
+bool is_fresh(const Memory& memory, std::int64_t now_ns) {
+  return memory.received_ns && now_ns - *memory.received_ns <= kStaleAfter;
+}
+
+// Delivered over a while, not one record that lies there: measured between arrivals.
+bool is_established(const Memory& memory, std::int64_t now_ns) {
+  return is_fresh(memory, now_ns) && *memory.received_ns - memory.delivering_since_ns >= kTakeoverAfter;
+}
+
+Memory remember(const OwnshipLane& lane, std::int64_t now_ns, Memory memory) {
+  if (!lane.present) {
+    // Whatever comes after an empty lane is news, whichever number it has.
+    memory = Memory{};
+    memory.seen = true;
+    return memory;
+  }
+  // A clock that went back: what was received "later" counts as received now, or it would stay fresh for long.
+  if (memory.received_ns) memory.received_ns = std::min(*memory.received_ns, now_ns);
+  memory.delivering_since_ns = std::min(memory.delivering_since_ns, now_ns);
+  if (memory.seen && lane.version != memory.version) {
+    if (!is_fresh(memory, now_ns)) memory.delivering_since_ns = now_ns;
+    memory.received_ns = now_ns;
+  }
+  memory.seen = true;
+  memory.version = lane.version;
+  return memory;
+}
+
+// The highest priority among lanes for which `qualifies`; the chosen one wins ties, then the lower index.
+template <class Qualifies>
+std::optional<std::size_t> best(std::span<const OwnshipLane> lanes, std::optional<std::size_t> chosen,
+                                Qualifies qualifies) {
+  std::optional<std::size_t> winner;
+  if (chosen && qualifies(*chosen)) winner = chosen;
+  for (std::size_t lane = 0; lane < lanes.size(); ++lane)
+    if (qualifies(lane) && (!winner || lanes[lane].priority > lanes[*winner].priority)) winner = lane;
+  return winner;
+}
+
+}  // namespace
+
+OwnshipSelection select_ownship(std::span<const OwnshipLane> lanes, std::int64_t now_ns,
+                                const OwnshipSelection& previous) {
+  assert(lanes.size() <= kMaxOwnshipLanes);
+  OwnshipSelection next = previous;
+  for (std::size_t lane = 0; lane < lanes.size(); ++lane)
+    next.memory[lane] = remember(lanes[lane], now_ns, previous.memory[lane]);
+  const auto fresh = [&](std::size_t lane) { return is_fresh(next.memory[lane], now_ns); };
+  const auto established = [&](std::size_t lane) { return is_established(next.memory[lane], now_ns); };
+  const auto chosen_or_established = [&](std::size_t lane) {
+    return (lane == previous.lane && fresh(lane)) || established(lane);
+  };
+  next.lane = best(lanes, previous.lane, chosen_or_established);
+  // Nothing proven is left: better a young source than none.
+  if (!next.lane) next.lane = best(lanes, std::nullopt, fresh);
+  return next;
+}
+
+namespace {
+
+double speed_mps(const Ownship& ownship) {
+  return std::hypot(ownship.velocity_north_mps, ownship.velocity_east_mps, ownship.velocity_down_mps);
+}
+
+}  // namespace
+
+bool JumpGuard::is_jump(const Ownship& next, std::int64_t received_ns) const {
+  constexpr double kSpeedMargin = 2.0;  // a source that runs at another rate, or was heard late
+  const double time_s = 1e-9 * static_cast<double>(std::max<std::int64_t>(received_ns - last_received_ns_, 0));
+  const double reach_m = kPlaceTolerance_m + kSpeedMargin * std::max(speed_mps(*last_), speed_mps(next)) * time_s;
+  if (std::abs(next.altitude_msl_m - last_->altitude_msl_m) > reach_m) return true;
+  // Cheap first: nearly every tick ends here. No degree is longer than 111.7 km.
+  constexpr double kLongestDegree_m = 111'700.0;
+  const double east_deg = std::remainder(next.longitude_deg - last_->longitude_deg, 360.0);
+  const double north_deg = next.latitude_deg - last_->latitude_deg;
+  if (kLongestDegree_m * std::hypot(north_deg, east_deg) <= reach_m) return false;
+  return geo::geodesic_inverse({last_->latitude_deg, last_->longitude_deg}, {next.latitude_deg, next.longitude_deg})
+             .distance.metres() > reach_m;
+}
+
+void JumpGuard::take(const Ownship& next, std::int64_t received_ns) {
+  last_ = next;
+  last_received_ns_ = received_ns;
+  held_since_ns_.reset();
+  proven_ = false;
+}
+
+bool JumpGuard::believes(const Ownship& next, std::int64_t received_ns, std::int64_t now_ns, std::uint32_t epoch) {
+  const bool jump = last_ && is_jump(next, received_ns);
+  const bool first_of_epoch = last_ && next.epoch == epoch && last_->epoch != epoch;
+  const bool told = first_of_epoch || (held_since_ns_ && held_epoch_ != epoch);
+  if (!jump || told) {
+    if (held_since_ns_ && !told) ++passed_;
+    take(next, received_ns);
+    return true;
+  }
+  // A clock that went back begins the wait anew.
+  if (!held_since_ns_ || now_ns < *held_since_ns_) held_since_ns_ = now_ns;
+  held_epoch_ = epoch;
+  proven_ = now_ns - *held_since_ns_ >= kJumpProof;
+  if (now_ns - *held_since_ns_ < kLongestHold) return false;
+  take(next, received_ns);
+  return true;
+}
+
+namespace {
+
+// A source that gives no nav: the navigators know the truth.
+Nav nav_from_truth(const Ownship& ownship) {
+  Nav nav{};
+  nav.source_time_ns = ownship.source_time_ns;
+  nav.mission_latitude_deg = nav.ins_latitude_deg = ownship.latitude_deg;
+  nav.mission_longitude_deg = nav.ins_longitude_deg = ownship.longitude_deg;
+  nav.velocity_north_mps = ownship.velocity_north_mps;
+  nav.velocity_east_mps = ownship.velocity_east_mps;
+  nav.velocity_down_mps = ownship.velocity_down_mps;
+  nav.magnetic_variation_deg = std::nan("");
+  nav.epoch = ownship.epoch;
+  return nav;
+}
+
+}  // namespace
+
+std::string name_of_source(const Ownship& ownship, std::uint32_t lane) {
+  const std::string_view name = text_of(ownship.source);
+  return name.empty() ? "unnamed (lane " + std::to_string(lane) + ")" : std::string(name);
+}
+
+void OwnshipReceiver::receive(const SessionLayout& layout, std::size_t index) {
+  Lane& lane = lanes_[index];
+  const auto refuse = [this, index](const char* record, const std::string& reason) {
+    ++refused_;
+    refusals_.push_back(std::string(record) + " in lane " + std::to_string(index) + ": " + reason);
+  };
+  // A lane taken away holds nothing of its last writer for the next one.
+  if (!layout.ownship[index].has_value()) lane.accepted = 0;
+  if (!layout.nav[index].has_value()) lane.has_nav = false;
+  if (layout.ownship[index].version() != lane.version) {
+    Ownship ownship{};
+    if (const auto version = layout.ownship[index].read(ownship)) {
+      lane.version = *version;
+      if (const auto reason = why_refused(ownship)) {
+        refuse("ownship", *reason);
+      } else {
+        lane.ownship = ownship;
+        ++lane.accepted;
+      }
+    }
+  }
+  if (layout.nav[index].version() != lane.nav_version) {
+    Nav nav{};
+    if (const auto version = layout.nav[index].read(nav)) {
+      lane.nav_version = *version;
+      if (const auto reason = why_refused(nav)) {
+        refuse("nav", *reason);
+      } else {
+        lane.nav = nav;
+        lane.has_nav = true;
+      }
+    }
+  }
+}
+
+const OwnshipReceiver::Selected& OwnshipReceiver::refresh(const SessionLayout& layout, std::int64_t sim_time_ns,
+                                                          std::uint32_t epoch) {
+  refusals_.clear();
+  std::array<OwnshipLane, kOwnshipLanes> view{};
+  for (std::size_t i = 0; i < kOwnshipLanes; ++i) {
+    receive(layout, i);
+    view[i].present = lanes_[i].accepted > 0 && layout.ownship[i].has_value();
+    view[i].priority = layout.ownship_priority[i].load(std::memory_order_relaxed);
+    view[i].version = lanes_[i].accepted;
+  }
+  selection_ = select_ownship(view, sim_time_ns, selection_);
+  selected_.valid = selection_.lane.has_value();
+  selected_.jump.reset();
+  if (!selected_.valid) {
+    selected_.lane = kNoLane;
+    return selected_;
+  }
+  const Lane& lane = lanes_[*selection_.lane];
+  const std::int64_t received_ns = selection_.memory[*selection_.lane].received_ns.value_or(sim_time_ns);
+  const bool lockstep = layout.lockstep.enabled.load(std::memory_order_relaxed) != 0;
+  if (!lockstep && !guard_.believes(lane.ownship, received_ns, sim_time_ns, epoch)) {
+    if (guard_.is_proven()) {
+      selected_.jump = lane.ownship;
+      selected_.jump_lane = static_cast<std::uint32_t>(*selection_.lane);
+    }
+    return selected_;
+  }
+  selected_.lane = static_cast<std::uint32_t>(*selection_.lane);
+  selected_.ownship = lane.ownship;
+  selected_.received_ns = received_ns;
+  selected_.nav = lane.has_nav ? lane.nav : nav_from_truth(lane.ownship);
+  return selected_;
+}
+
+bool TrafficReceiver::refresh(const SessionLayout& layout, std::int64_t tick, std::int64_t sim_time_ns,
+                              std::uint32_t epoch) {
+  refusal_.reset();
+  const bool is_new = take(layout, epoch);
+  if (is_new) {
+    latched_.tick = tick;
+    received_ns_ = sim_time_ns;
+    return true;
+  }
+  const bool gone =
+      latched_.epoch != epoch || !layout.traffic.has_value() || sim_time_ns - received_ns_ > kTrafficStaleAfter;
+  if (latched_.count == 0 || !gone) return false;
+  latched_ = {};
+  latched_.tick = tick;
+  latched_.epoch = epoch;
+  return true;
+}
+
+bool TrafficReceiver::take(const SessionLayout& layout, std::uint32_t epoch) {
+  if (layout.traffic.version() == version_) return false;
+  Traffic traffic{};
+  const auto version = layout.traffic.read(traffic);
+  if (!version) return false;
+  version_ = *version;
+  refusal_ = why_refused(traffic);
+  if (!refusal_ && traffic.epoch != epoch)
+    refusal_ = "epoch: expected " + std::to_string(epoch) + ", found " + std::to_string(traffic.epoch);
+  if (refusal_) {
+    refusal_ = "traffic: " + *refusal_;
+    ++refused_;
+    return false;
+  }
+  latched_ = traffic;
+  return true;
+}
+
+}  // namespace yars::databuffer

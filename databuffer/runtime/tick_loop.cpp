@@ -1,0 +1,218 @@
+#include "databuffer/runtime/tick_loop.hpp"
+
+#include <linux/futex.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <climits>
+#include <ctime>
+#include <string>
+
+#include "databuffer/runtime/program.hpp"
+
+namespace yars::databuffer {
+
+namespace {
+
+// [ns] a change of the clock is seen within this: at the highest rate, 10, that is 10 ticks, fewer than are skipped.
+constexpr std::int64_t kLongestSleep_ns = 5'000'000;
+constexpr std::int64_t kLatestTick = std::int64_t{1} << 40;  // 174 years; its nanoseconds fit
+constexpr double kFarAhead_ns = 1e15;  // [ns] beyond it a deadline is only 'later'; keeps the cast in range
+constexpr std::int64_t kPartnerPatience_ns =
+    60'000'000'000;                                     // [ns] a lockstep partner silent so long is taken for dead
+constexpr std::int64_t kPartnerCheck_ns = 100'000'000;  // [ns] between looks at the stop flag while waiting
+
+constexpr std::array<std::string_view, kLockstepRoles> kRoleNames{"flight-model", "input-monitor", "state-machine",
+                                                                  "radar-model",  "radar-display", "recorder"};
+
+void sleep_until(std::int64_t deadline_ns) {
+  const timespec deadline{static_cast<time_t>(deadline_ns / 1'000'000'000),
+                          static_cast<long>(deadline_ns % 1'000'000'000)};
+  clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr);
+}
+
+// Between processes: std::atomic::wait uses private futexes, which do not cross a mapping.
+void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t seen, std::int64_t timeout_ns) {
+  const timespec timeout{static_cast<time_t>(timeout_ns / 1'000'000'000),
+                         static_cast<long>(timeout_ns % 1'000'000'000)};
+  syscall(SYS_futex, &word, FUTEX_WAIT, seen, &timeout, nullptr, 0);
+}
+
+void futex_wake_all(std::atomic<std::uint32_t>& word) {
+  syscall(SYS_futex, &word, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
+}
+
+struct LockstepPlan {
+  std::uint32_t roles = 0;
+  std::int64_t end_tick = -1;
+};
+
+failure::Expected<LockstepPlan> parse_plan(const std::string& text) {
+  const auto bad = [&text] {
+    return tl::unexpected(usage_error("--lockstep",
+                                      "ROLE,ROLE,...[@END_TICK] of flight-model, input-monitor, "
+                                      "state-machine, radar-model, radar-display, recorder",
+                                      "'" + text + "'"));
+  };
+  LockstepPlan plan;
+  std::string_view rest = text;
+  if (const auto at = rest.find('@'); at != std::string_view::npos) {
+    const auto number = rest.substr(at + 1);
+    const auto [end, code] = std::from_chars(number.data(), number.data() + number.size(), plan.end_tick);
+    if (code != std::errc{} || end != number.data() + number.size() || plan.end_tick < 0) return bad();
+    rest = rest.substr(0, at);
+  }
+  while (!rest.empty()) {
+    const auto comma = std::min(rest.find(','), rest.size());
+    const auto found = std::find(kRoleNames.begin(), kRoleNames.end(), rest.substr(0, comma));
+    if (found == kRoleNames.end()) return bad();
+    plan.roles |= 1U << (found - kRoleNames.begin());
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+  return plan;
+}
+
+}  // namespace
+
+failure::Expected<TickLoop> TickLoop::create(Session& session, LockstepRole role, const std::string& lockstep) {
+  TickLoop loop(session, role);
+  auto& shared = session.layout().lockstep;
+  if (lockstep.empty()) {
+    if (shared.enabled.load(std::memory_order_acquire) != 0)
+      return failure::fail("session", "a role that steps with the others (--lockstep)", "a live one",
+                           "start it with the same --lockstep as the set, or use another session");
+    return loop;
+  }
+  auto plan = parse_plan(lockstep);
+  if (!plan) return tl::unexpected(plan.error());
+  if ((plan->roles & (1U << loop.role_)) == 0U)
+    return tl::unexpected(
+        usage_error("--lockstep", "a list with this role, " + std::string(kRoleNames[loop.role_]), lockstep));
+  if (shared.enabled.load(std::memory_order_acquire) != 0 &&
+      (shared.roles.load(std::memory_order_relaxed) != plan->roles ||
+       shared.end_tick.load(std::memory_order_relaxed) != plan->end_tick))
+    return failure::fail("--lockstep", "the plan that the session runs by", "another one, " + lockstep,
+                         "give every role of a set the same --lockstep, or use another session");
+  // Every role of a set has the same plan, so it does not matter who writes it, or twice.
+  shared.roles.store(plan->roles, std::memory_order_relaxed);
+  shared.end_tick.store(plan->end_tick, std::memory_order_relaxed);
+  shared.enabled.store(1, std::memory_order_release);
+  loop.lockstep_ = true;
+  // The predecessor is the nearest role before this one in the ring of those taking part.
+  std::size_t before = loop.role_;
+  do {
+    before = (before + kLockstepRoles - 1) % kLockstepRoles;
+  } while ((plan->roles & (1U << before)) == 0U);
+  loop.predecessor_ = before;
+  loop.first_in_chain_ = before >= loop.role_;
+  const std::int64_t done = shared.done_tick[loop.role_].load(std::memory_order_acquire);
+  if (done < -1 || done > kLatestTick)
+    return failure::fail("--lockstep", "a last tick of -1 or more", std::to_string(done),
+                         "the session is damaged: end its programs and start it again");
+  loop.next_tick_ = done + 1;
+  return loop;
+}
+
+std::optional<TickLoop::Due> TickLoop::wait() {
+  session_->heartbeat();
+  return lockstep_ ? wait_lockstep() : wait_live();
+}
+
+TickLoop::Due TickLoop::due_at(const ClockState& clock, std::int64_t newest) {
+  Due due;
+  due.clock = clock;
+  due.new_epoch = started_ && clock.epoch != epoch_;
+  if (!started_ || due.new_epoch) next_tick_ = newest;
+  started_ = true;
+  epoch_ = clock.epoch;
+  if (newest - next_tick_ >= kMostTicksBehind) {
+    due.skipped = static_cast<std::uint64_t>(newest - next_tick_ - kMostTicksBehind + 1);
+    late_ticks_ += due.skipped;
+    next_tick_ = newest - kMostTicksBehind + 1;
+  }
+  due.tick = next_tick_++;
+  due.sim_time_ns = due.tick * radar::kTickNanoseconds;
+  return due;
+}
+
+std::optional<TickLoop::Due> TickLoop::wait_live() {
+  while (!stop_requested()) {
+    const ClockState clock = session_->clock();
+    const std::int64_t now_ns = monotonic_ns();
+    const std::int64_t newest = sim_time_at(clock, now_ns) / radar::kTickNanoseconds;
+    if (!started_ || clock.epoch != epoch_ || newest >= next_tick_) return due_at(clock, newest);
+    std::int64_t wake_ns = now_ns + kLongestSleep_ns;
+    if (clock.running != 0 && clock.rate > 0.0) {
+      const double ahead_ns =
+          static_cast<double>(next_tick_ * radar::kTickNanoseconds - clock.base_sim_ns) / clock.rate;
+      wake_ns =
+          std::min(wake_ns, clock.base_monotonic_ns + static_cast<std::int64_t>(std::min(ahead_ns, kFarAhead_ns)) + 1);
+    }
+    sleep_until(std::max(wake_ns, now_ns + 1));
+    session_->heartbeat();
+  }
+  return std::nullopt;
+}
+
+bool TickLoop::wait_for(std::size_t role, std::int64_t tick) {
+  auto& shared = session_->layout().lockstep;
+  auto& word = shared.wake[role];
+  const std::int64_t patience_ns = monotonic_ns() + kPartnerPatience_ns;
+  awaited_role_ = role;
+  awaited_tick_ = tick;
+  while (!stop_requested()) {
+    const std::uint32_t seen = word.load(std::memory_order_acquire);
+    if (shared.done_tick[role].load(std::memory_order_acquire) >= tick) return true;
+    if (monotonic_ns() > patience_ns) {
+      failed_ = true;
+      return false;
+    }
+    futex_wait(word, seen, kPartnerCheck_ns);
+    session_->heartbeat();
+  }
+  return false;
+}
+
+// Who leaves takes its lane along: nobody goes before all have done the last tick.
+void TickLoop::wait_for_all(std::int64_t tick) {
+  const std::uint32_t roles = session_->layout().lockstep.roles.load(std::memory_order_relaxed);
+  for (std::size_t role = 0; role < kLockstepRoles; ++role)
+    if ((roles >> role & 1U) != 0U && !wait_for(role, tick)) return;
+}
+
+std::optional<TickLoop::Due> TickLoop::wait_lockstep() {
+  const std::int64_t end_tick = session_->layout().lockstep.end_tick.load(std::memory_order_relaxed);
+  if (end_tick >= 0 && next_tick_ > end_tick) {
+    wait_for_all(end_tick);
+    return std::nullopt;
+  }
+  if (!wait_for(predecessor_, first_in_chain_ ? next_tick_ - 1 : next_tick_)) return std::nullopt;
+  Due due;
+  due.clock = session_->clock();
+  due.new_epoch = started_ && due.clock.epoch != epoch_;
+  started_ = true;
+  epoch_ = due.clock.epoch;
+  due.tick = next_tick_++;
+  due.sim_time_ns = due.tick * radar::kTickNanoseconds;
+  return due;
+}
+
+failure::Expected<void> TickLoop::outcome() const {
+  if (!failed_) return {};
+  return failure::fail("lockstep",
+                       std::string(kRoleNames[awaited_role_]) + " to do tick " + std::to_string(awaited_tick_),
+                       "60 s of silence", "start it with the same --lockstep, or end the set");
+}
+
+void TickLoop::done(const Due& due) {
+  if (!lockstep_) return;
+  auto& shared = session_->layout().lockstep;
+  shared.done_tick[role_].store(due.tick, std::memory_order_release);
+  shared.wake[role_].fetch_add(1, std::memory_order_release);
+  futex_wake_all(shared.wake[role_]);
+}
+
+}  // namespace yars::databuffer

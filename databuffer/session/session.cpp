@@ -1,0 +1,294 @@
+#include "databuffer/session/session.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "databuffer/messages/validation.hpp"
+#include "databuffer/session/session_layout.hpp"
+#include "databuffer/session/session_state.hpp"
+#include "lib/error/error.hpp"
+#include "lib/log/log.hpp"
+#include "lib/text/plain_text.hpp"
+
+namespace yars::databuffer {
+
+namespace {
+
+using failure::Expected;
+using failure::fail;
+
+constexpr std::size_t kLongestName = 40;
+bool name_is_valid(std::string_view name) {
+  const auto allowed = [](char letter) {
+    return (letter >= 'A' && letter <= 'Z') || (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') ||
+           letter == '_' || letter == '-';
+  };
+  return !name.empty() && name.size() <= kLongestName && std::all_of(name.begin(), name.end(), allowed);
+}
+
+void initialize(void* memory) {
+  auto& layout = *static_cast<SessionLayout*>(memory);
+  layout.lockstep.end_tick = -1;
+  for (auto& done : layout.lockstep.done_tick) done = -1;
+  layout.clock.publish(first_clock());
+}
+
+tl::unexpected<failure::Error> fail_read_only(std::string_view subject) {
+  return fail(std::string(subject), "a session opened for writing", "one opened read-only", "open it for writing");
+}
+
+}  // namespace
+
+std::string_view name_of(Role role) {
+  switch (role) {
+    case Role::radar_model:
+      return "radar-model";
+    case Role::state_machine:
+      return "state-machine";
+    case Role::recorder:
+      return "recorder";
+    case Role::clock:
+      return "clock";
+    case Role::traffic:
+      return "traffic";
+    case Role::glass_frames:
+      return "glass frames";
+  }
+  return "unknown role";
+}
+
+Expected<void> check_session_name(const std::string& name) {
+  if (name_is_valid(name)) return {};
+  return tl::unexpected(failure::Error{"session name", "1 to 40 letters, digits, '-' or '_'", "\"" + name + "\"",
+                                       "choose another --session", true});
+}
+
+std::optional<std::size_t> counted_role(std::string_view name) {
+  constexpr std::array<std::string_view, 6> kNames{"flight-model", "input-monitor", "state-machine",
+                                                   "radar-model",  "radar-display", "recorder"};
+  const auto found = std::ranges::find(kNames, name);
+  if (found == kNames.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - kNames.begin());
+}
+
+std::int64_t monotonic_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+
+std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns) {
+  if (clock.running == 0) return clock.base_sim_ns;
+  // A base yet to come has nothing elapsed: sim time never is before it.
+  const std::int64_t elapsed = std::max<std::int64_t>(monotonic_ns - clock.base_monotonic_ns, 0);
+  // At rate 1 no rounding: integer nanoseconds outlast the 53 bits of a double.
+  if (clock.rate == 1.0) return clock.base_sim_ns + elapsed;
+  return clock.base_sim_ns + static_cast<std::int64_t>(std::llround(clock.rate * static_cast<double>(elapsed)));
+}
+
+// ---- Claims ----
+
+Claim::Claim() = default;
+Claim::Claim(Claim&& other) noexcept : hold_(std::move(other.hold_)), lane_(std::exchange(other.lane_, -1)) {}
+Claim& Claim::operator=(Claim&& other) noexcept {
+  hold_ = std::move(other.hold_);
+  lane_ = std::exchange(other.lane_, -1);
+  return *this;
+}
+Claim::~Claim() = default;
+
+// ---- The session ----
+
+Session::Session(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+Session::~Session() = default;
+
+Expected<Session> Session::open(const std::string& name, std::string_view process_name) {
+  if (const auto valid = check_session_name(name); !valid) return tl::unexpected(valid.error());
+  auto segment = shm::Segment::open(name, kLayoutIdentity, initialize);
+  if (!segment) return tl::unexpected(segment.error());
+  auto state = std::make_unique<State>(std::move(*segment), process_name);
+  const bool has_clock = state->find_clock();
+  state->enter_table();
+  Session session(std::move(state));
+  if (!has_clock) session.keep_clock(Patience::some);
+  return session;
+}
+
+Expected<Session> Session::open_read_only(const std::string& name) {
+  if (const auto valid = check_session_name(name); !valid) return tl::unexpected(valid.error());
+  auto segment = shm::Segment::open_read_only(name, kLayoutIdentity);
+  if (!segment) return tl::unexpected(segment.error());
+  auto state = std::make_unique<State>(std::move(*segment), "reader");
+  if (!state->find_clock()) state->good_clock.running = 0;
+  return Session(std::move(state));
+}
+
+SessionLayout& Session::layout() {
+  return state_->write();
+}
+const SessionLayout& Session::layout() const {
+  return std::as_const(*state_).read();
+}
+bool Session::created() const {
+  return state_->segment->created();
+}
+bool Session::has_name() const {
+  return state_->segment->has_name();
+}
+
+Expected<Claim> Session::claim(Role role) {
+  if (!state_->segment->writable()) return fail_read_only(name_of(role));
+  const auto byte = static_cast<std::size_t>(role);
+  const std::int32_t previous = state_->segment->holder_pid(byte);
+  auto claim = state_->take(byte, -1);
+  if (!claim)
+    return fail("role " + std::string(name_of(role)), "one process of this role in a session",
+                "held by " + state_->describe_holder(byte), "end that process, or choose another --session");
+  // Whoever lets a role go in order leaves no pid behind.
+  if (previous != 0)
+    note(NoteKind::restart, std::string(name_of(role)) + " pid " + std::to_string(previous) + " died; taken over");
+  return std::move(*claim);
+}
+
+Expected<Claim> Session::claim_ownship_lane(std::uint32_t priority) {
+  if (!state_->segment->writable()) return fail_read_only("ownship lane");
+  for (std::size_t lane = 0; lane < kOwnshipLanes; ++lane) {
+    auto claim = state_->take(kFirstOwnshipByte + lane, static_cast<int>(lane));
+    if (!claim) continue;
+    empty_ownship_lane(layout(), lane);
+    layout().ownship_priority[lane].store(priority, std::memory_order_release);
+    return std::move(*claim);
+  }
+  std::string holders;
+  for (std::size_t lane = 0; lane < kOwnshipLanes; ++lane)
+    holders += (lane == 0 ? "" : "; ") + state_->describe_holder(kFirstOwnshipByte + lane);
+  return fail("ownship lane", "a free one of " + std::to_string(kOwnshipLanes), "all taken: " + holders,
+              "end one of these processes");
+}
+
+Expected<Claim> Session::claim_input_lane(std::string_view source) {
+  if (!state_->segment->writable()) return fail_read_only("input lane");
+  std::string found;
+  for (std::size_t lane = 0; lane < kInputLanes; ++lane) {
+    auto claim = state_->take(kFirstInputByte + lane, static_cast<int>(lane));
+    // Events that a departed source left are still the consumer's: the lane is free when they are gone.
+    if (claim && layout().input.empty(lane)) {
+      layout().input.set_source(lane, source);
+      claim->hold_->feeds_input = state_->count_input_sources();
+      return std::move(*claim);
+    }
+    found += (found.empty() ? "" : ", ") + layout().input.source(lane) + (claim ? " (gone, unread events)" : "");
+  }
+  return fail("input lane", "a free one of " + std::to_string(kInputLanes), "all taken: " + found,
+              "end one of these sources, or start the state-machine, which empties the lanes");
+}
+
+bool Session::role_is_held(Role role) const {
+  return state_->segment->is_locked(static_cast<std::size_t>(role));
+}
+
+std::int32_t Session::role_holder(Role role) const {
+  return role_is_held(role) ? state_->segment->holder_pid(static_cast<std::size_t>(role)) : 0;
+}
+bool Session::ownship_lane_is_held(std::size_t lane) const {
+  YARS_REQUIRE(lane, <, kOwnshipLanes);
+  return state_->segment->is_locked(kFirstOwnshipByte + lane);
+}
+bool Session::input_lane_is_held(std::size_t lane) const {
+  YARS_REQUIRE(lane, <, kInputLanes);
+  return state_->segment->is_locked(kFirstInputByte + lane);
+}
+
+std::vector<ProcessHere> Session::processes() const {
+  std::vector<ProcessHere> here;
+  for (std::size_t i = 0; i < kProcesses; ++i) {
+    const ProcessEntry& entry = layout().processes[i];
+    if (entry.pid == 0 || !state_->segment->is_locked(kFirstProcessByte + i)) continue;
+    // A beat yet to come would make who has hung seem alive.
+    const std::int64_t beat_ns = std::clamp<std::int64_t>(entry.heartbeat_ns, 0, monotonic_ns());
+    here.push_back({entry.pid, shm::load_text(entry.name.data(), entry.name.size()), beat_ns, entry.progress});
+  }
+  return here;
+}
+
+void Session::heartbeat() {
+  if (state_->table_byte == 0) return;
+  const std::int64_t now_ns = monotonic_ns();
+  state_->write().processes[state_->table_byte - kFirstProcessByte].heartbeat_ns.store(now_ns,
+                                                                                       std::memory_order_relaxed);
+  if (now_ns < state_->next_look_ns) return;
+  state_->next_look_ns = now_ns + kLook_ns;
+  state_->keep_entry();
+  state_->look_for_name();
+  state_->tell_left_out(now_ns, false);
+  log_left_out(LeftOut::over);
+}
+
+void Session::show_progress(std::uint32_t progress) {
+  if (state_->table_byte == 0) return;
+  state_->write().processes[state_->table_byte - kFirstProcessByte].progress.store(progress, std::memory_order_release);
+}
+
+ClockState Session::clock() const {
+  return state_->clock_now();
+}
+std::int64_t Session::sim_time_ns() const {
+  return sim_time_at(clock(), monotonic_ns());
+}
+
+Expected<void> Session::set_clock(const ClockState& state) {
+  return change_clock([&state](const ClockState&) { return state; });
+}
+
+Expected<void> Session::change_clock(const std::function<ClockState(const ClockState&)>& change, Patience patience) {
+  constexpr auto kByte = static_cast<std::size_t>(Role::clock);
+  if (!state_->segment->writable()) return fail_read_only("clock");
+  const int attempts = patience == Patience::none ? 1 : kClockAttempts;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    if (const auto claim = state_->take(kByte, -1)) {
+      const ClockState next = change(state_->clock_now());
+      if (auto refusal = why_refused(next))
+        return fail("session clock", "a change that leaves it in range", std::move(*refusal),
+                    "begin at another time: `yars sim reset 0`");
+      layout().clock.publish(next);
+      return {};
+    }
+    if (attempt + 1 < attempts) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return fail("clock", "to change it within " + std::to_string(attempts) + " ms",
+              "held by " + state_->describe_holder(kByte), "let that process go on, or end it");
+}
+
+std::optional<std::string> Session::clock_problem() const {
+  return state_->clock_problem();
+}
+
+void Session::keep_clock(Patience patience) {
+  const auto problem = state_->clock_problem();
+  if (!problem) return;
+  if (change_clock([](const ClockState& good) { return good; }, patience))
+    note(NoteKind::refusal, "clock mended: " + *problem);
+}
+
+void Session::note(NoteKind kind, std::string_view text) {
+  note(kind, text, state_->process_name);
+}
+void Session::note(NoteKind kind, std::string_view text, std::string_view process) {
+  state_->note(kind, failure::printable(text), process);
+}
+
+void Session::count_restart(std::string_view role) {
+  if (const auto index = counted_role(role); index && state_->segment->writable())
+    layout().counters.restarts[*index].add(monotonic_ns());
+}
+
+}  // namespace yars::databuffer

@@ -1,0 +1,170 @@
+// Layout of a session's segment and its identity.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+#include "databuffer/messages/model_records.hpp"
+#include "databuffer/messages/pictures.hpp"
+#include "databuffer/messages/radar_state.hpp"
+#include "databuffer/messages/world_state.hpp"
+#include "shm/input_lanes.hpp"
+#include "shm/latest_value.hpp"
+#include "shm/ring_buffers.hpp"
+#include "shm/segment.hpp"
+
+namespace yars::databuffer {
+
+// What lies in the segment of a session. The order is the layout; a change raises kLayoutVersion.
+inline constexpr std::uint32_t kLayoutVersion = 3;
+inline constexpr std::size_t kOwnshipLanes = 4;
+inline constexpr std::size_t kInputLanes = 16;
+inline constexpr std::size_t kInputLaneDepth = 128;
+inline constexpr std::size_t kProcesses = 32;
+inline constexpr std::size_t kNotes = 1000;
+inline constexpr std::size_t kPatchSlots = 8;
+// Bytes at the end for what is to come: it can move in without a new layout version, and what was compiled before goes
+// on.
+inline constexpr std::size_t kSpareBytes = std::size_t{1} << 20;
+
+// Lines of the flight recorder.
+enum class NoteKind : std::uint32_t { restart = 0, refusal = 1, loss = 2, late_tick = 3, supervision = 4 };
+inline constexpr std::size_t kNoteKinds = 5;
+
+// How often something has happened since the session began, and when last: CLOCK_MONOTONIC of event n at n mod 8.
+struct RecentCount {
+  static constexpr std::size_t kTimes = 8;
+  std::atomic<std::uint64_t> count;
+  std::array<std::atomic<std::int64_t>, kTimes> times_ns;
+
+  void add(std::int64_t now_ns) { times_ns[count.fetch_add(1) % kTimes].store(now_ns); }
+  // Of the last 8, those less than `span_ns` old.
+  int within(std::int64_t span_ns, std::int64_t now_ns) const {
+    int found = 0;
+    const std::uint64_t known = count.load() < kTimes ? count.load() : kTimes;
+    for (std::size_t i = 0; i < known; ++i) {
+      const std::int64_t time_ns = times_ns[i].load();
+      if (time_ns >= 0 && time_ns <= now_ns && now_ns - time_ns < span_ns) ++found;
+    }
+    return found;
+  }
+};
+
+// What a flood of notes may not push out of sight.
+inline constexpr std::size_t kCountedRoles = 8;  // in the order of LockstepRole; two to spare
+struct Counters {
+  std::array<RecentCount, kCountedRoles> restarts;  // by the supervisor
+  RecentCount refusals;                             // notes of records refused, folded ones too
+  std::atomic<std::uint64_t> notes_folded;          // notes that were only counted: repeats of others
+  std::atomic<std::uint64_t> input_sources;         // programs that send events and have not gone in order
+  std::atomic<std::uint64_t> frames_failing;        // 1: the glass could not write its last frame into the folder
+};
+
+// For people: who is here. Presence is decided by locks, not by this table.
+struct ProcessEntry {
+  std::atomic<std::int64_t> heartbeat_ns;          // CLOCK_MONOTONIC
+  std::atomic<std::int32_t> pid;                   // 0 = free
+  std::atomic<std::uint32_t> progress;             // of a glass: the radar state's version (low 32 bits) that is on it
+  std::array<std::atomic<std::uint64_t>, 3> name;  // 23 characters and a zero
+};
+
+struct Note {
+  std::int64_t monotonic_ns;
+  std::int64_t sim_time_ns;
+  std::int32_t pid;
+  std::uint32_t kind;  // NoteKind
+  char process[16];
+  char text[88];
+};
+static_assert(sizeof(Note) == 128);
+
+// Who steps when the session runs in lockstep: each role waits until its predecessor in the chain has done the tick.
+// flight-model, input-monitor, state-machine, radar-model, radar-display, recorder
+inline constexpr std::size_t kLockstepRoles = 6;
+struct Lockstep {
+  std::atomic<std::uint32_t> enabled;                               // set by the first role that steps
+  std::atomic<std::uint32_t> roles;                                 // bit n: role n takes part
+  std::atomic<std::int64_t> end_tick;                               // all stop cleanly after this tick; -1 = none
+  std::array<std::atomic<std::int64_t>, kLockstepRoles> done_tick;  // last tick done; -1 = none
+  std::array<std::atomic<std::uint32_t>, kLockstepRoles> wake;      // futex words, count up with done_tick
+};
+
+// A whole map. Its writer takes the id away, writes, and puts the new id in last; a reader copies between two reads of
+// the same id.
+struct PatchSlot {
+  std::atomic<std::uint64_t> id;  // 0 = empty, or being written
+  std::atomic<std::uint32_t> epoch;
+  std::atomic<std::uint32_t> progress_permille;
+  std::array<std::atomic<std::uint64_t>, sizeof(PatchMap) / 8> map;                        // words of a PatchMap
+  std::array<std::atomic<std::uint64_t>, kMostPatchPixels * kMostPatchPixels / 8> pixels;  // rows without padding
+};
+
+// A picture of the glass, for panels and other programs; written and read as a PatchSlot is.
+struct FrameSlot {
+  std::atomic<std::uint64_t> id;                                         // 0 = empty, or being written
+  std::array<std::atomic<std::uint64_t>, sizeof(GlassFrame) / 8> frame;  // words of a GlassFrame
+  std::array<std::atomic<std::uint64_t>, kMostFramePixels * kMostFramePixels * 4 / 8> pixels;  // RGBA
+};
+
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): the order is what the parts are, the padding cache lines
+struct SessionLayout {
+  shm::SegmentHeader header;
+  Lockstep lockstep;
+  shm::LatestValue<ClockState> clock;
+  std::array<std::atomic<std::uint32_t>, kOwnshipLanes> ownship_priority;
+  std::array<shm::LatestValue<Ownship>, kOwnshipLanes> ownship;
+  std::array<shm::LatestValue<Nav>, kOwnshipLanes> nav;
+  shm::LatestValue<RadarState> radar_state;
+  shm::LatestValue<ModelStatus> model_status;
+  shm::LatestValue<Outputs> outputs;
+  shm::LatestValue<RecorderStatus> recorder_status;
+  shm::BroadcastRing<ModelTick, 1024> model_ticks;
+  shm::BroadcastRing<AppliedEvent, 1024> applied_events;
+  shm::BroadcastRing<Sweep, 1024> sweeps;
+  shm::InputLanes<InputEvent, kInputLanes, kInputLaneDepth> input;
+  std::array<ProcessEntry, kProcesses> processes;
+  std::array<std::atomic<std::uint64_t>, kNoteKinds> note_counts;
+  shm::NoteRing<Note, kNotes> notes;  // many writers; a writer that dies loses its own line only
+  std::array<PatchSlot, kPatchSlots> patches;
+  shm::LatestValue<Traffic> traffic;                // from outside
+  shm::BroadcastRing<Traffic, 64> traffic_latched;  // by radar-model: what a replay needs
+  std::array<FrameSlot, kFrameSlots> frames;
+  Counters counters;
+  std::array<std::atomic<std::uint64_t>, (kSpareBytes - sizeof(Counters)) / 8> spare;
+};
+
+// What a segment must be for this build to use it: layout version, size, and the hash over (record, version, sizeof).
+// A record that changes its meaning without changing its size gets a higher version here.
+// What moves into SessionLayout::spare, or into a record's reserved words, stays out of this: zeros say that a creator
+// of an older build knows nothing of it.
+inline constexpr std::array kRecordIdentities = {
+    shm::RecordIdentity{"SegmentHeader", 1, sizeof(shm::SegmentHeader)},
+    shm::RecordIdentity{"Lockstep", 1, sizeof(Lockstep)},
+    shm::RecordIdentity{"ClockState", 1, sizeof(ClockState)},
+    shm::RecordIdentity{"Ownship", 1, sizeof(Ownship)},
+    shm::RecordIdentity{"Nav", 1, sizeof(Nav)},
+    shm::RecordIdentity{"RadarState", 2, sizeof(RadarState)},
+    shm::RecordIdentity{"ModelStatus", 2, sizeof(ModelStatus)},
+    shm::RecordIdentity{"Outputs", 1, sizeof(Outputs)},
+    shm::RecordIdentity{"RecorderStatus", 1, sizeof(RecorderStatus)},
+    shm::RecordIdentity{"ModelTick", 1, sizeof(ModelTick)},
+    shm::RecordIdentity{"AppliedEvent", 1, sizeof(AppliedEvent)},
+    shm::RecordIdentity{"Sweep", 1, sizeof(Sweep)},
+    shm::RecordIdentity{"InputEvent", 1, sizeof(InputEvent)},
+    shm::RecordIdentity{"ProcessEntry", 1, sizeof(ProcessEntry)},
+    shm::RecordIdentity{"Note", 1, sizeof(Note)},
+    shm::RecordIdentity{"PatchSlot", 1, sizeof(PatchSlot)},
+    shm::RecordIdentity{"Traffic", 1, sizeof(Traffic)},
+    shm::RecordIdentity{"FrameSlot", 1, sizeof(FrameSlot)},
+    shm::RecordIdentity{"SessionLayout", kLayoutVersion, sizeof(SessionLayout)},
+};
+
+inline constexpr shm::LayoutIdentity kLayoutIdentity{kLayoutVersion, sizeof(SessionLayout),
+                                                     shm::layout_hash(kRecordIdentities)};
+
+inline constexpr std::size_t kLargestSegment = std::size_t{64} << 20;  // [bytes] what a default /dev/shm spares
+static_assert(sizeof(SessionLayout) <= kLargestSegment && std::is_standard_layout_v<SessionLayout>);
+
+}  // namespace yars::databuffer

@@ -1,0 +1,186 @@
+#include "databuffer/session/session_state.hpp"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <limits>
+#include <thread>
+
+#include "databuffer/messages/validation.hpp"
+#include "lib/log/log.hpp"
+
+namespace yars::databuffer {
+
+namespace {
+
+// The system's name of a process; for one that is not in the table.
+std::string program_of(std::int32_t pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/comm");
+  std::string name;
+  std::getline(file, name);
+  return name.empty() ? "unknown program" : name;
+}
+
+template <std::size_t N>
+void copy_text(char (&into)[N], std::string_view text) {
+  into[text.copy(into, N - 1)] = '\0';
+}
+
+}  // namespace
+
+ClockState first_clock() {
+  ClockState clock{};
+  clock.base_monotonic_ns = monotonic_ns();
+  clock.rate = 1.0;
+  clock.running = 1;
+  clock.reposition_latitude_deg = clock.reposition_longitude_deg = std::numeric_limits<double>::quiet_NaN();
+  clock.reposition_altitude_m = clock.reposition_heading_deg = std::numeric_limits<double>::quiet_NaN();
+  return clock;
+}
+
+// Published before the segment had a name, and changed seldom: as a rule the first look finds it. A bad one is mended
+// by state-machine within a tick.
+bool Session::State::find_clock() {
+  for (int attempt = 0; attempt < kClockAttempts; ++attempt) {
+    if (clock.refresh() && !why_refused(clock.value())) {
+      good_clock = clock.value();
+      return true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  good_clock = first_clock();
+  good_clock.epoch = clock.value().epoch + 1;
+  return false;
+}
+
+std::optional<std::string> Session::State::clock_problem() const {
+  ClockState there{};
+  if (!read().clock.read(there)) return "expected one that can be read, found none";
+  return why_refused(there);
+}
+
+// A full table is no failure: it is for people, presence is decided by locks.
+void Session::State::enter_table() {
+  for (std::size_t i = 0; i < kProcesses; ++i) {
+    if (!segment->try_lock(kFirstProcessByte + i)) continue;
+    table_byte = kFirstProcessByte + i;
+    ProcessEntry& entry = write().processes[i];
+    entry.heartbeat_ns = monotonic_ns();
+    entry.progress = 0;
+    keep_entry();
+    return;
+  }
+}
+
+// Others may write there: who has lost name or pid would pass for gone.
+void Session::State::keep_entry() {
+  ProcessEntry& entry = write().processes[table_byte - kFirstProcessByte];
+  shm::store_text(entry.name.data(), entry.name.size(), process_name);
+  entry.pid.store(getpid(), std::memory_order_release);
+}
+
+void Session::State::leave_table() {
+  if (table_byte == 0) return;
+  write().processes[table_byte - kFirstProcessByte].pid = 0;
+  segment->unlock(table_byte);
+}
+
+// "state-machine, pid 1234": by the table, else by the system.
+std::string Session::State::describe_holder(std::size_t byte) const {
+  const std::int32_t pid = segment->holder_pid(byte);
+  if (pid == 0) return "a process that is just starting or ending";
+  std::string program = program_of(pid);
+  for (const ProcessEntry& entry : read().processes)
+    if (entry.pid == pid) program = shm::load_text(entry.name.data(), entry.name.size());
+  return program + ", pid " + std::to_string(pid);
+}
+
+std::optional<Claim> Session::State::take(std::size_t byte, int lane) {
+  if (!segment->try_lock(byte)) return std::nullopt;
+  Claim claim;
+  claim.hold_ = std::make_unique<Claim::Hold>(segment, byte);
+  claim.lane_ = lane;
+  return claim;
+}
+
+// One out of range is refused, noted once, and the last good one goes on.
+ClockState Session::State::clock_now() {
+  std::unique_lock guard(clock_mutex);
+  if (!clock.refresh()) return good_clock;
+  const auto refusal = why_refused(clock.value());
+  if (!refusal) good_clock = clock.value();
+  const ClockState now = good_clock;
+  guard.unlock();
+  if (refusal) note(NoteKind::refusal, "clock: " + *refusal, process_name);
+  return now;
+}
+
+std::array<RepeatFilter, kNoteKinds> Session::State::filters() {
+  constexpr int kMostOfAKind = 3;
+  constexpr int kMostOfAll = 20;  // and of each kind of note: a set of six fills 1,000 lines in half a minute at most
+  const RepeatFilter filter(kMostOfAKind, kMostOfAll);
+  return {filter, filter, filter, filter, filter};
+}
+
+void Session::State::note(NoteKind kind, std::string_view text, std::string_view process) {
+  if (!segment->writable()) return;
+  const std::int64_t now_ns = monotonic_ns();
+  const auto index = static_cast<std::size_t>(kind);
+  write().note_counts[index].fetch_add(1, std::memory_order_relaxed);
+  if (kind == NoteKind::refusal) write().counters.refusals.add(now_ns);
+  std::unique_lock guard(notes_mutex);
+  const bool passes = note_filters[index].passes(text, now_ns);
+  guard.unlock();
+  if (passes)
+    write_note(kind, text, process);
+  else
+    write().counters.notes_folded.fetch_add(1, std::memory_order_relaxed);
+}
+
+void Session::State::write_note(NoteKind kind, std::string_view text, std::string_view process) {
+  Note line{};
+  line.monotonic_ns = monotonic_ns();
+  line.sim_time_ns = sim_time_at(clock_now(), line.monotonic_ns);
+  line.pid = getpid();
+  line.kind = static_cast<std::uint32_t>(kind);
+  copy_text(line.process, process);
+  copy_text(line.text, text);
+  write().notes.append(line);
+}
+
+// The count comes first: the text is cut to its place.
+void Session::State::tell_left_out(std::int64_t now_ns, bool all) {
+  if (!segment->writable()) return;
+  for (std::size_t kind = 0; kind < note_filters.size(); ++kind) {
+    std::unique_lock guard(notes_mutex);
+    const auto left_out = note_filters[kind].take_left_out(now_ns, all);
+    guard.unlock();
+    for (const auto& lines : left_out)
+      write_note(static_cast<NoteKind>(kind), std::to_string(lines.count) + " more: " + lines.line, process_name);
+  }
+}
+
+// Called where a lane is claimed and given up in order: a source that dies is missing from then on. The yars commands
+// come and go and do not count.
+bool Session::State::count_input_sources() {
+  if (process_name.starts_with("yars ")) return false;
+  std::uint64_t held = 0;
+  for (std::size_t lane = 0; lane < kInputLanes; ++lane)
+    held += segment->is_locked(kFirstInputByte + lane) && read().input.source(lane) != "inject" ? 1 : 0;
+  write().counters.input_sources.store(held);
+  return true;
+}
+
+void Session::State::look_for_name() {
+  if (!had_name) return;
+  had_name = segment->has_name();
+  if (had_name) return;
+  note(NoteKind::supervision, "the segment's name was removed (RemoveIPC?); the set goes on without", process_name);
+  log_error(
+      "the segment's file in /dev/shm was removed by somebody else: as a rule by systemd-logind, whose RemoveIPC=yes "
+      "does so when a user's last login ends. The set goes on, and what joins it finds it all the same; to keep the "
+      "file: loginctl enable-linger, or RemoveIPC=no in /etc/systemd/logind.conf");
+}
+
+}  // namespace yars::databuffer

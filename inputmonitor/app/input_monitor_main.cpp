@@ -1,0 +1,75 @@
+// input-monitor: a keyboard, a script or cockpit hardware becomes input events.
+#include "config/schema/devices.hpp"
+#include "config/schema/load.hpp"
+#include "databuffer/runtime/program.hpp"
+#include "inputmonitor/app/input_monitor_shell.hpp"
+#include "inputmonitor/source_choice.hpp"
+#include "lib/log/log.hpp"
+
+namespace {
+
+using namespace yars;
+using failure::Expected;
+
+// The maps that are built in, then those of the configuration: the last that fits is taken.
+Expected<inputmonitor::DeviceMaps> device_maps(const databuffer::ProgramOptions& options) {
+  auto built_in = config::load_configuration_text(config::shipped_devices_text(), "config/devices.guf");
+  if (!built_in) return tl::unexpected(built_in.error());
+  const auto own = databuffer::load_program_configuration(options);
+  if (!own) return tl::unexpected(own.error());
+  std::vector<radar::Device> maps = std::move(built_in->radar.devices);
+  maps.insert(maps.end(), own->devices.begin(), own->devices.end());
+  return std::make_shared<const std::vector<radar::Device>>(std::move(maps));
+}
+
+Expected<std::unique_ptr<inputmonitor::EventSource>> open_sources(const databuffer::ProgramOptions& options,
+                                                                  const std::vector<std::string>& texts) {
+  std::vector<inputmonitor::SourceChoice> choices;
+  for (const std::string& text : texts) {
+    const auto choice = inputmonitor::parse_source(text);
+    if (!choice) return tl::unexpected(choice.error());
+    choices.push_back(*choice);
+  }
+  auto maps = device_maps(options);
+  if (!maps) return tl::unexpected(maps.error());
+  inputmonitor::OpeningNeeds needs;
+  needs.session = options.session;
+  needs.maps = std::move(*maps);
+  return inputmonitor::open_sources(choices, needs);
+}
+
+Expected<void> run(const databuffer::ProgramOptions& options, const std::vector<std::string>& source_texts) {
+  auto source = open_sources(options, source_texts);
+  if (!source) return tl::unexpected(source.error());
+  auto session = databuffer::Session::open(options.session, "input-monitor");
+  if (!session) return tl::unexpected(session.error());
+  auto lane = session->claim_input_lane("input-monitor");
+  if (!lane) return tl::unexpected(lane.error());
+  auto loop = databuffer::TickLoop::create(*session, databuffer::LockstepRole::input_monitor, options.lockstep);
+  if (!loop) return tl::unexpected(loop.error());
+  databuffer::log_info("reads " + (*source)->description());
+  inputmonitor::InputMonitorShell shell(*session, std::move(*source), lane->lane());
+  shell.run(*loop);
+  return loop->outcome();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("YARS input monitor: keys, scripts and cockpit hardware become events", "input-monitor");
+  databuffer::ProgramOptions options;
+  std::vector<std::string> sources{"auto"};
+  std::string learned;
+  std::string out;
+  databuffer::add_common_options(app, options, true);
+  app.add_option("--source", sources,
+                 "window, terminal, script:FILE, evdev:PATH[,MAP] or auto (default); may be given several times")
+      ->take_all()
+      ->expected(1)
+      ->type_size(1);
+  auto* learn = app.add_option("--learn", learned, "device whose controls to learn; needs no session");
+  app.add_option("--out", out, "file for the map that was learned; else standard output")->needs(learn);
+  return databuffer::run_program(argc, argv, app, options, [&] {
+    return learned.empty() ? run(options, sources) : inputmonitor::learn_device(learned, out);
+  });
+}

@@ -1,0 +1,175 @@
+#include "inputmonitor/app/input_monitor_shell.hpp"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <array>
+#include <filesystem>
+#include <iostream>
+#include <utility>
+
+#include "config/schema/slot_text.hpp"
+#include "databuffer/messages/input_event.hpp"
+#include "databuffer/runtime/program.hpp"
+#include "inputmonitor/device_decoder.hpp"
+#include "inputmonitor/device_source.hpp"
+#include "inputmonitor/learning.hpp"
+#include "lib/file/output_file.hpp"
+#include "lib/log/log.hpp"
+
+namespace yars::inputmonitor {
+
+namespace {
+
+constexpr int kLongestWait_ms = 200;  // [ms] a request to stop and the heartbeat wait no longer
+
+}  // namespace
+
+InputMonitorShell::InputMonitorShell(databuffer::Session& session, std::unique_ptr<EventSource> source, int lane)
+    : session_(&session), source_(std::move(source)), lane_(static_cast<std::size_t>(lane)) {}
+
+void InputMonitorShell::run(databuffer::TickLoop& loop) {
+  if (loop.lockstep() || source_->follows_sim_time())
+    run_by_ticks(loop);
+  else
+    run_by_input();
+  push(source_->release(), {databuffer::monotonic_ns(), session_->sim_time_ns()});
+}
+
+void InputMonitorShell::run_by_ticks(databuffer::TickLoop& loop) {
+  while (const auto due = loop.wait()) {
+    const Moment moment{databuffer::monotonic_ns(), due->sim_time_ns};
+    if (!source_->ended()) push(source_->take(moment), moment);
+    tell_news();
+    loop.done(*due);
+    if (source_->ended() && !loop.lockstep()) return;
+  }
+}
+
+void InputMonitorShell::run_by_input() {
+  const auto now = [this] { return Moment{databuffer::monotonic_ns(), session_->sim_time_ns()}; };
+  while (!databuffer::stop_requested() && !source_->ended()) {
+    session_->heartbeat();
+    source_->wait(now(), kLongestWait_ms);
+    const Moment moment = now();
+    push(source_->take(moment), moment);
+    tell_news();
+  }
+}
+
+void InputMonitorShell::tell_news() {
+  for (const News& news : source_->news()) {
+    if (news.is_trouble)
+      databuffer::log_warning(news.text);
+    else
+      databuffer::log_info(news.text);
+    session_->note(news.is_trouble ? databuffer::NoteKind::loss : databuffer::NoteKind::restart, news.text);
+  }
+}
+
+void InputMonitorShell::push(const std::vector<databuffer::InputEvent>& events, const Moment& moment) {
+  for (databuffer::InputEvent event : events) {
+    event.session_time_ns = moment.sim_time_ns;
+    event.monotonic_ns = moment.monotonic_ns;
+    event.number = ++number_;
+    databuffer::log_debug(databuffer::text_of(event));
+    if (session_->layout().input.push(lane_, event)) continue;
+    session_->note(databuffer::NoteKind::loss, "input lane full, dropped: " + databuffer::text_of(event));
+    databuffer::log_warning("the input lane is full, is state-machine running? dropped: " + databuffer::text_of(event));
+  }
+}
+
+namespace {
+
+using failure::Expected;
+using failure::fail;
+
+// Who moves the controls, and what was typed to it.
+class Teacher {
+ public:
+  Teacher(DeviceReader& reader, Learning& learning) : reader_(&reader), learning_(&learning) {}
+
+  // Until all is learned, the device goes, or somebody ends it; true when the device has gone.
+  bool run() {
+    ask();
+    while (!learning_->finished() && !ended_ && !databuffer::stop_requested()) {
+      std::array<pollfd, 2> wanted{{{reader_->descriptor(), POLLIN, 0}, {typing_ ? STDIN_FILENO : -1, POLLIN, 0}}};
+      poll(wanted.data(), wanted.size(), kLongestWait_ms);
+      if (wanted[1].revents != 0) obey();
+      if (!listen()) return true;
+    }
+    return false;
+  }
+
+ private:
+  void ask() const {
+    if (!learning_->finished()) std::cerr << "? " << learning_->prompt() << std::endl;
+  }
+
+  bool listen() {
+    std::array<std::byte, 64 * kRecordBytes> bytes;
+    std::size_t count = 0;
+    const auto outcome = reader_->read(bytes, count);
+    for (const RawEvent& raw : stream_.feed({bytes.data(), count})) {
+      const std::string told = learning_->feed(raw);
+      if (told.empty()) continue;
+      std::cerr << "  " << told << '\n';
+      ask();
+    }
+    return outcome != DeviceReader::Outcome::gone;
+  }
+
+  void obey() {
+    std::array<char, 256> bytes;
+    const ssize_t count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
+    typing_ = count > 0;
+    for (ssize_t i = 0; i < count; ++i) {
+      const char command = bytes[static_cast<std::size_t>(i)];
+      if (command == 's') learning_->skip();
+      if (command == 'b') learning_->back();
+      if (command == 'q') ended_ = true;
+      if (command == 's' || command == 'b') ask();
+    }
+  }
+
+  DeviceReader* reader_;
+  Learning* learning_;
+  RecordStream stream_;
+  bool typing_ = true;  // standard input has not come to its end
+  bool ended_ = false;
+};
+
+Expected<void> write_map(const Learning& learning, const std::string& file) {
+  radar::RadarConfiguration configuration;
+  const std::string name = file.empty() ? "learned" : std::filesystem::path(file).stem().string();
+  configuration.devices.push_back(learning.device(name));
+  const std::string text = "; Made by input-monitor --learn.\n" + config::print_devices(configuration);
+  if (file.empty()) {
+    std::cout << text;
+    return {};
+  }
+  if (auto written = file::write_file(file, text); !written) return written;
+  std::cerr << "wrote " << file << ": " << learning.learned() << " controls, map " << name
+            << "; input-monitor --config " << file << " uses it\n";
+  return {};
+}
+
+}  // namespace
+
+Expected<void> learn_device(const std::string& path, const std::string& file) {
+  const auto reader = DeviceReader::open(path);
+  if (!reader) return tl::unexpected(reader.error());
+  const auto state = (*reader)->state();
+  Learning learning((*reader)->facts(), state ? state->axes : decltype(DeviceState::axes){});
+  std::cerr << "Move what is asked for. Typed, with Enter: s skips it, b goes back by one, q ends and writes.\n";
+  const bool has_gone = Teacher(**reader, learning).run();
+  if (learning.learned() == 0)
+    return fail(path, "a control that moves", has_gone ? "the device has gone" : "none", "nothing was written");
+  if (auto written = write_map(learning, file); !written) return written;
+  if (has_gone && !learning.finished())
+    return fail(path, "the controls that were asked for", "the device has gone before " + learning.prompt(),
+                "the map holds what was learned until then");
+  return {};
+}
+
+}  // namespace yars::inputmonitor

@@ -1,0 +1,172 @@
+#include "inputmonitor/keyboard_source.hpp"
+
+#include <GLFW/glfw3.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "inputmonitor/terminal.hpp"
+
+namespace yars::inputmonitor {
+
+namespace {
+
+using databuffer::Key;
+
+constexpr int kWidth = 640;  // [pixels] the title is what is to be seen
+constexpr int kHeight = 80;
+
+constexpr std::array<std::pair<int, Key>, 14> kNamedKeys{{{GLFW_KEY_UP, Key::up},
+                                                          {GLFW_KEY_DOWN, Key::down},
+                                                          {GLFW_KEY_LEFT, Key::left},
+                                                          {GLFW_KEY_RIGHT, Key::right},
+                                                          {GLFW_KEY_ENTER, Key::enter},
+                                                          {GLFW_KEY_KP_ENTER, Key::enter},
+                                                          {GLFW_KEY_TAB, Key::tab},
+                                                          {GLFW_KEY_PAGE_UP, Key::page_up},
+                                                          {GLFW_KEY_PAGE_DOWN, Key::page_down},
+                                                          {GLFW_KEY_ESCAPE, Key::escape},
+                                                          {GLFW_KEY_F1, Key::f1},
+                                                          {GLFW_KEY_F2, Key::f2},
+                                                          {GLFW_KEY_F3, Key::f3},
+                                                          {GLFW_KEY_F4, Key::f4}}};
+
+Key key_of_window_key(int code) {
+  const auto* named = std::ranges::find(kNamedKeys, code, &std::pair<int, Key>::first);
+  if (named != kNamedKeys.end()) return named->second;
+  // The others that matter have their ASCII number.
+  return code > 0 && code < 127 ? databuffer::key_of_character(static_cast<char>(code)) : Key::none;
+}
+
+Keyboard& keyboard_of(GLFWwindow* window) {
+  return *static_cast<Keyboard*>(glfwGetWindowUserPointer(window));
+}
+
+void on_key(GLFWwindow* window, int code, int, int action, int) {
+  if (action != GLFW_REPEAT) keyboard_of(window).change(key_of_window_key(code), action == GLFW_PRESS);
+}
+
+void on_focus(GLFWwindow* window, int focused) {
+  if (focused == GLFW_FALSE) keyboard_of(window).let_go();
+}
+
+class WindowSource final : public EventSource {
+ public:
+  explicit WindowSource(GLFWwindow* window) : window_(window) {
+    glfwSetWindowUserPointer(window_, &keyboard_);
+    glfwSetKeyCallback(window_, on_key);
+    glfwSetWindowFocusCallback(window_, on_focus);
+  }
+  WindowSource(const WindowSource&) = delete;
+  WindowSource& operator=(const WindowSource&) = delete;
+  ~WindowSource() override {
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+  }
+
+  // The display's own descriptor stays with GLFW.
+  bool add_descriptors(std::vector<pollfd>&) const override { return false; }
+  void wait(const Moment&, int longest_ms) override { glfwWaitEventsTimeout(static_cast<double>(longest_ms) * 1e-3); }
+
+  std::vector<databuffer::InputEvent> take(const Moment&) override {
+    glfwPollEvents();
+    if (glfwWindowShouldClose(window_) == GLFW_TRUE) keyboard_.end();
+    return keyboard_.take();
+  }
+
+  std::vector<databuffer::InputEvent> release() override {
+    keyboard_.let_go();
+    return keyboard_.take();
+  }
+
+  bool ended() const override { return keyboard_.ended(); }
+  bool follows_sim_time() const override { return false; }
+  std::string description() const override { return std::string("a window; ") + kKeyHelp; }
+
+ private:
+  GLFWwindow* window_;
+  Keyboard keyboard_;
+};
+
+failure::Expected<std::unique_ptr<EventSource>> no_window() {
+  const char* reason = nullptr;
+  glfwGetError(&reason);
+  return failure::fail("--source window", "a display on which a window can be opened",
+                       reason != nullptr ? reason : "none", "use --source terminal or script:FILE");
+}
+
+}  // namespace
+
+failure::Expected<std::unique_ptr<EventSource>> open_window_source(const std::string& session) {
+  if (glfwInit() == GLFW_FALSE) return no_window();
+  // It draws nothing, so it needs no graphics.
+  glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+  const std::string title = "YARS input (" + session + ")  " + kKeyHelp;
+  GLFWwindow* window = glfwCreateWindow(kWidth, kHeight, title.c_str(), nullptr, nullptr);
+  if (window != nullptr) return std::make_unique<WindowSource>(window);
+  auto error = no_window();
+  glfwTerminate();
+  return error;
+}
+
+namespace {
+
+// True when the descriptor has bytes or has come to its end.
+bool readable_within(int descriptor, int milliseconds) {
+  pollfd wanted{descriptor, POLLIN, 0};
+  return poll(&wanted, 1, milliseconds) > 0;
+}
+
+class TerminalSource final : public EventSource {
+ public:
+  explicit TerminalSource(std::unique_ptr<TerminalMode> mode) : mode_(std::move(mode)) {}
+
+  bool add_descriptors(std::vector<pollfd>& wanted) const override {
+    wanted.push_back({STDIN_FILENO, POLLIN, 0});
+    return true;
+  }
+  std::optional<std::int64_t> deadline_ns() const override { return decoder_.deadline_ns(); }
+
+  std::vector<databuffer::InputEvent> take(const Moment& moment) override {
+    apply(decoder_.advance(moment.monotonic_ns));
+    while (!keyboard_.ended() && readable_within(STDIN_FILENO, 0)) {
+      std::array<char, 256> bytes;
+      const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
+      // The terminal is gone.
+      if (count <= 0) keyboard_.end();
+      if (count > 0) apply(decoder_.feed({bytes.data(), static_cast<std::size_t>(count)}, moment.monotonic_ns));
+    }
+    return keyboard_.take();
+  }
+
+  std::vector<databuffer::InputEvent> release() override {
+    keyboard_.let_go();
+    return keyboard_.take();
+  }
+
+  bool ended() const override { return keyboard_.ended(); }
+  bool follows_sim_time() const override { return false; }
+  std::string description() const override { return std::string("this terminal; ") + kKeyHelp; }
+
+ private:
+  void apply(const std::vector<KeyChange>& changes) {
+    for (const KeyChange& change : changes) keyboard_.change(change.key, change.pressed);
+  }
+
+  std::unique_ptr<TerminalMode> mode_;
+  TerminalDecoder decoder_;
+  Keyboard keyboard_;
+};
+
+}  // namespace
+
+failure::Expected<std::unique_ptr<EventSource>> open_terminal_source() {
+  auto mode = TerminalMode::enter(STDIN_FILENO);
+  if (!mode) return tl::unexpected(mode.error());
+  return std::make_unique<TerminalSource>(std::move(*mode));
+}
+
+}  // namespace yars::inputmonitor

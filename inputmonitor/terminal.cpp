@@ -1,0 +1,221 @@
+#include "inputmonitor/terminal.hpp"
+
+#include <signal.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace yars::inputmonitor {
+
+namespace {
+
+using databuffer::Key;
+
+constexpr char kEscape = '\x1b';
+constexpr std::size_t kLongestSequence = 16;  // [bytes] no key has a longer one; bounds what is held
+
+template <class Code, std::size_t Size>
+Key look_up(const std::array<std::pair<Code, Key>, Size>& table, Code code) {
+  const auto* row = std::ranges::find(table, code, &std::pair<Code, Key>::first);
+  return row == table.end() ? Key::none : row->second;
+}
+
+constexpr std::array<std::pair<char, Key>, 9> kFinals{{{'A', Key::up},
+                                                       {'B', Key::down},
+                                                       {'C', Key::right},
+                                                       {'D', Key::left},
+                                                       {'P', Key::f1},
+                                                       {'Q', Key::f2},
+                                                       {'R', Key::f3},
+                                                       {'S', Key::f4},
+                                                       {'M', Key::enter}}};
+constexpr std::array<std::pair<std::string_view, Key>, 6> kNumbers{
+    {{"5", Key::page_up}, {"6", Key::page_down}, {"11", Key::f1}, {"12", Key::f2}, {"13", Key::f3}, {"14", Key::f4}}};
+constexpr std::array<std::pair<char, Key>, 4> kLinuxFunctions{
+    {{'A', Key::f1}, {'B', Key::f2}, {'C', Key::f3}, {'D', Key::f4}}};
+
+Key key_of_byte(char byte) {
+  if (byte == '\r' || byte == '\n') return Key::enter;
+  if (byte == '\t') return Key::tab;
+  return databuffer::key_of_character(byte);
+}
+
+bool is_final(char byte) {
+  return byte >= '@' && byte <= '~';
+}
+bool is_parameter(char byte) {
+  return byte >= ' ' && byte <= '?';
+}
+
+enum class Shape { unfinished, complete, nonsense };
+
+// `sequence` begins with ESC and has at least one byte more.
+Shape shape_of(std::string_view sequence) {
+  const char introducer = sequence[1];
+  const bool linux_function = sequence.starts_with("\x1b[[");
+  if (introducer != '[' && introducer != 'O') return Shape::nonsense;
+  if (sequence.size() == 2 || (linux_function && sequence.size() == 3)) return Shape::unfinished;
+  if (is_final(sequence.back())) return Shape::complete;
+  return is_parameter(sequence.back()) && sequence.size() < kLongestSequence ? Shape::unfinished : Shape::nonsense;
+}
+
+Key key_of_sequence(std::string_view sequence) {
+  if (sequence.starts_with("\x1b[[")) return look_up(kLinuxFunctions, sequence.back());
+  // What follows a semicolon says which modifiers were held: the key is the same.
+  std::string_view parameter = sequence.substr(2, sequence.size() - 3);
+  parameter = parameter.substr(0, parameter.find(';'));
+  if (sequence.back() == '~') return look_up(kNumbers, parameter);
+  return parameter.empty() || parameter == "1" ? look_up(kFinals, sequence.back()) : Key::none;
+}
+
+}  // namespace
+
+std::vector<KeyChange> TerminalDecoder::feed(std::string_view bytes, std::int64_t now_ns) {
+  Changes changes = advance(now_ns);
+  for (const char byte : bytes) take_byte(byte, now_ns, changes);
+  return changes;
+}
+
+void TerminalDecoder::take_byte(char byte, std::int64_t now_ns, Changes& changes) {
+  if (byte == kEscape) {
+    sequence_ = kEscape;
+    last_byte_ns_ = now_ns;
+  } else if (sequence_.empty()) {
+    stroke(key_of_byte(byte), now_ns, changes);
+  } else {
+    continue_sequence(byte, now_ns, changes);
+  }
+}
+
+void TerminalDecoder::continue_sequence(char byte, std::int64_t now_ns, Changes& changes) {
+  sequence_ += byte;
+  last_byte_ns_ = now_ns;
+  const Shape shape = shape_of(sequence_);
+  if (shape == Shape::unfinished) return;
+  const std::string sequence = std::exchange(sequence_, {});
+  if (shape == Shape::complete) stroke(key_of_sequence(sequence), now_ns, changes);
+}
+
+void TerminalDecoder::stroke(Key key, std::int64_t now_ns, Changes& changes) {
+  if (key == Key::none) return;
+  const auto pulse = std::ranges::find(pulses_, key, &Pulse::key);
+  if (pulse == pulses_.end()) {
+    changes.push_back({key, true});
+    changes.push_back({key, false});
+    return;
+  }
+  if (!pulse->end_ns) changes.push_back({key, true});
+  pulse->end_ns = now_ns + kArrowPulse_ns;
+}
+
+std::vector<KeyChange> TerminalDecoder::advance(std::int64_t now_ns) {
+  Changes changes;
+  for (Pulse& pulse : pulses_) {
+    if (!pulse.end_ns || now_ns < *pulse.end_ns) continue;
+    pulse.end_ns.reset();
+    changes.push_back({pulse.key, false});
+  }
+  if (!sequence_.empty() && now_ns - last_byte_ns_ >= kEscapeAlone_ns) {
+    const bool alone = sequence_.size() == 1;
+    sequence_.clear();
+    if (alone) stroke(Key::escape, now_ns, changes);
+  }
+  return changes;
+}
+
+std::optional<std::int64_t> TerminalDecoder::deadline_ns() const {
+  std::optional<std::int64_t> deadline;
+  if (!sequence_.empty()) deadline = last_byte_ns_ + kEscapeAlone_ns;
+  for (const Pulse& pulse : pulses_)
+    if (pulse.end_ns) deadline = std::min(deadline.value_or(*pulse.end_ns), *pulse.end_ns);
+  return deadline;
+}
+
+namespace {
+
+// What would end the process without unwinding; SIGINT and SIGTERM end it in order.
+constexpr std::array kFelling{SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGQUIT, SIGHUP};
+
+// A signal handler has no other way to reach it.
+struct Saved {
+  std::atomic<int> descriptor{-1};
+  termios settings{};
+  std::array<struct sigaction, kFelling.size()> actions{};
+};
+Saved saved;
+
+void restore() {
+  const int descriptor = saved.descriptor.exchange(-1);
+  if (descriptor >= 0) tcsetattr(descriptor, TCSANOW, &saved.settings);
+}
+
+// The handler is gone when it is entered (SA_RESETHAND): the signal sent again does what it always did.
+void restore_and_fall(int signal_number) {
+  restore();
+  raise(signal_number);
+}
+
+void catch_felling_signals() {
+  struct sigaction action {};
+  action.sa_handler = restore_and_fall;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigemptyset(&action.sa_mask);
+  for (std::size_t index = 0; index < kFelling.size(); ++index)
+    sigaction(kFelling[index], &action, &saved.actions[index]);
+}
+
+void release_felling_signals() {
+  for (std::size_t index = 0; index < kFelling.size(); ++index)
+    sigaction(kFelling[index], &saved.actions[index], nullptr);
+}
+
+termios byte_by_byte(termios settings) {
+  settings.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+  settings.c_iflag &= ~static_cast<tcflag_t>(IXON);  // Ctrl-S must not seem to freeze the keyboard
+  settings.c_cc[VSUSP] = _POSIX_VDISABLE;
+  settings.c_cc[VMIN] = 1;
+  settings.c_cc[VTIME] = 0;
+  return settings;
+}
+
+}  // namespace
+
+bool is_foreground_terminal(int descriptor) {
+  return isatty(descriptor) == 1 && tcgetpgrp(descriptor) == getpgrp();
+}
+
+failure::Expected<std::unique_ptr<TerminalMode>> TerminalMode::enter(int descriptor) {
+  if (!is_foreground_terminal(descriptor))
+    return failure::fail("standard input", "a terminal in whose foreground this program runs",
+                         isatty(descriptor) == 1 ? "one of which another program has the foreground" : "no terminal",
+                         "start it in a terminal of its own, or use --source window or script:FILE");
+  if (tcgetattr(descriptor, &saved.settings) != 0)
+    return failure::fail("standard input", "a terminal whose settings can be read", std::strerror(errno));
+  const termios raw = byte_by_byte(saved.settings);
+  saved.descriptor = descriptor;
+  catch_felling_signals();
+  std::unique_ptr<TerminalMode> mode(new TerminalMode);
+  if (tcsetattr(descriptor, TCSANOW, &raw) != 0)
+    return failure::fail("standard input", "a terminal that can be set", std::strerror(errno));
+  return mode;
+}
+
+TerminalMode::~TerminalMode() {
+  // A process that was put into the background meanwhile would be stopped here.
+  sigset_t blocked;
+  sigset_t before;
+  sigemptyset(&blocked);
+  sigaddset(&blocked, SIGTTOU);
+  pthread_sigmask(SIG_BLOCK, &blocked, &before);
+  restore();
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  release_felling_signals();
+}
+
+}  // namespace yars::inputmonitor

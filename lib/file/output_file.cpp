@@ -1,0 +1,277 @@
+#include "lib/file/output_file.hpp"
+
+#include <fcntl.h>
+#include <sys/random.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cinttypes>
+#include <cstdio>
+#include <cstring>
+#include <optional>
+#include <utility>
+
+namespace yars::file {
+
+using failure::Expected;
+using failure::fail;
+
+namespace {
+
+constexpr int kAttempts = 100;  // at a random name of 64 bits: a second one is all but never needed
+
+std::string random_name() {
+  std::uint64_t number = 0;
+  if (::getrandom(&number, sizeof number, 0) != sizeof number) number = static_cast<std::uint64_t>(::getpid());
+  std::array<char, 40> name{};
+  std::snprintf(name.data(), name.size(), ".yars-%016" PRIx64 ".tmp", number);
+  return name.data();
+}
+
+// What a link leads to in the end; nullopt: to nothing.
+std::optional<mode_t> mode_behind(const Folder& folder, const std::string& name) {
+  struct stat status {};
+  if (::fstatat(folder.descriptor(), name.c_str(), &status, 0) != 0) return std::nullopt;
+  return status.st_mode;
+}
+
+tl::unexpected<failure::Error> no_file(const std::string& path, const char* found) {
+  return fail(path, "a file that can be written", found, "remove it, or name another file");
+}
+
+tl::unexpected<failure::Error> system_failure(const std::string& path, int problem) {
+  const bool disk = problem == ENOSPC || problem == EDQUOT || problem == EIO || problem == EFBIG;
+  return fail(path, "a file that can be written", std::strerror(problem),
+              disk ? "check the space on the disk" : "check the folder and its rights");
+}
+
+}  // namespace
+
+Expected<NewFile> NewFile::create(const std::filesystem::path& path, Rights rights) {
+  auto folder = Folder::open(path.parent_path());
+  if (!folder) return tl::unexpected(folder.error());
+  return create(std::make_shared<const Folder>(std::move(*folder)), path.filename().string(), rights);
+}
+
+Expected<NewFile> NewFile::create(std::shared_ptr<const Folder> folder, const std::string& name, Rights rights,
+                                  Existing existing) {
+  NewFile file(std::move(folder), name);
+  file.existing_ = existing;
+  if (name.empty() || name == "." || name == "..") return no_file(file.shown(), "a folder");
+  if (auto free = file.check_place(); !free) return tl::unexpected(free.error());
+  auto opened = file.device_ ? file.open_device() : file.open_beside(rights == Rights::user_alone ? 0600 : 0644);
+  if (!opened) return tl::unexpected(opened.error());
+  return file;
+}
+
+NewFile::NewFile(NewFile&&) noexcept = default;
+
+NewFile& NewFile::operator=(NewFile&& other) noexcept {
+  std::swap(folder_, other.folder_);
+  std::swap(name_, other.name_);
+  std::swap(beside_, other.beside_);
+  std::swap(stream_, other.stream_);
+  std::swap(existing_, other.existing_);
+  std::swap(placed_, other.placed_);
+  std::swap(device_, other.device_);
+  return *this;
+}
+
+NewFile::~NewFile() {
+  if (stream_ && !placed_ && !beside_.empty()) ::unlinkat(folder_->descriptor(), beside_.c_str(), 0);
+}
+
+// A rename would take whatever lies there away: as root even a device.
+Expected<void> NewFile::check_place() {
+  const auto there = folder_->look(name_);
+  if (!there) {
+    if (errno == ENOENT) return {};
+    return system_failure(shown(), errno);
+  }
+  device_ = S_ISCHR(there->st_mode);
+  if (!device_ && existing_ == Existing::refused) return no_file(shown(), name_of_kind(there->st_mode));
+  if (S_ISREG(there->st_mode) || device_) return {};
+  if (!S_ISLNK(there->st_mode)) return no_file(shown(), name_of_kind(there->st_mode));
+  const auto behind = mode_behind(*folder_, name_);
+  if (!behind || S_ISREG(*behind)) return {};
+  return no_file(shown(), (std::string("a link to ") + name_of_kind(*behind)).c_str());
+}
+
+Expected<void> NewFile::open_device() {
+  Descriptor descriptor(
+      ::openat(folder_->descriptor(), name_.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+  if (!descriptor) return system_failure(shown(), errno);
+  stream_.reset(::fdopen(descriptor.release(), "wb"));
+  placed_ = true;
+  return {};
+}
+
+Expected<void> NewFile::open_beside(mode_t mode) {
+  Descriptor descriptor(::openat(folder_->descriptor(), ".", O_TMPFILE | O_RDWR | O_CLOEXEC, mode));
+  // Not every filesystem has files without a name.
+  if (!descriptor && (errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL || errno == ENOENT)) {
+    for (int attempt = 0; !descriptor && attempt < kAttempts; ++attempt) {
+      beside_ = random_name();
+      descriptor = Descriptor(
+          ::openat(folder_->descriptor(), beside_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode));
+      if (!descriptor && errno != EEXIST) break;
+    }
+  }
+  if (!descriptor) return system_failure(shown(), errno);
+  stream_.reset(::fdopen(descriptor.release(), "wb"));
+  if (!stream_) return system_failure(shown(), errno);
+  return {};
+}
+
+Expected<void> NewFile::give_beside_a_name() {
+  const std::string itself = "/proc/self/fd/" + std::to_string(::fileno(stream_.get()));
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    const std::string name = random_name();
+    if (::linkat(AT_FDCWD, itself.c_str(), folder_->descriptor(), name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+      beside_ = name;
+      return {};
+    }
+    if (errno != EEXIST) break;
+  }
+  return system_failure(shown(), errno);
+}
+
+void NewFile::write(std::span<const std::byte> bytes) {
+  if (!bytes.empty()) std::fwrite(bytes.data(), 1, bytes.size(), stream_.get());
+}
+
+void NewFile::write(std::string_view text) {
+  write(std::as_bytes(std::span(text)));
+}
+
+Expected<void> NewFile::flush() {
+  errno = 0;
+  if (std::fflush(stream_.get()) == 0 && std::ferror(stream_.get()) == 0) return {};
+  return system_failure(shown(), errno != 0 ? errno : EIO);
+}
+
+Expected<void> NewFile::place() {
+  if (auto flushed = flush(); !flushed || placed_) return flushed;
+  if (beside_.empty())
+    if (auto named = give_beside_a_name(); !named) return named;
+  // What lies there may have changed since create().
+  if (auto free = check_place(); !free) return free;
+  if (device_) return no_file(shown(), "a device");
+  if (auto moved = move_to_place(); !moved) return moved;
+  placed_ = true;
+  return {};
+}
+
+Expected<void> NewFile::move_to_place() {
+  const int folder = folder_->descriptor();
+  if (existing_ == Existing::overwritten) {
+    if (folder_->set_aside(beside_, name_)) return {};
+    return system_failure(shown(), errno);
+  }
+  if (::renameat2(folder, beside_.c_str(), folder, name_.c_str(), RENAME_NOREPLACE) == 0) return {};
+  // Not every filesystem can do that; one that cannot has hard links.
+  if (errno == EINVAL && ::linkat(folder, beside_.c_str(), folder, name_.c_str(), 0) == 0) {
+    folder_->remove(beside_);
+    return {};
+  }
+  return system_failure(shown(), errno);
+}
+
+int NewFile::descriptor() const {
+  return stream_ ? ::fileno(stream_.get()) : -1;
+}
+
+Expected<void> NewFile::finish() {
+  if (auto done = place(); !done) return done;
+  errno = 0;
+  if (std::fclose(stream_.release()) == 0) return {};
+  return system_failure(shown(), errno != 0 ? errno : EIO);
+}
+
+Expected<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes, Rights rights) {
+  auto file = NewFile::create(path, rights);
+  if (!file) return tl::unexpected(file.error());
+  file->write(bytes);
+  return file->finish();
+}
+
+Expected<void> write_file(const std::filesystem::path& path, std::string_view text, Rights rights) {
+  return write_file(path, std::as_bytes(std::span(text)), rights);
+}
+
+Expected<std::filesystem::path> write_file_and_folders(const std::filesystem::path& path,
+                                                       std::span<const std::byte> bytes) {
+  if (auto folder = Folder::make(path.parent_path()); !folder) return tl::unexpected(folder.error());
+  if (auto written = write_file(path, bytes); !written) return tl::unexpected(written.error());
+  return path;
+}
+
+using failure::Expected;
+using failure::fail;
+
+namespace {
+
+constexpr const char* kAdvice = "remove it, or name another folder";
+
+// What stands in the way of continuing it; nullopt: nothing. A second name would make it a file of somewhere else.
+std::optional<std::string> obstacle(const struct stat& status) {
+  if (!S_ISREG(status.st_mode)) return name_of_kind(status.st_mode);
+  if (status.st_uid != ::geteuid()) return "a file of user " + std::to_string(status.st_uid);
+  if (status.st_nlink != 1) return "a file with " + std::to_string(status.st_nlink) + " names";
+  return std::nullopt;
+}
+
+}  // namespace
+
+Expected<LogFile> LogFile::open(Folder folder, std::string name, Limits limits) {
+  LogFile file(std::move(folder), std::move(name), limits);
+  if (auto opened = file.open_newest(); !opened) return tl::unexpected(opened.error());
+  return file;
+}
+
+std::string LogFile::name_of(std::size_t age) const {
+  return age == 0 ? name_ + ".log" : name_ + "." + std::to_string(age) + ".log";
+}
+
+Expected<void> LogFile::open_newest() {
+  const std::string name = name_of(0);
+  const std::string shown = (folder_.path() / name).string();
+  // Not opened at all when it is no file: opening a device or a pipe may already do something.
+  const auto there = folder_.look(name);
+  if (there)
+    if (const auto found = obstacle(*there)) return fail(shown, "a log file of this user", *found, kAdvice);
+  newest_ = Descriptor(::openat(folder_.descriptor(), name.c_str(),
+                                O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0600));
+  struct stat status {};
+  if (!newest_ || ::fstat(newest_.number(), &status) != 0)
+    return fail(shown, "a log file that can be written", std::strerror(errno), "check the folder and its rights");
+  if (const auto found = obstacle(status)) return fail(shown, "a log file of this user", *found, kAdvice);
+  ::fchmod(newest_.number(), 0600);
+  bytes_ = static_cast<std::size_t>(status.st_size);
+  return {};
+}
+
+Expected<void> LogFile::set_aside() {
+  for (std::size_t age = limits_.old; age > 0; --age) folder_.set_aside(name_of(age - 1), name_of(age));
+  // Where it cannot be set aside, or is not to be, it ends: no log grows without a limit.
+  folder_.remove(name_of(0));
+  return open_newest();
+}
+
+Expected<void> LogFile::append(std::string_view text) {
+  if (bytes_ > 0 && bytes_ + text.size() > limits_.bytes)
+    if (auto fresh = set_aside(); !fresh) return fresh;
+  while (!text.empty()) {
+    const ssize_t count = ::write(newest_.number(), text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0)
+      return fail((folder_.path() / name_of(0)).string(), "a log file that can be written", std::strerror(errno),
+                  "check the space on the disk");
+    bytes_ += static_cast<std::size_t>(count);
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return {};
+}
+
+}  // namespace yars::file

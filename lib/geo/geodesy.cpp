@@ -1,0 +1,276 @@
+#include "lib/geo/geodesy.hpp"
+
+#include <GeographicLib/Constants.hpp>
+#include <GeographicLib/Geocentric.hpp>
+#include <GeographicLib/Geodesic.hpp>
+#include <GeographicLib/GeodesicLine.hpp>
+#include <GeographicLib/MagneticModel.hpp>
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <new>
+#include <type_traits>
+
+namespace yars::geo {
+
+namespace {
+const GeographicLib::Geodesic& wgs84() {
+  return GeographicLib::Geodesic::WGS84();
+}
+}  // namespace
+
+GeodesicInverse geodesic_inverse(GeoPoint from, GeoPoint to) {
+  double distance_m = 0.0;
+  double azimuth_start_deg = 0.0;
+  double azimuth_end_deg = 0.0;
+  wgs84().Inverse(from.latitude_deg, from.longitude_deg, to.latitude_deg, to.longitude_deg, distance_m,
+                  azimuth_start_deg, azimuth_end_deg);
+  return {Length::metres(distance_m), Bearing::degrees(azimuth_start_deg), Bearing::degrees(azimuth_end_deg)};
+}
+
+GeoPoint geodesic_direct(GeoPoint from, Bearing azimuth, Length distance) {
+  GeoPoint to;
+  wgs84().Direct(from.latitude_deg, from.longitude_deg, azimuth.degrees(), distance.metres(), to.latitude_deg,
+                 to.longitude_deg);
+  return to;
+}
+
+struct GeodesicRay::Line {
+  GeographicLib::GeodesicLine line;
+};
+
+GeodesicRay::GeodesicRay(GeoPoint start, Bearing azimuth) {
+  static_assert(sizeof(Line) <= sizeof(storage_) && alignof(Line) <= alignof(std::max_align_t));
+  // Copied byte by byte and never destroyed: that is sound only for plain numbers.
+  static_assert(std::is_trivially_copyable_v<Line> && std::is_trivially_destructible_v<Line>);
+  ::new (storage_.data())
+      Line{wgs84().Line(start.latitude_deg, start.longitude_deg, azimuth.degrees(),
+                        GeographicLib::Geodesic::LATITUDE | GeographicLib::Geodesic::LONGITUDE |
+                            GeographicLib::Geodesic::AZIMUTH | GeographicLib::Geodesic::DISTANCE_IN)};
+}
+
+const GeodesicRay::Line& GeodesicRay::line() const {
+  return *std::launder(reinterpret_cast<const Line*>(storage_.data()));
+}
+
+GeoPoint GeodesicRay::position(Length distance) const {
+  GeoPoint point;
+  line().line.Position(distance.metres(), point.latitude_deg, point.longitude_deg);
+  return point;
+}
+
+GeodesicRay::Place GeodesicRay::place(Length distance) const {
+  GeoPoint point;
+  double azimuth_deg = 0.0;
+  line().line.Position(distance.metres(), point.latitude_deg, point.longitude_deg, azimuth_deg);
+  return {point, Bearing::degrees(azimuth_deg)};
+}
+
+Length radius_of_curvature(double latitude_deg, Bearing azimuth) {
+  const double a_m = GeographicLib::Constants::WGS84_a();
+  const double f = GeographicLib::Constants::WGS84_f();
+  const double e2 = f * (2.0 - f);
+  const double sin_lat = std::sin(latitude_deg * kRadiansPerDegree);
+  const double w2 = 1.0 - e2 * sin_lat * sin_lat;
+  const double meridian_m = a_m * (1.0 - e2) / (w2 * std::sqrt(w2));
+  const double prime_vertical_m = a_m / std::sqrt(w2);
+  const double cos_az = std::cos(azimuth.radians());
+  const double sin_az = std::sin(azimuth.radians());
+  return Length::metres(1.0 / (cos_az * cos_az / meridian_m + sin_az * sin_az / prime_vertical_m));
+}
+
+namespace {
+using Coefficients = GeodesicSeries::Coefficients;
+
+constexpr double kAimM = 5e-4;  // of the first term left out: half of what is promised, for the others
+// [m] between both radii; only to judge how near the pole is.
+constexpr double kMeanRadiusM = 6371008.8;
+
+// 1 / k: a multiplication is several times as fast as a division.
+constexpr std::array<double, GeodesicSeries::kMostOrder + 1> kInverse{
+    0.0, 1.0, 1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0, 1.0 / 5.0, 1.0 / 6.0, 1.0 / 7.0, 1.0 / 8.0};
+
+// Term k of the product of two series.
+double product(const Coefficients& a, const Coefficients& b, std::size_t k) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j <= k; ++j) sum += a[j] * b[k - j];
+  return sum;
+}
+
+// The same without the first term of `a`.
+double product_after_first(const Coefficients& a, const Coefficients& b, std::size_t k) {
+  double sum = 0.0;
+  for (std::size_t j = 1; j <= k; ++j) sum += a[j] * b[k - j];
+  return sum;
+}
+
+// How the ray begins, on the sphere of reduced latitude beta.
+struct Start {
+  double squared_axes;           // (b / a)^2
+  double sin_beta, north, east;  // north, east: cos(beta) times cosine and sine of the azimuth
+  double cos_latitude;
+};
+
+Start start_of(double latitude_deg, Bearing azimuth) {
+  const double axes = 1.0 - GeographicLib::Constants::WGS84_f();
+  const double latitude_rad = latitude_deg * kRadiansPerDegree;
+  const double polar = axes * std::sin(latitude_rad);
+  const double level = std::cos(latitude_rad);
+  const double inverse = 1.0 / std::sqrt(polar * polar + level * level);
+  const double azimuth_rad = azimuth.radians();
+  return {axes * axes, polar * inverse, level * inverse * std::cos(azimuth_rad),
+          level * inverse * std::sin(azimuth_rad), level};
+}
+
+// Longitude and the sine of the geodetic latitude over the distance [equatorial radii]. With z = sin(beta),
+// p = cos(beta) cos(azimuth) and ds = dw = W dsigma, W^2 = 1 - e^2 cos^2(beta): z' = p / W, p' = -z / W; by Clairaut
+// cos(beta) sin(azimuth) stays, so longitude' = east / cos^2(beta); sin(latitude) = z / W (Karney 2013, eqs. 5-10).
+struct Path {
+  Coefficients sin_latitude{}, longitude{};
+};
+
+Path path_from(const Start& start, std::size_t order) {
+  const double flatness = 1.0 - start.squared_axes;
+  Path path;
+  Coefficients z{}, p{}, width{}, inverse_width{}, cosine_squared{}, inverse_cosine{};
+  z[0] = start.sin_beta;
+  p[0] = start.north;
+  for (std::size_t k = 0; k <= order; ++k) {
+    const double square = product(z, z, k);
+    if (k == 0) {
+      width[0] = start.squared_axes + flatness * square;
+      cosine_squared[0] = start.north * start.north + start.east * start.east;
+      inverse_width[0] = 1.0 / std::sqrt(width[0]);
+      inverse_cosine[0] = 1.0 / cosine_squared[0];
+    } else {
+      width[k] = flatness * square;
+      cosine_squared[k] = -square;
+      // From 2 W^2 (1/W)' = -(W^2)' (1/W).
+      double sum = 0.0;
+      for (std::size_t j = 1; j <= k; ++j) sum += static_cast<double>(2 * k - j) * width[j] * inverse_width[k - j];
+      inverse_width[k] = -0.5 * kInverse[k] * inverse_width[0] * inverse_width[0] * sum;
+      inverse_cosine[k] = -inverse_cosine[0] * product_after_first(cosine_squared, inverse_cosine, k);
+    }
+    path.sin_latitude[k] = product(z, inverse_width, k);
+    if (k == order) break;
+    z[k + 1] = kInverse[k + 1] * product(p, inverse_width, k);
+    p[k + 1] = -kInverse[k + 1] * path.sin_latitude[k];
+    path.longitude[k + 1] = kInverse[k + 1] * start.east * inverse_cosine[k];
+  }
+  return path;
+}
+
+// The angle whose sine is given, less its first term: from sine' = cosine angle', cosine' = -sine angle'.
+Coefficients arcsine(const Coefficients& sine, double first_cosine, std::size_t order) {
+  Coefficients angle{}, slope{}, cosine{};
+  cosine[0] = first_cosine;
+  const double inverse = 1.0 / first_cosine;
+  for (std::size_t k = 0; k < order; ++k) {
+    slope[k] = inverse * (static_cast<double>(k + 1) * sine[k + 1] - product_after_first(cosine, slope, k));
+    cosine[k + 1] = -kInverse[k + 1] * product(sine, slope, k);
+    angle[k + 1] = kInverse[k + 1] * slope[k];
+  }
+  return angle;
+}
+}  // namespace
+
+int GeodesicSeries::order_for(double latitude_deg, Length range) {
+  // Both series converge up to about the pole's distance: what is left out is near its power.
+  const double to_pole_m = (90.0 - std::abs(latitude_deg)) * kRadiansPerDegree * kMeanRadiusM;
+  const double share = range.metres() / to_pole_m;
+  double left_out_m = to_pole_m * share;
+  for (int order = 1; order <= kMostOrder; ++order) {
+    left_out_m *= share;
+    if (left_out_m < kAimM * (order + 1)) return order;
+  }
+  return 0;
+}
+
+GeodesicSeries::GeodesicSeries(GeoPoint start, Bearing azimuth, int given_order) : order(given_order) {
+  const auto terms = static_cast<std::size_t>(order);
+  const Start begin = start_of(start.latitude_deg, azimuth);
+  const Path path = path_from(begin, terms);
+  const Coefficients latitude = arcsine(path.sin_latitude, begin.cos_latitude, terms);
+  latitude_deg[0] = start.latitude_deg;
+  longitude_deg[0] = start.longitude_deg;
+  const double per_metre = 1.0 / GeographicLib::Constants::WGS84_a();
+  double unit = 1.0 / kRadiansPerDegree;
+  for (std::size_t k = 1; k <= terms; ++k) {
+    unit *= per_metre;
+    latitude_deg[k] = latitude[k] * unit;
+    longitude_deg[k] = path.longitude[k] * unit;
+  }
+}
+
+Vector3 ecef_from_geodetic(GeoPoint point, HeightAboveEllipsoid height) {
+  Vector3 ecef;
+  GeographicLib::Geocentric::WGS84().Forward(point.latitude_deg, point.longitude_deg, height.metres(), ecef.x, ecef.y,
+                                             ecef.z);
+  return ecef;
+}
+
+GeodeticPlace geodetic_from_ecef(Vector3 ecef) {
+  GeodeticPlace place;
+  double height_m = 0.0;
+  GeographicLib::Geocentric::WGS84().Reverse(ecef.x, ecef.y, ecef.z, place.point.latitude_deg,
+                                             place.point.longitude_deg, height_m);
+  place.height = HeightAboveEllipsoid::metres(height_m);
+  return place;
+}
+
+LocalTangentFrame::LocalTangentFrame(GeoPoint origin, HeightAboveEllipsoid height)
+    : origin_(ecef_from_geodetic(origin, height)) {
+  const double sin_lat = std::sin(origin.latitude_deg * kRadiansPerDegree);
+  const double cos_lat = std::cos(origin.latitude_deg * kRadiansPerDegree);
+  const double sin_lon = std::sin(origin.longitude_deg * kRadiansPerDegree);
+  const double cos_lon = std::cos(origin.longitude_deg * kRadiansPerDegree);
+  rows_ = {Vector3{-sin_lon, cos_lon, 0.0}, Vector3{-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat},
+           Vector3{cos_lat * cos_lon, cos_lat * sin_lon, sin_lat}};
+}
+
+Vector3 LocalTangentFrame::enu_from_ecef_direction(Vector3 ecef) const {
+  return {dot(rows_[0], ecef), dot(rows_[1], ecef), dot(rows_[2], ecef)};
+}
+
+Vector3 LocalTangentFrame::ecef_from_enu_direction(Vector3 enu) const {
+  return enu.x * rows_[0] + enu.y * rows_[1] + enu.z * rows_[2];
+}
+
+Vector3 LocalTangentFrame::enu_from_ecef(Vector3 ecef) const {
+  return enu_from_ecef_direction(ecef - origin_);
+}
+
+Vector3 LocalTangentFrame::enu_from_geodetic(GeoPoint point, HeightAboveEllipsoid height) const {
+  return enu_from_ecef(ecef_from_geodetic(point, height));
+}
+
+struct MagneticField::Model {
+  Model(const std::string& name, const std::string& folder) : field(name, folder) {}
+  GeographicLib::MagneticModel field;
+};
+
+MagneticField::MagneticField(const std::string& name, const std::string& folder) {
+  const std::string chosen = name.empty() ? GeographicLib::MagneticModel::DefaultMagneticName() : name;
+  try {
+    model_ = std::make_unique<Model>(chosen, folder);
+  } catch (const std::exception& problem) {
+    // The library's own way to say that a file is not there.
+    problem_ = problem.what();
+  }
+}
+
+MagneticField::MagneticField(MagneticField&&) noexcept = default;
+MagneticField& MagneticField::operator=(MagneticField&&) noexcept = default;
+MagneticField::~MagneticField() = default;
+
+double MagneticField::variation_deg(GeoPoint point, HeightAboveEllipsoid height, double year) const {
+  if (!model_) return std::numeric_limits<double>::quiet_NaN();
+  const auto& field = model_->field;
+  double east = 0.0, north = 0.0, up = 0.0;
+  field(std::clamp(year, field.MinTime(), field.MaxTime()), point.latitude_deg, point.longitude_deg, height.metres(),
+        east, north, up);
+  return std::atan2(east, north) / kRadiansPerDegree;
+}
+
+}  // namespace yars::geo

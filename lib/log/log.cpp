@@ -1,0 +1,192 @@
+#include "lib/log/log.hpp"
+
+#include <spdlog/sinks/base_sink.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "lib/file/output_file.hpp"
+#include "lib/text/plain_text.hpp"
+
+namespace yars::databuffer {
+
+namespace {
+
+std::string key_of(std::string_view line) {
+  std::string key;
+  for (const char letter : line.substr(0, line.find(", found"))) {
+    const bool digit = letter >= '0' && letter <= '9';
+    if (!digit)
+      key += letter;
+    else if (key.empty() || key.back() != '#')
+      key += '#';
+  }
+  return key;
+}
+
+}  // namespace
+
+RepeatFilter::Kind& RepeatFilter::kind_of(std::string_view line, std::int64_t now_ns) {
+  std::erase_if(
+      kinds_, [now_ns](const Kind& kind) { return now_ns - kind.begin_ns >= kWindow_ns && kind.left_out.count == 0; });
+  std::string key = key_of(line);
+  // The last place is for all that found none.
+  if (kinds_.size() + 1 >= kMostKinds) key = "many kinds";
+  const auto found = std::ranges::find(kinds_, key, &Kind::key);
+  if (found != kinds_.end()) return *found;
+  return kinds_.emplace_back(Kind{std::move(key), now_ns, 0, {}});
+}
+
+bool RepeatFilter::passes(std::string_view line, std::int64_t now_ns) {
+  if (now_ns - window_ns_ >= kWindow_ns) {
+    window_ns_ = now_ns;
+    passed_ = 0;
+  }
+  Kind& kind = kind_of(line, now_ns);
+  if (kind.passed < most_of_a_kind_ && passed_ < most_of_all_) {
+    ++kind.passed;
+    ++passed_;
+    return true;
+  }
+  kind.left_out.line = line;
+  ++kind.left_out.count;
+  return false;
+}
+
+std::vector<RepeatFilter::LeftOut> RepeatFilter::take_left_out(std::int64_t now_ns, bool all) {
+  std::vector<LeftOut> taken;
+  std::erase_if(kinds_, [&](Kind& kind) {
+    const bool over = all || now_ns - kind.begin_ns >= kWindow_ns;
+    if (over && kind.left_out.count > 0) taken.push_back(std::move(kind.left_out));
+    return over;
+  });
+  return taken;
+}
+
+namespace {
+
+constexpr std::array<std::string_view, 6> kLevels{"trace", "debug", "info", "warning", "error", "off"};
+constexpr const char* kTerminalPattern = "%H:%M:%S.%e %n %l: %v";
+constexpr const char* kFilePattern = "%Y-%m-%d %H:%M:%S.%e %n[%P] %l: %v";
+
+// The file's own logger: none without a file.
+std::shared_ptr<spdlog::logger>& file_logger() {
+  static std::shared_ptr<spdlog::logger> logger;
+  return logger;
+}
+
+struct Filtered {
+  std::mutex mutex;
+  RepeatFilter filter{10, 200};
+};
+Filtered& filtered() {
+  static Filtered all;
+  return all;
+}
+
+std::int64_t now_ns() {
+  return std::chrono::steady_clock::now().time_since_epoch().count();
+}
+
+bool passes(std::string_view text) {
+  const std::lock_guard guard(filtered().mutex);
+  return filtered().filter.passes(text, now_ns());
+}
+
+std::vector<RepeatFilter::LeftOut> left_out(LeftOut which) {
+  const std::lock_guard guard(filtered().mutex);
+  return filtered().filter.take_left_out(now_ns(), which == LeftOut::all);
+}
+
+// spdlog's own file sinks follow whatever link lies at the log's name.
+class FileSink : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  explicit FileSink(file::LogFile file) : file_(std::move(file)) {}
+
+ private:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    spdlog::memory_buf_t line;
+    formatter_->format(message, line);
+    if (auto written = file_.append({line.data(), line.size()}); !written)
+      throw spdlog::spdlog_ex(written.error().message());
+  }
+  void flush_() override {}
+
+  file::LogFile file_;
+};
+
+failure::Expected<std::shared_ptr<spdlog::sinks::sink>> open_file(const std::string& program,
+                                                                  const std::string& folder) {
+  auto opened = file::Folder::make_private(folder);
+  if (!opened) return tl::unexpected(opened.error());
+  auto file = file::LogFile::open(std::move(*opened), program, {kLogFileBytes, kOldLogFiles});
+  if (!file) return tl::unexpected(file.error());
+  auto sink = std::make_shared<FileSink>(std::move(*file));
+  sink->set_pattern(kFilePattern);
+  return sink;
+}
+
+}  // namespace
+
+bool start_log(const std::string& program, const std::string& level) {
+  if (std::find(kLevels.begin(), kLevels.end(), level) == kLevels.end()) return false;
+  auto logger = std::make_shared<spdlog::logger>(program, std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  logger->set_pattern(kTerminalPattern);
+  logger->set_level(spdlog::level::from_str(level));
+  logger->flush_on(spdlog::level::info);
+  spdlog::set_default_logger(std::move(logger));
+  return true;
+}
+
+void start_log_file(const std::string& program, const std::string& folder) {
+  try {
+    auto opened = open_file(program, folder);
+    if (!opened) {
+      log_warning("--log-dir: expected a folder to write to; " + opened.error().message() + "; no log file is written");
+      return;
+    }
+    auto sink = std::move(*opened);
+    file_logger() = std::make_shared<spdlog::logger>(program, sink);
+    file_logger()->flush_on(spdlog::level::info);
+    spdlog::default_logger()->sinks().push_back(std::move(sink));
+    // A disk that fills up later is said once too; standard error goes on.
+    for (const auto& logger : {spdlog::default_logger(), file_logger()})
+      logger->set_error_handler([](const std::string& problem) {
+        static std::atomic<bool> said{false};
+        if (!said.exchange(true)) std::fprintf(stderr, "the log file is not written: %s\n", problem.c_str());
+      });
+  } catch (const std::exception& problem) {
+    log_warning("--log-dir: expected a folder to write to, found " + folder + ": " + problem.what() +
+                "; no log file is written");
+  }
+}
+
+void log_left_out(LeftOut which) {
+  for (const auto& lines : left_out(which)) spdlog::info("{}", failure::printable(lines.text()));
+}
+
+void log_debug(std::string_view text) {
+  spdlog::debug("{}", failure::printable(text));
+}
+void log_info(std::string_view text) {
+  if (passes(text)) spdlog::info("{}", failure::printable(text));
+}
+void log_warning(std::string_view text) {
+  if (passes(text)) spdlog::warn("{}", failure::printable(text));
+}
+void log_error(std::string_view text) {
+  if (passes(text)) spdlog::error("{}", failure::printable(text));
+}
+void log_to_file(std::string_view text) {
+  if (file_logger()) file_logger()->critical("{}", failure::printable(text));
+}
+
+}  // namespace yars::databuffer

@@ -1,0 +1,101 @@
+#include "lib/radar/configuration.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace yars::radar {
+
+ColorConfiguration color_preset(ColorPreset preset) {
+  switch (preset) {
+    case ColorPreset::gray:
+      return {preset, {0.80, 0.80, 0.80}, {1.0, 1.0, 1.0}, {0.48, 0.48, 0.48}};
+    case ColorPreset::night:
+      return {preset, {0.46, 0.09, 0.05}, {0.72, 0.22, 0.14}, {0.34, 0.08, 0.05}};
+    case ColorPreset::green:
+      break;
+  }
+  return {};
+}
+
+Rgb rgb_from_hsv(double hue_deg, double saturation, double value) {
+  // Each channel is full within 60 degrees of its own hue and falls to the saturation's floor 120 degrees away.
+  const auto channel = [&](double own_hue_deg) {
+    const double away = std::abs(std::remainder(hue_deg - own_hue_deg, 360.0)) / 60.0;
+    return value * (1.0 - saturation * std::clamp(away - 1.0, 0.0, 1.0));
+  };
+  return {channel(0.0), channel(120.0), channel(240.0)};
+}
+
+namespace {
+
+constexpr std::array<std::string_view, 5> kNames{"1996", "draft", "standard", "fine", "reference"};
+
+// What the report computes: flat earth, no refraction, hard edges of the beam, three-sweep and three-post smear.
+Fidelity of_1996() {
+  Fidelity fidelity;
+  fidelity.algorithm = Algorithm::report_1996;
+  fidelity.earth = EarthModel::flat;
+  fidelity.earth_radius_factor = 1.0;
+  fidelity.noise = false;
+  fidelity.beam = BeamPattern::hard_edge;
+  fidelity.map_layover = false;
+  fidelity.map_response = false;
+  fidelity.map_detail = false;
+  fidelity.map_smooth_ground = false;
+  return fidelity;
+}
+
+// Half the samples and no smear, on a sphere: for a slow machine or many radars.
+Fidelity draft() {
+  Fidelity fidelity;
+  fidelity.earth = EarthModel::sphere;
+  fidelity.geodesic_knots = 3;
+  fidelity.posts_per_sample = 20.0;
+  fidelity.samples = 240;
+  fidelity.azimuth_smear = false;
+  fidelity.pulse_smear = false;
+  fidelity.map_response = false;
+  fidelity.map_detail = false;
+  return fidelity;
+}
+
+// Every effect that the model knows, on every post.
+Fidelity fine() {
+  Fidelity fidelity;
+  fidelity.geodesic_knots = 7;
+  fidelity.posts_per_sample = 0.0;
+  fidelity.samples = 1024;
+  fidelity.cross_track_slope = true;
+  fidelity.azimuth_smear = false;
+  fidelity.sub_beams = 5;
+  fidelity.map_oversampling = 2;
+  fidelity.map_double_bounce = true;
+  return fidelity;
+}
+
+Fidelity reference() {
+  Fidelity fidelity = fine();
+  fidelity.algorithm = Algorithm::reference;
+  fidelity.geodesic_knots = 0;
+  return fidelity;
+}
+
+}  // namespace
+
+std::span<const std::string_view> fidelity_names() {
+  return kNames;
+}
+
+std::optional<Fidelity> fidelity_preset(std::string_view name) {
+  if (std::find(kNames.begin(), kNames.end(), name) == kNames.end()) return std::nullopt;
+  Fidelity fidelity;
+  if (name == "1996") fidelity = of_1996();
+  if (name == "draft") fidelity = draft();
+  if (name == "fine") fidelity = fine();
+  if (name == "reference") fidelity = reference();
+  fidelity.name = name;
+  return fidelity;
+}
+
+}  // namespace yars::radar

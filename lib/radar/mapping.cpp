@@ -1,0 +1,134 @@
+#include "lib/radar/mapping.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "lib/error/error.hpp"
+
+namespace yars::radar {
+
+geo::Length range_by_height(geo::Length height, const HeightRanges& table) {
+  YARS_REQUIRE(table.ranges_nm.size(), ==, table.heights_ft.size() + 1);
+  const auto found = std::find_if(table.heights_ft.begin(), table.heights_ft.end(),
+                                  [height](double height_ft) { return height <= geo::Length::feet(height_ft); });
+  return geo::Length::nautical_miles(table.ranges_nm[static_cast<std::size_t>(found - table.heights_ft.begin())]);
+}
+
+std::size_t range_index_for(geo::Length wanted, std::span<const double> ranges_nm) {
+  YARS_REQUIRE(ranges_nm.size(), >, std::size_t{0});
+  const auto found = std::find_if(ranges_nm.begin(), ranges_nm.end(), [wanted](double range_nm) {
+    return geo::Length::nautical_miles(range_nm) >= wanted;
+  });
+  if (found == ranges_nm.end()) return ranges_nm.size() - 1;
+  return static_cast<std::size_t>(found - ranges_nm.begin());
+}
+
+namespace {
+// [NM] Two sizes closer than this are one: the sizes are given to 0.01 NM, and they pass through metres.
+constexpr double kSameWindow_nm = 0.005;
+}  // namespace
+
+std::optional<CursorLimits> cursor_limits(geo::Length window, const WindowLimits& table) {
+  const auto found = std::find_if(table.windows_nm.begin(), table.windows_nm.end(), [window](double candidate_nm) {
+    return std::abs(candidate_nm - window.nautical_miles()) < kSameWindow_nm;
+  });
+  const auto row = static_cast<std::size_t>(found - table.windows_nm.begin());
+  if (row >= table.windows_nm.size() || row >= table.least_nm.size() || row >= table.greatest_nm.size()) return {};
+  return CursorLimits{geo::Length::nautical_miles(table.least_nm[row]),
+                      geo::Length::nautical_miles(table.greatest_nm[row])};
+}
+
+std::optional<std::size_t> largest_window_that_fits(geo::Length range, std::span<const double> windows_nm) {
+  const auto beyond = std::find_if(windows_nm.begin(), windows_nm.end(), [range](double window_nm) {
+    return geo::Length::nautical_miles(window_nm) > range;
+  });
+  if (beyond == windows_nm.begin()) return std::nullopt;
+  return static_cast<std::size_t>(std::distance(windows_nm.begin(), beyond)) - 1;
+}
+
+std::optional<geo::Length> window_while_blank(geo::Length cursor_range, const WindowLimits& table) {
+  if (!(cursor_range >= geo::Length::nautical_miles(table.blank_least_nm))) return std::nullopt;
+  const std::size_t rows = std::min(table.blank_windows_nm.size(), table.blank_up_to_nm.size());
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (cursor_range <= geo::Length::nautical_miles(table.blank_up_to_nm[row]))
+      return geo::Length::nautical_miles(table.blank_windows_nm[row]);
+  }
+  return std::nullopt;
+}
+
+namespace {
+constexpr double kSpeedOfLight_mps = 299792458.0;  // exact
+
+double wavelength_m(const RadarConfiguration& configuration) {
+  return kSpeedOfLight_mps / (configuration.receiver.frequency_ghz * 1e9);
+}
+}  // namespace
+
+geo::Length map_resolution(geo::Length window) {
+  return window / kCellsOfMap;
+}
+
+int map_strips(geo::Length window, geo::Length slant_range, geo::Angle azimuth_beamwidth) {
+  const double swath_m = slant_range.metres() * azimuth_beamwidth.radians();
+  constexpr double kMostStrips = 1000.0;  // of a window far wider than any beam; the cap ends it anyway
+  return static_cast<int>(std::clamp(std::ceil(window.metres() / swath_m), 1.0, kMostStrips));
+}
+
+geo::Duration formation_time(const MapLook& look, const RadarConfiguration& configuration) {
+  const HighResolutionConfiguration& map = configuration.high_resolution;
+  const double doppler_mps = look.ground_speed.metres_per_second() * std::abs(std::sin(look.squint.radians()));
+  const double strip_s = map.broadening * wavelength_m(configuration) * look.slant_range.metres() /
+                         (2.0 * doppler_mps * map_resolution(look.window).metres());
+  const int strips =
+      map_strips(look.window, look.slant_range, geo::Angle::degrees(configuration.antenna.azimuth_beamwidth_deg));
+  const double whole_s = strip_s * look.looks * strips;
+  // Standing still or looking straight ahead gives infinity, or nothing at all: the cap holds then.
+  return geo::Duration::seconds(whole_s < map.formation_cap_s ? whole_s : map.formation_cap_s);
+}
+
+bool in_blind_zone(geo::Angle squint, const HighResolutionConfiguration& configuration) {
+  // Astern there is as little Doppler spread as ahead.
+  const double off_deg = std::abs(geo::wrapped_degrees(squint.degrees()));
+  return std::min(off_deg, 180.0 - off_deg) < configuration.blind_zone_deg;
+}
+
+geo::Angle sharpened_beamwidth(geo::Angle squint, geo::Speed ground_speed, const RadarConfiguration& configuration) {
+  const geo::Angle beam = geo::Angle::degrees(configuration.antenna.azimuth_beamwidth_deg);
+  const double doppler_mps = ground_speed.metres_per_second() * std::abs(std::sin(squint.radians()));
+  const double sharpened_rad =
+      wavelength_m(configuration) / (2.0 * doppler_mps * configuration.high_resolution.dwell_s);
+  return sharpened_rad < beam.radians() ? geo::Angle::radians(sharpened_rad) : beam;
+}
+
+namespace {
+
+bool is_finite(geo::GeoPoint point) {
+  return std::isfinite(point.latitude_deg) && std::isfinite(point.longitude_deg);
+}
+
+// True if a blank selection stands for this window at this range, or, without a size, for any.
+bool blank_allows(geo::Length range, geo::Length size, const WindowLimits& table) {
+  const std::optional<geo::Length> taken = window_while_blank(range, table);
+  return taken && (size == geo::Length() || std::abs((*taken - size).nautical_miles()) < kSameWindow_nm);
+}
+
+}  // namespace
+
+std::optional<std::string_view> why_not_mappable(const MapViewpoint& from, geo::GeoPoint place, const MapWindow& window,
+                                                 const RadarConfiguration& configuration) {
+  if (!is_finite(from.aircraft) || !is_finite(place)) return "NO CURSOR";
+  const geo::GeodesicInverse way = geo::geodesic_inverse(from.aircraft, place);
+  if (in_blind_zone(way.azimuth_at_start - from.ground_track, configuration.high_resolution)) return "BLIND ZONE";
+  const geo::Angle off_nose = way.azimuth_at_start - from.heading;
+  if (std::abs(off_nose.degrees()) > configuration.antenna.azimuth_limit_deg) return "GIMBAL";
+  const bool blank = window.blank || window.size == geo::Length();
+  if (blank && blank_allows(way.distance, window.size, configuration.window_limits)) return std::nullopt;
+  const auto limits = cursor_limits(window.size, configuration.window_limits);
+  if (!limits) return "NO WINDOW";
+  if (way.distance < limits->least) return "MIN RANGE";
+  if (way.distance > limits->greatest) return "MAX RANGE";
+  return std::nullopt;
+}
+
+}  // namespace yars::radar

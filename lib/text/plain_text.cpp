@@ -1,0 +1,154 @@
+#include "lib/text/plain_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+
+namespace yars::failure {
+
+namespace {
+
+// Bytes of the character that this one begins; 0: none begins so.
+std::size_t length_of(unsigned char first) {
+  if (first < 0x80) return 1;
+  if (first >= 0xC2 && first <= 0xDF) return 2;
+  if (first >= 0xE0 && first <= 0xEF) return 3;
+  if (first >= 0xF0 && first <= 0xF4) return 4;
+  return 0;
+}
+
+bool continues(char byte) {
+  return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
+}
+
+// The code point of the whole character at the front of `text`; a control character where there is none.
+std::uint32_t code_point(std::string_view text, std::size_t length) {
+  const auto first = static_cast<unsigned char>(text[0]);
+  if (length == 1) return first;
+  std::uint32_t code = first & (0xFFU >> (length + 1));
+  for (const char byte : text.substr(1, length - 1)) code = code << 6U | (static_cast<unsigned char>(byte) & 0x3FU);
+  const bool overlong = (length == 3 && code < 0x800U) || (length == 4 && code < 0x10000U);
+  const bool surrogate = code >= 0xD800U && code <= 0xDFFFU;
+  return overlong || surrogate || code > 0x10FFFFU ? 0U : code;
+}
+
+bool is_control(std::uint32_t code) {
+  return code < 0x20U || (code >= 0x7FU && code < 0xA0U) || (code >= 0x2028U && code <= 0x202EU) ||
+         (code >= 0x2066U && code <= 0x2069U) || code == 0x200EU || code == 0x200FU;
+}
+
+void append_escaped(std::string& shown, char byte) {
+  constexpr std::string_view kHex = "0123456789abcdef";
+  const auto value = static_cast<unsigned char>(byte);
+  if (byte == '\n') {
+    shown += "\\n";
+  } else if (byte == '\t') {
+    shown += "\\t";
+  } else {
+    shown += {'\\', 'x', kHex[value >> 4U], kHex[value & 0xFU]};
+  }
+}
+
+std::string escaped(std::string_view text, bool keep_lines) {
+  std::string shown;
+  shown.reserve(text.size());
+  while (!text.empty()) {
+    std::size_t length = length_of(static_cast<unsigned char>(text[0]));
+    const bool whole = length > 0 && length <= text.size() &&
+                       std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(length), continues);
+    if (!whole) length = 1;
+    const bool kept =
+        whole && (!is_control(code_point(text, length)) || (keep_lines && (text[0] == '\n' || text[0] == '\t')));
+    if (kept) shown += text.substr(0, length);
+    if (!kept) std::for_each_n(text.begin(), length, [&](char byte) { append_escaped(shown, byte); });
+    text.remove_prefix(length);
+  }
+  return shown;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  return escaped(text, false);
+}
+
+std::string printable_lines(std::string_view text) {
+  return escaped(text, true);
+}
+
+std::size_t unfinished_bytes(std::string_view text) {
+  for (std::size_t back = 1; back <= std::min<std::size_t>(3, text.size()); ++back) {
+    const char byte = text[text.size() - back];
+    if (continues(byte)) continue;
+    return length_of(static_cast<unsigned char>(byte)) > back ? back : 0;
+  }
+  return 0;
+}
+
+}  // namespace yars::failure
+
+namespace yars::databuffer {
+
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\v\f\n";
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+std::vector<std::string_view> fields_of(std::string_view text, char separator) {
+  std::vector<std::string_view> fields;
+  while (true) {
+    const std::size_t end = text.find(separator);
+    fields.push_back(trimmed(text.substr(0, end)));
+    if (end == std::string_view::npos) return fields;
+    text.remove_prefix(end + 1);
+  }
+}
+
+std::vector<NumberedLine> numbered_lines(std::string_view text) {
+  std::vector<NumberedLine> lines;
+  int number = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view whole = text.substr(0, end);
+    const std::string_view line = trimmed(whole.substr(0, whole.find('#')));
+    ++number;
+    if (!line.empty()) lines.push_back({number, line});
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> words;
+  for (text = trimmed(text); !text.empty(); text = trimmed(text)) {
+    const std::size_t end = std::min(text.find_first_of(kBlanks), text.size());
+    words.push_back(text.substr(0, end));
+    text.remove_prefix(end);
+  }
+  return words;
+}
+
+std::optional<double> finite_number(std::string_view word) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (problem != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::string text_of_number(double value) {
+  std::array<char, 32> buffer{};
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), result.ptr};
+}
+
+}  // namespace yars::databuffer

@@ -1,0 +1,37 @@
+// state-machine: turns events into the radar state.
+#include "databuffer/runtime/program.hpp"
+#include "lib/log/log.hpp"
+#include "statemachine/app/state_machine_shell.hpp"
+
+namespace {
+
+using namespace yars;
+
+failure::Expected<void> run(const databuffer::ProgramOptions& options) {
+  auto configuration = databuffer::load_program_configuration(options);
+  if (!configuration) return tl::unexpected(configuration.error());
+  auto session = databuffer::Session::open(options.session, "state-machine");
+  if (!session) return tl::unexpected(session.error());
+  auto role = session->claim(databuffer::Role::state_machine);
+  if (!role) return tl::unexpected(databuffer::usage_error(role.error()));
+  auto loop = databuffer::TickLoop::create(*session, databuffer::LockstepRole::state_machine, options.lockstep);
+  if (!loop) return tl::unexpected(loop.error());
+  statemachine::StateMachineShell shell(*session, *configuration, loop->lockstep());
+  databuffer::log_info("runs in session " + options.session);
+  while (const auto due = loop->wait()) {
+    shell.step(*due);
+    loop->done(*due);
+    if (due->skipped > 0)
+      session->note(databuffer::NoteKind::late_tick, "state-machine skipped " + std::to_string(due->skipped));
+  }
+  return loop->outcome();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("YARS state machine: events in, radar state out", "state-machine");
+  databuffer::ProgramOptions options;
+  databuffer::add_common_options(app, options, true);
+  return databuffer::run_program(argc, argv, app, options, [&options] { return run(options); });
+}

@@ -1,0 +1,184 @@
+#include "statemachine/app/state_machine_shell.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "databuffer/messages/input_event.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "databuffer/session/picture_pool.hpp"
+#include "lib/log/log.hpp"
+#include "statemachine/designation.hpp"
+#include "statemachine/machine.hpp"
+
+namespace yars::statemachine {
+
+namespace {
+
+// [ns] An event older than this when a restarted consumer finds it is not what the pilot wants any more.
+constexpr std::int64_t kOldestEvent_ns = 1'000'000'000;
+
+}  // namespace
+
+StateMachineShell::StateMachineShell(databuffer::Session& session, const radar::RadarConfiguration& configuration,
+                                     bool lockstep)
+    : session_(&session),
+      configuration_(&configuration),
+      drop_old_events_(!lockstep),
+      field_(configuration.navigation.magnetic_model, configuration.navigation.magnetic_folder),
+      state_(initial_state(configuration)),
+      published_{} {
+  // Data that nobody asked for need not be there; the configured variation serves.
+  if (!field_.has_data() && !configuration.navigation.magnetic_model.empty())
+    databuffer::log_warning("magnetic model: " + field_.problem() + "; the configured variation serves");
+  databuffer::RadarState left{};
+  if (!session.layout().radar_state.read(left)) return;
+  if (const auto reason = databuffer::why_refused(left)) {
+    session.note(databuffer::NoteKind::refusal, "radar state left behind: " + std::string(*reason));
+    databuffer::log_warning("radar state left behind is refused, starting anew: " + std::string(*reason));
+    return;
+  }
+  state_ = left;
+  published_ = left;
+  nothing_published_ = false;
+  session.note(databuffer::NoteKind::restart, "state-machine resumes");
+  databuffer::log_info("resumes from the radar state in the segment");
+}
+
+void StateMachineShell::step(const databuffer::TickLoop::Due& due) {
+  session_->keep_clock();
+  latch(due);
+  take_events(due.tick);
+  advance(state_, surroundings_, *configuration_);
+  publish_if_changed(due.tick);
+  session_->layout().outputs.publish(outputs_of(state_, surroundings_));
+  drop_old_events_ = false;
+}
+
+void StateMachineShell::latch(const databuffer::TickLoop::Due& due) {
+  const auto& selected = ownship_.refresh(session_->layout(), due.sim_time_ns, due.clock.epoch);
+  surroundings_.tick = due.tick;
+  surroundings_.sim_time_ns = due.sim_time_ns;
+  surroundings_.epoch = due.clock.epoch;
+  surroundings_.ownship_valid = selected.valid;
+  surroundings_.ownship = selected.ownship;
+  surroundings_.nav = selected.nav;
+  latch_recorder();
+  const bool stale = !latch_model() || (surroundings_.model.flags & databuffer::kModelStale) != 0;
+  surroundings_.height_above_ground_m = stale ? std::nan("") : surroundings_.model.height_above_ground_m;
+  latch_variation();
+  latch_maps();
+}
+
+// False: no model has told anything. A status out of range is refused and noted, and the last good one goes on.
+bool StateMachineShell::latch_model() {
+  databuffer::ModelStatus status{};
+  if (!session_->layout().model_status.read(status)) return false;
+  if (const auto reason = databuffer::why_refused(status)) {
+    session_->note(databuffer::NoteKind::refusal, "model status: " + *reason);
+    return model_told_;
+  }
+  surroundings_.model = status;
+  return model_told_ = true;
+}
+
+// What a recorder that has gone left behind does not count.
+void StateMachineShell::latch_recorder() {
+  const auto& slot = session_->layout().recorder_status;
+  if (slot.version() != recorder_version_) {
+    databuffer::RecorderStatus status{};
+    if (const auto version = slot.read(status)) {
+      recorder_version_ = *version;
+      if (const auto reason = databuffer::why_refused(status))
+        session_->note(databuffer::NoteKind::refusal, "recorder status: " + *reason);
+      else
+        recorder_ = status;
+    }
+  }
+  surroundings_.recorder_present = session_->role_is_held(databuffer::Role::recorder);
+  surroundings_.recorder_writing = surroundings_.recorder_present && recorder_.writing != 0;
+  surroundings_.recorder_failed = surroundings_.recorder_present && recorder_.problem[0] != '\0';
+}
+
+// Every second: the field changes over miles, and its series costs more than a tick of the machine.
+void StateMachineShell::latch_variation() {
+  constexpr std::int64_t kTicksBetween = 200;
+  const bool due = surroundings_.tick % kTicksBetween == 0 || std::isnan(surroundings_.field_variation_deg);
+  if (!field_.has_data() || !surroundings_.ownship_valid || !due) return;
+  const databuffer::Ownship& ownship = surroundings_.ownship;
+  surroundings_.field_variation_deg = field_.variation_deg({ownship.latitude_deg, ownship.longitude_deg},
+                                                           geo::HeightAboveEllipsoid::metres(ownship.altitude_msl_m),
+                                                           configuration_->navigation.magnetic_year);
+}
+
+// Records that are wanted no more make way for those that are; one that is here already is not read again.
+void StateMachineShell::latch_maps() {
+  const std::array<std::uint64_t, kMapsKnown> wanted{state_.map_newest, state_.map_old, state_.map_stored,
+                                                     surroundings_.model.map_newest};
+  auto& maps = surroundings_.maps;
+  const auto is_wanted = [&](std::uint64_t id) { return std::ranges::find(wanted, id) != wanted.end(); };
+  for (databuffer::PatchMap& map : maps)
+    if (!is_wanted(map.id)) map = {};
+  for (const std::uint64_t id : wanted) {
+    if (id == 0 || id == refused_map_ || std::ranges::find(maps, id, &databuffer::PatchMap::id) != maps.end()) continue;
+    databuffer::PatchMap map{};
+    if (!databuffer::read_patch(session_->layout(), id, map)) continue;
+    if (const auto reason = databuffer::why_refused(map)) {
+      session_->note(databuffer::NoteKind::refusal, "patch map: " + *reason);
+      refused_map_ = id;
+      continue;
+    }
+    *std::ranges::find(maps, std::uint64_t{0}, &databuffer::PatchMap::id) = map;
+  }
+}
+
+void StateMachineShell::take_events(std::int64_t tick) {
+  auto& input = session_->layout().input;
+  databuffer::InputEvent event{};
+  std::uint64_t too_old = 0;
+  const std::int64_t now_ns = drop_old_events_ ? databuffer::monotonic_ns() : 0;
+  for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) {
+    // A source that floods its lane holds up no tick: the rest waits for the next.
+    for (std::size_t taken = 0; taken < databuffer::kInputLaneDepth && input.peek(lane, event); ++taken) {
+      // A lane is in order: what follows waits, too.
+      if (waits_for_elevation(state_, event, surroundings_)) break;
+      input.pop(lane, event);
+      if (drop_old_events_ && event.monotonic_ns < now_ns - kOldestEvent_ns)
+        ++too_old;
+      else
+        take(event, lane, tick);
+    }
+  }
+  if (too_old > 0) session_->note(databuffer::NoteKind::loss, std::to_string(too_old) + " events over 1 s old dropped");
+}
+
+void StateMachineShell::take(const databuffer::InputEvent& event, std::size_t lane, std::int64_t tick) {
+  if (const auto reason = databuffer::why_refused(event)) {
+    session_->note(databuffer::NoteKind::refusal, "event: " + std::string(*reason));
+    return;
+  }
+  databuffer::AppliedEvent applied{};
+  applied.effective = static_cast<std::uint32_t>(apply(state_, event, surroundings_, *configuration_));
+  ++state_.events_applied;
+  applied.tick = tick;
+  applied.monotonic_ns = databuffer::monotonic_ns();
+  applied.event = event;
+  applied.lane = static_cast<std::uint32_t>(lane);
+  session_->layout().applied_events.publish(applied);
+  databuffer::log_debug(databuffer::text_of(event) +
+                        (applied.effective != databuffer::kEventDead ? "" : " (dead here)"));
+}
+
+void StateMachineShell::publish_if_changed(std::int64_t tick) {
+  state_.epoch = surroundings_.epoch;
+  state_.tick = published_.tick;
+  if (!nothing_published_ && std::memcmp(&state_, &published_, sizeof state_) == 0) return;
+  state_.tick = tick;
+  session_->layout().radar_state.publish(state_);
+  published_ = state_;
+  nothing_published_ = false;
+}
+
+}  // namespace yars::statemachine

@@ -1,0 +1,343 @@
+#include "statemachine/designation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "databuffer/messages/derived_values.hpp"
+#include "lib/geo/geodesy.hpp"
+#include "lib/radar/modes.hpp"
+#include "lib/text/plain_text.hpp"
+#include "statemachine/settings.hpp"
+
+namespace yars::statemachine {
+
+namespace {
+
+using databuffer::RadarState;
+using geo::GeoPoint;
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t kAnswerTicks = 20;   // 0.1 s: a model that lives has answered by then
+constexpr std::int64_t kGroundTicks = 400;  // 2 s: ground that is still unknown is void, or is not loaded
+
+GeoPoint cursor_of(const RadarState& state) {
+  return {state.cursor_latitude_deg, state.cursor_longitude_deg};
+}
+
+bool is_asked(const RadarState& state, GeoPoint ground) {
+  return state.asked_latitude_deg == ground.latitude_deg && state.asked_longitude_deg == ground.longitude_deg;
+}
+
+void put_elevation(RadarState& state, std::uint32_t for_whom, double elevation_m) {
+  for (std::uint32_t mark = 0; mark < databuffer::kMarks; ++mark)
+    if ((for_whom >> mark & 1U) != 0) state.marks[mark].elevation_m = elevation_m;
+  if ((for_whom & databuffer::kAskedForTarget) != 0) state.target_elevation_m = elevation_m;
+  if ((for_whom & databuffer::kAskedForCue) != 0) state.cue_elevation_m = elevation_m;
+}
+
+// Ticks since the question; time may have been set back since.
+std::int64_t waited(const RadarState& state, std::int64_t tick) {
+  return tick < state.asked_tick ? kGroundTicks : tick - state.asked_tick;
+}
+
+}  // namespace
+
+std::optional<double> answered_elevation_m(const Surroundings& surroundings, GeoPoint ground) {
+  const databuffer::ModelStatus& model = surroundings.model;
+  const bool same =
+      model.answered_latitude_deg == ground.latitude_deg && model.answered_longitude_deg == ground.longitude_deg;
+  return same ? std::optional(model.answered_elevation_m) : std::nullopt;
+}
+
+void ask_elevation(Step& step, std::uint32_t for_whom) {
+  RadarState& state = step.state;
+  const GeoPoint ground = cursor_of(state);
+  put_elevation(state, for_whom, kUnknown);
+  state.asked_for &= ~for_whom;
+  const auto known_m = answered_elevation_m(step.surroundings, ground);
+  if (known_m && std::isfinite(*known_m)) return put_elevation(state, for_whom, *known_m);
+  // Those who wait for another ground stay without.
+  if (!is_asked(state, ground)) state.asked_for = 0;
+  state.asked_latitude_deg = ground.latitude_deg;
+  state.asked_longitude_deg = ground.longitude_deg;
+  state.asked_tick = step.surroundings.tick;
+  state.asked_for |= for_whom;
+}
+
+void ask_no_more(RadarState& state, std::uint32_t for_whom) {
+  state.asked_for &= ~for_whom;
+}
+
+bool waits_for_elevation(const RadarState& state, const databuffer::InputEvent& event,
+                         const Surroundings& surroundings) {
+  using radar::CursorFunction;
+  const auto function = static_cast<CursorFunction>(state.cursor_function);
+  const bool designates =
+      event.kind == static_cast<std::uint16_t>(databuffer::EventKind::tdc_release) &&
+      (function == CursorFunction::cue || function == CursorFunction::target || function == CursorFunction::mark);
+  return designates && state.asked_for != 0 && !is_asked(state, cursor_of(state)) &&
+         waited(state, surroundings.tick) < kAnswerTicks;
+}
+
+void take_elevation(RadarState& state, const Surroundings& surroundings) {
+  if (state.asked_for == 0) return;
+  const auto answer_m = answered_elevation_m(surroundings, {state.asked_latitude_deg, state.asked_longitude_deg});
+  if (answer_m && std::isfinite(*answer_m)) {
+    put_elevation(state, state.asked_for, *answer_m);
+    state.asked_for = 0;
+  } else if (waited(state, surroundings.tick) >= kGroundTicks) {
+    state.asked_for = 0;
+  }
+}
+
+void ask_for_cursor(RadarState& state) {
+  if (state.asked_for != 0 || !has(state, databuffer::kCursorValid)) return;
+  state.asked_latitude_deg = state.cursor_latitude_deg;
+  state.asked_longitude_deg = state.cursor_longitude_deg;
+}
+
+namespace {
+
+using databuffer::RadarState;
+using databuffer::SteeringLine;
+using geo::Bearing;
+
+constexpr double kTurnRate_dps = 45.0;  // [deg/s] of the line at full deflection: half round in 4 s
+constexpr double kGravity_mps2 = 9.80665;
+constexpr double kCapture_s = 15.0;  // [s] of flight in which half the distance to the line is to be gone
+constexpr double kTurn_s = 5.0;      // [s] in which an error of track is to be turned away
+constexpr double kMostBank_deg = 60.0;
+constexpr double kLeastSpeed_mps = 1.0;  // below, a track has no direction and a bank no effect
+
+SteeringLine line_of(const RadarState& state) {
+  return static_cast<SteeringLine>(state.steering_line);
+}
+
+void put_line(RadarState& state, SteeringLine line) {
+  state.steering_line = static_cast<std::uint8_t>(line);
+}
+
+// From the aircraft to the target as the glass shows them.
+geo::GeodesicInverse sight_of_target(const RadarState& state, const Surroundings& surroundings) {
+  const auto belief = databuffer::belief_in_use(surroundings.ownship, surroundings.nav, state);
+  return geo::geodesic_inverse(belief.truth, belief.on_video({state.target_latitude_deg, state.target_longitude_deg}));
+}
+
+// [deg] right wing down: toward the line through the target along the approach, then along it.
+double bank_onto_line(const geo::GeodesicInverse& sight, Bearing approach, const databuffer::Ownship& ownship) {
+  const double speed_mps = std::hypot(ownship.velocity_north_mps, ownship.velocity_east_mps);
+  if (speed_mps < kLeastSpeed_mps) return 0.0;
+  // Right of the line, seen along the approach.
+  const double right_m = sight.distance.metres() * std::sin((approach - sight.azimuth_at_start).radians());
+  const Bearing wanted = approach - geo::Angle::radians(std::atan2(right_m, speed_mps * kCapture_s));
+  const double turn_rate = (wanted - databuffer::ground_track_of(ownship)).radians() / kTurn_s;
+  const double bank_deg = std::atan(speed_mps * turn_rate / kGravity_mps2) / geo::kRadiansPerDegree;
+  return std::clamp(bank_deg, -kMostBank_deg, kMostBank_deg);
+}
+
+}  // namespace
+
+void steer_slewing(Step& step) {
+  if (!has(step.state, databuffer::kTargetDesignated)) return;
+  if (step.event.argument < 0) {
+    put_line(step.state, SteeringLine::slewing);
+  } else if (step.event.argument > 0 && line_of(step.state) != SteeringLine::line_of_sight) {
+    lead_along_line_of_sight(step.state, step.surroundings);
+  }
+}
+
+void fix_steering_line(Step& step) {
+  put_line(step.state, SteeringLine::fixed);
+}
+
+bool slews_steering_line(const RadarState& state) {
+  return line_of(state) == SteeringLine::slewing;
+}
+
+void lead_along_line_of_sight(RadarState& state, const Surroundings& surroundings) {
+  put_line(state, SteeringLine::line_of_sight);
+  if (surroundings.ownship_valid) advance_steering_line(state, surroundings);
+}
+
+void advance_steering_line(RadarState& state, const Surroundings& surroundings) {
+  if (!has(state, databuffer::kTargetDesignated)) return put_line(state, SteeringLine::none);
+  switch (line_of(state)) {
+    case SteeringLine::line_of_sight:
+      state.steering_line_deg = sight_of_target(state, surroundings).azimuth_at_start.degrees();
+      return;
+    case SteeringLine::slewing: {
+      const auto turn = geo::Angle::degrees(state.tdc_x * kTurnRate_dps * radar::kTickSeconds);
+      state.steering_line_deg = (Bearing::degrees(state.steering_line_deg) + turn).degrees();
+      return;
+    }
+    case SteeringLine::none:
+    case SteeringLine::fixed:
+      return;
+  }
+}
+
+void put_steering(databuffer::Outputs& outputs, const RadarState& state, const Surroundings& surroundings) {
+  const geo::GeodesicInverse sight = sight_of_target(state, surroundings);
+  outputs.approach_deg = state.steering_line_deg;
+  const bool fixed = line_of(state) == SteeringLine::fixed;
+  outputs.steering =
+      static_cast<std::uint8_t>(fixed ? databuffer::SteeringCommand::bank : databuffer::SteeringCommand::azimuth);
+  outputs.steering_deg = fixed ? bank_onto_line(sight, Bearing::degrees(state.steering_line_deg), surroundings.ownship)
+                               : (sight.azimuth_at_start - databuffer::ground_track_of(surroundings.ownship)).degrees();
+}
+
+namespace {
+
+using databuffer::RadarState;
+using databuffer::text_of;
+using radar::PointName;
+
+constexpr int kGreatestNumber = 100;  // docs/spec/pilots_interface.md#rule-11
+constexpr int kGreatestOffset = 99;
+
+bool has_cursor(const Step& step) {
+  return step.surroundings.ownship_valid && has(step.state, databuffer::kCursorValid);
+}
+
+// The cursor's point as the navigator has it at this moment: the state's own field is of the tick before, and the
+// cursor may have jumped since.
+geo::GeoPoint known_cursor(const Step& step) {
+  const RadarState& state = step.state;
+  const auto belief = databuffer::belief_in_use(step.surroundings.ownship, step.surroundings.nav, state);
+  return belief.known_from_video({state.cursor_latitude_deg, state.cursor_longitude_deg});
+}
+
+void cue(RadarState& state, geo::GeoPoint known) {
+  state.cue_latitude_deg = known.latitude_deg;
+  state.cue_longitude_deg = known.longitude_deg;
+  ++state.cue_count;
+}
+
+// The route's point on which this place lies; nullptr when there is none. One that is within a metre is the same: a
+// place has gone through the navigator's geodesics.
+const radar::RoutePoint* route_point_at(geo::GeoPoint known, const radar::RadarConfiguration& configuration) {
+  const geo::Length same = geo::Length::metres(1.0);
+  const auto found = std::ranges::find_if(configuration.route, [&](const radar::RoutePoint& point) {
+    return geo::geodesic_inverse(known, point.place).distance <= same;
+  });
+  return found == configuration.route.end() ? nullptr : &*found;
+}
+
+bool is_of_route(std::string_view name, const radar::RadarConfiguration& configuration) {
+  return std::ranges::find(configuration.route, name, &radar::RoutePoint::name) != configuration.route.end();
+}
+
+// A point of the route with this number: an offset matters to offsets alone, and "2" and "2." are one number.
+bool is_taken(PointName wanted, const radar::RadarConfiguration& configuration) {
+  return std::any_of(configuration.route.begin(), configuration.route.end(), [wanted](const auto& point) {
+    const auto name = radar::point_name(point.name);
+    if (!name || name->number != wanted.number) return false;
+    return wanted.offset == 0 || (name->target && name->offset == wanted.offset);
+  });
+}
+
+// With a target selected the next free offset of it, else the next free number; nothing when all are taken.
+std::optional<PointName> next_free(const RadarState& state, const radar::RadarConfiguration& configuration) {
+  const auto selected = radar::point_name(text_of(state.sequence_point));
+  // A target that was designated itself makes way for the next one.
+  const bool of_route = selected && is_taken({selected->number, 0, true}, configuration);
+  if (selected && selected->target && of_route) {
+    for (int offset = 1; offset <= kGreatestOffset; ++offset)
+      if (!is_taken({selected->number, offset, true}, configuration)) return PointName{selected->number, offset, true};
+    return std::nullopt;
+  }
+  for (int number = 1; number <= kGreatestNumber; ++number)
+    if (!is_taken({number, 0, true}, configuration)) return PointName{number, 0, true};
+  return std::nullopt;
+}
+
+// "4." or "4.01".
+std::string text_of(PointName name) {
+  std::array<char, 16> text{};
+  const char* const form = name.offset == 0 ? "%d." : "%d.%02d";
+  std::snprintf(text.data(), text.size(), form, name.number, name.offset);
+  return text.data();
+}
+
+void put_target_name(RadarState& state, std::string_view name) {
+  std::memset(state.target_name, 0, sizeof state.target_name);
+  name.copy(state.target_name, sizeof state.target_name - 1);
+}
+
+// A point that exists keeps its name, its place and, where it has one, its elevation.
+void put_target(Step& step, geo::GeoPoint known, const radar::RoutePoint* adopted) {
+  constexpr std::uint32_t both = databuffer::kAskedForTarget | databuffer::kAskedForCue;
+  RadarState& state = step.state;
+  const geo::GeoPoint place = adopted ? adopted->place : known;
+  state.target_latitude_deg = place.latitude_deg;
+  state.target_longitude_deg = place.longitude_deg;
+  cue(state, place);
+  if (adopted && !std::isnan(adopted->elevation_m)) {
+    ask_no_more(state, both);
+    state.target_elevation_m = state.cue_elevation_m = adopted->elevation_m;
+  } else {
+    ask_elevation(step, both);
+  }
+}
+
+}  // namespace
+
+void cue_sensor(Step& step) {
+  if (!has_cursor(step)) return;
+  cue(step.state, known_cursor(step));
+  ask_elevation(step, databuffer::kAskedForCue);
+}
+
+void designate_target(Step& step) {
+  RadarState& state = step.state;
+  if (!has_cursor(step)) return;
+  const geo::GeoPoint known = known_cursor(step);
+  const radar::RoutePoint* const adopted = route_point_at(known, step.configuration);
+  const auto free = adopted ? std::nullopt : next_free(state, step.configuration);
+  if (!adopted && !free) return refuse(step, "NO FREE NUMBER");
+  // The selection goes with a target whose old name is nobody's from now on.
+  const std::string_view old_name = text_of(state.target_name);
+  const bool moves_selection = has(state, databuffer::kTargetDesignated) && text_of(state.sequence_point) == old_name &&
+                               !is_of_route(old_name, step.configuration);
+  put_target_name(state, adopted ? adopted->name : text_of(*free));
+  if (moves_selection) std::ranges::copy(state.target_name, state.sequence_point);
+  put_target(step, known, adopted);
+  ++state.target_count;
+  set_flag(state, databuffer::kTargetDesignated, true);
+  lead_along_line_of_sight(state, step.surroundings);
+}
+
+void store_mark(Step& step) {
+  RadarState& state = step.state;
+  if (!has_cursor(step)) return;
+  if (state.mark_count >= databuffer::kMarks) {
+    constexpr std::uint32_t every_mark = (1U << databuffer::kMarks) - 1;
+    std::rotate(std::begin(state.marks), std::begin(state.marks) + 1, std::end(state.marks));
+    state.mark_count = databuffer::kMarks - 1;
+    state.asked_for = (state.asked_for & ~every_mark) | (state.asked_for & every_mark) >> 1U;
+  }
+  const geo::GeoPoint known = known_cursor(step);
+  const unsigned number = state.mark_count++;
+  state.marks[number] = {known.latitude_deg, known.longitude_deg, 0.0, step.surroundings.sim_time_ns};
+  ask_elevation(step, 1U << number);
+  show_message(state, step.surroundings, "MARK " + std::to_string(state.mark_count));
+}
+
+std::optional<radar::RoutePoint> designated_point(const RadarState& state) {
+  if (!has(state, databuffer::kTargetDesignated)) return std::nullopt;
+  const std::string_view name = text_of(state.target_name);
+  const auto parts = radar::point_name(name);
+  const bool offset = parts && parts->offset > 0;
+  return radar::RoutePoint{std::string(name),
+                           offset ? radar::PointKind::target_offset : radar::PointKind::target,
+                           {state.target_latitude_deg, state.target_longitude_deg},
+                           state.target_elevation_m};
+}
+
+}  // namespace yars::statemachine

@@ -1,0 +1,247 @@
+#include "statemachine/settings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string_view>
+
+#include "lib/geo/geodesy.hpp"
+#include "lib/radar/mapping.hpp"
+#include "statemachine/maps.hpp"
+
+namespace yars::statemachine {
+
+namespace {
+
+using databuffer::RadarState;
+using geo::Length;
+
+constexpr std::uint8_t kBlankWindow = 255;  // of window_index
+constexpr double kElevationStep_deg = 0.5;  // docs/spec/pilots_interface.md#elevation: the keys [ and ]
+
+void choose_range(Step& step, std::size_t index) {
+  set_flag(step.state, databuffer::kRangeSet, true);
+  set_range_index(step.state, index, step.configuration);
+}
+
+void put_window(RadarState& state, std::optional<std::size_t> index, const radar::RadarConfiguration& configuration) {
+  state.window_index = index ? static_cast<std::uint8_t>(*index) : kBlankWindow;
+  state.window_nm = index ? configuration.windows_nm[*index] : 0.0;
+}
+
+void put_elevation(Step& step, double elevation_deg) {
+  if (!std::isfinite(elevation_deg)) return;
+  const double limit_deg = step.configuration.antenna.elevation_limit_deg;
+  step.state.antenna_elevation_deg = std::clamp(elevation_deg, -limit_deg, limit_deg);
+}
+
+// Elevation of the sequence point nearest to the aircraft, for a height without an altimeter.
+std::optional<double> nearest_point_elevation_m(const databuffer::Ownship& ownship,
+                                                const radar::RadarConfiguration& configuration) {
+  const geo::GeoPoint aircraft{ownship.latitude_deg, ownship.longitude_deg};
+  const radar::RoutePoint* nearest = nullptr;
+  Length least;
+  for (const radar::RoutePoint& point : configuration.route) {
+    const Length distance = geo::geodesic_inverse(aircraft, point.place).distance;
+    if (nearest && distance >= least) continue;
+    nearest = &point;
+    least = distance;
+  }
+  if (!nearest || std::isnan(nearest->elevation_m)) return std::nullopt;
+  return nearest->elevation_m;
+}
+
+// What a radar altimeter would read; beyond its reach NaN.
+double terrain_clearance_m(const Surroundings& surroundings) {
+  constexpr double kReach_m = 1524.0;  // 5,000 ft, as those of the time
+  return surroundings.height_above_ground_m <= kReach_m ? surroundings.height_above_ground_m
+                                                        : std::numeric_limits<double>::quiet_NaN();
+}
+
+Length height_for_range(const RadarState& state, const Surroundings& surroundings,
+                        const radar::RadarConfiguration& configuration) {
+  const databuffer::Ownship& ownship = surroundings.ownship;
+  const double radar_altitude_m =
+      std::isnan(ownship.radar_altitude_m) ? terrain_clearance_m(surroundings) : ownship.radar_altitude_m;
+  const bool altimeter = !has(state, databuffer::kAltimeterFailed) && !std::isnan(radar_altitude_m);
+  if (altimeter) return Length::metres(radar_altitude_m);
+  const double ground_m = nearest_point_elevation_m(ownship, configuration).value_or(0.0);
+  return Length::metres(ownship.altitude_msl_m - ground_m);
+}
+
+}  // namespace
+
+void range_up(Step& step) {
+  const std::size_t next = step.state.range_index + std::size_t{1};
+  if (next < step.configuration.ranges_nm.size()) choose_range(step, next);
+}
+
+void range_down(Step& step) {
+  if (step.state.range_index > 0) choose_range(step, step.state.range_index - std::size_t{1});
+}
+
+void next_scan_width(Step& step) {
+  constexpr std::size_t kNamedWidths = 3;
+  const std::size_t widths = std::min(step.configuration.scan_widths_deg.size(), kNamedWidths);
+  set_scan_width(step.state, static_cast<radar::ScanWidth>((step.state.scan + 1U) % widths), step.configuration);
+}
+
+void step_window(Step& step) {
+  const bool blank = step.state.window_index == kBlankWindow;
+  const int present = blank ? -1 : step.state.window_index;
+  const int wanted = std::max(-1, present + std::clamp<int>(step.event.argument, -1, 1));
+  if (wanted < 0) return put_window(step.state, std::nullopt, step.configuration);
+  const auto largest =
+      radar::largest_window_that_fits(Length::nautical_miles(step.state.range_nm), step.configuration.windows_nm);
+  if (largest) put_window(step.state, std::min(static_cast<std::size_t>(wanted), *largest), step.configuration);
+}
+
+void set_elevation(Step& step) {
+  put_elevation(step, step.event.x);
+}
+
+void step_elevation(Step& step) {
+  put_elevation(step, step.state.antenna_elevation_deg + kElevationStep_deg * step.event.argument);
+}
+
+void set_range_index(RadarState& state, std::size_t index, const radar::RadarConfiguration& configuration) {
+  // A state taken over from a process with a longer table of ranges may point behind this one's end.
+  index = std::min(index, configuration.ranges_nm.size() - 1);
+  const double range_nm = configuration.ranges_nm[index];
+  if (range_nm != state.range_nm) ++state.scan_restart;
+  state.range_index = static_cast<std::uint8_t>(index);
+  state.range_nm = range_nm;
+  if (state.window_nm > range_nm) select_window(state, Length::nautical_miles(range_nm), configuration);
+}
+
+void set_scan_width(RadarState& state, radar::ScanWidth scan, const radar::RadarConfiguration& configuration) {
+  state.scan = static_cast<std::uint8_t>(scan);
+  state.scan_width_deg = configuration.scan_widths_deg[state.scan];
+  ++state.scan_restart;
+}
+
+void select_window(RadarState& state, Length window, const radar::RadarConfiguration& configuration) {
+  const Length limit = std::min(window, Length::nautical_miles(state.range_nm));
+  put_window(state, radar::largest_window_that_fits(limit, configuration.windows_nm), configuration);
+}
+
+void set_range_by_height(RadarState& state, const Surroundings& surroundings,
+                         const radar::RadarConfiguration& configuration) {
+  if (!surroundings.ownship_valid) return;
+  const Length height = height_for_range(state, surroundings, configuration);
+  set_range_index(
+      state,
+      radar::range_index_for(radar::range_by_height(height, configuration.height_ranges), configuration.ranges_nm),
+      configuration);
+  set_flag(state, databuffer::kRangeSet, true);
+}
+
+namespace {
+
+constexpr int kGreatestLevel = 15;  // brightness and contrast; the record and the glass scale by it
+constexpr std::uint8_t kGreatestGain = 3;
+constexpr std::uint8_t kChannels = 8;
+constexpr std::uint8_t kBands = 5;
+// 3 s: long enough to read two words, short enough not to hide the next; a shorter one is missed in a scan of the
+// panel.
+constexpr std::int64_t kMessageTicks = 600;
+constexpr std::string_view kRecorderFull = "VTR FULL";
+
+void toggle(Step& step, std::uint32_t flag) {
+  step.state.flags ^= flag;
+}
+
+void step_level(std::uint8_t& level, int by) {
+  level = static_cast<std::uint8_t>(std::clamp(level + by, 0, kGreatestLevel));
+}
+
+}  // namespace
+
+void toggle_declutter(Step& step) {
+  toggle(step, databuffer::kDeclutter);
+}
+void toggle_looks(Step& step) {
+  toggle(step, databuffer::kMultiLook2);
+}
+void toggle_stabilizing(Step& step) {
+  toggle(step, databuffer::kProgressive);
+}
+void toggle_ipvu(Step& step) {
+  toggle(step, databuffer::kIpvu);
+}
+
+void cycle_gain(Step& step) {
+  std::uint8_t& gain = step.state.gain;
+  gain = gain == 0 ? kGreatestGain : static_cast<std::uint8_t>(gain - 1);
+}
+
+void brightness_up(Step& step) {
+  step_level(step.state.brightness, 1);
+}
+void brightness_down(Step& step) {
+  step_level(step.state.brightness, -1);
+}
+void step_contrast(Step& step) {
+  step_level(step.state.contrast, std::clamp<int>(step.event.argument, -1, 1));
+}
+
+void toggle_recorder(Step& step) {
+  if (!step.surroundings.recorder_present) {
+    refuse(step, "NO RECORDER");
+  } else if (step.surroundings.recorder_failed) {
+    refuse(step, kRecorderFull);
+  } else {
+    ++step.state.vtr_request;
+  }
+}
+
+// The box is what the recorder says, not what was asked for.
+void advance_recorder(databuffer::RadarState& state, const Surroundings& surroundings) {
+  const bool wrote = has(state, databuffer::kVtr);
+  set_flag(state, databuffer::kVtr, surroundings.recorder_present && surroundings.recorder_writing);
+  if (wrote && surroundings.recorder_present && surroundings.recorder_failed)
+    show_message(state, surroundings, kRecorderFull);
+}
+
+void toggle_sniff(Step& step) {
+  toggle(step, databuffer::kSniff);
+  // A map is made by transmitting; HRM stops that at once.
+  if (has(step.state, databuffer::kSniff)) cancel_map(step.state, step.surroundings);
+  freeze_silent_hrm(step.state);
+}
+
+void next_channel(Step& step) {
+  step.state.channel = static_cast<std::uint8_t>(step.state.channel % kChannels + 1);
+}
+
+void next_band(Step& step) {
+  step.state.band = static_cast<std::uint8_t>((step.state.band + 1) % kBands);
+}
+
+void select_navigator(Step& step) {
+  constexpr std::int16_t kToggle = -1;
+  const std::int16_t argument = step.event.argument;
+  if (argument == kToggle) {
+    step.state.navigator ^= 1U;
+  } else if (argument >= 0 && argument <= static_cast<std::int16_t>(radar::Navigator::ins)) {
+    step.state.navigator = static_cast<std::uint8_t>(argument);
+  }
+}
+
+void switch_altimeter(Step& step) {
+  set_flag(step.state, databuffer::kAltimeterFailed, step.event.argument == 0);
+}
+
+void show_message(databuffer::RadarState& state, const Surroundings& surroundings, std::string_view text) {
+  std::memset(state.message, 0, sizeof(state.message));
+  text.copy(state.message, sizeof(state.message) - 1);
+  state.message_until_tick = surroundings.tick + kMessageTicks;
+}
+
+void refuse(Step& step, std::string_view reason) {
+  show_message(step.state, step.surroundings, reason);
+  step.refused = true;
+}
+
+}  // namespace yars::statemachine
