@@ -1,13 +1,21 @@
-# yars_module(NAME [SUBFOLDERS ...] [DEPENDS ...]): one library from the sources of the folder and of the subfolders named. Files named *_main.cpp and
-# *_shell.cpp are left out: they belong to the executables, which alone see segment, log and clock.
+# yars_module(NAME [SUBFOLDERS ... | FOLDERS ...] [SHELLS] [SOURCES ...] [DEPENDS ...]): a library from the sources of this folder and
+# of the subfolders named, or of FOLDERS alone. Left out are *_main.cpp and *_command.cpp, which belong to programs, and
+# *_shell.cpp, which see segment, log and clock, unless SHELLS is said.
 function(yars_module name)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;SOURCES;SUBFOLDERS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  foreach(folder IN LISTS ARG_SUBFOLDERS)
+  cmake_parse_arguments(ARG "SHELLS" "" "DEPENDS;SOURCES;SUBFOLDERS;FOLDERS" ${ARGN})
+  set(folders ${ARG_FOLDERS})
+  if(NOT folders)
+    set(folders . ${ARG_SUBFOLDERS})
+  endif()
+  set(sources)
+  foreach(folder IN LISTS folders)
     file(GLOB more CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
     list(APPEND sources ${more})
   endforeach()
-  list(FILTER sources EXCLUDE REGEX "(_main|_shell)\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "_(main|command)\\.cpp$")
+  if(NOT ARG_SHELLS)
+    list(FILTER sources EXCLUDE REGEX "_shell\\.cpp$")
+  endif()
   if(sources OR ARG_SOURCES)
     add_library(${name} STATIC ${sources} ${ARG_SOURCES})
     target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
@@ -16,6 +24,19 @@ function(yars_module name)
     add_library(${name} INTERFACE)
     target_include_directories(${name} INTERFACE ${PROJECT_SOURCE_DIR})
     target_link_libraries(${name} INTERFACE ${ARG_DEPENDS})
+  endif()
+endfunction()
+
+# yars_folder_module(NAME FOLDER ...): a module from one subfolder.
+macro(yars_folder_module name folder)
+  yars_module(${name} FOLDERS ${folder} ${ARGN})
+endmacro()
+
+# yars_app(NAME DEPENDS ...): a role's program from the sources in its folder app/. An embedded checkout may lack them.
+function(yars_app name)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/app/*.cpp)
+  if(sources)
+    yars_program(${name} SOURCES ${sources} ${ARGN})
   endif()
 endfunction()
 
