@@ -1,82 +1,111 @@
 #!/usr/bin/env python3
 """Holds the layers of the design: who includes whom, who sees the world, how files are named.
 
-usage: check_layers.py [--root DIR]
+usage: check_layers.py [--root DIR] [--draw]
 Prints one line a finding, `file:line: rule: what was found, what is allowed`; exit 1 when there is one.
-Long files are only warned of. The rules are the tables below; a new folder or a new third-party header gets a row.
+--draw writes the diagram of the folders, docs/layers.dot, and its picture anew. Long files are only warned of. The
+rules are the tables below; a new folder or a new third-party header gets a row.
 """
 import argparse
+import collections
 import os
 import pathlib
 import re
 import subprocess
 import sys
 
-GEO = ["lib/failure", "lib/geo"]
-RADAR = GEO + ["lib/radar"]
-RECORDS = RADAR + ["databuffer/records"]
-ROLE = RECORDS + ["lib/file", "lib/imageio", "config"]
-MODEL = ROLE + ["lib/lanes", "lib/memory", "model/terrain", "model/antenna", "model/reflectivity", "model/scene", "model/rbm", "model/hrm", "model/kernel"]
-SEGMENT = ROLE + ["shm", "databuffer", "databuffer/flight", "databuffer/bridges"]
+BASE = ["lib/text", "lib/error"]
+RADAR = BASE + ["lib/geo", "lib/radar"]
+RECORDS = RADAR + ["databuffer/messages"]
+TERRAIN = RADAR + ["lib/simd", "lib/memory", "lib/random", "lib/file", "lib/imageio", "model/terrain/formats", "model/terrain/sampling"]
+SCENE = TERRAIN + ["model/scene/openflight", "model/scene/placement"]
+PHYSICS = SCENE + ["lib/parallel", "model/physics"]
+KERNEL = PHYSICS + ["databuffer/messages", "model/antenna", "model/rbm", "model/hrm", "model/kernel"]
+WORLD = ["model/terrain/gdal", "model/terrain/store", "model/scene/index"]
+# What the programs of roles and tools may see besides: the segment, the log, clocks.
+SHELL = RECORDS + ["lib/file", "lib/imageio", "lib/log", "config/schema", "databuffer/session", "databuffer/runtime"]
 
-# Folder -> folders whose headers it may include besides its own. model, statemachine, inputmonitor and display
-# never see each other; tools and tests drive everything.
+# Folder -> folders whose headers it may include besides its own. Lower layers stand first: a row names only rows above it,
+# so that no cycle of folders can be allowed. model, statemachine, inputmonitor and display never see each other; tools
+# and tests drive everything.
 LAYERS = {
-    "lib/failure": [],
-    "lib/lanes": [],
+    "lib/text": [],
+    "lib/error": ["lib/text"],
+    "lib/simd": [],
     "lib/memory": [],
-    "lib/file": ["lib/failure"],
-    "lib/geo": GEO,
-    "lib/radar": RADAR,
-    "lib/imageio": ["lib/failure", "lib/file"],
-    "shm": ["lib/failure", "lib/file"],
-    "config": RECORDS,
-    "databuffer/records": RECORDS,
-    "databuffer/flight": RECORDS,
-    "databuffer/bridges": RECORDS + ["databuffer/flight"],
-    "databuffer": SEGMENT,
-    "model/terrain/gdal": ["lib/failure", "lib/file"],
-    "model/terrain": RADAR + ["lib/lanes", "lib/memory", "lib/file", "lib/imageio", "model/terrain/gdal"],
+    "lib/parallel": [],
+    "lib/file": BASE,
+    "lib/log": BASE + ["lib/file"],
+    "lib/geo": BASE,
+    "lib/random": ["lib/geo"],
+    "lib/radar": BASE + ["lib/geo"],
+    "lib/imageio": BASE + ["lib/file"],
+    "shm": BASE + ["lib/file"],
+    "databuffer/messages": RADAR,
+    "databuffer/client": [],
+    "config/guf": BASE,
+    "config/schema": RECORDS + ["lib/file", "lib/log", "config/guf"],
+    "databuffer/flight": RECORDS + ["lib/file"],
+    "databuffer/bridges": RECORDS + ["lib/memory", "databuffer/flight"],
+    "databuffer/session": RECORDS + ["lib/file", "lib/log", "shm"],
+    "databuffer/runtime": RECORDS + ["lib/file", "lib/log", "databuffer/session"],
+    "databuffer/app": SHELL + ["databuffer/flight", "databuffer/bridges"],
+    "model/terrain/gdal": BASE + ["lib/file"],
+    "model/terrain/formats": RADAR + ["lib/memory", "lib/file", "lib/imageio"],
+    "model/terrain/sampling": RADAR + ["lib/simd", "lib/memory", "model/terrain/formats"],
+    "model/terrain/store": TERRAIN + ["model/terrain/gdal"],
+    "model/scene/openflight": RADAR + ["lib/file", "model/terrain/formats"],
+    "model/scene/placement": TERRAIN + ["model/scene/openflight"],
+    "model/scene/index": SCENE + ["model/terrain/store"],
     "model/antenna": RADAR,
-    "model/reflectivity": RADAR + ["model/terrain"],
-    "model/scene": RADAR + ["model/terrain", "lib/file", "lib/imageio"],
-    "model/rbm": RADAR + ["lib/lanes", "lib/memory", "model/terrain", "model/antenna", "model/reflectivity", "model/scene"],
-    "model/hrm": RADAR + ["lib/lanes", "lib/memory", "model/terrain", "model/reflectivity", "model/rbm", "model/scene"],
-    "model/kernel": MODEL,
-    "model": MODEL,
-    "statemachine": ROLE,
-    "inputmonitor": ROLE,
-    "display": ROLE,
-    "display/gl": ROLE + ["display"],
-    "display/host": SEGMENT + ["display", "display/gl"],
-    "tools/recording": MODEL,
-    "tools/trade": MODEL + ["display"],
-    "tools": SEGMENT + ["tools/recording", "tools/trade", "model/terrain/gdal"] + MODEL + ["statemachine", "display"],
-    "examples": ["databuffer", "display", "display/host", "lib/failure", "lib/file", "lib/imageio"],
+    "model/physics": SCENE,
+    "model/rbm": PHYSICS,
+    "model/hrm": PHYSICS,
+    "model/kernel": KERNEL,
+    "model/app": SHELL + KERNEL + WORLD,
+    "worldgen/scene": SCENE,
+    "worldgen/terrain": TERRAIN + ["model/physics"],
+    "statemachine": RECORDS + ["lib/random"],
+    "statemachine/app": SHELL + ["statemachine"],
+    "inputmonitor": RECORDS + ["lib/file", "config/schema"],
+    "inputmonitor/app": SHELL + ["inputmonitor"],
+    "display/symbology": RECORDS + ["lib/imageio"],
+    "display/gl": RECORDS + ["lib/imageio", "display/symbology"],
+    "display/host": SHELL + ["display/symbology", "display/gl"],
+    "display/app": SHELL + ["display/symbology", "display/gl", "display/host"],
+    "tools/command": SHELL + KERNEL + WORLD,
+    "tools/recording": KERNEL + WORLD,
+    "tools/trade": SHELL + KERNEL + WORLD + ["display/symbology", "tools/command"],
+    "tools/scan": SHELL + KERNEL + WORLD + ["tools/command", "tools/trade"],
+    "tools/patch": SHELL + KERNEL + WORLD + ["tools/command"],
+    "tools/terrain": SHELL + TERRAIN + WORLD + ["worldgen/terrain", "tools/command"],
+    "tools/scene": SHELL + SCENE + WORLD + ["worldgen/scene", "tools/command"],
+    "tools/session": SHELL + WORLD + ["statemachine", "tools/command", "tools/recording"],
+    "tools": SHELL + ["tools/command"],
+    "examples": ["databuffer/client", "display/host", "lib/error", "lib/file", "lib/imageio"],
     "tests": None,  # None: everything
 }
 
-# Shells (*_main.cpp, *_shell.*) of the roles see the segment, the log and clocks; nobody else of a role does.
-SHELL = re.compile(r"_(main|shell)\.[ch]pp$")
-SHELL_LAYERS = {"model": SEGMENT, "statemachine": SEGMENT, "inputmonitor": SEGMENT, "display": SEGMENT + ["display/gl", "display/host"]}
-SHELL_FOLDERS = ["databuffer", "tools", "tests", "examples"]  # whole folders that may do what shells do
+# Folders that see the segment, the log and clocks: what runs as a program, and what programs share.
+SHELLS = ["lib/log", "databuffer/session", "databuffer/runtime", "databuffer/app", "databuffer/client", "model/app", "statemachine/app",
+          "inputmonitor/app", "display/host", "display/app", "tools", "tests", "examples"]
 
 # Third-party and system headers: prefix -> who may include it: folders, single files or "shells".
 SYSTEM_HEADERS = {
     "GeographicLib/": ["lib/geo", "tests"],
-    "tl/": ["lib/failure"],
+    "tl/": ["lib/error"],
     "png.h": ["lib/imageio"],
-    "openjpeg.h": ["model/terrain"],
-    "zip.h": ["model/terrain", "tests"],
-    "zlib.h": ["model/terrain", "tools/recording", "tests"],
+    "openjpeg.h": ["model/terrain/formats"],
+    "zip.h": ["model/terrain/formats", "tests"],
+    "zlib.h": ["model/terrain/formats", "tools/recording", "tests"],
     "zstd.h": ["tools/recording"],
-    "arpa/": ["databuffer", "tests"],
-    "netinet/": ["databuffer", "tests"],
-    "sys/mman.h": ["lib/memory", "shells", "shm", "databuffer", "tools", "tests"],
+    "arpa/": ["databuffer/app", "tests"],
+    "netinet/": ["databuffer/app", "tests"],
+    "sys/mman.h": ["lib/memory", "shells", "shm"],
     "gdal.h": ["model/terrain/gdal", "tests"],
     "gdal_utils.h": ["tests"],
     "proj.h": ["model/terrain/gdal", "tests"],
-    "ext/": ["databuffer"],
+    "ext/": ["databuffer/runtime"],
     "cpl_vsi.h": ["model/terrain/gdal"],
     "cpl_conv.h": ["model/terrain/gdal", "tests"],
     "cpl_error.h": ["model/terrain/gdal", "tests"],
@@ -87,33 +116,33 @@ SYSTEM_HEADERS = {
     "EGL/": ["display/gl"],
     "glm/": ["display/gl"],
     "xxhash.h": ["model/kernel"],
-    "hwy/": ["lib/lanes", "model/terrain", "model/rbm", "model/hrm", "tests"],
+    "hwy/": ["lib/simd", "model/terrain/sampling", "model/physics", "model/rbm", "model/hrm", "tests"],
     "embree3/": ["tests"],
     "GLFW/": ["display/gl", "inputmonitor/keyboard_source.cpp"],
     "spdlog/": ["shells"],
     "CLI/": ["shells"],
-    "nlohmann/": ["tools", "tests", "databuffer"],
+    "nlohmann/": ["tools", "tests"],
     "gtest/": ["tests"],
     "gmock/": ["tests"],
     "benchmark/": ["tests"],
     "chrono": ["shells"],
     "csignal": ["shells"],
-    "linux/input-event-codes.h": ["config", "inputmonitor", "tests"],
+    "linux/input-event-codes.h": ["config/schema", "inputmonitor", "tests"],
     "iostream": ["shells"],
 }
 # POSIX and Linux headers (with .h): the ways out of the process.
-POSIX_FOLDERS = ["lib/file", "shm", "databuffer", "inputmonitor", "tools", "tests", "examples", "shells"]
+POSIX_FOLDERS = ["lib/file", "shm", "inputmonitor", "shells"]
 
 CLOCKS = re.compile(r"\b(std::chrono::\w+_clock|clock_gettime|gettimeofday|clock_nanosleep|nanosleep|usleep|sleep_for"
                     r"|sleep_until|std::time\s*\(|monotonic_ns\s*\()")
-CLOCK_FOLDERS = ["databuffer", "tools", "tests", "examples", "shm", "shells"]
+CLOCK_FOLDERS = ["shm", "shells"]
 
 # Only readers (and what writes a picture or a terminal) open files.
 OPENING = re.compile(r"\bstd::[io]?fstream\b|\bfopen\b|(?<![\w>])::(open|openat|mmap)\b"
                      r"|\bstd::filesystem::(recursive_)?directory_iterator\b")
 READERS = [re.compile(pattern) for pattern in (
-    r"_(reader|reading|index|writer)\.cpp$", r"_(main|shell)\.[ch]pp$", r"^config/read_tree\.cpp$", r"^databuffer/\w+\.cpp$",
-    r"^(lib/file|shm|tools|tests|examples)/",
+    r"_(reader|reading|writer)\.cpp$", r"_(main|shell)\.[ch]pp$", r"^config/schema/load\.cpp$", r"^inputmonitor/device_source\.cpp$",
+    r"^(lib/file|lib/imageio|lib/log|shm|databuffer/(session|runtime|client)|model/terrain/(formats|store)|model/scene/index|tools|tests|examples)/",
 )]
 
 # Only lib/file makes files and folders: what others have planted in a folder is met there once.
@@ -125,6 +154,13 @@ HEAVY_IN_HEADERS = ("iostream", "boost/", "spdlog/")
 HEAVY_HEADERS = {"shm/segment_file.hpp"}  # seen by shm/segment.cpp alone
 # by flex and bison, in the build folder
 GENERATED_HEADERS = {"guf_lexer.hpp", "guf_parser.hpp", "message_lexer.hpp", "message_parser.hpp"}
+
+# Sources without a header of their own: one header declares what all of a family give.
+FAMILIES = ("config/schema/forms_",  # schema.hpp
+            "worldgen/scene/",  # scene_builder.hpp
+            "model/terrain/gdal/gdal_absent.cpp",  # raster.hpp and map_writer.hpp
+            "tools/")  # commands: tools/command/command.hpp and those of their folders
+DIAGRAM = "docs/layers.dot"
 
 FORBIDDEN_FOLDERS = {"common", "utils", "util", "misc", "helpers"}
 SOURCES = {".cpp", ".hpp", ".c", ".h", ".l", ".y", ".ll", ".yy"}
@@ -156,18 +192,9 @@ def folder_of(name):
 
 
 def is_among(name, places):
-    if "shells" in places and (SHELL.search(name) or any(name.startswith(folder + "/") for folder in SHELL_FOLDERS)):
-        # The records, the flight models and the bridges are pure, though they live below databuffer/.
-        if not name.startswith(("databuffer/records/", "databuffer/flight/", "databuffer/bridges/")):
-            return True
-    return any(name == place or folder_of(name) == place for place in places)
-
-
-def allowed_folders(name, folder):
-    allowed = LAYERS[folder]
-    if allowed is not None and SHELL.search(name):
-        allowed = allowed + SHELL_LAYERS.get(folder.split("/")[0], [])
-    return allowed
+    """Whether a file lies in one of the folders, is one of the files, or is a shell where "shells" are named."""
+    wanted = [place for place in places if place != "shells"] + (SHELLS if "shells" in places else [])
+    return any(name == place or name.startswith(place + "/") for place in wanted)
 
 
 def without_comments(text):
@@ -177,13 +204,13 @@ def without_comments(text):
 
 
 def check_project_include(root, name, folder, header):
-    if header in GENERATED_HEADERS and folder == "config":
+    if header in GENERATED_HEADERS and folder in ("config/guf", "config/schema"):
         return
     if not (root / header).is_file():
         yield "include", f'"{header}" is not a file from the top of the tree; name headers from there'
         return
     target = folder_of(header)
-    allowed = allowed_folders(name, folder)
+    allowed = LAYERS[folder]
     if allowed is None or target == folder or target in allowed:
         return
     yield "layer", f'{folder} includes "{header}" of {target}; allowed: {", ".join(sorted(set(allowed)))}'
@@ -230,6 +257,11 @@ def check_source(root, name, text):
             yield number, "writer", f"{writing.group()} makes files; lib/file/output_file.hpp does that for all"
 
 
+def product_sources(root):
+    return [name for name in tracked_files(root) if name.endswith((".cpp", ".hpp", ".c", ".h", ".l", ".y"))
+            and not name.startswith(("tests/", "examples/"))]
+
+
 def check_names(root, name):
     path = pathlib.PurePath(name)
     for part in path.parts[:-1]:
@@ -239,17 +271,124 @@ def check_names(root, name):
         return
     if not re.fullmatch(r"[a-z][a-z0-9]*(_[a-z0-9]+)*(-inl)?", path.stem):
         yield 1, "name", f"expected lower_snake, found '{path.name}'"
-    # The commands' functions are declared together, in tools/*command*.hpp.
-    unpaired = name.startswith(("tests/", "tools/", "examples/")) or name.endswith(("_main.cpp", "_shell.cpp"))
-    if path.suffix == ".cpp" and not unpaired and not has_header(root, path):
+    unpaired = name.startswith(("tests/", "examples/", *FAMILIES)) or name.endswith(("_main.cpp", "_shell.cpp"))
+    if path.suffix == ".cpp" and not unpaired and not (root / path.with_suffix(".hpp")).is_file():
         yield 1, "pair", f"no header {path.stem}.hpp beside it"
 
 
-def has_header(root, source):
-    """A header of the source's name, or one whose sources are a family: forms.hpp has forms_antenna.cpp and others."""
-    words = source.stem.split("_")
-    stems = ["_".join(words[:count]) for count in range(len(words), 0, -1)]
-    return any((root / source.with_name(stem + ".hpp")).is_file() for stem in stems)
+def includes(root, names):
+    """For each file the project files that it includes."""
+    known = set(names)
+    pattern = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.M)
+    text = {name: (root / name).read_text(errors="replace") for name in names}
+    return {name: [header for header in pattern.findall(text[name]) if header in known] for name in names}
+
+
+def owners_of(graph):
+    """{-inl header: the unit whose chapter it is}: that of its name, else the one that alone includes it."""
+    users = collections.defaultdict(set)
+    for name, headers in graph.items():
+        for header in headers:
+            if header.endswith("-inl.hpp"):
+                users[header].add(name)
+    owners = {}
+    for _ in range(len(users)):  # an -inl may include another
+        for header, names in users.items():
+            named = header.removesuffix("-inl.hpp")
+            found = {named} if named + ".hpp" in graph else {unit_of(name, owners) for name in names}
+            if len(found) == 1:
+                owners[header] = found.pop()
+    return owners
+
+
+def unit_of(name, owners):
+    """A header and its source, with the -inl headers that only they include."""
+    return owners.get(name) or str(pathlib.PurePath(name).with_suffix(""))
+
+
+def groups(graph):
+    """Groups of more than one node that reach one another (Tarjan, without recursion)."""
+    index, low, stack, on_stack, found = {}, {}, [], set(), []
+    for root in graph:
+        if root in index:
+            continue
+        work = [(root, iter(graph[root]))]
+        index[root] = low[root] = len(index)
+        stack.append(root)
+        on_stack.add(root)
+        while work:
+            node, following = work[-1]
+            for target in following:
+                if target not in index:
+                    index[target] = low[target] = len(index)
+                    stack.append(target)
+                    on_stack.add(target)
+                    work.append((target, iter(graph[target])))
+                    break
+                if target in on_stack:
+                    low[node] = min(low[node], index[target])
+            else:
+                work.pop()
+                if work:
+                    low[work[-1][0]] = min(low[work[-1][0]], low[node])
+                if low[node] == index[node]:
+                    group = []
+                    while True:
+                        member = stack.pop()
+                        on_stack.discard(member)
+                        group.append(member)
+                        if member == node:
+                            break
+                    if len(group) > 1:
+                        found.append(sorted(group))
+    return sorted(found, key=len, reverse=True)
+
+
+def joined(graph, name_of):
+    """The graph with nodes put together by `name_of`."""
+    result = collections.defaultdict(set)
+    for node, targets in graph.items():
+        result[name_of(node)].update(name_of(target) for target in targets)
+    return {node: targets - {node} for node, targets in result.items()}
+
+
+def check_cycles(root, names):
+    graph = includes(root, names)
+    owners = owners_of(graph)
+    for kind, name_of in (("folders", lambda name: str(pathlib.PurePath(name).parent)),
+                          ("units", lambda name: unit_of(name, owners))):
+        for group in groups(joined(graph, name_of)):
+            yield group[0], 1, "cycle", f"{kind} that include one another: {', '.join(group)}"
+    rows = list(LAYERS)
+    for place, (row, allowed) in enumerate(LAYERS.items()):
+        for other in allowed or []:
+            if other not in rows[:place] and other != row:
+                yield "scripts/check_layers.py", 1, "table", f"{row} may include {other}, which stands below it"
+
+
+def diagram(root, names):
+    """The folders and who includes whom, in Graphviz' language; arrows that follow from others are left out."""
+    graph = joined({name: headers for name, headers in includes(root, names).items() if LAYERS[folder_of(name)] is not None},
+                   folder_of)
+    below = {folder: graph.get(folder, set()) for folder in LAYERS if folder in graph}
+    reached = {}
+    for folder in below:  # lower ones first
+        reached[folder] = set(below[folder]).union(*(reached.get(other, set()) for other in below[folder]))
+    lines = ["// Made by scripts/check_layers.py --draw: who includes whom. An arrow that follows from others is left out.",
+             "digraph layers {", '  graph [rankdir=TB, nodesep=0.2, ranksep=0.5, fontname="Helvetica", fontsize=11]',
+             '  node [shape=box, style="rounded,filled", fillcolor="#e8f2ea", color="#4a7a55", fontname="Helvetica", fontsize=10]',
+             '  edge [color="#777777", arrowsize=0.6]']
+    tops = collections.defaultdict(list)
+    for folder in below:
+        tops[folder.split("/")[0]].append(folder)
+    for top, folders in tops.items():
+        lines.append(f'  subgraph "cluster_{top}" {{ label="{top}"; style="rounded"; color="#aaaaaa"')
+        lines += [f'    "{folder}" [label="{folder.removeprefix(top + "/")}"]' for folder in folders]
+        lines.append("  }")
+    for folder, others in below.items():
+        direct = [other for other in others if not any(other in reached.get(third, ()) for third in others)]
+        lines += [f'  "{folder}" -> "{other}"' for other in sorted(direct)]
+    return "\n".join(lines + ["}", ""])
 
 
 def check_text(text):
@@ -272,13 +411,33 @@ def findings_of(root):
             yield from ((name, *finding) for finding in check_source(root, name, text))
             if text.count("\n") > LONG_FILE:
                 print(f"{name}: warning: {text.count(chr(10))} lines; aim at 300")
+    names = product_sources(root)
+    yield from check_cycles(root, names)
+    drawing = root / DIAGRAM
+    if drawing.is_file() and drawing.read_text() != diagram(root, names):
+        yield DIAGRAM, 1, "diagram", "expected the folders of today; run scripts/check_layers.py --draw"
+
+
+def draw(root):
+    """Writes the diagram, and its picture where Graphviz is."""
+    (root / DIAGRAM).write_text(diagram(root, product_sources(root)))
+    picture = (root / DIAGRAM).parent / "pictures" / "layers.png"
+    try:
+        subprocess.run(["dot", "-Tpng", "-Gdpi=110", "-o", str(picture), str(root / DIAGRAM)], check=True)
+    except FileNotFoundError:
+        sys.exit("check_layers: expected dot of Graphviz for the picture, found none; run scripts/setup --full")
 
 
 def run(checker, purpose, findings, clean):
     """The program of a checker: its findings over the tree of --root, a line each; 1 when there is one."""
     parser = argparse.ArgumentParser(description=purpose)
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent)
-    root = parser.parse_args().root
+    if checker == "check_layers":
+        parser.add_argument("--draw", action="store_true", help=f"write {DIAGRAM} and its picture anew")
+    options = parser.parse_args()
+    root = options.root
+    if getattr(options, "draw", False):
+        draw(root)
     count = 0
     for name, line, rule, message in findings(root):
         print(f"{name}:{line}: {rule}: {message}")

@@ -105,6 +105,22 @@ class CheckLayers(unittest.TestCase):
     def test_a_folder_called_utils_is_found(self):
         self.finds("notes/utils/page.md", "\n", "1: name")
 
+    def test_units_that_include_one_another_are_found(self):
+        output, status = check({"statemachine/maps.hpp": '#pragma once\n#include "statemachine/modes.hpp"\n',
+                                "statemachine/modes.hpp": "#pragma once\n",
+                                "statemachine/modes.cpp": '#include "statemachine/modes.hpp"\n#include "statemachine/maps.hpp"\n'})
+        self.assertEqual(status, 1, output)
+        self.assertIn("cycle: units that include one another: statemachine/maps, statemachine/modes", output)
+
+    def test_the_chapters_of_a_vector_source_belong_to_it(self):
+        output, status = check({"model/rbm/sweep_simd.hpp": "#pragma once\n",
+                                "model/rbm/gain-inl.hpp": '#include "model/rbm/sweep_simd.hpp"\n',
+                                "model/rbm/sweep_simd.cpp": '#include "model/rbm/sweep_simd.hpp"\n#include "model/rbm/gain-inl.hpp"\n'})
+        self.assertEqual(status, 0, output)
+
+    def test_a_diagram_of_other_folders_is_found(self):
+        self.finds("docs/layers.dot", "digraph layers {}\n", "1: diagram")
+
     def test_a_folder_without_a_row_is_found(self):
         self.finds("novel/thing.hpp", "#pragma once\n", "1: layer")
 
