@@ -75,7 +75,7 @@ LAYERS = {
     "display/app": SHELL + ["display/symbology", "display/gl", "display/host"],
     "tools/command": SHELL + KERNEL + WORLD,
     "tools/recording": KERNEL + WORLD,
-    "tools/trade": SHELL + KERNEL + WORLD + ["display/symbology", "tools/command"],
+    "tools/trade": SHELL + KERNEL + WORLD + ["tools/command"],
     "tools/scan": SHELL + KERNEL + WORLD + ["tools/command", "tools/trade"],
     "tools/patch": SHELL + KERNEL + WORLD + ["tools/command"],
     "tools/terrain": SHELL + TERRAIN + WORLD + ["worldgen/terrain", "tools/command"],

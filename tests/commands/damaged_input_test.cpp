@@ -93,7 +93,7 @@ TEST(DamagedInput, AnOutputThatCannotBeWrittenIsToldOfBeforeAnythingElse) {
   const test::TemporaryFolder folder;
   const std::string missing = folder.path() / "missing" / "file";
   const std::vector<std::vector<std::string>> commands = {
-      {"trade", "--out", missing + ".png"},
+      {"trade", "--out", missing + ".json"},
       {"trade", "maps", "--csv", missing + ".csv"},
       {"scan", "--out", missing + ".f32"},
       {"scan", "--shadow", missing + ".csv"},

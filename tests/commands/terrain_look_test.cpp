@@ -133,7 +133,7 @@ TEST_F(TerrainLook, EveryWriterOfAFileChecksTheEndingOfItsName) {
   };
   refused({"yars", "scan", "--out", "a.jpg"}, ".png");
   refused({"yars", "patch", "--out", "a.jpg"}, ".png");
-  refused({"yars", "trade", "--out", "a.jpg"}, ".png");
+  refused({"yars", "trade", "--out", "a.png"}, ".json");
   refused({"yars", "trade", "--csv", "a.txt"}, ".csv");
   refused({"yars", "scene", "generate", "--origin", "37,-122", "--out", "a.osg"}, ".flt");
   refused({"yars", "config", "convert", "--out", "a.txt"}, ".guf");

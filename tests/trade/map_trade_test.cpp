@@ -37,7 +37,7 @@ model::terrain::TerrainViewPointer hills() {
 // A made-up airfield, on its ground.
 model::scene::SceneViewPointer airfield(const model::terrain::TerrainView& ground) {
   using namespace model::scene;
-  const GeneratedScene made = generate_scene({GeneratedKind::airfield, 5000, 1, kTarget});
+  const worldgen::GeneratedScene made = worldgen::generate_scene({worldgen::GeneratedKind::airfield, 5000, 1, kTarget});
   const auto model = read_openflight(made.file, "airfield");
   if (!model) return nullptr;
   KindTable kinds;

@@ -9,7 +9,6 @@
 #include "lib/radar/configuration.hpp"
 #include "model/terrain/sampling/analytic_terrain.hpp"
 #include "tools/trade/candidate.hpp"
-#include "tools/trade/pareto_front.hpp"
 #include "tools/trade/scan_errors.hpp"
 #include "tools/trade/scenes.hpp"
 #include "tools/trade/trade_table.hpp"
@@ -109,7 +108,7 @@ TEST(Trade, AllPresetsIsAllOfThem) {
   EXPECT_TRUE(preset_contenders("none")->empty());
 }
 
-void expect_refused(const failure::Error& error) {
+void expect_refused(const error::Error& error) {
   EXPECT_TRUE(error.bad_usage);
   EXPECT_FALSE(error.message().empty());
   EXPECT_EQ(error.message().find('\n'), std::string::npos) << error.message();
@@ -182,16 +181,6 @@ TEST(Trade, TheTableTellsTheWorstScene) {
   const std::string text = table_text(small_table());
   EXPECT_NE(text.find("5.00 / 7.00 @2"), std::string::npos) << text;
   EXPECT_NE(text.find("@2: 37 -122 15000 ft 60 deg 160 NM"), std::string::npos) << text;
-}
-
-TEST(Trade, ThePictureHasInkForEveryFamily) {
-  const imageio::Image image =
-      front_picture(small_table(), {kScanMs, "time", {{{kScanGray, "gray"}, {kScanShadow, "shadow"}}}});
-  std::set<std::uint32_t> colors;
-  for (std::size_t i = 0; i + 2 < image.pixels.size(); i += 3)
-    colors.insert(image.pixels[i] << 16U | image.pixels[i + 1] << 8U | image.pixels[i + 2]);
-  EXPECT_EQ(colors.count(0xc81e1eU), 1U);  // presets
-  EXPECT_EQ(colors.count(0x1e5abeU), 1U);  // the first knob
 }
 
 }  // namespace

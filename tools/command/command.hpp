@@ -14,7 +14,7 @@ struct CommandFailed {
   int code = 1;         // 1 failure, 2 bad usage; others: see the command
 };
 
-[[noreturn]] inline void give_up(const failure::Error& error) {
+[[noreturn]] inline void give_up(const error::Error& error) {
   throw CommandFailed{error.message(), error.bad_usage ? 2 : 1};
 }
 

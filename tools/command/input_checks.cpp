@@ -51,20 +51,20 @@ std::string better_heading(const geo::GeodesicInverse& way, double off_track_deg
   return "give --heading " + number(std::fmod(std::round(heading.degrees()) + 360.0, 360.0), 0);
 }
 
-failure::Error blind(const geo::GeodesicInverse& way, double off_deg, const radar::RadarConfiguration& configuration) {
+error::Error blind(const geo::GeodesicInverse& way, double off_deg, const radar::RadarConfiguration& configuration) {
   const std::string zone = short_number(configuration.high_resolution.blind_zone_deg);
   return {"BLIND ZONE", "a target at least " + zone + " deg off the ground track, ahead and astern",
           "one " + number(std::abs(off_deg), 1) + " deg off it", better_heading(way, off_deg) + ", " + kForce};
 }
 
-failure::Error turned(const geo::GeodesicInverse& way, double off_deg, const radar::RadarConfiguration& configuration) {
+error::Error turned(const geo::GeodesicInverse& way, double off_deg, const radar::RadarConfiguration& configuration) {
   return {"GIMBAL", "a target within " + short_number(configuration.antenna.azimuth_limit_deg) + " deg of the nose",
           "one " + number(std::abs(off_deg), 1) + " deg " + (off_deg < 0.0 ? "left" : "right") + " of it",
           better_heading(way, off_deg) + ", " + kForce};
 }
 
-failure::Error out_of_range(std::string_view why, const geo::GeodesicInverse& way, geo::Length window,
-                            const radar::WindowLimits& table) {
+error::Error out_of_range(std::string_view why, const geo::GeodesicInverse& way, geo::Length window,
+                          const radar::WindowLimits& table) {
   const auto limits = radar::cursor_limits(window, table);
   const std::string side = short_number(window.nautical_miles());
   if (!limits)
@@ -79,8 +79,8 @@ failure::Error out_of_range(std::string_view why, const geo::GeodesicInverse& wa
 
 }  // namespace
 
-std::optional<failure::Error> beyond_limits(const model::hrm::PatchOrder& order,
-                                            const radar::RadarConfiguration& configuration) {
+std::optional<error::Error> beyond_limits(const model::hrm::PatchOrder& order,
+                                          const radar::RadarConfiguration& configuration) {
   const auto why = radar::why_not_mappable({order.apex, order.ground_track, order.ground_track}, order.centre,
                                            {order.window}, configuration);
   if (!why) return std::nullopt;
@@ -91,8 +91,8 @@ std::optional<failure::Error> beyond_limits(const model::hrm::PatchOrder& order,
   return out_of_range(*why, way, order.window, configuration.window_limits);
 }
 
-std::optional<failure::Error> beyond_depression(const model::hrm::PatchOrder& order, double target_ground_m,
-                                                const radar::RadarConfiguration& configuration) {
+std::optional<error::Error> beyond_depression(const model::hrm::PatchOrder& order, double target_ground_m,
+                                              const radar::RadarConfiguration& configuration) {
   if (std::isnan(target_ground_m)) return std::nullopt;
   const geo::GeodesicInverse way = geo::geodesic_inverse(order.apex, order.centre);
   const geo::Angle down =
@@ -100,17 +100,17 @@ std::optional<failure::Error> beyond_depression(const model::hrm::PatchOrder& or
   // Azimuth is judged above: here only how far down the dish looks.
   if (model::antenna::within_gimbal(level_flight(order), configuration.antenna, order.ground_track, -down))
     return std::nullopt;
-  return failure::Error{
+  return error::Error{
       "GIMBAL",
       "a target at most " + short_number(configuration.antenna.elevation_limit_deg) + " deg below the horizon",
       "one " + number(down.degrees(), 1) + " deg below it", std::string("fly lower or farther away, ") + kForce};
 }
 
-std::optional<failure::Error> beyond_gimbal(geo::Angle elevation, geo::Angle width,
-                                            const radar::AntennaConfiguration& antenna) {
+std::optional<error::Error> beyond_gimbal(geo::Angle elevation, geo::Angle width,
+                                          const radar::AntennaConfiguration& antenna) {
   const auto broken = [](const char* option, double limit_deg, geo::Angle found) {
-    return failure::Error{option, "at most " + short_number(limit_deg) + " deg by the configuration's gimbal",
-                          short_number(found.degrees()) + " deg", kForce};
+    return error::Error{option, "at most " + short_number(limit_deg) + " deg by the configuration's gimbal",
+                        short_number(found.degrees()) + " deg", kForce};
   };
   if (std::abs(elevation.degrees()) > antenna.elevation_limit_deg)
     return broken("--elevation", antenna.elevation_limit_deg, elevation);
@@ -119,9 +119,9 @@ std::optional<failure::Error> beyond_gimbal(geo::Angle elevation, geo::Angle wid
   return std::nullopt;
 }
 
-std::optional<failure::Error> beneath_ground(geo::AltitudeMsl altitude, double ground_m) {
+std::optional<error::Error> beneath_ground(geo::AltitudeMsl altitude, double ground_m) {
   if (!(altitude.metres() < ground_m)) return std::nullopt;
-  return failure::Error{
+  return error::Error{
       "--alt-ft",
       "an aircraft above the ground, which is at " + number(geo::Length::metres(ground_m).feet(), 0) + " ft there",
       number(geo::Length::metres(altitude.metres()).feet(), 0) + " ft", std::string("fly higher, ") + kForce};

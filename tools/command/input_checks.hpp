@@ -17,19 +17,19 @@ namespace yars::tools {
 
 // Nothing: within them, in all that follows. A map's blind zone, gimbal in azimuth, windows and their ranges, before
 // terrain is read.
-std::optional<failure::Error> beyond_limits(const model::hrm::PatchOrder& order,
-                                            const radar::RadarConfiguration& configuration);
+std::optional<error::Error> beyond_limits(const model::hrm::PatchOrder& order,
+                                          const radar::RadarConfiguration& configuration);
 
 // The aircraft's height against the ground [m] MSL at the map's middle: the gimbal in elevation. NaN: not known.
-std::optional<failure::Error> beyond_depression(const model::hrm::PatchOrder& order, double target_ground_m,
-                                                const radar::RadarConfiguration& configuration);
+std::optional<error::Error> beyond_depression(const model::hrm::PatchOrder& order, double target_ground_m,
+                                              const radar::RadarConfiguration& configuration);
 
 // A scan about the nose.
-std::optional<failure::Error> beyond_gimbal(geo::Angle elevation, geo::Angle width,
-                                            const radar::AntennaConfiguration& antenna);
+std::optional<error::Error> beyond_gimbal(geo::Angle elevation, geo::Angle width,
+                                          const radar::AntennaConfiguration& antenna);
 
 // An aircraft in the ground sees nothing. NaN: not known.
-std::optional<failure::Error> beneath_ground(geo::AltitudeMsl altitude, double ground_m);
+std::optional<error::Error> beneath_ground(geo::AltitudeMsl altitude, double ground_m);
 
 // What a command read for its picture: problems are told on standard error; where nothing at all could be read the
 // command fails, and where a part could not, the part is counted.

@@ -46,7 +46,7 @@ void check_folder_name(const std::string& option, const std::string& name) {
     give_up(databuffer::usage_error(option, "the name of a folder", name + ", which ends like that of a file"));
 }
 
-failure::Expected<void> write_floats(const std::filesystem::path& path, std::span<const float> values) {
+error::Expected<void> write_floats(const std::filesystem::path& path, std::span<const float> values) {
   std::vector<char> bytes;
   bytes.reserve(values.size() * sizeof(float));
   for (const float value : values) {
@@ -90,7 +90,7 @@ void ProgressLine::say(const std::string& text) {
   const auto now = std::chrono::steady_clock::now();
   if (!terminal_ || (text.empty() ? !shown_ : now - said_ < std::chrono::milliseconds(100))) return;
   // Past the guard of the terminal (databuffer/runtime/process.hpp), which lets no control characters through.
-  const std::string line = "\r\033[K" + failure::printable(text);
+  const std::string line = "\r\033[K" + text::printable(text);
   const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
   if (written < 0) return;
   shown_ = !text.empty();

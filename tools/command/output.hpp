@@ -29,7 +29,7 @@ void check_folder_name(const std::string& option, const std::string& name);
 // Rows of numbers as a file of 32-bit floats: little endian on every machine, row by row, no header.
 
 // Errors: the file cannot be written.
-failure::Expected<void> write_floats(const std::filesystem::path& path, std::span<const float> values);
+error::Expected<void> write_floats(const std::filesystem::path& path, std::span<const float> values);
 
 // Progress of a long command on standard output or another stream: a line a second at most, how much is done and how
 // long it will take; in short work also a line for each thing done.

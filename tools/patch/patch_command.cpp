@@ -225,7 +225,7 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   auto path_store = model::terrain::open_terrain(configuration.terrain);
   if (!path_store) give_up(path_store.error());
 
-  model::kernel::Workers workers(static_cast<std::size_t>(options.threads));
+  parallel::Workers workers(static_cast<std::size_t>(options.threads));
   hrm::PatchProcess process(configuration, {workers.threads(), [&workers](const std::function<void(std::size_t)>& job) {
                                               workers.run(job);
                                             }});

@@ -61,7 +61,7 @@ std::string described(const KindEntry& entry, const RecordedKind* kind) {
          std::to_string(entry.version) + " of " + std::to_string(entry.bytes) + " bytes";
 }
 
-failure::Expected<void> check_kinds(std::span<const std::byte> entries, const std::string& file_name) {
+error::Expected<void> check_kinds(std::span<const std::byte> entries, const std::string& file_name) {
   for (; !entries.empty(); entries = entries.subspan(sizeof(KindEntry))) {
     KindEntry entry{};
     std::memcpy(&entry, entries.data(), sizeof entry);
@@ -69,7 +69,7 @@ failure::Expected<void> check_kinds(std::span<const std::byte> entries, const st
     if (kind != nullptr && kind->version == entry.version && kind->bytes == entry.bytes) continue;
     const std::string expected = kind == nullptr ? "a kind of records that this release knows"
                                                  : described({entry.number, 0, kind->version, kind->bytes}, kind);
-    return failure::fail(file_name, expected, described(entry, kind), "replay it with the release that recorded it");
+    return error::fail(file_name, expected, described(entry, kind), "replay it with the release that recorded it");
   }
   return {};
 }
@@ -88,19 +88,19 @@ std::vector<std::byte> bytes_of(const RecordingHeader& header) {
   return bytes;
 }
 
-failure::Expected<RecordingHeader> read_header(std::istream& file, const std::string& file_name) {
+error::Expected<RecordingHeader> read_header(std::istream& file, const std::string& file_name) {
   const auto damaged = [&](const std::string& found) {
-    return failure::fail(file_name, "a whole header of a recording", found, "record again");
+    return error::fail(file_name, "a whole header of a recording", found, "record again");
   };
   std::vector<std::byte> bytes;
   Preamble preamble{};
   const bool begins = read_on(file, sizeof preamble, bytes);
   std::memcpy(&preamble, bytes.data(), sizeof preamble);
   if (!begins || preamble.magic != kMagic)
-    return failure::fail(file_name, "a recording made by yars record", "another kind of file");
+    return error::fail(file_name, "a recording made by yars record", "another kind of file");
   if (preamble.version != kVersion)
-    return failure::fail(file_name, "version " + std::to_string(kVersion) + " of the recording format",
-                         std::to_string(preamble.version), "replay it with the release that recorded it");
+    return error::fail(file_name, "version " + std::to_string(kVersion) + " of the recording format",
+                       std::to_string(preamble.version), "replay it with the release that recorded it");
   if (preamble.kinds > kMostKinds || preamble.configuration_bytes > kMostHeaderText ||
       preamble.terrain_bytes > kMostHeaderText)
     return damaged("one with longer paths or more kinds of records than there can be");

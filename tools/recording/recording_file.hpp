@@ -27,7 +27,7 @@ std::vector<std::byte> bytes_of(const RecordingHeader& header);
 
 // Reads it and leaves `file` behind it. Errors name `file_name`: another kind of file, another version, a record of
 // another size or meaning, a header that is damaged or not whole.
-failure::Expected<RecordingHeader> read_header(std::istream& file, const std::string& file_name);
+error::Expected<RecordingHeader> read_header(std::istream& file, const std::string& file_name);
 
 // Where the blocks of a recording lie and what is inside: written behind the last block when the recording is closed,
 // a block of its own and a trailer of 16 bytes that says where it begins. A file without a whole one was cut short: the

@@ -11,18 +11,18 @@
 
 namespace yars::tools::recording {
 
-failure::Expected<RecordingReader> RecordingReader::open(const std::filesystem::path& path) {
+error::Expected<RecordingReader> RecordingReader::open(const std::filesystem::path& path) {
   std::error_code code;
   // A pipe could block for ever; seeking it could not.
   if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
-    return failure::fail(path.string(), "a recording in a plain file", "a folder, a pipe, a socket or a device",
-                         "copy it into a plain file");
+    return error::fail(path.string(), "a recording in a plain file", "a folder, a pipe, a socket or a device",
+                       "copy it into a plain file");
   auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
-  if (!*file) return failure::fail(path.string(), "a recording that can be read", std::strerror(errno));
+  if (!*file) return error::fail(path.string(), "a recording that can be read", std::strerror(errno));
   return read(std::move(file), path.string());
 }
 
-failure::Expected<RecordingReader> RecordingReader::read(std::unique_ptr<std::istream> file, std::string name) {
+error::Expected<RecordingReader> RecordingReader::read(std::unique_ptr<std::istream> file, std::string name) {
   RecordingReader reader;
   auto header = read_header(*file, name);
   if (!header) return tl::unexpected(header.error());
@@ -33,10 +33,10 @@ failure::Expected<RecordingReader> RecordingReader::read(std::unique_ptr<std::is
   return reader;
 }
 
-failure::Expected<BlockItems> RecordingReader::block_at(std::uint64_t offset) {
+error::Expected<BlockItems> RecordingReader::block_at(std::uint64_t offset) {
   const auto damaged = [&](const std::string& found) {
-    return failure::fail(name_, "a block of a recording at byte " + std::to_string(offset), found,
-                         "the rest can be read");
+    return error::fail(name_, "a block of a recording at byte " + std::to_string(offset), found,
+                       "the rest can be read");
   };
   BlockHead head{};
   file_->clear();

@@ -22,8 +22,8 @@ namespace yars::tools::recording {
 class RecordingReader {
  public:
   // An error: no file, another kind of file, another release's records, no whole header.
-  static failure::Expected<RecordingReader> open(const std::filesystem::path& path);
-  static failure::Expected<RecordingReader> read(std::unique_ptr<std::istream> file, std::string name);
+  static error::Expected<RecordingReader> open(const std::filesystem::path& path);
+  static error::Expected<RecordingReader> read(std::unique_ptr<std::istream> file, std::string name);
 
   const RecordingHeader& header() const { return header_; }
   // Nothing at the end. Damaged blocks are passed over: see missing().
@@ -53,12 +53,12 @@ class RecordingReader {
   bool cut_short() const { return index_.cut_short || !missing_.empty(); }
   // The damaged blocks met so far, by their place in the file; the first of them as an error.
   const std::vector<IndexEntry>& missing() const { return missing_; }
-  const std::optional<failure::Error>& damage() const { return damage_; }
+  const std::optional<error::Error>& damage() const { return damage_; }
 
  private:
   std::optional<RecordingItem> last_before(std::uint8_t kind);
   std::optional<BlockItems> whole_block(std::size_t block);  // nothing when it is damaged, which is then told
-  failure::Expected<BlockItems> block_at(std::uint64_t offset);
+  error::Expected<BlockItems> block_at(std::uint64_t offset);
 
   std::unique_ptr<std::istream> file_;
   std::string name_;
@@ -66,7 +66,7 @@ class RecordingReader {
   RecordingIndex index_;
   std::size_t next_block_ = 0;
   std::optional<BlockItems> block_;  // the one under way
-  std::optional<failure::Error> damage_;
+  std::optional<error::Error> damage_;
   std::vector<IndexEntry> missing_;
   bool hole_ = false;
 };

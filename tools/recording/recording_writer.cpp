@@ -12,16 +12,16 @@ namespace yars::tools::recording {
 namespace {
 
 // Whoever made a link to a large disk does not want the recording beside the link.
-failure::Expected<file::NewFile> create_file(const std::shared_ptr<const file::Folder>& folder, const std::string& name,
-                                             file::Existing existing) {
+error::Expected<file::NewFile> create_file(const std::shared_ptr<const file::Folder>& folder, const std::string& name,
+                                           file::Existing existing) {
   const auto there = folder->look(name);
   const std::string path = (folder->path() / name).string();
   if (there && S_ISLNK(there->st_mode))
-    return failure::fail(path, "a file that can be written", "a link",
-                         "it is a link: name the file that it leads to, or remove it");
+    return error::fail(path, "a file that can be written", "a link",
+                       "it is a link: name the file that it leads to, or remove it");
   if (there && S_ISREG(there->st_mode) && existing == file::Existing::refused)
-    return failure::fail(path, "a new file to record into", "one that is there already",
-                         "name another file, or write over it with --overwrite");
+    return error::fail(path, "a new file to record into", "one that is there already",
+                       "name another file, or write over it with --overwrite");
   auto made = file::NewFile::create(folder, name, file::Rights::user_alone, existing);
   // A reader may follow it from the first second on.
   if (made)
@@ -59,11 +59,11 @@ int append_whole(int descriptor, std::uint64_t at, const std::vector<std::byte>&
 
 }  // namespace
 
-failure::Expected<RecordingWriter> RecordingWriter::create(const std::filesystem::path& path,
-                                                           const RecordingHeader& header, Existing existing) {
+error::Expected<RecordingWriter> RecordingWriter::create(const std::filesystem::path& path,
+                                                         const RecordingHeader& header, Existing existing) {
   if (header.configuration.size() > kMostHeaderText || header.terrain.size() > kMostHeaderText)
-    return failure::fail(path.string(), "paths of at most " + std::to_string(kMostHeaderText) + " bytes to record",
-                         "a longer one of the configuration or the terrain", "give it a shorter path");
+    return error::fail(path.string(), "paths of at most " + std::to_string(kMostHeaderText) + " bytes to record",
+                       "a longer one of the configuration or the terrain", "give it a shorter path");
   auto folder = file::Folder::open(path.parent_path());
   if (!folder) return tl::unexpected(folder.error());
   RecordingWriter writer(std::make_shared<const file::Folder>(std::move(*folder)), path.filename().string(), header);
@@ -85,8 +85,8 @@ bool RecordingWriter::write_header() {
   return true;
 }
 
-failure::Expected<void> RecordingWriter::append(const RecordedKind& kind, const RecordParts& parts,
-                                                std::optional<std::int64_t> tick) {
+error::Expected<void> RecordingWriter::append(const RecordedKind& kind, const RecordParts& parts,
+                                              std::optional<std::int64_t> tick) {
   if (block_.is_full_for(parts, tick))
     if (auto written = flush(); !written) return written;
   if (error_) return tl::unexpected(*error_);
@@ -94,7 +94,7 @@ failure::Expected<void> RecordingWriter::append(const RecordedKind& kind, const 
   return {};
 }
 
-failure::Expected<void> RecordingWriter::flush() {
+error::Expected<void> RecordingWriter::flush() {
   if (error_) return tl::unexpected(*error_);
   if (block_.empty()) return {};
   const IndexEntry entry{bytes_, block_.first_tick(), block_.last_tick(), block_.kinds()};
@@ -103,7 +103,7 @@ failure::Expected<void> RecordingWriter::flush() {
   return written;
 }
 
-failure::Expected<void> RecordingWriter::resume() {
+error::Expected<void> RecordingWriter::resume() {
   if (!error_) return {};
   if (const int problem = look_for_room(descriptor(), bytes_); problem != 0) return no_room(problem);
   block_.take(packer_);
@@ -112,14 +112,14 @@ failure::Expected<void> RecordingWriter::resume() {
   return {};
 }
 
-failure::Expected<void> RecordingWriter::close() {
+error::Expected<void> RecordingWriter::close() {
   if (auto written = flush(); !written) return written;
   auto written = write(bytes_of(blocks_, bytes_, packer_));
   file_.reset();
   return written;
 }
 
-failure::Expected<void> RecordingWriter::begin_next() {
+error::Expected<void> RecordingWriter::begin_next() {
   if (auto closed = close(); !closed) return closed;
   if (!folder_->set_aside(name_, name_ + ".before")) return no_room(errno);
   auto file = create_file(folder_, name_, file::Existing::refused);
@@ -131,15 +131,15 @@ failure::Expected<void> RecordingWriter::begin_next() {
   return {};
 }
 
-failure::Expected<void> RecordingWriter::write(const std::vector<std::byte>& bytes) {
+error::Expected<void> RecordingWriter::write(const std::vector<std::byte>& bytes) {
   if (const int problem = append_whole(descriptor(), bytes_, bytes); problem != 0) return no_room(problem);
   bytes_ += bytes.size();
   return {};
 }
 
-tl::unexpected<failure::Error> RecordingWriter::no_room(int problem) {
-  error_ = failure::Error{(folder_->path() / name_).string(), "room on the disk", std::strerror(problem),
-                          "what is in the file by then can be read", false};
+tl::unexpected<error::Error> RecordingWriter::no_room(int problem) {
+  error_ = error::Error{(folder_->path() / name_).string(), "room on the disk", std::strerror(problem),
+                        "what is in the file by then can be read", false};
   return tl::unexpected(*error_);
 }
 

@@ -26,33 +26,33 @@ class RecordingWriter {
  public:
   // The file is the user's alone (0600). An error: it is there already, it is a link, it cannot be written, or the
   // header does not fit. A full disk is none here: it is told by the first append, and resume() goes on.
-  static failure::Expected<RecordingWriter> create(const std::filesystem::path& path, const RecordingHeader& header,
-                                                   Existing existing = Existing::refused);
+  static error::Expected<RecordingWriter> create(const std::filesystem::path& path, const RecordingHeader& header,
+                                                 Existing existing = Existing::refused);
 
   // `T`: one of RecordingItem's. An error: the disk took no more; so do all calls after the first, until resume(). What
   // is in the file by then reads back.
   template <class T>
-  failure::Expected<void> append(const T& record) {
+  error::Expected<void> append(const T& record) {
     return append(*recorded_kind(kKindOf<T>.number), parts_of(record), tick_of(record));
   }
   // Writes what has been gathered, so that a reader finds it.
-  failure::Expected<void> flush();
+  error::Expected<void> flush();
   // After an error: drops what could not be written and goes on behind what is whole. An error: still no room.
-  failure::Expected<void> resume();
+  error::Expected<void> resume();
   // And the index: the recording is then whole.
-  failure::Expected<void> close();
+  error::Expected<void> close();
   // Closes the file, sets it aside as FILE.before in the place of an older one, and begins FILE anew.
-  failure::Expected<void> begin_next();
+  error::Expected<void> begin_next();
 
   std::uint64_t bytes() const { return bytes_; }  // in the file
 
  private:
   RecordingWriter(std::shared_ptr<const file::Folder> folder, std::string name, RecordingHeader header)
       : folder_(std::move(folder)), name_(std::move(name)), header_(std::move(header)) {}
-  failure::Expected<void> append(const RecordedKind& kind, const RecordParts& parts, std::optional<std::int64_t> tick);
-  failure::Expected<void> write(const std::vector<std::byte>& bytes);
+  error::Expected<void> append(const RecordedKind& kind, const RecordParts& parts, std::optional<std::int64_t> tick);
+  error::Expected<void> write(const std::vector<std::byte>& bytes);
   bool write_header();
-  tl::unexpected<failure::Error> no_room(int problem);
+  tl::unexpected<error::Error> no_room(int problem);
 
   int descriptor() const { return file_ ? file_->descriptor() : -1; }
 
@@ -64,7 +64,7 @@ class RecordingWriter {
   Packer packer_;
   std::vector<IndexEntry> blocks_;
   std::uint64_t bytes_ = 0;
-  std::optional<failure::Error> error_;
+  std::optional<error::Error> error_;
 };
 
 }  // namespace yars::tools::recording

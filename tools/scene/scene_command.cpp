@@ -195,16 +195,16 @@ struct GenerateOptions {
 
 void generate(const GenerateOptions& options) {
   check_file_name("--out", options.out, {".flt"});
-  SceneOrder order{.triangles = options.triangles, .seed = options.seed, .origin = {}};
-  order.kind = *generated_kind(options.kind);
+  worldgen::SceneOrder order{.triangles = options.triangles, .seed = options.seed, .origin = {}};
+  order.kind = *worldgen::generated_kind(options.kind);
   const auto place = parse_scene("--origin@" + options.origin);
   if (!place)
     throw CommandFailed{"--origin: expected LATITUDE,LONGITUDE in degrees, found '" + options.origin + "'", 2};
   order.origin = place->place;
   constexpr std::uint64_t kStep = 10'000;
   Progress progress(options.triangles / kStep + 1, stderr);
-  const GeneratedScene made =
-      generate_scene(order, [&](std::uint64_t triangles) { progress.done(std::to_string(triangles) + " triangles"); });
+  const worldgen::GeneratedScene made = worldgen::generate_scene(
+      order, [&](std::uint64_t triangles) { progress.done(std::to_string(triangles) + " triangles"); });
   const std::filesystem::path path = std::filesystem::absolute(options.out);
   if (const auto written = file::write_file_and_folders(path, made.file); !written) give_up(written.error());
   std::printf("%s  %s of %llu triangles, %zu bytes\n", options.out.c_str(), options.kind.c_str(),
@@ -220,7 +220,7 @@ void add_scene_generate(CLI::App& scene) {
       ->check(CLI::IsMember({"airfield", "harbour", "bridge", "town"}))
       ->capture_default_str();
   command->add_option("--triangles", options->triangles, "about how many, instances counted each time")
-      ->check(CLI::Range(std::uint64_t{1}, kMostGenerated))
+      ->check(CLI::Range(std::uint64_t{1}, worldgen::kMostGenerated))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "another seed, another scene")->capture_default_str();
   command->add_option("--origin", options->origin, "LAT,LON [deg]: where its middle stands")->required();

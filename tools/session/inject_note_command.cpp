@@ -141,7 +141,7 @@ void report(const std::vector<InputEvent>& events, const Outcome& outcome, const
     if (!refused.empty()) refused += ", ";
     refused += "'" + databuffer::text_of(events[i]) + "'";
   }
-  const std::string message(databuffer::text_of(state.message));
+  const std::string message(text::text_of(state.message));
   give_up({"inject", "events that can be done", refused + " refused" + (message.empty() ? "" : ": " + message),
            "`yars watch --json` tells points, cursor and limits", false});
 }

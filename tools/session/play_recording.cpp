@@ -26,11 +26,11 @@ namespace yars::tools {
 class ReplaySession {
  public:
   // An error: somebody runs one of the two roles there, or the session steps in lockstep.
-  static failure::Expected<ReplaySession> create(const std::string& name);
+  static error::Expected<ReplaySession> create(const std::string& name);
 
   // Clock to this tick, a new epoch; with a rate, it runs by it.
-  failure::Expected<void> jump_to(std::int64_t tick);
-  failure::Expected<void> start(std::int64_t tick, double rate);
+  error::Expected<void> jump_to(std::int64_t tick);
+  error::Expected<void> start(std::int64_t tick, double rate);
   std::int64_t tick() const;
   // Somebody else began an epoch (`yars sim reset`); true once for each.
   bool was_reset();
@@ -43,7 +43,7 @@ class ReplaySession {
 
  private:
   ReplaySession(databuffer::Session machine, databuffer::Session model);
-  failure::Expected<void> set_clock(std::int64_t tick, const double* rate);
+  error::Expected<void> set_clock(std::int64_t tick, const double* rate);
   void publish_maps(const recording::Played& played);
   void publish_sweeps(const recording::Played& played);
   void publish_status(databuffer::ModelStatus status);
@@ -73,13 +73,13 @@ void pause_for_readers() {
 
 ReplaySession::ReplaySession(Session machine, Session model) : machine_(std::move(machine)), model_(std::move(model)) {}
 
-failure::Expected<ReplaySession> ReplaySession::create(const std::string& name) {
+error::Expected<ReplaySession> ReplaySession::create(const std::string& name) {
   auto machine = Session::open(name, databuffer::name_of(databuffer::Role::state_machine));
   if (!machine) return tl::unexpected(machine.error());
   auto model = Session::open(name, databuffer::name_of(databuffer::Role::radar_model));
   if (!model) return tl::unexpected(model.error());
   if (std::as_const(*machine).layout().lockstep.enabled.load() != 0)
-    return failure::fail("session " + name, "one that is live", "one in lockstep", "replay into another --session");
+    return error::fail("session " + name, "one that is live", "one in lockstep", "replay into another --session");
   ReplaySession session(std::move(*machine), std::move(*model));
   auto machine_role = session.machine_.claim(databuffer::Role::state_machine);
   if (!machine_role) return tl::unexpected(databuffer::usage_error(machine_role.error()));
@@ -93,11 +93,11 @@ failure::Expected<ReplaySession> ReplaySession::create(const std::string& name) 
   return session;
 }
 
-failure::Expected<void> ReplaySession::set_clock(std::int64_t tick, const double* rate) {
+error::Expected<void> ReplaySession::set_clock(std::int64_t tick, const double* rate) {
   constexpr std::int64_t kLatestTick = databuffer::kLatestClockBase_ns / radar::kTickNanoseconds;
   if (tick < 0 || tick > kLatestTick)
-    return failure::fail("the recording", "ticks of 0 to " + std::to_string(kLatestTick), std::to_string(tick),
-                         "it is damaged there: --seek to another time");
+    return error::fail("the recording", "ticks of 0 to " + std::to_string(kLatestTick), std::to_string(tick),
+                       "it is damaged there: --seek to another time");
   return machine_.change_clock([&](const ClockState& clock) {
     ClockState next = clock;
     next.base_monotonic_ns = databuffer::monotonic_ns();
@@ -112,11 +112,11 @@ failure::Expected<void> ReplaySession::set_clock(std::int64_t tick, const double
   });
 }
 
-failure::Expected<void> ReplaySession::jump_to(std::int64_t tick) {
+error::Expected<void> ReplaySession::jump_to(std::int64_t tick) {
   return set_clock(tick, nullptr);
 }
 
-failure::Expected<void> ReplaySession::start(std::int64_t tick, double rate) {
+error::Expected<void> ReplaySession::start(std::int64_t tick, double rate) {
   return set_clock(tick, &rate);
 }
 
@@ -209,7 +209,7 @@ std::string text_of_seconds(std::int64_t tick) {
   return text;
 }
 
-failure::Expected<std::int64_t> first_tick(const recording::RecordingReader& reader, const PlayOptions& options) {
+error::Expected<std::int64_t> first_tick(const recording::RecordingReader& reader, const PlayOptions& options) {
   const auto blocks = reader.blocks();
   if (!options.seek_s) return blocks.front().first_tick;
   const auto least = std::ranges::min_element(blocks, {}, &recording::IndexEntry::first_tick)->first_tick;
@@ -221,7 +221,7 @@ failure::Expected<std::int64_t> first_tick(const recording::RecordingReader& rea
       std::to_string(*options.seek_s)));
 }
 
-failure::Expected<void> seek(ReplaySession& session, recording::Player& player, std::int64_t tick) {
+error::Expected<void> seek(ReplaySession& session, recording::Player& player, std::int64_t tick) {
   const recording::Played played = player.seek(tick);
   if (auto jumped = session.jump_to(tick); !jumped) return jumped;
   session.publish_key_frame(played);
@@ -229,7 +229,7 @@ failure::Expected<void> seek(ReplaySession& session, recording::Player& player, 
 }
 
 // One look: true while there is more to come.
-failure::Expected<bool> look(ReplaySession& session, recording::Player& player, std::int64_t begin) {
+error::Expected<bool> look(ReplaySession& session, recording::Player& player, std::int64_t begin) {
   session.heartbeat();
   session.drop_events();
   if (session.was_reset()) {
@@ -241,8 +241,8 @@ failure::Expected<bool> look(ReplaySession& session, recording::Player& player, 
   const recording::Played played = player.play_to(now);
   session.publish(played);
   if (played.cut_to_tick) {
-    databuffer::log_info("at " + text_of_seconds(player.tick()) + " s the recording goes on at " +
-                         text_of_seconds(*played.cut_to_tick) + " s");
+    log::info("at " + text_of_seconds(player.tick()) + " s the recording goes on at " +
+              text_of_seconds(*played.cut_to_tick) + " s");
     if (auto jumped = session.jump_to(*played.cut_to_tick); !jumped) return tl::unexpected(jumped.error());
     return true;
   }
@@ -252,8 +252,8 @@ failure::Expected<bool> look(ReplaySession& session, recording::Player& player, 
 
 }  // namespace
 
-failure::Expected<void> play_recording(recording::RecordingReader& reader, std::optional<recording::PlayerWorld> world,
-                                       const PlayOptions& options) {
+error::Expected<void> play_recording(recording::RecordingReader& reader, std::optional<recording::PlayerWorld> world,
+                                     const PlayOptions& options) {
   if (std::isnan(options.rate)) return tl::unexpected(databuffer::usage_error("--rate", "0 to 10", "not a number"));
   const auto begin = first_tick(reader, options);
   if (!begin) return tl::unexpected(begin.error());
@@ -263,8 +263,7 @@ failure::Expected<void> play_recording(recording::RecordingReader& reader, std::
   const recording::Played key_frame = player.seek(*begin);
   if (auto started = session->start(*begin, options.rate); !started) return started;
   session->publish_key_frame(key_frame);
-  databuffer::log_info("plays " + options.file + " in session " + options.session + " from " + text_of_seconds(*begin) +
-                       " s");
+  log::info("plays " + options.file + " in session " + options.session + " from " + text_of_seconds(*begin) + " s");
   while (!databuffer::stop_requested()) {
     const auto more = look(*session, player, reader.blocks().front().first_tick);
     if (!more) return tl::unexpected(more.error());
@@ -275,8 +274,8 @@ failure::Expected<void> play_recording(recording::RecordingReader& reader, std::
   std::printf("%s: played from %s to %s s of sim time\n", options.file.c_str(), text_of_seconds(*begin).c_str(),
               text_of_seconds(player.tick()).c_str());
   if (player.different() > 0)
-    databuffer::log_warning(std::to_string(player.different()) +
-                            " sweeps are not those that were recorded; replay with the same terrain and configuration");
+    log::warning(std::to_string(player.different()) +
+                 " sweeps are not those that were recorded; replay with the same terrain and configuration");
   return {};
 }
 

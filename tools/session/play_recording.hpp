@@ -18,7 +18,7 @@ struct PlayOptions {
 };
 
 // Until the recording ends, or a stop is asked for. `world`: see Player.
-failure::Expected<void> play_recording(recording::RecordingReader& reader, std::optional<recording::PlayerWorld> world,
-                                       const PlayOptions& options);
+error::Expected<void> play_recording(recording::RecordingReader& reader, std::optional<recording::PlayerWorld> world,
+                                     const PlayOptions& options);
 
 }  // namespace yars::tools

@@ -74,7 +74,7 @@ std::string absolute(const std::string& path) {
 
 void record(const CommonOptions& common, const RecordOptions& options) {
   databuffer::keep_files_private();
-  if (!options.log_dir.empty()) databuffer::start_log_file("recorder", options.log_dir);
+  if (!options.log_dir.empty()) log::start_file("recorder", options.log_dir);
   auto session = Session::open(common.session, "recorder");
   if (!session) give_up(session.error());
   auto role = session->claim(databuffer::Role::recorder);
@@ -89,18 +89,18 @@ void record(const CommonOptions& common, const RecordOptions& options) {
   RecordedExtras extras = options.extras;
   extras.keep_bytes = static_cast<std::uint64_t>(options.keep_mb * 1e6);
   Recorder recorder(*session, *writer, extras, from_the_begin);
-  databuffer::log_info("records session " + common.session + " to " + options.file);
+  log::info("records session " + common.session + " to " + options.file);
   if (options.lockstep.empty())
     record_live(*session, recorder, *writer);
   else
     record_in_lockstep(*session, recorder, options.lockstep);
-  failure::Expected<void> outcome = recorder.outcome();
+  error::Expected<void> outcome = recorder.outcome();
   if (outcome) outcome = writer->close();
   std::printf("%llu ticks, %llu sweeps, %llu bytes in %s\n", static_cast<unsigned long long>(recorder.ticks()),
               static_cast<unsigned long long>(recorder.sweeps()), static_cast<unsigned long long>(writer->bytes()),
               options.file.c_str());
   if (recorder.refused() > 0)
-    databuffer::log_warning(std::to_string(recorder.refused()) + " records out of range were not recorded");
+    log::warning(std::to_string(recorder.refused()) + " records out of range were not recorded");
   if (!outcome) give_up(outcome.error());
 }
 

@@ -65,12 +65,12 @@ void Recorder::append(const T& record) {
 }
 
 // A disk that takes no more ends the recording, not the recorder: who flies shall read it.
-void Recorder::settle(failure::Expected<void> written) {
+void Recorder::settle(error::Expected<void> written) {
   if (written || !outcome_) return;
   outcome_ = std::move(written);
   resumes_writing_ = std::exchange(writing_, false);
   next_look_for_room_ns_ = databuffer::monotonic_ns() + kLookForRoom_ns;
-  databuffer::log_warning(outcome_.error().message() + "; it looks for room every 5 s");
+  log::warning(outcome_.error().message() + "; it looks for room every 5 s");
   session_->note(databuffer::NoteKind::loss, "recorder stopped: " + outcome_.error().found);
 }
 
@@ -81,7 +81,7 @@ void Recorder::look_for_room() {
   if (!writer_->resume()) return;
   outcome_ = {};
   writing_ = resumes_writing_;
-  databuffer::log_info("there is room on the disk again");
+  log::info("there is room on the disk again");
   session_->note(databuffer::NoteKind::loss, "recorder writes again");
   if (writing_) begin_here();
 }
@@ -131,7 +131,7 @@ void Recorder::obey(std::uint32_t vtr_request) {
     begin_here();
   else
     flush();
-  databuffer::log_info(writing_ ? "writes on" : "stopped writing");
+  log::info(writing_ ? "writes on" : "stopped writing");
 }
 
 void Recorder::publish(std::int64_t tick) {

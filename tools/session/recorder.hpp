@@ -33,7 +33,7 @@ class Recorder {
   // Puts on the disk what has been gathered.
   void flush();
   // An error: the disk takes no more just now; what came before it reads back.
-  const failure::Expected<void>& outcome() const { return outcome_; }
+  const error::Expected<void>& outcome() const { return outcome_; }
   std::uint64_t refused() const { return refused_; }  // records
 
   std::uint64_t ticks() const { return ticks_; }
@@ -43,7 +43,7 @@ class Recorder {
   void begin_here();
   void obey(std::uint32_t vtr_request);
   void take_all(std::int64_t tick);
-  void settle(failure::Expected<void> written);
+  void settle(error::Expected<void> written);
   void look_for_room();
   void begin_next_file();
   template <class T>
@@ -76,7 +76,7 @@ class Recorder {
   std::uint32_t vtr_request_ = 0;  // the last one obeyed
   databuffer::RecorderStatus published_{};
   bool has_published_ = false;
-  failure::Expected<void> outcome_;         // the error that lasts
+  error::Expected<void> outcome_;           // the error that lasts
   std::int64_t next_look_for_room_ns_ = 0;  // CLOCK_MONOTONIC
   bool resumes_writing_ = false;            // it wrote when the disk took no more
   std::uint64_t refused_ = 0;

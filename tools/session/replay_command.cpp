@@ -71,7 +71,7 @@ void tell_what_is_missing(const recording::RecordingReader& reader, const std::s
   constexpr std::size_t kMostTold = 20;
   const auto& missing = reader.missing();
   if (missing.empty()) {
-    if (reader.cut_short()) databuffer::log_warning(file + ": cut short; it was read to its last whole block");
+    if (reader.cut_short()) log::warning(file + ": cut short; it was read to its last whole block");
     return;
   }
   std::string ticks;
@@ -110,7 +110,7 @@ void print_entries(recording::RecordingReader& reader) {
   }
 }
 
-failure::Error no_ticks(const std::string& file) {
+error::Error no_ticks(const std::string& file) {
   return {file, "at least one tick", "none", "record while radar-model runs", false};
 }
 

@@ -117,9 +117,9 @@ void settle_when_frozen(Session& session) {
 
 void reset(const CommonOptions& common, double time_s) {
   if (!(time_s >= 0.0 && time_s <= databuffer::kLatestSimTime_s))
-    give_up(databuffer::usage_error(
-        "reset", "a sim time of 0 to " + databuffer::text_of_number(databuffer::kLatestSimTime_s) + " s",
-        databuffer::text_of_number(time_s)));
+    give_up(databuffer::usage_error("reset",
+                                    "a sim time of 0 to " + text::text_of_number(databuffer::kLatestSimTime_s) + " s",
+                                    text::text_of_number(time_s)));
   auto session = open_session(common);
   change_clock(session, [time_s](const ClockState& clock) {
     ClockState next = clock;

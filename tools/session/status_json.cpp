@@ -195,7 +195,7 @@ ordered_json recorder_json(const databuffer::Session& session) {
   databuffer::RecorderStatus status{};
   if (!session.role_is_held(databuffer::Role::recorder) || !session.layout().recorder_status.read(status))
     return nullptr;
-  const std::string problem(databuffer::text_of(status.problem));
+  const std::string problem(text::text_of(status.problem));
   return {{"writing", status.writing != 0},
           {"bytes", status.bytes},
           {"problem", problem.empty() ? ordered_json(nullptr) : ordered_json(problem)}};
@@ -238,7 +238,7 @@ ordered_json refusals_json(const databuffer::Session& session, const std::vector
       notes.rbegin(), notes.rend(), static_cast<std::uint32_t>(databuffer::NoteKind::refusal), &databuffer::Note::kind);
   const auto& refusals = session.layout().counters.refusals;
   return {{"last_10_s", refusals.within(kRecently_ns, databuffer::monotonic_ns())},
-          {"newest", newest == notes.rend() ? ordered_json(nullptr) : ordered_json(databuffer::text_of(newest->text))}};
+          {"newest", newest == notes.rend() ? ordered_json(nullptr) : ordered_json(text::text_of(newest->text))}};
 }
 
 }  // namespace
@@ -249,7 +249,7 @@ ordered_json status_json(const databuffer::Session& session, const std::string& 
   ordered_json object;
   object["session"] = name;
   object["watch"] = watch_object(session);
-  object["model"] = {{"fidelity", databuffer::text_of(model.fidelity)},
+  object["model"] = {{"fidelity", text::text_of(model.fidelity)},
                      {"load", model.load},
                      {"scan", model.scan},
                      {"terrain_bytes", model.terrain_bytes},
@@ -269,10 +269,10 @@ ordered_json status_json(const databuffer::Session& session, const std::string& 
   for (const auto& note : lines)
     notes.push_back({{"sim_time", static_cast<double>(note.sim_time_ns) * 1e-9},
                      {"age_s", static_cast<double>(now_ns - note.monotonic_ns) * 1e-9},
-                     {"process", databuffer::text_of(note.process)},
+                     {"process", text::text_of(note.process)},
                      {"pid", note.pid},
                      {"kind", note_name(note.kind)},
-                     {"text", databuffer::text_of(note.text)}});
+                     {"text", text::text_of(note.text)}});
   object["notes"] = notes;
   object["named"] = session.has_name();
   object["roles"] = roles_json(session);

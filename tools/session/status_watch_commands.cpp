@@ -77,7 +77,7 @@ struct StatusOptions {
 };
 
 // Nobody to ask: the verdict is the same word as of a session that is there.
-[[noreturn]] void print_nothing_runs(const failure::Error& error) {
+[[noreturn]] void print_nothing_runs(const error::Error& error) {
   std::printf("NOTHING RUNS: %s\n", error.found.c_str());
   give_up(error);
 }
@@ -186,7 +186,7 @@ void watch(const CommonOptions& common, const WatchOptions& options) {
     }
     if (options.once) return;
     if (session->processes().empty()) {
-      databuffer::log_info("session " + common.session + " has ended");
+      log::info("session " + common.session + " has ended");
       return;
     }
     const timespec pause{0, kLook_ns};

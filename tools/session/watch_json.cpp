@@ -19,8 +19,8 @@ namespace {
 using databuffer::kMarks;
 using databuffer::ModelStatus;
 using databuffer::RadarState;
-using databuffer::text_of;
 using nlohmann::ordered_json;
+using text::text_of;
 
 // JSON has no NaN: what is unknown is null.
 ordered_json number_or_null(double value) {

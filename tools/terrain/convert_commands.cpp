@@ -37,8 +37,8 @@ struct TerrainOutput {
 std::string output_name(const TerrainOutput& output, model::terrain::CellPlace place, const model::terrain::Cell& cell);
 
 // The cell on the output's grid (see resample.hpp), in its file below `tree`.
-failure::Expected<std::filesystem::path> write_output(const TerrainOutput& output, const std::filesystem::path& tree,
-                                                      const model::terrain::Cell& cell);
+error::Expected<std::filesystem::path> write_output(const TerrainOutput& output, const std::filesystem::path& tree,
+                                                    const model::terrain::Cell& cell);
 
 namespace {
 
@@ -59,8 +59,8 @@ std::string output_name(const TerrainOutput& output, CellPlace place, const Cell
   return output.format == "hgt" ? hgt_name(place) : dted_name(place, level_of(output, cell));
 }
 
-failure::Expected<std::filesystem::path> write_output(const TerrainOutput& output, const std::filesystem::path& tree,
-                                                      const Cell& cell) {
+error::Expected<std::filesystem::path> write_output(const TerrainOutput& output, const std::filesystem::path& tree,
+                                                    const Cell& cell) {
   if (output.format == "jp2" && !output.level) return write_pack(tree, cell);
   const int level = level_of(output, cell);
   const int rows = dted::kPostsOfLevel[level];
@@ -81,8 +81,7 @@ struct TerrainBatch {
   int reduction = 0;  // at which cells are read
   // Below `out`, for a cell read from this file; the second function writes it there.
   std::function<std::string(model::terrain::CellPlace, const model::terrain::Cell&)> name;
-  std::function<failure::Expected<std::filesystem::path>(const std::filesystem::path& tree,
-                                                         const model::terrain::Cell&)>
+  std::function<error::Expected<std::filesystem::path>(const std::filesystem::path& tree, const model::terrain::Cell&)>
       write;
   // Posts along a meridian of a cell as written: culture is thinned to no fewer. Null: it stays as it is.
   std::function<int(const model::terrain::Cell&)> culture_posts = {};
@@ -117,8 +116,8 @@ Culture thinned(const Culture& culture, int posts) {
 }
 
 // What covers the ground of a cell, from beside its file to beside the one that was written.
-failure::Expected<void> take_culture_along(const TerrainBatch& batch, const CellFile& file, const Cell& cell,
-                                           const std::filesystem::path& written) {
+error::Expected<void> take_culture_along(const TerrainBatch& batch, const CellFile& file, const Cell& cell,
+                                         const std::filesystem::path& written) {
   const auto from = find_culture(file.path);
   const std::filesystem::path to = culture_path(written);
   std::error_code code;
@@ -134,24 +133,24 @@ bool lies_in(const std::filesystem::path& inner, const std::filesystem::path& ou
   return !way.empty() && *way.begin() != "..";
 }
 
-failure::Expected<DirectoryIndex> index_of(const TerrainBatch& batch, std::vector<std::string>& problems) {
+error::Expected<DirectoryIndex> index_of(const TerrainBatch& batch, std::vector<std::string>& problems) {
   if (!std::filesystem::is_directory(batch.in)) return index_file(batch.in);
   if (lies_in(batch.out, batch.in))
-    return tl::unexpected(failure::Error{"yars terrain " + batch.command, "--out outside of --in",
-                                         batch.out + " inside of " + batch.in,
-                                         "give another folder: the input is never written over", true});
+    return tl::unexpected(error::Error{"yars terrain " + batch.command, "--out outside of --in",
+                                       batch.out + " inside of " + batch.in,
+                                       "give another folder: the input is never written over", true});
   return index_directory(batch.in, &problems);
 }
 
-failure::Expected<std::filesystem::path> convert_cell(const TerrainBatch& batch, const CellFile& file, CellPlace place,
-                                                      AllReadingNotes& notes) {
+error::Expected<std::filesystem::path> convert_cell(const TerrainBatch& batch, const CellFile& file, CellPlace place,
+                                                    AllReadingNotes& notes) {
   const auto reading = read_cell(file, place, batch.reduction);
   if (!reading) return tl::unexpected(reading.error());
   notes.add(file.path, *reading);
   const std::filesystem::path target = std::filesystem::path(batch.out) / batch.name(place, reading->cell);
   std::error_code code;
   if (std::filesystem::equivalent(target, file.path, code))
-    return failure::fail(target.string(), "an output that is not the input", "the input itself", "give another --out");
+    return error::fail(target.string(), "an output that is not the input", "the input itself", "give another --out");
   auto written = batch.write(batch.out, reading->cell);
   if (!written) return written;
   if (const auto taken = take_culture_along(batch, file, reading->cell, *written); !taken)

@@ -48,7 +48,7 @@ class CoveredPlaces {
 
 // Places without a cell read as sea; a way that lies wholly there is no profile of the folder.
 void say_outside(const ProfileOptions& options, const CoveredPlaces& covered, long outside, long places) {
-  const failure::Error error{
+  const error::Error error{
       options.terrain.directory, "cells along the way",
       "none at " + std::to_string(outside) + " of " + std::to_string(places) + " places: it covers " + covered.text(),
       "they count as sea; check --from and --to and their signs", false};

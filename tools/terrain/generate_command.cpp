@@ -26,7 +26,7 @@ namespace {
 using namespace model::terrain;
 
 struct Options {
-  using Default = DefaultLandscape;
+  using Default = worldgen::DefaultLandscape;
   std::string out;
   int south_deg = Default::kSouthDeg;
   int west_deg = Default::kWestDeg;
@@ -48,7 +48,7 @@ std::vector<CellPlace> places_of(const Options& options) {
     for (int west = 0; west < options.cells_longitude; west += kBlock)
       for (int row = south; row < std::min(south + kBlock, options.cells_latitude); ++row)
         for (int column = west; column < std::min(west + kBlock, options.cells_longitude); ++column)
-          places.push_back(neighbour_of({options.south_deg, options.west_deg}, row, column));
+          places.push_back(worldgen::neighbour_of({options.south_deg, options.west_deg}, row, column));
   return places;
 }
 
@@ -79,9 +79,9 @@ class Generation {
   }
 
  private:
-  static std::optional<LandscapeBox> island_of(const Options& options) {
+  static std::optional<worldgen::LandscapeBox> island_of(const Options& options) {
     if (options.edge == "cut") return std::nullopt;
-    return LandscapeBox{options.south_deg, options.west_deg, options.cells_latitude, options.cells_longitude};
+    return worldgen::LandscapeBox{options.south_deg, options.west_deg, options.cells_latitude, options.cells_longitude};
   }
 
   void work() {
@@ -99,9 +99,9 @@ class Generation {
   }
 
   // A line about the cell; empty when it is sea alone and was not written.
-  failure::Expected<std::string> make(CellPlace place) {
-    const MadeCell made = landscape_.make(place, dted::kPostsOfLevel[options_.level],
-                                          dted_columns(place, options_.level), threads_per_cell_);
+  error::Expected<std::string> make(CellPlace place) {
+    const worldgen::MadeCell made = landscape_.make(place, dted::kPostsOfLevel[options_.level],
+                                                    dted_columns(place, options_.level), threads_per_cell_);
     const bool all_sea = made.cell.highest_m() <= 0;
     if (all_sea && !options_.sea) return std::string();
     const auto path = write_dted(options_.out, made.cell, options_.level);
@@ -114,14 +114,14 @@ class Generation {
            std::to_string(std::lround(made.cell.highest_m())) + " m";
   }
 
-  void fail(const failure::Error& error) {
+  void fail(const error::Error& error) {
     const std::lock_guard lock(mutex_);
     stop_ = true;
     if (!failed_) failed_ = error;
   }
 
   Options options_;
-  Landscape landscape_;
+  worldgen::Landscape landscape_;
   std::vector<CellPlace> places_;
   int workers_ = 1;
   int threads_per_cell_ = 1;
@@ -130,7 +130,7 @@ class Generation {
   std::atomic<bool> stop_ = false;
   std::mutex mutex_;  // guards what follows
   Progress progress_;
-  std::optional<failure::Error> failed_;
+  std::optional<error::Error> failed_;
 };
 
 void add_area(CLI::App& command, Options& options) {

@@ -199,7 +199,7 @@ bool overlap(CellPlace place, const MapFrame& frame) {
          place.west_deg < frame.east_deg && place.west_deg + 1 > frame.west_deg;
 }
 
-void say_problem(const failure::Error& error) {
+void say_problem(const error::Error& error) {
   std::fprintf(stderr, "problem: %s\n", error.message().c_str());
 }
 

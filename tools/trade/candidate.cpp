@@ -21,9 +21,9 @@ std::optional<Number> parse(std::string_view text) {
   return value;
 }
 
-tl::unexpected<failure::Error> refuse(std::string_view subject, std::string expected, std::string_view found) {
-  return tl::unexpected<failure::Error>(
-      failure::Error{std::string(subject), std::move(expected), std::string("'").append(found).append("'"), "", true});
+tl::unexpected<error::Error> refuse(std::string_view subject, std::string expected, std::string_view found) {
+  return tl::unexpected<error::Error>(
+      error::Error{std::string(subject), std::move(expected), std::string("'").append(found).append("'"), "", true});
 }
 }  // namespace
 
@@ -46,8 +46,8 @@ std::optional<double> number_of(std::string_view text) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-failure::Expected<std::vector<double>> numbers_of(std::string_view list, std::span<const Bounds> bounds,
-                                                  std::string_view subject, std::string_view form) {
+error::Expected<std::vector<double>> numbers_of(std::string_view list, std::span<const Bounds> bounds,
+                                                std::string_view subject, std::string_view form) {
   const auto fields = fields_of(list);
   if (fields.size() != bounds.size())
     return refuse(subject, std::to_string(bounds.size()).append(" numbers ").append(form), list);
@@ -72,7 +72,7 @@ std::string short_number(double value) {
 
 namespace {
 
-using failure::Expected;
+using error::Expected;
 using radar::Fidelity;
 
 // Puts a value into a fidelity; false when the knob does not take it.

@@ -27,8 +27,8 @@ struct Bounds {
 };
 
 // From "37,-122": as many numbers as bounds. Errors, of bad usage, name `subject` and what `form` it takes.
-failure::Expected<std::vector<double>> numbers_of(std::string_view list, std::span<const Bounds> bounds,
-                                                  std::string_view subject, std::string_view form);
+error::Expected<std::vector<double>> numbers_of(std::string_view list, std::span<const Bounds> bounds,
+                                                std::string_view subject, std::string_view form);
 
 // Six digits that count, as short as can be.
 std::string short_number(double value);
@@ -42,13 +42,13 @@ struct Contender {
 };
 
 // From "1996,draft"; "all" = every preset, "none" = no preset. Errors: no preset of this name.
-failure::Expected<std::vector<Contender>> preset_contenders(std::string_view list);
+error::Expected<std::vector<Contender>> preset_contenders(std::string_view list);
 
 // What is traded: a knob that does not touch it is refused.
 enum class Subject : std::uint8_t { scan, map };
 
 // From "samples=120,240". Errors: an unknown knob, a value that it does not take.
-failure::Expected<std::vector<Contender>> knob_contenders(std::string_view sweep, const radar::Fidelity& base,
-                                                          Subject subject);
+error::Expected<std::vector<Contender>> knob_contenders(std::string_view sweep, const radar::Fidelity& base,
+                                                        Subject subject);
 
 }  // namespace yars::tools::trade

@@ -131,8 +131,8 @@ MapEvidence observe_map(const RadarConfiguration& configuration, const hrm::Patc
   evidence.noise =
       hrm::noise_gamma(configuration.high_resolution, geo::Length::metres(process.geometry().slant_range_m()),
                        geo::Length::metres(process.geometry().window_m()));
-  const double level = evidence.power_is_radar ? model::physics::make_land_return(silent).gamma[0]
-                                               : process.geometry().sin_grazing();
+  const double level =
+      evidence.power_is_radar ? model::physics::make_land_return(silent).gamma[0] : process.geometry().sin_grazing();
   for (const float power : evidence.power)
     evidence.dark.push_back(static_cast<double>(power) < kDarkShare * level ? 1 : 0);
 

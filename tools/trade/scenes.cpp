@@ -19,7 +19,7 @@ constexpr double kLowestElevationDeg = -60.0;  // of the antenna, its gimbal's s
 
 }  // namespace
 
-failure::Expected<Scene> scene_of(std::string_view text) {
+error::Expected<Scene> scene_of(std::string_view text) {
   const auto values = numbers_of(text, kSceneBounds, "--scene", "LAT,LON,ALT_FT,HDG,RANGE_NM");
   if (!values) return tl::unexpected(values.error());
   return Scene{{(*values)[0], (*values)[1]}, (*values)[2], (*values)[3], (*values)[4]};
@@ -59,13 +59,13 @@ double distance_nm(const MapView& view) {
 
 }  // namespace
 
-failure::Expected<MapView> map_view_of(std::string_view text) {
+error::Expected<MapView> map_view_of(std::string_view text) {
   const auto values = numbers_of(text, kViewBounds, "--view", "LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM");
   if (!values) return tl::unexpected(values.error());
   const MapView view{{(*values)[0], (*values)[1]}, (*values)[2], {(*values)[3], (*values)[4]}, (*values)[5]};
   if (distance_nm(view) <= view.window_nm)
-    return tl::unexpected<failure::Error>(failure::Error{"--view", "a target farther away than the window is wide",
-                                                         short_number(distance_nm(view)) + " NM", "", true});
+    return tl::unexpected<error::Error>(error::Error{"--view", "a target farther away than the window is wide",
+                                                     short_number(distance_nm(view)) + " NM", "", true});
   return view;
 }
 

@@ -25,7 +25,7 @@ struct Scene {
 };
 
 // From "LAT,LON,ALT_FT,HDG,RANGE_NM". Errors: not five numbers, or one out of its range.
-failure::Expected<Scene> scene_of(std::string_view text);
+error::Expected<Scene> scene_of(std::string_view text);
 
 // "37 -122 15000 ft 60 deg 40 NM".
 std::string scene_name(const Scene& scene);
@@ -43,7 +43,7 @@ struct MapView {
 
 // From "LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM". Errors: not six numbers, one out of its range, a target that
 // is not farther away than the window is wide.
-failure::Expected<MapView> map_view_of(std::string_view text);
+error::Expected<MapView> map_view_of(std::string_view text);
 
 // "37.8 -122.3 3.3 NM from 20 NM, 15000 ft".
 std::string map_view_name(const MapView& view);

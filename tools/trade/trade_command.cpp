@@ -14,7 +14,6 @@
 #include "config/schema/load.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "lib/file/output_file.hpp"
-#include "lib/imageio/png.hpp"
 #include "lib/radar/configuration.hpp"
 #include "lib/radar/modes.hpp"
 #include "model/kernel/tick_inputs.hpp"
@@ -29,9 +28,13 @@ namespace yars::tools {
 
 namespace {
 
-nlohmann::ordered_json json_of(const trade::TradeTable& table) {
-  // NaN becomes null.
+// What scripts/plot_trade reads. NaN becomes null.
+nlohmann::ordered_json json_of(const trade::TradeTable& table, const trade::PlotAxes& axes) {
   nlohmann::ordered_json all;
+  const auto axis = [&table](const trade::PlotAxes::Axis& one) {
+    return nlohmann::ordered_json{{"column", table.columns[one.column].name}, {"title", one.title}};
+  };
+  all["axes"] = {{"time", axis(axes.time)}, {"errors", {axis(axes.errors[0]), axis(axes.errors[1])}}};
   for (const trade::SceneRow& scene : table.scenes) all["scenes"].push_back(scene.name);
   for (std::size_t i = 0; i < table.contenders.size(); ++i) {
     nlohmann::ordered_json point{{"point", table.contenders[i].name}, {"family", table.contenders[i].family}};
@@ -62,12 +65,12 @@ void add_trade_options(CLI::App& command, TradeOptions& options) {
       ->check(CLI::IsMember({"reference", "same"}));
   command.add_option("--repeat", options.repeat, "warm runs to time; their median counts")->check(CLI::Range(1, 1000));
   command.add_option("--csv", options.csv, "file: a row a point and scene");
-  command.add_option("--out", options.out, "file: .png of the front");
+  command.add_option("--out", options.out, "file: .json, which scripts/plot_trade draws");
   command.add_flag("--json", options.json, "instead of the table");
 }
 
 void check_trade_output(const TradeOptions& options) {
-  check_file_name("--out", options.out, {".png"});
+  check_file_name("--out", options.out, {".json"});
   check_file_name("--csv", options.csv, {".csv"});
 }
 
@@ -91,15 +94,15 @@ std::vector<trade::Contender> contenders_of(const TradeOptions& options, trade::
   return std::move(*contenders);
 }
 
-void write_trade(const TradeOptions& options, const trade::TradeTable& table, const trade::Front& front) {
+void write_trade(const TradeOptions& options, const trade::TradeTable& table, const trade::PlotAxes& axes) {
+  const std::string json = json_of(table, axes).dump(2);
   if (!options.csv.empty()) {
     if (auto written = file::write_file(options.csv, trade::csv_text(table)); !written) give_up(written.error());
   }
   if (!options.out.empty()) {
-    if (auto written = imageio::write_png(options.out, trade::front_picture(table, front)); !written)
-      give_up(written.error());
+    if (auto written = file::write_file(options.out, json + "\n"); !written) give_up(written.error());
   }
-  std::printf("%s\n", options.json ? json_of(table).dump(2).c_str() : trade::table_text(table).c_str());
+  std::printf("%s\n", options.json ? json.c_str() : trade::table_text(table).c_str());
 }
 
 geo::GeoPoint default_place(const std::string& directory) {
@@ -124,7 +127,8 @@ double median_of(std::vector<double> values) {
 }
 
 // `yars trade`: speed against accuracy of the real beam map: presets and knob sweeps over scenes, against the
-// reference. Table (or --json) on standard output, --csv and --out FILE.png beside it, progress on standard error.
+// reference. Table (or --json) on standard output, --csv FILE.csv and --out FILE.json beside it, progress on standard
+// error.
 
 namespace {
 
@@ -265,8 +269,7 @@ void trade_off(const CommonOptions& common, const ScanTradeOptions& options) {
   check_trade_output(options);
   const radar::RadarConfiguration configuration = trade_configuration(common, options);
   write_trade(options, run_trade(options, configuration),
-              {trade::kScanMs,
-               "time a scan (ms of one core)",
+              {{trade::kScanMs, "time a scan (ms of one core)"},
                {{{trade::kScanGray, "video error (gray levels of 255 RMS)"},
                  {trade::kScanShadow, "shadow mismatch (% of ground)"}}}});
 }

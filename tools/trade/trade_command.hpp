@@ -8,7 +8,6 @@
 #include "lib/radar/configuration.hpp"
 #include "tools/command/command.hpp"
 #include "tools/trade/candidate.hpp"
-#include "tools/trade/pareto_front.hpp"
 #include "tools/trade/trade_table.hpp"
 
 namespace yars::tools {
@@ -27,8 +26,8 @@ void add_trade_options(CLI::App& command, TradeOptions& options);
 void check_trade_output(const TradeOptions& options);
 radar::RadarConfiguration trade_configuration(const CommonOptions& common, const TradeOptions& options);
 std::vector<trade::Contender> contenders_of(const TradeOptions& options, trade::Subject subject);
-// Table or JSON to standard output, CSV and picture as asked.
-void write_trade(const TradeOptions& options, const trade::TradeTable& table, const trade::Front& front);
+// Table or JSON to standard output, CSV and JSON to files as asked.
+void write_trade(const TradeOptions& options, const trade::TradeTable& table, const trade::PlotAxes& axes);
 
 // The middle one of a directory's cells, so that there is ground about it; the built-in hills are everywhere.
 geo::GeoPoint default_place(const std::string& directory);

@@ -1,6 +1,7 @@
 // Results of a trade, candidate by candidate and scene by scene, and their statistics.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -51,6 +52,16 @@ struct Summary {
   double mean = 0.0;  // over the scenes that have a number; NaN: none has
   double worst = 0.0;
   std::size_t worst_scene = 0;
+};
+
+// What a plot of the table shows: a column to the right, two upwards, and their titles.
+struct PlotAxes {
+  struct Axis {
+    std::size_t column;
+    std::string_view title;
+  };
+  Axis time;
+  std::array<Axis, 2> errors;
 };
 
 struct TradeTable {
