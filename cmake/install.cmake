@@ -3,7 +3,7 @@
 set(share ${CMAKE_INSTALL_DATADIR}/yars)
 set(documents ${CMAKE_INSTALL_DATADIR}/doc/yars)
 
-install(FILES ${PROJECT_SOURCE_DIR}/databuffer/yars.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/yars)
+install(FILES ${PROJECT_SOURCE_DIR}/databuffer/client/yars.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/yars)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/config/ DESTINATION ${share}/config
   FILES_MATCHING PATTERN "*.guf" PATTERN "*.route" PATTERN "*.script")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${documents} FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.dot")
@@ -17,8 +17,8 @@ install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/plot_trade DESTINATION ${CMAKE_IN
 
 # Units of the user's systemd, for the installed start script.
 foreach(unit yars.service yars@.service)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/systemd/${unit})
-  file(READ ${PROJECT_SOURCE_DIR}/systemd/${unit} text)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/packaging/systemd/${unit})
+  file(READ ${PROJECT_SOURCE_DIR}/packaging/systemd/${unit} text)
   string(REPLACE "\"$$YARS_HOME/scripts/start\"" "yars-start" text "${text}")
   string(REPLACE "# Where the checkout lies, built once by scripts/start; with its default options.\nEnvironment=YARS_HOME=%h/yars YARS_OPTIONS=" "Environment=YARS_OPTIONS=" text "${text}")
   string(REPLACE "# Options, YARS_HOME and YARS_BIN_DIR of this machine." "# Options of this machine." text "${text}")
@@ -47,7 +47,7 @@ function(compressed source name destination)
   execute_process(COMMAND gzip --best --no-name --stdout ${source} OUTPUT_FILE ${packed} COMMAND_ERROR_IS_FATAL ANY)
   install(FILES ${packed} DESTINATION ${destination})
 endfunction()
-file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/man/*.[15])
+file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/packaging/man/*.[15])
 foreach(page IN LISTS pages)
   get_filename_component(name ${page} NAME)
   string(REGEX MATCH "[0-9]$" section ${name})

@@ -49,11 +49,15 @@ function(yars_program name)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 endfunction()
 
-# yars_test(FOLDER [ALONE] [SUPPORT sources] [PROGRAMS it runs] DEPENDS ...): one gtest binary from tests/FOLDER/*_test.cpp
-# and its support sources, found when ctest runs. ALONE: its tests have the machine to themselves.
+# yars_test(FOLDER [SUBFOLDERS ...] [ALONE] [SUPPORT sources] [PROGRAMS it runs] DEPENDS ...): one gtest binary from tests/FOLDER/*_test.cpp,
+# those of its subfolders named, and its support sources, found when ctest runs. ALONE: its tests have the machine to themselves.
 function(yars_test folder)
-  cmake_parse_arguments(ARG "ALONE" "TIMEOUT" "DEPENDS;LABELS;SUPPORT;PROGRAMS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${folder}/*_test.cpp)
+  cmake_parse_arguments(ARG "ALONE" "TIMEOUT" "DEPENDS;LABELS;SUBFOLDERS;SUPPORT;PROGRAMS" ${ARGN})
+  set(patterns ${PROJECT_SOURCE_DIR}/tests/${folder}/*_test.cpp)
+  foreach(subfolder IN LISTS ARG_SUBFOLDERS)
+    list(APPEND patterns ${PROJECT_SOURCE_DIR}/tests/${folder}/${subfolder}/*_test.cpp)
+  endforeach()
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
   if(NOT sources)
     return()
   endif()

@@ -86,7 +86,7 @@ def pack(what, fields, values):
     names = [name for name, _ in fields if not name.startswith("_")]
     for name in values:
         if name not in names:
-            raise YarsError(f"{what}: expected fields of {', '.join(names)}, found {name!r}; see databuffer/records/")
+            raise YarsError(f"{what}: expected fields of {', '.join(names)}, found {name!r}; see databuffer/messages/")
     parts = []
     for name, code in fields:
         value = values.get(name, b"" if code.endswith("s") else 0)
@@ -96,7 +96,7 @@ def pack(what, fields, values):
             parts.append(struct.pack("<" + code, value))
         except (struct.error, OverflowError):
             raise YarsError(f"{what}: {name}: expected {EXPECTED[code]}, found {value!r}; "
-                            "see databuffer/records/") from None
+                            "see databuffer/messages/") from None
     return b"".join(parts)
 
 

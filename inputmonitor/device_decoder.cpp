@@ -39,10 +39,6 @@ InputEvent event_of(EventKind kind, double x = 0.0, double y = 0.0) {
   return event;
 }
 
-bool is_kind(const std::optional<InputEvent>& event, EventKind kind) {
-  return event && event->kind == static_cast<std::uint16_t>(kind);
-}
-
 double in_steps_of(double step, double value) {
   // Divided by a whole number, so that 0.07 is the double that people write.
   const double per_one = std::round(1.0 / step);

@@ -39,11 +39,6 @@ class RecordStream {
   std::size_t kept_ = 0;  // bytes of record_ that have come
 };
 
-// What a device says, by its map, into events. Pure: it is told the time. The TDC's deflection is the sum of its axes
-// and of the buttons held that deflect it, cut to [-1, 1], in hundredths; elevation goes in tenths of a degree. Such a
-// value is sent when it changes, at most every 10 ms, and before any press. A lever or an elevation at rest when the
-// device comes sends nothing, nor does a button that is held then.
-
 // [ns] between values of a stick; faster than the glass is drawn, slower than the fastest devices report
 inline constexpr std::int64_t kValueInterval_ns = 10'000'000;
 // Presses in a row, and per second, that a hand could make ten times over; the rest are a broken contact's and dropped.
@@ -59,6 +54,10 @@ struct DeviceState {
   std::vector<std::pair<std::uint16_t, std::int32_t>> axes;  // code, value
 };
 
+// What a device says, by its map, into events. Pure: it is told the time. The TDC's deflection is the sum of its axes
+// and of the buttons held that deflect it, cut to [-1, 1], in hundredths; elevation goes in tenths of a degree. Such a
+// value is sent when it changes, at most every 10 ms, and before any press. A lever or an elevation at rest when the
+// device comes sends nothing, nor does a button that is held then.
 class DeviceDecoder {
  public:
   using Events = std::vector<databuffer::InputEvent>;

@@ -25,7 +25,7 @@ namespace {
 
 using databuffer::EventKind;
 using databuffer::InputEvent;
-using failure::Expected;
+using error::Expected;
 
 constexpr double kNanosecondsPerSecond = 1e9;
 
@@ -44,7 +44,7 @@ bool has_control(const DeviceFacts& facts, std::string_view text) {
 
 bool fits(const DeviceFacts& facts, const radar::Device& map) {
   if (map.vendor.empty() && map.pattern.empty() && map.has.empty()) return false;
-  const auto products = databuffer::words_of(map.products);
+  const auto products = text::words_of(map.products);
   const auto is_it = [&facts](std::string_view word) { return is_identity(word, facts.product); };
   return (map.vendor.empty() || is_identity(map.vendor, facts.vendor)) &&
          (products.empty() || std::ranges::any_of(products, is_it)) &&
@@ -57,10 +57,6 @@ Expected<std::optional<InputEvent>> event_of(const std::string& text) {
   const auto event = databuffer::event_from_text(text);
   if (!event) return tl::unexpected(event.error());
   return *event;
-}
-
-bool is_kind(const std::optional<InputEvent>& event, EventKind kind) {
-  return event && event->kind == static_cast<std::uint16_t>(kind);
 }
 
 Expected<SwitchAction> switch_of(const std::string& press, const std::string& release, double repeat_s) {
@@ -84,23 +80,23 @@ Expected<AxisShape> shape_of(const radar::DeviceAxis& axis, std::uint16_t code, 
   const bool is_hat = code >= ABS_HAT0X && code <= ABS_HAT3Y;
   if (std::isnan(shape.low)) {
     if (!facts.axes[code] && !is_hat)
-      return failure::fail("axis " + axis.code, ":low and :high in its map",
-                           "neither, and the descriptor tells nothing", "write the values at both ends into the map");
+      return error::fail("axis " + axis.code, ":low and :high in its map", "neither, and the descriptor tells nothing",
+                         "write the values at both ends into the map");
     const AxisRange range = facts.axes[code].value_or(AxisRange{-1, 1});
     shape.low = range.low;
     shape.high = range.high;
   }
   if (std::isnan(shape.centre)) shape.centre = (shape.low + shape.high) / 2.0;
   if (shape.low < shape.centre && shape.centre < shape.high) return shape;
-  return failure::fail("axis " + axis.code, "a centre between its ends",
-                       databuffer::text_of_number(shape.centre) + " between " + databuffer::text_of_number(shape.low) +
-                           " and " + databuffer::text_of_number(shape.high),
-                       "write :low, :high and :centre into the map");
+  return error::fail("axis " + axis.code, "a centre between its ends",
+                     text::text_of_number(shape.centre) + " between " + text::text_of_number(shape.low) + " and " +
+                         text::text_of_number(shape.high),
+                     "write :low, :high and :centre into the map");
 }
 
 Expected<ButtonAction> ready_button(const radar::DeviceButton& button) {
   const auto code = config::button_code(button.code);
-  if (!code) return failure::fail("button", "a code as BTN_TRIGGER", '"' + button.code + '"');
+  if (!code) return error::fail("button", "a code as BTN_TRIGGER", '"' + button.code + '"');
   auto action = switch_of(button.press, button.release, button.repeat_s);
   if (!action) return tl::unexpected(action.error());
   return ButtonAction{*code, *action};
@@ -141,7 +137,7 @@ Expected<DeviceMap> ready_map(const radar::Device& device, const DeviceFacts& fa
   }
   for (const radar::DeviceAxis& axis : device.axes) {
     const auto code = config::axis_code(axis.code);
-    if (!code) return failure::fail("axis", "a code as ABS_X", '"' + axis.code + '"');
+    if (!code) return error::fail("axis", "a code as ABS_X", '"' + axis.code + '"');
     if (facts.known && !facts.axes[*code]) continue;
     auto ready = ready_axis(axis, *code, facts);
     if (!ready) return tl::unexpected(ready.error());

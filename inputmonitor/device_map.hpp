@@ -32,7 +32,6 @@ struct AxisShape {
 
 double shaped(std::int32_t raw, const AxisShape& shape);
 
-// A map of GUF made ready for one device: codes as numbers, texts as events, travels as the device or the map has them.
 struct AxisRange {
   std::int32_t low = 0;
   std::int32_t high = 0;
@@ -55,6 +54,10 @@ struct SwitchAction {
   std::int64_t repeat_ns = 0;  // [ns] 0: none
 };
 
+inline bool is_kind(const std::optional<databuffer::InputEvent>& event, databuffer::EventKind kind) {
+  return event && event->kind == static_cast<std::uint16_t>(kind);
+}
+
 struct ButtonAction {
   std::uint16_t code = 0;
   SwitchAction action;
@@ -71,6 +74,7 @@ struct AxisAction {
   int steps = 16;
 };
 
+// A map of GUF made ready for one device: codes as numbers, texts as events, travels as the device or the map has them.
 struct DeviceMap {
   std::string name;
   std::vector<ButtonAction> buttons;
@@ -84,6 +88,6 @@ const radar::Device* named_map(std::string_view name, std::span<const radar::Dev
 
 // An error where a code or an event is none, or where neither map nor device tell the travel of an axis; a hat's is -1
 // to 1. An axis that a known device lacks is left out.
-failure::Expected<DeviceMap> ready_map(const radar::Device& device, const DeviceFacts& facts);
+error::Expected<DeviceMap> ready_map(const radar::Device& device, const DeviceFacts& facts);
 
 }  // namespace yars::inputmonitor

@@ -19,7 +19,7 @@ namespace yars::inputmonitor {
 
 namespace {
 
-using failure::fail;
+using error::fail;
 
 constexpr std::string_view kDeviceName = "event";
 
@@ -54,7 +54,7 @@ DeviceFacts facts_of(int descriptor) {
 
 }  // namespace
 
-failure::Expected<std::unique_ptr<DeviceReader>> DeviceReader::open(const std::filesystem::path& path) {
+error::Expected<std::unique_ptr<DeviceReader>> DeviceReader::open(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) {
     const std::string why = std::generic_category().message(errno);
@@ -125,8 +125,7 @@ std::vector<std::filesystem::path> device_paths(const std::filesystem::path& fol
 namespace {
 
 using databuffer::InputEvent;
-using failure::Expected;
-using failure::fail;
+using error::Expected;
 
 constexpr std::size_t kMostBytes = 128 * kRecordBytes;  // of one take: more than a device reports in 10 ms
 

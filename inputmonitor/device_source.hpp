@@ -23,7 +23,7 @@ namespace yars::inputmonitor {
 class DeviceReader {
  public:
   // An error when there is nothing at the path, it may not be read, or it is none of the three.
-  static failure::Expected<std::unique_ptr<DeviceReader>> open(const std::filesystem::path& path);
+  static error::Expected<std::unique_ptr<DeviceReader>> open(const std::filesystem::path& path);
   DeviceReader(const DeviceReader&) = delete;
   DeviceReader& operator=(const DeviceReader&) = delete;
   ~DeviceReader();
@@ -57,19 +57,18 @@ inline constexpr const char* kDevicePermission =
 // The devices that there are, /dev/input/event*, in the order of their numbers.
 std::vector<std::filesystem::path> device_paths(const std::filesystem::path& folder);
 
-// One device: reads it, lets go of everything when it goes, and looks for it again four times a second. What a single
-// take() reads is bounded, so that a device that floods holds up nobody.
-
 using DeviceMaps = std::shared_ptr<const std::vector<radar::Device>>;
 
 inline constexpr std::int64_t kLookAgain_ns = 250'000'000;  // [ns] sooner than a hand that has plugged it in lets go
 
+// One device: reads it, lets go of everything when it goes, and looks for it again four times a second. What a single
+// take() reads is bounded, so that a device that floods holds up nobody.
 class DeviceSource final : public EventSource {
  public:
   // `map_name` empty: the map that fits; for a descriptor that tells nothing of itself, the only one. A device that is
   // not there yet is waited for; one that may not be read or has no map is an error.
-  static failure::Expected<std::unique_ptr<DeviceSource>> create(std::filesystem::path path, std::string map_name,
-                                                                 DeviceMaps maps);
+  static error::Expected<std::unique_ptr<DeviceSource>> create(std::filesystem::path path, std::string map_name,
+                                                               DeviceMaps maps);
 
   bool add_descriptors(std::vector<pollfd>& wanted) const override;
   std::optional<std::int64_t> deadline_ns() const override;
@@ -85,7 +84,7 @@ class DeviceSource final : public EventSource {
 
  private:
   DeviceSource(std::filesystem::path path, std::string map_name, DeviceMaps maps);
-  failure::Expected<void> connect();
+  error::Expected<void> connect();
   void look_for_it();
   void read_some(std::int64_t now_ns);
   void lose(const std::string& why);

@@ -7,11 +7,14 @@
 
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/messages/world_state.hpp"
+#include "lib/file/text_file.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::inputmonitor {
 
 namespace {
+
+using databuffer::InputEvent;
 
 constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
 
@@ -28,8 +31,6 @@ void EventSource::wait(const Moment& moment, int longest_ms) {
   add_descriptors(wanted);
   poll(wanted.data(), wanted.size(), longest_ms);
 }
-
-using databuffer::InputEvent;
 
 void SourceGroup::wait(const Moment& moment, int longest_ms) {
   std::vector<pollfd> unused;
@@ -95,12 +96,12 @@ std::string SourceGroup::description() const {
 
 namespace {
 
-using failure::Expected;
-using failure::fail;
+using error::Expected;
+using error::fail;
 
 // The time that a word means, or nothing when it means none.
 std::optional<std::int64_t> time_of(std::string_view word, std::int64_t previous_ns) {
-  const auto seconds = databuffer::finite_number(word);
+  const auto seconds = text::finite_number(word);
   if (!seconds || *seconds < 0.0 || *seconds > databuffer::kLatestSimTime_s) return std::nullopt;
   const std::int64_t time_ns = std::llround(*seconds * 1e9);
   return word.starts_with('+') ? previous_ns + time_ns : time_ns;
@@ -111,15 +112,15 @@ std::optional<std::int64_t> time_of(std::string_view word, std::int64_t previous
 Expected<Script> parse_script(std::string_view text, std::string_view name) {
   Script script;
   std::int64_t previous_ns = 0;
-  for (const auto& line : databuffer::numbered_lines(text)) {
-    const std::string place = std::string(name) + ':' + std::to_string(line.number);
+  for (const auto& line : text::numbered_lines(text)) {
+    const std::string place = file::place_in_file(name, line.number);
     const std::string found = '"' + std::string(line.text) + '"';
     if (script.end_ns) return fail(place, "nothing behind end", found);
     if (line.text == "end") {
       script.end_ns = previous_ns;
       continue;
     }
-    const std::string_view word = databuffer::words_of(line.text).front();
+    const std::string_view word = text::words_of(line.text).front();
     const auto time_ns = time_of(word, previous_ns);
     if (!time_ns) return fail(place, "TIME_S EVENT, +DT_S EVENT or end", found);
     if (*time_ns < previous_ns)
@@ -127,7 +128,7 @@ Expected<Script> parse_script(std::string_view text, std::string_view name) {
                   "put the lines in the order of their times");
     if (script.events.empty()) script.from_start = word.starts_with('+');
     previous_ns = *time_ns;
-    const std::string_view rest = databuffer::trimmed(line.text.substr(word.size()));
+    const std::string_view rest = text::trimmed(line.text.substr(word.size()));
     if (rest == "end") {
       script.end_ns = previous_ns;
       continue;
@@ -141,7 +142,7 @@ Expected<Script> parse_script(std::string_view text, std::string_view name) {
 
 ScriptSource::ScriptSource(Script script, std::string name) : script_(std::move(script)), name_(std::move(name)) {}
 
-std::vector<databuffer::InputEvent> ScriptSource::take(const Moment& moment) {
+std::vector<InputEvent> ScriptSource::take(const Moment& moment) {
   const bool went_back = last_sim_time_ns_ && moment.sim_time_ns < *last_sim_time_ns_;
   if (script_.from_start && (went_back || !last_sim_time_ns_)) origin_ns_ = moment.sim_time_ns;
   last_sim_time_ns_ = moment.sim_time_ns;
@@ -150,7 +151,7 @@ std::vector<databuffer::InputEvent> ScriptSource::take(const Moment& moment) {
     const auto later = std::ranges::lower_bound(script_.events, time_ns, {}, &ScriptedEvent::time_ns);
     next_ = static_cast<std::size_t>(later - script_.events.begin());
   }
-  std::vector<databuffer::InputEvent> due;
+  std::vector<InputEvent> due;
   for (; next_ < script_.events.size() && script_.events[next_].time_ns <= time_ns; ++next_)
     due.push_back(script_.events[next_].event);
   ended_ = script_.end_ns && time_ns >= *script_.end_ns;

@@ -53,11 +53,10 @@ class EventSource {
   virtual std::string description() const = 0;
 };
 
-// Several sources as one: none waits for another. It ends when one of them does, as the keyboard by Escape.
-
 // [ms] a source that no descriptor can wake, a window, leaves the others unheard no longer: one tick
 inline constexpr int kLongestDeaf_ms = 5;
 
+// Several sources as one: none waits for another. It ends when one of them does, as the keyboard by Escape.
 class SourceGroup final : public EventSource {
  public:
   explicit SourceGroup(std::vector<std::unique_ptr<EventSource>> sources) : sources_(std::move(sources)) {}
@@ -81,7 +80,7 @@ class SourceGroup final : public EventSource {
 //   +DT_S EVENT      so long after the line above; on the first line after the script's start, and then all times of
 //                    the script count from its start
 //   [TIME_S] end     the input monitor ends there, or right after the line above; nothing follows
-// `#` begins a comment. EVENT is written as in databuffer/records/event_text.hpp.
+// `#` begins a comment. EVENT is written as in databuffer/messages/input_event.hpp.
 struct ScriptedEvent {
   std::int64_t time_ns = 0;
   databuffer::InputEvent event{};
@@ -94,7 +93,7 @@ struct Script {
 };
 
 // `name` is the file's, for errors: they carry the line.
-failure::Expected<Script> parse_script(std::string_view text, std::string_view name);
+error::Expected<Script> parse_script(std::string_view text, std::string_view name);
 
 // Plays a script by sim time: an event is due at the first tick at or after its time. What lies before the session's
 // time when it begins is sent at once, in order. When sim time goes back (a reset), it goes on from there; a script

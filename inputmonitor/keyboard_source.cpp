@@ -91,16 +91,16 @@ class WindowSource final : public EventSource {
   Keyboard keyboard_;
 };
 
-failure::Expected<std::unique_ptr<EventSource>> no_window() {
+error::Expected<std::unique_ptr<EventSource>> no_window() {
   const char* reason = nullptr;
   glfwGetError(&reason);
-  return failure::fail("--source window", "a display on which a window can be opened",
-                       reason != nullptr ? reason : "none", "use --source terminal or script:FILE");
+  return error::fail("--source window", "a display on which a window can be opened",
+                     reason != nullptr ? reason : "none", "use --source terminal or script:FILE");
 }
 
 }  // namespace
 
-failure::Expected<std::unique_ptr<EventSource>> open_window_source(const std::string& session) {
+error::Expected<std::unique_ptr<EventSource>> open_window_source(const std::string& session) {
   if (glfwInit() == GLFW_FALSE) return no_window();
   // It draws nothing, so it needs no graphics.
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
@@ -163,7 +163,7 @@ class TerminalSource final : public EventSource {
 
 }  // namespace
 
-failure::Expected<std::unique_ptr<EventSource>> open_terminal_source() {
+error::Expected<std::unique_ptr<EventSource>> open_terminal_source() {
   auto mode = TerminalMode::enter(STDIN_FILENO);
   if (!mode) return tl::unexpected(mode.error());
   return std::make_unique<TerminalSource>(std::move(*mode));

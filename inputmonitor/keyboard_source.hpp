@@ -41,11 +41,10 @@ inline constexpr const char* kKeyHelp =
 
 // Keys typed in a small window of its own. Keys are told by their place on an American keyboard; repeats of a held
 // key are passed over, and a window that loses the keyboard lets go of everything.
-
 // `session` goes into the title. An error when there is no display.
-failure::Expected<std::unique_ptr<EventSource>> open_window_source(const std::string& session);
+error::Expected<std::unique_ptr<EventSource>> open_window_source(const std::string& session);
 
 // Keys typed in the terminal that is standard input.
-failure::Expected<std::unique_ptr<EventSource>> open_terminal_source();
+error::Expected<std::unique_ptr<EventSource>> open_terminal_source();
 
 }  // namespace yars::inputmonitor

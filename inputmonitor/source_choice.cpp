@@ -114,7 +114,7 @@ void FoundDevicesSource::try_device(const std::filesystem::path& path) {
 
 namespace {
 
-using failure::Expected;
+using error::Expected;
 using SourcePointer = std::unique_ptr<EventSource>;
 
 constexpr std::string_view kScript = "script:";
@@ -141,7 +141,7 @@ bool display_is_named() {
 }
 
 Expected<SourcePointer> open_script(const std::string& file) {
-  const auto text = databuffer::read_text_file(file);
+  const auto text = file::read_text_file(file);
   if (!text) return tl::unexpected(text.error());
   auto script = parse_script(*text, file);
   if (!script) return tl::unexpected(script.error());
@@ -212,8 +212,8 @@ Expected<SourceChoice> parse_source(std::string_view text) {
     const SourceChoice choice = device_choice(text.substr(kDevice.size()));
     if (!choice.file.empty()) return choice;
   }
-  return tl::unexpected(failure::Error{"--source", "window, terminal, script:FILE, evdev:PATH[,MAP] or auto",
-                                       '"' + std::string(text) + '"', "", true});
+  return tl::unexpected(error::usage_error("--source", "window, terminal, script:FILE, evdev:PATH[,MAP] or auto",
+                                           '"' + std::string(text) + '"'));
 }
 
 Expected<SourcePointer> open_sources(const std::vector<SourceChoice>& choices, const OpeningNeeds& needs) {

@@ -59,7 +59,7 @@ struct SourceChoice {
 };
 
 // window, terminal, script:FILE, evdev:PATH[,MAP] or auto; anything else is bad usage.
-failure::Expected<SourceChoice> parse_source(std::string_view text);
+error::Expected<SourceChoice> parse_source(std::string_view text);
 
 // What sources need from outside.
 struct OpeningNeeds {
@@ -70,7 +70,7 @@ struct OpeningNeeds {
 
 // All of them as one. `auto` takes a window where there is a display, else the terminal where there is one, and every
 // device that has a map and may be read.
-failure::Expected<std::unique_ptr<EventSource>> open_sources(const std::vector<SourceChoice>& choices,
-                                                             const OpeningNeeds& needs);
+error::Expected<std::unique_ptr<EventSource>> open_sources(const std::vector<SourceChoice>& choices,
+                                                           const OpeningNeeds& needs);
 
 }  // namespace yars::inputmonitor

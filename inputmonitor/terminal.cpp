@@ -190,19 +190,19 @@ bool is_foreground_terminal(int descriptor) {
   return isatty(descriptor) == 1 && tcgetpgrp(descriptor) == getpgrp();
 }
 
-failure::Expected<std::unique_ptr<TerminalMode>> TerminalMode::enter(int descriptor) {
+error::Expected<std::unique_ptr<TerminalMode>> TerminalMode::enter(int descriptor) {
   if (!is_foreground_terminal(descriptor))
-    return failure::fail("standard input", "a terminal in whose foreground this program runs",
-                         isatty(descriptor) == 1 ? "one of which another program has the foreground" : "no terminal",
-                         "start it in a terminal of its own, or use --source window or script:FILE");
+    return error::fail("standard input", "a terminal in whose foreground this program runs",
+                       isatty(descriptor) == 1 ? "one of which another program has the foreground" : "no terminal",
+                       "start it in a terminal of its own, or use --source window or script:FILE");
   if (tcgetattr(descriptor, &saved.settings) != 0)
-    return failure::fail("standard input", "a terminal whose settings can be read", std::strerror(errno));
+    return error::fail("standard input", "a terminal whose settings can be read", std::strerror(errno));
   const termios raw = byte_by_byte(saved.settings);
   saved.descriptor = descriptor;
   catch_felling_signals();
   std::unique_ptr<TerminalMode> mode(new TerminalMode);
   if (tcsetattr(descriptor, TCSANOW, &raw) != 0)
-    return failure::fail("standard input", "a terminal that can be set", std::strerror(errno));
+    return error::fail("standard input", "a terminal that can be set", std::strerror(errno));
   return mode;
 }
 

@@ -14,12 +14,6 @@
 
 namespace yars::inputmonitor {
 
-// From the bytes of a terminal to edges of keys. Pure: it is told the time of each byte.
-// Knows the sequences of xterm and its kin (ESC [ A, ESC O A, ESC [ 5 ~, ESC O P, ESC [ 1 1 ~, with modifiers) and of
-// the Linux console (ESC [ [ A). Terminals report no release: an arrow is a pulse that each further byte sequence
-// lengthens; every other key goes down and up at once. ESC alone is the key when nothing follows it in time; a
-// sequence that stays unfinished that long, or is unknown, is dropped.
-
 // Source: docs/spec/commands.md#terminal.
 inline constexpr std::int64_t kEscapeAlone_ns = 50'000'000;  // [ns] a serial line at 9600 Bd needs 1 ms
 inline constexpr std::int64_t kArrowPulse_ns = 100'000'000;  // [ns] longer than a key's repeat
@@ -29,6 +23,11 @@ struct KeyChange {
   bool pressed = false;
 };
 
+// From the bytes of a terminal to edges of keys. Pure: it is told the time of each byte.
+// Knows the sequences of xterm and its kin (ESC [ A, ESC O A, ESC [ 5 ~, ESC O P, ESC [ 1 1 ~, with modifiers) and of
+// the Linux console (ESC [ [ A). Terminals report no release: an arrow is a pulse that each further byte sequence
+// lengthens; every other key goes down and up at once. ESC alone is the key when nothing follows it in time; a
+// sequence that stays unfinished that long, or is unknown, is dropped.
 class TerminalDecoder {
  public:
   // Bytes read at `now_ns`; what had to happen before comes first.
@@ -63,7 +62,7 @@ class TerminalDecoder {
 class TerminalMode {
  public:
   // An error when the descriptor is no terminal, or this process is not in its foreground. One at a time.
-  static failure::Expected<std::unique_ptr<TerminalMode>> enter(int descriptor);
+  static error::Expected<std::unique_ptr<TerminalMode>> enter(int descriptor);
   TerminalMode(const TerminalMode&) = delete;
   TerminalMode& operator=(const TerminalMode&) = delete;
   ~TerminalMode();

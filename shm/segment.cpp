@@ -24,8 +24,8 @@ thread_local CreationStep creation_step = nullptr;
 
 namespace {
 
-using failure::Expected;
-using failure::fail;
+using error::Expected;
+using error::fail;
 
 constexpr std::string_view kFolder = "/dev/shm/";  // where glibc's shm_open and Boost keep their objects
 constexpr int kAttempts = 2000;                    // of 1 ms: others arrive and leave in far less
@@ -96,7 +96,7 @@ Expected<void> check_layout(const SegmentFile& file, const std::string& file_nam
               text_of(found) + " in a file of " + std::to_string(file.size()) + " bytes", what_to_do);
 }
 
-tl::unexpected<failure::Error> system_failure(const std::string& file_name, std::string expected, int error) {
+tl::unexpected<error::Error> system_failure(const std::string& file_name, std::string expected, int error) {
   const bool full = error == ENOSPC || error == ENOMEM;
   return fail(path_of(file_name), std::move(expected), std::strerror(error),
               full ? "free space in /dev/shm (df /dev/shm), or give it more (mount -o remount,size=256M /dev/shm)"
@@ -128,7 +128,7 @@ bool leave(SegmentFile& file, const std::string& file_name) {
 }
 
 // What lies at a name though it cannot be opened as a segment; `error` is what the system said.
-tl::unexpected<failure::Error> refusal_to_open(const std::string& file_name, int error) {
+tl::unexpected<error::Error> refusal_to_open(const std::string& file_name, int error) {
   struct stat there {};
   if (lstat(path_of(file_name).c_str(), &there) != 0 || (S_ISREG(there.st_mode) && there.st_uid == geteuid()))
     return system_failure(file_name, "a segment that can be opened", error);

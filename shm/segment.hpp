@@ -61,7 +61,6 @@ constexpr std::uint64_t layout_hash(std::span<const RecordIdentity> records) {
 
 // The seam of the tests that kill a creator or a leaver after every single step: called, when set, behind each system
 // call and each store by which a segment comes to be or goes. Nothing else uses it.
-
 using CreationStep = void (*)(const char* what);
 extern thread_local CreationStep creation_step;
 
@@ -78,9 +77,9 @@ class Segment {
   using Initialize = void (*)(void* memory);
 
   // Attaches to the segment, or creates it. `name`: letters, digits, '-' and '_'.
-  static failure::Expected<Segment> open(const std::string& name, const LayoutIdentity& layout, Initialize initialize);
+  static error::Expected<Segment> open(const std::string& name, const LayoutIdentity& layout, Initialize initialize);
   // For readers: the mapping cannot be written, no lock is held. A leftover that nobody takes part in is an error.
-  static failure::Expected<Segment> open_read_only(const std::string& name, const LayoutIdentity& layout);
+  static error::Expected<Segment> open_read_only(const std::string& name, const LayoutIdentity& layout);
 
   Segment(Segment&&) noexcept;
   Segment& operator=(Segment&&) noexcept;

@@ -125,7 +125,7 @@ bool SegmentFile::link_as(const std::string& file_name) {
                                       : ::link(path_of(temporary_).c_str(), path.c_str());
   if (done != 0) return false;
   remove_temporary();
-  // Opened by its name, the system goes on showing that name when somebody removes it: segment_file.hpp.
+  // Opened by its name, the system goes on showing that name when somebody removes it: nameless_files().
   auto named = open(file_name, access_);
   if (named && is_at(path) && named->is_at(path) && named->lock(0, LockKind::read)) {
     lock(0, LockKind::none);  // the mapping keeps the old description, and its locks, alive

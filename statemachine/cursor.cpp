@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <span>
@@ -15,7 +14,6 @@
 #include "lib/text/plain_text.hpp"
 #include "statemachine/designation.hpp"
 #include "statemachine/maps.hpp"
-#include "statemachine/settings.hpp"
 
 namespace yars::statemachine {
 
@@ -64,10 +62,6 @@ struct Plane {
 
 GeoPoint aircraft_of(const Surroundings& surroundings) {
   return {surroundings.ownship.latitude_deg, surroundings.ownship.longitude_deg};
-}
-
-GeoPoint cursor_of(const RadarState& state) {
-  return {state.cursor_latitude_deg, state.cursor_longitude_deg};
 }
 
 void put_cursor(RadarState& state, GeoPoint place, std::int64_t tick) {
@@ -195,17 +189,11 @@ void advance_cursor(RadarState& state, const Surroundings& surroundings,
 namespace {
 
 using databuffer::DrawnPoint;
-using databuffer::RadarState;
-using databuffer::text_of;
 using radar::RoutePoint;
+using text::text_of;
 
 constexpr std::size_t kMostDrawn = 5;  // docs/spec/pilots_interface.md#rule-11; the record holds more
 static_assert(kMostDrawn <= radar::kMaxPointsDrawn);
-
-void put_name(char (&field)[8], std::string_view name) {
-  std::memset(field, 0, sizeof(field));
-  name.copy(field, sizeof(field) - 1);
-}
 
 // Among those of the route, and the target designated.
 std::optional<RoutePoint> find_point(std::string_view name, const RadarState& state,
@@ -223,7 +211,7 @@ bool survives_declutter(const RoutePoint& point) {
 
 void select(Step& step, const std::optional<RoutePoint>& point) {
   if (!point) return;
-  put_name(step.state.sequence_point, point->name);
+  put_text(step.state.sequence_point, point->name);
   jump_cursor(step.state, point->place, step.surroundings);
 }
 
@@ -257,7 +245,7 @@ DrawnPoint drawn(const RoutePoint& point, bool selected) {
   entry.latitude_deg = point.place.latitude_deg;
   entry.longitude_deg = point.place.longitude_deg;
   entry.elevation_m = point.elevation_m;
-  put_name(entry.name, point.name);
+  put_text(entry.name, point.name);
   entry.kind = static_cast<std::uint8_t>(point.kind);
   entry.selected = selected ? 1 : 0;
   return entry;
@@ -287,7 +275,7 @@ void select_first_sequence_point(RadarState& state, const radar::RadarConfigurat
   const auto first =
       std::min_element(configuration.route.begin(), configuration.route.end(),
                        [](const RoutePoint& a, const RoutePoint& b) { return radar::precedes(a.name, b.name); });
-  put_name(state.sequence_point, first == configuration.route.end() ? std::string_view() : first->name);
+  put_text(state.sequence_point, first == configuration.route.end() ? std::string_view() : first->name);
 }
 
 std::optional<RoutePoint> selected_point(const RadarState& state, const radar::RadarConfiguration& configuration) {
@@ -300,7 +288,7 @@ void draw_points(RadarState& state, const Surroundings& surroundings, const rada
   Nearest nearest;
   if (target) nearest.take(&*target, geo::Length());
   const auto is_target = [&target](const RoutePoint& point) { return target && point.name == target->name; };
-  const geo::GeoPoint aircraft{surroundings.ownship.latitude_deg, surroundings.ownship.longitude_deg};
+  const GeoPoint aircraft = aircraft_of(surroundings);
   const geo::Length range = geo::Length::nautical_miles(state.range_nm);
   for (const RoutePoint& point : configuration.route) {
     if (is_target(point)) continue;  // a point adopted is drawn once, as the target

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -13,7 +12,6 @@
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
-#include "statemachine/settings.hpp"
 
 namespace yars::statemachine {
 
@@ -25,10 +23,6 @@ using geo::GeoPoint;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kAnswerTicks = 20;   // 0.1 s: a model that lives has answered by then
 constexpr std::int64_t kGroundTicks = 400;  // 2 s: ground that is still unknown is void, or is not loaded
-
-GeoPoint cursor_of(const RadarState& state) {
-  return {state.cursor_latitude_deg, state.cursor_longitude_deg};
-}
 
 bool is_asked(const RadarState& state, GeoPoint ground) {
   return state.asked_latitude_deg == ground.latitude_deg && state.asked_longitude_deg == ground.longitude_deg;
@@ -104,7 +98,6 @@ void ask_for_cursor(RadarState& state) {
 
 namespace {
 
-using databuffer::RadarState;
 using databuffer::SteeringLine;
 using geo::Bearing;
 
@@ -194,9 +187,8 @@ void put_steering(databuffer::Outputs& outputs, const RadarState& state, const S
 
 namespace {
 
-using databuffer::RadarState;
-using databuffer::text_of;
 using radar::PointName;
+using text::text_of;
 
 constexpr int kGreatestNumber = 100;  // docs/spec/pilots_interface.md#rule-11
 constexpr int kGreatestOffset = 99;
@@ -210,7 +202,7 @@ bool has_cursor(const Step& step) {
 geo::GeoPoint known_cursor(const Step& step) {
   const RadarState& state = step.state;
   const auto belief = databuffer::belief_in_use(step.surroundings.ownship, step.surroundings.nav, state);
-  return belief.known_from_video({state.cursor_latitude_deg, state.cursor_longitude_deg});
+  return belief.known_from_video(cursor_of(state));
 }
 
 void cue(RadarState& state, geo::GeoPoint known) {
@@ -265,11 +257,6 @@ std::string text_of(PointName name) {
   return text.data();
 }
 
-void put_target_name(RadarState& state, std::string_view name) {
-  std::memset(state.target_name, 0, sizeof state.target_name);
-  name.copy(state.target_name, sizeof state.target_name - 1);
-}
-
 // A point that exists keeps its name, its place and, where it has one, its elevation.
 void put_target(Step& step, geo::GeoPoint known, const radar::RoutePoint* adopted) {
   constexpr std::uint32_t both = databuffer::kAskedForTarget | databuffer::kAskedForCue;
@@ -305,7 +292,7 @@ void designate_target(Step& step) {
   const std::string_view old_name = text_of(state.target_name);
   const bool moves_selection = has(state, databuffer::kTargetDesignated) && text_of(state.sequence_point) == old_name &&
                                !is_of_route(old_name, step.configuration);
-  put_target_name(state, adopted ? adopted->name : text_of(*free));
+  put_text(state.target_name, adopted ? adopted->name : text_of(*free));
   if (moves_selection) std::ranges::copy(state.target_name, state.sequence_point);
   put_target(step, known, adopted);
   ++state.target_count;

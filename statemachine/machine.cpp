@@ -72,8 +72,6 @@ Outputs outputs_of(const RadarState& state, const Surroundings& surroundings) {
 
 namespace {
 
-using databuffer::RadarState;
-
 // 0.1 s: the aircraft flies 50 m meanwhile, which decides nothing about which points are near; each tick would cost
 // a geodesic for every point of the route.
 constexpr std::int64_t kTicksBetweenPoints = 20;
@@ -128,7 +126,7 @@ void advance(RadarState& state, const Surroundings& surroundings, const radar::R
     points_due = true;
   }
   take_elevation(state, surroundings);
-  take_map(state, surroundings);
+  if (take_map(state, surroundings)) enter_patch(state);
   state.map_shown = map_to_show(state);
   if (power_of(state) != radar::Power::off && surroundings.ownship_valid) {
     if (!has(state, databuffer::kRangeSet)) {

@@ -1,15 +1,12 @@
 #include "statemachine/maps.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <optional>
 #include <string_view>
 
 #include "databuffer/messages/derived_values.hpp"
 #include "lib/radar/mapping.hpp"
 #include "lib/text/plain_text.hpp"
-#include "statemachine/modes.hpp"
-#include "statemachine/settings.hpp"
 
 namespace yars::statemachine {
 
@@ -137,7 +134,6 @@ namespace {
 
 using databuffer::ModelStatus;
 using databuffer::PatchMap;
-using databuffer::RadarState;
 
 geo::Length range_to_cursor(const Step& step) {
   const databuffer::Ownship& ownship = step.surroundings.ownship;
@@ -165,7 +161,7 @@ std::optional<std::string_view> why_not_here(const Step& step) {
 
 // The model's word goes onto the display and into a record that must stay readable, whoever wrote it.
 std::string_view why_stopped(const ModelStatus& model) {
-  const std::string_view words = databuffer::text_of(model.map_stopped);
+  const std::string_view words = text::text_of(model.map_stopped);
   return std::ranges::all_of(words, [](char letter) { return letter >= ' ' && letter <= '~'; }) ? words
                                                                                                 : std::string_view();
 }
@@ -180,8 +176,7 @@ void take_commanded(RadarState& state, std::uint64_t id) {
   state.map_old = state.map_stored != 0 ? state.map_stored : state.map_newest;
   state.map_newest = id;
   set_flag(state, databuffer::kMapping, false);
-  if (has(state, databuffer::kFreeze)) state.recall = static_cast<std::uint8_t>(radar::Recall::newest);
-  enter_patch(state);
+  if (has(state, databuffer::kFreeze)) put_recall(state, Recall::newest);
 }
 
 }  // namespace
@@ -212,23 +207,26 @@ void cancel_map(RadarState& state, const Surroundings& surroundings) {
   set_flag(state, databuffer::kMapWindowBlank, (newest->flags & databuffer::kPatchWindowBlank) != 0);
 }
 
-void take_map(RadarState& state, const Surroundings& surroundings) {
+bool take_map(RadarState& state, const Surroundings& surroundings) {
   const ModelStatus& model = surroundings.model;
   // Another, not a greater id: one that cannot be would stand for ever.
   const bool is_new = model.map_newest != 0 && model.map_newest != state.map_newest;
   // Answered without a map: the aircraft has come too near, or was put elsewhere, since the command.
   if (has(state, databuffer::kMapping) && model.map_done_request == state.map_request && !is_new) {
     cancel_map(state, surroundings);
-    return show_message(state, surroundings, "NO MAP");
+    show_message(state, surroundings, "NO MAP");
+    return false;
   }
-  if (!is_new || model.map_done_request != state.map_request) return;
+  if (!is_new || model.map_done_request != state.map_request) return false;
   // Without its record nobody knows where it lies: there is nothing to show, and no frame for the cursor.
-  if (map_of(surroundings, model.map_newest) == nullptr) return;
+  if (map_of(surroundings, model.map_newest) == nullptr) return false;
   if (has(state, databuffer::kMapping)) {
     take_commanded(state, model.map_newest);
-  } else if (power_of(state) == radar::Power::operate && running_mode(state) == radar::Mode::patch) {
-    state.map_newest = model.map_newest;
+    return true;
   }
+  if (power_of(state) == radar::Power::operate && running_mode(state) == Mode::patch)
+    state.map_newest = model.map_newest;
+  return false;
 }
 
 void tell_why_map_stopped(RadarState& state, const Surroundings& surroundings) {
@@ -239,8 +237,7 @@ void tell_why_map_stopped(RadarState& state, const Surroundings& surroundings) {
   // A word that the pilot has just called forth comes first.
   if (state.message[0] != '\0' && !stands) return;
   if (!stands && reason.empty()) return;
-  std::memset(state.message, 0, sizeof state.message);
-  reason.copy(state.message, sizeof state.message - 1);
+  put_text(state.message, reason);
   state.message_until_tick = reason.empty() ? 0 : databuffer::kUntilCauseEnds;
 }
 

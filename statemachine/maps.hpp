@@ -38,9 +38,9 @@ void command_map(Step& step);
 // on a patch is once more the newest map.
 void cancel_map(databuffer::RadarState& state, const Surroundings& surroundings);
 
-// A map that the model has completed: the one commanded becomes NEW, moves NEW to OLD and brings up the patch; a
-// re-map takes the place of NEW; any other is ignored.
-void take_map(databuffer::RadarState& state, const Surroundings& surroundings);
+// A map that the model has completed: the one commanded becomes NEW, moves NEW to OLD and is to bring up the patch
+// (true); a re-map takes the place of NEW; any other is ignored.
+bool take_map(databuffer::RadarState& state, const Surroundings& surroundings);
 
 // Says why the patch shown is not mapped again, for as long as it is not.
 void tell_why_map_stopped(databuffer::RadarState& state, const Surroundings& surroundings);

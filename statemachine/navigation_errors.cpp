@@ -72,7 +72,7 @@ void advance_navigators(RadarState& state, std::int64_t tick, const radar::Radar
     constexpr std::uint64_t kFirstDraw = 100;
     const auto walk = [&](double NavigatorError::*component, std::uint64_t draw) {
       const double by_mps =
-          step_mps * radar::standard_normal(configuration.seed, static_cast<std::uint64_t>(tick), kFirstDraw + draw);
+          step_mps * random::standard_normal(configuration.seed, static_cast<std::uint64_t>(tick), kFirstDraw + draw);
       for (NavigatorError* error : {&state.mission, &state.ins})
         error->*component = bounded(error->*component + by_mps, kMostDrift_mps);
     };
@@ -97,7 +97,6 @@ NavigatorError& error_in_use(RadarState& state) {
 
 namespace {
 
-using databuffer::RadarState;
 using geo::GeoPoint;
 
 // [m] on the ground.
@@ -105,10 +104,6 @@ struct Offset {
   double north_m = 0.0;
   double east_m = 0.0;
 };
-
-GeoPoint cursor_of(const RadarState& state) {
-  return {state.cursor_latitude_deg, state.cursor_longitude_deg};
-}
 
 // From the selected point as the glass shows it to the cursor; nothing without one of them.
 std::optional<Offset> offset_to_cursor(const RadarState& state, const Surroundings& surroundings,
@@ -183,7 +178,6 @@ void advance_update(RadarState& state, const Surroundings& surroundings,
 namespace {
 
 using databuffer::ModelStatus;
-using databuffer::RadarState;
 
 constexpr std::int64_t kShownTicks = 2'000;  // 10 s: three numbers to read, gone before the next update
 // [m/s] A measurement further off than this is none: the border would refuse the state that took it up.

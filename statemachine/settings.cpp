@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include "lib/geo/geodesy.hpp"
@@ -143,9 +143,6 @@ constexpr int kGreatestLevel = 15;  // brightness and contrast; the record and t
 constexpr std::uint8_t kGreatestGain = 3;
 constexpr std::uint8_t kChannels = 8;
 constexpr std::uint8_t kBands = 5;
-// 3 s: long enough to read two words, short enough not to hide the next; a shorter one is missed in a scan of the
-// panel.
-constexpr std::int64_t kMessageTicks = 600;
 constexpr std::string_view kRecorderFull = "VTR FULL";
 
 void toggle(Step& step, std::uint32_t flag) {
@@ -231,17 +228,6 @@ void select_navigator(Step& step) {
 
 void switch_altimeter(Step& step) {
   set_flag(step.state, databuffer::kAltimeterFailed, step.event.argument == 0);
-}
-
-void show_message(databuffer::RadarState& state, const Surroundings& surroundings, std::string_view text) {
-  std::memset(state.message, 0, sizeof(state.message));
-  text.copy(state.message, sizeof(state.message) - 1);
-  state.message_until_tick = surroundings.tick + kMessageTicks;
-}
-
-void refuse(Step& step, std::string_view reason) {
-  show_message(step.state, step.surroundings, reason);
-  step.refused = true;
 }
 
 }  // namespace yars::statemachine

@@ -46,9 +46,4 @@ void next_band(Step& step);     // A to E, then A
 void select_navigator(Step& step);
 void switch_altimeter(Step& step);
 
-// A word for the pilot that goes by itself.
-void show_message(databuffer::RadarState& state, const Surroundings& surroundings, std::string_view text);
-// The event cannot be done, for this reason.
-void refuse(Step& step, std::string_view reason);
-
 }  // namespace yars::statemachine

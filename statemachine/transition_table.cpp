@@ -76,18 +76,6 @@ std::string_view band_legend(const databuffer::RadarState& state) {
   return nth(kBands, state.band);
 }
 
-void write_legends(databuffer::RadarState& state) {
-  std::memset(state.legends, 0, sizeof(state.legends));
-  state.boxed = 0;
-  const Columns column = button_column(state);
-  for (const ButtonRow& row : button_rows()) {
-    if ((row.columns & column) == 0 || !hold(row.shown_when, state)) continue;
-    auto& legend = state.legends[row.button];
-    row.legend.of(state).copy(legend, sizeof(legend) - 1);
-    if (row.boxed && row.boxed(state)) state.boxed |= 1U << row.button;
-  }
-}
-
 namespace {
 
 using databuffer::EventKind;
@@ -221,13 +209,6 @@ Conditions condition_of(radar::CursorFunction function) {
 
 }  // namespace
 
-std::span<const ButtonRow> button_rows() {
-  return kButtons;
-}
-std::span<const ControlRow> control_rows() {
-  return kControls;
-}
-
 Columns button_column(const databuffer::RadarState& state) {
   if (power_of(state) == radar::Power::off) return kOff;
   if (has(state, databuffer::kMenu)) return kMenu;
@@ -325,6 +306,18 @@ Action action_for(const databuffer::RadarState& state, const databuffer::InputEv
     return static_cast<std::uint16_t>(candidate.kind) == event.kind && live(candidate);
   });
   return row == kControls.end() ? nullptr : row->action;
+}
+
+void write_legends(databuffer::RadarState& state) {
+  std::memset(state.legends, 0, sizeof(state.legends));
+  state.boxed = 0;
+  const Columns column = button_column(state);
+  for (const ButtonRow& row : kButtons) {
+    if ((row.columns & column) == 0 || !hold(row.shown_when, state)) continue;
+    auto& legend = state.legends[row.button];
+    row.legend.of(state).copy(legend, sizeof(legend) - 1);
+    if (row.boxed && row.boxed(state)) state.boxed |= 1U << row.button;
+  }
 }
 
 }  // namespace yars::statemachine

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -29,7 +28,7 @@ void write_legends(databuffer::RadarState& state);
 // The transition table: which button and which control does what in which mode, and which legend a button bears.
 // transition_table.cpp holds it as data, in the order of docs/spec/pilots_interface.md#buttons, to be checked against
 // it row by row.
-
+//
 // Columns of the table docs/spec/pilots_interface.md#buttons; a row names those in which it holds.
 using Columns = std::uint16_t;
 inline constexpr Columns kRbm = 1U << 0;
@@ -86,9 +85,6 @@ struct ControlRow {
   Conditions live_when;
   Action action;
 };
-
-std::span<const ButtonRow> button_rows();
-std::span<const ControlRow> control_rows();
 
 // The column that the bezel follows, and the one that hands-on and other controls follow.
 Columns button_column(const databuffer::RadarState& state);

@@ -1,4 +1,4 @@
-/* The grammar of GUF: forms, slots, lists. Values of tokens and the tree are those of config/value.hpp. */
+/* The grammar of GUF: forms, slots, lists. Values of tokens and the tree are those of config/guf/tree.hpp. */
 %skeleton "lalr1.cc"
 %require "3.8"
 %language "c++"

@@ -56,7 +56,7 @@ bool is_in_name(char letter) {
 
 }  // namespace
 
-failure::Expected<ParsedText> parse_messages(std::string_view text, const std::string& name) {
+error::Expected<ParsedText> parse_messages(std::string_view text, const std::string& name) {
   if (const auto problem = oversize(text, name)) return tl::unexpected(*problem);
   ScanState state;
   state.next.file = std::make_shared<const std::string>(name);

@@ -14,7 +14,7 @@ namespace yars::config {
 inline constexpr const char* kBraces = "{";
 inline constexpr const char* kInstance = ":=";
 
-failure::Expected<ParsedText> parse_messages(std::string_view text, const std::string& name);
+error::Expected<ParsedText> parse_messages(std::string_view text, const std::string& name);
 
 // Whether a text is written in messages: its first word is a directive (#), or a name before : or :=. No GUF file
 // begins so, outside all parentheses stand forms alone.

@@ -29,7 +29,7 @@ class Scanner {
 
 }  // namespace
 
-failure::Expected<ParsedText> parse_text(std::string_view text, const std::string& name) {
+error::Expected<ParsedText> parse_text(std::string_view text, const std::string& name) {
   if (const auto problem = oversize(text, name)) return tl::unexpected(*problem);
   ScanState state;
   state.next.file = std::make_shared<const std::string>(name);
@@ -90,10 +90,10 @@ void ScanState::warn_old_spelling(const Location& where, const std::string& old_
   result.warnings.push_back(text_of(where) + ": " + old_form + " is the spelling of 1996; write " + modern);
 }
 
-std::optional<failure::Error> oversize(std::string_view text, const std::string& name) {
+std::optional<error::Error> oversize(std::string_view text, const std::string& name) {
   if (text.size() <= kMaxTextBytes) return std::nullopt;
-  return failure::fail(name, "at most " + std::to_string(kMaxTextBytes) + " bytes in a file",
-                       std::to_string(text.size()), "split the file")
+  return error::fail(name, "at most " + std::to_string(kMaxTextBytes) + " bytes in a file", std::to_string(text.size()),
+                     "split the file")
       .value();
 }
 

@@ -12,9 +12,6 @@
 
 namespace yars::config {
 
-// GUF text to its tree. Includes are still forms named `include`; load.cpp replaces them.
-// Errors: file:line:column, what the grammar allows there, what was found. Never reads beyond its limits.
-
 // Bounds of a text: a file of a person's is far below each, a hostile one cannot take the process down with it.
 inline constexpr std::size_t kMaxTextBytes = 1 << 20;
 inline constexpr int kMaxTokens = 200'000;        // of one text; a token costs some 200 bytes of tree
@@ -27,8 +24,10 @@ struct ParsedText {
   std::vector<std::string> warnings;  // old spellings, each with its place and the modern one
 };
 
-// `name` stands for the text in messages: a path.
-failure::Expected<ParsedText> parse_text(std::string_view text, const std::string& name);
+// GUF text to its tree. Includes are still forms named `include`; load.cpp replaces them. `name` stands for the text in
+// messages: a path. Errors: file:line:column, what the grammar allows there, what was found. Never reads beyond the
+// limits above.
+error::Expected<ParsedText> parse_text(std::string_view text, const std::string& name);
 
 // What scanner and parser share while one text is read: the place, the limits, the result.
 struct ScanState {
@@ -48,7 +47,7 @@ struct ScanState {
 };
 
 // What is wrong with the size of a text, if anything.
-std::optional<failure::Error> oversize(std::string_view text, const std::string& name);
+std::optional<error::Error> oversize(std::string_view text, const std::string& name);
 // A text behind its byte order mark.
 std::string_view without_mark(std::string_view text);
 // One word more of the text; throws beyond kMaxTokens.

@@ -27,6 +27,9 @@ struct Identifier {
   std::string name;
 };
 
+struct Slot;
+struct Value;
+
 struct List {
   std::vector<Value> items;
 };
@@ -62,12 +65,12 @@ std::string quoted_text(const std::string& text);
 
 // How the parts of config/ leave a text that is wrong: thrown inside, caught where a public function returns Expected.
 struct Rejection {
-  failure::Error error;
+  error::Error error;
 };
 
 [[noreturn]] inline void reject(const Location& where, std::string expected, std::string found,
                                 std::string action = {}) {
-  throw Rejection{failure::fail(text_of(where), std::move(expected), std::move(found), std::move(action)).value()};
+  throw Rejection{error::fail(text_of(where), std::move(expected), std::move(found), std::move(action)).value()};
 }
 
 // A tree as GUF text in the modern spelling: what fits stands on one line, everything else on lines of its own,

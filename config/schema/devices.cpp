@@ -232,7 +232,7 @@ std::optional<Complaint> check_device(const Draft& draft) {
     return Complaint{"name", "a name without comma and slash", quoted_text(device.name)};
   if (!device.vendor.empty() && !is_identity(device.vendor))
     return Complaint{"vendor", "four hexadecimal digits", quoted_text(device.vendor)};
-  if (!std::ranges::all_of(databuffer::words_of(device.products), is_identity))
+  if (!std::ranges::all_of(text::words_of(device.products), is_identity))
     return Complaint{"products", "four hexadecimal digits each", quoted_text(device.products)};
   if (!device.has.empty() && !button_code(device.has) && !axis_code(device.has))
     return Complaint{"has", "a button or an axis, as BTN_SOUTH or ABS_X", quoted_text(device.has)};

@@ -10,8 +10,6 @@
 
 namespace yars::config {
 
-// The forms that a text may use: those of the schema, and those it defines itself with def-form.
-
 // What the name of a form stands for.
 struct KnownForm {
   const FormSchema* schema = nullptr;  // null: defined in the text, and based on nothing that YARS knows
@@ -20,6 +18,7 @@ struct KnownForm {
   bool defined_in_text = false;
 };
 
+// The forms that a text may use: those of the schema, and those it defines itself with def-form.
 class FormBook {
  public:
   // ( def-form name is= base 'slot ... ). Throws Rejection; a definition of a form that is built in changes nothing.
@@ -35,9 +34,8 @@ class FormBook {
   std::vector<Definition> definitions_;
 };
 
-// The tree of a configuration into a draft, by the schema.
-
-// Reads forms in the order of the text; what comes later wins. Throws Rejection.
+// The tree of a configuration into a draft, by the schema. Reads forms in the order of the text; what comes later wins.
+// Throws Rejection.
 class FormReader {
  public:
   FormReader(Draft& draft, std::vector<std::string>& warnings) : draft_(draft), warnings_(warnings) {}

@@ -259,60 +259,56 @@ std::vector<SlotSchema> fidelity_slots() {
            "ground of patch maps is smooth between posts that lie farther apart than three pixels; else facets")};
 }
 
-SlotSchema number(std::string_view name, std::string_view unit, double lowest, double highest, double& (*of)(Draft&),
-                  std::string_view purpose) {
-  return {
-      .name = name, .unit = unit, .lowest = lowest, .highest = highest, .binding = NumberSlot{of}, .purpose = purpose};
-}
-
 std::vector<SlotSchema> receiver_slots() {
-  return {number("frequency", "GHz", 1, 40, YARS_FIELD(radar.receiver.frequency_ghz), "carrier"),
-          number("stcExponent", "", 0, 6, YARS_FIELD(radar.receiver.stc_exponent),
-                 "sensitivity time control, power of range over its reference"),
-          number("dynamicRange", "dB", 10, 120, YARS_FIELD(radar.receiver.dynamic_range_db), "black to white"),
-          number("gainStep", "dB", 0, 40, YARS_FIELD(radar.receiver.gain_step_db), "a step of GAIN 3 to 0"),
-          number("landGamma", "dB", -60, 20, YARS_FIELD(radar.receiver.land_gamma_db),
-                 "return of land at vertical incidence")};
+  return {number_slot("frequency", "GHz", 1, 40, {YARS_FIELD(radar.receiver.frequency_ghz)}, "carrier"),
+          number_slot("stcExponent", "", 0, 6, {YARS_FIELD(radar.receiver.stc_exponent)},
+                      "sensitivity time control, power of range over its reference"),
+          number_slot("dynamicRange", "dB", 10, 120, {YARS_FIELD(radar.receiver.dynamic_range_db)}, "black to white"),
+          number_slot("gainStep", "dB", 0, 40, {YARS_FIELD(radar.receiver.gain_step_db)}, "a step of GAIN 3 to 0"),
+          number_slot("landGamma", "dB", -60, 20, {YARS_FIELD(radar.receiver.land_gamma_db)},
+                      "return of land at vertical incidence")};
 }
 
 std::vector<SlotSchema> high_resolution_slots() {
-  return {
-      {.name = "looks",
-       .lowest = 1,
-       .highest = 16,
-       .binding = ListSlot{YARS_FIELD(radar.high_resolution.looks), 2, 2, Order::ascending},
-       .purpose = "independent looks that a map averages at ML1 and ML2"},
-      number("broadening", "", 1, 3, YARS_FIELD(radar.high_resolution.broadening),
-             "of the response by its weighting: factor on the formation time"),
-      number("sidelobes", "dB", -60, -13, YARS_FIELD(radar.high_resolution.sidelobe_db),
-             "of the impulse response, against its peak"),
-      number("formationCap", "s", 0.1, 600, YARS_FIELD(radar.high_resolution.formation_cap_s), "no map takes longer"),
-      number("blindZone", "deg", 0, 45, YARS_FIELD(radar.high_resolution.blind_zone_deg),
-             "either side of the ground track, where nothing returns"),
-      number("sectorTime", "s", 0.5, 120, YARS_FIELD(radar.high_resolution.sector_time_s),
-             "of an HRM PPI scan of FULL width; others in proportion"),
-      number("dwell", "s", 0.01, 10, YARS_FIELD(radar.high_resolution.dwell_s),
-             "for which the HRM PPI looks into each direction: its resolution"),
-      number("sectorStep", "deg", 0.02, 5, YARS_FIELD(radar.high_resolution.sector_step_deg),
-             "between sweeps of the HRM PPI"),
-      number("dynamicRange", "dB", 10, 120, YARS_FIELD(radar.high_resolution.dynamic_range_db), "black to white"),
-      number("brightestGamma", "dB", -40, 60, YARS_FIELD(radar.high_resolution.brightest_gamma_db),
-             "gamma of level ground that is white"),
-      number("noiseGamma", "dB", -120, 20, YARS_FIELD(radar.high_resolution.noise_gamma_db),
-             "gamma of level ground that thermal noise at 20 NM, window 0.67 NM, is worth"),
-      number("doubleBounce", "dB", -60, 40, YARS_FIELD(radar.high_resolution.double_bounce_db),
-             "of a wall's foot against the wall"),
-      {.name = "plainMaterial",
-       .lowest = 0,
-       .highest = radar::kMaterials - 1,
-       .binding = IntegerSlot{YARS_FIELD(radar.high_resolution.plain_material)},
-       .purpose = "surface material code of a scene's faces that have none"},
-      number("detailContrast", "", 0, 2, YARS_FIELD(radar.high_resolution.detail_contrast),
-             "standard deviation of the made-up detail below the posts, against the mean")};
+  return {{.name = "looks",
+           .lowest = 1,
+           .highest = 16,
+           .binding = ListSlot{YARS_FIELD(radar.high_resolution.looks), 2, 2, Order::ascending},
+           .purpose = "independent looks that a map averages at ML1 and ML2"},
+          number_slot("broadening", "", 1, 3, {YARS_FIELD(radar.high_resolution.broadening)},
+                      "of the response by its weighting: factor on the formation time"),
+          number_slot("sidelobes", "dB", -60, -13, {YARS_FIELD(radar.high_resolution.sidelobe_db)},
+                      "of the impulse response, against its peak"),
+          number_slot("formationCap", "s", 0.1, 600, {YARS_FIELD(radar.high_resolution.formation_cap_s)},
+                      "no map takes longer"),
+          number_slot("blindZone", "deg", 0, 45, {YARS_FIELD(radar.high_resolution.blind_zone_deg)},
+                      "either side of the ground track, where nothing returns"),
+          number_slot("sectorTime", "s", 0.5, 120, {YARS_FIELD(radar.high_resolution.sector_time_s)},
+                      "of an HRM PPI scan of FULL width; others in proportion"),
+          number_slot("dwell", "s", 0.01, 10, {YARS_FIELD(radar.high_resolution.dwell_s)},
+                      "for which the HRM PPI looks into each direction: its resolution"),
+          number_slot("sectorStep", "deg", 0.02, 5, {YARS_FIELD(radar.high_resolution.sector_step_deg)},
+                      "between sweeps of the HRM PPI"),
+          number_slot("dynamicRange", "dB", 10, 120, {YARS_FIELD(radar.high_resolution.dynamic_range_db)},
+                      "black to white"),
+          number_slot("brightestGamma", "dB", -40, 60, {YARS_FIELD(radar.high_resolution.brightest_gamma_db)},
+                      "gamma of level ground that is white"),
+          number_slot("noiseGamma", "dB", -120, 20, {YARS_FIELD(radar.high_resolution.noise_gamma_db)},
+                      "gamma of level ground that thermal noise at 20 NM, window 0.67 NM, is worth"),
+          number_slot("doubleBounce", "dB", -60, 40, {YARS_FIELD(radar.high_resolution.double_bounce_db)},
+                      "of a wall's foot against the wall"),
+          {.name = "plainMaterial",
+           .lowest = 0,
+           .highest = radar::kMaterials - 1,
+           .binding = IntegerSlot{YARS_FIELD(radar.high_resolution.plain_material)},
+           .purpose = "surface material code of a scene's faces that have none"},
+          number_slot("detailContrast", "", 0, 2, {YARS_FIELD(radar.high_resolution.detail_contrast)},
+                      "standard deviation of the made-up detail below the posts, against the mean")};
 }
 
 std::vector<SlotSchema> noise_slots() {
-  return {number("floor", "dB", -120, 0, YARS_FIELD(radar.receiver.noise_floor_db), "thermal noise below full scale"),
+  return {number_slot("floor", "dB", -120, 0, {YARS_FIELD(radar.receiver.noise_floor_db)},
+                      "thermal noise below full scale"),
           {.name = "looks",
            .lowest = 1,
            .highest = 64,

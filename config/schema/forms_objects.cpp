@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "config/guf/tree.hpp"
 #include "config/schema/schema.hpp"
@@ -10,15 +9,10 @@ namespace yars::config {
 
 namespace {
 
+using radar::kNotGiven;
+
 constexpr std::array<std::string_view, 6> kBands{"A", "B", "C", "D", "E", "all"};
 constexpr int kAllBands = 5;  // index of "all"
-constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
-
-std::optional<Complaint> check_place(geo::GeoPoint place) {
-  if (std::isnan(place.latitude_deg)) return Complaint{"latitude", "a latitude", "none"};
-  if (std::isnan(place.longitude_deg)) return Complaint{"longitude", "a longitude", "none"};
-  return std::nullopt;
-}
 
 std::optional<Complaint> check_jammer(const Draft& draft) {
   const auto& channels = draft.jammer.channels;
@@ -178,9 +172,7 @@ constexpr double kMostCode = 99;
 std::optional<Complaint> check_beacon(const Draft& draft) {
   if (draft.radar.world.beacons.beacons.size() >= radar::kMostBeacons)
     return Complaint{"latitude", "at most " + std::to_string(radar::kMostBeacons) + " beacons", "one more"};
-  if (std::isnan(draft.beacon.place.latitude_deg)) return Complaint{"latitude", "a latitude", "none"};
-  if (std::isnan(draft.beacon.place.longitude_deg)) return Complaint{"longitude", "a longitude", "none"};
-  return std::nullopt;
+  return check_place(draft.beacon.place);
 }
 
 SlotSchema whole_number(std::string_view name, double lowest, double highest, int& (*of)(Draft&),

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -32,8 +31,7 @@ std::optional<Complaint> check_point(const Draft& draft) {
     return Complaint{"name", "a name of a sequence point: \"2\", \"2.\", \"2.1\" or \"2.01\", 1 to 100",
                      quoted_text(draft.point.name)};
   }
-  if (std::isnan(draft.point.place.latitude_deg)) return Complaint{"latitude", "a latitude", "none"};
-  if (std::isnan(draft.point.place.longitude_deg)) return Complaint{"longitude", "a longitude", "none"};
+  if (auto wrong = check_place(draft.point.place)) return wrong;
   for (const auto& other : draft.radar.route) {
     if (other.name == draft.point.name) return Complaint{"name", "a name once in a route", quoted_text(other.name)};
     // So a route has at most a hundred points, offsets apart: one a number.
@@ -103,18 +101,8 @@ FormSchema point() {
           .slots = {{.name = "name",
                      .binding = TextSlot{YARS_FIELD(point.name)},
                      .purpose = "\"2\", target \"2.\", offset \"2.1\", target offset \"2.01\""},
-                    {.name = "latitude",
-                     .unit = "deg",
-                     .lowest = -90,
-                     .highest = 90,
-                     .binding = AngleSlot{YARS_FIELD(point.place.latitude_deg), true},
-                     .purpose = "WGS84, north positive"},
-                    {.name = "longitude",
-                     .unit = "deg",
-                     .lowest = -180,
-                     .highest = 180,
-                     .binding = AngleSlot{YARS_FIELD(point.place.longitude_deg), false},
-                     .purpose = "WGS84, east positive"},
+                    latitude_slot(YARS_FIELD(point.place.latitude_deg)),
+                    longitude_slot(YARS_FIELD(point.place.longitude_deg)),
                     {.name = "elevation",
                      .unit = "ft",
                      .lowest = -1500,

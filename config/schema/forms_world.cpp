@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <utility>
 
 #include "config/guf/tree.hpp"
@@ -116,8 +115,9 @@ std::vector<FormSchema> database_forms() {
 
 namespace {
 
+using radar::kNotGiven;
+
 constexpr std::array<std::string_view, 2> kPolarizations{"horizontal", "vertical"};  // as radar::Polarization
-constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
 FormSchema land() {
   return {.name = "Land",
@@ -217,8 +217,7 @@ FormSchema sea() {
 }
 
 std::optional<Complaint> check_rain_cell(const Draft& draft) {
-  if (std::isnan(draft.rain_cell.place.latitude_deg)) return Complaint{"latitude", "a latitude", "none"};
-  if (std::isnan(draft.rain_cell.place.longitude_deg)) return Complaint{"longitude", "a longitude", "none"};
+  if (auto wrong = check_place(draft.rain_cell.place)) return wrong;
   if (draft.radar.world.rain.cells.size() < radar::kMostRainCells) return std::nullopt;
   return Complaint{"latitude", "at most " + std::to_string(radar::kMostRainCells) + " showers", "one more"};
 }

@@ -11,42 +11,33 @@
 #include "config/schema/form_reader.hpp"
 #include "config/schema/message_translation.hpp"
 #include "config/schema/schema.hpp"
+#include "lib/log/log.hpp"
 
 namespace yars::config {
-
-// A file and what it includes, as one tree of GUF. `( include "part.guf" )` stands for what is in that file: several
-// arguments where it is an argument by position, one value where it is the value of a slot. The path is relative to
-// the including file and stays inside the folder of the first file. A first file in the messages of 1996 is translated,
-// and `#include "part"` in it, under the same rules, takes messages. Errors: file, cycle, depth, count, outside.
-
-inline constexpr int kMaxIncludeDepth = 8;
-inline constexpr int kMaxIncludes = 64;  // files of one configuration, repetitions counted
-
-failure::Expected<ParsedText> read_tree(const std::filesystem::path& path);
-
-// The same of a text in memory; includes are left as they stand in GUF, and refused in messages.
-failure::Expected<ParsedText> tree_of_text(std::string_view text, const std::string& name);
 
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int kMaxIncludeDepth = 8;
+constexpr int kMaxIncludes = 64;  // files of one configuration, repetitions counted
 
 // The text of a regular file; a pipe or a device could block or never end.
 std::string text_of_file(const fs::path& path, const std::string& subject) {
   std::error_code problem;
   if (!fs::is_regular_file(path, problem)) {
     const std::string found = fs::exists(path, problem) ? " is no file" : " does not exist";
-    throw Rejection{failure::fail(subject, "a GUF file", path.string() + found, "check the path").value()};
+    throw Rejection{error::fail(subject, "a GUF file", path.string() + found, "check the path").value()};
   }
   if (fs::file_size(path, problem) > kMaxTextBytes) {
-    throw Rejection{failure::fail(subject, "at most " + std::to_string(kMaxTextBytes) + " bytes in a file",
-                                  path.string() + " is larger", "split the file")
+    throw Rejection{error::fail(subject, "at most " + std::to_string(kMaxTextBytes) + " bytes in a file",
+                                path.string() + " is larger", "split the file")
                         .value()};
   }
   std::ifstream file(path, std::ios::binary);
   std::string text(std::istreambuf_iterator<char>(file), {});
   if (file.bad() || !file.is_open()) {
-    throw Rejection{failure::fail(subject, "a file that can be read", path.string(), "check its permissions").value()};
+    throw Rejection{error::fail(subject, "a file that can be read", path.string(), "check its permissions").value()};
   }
   return text;
 }
@@ -55,6 +46,10 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
+// A file and what it includes, as one tree of GUF. `( include "part.guf" )` stands for what is in that file: several
+// arguments where it is an argument by position, one value where it is the value of a slot. The path is relative to
+// the including file and stays inside the folder of the first file. A first file in the messages of 1996 is translated,
+// and `#include "part"` in it, under the same rules, takes messages. Errors: file, cycle, depth, count, outside.
 class TreeReader {
  public:
   ParsedText read(const fs::path& path) {
@@ -71,8 +66,8 @@ class TreeReader {
     if (!parsed) throw Rejection{parsed.error()};
     result_.tokens += parsed->tokens;
     if (result_.tokens > kMaxTokens) {
-      throw Rejection{failure::fail(subject, "at most " + std::to_string(kMaxTokens) + " words with all includes",
-                                    std::to_string(result_.tokens), "include less")
+      throw Rejection{error::fail(subject, "at most " + std::to_string(kMaxTokens) + " words with all includes",
+                                  std::to_string(result_.tokens), "include less")
                           .value()};
     }
     std::move(parsed->warnings.begin(), parsed->warnings.end(), std::back_inserter(result_.warnings));
@@ -159,19 +154,18 @@ class TreeReader {
   ParsedText result_;
 };
 
-}  // namespace
-
-failure::Expected<ParsedText> read_tree(const fs::path& path) {
+error::Expected<ParsedText> read_tree(const fs::path& path) {
   try {
     return TreeReader().read(path);
   } catch (const Rejection& rejection) {
     return tl::unexpected(rejection.error);
   } catch (const fs::filesystem_error& problem) {
-    return failure::fail(path.string(), "a path that the system can follow", problem.code().message());
+    return error::fail(path.string(), "a path that the system can follow", problem.code().message());
   }
 }
 
-failure::Expected<ParsedText> tree_of_text(std::string_view text, const std::string& name) {
+// The same of a text in memory; includes are left as they stand in GUF, and refused in messages.
+error::Expected<ParsedText> tree_of_text(std::string_view text, const std::string& name) {
   if (!is_in_messages(text)) return parse_text(text, name);
   auto messages = parse_messages(text, name);
   if (!messages) return messages;
@@ -182,9 +176,7 @@ failure::Expected<ParsedText> tree_of_text(std::string_view text, const std::str
   }
 }
 
-namespace {
-
-failure::Expected<LoadedConfiguration> configuration_from(ParsedText tree) {
+error::Expected<LoadedConfiguration> configuration_from(ParsedText tree) {
   LoadedConfiguration loaded;
   loaded.warnings = std::move(tree.warnings);
   Draft draft;
@@ -196,21 +188,6 @@ failure::Expected<LoadedConfiguration> configuration_from(ParsedText tree) {
   loaded.radar = std::move(draft.radar);
   return loaded;
 }
-
-}  // namespace
-
-failure::Expected<LoadedConfiguration> load_configuration(const std::filesystem::path& path) {
-  if (path.empty()) return LoadedConfiguration{};
-  return read_tree(path).and_then(configuration_from);
-}
-
-failure::Expected<LoadedConfiguration> load_configuration_text(std::string_view text, const std::string& name) {
-  return tree_of_text(text, name).and_then(configuration_from);
-}
-
-namespace {
-
-namespace fs = std::filesystem;
 
 // Gives forms and slots the names of the schema, and paths the folder of the new file.
 class Modernizer {
@@ -268,8 +245,8 @@ class Modernizer {
   FormBook book_;
 };
 
-failure::Expected<ConvertedConfiguration> converted_from(ParsedText tree, const std::string& name,
-                                                         const fs::path& folder) {
+error::Expected<ConvertedConfiguration> converted_from(ParsedText tree, const std::string& name,
+                                                       const fs::path& folder) {
   ConvertedConfiguration converted{{}, std::move(tree.warnings)};
   try {
     Draft draft;
@@ -278,23 +255,39 @@ failure::Expected<ConvertedConfiguration> converted_from(ParsedText tree, const 
   } catch (const Rejection& rejection) {
     return tl::unexpected(rejection.error);
   } catch (const fs::filesystem_error& problem) {
-    return failure::fail(name, "a current folder, for the paths in the file", problem.code().message());
+    return error::fail(name, "a current folder, for the paths in the file", problem.code().message());
   }
   converted.text = tree_text(tree.arguments);
   const auto again = parse_text(converted.text, name);  // with all it includes in one file, it can exceed the limits
   if (again) return converted;
-  return failure::fail(name, "what fits into one file of GUF: " + again.error().expected, again.error().found,
-                       "convert its parts one by one");
+  return error::fail(name, "what fits into one file of GUF: " + again.error().expected, again.error().found,
+                     "convert its parts one by one");
 }
 
 }  // namespace
 
-failure::Expected<ConvertedConfiguration> convert_configuration(const fs::path& path, const fs::path& folder) {
+error::Expected<LoadedConfiguration> load_configuration(const std::filesystem::path& path) {
+  if (path.empty()) return LoadedConfiguration{};
+  return read_tree(path).and_then(configuration_from);
+}
+
+error::Expected<LoadedConfiguration> load_configuration_text(std::string_view text, const std::string& name) {
+  return tree_of_text(text, name).and_then(configuration_from);
+}
+
+error::Expected<radar::RadarConfiguration> load_program_configuration(const std::filesystem::path& path) {
+  auto loaded = load_configuration(path);
+  if (!loaded) return tl::unexpected(loaded.error());
+  for (const auto& warning : loaded->warnings) log::warning(warning);
+  return std::move(loaded->radar);
+}
+
+error::Expected<ConvertedConfiguration> convert_configuration(const fs::path& path, const fs::path& folder) {
   return read_tree(path).and_then(
       [&](ParsedText tree) { return converted_from(std::move(tree), path.string(), folder); });
 }
 
-failure::Expected<ConvertedConfiguration> convert_configuration_text(std::string_view text, const std::string& name) {
+error::Expected<ConvertedConfiguration> convert_configuration_text(std::string_view text, const std::string& name) {
   const fs::path folder = fs::path(name).parent_path();
   return tree_of_text(text, name).and_then([&](ParsedText tree) {
     return converted_from(std::move(tree), name, folder);

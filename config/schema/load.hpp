@@ -18,10 +18,13 @@ struct LoadedConfiguration {
 };
 
 // An empty path gives the built-in defaults. Errors carry file, line, column and what was expected.
-failure::Expected<LoadedConfiguration> load_configuration(const std::filesystem::path& path);
+error::Expected<LoadedConfiguration> load_configuration(const std::filesystem::path& path);
 
 // The same from a text in memory, which cannot include; `name` stands for it in messages.
-failure::Expected<LoadedConfiguration> load_configuration_text(std::string_view text, const std::string& name);
+error::Expected<LoadedConfiguration> load_configuration_text(std::string_view text, const std::string& name);
+
+// The configuration of a program, its warnings logged.
+error::Expected<radar::RadarConfiguration> load_program_configuration(const std::filesystem::path& path);
 
 // A configuration file as one GUF file in the modern spelling: messages translated, includes put in their place, old
 // names of forms and slots replaced by today's. What the file does not say is not said; comments are lost.
@@ -32,10 +35,10 @@ struct ConvertedConfiguration {
 };
 
 // `folder` is where the text will stand: paths in it are relative to that. Empty: the current folder.
-failure::Expected<ConvertedConfiguration> convert_configuration(const std::filesystem::path& path,
-                                                                const std::filesystem::path& folder);
+error::Expected<ConvertedConfiguration> convert_configuration(const std::filesystem::path& path,
+                                                              const std::filesystem::path& folder);
 
 // The same from a text in memory, which cannot include; `name` stands for it in messages.
-failure::Expected<ConvertedConfiguration> convert_configuration_text(std::string_view text, const std::string& name);
+error::Expected<ConvertedConfiguration> convert_configuration_text(std::string_view text, const std::string& name);
 
 }  // namespace yars::config

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <utility>
 
 #include "config/guf/tree.hpp"
@@ -144,6 +145,12 @@ std::string_view nearest_slot(const FormSchema& form, std::string_view name) {
 
 bool is_used(const SlotSchema& slot) {
   return std::visit(UsedBy{}, slot.binding);
+}
+
+std::optional<Complaint> check_place(geo::GeoPoint place) {
+  if (std::isnan(place.latitude_deg)) return Complaint{"latitude", "a latitude", "none"};
+  if (std::isnan(place.longitude_deg)) return Complaint{"longitude", "a longitude", "none"};
+  return std::nullopt;
 }
 
 std::string value_kind(const SlotSchema& slot) {

@@ -15,8 +15,6 @@
 
 namespace yars::config {
 
-// What the slots of GUF write into: the configuration, and the form in hand where forms come in numbers.
-
 // ( lat-long N 35 44 51 ) while it is read.
 struct SexagesimalAngle {
   int direction = 0;  // index into N S E W
@@ -34,6 +32,7 @@ struct HueSaturationValue {
 
 inline constexpr int kKindByName = -1;  // the name alone tells what a point is
 
+// What the slots of GUF write into: the configuration, and the form in hand where forms come in numbers.
 struct Draft {
   radar::RadarConfiguration radar{};
   int window_height_pixels = radar::ViewConfiguration{}.size_pixels;  // equals the width: the glass is square
@@ -185,8 +184,6 @@ bool is_used(const SlotSchema& slot);
 // The kind of value and the range, for messages and the manual: "a number in [0, 60] deg".
 std::string value_kind(const SlotSchema& slot);
 
-}  // namespace yars::config
-
 // NOLINTBEGIN(bugprone-macro-parentheses): a path of fields cannot stand in parentheses.
 // For the rows of the schema: the function that names one field of a draft, as `YARS_FIELD(radar.seed)`.
 #define YARS_FIELD(path)                       \
@@ -194,8 +191,6 @@ std::string value_kind(const SlotSchema& slot);
     return draft.path;                         \
   }
 // NOLINTEND(bugprone-macro-parentheses)
-
-namespace yars::config {
 
 // The rows of the schema, one function a group of forms.
 std::vector<FormSchema> value_forms();       // colours, lat-long
@@ -215,6 +210,9 @@ std::vector<FormSchema> device_forms();      // Devices, Device, Button, Axis
 
 // The windows that can be selected are those of SarMode; where they can be mapped tells WindowLimits.
 std::optional<Complaint> check_windows_have_limits(const Draft& draft);
+
+// A place whose latitude or longitude was not given.
+std::optional<Complaint> check_place(geo::GeoPoint place);
 
 inline SlotSchema number_slot(std::string_view name, std::string_view unit, double lowest, double highest,
                               NumberSlot binding, std::string_view purpose) {

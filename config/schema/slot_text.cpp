@@ -102,7 +102,7 @@ class Reader {
     if (kind.of) kind.of(draft_) = high;
   }
   void operator()(const FormSlot&) const {
-    failure::requirement_broken("a slot of forms is read by FormReader", slot_.name, __FILE__, __LINE__);
+    error::requirement_broken("a slot of forms is read by FormReader", slot_.name, __FILE__, __LINE__);
   }
 
  private:

@@ -9,23 +9,18 @@
 
 namespace yars::config {
 
-// One value into the field of its slot, with its check. Forms are read by the caller.
-
-// Throws Rejection at the value's place with kind, range and what was found. Not for FormSlot; an AngleSlot's form is
-// read into draft.angle before.
+// One value into the field of its slot, with its check. Throws Rejection at the value's place with kind, range and what
+// was found. Not for FormSlot: forms are read by the caller; an AngleSlot's form is read into draft.angle before.
 void read_simple(Draft& draft, const SlotSchema& slot, const Value& value);
 
 // A latitude or longitude from draft.angle; `where` is the lat-long form's place.
 void read_sexagesimal(Draft& draft, const SlotSchema& slot, const Location& where);
 
-// What a slot holds in a draft, as GUF text.
-
-// Empty when there is nothing to write: the slot is used by nothing, holds forms, or stands for "unknown".
+// What a slot holds in a draft, as GUF text. Empty when there is nothing to write: the slot is used by nothing, holds
+// forms, or stands for "unknown".
 std::string slot_text(Draft& draft, const SlotSchema& slot);
 
-// A configuration as GUF text, and the schema as a manual.
-
-// Reads back as an equal configuration: every slot that is used, numbers in full.
+// A configuration as GUF text. Reads back as an equal one: every slot that is used, numbers in full.
 std::string print_configuration(const radar::RadarConfiguration& configuration);
 
 // The same, each slot below a comment that tells position, kind, range, default and purpose; then the forms that stand
@@ -35,7 +30,7 @@ std::string print_explained(const radar::RadarConfiguration& configuration);
 // The maps of devices alone, as a file of their own.
 std::string print_devices(const radar::RadarConfiguration& configuration);
 
-// One Markdown table a form: position, slot, value, default, purpose.
+// The schema as a manual: one Markdown table a form: position, slot, value, default, purpose.
 std::string print_markdown();
 
 }  // namespace yars::config

@@ -13,7 +13,7 @@ constexpr std::uint32_t kPriority = 10;  // of our own models; a user's program 
 constexpr std::uint32_t kBridgePriority = 20;
 
 template <class Shell>
-failure::Expected<void> fly(databuffer::Session& session, databuffer::TickLoop& loop, Shell& shell) {
+error::Expected<void> fly(databuffer::Session& session, databuffer::TickLoop& loop, Shell& shell) {
   while (const auto due = loop.wait()) {
     shell.step(*due);
     loop.done(*due);
@@ -30,7 +30,7 @@ std::string with_installed_route(const std::string& source_text) {
                                        : source_text;
 }
 
-failure::Expected<void> run_own(const databuffer::ProgramOptions& options, const std::string& source_text) {
+error::Expected<void> run_own(const databuffer::ProgramOptions& options, const std::string& source_text) {
   auto source = databuffer::flight::open_source(with_installed_route(source_text));
   if (!source) return tl::unexpected(source.error());
   auto session = databuffer::Session::open(options.session, "flight-model");
@@ -39,17 +39,17 @@ failure::Expected<void> run_own(const databuffer::ProgramOptions& options, const
   if (!lane) return tl::unexpected(lane.error());
   auto loop = databuffer::TickLoop::create(*session, databuffer::LockstepRole::flight_model, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
-  databuffer::log_info("flies " + source->description + " in session " + options.session);
+  log::info("flies " + source->description + " in session " + options.session);
   databuffer::FlightShell shell(*session, std::move(*source), lane->lane(), loop->lockstep());
   return fly(*session, *loop, shell);
 }
 
-failure::Expected<void> run_bridge(const databuffer::ProgramOptions& options, const std::string& source_text) {
+error::Expected<void> run_bridge(const databuffer::ProgramOptions& options, const std::string& source_text) {
   auto source = databuffer::bridges::open_bridge(source_text);
   if (!source) return tl::unexpected(source.error());
   if (!options.lockstep.empty())
-    return tl::unexpected(databuffer::usage_error("--lockstep", "a source that flies by sim time: route, fixed or csv",
-                                                  source->name + ", which flies by its own clock"));
+    return tl::unexpected(error::usage_error("--lockstep", "a source that flies by sim time: route, fixed or csv",
+                                             source->name + ", which flies by its own clock"));
   // Before the session: a port that is taken leaves no trace there.
   auto socket = databuffer::open_socket(*source);
   if (!socket) return tl::unexpected(socket.error());

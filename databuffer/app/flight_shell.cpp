@@ -47,12 +47,12 @@ geo::Duration FlightShell::time_since_last(const TickLoop::Due& due) const {
 void FlightShell::begin_epoch(const ClockState& clock) {
   if (std::isnan(clock.reposition_latitude_deg)) {
     source_.model->reset();
-    log_info("back at the start, epoch " + std::to_string(clock.epoch));
+    log::info("back at the start, epoch " + std::to_string(clock.epoch));
     return;
   }
   if (const auto reason = why_refused(clock)) {
     session_->note(NoteKind::refusal, "repositioning: " + *reason);
-    log_warning("repositioning is refused: " + *reason);
+    log::warning("repositioning is refused: " + *reason);
     return;
   }
   const flight::Placement placement{{clock.reposition_latitude_deg, clock.reposition_longitude_deg},
@@ -61,15 +61,15 @@ void FlightShell::begin_epoch(const ClockState& clock) {
   const bool placed = source_.model->reposition(placement);
   // Nobody asked for it: another source went there.
   if (clock.followed != 0) {
-    if (placed && !started_) log_info("begins where the session's aircraft was last placed, not at its own place");
+    if (placed && !started_) log::info("begins where the session's aircraft was last placed, not at its own place");
     return;
   }
   if (placed) {
-    log_info("repositioned, epoch " + std::to_string(clock.epoch));
+    log::info("repositioned, epoch " + std::to_string(clock.epoch));
     return;
   }
   session_->note(NoteKind::refusal, "repositioning: " + source_.description + " follows its file alone");
-  log_warning("repositioning is refused: " + source_.description + " follows its file alone");
+  log::warning("repositioning is refused: " + source_.description + " follows its file alone");
 }
 
 // So that it takes over without a jump when that source falls silent. One that cannot be placed flies on as it does.
@@ -104,7 +104,7 @@ bool FlightShell::resume(const TickLoop::Due& due) {
   const std::int64_t gap_ns = due.sim_time_ns - last.source_time_ns;
   if (!source_.model->resume(last, geo::Duration::seconds(1e-9 * static_cast<double>(gap_ns)))) return false;
   session_->note(NoteKind::restart, "flight-model resumes");
-  log_info("resumes where its predecessor was");
+  log::info("resumes where its predecessor was");
   return true;
 }
 
@@ -129,7 +129,7 @@ std::int64_t moment_of(const TickLoop::Due& due) {
 
 }  // namespace
 
-failure::Expected<UdpSocket> open_socket(const bridges::BridgeSource& source) {
+error::Expected<UdpSocket> open_socket(const bridges::BridgeSource& source) {
   return source.asks ? UdpSocket::ask(source.host, source.port) : UdpSocket::listen(source.host, source.port);
 }
 
@@ -139,15 +139,15 @@ BridgeShell::BridgeShell(Session& session, bridges::BridgeSource source, UdpSock
       socket_(std::move(socket)),
       lane_(static_cast<std::size_t>(lane)),
       flight_(source_.bridge->reach()) {
-  log_info((source_.asks ? "asks " : "listens for ") + source_.name + (source_.asks ? " at " : " on ") +
-           text_of(socket_.place()));
+  log::info((source_.asks ? "asks " : "listens for ") + source_.name + (source_.asks ? " at " : " on ") +
+            text_of(socket_.place()));
   if (source_.bridge->tells_traffic()) claim_traffic();
 }
 
 BridgeShell::~BridgeShell() {
   if (traffic_claim_) session_->layout().traffic.clear();
   for (const auto& datagram : source_.bridge->farewell()) socket_.send(datagram);
-  if (refusals_.count() > 0) log_info(std::to_string(refusals_.count()) + " packets were refused");
+  if (refusals_.count() > 0) log::info(std::to_string(refusals_.count()) + " packets were refused");
 }
 
 void BridgeShell::step(const TickLoop::Due& due) {
@@ -168,7 +168,7 @@ void BridgeShell::begin_epoch(const ClockState& clock) {
   if (std::isnan(clock.reposition_latitude_deg) || clock.followed != 0) return;
   const std::string line = "repositioning: " + source_.name + " flies by itself; move it there";
   session_->note(NoteKind::refusal, line);
-  log_warning(line);
+  log::warning(line);
 }
 
 void BridgeShell::ask() {
@@ -176,12 +176,12 @@ void BridgeShell::ask() {
 }
 
 void BridgeShell::receive() {
-  socket_.receive(kMostDatagramsATick, [this](bridges::Bytes datagram, const bridges::Sender& from,
+  socket_.receive(kMostDatagramsATick, [this](memory::Bytes datagram, const bridges::Sender& from,
                                               std::int64_t received_ns) { take(datagram, from, received_ns); });
   tell_losses();
 }
 
-void BridgeShell::take(bridges::Bytes datagram, const bridges::Sender& from, std::int64_t received_ns) {
+void BridgeShell::take(memory::Bytes datagram, const bridges::Sender& from, std::int64_t received_ns) {
   latest_ns_ = std::max(latest_ns_, received_ns);
   const geo::Duration now = duration_of(latest_ns_);
   const bool one_sender = !source_.bridge->hears_many();
@@ -189,14 +189,14 @@ void BridgeShell::take(bridges::Bytes datagram, const bridges::Sender& from, std
     return refuse(source_.name + ": expected packets of one sender, found another, " + text_of(from), now);
   source_.bridge->hears_from(from);
   const auto sample = source_.bridge->receive(datagram, now);
-  if (const auto news = source_.bridge->take_news()) log_info(*news);
+  if (const auto news = source_.bridge->take_news()) log::info(*news);
   if (!sample) return refuse(sample.error().message(), now);
   if (!*sample) return;
-  if (gate_.taken(from, now) && one_sender) log_info("hears " + source_.name + " from " + text_of(from));
+  if (gate_.taken(from, now) && one_sender) log::info("hears " + source_.name + " from " + text_of(from));
   if (source_.asks) hold_to_who_answers(from);
   flight_.receive(**sample, now);
   if (flight_.jumps() == std::exchange(jumps_told_, flight_.jumps())) return;
-  log_info(source_.name + " put the aircraft elsewhere");
+  log::info(source_.name + " put the aircraft elsewhere");
 }
 
 void BridgeShell::hold_to_who_answers(const bridges::Sender& from) {
@@ -216,7 +216,7 @@ void BridgeShell::refuse(const std::string& reason, geo::Duration now) {
   const auto line = refusals_.refused(reason, now);
   if (!line) return;
   session_->note(NoteKind::refusal, *line);
-  log_warning("refused: " + *line);
+  log::warning("refused: " + *line);
 }
 
 // In the flight recorder once for each doubling: a flood is one story.
@@ -226,15 +226,15 @@ void BridgeShell::tell_losses() {
   dropped_told_ = dropped;
   const std::string line = source_.name + ": " + std::to_string(dropped) + " packets came too fast and were dropped";
   session_->note(NoteKind::loss, line);
-  log_warning(line);
+  log::warning(line);
 }
 
 void BridgeShell::tell_presence(bool heard) {
   if (heard == std::exchange(heard_, heard)) return;
-  if (heard) return log_info("the aircraft is flown by " + source_.name);
+  if (heard) return log::info("the aircraft is flown by " + source_.name);
   const std::string line = source_.name + " is silent; the aircraft is left to other sources";
   session_->note(NoteKind::loss, line);
-  log_warning(line);
+  log::warning(line);
 }
 
 void BridgeShell::publish(const TickLoop::Due& due, const flight::FlightSample& sample) {
@@ -249,7 +249,7 @@ void BridgeShell::claim_traffic() {
     traffic_claim_ = std::move(*claim);
     return;
   }
-  log_warning("the traffic of " + source_.name + " is left out: " + claim.error().message());
+  log::warning("the traffic of " + source_.name + " is left out: " + claim.error().message());
 }
 
 void BridgeShell::publish_traffic(const TickLoop::Due& due) {

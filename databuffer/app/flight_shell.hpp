@@ -63,7 +63,7 @@ class FlightShell {
 inline constexpr std::size_t kMostDatagramsATick = 256;
 
 // Opens the socket that the source needs.
-failure::Expected<UdpSocket> open_socket(const bridges::BridgeSource& source);
+error::Expected<UdpSocket> open_socket(const bridges::BridgeSource& source);
 
 class BridgeShell {
  public:
@@ -79,7 +79,7 @@ class BridgeShell {
   void begin_epoch(const ClockState& clock);
   void ask();
   void receive();
-  void take(bridges::Bytes datagram, const bridges::Sender& from, std::int64_t received_ns);
+  void take(memory::Bytes datagram, const bridges::Sender& from, std::int64_t received_ns);
   void hold_to_who_answers(const bridges::Sender& from);
   void let_go_of_the_silent();
   void refuse(const std::string& reason, geo::Duration now);

@@ -27,13 +27,13 @@ constexpr int kQueueBytes = 256 * 1024;
 // [ns] older than this no packet can be: the wall clock was set.
 constexpr std::int64_t kOldestPacket_ns = 60'000'000'000;
 
-failure::Expected<sockaddr_in> resolve(const std::string& host, std::uint16_t port) {
+error::Expected<sockaddr_in> resolve(const std::string& host, std::uint16_t port) {
   addrinfo hints{};
   hints.ai_family = AF_INET;
   hints.ai_socktype = SOCK_DGRAM;
   addrinfo* found = nullptr;
   if (const int problem = getaddrinfo(host.c_str(), nullptr, &hints, &found); problem != 0 || found == nullptr)
-    return failure::fail("--source", "a host by name or IPv4 address", "'" + host + "': " + gai_strerror(problem));
+    return error::fail("--source", "a host by name or IPv4 address", "'" + host + "': " + gai_strerror(problem));
   sockaddr_in address{};
   std::memcpy(&address, found->ai_addr, sizeof address);
   freeaddrinfo(found);
@@ -84,9 +84,9 @@ struct UdpSocket::State {
     if (descriptor >= 0) close(descriptor);
   }
 
-  failure::Expected<void> open() {
+  error::Expected<void> open() {
     descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-    if (descriptor < 0) return failure::fail("UDP", "a socket", std::strerror(errno));
+    if (descriptor < 0) return error::fail("UDP", "a socket", std::strerror(errno));
     const int yes = 1;
     // None of them is vital: without, packets count as received when they are read, and losses are not counted.
     setsockopt(descriptor, SOL_SOCKET, SO_TIMESTAMPNS, &yes, sizeof yes);
@@ -136,7 +136,7 @@ UdpSocket::UdpSocket(std::unique_ptr<State> state) : state_(std::move(state)) {}
 UdpSocket::UdpSocket(UdpSocket&&) noexcept = default;
 UdpSocket::~UdpSocket() = default;
 
-failure::Expected<UdpSocket> UdpSocket::listen(const std::string& host, std::uint16_t port) {
+error::Expected<UdpSocket> UdpSocket::listen(const std::string& host, std::uint16_t port) {
   auto address = resolve(host, port);
   if (!address) return tl::unexpected(address.error());
   auto state = std::make_unique<State>();
@@ -144,9 +144,9 @@ failure::Expected<UdpSocket> UdpSocket::listen(const std::string& host, std::uin
   if (bind(state->descriptor, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0) {
     const std::string place = "UDP " + text_of(sender_of(*address));
     if (errno == EADDRINUSE)
-      return failure::fail(place, "a free port", "one that another program listens on",
-                           "end that program (ss -ulpn names it), or take another port on both sides");
-    return failure::fail(place, "an address of this machine", std::strerror(errno));
+      return error::fail(place, "a free port", "one that another program listens on",
+                         "end that program (ss -ulpn names it), or take another port on both sides");
+    return error::fail(place, "an address of this machine", std::strerror(errno));
   }
   sockaddr_in bound{};
   socklen_t size = sizeof bound;
@@ -155,7 +155,7 @@ failure::Expected<UdpSocket> UdpSocket::listen(const std::string& host, std::uin
   return UdpSocket(std::move(state));
 }
 
-failure::Expected<UdpSocket> UdpSocket::ask(const std::string& host, std::uint16_t port) {
+error::Expected<UdpSocket> UdpSocket::ask(const std::string& host, std::uint16_t port) {
   auto address = resolve(host, port);
   if (!address) return tl::unexpected(address.error());
   auto state = std::make_unique<State>();

@@ -21,9 +21,9 @@ std::string text_of(const bridges::Sender& sender);  // "127.0.0.1:5500"
 class UdpSocket {
  public:
   // Listens at an address of this machine; port 0 is any free one. A port in use is an error that says so.
-  static failure::Expected<UdpSocket> listen(const std::string& host, std::uint16_t port);
+  static error::Expected<UdpSocket> listen(const std::string& host, std::uint16_t port);
   // Sends to one place, and hears what comes from that host alone.
-  static failure::Expected<UdpSocket> ask(const std::string& host, std::uint16_t port);
+  static error::Expected<UdpSocket> ask(const std::string& host, std::uint16_t port);
   UdpSocket(UdpSocket&&) noexcept;
   ~UdpSocket();
 
@@ -33,7 +33,7 @@ class UdpSocket {
   void hear_all();
 
   // Takes up to `most` datagrams, oldest first; `received_ns` is CLOCK_MONOTONIC.
-  using Taker = std::function<void(bridges::Bytes datagram, const bridges::Sender& from, std::int64_t received_ns)>;
+  using Taker = std::function<void(memory::Bytes datagram, const bridges::Sender& from, std::int64_t received_ns)>;
   void receive(std::size_t most, const Taker& take);
   // To the place asked; false: it did not go (then the next may).
   bool send(std::span<const std::byte> datagram);

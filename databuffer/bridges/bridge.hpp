@@ -14,8 +14,6 @@
 
 namespace yars::databuffer::bridges {
 
-// Of several senders to one port, one flies the aircraft: whose report was taken last, until it has been silent for a
-// while. Two programs that send to the same port by mistake would else tear the aircraft to and fro.
 struct Sender {
   std::uint32_t address = 0;  // IPv4, the first number highest
   std::uint16_t port = 0;
@@ -25,6 +23,8 @@ struct Sender {
 // Silence after which another sender may take over: as long as a lane is taken for fresh.
 inline constexpr geo::Duration kSenderSilence = geo::Duration::seconds(0.5);
 
+// Of several senders to one port, one flies the aircraft: whose report was taken last, until it has been silent for a
+// while. Two programs that send to the same port by mistake would else tear the aircraft to and fro.
 class SenderGate {
  public:
   bool admits(const Sender& sender, geo::Duration now) const {
@@ -43,18 +43,17 @@ class SenderGate {
   geo::Duration heard_;
 };
 
-// The protocol of a program outside that flies the aircraft: what its datagrams mean, and what it is to be sent.
-// Pure: no socket, no clock; `now` is any clock that does not go back.
-
 using Datagram = std::vector<std::byte>;
 
+// The protocol of a program outside that flies the aircraft: what its datagrams mean, and what it is to be sent.
+// Pure: no socket, no clock; `now` is any clock that does not go back.
 class Bridge {
  public:
   virtual ~Bridge() = default;
 
   // One datagram. Nothing: understood, but no news of the aircraft (names of columns, another entity, a part of a
   // state). An error says why it is refused.
-  virtual failure::Expected<std::optional<ExternalSample>> receive(Bytes datagram, geo::Duration now) = 0;
+  virtual error::Expected<std::optional<ExternalSample>> receive(memory::Bytes datagram, geo::Duration now) = 0;
 
   // Who sent the datagram that receive() gets next.
   virtual void hears_from(const Sender&) {}

@@ -21,7 +21,7 @@ std::optional<std::string> RefusalNotes::refused(const std::string& reason, geo:
   return unsaid == 0 ? reason : reason + " (and " + std::to_string(unsaid) + " more refused before)";
 }
 
-failure::Expected<std::optional<ExternalSample>> DisBridge::receive(Bytes datagram, geo::Duration now) {
+error::Expected<std::optional<ExternalSample>> DisBridge::receive(memory::Bytes datagram, geo::Duration now) {
   if (is_other_pdu(datagram)) return std::nullopt;
   const auto state = decode_entity_state(datagram);
   if (!state) return tl::unexpected(state.error());
@@ -35,10 +35,10 @@ failure::Expected<std::optional<ExternalSample>> DisBridge::receive(Bytes datagr
             ", the first of the air that was heard";
   }
   if (state->id != aircraft_) {
-    if (const auto reason = others_.update(*state, now)) return failure::fail("dis", "traffic that is news", *reason);
+    if (const auto reason = others_.update(*state, now)) return error::fail("dis", "traffic that is news", *reason);
     return std::nullopt;
   }
-  if (const auto reason = order_.why_not_news(state->stamp)) return failure::fail("dis", "a newer report", *reason);
+  if (const auto reason = order_.why_not_news(state->stamp)) return error::fail("dis", "a newer report", *reason);
   heard_ = now;
   if (state->deactivated) {
     if (!named_) give_way("was deactivated");
@@ -64,12 +64,12 @@ std::optional<std::string> DisBridge::take_news() {
 
 namespace {
 
-using failure::Expected;
+using error::Expected;
 
 constexpr std::string_view kOwnHost = "127.0.0.1";
 
-tl::unexpected<failure::Error> bad_usage(std::string_view expected, std::string_view found) {
-  return tl::unexpected(failure::Error{"--source", std::string(expected), '"' + std::string(found) + '"', {}, true});
+tl::unexpected<error::Error> bad_usage(std::string_view expected, std::string_view found) {
+  return tl::unexpected(error::usage_error("--source", std::string(expected), '"' + std::string(found) + '"'));
 }
 
 std::optional<std::uint16_t> short_number(std::string_view text) {
@@ -101,7 +101,7 @@ Expected<BridgeSource> place_of(const Text& text, std::string_view form, bool as
 
 class FlightgearBridge final : public Bridge {
  public:
-  Expected<std::optional<ExternalSample>> receive(Bytes datagram, geo::Duration) override {
+  Expected<std::optional<ExternalSample>> receive(memory::Bytes datagram, geo::Duration) override {
     auto sample = decode_flightgear(datagram);
     if (!sample) return tl::unexpected(std::move(sample.error()));
     return *std::move(sample);
@@ -123,10 +123,7 @@ Expected<BridgeSource> open_jsbsim(const Text& text) {
   std::optional<JsbsimColumns> columns;
   if (!text.rest.empty()) {
     auto parsed = parse_jsbsim_labels("<LABELS>," + std::string(text.rest));
-    if (!parsed) {
-      parsed.error().bad_usage = true;
-      return tl::unexpected(parsed.error());
-    }
+    if (!parsed) return tl::unexpected(error::usage_error(parsed.error()));
     columns = *parsed;
   }
   source->bridge = std::make_unique<JsbsimBridge>(columns);
@@ -148,7 +145,7 @@ Expected<BridgeSource> open_dis(const Text& text) {
   if (!source) return source;
   std::optional<EntityId> aircraft;
   if (!text.rest.empty()) {
-    const auto numbers = fields_of(text.rest, ',');
+    const auto numbers = text::fields_of(text.rest, ',');
     if (numbers.size() != 3) return bad_usage(kForm, text.whole);
     const auto site = short_number(numbers[0]), application = short_number(numbers[1]),
                entity = short_number(numbers[2]);

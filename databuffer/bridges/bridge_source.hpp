@@ -35,7 +35,7 @@ class DisBridge final : public Bridge {
  public:
   explicit DisBridge(const std::optional<EntityId>& aircraft) : aircraft_(aircraft), named_(aircraft) {}
 
-  failure::Expected<std::optional<ExternalSample>> receive(Bytes datagram, geo::Duration now) override;
+  error::Expected<std::optional<ExternalSample>> receive(memory::Bytes datagram, geo::Duration now) override;
   bool tells_traffic() const override { return true; }
   std::vector<TrackedEntity> traffic(geo::Duration now) const override { return others_.at(now); }
   std::optional<std::string> take_news() override;
@@ -72,6 +72,6 @@ struct BridgeSource {
 bool names_bridge(std::string_view text);
 
 // An error counts as bad usage.
-failure::Expected<BridgeSource> open_bridge(std::string_view text);
+error::Expected<BridgeSource> open_bridge(std::string_view text);
 
 }  // namespace yars::databuffer::bridges

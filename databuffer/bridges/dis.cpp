@@ -40,9 +40,9 @@ Algorithm algorithm_of(std::uint8_t number) {
           number == 4 || number == 5};
 }
 
-Vector3 floats_at(Bytes packet, std::size_t offset) {
-  return {big_endian<float>(packet, offset), big_endian<float>(packet, offset + 4),
-          big_endian<float>(packet, offset + 8)};
+Vector3 floats_at(memory::Bytes packet, std::size_t offset) {
+  return {memory::big_endian<float>(packet, offset), memory::big_endian<float>(packet, offset + 4),
+          memory::big_endian<float>(packet, offset + 8)};
 }
 
 // The body's axes (forward, right, down) in the earth's.
@@ -65,21 +65,21 @@ bool is_finite(Vector3 vector) {
   return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);
 }
 
-std::optional<failure::Error> fault_of(Bytes packet) {
+std::optional<error::Error> fault_of(memory::Bytes packet) {
   const auto error = [](std::string expected, std::string found) {
-    return failure::Error{"dis", std::move(expected), std::move(found), {}, false};
+    return error::Error{"dis", std::move(expected), std::move(found), {}, false};
   };
   if (packet.size() < kStateBytes)
     return error("an Entity State PDU of at least 144 bytes", std::to_string(packet.size()) + " bytes");
-  const auto version = big_endian<std::uint8_t>(packet, kVersion);
+  const auto version = memory::big_endian<std::uint8_t>(packet, kVersion);
   if (version < kOldestVersion || version > kNewestVersion)
     return error("protocol version 5, 6 or 7", std::to_string(version));
-  const auto type = big_endian<std::uint8_t>(packet, kType);
+  const auto type = memory::big_endian<std::uint8_t>(packet, kType);
   if (type != kEntityStateType) return error("PDU type 1, entity state", std::to_string(type));
-  const std::size_t bytes = kStateBytes + kParameterBytes * big_endian<std::uint8_t>(packet, kParameters);
-  if (packet.size() != bytes || big_endian<std::uint16_t>(packet, kLength) != bytes)
+  const std::size_t bytes = kStateBytes + kParameterBytes * memory::big_endian<std::uint8_t>(packet, kParameters);
+  if (packet.size() != bytes || memory::big_endian<std::uint16_t>(packet, kLength) != bytes)
     return error(std::to_string(bytes) + " bytes, told and sent, for its articulation parameters",
-                 std::to_string(big_endian<std::uint16_t>(packet, kLength)) + " told, " +
+                 std::to_string(memory::big_endian<std::uint16_t>(packet, kLength)) + " told, " +
                      std::to_string(packet.size()) + " sent");
   return std::nullopt;
 }
@@ -88,17 +88,17 @@ struct Motion {
   Vector3 location, velocity, orientation;
 };
 
-failure::Expected<Motion> motion_of(Bytes packet) {
-  const Motion motion{{big_endian<double>(packet, kLocation), big_endian<double>(packet, kLocation + 8),
-                       big_endian<double>(packet, kLocation + 16)},
+error::Expected<Motion> motion_of(memory::Bytes packet) {
+  const Motion motion{{memory::big_endian<double>(packet, kLocation), memory::big_endian<double>(packet, kLocation + 8),
+                       memory::big_endian<double>(packet, kLocation + 16)},
                       floats_at(packet, kVelocity),
                       floats_at(packet, kOrientation)};
   if (!is_finite(motion.location) || !is_finite(motion.velocity) || !is_finite(motion.orientation))
-    return failure::fail("dis", "numbers for location, velocity and orientation", "others");
+    return error::fail("dis", "numbers for location, velocity and orientation", "others");
   const double from_centre_m = geo::length(motion.location);
   if (!(from_centre_m >= kNearest && from_centre_m <= kFarthest))
-    return failure::fail("dis", "a location 6000 to 7000 km from the Earth's centre",
-                         std::to_string(from_centre_m / 1000.0) + " km");
+    return error::fail("dis", "a location 6000 to 7000 km from the Earth's centre",
+                       std::to_string(from_centre_m / 1000.0) + " km");
   return motion;
 }
 
@@ -115,12 +115,12 @@ LocalAttitude attitude_in(const geo::LocalTangentFrame& local, const BodyAxes& a
           std::atan2(-right_up, -down_up) / geo::kRadiansPerDegree};
 }
 
-failure::Expected<ExternalSample> sample_of(Bytes packet, const Motion& motion) {
+error::Expected<ExternalSample> sample_of(memory::Bytes packet, const Motion& motion) {
   const auto place = geo::geodetic_from_ecef(motion.location);
   const geo::LocalTangentFrame local(place.point, place.height);
   const BodyAxes axes = axes_of(motion.orientation);
   const LocalAttitude attitude = attitude_in(local, axes);
-  const Algorithm algorithm = algorithm_of(big_endian<std::uint8_t>(packet, kAlgorithm));
+  const Algorithm algorithm = algorithm_of(memory::big_endian<std::uint8_t>(packet, kAlgorithm));
   const Vector3& told = motion.velocity;
   const Vector3 velocity = local.enu_from_ecef_direction(
       algorithm.body_axes ? told.x * axes.forward + told.y * axes.right + told.z * axes.down : told);
@@ -153,28 +153,28 @@ std::string text_of(EntityId id) {
   return std::to_string(id.site) + ',' + std::to_string(id.application) + ',' + std::to_string(id.entity);
 }
 
-bool is_other_pdu(Bytes packet) {
+bool is_other_pdu(memory::Bytes packet) {
   if (packet.size() < kHeaderBytes) return false;
-  const auto version = big_endian<std::uint8_t>(packet, kVersion);
+  const auto version = memory::big_endian<std::uint8_t>(packet, kVersion);
   return version >= kOldestVersion && version <= kNewestVersion &&
-         big_endian<std::uint8_t>(packet, kType) != kEntityStateType &&
-         big_endian<std::uint16_t>(packet, kLength) == packet.size();
+         memory::big_endian<std::uint8_t>(packet, kType) != kEntityStateType &&
+         memory::big_endian<std::uint16_t>(packet, kLength) == packet.size();
 }
 
-failure::Expected<EntityState> decode_entity_state(Bytes packet) {
+error::Expected<EntityState> decode_entity_state(memory::Bytes packet) {
   if (auto fault = fault_of(packet)) return tl::unexpected(std::move(*fault));
   const auto motion = motion_of(packet);
   if (!motion) return tl::unexpected(motion.error());
   auto sample = sample_of(packet, *motion);
   if (!sample) return tl::unexpected(sample.error());
   EntityState state;
-  state.id = {big_endian<std::uint16_t>(packet, kSite), big_endian<std::uint16_t>(packet, kApplication),
-              big_endian<std::uint16_t>(packet, kEntity)};
-  state.kind = static_cast<EntityKind>(big_endian<std::uint8_t>(packet, kKind));
-  state.domain = static_cast<EntityDomain>(big_endian<std::uint8_t>(packet, kDomain));
-  state.stamp =
-      geo::Duration::seconds(static_cast<double>(big_endian<std::uint32_t>(packet, kStamp) >> 1U) * kStampUnit_s);
-  const auto appearance = big_endian<std::uint32_t>(packet, kAppearance);
+  state.id = {memory::big_endian<std::uint16_t>(packet, kSite), memory::big_endian<std::uint16_t>(packet, kApplication),
+              memory::big_endian<std::uint16_t>(packet, kEntity)};
+  state.kind = static_cast<EntityKind>(memory::big_endian<std::uint8_t>(packet, kKind));
+  state.domain = static_cast<EntityDomain>(memory::big_endian<std::uint8_t>(packet, kDomain));
+  state.stamp = geo::Duration::seconds(static_cast<double>(memory::big_endian<std::uint32_t>(packet, kStamp) >> 1U) *
+                                       kStampUnit_s);
+  const auto appearance = memory::big_endian<std::uint32_t>(packet, kAppearance);
   state.frozen = (appearance & kFrozenBit) != 0U;
   state.deactivated = (appearance & kDeactivatedBit) != 0U;
   state.sample = *std::move(sample);

@@ -45,14 +45,10 @@ struct EntityState {
 };
 
 // The length that the PDU tells of itself must be that of the datagram.
-failure::Expected<EntityState> decode_entity_state(Bytes packet);
+error::Expected<EntityState> decode_entity_state(memory::Bytes packet);
 
 // Whether the datagram is a well-formed PDU of another type: nothing of ours, and no fault.
-bool is_other_pdu(Bytes packet);
-
-// The entities of a DIS exercise, for whoever wants them as targets: the last state of each, by id, flown on by dead
-// reckoning and forgotten when nothing has come of it for a while. Pure; `now` is any clock that does not go back.
-// Bounded: a newcomer to a full table is refused. Reports that are older than the last of the same entity are refused.
+bool is_other_pdu(memory::Bytes packet);
 
 // The standard's heartbeat of 5 s and its factor 2.4: whoever is silent longer has left.
 inline constexpr geo::Duration kEntityTimeout = geo::Duration::seconds(12.0);
@@ -67,6 +63,9 @@ struct TrackedEntity {
   geo::Duration age;  // since its last report
 };
 
+// The entities of a DIS exercise, for whoever wants them as targets: the last state of each, by id, flown on by dead
+// reckoning and forgotten when nothing has come of it for a while. Pure; `now` is any clock that does not go back.
+// Bounded: a newcomer to a full table is refused. Reports that are older than the last of the same entity are refused.
 class EntityTable {
  public:
   // Nothing: taken. Else why not.
@@ -87,14 +86,13 @@ class EntityTable {
   std::map<EntityId, Entry> entries_;
 };
 
-// The record of surface traffic from the entities of an exercise: platforms on land and on the sea. What they return is
-// not told by their packets and is taken by domain; more than fit are left out, the farthest first.
-
 // Echo of a lorry and of a freighter at X band (Skolnik, Introduction to Radar Systems, table of cross sections; a
 // ship's 52 f^(1/2) D^(3/2) with f 10 GHz in MHz and D 2 kt), and the height of what returns.
 inline constexpr double kVehicleEcho_m2 = 200.0, kVehicleHeight_m = 3.0;
 inline constexpr double kShipEcho_m2 = 15'000.0, kShipHeight_m = 15.0;
 
+// The record of surface traffic from the entities of an exercise: platforms on land and on the sea. What they return is
+// not told by their packets and is taken by domain; more than fit are left out, the farthest first.
 // `near`: the aircraft. Epoch and stamp are the caller's to fill.
 Traffic surface_traffic(std::span<const TrackedEntity> entities, geo::GeoPoint near);
 

@@ -27,9 +27,9 @@ std::optional<std::string> StampOrder::why_not_news(geo::Duration stamp) {
   if (!last_) return take();
   const geo::Duration ahead = since(*last_, stamp);
   if (ahead > geo::Duration()) return take();
-  const std::string found = "stamp " + text_of_number(stamp.seconds()) + " s ";
+  const std::string found = "stamp " + text::text_of_number(stamp.seconds()) + " s ";
   if (ahead == geo::Duration()) return found + "for the second time";
-  const std::string after = "after " + text_of_number(last_->seconds()) + " s";
+  const std::string after = "after " + text::text_of_number(last_->seconds()) + " s";
   if (ahead >= -kLongestDelay) return found + after;
   if (restarted_) {
     const geo::Duration on = since(*restarted_, stamp);
@@ -44,24 +44,25 @@ namespace {
 // Below this cosine of the pitch, 0.6 deg from the vertical, heading and roll turn without bound.
 constexpr double kLeastCosine = 0.01;
 
-std::optional<failure::Error> outside(std::string_view source, std::string_view field, double value, double least,
-                                      double most) {
+std::optional<error::Error> outside(std::string_view source, std::string_view field, double value, double least,
+                                    double most) {
   // Written so that NaN fails.
   if (value >= least && value <= most) return std::nullopt;
-  return failure::Error{std::string(source),
-                        std::string(field) + " in [" + text_of_number(least) + ", " + text_of_number(most) + ']',
-                        text_of_number(value),
-                        {},
-                        false};
+  return error::Error{
+      std::string(source),
+      std::string(field) + " in [" + text::text_of_number(least) + ", " + text::text_of_number(most) + ']',
+      text::text_of_number(value),
+      {},
+      false};
 }
 
 // [deg] What is left over when a float of radians says 90 or 180 degrees.
 constexpr double kRounding = 1e-4;
 
 // Angles that other programs count from another zero, and what has no field in the record.
-std::optional<failure::Error> fault_of(std::string_view source, const Reading& reading,
-                                       const std::optional<AttitudeRates>& rates,
-                                       const std::optional<geo::Vector3>& acceleration) {
+std::optional<error::Error> fault_of(std::string_view source, const Reading& reading,
+                                     const std::optional<AttitudeRates>& rates,
+                                     const std::optional<geo::Vector3>& acceleration) {
   if (auto fault = outside(source, "heading_deg", reading.heading_deg, -360.0, 720.0)) return fault;
   if (auto fault = outside(source, "longitude_deg", reading.longitude_deg, -180.0, 360.0)) return fault;
   if (rates) {
@@ -77,9 +78,9 @@ std::optional<failure::Error> fault_of(std::string_view source, const Reading& r
 
 }  // namespace
 
-failure::Expected<ExternalSample> checked_sample(std::string_view source, const Reading& reading,
-                                                 const std::optional<AttitudeRates>& rates,
-                                                 const std::optional<geo::Vector3>& acceleration_mps2) {
+error::Expected<ExternalSample> checked_sample(std::string_view source, const Reading& reading,
+                                               const std::optional<AttitudeRates>& rates,
+                                               const std::optional<geo::Vector3>& acceleration_mps2) {
   if (auto fault = fault_of(source, reading, rates, acceleration_mps2)) return tl::unexpected(std::move(*fault));
   ExternalSample sample;
   Ownship& ownship = sample.ownship;
@@ -98,7 +99,7 @@ failure::Expected<ExternalSample> checked_sample(std::string_view source, const 
   ownship.radar_altitude_m = std::numeric_limits<double>::quiet_NaN();
   source.copy(ownship.source, sizeof ownship.source - 1);
   if (const auto refusal = why_refused(ownship))
-    return failure::fail(std::string(source), "a flight that can be", *refusal);
+    return error::fail(std::string(source), "a flight that can be", *refusal);
   sample.rates = rates;
   sample.acceleration_mps2 = acceleration_mps2;
   return sample;
@@ -204,7 +205,7 @@ flight::FlightSample as_flight(const Ownship& ownship) {
                               geo::Speed::metres_per_second(-ownship.velocity_down_mps)};
   const flight::Attitude attitude{geo::Bearing::degrees(ownship.heading_deg), geo::Angle::degrees(ownship.pitch_deg),
                                   geo::Angle::degrees(ownship.roll_deg)};
-  return flight::sample_of(motion, attitude, text_of(ownship.source));
+  return flight::sample_of(motion, attitude, text::text_of(ownship.source));
 }
 
 }  // namespace

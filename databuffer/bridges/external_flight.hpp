@@ -13,13 +13,12 @@
 
 namespace yars::databuffer::bridges {
 
-// Whether a packet is news, by the stamp of its sender: one that is as old as the last, or a little older, came twice
-// or out of order. A stamp that goes back by more than kLongestDelay is a sender that began again; that is believed
-// once a second packet goes on from it, so that a single stray one moves nothing.
-
 // What a network may hold a packet back by; longer and a sender that was started again waits that long to be heard.
 inline constexpr geo::Duration kLongestDelay = geo::Duration::seconds(2.0);
 
+// Whether a packet is news, by the stamp of its sender: one that is as old as the last, or a little older, came twice
+// or out of order. A stamp that goes back by more than kLongestDelay is a sender that began again; that is believed
+// once a second packet goes on from it, so that a single stray one moves nothing.
 class StampOrder {
  public:
   // `period`: a stamp counts to there and begins again at zero; none: it counts on. [s]
@@ -36,8 +35,6 @@ class StampOrder {
   std::optional<geo::Duration> restarted_;  // stamp of a packet that may be a sender's first
 };
 
-// What a program outside told of the aircraft at one moment, in the units of our records and checked like them.
-
 // How fast the three angles of the attitude change: not the rates about the body's axes.
 struct AttitudeRates {
   double heading_dps = 0.0;  // [deg/s] clockwise
@@ -45,6 +42,7 @@ struct AttitudeRates {
   double roll_dps = 0.0;     // [deg/s] right wing down
 };
 
+// What a program outside told of the aircraft at one moment, in the units of our records and checked like them.
 struct ExternalSample {
   // Place, attitude and velocity; all else is as a source without them has it. Valid by why_refused().
   Ownship ownship{};
@@ -66,9 +64,9 @@ inline constexpr double kHardestPull = 1'000.0;
 
 // `source`: name in the record, at most 15 characters. Heading may be given from -360 to 720 degrees and is wrapped;
 // longitude from -180 to 360. All else must be in the record's range; the error names the field.
-failure::Expected<ExternalSample> checked_sample(std::string_view source, const Reading& reading,
-                                                 const std::optional<AttitudeRates>& rates = std::nullopt,
-                                                 const std::optional<geo::Vector3>& acceleration_mps2 = std::nullopt);
+error::Expected<ExternalSample> checked_sample(std::string_view source, const Reading& reading,
+                                               const std::optional<AttitudeRates>& rates = std::nullopt,
+                                               const std::optional<geo::Vector3>& acceleration_mps2 = std::nullopt);
 
 // Rates of the attitude's angles from those about the body's axes [deg/s]; none where the nose points straight up or
 // down, where heading and roll have no rates.
@@ -78,10 +76,15 @@ std::optional<AttitudeRates> rates_from_body(double roll_rate_dps, double pitch_
 // Where an aircraft, ship or vehicle is a while after its last report, or a little before it: along the geodesic of its
 // velocity, which itself changes by the acceleration told; attitude by its rates. Heading and velocity turn with the
 // meridian, so that it holds near the poles.
-
+//
 // The record at that time after the sample; without rates the attitude stands. Angles are wrapped, pitch is held to the
 // vertical. The altitude may leave the record's range.
 Ownship dead_reckoned(const ExternalSample& sample, geo::Duration after);
+
+// Time constant by which the output goes over to a new report; shorter shows jitter, longer lags behind manoeuvres.
+inline constexpr geo::Duration kBlend = geo::Duration::seconds(0.25);
+// A difference larger than this is a jump; dead reckoning of any flight stays far below.
+inline constexpr geo::Length kJump = geo::Length::metres(300.0);
 
 // The aircraft between the reports of a program outside, at any moment asked for. Pure: it is told when a report came.
 // Each report is flown on by dead reckoning: with its own rates and acceleration, else with those of the last 80 ms or
@@ -90,13 +93,7 @@ Ownship dead_reckoned(const ExternalSample& sample, geo::Duration after);
 // otherwise stands: the program is paused.
 // Bound, for reports 5 to 400 times a second that come up to J late, gaps T, a turn of acceleration a whose direction
 // turns at w: the output is within |v| J + a w T^3 / 6 + 1 m of the truth, and steps of 20 ms differ from the truth's
-// by at most 8 % of that (tests/bridges/external_flight_test.cpp).
-
-// Time constant by which the output goes over to a new report; shorter shows jitter, longer lags behind manoeuvres.
-inline constexpr geo::Duration kBlend = geo::Duration::seconds(0.25);
-// A difference larger than this is a jump; dead reckoning of any flight stays far below.
-inline constexpr geo::Length kJump = geo::Length::metres(300.0);
-
+// by at most 8 % of that (tests/databuffer/bridges/external_flight_test.cpp).
 class ExternalFlight {
  public:
   // `reach`: how long after a report the aircraft is flown on.

@@ -21,52 +21,54 @@ struct Form {
 };
 constexpr std::array<Form, 2> kForms{{{24, 408}, {25, 552}}};
 
-// Where the fields stand [bytes].
+// Where the fields of FlightGear's packet stand [bytes].
+namespace fdm {
 constexpr std::size_t kLongitude = 8, kLatitude = 16, kAltitude = 24;      // f64: rad, rad, m
 constexpr std::size_t kRoll = 36, kPitch = 40, kHeading = 44;              // f32: rad
 constexpr std::size_t kRollRate = 56, kPitchRate = 60, kHeadingRate = 64;  // f32: rad/s
 constexpr std::size_t kNorth = 76, kEast = 80, kDown = 84;                 // f32: ft/s
+}  // namespace fdm
 
-double degrees_at(Bytes packet, std::size_t offset) {
-  return static_cast<double>(big_endian<float>(packet, offset)) / geo::kRadiansPerDegree;
+double degrees_at(memory::Bytes packet, std::size_t offset) {
+  return static_cast<double>(memory::big_endian<float>(packet, offset)) / geo::kRadiansPerDegree;
 }
 
-double speed_at(Bytes packet, std::size_t offset) {
-  return static_cast<double>(big_endian<float>(packet, offset)) * geo::kMetresPerFoot;
+double speed_at(memory::Bytes packet, std::size_t offset) {
+  return static_cast<double>(memory::big_endian<float>(packet, offset)) * geo::kMetresPerFoot;
 }
 
-bool is_known_form(Bytes packet) {
+bool is_known_form(memory::Bytes packet) {
   if (packet.size() < sizeof(std::uint32_t)) return false;
-  const auto version = big_endian<std::uint32_t>(packet, 0);
+  const auto version = memory::big_endian<std::uint32_t>(packet, 0);
   for (const Form& form : kForms)
     if (form.version == version && form.bytes == packet.size()) return true;
   return false;
 }
 
-std::string form_of(Bytes packet) {
+std::string form_of(memory::Bytes packet) {
   const std::string bytes = std::to_string(packet.size()) + " bytes";
   if (packet.size() < sizeof(std::uint32_t)) return bytes;
-  return "version " + std::to_string(big_endian<std::uint32_t>(packet, 0)) + " and " + bytes;
+  return "version " + std::to_string(memory::big_endian<std::uint32_t>(packet, 0)) + " and " + bytes;
 }
 
 }  // namespace
 
-failure::Expected<ExternalSample> decode_flightgear(Bytes packet) {
+error::Expected<ExternalSample> decode_flightgear(memory::Bytes packet) {
   if (!is_known_form(packet))
-    return failure::fail("flightgear", "version 24 and 408 bytes, or 25 and 552", form_of(packet),
-                         "send it by --native-fdm=socket,out,30,HOST,PORT,udp");
+    return error::fail("flightgear", "version 24 and 408 bytes, or 25 and 552", form_of(packet),
+                       "send it by --native-fdm=socket,out,30,HOST,PORT,udp");
   Reading reading{};
-  reading.latitude_deg = big_endian<double>(packet, kLatitude) / geo::kRadiansPerDegree;
-  reading.longitude_deg = big_endian<double>(packet, kLongitude) / geo::kRadiansPerDegree;
-  reading.altitude_msl_m = big_endian<double>(packet, kAltitude);
-  reading.heading_deg = degrees_at(packet, kHeading);
-  reading.pitch_deg = degrees_at(packet, kPitch);
-  reading.roll_deg = degrees_at(packet, kRoll);
-  reading.velocity_north_mps = speed_at(packet, kNorth);
-  reading.velocity_east_mps = speed_at(packet, kEast);
-  reading.velocity_down_mps = speed_at(packet, kDown);
-  const AttitudeRates rates{degrees_at(packet, kHeadingRate), degrees_at(packet, kPitchRate),
-                            degrees_at(packet, kRollRate)};
+  reading.latitude_deg = memory::big_endian<double>(packet, fdm::kLatitude) / geo::kRadiansPerDegree;
+  reading.longitude_deg = memory::big_endian<double>(packet, fdm::kLongitude) / geo::kRadiansPerDegree;
+  reading.altitude_msl_m = memory::big_endian<double>(packet, fdm::kAltitude);
+  reading.heading_deg = degrees_at(packet, fdm::kHeading);
+  reading.pitch_deg = degrees_at(packet, fdm::kPitch);
+  reading.roll_deg = degrees_at(packet, fdm::kRoll);
+  reading.velocity_north_mps = speed_at(packet, fdm::kNorth);
+  reading.velocity_east_mps = speed_at(packet, fdm::kEast);
+  reading.velocity_down_mps = speed_at(packet, fdm::kDown);
+  const AttitudeRates rates{degrees_at(packet, fdm::kHeadingRate), degrees_at(packet, fdm::kPitchRate),
+                            degrees_at(packet, fdm::kRollRate)};
   return checked_sample("flightgear", reading, rates);
 }
 
@@ -74,7 +76,9 @@ namespace {
 
 constexpr std::string_view kLabels = "<LABELS>";
 
+namespace jsbsim {
 enum Value : std::size_t { kLatitude, kLongitude, kAltitude, kRoll, kPitch, kHeading, kNorth, kEast, kDown, kTime };
+}
 
 constexpr std::array<std::string_view, kJsbsimValues> kNames{"position/lat-geod-deg",  "position/long-gc-deg",
                                                              "position/h-sl-ft",       "attitude/phi-deg",
@@ -105,7 +109,7 @@ std::string shown(std::string_view field) {
   return text;
 }
 
-failure::Error missing_columns(const std::vector<std::string_view>& labels, const std::string& missing) {
+error::Error missing_columns(const std::vector<std::string_view>& labels, const std::string& missing) {
   const bool geocentric = std::ranges::any_of(labels, [](std::string_view label) {
     return std::ranges::find(kGeocentric, last_part(label)) != kGeocentric.end();
   });
@@ -117,10 +121,10 @@ failure::Error missing_columns(const std::vector<std::string_view>& labels, cons
 
 }  // namespace
 
-failure::Expected<JsbsimColumns> parse_jsbsim_labels(std::string_view line) {
-  if (!line.starts_with(kLabels)) return failure::fail("jsbsim", std::string(kLabels), "another line");
+error::Expected<JsbsimColumns> parse_jsbsim_labels(std::string_view line) {
+  if (!line.starts_with(kLabels)) return error::fail("jsbsim", std::string(kLabels), "another line");
   line.remove_prefix(kLabels.size());
-  std::vector<std::string_view> labels = fields_of(line, ',');
+  std::vector<std::string_view> labels = text::fields_of(line, ',');
   // The mark is followed by a comma: what stands between is no column.
   if (labels.front().empty()) labels.erase(labels.begin());
   JsbsimColumns columns;
@@ -136,30 +140,30 @@ failure::Expected<JsbsimColumns> parse_jsbsim_labels(std::string_view line) {
   return columns;
 }
 
-failure::Expected<JsbsimState> parse_jsbsim_line(const JsbsimColumns& columns, std::string_view line) {
-  const std::vector<std::string_view> fields = fields_of(line, ',');
+error::Expected<JsbsimState> parse_jsbsim_line(const JsbsimColumns& columns, std::string_view line) {
+  const std::vector<std::string_view> fields = text::fields_of(line, ',');
   if (fields.size() != columns.count)
-    return failure::fail("jsbsim", std::to_string(columns.count) + " columns, as the labels name",
-                         std::to_string(fields.size()));
+    return error::fail("jsbsim", std::to_string(columns.count) + " columns, as the labels name",
+                       std::to_string(fields.size()));
   std::array<double, kJsbsimValues> values{};
   for (std::size_t value = 0; value < kJsbsimValues; ++value) {
     const std::string_view field = fields[columns.of_value[value]];
-    const auto number = finite_number(field);
-    if (!number) return failure::fail("jsbsim", std::string(kNames[value]) + ", a number", '"' + shown(field) + '"');
+    const auto number = text::finite_number(field);
+    if (!number) return error::fail("jsbsim", std::string(kNames[value]) + ", a number", '"' + shown(field) + '"');
     values[value] = *number;
   }
-  const Reading reading{values[kLatitude],
-                        values[kLongitude],
-                        values[kAltitude] * geo::kMetresPerFoot,
-                        values[kHeading],
-                        values[kPitch],
-                        values[kRoll],
-                        values[kNorth] * geo::kMetresPerFoot,
-                        values[kEast] * geo::kMetresPerFoot,
-                        values[kDown] * geo::kMetresPerFoot};
+  const Reading reading{values[jsbsim::kLatitude],
+                        values[jsbsim::kLongitude],
+                        values[jsbsim::kAltitude] * geo::kMetresPerFoot,
+                        values[jsbsim::kHeading],
+                        values[jsbsim::kPitch],
+                        values[jsbsim::kRoll],
+                        values[jsbsim::kNorth] * geo::kMetresPerFoot,
+                        values[jsbsim::kEast] * geo::kMetresPerFoot,
+                        values[jsbsim::kDown] * geo::kMetresPerFoot};
   auto sample = checked_sample("jsbsim", reading);
   if (!sample) return tl::unexpected(sample.error());
-  return JsbsimState{geo::Duration::seconds(values[kTime]), *sample};
+  return JsbsimState{geo::Duration::seconds(values[jsbsim::kTime]), *sample};
 }
 
 void JsbsimBridge::keep(const JsbsimColumns& columns) {
@@ -176,11 +180,11 @@ const JsbsimColumns* JsbsimBridge::columns() const {
   return columns_ ? &*columns_ : nullptr;
 }
 
-failure::Expected<std::optional<ExternalSample>> JsbsimBridge::receive(Bytes datagram, geo::Duration) {
+error::Expected<std::optional<ExternalSample>> JsbsimBridge::receive(memory::Bytes datagram, geo::Duration) {
   if (datagram.size() > kLongestJsbsimLine)
-    return failure::fail("jsbsim", "a line of at most " + std::to_string(kLongestJsbsimLine) + " characters",
-                         std::to_string(datagram.size()));
-  const std::string_view line = trimmed({reinterpret_cast<const char*>(datagram.data()), datagram.size()});
+    return error::fail("jsbsim", "a line of at most " + std::to_string(kLongestJsbsimLine) + " characters",
+                       std::to_string(datagram.size()));
+  const std::string_view line = text::trimmed({reinterpret_cast<const char*>(datagram.data()), datagram.size()});
   if (line.starts_with(kLabels)) {
     auto columns = parse_jsbsim_labels(line);
     if (!columns) return tl::unexpected(columns.error());
@@ -189,12 +193,12 @@ failure::Expected<std::optional<ExternalSample>> JsbsimBridge::receive(Bytes dat
   }
   const JsbsimColumns* const columns = this->columns();
   if (columns == nullptr)
-    return failure::fail("jsbsim", "a line of labels first", "a line of numbers",
-                         "start flight-model before JSBSim, which sends its labels once, or name them: "
-                         "jsbsim:PORT,Time,lat-geod-deg,...");
+    return error::fail("jsbsim", "a line of labels first", "a line of numbers",
+                       "start flight-model before JSBSim, which sends its labels once, or name them: "
+                       "jsbsim:PORT,Time,lat-geod-deg,...");
   const auto state = parse_jsbsim_line(*columns, line);
   if (!state) return tl::unexpected(state.error());
-  if (const auto reason = order_.why_not_news(state->time)) return failure::fail("jsbsim", "a newer line", *reason);
+  if (const auto reason = order_.why_not_news(state->time)) return error::fail("jsbsim", "a newer line", *reason);
   flies_ = sender_;
   return state->sample;
 }
@@ -208,6 +212,7 @@ constexpr std::string_view kMark = "RREF";
 constexpr std::uint32_t kAllCame = (1U << kXplaneDatarefs) - 1U;
 constexpr geo::Duration kPatience = geo::Duration::seconds(1.0);  // without replies, before asking again
 
+namespace xplane {
 enum Dataref : std::size_t {
   kLatitude,
   kLongitude,
@@ -224,33 +229,42 @@ enum Dataref : std::size_t {
   kPitchRate,
   kYawRate
 };
+}  // namespace xplane
 
 // X-Plane's frame: x east, y up, z south, level at its reference point.
 geo::Vector3 enu_velocity(const std::array<float, kXplaneDatarefs>& values) {
   const auto frame_at = [](double latitude_deg, double longitude_deg) {
     return geo::LocalTangentFrame({latitude_deg, longitude_deg}, geo::HeightAboveEllipsoid());
   };
-  const geo::Vector3 at_reference{values[kVx], -static_cast<double>(values[kVz]), values[kVy]};
-  const geo::Vector3 ecef = frame_at(values[kRefLatitude], values[kRefLongitude]).ecef_from_enu_direction(at_reference);
-  return frame_at(values[kLatitude], values[kLongitude]).enu_from_ecef_direction(ecef);
+  const geo::Vector3 at_reference{values[xplane::kVx], -static_cast<double>(values[xplane::kVz]), values[xplane::kVy]};
+  const geo::Vector3 ecef =
+      frame_at(values[xplane::kRefLatitude], values[xplane::kRefLongitude]).ecef_from_enu_direction(at_reference);
+  return frame_at(values[xplane::kLatitude], values[xplane::kLongitude]).enu_from_ecef_direction(ecef);
 }
 
-failure::Expected<ExternalSample> sample_of(const std::array<float, kXplaneDatarefs>& values) {
+error::Expected<ExternalSample> sample_of(const std::array<float, kXplaneDatarefs>& values) {
   // Frames are for places on the Earth alone.
-  for (const std::size_t latitude : {kLatitude, kRefLatitude})
+  for (const std::size_t latitude : {xplane::kLatitude, xplane::kRefLatitude})
     if (!(std::abs(values[latitude]) <= 90.0F))
-      return failure::fail("xplane", std::string(kXplaneNames[latitude]) + " in [-90, 90]",
-                           text_of_number(values[latitude]));
-  for (const std::size_t longitude : {kLongitude, kRefLongitude})
+      return error::fail("xplane", std::string(kXplaneNames[latitude]) + " in [-90, 90]",
+                         text::text_of_number(values[latitude]));
+  for (const std::size_t longitude : {xplane::kLongitude, xplane::kRefLongitude})
     if (!(std::abs(values[longitude]) <= 180.0F))
-      return failure::fail("xplane", std::string(kXplaneNames[longitude]) + " in [-180, 180]",
-                           text_of_number(values[longitude]));
+      return error::fail("xplane", std::string(kXplaneNames[longitude]) + " in [-180, 180]",
+                         text::text_of_number(values[longitude]));
   const geo::Vector3 velocity = enu_velocity(values);
-  const Reading reading{values[kLatitude], values[kLongitude], values[kElevation], values[kHeading], values[kPitch],
-                        values[kRoll],     velocity.y,         velocity.x,         -velocity.z};
-  return checked_sample(
-      "xplane", reading,
-      rates_from_body(values[kRollRate], values[kPitchRate], values[kYawRate], values[kPitch], values[kRoll]));
+  const Reading reading{values[xplane::kLatitude],
+                        values[xplane::kLongitude],
+                        values[xplane::kElevation],
+                        values[xplane::kHeading],
+                        values[xplane::kPitch],
+                        values[xplane::kRoll],
+                        velocity.y,
+                        velocity.x,
+                        -velocity.z};
+  return checked_sample("xplane", reading,
+                        rates_from_body(values[xplane::kRollRate], values[xplane::kPitchRate], values[xplane::kYawRate],
+                                        values[xplane::kPitch], values[xplane::kRoll]));
 }
 
 }  // namespace
@@ -275,16 +289,16 @@ Datagram xplane_request(std::size_t number, int times_a_second) {
   return request;
 }
 
-failure::Expected<std::optional<ExternalSample>> XplaneBridge::receive(Bytes datagram, geo::Duration now) {
+error::Expected<std::optional<ExternalSample>> XplaneBridge::receive(memory::Bytes datagram, geo::Duration now) {
   const bool marked = datagram.size() >= kHeadBytes && std::memcmp(datagram.data(), kMark.data(), kMark.size()) == 0;
   if (!marked || (datagram.size() - kHeadBytes) % kPairBytes != 0)
-    return failure::fail("xplane", "RREF, a byte, and pairs of 8 bytes", std::to_string(datagram.size()) + " bytes");
+    return error::fail("xplane", "RREF, a byte, and pairs of 8 bytes", std::to_string(datagram.size()) + " bytes");
   for (std::size_t offset = kHeadBytes; offset < datagram.size(); offset += kPairBytes) {
-    const auto number = little_endian<std::uint32_t>(datagram, offset);
+    const auto number = memory::little_endian<std::uint32_t>(datagram, offset);
     if (number >= kXplaneDatarefs) continue;
-    const auto value = little_endian<float>(datagram, offset + 4);
+    const auto value = memory::little_endian<float>(datagram, offset + 4);
     if (!std::isfinite(value))
-      return failure::fail("xplane", std::string(kXplaneNames[number]) + ", a number", text_of_number(value));
+      return error::fail("xplane", std::string(kXplaneNames[number]) + ", a number", text::text_of_number(value));
     values_[number] = value;
     come_ |= 1U << number;
     heard_ = now;

@@ -16,10 +16,9 @@ namespace yars::databuffer::bridges {
 // FlightGear's native FDM packet (also what JSBSim's output of type FLIGHTGEAR sends): one datagram a state, all
 // numbers big-endian, versions 24 (408 bytes) and 25 (552 bytes), the same as far as they are read here. The version
 // says which length is right; any other pair is refused. The packet has no stamp that tells an old one from a new.
-// Source: FlightGear's manual, option --native-fdm; the fields are held to what JSBSim sends (tests/bridges).
-
+// Source: FlightGear's manual, option --native-fdm; the fields are held to what JSBSim sends (tests/databuffer/bridges).
 // Latitude is geodetic, altitude above mean sea level, angles true, velocity north, east, down.
-failure::Expected<ExternalSample> decode_flightgear(Bytes packet);
+error::Expected<ExternalSample> decode_flightgear(memory::Bytes packet);
 
 // JSBSim's socket output in text: comma separated lines. A line that begins with <LABELS> names the columns by the last
 // part of their property's name; it may come again, with columns in any order, and with more than are read here.
@@ -41,20 +40,20 @@ struct JsbsimColumns {
 };
 
 // From a line of labels. The error names the properties that are missing.
-failure::Expected<JsbsimColumns> parse_jsbsim_labels(std::string_view line);
+error::Expected<JsbsimColumns> parse_jsbsim_labels(std::string_view line);
 
 struct JsbsimState {
   geo::Duration time;
   ExternalSample sample;
 };
 // From a line of numbers.
-failure::Expected<JsbsimState> parse_jsbsim_line(const JsbsimColumns& columns, std::string_view line);
+error::Expected<JsbsimState> parse_jsbsim_line(const JsbsimColumns& columns, std::string_view line);
 
 class JsbsimBridge final : public Bridge {
  public:
   // `columns`: what the lines hold until labels come; none: nothing is believed before.
   explicit JsbsimBridge(const std::optional<JsbsimColumns>& columns = std::nullopt) : columns_(columns) {}
-  failure::Expected<std::optional<ExternalSample>> receive(Bytes datagram, geo::Duration now) override;
+  error::Expected<std::optional<ExternalSample>> receive(memory::Bytes datagram, geo::Duration now) override;
   void hears_from(const Sender& sender) override { sender_ = sender; }
 
  private:
@@ -91,7 +90,7 @@ Datagram xplane_request(std::size_t number, int times_a_second);
 
 class XplaneBridge final : public Bridge {
  public:
-  failure::Expected<std::optional<ExternalSample>> receive(Bytes datagram, geo::Duration now) override;
+  error::Expected<std::optional<ExternalSample>> receive(memory::Bytes datagram, geo::Duration now) override;
   // All datarefs, at first and each second while nothing comes.
   std::vector<Datagram> requests(geo::Duration now) override;
   std::vector<Datagram> farewell() const override;

@@ -2,7 +2,7 @@
  * ownship, navigator and input events, read what radar and pilot do. Include it before any system header (it asks for
  * _GNU_SOURCE). A function that attaches, claims, publishes or pushes returns -1 and fills yars_session.error when it
  * fails; 0 of one that feeds means sent, not obeyed. One thread at a time for each session; nothing here waits. How to
- * use it: docs/attach.md; how the segment works: docs/shared_memory.md. The records are those of databuffer/records/,
+ * use it: docs/attach.md; how the segment works: docs/shared_memory.md. The records are those of databuffer/messages/,
  * and a test of YARS compares every offset.
  *
  *   yars_session s;
@@ -82,7 +82,7 @@
 #define YARS_INPUT_DEPTH 128
 #define YARS_PROCESSES 32
 
-/* ---- Records: units and ranges in databuffer/records/. ---- */
+/* ---- Records: units and ranges in databuffer/messages/. ---- */
 typedef struct {
   int64_t base_sim_ns, base_monotonic_ns;
   double rate;

@@ -11,14 +11,14 @@ namespace yars::databuffer::flight {
 
 namespace {
 
-using failure::Expected;
-using failure::fail;
+using error::Expected;
+using error::fail;
 
 constexpr double kLeastLeg = 100.0;  // [m] a shorter leg has no direction worth flying
 
-Expected<Waypoint> parse_waypoint(const NumberedLine& line, std::string_view name) {
-  const auto numbers = parse_numbers(
-      place_in_file(name, line.number), words_of(line.text),
+Expected<Waypoint> parse_waypoint(const text::NumberedLine& line, std::string_view name) {
+  const auto numbers = file::parse_numbers(
+      file::place_in_file(name, line.number), text::words_of(line.text),
       {{"LAT", -90.0, 90.0}, {"LON", -180.0, 180.0}, {"ALT_FT", -1'000.0, 200'000.0}, {"KT", 30.0, 5'000.0}}, " ");
   if (!numbers) return tl::unexpected(numbers.error());
   const auto& value = *numbers;
@@ -46,8 +46,8 @@ std::size_t Route::after(std::size_t waypoint) const {
 
 Expected<Route> parse_route(std::string_view text, std::string_view name) {
   Route route;
-  for (const NumberedLine& line : numbered_lines(text)) {
-    const std::string place = place_in_file(name, line.number);
+  for (const text::NumberedLine& line : text::numbered_lines(text)) {
+    const std::string place = file::place_in_file(name, line.number);
     if (route.loop) return fail(place, "nothing behind loop", '"' + std::string(line.text) + '"');
     if (line.text == "loop") {
       if (auto closed = close_loop(route, place); !closed) return tl::unexpected(closed.error());

@@ -30,7 +30,7 @@ struct Route {
 };
 
 // `name` is the file's, for errors: they carry the line.
-failure::Expected<Route> parse_route(std::string_view text, std::string_view name);
+error::Expected<Route> parse_route(std::string_view text, std::string_view name);
 
 // Flies a route: great-circle legs, coordinated turns (turn rate = g tan(bank) / V) of at most 30 deg bank with a
 // limited roll rate, begun early so that they end on the next leg; climbs with limited rate, speed changes with

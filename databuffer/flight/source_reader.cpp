@@ -9,14 +9,14 @@
 
 namespace yars::databuffer::flight {
 
-failure::Expected<FixedSetting> parse_fixed(std::string_view text) {
-  const auto numbers = parse_numbers("fixed", fields_of(text, ','),
-                                     {{"LAT", -90.0, 90.0},
-                                      {"LON", -180.0, 180.0},
-                                      {"ALT_FT", -1'000.0, 200'000.0},
-                                      {"HDG", 0.0, 360.0},
-                                      {"KT", 0.0, 5'000.0}},
-                                     ",");
+error::Expected<FixedSetting> parse_fixed(std::string_view text) {
+  const auto numbers = file::parse_numbers("fixed", text::fields_of(text, ','),
+                                           {{"LAT", -90.0, 90.0},
+                                            {"LON", -180.0, 180.0},
+                                            {"ALT_FT", -1'000.0, 200'000.0},
+                                            {"HDG", 0.0, 360.0},
+                                            {"KT", 0.0, 5'000.0}},
+                                           ",");
   if (!numbers) return tl::unexpected(numbers.error());
   const auto& value = *numbers;
   return FixedSetting{{{value[0], value[1]}, geo::AltitudeMsl::feet(value[2]), geo::Bearing::degrees(value[3])},
@@ -51,25 +51,19 @@ FlightSample FixedFlight::step(geo::Duration dt) {
 
 namespace {
 
-using failure::Error;
-using failure::Expected;
+using error::Expected;
 
 constexpr std::string_view kForms =
     "route:FILE, fixed:LAT,LON,ALT_FT,HDG,KT, csv:FILE, flightgear:PORT, jsbsim:PORT, xplane:HOST:PORT or dis:PORT";
 
-tl::unexpected<Error> bad_usage(Error error) {
-  error.bad_usage = true;
-  return tl::unexpected(std::move(error));
-}
-
 Expected<FlightSource> open_fixed(std::string_view setting) {
   auto parsed = parse_fixed(setting);
-  if (!parsed) return bad_usage(parsed.error());
+  if (!parsed) return tl::unexpected(error::usage_error(parsed.error()));
   return FlightSource{std::make_unique<FixedFlight>(*parsed), "fixed:" + std::string(setting)};
 }
 
 Expected<FlightSource> open_route(std::string_view file) {
-  const auto text = read_text_file(file);
+  const auto text = file::read_text_file(file);
   if (!text) return tl::unexpected(text.error());
   auto route = parse_route(*text, file);
   if (!route) return tl::unexpected(route.error());
@@ -78,7 +72,7 @@ Expected<FlightSource> open_route(std::string_view file) {
 }
 
 Expected<FlightSource> open_track(std::string_view file) {
-  const auto text = read_text_file(file);
+  const auto text = file::read_text_file(file);
   if (!text) return tl::unexpected(text.error());
   auto track = parse_track(*text, file);
   if (!track) return tl::unexpected(track.error());
@@ -95,7 +89,7 @@ Expected<FlightSource> open_source(std::string_view text) {
   if (kind == "fixed") return open_fixed(rest);
   if (kind == "route" && !rest.empty()) return open_route(rest);
   if (kind == "csv" && !rest.empty()) return open_track(rest);
-  return bad_usage({"--source", std::string(kForms), '"' + std::string(text) + '"', {}, true});
+  return tl::unexpected(error::usage_error("--source", std::string(kForms), '"' + std::string(text) + '"'));
 }
 
 }  // namespace yars::databuffer::flight

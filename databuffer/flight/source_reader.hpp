@@ -18,7 +18,7 @@ struct FixedSetting {
 };
 
 // Latitude [-90, 90], longitude [-180, 180], altitude [-1000, 200000] ft, heading [0, 360], speed [0, 5000] kt.
-failure::Expected<FixedSetting> parse_fixed(std::string_view text);
+error::Expected<FixedSetting> parse_fixed(std::string_view text);
 
 class FixedFlight final : public FlightModel {
  public:
@@ -42,6 +42,6 @@ struct FlightSource {
 
 // route:FILE, fixed:LAT,LON,ALT_FT,HDG,KT, csv:FILE (programs outside: databuffer/bridges). An error about the text
 // itself counts as bad usage.
-failure::Expected<FlightSource> open_source(std::string_view text);
+error::Expected<FlightSource> open_source(std::string_view text);
 
 }  // namespace yars::databuffer::flight

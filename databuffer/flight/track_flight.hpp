@@ -26,7 +26,7 @@ struct Track {
 };
 
 // `name` is the file's, for errors: they carry the line.
-failure::Expected<Track> parse_track(std::string_view text, std::string_view name);
+error::Expected<Track> parse_track(std::string_view text, std::string_view name);
 
 // Flies a recorded track: between two rows along the geodesic at a steady speed, attitude turned the shorter way
 // (heading with respect to the geodesic, so that it holds at the poles too); velocity is that of the rows' places.

@@ -12,22 +12,19 @@
 
 namespace yars::radar {
 
-// Which way the aircraft goes over ground: the axis of the scan and of the glass.
-
-// Direction of the velocity; below 1 m/s, where a velocity has no direction worth following, the heading.
+// Which way the aircraft goes over ground: the axis of the scan and of the glass. Direction of the velocity; below 1
+// m/s, where a velocity has no direction worth following, the heading.
 geo::Bearing ground_track(geo::Speed north, geo::Speed east, geo::Bearing heading);
 
 }  // namespace yars::radar
 
 namespace yars::databuffer {
 
-// What a navigator believes, against what is true. Video is made from the truth; sequence points, and all that is told
-// to others, are the navigator's. Its belief is what the lane says plus the error that the state machine keeps.
-
 // Which way it goes over ground; below walking speed its heading.
 geo::Bearing ground_track_of(const Ownship& ownship);
 
-// The aircraft as it is and as a navigator has it.
+// What a navigator believes, against what is true. Video is made from the truth; sequence points, and all that is told
+// to others, are the navigator's. Its belief is what the lane says plus the error that the state machine keeps.
 struct Belief {
   geo::GeoPoint truth;
   geo::GeoPoint believed;
@@ -48,10 +45,9 @@ Belief belief_in_use(const Ownship& ownship, const Nav& nav, const RadarState& s
 // The part of the radar state that the model acts on.
 RadarCommand command_from_state(const RadarState& state);
 
-// When the pilot is told how long a patch map takes. Source: docs/spec/pilots_interface.md#rule-6.
-
-// Time left [s] of the map that forms; else what one at the cursor would take, in RBM, HRM PPI and on a patch, with
-// cursor MAP, a window selected and the cursor mappable. Nothing when the model tells no number.
+// When the pilot is told how long a patch map takes. Source: docs/spec/pilots_interface.md#rule-6. Time left [s] of the
+// map that forms; else what one at the cursor would take, in RBM, HRM PPI and on a patch, with cursor MAP, a window
+// selected and the cursor mappable. Nothing when the model tells no number.
 std::optional<double> map_timer_s(const RadarState& state, const ModelStatus& model);
 
 }  // namespace yars::databuffer

@@ -7,8 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "databuffer/messages/inspection.hpp"
-#include "databuffer/messages/validation.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
 
@@ -109,7 +107,7 @@ Refusal why_refused(const InputEvent& event) {
 
 namespace {
 
-using failure::Expected;
+using error::Expected;
 using Words = std::vector<std::string_view>;
 
 // What stands behind the verb.
@@ -206,8 +204,8 @@ bool put_steps(InputEvent& event, const Form& form, const Words& words) {
 
 // One number or two, from words[first] on.
 bool put_numbers(InputEvent& event, const Words& words, std::size_t first = 1) {
-  const auto x = finite_number(words[first]);
-  const auto y = words.size() > first + 1 ? finite_number(words[first + 1]) : 0.0;
+  const auto x = text::finite_number(words[first]);
+  const auto y = words.size() > first + 1 ? text::finite_number(words[first + 1]) : 0.0;
   if (!x || !y) return false;
   event.x = *x;
   event.y = *y;
@@ -266,11 +264,11 @@ std::string operand_text(const Form& form, const InputEvent& event) {
     case Operand::integer:
       return ' ' + std::to_string(event.argument);
     case Operand::number:
-      return ' ' + text_of_number(event.x);
+      return ' ' + text::text_of_number(event.x);
     case Operand::pair:
-      return ' ' + text_of_number(event.x) + ' ' + text_of_number(event.y);
+      return ' ' + text::text_of_number(event.x) + ' ' + text::text_of_number(event.y);
     case Operand::error:
-      return ' ' + std::string(form.word) + ' ' + text_of_number(event.x) + ' ' + text_of_number(event.y);
+      return ' ' + std::string(form.word) + ' ' + text::text_of_number(event.x) + ' ' + text::text_of_number(event.y);
     case Operand::name:
       return ' ' + std::string(event.text, std::find(event.text, event.text + sizeof event.text, '\0'));
   }
@@ -287,7 +285,7 @@ void set_text(InputEvent& event, std::string_view name) {
 
 Expected<InputEvent> event_from_text(std::string_view text) {
   const std::string lower = lower_case(text);
-  const Words words = words_of(lower);
+  const Words words = text::words_of(lower);
   for (const Form& form : kForms) {
     InputEvent event{};
     if (words.empty() || form.verb != words[0] || !read_form(event, form, words)) continue;
@@ -296,7 +294,7 @@ Expected<InputEvent> event_from_text(std::string_view text) {
     return event;
   }
   const std::string_view verb = words.empty() ? std::string_view() : words[0];
-  return failure::fail("event", expected_forms(verb), '"' + std::string(text) + '"');
+  return error::fail("event", expected_forms(verb), '"' + std::string(text) + '"');
 }
 
 std::string text_of(const InputEvent& event) {

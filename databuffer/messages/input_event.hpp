@@ -12,7 +12,7 @@
 
 namespace yars::databuffer {
 
-// One thing that a pilot's hand, a panel or a program did. Text forms: databuffer/records/event_text.hpp.
+// One thing that a pilot's hand, a panel or a program did. As text: event_from_text().
 enum class EventKind : std::uint16_t {
   none = 0,
   push_button = 1,  // argument: 1..20
@@ -59,7 +59,7 @@ Refusal why_refused(const InputEvent& event);
 // Words are separated by blanks, letters of either case. Source: docs/spec/pilots_interface.md#controls.
 
 // The event without times and number (zero). An error lists the forms that would have been right.
-failure::Expected<InputEvent> event_from_text(std::string_view text);
+error::Expected<InputEvent> event_from_text(std::string_view text);
 
 // The shortest text that event_from_text turns back into the same event; one that is none of
 // docs/spec/pilots_interface.md#controls gives a text that says so and that event_from_text refuses.

@@ -16,7 +16,6 @@ namespace yars::databuffer {
 
 // Why a record from outside is refused: nothing for a good one, else the first fault as text, "field: expected,
 // found".
-
 using Refusal = std::optional<std::string>;
 
 // How the border looks at records: ranges that NaN never passes, texts, and the limits that several records share.
@@ -38,7 +37,8 @@ class Inspection {
     if (missing == Missing::allowed && std::isnan(value)) return;
     // Written so that NaN fails.
     if (!(value >= least && value <= most))
-      fault(field, '[' + text_of_number(least) + ", " + text_of_number(most) + ']', text_of_number(value));
+      fault(field, '[' + text::text_of_number(least) + ", " + text::text_of_number(most) + ']',
+            text::text_of_number(value));
   }
 
   void latitude(std::string_view field, double value, Missing missing = Missing::refused) {

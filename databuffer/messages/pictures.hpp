@@ -7,21 +7,20 @@
 
 namespace yars::databuffer {
 
-// Ids of the pictures in a session, patch maps and frames of the glass: they count up from 1.
-
-// A greater one is damage: at a thousand a second a session comes to it in 280,000 years.
+// Ids of the pictures in a session, patch maps and frames of the glass: they count up from 1. A greater one is damage:
+// at a thousand a second a session comes to it in 280,000 years.
 inline constexpr std::uint64_t kLatestPictureId = std::uint64_t{1} << 53U;
 
-// What a patch map is and where it lies on the earth: goes with the pixels of its slot. The picture is square, row 0
-// at the far edge, line of sight up, 0 black to 255 white.
 inline constexpr std::uint32_t kMostPatchPixels = 1024;  // on an edge
 
 inline constexpr std::uint32_t kPatchNotReady = 1U;     // some posts were not loaded yet
 inline constexpr std::uint32_t kPatchBlind = 2U;        // part of it lies in the blind zone and is blank
 inline constexpr std::uint32_t kPatchWindowBlank = 4U;  // its window was chosen by range: none was selected
 
-// A place on the picture: right and up of the centre [m] are those of the plane that keeps distance and bearing
-// from the apex (azimuthal equidistant), turned so that the bearing of the centre points up.
+// What a patch map is and where it lies on the earth: goes with the pixels of its slot. The picture is square, row 0
+// at the far edge, line of sight up, 0 black to 255 white. A place on the picture: right and up of the centre [m] are
+// those of the plane that keeps distance and bearing from the apex (azimuthal equidistant), turned so that the bearing
+// of the centre points up.
 struct PatchMap {
   std::uint64_t id;            // counts up over the session; 0 = no map
   std::int64_t start_tick;     // when the radar began it
@@ -50,11 +49,11 @@ struct PatchMap {
 };
 static_assert(sizeof(PatchMap) == 256 && std::is_trivially_copyable_v<PatchMap>);
 
-// What a picture of the glass is: goes with the pixels of its slot. Rows from the top, without padding, 4 bytes a pixel
-// in the order red, green, blue, 255.
 inline constexpr std::uint32_t kMostFramePixels = 1024;  // on an edge
 inline constexpr std::size_t kFrameSlots = 3;
 
+// What a picture of the glass is: goes with the pixels of its slot. Rows from the top, without padding, 4 bytes a pixel
+// in the order red, green, blue, 255.
 struct GlassFrame {
   std::uint64_t id;          // counts up over the session; 0 = none
   std::int64_t tick;         // of the radar state that is on it

@@ -9,8 +9,6 @@
 
 namespace yars::databuffer {
 
-// The whole state of the state machine: what the pilot has set, what the legends say, and all that a restarted
-// state machine needs to go on. Written once a tick when it has changed.
 struct DrawnPoint {
   double latitude_deg;
   double longitude_deg;
@@ -75,6 +73,8 @@ inline constexpr std::int64_t kUntilCauseEnds = -1;  // of message_until_tick
 inline constexpr std::uint32_t kAskedForTarget = 1U << 16;
 inline constexpr std::uint32_t kAskedForCue = 1U << 17;
 
+// The whole state of the state machine: what the pilot has set, what the legends say, and all that a restarted
+// state machine needs to go on. Written once a tick when it has changed.
 struct RadarState {
   std::int64_t tick;             // tick of the last change
   double range_nm;               // [NM] selected range
@@ -170,10 +170,10 @@ struct RadarState {
 static_assert(sizeof(RadarState) % 8 == 0 && std::is_trivially_copyable_v<RadarState>);
 static_assert(offsetof(RadarState, power) == 120);
 
-// What the state machine tells the rest of the aircraft: sensors, weapons, head-up display. Points are as the navigator
-// in use has them. Written every tick, also with the radar off: a target forgotten has to be told.
 enum class SteeringCommand : std::uint8_t { none = 0, azimuth = 1, bank = 2 };
 
+// What the state machine tells the rest of the aircraft: sensors, weapons, head-up display. Points are as the navigator
+// in use has them. Written every tick, also with the radar off: a target forgotten has to be told.
 struct Outputs {
   std::int64_t tick;
   std::int64_t sim_time_ns;

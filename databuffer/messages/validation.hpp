@@ -10,9 +10,6 @@
 
 namespace yars::databuffer {
 
-// The border for the radar state; see validation.hpp.
-Refusal why_refused(const RadarState& state);
-
 // The border: whether a record that another process wrote can be believed. Each function gives nothing for a good
 // record, else the first fault as text: field, what was expected, what was found. Nothing is repaired: the reader
 // keeps its last good value and counts the refusal.
@@ -26,8 +23,8 @@ Refusal why_refused(const RecorderStatus& status);
 Refusal why_refused(const Traffic& traffic);
 Refusal why_refused(const GlassFrame& frame);
 Refusal why_refused(const Outputs& outputs);
-
-// The border for what the radar model publishes; see validation.hpp. NaN stands where the records allow "unknown".
+Refusal why_refused(const RadarState& state);
+// What the radar model publishes. NaN stands where the records allow "unknown".
 Refusal why_refused(const ModelStatus& status);
 Refusal why_refused(const Sweep& sweep);
 Refusal why_refused(const ModelTick& tick);

@@ -7,14 +7,13 @@
 
 namespace yars::databuffer {
 
-// The session's clock: sim time [ns] = base + rate x (CLOCK_MONOTONIC - base), while it runs.
-
 // [ns] 18 years: the latest base of sim time and of CLOCK_MONOTONIC, for who sets the clock and for who reads it. Sums
 // at the highest rate still fit.
 inline constexpr std::int64_t kLatestClockBase_ns = std::int64_t{1} << 59;
 // [s] of sim time that may be asked for.
 inline constexpr double kLatestSimTime_s = static_cast<double>(kLatestClockBase_ns / 1'000'000'000);
 
+// The session's clock: sim time [ns] = base + rate x (CLOCK_MONOTONIC - base), while it runs.
 struct ClockState {
   std::int64_t base_sim_ns;        // [ns]
   std::int64_t base_monotonic_ns;  // [ns]
@@ -31,10 +30,10 @@ struct ClockState {
 };
 static_assert(sizeof(ClockState) == 96 && std::is_trivially_copyable_v<ClockState>);
 
-// Where the aircraft is and how it moves: the truth (video is made from it) and what the navigators believe
-// (symbols are placed by it). Written by a flight model into one of four lanes.
 inline constexpr std::uint32_t kOwnshipOnGround = 1U;
 
+// Where the aircraft is and how it moves: the truth (video is made from it), and in Nav what the navigators believe
+// (symbols are placed by it). Written by a flight model into one of four lanes.
 struct Ownship {
   std::int64_t source_time_ns;  // [ns] the source's own stamp: carried, not believed
   double latitude_deg;          // [deg] [-90, 90] WGS84
@@ -75,8 +74,6 @@ struct Nav {
 };
 static_assert(sizeof(Nav) == 128 && std::is_trivially_copyable_v<Nav>);
 
-// Surface traffic from outside: ships and vehicles that an instructor's station or a bridge knows of. The radar shows
-// them as moving targets. Between two records of the source an entity goes straight on at its velocity.
 inline constexpr std::size_t kMostTraffic = 64;
 
 struct TrafficEntity {
@@ -91,6 +88,8 @@ struct TrafficEntity {
 };
 static_assert(sizeof(TrafficEntity) == 56);
 
+// Surface traffic from outside: ships and vehicles that an instructor's station or a bridge knows of. The radar shows
+// them as moving targets. Between two records of the source an entity goes straight on at its velocity.
 // All entities of this moment; one that is not named any more is gone. A source that has said nothing for
 // kTrafficStaleAfter has none.
 struct Traffic {

@@ -4,6 +4,7 @@
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -19,7 +20,7 @@
 #include <string>
 #include <utility>
 
-#include "databuffer/runtime/program.hpp"
+#include "lib/error/error.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer {
@@ -44,10 +45,10 @@ bool write_all(int descriptor, std::string_view text) {
 ssize_t write_printable(void* cookie, const char* bytes, std::size_t size) {
   auto& outlet = *static_cast<Outlet*>(cookie);
   std::string text = std::exchange(outlet.unfinished, {}) + std::string(bytes, size);
-  const std::size_t held = failure::unfinished_bytes(text);
+  const std::size_t held = text::unfinished_bytes(text);
   outlet.unfinished = text.substr(text.size() - held);
   text.resize(text.size() - held);
-  return write_all(outlet.descriptor, failure::printable_lines(text)) ? static_cast<ssize_t>(size) : 0;
+  return write_all(outlet.descriptor, text::printable_lines(text)) ? static_cast<ssize_t>(size) : 0;
 }
 
 // nullptr: the system has no room for it; the stream stays as it is.
@@ -78,6 +79,41 @@ void guard_terminal() {
     return true;
   }();
   (void)done;
+}
+
+void keep_files_private() {
+  umask(0077);
+}
+
+namespace {
+
+volatile std::sig_atomic_t stop_flag = 0;
+
+void on_signal(int) {
+  stop_flag = 1;
+}
+
+}  // namespace
+
+void install_signal_handlers() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;  // no SA_RESTART: a sleep or a poll ends at once
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+void let_signals_end_the_process() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+bool stop_requested() {
+  return stop_flag != 0;
+}
+
+void request_stop() {
+  stop_flag = 1;
 }
 
 namespace {
@@ -117,18 +153,18 @@ bool limit_bursts() {
   return setrlimit(RLIMIT_RTTIME, &limit) == 0;
 }
 
-failure::Expected<int> parse_cpu(std::string_view text) {
+error::Expected<int> parse_cpu(std::string_view text) {
   int number = -1;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (code != std::errc{} || end != text.data() + text.size() || number < 0 || number > kHighestCpu)
     return tl::unexpected(
-        usage_error("--cpus", "numbers and ranges from 0, as in 2,3 or 2-3", "'" + std::string(text) + "'"));
+        error::usage_error("--cpus", "numbers and ranges from 0, as in 2,3 or 2-3", "'" + std::string(text) + "'"));
   return number;
 }
 
 }  // namespace
 
-failure::Expected<std::vector<int>> parse_cpu_list(std::string_view text) {
+error::Expected<std::vector<int>> parse_cpu_list(std::string_view text) {
   std::vector<int> cpus;
   for (bool more = true; more;) {
     const auto comma = text.find(',');
@@ -138,7 +174,8 @@ failure::Expected<std::vector<int>> parse_cpu_list(std::string_view text) {
     if (!first) return tl::unexpected(first.error());
     const auto last = dash == std::string_view::npos ? first : parse_cpu(part.substr(dash + 1));
     if (!last) return tl::unexpected(last.error());
-    if (*last < *first) return tl::unexpected(usage_error("--cpus", "a range from low to high", std::string(part)));
+    if (*last < *first)
+      return tl::unexpected(error::usage_error("--cpus", "a range from low to high", std::string(part)));
     for (int cpu = *first; cpu <= *last; ++cpu) cpus.push_back(cpu);
     more = comma != std::string_view::npos;
     if (more) text.remove_prefix(comma + 1);

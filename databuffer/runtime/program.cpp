@@ -1,7 +1,5 @@
 #include "databuffer/runtime/program.hpp"
 
-#include <sys/stat.h>
-
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -9,7 +7,6 @@
 #include <exception>
 #include <system_error>
 
-#include "config/schema/load.hpp"
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/session/session.hpp"
 #include "lib/log/log.hpp"
@@ -37,24 +34,10 @@ std::string installed_file(const std::string& name) {
 
 namespace {
 
-volatile std::sig_atomic_t stop_flag = 0;
-
-void on_signal(int) {
-  stop_flag = 1;
-}
-
-void install_signal_handlers() {
-  struct sigaction action {};
-  action.sa_handler = on_signal;  // no SA_RESTART: a sleep or a poll ends at once
-  sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
-
 // What the system refuses is a warning, a list that nobody can read is bad usage.
-std::optional<failure::Error> arrange_cpus(const ProgramOptions& options) {
+std::optional<error::Error> arrange_cpus(const ProgramOptions& options) {
   const auto warn = [](const std::optional<std::string>& refusal) {
-    if (refusal) log_warning(*refusal);
+    if (refusal) log::warning(*refusal);
     return !refusal;
   };
   if (!options.cpus.empty()) {
@@ -63,10 +46,10 @@ std::optional<failure::Error> arrange_cpus(const ProgramOptions& options) {
     warn(bind_to_cpus(*cpus));
   }
   if (!options.realtime) return std::nullopt;
-  if (warn(lock_memory())) log_info("--realtime: memory is locked");
+  if (warn(lock_memory())) log::info("--realtime: memory is locked");
   if (warn(take_realtime_priority()))
-    log_info("--realtime: SCHED_FIFO " + std::to_string(kRealtimePriority) + ", at most " +
-             std::to_string(kLongestBurst_ms) + " ms without a wait");
+    log::info("--realtime: SCHED_FIFO " + std::to_string(kRealtimePriority) + ", at most " +
+              std::to_string(kLongestBurst_ms) + " ms without a wait");
   return std::nullopt;
 }
 
@@ -106,8 +89,8 @@ void require_finite_numbers(CLI::App& app) {
 }
 
 void print_failure(const std::string& program, const std::string& message) {
-  std::fprintf(stderr, "%s: %s\n", program.c_str(), failure::printable(message).c_str());
-  log_to_file(message);
+  std::fprintf(stderr, "%s: %s\n", program.c_str(), text::printable(message).c_str());
+  log::to_file(message);
 }
 
 int report_parse_outcome(const CLI::App& app, const CLI::ParseError& outcome) {
@@ -116,11 +99,12 @@ int report_parse_outcome(const CLI::App& app, const CLI::ParseError& outcome) {
   return kExitUsage;
 }
 
-std::optional<failure::Error> begin_program(const std::string& name, const ProgramOptions& options) {
-  if (!start_log(name, options.log_level))
-    return usage_error("--log-level", "trace, debug, info, warning, error or off", "'" + options.log_level + "'");
+std::optional<error::Error> begin_program(const std::string& name, const ProgramOptions& options) {
+  if (!log::start(name, options.log_level))
+    return error::usage_error("--log-level", "trace, debug, info, warning, error or off",
+                              "'" + options.log_level + "'");
   if (const auto valid = check_session_name(options.session); !valid) return valid.error();
-  if (!options.log_dir.empty()) start_log_file(name, options.log_dir);
+  if (!options.log_dir.empty()) log::start_file(name, options.log_dir);
   if (auto error = arrange_cpus(options)) return error;
   install_signal_handlers();
   return std::nullopt;
@@ -142,7 +126,7 @@ int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& opti
     if (!error) {
       if (auto outcome = body(); !outcome) error = outcome.error();
     }
-    log_left_out(LeftOut::all);
+    log::left_out(log::LeftOut::all);
     if (!error) return 0;
     print_failure(app.get_name(), error->message());
     return error->bad_usage ? kExitUsage : kExitFailure;
@@ -150,39 +134,6 @@ int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& opti
     print_failure(app.get_name(), std::string("stopped by ") + problem.what());
     return kExitFailure;
   }
-}
-
-void keep_files_private() {
-  umask(0077);
-}
-
-failure::Error usage_error(failure::Error error) {
-  error.bad_usage = true;
-  return error;
-}
-
-failure::Error usage_error(std::string subject, std::string expected, std::string found, std::string action) {
-  return {std::move(subject), std::move(expected), std::move(found), std::move(action), true};
-}
-
-void let_signals_end_the_process() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
-}
-
-bool stop_requested() {
-  return stop_flag != 0;
-}
-
-void request_stop() {
-  stop_flag = 1;
-}
-
-failure::Expected<radar::RadarConfiguration> load_program_configuration(const ProgramOptions& options) {
-  auto loaded = config::load_configuration(options.config);
-  if (!loaded) return tl::unexpected(loaded.error());
-  for (const auto& warning : loaded->warnings) log_warning(warning);
-  return std::move(loaded->radar);
 }
 
 }  // namespace yars::databuffer

@@ -8,21 +8,18 @@
 #include <string>
 
 #include "lib/error/error.hpp"
-#include "lib/radar/configuration.hpp"
 
 namespace yars::databuffer {
 
 // Files that are installed beside the programs: configurations, routes, scripts. They are found from where the program
-// lies (PREFIX/bin), so that an installation may be moved.
-
-// A bare name that is no file here and stands in PREFIX/share/yars/config or its folders is that file; anything else
-// stays as it is.
+// lies (PREFIX/bin), so that an installation may be moved. A bare name that is no file here and stands in
+// PREFIX/share/yars/config or its folders is that file; anything else stays as it is.
 std::string installed_file(const std::string& name, const std::filesystem::path& programs);
 
 // The same for this program.
 std::string installed_file(const std::string& name);
 
-// What all programs of the set share: options, exit codes, signals.
+// What all programs of the set share: options, exit codes.
 struct ProgramOptions {
   std::string session = "default";  // --session, else YARS_SESSION, else "default"
   std::string config;               // --config; empty = built-in defaults
@@ -46,30 +43,13 @@ void require_finite_numbers(CLI::App& app);
 
 // Parses, keeps what is written private, starts the log, installs the handlers of SIGINT and SIGTERM and runs the body;
 // the body's error becomes one line on standard error and exit code 1. Bad usage is one line and exit code 2.
-using ProgramBody = std::function<failure::Expected<void>()>;
+using ProgramBody = std::function<error::Expected<void>()>;
 int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& options, const ProgramBody& body);
 
 // The parts of run_program, for a program whose subcommands run while it parses.
 int report_parse_outcome(const CLI::App& app, const CLI::ParseError& outcome);  // prints help or one line; exit code
 // Log, CPUs and priority, signals.
-std::optional<failure::Error> begin_program(const std::string& name, const ProgramOptions& options);
+std::optional<error::Error> begin_program(const std::string& name, const ProgramOptions& options);
 void print_failure(const std::string& program, const std::string& message);  // into the log file too
-
-// Logs, frames and recordings are the user's alone, whatever the umask: new files get 0600, new folders 0700.
-void keep_files_private();
-
-// An error that the user's command line caused: exit code 2 instead of 1.
-failure::Error usage_error(failure::Error error);
-failure::Error usage_error(std::string subject, std::string expected, std::string found, std::string action = {});
-
-// For a command that never looks at stop_requested(): SIGINT and SIGTERM end it at once again.
-void let_signals_end_the_process();
-
-// True after SIGINT, SIGTERM or request_stop().
-bool stop_requested();
-void request_stop();
-
-// Loads the configuration and logs its warnings.
-failure::Expected<radar::RadarConfiguration> load_program_configuration(const ProgramOptions& options);
 
 }  // namespace yars::databuffer

@@ -139,7 +139,7 @@ Nav nav_from_truth(const Ownship& ownship) {
 }  // namespace
 
 std::string name_of_source(const Ownship& ownship, std::uint32_t lane) {
-  const std::string_view name = text_of(ownship.source);
+  const std::string_view name = text::text_of(ownship.source);
   return name.empty() ? "unnamed (lane " + std::to_string(lane) + ")" : std::string(name);
 }
 

@@ -14,11 +14,6 @@
 
 namespace yars::databuffer {
 
-// Which of the ownship lanes the radar believes: the highest fresh priority, with hysteresis. Pure; called once a tick.
-// A lane is fresh while its version has changed within kStaleAfter by the caller's clock (stamps from outside are not
-// believed). A version met for the first time is no news: it may be what a dead writer left.
-// A higher lane takes over after delivering without a gap for kTakeoverAfter; the chosen lane is left only when it is
-// stale or such a lane is there. Equal priorities: the chosen one stays; none chosen: the lower index.
 inline constexpr std::size_t kMaxOwnshipLanes = 4;
 // [ns] 25 records of a 50 Hz source; shorter and a loaded machine loses its source, longer and a dead one flies on.
 inline constexpr std::int64_t kStaleAfter = 500'000'000;
@@ -43,16 +38,15 @@ struct OwnshipSelection {
   std::array<Memory, kMaxOwnshipLanes> memory;
 };
 
+// Which of the ownship lanes the radar believes: the highest fresh priority, with hysteresis. Pure; called once a tick.
+// A lane is fresh while its version has changed within kStaleAfter by the caller's clock (stamps from outside are not
+// believed). A version met for the first time is no news: it may be what a dead writer left.
+// A higher lane takes over after delivering without a gap for kTakeoverAfter; the chosen lane is left only when it is
+// stale or such a lane is there. Equal priorities: the chosen one stays; none chosen: the lower index.
 // `lanes` has at most kMaxOwnshipLanes entries, always in the same order. `now_ns` is CLOCK_MONOTONIC, or sim time in
 // lockstep; when it goes back, each lane counts as received at that moment.
 OwnshipSelection select_ownship(std::span<const OwnshipLane> lanes, std::int64_t now_ns,
                                 const OwnshipSelection& previous);
-
-// Jumps in place. Where an aircraft is follows from where it was; what does not (another source elsewhere, a simulator
-// set back) is believed with a new epoch only, which restarts scan and filters: the record is the first
-// one of the session's epoch, or the epoch has changed since the place was first seen. Until then the place before
-// stands. Pure. Whoever may set the clock raises the epoch when is_proven(); where nobody does, the jump is taken after
-// kLongestHold all the same.
 
 // [m] that a place may be off from where twice its speed could have brought it: noise of a navigator, not a jump.
 inline constexpr double kPlaceTolerance_m = 50.0;
@@ -60,6 +54,11 @@ inline constexpr double kPlaceTolerance_m = 50.0;
 inline constexpr std::int64_t kJumpProof = 100'000'000;
 inline constexpr std::int64_t kLongestHold = 1'000'000'000;
 
+// Jumps in place. Where an aircraft is follows from where it was; what does not (another source elsewhere, a simulator
+// set back) is believed with a new epoch only, which restarts scan and filters: the record is the first
+// one of the session's epoch, or the epoch has changed since the place was first seen. Until then the place before
+// stands. Pure. Whoever may set the clock raises the epoch when is_proven(); where nobody does, the jump is taken after
+// kLongestHold all the same.
 class JumpGuard {
  public:
   // Whether `next`, met at `received_ns`, is to be believed at the tick of `now_ns` [ns of sim time]. Ask once a tick.
@@ -80,14 +79,14 @@ class JumpGuard {
   std::uint64_t passed_ = 0;
 };
 
-// What a consumer latches once a tick: the ownship and nav of the lane that select_ownship picks. Records that do
-// not validate are refused and counted; the last good value of their lane stands. So does it when the place jumps
-// within an epoch (receivers.hpp), but in lockstep, where nobody can set the clock.
 inline constexpr std::uint32_t kNoLane = 0xffffffffU;
 
 // What messages call the source of a lane: by the name that it gives itself, or by its place when it gives none.
 std::string name_of_source(const Ownship& ownship, std::uint32_t lane);
 
+// What a consumer latches once a tick: the ownship and nav of the lane that select_ownship picks. Records that do
+// not validate are refused and counted; the last good value of their lane stands. So does it when the place jumps
+// within an epoch (JumpGuard), but in lockstep, where nobody can set the clock.
 class OwnshipReceiver {
  public:
   struct Selected {

@@ -5,13 +5,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <climits>
 #include <ctime>
 #include <string>
 
-#include "databuffer/runtime/program.hpp"
+#include "databuffer/runtime/process.hpp"
+#include "lib/error/error.hpp"
 
 namespace yars::databuffer {
 
@@ -24,9 +24,6 @@ constexpr double kFarAhead_ns = 1e15;  // [ns] beyond it a deadline is only 'lat
 constexpr std::int64_t kPartnerPatience_ns =
     60'000'000'000;                                     // [ns] a lockstep partner silent so long is taken for dead
 constexpr std::int64_t kPartnerCheck_ns = 100'000'000;  // [ns] between looks at the stop flag while waiting
-
-constexpr std::array<std::string_view, kLockstepRoles> kRoleNames{"flight-model", "input-monitor", "state-machine",
-                                                                  "radar-model",  "radar-display", "recorder"};
 
 void sleep_until(std::int64_t deadline_ns) {
   const timespec deadline{static_cast<time_t>(deadline_ns / 1'000'000'000),
@@ -50,12 +47,12 @@ struct LockstepPlan {
   std::int64_t end_tick = -1;
 };
 
-failure::Expected<LockstepPlan> parse_plan(const std::string& text) {
+error::Expected<LockstepPlan> parse_plan(const std::string& text) {
   const auto bad = [&text] {
-    return tl::unexpected(usage_error("--lockstep",
-                                      "ROLE,ROLE,...[@END_TICK] of flight-model, input-monitor, "
-                                      "state-machine, radar-model, radar-display, recorder",
-                                      "'" + text + "'"));
+    return tl::unexpected(error::usage_error("--lockstep",
+                                             "ROLE,ROLE,...[@END_TICK] of flight-model, input-monitor, "
+                                             "state-machine, radar-model, radar-display, recorder",
+                                             "'" + text + "'"));
   };
   LockstepPlan plan;
   std::string_view rest = text;
@@ -67,9 +64,9 @@ failure::Expected<LockstepPlan> parse_plan(const std::string& text) {
   }
   while (!rest.empty()) {
     const auto comma = std::min(rest.find(','), rest.size());
-    const auto found = std::find(kRoleNames.begin(), kRoleNames.end(), rest.substr(0, comma));
-    if (found == kRoleNames.end()) return bad();
-    plan.roles |= 1U << (found - kRoleNames.begin());
+    const auto found = std::find(kLockstepRoleNames.begin(), kLockstepRoleNames.end(), rest.substr(0, comma));
+    if (found == kLockstepRoleNames.end()) return bad();
+    plan.roles |= 1U << (found - kLockstepRoleNames.begin());
     rest.remove_prefix(std::min(comma + 1, rest.size()));
   }
   return plan;
@@ -77,25 +74,25 @@ failure::Expected<LockstepPlan> parse_plan(const std::string& text) {
 
 }  // namespace
 
-failure::Expected<TickLoop> TickLoop::create(Session& session, LockstepRole role, const std::string& lockstep) {
+error::Expected<TickLoop> TickLoop::create(Session& session, LockstepRole role, const std::string& lockstep) {
   TickLoop loop(session, role);
   auto& shared = session.layout().lockstep;
   if (lockstep.empty()) {
     if (shared.enabled.load(std::memory_order_acquire) != 0)
-      return failure::fail("session", "a role that steps with the others (--lockstep)", "a live one",
-                           "start it with the same --lockstep as the set, or use another session");
+      return error::fail("session", "a role that steps with the others (--lockstep)", "a live one",
+                         "start it with the same --lockstep as the set, or use another session");
     return loop;
   }
   auto plan = parse_plan(lockstep);
   if (!plan) return tl::unexpected(plan.error());
   if ((plan->roles & (1U << loop.role_)) == 0U)
-    return tl::unexpected(
-        usage_error("--lockstep", "a list with this role, " + std::string(kRoleNames[loop.role_]), lockstep));
+    return tl::unexpected(error::usage_error(
+        "--lockstep", "a list with this role, " + std::string(kLockstepRoleNames[loop.role_]), lockstep));
   if (shared.enabled.load(std::memory_order_acquire) != 0 &&
       (shared.roles.load(std::memory_order_relaxed) != plan->roles ||
        shared.end_tick.load(std::memory_order_relaxed) != plan->end_tick))
-    return failure::fail("--lockstep", "the plan that the session runs by", "another one, " + lockstep,
-                         "give every role of a set the same --lockstep, or use another session");
+    return error::fail("--lockstep", "the plan that the session runs by", "another one, " + lockstep,
+                       "give every role of a set the same --lockstep, or use another session");
   // Every role of a set has the same plan, so it does not matter who writes it, or twice.
   shared.roles.store(plan->roles, std::memory_order_relaxed);
   shared.end_tick.store(plan->end_tick, std::memory_order_relaxed);
@@ -110,8 +107,8 @@ failure::Expected<TickLoop> TickLoop::create(Session& session, LockstepRole role
   loop.first_in_chain_ = before >= loop.role_;
   const std::int64_t done = shared.done_tick[loop.role_].load(std::memory_order_acquire);
   if (done < -1 || done > kLatestTick)
-    return failure::fail("--lockstep", "a last tick of -1 or more", std::to_string(done),
-                         "the session is damaged: end its programs and start it again");
+    return error::fail("--lockstep", "a last tick of -1 or more", std::to_string(done),
+                       "the session is damaged: end its programs and start it again");
   loop.next_tick_ = done + 1;
   return loop;
 }
@@ -200,11 +197,11 @@ std::optional<TickLoop::Due> TickLoop::wait_lockstep() {
   return due;
 }
 
-failure::Expected<void> TickLoop::outcome() const {
+error::Expected<void> TickLoop::outcome() const {
   if (!failed_) return {};
-  return failure::fail("lockstep",
-                       std::string(kRoleNames[awaited_role_]) + " to do tick " + std::to_string(awaited_tick_),
-                       "60 s of silence", "start it with the same --lockstep, or end the set");
+  return error::fail("lockstep",
+                     std::string(kLockstepRoleNames[awaited_role_]) + " to do tick " + std::to_string(awaited_tick_),
+                     "60 s of silence", "start it with the same --lockstep, or end the set");
 }
 
 void TickLoop::done(const Due& due) {

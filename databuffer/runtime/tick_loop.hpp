@@ -25,7 +25,7 @@ inline constexpr std::int64_t kMostTicksBehind = 20;  // [ticks] 0.1 s: more wou
 class TickLoop {
  public:
   // `lockstep` is the program's option; empty = live.
-  static failure::Expected<TickLoop> create(Session& session, LockstepRole role, const std::string& lockstep);
+  static error::Expected<TickLoop> create(Session& session, LockstepRole role, const std::string& lockstep);
 
   struct Due {
     std::int64_t tick = 0;         // index of the tick to do: sim time / 5 ms
@@ -42,7 +42,7 @@ class TickLoop {
 
   bool lockstep() const { return lockstep_; }
   // What ended a lockstep run before its last tick; nothing after a clean end.
-  failure::Expected<void> outcome() const;
+  error::Expected<void> outcome() const;
   std::uint64_t late_ticks() const { return late_ticks_; }  // skipped since the start
 
  private:

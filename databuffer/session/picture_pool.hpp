@@ -82,8 +82,8 @@ void load_pixels(const Slot& slot, std::size_t bytes, std::vector<std::uint8_t>&
   pixels.resize(bytes);
 }
 
-// The pool of whole patch maps in the segment (picture_pool.hpp): radar-model writes, any read.
-// What a slot holds is not judged here: ask why_refused(PatchMap) of validation.hpp.
+// The pool of whole patch maps: radar-model writes, any read. What a slot holds is not judged here: ask
+// why_refused(PatchMap).
 
 // Bytes of the picture; of a size beyond the slot's as much as there is.
 inline std::size_t patch_pixels(const PatchMap& map) {
@@ -132,8 +132,7 @@ bool read_patch(const SessionLayout& layout, std::uint64_t id, PatchMap& map, st
   return still_holds<Access>(*slot, id) && map.id == id;
 }
 
-// The frames of the glass in the segment (picture_pool.hpp): one radar-display writes (`--publish`), any read the
-// newest.
+// The frames of the glass: one radar-display writes (`--publish`), any read the newest.
 
 // Bytes of the picture; of sizes beyond the slot's as much as there is.
 inline std::size_t frame_bytes(const GlassFrame& frame) {

@@ -1,18 +1,13 @@
 #include "databuffer/session/session.hpp"
 
-#include <time.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <optional>
 #include <thread>
 #include <utility>
 
 #include "databuffer/messages/validation.hpp"
-#include "databuffer/session/session_layout.hpp"
-#include "databuffer/session/session_state.hpp"
 #include "lib/error/error.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
@@ -21,8 +16,8 @@ namespace yars::databuffer {
 
 namespace {
 
-using failure::Expected;
-using failure::fail;
+using error::Expected;
+using error::fail;
 
 constexpr std::size_t kLongestName = 40;
 bool name_is_valid(std::string_view name) {
@@ -40,73 +35,25 @@ void initialize(void* memory) {
   layout.clock.publish(first_clock());
 }
 
-tl::unexpected<failure::Error> fail_read_only(std::string_view subject) {
+tl::unexpected<error::Error> fail_read_only(std::string_view subject) {
   return fail(std::string(subject), "a session opened for writing", "one opened read-only", "open it for writing");
 }
 
 }  // namespace
 
-std::string_view name_of(Role role) {
-  switch (role) {
-    case Role::radar_model:
-      return "radar-model";
-    case Role::state_machine:
-      return "state-machine";
-    case Role::recorder:
-      return "recorder";
-    case Role::clock:
-      return "clock";
-    case Role::traffic:
-      return "traffic";
-    case Role::glass_frames:
-      return "glass frames";
-  }
-  return "unknown role";
-}
-
 Expected<void> check_session_name(const std::string& name) {
   if (name_is_valid(name)) return {};
-  return tl::unexpected(failure::Error{"session name", "1 to 40 letters, digits, '-' or '_'", "\"" + name + "\"",
-                                       "choose another --session", true});
+  return tl::unexpected(error::Error{"session name", "1 to 40 letters, digits, '-' or '_'", "\"" + name + "\"",
+                                     "choose another --session", true});
 }
 
 std::optional<std::size_t> counted_role(std::string_view name) {
-  constexpr std::array<std::string_view, 6> kNames{"flight-model", "input-monitor", "state-machine",
-                                                   "radar-model",  "radar-display", "recorder"};
-  const auto found = std::ranges::find(kNames, name);
-  if (found == kNames.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - kNames.begin());
+  const auto found = std::ranges::find(kLockstepRoleNames, name);
+  if (found == kLockstepRoleNames.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - kLockstepRoleNames.begin());
 }
 
-std::int64_t monotonic_ns() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
-
-std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns) {
-  if (clock.running == 0) return clock.base_sim_ns;
-  // A base yet to come has nothing elapsed: sim time never is before it.
-  const std::int64_t elapsed = std::max<std::int64_t>(monotonic_ns - clock.base_monotonic_ns, 0);
-  // At rate 1 no rounding: integer nanoseconds outlast the 53 bits of a double.
-  if (clock.rate == 1.0) return clock.base_sim_ns + elapsed;
-  return clock.base_sim_ns + static_cast<std::int64_t>(std::llround(clock.rate * static_cast<double>(elapsed)));
-}
-
-// ---- Claims ----
-
-Claim::Claim() = default;
-Claim::Claim(Claim&& other) noexcept : hold_(std::move(other.hold_)), lane_(std::exchange(other.lane_, -1)) {}
-Claim& Claim::operator=(Claim&& other) noexcept {
-  hold_ = std::move(other.hold_);
-  lane_ = std::exchange(other.lane_, -1);
-  return *this;
-}
-Claim::~Claim() = default;
-
-// ---- The session ----
-
-Session::Session(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Session::Session(std::unique_ptr<SessionState> state) : state_(std::move(state)) {}
 Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 Session::~Session() = default;
@@ -115,7 +62,7 @@ Expected<Session> Session::open(const std::string& name, std::string_view proces
   if (const auto valid = check_session_name(name); !valid) return tl::unexpected(valid.error());
   auto segment = shm::Segment::open(name, kLayoutIdentity, initialize);
   if (!segment) return tl::unexpected(segment.error());
-  auto state = std::make_unique<State>(std::move(*segment), process_name);
+  auto state = std::make_unique<SessionState>(std::move(*segment), process_name);
   const bool has_clock = state->find_clock();
   state->enter_table();
   Session session(std::move(state));
@@ -127,7 +74,7 @@ Expected<Session> Session::open_read_only(const std::string& name) {
   if (const auto valid = check_session_name(name); !valid) return tl::unexpected(valid.error());
   auto segment = shm::Segment::open_read_only(name, kLayoutIdentity);
   if (!segment) return tl::unexpected(segment.error());
-  auto state = std::make_unique<State>(std::move(*segment), "reader");
+  auto state = std::make_unique<SessionState>(std::move(*segment), "reader");
   if (!state->find_clock()) state->good_clock.running = 0;
   return Session(std::move(state));
 }
@@ -230,7 +177,7 @@ void Session::heartbeat() {
   state_->keep_entry();
   state_->look_for_name();
   state_->tell_left_out(now_ns, false);
-  log_left_out(LeftOut::over);
+  log::left_out(log::LeftOut::over);
 }
 
 void Session::show_progress(std::uint32_t progress) {
@@ -283,7 +230,7 @@ void Session::note(NoteKind kind, std::string_view text) {
   note(kind, text, state_->process_name);
 }
 void Session::note(NoteKind kind, std::string_view text, std::string_view process) {
-  state_->note(kind, failure::printable(text), process);
+  state_->note(kind, text::printable(text), process);
 }
 
 void Session::count_restart(std::string_view role) {

@@ -11,28 +11,10 @@
 #include <vector>
 
 #include "databuffer/session/session_layout.hpp"
+#include "databuffer/session/session_state.hpp"
 #include "lib/error/error.hpp"
 
 namespace yars::databuffer {
-
-// Writers of which a session has one; the number is the byte of the segment file that its holder locks.
-enum class Role : std::uint8_t {
-  radar_model = 1,
-  state_machine = 2,
-  recorder = 3,
-  clock = 4,
-  traffic = 5,
-  glass_frames = 6
-};
-std::string_view name_of(Role role);
-
-// Lock bytes of the segment file: roles at their number, then a block for each kind of lane and for the table.
-inline constexpr std::size_t kFirstOwnshipByte = 8;
-inline constexpr std::size_t kFirstInputByte = 16;
-inline constexpr std::size_t kFirstProcessByte = 32;
-static_assert(kFirstOwnshipByte + kOwnshipLanes <= kFirstInputByte);
-static_assert(kFirstInputByte + kInputLanes <= kFirstProcessByte);
-static_assert(kFirstProcessByte + kProcesses <= shm::kLockBytes);
 
 // Whether to wait for who changes the clock just now: a tick may not.
 enum class Patience { none, some };
@@ -44,29 +26,13 @@ struct ProcessHere {
   std::uint32_t progress;     // see ProcessEntry
 };
 
-// A byte lock held; the kernel frees it when the process dies. Moving it moves the lock.
-class Claim {
- public:
-  Claim();
-  Claim(Claim&& other) noexcept;
-  Claim& operator=(Claim&& other) noexcept;
-  ~Claim();
-  int lane() const { return lane_; }  // index of the ownship or input lane; -1 for a role
-
- private:
-  friend class Session;
-  struct Hold;
-  std::unique_ptr<Hold> hold_;
-  int lane_ = -1;
-};
-
 class Session {
  public:
   // Attaches to the session, or creates it. `process_name` goes into the process table, for people.
-  static failure::Expected<Session> open(const std::string& name, std::string_view process_name);
+  static error::Expected<Session> open(const std::string& name, std::string_view process_name);
   // For readers that come and go: maps read-only, is not in the process table, holds no lock. Claims and changes of
   // the clock are refused, heartbeats and notes go nowhere. Where the session has no good clock, time stands at 0.
-  static failure::Expected<Session> open_read_only(const std::string& name);
+  static error::Expected<Session> open_read_only(const std::string& name);
 
   bool created() const;   // this call made the session
   bool has_name() const;  // false: somebody removed the segment's file; the session goes on (docs/operation.md)
@@ -77,9 +43,9 @@ class Session {
   SessionLayout& layout();  // only of a session opened for writing
   const SessionLayout& layout() const;
 
-  failure::Expected<Claim> claim(Role role);                            // an error names the holder's pid and program
-  failure::Expected<Claim> claim_ownship_lane(std::uint32_t priority);  // higher wins; clears what a dead writer left
-  failure::Expected<Claim> claim_input_lane(std::string_view source);
+  error::Expected<Claim> claim(Role role);                            // an error names the holder's pid and program
+  error::Expected<Claim> claim_ownship_lane(std::uint32_t priority);  // higher wins; clears what a dead writer left
+  error::Expected<Claim> claim_input_lane(std::string_view source);
 
   bool role_is_held(Role role) const;         // by any process, this one included
   std::int32_t role_holder(Role role) const;  // its pid; 0 = nobody holds it
@@ -103,9 +69,9 @@ class Session {
   void keep_clock(Patience patience = Patience::none);
   // Takes the clock's byte for the moment of the change, so that of two changes at once none is lost. A state out of
   // range is an error and changes nothing.
-  failure::Expected<void> change_clock(const std::function<ClockState(const ClockState&)>& change,
-                                       Patience patience = Patience::some);
-  failure::Expected<void> set_clock(const ClockState& state);
+  error::Expected<void> change_clock(const std::function<ClockState(const ClockState&)>& change,
+                                     Patience patience = Patience::some);
+  error::Expected<void> set_clock(const ClockState& state);
 
   // A line into the flight recorder (also counted): refusals, restarts, losses, late ticks. Of lines of one kind
   // (RepeatFilter) three pass within 10 s, the rest are counted and told in one line by heartbeat().
@@ -115,18 +81,13 @@ class Session {
   void count_restart(std::string_view role);
 
  private:
-  struct State;
-  explicit Session(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  explicit Session(std::unique_ptr<SessionState> state);
+  std::unique_ptr<SessionState> state_;
 };
 
 // A session's name is part of a path: 1 to 40 letters, digits, `-` or `_`. An error of bad usage.
-failure::Expected<void> check_session_name(const std::string& name);
+error::Expected<void> check_session_name(const std::string& name);
 // Index of a role in Counters::restarts, by its name in the process table; nothing for a name that is none.
 std::optional<std::size_t> counted_role(std::string_view name);
-
-std::int64_t monotonic_ns();  // [ns] CLOCK_MONOTONIC
-// Sim time [ns] at a moment of CLOCK_MONOTONIC: base + rate x elapsed while running; before the base, the base.
-std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns);
 
 }  // namespace yars::databuffer

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 #include "databuffer/messages/model_records.hpp"
 #include "databuffer/messages/pictures.hpp"
@@ -81,8 +82,9 @@ struct Note {
 static_assert(sizeof(Note) == 128);
 
 // Who steps when the session runs in lockstep: each role waits until its predecessor in the chain has done the tick.
-// flight-model, input-monitor, state-machine, radar-model, radar-display, recorder
 inline constexpr std::size_t kLockstepRoles = 6;
+inline constexpr std::array<std::string_view, kLockstepRoles> kLockstepRoleNames{
+    "flight-model", "input-monitor", "state-machine", "radar-model", "radar-display", "recorder"};
 struct Lockstep {
   std::atomic<std::uint32_t> enabled;                               // set by the first role that steps
   std::atomic<std::uint32_t> roles;                                 // bit n: role n takes part

@@ -1,8 +1,11 @@
 #include "databuffer/session/session_state.hpp"
 
+#include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <thread>
@@ -29,6 +32,48 @@ void copy_text(char (&into)[N], std::string_view text) {
 
 }  // namespace
 
+std::string_view name_of(Role role) {
+  switch (role) {
+    case Role::radar_model:
+      return "radar-model";
+    case Role::state_machine:
+      return "state-machine";
+    case Role::recorder:
+      return "recorder";
+    case Role::clock:
+      return "clock";
+    case Role::traffic:
+      return "traffic";
+    case Role::glass_frames:
+      return "glass frames";
+  }
+  return "unknown role";
+}
+
+std::int64_t monotonic_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+
+std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns) {
+  if (clock.running == 0) return clock.base_sim_ns;
+  // A base yet to come has nothing elapsed: sim time never is before it.
+  const std::int64_t elapsed = std::max<std::int64_t>(monotonic_ns - clock.base_monotonic_ns, 0);
+  // At rate 1 no rounding: integer nanoseconds outlast the 53 bits of a double.
+  if (clock.rate == 1.0) return clock.base_sim_ns + elapsed;
+  return clock.base_sim_ns + static_cast<std::int64_t>(std::llround(clock.rate * static_cast<double>(elapsed)));
+}
+
+Claim::Claim() = default;
+Claim::Claim(Claim&& other) noexcept : hold_(std::move(other.hold_)), lane_(std::exchange(other.lane_, -1)) {}
+Claim& Claim::operator=(Claim&& other) noexcept {
+  hold_ = std::move(other.hold_);
+  lane_ = std::exchange(other.lane_, -1);
+  return *this;
+}
+Claim::~Claim() = default;
+
 ClockState first_clock() {
   ClockState clock{};
   clock.base_monotonic_ns = monotonic_ns();
@@ -41,7 +86,7 @@ ClockState first_clock() {
 
 // Published before the segment had a name, and changed seldom: as a rule the first look finds it. A bad one is mended
 // by state-machine within a tick.
-bool Session::State::find_clock() {
+bool SessionState::find_clock() {
   for (int attempt = 0; attempt < kClockAttempts; ++attempt) {
     if (clock.refresh() && !why_refused(clock.value())) {
       good_clock = clock.value();
@@ -54,14 +99,14 @@ bool Session::State::find_clock() {
   return false;
 }
 
-std::optional<std::string> Session::State::clock_problem() const {
+std::optional<std::string> SessionState::clock_problem() const {
   ClockState there{};
   if (!read().clock.read(there)) return "expected one that can be read, found none";
   return why_refused(there);
 }
 
 // A full table is no failure: it is for people, presence is decided by locks.
-void Session::State::enter_table() {
+void SessionState::enter_table() {
   for (std::size_t i = 0; i < kProcesses; ++i) {
     if (!segment->try_lock(kFirstProcessByte + i)) continue;
     table_byte = kFirstProcessByte + i;
@@ -74,20 +119,20 @@ void Session::State::enter_table() {
 }
 
 // Others may write there: who has lost name or pid would pass for gone.
-void Session::State::keep_entry() {
+void SessionState::keep_entry() {
   ProcessEntry& entry = write().processes[table_byte - kFirstProcessByte];
   shm::store_text(entry.name.data(), entry.name.size(), process_name);
   entry.pid.store(getpid(), std::memory_order_release);
 }
 
-void Session::State::leave_table() {
+void SessionState::leave_table() {
   if (table_byte == 0) return;
   write().processes[table_byte - kFirstProcessByte].pid = 0;
   segment->unlock(table_byte);
 }
 
 // "state-machine, pid 1234": by the table, else by the system.
-std::string Session::State::describe_holder(std::size_t byte) const {
+std::string SessionState::describe_holder(std::size_t byte) const {
   const std::int32_t pid = segment->holder_pid(byte);
   if (pid == 0) return "a process that is just starting or ending";
   std::string program = program_of(pid);
@@ -96,7 +141,7 @@ std::string Session::State::describe_holder(std::size_t byte) const {
   return program + ", pid " + std::to_string(pid);
 }
 
-std::optional<Claim> Session::State::take(std::size_t byte, int lane) {
+std::optional<Claim> SessionState::take(std::size_t byte, int lane) {
   if (!segment->try_lock(byte)) return std::nullopt;
   Claim claim;
   claim.hold_ = std::make_unique<Claim::Hold>(segment, byte);
@@ -105,7 +150,7 @@ std::optional<Claim> Session::State::take(std::size_t byte, int lane) {
 }
 
 // One out of range is refused, noted once, and the last good one goes on.
-ClockState Session::State::clock_now() {
+ClockState SessionState::clock_now() {
   std::unique_lock guard(clock_mutex);
   if (!clock.refresh()) return good_clock;
   const auto refusal = why_refused(clock.value());
@@ -116,14 +161,14 @@ ClockState Session::State::clock_now() {
   return now;
 }
 
-std::array<RepeatFilter, kNoteKinds> Session::State::filters() {
+std::array<log::RepeatFilter, kNoteKinds> SessionState::filters() {
   constexpr int kMostOfAKind = 3;
   constexpr int kMostOfAll = 20;  // and of each kind of note: a set of six fills 1,000 lines in half a minute at most
-  const RepeatFilter filter(kMostOfAKind, kMostOfAll);
+  const log::RepeatFilter filter(kMostOfAKind, kMostOfAll);
   return {filter, filter, filter, filter, filter};
 }
 
-void Session::State::note(NoteKind kind, std::string_view text, std::string_view process) {
+void SessionState::note(NoteKind kind, std::string_view text, std::string_view process) {
   if (!segment->writable()) return;
   const std::int64_t now_ns = monotonic_ns();
   const auto index = static_cast<std::size_t>(kind);
@@ -138,7 +183,7 @@ void Session::State::note(NoteKind kind, std::string_view text, std::string_view
     write().counters.notes_folded.fetch_add(1, std::memory_order_relaxed);
 }
 
-void Session::State::write_note(NoteKind kind, std::string_view text, std::string_view process) {
+void SessionState::write_note(NoteKind kind, std::string_view text, std::string_view process) {
   Note line{};
   line.monotonic_ns = monotonic_ns();
   line.sim_time_ns = sim_time_at(clock_now(), line.monotonic_ns);
@@ -150,7 +195,7 @@ void Session::State::write_note(NoteKind kind, std::string_view text, std::strin
 }
 
 // The count comes first: the text is cut to its place.
-void Session::State::tell_left_out(std::int64_t now_ns, bool all) {
+void SessionState::tell_left_out(std::int64_t now_ns, bool all) {
   if (!segment->writable()) return;
   for (std::size_t kind = 0; kind < note_filters.size(); ++kind) {
     std::unique_lock guard(notes_mutex);
@@ -163,7 +208,7 @@ void Session::State::tell_left_out(std::int64_t now_ns, bool all) {
 
 // Called where a lane is claimed and given up in order: a source that dies is missing from then on. The yars commands
 // come and go and do not count.
-bool Session::State::count_input_sources() {
+bool SessionState::count_input_sources() {
   if (process_name.starts_with("yars ")) return false;
   std::uint64_t held = 0;
   for (std::size_t lane = 0; lane < kInputLanes; ++lane)
@@ -172,12 +217,12 @@ bool Session::State::count_input_sources() {
   return true;
 }
 
-void Session::State::look_for_name() {
+void SessionState::look_for_name() {
   if (!had_name) return;
   had_name = segment->has_name();
   if (had_name) return;
   note(NoteKind::supervision, "the segment's name was removed (RemoveIPC?); the set goes on without", process_name);
-  log_error(
+  log::error(
       "the segment's file in /dev/shm was removed by somebody else: as a rule by systemd-logind, whose RemoveIPC=yes "
       "does so when a user's last login ends. The set goes on, and what joins it finds it all the same; to keep the "
       "file: loginctl enable-linger, or RemoveIPC=no in /etc/systemd/logind.conf");

@@ -1,5 +1,5 @@
-// What a Session and a Claim hold: the segment, the place in the process table, the clock as it was last believed. For
-// session.cpp and session_state.cpp alone.
+// Roles and claims of a session, its clock, and what a Session holds: the segment, the place in the process table, the
+// clock as it was last believed.
 #pragma once
 
 #include <array>
@@ -12,10 +12,50 @@
 #include <string_view>
 #include <utility>
 
-#include "databuffer/session/session.hpp"
+#include "databuffer/session/session_layout.hpp"
 #include "lib/log/log.hpp"
 
 namespace yars::databuffer {
+
+// Writers of which a session has one; the number is the byte of the segment file that its holder locks.
+enum class Role : std::uint8_t {
+  radar_model = 1,
+  state_machine = 2,
+  recorder = 3,
+  clock = 4,
+  traffic = 5,
+  glass_frames = 6
+};
+std::string_view name_of(Role role);
+
+// Lock bytes of the segment file: roles at their number, then a block for each kind of lane and for the table.
+inline constexpr std::size_t kFirstOwnshipByte = 8;
+inline constexpr std::size_t kFirstInputByte = 16;
+inline constexpr std::size_t kFirstProcessByte = 32;
+static_assert(kFirstOwnshipByte + kOwnshipLanes <= kFirstInputByte);
+static_assert(kFirstInputByte + kInputLanes <= kFirstProcessByte);
+static_assert(kFirstProcessByte + kProcesses <= shm::kLockBytes);
+
+std::int64_t monotonic_ns();  // [ns] CLOCK_MONOTONIC
+// Sim time [ns] at a moment of CLOCK_MONOTONIC: base + rate x elapsed while running; before the base, the base.
+std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns);
+
+// A byte lock held; the kernel frees it when the process dies. Moving it moves the lock.
+class Claim {
+ public:
+  Claim();
+  Claim(Claim&& other) noexcept;
+  Claim& operator=(Claim&& other) noexcept;
+  ~Claim();
+  int lane() const { return lane_; }  // index of the ownship or input lane; -1 for a role
+
+ private:
+  friend class Session;
+  friend struct SessionState;
+  struct Hold;
+  std::unique_ptr<Hold> hold_;
+  int lane_ = -1;
+};
 
 inline constexpr int kClockAttempts = 200;  // of 1 ms: another `yars sim` holds the clock for far less
 
@@ -56,16 +96,17 @@ struct Claim::Hold {
   }
 };
 
-struct Session::State {
-  State(shm::Segment opened, std::string_view process)
+// For session.cpp and session_state.cpp alone.
+struct SessionState {
+  SessionState(shm::Segment opened, std::string_view process)
       : segment(std::make_shared<shm::Segment>(std::move(opened))), process_name(process), clock(read().clock) {}
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-  ~State() {
+  SessionState(const SessionState&) = delete;
+  SessionState& operator=(const SessionState&) = delete;
+  ~SessionState() {
     tell_left_out(monotonic_ns(), true);
     leave_table();
   }
-  static std::array<RepeatFilter, kNoteKinds> filters();
+  static std::array<log::RepeatFilter, kNoteKinds> filters();
 
   SessionLayout& write() { return layout_of(*segment); }
   const SessionLayout& read() const { return *static_cast<const SessionLayout*>(std::as_const(*segment).memory()); }
@@ -90,7 +131,7 @@ struct Session::State {
   std::int64_t next_look_ns = 0;  // CLOCK_MONOTONIC
   bool had_name = true;
   std::mutex notes_mutex;  // of this process's threads only
-  std::array<RepeatFilter, kNoteKinds> note_filters = filters();
+  std::array<log::RepeatFilter, kNoteKinds> note_filters = filters();
   std::mutex clock_mutex;  // of this process's threads only
   shm::LatestReader<ClockState> clock;
   ClockState good_clock{};  // the last one that is in range

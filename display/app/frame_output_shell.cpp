@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "databuffer/runtime/program.hpp"
+#include "lib/error/error.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "lib/file/output_file.hpp"
 #include "lib/log/log.hpp"
@@ -50,13 +50,13 @@ FrameWriter::FrameWriter(std::shared_ptr<const file::Folder> folder, std::size_t
   if (keep_ > 0) names_ = frames_in(folder_->path());
 }
 
-failure::Expected<FrameWriter> FrameWriter::create(const std::filesystem::path& folder, std::size_t keep) {
+error::Expected<FrameWriter> FrameWriter::create(const std::filesystem::path& folder, std::size_t keep) {
   auto opened = file::Folder::make_private(folder);
   if (!opened) return tl::unexpected(opened.error());
   return FrameWriter(std::make_shared<const file::Folder>(std::move(*opened)), keep);
 }
 
-failure::Expected<void> FrameWriter::write(const imageio::Image& image, std::int64_t number) {
+error::Expected<void> FrameWriter::write(const imageio::Image& image, std::int64_t number) {
   std::array<char, 40> name{};
   std::snprintf(name.data(), name.size(), "frame_%06" PRId64 ".png", number);
   make_room_for(name.data());
@@ -82,13 +82,13 @@ constexpr int kMostPixels = static_cast<int>(databuffer::kMostFramePixels);
 
 }  // namespace
 
-failure::Expected<FramePublisher> FramePublisher::create(databuffer::Session& session, int size) {
+error::Expected<FramePublisher> FramePublisher::create(databuffer::Session& session, int size) {
   if (size > kMostPixels)
-    return tl::unexpected(databuffer::usage_error(
+    return tl::unexpected(error::usage_error(
         "--publish", "a glass of at most " + std::to_string(kMostPixels) + " pixels, as a frame in the segment has",
         std::to_string(size), "give --size " + std::to_string(kMostPixels) + " or less"));
   auto claim = session.claim(databuffer::Role::glass_frames);
-  if (!claim) return tl::unexpected(databuffer::usage_error(claim.error()));
+  if (!claim) return tl::unexpected(error::usage_error(claim.error()));
   return FramePublisher(session, std::move(*claim));
 }
 
@@ -101,7 +101,7 @@ void FramePublisher::work(host::Glass& glass, int size) {
   while (glass.take_read(picture_)) publish();
   if (size > kMostPixels) {
     if (!std::exchange(told_of_size_, true))
-      databuffer::log_warning("the window is larger than a frame may be (" + std::to_string(kMostPixels) +
+      log::warning("the window is larger than a frame may be (" + std::to_string(kMostPixels) +
                               " pixels): none is published until it is smaller");
     return;
   }

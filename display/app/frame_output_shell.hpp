@@ -46,9 +46,9 @@ class FrameWriter {
  public:
   // Makes the folder, mode 0700. Only the `keep` newest frames stay in it, those of earlier runs among them; 0: all
   // stay. An error: folder.hpp's make_private.
-  static failure::Expected<FrameWriter> create(const std::filesystem::path& folder, std::size_t keep = 0);
+  static error::Expected<FrameWriter> create(const std::filesystem::path& folder, std::size_t keep = 0);
 
-  failure::Expected<void> write(const imageio::Image& image, std::int64_t number);
+  error::Expected<void> write(const imageio::Image& image, std::int64_t number);
 
  private:
   FrameWriter(std::shared_ptr<const file::Folder> folder, std::size_t keep);
@@ -66,7 +66,7 @@ class FramePublisher {
  public:
   // `size` [pixels] of the glass. Errors, all of the command line: a glass that the pool has no room for, another
   // process that publishes.
-  static failure::Expected<FramePublisher> create(databuffer::Session& session, int size);
+  static error::Expected<FramePublisher> create(databuffer::Session& session, int size);
 
   // The glass has painted another picture.
   void note_painted() { unpublished_ = true; }

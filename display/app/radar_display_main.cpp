@@ -7,6 +7,8 @@
 #include <thread>
 #include <utility>
 
+#include "databuffer/runtime/process.hpp"
+#include "config/schema/load.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "databuffer/runtime/tick_loop.hpp"
 #include "display/app/frame_output_shell.hpp"
@@ -56,7 +58,7 @@ class HeadlessGlass {
   }
 
   // Every picture shows exactly the tick of its step, in the folder and in the segment.
-  failure::Expected<void> look_in_lockstep(std::int64_t sim_time_ns) {
+  error::Expected<void> look_in_lockstep(std::int64_t sim_time_ns) {
     glass_.update(sim_time_ns);
     if (!steps_.is_due(sim_time_ns)) return {};
     if (paint() && publisher_) publisher_->publish_at_once(glass_);
@@ -64,7 +66,7 @@ class HeadlessGlass {
   }
 
   // An error: the last frame could not be written.
-  failure::Expected<void> end(std::int64_t sim_time_ns) {
+  error::Expected<void> end(std::int64_t sim_time_ns) {
     glass_.update(sim_time_ns);
     if (paint() && publisher_) publisher_->publish_at_once(glass_);
     return write(steps_.last_number(sim_time_ns));
@@ -84,7 +86,7 @@ class HeadlessGlass {
     return true;
   }
 
-  failure::Expected<void> write(std::int64_t number) {
+  error::Expected<void> write(std::int64_t number) {
     if (frames_) {
       if (auto written = frames_->write(glass_.read(), number); !written) return written;
     }
@@ -93,14 +95,14 @@ class HeadlessGlass {
   }
 
   // Told once in log and flight recorder, and in the status while it lasts.
-  void settle(const failure::Expected<void>& written) {
+  void settle(const error::Expected<void>& written) {
     const bool failing = !written;
     session_.layout().counters.frames_failing.store(failing ? 1 : 0);
     if (failing == std::exchange(failing_, failing)) return;
     const std::string line = failing ? "frames are not written: " + written.error().found : "frames are written again";
     session_.note(databuffer::NoteKind::loss, line);
-    failing ? databuffer::log_warning(written.error().message() + "; each frame tries again")
-            : databuffer::log_info(line);
+    failing ? log::warning(written.error().message() + "; each frame tries again")
+            : log::info(line);
   }
 
   databuffer::Session& session_;
@@ -113,7 +115,7 @@ class HeadlessGlass {
   std::int64_t next_frame_ns_ = 0;  // CLOCK_MONOTONIC
 };
 
-failure::Expected<void> run_headless_live(databuffer::Session& session, HeadlessGlass& glass) {
+error::Expected<void> run_headless_live(databuffer::Session& session, HeadlessGlass& glass) {
   while (!databuffer::stop_requested()) {
     glass.look(session.sim_time_ns());
     std::this_thread::sleep_for(kHeadlessLook);
@@ -122,7 +124,7 @@ failure::Expected<void> run_headless_live(databuffer::Session& session, Headless
 }
 
 // Steps with the set.
-failure::Expected<void> run_headless_lockstep(databuffer::TickLoop& loop, HeadlessGlass& glass) {
+error::Expected<void> run_headless_lockstep(databuffer::TickLoop& loop, HeadlessGlass& glass) {
   std::int64_t last_ns = 0;
   while (const auto due = loop.wait()) {
     last_ns = due->sim_time_ns;
@@ -133,7 +135,7 @@ failure::Expected<void> run_headless_lockstep(databuffer::TickLoop& loop, Headle
   return glass.end(last_ns);
 }
 
-failure::Expected<void> run_headless(databuffer::Session& session, const radar::RadarConfiguration& configuration,
+error::Expected<void> run_headless(databuffer::Session& session, const radar::RadarConfiguration& configuration,
                                      const databuffer::ProgramOptions& options, const DisplayOptions& display_options,
                                      int size, std::optional<display::FramePublisher> publisher) {
   std::optional<display::FrameWriter> frames;
@@ -144,7 +146,7 @@ failure::Expected<void> run_headless(databuffer::Session& session, const radar::
   }
   auto context = display::gl::open_headless();
   if (!context) return tl::unexpected(context.error());
-  databuffer::log_info("draws by " + display::gl::renderer_name() + ", frames go to " +
+  log::info("draws by " + display::gl::renderer_name() + ", frames go to " +
                        (frames ? display_options.frames : "the segment"));
   Glass glass(session, configuration, !options.lockstep.empty());
   HeadlessGlass headless(session, glass, size, display_options, std::move(frames), std::move(publisher));
@@ -205,12 +207,12 @@ class WindowGlass {
   bool stale_ = true;                // the window shows something else than the glass
 };
 
-failure::Expected<void> run_window(databuffer::Session& session, const radar::RadarConfiguration& configuration,
+error::Expected<void> run_window(databuffer::Session& session, const radar::RadarConfiguration& configuration,
                                    const databuffer::ProgramOptions& options, int size,
                                    std::optional<display::FramePublisher> publisher) {
   auto window = display::gl::open_window("YARS " + configuration.name + " - " + options.session, size);
   if (!window) return tl::unexpected(window.error());
-  databuffer::log_info("draws by " + display::gl::renderer_name());
+  log::info("draws by " + display::gl::renderer_name());
   auto pilot = display::PilotInput::create(session, "radar-display");
   if (!pilot) return tl::unexpected(pilot.error());
   Glass glass(session, configuration, !options.lockstep.empty());
@@ -233,10 +235,10 @@ failure::Expected<void> run_window(databuffer::Session& session, const radar::Ra
   return loop->outcome();
 }
 
-failure::Expected<void> run(const databuffer::ProgramOptions& options, const DisplayOptions& display_options) {
+error::Expected<void> run(const databuffer::ProgramOptions& options, const DisplayOptions& display_options) {
   if (display_options.headless && display_options.frames.empty() && !display_options.publish)
-    return tl::unexpected(databuffer::usage_error("--headless", "--frames DIR or --publish with it", "neither"));
-  auto configuration = databuffer::load_program_configuration(options);
+    return tl::unexpected(error::usage_error("--headless", "--frames DIR or --publish with it", "neither"));
+  auto configuration = config::load_program_configuration(options.config);
   if (!configuration) return tl::unexpected(configuration.error());
   auto session = databuffer::Session::open(options.session, "radar-display");
   if (!session) return tl::unexpected(session.error());

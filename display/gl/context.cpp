@@ -50,19 +50,19 @@ class HeadlessContext final : public Context {
 constexpr const char* kLibrary = "libEGL.so.1";
 constexpr const char* kInstall = "install libegl1 and libgl1-mesa-dri";
 
-failure::Expected<std::unique_ptr<Context>> no_context(const char* step) {
+error::Expected<std::unique_ptr<Context>> no_context(const char* step) {
   std::array<char, 16> code{};
   std::snprintf(code.data(), code.size(), "0x%04x", static_cast<unsigned>(eglGetError()));
-  return failure::fail("headless display", "OpenGL 3.3 through EGL", std::string(step) + " failed with " + code.data(),
+  return error::fail("headless display", "OpenGL 3.3 through EGL", std::string(step) + " failed with " + code.data(),
                        kInstall);
 }
 
 // epoxy ends the program where it cannot open the library; so it is opened here first, and stays.
-failure::Expected<void> open_library() {
+error::Expected<void> open_library() {
   static const void* const library = dlopen(kLibrary, RTLD_LAZY | RTLD_LOCAL);
   if (library != nullptr) return {};
   const char* why = dlerror();
-  return failure::fail("headless display", kLibrary, why != nullptr ? why : "none that can be opened", kInstall);
+  return error::fail("headless display", kLibrary, why != nullptr ? why : "none that can be opened", kInstall);
 }
 
 EGLDisplay initialized(EGLDisplay display) {
@@ -83,7 +83,7 @@ EGLDisplay open_display() {
 
 }  // namespace
 
-failure::Expected<std::unique_ptr<Context>> open_headless() {
+error::Expected<std::unique_ptr<Context>> open_headless() {
   if (const auto library = open_library(); !library) return tl::unexpected(library.error());
   const EGLDisplay display = open_display();
   if (display == EGL_NO_DISPLAY) return no_context("eglInitialize");
@@ -220,18 +220,18 @@ bool is_set(const char* variable) {
   return value != nullptr && *value != '\0';
 }
 
-failure::Expected<std::unique_ptr<Window>> no_window() {
+error::Expected<std::unique_ptr<Window>> no_window() {
   const char* description = nullptr;
   glfwGetError(&description);
-  return failure::fail("window", "OpenGL 3.3 on the display", description == nullptr ? "no reason given" : description,
+  return error::fail("window", "OpenGL 3.3 on the display", description == nullptr ? "no reason given" : description,
                        "use --headless --frames DIR");
 }
 
 }  // namespace
 
-failure::Expected<std::unique_ptr<Window>> open_window(const std::string& title, int size) {
+error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, int size) {
   if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) {
-    return failure::fail("window", "a display in DISPLAY or WAYLAND_DISPLAY", "neither", "use --headless --frames DIR");
+    return error::fail("window", "a display in DISPLAY or WAYLAND_DISPLAY", "neither", "use --headless --frames DIR");
   }
   if (glfwInit() != GLFW_TRUE) return no_window();
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);

@@ -29,7 +29,7 @@ std::string renderer_name();
 
 // A context without a display: EGL on Mesa's surfaceless platform, else on the default display with a pixel buffer
 // of one pixel. Pictures go to a framebuffer object and are read back.
-failure::Expected<std::unique_ptr<Context>> open_headless();
+error::Expected<std::unique_ptr<Context>> open_headless();
 
 // A window with the glass in it: a context, the keyboard, and clicks in glass units.
 struct KeyEdge {
@@ -59,6 +59,6 @@ class Window : public Context {
 };
 
 // `size`: edge of the window. Without DISPLAY or WAYLAND_DISPLAY the error says to go headless.
-failure::Expected<std::unique_ptr<Window>> open_window(const std::string& title, int size);
+error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, int size);
 
 }  // namespace yars::display::gl

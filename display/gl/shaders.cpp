@@ -60,7 +60,7 @@ GLuint compiled(GLenum kind, const char* name, const char* source) {
   if (good != GL_TRUE) {
     Log log{};
     glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    failure::requirement_broken(name, log.data(), __FILE__, __LINE__);
+    error::requirement_broken(name, log.data(), __FILE__, __LINE__);
   }
   return shader;
 }
@@ -81,7 +81,7 @@ ShaderProgram::ShaderProgram(const char* name, const char* vertex_source, const 
   if (good != GL_TRUE) {
     Log log{};
     glGetProgramInfoLog(program_, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    failure::requirement_broken(name, log.data(), __FILE__, __LINE__);
+    error::requirement_broken(name, log.data(), __FILE__, __LINE__);
   }
 }
 

@@ -37,7 +37,7 @@ struct Glass::State {
               glass.add(map, pixels);
             }) {}
 
-  failure::Expected<PilotInput*> pilot_of_session() {
+  error::Expected<PilotInput*> pilot_of_session() {
     if (!pilot) {
       auto created = PilotInput::create(*session, name);
       if (!created) return tl::unexpected(created.error());
@@ -67,14 +67,14 @@ Glass::Glass(databuffer::Session& session, const radar::RadarConfiguration& conf
   state_ = std::make_unique<State>(std::nullopt, &session, configuration, lockstep);
 }
 
-failure::Expected<Glass> Glass::attach(const Place& place) {
+error::Expected<Glass> Glass::attach(const Place& place) {
   if (const int version = gl::opengl_version(); version < kNeededOpengl)
-    return failure::fail("glass", "a current context of OpenGL 3.3 or later",
+    return error::fail("glass", "a current context of OpenGL 3.3 or later",
                          version == 0 ? "none" : std::to_string(version / 10) + "." + std::to_string(version % 10),
                          "make one current on this thread first");
   auto configuration = config::load_configuration(place.configuration);
   if (!configuration) return tl::unexpected(configuration.error());
-  for (const std::string& warning : configuration->warnings) databuffer::log_warning(warning);
+  for (const std::string& warning : configuration->warnings) log::warning(warning);
   auto session = databuffer::Session::open(place.session, place.name);
   if (!session) return tl::unexpected(session.error());
   const gl::PlainState plain;
@@ -137,16 +137,16 @@ bool Glass::wait_for_read(Picture& picture) {
   return state_->readback.take(picture, gl::Patience::until_it_is_there);
 }
 
-failure::Expected<void> Glass::press(int button) {
+error::Expected<void> Glass::press(int button) {
   if (button < 1 || button > kButtons)
-    return failure::fail("glass", "a button 1 to 20", std::to_string(button), "see display/symbology/readouts.hpp");
+    return error::fail("glass", "a button 1 to 20", std::to_string(button), "see display/symbology/readouts.hpp");
   auto pilot = state_->pilot_of_session();
   if (!pilot) return tl::unexpected(pilot.error());
   (*pilot)->press(button);
   return {};
 }
 
-failure::Expected<bool> Glass::click(double right, double down) {
+error::Expected<bool> Glass::click(double right, double down) {
   auto pilot = state_->pilot_of_session();
   if (!pilot) return tl::unexpected(pilot.error());
   return (*pilot)->click({static_cast<float>(right) * kGlassUnits, static_cast<float>(down) * kGlassUnits});

@@ -40,7 +40,7 @@ struct Place {
 class Glass {
  public:
   // Errors: no such configuration, another user's or another build's session, OpenGL older than 3.3.
-  static failure::Expected<Glass> attach(const Place& place);
+  static error::Expected<Glass> attach(const Place& place);
   // For a program that takes part already; the session outlives the glass. In lockstep, time is that of update().
   Glass(databuffer::Session& session, const radar::RadarConfiguration& configuration, bool lockstep);
   Glass(Glass&&) noexcept;
@@ -70,8 +70,8 @@ class Glass {
 
   // What the pilot does on the glass goes to the set: a button 1..20; or a touch at fractions of the glass's edge from
   // its upper left corner, false when no button's legend is there. Error: all input lanes of the session are taken.
-  failure::Expected<void> press(int button);
-  failure::Expected<bool> click(double right, double down);
+  error::Expected<void> press(int button);
+  error::Expected<bool> click(double right, double down);
 
  private:
   struct State;

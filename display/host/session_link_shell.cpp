@@ -142,10 +142,10 @@ void GlassFeed::take_sweeps() {
   if (lost == 0) return;
   const std::string text = "glass lost " + std::to_string(lost) + " sweeps";
   session_->note(databuffer::NoteKind::loss, text);
-  databuffer::log_warning(text);
+  log::warning(text);
 }
 
-failure::Expected<PilotInput> PilotInput::create(databuffer::Session& session, std::string_view source) {
+error::Expected<PilotInput> PilotInput::create(databuffer::Session& session, std::string_view source) {
   auto claim = session.claim_input_lane(source);
   if (!claim) return tl::unexpected(claim.error());
   return PilotInput(session, std::move(*claim));
@@ -181,7 +181,7 @@ void PilotInput::push(databuffer::InputEvent event) {
   event.monotonic_ns = databuffer::monotonic_ns();
   event.number = ++number_;
   if (session_->layout().input.push(static_cast<std::size_t>(claim_.lane()), event)) return;
-  databuffer::log_warning("the state machine takes no events: '" + databuffer::text_of(event) + "' is dropped");
+  log::warning("the state machine takes no events: '" + databuffer::text_of(event) + "' is dropped");
 }
 
 }  // namespace yars::display

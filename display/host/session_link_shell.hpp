@@ -62,7 +62,7 @@ class GlassFeed {
 class PilotInput {
  public:
   // `source`: who sends, as `yars status` shows it.
-  static failure::Expected<PilotInput> create(databuffer::Session& session, std::string_view source);
+  static error::Expected<PilotInput> create(databuffer::Session& session, std::string_view source);
 
   void press(int button);  // 1..20
   // The button whose legend lies under the click, if any, is pressed; false: none.

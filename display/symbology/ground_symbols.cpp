@@ -63,7 +63,7 @@ void draw_symbol(const databuffer::DrawnPoint& point, std::span<const radar::Rou
       draw_triangle(at, false, list);
       return;
     case radar::PointKind::steer_offset:
-      if (is_offset_of_initial_point(databuffer::text_of(point.name), route)) {
+      if (is_offset_of_initial_point(text::text_of(point.name), route)) {
         draw_square(at, true, list);
       } else {
         list.circle(at, kRadius, true);
@@ -90,7 +90,7 @@ std::span<const databuffer::DrawnPoint> points_of(const databuffer::RadarState& 
 NameRank rank_of(const databuffer::DrawnPoint& point, const databuffer::RadarState& state) {
   if (point.selected != 0) return NameRank::selected;
   const bool designated = (state.flags & databuffer::kTargetDesignated) != 0 &&
-                          databuffer::text_of(point.name) == databuffer::text_of(state.target_name);
+                          text::text_of(point.name) == text::text_of(state.target_name);
   return designated ? NameRank::target : NameRank::other;
 }
 
@@ -149,7 +149,7 @@ PlacedPoints place_points(const GlassInput& input, const GlassView& view, const 
   const auto points = points_of(input.state);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point at = view.at_ground(frame, belief.on_video({points[i].latitude_deg, points[i].longitude_deg}));
-    const float margin = labels.names(databuffer::text_of(points[i].name)) ? kMarginToStay : kMarginToCome;
+    const float margin = labels.names(text::text_of(points[i].name)) ? kMarginToStay : kMarginToCome;
     if (on_glass(at) && (points[i].selected != 0 || !is_covered(at, margin, list))) placed[i] = at;
   }
   return placed;
@@ -173,7 +173,7 @@ void add_names(const databuffer::RadarState& state, const PlacedPoints& placed, 
   const auto points = points_of(state);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (placed[i] && rank_of(points[i], state) == rank)
-      queue.add(label_of(LabelRole::name, databuffer::text_of(points[i].name), *placed[i]));
+      queue.add(label_of(LabelRole::name, text::text_of(points[i].name), *placed[i]));
   }
 }
 

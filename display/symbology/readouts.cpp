@@ -72,7 +72,7 @@ constexpr float kAboveLegend = 15.5F;  // [units] from a legend of the bottom ro
 constexpr float kBannerText = 18.0F;   // [units]
 constexpr float kSilentText = 13.0F;   // [units]
 
-using databuffer::text_of;
+using text::text_of;
 using Buffer = std::array<char, 40>;
 
 std::string_view formatted(Buffer& buffer, const char* format, double value) {

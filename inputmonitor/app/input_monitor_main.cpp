@@ -9,13 +9,13 @@
 namespace {
 
 using namespace yars;
-using failure::Expected;
+using error::Expected;
 
 // The maps that are built in, then those of the configuration: the last that fits is taken.
 Expected<inputmonitor::DeviceMaps> device_maps(const databuffer::ProgramOptions& options) {
   auto built_in = config::load_configuration_text(config::shipped_devices_text(), "config/devices.guf");
   if (!built_in) return tl::unexpected(built_in.error());
-  const auto own = databuffer::load_program_configuration(options);
+  const auto own = config::load_program_configuration(options.config);
   if (!own) return tl::unexpected(own.error());
   std::vector<radar::Device> maps = std::move(built_in->radar.devices);
   maps.insert(maps.end(), own->devices.begin(), own->devices.end());
@@ -47,7 +47,7 @@ Expected<void> run(const databuffer::ProgramOptions& options, const std::vector<
   if (!lane) return tl::unexpected(lane.error());
   auto loop = databuffer::TickLoop::create(*session, databuffer::LockstepRole::input_monitor, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
-  databuffer::log_info("reads " + (*source)->description());
+  log::info("reads " + (*source)->description());
   inputmonitor::InputMonitorShell shell(*session, std::move(*source), lane->lane());
   shell.run(*loop);
   return loop->outcome();

@@ -10,7 +10,7 @@
 
 #include "config/schema/slot_text.hpp"
 #include "databuffer/messages/input_event.hpp"
-#include "databuffer/runtime/program.hpp"
+#include "databuffer/runtime/process.hpp"
 #include "inputmonitor/device_decoder.hpp"
 #include "inputmonitor/device_source.hpp"
 #include "inputmonitor/learning.hpp"
@@ -60,9 +60,9 @@ void InputMonitorShell::run_by_input() {
 void InputMonitorShell::tell_news() {
   for (const News& news : source_->news()) {
     if (news.is_trouble)
-      databuffer::log_warning(news.text);
+      log::warning(news.text);
     else
-      databuffer::log_info(news.text);
+      log::info(news.text);
     session_->note(news.is_trouble ? databuffer::NoteKind::loss : databuffer::NoteKind::restart, news.text);
   }
 }
@@ -72,17 +72,17 @@ void InputMonitorShell::push(const std::vector<databuffer::InputEvent>& events, 
     event.session_time_ns = moment.sim_time_ns;
     event.monotonic_ns = moment.monotonic_ns;
     event.number = ++number_;
-    databuffer::log_debug(databuffer::text_of(event));
+    log::debug(databuffer::text_of(event));
     if (session_->layout().input.push(lane_, event)) continue;
     session_->note(databuffer::NoteKind::loss, "input lane full, dropped: " + databuffer::text_of(event));
-    databuffer::log_warning("the input lane is full, is state-machine running? dropped: " + databuffer::text_of(event));
+    log::warning("the input lane is full, is state-machine running? dropped: " + databuffer::text_of(event));
   }
 }
 
 namespace {
 
-using failure::Expected;
-using failure::fail;
+using error::Expected;
+using error::fail;
 
 // Who moves the controls, and what was typed to it.
 class Teacher {

@@ -35,10 +35,8 @@ class InputMonitorShell {
 };
 
 // `input-monitor --learn PATH [--out FILE]`: asks on the terminal, listens to the device, writes the map as GUF. Needs
-// no session.
-
-// An error when the device cannot be read, goes before anything is learned, or the file cannot be written. `file`
-// empty: the map goes to standard output and all else to standard error.
-failure::Expected<void> learn_device(const std::string& path, const std::string& file);
+// no session. An error when the device cannot be read, goes before anything is learned, or the file cannot be written.
+// `file` empty: the map goes to standard output and all else to standard error.
+error::Expected<void> learn_device(const std::string& path, const std::string& file);
 
 }  // namespace yars::inputmonitor

@@ -2,15 +2,25 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 #include "lib/text/plain_text.hpp"
 
-namespace yars::failure {
+namespace yars::error {
 
 std::string Error::message() const {
   std::string text = subject + ": expected " + expected + ", found " + found;
   if (!action.empty()) text += "; " + action;
-  return printable(text);
+  return text::printable(text);
+}
+
+Error usage_error(Error error) {
+  error.bad_usage = true;
+  return error;
+}
+
+Error usage_error(std::string subject, std::string expected, std::string found, std::string action) {
+  return {std::move(subject), std::move(expected), std::move(found), std::move(action), true};
 }
 
 void requirement_broken(std::string_view expression, std::string_view values, const char* file, int line) {
@@ -19,4 +29,4 @@ void requirement_broken(std::string_view expression, std::string_view values, co
   std::abort();
 }
 
-}  // namespace yars::failure
+}  // namespace yars::error

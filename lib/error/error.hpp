@@ -6,7 +6,7 @@
 #include <string_view>
 #include <tl/expected.hpp>
 
-namespace yars::failure {
+namespace yars::error {
 
 // A failure of the world outside: a file, an option, a record. Its message says what was expected, what was
 // found and what to do; that is one line for a person.
@@ -29,6 +29,10 @@ inline tl::unexpected<Error> fail(std::string subject, std::string expected, std
       Error{std::move(subject), std::move(expected), std::move(found), std::move(action), false});
 }
 
+// An error that the user's command line caused: exit code 2 instead of 1.
+Error usage_error(Error error);
+Error usage_error(std::string subject, std::string expected, std::string found, std::string action = {});
+
 // A condition that must hold in every build. A broken one ends the process and prints both values.
 // assert() is for our own bugs in debug builds; Expected<T> is for the world outside.
 [[noreturn]] void requirement_broken(std::string_view expression, std::string_view values, const char* file, int line);
@@ -40,12 +44,12 @@ std::string both_values(const Left& left, const Right& right) {
   return text.str();
 }
 
-}  // namespace yars::failure
+}  // namespace yars::error
 
 // YARS_REQUIRE(left, op, right): aborts with both values unless `left op right`.
-#define YARS_REQUIRE(left, op, right)                                                                          \
-  do {                                                                                                         \
-    if (!((left)op(right)))                                                                                    \
-      ::yars::failure::requirement_broken(#left " " #op " " #right, ::yars::failure::both_values(left, right), \
-                                          __FILE__, __LINE__);                                                 \
+#define YARS_REQUIRE(left, op, right)                                                                                \
+  do {                                                                                                               \
+    if (!((left)op(right)))                                                                                          \
+      ::yars::error::requirement_broken(#left " " #op " " #right, ::yars::error::both_values(left, right), __FILE__, \
+                                        __LINE__);                                                                   \
   } while (false)

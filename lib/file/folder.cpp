@@ -13,8 +13,8 @@
 
 namespace yars::file {
 
-using failure::Expected;
-using failure::fail;
+using error::Expected;
+using error::fail;
 
 Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
   std::swap(number_, other.number_);

@@ -36,11 +36,11 @@ enum class Rights { by_umask, user_alone };
 class Folder {
  public:
   // `path` may be empty: the working folder.
-  static failure::Expected<Folder> open(const std::filesystem::path& path);
+  static error::Expected<Folder> open(const std::filesystem::path& path);
   // Makes what is missing on the way.
-  static failure::Expected<Folder> make(const std::filesystem::path& path, Rights rights = Rights::by_umask);
+  static error::Expected<Folder> make(const std::filesystem::path& path, Rights rights = Rights::by_umask);
   // As make, for what is the user's alone. An error: any user may write to it, or it is another user's.
-  static failure::Expected<Folder> make_private(const std::filesystem::path& path);
+  static error::Expected<Folder> make_private(const std::filesystem::path& path);
 
   int descriptor() const { return descriptor_.number(); }
   const std::filesystem::path& path() const { return path_; }

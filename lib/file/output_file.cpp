@@ -14,8 +14,8 @@
 
 namespace yars::file {
 
-using failure::Expected;
-using failure::fail;
+using error::Expected;
+using error::fail;
 
 namespace {
 
@@ -36,11 +36,11 @@ std::optional<mode_t> mode_behind(const Folder& folder, const std::string& name)
   return status.st_mode;
 }
 
-tl::unexpected<failure::Error> no_file(const std::string& path, const char* found) {
+tl::unexpected<error::Error> no_file(const std::string& path, const char* found) {
   return fail(path, "a file that can be written", found, "remove it, or name another file");
 }
 
-tl::unexpected<failure::Error> system_failure(const std::string& path, int problem) {
+tl::unexpected<error::Error> system_failure(const std::string& path, int problem) {
   const bool disk = problem == ENOSPC || problem == EDQUOT || problem == EIO || problem == EFBIG;
   return fail(path, "a file that can be written", std::strerror(problem),
               disk ? "check the space on the disk" : "check the folder and its rights");
@@ -206,9 +206,6 @@ Expected<std::filesystem::path> write_file_and_folders(const std::filesystem::pa
   if (auto written = write_file(path, bytes); !written) return tl::unexpected(written.error());
   return path;
 }
-
-using failure::Expected;
-using failure::fail;
 
 namespace {
 

@@ -23,9 +23,9 @@ enum class Existing { overwritten, refused };  // what lies at the place already
 
 class NewFile {
  public:
-  static failure::Expected<NewFile> create(const std::filesystem::path& path, Rights rights = Rights::by_umask);
-  static failure::Expected<NewFile> create(std::shared_ptr<const Folder> folder, const std::string& name,
-                                           Rights rights = Rights::by_umask, Existing existing = Existing::overwritten);
+  static error::Expected<NewFile> create(const std::filesystem::path& path, Rights rights = Rights::by_umask);
+  static error::Expected<NewFile> create(std::shared_ptr<const Folder> folder, const std::string& name,
+                                         Rights rights = Rights::by_umask, Existing existing = Existing::overwritten);
   NewFile(NewFile&&) noexcept;
   NewFile& operator=(NewFile&&) noexcept;
   ~NewFile();  // takes back what has not been placed
@@ -38,11 +38,11 @@ class NewFile {
   void write(std::string_view text);
 
   // Gives it its name; it may be written further, as a recording is.
-  failure::Expected<void> place();
+  error::Expected<void> place();
   // What is buffered goes to the system. An error: a write has failed.
-  failure::Expected<void> flush();
+  error::Expected<void> flush();
   // place() and the end of it.
-  failure::Expected<void> finish();
+  error::Expected<void> finish();
 
  private:
   struct Close {
@@ -50,11 +50,11 @@ class NewFile {
   };
   NewFile(std::shared_ptr<const Folder> folder, std::string name)
       : folder_(std::move(folder)), name_(std::move(name)) {}
-  failure::Expected<void> check_place();
-  failure::Expected<void> move_to_place();
-  failure::Expected<void> open_beside(mode_t mode);
-  failure::Expected<void> open_device();
-  failure::Expected<void> give_beside_a_name();
+  error::Expected<void> check_place();
+  error::Expected<void> move_to_place();
+  error::Expected<void> open_beside(mode_t mode);
+  error::Expected<void> open_device();
+  error::Expected<void> give_beside_a_name();
 
   std::shared_ptr<const Folder> folder_;
   std::string name_;
@@ -66,13 +66,13 @@ class NewFile {
 };
 
 // The whole file at once.
-failure::Expected<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes,
-                                   Rights rights = Rights::by_umask);
-failure::Expected<void> write_file(const std::filesystem::path& path, std::string_view text,
-                                   Rights rights = Rights::by_umask);
+error::Expected<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes,
+                                 Rights rights = Rights::by_umask);
+error::Expected<void> write_file(const std::filesystem::path& path, std::string_view text,
+                                 Rights rights = Rights::by_umask);
 // And the folders on the way to it; its path.
-failure::Expected<std::filesystem::path> write_file_and_folders(const std::filesystem::path& path,
-                                                                std::span<const std::byte> bytes);
+error::Expected<std::filesystem::path> write_file_and_folders(const std::filesystem::path& path,
+                                                              std::span<const std::byte> bytes);
 
 // File that is continued line by line and set aside when it is full: NAME.log, then NAME.1.log (the newest), NAME.2.log
 // and so on. Mode 0600. Names are opened in the folder that was checked once; nothing planted at one is written to.
@@ -84,16 +84,16 @@ class LogFile {
     std::size_t old = 0;    // files set aside
   };
   // `name`: without `.log`.
-  static failure::Expected<LogFile> open(Folder folder, std::string name, Limits limits);
+  static error::Expected<LogFile> open(Folder folder, std::string name, Limits limits);
 
-  failure::Expected<void> append(std::string_view text);
+  error::Expected<void> append(std::string_view text);
 
  private:
   LogFile(Folder folder, std::string name, Limits limits)
       : folder_(std::move(folder)), name_(std::move(name)), limits_(limits) {}
   std::string name_of(std::size_t age) const;
-  failure::Expected<void> open_newest();
-  failure::Expected<void> set_aside();
+  error::Expected<void> open_newest();
+  error::Expected<void> set_aside();
 
   Folder folder_;
   std::string name_;

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <fstream>
 
-namespace yars::databuffer {
+namespace yars::file {
 
 namespace {
 
@@ -17,51 +17,46 @@ constexpr std::ptrdiff_t kMostLines = 10'000'000;
 
 }  // namespace
 
-failure::Expected<std::string> read_text_file(const std::filesystem::path& path) {
+error::Expected<std::string> read_text_file(const std::filesystem::path& path) {
   std::error_code code;
   if (std::filesystem::is_directory(path, code))
-    return failure::fail(path.string(), "a text file", "a folder", "name a file in it");
+    return error::fail(path.string(), "a text file", "a folder", "name a file in it");
   // A pipe could block for ever, and a device never end.
   if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
-    return failure::fail(path.string(), "a text file", "a pipe, a socket or a device", "copy it into a plain file");
+    return error::fail(path.string(), "a text file", "a pipe, a socket or a device", "copy it into a plain file");
   const std::uintmax_t size = std::filesystem::is_regular_file(path, code) ? std::filesystem::file_size(path, code) : 0;
   if (size > kLargestFile)
-    return failure::fail(path.string(), "at most 256 MiB of text", std::to_string(size) + " bytes");
+    return error::fail(path.string(), "at most 256 MiB of text", std::to_string(size) + " bytes");
   std::ifstream file(path, std::ios::binary);
-  if (!file) return failure::fail(path.string(), "a file that can be read", std::strerror(errno), "check the path");
+  if (!file) return error::fail(path.string(), "a file that can be read", std::strerror(errno), "check the path");
   // No more than was there when it was judged, though it may grow meanwhile.
   std::string text(size, '\0');
   file.read(text.data(), static_cast<std::streamsize>(size));
   text.resize(static_cast<std::size_t>(file.gcount()));
-  if (file.bad()) return failure::fail(path.string(), "a file that can be read to its end", std::strerror(errno));
+  if (file.bad()) return error::fail(path.string(), "a file that can be read to its end", std::strerror(errno));
   if (const auto lines = std::ranges::count(text, '\n'); lines > kMostLines)
-    return failure::fail(path.string(), "at most 10 million lines", std::to_string(lines), "split the file");
+    return error::fail(path.string(), "at most 10 million lines", std::to_string(lines), "split the file");
   return text;
 }
 
-}  // namespace yars::databuffer
-
-namespace yars::databuffer::flight {
-
-failure::Expected<std::vector<double>> parse_numbers(const std::string& subject,
-                                                     const std::vector<std::string_view>& texts,
-                                                     const std::vector<NumberField>& fields,
-                                                     std::string_view separator) {
+error::Expected<std::vector<double>> parse_numbers(const std::string& subject,
+                                                   const std::vector<std::string_view>& texts,
+                                                   const std::vector<NumberField>& fields, std::string_view separator) {
   if (texts.size() != fields.size()) {
     std::string names;
     for (const NumberField& field : fields)
       names += (names.empty() ? "" : std::string(separator)) + std::string(field.name);
-    return failure::fail(subject, names, std::to_string(texts.size()) + " fields");
+    return error::fail(subject, names, std::to_string(texts.size()) + " fields");
   }
   std::vector<double> values;
   for (std::size_t index = 0; index < fields.size(); ++index) {
     const NumberField& field = fields[index];
-    const auto value = finite_number(texts[index]);
+    const auto value = text::finite_number(texts[index]);
     if (!value || *value < field.least || *value > field.most)
-      return failure::fail(
-          subject,
-          std::string(field.name) + " in [" + text_of_number(field.least) + ", " + text_of_number(field.most) + ']',
-          '"' + std::string(texts[index]) + '"');
+      return error::fail(subject,
+                         std::string(field.name) + " in [" + text::text_of_number(field.least) + ", " +
+                             text::text_of_number(field.most) + ']',
+                         '"' + std::string(texts[index]) + '"');
     values.push_back(*value);
   }
   return values;
@@ -71,4 +66,4 @@ std::string place_in_file(std::string_view file, int line) {
   return std::string(file) + ':' + std::to_string(line);
 }
 
-}  // namespace yars::databuffer::flight
+}  // namespace yars::file

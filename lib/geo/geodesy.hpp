@@ -53,7 +53,7 @@ Length radius_of_curvature(double latitude_deg, Bearing azimuth);
 
 // A short ray of WGS84 as two polynomials in the distance: Taylor's series about its start, tens of nanoseconds where
 // the exact geodesic takes hundreds for each place. Within 1 mm of GeodesicRay up to the range that the order was
-// asked for (tests/lib/geodesic_series_test.cpp). Short means against the way to the nearer pole, where longitude
+// asked for (tests/lib/geo/geodesic_series_test.cpp). Short means against the way to the nearer pole, where longitude
 // turns without bound.
 struct GeodesicSeries {
   static constexpr int kMostOrder = 8;

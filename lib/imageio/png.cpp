@@ -24,13 +24,13 @@ png_uint_32 format_of(int channels) {
 
 }  // namespace
 
-failure::Expected<void> write_png(const std::filesystem::path& path, const Image& image) {
+error::Expected<void> write_png(const std::filesystem::path& path, const Image& image) {
   auto file = file::NewFile::create(path);
   if (!file) return tl::unexpected(file.error());
   return write_png(std::move(*file), image);
 }
 
-failure::Expected<void> write_png(file::NewFile file, const Image& image) {
+error::Expected<void> write_png(file::NewFile file, const Image& image) {
   YARS_REQUIRE(image.pixels.size(), ==, static_cast<std::size_t>(image.width) * image.height * image.channels);
   png_image png;
   std::memset(&png, 0, sizeof png);
@@ -39,20 +39,20 @@ failure::Expected<void> write_png(file::NewFile file, const Image& image) {
   png.height = static_cast<png_uint_32>(image.height);
   png.format = format_of(image.channels);
   if (png_image_write_to_stdio(&png, file.stream(), 0, image.pixels.data(), 0, nullptr) == 0)
-    return failure::fail(file.shown(), "a PNG file to be written", png.message,
-                         "check the folder and the space on the disk");
+    return error::fail(file.shown(), "a PNG file to be written", png.message,
+                       "check the folder and the space on the disk");
   return file.finish();
 }
 
-failure::Expected<Image> read_png(const std::filesystem::path& path) {
+error::Expected<Image> read_png(const std::filesystem::path& path) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
-    return failure::fail(path.string(), "a PNG file", code ? code.message() : "not a plain file");
+    return error::fail(path.string(), "a PNG file", code ? code.message() : "not a plain file");
   png_image png;
   std::memset(&png, 0, sizeof png);
   png.version = PNG_IMAGE_VERSION;
   if (png_image_begin_read_from_file(&png, path.c_str()) == 0)
-    return failure::fail(path.string(), "a PNG file", png.message);
+    return error::fail(path.string(), "a PNG file", png.message);
   Image image;
   image.channels =
       (png.format & PNG_FORMAT_FLAG_ALPHA) != 0U ? 4 : ((png.format & PNG_FORMAT_FLAG_COLOR) != 0U ? 3 : 1);
@@ -60,14 +60,14 @@ failure::Expected<Image> read_png(const std::filesystem::path& path) {
   constexpr png_uint_32 kLargestSide = 32768;  // [pixels] a larger picture is not one of ours; bounds the memory
   if (png.width > kLargestSide || png.height > kLargestSide) {
     png_image_free(&png);
-    return failure::fail(path.string(), "at most 32768 pixels a side",
-                         std::to_string(png.width) + " x " + std::to_string(png.height));
+    return error::fail(path.string(), "at most 32768 pixels a side",
+                       std::to_string(png.width) + " x " + std::to_string(png.height));
   }
   image.width = static_cast<int>(png.width);
   image.height = static_cast<int>(png.height);
   image.pixels.resize(PNG_IMAGE_SIZE(png));
   if (png_image_finish_read(&png, nullptr, image.pixels.data(), 0, nullptr) == 0)
-    return failure::fail(path.string(), "whole PNG data", png.message);
+    return error::fail(path.string(), "whole PNG data", png.message);
   return image;
 }
 
@@ -101,7 +101,7 @@ bool put_image(png_structp png, png_infop info, std::FILE* file, const IndexedIm
 
 }  // namespace
 
-failure::Expected<void> write_indexed_png(const std::filesystem::path& path, const IndexedImage& image) {
+error::Expected<void> write_indexed_png(const std::filesystem::path& path, const IndexedImage& image) {
   YARS_REQUIRE(image.pixels.size(), ==, static_cast<std::size_t>(image.width) * image.height);
   YARS_REQUIRE(image.palette.size(), >=, 1U);
   YARS_REQUIRE(image.palette.size(), <=, 256U);
@@ -113,8 +113,8 @@ failure::Expected<void> write_indexed_png(const std::filesystem::path& path, con
   const bool written = put_image(png, info, file->stream(), image);
   png_destroy_write_struct(&png, &info);
   if (!written)
-    return failure::fail(path.string(), "a PNG file to be written", message,
-                         "check the folder and the space on the disk");
+    return error::fail(path.string(), "a PNG file to be written", message,
+                       "check the folder and the space on the disk");
   return file->finish();
 }
 
@@ -166,21 +166,21 @@ std::vector<PaletteColour> palette_of(const Reading& reading) {
 
 }  // namespace
 
-failure::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path, int largest_side) {
+error::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path, int largest_side) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
-    return failure::fail(path.string(), "a PNG file", code ? code.message() : "not a plain file");
+    return error::fail(path.string(), "a PNG file", code ? code.message() : "not a plain file");
   const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
-  if (!file) return failure::fail(path.string(), "a PNG file", "a file that cannot be opened");
+  if (!file) return error::fail(path.string(), "a PNG file", "a file that cannot be opened");
   const Reading reading;
-  if (reading.info == nullptr) return failure::fail(path.string(), "memory for a PNG file", "none");
+  if (reading.info == nullptr) return error::fail(path.string(), "memory for a PNG file", "none");
   if (!take_header(reading, file.get(), largest_side))
-    return failure::fail(path.string(), "a PNG file of at most " + std::to_string(largest_side) + " pixels a side",
-                         reading.message);
+    return error::fail(path.string(), "a PNG file of at most " + std::to_string(largest_side) + " pixels a side",
+                       reading.message);
   if (png_get_color_type(reading.png, reading.info) != PNG_COLOR_TYPE_PALETTE)
-    return failure::fail(path.string(), "an indexed PNG (colour type 3)",
-                         "colour type " + std::to_string(png_get_color_type(reading.png, reading.info)),
-                         "write numbers with a palette, not colours");
+    return error::fail(path.string(), "an indexed PNG (colour type 3)",
+                       "colour type " + std::to_string(png_get_color_type(reading.png, reading.info)),
+                       "write numbers with a palette, not colours");
   IndexedImage image;
   image.width = static_cast<int>(png_get_image_width(reading.png, reading.info));
   image.height = static_cast<int>(png_get_image_height(reading.png, reading.info));
@@ -192,7 +192,7 @@ failure::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& pa
   png_set_packing(reading.png);
   png_set_interlace_handling(reading.png);
   png_read_update_info(reading.png, reading.info);
-  if (!take_rows(reading, rows.data())) return failure::fail(path.string(), "whole PNG data", reading.message);
+  if (!take_rows(reading, rows.data())) return error::fail(path.string(), "whole PNG data", reading.message);
   return image;
 }
 

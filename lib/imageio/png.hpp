@@ -11,8 +11,6 @@
 
 namespace yars::imageio {
 
-// PNG in and out.
-
 // Rows top to bottom, channels 1 (gray), 3 (RGB) or 4 (RGBA), 8 bits each, no padding.
 struct Image {
   int width = 0;
@@ -22,9 +20,9 @@ struct Image {
 };
 
 // An error: the file cannot be written (lib/file/output_file.hpp).
-failure::Expected<void> write_png(const std::filesystem::path& path, const Image& image);
-failure::Expected<void> write_png(file::NewFile file, const Image& image);
-failure::Expected<Image> read_png(const std::filesystem::path& path);
+error::Expected<void> write_png(const std::filesystem::path& path, const Image& image);
+error::Expected<void> write_png(file::NewFile file, const Image& image);
+error::Expected<Image> read_png(const std::filesystem::path& path);
 
 // Pictures whose pixels are numbers with a colour each: PNG of colour type 3, in and out.
 // Errors of reading: no PNG, not indexed, sides beyond `largest_side`, data that ends early or is broken. Checked
@@ -41,9 +39,9 @@ struct IndexedImage {
 };
 
 // 8 bits a pixel, whatever the palette's size; written beside and renamed.
-failure::Expected<void> write_indexed_png(const std::filesystem::path& path, const IndexedImage& image);
+error::Expected<void> write_indexed_png(const std::filesystem::path& path, const IndexedImage& image);
 
 // 1, 2, 4 or 8 bits a pixel, interlaced or not.
-failure::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path, int largest_side);
+error::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path, int largest_side);
 
 }  // namespace yars::imageio

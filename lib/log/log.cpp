@@ -16,7 +16,7 @@
 #include "lib/file/output_file.hpp"
 #include "lib/text/plain_text.hpp"
 
-namespace yars::databuffer {
+namespace yars::log {
 
 namespace {
 
@@ -101,7 +101,7 @@ bool passes(std::string_view text) {
   return filtered().filter.passes(text, now_ns());
 }
 
-std::vector<RepeatFilter::LeftOut> left_out(LeftOut which) {
+std::vector<RepeatFilter::LeftOut> taken_left_out(LeftOut which) {
   const std::lock_guard guard(filtered().mutex);
   return filtered().filter.take_left_out(now_ns(), which == LeftOut::all);
 }
@@ -123,8 +123,7 @@ class FileSink : public spdlog::sinks::base_sink<std::mutex> {
   file::LogFile file_;
 };
 
-failure::Expected<std::shared_ptr<spdlog::sinks::sink>> open_file(const std::string& program,
-                                                                  const std::string& folder) {
+error::Expected<std::shared_ptr<spdlog::sinks::sink>> open_file(const std::string& program, const std::string& folder) {
   auto opened = file::Folder::make_private(folder);
   if (!opened) return tl::unexpected(opened.error());
   auto file = file::LogFile::open(std::move(*opened), program, {kLogFileBytes, kOldLogFiles});
@@ -136,7 +135,7 @@ failure::Expected<std::shared_ptr<spdlog::sinks::sink>> open_file(const std::str
 
 }  // namespace
 
-bool start_log(const std::string& program, const std::string& level) {
+bool start(const std::string& program, const std::string& level) {
   if (std::find(kLevels.begin(), kLevels.end(), level) == kLevels.end()) return false;
   auto logger = std::make_shared<spdlog::logger>(program, std::make_shared<spdlog::sinks::stderr_sink_mt>());
   logger->set_pattern(kTerminalPattern);
@@ -146,11 +145,11 @@ bool start_log(const std::string& program, const std::string& level) {
   return true;
 }
 
-void start_log_file(const std::string& program, const std::string& folder) {
+void start_file(const std::string& program, const std::string& folder) {
   try {
     auto opened = open_file(program, folder);
     if (!opened) {
-      log_warning("--log-dir: expected a folder to write to; " + opened.error().message() + "; no log file is written");
+      warning("--log-dir: expected a folder to write to; " + opened.error().message() + "; no log file is written");
       return;
     }
     auto sink = std::move(*opened);
@@ -164,29 +163,29 @@ void start_log_file(const std::string& program, const std::string& folder) {
         if (!said.exchange(true)) std::fprintf(stderr, "the log file is not written: %s\n", problem.c_str());
       });
   } catch (const std::exception& problem) {
-    log_warning("--log-dir: expected a folder to write to, found " + folder + ": " + problem.what() +
-                "; no log file is written");
+    warning("--log-dir: expected a folder to write to, found " + folder + ": " + problem.what() +
+            "; no log file is written");
   }
 }
 
-void log_left_out(LeftOut which) {
-  for (const auto& lines : left_out(which)) spdlog::info("{}", failure::printable(lines.text()));
+void left_out(LeftOut which) {
+  for (const auto& lines : taken_left_out(which)) spdlog::info("{}", text::printable(lines.text()));
 }
 
-void log_debug(std::string_view text) {
-  spdlog::debug("{}", failure::printable(text));
+void debug(std::string_view text) {
+  spdlog::debug("{}", text::printable(text));
 }
-void log_info(std::string_view text) {
-  if (passes(text)) spdlog::info("{}", failure::printable(text));
+void info(std::string_view text) {
+  if (passes(text)) spdlog::info("{}", text::printable(text));
 }
-void log_warning(std::string_view text) {
-  if (passes(text)) spdlog::warn("{}", failure::printable(text));
+void warning(std::string_view text) {
+  if (passes(text)) spdlog::warn("{}", text::printable(text));
 }
-void log_error(std::string_view text) {
-  if (passes(text)) spdlog::error("{}", failure::printable(text));
+void error(std::string_view text) {
+  if (passes(text)) spdlog::error("{}", text::printable(text));
 }
-void log_to_file(std::string_view text) {
-  if (file_logger()) file_logger()->critical("{}", failure::printable(text));
+void to_file(std::string_view text) {
+  if (file_logger()) file_logger()->critical("{}", text::printable(text));
 }
 
-}  // namespace yars::databuffer
+}  // namespace yars::log

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <span>
 
-namespace yars::databuffer::bridges {
+namespace yars::memory {
 
 using Bytes = std::span<const std::byte>;
 
@@ -34,4 +34,4 @@ T little_endian(Bytes bytes, std::size_t offset) {
   return read_as<T>(bytes, offset, std::endian::little);
 }
 
-}  // namespace yars::databuffer::bridges
+}  // namespace yars::memory

@@ -1,6 +1,6 @@
 #include "lib/parallel/thread_pool.hpp"
 
-namespace yars::model::kernel {
+namespace yars::parallel {
 
 namespace {
 // Looks before a thread sleeps, tens of nanoseconds each: the rest of a scan is some hundred microseconds away at most,
@@ -58,4 +58,4 @@ void Workers::help(std::size_t number) {
   }
 }
 
-}  // namespace yars::model::kernel
+}  // namespace yars::parallel

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace yars::model::kernel {
+namespace yars::parallel {
 
 // Threads that wait for work between scans: making them anew for each would cost as much as a short scan. Every piece
 // of work is done by all at once, each with its own number; the caller is number 0.
@@ -38,10 +38,6 @@ class Workers {
   alignas(64) std::atomic<std::uint32_t> busy_{0};
   std::vector<std::thread> helpers_;
 };
-
-}  // namespace yars::model::kernel
-
-namespace yars::model::hrm {
 
 // Hands that share a piece of work. What they make is the same however many they are.
 
@@ -94,4 +90,4 @@ void share_out(const Crew& crew, int count, int piece, const Job& job) {
   });
 }
 
-}  // namespace yars::model::hrm
+}  // namespace yars::parallel

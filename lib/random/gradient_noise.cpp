@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace yars::model::terrain {
+namespace yars::random {
 
 namespace {
 
@@ -93,4 +93,4 @@ double ridged_noise(geo::Vector3 point, std::uint32_t seed, int octaves) {
   return sum / total;
 }
 
-}  // namespace yars::model::terrain
+}  // namespace yars::random

@@ -6,7 +6,7 @@
 
 #include "lib/geo/geodesy.hpp"
 
-namespace yars::model::terrain {
+namespace yars::random {
 
 // 32 well mixed bits from lattice coordinates and a seed.
 std::uint32_t lattice_hash(std::int32_t x, std::int32_t y, std::int32_t z, std::uint32_t seed);
@@ -28,4 +28,4 @@ constexpr double share_of(std::uint32_t hash) {
   return static_cast<double>(hash) / 4294967296.0;
 }
 
-}  // namespace yars::model::terrain
+}  // namespace yars::random

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace yars::failure {
+namespace yars::text {
 
 namespace {
 
@@ -87,10 +87,6 @@ std::size_t unfinished_bytes(std::string_view text) {
   return 0;
 }
 
-}  // namespace yars::failure
-
-namespace yars::databuffer {
-
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\v\f\n";
@@ -151,4 +147,4 @@ std::string text_of_number(double value) {
   return {buffer.data(), result.ptr};
 }
 
-}  // namespace yars::databuffer
+}  // namespace yars::text

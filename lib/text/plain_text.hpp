@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace yars::failure {
+namespace yars::text {
 
 // Text from outside (file names, comments, records, arguments) as a terminal or a log may show it.
 
@@ -19,10 +19,6 @@ std::string printable(std::string_view text);
 std::string printable_lines(std::string_view text);
 // Bytes at the end of `text` that begin a character of UTF-8 whose other bytes are still to come: 0 to 3.
 std::size_t unfinished_bytes(std::string_view text);
-
-}  // namespace yars::failure
-
-namespace yars::databuffer {
 
 // Plain text that people write, a record a line: routes, tracks, scripts. `#` begins a comment.
 
@@ -52,4 +48,4 @@ std::optional<double> finite_number(std::string_view word);
 // The shortest text that reads back as the same number.
 std::string text_of_number(double value);
 
-}  // namespace yars::databuffer
+}  // namespace yars::text

@@ -131,9 +131,6 @@ void Axis::move(double rate_dps) {
   place(position_deg_ + limited_dps * radar::kTickSeconds);
 }
 
-using geo::Angle;
-using geo::Bearing;
-
 namespace {
 // How fast the scan centre follows a jump of the ground track [deg/s]: faster than aircraft turn, slower than the
 // scan, so that a sweep never runs backwards.

@@ -59,9 +59,6 @@ struct ScanPattern {
 
 ScanPattern make_scan_pattern(const radar::AntennaConfiguration& antenna, double width_deg);
 
-// One axis of the dish's servo: position, rate, limits, in degrees against the nose (azimuth) or the horizon
-// (elevation). Modes: freeze holds, rate turns at a commanded rate, position goes to a commanded place at full
-// rate. A step is one tick of 5 ms; no lag and no overshoot is modelled. Inputs that are not finite are ignored.
 enum class AxisMode : std::uint8_t { freeze, rate, position };
 
 struct AxisLimits {
@@ -70,6 +67,9 @@ struct AxisLimits {
   double tolerance_deg = 0.1;  // [deg] a commanded position counts as reached within this
 };
 
+// One axis of the dish's servo: position, rate, limits, in degrees against the nose (azimuth) or the horizon
+// (elevation). Modes: freeze holds, rate turns at a commanded rate, position goes to a commanded place at full
+// rate. A step is one tick of 5 ms; no lag and no overshoot is modelled. Inputs that are not finite are ignored.
 class Axis {
  public:
   explicit Axis(const AxisLimits& limits) : limits_(limits) {}
@@ -95,10 +95,6 @@ class Axis {
   double commanded_ = 0.0;  // [deg/s] or [deg], by mode
 };
 
-// The dish: goes to an edge of its sector, then scans it, held in space about the ground track. Pure: one call a
-// tick of 5 ms, the platform and the commanded elevation in, what the beam swept during the tick out. The pointing
-// within a scan comes from the tick number alone and is exactly periodic; edges of neighbouring sweeps are equal,
-// also while the aircraft turns, so that wedges tile without gaps.
 enum class Phase : std::uint8_t { parked, slewing, sweeping, turning, pointing };
 
 // What happened in one tick.
@@ -122,6 +118,10 @@ struct Sector {
   double rate_dps = 0.0;  // 0: the configuration's
 };
 
+// The dish: goes to an edge of its sector, then scans it, held in space about the ground track. Pure: one call a
+// tick of 5 ms, the platform and the commanded elevation in, what the beam swept during the tick out. The pointing
+// within a scan comes from the tick number alone and is exactly periodic; edges of neighbouring sweeps are equal,
+// also while the aircraft turns, so that wedges tile without gaps.
 class Antenna {
  public:
   explicit Antenna(const radar::AntennaConfiguration& configuration);

@@ -89,14 +89,14 @@ class SceneLoader {
   std::thread thread_;
 };
 
-// Makes the pictures of patch maps: terrain and scenes are read, and the picture is computed, on a thread of its own
-// while live, at once when the caller may wait (lockstep). One map at a time; a newer one replaces it.
 struct PatchStores {
   std::unique_ptr<terrain::TerrainStore> window;
   std::unique_ptr<terrain::TerrainStore> path;
   std::unique_ptr<scene::SceneStore> scenes;  // null: none
 };
 
+// Makes the pictures of patch maps: terrain and scenes are read, and the picture is computed, on a thread of its own
+// while live, at once when the caller may wait (lockstep). One map at a time; a newer one replaces it.
 class PatchMaker {
  public:
   PatchMaker(const radar::RadarConfiguration& configuration, PatchStores stores, bool may_wait);

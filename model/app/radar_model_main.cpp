@@ -1,4 +1,5 @@
 // radar-model: antenna and real beam map; sweeps out.
+#include "config/schema/load.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "lib/log/log.hpp"
 #include "model/app/radar_model_shell.hpp"
@@ -13,9 +14,9 @@ struct ModelOptions {
   int samples = 0;
 };
 
-failure::Expected<radar::RadarConfiguration> configure(const databuffer::ProgramOptions& options,
-                                                       const ModelOptions& model_options) {
-  auto configuration = databuffer::load_program_configuration(options);
+error::Expected<radar::RadarConfiguration> configure(const databuffer::ProgramOptions& options,
+                                                     const ModelOptions& model_options) {
+  auto configuration = config::load_program_configuration(options.config);
   if (!configuration) return configuration;
   if (!model_options.terrain.empty()) configuration->terrain.directory = model_options.terrain;
   if (model_options.samples != 0) configuration->fidelity.samples = model_options.samples;
@@ -23,7 +24,7 @@ failure::Expected<radar::RadarConfiguration> configure(const databuffer::Program
 }
 
 // Maps have stores of their own: what a window needs must not push out what the scan has.
-failure::Expected<model::PatchStores> open_patch_stores(const radar::RadarConfiguration& configuration) {
+error::Expected<model::PatchStores> open_patch_stores(const radar::RadarConfiguration& configuration) {
   auto window = model::terrain::open_terrain(configuration.terrain);
   if (!window) return tl::unexpected(window.error());
   auto path = model::terrain::open_terrain(configuration.terrain);
@@ -33,7 +34,7 @@ failure::Expected<model::PatchStores> open_patch_stores(const radar::RadarConfig
   return model::PatchStores{std::move(*window), std::move(*path), std::move(*scenes)};
 }
 
-failure::Expected<void> run(const databuffer::ProgramOptions& options, const ModelOptions& model_options) {
+error::Expected<void> run(const databuffer::ProgramOptions& options, const ModelOptions& model_options) {
   auto configuration = configure(options, model_options);
   if (!configuration) return tl::unexpected(configuration.error());
   auto store = model::terrain::open_terrain(configuration->terrain);
@@ -45,16 +46,15 @@ failure::Expected<void> run(const databuffer::ProgramOptions& options, const Mod
   auto session = databuffer::Session::open(options.session, "radar-model");
   if (!session) return tl::unexpected(session.error());
   auto role = session->claim(databuffer::Role::radar_model);
-  if (!role) return tl::unexpected(databuffer::usage_error(role.error()));
+  if (!role) return tl::unexpected(error::usage_error(role.error()));
   auto loop = databuffer::TickLoop::create(*session, databuffer::LockstepRole::radar_model, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
   model::TerrainLoader terrain(std::move(*store), loop->lockstep());
   model::SceneLoader scene_loader(std::move(*scenes), loop->lockstep());
   model::PatchMaker patches(*configuration, std::move(*patch_stores), loop->lockstep());
   model::RadarModelShell shell(*session, *configuration, {terrain, scene_loader, patches});
-  databuffer::log_info(
-      "runs in session " + options.session + ", terrain " +
-      (configuration->terrain.directory.empty() ? "built-in hills" : configuration->terrain.directory));
+  log::info("runs in session " + options.session + ", terrain " +
+            (configuration->terrain.directory.empty() ? "built-in hills" : configuration->terrain.directory));
   while (const auto due = loop->wait()) {
     shell.step(*due, loop->late_ticks());
     loop->done(*due);

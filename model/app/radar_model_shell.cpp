@@ -49,7 +49,7 @@ void RadarModelShell::resume() {
   if (!session_->layout().model_status.read(left)) return;
   if (const auto reason = databuffer::why_refused(left)) {
     session_->note(databuffer::NoteKind::refusal, "model status left behind: " + *reason);
-    databuffer::log_warning("model status left behind is refused, starting anew: " + *reason);
+    log::warning("model status left behind is refused, starting anew: " + *reason);
     return;
   }
   kernel_.resume(left);
@@ -61,7 +61,7 @@ void RadarModelShell::resume() {
   tick_.resumed_tick = left.tick;
   refused_ = left.refused;
   session_->note(databuffer::NoteKind::restart, "radar-model resumes at scan " + std::to_string(left.scan));
-  databuffer::log_info("resumes at scan " + std::to_string(left.scan));
+  log::info("resumes at scan " + std::to_string(left.scan));
 }
 
 void RadarModelShell::step(const databuffer::TickLoop::Due& due, std::uint64_t late_ticks) {
@@ -122,7 +122,7 @@ void RadarModelShell::tell_of_jump(const databuffer::Ownship& there, std::uint32
   if (!told) return;  // somebody else sets the clock just now: the next tick tries again
   const std::string text = "the aircraft of '" + databuffer::name_of_source(there, lane) + "' has jumped: a new epoch";
   session_->note(databuffer::NoteKind::restart, text);
-  databuffer::log_info(text);
+  log::info(text);
 }
 
 void RadarModelShell::latch_fidelity() {
@@ -142,7 +142,7 @@ void RadarModelShell::govern(double seconds, double rate) {
   scan_ticks_ = 0;
   if (governor_.preset() == picked_.name) return;
   picked_ = *radar::fidelity_preset(governor_.preset());
-  databuffer::log_info("fidelity " + picked_.name);
+  log::info("fidelity " + picked_.name);
 }
 
 void RadarModelShell::latch_command() {
@@ -200,7 +200,7 @@ void RadarModelShell::run_kernel() {
 void RadarModelShell::note_problems(const std::vector<std::string>& problems) {
   for (const std::string& problem : problems) {
     session_->note(databuffer::NoteKind::refusal, problem);
-    databuffer::log_warning(problem);
+    log::warning(problem);
   }
 }
 

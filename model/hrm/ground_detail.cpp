@@ -27,7 +27,7 @@ std::vector<float> fractal_table(int edge, double texel_m) {
     const double cell_texels = static_cast<double>(edge) / cells;
     const auto knot = [&](int x, int y) {
       const auto wrapped = [cells](int k) { return (k % cells + cells) % cells; };
-      return 2.0 * terrain::share_of(terrain::lattice_hash(wrapped(x), wrapped(y), cells, kSeed)) - 1.0;
+      return 2.0 * random::share_of(random::lattice_hash(wrapped(x), wrapped(y), cells, kSeed)) - 1.0;
     };
     for (int y = 0; y < edge; ++y) {
       for (int x = 0; x < edge; ++x) {
@@ -35,8 +35,8 @@ std::vector<float> fractal_table(int edge, double texel_m) {
         const double v = y / cell_texels;
         const int i = static_cast<int>(u);
         const int j = static_cast<int>(v);
-        const double a = terrain::smooth_step(0.0, 1.0, u - i);
-        const double b = terrain::smooth_step(0.0, 1.0, v - j);
+        const double a = random::smooth_step(0.0, 1.0, u - i);
+        const double b = random::smooth_step(0.0, 1.0, v - j);
         const double low = knot(i, j) + a * (knot(i + 1, j) - knot(i, j));
         const double high = knot(i, j + 1) + a * (knot(i + 1, j + 1) - knot(i, j + 1));
         table[static_cast<std::size_t>(y) * static_cast<std::size_t>(edge) + static_cast<std::size_t>(x)] +=
@@ -112,7 +112,7 @@ void Detail::modulate(const terrain::PlaceRun& places, float* gain) const {
     const std::size_t kept = std::min(behind.size(), count - last);
     std::copy_n(gain + last, kept, behind.begin());
     simd::modulate(last - first, table, &places.east_deg[first], &places.north_deg[first], east_scale, north_scale,
-                    gain + first);
+                   gain + first);
     std::copy_n(behind.begin(), kept, gain + last);
     first = last;
   }

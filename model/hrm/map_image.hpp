@@ -84,7 +84,7 @@ double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo:
 
 struct MapNoise {
   double thermal = 0.0;   // as noise_gamma() has it
-  int looks = 1;          // of the speckle, see map_image.hpp
+  int looks = 1;          // of the speckle
   std::uint32_t map = 0;  // names the noise, together with the seed
 };
 

@@ -4,6 +4,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "model/hrm/map_image_simd.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 // Behind highway.h, or it would have no target yet.
@@ -13,10 +14,12 @@ HWY_BEFORE_NAMESPACE();
 namespace yars::model::hrm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
+namespace polynomials = physics::HWY_NAMESPACE;
 
 constexpr std::size_t kMostLanes = 16;
 using Tag = hn::CappedTag<float, kMostLanes>;
 using SignedTag = hn::RebindToSigned<Tag>;
+using BitsTag = hn::RebindToUnsigned<Tag>;
 using Floats = hn::Vec<Tag>;
 constexpr std::ptrdiff_t kFetchAhead = 4;  // rows
 
@@ -78,9 +81,7 @@ void draw_row(const FanGrid& grid, const float* fan, const MapRow& row, float* p
   }
 }
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Tag = hn::CappedTag<float, kBlock>;
+static_assert(kBlock == kMostLanes);
 
 void smooth(std::size_t count, const float* from, std::ptrdiff_t stride, std::span<const float> weights, float* to) {
   const Tag d;
@@ -137,17 +138,9 @@ void spread_along(const float* from, std::size_t reach, const float* middle, flo
   }
 }
 
-namespace hn = hwy::HWY_NAMESPACE;
-namespace polynomials = rbm::HWY_NAMESPACE;
-
-using Tag = hn::CappedTag<float, 16>;
-using SignedTag = hn::RebindToSigned<Tag>;
-using BitsTag = hn::RebindToUnsigned<Tag>;
-using Floats = hn::Vec<Tag>;
-
 constexpr float kLn2 = 0.693147181F;
 
-// noise_bits() of rbm/noise.hpp for a vector of cells, draw 0.
+// noise_bits() of clutter.hpp for a vector of cells, draw 0.
 HWY_INLINE hn::Vec<BitsTag> random_bits(physics::NoiseState state, hn::Vec<BitsTag> cell) {
   const BitsTag d;
   auto x = hn::Xor(hn::Mul(cell, hn::Set(d, physics::kDrawsPerCell)), hn::Set(d, state.first));

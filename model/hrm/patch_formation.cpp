@@ -18,7 +18,6 @@
 namespace yars::model::hrm {
 
 // Numbers on a fan: grows, never shrinks, does not keep what it held; each row of a strip on a cache line of its own.
-
 template <class Number>
 class FanArray {
  public:
@@ -40,7 +39,7 @@ constexpr int kRowsAPiece = 32;  // of the map
 }  // namespace
 
 struct PatchProcess::Work {
-  Work(const radar::RadarConfiguration& given, Crew hands)
+  Work(const radar::RadarConfiguration& given, parallel::Crew hands)
       : configuration(given),
         crew(std::move(hands)),
         gas(configuration),
@@ -71,11 +70,11 @@ struct PatchProcess::Work {
   template <class Job>
   void share_strips(const Job& job) {
     constexpr int kStripsAPiece = 2;
-    share_out(crew, grid.strips(), kStripsAPiece, job);
+    parallel::share_out(crew, grid.strips(), kStripsAPiece, job);
   }
 
   radar::RadarConfiguration configuration;
-  Crew crew;
+  parallel::Crew crew;
   physics::GasPath gas;
   MapMovers movers;
   PatchOrder order;
@@ -105,7 +104,7 @@ struct PatchProcess::Work {
   std::vector<std::uint8_t> picture;
 };
 
-PatchProcess::PatchProcess(const radar::RadarConfiguration& configuration, Crew crew)
+PatchProcess::PatchProcess(const radar::RadarConfiguration& configuration, parallel::Crew crew)
     : work_(std::make_unique<Work>(configuration, std::move(crew))) {}
 PatchProcess::~PatchProcess() = default;
 PatchProcess::PatchProcess(PatchProcess&&) noexcept = default;
@@ -204,7 +203,7 @@ void PatchProcess::Work::draw_scene() {
   const auto bands = static_cast<int>(crew.threads == 1 ? 1 : 2 * crew.threads);
   const std::vector<PlacedTile> placed = place_tiles(*geometry, grid, tiles, crew);
   const std::vector<int> begin = even_bands(grid, placed, bands);
-  share_out(crew, bands, 1, [&](int first, int last, std::size_t thread) {
+  parallel::share_out(crew, bands, 1, [&](int first, int last, std::size_t thread) {
     for (auto band = static_cast<std::size_t>(first); band < static_cast<std::size_t>(last); ++band)
       rasters[thread].draw(*geometry, grid, *database.scene, placed, begin[band] * kStripColumns,
                            begin[band + 1] * kStripColumns, {surface.data(), walls.data()});
@@ -255,14 +254,14 @@ void PatchProcess::Work::cast_profiles() {
 
 void PatchProcess::Work::draw_map() {
   if (report_1996) {
-    share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t) {
+    parallel::share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t) {
       draw_brightness(*geometry, grid, cross_section_m2.data(), first, last, image);
     });
     image.blind = false;
     return blank_blind_zone(*geometry, order.ground_track, configuration.high_resolution, image);
   }
   if (!reference)
-    share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t) {
+    parallel::share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t) {
       draw_fan(*geometry, grid, cross_section_m2.data(), first, last, image);
     });
   image.blind = false;
@@ -312,7 +311,7 @@ void PatchProcess::Work::draw_video() {
   const double noise = thermal_noise();
   picture.resize(image.power.size());
   constexpr int kRowsOfSpeckle = 128;  // a piece: each begins with two rows of cells of its own
-  share_out(crew, image.size, kRowsOfSpeckle, [&](int first, int last, std::size_t) {
+  parallel::share_out(crew, image.size, kRowsOfSpeckle, [&](int first, int last, std::size_t) {
     develop(configuration, image, {noise, order.looks, order.map}, first, last, picture);
   });
 }

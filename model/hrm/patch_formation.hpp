@@ -35,7 +35,7 @@ inline constexpr std::array<std::string_view, 5> kPatchStages{"terrain", "scene"
 
 class PatchProcess {
  public:
-  PatchProcess(const radar::RadarConfiguration& configuration, Crew crew);
+  PatchProcess(const radar::RadarConfiguration& configuration, parallel::Crew crew);
   ~PatchProcess();
   PatchProcess(PatchProcess&&) noexcept;
   PatchProcess& operator=(PatchProcess&&) noexcept;

@@ -130,10 +130,11 @@ void widen(const PatchGeometry& geometry, const terrain::TerrainView& ground, in
 }
 
 Relief relief_of(const PatchGeometry& geometry, const terrain::TerrainView& ground,
-                 const std::vector<const scene::Tile*>& tiles, const Crew& crew) {
+                 const std::vector<const scene::Tile*>& tiles, const parallel::Crew& crew) {
   std::vector<Relief> reliefs(crew.threads);
-  share_out(crew, kReliefSteps + 1, 1,
-            [&](int first, int last, std::size_t thread) { widen(geometry, ground, first, last, reliefs[thread]); });
+  parallel::share_out(crew, kReliefSteps + 1, 1, [&](int first, int last, std::size_t thread) {
+    widen(geometry, ground, first, last, reliefs[thread]);
+  });
   Relief relief;
   for (const Relief& part : reliefs) {
     relief.lowest_m = std::min(relief.lowest_m, part.lowest_m);
@@ -214,7 +215,7 @@ terrain::SmoothOrder smooth_order(const PatchGeometry& geometry, const FanGrid& 
 }
 
 FanMargins fan_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,
-                       const std::vector<const scene::Tile*>& tiles, const Crew& crew) {
+                       const std::vector<const scene::Tile*>& tiles, const parallel::Crew& crew) {
   const Relief relief = relief_of(geometry, ground, tiles, crew);
   const double sine = std::max(geometry.sin_grazing(), kLeastSine);
   const double tangent = sine / std::sqrt(std::max(1.0 - sine * sine, 1e-6));

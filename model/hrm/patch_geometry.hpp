@@ -17,11 +17,6 @@
 
 namespace yars::model::hrm {
 
-// Where a patch map lies, and how a place becomes a point on it. The plane: distance and bearing from the aircraft are
-// kept (azimuthal equidistant), turned so that the bearing of the centre points up; straight lines through the aircraft
-// are its lines of sight. `right` and `up` are metres from the centre; `ahead` = up + the centre's distance.
-// Heights count from the map plane, which is level at the centre's elevation and bends with the effective earth.
-
 // Every value finite, the window greater than 0, the centre farther from the apex than the window's half diagonal: the
 // kernel sees to it.
 struct PatchOrder {
@@ -43,6 +38,10 @@ struct MapPoint {
   double up_m = 0.0;
 };
 
+// Where a patch map lies, and how a place becomes a point on it. The plane: distance and bearing from the aircraft are
+// kept (azimuthal equidistant), turned so that the bearing of the centre points up; straight lines through the aircraft
+// are its lines of sight. `right` and `up` are metres from the centre; `ahead` = up + the centre's distance.
+// Heights count from the map plane, which is level at the centre's elevation and bends with the effective earth.
 class PatchGeometry {
  public:
   // `elevation_m` [m] MSL of the map plane: the ground at the centre.
@@ -142,7 +141,6 @@ struct WallPoint {
 inline constexpr float kWallStep_m = 1.0F / 4096.0F;
 
 // What a patch map needs before it can be made: which terrain, and how far beyond its window it has to look.
-
 // Terrain about the window, and on the way to it, which may be coarser: by the fidelity's posts a sample, for all posts
 // of what is read raise the horizon (decision 19).
 struct PatchNeed {
@@ -158,6 +156,6 @@ terrain::SmoothOrder smooth_order(const PatchGeometry& geometry, const FanGrid& 
 // For what stands or lies outside the window and is laid over or shades into it: by the relief of the ground and the
 // things of the tiles.
 FanMargins fan_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,
-                       const std::vector<const scene::Tile*>& tiles, const Crew& crew);
+                       const std::vector<const scene::Tile*>& tiles, const parallel::Crew& crew);
 
 }  // namespace yars::model::hrm

@@ -108,7 +108,7 @@ std::vector<float> Response::weights(double pixel, int& first) const {
 }
 
 // Rows and columns of black about a copy of the image, so that no sum looks over an edge.
-void Response::make_room(const Crew& crew, const MapImage& image) {
+void Response::make_room(const parallel::Crew& crew, const MapImage& image) {
   const auto size = static_cast<std::size_t>(image.size);
   margin_ = along_reach_ * simd::kBlock;
   columns_ = (size + simd::kBlock - 1) / simd::kBlock * simd::kBlock;
@@ -124,21 +124,22 @@ void Response::make_room(const Crew& crew, const MapImage& image) {
   }
 }
 
-void Response::apply(float floor, const Crew& crew, MapImage& image) {
+void Response::apply(float floor, const parallel::Crew& crew, MapImage& image) {
   make_room(crew, image);
   if (main_lobe_.size() > 1)
-    share_out(crew, image.size, kRowsAPiece,
-              [&](int first, int last, std::size_t thread) { smooth_along(first, last, hands_[thread], image); });
+    parallel::share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t thread) {
+      smooth_along(first, last, hands_[thread], image);
+    });
   const float strong = sidelobes_.empty() ? 0.0F : floor / *std::max_element(sidelobes_.begin(), sidelobes_.end());
   strong_.resize(static_cast<std::size_t>((image.size + kRowsAPiece - 1) / kRowsAPiece));
-  share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t thread) {
+  parallel::share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t thread) {
     if (main_lobe_.size() > 1) smooth_down(first, last, hands_[thread], image);
     if (!sidelobes_.empty()) find_strong(strong, first, last, hands_[thread], image);
   });
   if (sidelobes_.empty()) return;
   if (std::all_of(strong_.begin(), strong_.end(), [](const std::vector<Strong>& run) { return run.empty(); })) return;
-  share_out(crew, image.size, kRowsAPiece,
-            [&](int first, int last, std::size_t) { add_sidelobes(first, last, image); });
+  parallel::share_out(crew, image.size, kRowsAPiece,
+                      [&](int first, int last, std::size_t) { add_sidelobes(first, last, image); });
 }
 
 void Response::smooth_along(int first, int last, Hand& hand, const MapImage& image) {
@@ -191,12 +192,12 @@ void Response::spread(const Strong& strong, std::size_t first, std::size_t last)
   const std::size_t farthest = strong.row >= first ? std::min(taps, strong.row - first + 1) : 0;
   if (nearest < farthest)
     simd::spread(strong.power.data(), -pitch, weights.subspan(nearest - lobe, farthest - nearest),
-                  at - static_cast<std::ptrdiff_t>(nearest) * pitch);
+                 at - static_cast<std::ptrdiff_t>(nearest) * pitch);
   const std::size_t next = strong.row < first ? std::max(lobe, first - strong.row) : lobe;
   const std::size_t end = strong.row < last ? std::min(taps, last - strong.row) : 0;
   if (next < end)
     simd::spread(strong.power.data(), pitch, weights.subspan(next - lobe, end - next),
-                  at + static_cast<std::ptrdiff_t>(next) * pitch);
+                 at + static_cast<std::ptrdiff_t>(next) * pitch);
 }
 
 // Strong points were found first, all of them: what one adds must not make another strong. Few pixels of a picture are,

@@ -29,21 +29,21 @@ class Response {
 
   // Every pixel spreads over the main lobe; those so strong that their sidelobes rise above `floor`, over these too.
   // The sum over the picture stays, but for what leaves it.
-  void apply(float floor, const Crew& crew, MapImage& image);
+  void apply(float floor, const parallel::Crew& crew, MapImage& image);
   // Weights of the pixels from `first` on for a point at this place [pixels]; sum 1.
   std::vector<float> weights(double pixel, int& first) const;
 
  private:
   void mirror_sidelobes();
-  // A hand's own room: a row of the picture with its margins, a row of the result.
   struct Strong {
     std::size_t row, column;  // of the first
     std::array<float, simd::kBlock> power;
   };
+  // A hand's own room: a row of the picture with its margins, a row of the result.
   struct Hand {
     memory::LineVector<float> source, row;
   };
-  void make_room(const Crew& crew, const MapImage& image);
+  void make_room(const parallel::Crew& crew, const MapImage& image);
   void smooth_along(int first, int last, Hand& hand, const MapImage& image);
   void smooth_down(int first, int last, Hand& hand, MapImage& image) const;
   void find_strong(float limit, int first, int last, Hand& hand, const MapImage& image);
@@ -66,11 +66,6 @@ class Response {
   std::vector<std::vector<Strong>> strong_;  // points, by runs of rows
 };
 
-// Moving targets, and points that stand (a corner reflector is one), on a map: displaced along the track by what their
-// radial speed adds to the Doppler, and smeared over the time that the map takes. Radial speed v_r, positive towards
-// the radar, shifts the bearing by v_r / (V sin(squint)) forwards: R v_r / V across a broadside line of sight.
-// Source: docs/spec/physics.md#movers; Raney, "Synthetic Aperture Imaging Radar and Moving Targets" (1971).
-
 // What stands in the way of a point: highest tangent of all that is nearer, by column and row of the fan.
 struct Horizons {
   const FanGrid* grid = nullptr;
@@ -79,13 +74,18 @@ struct Horizons {
   const float* horizon = nullptr;  // before row 0
 };
 
+// Moving targets, and points that stand (a corner reflector is one), on a map: displaced along the track by what their
+// radial speed adds to the Doppler, and smeared over the time that the map takes. Radial speed v_r, positive towards
+// the radar, shifts the bearing by v_r / (V sin(squint)) forwards: R v_r / V across a broadside line of sight.
+// Source: docs/spec/physics.md#movers; Raney, "Synthetic Aperture Imaging Radar and Moving Targets" (1971).
 class MapMovers {
  public:
   explicit MapMovers(const radar::RadarConfiguration& configuration);
 
   // Those of the configuration and of the traffic.
   void draw(const PatchOrder& order, const PatchGeometry& geometry, geo::Duration formation,
-            const physics::Database& database, const Horizons& horizons, const Response& response, MapImage& image) const;
+            const physics::Database& database, const Horizons& horizons, const Response& response,
+            MapImage& image) const;
 
  private:
   struct Trace {

@@ -162,15 +162,16 @@ std::size_t GroundFan::read_window(const PatchOrder& order, const PatchGeometry&
   float* height_m = &strip_height_[lane * pitch_];
   float* gain = &strip_gain_[lane * pitch_];
   const geo::Length range = geo::Length::metres(static_cast<double>(column.distance_m[rows - 1]));
-  physics::sample_places(geometry.apex(), azimuth, range, configuration_.fidelity.geodesic_knots, column.distance_m.data(),
-                     column.places);
+  physics::sample_places(geometry.apex(), azimuth, range, configuration_.fidelity.geodesic_knots,
+                         column.distance_m.data(), column.places);
   const terrain::SurfaceRun found{
       {height_m, rows},
       {column.water.data(), rows},
       {},
       view.has_materials() ? std::span(ground_->materials()).first(rows) : std::span<std::int32_t>{}};
   const std::size_t pending = view.surfaces(column.places.run(), configuration_.fidelity.interpolation, found);
-  const physics::Look look{geometry.apex(), order.altitude, azimuth, {}, range, order.sim_time, order.band, order.channel};
+  const physics::Look look{geometry.apex(), order.altitude, azimuth,    {},
+                           range,           order.sim_time, order.band, order.channel};
   const physics::Ground::Sample reflects =
       ground_->reflect(look, column.places.run(), column.water.data(), sin_grazing_.data(), view.has_materials());
   if (reflects.land != nullptr)
@@ -190,7 +191,7 @@ std::size_t GroundFan::read_path(const PatchGeometry& geometry, const FanGrid& g
   Column& column = *path_;
   const std::size_t samples = column.places.count;
   physics::sample_places(geometry.apex(), azimuth, geo::Length::metres(grid.first_distance_m),
-                     configuration_.fidelity.geodesic_knots, column.distance_m.data(), column.places);
+                         configuration_.fidelity.geodesic_knots, column.distance_m.data(), column.places);
   const bool peaks = view.has_peaks();
   const terrain::SurfaceRun found{{column.elevation_m.data(), samples},
                                   {column.water.data(), samples},
@@ -322,7 +323,7 @@ void GroundFan::fetch_strip(const FanGrid& grid, int column, const GroundArrays&
 // A column's numbers lie one behind the other when read, and sixteen columns' side by side on the fan.
 void GroundFan::put_strip(const FanGrid& grid, int strip, const GroundArrays& arrays) const {
   simd::put_side_by_side(static_cast<std::size_t>(grid.rows), strip_gain_.data(), strip_height_.data(), pitch_,
-                          arrays.surface + grid.at(strip * kStripColumns, 0));
+                         arrays.surface + grid.at(strip * kStripColumns, 0));
 }
 
 }  // namespace yars::model::hrm

@@ -8,7 +8,6 @@
 #define HWY_TARGET_INCLUDE "model/hrm/polar_ground_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// Behind highway.h, or it would have no target yet.
 
 HWY_BEFORE_NAMESPACE();
 namespace yars::model::hrm::simd::HWY_NAMESPACE {
@@ -82,8 +81,6 @@ void modulate(std::size_t count, const DetailTable& table, const float* east_deg
     hn::StoreU(hn::Mul(hn::LoadU(d, gain + i), hn::Mul(factor, unit2)), d, gain + i);
   }
 }
-
-namespace hn = hwy::HWY_NAMESPACE;
 
 void fill_between(std::size_t count, std::size_t step, float* columns, std::size_t pitch) {
   const hn::CappedTag<float, kStripColumns> d;

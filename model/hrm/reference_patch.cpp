@@ -257,13 +257,13 @@ void ReferencePatch::add_facet(const Face& face, Point3 place, Point3 weights, d
   const Point3 normal = face.normal();
   const double facing = dot(normal, way);
   const Point3 smooth = weights.x * face.normals[0] + weights.y * face.normals[1] + weights.z * face.normals[2];
-  const double shaded = std::clamp(dot(smooth, way), 0.0, kMostShading * facing);
+  const double shaded = std::clamp(dot(smooth, way), 0.0, physics::kMostShading * facing);
   const double out_m = std::hypot(place.x, place.y);
   const double out_right = place.x / out_m;
   const double out_ahead = place.y / out_m;
   const double towards = -(normal.x * out_right + normal.y * out_ahead);
   const double level2 = normal.x * normal.x + normal.y * normal.y;
-  if (normal.z * normal.z >= kWallNormal2 * level2) {
+  if (normal.z * normal.z >= scene::kWallNormal2 * level2) {
     add(place, surface_.gamma(face.code) * area_m2 * shaded);
     return;
   }

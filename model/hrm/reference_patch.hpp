@@ -59,7 +59,7 @@ class ReferencePatch {
   void add(Point3 place, double cross_section_m2);
 
   radar::Fidelity fidelity_;
-  SceneSurface surface_;
+  physics::SceneSurface surface_;
   physics::GasPath gas_;
   double bounce_;  // of a wall's foot against the wall; 0 = none
   const PatchGeometry* geometry_;

@@ -93,7 +93,8 @@ void develop_brightness(const radar::RadarConfiguration& configuration, const Ma
   const auto size = static_cast<std::size_t>(image.size);
   picture.resize(image.power.size());
   for (std::size_t row = 0; row < size; ++row) {
-    const physics::NoiseState state = physics::make_noise_state({configuration.seed, map, static_cast<std::uint32_t>(row)});
+    const physics::NoiseState state =
+        physics::make_noise_state({configuration.seed, map, static_cast<std::uint32_t>(row)});
     for (std::size_t column = 0; column < size; ++column) {
       const std::size_t at = row * size + column;
       const auto bits = physics::noise_bits(state, static_cast<std::uint32_t>(column), 0);

@@ -82,9 +82,9 @@ bool find_columns(const PatchGeometry& geometry, const FanGrid& grid, PlacedTile
 }  // namespace
 
 std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const FanGrid& grid,
-                                    const std::vector<const scene::Tile*>& tiles, const Crew& crew) {
+                                    const std::vector<const scene::Tile*>& tiles, const parallel::Crew& crew) {
   std::vector<PlacedTile> all(tiles.size());
-  share_out(crew, static_cast<int>(tiles.size()), kTilesAPiece, [&](int first, int last, std::size_t) {
+  parallel::share_out(crew, static_cast<int>(tiles.size()), kTilesAPiece, [&](int first, int last, std::size_t) {
     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
       all[i] = placed(geometry, *tiles[i]);
       if (!find_columns(geometry, grid, all[i])) all[i].tile = nullptr;
@@ -144,9 +144,9 @@ void SceneRaster::transform(const PatchGeometry& geometry, const FanGrid& grid, 
   map.rows_a_metre = static_cast<float>(1.0 / grid.spacing_m);
   map.middle_row = static_cast<float>((geometry.distance_m() - grid.first_distance_m) / grid.spacing_m);
   simd::place_vertices(count,
-                        {tile.east_m.data(), tile.north_m.data(), tile.up_m.data(), tile.normal_east.data(),
-                         tile.normal_north.data(), tile.normal_up.data()},
-                        map, vertices_of(tile));
+                       {tile.east_m.data(), tile.north_m.data(), tile.up_m.data(), tile.normal_east.data(),
+                        tile.normal_north.data(), tile.normal_up.data()},
+                       map, vertices_of(tile));
 }
 
 void SceneRaster::read_kinds(const scene::SceneView& scene) {
@@ -171,7 +171,7 @@ void SceneRaster::draw(const PatchGeometry& geometry, const FanGrid& grid, const
   limits.first_row = -simd::kSurfaceReach;
   limits.last_row = static_cast<float>(grid.rows);
   limits.row_height_m = static_cast<float>(grid.spacing_m);
-  limits.wall_normal2 = static_cast<float>(kWallNormal2);
+  limits.wall_normal2 = static_cast<float>(scene::kWallNormal2);
   for (const PlacedTile& placement : tiles) {
     if (!(placement.most_column >= limits.first_column && placement.least_column < limits.last_column)) continue;
     const double distance_m = std::hypot(placement.right_m, placement.up_m + geometry.distance_m());

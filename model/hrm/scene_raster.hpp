@@ -28,7 +28,7 @@ struct PlacedTile {
 
 // Those that come near the fan, in their order.
 std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const FanGrid& grid,
-                                    const std::vector<const scene::Tile*>& tiles, const Crew& crew);
+                                    const std::vector<const scene::Tile*>& tiles, const parallel::Crew& crew);
 
 // Strips at which `bands` runs of them begin that have about as many triangles each; behind them the last one's end.
 std::vector<int> even_bands(const FanGrid& grid, std::span<const PlacedTile> tiles, int bands);
@@ -52,11 +52,11 @@ class SceneRaster {
     return {column_.data(), row_.data(), height_m_.data(), facing_.data(), tile.bare};
   }
 
-  SceneSurface surface_;
+  physics::SceneSurface surface_;
   std::vector<float> cardinal_shares_;
   std::vector<float> gamma_, cardinal_;                  // by kind of the scene
   std::vector<float> column_, row_, height_m_, facing_;  // of the tile in hand, by vertex
-  simd::FoundTriangles found_;                          // of it, those that are drawn
+  simd::FoundTriangles found_;                           // of it, those that are drawn
   simd::Fragments fragments_;
 };
 

@@ -185,7 +185,7 @@ void VelocityRound::measure(const Pose& pose) {
     const Direction beam = direction_of(i, pose.platform);
     lines[i] = radar::line_of_sight(beam.azimuth, beam.elevation);
     speeds_mps[i] =
-        dot(lines[i], pose.velocity_mps) + beam_noise_mps_ * radar::standard_normal(configuration_->seed, count_, i);
+        dot(lines[i], pose.velocity_mps) + beam_noise_mps_ * random::standard_normal(configuration_->seed, count_, i);
   }
   const auto velocity_mps = radar::velocity_of({lines.data(), beams()}, {speeds_mps.data(), beams()});
   if (!velocity_mps) return;

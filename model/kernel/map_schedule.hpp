@@ -15,14 +15,8 @@
 namespace yars::model::kernel {
 
 // The hash of a patch map: equal maps, equal hashes, whoever made them.
-
 // XXH3 64 over the record's fields before `hash` but for id and ticks, then, seeded with that, over the pixels.
 std::uint64_t map_hash(const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels);
-
-// When the radar forms which patch map, as a pure step: radar command, place and tick in; what is forming out. The
-// picture is another's work (hrm::PatchProcess); it is complete at the tick that the formation time gives, and whoever
-// drives the kernel has it ready by then. Source: docs/spec/pilots_interface.md#rule-5, #rule-6, #rule-7, #rule-8;
-// docs/spec/physics.md#formation-time.
 
 // A map on its way.
 struct MapUnderWay {
@@ -37,6 +31,10 @@ struct MapUnderWay {
   geo::Duration formation{};
 };
 
+// When the radar forms which patch map, as a pure step: radar command, place and tick in; what is forming out. The
+// picture is another's work (hrm::PatchProcess); it is complete at the tick that the formation time gives, and whoever
+// drives the kernel has it ready by then. Source: docs/spec/pilots_interface.md#rule-5, #rule-6, #rule-7, #rule-8;
+// docs/spec/physics.md#formation-time.
 class MapSchedule {
  public:
   explicit MapSchedule(const radar::RadarConfiguration& configuration);

@@ -5,6 +5,7 @@
 #include "lib/radar/modes.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "model/physics/receiver.hpp"
+#include "model/rbm/sub_beams.hpp"
 
 namespace yars::model::kernel {
 
@@ -75,7 +76,8 @@ void OfflineScan::measure(const physics::Database& database) {
 
 void OfflineScan::await_measured(std::size_t thread) {
   const std::atomic<std::uint32_t>& scans = measured_[thread].scans;
-  for (std::uint32_t seen = scans.load(std::memory_order_acquire); seen != scans_;) seen = wait_for_change(scans, seen);
+  for (std::uint32_t seen = scans.load(std::memory_order_acquire); seen != scans_;)
+    seen = parallel::wait_for_change(scans, seen);
 }
 
 void OfflineScan::run(const physics::Database& database) {

@@ -71,7 +71,7 @@ class OfflineScan {
     std::atomic<std::uint32_t> scans{0};  // that the thread has measured its part of in run()
   };
   std::uint32_t scans_ = 0;  // that run() has begun
-  Workers workers_;
+  parallel::Workers workers_;
   std::vector<Progress> measured_;  // one a thread
 };
 

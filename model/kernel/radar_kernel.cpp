@@ -18,6 +18,10 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRegionMarginM = 2000.0;
 }  // namespace
 
+struct RadarKernel::State : ScanState {
+  using ScanState::ScanState;
+};
+
 RadarKernel::RadarKernel(const radar::RadarConfiguration& configuration)
     : state_(std::make_unique<State>(configuration)) {}
 RadarKernel::~RadarKernel() = default;
@@ -104,28 +108,6 @@ void answer_elevation(const databuffer::RadarState& asked, const terrain::Terrai
 
 const MapSchedule& RadarKernel::maps() const {
   return state_->maps;
-}
-
-void RadarKernel::State::remember(ModelStatus& status) const {
-  const antenna::Antenna::Memory memory = antenna.memory();
-  status.antenna_azimuth_deg = memory.azimuth_deg;
-  status.antenna_elevation_deg = memory.elevation_deg;
-  status.scan_centre_deg = memory.centre_deg;
-  status.scan_width_deg = scan_width_deg;
-  status.scan_range_m = scan_range_m;
-  status.scan_tick = static_cast<std::uint32_t>(memory.tick);
-  status.antenna_phase = static_cast<std::uint8_t>(memory.phase);
-  status.scan_noise_only = noise_only ? 1 : 0;
-  status.scan_direction = static_cast<std::int8_t>(memory.direction);
-  status.scan_offset_deg = memory.offset_deg;
-  status.scan_rate_dps = memory.rate_dps;
-  status.scan_bar = static_cast<std::uint8_t>(memory.tick / antenna.pattern().pass_ticks());
-  status.epoch = epoch;
-  status.scan = scan;
-  status.sweep = next_sweep;
-  status.scan_restart = scan_restart;
-  status.flags = (frozen ? databuffer::kModelFrozen : 0U) | (scanning ? databuffer::kModelScanning : 0U) |
-                 (pose_fresh ? 0U : databuffer::kModelStale);
 }
 
 void RadarKernel::describe(const terrain::TerrainView& terrain, ModelStatus& status) const {

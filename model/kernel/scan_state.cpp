@@ -17,26 +17,26 @@ namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 }  // namespace
 
-void RadarKernel::State::clear_chains() {
+void ScanState::clear_chains() {
   beam_chain.clear();
   sharpened_chain.clear();
   gathered_ticks = 0;
 }
 
-void RadarKernel::State::step_maps(const ModelTick& given, const terrain::TerrainView& terrain) {
+void ScanState::step_maps(const ModelTick& given, const terrain::TerrainView& terrain) {
   if ((given.flags & databuffer::kTickMapComplete) != 0U && maps.forming()) maps.complete();
   const geo::GeoPoint place{given.command.map_latitude_deg, given.command.map_longitude_deg};
   const bool known = std::isfinite(place.latitude_deg) && std::isfinite(place.longitude_deg);
   maps.step(given, *pose, known ? terrain.elevation_m(place) : kUnknown, !velocity.wanted());
 }
 
-void RadarKernel::State::stop_scanning() {
+void ScanState::stop_scanning() {
   if (scanning) antenna.park();
   scanning = false;
 }
 
 // What the dish does while it is not needed for a scan: a map comes first, then a round of beams.
-void RadarKernel::State::point_unless_scanning(const ModelTick& given, const terrain::TerrainView& terrain) {
+void ScanState::point_unless_scanning(const ModelTick& given, const terrain::TerrainView& terrain) {
   if (scanning) return;
   const antenna::Platform& platform = pose->platform;
   const bool measures = velocity.wanted() && !maps.forming();
@@ -55,7 +55,7 @@ void RadarKernel::State::point_unless_scanning(const ModelTick& given, const ter
 }
 
 // In HRM the dish follows the cursor.
-geo::Angle RadarKernel::State::wanted_elevation(const terrain::TerrainView& terrain) const {
+geo::Angle ScanState::wanted_elevation(const terrain::TerrainView& terrain) const {
   const geo::GeoPoint cursor{command.cursor_latitude_deg, command.cursor_longitude_deg};
   const bool known = (command.flags & databuffer::kCursorValid) != 0U && std::isfinite(cursor.latitude_deg) &&
                      std::isfinite(cursor.longitude_deg);
@@ -64,8 +64,8 @@ geo::Angle RadarKernel::State::wanted_elevation(const terrain::TerrainView& terr
 }
 
 // A sharpened sweep takes several ticks: its edges are those of the first and of the last.
-bool RadarKernel::State::gather(const ModelTick& given, const antenna::AntennaStep& step,
-                                const physics::Database& database, databuffer::Sweep& sweep) {
+bool ScanState::gather(const ModelTick& given, const antenna::AntennaStep& step, const physics::Database& database,
+                       databuffer::Sweep& sweep) {
   if (gathered_ticks == 0) {
     gathered = step;
   } else {
@@ -82,7 +82,7 @@ bool RadarKernel::State::gather(const ModelTick& given, const antenna::AntennaSt
 }
 
 // Power, mode, freeze, restart: decides whether this tick scans. True if it ended a scan whose last sweep came out.
-bool RadarKernel::State::follow_command(const ModelTick& given, databuffer::Sweep& sweep) {
+bool ScanState::follow_command(const ModelTick& given, databuffer::Sweep& sweep) {
   command = given.command;
   const bool jumped = started && given.epoch != epoch;
   epoch = given.epoch;
@@ -120,7 +120,7 @@ bool RadarKernel::State::follow_command(const ModelTick& given, databuffer::Swee
   return false;
 }
 
-void RadarKernel::State::use_samples(std::uint32_t samples) {
+void ScanState::use_samples(std::uint32_t samples) {
   if (samples == 0 || samples == beam_chain.samples() || samples > static_cast<std::uint32_t>(radar::kMaxSamples))
     return;
   configuration.fidelity.samples = static_cast<int>(samples);
@@ -129,8 +129,8 @@ void RadarKernel::State::use_samples(std::uint32_t samples) {
 
 // The tick names the preset that was picked; it comes into force with a scan, so that no scan is half one, half
 // another.
-void RadarKernel::State::use_fidelity(const ModelTick& given) {
-  const std::string_view name = databuffer::text_of(given.fidelity);
+void ScanState::use_fidelity(const ModelTick& given) {
+  const std::string_view name = text::text_of(given.fidelity);
   if (name == configuration.fidelity.name) return;
   const auto preset = radar::fidelity_preset(name);
   if (!preset) return;
@@ -144,11 +144,11 @@ void RadarKernel::State::use_fidelity(const ModelTick& given) {
 }
 
 // A width that is not a number would differ from itself and restart the scan at each tick: the one in force stands.
-double RadarKernel::State::wanted_width_deg(const databuffer::RadarCommand& given) const {
+double ScanState::wanted_width_deg(const databuffer::RadarCommand& given) const {
   return std::isfinite(given.scan_width_deg) ? given.scan_width_deg : scan_width_deg;
 }
 
-void RadarKernel::State::restart(const databuffer::RadarCommand& given) {
+void ScanState::restart(const databuffer::RadarCommand& given) {
   scan_restart = given.scan_restart;
   scan_width_deg = wanted_width_deg(given);
   scanning = true;
@@ -161,14 +161,14 @@ void RadarKernel::State::restart(const databuffer::RadarCommand& given) {
 }
 
 // What holds for a whole scan.
-void RadarKernel::State::start_scan(const databuffer::RadarCommand& given) {
+void ScanState::start_scan(const databuffer::RadarCommand& given) {
   ++scan;
   scan_range_m = geo::Length::nautical_miles(given.range_nm).metres();
   noise_only = sniffs(given);
 }
 
-bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::AntennaStep& step,
-                                    const physics::Database& database, databuffer::Sweep& sweep) {
+bool ScanState::sweep_tick(const ModelTick& given, const antenna::AntennaStep& step, const physics::Database& database,
+                           databuffer::Sweep& sweep) {
   if (step.scan_start || scan_range_m <= 0.0) {
     if (configuration.fidelity.automatic) use_fidelity(given);
     start_scan(given.command);
@@ -217,6 +217,28 @@ bool RadarKernel::State::sweep_tick(const ModelTick& given, const antenna::Anten
   const bool whole = database.terrain.serves(scan_detail(fidelity, wanted)) && database.scenes_ready;
   if (needs_ground(labels.mode, noise_only, configuration) && !whole) labels.flags |= databuffer::kSweepNotReady;
   return chain().advance(place, labels, database, sweep);
+}
+
+void ScanState::remember(ModelStatus& status) const {
+  const antenna::Antenna::Memory memory = antenna.memory();
+  status.antenna_azimuth_deg = memory.azimuth_deg;
+  status.antenna_elevation_deg = memory.elevation_deg;
+  status.scan_centre_deg = memory.centre_deg;
+  status.scan_width_deg = scan_width_deg;
+  status.scan_range_m = scan_range_m;
+  status.scan_tick = static_cast<std::uint32_t>(memory.tick);
+  status.antenna_phase = static_cast<std::uint8_t>(memory.phase);
+  status.scan_noise_only = noise_only ? 1 : 0;
+  status.scan_direction = static_cast<std::int8_t>(memory.direction);
+  status.scan_offset_deg = memory.offset_deg;
+  status.scan_rate_dps = memory.rate_dps;
+  status.scan_bar = static_cast<std::uint8_t>(memory.tick / antenna.pattern().pass_ticks());
+  status.epoch = epoch;
+  status.scan = scan;
+  status.sweep = next_sweep;
+  status.scan_restart = scan_restart;
+  status.flags = (frozen ? databuffer::kModelFrozen : 0U) | (scanning ? databuffer::kModelScanning : 0U) |
+                 (pose_fresh ? 0U : databuffer::kModelStale);
 }
 
 }  // namespace yars::model::kernel

@@ -7,9 +7,10 @@
 #include "lib/radar/modes.hpp"
 #include "model/antenna/antenna.hpp"
 #include "model/kernel/doppler_modes.hpp"
-#include "model/kernel/radar_kernel.hpp"
+#include "model/kernel/map_schedule.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "model/kernel/tick_inputs.hpp"
+#include "model/physics/environment.hpp"
 
 namespace yars::model::kernel {
 
@@ -31,8 +32,8 @@ inline bool frozen_by(const databuffer::RadarCommand& command) {
   return (command.flags & databuffer::kFreeze) != 0U;
 }
 
-struct RadarKernel::State {
-  explicit State(const radar::RadarConfiguration& given)
+struct ScanState {
+  explicit ScanState(const radar::RadarConfiguration& given)
       : configuration(given),
         sharpened(sharpened_configuration(given)),
         antenna(given.antenna),
@@ -40,9 +41,9 @@ struct RadarKernel::State {
         sharpened_chain(sharpened),
         maps(configuration),
         velocity(configuration) {}
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-  ~State() = default;
+  ScanState(const ScanState&) = delete;
+  ScanState& operator=(const ScanState&) = delete;
+  ~ScanState() = default;
 
   bool is_sharpened() const { return command.mode == static_cast<std::uint8_t>(radar::Mode::hrm); }
   SweepChain& chain() { return is_sharpened() ? sharpened_chain : beam_chain; }

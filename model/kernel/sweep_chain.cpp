@@ -7,6 +7,7 @@
 #include <span>
 
 #include "lib/radar/modes.hpp"
+#include "model/rbm/sub_beams.hpp"
 
 namespace yars::model::kernel {
 
@@ -29,8 +30,8 @@ void write_place(const SweepPlace& place, databuffer::Sweep& sweep) {
 physics::Look look_of(const SweepPlace& place) {
   const geo::Angle width = place.right - place.left;
   physics::Look look{place.apex,      place.altitude, place.looked_at.value_or(place.left + 0.5 * width),
-                 place.elevation, place.range,    place.sim_time,
-                 place.band,      place.channel};
+                     place.elevation, place.range,    place.sim_time,
+                     place.band,      place.channel};
   look.bars_above = place.bars_above;
   look.bars_below = place.bars_below;
   if (place.resolved) {

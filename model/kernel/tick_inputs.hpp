@@ -37,12 +37,10 @@ radar::MapViewpoint viewpoint_of(const Pose& pose);
 bool asks_for_video(const databuffer::RadarCommand& command);
 
 // The traffic that a tick latched, as points that the radar sees.
-
 // Each goes on from where it was at the tick at which it was latched.
 std::vector<physics::MovingPoint> points_of(const databuffer::Traffic& traffic);
 
 // How fine the terrain of a scan has to be: the fidelity's posts a sample at a range. "A scene costs what is in view."
-
 // Of TerrainRegion; 0 = the finest.
 int scan_detail(const radar::Fidelity& fidelity, geo::Length range);
 

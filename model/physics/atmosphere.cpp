@@ -15,7 +15,7 @@ namespace yars::model::physics {
 
 using GasLine = std::array<double, 7>;
 
-inline constexpr std::array<GasLine, 44> kOxygenLines{
+constexpr std::array<GasLine, 44> kOxygenLines{
     {{50.474214, 0.975, 9.651, 6.69, 0.0, 2.566, 6.85},     {50.987745, 2.529, 8.653, 7.17, 0.0, 2.246, 6.8},
      {51.50336, 6.193, 7.709, 7.64, 0.0, 1.947, 6.729},     {52.021429, 14.32, 6.819, 8.11, 0.0, 1.667, 6.64},
      {52.542418, 31.24, 5.983, 8.58, 0.0, 1.388, 6.526},    {53.066934, 64.29, 5.201, 9.06, 0.0, 1.349, 6.206},
@@ -39,7 +39,7 @@ inline constexpr std::array<GasLine, 44> kOxygenLines{
      {487.249273, 237.4, 0.049, 16.0, 0.0, 0.0, 0.0},       {715.392902, 98.1, 0.145, 16.0, 0.0, 0.0, 0.0},
      {773.83949, 572.3, 0.141, 16.2, 0.0, 0.0, 0.0},        {834.145546, 183.1, 0.145, 14.7, 0.0, 0.0, 0.0}}};
 
-inline constexpr std::array<GasLine, 35> kWaterLines{
+constexpr std::array<GasLine, 35> kWaterLines{
     {{22.23508, 0.1079, 2.144, 26.38, 0.76, 5.087, 1.0},    {67.80396, 0.0011, 8.732, 28.58, 0.69, 4.93, 0.82},
      {119.99594, 0.0007, 8.353, 29.48, 0.7, 4.78, 0.79},    {183.310087, 2.273, 0.668, 29.06, 0.77, 5.022, 0.85},
      {321.22563, 0.047, 6.179, 24.04, 0.67, 4.398, 0.54},   {325.152888, 1.514, 1.541, 28.23, 0.64, 4.893, 0.74},
@@ -145,17 +145,14 @@ double GasProfile::db_per_m(double height_m) const {
   return db_per_m_[below] + share * (db_per_m_[below + 1] - db_per_m_[below]);
 }
 
-}  // namespace yars::model::physics
-
-namespace yars::model::physics {
-
 namespace {
 // Gauss and Legendre's eight places and weights on [-1, 1]. Source: Abramowitz and Stegun 1964, table 25.4.
 constexpr std::array<double, 4> kPlaces{0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
 constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                          0.1012285362903763};
-constexpr double kEarthRadius_m = 6371008.8;                 // mean; the bow of a ray is within 0.4 % for any azimuth
-constexpr std::array<double, 3> kHeights_km{0.0, 2.0, 5.0};  // of the parabola in height
+// Mean: within 0.4 % of the bow of a ray for any azimuth, 0.3 % of the distance at which a great circle passes a place.
+constexpr double kEarthRadius_m = 6371008.8;
+constexpr std::array<double, 3> kHeights_km{0.0, 2.0, 5.0};                 // of the parabola in height
 constexpr float kParabolaLowest_m = -500.0F, kParabolaHighest_m = 6000.0F;  // in which it holds
 
 EffectiveEarth round_earth(const radar::Fidelity& fidelity) {
@@ -231,13 +228,7 @@ void GasSamples::apply(const float* height_m, float* power) const {
   }
 }
 
-}  // namespace yars::model::physics
-
-namespace yars::model::physics {
-
 namespace {
-constexpr double kMeanEarthRadiusM = 6371008.8;  // [m] how a great circle passes a place: to 0.3 % of the distance
-
 // Antiderivative of (depth - (x / radius)^2)^2.
 double primitive(double depth, double radius_m, double x_m) {
   const double square = x_m * x_m / (radius_m * radius_m);
@@ -269,27 +260,22 @@ double RainChord::integral_m(double from_m, double to_m) const {
 
 RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint middle, double radius_m) {
   const geo::GeodesicInverse way = geo::geodesic_inverse(apex, middle);
-  const double arc = way.distance.metres() / kMeanEarthRadiusM;
+  const double arc = way.distance.metres() / kEarthRadius_m;
   const double turn = (way.azimuth_at_start - azimuth).radians();
-  const double miss_m = kMeanEarthRadiusM * std::asin(std::sin(arc) * std::sin(turn));
+  const double miss_m = kEarthRadius_m * std::asin(std::sin(arc) * std::sin(turn));
   RainChord chord;
   chord.radius_m = radius_m;
-  chord.middle_m = kMeanEarthRadiusM * std::atan2(std::sin(arc) * std::cos(turn), std::cos(arc));
+  chord.middle_m = kEarthRadius_m * std::atan2(std::sin(arc) * std::cos(turn), std::cos(arc));
   chord.depth = 1.0 - miss_m * miss_m / (radius_m * radius_m);
   chord.half_m = chord.depth > 0.0 ? radius_m * std::sqrt(chord.depth) : 0.0;
   return chord;
 }
 
-}  // namespace yars::model::physics
-
-namespace yars::model::physics {
-
 RainPath::RainPath(const radar::RadarConfiguration& configuration) : beam_(configuration.fidelity.beam) {
   const radar::RainConfiguration& rain = configuration.world.rain;
-  const double wavelength_m = wavelength_m(configuration.receiver.frequency_ghz);
+  const double wave_m = wavelength_m(configuration.receiver.frequency_ghz);
   for (const radar::RainCell& cell : rain.cells) {
-    showers_.push_back({cell.place, cell.radius_m, cell.top_m,
-                        rain_reflectivity(rain, cell.rate_mmh, wavelength_m),
+    showers_.push_back({cell.place, cell.radius_m, cell.top_m, rain_reflectivity(rain, cell.rate_mmh, wave_m),
                         rain_attenuation_db_per_m(rain, cell.rate_mmh)});
   }
   crossed_.reserve(showers_.size());
@@ -298,8 +284,7 @@ RainPath::RainPath(const radar::RadarConfiguration& configuration) : beam_(confi
 void RainPath::enter(const Look& look) {
   crossed_.clear();
   for (const Shower& shower : showers_) {
-    const RainChord chord =
-        rain_chord(look.apex, look.azimuth, shower.place, shower.radius_m);
+    const RainChord chord = rain_chord(look.apex, look.azimuth, shower.place, shower.radius_m);
     const bool ahead = chord.middle_m + chord.half_m > 0.0 && chord.middle_m - chord.half_m < look.range.metres();
     if (chord.half_m > 0.0 && ahead) crossed_.push_back({chord, &shower});
   }

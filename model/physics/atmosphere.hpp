@@ -50,10 +50,6 @@ class GasProfile {
   std::vector<double> db_per_m_;
 };
 
-}  // namespace yars::model::physics
-
-namespace yars::model::physics {
-
 // What the gases of the air take along rays from the aircraft: the attenuation at each height, integrated over the ray.
 // The ray is straight over the effective earth; its height is a parabola in the share of the way (1 m in 300 km).
 class GasPath {
@@ -74,8 +70,8 @@ class GasPath {
 };
 
 // The two-way factor for the samples of a sweep in float, as a parabola in height between distances: within 0.1 dB of
-// GasPath for ground in sight from -400 to 6,000 m (tests/model/gas_test.cpp). Made anew only for another altitude or
-// range.
+// GasPath for ground in sight from -400 to 6,000 m (tests/model/physics/gas_test.cpp). Made anew only for another
+// altitude or range.
 class GasSamples {
  public:
   GasSamples(const radar::RadarConfiguration& configuration, std::size_t samples);
@@ -97,10 +93,6 @@ class GasSamples {
   std::array<Parabola, kKnots> knots_{};
   memory::LineVector<float> constant_, slope_, bend_;
 };
-
-}  // namespace yars::model::physics
-
-namespace yars::model::physics {
 
 // What rain returns and takes: volume reflectivity and attenuation by rate, and the profile across a shower, whose
 // closed integral serves the ray. Sources: Z = a r^b, Marshall and Palmer 1948; eta = pi^5 |K|^2 Z / lambda^4, Probert-
@@ -126,10 +118,6 @@ struct RainChord {
   double integral_m(double from_m, double to_m) const;
 };
 RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint middle, double radius_m);
-
-}  // namespace yars::model::physics
-
-namespace yars::model::physics {
 
 // Rain along one sweep: what it returns at each range and what it takes from everything behind it. Showers are vertical
 // cylinders with a soft rim; a ray is in one as long as it is over its ground and below its top. Return: eta times the

@@ -23,10 +23,6 @@ NoiseState make_noise_state(const NoiseKey& key) {
   return {static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32U)};
 }
 
-}  // namespace yars::model::physics
-
-namespace yars::model::physics {
-
 namespace {
 constexpr double kMetresPerDegree = 60.0 * geo::kMetresPerNauticalMile;  // [m] of latitude, to half a percent
 

@@ -43,10 +43,6 @@ inline std::uint32_t resolution_cell(std::uint32_t sample, float cells) {
   return static_cast<std::uint32_t>((static_cast<float>(static_cast<std::int32_t>(sample)) + 0.5F) * cells);
 }
 
-}  // namespace yars::model::physics
-
-namespace yars::model::physics {
-
 // The earth cut into cells of about one size, each with random bits of its own: what stays on the ground from scan to
 // scan is keyed by them. Rows of equal latitude; the columns of a row follow the cosine at the middle of its degree.
 struct GroundGrid {

@@ -45,7 +45,7 @@ HWY_INLINE GroundFloats by_code(const float* table, GroundWholes code) {
 #endif
 }
 
-// The first eight bits of mixed() of ground_grid.cpp: its last step leaves them as they are.
+// The first eight bits of mixed() of clutter.cpp: its last step leaves them as they are.
 template <class V>
 HWY_INLINE V first_bits(V x) {
   const hn::DFromV<V> d;
@@ -98,8 +98,7 @@ class TextureLanes {
     };
     const auto row = cell(in_.places.north_deg.data(), degree_.rows, degree_.row_share, degree_.row);
     const auto column = cell(in_.places.east_deg.data(), degree_.columns, degree_.column_share, degree_.column);
-    const auto number =
-        hn::Add(hn::Mul(hn::BitCast(du, row), hn::Set(du, kRowFactor)), hn::BitCast(du, column));
+    const auto number = hn::Add(hn::Mul(hn::BitCast(du, row), hn::Set(du, kRowFactor)), hn::BitCast(du, column));
     return hn::BitCast(di, first_bits(number));
   }
 

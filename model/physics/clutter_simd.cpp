@@ -15,7 +15,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace yars::model::physics::simd::HWY_NAMESPACE {
 
-namespace polynomials = HWY_NAMESPACE;
+namespace hn = hwy::HWY_NAMESPACE;
+namespace fused = yars::simd::HWY_NAMESPACE;
+namespace polynomials = physics::HWY_NAMESPACE;
 
 void reflect(std::size_t count, const GroundInputs& ground, const float* sin_grazing, float* land, float* sea) {
   const GroundTag d;
@@ -61,10 +63,6 @@ void fill_sigma0(const SeaTable& table, float cosine, float* sigma0) {
   const float last = table.across[kEntries] + cosine * table.upwind[kEntries];
   hn::StoreU(polynomials::exp2(d, hn::Set(d, last)), d, sigma0 + kEntries);
 }
-
-namespace hn = hwy::HWY_NAMESPACE;
-namespace fused = yars::simd::HWY_NAMESPACE;
-namespace polynomials = HWY_NAMESPACE;
 
 constexpr std::size_t kMostLanes = 16;
 using Tag = hn::CappedTag<float, kMostLanes>;

@@ -31,9 +31,9 @@ struct GroundInputs {
   const float* water = nullptr;            // [0, 1]
   const std::int32_t* material = nullptr;  // codes; null: none anywhere. Water is all water.
   const float* wall_gain = nullptr;        // factor on the gamma of samples of a material with walls; else not read
-  const SeaTable* sea = nullptr;  // may be null where neither water nor material is
-  float upwind = 0.0F;                          // cosine of the angle between the look and the wind
-  float* sigma0 = nullptr;                      // room for fill_sigma0(), which a look that meets water fills
+  const SeaTable* sea = nullptr;           // may be null where neither water nor material is
+  float upwind = 0.0F;                     // cosine of the angle between the look and the wind
+  float* sigma0 = nullptr;                 // room for fill_sigma0(), which a look that meets water fills
   const GroundGrid* grid = nullptr;
   std::uint32_t textured = 0;  // land
   std::uint32_t walled = 0;

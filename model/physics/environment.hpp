@@ -44,10 +44,6 @@ struct Database {
   std::span<const MovingPoint> traffic;
 };
 
-// Ships and vehicles as a sweep sees them: points that go their geodesics with sim time, on the ground where they are.
-// Shadow is the caller's: it knows the horizon. Source: docs/spec/physics.md#power, the radar equation of a point.
-// Those of the configuration and those of the traffic, of which no more than kMostTraffic are looked at.
-
 // What comes back from one mover, if nothing hides it.
 struct Echo {
   double distance_m = 0.0;  // over ground
@@ -57,6 +53,9 @@ struct Echo {
 
 inline constexpr std::size_t kMostTraffic = 64;
 
+// Ships and vehicles as a sweep sees them: points that go their geodesics with sim time, on the ground where they are.
+// Shadow is the caller's: it knows the horizon. Source: docs/spec/physics.md#power, the radar equation of a point.
+// Those of the configuration and those of the traffic, of which no more than kMostTraffic are looked at.
 class Movers {
  public:
   explicit Movers(const radar::RadarConfiguration& configuration);

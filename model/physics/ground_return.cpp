@@ -55,8 +55,7 @@ double SurfaceReturn::cross_section_m2(const Receiver& receiver, const Facet& fa
   if (water < 1.0) {
     double gamma = land_.gamma[material];
     if (land_.cardinal[material] > 0.0) {
-      const double off_deg =
-          off_street_deg(facet.look.degrees(), terrain::street_bearing_deg(facet.place));
+      const double off_deg = off_street_deg(facet.look.degrees(), street_bearing_deg(facet.place));
       gamma *= cardinal_gain(land_.cardinal[material], off_deg, land_.street_width_deg);
     }
     total_m2 += (1.0 - water) * gamma * facet.sin_local * texture(material, facet.place) *
@@ -74,8 +73,7 @@ constexpr double kEarthRadiusM = 6371008.8;  // [m] mean
 
 void put_texture(simd::MaterialTables& tables, std::size_t code, double shape) {
   const TextureLevels levels = make_texture_levels(shape);
-  std::copy(levels.begin(), levels.end(),
-            tables.texture.begin() + static_cast<std::ptrdiff_t>(code * kTextureLevels));
+  std::copy(levels.begin(), levels.end(), tables.texture.begin() + static_cast<std::ptrdiff_t>(code * kTextureLevels));
 }
 
 // A unit vector over ground.
@@ -145,7 +143,7 @@ void Ground::use_resolution(double pulse_length_m, double spacing_m) {
 }
 
 const simd::GroundInputs* Ground::prepare(const Look& look, const terrain::PlaceRun& places, const float* water,
-                                           bool materials) {
+                                          bool materials) {
   const std::size_t count = places.north_deg.size();
   if (!materials && (inputs_.textured & 1U) == 0 && !simd::any_positive(count, water)) return nullptr;
   const Direction azimuth = middle_direction(look);

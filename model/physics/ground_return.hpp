@@ -14,9 +14,6 @@
 
 namespace yars::model::physics {
 
-// The cross section of the ground in one resolution cell: land by material with its cardinal effect, sea by wind and
-// grazing angle, both under a texture that stays on the ground. Plain double: what `reference` computes a sample.
-
 // One sample as the beam sees it.
 struct Facet {
   geo::GeoPoint place;
@@ -28,6 +25,8 @@ struct Facet {
   std::uint8_t material = 0;   // code; water's makes it all water
 };
 
+// The cross section of the ground in one resolution cell: land by material with its cardinal effect, sea by wind and
+// grazing angle, both under a texture that stays on the ground. Plain double: what `reference` computes a sample.
 class SurfaceReturn {
  public:
   explicit SurfaceReturn(const radar::RadarConfiguration& configuration);
@@ -65,7 +64,7 @@ class Ground {
   // The ground below a sweep's places, for simd::sweep(); null: plain dry land everywhere. `water` as the terrain gave
   // it; `materials`: whether materials() was filled. Lasts until the next call; the places have to last as long.
   const simd::GroundInputs* prepare(const Look& look, const terrain::PlaceRun& places, const float* water,
-                                     bool materials);
+                                    bool materials);
 
   // The same as arrays, for who has the sines of the grazing angle already.
   struct Sample {
@@ -88,7 +87,7 @@ class Ground {
   double cell_m_ = 0.0;
   memory::LineVector<std::int32_t> codes_;
   memory::LineVector<float> wall_gain_, land_gamma_, sea_sigma0_;
-  terrain::StreetFinder streets_;
+  StreetFinder streets_;
 };
 
 }  // namespace yars::model::physics

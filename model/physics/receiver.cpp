@@ -8,8 +8,6 @@
 
 namespace yars::model::physics {
 
-using ratio;
-
 namespace {
 constexpr double kMetresPerMicrosecond = 149.896229;  // [m] c/2 over 1 us: range resolution, hence brightness and smear
 constexpr double kDefaultPulseUs = 1.0;               // where the configuration lists no pulse

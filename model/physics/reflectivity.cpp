@@ -38,12 +38,13 @@ void StreetFinder::use_column(Row& row, std::int32_t number, int middle) {
   for (int i = 0; i < 3; ++i) {
     const int column = middle - 1 + i;
     StreetPatch& patch = row.neighbours[static_cast<std::size_t>(i)];
-    const std::uint32_t hash = lattice_hash((column + row.columns) % row.columns, number, 3, kSeed);
+    const std::uint32_t hash = random::lattice_hash((column + row.columns) % row.columns, number, 3, kSeed);
     patch.origin = {(number + static_cast<double>(hash & 0xFFFFU) / 65536.0) * kRowDeg - 90.0,
                     (column + static_cast<double>(hash >> 16U) / 65536.0) * row.column_deg - 180.0};
     // Half of all towns keep near the compass, as surveyors like it.
-    const std::uint32_t turn = lattice_hash((column + row.columns) % row.columns, number, 4, kSeed);
-    patch.bearing_deg = (turn & 1U) != 0 ? 90.0 * share_of(turn) : std::fmod(97.5 - 15.0 * share_of(turn), 90.0);
+    const std::uint32_t turn = random::lattice_hash((column + row.columns) % row.columns, number, 4, kSeed);
+    patch.bearing_deg =
+        (turn & 1U) != 0 ? 90.0 * random::share_of(turn) : std::fmod(97.5 - 15.0 * random::share_of(turn), 90.0);
   }
 }
 
@@ -78,10 +79,6 @@ StreetPatch StreetFinder::patch(geo::GeoPoint place) {
 StreetPatch street_patch(geo::GeoPoint place) {
   return StreetFinder().patch(place);
 }
-
-}  // namespace yars::model::physics
-
-namespace yars::model::physics {
 
 double frequency_term_db(const radar::LandConfiguration& land, double frequency_ghz) {
   return land.frequency_slope_db * std::log10(frequency_ghz / land.reference_frequency_ghz);

@@ -2,17 +2,14 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/configuration.hpp"
-#include "model/scene/placement/scatterers.hpp"
 
 namespace yars::model::physics {
 
@@ -26,10 +23,6 @@ inline constexpr double kSpeedOfLight = 299792458.0;  // [m/s] exact
 inline double wavelength_m(double frequency_ghz) {
   return kSpeedOfLight / (frequency_ghz * 1e9);
 }
-
-}  // namespace yars::model::physics
-
-namespace yars::model::physics {
 
 // How streets lie: towns everywhere are laid out in patches of a few kilometres, each with one direction of its own.
 // A pure function of place, the same whatever database is loaded, so that walls face the radar (the cardinal effect)
@@ -67,10 +60,6 @@ class StreetFinder {
   std::int32_t middle_row_ = kNoRow;
   std::array<Row, 3> rows_{};
 };
-
-}  // namespace yars::model::physics
-
-namespace yars::model::physics {
 
 // What land returns: sigma0 = gamma sin(psi), gamma by surface material, 5 dB more a decade of frequency. Walls that
 // face the radar return more (cardinal effect). Gammas are power ratios at the radar's frequency.
@@ -116,20 +105,7 @@ class SceneSurface {
   double faded_tangent_;  // of the angle beyond which nothing of the cardinal effect is left
 };
 
-}  // namespace yars::model::physics
-
-namespace yars::model::physics {
-
-// What the faces of a scene return, and which of them are walls: the rules that the fast algorithm and the reference
-// share.
-
-using SceneSurface;
-using scene::kWallNormal2;
 inline constexpr double kMostShading = 4.0;  // of an interpolated normal against the facet's: silhouettes are ragged
-
-}  // namespace yars::model::physics
-
-namespace yars::model::physics {
 
 // What the sea returns: the NRL model of Gregers-Hansen and Mital 2012 (DTIC ADA559494), 0.1 to 60 degrees grazing,
 // sea states 0 to 6, within 2.6 dB on average of Nathanson's tables, which average over the wind. The

@@ -16,7 +16,6 @@ namespace yars::model::physics {
 
 // Which part of the beam a ray stands for, where points are concerned: of several rays across the beam each sees those
 // in its own part, so that none is seen twice; of a sharpened beam a ray sees its resolution cell and nothing else.
-
 // Angles off the ray's azimuth [rad], clockwise. A ray alone stands for all of the beam about it.
 struct RayShare {
   double left_rad = -std::numeric_limits<double>::infinity();
@@ -74,11 +73,6 @@ struct PowerWindow {
 // Weights over three sweeps; their sum is 1, so that power is conserved. Source: the 1996 report.
 inline constexpr std::array<double, 3> kAzimuthWeights{0.25, 0.5, 0.25};
 
-// The earth that a ray feels, and how a point on it is seen from the aircraft, in double precision. The geometry: a
-// sphere of radius k R, R the ellipsoid's radius of curvature at the apex along the azimuth (or the mean radius, or
-// none: flat). Distances over ground are kept, heights above mean sea level count as heights above that sphere.
-// Source: docs/spec/physics.md#geometry.
-
 // How the aircraft sees one point.
 struct Sight {
   double tangent;        // of the elevation angle, against the aircraft's horizontal
@@ -88,6 +82,10 @@ struct Sight {
   double cos_grazing;
 };
 
+// The earth that a ray feels, and how a point on it is seen from the aircraft, in double precision. The geometry: a
+// sphere of radius k R, R the ellipsoid's radius of curvature at the apex along the azimuth (or the mean radius, or
+// none: flat). Distances over ground are kept, heights above mean sea level count as heights above that sphere.
+// Source: docs/spec/physics.md#geometry.
 class EffectiveEarth {
  public:
   explicit EffectiveEarth(double radius_m) : radius_m_(radius_m) {}  // infinity: flat

@@ -2,12 +2,13 @@
 // into video. An instance has scratch memory: one thread at a time. No allocation after construction.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 
 #include "lib/radar/configuration.hpp"
+#include "lib/radar/modes.hpp"
 #include "model/physics/environment.hpp"
 #include "model/physics/sweep_geometry.hpp"
 
@@ -33,10 +34,9 @@ class Algorithm {
                        std::span<std::uint8_t> video) = 0;
 };
 
-// The algorithm that the fidelity names. Samples are clamped to [1, kMaxSamples].
-std::unique_ptr<Algorithm> make_algorithm(const radar::RadarConfiguration& configuration);
-
 // Samples of a sweep that the configuration gives, clamped.
-std::size_t sample_count(const radar::RadarConfiguration& configuration);
+inline std::size_t sample_count(const radar::RadarConfiguration& configuration) {
+  return static_cast<std::size_t>(std::clamp(configuration.fidelity.samples, 1, radar::kMaxSamples));
+}
 
 }  // namespace yars::model::rbm

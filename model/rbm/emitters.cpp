@@ -22,9 +22,11 @@ bool is_jammed(const radar::Jammer& jammer, const physics::Look& look) {
   return band && std::find(jammer.channels.begin(), jammer.channels.end(), channel) != jammer.channels.end();
 }
 
-double ground_m(const terrain::TerrainView& terrain, geo::GeoPoint place) {
-  const double elevation_m = terrain.elevation_m(place);
-  return std::isnan(elevation_m) ? 0.0 : elevation_m;
+// What is given, else that of a mast on the ground of its place.
+double altitude_of(double given_m, geo::GeoPoint place, const terrain::TerrainView& terrain) {
+  if (!std::isnan(given_m)) return given_m;
+  const double ground_m = terrain.elevation_m(place);
+  return (std::isnan(ground_m) ? 0.0 : ground_m) + kMastM;
 }
 }  // namespace
 
@@ -39,8 +41,7 @@ double Strobes::level(const physics::Look& look, const terrain::TerrainView& ter
     if (!is_jammed(jammer, look)) continue;
     geo::GeodesicInverse way = geo::geodesic_inverse(look.apex, jammer.place);
     way.distance = std::max(way.distance, geo::Length::metres(kLeastDistanceM));
-    const double altitude_m =
-        std::isnan(jammer.altitude_m) ? ground_m(terrain, jammer.place) + kMastM : jammer.altitude_m;
+    const double altitude_m = altitude_of(jammer.altitude_m, jammer.place, terrain);
     if (!sight_line_.clear(configuration_.fidelity, look, terrain, way, altitude_m)) continue;
     const physics::EffectiveEarth earth =
         physics::effective_earth(configuration_.fidelity, look.apex, way.azimuth_at_start);
@@ -58,12 +59,6 @@ double Strobes::level(const physics::Look& look, const terrain::TerrainView& ter
 
 namespace {
 constexpr double kMetresPerMicrosecond = 149.896229;  // [m] c / 2 over 1 us: what a delay adds to the range
-
-double mast_m(const radar::Beacon& beacon, const terrain::TerrainView& terrain) {
-  if (!std::isnan(beacon.altitude_m)) return beacon.altitude_m;
-  const double ground_m = terrain.elevation_m(beacon.place);
-  return (std::isnan(ground_m) ? 0.0 : ground_m) + kMastM;
-}
 
 // The share [0, 1] of a sample that a pulse about `middle` covers, both in samples.
 double covered(double sample, double middle, double pulse_samples) {
@@ -99,7 +94,7 @@ void Beacons::answer(const radar::Beacon& beacon, const physics::Look& look, con
   const double off_rad = (way.azimuth_at_start - look.azimuth).radians();
   // A reply comes later than a return from the beacon's place: what lies behind the range shows nothing.
   if (distance_m >= look.range.metres() || std::abs(off_rad) > 0.5 * receiver.azimuth_beamwidth_rad) return;
-  const double altitude_m = mast_m(beacon, terrain);
+  const double altitude_m = altitude_of(beacon.altitude_m, beacon.place, terrain);
   if (!sight_line_.clear(configuration_.fidelity, look, terrain, way, altitude_m)) return;
 
   const physics::EffectiveEarth earth =

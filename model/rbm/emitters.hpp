@@ -13,9 +13,9 @@
 
 namespace yars::model::rbm {
 
-// What jammers add to a sweep: noise of one level at every range, physics::received while the radar's band and channel are
+// What jammers add to a sweep: noise of one level at every range, received while the radar's band and channel are
 // jammed and the jammer is in sight over terrain and effective earth; also in SNIFF, for it needs no transmission.
-// One way: P = 4 pi (ERP_jammer / ERP_radar) G / R^2 in the units of physics::returned_power(), G the one-way gain: the root of
+// One way: P = 4 pi (ERP_jammer / ERP_radar) G / R^2 in the units of returned_power(), G the one-way gain: the root of
 // the two-way pattern, never below the sidelobes; gases take their part once. Sensitivity time control and rain leave
 // it alone. One instance a thread.
 class Strobes {
@@ -32,13 +32,6 @@ class Strobes {
   SightLine sight_line_;
 };
 
-// Beacons as a sweep of BCN sees them: each that lies within the beam, is in sight and answers to the radar's code
-// shows as short arcs, one a reply, behind its place by c / 2 for each microsecond of its delay and spacing. It
-// transmits itself: P = 4 pi (ERP_beacon / ERP_radar) G / R^2 as a jammer's, G the one-way gain; a reply lasts as long
-// as the radar's pulse. It hears the main beam alone, so its arcs are a beam width wide. The receiver listens on the
-// beacons' frequency: ground returns nothing, sensitivity time control is off.
-// Source: docs/spec/pilots_interface.md#rule-17.
-
 // Replies in the order of their arrival.
 struct Reply {
   double slant_range_m = 0.0;  // at which the receiver takes it to be
@@ -46,6 +39,12 @@ struct Reply {
   double power = 0.0;          // full scale = 1
 };
 
+// Beacons as a sweep of BCN sees them: each that lies within the beam, is in sight and answers to the radar's code
+// shows as short arcs, one a reply, behind its place by c / 2 for each microsecond of its delay and spacing. It
+// transmits itself: P = 4 pi (ERP_beacon / ERP_radar) G / R^2 as a jammer's, G the one-way gain; a reply lasts as long
+// as the radar's pulse. It hears the main beam alone, so its arcs are a beam width wide. The receiver listens on the
+// beacons' frequency: ground returns nothing, sensitivity time control is off.
+// Source: docs/spec/pilots_interface.md#rule-17.
 class Beacons {
  public:
   explicit Beacons(const radar::RadarConfiguration& configuration);

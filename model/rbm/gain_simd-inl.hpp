@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace yars::model::rbm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-namespace polynomials = rbm::HWY_NAMESPACE;
+namespace polynomials = physics::HWY_NAMESPACE;
 
 // A gain as a fraction: its division joins that of the power.
 template <class Group>

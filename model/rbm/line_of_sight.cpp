@@ -119,7 +119,8 @@ bool SightLine::clear(const radar::Fidelity& fidelity, const physics::Look& look
   for (std::size_t i = 0; i < kSamples; ++i)
     distance_m_[i] = static_cast<float>(distance_m * static_cast<double>(i + 1) / static_cast<double>(kSamples));
   std::fill_n(distance_m_.data() + kSamples, physics::kPairSlack, static_cast<float>(distance_m));
-  physics::sample_places(look.apex, way.azimuth_at_start, way.distance, fidelity.geodesic_knots, distance_m_.data(), places_);
+  physics::sample_places(look.apex, way.azimuth_at_start, way.distance, fidelity.geodesic_knots, distance_m_.data(),
+                         places_);
   const auto samples = [](memory::LineVector<float>& values) { return std::span(values).first(kSamples); };
   terrain.surfaces(places_.run(), radar::Interpolation::bilinear,
                    {samples(elevation_m_), samples(water_), samples(peak_m_), {}});

@@ -17,7 +17,6 @@ namespace yars::model::rbm {
 // The crests of a ray (terrain_view.hpp) at every latitude: near a pole the ways between places are not straight in
 // latitude and longitude, and are split until they are. Where pieces are as short as a tenth of the finest posts'
 // spacing, the ground at their ends counts too.
-
 // Holds the room for one ray: one instance a thread. No allocation after construction.
 class RayCrests {
  public:
@@ -27,7 +26,7 @@ class RayCrests {
     geo::GeoPoint apex;
     geo::Bearing azimuth;
     geo::Length range;
-    int knots = kExactPlaces;  // of physics::sample_places()
+    int knots = physics::kExactPlaces;  // of physics::sample_places()
   };
   // As TerrainView::crests() for the places of this ray.
   bool find(const terrain::TerrainView& terrain, const Ray& ray, const physics::PlaceArrays& places,
@@ -46,7 +45,6 @@ class RayCrests {
 
 // Whether the ground hides a point from the aircraft: every line of posts on the way is looked at, by the fast path of
 // the standard algorithm. Terrain that is not made of posts is looked at 512 times.
-
 // Holds the room for one way: one instance a thread. No allocation after construction.
 class SightLine {
  public:

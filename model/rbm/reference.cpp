@@ -96,7 +96,8 @@ void Reference::read_cross_slopes(const physics::Look& look, const terrain::Terr
   }
 }
 
-void Reference::cast_shadows(const physics::Look& look, const physics::EffectiveEarth& earth, const physics::GroundWalk& walk) {
+void Reference::cast_shadows(const physics::Look& look, const physics::EffectiveEarth& earth,
+                             const physics::GroundWalk& walk) {
   // All ground raises the horizon, between the samples too, also outside the beam; a void neither raises it nor
   // returns. Shadow is cast by the highest ground; where a coarser level stands in, that is not the mean that returns.
   double horizon = -std::numeric_limits<double>::infinity();
@@ -125,8 +126,8 @@ double Reference::along_slope(std::size_t index) const {
   return run_m > 0.0 ? (far.height_m - near.height_m) / run_m : 0.0;
 }
 
-double Reference::cell_power(const physics::Receiver& receiver, const physics::EffectiveEarth& earth, const physics::Look& look,
-                             std::size_t index) const {
+double Reference::cell_power(const physics::Receiver& receiver, const physics::EffectiveEarth& earth,
+                             const physics::Look& look, std::size_t index) const {
   const Sample& sample = samples_[index];
   const physics::Sight sight = earth.sight(look.altitude.metres(), sample.distance_m, sample.height_m);
   // The facet's normal against the direction to the radar, which lies in the plane of the sweep.
@@ -137,12 +138,14 @@ double Reference::cell_power(const physics::Receiver& receiver, const physics::E
       receiver,
       {sample.place, sample.azimuth, sight.slant_range_m, sin_local, sight.sin_grazing, sample.water, sample.material});
   const double gain = physics::two_way_gain(configuration_.fidelity.beam, receiver.elevation_beamwidth_rad,
-                                   look.elevation.radians(), sight.elevation_rad);
+                                            look.elevation.radians(), sight.elevation_rad);
   const double loss = gas_.two_way_loss(earth, look.altitude.metres(), sample.distance_m, sample.height_m);
-  return physics::received(receiver, physics::returned_power(cross_section_m2, loss * gain, sight.slant_range_m), sight.slant_range_m);
+  return physics::received(receiver, physics::returned_power(cross_section_m2, loss * gain, sight.slant_range_m),
+                           sight.slant_range_m);
 }
 
-void Reference::add_movers(std::span<const physics::Echo> echoes, const physics::GroundWalk& walk, double pulse_samples) {
+void Reference::add_movers(std::span<const physics::Echo> echoes, const physics::GroundWalk& walk,
+                           double pulse_samples) {
   for (const physics::Echo& echo : echoes) {
     const std::size_t index = physics::nearest_sample(distance_m_, echo.distance_m);
     if (index >= samples_.size()) continue;
@@ -152,8 +155,8 @@ void Reference::add_movers(std::span<const physics::Echo> echoes, const physics:
   }
 }
 
-void Reference::see_scenes(const physics::Look& look, const physics::Receiver& receiver, const physics::GroundWalk& walk,
-                           const scene::SceneView& scenes, double pulse_samples) {
+void Reference::see_scenes(const physics::Look& look, const physics::Receiver& receiver,
+                           const physics::GroundWalk& walk, const scene::SceneView& scenes, double pulse_samples) {
   SceneReturn::Ground& ground = scene_return_.ground();
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     ground.distance_m[i] = samples_[i].distance_m;
@@ -166,7 +169,8 @@ void Reference::see_scenes(const physics::Look& look, const physics::Receiver& r
   for (std::size_t i = 0; i < samples_.size(); ++i) samples_[i].power = ground.power[i];
 }
 
-void Reference::add_rain(const physics::Receiver& receiver, const physics::EffectiveEarth& earth, const physics::Look& look) {
+void Reference::add_rain(const physics::Receiver& receiver, const physics::EffectiveEarth& earth,
+                         const physics::Look& look) {
   const double altitude_m = look.altitude.metres();
   for (Sample& sample : samples_) {
     if (std::isnan(sample.distance_m)) continue;
@@ -210,8 +214,8 @@ void Reference::develop(const physics::PowerWindow& window, geo::Length range, i
   for (std::size_t i = 0; i < video.size(); ++i) {
     double power = static_cast<double>(window.centre[i]);
     if (configuration_.fidelity.azimuth_smear) {
-      power = physics::kAzimuthWeights[0] * static_cast<double>(window.before[i]) + physics::kAzimuthWeights[1] * power +
-              physics::kAzimuthWeights[2] * static_cast<double>(window.after[i]);
+      power = physics::kAzimuthWeights[0] * static_cast<double>(window.before[i]) +
+              physics::kAzimuthWeights[1] * power + physics::kAzimuthWeights[2] * static_cast<double>(window.after[i]);
     }
     // Clutter, thermal noise and jamming add as voltages, so their sum fluctuates as one.
     double total = power + receiver.noise + window.jamming;

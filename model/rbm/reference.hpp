@@ -47,10 +47,11 @@ class Reference : public Algorithm {
   void read_cross_slopes(const physics::Look& look, const terrain::TerrainView& terrain);
   void cast_shadows(const physics::Look& look, const physics::EffectiveEarth& earth, const physics::GroundWalk& walk);
   double along_slope(std::size_t index) const;
-  double cell_power(const physics::Receiver& receiver, const physics::EffectiveEarth& earth, const physics::Look& look, std::size_t index) const;
+  double cell_power(const physics::Receiver& receiver, const physics::EffectiveEarth& earth, const physics::Look& look,
+                    std::size_t index) const;
   void add_movers(std::span<const physics::Echo> echoes, const physics::GroundWalk& walk, double pulse_samples);
-  void see_scenes(const physics::Look& look, const physics::Receiver& receiver, const physics::GroundWalk& walk, const scene::SceneView& scenes,
-                  double pulse_samples);
+  void see_scenes(const physics::Look& look, const physics::Receiver& receiver, const physics::GroundWalk& walk,
+                  const scene::SceneView& scenes, double pulse_samples);
   void add_rain(const physics::Receiver& receiver, const physics::EffectiveEarth& earth, const physics::Look& look);
   void smear_pulse(double pulse_samples, std::span<float> power) const;
 

@@ -90,8 +90,8 @@ float Report1996::slope(std::size_t index, float spacing_m) const {
   return (elevation_m_[far] - elevation_m_[near]) / (static_cast<float>(far - near) * spacing_m);
 }
 
-void Report1996::develop(const physics::PowerWindow& window, geo::Length /*range*/, int gain, const physics::NoiseKey& /*key*/,
-                         std::span<std::uint8_t> video) {
+void Report1996::develop(const physics::PowerWindow& window, geo::Length /*range*/, int gain,
+                         const physics::NoiseKey& /*key*/, std::span<std::uint8_t> video) {
   const float scale = 255.0F * static_cast<float>(gain + 1) / static_cast<float>(kGainSteps);
   for (std::size_t i = 0; i < video.size(); ++i) {
     const float power = std::min(joined(window.before[i], window.centre[i], window.after[i]), 1.0F);

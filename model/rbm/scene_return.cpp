@@ -87,8 +87,9 @@ void SceneReturn::apply(const physics::Look& look, const physics::Receiver& rece
                         const scene::SceneView& scenes, double pulse_samples) {
   const double radius_m = geo::radius_of_curvature(look.apex.latitude_deg, look.azimuth).metres();
   const double spacing_m = look.range.metres() / static_cast<double>(ground_.power.size());
-  const Sweep sweep{&look,    &receiver, &walk.earth(), &walk, physics::point_rise(pulse_samples), 1.0 / (radius_m * radius_m),
-                    spacing_m};
+  const Sweep sweep{
+      &look,    &receiver, &walk.earth(), &walk, physics::point_rise(pulse_samples), 1.0 / (radius_m * radius_m),
+      spacing_m};
   for (const scene::Scatterers* scene : scenes.scatterers())
     if (in_range(*scene, look)) cover_ground(sweep, *scene);
   for (const scene::Scatterers* scene : scenes.scatterers())
@@ -128,12 +129,14 @@ double SceneReturn::covered_power(const Sweep& sweep, std::size_t sample, double
   const double cross_slope = ground_.cross_slope[sample];
   const double normal = std::sqrt(1.0 + slope * slope + cross_slope * cross_slope);
   const double sin_local = std::clamp((slope * sight.cos_grazing + sight.sin_grazing) / normal, 0.0, 1.0);
-  const double sigma_m2 = gamma * sin_local * physics::illuminated_area_m2(*sweep.receiver, sight.slant_range_m, sin_local);
-  const double gain = physics::two_way_gain(beam_, sweep.receiver->elevation_beamwidth_rad, sweep.look->elevation.radians(),
-                                   sight.elevation_rad);
+  const double sigma_m2 =
+      gamma * sin_local * physics::illuminated_area_m2(*sweep.receiver, sight.slant_range_m, sin_local);
+  const double gain = physics::two_way_gain(beam_, sweep.receiver->elevation_beamwidth_rad,
+                                            sweep.look->elevation.radians(), sight.elevation_rad);
   const double loss = gas_.two_way_loss(*sweep.earth, sweep.look->altitude.metres(), ground_.distance_m[sample],
                                         ground_.height_m[sample]);
-  return physics::received(*sweep.receiver, physics::returned_power(sigma_m2, loss * gain, sight.slant_range_m), sight.slant_range_m);
+  return physics::received(*sweep.receiver, physics::returned_power(sigma_m2, loss * gain, sight.slant_range_m),
+                           sight.slant_range_m);
 }
 
 void SceneReturn::add_standing(const Sweep& sweep, const scene::Scatterers& scene) {
@@ -169,7 +172,7 @@ void SceneReturn::add_one(const Sweep& sweep, const Ray& ray, const scene::Scatt
   if (distance_m >= sweep.look->range.metres()) return;
   const auto extent_m = static_cast<double>(one.extent_m);
   const double gain_across = physics::azimuth_share(sweep.look->share, sweep.receiver->azimuth_beamwidth_rad,
-                                           std::atan2(dot(way, ray.right), ahead_m), extent_m / distance_m);
+                                                    std::atan2(dot(way, ray.right), ahead_m), extent_m / distance_m);
   if (!(gain_across > 0.0)) return;
   if (physics::nearest_sample(ground_.distance_m, distance_m) >= ground_.power.size()) return;
   const physics::Sight sight =
@@ -177,10 +180,11 @@ void SceneReturn::add_one(const Sweep& sweep, const Ray& ray, const scene::Scatt
   const double lit = lit_share(sweep, one, sight, distance_m);
   if (!(lit > 0.0)) return;
   const double gain = gain_across * physics::two_way_gain(beam_, sweep.receiver->elevation_beamwidth_rad,
-                                                 sweep.look->elevation.radians(), sight.elevation_rad);
+                                                          sweep.look->elevation.radians(), sight.elevation_rad);
   const double loss =
       gas_.two_way_loss(*sweep.earth, sweep.look->altitude.metres(), distance_m, static_cast<double>(one.middle_msl_m));
-  const double power = physics::returned_power(lit * cross_section_m2(level, one, ray, sight), loss * gain, sight.slant_range_m);
+  const double power =
+      physics::returned_power(lit * cross_section_m2(level, one, ray, sight), loss * gain, sight.slant_range_m);
   spread(distance_m, extent_m, sweep.rise * physics::received(*sweep.receiver, power, sight.slant_range_m));
 }
 

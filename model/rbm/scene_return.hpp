@@ -21,8 +21,8 @@ class SceneReturn {
   SceneReturn(const radar::RadarConfiguration& configuration, std::size_t samples);
 
   // The sweep as the ground alone makes it, near to far.
-  struct physics::Ground {
-    explicit physics::Ground(std::size_t samples)
+  struct Ground {
+    explicit Ground(std::size_t samples)
         : distance_m(samples), height_m(samples), cross_slope(samples), horizon(samples), power(samples) {}
     std::vector<double> distance_m;   // over ground, ascending, NaN first
     std::vector<double> height_m;     // MSL; NaN = void
@@ -33,10 +33,10 @@ class SceneReturn {
 
   // True if a scene comes within range: then ground() is to be filled, and apply() changes its power.
   bool enter(const physics::Look& look, const scene::SceneView* scenes);
-  physics::Ground& ground() { return ground_; }
+  Ground& ground() { return ground_; }
   // `pulse_samples`: of the smear that comes behind it.
-  void apply(const physics::Look& look, const physics::Receiver& receiver, const physics::GroundWalk& walk, const scene::SceneView& scenes,
-             double pulse_samples);
+  void apply(const physics::Look& look, const physics::Receiver& receiver, const physics::GroundWalk& walk,
+             const scene::SceneView& scenes, double pulse_samples);
 
  private:
   // The ray in a scene's frame: the aircraft's place on the ellipsoid, and unit vectors level at it.
@@ -62,13 +62,14 @@ class SceneReturn {
   void add_one(const Sweep& sweep, const Ray& ray, const scene::ScattererLevel& level, const scene::Scatterer& one);
   double cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& one, const Ray& ray,
                           const physics::Sight& sight) const;
-  double lit_share(const Sweep& sweep, const scene::Scatterer& one, const physics::Sight& sight, double distance_m) const;
+  double lit_share(const Sweep& sweep, const scene::Scatterer& one, const physics::Sight& sight,
+                   double distance_m) const;
   void spread(double distance_m, double extent_m, double power);
 
   radar::BeamPattern beam_;
   physics::SceneSurface surface_;
   physics::GasPath gas_;
-  physics::Ground ground_;
+  Ground ground_;
   geo::Vector3 apex_, ahead_, right_;  // earth-centred
 };
 

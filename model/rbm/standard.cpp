@@ -63,13 +63,13 @@ std::size_t Standard::measure(const physics::Look& look, const physics::Database
       ray_crests_.find(terrain, {look.apex, look.azimuth, look.range, configuration_.fidelity.geodesic_knots}, places_,
                        {look.altitude.metres(), earth.curvature(), distance_.first(count_)}, crest_.first(count_));
   const simd::SweepInputs inputs{distance_.data(), elevation_.data(),
-                                  // Where a coarser level stands in, the highest ground is not the mean that returns.
-                                  terrain.has_peaks() ? peak_.data() : nullptr, crests ? crest_.data() : nullptr,
-                                  configuration_.fidelity.cross_track_slope ? cross_slope_.data() : nullptr,
-                                  one_step_inverse_.data(), two_step_inverse_.data(),
-                                  ground_.prepare(look, places, water_.data(), terrain.has_materials())};
+                                 // Where a coarser level stands in, the highest ground is not the mean that returns.
+                                 terrain.has_peaks() ? peak_.data() : nullptr, crests ? crest_.data() : nullptr,
+                                 configuration_.fidelity.cross_track_slope ? cross_slope_.data() : nullptr,
+                                 one_step_inverse_.data(), two_step_inverse_.data(),
+                                 ground_.prepare(look, places, water_.data(), terrain.has_materials())};
   simd::sweep(count_, constants, configuration_.fidelity.beam, inputs,
-               {tangent_.data(), before_.data(), horizon_.data(), power_.data()});
+              {tangent_.data(), before_.data(), horizon_.data(), power_.data()});
   // What the last vector wrote behind the sweep is no power.
   std::fill_n(power_.data() + count_, simd::kPad, 0.0F);
   attenuate(look);
@@ -116,8 +116,8 @@ void Standard::see_scenes(const physics::Look& look, const physics::GroundWalk& 
   for (std::size_t i = 0; i < count_; ++i) power_.data()[i] = static_cast<float>(ground.power[i]);
 }
 
-void Standard::add_movers(const physics::Look& look, const physics::GroundWalk& walk, const physics::Receiver& receiver, const physics::Database& database,
-                          double pulse_samples) {
+void Standard::add_movers(const physics::Look& look, const physics::GroundWalk& walk, const physics::Receiver& receiver,
+                          const physics::Database& database, double pulse_samples) {
   const auto horizon = [&](std::size_t sample) { return static_cast<double>(horizon_.data()[sample]); };
   for (const physics::Echo& echo : movers_.echoes(look, receiver, walk.earth(), database)) {
     const std::size_t index = physics::nearest_sample(distance_m_, echo.distance_m);
@@ -129,7 +129,8 @@ void Standard::add_movers(const physics::Look& look, const physics::GroundWalk& 
 
 // Only sweeps that cross a shower pay for it: in double, linear between every so many samples where they lie closer
 // than a 512th of the range.
-void Standard::add_rain(const physics::Look& look, const physics::EffectiveEarth& earth, const physics::Receiver& receiver) {
+void Standard::add_rain(const physics::Look& look, const physics::EffectiveEarth& earth,
+                        const physics::Receiver& receiver) {
   const std::size_t step = std::max<std::size_t>(1, count_ / 512);
   struct Rain {
     double power = 0.0, loss = 1.0;
@@ -142,8 +143,9 @@ void Standard::add_rain(const physics::Look& look, const physics::EffectiveEarth
     const double slant_range_m = earth.sight(altitude_m, distance_m, height_m).slant_range_m;
     const double horizon_rad = std::atan(static_cast<double>(horizon_.data()[i]));
     const double gas = gas_.two_way_loss(earth, altitude_m, distance_m, height_m);
-    return Rain{gas * physics::received(receiver, rain_.power(receiver, earth, look, distance_m, horizon_rad), slant_range_m),
-                rain_.two_way_loss(earth, altitude_m, distance_m, height_m, slant_range_m)};
+    return Rain{
+        gas * physics::received(receiver, rain_.power(receiver, earth, look, distance_m, horizon_rad), slant_range_m),
+        rain_.two_way_loss(earth, altitude_m, distance_m, height_m, slant_range_m)};
   };
   if (holes_ >= count_) return;
   Rain near = rain_at(holes_);
@@ -166,7 +168,8 @@ const physics::Receiver& Standard::receiver_at(geo::Length range) {
 }
 
 // Distances, and the inverse steps between them. Even in ground range they are a range scale's: computed once.
-void Standard::place_samples(const physics::Look& look, const physics::EffectiveEarth& earth, const terrain::TerrainView& terrain) {
+void Standard::place_samples(const physics::Look& look, const physics::EffectiveEarth& earth,
+                             const terrain::TerrainView& terrain) {
   const bool slant = configuration_.fidelity.slant_range;
   if (!slant && spaced_range_m_ == look.range.metres()) return;
   spaced_range_m_ = look.range.metres();
@@ -183,7 +186,8 @@ void Standard::place_samples(const physics::Look& look, const physics::Effective
 }
 
 std::size_t Standard::read_terrain(const physics::Look& look, const terrain::TerrainView& terrain) {
-  physics::sample_places(look.apex, look.azimuth, look.range, configuration_.fidelity.geodesic_knots, distance_.data(), places_);
+  physics::sample_places(look.apex, look.azimuth, look.range, configuration_.fidelity.geodesic_knots, distance_.data(),
+                         places_);
   const bool peaks = terrain.has_peaks();
   const terrain::SurfaceRun found{elevation_.first(count_),
                                   water_.first(count_),
@@ -201,7 +205,7 @@ void Standard::read_cross_slopes(const physics::Look& look, const terrain::Terra
   const double side_rad = kSideShare * configuration_.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
   const auto read = [&](double turn_rad, Padded& out) {
     physics::sample_places(look.apex, look.azimuth + geo::Angle::radians(turn_rad), look.range,
-                  configuration_.fidelity.geodesic_knots, distance_.data(), places_);
+                           configuration_.fidelity.geodesic_knots, distance_.data(), places_);
     terrain.surfaces(places_.run(), configuration_.fidelity.interpolation,
                      {out.first(count_), water_.first(count_), {}, {}});
   };
@@ -215,7 +219,7 @@ void Standard::read_cross_slopes(const physics::Look& look, const terrain::Terra
 }
 
 simd::SweepConstants Standard::sweep_constants(const physics::Look& look, const physics::EffectiveEarth& earth,
-                                                const physics::Receiver& receiver) const {
+                                               const physics::Receiver& receiver) const {
   const double elevation_rad = look.elevation.radians();
   const double beam_rad = receiver.elevation_beamwidth_rad;
   const double centre_rad = std::max(-elevation_rad, 0.5 * beam_rad);
@@ -240,11 +244,11 @@ simd::SweepConstants Standard::sweep_constants(const physics::Look& look, const 
 }
 
 // Which samples share a resolution cell is a range scale's.
-void Standard::use_cells(float physics::cells_per_sample) {
-  if (physics::cells_per_sample == cells_per_sample_) return;
-  cells_per_sample_ = physics::cells_per_sample;
+void Standard::use_cells(float cells_per_sample) {
+  if (cells_per_sample == cells_per_sample_) return;
+  cells_per_sample_ = cells_per_sample;
   for (std::size_t i = 0; i < count_; ++i)
-    cell_[i] = static_cast<std::int32_t>(physics::resolution_cell(static_cast<std::uint32_t>(i), physics::cells_per_sample));
+    cell_[i] = static_cast<std::int32_t>(physics::resolution_cell(static_cast<std::uint32_t>(i), cells_per_sample));
 }
 
 void Standard::develop(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
@@ -267,8 +271,8 @@ void Standard::develop(const physics::PowerWindow& window, geo::Length range, in
   inputs.decibels_per_scale = static_cast<float>(receiver.decibels_per_scale);
   if (fidelity.noise) {
     use_cells(physics::cells_per_sample(range.metres() / static_cast<double>(count), receiver.pulse_length_m));
-    physics::simd::speckle(static_cast<std::size_t>(cell_[count - 1]) + 1, physics::make_noise_state(key), receiver.looks,
-                   variate_.data());
+    physics::simd::speckle(static_cast<std::size_t>(cell_[count - 1]) + 1, physics::make_noise_state(key),
+                           receiver.looks, variate_.data());
     inputs.variate = variate_.data();
     if (cells_per_sample_ < 1.0F) inputs.cell = cell_.data();
   }

@@ -1,7 +1,7 @@
 // The default algorithm: float, by vectors of whatever width the machine has. Positions come from a series of the
 // geodesic (ray.hpp), curvature from the first terms of its own. Bound against Reference, without noise:
-// shadow differs in at most 0.5 % of the samples, video by 0.5 gray levels RMS (tests/model/standard_test.cpp). Equal
-// bits for any number of threads and any width.
+// shadow differs in at most 0.5 % of the samples, video by 0.5 gray levels RMS (tests/model/rbm/standard_test.cpp).
+// Equal bits for any number of threads and any width.
 #pragma once
 
 #include <array>
@@ -42,19 +42,21 @@ class Standard : public Algorithm {
     memory::LineVector<float> values;
   };
 
-  void place_samples(const physics::Look& look, const physics::EffectiveEarth& earth, const terrain::TerrainView& terrain);
+  void place_samples(const physics::Look& look, const physics::EffectiveEarth& earth,
+                     const terrain::TerrainView& terrain);
   std::size_t read_terrain(const physics::Look& look, const terrain::TerrainView& terrain);
-  void add_movers(const physics::Look& look, const physics::GroundWalk& walk, const physics::Receiver& receiver, const physics::Database& database,
-                  double pulse_samples);
+  void add_movers(const physics::Look& look, const physics::GroundWalk& walk, const physics::Receiver& receiver,
+                  const physics::Database& database, double pulse_samples);
   void add_rain(const physics::Look& look, const physics::EffectiveEarth& earth, const physics::Receiver& receiver);
-  void see_scenes(const physics::Look& look, const physics::GroundWalk& walk, const physics::Receiver& receiver, const scene::SceneView& scenes,
-                  double pulse_samples);
+  void see_scenes(const physics::Look& look, const physics::GroundWalk& walk, const physics::Receiver& receiver,
+                  const scene::SceneView& scenes, double pulse_samples);
   void attenuate(const physics::Look& look);
   void read_cross_slopes(const physics::Look& look, const terrain::TerrainView& terrain);
-  simd::SweepConstants sweep_constants(const physics::Look& look, const physics::EffectiveEarth& earth, const physics::Receiver& receiver) const;
+  simd::SweepConstants sweep_constants(const physics::Look& look, const physics::EffectiveEarth& earth,
+                                       const physics::Receiver& receiver) const;
 
   const physics::Receiver& receiver_at(geo::Length range);
-  void use_cells(float physics::cells_per_sample);
+  void use_cells(float cells_per_sample);
 
   radar::RadarConfiguration configuration_;
   physics::Ground ground_;

@@ -5,6 +5,9 @@
 #include <utility>
 
 #include "model/physics/receiver.hpp"
+#include "model/rbm/reference.hpp"
+#include "model/rbm/report_1996.hpp"
+#include "model/rbm/standard.hpp"
 
 namespace yars::model::rbm {
 
@@ -57,6 +60,26 @@ void SubBeams::lit(std::span<std::uint8_t> mask) const {
 void SubBeams::develop(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                        std::span<std::uint8_t> video) {
   ray_->develop(window, range, gain, key, video);
+}
+
+namespace {
+std::unique_ptr<Algorithm> make_ray(const radar::RadarConfiguration& configuration) {
+  switch (configuration.fidelity.algorithm) {
+    case radar::Algorithm::reference:
+      return std::make_unique<Reference>(configuration);
+    case radar::Algorithm::report_1996:
+      return std::make_unique<Report1996>(configuration);
+    case radar::Algorithm::standard:
+      break;
+  }
+  return std::make_unique<Standard>(configuration);
+}
+}  // namespace
+
+std::unique_ptr<Algorithm> make_algorithm(const radar::RadarConfiguration& configuration) {
+  std::unique_ptr<Algorithm> ray = make_ray(configuration);
+  if (configuration.fidelity.sub_beams <= 1) return ray;
+  return std::make_unique<SubBeams>(std::move(ray), configuration);
 }
 
 }  // namespace yars::model::rbm

@@ -17,7 +17,8 @@ HWY_BEFORE_NAMESPACE();
 namespace yars::model::rbm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-namespace polynomials = rbm::HWY_NAMESPACE;
+namespace clutter = physics::simd::HWY_NAMESPACE;
+namespace polynomials = physics::HWY_NAMESPACE;
 
 constexpr std::size_t kMostLanes = 16;
 
@@ -86,8 +87,9 @@ struct Reflected {
 };
 
 template <class Group, class GroupMarks>
-HWY_INLINE Reflected<Group> reflected(const GroundInputs& ground, GroundLanes& known, std::size_t i,
-                                      const Group& level_sine, const Group& slant_square, const GroupMarks& lit) {
+HWY_INLINE Reflected<Group> reflected(const physics::simd::GroundInputs& ground, clutter::GroundLanes& known,
+                                      std::size_t i, const Group& level_sine, const Group& slant_square,
+                                      const GroupMarks& lit) {
   if constexpr (kIsPair<Group>) {
     const auto step = lanes_of<decltype(Group::near)>();
     const auto near = reflected(ground, known, i, level_sine.near, slant_square.near, lit.near);
@@ -95,8 +97,8 @@ HWY_INLINE Reflected<Group> reflected(const GroundInputs& ground, GroundLanes& k
     return {{near.land, far.land}, {near.sea, far.sea}, near.wet || far.wet};
   } else {
     if (none(lit)) return {hn::Zero(Tag()), hn::Zero(Tag()), false};
-    const GroundReturn found =
-        ground_return(ground, known, i, level_sine, [&] { return mul(level_sine, inverse_root(slant_square)); });
+    const clutter::GroundReturn found = clutter::ground_return(
+        ground, known, i, level_sine, [&] { return mul(level_sine, inverse_root(slant_square)); });
     return {found.land, found.sea, found.wet};
   }
 }
@@ -115,9 +117,9 @@ HWY_INLINE Group area_inverse(const SweepConstants& c, const Group& sine, const 
 
 // The power of samples of which some are lit, before sensitivity time control but for its third power of range.
 template <class Group, class GroupMarks>
-HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, const SweepInputs& in, GroundLanes& known,
-                           std::size_t i, const Geometry<Group>& g, const Group& height, const Group& slant_square,
-                           const GroupMarks& lit) {
+HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, const SweepInputs& in,
+                           clutter::GroundLanes& known, std::size_t i, const Geometry<Group>& g, const Group& height,
+                           const Group& slant_square, const GroupMarks& lit) {
   const auto zero = constant<Group>(0.0F);
   const auto one = constant<Group>(1.0F);
   const auto altitude = constant<Group>(c.altitude_m);
@@ -208,8 +210,8 @@ class SweepLanes {
   const radar::BeamPattern beam_;
   const SweepInputs in_;
   const SweepOutputs out_;
-  const GroundInputs none_;
-  GroundLanes ground_;
+  const physics::simd::GroundInputs none_;
+  clutter::GroundLanes ground_;
   RunningMaximum horizon_;
   const Floats range_octaves_;
 };

@@ -43,7 +43,7 @@ struct SweepInputs {
   const float* cross_slope;       // null: none
   const float* one_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i])
   const float* two_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i - 1])
-  const GroundInputs* ground;     // null: plain dry land everywhere
+  const physics::simd::GroundInputs* ground;  // null: plain dry land everywhere
 };
 // And what it gives.
 struct SweepOutputs {

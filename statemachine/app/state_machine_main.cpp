@@ -1,4 +1,5 @@
 // state-machine: turns events into the radar state.
+#include "config/schema/load.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "lib/log/log.hpp"
 #include "statemachine/app/state_machine_shell.hpp"
@@ -7,17 +8,17 @@ namespace {
 
 using namespace yars;
 
-failure::Expected<void> run(const databuffer::ProgramOptions& options) {
-  auto configuration = databuffer::load_program_configuration(options);
+error::Expected<void> run(const databuffer::ProgramOptions& options) {
+  auto configuration = config::load_program_configuration(options.config);
   if (!configuration) return tl::unexpected(configuration.error());
   auto session = databuffer::Session::open(options.session, "state-machine");
   if (!session) return tl::unexpected(session.error());
   auto role = session->claim(databuffer::Role::state_machine);
-  if (!role) return tl::unexpected(databuffer::usage_error(role.error()));
+  if (!role) return tl::unexpected(error::usage_error(role.error()));
   auto loop = databuffer::TickLoop::create(*session, databuffer::LockstepRole::state_machine, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
   statemachine::StateMachineShell shell(*session, *configuration, loop->lockstep());
-  databuffer::log_info("runs in session " + options.session);
+  log::info("runs in session " + options.session);
   while (const auto due = loop->wait()) {
     shell.step(*due);
     loop->done(*due);

@@ -32,19 +32,19 @@ StateMachineShell::StateMachineShell(databuffer::Session& session, const radar::
       published_{} {
   // Data that nobody asked for need not be there; the configured variation serves.
   if (!field_.has_data() && !configuration.navigation.magnetic_model.empty())
-    databuffer::log_warning("magnetic model: " + field_.problem() + "; the configured variation serves");
+    log::warning("magnetic model: " + field_.problem() + "; the configured variation serves");
   databuffer::RadarState left{};
   if (!session.layout().radar_state.read(left)) return;
   if (const auto reason = databuffer::why_refused(left)) {
     session.note(databuffer::NoteKind::refusal, "radar state left behind: " + std::string(*reason));
-    databuffer::log_warning("radar state left behind is refused, starting anew: " + std::string(*reason));
+    log::warning("radar state left behind is refused, starting anew: " + std::string(*reason));
     return;
   }
   state_ = left;
   published_ = left;
   nothing_published_ = false;
   session.note(databuffer::NoteKind::restart, "state-machine resumes");
-  databuffer::log_info("resumes from the radar state in the segment");
+  log::info("resumes from the radar state in the segment");
 }
 
 void StateMachineShell::step(const databuffer::TickLoop::Due& due) {
@@ -167,8 +167,7 @@ void StateMachineShell::take(const databuffer::InputEvent& event, std::size_t la
   applied.event = event;
   applied.lane = static_cast<std::uint32_t>(lane);
   session_->layout().applied_events.publish(applied);
-  databuffer::log_debug(databuffer::text_of(event) +
-                        (applied.effective != databuffer::kEventDead ? "" : " (dead here)"));
+  log::debug(databuffer::text_of(event) + (applied.effective != databuffer::kEventDead ? "" : " (dead here)"));
 }
 
 void StateMachineShell::publish_if_changed(std::int64_t tick) {

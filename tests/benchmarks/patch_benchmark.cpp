@@ -39,7 +39,8 @@ constexpr double kRange_nm = 10.0;
 model::scene::SceneViewPointer towns_of(std::uint64_t triangles, const std::vector<geo::GeoPoint>& places,
                                         const model::terrain::TerrainView& ground) {
   using namespace model::scene;
-  const GeneratedScene made = generate_scene({GeneratedKind::town, triangles, 1, places.front()});
+  const worldgen::GeneratedScene made =
+      worldgen::generate_scene({worldgen::GeneratedKind::town, triangles, 1, places.front()});
   const auto model = read_openflight(made.file, "town", {});
   if (!model) {
     std::fprintf(stderr, "patch_benchmark: %s\n", model.error().message().c_str());
@@ -166,11 +167,11 @@ void measure_threads(model::terrain::TerrainStore& store, geo::GeoPoint place, s
   constexpr int kMaps = 10;
   radar::RadarConfiguration configuration;
   configuration.fidelity.map_size = size;
-  model::kernel::Workers workers(2);
+  parallel::Workers workers(2);
   std::vector<hrm::PatchProcess> together;
-  together.emplace_back(configuration, hrm::Crew{2, [&](const auto& job) { workers.run(job); }});
+  together.emplace_back(configuration, parallel::Crew{2, [&](const auto& job) { workers.run(job); }});
   std::vector<hrm::PatchProcess> apart;
-  for (int i = 0; i < 2; ++i) apart.emplace_back(configuration, hrm::Crew{});
+  for (int i = 0; i < 2; ++i) apart.emplace_back(configuration, parallel::Crew{});
   const hrm::PatchOrder order = order_about(place);
   const auto ground = store.prepare({place, geo::Length::nautical_miles(1.5 * kRange_nm).metres(), 0});
   const hrm::PatchDatabase database{ground, ground, towns_of(triangles, {place}, *ground)};

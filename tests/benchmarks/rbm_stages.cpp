@@ -19,6 +19,7 @@ namespace yars::benchmarks {
 
 namespace {
 
+using namespace model;
 using namespace model::rbm;
 
 constexpr int kRounds = 15;
@@ -34,9 +35,9 @@ class Stages {
         places_(count_),
         ground_(configuration_, count_) {
     cell_.resize(count_ + 16);
-    for (auto& array : arrays_) array.assign(count_ + 2 * simd::kPad, 0.0F);
+    for (auto& array : arrays_) array.assign(count_ + 2 * rbm::simd::kPad, 0.0F);
     for (const int padded : {kTangent, kBefore, kHorizon})
-      arrays_[padded].assign(arrays_[padded].size(), simd::kNoHorizon);
+      arrays_[padded].assign(arrays_[padded].size(), rbm::simd::kNoHorizon);
     receiver_ = physics::make_receiver(configuration_, request.range);
     const double spacing_m = request.range.metres() / samples;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -74,24 +75,24 @@ class Stages {
           {request_.pose.altitude.metres(), static_cast<double>(constants_.curvature), {at(kDistance), count_}},
           {at(kCrest), count_});
     });
-    const simd::SweepInputs inputs{at(kDistance), at(kElevation), nullptr,       at(kCrest),
-                                    nullptr,       at(kOneStep),   at(kTwoSteps), nullptr};
+    const rbm::simd::SweepInputs inputs{at(kDistance), at(kElevation), nullptr,       at(kCrest),
+                                        nullptr,       at(kOneStep),   at(kTwoSteps), nullptr};
     stage("sweep", {kDistance, kElevation, kCrest, kOneStep, kTwoSteps}, {kTangent, kBefore, kHorizon, kPower},
           [&](int) {
-            simd::sweep(count_, constants_, radar::BeamPattern::cosecant_squared, inputs,
-                         {at(kTangent), at(kBefore), at(kHorizon), at(kPower)});
+            rbm::simd::sweep(count_, constants_, radar::BeamPattern::cosecant_squared, inputs,
+                             {at(kTangent), at(kBefore), at(kHorizon), at(kPower)});
           });
     std::array<float, 2 * physics::PulseSmear::kMostReach + 1> weights{};
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = static_cast<float>(smear_.weights[i]);
     stage("smear", {kPower}, {kSmeared},
-          [&](int) { simd::smear(count_, at(kPower), weights.data(), smear_.reach, at(kSmeared)); });
+          [&](int) { rbm::simd::smear(count_, at(kPower), weights.data(), smear_.reach, at(kSmeared)); });
     stage("speckle", {}, {kVariate}, [&](int sweep) {
       physics::simd::speckle(static_cast<std::size_t>(cell_[count_ - 1]) + 1,
-                     physics::make_noise_state({1, 1, static_cast<std::uint32_t>(sweep)}), 4, at(kVariate));
+                             physics::make_noise_state({1, 1, static_cast<std::uint32_t>(sweep)}), 4, at(kVariate));
     });
     const std::array<float, 3> join{0.25F, 0.5F, 0.25F};
     const physics::simd::VideoInputs video{at(kSmeared), at(kSmeared), at(kSmeared), join.data(), 1e-4F,
-                                   at(kVariate), cell_.data(), 0.0F,         45.0F};
+                                           at(kVariate), cell_.data(), 0.0F,         45.0F};
     stage("video", {kSmeared, kVariate}, {kSpare}, [&](int) { physics::simd::develop(count_, video, video_.data()); });
     std::printf("{\"stages_ns\":{%s},\"floors_ns\":{%s}}\n", stages_.c_str(), floors_.c_str());
   }
@@ -131,7 +132,7 @@ class Stages {
     kArrays
   };
 
-  float* at(int array) { return arrays_[static_cast<std::size_t>(array)].data() + simd::kPad; }
+  float* at(int array) { return arrays_[static_cast<std::size_t>(array)].data() + rbm::simd::kPad; }
   geo::Bearing azimuth(int sweep) const {
     return request_.pose.platform.heading + geo::Angle::degrees(-50.0 + 0.5 * sweep);
   }
@@ -177,7 +178,7 @@ class Stages {
   std::vector<float> scratch_ = std::vector<float>(8192);
   std::vector<std::uint8_t> video_;
   physics::Receiver receiver_;
-  simd::SweepConstants constants_;
+  rbm::simd::SweepConstants constants_;
   physics::PulseSmear smear_;
   memory::LineVector<std::int32_t> cell_;
   physics::PlaceArrays places_;

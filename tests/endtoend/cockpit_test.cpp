@@ -83,7 +83,7 @@ class Applied {
   }
 
  private:
-  failure::Expected<databuffer::Session> session_;
+  error::Expected<databuffer::Session> session_;
   std::uint64_t cursor_ = 0;
 };
 

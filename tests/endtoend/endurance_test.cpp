@@ -76,7 +76,7 @@ class ExpectedFlight {
   }
 
  private:
-  failure::Expected<databuffer::flight::FlightSource> source_;
+  error::Expected<databuffer::flight::FlightSource> source_;
   std::int64_t tick_ = 0;
 };
 

@@ -15,7 +15,7 @@
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/session.hpp"
 #include "lib/imageio/png.hpp"
-#include "tests/databuffer/made_up_map.hpp"
+#include "tests/databuffer/session/made_up_map.hpp"
 #include "tests/endtoend/process_set.hpp"
 
 namespace yars::endtoend {

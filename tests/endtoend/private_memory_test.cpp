@@ -1,6 +1,6 @@
 // The storm's /dev/shm of its own has to leave the process where it was, in a chroot too: scripts/check_fresh runs
 // there.
-#include "tests/endtoend/storm/private_memory.hpp"
+#include "tests/endtoend/fault_injection/private_memory.hpp"
 
 #include <gtest/gtest.h>
 #include <sched.h>

@@ -26,7 +26,7 @@ int code_of(int status) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-// LeakSanitizer's search at the end of a process crashes now and then beside Mesa's threads; tests/display_gl looks for
+// LeakSanitizer's search at the end of a process crashes now and then beside Mesa's threads; tests/display/gl looks for
 // the leaks of what draws.
 bool draws(const std::string& program) {
   const auto name = std::filesystem::path(program).filename();

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "tests/extremes/islands.hpp"
-#include "tests/model/cockpit.hpp"
+#include "tests/model/kernel/cockpit.hpp"
 
 namespace yars::model {
 namespace {

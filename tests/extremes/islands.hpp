@@ -11,7 +11,8 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "model/rbm/algorithm.hpp"
-#include "tests/model/ground.hpp"
+#include "model/rbm/sub_beams.hpp"
+#include "tests/model/physics/ground.hpp"
 
 namespace yars::test {
 

@@ -17,7 +17,7 @@
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/runtime/receivers.hpp"
 #include "tests/extremes/islands.hpp"
-#include "tests/model/cockpit.hpp"
+#include "tests/model/kernel/cockpit.hpp"
 
 namespace yars {
 namespace {

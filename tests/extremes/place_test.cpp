@@ -6,7 +6,7 @@
 
 #include "model/terrain/store/directory_store.hpp"
 #include "tests/extremes/islands.hpp"
-#include "tests/terrain/dted_builder.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
 
 namespace yars::model {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "lib/radar/modes.hpp"
 #include "tests/extremes/islands.hpp"
-#include "tests/model/cockpit.hpp"
+#include "tests/model/kernel/cockpit.hpp"
 
 namespace yars::model {
 namespace {

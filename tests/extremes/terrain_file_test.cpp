@@ -9,8 +9,8 @@
 #include "model/terrain/formats/hgt.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tests/extremes/islands.hpp"
-#include "tests/model/cockpit.hpp"
-#include "tests/terrain/dted_builder.hpp"
+#include "tests/model/kernel/cockpit.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
 
 namespace yars::model {
 namespace {

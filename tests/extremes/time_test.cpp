@@ -15,7 +15,7 @@
 #include "databuffer/messages/validation.hpp"
 #include "lib/radar/modes.hpp"
 #include "model/antenna/antenna.hpp"
-#include "tests/model/cockpit.hpp"
+#include "tests/model/kernel/cockpit.hpp"
 
 namespace yars {
 namespace {

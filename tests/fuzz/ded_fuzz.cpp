@@ -7,7 +7,7 @@
 
 #include "lib/error/error.hpp"
 #include "model/terrain/formats/ded.hpp"
-#include "tests/terrain/ded_builder.hpp"
+#include "tests/model/terrain/formats/ded_builder.hpp"
 
 using namespace yars::model::terrain;
 

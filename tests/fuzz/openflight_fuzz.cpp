@@ -6,7 +6,7 @@
 #include <cstring>
 #include <vector>
 
-#include "tests/scene/every_record.hpp"
+#include "tests/model/scene/openflight/every_record.hpp"
 
 using namespace yars::model::scene;
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "model/terrain/formats/pack.hpp"
-#include "tests/terrain/rough_cell.hpp"
+#include "tests/model/terrain/sampling/rough_cell.hpp"
 
 using namespace yars::model::terrain;
 

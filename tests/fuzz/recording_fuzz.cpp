@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "tests/recording/made_recording.hpp"
+#include "tests/tools/recording/made_recording.hpp"
 #include "tools/recording/block.hpp"
 
 using namespace yars;

@@ -113,7 +113,7 @@ TEST(ScriptSource, AScriptThatBeginsWithPlusCountsFromItsStart) {
 }
 
 TEST(ScriptSource, TheShippedScriptSwitchesTheRadarOn) {
-  const auto text = databuffer::read_text_file(YARS_SOURCE_DIR "/config/scripts/power_on.script");
+  const auto text = file::read_text_file(YARS_SOURCE_DIR "/config/scripts/power_on.script");
   ASSERT_TRUE(text) << text.error().message();
   const auto script = parse_script(*text, "power_on.script");
   ASSERT_TRUE(script) << script.error().message();

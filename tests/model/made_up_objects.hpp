@@ -19,8 +19,8 @@ struct Building {
 };
 
 inline std::vector<std::byte> flt_of(const std::vector<Building>& buildings, geo::GeoPoint origin) {
-  model::scene::OpenFlightWriter writer(origin);
-  model::scene::Sketch sketch(writer);
+  worldgen::OpenFlightWriter writer(origin);
+  worldgen::Sketch sketch(writer);
   for (const Building& building : buildings) {
     writer.begin_object("building");
     sketch.kind = {building.material, 0, 0x808080};

@@ -13,7 +13,7 @@ PROJECT = f"""cmake_minimum_required(VERSION 3.25)
 project(cockpit LANGUAGES C CXX)
 add_subdirectory({SOURCE} yars EXCLUDE_FROM_ALL)
 add_executable(cockpit {SOURCE}/examples/host_glass.cpp)
-target_link_libraries(cockpit PRIVATE yars_glass)
+target_link_libraries(cockpit PRIVATE yars_display)
 """
 
 

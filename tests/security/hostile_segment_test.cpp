@@ -13,7 +13,7 @@
 #include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/session.hpp"
-#include "tests/databuffer/session_name.hpp"
+#include "tests/databuffer/session/session_name.hpp"
 
 namespace yars::databuffer {
 namespace {

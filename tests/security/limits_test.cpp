@@ -73,16 +73,15 @@ TEST_F(Limits, DevicesAndTheirControlsAreCounted) {
 }
 
 TEST_F(Limits, ATextIsAtMost256MebibytesLong) {
-  EXPECT_THAT(refusal_of(databuffer::read_text_file(sparse("long.csv", 256 * kMebibyte + 1))),
-              HasSubstr("at most 256 MiB"));
+  EXPECT_THAT(refusal_of(file::read_text_file(sparse("long.csv", 256 * kMebibyte + 1))), HasSubstr("at most 256 MiB"));
 }
 
 TEST_F(Limits, ATextHasAtMostTenMillionLines) {
   std::string lines;
   lines.resize(10'000'000, '\n');
-  EXPECT_TRUE(databuffer::read_text_file(write("most.csv", lines)));
+  EXPECT_TRUE(file::read_text_file(write("most.csv", lines)));
   lines.push_back('\n');
-  EXPECT_THAT(refusal_of(databuffer::read_text_file(write("more.csv", lines))), HasSubstr("at most 10 million lines"));
+  EXPECT_THAT(refusal_of(file::read_text_file(write("more.csv", lines))), HasSubstr("at most 10 million lines"));
 }
 
 // ---- Terrain ----
@@ -168,7 +167,7 @@ TEST_F(Limits, ASceneFileIsAtMostAGibibyteLong) {
 }
 
 std::string external_file(const std::string& name) {
-  scene::OpenFlightWriter writer(std::nullopt);
+  worldgen::OpenFlightWriter writer(std::nullopt);
   writer.external(name, {});
   const auto bytes = writer.take();
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -181,7 +180,7 @@ TEST_F(Limits, ExternalReferencesAreAtMostSixteenDeep) {
 }
 
 TEST_F(Limits, ASceneHasAtMost4096Files) {
-  scene::OpenFlightWriter writer(std::nullopt);
+  worldgen::OpenFlightWriter writer(std::nullopt);
   for (int i = 0; i < 4097; ++i) {
     const std::string name = "part" + std::to_string(i) + ".flt";
     writer.external(name, {});

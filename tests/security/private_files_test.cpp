@@ -4,7 +4,7 @@
 
 #include "databuffer/app/udp_socket_shell.hpp"
 #include "databuffer/bridges/bridge_source.hpp"
-#include "databuffer/runtime/program.hpp"
+#include "databuffer/runtime/process.hpp"
 #include "databuffer/session/session.hpp"
 #include "display/app/frame_output_shell.hpp"
 #include "lib/log/log.hpp"
@@ -88,9 +88,9 @@ TEST_F(PrivateFiles, LogsGoToNoFolderWhereOthersCouldPlantLinks) {
   link("open/role.log", victim);
   ASSERT_EQ(chmod(open.c_str(), 01777), 0);
   ChildProcess child([&] {
-    databuffer::start_log("role", "off");
-    databuffer::start_log_file("role", open.string());
-    databuffer::log_to_file("into the link");
+    log::start("role", "off");
+    log::start_file("role", open.string());
+    log::to_file("into the link");
     return 0;
   });
   ASSERT_EQ(child.wait(), 0);

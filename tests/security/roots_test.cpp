@@ -43,7 +43,7 @@ struct PathReader {
 const std::vector<PathReader>& readers() {
   static const std::vector<PathReader> all{
       {"radar.guf", [](const auto& path) { return refusal_of(config::load_configuration(path)); }},
-      {"flight.route", [](const auto& path) { return refusal_of(databuffer::read_text_file(path)); }},
+      {"flight.route", [](const auto& path) { return refusal_of(file::read_text_file(path)); }},
       {"flight.yrec", [](const auto& path) { return refusal_of(tools::recording::RecordingReader::open(path)); }},
       {"picture.png", [](const auto& path) { return refusal_of(imageio::read_png(path)); }},
       {"n36.smc.png", [](const auto& path) { return refusal_of(terrain::read_culture(path, kPlace)); }},
@@ -108,13 +108,13 @@ TEST_F(Roots, AnIncludeOfAPipeIsRefused) {
 
 // ---- What a scene refers to ----
 
-std::string written(scene::OpenFlightWriter writer) {
+std::string written(worldgen::OpenFlightWriter writer) {
   const std::vector<std::byte> bytes = writer.take();
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 std::string scene_that_refers_to(const std::string& file) {
-  scene::OpenFlightWriter writer(std::nullopt);
+  worldgen::OpenFlightWriter writer(std::nullopt);
   writer.external(file, {});
   return written(std::move(writer));
 }

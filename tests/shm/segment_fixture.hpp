@@ -40,7 +40,7 @@ class SegmentTest : public ::testing::Test {
   ~SegmentTest() override {
     for (const std::string& file : files_of(name_)) std::filesystem::remove(file);
   }
-  failure::Expected<Segment> open() const { return Segment::open(name_, kLayout, set_mark); }
+  error::Expected<Segment> open() const { return Segment::open(name_, kLayout, set_mark); }
   const std::string name_;
 };
 

@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "shm/segment.hpp"
-#include "tests/file/refused_call.hpp"
+#include "tests/lib/file/refused_call.hpp"
 #include "tests/shm/child_process.hpp"
 #include "tests/shm/segment_fixture.hpp"
 

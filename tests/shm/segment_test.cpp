@@ -212,7 +212,7 @@ TEST_F(SegmentTest, ALeaverKilledAfterAnyStepStandsInNobodysWay) {
       auto own = open();
       steps_to_live = steps;
       creation_step = die_in_time;
-      own = failure::fail("", "", "");
+      own = error::fail("", "", "");
       return 0;
     });
     const int end = child.wait();

@@ -124,7 +124,7 @@ TEST_F(VelocityUpdate, WithIpvuTheVelocityErrorStaysWithin2FeetPerSecondForAnHou
   const double most_mps = geo::Length::feet(2.0).metres();
   for (int minute = 0; minute < 60; ++minute) {
     const auto noise = [&](std::uint64_t draw) {
-      return sigma_mps * radar::standard_normal(1, static_cast<std::uint64_t>(minute), draw);
+      return sigma_mps * random::standard_normal(1, static_cast<std::uint64_t>(minute), draw);
     };
     measure(200.0 + noise(0), noise(1), noise(2));
     for (int second = 0; second < 60; ++second) {

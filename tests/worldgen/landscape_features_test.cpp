@@ -11,6 +11,8 @@
 namespace yars::model::terrain {
 namespace {
 
+using namespace worldgen;
+
 using Default = DefaultLandscape;
 constexpr LandscapeBox kIsland{Default::kSouthDeg, Default::kWestDeg, Default::kCellsNorth, Default::kCellsEast};
 

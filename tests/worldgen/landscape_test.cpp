@@ -6,10 +6,12 @@
 #include <algorithm>
 
 #include "model/terrain/formats/dted.hpp"
-#include "tests/terrain/dted_builder.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
 
 namespace yars::model::terrain {
 namespace {
+
+using namespace worldgen;
 
 constexpr int kRows = 121;  // DTED level 0
 

@@ -3,36 +3,37 @@
 
 #include <map>
 
-#include "tests/scene/support.hpp"
+#include "tests/model/scene/support.hpp"
 #include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::model::scene {
 namespace {
 
 constexpr geo::GeoPoint kOrigin{36.2, -115.0};
-constexpr std::array<GeneratedKind, 4> kKinds{GeneratedKind::airfield, GeneratedKind::harbour, GeneratedKind::bridge,
-                                              GeneratedKind::town};
+constexpr std::array<worldgen::GeneratedKind, 4> kKinds{worldgen::GeneratedKind::airfield,
+                                                        worldgen::GeneratedKind::harbour,
+                                                        worldgen::GeneratedKind::bridge, worldgen::GeneratedKind::town};
 
-Model model_of(const SceneOrder& order) {
-  auto model = read_openflight(generate_scene(order).file, "made.flt");
+Model model_of(const worldgen::SceneOrder& order) {
+  auto model = read_openflight(worldgen::generate_scene(order).file, "made.flt");
   EXPECT_TRUE(model) << (model ? "" : model.error().message());
   return model ? std::move(*model) : Model{};
 }
 
 TEST(Generator, MakesTheSameFileForTheSameOrder) {
-  for (const GeneratedKind kind : kKinds) {
-    const SceneOrder order{.kind = kind, .triangles = 15'000, .seed = 3, .origin = kOrigin};
-    EXPECT_EQ(generate_scene(order).file, generate_scene(order).file);
-    SceneOrder other = order;
+  for (const worldgen::GeneratedKind kind : kKinds) {
+    const worldgen::SceneOrder order{.kind = kind, .triangles = 15'000, .seed = 3, .origin = kOrigin};
+    EXPECT_EQ(worldgen::generate_scene(order).file, worldgen::generate_scene(order).file);
+    worldgen::SceneOrder other = order;
     other.seed = 4;
-    EXPECT_NE(generate_scene(order).file, generate_scene(other).file);
+    EXPECT_NE(worldgen::generate_scene(order).file, worldgen::generate_scene(other).file);
   }
 }
 
 TEST(Generator, MakesAboutAsManyTrianglesAsOrderedAndSaysHowMany) {
-  for (const GeneratedKind kind : kKinds) {
-    const SceneOrder order{.kind = kind, .triangles = 60'000, .seed = 1, .origin = kOrigin};
-    const GeneratedScene made = generate_scene(order);
+  for (const worldgen::GeneratedKind kind : kKinds) {
+    const worldgen::SceneOrder order{.kind = kind, .triangles = 60'000, .seed = 1, .origin = kOrigin};
+    const worldgen::GeneratedScene made = worldgen::generate_scene(order);
     const auto model = read_openflight(made.file, "made.flt");
     ASSERT_TRUE(model);
     EXPECT_NEAR(static_cast<double>(made.triangles), 60'000, 6'000);
@@ -41,7 +42,7 @@ TEST(Generator, MakesAboutAsManyTrianglesAsOrderedAndSaysHowMany) {
 }
 
 TEST(Generator, GivesEveryFaceAMaterialAndStaysWithinItsHeader) {
-  for (const GeneratedKind kind : kKinds) {
+  for (const worldgen::GeneratedKind kind : kKinds) {
     const Model model = model_of({.kind = kind, .triangles = 30'000, .seed = 2, .origin = kOrigin});
     for (const SurfaceKind& surface : model.kinds) EXPECT_NE(surface.material, 0);
     ASSERT_TRUE(model.header.south_west && model.header.north_east && model.header.origin);
@@ -62,8 +63,8 @@ TEST(Generator, MakesAnAirfieldOfHangarsRunwayTanksAircraftFencesAndRevetments) 
 }
 
 TEST(Generator, MakesATownOfAMillionTrianglesInSomeMegabytes) {
-  const GeneratedScene made =
-      generate_scene({.kind = GeneratedKind::town, .triangles = 1'000'000, .seed = 1, .origin = kOrigin});
+  const worldgen::GeneratedScene made = worldgen::generate_scene(
+      {.kind = worldgen::GeneratedKind::town, .triangles = 1'000'000, .seed = 1, .origin = kOrigin});
   EXPECT_LT(made.file.size(), 16U << 20U);
   EXPECT_GE(made.triangles, 1'000'000U);
 }

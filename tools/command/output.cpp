@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "databuffer/runtime/program.hpp"
+#include "lib/error/error.hpp"
 #include "lib/file/output_file.hpp"
 #include "lib/text/plain_text.hpp"
 #include "tools/command/command.hpp"
@@ -35,7 +35,7 @@ void check_file_name(const std::string& option, const std::string& name, const s
   }
   std::string expected = "a name that ends in " + endings.front();
   for (std::size_t i = 1; i < endings.size(); ++i) expected += (i + 1 < endings.size() ? ", " : " or ") + endings[i];
-  give_up(databuffer::usage_error(option, expected, name));
+  give_up(error::usage_error(option, expected, name));
 }
 
 void check_folder_name(const std::string& option, const std::string& name) {
@@ -43,7 +43,7 @@ void check_folder_name(const std::string& option, const std::string& name) {
                                                   ".zip", ".gz",  ".dt0",  ".dt1", ".dt2", ".ded", ".flt", ".guf"};
   const std::string ending = ending_of(name);
   if (std::find(kFiles.begin(), kFiles.end(), ending) != kFiles.end())
-    give_up(databuffer::usage_error(option, "the name of a folder", name + ", which ends like that of a file"));
+    give_up(error::usage_error(option, "the name of a folder", name + ", which ends like that of a file"));
 }
 
 error::Expected<void> write_floats(const std::filesystem::path& path, std::span<const float> values) {

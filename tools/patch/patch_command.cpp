@@ -87,7 +87,7 @@ void check_patch_output(const PatchOutput& output) {
   const std::string suffix = ending_of(output.file);
   if (output.pixels != "video" && suffix != ".tif")
     give_up(
-        databuffer::usage_error("--pixels", "an --out that ends in .tif", output.file.empty() ? "none" : output.file));
+        error::usage_error("--pixels", "an --out that ends in .tif", output.file.empty() ? "none" : output.file));
   if (suffix == ".tif" && !gdal::available())
     give_up({output.file, "a YARS built with GDAL to write a GeoTIFF", "one built without it",
              "run `scripts/setup --gdal` and build again, or write a .png"});
@@ -143,7 +143,7 @@ radar::RadarConfiguration configure(const CommonOptions& common, const PatchOpti
   if (options.size > 0) configuration.fidelity.map_size = options.size;
   if (options.seed >= 0) configuration.seed = static_cast<std::uint64_t>(options.seed);
   if (auto added = model::scene::add_scenes(configuration.world.scenes, options.scenes, options.without); !added)
-    give_up(databuffer::usage_error(added.error()));
+    give_up(error::usage_error(added.error()));
   return configuration;
 }
 
@@ -191,7 +191,7 @@ void check_order(const hrm::PatchOrder& order, const radar::RadarConfiguration& 
     if (const auto problem = beyond_limits(order, configuration)) give_up(*problem);
   const double distance_nm = geo::geodesic_inverse(order.apex, order.centre).distance.nautical_miles();
   if (distance_nm < kNearestShare * order.window.nautical_miles())
-    give_up(databuffer::usage_error("--target-lat, --target-lon", "a target away by 0.75 of the window's side or more",
+    give_up(error::usage_error("--target-lat, --target-lon", "a target away by 0.75 of the window's side or more",
                                     std::to_string(distance_nm) + " NM"));
 }
 

@@ -162,7 +162,7 @@ radar::RadarConfiguration configure(const CommonOptions& common, const ScanOptio
   if (options.size > 0) configuration.view.size_pixels = options.size;
   if (options.seed >= 0) configuration.seed = static_cast<std::uint64_t>(options.seed);
   if (auto added = model::scene::add_scenes(configuration.world.scenes, options.scenes, options.without); !added)
-    give_up(databuffer::usage_error(added.error()));
+    give_up(error::usage_error(added.error()));
   return configuration;
 }
 

@@ -8,6 +8,7 @@
 
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/messages/validation.hpp"
+#include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "databuffer/session/session.hpp"
 #include "lib/text/plain_text.hpp"

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "databuffer/runtime/program.hpp"
+#include "databuffer/runtime/process.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/session.hpp"
 #include "lib/log/log.hpp"
@@ -82,9 +82,9 @@ error::Expected<ReplaySession> ReplaySession::create(const std::string& name) {
     return error::fail("session " + name, "one that is live", "one in lockstep", "replay into another --session");
   ReplaySession session(std::move(*machine), std::move(*model));
   auto machine_role = session.machine_.claim(databuffer::Role::state_machine);
-  if (!machine_role) return tl::unexpected(databuffer::usage_error(machine_role.error()));
+  if (!machine_role) return tl::unexpected(error::usage_error(machine_role.error()));
   auto model_role = session.model_.claim(databuffer::Role::radar_model);
-  if (!model_role) return tl::unexpected(databuffer::usage_error(model_role.error()));
+  if (!model_role) return tl::unexpected(error::usage_error(model_role.error()));
   auto lane = session.model_.claim_ownship_lane(0);
   if (!lane) return tl::unexpected(lane.error());
   session.machine_role_ = std::move(*machine_role);
@@ -216,7 +216,7 @@ error::Expected<std::int64_t> first_tick(const recording::RecordingReader& reade
   const auto most = std::ranges::max_element(blocks, {}, &recording::IndexEntry::last_tick)->last_tick;
   const double tick = std::round(*options.seek_s / radar::kTickSeconds);  // NaN lies in no recording
   if (tick >= static_cast<double>(least) && tick <= static_cast<double>(most)) return static_cast<std::int64_t>(tick);
-  return tl::unexpected(databuffer::usage_error(
+  return tl::unexpected(error::usage_error(
       "--seek", "a time of " + options.file + ", " + text_of_seconds(least) + " to " + text_of_seconds(most) + " s",
       std::to_string(*options.seek_s)));
 }
@@ -254,7 +254,7 @@ error::Expected<bool> look(ReplaySession& session, recording::Player& player, st
 
 error::Expected<void> play_recording(recording::RecordingReader& reader, std::optional<recording::PlayerWorld> world,
                                      const PlayOptions& options) {
-  if (std::isnan(options.rate)) return tl::unexpected(databuffer::usage_error("--rate", "0 to 10", "not a number"));
+  if (std::isnan(options.rate)) return tl::unexpected(error::usage_error("--rate", "0 to 10", "not a number"));
   const auto begin = first_tick(reader, options);
   if (!begin) return tl::unexpected(begin.error());
   auto session = ReplaySession::create(options.session);

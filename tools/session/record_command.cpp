@@ -3,6 +3,7 @@
 #include <ctime>
 #include <filesystem>
 
+#include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/session.hpp"
@@ -78,7 +79,7 @@ void record(const CommonOptions& common, const RecordOptions& options) {
   auto session = Session::open(common.session, "recorder");
   if (!session) give_up(session.error());
   auto role = session->claim(databuffer::Role::recorder);
-  if (!role) give_up(databuffer::usage_error(role.error()));
+  if (!role) give_up(error::usage_error(role.error()));
   auto writer = recording::RecordingWriter::create(
       options.file, {absolute(common.config), absolute(options.terrain)},
       options.overwrite ? recording::Existing::overwritten : recording::Existing::refused);

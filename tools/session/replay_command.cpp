@@ -10,6 +10,7 @@
 
 #include "config/schema/load.hpp"
 #include "databuffer/messages/input_event.hpp"
+#include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "lib/log/log.hpp"
 #include "model/terrain/store/directory_store.hpp"

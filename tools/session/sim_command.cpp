@@ -7,8 +7,10 @@
 #include <thread>
 #include <utility>
 
+#include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "databuffer/session/session.hpp"
+#include "lib/geo/quantity.hpp"
 #include "lib/text/plain_text.hpp"
 #include "tools/command/command.hpp"
 
@@ -65,7 +67,7 @@ void set_running(const CommonOptions& common, bool running) {
 
 void set_rate(const CommonOptions& common, double rate) {
   if (!std::isfinite(rate) || rate < 0.0 || rate > kFastestRate)
-    give_up(databuffer::usage_error("rate", "0 to 10", std::to_string(rate)));
+    give_up(error::usage_error("rate", "0 to 10", std::to_string(rate)));
   auto session = open_session(common);
   change_clock(session, [rate](const ClockState& clock) {
     ClockState next = rebased(clock);
@@ -82,7 +84,7 @@ void pause_for_roles() {
 // Frozen time is moved on in portions that no role has to skip; each from the clock as it then is.
 void step(const CommonOptions& common, std::int64_t ticks) {
   if (ticks < 1)
-    give_up(databuffer::usage_error("step", "a number of ticks of 5 ms, 1 or more", std::to_string(ticks)));
+    give_up(error::usage_error("step", "a number of ticks of 5 ms, 1 or more", std::to_string(ticks)));
   auto session = open_session(common);
   const std::uint32_t epoch = session.clock().epoch;
   while (ticks > 0 && !databuffer::stop_requested()) {
@@ -117,7 +119,7 @@ void settle_when_frozen(Session& session) {
 
 void reset(const CommonOptions& common, double time_s) {
   if (!(time_s >= 0.0 && time_s <= databuffer::kLatestSimTime_s))
-    give_up(databuffer::usage_error("reset",
+    give_up(error::usage_error("reset",
                                     "a sim time of 0 to " + text::text_of_number(databuffer::kLatestSimTime_s) + " s",
                                     text::text_of_number(time_s)));
   auto session = open_session(common);
@@ -143,7 +145,7 @@ void reposition(const CommonOptions& common, const Place& place) {
   const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
   if (!within(place.latitude_deg, -90, 90) || !within(place.longitude_deg, -180, 180) ||
       !within(place.altitude_ft, -3000, 600000) || !within(place.heading_deg, 0, 360))
-    give_up(databuffer::usage_error(
+    give_up(error::usage_error(
         "reposition", "LAT [-90, 90], LON [-180, 180], ALT_FT [-3000, 600000], HDG [0, 360]", "a value outside"));
   auto session = open_session(common);
   change_clock(session, [&place](const ClockState& clock) {

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "databuffer/session/layout_json.hpp"
 #include "databuffer/session/session.hpp"

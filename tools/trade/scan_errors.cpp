@@ -10,6 +10,7 @@
 #include "model/physics/receiver.hpp"
 #include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"
+#include "model/rbm/sub_beams.hpp"
 #include "tools/trade/trade_table.hpp"
 
 namespace yars::tools::trade {

@@ -90,7 +90,7 @@ std::vector<trade::Contender> contenders_of(const TradeOptions& options, trade::
     if (!more) give_up(more.error());
     std::move(more->begin(), more->end(), std::back_inserter(*contenders));
   }
-  if (contenders->empty()) give_up(databuffer::usage_error("yars trade", "a preset or a knob to compare", "none"));
+  if (contenders->empty()) give_up(error::usage_error("yars trade", "a preset or a knob to compare", "none"));
   return std::move(*contenders);
 }
 

@@ -166,7 +166,7 @@ void trade_off(const CommonOptions& common, const MapTradeOptions& options) {
   check_trade_output(options);
   radar::RadarConfiguration configuration = trade_configuration(common, options);
   if (auto added = model::scene::add_scenes(configuration.world.scenes, options.scenes, options.without); !added)
-    give_up(databuffer::usage_error(added.error()));
+    give_up(error::usage_error(added.error()));
   write_trade(options, run_trade(options, configuration),
               {{trade::kMapMs, "time a map (ms of one core)"},
                {{{trade::kMapPower, "power error (dB RMS)"}, {trade::kMapShadow, "shadow mismatch (% of pixels)"}}}});

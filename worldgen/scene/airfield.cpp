@@ -2,7 +2,7 @@
 
 #include "worldgen/scene/scene_parts.hpp"
 
-namespace yars::model::scene {
+namespace yars::worldgen {
 
 namespace {
 
@@ -256,4 +256,4 @@ void generate_airfield(Yard& yard) {
   Airfield(yard).make();
 }
 
-}  // namespace yars::model::scene
+}  // namespace yars::worldgen

@@ -1,6 +1,6 @@
 #include "worldgen/scene/scene_parts.hpp"
 
-namespace yars::model::scene {
+namespace yars::worldgen {
 
 namespace {
 
@@ -189,4 +189,4 @@ void generate_bridge(Yard& yard) {
   Bridge(yard).make();
 }
 
-}  // namespace yars::model::scene
+}  // namespace yars::worldgen

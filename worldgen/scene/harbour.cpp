@@ -2,7 +2,7 @@
 
 #include "worldgen/scene/scene_parts.hpp"
 
-namespace yars::model::scene {
+namespace yars::worldgen {
 
 namespace {
 
@@ -211,4 +211,4 @@ void generate_harbour(Yard& yard) {
   Harbour(yard).make();
 }
 
-}  // namespace yars::model::scene
+}  // namespace yars::worldgen

@@ -4,9 +4,9 @@
 
 #include "model/scene/openflight/records.hpp"
 
-namespace yars::model::scene {
+namespace yars::worldgen {
 
-using namespace openflight;
+using namespace model::scene::openflight;
 
 namespace {
 
@@ -191,7 +191,7 @@ void OpenFlightWriter::write_palettes(RecordBuilder& out) const {
     out.put<std::uint32_t>(palette::kFirstColor + 4 * i, 0xFF000000U | bgr);
   }
   for (const auto& [code, rgb] : materials_) {
-    out.begin(openflight::kMaterial, kMaterialBytes);
+    out.begin(model::scene::openflight::kMaterial, kMaterialBytes);
     out.put<std::int32_t>(4, code);
     out.put_text(8, "surface" + std::to_string(code), 11);
     for (std::size_t channel = 0; channel < 3; ++channel) {
@@ -216,4 +216,4 @@ std::vector<std::byte> OpenFlightWriter::take() {
   return std::move(out.bytes());
 }
 
-}  // namespace yars::model::scene
+}  // namespace yars::worldgen

@@ -14,9 +14,12 @@
 #include <vector>
 
 #include "model/scene/openflight/node_tree.hpp"
-#include "model/scene/placement/scene_view.hpp"
 
-namespace yars::model::scene {
+namespace yars::worldgen {
+
+using geo::Vector3;
+using model::scene::Affine;
+using model::scene::SurfaceKind;
 
 // Bytes of big-endian records, one behind the other.
 class RecordBuilder {
@@ -49,14 +52,14 @@ class RecordBuilder {
   std::size_t start_ = 0;
 };
 
-// Makes an OpenFlight 16.0 file in metres: nodes in the order of the calls, corners shared in one vertex palette with
-// normals, colours in the palette, one material for each surface material. take() gives the whole file; whoever opens
-// files writes it. What is begun has to be ended. Colours beyond 1024 become the last one.
 struct WriterVertex {
   Vector3 place;
   Vector3 normal;
 };
 
+// Makes an OpenFlight 16.0 file in metres: nodes in the order of the calls, corners shared in one vertex palette with
+// normals, colours in the palette, one material for each surface material. take() gives the whole file; whoever opens
+// files writes it. What is begun has to be ended. Colours beyond 1024 become the last one.
 class OpenFlightWriter {
  public:
   explicit OpenFlightWriter(std::optional<geo::GeoPoint> origin, std::int32_t revision = 1600);
@@ -100,4 +103,4 @@ class OpenFlightWriter {
   std::map<std::uint8_t, std::uint32_t> materials_;  // surface material -> first colour seen
 };
 
-}  // namespace yars::model::scene
+}  // namespace yars::worldgen

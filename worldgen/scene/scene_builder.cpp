@@ -8,7 +8,7 @@
 #include "model/scene/openflight/model.hpp"
 #include "model/scene/placement/plan_geometry.hpp"
 
-namespace yars::model::scene {
+namespace yars::worldgen {
 
 namespace {
 
@@ -36,7 +36,7 @@ void Sketch::emit(const std::vector<WriterVertex>& corners, bool two_sided) {
 }
 
 void Sketch::polygon(const std::vector<Vector3>& corners, bool two_sided) {
-  const Vector3 normal = unit(newell_normal(corners));
+  const Vector3 normal = unit(model::scene::newell_normal(corners));
   std::vector<WriterVertex> vertices;
   for (const Vector3& corner : corners) vertices.push_back({corner, normal});
   emit(vertices, two_sided);
@@ -116,7 +116,7 @@ void Sketch::bar(Vector3 from, Vector3 to, double side_m) {
 }
 
 void Sketch::plate(const std::vector<Vector3>& outline, double thickness_m) {
-  const Vector3 half = (thickness_m / 2) * unit(newell_normal(outline));
+  const Vector3 half = (thickness_m / 2) * unit(model::scene::newell_normal(outline));
   std::vector<Vector3> top, bottom;
   for (const Vector3& corner : outline) top.push_back(corner + half);
   for (auto corner = outline.rbegin(); corner != outline.rend(); ++corner) bottom.push_back(*corner - half);
@@ -166,10 +166,10 @@ GeneratedScene generate_scene(const SceneOrder& order, const GenerationProgress&
   for (const Named& known : kKinds) {
     if (known.kind != order.kind) continue;
     known.generate(yard);
-    const Plane plane(order.origin);
+    const model::scene::Plane plane(order.origin);
     yard.out.set_corners(plane.place_of({-yard.reach_m, -yard.reach_m}), plane.place_of({yard.reach_m, yard.reach_m}));
   }
   return {yard.out.take(), yard.triangles()};
 }
 
-}  // namespace yars::model::scene
+}  // namespace yars::worldgen

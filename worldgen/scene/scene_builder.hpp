@@ -15,17 +15,16 @@
 #include "lib/geo/geodesy.hpp"
 #include "worldgen/scene/openflight_writer.hpp"
 
-namespace yars::model::scene {
-
-// Solid shapes as faces of an OpenFlight file, counted in triangles. Lengths in metres, x east, y north, z up before
-// the sketch's own map; every face turns counter-clockwise from outside. Round shapes have the normals of the round
-// surface.
+namespace yars::worldgen {
 
 // A point of a turned body: how far along its axis, and its radius there.
 struct TurnedPoint {
   double along_m = 0.0, radius_m = 0.0;
 };
 
+// Solid shapes as faces of an OpenFlight file, counted in triangles. Lengths in metres, x east, y north, z up before
+// the sketch's own map; every face turns counter-clockwise from outside. Round shapes have the normals of the round
+// surface.
 class Sketch {
  public:
   explicit Sketch(OpenFlightWriter& out) : out_(out) {}
@@ -84,9 +83,6 @@ using GenerationProgress = std::function<void(std::uint64_t triangles)>;
 
 GeneratedScene generate_scene(const SceneOrder& order, const GenerationProgress& progress = {});
 
-// What the generators of all kinds of scenes work with: the file, a sketch, numbers by chance, and how far the order is
-// filled.
-
 // Numbers by chance, the same everywhere (SplitMix64: Steele, Lea, Flood, OOPSLA 2014).
 class Chance {
  public:
@@ -111,13 +107,15 @@ namespace surface {
 inline constexpr SurfaceKind kMetal{1, 100, 0x9AA4AD}, kDarkMetal{1, 101, 0x5B646B}, kPartMetal{2, 102, 0x7D8790};
 inline constexpr SurfaceKind kStone{3, 103, 0xB9A58C}, kBrick{3, 104, 0xA45A44}, kTiles{3, 105, 0x8C4632};
 inline constexpr SurfaceKind kComposition{4, 106, 0xCFC9BD}, kRoofing{4, 107, 0x6E6862}, kGlass{4, 108, 0x4A6A80};
-inline constexpr SurfaceKind kEarth{5, 109, 0x8A7850}, kGrass{10, 110, 0x6F8A4A};
+inline constexpr SurfaceKind kEarth{5, 109, 0x8A7850};
 inline constexpr SurfaceKind kConcrete{9, 111, 0xA8A8A2}, kAsphalt{9, 112, 0x55565A}, kPaint{9, 113, 0xF0F0EA};
 inline constexpr SurfaceKind kLeaves{12, 114, 0x3C6B33}, kNeedles{12, 115, 0x2C5238}, kTrunk{12, 116, 0x5C4630};
 inline constexpr SurfaceKind kRed{1, 117, 0xA03A2E}, kBlue{1, 118, 0x2F5A8C}, kGreen{1, 119, 0x3E7A54};
 inline constexpr SurfaceKind kWhite{1, 120, 0xE4E6E6}, kOlive{1, 121, 0x5E6144};
 }  // namespace surface
 
+// What the generators of all kinds of scenes work with: the file, a sketch, numbers by chance, and how far the order is
+// filled.
 class Yard {
  public:
   Yard(const SceneOrder& wanted, const GenerationProgress& progress)
@@ -184,4 +182,4 @@ void generate_harbour(Yard& yard);
 void generate_bridge(Yard& yard);
 void generate_town(Yard& yard);
 
-}  // namespace yars::model::scene
+}  // namespace yars::worldgen

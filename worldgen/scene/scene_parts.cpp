@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace yars::model::scene {
+namespace yars::worldgen {
 
 namespace {
 
@@ -212,4 +212,4 @@ void draw_car(Sketch& sketch, const SurfaceKind& body) {
   sketch.polygon(roof);
 }
 
-}  // namespace yars::model::scene
+}  // namespace yars::worldgen

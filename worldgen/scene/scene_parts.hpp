@@ -3,7 +3,7 @@
 
 #include "worldgen/scene/scene_builder.hpp"
 
-namespace yars::model::scene {
+namespace yars::worldgen {
 
 void draw_fighter(Sketch& sketch, int sides);
 void draw_transport(Sketch& sketch, int sides);
@@ -19,4 +19,4 @@ void draw_block(Sketch& sketch, Chance& chance);
 // A tower on a base, stepped back towards its top, with plant on the roof.
 void draw_tower(Sketch& sketch, Chance& chance);
 
-}  // namespace yars::model::scene
+}  // namespace yars::worldgen

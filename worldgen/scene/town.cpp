@@ -3,7 +3,7 @@
 
 #include "worldgen/scene/scene_parts.hpp"
 
-namespace yars::model::scene {
+namespace yars::worldgen {
 
 namespace {
 
@@ -140,4 +140,4 @@ void generate_town(Yard& yard) {
   Town(yard).make();
 }
 
-}  // namespace yars::model::scene
+}  // namespace yars::worldgen

@@ -7,7 +7,7 @@
 
 #include "lib/random/gradient_noise.hpp"
 
-namespace yars::model::terrain {
+namespace yars::worldgen {
 
 namespace {
 
@@ -102,10 +102,10 @@ void Flood::seed_outlets(const std::vector<RiverGate>& gates) {
 double Flood::courted_m(TileNode at) const {
   const CellPlace place = relief_.place();
   const std::uint32_t hash =
-      lattice_hash(place.south_deg * kTileNodes + at.row, place.west_deg * kTileNodes + at.column, 1, 5U);
+      random::lattice_hash(place.south_deg * kTileNodes + at.row, place.west_deg * kTileNodes + at.column, 1, 5U);
   const int border = std::min({at.row, at.column, kTileNodes - 1 - at.row, kTileNodes - 1 - at.column});
   const double near = std::max(0.0, 1.0 - border / kBorderNodes);
-  return relief_.height_m(at.row, at.column) + kWindingM * share_of(hash) + kBorderM * near * near;
+  return relief_.height_m(at.row, at.column) + kWindingM * random::share_of(hash) + kBorderM * near * near;
 }
 
 void Flood::spread(const Front& front) {
@@ -204,4 +204,4 @@ Drainage drain(const ReliefTile& relief, std::vector<RiverGate> exits, std::vect
   return drainage;
 }
 
-}  // namespace yars::model::terrain
+}  // namespace yars::worldgen

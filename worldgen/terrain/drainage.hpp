@@ -8,7 +8,7 @@
 
 #include "worldgen/terrain/river_basins.hpp"
 
-namespace yars::model::terrain {
+namespace yars::worldgen {
 
 inline constexpr double kRiverKm2 = 60.0;  // [km2] drained: less is no river
 
@@ -43,4 +43,4 @@ struct TileNode {
 TileNode gate_source(const RiverGate& gate);
 TileNode gate_target(const RiverGate& gate);
 
-}  // namespace yars::model::terrain
+}  // namespace yars::worldgen

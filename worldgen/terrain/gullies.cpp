@@ -7,7 +7,7 @@
 #include "lib/geo/quantity.hpp"
 #include "lib/random/gradient_noise.hpp"
 
-namespace yars::model::terrain {
+namespace yars::worldgen {
 
 namespace {
 
@@ -64,7 +64,7 @@ void GullyRow::gather(Band& band, double middle, std::uint32_t seed) {
     const double column = middle - 1.0 + step;
     const double wrapped =
         column < 0 ? column + band.columns : (column >= band.columns ? column - band.columns : column);
-    const std::uint32_t hash = lattice_hash(static_cast<std::int32_t>(wrapped), band.index, 0, seed);
+    const std::uint32_t hash = random::lattice_hash(static_cast<std::int32_t>(wrapped), band.index, 0, seed);
     band.points[step] = {column + static_cast<double>(hash & 0xFFFFU) / 65536.0,
                          band.north - static_cast<double>(hash >> 16U) / 65536.0};
   }
@@ -115,4 +115,4 @@ GullyRow::Relief GullyRow::at(double longitude_deg, Slope base) {
   return relief;
 }
 
-}  // namespace yars::model::terrain
+}  // namespace yars::worldgen

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace yars::model::terrain {
+namespace yars::worldgen {
 
 struct Slope {
   double east = 0.0;   // [m/m]
@@ -71,4 +71,4 @@ class GullyRow {
   std::vector<Octave> octaves_;
 };
 
-}  // namespace yars::model::terrain
+}  // namespace yars::worldgen

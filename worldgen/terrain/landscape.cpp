@@ -11,7 +11,7 @@
 #include "lib/random/gradient_noise.hpp"
 #include "model/physics/reflectivity.hpp"
 
-namespace yars::model::terrain {
+namespace yars::worldgen {
 
 namespace {
 
@@ -21,14 +21,15 @@ constexpr double kBuildable = 0.15;         // [m/m] houses stand on gentler gro
 
 double noise_at(const CoverSite& site, double wavelength_m, int octaves, std::uint32_t seed) {
   const double scale = 6371000.0 / wavelength_m;
-  return fractal_noise({site.upward.x * scale, site.upward.y * scale, site.upward.z * scale}, seed, octaves, 0.6);
+  return random::fractal_noise({site.upward.x * scale, site.upward.y * scale, site.upward.z * scale}, seed, octaves,
+                               0.6);
 }
 
 }  // namespace
 
 double snow_line_m(double latitude_deg) {
   const double parallel = std::max(0.0, std::cos(latitude_deg * geo::kRadiansPerDegree));
-  return 4100.0 * parallel * std::sqrt(parallel) - 500.0 * smooth_step(64.0, 78.0, std::abs(latitude_deg));
+  return 4100.0 * parallel * std::sqrt(parallel) - 500.0 * random::smooth_step(64.0, 78.0, std::abs(latitude_deg));
 }
 
 Material natural_cover(const CoverSite& site, std::uint32_t seed) {
@@ -46,7 +47,8 @@ Material natural_cover(const CoverSite& site, std::uint32_t seed) {
   if (above_m > 200.0 * ground)
     return above_m > 450.0 * (1.0 + ground) - 400.0 * site.steepness ? Material::rock : Material::soil;
   // Fields on the plain and the valley floors, woods on hills and slopes.
-  const double hilly = smooth_step(0.03, 0.16, site.steepness) + 0.5 * smooth_step(150.0, 700.0, site.height_m);
+  const double hilly =
+      random::smooth_step(0.03, 0.16, site.steepness) + 0.5 * random::smooth_step(150.0, 700.0, site.height_m);
   const double wooded = ground + 0.45 * hilly - 0.15 + (site.valley < 0.4 ? -0.12 : 0.0);
   return wooded > 0.12 ? Material::trees : Material::soil;
 }
@@ -56,7 +58,7 @@ Material town_cover(const CoverSite& site, double radii, Material natural, std::
   // The edge is ragged: arms along the roads, fields between.
   const double edge = radii * (1.0 + 0.55 * noise_at(site, 1700.0, 3, seed + 7U));
   if (edge > 1.0) return natural;
-  const StreetPatch patch = street_patch(site.place);
+  const model::physics::StreetPatch patch = model::physics::street_patch(site.place);
   double way_deg = geo::wrapped_degrees(site.place.longitude_deg - patch.origin.longitude_deg);
   const double east_m = way_deg * east_m_per_degree(patch.origin.latitude_deg);
   const double north_m = (site.place.latitude_deg - patch.origin.latitude_deg) * kTileMetres;
@@ -68,8 +70,10 @@ Material town_cover(const CoverSite& site, double radii, Material natural, std::
   const auto in_avenue = [](double way_m) { return way_m - kAvenueM * std::floor(way_m / kAvenueM) < kAvenueWidthM; };
   if (in_avenue(along_m) || in_avenue(across_m)) return Material::asphalt;
   const auto number = [](double way_m, double step_m) { return static_cast<std::int32_t>(std::floor(way_m / step_m)); };
-  const double quarter = share_of(lattice_hash(number(along_m, kAvenueM), number(across_m, kAvenueM), 11, seed));
-  const double block = share_of(lattice_hash(number(along_m, kBlockM), number(across_m, kBlockM), 12, seed));
+  const double quarter =
+      random::share_of(random::lattice_hash(number(along_m, kAvenueM), number(across_m, kAvenueM), 11, seed));
+  const double block =
+      random::share_of(random::lattice_hash(number(along_m, kBlockM), number(across_m, kBlockM), 12, seed));
   if (edge > 0.35 && quarter < 0.13)
     return block < 0.12 ? Material::metal : (block < 0.7 ? Material::part_metal : Material::asphalt);
   if (quarter > 0.95 || block > 0.94) return Material::trees;
@@ -166,7 +170,8 @@ void LandscapeRows::lay_ground(Row& row, const LandscapeLattice::Row& lattice) c
     if (steepness < 0.12 || row.heights_m[column] < 0.0) continue;
     const double across = row.cosine * kRoughScale;
     const geo::Vector3 at{across * cosines_[column], across * sines_[column], row.sine * kRoughScale};
-    row.heights_m[column] += kRoughM * smooth_step(0.12, 0.6, steepness) * gradient_noise(at, seed_ + 3090U);
+    row.heights_m[column] +=
+        kRoughM * random::smooth_step(0.12, 0.6, steepness) * random::gradient_noise(at, seed_ + 3090U);
   }
 }
 
@@ -190,7 +195,7 @@ void LandscapeRows::level_airfields(Row& row) const {
       const double beyond_m =
           std::max({0.0, std::abs(at.along_m) - half_m, std::abs(at.across_m) - kPadHalfWidthM}) / kPadBlendM;
       if (beyond_m >= 1.0 || row.valley[column] < 0.0F) continue;
-      const double part = smooth_step(0.0, 1.0, beyond_m);
+      const double part = random::smooth_step(0.0, 1.0, beyond_m);
       row.heights_m[column] = airfield->elevation_m + (row.heights_m[column] - airfield->elevation_m) * part;
       row.steepness[column] *= static_cast<float>(part);
     }
@@ -263,7 +268,8 @@ MadeCell Landscape::make(CellPlace place, int rows, int columns, int threads) co
   for (int first = 1; first < threads; ++first) others.emplace_back(work, first);
   work(0);
   for (std::thread& other : others) other.join();
-  return {Cell(place, rows, columns, std::move(posts)), Culture(place, rows, columns, std::move(codes))};
+  return {model::terrain::Cell(place, rows, columns, std::move(posts)),
+          model::terrain::Culture(place, rows, columns, std::move(codes))};
 }
 
 bool Landscape::may_have_land(CellPlace place) const {
@@ -276,4 +282,4 @@ bool Landscape::may_have_land(CellPlace place) const {
   return false;
 }
 
-}  // namespace yars::model::terrain
+}  // namespace yars::worldgen

@@ -13,7 +13,9 @@
 #include "worldgen/terrain/landscape_tiles.hpp"
 #include "worldgen/terrain/relief.hpp"
 
-namespace yars::model::terrain {
+namespace yars::worldgen {
+
+using model::terrain::Material;
 
 // What covers a post of the made-up earth, as a surface material code: sea and rivers, runways, towns by their
 // streets and quarters, beaches, marsh, woods, bare rock, snow; else soil. A function of place and seed.
@@ -67,12 +69,6 @@ class LandscapeRows {
   std::vector<const Airfield*> airfields_;
 };
 
-// A made-up earth: coasts, ranges, rivers that run to the sea in valleys of their own, towns, airfields, woods.
-// Height and cover are functions of place and seed alone (and of the box, for an island), so cells made one by one
-// meet without a seam, and a post has one height whatever the spacing of the cell it is in. Not for navigation.
-// Broad shapes hang on a lattice of 30 arc seconds (landscape_tiles.hpp), joined by a cubic spline and cut post by
-// post by gullies down to some 100 m. Safe for any number of threads.
-
 // The region that scripts/start flies in; config/routes/default.route goes along its coast.
 struct DefaultLandscape {
   static constexpr int kSouthDeg = 36, kWestDeg = -124;
@@ -81,10 +77,15 @@ struct DefaultLandscape {
 };
 
 struct MadeCell {
-  Cell cell;
-  Culture culture;  // at the cell's posts
+  model::terrain::Cell cell;
+  model::terrain::Culture culture;  // at the cell's posts
 };
 
+// A made-up earth: coasts, ranges, rivers that run to the sea in valleys of their own, towns, airfields, woods.
+// Height and cover are functions of place and seed alone (and of the box, for an island), so cells made one by one
+// meet without a seam, and a post has one height whatever the spacing of the cell it is in. Not for navigation.
+// Broad shapes hang on a lattice of 30 arc seconds (landscape_tiles.hpp), joined by a cubic spline and cut post by
+// post by gullies down to some 100 m. Safe for any number of threads.
 class Landscape {
  public:
   // With an island's box, land falls to the sea before the box's edge.
@@ -93,7 +94,7 @@ class Landscape {
   // The cell at `rows` x `columns` posts (rows - 1 and columns - 1 divide 3600). Sea is 0 m, land at least 1 m;
   // a river's water may be at 0 m near its mouth. The bits do not depend on `threads` (at least 1).
   MadeCell make(CellPlace place, int rows, int columns, int threads = 1) const;
-  Cell cell(CellPlace place, int rows, int columns) const { return make(place, rows, columns).cell; }
+  model::terrain::Cell cell(CellPlace place, int rows, int columns) const { return make(place, rows, columns).cell; }
 
   // Rivers, towns and airfields of one degree by one degree.
   std::shared_ptr<const TileFeatures> features(CellPlace place) const { return tiles_->features(place); }
@@ -107,4 +108,4 @@ class Landscape {
   std::unique_ptr<LandscapeTiles> tiles_;
 };
 
-}  // namespace yars::model::terrain
+}  // namespace yars::worldgen

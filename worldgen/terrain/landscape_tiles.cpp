@@ -8,7 +8,7 @@
 
 #include "lib/random/gradient_noise.hpp"
 
-namespace yars::model::terrain {
+namespace yars::worldgen {
 
 namespace {
 
@@ -43,7 +43,7 @@ class Settler {
   float& river(int row, int column) { return river_km2_[static_cast<std::size_t>(row * kTileNodes + column)]; }
   double chance() {
     ++draws_;
-    return share_of(lattice_hash(relief_.place().west_deg, relief_.place().south_deg, draws_, seed_));
+    return random::share_of(random::lattice_hash(relief_.place().west_deg, relief_.place().south_deg, draws_, seed_));
   }
   TileNode any_node() {
     const double span = kTileNodes - 2 * kBorder;
@@ -224,4 +224,4 @@ std::shared_ptr<const TileFeatures> LandscapeTiles::features(CellPlace place) {
   });
 }
 
-}  // namespace yars::model::terrain
+}  // namespace yars::worldgen

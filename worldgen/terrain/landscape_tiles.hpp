@@ -12,7 +12,7 @@
 #include "worldgen/terrain/drainage.hpp"
 #include "worldgen/terrain/rivers.hpp"
 
-namespace yars::model::terrain {
+namespace yars::worldgen {
 
 // What people have built on one tile of the made-up earth: towns, of sizes by a rank law (the r-th is the largest
 // by the root of r smaller), on low and gentle ground, rather by the sea, by rivers and at their mouths; airfields
@@ -94,9 +94,6 @@ class LandscapeCache {
   std::uint64_t uses_ = 0;
 };
 
-// The made-up earth by degrees: relief, rivers and places of a tile, each made once when first wanted and kept
-// while there is room. Any number of threads; the same answers whatever was asked before.
-
 // What stands on a tile's relief.
 struct TileFeatures {
   Drainage drainage;
@@ -104,6 +101,8 @@ struct TileFeatures {
   Places places;
 };
 
+// The made-up earth by degrees: relief, rivers and places of a tile, each made once when first wanted and kept
+// while there is room. Any number of threads; the same answers whatever was asked before.
 class LandscapeTiles {
  public:
   LandscapeTiles(std::uint32_t seed, std::optional<LandscapeBox> island);
@@ -124,4 +123,4 @@ class LandscapeTiles {
   LandscapeCache<TileFeatures> features_;
 };
 
-}  // namespace yars::model::terrain
+}  // namespace yars::worldgen

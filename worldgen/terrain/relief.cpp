@@ -6,12 +6,12 @@
 #include "lib/geo/geodesy.hpp"
 #include "lib/random/gradient_noise.hpp"
 
-namespace yars::model::terrain {
+namespace yars::worldgen {
 
 namespace {
 
-constexpr double kKmPerDegree = 111.195;  // [km] of a sphere of 6371 km: shape only, no navigation
-constexpr double kCornerKm = 45.0;        // [km] radius of a corner; sharper ones show the box
+constexpr double kKmPerDegree = kTileMetres / 1000.0;
+constexpr double kCornerKm = 45.0;  // [km] radius of a corner; sharper ones show the box
 constexpr double kNoEdgeKm = 1e6;
 
 }  // namespace
@@ -65,11 +65,11 @@ constexpr Range kRanges[] = {{20, 12, 1250, 70}, {96, 27, 3000, 90}, {210, 40, 2
 }  // namespace
 
 double BroadRelief::noise(geo::Vector3 point_km, double wavelength_km, std::uint32_t layer, int octaves) const {
-  return fractal_noise(at_wavelength(point_km, wavelength_km), seed_ + layer, octaves, 0.5);
+  return random::fractal_noise(at_wavelength(point_km, wavelength_km), seed_ + layer, octaves, 0.5);
 }
 
 double BroadRelief::ridges(geo::Vector3 point_km, double wavelength_km, std::uint32_t layer, int octaves) const {
-  return ridged_noise(at_wavelength(point_km, wavelength_km), seed_ + layer, octaves);
+  return random::ridged_noise(at_wavelength(point_km, wavelength_km), seed_ + layer, octaves);
 }
 
 // The coast that ends a box keeps 11 to 81 km from its edge, in bays and capes of its own;
@@ -80,7 +80,7 @@ BroadRelief::Shore BroadRelief::beside_edge(double coast_km, geo::GeoPoint place
   if (inside_km >= kReachKm) return {coast_km, 1.0};
   const double margin_km = 11.0 + 70.0 * std::clamp(0.42 + 1.15 * noise(bent, 115, 170, 6), 0.0, 1.0);
   const double shore_km = inside_km - margin_km;
-  return {std::min(coast_km, shore_km), smooth_step(0.0, 22.0, shore_km)};
+  return {std::min(coast_km, shore_km), random::smooth_step(0.0, 22.0, shore_km)};
 }
 
 double BroadRelief::height_m(geo::GeoPoint place) const {
@@ -96,8 +96,8 @@ double BroadRelief::height_m(geo::GeoPoint place) const {
   const double inland_km = 260.0 * (noise(bent, 1100, 40) + 0.45 * noise(bent, 430, 41) + 0.16 * noise(bent, 170, 42));
   if (inland_km < kOpenSeaKm) return kSeaBottomM;
   // The coast itself wanders about that line, here in beaches, there in capes; inlets reach in.
-  const double rugged = smooth_step(-0.3, 0.4, noise(at, 130, 43));
-  const double inlets = smooth_step(0.42, 0.8, ridges(bent, 85, 44, 3));
+  const double rugged = random::smooth_step(-0.3, 0.4, noise(at, 130, 43));
+  const double inlets = random::smooth_step(0.42, 0.8, ridges(bent, 85, 44, 3));
   const Shore shore = beside_edge(
       inland_km + (9.0 + 26.0 * rugged) * noise(bent, 62, 50, 6) - 22.0 * inlets * bell(inland_km, 28.0), place, bent);
   const double coast_km = shore.coast_km;
@@ -110,17 +110,18 @@ double BroadRelief::height_m(geo::GeoPoint place) const {
   for (const Range& range : kRanges) {
     const double envelope = bell(inland_km - range.axis_km - wander_km, range.half_width_km);
     if (envelope < 1e-3) continue;
-    const double presence = 0.45 + 0.75 * smooth_step(-0.45, 0.35, noise(at, 95, range.layer, 2));
+    const double presence = 0.45 + 0.75 * random::smooth_step(-0.45, 0.35, noise(at, 95, range.layer, 2));
     height_m += range.crest_m * envelope * presence * shore.fade * (0.28 + 1.05 * ridges(bent, 34, range.layer + 5, 4));
   }
   // Low hills here and there.
-  const double hilly = smooth_step(2.0, 25.0, coast_km) * smooth_step(-0.1, 0.5, noise(at, 60, 160, 2)) * shore.fade;
+  const double hilly =
+      random::smooth_step(2.0, 25.0, coast_km) * random::smooth_step(-0.1, 0.5, noise(at, 60, 160, 2)) * shore.fade;
   if (hilly > 0.0) height_m += 190.0 * hilly * ridges(bent, 17, 150, 4);
   return std::max(height_m, kSeaBottomM);
 }
 
 geo::GeoPoint lattice_node(int row, int column) {
-  constexpr int kRound = kCellColumns * kTileNodes;
+  constexpr int kRound = model::terrain::kCellColumns * kTileNodes;
   const int wrapped = (column % kRound + kRound) % kRound;
   return {static_cast<double>(row) / kTileNodes - 90.0, static_cast<double>(wrapped) / kTileNodes - 180.0};
 }
@@ -130,7 +131,8 @@ double east_m_per_degree(double latitude_deg) {
 }
 
 CellPlace neighbour_of(CellPlace place, int north, int east) {
-  return {place.south_deg + north, (place.west_deg + east + 180 + kCellColumns) % kCellColumns - 180};
+  return {place.south_deg + north,
+          (place.west_deg + east + 180 + model::terrain::kCellColumns) % model::terrain::kCellColumns - 180};
 }
 
 ReliefTile::ReliefTile(CellPlace place, const BroadRelief& broad, const Gullies& valleys)
@@ -194,7 +196,7 @@ LandscapeLattice::LandscapeLattice(CellPlace place, int columns,
               tile.height_m(row - kMargin - north * kTileNodes, column - kMargin - east * kTileNodes);
     }
   columns_.reserve(static_cast<std::size_t>(columns));
-  constexpr int kRound = kCellColumns * kTileNodes;
+  constexpr int kRound = model::terrain::kCellColumns * kTileNodes;
   for (int column = 0; column < columns; ++column) {
     const int steps = column * kTileNodes;
     const double fraction = static_cast<double>(steps % (columns - 1)) / (columns - 1);
@@ -239,4 +241,4 @@ LandscapeLattice::Ground LandscapeLattice::Row::at(int column) const {
   return ground;
 }
 
-}  // namespace yars::model::terrain
+}  // namespace yars::worldgen

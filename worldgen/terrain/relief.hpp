@@ -12,7 +12,9 @@
 #include "model/terrain/formats/cell.hpp"
 #include "worldgen/terrain/gullies.hpp"
 
-namespace yars::model::terrain {
+namespace yars::worldgen {
+
+using model::terrain::CellPlace;
 
 // The box of whole cells that is made as one island: how far inside it a place lies. Beyond a box all is sea, since
 // a cell without a file is; an edge at a pole, or where a box goes round the earth, is none.
@@ -134,4 +136,4 @@ class LandscapeLattice {
   std::vector<Column> columns_;
 };
 
-}  // namespace yars::model::terrain
+}  // namespace yars::worldgen

@@ -9,7 +9,7 @@
 
 #include "lib/random/gradient_noise.hpp"
 
-namespace yars::model::terrain {
+namespace yars::worldgen {
 
 namespace {
 
@@ -91,7 +91,7 @@ const RiverBasins::Outline& RiverBasins::outline(CellPlace place) {
 // High ground is a long way; a hash decides between equals.
 int RiverBasins::step_cost(CellPlace from, CellPlace to) {
   return 1000 + outline(from).mean_m + outline(to).mean_m +
-         static_cast<int>(lattice_hash(to.south_deg, to.west_deg, 0, 7U) % 64U);
+         static_cast<int>(random::lattice_hash(to.south_deg, to.west_deg, 0, 7U) % 64U);
 }
 
 // Dijkstra's search outward until the first coast; a tile whose way is known ends it too.
@@ -230,4 +230,4 @@ double RiverBasins::area_leaving(CellPlace place) {
   return area_km2;
 }
 
-}  // namespace yars::model::terrain
+}  // namespace yars::worldgen

@@ -12,7 +12,7 @@
 
 #include "worldgen/terrain/relief.hpp"
 
-namespace yars::model::terrain {
+namespace yars::worldgen {
 
 // Where a river passes from one tile into the next.
 struct RiverGate {
@@ -62,4 +62,4 @@ class RiverBasins {
   std::map<Key, double> areas_km2_;
 };
 
-}  // namespace yars::model::terrain
+}  // namespace yars::worldgen

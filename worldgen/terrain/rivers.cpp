@@ -5,7 +5,7 @@
 
 #include "lib/random/gradient_noise.hpp"
 
-namespace yars::model::terrain {
+namespace yars::worldgen {
 
 namespace {
 
@@ -71,9 +71,9 @@ class CourseMaker {
   // Nodes stand scattered about their lattice places, or rivers would show the lattice.
   Knot place_of(int row, int column) const {
     const int earth_row = (relief_.place().south_deg + 90) * kTileNodes + row;
-    const int round = kCellColumns * kTileNodes;
+    const int round = model::terrain::kCellColumns * kTileNodes;
     const int earth_column = ((relief_.place().west_deg + 180) * kTileNodes + column + round) % round;
-    const std::uint32_t hash = lattice_hash(earth_column, earth_row, 2, seed_);
+    const std::uint32_t hash = random::lattice_hash(earth_column, earth_row, 2, seed_);
     const double north = 0.7 * (static_cast<double>(hash >> 16U) / 65536.0 - 0.5);
     const double east = 0.7 * (static_cast<double>(hash & 0xFFFFU) / 65536.0 - 0.5);
     return {(earth_row + north) / kTileNodes - 90.0, (earth_column + east) / kTileNodes - 180.0, {}};
@@ -144,8 +144,8 @@ class CourseMaker {
     constexpr double kRadius = 6371000.0 / kBendM;
     const geo::Vector3 at{kRadius * std::cos(latitude) * std::cos(longitude),
                           kRadius * std::cos(latitude) * std::sin(longitude), kRadius * std::sin(latitude)};
-    knot.latitude_deg += kBendAsideM * gradient_noise(at, seed_ + 1U) / kTileMetres;
-    knot.longitude_deg += kBendAsideM * gradient_noise(at, seed_ + 2U) / east_m_per_degree(knot.latitude_deg);
+    knot.latitude_deg += kBendAsideM * random::gradient_noise(at, seed_ + 1U) / kTileMetres;
+    knot.longitude_deg += kBendAsideM * random::gradient_noise(at, seed_ + 2U) / east_m_per_degree(knot.latitude_deg);
     return knot;
   }
   void add_piece(const Knot& from, const Knot& to) {
@@ -206,7 +206,7 @@ void RiverRow::add_post(const RiverPiece& piece, std::size_t post, double east_m
   if (way_square >= here.reach_m * here.reach_m) return;
   const double way_m = std::sqrt(way_square);
   touches_.push_back(
-      {post, here.water_m, way_m < here.half_width_m ? -1.0 : smooth_step(here.floor_m, here.reach_m, way_m)});
+      {post, here.water_m, way_m < here.half_width_m ? -1.0 : random::smooth_step(here.floor_m, here.reach_m, way_m)});
 }
 
 // Least and greatest only: the order of pieces does not matter.
@@ -231,4 +231,4 @@ void RiverRow::shape(std::span<double> heights_m, std::span<float> valley) {
   for (float& part : valley) part = std::min(part, 1.0F);
 }
 
-}  // namespace yars::model::terrain
+}  // namespace yars::worldgen

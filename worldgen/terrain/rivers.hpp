@@ -9,7 +9,7 @@
 
 #include "worldgen/terrain/drainage.hpp"
 
-namespace yars::model::terrain {
+namespace yars::worldgen {
 
 struct RiverPiece {
   geo::GeoPoint from;   // upstream end
@@ -54,4 +54,4 @@ class RiverRow {
   std::vector<Touch> touches_;
 };
 
-}  // namespace yars::model::terrain
+}  // namespace yars::worldgen

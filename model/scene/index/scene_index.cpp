@@ -55,11 +55,11 @@ std::optional<double> take_angle(std::string_view& text, char positive, char neg
   return side == negative ? -degrees : degrees;
 }
 
-failure::Expected<void> leave_out(std::vector<radar::Scene>& scenes, const std::string& name) {
+error::Expected<void> leave_out(std::vector<radar::Scene>& scenes, const std::string& name) {
   NameFilter all(name);
   if (scenes.empty() || all.unmet().empty())
-    return failure::fail("--scene-without", "a scene, and the name of what is left out of it",
-                         scenes.empty() ? "no scene" : "an empty name", "give --scene and a name");
+    return error::fail("--scene-without", "a scene, and the name of what is left out of it",
+                       scenes.empty() ? "no scene" : "an empty name", "give --scene and a name");
   bool met = false;
   for (radar::Scene& scene : scenes) {
     std::error_code code;
@@ -78,7 +78,7 @@ failure::Expected<void> leave_out(std::vector<radar::Scene>& scenes, const std::
 
 }  // namespace
 
-failure::Expected<radar::Scene> parse_scene(const std::string& text) {
+error::Expected<radar::Scene> parse_scene(const std::string& text) {
   radar::Scene scene;
   const std::size_t at = text.rfind('@');
   scene.file = text.substr(0, at);
@@ -87,15 +87,15 @@ failure::Expected<radar::Scene> parse_scene(const std::string& text) {
   const bool right = values && (values->size() == 2 || values->size() == 3) && std::abs((*values)[0]) <= 90.0 &&
                      std::abs((*values)[1]) <= 360.0;
   if (!right || scene.file.empty())
-    return failure::fail(text, "FILE@LATITUDE,LONGITUDE or FILE@LATITUDE,LONGITUDE,HEADING in degrees",
-                         std::string("'").append(text, at) + "'", "write it as airfield.flt@37.5,-122.3,45");
+    return error::fail(text, "FILE@LATITUDE,LONGITUDE or FILE@LATITUDE,LONGITUDE,HEADING in degrees",
+                       std::string("'").append(text, at) + "'", "write it as airfield.flt@37.5,-122.3,45");
   scene.place = {(*values)[0], geo::wrapped_degrees((*values)[1])};
   if (values->size() == 3) scene.heading_deg = (*values)[2];
   return scene;
 }
 
-failure::Expected<void> add_scenes(std::vector<radar::Scene>& scenes, const std::vector<std::string>& texts,
-                                   const std::vector<std::string>& names) {
+error::Expected<void> add_scenes(std::vector<radar::Scene>& scenes, const std::vector<std::string>& texts,
+                                 const std::vector<std::string>& names) {
   for (const std::string& text : texts) {
     auto scene = parse_scene(text);
     if (!scene) return tl::unexpected(scene.error());
@@ -138,7 +138,7 @@ double reach_of(const Header& header) {
   return most_m;
 }
 
-failure::Expected<IndexedScene> index_file(const fs::path& file, const radar::Scene& scene) {
+error::Expected<IndexedScene> index_file(const fs::path& file, const radar::Scene& scene) {
   const auto header = read_openflight_header(file);
   if (!header) return tl::unexpected(header.error());
   IndexedScene found{file, {scene.place, scene.heading_deg, scene.heights}, reach_of(*header), scene.without};
@@ -148,14 +148,14 @@ failure::Expected<IndexedScene> index_file(const fs::path& file, const radar::Sc
   } else if (header->origin) {
     found.placement.place = *header->origin;
   } else {
-    return failure::fail(file.string(), "a scene with a place: given with it, in its name, or as its header's origin",
-                         "none", "give latitude and longitude, or FILE@LAT,LON,HDG");
+    return error::fail(file.string(), "a scene with a place: given with it, in its name, or as its header's origin",
+                       "none", "give latitude and longitude, or FILE@LAT,LON,HDG");
   }
   return found;
 }
 
 // Of a folder each file leaves out what it has of the names.
-failure::Expected<void> check_names(const radar::Scene& scene) {
+error::Expected<void> check_names(const radar::Scene& scene) {
   if (scene.without.empty()) return {};
   NameFilter filter(scene.without);
   if (const auto model = read_openflight(scene.file, &filter); !model) return tl::unexpected(model.error());
@@ -178,8 +178,8 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 
 }  // namespace
 
-failure::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<radar::Scene>& scenes,
-                                                          std::vector<std::string>& problems) {
+error::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<radar::Scene>& scenes,
+                                                        std::vector<std::string>& problems) {
   std::vector<IndexedScene> index;
   for (const radar::Scene& scene : scenes) {
     std::error_code code;
@@ -192,12 +192,12 @@ failure::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<rada
     }
     const std::vector<fs::path> files = files_in(scene.file);
     if (files.empty())
-      return failure::fail(scene.file, "a folder with .flt files", "none", "give a file or another folder");
+      return error::fail(scene.file, "a folder with .flt files", "none", "give a file or another folder");
     const fs::path root = fs::weakly_canonical(scene.file, code);
     for (const fs::path& file : files) {
       if (terrain::leads_out(file, root)) {
-        problems.push_back(failure::Error{file.string(), "a file inside " + root.string(), "a link that leads out",
-                                          "copy the scene there, or name it by itself", false}
+        problems.push_back(error::Error{file.string(), "a file inside " + root.string(), "a link that leads out",
+                                        "copy the scene there, or name it by itself", false}
                                .message());
         continue;
       }

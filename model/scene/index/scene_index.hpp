@@ -16,13 +16,13 @@ namespace yars::model::scene {
 // in a file's name, degrees_minutes_seconds: N35_44_51W121_30_2.flt.
 
 // Errors: what stands behind the last '@' is no place.
-failure::Expected<radar::Scene> parse_scene(const std::string& text);
+error::Expected<radar::Scene> parse_scene(const std::string& text);
 
 // Adds what the texts say as parse_scene() reads it, then leaves out of every scene what has one of the names. Errors:
 // a text that is none; a file that cannot be read; a name that nothing in any of the files has. What stands in a folder
 // is asked for the names when it is read.
-failure::Expected<void> add_scenes(std::vector<radar::Scene>& scenes, const std::vector<std::string>& texts,
-                                   const std::vector<std::string>& names);
+error::Expected<void> add_scenes(std::vector<radar::Scene>& scenes, const std::vector<std::string>& texts,
+                                 const std::vector<std::string>& names);
 
 // From a file's name without its folder; nothing when it holds no place.
 std::optional<geo::GeoPoint> place_in_name(const std::string& name);
@@ -41,7 +41,7 @@ struct IndexedScene {
   std::string without{};  // as radar::Scene::without
 };
 
-failure::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<radar::Scene>& scenes,
-                                                          std::vector<std::string>& problems);
+error::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<radar::Scene>& scenes,
+                                                        std::vector<std::string>& problems);
 
 }  // namespace yars::model::scene

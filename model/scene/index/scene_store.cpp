@@ -7,6 +7,7 @@
 
 #include "model/scene/openflight/reader.hpp"
 #include "model/scene/placement/plan_geometry.hpp"
+#include "model/scene/placement/tile_builder.hpp"
 #include "model/terrain/store/directory_store.hpp"
 
 namespace yars::model::scene {
@@ -81,13 +82,9 @@ void PlacedView::objects_near(geo::GeoPoint place, double radius_m, std::vector<
   std::sort(found.begin(), found.end());
 }
 
-namespace {
-constexpr double kIndexCell_deg = 0.25;
-}
-
-failure::Expected<std::unique_ptr<SceneStore>> SceneStore::open(const std::vector<radar::Scene>& scenes,
-                                                                std::unique_ptr<terrain::TerrainStore> ground,
-                                                                SceneStoreOptions options) {
+error::Expected<std::unique_ptr<SceneStore>> SceneStore::open(const std::vector<radar::Scene>& scenes,
+                                                              std::unique_ptr<terrain::TerrainStore> ground,
+                                                              SceneStoreOptions options) {
   std::vector<std::string> problems;
   auto index = index_scenes(scenes, problems);
   if (!index) return tl::unexpected(index.error());
@@ -102,7 +99,7 @@ SceneStore::SceneStore(std::vector<IndexedScene> index, std::unique_ptr<terrain:
     : index_(std::move(index)), ground_(std::move(ground)), options_(options), scenes_(index_.size()) {
   std::vector<Disc> discs;
   for (const IndexedScene& scene : index_) discs.push_back({scene.placement.place, scene.reach_m});
-  places_ = GridIndex(discs, kIndexCell_deg);
+  places_ = GridIndex(discs, kSceneCell_deg);
   make_view();
 }
 
@@ -186,8 +183,7 @@ std::vector<std::string> SceneStore::take_problems() {
   return problems;
 }
 
-failure::Expected<std::unique_ptr<SceneStore>> open_scenes(const radar::RadarConfiguration& configuration,
-                                                           SceneUse use) {
+error::Expected<std::unique_ptr<SceneStore>> open_scenes(const radar::RadarConfiguration& configuration, SceneUse use) {
   if (configuration.world.scenes.empty()) return std::unique_ptr<SceneStore>();
   auto ground = terrain::open_terrain(configuration.terrain);
   if (!ground) return tl::unexpected(ground.error());

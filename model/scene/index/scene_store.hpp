@@ -57,9 +57,9 @@ struct SceneStoreOptions {
 class SceneStore {
  public:
   // Errors: a file named by itself is missing, is no OpenFlight file or has no place.
-  static failure::Expected<std::unique_ptr<SceneStore>> open(const std::vector<radar::Scene>& scenes,
-                                                             std::unique_ptr<terrain::TerrainStore> ground,
-                                                             SceneStoreOptions options = {});
+  static error::Expected<std::unique_ptr<SceneStore>> open(const std::vector<radar::Scene>& scenes,
+                                                           std::unique_ptr<terrain::TerrainStore> ground,
+                                                           SceneStoreOptions options = {});
 
   // A view that holds every scene that reaches into the region (its detail is not asked). The same view, of the same
   // generation, while nothing has to change.
@@ -107,7 +107,7 @@ class SceneStore {
 };
 
 // The store that a configuration asks for; null when it names no scene.
-failure::Expected<std::unique_ptr<SceneStore>> open_scenes(const radar::RadarConfiguration& configuration,
-                                                           SceneUse use = SceneUse::triangles);
+error::Expected<std::unique_ptr<SceneStore>> open_scenes(const radar::RadarConfiguration& configuration,
+                                                         SceneUse use = SceneUse::triangles);
 
 }  // namespace yars::model::scene

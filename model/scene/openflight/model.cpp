@@ -143,7 +143,7 @@ class Flattening {
     for (const SurfaceKind& kind : tree.kinds) kind_numbers_.push_back(kinds_.number_of(kind));
   }
 
-  failure::Expected<Model> run() {
+  error::Expected<Model> run() {
     if (const auto done = show(0, Affine{}, 0, 0); !done) return tl::unexpected(done.error());
     if (unsound_ > 0)
       model_.warnings.push_back("polygons with corners that are no numbers or beyond 10,000 km: " +
@@ -155,14 +155,14 @@ class Flattening {
   }
 
  private:
-  using Done = failure::Expected<void>;
+  using Done = error::Expected<void>;
 
   // A node as often as it is replicated: first where it stands, then moved on by its matrix.
   Done show(std::uint32_t number, const Affine& above, std::uint32_t object, int depth) {
     const Node& node = tree_.nodes[number];
     if (depth > kDeepestNode)
-      return failure::fail(subject_, "nodes nested at most " + std::to_string(kDeepestNode) + " deep",
-                           "deeper ones, as when an instance contains itself", "mend the file's instances");
+      return error::fail(subject_, "nodes nested at most " + std::to_string(kDeepestNode) + " deep",
+                         "deeper ones, as when an instance contains itself", "mend the file's instances");
     if (node.kind == NodeKind::ignored) return {};
     if (filter_ != nullptr && filter_->leaves_out(node.name)) return {};
     if (node.matrix == kNone) return show_once(node, above, object, depth);
@@ -220,18 +220,18 @@ class Flattening {
   Done count_visits(std::size_t more) {
     visits_ += more;
     if (visits_ <= limits_.visits) return {};
-    return failure::fail(subject_, "at most " + std::to_string(limits_.visits) + " nodes and corners with their copies",
-                         "more", "split the file, or use fewer instances and replications");
+    return error::fail(subject_, "at most " + std::to_string(limits_.visits) + " nodes and corners with their copies",
+                       "more", "split the file, or use fewer instances and replications");
   }
 
   Done make_room(std::size_t triangles, std::size_t vertices) {
     if (model_.triangles.size() + triangles <= limits_.triangles &&
         model_.vertices.size() + vertices <= limits_.vertices)
       return {};
-    return failure::fail(subject_,
-                         "at most " + std::to_string(limits_.triangles) + " triangles and " +
-                             std::to_string(limits_.vertices) + " vertices",
-                         "more", "split the scene into several files");
+    return error::fail(subject_,
+                       "at most " + std::to_string(limits_.triangles) + " triangles and " +
+                           std::to_string(limits_.vertices) + " vertices",
+                       "more", "split the scene into several files");
   }
 
   Done show_external(const Node& node, const Affine& place, std::uint32_t object) {
@@ -245,8 +245,8 @@ class Flattening {
     for (const ModelVertex& vertex : other.vertices) {
       const Vector3 at = place.apply(vector(vertex.place_m) + other.base);
       if (!is_sound(at))
-        return failure::fail(subject_, "an external file placed within 10,000 km", node.name + " farther away",
-                             "mend its matrix");
+        return error::fail(subject_, "an external file placed within 10,000 km", node.name + " farther away",
+                           "mend its matrix");
       append(at, place.turn_normal(vector(vertex.normal)));
     }
     // Objects keep theirs; what lies outside objects belongs to what refers to it.
@@ -352,8 +352,8 @@ class Flattening {
 
 }  // namespace
 
-failure::Expected<Model> flatten(const NodeTree& tree, const std::string& subject, const LoadExternal& load,
-                                 FlattenLimits limits, NameFilter* filter) {
+error::Expected<Model> flatten(const NodeTree& tree, const std::string& subject, const LoadExternal& load,
+                               FlattenLimits limits, NameFilter* filter) {
   return Flattening(tree, subject, load, limits, filter).run();
 }
 

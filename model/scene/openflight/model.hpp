@@ -68,9 +68,9 @@ struct FlattenLimits {
   std::size_t visits = 256'000'000;  // of nodes and corners, each as often as it is shown
 };
 
-using LoadExternal = std::function<failure::Expected<std::shared_ptr<const Model>>(const std::string& name)>;
+using LoadExternal = std::function<error::Expected<std::shared_ptr<const Model>>(const std::string& name)>;
 
-failure::Expected<Model> flatten(const NodeTree& tree, const std::string& subject, const LoadExternal& load,
-                                 FlattenLimits limits = {}, NameFilter* filter = nullptr);
+error::Expected<Model> flatten(const NodeTree& tree, const std::string& subject, const LoadExternal& load,
+                               FlattenLimits limits = {}, NameFilter* filter = nullptr);
 
 }  // namespace yars::model::scene

@@ -10,6 +10,8 @@
 
 namespace yars::model::scene {
 
+using namespace openflight;
+
 std::uint16_t KindTable::number_of(const SurfaceKind& kind) {
   constexpr std::size_t kMost = 65'536;
   const auto key = std::tuple(kind.material, kind.feature_id, kind.color_rgb);
@@ -122,17 +124,15 @@ std::vector<std::string> NameFilter::unmet() const {
   return names;
 }
 
-std::optional<failure::Error> NameFilter::complaint(const std::string& subject) const {
+std::optional<error::Error> NameFilter::complaint(const std::string& subject) const {
   const std::vector<std::string> names = unmet();
   if (names.empty()) return std::nullopt;
-  return failure::Error{subject, "something to leave out that is called '" + names.front() + "'", "none",
-                        seen_.empty() ? "nothing in it has a name"
-                                      : "it has " + std::to_string(seen_.size()) + " names; near to it are " +
-                                            near_to(names.front(), seen_),
-                        false};
+  return error::Error{subject, "something to leave out that is called '" + names.front() + "'", "none",
+                      seen_.empty() ? "nothing in it has a name"
+                                    : "it has " + std::to_string(seen_.size()) + " names; near to it are " +
+                                          near_to(names.front(), seen_),
+                      false};
 }
-
-using namespace openflight;
 
 namespace {
 
@@ -164,23 +164,23 @@ std::optional<geo::GeoPoint> place_at(const Record& record, std::size_t latitude
 
 }  // namespace
 
-failure::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject) {
+error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject) {
   const std::optional<Record> record = record_at(bytes, 0);
   if (!record || record->opcode() != kHeader || !record->has(header::kRevision, 4))
-    return failure::fail(subject, "an OpenFlight file, which begins with a header record", "other bytes",
-                         "give a .flt file of OpenFlight 14 to 16.5");
+    return error::fail(subject, "an OpenFlight file, which begins with a header record", "other bytes",
+                       "give a .flt file of OpenFlight 14 to 16.5");
   Header found;
   found.revision = *record->number<std::int32_t>(header::kRevision);
   // 14.2 was written as 14, 142 and 1420 by different programs.
   while (found.revision > 0 && found.revision < 1000) found.revision *= 10;
   if (found.revision < header::kOldestRevision || found.revision > header::kNewestRevision)
-    return failure::fail(subject, "OpenFlight revision 1400 to 1650", std::to_string(found.revision),
-                         "save it as OpenFlight 16");
+    return error::fail(subject, "OpenFlight revision 1400 to 1650", std::to_string(found.revision),
+                       "save it as OpenFlight 16");
   const int units = record->number_or<std::uint8_t>(header::kUnits, 0);
   const std::optional<double> scale = metres_per_unit(units);
   if (!scale)
-    return failure::fail(subject, "units 0 (m), 1 (km), 4 (ft), 5 (in) or 8 (NM)", std::to_string(units),
-                         "save it in metres");
+    return error::fail(subject, "units 0 (m), 1 (km), 4 (ft), 5 (in) or 8 (NM)", std::to_string(units),
+                       "save it in metres");
   found.metres_per_unit = *scale;
   found.origin = place_at(*record, header::kOriginLatitude, header::kOriginLongitude);
   found.south_west = place_at(*record, header::kSouthLatitude, header::kWestLongitude);

@@ -16,14 +16,12 @@
 
 #include "lib/error/error.hpp"
 #include "lib/geo/geodesy.hpp"
-#include "model/scene/placement/scene_view.hpp"
 
 namespace yars::model::scene {
 
-// Affine maps of space as OpenFlight writes them: row vectors, so that p * a * b applies a first.
-
 using geo::Vector3;
 
+// Affine maps of space as OpenFlight writes them: row vectors, so that p * a * b applies a first.
 struct Affine {
   Vector3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  // where the axes go
   Vector3 offset{};
@@ -52,6 +50,13 @@ struct Affine {
 inline Affine operator*(const Affine& a, const Affine& b) {
   return {b.turn(a.x), b.turn(a.y), b.turn(a.z), b.apply(a.offset)};
 }
+
+// What the faces of a kind are made of. Material: surface material code of DFAD, 0 = none given.
+struct SurfaceKind {
+  std::uint8_t material = 0;
+  std::uint16_t feature_id = 0;
+  std::uint32_t color_rgb = 0;  // 0xRRGGBB
+};
 
 // Kinds of surface by number, each once. Beyond 65,536 of them (colours run out first) the nearest earlier one serves:
 // the first of the same material, else number 0.
@@ -153,7 +158,7 @@ class NameFilter {
   std::vector<std::string> unmet() const;
   // Nothing, or what is wrong with the first of them: it lists names that are near to it. `subject`: where they were
   // sought.
-  std::optional<failure::Error> complaint(const std::string& subject) const;
+  std::optional<error::Error> complaint(const std::string& subject) const;
 
  private:
   struct Wanted {
@@ -168,6 +173,6 @@ class NameFilter {
 // none: files write it that have none. Errors: other bytes than a header, a revision but 14 to 16.5, a foreign unit.
 
 // `bytes` may end behind the header.
-failure::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject);
+error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject);
 
 }  // namespace yars::model::scene

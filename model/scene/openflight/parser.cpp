@@ -10,13 +10,13 @@
 
 namespace yars::model::scene {
 
-failure::Expected<NodeTree> parse_openflight(std::span<const std::byte> bytes, const std::string& subject) {
+using namespace openflight;
+
+error::Expected<NodeTree> parse_openflight(std::span<const std::byte> bytes, const std::string& subject) {
   return TreeParser(bytes, subject).parse();
 }
 
-using namespace openflight;
-
-failure::Expected<NodeTree> TreeParser::parse() {
+error::Expected<NodeTree> TreeParser::parse() {
   const auto header = parse_header(bytes_, subject_);
   if (!header) return tl::unexpected(header.error());
   tree_.header = *header;
@@ -98,8 +98,8 @@ int TreeParser::nesting_of_skipped(std::uint16_t opcode) {
   return opcode == kPopExtension || opcode == kPopAttribute ? -1 : 0;
 }
 
-tl::unexpected<failure::Error> TreeParser::too_many(std::size_t most, const std::string& what) {
-  return failure::fail(subject_, "at most " + std::to_string(most) + " " + what, "more", "split the file");
+tl::unexpected<error::Error> TreeParser::too_many(std::size_t most, const std::string& what) {
+  return error::fail(subject_, "at most " + std::to_string(most) + " " + what, "more", "split the file");
 }
 
 TreeParser::Done TreeParser::push() {
@@ -110,16 +110,14 @@ TreeParser::Done TreeParser::push() {
 
 TreeParser::Done TreeParser::pop() {
   if (levels_.empty())
-    return failure::fail(subject_, "as many pop records as push records", "one pop more",
-                         "the file is damaged; fetch it again");
+    return error::fail(subject_, "as many pop records as push records", "one pop more",
+                       "the file is damaged; fetch it again");
   current_ = levels_.back();
   levels_.pop_back();
   return {};
 }
 
 // Groups, objects, switches and what moves them.
-
-using namespace openflight;
 
 TreeParser::Done TreeParser::new_node(NodeKind kind, bool attached) {
   if (tree_.nodes.size() >= kMostNodes) return too_many(kMostNodes, "nodes");
@@ -255,7 +253,7 @@ TreeParser::Done TreeParser::add_matrix(const Record& record) {
   for (std::size_t i = 0; i < kNumbers; ++i) {
     m[i] = static_cast<double>(record.number_or<float>(4 + 4 * i, i % 5 == 0 ? 1.0F : 0.0F));
     if (!std::isfinite(m[i]))
-      return failure::fail(subject_, "a matrix of finite numbers", "NaN or infinity", "the file is damaged");
+      return error::fail(subject_, "a matrix of finite numbers", "NaN or infinity", "the file is damaged");
   }
   if (is_loose_face())
     if (auto done = own_node(); !done) return done;
@@ -284,8 +282,6 @@ TreeParser::Done TreeParser::add_replication(const Record& record) {
 }
 
 // Faces, their corners, and meshes.
-
-using namespace openflight;
 
 TreeParser::Done TreeParser::append_face(TreeFace face, std::uint32_t node) {
   if (tree_.faces.size() >= kMostFaces) return too_many(kMostFaces, "faces");
@@ -332,7 +328,7 @@ TreeParser::Done TreeParser::add_corners(const Record& record) {
   face.first_corner = static_cast<std::uint32_t>(tree_.corners.size());
   face.count = static_cast<std::uint32_t>(count);
   if (const auto strange = palette_.find_corners(record, tree_.corners))
-    return failure::fail(
+    return error::fail(
         subject_, "corners that are vertices of the palette",
         "offset " + std::to_string(*strange) + " in the vertex list at byte " + std::to_string(record.start()),
         "the file is damaged; fetch it again");

@@ -24,7 +24,7 @@ inline constexpr std::size_t kMostFaces = 32'000'000;
 inline constexpr std::size_t kMostVertices = 64'000'000;
 
 // `subject` names the file in errors.
-failure::Expected<NodeTree> parse_openflight(std::span<const std::byte> bytes, const std::string& subject);
+error::Expected<NodeTree> parse_openflight(std::span<const std::byte> bytes, const std::string& subject);
 
 // The records of an OpenFlight file turned into a tree of nodes, one after the other: the state that this takes, for
 // the length of one file. Levels, nodes and surfaces have a source each.
@@ -33,10 +33,10 @@ class TreeParser {
   TreeParser(std::span<const std::byte> bytes, std::string subject)
       : bytes_(bytes), subject_(std::move(subject)), stream_(bytes, subject_) {}
 
-  failure::Expected<NodeTree> parse();
+  error::Expected<NodeTree> parse();
 
  private:
-  using Done = failure::Expected<void>;
+  using Done = error::Expected<void>;
 
   // What the records of one level belong to.
   struct Level {
@@ -54,7 +54,7 @@ class TreeParser {
   Done take(const Record& record);
   // +1 and -1 around records that nobody here reads, else 0.
   static int nesting_of_skipped(std::uint16_t opcode);
-  tl::unexpected<failure::Error> too_many(std::size_t most, const std::string& what);
+  tl::unexpected<error::Error> too_many(std::size_t most, const std::string& what);
   Done push();
   Done pop();
 

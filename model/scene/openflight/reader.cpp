@@ -17,16 +17,16 @@ namespace {
 namespace fs = std::filesystem;
 
 // The first `most` bytes of a file.
-failure::Expected<std::vector<std::byte>> read_bytes(const fs::path& path, std::uintmax_t most) {
+error::Expected<std::vector<std::byte>> read_bytes(const fs::path& path, std::uintmax_t most) {
   std::error_code code;
   if (!fs::is_regular_file(path, code))
-    return failure::fail(path.string(), "an OpenFlight file", code ? code.message() : "not a plain file",
-                         "give the path of a .flt file");
+    return error::fail(path.string(), "an OpenFlight file", code ? code.message() : "not a plain file",
+                       "give the path of a .flt file");
   const std::uintmax_t size = fs::file_size(path, code);
-  if (code) return failure::fail(path.string(), "a readable file", code.message());
+  if (code) return error::fail(path.string(), "a readable file", code.message());
   if (size > kLargestFile)
-    return failure::fail(path.string(), "at most " + std::to_string(kLargestFile) + " bytes",
-                         std::to_string(size) + " bytes", "split the scene into several files");
+    return error::fail(path.string(), "at most " + std::to_string(kLargestFile) + " bytes",
+                       std::to_string(size) + " bytes", "split the scene into several files");
   return terrain::read_file_part(path, 0, std::min(size, most));
 }
 
@@ -48,7 +48,7 @@ class FileSet {
  public:
   FileSet(const fs::path& first, NameFilter* filter) : root_(first.parent_path()), filter_(filter) {}
 
-  failure::Expected<Model> read_first(const fs::path& path) {
+  error::Expected<Model> read_first(const fs::path& path) {
     open_.push_back(path);
     return read_now(path);
   }
@@ -58,14 +58,14 @@ class FileSet {
   std::vector<std::string> names() const { return names_; }
 
  private:
-  failure::Expected<std::shared_ptr<const Model>> read(const fs::path& path) {
+  error::Expected<std::shared_ptr<const Model>> read(const fs::path& path) {
     if (const auto known = read_.find(path); known != read_.end()) return known->second;
     if (open_.size() > kDeepestReference)
-      return failure::fail(path.string(), "external references at most " + std::to_string(kDeepestReference) + " deep",
-                           "deeper ones", "join some of the files");
+      return error::fail(path.string(), "external references at most " + std::to_string(kDeepestReference) + " deep",
+                         "deeper ones", "join some of the files");
     if (++files_ > kMostFiles)
-      return failure::fail(path.string(), "at most " + std::to_string(kMostFiles) + " files in a scene", "more",
-                           "split the scene");
+      return error::fail(path.string(), "at most " + std::to_string(kMostFiles) + " files in a scene", "more",
+                         "split the scene");
     open_.push_back(path);
     auto model = read_now(path);
     open_.pop_back();
@@ -75,9 +75,9 @@ class FileSet {
     return shared;
   }
 
-  failure::Expected<Model> read_now(const fs::path& path) {
+  error::Expected<Model> read_now(const fs::path& path) {
     const std::string subject = path.string();
-    failure::Expected<NodeTree> tree = [&]() -> failure::Expected<NodeTree> {
+    error::Expected<NodeTree> tree = [&]() -> error::Expected<NodeTree> {
       const auto bytes = read_bytes(path, kLargestFile);
       if (!bytes) return tl::unexpected(bytes.error());
       return parse_openflight(*bytes, subject);
@@ -90,7 +90,7 @@ class FileSet {
   }
 
   // Null, with a warning, for what cannot be shown.
-  failure::Expected<std::shared_ptr<const Model>> refer(const fs::path& from, std::string name) {
+  error::Expected<std::shared_ptr<const Model>> refer(const fs::path& from, std::string name) {
     name = name.substr(0, name.find('<'));
     std::replace(name.begin(), name.end(), '\\', '/');
     std::error_code code;
@@ -121,7 +121,7 @@ class FileSet {
 
 }  // namespace
 
-failure::Expected<Model> read_openflight(const fs::path& path, NameFilter* filter) {
+error::Expected<Model> read_openflight(const fs::path& path, NameFilter* filter) {
   std::error_code code;
   const fs::path canonical = fs::weakly_canonical(path, code);
   FileSet files(canonical, filter);
@@ -133,14 +133,14 @@ failure::Expected<Model> read_openflight(const fs::path& path, NameFilter* filte
   return model;
 }
 
-failure::Expected<Model> read_openflight(std::span<const std::byte> bytes, const std::string& subject,
-                                         FlattenLimits limits) {
+error::Expected<Model> read_openflight(std::span<const std::byte> bytes, const std::string& subject,
+                                       FlattenLimits limits) {
   const auto tree = parse_openflight(bytes, subject);
   if (!tree) return tl::unexpected(tree.error());
   return flatten(*tree, subject, {}, limits);
 }
 
-failure::Expected<Header> read_openflight_header(const fs::path& path) {
+error::Expected<Header> read_openflight_header(const fs::path& path) {
   const auto bytes = read_bytes(path, openflight::header::kBytes);
   if (!bytes) return tl::unexpected(bytes.error());
   return parse_header(*bytes, path.string());

@@ -21,13 +21,13 @@ inline constexpr std::size_t kMostFiles = 4096;
 
 // `filter`: what is left out, null: nothing. It remembers what names there are; who asks for its complaint is told of
 // names that nothing has.
-failure::Expected<Model> read_openflight(const std::filesystem::path& path, NameFilter* filter = nullptr);
+error::Expected<Model> read_openflight(const std::filesystem::path& path, NameFilter* filter = nullptr);
 
 // From memory; external references are counted and left out.
-failure::Expected<Model> read_openflight(std::span<const std::byte> bytes, const std::string& subject,
-                                         FlattenLimits limits = {});
+error::Expected<Model> read_openflight(std::span<const std::byte> bytes, const std::string& subject,
+                                       FlattenLimits limits = {});
 
 // The header alone.
-failure::Expected<Header> read_openflight_header(const std::filesystem::path& path);
+error::Expected<Header> read_openflight_header(const std::filesystem::path& path);
 
 }  // namespace yars::model::scene

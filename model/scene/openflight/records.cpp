@@ -31,7 +31,7 @@ std::optional<Record> record_at(std::span<const std::byte> bytes, std::size_t st
   return Record(start, opcode, bytes.subspan(start, length));
 }
 
-failure::Expected<std::optional<Record>> RecordStream::single() {
+error::Expected<std::optional<Record>> RecordStream::single() {
   if (at_ == bytes_.size()) return std::nullopt;
   const std::optional<Record> record = record_at(bytes_, at_);
   if (!record) {
@@ -39,18 +39,18 @@ failure::Expected<std::optional<Record>> RecordStream::single() {
     const std::string at = "a whole record at byte " + std::to_string(at_);
     const std::string end = std::to_string(left) + (left == 1 ? " byte" : " bytes") + " before the file's end";
     if (left < kHeadBytes)
-      return failure::fail(subject_, at + ", of " + std::to_string(kHeadBytes) + " bytes or more", end,
-                           "the file is truncated or damaged; fetch it again");
-    const std::size_t length = big_endian<std::uint16_t>(bytes_.data() + at_ + 2);
-    return failure::fail(subject_, at, "one that says it has " + std::to_string(length) + " bytes, and " + end,
+      return error::fail(subject_, at + ", of " + std::to_string(kHeadBytes) + " bytes or more", end,
                          "the file is truncated or damaged; fetch it again");
+    const std::size_t length = big_endian<std::uint16_t>(bytes_.data() + at_ + 2);
+    return error::fail(subject_, at, "one that says it has " + std::to_string(length) + " bytes, and " + end,
+                       "the file is truncated or damaged; fetch it again");
   }
   at_ += record->size();
   return record;
 }
 
-failure::Expected<std::optional<Record>> RecordStream::next() {
-  failure::Expected<std::optional<Record>> record = single();
+error::Expected<std::optional<Record>> RecordStream::next() {
+  error::Expected<std::optional<Record>> record = single();
   if (!record || !*record || !is_continuation(bytes_, at_)) return record;
   const Record first = **record;
   const auto begin = bytes_.begin() + static_cast<std::ptrdiff_t>(first.start());
@@ -60,8 +60,8 @@ failure::Expected<std::optional<Record>> RecordStream::next() {
     if (!record) return record;
     const std::span<const std::byte> more = bytes_.subspan((*record)->start(), (*record)->size()).subspan(kHeadBytes);
     if (joined_.size() + more.size() > kMostJoinedBytes)
-      return failure::fail(subject_, "a record of at most " + std::to_string(kMostJoinedBytes) + " bytes",
-                           "more with its continuations", "split it into several meshes");
+      return error::fail(subject_, "a record of at most " + std::to_string(kMostJoinedBytes) + " bytes",
+                         "more with its continuations", "split it into several meshes");
     joined_.insert(joined_.end(), more.begin(), more.end());
   }
   return Record(first.start(), first.opcode(), joined_);

@@ -74,16 +74,16 @@ namespace header {
 inline constexpr std::size_t kRevision = 12, kUnits = 62, kFlags = 64, kVertexStorage = 126, kDatabaseOrigin = 128;
 inline constexpr std::size_t kSouthLatitude = 188, kWestLongitude = 196, kNorthLatitude = 204, kEastLongitude = 212;
 inline constexpr std::size_t kOriginLatitude = 220, kOriginLongitude = 228, kBytes = 324;
-inline constexpr std::int32_t kOldestRevision = 1400, kNewestRevision = 1650, kWrittenRevision = 1600;
+inline constexpr std::int32_t kOldestRevision = 1400, kNewestRevision = 1650;
 }  // namespace header
 
 // Of a face; those of a mesh lie 4 bytes further on.
 namespace face {
 inline constexpr std::size_t kDrawType = 18, kColorName = 20, kMaterial = 30, kSurfaceMaterial = 32, kFeatureId = 34;
-inline constexpr std::size_t kTransparency = 40, kFlags = 44, kLightMode = 48, kPackedColor = 56, kColorIndex = 68;
+inline constexpr std::size_t kFlags = 44, kLightMode = 48, kPackedColor = 56, kColorIndex = 68;
 inline constexpr std::size_t kBytes = 80, kMeshShift = 4;
 inline constexpr std::uint32_t kNoColor = 1U << 30, kPacked = 1U << 28, kHidden = 1U << 26;
-inline constexpr std::uint8_t kSolidOneSided = 0, kSolidTwoSided = 1, kWireClosed = 2, kWireOpen = 3, kSurround = 4;
+inline constexpr std::uint8_t kSolidOneSided = 0, kSolidTwoSided = 1, kSurround = 4;
 inline constexpr std::uint8_t kLitFaceColor = 2;
 }  // namespace face
 
@@ -109,10 +109,6 @@ inline constexpr int kIntensities = 128;  // an index is 128 times the colour pl
 
 namespace yars::model::scene {
 
-// Records of an OpenFlight file, one after another: big-endian, u16 opcode, u16 length of the whole record.
-// Continuation records (23) are joined to the one before. A field past the end of a shorter record is absent: older
-// revisions are shorter. Nothing is read outside the bytes. Errors: a length below 4, a record past the end, a joined
-// record too long.
 template <class Number>
 Number big_endian(const std::byte* bytes) {
   std::array<std::byte, sizeof(Number)> reversed;
@@ -153,15 +149,19 @@ class Record {
   std::span<const std::byte> bytes_;
 };
 
+// Records of an OpenFlight file, one after another: big-endian, u16 opcode, u16 length of the whole record.
+// Continuation records (23) are joined to the one before. A field past the end of a shorter record is absent: older
+// revisions are shorter. Nothing is read outside the bytes. Errors: a length below 4, a record past the end, a joined
+// record too long.
 class RecordStream {
  public:
   RecordStream(std::span<const std::byte> bytes, std::string subject) : bytes_(bytes), subject_(std::move(subject)) {}
 
   // The next record, valid until the next call; nothing at the end of the file.
-  failure::Expected<std::optional<Record>> next();
+  error::Expected<std::optional<Record>> next();
 
  private:
-  failure::Expected<std::optional<Record>> single();
+  error::Expected<std::optional<Record>> single();
 
   std::span<const std::byte> bytes_;
   std::string subject_;

@@ -39,8 +39,6 @@ std::optional<std::size_t> VertexPalette::find_corners(const Record& list, std::
   return std::nullopt;
 }
 
-using namespace openflight;
-
 namespace {
 
 constexpr std::size_t kPoolHead = 12, kPrimitiveHead = 12;
@@ -67,10 +65,10 @@ PoolLayout layout_of(std::uint32_t mask) {
   return layout;
 }
 
-tl::unexpected<failure::Error> damaged(const std::string& subject, const Record& record, const std::string& expected,
-                                       const std::string& found) {
-  return failure::fail(subject, expected, found + " in the mesh record at byte " + std::to_string(record.start()),
-                       "the file is damaged; fetch it again");
+tl::unexpected<error::Error> damaged(const std::string& subject, const Record& record, const std::string& expected,
+                                     const std::string& found) {
+  return error::fail(subject, expected, found + " in the mesh record at byte " + std::to_string(record.start()),
+                     "the file is damaged; fetch it again");
 }
 
 std::size_t index_at(const Record& record, std::size_t at, std::size_t bytes) {
@@ -100,8 +98,8 @@ void add_quadrilaterals(const std::vector<std::uint32_t>& list, MeshPolygons& po
 
 }  // namespace
 
-failure::Expected<std::size_t> read_local_pool(const Record& record, double metres_per_unit, const std::string& subject,
-                                               std::vector<TreeVertex>& vertices) {
+error::Expected<std::size_t> read_local_pool(const Record& record, double metres_per_unit, const std::string& subject,
+                                             std::vector<TreeVertex>& vertices) {
   const std::size_t count = record.number_or<std::uint32_t>(4, 0);
   const PoolLayout layout = layout_of(record.number_or<std::uint32_t>(8, 0));
   if (count == 0) return std::size_t{0};
@@ -121,8 +119,8 @@ failure::Expected<std::size_t> read_local_pool(const Record& record, double metr
   return count;
 }
 
-failure::Expected<MeshPolygons> read_primitive(const Record& record, std::size_t pool_vertices,
-                                               const std::string& subject) {
+error::Expected<MeshPolygons> read_primitive(const Record& record, std::size_t pool_vertices,
+                                             const std::string& subject) {
   const int type = record.number_or<std::int16_t>(4, 0);
   const std::size_t bytes = record.number_or<std::uint16_t>(6, 0);
   const std::size_t count = record.number_or<std::uint32_t>(8, 0);
@@ -158,8 +156,6 @@ failure::Expected<MeshPolygons> read_primitive(const Record& record, std::size_t
   }
   return polygons;
 }
-
-using namespace openflight;
 
 namespace {
 
@@ -221,8 +217,6 @@ std::uint32_t ColorPalette::color_of(const Record& record, std::size_t shift, st
   const auto material = diffuse_.find(record.number_or<std::int16_t>(face::kMaterial + shift, -1));
   return material == diffuse_.end() ? kWhite : material->second;
 }
-
-using namespace openflight;
 
 std::optional<TreeFace> SurfaceReader::of(const Record& record, std::size_t shift, int subface_level) {
   const auto draw_type = record.number_or<std::uint8_t>(face::kDrawType + shift, face::kSolidOneSided);

@@ -32,8 +32,8 @@ class VertexPalette {
 // strips, indexed polygons). Errors: counts that the record's length does not bear out, an index outside the pool.
 
 // Appends the pool's vertices, in metres; how many they are.
-failure::Expected<std::size_t> read_local_pool(const Record& record, double metres_per_unit, const std::string& subject,
-                                               std::vector<TreeVertex>& vertices);
+error::Expected<std::size_t> read_local_pool(const Record& record, double metres_per_unit, const std::string& subject,
+                                             std::vector<TreeVertex>& vertices);
 
 // Polygons of `each` corners, one behind the other, counter-clockwise from outside; corners index the pool.
 struct MeshPolygons {
@@ -42,8 +42,8 @@ struct MeshPolygons {
   std::size_t listed = 0;  // indices that the record holds
 };
 
-failure::Expected<MeshPolygons> read_primitive(const Record& record, std::size_t pool_vertices,
-                                               const std::string& subject);
+error::Expected<MeshPolygons> read_primitive(const Record& record, std::size_t pool_vertices,
+                                             const std::string& subject);
 
 // Colours of an OpenFlight file: the palette (record 32), whose entries come in 128 intensities, and the diffuse
 // colours of its materials (record 113). Colours are 0xRRGGBB.

@@ -15,12 +15,12 @@
 #include "model/scene/openflight/model.hpp"
 #include "model/scene/openflight/node_tree.hpp"
 #include "model/scene/placement/scatterers.hpp"
+#include "model/scene/placement/scene_view.hpp"
 #include "model/scene/placement/spatial_index.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 
 namespace yars::model::scene {
 
-inline constexpr double kTileSide_m = 128.0;
 inline constexpr double kFlat_m = 1.0;         // how far from z = 0 a thing that is draped may reach
 inline constexpr double kDrapedEdge_m = 30.0;  // below the post spacing of DTED level 2
 

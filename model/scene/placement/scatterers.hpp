@@ -78,7 +78,6 @@ struct Scatterers {
 std::uint64_t square_key(double east_m, double north_m, double side_m);
 
 // Sums the faces of a scene up to scatterers while it is placed.
-
 // Squares are made larger as a scene turns out to be larger, so that there is a bound on what it takes; what does not
 // fit even then is left out.
 class ScatterBuilder {

@@ -10,16 +10,10 @@
 #include <vector>
 
 #include "lib/geo/geodesy.hpp"
+#include "model/scene/openflight/node_tree.hpp"
 #include "model/scene/placement/scatterers.hpp"
 
 namespace yars::model::scene {
-
-// What the faces of a kind are made of. Material: surface material code of DFAD, 0 = none given.
-struct SurfaceKind {
-  std::uint8_t material = 0;
-  std::uint16_t feature_id = 0;
-  std::uint32_t color_rgb = 0;  // 0xRRGGBB
-};
 
 // Metres east and north of the tile's origin (azimuthal equidistant), up from the tile's zero.
 struct Bounds {

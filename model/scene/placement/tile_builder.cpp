@@ -6,8 +6,6 @@
 #include <cstddef>
 #include <unordered_map>
 
-#include "model/scene/placement/placed_scene.hpp"
-
 namespace yars::model::scene {
 
 namespace {

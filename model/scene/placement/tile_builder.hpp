@@ -13,6 +13,8 @@
 
 namespace yars::model::scene {
 
+inline constexpr double kTileSide_m = 128.0;
+
 // A tile before its vertices are joined: how triangles are collected, and how they become arrays.
 struct SurfaceTag {
   std::uint16_t kind = 0;
@@ -37,15 +39,15 @@ struct DraftTriangle {
 // them, the bare ones first.
 void finish_tile(const std::vector<DraftVertex>& vertices, std::vector<DraftTriangle>& triangles, Tile& tile);
 
-// Tiles of one scene while triangles are sorted into them: the square of a scene's plane that holds a triangle's middle
-// is its tile. Of a tile's vertices, those of flat triangles are one where they lie in one place; of others, where
-// they come from one vertex of the model.
 struct PlacedCorner {
   Vector3 place;                 // metres east and north on the scene's plane, altitude MSL
   Vector3 normal;                // unit, along the same axes
   std::uint32_t vertex = kNone;  // of the model; kNone: shared with no other corner
 };
 
+// Tiles of one scene while triangles are sorted into them: the square of a scene's plane that holds a triangle's middle
+// is its tile. Of a tile's vertices, those of flat triangles are one where they lie in one place; of others, where
+// they come from one vertex of the model.
 class TileBuilders {
  public:
   TileBuilders(const Plane& plane, std::size_t model_vertices);

@@ -14,6 +14,7 @@
 namespace yars::model::terrain {
 
 // Where one-degree cells lie on the earth.
+
 inline constexpr int kCellRows = 180;     // cells from pole to pole
 inline constexpr int kCellColumns = 360;  // cells round the earth
 
@@ -72,12 +73,12 @@ class PostBlocks {
   memory::LineVector<Block> blocks_;
 };
 
+inline constexpr std::int16_t kVoidPost = -32768;  // outside what DTED (-32767) and HGT can hold as a height
+
 // One degree by one degree of elevation posts.
 // Posts: rows from south to north, in a row from west to east, both edges included (neighbours repeat them),
 // heights MSL in whole units, kVoidPost where the source has no height. A unit is a metre, or less where the source has
 // fractions of one. Rows and columns may differ (DTED zones).
-inline constexpr std::int16_t kVoidPost = -32768;  // outside what DTED (-32767) and HGT can hold as a height
-
 class Cell {
  public:
   // Requires rows, columns >= 2, rows * columns posts and a unit above 0 m.

@@ -27,37 +27,37 @@ std::string impossible_heights_warning(std::size_t posts) {
          " posts; they are void, and the file may be damaged or lack the value that it uses for no data";
 }
 
-failure::Expected<std::uintmax_t> file_length(const std::filesystem::path& path) {
+error::Expected<std::uintmax_t> file_length(const std::filesystem::path& path) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
-    return failure::fail(path.string(), "an elevation file", code ? code.message() : "not a plain file");
+    return error::fail(path.string(), "an elevation file", code ? code.message() : "not a plain file");
   const std::uintmax_t size = std::filesystem::file_size(path, code);
-  if (code) return failure::fail(path.string(), "a readable file", code.message());
+  if (code) return error::fail(path.string(), "a readable file", code.message());
   return size;
 }
 
-failure::Expected<std::vector<std::byte>> read_file_part(const std::filesystem::path& path, std::uintmax_t offset,
-                                                         std::size_t bytes) {
-  const failure::Expected<std::uintmax_t> length = file_length(path);
+error::Expected<std::vector<std::byte>> read_file_part(const std::filesystem::path& path, std::uintmax_t offset,
+                                                       std::size_t bytes) {
+  const error::Expected<std::uintmax_t> length = file_length(path);
   if (!length) return tl::unexpected(length.error());
   if (offset > *length || bytes > *length - offset)
-    return failure::fail(path.string(), "at least " + std::to_string(offset + bytes) + " bytes",
-                         std::to_string(*length) + " bytes", "the file is truncated; fetch it again");
+    return error::fail(path.string(), "at least " + std::to_string(offset + bytes) + " bytes",
+                       std::to_string(*length) + " bytes", "the file is truncated; fetch it again");
   std::ifstream file(path, std::ios::binary);
   file.seekg(static_cast<std::streamoff>(offset));
   std::vector<std::byte> part(bytes);
   file.read(reinterpret_cast<char*>(part.data()), static_cast<std::streamsize>(bytes));
   if (!file)
-    return failure::fail(path.string(), "a readable file of " + std::to_string(*length) + " bytes", "a failed read");
+    return error::fail(path.string(), "a readable file of " + std::to_string(*length) + " bytes", "a failed read");
   return part;
 }
 
-failure::Expected<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::size_t limit_bytes) {
-  const failure::Expected<std::uintmax_t> length = file_length(path);
+error::Expected<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::size_t limit_bytes) {
+  const error::Expected<std::uintmax_t> length = file_length(path);
   if (!length) return tl::unexpected(length.error());
   if (*length > limit_bytes)
-    return failure::fail(path.string(), "at most " + std::to_string(limit_bytes) + " bytes",
-                         std::to_string(*length) + " bytes", "this is not a one-degree cell");
+    return error::fail(path.string(), "at most " + std::to_string(limit_bytes) + " bytes",
+                       std::to_string(*length) + " bytes", "this is not a one-degree cell");
   return read_file_part(path, 0, *length);
 }
 

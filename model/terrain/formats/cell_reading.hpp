@@ -35,14 +35,14 @@ void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::
 std::string impossible_heights_warning(std::size_t posts);
 
 // A whole file in memory. Fails on a file that cannot be opened or is larger than `limit_bytes`.
-failure::Expected<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::size_t limit_bytes);
+error::Expected<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::size_t limit_bytes);
 
 // So many bytes of a file from `offset` on. Fails on a file that cannot be opened or ends before.
-failure::Expected<std::vector<std::byte>> read_file_part(const std::filesystem::path& path, std::uintmax_t offset,
-                                                         std::size_t bytes);
+error::Expected<std::vector<std::byte>> read_file_part(const std::filesystem::path& path, std::uintmax_t offset,
+                                                       std::size_t bytes);
 
 // The length of a plain file.
-failure::Expected<std::uintmax_t> file_length(const std::filesystem::path& path);
+error::Expected<std::uintmax_t> file_length(const std::filesystem::path& path);
 
 // Big-endian words of elevation files; the caller has checked that two (four) bytes are there.
 inline std::uint16_t big_endian_16(const std::byte* bytes) {

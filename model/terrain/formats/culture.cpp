@@ -57,21 +57,21 @@ std::optional<std::filesystem::path> find_culture(const std::filesystem::path& e
   return path;
 }
 
-failure::Expected<Culture> read_culture(const std::filesystem::path& path, CellPlace place) {
-  const failure::Expected<imageio::IndexedImage> image = imageio::read_indexed_png(path, kMostCulturePosts);
+error::Expected<Culture> read_culture(const std::filesystem::path& path, CellPlace place) {
+  const error::Expected<imageio::IndexedImage> image = imageio::read_indexed_png(path, kMostCulturePosts);
   if (!image) return tl::unexpected(image.error());
   if (image->width < 2 || image->height < 2)
-    return failure::fail(path.string(), "at least 2 x 2 posts",
-                         std::to_string(image->width) + " x " + std::to_string(image->height));
+    return error::fail(path.string(), "at least 2 x 2 posts",
+                       std::to_string(image->width) + " x " + std::to_string(image->height));
   const auto width = static_cast<std::ptrdiff_t>(image->width);
   const auto wrong = std::find_if(image->pixels.begin(), image->pixels.end(),
                                   [](std::uint8_t code) { return code > kLargestMaterial; });
   if (wrong != image->pixels.end()) {
     const std::ptrdiff_t at = wrong - image->pixels.begin();
-    return failure::fail(path.string(), "surface material codes from 0 to " + std::to_string(kLargestMaterial),
-                         "code " + std::to_string(*wrong) + " at column " + std::to_string(at % width) + " of row " +
-                             std::to_string(at / width) + " from the north",
-                         "number the palette by the codes of DFAD");
+    return error::fail(path.string(), "surface material codes from 0 to " + std::to_string(kLargestMaterial),
+                       "code " + std::to_string(*wrong) + " at column " + std::to_string(at % width) + " of row " +
+                           std::to_string(at / width) + " from the north",
+                       "number the palette by the codes of DFAD");
   }
   std::vector<std::uint8_t> codes(image->pixels.size());
   for (std::ptrdiff_t row = 0; row < image->height; ++row)
@@ -103,7 +103,7 @@ std::array<std::uint8_t, 3> material_colour(std::uint8_t code) {
   return code < kColours.size() ? kColours[code] : kUnnamed;
 }
 
-failure::Expected<void> write_culture(const std::filesystem::path& path, const Culture& culture) {
+error::Expected<void> write_culture(const std::filesystem::path& path, const Culture& culture) {
   if (auto folder = file::Folder::make(path.parent_path()); !folder) return tl::unexpected(folder.error());
   imageio::IndexedImage image{culture.columns(), culture.rows(), {}, {}};
   for (std::uint8_t material = 0; material <= kLargestMaterial; ++material)

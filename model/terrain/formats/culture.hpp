@@ -13,9 +13,6 @@
 
 namespace yars::model::terrain {
 
-// What covers the ground of one cell: a surface material code of DFAD a post, rows from south to north, both edges
-// included as in the elevation cell; its resolution may differ from that cell's.
-
 // Surface material codes (DFAD). 14 to 31 are free; larger ones do not exist.
 enum class Material : std::uint8_t {
   none = 0,
@@ -35,6 +32,8 @@ enum class Material : std::uint8_t {
 };
 inline constexpr std::uint8_t kLargestMaterial = 31;
 
+// What covers the ground of one cell: a surface material code of DFAD a post, rows from south to north, both edges
+// included as in the elevation cell; its resolution may differ from that cell's.
 class Culture {
  public:
   // Requires rows, columns >= 2, rows * columns codes, none above kLargestMaterial.
@@ -76,16 +75,15 @@ std::filesystem::path culture_path(const std::filesystem::path& elevation);
 // The same, if there is such a file.
 std::optional<std::filesystem::path> find_culture(const std::filesystem::path& elevation);
 
-// Reads a tile of culture (culture.hpp). Errors: no indexed PNG, fewer than 2 or more than kMostCulturePosts
+// Reads a tile of culture. Errors: no indexed PNG, fewer than 2 or more than kMostCulturePosts
 // posts a side, a code above kLargestMaterial; the message says where.
-failure::Expected<Culture> read_culture(const std::filesystem::path& path, CellPlace place);
-
-// Writes a tile of culture (culture.hpp), with natural colours, so that any viewer shows a map.
-// Errors: the file cannot be written.
+error::Expected<Culture> read_culture(const std::filesystem::path& path, CellPlace place);
 
 // Red, green, blue of a material; gray for codes without a meaning.
 std::array<std::uint8_t, 3> material_colour(std::uint8_t code);
 
-failure::Expected<void> write_culture(const std::filesystem::path& path, const Culture& culture);
+// Writes a tile of culture, with natural colours, so that any viewer shows a map.
+// Errors: the file cannot be written.
+error::Expected<void> write_culture(const std::filesystem::path& path, const Culture& culture);
 
 }  // namespace yars::model::terrain

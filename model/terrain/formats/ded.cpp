@@ -38,23 +38,23 @@ std::string in_degrees(double value) {
 }
 
 // How many cells the front of a file announces.
-failure::Expected<std::size_t> cells_announced(std::span<const std::byte> front, std::uintmax_t file_bytes,
-                                               const std::string& subject) {
+error::Expected<std::size_t> cells_announced(std::span<const std::byte> front, std::uintmax_t file_bytes,
+                                             const std::string& subject) {
   const std::string_view text(reinterpret_cast<const char*>(front.data()), kHeaderBytes);
   const std::string_view part = text.substr(8, 4);
   if (big_endian_32(front.data()) != kHeaderBytes || text.substr(4, 4) != "SSYS" || (part != "DMA1" && part != "DED1"))
-    return failure::fail(subject, "a MultiGen DED file (SSYS, DMA1 or DED1)", "other bytes");
+    return error::fail(subject, "a MultiGen DED file (SSYS, DMA1 or DED1)", "other bytes");
   const std::uint32_t cells = big_endian_32(front.data() + kHeaderBytes);
   if (cells == 0 || cells > kMostCells)
-    return failure::fail(subject, "1 to " + std::to_string(kMostCells) + " cells", std::to_string(cells));
+    return error::fail(subject, "1 to " + std::to_string(kMostCells) + " cells", std::to_string(cells));
   if (kFrontBytes + cells * kCellHeaderBytes > file_bytes)
-    return failure::fail(subject, "headers of " + std::to_string(cells) + " cells",
-                         std::to_string(file_bytes) + " bytes in all", "the file is truncated; fetch it again");
+    return error::fail(subject, "headers of " + std::to_string(cells) + " cells",
+                       std::to_string(file_bytes) + " bytes in all", "the file is truncated; fetch it again");
   return cells;
 }
 
 // One row of the table: [deg] south, north, west, east; [0.1 arc second] spacing; posts along latitude, longitude.
-failure::Expected<DedCell> parse_cell(const std::byte* header, std::size_t number, const std::string& subject) {
+error::Expected<DedCell> parse_cell(const std::byte* header, std::size_t number, const std::string& subject) {
   const std::string which = "cell " + std::to_string(number);
   const double south = real_at(header);
   const double north = real_at(header + 4);
@@ -64,25 +64,25 @@ failure::Expected<DedCell> parse_cell(const std::byte* header, std::size_t numbe
   const auto west_deg = whole(west, kEdgeToleranceDeg, -180, 179);
   if (!south_deg || !west_deg || !(std::abs(north - south - 1.0) < kEdgeToleranceDeg) ||
       !(std::abs(east - west - 1.0) < kEdgeToleranceDeg))
-    return failure::fail(subject, which + " of one degree on whole degrees",
-                         "latitude " + in_degrees(south) + " to " + in_degrees(north) + ", longitude " +
-                             in_degrees(west) + " to " + in_degrees(east),
-                         "cut it at whole degrees where the file was made");
+    return error::fail(subject, which + " of one degree on whole degrees",
+                       "latitude " + in_degrees(south) + " to " + in_degrees(north) + ", longitude " +
+                           in_degrees(west) + " to " + in_degrees(east),
+                       "cut it at whole degrees where the file was made");
   const auto rows = whole(real_at(header + 24), 0.0, 2, kMostPosts);
   const auto columns = whole(real_at(header + 28), 0.0, 2, kMostPosts);
   const auto fits = [](int posts, double spacing) {
     return std::abs((posts - 1) * spacing / kTenthsPerDegree - 1.0) < kSpanTolerance;
   };
   if (!rows || !columns || !fits(*rows, real_at(header + 16)) || !fits(*columns, real_at(header + 20)))
-    return failure::fail(
+    return error::fail(
         subject, which + " with posts that span one degree, 2 to " + std::to_string(kMostPosts) + " a side",
         in_degrees(real_at(header + 24)) + " x " + in_degrees(real_at(header + 28)) + " posts at " +
             in_degrees(real_at(header + 16)) + " x " + in_degrees(real_at(header + 20)) + " tenths of a second");
   return DedCell{{*south_deg, *west_deg}, *rows, *columns, 0};
 }
 
-failure::Expected<std::vector<DedCell>> parse_table(std::span<const std::byte> table, std::uintmax_t file_bytes,
-                                                    const std::string& subject) {
+error::Expected<std::vector<DedCell>> parse_table(std::span<const std::byte> table, std::uintmax_t file_bytes,
+                                                  const std::string& subject) {
   std::vector<DedCell> cells;
   std::uint64_t offset = kFrontBytes + table.size();
   for (std::size_t at = 0; at < table.size(); at += kCellHeaderBytes) {
@@ -93,15 +93,15 @@ failure::Expected<std::vector<DedCell>> parse_table(std::span<const std::byte> t
     cells.push_back(*cell);
   }
   if (offset != file_bytes)
-    return failure::fail(subject, std::to_string(offset) + " bytes for " + std::to_string(cells.size()) + " cells",
-                         std::to_string(file_bytes) + " bytes", "the file is truncated or damaged; fetch it again");
+    return error::fail(subject, std::to_string(offset) + " bytes for " + std::to_string(cells.size()) + " cells",
+                       std::to_string(file_bytes) + " bytes", "the file is truncated or damaged; fetch it again");
   return cells;
 }
 
-failure::Expected<DedCell> cell_at(const std::vector<DedCell>& cells, CellPlace place, const std::string& subject) {
+error::Expected<DedCell> cell_at(const std::vector<DedCell>& cells, CellPlace place, const std::string& subject) {
   const auto cell = std::find_if(cells.begin(), cells.end(), [&](const DedCell& each) { return each.place == place; });
   if (cell != cells.end()) return *cell;
-  return failure::fail(
+  return error::fail(
       subject,
       "a cell with the south-west corner " + std::to_string(place.south_deg) + ", " + std::to_string(place.west_deg),
       std::to_string(cells.size()) + " others");
@@ -123,7 +123,7 @@ CellReading decode(const DedCell& cell, std::span<const std::byte> bytes) {
 
 }  // namespace
 
-failure::Expected<std::vector<DedCell>> ded_cells(const std::filesystem::path& path) {
+error::Expected<std::vector<DedCell>> ded_cells(const std::filesystem::path& path) {
   const std::string subject = path.string();
   const auto length = file_length(path);
   if (!length) return tl::unexpected(length.error());
@@ -136,7 +136,7 @@ failure::Expected<std::vector<DedCell>> ded_cells(const std::filesystem::path& p
   return parse_table(*table, *length, subject);
 }
 
-failure::Expected<CellReading> read_ded(const std::filesystem::path& path, CellPlace place) {
+error::Expected<CellReading> read_ded(const std::filesystem::path& path, CellPlace place) {
   const auto cells = ded_cells(path);
   if (!cells) return tl::unexpected(cells.error());
   const auto cell = cell_at(*cells, place, path.string());
@@ -146,16 +146,16 @@ failure::Expected<CellReading> read_ded(const std::filesystem::path& path, CellP
   return decode(*cell, *bytes);
 }
 
-failure::Expected<std::vector<DedCell>> parse_ded_cells(std::span<const std::byte> file, const std::string& subject) {
+error::Expected<std::vector<DedCell>> parse_ded_cells(std::span<const std::byte> file, const std::string& subject) {
   if (file.size() < kFrontBytes)
-    return failure::fail(subject, "at least " + std::to_string(kFrontBytes) + " bytes",
-                         std::to_string(file.size()) + " bytes", "the file is truncated; fetch it again");
+    return error::fail(subject, "at least " + std::to_string(kFrontBytes) + " bytes",
+                       std::to_string(file.size()) + " bytes", "the file is truncated; fetch it again");
   const auto count = cells_announced(file, file.size(), subject);
   if (!count) return tl::unexpected(count.error());
   return parse_table(file.subspan(kFrontBytes, *count * kCellHeaderBytes), file.size(), subject);
 }
 
-failure::Expected<CellReading> parse_ded(std::span<const std::byte> file, const std::string& subject, CellPlace place) {
+error::Expected<CellReading> parse_ded(std::span<const std::byte> file, const std::string& subject, CellPlace place) {
   const auto cells = parse_ded_cells(file, subject);
   if (!cells) return tl::unexpected(cells.error());
   const auto cell = cell_at(*cells, place, subject);

@@ -26,12 +26,12 @@ struct DedCell {
 };
 
 // The cells of a file; reads its headers only.
-failure::Expected<std::vector<DedCell>> ded_cells(const std::filesystem::path& path);
+error::Expected<std::vector<DedCell>> ded_cells(const std::filesystem::path& path);
 
-failure::Expected<CellReading> read_ded(const std::filesystem::path& path, CellPlace place);
+error::Expected<CellReading> read_ded(const std::filesystem::path& path, CellPlace place);
 
 // The same from memory; `subject` names the file in errors.
-failure::Expected<std::vector<DedCell>> parse_ded_cells(std::span<const std::byte> file, const std::string& subject);
-failure::Expected<CellReading> parse_ded(std::span<const std::byte> file, const std::string& subject, CellPlace place);
+error::Expected<std::vector<DedCell>> parse_ded_cells(std::span<const std::byte> file, const std::string& subject);
+error::Expected<CellReading> parse_ded(std::span<const std::byte> file, const std::string& subject, CellPlace place);
 
 }  // namespace yars::model::terrain

@@ -72,20 +72,20 @@ std::string stripped(std::string_view field) {
 
 // The datums by the description record. Posts of WGS72 lie 0.554 arc seconds (17 m) beside those of WGS84: to move them
 // would smooth them, so that is left to a raster of them.
-failure::Expected<void> check_datums(std::string_view description, const std::string& subject) {
+error::Expected<void> check_datums(std::string_view description, const std::string& subject) {
   constexpr std::string_view kSeaLevels[] = {"", "MSL", "E84", "E96", "E08"};
   const std::string vertical = stripped(description.substr(dted::kVerticalDatumAt, dted::kVerticalDatumBytes));
   const std::string horizontal = stripped(description.substr(dted::kHorizontalDatumAt, dted::kHorizontalDatumBytes));
   if (!horizontal.empty() && horizontal != "WGS84")
-    return failure::fail(subject, "horizontal datum WGS84", "'" + horizontal + "'",
-                         "bring it to WGS84 with gdalwarp -t_srs EPSG:4326 into a .tif");
+    return error::fail(subject, "horizontal datum WGS84", "'" + horizontal + "'",
+                       "bring it to WGS84 with gdalwarp -t_srs EPSG:4326 into a .tif");
   if (std::find(std::begin(kSeaLevels), std::end(kSeaLevels), vertical) == std::end(kSeaLevels))
-    return failure::fail(subject, "heights above mean sea level (vertical datum MSL, E84, E96, E08 or none)",
-                         "'" + vertical + "'", "make them heights above mean sea level");
+    return error::fail(subject, "heights above mean sea level (vertical datum MSL, E84, E96, E08 or none)",
+                       "'" + vertical + "'", "make them heights above mean sea level");
   return {};
 }
 
-failure::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject, CellPlace place) {
+error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject, CellPlace place) {
   std::size_t start = 0;
   // Copies of tapes carry their volume and file labels in front.
   while (bytes.size() >= start + dted::kLabelBytes) {
@@ -94,11 +94,11 @@ failure::Expected<Header> parse_header(std::span<const std::byte> bytes, const s
     start += dted::kLabelBytes;
   }
   if (bytes.size() < start + kHeaderBytes)
-    return failure::fail(subject, "a DTED header of " + std::to_string(kHeaderBytes) + " bytes",
-                         std::to_string(bytes.size() - start) + " bytes", "the file is truncated; fetch it again");
+    return error::fail(subject, "a DTED header of " + std::to_string(kHeaderBytes) + " bytes",
+                       std::to_string(bytes.size() - start) + " bytes", "the file is truncated; fetch it again");
   const std::string_view user_header = text_of(bytes.subspan(start, dted::kUserHeaderBytes));
   if (user_header.substr(0, 4) != "UHL1")
-    return failure::fail(subject, "a DTED file that begins with UHL1", "other bytes");
+    return error::fail(subject, "a DTED file that begins with UHL1", "other bytes");
   const std::string_view description = text_of(bytes.subspan(start + dted::kUserHeaderBytes, dted::kDescriptionBytes));
   if (const auto known = check_datums(description, subject); !known) return tl::unexpected(known.error());
   const std::optional<int> west_deg = whole_degrees(user_header.substr(4, 8));
@@ -108,19 +108,19 @@ failure::Expected<Header> parse_header(std::span<const std::byte> bytes, const s
   const std::optional<int> columns = number(user_header.substr(47, 4));
   const std::optional<int> rows = number(user_header.substr(51, 4));
   if (!west_deg || !south_deg || !interval || !latitude_interval || !columns || !rows)
-    return failure::fail(subject, "UHL fields in digits, origin in whole degrees",
-                         std::string(user_header.substr(0, 55)));
+    return error::fail(subject, "UHL fields in digits, origin in whole degrees",
+                       std::string(user_header.substr(0, 55)));
   if (CellPlace{*south_deg, *west_deg} != place)
-    return failure::fail(subject, name_of(place) + " as the name says",
-                         name_of({*south_deg, *west_deg}) + " in its header", "rename or replace the file");
+    return error::fail(subject, name_of(place) + " as the name says",
+                       name_of({*south_deg, *west_deg}) + " in its header", "rename or replace the file");
   const int most = dted::kPostsOfLevel[2];
   if (*columns < 2 || *rows < 2 || *columns > most || *rows > most ||
       (*columns - 1) * *interval != dted::kTenthsPerDegree ||
       (*rows - 1) * *latitude_interval != dted::kTenthsPerDegree)
-    return failure::fail(subject, "posts that span one degree, 2 to 3601 a side",
-                         std::to_string(*columns) + " x " + std::to_string(*rows) + " posts at " +
-                             std::to_string(*interval) + " x " + std::to_string(*latitude_interval) +
-                             " tenths of a second");
+    return error::fail(subject, "posts that span one degree, 2 to 3601 a side",
+                       std::to_string(*columns) + " x " + std::to_string(*rows) + " posts at " +
+                           std::to_string(*interval) + " x " + std::to_string(*latitude_interval) +
+                           " tenths of a second");
   return Header{place, *columns, *rows, start + kHeaderBytes};
 }
 
@@ -148,26 +148,25 @@ std::int16_t sign_magnitude(std::uint16_t word) {
 }
 
 // The words of all columns, rows first, voids where no record says anything.
-failure::Expected<Oddities> gather_words(std::span<const std::byte> data, const Header& header,
-                                         const std::string& subject, std::vector<std::uint16_t>& words) {
+error::Expected<Oddities> gather_words(std::span<const std::byte> data, const Header& header,
+                                       const std::string& subject, std::vector<std::uint16_t>& words) {
   Oddities odd;
   std::vector<bool> seen(static_cast<std::size_t>(header.columns));
   for (std::span<const std::byte> rest = data; !rest.empty();) {
     const std::string at = "column record " + std::to_string(odd.columns_read + 1);
     if (rest.size() < kRecordHeadBytes)
-      return failure::fail(subject, "a whole " + at, std::to_string(rest.size()) + " bytes",
-                           "the file is truncated; fetch it again");
+      return error::fail(subject, "a whole " + at, std::to_string(rest.size()) + " bytes",
+                         "the file is truncated; fetch it again");
     const int column = big_endian_16(rest.data() + 4);
     const int first_row = big_endian_16(rest.data() + 6);
     if (std::to_integer<std::uint8_t>(rest[0]) != dted::kRecordSentinel || column >= header.columns ||
         first_row >= header.rows)
-      return failure::fail(
-          subject, at + " that begins with AA and lies inside the cell",
-          "longitude index " + std::to_string(column) + ", latitude index " + std::to_string(first_row));
+      return error::fail(subject, at + " that begins with AA and lies inside the cell",
+                         "longitude index " + std::to_string(column) + ", latitude index " + std::to_string(first_row));
     const auto record = next_record(rest, header.rows, first_row);
     if (!record)
-      return failure::fail(subject, "a whole " + at, std::to_string(rest.size()) + " bytes",
-                           "the file is truncated; fetch it again");
+      return error::fail(subject, "a whole " + at, std::to_string(rest.size()) + " bytes",
+                         "the file is truncated; fetch it again");
     if (!sum_matches(*record)) ++odd.wrong_sums;
     if (first_row > 0) ++odd.partial_columns;
     for (int row = first_row; row < header.rows; ++row)
@@ -214,17 +213,16 @@ std::vector<std::string> warnings_of(const Oddities& odd, const Header& header, 
 
 }  // namespace
 
-failure::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const std::string& subject,
-                                          CellPlace place) {
-  const failure::Expected<Header> header = parse_header(bytes, subject, place);
+error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const std::string& subject, CellPlace place) {
+  const error::Expected<Header> header = parse_header(bytes, subject, place);
   if (!header) return tl::unexpected(header.error());
   const std::span<const std::byte> data = bytes.subspan(header->data_offset);
   if (data.empty())
-    return failure::fail(subject, std::to_string(header->columns) + " columns of posts", "a header alone",
-                         "the file is truncated; fetch it again");
+    return error::fail(subject, std::to_string(header->columns) + " columns of posts", "a header alone",
+                       "the file is truncated; fetch it again");
   std::vector<std::uint16_t> words(static_cast<std::size_t>(header->rows) * static_cast<std::size_t>(header->columns),
                                    dted::kVoidWord);
-  const failure::Expected<Oddities> odd = gather_words(data, *header, subject, words);
+  const error::Expected<Oddities> odd = gather_words(data, *header, subject, words);
   if (!odd) return tl::unexpected(odd.error());
   const bool twos_complement = is_twos_complement(words);
   std::vector<std::string> warnings = warnings_of(*odd, *header, twos_complement);
@@ -235,7 +233,7 @@ failure::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, cons
   return reading;
 }
 
-failure::Expected<CellReading> read_dted(const std::filesystem::path& path, CellPlace place) {
+error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellPlace place) {
   // Level 2 with labels in front; whatever is larger is not DTED 0, 1 or 2.
   constexpr std::size_t kLargestFile = kHeaderBytes + 3601 * dted::record_bytes(3601) + 8 * dted::kLabelBytes;
   const auto bytes = read_file(path, kLargestFile);
@@ -349,7 +347,7 @@ std::vector<std::byte> dted_bytes(const Cell& cell, int level) {
   return bytes;
 }
 
-failure::Expected<std::filesystem::path> write_dted(const std::filesystem::path& tree, const Cell& cell, int level) {
+error::Expected<std::filesystem::path> write_dted(const std::filesystem::path& tree, const Cell& cell, int level) {
   return file::write_file_and_folders(tree / dted_name(cell.place(), level), dted_bytes(cell, level));
 }
 

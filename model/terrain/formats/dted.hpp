@@ -55,18 +55,17 @@ namespace yars::model::terrain {
 // Datums: WGS84 and mean sea level (MSL, E84, E96, E08); blank counts as these. Others are refused, WGS72 too.
 // Errors: no UHL, another datum, origin not in whole degrees or not `place`, posts that do not span one degree, a torn
 // record.
-failure::Expected<CellReading> read_dted(const std::filesystem::path& path, CellPlace place);
+error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellPlace place);
 
 // The same from memory; `subject` names the file in errors.
-failure::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const std::string& subject,
-                                          CellPlace place);
+error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const std::string& subject, CellPlace place);
 
 // Writes a cell as DTED level 0, 1 or 2 (MIL-PRF-89020B): whole columns, sign-magnitude, right checksums.
 // Errors of write_dted: the file cannot be written. The cell needs kPostsOfLevel[level] rows.
 std::vector<std::byte> dted_bytes(const Cell& cell, int level);
 
 // `tree`/wLLL/nBB.dtN, written as lib/file/output_file.hpp says; folders are made.
-failure::Expected<std::filesystem::path> write_dted(const std::filesystem::path& tree, const Cell& cell, int level);
+error::Expected<std::filesystem::path> write_dted(const std::filesystem::path& tree, const Cell& cell, int level);
 
 // Below a tree: "w122/n36.dt1".
 std::string dted_name(CellPlace place, int level);

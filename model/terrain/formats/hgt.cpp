@@ -22,6 +22,7 @@ constexpr int kPosts[] = {1201, 3601};  // a side: 3 arc seconds, 1 arc second
 constexpr std::size_t bytes_of(int posts) {
   return 2 * static_cast<std::size_t>(posts) * static_cast<std::size_t>(posts);
 }
+constexpr std::size_t kLargestHgt = bytes_of(kPosts[1]);
 }  // namespace
 
 int hgt_posts_for_size(std::uintmax_t bytes) {
@@ -30,14 +31,13 @@ int hgt_posts_for_size(std::uintmax_t bytes) {
   return 0;
 }
 
-failure::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const std::string& subject,
-                                         CellPlace place) {
+error::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const std::string& subject, CellPlace place) {
   const int posts = hgt_posts_for_size(bytes.size());
   if (posts == 0)
-    return failure::fail(subject,
-                         "an HGT file of " + std::to_string(bytes_of(kPosts[0])) + " or " +
-                             std::to_string(bytes_of(kPosts[1])) + " bytes",
-                         std::to_string(bytes.size()) + " bytes", "the file is truncated or no HGT; fetch it again");
+    return error::fail(subject,
+                       "an HGT file of " + std::to_string(bytes_of(kPosts[0])) + " or " +
+                           std::to_string(bytes_of(kPosts[1])) + " bytes",
+                       std::to_string(bytes.size()) + " bytes", "the file is truncated or no HGT; fetch it again");
   const auto side = static_cast<std::size_t>(posts);
   std::vector<std::int16_t> heights(side * side);
   for (std::size_t row = 0; row < side; ++row)
@@ -49,15 +49,14 @@ failure::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const
   return CellReading{Cell(place, posts, posts, heights), std::nullopt, std::move(warnings)};
 }
 
-failure::Expected<CellReading> read_hgt(const std::filesystem::path& path, CellPlace place) {
-  const auto bytes = read_file(path, bytes_of(kPosts[1]));
+error::Expected<CellReading> read_hgt(const std::filesystem::path& path, CellPlace place) {
+  const auto bytes = read_file(path, kLargestHgt);
   if (!bytes) return tl::unexpected(bytes.error());
   return parse_hgt(*bytes, path.string(), place);
 }
 
 namespace {
 
-constexpr std::size_t kLargestHgt = 2UL * 3601 * 3601;   // [bytes]
 constexpr std::size_t kLargestPackedFile = 64UL << 20U;  // [bytes] more is no packed cell
 constexpr const char* kFetchAgain = "fetch the file again";
 
@@ -94,11 +93,11 @@ bool is_gzip(const std::filesystem::path& path) {
   return lower_case(path.extension().string()) == ".gz";
 }
 
-failure::Expected<std::uintmax_t> packed_length(const std::filesystem::path& path) {
+error::Expected<std::uintmax_t> packed_length(const std::filesystem::path& path) {
   auto length = file_length(path);
   if (!length || *length <= kLargestPackedFile) return length;
-  return failure::fail(path.string(), "at most " + std::to_string(kLargestPackedFile) + " bytes",
-                       std::to_string(*length) + " bytes", "this is no packed HGT cell");
+  return error::fail(path.string(), "at most " + std::to_string(kLargestPackedFile) + " bytes",
+                     std::to_string(*length) + " bytes", "this is no packed HGT cell");
 }
 
 // The name that a gzip stream may keep of what was packed; empty: none.
@@ -107,7 +106,7 @@ std::string name_in_gzip(const std::filesystem::path& path) {
   constexpr unsigned kExtra = 4, kName = 8;  // flags, RFC 1952
   const auto length = file_length(path);
   const auto head = length ? read_file_part(path, 0, std::min<std::uintmax_t>(*length, 512))
-                           : failure::Expected<std::vector<std::byte>>{};
+                           : error::Expected<std::vector<std::byte>>{};
   if (!head || head->size() < kHeadBytes) return {};
   const auto at = [&](std::size_t byte) { return std::to_integer<unsigned>((*head)[byte]); };
   if (at(0) != 0x1f || at(1) != 0x8b || (at(3) & kName) == 0) return {};
@@ -122,29 +121,29 @@ std::string name_in_gzip(const std::filesystem::path& path) {
   return name;
 }
 
-failure::Expected<std::vector<std::byte>> inflate_gzip(const std::filesystem::path& path) {
+error::Expected<std::vector<std::byte>> inflate_gzip(const std::filesystem::path& path) {
   if (const auto there = packed_length(path); !there) return tl::unexpected(there.error());
   const std::filesystem::path inside = lower_case(name_in_gzip(path));
   if (inside.extension() == ".hgt" && inside.filename() != lower_case(path.stem().string()))
-    return failure::fail(path.string(), path.stem().string() + " as it was packed",
-                         quoted(printable(inside.filename().string())), "give the file the name of the cell in it");
+    return error::fail(path.string(), path.stem().string() + " as it was packed",
+                       quoted(printable(inside.filename().string())), "give the file the name of the cell in it");
   const std::unique_ptr<gzFile_s, CloseGzip> file(gzopen(path.c_str(), "rb"));
-  if (!file) return failure::fail(path.string(), "a gzip file", "one that cannot be opened");
+  if (!file) return error::fail(path.string(), "a gzip file", "one that cannot be opened");
   // One byte more than any cell has tells a longer stream.
   std::vector<std::byte> bytes(kLargestHgt + 1);
   std::size_t filled = 0;
   while (filled < bytes.size()) {
     const int got = gzread(file.get(), bytes.data() + filled, static_cast<unsigned>(bytes.size() - filled));
-    if (got < 0) return failure::fail(path.string(), "a whole gzip stream", "a damaged one", kFetchAgain);
+    if (got < 0) return error::fail(path.string(), "a whole gzip stream", "a damaged one", kFetchAgain);
     if (got == 0) break;
     filled += static_cast<std::size_t>(got);
   }
   int status = Z_OK;
   gzerror(file.get(), &status);
-  if (status != Z_OK) return failure::fail(path.string(), "a whole gzip stream", "a truncated one", kFetchAgain);
+  if (status != Z_OK) return error::fail(path.string(), "a whole gzip stream", "a truncated one", kFetchAgain);
   if (filled > kLargestHgt)
-    return failure::fail(path.string(), "at most " + std::to_string(kLargestHgt) + " bytes unpacked", "more",
-                         "this is no HGT cell");
+    return error::fail(path.string(), "at most " + std::to_string(kLargestHgt) + " bytes unpacked", "more",
+                       "this is no HGT cell");
   bytes.resize(filled);
   return bytes;
 }
@@ -171,40 +170,40 @@ std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& p
   return std::nullopt;
 }
 
-failure::Expected<ZipArchive> open_zip(const std::filesystem::path& path) {
+error::Expected<ZipArchive> open_zip(const std::filesystem::path& path) {
   if (const auto there = packed_length(path); !there) return tl::unexpected(there.error());
   int code = 0;
   ZipArchive archive(zip_open(path.c_str(), ZIP_RDONLY, &code));
-  if (!archive) return failure::fail(path.string(), "a zip archive", "a damaged one", kFetchAgain);
+  if (!archive) return error::fail(path.string(), "a zip archive", "a damaged one", kFetchAgain);
   return archive;
 }
 
-failure::Expected<std::vector<std::byte>> inflate_zip(const std::filesystem::path& path) {
+error::Expected<std::vector<std::byte>> inflate_zip(const std::filesystem::path& path) {
   const auto archive = open_zip(path);
   if (!archive) return tl::unexpected(archive.error());
   std::string other;
   const std::optional<ZipEntry> entry = hgt_entry(archive->get(), path, &other);
   if (!entry)
-    return failure::fail(path.string(), "an entry " + path.stem().string(),
-                         other.empty() ? "an archive without entries" : quoted(other),
-                         "give the archive the name of the cell that is in it");
+    return error::fail(path.string(), "an entry " + path.stem().string(),
+                       other.empty() ? "an archive without entries" : quoted(other),
+                       "give the archive the name of the cell that is in it");
   if (hgt_posts_for_size(entry->bytes) == 0)
-    return failure::fail(path.string(), "an entry of 2884802 or 25934402 bytes",
-                         "one of " + std::to_string(entry->bytes) + " bytes", "this is no HGT cell");
+    return error::fail(path.string(), "an entry of 2884802 or 25934402 bytes",
+                       "one of " + std::to_string(entry->bytes) + " bytes", "this is no HGT cell");
   const std::unique_ptr<zip_file_t, CloseZipEntry> file(zip_fopen_index(archive->get(), entry->index, 0));
-  if (!file) return failure::fail(path.string(), "an entry that can be unpacked", zip_strerror(archive->get()));
+  if (!file) return error::fail(path.string(), "an entry that can be unpacked", zip_strerror(archive->get()));
   std::vector<std::byte> bytes(entry->bytes);
   const zip_int64_t got = zip_fread(file.get(), bytes.data(), bytes.size());
   // Reading on to the end is what makes the library compare the checksum; it also finds a stream that is longer.
   std::byte beyond{};
   if (got != static_cast<zip_int64_t>(bytes.size()) || zip_fread(file.get(), &beyond, 1) != 0)
-    return failure::fail(path.string(), "a whole entry with its checksum", "a damaged one", kFetchAgain);
+    return error::fail(path.string(), "a whole entry with its checksum", "a damaged one", kFetchAgain);
   return bytes;
 }
 
 }  // namespace
 
-failure::Expected<CellReading> read_packed_hgt(const std::filesystem::path& path, CellPlace place) {
+error::Expected<CellReading> read_packed_hgt(const std::filesystem::path& path, CellPlace place) {
   const auto bytes = is_gzip(path) ? inflate_gzip(path) : inflate_zip(path);
   if (!bytes) return tl::unexpected(bytes.error());
   return parse_hgt(*bytes, path.string(), place);
@@ -251,7 +250,7 @@ std::vector<std::byte> hgt_bytes(const Cell& cell) {
   return bytes;
 }
 
-failure::Expected<std::filesystem::path> write_hgt(const std::filesystem::path& tree, const Cell& cell) {
+error::Expected<std::filesystem::path> write_hgt(const std::filesystem::path& tree, const Cell& cell) {
   return file::write_file_and_folders(tree / hgt_name(cell.place()), hgt_bytes(cell));
 }
 

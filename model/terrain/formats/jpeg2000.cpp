@@ -116,7 +116,7 @@ Image image_of(const HeightGrid& grid) {
   return image;
 }
 
-failure::Error coding_failed(const Messages& messages) {
+error::Error coding_failed(const Messages& messages) {
   return {"JPEG 2000", "heights that can be coded", messages.first.empty() ? "a failure" : messages.first, {}, false};
 }
 
@@ -148,7 +148,7 @@ int reduced_side(int side, int reduction) {
 
 }  // namespace
 
-failure::Expected<std::vector<std::byte>> encode_jpeg2000(const HeightGrid& grid, int reductions) {
+error::Expected<std::vector<std::byte>> encode_jpeg2000(const HeightGrid& grid, int reductions) {
   YARS_REQUIRE(std::min(grid.rows, grid.columns), >=, 2);
   YARS_REQUIRE(std::max(grid.rows, grid.columns), <=, kMostSide);
   opj_cparameters_t parameters;
@@ -177,8 +177,8 @@ failure::Expected<std::vector<std::byte>> encode_jpeg2000(const HeightGrid& grid
   return std::move(sink.bytes);
 }
 
-failure::Expected<HeightGrid> decode_jpeg2000(std::span<const std::byte> file, const std::string& subject, int rows,
-                                              int columns, int reduction) {
+error::Expected<HeightGrid> decode_jpeg2000(std::span<const std::byte> file, const std::string& subject, int rows,
+                                            int columns, int reduction) {
   Source source{file};
   Messages messages;
   const Stream stream = stream_over(source);
@@ -193,20 +193,20 @@ failure::Expected<HeightGrid> decode_jpeg2000(std::span<const std::byte> file, c
                       opj_read_header(stream.get(), codec.get(), &read) == OPJ_TRUE;
   const Image image(read);
   if (!opened)
-    return failure::fail(subject, "a JPEG 2000 picture with " + std::to_string(reduction) + " reductions",
-                         messages.first.empty() ? "other bytes" : messages.first, "pack the cell again");
+    return error::fail(subject, "a JPEG 2000 picture with " + std::to_string(reduction) + " reductions",
+                       messages.first.empty() ? "other bytes" : messages.first, "pack the cell again");
   // Before decoding: it allocates what the header says.
   if (const std::string odd = oddity_of(*image, rows, columns); !odd.empty())
-    return failure::fail(subject, std::to_string(columns) + " x " + std::to_string(rows) + " signed 16-bit heights",
-                         odd, "pack the cell again");
+    return error::fail(subject, std::to_string(columns) + " x " + std::to_string(rows) + " signed 16-bit heights", odd,
+                       "pack the cell again");
   if (opj_decode(codec.get(), stream.get(), image.get()) != OPJ_TRUE || image->comps[0].data == nullptr)
-    return failure::fail(subject, "a whole JPEG 2000 picture",
-                         messages.first.empty() ? "a damaged one" : messages.first, "pack the cell again");
+    return error::fail(subject, "a whole JPEG 2000 picture", messages.first.empty() ? "a damaged one" : messages.first,
+                       "pack the cell again");
   const opj_image_comp_t& decoded = image->comps[0];
   HeightGrid grid{reduced_side(rows, reduction), reduced_side(columns, reduction), {}};
   if (static_cast<int>(decoded.w) != grid.columns || static_cast<int>(decoded.h) != grid.rows)
-    return failure::fail(subject, std::to_string(grid.columns) + " x " + std::to_string(grid.rows) + " heights",
-                         std::to_string(decoded.w) + " x " + std::to_string(decoded.h), "pack the cell again");
+    return error::fail(subject, std::to_string(grid.columns) + " x " + std::to_string(grid.rows) + " heights",
+                       std::to_string(decoded.w) + " x " + std::to_string(decoded.h), "pack the cell again");
   grid.heights.resize(static_cast<std::size_t>(decoded.w) * decoded.h);
   std::transform(decoded.data, decoded.data + grid.heights.size(), grid.heights.begin(), [](OPJ_INT32 height) {
     using Limits = std::numeric_limits<std::int16_t>;

@@ -22,11 +22,11 @@ struct HeightGrid {
 };
 
 // `reductions` wavelet levels, at most as often as the shorter side can be halved. Requires rows, columns >= 2.
-failure::Expected<std::vector<std::byte>> encode_jpeg2000(const HeightGrid& grid, int reductions);
+error::Expected<std::vector<std::byte>> encode_jpeg2000(const HeightGrid& grid, int reductions);
 
 // Level `reduction` of a picture of `rows` x `columns` heights; the result has its sides reduced.
-failure::Expected<HeightGrid> decode_jpeg2000(std::span<const std::byte> file, const std::string& subject, int rows,
-                                              int columns, int reduction);
+error::Expected<HeightGrid> decode_jpeg2000(std::span<const std::byte> file, const std::string& subject, int rows,
+                                            int columns, int reduction);
 
 // Sides of a .jp2 file from its first kJpeg2000HeadBytes; zeros where they are not those of one.
 struct GridSize {

@@ -64,8 +64,8 @@ Cell marked(const Cell& cell, const SideLevel& level, int reduction) {
 
 }  // namespace
 
-failure::Expected<CellReading> parse_pack(std::span<const std::byte> jp2, std::span<const std::byte> side,
-                                          const std::string& subject, CellPlace place, int reduction) {
+error::Expected<CellReading> parse_pack(std::span<const std::byte> jp2, std::span<const std::byte> side,
+                                        const std::string& subject, CellPlace place, int reduction) {
   const auto head = parse_side_head(side, jp2, subject);
   if (!head) return tl::unexpected(head.error());
   const int wanted = std::min(reduction, head->reductions);
@@ -86,7 +86,7 @@ failure::Expected<CellReading> parse_pack(std::span<const std::byte> jp2, std::s
   return CellReading{std::move(cell), std::move(level->peaks), {}};
 }
 
-failure::Expected<CellReading> read_pack(const std::filesystem::path& path, CellPlace place, int reduction) {
+error::Expected<CellReading> read_pack(const std::filesystem::path& path, CellPlace place, int reduction) {
   const auto jp2 = read_file(path, kLargestFile);
   if (!jp2) return tl::unexpected(jp2.error());
   const auto side = read_file(std::filesystem::path(path).replace_extension(".side"), kLargestFile);
@@ -119,7 +119,7 @@ std::string pack_name(CellPlace place) {
   return std::filesystem::path(dted_name(place, 0)).replace_extension(".jp2").string();
 }
 
-failure::Expected<PackedCell> pack_cell(const Cell& cell) {
+error::Expected<PackedCell> pack_cell(const Cell& cell) {
   const int down = std::min(halvings(cell.rows()), kMostReductions);
   const int across = std::min(halvings(cell.columns()), kMostReductions);
   // A side that halves less often stops the wavelet, not the side file.
@@ -130,7 +130,7 @@ failure::Expected<PackedCell> pack_cell(const Cell& cell) {
   return PackedCell{std::move(*jp2), std::move(*side)};
 }
 
-failure::Expected<std::filesystem::path> write_pack(const std::filesystem::path& tree, const Cell& cell) {
+error::Expected<std::filesystem::path> write_pack(const std::filesystem::path& tree, const Cell& cell) {
   const auto packed = pack_cell(cell);
   if (!packed) return tl::unexpected(packed.error());
   const std::filesystem::path path = tree / pack_name(cell.place());

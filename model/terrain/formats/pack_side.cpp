@@ -94,7 +94,7 @@ struct PackedLevel {
   std::vector<std::byte> peaks;
 };
 
-failure::Expected<PackedLevel> packed_level(const Cell& cell, int reduction) {
+error::Expected<PackedLevel> packed_level(const Cell& cell, int reduction) {
   std::vector<std::byte> marks;
   if (reduction == 0) {
     append_bits(cell, kVoidPost, marks);
@@ -147,14 +147,14 @@ std::vector<std::int16_t> take_edge(std::span<const std::byte>& bytes, int posts
   return edge;
 }
 
-failure::Expected<std::vector<std::byte>> inflated(std::span<const std::byte> packed, std::size_t bytes,
-                                                   const std::string& subject) {
+error::Expected<std::vector<std::byte>> inflated(std::span<const std::byte> packed, std::size_t bytes,
+                                                 const std::string& subject) {
   std::vector<std::byte> plain(bytes);
   uLongf size = bytes;
   const int status = uncompress(reinterpret_cast<Bytef*>(plain.data()), &size,
                                 reinterpret_cast<const Bytef*>(packed.data()), packed.size());
   if (status != Z_OK || size != bytes)
-    return failure::fail(subject, std::to_string(bytes) + " bytes of marks", "damaged ones", "pack the cell again");
+    return error::fail(subject, std::to_string(bytes) + " bytes of marks", "damaged ones", "pack the cell again");
   return plain;
 }
 
@@ -164,8 +164,8 @@ struct CellFrame {
   double unit_m;
 };
 
-failure::Expected<Cell> parse_peaks(std::span<const std::byte> packed, const std::vector<bool>& voids,
-                                    const CellFrame& frame, const std::string& subject) {
+error::Expected<Cell> parse_peaks(std::span<const std::byte> packed, const std::vector<bool>& voids,
+                                  const CellFrame& frame, const std::string& subject) {
   const Sides sides = frame.sides;
   const auto grid = decode_jpeg2000(packed, subject, sides.rows, sides.columns, 0);
   if (!grid) return tl::unexpected(grid.error());
@@ -181,7 +181,7 @@ failure::Expected<Cell> parse_peaks(std::span<const std::byte> packed, const std
 
 }  // namespace
 
-failure::Expected<std::vector<std::byte>> side_bytes(const Cell& cell, int reductions, std::span<const std::byte> jp2) {
+error::Expected<std::vector<std::byte>> side_bytes(const Cell& cell, int reductions, std::span<const std::byte> jp2) {
   std::vector<PackedLevel> levels;
   for (int reduction = 0; reduction <= reductions; ++reduction) {
     auto level = packed_level(cell, reduction);
@@ -210,10 +210,10 @@ failure::Expected<std::vector<std::byte>> side_bytes(const Cell& cell, int reduc
   return side;
 }
 
-failure::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std::span<const std::byte> jp2,
-                                            const std::string& subject) {
+error::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std::span<const std::byte> jp2,
+                                          const std::string& subject) {
   const auto refuse = [&](const std::string& expected, const std::string& found) {
-    return failure::fail(subject, expected, found, "pack the cell again");
+    return error::fail(subject, expected, found, "pack the cell again");
   };
   if (side.size() < kHeadBytes || std::string_view(reinterpret_cast<const char*>(side.data()), 8) != kMagic)
     return refuse("the side file of a packed cell (YARSSIDE)", "other bytes");
@@ -237,8 +237,8 @@ failure::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std
   return SideHead{static_cast<int>(rows), static_cast<int>(columns), static_cast<int>(levels) - 1, unit_m};
 }
 
-failure::Expected<SideLevel> parse_side_level(std::span<const std::byte> side, CellPlace place, int reduction,
-                                              const std::string& subject) {
+error::Expected<SideLevel> parse_side_level(std::span<const std::byte> side, CellPlace place, int reduction,
+                                            const std::string& subject) {
   Words words(side.data() + kMagic.size() + 4);
   const int rows = static_cast<int>(words.next());
   const int columns = static_cast<int>(words.next());
@@ -256,7 +256,7 @@ failure::Expected<SideLevel> parse_side_level(std::span<const std::byte> side, C
   const std::size_t peaks = table.next();
   if (plain != mark_bytes(sides, reduction) || at > side.size() || marks > side.size() - at ||
       peaks > side.size() - at - marks)
-    return failure::fail(subject, "sections inside the file", "one beyond its end", "pack the cell again");
+    return error::fail(subject, "sections inside the file", "one beyond its end", "pack the cell again");
   const auto unpacked = inflated(side.subspan(at, marks), plain, subject);
   if (!unpacked) return tl::unexpected(unpacked.error());
   std::span<const std::byte> rest = *unpacked;

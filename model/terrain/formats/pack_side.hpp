@@ -30,7 +30,7 @@ struct SideLevel {
 };
 
 // `jp2` is the file that it will stand beside. Errors: the coder fails.
-failure::Expected<std::vector<std::byte>> side_bytes(const Cell& cell, int reductions, std::span<const std::byte> jp2);
+error::Expected<std::vector<std::byte>> side_bytes(const Cell& cell, int reductions, std::span<const std::byte> jp2);
 
 struct SideHead {
   int rows = 0;
@@ -40,11 +40,11 @@ struct SideHead {
 };
 
 // Checks all but the level's own contents. Errors: another magic or version, damage, a side of another .jp2.
-failure::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std::span<const std::byte> jp2,
-                                            const std::string& subject);
+error::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std::span<const std::byte> jp2,
+                                          const std::string& subject);
 
 // Requires a side that parse_side_head() accepted and reduction <= its reductions.
-failure::Expected<SideLevel> parse_side_level(std::span<const std::byte> side, CellPlace place, int reduction,
-                                              const std::string& subject);
+error::Expected<SideLevel> parse_side_level(std::span<const std::byte> side, CellPlace place, int reduction,
+                                            const std::string& subject);
 
 }  // namespace yars::model::terrain

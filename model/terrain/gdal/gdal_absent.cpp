@@ -8,9 +8,9 @@ namespace yars::model::terrain::gdal {
 
 namespace {
 
-tl::unexpected<failure::Error> built_without(const std::filesystem::path& path) {
-  return failure::fail(path.string(), "a YARS built with GDAL to read this raster", "one built without it",
-                       "run `scripts/setup --gdal` and build again");
+tl::unexpected<error::Error> built_without(const std::filesystem::path& path) {
+  return error::fail(path.string(), "a YARS built with GDAL to read this raster", "one built without it",
+                     "run `scripts/setup --gdal` and build again");
 }
 
 }  // namespace
@@ -19,25 +19,25 @@ bool available() {
   return false;
 }
 
-failure::Expected<RasterSummary> describe_raster(const std::filesystem::path& path) {
+error::Expected<RasterSummary> describe_raster(const std::filesystem::path& path) {
   return built_without(path);
 }
 
-failure::Expected<RasterPosts> read_raster(const std::filesystem::path& path, int /*south_deg*/, int /*west_deg*/,
-                                           int /*posts_per_degree_north*/, int /*posts_per_degree_east*/) {
+error::Expected<RasterPosts> read_raster(const std::filesystem::path& path, int /*south_deg*/, int /*west_deg*/,
+                                         int /*posts_per_degree_north*/, int /*posts_per_degree_east*/) {
   return built_without(path);
 }
 
-failure::Expected<std::optional<RasterFacts>> survey_raster(const std::filesystem::path& path,
-                                                            const std::function<void(double)>& /*progress*/) {
+error::Expected<std::optional<RasterFacts>> survey_raster(const std::filesystem::path& path,
+                                                          const std::function<void(double)>& /*progress*/) {
   return built_without(path);
 }
 
 // In place of map_writer.cpp in a build without GDAL.
 
-failure::Expected<void> write_map(const std::filesystem::path& path, const MapPicture& /*picture*/) {
-  return failure::fail(path.string(), "a YARS built with GDAL to write a GeoTIFF", "one built without it",
-                       "run `scripts/setup --gdal` and build again, or write a .png");
+error::Expected<void> write_map(const std::filesystem::path& path, const MapPicture& /*picture*/) {
+  return error::fail(path.string(), "a YARS built with GDAL to write a GeoTIFF", "one built without it",
+                     "run `scripts/setup --gdal` and build again, or write a .png");
 }
 
 }  // namespace yars::model::terrain::gdal

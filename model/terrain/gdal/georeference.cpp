@@ -85,14 +85,14 @@ Axes axes_of(PJ_CONTEXT* context, PJ* system) {
 
 }  // namespace
 
-failure::Expected<Georeference> Georeference::of(GDALDatasetH dataset, const std::string& subject) {
+error::Expected<Georeference> Georeference::of(GDALDatasetH dataset, const std::string& subject) {
   Georeference georeference;
   if (GDALGetGeoTransform(dataset, georeference.data_from_pixel_.data()) != CE_None ||
       GDALGetSpatialRef(dataset) == nullptr)
-    return failure::fail(subject, "a coordinate system and a geotransform", "none",
-                         "give it one with gdal_translate -a_srs -a_ullr");
+    return error::fail(subject, "a coordinate system and a geotransform", "none",
+                       "give it one with gdal_translate -a_srs -a_ullr");
   if (GDALInvGeoTransform(georeference.data_from_pixel_.data(), georeference.pixel_from_data_.data()) == 0)
-    return failure::fail(subject, "a geotransform that spans a plane", "one that does not", kWarpIt);
+    return error::fail(subject, "a geotransform that spans a plane", "one that does not", kWarpIt);
   georeference.width_ = GDALGetRasterXSize(dataset);
   georeference.height_ = GDALGetRasterYSize(dataset);
   georeference.context_.reset(proj_context_create());
@@ -102,7 +102,7 @@ failure::Expected<Georeference> Georeference::of(GDALDatasetH dataset, const std
   return georeference;
 }
 
-failure::Expected<void> Georeference::read_system(GDALDatasetH dataset, const std::string& subject) {
+error::Expected<void> Georeference::read_system(GDALDatasetH dataset, const std::string& subject) {
   const OGRSpatialReferenceH reference = GDALGetSpatialRef(dataset);
   int count = 0;
   const int* const mapping = OSRGetDataAxisToSRSAxisMapping(reference, &count);
@@ -110,7 +110,7 @@ failure::Expected<void> Georeference::read_system(GDALDatasetH dataset, const st
     axis_ = {mapping[0], mapping[1]};
   PJ_CONTEXT* const context = context_.get();
   const Projection whole(proj_create(context, well_known_text(reference).c_str()));
-  if (!whole) return failure::fail(subject, "a coordinate system that PROJ knows", "one that it does not", kWarpIt);
+  if (!whole) return error::fail(subject, "a coordinate system that PROJ knows", "one that it does not", kWarpIt);
   Projection horizontal, vertical;
   if (proj_get_type(whole.get()) == PJ_TYPE_COMPOUND_CRS) {
     horizontal.reset(proj_crs_get_sub_crs(context, whole.get(), 0));
@@ -118,7 +118,7 @@ failure::Expected<void> Georeference::read_system(GDALDatasetH dataset, const st
   } else {
     horizontal = changed(context, whole.get(), OSRDemoteTo2D);
   }
-  if (!horizontal) return failure::fail(subject, "a coordinate system on the earth", name_of(whole.get()), kWarpIt);
+  if (!horizontal) return error::fail(subject, "a coordinate system on the earth", name_of(whole.get()), kWarpIt);
   if (const auto found = find_way(horizontal.get(), subject); !found) return found;
   find_turn(horizontal.get());
   const Axes axes = axes_of(context, whole.get());
@@ -126,29 +126,29 @@ failure::Expected<void> Georeference::read_system(GDALDatasetH dataset, const st
     metres_of_a_unit_ = axes.axes[2].unit;
     return find_geoid(horizontal.get(), subject);
   }
-  return vertical ? read_vertical(vertical.get(), horizontal.get(), subject) : failure::Expected<void>{};
+  return vertical ? read_vertical(vertical.get(), horizontal.get(), subject) : error::Expected<void>{};
 }
 
-failure::Expected<void> Georeference::read_vertical(PJ* vertical, PJ* horizontal, const std::string& subject) {
+error::Expected<void> Georeference::read_vertical(PJ* vertical, PJ* horizontal, const std::string& subject) {
   const Axes axes = axes_of(context_.get(), vertical);
   if (axes.count > 0) {
     metres_of_a_unit_ = axes.axes[0].unit;
     points_down_ = axes.axes[0].direction == "down";
   }
-  return says_ellipsoid(name_of(vertical)) ? find_geoid(horizontal, subject) : failure::Expected<void>{};
+  return says_ellipsoid(name_of(vertical)) ? find_geoid(horizontal, subject) : error::Expected<void>{};
 }
 
-failure::Expected<void> Georeference::find_geoid(PJ* horizontal, const std::string& subject) {
+error::Expected<void> Georeference::find_geoid(PJ* horizontal, const std::string& subject) {
   const Projection spatial = changed(context_.get(), horizontal, OSRPromoteTo3D);
   const Projection above_sea(proj_create(context_.get(), "EPSG:4326+5773"));
   Found found = spatial && above_sea ? operation_between(context_.get(), spatial.get(), above_sea.get(),
                                                          net_of_pixels(), Ways::exact_only)
                                      : Found{};
   if (!found.operation)
-    return failure::fail(subject, "heights above mean sea level",
-                         "heights above the ellipsoid, and no geoid (EGM96) that PROJ has",
-                         "install proj-data, or make them heights above mean sea level with gdalwarp -t_srs "
-                         "EPSG:4326+5773");
+    return error::fail(subject, "heights above mean sea level",
+                       "heights above the ellipsoid, and no geoid (EGM96) that PROJ has",
+                       "install proj-data, or make them heights above mean sea level with gdalwarp -t_srs "
+                       "EPSG:4326+5773");
   geoid_ = std::move(found.operation);
   warnings_.push_back(
       "heights are above the ellipsoid; by the geoid EGM96 they are made heights above mean sea level, " +
@@ -170,7 +170,7 @@ Net Georeference::net_of_pixels() const {
   return net;
 }
 
-failure::Expected<void> Georeference::find_way(PJ* horizontal, const std::string& subject) {
+error::Expected<void> Georeference::find_way(PJ* horizontal, const std::string& subject) {
   PJ_CONTEXT* const context = context_.get();
   const Projection wgs84(proj_create(context, "EPSG:4326"));
   if (proj_is_equivalent_to_with_ctx(context, horizontal, wgs84.get(), PJ_COMP_EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS) !=
@@ -180,8 +180,8 @@ failure::Expected<void> Georeference::find_way(PJ* horizontal, const std::string
   }
   Found found = operation_between(context, horizontal, wgs84.get(), net_of_pixels(), Ways::all);
   if (!found.operation)
-    return failure::fail(subject, "a raster that lies on the earth",
-                         "coordinates of " + name_of(horizontal) + " that PROJ cannot bring to WGS84", kWarpIt);
+    return error::fail(subject, "a raster that lies on the earth",
+                       "coordinates of " + name_of(horizontal) + " that PROJ cannot bring to WGS84", kWarpIt);
   to_wgs84_ = std::move(found.operation);
   if (!found.warning.empty()) warnings_.push_back(name_of(horizontal) + ": " + found.warning);
   return {};

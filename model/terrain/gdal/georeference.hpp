@@ -14,21 +14,21 @@
 
 namespace yars::model::terrain::gdal {
 
+struct EarthPlace {
+  double longitude_deg, latitude_deg;
+};
+
 // Where the pixels of a raster lie on the earth: WGS84 by PROJ, from whatever system the raster states (other datums,
 // units, meridians and axes; projections). Where PROJ knows several ways there, the best that it can compute over the
 // whole raster serves all of it; a ballpark, or a better way whose grid is not installed, becomes a warning.
 // Pixels are counted from the corner of the first: its middle is 0.5, 0.5. Rows and columns may lie in any way.
 // Private to this folder; one object serves one thread.
-struct EarthPlace {
-  double longitude_deg, latitude_deg;
-};
-
 class Georeference {
  public:
   // Errors: no geotransform, no coordinate system, one that PROJ cannot bring to WGS84, ellipsoidal heights without a
   // geoid that PROJ has.
   Georeference() = default;
-  static failure::Expected<Georeference> of(GDALDatasetH dataset, const std::string& subject);
+  static error::Expected<Georeference> of(GDALDatasetH dataset, const std::string& subject);
 
   // True if columns are meridians and rows are parallels of WGS84.
   bool is_plain() const { return !to_wgs84_ && pixel_from_data_[2] == 0.0 && pixel_from_data_[4] == 0.0; }
@@ -50,10 +50,10 @@ class Georeference {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
-  failure::Expected<void> read_system(GDALDatasetH dataset, const std::string& subject);
-  failure::Expected<void> read_vertical(PJ* vertical, PJ* horizontal, const std::string& subject);
-  failure::Expected<void> find_geoid(PJ* horizontal, const std::string& subject);
-  failure::Expected<void> find_way(PJ* horizontal, const std::string& subject);
+  error::Expected<void> read_system(GDALDatasetH dataset, const std::string& subject);
+  error::Expected<void> read_vertical(PJ* vertical, PJ* horizontal, const std::string& subject);
+  error::Expected<void> find_geoid(PJ* horizontal, const std::string& subject);
+  error::Expected<void> find_way(PJ* horizontal, const std::string& subject);
   Net net_of_pixels() const;
   void find_turn(PJ* horizontal);
   void take_as_wgs84(bool longitude_first);
@@ -74,9 +74,6 @@ class Georeference {
   int width_ = 0, height_ = 0;
   std::vector<std::string> warnings_;
 };
-
-// Where the posts of a part of a cell lie in a raster: exact every few posts, linear between (off by less than a
-// hundredth of a pixel: a projection bends little over so short a way). Private to this folder.
 
 // A cell of one degree.
 struct Grid {
@@ -103,6 +100,8 @@ struct PixelBounds {
   double left, right, top, bottom;  // [pixels]
 };
 
+// Where the posts of a part of a cell lie in a raster: exact every few posts, linear between (off by less than a
+// hundredth of a pixel: a projection bends little over so short a way). Private to this folder.
 class PostLattice {
  public:
   PostLattice(const Georeference& georeference, const Grid& grid, const PostBox& box);

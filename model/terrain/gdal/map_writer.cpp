@@ -76,7 +76,7 @@ bool fill(GDALDatasetH dataset, const MapPicture& picture) {
 
 }  // namespace
 
-failure::Expected<void> write_map(const std::filesystem::path& path, const MapPicture& picture) {
+error::Expected<void> write_map(const std::filesystem::path& path, const MapPicture& picture) {
   const MessageKeeper messages;
   GDALDriverH const driver = GDALGetDriverByName("GTiff");
   const bool bytes = std::holds_alternative<std::vector<std::uint8_t>>(picture.pixels);
@@ -88,7 +88,7 @@ failure::Expected<void> write_map(const std::filesystem::path& path, const MapPi
   const bool filled = dataset != nullptr && fill(dataset.get(), picture);
   dataset.reset();  // what is buffered is written at the latest by this
   if (filled && messages.first_or("").empty()) return file::write_file(path, memory.bytes());
-  return failure::fail(path.string(), "a GeoTIFF that can be made", messages.first_or("a failure of GDAL"));
+  return error::fail(path.string(), "a GeoTIFF that can be made", messages.first_or("a failure of GDAL"));
 }
 
 }  // namespace yars::model::terrain::gdal

@@ -28,6 +28,6 @@ struct MapPicture {
 };
 
 // Errors: the file cannot be written; nothing is left of it then.
-failure::Expected<void> write_map(const std::filesystem::path& path, const MapPicture& picture);
+error::Expected<void> write_map(const std::filesystem::path& path, const MapPicture& picture);
 
 }  // namespace yars::model::terrain::gdal

@@ -96,11 +96,11 @@ MessageKeeper::~MessageKeeper() {
   CPLPopErrorHandler();
 }
 
-failure::Expected<Raster> open_raster(const std::filesystem::path& path) {
+error::Expected<Raster> open_raster(const std::filesystem::path& path) {
   const std::string subject = path.string();
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
-    return failure::fail(subject, "a raster of heights in a plain file", code ? code.message() : "not a plain file");
+    return error::fail(subject, "a raster of heights in a plain file", code ? code.message() : "not a plain file");
   const MessageKeeper messages;
   // An absolute path: GDAL takes no part of it for a driver's prefix or one of its virtual folders.
   Raster raster;
@@ -109,10 +109,10 @@ failure::Expected<Raster> open_raster(const std::filesystem::path& path) {
                                   nullptr));
   GDALDatasetH const dataset = raster.dataset.get();
   if (dataset == nullptr)
-    return failure::fail(subject, "a raster of heights in a plain file (GeoTIFF, JPEG 2000, Erdas Imagine, ...)",
-                         messages.first_or("one that GDAL does not open"));
+    return error::fail(subject, "a raster of heights in a plain file (GeoTIFF, JPEG 2000, Erdas Imagine, ...)",
+                       messages.first_or("one that GDAL does not open"));
   if (!holds_heights(dataset))
-    return failure::fail(subject, "one band of heights, 16 bits or more", bands_of(dataset), "this is a picture");
+    return error::fail(subject, "one band of heights, 16 bits or more", bands_of(dataset), "this is a picture");
   raster.subject = subject;
   raster.heights = GDALGetRasterBand(dataset, 1);
   raster.columns = GDALGetRasterXSize(dataset);
@@ -197,7 +197,7 @@ class Means {
 
 }  // namespace
 
-failure::Expected<std::vector<float>> read_heights(const Raster& raster, const Box& pixels) {
+error::Expected<std::vector<float>> read_heights(const Raster& raster, const Box& pixels) {
   const MessageKeeper messages;
   std::vector<float> heights(pixels.area());
   std::vector<std::uint8_t> valid(raster.masked ? heights.size() : 0);
@@ -207,16 +207,15 @@ failure::Expected<std::vector<float>> read_heights(const Raster& raster, const B
   };
   if (!read(raster.heights, heights.data(), GDT_Float32) ||
       (raster.masked && !read(GDALGetMaskBand(raster.heights), valid.data(), GDT_Byte)))
-    return failure::fail(raster.subject, "heights that can be read", messages.first_or("a failure of GDAL"),
-                         "the file may be damaged; fetch it again");
+    return error::fail(raster.subject, "heights that can be read", messages.first_or("a failure of GDAL"),
+                       "the file may be damaged; fetch it again");
   std::transform(heights.begin(), heights.end(), heights.begin(), Judge(raster));
   for (std::size_t i = 0; i < valid.size(); ++i)
     if (valid[i] == 0) heights[i] = kNothing;
   return heights;
 }
 
-failure::Expected<HeightWindow> read_window(const Raster& raster, BlockSize size, const Box& blocks,
-                                            const Box& counted) {
+error::Expected<HeightWindow> read_window(const Raster& raster, BlockSize size, const Box& blocks, const Box& counted) {
   Means means(size, blocks, counted);
   Box pixels;
   pixels.first_column = blocks.first_column * size.across;

@@ -15,8 +15,6 @@
 
 namespace yars::model::terrain::gdal {
 
-// Opens a raster of heights with GDAL: one band, its place on the earth, and what makes metres of its numbers.
-// GDAL's own messages become part of the error; nothing goes to stderr. Private to this folder.
 struct CloseDataset {
   void operator()(GDALDatasetH dataset) const { GDALClose(dataset); }
 };
@@ -50,8 +48,10 @@ struct Raster {
   bool whole_metres = false;          // its numbers are metres without fractions
 };
 
+// Opens a raster of heights with GDAL: one band, its place on the earth, and what makes metres of its numbers.
+// GDAL's own messages become part of the error; nothing goes to stderr. Private to this folder.
 // `path` must be a plain file.
-failure::Expected<Raster> open_raster(const std::filesystem::path& path);
+error::Expected<Raster> open_raster(const std::filesystem::path& path);
 
 // A part of a raster as heights in metres, every number judged before anything is made of it.
 // Private to this folder.
@@ -65,7 +65,7 @@ struct Box {
 
 // Pixels as heights [m], row by row. NaN: no data. Infinite: a number that only looks like a height: below -12,000 m,
 // above 10,000 m, and -32768, -32767 and -9999, which makers of rasters write for no data without saying so.
-failure::Expected<std::vector<float>> read_heights(const Raster& raster, const Box& pixels);
+error::Expected<std::vector<float>> read_heights(const Raster& raster, const Box& pixels);
 
 // Blocks of pixels, from the raster's own first pixel on.
 struct BlockSize {
@@ -84,7 +84,6 @@ struct HeightWindow {
 };
 
 // Of impossible pixels those in blocks of `counted` are counted.
-failure::Expected<HeightWindow> read_window(const Raster& raster, BlockSize size, const Box& blocks,
-                                            const Box& counted);
+error::Expected<HeightWindow> read_window(const Raster& raster, BlockSize size, const Box& blocks, const Box& counted);
 
 }  // namespace yars::model::terrain::gdal

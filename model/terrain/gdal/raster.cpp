@@ -15,8 +15,7 @@
 
 namespace yars::model::terrain::gdal {
 
-// Heights as the whole numbers that a cell holds. Private to this folder.
-
+// Heights as the whole numbers that a cell holds.
 // Begins with the finest unit and takes the next coarser one when a height does not fit: what is there then is rounded
 // again.
 class CellPosts {
@@ -86,7 +85,7 @@ class CellReader {
   CellReader(const Raster& raster, const Grid& grid, bool pixels)
       : raster_(raster), grid_(grid), pixels_(pixels), posts_(grid.rows, grid.columns, pixels && raster.whole_metres) {}
 
-  failure::Expected<RasterPosts> read() {
+  error::Expected<RasterPosts> read() {
     size_ = block_size();
     for (int row = 0; row < grid_.rows; row += kTile)
       for (int column = 0; column < grid_.columns; column += kTile)
@@ -112,7 +111,7 @@ class CellReader {
   int block_columns() const { return (raster_.columns + size_.across - 1) / size_.across; }
   int block_rows() const { return (raster_.rows + size_.along - 1) / size_.along; }
 
-  failure::Expected<void> read_tile(int first_row, int first_column) {
+  error::Expected<void> read_tile(int first_row, int first_column) {
     const PostLattice lattice(raster_.georeference, grid_,
                               {first_row, first_column, std::min(kTile, grid_.rows - 1 - first_row),
                                std::min(kTile, grid_.columns - 1 - first_column)});
@@ -234,17 +233,17 @@ bool available() {
   return true;
 }
 
-failure::Expected<RasterSummary> describe_raster(const std::filesystem::path& path) {
+error::Expected<RasterSummary> describe_raster(const std::filesystem::path& path) {
   const auto raster = open_raster(path);
   if (!raster) return tl::unexpected(raster.error());
   RasterSummary summary{cells_of(*raster)};
   if (summary.cells.empty())
-    return failure::fail(path.string(), "a raster of several pixels", "one that touches no cell of a degree");
+    return error::fail(path.string(), "a raster of several pixels", "one that touches no cell of a degree");
   return summary;
 }
 
-failure::Expected<RasterPosts> read_raster(const std::filesystem::path& path, int south_deg, int west_deg,
-                                           int posts_per_degree_north, int posts_per_degree_east) {
+error::Expected<RasterPosts> read_raster(const std::filesystem::path& path, int south_deg, int west_deg,
+                                         int posts_per_degree_north, int posts_per_degree_east) {
   const auto raster = open_raster(path);
   if (!raster) return tl::unexpected(raster.error());
   const Grid grid{south_deg, west_deg, posts_per_degree_north + 1, posts_per_degree_east + 1};

@@ -17,30 +17,17 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
+#include "model/terrain/gdal/raster_cover.hpp"
 
 namespace yars::model::terrain::gdal {
 
 inline constexpr std::int16_t kNoHeight = -32768;
-inline constexpr int kMostPostsPerDegree = 7200;  // 0.5 arc seconds: a cell of finer posts would not fit in memory
 
 // False where YARS was built without GDAL.
 bool available();
 
-struct RasterCell {
-  int south_deg = 0;
-  int west_deg = 0;
-  double covered = 0.0;  // (0, 1] share of the degree that the raster spans
-  // The raster's own posts where they are the cell's too; else twice as fine or more.
-  int posts_per_degree_north = 0;
-  int posts_per_degree_east = 0;
-};
-
-struct RasterSummary {
-  std::vector<RasterCell> cells;  // that the raster touches by more than a quarter of a pixel
-};
-
 // From the header alone.
-failure::Expected<RasterSummary> describe_raster(const std::filesystem::path& path);
+error::Expected<RasterSummary> describe_raster(const std::filesystem::path& path);
 
 struct RasterPosts {
   int rows = 0;
@@ -52,7 +39,7 @@ struct RasterPosts {
 };
 
 // The posts of one degree, so many intervals a side; coarser than the raster: of means over half a post or less.
-failure::Expected<RasterPosts> read_raster(const std::filesystem::path& path, int south_deg, int west_deg,
-                                           int posts_per_degree_north, int posts_per_degree_east);
+error::Expected<RasterPosts> read_raster(const std::filesystem::path& path, int south_deg, int west_deg,
+                                         int posts_per_degree_north, int posts_per_degree_east);
 
 }  // namespace yars::model::terrain::gdal

@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "model/terrain/gdal/open_raster.hpp"
+
 namespace yars::model::terrain::gdal {
 
 namespace {

@@ -1,12 +1,27 @@
-// Which cells a raster touches, how much of each it spans, and how fine their posts have to be. Private to this folder.
+// Which cells a raster touches, how much of each it spans, and how fine their posts have to be.
 #pragma once
 
 #include <vector>
 
-#include "model/terrain/gdal/open_raster.hpp"
-#include "model/terrain/gdal/raster.hpp"
-
 namespace yars::model::terrain::gdal {
+
+inline constexpr int kMostPostsPerDegree = 7200;  // 0.5 arc seconds: a cell of finer posts would not fit in memory
+
+struct RasterCell {
+  int south_deg = 0;
+  int west_deg = 0;
+  double covered = 0.0;  // (0, 1] share of the degree that the raster spans
+  // The raster's own posts where they are the cell's too; else twice as fine or more.
+  int posts_per_degree_north = 0;
+  int posts_per_degree_east = 0;
+};
+
+struct RasterSummary {
+  std::vector<RasterCell> cells;  // that the raster touches by more than a quarter of a pixel
+};
+
+// What follows is private to this folder.
+struct Raster;
 
 // From the header alone. Empty: it touches none.
 std::vector<RasterCell> cells_of(const Raster& raster);

@@ -74,7 +74,7 @@ class Survey {
     for (const RasterCell& cell : cells_of(raster)) facts_[{cell.south_deg, cell.west_deg}] = {};
   }
 
-  failure::Expected<RasterFacts> run(const std::function<void(double)>& progress) {
+  error::Expected<RasterFacts> run(const std::function<void(double)>& progress) {
     const int rows_at_once = std::clamp((1 << 22) / raster_.columns, 1, raster_.rows);
     for (int row = 0; row < raster_.rows; row += rows_at_once) {
       const Box box{0, row, raster_.columns, std::min(rows_at_once, raster_.rows - row)};
@@ -120,8 +120,8 @@ class Survey {
 
 }  // namespace
 
-failure::Expected<std::optional<RasterFacts>> survey_raster(const std::filesystem::path& path,
-                                                            const std::function<void(double)>& progress) {
+error::Expected<std::optional<RasterFacts>> survey_raster(const std::filesystem::path& path,
+                                                          const std::function<void(double)>& progress) {
   const auto raster = open_raster(path);
   if (!raster) return tl::unexpected(raster.error());
   if (!raster->georeference.is_plain()) return std::nullopt;

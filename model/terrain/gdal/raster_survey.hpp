@@ -29,7 +29,7 @@ struct RasterFacts {
 
 // Nothing where the raster's rows and columns are no parallels and meridians of WGS84. `progress` gets the share that
 // is done, (0, 1]. Errors: those of raster.hpp.
-failure::Expected<std::optional<RasterFacts>> survey_raster(const std::filesystem::path& path,
-                                                            const std::function<void(double)>& progress);
+error::Expected<std::optional<RasterFacts>> survey_raster(const std::filesystem::path& path,
+                                                          const std::function<void(double)>& progress);
 
 }  // namespace yars::model::terrain::gdal

@@ -25,12 +25,8 @@ Surface interpolate(const Cell& cell, double north_deg, double east_deg,
 // A cell on another grid of the same degree: box means as long as the old intervals are a multiple of the new ones
 // (as reduce_by), bilinear else. Both keep edges equal for neighbours whose edges are equal. Sea and voids as in
 // cell.hpp, and the unit stays: at exactly 0 m only where more than half is sea; void only where all posts taken are.
-
 // Requires rows, columns >= 2.
 Cell resample(const Cell& cell, int rows, int columns);
-
-// A view over a set of cells: what DirectoryTerrainStore hands out. Lookup is a table over all cells of the earth.
-// surfaces() goes by runs of places in one cell; its result at a place does not depend on the others.
 
 // What stands in a cell's slot where no cell is in memory.
 enum class Absence : std::uint8_t {
@@ -46,6 +42,8 @@ struct TerrainCell {
   std::shared_ptr<const Culture> culture;  // null: none given
 };
 
+// A view over a set of cells: what DirectoryTerrainStore hands out. Lookup is a table over all cells of the earth.
+// surfaces() goes by runs of places in one cell; its result at a place does not depend on the others.
 class CellView final : public TerrainView {
  public:
   // `elsewhere` holds where neither set_absence nor add says otherwise.

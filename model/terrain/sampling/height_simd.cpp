@@ -8,6 +8,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "model/terrain/sampling/height_simd.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 // Behind highway.h, or it would have no target yet.
@@ -222,11 +223,6 @@ std::size_t places_alike(const float* cells_north, const float* cells_east, std:
   }
   return count;
 }
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-using FloatLanes = hn::CappedTag<float, kRunSlack>;
-using WholeLanes = hn::RebindToSigned<FloatLanes>;
 
 // The nearest post; half up, as std::lround does with what is not negative. Not a number counts as 0: what lies in the
 // slack must not lead anywhere.

@@ -15,11 +15,6 @@
 
 namespace yars::model::terrain {
 
-// Terrain as the kernel reads it: immutable, in memory, made by prepare() on a loader's thread and read by
-// compute() on any number of threads. A change of terrain is a new view with a higher generation.
-
-class Cell;
-
 // A part of the earth between two parallels and two meridians. West is less than east, which may be beyond 180.
 struct GeoBox {
   double south_deg = 0.0, north_deg = 0.0;
@@ -74,6 +69,8 @@ struct RaySight {
 };
 inline constexpr float kNoTangent = -1.0e30F;  // of an elevation angle: below every ground
 
+// Terrain as the kernel reads it: immutable, in memory, made by prepare() on a loader's thread and read by
+// compute() on any number of threads. A change of terrain is a new view with a higher generation.
 class TerrainView {
  public:
   using Interpolation = radar::Interpolation;

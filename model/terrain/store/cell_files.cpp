@@ -48,7 +48,7 @@ std::optional<CellPlace> place_named(std::string_view latitude, std::string_view
   return CellPlace{*south_deg, *west_deg};
 }
 
-failure::Expected<CellReading> read_whole(const CellFile& file, CellPlace place) {
+error::Expected<CellReading> read_whole(const CellFile& file, CellPlace place) {
   switch (file.format) {
     case CellFormat::dted:
       return read_dted(file.path, place);
@@ -61,7 +61,7 @@ failure::Expected<CellReading> read_whole(const CellFile& file, CellPlace place)
   }
 }
 
-failure::Expected<CellReading> reduced(failure::Expected<CellReading> reading, int reduction) {
+error::Expected<CellReading> reduced(error::Expected<CellReading> reading, int reduction) {
   if (!reading || reduction == 0) return reading;
   ReducedCell coarse = reduce(reading->cell, reduction);
   reading->cell = std::move(coarse.means);
@@ -73,7 +73,7 @@ struct PostsPerDegree {
   int north = 0, east = 0;
 };
 
-failure::Expected<PostsPerDegree> posts_of(const CellFile& file, CellPlace place) {
+error::Expected<PostsPerDegree> posts_of(const CellFile& file, CellPlace place) {
   if (file.posts_per_degree > 0 && file.posts_per_degree_east > 0)
     return PostsPerDegree{file.posts_per_degree, file.posts_per_degree_east};
   const auto summary = gdal::describe_raster(file.path);
@@ -81,13 +81,13 @@ failure::Expected<PostsPerDegree> posts_of(const CellFile& file, CellPlace place
   for (const gdal::RasterCell& cell : summary->cells)
     if (CellPlace{cell.south_deg, cell.west_deg} == place)
       return PostsPerDegree{cell.posts_per_degree_north, cell.posts_per_degree_east};
-  return failure::fail(file.path.string(),
-                       "a raster that touches the cell with the south-west corner " + std::to_string(place.south_deg) +
-                           ", " + std::to_string(place.west_deg),
-                       "one that lies elsewhere");
+  return error::fail(file.path.string(),
+                     "a raster that touches the cell with the south-west corner " + std::to_string(place.south_deg) +
+                         ", " + std::to_string(place.west_deg),
+                     "one that lies elsewhere");
 }
 
-failure::Expected<CellReading> read_raster_cell(const CellFile& file, CellPlace place, int reduction) {
+error::Expected<CellReading> read_raster_cell(const CellFile& file, CellPlace place, int reduction) {
   static_assert(gdal::kNoHeight == kVoidPost);
   const auto whole = posts_of(file, place);
   if (!whole) return tl::unexpected(whole.error());
@@ -144,7 +144,7 @@ bool is_virtual_raster_name(const std::filesystem::path& path) {
   return lower_case(path.extension().string()) == ".vrt";
 }
 
-failure::Expected<CellReading> read_cell(const CellFile& file, CellPlace place, int reduction) {
+error::Expected<CellReading> read_cell(const CellFile& file, CellPlace place, int reduction) {
   YARS_REQUIRE(reduction, >=, 0);
   if (file.format == CellFormat::pack) return read_pack(file.path, place, reduction);
   if (file.format == CellFormat::raster) return read_raster_cell(file, place, reduction);
@@ -194,17 +194,17 @@ CellFile described(const std::filesystem::path& path, const NamedCell& named) {
 }
 
 // The cells of a file whose header tells them; its error where it cannot be used.
-failure::Expected<void> offer_ded(const std::filesystem::path& path, DirectoryIndex& index) {
+error::Expected<void> offer_ded(const std::filesystem::path& path, DirectoryIndex& index) {
   const auto cells = ded_cells(path);
   if (!cells) return tl::unexpected(cells.error());
   for (const DedCell& cell : *cells) offer(cell.place, {path, CellFormat::ded, cell.rows - 1, cell.columns - 1}, index);
   return {};
 }
 
-failure::Expected<void> offer_raster(const std::filesystem::path& path, DirectoryIndex& index) {
+error::Expected<void> offer_raster(const std::filesystem::path& path, DirectoryIndex& index) {
   if (is_virtual_raster_name(path))
-    return failure::fail(path.string(), "a raster that holds its own heights",
-                         "a .vrt, which may name any file or address", "make a GeoTIFF of it with gdal_translate");
+    return error::fail(path.string(), "a raster that holds its own heights",
+                       "a .vrt, which may name any file or address", "make a GeoTIFF of it with gdal_translate");
   const auto raster = gdal::describe_raster(path);
   if (!raster) return tl::unexpected(raster.error());
   for (const gdal::RasterCell& cell : raster->cells)
@@ -235,8 +235,8 @@ std::optional<std::string> closed_folder(const std::filesystem::directory_entry&
   if (!entry.is_directory(code) || entry.is_symlink(code)) return std::nullopt;
   const std::filesystem::directory_iterator look(entry.path(), code);
   if (!code) return std::nullopt;
-  return failure::Error{entry.path().string(), "a folder that can be read", lower_first(code.message()),
-                        "check its permissions", false}
+  return error::Error{entry.path().string(), "a folder that can be read", lower_first(code.message()),
+                      "check its permissions", false}
       .message();
 }
 
@@ -253,12 +253,12 @@ void offer_file(const std::filesystem::path& path, DirectoryIndex& index, std::v
 
 }  // namespace
 
-failure::Expected<DirectoryIndex> index_directory(const std::filesystem::path& directory,
-                                                  std::vector<std::string>* problems) {
+error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& directory,
+                                                std::vector<std::string>* problems) {
   std::error_code code;
   if (!std::filesystem::is_directory(directory, code))
-    return failure::fail(directory.string(), "a directory with elevation cells", code ? code.message() : "no directory",
-                         "make one with `yars terrain generate --out DIR`");
+    return error::fail(directory.string(), "a directory with elevation cells", code ? code.message() : "no directory",
+                       "make one with `yars terrain generate --out DIR`");
   DirectoryIndex index;
   std::vector<std::string> found;
   const std::filesystem::path root = std::filesystem::weakly_canonical(directory, code);
@@ -272,25 +272,25 @@ failure::Expected<DirectoryIndex> index_directory(const std::filesystem::path& d
     if (!leads_anywhere_out(entry->path(), root))
       offer_file(entry->path(), index, found);
     else
-      found.push_back(failure::Error{entry->path().string(), "a file inside " + root.string(), "a link that leads out",
-                                     "copy the cell there, or give the folder that it lies in", false}
+      found.push_back(error::Error{entry->path().string(), "a file inside " + root.string(), "a link that leads out",
+                                   "copy the cell there, or give the folder that it lies in", false}
                           .message());
   }
   if (code)
-    return failure::fail(directory.string(), "a directory that can be read", lower_first(code.message()),
-                         "check its permissions");
+    return error::fail(directory.string(), "a directory that can be read", lower_first(code.message()),
+                       "check its permissions");
   std::sort(found.begin(), found.end());
   if (index.empty() && !found.empty())
-    return failure::fail(directory.string(), "elevation cells that can be used",
-                         "none; of " + std::to_string(found.size()) + " the first: " + found.front());
+    return error::fail(directory.string(), "elevation cells that can be used",
+                       "none; of " + std::to_string(found.size()) + " the first: " + found.front());
   if (index.empty())
-    return failure::fail(directory.string(), "elevation cells named like w122/n36.dt1 or N36W122.hgt", "none",
-                         "give another directory or make cells with `yars terrain generate`");
+    return error::fail(directory.string(), "elevation cells named like w122/n36.dt1 or N36W122.hgt", "none",
+                       "give another directory or make cells with `yars terrain generate`");
   if (problems != nullptr) problems->insert(problems->end(), found.begin(), found.end());
   return index;
 }
 
-failure::Expected<DirectoryIndex> index_file(const std::filesystem::path& path) {
+error::Expected<DirectoryIndex> index_file(const std::filesystem::path& path) {
   DirectoryIndex index;
   const auto length = file_length(path);
   if (!length) return tl::unexpected(length.error());

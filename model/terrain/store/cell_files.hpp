@@ -45,14 +45,13 @@ bool is_virtual_raster_name(const std::filesystem::path& path);  // .vrt: refuse
 // Reads a cell by the reader of its format, at every 2^reduction-th post: see cell.hpp for what that means and for
 // CellReading::peaks, which reduction 0 does not have. Packs decode no more than they have to; rasters finer than an
 // arc second are smoothed to that first when reduced; all others are read whole. Requires reduction >= 0.
-failure::Expected<CellReading> read_cell(const CellFile& file, CellPlace place, int reduction = 0);
+error::Expected<CellReading> read_cell(const CellFile& file, CellPlace place, int reduction = 0);
 
 // Whether a link leads out of a folder that a user has named: what is read from a folder lies in it.
-
 // `root` is canonical. A link to nowhere counts by where it points; what is no link never leads out.
 bool leads_out(const std::filesystem::path& path, const std::filesystem::path& root);
 
-// Which elevation file serves which one-degree cell, found in one walk of a directory tree by names (cell_files.hpp);
+// Which elevation file serves which one-degree cell, found in one walk of a directory tree by names;
 // only headers of .ded files, packs and rasters are opened, and the tail of packed HGT. Links to directories below
 // the root are not followed. Where several files serve a cell, one that spans all of it (99 %) wins, then the finest
 // spacing, then the format in the order of CellFormat, then the path in order; cells are not merged.
@@ -62,11 +61,11 @@ bool leads_out(const std::filesystem::path& path, const std::filesystem::path& r
 using DirectoryIndex = std::map<std::size_t, CellFile>;
 
 // `problems` gets a sentence for each file that looks like cells and cannot be used, in order of the sentences.
-failure::Expected<DirectoryIndex> index_directory(const std::filesystem::path& directory,
-                                                  std::vector<std::string>* problems = nullptr);
+error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& directory,
+                                                std::vector<std::string>* problems = nullptr);
 
 // The cells of a single file; one of an unknown name is taken for a raster. Errors: it holds none that can be used.
-failure::Expected<DirectoryIndex> index_file(const std::filesystem::path& path);
+error::Expected<DirectoryIndex> index_file(const std::filesystem::path& path);
 
 // What the cells of a folder cover, for people who look elsewhere.
 

@@ -31,10 +31,10 @@ int reduction_for(const CellFile& file, int detail) {
   return std::clamp(static_cast<int>(std::floor(halvings)), 0, kMostReduction);
 }
 
-failure::Expected<std::unique_ptr<DirectoryTerrainStore>> DirectoryTerrainStore::open(
+error::Expected<std::unique_ptr<DirectoryTerrainStore>> DirectoryTerrainStore::open(
     const std::filesystem::path& directory, DirectoryStoreOptions options) {
   std::vector<std::string> problems;
-  failure::Expected<DirectoryIndex> index = index_directory(directory, &problems);
+  error::Expected<DirectoryIndex> index = index_directory(directory, &problems);
   if (!index) return tl::unexpected(index.error());
   return std::unique_ptr<DirectoryTerrainStore>(
       new DirectoryTerrainStore(directory.string(), std::move(*index), options, std::move(problems)));
@@ -74,11 +74,11 @@ void DirectoryTerrainStore::note_bare(const TerrainRegion& region) {
     std::array<char, 120> where{};
     std::snprintf(where.data(), where.size(), "a cell within %.0f NM of latitude %.4f, longitude %.4f",
                   region.radius_m / kMetresPerMile, region.centre.latitude_deg, region.centre.longitude_deg);
-    problems_.push_back(failure::Error{folder_, where.data(), "none: it covers " + coverage_text(index_),
-                                       std::string("what lies there counts as ") +
-                                           (options_.missing_cell_is_sea ? "sea" : "void") +
-                                           "; check the position and its signs",
-                                       false}
+    problems_.push_back(error::Error{folder_, where.data(), "none: it covers " + coverage_text(index_),
+                                     std::string("what lies there counts as ") +
+                                         (options_.missing_cell_is_sea ? "sea" : "void") +
+                                         "; check the position and its signs",
+                                     false}
                             .message());
   }
   bare_ = bare;
@@ -138,7 +138,7 @@ std::vector<std::string> DirectoryTerrainStore::take_problems() {
 
 bool DirectoryTerrainStore::load(Level level) {
   const CellFile& file = index_.at(level.first);
-  failure::Expected<CellReading> reading = read_cell(file, place_of_slot(level.first), level.second);
+  error::Expected<CellReading> reading = read_cell(file, place_of_slot(level.first), level.second);
   if (!reading) {
     problems_.push_back(reading.error().message() + "; the cell counts as void");
     unreadable_.insert(level.first);
@@ -158,7 +158,7 @@ bool DirectoryTerrainStore::load(Level level) {
 std::shared_ptr<const Culture> DirectoryTerrainStore::read_cover(Level level, const CellFile& file) {
   const auto path = find_culture(file.path);
   if (!path) return nullptr;
-  const failure::Expected<Culture> culture = read_culture(*path, place_of_slot(level.first));
+  const error::Expected<Culture> culture = read_culture(*path, place_of_slot(level.first));
   if (culture) return std::make_shared<const Culture>(culture->reduced(level.second));
   if (coverless_.insert(level.first).second)
     problems_.push_back(culture.error().message() + "; the cell counts as land and sea");
@@ -189,7 +189,7 @@ TerrainViewPointer DirectoryTerrainStore::make_view(int detail) {
   return view;
 }
 
-failure::Expected<std::unique_ptr<TerrainStore>> open_terrain(const radar::TerrainConfiguration& configuration) {
+error::Expected<std::unique_ptr<TerrainStore>> open_terrain(const radar::TerrainConfiguration& configuration) {
   if (configuration.directory.empty())
     return std::make_unique<FixedTerrainStore>(std::make_shared<const AnalyticTerrain>(built_in_hills()));
   auto store =

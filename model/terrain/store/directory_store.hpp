@@ -20,10 +20,6 @@
 
 namespace yars::model::terrain {
 
-// Terrain from a directory of elevation files. prepare() loads the cells within the region and their culture, nearest
-// first, each reduced as far as the region's detail allows; what is outside stays while all fits into the limit, the
-// longest unused goes first. A cell whose file cannot be read is noted as a problem once and is void from then on. A
-// view's generation rises when, and only when, what it shows changes. Errors of open(): those of index_directory().
 struct DirectoryStoreOptions {
   bool missing_cell_is_sea = true;                // a cell without a file: sea at 0 m, else void
   std::size_t resident_limit_bytes = 512U << 20;  // [bytes] of cells; only a region that needs more goes beyond it
@@ -39,10 +35,14 @@ struct RegionCells {
 // meridian. 0 where the file's spacing is not known.
 int reduction_for(const CellFile& file, int detail);
 
+// Terrain from a directory of elevation files. prepare() loads the cells within the region and their culture, nearest
+// first, each reduced as far as the region's detail allows; what is outside stays while all fits into the limit, the
+// longest unused goes first. A cell whose file cannot be read is noted as a problem once and is void from then on. A
+// view's generation rises when, and only when, what it shows changes. Errors of open(): those of index_directory().
 class DirectoryTerrainStore final : public TerrainStore {
  public:
-  static failure::Expected<std::unique_ptr<DirectoryTerrainStore>> open(const std::filesystem::path& directory,
-                                                                        DirectoryStoreOptions options);
+  static error::Expected<std::unique_ptr<DirectoryTerrainStore>> open(const std::filesystem::path& directory,
+                                                                      DirectoryStoreOptions options);
 
   TerrainViewPointer prepare(const TerrainRegion& region) override { return prepare_in_steps(region, {}); }
   TerrainViewPointer prepare_in_steps(const TerrainRegion& region, const Interim& interim) override;
@@ -87,6 +87,6 @@ class DirectoryTerrainStore final : public TerrainStore {
 
 // The terrain store that a configuration asks for: its directory, or the built-in hills when it names none.
 // Errors: the directory is missing or holds no cell.
-failure::Expected<std::unique_ptr<TerrainStore>> open_terrain(const radar::TerrainConfiguration& configuration);
+error::Expected<std::unique_ptr<TerrainStore>> open_terrain(const radar::TerrainConfiguration& configuration);
 
 }  // namespace yars::model::terrain

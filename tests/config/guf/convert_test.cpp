@@ -21,7 +21,7 @@ std::string converted(const std::string& text) {
 }
 
 TEST(Convert, OfTheReportsSampleReadsBackEqualWithoutAnOldSpelling) {
-  const std::string path = std::string(YARS_SOURCE_DIR) + "/tests/config/messages/radar.cf";
+  const std::string path = std::string(YARS_SOURCE_DIR) + "/tests/config/guf/messages/radar.cf";
   const auto sample = load_configuration(path);
   const auto conversion = convert_configuration(path, {});
   ASSERT_TRUE(sample && conversion);

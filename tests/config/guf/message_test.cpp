@@ -47,7 +47,7 @@ constexpr const char* kTwinOfTheReport = R"(
 )";
 
 TEST(Messages, TheSampleOfTheReportEqualsItsGufTwin) {
-  const auto sample = load_configuration(std::string(YARS_SOURCE_DIR) + "/tests/config/messages/radar.cf");
+  const auto sample = load_configuration(std::string(YARS_SOURCE_DIR) + "/tests/config/guf/messages/radar.cf");
   ASSERT_TRUE(sample) << sample.error().message();
   EXPECT_EQ(fields(sample->radar), fields(loaded(kTwinOfTheReport).radar));
   EXPECT_EQ(sample->radar.name, "myRadarSystem");

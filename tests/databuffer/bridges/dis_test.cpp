@@ -1,11 +1,11 @@
-// DIS packets made by tests/bridges/make_packets.py, whose orientation is a product of matrices, against the numbers
-// that went into them.
+// DIS packets made by tests/databuffer/bridges/make_packets.py, whose orientation is a product of matrices, against the
+// numbers that went into them.
 #include <gmock/gmock.h>
 
 #include <limits>
 
 #include "databuffer/bridges/bridge_source.hpp"
-#include "tests/bridges/packets.hpp"
+#include "tests/databuffer/bridges/packets.hpp"
 
 namespace yars::databuffer::bridges {
 namespace {

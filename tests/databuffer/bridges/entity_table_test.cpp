@@ -3,7 +3,7 @@
 #include "databuffer/bridges/dis.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "lib/geo/geodesy.hpp"
-#include "tests/bridges/packets.hpp"
+#include "tests/databuffer/bridges/packets.hpp"
 
 namespace yars::databuffer::bridges {
 namespace {

@@ -1,11 +1,12 @@
-// FlightGear's packets, recorded and made by tests/bridges/make_packets.py, against the numbers that went into them.
+// FlightGear's packets, recorded and made by tests/databuffer/bridges/make_packets.py, against the numbers that went
+// into them.
 #include <gmock/gmock.h>
 
 #include <limits>
 
 #include "databuffer/bridges/flight_simulators.hpp"
 #include "databuffer/messages/validation.hpp"
-#include "tests/bridges/packets.hpp"
+#include "tests/databuffer/bridges/packets.hpp"
 
 namespace yars::databuffer::bridges {
 namespace {

@@ -1,8 +1,8 @@
-// JSBSim's text output, recorded from JSBSim (tests/bridges/jsbsim/record_jsbsim.py) and bent.
+// JSBSim's text output, recorded from JSBSim (tests/databuffer/bridges/jsbsim/record_jsbsim.py) and bent.
 #include <gmock/gmock.h>
 
 #include "databuffer/bridges/flight_simulators.hpp"
-#include "tests/bridges/packets.hpp"
+#include "tests/databuffer/bridges/packets.hpp"
 
 namespace yars::databuffer::bridges {
 namespace {

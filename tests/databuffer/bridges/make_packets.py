@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the packets of tests/bridges/packets from the descriptions of their formats, by no code of YARS.
+"""Writes the packets of tests/databuffer/bridges/packets from the descriptions of their formats, by no code of YARS.
 
 usage: make_packets.py [FOLDER]
 flightgear/: native FDM, big-endian, versions 24 and 25. xplane/: an RREF reply, little-endian. dis/: Entity State PDUs

@@ -1,4 +1,5 @@
-// Packets of programs outside, as bytes: from files of tests/bridges/packets, changed at one place to be bad ones.
+// Packets of programs outside, as bytes: from files of tests/databuffer/bridges/packets, changed at one place to be bad
+// ones.
 #pragma once
 
 #include <algorithm>
@@ -21,9 +22,9 @@ inline PacketBytes bytes_of(std::string_view text) {
   return {bytes.begin(), bytes.end()};
 }
 
-// `name`: path below tests/bridges/packets.
+// `name`: path below tests/databuffer/bridges/packets.
 inline std::string text_of_packet(const std::string& name) {
-  std::ifstream file(YARS_SOURCE_DIR "/tests/bridges/packets/" + name, std::ios::binary);
+  std::ifstream file(YARS_SOURCE_DIR "/tests/databuffer/bridges/packets/" + name, std::ios::binary);
   if (!file) throw std::runtime_error("no packet " + name);
   return {std::istreambuf_iterator<char>(file), {}};
 }

@@ -1,4 +1,4 @@
-// X-Plane's datarefs: requests byte by byte, and replies made by tests/bridges/make_packets.py.
+// X-Plane's datarefs: requests byte by byte, and replies made by tests/databuffer/bridges/make_packets.py.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 #include "databuffer/bridges/flight_simulators.hpp"
 #include "lib/memory/byte_order.hpp"
-#include "tests/bridges/packets.hpp"
+#include "tests/databuffer/bridges/packets.hpp"
 
 namespace yars::databuffer::bridges {
 namespace {
@@ -28,8 +28,8 @@ TEST(Xplane, ARequestIs413BytesAsXplaneWantsThem) {
   ASSERT_EQ(request.size(), 413U);
   const std::string text(reinterpret_cast<const char*>(request.data()), request.size());
   EXPECT_EQ(text.substr(0, 5), std::string("RREF\0", 5));
-  EXPECT_EQ(little_endian<std::int32_t>(request, 5), 30);
-  EXPECT_EQ(little_endian<std::int32_t>(request, 9), 1);
+  EXPECT_EQ(memory::little_endian<std::int32_t>(request, 5), 30);
+  EXPECT_EQ(memory::little_endian<std::int32_t>(request, 9), 1);
   EXPECT_STREQ(text.c_str() + 13, "sim/flightmodel/position/longitude");
   EXPECT_EQ(text.find_last_not_of('\0'), 13 + std::string("sim/flightmodel/position/longitude").size() - 1);
 }
@@ -86,7 +86,7 @@ TEST(Xplane, ItAsksAtFirstAndWhileNothingComesAndUnsubscribesAtTheEnd) {
   EXPECT_EQ(bridge.requests(seconds(8)).size(), kXplaneDatarefs);
   const auto farewell = bridge.farewell();
   ASSERT_EQ(farewell.size(), kXplaneDatarefs);
-  for (const Datagram& request : farewell) EXPECT_EQ(little_endian<std::int32_t>(request, 5), 0);
+  for (const Datagram& request : farewell) EXPECT_EQ(memory::little_endian<std::int32_t>(request, 5), 0);
 }
 
 TEST(Xplane, BrokenRepliesAreRefusedWithTheReason) {

@@ -11,8 +11,8 @@
 #include "databuffer/client/yars.h"
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/session.hpp"
-#include "tests/databuffer/session_name.hpp"
-#include "tests/databuffer/yars_header_layout.hpp"
+#include "tests/databuffer/client/yars_header_layout.hpp"
+#include "tests/databuffer/session/session_name.hpp"
 #include "tests/shm/child_process.hpp"
 
 namespace yars::databuffer {

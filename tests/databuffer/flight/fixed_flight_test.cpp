@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "databuffer/flight/source_reader.hpp"
-#include "tests/flight/flight_checks.hpp"
+#include "tests/databuffer/flight/flight_checks.hpp"
 
 namespace yars::databuffer::flight {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lib/file/text_file.hpp"
-#include "tests/flight/flight_checks.hpp"
+#include "tests/databuffer/flight/flight_checks.hpp"
 
 namespace yars::databuffer::flight {
 namespace {
@@ -224,7 +224,7 @@ TEST(RouteFlight, OneLongStepGoesWhereManyShortOnesGo) {
 }
 
 TEST(RouteFlight, TheShippedRouteStaysOffTheCoastAndComesRound) {
-  const auto text = read_text_file(std::string(YARS_SOURCE_DIR) + "/config/routes/california.route");
+  const auto text = file::read_text_file(std::string(YARS_SOURCE_DIR) + "/config/routes/california.route");
   ASSERT_TRUE(text) << text.error().message();
   const auto route = parse_route(*text, "california.route");
   ASSERT_TRUE(route) << route.error().message();

@@ -10,9 +10,9 @@ namespace {
 
 using ::testing::HasSubstr;
 
-failure::Error refusal_of(const std::string& text) {
+error::Error refusal_of(const std::string& text) {
   const auto source = open_source(text);
-  return source ? failure::Error{} : source.error();
+  return source ? error::Error{} : source.error();
 }
 
 TEST(FlightSource, AFixedCourseFlies) {

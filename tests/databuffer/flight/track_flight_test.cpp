@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "tests/flight/flight_checks.hpp"
+#include "tests/databuffer/flight/flight_checks.hpp"
 
 namespace yars::databuffer::flight {
 namespace {

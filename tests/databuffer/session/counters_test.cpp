@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "databuffer/session/session.hpp"
-#include "tests/databuffer/open_session.hpp"
+#include "tests/databuffer/session/open_session.hpp"
 #include "tests/shm/child_process.hpp"
 
 namespace yars::databuffer {

@@ -8,7 +8,7 @@
 #include "databuffer/session/record_fields.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/session_layout.hpp"
-#include "tests/databuffer/session_name.hpp"
+#include "tests/databuffer/session/session_name.hpp"
 
 namespace yars::databuffer {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "databuffer/session/session.hpp"
-#include "tests/databuffer/session_name.hpp"
+#include "tests/databuffer/session/session_name.hpp"
 
 namespace yars::databuffer::testing {
 

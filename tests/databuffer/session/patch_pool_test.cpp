@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "databuffer/session/picture_pool.hpp"
-#include "tests/databuffer/made_up_map.hpp"
+#include "tests/databuffer/session/made_up_map.hpp"
 #include "tests/shm/child_process.hpp"
 #include "tests/shm/hooked_access.hpp"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/databuffer/open_session.hpp"
+#include "tests/databuffer/session/open_session.hpp"
 #include "tests/shm/child_process.hpp"
 
 namespace yars::databuffer {

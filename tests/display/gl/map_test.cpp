@@ -7,9 +7,9 @@
 #include "display/gl/context.hpp"
 #include "display/gl/display.hpp"
 #include "display/symbology/radar_video.hpp"
-#include "tests/display/glass_states.hpp"
-#include "tests/display_gl/made_up_map.hpp"
-#include "tests/display_gl/made_up_sweeps.hpp"
+#include "tests/display/gl/made_up_map.hpp"
+#include "tests/display/gl/made_up_sweeps.hpp"
+#include "tests/display/symbology/display_states.hpp"
 
 namespace yars::display::gl {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "display/gl/context.hpp"
 #include "display/gl/display.hpp"
-#include "tests/display/glass_states.hpp"
-#include "tests/display_gl/made_up_sweeps.hpp"
+#include "tests/display/gl/made_up_sweeps.hpp"
+#include "tests/display/symbology/display_states.hpp"
 
 namespace yars::display::gl {
 namespace {

@@ -15,11 +15,11 @@
 #include "display/gl/display.hpp"
 #include "display/host/display.hpp"
 #include "display/host/session_link_shell.hpp"
-#include "tests/databuffer/session_name.hpp"
-#include "tests/display/glass_states.hpp"
-#include "tests/display_gl/host_context.hpp"
-#include "tests/display_gl/made_up_map.hpp"
-#include "tests/display_gl/made_up_sweeps.hpp"
+#include "tests/databuffer/session/session_name.hpp"
+#include "tests/display/gl/made_up_map.hpp"
+#include "tests/display/gl/made_up_sweeps.hpp"
+#include "tests/display/host/host_context.hpp"
+#include "tests/display/symbology/display_states.hpp"
 
 namespace yars::display::host {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string>
 
-#include "tests/display/symbology_checks.hpp"
+#include "tests/display/symbology/symbology_checks.hpp"
 
 namespace yars::display {
 namespace {

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "tests/display/overlap.hpp"
-#include "tests/display/random_glass.hpp"
-#include "tests/display/symbology_checks.hpp"
+#include "tests/display/symbology/overlap.hpp"
+#include "tests/display/symbology/random_input.hpp"
+#include "tests/display/symbology/symbology_checks.hpp"
 
 namespace yars::display {
 namespace {

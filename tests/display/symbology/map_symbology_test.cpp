@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/display/symbology_checks.hpp"
+#include "tests/display/symbology/symbology_checks.hpp"
 
 namespace yars::display {
 namespace {

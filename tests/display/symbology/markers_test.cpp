@@ -7,8 +7,8 @@
 #include <string>
 
 #include "display/symbology/ground_symbols.hpp"
-#include "tests/display/overlap.hpp"
-#include "tests/display/symbology_checks.hpp"
+#include "tests/display/symbology/overlap.hpp"
+#include "tests/display/symbology/symbology_checks.hpp"
 
 namespace yars::display {
 namespace {

@@ -1,12 +1,12 @@
 // That nothing on the glass lies over what it must not, in any state; what may is listed in overlap.hpp.
-#include "tests/display/overlap.hpp"
+#include "tests/display/symbology/overlap.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "tests/display/random_glass.hpp"
-#include "tests/display/symbology_checks.hpp"
+#include "tests/display/symbology/random_input.hpp"
+#include "tests/display/symbology/symbology_checks.hpp"
 
 namespace yars::display {
 namespace {

@@ -1,10 +1,11 @@
+#include "display/symbology/plan_view.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "databuffer/messages/derived_values.hpp"
-#include "display/symbology/plan_view.hpp"
-#include "tests/display/glass_states.hpp"
+#include "tests/display/symbology/display_states.hpp"
 
 namespace yars::display {
 namespace {

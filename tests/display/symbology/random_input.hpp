@@ -7,7 +7,7 @@
 #include <string>
 
 #include "display/symbology/draw_list.hpp"
-#include "tests/display/glass_states.hpp"
+#include "tests/display/symbology/display_states.hpp"
 
 namespace yars::display::testing {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "display/symbology/symbology.hpp"
-#include "tests/display/symbology_checks.hpp"
+#include "tests/display/symbology/symbology_checks.hpp"
 
 namespace yars::display {
 namespace {

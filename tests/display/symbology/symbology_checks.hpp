@@ -7,7 +7,7 @@
 
 #include "display/symbology/plan_view.hpp"
 #include "display/symbology/symbology.hpp"
-#include "tests/display/glass_states.hpp"
+#include "tests/display/symbology/display_states.hpp"
 
 namespace yars::display::testing {
 

@@ -8,7 +8,7 @@
 #include <array>
 #include <string>
 
-#include "tests/display/symbology_checks.hpp"
+#include "tests/display/symbology/symbology_checks.hpp"
 
 namespace yars::display {
 namespace {

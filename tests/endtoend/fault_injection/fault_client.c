@@ -1,6 +1,6 @@
 /* A program of somebody else's in a running set, for faults: it writes as fast as told until it is killed, or writes
  * what no program should. By databuffer/client/yars.h alone.
- *   storm_client MODE SESSION [NUMBER [SEED]]     exit 0: done; 1: could not attach or claim; runs until killed else
+ *   fault_client MODE SESSION [NUMBER [SEED]]     exit 0: done; 1: could not attach or claim; runs until killed else
  *     fly RATE_HZ, push RATE_HZ, frames, clock    NUMBER: a second, 0 = as fast as it goes
  *     restore NUMBER                              one event each that brings the radar back to RBM; the last is NUMBER
  *     bad-ownship, bad-nav, bad-events, bad-traffic COUNT SEED;  die-with-lane */
@@ -10,7 +10,7 @@
 #include <signal.h>
 #include <stdlib.h>
 
-#include "tests/endtoend/storm/witness.h"
+#include "tests/endtoend/fault_injection/witness.h"
 
 #define PRIORITY 90
 #define GLASS_FRAMES_BYTE 6
@@ -273,7 +273,7 @@ static int do_as_told(yars_session* s, const char* mode, double number) {
 int main(int argc, char** argv) {
   if (argc < 3) return 2;
   yars_session s;
-  if (yars_attach(&s, argv[2], "storm_client") != 0) {
+  if (yars_attach(&s, argv[2], "fault_client") != 0) {
     fprintf(stderr, "%s\n", s.error);
     return 1;
   }

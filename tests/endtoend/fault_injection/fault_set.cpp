@@ -1,4 +1,4 @@
-#include "tests/endtoend/storm/storm_set.hpp"
+#include "tests/endtoend/fault_injection/fault_set.hpp"
 
 #include <signal.h>
 #include <unistd.h>
@@ -142,7 +142,7 @@ double StormSet::recover(double patience_s) {
   };
   while (seconds_since(begin) < patience_s) {
     mend();
-    other({"storm_client", "restore", set_.session(), std::to_string(mark_)});
+    other({"fault_client", "restore", set_.session(), std::to_string(mark_)});
     if (watch_->flies() && is_away()) set_.yars({"sim", "reposition", "37.4", "-122.6", "15000", "20"});
     if (eventually(is_well, kAskAgain_s)) {
       may_fail_.clear();
@@ -164,7 +164,7 @@ std::string StormSet::signs_of_life() const {
 
 std::string StormSet::client(const std::string& mode, double number) {
   const std::string name = "client";
-  set_.start_tool(name, {bin("storm_client"), mode, set_.session(), std::to_string(number),
+  set_.start_tool(name, {bin("fault_client"), mode, set_.session(), std::to_string(number),
                          std::to_string(chance_() % 1'000'000'000)});
   return name;
 }

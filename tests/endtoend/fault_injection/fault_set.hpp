@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "tests/endtoend/fault_injection/private_memory.hpp"
+#include "tests/endtoend/fault_injection/watch.hpp"
 #include "tests/endtoend/process_set.hpp"
-#include "tests/endtoend/storm/private_memory.hpp"
-#include "tests/endtoend/storm/watch.hpp"
 
 namespace yars::endtoend::storm {
 
@@ -48,7 +48,7 @@ class StormSet {
   double recover(double patience_s);
   std::string signs_of_life() const;  // for people
 
-  // A program of somebody else's, see storm_client.c; the name under which to kill it.
+  // A program of somebody else's, see fault_client.c; the name under which to kill it.
   std::string client(const std::string& mode, double number);
   // Kills such a program and collects it.
   void end_client(const std::string& name);

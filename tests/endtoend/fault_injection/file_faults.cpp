@@ -7,8 +7,8 @@
 #include <fstream>
 #include <functional>
 
-#include "tests/endtoend/storm/faults.hpp"
-#include "tests/endtoend/storm/storm_set.hpp"
+#include "tests/endtoend/fault_injection/fault_set.hpp"
+#include "tests/endtoend/fault_injection/faults.hpp"
 
 namespace yars::endtoend::storm {
 

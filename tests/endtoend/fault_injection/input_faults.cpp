@@ -1,6 +1,6 @@
 // What programs of others write by yars.h: more than anybody can take, and what nobody should.
-#include "tests/endtoend/storm/faults.hpp"
-#include "tests/endtoend/storm/storm_set.hpp"
+#include "tests/endtoend/fault_injection/fault_set.hpp"
+#include "tests/endtoend/fault_injection/faults.hpp"
 
 namespace yars::endtoend::storm {
 

@@ -8,10 +8,10 @@
 #include <limits>
 #include <span>
 
-#include "tests/bridges/live/udp_peer.hpp"
-#include "tests/bridges/packets.hpp"
-#include "tests/endtoend/storm/faults.hpp"
-#include "tests/endtoend/storm/storm_set.hpp"
+#include "tests/databuffer/bridges/live/udp_peer.hpp"
+#include "tests/databuffer/bridges/packets.hpp"
+#include "tests/endtoend/fault_injection/fault_set.hpp"
+#include "tests/endtoend/fault_injection/faults.hpp"
 
 namespace yars::endtoend::storm {
 
@@ -26,7 +26,8 @@ constexpr int kPackets = 400;
 
 std::vector<PacketBytes> packets_of(const std::string& kind) {
   std::vector<PacketBytes> packets;
-  const std::filesystem::path folder = std::filesystem::path(YARS_SOURCE_DIR) / "tests/bridges/packets" / kind;
+  const std::filesystem::path folder =
+      std::filesystem::path(YARS_SOURCE_DIR) / "tests/databuffer/bridges/packets" / kind;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.file_size() < 2000) packets.push_back(packet_of(kind + "/" + entry.path().filename().string()));
   if (kind == "jsbsim") {

@@ -1,4 +1,4 @@
-#include "tests/endtoend/storm/private_memory.hpp"
+#include "tests/endtoend/fault_injection/private_memory.hpp"
 
 #include <fcntl.h>
 #include <sched.h>

@@ -1,4 +1,4 @@
-#include "tests/endtoend/storm/ranges.hpp"
+#include "tests/endtoend/fault_injection/ranges.hpp"
 
 #include <span>
 

@@ -10,8 +10,8 @@
 #include <fstream>
 
 #include "shm/segment.hpp"
-#include "tests/endtoend/storm/faults.hpp"
-#include "tests/endtoend/storm/storm_set.hpp"
+#include "tests/endtoend/fault_injection/fault_set.hpp"
+#include "tests/endtoend/fault_injection/faults.hpp"
 
 namespace yars::endtoend::storm {
 
@@ -71,7 +71,7 @@ void wrong_layout(StormSet& set, const std::string&) {
   if (written) {
     expect_refusal(set, set.other({"yars", "--session", session, "status"}), 1, "version", "status of another layout");
     expect_refusal(set, set.other({"radar-model", "--session", session}), 1, "version", "a role of another layout");
-    expect_refusal(set, set.other({"storm_client", "restore", session, "1"}), 1, "version",
+    expect_refusal(set, set.other({"fault_client", "restore", session, "1"}), 1, "version",
                    "a client of another layout");
   }
   set.processes().kill("holder", SIGTERM);
@@ -98,7 +98,7 @@ void another_user(StormSet& set, const std::string&) {
   expect_refusal(set, set.other({"state-machine", "--session", other_session(set)}), 1, "user",
                  "another user's segment");
   // A client finds nobody in it, and goes.
-  expect_refusal(set, set.other({"storm_client", "restore", other_session(set), "1"}), 1, theirs,
+  expect_refusal(set, set.other({"fault_client", "restore", other_session(set), "1"}), 1, theirs,
                  "another user's segment for a client");
   std::filesystem::remove(theirs);
 }
@@ -144,7 +144,7 @@ void foreign_clock(StormSet& set, const std::string&) {
   for (const auto* mode : {"push", "fly"}) {
     set.processes().start_tool("foreign",
                                {"unshare", "--time", "--fork", "--kill-child", "--monotonic", offset,
-                                std::string(YARS_BIN_DIR) + "/storm_client", mode, set.processes().session(), "100"});
+                                std::string(YARS_BIN_DIR) + "/fault_client", mode, set.processes().session(), "100"});
     set.rest_ms(100.0, 300.0);
     set.processes().kill("foreign", SIGKILL);
     set.processes().wait("foreign");

@@ -1,4 +1,4 @@
-#include "tests/endtoend/storm/watch.hpp"
+#include "tests/endtoend/fault_injection/watch.hpp"
 
 #include <charconv>
 #include <chrono>
@@ -12,8 +12,8 @@
 #include "lib/text/plain_text.hpp"
 #include "model/kernel/map_schedule.hpp"
 #include "model/kernel/sweep_chain.hpp"
-#include "tests/endtoend/storm/ranges.hpp"
-#include "tests/endtoend/storm/witness.h"
+#include "tests/endtoend/fault_injection/ranges.hpp"
+#include "tests/endtoend/fault_injection/witness.h"
 
 namespace yars::endtoend::storm {
 
@@ -169,7 +169,7 @@ void Watch::look_at_values(Look& look) {
           [&](const databuffer::RecorderStatus& status) { refuse(why_refused(status), "recorder status"); });
   look_at(layout.model_status, look.status, "model status", [&](const databuffer::ModelStatus& status) {
     refuse(why_out_of_range(status), "model status");
-    if (databuffer::text_of(status.ownship.source) == STORM_SOURCE) witness(status.ownship, "model status' ownship");
+    if (text::text_of(status.ownship.source) == STORM_SOURCE) witness(status.ownship, "model status' ownship");
     if (status.nav.reserved[0] == STORM_FRAME_MARK) witness(status.nav, "model status' nav");
     flies_ = (status.flags & databuffer::kModelStale) == 0;
     latitude_deg_ = status.ownship.latitude_deg;
@@ -188,7 +188,7 @@ void Watch::look_at_values(Look& look) {
 
 void Watch::judge_tick(Look& look, const databuffer::ModelTick& tick) {
   refuse(why_out_of_range(tick), "model tick");
-  if (databuffer::text_of(tick.ownship.source) == STORM_SOURCE) witness(tick.ownship, "model tick's ownship");
+  if (text::text_of(tick.ownship.source) == STORM_SOURCE) witness(tick.ownship, "model tick's ownship");
   if (look.last_tick && look.last_tick->epoch == tick.epoch && tick.tick <= look.last_tick->tick)
     note(&Verdict::time_back, "model tick: " + std::to_string(tick.tick) + " after " +
                                   std::to_string(look.last_tick->tick) + " in one epoch");
@@ -198,7 +198,7 @@ void Watch::judge_tick(Look& look, const databuffer::ModelTick& tick) {
 void Watch::judge_event(const databuffer::AppliedEvent& applied) {
   const databuffer::InputEvent& event = applied.event;
   refuse(why_refused(event), "applied event");
-  const auto text = databuffer::text_of(event.text);
+  const auto text = text::text_of(event.text);
   if (const auto mark = number_behind(text, kMark)) newest_mark_ = *mark;
   const auto number = number_behind(text, STORM_SOURCE);
   if (!number) return;

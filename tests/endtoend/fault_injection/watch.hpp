@@ -1,5 +1,5 @@
 // The observer of a storm: a thread that reads everything in the segment, read-only and as fast as its producers
-// write, and judges each record: whole (a hash, a sum of storm_client, two reads of one version that agree), in the
+// write, and judges each record: whole (a hash, a sum of fault_client, two reads of one version that agree), in the
 // ranges of the border, and no sim time that goes back within an epoch. When the whole set has died and another segment
 // has taken the name, it looks at that one.
 #pragma once
@@ -42,7 +42,7 @@ class Watch {
   std::uint64_t events() const { return events_; }
   std::uint32_t newest_mark() const {
     return newest_mark_;
-  }                                                      // number of storm_client's last `restore` that was applied
+  }                                                      // number of fault_client's last `restore` that was applied
   bool flies() const { return flies_; }                  // radar-model has a fresh ownship
   double latitude_deg() const { return latitude_deg_; }  // latched
   double longitude_deg() const { return longitude_deg_; }

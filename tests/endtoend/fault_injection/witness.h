@@ -1,5 +1,5 @@
-/* What tells a whole record from a torn one: the last word of a record of storm_client is a sum over all the others,
- * and a picture's words follow from its id. Shared by storm_client (C, writes) and storm_watch (C++, checks). */
+/* What tells a whole record from a torn one: the last word of a record of fault_client is a sum over all the others,
+ * and a picture's words follow from its id. Shared by fault_client (C, writes) and storm_watch (C++, checks). */
 #ifndef YARS_STORM_WITNESS_H
 #define YARS_STORM_WITNESS_H
 

@@ -4,7 +4,7 @@
 
 #include "lib/error/error.hpp"
 
-namespace yars::failure {
+namespace yars::error {
 namespace {
 
 using ::testing::HasSubstr;
@@ -39,4 +39,4 @@ TEST(RequireDeathTest, EndsTheProcessWithBothValues) {
 }
 
 }  // namespace
-}  // namespace yars::failure
+}  // namespace yars::error

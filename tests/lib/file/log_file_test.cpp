@@ -13,7 +13,7 @@ constexpr LogFile::Limits kLimits{10, 2};
 
 class LogFileTest : public test::SecureFolder {
  protected:
-  failure::Expected<LogFile> open() const {
+  error::Expected<LogFile> open() const {
     auto folder = Folder::make_private(folder_ / "logs");
     if (!folder) return tl::unexpected(folder.error());
     return LogFile::open(std::move(*folder), "role", kLimits);

@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "lib/file/output_file.hpp"
-#include "tests/file/refused_call.hpp"
+#include "tests/lib/file/refused_call.hpp"
 #include "tests/security/folder.hpp"
 #include "tests/shm/child_process.hpp"
 

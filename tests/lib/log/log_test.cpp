@@ -46,7 +46,7 @@ class Log : public ::testing::Test {
       if (std::freopen((folder_ / "stderr").c_str(), "w", stderr) == nullptr) return 1;
       std::setvbuf(stderr, nullptr, _IONBF, 0);  // as it is when nobody has reopened it
       umask(0022);
-      start_log("role", "info");
+      log::start("role", "info");
       body();
       return 0;
     });
@@ -58,7 +58,7 @@ class Log : public ::testing::Test {
 };
 
 TEST_F(Log, WithoutAFolderThereIsTheTerminalAlone) {
-  write([] { log_info("one"); });
+  write([] { log::info("one"); });
   EXPECT_THAT(terminal(), HasSubstr("role info: one"));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1);
 }
@@ -66,9 +66,9 @@ TEST_F(Log, WithoutAFolderThereIsTheTerminalAlone) {
 TEST_F(Log, TheFileHasWhatTheTerminalHasAndTheErrorThatEndedTheProgram) {
   const auto logs = folder_ / "state" / "session";
   write([&] {
-    start_log_file("role", logs);
-    log_info("one");
-    log_debug("two");
+    log::start_file("role", logs);
+    log::info("one");
+    log::debug("two");
     print_failure("role", "three");
   });
   const auto file = text_of_file(logs / "role.log");
@@ -84,26 +84,26 @@ TEST_F(Log, TheFileHasWhatTheTerminalHasAndTheErrorThatEndedTheProgram) {
 
 TEST_F(Log, IsRotatedAndTheOldestGoes) {
   write([&] {
-    start_log_file("role", folder_);
+    log::start_file("role", folder_);
     const std::string line(64 * 1024, 'x');
-    const std::size_t lines = (kOldLogFiles + 2) * kLogFileBytes / line.size();
-    for (std::size_t n = 0; n < lines; ++n) log_to_file(std::to_string(n) + line);
+    const std::size_t lines = (log::kOldLogFiles + 2) * log::kLogFileBytes / line.size();
+    for (std::size_t n = 0; n < lines; ++n) log::to_file(std::to_string(n) + line);
   });
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
     if (entry.path().extension() != ".log") continue;
     ++files;
-    EXPECT_LE(entry.file_size(), kLogFileBytes) << entry.path();
+    EXPECT_LE(entry.file_size(), log::kLogFileBytes) << entry.path();
     EXPECT_EQ(mode_of(entry.path()), 0600u) << entry.path();
   }
-  EXPECT_EQ(files, kOldLogFiles + 1);
+  EXPECT_EQ(files, log::kOldLogFiles + 1);
 }
 
 TEST_F(Log, AFolderThatCannotBeWrittenIsOneWarning) {
   std::ofstream(folder_ / "file") << "in the way";
   write([&] {
-    start_log_file("role", folder_ / "file" / "logs");
-    log_info("one");
+    log::start_file("role", folder_ / "file" / "logs");
+    log::info("one");
     print_failure("role", "two");
   });
   const auto lines = terminal();
@@ -115,13 +115,13 @@ TEST_F(Log, AFolderThatCannotBeWrittenIsOneWarning) {
 // Packets of two places in turn: 31 MB in ten seconds, as it once was.
 TEST_F(Log, AFloodOfLinesIsAFewAndACount) {
   write([&] {
-    start_log_file("role", folder_.string());
+    log::start_file("role", folder_.string());
     for (int i = 0; i < 100'000; ++i) {
-      log_info(i % 2 == 0 ? "put the aircraft elsewhere, " + std::to_string(i)
-                          : "hears it from port " + std::to_string(i));
-      if (i % 1000 == 0) log_warning("bad record " + std::to_string(i));
+      log::info(i % 2 == 0 ? "put the aircraft elsewhere, " + std::to_string(i)
+                           : "hears it from port " + std::to_string(i));
+      if (i % 1000 == 0) log::warning("bad record " + std::to_string(i));
     }
-    log_left_out(LeftOut::all);  // as at the program's end
+    log::left_out(log::LeftOut::all);  // as at the program's end
   });
   EXPECT_LT(std::filesystem::file_size(folder_ / "role.log"), 20'000U);
   EXPECT_LT(terminal().size(), 20'000U);

@@ -4,7 +4,7 @@
 
 #include "lib/log/log.hpp"
 
-namespace yars::databuffer {
+namespace yars::log {
 namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
@@ -53,4 +53,4 @@ TEST(RepeatFilter, ManyKindsAreBoundedInMemoryAndInLines) {
 }
 
 }  // namespace
-}  // namespace yars::databuffer
+}  // namespace yars::log

@@ -176,14 +176,14 @@ TEST(Names, AreTheWordsOfWatch) {
 }
 
 TEST(Chance, IsTheSameForTheSameCountAndNormal) {
-  EXPECT_EQ(standard_normal(1, 2, 3), standard_normal(1, 2, 3));
+  EXPECT_EQ(random::standard_normal(1, 2, 3), random::standard_normal(1, 2, 3));
   double sum = 0.0, squares = 0.0, products = 0.0;
   constexpr std::uint64_t kDraws = 100'000;
   for (std::uint64_t n = 0; n < kDraws; ++n) {
-    const double value = standard_normal(7, n, 0);
+    const double value = random::standard_normal(7, n, 0);
     sum += value;
     squares += value * value;
-    products += value * standard_normal(7, n, 1);
+    products += value * random::standard_normal(7, n, 1);
   }
   // Five standard deviations of each estimate.
   EXPECT_NEAR(sum / kDraws, 0.0, 0.016);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "tests/lib/fused_test.cpp"
+#define HWY_TARGET_INCLUDE "tests/lib/simd/fused_test.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 // Behind highway.h, or it would have no target yet.
@@ -47,7 +47,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 #include <gtest/gtest.h>
 
-#include "tests/lanes/vector_targets.hpp"
+#include "tests/lib/simd/vector_targets.hpp"
 
 namespace yars::fused_test {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "lib/file/text_file.hpp"
 
-namespace yars::databuffer {
+namespace yars::text {
 namespace {
 
 using ::testing::ElementsAre;
@@ -56,15 +56,15 @@ TEST(PlainText, ANumberSurvivesItsText) {
 TEST(TextFile, IsReadWholeAndItsAbsenceIsNamed) {
   const auto path = std::filesystem::temp_directory_path() / ("yars_text_file_test_" + std::to_string(::getpid()));
   std::ofstream(path) << "one\ntwo\n";
-  EXPECT_EQ(read_text_file(path).value(), "one\ntwo\n");
+  EXPECT_EQ(file::read_text_file(path).value(), "one\ntwo\n");
   std::filesystem::remove(path);
-  const auto absent = read_text_file(path);
+  const auto absent = file::read_text_file(path);
   ASSERT_FALSE(absent);
   EXPECT_THAT(absent.error().message(), HasSubstr(path.string()));
-  const auto folder = read_text_file(std::filesystem::temp_directory_path());
+  const auto folder = file::read_text_file(std::filesystem::temp_directory_path());
   ASSERT_FALSE(folder);
   EXPECT_THAT(folder.error().message(), HasSubstr("folder"));
 }
 
 }  // namespace
-}  // namespace yars::databuffer
+}  // namespace yars::text

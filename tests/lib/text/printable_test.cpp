@@ -3,7 +3,7 @@
 #include "lib/error/error.hpp"
 #include "lib/text/plain_text.hpp"
 
-namespace yars::failure {
+namespace yars::text {
 namespace {
 
 TEST(Printable, TextWithoutControlCharactersStays) {
@@ -42,9 +42,9 @@ TEST(Printable, ACharacterMayBeUnfinishedAtTheEnd) {
 }
 
 TEST(Printable, AnErrorIsOneLineWhateverAFileIsCalled) {
-  const Error error{"evil\n\x1b[2J.dt1", "a cell", "none", "", false};
+  const error::Error error{"evil\n\x1b[2J.dt1", "a cell", "none", "", false};
   EXPECT_EQ(error.message(), "evil\\n\\x1b[2J.dt1: expected a cell, found none");
 }
 
 }  // namespace
-}  // namespace yars::failure
+}  // namespace yars::text

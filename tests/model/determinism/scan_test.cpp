@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "model/kernel/offline_scan.hpp"
-#include "tests/model/cockpit.hpp"
+#include "tests/model/kernel/cockpit.hpp"
 #include "tests/model/made_up_objects.hpp"
 
 namespace yars::model::kernel {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "model/physics/reflectivity.hpp"
-#include "tests/hrm/made_up_scene.hpp"
-#include "tests/hrm/patch_maker.hpp"
+#include "tests/model/hrm/made_up_scene.hpp"
+#include "tests/model/hrm/patch_maker.hpp"
 
 namespace yars::test {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "model/hrm/polar_ground_simd.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
-#include "tests/hrm/patch_maker.hpp"
-#include "tests/lanes/vector_targets.hpp"
+#include "tests/lib/simd/vector_targets.hpp"
+#include "tests/model/hrm/patch_maker.hpp"
 
 namespace yars::test {
 namespace {

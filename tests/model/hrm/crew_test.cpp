@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lib/parallel/thread_pool.hpp"
-#include "tests/hrm/patch_maker.hpp"
+#include "tests/model/hrm/patch_maker.hpp"
 
 namespace yars::test {
 namespace {
@@ -14,7 +14,7 @@ TEST(Crew, DoesEachOfAnyNumberOfThingsOnce) {
   for (const std::size_t threads : {1U, 2U, 3U, 8U}) {
     for (const int count : {0, 1, 7, 64, 1000}) {
       std::vector<std::atomic<int>> done(static_cast<std::size_t>(count));
-      hrm::share_out(crew_of(threads), count, 3, [&](int first, int last, std::size_t thread) {
+      parallel::share_out(crew_of(threads), count, 3, [&](int first, int last, std::size_t thread) {
         EXPECT_LT(thread, threads);
         for (int i = first; i < last; ++i) ++done[static_cast<std::size_t>(i)];
       });
@@ -29,7 +29,7 @@ TEST(Crew, TakesFromTheEndsOfTheOthersSharesWhenItsOwnIsDone) {
   std::atomic<int> done{0};
   std::atomic<bool> both{false};
   std::vector<int> order;
-  hrm::share_out(crew_of(2), kPieces, 1, [&](int first, int /*last*/, std::size_t thread) {
+  parallel::share_out(crew_of(2), kPieces, 1, [&](int first, int /*last*/, std::size_t thread) {
     if (thread == 1) {
       both = true;
       while (done < kPieces - 1) std::this_thread::yield();

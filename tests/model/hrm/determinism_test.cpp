@@ -1,9 +1,9 @@
 // A map is the same to the bit for any number of threads and on every set of vector instructions.
 #include <gtest/gtest.h>
 
-#include "tests/hrm/made_up_scene.hpp"
-#include "tests/hrm/patch_maker.hpp"
-#include "tests/lanes/vector_targets.hpp"
+#include "tests/lib/simd/vector_targets.hpp"
+#include "tests/model/hrm/made_up_scene.hpp"
+#include "tests/model/hrm/patch_maker.hpp"
 
 namespace yars::test {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "tests/hrm/made_up_scene.hpp"
-#include "tests/hrm/patch_maker.hpp"
-#include "tests/model/gas_layers.hpp"
+#include "tests/model/hrm/made_up_scene.hpp"
+#include "tests/model/hrm/patch_maker.hpp"
+#include "tests/model/physics/gas_layers.hpp"
 
 namespace yars::test {
 namespace {

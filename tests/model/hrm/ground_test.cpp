@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/hrm/patch_maker.hpp"
+#include "tests/model/hrm/patch_maker.hpp"
 
 namespace yars::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/hrm/patch_maker.hpp"
+#include "tests/model/hrm/patch_maker.hpp"
 
 namespace yars::test {
 namespace {

@@ -55,7 +55,7 @@ inline model::terrain::TerrainViewPointer ground_of(model::terrain::AnalyticTerr
   return std::make_shared<model::terrain::AnalyticTerrain>(std::move(height));
 }
 
-inline hrm::Crew crew_of(std::size_t threads) {
+inline parallel::Crew crew_of(std::size_t threads) {
   return {threads, [threads](const std::function<void(std::size_t)>& job) {
             std::vector<std::thread> others;
             for (std::size_t thread = 1; thread < threads; ++thread) others.emplace_back(job, thread);

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lib/radar/mapping.hpp"
-#include "tests/hrm/patch_maker.hpp"
+#include "tests/model/hrm/patch_maker.hpp"
 
 namespace yars::test {
 namespace {

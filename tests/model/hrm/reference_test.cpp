@@ -7,8 +7,8 @@
 
 #include "model/scene/index/scene_store.hpp"
 #include "model/scene/openflight/reader.hpp"
-#include "tests/hrm/made_up_scene.hpp"
-#include "tests/hrm/patch_maker.hpp"
+#include "tests/model/hrm/made_up_scene.hpp"
+#include "tests/model/hrm/patch_maker.hpp"
 #include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::test {
@@ -125,7 +125,7 @@ TEST(Standard, IsCloseToTheReferenceOverBoxes) {
 TEST(Standard, IsCloseToTheReferenceOverAnAirfield) {
   using namespace model::scene;
   const auto ground = ground_of(terrain::flat(kGround_m));
-  const GeneratedScene made = generate_scene({GeneratedKind::airfield, 5000, 1, kTarget});
+  const worldgen::GeneratedScene made = worldgen::generate_scene({worldgen::GeneratedKind::airfield, 5000, 1, kTarget});
   const auto model = read_openflight(made.file, "airfield");
   ASSERT_TRUE(model);
   KindTable kinds;

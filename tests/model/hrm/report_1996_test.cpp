@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "lib/radar/configuration.hpp"
-#include "tests/hrm/made_up_scene.hpp"
-#include "tests/hrm/patch_maker.hpp"
+#include "tests/model/hrm/made_up_scene.hpp"
+#include "tests/model/hrm/patch_maker.hpp"
 
 namespace yars::test {
 namespace {

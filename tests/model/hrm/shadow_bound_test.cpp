@@ -19,10 +19,10 @@
 #include "model/terrain/formats/dted.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
 #include "model/terrain/store/directory_store.hpp"
-#include "tests/hrm/patch_maker.hpp"
-#include "tests/terrain/dted_builder.hpp"
-#include "tests/terrain/rough_cell.hpp"
-#include "tests/terrain/shared_data.hpp"
+#include "tests/model/hrm/patch_maker.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
+#include "tests/model/terrain/sampling/rough_cell.hpp"
+#include "tests/model/terrain/shared_data.hpp"
 #include "worldgen/terrain/landscape.hpp"
 
 namespace yars::test {
@@ -253,7 +253,7 @@ TEST(PatchShadow, OfAWallBetweenRowsLiesOnTheMap) {
 
 TEST(PatchShadowBound, HoldsOverTheMadeUpCoast) {
   TemporaryFolder folder;
-  const terrain::Landscape landscape(terrain::DefaultLandscape::kSeed);
+  const worldgen::Landscape landscape(worldgen::DefaultLandscape::kSeed);
   ASSERT_TRUE(terrain::write_dted(folder.path(), landscape.cell({37, -123}, 1201, 1201), 1));
   EXPECT_GT(expect_within_bounds({"made-up coast", folder.path(), {37.5, -122.45}, 200.0, 5000.0}), 0.02);
 }

@@ -6,7 +6,7 @@
 
 #include "lib/radar/mapping.hpp"
 #include "model/hrm/map_image.hpp"
-#include "tests/lanes/vector_targets.hpp"
+#include "tests/lib/simd/vector_targets.hpp"
 
 namespace yars::test {
 namespace {

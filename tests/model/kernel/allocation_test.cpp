@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "tests/model/cockpit.hpp"
+#include "tests/model/kernel/cockpit.hpp"
 #include "tests/model/made_up_objects.hpp"
 
 namespace {

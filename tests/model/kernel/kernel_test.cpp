@@ -9,7 +9,7 @@
 
 #include "lib/geo/quantity.hpp"
 #include "model/kernel/radar_kernel.hpp"
-#include "tests/model/cockpit.hpp"
+#include "tests/model/kernel/cockpit.hpp"
 
 namespace yars::model::kernel {
 namespace {

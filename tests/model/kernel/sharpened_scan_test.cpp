@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "model/kernel/doppler_modes.hpp"
-#include "tests/model/cockpit.hpp"
+#include "tests/model/kernel/cockpit.hpp"
 
 namespace yars::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "databuffer/messages/validation.hpp"
-#include "tests/model/cockpit.hpp"
+#include "tests/model/kernel/cockpit.hpp"
 
 namespace yars::model::kernel {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "model/kernel/doppler_modes.hpp"
-#include "tests/model/cockpit.hpp"
+#include "tests/model/kernel/cockpit.hpp"
 
 namespace yars::test {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "model/kernel/offline_scan.hpp"
-#include "tests/model/cockpit.hpp"
+#include "tests/model/kernel/cockpit.hpp"
 
 namespace yars::model::kernel {
 namespace {

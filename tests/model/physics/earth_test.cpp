@@ -6,14 +6,14 @@
 #include <limits>
 
 #include "model/physics/sweep_geometry.hpp"
-#include "tests/model/ground.hpp"
+#include "tests/model/physics/ground.hpp"
 
 namespace yars::model::rbm {
 namespace {
 
 constexpr double kMeanRadiusM = 6371008.8;
 
-TEST(physics::EffectiveEarth, DropsAsTheSpecificationSays) {
+TEST(EffectiveEarth, DropsAsTheSpecificationSays) {
   struct Row {
     double range_nm, refracted_m, true_m;
   };
@@ -24,11 +24,12 @@ TEST(physics::EffectiveEarth, DropsAsTheSpecificationSays) {
     EXPECT_NEAR(physics::EffectiveEarth(kMeanRadiusM * 4.0 / 3.0).drop_m(distance_m), row.refracted_m,
                 0.5 + 3e-4 * row.refracted_m)
         << row.range_nm;
-    EXPECT_NEAR(physics::EffectiveEarth(kMeanRadiusM).drop_m(distance_m), row.true_m, 0.5 + 3e-4 * row.true_m) << row.range_nm;
+    EXPECT_NEAR(physics::EffectiveEarth(kMeanRadiusM).drop_m(distance_m), row.true_m, 0.5 + 3e-4 * row.true_m)
+        << row.range_nm;
   }
 }
 
-TEST(physics::EffectiveEarth, TheHorizonLiesAtTheRootOfTwiceKTimesRadiusTimesHeight) {
+TEST(EffectiveEarth, TheHorizonLiesAtTheRootOfTwiceKTimesRadiusTimesHeight) {
   radar::RadarConfiguration configuration = test::bare_configuration(4096);
   configuration.fidelity.earth = radar::EarthModel::sphere;
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
@@ -42,13 +43,13 @@ TEST(physics::EffectiveEarth, TheHorizonLiesAtTheRootOfTwiceKTimesRadiusTimesHei
   EXPECT_NEAR(last_lit_m, horizon_m, range_m / 4096.0);
 }
 
-TEST(physics::EffectiveEarth, OnTheFlatEarthThereIsNoHorizon) {
+TEST(EffectiveEarth, OnTheFlatEarthThereIsNoHorizon) {
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
   const auto samples = test::seen_by_reference(test::bare_configuration(512), test::look_north(100.0, 300000.0), sea);
   for (const auto& sample : samples) ASSERT_TRUE(sample.lit) << sample.distance_m;
 }
 
-TEST(physics::EffectiveEarth, SeesAPointAsVectorsOnTheSphereDo) {
+TEST(EffectiveEarth, SeesAPointAsVectorsOnTheSphereDo) {
   const physics::EffectiveEarth earth(8.5e6);
   for (const double distance_m : {10.0, 5000.0, 300000.0}) {
     for (const double height_m : {-100.0, 0.0, 4000.0}) {
@@ -72,7 +73,7 @@ TEST(physics::EffectiveEarth, SeesAPointAsVectorsOnTheSphereDo) {
   }
 }
 
-TEST(physics::EffectiveEarth, SlantRangeAndGroundRangeAreInverse) {
+TEST(EffectiveEarth, SlantRangeAndGroundRangeAreInverse) {
   const physics::EffectiveEarth earth(8.5e6);
   for (const double distance_m : {100.0, 20000.0, 300000.0}) {
     const double slant_m = earth.sight(4500.0, distance_m, 200.0).slant_range_m;
@@ -80,7 +81,7 @@ TEST(physics::EffectiveEarth, SlantRangeAndGroundRangeAreInverse) {
   }
 }
 
-TEST(physics::EffectiveEarth, NothingReturnsFromNearerThanTheGroundBelow) {
+TEST(EffectiveEarth, NothingReturnsFromNearerThanTheGroundBelow) {
   radar::RadarConfiguration configuration = test::bare_configuration(100);
   configuration.fidelity.slant_range = true;
   const terrain::AnalyticTerrain land(terrain::flat(500.0));

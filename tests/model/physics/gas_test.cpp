@@ -10,9 +10,10 @@
 #include "model/physics/atmosphere.hpp"
 #include "model/rbm/emitters.hpp"
 #include "model/rbm/standard.hpp"
-#include "tests/model/gas_layers.hpp"
-#include "tests/model/ground.hpp"
+#include "model/rbm/sub_beams.hpp"
 #include "tests/model/made_up_objects.hpp"
+#include "tests/model/physics/gas_layers.hpp"
+#include "tests/model/physics/ground.hpp"
 
 namespace yars::model::rbm {
 namespace {
@@ -128,7 +129,7 @@ TEST(Gases, SwitchedOffTakeNothing) {
   EXPECT_EQ(path.two_way_loss(physics::EffectiveEarth(8.0e6), 5000.0, 200000.0, 0.0), 1.0);
 }
 
-// physics::Ground, a ship and rain in one sweep; all lose what the ray to them loses.
+// Ground, a ship and rain in one sweep; all lose what the ray to them loses.
 TEST(Gases, DimGroundShipsAndRainAlike) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.pulse_smear = false;

@@ -1,5 +1,5 @@
 // The ground of a sweep by vectors against its plain version.
-#include "tests/model/ground.hpp"
+#include "tests/model/physics/ground.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "model/physics/ground_return.hpp"
 #include "model/physics/ray.hpp"
 #include "model/physics/reflectivity.hpp"
-#include "tests/lanes/vector_targets.hpp"
+#include "tests/lib/simd/vector_targets.hpp"
 
 namespace yars::model::rbm {
 namespace {
@@ -44,7 +44,8 @@ struct Returns {
   bool operator==(const Returns&) const = default;
 };
 
-Returns returns_of(const radar::RadarConfiguration& configuration, const physics::Look& look, const physics::PlaceArrays& places) {
+Returns returns_of(const radar::RadarConfiguration& configuration, const physics::Look& look,
+                   const physics::PlaceArrays& places) {
   constexpr std::size_t kRoom = kCount + terrain::kRunSlack;
   physics::Ground ground(configuration, kCount);
   ground.use_resolution(300.0, kRangeM / kCount);
@@ -57,7 +58,7 @@ Returns returns_of(const radar::RadarConfiguration& configuration, const physics
   return {{found.land, found.land + kCount}, {found.sea, found.sea + kCount}};
 }
 
-TEST(physics::Ground, ReflectsWhatItsPlainVersionDoes) {
+TEST(Ground, ReflectsWhatItsPlainVersionDoes) {
   radar::RadarConfiguration configuration;
   configuration.world.land.texture = 3.0;
   for (const geo::GeoPoint apex : {geo::GeoPoint{37.6, -122.4}, {-0.3, 179.2}, {-66.0, 10.0}}) {
@@ -88,7 +89,7 @@ TEST(physics::Ground, ReflectsWhatItsPlainVersionDoes) {
   }
 }
 
-TEST(physics::Ground, IsTheSameForEveryWidthOfVector) {
+TEST(Ground, IsTheSameForEveryWidthOfVector) {
   const physics::Look look = look_from({37.6, -122.4}, 65.0);
   const physics::PlaceArrays places = places_of(look);
   Returns first;
@@ -99,7 +100,7 @@ TEST(physics::Ground, IsTheSameForEveryWidthOfVector) {
   });
 }
 
-TEST(physics::Ground, IsPlainAndDryWhereNothingIsGiven) {
+TEST(Ground, IsPlainAndDryWhereNothingIsGiven) {
   radar::RadarConfiguration configuration;
   const physics::Look look = look_from({37.6, -122.4}, 65.0);
   const physics::PlaceArrays places = places_of(look);

@@ -7,7 +7,7 @@
 
 #include "model/kernel/tick_inputs.hpp"
 #include "model/physics/environment.hpp"
-#include "tests/model/ground.hpp"
+#include "tests/model/physics/ground.hpp"
 
 namespace yars::model::rbm {
 namespace {
@@ -58,7 +58,7 @@ std::size_t brightest(const std::vector<double>& power) {
   return static_cast<std::size_t>(std::max_element(power.begin(), power.end()) - power.begin());
 }
 
-TEST(physics::Movers, GoTheirGeodesicWithSimTime) {
+TEST(Movers, GoTheirGeodesicWithSimTime) {
   radar::Mover ship = ship_at(10000.0);
   ship.speed_mps = geo::Speed::knots(30.0).metres_per_second();
   ship.heading_deg = 45.0;
@@ -69,7 +69,7 @@ TEST(physics::Movers, GoTheirGeodesicWithSimTime) {
   EXPECT_NEAR(way.azimuth_at_start.degrees(), 45.0, 1e-6);
 }
 
-TEST(physics::Movers, ReturnAPointInTheSampleOfTheirRange) {
+TEST(Movers, ReturnAPointInTheSampleOfTheirRange) {
   const auto power = added_by(with(ship_at(20020.0)), test::look_north(kAltitudeM, kRangeM));
   EXPECT_EQ(brightest(power), 500U);
   for (std::size_t i = 0; i < power.size(); ++i) {
@@ -79,7 +79,7 @@ TEST(physics::Movers, ReturnAPointInTheSampleOfTheirRange) {
   }
 }
 
-TEST(physics::Movers, ReturnSigmaOverTheFourthPowerOfTheRange) {
+TEST(Movers, ReturnSigmaOverTheFourthPowerOfTheRange) {
   radar::Mover ship = ship_at(20020.0);
   ship.cross_section_m2 = 5000.0;
   const physics::Look look = test::look_north(kAltitudeM, kRangeM);
@@ -89,7 +89,7 @@ TEST(physics::Movers, ReturnSigmaOverTheFourthPowerOfTheRange) {
   EXPECT_NEAR(added_by(with(ship), look)[500] / expected, 1.0, 1e-3);
 }
 
-TEST(physics::Movers, AreTwelveDecibelsDownAtTwiceTheRange) {
+TEST(Movers, AreTwelveDecibelsDownAtTwiceTheRange) {
   // Level with the aircraft's keel, so that slant range is ground range.
   radar::Mover near = ship_at(18000.0), far = ship_at(36000.0);
   near.height_m = far.height_m = 300.0;
@@ -101,14 +101,14 @@ TEST(physics::Movers, AreTwelveDecibelsDownAtTwiceTheRange) {
   EXPECT_NEAR(decibels(power_at(far) / power_at(near)), -12.04, 0.01);
 }
 
-TEST(physics::Movers, FadeAcrossTheBeam) {
+TEST(Movers, FadeAcrossTheBeam) {
   const physics::Look look = test::look_north(kAltitudeM, kRangeM);
   const double centre = added_by(with(ship_at(20020.0)), look)[500];
   EXPECT_NEAR(decibels(added_by(with(ship_at(20020.0, 1.25)), look)[500] / centre), -6.02, 0.05);
   EXPECT_EQ(added_by(with(ship_at(20020.0, 6.0)), look)[500], 0.0);
 }
 
-TEST(physics::Movers, AreAsLongAsThePulseAndNoDimmerForIt) {
+TEST(Movers, AreAsLongAsThePulseAndNoDimmerForIt) {
   radar::RadarConfiguration configuration = with(ship_at(20020.0));
   const physics::Look look = test::look_north(kAltitudeM, kRangeM);
   const double sharp = added_by(configuration, look)[500];
@@ -121,14 +121,14 @@ TEST(physics::Movers, AreAsLongAsThePulseAndNoDimmerForIt) {
   EXPECT_NEAR(sum / sharp, pulse_samples, 0.01 * pulse_samples);
 }
 
-TEST(physics::Movers, AreHiddenBehindAHill) {
+TEST(Movers, AreHiddenBehindAHill) {
   const physics::Look look = test::look_north(kAltitudeM, kRangeM);
   const auto hill = terrain::ridge(test::axis_north(), 15000.0, 1000.0, 900.0);
   for (const double power : added_by(with(ship_at(20020.0)), look, hill)) EXPECT_EQ(power, 0.0);
   EXPECT_GT(added_by(with(ship_at(12020.0)), look, hill)[300], 0.0);
 }
 
-TEST(physics::Movers, FarAwayOrBehindCostNothing) {
+TEST(Movers, FarAwayOrBehindCostNothing) {
   const radar::RadarConfiguration configuration = with(ship_at(60000.0));
   physics::Movers movers(configuration);
   const physics::Look look = test::look_north(kAltitudeM, kRangeM);
@@ -139,7 +139,7 @@ TEST(physics::Movers, FarAwayOrBehindCostNothing) {
 
 // An hour after it was heard of an entity of the traffic is where a ship of the configuration is that was there at
 // sim time 0, and returns the same.
-TEST(physics::Movers, OfTheTrafficReturnWhatThoseOfTheConfigurationDo) {
+TEST(Movers, OfTheTrafficReturnWhatThoseOfTheConfigurationDo) {
   radar::Mover ship = ship_at(20020.0);
   ship.speed_mps = 10.0;
   ship.heading_deg = 300.0;

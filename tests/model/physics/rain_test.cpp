@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "model/physics/atmosphere.hpp"
-#include "tests/model/ground.hpp"
+#include "tests/model/physics/ground.hpp"
 
 namespace yars::model::rbm {
 namespace {
@@ -109,7 +109,7 @@ radar::RadarConfiguration rainy(double distance_m, double radius_m, double rate_
   return configuration;
 }
 
-TEST(physics::RainPath, ReturnsWithTheInverseSquareOfTheRange) {
+TEST(RainPath, ReturnsWithTheInverseSquareOfTheRange) {
   radar::RadarConfiguration configuration = rainy(40000.0, 39000.0, 10.0, 30000.0);
   configuration.antenna.elevation_beamwidth_deg = 2.0;  // filled by the rain
   physics::RainPath path(configuration);
@@ -126,7 +126,7 @@ TEST(physics::RainPath, ReturnsWithTheInverseSquareOfTheRange) {
   EXPECT_NEAR(per_profile(40000.0) / per_profile(20000.0), near_m * near_m / (far_m * far_m), 1e-6);
 }
 
-TEST(physics::RainPath, TakesTwiceTheChordFromWhatLiesBehind) {
+TEST(RainPath, TakesTwiceTheChordFromWhatLiesBehind) {
   const terrain::AnalyticTerrain plain(terrain::flat(100.0));
   const physics::Look look = test::look_north(2000.0, 40000.0);
   radar::RadarConfiguration configuration = rainy(15000.0, 5000.0);
@@ -140,7 +140,7 @@ TEST(physics::RainPath, TakesTwiceTheChordFromWhatLiesBehind) {
   EXPECT_NEAR(wet[200].power, dry[200].power, 1e-12) << "nearer than the rain";
 }
 
-TEST(physics::RainPath, SpendsNothingOverTheTop) {
+TEST(RainPath, SpendsNothingOverTheTop) {
   radar::RadarConfiguration configuration = rainy(15000.0, 5000.0, 10.0, 500.0);
   physics::RainPath path(configuration);
   path.enter(test::look_north(8000.0, 40000.0));
@@ -148,7 +148,7 @@ TEST(physics::RainPath, SpendsNothingOverTheTop) {
   EXPECT_EQ(path.two_way_loss(physics::EffectiveEarth(kInfinity), 8000.0, 35000.0, 0.0, 36000.0), 1.0);
 }
 
-TEST(physics::RainPath, IsSeenAboveTheShadowOfARidge) {
+TEST(RainPath, IsSeenAboveTheShadowOfARidge) {
   const terrain::AnalyticTerrain ridge(terrain::ridge(test::axis_north(), 10000.0, 1000.0, 1500.0));
   const physics::Look look = test::look_north(2000.0, 40000.0);
   const auto wet = test::seen_by_reference(rainy(25000.0, 6000.0), look, ridge);

@@ -17,19 +17,22 @@ physics::Receiver receiver_at(double range_nm) {
   return physics::make_receiver(radar::RadarConfiguration{}, geo::Length::nautical_miles(range_nm));
 }
 
-TEST(physics::Receiver, TwiceTheRangeTakesTwelveDecibelsFromAPoint) {
-  EXPECT_NEAR(decibels(physics::returned_power(10.0, 1.0, 40000.0) / physics::returned_power(10.0, 1.0, 20000.0)), -12.04, 0.005);
+TEST(Receiver, TwiceTheRangeTakesTwelveDecibelsFromAPoint) {
+  EXPECT_NEAR(decibels(physics::returned_power(10.0, 1.0, 40000.0) / physics::returned_power(10.0, 1.0, 20000.0)),
+              -12.04, 0.005);
 }
 
-TEST(physics::Receiver, TwiceTheRangeTakesNineDecibelsFromPulseLimitedClutter) {
+TEST(Receiver, TwiceTheRangeTakesNineDecibelsFromPulseLimitedClutter) {
   const physics::Receiver receiver = receiver_at(40.0);
   const double sin_grazing = std::sin(2.0 * geo::kRadiansPerDegree);
-  const double near = physics::returned_power(physics::illuminated_area_m2(receiver, 20000.0, sin_grazing), 1.0, 20000.0);
-  const double far = physics::returned_power(physics::illuminated_area_m2(receiver, 40000.0, sin_grazing), 1.0, 40000.0);
+  const double near =
+      physics::returned_power(physics::illuminated_area_m2(receiver, 20000.0, sin_grazing), 1.0, 20000.0);
+  const double far =
+      physics::returned_power(physics::illuminated_area_m2(receiver, 40000.0, sin_grazing), 1.0, 40000.0);
   EXPECT_NEAR(decibels(far / near), -9.03, 0.005);
 }
 
-TEST(physics::Receiver, LooksStraightDownThroughTheBeamAndFlatThroughThePulse) {
+TEST(Receiver, LooksStraightDownThroughTheBeamAndFlatThroughThePulse) {
   const physics::Receiver receiver = receiver_at(40.0);
   const double range_m = 10000.0;
   EXPECT_NEAR(physics::illuminated_area_m2(receiver, range_m, 1.0),
@@ -38,37 +41,39 @@ TEST(physics::Receiver, LooksStraightDownThroughTheBeamAndFlatThroughThePulse) {
               range_m * receiver.azimuth_beamwidth_rad * receiver.pulse_length_m, 1e-3);
 }
 
-TEST(physics::Receiver, ThePulseOfTheShortestRangeCoversTheReports127Feet) {
+TEST(Receiver, ThePulseOfTheShortestRangeCoversTheReports127Feet) {
   // 0.26 us, docs/spec/physics.md#pulse.
   EXPECT_NEAR(receiver_at(4.7).pulse_length_m / geo::kMetresPerFoot, 127.0, 1.5);
   EXPECT_NEAR(receiver_at(160.0).pulse_length_m, 6.0 * 149.896, 0.01);
   EXPECT_NEAR(receiver_at(300.0).pulse_length_m, 6.0 * 149.896, 0.01);
 }
 
-TEST(physics::Receiver, TheTwoWayGaussianIsAQuarterAtHalfABeamWidth) {
+TEST(Receiver, TheTwoWayGaussianIsAQuarterAtHalfABeamWidth) {
   const double theta = 2.5 * geo::kRadiansPerDegree;
   EXPECT_NEAR(physics::two_way_gain(radar::BeamPattern::gaussian, theta, 0.0, 0.5 * theta), 0.25, 1e-4);
   EXPECT_NEAR(physics::two_way_gain(radar::BeamPattern::gaussian, theta, -0.1, -0.1), 1.0, 1e-12);
 }
 
-TEST(physics::Receiver, TheHardEdgeIsHalfABeamWidthFromTheCentre) {
+TEST(Receiver, TheHardEdgeIsHalfABeamWidthFromTheCentre) {
   const double theta = 2.5 * geo::kRadiansPerDegree;
   EXPECT_EQ(physics::two_way_gain(radar::BeamPattern::hard_edge, theta, 0.0, 0.499 * theta), 1.0);
   EXPECT_EQ(physics::two_way_gain(radar::BeamPattern::hard_edge, theta, 0.0, -0.501 * theta), 0.0);
 }
 
-TEST(physics::Receiver, TheMappingBeamFallsWithTheCosecantSquaredBelowItsCentre) {
+TEST(Receiver, TheMappingBeamFallsWithTheCosecantSquaredBelowItsCentre) {
   const double theta = 2.5 * geo::kRadiansPerDegree;
   const double centre = -5.0 * geo::kRadiansPerDegree;
   for (const double depression_deg : {6.0, 10.0, 30.0, 89.0}) {
     const double depression = depression_deg * geo::kRadiansPerDegree;
     const double share = std::sin(-centre) / std::sin(depression);
-    EXPECT_NEAR(physics::two_way_gain(radar::BeamPattern::cosecant_squared, theta, centre, -depression), share * share, 1e-12);
+    EXPECT_NEAR(physics::two_way_gain(radar::BeamPattern::cosecant_squared, theta, centre, -depression), share * share,
+                1e-12);
   }
-  EXPECT_NEAR(physics::two_way_gain(radar::BeamPattern::cosecant_squared, theta, centre, centre + 0.5 * theta), 0.25, 1e-4);
+  EXPECT_NEAR(physics::two_way_gain(radar::BeamPattern::cosecant_squared, theta, centre, centre + 0.5 * theta), 0.25,
+              1e-4);
 }
 
-TEST(physics::PulseSmear, ConservesPowerWhateverThePulse) {
+TEST(PulseSmear, ConservesPowerWhateverThePulse) {
   for (const double samples : {0.0, 0.5, 1.0, 1.94, 2.0, 5.3, 18.7, 64.0, 1000.0}) {
     const physics::PulseSmear smear = physics::make_pulse_smear(samples);
     EXPECT_NEAR(std::accumulate(smear.weights.begin(), smear.weights.end(), 0.0), 1.0, 1e-12) << samples;
@@ -76,7 +81,7 @@ TEST(physics::PulseSmear, ConservesPowerWhateverThePulse) {
   }
 }
 
-TEST(physics::PulseSmear, OfTwoSamplesIsAQuarterAHalfAQuarter) {
+TEST(PulseSmear, OfTwoSamplesIsAQuarterAHalfAQuarter) {
   const physics::PulseSmear smear = physics::make_pulse_smear(2.0);
   ASSERT_EQ(smear.reach, 1);
   EXPECT_DOUBLE_EQ(smear.weights[0], 0.25);
@@ -84,7 +89,7 @@ TEST(physics::PulseSmear, OfTwoSamplesIsAQuarterAHalfAQuarter) {
   EXPECT_DOUBLE_EQ(smear.weights[2], 0.25);
 }
 
-TEST(physics::PulseSmear, LeavesAShortPulseAlone) {
+TEST(PulseSmear, LeavesAShortPulseAlone) {
   const physics::PulseSmear smear = physics::make_pulse_smear(0.3);
   EXPECT_EQ(smear.reach, 0);
   EXPECT_DOUBLE_EQ(smear.weights[0], 1.0);

@@ -5,7 +5,7 @@
 
 #include "model/physics/ground_return.hpp"
 #include "model/physics/reflectivity.hpp"
-#include "tests/model/ground.hpp"
+#include "tests/model/physics/ground.hpp"
 
 namespace yars::model::rbm {
 namespace {
@@ -21,7 +21,7 @@ Reference::Sample middle(const radar::RadarConfiguration& configuration, std::ui
   return test::seen_by_reference(configuration, look, ground)[500];
 }
 
-TEST(physics::SurfaceReturn, OfMaterialsDiffersByTheirGammas) {
+TEST(SurfaceReturn, OfMaterialsDiffersByTheirGammas) {
   const radar::RadarConfiguration configuration = test::bare_configuration(1000);
   const double land = middle(configuration, 0).power;
   for (const radar::Material& material : configuration.world.land.materials) {
@@ -33,7 +33,7 @@ TEST(physics::SurfaceReturn, OfMaterialsDiffersByTheirGammas) {
   EXPECT_NEAR(middle(configuration, 30).power, land, 1e-9 * land) << "a code that nobody describes is land";
 }
 
-TEST(physics::SurfaceReturn, OfWaterIsTheSeasAtAnyHeight) {
+TEST(SurfaceReturn, OfWaterIsTheSeasAtAnyHeight) {
   const radar::RadarConfiguration configuration = test::bare_configuration(1000);
   // The sea at 0 m by elevation, a lake at 100 m by its material: the same but for the aircraft's height above it.
   const Reference::Sample sea = middle(configuration, 0, 0.0);
@@ -43,7 +43,7 @@ TEST(physics::SurfaceReturn, OfWaterIsTheSeasAtAnyHeight) {
   EXPECT_NEAR(lake.power / sea.power, 1.0, 1e-6);
 }
 
-TEST(physics::SurfaceReturn, OfWallsDependsOnTheStreetsBearing) {
+TEST(SurfaceReturn, OfWallsDependsOnTheStreetsBearing) {
   const radar::RadarConfiguration configuration = test::bare_configuration(1000);
   physics::Look look = test::look_north(2000.0, 40000.0);
   double least = 1e9, most = 0.0;
@@ -53,8 +53,7 @@ TEST(physics::SurfaceReturn, OfWallsDependsOnTheStreetsBearing) {
     look.apex = geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(azimuth_deg + 180.0),
                                      geo::Length::metres(500.5 * 40.0));
     const Reference::Sample sample = middle(configuration, 1, 100.0, look);
-    const double off_deg =
-        physics::off_street_deg(sample.azimuth.degrees(), physics::street_bearing_deg(sample.place));
+    const double off_deg = physics::off_street_deg(sample.azimuth.degrees(), physics::street_bearing_deg(sample.place));
     if (std::abs(off_deg) < 1.0) most = std::max(most, sample.power);
     if (std::abs(off_deg) > 12.0) least = std::min(least, sample.power);
   }
@@ -97,7 +96,7 @@ Moments k_clutter(double shape, int looks) {
   return {sum / count, squares / count - sum / count * sum / count};
 }
 
-TEST(physics::SurfaceReturn, FluctuatesAsKWhereItHasTexture) {
+TEST(SurfaceReturn, FluctuatesAsKWhereItHasTexture) {
   for (const double shape : {0.0, 2.0, 4.0}) {
     for (const int looks : {1, 4}) {
       const Moments found = k_clutter(shape, looks);
@@ -109,7 +108,7 @@ TEST(physics::SurfaceReturn, FluctuatesAsKWhereItHasTexture) {
   }
 }
 
-TEST(physics::SurfaceReturn, HasTheSameTextureFromEverywhere) {
+TEST(SurfaceReturn, HasTheSameTextureFromEverywhere) {
   radar::RadarConfiguration configuration = test::bare_configuration(1000);
   configuration.fidelity.noise = true;
   configuration.world.land.texture = 1.0;

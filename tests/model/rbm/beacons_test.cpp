@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "model/rbm/emitters.hpp"
-#include "tests/model/cockpit.hpp"
-#include "tests/model/ground.hpp"
+#include "tests/model/kernel/cockpit.hpp"
+#include "tests/model/physics/ground.hpp"
 
 namespace yars::model::rbm {
 namespace {

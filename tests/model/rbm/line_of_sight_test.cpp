@@ -7,8 +7,8 @@
 
 #include "model/rbm/reference.hpp"
 #include "model/terrain/store/directory_store.hpp"
-#include "tests/model/ground.hpp"
-#include "tests/terrain/shared_data.hpp"
+#include "tests/model/physics/ground.hpp"
+#include "tests/model/terrain/shared_data.hpp"
 
 namespace yars::model::rbm {
 namespace {
@@ -108,7 +108,7 @@ TEST(LineOfSight, BruteForceAgreesOverRealGround) {
   int hidden = 0;
   for (int azimuth_deg = 0; azimuth_deg < 360; azimuth_deg += 15) {
     const physics::Look look{apex, geo::AltitudeMsl::feet(15000.0), geo::Bearing::degrees(azimuth_deg), geo::Angle(),
-                    geo::Length::nautical_miles(80.0)};
+                             geo::Length::nautical_miles(80.0)};
     hidden += expect_equal_to_brute_force(look, *view);
   }
   EXPECT_GT(hidden, 500);

@@ -10,9 +10,10 @@
 #include "model/physics/ray.hpp"
 #include "model/rbm/algorithm.hpp"
 #include "model/rbm/emitters.hpp"
+#include "model/rbm/sub_beams.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
-#include "tests/lanes/vector_targets.hpp"
-#include "tests/terrain/rough_cell.hpp"
+#include "tests/lib/simd/vector_targets.hpp"
+#include "tests/model/terrain/sampling/rough_cell.hpp"
 
 namespace yars::model::rbm {
 namespace {

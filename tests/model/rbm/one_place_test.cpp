@@ -12,8 +12,8 @@
 
 #include "model/hrm/patch_formation.hpp"
 #include "model/scene/index/scene_store.hpp"
-#include "tests/hrm/patch_maker.hpp"
-#include "tests/model/cockpit.hpp"
+#include "tests/model/hrm/patch_maker.hpp"
+#include "tests/model/kernel/cockpit.hpp"
 #include "tests/model/made_up_objects.hpp"
 
 namespace yars::model {

@@ -7,9 +7,9 @@
 #include "model/rbm/standard.hpp"
 #include "model/terrain/formats/dted.hpp"
 #include "model/terrain/store/directory_store.hpp"
-#include "tests/model/ground.hpp"
-#include "tests/terrain/dted_builder.hpp"
-#include "tests/terrain/rough_cell.hpp"
+#include "tests/model/physics/ground.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
+#include "tests/model/terrain/sampling/rough_cell.hpp"
 
 namespace yars::model::rbm {
 namespace {

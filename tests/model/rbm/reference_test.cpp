@@ -10,7 +10,7 @@
 
 #include "model/physics/clutter.hpp"
 #include "model/physics/reflectivity.hpp"
-#include "tests/model/ground.hpp"
+#include "tests/model/physics/ground.hpp"
 
 namespace yars::model::rbm {
 namespace {

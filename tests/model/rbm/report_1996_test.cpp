@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "tests/model/ground.hpp"
+#include "tests/model/physics/ground.hpp"
 
 namespace yars::model::rbm {
 namespace {

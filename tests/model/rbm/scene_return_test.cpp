@@ -9,8 +9,9 @@
 
 #include "model/physics/reflectivity.hpp"
 #include "model/rbm/standard.hpp"
-#include "tests/model/ground.hpp"
+#include "model/rbm/sub_beams.hpp"
 #include "tests/model/made_up_objects.hpp"
+#include "tests/model/physics/ground.hpp"
 
 namespace yars::model::rbm {
 namespace {

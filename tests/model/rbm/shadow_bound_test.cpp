@@ -16,12 +16,13 @@
 #include "model/kernel/tick_inputs.hpp"
 #include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"
+#include "model/rbm/sub_beams.hpp"
 #include "model/terrain/formats/dted.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
 #include "model/terrain/store/directory_store.hpp"
-#include "tests/terrain/dted_builder.hpp"
-#include "tests/terrain/rough_cell.hpp"
-#include "tests/terrain/shared_data.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
+#include "tests/model/terrain/sampling/rough_cell.hpp"
+#include "tests/model/terrain/shared_data.hpp"
 #include "worldgen/terrain/landscape.hpp"
 
 namespace yars::model::rbm {
@@ -75,13 +76,13 @@ struct Found {
   double wrong = 0.0, dark = 0.0, samples = 0.0;
 };
 
-// physics::Ground at its finest, `posts_m` [m] between posts, and as a preset gets it.
-struct physics::Ground {
+// Ground at its finest, `posts_m` [m] between posts, and as a preset gets it.
+struct Ground {
   std::shared_ptr<const terrain::TerrainView> finest, served;
   double posts_m;
 };
 
-Found compare(const char* preset, const Scan& scan, double range_nm, const physics::Ground& ground) {
+Found compare(const char* preset, const Scan& scan, double range_nm, const Ground& ground) {
   radar::RadarConfiguration configuration;
   configuration.fidelity = *radar::fidelity_preset(preset);
   configuration.fidelity.sub_beams = 1;  // the middle ray alone
@@ -113,7 +114,7 @@ constexpr Bound kBounds[] = {{"reference", 0.001}, {"standard", 0.005}, {"draft"
 
 // Returns the share in the dark; 0 where no ground is known.
 double expect_within(const Bound& bound, const std::string& name, const Scan& scan, double range_nm,
-                     const physics::Ground& ground) {
+                     const Ground& ground) {
   const Found found = compare(bound.preset, scan, range_nm, ground);
   if (found.samples == 0.0) return 0.0;
   const double wrong = found.wrong / found.samples;
@@ -139,7 +140,7 @@ double expect_within_bounds(const std::string& name, const Scan& scan, const std
       const auto finest = (*store)->prepare({scan.apex, range.metres(), 0});
       const int detail = kernel::scan_detail(*radar::fidelity_preset(bound.preset), range);
       const auto served = (*store)->prepare({scan.apex, range.metres(), detail});
-      const physics::Ground ground{finest, served, finest->post_spacing_m()};
+      const Ground ground{finest, served, finest->post_spacing_m()};
       most_dark = std::max(most_dark, expect_within(bound, name, scan, range_nm, ground));
     }
   return most_dark;
@@ -166,7 +167,7 @@ TEST(ShadowBound, HoldsOverMountains) {
 
 TEST(ShadowBound, HoldsOverTheMadeUpCoast) {
   test::TemporaryFolder folder;
-  const terrain::Landscape landscape(terrain::DefaultLandscape::kSeed);
+  const worldgen::Landscape landscape(worldgen::DefaultLandscape::kSeed);
   ASSERT_TRUE(terrain::write_dted(folder.path(), landscape.cell({37, -123}, kPosts, kPosts), 1));
   EXPECT_GT(expect_within_bounds("made-up coast", {{37.1, -122.95}, 4000.0, 10.0, 80.0, 10.0}, folder.path()), 0.02);
 }
@@ -215,7 +216,7 @@ std::shared_ptr<const terrain::CellView> polar_cap(std::initializer_list<int> so
 void expect_polar_bounds(const std::shared_ptr<const terrain::CellView>& cap, const Scan& scan,
                          std::initializer_list<double> ranges_nm) {
   // Columns close up towards the pole; it is walked by a tenth of what they are 30' from it.
-  const physics::Ground ground{cap, cap, kPolarDegree_m / (kPolarColumns - 1) * 0.5 * geo::kRadiansPerDegree};
+  const Ground ground{cap, cap, kPolarDegree_m / (kPolarColumns - 1) * 0.5 * geo::kRadiansPerDegree};
   for (const double range_nm : ranges_nm)
     for (const Bound& bound : kBounds) {
       const std::string name = "from " + std::to_string(scan.apex.latitude_deg);

@@ -10,23 +10,23 @@
 #include "model/physics/polynomials-inl.hpp"
 #include "model/physics/ray.hpp"
 #include "model/terrain/store/directory_store.hpp"
-#include "tests/lanes/vector_targets.hpp"
-#include "tests/model/ground.hpp"
-#include "tests/terrain/shared_data.hpp"
+#include "tests/lib/simd/vector_targets.hpp"
+#include "tests/model/physics/ground.hpp"
+#include "tests/model/terrain/shared_data.hpp"
 
 namespace yars::model::rbm {
 namespace {
 
 TEST(Polynomials, HoldTheirStatedErrors) {
   for (double x = -3.1415; x < 3.1415; x += 0.00137)
-    EXPECT_NEAR(polynomials::arctangent(std::sin(x), std::cos(x)), x, 2e-12);
+    EXPECT_NEAR(physics::polynomials::arctangent(std::sin(x), std::cos(x)), x, 2e-12);
 }
 
 // The width of vector does not matter for the error: this is the one that the compiler gives without asking the
 // machine.
 TEST(VectorPolynomials, HoldTheirStatedErrors) {
   namespace hn = hwy::HWY_NAMESPACE;
-  namespace lane = rbm::HWY_NAMESPACE;
+  namespace lane = physics::HWY_NAMESPACE;
   const hn::CappedTag<float, 1> d;
   const auto of = [&](float value) { return hn::Set(d, value); };
   for (float x = 1e-30F; x < 1e30F; x *= 1.0173F) {
@@ -56,7 +56,8 @@ struct Difference {
 };
 
 // Both algorithms over a fan of sweeps.
-Difference difference(radar::RadarConfiguration configuration, const physics::Look& first, const terrain::TerrainView& terrain) {
+Difference difference(radar::RadarConfiguration configuration, const physics::Look& first,
+                      const terrain::TerrainView& terrain) {
   configuration.fidelity.noise = false;
   Reference reference(configuration);
   Standard standard(configuration);

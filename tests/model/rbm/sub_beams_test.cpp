@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tests/model/ground.hpp"
+#include "tests/model/physics/ground.hpp"
 
 namespace yars::model::rbm {
 namespace {

@@ -44,12 +44,12 @@ class Folder {
 inline constexpr SurfaceKind kTestKind{3, 77, 0x102030};
 
 // A square with its south-west corner at (x, y), facing up.
-inline std::vector<WriterVertex> square(double x, double y, double side, double z = 0.0) {
+inline std::vector<worldgen::WriterVertex> square(double x, double y, double side, double z = 0.0) {
   const Vector3 up{0, 0, 1};
   return {{{x, y, z}, up}, {{x + side, y, z}, up}, {{x + side, y + side, z}, up}, {{x, y + side, z}, up}};
 }
 
-inline Model read(OpenFlightWriter& writer) {
+inline Model read(worldgen::OpenFlightWriter& writer) {
   const std::vector<std::byte> bytes = writer.take();
   auto model = read_openflight(bytes, "test.flt");
   EXPECT_TRUE(model) << (model ? "" : model.error().message());

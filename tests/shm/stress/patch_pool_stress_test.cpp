@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "databuffer/session/picture_pool.hpp"
-#include "tests/databuffer/made_up_map.hpp"
+#include "tests/databuffer/session/made_up_map.hpp"
 #include "tests/shm/child_process.hpp"
 
 namespace yars::databuffer {

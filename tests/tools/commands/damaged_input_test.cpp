@@ -9,8 +9,8 @@
 
 #include "model/terrain/formats/dted.hpp"
 #include "tests/endtoend/process_set.hpp"
-#include "tests/terrain/dted_builder.hpp"
-#include "tests/terrain/rough_cell.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
+#include "tests/model/terrain/sampling/rough_cell.hpp"
 
 namespace yars {
 namespace {

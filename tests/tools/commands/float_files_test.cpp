@@ -16,7 +16,7 @@
 #include "model/kernel/tick_inputs.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tests/endtoend/process_set.hpp"
-#include "tests/terrain/dted_builder.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
 
 namespace yars {
 namespace {

@@ -12,7 +12,7 @@
 #include "lib/geo/geodesy.hpp"
 #include "lib/imageio/png.hpp"
 #include "tests/endtoend/process_set.hpp"
-#include "tests/terrain/dted_builder.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
 
 namespace yars {
 namespace {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/recording/made_recording.hpp"
+#include "tests/tools/recording/made_recording.hpp"
 
 namespace yars::tools::recording {
 namespace {
@@ -84,8 +84,8 @@ class SmallDisk {
   void (*on_signal_)(int);
 };
 
-failure::Expected<void> append_while_there_is_room(RecordingWriter& writer, const std::vector<RecordingItem>& items) {
-  failure::Expected<void> outcome;
+error::Expected<void> append_while_there_is_room(RecordingWriter& writer, const std::vector<RecordingItem>& items) {
+  error::Expected<void> outcome;
   for (std::size_t i = 0; outcome && i < items.size(); ++i)
     outcome = std::visit([&](const auto& record) { return writer.append(record); }, items[i]);
   return outcome;

@@ -155,7 +155,7 @@ inline std::string recorded(const std::vector<RecordingItem>& items) {
   return file.bytes();
 }
 
-inline failure::Expected<tools::recording::RecordingReader> reader_of(const std::string& bytes) {
+inline error::Expected<tools::recording::RecordingReader> reader_of(const std::string& bytes) {
   return tools::recording::RecordingReader::read(std::make_unique<std::istringstream>(bytes), "made");
 }
 

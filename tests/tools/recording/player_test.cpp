@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "display/symbology/radar_video.hpp"
-#include "tests/model/cockpit.hpp"
-#include "tests/recording/made_recording.hpp"
+#include "tests/model/kernel/cockpit.hpp"
+#include "tests/tools/recording/made_recording.hpp"
 #include "tools/recording/replay.hpp"
 
 namespace yars::tools::recording {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "databuffer/flight/route_flight.hpp"
-#include "tests/recording/made_recording.hpp"
+#include "tests/tools/recording/made_recording.hpp"
 #include "tools/recording/block.hpp"
 #include "tools/recording/recorded_kinds.hpp"
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/model/cockpit.hpp"
+#include "tests/model/kernel/cockpit.hpp"
 #include "tests/model/made_up_objects.hpp"
 
 namespace yars::tools::recording {

@@ -143,7 +143,8 @@ TradeTable small_table() {
   table.contenders = {{"draft", "preset", {}}, {"samples=240", "samples", {}}};
   table.columns = kScanColumns;
   table.scene_fields = kScanFields;
-  table.scenes = {row_of({{37.0, -122.0}, 15000.0, 60.0, 10.0}), row_of({{37.0, -122.0}, 15000.0, 60.0, 160.0})};
+  table.scenes = {row_of(Scene{{37.0, -122.0}, 15000.0, 60.0, 10.0}),
+                  row_of(Scene{{37.0, -122.0}, 15000.0, 60.0, 160.0})};
   const double none = std::numeric_limits<double>::quiet_NaN();
   table.values = {{Values{1.0, 2e6, 5e6, 0.1, 1.0, 2.0, 3.0}, Values{2.0, 1e6, 9e6, 0.3, 2.0, 3.0, 7.0}},
                   {Values{4.0, 3e6, 5e6, 0.0, 0.5, none, 1.0}, Values{3.0, 4e6, 5e6, 0.0, 0.0, none, 0.0}}};

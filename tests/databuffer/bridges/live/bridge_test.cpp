@@ -7,9 +7,9 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/memory/byte_order.hpp"
-#include "tests/bridges/live/bridged_set.hpp"
-#include "tests/bridges/live/udp_peer.hpp"
-#include "tests/bridges/packets.hpp"
+#include "tests/databuffer/bridges/live/bridged_set.hpp"
+#include "tests/databuffer/bridges/live/udp_peer.hpp"
+#include "tests/databuffer/bridges/packets.hpp"
 
 namespace yars::endtoend {
 namespace {
@@ -170,7 +170,7 @@ TEST_F(Bridge, XplaneIsAskedAnswersAndIsLeftInPeace) {
   EXPECT_EQ(set_.wait("bridge"), 0);
   int ended = 0;
   while (const auto last = xplane.hear(100))
-    ended += databuffer::bridges::little_endian<std::int32_t>(last->datagram, 5) == 0 ? 1 : 0;
+    ended += memory::little_endian<std::int32_t>(last->datagram, 5) == 0 ? 1 : 0;
   EXPECT_EQ(ended, 14) << "each dataref is unsubscribed";
 }
 

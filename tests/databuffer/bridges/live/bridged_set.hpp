@@ -53,7 +53,7 @@ class BridgedSet : public ::testing::Test {
 
   bool flown_by(const std::string& source) const {
     const auto own = latched();
-    return own && databuffer::text_of(own->source) == source;
+    return own && text::text_of(own->source) == source;
   }
 
   std::uint64_t notes(databuffer::NoteKind kind) const {

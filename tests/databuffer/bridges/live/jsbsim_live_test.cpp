@@ -1,7 +1,8 @@
-// JSBSim itself flies the radar over the coast of California, with the aircraft and the script of tests/bridges/jsbsim.
-// JSBSim sends each state twice: as text to flight-model, and in its other form, with all digits, to this test. What
-// radar-model latches must lie on the path that JSBSim says it flew, at a place where it was about then.
-// YARS_JSBSIM names the program, else it is looked for; YARS_JSBSIM_SECONDS makes the flight longer than 20 s.
+// JSBSim itself flies the radar over the coast of California, with the aircraft and the script of
+// tests/databuffer/bridges/jsbsim. JSBSim sends each state twice: as text to flight-model, and in its other form, with
+// all digits, to this test. What radar-model latches must lie on the path that JSBSim says it flew, at a place where it
+// was about then. YARS_JSBSIM names the program, else it is looked for; YARS_JSBSIM_SECONDS makes the flight longer
+// than 20 s.
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -15,8 +16,8 @@
 
 #include "databuffer/bridges/flight_simulators.hpp"
 #include "lib/geo/geodesy.hpp"
-#include "tests/bridges/live/bridged_set.hpp"
-#include "tests/bridges/live/udp_peer.hpp"
+#include "tests/databuffer/bridges/live/bridged_set.hpp"
+#include "tests/databuffer/bridges/live/udp_peer.hpp"
 
 namespace yars::endtoend {
 namespace {
@@ -94,7 +95,7 @@ class JsbsimLive : public BridgedSet {
   JsbsimLive() : BridgedSet("jsbsim") {}
 
   void start_jsbsim(const std::string& program, std::uint16_t text_port, std::uint16_t native_port, double seconds) {
-    const std::filesystem::path root = YARS_SOURCE_DIR "/tests/bridges/jsbsim";
+    const std::filesystem::path root = YARS_SOURCE_DIR "/tests/databuffer/bridges/jsbsim";
     const std::string native = R"(<output name="localhost" type="FLIGHTGEAR" port="@PORT@" protocol="UDP" rate="50"/>)";
     set_.start_tool("jsbsim",
                     {program, "--realtime", "--nice", "--nohighlight", "--root=" + root.string(),
@@ -117,7 +118,7 @@ class JsbsimLive : public BridgedSet {
   void read_ticks() {
     databuffer::ModelTick tick{};
     while (layout().model_ticks.read(cursor_, tick).delivered) {
-      if ((tick.flags & databuffer::kTickOwnshipValid) == 0U || databuffer::text_of(tick.ownship.source) != "jsbsim")
+      if ((tick.flags & databuffer::kTickOwnshipValid) == 0U || text::text_of(tick.ownship.source) != "jsbsim")
         continue;
       if (tick.ownship.source_time_ns == last_latched_ns_) continue;
       last_latched_ns_ = tick.ownship.source_time_ns;

@@ -8,7 +8,7 @@
 
 #include "model/scene/index/scene_index.hpp"
 #include "model/terrain/sampling/analytic_terrain.hpp"
-#include "tests/scene/support.hpp"
+#include "tests/model/scene/support.hpp"
 #include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::model::scene {
@@ -37,8 +37,8 @@ radar::Scene scene_of(const std::filesystem::path& file) {
 
 // A box of 20 x 10 x 8 m whose middle is 300 m east and 400 m north of the origin, and a flat road of 200 m.
 std::vector<std::byte> box_and_road(std::optional<geo::GeoPoint> origin) {
-  OpenFlightWriter writer(origin);
-  Sketch sketch(writer);
+  worldgen::OpenFlightWriter writer(origin);
+  worldgen::Sketch sketch(writer);
   writer.begin_object("box");
   sketch.kind = {1, 0, 0xFF0000};
   sketch.box({300, 400, 0}, 20, 10, 8);
@@ -126,8 +126,8 @@ TEST(SceneStore, ALevelFaceWithItsOwnHeightsLiesOnTheGroundThatIsNear) {
 // Its area says nothing of how many pieces of thirty metres it would make.
 TEST(SceneStore, ASliverAsLongAsTheMoonIsFarMakesABoundedNumberOfPieces) {
   const Folder folder;
-  OpenFlightWriter writer(kPlace);
-  Sketch sketch(writer);
+  worldgen::OpenFlightWriter writer(kPlace);
+  worldgen::Sketch sketch(writer);
   writer.begin_object("road");
   sketch.kind = {9, 0, 0x00FF00};
   sketch.polygon({{0, 0, 0.1}, {4e8, 0, 0.1}, {4e8, 0.01, 0.1}});
@@ -258,7 +258,7 @@ TEST(SceneStore, DropsTheLongestUnusedBeyondItsLimit) {
 
 TEST(SceneStore, GivesEqualViewsForEqualFiles) {
   const Folder folder;
-  const auto file = folder.write("a.flt", generate_scene({.triangles = 8000, .origin = kPlace}).file);
+  const auto file = folder.write("a.flt", worldgen::generate_scene({.triangles = 8000, .origin = kPlace}).file);
   std::vector<std::vector<float>> ups;
   for (int run = 0; run < 2; ++run) {
     const auto store = store_of({scene_of(file)}, terrain::built_in_hills());
@@ -278,7 +278,7 @@ TEST(SceneStore, GivesEqualViewsForEqualFiles) {
 
 TEST(SceneView, FindsExactlyTheTilesWhoseBoundsAreWithinTheRadius) {
   const Folder folder;
-  const auto file = folder.write("a.flt", generate_scene({.triangles = 30'000, .origin = kPlace}).file);
+  const auto file = folder.write("a.flt", worldgen::generate_scene({.triangles = 30'000, .origin = kPlace}).file);
   const auto store = store_of({scene_of(file)}, terrain::flat(0));
   const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
   std::vector<const Tile*> all, found;
@@ -307,7 +307,7 @@ TEST(SceneView, FindsExactlyTheTilesWhoseBoundsAreWithinTheRadius) {
 
 TEST(SceneView, TrianglesTurnCounterClockwiseAndBoundsHoldThem) {
   const Folder folder;
-  const auto file = folder.write("a.flt", generate_scene({.triangles = 30'000, .origin = kPlace}).file);
+  const auto file = folder.write("a.flt", worldgen::generate_scene({.triangles = 30'000, .origin = kPlace}).file);
   const auto store = store_of({scene_of(file)}, terrain::flat(250));
   const SceneViewPointer view = store->prepare({kPlace, 1000, 0});
   std::vector<const Tile*> tiles;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "model/scene/openflight/records.hpp"
-#include "tests/scene/support.hpp"
+#include "tests/model/scene/support.hpp"
 #include "worldgen/scene/openflight_writer.hpp"
 
 namespace yars::model::scene {
@@ -114,7 +114,7 @@ class ByteFile {
   std::vector<std::byte>& bytes() { return out_.bytes(); }
 
  private:
-  RecordBuilder out_;
+  worldgen::RecordBuilder out_;
 };
 
 inline std::vector<std::byte> every_record() {

@@ -1,6 +1,6 @@
 // Damaged files are read or refused, in bounded memory. YARS_SCENE_MUTATIONS: how many of each; YARS_SCENE_SEED:
 // another row of them.
-#include "tests/scene/mutation.hpp"
+#include "tests/model/scene/openflight/mutation.hpp"
 
 #include <sys/resource.h>
 
@@ -10,9 +10,9 @@
 #include "model/scene/placement/placed_scene.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
 #include "model/terrain/sampling/analytic_terrain.hpp"
-#include "tests/scene/every_record.hpp"
-#include "tests/scene/support.hpp"
-#include "tests/terrain/shared_data.hpp"
+#include "tests/model/scene/openflight/every_record.hpp"
+#include "tests/model/scene/support.hpp"
+#include "tests/model/terrain/shared_data.hpp"
 
 namespace yars::model::scene {
 namespace {
@@ -31,7 +31,7 @@ void read_mutations(std::span<const std::byte> sound, std::uint64_t count) {
   ASSERT_TRUE(read_openflight(sound, "sound"));
   const Mutation mutation(sound);
   const terrain::AnalyticTerrain ground(terrain::flat(0));
-  Chance chance(seed);
+  worldgen::Chance chance(seed);
   std::uint64_t read = 0, refused = 0;
   std::map<std::string, std::uint64_t> refusals;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -63,7 +63,7 @@ TEST(DamagedFiles, OfEveryRecordAreReadOrRefused) {
 }
 
 TEST(DamagedFiles, OfAnAirfieldAreReadOrRefused) {
-  read_mutations(generate_scene({.triangles = 1, .origin = {37, -122}}).file,
+  read_mutations(worldgen::generate_scene({.triangles = 1, .origin = {37, -122}}).file,
                  number_from("YARS_SCENE_MUTATIONS", 1000) / 10);
 }
 

@@ -11,7 +11,7 @@
 #include "model/scene/openflight/node_tree.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "model/terrain/sampling/analytic_terrain.hpp"
-#include "tests/terrain/dted_builder.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
 #include "worldgen/scene/openflight_writer.hpp"
 #include "worldgen/scene/scene_builder.hpp"
 
@@ -61,8 +61,8 @@ void write_bytes(const std::filesystem::path& file, const std::vector<std::byte>
 
 // A hull 20 m high within a box of 2 km, as some ships come.
 std::filesystem::path boxed_ship(const std::filesystem::path& folder) {
-  OpenFlightWriter writer(kPlace);
-  Sketch sketch(writer);
+  worldgen::OpenFlightWriter writer(kPlace);
+  worldgen::Sketch sketch(writer);
   writer.begin_object("hull");
   sketch.box({0, 0, 0}, 20, 100, 20);
   writer.end();
@@ -123,8 +123,8 @@ TEST(NameFilter, OfSeveralScenesEachLeavesOutWhatItHas) {
   const std::string ship = boxed_ship(folder.path());
   std::filesystem::create_directory(folder.path() / "other");
   const std::string other = folder.path() / "other" / "pier.flt";
-  OpenFlightWriter writer(kPlace);
-  Sketch sketch(writer);
+  worldgen::OpenFlightWriter writer(kPlace);
+  worldgen::Sketch sketch(writer);
   writer.begin_object("pier");
   sketch.box({0, 0, 0}, 10, 50, 2);
   writer.end();

@@ -11,8 +11,8 @@
 
 #include "model/scene/openflight/parser.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
-#include "tests/scene/every_record.hpp"
-#include "tests/terrain/shared_data.hpp"
+#include "tests/model/scene/openflight/every_record.hpp"
+#include "tests/model/terrain/shared_data.hpp"
 #include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::model::scene {
@@ -105,9 +105,9 @@ TEST(OpenSceneGraph, CountsAlikeInTheTank) {
 TEST(OpenSceneGraph, CountsAlikeInGeneratedScenes) {
   if (!has_osgconv()) GTEST_SKIP() << "needs osgconv (Debian: openscenegraph), which is absent here";
   int number = 0;
-  for (const GeneratedKind kind :
-       {GeneratedKind::airfield, GeneratedKind::harbour, GeneratedKind::bridge, GeneratedKind::town})
-    compare(generate_scene({.kind = kind, .triangles = 25'000, .seed = 5, .origin = {36, -115}}).file,
+  for (const worldgen::GeneratedKind kind : {worldgen::GeneratedKind::airfield, worldgen::GeneratedKind::harbour,
+                                             worldgen::GeneratedKind::bridge, worldgen::GeneratedKind::town})
+    compare(worldgen::generate_scene({.kind = kind, .triangles = 25'000, .seed = 5, .origin = {36, -115}}).file,
             "made" + std::to_string(number++));
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "model/scene/openflight/parser.hpp"
-#include "tests/scene/every_record.hpp"
+#include "tests/model/scene/openflight/every_record.hpp"
 
 namespace yars::model::scene {
 

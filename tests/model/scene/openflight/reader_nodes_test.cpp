@@ -7,9 +7,9 @@
 #include "model/scene/openflight/parser.hpp"
 #include "model/scene/openflight/records.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
-#include "tests/scene/every_record.hpp"
-#include "tests/scene/read_bytes.hpp"
-#include "tests/terrain/shared_data.hpp"
+#include "tests/model/scene/openflight/every_record.hpp"
+#include "tests/model/scene/openflight/read_bytes.hpp"
+#include "tests/model/terrain/shared_data.hpp"
 #include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::model::scene {
@@ -20,7 +20,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 TEST(Subfaces, LieJustBeforeTheirFace) {
-  OpenFlightWriter writer(std::nullopt);
+  worldgen::OpenFlightWriter writer(std::nullopt);
   writer.face(square(0, 0, 10), kTestKind);
   writer.begin_subfaces();
   writer.face(square(2, 2, 3), {6, 0, 0});
@@ -33,7 +33,7 @@ TEST(Subfaces, LieJustBeforeTheirFace) {
 
 TEST(Matrices, ApplyToTheNodeBeforeThem) {
   // Quarter turn about up, then 100 east: (10, 0) goes to (100, 10).
-  OpenFlightWriter writer(std::nullopt);
+  worldgen::OpenFlightWriter writer(std::nullopt);
   const Affine matrix = Affine::turn_about_up(M_PI / 2) * Affine::translation({100, 0, 0});
   writer.begin_group("turned", &matrix);
   writer.face(square(0, 0, 10), kTestKind);
@@ -44,7 +44,7 @@ TEST(Matrices, ApplyToTheNodeBeforeThem) {
 }
 
 TEST(Matrices, OfInnerNodesComeBeforeThoseOfOuterOnes) {
-  OpenFlightWriter writer(std::nullopt);
+  worldgen::OpenFlightWriter writer(std::nullopt);
   const Affine outer = Affine::turn_about_up(M_PI / 2), inner = Affine::translation({100, 0, 0});
   writer.begin_group("outer", &outer);
   writer.begin_group("inner", &inner);
@@ -57,8 +57,8 @@ TEST(Matrices, OfInnerNodesComeBeforeThoseOfOuterOnes) {
 }
 
 TEST(Matrices, ThatMirrorKeepOutsideOutside) {
-  OpenFlightWriter writer(std::nullopt);
-  Sketch sketch(writer);
+  worldgen::OpenFlightWriter writer(std::nullopt);
+  worldgen::Sketch sketch(writer);
   const Affine mirror = Affine::scale({-1, 2, 1});
   writer.begin_group("mirrored", &mirror);
   sketch.box({5, 5, 0}, 4, 4, 4);
@@ -115,7 +115,7 @@ TEST(Replication, ShowsTheNodeAndSoManyMoreEachFartherOn) {
 }
 
 TEST(Instances, ShowTheirDefinitionWhereTheyAre) {
-  OpenFlightWriter writer(std::nullopt);
+  worldgen::OpenFlightWriter writer(std::nullopt);
   writer.begin_definition(5);
   writer.begin_object("thing");
   writer.face(square(0, 0, 10), kTestKind);
@@ -174,7 +174,7 @@ TEST(Instances, OfNoDefinitionAreAWarning) {
 }
 
 TEST(LevelsOfDetail, TheFinestIsShown) {
-  OpenFlightWriter writer(std::nullopt);
+  worldgen::OpenFlightWriter writer(std::nullopt);
   writer.begin_level_of_detail("far", 10'000, 1000, {});
   writer.face(square(0, 0, 10), {1, 0, 0});
   writer.end();
@@ -188,7 +188,7 @@ TEST(LevelsOfDetail, TheFinestIsShown) {
 }
 
 TEST(Switches, ShowWhatTheirMaskHas) {
-  OpenFlightWriter writer(std::nullopt);
+  worldgen::OpenFlightWriter writer(std::nullopt);
   writer.begin_switch("s", 0b10);
   for (const std::uint8_t material : {std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{3}}) {
     writer.begin_group("child");
@@ -266,7 +266,7 @@ TEST(ExternalFiles, AreReadBesideTheirFileInItsUnitsAndMoved) {
   child.polygon({0, 1, 2, 3}, 9);
   child.pop();
   folder.write("parts/child.flt", child.bytes());
-  OpenFlightWriter parent(std::nullopt);
+  worldgen::OpenFlightWriter parent(std::nullopt);
   parent.external("parts\\child.flt", Affine::translation({100, 0, 0}));
   parent.external("parts/child.flt<all>", Affine::translation({200, 0, 0}));
   const auto model = read_openflight(folder.write("parent.flt", parent.take()));
@@ -280,7 +280,7 @@ TEST(ExternalFiles, AreReadBesideTheirFileInItsUnitsAndMoved) {
 
 TEST(ExternalFiles, ThatLeadBackAreLeftOut) {
   const Folder folder;
-  OpenFlightWriter a(std::nullopt), b(std::nullopt);
+  worldgen::OpenFlightWriter a(std::nullopt), b(std::nullopt);
   a.face(square(0, 0, 1), kTestKind);
   a.external("b.flt", {});
   b.face(square(0, 0, 1), kTestKind);
@@ -295,7 +295,7 @@ TEST(ExternalFiles, ThatLeadBackAreLeftOut) {
 
 TEST(ExternalFiles, OutsideTheFolderAndMissingOnesAreLeftOut) {
   const Folder folder;
-  OpenFlightWriter inner(std::nullopt), outer(std::nullopt);
+  worldgen::OpenFlightWriter inner(std::nullopt), outer(std::nullopt);
   outer.face(square(0, 0, 1), kTestKind);
   folder.write("outer.flt", outer.take());
   inner.external("../outer.flt", {});

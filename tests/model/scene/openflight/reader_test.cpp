@@ -8,9 +8,9 @@
 #include "model/scene/openflight/parser.hpp"
 #include "model/scene/openflight/records.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
-#include "tests/scene/every_record.hpp"
-#include "tests/scene/read_bytes.hpp"
-#include "tests/terrain/shared_data.hpp"
+#include "tests/model/scene/openflight/every_record.hpp"
+#include "tests/model/scene/openflight/read_bytes.hpp"
+#include "tests/model/terrain/shared_data.hpp"
 #include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::model::scene {
@@ -21,7 +21,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 TEST(Records, FieldsPastTheEndAreAbsent) {
-  RecordBuilder builder;
+  worldgen::RecordBuilder builder;
   builder.begin(5, 10);
   builder.put<std::int16_t>(8, -7);
   const auto record = record_at(builder.bytes(), 0);
@@ -47,7 +47,7 @@ TEST(Records, ALengthBelowFourIsRefused) {
 }
 
 TEST(Header, HasRevisionUnitAndOrigin) {
-  OpenFlightWriter writer(geo::GeoPoint{37.5, -122.3});
+  worldgen::OpenFlightWriter writer(geo::GeoPoint{37.5, -122.3});
   const Model model = scene::read(writer);
   EXPECT_EQ(model.header.revision, 1600);
   EXPECT_EQ(model.header.metres_per_unit, 1.0);
@@ -89,7 +89,7 @@ TEST(Header, UnitsBecomeMetres) {
 }
 
 TEST(Faces, KeepMaterialFeatureAndColor) {
-  OpenFlightWriter writer(std::nullopt);
+  worldgen::OpenFlightWriter writer(std::nullopt);
   writer.begin_object("o");
   writer.face(square(0, 0, 10), {9, 1234, 0x804020});
   writer.end();
@@ -149,7 +149,7 @@ TEST(Faces, HiddenOnesLinesAndLightsAreLeftOut) {
 }
 
 TEST(Faces, OfTwoSidesAreThereTwiceWithOppositeNormals) {
-  OpenFlightWriter writer(std::nullopt);
+  worldgen::OpenFlightWriter writer(std::nullopt);
   writer.face(square(0, 0, 10), kTestKind, true);
   const Model model = scene::read(writer);
   ASSERT_EQ(model.triangles.size(), 4U);
@@ -174,9 +174,9 @@ TEST(Faces, WithoutNormalsGetTheirFacets) {
 }
 
 TEST(Faces, WithNormalsOfTheOtherSideGetTheirFacets) {
-  OpenFlightWriter writer(std::nullopt);
+  worldgen::OpenFlightWriter writer(std::nullopt);
   auto corners = square(0, 0, 10);
-  for (WriterVertex& corner : corners) corner.normal = {0, 0, -1};
+  for (worldgen::WriterVertex& corner : corners) corner.normal = {0, 0, -1};
   writer.face(corners, kTestKind);
   EXPECT_NEAR(normal_of(scene::read(writer), 0).z, 1.0, 1e-6);
 }
@@ -214,7 +214,7 @@ TEST(Polygons, ConcaveOnesKeepTheirAreaAndSense) {
 }
 
 TEST(Polygons, StarsOfAnySizeAndSlopeKeepTheirArea) {
-  Chance chance(7);
+  worldgen::Chance chance(7);
   for (int trial = 0; trial < 200; ++trial) {
     const int points = 5 + chance.below(40);
     const Affine tilt{{chance.between(-1, 1), chance.between(-1, 1), chance.between(-1, 1)},

@@ -9,14 +9,14 @@
 
 #include "model/scene/placement/placed_scene.hpp"
 #include "model/terrain/sampling/analytic_terrain.hpp"
-#include "tests/scene/support.hpp"
+#include "tests/model/scene/support.hpp"
 
 namespace yars::model::scene {
 namespace {
 
 constexpr geo::GeoPoint kPlace{37.5, -122.3};
 
-std::shared_ptr<const Scatterers> scatterers_of(OpenFlightWriter& writer,
+std::shared_ptr<const Scatterers> scatterers_of(worldgen::OpenFlightWriter& writer,
                                                 double most_reach_m = std::numeric_limits<double>::infinity()) {
   KindTable kinds;
   const terrain::AnalyticTerrain ground(terrain::flat(100.0));
@@ -39,8 +39,8 @@ double wall_area(const ScattererLevel& level) {
 }
 
 TEST(Scatterers, OfALargeHallAreManyAndLoseNoneOfItsArea) {
-  OpenFlightWriter writer(std::nullopt);
-  Sketch sketch(writer);
+  worldgen::OpenFlightWriter writer(std::nullopt);
+  worldgen::Sketch sketch(writer);
   writer.begin_object("hall");
   sketch.kind = {1, 0, 0};
   sketch.box({500, -300, 0}, 400, 200, 25);
@@ -61,7 +61,7 @@ TEST(Scatterers, OfALargeHallAreManyAndLoseNoneOfItsArea) {
 }
 
 TEST(Scatterers, OfWhatIsFlatAreCover) {
-  OpenFlightWriter writer(std::nullopt);
+  worldgen::OpenFlightWriter writer(std::nullopt);
   writer.begin_object("apron");
   writer.face(square(0, 0, 320, 0.1), {9, 0, 0});
   writer.end();
@@ -76,7 +76,7 @@ TEST(Scatterers, OfWhatIsFlatAreCover) {
 }
 
 TEST(Scatterers, AFaceOfTwentyKilometresMakesABoundedNumber) {
-  OpenFlightWriter writer(std::nullopt);
+  worldgen::OpenFlightWriter writer(std::nullopt);
   writer.begin_object("plate");
   writer.face(square(-10000, -10000, 20000, 50.0), {7, 0, 0});
   writer.end();
@@ -102,8 +102,8 @@ TEST(Scatterers, AFlatFaceTheSizeOfAContinentNeitherHangsNorFillsTheMemory) {
 }
 
 TEST(Scatterers, BeyondTheReachAreLeftOut) {
-  OpenFlightWriter writer(std::nullopt);
-  Sketch sketch(writer);
+  worldgen::OpenFlightWriter writer(std::nullopt);
+  worldgen::Sketch sketch(writer);
   writer.begin_object("near and far");
   sketch.box({112, 16, 0}, 10, 10, 10);
   sketch.box({5000, 0, 0}, 10, 10, 10);

@@ -1,15 +1,13 @@
-// Culture: the tile's file, where it lies, how streets run.
+// Culture: the tile's file, where it lies.
 #include "model/terrain/formats/culture.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <string>
 #include <vector>
 
 #include "lib/imageio/png.hpp"
-#include "model/physics/reflectivity.hpp"
-#include "tests/terrain/dted_builder.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
 
 namespace yars::model::terrain {
 namespace {
@@ -88,49 +86,6 @@ TEST(CultureReader, WhatIsNoTileIsOneClearError) {
   const auto read = read_culture(line, kPlace);
   ASSERT_FALSE(read.has_value());
   EXPECT_NE(read.error().message().find("1 x 5"), std::string::npos) << read.error().message();
-}
-
-TEST(StreetGrid, BearingsAreRightAngledAndTownsHaveOne) {
-  int same = 0;
-  constexpr int kPlaces = 2000;
-  for (int index = 0; index < kPlaces; ++index) {
-    const geo::GeoPoint place{-70.0 + 0.07 * index, -180.0 + 0.18 * index};
-    const double bearing_deg = street_bearing_deg(place);
-    ASSERT_GE(bearing_deg, 0.0);
-    ASSERT_LT(bearing_deg, 90.0);
-    same += static_cast<int>(bearing_deg == street_bearing_deg({place.latitude_deg + 0.005, place.longitude_deg}));
-  }
-  EXPECT_GT(same, kPlaces * 3 / 4) << "places 550 m apart are mostly of one patch";
-  EXPECT_LT(same, kPlaces) << "but not all";
-}
-
-TEST(StreetGrid, DirectionsAreOfEveryKind) {
-  int sectors[9] = {};
-  for (int index = 0; index < 3000; ++index)
-    ++sectors[static_cast<int>(street_bearing_deg({-40.0 + 0.03 * index, 3.1 * index}) / 10.0)];
-  for (const int count : sectors) EXPECT_GT(count, 30);
-}
-
-TEST(StreetGrid, TheAntimeridianIsNoBorder) {
-  for (double latitude_deg = -89.5; latitude_deg < 90.0; latitude_deg += 0.5) {
-    EXPECT_EQ(street_bearing_deg({latitude_deg, 180.0}), street_bearing_deg({latitude_deg, -180.0}));
-    const double west = street_bearing_deg({latitude_deg, 179.9999999});
-    EXPECT_EQ(west, street_bearing_deg({latitude_deg, -179.9999999})) << latitude_deg;
-  }
-}
-
-TEST(StreetFinder, AnswersAsIfEachPlaceWereItsFirst) {
-  StreetFinder finder;
-  // Along rays, as a sweep goes, and from one to the next: over a pole, the antimeridian and back.
-  for (const double start_deg : {-89.9, -34.0, 37.0, 88.0})
-    for (int step = 0; step < 800; ++step) {
-      const geo::GeoPoint place{start_deg + 0.004 * step, 179.0 + 0.003 * step};
-      const StreetPatch found = finder.patch(place);
-      const StreetPatch expected = street_patch(place);
-      ASSERT_EQ(found.bearing_deg, expected.bearing_deg) << place.latitude_deg;
-      ASSERT_EQ(found.origin.longitude_deg, expected.origin.longitude_deg) << place.latitude_deg;
-      ASSERT_EQ(finder.bearing_deg(place), expected.bearing_deg);
-    }
 }
 
 }  // namespace

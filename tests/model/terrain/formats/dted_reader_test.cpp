@@ -5,7 +5,7 @@
 #include <random>
 
 #include "model/terrain/formats/dted.hpp"
-#include "tests/terrain/dted_builder.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
 
 namespace yars::model::terrain {
 namespace {
@@ -16,7 +16,7 @@ using ::testing::IsEmpty;
 
 constexpr CellPlace kPlace{50, 10};
 
-failure::Expected<CellReading> parse(const test::DtedFile& file) {
+error::Expected<CellReading> parse(const test::DtedFile& file) {
   return parse_dted(file.bytes(), "small.dt0", kPlace);
 }
 

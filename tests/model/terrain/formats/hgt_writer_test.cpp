@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "model/terrain/formats/hgt.hpp"
-#include "tests/terrain/dted_builder.hpp"
-#include "tests/terrain/rough_cell.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
+#include "tests/model/terrain/sampling/rough_cell.hpp"
 
 namespace yars::model::terrain {
 namespace {

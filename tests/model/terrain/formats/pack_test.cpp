@@ -10,8 +10,8 @@
 #include "model/terrain/formats/jpeg2000.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "model/terrain/store/directory_store.hpp"
-#include "tests/terrain/dted_builder.hpp"
-#include "tests/terrain/rough_cell.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
+#include "tests/model/terrain/sampling/rough_cell.hpp"
 
 namespace yars::model::terrain {
 namespace {
@@ -29,7 +29,7 @@ Cell smooth_cell(int rows, int columns) {
   });
 }
 
-failure::Expected<CellReading> read_back(const PackedCell& packed, int reduction) {
+error::Expected<CellReading> read_back(const PackedCell& packed, int reduction) {
   return parse_pack(packed.jp2, packed.side, "n36.jp2", kPlace, reduction);
 }
 

@@ -5,7 +5,7 @@
 
 #include "model/terrain/formats/hgt.hpp"
 #include "model/terrain/store/cell_files.hpp"
-#include "tests/terrain/dted_builder.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
 
 namespace yars::model::terrain {
 namespace {

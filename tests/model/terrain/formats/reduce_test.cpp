@@ -5,7 +5,7 @@
 
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
-#include "tests/terrain/rough_cell.hpp"
+#include "tests/model/terrain/sampling/rough_cell.hpp"
 
 namespace yars::model::terrain {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "model/terrain/store/cell_files.hpp"
 #include "model/terrain/store/directory_store.hpp"
-#include "tests/terrain/dted_builder.hpp"
-#include "tests/terrain/gdal/raster_builder.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
+#include "tests/model/terrain/gdal/raster_builder.hpp"
 
 namespace yars::model::terrain {
 namespace {

@@ -10,10 +10,10 @@
 #include "model/terrain/sampling/cell_view.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "model/terrain/store/directory_store.hpp"
-#include "tests/terrain/dted_builder.hpp"
-#include "tests/terrain/gdal/raster_builder.hpp"
-#include "tests/terrain/rough_cell.hpp"
-#include "tests/terrain/shared_data.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
+#include "tests/model/terrain/gdal/raster_builder.hpp"
+#include "tests/model/terrain/sampling/rough_cell.hpp"
+#include "tests/model/terrain/shared_data.hpp"
 
 namespace yars::model::terrain {
 namespace {

@@ -12,9 +12,9 @@
 #include "model/terrain/gdal/raster.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
 #include "model/terrain/store/cell_files.hpp"
-#include "tests/terrain/dted_builder.hpp"
-#include "tests/terrain/gdal/raster_builder.hpp"
-#include "tests/terrain/shared_data.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
+#include "tests/model/terrain/gdal/raster_builder.hpp"
+#include "tests/model/terrain/shared_data.hpp"
 
 namespace yars::model::terrain {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "model/terrain/gdal/raster.hpp"
 #include "model/terrain/gdal/raster_survey.hpp"
-#include "tests/terrain/dted_builder.hpp"
-#include "tests/terrain/gdal/raster_builder.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
+#include "tests/model/terrain/gdal/raster_builder.hpp"
 
 namespace yars::model::terrain {
 namespace {

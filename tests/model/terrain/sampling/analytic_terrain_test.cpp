@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/terrain/fast_path.hpp"
+#include "tests/model/terrain/sampling/fast_path.hpp"
 
 namespace yars::model::terrain {
 namespace {

@@ -9,9 +9,9 @@
 #include <limits>
 #include <random>
 
-#include "tests/lanes/vector_targets.hpp"
-#include "tests/terrain/fast_path.hpp"
-#include "tests/terrain/rough_cell.hpp"
+#include "tests/lib/simd/vector_targets.hpp"
+#include "tests/model/terrain/sampling/fast_path.hpp"
+#include "tests/model/terrain/sampling/rough_cell.hpp"
 
 namespace yars::model::terrain {
 namespace {

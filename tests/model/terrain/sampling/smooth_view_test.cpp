@@ -11,9 +11,9 @@
 
 #include "model/terrain/sampling/cell_view.hpp"
 #include "model/terrain/store/directory_store.hpp"
-#include "tests/lanes/vector_targets.hpp"
-#include "tests/terrain/rough_cell.hpp"
-#include "tests/terrain/shared_data.hpp"
+#include "tests/lib/simd/vector_targets.hpp"
+#include "tests/model/terrain/sampling/rough_cell.hpp"
+#include "tests/model/terrain/shared_data.hpp"
 
 namespace yars::model::terrain {
 namespace {

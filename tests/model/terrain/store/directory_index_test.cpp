@@ -6,8 +6,8 @@
 
 #include "model/terrain/gdal/raster.hpp"
 #include "model/terrain/store/cell_files.hpp"
-#include "tests/terrain/ded_builder.hpp"
-#include "tests/terrain/dted_builder.hpp"
+#include "tests/model/terrain/formats/ded_builder.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
 
 namespace yars::model::terrain {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "model/terrain/formats/dted.hpp"
 #include "model/terrain/store/directory_store.hpp"
-#include "tests/terrain/dted_builder.hpp"
-#include "tests/terrain/fast_path.hpp"
-#include "tests/terrain/rough_cell.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
+#include "tests/model/terrain/sampling/fast_path.hpp"
+#include "tests/model/terrain/sampling/rough_cell.hpp"
 
 namespace yars::model::terrain {
 namespace {

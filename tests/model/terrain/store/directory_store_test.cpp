@@ -8,8 +8,8 @@
 #include <random>
 
 #include "model/terrain/formats/dted.hpp"
-#include "tests/terrain/dted_builder.hpp"
-#include "tests/terrain/fast_path.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
+#include "tests/model/terrain/sampling/fast_path.hpp"
 
 namespace yars::model::terrain {
 namespace {

@@ -7,8 +7,8 @@
 #include "model/terrain/formats/pack.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "model/terrain/store/directory_store.hpp"
-#include "tests/terrain/rough_cell.hpp"
-#include "tests/terrain/shared_data.hpp"
+#include "tests/model/terrain/sampling/rough_cell.hpp"
+#include "tests/model/terrain/shared_data.hpp"
 
 namespace yars::model::terrain {
 namespace {

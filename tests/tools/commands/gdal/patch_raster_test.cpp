@@ -15,8 +15,8 @@
 #include "model/hrm/patch_geometry.hpp"
 #include "model/terrain/formats/dted.hpp"
 #include "tests/endtoend/process_set.hpp"
-#include "tests/terrain/dted_builder.hpp"
-#include "tests/terrain/rough_cell.hpp"
+#include "tests/model/terrain/formats/dted_builder.hpp"
+#include "tests/model/terrain/sampling/rough_cell.hpp"
 #include "worldgen/scene/openflight_writer.hpp"
 #include "worldgen/scene/scene_builder.hpp"
 
@@ -137,8 +137,8 @@ TEST_P(PatchRasterOf, AKnownObjectStandsAtItsLatitudeAndLongitude) {
   const auto level = test::cell_of({37, -122}, 121, 121, [](int, int) { return 100; });
   ASSERT_TRUE(model::terrain::write_dted(folder.path(), level, 0));
   const geo::GeoPoint place = geo::geodesic_direct(target, geo::Bearing::degrees(70.0), geo::Length::metres(310.0));
-  model::scene::OpenFlightWriter writer(place);
-  model::scene::Sketch sketch(writer);
+  worldgen::OpenFlightWriter writer(place);
+  worldgen::Sketch sketch(writer);
   sketch.kind = {1, 0, 0x808080};
   writer.begin_object("box");
   sketch.box({0.0, 0.0, 0.0}, 30.0, 30.0, 1.0);

@@ -522,7 +522,7 @@ static inline int yars_claim_input_lane(yars_session* s, const char* source) {
   return yars_fail(s, "input lane", "all are taken; `yars status` names the sources");
 }
 
-/* Sends kind, argument, x, y, text (databuffer/messages/input_event.hpp); times and number are filled in. */
+/* Sends kind, argument, x, y, text (databuffer/records/input_event.hpp); times and number are filled in. */
 static inline int yars_push_event(yars_session* s, const yars_input_event* event) {
   if (s->input_lane < 0) return yars_fail(s, "yars_push_event", "claim an input lane first");
   const size_t at = yars_input_at(s->input_lane);
