@@ -154,17 +154,6 @@ TEST(PointName, SortsByNumberEachPointBeforeItsOffsets) {
   EXPECT_EQ(shuffled, sorted);
 }
 
-TEST(GroundTrack, IsTheDirectionOfTheVelocityOrTheHeadingAtRest) {
-  const auto track_deg = [](double north_mps, double east_mps) {
-    return ground_track(geo::Speed::metres_per_second(north_mps), geo::Speed::metres_per_second(east_mps),
-                        geo::Bearing::degrees(77.0))
-        .degrees();
-  };
-  EXPECT_NEAR(track_deg(100.0, 100.0), 45.0, 1e-9);
-  EXPECT_NEAR(track_deg(0.0, -100.0), 270.0, 1e-9);
-  EXPECT_EQ(track_deg(0.1, -0.1), 77.0);
-}
-
 TEST(Names, AreTheWordsOfWatch) {
   EXPECT_EQ(name_of(Power::standby), "STBY");
   EXPECT_EQ(name_of(Mode::air_to_air), "AA");

@@ -1,8 +1,9 @@
+#include "databuffer/messages/derived_values.hpp"
+
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "databuffer/messages/derived_values.hpp"
 #include "lib/radar/modes.hpp"
 
 namespace yars::databuffer {
@@ -56,6 +57,17 @@ TEST_F(MapTimer, IsNothingInModesThatCommandNoMapFromTheGlass) {
     state.resume_mode = static_cast<std::uint8_t>(mode);
     EXPECT_TRUE(map_timer_s(state, model).has_value()) << radar::name_of(mode);
   }
+}
+
+TEST(GroundTrack, IsTheDirectionOfTheVelocityOrTheHeadingAtRest) {
+  const auto track_deg = [](double north_mps, double east_mps) {
+    return radar::ground_track(geo::Speed::metres_per_second(north_mps), geo::Speed::metres_per_second(east_mps),
+                               geo::Bearing::degrees(77.0))
+        .degrees();
+  };
+  EXPECT_NEAR(track_deg(100.0, 100.0), 45.0, 1e-9);
+  EXPECT_NEAR(track_deg(0.0, -100.0), 270.0, 1e-9);
+  EXPECT_EQ(track_deg(0.1, -0.1), 77.0);
 }
 
 }  // namespace
