@@ -110,7 +110,7 @@ int main(int argc, char** argv) {
     return 1;
   }
   make_canvas();
-  auto glass = display::host::Glass::attach({argc > 1 ? argv[1] : "default", "", "host_glass"});
+  auto glass = display::host::Display::attach({argc > 1 ? argv[1] : "default", "", "host_glass"});
   if (!glass) {
     std::fprintf(stderr, "%s\n", glass.error().message().c_str());
     return 1;

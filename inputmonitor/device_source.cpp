@@ -127,7 +127,7 @@ namespace {
 using databuffer::InputEvent;
 using error::Expected;
 
-constexpr std::size_t kMostBytes = 128 * kRecordBytes;  // of one take: more than a device reports in 10 ms
+constexpr std::size_t kMaxBytes = 128 * kRecordBytes;  // of one take: more than a device reports in 10 ms
 
 Expected<const radar::Device*> map_for(const DeviceFacts& facts, const std::string& path, const std::string& name,
                                        const std::vector<radar::Device>& maps) {
@@ -233,7 +233,7 @@ void DeviceSource::look_for_it() {
 }
 
 void DeviceSource::read_some(std::int64_t now_ns) {
-  std::array<std::byte, kMostBytes> bytes;
+  std::array<std::byte, kMaxBytes> bytes;
   std::size_t count = 0;
   const auto outcome = reader_->read(bytes, count);
   for (const RawEvent& raw : stream_.feed({bytes.data(), count})) {

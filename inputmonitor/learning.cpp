@@ -183,8 +183,8 @@ void Learning::add_axis(radar::Device& device, std::size_t first) const {
   if (known.found == Found::nothing) return;
   const double other =
       down.found != Found::nothing && up.found != Found::nothing ? down.extreme : 2.0 * known.rest - known.extreme;
-  constexpr double kLeastDeadZone = 0.05;
-  constexpr double kMostDeadZone = 0.3;
+  constexpr double kMinDeadZone = 0.05;
+  constexpr double kMaxDeadZone = 0.3;
   radar::DeviceAxis axis;
   axis.code = config::axis_name(known.code);
   axis.use = kPrompts[first].use;
@@ -196,7 +196,7 @@ void Learning::add_axis(radar::Device& device, std::size_t first) const {
   const double half = (axis.high - axis.low) / 2.0;
   // Twice what it missed its rest by, in hundredths.
   const double missed = 2.0 * std::max(up.trembling, down.trembling) / half;
-  axis.dead_zone = std::clamp(std::round(missed * 100.0) / 100.0, kLeastDeadZone, kMostDeadZone);
+  axis.dead_zone = std::clamp(std::round(missed * 100.0) / 100.0, kMinDeadZone, kMaxDeadZone);
   device.axes.push_back(axis);
 }
 

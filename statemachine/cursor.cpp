@@ -30,7 +30,7 @@ constexpr double kCrossingSeconds = 2.0;  // [s] full deflection across the glas
 constexpr radar::ViewConfiguration kMapView{-0.5, 0.5, -0.5, 0.5};  // the window fills the glass, its centre is 0, 0
 
 // A place on the glass, right and up; its unit and its zero are the plane's.
-struct GlassPoint {
+struct DisplayPoint {
   double x = 0.0;
   double y = 0.0;
 };
@@ -43,25 +43,25 @@ struct Plane {
   Length ahead;  // of the glass's zero, from the apex
   radar::ViewConfiguration view;
 
-  GlassPoint glass_from_ground(GeoPoint place) const {
+  DisplayPoint display_from_ground(GeoPoint place) const {
     const auto inverse = geo::geodesic_inverse(apex, place);
     const double turn_rad = (inverse.azimuth_at_start - up).radians();
     return {inverse.distance * std::sin(turn_rad) / unit, (inverse.distance * std::cos(turn_rad) - ahead) / unit};
   }
-  GeoPoint ground_from_glass(GlassPoint point) const {
+  GeoPoint ground_from_display(DisplayPoint point) const {
     const Length right = point.x * unit;
     const Length forward = point.y * unit + ahead;
     const Bearing azimuth = up + geo::Angle::radians(std::atan2(right.metres(), forward.metres()));
     return geo::geodesic_direct(apex, azimuth, Length::metres(std::hypot(right.metres(), forward.metres())));
   }
-  bool shows(GlassPoint point) const {
+  bool shows(DisplayPoint point) const {
     return point.x >= view.width_min && point.x <= view.width_max && point.y >= view.height_min &&
            point.y <= view.height_max;
   }
 };
 
-GeoPoint aircraft_of(const Surroundings& surroundings) {
-  return {surroundings.ownship.latitude_deg, surroundings.ownship.longitude_deg};
+GeoPoint aircraft_of(const Inputs& inputs) {
+  return {inputs.ownship.latitude_deg, inputs.ownship.longitude_deg};
 }
 
 void put_cursor(RadarState& state, GeoPoint place, std::int64_t tick) {
@@ -74,15 +74,14 @@ void put_cursor(RadarState& state, GeoPoint place, std::int64_t tick) {
 }
 
 // Nothing while a map is shown of which nobody knows where it lies.
-std::optional<Plane> plane_of(const RadarState& state, const Surroundings& surroundings,
-                              const radar::ViewConfiguration& view) {
+std::optional<Plane> plane_of(const RadarState& state, const Inputs& inputs, const radar::ViewConfiguration& view) {
   Plane plane{{state.frame_latitude_deg, state.frame_longitude_deg},
               Bearing::degrees(state.frame_track_deg),
               Length::nautical_miles(state.range_nm),
               Length(),
               view};
   if (state.map_shown == 0) return plane;
-  const PatchMap* map = map_of(surroundings, state.map_shown);
+  const PatchMap* map = map_of(inputs, state.map_shown);
   if (map == nullptr) return std::nullopt;
   plane.unit = Length::nautical_miles(map->window_nm);
   plane.ahead = Length::metres(map->distance_m);
@@ -90,35 +89,34 @@ std::optional<Plane> plane_of(const RadarState& state, const Surroundings& surro
   return plane;
 }
 
-void follow_aircraft(RadarState& state, const Surroundings& surroundings) {
+void follow_aircraft(RadarState& state, const Inputs& inputs) {
   // The frozen picture stays where its last sweep was; until the scan has ended it is not frozen.
-  const bool frozen = has(state, databuffer::kFreeze) && (surroundings.model.flags & databuffer::kModelFrozen) != 0;
+  const bool frozen = has(state, databuffer::kFreeze) && (inputs.model.flags & databuffer::kModelFrozen) != 0;
   if (frozen) return;
-  const databuffer::Ownship& ownship = surroundings.ownship;
+  const databuffer::Ownship& ownship = inputs.ownship;
   state.frame_latitude_deg = ownship.latitude_deg;
   state.frame_longitude_deg = ownship.longitude_deg;
   state.frame_track_deg = databuffer::ground_track_of(ownship).degrees();
 }
 
-void follow(RadarState& state, const Surroundings& surroundings) {
-  if (state.map_shown == 0) return follow_aircraft(state, surroundings);
-  const PatchMap* map = map_of(surroundings, state.map_shown);
+void follow(RadarState& state, const Inputs& inputs) {
+  if (state.map_shown == 0) return follow_aircraft(state, inputs);
+  const PatchMap* map = map_of(inputs, state.map_shown);
   if (map == nullptr) return;
   state.frame_latitude_deg = map->apex_latitude_deg;
   state.frame_longitude_deg = map->apex_longitude_deg;
   state.frame_track_deg = map->up_deg;
 }
 
-void place_cursor(RadarState& state, const Plane& plane, const Surroundings& surroundings,
+void place_cursor(RadarState& state, const Plane& plane, const Inputs& inputs,
                   const radar::RadarConfiguration& configuration) {
-  const GlassPoint middle{0.0, state.map_shown == 0 ? 0.5 : 0.0};
-  GeoPoint place = plane.ground_from_glass(middle);
+  const DisplayPoint middle{0.0, state.map_shown == 0 ? 0.5 : 0.0};
+  GeoPoint place = plane.ground_from_display(middle);
   if (const auto point = selected_point(state, configuration)) {
-    const GeoPoint seen =
-        databuffer::belief_in_use(surroundings.ownship, surroundings.nav, state).on_video(point->place);
-    if (plane.shows(plane.glass_from_ground(seen))) place = seen;
+    const GeoPoint seen = databuffer::belief_in_use(inputs.ownship, inputs.nav, state).on_video(point->place);
+    if (plane.shows(plane.display_from_ground(seen))) place = seen;
   }
-  put_cursor(state, place, surroundings.tick);
+  put_cursor(state, place, inputs.tick);
 }
 
 void slew(RadarState& state, const Plane& plane, std::int64_t tick) {
@@ -127,20 +125,19 @@ void slew(RadarState& state, const Plane& plane, std::int64_t tick) {
   if (state.tdc_x == 0.0 && state.tdc_y == 0.0) return;
   const double share = radar::kTickSeconds / kCrossingSeconds;
   const auto& view = plane.view;
-  const GlassPoint from = plane.glass_from_ground(cursor_of(state));
+  const DisplayPoint from = plane.display_from_ground(cursor_of(state));
   const double x = from.x + state.tdc_x * share * (view.width_max - view.width_min);
   const double y = from.y + state.tdc_y * share * (view.height_max - view.height_min);
-  const GlassPoint to{std::clamp(x, view.width_min, view.width_max), std::clamp(y, view.height_min, view.height_max)};
-  put_cursor(state, plane.ground_from_glass(to), tick);
+  const DisplayPoint to{std::clamp(x, view.width_min, view.width_max), std::clamp(y, view.height_min, view.height_max)};
+  put_cursor(state, plane.ground_from_display(to), tick);
 }
 
-void read_out(RadarState& state, const Surroundings& surroundings) {
-  const auto inverse = geo::geodesic_inverse(aircraft_of(surroundings), cursor_of(state));
+void read_out(RadarState& state, const Inputs& inputs) {
+  const auto inverse = geo::geodesic_inverse(aircraft_of(inputs), cursor_of(state));
   state.cursor_bearing_deg = (inverse.azimuth_at_start - geo::Angle::degrees(state.magnetic_variation_deg)).degrees();
   state.cursor_range_nm = inverse.distance.nautical_miles();
-  if (const auto elevation_m = answered_elevation_m(surroundings, cursor_of(state)))
-    state.cursor_elevation_m = *elevation_m;
-  const auto belief = databuffer::belief_in_use(surroundings.ownship, surroundings.nav, state);
+  if (const auto elevation_m = answered_elevation_m(inputs, cursor_of(state))) state.cursor_elevation_m = *elevation_m;
+  const auto belief = databuffer::belief_in_use(inputs.ownship, inputs.nav, state);
   const GeoPoint known = belief.known_from_video(cursor_of(state));
   state.cursor_believed_latitude_deg = known.latitude_deg;
   state.cursor_believed_longitude_deg = known.longitude_deg;
@@ -162,12 +159,12 @@ void next_cursor_function(Step& step) {
     function = static_cast<std::uint8_t>((function + 1) % kFunctions);
   } while (function == kMap && has(step.state, databuffer::kSet));
   // The steering line slews in TGT alone: a function left behind must not keep the TDC.
-  if (slews_steering_line(step.state)) lead_along_line_of_sight(step.state, step.surroundings);
+  if (slews_steering_line(step.state)) lead_along_line_of_sight(step.state, step.inputs);
 }
 
-void jump_cursor(RadarState& state, GeoPoint known, const Surroundings& surroundings) {
-  const auto belief = databuffer::belief_in_use(surroundings.ownship, surroundings.nav, state);
-  put_cursor(state, surroundings.ownship_valid ? belief.on_video(known) : known, surroundings.tick);
+void jump_cursor(RadarState& state, GeoPoint known, const Inputs& inputs) {
+  const auto belief = databuffer::belief_in_use(inputs.ownship, inputs.nav, state);
+  put_cursor(state, inputs.ownship_valid ? belief.on_video(known) : known, inputs.tick);
 }
 
 bool shows_cursor(const RadarState& state) {
@@ -176,14 +173,13 @@ bool shows_cursor(const RadarState& state) {
   return mode != radar::Mode::pvu && (!elsewhere || has(state, databuffer::kSet));
 }
 
-void advance_cursor(RadarState& state, const Surroundings& surroundings,
-                    const radar::RadarConfiguration& configuration) {
-  follow(state, surroundings);
-  if (const auto plane = plane_of(state, surroundings, configuration.view)) {
-    if (!has(state, databuffer::kCursorValid)) place_cursor(state, *plane, surroundings, configuration);
-    slew(state, *plane, surroundings.tick);
+void advance_cursor(RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
+  follow(state, inputs);
+  if (const auto plane = plane_of(state, inputs, configuration.view)) {
+    if (!has(state, databuffer::kCursorValid)) place_cursor(state, *plane, inputs, configuration);
+    slew(state, *plane, inputs.tick);
   }
-  if (has(state, databuffer::kCursorValid)) read_out(state, surroundings);
+  if (has(state, databuffer::kCursorValid)) read_out(state, inputs);
 }
 
 namespace {
@@ -192,8 +188,8 @@ using databuffer::DrawnPoint;
 using radar::RoutePoint;
 using text::text_of;
 
-constexpr std::size_t kMostDrawn = 5;  // docs/spec/pilots_interface.md#rule-11; the record holds more
-static_assert(kMostDrawn <= radar::kMaxPointsDrawn);
+constexpr std::size_t kMaxDrawn = 5;  // docs/spec/pilots_interface.md#rule-11; the record holds more
+static_assert(kMaxDrawn <= radar::kMaxPointsDrawn);
 
 // Among those of the route, and the target designated.
 std::optional<RoutePoint> find_point(std::string_view name, const RadarState& state,
@@ -212,7 +208,7 @@ bool survives_declutter(const RoutePoint& point) {
 void select(Step& step, const std::optional<RoutePoint>& point) {
   if (!point) return;
   put_text(step.state.sequence_point, point->name);
-  jump_cursor(step.state, point->place, step.surroundings);
+  jump_cursor(step.state, point->place, step.inputs);
 }
 
 // The points to draw, kept sorted by distance while the route goes by; those always drawn go in at no distance.
@@ -224,9 +220,9 @@ class Nearest {
     const auto place =
         std::find_if(entries_.begin(), end, [distance](const Entry& entry) { return distance < entry.distance; });
     if (place == entries_.end()) return;
-    std::move_backward(place, count_ < kMostDrawn ? end : end - 1, count_ < kMostDrawn ? end + 1 : end);
+    std::move_backward(place, count_ < kMaxDrawn ? end : end - 1, count_ < kMaxDrawn ? end + 1 : end);
     *place = {point, distance};
-    count_ = std::min(count_ + 1, kMostDrawn);
+    count_ = std::min(count_ + 1, kMaxDrawn);
   }
 
   struct Entry {
@@ -236,7 +232,7 @@ class Nearest {
   std::span<Entry> entries() { return {entries_.data(), count_}; }
 
  private:
-  std::array<Entry, kMostDrawn> entries_{};
+  std::array<Entry, kMaxDrawn> entries_{};
   std::size_t count_ = 0;
 };
 
@@ -282,13 +278,13 @@ std::optional<RoutePoint> selected_point(const RadarState& state, const radar::R
   return find_point(text_of(state.sequence_point), state, configuration);
 }
 
-void draw_points(RadarState& state, const Surroundings& surroundings, const radar::RadarConfiguration& configuration) {
+void draw_points(RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
   const std::string_view selected = text_of(state.sequence_point);
   const std::optional<RoutePoint> target = designated_point(state);
   Nearest nearest;
   if (target) nearest.take(&*target, geo::Length());
   const auto is_target = [&target](const RoutePoint& point) { return target && point.name == target->name; };
-  const GeoPoint aircraft = aircraft_of(surroundings);
+  const GeoPoint aircraft = aircraft_of(inputs);
   const geo::Length range = geo::Length::nautical_miles(state.range_nm);
   for (const RoutePoint& point : configuration.route) {
     if (is_target(point)) continue;  // a point adopted is drawn once, as the target
@@ -296,7 +292,7 @@ void draw_points(RadarState& state, const Surroundings& surroundings, const rada
       nearest.take(&point, geo::Length());
       continue;
     }
-    if (!surroundings.ownship_valid) continue;
+    if (!inputs.ownship_valid) continue;
     if (has(state, databuffer::kDeclutter) && !survives_declutter(point)) continue;
     const geo::Length distance = geo::geodesic_inverse(aircraft, point.place).distance;
     if (distance <= range) nearest.take(&point, distance);

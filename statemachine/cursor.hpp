@@ -16,7 +16,7 @@ void deflect(Step& step);               // TDC, held until changed
 void next_cursor_function(Step& step);  // MAP, UPDT, CUE, TGT, MARK, MAP; in SET without MAP
 
 // Puts the cursor where the glass draws a place that the navigator knows by its coordinates.
-void jump_cursor(databuffer::RadarState& state, geo::GeoPoint known, const Surroundings& surroundings);
+void jump_cursor(databuffer::RadarState& state, geo::GeoPoint known, const Inputs& inputs);
 
 // PVU shows no cursor; in A/A and ranging there is a picture to slew it over in SET alone.
 bool shows_cursor(const databuffer::RadarState& state);
@@ -24,7 +24,7 @@ bool shows_cursor(const databuffer::RadarState& state);
 // A tick of the cursor: the frame follows the aircraft unless the picture is frozen or a map, the deflection moves the
 // cursor, bearing and range follow. A cursor that was nowhere goes to the selected point when that is on the glass,
 // else half the range ahead, or to the middle of the map. Needs a valid ownship.
-void advance_cursor(databuffer::RadarState& state, const Surroundings& surroundings,
+void advance_cursor(databuffer::RadarState& state, const Inputs& inputs,
                     const radar::RadarConfiguration& configuration);
 
 // The sequence points on the glass and stepping over them. Source: docs/spec/pilots_interface.md#rule-11.
@@ -44,7 +44,6 @@ std::optional<radar::RoutePoint> selected_point(const databuffer::RadarState& st
 // Fills `points`: at most five, the nearest within the range, the selected one and the target designated always among
 // them; declutter leaves targets, their offsets and the selected one. Costs a geodesic a route point: call it when
 // something has changed and a few times a second.
-void draw_points(databuffer::RadarState& state, const Surroundings& surroundings,
-                 const radar::RadarConfiguration& configuration);
+void draw_points(databuffer::RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration);
 
 }  // namespace yars::statemachine

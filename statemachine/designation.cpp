@@ -42,8 +42,8 @@ std::int64_t waited(const RadarState& state, std::int64_t tick) {
 
 }  // namespace
 
-std::optional<double> answered_elevation_m(const Surroundings& surroundings, GeoPoint ground) {
-  const databuffer::ModelStatus& model = surroundings.model;
+std::optional<double> answered_elevation_m(const Inputs& inputs, GeoPoint ground) {
+  const databuffer::ModelStatus& model = inputs.model;
   const bool same =
       model.answered_latitude_deg == ground.latitude_deg && model.answered_longitude_deg == ground.longitude_deg;
   return same ? std::optional(model.answered_elevation_m) : std::nullopt;
@@ -54,13 +54,13 @@ void ask_elevation(Step& step, std::uint32_t for_whom) {
   const GeoPoint ground = cursor_of(state);
   put_elevation(state, for_whom, kUnknown);
   state.asked_for &= ~for_whom;
-  const auto known_m = answered_elevation_m(step.surroundings, ground);
+  const auto known_m = answered_elevation_m(step.inputs, ground);
   if (known_m && std::isfinite(*known_m)) return put_elevation(state, for_whom, *known_m);
   // Those who wait for another ground stay without.
   if (!is_asked(state, ground)) state.asked_for = 0;
   state.asked_latitude_deg = ground.latitude_deg;
   state.asked_longitude_deg = ground.longitude_deg;
-  state.asked_tick = step.surroundings.tick;
+  state.asked_tick = step.inputs.tick;
   state.asked_for |= for_whom;
 }
 
@@ -68,24 +68,23 @@ void ask_no_more(RadarState& state, std::uint32_t for_whom) {
   state.asked_for &= ~for_whom;
 }
 
-bool waits_for_elevation(const RadarState& state, const databuffer::InputEvent& event,
-                         const Surroundings& surroundings) {
+bool waits_for_elevation(const RadarState& state, const databuffer::InputEvent& event, const Inputs& inputs) {
   using radar::CursorFunction;
   const auto function = static_cast<CursorFunction>(state.cursor_function);
   const bool designates =
       event.kind == static_cast<std::uint16_t>(databuffer::EventKind::tdc_release) &&
       (function == CursorFunction::cue || function == CursorFunction::target || function == CursorFunction::mark);
   return designates && state.asked_for != 0 && !is_asked(state, cursor_of(state)) &&
-         waited(state, surroundings.tick) < kAnswerTicks;
+         waited(state, inputs.tick) < kAnswerTicks;
 }
 
-void take_elevation(RadarState& state, const Surroundings& surroundings) {
+void take_elevation(RadarState& state, const Inputs& inputs) {
   if (state.asked_for == 0) return;
-  const auto answer_m = answered_elevation_m(surroundings, {state.asked_latitude_deg, state.asked_longitude_deg});
+  const auto answer_m = answered_elevation_m(inputs, {state.asked_latitude_deg, state.asked_longitude_deg});
   if (answer_m && std::isfinite(*answer_m)) {
     put_elevation(state, state.asked_for, *answer_m);
     state.asked_for = 0;
-  } else if (waited(state, surroundings.tick) >= kGroundTicks) {
+  } else if (waited(state, inputs.tick) >= kGroundTicks) {
     state.asked_for = 0;
   }
 }
@@ -105,8 +104,8 @@ constexpr double kTurnRate_dps = 45.0;  // [deg/s] of the line at full deflectio
 constexpr double kGravity_mps2 = 9.80665;
 constexpr double kCapture_s = 15.0;  // [s] of flight in which half the distance to the line is to be gone
 constexpr double kTurn_s = 5.0;      // [s] in which an error of track is to be turned away
-constexpr double kMostBank_deg = 60.0;
-constexpr double kLeastSpeed_mps = 1.0;  // below, a track has no direction and a bank no effect
+constexpr double kMaxBank_deg = 60.0;
+constexpr double kMinSpeed_mps = 1.0;  // below, a track has no direction and a bank no effect
 
 SteeringLine line_of(const RadarState& state) {
   return static_cast<SteeringLine>(state.steering_line);
@@ -117,21 +116,21 @@ void put_line(RadarState& state, SteeringLine line) {
 }
 
 // From the aircraft to the target as the glass shows them.
-geo::GeodesicInverse sight_of_target(const RadarState& state, const Surroundings& surroundings) {
-  const auto belief = databuffer::belief_in_use(surroundings.ownship, surroundings.nav, state);
+geo::GeodesicInverse sight_of_target(const RadarState& state, const Inputs& inputs) {
+  const auto belief = databuffer::belief_in_use(inputs.ownship, inputs.nav, state);
   return geo::geodesic_inverse(belief.truth, belief.on_video({state.target_latitude_deg, state.target_longitude_deg}));
 }
 
 // [deg] right wing down: toward the line through the target along the approach, then along it.
 double bank_onto_line(const geo::GeodesicInverse& sight, Bearing approach, const databuffer::Ownship& ownship) {
   const double speed_mps = std::hypot(ownship.velocity_north_mps, ownship.velocity_east_mps);
-  if (speed_mps < kLeastSpeed_mps) return 0.0;
+  if (speed_mps < kMinSpeed_mps) return 0.0;
   // Right of the line, seen along the approach.
   const double right_m = sight.distance.metres() * std::sin((approach - sight.azimuth_at_start).radians());
   const Bearing wanted = approach - geo::Angle::radians(std::atan2(right_m, speed_mps * kCapture_s));
   const double turn_rate = (wanted - databuffer::ground_track_of(ownship)).radians() / kTurn_s;
   const double bank_deg = std::atan(speed_mps * turn_rate / kGravity_mps2) / geo::kRadiansPerDegree;
-  return std::clamp(bank_deg, -kMostBank_deg, kMostBank_deg);
+  return std::clamp(bank_deg, -kMaxBank_deg, kMaxBank_deg);
 }
 
 }  // namespace
@@ -141,7 +140,7 @@ void steer_slewing(Step& step) {
   if (step.event.argument < 0) {
     put_line(step.state, SteeringLine::slewing);
   } else if (step.event.argument > 0 && line_of(step.state) != SteeringLine::line_of_sight) {
-    lead_along_line_of_sight(step.state, step.surroundings);
+    lead_along_line_of_sight(step.state, step.inputs);
   }
 }
 
@@ -153,16 +152,16 @@ bool slews_steering_line(const RadarState& state) {
   return line_of(state) == SteeringLine::slewing;
 }
 
-void lead_along_line_of_sight(RadarState& state, const Surroundings& surroundings) {
+void lead_along_line_of_sight(RadarState& state, const Inputs& inputs) {
   put_line(state, SteeringLine::line_of_sight);
-  if (surroundings.ownship_valid) advance_steering_line(state, surroundings);
+  if (inputs.ownship_valid) advance_steering_line(state, inputs);
 }
 
-void advance_steering_line(RadarState& state, const Surroundings& surroundings) {
+void advance_steering_line(RadarState& state, const Inputs& inputs) {
   if (!has(state, databuffer::kTargetDesignated)) return put_line(state, SteeringLine::none);
   switch (line_of(state)) {
     case SteeringLine::line_of_sight:
-      state.steering_line_deg = sight_of_target(state, surroundings).azimuth_at_start.degrees();
+      state.steering_line_deg = sight_of_target(state, inputs).azimuth_at_start.degrees();
       return;
     case SteeringLine::slewing: {
       const auto turn = geo::Angle::degrees(state.tdc_x * kTurnRate_dps * radar::kTickSeconds);
@@ -175,14 +174,14 @@ void advance_steering_line(RadarState& state, const Surroundings& surroundings) 
   }
 }
 
-void put_steering(databuffer::Outputs& outputs, const RadarState& state, const Surroundings& surroundings) {
-  const geo::GeodesicInverse sight = sight_of_target(state, surroundings);
+void put_steering(databuffer::Outputs& outputs, const RadarState& state, const Inputs& inputs) {
+  const geo::GeodesicInverse sight = sight_of_target(state, inputs);
   outputs.approach_deg = state.steering_line_deg;
   const bool fixed = line_of(state) == SteeringLine::fixed;
   outputs.steering =
       static_cast<std::uint8_t>(fixed ? databuffer::SteeringCommand::bank : databuffer::SteeringCommand::azimuth);
-  outputs.steering_deg = fixed ? bank_onto_line(sight, Bearing::degrees(state.steering_line_deg), surroundings.ownship)
-                               : (sight.azimuth_at_start - databuffer::ground_track_of(surroundings.ownship)).degrees();
+  outputs.steering_deg = fixed ? bank_onto_line(sight, Bearing::degrees(state.steering_line_deg), inputs.ownship)
+                               : (sight.azimuth_at_start - databuffer::ground_track_of(inputs.ownship)).degrees();
 }
 
 namespace {
@@ -190,18 +189,18 @@ namespace {
 using radar::PointName;
 using text::text_of;
 
-constexpr int kGreatestNumber = 100;  // docs/spec/pilots_interface.md#rule-11
-constexpr int kGreatestOffset = 99;
+constexpr int kMaxNumber = 100;  // docs/spec/pilots_interface.md#rule-11
+constexpr int kMaxOffset = 99;
 
 bool has_cursor(const Step& step) {
-  return step.surroundings.ownship_valid && has(step.state, databuffer::kCursorValid);
+  return step.inputs.ownship_valid && has(step.state, databuffer::kCursorValid);
 }
 
 // The cursor's point as the navigator has it at this moment: the state's own field is of the tick before, and the
 // cursor may have jumped since.
 geo::GeoPoint known_cursor(const Step& step) {
   const RadarState& state = step.state;
-  const auto belief = databuffer::belief_in_use(step.surroundings.ownship, step.surroundings.nav, state);
+  const auto belief = databuffer::belief_in_use(step.inputs.ownship, step.inputs.nav, state);
   return belief.known_from_video(cursor_of(state));
 }
 
@@ -240,11 +239,11 @@ std::optional<PointName> next_free(const RadarState& state, const radar::RadarCo
   // A target that was designated itself makes way for the next one.
   const bool of_route = selected && is_taken({selected->number, 0, true}, configuration);
   if (selected && selected->target && of_route) {
-    for (int offset = 1; offset <= kGreatestOffset; ++offset)
+    for (int offset = 1; offset <= kMaxOffset; ++offset)
       if (!is_taken({selected->number, offset, true}, configuration)) return PointName{selected->number, offset, true};
     return std::nullopt;
   }
-  for (int number = 1; number <= kGreatestNumber; ++number)
+  for (int number = 1; number <= kMaxNumber; ++number)
     if (!is_taken({number, 0, true}, configuration)) return PointName{number, 0, true};
   return std::nullopt;
 }
@@ -297,7 +296,7 @@ void designate_target(Step& step) {
   put_target(step, known, adopted);
   ++state.target_count;
   set_flag(state, databuffer::kTargetDesignated, true);
-  lead_along_line_of_sight(state, step.surroundings);
+  lead_along_line_of_sight(state, step.inputs);
 }
 
 void store_mark(Step& step) {
@@ -311,9 +310,9 @@ void store_mark(Step& step) {
   }
   const geo::GeoPoint known = known_cursor(step);
   const unsigned number = state.mark_count++;
-  state.marks[number] = {known.latitude_deg, known.longitude_deg, 0.0, step.surroundings.sim_time_ns};
+  state.marks[number] = {known.latitude_deg, known.longitude_deg, 0.0, step.inputs.sim_time_ns};
   ask_elevation(step, 1U << number);
-  show_message(state, step.surroundings, "MARK " + std::to_string(state.mark_count));
+  show_message(state, step.inputs, "MARK " + std::to_string(state.mark_count));
 }
 
 std::optional<radar::RoutePoint> designated_point(const RadarState& state) {

@@ -15,7 +15,7 @@ namespace yars::statemachine {
 // model answers with the same coordinates, and only that answer is taken.
 
 // [m] MSL of this ground, NaN where the model does not know it; nothing while it has not answered.
-std::optional<double> answered_elevation_m(const Surroundings& surroundings, geo::GeoPoint ground);
+std::optional<double> answered_elevation_m(const Inputs& inputs, geo::GeoPoint ground);
 
 // The ground under the cursor is asked for on behalf of those (databuffer::kAskedFor..., a bit for a mark). Their
 // elevation is unknown until take_elevation() has it.
@@ -26,10 +26,10 @@ void ask_no_more(databuffer::RadarState& state, std::uint32_t for_whom);
 // True if the event designates a point while another one's elevation is awaited: whoever takes events leaves it for a
 // later tick. Not for longer than 20 ticks, for the model may be gone.
 bool waits_for_elevation(const databuffer::RadarState& state, const databuffer::InputEvent& event,
-                         const Surroundings& surroundings);
+                         const Inputs& inputs);
 
 // A tick: an answer that has come goes to those who wait for it.
-void take_elevation(databuffer::RadarState& state, const Surroundings& surroundings);
+void take_elevation(databuffer::RadarState& state, const Inputs& inputs);
 // Nobody waits: the cursor's ground is asked for.
 void ask_for_cursor(databuffer::RadarState& state);
 
@@ -42,13 +42,13 @@ void steer_slewing(Step& step);
 void fix_steering_line(Step& step);
 
 bool slews_steering_line(const databuffer::RadarState& state);
-void lead_along_line_of_sight(databuffer::RadarState& state, const Surroundings& surroundings);
+void lead_along_line_of_sight(databuffer::RadarState& state, const Inputs& inputs);
 
 // A tick: the line of sight follows the aircraft, the TDC turns a line that slews. Without a target there is none.
-void advance_steering_line(databuffer::RadarState& state, const Surroundings& surroundings);
+void advance_steering_line(databuffer::RadarState& state, const Inputs& inputs);
 
 // Azimuth steering to the target, or, once the line is fixed, the bank that leads onto it.
-void put_steering(databuffer::Outputs& outputs, const databuffer::RadarState& state, const Surroundings& surroundings);
+void put_steering(databuffer::Outputs& outputs, const databuffer::RadarState& state, const Inputs& inputs);
 
 // CUE, TGT and MARK: what the point under the cursor is given to. Points are told as the navigator in use has them.
 // Source: docs/spec/pilots_interface.md#rule-14.

@@ -27,9 +27,9 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // Slant range, bearing and depression as the radar sees the target: from where the aircraft is to where the video has
 // it. An unknown elevation counts as sea level.
-void put_ranging(Outputs& outputs, const RadarState& state, const Surroundings& surroundings) {
-  const databuffer::Ownship& ownship = surroundings.ownship;
-  const auto belief = databuffer::belief_in_use(ownship, surroundings.nav, state);
+void put_ranging(Outputs& outputs, const RadarState& state, const Inputs& inputs) {
+  const databuffer::Ownship& ownship = inputs.ownship;
+  const auto belief = databuffer::belief_in_use(ownship, inputs.nav, state);
   const double ground_m = std::isnan(state.target_elevation_m) ? 0.0 : state.target_elevation_m;
   using geo::HeightAboveEllipsoid;
   const geo::LocalTangentFrame frame(belief.truth, HeightAboveEllipsoid::metres(ownship.altitude_msl_m));
@@ -43,11 +43,11 @@ void put_ranging(Outputs& outputs, const RadarState& state, const Surroundings& 
 
 }  // namespace
 
-Outputs outputs_of(const RadarState& state, const Surroundings& surroundings) {
+Outputs outputs_of(const RadarState& state, const Inputs& inputs) {
   Outputs outputs{};
-  outputs.tick = surroundings.tick;
-  outputs.sim_time_ns = surroundings.sim_time_ns;
-  outputs.epoch = surroundings.epoch;
+  outputs.tick = inputs.tick;
+  outputs.sim_time_ns = inputs.sim_time_ns;
+  outputs.epoch = inputs.epoch;
   outputs.cue_count = state.cue_count;
   outputs.cue_latitude_deg = state.cue_latitude_deg;
   outputs.cue_longitude_deg = state.cue_longitude_deg;
@@ -62,11 +62,11 @@ Outputs outputs_of(const RadarState& state, const Surroundings& surroundings) {
   outputs.target_longitude_deg = state.target_longitude_deg;
   outputs.target_elevation_m = state.target_elevation_m;
   std::ranges::copy(state.target_name, outputs.target_name);
-  if (!surroundings.ownship_valid) return outputs;
-  put_steering(outputs, state, surroundings);
+  if (!inputs.ownship_valid) return outputs;
+  put_steering(outputs, state, inputs);
   // Without its elevation a range would be that of another point.
   if ((state.asked_for & databuffer::kAskedForTarget) != 0) return outputs;
-  put_ranging(outputs, state, surroundings);
+  put_ranging(outputs, state, inputs);
   return outputs;
 }
 
@@ -77,9 +77,9 @@ namespace {
 constexpr std::int64_t kTicksBetweenPoints = 20;
 
 // A jump in place or time leaves nothing for the cursor, the scan, a map under way and a message's end to stand on.
-void enter_epoch(RadarState& state, const Surroundings& surroundings) {
-  state.epoch = surroundings.epoch;
-  cancel_map(state, surroundings);
+void enter_epoch(RadarState& state, const Inputs& inputs) {
+  state.epoch = inputs.epoch;
+  cancel_map(state, inputs);
   ++state.scan_restart;
   set_flag(state, databuffer::kCursorValid, false);
   state.message_until_tick = 0;
@@ -105,45 +105,45 @@ RadarState initial_state(const radar::RadarConfiguration& configuration) {
   return state;
 }
 
-Effect apply(RadarState& state, const databuffer::InputEvent& event, const Surroundings& surroundings,
+Effect apply(RadarState& state, const databuffer::InputEvent& event, const Inputs& inputs,
              const radar::RadarConfiguration& configuration) {
   const Action action = action_for(state, event);
   if (!action) return Effect::none;
   const RadarState before = state;
-  Step step{state, event, surroundings, configuration};
+  Step step{state, event, inputs, configuration};
   action(step);
   state.map_shown = map_to_show(state);
   if (step.refused) return Effect::refused;
   if (same_bytes(before, state)) return Effect::none;
-  draw_points(state, surroundings, configuration);
+  draw_points(state, inputs, configuration);
   return Effect::done;
 }
 
-void advance(RadarState& state, const Surroundings& surroundings, const radar::RadarConfiguration& configuration) {
-  bool points_due = surroundings.tick % kTicksBetweenPoints == 0;
-  if (state.epoch != surroundings.epoch) {
-    enter_epoch(state, surroundings);
+void advance(RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
+  bool points_due = inputs.tick % kTicksBetweenPoints == 0;
+  if (state.epoch != inputs.epoch) {
+    enter_epoch(state, inputs);
     points_due = true;
   }
-  take_elevation(state, surroundings);
-  if (take_map(state, surroundings)) enter_patch(state);
+  take_elevation(state, inputs);
+  if (take_map(state, inputs)) enter_patch(state);
   state.map_shown = map_to_show(state);
-  if (power_of(state) != radar::Power::off && surroundings.ownship_valid) {
+  if (power_of(state) != radar::Power::off && inputs.ownship_valid) {
     if (!has(state, databuffer::kRangeSet)) {
-      set_range_by_height(state, surroundings, configuration);
+      set_range_by_height(state, inputs, configuration);
       points_due = true;
     }
-    put_variation(state, surroundings, configuration);
-    advance_cursor(state, surroundings, configuration);
-    advance_steering_line(state, surroundings);
-    advance_update(state, surroundings, configuration);
-    advance_velocity_update(state, surroundings, configuration);
+    put_variation(state, inputs, configuration);
+    advance_cursor(state, inputs, configuration);
+    advance_steering_line(state, inputs);
+    advance_update(state, inputs, configuration);
+    advance_velocity_update(state, inputs, configuration);
   }
-  advance_navigators(state, surroundings.tick, configuration);
-  advance_recorder(state, surroundings);
-  if (points_due) draw_points(state, surroundings, configuration);
-  end_message(state, surroundings.tick);
-  tell_why_map_stopped(state, surroundings);
+  advance_navigators(state, inputs.tick, configuration);
+  advance_recorder(state, inputs);
+  if (points_due) draw_points(state, inputs, configuration);
+  end_message(state, inputs.tick);
+  tell_why_map_stopped(state, inputs);
   ask_for_cursor(state);
   write_legends(state);
 }

@@ -13,7 +13,7 @@ namespace yars::statemachine {
 
 // What the state machine tells sensors, weapons and the head-up display. Ranging and steering are NaN without a
 // designated target or without a valid ownship.
-databuffer::Outputs outputs_of(const databuffer::RadarState& state, const Surroundings& surroundings);
+databuffer::Outputs outputs_of(const databuffer::RadarState& state, const Inputs& inputs);
 
 // A session's first state: power off.
 databuffer::RadarState initial_state(const radar::RadarConfiguration& configuration);
@@ -26,11 +26,10 @@ enum class Effect : std::uint32_t {
 };
 
 // Applies one event.
-Effect apply(databuffer::RadarState& state, const databuffer::InputEvent& event, const Surroundings& surroundings,
+Effect apply(databuffer::RadarState& state, const databuffer::InputEvent& event, const Inputs& inputs,
              const radar::RadarConfiguration& configuration);
 
 // What passes with time, once a tick after the events: cursor slew, messages that end, the points drawn, legends.
-void advance(databuffer::RadarState& state, const Surroundings& surroundings,
-             const radar::RadarConfiguration& configuration);
+void advance(databuffer::RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration);
 
 }  // namespace yars::statemachine

@@ -136,7 +136,7 @@ using databuffer::ModelStatus;
 using databuffer::PatchMap;
 
 geo::Length range_to_cursor(const Step& step) {
-  const databuffer::Ownship& ownship = step.surroundings.ownship;
+  const databuffer::Ownship& ownship = step.inputs.ownship;
   return geo::geodesic_inverse({ownship.latitude_deg, ownship.longitude_deg},
                                {step.state.cursor_latitude_deg, step.state.cursor_longitude_deg})
       .distance;
@@ -151,7 +151,7 @@ double window_to_map_nm(const Step& step) {
 
 // Judged here: what the model says of the cursor is of the tick before, and the cursor may have jumped since.
 std::optional<std::string_view> why_not_here(const Step& step) {
-  const databuffer::Ownship& ownship = step.surroundings.ownship;
+  const databuffer::Ownship& ownship = step.inputs.ownship;
   const radar::MapViewpoint from{{ownship.latitude_deg, ownship.longitude_deg},
                                  geo::Bearing::degrees(ownship.heading_deg),
                                  databuffer::ground_track_of(ownship)};
@@ -183,11 +183,11 @@ void take_commanded(RadarState& state, std::uint64_t id) {
 
 void command_map(Step& step) {
   RadarState& state = step.state;
-  if (!step.surroundings.ownship_valid || !has(state, databuffer::kCursorValid)) return;
+  if (!step.inputs.ownship_valid || !has(state, databuffer::kCursorValid)) return;
   if (const auto reason = why_not_here(step)) return refuse(step, *reason);
   const double window_nm = window_to_map_nm(step);
   if (!(window_nm > 0.0)) return refuse(step, "NO WINDOW");
-  state.map_request = next_request(state, step.surroundings.model);
+  state.map_request = next_request(state, step.inputs.model);
   state.map_latitude_deg = state.cursor_latitude_deg;
   state.map_longitude_deg = state.cursor_longitude_deg;
   state.map_window_nm = window_nm;
@@ -195,11 +195,11 @@ void command_map(Step& step) {
   set_flag(state, databuffer::kMapping, true);
 }
 
-void cancel_map(RadarState& state, const Surroundings& surroundings) {
+void cancel_map(RadarState& state, const Inputs& inputs) {
   if (!has(state, databuffer::kMapping)) return;
   set_flag(state, databuffer::kMapping, false);
-  state.map_request = next_request(state, surroundings.model);
-  const PatchMap* newest = map_of(surroundings, state.map_newest);
+  state.map_request = next_request(state, inputs.model);
+  const PatchMap* newest = map_of(inputs, state.map_newest);
   if (newest == nullptr) return;
   state.map_latitude_deg = newest->latitude_deg;
   state.map_longitude_deg = newest->longitude_deg;
@@ -207,19 +207,19 @@ void cancel_map(RadarState& state, const Surroundings& surroundings) {
   set_flag(state, databuffer::kMapWindowBlank, (newest->flags & databuffer::kPatchWindowBlank) != 0);
 }
 
-bool take_map(RadarState& state, const Surroundings& surroundings) {
-  const ModelStatus& model = surroundings.model;
+bool take_map(RadarState& state, const Inputs& inputs) {
+  const ModelStatus& model = inputs.model;
   // Another, not a greater id: one that cannot be would stand for ever.
   const bool is_new = model.map_newest != 0 && model.map_newest != state.map_newest;
   // Answered without a map: the aircraft has come too near, or was put elsewhere, since the command.
   if (has(state, databuffer::kMapping) && model.map_done_request == state.map_request && !is_new) {
-    cancel_map(state, surroundings);
-    show_message(state, surroundings, "NO MAP");
+    cancel_map(state, inputs);
+    show_message(state, inputs, "NO MAP");
     return false;
   }
   if (!is_new || model.map_done_request != state.map_request) return false;
   // Without its record nobody knows where it lies: there is nothing to show, and no frame for the cursor.
-  if (map_of(surroundings, model.map_newest) == nullptr) return false;
+  if (map_of(inputs, model.map_newest) == nullptr) return false;
   if (has(state, databuffer::kMapping)) {
     take_commanded(state, model.map_newest);
     return true;
@@ -229,10 +229,10 @@ bool take_map(RadarState& state, const Surroundings& surroundings) {
   return false;
 }
 
-void tell_why_map_stopped(RadarState& state, const Surroundings& surroundings) {
+void tell_why_map_stopped(RadarState& state, const Inputs& inputs) {
   const bool maps_again = power_of(state) == radar::Power::operate && running_mode(state) == radar::Mode::patch &&
                           !has(state, databuffer::kMapping | databuffer::kFreeze | databuffer::kSniff);
-  const std::string_view reason = maps_again ? why_stopped(surroundings.model) : std::string_view();
+  const std::string_view reason = maps_again ? why_stopped(inputs.model) : std::string_view();
   const bool stands = state.message_until_tick == databuffer::kUntilCauseEnds;
   // A word that the pilot has just called forth comes first.
   if (state.message[0] != '\0' && !stands) return;
@@ -241,10 +241,10 @@ void tell_why_map_stopped(RadarState& state, const Surroundings& surroundings) {
   state.message_until_tick = reason.empty() ? 0 : databuffer::kUntilCauseEnds;
 }
 
-const PatchMap* map_of(const Surroundings& surroundings, std::uint64_t id) {
-  const auto* const found = std::find_if(surroundings.maps.begin(), surroundings.maps.end(),
-                                         [id](const PatchMap& map) { return map.id == id; });
-  return id == 0 || found == surroundings.maps.end() ? nullptr : found;
+const PatchMap* map_of(const Inputs& inputs, std::uint64_t id) {
+  const auto* const found =
+      std::find_if(inputs.maps.begin(), inputs.maps.end(), [id](const PatchMap& map) { return map.id == id; });
+  return id == 0 || found == inputs.maps.end() ? nullptr : found;
 }
 
 }  // namespace yars::statemachine

@@ -36,16 +36,16 @@ void command_map(Step& step);
 
 // The map commanded is not wanted any more: what still comes of it answers nobody. What is mapped again and again
 // on a patch is once more the newest map.
-void cancel_map(databuffer::RadarState& state, const Surroundings& surroundings);
+void cancel_map(databuffer::RadarState& state, const Inputs& inputs);
 
 // A map that the model has completed: the one commanded becomes NEW, moves NEW to OLD and is to bring up the patch
 // (true); a re-map takes the place of NEW; any other is ignored.
-bool take_map(databuffer::RadarState& state, const Surroundings& surroundings);
+bool take_map(databuffer::RadarState& state, const Inputs& inputs);
 
 // Says why the patch shown is not mapped again, for as long as it is not.
-void tell_why_map_stopped(databuffer::RadarState& state, const Surroundings& surroundings);
+void tell_why_map_stopped(databuffer::RadarState& state, const Inputs& inputs);
 
 // What is known of a map; nullptr when there is none of this id.
-const databuffer::PatchMap* map_of(const Surroundings& surroundings, std::uint64_t id);
+const databuffer::PatchMap* map_of(const Inputs& inputs, std::uint64_t id);
 
 }  // namespace yars::statemachine

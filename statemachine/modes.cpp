@@ -39,9 +39,9 @@ void show_menu(RadarState& state, bool on) {
 // A mode change by the pilot's hand also sets the range (docs/spec/pilots_interface.md#rule-1).
 void change_mode(Step& step, Mode mode) {
   if (mode == running_mode(step.state)) return;
-  cancel_map(step.state, step.surroundings);
+  cancel_map(step.state, step.inputs);
   run_ground_mode(step.state, mode);
-  set_range_by_height(step.state, step.surroundings, step.configuration);
+  set_range_by_height(step.state, step.inputs, step.configuration);
 }
 
 Mode mode_after(Mode mode) {
@@ -125,7 +125,7 @@ void switch_power(Step& step) {
   RadarState& state = step.state;
   const auto power = step.event.argument;
   if (power < 0 || power > static_cast<std::int16_t>(radar::Power::operate) || power == state.power) return;
-  cancel_map(state, step.surroundings);
+  cancel_map(state, step.inputs);
   // Losing power forgets: what comes on again is as new.
   if (power == static_cast<std::int16_t>(radar::Power::off)) state = forgotten(step);
   state.power = static_cast<std::uint8_t>(power);
@@ -149,7 +149,7 @@ void select_mode(Step& step) {
 }
 
 void leave_patch(Step& step) {
-  cancel_map(step.state, step.surroundings);
+  cancel_map(step.state, step.inputs);
   run_ground_mode(step.state, Mode::hrm);
 }
 
@@ -158,7 +158,7 @@ void select_master(Step& step) {
   const auto master = static_cast<radar::Master>(step.event.argument);
   const std::optional<Mode> mode = mode_of(master, state);
   if (!mode || master == master_of(state)) return;
-  cancel_map(state, step.surroundings);
+  cancel_map(state, step.inputs);
   if (master == radar::Master::air_to_ground) {
     thaw_on_return(state);
   } else {

@@ -22,8 +22,8 @@ using databuffer::RadarState;
 constexpr std::int64_t kTicksPerSecond = 1'000'000'000 / radar::kTickNanoseconds;
 // [m] and [m/s] where an error stops growing: a quarter round the Earth, and far above any aircraft's speed. The
 // border, which holds the record to less, would refuse the whole state.
-constexpr double kMostError_m = 1e7;
-constexpr double kMostDrift_mps = 5e3;
+constexpr double kMaxError_m = 1e7;
+constexpr double kMaxDrift_mps = 5e3;
 
 double bounded(double value, double most) {
   return std::clamp(value, -most, most);
@@ -38,23 +38,23 @@ NavigatorError* error_named(const Step& step) {
 }
 
 void drift(NavigatorError& error) {
-  error.north_m = bounded(error.north_m + error.velocity_north_mps * radar::kTickSeconds, kMostError_m);
-  error.east_m = bounded(error.east_m + error.velocity_east_mps * radar::kTickSeconds, kMostError_m);
+  error.north_m = bounded(error.north_m + error.velocity_north_mps * radar::kTickSeconds, kMaxError_m);
+  error.east_m = bounded(error.east_m + error.velocity_east_mps * radar::kTickSeconds, kMaxError_m);
 }
 
 }  // namespace
 
 void put_position_error(Step& step) {
   if (NavigatorError* error = error_named(step)) {
-    error->north_m = bounded(geo::Length::feet(step.event.x).metres(), kMostError_m);
-    error->east_m = bounded(geo::Length::feet(step.event.y).metres(), kMostError_m);
+    error->north_m = bounded(geo::Length::feet(step.event.x).metres(), kMaxError_m);
+    error->east_m = bounded(geo::Length::feet(step.event.y).metres(), kMaxError_m);
   }
 }
 
 void put_drift(Step& step) {
   if (NavigatorError* error = error_named(step)) {
-    error->velocity_north_mps = bounded(geo::Length::feet(step.event.x).metres(), kMostDrift_mps);
-    error->velocity_east_mps = bounded(geo::Length::feet(step.event.y).metres(), kMostDrift_mps);
+    error->velocity_north_mps = bounded(geo::Length::feet(step.event.x).metres(), kMaxDrift_mps);
+    error->velocity_east_mps = bounded(geo::Length::feet(step.event.y).metres(), kMaxDrift_mps);
   }
 }
 
@@ -74,7 +74,7 @@ void advance_navigators(RadarState& state, std::int64_t tick, const radar::Radar
       const double by_mps =
           step_mps * random::standard_normal(configuration.seed, static_cast<std::uint64_t>(tick), kFirstDraw + draw);
       for (NavigatorError* error : {&state.mission, &state.ins})
-        error->*component = bounded(error->*component + by_mps, kMostDrift_mps);
+        error->*component = bounded(error->*component + by_mps, kMaxDrift_mps);
     };
     walk(&NavigatorError::velocity_north_mps, 0);
     walk(&NavigatorError::velocity_east_mps, 1);
@@ -84,10 +84,9 @@ void advance_navigators(RadarState& state, std::int64_t tick, const radar::Radar
   drift(state.ins);
 }
 
-void put_variation(RadarState& state, const Surroundings& surroundings,
-                   const radar::RadarConfiguration& configuration) {
+void put_variation(RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
   state.magnetic_variation_deg = configuration.magnetic_variation_deg;
-  for (const double given_deg : {surroundings.field_variation_deg, surroundings.nav.magnetic_variation_deg})
+  for (const double given_deg : {inputs.field_variation_deg, inputs.nav.magnetic_variation_deg})
     if (!std::isnan(given_deg)) state.magnetic_variation_deg = given_deg;
 }
 
@@ -106,12 +105,12 @@ struct Offset {
 };
 
 // From the selected point as the glass shows it to the cursor; nothing without one of them.
-std::optional<Offset> offset_to_cursor(const RadarState& state, const Surroundings& surroundings,
+std::optional<Offset> offset_to_cursor(const RadarState& state, const Inputs& inputs,
                                        const radar::RadarConfiguration& configuration) {
   if (!has(state, databuffer::kCursorValid)) return std::nullopt;
   const auto point = selected_point(state, configuration);
   if (!point) return std::nullopt;
-  const auto belief = databuffer::belief_in_use(surroundings.ownship, surroundings.nav, state);
+  const auto belief = databuffer::belief_in_use(inputs.ownship, inputs.nav, state);
   const auto line = geo::geodesic_inverse(belief.on_video(point->place), cursor_of(state));
   const double azimuth_rad = line.azimuth_at_start.radians();
   return Offset{line.distance.metres() * std::cos(azimuth_rad), line.distance.metres() * std::sin(azimuth_rad)};
@@ -144,34 +143,33 @@ std::int32_t seconds_left(const RadarState& state, std::int64_t tick, double val
 
 void accept_update(Step& step) {
   RadarState& state = step.state;
-  if (!step.surroundings.ownship_valid) return;
+  if (!step.inputs.ownship_valid) return;
   // What stands in the state is of the tick before, and the cursor may have jumped since.
   RadarState present = state;
-  advance_update(present, step.surroundings, step.configuration);
+  advance_update(present, step.inputs, step.configuration);
   if (!has(present, databuffer::kUpdateShown) || has(present, databuffer::kUpdateInvalid)) return;
-  const auto offset = offset_to_cursor(state, step.surroundings, step.configuration);
+  const auto offset = offset_to_cursor(state, step.inputs, step.configuration);
   constexpr double kNothing_m = 1e-3;
   if (!offset || std::hypot(offset->north_m, offset->east_m) < kNothing_m) return;
   const auto point = selected_point(state, step.configuration);
   databuffer::NavigatorError& error = error_in_use(state);
   error.north_m = error.east_m = 0.0;
-  const auto given = databuffer::belief_in_use(step.surroundings.ownship, step.surroundings.nav, state);
+  const auto given = databuffer::belief_in_use(step.inputs.ownship, step.inputs.nav, state);
   const GeoPoint wanted = belief_that_shows(point->place, cursor_of(state), given.truth);
   const auto line = geo::geodesic_inverse(given.believed, wanted);
   error.north_m = line.distance.metres() * std::cos(line.azimuth_at_start.radians());
   error.east_m = line.distance.metres() * std::sin(line.azimuth_at_start.radians());
 }
 
-void advance_update(RadarState& state, const Surroundings& surroundings,
-                    const radar::RadarConfiguration& configuration) {
+void advance_update(RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
   const bool updating =
       state.cursor_function == static_cast<std::uint8_t>(radar::CursorFunction::update) && shows_cursor(state);
-  const auto offset = updating ? offset_to_cursor(state, surroundings, configuration) : std::nullopt;
+  const auto offset = updating ? offset_to_cursor(state, inputs, configuration) : std::nullopt;
   set_flag(state, databuffer::kUpdateShown, offset.has_value());
   state.update_north_m = offset ? offset->north_m : 0.0;
   state.update_east_m = offset ? offset->east_m : 0.0;
   const bool ages = offset && state.navigator == static_cast<std::uint8_t>(radar::Navigator::ins);
-  state.update_seconds = ages ? seconds_left(state, surroundings.tick, configuration.navigation.update_validity_s) : -1;
+  state.update_seconds = ages ? seconds_left(state, inputs.tick, configuration.navigation.update_validity_s) : -1;
   set_flag(state, databuffer::kUpdateInvalid, state.update_seconds == 0);
 }
 
@@ -181,7 +179,7 @@ using databuffer::ModelStatus;
 
 constexpr std::int64_t kShownTicks = 2'000;  // 10 s: three numbers to read, gone before the next update
 // [m/s] A measurement further off than this is none: the border would refuse the state that took it up.
-constexpr double kMostDifference_mps = 2'000.0;
+constexpr double kMaxDifference_mps = 2'000.0;
 
 struct Difference {
   double north_mps = 0.0;
@@ -194,9 +192,9 @@ bool continuous(const RadarState& state) {
 }
 
 // Radar less navigator.
-Difference difference(const RadarState& state, const Surroundings& surroundings) {
-  const ModelStatus& model = surroundings.model;
-  const databuffer::Nav& nav = surroundings.nav;
+Difference difference(const RadarState& state, const Inputs& inputs) {
+  const ModelStatus& model = inputs.model;
+  const databuffer::Nav& nav = inputs.nav;
   return {model.velocity_north_mps - (nav.velocity_north_mps + state.mission.velocity_north_mps),
           model.velocity_east_mps - (nav.velocity_east_mps + state.mission.velocity_east_mps),
           model.velocity_down_mps - (nav.velocity_down_mps + state.mission.velocity_down_mps)};
@@ -205,18 +203,18 @@ Difference difference(const RadarState& state, const Surroundings& surroundings)
 // Neither the measurement nor what the navigator's error would be then; written so that NaN fails.
 bool believable(const Difference& difference, const databuffer::NavigatorError& mission) {
   const auto small = [](double part_mps, double error_mps) {
-    return std::abs(part_mps) <= kMostDifference_mps && std::abs(error_mps + part_mps) <= databuffer::kLargestSpeed;
+    return std::abs(part_mps) <= kMaxDifference_mps && std::abs(error_mps + part_mps) <= databuffer::kLargestSpeed;
   };
   return small(difference.north_mps, mission.velocity_north_mps) &&
          small(difference.east_mps, mission.velocity_east_mps) && small(difference.down_mps, mission.velocity_down_mps);
 }
 
-void show(RadarState& state, const Difference& difference, const Surroundings& surroundings) {
-  const double track_rad = databuffer::ground_track_of(surroundings.ownship).radians();
+void show(RadarState& state, const Difference& difference, const Inputs& inputs) {
+  const double track_rad = databuffer::ground_track_of(inputs.ownship).radians();
   state.velocity_along_mps = difference.north_mps * std::cos(track_rad) + difference.east_mps * std::sin(track_rad);
   state.velocity_across_mps = difference.east_mps * std::cos(track_rad) - difference.north_mps * std::sin(track_rad);
   state.velocity_vertical_mps = -difference.down_mps;
-  state.velocity_shown_until_tick = surroundings.tick + kShownTicks;
+  state.velocity_shown_until_tick = inputs.tick + kShownTicks;
   set_flag(state, databuffer::kVelocityShown, true);
 }
 
@@ -233,19 +231,18 @@ void correct(databuffer::NavigatorError& mission, const Difference& difference) 
 
 }  // namespace
 
-void advance_velocity_update(RadarState& state, const Surroundings& surroundings,
-                             const radar::RadarConfiguration& configuration) {
+void advance_velocity_update(RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
   const bool measures = continuous(state) || has(state, databuffer::kIpvu);
-  const bool outdated = !continuous(state) && surroundings.tick >= state.velocity_shown_until_tick;
+  const bool outdated = !continuous(state) && inputs.tick >= state.velocity_shown_until_tick;
   if (!measures || outdated) set_flag(state, databuffer::kVelocityShown, false);
-  if (surroundings.model.velocity_count == state.velocity_taken) return;
-  state.velocity_taken = surroundings.model.velocity_count;
-  const Difference measured = difference(state, surroundings);
+  if (inputs.model.velocity_count == state.velocity_taken) return;
+  state.velocity_taken = inputs.model.velocity_count;
+  const Difference measured = difference(state, inputs);
   if (!measures || !believable(measured, state.mission)) return;
-  show(state, measured, surroundings);
+  show(state, measured, inputs);
   // IPVU measures when an update is due, a scan's end earlier or later; PVU all the time.
-  if (continuous(state) && !update_is_due(state, surroundings.tick, configuration.navigation.velocity_period_s)) return;
-  state.velocity_updated_tick = surroundings.tick;
+  if (continuous(state) && !update_is_due(state, inputs.tick, configuration.navigation.velocity_period_s)) return;
+  state.velocity_updated_tick = inputs.tick;
   correct(state.mission, measured);
 }
 

@@ -20,8 +20,7 @@ void advance_navigators(databuffer::RadarState& state, std::int64_t tick,
                         const radar::RadarConfiguration& configuration);
 
 // Magnetic variation: what the navigator gives, else the model of the field, else the configuration.
-void put_variation(databuffer::RadarState& state, const Surroundings& surroundings,
-                   const radar::RadarConfiguration& configuration);
+void put_variation(databuffer::RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration);
 
 // The error of the navigator that updates and symbols use.
 databuffer::NavigatorError& error_in_use(databuffer::RadarState& state);
@@ -34,7 +33,7 @@ databuffer::NavigatorError& error_in_use(databuffer::RadarState& state);
 void accept_update(Step& step);
 
 // A tick: the errors from the selected point to the cursor, and how long an INS update may still use them.
-void advance_update(databuffer::RadarState& state, const Surroundings& surroundings,
+void advance_update(databuffer::RadarState& state, const Inputs& inputs,
                     const radar::RadarConfiguration& configuration);
 
 // PVU and IPVU: the mission navigator's velocity is put right by what the radar measures.
@@ -42,7 +41,7 @@ void advance_update(databuffer::RadarState& state, const Surroundings& surroundi
 
 // A tick: takes a new measurement of the model, shows it as differences along, across and vertical, and, once a period,
 // corrects the navigator by them. IPVU shows its differences for a while, PVU as long as it runs.
-void advance_velocity_update(databuffer::RadarState& state, const Surroundings& surroundings,
+void advance_velocity_update(databuffer::RadarState& state, const Inputs& inputs,
                              const radar::RadarConfiguration& configuration);
 
 }  // namespace yars::statemachine

@@ -53,17 +53,16 @@ std::optional<double> nearest_point_elevation_m(const databuffer::Ownship& ownsh
 }
 
 // What a radar altimeter would read; beyond its reach NaN.
-double terrain_clearance_m(const Surroundings& surroundings) {
+double terrain_clearance_m(const Inputs& inputs) {
   constexpr double kReach_m = 1524.0;  // 5,000 ft, as those of the time
-  return surroundings.height_above_ground_m <= kReach_m ? surroundings.height_above_ground_m
-                                                        : std::numeric_limits<double>::quiet_NaN();
+  return inputs.height_above_ground_m <= kReach_m ? inputs.height_above_ground_m
+                                                  : std::numeric_limits<double>::quiet_NaN();
 }
 
-Length height_for_range(const RadarState& state, const Surroundings& surroundings,
-                        const radar::RadarConfiguration& configuration) {
-  const databuffer::Ownship& ownship = surroundings.ownship;
+Length height_for_range(const RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
+  const databuffer::Ownship& ownship = inputs.ownship;
   const double radar_altitude_m =
-      std::isnan(ownship.radar_altitude_m) ? terrain_clearance_m(surroundings) : ownship.radar_altitude_m;
+      std::isnan(ownship.radar_altitude_m) ? terrain_clearance_m(inputs) : ownship.radar_altitude_m;
   const bool altimeter = !has(state, databuffer::kAltimeterFailed) && !std::isnan(radar_altitude_m);
   if (altimeter) return Length::metres(radar_altitude_m);
   const double ground_m = nearest_point_elevation_m(ownship, configuration).value_or(0.0);
@@ -126,10 +125,9 @@ void select_window(RadarState& state, Length window, const radar::RadarConfigura
   put_window(state, radar::largest_window_that_fits(limit, configuration.windows_nm), configuration);
 }
 
-void set_range_by_height(RadarState& state, const Surroundings& surroundings,
-                         const radar::RadarConfiguration& configuration) {
-  if (!surroundings.ownship_valid) return;
-  const Length height = height_for_range(state, surroundings, configuration);
+void set_range_by_height(RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
+  if (!inputs.ownship_valid) return;
+  const Length height = height_for_range(state, inputs, configuration);
   set_range_index(
       state,
       radar::range_index_for(radar::range_by_height(height, configuration.height_ranges), configuration.ranges_nm),
@@ -139,8 +137,8 @@ void set_range_by_height(RadarState& state, const Surroundings& surroundings,
 
 namespace {
 
-constexpr int kGreatestLevel = 15;  // brightness and contrast; the record and the glass scale by it
-constexpr std::uint8_t kGreatestGain = 3;
+constexpr int kMaxLevel = 15;  // brightness and contrast; the record and the glass scale by it
+constexpr std::uint8_t kMaxGain = 3;
 constexpr std::uint8_t kChannels = 8;
 constexpr std::uint8_t kBands = 5;
 constexpr std::string_view kRecorderFull = "VTR FULL";
@@ -150,7 +148,7 @@ void toggle(Step& step, std::uint32_t flag) {
 }
 
 void step_level(std::uint8_t& level, int by) {
-  level = static_cast<std::uint8_t>(std::clamp(level + by, 0, kGreatestLevel));
+  level = static_cast<std::uint8_t>(std::clamp(level + by, 0, kMaxLevel));
 }
 
 }  // namespace
@@ -170,7 +168,7 @@ void toggle_ipvu(Step& step) {
 
 void cycle_gain(Step& step) {
   std::uint8_t& gain = step.state.gain;
-  gain = gain == 0 ? kGreatestGain : static_cast<std::uint8_t>(gain - 1);
+  gain = gain == 0 ? kMaxGain : static_cast<std::uint8_t>(gain - 1);
 }
 
 void brightness_up(Step& step) {
@@ -184,9 +182,9 @@ void step_contrast(Step& step) {
 }
 
 void toggle_recorder(Step& step) {
-  if (!step.surroundings.recorder_present) {
+  if (!step.inputs.recorder_present) {
     refuse(step, "NO RECORDER");
-  } else if (step.surroundings.recorder_failed) {
+  } else if (step.inputs.recorder_failed) {
     refuse(step, kRecorderFull);
   } else {
     ++step.state.vtr_request;
@@ -194,17 +192,16 @@ void toggle_recorder(Step& step) {
 }
 
 // The box is what the recorder says, not what was asked for.
-void advance_recorder(databuffer::RadarState& state, const Surroundings& surroundings) {
+void advance_recorder(databuffer::RadarState& state, const Inputs& inputs) {
   const bool wrote = has(state, databuffer::kVtr);
-  set_flag(state, databuffer::kVtr, surroundings.recorder_present && surroundings.recorder_writing);
-  if (wrote && surroundings.recorder_present && surroundings.recorder_failed)
-    show_message(state, surroundings, kRecorderFull);
+  set_flag(state, databuffer::kVtr, inputs.recorder_present && inputs.recorder_writing);
+  if (wrote && inputs.recorder_present && inputs.recorder_failed) show_message(state, inputs, kRecorderFull);
 }
 
 void toggle_sniff(Step& step) {
   toggle(step, databuffer::kSniff);
   // A map is made by transmitting; HRM stops that at once.
-  if (has(step.state, databuffer::kSniff)) cancel_map(step.state, step.surroundings);
+  if (has(step.state, databuffer::kSniff)) cancel_map(step.state, step.inputs);
   freeze_silent_hrm(step.state);
 }
 

@@ -25,7 +25,7 @@ void set_scan_width(databuffer::RadarState& state, radar::ScanWidth scan,
 void select_window(databuffer::RadarState& state, geo::Length window, const radar::RadarConfiguration& configuration);
 
 // Rule 1. Without a valid ownship there is no height: the range stays.
-void set_range_by_height(databuffer::RadarState& state, const Surroundings& surroundings,
+void set_range_by_height(databuffer::RadarState& state, const Inputs& inputs,
                          const radar::RadarConfiguration& configuration);
 
 // Actions that turn one switch: cyclic ones go round, levels stop at their ends.
@@ -38,7 +38,7 @@ void brightness_down(Step& step);
 void step_contrast(Step& step);
 void toggle_stabilizing(Step& step);  // STAB, PROG
 void toggle_recorder(Step& step);     // rule 22: asks the recorder; NO RECORDER when there is none
-void advance_recorder(databuffer::RadarState& state, const Surroundings& surroundings);  // once a tick
+void advance_recorder(databuffer::RadarState& state, const Inputs& inputs);  // once a tick
 void toggle_ipvu(Step& step);
 void toggle_sniff(Step& step);  // rules 9, 19: in HRM it freezes; a map under way ends
 void next_channel(Step& step);  // 1 to 8, then 1

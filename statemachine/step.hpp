@@ -23,7 +23,7 @@ namespace yars::statemachine {
 inline constexpr std::size_t kMapsKnown = 4;
 
 // What the machine sees in a tick besides the events.
-struct Surroundings {
+struct Inputs {
   std::int64_t tick = 0;
   std::int64_t sim_time_ns = 0;
   std::uint32_t epoch = 0;
@@ -45,7 +45,7 @@ struct Surroundings {
 struct Step {
   databuffer::RadarState& state;
   const databuffer::InputEvent& event;
-  const Surroundings& surroundings;
+  const Inputs& inputs;
   const radar::RadarConfiguration& configuration;
   bool refused = false;  // it cannot be done; the display says why
 };
@@ -86,14 +86,14 @@ void put_text(char (&field)[N], std::string_view text) {
 inline constexpr std::int64_t kMessageTicks = 600;
 
 // A word for the pilot that goes by itself.
-inline void show_message(databuffer::RadarState& state, const Surroundings& surroundings, std::string_view text) {
+inline void show_message(databuffer::RadarState& state, const Inputs& inputs, std::string_view text) {
   put_text(state.message, text);
-  state.message_until_tick = surroundings.tick + kMessageTicks;
+  state.message_until_tick = inputs.tick + kMessageTicks;
 }
 
 // The event cannot be done, for this reason.
 inline void refuse(Step& step, std::string_view reason) {
-  show_message(step.state, step.surroundings, reason);
+  show_message(step.state, step.inputs, reason);
   step.refused = true;
 }
 

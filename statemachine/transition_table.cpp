@@ -151,7 +151,7 @@ constexpr std::array kControls{
     ControlRow{EventKind::tdc_release, kRanging, kWithTarget | kOperating | kSetOn, designate_target},
     ControlRow{EventKind::tdc_release, kWithCursor, kWithMark | kOperating, store_mark},
     ControlRow{EventKind::tdc_release, kRanging, kWithMark | kOperating | kSetOn, store_mark},
-    ControlRow{EventKind::coolie_up, kRadar, kAlways, next_sequence_point},
+    ControlRow{EventKind::castle_up, kRadar, kAlways, next_sequence_point},
     ControlRow{EventKind::acquisition, kAllGround, kWithMap, step_window},
     ControlRow{EventKind::acquisition, kWithCursor, kWithTarget | kOperating, steer_slewing},
     ControlRow{EventKind::acquisition, kRanging, kWithTarget | kOperating | kSetOn, steer_slewing},

@@ -64,7 +64,7 @@ error::Expected<ParsedText> parse_messages(std::string_view text, const std::str
     const Scanner scanner(without_mark(text), state);
     MessageParser parser(scanner.handle(), state);
     parser.parse();
-  } catch (const Rejection& rejection) {
+  } catch (const ParseError& rejection) {
     return tl::unexpected(rejection.error);
   }
   return std::move(state.result);

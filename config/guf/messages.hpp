@@ -22,7 +22,7 @@ bool is_in_messages(std::string_view text);
 
 // What scanner and grammar of the messages of 1996 need beyond parser.hpp.
 
-// "N37@30.5" to ( lat-long N 37 30.5 ); `state.token` is the place of its parts and of a complaint.
+// "N37@30.5" to ( lat-long N 37 30.5 ); `state.token` is the place of its parts and of a violation.
 Form coordinate_of(std::string_view text, const ScanState& state);
 
 // "name :=" to "name".

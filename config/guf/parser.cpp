@@ -37,7 +37,7 @@ error::Expected<ParsedText> parse_text(std::string_view text, const std::string&
     const Scanner scanner(without_mark(text), state);
     GufParser parser(scanner.handle(), state);
     parser.parse();
-  } catch (const Rejection& rejection) {
+  } catch (const ParseError& rejection) {
     return tl::unexpected(rejection.error);
   }
   return std::move(state.result);

@@ -53,7 +53,7 @@ std::string_view without_mark(std::string_view text);
 // One word more of the text; throws beyond kMaxTokens.
 void count_token(ScanState& state);
 
-// Text of a token to its value; `state.token` is the place of a complaint.
+// Text of a token to its value; `state.token` is the place of a violation.
 double number_of(std::string_view text, const ScanState& state);
 int position_of(std::string_view text, const ScanState& state);        // ":12"
 std::string string_of(std::string_view text, const ScanState& state);  // with quotes and escapes

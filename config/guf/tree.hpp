@@ -64,13 +64,13 @@ std::string number_text(double value);
 std::string quoted_text(const std::string& text);
 
 // How the parts of config/ leave a text that is wrong: thrown inside, caught where a public function returns Expected.
-struct Rejection {
+struct ParseError {
   error::Error error;
 };
 
 [[noreturn]] inline void reject(const Location& where, std::string expected, std::string found,
                                 std::string action = {}) {
-  throw Rejection{error::fail(text_of(where), std::move(expected), std::move(found), std::move(action)).value()};
+  throw ParseError{error::fail(text_of(where), std::move(expected), std::move(found), std::move(action)).value()};
 }
 
 // A tree as GUF text in the modern spelling: what fits stands on one line, everything else on lines of its own,

@@ -46,7 +46,7 @@ constexpr std::array kAxes{YARS_ROW(ABS_X),     YARS_ROW(ABS_Y),     YARS_ROW(AB
 
 // The kernel numbers a joystick's buttons in two runs (hid-input.c).
 constexpr int kFirstRun = 16;
-constexpr int kMostNumbered = kFirstRun + (KEY_MAX - BTN_TRIGGER_HAPPY1 + 1);
+constexpr int kMaxNumbered = kFirstRun + (KEY_MAX - BTN_TRIGGER_HAPPY1 + 1);
 constexpr std::string_view kNumbered = "button ";
 
 std::optional<int> number_of(std::string_view text) {
@@ -76,7 +76,7 @@ std::string name_of(std::span<const Row> rows, std::uint16_t code) {
 std::optional<std::uint16_t> button_code(std::string_view text) {
   if (!text.starts_with(kNumbered)) return code_of(kButtons, text, 1, KEY_MAX);
   const auto number = number_of(text.substr(kNumbered.size()));
-  if (!number || *number < 1 || *number > kMostNumbered) return std::nullopt;
+  if (!number || *number < 1 || *number > kMaxNumbered) return std::nullopt;
   const int code = *number <= kFirstRun ? BTN_JOYSTICK + *number - 1 : BTN_TRIGGER_HAPPY1 + *number - 1 - kFirstRun;
   return static_cast<std::uint16_t>(code);
 }
@@ -102,28 +102,29 @@ namespace {
 constexpr std::array<std::string_view, 5> kUses{"tdcX", "tdcY", "elevation", "directions", "lever"};
 constexpr double kLargestRaw = 1e10;  // beyond what struct input_event can hold, also mirrored about its rest
 
-SlotSchema text_slot(std::string_view name, std::string& (*of)(Draft&), std::string_view purpose) {
+SlotSchema text_slot(std::string_view name, std::string& (*of)(ConfigurationBuilder&), std::string_view purpose) {
   return {.name = name, .binding = TextSlot{of}, .purpose = purpose};
 }
 
 // What an event's text has wrong, if anything; an empty one does nothing.
-std::optional<Complaint> check_event(std::string_view slot, const std::string& text) {
+std::optional<ConstraintViolation> check_event(std::string_view slot, const std::string& text) {
   if (text.empty()) return std::nullopt;
   const auto event = databuffer::event_from_text(text);
   if (event) return std::nullopt;
-  return Complaint{slot, "an event: " + event.error().expected, event.error().found};
+  return ConstraintViolation{slot, "an event: " + event.error().expected, event.error().found};
 }
 
-std::optional<Complaint> too_many(std::size_t count, std::size_t most, std::string_view slot, const char* what) {
+std::optional<ConstraintViolation> too_many(std::size_t count, std::size_t most, std::string_view slot,
+                                            const char* what) {
   if (count < most) return std::nullopt;
-  return Complaint{slot, "at most " + std::to_string(most) + ' ' + what, "one more"};
+  return ConstraintViolation{slot, "at most " + std::to_string(most) + ' ' + what, "one more"};
 }
 
-std::optional<Complaint> check_button(const Draft& draft) {
+std::optional<ConstraintViolation> check_button(const ConfigurationBuilder& draft) {
   const auto& button = draft.device_button;
   if (!button_code(button.code))
-    return Complaint{"code", "a button as BTN_TRIGGER, \"button 17\" or 0x120", quoted_text(button.code)};
-  if (auto wrong = too_many(draft.device.buttons.size(), radar::kMostControls, "code", "buttons")) return wrong;
+    return ConstraintViolation{"code", "a button as BTN_TRIGGER, \"button 17\" or 0x120", quoted_text(button.code)};
+  if (auto wrong = too_many(draft.device.buttons.size(), radar::kMaxControls, "code", "buttons")) return wrong;
   if (auto wrong = check_event("press", button.press)) return wrong;
   return check_event("release", button.release);
 }
@@ -141,81 +142,87 @@ FormSchema button() {
                 number_slot("repeat", "s", 0, 10, {YARS_FIELD(device_button.repeat_s)},
                             "between repetitions while it is down; left out: none")},
       .part_of_value = true,
-      .begin = [](Draft& draft) { draft.device_button = {}; },
+      .begin = [](ConfigurationBuilder& draft) { draft.device_button = {}; },
       .check = check_button,
-      .end = [](Draft& draft) { draft.device.buttons.push_back(draft.device_button); },
-      .count = [](const Draft& draft) { return draft.device.buttons.size(); },
-      .select = [](Draft& draft, std::size_t index) { draft.device_button = draft.device.buttons[index]; }};
+      .end = [](ConfigurationBuilder& draft) { draft.device.buttons.push_back(draft.device_button); },
+      .count = [](const ConfigurationBuilder& draft) { return draft.device.buttons.size(); },
+      .select = [](ConfigurationBuilder& draft,
+                   std::size_t index) { draft.device_button = draft.device.buttons[index]; }};
 }
 
 // The ends in order, and the centre between them, as far as they are given.
-std::optional<Complaint> check_travel(const radar::DeviceAxis& axis) {
+std::optional<ConstraintViolation> check_travel(const radar::DeviceAxis& axis) {
   const bool has_ends = !std::isnan(axis.low) && !std::isnan(axis.high);
-  if (std::isnan(axis.low) != std::isnan(axis.high)) return Complaint{"low", "low and high, or neither", "one of them"};
+  if (std::isnan(axis.low) != std::isnan(axis.high))
+    return ConstraintViolation{"low", "low and high, or neither", "one of them"};
   if (has_ends && axis.low >= axis.high)
-    return Complaint{"high", "more than low, " + number_text(axis.low), number_text(axis.high)};
+    return ConstraintViolation{"high", "more than low, " + number_text(axis.low), number_text(axis.high)};
   if (has_ends && (axis.centre <= axis.low || axis.centre >= axis.high))
-    return Complaint{"centre", "a value between low and high", number_text(axis.centre)};
+    return ConstraintViolation{"centre", "a value between low and high", number_text(axis.centre)};
   if (axis.lowest_deg >= axis.highest_deg)
-    return Complaint{"highest", "more than lowest, " + number_text(axis.lowest_deg), number_text(axis.highest_deg)};
+    return ConstraintViolation{"highest", "more than lowest, " + number_text(axis.lowest_deg),
+                               number_text(axis.highest_deg)};
   return std::nullopt;
 }
 
-std::optional<Complaint> check_axis(const Draft& draft) {
+std::optional<ConstraintViolation> check_axis(const ConfigurationBuilder& draft) {
   const auto& axis = draft.device_axis;
-  if (!axis_code(axis.code)) return Complaint{"code", "an axis as ABS_X, or a number up to 63", quoted_text(axis.code)};
-  if (auto wrong = too_many(draft.device.axes.size(), radar::kMostControls, "code", "axes")) return wrong;
+  if (!axis_code(axis.code))
+    return ConstraintViolation{"code", "an axis as ABS_X, or a number up to 63", quoted_text(axis.code)};
+  if (auto wrong = too_many(draft.device.axes.size(), radar::kMaxControls, "code", "axes")) return wrong;
   if (auto wrong = check_travel(axis)) return wrong;
   if (auto wrong = check_event("positive", axis.positive)) return wrong;
   return check_event("negative", axis.negative);
 }
 
 std::vector<SlotSchema> axis_slots() {
-  const auto raw = [](std::string_view name, double& (*of)(Draft&), std::string_view purpose) {
+  const auto raw = [](std::string_view name, double& (*of)(ConfigurationBuilder&), std::string_view purpose) {
     return number_slot(name, "", -kLargestRaw, kLargestRaw, {of}, purpose);
   };
-  return {text_slot("code", YARS_FIELD(device_axis.code), "ABS_X, ABS_HAT0Y ... or a number"),
-          {.name = "drives",
-           .binding =
-               ChoiceSlot{kUses, [](const Draft& draft) { return static_cast<int>(draft.device_axis.use); },
-                          [](Draft& draft, int index) { draft.device_axis.use = static_cast<radar::AxisUse>(index); }},
-           .purpose = "TDC right, TDC up, antenna elevation (absolute), two buttons, or steps; left out: tdcX"},
-          raw("low", YARS_FIELD(device_axis.low), "value at the low end; left out: the device tells"),
-          raw("high", YARS_FIELD(device_axis.high), "value at the high end; left out: the device tells"),
-          raw("centre", YARS_FIELD(device_axis.centre), "value at rest; left out: half way"),
-          number_slot("deadZone", "", 0, 0.9, {YARS_FIELD(device_axis.dead_zone)},
-                      "share of the travel from the centre that counts as none; left out: 0.05"),
-          number_slot("curve", "", 0, 1, {YARS_FIELD(device_axis.curve)},
-                      "0 = straight, 1 = the cube: fine about the centre; left out: 0"),
-          {.name = "inverted",
-           .binding = BooleanSlot{YARS_FIELD(device_axis.inverted)},
-           .purpose = "the low end is up or right; left out: false"},
-          text_slot("positive", YARS_FIELD(device_axis.positive),
-                    "of directions and lever: the event of a move to the high end"),
-          text_slot("negative", YARS_FIELD(device_axis.negative), "the same to the low end"),
-          number_slot("repeat", "s", 0, 10, {YARS_FIELD(device_axis.repeat_s)},
-                      "of directions: between repetitions at full deflection, slower before; left out: none"),
-          number_slot("lowest", "deg", -60, 60, {YARS_FIELD(device_axis.lowest_deg)},
-                      "of elevation: at the low end; left out: -60"),
-          number_slot("highest", "deg", -60, 60, {YARS_FIELD(device_axis.highest_deg)},
-                      "of elevation: at the high end; left out: 60"),
-          {.name = "steps",
-           .lowest = 2,
-           .highest = 256,
-           .binding = IntegerSlot{YARS_FIELD(device_axis.steps)},
-           .purpose = "of a lever: places over its travel; left out: 16"}};
+  return {
+      text_slot("code", YARS_FIELD(device_axis.code), "ABS_X, ABS_HAT0Y ... or a number"),
+      {.name = "drives",
+       .binding = ChoiceSlot{
+           kUses, [](const ConfigurationBuilder& draft) { return static_cast<int>(draft.device_axis.use); },
+           [](ConfigurationBuilder& draft, int index) { draft.device_axis.use = static_cast<radar::AxisUse>(index); }},
+       .purpose = "TDC right, TDC up, antenna elevation (absolute), two buttons, or steps; left out: tdcX"},
+      raw("low", YARS_FIELD(device_axis.low), "value at the low end; left out: the device tells"),
+      raw("high", YARS_FIELD(device_axis.high), "value at the high end; left out: the device tells"),
+      raw("centre", YARS_FIELD(device_axis.centre), "value at rest; left out: half way"),
+      number_slot("deadZone", "", 0, 0.9, {YARS_FIELD(device_axis.dead_zone)},
+                  "share of the travel from the centre that counts as none; left out: 0.05"),
+      number_slot("curve", "", 0, 1, {YARS_FIELD(device_axis.curve)},
+                  "0 = straight, 1 = the cube: fine about the centre; left out: 0"),
+      {.name = "inverted",
+       .binding = BooleanSlot{YARS_FIELD(device_axis.inverted)},
+       .purpose = "the low end is up or right; left out: false"},
+      text_slot("positive", YARS_FIELD(device_axis.positive),
+                "of directions and lever: the event of a move to the high end"),
+      text_slot("negative", YARS_FIELD(device_axis.negative), "the same to the low end"),
+      number_slot("repeat", "s", 0, 10, {YARS_FIELD(device_axis.repeat_s)},
+                  "of directions: between repetitions at full deflection, slower before; left out: none"),
+      number_slot("lowest", "deg", -60, 60, {YARS_FIELD(device_axis.lowest_deg)},
+                  "of elevation: at the low end; left out: -60"),
+      number_slot("highest", "deg", -60, 60, {YARS_FIELD(device_axis.highest_deg)},
+                  "of elevation: at the high end; left out: 60"),
+      {.name = "steps",
+       .lowest = 2,
+       .highest = 256,
+       .binding = IntegerSlot{YARS_FIELD(device_axis.steps)},
+       .purpose = "of a lever: places over its travel; left out: 16"}};
 }
 
 FormSchema axis() {
-  return {.name = "Axis",
-          .purpose = "an axis of a device: a stick, a hat, a rocker, a lever",
-          .slots = axis_slots(),
-          .part_of_value = true,
-          .begin = [](Draft& draft) { draft.device_axis = {}; },
-          .check = check_axis,
-          .end = [](Draft& draft) { draft.device.axes.push_back(draft.device_axis); },
-          .count = [](const Draft& draft) { return draft.device.axes.size(); },
-          .select = [](Draft& draft, std::size_t index) { draft.device_axis = draft.device.axes[index]; }};
+  return {
+      .name = "Axis",
+      .purpose = "an axis of a device: a stick, a hat, a rocker, a lever",
+      .slots = axis_slots(),
+      .part_of_value = true,
+      .begin = [](ConfigurationBuilder& draft) { draft.device_axis = {}; },
+      .check = check_axis,
+      .end = [](ConfigurationBuilder& draft) { draft.device.axes.push_back(draft.device_axis); },
+      .count = [](const ConfigurationBuilder& draft) { return draft.device.axes.size(); },
+      .select = [](ConfigurationBuilder& draft, std::size_t index) { draft.device_axis = draft.device.axes[index]; }};
 }
 
 bool is_identity(std::string_view word) {
@@ -225,17 +232,17 @@ bool is_identity(std::string_view word) {
          });
 }
 
-std::optional<Complaint> check_device(const Draft& draft) {
+std::optional<ConstraintViolation> check_device(const ConfigurationBuilder& draft) {
   const auto& device = draft.device;
-  if (auto wrong = too_many(draft.radar.devices.size(), radar::kMostDevices, "name", "devices")) return wrong;
+  if (auto wrong = too_many(draft.radar.devices.size(), radar::kMaxDevices, "name", "devices")) return wrong;
   if (device.name.empty() || device.name.find_first_of("/,") != std::string::npos)
-    return Complaint{"name", "a name without comma and slash", quoted_text(device.name)};
+    return ConstraintViolation{"name", "a name without comma and slash", quoted_text(device.name)};
   if (!device.vendor.empty() && !is_identity(device.vendor))
-    return Complaint{"vendor", "four hexadecimal digits", quoted_text(device.vendor)};
+    return ConstraintViolation{"vendor", "four hexadecimal digits", quoted_text(device.vendor)};
   if (!std::ranges::all_of(text::words_of(device.products), is_identity))
-    return Complaint{"products", "four hexadecimal digits each", quoted_text(device.products)};
+    return ConstraintViolation{"products", "four hexadecimal digits each", quoted_text(device.products)};
   if (!device.has.empty() && !button_code(device.has) && !axis_code(device.has))
-    return Complaint{"has", "a button or an axis, as BTN_SOUTH or ABS_X", quoted_text(device.has)};
+    return ConstraintViolation{"has", "a button or an axis, as BTN_SOUTH or ABS_X", quoted_text(device.has)};
   return std::nullopt;
 }
 
@@ -253,11 +260,11 @@ FormSchema device() {
                      .purpose = "at most 256 buttons"},
                     {.name = "axes", .binding = FormSlot{{"Axis"}, {"Axis"}, true}, .purpose = "at most 256 axes"}},
           .part_of_value = true,
-          .begin = [](Draft& draft) { draft.device = {}; },
+          .begin = [](ConfigurationBuilder& draft) { draft.device = {}; },
           .check = check_device,
-          .end = [](Draft& draft) { draft.radar.devices.push_back(draft.device); },
-          .count = [](const Draft& draft) { return draft.radar.devices.size(); },
-          .select = [](Draft& draft, std::size_t index) { draft.device = draft.radar.devices[index]; }};
+          .end = [](ConfigurationBuilder& draft) { draft.radar.devices.push_back(draft.device); },
+          .count = [](const ConfigurationBuilder& draft) { return draft.radar.devices.size(); },
+          .select = [](ConfigurationBuilder& draft, std::size_t index) { draft.device = draft.radar.devices[index]; }};
 }
 
 }  // namespace

@@ -20,10 +20,10 @@ const std::string& identifier_of(const Value& value, const char* expected) {
 }  // namespace
 
 void FormBook::define(const Form& form, const Location& where) {
-  constexpr std::size_t kMostForms = 1000;  // bounds on the search; a person defines a handful
-  constexpr std::size_t kMostSlots = 1000;
+  constexpr std::size_t kMaxForms = 1000;  // bounds on the search; a person defines a handful
+  constexpr std::size_t kMaxSlots = 1000;
   if (form.slots.empty()) reject(where, "( def-form name is= base 'slot ... )", "no name");
-  if (definitions_.size() >= kMostForms) reject(where, "at most 1000 forms defined", "one more");
+  if (definitions_.size() >= kMaxForms) reject(where, "at most 1000 forms defined", "one more");
   Definition definition;
   definition.meaning.defined_in_text = true;
   definition.name = identifier_of(form.slots[0].value, "the name of the new form");
@@ -43,7 +43,7 @@ void FormBook::define(const Form& form, const Location& where) {
       reject(slot.where, "the name of a slot, as 'alpha", slot.name.empty() ? "a position" : ":" + slot.name);
     }
   }
-  if (definition.meaning.own_slots.size() > kMostSlots) reject(where, "at most 1000 new slots in a form", "more");
+  if (definition.meaning.own_slots.size() > kMaxSlots) reject(where, "at most 1000 new slots in a form", "more");
   if (find_form(definition.name).schema == nullptr) definitions_.push_back(std::move(definition));
 }
 
@@ -67,8 +67,8 @@ void refuse_repetition(const std::vector<Assigned>& assigned, const SlotSchema& 
   }
 }
 
-[[noreturn]] void refuse(const Complaint& complaint, const Location& where) {
-  reject(where, complaint.expected + " for :" + std::string(complaint.slot), complaint.found);
+[[noreturn]] void refuse(const ConstraintViolation& violation, const Location& where) {
+  reject(where, violation.expected + " for :" + std::string(violation.slot), violation.found);
 }
 
 bool accepts(const FormSlot& kind, const FormSchema& schema) {
@@ -91,7 +91,7 @@ void FormReader::read_all(const std::vector<Slot>& arguments) {
     }
   }
   for (const Agreement& agreement : agreements_) {
-    if (const auto complaint = agreement.broken(draft_)) refuse(*complaint, agreement.where);
+    if (const auto violation = agreement.broken(draft_)) refuse(*violation, agreement.where);
   }
 }
 
@@ -122,10 +122,10 @@ void FormReader::read_form(const Form& form, const Location& where, const KnownF
     }
   }
   if (schema.check) {
-    if (const auto complaint = schema.check(draft_)) {
+    if (const auto violation = schema.check(draft_)) {
       const auto given = std::find_if(assigned.begin(), assigned.end(),
-                                      [&](const Assigned& one) { return one.schema->name == complaint->slot; });
-      refuse(*complaint, given == assigned.end() ? where : given->slot->value.where);
+                                      [&](const Assigned& one) { return one.schema->name == violation->slot; });
+      refuse(*violation, given == assigned.end() ? where : given->slot->value.where);
     }
   }
   if (schema.end) schema.end(draft_);

@@ -21,7 +21,7 @@ struct KnownForm {
 // The forms that a text may use: those of the schema, and those it defines itself with def-form.
 class FormBook {
  public:
-  // ( def-form name is= base 'slot ... ). Throws Rejection; a definition of a form that is built in changes nothing.
+  // ( def-form name is= base 'slot ... ). Throws ParseError; a definition of a form that is built in changes nothing.
   void define(const Form& form, const Location& where);
   // A form without schema and not defined in the text is unknown.
   KnownForm look_up(const std::string& name) const;
@@ -35,10 +35,10 @@ class FormBook {
 };
 
 // The tree of a configuration into a draft, by the schema. Reads forms in the order of the text; what comes later wins.
-// Throws Rejection.
+// Throws ParseError.
 class FormReader {
  public:
-  FormReader(Draft& draft, std::vector<std::string>& warnings) : draft_(draft), warnings_(warnings) {}
+  FormReader(ConfigurationBuilder& draft, std::vector<std::string>& warnings) : draft_(draft), warnings_(warnings) {}
   void read_all(const std::vector<Slot>& arguments);
 
  private:
@@ -49,7 +49,7 @@ class FormReader {
   };
   // A rule between forms, and the last form that has it.
   struct Agreement {
-    std::optional<Complaint> (*broken)(const Draft&);
+    std::optional<ConstraintViolation> (*broken)(const ConfigurationBuilder&);
     Location where;
   };
   void read_outermost(const Form& form, const Location& where);
@@ -64,7 +64,7 @@ class FormReader {
   void warn(const Location& where, const std::string& text);
   void warn_spelling(const Location& where, const std::string& found, std::string_view modern, Spelling spelling);
 
-  Draft& draft_;
+  ConfigurationBuilder& draft_;
   std::vector<std::string>& warnings_;
   FormBook book_;
   std::vector<Agreement> agreements_;

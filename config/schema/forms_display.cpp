@@ -33,8 +33,9 @@ FormSchema lat_long() {
   return {.name = "lat-long",
           .purpose = "a latitude or longitude in degrees, minutes and seconds",
           .slots = {{.name = "direction",
-                     .binding = ChoiceSlot{kDirections, [](const Draft& draft) { return draft.angle.direction; },
-                                           [](Draft& draft, int index) { draft.angle.direction = index % 4; }},
+                     .binding = ChoiceSlot{
+                         kDirections, [](const ConfigurationBuilder& draft) { return draft.angle.direction; },
+                         [](ConfigurationBuilder& draft, int index) { draft.angle.direction = index % 4; }},
                      .purpose = "hemisphere"},
                     {.name = "degrees",
                      .unit = "deg",
@@ -55,16 +56,16 @@ FormSchema lat_long() {
                      .binding = NumberSlot{YARS_FIELD(angle.seconds)},
                      .purpose = "added to the minutes"}},
           .part_of_value = true,
-          .begin = [](Draft& draft) { draft.angle = {}; }};
+          .begin = [](ConfigurationBuilder& draft) { draft.angle = {}; }};
 }
 
 }  // namespace
 
 std::vector<FormSchema> value_forms() {
   const SlotSchema alpha = share("alpha", {}, "0 = transparent, 1 = opaque");
-  const auto black = [](Draft& draft) { draft.color = {}; };
-  const auto pure_red = [](Draft& draft) { draft.hue = {0.0, 1.0, 1.0}; };
-  const auto convert = [](Draft& draft) {
+  const auto black = [](ConfigurationBuilder& draft) { draft.color = {}; };
+  const auto pure_red = [](ConfigurationBuilder& draft) { draft.hue = {0.0, 1.0, 1.0}; };
+  const auto convert = [](ConfigurationBuilder& draft) {
     draft.color = radar::rgb_from_hsv(draft.hue.hue_deg, draft.hue.saturation, draft.hue.value);
   };
   return {{.name = "rgb",
@@ -102,7 +103,8 @@ constexpr std::array<std::string_view, 4> kBufferModes{"doublebuffer", "singlebu
 constexpr std::array<std::string_view, 3> kColorPresets{"green", "gray", "night"};
 
 // A slot that holds a colour: `take` puts the draft's colour in hand into its place, `give` takes it from there.
-SlotSchema color_slot(std::string_view name, void (*take)(Draft&), void (*give)(Draft&), std::string_view purpose) {
+SlotSchema color_slot(std::string_view name, void (*take)(ConfigurationBuilder&), void (*give)(ConfigurationBuilder&),
+                      std::string_view purpose) {
   return {.name = name,
           .binding = FormSlot{{"rgb", "rgba", "hsv", "hsva"}, {"rgb"}, false, take, give},
           .purpose = purpose};
@@ -112,25 +114,27 @@ FormSchema color_scheme() {
   return {
       .name = "ColorScheme",
       .purpose = "the colours of the glass",
-      .slots = {
-          {.name = "preset",
-           .binding = ChoiceSlot{
-               kColorPresets, [](const Draft& draft) { return static_cast<int>(draft.radar.view.colors.preset); },
-               [](Draft& draft, int index) {
-                 draft.radar.view.colors = radar::color_preset(static_cast<radar::ColorPreset>(index));
-               }},
-           .purpose = "all colours at once: green phosphor, gray, or a dim red for the night",
-           .before_others = true},
-          color_slot(
-              "video", [](Draft& draft) { draft.radar.view.colors.video = draft.color; },
-              [](Draft& draft) { draft.color = draft.radar.view.colors.video; },
-              "the brightest video; its grays are fractions of it"),
-          color_slot(
-              "symbols", [](Draft& draft) { draft.radar.view.colors.symbols = draft.color; },
-              [](Draft& draft) { draft.color = draft.radar.view.colors.symbols; }, "legends and symbols"),
-          color_slot(
-              "lines", [](Draft& draft) { draft.radar.view.colors.lines = draft.color; },
-              [](Draft& draft) { draft.color = draft.radar.view.colors.lines; }, "range arcs and zero azimuth line")}};
+      .slots = {{.name = "preset",
+                 .binding = ChoiceSlot{
+                     kColorPresets,
+                     [](const ConfigurationBuilder& draft) { return static_cast<int>(draft.radar.view.colors.preset); },
+                     [](ConfigurationBuilder& draft, int index) {
+                       draft.radar.view.colors = radar::color_preset(static_cast<radar::ColorPreset>(index));
+                     }},
+                 .purpose = "all colours at once: green phosphor, gray, or a dim red for the night",
+                 .before_others = true},
+                color_slot(
+                    "video", [](ConfigurationBuilder& draft) { draft.radar.view.colors.video = draft.color; },
+                    [](ConfigurationBuilder& draft) { draft.color = draft.radar.view.colors.video; },
+                    "the brightest video; its grays are fractions of it"),
+                color_slot(
+                    "symbols", [](ConfigurationBuilder& draft) { draft.radar.view.colors.symbols = draft.color; },
+                    [](ConfigurationBuilder& draft) { draft.color = draft.radar.view.colors.symbols; },
+                    "legends and symbols"),
+                color_slot(
+                    "lines", [](ConfigurationBuilder& draft) { draft.radar.view.colors.lines = draft.color; },
+                    [](ConfigurationBuilder& draft) { draft.color = draft.radar.view.colors.lines; },
+                    "range arcs and zero azimuth line")}};
 }
 
 std::vector<SlotSchema> view_slots() {
@@ -157,48 +161,48 @@ std::vector<SlotSchema> unused_view_slots() {
            .purpose = "bottom and top edge"}};
 }
 
-std::optional<Complaint> check_square(const Draft& draft) {
+std::optional<ConstraintViolation> check_square(const ConfigurationBuilder& draft) {
   if (draft.window_height_pixels == draft.radar.view.size_pixels) return std::nullopt;
-  return Complaint{"height", "the width, " + std::to_string(draft.radar.view.size_pixels) + " (the glass is square)",
-                   std::to_string(draft.window_height_pixels)};
+  return ConstraintViolation{"height",
+                             "the width, " + std::to_string(draft.radar.view.size_pixels) + " (the glass is square)",
+                             std::to_string(draft.window_height_pixels)};
 }
 
 FormSchema window() {
-  return {.name = "Window",
-          .purpose = "the window of the glass",
-          .slots = {{.name = "width",
-                     .unit = "pixels",
-                     .lowest = 64,
-                     .highest = 4096,
-                     .binding = IntegerSlot{YARS_FIELD(radar.view.size_pixels)},
-                     .purpose = "width of the glass"},
-                    {.name = "height",
-                     .unit = "pixels",
-                     .lowest = 64,
-                     .highest = 4096,
-                     .binding = IntegerSlot{YARS_FIELD(window_height_pixels)},
-                     .purpose = "height of the glass, equal to the width"},
-                    {.name = "colorIndex",
-                     .lowest = 0,
-                     .highest = 4095,
-                     .binding = IntegerSlot{},
-                     .purpose = "first entry in the colour map of 1996"},
-                    {.name = "colors",
-                     .binding = FormSlot{{"rgb", "rgba", "hsv", "hsva"},
-                                         {},
-                                         true,
-                                         [](Draft& draft) { draft.radar.view.colors.video = draft.color; }},
-                     .purpose = "the video's, from dark to bright; the last is taken",
-                     .same_as = "video of ColorScheme"},
-                    {.name = "cmode", .binding = ChoiceSlot{kColourModes}, .purpose = "colour mode of 1996"},
-                    {.name = "bmode",
-                     .binding = ChoiceSlot{kBufferModes},
-                     .purpose = "buffer mode of 1996",
-                     .old_name = "mode"},
-                    {.name = "scheme",
-                     .binding = FormSlot{{"ColorScheme"}, {"ColorScheme"}},
-                     .purpose = "the colours of the glass"}},
-          .check = check_square};
+  return {
+      .name = "Window",
+      .purpose = "the window of the glass",
+      .slots =
+          {{.name = "width",
+            .unit = "pixels",
+            .lowest = 64,
+            .highest = 4096,
+            .binding = IntegerSlot{YARS_FIELD(radar.view.size_pixels)},
+            .purpose = "width of the glass"},
+           {.name = "height",
+            .unit = "pixels",
+            .lowest = 64,
+            .highest = 4096,
+            .binding = IntegerSlot{YARS_FIELD(window_height_pixels)},
+            .purpose = "height of the glass, equal to the width"},
+           {.name = "colorIndex",
+            .lowest = 0,
+            .highest = 4095,
+            .binding = IntegerSlot{},
+            .purpose = "first entry in the colour map of 1996"},
+           {.name = "colors",
+            .binding = FormSlot{{"rgb", "rgba", "hsv", "hsva"},
+                                {},
+                                true,
+                                [](ConfigurationBuilder& draft) { draft.radar.view.colors.video = draft.color; }},
+            .purpose = "the video's, from dark to bright; the last is taken",
+            .same_as = "video of ColorScheme"},
+           {.name = "cmode", .binding = ChoiceSlot{kColourModes}, .purpose = "colour mode of 1996"},
+           {.name = "bmode", .binding = ChoiceSlot{kBufferModes}, .purpose = "buffer mode of 1996", .old_name = "mode"},
+           {.name = "scheme",
+            .binding = FormSlot{{"ColorScheme"}, {"ColorScheme"}},
+            .purpose = "the colours of the glass"}},
+      .check = check_square};
 }
 
 }  // namespace

@@ -9,13 +9,13 @@ namespace yars::config {
 
 namespace {
 
-std::optional<Complaint> check_widths_against_gimbal(const Draft& draft) {
+std::optional<ConstraintViolation> check_widths_against_gimbal(const ConfigurationBuilder& draft) {
   const auto& radar = draft.radar;
   const double widest_deg = radar.scan_widths_deg.front();
   const double reach_deg = 2.0 * radar.antenna.azimuth_limit_deg;
   if (radar.antenna.circular_scan || widest_deg <= reach_deg) return std::nullopt;
-  return Complaint{"modes", "scan widths within the gimbal's " + number_text(reach_deg) + " deg",
-                   number_text(widest_deg) + " deg"};
+  return ConstraintViolation{"modes", "scan widths within the gimbal's " + number_text(reach_deg) + " deg",
+                             number_text(widest_deg) + " deg"};
 }
 
 // Positions 1 to 11 are the report's.
@@ -154,12 +154,12 @@ constexpr std::array<std::string_view, 3> kBeams{"hard-edge", "gaussian", "cosec
 // The named presets, and the one that picks among them.
 constexpr std::array<std::string_view, 6> kPresets{"1996", "draft", "standard", "fine", "reference", "auto"};
 
-int preset_of(const Draft& draft) {
+int preset_of(const ConfigurationBuilder& draft) {
   const auto* const found = std::find(kPresets.begin(), kPresets.end(), draft.radar.fidelity.name);
   return found == kPresets.end() ? -1 : static_cast<int>(found - kPresets.begin());
 }
 
-void set_preset(Draft& draft, int index) {
+void set_preset(ConfigurationBuilder& draft, int index) {
   const std::string_view name = kPresets[static_cast<std::size_t>(index)];
   if (const auto preset = radar::fidelity_preset(name)) {
     draft.radar.fidelity = *preset;
@@ -170,7 +170,7 @@ void set_preset(Draft& draft, int index) {
   draft.radar.fidelity.automatic = true;
 }
 
-SlotSchema flag(std::string_view name, bool& (*of)(Draft&), std::string_view purpose) {
+SlotSchema flag(std::string_view name, bool& (*of)(ConfigurationBuilder&), std::string_view purpose) {
   return {.name = name, .binding = BooleanSlot{of}, .purpose = purpose};
 }
 
@@ -181,12 +181,14 @@ std::vector<SlotSchema> fidelity_slots() {
        .purpose = "sets all knobs, each can then be set alone; auto: standard with automatic",
        .before_others = true},
       {.name = "algorithm",
-       .binding = ChoiceSlot{kAlgorithms, [](const Draft& draft) { return int(draft.radar.fidelity.algorithm); },
-                             [](Draft& draft, int index) { draft.radar.fidelity.algorithm = radar::Algorithm(index); }},
+       .binding = ChoiceSlot{
+           kAlgorithms, [](const ConfigurationBuilder& draft) { return int(draft.radar.fidelity.algorithm); },
+           [](ConfigurationBuilder& draft, int index) { draft.radar.fidelity.algorithm = radar::Algorithm(index); }},
        .purpose = "reference: plain and exact, the ruler of the tests"},
       {.name = "earth",
-       .binding = ChoiceSlot{kEarthModels, [](const Draft& draft) { return int(draft.radar.fidelity.earth); },
-                             [](Draft& draft, int index) { draft.radar.fidelity.earth = radar::EarthModel(index); }},
+       .binding = ChoiceSlot{
+           kEarthModels, [](const ConfigurationBuilder& draft) { return int(draft.radar.fidelity.earth); },
+           [](ConfigurationBuilder& draft, int index) { draft.radar.fidelity.earth = radar::EarthModel(index); }},
        .purpose = "shape of the earth"},
       {.name = "earthRadiusFactor",
        .lowest = 0.5,
@@ -206,9 +208,11 @@ std::vector<SlotSchema> fidelity_slots() {
            "exact points of the geodesic a sweep, at least 2, between which places are interpolated (from 5 on a "
            "series where it is as good); 0 = all exact"},
       {.name = "interpolation",
-       .binding = ChoiceSlot{
-           kInterpolations, [](const Draft& draft) { return int(draft.radar.fidelity.interpolation); },
-           [](Draft& draft, int index) { draft.radar.fidelity.interpolation = radar::Interpolation(index); }},
+       .binding = ChoiceSlot{kInterpolations,
+                             [](const ConfigurationBuilder& draft) { return int(draft.radar.fidelity.interpolation); },
+                             [](ConfigurationBuilder& draft, int index) {
+                               draft.radar.fidelity.interpolation = radar::Interpolation(index);
+                             }},
        .purpose = "between posts of the terrain"},
       {.name = "postsPerSample",
        .lowest = 0,
@@ -217,7 +221,7 @@ std::vector<SlotSchema> fidelity_slots() {
        .purpose = "terrain with more posts a sample is read from a coarser level; 0 = always the finest"},
       {.name = "subBeams",
        .lowest = 1,
-       .highest = radar::kMostSubBeams,
+       .highest = radar::kMaxSubBeams,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.sub_beams)},
        .purpose = "rays across the beam in azimuth; 1 = the middle alone"},
       flag("automatic", YARS_FIELD(radar.fidelity.automatic), "the finest preset that holds coreShare is taken, live"),
@@ -233,8 +237,9 @@ std::vector<SlotSchema> fidelity_slots() {
       flag("azimuthSmear", YARS_FIELD(radar.fidelity.azimuth_smear), "smear over the beam width"),
       flag("pulseSmear", YARS_FIELD(radar.fidelity.pulse_smear), "smear over the pulse length"),
       {.name = "beam",
-       .binding = ChoiceSlot{kBeams, [](const Draft& draft) { return int(draft.radar.fidelity.beam); },
-                             [](Draft& draft, int index) { draft.radar.fidelity.beam = radar::BeamPattern(index); }},
+       .binding = ChoiceSlot{
+           kBeams, [](const ConfigurationBuilder& draft) { return int(draft.radar.fidelity.beam); },
+           [](ConfigurationBuilder& draft, int index) { draft.radar.fidelity.beam = radar::BeamPattern(index); }},
        .purpose = "beam in elevation"},
       {.name = "mapSize",
        .lowest = 16,

@@ -73,18 +73,18 @@ SlotSchema map_edge(std::string_view name, IntegerSlot binding, std::string_view
           .same_as = "mapSize of Fidelity"};
 }
 
-void begin_sar_mode(Draft& draft) {
+void begin_sar_mode(ConfigurationBuilder& draft) {
   draft.map_samples = 0;
   draft.map_sweeps = 0;
 }
 
-std::optional<Complaint> check_sar_mode(const Draft& draft) {
+std::optional<ConstraintViolation> check_sar_mode(const ConfigurationBuilder& draft) {
   if (draft.map_samples == 0 || draft.map_sweeps == 0 || draft.map_samples == draft.map_sweeps) return std::nullopt;
-  return Complaint{"width", "the samples, " + std::to_string(draft.map_samples) + " (maps are square)",
-                   std::to_string(draft.map_sweeps)};
+  return ConstraintViolation{"width", "the samples, " + std::to_string(draft.map_samples) + " (maps are square)",
+                             std::to_string(draft.map_sweeps)};
 }
 
-void end_sar_mode(Draft& draft) {
+void end_sar_mode(ConfigurationBuilder& draft) {
   const int given = std::max(draft.map_samples, draft.map_sweeps);
   if (given > 0) draft.radar.fidelity.map_size = given;
 }
@@ -131,38 +131,39 @@ std::string count_text(std::size_t count, std::string_view what) {
   return std::to_string(count) + " " + std::string(what);
 }
 
-std::optional<Complaint> check_limits(const Draft& draft) {
+std::optional<ConstraintViolation> check_limits(const ConfigurationBuilder& draft) {
   const radar::WindowLimits& table = draft.radar.window_limits;
   const std::size_t windows = table.windows_nm.size();
   for (const auto& [slot, limits] : {std::pair{"least", &table.least_nm}, std::pair{"greatest", &table.greatest_nm}}) {
     if (limits->size() != windows)
-      return Complaint{slot, count_text(windows, "numbers, one a window of :windows"), std::to_string(limits->size())};
+      return ConstraintViolation{slot, count_text(windows, "numbers, one a window of :windows"),
+                                 std::to_string(limits->size())};
   }
   for (std::size_t i = 0; i < windows; ++i) {
     if (table.least_nm[i] < table.greatest_nm[i]) continue;
-    return Complaint{"greatest",
-                     "more than the least range of the window " + number_text(table.windows_nm[i]) + ", " +
-                         number_text(table.least_nm[i]) + " NM",
-                     number_text(table.greatest_nm[i])};
+    return ConstraintViolation{"greatest",
+                               "more than the least range of the window " + number_text(table.windows_nm[i]) + ", " +
+                                   number_text(table.least_nm[i]) + " NM",
+                               number_text(table.greatest_nm[i])};
   }
   const std::size_t blank = table.blank_windows_nm.size();
   if (table.blank_up_to_nm.size() != blank) {
-    return Complaint{"blankUpTo", count_text(blank, "numbers, one a window of :blankWindows"),
-                     std::to_string(table.blank_up_to_nm.size())};
+    return ConstraintViolation{"blankUpTo", count_text(blank, "numbers, one a window of :blankWindows"),
+                               std::to_string(table.blank_up_to_nm.size())};
   }
   for (const double window_nm : table.blank_windows_nm) {
     if (radar::cursor_limits(geo::Length::nautical_miles(window_nm), table)) continue;
-    return Complaint{"blankWindows", "windows of :windows", number_text(window_nm)};
+    return ConstraintViolation{"blankWindows", "windows of :windows", number_text(window_nm)};
   }
   return std::nullopt;
 }
 
-std::optional<Complaint> check_heights(const Draft& draft) {
+std::optional<ConstraintViolation> check_heights(const ConfigurationBuilder& draft) {
   const radar::HeightRanges& table = draft.radar.height_ranges;
   const std::size_t wanted = table.heights_ft.size() + 1;
   if (table.ranges_nm.size() == wanted) return std::nullopt;
-  return Complaint{"ranges", count_text(wanted, "numbers, one more than :heights"),
-                   std::to_string(table.ranges_nm.size())};
+  return ConstraintViolation{"ranges", count_text(wanted, "numbers, one more than :heights"),
+                             std::to_string(table.ranges_nm.size())};
 }
 
 SlotSchema miles(std::string_view name, double lowest, ListSlot binding, std::string_view purpose) {
@@ -207,12 +208,12 @@ FormSchema height_ranges() {
 
 }  // namespace
 
-std::optional<Complaint> check_windows_have_limits(const Draft& draft) {
+std::optional<ConstraintViolation> check_windows_have_limits(const ConfigurationBuilder& draft) {
   for (const double window_nm : draft.radar.windows_nm) {
     if (radar::cursor_limits(geo::Length::nautical_miles(window_nm), draft.radar.window_limits)) continue;
-    return Complaint{"windows",
-                     "every window of SarMode among the windows of WindowLimits, with a least and a greatest range",
-                     "none for " + number_text(window_nm) + " NM"};
+    return ConstraintViolation{
+        "windows", "every window of SarMode among the windows of WindowLimits, with a least and a greatest range",
+        "none for " + number_text(window_nm) + " NM"};
   }
   return std::nullopt;
 }
@@ -223,17 +224,18 @@ std::vector<FormSchema> limit_forms() {
 
 namespace {
 
-std::optional<Complaint> check_position(const Draft& draft) {
+std::optional<ConstraintViolation> check_position(const ConfigurationBuilder& draft) {
   const radar::AntennaConfiguration& antenna = draft.radar.antenna;
   const double azimuth_deg = antenna.circular_scan ? 180.0 : antenna.azimuth_limit_deg;
   if (std::abs(antenna.start_azimuth_deg) <= azimuth_deg &&
       std::abs(antenna.start_elevation_deg) <= antenna.elevation_limit_deg) {
     return std::nullopt;
   }
-  return Complaint{"position",
-                   "a position within the gimbal, " + number_text(azimuth_deg) + " and " +
-                       number_text(antenna.elevation_limit_deg) + " deg either way",
-                   number_text(antenna.start_azimuth_deg) + " and " + number_text(antenna.start_elevation_deg)};
+  return ConstraintViolation{
+      "position",
+      "a position within the gimbal, " + number_text(azimuth_deg) + " and " + number_text(antenna.elevation_limit_deg) +
+          " deg either way",
+      number_text(antenna.start_azimuth_deg) + " and " + number_text(antenna.start_elevation_deg)};
 }
 
 }  // namespace

@@ -14,13 +14,13 @@ using radar::kNotGiven;
 constexpr std::array<std::string_view, 6> kBands{"A", "B", "C", "D", "E", "all"};
 constexpr int kAllBands = 5;  // index of "all"
 
-std::optional<Complaint> check_jammer(const Draft& draft) {
+std::optional<ConstraintViolation> check_jammer(const ConfigurationBuilder& draft) {
   const auto& channels = draft.jammer.channels;
   const auto broken =
       std::find_if(channels.begin(), channels.end(), [](double channel) { return channel != std::floor(channel); });
-  if (broken != channels.end()) return Complaint{"channels", "whole numbers", number_text(*broken)};
-  if (draft.radar.world.jamming.jammers.size() >= radar::kMostJammers) {
-    return Complaint{"latitude", "at most " + std::to_string(radar::kMostJammers) + " jammers", "one more"};
+  if (broken != channels.end()) return ConstraintViolation{"channels", "whole numbers", number_text(*broken)};
+  if (draft.radar.world.jamming.jammers.size() >= radar::kMaxJammers) {
+    return ConstraintViolation{"latitude", "at most " + std::to_string(radar::kMaxJammers) + " jammers", "one more"};
   }
   return check_place(draft.jammer.place);
 }
@@ -35,11 +35,11 @@ FormSchema jammer() {
                                 "above mean sea level; left out: a mast of 10 m on the ground"),
                     {.name = "band",
                      .binding = ChoiceSlot{kBands,
-                                           [](const Draft& draft) {
+                                           [](const ConfigurationBuilder& draft) {
                                              return draft.jammer.band == radar::kEveryBand ? kAllBands
                                                                                            : draft.jammer.band;
                                            },
-                                           [](Draft& draft, int index) {
+                                           [](ConfigurationBuilder& draft, int index) {
                                              draft.jammer.band = index == kAllBands ? radar::kEveryBand : index;
                                            }},
                      .purpose = "band that it jams; left out: all"},
@@ -52,58 +52,60 @@ FormSchema jammer() {
                                 "effective radiated, within the receiver's bandwidth; left out: 10")},
           .part_of_value = true,
           .begin =
-              [](Draft& draft) {
+              [](ConfigurationBuilder& draft) {
                 draft.jammer = {.name = {}, .place = {kNotGiven, kNotGiven}};
               },
           .check = check_jammer,
-          .end = [](Draft& draft) { draft.radar.world.jamming.jammers.push_back(draft.jammer); },
-          .count = [](const Draft& draft) { return draft.radar.world.jamming.jammers.size(); },
-          .select = [](Draft& draft, std::size_t index) { draft.jammer = draft.radar.world.jamming.jammers[index]; }};
+          .end = [](ConfigurationBuilder& draft) { draft.radar.world.jamming.jammers.push_back(draft.jammer); },
+          .count = [](const ConfigurationBuilder& draft) { return draft.radar.world.jamming.jammers.size(); },
+          .select = [](ConfigurationBuilder& draft,
+                       std::size_t index) { draft.jammer = draft.radar.world.jamming.jammers[index]; }};
 }
 
-std::optional<Complaint> check_mover(const Draft& draft) {
-  if (draft.radar.world.movers.size() >= radar::kMostMovers) {
-    return Complaint{"latitude", "at most " + std::to_string(radar::kMostMovers) + " movers", "one more"};
+std::optional<ConstraintViolation> check_mover(const ConfigurationBuilder& draft) {
+  if (draft.radar.world.movers.size() >= radar::kMaxMovers) {
+    return ConstraintViolation{"latitude", "at most " + std::to_string(radar::kMaxMovers) + " movers", "one more"};
   }
   return check_place(draft.mover.place);
 }
 
 FormSchema mover() {
   constexpr double kMetresPerSecondPerKnot = geo::kMetresPerNauticalMile / 3600.0;
-  return {.name = "Mover",
-          .purpose = "a ship or a vehicle: a point on its great circle",
-          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(mover.name)}, .purpose = "what people call it"},
-                    latitude_slot(YARS_FIELD(mover.place.latitude_deg)),
-                    longitude_slot(YARS_FIELD(mover.place.longitude_deg)),
-                    number_slot("speed", "kt", 0, 1000, {YARS_FIELD(mover.speed_mps), kMetresPerSecondPerKnot},
-                                "over ground; left out: 0"),
-                    number_slot("heading", "deg", 0, 360, {YARS_FIELD(mover.heading_deg)},
-                                "true, at sim time 0; later the great circle's"),
-                    number_slot("crossSection", "m2", 0, 1e7, {YARS_FIELD(mover.cross_section_m2)},
-                                "radar cross section; left out: 1000"),
-                    number_slot("height", "ft", 0, 1000, {YARS_FIELD(mover.height_m), geo::kMetresPerFoot},
-                                "of what returns, above the ground; left out: 20")},
-          .part_of_value = true,
-          .begin =
-              [](Draft& draft) {
-                draft.mover = {.name = {}, .place = {kNotGiven, kNotGiven}};
-              },
-          .check = check_mover,
-          .end = [](Draft& draft) { draft.radar.world.movers.push_back(draft.mover); },
-          .count = [](const Draft& draft) { return draft.radar.world.movers.size(); },
-          .select = [](Draft& draft, std::size_t index) { draft.mover = draft.radar.world.movers[index]; }};
+  return {
+      .name = "Mover",
+      .purpose = "a ship or a vehicle: a point on its great circle",
+      .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(mover.name)}, .purpose = "what people call it"},
+                latitude_slot(YARS_FIELD(mover.place.latitude_deg)),
+                longitude_slot(YARS_FIELD(mover.place.longitude_deg)),
+                number_slot("speed", "kt", 0, 1000, {YARS_FIELD(mover.speed_mps), kMetresPerSecondPerKnot},
+                            "over ground; left out: 0"),
+                number_slot("heading", "deg", 0, 360, {YARS_FIELD(mover.heading_deg)},
+                            "true, at sim time 0; later the great circle's"),
+                number_slot("crossSection", "m2", 0, 1e7, {YARS_FIELD(mover.cross_section_m2)},
+                            "radar cross section; left out: 1000"),
+                number_slot("height", "ft", 0, 1000, {YARS_FIELD(mover.height_m), geo::kMetresPerFoot},
+                            "of what returns, above the ground; left out: 20")},
+      .part_of_value = true,
+      .begin =
+          [](ConfigurationBuilder& draft) {
+            draft.mover = {.name = {}, .place = {kNotGiven, kNotGiven}};
+          },
+      .check = check_mover,
+      .end = [](ConfigurationBuilder& draft) { draft.radar.world.movers.push_back(draft.mover); },
+      .count = [](const ConfigurationBuilder& draft) { return draft.radar.world.movers.size(); },
+      .select = [](ConfigurationBuilder& draft, std::size_t index) { draft.mover = draft.radar.world.movers[index]; }};
 }
 
 constexpr std::array<std::string_view, 3> kSceneHeights{"ground", "anchor", "seaLevel"};  // radar::SceneHeights
 
-std::optional<Complaint> check_scene(const Draft& draft) {
-  if (draft.radar.world.scenes.size() >= radar::kMostScenes) {
-    return Complaint{"file", "at most " + std::to_string(radar::kMostScenes) + " scenes", "one more"};
+std::optional<ConstraintViolation> check_scene(const ConfigurationBuilder& draft) {
+  if (draft.radar.world.scenes.size() >= radar::kMaxScenes) {
+    return ConstraintViolation{"file", "at most " + std::to_string(radar::kMaxScenes) + " scenes", "one more"};
   }
   const radar::Scene& scene = draft.scene;
-  if (scene.file.empty()) return Complaint{"file", "an OpenFlight file or a folder of them", "none"};
+  if (scene.file.empty()) return ConstraintViolation{"file", "an OpenFlight file or a folder of them", "none"};
   if (std::isnan(scene.place.latitude_deg) == std::isnan(scene.place.longitude_deg)) return std::nullopt;
-  return Complaint{"latitude", "latitude and longitude together, or neither", "one of them"};
+  return ConstraintViolation{"latitude", "latitude and longitude together, or neither", "one of them"};
 }
 
 FormSchema scene() {
@@ -118,9 +120,12 @@ FormSchema scene() {
                 number_slot("heading", "deg", -360, 360, {YARS_FIELD(scene.heading_deg)},
                             "true, where the scene's north points; left out: 0"),
                 {.name = "elevation",
-                 .binding = ChoiceSlot{
-                     kSceneHeights, [](const Draft& draft) { return static_cast<int>(draft.scene.heights); },
-                     [](Draft& draft, int index) { draft.scene.heights = static_cast<radar::SceneHeights>(index); }},
+                 .binding =
+                     ChoiceSlot{kSceneHeights,
+                                [](const ConfigurationBuilder& draft) { return static_cast<int>(draft.scene.heights); },
+                                [](ConfigurationBuilder& draft, int index) {
+                                  draft.scene.heights = static_cast<radar::SceneHeights>(index);
+                                }},
                  .purpose = "ground: each object on the ground below it, flat things along it; anchor: all of it on "
                             "the ground at its place; seaLevel: its heights are above mean sea level"},
                 {.name = "without",
@@ -128,11 +133,11 @@ FormSchema scene() {
                  .purpose = "names of objects and groups that are left out, apart by commas; * and ? as in names of "
                             "files. A name that nothing in a file has is an error; left out: none"}},
       .part_of_value = true,
-      .begin = [](Draft& draft) { draft.scene = {}; },
+      .begin = [](ConfigurationBuilder& draft) { draft.scene = {}; },
       .check = check_scene,
-      .end = [](Draft& draft) { draft.radar.world.scenes.push_back(draft.scene); },
-      .count = [](const Draft& draft) { return draft.radar.world.scenes.size(); },
-      .select = [](Draft& draft, std::size_t index) { draft.scene = draft.radar.world.scenes[index]; }};
+      .end = [](ConfigurationBuilder& draft) { draft.radar.world.scenes.push_back(draft.scene); },
+      .count = [](const ConfigurationBuilder& draft) { return draft.radar.world.scenes.size(); },
+      .select = [](ConfigurationBuilder& draft, std::size_t index) { draft.scene = draft.radar.world.scenes[index]; }};
 }
 
 }  // namespace
@@ -148,12 +153,12 @@ std::vector<FormSchema> traffic_forms() {
                              "the radar's effective radiated peak power"),
                  number_slot("sidelobes", "dB", -80, 0, {YARS_FIELD(radar.world.jamming.sidelobe_db)},
                              "least gain of the antenna one way, below the beam's centre")},
-       .begin = [](Draft& draft) { draft.radar.world.jamming.jammers.clear(); }},
+       .begin = [](ConfigurationBuilder& draft) { draft.radar.world.jamming.jammers.clear(); }},
       jammer(),
       {.name = "Movers",
        .purpose = "ships and vehicles; replaces earlier ones",
        .slots = {{.name = "movers", .binding = FormSlot{{"Mover"}, {"Mover"}, true}, .purpose = "at most 64 movers"}},
-       .begin = [](Draft& draft) { draft.radar.world.movers.clear(); }},
+       .begin = [](ConfigurationBuilder& draft) { draft.radar.world.movers.clear(); }},
       mover(),
       {.name = "Scenes",
        .purpose = "polygonal scenes; replaces earlier ones",
@@ -161,21 +166,21 @@ std::vector<FormSchema> traffic_forms() {
                   .binding = FormSlot{{"Scene"}, {"Scene"}, true},
                   .purpose =
                       "at most 1024 scenes; without a place: at the place in the file's name, or in its header"}},
-       .begin = [](Draft& draft) { draft.radar.world.scenes.clear(); }},
+       .begin = [](ConfigurationBuilder& draft) { draft.radar.world.scenes.clear(); }},
       scene()};
 }
 
 namespace {
 
-constexpr double kMostCode = 99;
+constexpr double kMaxCode = 99;
 
-std::optional<Complaint> check_beacon(const Draft& draft) {
-  if (draft.radar.world.beacons.beacons.size() >= radar::kMostBeacons)
-    return Complaint{"latitude", "at most " + std::to_string(radar::kMostBeacons) + " beacons", "one more"};
+std::optional<ConstraintViolation> check_beacon(const ConfigurationBuilder& draft) {
+  if (draft.radar.world.beacons.beacons.size() >= radar::kMaxBeacons)
+    return ConstraintViolation{"latitude", "at most " + std::to_string(radar::kMaxBeacons) + " beacons", "one more"};
   return check_place(draft.beacon.place);
 }
 
-SlotSchema whole_number(std::string_view name, double lowest, double highest, int& (*of)(Draft&),
+SlotSchema whole_number(std::string_view name, double lowest, double highest, int& (*of)(ConfigurationBuilder&),
                         std::string_view purpose) {
   return {.name = name, .lowest = lowest, .highest = highest, .binding = IntegerSlot{of}, .purpose = purpose};
 }
@@ -189,22 +194,23 @@ FormSchema beacon() {
                 longitude_slot(YARS_FIELD(beacon.place.longitude_deg)),
                 number_slot("altitude", "ft", -1500, 100'000, {YARS_FIELD(beacon.altitude_m), geo::kMetresPerFoot},
                             "above mean sea level; left out: a mast of 10 m on the ground"),
-                whole_number("code", 1, kMostCode, YARS_FIELD(beacon.code), "that it answers to; left out: 1"),
+                whole_number("code", 1, kMaxCode, YARS_FIELD(beacon.code), "that it answers to; left out: 1"),
                 number_slot("delay", "us", 0, 1000, {YARS_FIELD(beacon.delay_us)},
                             "from the pulse that it hears to its first reply; left out: 2"),
-                whole_number("replies", 2, radar::kMostReplies, YARS_FIELD(beacon.replies), "to a pulse; left out: 2"),
+                whole_number("replies", 2, radar::kMaxReplies, YARS_FIELD(beacon.replies), "to a pulse; left out: 2"),
                 number_slot("spacing", "us", 0.1, 1000, {YARS_FIELD(beacon.spacing_us)},
                             "between replies; left out: 10"),
                 number_slot("power", "W", 0, 1e9, {YARS_FIELD(beacon.power_w)}, "effective radiated; left out: 100")},
       .part_of_value = true,
       .begin =
-          [](Draft& draft) {
+          [](ConfigurationBuilder& draft) {
             draft.beacon = {.name = {}, .place = {kNotGiven, kNotGiven}};
           },
       .check = check_beacon,
-      .end = [](Draft& draft) { draft.radar.world.beacons.beacons.push_back(draft.beacon); },
-      .count = [](const Draft& draft) { return draft.radar.world.beacons.beacons.size(); },
-      .select = [](Draft& draft, std::size_t index) { draft.beacon = draft.radar.world.beacons.beacons[index]; }};
+      .end = [](ConfigurationBuilder& draft) { draft.radar.world.beacons.beacons.push_back(draft.beacon); },
+      .count = [](const ConfigurationBuilder& draft) { return draft.radar.world.beacons.beacons.size(); },
+      .select = [](ConfigurationBuilder& draft,
+                   std::size_t index) { draft.beacon = draft.radar.world.beacons.beacons[index]; }};
 }
 
 }  // namespace
@@ -215,9 +221,9 @@ std::vector<FormSchema> beacon_forms() {
            .slots = {{.name = "beacons",
                       .binding = FormSlot{{"Beacon"}, {"Beacon"}, true},
                       .purpose = "at most 64 beacons"},
-                     whole_number("beaconCode", 1, kMostCode, YARS_FIELD(radar.world.beacons.code),
+                     whole_number("beaconCode", 1, kMaxCode, YARS_FIELD(radar.world.beacons.code),
                                   "that the radar asks for: beacons of another stay silent")},
-           .begin = [](Draft& draft) { draft.radar.world.beacons.beacons.clear(); }},
+           .begin = [](ConfigurationBuilder& draft) { draft.radar.world.beacons.beacons.clear(); }},
           beacon()};
 }
 

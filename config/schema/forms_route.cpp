@@ -25,20 +25,21 @@ bool is_point(const radar::PointName& name) {
 }
 
 // Steer and initial points share a spelling; every other kind is told by the name.
-std::optional<Complaint> check_point(const Draft& draft) {
+std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& draft) {
   const auto name = radar::point_name(draft.point.name);
   if (!name) {
-    return Complaint{"name", "a name of a sequence point: \"2\", \"2.\", \"2.1\" or \"2.01\", 1 to 100",
-                     quoted_text(draft.point.name)};
+    return ConstraintViolation{"name", "a name of a sequence point: \"2\", \"2.\", \"2.1\" or \"2.01\", 1 to 100",
+                               quoted_text(draft.point.name)};
   }
   if (auto wrong = check_place(draft.point.place)) return wrong;
   for (const auto& other : draft.radar.route) {
-    if (other.name == draft.point.name) return Complaint{"name", "a name once in a route", quoted_text(other.name)};
+    if (other.name == draft.point.name)
+      return ConstraintViolation{"name", "a name once in a route", quoted_text(other.name)};
     // So a route has at most a hundred points, offsets apart: one a number.
     const auto before = radar::point_name(other.name);
     if (is_point(*name) && before && is_point(*before) && before->number == name->number) {
-      return Complaint{"name", "a number once in a route: steer point or target",
-                       quoted_text(draft.point.name) + " beside " + quoted_text(other.name)};
+      return ConstraintViolation{"name", "a number once in a route: steer point or target",
+                                 quoted_text(draft.point.name) + " beside " + quoted_text(other.name)};
     }
   }
   if (draft.point_kind == kKindByName) return std::nullopt;
@@ -47,13 +48,13 @@ std::optional<Complaint> check_point(const Draft& draft) {
   if (given == by_name || (given == radar::PointKind::initial && by_name == radar::PointKind::steer)) {
     return std::nullopt;
   }
-  return Complaint{
+  return ConstraintViolation{
       "kind",
       "the kind that the name " + draft.point.name + " has, " + std::string(kKinds[static_cast<std::size_t>(by_name)]),
       std::string(kKinds[static_cast<std::size_t>(draft.point_kind)])};
 }
 
-void begin_point(Draft& draft) {
+void begin_point(ConfigurationBuilder& draft) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   draft.point = {};
   draft.point.place = {kUnknown, kUnknown};
@@ -61,21 +62,21 @@ void begin_point(Draft& draft) {
   draft.point_kind = kKindByName;
 }
 
-void end_point(Draft& draft) {
+void end_point(ConfigurationBuilder& draft) {
   draft.point.kind = draft.point_kind == kKindByName ? kind_by_name(*radar::point_name(draft.point.name))
                                                      : static_cast<radar::PointKind>(draft.point_kind);
   if (draft.point_kind == kKindByName) draft.kinds_left_open.insert(draft.point.name);
   draft.radar.route.push_back(draft.point);
 }
 
-void begin_route(Draft& draft) {
+void begin_route(ConfigurationBuilder& draft) {
   draft.radar.route.clear();
   draft.kinds_left_open.clear();
 }
 
 // The last steer point before a target, by number, is the initial point: unless the file says what kind it is, or names
 // an initial point on the way from the target before.
-void derive_initial_points(Draft& draft) {
+void derive_initial_points(ConfigurationBuilder& draft) {
   std::vector<radar::RoutePoint*> points;
   for (radar::RoutePoint& point : draft.radar.route) {
     if (is_point(*radar::point_name(point.name))) points.push_back(&point);
@@ -110,16 +111,16 @@ FormSchema point() {
                      .binding = NumberSlot{YARS_FIELD(point.elevation_m), geo::kMetresPerFoot},
                      .purpose = "above mean sea level; left out: unknown"},
                     {.name = "kind",
-                     .binding = ChoiceSlot{kKinds, [](const Draft& draft) { return draft.point_kind; },
-                                           [](Draft& draft, int index) { draft.point_kind = index; }},
+                     .binding = ChoiceSlot{kKinds, [](const ConfigurationBuilder& draft) { return draft.point_kind; },
+                                           [](ConfigurationBuilder& draft, int index) { draft.point_kind = index; }},
                      .purpose = "left out: by the name; a steer point is initial when it is the last before a target"}},
           .part_of_value = true,
           .begin = begin_point,
           .check = check_point,
           .end = end_point,
-          .count = [](const Draft& draft) { return draft.radar.route.size(); },
+          .count = [](const ConfigurationBuilder& draft) { return draft.radar.route.size(); },
           .select =
-              [](Draft& draft, std::size_t index) {
+              [](ConfigurationBuilder& draft, std::size_t index) {
                 draft.point = draft.radar.route[index];
                 draft.point_kind = static_cast<int>(draft.point.kind);
               }};
@@ -140,39 +141,39 @@ std::vector<FormSchema> route_forms() {
 
 namespace {
 
-std::optional<Complaint> check_beams(const Draft& draft) {
+std::optional<ConstraintViolation> check_beams(const ConfigurationBuilder& draft) {
   const radar::NavigationConfiguration& navigation = draft.radar.navigation;
   const std::size_t azimuths = navigation.beam_azimuths_deg.size();
   const std::size_t depressions = navigation.beam_depressions_deg.size();
   if (azimuths != depressions)
-    return Complaint{"beamDepressions", "as many as beamAzimuths, " + std::to_string(azimuths),
-                     std::to_string(depressions)};
+    return ConstraintViolation{"beamDepressions", "as many as beamAzimuths, " + std::to_string(azimuths),
+                               std::to_string(depressions)};
   if (radar::horizontal_dilution(navigation)) return std::nullopt;
-  return Complaint{"beamAzimuths", "beams that do not all lie in one plane", "a plane of beams"};
+  return ConstraintViolation{"beamAzimuths", "beams that do not all lie in one plane", "a plane of beams"};
 }
 
 }  // namespace
 
 std::vector<FormSchema> navigation_forms() {
-  constexpr double kMostError_ft = 600'000.0;
-  constexpr double kMostDrift_fps = 1'000.0;
-  const auto feet = [](double& (*of)(Draft&)) { return NumberSlot{of, geo::kMetresPerFoot}; };
+  constexpr double kMaxError_ft = 600'000.0;
+  constexpr double kMaxDrift_fps = 1'000.0;
+  const auto feet = [](double& (*of)(ConfigurationBuilder&)) { return NumberSlot{of, geo::kMetresPerFoot}; };
   return {
       {.name = "Navigation",
        .purpose = "what the navigators have wrong, and how the radar puts it right",
-       .slots = {number_slot("errorNorth", "ft", -kMostError_ft, kMostError_ft,
+       .slots = {number_slot("errorNorth", "ft", -kMaxError_ft, kMaxError_ft,
                              feet(YARS_FIELD(radar.navigation.error_north_m)),
                              "of both navigators' position when the session begins"),
-                 number_slot("errorEast", "ft", -kMostError_ft, kMostError_ft,
+                 number_slot("errorEast", "ft", -kMaxError_ft, kMaxError_ft,
                              feet(YARS_FIELD(radar.navigation.error_east_m)), "as errorNorth, to the east"),
-                 number_slot("driftNorth", "ft/s", -kMostDrift_fps, kMostDrift_fps,
+                 number_slot("driftNorth", "ft/s", -kMaxDrift_fps, kMaxDrift_fps,
                              feet(YARS_FIELD(radar.navigation.drift_north_mps)),
                              "of both navigators' velocity when the session begins; their position drifts with it"),
-                 number_slot("driftEast", "ft/s", -kMostDrift_fps, kMostDrift_fps,
+                 number_slot("driftEast", "ft/s", -kMaxDrift_fps, kMaxDrift_fps,
                              feet(YARS_FIELD(radar.navigation.drift_east_mps)), "as driftNorth, to the east"),
-                 number_slot("driftDown", "ft/s", -kMostDrift_fps, kMostDrift_fps,
+                 number_slot("driftDown", "ft/s", -kMaxDrift_fps, kMaxDrift_fps,
                              feet(YARS_FIELD(radar.navigation.drift_down_mps)), "as driftNorth, downward"),
-                 number_slot("velocityWalk", "ft/s", 0, kMostDrift_fps, feet(YARS_FIELD(radar.navigation.walk_mps)),
+                 number_slot("velocityWalk", "ft/s", 0, kMaxDrift_fps, feet(YARS_FIELD(radar.navigation.walk_mps)),
                              "random walk of the velocity's error: standard deviation after an hour"),
                  number_slot("updateValidity", "s", 1, 3600, {YARS_FIELD(radar.navigation.update_validity_s)},
                              "how long a cursor placed serves an INS update"),
@@ -193,15 +194,15 @@ std::vector<FormSchema> navigation_forms() {
                   .unit = "deg",
                   .lowest = -90,
                   .highest = 90,
-                  .binding = ListSlot{YARS_FIELD(radar.navigation.beam_azimuths_deg), radar::kLeastVelocityBeams,
-                                      radar::kMostVelocityBeams, Order::any},
+                  .binding = ListSlot{YARS_FIELD(radar.navigation.beam_azimuths_deg), radar::kMinVelocityBeams,
+                                      radar::kMaxVelocityBeams, Order::any},
                   .purpose = "of the beams that measure velocity, against the ground track, in their order"},
                  {.name = "beamDepressions",
                   .unit = "deg",
                   .lowest = 1,
                   .highest = 90,
-                  .binding = ListSlot{YARS_FIELD(radar.navigation.beam_depressions_deg), radar::kLeastVelocityBeams,
-                                      radar::kMostVelocityBeams, Order::any},
+                  .binding = ListSlot{YARS_FIELD(radar.navigation.beam_depressions_deg), radar::kMinVelocityBeams,
+                                      radar::kMaxVelocityBeams, Order::any},
                   .purpose = "of the same beams, below the horizon"},
                  number_slot("beamDwell", "s", 0.05, 10, {YARS_FIELD(radar.navigation.beam_dwell_s)},
                              "how long the dish stands on each of them")},

@@ -51,22 +51,22 @@ SlotSchema path_slot() {
           .same_as = "directory of Terrain"};
 }
 
-void begin_polygons(Draft& draft) {
+void begin_polygons(ConfigurationBuilder& draft) {
   draft.scene = {};
   draft.scene_folder.clear();
 }
 
-std::optional<Complaint> check_polygons(const Draft& draft) {
+std::optional<ConstraintViolation> check_polygons(const ConfigurationBuilder& draft) {
   if (draft.scene_folder.empty() && !draft.scene.file.empty())
-    return Complaint{"path", "the folder of the polygon file", "none"};
-  if (draft.radar.world.scenes.size() >= radar::kMostScenes)
-    return Complaint{"path", "at most " + std::to_string(radar::kMostScenes) + " scenes", "one more"};
+    return ConstraintViolation{"path", "the folder of the polygon file", "none"};
+  if (draft.radar.world.scenes.size() >= radar::kMaxScenes)
+    return ConstraintViolation{"path", "at most " + std::to_string(radar::kMaxScenes) + " scenes", "one more"};
   if (std::isnan(draft.scene.place.latitude_deg) == std::isnan(draft.scene.place.longitude_deg)) return std::nullopt;
-  return Complaint{"latitude", "latitude and longitude together, or neither", "one of them"};
+  return ConstraintViolation{"latitude", "latitude and longitude together, or neither", "one of them"};
 }
 
 // Polygons are a scene. A database that a file names for the radar and again for a mode is one.
-void end_polygons(Draft& draft) {
+void end_polygons(ConfigurationBuilder& draft) {
   if (draft.scene_folder.empty()) return;
   draft.scene.file = (std::filesystem::path(draft.scene_folder) / draft.scene.file).string();
   auto& scenes = draft.radar.world.scenes;
@@ -132,14 +132,14 @@ FormSchema land() {
                                 "shape of the texture of land without material; small = spiky, 0 = none")}};
 }
 
-std::optional<Complaint> check_material(const Draft& draft) {
-  if (draft.material.code == 0) return Complaint{"code", "a code of 1 to 31", "none"};
+std::optional<ConstraintViolation> check_material(const ConfigurationBuilder& draft) {
+  if (draft.material.code == 0) return ConstraintViolation{"code", "a code of 1 to 31", "none"};
   if (draft.material.code != radar::kWaterMaterial) return std::nullopt;
-  return Complaint{"code", "any code but water's (Sea says what water returns)", "6"};
+  return ConstraintViolation{"code", "any code but water's (Sea says what water returns)", "6"};
 }
 
 // What a material leaves out stays as it was, or is land without walls and texture.
-void end_material(Draft& draft) {
+void end_material(ConfigurationBuilder& draft) {
   auto& materials = draft.radar.world.land.materials;
   const radar::Material& given = draft.material;
   const auto place = std::lower_bound(materials.begin(), materials.end(), given.code,
@@ -174,17 +174,18 @@ FormSchema material() {
                                 "shape of its texture; small = spiky, 0 = none; left out: as it was, or 0")},
           .part_of_value = true,
           .begin =
-              [](Draft& draft) {
+              [](ConfigurationBuilder& draft) {
                 draft.material = {
                     .code = 0, .name = {}, .gamma_db = kNotGiven, .cardinal_db = kNotGiven, .texture = kNotGiven};
               },
           .check = check_material,
           .end = end_material,
-          .count = [](const Draft& draft) { return draft.radar.world.land.materials.size(); },
-          .select = [](Draft& draft, std::size_t index) { draft.material = draft.radar.world.land.materials[index]; }};
+          .count = [](const ConfigurationBuilder& draft) { return draft.radar.world.land.materials.size(); },
+          .select = [](ConfigurationBuilder& draft,
+                       std::size_t index) { draft.material = draft.radar.world.land.materials[index]; }};
 }
 
-SlotSchema sea_coefficients(std::string_view name, std::vector<double>& (*of)(Draft&)) {
+SlotSchema sea_coefficients(std::string_view name, std::vector<double>& (*of)(ConfigurationBuilder&)) {
   return {.name = name,
           .lowest = -200,
           .highest = 200,
@@ -193,33 +194,35 @@ SlotSchema sea_coefficients(std::string_view name, std::vector<double>& (*of)(Dr
 }
 
 FormSchema sea() {
-  return {
-      .name = "Sea",
-      .purpose = "what the sea returns: the NRL model, with the wind's side of the GIT model",
-      .slots = {number_slot("state", "", 0, 6, {YARS_FIELD(radar.world.sea.state)},
-                            "state of the sea, WMO code 3700; left out: by the wind's Beaufort force"),
-                number_slot("windSpeed", "kt", 0, 120,
-                            {YARS_FIELD(radar.world.sea.wind_speed_mps), geo::kMetresPerNauticalMile / 3600.0},
-                            "wind over the sea; used where state is left out"),
-                number_slot("windFrom", "deg", 0, 360, {YARS_FIELD(radar.world.sea.wind_from_deg)},
-                            "where the wind comes from, true; the sea is brightest that way"),
-                {.name = "polarization",
-                 .binding = ChoiceSlot{
-                     kPolarizations, [](const Draft& draft) { return int(draft.radar.world.sea.polarization); },
-                     [](Draft& draft, int index) { draft.radar.world.sea.polarization = radar::Polarization(index); }},
-                 .purpose = "of the radar"},
-                sea_coefficients("horizontal", YARS_FIELD(radar.world.sea.horizontal)),
-                sea_coefficients("vertical", YARS_FIELD(radar.world.sea.vertical)),
-                number_slot("windFactor", "", 0, 2, {YARS_FIELD(radar.world.sea.wind_factor)},
-                            "0.2: 3 dB more upwind and less downwind at X band; 0: the same all round"),
-                number_slot("texture", "", 0, 100, {YARS_FIELD(radar.world.sea.texture)},
-                            "shape of the sea's texture; small = spiky, 0 = none")}};
+  return {.name = "Sea",
+          .purpose = "what the sea returns: the NRL model, with the wind's side of the GIT model",
+          .slots = {number_slot("state", "", 0, 6, {YARS_FIELD(radar.world.sea.state)},
+                                "state of the sea, WMO code 3700; left out: by the wind's Beaufort force"),
+                    number_slot("windSpeed", "kt", 0, 120,
+                                {YARS_FIELD(radar.world.sea.wind_speed_mps), geo::kMetresPerNauticalMile / 3600.0},
+                                "wind over the sea; used where state is left out"),
+                    number_slot("windFrom", "deg", 0, 360, {YARS_FIELD(radar.world.sea.wind_from_deg)},
+                                "where the wind comes from, true; the sea is brightest that way"),
+                    {.name = "polarization",
+                     .binding = ChoiceSlot{
+                         kPolarizations,
+                         [](const ConfigurationBuilder& draft) { return int(draft.radar.world.sea.polarization); },
+                         [](ConfigurationBuilder& draft, int index) {
+                           draft.radar.world.sea.polarization = radar::Polarization(index);
+                         }},
+                     .purpose = "of the radar"},
+                    sea_coefficients("horizontal", YARS_FIELD(radar.world.sea.horizontal)),
+                    sea_coefficients("vertical", YARS_FIELD(radar.world.sea.vertical)),
+                    number_slot("windFactor", "", 0, 2, {YARS_FIELD(radar.world.sea.wind_factor)},
+                                "0.2: 3 dB more upwind and less downwind at X band; 0: the same all round"),
+                    number_slot("texture", "", 0, 100, {YARS_FIELD(radar.world.sea.texture)},
+                                "shape of the sea's texture; small = spiky, 0 = none")}};
 }
 
-std::optional<Complaint> check_rain_cell(const Draft& draft) {
+std::optional<ConstraintViolation> check_rain_cell(const ConfigurationBuilder& draft) {
   if (auto wrong = check_place(draft.rain_cell.place)) return wrong;
-  if (draft.radar.world.rain.cells.size() < radar::kMostRainCells) return std::nullopt;
-  return Complaint{"latitude", "at most " + std::to_string(radar::kMostRainCells) + " showers", "one more"};
+  if (draft.radar.world.rain.cells.size() < radar::kMaxRainCells) return std::nullopt;
+  return ConstraintViolation{"latitude", "at most " + std::to_string(radar::kMaxRainCells) + " showers", "one more"};
 }
 
 FormSchema rain_cell() {
@@ -235,13 +238,14 @@ FormSchema rain_cell() {
                             "of the rain, above mean sea level; left out: 15,000")},
       .part_of_value = true,
       .begin =
-          [](Draft& draft) {
+          [](ConfigurationBuilder& draft) {
             draft.rain_cell = {.place = {kNotGiven, kNotGiven}};
           },
       .check = check_rain_cell,
-      .end = [](Draft& draft) { draft.radar.world.rain.cells.push_back(draft.rain_cell); },
-      .count = [](const Draft& draft) { return draft.radar.world.rain.cells.size(); },
-      .select = [](Draft& draft, std::size_t index) { draft.rain_cell = draft.radar.world.rain.cells[index]; }};
+      .end = [](ConfigurationBuilder& draft) { draft.radar.world.rain.cells.push_back(draft.rain_cell); },
+      .count = [](const ConfigurationBuilder& draft) { return draft.radar.world.rain.cells.size(); },
+      .select = [](ConfigurationBuilder& draft,
+                   std::size_t index) { draft.rain_cell = draft.radar.world.rain.cells[index]; }};
 }
 
 FormSchema rain() {
@@ -260,7 +264,7 @@ FormSchema rain() {
                                 "k of k r^b, one way (ITU-R P.838-3, 9.6 GHz, horizontal)"),
                     number_slot("attenuationExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.attenuation_exponent)},
                                 "b of k r^b")},
-          .begin = [](Draft& draft) { draft.radar.world.rain.cells.clear(); }};
+          .begin = [](ConfigurationBuilder& draft) { draft.radar.world.rain.cells.clear(); }};
 }
 
 FormSchema atmosphere() {

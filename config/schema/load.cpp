@@ -27,17 +27,17 @@ std::string text_of_file(const fs::path& path, const std::string& subject) {
   std::error_code problem;
   if (!fs::is_regular_file(path, problem)) {
     const std::string found = fs::exists(path, problem) ? " is no file" : " does not exist";
-    throw Rejection{error::fail(subject, "a GUF file", path.string() + found, "check the path").value()};
+    throw ParseError{error::fail(subject, "a GUF file", path.string() + found, "check the path").value()};
   }
   if (fs::file_size(path, problem) > kMaxTextBytes) {
-    throw Rejection{error::fail(subject, "at most " + std::to_string(kMaxTextBytes) + " bytes in a file",
-                                path.string() + " is larger", "split the file")
-                        .value()};
+    throw ParseError{error::fail(subject, "at most " + std::to_string(kMaxTextBytes) + " bytes in a file",
+                                 path.string() + " is larger", "split the file")
+                         .value()};
   }
   std::ifstream file(path, std::ios::binary);
   std::string text(std::istreambuf_iterator<char>(file), {});
   if (file.bad() || !file.is_open()) {
-    throw Rejection{error::fail(subject, "a file that can be read", path.string(), "check its permissions").value()};
+    throw ParseError{error::fail(subject, "a file that can be read", path.string(), "check its permissions").value()};
   }
   return text;
 }
@@ -63,12 +63,12 @@ class TreeReader {
     const std::string text = text_of_file(path, subject);
     if (open_.empty()) in_messages_ = is_in_messages(text);
     auto parsed = in_messages_ ? parse_messages(text, path.string()) : parse_text(text, path.string());
-    if (!parsed) throw Rejection{parsed.error()};
+    if (!parsed) throw ParseError{parsed.error()};
     result_.tokens += parsed->tokens;
     if (result_.tokens > kMaxTokens) {
-      throw Rejection{error::fail(subject, "at most " + std::to_string(kMaxTokens) + " words with all includes",
-                                  std::to_string(result_.tokens), "include less")
-                          .value()};
+      throw ParseError{error::fail(subject, "at most " + std::to_string(kMaxTokens) + " words with all includes",
+                                   std::to_string(result_.tokens), "include less")
+                           .value()};
     }
     std::move(parsed->warnings.begin(), parsed->warnings.end(), std::back_inserter(result_.warnings));
     open_.push_back(fs::weakly_canonical(path));
@@ -157,7 +157,7 @@ class TreeReader {
 error::Expected<ParsedText> read_tree(const fs::path& path) {
   try {
     return TreeReader().read(path);
-  } catch (const Rejection& rejection) {
+  } catch (const ParseError& rejection) {
     return tl::unexpected(rejection.error);
   } catch (const fs::filesystem_error& problem) {
     return error::fail(path.string(), "a path that the system can follow", problem.code().message());
@@ -171,7 +171,7 @@ error::Expected<ParsedText> tree_of_text(std::string_view text, const std::strin
   if (!messages) return messages;
   try {
     return guf_from_messages(std::move(*messages));
-  } catch (const Rejection& rejection) {
+  } catch (const ParseError& rejection) {
     return tl::unexpected(rejection.error);
   }
 }
@@ -179,10 +179,10 @@ error::Expected<ParsedText> tree_of_text(std::string_view text, const std::strin
 error::Expected<LoadedConfiguration> configuration_from(ParsedText tree) {
   LoadedConfiguration loaded;
   loaded.warnings = std::move(tree.warnings);
-  Draft draft;
+  ConfigurationBuilder draft;
   try {
     FormReader(draft, loaded.warnings).read_all(tree.arguments);
-  } catch (const Rejection& rejection) {
+  } catch (const ParseError& rejection) {
     return tl::unexpected(rejection.error);
   }
   loaded.radar = std::move(draft.radar);
@@ -249,10 +249,10 @@ error::Expected<ConvertedConfiguration> converted_from(ParsedText tree, const st
                                                        const fs::path& folder) {
   ConvertedConfiguration converted{{}, std::move(tree.warnings)};
   try {
-    Draft draft;
+    ConfigurationBuilder draft;
     FormReader(draft, converted.warnings).read_all(tree.arguments);
     Modernizer(folder).rename(tree.arguments);
-  } catch (const Rejection& rejection) {
+  } catch (const ParseError& rejection) {
     return tl::unexpected(rejection.error);
   } catch (const fs::filesystem_error& problem) {
     return error::fail(name, "a current folder, for the paths in the file", problem.code().message());

@@ -147,9 +147,9 @@ bool is_used(const SlotSchema& slot) {
   return std::visit(UsedBy{}, slot.binding);
 }
 
-std::optional<Complaint> check_place(geo::GeoPoint place) {
-  if (std::isnan(place.latitude_deg)) return Complaint{"latitude", "a latitude", "none"};
-  if (std::isnan(place.longitude_deg)) return Complaint{"longitude", "a longitude", "none"};
+std::optional<ConstraintViolation> check_place(geo::GeoPoint place) {
+  if (std::isnan(place.latitude_deg)) return ConstraintViolation{"latitude", "a latitude", "none"};
+  if (std::isnan(place.longitude_deg)) return ConstraintViolation{"longitude", "a longitude", "none"};
   return std::nullopt;
 }
 

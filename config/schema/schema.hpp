@@ -33,7 +33,7 @@ struct HueSaturationValue {
 inline constexpr int kKindByName = -1;  // the name alone tells what a point is
 
 // What the slots of GUF write into: the configuration, and the form in hand where forms come in numbers.
-struct Draft {
+struct ConfigurationBuilder {
   radar::RadarConfiguration radar{};
   int window_height_pixels = radar::ViewConfiguration{}.size_pixels;  // equals the width: the glass is square
   // SarMode's samples and width, 0 while it has not given them.
@@ -58,7 +58,7 @@ struct Draft {
 };
 
 // A draft that stands for a finished configuration.
-inline Draft draft_of(const radar::RadarConfiguration& configuration) {
+inline ConfigurationBuilder draft_of(const radar::RadarConfiguration& configuration) {
   return {.radar = configuration, .window_height_pixels = configuration.view.size_pixels};
 }
 
@@ -67,61 +67,62 @@ inline Draft draft_of(const radar::RadarConfiguration& configuration) {
 
 // What a slot holds and where it goes. A null `of` means: checked, and used by nothing yet.
 struct NumberSlot {
-  double& (*of)(Draft&) = nullptr;
+  double& (*of)(ConfigurationBuilder&) = nullptr;
   double si_per_unit = 1.0;  // the field is in SI, the slot in its unit
 };
 struct IntegerSlot {
-  int& (*of)(Draft&) = nullptr;
+  int& (*of)(ConfigurationBuilder&) = nullptr;
 };
 struct CounterSlot {
-  std::uint64_t& (*of)(Draft&) = nullptr;
+  std::uint64_t& (*of)(ConfigurationBuilder&) = nullptr;
 };
 struct BooleanSlot {
-  bool& (*of)(Draft&) = nullptr;
+  bool& (*of)(ConfigurationBuilder&) = nullptr;
 };
 struct TextSlot {
-  std::string& (*of)(Draft&) = nullptr;
+  std::string& (*of)(ConfigurationBuilder&) = nullptr;
 };
 struct PathSlot {  // relative to the file it is written in
-  std::string& (*of)(Draft&) = nullptr;
+  std::string& (*of)(ConfigurationBuilder&) = nullptr;
 };
 struct AngleSlot {  // degrees, or a lat-long form
-  double& (*of)(Draft&) = nullptr;
+  double& (*of)(ConfigurationBuilder&) = nullptr;
   bool latitude = true;
 };
 struct ChoiceSlot {
   std::span<const std::string_view> words;
-  int (*get)(const Draft&) = nullptr;  // index into words; negative: nothing to print
-  void (*set)(Draft&, int) = nullptr;
+  int (*get)(const ConfigurationBuilder&) = nullptr;  // index into words; negative: nothing to print
+  void (*set)(ConfigurationBuilder&, int) = nullptr;
 };
 enum class Order { any, ascending, descending };
 struct ListSlot {
-  std::vector<double>& (*of)(Draft&) = nullptr;
+  std::vector<double>& (*of)(ConfigurationBuilder&) = nullptr;
   std::size_t least = 1;
   std::size_t most = 16;
   Order order = Order::any;
 };
 struct FirstSlot {  // a list of which the first number is taken
-  int& (*of)(Draft&) = nullptr;
+  int& (*of)(ConfigurationBuilder&) = nullptr;
 };
 struct PairSlot {
-  double& (*first)(Draft&) = nullptr;
-  double& (*second)(Draft&) = nullptr;
+  double& (*first)(ConfigurationBuilder&) = nullptr;
+  double& (*second)(ConfigurationBuilder&) = nullptr;
 };
 struct SpanSlot {  // `( low high ), low below high; a single number is the whole span
-  double& (*low)(Draft&) = nullptr;
-  double& (*high)(Draft&) = nullptr;
+  double& (*low)(ConfigurationBuilder&) = nullptr;
+  double& (*high)(ConfigurationBuilder&) = nullptr;
   bool centred = true;  // a single number n is -n/2 to n/2, else 0 to n
 };
 struct SymmetricSlot {  // `( -limit limit )
-  double& (*of)(Draft&) = nullptr;
+  double& (*of)(ConfigurationBuilder&) = nullptr;
 };
 struct FormSlot {
   std::vector<std::string_view> accepted;
   std::vector<std::string_view> printed;  // which of them print writes, in this order
   bool many = false;                      // a list of forms; one alone is a list of one
-  void (*take)(Draft&) = nullptr;         // called with each form read: what it made, from the draft into its place
-  void (*give)(Draft&) = nullptr;         // called before print writes the form: the other way
+  void (*take)(ConfigurationBuilder&) =
+      nullptr;  // called with each form read: what it made, from the draft into its place
+  void (*give)(ConfigurationBuilder&) = nullptr;  // called before print writes the form: the other way
 };
 
 using Binding = std::variant<NumberSlot, IntegerSlot, CounterSlot, BooleanSlot, TextSlot, PathSlot, AngleSlot,
@@ -140,7 +141,7 @@ struct SlotSchema {
 };
 
 // A slot that breaks a rule between slots of one form.
-struct Complaint {
+struct ConstraintViolation {
   std::string_view slot{};
   std::string expected{};
   std::string found{};
@@ -153,13 +154,13 @@ struct FormSchema {
   std::vector<SlotSchema> slots{};  // by position; those of the base first
   bool part_of_value = false;       // a colour, an angle, a point: never outside all parentheses
   std::string_view old_name{};
-  void (*begin)(Draft&) = nullptr;
-  std::optional<Complaint> (*check)(const Draft&) = nullptr;
-  void (*end)(Draft&) = nullptr;
+  void (*begin)(ConfigurationBuilder&) = nullptr;
+  std::optional<ConstraintViolation> (*check)(const ConfigurationBuilder&) = nullptr;
+  void (*end)(ConfigurationBuilder&) = nullptr;
   // A rule with other forms, wherever they stand: looked at when all is read, for the last form that has it.
-  std::optional<Complaint> (*agree)(const Draft&) = nullptr;
-  std::size_t (*count)(const Draft&) = nullptr;  // how many of them print writes; null: one
-  void (*select)(Draft&, std::size_t) = nullptr;
+  std::optional<ConstraintViolation> (*agree)(const ConfigurationBuilder&) = nullptr;
+  std::size_t (*count)(const ConfigurationBuilder&) = nullptr;  // how many of them print writes; null: one
+  void (*select)(ConfigurationBuilder&, std::size_t) = nullptr;
 };
 
 const std::vector<FormSchema>& schema();
@@ -186,9 +187,9 @@ std::string value_kind(const SlotSchema& slot);
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a path of fields cannot stand in parentheses.
 // For the rows of the schema: the function that names one field of a draft, as `YARS_FIELD(radar.seed)`.
-#define YARS_FIELD(path)                       \
-  [](::yars::config::Draft & draft) -> auto& { \
-    return draft.path;                         \
+#define YARS_FIELD(path)                                      \
+  [](::yars::config::ConfigurationBuilder & draft) -> auto& { \
+    return draft.path;                                        \
   }
 // NOLINTEND(bugprone-macro-parentheses)
 
@@ -209,17 +210,17 @@ std::vector<FormSchema> beacon_forms();      // Beacons, Beacon
 std::vector<FormSchema> device_forms();      // Devices, Device, Button, Axis
 
 // The windows that can be selected are those of SarMode; where they can be mapped tells WindowLimits.
-std::optional<Complaint> check_windows_have_limits(const Draft& draft);
+std::optional<ConstraintViolation> check_windows_have_limits(const ConfigurationBuilder& draft);
 
 // A place whose latitude or longitude was not given.
-std::optional<Complaint> check_place(geo::GeoPoint place);
+std::optional<ConstraintViolation> check_place(geo::GeoPoint place);
 
 inline SlotSchema number_slot(std::string_view name, std::string_view unit, double lowest, double highest,
                               NumberSlot binding, std::string_view purpose) {
   return {.name = name, .unit = unit, .lowest = lowest, .highest = highest, .binding = binding, .purpose = purpose};
 }
 
-inline SlotSchema latitude_slot(double& (*of)(Draft&)) {
+inline SlotSchema latitude_slot(double& (*of)(ConfigurationBuilder&)) {
   return {.name = "latitude",
           .unit = "deg",
           .lowest = -90,
@@ -228,7 +229,7 @@ inline SlotSchema latitude_slot(double& (*of)(Draft&)) {
           .purpose = "WGS84, north positive"};
 }
 
-inline SlotSchema longitude_slot(double& (*of)(Draft&)) {
+inline SlotSchema longitude_slot(double& (*of)(ConfigurationBuilder&)) {
   return {.name = "longitude",
           .unit = "deg",
           .lowest = -180,

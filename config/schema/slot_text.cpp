@@ -18,7 +18,8 @@ constexpr const char* kManual = "`yars config print --defaults` explains every s
 
 class Reader {
  public:
-  Reader(Draft& draft, const SlotSchema& slot, const Value& value) : draft_(draft), slot_(slot), value_(value) {}
+  Reader(ConfigurationBuilder& draft, const SlotSchema& slot, const Value& value)
+      : draft_(draft), slot_(slot), value_(value) {}
 
   void operator()(const NumberSlot& kind) const {
     const double number = in_range(value_);
@@ -159,18 +160,18 @@ class Reader {
     return {numbers[0], numbers[1]};
   }
 
-  Draft& draft_;
+  ConfigurationBuilder& draft_;
   const SlotSchema& slot_;
   const Value& value_;
 };
 
 }  // namespace
 
-void read_simple(Draft& draft, const SlotSchema& slot, const Value& value) {
+void read_simple(ConfigurationBuilder& draft, const SlotSchema& slot, const Value& value) {
   std::visit(Reader(draft, slot, value), slot.binding);
 }
 
-void read_sexagesimal(Draft& draft, const SlotSchema& slot, const Location& where) {
+void read_sexagesimal(ConfigurationBuilder& draft, const SlotSchema& slot, const Location& where) {
   const auto& kind = std::get<AngleSlot>(slot.binding);
   const SexagesimalAngle& angle = draft.angle;
   const bool north_south = angle.direction < 2;
@@ -201,7 +202,7 @@ std::string list_text(const std::vector<double>& numbers) {
 }
 
 struct Writer {
-  Draft& draft;
+  ConfigurationBuilder& draft;
 
   std::string operator()(const NumberSlot& kind) const {
     if (kind.of == nullptr) return {};
@@ -239,7 +240,7 @@ struct Writer {
 
 }  // namespace
 
-std::string slot_text(Draft& draft, const SlotSchema& slot) {
+std::string slot_text(ConfigurationBuilder& draft, const SlotSchema& slot) {
   return std::visit(Writer{draft}, slot.binding);
 }
 
@@ -253,7 +254,7 @@ std::string use_of(const FormSchema& form, const SlotSchema& slot) {
 
 // Empty where a slot has no default: it holds forms, belongs to one of many, or nothing uses it.
 std::string default_text(const FormSchema& form, const SlotSchema& slot) {
-  Draft defaults;
+  ConfigurationBuilder defaults;
   return form.part_of_value ? std::string() : slot_text(defaults, slot);
 }
 
@@ -319,7 +320,7 @@ class Printer {
     if (forms.many) line(depth, ")");
   }
 
-  Draft draft_;
+  ConfigurationBuilder draft_;
   bool explained_;
   std::string text_;
   std::set<std::string_view> written_;

@@ -9,16 +9,16 @@
 
 namespace yars::config {
 
-// One value into the field of its slot, with its check. Throws Rejection at the value's place with kind, range and what
-// was found. Not for FormSlot: forms are read by the caller; an AngleSlot's form is read into draft.angle before.
-void read_simple(Draft& draft, const SlotSchema& slot, const Value& value);
+// One value into the field of its slot, with its check. Throws ParseError at the value's place with kind, range and
+// what was found. Not for FormSlot: forms are read by the caller; an AngleSlot's form is read into draft.angle before.
+void read_simple(ConfigurationBuilder& draft, const SlotSchema& slot, const Value& value);
 
 // A latitude or longitude from draft.angle; `where` is the lat-long form's place.
-void read_sexagesimal(Draft& draft, const SlotSchema& slot, const Location& where);
+void read_sexagesimal(ConfigurationBuilder& draft, const SlotSchema& slot, const Location& where);
 
 // What a slot holds in a draft, as GUF text. Empty when there is nothing to write: the slot is used by nothing, holds
 // forms, or stands for "unknown".
-std::string slot_text(Draft& draft, const SlotSchema& slot);
+std::string slot_text(ConfigurationBuilder& draft, const SlotSchema& slot);
 
 // A configuration as GUF text. Reads back as an equal one: every slot that is used, numbers in full.
 std::string print_configuration(const radar::RadarConfiguration& configuration);

@@ -50,7 +50,7 @@ void FlightShell::begin_epoch(const ClockState& clock) {
     log::info("back at the start, epoch " + std::to_string(clock.epoch));
     return;
   }
-  if (const auto reason = why_refused(clock)) {
+  if (const auto reason = validate(clock)) {
     session_->note(NoteKind::refusal, "repositioning: " + *reason);
     log::warning("repositioning is refused: " + *reason);
     return;
@@ -77,7 +77,7 @@ void FlightShell::stand_by(const TickLoop::Due& due) {
   const SessionLayout& layout = session_->layout();
   ModelStatus model{};
   if (!layout.model_status.read(model) || model.ownship_lane == lane_ || model.ownship_lane >= kOwnshipLanes ||
-      why_refused(model))
+      validate(model))
     return;
   const bool follows = (model.flags & kModelStale) == 0 && model.epoch == due.clock.epoch &&
                        model.sim_time_ns + kStaleAfter > due.sim_time_ns;
@@ -94,7 +94,7 @@ void FlightShell::stand_by(const TickLoop::Due& due) {
 // True if it took up where a predecessor of this epoch was.
 bool FlightShell::resume(const TickLoop::Due& due) {
   ModelStatus model{};
-  if (every_tick_ || !session_->layout().model_status.read(model) || why_refused(model)) return false;
+  if (every_tick_ || !session_->layout().model_status.read(model) || validate(model)) return false;
   const Ownship& last = model.ownship;
   const flight::FlightSample own = source_.model->step({});
   // The stamp is whatever the source wrote: compared before a difference is taken.
@@ -176,8 +176,8 @@ void BridgeShell::ask() {
 }
 
 void BridgeShell::receive() {
-  socket_.receive(kMostDatagramsATick, [this](memory::Bytes datagram, const bridges::Sender& from,
-                                              std::int64_t received_ns) { take(datagram, from, received_ns); });
+  socket_.receive(kMaxDatagramsATick, [this](memory::Bytes datagram, const bridges::Sender& from,
+                                             std::int64_t received_ns) { take(datagram, from, received_ns); });
   tell_losses();
 }
 
@@ -262,7 +262,7 @@ void BridgeShell::publish_traffic(const TickLoop::Due& due) {
   traffic_told_ = traffic.count;
   traffic.source_time_ns = due.sim_time_ns;
   traffic.epoch = due.clock.epoch;
-  if (const auto reason = why_refused(traffic)) return refuse("traffic: " + *reason, duration_of(monotonic_ns()));
+  if (const auto reason = validate(traffic)) return refuse("traffic: " + *reason, duration_of(monotonic_ns()));
   session_->layout().traffic.publish(traffic);
 }
 

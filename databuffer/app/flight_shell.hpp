@@ -60,7 +60,7 @@ class FlightShell {
 // of goes into the session's, unless another program has claimed that.
 
 // Of a tick; more waits for the next, and what does not fit into the kernel's queue is dropped: a flood stalls no tick.
-inline constexpr std::size_t kMostDatagramsATick = 256;
+inline constexpr std::size_t kMaxDatagramsATick = 256;
 
 // Opens the socket that the source needs.
 error::Expected<UdpSocket> open_socket(const bridges::BridgeSource& source);

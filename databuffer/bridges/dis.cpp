@@ -193,9 +193,9 @@ std::optional<std::string> EntityTable::update(const EntityState& state, geo::Du
   }
   if (found == entries_.end()) {
     if (state.deactivated) return std::nullopt;
-    if (entries_.size() >= kMostEntities) forget_silent(now);
-    if (entries_.size() >= kMostEntities)
-      return "expected at most " + std::to_string(kMostEntities) + " entities, found one more";
+    if (entries_.size() >= kMaxEntities) forget_silent(now);
+    if (entries_.size() >= kMaxEntities)
+      return "expected at most " + std::to_string(kMaxEntities) + " entities, found one more";
     found = entries_.try_emplace(state.id).first;
   }
   Entry& entry = found->second;
@@ -218,7 +218,7 @@ std::vector<TrackedEntity> EntityTable::at(geo::Duration now) const {
     Ownship place = dead_reckoned(entry.state.sample, entry.state.frozen ? geo::Duration() : age);
     if (entry.state.frozen) place.velocity_north_mps = place.velocity_east_mps = place.velocity_down_mps = 0.0;
     // One that its own acceleration has carried beyond what a record may hold says nothing any more.
-    if (why_refused(place)) continue;
+    if (validate(place)) continue;
     all.push_back({id, entry.state.kind, entry.state.domain, place, age});
   }
   return all;
@@ -259,9 +259,9 @@ Traffic surface_traffic(std::span<const TrackedEntity> entities, geo::GeoPoint n
     const geo::GeoPoint place{entity.place.latitude_deg, entity.place.longitude_deg};
     targets.push_back({geo::geodesic_inverse(near, place).distance.metres(), &entity});
   }
-  if (targets.size() > kMostTraffic) {
+  if (targets.size() > kMaxTraffic) {
     std::ranges::stable_sort(targets, {}, &Target::distance_m);
-    targets.resize(kMostTraffic);
+    targets.resize(kMaxTraffic);
   }
   Traffic traffic{};
   traffic.count = static_cast<std::uint32_t>(targets.size());

@@ -52,7 +52,7 @@ bool is_other_pdu(memory::Bytes packet);
 
 // The standard's heartbeat of 5 s and its factor 2.4: whoever is silent longer has left.
 inline constexpr geo::Duration kEntityTimeout = geo::Duration::seconds(12.0);
-inline constexpr std::size_t kMostEntities = 1'000;
+inline constexpr std::size_t kMaxEntities = 1'000;
 
 // An entity at the moment asked for: records as of ownship, dead-reckoned.
 struct TrackedEntity {

@@ -42,7 +42,7 @@ std::optional<std::string> StampOrder::why_not_news(geo::Duration stamp) {
 namespace {
 
 // Below this cosine of the pitch, 0.6 deg from the vertical, heading and roll turn without bound.
-constexpr double kLeastCosine = 0.01;
+constexpr double kMinCosine = 0.01;
 
 std::optional<error::Error> outside(std::string_view source, std::string_view field, double value, double least,
                                     double most) {
@@ -98,8 +98,7 @@ error::Expected<ExternalSample> checked_sample(std::string_view source, const Re
   ownship.velocity_down_mps = reading.velocity_down_mps;
   ownship.radar_altitude_m = std::numeric_limits<double>::quiet_NaN();
   source.copy(ownship.source, sizeof ownship.source - 1);
-  if (const auto refusal = why_refused(ownship))
-    return error::fail(std::string(source), "a flight that can be", *refusal);
+  if (const auto refusal = validate(ownship)) return error::fail(std::string(source), "a flight that can be", *refusal);
   sample.rates = rates;
   sample.acceleration_mps2 = acceleration_mps2;
   return sample;
@@ -108,7 +107,7 @@ error::Expected<ExternalSample> checked_sample(std::string_view source, const Re
 std::optional<AttitudeRates> rates_from_body(double roll_rate_dps, double pitch_rate_dps, double yaw_rate_dps,
                                              double pitch_deg, double roll_deg) {
   const double cos_pitch = std::cos(pitch_deg * geo::kRadiansPerDegree);
-  if (std::abs(cos_pitch) < kLeastCosine) return std::nullopt;
+  if (std::abs(cos_pitch) < kMinCosine) return std::nullopt;
   const double sin_roll = std::sin(roll_deg * geo::kRadiansPerDegree);
   const double cos_roll = std::cos(roll_deg * geo::kRadiansPerDegree);
   AttitudeRates rates;
@@ -299,7 +298,7 @@ std::optional<Ownship> ExternalFlight::estimate(geo::Duration moment) const {
 std::optional<flight::FlightSample> ExternalFlight::at(geo::Duration moment) const {
   const std::optional<Ownship> there = estimate(moment);
   // Flown on beyond what a record may hold: better nothing.
-  if (!there || why_refused(*there)) return std::nullopt;
+  if (!there || validate(*there)) return std::nullopt;
   return as_flight(*there);
 }
 

@@ -44,7 +44,7 @@ struct AttitudeRates {
 
 // What a program outside told of the aircraft at one moment, in the units of our records and checked like them.
 struct ExternalSample {
-  // Place, attitude and velocity; all else is as a source without them has it. Valid by why_refused().
+  // Place, attitude and velocity; all else is as a source without them has it. Valid by validate().
   Ownship ownship{};
   std::optional<AttitudeRates> rates;
   std::optional<geo::Vector3> acceleration_mps2;  // north, east, down, of the velocity; none: steady

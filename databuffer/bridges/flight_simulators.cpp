@@ -170,7 +170,7 @@ void JsbsimBridge::keep(const JsbsimColumns& columns) {
   std::erase_if(labels_, [this](const Labels& labels) { return labels.sender == sender_; });
   // Never those of the source that flies: whose line was read last.
   const auto flies = [this](const Labels& labels) { return labels.sender == flies_; };
-  if (labels_.size() >= kMostSenders) labels_.erase(std::ranges::find_if_not(labels_, flies));
+  if (labels_.size() >= kMaxSenders) labels_.erase(std::ranges::find_if_not(labels_, flies));
   labels_.push_back({sender_, columns});
 }
 

@@ -17,7 +17,7 @@ bool FlightModel::resume(const Ownship& last, geo::Duration) {
 
 namespace {
 
-constexpr int kMostApproximations = 8;
+constexpr int kMaxApproximations = 8;
 constexpr double kFootTolerance = 1e-3;  // [m]
 
 }  // namespace
@@ -32,7 +32,7 @@ Leg::Leg(geo::GeoPoint from, const geo::GeodesicInverse& inverse)
 
 Leg::Fix Leg::fix(geo::GeoPoint place, geo::Length near) const {
   Fix fix{near, {}, {}};
-  for (int approximation = 0; approximation < kMostApproximations; ++approximation) {
+  for (int approximation = 0; approximation < kMaxApproximations; ++approximation) {
     // Seen from the foot, the place must lie square to the leg: what lies along it moves the foot.
     const auto foot = ray_.place(fix.along);
     const auto seen = geo::geodesic_inverse(foot.point, place);

@@ -14,7 +14,7 @@ namespace {
 using error::Expected;
 using error::fail;
 
-constexpr double kLeastLeg = 100.0;  // [m] a shorter leg has no direction worth flying
+constexpr double kMinLeg = 100.0;  // [m] a shorter leg has no direction worth flying
 
 Expected<Waypoint> parse_waypoint(const text::NumberedLine& line, std::string_view name) {
   const auto numbers = file::parse_numbers(
@@ -26,7 +26,7 @@ Expected<Waypoint> parse_waypoint(const text::NumberedLine& line, std::string_vi
 }
 
 bool too_close(const Waypoint& from, const Waypoint& to) {
-  return geo::geodesic_inverse(from.point, to.point).distance.metres() < kLeastLeg;
+  return geo::geodesic_inverse(from.point, to.point).distance.metres() < kMinLeg;
 }
 
 // The leg back to the start must be one too.

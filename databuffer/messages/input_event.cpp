@@ -49,7 +49,7 @@ void inspect_name(Inspection& inspection, const InputEvent& event) {
 
 }  // namespace
 
-Refusal why_refused(const InputEvent& event) {
+Refusal validate(const InputEvent& event) {
   Inspection inspection;
   switch (static_cast<EventKind>(event.kind)) {
     case EventKind::push_button:
@@ -95,7 +95,7 @@ Refusal why_refused(const InputEvent& event) {
       break;
     case EventKind::tdc_press:
     case EventKind::tdc_release:
-    case EventKind::coolie_up:
+    case EventKind::castle_up:
     case EventKind::freeze:
       break;
     case EventKind::none:
@@ -131,7 +131,7 @@ constexpr std::array kForms{
     Form{"tdc", Operand::pair, "X Y (-1..1)", EventKind::tdc, 0},
     Form{"tdc", Operand::word, "press", EventKind::tdc_press, 0},
     Form{"tdc", Operand::word, "release", EventKind::tdc_release, 0},
-    Form{"coolie", Operand::word, "up", EventKind::coolie_up, 0},
+    Form{"coolie", Operand::word, "up", EventKind::castle_up, 0},
     Form{"acq", Operand::word, "fwd", EventKind::acquisition, 1},
     Form{"acq", Operand::word, "aft", EventKind::acquisition, -1},
     Form{"freeze", Operand::none, "", EventKind::freeze, 0},
@@ -290,7 +290,7 @@ Expected<InputEvent> event_from_text(std::string_view text) {
     InputEvent event{};
     if (words.empty() || form.verb != words[0] || !read_form(event, form, words)) continue;
     // The border's own rules hold here too, so that a text never makes an event that is refused later.
-    if (why_refused(event)) break;
+    if (validate(event)) break;
     return event;
   }
   const std::string_view verb = words.empty() ? std::string_view() : words[0];

@@ -19,7 +19,7 @@ enum class EventKind : std::uint16_t {
   tdc = 2,          // x, y: -1..1, held until changed
   tdc_press = 3,
   tdc_release = 4,
-  coolie_up = 5,
+  castle_up = 5,
   acquisition = 6,  // argument: +1 fwd, -1 aft
   freeze = 7,
   elevation = 8,        // x: [deg] absolute
@@ -50,7 +50,7 @@ static_assert(sizeof(InputEvent) == 56 && std::is_trivially_copyable_v<InputEven
 static_assert(offsetof(InputEvent, kind) == 32 && offsetof(InputEvent, text) == 40);
 
 // The border for input events; see validation.hpp.
-Refusal why_refused(const InputEvent& event);
+Refusal validate(const InputEvent& event);
 
 // Events as people write them: in scripts, by `yars inject`, in logs. One table serves both directions.
 //   pb 13 | tdc 0.5 0 | tdc press | tdc release | coolie up | acq fwd|aft | freeze | elevation -5 |

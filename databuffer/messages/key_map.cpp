@@ -19,7 +19,7 @@ struct Stroke {
 // What a key does when it goes down; buttons and arrows follow rules of their own.
 constexpr std::array kStrokes{
     Stroke{Key::enter, EventKind::tdc_press, 0},
-    Stroke{Key::tab, EventKind::coolie_up, 0},
+    Stroke{Key::tab, EventKind::castle_up, 0},
     Stroke{Key::page_up, EventKind::acquisition, 1},
     Stroke{Key::page_down, EventKind::acquisition, -1},
     Stroke{Key::space, EventKind::freeze, 0},

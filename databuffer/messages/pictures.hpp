@@ -11,7 +11,7 @@ namespace yars::databuffer {
 // at a thousand a second a session comes to it in 280,000 years.
 inline constexpr std::uint64_t kLatestPictureId = std::uint64_t{1} << 53U;
 
-inline constexpr std::uint32_t kMostPatchPixels = 1024;  // on an edge
+inline constexpr std::uint32_t kMaxPatchPixels = 1024;  // on an edge
 
 inline constexpr std::uint32_t kPatchNotReady = 1U;     // some posts were not loaded yet
 inline constexpr std::uint32_t kPatchBlind = 2U;        // part of it lies in the blind zone and is blank
@@ -49,7 +49,7 @@ struct PatchMap {
 };
 static_assert(sizeof(PatchMap) == 256 && std::is_trivially_copyable_v<PatchMap>);
 
-inline constexpr std::uint32_t kMostFramePixels = 1024;  // on an edge
+inline constexpr std::uint32_t kMaxFramePixels = 1024;  // on an edge
 inline constexpr std::size_t kFrameSlots = 3;
 
 // What a picture of the glass is: goes with the pixels of its slot. Rows from the top, without padding, 4 bytes a pixel

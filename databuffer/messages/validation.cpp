@@ -118,7 +118,7 @@ void inspect_switches(Inspection& inspection, const RadarState& state) {
 
 }  // namespace
 
-Refusal why_refused(const RadarState& state) {
+Refusal validate(const RadarState& state) {
   Inspection inspection;
   inspection.range("range_nm", state.range_nm, 0.0, kLargestRange);
   inspection.range("scan_width_deg", state.scan_width_deg, 0.0, 360.0);
@@ -158,7 +158,7 @@ constexpr double kLargestEcho = 1e7;
 
 }  // namespace
 
-Refusal why_refused(const Ownship& ownship) {
+Refusal validate(const Ownship& ownship) {
   Inspection inspection;
   inspection.latitude("latitude_deg", ownship.latitude_deg);
   inspection.longitude("longitude_deg", ownship.longitude_deg);
@@ -175,7 +175,7 @@ Refusal why_refused(const Ownship& ownship) {
   return inspection.result();
 }
 
-Refusal why_refused(const Nav& nav) {
+Refusal validate(const Nav& nav) {
   Inspection inspection;
   inspection.latitude("mission_latitude_deg", nav.mission_latitude_deg);
   inspection.longitude("mission_longitude_deg", nav.mission_longitude_deg);
@@ -188,7 +188,7 @@ Refusal why_refused(const Nav& nav) {
   return inspection.result();
 }
 
-Refusal why_refused(const ClockState& clock) {
+Refusal validate(const ClockState& clock) {
   Inspection inspection;
   inspection.range("rate", clock.rate, 0.0, 10.0);
   inspection.range("running", clock.running, 0, 1);
@@ -207,17 +207,17 @@ Refusal why_refused(const ClockState& clock) {
   return inspection.result();
 }
 
-Refusal why_refused(const RecorderStatus& status) {
+Refusal validate(const RecorderStatus& status) {
   Inspection inspection;
   inspection.range("writing", status.writing, 0, 1);
   inspection.text("problem", status.problem);
   return inspection.result();
 }
 
-Refusal why_refused(const PatchMap& map) {
+Refusal validate(const PatchMap& map) {
   Inspection inspection;
   inspection.picture_id("id", map.id);
-  inspection.range("size", map.size, 1, kMostPatchPixels);
+  inspection.range("size", map.size, 1, kMaxPatchPixels);
   inspection.latitude("latitude_deg", map.latitude_deg);
   inspection.longitude("longitude_deg", map.longitude_deg);
   inspection.range("elevation_msl_m", map.elevation_msl_m, kLowestGround, kHighestGround);
@@ -234,10 +234,10 @@ Refusal why_refused(const PatchMap& map) {
   return inspection.result();
 }
 
-Refusal why_refused(const Traffic& traffic) {
+Refusal validate(const Traffic& traffic) {
   Inspection inspection;
-  inspection.range("count", traffic.count, 0, kMostTraffic);
-  const auto count = std::min<std::size_t>(traffic.count, kMostTraffic);
+  inspection.range("count", traffic.count, 0, kMaxTraffic);
+  const auto count = std::min<std::size_t>(traffic.count, kMaxTraffic);
   for (const TrafficEntity& entity : std::span(traffic.entities).first(count)) {
     inspection.latitude("entities.latitude_deg", entity.latitude_deg);
     inspection.longitude("entities.longitude_deg", entity.longitude_deg);
@@ -249,15 +249,15 @@ Refusal why_refused(const Traffic& traffic) {
   return inspection.result();
 }
 
-Refusal why_refused(const GlassFrame& frame) {
+Refusal validate(const GlassFrame& frame) {
   Inspection inspection;
   inspection.picture_id("id", frame.id);
-  inspection.range("width", frame.width, 1, kMostFramePixels);
-  inspection.range("height", frame.height, 1, kMostFramePixels);
+  inspection.range("width", frame.width, 1, kMaxFramePixels);
+  inspection.range("height", frame.height, 1, kMaxFramePixels);
   return inspection.result();
 }
 
-Refusal why_refused(const Outputs& outputs) {
+Refusal validate(const Outputs& outputs) {
   Inspection inspection;
   inspection.text("target_name", outputs.target_name);
   inspection.range("mark_count", outputs.mark_count, 0, kMarks);
@@ -323,7 +323,7 @@ void inspect_measured(Inspection& inspection, const ModelStatus& status) {
 
 }  // namespace
 
-Refusal why_refused(const ModelStatus& status) {
+Refusal validate(const ModelStatus& status) {
   Inspection inspection;
   inspection.range("tick", static_cast<double>(status.tick), 0.0, kLatestTick);
   inspection.range("sim_time_ns", static_cast<double>(status.sim_time_ns), 0.0, kLatest_ns);
@@ -340,12 +340,12 @@ Refusal why_refused(const ModelStatus& status) {
   inspection.text("why_not", status.why_not);
   inspection.text("map_stopped", status.map_stopped);
   inspection.text("fidelity", status.fidelity);
-  if (const auto refusal = why_refused(status.ownship)) return "ownship: " + *refusal;
-  if (const auto refusal = why_refused(status.nav)) return "nav: " + *refusal;
+  if (const auto refusal = validate(status.ownship)) return "ownship: " + *refusal;
+  if (const auto refusal = validate(status.nav)) return "nav: " + *refusal;
   return inspection.result();
 }
 
-Refusal why_refused(const Sweep& sweep) {
+Refusal validate(const Sweep& sweep) {
   Inspection inspection;
   inspection.range("tick", static_cast<double>(sweep.tick), 0.0, kLatestTick);
   inspection.range("sim_time_ns", static_cast<double>(sweep.sim_time_ns), 0.0, kLatest_ns);
@@ -364,7 +364,7 @@ Refusal why_refused(const Sweep& sweep) {
   return inspection.result();
 }
 
-Refusal why_refused(const ModelTick& tick) {
+Refusal validate(const ModelTick& tick) {
   Inspection inspection;
   inspection.range("tick", static_cast<double>(tick.tick), 0.0, kLatestTick);
   inspection.range("sim_time_ns", static_cast<double>(tick.sim_time_ns), 0.0, kLatest_ns);
@@ -375,7 +375,7 @@ Refusal why_refused(const ModelTick& tick) {
   inspection.range("command.antenna_elevation_deg", tick.command.antenna_elevation_deg, -90.0, 90.0);
   inspection.range("command.mode", tick.command.mode, 0, kModes);
   inspection.text("fidelity", tick.fidelity);
-  if (const auto refusal = why_refused(tick.ownship)) return "ownship: " + *refusal;
+  if (const auto refusal = validate(tick.ownship)) return "ownship: " + *refusal;
   return inspection.result();
 }
 

@@ -15,18 +15,18 @@ namespace yars::databuffer {
 // keeps its last good value and counts the refusal.
 // Ranges are those written in the records. Both ends of a circle belong to it: heading 360 and longitude +-180 are
 // what rounding makes of 0 and of the antimeridian, and every user of them wraps; 360.0001 is refused.
-Refusal why_refused(const Ownship& ownship);
-Refusal why_refused(const Nav& nav);
-Refusal why_refused(const ClockState& clock);
-Refusal why_refused(const PatchMap& map);
-Refusal why_refused(const RecorderStatus& status);
-Refusal why_refused(const Traffic& traffic);
-Refusal why_refused(const GlassFrame& frame);
-Refusal why_refused(const Outputs& outputs);
-Refusal why_refused(const RadarState& state);
+Refusal validate(const Ownship& ownship);
+Refusal validate(const Nav& nav);
+Refusal validate(const ClockState& clock);
+Refusal validate(const PatchMap& map);
+Refusal validate(const RecorderStatus& status);
+Refusal validate(const Traffic& traffic);
+Refusal validate(const GlassFrame& frame);
+Refusal validate(const Outputs& outputs);
+Refusal validate(const RadarState& state);
 // What the radar model publishes. NaN stands where the records allow "unknown".
-Refusal why_refused(const ModelStatus& status);
-Refusal why_refused(const Sweep& sweep);
-Refusal why_refused(const ModelTick& tick);
+Refusal validate(const ModelStatus& status);
+Refusal validate(const Sweep& sweep);
+Refusal validate(const ModelTick& tick);
 
 }  // namespace yars::databuffer

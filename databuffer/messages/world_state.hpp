@@ -74,7 +74,7 @@ struct Nav {
 };
 static_assert(sizeof(Nav) == 128 && std::is_trivially_copyable_v<Nav>);
 
-inline constexpr std::size_t kMostTraffic = 64;
+inline constexpr std::size_t kMaxTraffic = 64;
 
 struct TrafficEntity {
   double latitude_deg;   // [deg] [-90, 90] WGS84
@@ -98,9 +98,9 @@ struct Traffic {
   std::uint32_t count;          // used entries
   std::uint32_t epoch;          // session epoch that the writer knew
   std::uint64_t reserved[5];
-  TrafficEntity entities[kMostTraffic];
+  TrafficEntity entities[kMaxTraffic];
 };
-static_assert(sizeof(Traffic) == 64 + 56 * kMostTraffic && std::is_trivially_copyable_v<Traffic>);
+static_assert(sizeof(Traffic) == 64 + 56 * kMaxTraffic && std::is_trivially_copyable_v<Traffic>);
 
 inline constexpr std::int64_t kTrafficStaleAfter = 12'000'000'000;  // [ns] DIS tells of what stands still every 5 s
 

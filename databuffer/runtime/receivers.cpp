@@ -156,7 +156,7 @@ void OwnshipReceiver::receive(const SessionLayout& layout, std::size_t index) {
     Ownship ownship{};
     if (const auto version = layout.ownship[index].read(ownship)) {
       lane.version = *version;
-      if (const auto reason = why_refused(ownship)) {
+      if (const auto reason = validate(ownship)) {
         refuse("ownship", *reason);
       } else {
         lane.ownship = ownship;
@@ -168,7 +168,7 @@ void OwnshipReceiver::receive(const SessionLayout& layout, std::size_t index) {
     Nav nav{};
     if (const auto version = layout.nav[index].read(nav)) {
       lane.nav_version = *version;
-      if (const auto reason = why_refused(nav)) {
+      if (const auto reason = validate(nav)) {
         refuse("nav", *reason);
       } else {
         lane.nav = nav;
@@ -236,7 +236,7 @@ bool TrafficReceiver::take(const SessionLayout& layout, std::uint32_t epoch) {
   const auto version = layout.traffic.read(traffic);
   if (!version) return false;
   version_ = *version;
-  refusal_ = why_refused(traffic);
+  refusal_ = validate(traffic);
   if (!refusal_ && traffic.epoch != epoch)
     refusal_ = "epoch: expected " + std::to_string(epoch) + ", found " + std::to_string(traffic.epoch);
   if (refusal_) {

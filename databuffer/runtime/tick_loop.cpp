@@ -125,10 +125,10 @@ TickLoop::Due TickLoop::due_at(const ClockState& clock, std::int64_t newest) {
   if (!started_ || due.new_epoch) next_tick_ = newest;
   started_ = true;
   epoch_ = clock.epoch;
-  if (newest - next_tick_ >= kMostTicksBehind) {
-    due.skipped = static_cast<std::uint64_t>(newest - next_tick_ - kMostTicksBehind + 1);
+  if (newest - next_tick_ >= kMaxTicksBehind) {
+    due.skipped = static_cast<std::uint64_t>(newest - next_tick_ - kMaxTicksBehind + 1);
     late_ticks_ += due.skipped;
-    next_tick_ = newest - kMostTicksBehind + 1;
+    next_tick_ = newest - kMaxTicksBehind + 1;
   }
   due.tick = next_tick_++;
   due.sim_time_ns = due.tick * radar::kTickNanoseconds;

@@ -1,5 +1,5 @@
 // The beat of a role: one call a tick of 5 ms sim time. Live, it sleeps until a tick is due, catches up at most
-// kMostTicksBehind late ticks and skips the rest. In lockstep it waits until the role before it in the chain
+// kMaxTicksBehind late ticks and skips the rest. In lockstep it waits until the role before it in the chain
 // (flight-model, input-monitor, state-machine, radar-model, radar-display, recorder, round again) has done its part.
 #pragma once
 
@@ -20,7 +20,7 @@ enum class LockstepRole : std::uint8_t {
   recorder = 5
 };
 
-inline constexpr std::int64_t kMostTicksBehind = 20;  // [ticks] 0.1 s: more would make a hiccup visible as a burst
+inline constexpr std::int64_t kMaxTicksBehind = 20;  // [ticks] 0.1 s: more would make a hiccup visible as a burst
 
 class TickLoop {
  public:

@@ -83,11 +83,11 @@ void load_pixels(const Slot& slot, std::size_t bytes, std::vector<std::uint8_t>&
 }
 
 // The pool of whole patch maps: radar-model writes, any read. What a slot holds is not judged here: ask
-// why_refused(PatchMap).
+// validate(PatchMap).
 
 // Bytes of the picture; of a size beyond the slot's as much as there is.
 inline std::size_t patch_pixels(const PatchMap& map) {
-  const std::size_t edge = std::min(map.size, kMostPatchPixels);
+  const std::size_t edge = std::min(map.size, kMaxPatchPixels);
   return edge * edge;
 }
 
@@ -136,8 +136,8 @@ bool read_patch(const SessionLayout& layout, std::uint64_t id, PatchMap& map, st
 
 // Bytes of the picture; of sizes beyond the slot's as much as there is.
 inline std::size_t frame_bytes(const GlassFrame& frame) {
-  const std::size_t width = std::min(frame.width, kMostFramePixels);
-  return 4 * width * std::min(frame.height, kMostFramePixels);
+  const std::size_t width = std::min(frame.width, kMaxFramePixels);
+  return 4 * width * std::min(frame.height, kMaxFramePixels);
 }
 
 // Writes a frame in the place of the oldest one. `frame.id` is greater than all before; `pixels` has frame_bytes().

@@ -66,7 +66,7 @@ Expected<Session> Session::open(const std::string& name, std::string_view proces
   const bool has_clock = state->find_clock();
   state->enter_table();
   Session session(std::move(state));
-  if (!has_clock) session.keep_clock(Patience::some);
+  if (!has_clock) session.keep_clock(WaitPolicy::some);
   return session;
 }
 
@@ -196,14 +196,14 @@ Expected<void> Session::set_clock(const ClockState& state) {
   return change_clock([&state](const ClockState&) { return state; });
 }
 
-Expected<void> Session::change_clock(const std::function<ClockState(const ClockState&)>& change, Patience patience) {
+Expected<void> Session::change_clock(const std::function<ClockState(const ClockState&)>& change, WaitPolicy patience) {
   constexpr auto kByte = static_cast<std::size_t>(Role::clock);
   if (!state_->segment->writable()) return fail_read_only("clock");
-  const int attempts = patience == Patience::none ? 1 : kClockAttempts;
+  const int attempts = patience == WaitPolicy::none ? 1 : kClockAttempts;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     if (const auto claim = state_->take(kByte, -1)) {
       const ClockState next = change(state_->clock_now());
-      if (auto refusal = why_refused(next))
+      if (auto refusal = validate(next))
         return fail("session clock", "a change that leaves it in range", std::move(*refusal),
                     "begin at another time: `yars sim reset 0`");
       layout().clock.publish(next);
@@ -219,7 +219,7 @@ std::optional<std::string> Session::clock_problem() const {
   return state_->clock_problem();
 }
 
-void Session::keep_clock(Patience patience) {
+void Session::keep_clock(WaitPolicy patience) {
   const auto problem = state_->clock_problem();
   if (!problem) return;
   if (change_clock([](const ClockState& good) { return good; }, patience))

@@ -17,7 +17,7 @@
 namespace yars::databuffer {
 
 // Whether to wait for who changes the clock just now: a tick may not.
-enum class Patience { none, some };
+enum class WaitPolicy { none, some };
 
 struct ProcessHere {
   std::int32_t pid;
@@ -66,11 +66,11 @@ class Session {
   // Why what lies in the segment is no clock; nothing when it is one.
   std::optional<std::string> clock_problem() const;
   // Publishes the last good clock again when what lies there is none; state-machine asks for it at each tick.
-  void keep_clock(Patience patience = Patience::none);
+  void keep_clock(WaitPolicy patience = WaitPolicy::none);
   // Takes the clock's byte for the moment of the change, so that of two changes at once none is lost. A state out of
   // range is an error and changes nothing.
   error::Expected<void> change_clock(const std::function<ClockState(const ClockState&)>& change,
-                                     Patience patience = Patience::some);
+                                     WaitPolicy patience = WaitPolicy::some);
   error::Expected<void> set_clock(const ClockState& state);
 
   // A line into the flight recorder (also counted): refusals, restarts, losses, late ticks. Of lines of one kind

@@ -99,15 +99,15 @@ struct PatchSlot {
   std::atomic<std::uint64_t> id;  // 0 = empty, or being written
   std::atomic<std::uint32_t> epoch;
   std::atomic<std::uint32_t> progress_permille;
-  std::array<std::atomic<std::uint64_t>, sizeof(PatchMap) / 8> map;                        // words of a PatchMap
-  std::array<std::atomic<std::uint64_t>, kMostPatchPixels * kMostPatchPixels / 8> pixels;  // rows without padding
+  std::array<std::atomic<std::uint64_t>, sizeof(PatchMap) / 8> map;                      // words of a PatchMap
+  std::array<std::atomic<std::uint64_t>, kMaxPatchPixels * kMaxPatchPixels / 8> pixels;  // rows without padding
 };
 
 // A picture of the glass, for panels and other programs; written and read as a PatchSlot is.
 struct FrameSlot {
   std::atomic<std::uint64_t> id;                                         // 0 = empty, or being written
   std::array<std::atomic<std::uint64_t>, sizeof(GlassFrame) / 8> frame;  // words of a GlassFrame
-  std::array<std::atomic<std::uint64_t>, kMostFramePixels * kMostFramePixels * 4 / 8> pixels;  // RGBA
+  std::array<std::atomic<std::uint64_t>, kMaxFramePixels * kMaxFramePixels * 4 / 8> pixels;  // RGBA
 };
 
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): the order is what the parts are, the padding cache lines

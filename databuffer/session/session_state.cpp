@@ -88,7 +88,7 @@ ClockState first_clock() {
 // by state-machine within a tick.
 bool SessionState::find_clock() {
   for (int attempt = 0; attempt < kClockAttempts; ++attempt) {
-    if (clock.refresh() && !why_refused(clock.value())) {
+    if (clock.refresh() && !validate(clock.value())) {
       good_clock = clock.value();
       return true;
     }
@@ -102,7 +102,7 @@ bool SessionState::find_clock() {
 std::optional<std::string> SessionState::clock_problem() const {
   ClockState there{};
   if (!read().clock.read(there)) return "expected one that can be read, found none";
-  return why_refused(there);
+  return validate(there);
 }
 
 // A full table is no failure: it is for people, presence is decided by locks.
@@ -153,7 +153,7 @@ std::optional<Claim> SessionState::take(std::size_t byte, int lane) {
 ClockState SessionState::clock_now() {
   std::unique_lock guard(clock_mutex);
   if (!clock.refresh()) return good_clock;
-  const auto refusal = why_refused(clock.value());
+  const auto refusal = validate(clock.value());
   if (!refusal) good_clock = clock.value();
   const ClockState now = good_clock;
   guard.unlock();
@@ -162,9 +162,9 @@ ClockState SessionState::clock_now() {
 }
 
 std::array<log::RepeatFilter, kNoteKinds> SessionState::filters() {
-  constexpr int kMostOfAKind = 3;
-  constexpr int kMostOfAll = 20;  // and of each kind of note: a set of six fills 1,000 lines in half a minute at most
-  const log::RepeatFilter filter(kMostOfAKind, kMostOfAll);
+  constexpr int kMaxOfAKind = 3;
+  constexpr int kMaxOfAll = 20;  // and of each kind of note: a set of six fills 1,000 lines in half a minute at most
+  const log::RepeatFilter filter(kMaxOfAKind, kMaxOfAll);
   return {filter, filter, filter, filter, filter};
 }
 

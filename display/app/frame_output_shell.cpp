@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "lib/error/error.hpp"
 #include "databuffer/session/picture_pool.hpp"
+#include "lib/error/error.hpp"
 #include "lib/file/output_file.hpp"
 #include "lib/log/log.hpp"
 
@@ -78,15 +78,15 @@ void FrameWriter::make_room_for(const std::string& name) {
 
 namespace {
 
-constexpr int kMostPixels = static_cast<int>(databuffer::kMostFramePixels);
+constexpr int kMaxPixels = static_cast<int>(databuffer::kMaxFramePixels);
 
 }  // namespace
 
 error::Expected<FramePublisher> FramePublisher::create(databuffer::Session& session, int size) {
-  if (size > kMostPixels)
+  if (size > kMaxPixels)
     return tl::unexpected(error::usage_error(
-        "--publish", "a glass of at most " + std::to_string(kMostPixels) + " pixels, as a frame in the segment has",
-        std::to_string(size), "give --size " + std::to_string(kMostPixels) + " or less"));
+        "--publish", "a glass of at most " + std::to_string(kMaxPixels) + " pixels, as a frame in the segment has",
+        std::to_string(size), "give --size " + std::to_string(kMaxPixels) + " or less"));
   auto claim = session.claim(databuffer::Role::glass_frames);
   if (!claim) return tl::unexpected(error::usage_error(claim.error()));
   return FramePublisher(session, std::move(*claim));
@@ -97,18 +97,18 @@ FramePublisher::FramePublisher(databuffer::Session& session, databuffer::Claim c
       claim_(std::move(claim)),
       last_id_(databuffer::greatest_id<shm::PlainAccess>(session.layout().frames)) {}
 
-void FramePublisher::work(host::Glass& glass, int size) {
+void FramePublisher::work(host::Display& glass, int size) {
   while (glass.take_read(picture_)) publish();
-  if (size > kMostPixels) {
+  if (size > kMaxPixels) {
     if (!std::exchange(told_of_size_, true))
-      log::warning("the window is larger than a frame may be (" + std::to_string(kMostPixels) +
-                              " pixels): none is published until it is smaller");
+      log::warning("the window is larger than a frame may be (" + std::to_string(kMaxPixels) +
+                   " pixels): none is published until it is smaller");
     return;
   }
   if (unpublished_ && glass.start_reading()) unpublished_ = false;
 }
 
-void FramePublisher::publish_at_once(host::Glass& glass) {
+void FramePublisher::publish_at_once(host::Display& glass) {
   unpublished_ = false;
   while (glass.wait_for_read(picture_)) publish();  // what was under way
   if (glass.start_reading() && glass.wait_for_read(picture_)) publish();

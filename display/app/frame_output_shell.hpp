@@ -71,9 +71,9 @@ class FramePublisher {
   // The glass has painted another picture.
   void note_painted() { unpublished_ = true; }
   // Orders a copy of what is painted, publishes what has been copied; waits for nothing. Call it at each look.
-  void work(host::Glass& glass, int size);
+  void work(host::Display& glass, int size);
   // Publishes what is painted, waiting for the graphics processor.
-  void publish_at_once(host::Glass& glass);
+  void publish_at_once(host::Display& glass);
 
  private:
   FramePublisher(databuffer::Session& session, databuffer::Claim claim);

@@ -7,8 +7,8 @@
 #include <thread>
 #include <utility>
 
-#include "databuffer/runtime/process.hpp"
 #include "config/schema/load.hpp"
+#include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "databuffer/runtime/tick_loop.hpp"
 #include "display/app/frame_output_shell.hpp"
@@ -21,7 +21,7 @@ namespace {
 
 using namespace yars;
 using databuffer::monotonic_ns;
-using Glass = display::host::Glass;
+using Display = display::host::Display;
 
 struct DisplayOptions {
   bool headless = false;
@@ -37,10 +37,10 @@ constexpr std::int64_t kRedrawInterval_ns = 1'000'000'000 / 60;  // [ns] design 
 constexpr std::chrono::milliseconds kHeadlessLook{10};
 
 // A glass without a window: paints when a picture is due, for the folder, for the segment, or for both.
-class HeadlessGlass {
+class HeadlessDisplay {
  public:
-  HeadlessGlass(databuffer::Session& session, Glass& glass, int size, const DisplayOptions& options,
-                std::optional<display::FrameWriter> frames, std::optional<display::FramePublisher> publisher)
+  HeadlessDisplay(databuffer::Session& session, Display& glass, int size, const DisplayOptions& options,
+                  std::optional<display::FrameWriter> frames, std::optional<display::FramePublisher> publisher)
       : session_(session),
         glass_(glass),
         size_(size),
@@ -101,12 +101,11 @@ class HeadlessGlass {
     if (failing == std::exchange(failing_, failing)) return;
     const std::string line = failing ? "frames are not written: " + written.error().found : "frames are written again";
     session_.note(databuffer::NoteKind::loss, line);
-    failing ? log::warning(written.error().message() + "; each frame tries again")
-            : log::info(line);
+    failing ? log::warning(written.error().message() + "; each frame tries again") : log::info(line);
   }
 
   databuffer::Session& session_;
-  Glass& glass_;
+  Display& glass_;
   int size_;
   bool failing_ = false;
   display::FrameSteps steps_;
@@ -115,7 +114,7 @@ class HeadlessGlass {
   std::int64_t next_frame_ns_ = 0;  // CLOCK_MONOTONIC
 };
 
-error::Expected<void> run_headless_live(databuffer::Session& session, HeadlessGlass& glass) {
+error::Expected<void> run_headless_live(databuffer::Session& session, HeadlessDisplay& glass) {
   while (!databuffer::stop_requested()) {
     glass.look(session.sim_time_ns());
     std::this_thread::sleep_for(kHeadlessLook);
@@ -124,7 +123,7 @@ error::Expected<void> run_headless_live(databuffer::Session& session, HeadlessGl
 }
 
 // Steps with the set.
-error::Expected<void> run_headless_lockstep(databuffer::TickLoop& loop, HeadlessGlass& glass) {
+error::Expected<void> run_headless_lockstep(databuffer::TickLoop& loop, HeadlessDisplay& glass) {
   std::int64_t last_ns = 0;
   while (const auto due = loop.wait()) {
     last_ns = due->sim_time_ns;
@@ -136,8 +135,8 @@ error::Expected<void> run_headless_lockstep(databuffer::TickLoop& loop, Headless
 }
 
 error::Expected<void> run_headless(databuffer::Session& session, const radar::RadarConfiguration& configuration,
-                                     const databuffer::ProgramOptions& options, const DisplayOptions& display_options,
-                                     int size, std::optional<display::FramePublisher> publisher) {
+                                   const databuffer::ProgramOptions& options, const DisplayOptions& display_options,
+                                   int size, std::optional<display::FramePublisher> publisher) {
   std::optional<display::FrameWriter> frames;
   if (!display_options.frames.empty()) {
     auto created = display::FrameWriter::create(display_options.frames, display_options.keep);
@@ -147,9 +146,9 @@ error::Expected<void> run_headless(databuffer::Session& session, const radar::Ra
   auto context = display::gl::open_headless();
   if (!context) return tl::unexpected(context.error());
   log::info("draws by " + display::gl::renderer_name() + ", frames go to " +
-                       (frames ? display_options.frames : "the segment"));
-  Glass glass(session, configuration, !options.lockstep.empty());
-  HeadlessGlass headless(session, glass, size, display_options, std::move(frames), std::move(publisher));
+            (frames ? display_options.frames : "the segment"));
+  Display glass(session, configuration, !options.lockstep.empty());
+  HeadlessDisplay headless(session, glass, size, display_options, std::move(frames), std::move(publisher));
   if (options.lockstep.empty()) return run_headless_live(session, headless);
   auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::radar_display, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
@@ -157,10 +156,10 @@ error::Expected<void> run_headless(databuffer::Session& session, const radar::Ra
 }
 
 // Shows the glass when it has changed, at most 60 times a second; a key or a click is sent on at once.
-class WindowGlass {
+class WindowDisplay {
  public:
-  WindowGlass(display::gl::Window& window, Glass& glass, display::PilotInput& pilot,
-              std::optional<display::FramePublisher> publisher)
+  WindowDisplay(display::gl::Window& window, Display& glass, display::PilotInput& pilot,
+                std::optional<display::FramePublisher> publisher)
       : window_(window), glass_(glass), pilot_(pilot), publisher_(std::move(publisher)) {}
 
   // Waits for input until the next redraw may come, `longest_wait_ns` at most.
@@ -200,7 +199,7 @@ class WindowGlass {
   }
 
   display::gl::Window& window_;
-  Glass& glass_;
+  Display& glass_;
   display::PilotInput& pilot_;
   std::optional<display::FramePublisher> publisher_;
   std::int64_t next_redraw_ns_ = 0;  // CLOCK_MONOTONIC
@@ -208,15 +207,15 @@ class WindowGlass {
 };
 
 error::Expected<void> run_window(databuffer::Session& session, const radar::RadarConfiguration& configuration,
-                                   const databuffer::ProgramOptions& options, int size,
-                                   std::optional<display::FramePublisher> publisher) {
+                                 const databuffer::ProgramOptions& options, int size,
+                                 std::optional<display::FramePublisher> publisher) {
   auto window = display::gl::open_window("YARS " + configuration.name + " - " + options.session, size);
   if (!window) return tl::unexpected(window.error());
   log::info("draws by " + display::gl::renderer_name());
   auto pilot = display::PilotInput::create(session, "radar-display");
   if (!pilot) return tl::unexpected(pilot.error());
-  Glass glass(session, configuration, !options.lockstep.empty());
-  WindowGlass shown(**window, glass, *pilot, std::move(publisher));
+  Display glass(session, configuration, !options.lockstep.empty());
+  WindowDisplay shown(**window, glass, *pilot, std::move(publisher));
   if (options.lockstep.empty()) {
     while (!databuffer::stop_requested()) {
       shown.take_input(kRedrawInterval_ns);

@@ -26,14 +26,14 @@ struct Shown {
   std::uint64_t video_version = 0;
   bool video = false;
   std::uint64_t map = 0;  // 0: none
-  GlassFrame frame;
+  ViewFrame frame;
   std::uint8_t brightness = 0, contrast = 0;
   int size = 0;
 };
 
 }  // namespace
 
-struct Glass::State {
+struct Display::State {
   State(const radar::RadarConfiguration& configuration_used, int size, const ColorScheme& colors_used)
       : configuration(configuration_used), colors(colors_used), view(configuration_used.view), framebuffer(size) {}
 
@@ -58,13 +58,13 @@ struct Glass::State {
       video_pass.draw(store, wedges, light_texture, colors.video);
     }
     if (wanted.map != 0) map_pass.draw(wanted.map, light_texture, colors.video, wanted.size);
-    overlay_pass.draw(list, colors, light, static_cast<float>(framebuffer.size()) / kGlassUnits);
+    overlay_pass.draw(list, colors, light, static_cast<float>(framebuffer.size()) / kDisplayUnits);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
 
   radar::RadarConfiguration configuration;
   ColorScheme colors;
-  GlassView view;
+  PlanView view;
   Framebuffer framebuffer;
   LightTexture light_texture;
   VideoPass video_pass;
@@ -78,31 +78,31 @@ struct Glass::State {
   std::optional<Shown> shown;
 };
 
-Glass::Glass(const radar::RadarConfiguration& configuration, int size)
-    : Glass(configuration, size, color_scheme(configuration.view.colors)) {}
-Glass::Glass(const radar::RadarConfiguration& configuration, int size, const ColorScheme& colors)
+Display::Display(const radar::RadarConfiguration& configuration, int size)
+    : Display(configuration, size, color_scheme(configuration.view.colors)) {}
+Display::Display(const radar::RadarConfiguration& configuration, int size, const ColorScheme& colors)
     : state_(std::make_unique<State>(configuration, size, colors)) {}
-Glass::~Glass() = default;
-Glass::Glass(Glass&&) noexcept = default;
-Glass& Glass::operator=(Glass&&) noexcept = default;
+Display::~Display() = default;
+Display::Display(Display&&) noexcept = default;
+Display& Display::operator=(Display&&) noexcept = default;
 
-void Glass::add(const databuffer::Sweep& sweep) {
+void Display::add(const databuffer::Sweep& sweep) {
   state_->store.insert(sweep);
 }
 
-void Glass::add(const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels) {
+void Display::add(const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels) {
   state_->map_pass.add(map.id, map.size, pixels);
 }
 
-void Glass::resize(int size) {
+void Display::resize(int size) {
   state_->framebuffer.resize(size);
 }
 
-int Glass::size() const {
+int Display::size() const {
   return state_->framebuffer.size();
 }
 
-bool Glass::draw(const GlassInput& input) {
+bool Display::draw(const DisplayInput& input) {
   State& state = *state_;
   // Sweeps of another mode are no picture of this one.
   const bool video = shows_video(input.state) && state.store.mode() == input.state.mode;
@@ -123,15 +123,15 @@ bool Glass::draw(const GlassInput& input) {
   return true;
 }
 
-imageio::Image Glass::read() const {
+imageio::Image Display::read() const {
   return state_->framebuffer.read();
 }
 
-const Framebuffer& Glass::picture() const {
+const Framebuffer& Display::picture() const {
   return state_->framebuffer;
 }
 
-void Glass::show(int left, int bottom) {
+void Display::show(int left, int bottom) {
   state_->picture_pass.draw(state_->framebuffer, left, bottom);
 }
 

@@ -16,14 +16,14 @@
 
 namespace yars::display::gl {
 
-class Glass {
+class Display {
  public:
   // `size`: pixels to the edge of the square.
-  Glass(const radar::RadarConfiguration& configuration, int size);  // in the colors of the configuration
-  Glass(const radar::RadarConfiguration& configuration, int size, const ColorScheme& colors);
-  ~Glass();
-  Glass(Glass&&) noexcept;
-  Glass& operator=(Glass&&) noexcept;
+  Display(const radar::RadarConfiguration& configuration, int size);  // in the colors of the configuration
+  Display(const radar::RadarConfiguration& configuration, int size, const ColorScheme& colors);
+  ~Display();
+  Display(Display&&) noexcept;
+  Display& operator=(Display&&) noexcept;
 
   void add(const databuffer::Sweep& sweep);
   // A map that the radar state names; it is kept as long as it is named.
@@ -32,7 +32,7 @@ class Glass {
   int size() const;
 
   // True when it drew; false when the picture already shows this input.
-  bool draw(const GlassInput& input);
+  bool draw(const DisplayInput& input);
 
   imageio::Image read() const;  // RGB
   const Framebuffer& picture() const;

@@ -105,12 +105,12 @@ bool Readback::start(const Framebuffer& picture, std::int64_t tick, std::int64_t
   return true;
 }
 
-bool Readback::take(Picture& picture, Patience patience) {
+bool Readback::take(Picture& picture, WaitPolicy patience) {
   if (count_ == 0) return false;
   Copy& copy = copies_[first_];
-  const GLuint64 wait_ns = patience == Patience::none ? 0 : kLongest_ns;
+  const GLuint64 wait_ns = patience == WaitPolicy::none ? 0 : kLongest_ns;
   const GLenum outcome = glClientWaitSync(static_cast<GLsync>(copy.fence), 0, wait_ns);
-  if (outcome == GL_TIMEOUT_EXPIRED && patience == Patience::none) return false;
+  if (outcome == GL_TIMEOUT_EXPIRED && patience == WaitPolicy::none) return false;
   glDeleteSync(static_cast<GLsync>(copy.fence));
   copy.fence = nullptr;
   first_ = (first_ + 1) % kUnderWay;

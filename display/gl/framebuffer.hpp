@@ -46,7 +46,7 @@ class Framebuffer {
 // Gets pictures out of the graphics memory without holding up who draws: the copy into a buffer object is only
 // ordered, and taken when its fence says that it is there. Two may be under way, given out in their order.
 // Needs a current context for its lifetime.
-enum class Patience : std::uint8_t { none, until_it_is_there };
+enum class WaitPolicy : std::uint8_t { none, until_it_is_there };
 
 class Readback {
  public:
@@ -58,7 +58,7 @@ class Readback {
   // False: two are under way already.
   bool start(const Framebuffer& picture, std::int64_t tick, std::int64_t sim_time_ns);
   // The oldest under way. False: there is none, or it is not there yet. `picture` keeps its memory.
-  bool take(Picture& picture, Patience patience);
+  bool take(Picture& picture, WaitPolicy patience);
 
  private:
   static constexpr std::size_t kUnderWay = 2;

@@ -24,7 +24,7 @@ constexpr int kButtons = 20;
 
 }  // namespace
 
-struct Glass::State {
+struct Display::State {
   State(std::optional<databuffer::Session> own_session, databuffer::Session* joined,
         const radar::RadarConfiguration& configuration, bool lockstep)
       : own(std::move(own_session)),
@@ -49,29 +49,29 @@ struct Glass::State {
   std::optional<databuffer::Session> own;  // of a glass that attached by itself
   databuffer::Session* session;
   std::string name = "glass";
-  gl::Glass glass;
+  gl::Display glass;
   gl::Readback readback;
-  GlassFeed feed;
+  SessionFeed feed;
   std::optional<PilotInput> pilot;  // once somebody touches the glass: the session has 16 lanes
   std::int64_t sim_time_ns = 0;     // of the last update
   std::int64_t painted_tick = 0, painted_sim_time_ns = 0;
 };
 
-Glass::Glass(std::unique_ptr<State> state) : state_(std::move(state)) {}
-Glass::Glass(Glass&&) noexcept = default;
-Glass& Glass::operator=(Glass&&) noexcept = default;
-Glass::~Glass() = default;
+Display::Display(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Display::Display(Display&&) noexcept = default;
+Display& Display::operator=(Display&&) noexcept = default;
+Display::~Display() = default;
 
-Glass::Glass(databuffer::Session& session, const radar::RadarConfiguration& configuration, bool lockstep) {
+Display::Display(databuffer::Session& session, const radar::RadarConfiguration& configuration, bool lockstep) {
   const gl::PlainState plain;
   state_ = std::make_unique<State>(std::nullopt, &session, configuration, lockstep);
 }
 
-error::Expected<Glass> Glass::attach(const Place& place) {
+error::Expected<Display> Display::attach(const Place& place) {
   if (const int version = gl::opengl_version(); version < kNeededOpengl)
     return error::fail("glass", "a current context of OpenGL 3.3 or later",
-                         version == 0 ? "none" : std::to_string(version / 10) + "." + std::to_string(version % 10),
-                         "make one current on this thread first");
+                       version == 0 ? "none" : std::to_string(version / 10) + "." + std::to_string(version % 10),
+                       "make one current on this thread first");
   auto configuration = config::load_configuration(place.configuration);
   if (!configuration) return tl::unexpected(configuration.error());
   for (const std::string& warning : configuration->warnings) log::warning(warning);
@@ -80,23 +80,23 @@ error::Expected<Glass> Glass::attach(const Place& place) {
   const gl::PlainState plain;
   auto state = std::make_unique<State>(std::move(*session), nullptr, configuration->radar, false);
   state->name = place.name;
-  return Glass(std::move(state));
+  return Display(std::move(state));
 }
 
-void Glass::update() {
+void Display::update() {
   update(state_->session->sim_time_ns());
 }
 
-void Glass::update(std::int64_t sim_time_ns) {
+void Display::update(std::int64_t sim_time_ns) {
   state_->session->heartbeat();
   state_->sim_time_ns = sim_time_ns;
   state_->feed.refresh(sim_time_ns);
 }
 
-bool Glass::paint(int size) {
+bool Display::paint(int size) {
   State& state = *state_;
   const gl::PlainState plain;
-  const int wanted = std::clamp(size, 1, kMostPixels);
+  const int wanted = std::clamp(size, 1, kMaxPixels);
   if (wanted != state.glass.size()) state.glass.resize(wanted);
   if (!state.glass.draw(state.feed.input())) return false;
   state.painted_tick = state.feed.input().state.tick;
@@ -104,8 +104,8 @@ bool Glass::paint(int size) {
   return true;
 }
 
-void Glass::draw(const Viewport& viewport) {
-  const int size = std::min({viewport.width, viewport.height, kMostPixels});
+void Display::draw(const Viewport& viewport) {
+  const int size = std::min({viewport.width, viewport.height, kMaxPixels});
   if (size <= 0) return;
   // Painting leaves the host's framebuffer bound as it was.
   paint(size);
@@ -113,31 +113,31 @@ void Glass::draw(const Viewport& viewport) {
   state_->glass.show(viewport.left + (viewport.width - size) / 2, viewport.bottom + (viewport.height - size) / 2);
 }
 
-void Glass::note_shown() {
+void Display::note_shown() {
   state_->feed.note_shown();
 }
 
-imageio::Image Glass::read() const {
+imageio::Image Display::read() const {
   const gl::PlainState plain;
   return state_->glass.read();
 }
 
-bool Glass::start_reading() {
+bool Display::start_reading() {
   const gl::PlainState plain;
   return state_->readback.start(state_->glass.picture(), state_->painted_tick, state_->painted_sim_time_ns);
 }
 
-bool Glass::take_read(Picture& picture) {
+bool Display::take_read(Picture& picture) {
   const gl::PlainState plain;
-  return state_->readback.take(picture, gl::Patience::none);
+  return state_->readback.take(picture, gl::WaitPolicy::none);
 }
 
-bool Glass::wait_for_read(Picture& picture) {
+bool Display::wait_for_read(Picture& picture) {
   const gl::PlainState plain;
-  return state_->readback.take(picture, gl::Patience::until_it_is_there);
+  return state_->readback.take(picture, gl::WaitPolicy::until_it_is_there);
 }
 
-error::Expected<void> Glass::press(int button) {
+error::Expected<void> Display::press(int button) {
   if (button < 1 || button > kButtons)
     return error::fail("glass", "a button 1 to 20", std::to_string(button), "see display/symbology/readouts.hpp");
   auto pilot = state_->pilot_of_session();
@@ -146,10 +146,10 @@ error::Expected<void> Glass::press(int button) {
   return {};
 }
 
-error::Expected<bool> Glass::click(double right, double down) {
+error::Expected<bool> Display::click(double right, double down) {
   auto pilot = state_->pilot_of_session();
   if (!pilot) return tl::unexpected(pilot.error());
-  return (*pilot)->click({static_cast<float>(right) * kGlassUnits, static_cast<float>(down) * kGlassUnits});
+  return (*pilot)->click({static_cast<float>(right) * kDisplayUnits, static_cast<float>(down) * kDisplayUnits});
 }
 
 }  // namespace yars::display::host

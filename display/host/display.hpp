@@ -3,7 +3,7 @@
 // context, destruction too, and leaves its state as it was (the list: display/gl/plain_state.hpp). Nothing waits but
 // attach and read. One thread at a time for each glass; a program may have several. Link the target yars_glass.
 //
-//   auto glass = yars::display::host::Glass::attach({.session = "default"});
+//   auto glass = yars::display::host::Display::attach({.session = "default"});
 //   each frame of the host:   glass->update();   ...   glass->draw({left, bottom, 600, 600});
 #pragma once
 
@@ -24,7 +24,7 @@ struct RadarConfiguration;
 
 namespace yars::display::host {
 
-inline constexpr int kMostPixels = 4096;  // to the edge of the glass
+inline constexpr int kMaxPixels = 4096;  // to the edge of the glass
 
 // In pixels of the current framebuffer, from its lower left corner, as for glViewport.
 struct Viewport {
@@ -37,15 +37,15 @@ struct Place {
   std::string name = "host glass";  // what `yars status` calls this program
 };
 
-class Glass {
+class Display {
  public:
   // Errors: no such configuration, another user's or another build's session, OpenGL older than 3.3.
-  static error::Expected<Glass> attach(const Place& place);
+  static error::Expected<Display> attach(const Place& place);
   // For a program that takes part already; the session outlives the glass. In lockstep, time is that of update().
-  Glass(databuffer::Session& session, const radar::RadarConfiguration& configuration, bool lockstep);
-  Glass(Glass&&) noexcept;
-  Glass& operator=(Glass&&) noexcept;
-  ~Glass();
+  Display(databuffer::Session& session, const radar::RadarConfiguration& configuration, bool lockstep);
+  Display(Display&&) noexcept;
+  Display& operator=(Display&&) noexcept;
+  ~Display();
 
   // Takes over what is new in the session. Call it at least once a second, drawn or not: who is silent longer counts as
   // hung, and after 5 s sweeps are lost.
@@ -75,7 +75,7 @@ class Glass {
 
  private:
   struct State;
-  explicit Glass(std::unique_ptr<State> state);
+  explicit Display(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
 

@@ -24,14 +24,14 @@ bool takes_part(const databuffer::SessionLayout& layout, databuffer::LockstepRol
 
 }  // namespace
 
-GlassFeed::GlassFeed(databuffer::Session& session, bool lockstep, SweepSink sweeps, MapSink maps)
+SessionFeed::SessionFeed(databuffer::Session& session, bool lockstep, SweepSink sweeps, MapSink maps)
     : session_(&session),
       lockstep_(lockstep),
       sweep_sink_(std::move(sweeps)),
       map_sink_(std::move(maps)),
       sweep_cursor_(std::as_const(session).layout().sweeps.oldest()) {}
 
-void GlassFeed::refresh(std::int64_t sim_time_ns) {
+void SessionFeed::refresh(std::int64_t sim_time_ns) {
   look_who_is_alive();
   take_state();
   take_maps();
@@ -39,7 +39,7 @@ void GlassFeed::refresh(std::int64_t sim_time_ns) {
   take_sweeps();
 }
 
-void GlassFeed::look_who_is_alive() {
+void SessionFeed::look_who_is_alive() {
   if (lockstep_) {
     input_.state_machine_alive = takes_part(session_->layout(), databuffer::LockstepRole::state_machine);
     input_.model_alive = takes_part(session_->layout(), databuffer::LockstepRole::radar_model);
@@ -58,14 +58,14 @@ void GlassFeed::look_who_is_alive() {
   input_.model_alive = beats(databuffer::Role::radar_model);
 }
 
-void GlassFeed::take_state() {
+void SessionFeed::take_state() {
   const auto& latest = session_->layout().radar_state;
   if (latest.version() == state_version_) return;
   databuffer::RadarState state{};
   const auto version = latest.read(state);
   if (!version) return;
   state_version_ = *version;
-  if (const auto reason = databuffer::why_refused(state)) {
+  if (const auto reason = databuffer::validate(state)) {
     session_->note(databuffer::NoteKind::refusal, "glass: radar state: " + *reason);
     return;
   }
@@ -73,7 +73,7 @@ void GlassFeed::take_state() {
 }
 
 // A map is read once, and kept while it is named.
-void GlassFeed::take_maps() {
+void SessionFeed::take_maps() {
   const std::array named{input_.state.map_newest, input_.state.map_old, input_.state.map_stored};
   for (databuffer::PatchMap& map : maps_)
     if (std::ranges::find(named, map.id) == named.end()) map = {};
@@ -85,10 +85,10 @@ void GlassFeed::take_maps() {
   input_.map = shown == maps_.end() ? databuffer::PatchMap{} : *shown;
 }
 
-void GlassFeed::take_map(std::uint64_t id) {
+void SessionFeed::take_map(std::uint64_t id) {
   databuffer::PatchMap map{};
   if (!databuffer::read_patch(session_->layout(), id, map, pixels_)) return;
-  if (const auto reason = databuffer::why_refused(map)) {
+  if (const auto reason = databuffer::validate(map)) {
     refused_map_ = id;
     session_->note(databuffer::NoteKind::refusal, "glass: patch map: " + *reason);
     return;
@@ -97,7 +97,7 @@ void GlassFeed::take_map(std::uint64_t id) {
   map_sink_(map, pixels_);
 }
 
-void GlassFeed::take_model(std::int64_t sim_time_ns) {
+void SessionFeed::take_model(std::int64_t sim_time_ns) {
   // Kept warm while the model is alive, so that it can go on at once when the model dies.
   const auto& selected = receiver_.refresh(session_->layout(), sim_time_ns, session_->clock().epoch);
   take_status();
@@ -112,14 +112,14 @@ void GlassFeed::take_model(std::int64_t sim_time_ns) {
   }
 }
 
-void GlassFeed::take_status() {
+void SessionFeed::take_status() {
   const auto& latest = session_->layout().model_status;
   if (latest.version() == status_version_) return;
   databuffer::ModelStatus status{};
   const auto version = latest.read(status);
   if (!version) return;
   status_version_ = *version;
-  if (const auto reason = databuffer::why_refused(status)) {
+  if (const auto reason = databuffer::validate(status)) {
     session_->note(databuffer::NoteKind::refusal, "glass: model status: " + *reason);
     return;
   }
@@ -127,14 +127,14 @@ void GlassFeed::take_status() {
   has_status_ = true;
 }
 
-void GlassFeed::take_sweeps() {
+void SessionFeed::take_sweeps() {
   const auto& ring = session_->layout().sweeps;
   std::uint64_t lost = 0;
   while (true) {
     const auto read = ring.read(sweep_cursor_, sweep_);
     lost += read.lost;
     if (!read.delivered) break;
-    if (const auto reason = databuffer::why_refused(sweep_))
+    if (const auto reason = databuffer::validate(sweep_))
       session_->note(databuffer::NoteKind::refusal, "glass: sweep: " + *reason);
     else
       sweep_sink_(sweep_);

@@ -16,21 +16,21 @@
 
 namespace yars::display {
 
-// Keeps a GlassInput and the glass's sweeps and maps up to date with the session, by copies; waits for nobody.
+// Keeps a DisplayInput and the glass's sweeps and maps up to date with the session, by copies; waits for nobody.
 // A restarted glass reads the ring from its oldest sweep and the maps named by the radar state: it repaints at once,
 // also when frozen.
-class GlassFeed {
+class SessionFeed {
  public:
   using SweepSink = std::function<void(const databuffer::Sweep&)>;
   using MapSink = std::function<void(const databuffer::PatchMap&, std::span<const std::uint8_t>)>;
   // In lockstep a role counts as alive when it takes part: clocks of the wall must not show in a frame.
-  GlassFeed(databuffer::Session& session, bool lockstep, SweepSink sweeps, MapSink maps);
+  SessionFeed(databuffer::Session& session, bool lockstep, SweepSink sweeps, MapSink maps);
 
   // Takes over what is new. Times are those of the moment or of the tick.
   void refresh(std::int64_t sim_time_ns);
   // What is in input() is on the glass: others can measure how long a button takes.
   void note_shown() { session_->show_progress(static_cast<std::uint32_t>(state_version_)); }
-  const GlassInput& input() const { return input_; }
+  const DisplayInput& input() const { return input_; }
 
  private:
   void take_sweeps();
@@ -46,7 +46,7 @@ class GlassFeed {
   SweepSink sweep_sink_;
   MapSink map_sink_;
   databuffer::OwnshipReceiver receiver_;
-  GlassInput input_;
+  DisplayInput input_;
   databuffer::Sweep sweep_{};
   std::uint64_t sweep_cursor_ = 0;
   std::array<databuffer::PatchMap, 3> maps_{};  // NEW, OLD and STORE, in any order; id 0 = an empty place

@@ -78,7 +78,7 @@ constexpr Glyph kUnknown{U'\ufffd', "0a0m8m8a0a"};
 constexpr int kGap = 3;                  // grid columns between glyphs
 constexpr float kColumn = 0.58F / 8.0F;  // cap heights a grid column: capitals are 0.58 as wide as high
 constexpr float kRow = 1.0F / 12.0F;     // cap heights a grid row
-constexpr std::size_t kMostPoints = 24;  // of one polyline; the longest above has 16
+constexpr std::size_t kMaxPoints = 24;   // of one polyline; the longest above has 16
 
 const Glyph& glyph_of(char32_t code) {
   if (code >= U'a' && code <= U'z' && code != U'v') code -= U'a' - U'A';
@@ -100,7 +100,7 @@ char32_t take(std::string_view& text) {
 }
 
 void stroke_glyph(const Glyph& glyph, float left, StrokeSink& sink) {
-  std::array<Point, kMostPoints> points;
+  std::array<Point, kMaxPoints> points;
   std::size_t count = 0;
   const auto lift_pen = [&] {
     if (count > 0) sink.polyline({points.data(), count});
@@ -114,7 +114,7 @@ void stroke_glyph(const Glyph& glyph, float left, StrokeSink& sink) {
     }
     const float column = static_cast<float>(glyph.strokes[i] - '0');
     const float row = static_cast<float>(glyph.strokes[i + 1] - 'a');
-    if (count < kMostPoints) points[count++] = {left + column * kColumn, -row * kRow};
+    if (count < kMaxPoints) points[count++] = {left + column * kColumn, -row * kRow};
     i += 2;
   }
   lift_pen();

@@ -15,7 +15,7 @@
 namespace yars::display {
 
 // A place on the glass, in glass units: 480 to the edge of the square, x right, y down, origin upper left.
-inline constexpr float kGlassUnits = 480.0F;  // edge of the glass; the legends' layout is measured in it
+inline constexpr float kDisplayUnits = 480.0F;  // edge of the glass; the legends' layout is measured in it
 
 struct Point {
   float x = 0.0F;

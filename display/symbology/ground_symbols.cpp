@@ -23,8 +23,8 @@ constexpr float kGapInside = 7.0F, kArm = 16.0F;  // [units] of the plus: a poin
 constexpr float kMarginToStay = 2.5F, kMarginToCome = 4.0F;
 constexpr float kInk = 2.0F;  // [units] that an arm covers, with its halo, beside its middle
 
-bool on_glass(Point at) {
-  return at.x >= 0.0F && at.y >= 0.0F && at.x <= kGlassUnits && at.y <= kGlassUnits;
+bool on_display(Point at) {
+  return at.x >= 0.0F && at.y >= 0.0F && at.x <= kDisplayUnits && at.y <= kDisplayUnits;
 }
 
 void draw_square(Point at, bool dashed, DrawList& list) {
@@ -76,11 +76,11 @@ void draw_symbol(const databuffer::DrawnPoint& point, std::span<const radar::Rou
 }
 
 // Where the open plus stands; nothing when it is not on the glass.
-std::optional<Point> cursor_at(const GlassInput& input, const GlassView& view, const GlassFrame& frame) {
+std::optional<Point> cursor_at(const DisplayInput& input, const PlanView& view, const ViewFrame& frame) {
   if ((input.state.flags & databuffer::kCursorValid) == 0) return std::nullopt;
   const geo::GeoPoint place{input.state.cursor_latitude_deg, input.state.cursor_longitude_deg};
   const Point at = view.at_ground(frame, place);
-  return on_glass(at) ? std::optional(at) : std::nullopt;
+  return on_display(at) ? std::optional(at) : std::nullopt;
 }
 
 std::span<const databuffer::DrawnPoint> points_of(const databuffer::RadarState& state) {
@@ -106,7 +106,7 @@ bool is_covered(Point at, float margin, const DrawList& list) {
 
 }  // namespace
 
-void draw_cursor(const GlassInput& input, const GlassView& view, const GlassFrame& frame, DrawList& list) {
+void draw_cursor(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, DrawList& list) {
   const std::optional<Point> cursor = cursor_at(input, view, frame);
   if (!cursor) return;
   const Point at = *cursor;
@@ -121,7 +121,7 @@ void draw_cursor(const GlassInput& input, const GlassView& view, const GlassFram
   list.occupy("cursor", {at.x - kInk, at.y - kArm - kInk, at.x + kInk, at.y + kArm + kInk}, BoxKind::cursor);
 }
 
-void draw_window_outline(const GlassInput& input, const GlassView& view, const GlassFrame& frame, DrawList& list) {
+void draw_window_outline(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, DrawList& list) {
   const databuffer::ModelStatus& model = input.model;
   // Until the model has taken the command up it tells of another map, or of none.
   const bool forms = (input.state.flags & databuffer::kMapping) != 0 && model.map_request == input.state.map_request &&
@@ -142,7 +142,7 @@ void draw_window_outline(const GlassInput& input, const GlassView& view, const G
   list.draw_on(Layer::symbols);
 }
 
-PlacedPoints place_points(const GlassInput& input, const GlassView& view, const GlassFrame& frame,
+PlacedPoints place_points(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                           const LabelMemory& labels, const DrawList& list) {
   PlacedPoints placed;
   const auto belief = databuffer::belief_in_use(input.ownship, input.nav, input.state);
@@ -150,7 +150,7 @@ PlacedPoints place_points(const GlassInput& input, const GlassView& view, const 
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point at = view.at_ground(frame, belief.on_video({points[i].latitude_deg, points[i].longitude_deg}));
     const float margin = labels.names(text::text_of(points[i].name)) ? kMarginToStay : kMarginToCome;
-    if (on_glass(at) && (points[i].selected != 0 || !is_covered(at, margin, list))) placed[i] = at;
+    if (on_display(at) && (points[i].selected != 0 || !is_covered(at, margin, list))) placed[i] = at;
   }
   return placed;
 }
@@ -209,14 +209,14 @@ Label heading_label(double magnetic_deg, Point target) {
 
 }  // namespace
 
-std::optional<Label> draw_steering_line(const GlassInput& input, const GlassView& view, const GlassFrame& frame,
+std::optional<Label> draw_steering_line(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                                         DrawList& list) {
   const databuffer::RadarState& state = input.state;
   const auto line = static_cast<SteeringLine>(state.steering_line);
   if ((state.flags & databuffer::kTargetDesignated) == 0 || line == SteeringLine::none) return std::nullopt;
   const auto belief = databuffer::belief_in_use(input.ownship, input.nav, state);
   const Point target = view.at_ground(frame, belief.on_video({state.target_latitude_deg, state.target_longitude_deg}));
-  if (!on_glass(target)) return std::nullopt;
+  if (!on_display(target)) return std::nullopt;
   const double approach_deg = (geo::Bearing::degrees(state.steering_line_deg) - frame.up).degrees();
   const double back_deg = approach_deg + 180.0;
   const Point end = off(target, back_deg, kEnd);

@@ -103,7 +103,7 @@ class Search {
     const Place place = place_of(label_.role, index);
     const Rect box = text_box(words_of(label_.words), moved(label_.anchor, place.offset), {kText, place.align});
     // From the edge as from words: a picture that jitters there must not blink.
-    return on_glass(grown(box, clearance.around - kInsideEdge)) && is_clear(grown(box, clearance.around)) &&
+    return on_display(grown(box, clearance.around - kInsideEdge)) && is_clear(grown(box, clearance.around)) &&
            (place.ring == 0 || line_is_clear(place, clearance));
   }
 
@@ -132,8 +132,8 @@ class Search {
   }
 
  private:
-  static bool on_glass(const Rect& box) {
-    return box.left >= 0.0F && box.top >= 0.0F && box.right <= kGlassUnits && box.bottom <= kGlassUnits;
+  static bool on_display(const Rect& box) {
+    return box.left >= 0.0F && box.top >= 0.0F && box.right <= kDisplayUnits && box.bottom <= kDisplayUnits;
   }
 
   bool is_own_symbol(const OccupiedBox& box) const {

@@ -28,7 +28,7 @@ struct Label {
 
 Label label_of(LabelRole role, std::string_view words, Point anchor);
 
-inline constexpr std::size_t kMostLabels = radar::kMaxPointsDrawn + 1;
+inline constexpr std::size_t kMaxLabels = radar::kMaxPointsDrawn + 1;
 
 // The labels of one picture in order of their rank.
 class LabelQueue {
@@ -37,7 +37,7 @@ class LabelQueue {
   std::span<const Label> labels() const { return {labels_.data(), count_}; }
 
  private:
-  std::array<Label, kMostLabels> labels_{};
+  std::array<Label, kMaxLabels> labels_{};
   std::size_t count_ = 0;
 };
 
@@ -55,7 +55,7 @@ class LabelMemory {
   void keep(const Kept& kept);
 
  private:
-  std::array<Kept, kMostLabels> kept_{};
+  std::array<Kept, kMaxLabels> kept_{};
   std::size_t count_ = 0;
 };
 

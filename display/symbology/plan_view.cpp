@@ -9,10 +9,10 @@
 
 namespace yars::display {
 
-GlassView::GlassView(const radar::ViewConfiguration& view) {
+PlanView::PlanView(const radar::ViewConfiguration& view) {
   const double width = view.width_max - view.width_min;
   const double height = view.height_max - view.height_min;
-  const double edge = static_cast<double>(kGlassUnits);
+  const double edge = static_cast<double>(kDisplayUnits);
   const double scale = edge / std::max(width, height);
   // The shorter side is centered, so that a circle stays a circle.
   const double left = (edge - width * scale) / 2.0;
@@ -21,32 +21,32 @@ GlassView::GlassView(const radar::ViewConfiguration& view) {
   units_per_range_ = static_cast<float>(scale);
 }
 
-GlassView::GlassView(const databuffer::PatchMap& map) {
-  const double edge = static_cast<double>(kGlassUnits);
+PlanView::PlanView(const databuffer::PatchMap& map) {
+  const double edge = static_cast<double>(kDisplayUnits);
   const double distance = map.distance_m / frame_of(map).range_m;
-  apex_ = {kGlassUnits / 2.0F, static_cast<float>(edge / 2.0 + distance * edge)};
-  units_per_range_ = kGlassUnits;
+  apex_ = {kDisplayUnits / 2.0F, static_cast<float>(edge / 2.0 + distance * edge)};
+  units_per_range_ = kDisplayUnits;
 }
 
-Point GlassView::at_polar(double right_deg, double fraction) const {
+Point PlanView::at_polar(double right_deg, double fraction) const {
   const double angle = right_deg * geo::kRadiansPerDegree;
   const double length = fraction * static_cast<double>(units_per_range_);
   return {apex_.x + static_cast<float>(length * std::sin(angle)),
           apex_.y - static_cast<float>(length * std::cos(angle))};
 }
 
-Point GlassView::at_ground(const GlassFrame& frame, geo::GeoPoint place) const {
+Point PlanView::at_ground(const ViewFrame& frame, geo::GeoPoint place) const {
   const geo::GeodesicInverse line = geo::geodesic_inverse(frame.apex, place);
   return at_polar((line.azimuth_at_start - frame.up).degrees(), line.distance.metres() / frame.range_m);
 }
 
-GlassFrame frame_of(const databuffer::PatchMap& map) {
+ViewFrame frame_of(const databuffer::PatchMap& map) {
   return {{map.apex_latitude_deg, map.apex_longitude_deg},
           geo::Bearing::degrees(map.up_deg),
           map.window_nm * geo::kMetresPerNauticalMile};
 }
 
-double displacement_units(const GlassView& view, const GlassFrame& drawn, const GlassFrame& present) {
+double displacement_units(const PlanView& view, const ViewFrame& drawn, const ViewFrame& present) {
   if (drawn.range_m != present.range_m) return std::numeric_limits<double>::infinity();
   const double moved = geo::geodesic_inverse(drawn.apex, present.apex).distance.metres() / present.range_m;
   const double turned = std::abs((present.up - drawn.up).radians());
@@ -55,14 +55,14 @@ double displacement_units(const GlassView& view, const GlassFrame& drawn, const 
 
 namespace {
 
-constexpr double kLeastRange_m = 1852.0;  // [m] stands in for a state that names no range yet: nothing divides by 0
+constexpr double kMinRange_m = 1852.0;  // [m] stands in for a state that names no range yet: nothing divides by 0
 
 }  // namespace
 
-GlassFrame present_frame(const GlassInput& input, const StoredSweep* newest) {
+ViewFrame present_frame(const DisplayInput& input, const StoredSweep* newest) {
   const double range_m = input.state.range_nm * geo::kMetresPerNauticalMile;
-  GlassFrame frame;
-  frame.range_m = range_m > 0.0 ? range_m : kLeastRange_m;
+  ViewFrame frame;
+  frame.range_m = range_m > 0.0 ? range_m : kMinRange_m;
   const bool frozen = (input.model.flags & databuffer::kModelFrozen) != 0;
   if (frozen && newest != nullptr) {
     frame.apex = newest->apex;
@@ -79,7 +79,7 @@ namespace {
 // Turns east and north metres of the frame's apex into units on the glass.
 class GroundPlan {
  public:
-  GroundPlan(const GlassView& view, const GlassFrame& frame)
+  GroundPlan(const PlanView& view, const ViewFrame& frame)
       : tangent_(frame.apex, geo::HeightAboveEllipsoid::metres(0.0)),
         apex_(view.apex()),
         units_per_metre_(static_cast<double>(view.units_per_range()) / frame.range_m),
@@ -115,7 +115,7 @@ class GroundPlan {
 
 }  // namespace
 
-void place_wedges(const PolarStore& store, const GlassView& view, const GlassFrame& frame, std::vector<Wedge>& wedges) {
+void place_wedges(const PolarStore& store, const PlanView& view, const ViewFrame& frame, std::vector<Wedge>& wedges) {
   const GroundPlan plan(view, frame);
   wedges.clear();
   for (const StoredSweep& sweep : store.by_azimuth()) {

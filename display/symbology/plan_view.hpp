@@ -16,7 +16,7 @@
 namespace yars::display {
 
 // All that one picture is made of, besides the stored sweeps: copies of what the session holds, and who is silent.
-struct GlassInput {
+struct DisplayInput {
   databuffer::RadarState state{};
   databuffer::ModelStatus model{};
   databuffer::Ownship ownship{};  // present truth
@@ -34,38 +34,38 @@ struct GlassInput {
 // A patch map fills the square with its window: the same plan about the map's own apex, its line of sight upwards.
 
 // The picture's place on the earth.
-struct GlassFrame {
+struct ViewFrame {
   geo::GeoPoint apex;
   geo::Bearing up;       // true bearing that points up: the ground track, or a map's line of sight
   double range_m = 0.0;  // [m] selected range, or a map's window
 };
 
-class GlassView {
+class PlanView {
  public:
-  explicit GlassView(const radar::ViewConfiguration& view);
-  explicit GlassView(const databuffer::PatchMap& map);  // far below the glass lies the apex
+  explicit PlanView(const radar::ViewConfiguration& view);
+  explicit PlanView(const databuffer::PatchMap& map);  // far below the glass lies the apex
 
   Point apex() const { return apex_; }
   float units_per_range() const { return units_per_range_; }  // [units] length of the selected range
 
   // `right_deg`: clockwise from up [deg]; `fraction` of the selected range.
   Point at_polar(double right_deg, double fraction) const;
-  Point at_ground(const GlassFrame& frame, geo::GeoPoint place) const;
+  Point at_ground(const ViewFrame& frame, geo::GeoPoint place) const;
 
  private:
   Point apex_;
   float units_per_range_ = 0.0F;
 };
 
-GlassFrame frame_of(const databuffer::PatchMap& map);
+ViewFrame frame_of(const databuffer::PatchMap& map);
 
 // How far a picture drawn in `drawn` is off at its outer edge when `present` is the truth [units].
-double displacement_units(const GlassView& view, const GlassFrame& drawn, const GlassFrame& present);
+double displacement_units(const PlanView& view, const ViewFrame& drawn, const ViewFrame& present);
 
 // The frame in which everything is drawn: ground track up, own apex; frozen, the last sweep's [design "The glass"].
 
 // `newest` is the last sweep of the mode shown, or null.
-GlassFrame present_frame(const GlassInput& input, const StoredSweep* newest);
+ViewFrame present_frame(const DisplayInput& input, const StoredSweep* newest);
 
 // A stored sweep as it lies in the present frame, on the glass.
 struct Wedge {
@@ -80,6 +80,6 @@ struct Wedge {
 
 // All sweeps of the store, oldest first. A sweep's plan is flat about its own apex: exact in range and azimuth
 // there; the apex itself is off by distance^3 / (6 R^2), 0.1 m after 30 km of flight.
-void place_wedges(const PolarStore& store, const GlassView& view, const GlassFrame& frame, std::vector<Wedge>& wedges);
+void place_wedges(const PolarStore& store, const PlanView& view, const ViewFrame& frame, std::vector<Wedge>& wedges);
 
 }  // namespace yars::display

@@ -9,13 +9,13 @@ namespace yars::display {
 namespace {
 constexpr float kNeutralContrast = 8.0F;
 constexpr float kStepsToDouble = 4.0F;
-constexpr float kMostBrightness = 15.0F;
+constexpr float kMaxBrightness = 15.0F;
 constexpr float kBrightnessPower = 0.35F;  // the power-up brightness, 8, leaves 80 % of the light; the knob acts below
 }  // namespace
 
 std::array<float, 256> video_light(int brightness, int contrast) {
   const float slope = std::exp2((static_cast<float>(contrast) - kNeutralContrast) / kStepsToDouble);
-  const float turned_up = std::clamp(static_cast<float>(brightness), 0.0F, kMostBrightness) / kMostBrightness;
+  const float turned_up = std::clamp(static_cast<float>(brightness), 0.0F, kMaxBrightness) / kMaxBrightness;
   const float peak = std::pow(turned_up, kBrightnessPower);
   std::array<float, 256> light{};
   for (std::size_t video = 0; video < light.size(); ++video) {
@@ -29,7 +29,7 @@ std::array<float, 256> video_light(int brightness, int contrast) {
 namespace {
 
 constexpr double kEdgeLength_m = 1000.0;  // [m] short enough that the chord along the geodesic is straight to 1e-8
-constexpr double kMostWidth_deg = 45.0;   // [deg] the far side of a wedge is drawn straight
+constexpr double kMaxWidth_deg = 45.0;    // [deg] the far side of a wedge is drawn straight
 constexpr double kRounding_deg = 1e-6;    // [deg] of an azimuth that went through earth-centred coordinates
 
 geo::Vector3 on_ellipsoid(geo::GeoPoint point) {
@@ -84,7 +84,7 @@ Insertion PolarStore::insert(const databuffer::Sweep& sweep) {
     return Insertion::ignored;
   }
   if (!std::isfinite(sweep.apex_latitude_deg) || !std::isfinite(sweep.apex_longitude_deg)) return Insertion::ignored;
-  if (!(width_deg > 0.0 && width_deg <= kMostWidth_deg) || !(sweep.range_m > 0.0)) return Insertion::ignored;
+  if (!(width_deg > 0.0 && width_deg <= kMaxWidth_deg) || !(sweep.range_m > 0.0)) return Insertion::ignored;
 
   if (!sweeps_.empty() && (sweep.epoch != epoch_ || sweep.mode != mode_)) clear();
   const geo::Bearing middle = left + geo::Angle::degrees(width_deg / 2.0);

@@ -45,21 +45,21 @@ LegendPlace legend_place(int button) {
     case 0:
       return {{kMargin, along(index)}, Align::left};
     case 1:
-      return {{along(index), kGlassUnits - kTopRow}, Align::center};
+      return {{along(index), kDisplayUnits - kTopRow}, Align::center};
     case 2:
-      return {{kGlassUnits - kMargin, along(4 - index)}, Align::right};
+      return {{kDisplayUnits - kMargin, along(4 - index)}, Align::right};
     default:
       return {{along(4 - index), kTopRow}, Align::center};
   }
 }
 
 std::optional<int> button_at(Point at) {
-  if (at.x < 0.0F || at.y < 0.0F || at.x > kGlassUnits || at.y > kGlassUnits) return std::nullopt;
+  if (at.x < 0.0F || at.y < 0.0F || at.x > kDisplayUnits || at.y > kDisplayUnits) return std::nullopt;
   const std::optional<int> row = index_along(at.y);
   const std::optional<int> column = index_along(at.x);
   if (row && at.x <= kReach) return 1 + *row;
-  if (column && at.y >= kGlassUnits - kReach) return 6 + *column;
-  if (row && at.x >= kGlassUnits - kReach) return 15 - *row;
+  if (column && at.y >= kDisplayUnits - kReach) return 6 + *column;
+  if (row && at.x >= kDisplayUnits - kReach) return 15 - *row;
   if (column && at.y <= kReach) return 20 - *column;
   return std::nullopt;
 }
@@ -157,7 +157,7 @@ void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
     draw_number(formatted(buffer, "%.0f", state.update_seconds), {legend.x, legend.y - kAboveLegend}, {kText}, list);
   }
   // In the upper right, above the legend of PB 15.
-  constexpr float right = kGlassUnits - 6.0F, first = 46.0F, second = 61.0F;
+  constexpr float right = kDisplayUnits - 6.0F, first = 46.0F, second = 61.0F;
   if ((state.flags & databuffer::kUpdateInvalid) != 0) {
     list.text("INV", {right, first}, {kText, Align::right});
     return;
@@ -178,7 +178,7 @@ void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
 void draw_map_timer(double seconds, DrawList& list) {
   if (!std::isfinite(seconds)) return;
   Buffer buffer;
-  draw_number(formatted(buffer, "%.0f SEC", std::ceil(seconds)), {kGlassUnits - 6.0F, 32.0F}, {kText, Align::right},
+  draw_number(formatted(buffer, "%.0f SEC", std::ceil(seconds)), {kDisplayUnits - 6.0F, 32.0F}, {kText, Align::right},
               list);
 }
 
@@ -186,30 +186,30 @@ void draw_mode_name(const databuffer::RadarState& state, DrawList& list) {
   const auto mode = static_cast<radar::Mode>(state.mode);
   const bool air_to_air = mode == radar::Mode::air_to_air;
   if (!air_to_air && mode != radar::Mode::ranging) return;
-  list.text(air_to_air ? "A/A" : "A/G RANGING", {kGlassUnits / 2.0F, 52.0F}, centered(kText + 1.0F));
+  list.text(air_to_air ? "A/A" : "A/G RANGING", {kDisplayUnits / 2.0F, 52.0F}, centered(kText + 1.0F));
 }
 
 void draw_freeze(DrawList& list) {
-  list.text("FREEZE", {kGlassUnits / 2.0F, 32.0F}, {kText + 1.0F});
+  list.text("FREEZE", {kDisplayUnits / 2.0F, 32.0F}, {kText + 1.0F});
 }
 
 void draw_message(const databuffer::RadarState& state, DrawList& list) {
   list.draw_on(Layer::notices);
   const std::string_view message = text_of(state.message);
-  if (!message.empty()) list.text(message, {kGlassUnits / 2.0F, 413.0F}, centered(kText));
+  if (!message.empty()) list.text(message, {kDisplayUnits / 2.0F, 413.0F}, centered(kText));
   list.draw_on(Layer::symbols);
 }
 
 void draw_banner(std::string_view words, DrawList& list) {
-  list.text(words, {kGlassUnits / 2.0F, 240.0F}, centered(kBannerText));
+  list.text(words, {kDisplayUnits / 2.0F, 240.0F}, centered(kBannerText));
 }
 
-void draw_silent(const GlassInput& input, DrawList& list) {
+void draw_silent(const DisplayInput& input, DrawList& list) {
   list.draw_on(Layer::notices);
   float y = 290.0F;
   const auto say = [&](bool well, std::string_view words) {
     if (well) return;
-    list.text(words, {kGlassUnits / 2.0F, y}, {kSilentText, Align::center, true, true});
+    list.text(words, {kDisplayUnits / 2.0F, y}, {kSilentText, Align::center, true, true});
     y += 26.0F;
   };
   say(input.ownship_fresh, "NO OWNSHIP");
@@ -250,7 +250,7 @@ std::string_view feet_per_second(Buffer& buffer, const char* format, double valu
 void draw_velocity_differences(const databuffer::RadarState& state, DrawList& list) {
   if (!shown(state)) return;
   // In the right column, between the legends of PB 15 and 14.
-  constexpr float right = kGlassUnits - 6.0F, value_left = right - 40.0F;
+  constexpr float right = kDisplayUnits - 6.0F, value_left = right - 40.0F;
   float y = 98.0F;
   list.text("FT/S", {right, y}, {kSmallText, Align::right});
   for (const Row& row : rows(state)) {
@@ -261,7 +261,7 @@ void draw_velocity_differences(const databuffer::RadarState& state, DrawList& li
   }
 }
 
-void draw_velocity_format(const GlassInput& input, DrawList& list) {
+void draw_velocity_format(const DisplayInput& input, DrawList& list) {
   constexpr float left = 130.0F, right = 350.0F;
   float y = 168.0F;  // all rows above the place of what has gone silent
   for (const Row& row : rows(input.state)) {

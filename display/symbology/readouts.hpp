@@ -41,8 +41,8 @@ void draw_map_timer(double seconds, DrawList& list);  // nothing while NaN
 void draw_mode_name(const databuffer::RadarState& state, DrawList& list);
 void draw_freeze(DrawList& list);
 void draw_message(const databuffer::RadarState& state, DrawList& list);
-void draw_banner(std::string_view words, DrawList& list);   // STBY, NO VIDEO
-void draw_silent(const GlassInput& input, DrawList& list);  // NO OWNSHIP, NO MODEL, NO STATE MACHINE
+void draw_banner(std::string_view words, DrawList& list);     // STBY, NO VIDEO
+void draw_silent(const DisplayInput& input, DrawList& list);  // NO OWNSHIP, NO MODEL, NO STATE MACHINE
 
 // What the radar measures of the aircraft's velocity against what the navigator has.
 // Source: docs/spec/pilots_interface.md#rule-16.
@@ -51,6 +51,6 @@ void draw_silent(const GlassInput& input, DrawList& list);  // NO OWNSHIP, NO MO
 void draw_velocity_differences(const databuffer::RadarState& state, DrawList& list);
 
 // PVU: the same large, all the time, and the beam under way.
-void draw_velocity_format(const GlassInput& input, DrawList& list);
+void draw_velocity_format(const DisplayInput& input, DrawList& list);
 
 }  // namespace yars::display

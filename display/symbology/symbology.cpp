@@ -135,7 +135,7 @@ double arc_spacing(double range_nm, std::size_t range_index, std::span<const dou
   return spacing;
 }
 
-void draw_range_arcs(const GlassView& view, double spacing, DrawList& list) {
+void draw_range_arcs(const PlanView& view, double spacing, DrawList& list) {
   constexpr double kWhole = 1e-9;  // a spacing that divides the range may miss its end by rounding
   list.draw_on(Layer::grid);
   const auto arc = [&](double fraction) {
@@ -146,7 +146,7 @@ void draw_range_arcs(const GlassView& view, double spacing, DrawList& list) {
   list.draw_on(Layer::symbols);
 }
 
-void draw_zero_azimuth_line(const GlassView& view, DrawList& list) {
+void draw_zero_azimuth_line(const PlanView& view, DrawList& list) {
   list.draw_on(Layer::grid);
   list.line(view.apex(), view.at_polar(0.0, 1.0), Ink::dim);
   list.draw_on(Layer::symbols);
@@ -252,7 +252,7 @@ AttitudeSource attitude_source(const databuffer::Nav& nav) {
   return (nav.flags & databuffer::kNavAttitudeFromAhrs) != 0 ? AttitudeSource::ahrs : AttitudeSource::ins;
 }
 
-void draw_scales(const GlassInput& input, DrawList& list) {
+void draw_scales(const DisplayInput& input, DrawList& list) {
   const geo::Bearing antenna = geo::Bearing::degrees(input.ownship.heading_deg + input.model.antenna_azimuth_deg);
   draw_azimuth_scale((antenna - databuffer::ground_track_of(input.ownship)).degrees(), list);
   draw_elevation_scale(input.model.antenna_elevation_deg, list);
@@ -272,7 +272,7 @@ Sector sector_of_window(const databuffer::Ownship& ownship, geo::GeoPoint centre
 }
 
 // What the antenna covers: the map that forms, else the one on the glass, else the scan.
-Sector covered_sector(const GlassInput& input) {
+Sector covered_sector(const DisplayInput& input) {
   const databuffer::ModelStatus& model = input.model;
   if (model.map_window_nm > 0.0)
     return sector_of_window(input.ownship, {model.map_latitude_deg, model.map_longitude_deg}, model.map_window_nm);
@@ -281,13 +281,13 @@ Sector covered_sector(const GlassInput& input) {
   return {geo::Bearing::degrees(model.scan_centre_deg), model.scan_width_deg / 2.0};
 }
 
-void draw_limits(const GlassInput& input, double blind_zone_deg, DrawList& list) {
+void draw_limits(const DisplayInput& input, double blind_zone_deg, DrawList& list) {
   const Sector sector = covered_sector(input);
   const double middle_deg = (sector.middle - databuffer::ground_track_of(input.ownship)).degrees();
   draw_limit_balls(middle_deg - sector.half_width_deg, middle_deg + sector.half_width_deg, blind_zone_deg, list);
 }
 
-void draw_readouts(const GlassInput& input, const Format& format, DrawList& list) {
+void draw_readouts(const DisplayInput& input, const Format& format, DrawList& list) {
   const databuffer::RadarState& state = input.state;
   draw_brightness(state, list);
   draw_range(state, list);
@@ -303,8 +303,8 @@ void draw_readouts(const GlassInput& input, const Format& format, DrawList& list
 }
 
 // Symbols before labels, which keep clear of them.
-void draw_ground(const GlassInput& input, std::span<const radar::RoutePoint> route, const GlassView& view,
-                 const GlassFrame& frame, LabelMemory& labels, DrawList& list) {
+void draw_ground(const DisplayInput& input, std::span<const radar::RoutePoint> route, const PlanView& view,
+                 const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
   const PlacedPoints placed = place_points(input, view, frame, labels, list);
   draw_points(input.state, route, placed, list);
   const auto heading = draw_steering_line(input, view, frame, list);
@@ -316,8 +316,8 @@ void draw_ground(const GlassInput& input, std::span<const radar::RoutePoint> rou
   place_labels(queue.labels(), labels, list);
 }
 
-void draw_format(const GlassInput& input, const Format& format, const radar::RadarConfiguration& configuration,
-                 const GlassView& view, const GlassFrame& frame, LabelMemory& labels, DrawList& list) {
+void draw_format(const DisplayInput& input, const Format& format, const radar::RadarConfiguration& configuration,
+                 const PlanView& view, const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
   // On a map that could not be read nobody knows where anything lies.
   const bool placed = format.ground && (!format.map || shows_map(input));
   // Before the readouts, which give way to it.
@@ -343,14 +343,14 @@ bool shows_video(const databuffer::RadarState& state) {
   return has_power(state, radar::Power::operate) && format_of(state).video;
 }
 
-bool shows_map(const GlassInput& input) {
+bool shows_map(const DisplayInput& input) {
   const databuffer::RadarState& state = input.state;
   return has_power(state, radar::Power::operate) && format_of(state).map && input.map.id != 0 &&
          input.map.id == state.map_shown;
 }
 
-void draw_symbology(const GlassInput& input, const radar::RadarConfiguration& configuration, const GlassView& view,
-                    const GlassFrame& frame, LabelMemory& labels, DrawList& list) {
+void draw_symbology(const DisplayInput& input, const radar::RadarConfiguration& configuration, const PlanView& view,
+                    const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
   const databuffer::RadarState& state = input.state;
   list.clear();
   if (has_power(state, radar::Power::off)) {
@@ -365,7 +365,7 @@ void draw_symbology(const GlassInput& input, const radar::RadarConfiguration& co
   if (has_power(state, radar::Power::standby)) {
     draw_banner("STBY", list);
   } else if (shows_map(input)) {
-    draw_format(input, format_of(state), configuration, GlassView(input.map), frame_of(input.map), labels, list);
+    draw_format(input, format_of(state), configuration, PlanView(input.map), frame_of(input.map), labels, list);
   } else {
     draw_format(input, format_of(state), configuration, view, frame, labels, list);
   }

@@ -27,8 +27,8 @@ void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, D
 // From arc to arc as a share of the range, at least 0.05: the configuration's [NM] for this range, else a quarter.
 double arc_spacing(double range_nm, std::size_t range_index, std::span<const double> spacing_nm);
 // At each multiple of the spacing, and at the range itself.
-void draw_range_arcs(const GlassView& view, double spacing, DrawList& list);
-void draw_zero_azimuth_line(const GlassView& view, DrawList& list);
+void draw_range_arcs(const PlanView& view, double spacing, DrawList& list);
+void draw_zero_azimuth_line(const PlanView& view, DrawList& list);
 void draw_gray_scale(DrawList& list);
 
 // Everything that is drawn over the video, by power and mode: the table of docs/spec/pilots_interface.md#symbology.
@@ -40,10 +40,10 @@ void draw_gray_scale(DrawList& list);
 // True when the radar operates and sweeps are what the mode shows.
 bool shows_video(const databuffer::RadarState& state);
 // True when the radar operates and the map of the input is on the glass.
-bool shows_map(const GlassInput& input);
+bool shows_map(const DisplayInput& input);
 
 // `view` and `frame` are those of sweeps; on a map they are not used. `labels` is what the picture before left.
-void draw_symbology(const GlassInput& input, const radar::RadarConfiguration& configuration, const GlassView& view,
-                    const GlassFrame& frame, LabelMemory& labels, DrawList& list);
+void draw_symbology(const DisplayInput& input, const radar::RadarConfiguration& configuration, const PlanView& view,
+                    const ViewFrame& frame, LabelMemory& labels, DrawList& list);
 
 }  // namespace yars::display

@@ -13,7 +13,7 @@ namespace {
 // [bytes] a day of flight at 50 Hz; what is larger is no text of ours, and would be held in memory whole.
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;
 // What the lines of a text become takes more memory than the text where they are short.
-constexpr std::ptrdiff_t kMostLines = 10'000'000;
+constexpr std::ptrdiff_t kMaxLines = 10'000'000;
 
 }  // namespace
 
@@ -34,7 +34,7 @@ error::Expected<std::string> read_text_file(const std::filesystem::path& path) {
   file.read(text.data(), static_cast<std::streamsize>(size));
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (file.bad()) return error::fail(path.string(), "a file that can be read to its end", std::strerror(errno));
-  if (const auto lines = std::ranges::count(text, '\n'); lines > kMostLines)
+  if (const auto lines = std::ranges::count(text, '\n'); lines > kMaxLines)
     return error::fail(path.string(), "at most 10 million lines", std::to_string(lines), "split the file");
   return text;
 }

@@ -83,12 +83,12 @@ Length radius_of_curvature(double latitude_deg, Bearing azimuth) {
 namespace {
 using Coefficients = GeodesicSeries::Coefficients;
 
-constexpr double kAimM = 5e-4;  // of the first term left out: half of what is promised, for the others
+constexpr double kAim_m = 5e-4;  // of the first term left out: half of what is promised, for the others
 // [m] between both radii; only to judge how near the pole is.
-constexpr double kMeanRadiusM = 6371008.8;
+constexpr double kMeanRadius_m = 6371008.8;
 
 // 1 / k: a multiplication is several times as fast as a division.
-constexpr std::array<double, GeodesicSeries::kMostOrder + 1> kInverse{
+constexpr std::array<double, GeodesicSeries::kMaxOrder + 1> kInverse{
     0.0, 1.0, 1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0, 1.0 / 5.0, 1.0 / 6.0, 1.0 / 7.0, 1.0 / 8.0};
 
 // Term k of the product of two series.
@@ -177,12 +177,12 @@ Coefficients arcsine(const Coefficients& sine, double first_cosine, std::size_t 
 
 int GeodesicSeries::order_for(double latitude_deg, Length range) {
   // Both series converge up to about the pole's distance: what is left out is near its power.
-  const double to_pole_m = (90.0 - std::abs(latitude_deg)) * kRadiansPerDegree * kMeanRadiusM;
+  const double to_pole_m = (90.0 - std::abs(latitude_deg)) * kRadiansPerDegree * kMeanRadius_m;
   const double share = range.metres() / to_pole_m;
   double left_out_m = to_pole_m * share;
-  for (int order = 1; order <= kMostOrder; ++order) {
+  for (int order = 1; order <= kMaxOrder; ++order) {
     left_out_m *= share;
-    if (left_out_m < kAimM * (order + 1)) return order;
+    if (left_out_m < kAim_m * (order + 1)) return order;
   }
   return 0;
 }

@@ -56,16 +56,16 @@ Length radius_of_curvature(double latitude_deg, Bearing azimuth);
 // asked for (tests/lib/geo/geodesic_series_test.cpp). Short means against the way to the nearer pole, where longitude
 // turns without bound.
 struct GeodesicSeries {
-  static constexpr int kMostOrder = 8;
+  static constexpr int kMaxOrder = 8;
 
-  // The lowest order that holds within 1 mm for every azimuth; 0: none up to kMostOrder does.
+  // The lowest order that holds within 1 mm for every azimuth; 0: none up to kMaxOrder does.
   static int order_for(double latitude_deg, Length range);
 
-  // Order in [1, kMostOrder]; no start on a pole.
+  // Order in [1, kMaxOrder]; no start on a pole.
   GeodesicSeries(GeoPoint start, Bearing azimuth, int order);
 
   // Coefficients [deg/m^k] of the distance's powers 0..order. Longitude runs on across the antimeridian.
-  using Coefficients = std::array<double, kMostOrder + 1>;
+  using Coefficients = std::array<double, kMaxOrder + 1>;
   int order;
   Coefficients latitude_deg{};
   Coefficients longitude_deg{};

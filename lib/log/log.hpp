@@ -14,7 +14,7 @@ namespace yars::log {
 class RepeatFilter {
  public:
   static constexpr std::int64_t kWindow_ns = 10'000'000'000;  // [ns] from the first line of a kind on
-  static constexpr std::size_t kMostKinds = 64;               // more at a time count together
+  static constexpr std::size_t kMaxKinds = 64;                // more at a time count together
 
   // Lines that pass within a window: of one kind, and of all kinds together.
   RepeatFilter(int most_of_a_kind, int most_of_all) : most_of_a_kind_(most_of_a_kind), most_of_all_(most_of_all) {}

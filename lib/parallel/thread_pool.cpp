@@ -24,18 +24,18 @@ std::uint32_t wait_for_change(const std::atomic<std::uint32_t>& value, std::uint
   return value.load(std::memory_order_acquire);
 }
 
-Workers::Workers(std::size_t threads) {
+ThreadPool::ThreadPool(std::size_t threads) {
   for (std::size_t number = 1; number < threads; ++number) helpers_.emplace_back([this, number] { help(number); });
 }
 
-Workers::~Workers() {
+ThreadPool::~ThreadPool() {
   job_ = nullptr;
   turn_.fetch_add(1, std::memory_order_release);
   turn_.notify_all();
   for (std::thread& helper : helpers_) helper.join();
 }
 
-void Workers::run(const std::function<void(std::size_t)>& job) {
+void ThreadPool::run(const std::function<void(std::size_t)>& job) {
   if (helpers_.empty()) {
     job(0);
     return;
@@ -48,7 +48,7 @@ void Workers::run(const std::function<void(std::size_t)>& job) {
   for (std::uint32_t busy = busy_.load(std::memory_order_acquire); busy != 0;) busy = wait_for_change(busy_, busy);
 }
 
-void Workers::help(std::size_t number) {
+void ThreadPool::help(std::size_t number) {
   std::uint32_t turn = 0;
   while (true) {
     turn = wait_for_change(turn_, turn);

@@ -17,13 +17,13 @@ namespace yars::parallel {
 // Until the value is another one than the one seen; looks for a while before it sleeps. Whoever changes it notifies.
 std::uint32_t wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t seen);
 
-class Workers {
+class ThreadPool {
  public:
   // `threads` with the caller, at least 1.
-  explicit Workers(std::size_t threads);
-  ~Workers();
-  Workers(const Workers&) = delete;
-  Workers& operator=(const Workers&) = delete;
+  explicit ThreadPool(std::size_t threads);
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
 
   std::size_t threads() const { return helpers_.size() + 1; }
   // Calls job(0) here and job(1), ... on the helpers; returns when all are done. One call at a time.
@@ -42,7 +42,7 @@ class Workers {
 // Hands that share a piece of work. What they make is the same however many they are.
 
 // Runs job(0), ..., job(threads - 1) at the same time and waits for all.
-struct Crew {
+struct Executor {
   std::size_t threads = 1;
   std::function<void(const std::function<void(std::size_t)>&)> run = [](const auto& job) { job(0); };
 };
@@ -74,7 +74,7 @@ class Share {
 // job(first, behind the last, thread) on `count` things, so many a piece: every thread works through a share of its
 // own, the same in every stage, for what it made is in its cache; then it takes pieces from the ends of the others'.
 template <class Job>
-void share_out(const Crew& crew, int count, int piece, const Job& job) {
+void parallel_for(const Executor& crew, int count, int piece, const Job& job) {
   if (crew.threads == 1) return crew.run([&](std::size_t thread) { job(0, count, thread); });
   const std::size_t pieces = static_cast<std::size_t>((count + piece - 1) / piece);
   std::vector<Share> shares(crew.threads);

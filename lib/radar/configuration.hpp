@@ -69,7 +69,7 @@ enum class BeamPattern : std::uint8_t { hard_edge = 0, gaussian = 1, cosecant_sq
 enum class Interpolation : std::uint8_t { nearest = 0, bilinear = 1, cubic = 2 };
 enum class Algorithm : std::uint8_t { standard = 0, reference = 1, report_1996 = 2 };
 
-inline constexpr int kMostSubBeams = 15;
+inline constexpr int kMaxSubBeams = 15;
 
 // The trade of speed against accuracy, by name or knob by knob.
 struct Fidelity {

@@ -10,8 +10,8 @@
 
 namespace yars::radar {
 
-inline constexpr std::size_t kMostDevices = 64;
-inline constexpr std::size_t kMostControls = 256;  // buttons of a device, and as many axes
+inline constexpr std::size_t kMaxDevices = 64;
+inline constexpr std::size_t kMaxControls = 256;  // buttons of a device, and as many axes
 
 // Codes are texts, as in linux/input-event-codes.h; events are texts, as `yars inject` takes them.
 struct DeviceButton {

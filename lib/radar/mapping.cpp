@@ -71,8 +71,8 @@ geo::Length map_resolution(geo::Length window) {
 
 int map_strips(geo::Length window, geo::Length slant_range, geo::Angle azimuth_beamwidth) {
   const double swath_m = slant_range.metres() * azimuth_beamwidth.radians();
-  constexpr double kMostStrips = 1000.0;  // of a window far wider than any beam; the cap ends it anyway
-  return static_cast<int>(std::clamp(std::ceil(window.metres() / swath_m), 1.0, kMostStrips));
+  constexpr double kMaxStrips = 1000.0;  // of a window far wider than any beam; the cap ends it anyway
+  return static_cast<int>(std::clamp(std::ceil(window.metres() / swath_m), 1.0, kMaxStrips));
 }
 
 geo::Duration formation_time(const MapLook& look, const RadarConfiguration& configuration) {
@@ -93,7 +93,7 @@ bool in_blind_zone(geo::Angle squint, const HighResolutionConfiguration& configu
   return std::min(off_deg, 180.0 - off_deg) < configuration.blind_zone_deg;
 }
 
-geo::Angle sharpened_beamwidth(geo::Angle squint, geo::Speed ground_speed, const RadarConfiguration& configuration) {
+geo::Angle dbs_beamwidth(geo::Angle squint, geo::Speed ground_speed, const RadarConfiguration& configuration) {
   const geo::Angle beam = geo::Angle::degrees(configuration.antenna.azimuth_beamwidth_deg);
   const double doppler_mps = ground_speed.metres_per_second() * std::abs(std::sin(squint.radians()));
   const double sharpened_rad =

@@ -72,7 +72,7 @@ geo::Duration formation_time(const MapLook& look, const RadarConfiguration& conf
 bool in_blind_zone(geo::Angle squint, const HighResolutionConfiguration& configuration);
 
 // Angle that the Doppler beam sharpened scan resolves: lambda / (2 V T sin(squint)), at most the beam's own width.
-geo::Angle sharpened_beamwidth(geo::Angle squint, geo::Speed ground_speed, const RadarConfiguration& configuration);
+geo::Angle dbs_beamwidth(geo::Angle squint, geo::Speed ground_speed, const RadarConfiguration& configuration);
 
 // Whether the radar can make a patch map of a place, and if not, what the display says. Holds for a first map and for
 // every re-map. Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-4, #rule-5; tables 3 and 4 of the report.

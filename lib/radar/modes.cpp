@@ -48,7 +48,7 @@ std::string_view name_of(Navigator navigator) {
 
 namespace {
 
-constexpr int kGreatestNumber = 100;
+constexpr int kMaxNumber = 100;
 
 std::optional<int> number_of(std::string_view digits) {
   const bool plain = std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
@@ -72,7 +72,7 @@ std::optional<PointName> point_name(std::string_view text) {
   const std::string_view whole = text.substr(0, dot);
   const auto number = number_of(whole);
   // A leading zero would give one point two names.
-  if (!number || whole.front() == '0' || *number > kGreatestNumber) return std::nullopt;
+  if (!number || whole.front() == '0' || *number > kMaxNumber) return std::nullopt;
   if (dot == std::string_view::npos) return PointName{*number, 0, false};
 
   const std::string_view behind = text.substr(dot + 1);

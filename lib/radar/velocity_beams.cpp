@@ -12,7 +12,7 @@ namespace {
 
 // Of the normal matrix of unit vectors, a pure number: below it the beams lie in one plane but for a few degrees, and
 // the velocity across that plane would be all noise.
-constexpr double kLeastDeterminant = 1e-3;
+constexpr double kMinDeterminant = 1e-3;
 
 // Rows of the inverse of the normal matrix, the sum of line times line transposed. It is symmetric, so rows are
 // columns.
@@ -28,7 +28,7 @@ std::optional<Matrix> inverse_of_normal_matrix(std::span<const Vector3> lines) {
   const Matrix cofactors{cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])};
   const double determinant = dot(rows[0], cofactors[0]);
   // Written so that NaN fails.
-  if (!(determinant >= kLeastDeterminant)) return std::nullopt;
+  if (!(determinant >= kMinDeterminant)) return std::nullopt;
   return Matrix{1.0 / determinant * cofactors[0], 1.0 / determinant * cofactors[1], 1.0 / determinant * cofactors[2]};
 }
 
@@ -55,7 +55,7 @@ std::optional<double> horizontal_dilution(std::span<const Vector3> lines) {
 }
 
 std::optional<double> horizontal_dilution(const NavigationConfiguration& navigation) {
-  std::array<Vector3, kMostVelocityBeams> lines;
+  std::array<Vector3, kMaxVelocityBeams> lines;
   const std::size_t beams =
       std::min({lines.size(), navigation.beam_azimuths_deg.size(), navigation.beam_depressions_deg.size()});
   for (std::size_t i = 0; i < beams; ++i)

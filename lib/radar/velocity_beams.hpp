@@ -12,8 +12,8 @@
 
 namespace yars::radar {
 
-inline constexpr std::size_t kLeastVelocityBeams = 3;
-inline constexpr std::size_t kMostVelocityBeams = 8;
+inline constexpr std::size_t kMinVelocityBeams = 3;
+inline constexpr std::size_t kMaxVelocityBeams = 8;
 
 // The unit vector into a direction.
 geo::Vector3 line_of_sight(geo::Bearing azimuth, geo::Angle elevation);

@@ -15,14 +15,14 @@ namespace yars::radar {
 inline constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
 // Surface material codes are those of DFAD; 0 stands for a place without culture.
-inline constexpr int kMaterials = 32;      // codes 0..31
-inline constexpr int kWaterMaterial = 6;   // returns what the sea returns
-inline constexpr int kMostRainCells = 64;  // bounds on what one sweep has to look at
-inline constexpr int kMostJammers = 16;
-inline constexpr int kMostMovers = 64;
-inline constexpr int kMostBeacons = 64;
-inline constexpr int kMostReplies = 6;
-inline constexpr int kMostScenes = 1024;
+inline constexpr int kMaterials = 32;     // codes 0..31
+inline constexpr int kWaterMaterial = 6;  // returns what the sea returns
+inline constexpr int kMaxRainCells = 64;  // bounds on what one sweep has to look at
+inline constexpr int kMaxJammers = 16;
+inline constexpr int kMaxMovers = 64;
+inline constexpr int kMaxBeacons = 64;
+inline constexpr int kMaxReplies = 6;
+inline constexpr int kMaxScenes = 1024;
 
 // What a surface material returns: sigma0 = gamma sin(grazing).
 struct Material {
@@ -103,7 +103,7 @@ struct Beacon {
   double altitude_m = kNotGiven;  // [m] MSL; not given: a mast on the ground
   int code = 1;                   // that it answers to
   double delay_us = 2.0;          // [us] from the pulse that it hears to the first reply
-  int replies = 2;                // 2..kMostReplies
+  int replies = 2;                // 2..kMaxReplies
   double spacing_us = 10.0;       // [us] between replies: by it the pilot knows whom he sees
   double power_w = 100.0;         // [W] effective radiated
 };

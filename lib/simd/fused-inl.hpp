@@ -1,11 +1,11 @@
 // Products and sums rounded once, of floats and doubles, for vectors of any width (Highway): the same bits on every
 // target, whether it has an instruction for them or not. Highway's own MulAdd rounds twice where the target has none.
 // Included once for each target.
-#if defined(YARS_LIB_LANES_FUSED_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef YARS_LIB_LANES_FUSED_INL
-#undef YARS_LIB_LANES_FUSED_INL
+#if defined(YARS_LIB_SIMD_FUSED_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef YARS_LIB_SIMD_FUSED_INL
+#undef YARS_LIB_SIMD_FUSED_INL
 #else
-#define YARS_LIB_LANES_FUSED_INL
+#define YARS_LIB_SIMD_FUSED_INL
 #endif
 
 #include <hwy/highway.h>

@@ -48,9 +48,9 @@ bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& 
 namespace {
 // Share of the sweeping time that a turn-around takes; makes FULL 1 s at 110 deg/s. Another value changes the period.
 constexpr double kTurnShare = 0.1;
-constexpr double kLeastWidthDeg = 1.0;  // [deg] a narrower sector would be all turn-around
-constexpr double kLeastRateDps = 1.0;   // [deg/s] below it a scan takes minutes: a mistake in the configuration
-constexpr int kMostBars = 4;
+constexpr double kMinWidth_deg = 1.0;  // [deg] a narrower sector would be all turn-around
+constexpr double kMinRateDps = 1.0;    // [deg/s] below it a scan takes minutes: a mistake in the configuration
+constexpr int kMaxBars = 4;
 // A quotient that should be whole may come out a rounding error above: without this, ceil() adds a tick.
 constexpr double kWholeSlack = 1e-9;
 }  // namespace
@@ -73,13 +73,13 @@ double ScanPattern::bar_deg(int bar) const {
 
 ScanPattern make_scan_pattern(const radar::AntennaConfiguration& antenna, double width_deg) {
   ScanPattern pattern;
-  const double rate_dps = std::max(antenna.azimuth_rate_dps, kLeastRateDps);
+  const double rate_dps = std::max(antenna.azimuth_rate_dps, kMinRateDps);
   pattern.circular = antenna.circular_scan;
-  pattern.bars = std::clamp(antenna.scan_bars, 1, kMostBars);
+  pattern.bars = std::clamp(antenna.scan_bars, 1, kMaxBars);
   pattern.bar_spacing_deg = antenna.elevation_beamwidth_deg;
   const double widest_deg = pattern.circular ? 360.0 : 2.0 * antenna.azimuth_limit_deg;
   // min and max in this order also take a width that is not a number to the least.
-  pattern.width_deg = pattern.circular ? 360.0 : std::min(std::max(kLeastWidthDeg, width_deg), widest_deg);
+  pattern.width_deg = pattern.circular ? 360.0 : std::min(std::max(kMinWidth_deg, width_deg), widest_deg);
   const double sweeping_ticks = pattern.width_deg / rate_dps / radar::kTickSeconds;
   pattern.sweep_ticks = std::max(1, static_cast<int>(std::ceil(sweeping_ticks - kWholeSlack)));
   const auto period_ticks = static_cast<int>(std::lround((1.0 + kTurnShare) * sweeping_ticks));

@@ -170,7 +170,7 @@ PatchMaker::~PatchMaker() {
   thread_.join();
 }
 
-void PatchMaker::request(const kernel::MapUnderWay& map, const std::vector<physics::MovingPoint>& traffic) {
+void PatchMaker::request(const kernel::PendingMap& map, const std::vector<physics::MovingPoint>& traffic) {
   const Wanted wanted{map.order, map.id, map.start_tick, traffic};
   if (may_wait_) return make(wanted);
   {
@@ -181,7 +181,7 @@ void PatchMaker::request(const kernel::MapUnderWay& map, const std::vector<physi
   wake_.notify_one();
 }
 
-const PatchMaker::Picture* PatchMaker::finished(const kernel::MapUnderWay& map) {
+const PatchMaker::Picture* PatchMaker::finished(const kernel::PendingMap& map) {
   const std::scoped_lock lock(mutex_);
   if (done_) handed_ = std::exchange(done_, std::nullopt);
   const bool same = handed_ && handed_->id == map.id && handed_->start_tick == map.start_tick;

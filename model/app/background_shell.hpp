@@ -118,9 +118,9 @@ class PatchMaker {
   };
 
   // `traffic`: as it is when the map begins.
-  void request(const kernel::MapUnderWay& map, const std::vector<physics::MovingPoint>& traffic);
+  void request(const kernel::PendingMap& map, const std::vector<physics::MovingPoint>& traffic);
   // The picture of this map, once it is done.
-  const Picture* finished(const kernel::MapUnderWay& map);
+  const Picture* finished(const kernel::PendingMap& map);
   std::vector<std::string> take_problems();
 
  private:
@@ -134,7 +134,7 @@ class PatchMaker {
   void make(const Wanted& wanted);
   bool given_up() const { return ending_ || superseded_; }
 
-  hrm::PatchProcess process_;
+  hrm::PatchFormation process_;
   PatchStores stores_;
   bool may_wait_;
   std::mutex mutex_;

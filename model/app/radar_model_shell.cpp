@@ -47,7 +47,7 @@ void RadarModelShell::resume() {
   tick_.resumed_tick = -1;
   databuffer::ModelStatus left{};
   if (!session_->layout().model_status.read(left)) return;
-  if (const auto reason = databuffer::why_refused(left)) {
+  if (const auto reason = databuffer::validate(left)) {
     session_->note(databuffer::NoteKind::refusal, "model status left behind: " + *reason);
     log::warning("model status left behind is refused, starting anew: " + *reason);
     return;
@@ -118,7 +118,7 @@ void RadarModelShell::tell_of_jump(const databuffer::Ownship& there, std::uint32
         next.followed = 1;
         return next;
       },
-      databuffer::Patience::none);
+      databuffer::WaitPolicy::none);
   if (!told) return;  // somebody else sets the clock just now: the next tick tries again
   const std::string text = "the aircraft of '" + databuffer::name_of_source(there, lane) + "' has jumped: a new epoch";
   session_->note(databuffer::NoteKind::restart, text);
@@ -152,7 +152,7 @@ void RadarModelShell::latch_command() {
   const auto version = slot.read(state);
   if (!version) return;
   state_version_ = *version;
-  if (const auto reason = databuffer::why_refused(state)) {
+  if (const auto reason = databuffer::validate(state)) {
     ++refused_;
     session_->note(databuffer::NoteKind::refusal, "radar state: " + std::string(*reason));
     return;
@@ -208,7 +208,7 @@ void RadarModelShell::note_problems(const std::vector<std::string>& problems) {
 void RadarModelShell::ask_for_map() {
   note_problems(patches_->take_problems());
   if (!kernel_.maps().forming()) return;
-  const kernel::MapUnderWay& map = kernel_.maps().map();
+  const kernel::PendingMap& map = kernel_.maps().map();
   if (map.id == map_asked_ && map.start_tick == map_asked_tick_) return;
   map_asked_ = map.id;
   map_asked_tick_ = map.start_tick;
@@ -226,7 +226,7 @@ bool RadarModelShell::publish_due_map() {
 }
 
 void RadarModelShell::publish_map(const PatchMaker::Picture& picture) {
-  const kernel::MapUnderWay& under_way = kernel_.maps().map();
+  const kernel::PendingMap& under_way = kernel_.maps().map();
   databuffer::PatchMap map{};
   map.id = under_way.id;
   map.start_tick = under_way.start_tick;

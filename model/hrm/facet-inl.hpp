@@ -134,7 +134,7 @@ HWY_INLINE Floats shading(Floats a, Floats b, Floats c, const Facet& facet) {
       hn::And(hn::Gt(hn::Max(hn::Max(off(a), off(b)), off(c)), set(kSmooth)), hn::Gt(facing, hn::Zero(d)));
   const auto mean = hn::Mul(hn::Add(hn::Add(a, b), c), set(1.0F / 3.0F));
   const auto ratio =
-      hn::Min(hn::Max(hn::Div(mean, facing), hn::Zero(d)), set(static_cast<float>(physics::kMostShading)));
+      hn::Min(hn::Max(hn::Div(mean, facing), hn::Zero(d)), set(static_cast<float>(physics::kMaxShading)));
   return hn::IfThenElse(smooth, ratio, set(1.0F));
 }
 

@@ -16,7 +16,7 @@ constexpr int kFinestEdge = 512;        // texels: 1 MiB, which the second-level
 constexpr double kFinestTexel_m = 4.0;  // detail below it is speckle's
 constexpr double kCoarsest_m = 256.0;   // [m] longest wave; beyond it the posts say what there is
 constexpr double kMetresPerDegree = 60.0 * geo::kMetresPerNauticalMile;
-constexpr float kMostByte = 255.0F;
+constexpr float kMaxByte = 255.0F;
 constexpr std::uint32_t kSeed = 0x59a75u;
 
 // Periodic fractal noise: octaves from the longest wave down to two texels, each as strong as the one before.
@@ -78,7 +78,7 @@ Detail::Detail(double contrast, double pixel_m) : pixel_m_(pixel_m), texels_per_
   texels_per_metre_ = static_cast<float>(1.0 / texel_m);
   std::vector<float> texels = fractal_table(edge_, texel_m);
   shape(texels, contrast);
-  unit_ = *std::max_element(texels.begin(), texels.end()) / kMostByte;
+  unit_ = *std::max_element(texels.begin(), texels.end()) / kMaxByte;
   pack(texels);
 }
 

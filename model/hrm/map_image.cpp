@@ -13,16 +13,16 @@ namespace yars::model::hrm {
 
 namespace {
 // Grazing nearly level would make the unit vanish; the picture is dark there anyway.
-constexpr double kLeastSine = 1.0e-3;
+constexpr double kMinSine = 1.0e-3;
 }  // namespace
 
 double unit_return_m2(const PatchGeometry& geometry, int pixels) {
   const double pixel_m = geometry.window_m() / pixels;
-  return pixel_m * pixel_m * std::max(geometry.sin_grazing(), kLeastSine);
+  return pixel_m * pixel_m * std::max(geometry.sin_grazing(), kMinSine);
 }
 
-void draw_fan(const PatchGeometry& geometry, const FanGrid& grid, const float* cross_section_m2, int first, int last,
-              MapImage& image) {
+void draw_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, const float* cross_section_m2, int first,
+                     int last, MapImage& image) {
   const double pixel_m = geometry.window_m() / image.size;
   const double edge_m = 0.5 * geometry.window_m();
   simd::MapRow row;
@@ -142,8 +142,8 @@ double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo:
          kNoiseWindow_m / window.metres();
 }
 
-void develop(const radar::RadarConfiguration& configuration, const MapImage& image, const MapNoise& noise, int first,
-             int last, std::vector<std::uint8_t>& picture) {
+void form_video(const radar::RadarConfiguration& configuration, const MapImage& image, const MapNoise& noise, int first,
+                int last, std::vector<std::uint8_t>& picture) {
   const radar::HighResolutionConfiguration& hrm = configuration.high_resolution;
   const auto size = static_cast<std::size_t>(image.size);
   Speckle speckle(image.size, noise.looks, configuration.seed, noise.map);
@@ -159,7 +159,7 @@ void develop(const radar::RadarConfiguration& configuration, const MapImage& ima
                                             nullptr,
                                             static_cast<float>(-hrm.brightest_gamma_db),
                                             static_cast<float>(hrm.dynamic_range_db)};
-    physics::simd::develop(size, inputs, &picture[row * size]);
+    physics::simd::form_video(size, inputs, &picture[row * size]);
     if (!image.blind) continue;
     for (std::size_t i = 0; i < size; ++i)
       if (power[i] < 0.0F) picture[row * size + i] = 0;

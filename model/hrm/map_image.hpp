@@ -31,8 +31,8 @@ struct MapImage {
 double unit_return_m2(const PatchGeometry& geometry, int pixels);
 
 // Rows [first, last) of the map from a fan of cross sections, bilinear. Blind cells become -1.
-void draw_fan(const PatchGeometry& geometry, const FanGrid& grid, const float* cross_section_m2, int first, int last,
-              MapImage& image);
+void draw_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, const float* cross_section_m2, int first,
+                     int last, MapImage& image);
 
 // Marks what lies in the blind zone with -1, after all that returns is drawn.
 void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
@@ -89,7 +89,7 @@ struct MapNoise {
 };
 
 // Rows [first, last) of the picture, which is as large as the image. Blank pixels are black.
-void develop(const radar::RadarConfiguration& configuration, const MapImage& image, const MapNoise& noise, int first,
-             int last, std::vector<std::uint8_t>& picture);
+void form_video(const radar::RadarConfiguration& configuration, const MapImage& image, const MapNoise& noise, int first,
+                int last, std::vector<std::uint8_t>& picture);
 
 }  // namespace yars::model::hrm

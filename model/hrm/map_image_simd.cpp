@@ -16,8 +16,8 @@ namespace yars::model::hrm::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace polynomials = physics::HWY_NAMESPACE;
 
-constexpr std::size_t kMostLanes = 16;
-using Tag = hn::CappedTag<float, kMostLanes>;
+constexpr std::size_t kMaxLanes = 16;
+using Tag = hn::CappedTag<float, kMaxLanes>;
 using SignedTag = hn::RebindToSigned<Tag>;
 using BitsTag = hn::RebindToUnsigned<Tag>;
 using Floats = hn::Vec<Tag>;
@@ -30,7 +30,7 @@ HWY_INLINE hn::Vec<SignedTag> start_of(hn::Vec<SignedTag> column, std::int32_t s
   return hn::Add(hn::Mul(strip, hn::Set(di, strip_size)), hn::And(column, hn::Set(di, kStripColumns - 1)));
 }
 
-void draw_row(const FanGrid& grid, const float* fan, const MapRow& row, float* pixel) {
+void draw_row(const PolarGrid& grid, const float* fan, const MapRow& row, float* pixel) {
   const Tag d;
   const SignedTag di;
   const auto ahead2 = hn::Set(d, row.ahead_m * row.ahead_m);
@@ -74,14 +74,14 @@ void draw_row(const FanGrid& grid, const float* fan, const MapRow& row, float* p
     if (left >= hn::Lanes(d)) {
       hn::StoreU(drawn, d, pixel + i);
     } else {
-      HWY_ALIGN float last[kMostLanes];
+      HWY_ALIGN float last[kMaxLanes];
       hn::StoreU(drawn, d, last);
       std::copy_n(last, left, pixel + i);
     }
   }
 }
 
-static_assert(kBlock == kMostLanes);
+static_assert(kBlock == kMaxLanes);
 
 void smooth(std::size_t count, const float* from, std::ptrdiff_t stride, std::span<const float> weights, float* to) {
   const Tag d;
@@ -225,7 +225,7 @@ namespace yars::model::hrm::simd {
 
 HWY_EXPORT(draw_row);
 
-void draw_row(const FanGrid& grid, const float* fan, const MapRow& row, float* pixel) {
+void draw_row(const PolarGrid& grid, const float* fan, const MapRow& row, float* pixel) {
   HWY_DYNAMIC_DISPATCH(draw_row)(grid, fan, row, pixel);
 }
 

@@ -20,7 +20,7 @@ struct MapRow {
 };
 
 // pixel[i] = fan per square metre at the pixel, bilinear, times the scale. Pixels lie within the grid.
-void draw_row(const FanGrid& grid, const float* fan, const MapRow& row, float* pixel);
+void draw_row(const PolarGrid& grid, const float* fan, const MapRow& row, float* pixel);
 
 // Sums over neighbours, by vectors (Highway, chosen at run time; equal bits on every target).
 inline constexpr std::size_t kBlock = 16;

@@ -8,7 +8,7 @@ namespace yars::model::hrm {
 
 namespace {
 constexpr double kClear_m = 0.02;  // what is nearer than this in front of a point is the point's own surface
-constexpr int kMostCells = 2048;   // an edge of the grid
+constexpr int kMaxCells = 2048;    // an edge of the grid
 
 // True if the ray from the origin meets the triangle, `share` of the way to the point (Moeller and Trumbore 1997).
 bool meets(const Occluders::Corners& corners, Point3 point, double& share) {
@@ -65,7 +65,7 @@ void Occluders::measure() {
   const auto span = [&](int axis, double share) {
     Span made;
     made.least = least[axis];
-    made.cells = std::clamp(static_cast<int>(share * cells), 1, kMostCells);
+    made.cells = std::clamp(static_cast<int>(share * cells), 1, kMaxCells);
     made.scale = most[axis] > least[axis] ? made.cells / (most[axis] - least[axis]) : 0.0;
     return made;
   };

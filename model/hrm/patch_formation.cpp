@@ -19,7 +19,7 @@ namespace yars::model::hrm {
 
 // Numbers on a fan: grows, never shrinks, does not keep what it held; each row of a strip on a cache line of its own.
 template <class Number>
-class FanArray {
+class PolarArray {
  public:
   void resize(std::size_t size) {
     if (size <= numbers_.size()) return;
@@ -38,8 +38,8 @@ namespace {
 constexpr int kRowsAPiece = 32;  // of the map
 }  // namespace
 
-struct PatchProcess::Work {
-  Work(const radar::RadarConfiguration& given, parallel::Crew hands)
+struct PatchFormation::Work {
+  Work(const radar::RadarConfiguration& given, parallel::Executor hands)
       : configuration(given),
         crew(std::move(hands)),
         gas(configuration),
@@ -70,28 +70,28 @@ struct PatchProcess::Work {
   template <class Job>
   void share_strips(const Job& job) {
     constexpr int kStripsAPiece = 2;
-    parallel::share_out(crew, grid.strips(), kStripsAPiece, job);
+    parallel::parallel_for(crew, grid.strips(), kStripsAPiece, job);
   }
 
   radar::RadarConfiguration configuration;
-  parallel::Crew crew;
+  parallel::Executor crew;
   physics::GasPath gas;
   MapMovers movers;
   PatchOrder order;
-  PatchDatabase database;
+  PatchEnvironment database;
   PatchState state = PatchState::reset;
   int done = 0;
   std::optional<PatchGeometry> geometry;
   geo::Duration formation{};
-  FanGrid grid;
+  PolarGrid grid;
   std::vector<const scene::Tile*> tiles;
   std::unique_ptr<Detail> detail;
   std::unique_ptr<ReferencePatch> reference;  // instead of what follows, where the fidelity asks for it
-  std::vector<GroundFan> grounds;
+  std::vector<PolarGround> grounds;
   std::vector<SceneRaster> rasters;
-  FanArray<SurfacePoint> surface;
-  FanArray<WallPoint> walls;
-  FanArray<float> cross_section_m2, horizon, arc, crest_m;
+  PolarArray<SurfacePoint> surface;
+  PolarArray<WallPoint> walls;
+  PolarArray<float> cross_section_m2, horizon, arc, crest_m;
   CrestsBetweenRows crests;  // if any crest_m is filled
   bool walls_left = false;   // of a map whose profiles are still to be cast
   std::vector<float> distance_m, inverse_m, above_m, level_m;
@@ -104,13 +104,13 @@ struct PatchProcess::Work {
   std::vector<std::uint8_t> picture;
 };
 
-PatchProcess::PatchProcess(const radar::RadarConfiguration& configuration, parallel::Crew crew)
+PatchFormation::PatchFormation(const radar::RadarConfiguration& configuration, parallel::Executor crew)
     : work_(std::make_unique<Work>(configuration, std::move(crew))) {}
-PatchProcess::~PatchProcess() = default;
-PatchProcess::PatchProcess(PatchProcess&&) noexcept = default;
-PatchProcess& PatchProcess::operator=(PatchProcess&&) noexcept = default;
+PatchFormation::~PatchFormation() = default;
+PatchFormation::PatchFormation(PatchFormation&&) noexcept = default;
+PatchFormation& PatchFormation::operator=(PatchFormation&&) noexcept = default;
 
-PatchNeed PatchProcess::begin(const PatchOrder& order) {
+PatchNeed PatchFormation::begin(const PatchOrder& order) {
   Work& work = *work_;
   work.order = order;
   work.database = {};
@@ -119,14 +119,14 @@ PatchNeed PatchProcess::begin(const PatchOrder& order) {
   return patch_need(order, work.configuration.fidelity);
 }
 
-void PatchProcess::give(const PatchDatabase& database) {
+void PatchFormation::give(const PatchEnvironment& database) {
   YARS_REQUIRE(static_cast<int>(work_->state), ==, static_cast<int>(PatchState::database));
   work_->database = database;
   work_->lay_out();
   work_->state = PatchState::processing;
 }
 
-void PatchProcess::Work::lay_out() {
+void PatchFormation::Work::lay_out() {
   const double elevation_m = database.window->elevation_m(order.centre);
   geometry.emplace(order, configuration.fidelity, std::isnan(elevation_m) ? 0.0 : elevation_m);
   formation = radar::formation_time({geo::Length::metres(geometry->slant_range_m()), order.window,
@@ -134,11 +134,11 @@ void PatchProcess::Work::lay_out() {
                                     configuration);
   tiles.clear();
   if (database.scene) database.scene->tiles_near(order.centre, 1.5 * order.window.metres(), tiles);
-  const FanMargins margins = fan_margins(*geometry, *database.window, tiles, crew);
+  const PolarMargins margins = fan_margins(*geometry, *database.window, tiles, crew);
   const bool exact = configuration.fidelity.algorithm == radar::Algorithm::reference;
   const int cells = exact ? std::max(kReferenceCells, configuration.fidelity.map_oversampling)
                           : configuration.fidelity.map_oversampling;
-  grid = make_fan_grid(*geometry, image.size, cells, margins);
+  grid = make_polar_grid(*geometry, image.size, cells, margins);
   const terrain::TerrainViewPointer facets = database.window;
   if (configuration.fidelity.map_smooth_ground)
     database.window =
@@ -172,7 +172,7 @@ void PatchProcess::Work::lay_out() {
 }
 
 // Who reads the walls clears them: it is done here for new room only, and after a map that was given up.
-void PatchProcess::Work::clear_walls() {
+void PatchFormation::Work::clear_walls() {
   const std::size_t before = walls.size();
   walls.resize(grid.size());
   if (!walls_left && walls.size() == before) return;
@@ -180,7 +180,7 @@ void PatchProcess::Work::clear_walls() {
   walls_left = false;
 }
 
-void PatchProcess::Work::read_terrain() {
+void PatchFormation::Work::read_terrain() {
   share_strips([&](int first, int last, std::size_t thread) {
     if (begun[thread] == 0) grounds[thread].begin(*geometry, grid, *database.path);
     begun[thread] = 1;
@@ -192,7 +192,7 @@ void PatchProcess::Work::read_terrain() {
   if (reference) reference->read_terrain({database.window.get(), database.path.get()});
 }
 
-void PatchProcess::Work::draw_scene() {
+void PatchFormation::Work::draw_scene() {
   if (reference) {
     if (!tiles.empty()) reference->read_scene(*database.scene, tiles, surface.data());
     return;
@@ -203,7 +203,7 @@ void PatchProcess::Work::draw_scene() {
   const auto bands = static_cast<int>(crew.threads == 1 ? 1 : 2 * crew.threads);
   const std::vector<PlacedTile> placed = place_tiles(*geometry, grid, tiles, crew);
   const std::vector<int> begin = even_bands(grid, placed, bands);
-  parallel::share_out(crew, bands, 1, [&](int first, int last, std::size_t thread) {
+  parallel::parallel_for(crew, bands, 1, [&](int first, int last, std::size_t thread) {
     for (auto band = static_cast<std::size_t>(first); band < static_cast<std::size_t>(last); ++band)
       rasters[thread].draw(*geometry, grid, *database.scene, placed, begin[band] * kStripColumns,
                            begin[band + 1] * kStripColumns, {surface.data(), walls.data()});
@@ -211,14 +211,14 @@ void PatchProcess::Work::draw_scene() {
 }
 
 // In place of the profiles and of all that follows them.
-void PatchProcess::Work::shade() {
+void PatchFormation::Work::shade() {
   share_strips([&](int first, int last, std::size_t) {
-    shade_fan(*geometry, grid, {surface.data(), horizon.data()}, first * kStripColumns, last * kStripColumns,
-              cross_section_m2.data());
+    shade_polar_grid(*geometry, grid, {surface.data(), horizon.data()}, first * kStripColumns, last * kStripColumns,
+                     cross_section_m2.data());
   });
 }
 
-void PatchProcess::Work::cast_profiles() {
+void PatchFormation::Work::cast_profiles() {
   if (report_1996) return shade();
   if (reference) return reference->accumulate(surface.data(), image);
   const std::size_t size = grid.strip_size();
@@ -252,17 +252,17 @@ void PatchProcess::Work::cast_profiles() {
   walls_left = false;
 }
 
-void PatchProcess::Work::draw_map() {
+void PatchFormation::Work::draw_map() {
   if (report_1996) {
-    parallel::share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t) {
+    parallel::parallel_for(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t) {
       draw_brightness(*geometry, grid, cross_section_m2.data(), first, last, image);
     });
     image.blind = false;
     return blank_blind_zone(*geometry, order.ground_track, configuration.high_resolution, image);
   }
   if (!reference)
-    parallel::share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t) {
-      draw_fan(*geometry, grid, cross_section_m2.data(), first, last, image);
+    parallel::parallel_for(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t) {
+      draw_polar_grid(*geometry, grid, cross_section_m2.data(), first, last, image);
     });
   image.blind = false;
   // What is below thermal noise or black cannot be seen.
@@ -275,7 +275,7 @@ void PatchProcess::Work::draw_map() {
 }
 
 // Exact at some rows and three heights.
-void PatchProcess::Work::lay_out_gases() {
+void PatchFormation::Work::lay_out_gases() {
   gas_rows.clear();
   if (gas.none()) return;
   constexpr int kKnots = 9;
@@ -306,17 +306,17 @@ void PatchProcess::Work::lay_out_gases() {
   }
 }
 
-void PatchProcess::Work::draw_video() {
-  if (report_1996) return develop_brightness(configuration, image, order.map, picture);
+void PatchFormation::Work::draw_video() {
+  if (report_1996) return form_brightness_video(configuration, image, order.map, picture);
   const double noise = thermal_noise();
   picture.resize(image.power.size());
   constexpr int kRowsOfSpeckle = 128;  // a piece: each begins with two rows of cells of its own
-  parallel::share_out(crew, image.size, kRowsOfSpeckle, [&](int first, int last, std::size_t) {
-    develop(configuration, image, {noise, order.looks, order.map}, first, last, picture);
+  parallel::parallel_for(crew, image.size, kRowsOfSpeckle, [&](int first, int last, std::size_t) {
+    form_video(configuration, image, {noise, order.looks, order.map}, first, last, picture);
   });
 }
 
-void PatchProcess::advance() {
+void PatchFormation::advance() {
   Work& work = *work_;
   using Stage = void (Work::*)();
   constexpr std::array<Stage, kPatchStages.size()> kStages{&Work::read_terrain, &Work::draw_scene, &Work::cast_profiles,
@@ -328,30 +328,30 @@ void PatchProcess::advance() {
   if (work.done == static_cast<int>(kStages.size())) work.state = PatchState::done;
 }
 
-PatchState PatchProcess::state() const {
+PatchState PatchFormation::state() const {
   return work_->state;
 }
-int PatchProcess::stages_done() const {
+int PatchFormation::stages_done() const {
   return work_->done;
 }
-const std::vector<std::uint8_t>& PatchProcess::picture() const {
+const std::vector<std::uint8_t>& PatchFormation::picture() const {
   return work_->picture;
 }
-const MapImage& PatchProcess::image() const {
+const MapImage& PatchFormation::image() const {
   return work_->image;
 }
-const PatchGeometry& PatchProcess::geometry() const {
+const PatchGeometry& PatchFormation::geometry() const {
   return *work_->geometry;
 }
-geo::Duration PatchProcess::formation() const {
+geo::Duration PatchFormation::formation() const {
   return work_->formation;
 }
-std::size_t PatchProcess::triangles() const {
+std::size_t PatchFormation::triangles() const {
   std::size_t sum = 0;
   for (const scene::Tile* tile : work_->tiles) sum += tile->triangles();
   return sum;
 }
-std::size_t PatchProcess::posts_pending() const {
+std::size_t PatchFormation::posts_pending() const {
   std::size_t sum = 0;
   for (const std::size_t count : work_->pending) sum += count;
   return sum;

@@ -24,7 +24,7 @@ namespace yars::model::hrm {
 enum class PatchState : std::uint8_t { reset, database, processing, output, done };
 
 // What the database state is given, see patch_need().
-struct PatchDatabase {
+struct PatchEnvironment {
   terrain::TerrainViewPointer window;
   terrain::TerrainViewPointer path;
   scene::SceneViewPointer scene;  // null: no scene
@@ -33,16 +33,16 @@ struct PatchDatabase {
 
 inline constexpr std::array<std::string_view, 5> kPatchStages{"terrain", "scene", "profile", "map", "video"};
 
-class PatchProcess {
+class PatchFormation {
  public:
-  PatchProcess(const radar::RadarConfiguration& configuration, parallel::Crew crew);
-  ~PatchProcess();
-  PatchProcess(PatchProcess&&) noexcept;
-  PatchProcess& operator=(PatchProcess&&) noexcept;
+  PatchFormation(const radar::RadarConfiguration& configuration, parallel::Executor crew);
+  ~PatchFormation();
+  PatchFormation(PatchFormation&&) noexcept;
+  PatchFormation& operator=(PatchFormation&&) noexcept;
 
-  PatchNeed begin(const PatchOrder& order);  // any state -> database
-  void give(const PatchDatabase& database);  // database -> processing
-  void advance();                            // a stage: processing -> ... -> output -> done
+  PatchNeed begin(const PatchOrder& order);     // any state -> database
+  void give(const PatchEnvironment& database);  // database -> processing
+  void advance();                               // a stage: processing -> ... -> output -> done
   PatchState state() const;
   int stages_done() const;  // of kPatchStages
 

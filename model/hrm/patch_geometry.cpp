@@ -55,13 +55,13 @@ double laid_over_m(double distance_m, double height_m, double above_level_m) {
 
 namespace {
 // A margin taller than the picture by this factor is cut: mountains above the aircraft would ask for any number.
-constexpr double kMostRowsAPixel = 4.0;
+constexpr double kMaxRowsAPixel = 4.0;
 }  // namespace
 
-FanGrid make_fan_grid(const PatchGeometry& geometry, int pixels, int cells, const FanMargins& margins) {
+PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, const PolarMargins& margins) {
   const double half_m = 0.5 * geometry.window_m();
   const double centre_m = geometry.distance_m();
-  FanGrid grid;
+  PolarGrid grid;
   grid.centre_distance_m = centre_m;
   grid.spacing_m = geometry.window_m() / (pixels * cells);
   grid.tangent_step = grid.spacing_m / centre_m;
@@ -72,7 +72,7 @@ FanGrid make_fan_grid(const PatchGeometry& geometry, int pixels, int cells, cons
   grid.columns = (columns + kStripColumns - 1) / kStripColumns * kStripColumns;
   grid.first_tangent = -0.5 * (grid.columns - 1) * grid.tangent_step;
 
-  const double most_m = kMostRowsAPixel * geometry.window_m();
+  const double most_m = kMaxRowsAPixel * geometry.window_m();
   const double near_m = std::max(nearest_m - 3.0 * grid.spacing_m - std::min(margins.near_m, most_m), grid.spacing_m);
   const double far_m = std::hypot(centre_m + half_m, half_m) + 2.0 * grid.spacing_m + std::min(margins.far_m, most_m);
   // Ahead of the centre rows lie on the middles of pixels, as columns do: what lies between rows is less sharp.
@@ -87,7 +87,7 @@ namespace {
 constexpr double kPathDetail_m = 60.0;  // between samples on the way, at least
 constexpr int kReliefSteps = 24;        // places along an edge of the window at which the relief is looked at
 constexpr double kReliefReserve = 1.2;  // what lies between them may stand out so much more
-constexpr double kLeastSine = 0.02;     // shadows grow beyond any margin below a degree
+constexpr double kMinSine = 0.02;       // shadows grow beyond any margin below a degree
 
 constexpr double kPixelsANode = 2.0;  // of smooth ground
 constexpr double kPixelsAPost = 3.0;  // closer posts are not smoothed: no picture shows their facets
@@ -130,9 +130,9 @@ void widen(const PatchGeometry& geometry, const terrain::TerrainView& ground, in
 }
 
 Relief relief_of(const PatchGeometry& geometry, const terrain::TerrainView& ground,
-                 const std::vector<const scene::Tile*>& tiles, const parallel::Crew& crew) {
+                 const std::vector<const scene::Tile*>& tiles, const parallel::Executor& crew) {
   std::vector<Relief> reliefs(crew.threads);
-  parallel::share_out(crew, kReliefSteps + 1, 1, [&](int first, int last, std::size_t thread) {
+  parallel::parallel_for(crew, kReliefSteps + 1, 1, [&](int first, int last, std::size_t thread) {
     widen(geometry, ground, first, last, reliefs[thread]);
   });
   Relief relief;
@@ -185,7 +185,7 @@ PatchNeed patch_need(const PatchOrder& order, const radar::Fidelity& fidelity) {
   return need;
 }
 
-terrain::SmoothOrder smooth_order(const PatchGeometry& geometry, const FanGrid& grid, const radar::Fidelity& fidelity,
+terrain::SmoothOrder smooth_order(const PatchGeometry& geometry, const PolarGrid& grid, const radar::Fidelity& fidelity,
                                   const std::vector<const scene::Tile*>& tiles) {
   const geo::GeoPoint middle = geometry.place_of({});
   terrain::SmoothOrder order{{90.0, -90.0, middle.longitude_deg + 180.0, middle.longitude_deg - 180.0},
@@ -214,10 +214,10 @@ terrain::SmoothOrder smooth_order(const PatchGeometry& geometry, const FanGrid& 
   return order;
 }
 
-FanMargins fan_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,
-                       const std::vector<const scene::Tile*>& tiles, const parallel::Crew& crew) {
+PolarMargins fan_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,
+                         const std::vector<const scene::Tile*>& tiles, const parallel::Executor& crew) {
   const Relief relief = relief_of(geometry, ground, tiles, crew);
-  const double sine = std::max(geometry.sin_grazing(), kLeastSine);
+  const double sine = std::max(geometry.sin_grazing(), kMinSine);
   const double tangent = sine / std::sqrt(std::max(1.0 - sine * sine, 1e-6));
   // Low ground is laid over outwards and high ground inwards; a thing before the near edge shades into the window.
   return {std::max(-relief.lowest_m * tangent, shading_m(geometry, tiles, tangent)), relief.highest_m * tangent};

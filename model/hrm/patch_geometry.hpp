@@ -90,7 +90,7 @@ double laid_over_m(double distance_m, double height_m, double above_level_m);
 // sixteen columns, row by row: a row of a strip is a cache line of floats, and a vector.
 inline constexpr int kStripColumns = 16;
 
-struct FanGrid {
+struct PolarGrid {
   int columns = 0;  // a multiple of kStripColumns
   int rows = 0;
   double first_tangent = 0.0;  // of column 0
@@ -117,16 +117,16 @@ struct FanGrid {
 };
 
 // How far beyond the window's edges something may lie that returns or shades within it [m].
-struct FanMargins {
+struct PolarMargins {
   double near_m = 0.0;
   double far_m = 0.0;
 };
 
 // `cells` a pixel, along and across. Holds the window and the margins, as far as they lie ahead of the aircraft.
-FanGrid make_fan_grid(const PatchGeometry& geometry, int pixels, int cells, const FanMargins& margins);
+PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, const PolarMargins& margins);
 
-// What the fan knows of its points before profiles are cast, by FanGrid::at(). What is read together lies together: who
-// draws small triangles meets one line of the cache a point.
+// What the fan knows of its points before profiles are cast, by PolarGrid::at(). What is read together lies together:
+// who draws small triangles meets one line of the cache a point.
 struct SurfacePoint {
   float gain = 0.0F;      // gamma: cross section [m^2] a square metre seen square on; negative where a thing stands
   float height_m = 0.0F;  // above the map plane, of what is highest
@@ -150,12 +150,12 @@ struct PatchNeed {
 PatchNeed patch_need(const PatchOrder& order, const radar::Fidelity& fidelity);
 
 // Where on the earth the fan reads its ground, and how finely; `tiles` stand on ground that is straight between posts.
-terrain::SmoothOrder smooth_order(const PatchGeometry& geometry, const FanGrid& grid, const radar::Fidelity& fidelity,
+terrain::SmoothOrder smooth_order(const PatchGeometry& geometry, const PolarGrid& grid, const radar::Fidelity& fidelity,
                                   const std::vector<const scene::Tile*>& tiles);
 
 // For what stands or lies outside the window and is laid over or shades into it: by the relief of the ground and the
 // things of the tiles.
-FanMargins fan_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,
-                       const std::vector<const scene::Tile*>& tiles, const parallel::Crew& crew);
+PolarMargins fan_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,
+                         const std::vector<const scene::Tile*>& tiles, const parallel::Executor& crew);
 
 }  // namespace yars::model::hrm

@@ -108,7 +108,7 @@ std::vector<float> Response::weights(double pixel, int& first) const {
 }
 
 // Rows and columns of black about a copy of the image, so that no sum looks over an edge.
-void Response::make_room(const parallel::Crew& crew, const MapImage& image) {
+void Response::make_room(const parallel::Executor& crew, const MapImage& image) {
   const auto size = static_cast<std::size_t>(image.size);
   margin_ = along_reach_ * simd::kBlock;
   columns_ = (size + simd::kBlock - 1) / simd::kBlock * simd::kBlock;
@@ -124,22 +124,22 @@ void Response::make_room(const parallel::Crew& crew, const MapImage& image) {
   }
 }
 
-void Response::apply(float floor, const parallel::Crew& crew, MapImage& image) {
+void Response::apply(float floor, const parallel::Executor& crew, MapImage& image) {
   make_room(crew, image);
   if (main_lobe_.size() > 1)
-    parallel::share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t thread) {
+    parallel::parallel_for(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t thread) {
       smooth_along(first, last, hands_[thread], image);
     });
   const float strong = sidelobes_.empty() ? 0.0F : floor / *std::max_element(sidelobes_.begin(), sidelobes_.end());
   strong_.resize(static_cast<std::size_t>((image.size + kRowsAPiece - 1) / kRowsAPiece));
-  parallel::share_out(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t thread) {
+  parallel::parallel_for(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t thread) {
     if (main_lobe_.size() > 1) smooth_down(first, last, hands_[thread], image);
     if (!sidelobes_.empty()) find_strong(strong, first, last, hands_[thread], image);
   });
   if (sidelobes_.empty()) return;
   if (std::all_of(strong_.begin(), strong_.end(), [](const std::vector<Strong>& run) { return run.empty(); })) return;
-  parallel::share_out(crew, image.size, kRowsAPiece,
-                      [&](int first, int last, std::size_t) { add_sidelobes(first, last, image); });
+  parallel::parallel_for(crew, image.size, kRowsAPiece,
+                         [&](int first, int last, std::size_t) { add_sidelobes(first, last, image); });
 }
 
 void Response::smooth_along(int first, int last, Hand& hand, const MapImage& image) {
@@ -217,7 +217,7 @@ void Response::add_sidelobes(int first, int last, MapImage& image) {
 }
 
 namespace {
-constexpr double kLeastDoppler_mps = 1.0;  // of V sin(squint): nearer the track nothing can be mapped anyway
+constexpr double kMinDoppler_mps = 1.0;  // of V sin(squint): nearer the track nothing can be mapped anyway
 
 // A weighted copy of the response, its peak at a place between the pixels [pixels].
 void splat(const Response& response, double column, double row, double power, MapImage& image) {
@@ -258,7 +258,7 @@ MapMovers::Trace MapMovers::trace_of(const physics::MovingPoint& mover, const Pa
 
   const double squint_rad = geometry.squint(order.ground_track).radians() + std::atan2(middle.right_m, ahead_m);
   const double doppler_mps = order.ground_speed.metres_per_second() * std::sin(squint_rad);
-  const double steady_mps = std::copysign(std::max(std::abs(doppler_mps), kLeastDoppler_mps), doppler_mps);
+  const double steady_mps = std::copysign(std::max(std::abs(doppler_mps), kMinDoppler_mps), doppler_mps);
   // Looking right (positive squint) forwards is left on the map.
   const double shift_m = receding_mps / steady_mps * distance_m;
   const double seen_m = laid_over_m(distance_m, height_m, geometry.above_level_m(distance_m)) - distance_m;
@@ -273,7 +273,7 @@ MapMovers::Trace MapMovers::trace_of(const physics::MovingPoint& mover, const Pa
 }
 
 bool MapMovers::hidden(const PatchGeometry& geometry, const Horizons& horizons, MapPoint point, double height_m) const {
-  const FanGrid& grid = *horizons.grid;
+  const PolarGrid& grid = *horizons.grid;
   const double ahead_m = point.up_m + geometry.distance_m();
   const double distance_m = std::hypot(point.right_m, ahead_m);
   const int column = static_cast<int>(std::lround((point.right_m / ahead_m - grid.first_tangent) / grid.tangent_step));
@@ -293,7 +293,7 @@ bool MapMovers::hidden(const PatchGeometry& geometry, const Horizons& horizons, 
 }
 
 void MapMovers::draw(const PatchOrder& order, const PatchGeometry& geometry, geo::Duration formation,
-                     const physics::Database& database, const Horizons& horizons, const Response& response,
+                     const physics::Environment& database, const Horizons& horizons, const Response& response,
                      MapImage& image) const {
   for (const std::span<const physics::MovingPoint> points : {std::span(points_), database.traffic})
     for (const physics::MovingPoint& mover : points)

@@ -29,7 +29,7 @@ class Response {
 
   // Every pixel spreads over the main lobe; those so strong that their sidelobes rise above `floor`, over these too.
   // The sum over the picture stays, but for what leaves it.
-  void apply(float floor, const parallel::Crew& crew, MapImage& image);
+  void apply(float floor, const parallel::Executor& crew, MapImage& image);
   // Weights of the pixels from `first` on for a point at this place [pixels]; sum 1.
   std::vector<float> weights(double pixel, int& first) const;
 
@@ -43,7 +43,7 @@ class Response {
   struct Hand {
     memory::LineVector<float> source, row;
   };
-  void make_room(const parallel::Crew& crew, const MapImage& image);
+  void make_room(const parallel::Executor& crew, const MapImage& image);
   void smooth_along(int first, int last, Hand& hand, const MapImage& image);
   void smooth_down(int first, int last, Hand& hand, MapImage& image) const;
   void find_strong(float limit, int first, int last, Hand& hand, const MapImage& image);
@@ -68,7 +68,7 @@ class Response {
 
 // What stands in the way of a point: highest tangent of all that is nearer, by column and row of the fan.
 struct Horizons {
-  const FanGrid* grid = nullptr;
+  const PolarGrid* grid = nullptr;
   const SurfacePoint* surface = nullptr;
   const float* crest_m = nullptr;  // as simd::Strip has it; null: none
   const float* horizon = nullptr;  // before row 0
@@ -84,7 +84,7 @@ class MapMovers {
 
   // Those of the configuration and of the traffic.
   void draw(const PatchOrder& order, const PatchGeometry& geometry, geo::Duration formation,
-            const physics::Database& database, const Horizons& horizons, const Response& response,
+            const physics::Environment& database, const Horizons& horizons, const Response& response,
             MapImage& image) const;
 
  private:

@@ -16,7 +16,7 @@ namespace {
 // looked at between them, where ways are straight in latitude and longitude within 5 mm.
 constexpr double kPathSpacing_m = 60.0;
 constexpr double kWaySpacing_m = 500.0;
-constexpr double kMostPathSamples = 4096.0;
+constexpr double kMaxPathSamples = 4096.0;
 constexpr float kNoHorizon = -1.0e6F;  // below every ray, and below every ground [m]
 // Where posts are many columns apart, every third or fifth column is read, the first and the last of a strip among
 // them, as far apart as so much of the posts' spacing; what lies between is interpolated. On the way to the window
@@ -47,14 +47,14 @@ void join_horizons(int step, float* horizon) {
 }
 }  // namespace
 
-CrestsBetweenRows crests_between_rows(const FanGrid& grid, const terrain::TerrainView& window, bool smooth) {
+CrestsBetweenRows crests_between_rows(const PolarGrid& grid, const terrain::TerrainView& window, bool smooth) {
   const double posts_m = window.post_spacing_m();
   if (!(posts_m > 0.0)) return {};
   return {grid.spacing_m > (smooth ? kSmoothShare : kLineShare) * posts_m,
           smooth && grid.spacing_m > kSummitShare * posts_m};
 }
 
-GroundFan::Sight::Sight(const PatchGeometry& geometry, double distance_m) {
+PolarGround::Sight::Sight(const PatchGeometry& geometry, double distance_m) {
   const physics::EffectiveEarth& earth = geometry.earth();
   const double angle_rad = distance_m * earth.curvature();
   above_m = static_cast<float>(geometry.altitude_m() + earth.drop_m(distance_m));
@@ -63,7 +63,7 @@ GroundFan::Sight::Sight(const PatchGeometry& geometry, double distance_m) {
   cosine = static_cast<float>(std::cos(angle_rad));
 }
 
-GroundFan::Column::Column(std::size_t samples)
+PolarGround::Column::Column(std::size_t samples)
     : places(samples),
       distance_m(samples + terrain::kRunSlack),
       elevation_m(distance_m.size()),
@@ -71,11 +71,11 @@ GroundFan::Column::Column(std::size_t samples)
       peak_m(distance_m.size()),
       crest(distance_m.size()) {}
 
-GroundFan::GroundFan(const radar::RadarConfiguration& configuration)
+PolarGround::PolarGround(const radar::RadarConfiguration& configuration)
     : configuration_(configuration),
       plain_gamma_(static_cast<float>(physics::make_land_return(configuration).gamma[0])) {}
 
-void GroundFan::begin(const PatchGeometry& geometry, const FanGrid& grid, const terrain::TerrainView& path) {
+void PolarGround::begin(const PatchGeometry& geometry, const PolarGrid& grid, const terrain::TerrainView& path) {
   const auto rows = static_cast<std::size_t>(grid.rows);
   if (!window_ || window_->places.count != rows) {
     window_ = std::make_unique<Column>(rows);
@@ -98,7 +98,7 @@ void GroundFan::begin(const PatchGeometry& geometry, const FanGrid& grid, const 
   }
   const double path_m = grid.first_distance_m;
   const double spacing_m = path.post_spacing_m() > 0.0 ? kWaySpacing_m : kPathSpacing_m;
-  const auto samples = static_cast<std::size_t>(std::clamp(std::ceil(path_m / spacing_m), 1.0, kMostPathSamples));
+  const auto samples = static_cast<std::size_t>(std::clamp(std::ceil(path_m / spacing_m), 1.0, kMaxPathSamples));
   if (!path_ || path_->places.count != samples) path_ = std::make_unique<Column>(samples);
   // The last one lies below row 0 and is no part of the way.
   path_sight_.clear();
@@ -110,9 +110,9 @@ void GroundFan::begin(const PatchGeometry& geometry, const FanGrid& grid, const 
   ground_->use_resolution(grid.spacing_m, grid.spacing_m);
 }
 
-std::size_t GroundFan::fill(const PatchOrder& order, const PatchGeometry& geometry, const FanGrid& grid,
-                            const PatchTerrain& terrain, const Detail* detail, int first, int last,
-                            const GroundArrays& arrays) {
+std::size_t PolarGround::fill(const PatchOrder& order, const PatchGeometry& geometry, const PolarGrid& grid,
+                              const PatchTerrain& terrain, const Detail* detail, int first, int last,
+                              const GroundArrays& arrays) {
   const int step = arrays.crest_m == nullptr ? column_step(grid, *terrain.window, detail) : 1;
   const int path_columns = path_step(grid, *terrain.path);
   if (arrays.crest_m != nullptr) strip_crest_.resize(strip_height_.size());
@@ -137,7 +137,7 @@ std::size_t GroundFan::fill(const PatchOrder& order, const PatchGeometry& geomet
 }
 
 // Not where what covers the ground is a matter of one post or another, and never for who takes each column's word.
-int GroundFan::column_step(const FanGrid& grid, const terrain::TerrainView& view, const Detail* detail) const {
+int PolarGround::column_step(const PolarGrid& grid, const terrain::TerrainView& view, const Detail* detail) const {
   const radar::Fidelity& fidelity = configuration_.fidelity;
   const bool smooth = fidelity.algorithm == radar::Algorithm::standard && !view.has_materials() &&
                       fidelity.interpolation != radar::Interpolation::nearest;
@@ -148,15 +148,15 @@ int GroundFan::column_step(const FanGrid& grid, const terrain::TerrainView& view
 }
 
 // Ground that is not made of posts tells no spacing: every fifth column does.
-int GroundFan::path_step(const FanGrid& grid, const terrain::TerrainView& view) const {
+int PolarGround::path_step(const PolarGrid& grid, const terrain::TerrainView& view) const {
   const double spacing_m = view.post_spacing_m();
   const double farthest_m = spacing_m > 0.0 ? kPathShare * spacing_m : std::numeric_limits<double>::infinity();
   return step_within(farthest_m, grid.width_m(0.5 * grid.columns, grid.first_distance_m));
 }
 
 // Into the column's place in the strip; the slack behind it is the next one's, who comes later.
-std::size_t GroundFan::read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
-                                   const terrain::TerrainView& view, const Detail* detail, std::size_t lane) {
+std::size_t PolarGround::read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
+                                     const terrain::TerrainView& view, const Detail* detail, std::size_t lane) {
   Column& column = *window_;
   const std::size_t rows = column.places.count;
   float* height_m = &strip_height_[lane * pitch_];
@@ -170,8 +170,8 @@ std::size_t GroundFan::read_window(const PatchOrder& order, const PatchGeometry&
       {},
       view.has_materials() ? std::span(ground_->materials()).first(rows) : std::span<std::int32_t>{}};
   const std::size_t pending = view.surfaces(column.places.run(), configuration_.fidelity.interpolation, found);
-  const physics::Look look{geometry.apex(), order.altitude, azimuth,    {},
-                           range,           order.sim_time, order.band, order.channel};
+  const physics::SweepGeometry look{geometry.apex(), order.altitude, azimuth,    {},
+                                    range,           order.sim_time, order.band, order.channel};
   const physics::Ground::Sample reflects =
       ground_->reflect(look, column.places.run(), column.water.data(), sin_grazing_.data(), view.has_materials());
   if (reflects.land != nullptr)
@@ -186,8 +186,8 @@ std::size_t GroundFan::read_window(const PatchOrder& order, const PatchGeometry&
   return pending;
 }
 
-std::size_t GroundFan::read_path(const PatchGeometry& geometry, const FanGrid& grid, geo::Bearing azimuth,
-                                 const terrain::TerrainView& view, float& horizon) {
+std::size_t PolarGround::read_path(const PatchGeometry& geometry, const PolarGrid& grid, geo::Bearing azimuth,
+                                   const terrain::TerrainView& view, float& horizon) {
   Column& column = *path_;
   const std::size_t samples = column.places.count;
   physics::sample_places(geometry.apex(), azimuth, geo::Length::metres(grid.first_distance_m),
@@ -222,7 +222,7 @@ std::size_t GroundFan::read_path(const PatchGeometry& geometry, const FanGrid& g
 }
 
 // Of the column just read: lines of posts between its rows. What lies before row 0 is the path's.
-void GroundFan::read_crests(const PatchGeometry& geometry, const PatchTerrain& terrain, std::size_t lane) {
+void PolarGround::read_crests(const PatchGeometry& geometry, const PatchTerrain& terrain, std::size_t lane) {
   Column& column = *window_;
   const std::size_t rows = column.places.count;
   float* crest_m = &strip_crest_[lane * pitch_];
@@ -245,7 +245,7 @@ void GroundFan::read_crests(const PatchGeometry& geometry, const PatchTerrain& t
 
 // Where a row stands higher to the eye than both its neighbours, the parabola through the three tells the summit: it
 // hides the row itself if it lies before it, and else the next one.
-void GroundFan::raise_to_summits(const PatchGeometry& geometry, std::size_t lane) {
+void PolarGround::raise_to_summits(const PatchGeometry& geometry, std::size_t lane) {
   const std::size_t rows = window_->places.count;
   const float* const distance_m = window_->distance_m.data();
   const float* const height_m = &strip_height_[lane * pitch_];
@@ -271,7 +271,7 @@ void GroundFan::raise_to_summits(const PatchGeometry& geometry, std::size_t lane
   }
 }
 
-void GroundFan::put_crests(const FanGrid& grid, int strip, float* crest_m) const {
+void PolarGround::put_crests(const PolarGrid& grid, int strip, float* crest_m) const {
   float* const points = crest_m + grid.at(strip * kStripColumns, 0);
   for (std::size_t row = 0; row < static_cast<std::size_t>(grid.rows); ++row)
     for (std::size_t lane = 0; lane < std::size_t{kStripColumns}; ++lane)
@@ -279,7 +279,7 @@ void GroundFan::put_crests(const FanGrid& grid, int strip, float* crest_m) const
 }
 
 // Heights of the column just read count from the map plane; a void takes over its nearer neighbour's.
-void GroundFan::level(const PatchGeometry& geometry, std::size_t lane) {
+void PolarGround::level(const PatchGeometry& geometry, std::size_t lane) {
   const auto plane_m = static_cast<float>(geometry.plane_msl_m());
   const std::size_t rows = window_->places.count;
   float* height_m = &strip_height_[lane * pitch_];
@@ -301,14 +301,14 @@ void GroundFan::level(const PatchGeometry& geometry, std::size_t lane) {
   }
 }
 
-void GroundFan::fill_between(std::size_t step) {
+void PolarGround::fill_between(std::size_t step) {
   const std::size_t rows = window_->places.count;
   simd::fill_between(rows, step, strip_height_.data(), pitch_);
   simd::fill_between(rows, step, strip_gain_.data(), pitch_);
 }
 
 // Before a strip is put down its place is fetched, a sixteenth with every column that is read for it.
-void GroundFan::fetch_strip(const FanGrid& grid, int column, const GroundArrays& arrays) const {
+void PolarGround::fetch_strip(const PolarGrid& grid, int column, const GroundArrays& arrays) const {
   const auto share = static_cast<std::size_t>(grid.rows) / std::size_t{kStripColumns} + 1;
   const std::size_t strip = grid.at(column - column % kStripColumns, 0);
   const std::size_t first = share * static_cast<std::size_t>(column % kStripColumns);
@@ -321,7 +321,7 @@ void GroundFan::fetch_strip(const FanGrid& grid, int column, const GroundArrays&
 }
 
 // A column's numbers lie one behind the other when read, and sixteen columns' side by side on the fan.
-void GroundFan::put_strip(const FanGrid& grid, int strip, const GroundArrays& arrays) const {
+void PolarGround::put_strip(const PolarGrid& grid, int strip, const GroundArrays& arrays) const {
   simd::put_side_by_side(static_cast<std::size_t>(grid.rows), strip_gain_.data(), strip_height_.data(), pitch_,
                          arrays.surface + grid.at(strip * kStripColumns, 0));
 }

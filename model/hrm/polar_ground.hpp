@@ -23,7 +23,7 @@ struct CrestsBetweenRows {
   bool any() const { return lines || summits; }
 };
 // `smooth`: the ground of the window is, where posts lie far apart.
-CrestsBetweenRows crests_between_rows(const FanGrid& grid, const terrain::TerrainView& window, bool smooth);
+CrestsBetweenRows crests_between_rows(const PolarGrid& grid, const terrain::TerrainView& window, bool smooth);
 
 // Of the window itself, and of the way to it, which may be coarser.
 struct PatchTerrain {
@@ -32,7 +32,7 @@ struct PatchTerrain {
   CrestsBetweenRows crests{};  // that GroundArrays::crest_m is asked for
 };
 
-// By FanGrid::at(); the horizon by column.
+// By PolarGrid::at(); the horizon by column.
 struct GroundArrays {
   SurfacePoint* surface = nullptr;  // a void takes over its nearer neighbour's height (the first one's, where none is
                                     // nearer), and returns nothing
@@ -42,15 +42,15 @@ struct GroundArrays {
   float* crest_m = nullptr;
 };
 
-class GroundFan {
+class PolarGround {
  public:
-  explicit GroundFan(const radar::RadarConfiguration& configuration);
+  explicit PolarGround(const radar::RadarConfiguration& configuration);
 
   // Before the first columns of a map.
-  void begin(const PatchGeometry& geometry, const FanGrid& grid, const terrain::TerrainView& path);
+  void begin(const PatchGeometry& geometry, const PolarGrid& grid, const terrain::TerrainView& path);
   // Fills the columns [first, last), whole strips; `detail` null: none. Returns how many samples met terrain that was
   // not loaded.
-  std::size_t fill(const PatchOrder& order, const PatchGeometry& geometry, const FanGrid& grid,
+  std::size_t fill(const PatchOrder& order, const PatchGeometry& geometry, const PolarGrid& grid,
                    const PatchTerrain& terrain, const Detail* detail, int first, int last, const GroundArrays& arrays);
 
  private:
@@ -65,19 +65,19 @@ class GroundFan {
     Sight(const PatchGeometry& geometry, double distance_m);
     float above_m, chord_m, sine, cosine;
   };
-  int column_step(const FanGrid& grid, const terrain::TerrainView& view, const Detail* detail) const;
-  int path_step(const FanGrid& grid, const terrain::TerrainView& view) const;
+  int column_step(const PolarGrid& grid, const terrain::TerrainView& view, const Detail* detail) const;
+  int path_step(const PolarGrid& grid, const terrain::TerrainView& view) const;
   std::size_t read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
                           const terrain::TerrainView& view, const Detail* detail, std::size_t lane);
-  std::size_t read_path(const PatchGeometry& geometry, const FanGrid& grid, geo::Bearing azimuth,
+  std::size_t read_path(const PatchGeometry& geometry, const PolarGrid& grid, geo::Bearing azimuth,
                         const terrain::TerrainView& view, float& horizon);
   void read_crests(const PatchGeometry& geometry, const PatchTerrain& terrain, std::size_t lane);
   void raise_to_summits(const PatchGeometry& geometry, std::size_t lane);
   void level(const PatchGeometry& geometry, std::size_t lane);
   void fill_between(std::size_t step);
-  void fetch_strip(const FanGrid& grid, int column, const GroundArrays& arrays) const;
-  void put_strip(const FanGrid& grid, int strip, const GroundArrays& arrays) const;
-  void put_crests(const FanGrid& grid, int strip, float* crest_m) const;
+  void fetch_strip(const PolarGrid& grid, int column, const GroundArrays& arrays) const;
+  void put_strip(const PolarGrid& grid, int strip, const GroundArrays& arrays) const;
+  void put_crests(const PolarGrid& grid, int strip, float* crest_m) const;
 
   radar::RadarConfiguration configuration_;
   std::unique_ptr<Column> window_, path_;

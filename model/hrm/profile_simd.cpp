@@ -16,11 +16,11 @@ using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
 // Where a wall stands, a step steeper than this is its face; less is ground that has buried it.
-constexpr float kLeastStep = 0.2F;
+constexpr float kMinStep = 0.2F;
 // A piece seen end on still covers this share of a row: nothing is divided by zero.
-constexpr float kLeastExtent = 1.0e-3F;
+constexpr float kMinExtent = 1.0e-3F;
 // So many rows of a strip are added to as rows; what spreads over more is put lane by lane.
-constexpr int kMostRows = 8;
+constexpr int kMaxRows = 8;
 
 // A point of the profile.
 struct Point {
@@ -112,7 +112,7 @@ HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const Str
   const auto begin = hn::Max(hn::Floor(hn::Add(hn::MinOfLanes(d, low), half)), hn::Zero(d));
   const auto end = hn::Min(hn::Floor(hn::Add(hn::MaxOfLanes(d, high), half)), most);
   const float rows = hn::GetLane(hn::Sub(end, begin));
-  if (rows >= static_cast<float>(kMostRows)) {
+  if (rows >= static_cast<float>(kMaxRows)) {
     add_far(strip, lane, first);
     add_far(strip, lane, second);
     return;
@@ -143,7 +143,7 @@ HWY_INLINE Walls walls_at(const Strip& strip, std::size_t at, Floats climb, floa
   hn::Vec<decltype(db)> steps_returned, steps_high;
   hn::LoadInterleaved2(db, &strip.walls[at].returned, steps_returned, steps_high);
   const auto height = hn::ConvertTo(d, hn::BitCast(di, steps_high));
-  const auto there = hn::And(hn::Gt(height, hn::Zero(d)), hn::Gt(climb, hn::Set(d, kLeastStep * step)));
+  const auto there = hn::And(hn::Gt(height, hn::Zero(d)), hn::Gt(climb, hn::Set(d, kMinStep * step)));
   if (hn::AllFalse(d, there)) return {there, hn::Zero(d), hn::Zero(d)};
   const auto sum = hn::ConvertTo(d, hn::BitCast(di, steps_returned));
   const auto tall = hn::IfThenElse(there, height, one);
@@ -196,7 +196,7 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   // A wall stands within half a row of the farther one, and so does its foot.
   const auto foot_row = hn::IfThenElse(hn::And(walls.there, whole), hn::Add(begin, one), begin);
   const auto start = hn::IfThenElse(halves, middle, foot_row);
-  const auto extent = hn::Max(hn::Abs(hn::Sub(far.row, start)), hn::Set(d, kLeastExtent));
+  const auto extent = hn::Max(hn::Abs(hn::Sub(far.row, start)), hn::Set(d, kMinExtent));
   const auto rows_inverse = hn::Div(one, extent);
   Stretch first, second;
   first.low = hn::Min(near.row, middle);
@@ -211,8 +211,8 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   const auto foot = hn::And(walls.there, whole);
   if (hn::AllFalse(d, foot)) return;
   // From wall to ground and from ground to wall: every such path is as long as to the foot.
-  const auto bounce = hn::Mul(hn::Mul(face, walls.gain), hn::Set(d, strip.double_bounce / kLeastExtent));
-  add_far(strip, lane, {foot_row, hn::Add(foot_row, hn::Set(d, kLeastExtent)), hn::IfThenElseZero(foot, bounce)});
+  const auto bounce = hn::Mul(hn::Mul(face, walls.gain), hn::Set(d, strip.double_bounce / kMinExtent));
+  add_far(strip, lane, {foot_row, hn::Add(foot_row, hn::Set(d, kMinExtent)), hn::IfThenElseZero(foot, bounce)});
 }
 
 // Leaves no walls to the next map. Most rows have none: what is not written need not go back to memory.

@@ -18,7 +18,7 @@ constexpr double kWalkShare = 0.1;   // of the posts' spacing: rows as close wal
 constexpr double kFineSteps = 40.0;  // a post, on the way to such rows: a crest's foot of shadow is a row
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 constexpr double kFacetPixels = 1.0 / 3.0;
-constexpr int kMostPieces = 512;  // of an edge: a face as large as the window
+constexpr int kMaxPieces = 512;  // of an edge: a face as large as the window
 constexpr double kBuried_m = 0.05;
 constexpr double kFoot_m = 0.3;  // the ground before a wall: so far from it
 }  // namespace
@@ -31,7 +31,7 @@ struct ReferencePatch::Ground {
 };
 
 ReferencePatch::ReferencePatch(const radar::RadarConfiguration& configuration, const PatchGeometry& geometry,
-                               const FanGrid& grid)
+                               const PolarGrid& grid)
     : fidelity_(configuration.fidelity),
       surface_(configuration),
       gas_(configuration),
@@ -55,9 +55,9 @@ void ReferencePatch::read_terrain(const PatchTerrain& terrain) {
 }
 
 void ReferencePatch::read_column(const PatchTerrain& terrain, int column) {
-  const FanGrid& grid = *grid_;
+  const PolarGrid& grid = *grid_;
   const physics::EffectiveEarth& earth = geometry_->earth();
-  physics::Look look;
+  physics::SweepGeometry look;
   look.apex = geometry_->apex();
   look.altitude = geo::AltitudeMsl::metres(geometry_->altitude_m());
   look.azimuth = geometry_->up() + geo::Angle::radians(std::atan(grid.tangent(column)));
@@ -195,7 +195,7 @@ void ReferencePatch::accumulate(const SurfacePoint* surface, MapImage& image) {
 
 // The pieces between neighbours of a column, cut where they climb: a cliff is many facets.
 void ReferencePatch::add_column(int column, const SurfacePoint* surface) {
-  const FanGrid& grid = *grid_;
+  const PolarGrid& grid = *grid_;
   const double off = grid.tangent(column);
   const double turn_rad = std::atan(off);
   const double angle_rad = grid.tangent_step / (1.0 + off * off);
@@ -206,7 +206,7 @@ void ReferencePatch::add_column(int column, const SurfacePoint* surface) {
     if (std::isnan(height_m_[near]) || std::isnan(height_m_[far])) continue;
     const double gamma = 0.5 * (static_cast<double>(surface[near].gain) + static_cast<double>(surface[far].gain));
     const double climb_m = top_m_[far] - height_m_[near];
-    const int pieces = std::min(1 + static_cast<int>(std::abs(climb_m) / longest_m), kMostPieces);
+    const int pieces = std::min(1 + static_cast<int>(std::abs(climb_m) / longest_m), kMaxPieces);
     Point3 begin = position(grid.distance_m(row - 1), turn_rad, height_m_[near]);
     double horizon = std::max(horizon_[near], tangent(grid.distance_m(row - 1), height_m_[near]));
     for (int piece = 1; piece <= pieces; ++piece) {
@@ -236,7 +236,7 @@ void ReferencePatch::add_face(const Face& face) {
   if (!(dot(cross(one, two), face.corners[0]) < 0.0)) return;  // seen from inside
   const double longest_m = std::sqrt(std::max({dot(one, one), dot(two, two), dot(three, three)}));
   const double facet_m = kFacetPixels * geometry_->window_m() / size_;
-  const int pieces = std::clamp(static_cast<int>(std::ceil(longest_m / facet_m)), 1, kMostPieces);
+  const int pieces = std::clamp(static_cast<int>(std::ceil(longest_m / facet_m)), 1, kMaxPieces);
   const Point3 normal = cross(one, two);
   const double area_m2 = 0.5 * std::sqrt(dot(normal, normal)) / pieces / pieces;
   const auto facet = [&](double u, double v) {
@@ -257,7 +257,7 @@ void ReferencePatch::add_facet(const Face& face, Point3 place, Point3 weights, d
   const Point3 normal = face.normal();
   const double facing = dot(normal, way);
   const Point3 smooth = weights.x * face.normals[0] + weights.y * face.normals[1] + weights.z * face.normals[2];
-  const double shaded = std::clamp(dot(smooth, way), 0.0, physics::kMostShading * facing);
+  const double shaded = std::clamp(dot(smooth, way), 0.0, physics::kMaxShading * facing);
   const double out_m = std::hypot(place.x, place.y);
   const double out_right = place.x / out_m;
   const double out_ahead = place.y / out_m;
@@ -292,7 +292,7 @@ ReferencePatch::Ground ReferencePatch::below(Point3 place) const {
 }
 
 ReferencePatch::Ground ReferencePatch::ground_at(Point3 place) const {
-  const FanGrid& grid = *grid_;
+  const PolarGrid& grid = *grid_;
   Ground ground = below(place);
   const double column = std::round((place.x / place.y - grid.first_tangent) / grid.tangent_step);
   const double row = std::floor((ground.distance_m - grid.first_distance_m) / grid.spacing_m);

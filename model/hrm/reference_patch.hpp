@@ -21,12 +21,12 @@ inline constexpr int kReferenceCells = 3;  // of its fan a pixel, along and acro
 
 class ReferencePatch {
  public:
-  ReferencePatch(const radar::RadarConfiguration& configuration, const PatchGeometry& geometry, const FanGrid& grid);
+  ReferencePatch(const radar::RadarConfiguration& configuration, const PatchGeometry& geometry, const PolarGrid& grid);
 
   void read_terrain(const PatchTerrain& terrain);
   // Whether no nearer ground on its line of sight stands as high as that of a point of the grid; false for a void.
   bool lit(int column, int row) const;
-  // `gain`: gamma of the ground by FanGrid::at(); what lies flat on it gives it its own.
+  // `gain`: gamma of the ground by PolarGrid::at(); what lies flat on it gives it its own.
   void read_scene(const scene::SceneView& scene, const std::vector<const scene::Tile*>& tiles, SurfacePoint* surface);
   // Replaces the power of the image, in the unit of map_image.hpp.
   void accumulate(const SurfacePoint* surface, MapImage& image);
@@ -63,8 +63,8 @@ class ReferencePatch {
   physics::GasPath gas_;
   double bounce_;  // of a wall's foot against the wall; 0 = none
   const PatchGeometry* geometry_;
-  const FanGrid* grid_;
-  // By FanGrid::at().
+  const PolarGrid* grid_;
+  // By PolarGrid::at().
   std::vector<double> height_m_;  // above the map plane; NaN = void
   std::vector<double> top_m_;    // the same, raised to the line of sight over the ground on the way from the row before
   std::vector<double> horizon_;  // greatest tangent of all that is nearer

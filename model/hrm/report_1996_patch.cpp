@@ -12,7 +12,7 @@ namespace {
 constexpr float kWhite = 255.0F;
 
 // Climb across the line of sight [m a m]; at an edge of the fan that to the one neighbour.
-float slope_across(const FanGrid& grid, const SurfacePoint* surface, int column, int row) {
+float slope_across(const PolarGrid& grid, const SurfacePoint* surface, int column, int row) {
   const int left = std::max(column - 1, 0);
   const int right = std::min(column + 1, grid.columns - 1);
   const auto width_m = static_cast<float>(grid.width_m(column, grid.distance_m(row)) * (right - left));
@@ -33,8 +33,8 @@ Between between(double place, int count) {
 
 }  // namespace
 
-void shade_fan(const PatchGeometry& geometry, const FanGrid& grid, const ShadingInputs& inputs, int first, int last,
-               float* brightness) {
+void shade_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, const ShadingInputs& inputs, int first,
+                      int last, float* brightness) {
   const auto spacing_m = static_cast<float>(grid.spacing_m);
   for (int column = first; column < last; ++column) {
     float horizon = inputs.horizon[column];
@@ -62,7 +62,7 @@ void shade_fan(const PatchGeometry& geometry, const FanGrid& grid, const Shading
   }
 }
 
-void draw_brightness(const PatchGeometry& geometry, const FanGrid& grid, const float* brightness, int first, int last,
+void draw_brightness(const PatchGeometry& geometry, const PolarGrid& grid, const float* brightness, int first, int last,
                      MapImage& image) {
   const double pixel_m = geometry.window_m() / image.size;
   const double edge_m = 0.5 * geometry.window_m();
@@ -86,8 +86,8 @@ void draw_brightness(const PatchGeometry& geometry, const FanGrid& grid, const f
   }
 }
 
-void develop_brightness(const radar::RadarConfiguration& configuration, const MapImage& image, std::uint32_t map,
-                        std::vector<std::uint8_t>& picture) {
+void form_brightness_video(const radar::RadarConfiguration& configuration, const MapImage& image, std::uint32_t map,
+                           std::vector<std::uint8_t>& picture) {
   constexpr auto kHalfOfBits = 2147483648.0F;  // 2^31: 32 bits onto [-1, 1)
   const auto noise = static_cast<float>(configuration.fidelity.map_noise);
   const auto size = static_cast<std::size_t>(image.size);

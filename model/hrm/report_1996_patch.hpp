@@ -15,22 +15,22 @@
 
 namespace yars::model::hrm {
 
-// By FanGrid::at() once ground and scene are drawn; the horizon by column.
+// By PolarGrid::at() once ground and scene are drawn; the horizon by column.
 struct ShadingInputs {
   const SurfacePoint* surface = nullptr;  // gain 0 where there is no ground
   const float* horizon = nullptr;         // greatest tangent before row 0
 };
 
-// Brightness of the columns [first, last), by FanGrid::at(). Their neighbours' heights are read.
-void shade_fan(const PatchGeometry& geometry, const FanGrid& grid, const ShadingInputs& inputs, int first, int last,
-               float* brightness);
+// Brightness of the columns [first, last), by PolarGrid::at(). Their neighbours' heights are read.
+void shade_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, const ShadingInputs& inputs, int first,
+                      int last, float* brightness);
 
 // Rows [first, last) of the map, bilinear between the samples of the fan.
-void draw_brightness(const PatchGeometry& geometry, const FanGrid& grid, const float* brightness, int first, int last,
+void draw_brightness(const PatchGeometry& geometry, const PolarGrid& grid, const float* brightness, int first, int last,
                      MapImage& image);
 
 // Video with the configured noise; `map` and the seed name it. Blank pixels are black.
-void develop_brightness(const radar::RadarConfiguration& configuration, const MapImage& image, std::uint32_t map,
-                        std::vector<std::uint8_t>& picture);
+void form_brightness_video(const radar::RadarConfiguration& configuration, const MapImage& image, std::uint32_t map,
+                           std::vector<std::uint8_t>& picture);
 
 }  // namespace yars::model::hrm

@@ -46,7 +46,7 @@ PlacedTile placed(const PatchGeometry& geometry, const scene::Tile& tile) {
 struct GridPoint {
   float column, row;
 };
-GridPoint on_grid(const PatchGeometry& geometry, const FanGrid& grid, const PlacedTile& placement, float east_m,
+GridPoint on_grid(const PatchGeometry& geometry, const PolarGrid& grid, const PlacedTile& placement, float east_m,
                   float north_m) {
   const double right_m = placement.right_m + placement.right_east * static_cast<double>(east_m) +
                          placement.right_north * static_cast<double>(north_m);
@@ -59,7 +59,7 @@ GridPoint on_grid(const PatchGeometry& geometry, const FanGrid& grid, const Plac
 }
 
 // Notes the columns; false: off the fan.
-bool find_columns(const PatchGeometry& geometry, const FanGrid& grid, PlacedTile& placement) {
+bool find_columns(const PatchGeometry& geometry, const PolarGrid& grid, PlacedTile& placement) {
   const scene::Bounds& bounds = placement.tile->bounds;
   placement.least_column = std::numeric_limits<float>::max();
   placement.most_column = std::numeric_limits<float>::lowest();
@@ -81,10 +81,10 @@ bool find_columns(const PatchGeometry& geometry, const FanGrid& grid, PlacedTile
 
 }  // namespace
 
-std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const FanGrid& grid,
-                                    const std::vector<const scene::Tile*>& tiles, const parallel::Crew& crew) {
+std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const PolarGrid& grid,
+                                    const std::vector<const scene::Tile*>& tiles, const parallel::Executor& crew) {
   std::vector<PlacedTile> all(tiles.size());
-  parallel::share_out(crew, static_cast<int>(tiles.size()), kTilesAPiece, [&](int first, int last, std::size_t) {
+  parallel::parallel_for(crew, static_cast<int>(tiles.size()), kTilesAPiece, [&](int first, int last, std::size_t) {
     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
       all[i] = placed(geometry, *tiles[i]);
       if (!find_columns(geometry, grid, all[i])) all[i].tile = nullptr;
@@ -94,7 +94,7 @@ std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const FanGrid
   return all;
 }
 
-std::vector<int> even_bands(const FanGrid& grid, std::span<const PlacedTile> tiles, int bands) {
+std::vector<int> even_bands(const PolarGrid& grid, std::span<const PlacedTile> tiles, int bands) {
   std::vector<double> work(static_cast<std::size_t>(grid.strips()), 1.0);
   const auto strip_of = [&](float column) {
     return std::clamp(static_cast<int>(column) / kStripColumns, 0, grid.strips() - 1);
@@ -122,7 +122,7 @@ std::vector<int> even_bands(const FanGrid& grid, std::span<const PlacedTile> til
 SceneRaster::SceneRaster(const radar::RadarConfiguration& configuration)
     : surface_(configuration), cardinal_shares_(surface_.cardinal_shares()) {}
 
-void SceneRaster::transform(const PatchGeometry& geometry, const FanGrid& grid, const PlacedTile& placement) {
+void SceneRaster::transform(const PatchGeometry& geometry, const PolarGrid& grid, const PlacedTile& placement) {
   const scene::Tile& tile = *placement.tile;
   const std::size_t count = tile.east_m.size();
   for (std::vector<float>* numbers : {&column_, &row_, &height_m_, &facing_})
@@ -158,7 +158,7 @@ void SceneRaster::read_kinds(const scene::SceneView& scene) {
   }
 }
 
-void SceneRaster::draw(const PatchGeometry& geometry, const FanGrid& grid, const scene::SceneView& scene,
+void SceneRaster::draw(const PatchGeometry& geometry, const PolarGrid& grid, const scene::SceneView& scene,
                        std::span<const PlacedTile> tiles, int first, int last, const simd::SceneArrays& arrays) {
   read_kinds(scene);
   simd::Canvas canvas;

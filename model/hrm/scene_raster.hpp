@@ -27,11 +27,11 @@ struct PlacedTile {
 };
 
 // Those that come near the fan, in their order.
-std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const FanGrid& grid,
-                                    const std::vector<const scene::Tile*>& tiles, const parallel::Crew& crew);
+std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const PolarGrid& grid,
+                                    const std::vector<const scene::Tile*>& tiles, const parallel::Executor& crew);
 
 // Strips at which `bands` runs of them begin that have about as many triangles each; behind them the last one's end.
-std::vector<int> even_bands(const FanGrid& grid, std::span<const PlacedTile> tiles, int bands);
+std::vector<int> even_bands(const PolarGrid& grid, std::span<const PlacedTile> tiles, int bands);
 
 // Triangles of a scene drawn onto a fan from above: the highest surface over each grid point, its gamma, and where
 // walls stand that face the radar (a wall has no extent from above). What lies on the ground (runways, roads) takes the
@@ -41,11 +41,11 @@ class SceneRaster {
   explicit SceneRaster(const radar::RadarConfiguration& configuration);
 
   // Draws what of the tiles falls into the columns [first, last), in the order of the tiles.
-  void draw(const PatchGeometry& geometry, const FanGrid& grid, const scene::SceneView& scene,
+  void draw(const PatchGeometry& geometry, const PolarGrid& grid, const scene::SceneView& scene,
             std::span<const PlacedTile> tiles, int first, int last, const simd::SceneArrays& arrays);
 
  private:
-  void transform(const PatchGeometry& geometry, const FanGrid& grid, const PlacedTile& placement);
+  void transform(const PatchGeometry& geometry, const PolarGrid& grid, const PlacedTile& placement);
   void read_kinds(const scene::SceneView& scene);
   void draw_tile(const scene::Tile& tile, const simd::Canvas& canvas);
   simd::GridVertices vertices_of(const scene::Tile& tile) {

@@ -24,7 +24,7 @@ constexpr float kWide = 12.0F;  // columns of a triangle that is drawn by itself
 template <class Put>
 HWY_INLINE void fill_wide(const Triangle& triangle, const Canvas& canvas, float reach, const Put& put) {
   const Tag d;
-  const FanGrid& grid = *canvas.grid;
+  const PolarGrid& grid = *canvas.grid;
   const float first = std::max(hn::GetLane(hn::Ceil(triangle.left.column)), canvas.limits.first_column);
   const float last = std::min(hn::GetLane(hn::Ceil(triangle.right.column)), canvas.limits.last_column);
   if (!(first < last)) return;

@@ -14,7 +14,7 @@
 
 namespace yars::model::hrm::simd {
 
-// By FanGrid::at().
+// By PolarGrid::at().
 struct SceneArrays {
   SurfacePoint* surface = nullptr;  // in: the ground
   WallPoint* walls = nullptr;       // in: none
@@ -35,7 +35,7 @@ struct CardinalShape {
 };
 
 struct Canvas {
-  const FanGrid* grid = nullptr;
+  const PolarGrid* grid = nullptr;
   SceneArrays arrays;
   GridLimits limits;
   CardinalShape cardinal;

@@ -12,8 +12,8 @@ namespace yars::model::hrm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kMostLanes = 16;
-using Tag = hn::CappedTag<float, kMostLanes>;
+constexpr std::size_t kMaxLanes = 16;
+using Tag = hn::CappedTag<float, kMaxLanes>;
 using SignedTag = hn::RebindToSigned<Tag>;
 using BitsTag = hn::RebindToUnsigned<Tag>;
 using Floats = hn::Vec<Tag>;
@@ -56,8 +56,8 @@ HWY_INLINE void face_vector(std::size_t at, const TileVertices& tile, const Vert
 
 // A few vertices by way of a vector's room.
 void place_few(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
-  float in[3][kMostLanes] = {};
-  float out[3][kMostLanes] = {};
+  float in[3][kMaxLanes] = {};
+  float out[3][kMaxLanes] = {};
   std::copy_n(tile.east_m, count, in[0]);
   std::copy_n(tile.north_m, count, in[1]);
   std::copy_n(tile.up_m, count, in[2]);
@@ -67,8 +67,8 @@ void place_few(std::size_t count, const TileVertices& tile, const VertexMap& map
   std::copy_n(out[2], count, grid.height_m);
 }
 void face_few(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
-  float in[3][kMostLanes] = {};
-  float out[kMostLanes] = {};
+  float in[3][kMaxLanes] = {};
+  float out[kMaxLanes] = {};
   std::copy_n(tile.normal_east, count, in[0]);
   std::copy_n(tile.normal_north, count, in[1]);
   std::copy_n(tile.normal_up, count, in[2]);
@@ -131,7 +131,7 @@ HWY_INLINE hn::Vec<SignedTag> corners_at(const std::uint16_t* vertices, std::siz
   const SignedTag di;
   const hn::Rebind<std::uint16_t, SignedTag> narrow;
   if (count >= hn::Lanes(di)) return hn::PromoteTo(di, hn::LoadU(narrow, vertices));
-  HWY_ALIGN std::uint16_t few[kMostLanes] = {};
+  HWY_ALIGN std::uint16_t few[kMaxLanes] = {};
   std::copy_n(vertices, count, few);
   return hn::PromoteTo(di, hn::Load(narrow, few));
 }

@@ -27,7 +27,7 @@ using Bits = hn::Vec<BitsTag>;
 constexpr std::size_t kFlush = 1024;     // grid points kept before they are put down
 constexpr std::size_t kFetchAhead = 24;  // of them
 constexpr float kUnderRoof_m = 0.02F;
-constexpr float kMostWall = 1.0e9F;
+constexpr float kMaxWall = 1.0e9F;
 constexpr std::uint32_t kFullWall = 0x7fffffffU;
 
 // A point's surface as one number: the height in the upper half, made so that it ascends as an integer too, and the
@@ -49,7 +49,7 @@ HWY_INLINE Bits in_order(Floats height) {
 }
 
 // Where a grid point lies in the arrays.
-HWY_INLINE Bits place_on(const FanGrid& grid, Floats column, Floats row) {
+HWY_INLINE Bits place_on(const PolarGrid& grid, Floats column, Floats row) {
   const SignedTag di;
   const BitsTag db;
   const auto i = hn::BitCast(db, hn::ConvertTo(di, column));
@@ -157,7 +157,7 @@ class SmallTriangles {
     const SignedTag di;
     if (fragments_.wall_at.size() < walls_ + kStripColumns) fragments_.grow_walls();
     const auto steps = [&](Floats number) HWY_ATTR {
-      const auto most = hn::Min(hn::Mul(number, set(1.0F / kWallStep_m)), set(kMostWall));
+      const auto most = hn::Min(hn::Mul(number, set(1.0F / kWallStep_m)), set(kMaxWall));
       return hn::BitCast(db, hn::ConvertTo(di, hn::Add(most, set(0.5F))));
     };
     const auto mask = hn::RebindMask(db, wanted);

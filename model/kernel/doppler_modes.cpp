@@ -26,7 +26,7 @@ double sector_rate_dps(const radar::RadarConfiguration& configuration) {
 }
 }  // namespace
 
-radar::RadarConfiguration sharpened_configuration(const radar::RadarConfiguration& configuration) {
+radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& configuration) {
   radar::RadarConfiguration sharpened = configuration;
   sharpened.fidelity.samples = radar::kCellsOfMap;
   // Neighbours are seen apart: nothing of them is smeared into one another.
@@ -40,13 +40,13 @@ radar::RadarConfiguration sharpened_configuration(const radar::RadarConfiguratio
   return sharpened;
 }
 
-int ticks_a_sharpened_sweep(const radar::RadarConfiguration& configuration) {
+int ticks_a_dbs_sweep(const radar::RadarConfiguration& configuration) {
   const double degrees_a_tick = sector_rate_dps(configuration) * radar::kTickSeconds;
   return std::max(1, static_cast<int>(std::lround(configuration.high_resolution.sector_step_deg / degrees_a_tick)));
 }
 
-antenna::Sector sharpened_sector(const databuffer::RadarCommand& command, const Pose& pose,
-                                 const radar::RadarConfiguration& configuration) {
+antenna::Sector dbs_sector(const databuffer::RadarCommand& command, const Pose& pose,
+                           const radar::RadarConfiguration& configuration) {
   antenna::Sector sector;
   sector.width_deg = command.scan_width_deg;
   sector.rate_dps = sector_rate_dps(configuration);
@@ -61,12 +61,12 @@ antenna::Sector sharpened_sector(const databuffer::RadarCommand& command, const 
   return sector;
 }
 
-SharpenedCell sharpened_cell(geo::Bearing left, geo::Bearing right, const Pose& pose,
-                             const radar::RadarConfiguration& configuration) {
+DbsCell dbs_cell(geo::Bearing left, geo::Bearing right, const Pose& pose,
+                 const radar::RadarConfiguration& configuration) {
   const geo::Angle width = right - left;
   const geo::Bearing azimuth = left + 0.5 * width;
   const geo::Angle squint = azimuth - pose.platform.ground_track;
-  const double cell_deg = radar::sharpened_beamwidth(squint, pose.ground_speed, configuration).degrees();
+  const double cell_deg = radar::dbs_beamwidth(squint, pose.ground_speed, configuration).degrees();
   if (cell_deg <= configuration.high_resolution.sector_step_deg) return {azimuth, width};
   const double middle_deg = (std::floor(squint.degrees() / cell_deg) + 0.5) * cell_deg;
   return {pose.platform.ground_track + geo::Angle::degrees(middle_deg), geo::Angle::degrees(cell_deg)};
@@ -104,7 +104,7 @@ bool lets_interleave(std::uint8_t mode) {
 
 }  // namespace
 
-VelocityRound::VelocityRound(const radar::RadarConfiguration& configuration)
+DopplerVelocityUpdate::DopplerVelocityUpdate(const radar::RadarConfiguration& configuration)
     : configuration_(&configuration),
       // The noise that is configured is the solution's; a beam has what the geometry makes of it.
       beam_noise_mps_(configuration.navigation.velocity_noise_mps /
@@ -112,11 +112,11 @@ VelocityRound::VelocityRound(const radar::RadarConfiguration& configuration)
       dwell_ticks_(static_cast<std::uint32_t>(ticks_of(configuration.navigation.beam_dwell_s))),
       period_ticks_(ticks_of(configuration.navigation.velocity_period_s)) {
   YARS_REQUIRE(configuration.navigation.beam_depressions_deg.size(), ==, beams());
-  YARS_REQUIRE(beams(), >=, radar::kLeastVelocityBeams);
-  YARS_REQUIRE(beams(), <=, radar::kMostVelocityBeams);
+  YARS_REQUIRE(beams(), >=, radar::kMinVelocityBeams);
+  YARS_REQUIRE(beams(), <=, radar::kMaxVelocityBeams);
 }
 
-void VelocityRound::resume(const ModelStatus& status) {
+void DopplerVelocityUpdate::resume(const ModelStatus& status) {
   const Vector3 measured{status.velocity_north_mps, status.velocity_east_mps, status.velocity_down_mps};
   measured_mps_ = is_finite(measured) ? measured : Vector3{};
   due_tick_ = status.velocity_due_tick;
@@ -125,7 +125,7 @@ void VelocityRound::resume(const ModelStatus& status) {
   dwell_ = beam_ > 0 ? std::min(status.velocity_dwell, dwell_ticks_) : 0U;
 }
 
-void VelocityRound::describe(ModelStatus& status) const {
+void DopplerVelocityUpdate::describe(ModelStatus& status) const {
   status.velocity_north_mps = measured_mps_.x;
   status.velocity_east_mps = measured_mps_.y;
   status.velocity_down_mps = measured_mps_.z;
@@ -135,7 +135,7 @@ void VelocityRound::describe(ModelStatus& status) const {
   status.velocity_beam = beam_;
 }
 
-void VelocityRound::follow(const ModelTick& tick) {
+void DopplerVelocityUpdate::follow(const ModelTick& tick) {
   const databuffer::RadarCommand& command = tick.command;
   if ((command.flags & databuffer::kIpvu) == 0U) {
     due_tick_ = -1;
@@ -148,19 +148,20 @@ void VelocityRound::follow(const ModelTick& tick) {
   if (!wanted_) give_up();
 }
 
-void VelocityRound::give_up() {
+void DopplerVelocityUpdate::give_up() {
   beam_ = 0;
   dwell_ = 0;
 }
 
-VelocityRound::Direction VelocityRound::direction_of(std::size_t beam, const antenna::Platform& platform) const {
+DopplerVelocityUpdate::Direction DopplerVelocityUpdate::direction_of(std::size_t beam,
+                                                                     const antenna::Platform& platform) const {
   const radar::NavigationConfiguration& navigation = configuration_->navigation;
   return {
       antenna::scan_centre(platform, configuration_->antenna) + geo::Angle::degrees(navigation.beam_azimuths_deg[beam]),
       geo::Angle::degrees(-navigation.beam_depressions_deg[beam])};
 }
 
-void VelocityRound::step(const ModelTick& tick, const Pose& pose, bool arrived, bool within_gimbal) {
+void DopplerVelocityUpdate::step(const ModelTick& tick, const Pose& pose, bool arrived, bool within_gimbal) {
   if (!within_gimbal) return end(tick);
   if (beam_ == 0) beam_ = 1;
   if (arrived) ++dwell_;
@@ -172,15 +173,15 @@ void VelocityRound::step(const ModelTick& tick, const Pose& pose, bool arrived, 
   end(tick);
 }
 
-void VelocityRound::end(const ModelTick& tick) {
+void DopplerVelocityUpdate::end(const ModelTick& tick) {
   give_up();
   if (due_tick_ >= 0) due_tick_ = tick.tick + period_ticks_;
   follow(tick);
 }
 
-void VelocityRound::measure(const Pose& pose) {
-  std::array<Vector3, radar::kMostVelocityBeams> lines;
-  std::array<double, radar::kMostVelocityBeams> speeds_mps{};
+void DopplerVelocityUpdate::measure(const Pose& pose) {
+  std::array<Vector3, radar::kMaxVelocityBeams> lines;
+  std::array<double, radar::kMaxVelocityBeams> speeds_mps{};
   for (std::size_t i = 0; i < beams(); ++i) {
     const Direction beam = direction_of(i, pose.platform);
     lines[i] = radar::line_of_sight(beam.azimuth, beam.elevation);

@@ -16,23 +16,23 @@ namespace yars::model::kernel {
 // about the ground track. Source: docs/spec/pilots_interface.md#rule-2, #rule-3; docs/spec/physics.md#hrm-resolution.
 
 // What the algorithm of the beam map works with when the beam is sharpened.
-radar::RadarConfiguration sharpened_configuration(const radar::RadarConfiguration& configuration);
+radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& configuration);
 
 // Ticks that one sweep of the sector gathers; at least 1.
-int ticks_a_sharpened_sweep(const radar::RadarConfiguration& configuration);
+int ticks_a_dbs_sweep(const radar::RadarConfiguration& configuration);
 
 // FULL about the ground track; HALF and QTR centred on the cursor, as far as they stay within FULL.
-antenna::Sector sharpened_sector(const databuffer::RadarCommand& command, const Pose& pose,
-                                 const radar::RadarConfiguration& configuration);
+antenna::Sector dbs_sector(const databuffer::RadarCommand& command, const Pose& pose,
+                           const radar::RadarConfiguration& configuration);
 
 // The resolution cell that a wedge lies in: what is seen there is one. Cells are counted from the ground track; where
 // they are narrower than wedges the wedge is the cell.
-struct SharpenedCell {
+struct DbsCell {
   geo::Bearing middle;
   geo::Angle width;
 };
-SharpenedCell sharpened_cell(geo::Bearing left, geo::Bearing right, const Pose& pose,
-                             const radar::RadarConfiguration& configuration);
+DbsCell dbs_cell(geo::Bearing left, geo::Bearing right, const Pose& pose,
+                 const radar::RadarConfiguration& configuration);
 
 // Where the dish points in HRM: down to the cursor, or to the map.
 geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m);
@@ -42,9 +42,9 @@ geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m)
 // squares make a velocity of them; what the aircraft accelerates between the beams counts as known, so all speeds are
 // those at the end of the round. A round that the gimbal cannot fly measures nothing. Pure: one call a tick, no
 // allocation after construction. Source: docs/spec/pilots_interface.md#rule-16.
-class VelocityRound {
+class DopplerVelocityUpdate {
  public:
-  explicit VelocityRound(const radar::RadarConfiguration& configuration);
+  explicit DopplerVelocityUpdate(const radar::RadarConfiguration& configuration);
 
   void resume(const databuffer::ModelStatus& status);
   void describe(databuffer::ModelStatus& status) const;

@@ -113,7 +113,7 @@ void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m
     if (commanded) done_request_ = request_;
     return;
   }
-  MapUnderWay map;
+  PendingMap map;
   map.order = *order;
   const geo::GeodesicInverse way = geo::geodesic_inverse(order->apex, order->centre);
   const geo::Angle squint = way.azimuth_at_start - order->ground_track;

@@ -19,7 +19,7 @@ namespace yars::model::kernel {
 std::uint64_t map_hash(const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels);
 
 // A map on its way.
-struct MapUnderWay {
+struct PendingMap {
   hrm::PatchOrder order;
   std::uint64_t id = 0;
   std::uint32_t request = 0;
@@ -32,9 +32,9 @@ struct MapUnderWay {
 };
 
 // When the radar forms which patch map, as a pure step: radar command, place and tick in; what is forming out. The
-// picture is another's work (hrm::PatchProcess); it is complete at the tick that the formation time gives, and whoever
-// drives the kernel has it ready by then. Source: docs/spec/pilots_interface.md#rule-5, #rule-6, #rule-7, #rule-8;
-// docs/spec/physics.md#formation-time.
+// picture is another's work (hrm::PatchFormation); it is complete at the tick that the formation time gives, and
+// whoever drives the kernel has it ready by then. Source: docs/spec/pilots_interface.md#rule-5, #rule-6, #rule-7,
+// #rule-8; docs/spec/physics.md#formation-time.
 class MapSchedule {
  public:
   explicit MapSchedule(const radar::RadarConfiguration& configuration);
@@ -47,7 +47,7 @@ class MapSchedule {
   void complete();
 
   bool forming() const { return map_.has_value(); }
-  const MapUnderWay& map() const { return *map_; }
+  const PendingMap& map() const { return *map_; }
   // True from the tick on at which the picture has to be there.
   bool due(std::int64_t tick) const { return map_ && tick >= map_->end_tick; }
   // No scan while a map is commanded or shown.
@@ -69,7 +69,7 @@ class MapSchedule {
   int looks_of(const databuffer::RadarCommand& command) const;
 
   const radar::RadarConfiguration* configuration_;
-  std::optional<MapUnderWay> map_;
+  std::optional<PendingMap> map_;
   std::uint64_t newest_ = 0;
   std::uint32_t request_ = 0;       // the last one taken up
   std::uint32_t done_request_ = 0;  // that the newest map answers, or that could not be answered

@@ -45,16 +45,16 @@ OfflineScan::Part OfflineScan::part(std::size_t thread) const {
   return {thread, thread * places_.size() / threads, (thread + 1) * places_.size() / threads};
 }
 
-void OfflineScan::measure_part(const Part& part, const physics::Database& database) {
+void OfflineScan::measure_part(const Part& part, const physics::Environment& database) {
   for (std::size_t sweep = part.first; sweep < part.end; ++sweep) {
-    const physics::Look look = look_of(places_[sweep]);
+    const physics::SweepGeometry look = look_of(places_[sweep]);
     const std::size_t pending = algorithms_[part.thread]->measure(look, database, power_of(sweep));
     jamming_[sweep] = strobes_[part.thread].level(look, database.terrain);
     flags_[sweep] = pending > 0 || !database.scenes_ready ? databuffer::kSweepNotReady : 0U;
   }
 }
 
-void OfflineScan::develop_sweep(std::size_t sweep, std::size_t thread) {
+void OfflineScan::form_sweep_video(std::size_t sweep, std::size_t thread) {
   const std::size_t last = places_.size() - 1;
   const std::size_t before = sweep > 0 ? sweep - 1 : 0;
   const std::size_t after = std::min(sweep + 1, last);
@@ -70,7 +70,7 @@ void OfflineScan::develop_sweep(std::size_t sweep, std::size_t thread) {
                {power_of(before), power_of(sweep), power_of(after), jamming_[sweep]}, sweeps_[sweep]);
 }
 
-void OfflineScan::measure(const physics::Database& database) {
+void OfflineScan::measure(const physics::Environment& database) {
   workers_.run([&](std::size_t thread) { measure_part(part(thread), database); });
 }
 
@@ -80,7 +80,7 @@ void OfflineScan::await_measured(std::size_t thread) {
     seen = parallel::wait_for_change(scans, seen);
 }
 
-void OfflineScan::run(const physics::Database& database) {
+void OfflineScan::run(const physics::Environment& database) {
   ++scans_;
   workers_.run([&](std::size_t thread) {
     const Part own = part(thread);
@@ -88,10 +88,10 @@ void OfflineScan::run(const physics::Database& database) {
     measured_[thread].scans.store(scans_, std::memory_order_release);
     measured_[thread].scans.notify_all();
     // The outermost sweeps need those of other threads, which are measured by the time that the inner ones are done.
-    for (std::size_t sweep = own.first + 1; sweep + 1 < own.end; ++sweep) develop_sweep(sweep, thread);
+    for (std::size_t sweep = own.first + 1; sweep + 1 < own.end; ++sweep) form_sweep_video(sweep, thread);
     for (std::size_t other = 0; other < measured_.size(); ++other) await_measured(other);
-    if (own.first < own.end) develop_sweep(own.first, thread);
-    if (own.first + 1 < own.end) develop_sweep(own.end - 1, thread);
+    if (own.first < own.end) form_sweep_video(own.first, thread);
+    if (own.first + 1 < own.end) form_sweep_video(own.end - 1, thread);
   });
 }
 

@@ -36,9 +36,9 @@ class OfflineScan {
   OfflineScan(const radar::RadarConfiguration& configuration, const ScanRequest& request, int threads);
 
   // Terrain to power to video and hashes. The threads do not wait for each other between the two.
-  void run(const physics::Database& database);
+  void run(const physics::Environment& database);
   // Terrain to power alone.
-  void measure(const physics::Database& database);
+  void measure(const physics::Environment& database);
 
   std::span<const databuffer::Sweep> sweeps() const { return sweeps_; }
   // Where the sweeps lie, and the power that was found: sweep after sweep, full scale = 1.
@@ -52,8 +52,8 @@ class OfflineScan {
     std::size_t thread, first, end;
   };
   Part part(std::size_t thread) const;
-  void measure_part(const Part& part, const physics::Database& database);
-  void develop_sweep(std::size_t sweep, std::size_t thread);
+  void measure_part(const Part& part, const physics::Environment& database);
+  void form_sweep_video(std::size_t sweep, std::size_t thread);
   void await_measured(std::size_t thread);
   void place_sweeps(const radar::RadarConfiguration& configuration, const ScanRequest& request);
 
@@ -71,7 +71,7 @@ class OfflineScan {
     std::atomic<std::uint32_t> scans{0};  // that the thread has measured its part of in run()
   };
   std::uint32_t scans_ = 0;  // that run() has begun
-  parallel::Workers workers_;
+  parallel::ThreadPool workers_;
   std::vector<Progress> measured_;  // one a thread
 };
 

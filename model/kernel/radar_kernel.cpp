@@ -15,7 +15,7 @@ namespace yars::model::kernel {
 namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 // Terrain a little beyond the range is wanted too: the aircraft moves on while it loads [m].
-constexpr double kRegionMarginM = 2000.0;
+constexpr double kRegionMargin_m = 2000.0;
 }  // namespace
 
 struct RadarKernel::State : ScanState {
@@ -64,13 +64,13 @@ RadarKernel::Need RadarKernel::need(const ModelTick& tick) const {
   need.ground = true;
   need.region.centre = pose ? pose->place : state_->pose->place;
   const geo::Length range = geo::Length::nautical_miles(tick.command.range_nm);
-  need.region.radius_m = range.metres() + kRegionMarginM;
+  need.region.radius_m = range.metres() + kRegionMargin_m;
   const bool sharp = tick.command.mode == static_cast<std::uint8_t>(radar::Mode::hrm);
   need.region.detail = scan_detail(sharp ? state_->sharpened.fidelity : state_->configuration.fidelity, range);
   return need;
 }
 
-bool RadarKernel::step(const ModelTick& tick, const physics::Database& database, databuffer::Sweep& sweep) {
+bool RadarKernel::step(const ModelTick& tick, const physics::Environment& database, databuffer::Sweep& sweep) {
   const terrain::TerrainView& terrain = database.terrain;
   State& state = *state_;
   state.tick = tick.tick;
@@ -92,12 +92,11 @@ bool RadarKernel::step(const ModelTick& tick, const physics::Database& database,
   const bool finished = state.follow_command(tick, sweep);
   state.point_unless_scanning(tick, terrain);
   if (!state.scanning) return finished;
-  if (state.is_sharpened() && state.antenna.between_scans())
-    state.antenna.aim(sharpened_sector(state.command, *state.pose, state.configuration).offset_deg);
+  if (state.is_dbs() && state.antenna.between_scans())
+    state.antenna.aim(dbs_sector(state.command, *state.pose, state.configuration).offset_deg);
   const antenna::AntennaStep beam = state.antenna.step(state.pose->platform, state.wanted_elevation(terrain));
   if (beam.phase != antenna::Phase::sweeping) return state.chain().flush(sweep);
-  return state.is_sharpened() ? state.gather(tick, beam, database, sweep)
-                              : state.sweep_tick(tick, beam, database, sweep);
+  return state.is_dbs() ? state.gather(tick, beam, database, sweep) : state.sweep_tick(tick, beam, database, sweep);
 }
 
 void answer_elevation(const databuffer::RadarState& asked, const terrain::TerrainView& terrain, ModelStatus& status) {
@@ -116,7 +115,7 @@ void RadarKernel::describe(const terrain::TerrainView& terrain, ModelStatus& sta
   status.tick = state.tick;
   status.sim_time_ns = state.sim_time_ns;
   status.terrain_generation = terrain.generation();
-  status.posts_pending = state.beam_chain.posts_pending() + state.sharpened_chain.posts_pending();
+  status.posts_pending = state.beam_chain.posts_pending() + state.dbs_chain.posts_pending();
   status.mode = state.command.mode;
   std::fill(std::begin(status.fidelity), std::end(status.fidelity), '\0');
   state.configuration.fidelity.name.copy(status.fidelity, sizeof status.fidelity - 1);

@@ -35,7 +35,7 @@ class RadarKernel {
 
   // Advances by one tick of 5 ms. Writes `sweep` and returns true when this tick completes a sweep. No allocation
   // after the first call of a sample count; no clock, file, log or global.
-  bool step(const databuffer::ModelTick& tick, const physics::Database& database, databuffer::Sweep& sweep);
+  bool step(const databuffer::ModelTick& tick, const physics::Environment& database, databuffer::Sweep& sweep);
 
   // Fills all but load, terrain_bytes, late_ticks, refused: those are the shell's.
   void describe(const terrain::TerrainView& terrain, databuffer::ModelStatus& status) const;

@@ -19,7 +19,7 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 void ScanState::clear_chains() {
   beam_chain.clear();
-  sharpened_chain.clear();
+  dbs_chain.clear();
   gathered_ticks = 0;
 }
 
@@ -42,7 +42,7 @@ void ScanState::point_unless_scanning(const ModelTick& given, const terrain::Ter
   const bool measures = velocity.wanted() && !maps.forming();
   if (!measures) velocity.give_up();
   if (measures) {
-    const VelocityRound::Direction beam = velocity.direction(platform);
+    const DopplerVelocityUpdate::Direction beam = velocity.direction(platform);
     const bool arrived = antenna.point(platform, beam.azimuth, beam.elevation);
     const bool within = antenna::within_gimbal(platform, configuration.antenna, beam.azimuth, beam.elevation);
     velocity.step(given, *pose, arrived, within);
@@ -59,12 +59,12 @@ geo::Angle ScanState::wanted_elevation(const terrain::TerrainView& terrain) cons
   const geo::GeoPoint cursor{command.cursor_latitude_deg, command.cursor_longitude_deg};
   const bool known = (command.flags & databuffer::kCursorValid) != 0U && std::isfinite(cursor.latitude_deg) &&
                      std::isfinite(cursor.longitude_deg);
-  if (!is_sharpened() || !known) return geo::Angle::degrees(command.antenna_elevation_deg);
+  if (!is_dbs() || !known) return geo::Angle::degrees(command.antenna_elevation_deg);
   return elevation_to(*pose, cursor, terrain.elevation_m(cursor));
 }
 
 // A sharpened sweep takes several ticks: its edges are those of the first and of the last.
-bool ScanState::gather(const ModelTick& given, const antenna::AntennaStep& step, const physics::Database& database,
+bool ScanState::gather(const ModelTick& given, const antenna::AntennaStep& step, const physics::Environment& database,
                        databuffer::Sweep& sweep) {
   if (gathered_ticks == 0) {
     gathered = step;
@@ -76,7 +76,7 @@ bool ScanState::gather(const ModelTick& given, const antenna::AntennaStep& step,
     gathered.elevation = step.elevation;
   }
   ++gathered_ticks;
-  if (gathered_ticks < ticks_a_sharpened_sweep(configuration) && !step.scan_end) return false;
+  if (gathered_ticks < ticks_a_dbs_sweep(configuration) && !step.scan_end) return false;
   gathered_ticks = 0;
   return sweep_tick(given, gathered, database, sweep);
 }
@@ -101,7 +101,7 @@ bool ScanState::follow_command(const ModelTick& given, databuffer::Sweep& sweep)
   }
   if (frozen_by(command)) {
     // HRM falls silent at once; else a scan is ended.
-    const bool silenced = is_sharpened() && sniffs(command);
+    const bool silenced = is_dbs() && sniffs(command);
     if (frozen || !scanning || silenced || antenna.between_scans()) {
       stop_scanning();
       frozen = true;
@@ -139,8 +139,8 @@ void ScanState::use_fidelity(const ModelTick& given) {
   configuration.fidelity.automatic = true;
   configuration.fidelity.core_share = before.core_share;
   beam_chain = SweepChain(configuration);
-  sharpened = sharpened_configuration(configuration);
-  sharpened_chain = SweepChain(sharpened);
+  sharpened = dbs_configuration(configuration);
+  dbs_chain = SweepChain(sharpened);
 }
 
 // A width that is not a number would differ from itself and restart the scan at each tick: the one in force stands.
@@ -152,8 +152,8 @@ void ScanState::restart(const databuffer::RadarCommand& given) {
   scan_restart = given.scan_restart;
   scan_width_deg = wanted_width_deg(given);
   scanning = true;
-  if (is_sharpened()) {
-    antenna.restart(sharpened_sector(given, *pose, configuration));
+  if (is_dbs()) {
+    antenna.restart(dbs_sector(given, *pose, configuration));
   } else {
     antenna.restart(scan_width_deg);
   }
@@ -167,8 +167,8 @@ void ScanState::start_scan(const databuffer::RadarCommand& given) {
   noise_only = sniffs(given);
 }
 
-bool ScanState::sweep_tick(const ModelTick& given, const antenna::AntennaStep& step, const physics::Database& database,
-                           databuffer::Sweep& sweep) {
+bool ScanState::sweep_tick(const ModelTick& given, const antenna::AntennaStep& step,
+                           const physics::Environment& database, databuffer::Sweep& sweep) {
   if (step.scan_start || scan_range_m <= 0.0) {
     if (configuration.fidelity.automatic) use_fidelity(given);
     start_scan(given.command);
@@ -200,10 +200,10 @@ bool ScanState::sweep_tick(const ModelTick& given, const antenna::AntennaStep& s
   // A pose that is not a pose: the place is the last good one, and nothing is received.
   const bool lost = !pose_fresh && (given.flags & databuffer::kTickOwnshipValid) != 0U;
   if (!step.reachable || lost) labels.flags |= databuffer::kSweepBlank;
-  if (is_sharpened()) {
+  if (is_dbs()) {
     const geo::Bearing middle = step.left + 0.5 * (step.right - step.left);
     labels.dark = radar::in_blind_zone(middle - pose->platform.ground_track, configuration.high_resolution);
-    const SharpenedCell cell = sharpened_cell(step.left, step.right, *pose, configuration);
+    const DbsCell cell = dbs_cell(step.left, step.right, *pose, configuration);
     place.looked_at = cell.middle;
     place.resolved = cell.width;
     labels.gain = physics::kFullGain;
@@ -213,7 +213,7 @@ bool ScanState::sweep_tick(const ModelTick& given, const antenna::AntennaStep& s
   if (step.scan_end) labels.flags |= databuffer::kSweepScanEnd;
   // Another detail than the scan's still stands in, or scenes are being read: the sweep is not what it will be.
   const geo::Length wanted = geo::Length::nautical_miles(given.command.range_nm);
-  const radar::Fidelity& fidelity = is_sharpened() ? sharpened.fidelity : configuration.fidelity;
+  const radar::Fidelity& fidelity = is_dbs() ? sharpened.fidelity : configuration.fidelity;
   const bool whole = database.terrain.serves(scan_detail(fidelity, wanted)) && database.scenes_ready;
   if (needs_ground(labels.mode, noise_only, configuration) && !whole) labels.flags |= databuffer::kSweepNotReady;
   return chain().advance(place, labels, database, sweep);

@@ -35,18 +35,18 @@ inline bool frozen_by(const databuffer::RadarCommand& command) {
 struct ScanState {
   explicit ScanState(const radar::RadarConfiguration& given)
       : configuration(given),
-        sharpened(sharpened_configuration(given)),
+        sharpened(dbs_configuration(given)),
         antenna(given.antenna),
         beam_chain(given),
-        sharpened_chain(sharpened),
+        dbs_chain(sharpened),
         maps(configuration),
         velocity(configuration) {}
   ScanState(const ScanState&) = delete;
   ScanState& operator=(const ScanState&) = delete;
   ~ScanState() = default;
 
-  bool is_sharpened() const { return command.mode == static_cast<std::uint8_t>(radar::Mode::hrm); }
-  SweepChain& chain() { return is_sharpened() ? sharpened_chain : beam_chain; }
+  bool is_dbs() const { return command.mode == static_cast<std::uint8_t>(radar::Mode::hrm); }
+  SweepChain& chain() { return is_dbs() ? dbs_chain : beam_chain; }
   void clear_chains();
 
   bool follow_command(const ModelTick& tick, databuffer::Sweep& sweep);
@@ -58,10 +58,10 @@ struct ScanState {
   void stop_scanning();
   void point_unless_scanning(const ModelTick& tick, const terrain::TerrainView& terrain);
   geo::Angle wanted_elevation(const terrain::TerrainView& terrain) const;
-  bool gather(const ModelTick& tick, const antenna::AntennaStep& step, const physics::Database& database,
+  bool gather(const ModelTick& tick, const antenna::AntennaStep& step, const physics::Environment& database,
               databuffer::Sweep& sweep);
   void start_scan(const databuffer::RadarCommand& command);
-  bool sweep_tick(const ModelTick& tick, const antenna::AntennaStep& step, const physics::Database& database,
+  bool sweep_tick(const ModelTick& tick, const antenna::AntennaStep& step, const physics::Environment& database,
                   databuffer::Sweep& sweep);
   void remember(ModelStatus& status) const;
 
@@ -69,9 +69,9 @@ struct ScanState {
   radar::RadarConfiguration sharpened;  // for the HRM PPI
   antenna::Antenna antenna;
   SweepChain beam_chain;
-  SweepChain sharpened_chain;
+  SweepChain dbs_chain;
   MapSchedule maps;
-  VelocityRound velocity;
+  DopplerVelocityUpdate velocity;
   antenna::AntennaStep gathered;  // of a sharpened sweep: what its ticks swept so far
   int gathered_ticks = 0;
   std::optional<Pose> pose;  // the last good one

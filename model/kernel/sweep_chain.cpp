@@ -27,11 +27,11 @@ void write_place(const SweepPlace& place, databuffer::Sweep& sweep) {
   sweep.direction = place.direction > 0 ? 1 : 0;
 }
 
-physics::Look look_of(const SweepPlace& place) {
+physics::SweepGeometry look_of(const SweepPlace& place) {
   const geo::Angle width = place.right - place.left;
-  physics::Look look{place.apex,      place.altitude, place.looked_at.value_or(place.left + 0.5 * width),
-                     place.elevation, place.range,    place.sim_time,
-                     place.band,      place.channel};
+  physics::SweepGeometry look{place.apex,      place.altitude, place.looked_at.value_or(place.left + 0.5 * width),
+                              place.elevation, place.range,    place.sim_time,
+                              place.band,      place.channel};
   look.bars_above = place.bars_above;
   look.bars_below = place.bars_below;
   if (place.resolved) {
@@ -70,7 +70,7 @@ SweepChain::SweepChain(const radar::RadarConfiguration& configuration)
   for (Measured& measured : measured_) measured.power.assign(samples_, 0.0F);
 }
 
-bool SweepChain::advance(const SweepPlace& place, const Labels& labels, const physics::Database& database,
+bool SweepChain::advance(const SweepPlace& place, const Labels& labels, const physics::Environment& database,
                          databuffer::Sweep& sweep) {
   Measured& measured = measured_[next_];
   next_ = (next_ + 1) % measured_.size();
@@ -83,9 +83,9 @@ bool SweepChain::advance(const SweepPlace& place, const Labels& labels, const ph
   return ready;
 }
 
-void SweepChain::receive(Measured& measured, const physics::Database& database) {
+void SweepChain::receive(Measured& measured, const physics::Environment& database) {
   const Labels& labels = measured.labels;
-  const physics::Look look = look_of(measured.place);
+  const physics::SweepGeometry look = look_of(measured.place);
   const bool deaf = (labels.flags & databuffer::kSweepBlank) != 0U;
   measured.jamming = deaf ? 0.0 : strobes_.level(look, database.terrain);
   if ((labels.flags & kNothingReceived) != 0U || labels.dark) {
@@ -131,7 +131,7 @@ void finish_sweep(rbm::Algorithm& algorithm, std::uint64_t seed, const SweepPlac
   if ((labels.flags & databuffer::kSweepBlank) != 0U || labels.dark) {
     std::fill(video.begin(), video.end(), std::uint8_t{0});
   } else {
-    algorithm.develop(window, place.range, labels.gain, {seed, labels.scan, labels.number}, video);
+    algorithm.form_video(window, place.range, labels.gain, {seed, labels.scan, labels.number}, video);
   }
   sweep.hash = sweep_hash(sweep);
 }

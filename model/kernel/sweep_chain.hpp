@@ -35,7 +35,7 @@ struct SweepPlace {
   std::uint8_t channel = 1;                 // 1..8
   std::optional<geo::Bearing> looked_at{};  // where the beam's centre looks if not to the middle of the wedge
   std::optional<geo::Angle> resolved{};     // width of the cell of a sharpened beam
-  geo::Angle bars_above{};                  // as in physics::Look
+  geo::Angle bars_above{};                  // as in physics::SweepGeometry
   geo::Angle bars_below{};
 };
 
@@ -48,7 +48,7 @@ inline geo::Duration sim_time_of(std::int64_t sim_time_ns) {
 void write_place(const SweepPlace& place, databuffer::Sweep& sweep);
 
 // What the beam's centre looks at: the middle of the wedge, unless the place says otherwise.
-physics::Look look_of(const SweepPlace& place);
+physics::SweepGeometry look_of(const SweepPlace& place);
 
 // XXH3 64 over the record's fields before `hash` but for the times, then, seeded with that, over the used samples.
 std::uint64_t sweep_hash(const databuffer::Sweep& sweep);
@@ -78,7 +78,7 @@ class SweepChain {
   };
 
   // Takes in the next sweep. Finishes its predecessor into `sweep` and returns true if there is one.
-  bool advance(const SweepPlace& place, const Labels& labels, const physics::Database& database,
+  bool advance(const SweepPlace& place, const Labels& labels, const physics::Environment& database,
                databuffer::Sweep& sweep);
   // Ends the pass: finishes the sweep that still waits for a successor.
   bool flush(databuffer::Sweep& sweep);
@@ -95,7 +95,7 @@ class SweepChain {
     double jamming = 0.0;  // full scale = 1
     memory::LineVector<float> power;
   };
-  void receive(Measured& measured, const physics::Database& database);
+  void receive(Measured& measured, const physics::Environment& database);
   void finish(const Measured& before, const Measured& centre, const Measured& after, databuffer::Sweep& sweep);
   Measured& newest(std::size_t age) { return measured_[(next_ + measured_.size() - 1 - age) % measured_.size()]; }
 

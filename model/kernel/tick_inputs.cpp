@@ -13,11 +13,11 @@
 namespace yars::model::kernel {
 
 namespace {
-constexpr double kLeastAltitudeM = -1000.0;  // [m] MSL, of the record
-constexpr double kGreatestAltitudeM = 200000.0;
+constexpr double kMinAltitude_m = -1000.0;  // [m] MSL, of the record
+constexpr double kMaxAltitude_m = 200000.0;
 // [NM] 18 m, a tenth of the shortest pulse: below it a sample's inverse cube leaves the numbers of float
-constexpr double kLeastRangeNm = 0.01;
-constexpr double kGreatestRangeNm = 1000.0;  // [NM] beyond it the series of the earth's curvature lose accuracy
+constexpr double kMinRange_nm = 0.01;
+constexpr double kMaxRange_nm = 1000.0;  // [NM] beyond it the series of the earth's curvature lose accuracy
 }  // namespace
 
 std::optional<Pose> pose_of(const databuffer::Ownship& ownship) {
@@ -26,7 +26,7 @@ std::optional<Pose> pose_of(const databuffer::Ownship& ownship) {
                                      ownship.velocity_north_mps, ownship.velocity_east_mps, ownship.velocity_down_mps};
   if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) return {};
   if (std::abs(ownship.latitude_deg) > 90.0 || std::abs(ownship.longitude_deg) > 180.0) return {};
-  if (ownship.altitude_msl_m < kLeastAltitudeM || ownship.altitude_msl_m > kGreatestAltitudeM) return {};
+  if (ownship.altitude_msl_m < kMinAltitude_m || ownship.altitude_msl_m > kMaxAltitude_m) return {};
   Pose pose;
   pose.place = {ownship.latitude_deg, ownship.longitude_deg};
   pose.altitude = geo::AltitudeMsl::metres(ownship.altitude_msl_m);
@@ -48,12 +48,12 @@ bool asks_for_video(const databuffer::RadarCommand& command) {
                      command.mode == static_cast<std::uint8_t>(radar::Mode::hrm) ||
                      command.mode == static_cast<std::uint8_t>(radar::Mode::beacon);
   return command.power == static_cast<std::uint8_t>(radar::Power::operate) && scans &&
-         command.range_nm >= kLeastRangeNm && command.range_nm <= kGreatestRangeNm;
+         command.range_nm >= kMinRange_nm && command.range_nm <= kMaxRange_nm;
 }
 
 std::vector<physics::MovingPoint> points_of(const databuffer::Traffic& traffic) {
   const geo::Duration since = sim_time_of(traffic.tick * radar::kTickNanoseconds);
-  const auto count = std::min<std::size_t>(traffic.count, databuffer::kMostTraffic);
+  const auto count = std::min<std::size_t>(traffic.count, databuffer::kMaxTraffic);
   std::vector<physics::MovingPoint> points;
   points.reserve(count);
   for (const databuffer::TrafficEntity& entity : std::span(traffic.entities).first(count)) {

@@ -281,7 +281,7 @@ RainPath::RainPath(const radar::RadarConfiguration& configuration) : beam_(confi
   crossed_.reserve(showers_.size());
 }
 
-void RainPath::enter(const Look& look) {
+void RainPath::enter(const SweepGeometry& look) {
   crossed_.clear();
   for (const Shower& shower : showers_) {
     const RainChord chord = rain_chord(look.apex, look.azimuth, shower.place, shower.radius_m);
@@ -301,8 +301,8 @@ double RainPath::two_way_loss(const EffectiveEarth& earth, double altitude_m, do
   return ratio(-loss_db);
 }
 
-double RainPath::power(const Receiver& receiver, const EffectiveEarth& earth, const Look& look, double distance_m,
-                       double horizon_rad) const {
+double RainPath::power(const Receiver& receiver, const EffectiveEarth& earth, const SweepGeometry& look,
+                       double distance_m, double horizon_rad) const {
   double total = 0.0;
   for (const Crossing& crossing : crossed_) {
     const double profile = crossing.chord.profile(distance_m);

@@ -128,7 +128,7 @@ class RainPath {
   explicit RainPath(const radar::RadarConfiguration& configuration);
 
   // Finds the showers that a sweep crosses within its range. Once a sweep; allocates nothing.
-  void enter(const Look& look);
+  void enter(const SweepGeometry& look);
   bool dry() const { return crossed_.empty(); }
 
   // Factor on the power that comes back from a point at a distance over ground, a height and a slant range [m].
@@ -136,7 +136,7 @@ class RainPath {
                       double slant_range_m) const;
 
   // Power [1/m^2], as returned_power(), of the rain at a distance over ground, above `horizon_rad` in elevation.
-  double power(const Receiver& receiver, const EffectiveEarth& earth, const Look& look, double distance_m,
+  double power(const Receiver& receiver, const EffectiveEarth& earth, const SweepGeometry& look, double distance_m,
                double horizon_rad) const;
 
  private:

@@ -59,13 +59,13 @@ std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint place) {
 
 namespace {
 constexpr double kSmall = 1e-15;  // a term or a factor that changes nothing any more
-constexpr int kMostTerms = 10000;
+constexpr int kMaxTerms = 10000;
 
 // By the power series; quick below the mean.
 double lower_series(double shape, double x) {
   double term = 1.0 / shape;
   double sum = term;
-  for (int n = 1; n < kMostTerms && term > sum * kSmall; ++n) {
+  for (int n = 1; n < kMaxTerms && term > sum * kSmall; ++n) {
     term *= x / (shape + n);
     sum += term;
   }
@@ -78,7 +78,7 @@ double upper_fraction(double shape, double x) {
   double d = 1.0 / b;
   double c = 1e300;
   double product = d;
-  for (int n = 1; n < kMostTerms; ++n) {
+  for (int n = 1; n < kMaxTerms; ++n) {
     const double a = -n * (n - shape);
     b += 2.0;
     d = 1.0 / (a * d + b);

@@ -1,10 +1,10 @@
 // What one vector of samples reflects: land by material with texture and walls, sea by grazing angle. Included once for
 // each target; the same bits on every one, each sample's its own whatever its company.
-#if defined(YARS_MODEL_RBM_GROUND_LANES_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef YARS_MODEL_RBM_GROUND_LANES_INL
-#undef YARS_MODEL_RBM_GROUND_LANES_INL
+#if defined(YARS_MODEL_PHYSICS_CLUTTER_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef YARS_MODEL_PHYSICS_CLUTTER_SIMD_INL
+#undef YARS_MODEL_PHYSICS_CLUTTER_SIMD_INL
 #else
-#define YARS_MODEL_RBM_GROUND_LANES_INL
+#define YARS_MODEL_PHYSICS_CLUTTER_SIMD_INL
 #endif
 
 #include <hwy/highway.h>

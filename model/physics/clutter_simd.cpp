@@ -64,8 +64,8 @@ void fill_sigma0(const SeaTable& table, float cosine, float* sigma0) {
   hn::StoreU(polynomials::exp2(d, hn::Set(d, last)), d, sigma0 + kEntries);
 }
 
-constexpr std::size_t kMostLanes = 16;
-using Tag = hn::CappedTag<float, kMostLanes>;
+constexpr std::size_t kMaxLanes = 16;
+using Tag = hn::CappedTag<float, kMaxLanes>;
 using SignedTag = hn::RebindToSigned<Tag>;
 using BitsTag = hn::RebindToUnsigned<Tag>;
 using Floats = hn::Vec<Tag>;
@@ -125,7 +125,7 @@ void speckle(std::size_t cells, NoiseState state, int looks, float* variate) {
 HWY_INLINE Floats load(const float* from, std::size_t left) {
   const Tag d;
   if (left >= hn::Lanes(d)) return hn::LoadU(d, from);
-  HWY_ALIGN float entries[kMostLanes] = {};
+  HWY_ALIGN float entries[kMaxLanes] = {};
   std::copy_n(from, left, entries);
   return hn::Load(d, entries);
 }
@@ -147,7 +147,7 @@ HWY_INLINE hn::Vec<SignedTag> rounded(Floats value) {
   return hn::Sub(hn::BitCast(di, hn::Add(value, hn::Set(Tag(), kOnes))), hn::Set(di, 0x4b400000));
 }
 
-void develop(std::size_t count, const VideoInputs& inputs, std::uint8_t* video) {
+void form_video(std::size_t count, const VideoInputs& inputs, std::uint8_t* video) {
   const Tag d;
   const hn::Rebind<std::uint8_t, Tag> d8;
   // A copy, so that no store of video could be one to it.
@@ -171,7 +171,7 @@ void develop(std::size_t count, const VideoInputs& inputs, std::uint8_t* video) 
     if (left >= hn::Lanes(d)) {
       hn::StoreU(bytes, d8, video + i);
     } else {
-      HWY_ALIGN std::uint8_t last[kMostLanes];
+      HWY_ALIGN std::uint8_t last[kMaxLanes];
       hn::StoreU(bytes, d8, last);
       std::copy_n(last, left, video + i);
     }
@@ -219,13 +219,13 @@ TextureDegree texture_degree(const GroundInputs& ground, float cells_north, floa
 }
 
 HWY_EXPORT(speckle);
-HWY_EXPORT(develop);
+HWY_EXPORT(form_video);
 
 void speckle(std::size_t cells, NoiseState state, int looks, float* variate) {
   HWY_DYNAMIC_DISPATCH(speckle)(cells, state, looks, variate);
 }
-void develop(std::size_t count, const VideoInputs& inputs, std::uint8_t* video) {
-  HWY_DYNAMIC_DISPATCH(develop)(count, inputs, video);
+void form_video(std::size_t count, const VideoInputs& inputs, std::uint8_t* video) {
+  HWY_DYNAMIC_DISPATCH(form_video)(count, inputs, video);
 }
 
 }  // namespace yars::model::physics::simd

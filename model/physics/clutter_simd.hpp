@@ -82,6 +82,6 @@ struct VideoInputs {
 
 // Joined sweeps and noise, speckle, log receiver: video = 255 (1 + (10 log10 power + gain_db) / decibels_per_scale),
 // clipped. `video` has exactly `count` entries.
-void develop(std::size_t count, const VideoInputs& inputs, std::uint8_t* video);
+void form_video(std::size_t count, const VideoInputs& inputs, std::uint8_t* video);
 
 }  // namespace yars::model::physics::simd

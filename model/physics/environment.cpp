@@ -24,19 +24,19 @@ constexpr double kMetresPerDegree = 110'500.0;  // [m] the shortest degree of la
 
 Movers::Movers(const radar::RadarConfiguration& configuration)
     : beam_(configuration.fidelity.beam), gas_(configuration), points_(configured_points(configuration)) {
-  echoes_.reserve(points_.size() + kMostTraffic);
+  echoes_.reserve(points_.size() + kMaxTraffic);
 }
 
-std::span<const Echo> Movers::echoes(const Look& look, const Receiver& receiver, const EffectiveEarth& earth,
-                                     const Database& database) {
+std::span<const Echo> Movers::echoes(const SweepGeometry& look, const Receiver& receiver, const EffectiveEarth& earth,
+                                     const Environment& database) {
   echoes_.clear();
   add_echoes(points_, look, receiver, earth, database.terrain);
-  add_echoes(database.traffic.first(std::min(database.traffic.size(), kMostTraffic)), look, receiver, earth,
+  add_echoes(database.traffic.first(std::min(database.traffic.size(), kMaxTraffic)), look, receiver, earth,
              database.terrain);
   return echoes_;
 }
 
-void Movers::add_echoes(std::span<const MovingPoint> points, const Look& look, const Receiver& receiver,
+void Movers::add_echoes(std::span<const MovingPoint> points, const SweepGeometry& look, const Receiver& receiver,
                         const EffectiveEarth& earth, const terrain::TerrainView& terrain) {
   for (const MovingPoint& point : points) {
     const geo::GeoPoint there = point.place(look.sim_time);

@@ -32,10 +32,10 @@ std::vector<MovingPoint> configured_points(const radar::RadarConfiguration& conf
 
 // What a sweep looks into: terrain and, where there are any, polygonal scenes and traffic from outside. References: for
 // the call alone.
-struct Database {
+struct Environment {
   // Terrain alone is a database, too.
-  Database(const terrain::TerrainView& given, const scene::SceneView* scenes_given = nullptr, bool whole = true,
-           std::span<const MovingPoint> traffic_given = {})
+  Environment(const terrain::TerrainView& given, const scene::SceneView* scenes_given = nullptr, bool whole = true,
+              std::span<const MovingPoint> traffic_given = {})
       : terrain(given), scenes(scenes_given), scenes_ready(whole), traffic(traffic_given) {}
 
   const terrain::TerrainView& terrain;
@@ -51,21 +51,21 @@ struct Echo {
   double power = 0.0;       // full scale = 1, after sensitivity time control; gains and what gases take in it
 };
 
-inline constexpr std::size_t kMostTraffic = 64;
+inline constexpr std::size_t kMaxTraffic = 64;
 
 // Ships and vehicles as a sweep sees them: points that go their geodesics with sim time, on the ground where they are.
 // Shadow is the caller's: it knows the horizon. Source: docs/spec/physics.md#power, the radar equation of a point.
-// Those of the configuration and those of the traffic, of which no more than kMostTraffic are looked at.
+// Those of the configuration and those of the traffic, of which no more than kMaxTraffic are looked at.
 class Movers {
  public:
   explicit Movers(const radar::RadarConfiguration& configuration);
 
   // Those within the range and two beam widths of the beam. Valid until the next call; allocates nothing.
-  std::span<const Echo> echoes(const Look& look, const Receiver& receiver, const EffectiveEarth& earth,
-                               const Database& database);
+  std::span<const Echo> echoes(const SweepGeometry& look, const Receiver& receiver, const EffectiveEarth& earth,
+                               const Environment& database);
 
  private:
-  void add_echoes(std::span<const MovingPoint> points, const Look& look, const Receiver& receiver,
+  void add_echoes(std::span<const MovingPoint> points, const SweepGeometry& look, const Receiver& receiver,
                   const EffectiveEarth& earth, const terrain::TerrainView& terrain);
 
   radar::BeamPattern beam_;

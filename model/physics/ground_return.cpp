@@ -69,7 +69,7 @@ double SurfaceReturn::cross_section_m2(const Receiver& receiver, const Facet& fa
 }
 
 namespace {
-constexpr double kEarthRadiusM = 6371008.8;  // [m] mean
+constexpr double kEarthRadius_m = 6371008.8;  // [m] mean
 
 void put_texture(simd::MaterialTables& tables, std::size_t code, double shape) {
   const TextureLevels levels = make_texture_levels(shape);
@@ -83,8 +83,8 @@ struct Direction {
 
 // Of the ray at the middle of the sweep, on the sphere: at most 0.01 degrees off for 160 NM. From Clairaut's relation
 // and Karney 2013, eq. 10.
-Direction middle_direction(const Look& look) {
-  const double turn_rad = 0.5 * look.range.metres() / kEarthRadiusM;
+Direction middle_direction(const SweepGeometry& look) {
+  const double turn_rad = 0.5 * look.range.metres() / kEarthRadius_m;
   const double latitude_rad = look.apex.latitude_deg * geo::kRadiansPerDegree;
   const double azimuth_rad = look.azimuth.radians();
   const double level = std::cos(latitude_rad);
@@ -142,8 +142,8 @@ void Ground::use_resolution(double pulse_length_m, double spacing_m) {
   grid_ = make_ground_grid(cell_m);
 }
 
-const simd::GroundInputs* Ground::prepare(const Look& look, const terrain::PlaceRun& places, const float* water,
-                                          bool materials) {
+const simd::GroundInputs* Ground::prepare(const SweepGeometry& look, const terrain::PlaceRun& places,
+                                          const float* water, bool materials) {
   const std::size_t count = places.north_deg.size();
   if (!materials && (inputs_.textured & 1U) == 0 && !simd::any_positive(count, water)) return nullptr;
   const Direction azimuth = middle_direction(look);
@@ -160,7 +160,7 @@ const simd::GroundInputs* Ground::prepare(const Look& look, const terrain::Place
   return &inputs_;
 }
 
-Ground::Sample Ground::reflect(const Look& look, const terrain::PlaceRun& places, const float* water,
+Ground::Sample Ground::reflect(const SweepGeometry& look, const terrain::PlaceRun& places, const float* water,
                                const float* sin_grazing, bool materials) {
   const simd::GroundInputs* const ground = prepare(look, places, water, materials);
   if (ground == nullptr) return {};

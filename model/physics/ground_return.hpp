@@ -63,7 +63,7 @@ class Ground {
 
   // The ground below a sweep's places, for simd::sweep(); null: plain dry land everywhere. `water` as the terrain gave
   // it; `materials`: whether materials() was filled. Lasts until the next call; the places have to last as long.
-  const simd::GroundInputs* prepare(const Look& look, const terrain::PlaceRun& places, const float* water,
+  const simd::GroundInputs* prepare(const SweepGeometry& look, const terrain::PlaceRun& places, const float* water,
                                     bool materials);
 
   // The same as arrays, for who has the sines of the grazing angle already.
@@ -71,8 +71,8 @@ class Ground {
     const float* land = nullptr;  // (1 - water) gamma, texture and cardinal effect in it; null: plain land everywhere
     const float* sea = nullptr;   // water * sigma0; null: no water in the sweep
   };
-  Sample reflect(const Look& look, const terrain::PlaceRun& places, const float* water, const float* sin_grazing,
-                 bool materials);
+  Sample reflect(const SweepGeometry& look, const terrain::PlaceRun& places, const float* water,
+                 const float* sin_grazing, bool materials);
 
  private:
   void face_walls(const terrain::PlaceRun& places, geo::Bearing azimuth);

@@ -14,7 +14,7 @@ namespace yars::model::physics {
 
 namespace {
 constexpr double kPolarMetresPerDegree = 111'694.0;  // WGS84, of a meridian at the pole
-constexpr double kMostTurn_rad = 0.5 * geo::kRadiansPerDegree;
+constexpr double kMaxTurn_rad = 0.5 * geo::kRadiansPerDegree;
 constexpr double kShareOfWay = 0.25;  // of the way to the pole, so that what a piece begins with holds to its end
 }  // namespace
 
@@ -29,7 +29,7 @@ PoleWay::PoleWay(geo::GeoPoint apex, geo::Bearing azimuth, double bend_m, double
 // A circle about the pole bends by L^2 / 8 r, and the longitude along a line by as much at the most.
 double PoleWay::straight_at(double to_pole_m) const {
   const double by_bend_m = std::sqrt(8.0 * bend_m_ * to_pole_m);
-  const double by_turn_m = kMostTurn_rad * to_pole_m * to_pole_m / std::max(offset_m_, 1.0);
+  const double by_turn_m = kMaxTurn_rad * to_pole_m * to_pole_m / std::max(offset_m_, 1.0);
   return std::max(shortest_m_, std::min({by_bend_m, by_turn_m, kShareOfWay * to_pole_m}));
 }
 
@@ -42,12 +42,12 @@ double PoleWay::least_straight_m(double from_m, double to_m) const {
 }
 
 namespace {
-constexpr double kEarthRadiusM = 6371008.8;  // [m] only to judge how near the pole is
+constexpr double kEarthRadius_m = 6371008.8;  // [m] only to judge how near the pole is
 // Interpolating latitude and longitude holds while the pole is this many half ranges from the apex: the error falls
 // with its power of the knots. Smaller: metres lost at 75 degrees; greater: more sweeps take the slower way.
 constexpr double kPoleHalfRanges = 12.0;
 
-using Knots = std::array<double, kMostKnots>;
+using Knots = std::array<double, kMaxKnots>;
 
 // A polynomial through the knots in Newton's form, in t over [-1, 1].
 struct Newton {
@@ -63,9 +63,9 @@ struct Newton {
 };
 
 // Chebyshev points of every number of knots: the interpolation error is spread evenly over the ray.
-std::array<Knots, kMostKnots + 1> chebyshev_points() {
-  std::array<Knots, kMostKnots + 1> points{};
-  for (int knots = kLeastKnots; knots <= kMostKnots; ++knots)
+std::array<Knots, kMaxKnots + 1> chebyshev_points() {
+  std::array<Knots, kMaxKnots + 1> points{};
+  for (int knots = kMinKnots; knots <= kMaxKnots; ++knots)
     for (int k = 0; k < knots; ++k)
       points[static_cast<std::size_t>(knots)][static_cast<std::size_t>(k)] =
           std::cos(std::numbers::pi * (k + 0.5) / knots);
@@ -156,8 +156,8 @@ simd::Curves curves_of(const geo::GeodesicSeries& series, terrain::CellPlace cor
 
 void place_by_knots(geo::GeoPoint apex, const geo::GeodesicRay& ray, geo::Length range, int knots,
                     const float* distance_m, PlaceArrays& places) {
-  static const std::array<Knots, kMostKnots + 1> points_of = chebyshev_points();
-  const double half_range_rad = 0.5 * range.metres() / kEarthRadiusM;
+  static const std::array<Knots, kMaxKnots + 1> points_of = chebyshev_points();
+  const double half_range_rad = 0.5 * range.metres() / kEarthRadius_m;
   const double to_pole_rad = (90.0 - std::abs(apex.latitude_deg)) * geo::kRadiansPerDegree;
   const bool near_pole = to_pole_rad <= kPoleHalfRanges * half_range_rad;
   const Knots& points = points_of[static_cast<std::size_t>(knots)];
@@ -199,7 +199,7 @@ void sample_places(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, 
   }
   const geo::GeodesicRay ray(apex, azimuth);
   if (knots != kExactPlaces) {
-    place_by_knots(apex, ray, range, std::clamp(knots, kLeastKnots, kMostKnots), distance_m, places);
+    place_by_knots(apex, ray, range, std::clamp(knots, kMinKnots, kMaxKnots), distance_m, places);
     return;
   }
   for (std::size_t i = 0; i < places.count; ++i)

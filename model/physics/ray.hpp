@@ -76,8 +76,8 @@ class PoleWay {
 // themselves; near them, where longitude turns quickly, the unit vector is. Accuracy with five knots or more: 0.5 m
 // against the geodesic for any ray of up to 160 NM from any latitude, millimetres at middle latitudes. Longitudes run
 // on across the antimeridian.
-inline constexpr int kLeastKnots = 2;
-inline constexpr int kMostKnots = 9;
+inline constexpr int kMinKnots = 2;
+inline constexpr int kMaxKnots = 9;
 inline constexpr int kExactPlaces = 0;  // as knots: the geodesic itself at every sample
 inline constexpr int kSeriesKnots = 5;  // so many or more: a series will do where it is as good
 
@@ -120,7 +120,7 @@ class GroundWalk {
   static constexpr double kStepsAPost = 10.0;
 
   // All are kept by reference.
-  GroundWalk(const Look& look, const EffectiveEarth& earth, const terrain::TerrainView& terrain,
+  GroundWalk(const SweepGeometry& look, const EffectiveEarth& earth, const terrain::TerrainView& terrain,
              radar::Interpolation interpolation, double steps_a_post = kStepsAPost)
       : look_(look), earth_(earth), terrain_(terrain), interpolation_(interpolation), steps_a_post_(steps_a_post) {}
 
@@ -154,7 +154,7 @@ class GroundWalk {
   double tangent_along(const Piece& piece, double share) const;
   double tangent(geo::GeoPoint place, double distance_m) const;
 
-  const Look& look_;
+  const SweepGeometry& look_;
   const EffectiveEarth& earth_;
   const terrain::TerrainView& terrain_;
   radar::Interpolation interpolation_;

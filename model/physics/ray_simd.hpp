@@ -8,12 +8,12 @@
 
 namespace yars::model::physics::simd {
 
-inline constexpr std::size_t kMostTerms = 9;
+inline constexpr std::size_t kMaxTerms = 9;
 
 // coefficient[0] + x (coefficient[1] + x (...)) [deg], x = distance * scale - shift.
 struct Curve {
   std::size_t terms = 0;
-  std::array<double, kMostTerms> coefficient{};
+  std::array<double, kMaxTerms> coefficient{};
 };
 struct Curves {
   double scale = 1.0;  // [1/m]

@@ -65,7 +65,7 @@ Receiver make_receiver(const radar::RadarConfiguration& configuration, geo::Leng
   receiver.noise = ratio(given.noise_floor_db);
   receiver.decibels_per_scale = given.dynamic_range_db;
   receiver.gain_step_db = given.gain_step_db;
-  receiver.looks = std::clamp(given.looks, 1, kMostLooks);
+  receiver.looks = std::clamp(given.looks, 1, kMaxLooks);
   const double sin_grazing = std::numbers::sqrt2 / 2.0;
   const double cross_section_m2 =
       receiver.land_gamma * sin_grazing * illuminated_area_m2(receiver, range.metres(), sin_grazing);
@@ -122,7 +122,7 @@ double received(const Receiver& receiver, double power, double slant_range_m) {
 }
 
 double point_rise(double pulse_samples) {
-  return std::clamp(pulse_samples, 1.0, 2.0 * static_cast<double>(PulseSmear::kMostReach));
+  return std::clamp(pulse_samples, 1.0, 2.0 * static_cast<double>(PulseSmear::kMaxReach));
 }
 
 PulseSmear make_pulse_smear(double pulse_samples) {

@@ -22,10 +22,10 @@ struct Receiver {
   double noise = 0.0;               // thermal noise, full scale = 1
   double decibels_per_scale = 0.0;  // [dB] black to white
   double gain_step_db = 0.0;
-  int looks = 1;  // 1..kMostLooks
+  int looks = 1;  // 1..kMaxLooks
 };
 
-inline constexpr int kMostLooks = 16;
+inline constexpr int kMaxLooks = 16;
 inline constexpr int kFullGain = 3;  // GAIN 3 is full gain; each step below takes gain_step_db off
 
 // Full scale is land of the configured gamma on a facet under 45 degrees in the beam's centre at the far end of the
@@ -64,9 +64,9 @@ inline constexpr double kTwoWayExponent = 5.545;
 // Pulse smear: weights over samples -reach..reach of a pulse of this many samples, sum 1. A pulse shorter than a
 // sample smears nothing.
 struct PulseSmear {
-  static constexpr std::ptrdiff_t kMostReach = 32;  // samples; a longer pulse is cut
+  static constexpr std::ptrdiff_t kMaxReach = 32;  // samples; a longer pulse is cut
   std::ptrdiff_t reach = 0;
-  std::array<double, 2 * kMostReach + 1> weights{};
+  std::array<double, 2 * kMaxReach + 1> weights{};
 };
 PulseSmear make_pulse_smear(double pulse_samples);
 

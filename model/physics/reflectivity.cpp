@@ -14,8 +14,8 @@ namespace yars::model::physics {
 namespace {
 
 constexpr double kMetresPerDegree = 111195.0;  // [m] of a sphere of 6371 km
-constexpr double kPatchM = 5000.0;             // [m] a town of middle size
-constexpr double kRowDeg = kPatchM / kMetresPerDegree;
+constexpr double kPatch_m = 5000.0;            // [m] a town of middle size
+constexpr double kRow_deg = kPatch_m / kMetresPerDegree;
 constexpr std::uint32_t kSeed = 0;  // whatever the landscape's: real culture has streets too
 
 }  // namespace
@@ -25,8 +25,8 @@ void StreetFinder::use_row(std::int32_t middle_row) {
   middle_row_ = middle_row;
   for (int i = 0; i < 3; ++i) {
     Row& row = rows_[static_cast<std::size_t>(i)];
-    const double row_middle_deg = std::clamp((middle_row - 1 + i + 0.5) * kRowDeg - 90.0, -90.0, 90.0);
-    row.columns = std::max(1, static_cast<int>(360.0 * std::cos(row_middle_deg * geo::kRadiansPerDegree) / kRowDeg));
+    const double row_middle_deg = std::clamp((middle_row - 1 + i + 0.5) * kRow_deg - 90.0, -90.0, 90.0);
+    row.columns = std::max(1, static_cast<int>(360.0 * std::cos(row_middle_deg * geo::kRadiansPerDegree) / kRow_deg));
     row.column_deg = 360.0 / row.columns;
     row.middle = kNoRow;
   }
@@ -39,7 +39,7 @@ void StreetFinder::use_column(Row& row, std::int32_t number, int middle) {
     const int column = middle - 1 + i;
     StreetPatch& patch = row.neighbours[static_cast<std::size_t>(i)];
     const std::uint32_t hash = random::lattice_hash((column + row.columns) % row.columns, number, 3, kSeed);
-    patch.origin = {(number + static_cast<double>(hash & 0xFFFFU) / 65536.0) * kRowDeg - 90.0,
+    patch.origin = {(number + static_cast<double>(hash & 0xFFFFU) / 65536.0) * kRow_deg - 90.0,
                     (column + static_cast<double>(hash >> 16U) / 65536.0) * row.column_deg - 180.0};
     // Half of all towns keep near the compass, as surveyors like it.
     const std::uint32_t turn = random::lattice_hash((column + row.columns) % row.columns, number, 4, kSeed);
@@ -52,7 +52,7 @@ const StreetPatch& StreetFinder::nearest(geo::GeoPoint place) {
   const double latitude_deg = std::clamp(place.latitude_deg, -90.0, 90.0);
   const double longitude_deg = geo::wrapped_degrees(place.longitude_deg);
   const double parallel = std::cos(latitude_deg * geo::kRadiansPerDegree);
-  use_row(static_cast<std::int32_t>(std::floor((latitude_deg + 90.0) / kRowDeg)));
+  use_row(static_cast<std::int32_t>(std::floor((latitude_deg + 90.0) / kRow_deg)));
   const StreetPatch* nearest = &rows_[0].neighbours[0];
   double least = 1e9;
   for (std::int32_t i = 0; i < 3; ++i) {
@@ -112,13 +112,13 @@ double cardinal_gain(double cardinal, double off_deg, double width_deg) {
 
 namespace {
 constexpr double kFaded = 4.0;  // widths of the cardinal effect off it: 2^-64 of it is left
-constexpr double kMostOff_deg = 89.0;
+constexpr double kMaxOff_deg = 89.0;
 constexpr int kSteps = 256;  // of the table: a sixty-fourth of the effect's width, 1e-4 of it between them
 }  // namespace
 
 SceneSurface::SceneSurface(const radar::RadarConfiguration& configuration)
     : street_width_deg_(configuration.world.land.street_width_deg),
-      faded_deg_(std::min(kFaded * street_width_deg_, kMostOff_deg)),
+      faded_deg_(std::min(kFaded * street_width_deg_, kMaxOff_deg)),
       faded_tangent_(std::tan(faded_deg_ * geo::kRadiansPerDegree)) {
   const LandReturn land = make_land_return(configuration);
   for (std::size_t code = 0; code < land.gamma.size(); ++code) {
@@ -150,8 +150,8 @@ std::vector<float> SceneSurface::cardinal_shares() const {
 }
 
 namespace {
-constexpr double kGreatestState = 6.0;                          // of the model
-constexpr double kSteepestRad = 60.0 * geo::kRadiansPerDegree;  // of the model
+constexpr double kMaxState = 6.0;                                // of the model
+constexpr double kSteepest_rad = 60.0 * geo::kRadiansPerDegree;  // of the model
 
 // Greatest wind [kt] of Beaufort forces 1 to 6, and the WMO state of the sea that goes with each; then state 6.
 struct Force {
@@ -180,7 +180,7 @@ double sea_state_of_wind(geo::Speed wind) {
   for (const Force& force : kForces) {
     if (wind_kt <= force.greatest_kt) return force.state;
   }
-  return kGreatestState;
+  return kMaxState;
 }
 
 double upwind_db(double factor, double wavelength_m, double grazing_rad) {
@@ -197,7 +197,7 @@ SeaReturn make_sea_return(const radar::RadarConfiguration& configuration) {
   sea.wavelength_m = wavelength_m(sea.frequency_ghz);
   const double state =
       std::isnan(given.state) ? sea_state_of_wind(geo::Speed::metres_per_second(given.wind_speed_mps)) : given.state;
-  sea.state = std::clamp(state, 0.0, kGreatestState);
+  sea.state = std::clamp(state, 0.0, kMaxState);
   sea.wind_factor = given.wind_factor;
   sea.wind_from = geo::Bearing::degrees(given.wind_from_deg);
   return sea;
@@ -205,7 +205,7 @@ SeaReturn make_sea_return(const radar::RadarConfiguration& configuration) {
 
 double sea_sigma0(const SeaReturn& sea, double sin_grazing, geo::Bearing look) {
   if (!(sin_grazing > 0.0)) return 0.0;
-  const double grazing_rad = std::min(std::asin(std::min(sin_grazing, 1.0)), kSteepestRad);
+  const double grazing_rad = std::min(std::asin(std::min(sin_grazing, 1.0)), kSteepest_rad);
   const double isotropic_db =
       nrl_sigma0_db(sea.coefficients, grazing_rad / geo::kRadiansPerDegree, sea.frequency_ghz, sea.state);
   const double upwind = upwind_db(sea.wind_factor, sea.wavelength_m, grazing_rad);

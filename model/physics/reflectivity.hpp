@@ -105,7 +105,7 @@ class SceneSurface {
   double faded_tangent_;  // of the angle beyond which nothing of the cardinal effect is left
 };
 
-inline constexpr double kMostShading = 4.0;  // of an interpolated normal against the facet's: silhouettes are ragged
+inline constexpr double kMaxShading = 4.0;  // of an interpolated normal against the facet's: silhouettes are ragged
 
 // What the sea returns: the NRL model of Gregers-Hansen and Mital 2012 (DTIC ADA559494), 0.1 to 60 degrees grazing,
 // sea states 0 to 6, within 2.6 dB on average of Nathanson's tables, which average over the wind. The

@@ -34,8 +34,8 @@ double azimuth_share(const RayShare& share, double beamwidth_rad, double off_rad
 }
 
 namespace {
-constexpr double kMeanEarthRadiusM = 6371008.8;  // [m] WGS84 mean (2a + b) / 3; the curvature of EarthModel::sphere
-constexpr double kLeastFactor = 0.1;             // k below it would curl the earth up inside the range
+constexpr double kMeanEarthRadius_m = 6371008.8;  // [m] WGS84 mean (2a + b) / 3; the curvature of EarthModel::sphere
+constexpr double kMinFactor = 0.1;                // k below it would curl the earth up inside the range
 }  // namespace
 
 double EffectiveEarth::drop_m(double distance_m) const {
@@ -76,19 +76,19 @@ double EffectiveEarth::distance_at_slant_range(double altitude_m, double height_
 }
 
 EffectiveEarth effective_earth(const radar::Fidelity& fidelity, geo::GeoPoint apex, geo::Bearing azimuth) {
-  const double factor = fidelity.earth_radius_factor > kLeastFactor ? fidelity.earth_radius_factor : kLeastFactor;
+  const double factor = fidelity.earth_radius_factor > kMinFactor ? fidelity.earth_radius_factor : kMinFactor;
   switch (fidelity.earth) {
     case radar::EarthModel::flat:
       break;
     case radar::EarthModel::sphere:
-      return EffectiveEarth(factor * kMeanEarthRadiusM);
+      return EffectiveEarth(factor * kMeanEarthRadius_m);
     case radar::EarthModel::ellipsoid:
       return EffectiveEarth(factor * geo::radius_of_curvature(apex.latitude_deg, azimuth).metres());
   }
   return EffectiveEarth(std::numeric_limits<double>::infinity());
 }
 
-void sample_distances(const radar::Fidelity& fidelity, const EffectiveEarth& earth, const Look& look,
+void sample_distances(const radar::Fidelity& fidelity, const EffectiveEarth& earth, const SweepGeometry& look,
                       const terrain::TerrainView& terrain, std::span<double> distance_m) {
   const double spacing_m = look.range.metres() / static_cast<double>(distance_m.size());
   for (std::size_t i = 0; i < distance_m.size(); ++i) distance_m[i] = (static_cast<double>(i) + 0.5) * spacing_m;

@@ -39,7 +39,7 @@ double azimuth_share(const RayShare& share, double beamwidth_rad, double off_rad
 // What one sweep of the real beam map looks at, and the three sweeps that the azimuth smear joins.
 
 // Every value finite, latitude within +-90 degrees, range > 0: the kernel sees to it.
-struct Look {
+struct SweepGeometry {
   geo::GeoPoint apex;
   geo::AltitudeMsl altitude;
   geo::Bearing azimuth;  // of the beam's centre, true
@@ -107,7 +107,7 @@ EffectiveEarth effective_earth(const radar::Fidelity& fidelity, geo::GeoPoint ap
 
 // Centre of each sample: distance over ground [m], ascending. Even in ground range, or even in slant range on ground
 // as high as below the aircraft; there a sample nearer than the ground is NaN.
-void sample_distances(const radar::Fidelity& fidelity, const EffectiveEarth& earth, const Look& look,
+void sample_distances(const radar::Fidelity& fidelity, const EffectiveEarth& earth, const SweepGeometry& look,
                       const terrain::TerrainView& terrain, std::span<double> distance_m);
 
 }  // namespace yars::model::physics

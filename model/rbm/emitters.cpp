@@ -13,10 +13,10 @@
 namespace yars::model::rbm {
 
 namespace {
-constexpr double kMastM = 10.0;           // [m] above the ground: a jammer or beacon whose altitude is not given
-constexpr double kLeastDistanceM = 10.0;  // [m] keeps one below the aircraft finite
+constexpr double kMast_m = 10.0;         // [m] above the ground: a jammer or beacon whose altitude is not given
+constexpr double kMinDistance_m = 10.0;  // [m] keeps one below the aircraft finite
 
-bool is_jammed(const radar::Jammer& jammer, const physics::Look& look) {
+bool is_jammed(const radar::Jammer& jammer, const physics::SweepGeometry& look) {
   const bool band = jammer.band == radar::kEveryBand || jammer.band == static_cast<int>(look.band);
   const auto channel = static_cast<double>(look.channel);
   return band && std::find(jammer.channels.begin(), jammer.channels.end(), channel) != jammer.channels.end();
@@ -26,11 +26,11 @@ bool is_jammed(const radar::Jammer& jammer, const physics::Look& look) {
 double altitude_of(double given_m, geo::GeoPoint place, const terrain::TerrainView& terrain) {
   if (!std::isnan(given_m)) return given_m;
   const double ground_m = terrain.elevation_m(place);
-  return (std::isnan(ground_m) ? 0.0 : ground_m) + kMastM;
+  return (std::isnan(ground_m) ? 0.0 : ground_m) + kMast_m;
 }
 }  // namespace
 
-double Strobes::level(const physics::Look& look, const terrain::TerrainView& terrain) {
+double Strobes::level(const physics::SweepGeometry& look, const terrain::TerrainView& terrain) {
   const radar::JammingConfiguration& jamming = configuration_.world.jamming;
   if (jamming.jammers.empty()) return 0.0;
   const physics::Receiver receiver = physics::make_receiver(configuration_, look.range);
@@ -40,7 +40,7 @@ double Strobes::level(const physics::Look& look, const terrain::TerrainView& ter
   for (const radar::Jammer& jammer : jamming.jammers) {
     if (!is_jammed(jammer, look)) continue;
     geo::GeodesicInverse way = geo::geodesic_inverse(look.apex, jammer.place);
-    way.distance = std::max(way.distance, geo::Length::metres(kLeastDistanceM));
+    way.distance = std::max(way.distance, geo::Length::metres(kMinDistance_m));
     const double altitude_m = altitude_of(jammer.altitude_m, jammer.place, terrain);
     if (!sight_line_.clear(configuration_.fidelity, look, terrain, way, altitude_m)) continue;
     const physics::EffectiveEarth earth =
@@ -75,10 +75,10 @@ Beacons::Beacons(const radar::RadarConfiguration& configuration)
   for (const radar::Beacon& beacon : given.beacons) {
     if (beacon.code == given.code) answering_.push_back(beacon);
   }
-  replies_.reserve(answering_.size() * radar::kMostReplies);
+  replies_.reserve(answering_.size() * radar::kMaxReplies);
 }
 
-std::span<const Reply> Beacons::replies(const physics::Look& look, const terrain::TerrainView& terrain) {
+std::span<const Reply> Beacons::replies(const physics::SweepGeometry& look, const terrain::TerrainView& terrain) {
   replies_.clear();
   if (none()) return {};
   const physics::Receiver receiver = physics::make_receiver(configuration_, look.range);
@@ -86,10 +86,10 @@ std::span<const Reply> Beacons::replies(const physics::Look& look, const terrain
   return replies_;
 }
 
-void Beacons::answer(const radar::Beacon& beacon, const physics::Look& look, const physics::Receiver& receiver,
+void Beacons::answer(const radar::Beacon& beacon, const physics::SweepGeometry& look, const physics::Receiver& receiver,
                      const terrain::TerrainView& terrain) {
   geo::GeodesicInverse way = geo::geodesic_inverse(look.apex, beacon.place);
-  way.distance = std::max(way.distance, geo::Length::metres(kLeastDistanceM));
+  way.distance = std::max(way.distance, geo::Length::metres(kMinDistance_m));
   const double distance_m = way.distance.metres();
   const double off_rad = (way.azimuth_at_start - look.azimuth).radians();
   // A reply comes later than a return from the beacon's place: what lies behind the range shows nothing.
@@ -107,7 +107,7 @@ void Beacons::answer(const radar::Beacon& beacon, const physics::Look& look, con
   const double loss = gas_.one_way_loss(earth, look.altitude.metres(), distance_m, altitude_m);
   const double power = 4.0 * std::numbers::pi * beacon.power_w / radar_w * loss * std::sqrt(two_way) /
                        (sight.slant_range_m * sight.slant_range_m) / receiver.full_scale;
-  for (int reply = 0; reply < std::min(beacon.replies, radar::kMostReplies); ++reply) {
+  for (int reply = 0; reply < std::min(beacon.replies, radar::kMaxReplies); ++reply) {
     const double later_us = beacon.delay_us + reply * beacon.spacing_us;
     const double slant_range_m = sight.slant_range_m + later_us * kMetresPerMicrosecond;
     replies_.push_back(
@@ -115,7 +115,7 @@ void Beacons::answer(const radar::Beacon& beacon, const physics::Look& look, con
   }
 }
 
-void Beacons::measure(const physics::Look& look, const terrain::TerrainView& terrain, std::span<float> power) {
+void Beacons::measure(const physics::SweepGeometry& look, const terrain::TerrainView& terrain, std::span<float> power) {
   std::fill(power.begin(), power.end(), 0.0F);
   const std::span<const Reply> arrived = replies(look, terrain);
   if (arrived.empty()) return;

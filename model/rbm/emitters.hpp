@@ -24,7 +24,7 @@ class Strobes {
       : configuration_(configuration), gas_(configuration) {}
 
   // Full scale = 1; 0 where nothing jams.
-  double level(const physics::Look& look, const terrain::TerrainView& terrain);
+  double level(const physics::SweepGeometry& look, const terrain::TerrainView& terrain);
 
  private:
   radar::RadarConfiguration configuration_;
@@ -52,13 +52,13 @@ class Beacons {
   bool none() const { return answering_.empty(); }
 
   // What arrives from all beacons, also from beyond the range. Valid until the next call; allocates nothing.
-  std::span<const Reply> replies(const physics::Look& look, const terrain::TerrainView& terrain);
+  std::span<const Reply> replies(const physics::SweepGeometry& look, const terrain::TerrainView& terrain);
 
   // The same as power by samples, near to far, as Algorithm::measure() gives it; what is no reply is 0.
-  void measure(const physics::Look& look, const terrain::TerrainView& terrain, std::span<float> power);
+  void measure(const physics::SweepGeometry& look, const terrain::TerrainView& terrain, std::span<float> power);
 
  private:
-  void answer(const radar::Beacon& beacon, const physics::Look& look, const physics::Receiver& receiver,
+  void answer(const radar::Beacon& beacon, const physics::SweepGeometry& look, const physics::Receiver& receiver,
               const terrain::TerrainView& terrain);
 
   radar::RadarConfiguration configuration_;

@@ -1,9 +1,9 @@
 // The two-way gain in elevation of each beam pattern, for groups of vectors. Included once for each target.
-#if defined(YARS_MODEL_RBM_GAIN_LANES_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef YARS_MODEL_RBM_GAIN_LANES_INL
-#undef YARS_MODEL_RBM_GAIN_LANES_INL
+#if defined(YARS_MODEL_RBM_GAIN_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef YARS_MODEL_RBM_GAIN_SIMD_INL
+#undef YARS_MODEL_RBM_GAIN_SIMD_INL
 #else
-#define YARS_MODEL_RBM_GAIN_LANES_INL
+#define YARS_MODEL_RBM_GAIN_SIMD_INL
 #endif
 
 #include <hwy/highway.h>

@@ -8,10 +8,10 @@
 namespace yars::model::rbm {
 
 namespace {
-constexpr std::size_t kMostPieces = 3072;  // more than any ray within 320 NM of a pole needs
-constexpr double kBend_m = 1.0;            // a thirtieth of the spacing of 1" posts
-constexpr double kShortest_m = 3.0;        // a tenth of it
-constexpr double kOwnGround_m = 1.0;       // no piece ends so near before a place
+constexpr std::size_t kMaxPieces = 3072;  // more than any ray within 320 NM of a pole needs
+constexpr double kBend_m = 1.0;           // a thirtieth of the spacing of 1" posts
+constexpr double kShortest_m = 3.0;       // a tenth of it
+constexpr double kOwnGround_m = 1.0;      // no piece ends so near before a place
 
 // [m] of the longest way between two places that are even over ground or in slant range: one of the first that is any.
 double longest_way(std::span<const float> distance_m) {
@@ -23,8 +23,8 @@ double longest_way(std::span<const float> distance_m) {
 }  // namespace
 
 RayCrests::RayCrests(std::size_t places)
-    : pieces_(places + kMostPieces),
-      distance_m_(places + kMostPieces + physics::kPairSlack),
+    : pieces_(places + kMaxPieces),
+      distance_m_(places + kMaxPieces + physics::kPairSlack),
       elevation_m_(distance_m_),
       water_(distance_m_),
       peak_m_(distance_m_),
@@ -111,8 +111,8 @@ SightLine::SightLine()
       peak_m_(distance_m_),
       crest_(distance_m_) {}
 
-bool SightLine::clear(const radar::Fidelity& fidelity, const physics::Look& look, const terrain::TerrainView& terrain,
-                      const geo::GeodesicInverse& way, double altitude_m) {
+bool SightLine::clear(const radar::Fidelity& fidelity, const physics::SweepGeometry& look,
+                      const terrain::TerrainView& terrain, const geo::GeodesicInverse& way, double altitude_m) {
   const physics::EffectiveEarth earth = physics::effective_earth(fidelity, look.apex, way.azimuth_at_start);
   const double distance_m = way.distance.metres();
   // The last sample lies under the point itself and hides it no more than its own ground does.

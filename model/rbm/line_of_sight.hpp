@@ -52,7 +52,7 @@ class SightLine {
 
   // True if nothing on the ground hides a point at this altitude [m MSL] from the look's place. A void hides nothing
   // above sea level. Distance over ground > 0.
-  bool clear(const radar::Fidelity& fidelity, const physics::Look& look, const terrain::TerrainView& terrain,
+  bool clear(const radar::Fidelity& fidelity, const physics::SweepGeometry& look, const terrain::TerrainView& terrain,
              const geo::GeodesicInverse& way, double altitude_m);
 
  private:

@@ -35,7 +35,8 @@ Reference::Reference(const radar::RadarConfiguration& configuration)
       samples_(sample_count(configuration)),
       distance_m_(samples_.size()) {}
 
-std::size_t Reference::measure(const physics::Look& look, const physics::Database& database, std::span<float> power) {
+std::size_t Reference::measure(const physics::SweepGeometry& look, const physics::Environment& database,
+                               std::span<float> power) {
   const terrain::TerrainView& terrain = database.terrain;
   const physics::EffectiveEarth earth = physics::effective_earth(configuration_.fidelity, look.apex, look.azimuth);
   const physics::Receiver receiver = physics::make_receiver(configuration_, look.range);
@@ -58,7 +59,7 @@ std::size_t Reference::measure(const physics::Look& look, const physics::Databas
   return pending;
 }
 
-std::size_t Reference::read_terrain(const physics::Look& look, const terrain::TerrainView& terrain) {
+std::size_t Reference::read_terrain(const physics::SweepGeometry& look, const terrain::TerrainView& terrain) {
   constexpr terrain::Surface kHole{std::numeric_limits<double>::quiet_NaN(), 0.0, 0};
   const geo::GeodesicRay ray(look.apex, look.azimuth);
   std::size_t pending = 0;
@@ -81,7 +82,7 @@ std::size_t Reference::read_terrain(const physics::Look& look, const terrain::Te
   return pending;
 }
 
-void Reference::read_cross_slopes(const physics::Look& look, const terrain::TerrainView& terrain) {
+void Reference::read_cross_slopes(const physics::SweepGeometry& look, const terrain::TerrainView& terrain) {
   const double side_rad = kSideShare * configuration_.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
   const geo::GeodesicRay left(look.apex, look.azimuth - geo::Angle::radians(side_rad));
   const geo::GeodesicRay right(look.apex, look.azimuth + geo::Angle::radians(side_rad));
@@ -96,7 +97,7 @@ void Reference::read_cross_slopes(const physics::Look& look, const terrain::Terr
   }
 }
 
-void Reference::cast_shadows(const physics::Look& look, const physics::EffectiveEarth& earth,
+void Reference::cast_shadows(const physics::SweepGeometry& look, const physics::EffectiveEarth& earth,
                              const physics::GroundWalk& walk) {
   // All ground raises the horizon, between the samples too, also outside the beam; a void neither raises it nor
   // returns. Shadow is cast by the highest ground; where a coarser level stands in, that is not the mean that returns.
@@ -127,7 +128,7 @@ double Reference::along_slope(std::size_t index) const {
 }
 
 double Reference::cell_power(const physics::Receiver& receiver, const physics::EffectiveEarth& earth,
-                             const physics::Look& look, std::size_t index) const {
+                             const physics::SweepGeometry& look, std::size_t index) const {
   const Sample& sample = samples_[index];
   const physics::Sight sight = earth.sight(look.altitude.metres(), sample.distance_m, sample.height_m);
   // The facet's normal against the direction to the radar, which lies in the plane of the sweep.
@@ -155,7 +156,7 @@ void Reference::add_movers(std::span<const physics::Echo> echoes, const physics:
   }
 }
 
-void Reference::see_scenes(const physics::Look& look, const physics::Receiver& receiver,
+void Reference::see_scenes(const physics::SweepGeometry& look, const physics::Receiver& receiver,
                            const physics::GroundWalk& walk, const scene::SceneView& scenes, double pulse_samples) {
   SceneReturn::Ground& ground = scene_return_.ground();
   for (std::size_t i = 0; i < samples_.size(); ++i) {
@@ -170,7 +171,7 @@ void Reference::see_scenes(const physics::Look& look, const physics::Receiver& r
 }
 
 void Reference::add_rain(const physics::Receiver& receiver, const physics::EffectiveEarth& earth,
-                         const physics::Look& look) {
+                         const physics::SweepGeometry& look) {
   const double altitude_m = look.altitude.metres();
   for (Sample& sample : samples_) {
     if (std::isnan(sample.distance_m)) continue;
@@ -204,8 +205,8 @@ void Reference::lit(std::span<std::uint8_t> mask) const {
                  [](const Sample& sample) { return sample.lit ? std::uint8_t{1} : std::uint8_t{0}; });
 }
 
-void Reference::develop(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
-                        std::span<std::uint8_t> video) {
+void Reference::form_video(const physics::PowerWindow& window, geo::Length range, int gain,
+                           const physics::NoiseKey& key, std::span<std::uint8_t> video) {
   const physics::Receiver receiver = physics::make_receiver(configuration_, range);
   const physics::NoiseState state = physics::make_noise_state(key);
   const double spacing_m = range.metres() / static_cast<double>(video.size());

@@ -21,10 +21,11 @@ class Reference : public Algorithm {
  public:
   explicit Reference(const radar::RadarConfiguration& configuration);
 
-  std::size_t measure(const physics::Look& look, const physics::Database& database, std::span<float> power) override;
+  std::size_t measure(const physics::SweepGeometry& look, const physics::Environment& database,
+                      std::span<float> power) override;
   void lit(std::span<std::uint8_t> mask) const override;
-  void develop(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
-               std::span<std::uint8_t> video) override;
+  void form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
+                  std::span<std::uint8_t> video) override;
 
   // What the last measure() found for a sample; for tests and `yars trade`.
   struct Sample {
@@ -43,16 +44,18 @@ class Reference : public Algorithm {
   std::span<const Sample> samples() const { return samples_; }
 
  private:
-  std::size_t read_terrain(const physics::Look& look, const terrain::TerrainView& terrain);
-  void read_cross_slopes(const physics::Look& look, const terrain::TerrainView& terrain);
-  void cast_shadows(const physics::Look& look, const physics::EffectiveEarth& earth, const physics::GroundWalk& walk);
+  std::size_t read_terrain(const physics::SweepGeometry& look, const terrain::TerrainView& terrain);
+  void read_cross_slopes(const physics::SweepGeometry& look, const terrain::TerrainView& terrain);
+  void cast_shadows(const physics::SweepGeometry& look, const physics::EffectiveEarth& earth,
+                    const physics::GroundWalk& walk);
   double along_slope(std::size_t index) const;
-  double cell_power(const physics::Receiver& receiver, const physics::EffectiveEarth& earth, const physics::Look& look,
-                    std::size_t index) const;
+  double cell_power(const physics::Receiver& receiver, const physics::EffectiveEarth& earth,
+                    const physics::SweepGeometry& look, std::size_t index) const;
   void add_movers(std::span<const physics::Echo> echoes, const physics::GroundWalk& walk, double pulse_samples);
-  void see_scenes(const physics::Look& look, const physics::Receiver& receiver, const physics::GroundWalk& walk,
-                  const scene::SceneView& scenes, double pulse_samples);
-  void add_rain(const physics::Receiver& receiver, const physics::EffectiveEarth& earth, const physics::Look& look);
+  void see_scenes(const physics::SweepGeometry& look, const physics::Receiver& receiver,
+                  const physics::GroundWalk& walk, const scene::SceneView& scenes, double pulse_samples);
+  void add_rain(const physics::Receiver& receiver, const physics::EffectiveEarth& earth,
+                const physics::SweepGeometry& look);
   void smear_pulse(double pulse_samples, std::span<float> power) const;
 
   radar::RadarConfiguration configuration_;

@@ -12,12 +12,12 @@ namespace {
 constexpr std::array<float, 3> kPostWeights{0.25F, 0.5F, 0.25F};
 constexpr float kNoHorizon = -1.0e30F;  // tangent below every terrain
 constexpr int kGainSteps = 4;
-constexpr double kReferenceShare = 0.5;      // of the selected range
-constexpr double kLeastReference_m = 100.0;  // [m] of altitude: below it the darkest slope would be white
+constexpr double kReferenceShare = 0.5;    // of the selected range
+constexpr double kMinReference_m = 100.0;  // [m] of altitude: below it the darkest slope would be white
 
 // Intensity of level ground at sea level, so far away as the reference says: the same for every bar and azimuth.
-float reference_intensity(const physics::Look& look) {
-  const double altitude_m = std::max(look.altitude.metres(), kLeastReference_m);
+float reference_intensity(const physics::SweepGeometry& look) {
+  const double altitude_m = std::max(look.altitude.metres(), kMinReference_m);
   return static_cast<float>(altitude_m / std::hypot(altitude_m, kReferenceShare * look.range.metres()));
 }
 
@@ -39,7 +39,8 @@ Report1996::Report1996(const radar::RadarConfiguration& configuration)
       intensity_(count_),
       lit_(count_) {}
 
-std::size_t Report1996::measure(const physics::Look& look, const physics::Database& database, std::span<float> power) {
+std::size_t Report1996::measure(const physics::SweepGeometry& look, const physics::Environment& database,
+                                std::span<float> power) {
   const std::size_t count = count_;
   const double spacing_m = look.range.metres() / static_cast<double>(count);
   for (std::size_t i = 0; i < count; ++i)
@@ -90,8 +91,8 @@ float Report1996::slope(std::size_t index, float spacing_m) const {
   return (elevation_m_[far] - elevation_m_[near]) / (static_cast<float>(far - near) * spacing_m);
 }
 
-void Report1996::develop(const physics::PowerWindow& window, geo::Length /*range*/, int gain,
-                         const physics::NoiseKey& /*key*/, std::span<std::uint8_t> video) {
+void Report1996::form_video(const physics::PowerWindow& window, geo::Length /*range*/, int gain,
+                            const physics::NoiseKey& /*key*/, std::span<std::uint8_t> video) {
   const float scale = 255.0F * static_cast<float>(gain + 1) / static_cast<float>(kGainSteps);
   for (std::size_t i = 0; i < video.size(); ++i) {
     const float power = std::min(joined(window.before[i], window.centre[i], window.after[i]), 1.0F);

@@ -18,10 +18,11 @@ class Report1996 : public Algorithm {
  public:
   explicit Report1996(const radar::RadarConfiguration& configuration);
 
-  std::size_t measure(const physics::Look& look, const physics::Database& database, std::span<float> power) override;
+  std::size_t measure(const physics::SweepGeometry& look, const physics::Environment& database,
+                      std::span<float> power) override;
   void lit(std::span<std::uint8_t> mask) const override;
-  void develop(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
-               std::span<std::uint8_t> video) override;
+  void form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
+                  std::span<std::uint8_t> video) override;
 
  private:
   float slope(std::size_t index, float spacing_m) const;

@@ -24,7 +24,7 @@ double along_slope(const SceneReturn::Ground& ground, std::size_t index) {
 // some metres of the ellipsoid for scenes of some tens of kilometres.
 class RayOverPlane {
  public:
-  RayOverPlane(const physics::Look& look, geo::GeoPoint place) {
+  RayOverPlane(const physics::SweepGeometry& look, geo::GeoPoint place) {
     const geo::GeodesicInverse way = geo::geodesic_inverse(look.apex, place);
     distance_m_ = way.distance.metres();
     const double off_rad = (look.azimuth - way.azimuth_at_start).radians();
@@ -54,7 +54,7 @@ class RayOverPlane {
 SceneReturn::SceneReturn(const radar::RadarConfiguration& configuration, std::size_t samples)
     : beam_(configuration.fidelity.beam), surface_(configuration), gas_(configuration), ground_(samples) {}
 
-bool SceneReturn::enter(const physics::Look& look, const scene::SceneView* scenes) {
+bool SceneReturn::enter(const physics::SweepGeometry& look, const scene::SceneView* scenes) {
   if (scenes == nullptr || scenes->scatterers().empty()) return false;
   const auto sea_level = geo::HeightAboveEllipsoid::metres(0.0);
   const geo::LocalTangentFrame level(look.apex, sea_level);
@@ -66,7 +66,7 @@ bool SceneReturn::enter(const physics::Look& look, const scene::SceneView* scene
   return std::any_of(all.begin(), all.end(), [&](const scene::Scatterers* scene) { return in_range(*scene, look); });
 }
 
-bool SceneReturn::in_range(const scene::Scatterers& scene, const physics::Look& look) const {
+bool SceneReturn::in_range(const scene::Scatterers& scene, const physics::SweepGeometry& look) const {
   // Straight through the earth it is nearer than over ground.
   return length(scene.frame.enu_from_ecef(apex_)) <= look.range.metres() + scene.reach_m;
 }
@@ -83,8 +83,8 @@ SceneReturn::Ray SceneReturn::ray_in(const scene::Scatterers& scene) const {
           scene.frame.enu_from_ecef_direction(right_)};
 }
 
-void SceneReturn::apply(const physics::Look& look, const physics::Receiver& receiver, const physics::GroundWalk& walk,
-                        const scene::SceneView& scenes, double pulse_samples) {
+void SceneReturn::apply(const physics::SweepGeometry& look, const physics::Receiver& receiver,
+                        const physics::GroundWalk& walk, const scene::SceneView& scenes, double pulse_samples) {
   const double radius_m = geo::radius_of_curvature(look.apex.latitude_deg, look.azimuth).metres();
   const double spacing_m = look.range.metres() / static_cast<double>(ground_.power.size());
   const Sweep sweep{

@@ -32,10 +32,10 @@ class SceneReturn {
   };
 
   // True if a scene comes within range: then ground() is to be filled, and apply() changes its power.
-  bool enter(const physics::Look& look, const scene::SceneView* scenes);
+  bool enter(const physics::SweepGeometry& look, const scene::SceneView* scenes);
   Ground& ground() { return ground_; }
   // `pulse_samples`: of the smear that comes behind it.
-  void apply(const physics::Look& look, const physics::Receiver& receiver, const physics::GroundWalk& walk,
+  void apply(const physics::SweepGeometry& look, const physics::Receiver& receiver, const physics::GroundWalk& walk,
              const scene::SceneView& scenes, double pulse_samples);
 
  private:
@@ -45,7 +45,7 @@ class SceneReturn {
   };
   // What changes from sweep to sweep but not from scene to scene.
   struct Sweep {
-    const physics::Look* look = nullptr;
+    const physics::SweepGeometry* look = nullptr;
     const physics::Receiver* receiver = nullptr;
     const physics::EffectiveEarth* earth = nullptr;
     const physics::GroundWalk* walk = nullptr;
@@ -54,7 +54,7 @@ class SceneReturn {
     double spacing_m = 0.0;   // of samples
   };
   Ray ray_in(const scene::Scatterers& scene) const;
-  bool in_range(const scene::Scatterers& scene, const physics::Look& look) const;
+  bool in_range(const scene::Scatterers& scene, const physics::SweepGeometry& look) const;
   bool under_ray(const scene::Scatterers& scene) const;
   void cover_ground(const Sweep& sweep, const scene::Scatterers& scene);
   double covered_power(const Sweep& sweep, std::size_t sample, double gamma) const;

@@ -45,7 +45,8 @@ Standard::Standard(const radar::RadarConfiguration& configuration)
       variate_(count_, 1.0F),
       cell_(count_ + terrain::kRunSlack) {}
 
-std::size_t Standard::measure(const physics::Look& look, const physics::Database& database, std::span<float> power) {
+std::size_t Standard::measure(const physics::SweepGeometry& look, const physics::Environment& database,
+                              std::span<float> power) {
   const terrain::TerrainView& terrain = database.terrain;
   const physics::EffectiveEarth earth = physics::effective_earth(configuration_.fidelity, look.apex, look.azimuth);
   const physics::Receiver& receiver = receiver_at(look.range);
@@ -94,15 +95,15 @@ void Standard::lit(std::span<std::uint8_t> mask) const {
   for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = tangent_.data()[i] > before_.data()[i] ? 1 : 0;
 }
 
-void Standard::attenuate(const physics::Look& look) {
+void Standard::attenuate(const physics::SweepGeometry& look) {
   if (gas_.none()) return;
   gas_samples_.use(gas_, look.altitude.metres(), look.range.metres(), distance_.first(count_),
                    !configuration_.fidelity.slant_range);
   gas_samples_.apply(elevation_.data(), power_.data());
 }
 
-void Standard::see_scenes(const physics::Look& look, const physics::GroundWalk& walk, const physics::Receiver& receiver,
-                          const scene::SceneView& scenes, double pulse_samples) {
+void Standard::see_scenes(const physics::SweepGeometry& look, const physics::GroundWalk& walk,
+                          const physics::Receiver& receiver, const scene::SceneView& scenes, double pulse_samples) {
   SceneReturn::Ground& ground = scene_return_.ground();
   const bool across = configuration_.fidelity.cross_track_slope;
   for (std::size_t i = 0; i < count_; ++i) {
@@ -116,8 +117,9 @@ void Standard::see_scenes(const physics::Look& look, const physics::GroundWalk& 
   for (std::size_t i = 0; i < count_; ++i) power_.data()[i] = static_cast<float>(ground.power[i]);
 }
 
-void Standard::add_movers(const physics::Look& look, const physics::GroundWalk& walk, const physics::Receiver& receiver,
-                          const physics::Database& database, double pulse_samples) {
+void Standard::add_movers(const physics::SweepGeometry& look, const physics::GroundWalk& walk,
+                          const physics::Receiver& receiver, const physics::Environment& database,
+                          double pulse_samples) {
   const auto horizon = [&](std::size_t sample) { return static_cast<double>(horizon_.data()[sample]); };
   for (const physics::Echo& echo : movers_.echoes(look, receiver, walk.earth(), database)) {
     const std::size_t index = physics::nearest_sample(distance_m_, echo.distance_m);
@@ -129,7 +131,7 @@ void Standard::add_movers(const physics::Look& look, const physics::GroundWalk& 
 
 // Only sweeps that cross a shower pay for it: in double, linear between every so many samples where they lie closer
 // than a 512th of the range.
-void Standard::add_rain(const physics::Look& look, const physics::EffectiveEarth& earth,
+void Standard::add_rain(const physics::SweepGeometry& look, const physics::EffectiveEarth& earth,
                         const physics::Receiver& receiver) {
   const std::size_t step = std::max<std::size_t>(1, count_ / 512);
   struct Rain {
@@ -168,7 +170,7 @@ const physics::Receiver& Standard::receiver_at(geo::Length range) {
 }
 
 // Distances, and the inverse steps between them. Even in ground range they are a range scale's: computed once.
-void Standard::place_samples(const physics::Look& look, const physics::EffectiveEarth& earth,
+void Standard::place_samples(const physics::SweepGeometry& look, const physics::EffectiveEarth& earth,
                              const terrain::TerrainView& terrain) {
   const bool slant = configuration_.fidelity.slant_range;
   if (!slant && spaced_range_m_ == look.range.metres()) return;
@@ -185,7 +187,7 @@ void Standard::place_samples(const physics::Look& look, const physics::Effective
   }
 }
 
-std::size_t Standard::read_terrain(const physics::Look& look, const terrain::TerrainView& terrain) {
+std::size_t Standard::read_terrain(const physics::SweepGeometry& look, const terrain::TerrainView& terrain) {
   physics::sample_places(look.apex, look.azimuth, look.range, configuration_.fidelity.geodesic_knots, distance_.data(),
                          places_);
   const bool peaks = terrain.has_peaks();
@@ -201,7 +203,7 @@ std::size_t Standard::read_terrain(const physics::Look& look, const terrain::Ter
   return pending;
 }
 
-void Standard::read_cross_slopes(const physics::Look& look, const terrain::TerrainView& terrain) {
+void Standard::read_cross_slopes(const physics::SweepGeometry& look, const terrain::TerrainView& terrain) {
   const double side_rad = kSideShare * configuration_.antenna.azimuth_beamwidth_deg * geo::kRadiansPerDegree;
   const auto read = [&](double turn_rad, Padded& out) {
     physics::sample_places(look.apex, look.azimuth + geo::Angle::radians(turn_rad), look.range,
@@ -218,7 +220,7 @@ void Standard::read_cross_slopes(const physics::Look& look, const terrain::Terra
   }
 }
 
-simd::SweepConstants Standard::sweep_constants(const physics::Look& look, const physics::EffectiveEarth& earth,
+simd::SweepConstants Standard::sweep_constants(const physics::SweepGeometry& look, const physics::EffectiveEarth& earth,
                                                const physics::Receiver& receiver) const {
   const double elevation_rad = look.elevation.radians();
   const double beam_rad = receiver.elevation_beamwidth_rad;
@@ -251,8 +253,8 @@ void Standard::use_cells(float cells_per_sample) {
     cell_[i] = static_cast<std::int32_t>(physics::resolution_cell(static_cast<std::uint32_t>(i), cells_per_sample));
 }
 
-void Standard::develop(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
-                       std::span<std::uint8_t> video) {
+void Standard::form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
+                          std::span<std::uint8_t> video) {
   const physics::Receiver& receiver = receiver_at(range);
   const radar::Fidelity& fidelity = configuration_.fidelity;
   std::array<float, 3> weights{0.0F, 1.0F, 0.0F};
@@ -276,7 +278,7 @@ void Standard::develop(const physics::PowerWindow& window, geo::Length range, in
     inputs.variate = variate_.data();
     if (cells_per_sample_ < 1.0F) inputs.cell = cell_.data();
   }
-  physics::simd::develop(count, inputs, video.data());
+  physics::simd::form_video(count, inputs, video.data());
 }
 
 }  // namespace yars::model::rbm

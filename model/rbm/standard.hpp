@@ -27,10 +27,11 @@ class Standard : public Algorithm {
  public:
   explicit Standard(const radar::RadarConfiguration& configuration);
 
-  std::size_t measure(const physics::Look& look, const physics::Database& database, std::span<float> power) override;
+  std::size_t measure(const physics::SweepGeometry& look, const physics::Environment& database,
+                      std::span<float> power) override;
   void lit(std::span<std::uint8_t> mask) const override;
-  void develop(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
-               std::span<std::uint8_t> video) override;
+  void form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
+                  std::span<std::uint8_t> video) override;
 
  private:
   // Entries for `samples` and kPad either side.
@@ -42,17 +43,18 @@ class Standard : public Algorithm {
     memory::LineVector<float> values;
   };
 
-  void place_samples(const physics::Look& look, const physics::EffectiveEarth& earth,
+  void place_samples(const physics::SweepGeometry& look, const physics::EffectiveEarth& earth,
                      const terrain::TerrainView& terrain);
-  std::size_t read_terrain(const physics::Look& look, const terrain::TerrainView& terrain);
-  void add_movers(const physics::Look& look, const physics::GroundWalk& walk, const physics::Receiver& receiver,
-                  const physics::Database& database, double pulse_samples);
-  void add_rain(const physics::Look& look, const physics::EffectiveEarth& earth, const physics::Receiver& receiver);
-  void see_scenes(const physics::Look& look, const physics::GroundWalk& walk, const physics::Receiver& receiver,
-                  const scene::SceneView& scenes, double pulse_samples);
-  void attenuate(const physics::Look& look);
-  void read_cross_slopes(const physics::Look& look, const terrain::TerrainView& terrain);
-  simd::SweepConstants sweep_constants(const physics::Look& look, const physics::EffectiveEarth& earth,
+  std::size_t read_terrain(const physics::SweepGeometry& look, const terrain::TerrainView& terrain);
+  void add_movers(const physics::SweepGeometry& look, const physics::GroundWalk& walk,
+                  const physics::Receiver& receiver, const physics::Environment& database, double pulse_samples);
+  void add_rain(const physics::SweepGeometry& look, const physics::EffectiveEarth& earth,
+                const physics::Receiver& receiver);
+  void see_scenes(const physics::SweepGeometry& look, const physics::GroundWalk& walk,
+                  const physics::Receiver& receiver, const scene::SceneView& scenes, double pulse_samples);
+  void attenuate(const physics::SweepGeometry& look);
+  void read_cross_slopes(const physics::SweepGeometry& look, const terrain::TerrainView& terrain);
+  simd::SweepConstants sweep_constants(const physics::SweepGeometry& look, const physics::EffectiveEarth& earth,
                                        const physics::Receiver& receiver) const;
 
   const physics::Receiver& receiver_at(geo::Length range);
@@ -72,7 +74,7 @@ class Standard : public Algorithm {
   double smeared_samples_ = 0.0;  // pulse that the weights are for; 0: none yet
   std::ptrdiff_t smear_reach_ = 0;
   float cells_per_sample_ = 0.0F;  // that the cells are for; 0: none yet
-  std::array<float, 2 * physics::PulseSmear::kMostReach + 1> smear_weights_{};
+  std::array<float, 2 * physics::PulseSmear::kMaxReach + 1> smear_weights_{};
   std::vector<double> distance_m_;
   Padded distance_, one_step_inverse_, two_step_inverse_;
   physics::PlaceArrays places_;

@@ -17,7 +17,7 @@ constexpr double kHalfSpan = 0.75;  // of the beam width: the two-way gain is be
 
 SubBeams::SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfiguration& configuration)
     : ray_(std::move(ray)), power_(sample_count(configuration)), lit_(power_.size()) {
-  const int count = std::clamp(configuration.fidelity.sub_beams, 1, radar::kMostSubBeams);
+  const int count = std::clamp(configuration.fidelity.sub_beams, 1, radar::kMaxSubBeams);
   double sum = 0.0;
   std::vector<double> weights;
   for (int k = 0; k < count; ++k) {
@@ -38,12 +38,13 @@ SubBeams::SubBeams(std::unique_ptr<Algorithm> ray, const radar::RadarConfigurati
   }
 }
 
-std::size_t SubBeams::measure(const physics::Look& look, const physics::Database& database, std::span<float> power) {
+std::size_t SubBeams::measure(const physics::SweepGeometry& look, const physics::Environment& database,
+                              std::span<float> power) {
   std::fill(power.begin(), power.end(), 0.0F);
   std::size_t pending = 0;
   for (std::size_t k = 0; k < rays_.size(); ++k) {
     const Ray& ray = rays_[k];
-    physics::Look aside = look;
+    physics::SweepGeometry aside = look;
     aside.azimuth = look.azimuth + ray.offset;
     aside.share = ray.share;
     pending += ray_->measure(aside, database, power_);
@@ -57,9 +58,9 @@ void SubBeams::lit(std::span<std::uint8_t> mask) const {
   std::copy_n(lit_.begin(), std::min(lit_.size(), mask.size()), mask.begin());
 }
 
-void SubBeams::develop(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
-                       std::span<std::uint8_t> video) {
-  ray_->develop(window, range, gain, key, video);
+void SubBeams::form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
+                          std::span<std::uint8_t> video) {
+  ray_->form_video(window, range, gain, key, video);
 }
 
 namespace {

@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 namespace clutter = physics::simd::HWY_NAMESPACE;
 namespace polynomials = physics::HWY_NAMESPACE;
 
-constexpr std::size_t kMostLanes = 16;
+constexpr std::size_t kMaxLanes = 16;
 
 // Where points are in the vertical plane of the ray, and the aircraft as seen from them.
 template <class Group>
@@ -236,7 +236,7 @@ HWY_INLINE void smear_by(std::size_t count, const float* power, const float* wei
     if (count - i >= hn::Lanes(d)) {
       hn::StoreU(sum, d, result + i);
     } else {
-      HWY_ALIGN float last[kMostLanes];
+      HWY_ALIGN float last[kMaxLanes];
       hn::Store(sum, d, last);
       std::copy_n(last, count - i, result + i);
     }

@@ -35,7 +35,7 @@ StateMachineShell::StateMachineShell(databuffer::Session& session, const radar::
     log::warning("magnetic model: " + field_.problem() + "; the configured variation serves");
   databuffer::RadarState left{};
   if (!session.layout().radar_state.read(left)) return;
-  if (const auto reason = databuffer::why_refused(left)) {
+  if (const auto reason = databuffer::validate(left)) {
     session.note(databuffer::NoteKind::refusal, "radar state left behind: " + std::string(*reason));
     log::warning("radar state left behind is refused, starting anew: " + std::string(*reason));
     return;
@@ -51,23 +51,23 @@ void StateMachineShell::step(const databuffer::TickLoop::Due& due) {
   session_->keep_clock();
   latch(due);
   take_events(due.tick);
-  advance(state_, surroundings_, *configuration_);
+  advance(state_, inputs_, *configuration_);
   publish_if_changed(due.tick);
-  session_->layout().outputs.publish(outputs_of(state_, surroundings_));
+  session_->layout().outputs.publish(outputs_of(state_, inputs_));
   drop_old_events_ = false;
 }
 
 void StateMachineShell::latch(const databuffer::TickLoop::Due& due) {
   const auto& selected = ownship_.refresh(session_->layout(), due.sim_time_ns, due.clock.epoch);
-  surroundings_.tick = due.tick;
-  surroundings_.sim_time_ns = due.sim_time_ns;
-  surroundings_.epoch = due.clock.epoch;
-  surroundings_.ownship_valid = selected.valid;
-  surroundings_.ownship = selected.ownship;
-  surroundings_.nav = selected.nav;
+  inputs_.tick = due.tick;
+  inputs_.sim_time_ns = due.sim_time_ns;
+  inputs_.epoch = due.clock.epoch;
+  inputs_.ownship_valid = selected.valid;
+  inputs_.ownship = selected.ownship;
+  inputs_.nav = selected.nav;
   latch_recorder();
-  const bool stale = !latch_model() || (surroundings_.model.flags & databuffer::kModelStale) != 0;
-  surroundings_.height_above_ground_m = stale ? std::nan("") : surroundings_.model.height_above_ground_m;
+  const bool stale = !latch_model() || (inputs_.model.flags & databuffer::kModelStale) != 0;
+  inputs_.height_above_ground_m = stale ? std::nan("") : inputs_.model.height_above_ground_m;
   latch_variation();
   latch_maps();
 }
@@ -76,11 +76,11 @@ void StateMachineShell::latch(const databuffer::TickLoop::Due& due) {
 bool StateMachineShell::latch_model() {
   databuffer::ModelStatus status{};
   if (!session_->layout().model_status.read(status)) return false;
-  if (const auto reason = databuffer::why_refused(status)) {
+  if (const auto reason = databuffer::validate(status)) {
     session_->note(databuffer::NoteKind::refusal, "model status: " + *reason);
     return model_told_;
   }
-  surroundings_.model = status;
+  inputs_.model = status;
   return model_told_ = true;
 }
 
@@ -91,33 +91,33 @@ void StateMachineShell::latch_recorder() {
     databuffer::RecorderStatus status{};
     if (const auto version = slot.read(status)) {
       recorder_version_ = *version;
-      if (const auto reason = databuffer::why_refused(status))
+      if (const auto reason = databuffer::validate(status))
         session_->note(databuffer::NoteKind::refusal, "recorder status: " + *reason);
       else
         recorder_ = status;
     }
   }
-  surroundings_.recorder_present = session_->role_is_held(databuffer::Role::recorder);
-  surroundings_.recorder_writing = surroundings_.recorder_present && recorder_.writing != 0;
-  surroundings_.recorder_failed = surroundings_.recorder_present && recorder_.problem[0] != '\0';
+  inputs_.recorder_present = session_->role_is_held(databuffer::Role::recorder);
+  inputs_.recorder_writing = inputs_.recorder_present && recorder_.writing != 0;
+  inputs_.recorder_failed = inputs_.recorder_present && recorder_.problem[0] != '\0';
 }
 
 // Every second: the field changes over miles, and its series costs more than a tick of the machine.
 void StateMachineShell::latch_variation() {
   constexpr std::int64_t kTicksBetween = 200;
-  const bool due = surroundings_.tick % kTicksBetween == 0 || std::isnan(surroundings_.field_variation_deg);
-  if (!field_.has_data() || !surroundings_.ownship_valid || !due) return;
-  const databuffer::Ownship& ownship = surroundings_.ownship;
-  surroundings_.field_variation_deg = field_.variation_deg({ownship.latitude_deg, ownship.longitude_deg},
-                                                           geo::HeightAboveEllipsoid::metres(ownship.altitude_msl_m),
-                                                           configuration_->navigation.magnetic_year);
+  const bool due = inputs_.tick % kTicksBetween == 0 || std::isnan(inputs_.field_variation_deg);
+  if (!field_.has_data() || !inputs_.ownship_valid || !due) return;
+  const databuffer::Ownship& ownship = inputs_.ownship;
+  inputs_.field_variation_deg = field_.variation_deg({ownship.latitude_deg, ownship.longitude_deg},
+                                                     geo::HeightAboveEllipsoid::metres(ownship.altitude_msl_m),
+                                                     configuration_->navigation.magnetic_year);
 }
 
 // Records that are wanted no more make way for those that are; one that is here already is not read again.
 void StateMachineShell::latch_maps() {
   const std::array<std::uint64_t, kMapsKnown> wanted{state_.map_newest, state_.map_old, state_.map_stored,
-                                                     surroundings_.model.map_newest};
-  auto& maps = surroundings_.maps;
+                                                     inputs_.model.map_newest};
+  auto& maps = inputs_.maps;
   const auto is_wanted = [&](std::uint64_t id) { return std::ranges::find(wanted, id) != wanted.end(); };
   for (databuffer::PatchMap& map : maps)
     if (!is_wanted(map.id)) map = {};
@@ -125,7 +125,7 @@ void StateMachineShell::latch_maps() {
     if (id == 0 || id == refused_map_ || std::ranges::find(maps, id, &databuffer::PatchMap::id) != maps.end()) continue;
     databuffer::PatchMap map{};
     if (!databuffer::read_patch(session_->layout(), id, map)) continue;
-    if (const auto reason = databuffer::why_refused(map)) {
+    if (const auto reason = databuffer::validate(map)) {
       session_->note(databuffer::NoteKind::refusal, "patch map: " + *reason);
       refused_map_ = id;
       continue;
@@ -143,7 +143,7 @@ void StateMachineShell::take_events(std::int64_t tick) {
     // A source that floods its lane holds up no tick: the rest waits for the next.
     for (std::size_t taken = 0; taken < databuffer::kInputLaneDepth && input.peek(lane, event); ++taken) {
       // A lane is in order: what follows waits, too.
-      if (waits_for_elevation(state_, event, surroundings_)) break;
+      if (waits_for_elevation(state_, event, inputs_)) break;
       input.pop(lane, event);
       if (drop_old_events_ && event.monotonic_ns < now_ns - kOldestEvent_ns)
         ++too_old;
@@ -155,12 +155,12 @@ void StateMachineShell::take_events(std::int64_t tick) {
 }
 
 void StateMachineShell::take(const databuffer::InputEvent& event, std::size_t lane, std::int64_t tick) {
-  if (const auto reason = databuffer::why_refused(event)) {
+  if (const auto reason = databuffer::validate(event)) {
     session_->note(databuffer::NoteKind::refusal, "event: " + std::string(*reason));
     return;
   }
   databuffer::AppliedEvent applied{};
-  applied.effective = static_cast<std::uint32_t>(apply(state_, event, surroundings_, *configuration_));
+  applied.effective = static_cast<std::uint32_t>(apply(state_, event, inputs_, *configuration_));
   ++state_.events_applied;
   applied.tick = tick;
   applied.monotonic_ns = databuffer::monotonic_ns();
@@ -171,7 +171,7 @@ void StateMachineShell::take(const databuffer::InputEvent& event, std::size_t la
 }
 
 void StateMachineShell::publish_if_changed(std::int64_t tick) {
-  state_.epoch = surroundings_.epoch;
+  state_.epoch = inputs_.epoch;
   state_.tick = published_.tick;
   if (!nothing_published_ && std::memcmp(&state_, &published_, sizeof state_) == 0) return;
   state_.tick = tick;

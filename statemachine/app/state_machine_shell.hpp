@@ -34,8 +34,8 @@ class StateMachineShell {
   bool drop_old_events_;  // what waited for a dead predecessor for over a second is dropped
   databuffer::OwnshipReceiver ownship_;
   geo::MagneticField field_;
-  Surroundings surroundings_;
-  bool model_told_ = false;        // surroundings_.model holds a status
+  Inputs inputs_;
+  bool model_told_ = false;        // inputs_.model holds a status
   std::uint64_t refused_map_ = 0;  // told once
   databuffer::RecorderStatus recorder_{};
   std::uint64_t recorder_version_ = 0;

@@ -205,7 +205,7 @@ TEST(Apg68, IsDrawnOnTheGlass) {
   if (!context) GTEST_SKIP() << "no OpenGL without a display: " << context.error().message();
   const char* folder = std::getenv("YARS_PICTURES");
   Radar radar;
-  display::gl::Glass glass(radar.configuration, 480);
+  display::gl::Display glass(radar.configuration, 480);
   radar.send("power opr");
   radar.put_cursor(25.0, 25.0);
   int picture = 0;

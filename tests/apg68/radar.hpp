@@ -69,7 +69,7 @@ class Radar {
   void step_with_maps() {
     due_ = kernel.maps().due(around.tick + 1);
     if (due_) {
-      const model::kernel::MapUnderWay& under_way = kernel.maps().map();
+      const model::kernel::PendingMap& under_way = kernel.maps().map();
       databuffer::PatchMap& map = around.maps[under_way.id % around.maps.size()];
       map = {};
       map.id = under_way.id;
@@ -131,8 +131,8 @@ class Radar {
     state.flags |= databuffer::kCursorValid;
     step();
   }
-  display::GlassInput glass_input() const {
-    display::GlassInput input;
+  display::DisplayInput glass_input() const {
+    display::DisplayInput input;
     input.state = state;
     input.model = around.model;
     input.ownship = around.ownship;
@@ -144,7 +144,7 @@ class Radar {
   model::kernel::RadarKernel kernel;
   model::terrain::AnalyticTerrain terrain;
   databuffer::RadarState state;
-  statemachine::Surroundings around{};
+  statemachine::Inputs around{};
   databuffer::ModelTick tick{};
   databuffer::Sweep sweep{};
 

@@ -24,7 +24,7 @@ void pause(std::int64_t ns) {
   nanosleep(&time, nullptr);
 }
 
-std::uint32_t shown_on_glass(const databuffer::Session& session) {
+std::uint32_t shown_on_display(const databuffer::Session& session) {
   for (const auto& process : session.processes())
     if (process.name == "radar-display") return process.progress;
   return 0;
@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
     state_ms.push_back(wait_ms(began_ns, [&] { return states.version() > version; }));
     const auto wanted = static_cast<std::uint32_t>(states.version());
     frame_ms.push_back(
-        wait_ms(began_ns, [&] { return static_cast<std::int32_t>(shown_on_glass(*session) - wanted) >= 0; }));
+        wait_ms(began_ns, [&] { return static_cast<std::int32_t>(shown_on_display(*session) - wanted) >= 0; }));
   }
   print_row("event to radar state", state_ms);
   print_row("event to frame", frame_ms);

@@ -88,7 +88,8 @@ struct Times {
   std::array<double, hrm::kPatchStages.size()> stages_s{};
 };
 
-void run(hrm::PatchProcess& process, const hrm::PatchOrder& order, const hrm::PatchDatabase& database, Times& times) {
+void run(hrm::PatchFormation& process, const hrm::PatchOrder& order, const hrm::PatchEnvironment& database,
+         Times& times) {
   std::array<double, hrm::kPatchStages.size()> stages_s{};
   const double whole_s = benchmarks::timed([&] {
     process.begin(order);
@@ -105,11 +106,11 @@ void run(hrm::PatchProcess& process, const hrm::PatchOrder& order, const hrm::Pa
 void measure(model::terrain::TerrainStore& store, geo::GeoPoint place, std::uint64_t triangles, int size) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.map_size = size;
-  hrm::PatchProcess process(configuration, {});
+  hrm::PatchFormation process(configuration, {});
   const hrm::PatchOrder order = order_about(place);
   process.begin(order);
   const auto ground = store.prepare({place, geo::Length::nautical_miles(1.5 * kRange_nm).metres(), 0});
-  const hrm::PatchDatabase database{ground, ground, towns_of(triangles, {place}, *ground)};
+  const hrm::PatchEnvironment database{ground, ground, towns_of(triangles, {place}, *ground)};
   Times times;
   benchmarks::Visibility visibility;
   const double build_s = visibility.build(order, *database.scene, ground->elevation_m(place), size);
@@ -134,10 +135,10 @@ void measure(model::terrain::TerrainStore& store, geo::GeoPoint place, std::uint
 void measure_database(model::terrain::TerrainStore& store, geo::GeoPoint place, std::size_t towns) {
   constexpr std::uint64_t kTriangles = 100'000;
   radar::RadarConfiguration configuration;
-  hrm::PatchProcess process(configuration, {});
+  hrm::PatchFormation process(configuration, {});
   const hrm::PatchOrder order = order_about(place);
   const auto ground = store.prepare({place, geo::Length::nautical_miles(3.0 * kRange_nm).metres(), 0});
-  const hrm::PatchDatabase database{ground, ground, towns_of(kTriangles, places_round(place, towns), *ground)};
+  const hrm::PatchEnvironment database{ground, ground, towns_of(kTriangles, places_round(place, towns), *ground)};
   Times times;
   for (int round = 0; round < kRounds; ++round) run(process, order, database, times);
   std::printf("{\"size\":%d,\"towns\":%zu,\"resident_mb\":%.0f,\"triangles_near\":%zu,\"kernel_ms\":%.2f}\n",
@@ -147,11 +148,11 @@ void measure_database(model::terrain::TerrainStore& store, geo::GeoPoint place, 
 }
 
 // Seconds by the clock for so many maps on each of `processes` at the same time.
-double maps_s(std::vector<hrm::PatchProcess>& processes, const hrm::PatchOrder& order,
-              const hrm::PatchDatabase& database, int maps) {
+double maps_s(std::vector<hrm::PatchFormation>& processes, const hrm::PatchOrder& order,
+              const hrm::PatchEnvironment& database, int maps) {
   const auto begin = std::chrono::steady_clock::now();
   std::vector<std::thread> workers;
-  for (hrm::PatchProcess& process : processes)
+  for (hrm::PatchFormation& process : processes)
     workers.emplace_back([&] {
       for (int map = 0; map < maps; ++map) {
         process.begin(order);
@@ -167,14 +168,14 @@ void measure_threads(model::terrain::TerrainStore& store, geo::GeoPoint place, s
   constexpr int kMaps = 10;
   radar::RadarConfiguration configuration;
   configuration.fidelity.map_size = size;
-  parallel::Workers workers(2);
-  std::vector<hrm::PatchProcess> together;
-  together.emplace_back(configuration, parallel::Crew{2, [&](const auto& job) { workers.run(job); }});
-  std::vector<hrm::PatchProcess> apart;
-  for (int i = 0; i < 2; ++i) apart.emplace_back(configuration, parallel::Crew{});
+  parallel::ThreadPool workers(2);
+  std::vector<hrm::PatchFormation> together;
+  together.emplace_back(configuration, parallel::Executor{2, [&](const auto& job) { workers.run(job); }});
+  std::vector<hrm::PatchFormation> apart;
+  for (int i = 0; i < 2; ++i) apart.emplace_back(configuration, parallel::Executor{});
   const hrm::PatchOrder order = order_about(place);
   const auto ground = store.prepare({place, geo::Length::nautical_miles(1.5 * kRange_nm).metres(), 0});
-  const hrm::PatchDatabase database{ground, ground, towns_of(triangles, {place}, *ground)};
+  const hrm::PatchEnvironment database{ground, ground, towns_of(triangles, {place}, *ground)};
   std::vector<double> shares;
   for (int round = 0; round < kRounds; ++round) {
     const double one_s = maps_s(together, order, database, kMaps);

@@ -82,7 +82,7 @@ class Stages {
             rbm::simd::sweep(count_, constants_, radar::BeamPattern::cosecant_squared, inputs,
                              {at(kTangent), at(kBefore), at(kHorizon), at(kPower)});
           });
-    std::array<float, 2 * physics::PulseSmear::kMostReach + 1> weights{};
+    std::array<float, 2 * physics::PulseSmear::kMaxReach + 1> weights{};
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = static_cast<float>(smear_.weights[i]);
     stage("smear", {kPower}, {kSmeared},
           [&](int) { rbm::simd::smear(count_, at(kPower), weights.data(), smear_.reach, at(kSmeared)); });
@@ -93,7 +93,8 @@ class Stages {
     const std::array<float, 3> join{0.25F, 0.5F, 0.25F};
     const physics::simd::VideoInputs video{at(kSmeared), at(kSmeared), at(kSmeared), join.data(), 1e-4F,
                                            at(kVariate), cell_.data(), 0.0F,         45.0F};
-    stage("video", {kSmeared, kVariate}, {kSpare}, [&](int) { physics::simd::develop(count_, video, video_.data()); });
+    stage("video", {kSmeared, kVariate}, {kSpare},
+          [&](int) { physics::simd::form_video(count_, video, video_.data()); });
     std::printf("{\"stages_ns\":{%s},\"floors_ns\":{%s}}\n", stages_.c_str(), floors_.c_str());
   }
 

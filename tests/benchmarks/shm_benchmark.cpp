@@ -24,7 +24,7 @@ using databuffer::Sweep;
 
 constexpr int kPairs = 15;
 constexpr std::size_t kDepth = 1024;
-constexpr std::uint64_t kMostAhead = 512;  // records a producer may lead by, so that nothing is lost and all is counted
+constexpr std::uint64_t kMaxAhead = 512;  // records a producer may lead by, so that nothing is lost and all is counted
 
 double now_ns() {
   timespec time{};
@@ -59,7 +59,7 @@ double two_threads(Ring& ring, const Sweep& record, std::uint64_t count) {
   const double began = now_ns();
   std::thread producer([&] {
     for (std::uint64_t i = first; i < first + count; ++i) {
-      while (i - read.load(std::memory_order_acquire) > kMostAhead) std::this_thread::yield();
+      while (i - read.load(std::memory_order_acquire) > kMaxAhead) std::this_thread::yield();
       ring.publish(record);
     }
   });

@@ -38,16 +38,16 @@ inline Processors processors() {
 // Thread CPU seconds of the work.
 template <class Work>
 double timed(const Work& work) {
-  constexpr int kMostRepeats = 10;
-  constexpr double kMostSteal = 0.02;
+  constexpr int kMaxRepeats = 10;
+  constexpr double kMaxSteal = 0.02;
   double seconds = 0.0;
-  for (int attempt = 0; attempt < kMostRepeats; ++attempt) {
+  for (int attempt = 0; attempt < kMaxRepeats; ++attempt) {
     const Processors before = processors();
     const double begin_s = thread_seconds();
     work();
     seconds = thread_seconds() - begin_s;
     const Processors after = processors();
-    if (after.stolen - before.stolen <= kMostSteal * (after.all - before.all)) break;
+    if (after.stolen - before.stolen <= kMaxSteal * (after.all - before.all)) break;
   }
   return seconds;
 }

@@ -50,7 +50,7 @@ std::size_t lit(const Bytes& rgb) {
 }
 
 struct Frame {
-  GlassFrame about{};
+  ViewFrame about{};
   Bytes pixels;
 };
 

@@ -51,23 +51,23 @@ void expect_none_blank(const std::vector<databuffer::Sweep>& sweeps) {
 
 TEST(ExtremeAttitudes, AtSixtyDegreesDownAHardBeamLightsTheGroundWithinHalfItsWidthAlone) {
   // Flat earth: the edges of a beam of 2.5 degrees meet the ground at H / tan(61.25) and H / tan(58.75).
-  constexpr double kHeightM = 8000.0, kRangeM = 10000.0;
-  const double near_m = kHeightM / std::tan(61.25 * geo::kRadiansPerDegree);
-  const double far_m = kHeightM / std::tan(58.75 * geo::kRadiansPerDegree);
+  constexpr double kHeight_m = 8000.0, kRange_m = 10000.0;
+  const double near_m = kHeight_m / std::tan(61.25 * geo::kRadiansPerDegree);
+  const double far_m = kHeight_m / std::tan(58.75 * geo::kRadiansPerDegree);
   const terrain::AnalyticTerrain plain(terrain::flat(100.0));
   test::for_each_algorithm(1000, [&](radar::RadarConfiguration& configuration) {
     configuration.fidelity.earth = radar::EarthModel::flat;
     configuration.antenna.elevation_beamwidth_deg = 2.5;
-    physics::Look look = look_from(test::kMidLatitude, 0.0, 100.0 + kHeightM, kRangeM);
+    physics::SweepGeometry look = look_from(test::kMidLatitude, 0.0, 100.0 + kHeight_m, kRange_m);
     look.elevation = geo::Angle::degrees(-60.0);
-    test::expect_lit_between(seen(configuration, look, plain), kRangeM, near_m, far_m);
+    test::expect_lit_between(seen(configuration, look, plain), kRange_m, near_m, far_m);
   });
 }
 
 TEST(ExtremeAttitudes, AtSixtyDegreesUpAHardBeamSeesNoGround) {
   test::for_each_algorithm(1000, [&](radar::RadarConfiguration& configuration) {
     configuration.antenna.elevation_beamwidth_deg = 2.5;
-    physics::Look look = look_from(test::kMidLatitude, 0.0, 8000.0, 40000.0);
+    physics::SweepGeometry look = look_from(test::kMidLatitude, 0.0, 8000.0, 40000.0);
     look.elevation = geo::Angle::degrees(60.0);
     EXPECT_TRUE(test::is_dark(seen(configuration, look, terrain::AnalyticTerrain(terrain::flat(100.0)))));
   });
@@ -78,7 +78,7 @@ TEST(ExtremeAttitudes, EveryBeamGivesNumbersAtEveryElevationFromSixtyDownToSixty
   test::for_each_algorithm_and_beam(240, [&](radar::RadarConfiguration& configuration) {
     configuration.antenna.elevation_beamwidth_deg = 2.5;
     for (const double elevation_deg : {-60.0, -30.0, -1.25, -0.0, 0.0, 1.25, 60.0}) {
-      physics::Look look = look_from(test::kMidLatitude, 20.0, 3000.0, 40000.0);
+      physics::SweepGeometry look = look_from(test::kMidLatitude, 20.0, 3000.0, 40000.0);
       look.elevation = geo::Angle::degrees(elevation_deg);
       seen(configuration, look, hills);  // sees to it that each is finite and not negative
     }
@@ -143,10 +143,10 @@ TEST(ExtremeAttitudes, HeadingsOf0And360GiveTheSameSweepsToTheBit) {
 }
 
 TEST(ExtremeAttitudes, HeadingThroughNorthTheIslandDueNorthStaysInTheSweepThatHoldsNorth) {
-  constexpr double kDistanceM = 37040.0, kRadiusM = 2000.0;  // half the range out
-  const auto north = geo::geodesic_direct({37.0, -122.0}, geo::Bearing(), geo::Length::metres(kDistanceM));
+  constexpr double kDistance_m = 37040.0, kRadius_m = 2000.0;  // half the range out
+  const auto north = geo::geodesic_direct({37.0, -122.0}, geo::Bearing(), geo::Length::metres(kDistance_m));
   const auto island = [north](geo::GeoPoint place) {
-    return geo::geodesic_inverse(north, place).distance.metres() < kRadiusM ? test::kIslandHeightM : test::kVoidM;
+    return geo::geodesic_inverse(north, place).distance.metres() < kRadius_m ? test::kIslandHeight_m : test::kVoid_m;
   };
   test::for_each_algorithm(100, [&](radar::RadarConfiguration& configuration) {
     configuration.antenna.elevation_beamwidth_deg = 180.0;

@@ -16,11 +16,11 @@ using test::look_from;
 using test::seen;
 
 constexpr double kFactor = 4.0 / 3.0;
-constexpr double kMeanRadiusM = 6371008.8;  // [m] EarthModel::sphere
-constexpr double kFarM = 1e9;               // [m] beyond every range
+constexpr double kMeanRadius_m = 6371008.8;  // [m] EarthModel::sphere
+constexpr double kFar_m = 1e9;               // [m] beyond every range
 
 double horizon_m(double above_ground_m, double ground_m) {
-  const double radius_m = kFactor * kMeanRadiusM;
+  const double radius_m = kFactor * kMeanRadius_m;
   const double ground_radius_m = radius_m + ground_m;
   return radius_m * std::acos(ground_radius_m / (ground_radius_m + above_ground_m));
 }
@@ -33,7 +33,7 @@ bool knows_curvature(const radar::RadarConfiguration& configuration) {
 void expect_horizon(double altitude_m, double ground_m, double range_m) {
   test::for_each_algorithm_and_beam(400, [&](radar::RadarConfiguration& configuration) {
     configuration.fidelity.earth = radar::EarthModel::sphere;
-    const double end_m = knows_curvature(configuration) ? horizon_m(altitude_m - ground_m, ground_m) : kFarM;
+    const double end_m = knows_curvature(configuration) ? horizon_m(altitude_m - ground_m, ground_m) : kFar_m;
     expect_lit_between(seen(configuration, look_from(test::kMidLatitude, 0.0, altitude_m, range_m),
                             terrain::AnalyticTerrain(terrain::flat(ground_m))),
                        range_m, 0.0, end_m);
@@ -41,7 +41,7 @@ void expect_horizon(double altitude_m, double ground_m, double range_m) {
 }
 
 TEST(ExtremeHeights, At400MetresBelowSeaTheShoreOfTheDeadSeaIsSeenToItsHorizonOf18Kilometres) {
-  EXPECT_NEAR(horizon_m(20.0, -420.0), std::sqrt(2.0 * kFactor * kMeanRadiusM * 20.0), 20.0);
+  EXPECT_NEAR(horizon_m(20.0, -420.0), std::sqrt(2.0 * kFactor * kMeanRadius_m * 20.0), 20.0);
   expect_horizon(-400.0, -420.0, 40000.0);
 }
 
@@ -53,7 +53,7 @@ TEST(ExtremeHeights, At60000FeetTheHorizonLiesAt557KilometresWithin320NauticalMi
 
 TEST(ExtremeHeights, At100KilometresTheHorizonIsTheRootOfTwoKRH) {
   // The root is the first term: the next takes off 5 H / (12 k R), 0.5 %.
-  const double root_m = std::sqrt(2.0 * kFactor * kMeanRadiusM * 100e3);
+  const double root_m = std::sqrt(2.0 * kFactor * kMeanRadius_m * 100e3);
   EXPECT_NEAR(horizon_m(100e3, 1.0), root_m, 0.006 * root_m);
   expect_horizon(100e3, 1.0, geo::Length::nautical_miles(800.0).metres());
 }
@@ -103,11 +103,11 @@ TEST(ExtremeHeights, InSlantRangeTheNadirSampleIsLitAndEverythingNearerIsDark) {
     test::for_each_algorithm_and_beam(400, [&](radar::RadarConfiguration& configuration) {
       if (!knows_curvature(configuration)) return;  // the report knows ground range alone
       configuration.fidelity.slant_range = true;
-      constexpr double kRangeM = 40000.0;
-      const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, 200.0 + above_m, kRangeM),
+      constexpr double kRange_m = 40000.0;
+      const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, 200.0 + above_m, kRange_m),
                               terrain::AnalyticTerrain(terrain::flat(200.0)));
       // The first sample whose middle lies beyond the ground below.
-      const auto nadir = static_cast<std::size_t>(std::ceil(above_m / (kRangeM / 400.0) - 0.5));
+      const auto nadir = static_cast<std::size_t>(std::ceil(above_m / (kRange_m / 400.0) - 0.5));
       for (std::size_t i = 0; i < power.size(); ++i) EXPECT_EQ(power[i] > 0.0F, i >= nadir) << i << " of " << nadir;
     });
   }
@@ -116,20 +116,20 @@ TEST(ExtremeHeights, InSlantRangeTheNadirSampleIsLitAndEverythingNearerIsDark) {
 TEST(ExtremeHeights, InGroundRangeTheNadirIsTheFirstSampleAndSeenStraightFromAbove) {
   // 5 m out at 3000 m up: the grazing angle is within 0.1 degrees of 90, and its sine is 1. The report's power is that
   // over the sine of level ground at sea level at half the range (decision 20).
-  constexpr double kAltitudeM = 3100.0, kRangeM = 40000.0;
+  constexpr double kAltitude_m = 3100.0, kRange_m = 40000.0;
   test::for_each_algorithm_and_beam(4000, [&](const radar::RadarConfiguration& configuration) {
-    const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, kAltitudeM, kRangeM),
+    const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, kAltitude_m, kRange_m),
                             terrain::AnalyticTerrain(terrain::flat(100.0)));
     EXPECT_GT(power[0], 0.0F);
     if (knows_curvature(configuration)) return;
-    EXPECT_NEAR(static_cast<double>(power[0]), std::hypot(kAltitudeM, 0.5 * kRangeM) / kAltitudeM, 1e-4);
+    EXPECT_NEAR(static_cast<double>(power[0]), std::hypot(kAltitude_m, 0.5 * kRange_m) / kAltitude_m, 1e-4);
   });
 }
 
 // Where the line from the aircraft over an edge meets the sphere of level ground behind it: by bisection of the
 // elevation angle over the centre of the earth.
 double shadow_end_m(double altitude_m, double edge_m, double edge_height_m, double ground_m) {
-  const double radius_m = kFactor * kMeanRadiusM;
+  const double radius_m = kFactor * kMeanRadius_m;
   const auto tangent = [&](double distance_m, double height_m) {
     const double angle = distance_m / radius_m;
     return ((radius_m + height_m) * std::cos(angle) - (radius_m + altitude_m)) /
@@ -145,34 +145,34 @@ double shadow_end_m(double altitude_m, double edge_m, double edge_height_m, doub
 }
 
 TEST(ExtremeHeights, BehindACliffOf8848MetresTheShadowEndsWhereTheLineOfSightComesDown) {
-  constexpr double kCliffM = 20000.0, kAltitudeM = 12000.0, kRangeM = 120000.0;
-  const terrain::AnalyticTerrain cliff(terrain::step_wall(test::axis_north(), kCliffM, 8848.0, 1.0));
-  constexpr double kSpacingM = kRangeM / 1200.0;
+  constexpr double kCliff_m = 20000.0, kAltitude_m = 12000.0, kRange_m = 120000.0;
+  const terrain::AnalyticTerrain cliff(terrain::step_wall(test::axis_north(), kCliff_m, 8848.0, 1.0));
+  constexpr double kSpacing_m = kRange_m / 1200.0;
   // The middle of the last sample on the cliff is the edge that a sweep knows.
-  constexpr double kEdgeM = kCliffM - 0.5 * kSpacingM;
+  constexpr double kEdge_m = kCliff_m - 0.5 * kSpacing_m;
   test::for_each_algorithm_and_beam(1200, [&](radar::RadarConfiguration& configuration) {
     configuration.fidelity.earth = radar::EarthModel::sphere;
     // On a flat earth by similar triangles.
-    const double end_m = knows_curvature(configuration) ? shadow_end_m(kAltitudeM, kEdgeM, 8848.0, 1.0)
-                                                        : kEdgeM * (kAltitudeM - 1.0) / (kAltitudeM - 8848.0);
-    ASSERT_LT(end_m, 0.8 * kRangeM);
-    const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, kAltitudeM, kRangeM), cliff);
+    const double end_m = knows_curvature(configuration) ? shadow_end_m(kAltitude_m, kEdge_m, 8848.0, 1.0)
+                                                        : kEdge_m * (kAltitude_m - 1.0) / (kAltitude_m - 8848.0);
+    ASSERT_LT(end_m, 0.8 * kRange_m);
+    const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, kAltitude_m, kRange_m), cliff);
     for (std::size_t i = 0; i < power.size(); ++i) {
-      const double distance_m = (static_cast<double>(i) + 0.5) * kSpacingM;
+      const double distance_m = (static_cast<double>(i) + 0.5) * kSpacing_m;
       const bool near_an_edge =
-          std::abs(distance_m - kCliffM) < 2.0 * kSpacingM || std::abs(distance_m - end_m) < 2.0 * kSpacingM;
+          std::abs(distance_m - kCliff_m) < 2.0 * kSpacing_m || std::abs(distance_m - end_m) < 2.0 * kSpacing_m;
       if (near_an_edge) continue;
-      EXPECT_EQ(power[i] > 0.0F, distance_m < kCliffM || distance_m > end_m) << distance_m << ", end " << end_m;
+      EXPECT_EQ(power[i] > 0.0F, distance_m < kCliff_m || distance_m > end_m) << distance_m << ", end " << end_m;
     }
   });
 }
 
 TEST(ExtremeHeights, TheFaceOfACliffOf8848MetresIsTheBrightestAndHidesAllBehindIt) {
   // From 2000 m the edge is above the aircraft: the line of sight over it never comes down.
-  constexpr double kRangeM = 60000.0;
+  constexpr double kRange_m = 60000.0;
   const terrain::AnalyticTerrain cliff(terrain::step_wall(test::axis_north(), 20000.0, 1.0, 8848.0));
   test::for_each_algorithm_and_beam(600, [&](const radar::RadarConfiguration& configuration) {
-    const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, 2000.0, kRangeM), cliff);
+    const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, 2000.0, kRange_m), cliff);
     // From 5 km on: the ground straight below is bright too.
     const auto brightest = std::max_element(power.begin() + 50, power.end()) - power.begin();
     EXPECT_NEAR(static_cast<double>(brightest), 200.0, 2.0);
@@ -182,18 +182,18 @@ TEST(ExtremeHeights, TheFaceOfACliffOf8848MetresIsTheBrightestAndHidesAllBehindI
 
 TEST(ExtremeHeights, FlatZeroIsWaterThatReturnsEverywhereUpToTheHorizon) {
   // From 4572 m the horizon lies at 279 km, beyond the range.
-  constexpr double kAltitudeM = 4572.0, kRangeM = 80000.0;
+  constexpr double kAltitude_m = 4572.0, kRange_m = 80000.0;
   test::for_each_algorithm_and_beam(400, [&](const radar::RadarConfiguration& configuration) {
-    const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, kAltitudeM, kRangeM),
+    const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, kAltitude_m, kRange_m),
                             terrain::AnalyticTerrain(terrain::flat(0.0)));
     EXPECT_TRUE(std::all_of(power.begin(), power.end(), [](float value) { return value > 0.0F; }));
     if (knows_curvature(configuration)) return;
     for (std::size_t i = 1; i + 1 < power.size(); ++i) {
-      const double distance_m = (static_cast<double>(i) + 0.5) * kRangeM / 400.0;
+      const double distance_m = (static_cast<double>(i) + 0.5) * kRange_m / 400.0;
       // The sine of the depression over that at half the range (decision 20); the report's joining of neighbours moves
       // it by the curve's second difference.
-      const double full_scale = kAltitudeM / std::hypot(kAltitudeM, 0.5 * kRangeM);
-      EXPECT_NEAR(static_cast<double>(power[i]), kAltitudeM / std::hypot(kAltitudeM, distance_m) / full_scale, 0.01);
+      const double full_scale = kAltitude_m / std::hypot(kAltitude_m, 0.5 * kRange_m);
+      EXPECT_NEAR(static_cast<double>(power[i]), kAltitude_m / std::hypot(kAltitude_m, distance_m) / full_scale, 0.01);
     }
   });
 }

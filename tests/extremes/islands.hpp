@@ -20,8 +20,8 @@ inline constexpr radar::Algorithm kAlgorithms[] = {radar::Algorithm::standard, r
                                                    radar::Algorithm::report_1996};
 inline constexpr radar::BeamPattern kBeams[] = {radar::BeamPattern::hard_edge, radar::BeamPattern::gaussian,
                                                 radar::BeamPattern::cosecant_squared};
-inline constexpr double kVoidM = std::numeric_limits<double>::quiet_NaN();
-inline constexpr double kIslandHeightM = 500.0;
+inline constexpr double kVoid_m = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kIslandHeight_m = 500.0;
 
 inline std::string name_of(radar::Algorithm algorithm) {
   switch (algorithm) {
@@ -66,8 +66,8 @@ inline bool is_dark(const std::vector<float>& power) {
 }
 
 // Power of one look; whatever was asked, each value of it is a number that a receiver can receive.
-inline std::vector<float> seen(const radar::RadarConfiguration& configuration, const model::physics::Look& look,
-                               const model::terrain::TerrainView& terrain) {
+inline std::vector<float> seen(const radar::RadarConfiguration& configuration,
+                               const model::physics::SweepGeometry& look, const model::terrain::TerrainView& terrain) {
   const auto algorithm = model::rbm::make_algorithm(configuration);
   std::vector<float> power(model::rbm::sample_count(configuration), -1.0F);
   algorithm->measure(look, terrain, power);
@@ -76,16 +76,17 @@ inline std::vector<float> seen(const radar::RadarConfiguration& configuration, c
   return power;
 }
 
-inline model::physics::Look look_from(geo::GeoPoint apex, double azimuth_deg, double altitude_m, double range_m) {
-  model::physics::Look look = look_north(altitude_m, range_m, apex);
+inline model::physics::SweepGeometry look_from(geo::GeoPoint apex, double azimuth_deg, double altitude_m,
+                                               double range_m) {
+  model::physics::SweepGeometry look = look_north(altitude_m, range_m, apex);
   look.azimuth = geo::Bearing::degrees(azimuth_deg);
   return look;
 }
 
-// A disc of kIslandHeightM about a place, void elsewhere.
+// A disc of kIslandHeight_m about a place, void elsewhere.
 inline model::terrain::AnalyticTerrain island_at(geo::GeoPoint middle, double radius_m) {
   return model::terrain::AnalyticTerrain([middle, radius_m](geo::GeoPoint place) {
-    return geo::geodesic_inverse(middle, place).distance.metres() < radius_m ? kIslandHeightM : kVoidM;
+    return geo::geodesic_inverse(middle, place).distance.metres() < radius_m ? kIslandHeight_m : kVoid_m;
   });
 }
 

@@ -103,13 +103,13 @@ RadarState good_state() {
 // Each number that is none, in each field, is refused with the field's name first; the rest of the record is good.
 template <class Record, std::size_t kCount>
 void expect_refusals(const Record& good, const Field<Record> (&fields)[kCount]) {
-  EXPECT_EQ(why_refused(good), std::nullopt);
+  EXPECT_EQ(validate(good), std::nullopt);
   for (const auto& field : fields) {
     for (const double bad : kNoNumbers) {
       Record record = good;
       record.*field.place = bad;
       const bool allowed = field.may_be_missing && std::isnan(bad);
-      const auto reason = why_refused(record);
+      const auto reason = validate(record);
       ASSERT_EQ(reason.has_value(), !allowed) << field.name << " = " << bad;
       EXPECT_THAT(reason.value_or(""), allowed ? HasSubstr("") : HasSubstr(std::string(field.name) + ": expected ["));
     }
@@ -134,9 +134,9 @@ TEST(ExtremeNumbers, InTheNumbersThatAnEventUsesNanAndInfinityAreRefused) {
     for (const double bad : kNoNumbers) {
       InputEvent event{};
       event.kind = static_cast<std::uint16_t>(row.kind);
-      EXPECT_EQ(why_refused(event), std::nullopt);
+      EXPECT_EQ(validate(event), std::nullopt);
       event.*row.place = bad;
-      EXPECT_TRUE(why_refused(event));
+      EXPECT_TRUE(validate(event));
     }
   }
 }

@@ -17,10 +17,10 @@ using test::look_from;
 using test::seen;
 
 constexpr int kSamples = 400;
-constexpr double kRangeM = 80000.0;
-constexpr double kAltitudeM = 3000.0;
-constexpr double kRadiusM = 3000.0;
-constexpr double kEquatorM = 6378137.0;              // [m] WGS84 a
+constexpr double kRange_m = 80000.0;
+constexpr double kAltitude_m = 3000.0;
+constexpr double kRadius_m = 3000.0;
+constexpr double kEquator_m = 6378137.0;             // [m] WGS84 a
 constexpr double kFlattening = 1.0 / 298.257223563;  // WGS84
 constexpr std::uint16_t kVoidPost = 0xFFFF;
 
@@ -32,22 +32,22 @@ double meridian_m(double from_deg, double to_deg) {
   double sum_m = 0.0;
   for (int step = 0; step < kSteps; ++step) {
     const double sine = std::sin((from_deg + (step + 0.5) * step_deg) * geo::kRadiansPerDegree);
-    sum_m += kEquatorM * (1.0 - kE2) / std::pow(1.0 - kE2 * sine * sine, 1.5) * step_deg * geo::kRadiansPerDegree;
+    sum_m += kEquator_m * (1.0 - kE2) / std::pow(1.0 - kE2 * sine * sine, 1.5) * step_deg * geo::kRadiansPerDegree;
   }
   return std::abs(sum_m);
 }
 
 double equator_m(double degrees) {
-  return kEquatorM * std::abs(degrees) * geo::kRadiansPerDegree;
+  return kEquator_m * std::abs(degrees) * geo::kRadiansPerDegree;
 }
 
 // The island is where it should be in this look, and in the look away from it there is nothing.
 void expect_island(geo::GeoPoint apex, double azimuth_deg, geo::GeoPoint island, double distance_m) {
-  const terrain::AnalyticTerrain terrain = island_at(island, kRadiusM);
+  const terrain::AnalyticTerrain terrain = island_at(island, kRadius_m);
   test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
-    expect_lit_between(seen(configuration, look_from(apex, azimuth_deg, kAltitudeM, kRangeM), terrain), kRangeM,
-                       distance_m - kRadiusM, distance_m + kRadiusM);
-    EXPECT_TRUE(test::is_dark(seen(configuration, look_from(apex, azimuth_deg + 180.0, kAltitudeM, kRangeM), terrain)));
+    expect_lit_between(seen(configuration, look_from(apex, azimuth_deg, kAltitude_m, kRange_m), terrain), kRange_m,
+                       distance_m - kRadius_m, distance_m + kRadius_m);
+    EXPECT_TRUE(test::is_dark(seen(configuration, look_from(apex, azimuth_deg + 180.0, kAltitude_m, kRange_m), terrain)));
   });
 }
 
@@ -82,8 +82,8 @@ TEST(ExtremePlaces, OnTheEquatorASweepOverTheAntimeridianSeesTheIslandBeyond) {
 TEST(ExtremePlaces, TheTwoNamesOfTheAntimeridianGiveTheSamePower) {
   const terrain::AnalyticTerrain island = island_at({-17.2, -179.9}, 10000.0);
   test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
-    const auto east = seen(configuration, look_from({-17.0, 180.0}, 155.0, kAltitudeM, kRangeM), island);
-    const auto west = seen(configuration, look_from({-17.0, -180.0}, 155.0, kAltitudeM, kRangeM), island);
+    const auto east = seen(configuration, look_from({-17.0, 180.0}, 155.0, kAltitude_m, kRange_m), island);
+    const auto west = seen(configuration, look_from({-17.0, -180.0}, 155.0, kAltitude_m, kRange_m), island);
     EXPECT_FALSE(test::is_dark(east));
     for (std::size_t i = 0; i < east.size(); ++i) EXPECT_FLOAT_EQ(east[i], west[i]) << i;
   });
@@ -109,12 +109,12 @@ TEST(ExtremePlaces, AtTheCornerOfEquatorAndMeridianEachOfTheFourQuadrantsSeesIts
   }
 }
 
-// A cell file whose posts all lie at kIslandHeightM or are all void.
+// A cell file whose posts all lie at kIslandHeight_m or are all void.
 void write_cell(const test::TemporaryFolder& folder, int south_deg, int west_deg, bool land) {
   char name[32];
   std::snprintf(name, sizeof name, "%c%03d/%c%02d.dt0", west_deg < 0 ? 'w' : 'e', std::abs(west_deg),
                 south_deg < 0 ? 's' : 'n', std::abs(south_deg));
-  const auto post = land ? static_cast<std::uint16_t>(test::kIslandHeightM) : kVoidPost;
+  const auto post = land ? static_cast<std::uint16_t>(test::kIslandHeight_m) : kVoidPost;
   folder.write(name, test::level_dted(south_deg, west_deg, post).bytes());
 }
 
@@ -129,11 +129,11 @@ TEST(ExtremePlaces, AnEastwardSweepLeavesAVoidFileAndEntersALandFileAtTheAntimer
   write_cell(folder, 0, 179, false);
   write_cell(folder, 0, -180, true);
   const geo::GeoPoint apex{0.5, 179.7};
-  const auto view = store_over(folder)->prepare({apex, kRangeM});
+  const auto view = store_over(folder)->prepare({apex, kRange_m});
   test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
     // 0.5 degrees of latitude shorten the parallel by a part in 26,000, and the geodesic leaves it by metres.
-    expect_lit_between(seen(configuration, look_from(apex, 90.0, kAltitudeM, kRangeM), *view), kRangeM,
-                       equator_m(0.3) * std::cos(0.5 * geo::kRadiansPerDegree), 2.0 * kRangeM);
+    expect_lit_between(seen(configuration, look_from(apex, 90.0, kAltitude_m, kRange_m), *view), kRange_m,
+                       equator_m(0.3) * std::cos(0.5 * geo::kRadiansPerDegree), 2.0 * kRange_m);
   });
 }
 
@@ -143,11 +143,11 @@ TEST(ExtremePlaces, AtThePolesOnlyTheFileOfTheMeridianLookedDownIsSeen) {
     const test::TemporaryFolder folder;
     for (int west_deg = -180; west_deg < 180; ++west_deg) write_cell(folder, south_deg, west_deg, west_deg == -180);
     const geo::GeoPoint pole{south_deg > 0 ? 90.0 : -90.0, 0.0};
-    const auto view = store_over(folder)->prepare({pole, kRangeM});
+    const auto view = store_over(folder)->prepare({pole, kRange_m});
     test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
       for (const double longitude_deg : {-179.5, 179.5, -178.5, 0.5}) {
         const double azimuth_deg = south_deg > 0 ? 180.0 - longitude_deg : longitude_deg;
-        const auto power = seen(configuration, look_from(pole, azimuth_deg, kAltitudeM, kRangeM), *view);
+        const auto power = seen(configuration, look_from(pole, azimuth_deg, kAltitude_m, kRange_m), *view);
         // The first samples see the pole's own post, which every file has.
         const bool lit = power[200] > 0.0F && power[399] > 0.0F;
         EXPECT_EQ(lit, longitude_deg == -179.5) << longitude_deg;

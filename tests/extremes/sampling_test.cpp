@@ -34,16 +34,16 @@ TEST(ExtremeSampling, FromATenthTo320NauticalMilesAnIslandAtThreeFifthsOfTheRang
 }
 
 TEST(ExtremeSampling, OneTwoThreeAnd4096SamplesEachShowTheIslandInTheSampleThatHoldsIt) {
-  constexpr double kRangeM = 40000.0;
+  constexpr double kRange_m = 40000.0;
   for (const int samples : {1, 2, 3, radar::kMaxSamples}) {
     SCOPED_TRACE(samples);
-    const double spacing_m = kRangeM / samples;
+    const double spacing_m = kRange_m / samples;
     const auto holds = static_cast<std::size_t>(samples - 1);  // the last one
     const geo::GeoPoint middle = geo::geodesic_direct(
         test::kMidLatitude, geo::Bearing(), geo::Length::metres((static_cast<double>(holds) + 0.5) * spacing_m));
     const terrain::AnalyticTerrain island = test::island_at(middle, 0.4 * spacing_m);
     test::for_each_algorithm_and_beam(samples, [&](const radar::RadarConfiguration& configuration) {
-      const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, 3000.0, kRangeM), island);
+      const auto power = seen(configuration, look_from(test::kMidLatitude, 0.0, 3000.0, kRange_m), island);
       ASSERT_EQ(power.size(), static_cast<std::size_t>(samples));
       EXPECT_GT(power[holds], 0.0F);
       for (std::size_t i = 0; i + 1 < holds; ++i) ASSERT_EQ(power[i], 0.0F) << i;

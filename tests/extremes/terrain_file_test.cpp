@@ -20,7 +20,7 @@ using test::seen;
 using ::testing::HasSubstr;
 
 constexpr geo::GeoPoint kMiddle{50.5, 10.5};
-constexpr double kRangeM = 20000.0;
+constexpr double kRange_m = 20000.0;
 
 // Rows and columns as the header tells them, spread over a degree where a number of posts can be.
 test::DtedFile dted_of(int columns, int rows) {
@@ -83,13 +83,13 @@ TEST(ExtremeFiles, OverACellOfVoidsNothingReturnsAndNoGroundIsTold) {
   folder.write("e010/n50.dt0", test::level_dted(50, 10, 0xFFFF).bytes());
   auto store = terrain::DirectoryTerrainStore::open(folder.path(), {});
   ASSERT_TRUE(store.has_value()) << store.error().message();
-  const auto view = (*store)->prepare({kMiddle, kRangeM});
+  const auto view = (*store)->prepare({kMiddle, kRange_m});
   test::for_each_algorithm_and_beam(200, [&](radar::RadarConfiguration& configuration) {
     for (const bool slant : {false, true}) {
       for (const bool across : {false, true}) {
         configuration.fidelity.slant_range = slant;
         configuration.fidelity.cross_track_slope = across;
-        EXPECT_TRUE(test::is_dark(seen(configuration, look_from(kMiddle, 30.0, 3000.0, kRangeM), *view)));
+        EXPECT_TRUE(test::is_dark(seen(configuration, look_from(kMiddle, 30.0, 3000.0, kRange_m), *view)));
       }
     }
     kernel::RadarKernel kernel(configuration);

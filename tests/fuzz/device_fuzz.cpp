@@ -27,7 +27,7 @@ DeviceMap map_of() {
 }
 
 void check(const std::vector<databuffer::InputEvent>& events) {
-  for (const auto& event : events) YARS_REQUIRE(why_refused(event).has_value(), ==, false);
+  for (const auto& event : events) YARS_REQUIRE(validate(event).has_value(), ==, false);
 }
 
 }  // namespace

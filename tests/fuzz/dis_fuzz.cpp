@@ -15,6 +15,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   take(bytes);
   each_datagram(bytes, take);
   const Traffic traffic = surface_traffic(bridge.traffic(yars::geo::Duration::seconds(10.0)), {36.5, -122.0});
-  YARS_REQUIRE(why_refused(traffic).value_or(""), ==, "");
+  YARS_REQUIRE(validate(traffic).value_or(""), ==, "");
   return 0;
 }

@@ -12,7 +12,7 @@ using namespace yars::databuffer;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto event = event_from_text({reinterpret_cast<const char*>(data), size});
   if (!event) return 0;
-  YARS_REQUIRE(why_refused(*event).has_value(), ==, false);
+  YARS_REQUIRE(validate(*event).has_value(), ==, false);
   const auto again = event_from_text(text_of(*event));
   YARS_REQUIRE(again.has_value(), ==, true);
   YARS_REQUIRE(std::memcmp(&*again, &*event, sizeof(*event)), ==, 0);

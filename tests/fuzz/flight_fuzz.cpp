@@ -17,8 +17,8 @@ constexpr double kSteps_s[] = {0.0, 0.02, 1.0, 20.0};
 void fly(flight::FlightModel& model) {
   for (const double step_s : kSteps_s) {
     const auto sample = model.step(yars::geo::Duration::seconds(step_s));
-    YARS_REQUIRE(why_refused(sample.ownship).value_or(""), ==, "");
-    YARS_REQUIRE(why_refused(sample.nav).value_or(""), ==, "");
+    YARS_REQUIRE(validate(sample.ownship).value_or(""), ==, "");
+    YARS_REQUIRE(validate(sample.nav).value_or(""), ==, "");
   }
 }
 

@@ -12,7 +12,7 @@
 namespace yars::databuffer::bridges {
 
 inline void require_valid(const Ownship& ownship) {
-  YARS_REQUIRE(why_refused(ownship).value_or(""), ==, "");
+  YARS_REQUIRE(validate(ownship).value_or(""), ==, "");
 }
 
 // Twice the sample, so that what is left of the first goes into the second.
@@ -24,7 +24,7 @@ inline void fly_on(const ExternalSample& sample) {
     for (const double after_s : {-0.1, 0.0, 0.02, 5.0})
       if (const auto flown = flight.at(geo::Duration::seconds(received_s + after_s))) {
         require_valid(flown->ownship);
-        YARS_REQUIRE(why_refused(flown->nav).value_or(""), ==, "");
+        YARS_REQUIRE(validate(flown->nav).value_or(""), ==, "");
       }
   }
 }

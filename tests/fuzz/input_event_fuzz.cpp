@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   InputEvent event{};
   if (size < sizeof(event)) return 0;
   std::memcpy(&event, data, sizeof(event));
-  (void)why_refused(event);
+  (void)validate(event);
   if (const auto again = event_from_text(text_of(event))) YARS_REQUIRE(again->kind, ==, event.kind);
   return 0;
 }

@@ -51,11 +51,11 @@ class Model {
     }
     ModelTick tick{};
     while (layout.model_ticks.read(ticks, tick).delivered)
-      if ((tick.flags & kTickOwnshipValid) != 0) require_good(why_refused(tick.ownship));
+      if ((tick.flags & kTickOwnshipValid) != 0) require_good(validate(tick.ownship));
     Sweep sweep{};
-    while (layout.sweeps.read(sweeps, sweep).delivered) require_good(why_refused(sweep));
+    while (layout.sweeps.read(sweeps, sweep).delivered) require_good(validate(sweep));
     ModelStatus status{};
-    if (layout.model_status.read(status)) require_good(why_refused(status));
+    if (layout.model_status.read(status)) require_good(validate(status));
   }
 
  private:

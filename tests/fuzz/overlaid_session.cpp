@@ -15,7 +15,7 @@ namespace {
 
 using namespace databuffer;
 
-constexpr std::uint64_t kMostPublished = 64;  // by the readers under test, into one ring, in one run
+constexpr std::uint64_t kMaxPublished = 64;  // by the readers under test, into one ring, in one run
 
 Ownship good_ownship() {
   Ownship own{};
@@ -189,13 +189,13 @@ void OverlaidSession::publish(std::size_t what, std::size_t offset, std::span<co
     case 11:
       return to.traffic.publish(with(records_.traffic));
     case 12: {
-      static const std::vector<std::uint8_t> pixels(kMostPatchPixels * kMostPatchPixels, 128);
+      static const std::vector<std::uint8_t> pixels(kMaxPatchPixels * kMaxPatchPixels, 128);
       // In place of what an earlier piece put there under the same id.
       publish_patch(to, with(records_.map), pixels, {});
       break;
     }
     case 13: {
-      static const std::vector<std::uint8_t> pixels(4UL * kMostFramePixels * kMostFramePixels, 128);
+      static const std::vector<std::uint8_t> pixels(4UL * kMaxFramePixels * kMaxFramePixels, 128);
       publish_frame(to, with(records_.frame), pixels);
       break;
     }
@@ -227,7 +227,7 @@ void OverlaidSession::put_back() {
     using Ring = std::remove_cvref_t<decltype(ring)>;
     const std::size_t stride = Ring::slot_stride();
     remember(at, Ring::slots_offset());
-    for (std::uint64_t n = 0; n < kMostPublished; ++n)
+    for (std::uint64_t n = 0; n < kMaxPublished; ++n)
       remember(at + Ring::slots_offset() + (began + n) % Ring::kDepth * stride, stride);
   };
   ring(rings, whole.model_ticks, next_[0]);

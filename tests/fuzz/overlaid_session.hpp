@@ -20,7 +20,7 @@ class OverlaidSession {
  public:
   explicit OverlaidSession(const std::string& name);
 
-  // Calls `beat` at least once, at most kMostBeats times.
+  // Calls `beat` at least once, at most kMaxBeats times.
   template <class Beat>
   void play(std::span<const std::uint8_t> input, Beat beat);
   // Everything as it was before play(), what the readers under test published included.
@@ -31,7 +31,7 @@ class OverlaidSession {
 
  private:
   static constexpr std::uint8_t kRaw = 120, kPublished = 240;
-  static constexpr int kMostBeats = 6;
+  static constexpr int kMaxBeats = 6;
 
   struct Part {
     std::size_t offset, size;  // [bytes] in the layout
@@ -74,7 +74,7 @@ template <class Beat>
 void OverlaidSession::play(std::span<const std::uint8_t> input, Beat beat) {
   records_ = sound_;
   int beats = 0;
-  while (input.size() >= 4 && beats < kMostBeats) {
+  while (input.size() >= 4 && beats < kMaxBeats) {
     const std::size_t what = input[0], offset = input[1] * 256U + input[2];
     const std::size_t length = std::min<std::size_t>(input[3], input.size() - 4);
     const auto bytes = input.subspan(4, length);

@@ -47,7 +47,7 @@ class Readers {
         feed_(
             session_, false, [this](const Sweep& sweep) { take(sweep); },
             [](const PatchMap& map, std::span<const std::uint8_t> pixels) {
-              require_good(why_refused(map));
+              require_good(validate(map));
               YARS_REQUIRE(pixels.size(), ==, patch_pixels(map));
             }),
         flight_(session_, *flight::open_source("fixed:36.6,-121.9,20000,0,400"), kFlightLane, false),
@@ -56,7 +56,7 @@ class Readers {
 
   void step() {
     const ClockState clock = session_.clock();
-    require_good(why_refused(clock));
+    require_good(validate(clock));
     const std::int64_t sim_time_ns = session_.sim_time_ns();
     YARS_REQUIRE(sim_time_ns, >=, 0);
     const std::int64_t tick = sim_time_ns / radar::kTickNanoseconds;
@@ -77,21 +77,21 @@ class Readers {
     const std::uint64_t before = layout().radar_state.version();
     machine_.step(due);
     RadarState state{};
-    if (layout().radar_state.version() != before && layout().radar_state.read(state)) require_good(why_refused(state));
+    if (layout().radar_state.version() != before && layout().radar_state.read(state)) require_good(validate(state));
   }
 
   void receive(const TickLoop::Due& due) {
     const auto& selected = ownship_.refresh(layout(), due.sim_time_ns, due.clock.epoch);
     if (selected.valid && selected.lane != kNoLane) {
-      require_good(why_refused(selected.ownship));
-      require_good(why_refused(selected.nav));
+      require_good(validate(selected.ownship));
+      require_good(validate(selected.nav));
     }
     traffic_.refresh(layout(), due.tick, due.sim_time_ns, due.clock.epoch);
-    require_good(why_refused(traffic_.latched()));
+    require_good(validate(traffic_.latched()));
   }
 
   void take(const Sweep& sweep) {
-    require_good(why_refused(sweep));
+    require_good(validate(sweep));
     store_.insert(sweep);
   }
 
@@ -99,7 +99,7 @@ class Readers {
     feed_.refresh(sim_time_ns);
     list_.clear();
     const auto frame = display::present_frame(feed_.input(), store_.newest());
-    const display::GlassView view(configuration().view);
+    const display::PlanView view(configuration().view);
     display::draw_symbology(feed_.input(), configuration(), view, frame, labels_, list_);
     for (std::size_t layer = 0; layer < display::kLayers; ++layer)
       for (const display::Segment& stroke : list_.content(static_cast<display::Layer>(layer)).strokes)
@@ -124,7 +124,7 @@ class Readers {
   TrafficReceiver traffic_;
   statemachine::StateMachineShell machine_;
   display::PolarStore store_;
-  display::GlassFeed feed_;
+  display::SessionFeed feed_;
   display::LabelMemory labels_;
   display::DrawList list_;
   FlightShell flight_;

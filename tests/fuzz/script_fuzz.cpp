@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::int64_t before_ns = 0;
   for (const auto& event : script->events) {
     YARS_REQUIRE(event.time_ns, >=, before_ns);
-    YARS_REQUIRE(databuffer::why_refused(event.event).value_or(""), ==, "");
+    YARS_REQUIRE(databuffer::validate(event.event).value_or(""), ==, "");
     before_ns = event.time_ns;
   }
   if (script->end_ns) YARS_REQUIRE(*script->end_ns, >=, before_ns);

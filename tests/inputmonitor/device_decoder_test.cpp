@@ -173,7 +173,7 @@ TEST(Decoder, HostileValuesGiveEventsThatAreAllowed) {
     if (decoder.has_lost()) decoder.catch_up(std::nullopt, now_ns);
     now_ns += std::int64_t(random() % 10) * kMillisecond_ns;
     for (const auto& event : decoder.take(now_ns)) {
-      ASSERT_FALSE(databuffer::why_refused(event)) << databuffer::text_of(event);
+      ASSERT_FALSE(databuffer::validate(event)) << databuffer::text_of(event);
       ++count;
     }
   }

@@ -20,7 +20,7 @@ struct Building {
 
 inline std::vector<std::byte> flt_of(const std::vector<Building>& buildings, geo::GeoPoint origin) {
   worldgen::OpenFlightWriter writer(origin);
-  worldgen::Sketch sketch(writer);
+  worldgen::MeshBuilder sketch(writer);
   for (const Building& building : buildings) {
     writer.begin_object("building");
     sketch.kind = {building.material, 0, 0x808080};

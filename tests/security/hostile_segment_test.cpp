@@ -148,12 +148,12 @@ TEST(ModelBorder, APictureOfAnIdThatCannotBeIsRefused) {
   GlassFrame frame{};
   frame.width = frame.height = 2;
   frame.id = kLatestPictureId;
-  EXPECT_FALSE(why_refused(frame));
+  EXPECT_FALSE(validate(frame));
   ++frame.id;
-  EXPECT_TRUE(why_refused(frame)->starts_with("id: expected at most 9007199254740992, found"));
+  EXPECT_TRUE(validate(frame)->starts_with("id: expected at most 9007199254740992, found"));
   ModelStatus status{};
   status.map_newest = kMost;
-  EXPECT_TRUE(why_refused(status)->starts_with("map_newest"));
+  EXPECT_TRUE(validate(status)->starts_with("map_newest"));
 }
 
 TEST_F(HostileSegment, WhoIsInsideGoesOnByTheLastGoodClockAndNotesTheOther) {
@@ -207,30 +207,30 @@ TEST_F(HostileSegment, ALockstepSetGoesOnAfterNoTickThatCannotBe) {
 
 TEST(ModelBorder, AStatusOrASweepOutOfRangeIsRefusedByName) {
   ModelStatus status{};
-  EXPECT_FALSE(why_refused(status));
+  EXPECT_FALSE(validate(status));
   status.antenna_azimuth_deg = 1e9;
-  EXPECT_EQ(why_refused(status), "antenna_azimuth_deg: expected [-180, 180], found 1e+09");
+  EXPECT_EQ(validate(status), "antenna_azimuth_deg: expected [-180, 180], found 1e+09");
   status = {};
   status.sim_time_ns = kMost;
-  EXPECT_TRUE(why_refused(status));
+  EXPECT_TRUE(validate(status));
   status = {};
   std::memset(status.why_not, 'x', sizeof status.why_not);
-  EXPECT_TRUE(why_refused(status));
+  EXPECT_TRUE(validate(status));
   status = {};
   status.ownship.latitude_deg = 91.0;
-  EXPECT_TRUE(why_refused(status)->starts_with("ownship: latitude_deg"));
+  EXPECT_TRUE(validate(status)->starts_with("ownship: latitude_deg"));
   Sweep sweep{};
-  EXPECT_FALSE(why_refused(sweep));
+  EXPECT_FALSE(validate(sweep));
   sweep.samples = radar::kMaxSamples + 1;
-  EXPECT_EQ(why_refused(sweep), "samples: expected [0, 4096], found 4097");
+  EXPECT_EQ(validate(sweep), "samples: expected [0, 4096], found 4097");
 }
 
 TEST(ModelBorder, ARadarStateWithTicksAtTheEndsOfTheirTypeIsRefused) {
   RadarState state{};
   state.channel = 1;
-  ASSERT_EQ(why_refused(state).value_or(""), "");
+  ASSERT_EQ(validate(state).value_or(""), "");
   state.cursor_moved_tick = kLeast;
-  EXPECT_TRUE(why_refused(state)->starts_with("cursor_moved_tick"));
+  EXPECT_TRUE(validate(state)->starts_with("cursor_moved_tick"));
 }
 
 }  // namespace

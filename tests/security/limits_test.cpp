@@ -217,8 +217,8 @@ TEST_F(Limits, ABlockOfARecordingIsAtMostEightMebibytesAnd16384Items) {
     std::memcpy(&written, bytes.data(), sizeof written);
     return is_sound(written);
   };
-  head.raw_bytes = kMostBlockBytes;
-  head.items = kMostBlockItems;
+  head.raw_bytes = kMaxBlockBytes;
+  head.items = kMaxBlockItems;
   EXPECT_TRUE(sound(head));
   ++head.raw_bytes;
   EXPECT_FALSE(sound(head));

@@ -119,7 +119,7 @@ class Pilot {
 
   radar::RadarConfiguration configuration;
   std::function<double(geo::GeoPoint)> ground = [](geo::GeoPoint) { return 0.0; };  // [m] MSL
-  Surroundings around;
+  Inputs around;
   databuffer::RadarState state;
 };
 

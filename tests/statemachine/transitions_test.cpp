@@ -85,7 +85,7 @@ TEST(Transitions, EveryRowOfTheTableHolds) {
   }
 }
 
-void put_recorder(Surroundings& around, const std::string& recorder) {
+void put_recorder(Inputs& around, const std::string& recorder) {
   around.recorder_present = recorder != "none";
   around.recorder_writing = recorder == "writing";
   around.recorder_failed = recorder == "full";

@@ -62,7 +62,7 @@ TEST_F(VelocityUpdate, ManySmallStepsLeadToNoErrorThatTheBorderRefuses) {
   for (double north_mps = -9000.0; north_mps < 9000.0; north_mps += 1500.0) {
     measure(north_mps, 0.0, 0.0);
     pilot.wait(20 * kTicksPerSecond);
-    EXPECT_FALSE(databuffer::why_refused(pilot.state)) << *databuffer::why_refused(pilot.state) << " at " << north_mps;
+    EXPECT_FALSE(databuffer::validate(pilot.state)) << *databuffer::validate(pilot.state) << " at " << north_mps;
   }
 }
 

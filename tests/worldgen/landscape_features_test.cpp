@@ -14,7 +14,7 @@ namespace {
 using namespace worldgen;
 
 using Default = DefaultLandscape;
-constexpr LandscapeBox kIsland{Default::kSouthDeg, Default::kWestDeg, Default::kCellsNorth, Default::kCellsEast};
+constexpr LandscapeBox kIsland{Default::kSouth_deg, Default::kWest_deg, Default::kCellsNorth, Default::kCellsEast};
 
 constexpr std::uint32_t kSeed = 12U * 4096U;  // as the landscape hands it to its tiles
 
@@ -28,7 +28,7 @@ std::vector<CellPlace> island_places() {
   std::vector<CellPlace> places;
   for (int row = 0; row < Default::kCellsNorth; ++row)
     for (int column = 0; column < Default::kCellsEast; ++column)
-      places.push_back({Default::kSouthDeg + row, Default::kWestDeg + column});
+      places.push_back({Default::kSouth_deg + row, Default::kWest_deg + column});
   return places;
 }
 
@@ -117,7 +117,7 @@ TEST(LandscapePlaces, TownsStandOnGentleLand) {
       const int column = static_cast<int>(std::lround((town.centre.longitude_deg - place.west_deg) * kTileNodes));
       EXPECT_GE(relief->height_m(row, column), 3.0);
       EXPECT_LE(relief->steepness(row, column), kTownMostSteep);
-      EXPECT_LE(town.radius_m, kLargestTownM);
+      EXPECT_LE(town.radius_m, kLargestTown_m);
       ++towns;
     }
   }
@@ -140,7 +140,7 @@ TEST(LandscapePlaces, RunwaysAreFlatAndOfAsphalt) {
         for (std::size_t column = 0; column < heights_m.size(); ++column) {
           const geo::GeoPoint at{place.south_deg + row / 1200.0, place.west_deg + static_cast<double>(column) / 1200.0};
           const OnAirfield on = on_airfield(airfield, at);
-          if (std::abs(on.along_m) > airfield.length_m / 2 - 1 || std::abs(on.across_m) > kRunwayHalfWidthM - 1)
+          if (std::abs(on.along_m) > airfield.length_m / 2 - 1 || std::abs(on.across_m) > kRunwayHalfWidth_m - 1)
             continue;
           ++posts;
           ASSERT_NEAR(heights_m[column], airfield.elevation_m, 1.0);

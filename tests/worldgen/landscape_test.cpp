@@ -77,7 +77,7 @@ TEST(Landscape, TheDefaultRegionHasSeaPlainAndMountains) {
   using Default = DefaultLandscape;
   for (int row = 0; row < Default::kCellsNorth; ++row)
     for (int column = 0; column < Default::kCellsEast; ++column) {
-      const Cell cell = level_0(landscape, {Default::kSouthDeg + row, Default::kWestDeg + column});
+      const Cell cell = level_0(landscape, {Default::kSouth_deg + row, Default::kWest_deg + column});
       const auto heights = cell.posts();
       posts += heights.size();
       sea += cell.sea_posts();

@@ -42,7 +42,7 @@ void check_patch_output(const PatchOutput& output);
 
 // Power: gamma of level ground, of the preset 1996 brightness; what the blind zone hides is no data in a .tif, -1 else.
 void write_patch(const PatchOutput& output, const model::hrm::PatchOrder& order,
-                 const model::hrm::PatchProcess& process);
+                 const model::hrm::PatchFormation& process);
 
 namespace {
 
@@ -61,7 +61,7 @@ std::array<double, 6> plane_from_pixel(const hrm::PatchGeometry& geometry, int s
           -left_m * sine + top_m * cosine, -pixel_m * sine,  -pixel_m * cosine};
 }
 
-void write_raster(const PatchOutput& output, const hrm::PatchOrder& order, const hrm::PatchProcess& process) {
+void write_raster(const PatchOutput& output, const hrm::PatchOrder& order, const hrm::PatchFormation& process) {
   const int size = process.image().size;
   gdal::MapPicture picture;
   picture.columns = picture.rows = size;
@@ -86,15 +86,14 @@ void write_raster(const PatchOutput& output, const hrm::PatchOrder& order, const
 void check_patch_output(const PatchOutput& output) {
   const std::string suffix = ending_of(output.file);
   if (output.pixels != "video" && suffix != ".tif")
-    give_up(
-        error::usage_error("--pixels", "an --out that ends in .tif", output.file.empty() ? "none" : output.file));
+    give_up(error::usage_error("--pixels", "an --out that ends in .tif", output.file.empty() ? "none" : output.file));
   if (suffix == ".tif" && !gdal::available())
     give_up({output.file, "a YARS built with GDAL to write a GeoTIFF", "one built without it",
              "run `scripts/setup --gdal` and build again, or write a .png"});
   check_file_name("--out", output.file, {".png", ".tif", ".f32"});
 }
 
-void write_patch(const PatchOutput& output, const hrm::PatchOrder& order, const hrm::PatchProcess& process) {
+void write_patch(const PatchOutput& output, const hrm::PatchOrder& order, const hrm::PatchFormation& process) {
   const std::filesystem::path path(output.file);
   const std::string suffix = ending_of(output.file);
   if (suffix == ".f32") {
@@ -162,7 +161,7 @@ hrm::PatchOrder order_of(const PatchOptions& options, const radar::RadarConfigur
   return order;
 }
 
-Timing run_once(hrm::PatchProcess& process, const hrm::PatchOrder& order, const hrm::PatchDatabase& database) {
+Timing run_once(hrm::PatchFormation& process, const hrm::PatchOrder& order, const hrm::PatchEnvironment& database) {
   Timing timing;
   process.begin(order);
   const double begin_ms = now_ms();
@@ -192,10 +191,10 @@ void check_order(const hrm::PatchOrder& order, const radar::RadarConfiguration& 
   const double distance_nm = geo::geodesic_inverse(order.apex, order.centre).distance.nautical_miles();
   if (distance_nm < kNearestShare * order.window.nautical_miles())
     give_up(error::usage_error("--target-lat, --target-lon", "a target away by 0.75 of the window's side or more",
-                                    std::to_string(distance_nm) + " NM"));
+                               std::to_string(distance_nm) + " NM"));
 }
 
-void check_heights(const hrm::PatchOrder& order, const hrm::PatchDatabase& database,
+void check_heights(const hrm::PatchOrder& order, const hrm::PatchEnvironment& database,
                    const radar::RadarConfiguration& configuration) {
   if (const auto problem = beneath_ground(order.altitude, database.path->elevation_m(order.apex))) give_up(*problem);
   const double target_ground_m = database.window->elevation_m(order.centre);
@@ -225,16 +224,16 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   auto path_store = model::terrain::open_terrain(configuration.terrain);
   if (!path_store) give_up(path_store.error());
 
-  parallel::Workers workers(static_cast<std::size_t>(options.threads));
-  hrm::PatchProcess process(configuration, {workers.threads(), [&workers](const std::function<void(std::size_t)>& job) {
-                                              workers.run(job);
-                                            }});
+  parallel::ThreadPool workers(static_cast<std::size_t>(options.threads));
+  hrm::PatchFormation process(
+      configuration,
+      {workers.threads(), [&workers](const std::function<void(std::size_t)>& job) { workers.run(job); }});
   const double begin_ms = now_ms();
   const hrm::PatchNeed need = process.begin(order);
   auto scenes = model::scene::open_scenes(configuration);
   if (!scenes) give_up(scenes.error());
-  const hrm::PatchDatabase database{(*window_store)->prepare(need.window), (*path_store)->prepare(need.path),
-                                    *scenes ? (*scenes)->prepare(need.window) : nullptr};
+  const hrm::PatchEnvironment database{(*window_store)->prepare(need.window), (*path_store)->prepare(need.path),
+                                       *scenes ? (*scenes)->prepare(need.window) : nullptr};
   if (*scenes) check_scenes_read("yars patch", **scenes);
   check_terrain_read("yars patch", configuration.terrain.directory, **window_store, path_store->get());
   if (!options.force) check_heights(order, database, configuration);

@@ -36,8 +36,8 @@ std::vector<std::byte> sealed(BlockHead head, std::span<const std::byte> body) {
 bool is_sound(const BlockHead& head) {
   if (head.magic != kMagic || head.head_checksum != checksum_of_head(head)) return false;
   if (head.content == BlockContent::index) return true;
-  return head.content == BlockContent::items && head.raw_bytes <= kMostBlockBytes &&
-         head.packed_bytes <= kMostBlockBytes && head.items <= kMostBlockItems;
+  return head.content == BlockContent::items && head.raw_bytes <= kMaxBlockBytes &&
+         head.packed_bytes <= kMaxBlockBytes && head.items <= kMaxBlockItems;
 }
 
 bool belongs(const BlockHead& head, std::span<const std::byte> body) {
@@ -49,8 +49,8 @@ namespace {
 // Longer: packs better, and a seek or a cut costs more.
 constexpr std::uint64_t kBlockTicks = 200;  // 1 s of sim time
 // Half of what a reader takes, so that an item of any size still fits.
-constexpr std::size_t kFullBytes = kMostBlockBytes / 2;
-constexpr std::size_t kFullItems = kMostBlockItems / 2;
+constexpr std::size_t kFullBytes = kMaxBlockBytes / 2;
+constexpr std::size_t kFullItems = kMaxBlockItems / 2;
 
 void append_bytes(std::vector<std::byte>& bytes, std::span<const std::byte> more) {
   bytes.insert(bytes.end(), more.begin(), more.end());

@@ -18,8 +18,8 @@ namespace yars::tools::recording {
 // A block of a recording: about a second of it, that decodes alone. A head of fixed size with checksums, then a body of
 // chunks: the order of the items (the number of a kind each), then of each kind inside, by number, its records as
 // columns and their tails. The last block holds the index.
-inline constexpr std::size_t kMostBlockBytes = std::size_t{8} << 20;  // [bytes] unpacked, and packed: more is damage
-inline constexpr std::size_t kMostBlockItems = std::size_t{1} << 14;
+inline constexpr std::size_t kMaxBlockBytes = std::size_t{8} << 20;  // [bytes] unpacked, and packed: more is damage
+inline constexpr std::size_t kMaxBlockItems = std::size_t{1} << 14;
 
 enum class BlockContent : std::uint32_t { items = 1, index = 2 };
 
@@ -81,7 +81,7 @@ class BlockBuilder {
 class BlockItems {
  public:
   // Nothing when the body is not what its head says, though its checksum is right. Takes at most some
-  // kMostBlockBytes of memory for each of body, columns and records.
+  // kMaxBlockBytes of memory for each of body, columns and records.
   static std::optional<BlockItems> decode(const BlockHead& head, std::span<const std::byte> body);
   std::optional<RecordingItem> next();
   std::optional<RecordingItem> last_of(std::uint8_t kind) const;  // the block's last item of this kind

@@ -43,7 +43,7 @@ namespace {
 
 using Word = std::uint64_t;
 constexpr std::size_t kWord = sizeof(Word);
-constexpr std::size_t kGreatestOrder = 3;
+constexpr std::size_t kMaxOrder = 3;
 
 std::size_t words_in(std::size_t record_bytes) {
   return (record_bytes + kWord - 1) / kWord;
@@ -82,7 +82,7 @@ Word unfolded(Word value) {
 
 std::size_t best_order(std::span<const Word> column) {
   std::size_t best = 1, least = SIZE_MAX;
-  for (std::size_t order = 1; order <= kGreatestOrder; ++order) {
+  for (std::size_t order = 1; order <= kMaxOrder; ++order) {
     std::size_t bits = 0;
     for (std::size_t at = 1; at < column.size(); ++at)
       bits += static_cast<std::size_t>(std::bit_width(folded(column[at] - predicted(column, at, order))));
@@ -135,7 +135,7 @@ bool decode_columns(std::span<const std::byte> coded, std::size_t count, std::si
   std::size_t planes_in_all = 0;
   for (std::size_t word = 0; word < words; ++word) {
     const auto order = std::to_integer<std::size_t>(orders_and_planes[2 * word]);
-    if (order < 1 || order > kGreatestOrder) return false;
+    if (order < 1 || order > kMaxOrder) return false;
     planes_in_all +=
         static_cast<std::size_t>(std::popcount(std::to_integer<unsigned>(orders_and_planes[2 * word + 1])));
   }

@@ -14,7 +14,7 @@ using databuffer::Sweep;
 constexpr std::size_t kSweepFields = offsetof(Sweep, video);  // [bytes]
 
 std::size_t patch_pixels(const PatchMap& map) {
-  const std::size_t edge = std::min(map.size, databuffer::kMostPatchPixels);
+  const std::size_t edge = std::min(map.size, databuffer::kMaxPatchPixels);
   return edge * edge;
 }
 

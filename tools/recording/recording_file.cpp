@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::array<char, 8> kMagic{'Y', 'A', 'R', 'S', 'T', 'L', 'O', 'G'};
 constexpr std::uint32_t kVersion = 3;
-constexpr std::uint32_t kMostKinds = 63;
+constexpr std::uint32_t kMaxKinds = 63;
 
 struct Preamble {
   std::array<char, 8> magic;
@@ -101,8 +101,8 @@ error::Expected<RecordingHeader> read_header(std::istream& file, const std::stri
   if (preamble.version != kVersion)
     return error::fail(file_name, "version " + std::to_string(kVersion) + " of the recording format",
                        std::to_string(preamble.version), "replay it with the release that recorded it");
-  if (preamble.kinds > kMostKinds || preamble.configuration_bytes > kMostHeaderText ||
-      preamble.terrain_bytes > kMostHeaderText)
+  if (preamble.kinds > kMaxKinds || preamble.configuration_bytes > kMaxHeaderText ||
+      preamble.terrain_bytes > kMaxHeaderText)
     return damaged("one with longer paths or more kinds of records than there can be");
   const std::size_t kinds_bytes = preamble.kinds * sizeof(KindEntry);
   std::uint32_t checksum = 0;

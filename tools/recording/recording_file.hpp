@@ -21,7 +21,7 @@ struct RecordingHeader {
   std::string terrain;        // directory; empty = the configuration's
 };
 
-inline constexpr std::size_t kMostHeaderText = std::size_t{1} << 16;  // [bytes] of a path
+inline constexpr std::size_t kMaxHeaderText = std::size_t{1} << 16;  // [bytes] of a path
 
 std::vector<std::byte> bytes_of(const RecordingHeader& header);
 

@@ -61,8 +61,8 @@ int append_whole(int descriptor, std::uint64_t at, const std::vector<std::byte>&
 
 error::Expected<RecordingWriter> RecordingWriter::create(const std::filesystem::path& path,
                                                          const RecordingHeader& header, Existing existing) {
-  if (header.configuration.size() > kMostHeaderText || header.terrain.size() > kMostHeaderText)
-    return error::fail(path.string(), "paths of at most " + std::to_string(kMostHeaderText) + " bytes to record",
+  if (header.configuration.size() > kMaxHeaderText || header.terrain.size() > kMaxHeaderText)
+    return error::fail(path.string(), "paths of at most " + std::to_string(kMaxHeaderText) + " bytes to record",
                        "a longer one of the configuration or the terrain", "give it a shorter path");
   auto folder = file::Folder::open(path.parent_path());
   if (!folder) return tl::unexpected(folder.error());

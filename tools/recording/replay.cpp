@@ -183,7 +183,7 @@ Played Player::seek(std::int64_t tick) {
   while (look_ahead() && is_due(tick)) {
     if (is_cut()) played.sweeps.clear();
     take(played);
-    if (played.sweeps.size() > kMostSweepsOfASeek) played.sweeps.pop_front();
+    if (played.sweeps.size() > kMaxSweepsOfASeek) played.sweeps.pop_front();
   }
   played.maps.clear();
   find_maps(block, played);

@@ -107,8 +107,8 @@ struct Played {
 
 class Player {
  public:
-  static constexpr std::uint32_t kPictureSweeps = 1024;   // as many as a glass holds
-  static constexpr std::size_t kMostSweepsOfASeek = 900;  // fewer than the session's ring holds
+  static constexpr std::uint32_t kPictureSweeps = 1024;  // as many as a glass holds
+  static constexpr std::size_t kMaxSweepsOfASeek = 900;  // fewer than the session's ring holds
 
   // `world` is needed unless has_video(reader).
   Player(RecordingReader& reader, std::optional<PlayerWorld> world);

@@ -226,7 +226,7 @@ struct Times {
 };
 
 // The first scan and the repeats; `begin`: when reading began.
-Times run_scans(model::kernel::OfflineScan& work, const model::physics::Database& database, int repeat,
+Times run_scans(model::kernel::OfflineScan& work, const model::physics::Environment& database, int repeat,
                 std::chrono::steady_clock::time_point begin) {
   Times times;
   for (int run = 0; run <= repeat; ++run) {

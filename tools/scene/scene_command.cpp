@@ -220,7 +220,7 @@ void add_scene_generate(CLI::App& scene) {
       ->check(CLI::IsMember({"airfield", "harbour", "bridge", "town"}))
       ->capture_default_str();
   command->add_option("--triangles", options->triangles, "about how many, instances counted each time")
-      ->check(CLI::Range(std::uint64_t{1}, worldgen::kMostGenerated))
+      ->check(CLI::Range(std::uint64_t{1}, worldgen::kMaxGenerated))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "another seed, another scene")->capture_default_str();
   command->add_option("--origin", options->origin, "LAT,LON [deg]: where its middle stands")->required();

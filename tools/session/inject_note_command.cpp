@@ -107,7 +107,7 @@ std::string events_text(std::size_t count) {
 
 // The state in which the events have left the radar; false: there is none that may be believed.
 bool read_state(Session& session, databuffer::RadarState& state) {
-  return session.layout().radar_state.read(state) && !databuffer::why_refused(state);
+  return session.layout().radar_state.read(state) && !databuffer::validate(state);
 }
 
 // The state machine publishes its state after the events of a tick: a little later than what it says of them.

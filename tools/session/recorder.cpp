@@ -53,7 +53,7 @@ void Recorder::begin_here() {
   traffic_cursor_ = traffic > 0 ? traffic - 1 : 0;  // the last one holds
   // The status may be of a later tick than the cursor: ticks up to it are not written.
   recording::StartingPoint start{};
-  if (!layout.model_status.read(start.status) || databuffer::why_refused(start.status)) return;
+  if (!layout.model_status.read(start.status) || databuffer::validate(start.status)) return;
   append(start);
   from_tick_ = start.status.tick + 1;
   from_epoch_ = start.status.epoch;
@@ -97,7 +97,7 @@ void Recorder::begin_next_file() {
 
 template <class T>
 bool Recorder::believes(const T& record) {
-  const auto refusal = databuffer::why_refused(record);
+  const auto refusal = databuffer::validate(record);
   if (!refusal) return true;
   ++refused_;
   session_->note(databuffer::NoteKind::refusal, "not recorded: " + *refusal);

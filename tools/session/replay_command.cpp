@@ -69,16 +69,16 @@ std::string text_of_ticks(const recording::IndexEntry& block) {
 
 // Where it ends early or has holes; what was read stands.
 void tell_what_is_missing(const recording::RecordingReader& reader, const std::string& file) {
-  constexpr std::size_t kMostTold = 20;
+  constexpr std::size_t kMaxTold = 20;
   const auto& missing = reader.missing();
   if (missing.empty()) {
     if (reader.cut_short()) log::warning(file + ": cut short; it was read to its last whole block");
     return;
   }
   std::string ticks;
-  for (std::size_t i = 0; i < std::min(missing.size(), kMostTold); ++i)
+  for (std::size_t i = 0; i < std::min(missing.size(), kMaxTold); ++i)
     ticks += (i == 0 ? "" : ", ") + text_of_ticks(missing[i]);
-  if (missing.size() > kMostTold) ticks += ", and more";
+  if (missing.size() > kMaxTold) ticks += ", and more";
   give_up({file, "whole blocks",
            std::to_string(missing.size()) + (missing.size() == 1 ? " damaged one" : " damaged ones") +
                "; missing are ticks " + ticks,

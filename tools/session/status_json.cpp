@@ -181,7 +181,7 @@ ordered_json lanes_json(const databuffer::Session& session) {
   ordered_json lanes = ordered_json::array();
   for (std::size_t i = 0; i < databuffer::kOwnshipLanes; ++i) {
     databuffer::Ownship own{};
-    if (!session.ownship_lane_is_held(i) || !layout.ownship[i].read(own) || databuffer::why_refused(own)) continue;
+    if (!session.ownship_lane_is_held(i) || !layout.ownship[i].read(own) || databuffer::validate(own)) continue;
     lanes.push_back({{"lane", i},
                      {"source", databuffer::name_of_source(own, static_cast<std::uint32_t>(i))},
                      {"priority", layout.ownship_priority[i].load()},
@@ -206,8 +206,7 @@ ordered_json frames_json(const databuffer::Session& session) {
   const std::int32_t publisher = session.role_holder(databuffer::Role::glass_frames);
   databuffer::GlassFrame newest{};
   std::vector<std::uint8_t> pixels;
-  if (!databuffer::read_newest_frame(session.layout(), 0, newest, pixels) || databuffer::why_refused(newest))
-    newest = {};
+  if (!databuffer::read_newest_frame(session.layout(), 0, newest, pixels) || databuffer::validate(newest)) newest = {};
   if (publisher == 0 && newest.id == 0) return nullptr;
   return {{"publisher", publisher == 0 ? ordered_json(nullptr) : ordered_json(publisher)},
           {"newest", newest.id},
@@ -220,7 +219,7 @@ ordered_json traffic_json(const databuffer::Session& session) {
   const std::int32_t holder = session.role_holder(databuffer::Role::traffic);
   if (holder == 0) return nullptr;
   databuffer::Traffic newest{};
-  if (!session.layout().traffic.read(newest) || databuffer::why_refused(newest)) newest = {};
+  if (!session.layout().traffic.read(newest) || databuffer::validate(newest)) newest = {};
   return {{"holder", holder}, {"entities", newest.count}};
 }
 
@@ -245,7 +244,7 @@ ordered_json refusals_json(const databuffer::Session& session, const std::vector
 
 ordered_json status_json(const databuffer::Session& session, const std::string& name) {
   databuffer::ModelStatus model{};
-  if (!session.layout().model_status.read(model) || databuffer::why_refused(model)) model = {};
+  if (!session.layout().model_status.read(model) || databuffer::validate(model)) model = {};
   ordered_json object;
   object["session"] = name;
   object["watch"] = watch_object(session);

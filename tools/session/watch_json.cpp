@@ -236,8 +236,8 @@ nlohmann::ordered_json watch_object(const databuffer::Session& session) {
   // What no role would believe is not shown as if it held.
   RadarState told_state{};
   ModelStatus told_model{};
-  if (layout.radar_state.read(told_state) && !databuffer::why_refused(told_state)) state = told_state;
-  if (layout.model_status.read(told_model) && !databuffer::why_refused(told_model)) model = told_model;
+  if (layout.radar_state.read(told_state) && !databuffer::validate(told_state)) state = told_state;
+  if (layout.model_status.read(told_model) && !databuffer::validate(told_model)) model = told_model;
   ordered_json object;
   add_clock(object, session, model);
   add_radar_state(object, state);

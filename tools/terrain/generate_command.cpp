@@ -28,8 +28,8 @@ using namespace model::terrain;
 struct Options {
   using Default = worldgen::DefaultLandscape;
   std::string out;
-  int south_deg = Default::kSouthDeg;
-  int west_deg = Default::kWestDeg;
+  int south_deg = Default::kSouth_deg;
+  int west_deg = Default::kWest_deg;
   int cells_latitude = Default::kCellsNorth;
   int cells_longitude = Default::kCellsEast;
   int level = 1;

@@ -113,18 +113,18 @@ Setter choice(Choice Fidelity::*slot, std::array<std::string_view, 3> names) {
 }
 
 bool set_posts_per_sample(Fidelity& fidelity, std::string_view text) {
-  constexpr double kMostPosts = 1000.0;  // as GUF
+  constexpr double kMaxPosts = 1000.0;  // as GUF
   const auto value = number_of(text);
-  if (!value || *value < 0.0 || *value > kMostPosts) return false;
+  if (!value || *value < 0.0 || *value > kMaxPosts) return false;
   fidelity.posts_per_sample = *value;
   return true;
 }
 
 // 1 is no number of knots: one point has no direction.
 bool set_geodesic_knots(Fidelity& fidelity, std::string_view text) {
-  constexpr int kMostKnots = 9;
+  constexpr int kMaxKnots = 9;
   const auto value = whole_number_of(text);
-  if (!value || *value < 0 || *value == 1 || *value > kMostKnots) return false;
+  if (!value || *value < 0 || *value == 1 || *value > kMaxKnots) return false;
   fidelity.geodesic_knots = *value;
   return true;
 }
@@ -137,7 +137,7 @@ const std::array<Knob, 17>& knobs() {
        true, true},
       {"postsPerSample", "numbers 0 to 1000", set_posts_per_sample, true, false},
       {"earth", "flat, sphere, ellipsoid", choice(&Fidelity::earth, {"flat", "sphere", "ellipsoid"}), true, true},
-      {"subBeams", "whole numbers 1 to 15", whole_number(&Fidelity::sub_beams, 1, radar::kMostSubBeams), true, false},
+      {"subBeams", "whole numbers 1 to 15", whole_number(&Fidelity::sub_beams, 1, radar::kMaxSubBeams), true, false},
       {"crossTrackSlope", "true, false", flag(&Fidelity::cross_track_slope), true, false},
       {"pulseSmear", "true, false", flag(&Fidelity::pulse_smear), true, false},
       {"azimuthSmear", "true, false", flag(&Fidelity::azimuth_smear), true, false},
@@ -170,8 +170,8 @@ std::vector<const Knob*> knobs_of(Subject subject) {
 
 }  // namespace
 
-Expected<std::vector<Contender>> preset_contenders(std::string_view list) {
-  std::vector<Contender> found;
+Expected<std::vector<Candidate>> preset_candidates(std::string_view list) {
+  std::vector<Candidate> found;
   if (list == "none") return found;
   std::vector<std::string_view> names = fields_of(list);
   if (list == "all") names.assign(radar::fidelity_names().begin(), radar::fidelity_names().end());
@@ -183,7 +183,7 @@ Expected<std::vector<Contender>> preset_contenders(std::string_view list) {
   return found;
 }
 
-Expected<std::vector<Contender>> knob_contenders(std::string_view sweep, const Fidelity& base, Subject subject) {
+Expected<std::vector<Candidate>> knob_candidates(std::string_view sweep, const Fidelity& base, Subject subject) {
   const std::size_t equals = sweep.find('=');
   if (equals == std::string_view::npos) return refuse("--knob", "KNOB=VALUE,VALUE,...", sweep);
   const std::string_view name = sweep.substr(0, equals);
@@ -194,13 +194,13 @@ Expected<std::vector<Contender>> knob_contenders(std::string_view sweep, const F
     for (const Knob* knob : known) names.push_back(knob->name);
     return refuse("--knob", "one of " + joined(names), name);
   }
-  std::vector<Contender> found;
+  std::vector<Candidate> found;
   for (const std::string_view value : fields_of(sweep.substr(equals + 1))) {
-    Contender contender{std::string(name) + "=" + std::string(value), std::string(name), base};
-    contender.fidelity.name = contender.name;
-    if (!(*named)->set(contender.fidelity, value))
+    Candidate candidate{std::string(name) + "=" + std::string(value), std::string(name), base};
+    candidate.fidelity.name = candidate.name;
+    if (!(*named)->set(candidate.fidelity, value))
       return refuse("--knob " + std::string(name), std::string((*named)->takes), value);
-    found.push_back(std::move(contender));
+    found.push_back(std::move(candidate));
   }
   return found;
 }

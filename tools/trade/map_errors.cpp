@@ -13,8 +13,8 @@ namespace yars::tools::trade {
 
 namespace {
 constexpr std::uint8_t kMarkMaterial = 1;
-constexpr double kMarkGammaDb = 40.0;  // water, which alone returns beside them, is far below
-constexpr double kNothingDb = -150.0;
+constexpr double kMarkGamma_db = 40.0;  // water, which alone returns beside them, is far below
+constexpr double kNothing_db = -150.0;
 constexpr double kEdgeShare = 0.03;  // of the window: pixels enough for their raster to average out
 }  // namespace
 
@@ -59,9 +59,9 @@ void MarkScene::objects_near(geo::GeoPoint /*place*/, double /*radius_m*/, std::
 radar::RadarConfiguration marks_alone(radar::RadarConfiguration configuration) {
   configuration.fidelity.map_detail = false;
   configuration.fidelity.map_response = false;
-  configuration.receiver.land_gamma_db = kNothingDb;
+  configuration.receiver.land_gamma_db = kNothing_db;
   for (radar::Material& material : configuration.world.land.materials)
-    material.gamma_db = material.code == kMarkMaterial ? kMarkGammaDb : kNothingDb;
+    material.gamma_db = material.code == kMarkMaterial ? kMarkGamma_db : kNothing_db;
   configuration.world.movers.clear();
   return configuration;
 }
@@ -109,7 +109,7 @@ std::vector<std::optional<hrm::MapPoint>> marks_of(const hrm::MapImage& image, d
 
 }  // namespace
 
-double time_map(hrm::PatchProcess& process, const hrm::PatchOrder& order, const hrm::PatchDatabase& database,
+double time_map(hrm::PatchFormation& process, const hrm::PatchOrder& order, const hrm::PatchEnvironment& database,
                 Clock clock) {
   const double begin_ms = clock();
   process.begin(order);
@@ -119,9 +119,9 @@ double time_map(hrm::PatchProcess& process, const hrm::PatchOrder& order, const 
 }
 
 MapEvidence observe_map(const RadarConfiguration& configuration, const hrm::PatchOrder& order,
-                        const hrm::PatchDatabase& database, Clock clock) {
+                        const hrm::PatchEnvironment& database, Clock clock) {
   const RadarConfiguration silent = quiet(configuration);
-  hrm::PatchProcess process(silent, {});
+  hrm::PatchFormation process(silent, {});
   MapEvidence evidence;
   evidence.took_ms = time_map(process, order, database, clock);
   evidence.size = process.image().size;
@@ -139,7 +139,7 @@ MapEvidence observe_map(const RadarConfiguration& configuration, const hrm::Patc
   RadarConfiguration marked = marks_alone(silent);
   // Brightness knows no materials: the plain algorithm on the same plane puts things where 1996 does.
   if (!evidence.power_is_radar) marked.fidelity.algorithm = radar::Algorithm::standard;
-  hrm::PatchProcess marks(marked, {});
+  hrm::PatchFormation marks(marked, {});
   time_map(marks, order, {database.window, database.path, std::make_shared<MarkScene>(order)}, clock);
   evidence.marks = marks_of(marks.image(), marks.geometry().window_m());
   return evidence;

@@ -57,11 +57,11 @@ struct MapEvidence {
 using Clock = double (*)();
 
 MapEvidence observe_map(const radar::RadarConfiguration& configuration, const model::hrm::PatchOrder& order,
-                        const model::hrm::PatchDatabase& database, Clock clock);
+                        const model::hrm::PatchEnvironment& database, Clock clock);
 
 // One map from the order to its video, noise as configured; [ms].
-double time_map(model::hrm::PatchProcess& process, const model::hrm::PatchOrder& order,
-                const model::hrm::PatchDatabase& database, Clock clock);
+double time_map(model::hrm::PatchFormation& process, const model::hrm::PatchOrder& order,
+                const model::hrm::PatchEnvironment& database, Clock clock);
 
 struct MapErrors {
   double position_m = 0.0;      // [m] farthest that a mark lies from the ruler's; NaN: the ruler sees none

@@ -17,7 +17,7 @@ namespace yars::tools::trade {
 
 namespace {
 
-using model::physics::Look;
+using model::physics::SweepGeometry;
 using radar::RadarConfiguration;
 
 constexpr float kNothing = 1e-8F;  // of full scale: far below the noise, and what float still tells from zero
@@ -25,11 +25,11 @@ constexpr float kNothing = 1e-8F;  // of full scale: far below the noise, and wh
 // One ray, no smear, and a beam without edge about the horizon: what is outside a beam has no power and, by the 1996
 // report, is not lit.
 RadarConfiguration bare(RadarConfiguration configuration) {
-  constexpr double kWholeViewDeg = 179.9;
+  constexpr double kWholeView_deg = 179.9;
   configuration.fidelity.sub_beams = 1;
   configuration.fidelity.pulse_smear = false;
   configuration.fidelity.beam = radar::BeamPattern::hard_edge;
-  configuration.antenna.elevation_beamwidth_deg = kWholeViewDeg;
+  configuration.antenna.elevation_beamwidth_deg = kWholeView_deg;
   return configuration;
 }
 
@@ -57,7 +57,7 @@ std::vector<RaySample> ray_samples(const RadarConfiguration& given, std::span<co
   std::vector<RaySample> samples;
   samples.reserve(places.size() * count);
   for (const model::kernel::SweepPlace& place : places) {
-    Look look = model::kernel::look_of(place);
+    SweepGeometry look = model::kernel::look_of(place);
     look.elevation = geo::Angle();
     algorithm->measure(look, terrain, power);
     algorithm->lit(lit);
@@ -77,7 +77,7 @@ namespace {
 
 using model::kernel::OfflineScan;
 using model::kernel::ScanRequest;
-using model::physics::Look;
+using model::physics::SweepGeometry;
 using radar::RadarConfiguration;
 
 double position_error_m(const RadarConfiguration& configuration, const OfflineScan& scan,
@@ -88,7 +88,7 @@ double position_error_m(const RadarConfiguration& configuration, const OfflineSc
   model::physics::PlaceArrays places(model::rbm::sample_count(configuration));
   double worst_m = 0.0;
   for (std::size_t sweep = 0; sweep < scan.places().size(); sweep += kStep) {
-    const Look look = model::kernel::look_of(scan.places()[sweep]);
+    const SweepGeometry look = model::kernel::look_of(scan.places()[sweep]);
     std::vector<double> exact_m(places.count);
     const auto earth = model::physics::effective_earth(configuration.fidelity, look.apex, look.azimuth);
     model::physics::sample_distances(configuration.fidelity, earth, look, terrain, exact_m);

@@ -15,7 +15,7 @@ constexpr std::array<Bounds, 5> kSceneBounds{{{"latitude [deg]", -90.0, 90.0},
                                               {"altitude [ft]", -3000.0, 600000.0},
                                               {"heading [deg]", -360.0, 360.0},
                                               {"range [NM]", 0.1, 1000.0}}};
-constexpr double kLowestElevationDeg = -60.0;  // of the antenna, its gimbal's stop
+constexpr double kLowestElevation_deg = -60.0;  // of the antenna, its gimbal's stop
 
 }  // namespace
 
@@ -40,7 +40,7 @@ model::kernel::ScanRequest request_of(const Scene& scene, geo::Angle width) {
   request.range = geo::Length::nautical_miles(scene.range_nm);
   request.width = width;
   const double down_deg = std::atan2(-request.pose.altitude.metres(), request.range.metres()) / geo::kRadiansPerDegree;
-  request.elevation = geo::Angle::degrees(std::clamp(down_deg, kLowestElevationDeg, 0.0));
+  request.elevation = geo::Angle::degrees(std::clamp(down_deg, kLowestElevation_deg, 0.0));
   return request;
 }
 

@@ -36,8 +36,8 @@ nlohmann::ordered_json json_of(const trade::TradeTable& table, const trade::Plot
   };
   all["axes"] = {{"time", axis(axes.time)}, {"errors", {axis(axes.errors[0]), axis(axes.errors[1])}}};
   for (const trade::SceneRow& scene : table.scenes) all["scenes"].push_back(scene.name);
-  for (std::size_t i = 0; i < table.contenders.size(); ++i) {
-    nlohmann::ordered_json point{{"point", table.contenders[i].name}, {"family", table.contenders[i].family}};
+  for (std::size_t i = 0; i < table.candidates.size(); ++i) {
+    nlohmann::ordered_json point{{"point", table.candidates[i].name}, {"family", table.candidates[i].family}};
     for (std::size_t column = 0; column < table.columns.size(); ++column) {
       const auto summary = trade::summary_of(table, i, column);
       nlohmann::ordered_json values;
@@ -82,16 +82,16 @@ radar::RadarConfiguration trade_configuration(const CommonOptions& common, const
   return configuration;
 }
 
-std::vector<trade::Contender> contenders_of(const TradeOptions& options, trade::Subject subject) {
-  auto contenders = trade::preset_contenders(options.presets);
-  if (!contenders) give_up(contenders.error());
+std::vector<trade::Candidate> candidates_of(const TradeOptions& options, trade::Subject subject) {
+  auto candidates = trade::preset_candidates(options.presets);
+  if (!candidates) give_up(candidates.error());
   for (const std::string& sweep : options.knobs) {
-    auto more = trade::knob_contenders(sweep, *radar::fidelity_preset(options.base), subject);
+    auto more = trade::knob_candidates(sweep, *radar::fidelity_preset(options.base), subject);
     if (!more) give_up(more.error());
-    std::move(more->begin(), more->end(), std::back_inserter(*contenders));
+    std::move(more->begin(), more->end(), std::back_inserter(*candidates));
   }
-  if (contenders->empty()) give_up(error::usage_error("yars trade", "a preset or a knob to compare", "none"));
-  return std::move(*contenders);
+  if (candidates->empty()) give_up(error::usage_error("yars trade", "a preset or a knob to compare", "none"));
+  return std::move(*candidates);
 }
 
 void write_trade(const TradeOptions& options, const trade::TradeTable& table, const trade::PlotAxes& axes) {
@@ -178,11 +178,11 @@ trade::Cost cost_of(const radar::RadarConfiguration& configuration, const ScanRe
           static_cast<double>(terrain.resident_bytes())};
 }
 
-// `same` judges the arithmetic alone: the reference algorithm with the contender's own knobs.
-radar::Fidelity ruler_of(const ScanTradeOptions& options, const radar::Fidelity& contender) {
+// `same` judges the arithmetic alone: the reference algorithm with the candidate's own knobs.
+radar::Fidelity ruler_of(const ScanTradeOptions& options, const radar::Fidelity& candidate) {
   radar::Fidelity ruler = *radar::fidelity_preset("reference");
   if (options.ruler == "same") {
-    ruler = contender;
+    ruler = candidate;
     ruler.algorithm = radar::Algorithm::reference;
     return ruler;
   }
@@ -190,7 +190,7 @@ radar::Fidelity ruler_of(const ScanTradeOptions& options, const radar::Fidelity&
   return ruler;
 }
 
-// The contenders of one scene in turn, with the ruler that they share.
+// The candidates of one scene in turn, with the ruler that they share.
 class SceneTrade {
  public:
   SceneTrade(const ScanTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::Scene& scene)
@@ -203,10 +203,10 @@ class SceneTrade {
   }
 
   trade::Values values(const radar::Fidelity& fidelity) {
-    const radar::RadarConfiguration contender = with(fidelity);
+    const radar::RadarConfiguration candidate = with(fidelity);
     const TerrainView& terrain = terrain_.at(model::kernel::scan_detail(fidelity, request_.range));
-    const trade::Cost cost = cost_of(contender, request_, terrain, options_.repeat);
-    const trade::Evidence found = trade::observe(contender, request_, terrain);
+    const trade::Cost cost = cost_of(candidate, request_, terrain, options_.repeat);
+    const trade::Evidence found = trade::observe(candidate, request_, terrain);
     if (options_.ruler == "reference") return trade::values_of(cost, trade::errors_against(shared_, found));
     return trade::values_of(cost, trade::errors_against(measured_ruler(fidelity), found));
   }
@@ -217,8 +217,8 @@ class SceneTrade {
     configuration.fidelity = fidelity;
     return configuration;
   }
-  trade::Ruler measured_ruler(const radar::Fidelity& contender) {
-    const radar::Fidelity ruler = ruler_of(options_, contender);
+  trade::Ruler measured_ruler(const radar::Fidelity& candidate) {
+    const radar::Fidelity ruler = ruler_of(options_, candidate);
     return trade::make_ruler(with(ruler), request_, terrain_.at(model::kernel::scan_detail(ruler, request_.range)));
   }
 
@@ -250,16 +250,16 @@ trade::TradeTable run_trade(const ScanTradeOptions& options, const radar::RadarC
   trade::TradeTable table;
   table.columns = trade::kScanColumns;
   table.scene_fields = trade::kScanFields;
-  table.contenders = contenders_of(options, trade::Subject::scan);
-  table.values.resize(table.contenders.size());
+  table.candidates = candidates_of(options, trade::Subject::scan);
+  table.values.resize(table.candidates.size());
   const std::vector<trade::Scene> scenes = scenes_of(options, configuration.terrain.directory);
-  Progress progress(table.contenders.size() * scenes.size(), stderr);
+  Progress progress(table.candidates.size() * scenes.size(), stderr);
   for (const trade::Scene& scene : scenes) {
     table.scenes.push_back(trade::row_of(scene));
     SceneTrade scene_trade(options, configuration, scene);
-    for (std::size_t i = 0; i < table.contenders.size(); ++i) {
-      table.values[i].push_back(scene_trade.values(table.contenders[i].fidelity));
-      progress.done(table.contenders[i].name + ", " + trade::scene_name(scene));
+    for (std::size_t i = 0; i < table.candidates.size(); ++i) {
+      table.values[i].push_back(scene_trade.values(table.candidates[i].fidelity));
+      progress.done(table.candidates[i].name + ", " + trade::scene_name(scene));
     }
   }
   return table;

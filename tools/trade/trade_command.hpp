@@ -1,4 +1,4 @@
-// What `yars trade` and `yars trade maps` share: which contenders, which clock, where the table goes.
+// What `yars trade` and `yars trade maps` share: which candidates, which clock, where the table goes.
 #pragma once
 
 #include <string>
@@ -25,7 +25,7 @@ void add_trade_options(CLI::App& command, TradeOptions& options);
 // Before the work: a name that no writer knows.
 void check_trade_output(const TradeOptions& options);
 radar::RadarConfiguration trade_configuration(const CommonOptions& common, const TradeOptions& options);
-std::vector<trade::Contender> contenders_of(const TradeOptions& options, trade::Subject subject);
+std::vector<trade::Candidate> candidates_of(const TradeOptions& options, trade::Subject subject);
 // Table or JSON to standard output, CSV and JSON to files as asked.
 void write_trade(const TradeOptions& options, const trade::TradeTable& table, const trade::PlotAxes& axes);
 

@@ -30,11 +30,11 @@ struct MapTradeOptions : TradeOptions {
 };
 
 // Terrain and scene of one view: by detail, each from a store of its own, so that what is resident is what it needs.
-class ViewDatabase {
+class ViewEnvironment {
  public:
-  explicit ViewDatabase(const radar::RadarConfiguration& configuration) : configuration_(configuration) {}
+  explicit ViewEnvironment(const radar::RadarConfiguration& configuration) : configuration_(configuration) {}
 
-  hrm::PatchDatabase of(const hrm::PatchNeed& need) {
+  hrm::PatchEnvironment of(const hrm::PatchNeed& need) {
     if (!scene_known_) scene_ = read_scene(need);
     scene_known_ = true;
     return {terrain(need.window, window_), terrain(need.path, path_), scene_};
@@ -68,7 +68,7 @@ class ViewDatabase {
   bool scene_known_ = false;
 };
 
-// The contenders of one view in turn, with the ruler that they share.
+// The candidates of one view in turn, with the ruler that they share.
 class ViewTrade {
  public:
   ViewTrade(const MapTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::MapView& view)
@@ -81,7 +81,7 @@ class ViewTrade {
 
   trade::Values values(const radar::Fidelity& fidelity) {
     const trade::MapEvidence found = observe(fidelity);
-    const hrm::PatchDatabase database = database_of(fidelity);
+    const hrm::PatchEnvironment database = database_of(fidelity);
     const auto bytes = static_cast<double>(database.window->resident_bytes() + database.path->resident_bytes());
     const trade::MapCost cost{time_of(fidelity, database, found), bytes};
     if (options_.ruler == "reference") return trade::values_of(cost, trade::errors_against(shared_, found));
@@ -96,17 +96,17 @@ class ViewTrade {
     configuration.fidelity = fidelity;
     return configuration;
   }
-  hrm::PatchDatabase database_of(const radar::Fidelity& fidelity) {
-    return database_.of(hrm::PatchProcess(with(fidelity), {}).begin(order_));
+  hrm::PatchEnvironment database_of(const radar::Fidelity& fidelity) {
+    return database_.of(hrm::PatchFormation(with(fidelity), {}).begin(order_));
   }
   trade::MapEvidence observe(const radar::Fidelity& fidelity) {
     return trade::observe_map(with(fidelity), order_, database_of(fidelity), thread_ms);
   }
   // Warm, one thread, noise as the fidelity has it. The reference takes so long that its one run without noise counts.
-  double time_of(const radar::Fidelity& fidelity, const hrm::PatchDatabase& database,
+  double time_of(const radar::Fidelity& fidelity, const hrm::PatchEnvironment& database,
                  const trade::MapEvidence& found) const {
     if (fidelity.algorithm == radar::Algorithm::reference) return found.took_ms;
-    hrm::PatchProcess process(with(fidelity), {});
+    hrm::PatchFormation process(with(fidelity), {});
     trade::time_map(process, order_, database, thread_ms);
     std::vector<double> took_ms;
     for (int run = 0; run < options_.repeat; ++run)
@@ -117,7 +117,7 @@ class ViewTrade {
   const MapTradeOptions& options_;
   const radar::RadarConfiguration& configuration_;
   hrm::PatchOrder order_;
-  ViewDatabase database_;
+  ViewEnvironment database_;
   trade::MapEvidence shared_;
 };
 
@@ -147,16 +147,16 @@ trade::TradeTable run_trade(const MapTradeOptions& options, const radar::RadarCo
   trade::TradeTable table;
   table.columns = trade::kMapColumns;
   table.scene_fields = trade::kMapFields;
-  table.contenders = contenders_of(options, trade::Subject::map);
-  table.values.resize(table.contenders.size());
+  table.candidates = candidates_of(options, trade::Subject::map);
+  table.values.resize(table.candidates.size());
   const std::vector<trade::MapView> views = views_of(options, configuration.terrain.directory);
-  Progress progress(table.contenders.size() * views.size(), stderr);
+  Progress progress(table.candidates.size() * views.size(), stderr);
   for (const trade::MapView& view : views) {
     table.scenes.push_back(trade::row_of(view));
     ViewTrade view_trade(options, configuration, view);
-    for (std::size_t i = 0; i < table.contenders.size(); ++i) {
-      table.values[i].push_back(view_trade.values(table.contenders[i].fidelity));
-      progress.done(table.contenders[i].name + ", " + trade::map_view_name(view));
+    for (std::size_t i = 0; i < table.candidates.size(); ++i) {
+      table.values[i].push_back(view_trade.values(table.candidates[i].fidelity));
+      progress.done(table.candidates[i].name + ", " + trade::map_view_name(view));
     }
   }
   return table;

@@ -53,13 +53,13 @@ std::string aligned(const std::vector<Row>& rows) {
 
 }  // namespace
 
-Summary summary_of(const TradeTable& table, std::size_t contender, std::size_t column) {
+Summary summary_of(const TradeTable& table, std::size_t candidate, std::size_t column) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   Summary summary{kNone, kNone, 0};
   double sum = 0.0;
   std::size_t count = 0;
   for (std::size_t scene = 0; scene < table.scenes.size(); ++scene) {
-    const double value = table.values[contender][scene][column];
+    const double value = table.values[candidate][scene][column];
     if (std::isnan(value)) continue;
     sum += value;
     ++count;
@@ -75,10 +75,10 @@ Summary summary_of(const TradeTable& table, std::size_t contender, std::size_t c
 std::string table_text(const TradeTable& table) {
   std::vector<Row> rows(1, Row{"point"});
   for (const Column& column : table.columns) rows.front().emplace_back(column.title);
-  for (std::size_t contender = 0; contender < table.contenders.size(); ++contender) {
-    Row row{table.contenders[contender].name};
+  for (std::size_t candidate = 0; candidate < table.candidates.size(); ++candidate) {
+    Row row{table.candidates[candidate].name};
     for (std::size_t column = 0; column < table.columns.size(); ++column) {
-      const Summary summary = summary_of(table, contender, column);
+      const Summary summary = summary_of(table, candidate, column);
       row.push_back(cell_text(summary, table.columns[column].scale, table.scenes.size() > 1));
     }
     rows.push_back(std::move(row));
@@ -96,11 +96,11 @@ std::string csv_text(const TradeTable& table) {
   for (const std::string_view name : table.scene_fields) text.append(",").append(name);
   for (const Column& column : table.columns) text.append(",").append(column.name);
   text += "\n";
-  for (std::size_t contender = 0; contender < table.contenders.size(); ++contender) {
+  for (std::size_t candidate = 0; candidate < table.candidates.size(); ++candidate) {
     for (std::size_t i = 0; i < table.scenes.size(); ++i) {
-      text += table.contenders[contender].name + "," + table.contenders[contender].family + "," + std::to_string(i + 1);
+      text += table.candidates[candidate].name + "," + table.candidates[candidate].family + "," + std::to_string(i + 1);
       for (const double value : table.scenes[i].numbers) text.append(",").append(exact(value));
-      for (const double value : table.values[contender][i]) text.append(",").append(exact(value));
+      for (const double value : table.values[candidate][i]) text.append(",").append(exact(value));
       text += "\n";
     }
   }

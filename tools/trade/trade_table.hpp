@@ -30,7 +30,7 @@ class RootMeanSquare {
   std::size_t count_ = 0;
 };
 
-// The results of a trade, contender by contender and scene by scene, as a table for people, as CSV, and as mean and
+// The results of a trade, candidate by candidate and scene by scene, as a table for people, as CSV, and as mean and
 // worst case over the scenes. What the columns and the scenes are, scenes.hpp and scenes.hpp say.
 struct Column {
   std::string_view name;   // of CSV and JSON, with its unit
@@ -67,17 +67,17 @@ struct PlotAxes {
 struct TradeTable {
   std::span<const Column> columns;
   std::span<const std::string_view> scene_fields;  // names of a scene's numbers
-  std::vector<Contender> contenders;
+  std::vector<Candidate> candidates;
   std::vector<SceneRow> scenes;
-  std::vector<std::vector<Values>> values;  // [contender][scene]
+  std::vector<std::vector<Values>> values;  // [candidate][scene]
 };
 
-Summary summary_of(const TradeTable& table, std::size_t contender, std::size_t column);
+Summary summary_of(const TradeTable& table, std::size_t candidate, std::size_t column);
 
-// Markdown: a row a contender, "mean / worst @scene"; the scenes by number follow.
+// Markdown: a row a candidate, "mean / worst @scene"; the scenes by number follow.
 std::string table_text(const TradeTable& table);
 
-// A row a contender and scene under one row of names; NaN is an empty field.
+// A row a candidate and scene under one row of names; NaN is an empty field.
 std::string csv_text(const TradeTable& table);
 
 }  // namespace yars::tools::trade

@@ -13,7 +13,7 @@ enum Definition : std::uint16_t { kFighter = 1, kTransport, kTruck, kTanker, kCo
 
 class Airfield {
  public:
-  explicit Airfield(Yard& yard) : yard_(yard), sketch_(yard.sketch) {}
+  explicit Airfield(SceneBuilder& yard) : yard_(yard), sketch_(yard.sketch) {}
 
   void make() {
     yard_.reach_m = 3200;
@@ -42,19 +42,19 @@ class Airfield {
   void define() {
     const int sides = yard_.sides(8, 40);
     yard_.out.begin_group("definitions");
-    fighter_ = define_aircraft(kFighter, "fighter", 12, [&](Sketch& s) { draw_fighter(s, sides); });
-    transport_ = define_aircraft(kTransport, "transport", 24, [&](Sketch& s) { draw_transport(s, sides); });
-    truck_ = define_object(kTruck, "truck", [](Sketch& s) { draw_truck(s, surface::kOlive); });
-    tanker_ = define_object(kTanker, "tanker", [&](Sketch& s) { draw_tanker(s, sides); });
-    conifer_ = define_object(kConifer, "conifer", [&](Sketch& s) { draw_conifer(s, 14, yard_.sides(6, 16)); });
-    leafy_ = define_object(kLeafy, "tree", [&](Sketch& s) { draw_leafy_tree(s, 11, yard_.sides(6, 16)); });
-    house_ = define_object(kHouse, "quarters", [&](Sketch& s) { draw_house(s, yard_.chance); });
+    fighter_ = define_aircraft(kFighter, "fighter", 12, [&](MeshBuilder& s) { draw_fighter(s, sides); });
+    transport_ = define_aircraft(kTransport, "transport", 24, [&](MeshBuilder& s) { draw_transport(s, sides); });
+    truck_ = define_object(kTruck, "truck", [](MeshBuilder& s) { draw_truck(s, surface::kOlive); });
+    tanker_ = define_object(kTanker, "tanker", [&](MeshBuilder& s) { draw_tanker(s, sides); });
+    conifer_ = define_object(kConifer, "conifer", [&](MeshBuilder& s) { draw_conifer(s, 14, yard_.sides(6, 16)); });
+    leafy_ = define_object(kLeafy, "tree", [&](MeshBuilder& s) { draw_leafy_tree(s, 11, yard_.sides(6, 16)); });
+    house_ = define_object(kHouse, "quarters", [&](MeshBuilder& s) { draw_house(s, yard_.chance); });
     yard_.out.end();
   }
 
   template <class Draw>
   std::uint64_t define_object(std::uint16_t number, const std::string& name, const Draw& draw) {
-    return yard_.define(number, [&](Sketch& apart) {
+    return yard_.define(number, [&](MeshBuilder& apart) {
       yard_.out.begin_object(name);
       draw(apart);
       yard_.out.end();
@@ -66,7 +66,7 @@ class Airfield {
   std::uint64_t define_aircraft(std::uint16_t number, const std::string& name, double length_m, const Draw& draw) {
     constexpr double kNear_m = 1500, kFar_m = 100'000;
     std::uint64_t fine = 0;
-    yard_.define(number, [&](Sketch& apart) {
+    yard_.define(number, [&](MeshBuilder& apart) {
       yard_.out.begin_level_of_detail("fine", kNear_m, 0, {0, 0, 2});
       yard_.out.begin_object(name);
       draw(apart);
@@ -85,12 +85,12 @@ class Airfield {
 
   void slab(const std::string& name, const SurfaceKind& kind, double x0, double x1, double y0, double y1,
             double z = kPaved_m) {
-    yard_.object(name, kind, [&](Sketch& s) { s.polygon({{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}}); });
+    yard_.object(name, kind, [&](MeshBuilder& s) { s.polygon({{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}}); });
   }
 
   void pave() {
     const double half = kRunway_m / 2, side = kRunwayWidth_m / 2;
-    yard_.object("runway", surface::kConcrete, [&](Sketch& s) {
+    yard_.object("runway", surface::kConcrete, [&](MeshBuilder& s) {
       s.polygon({{-half, -side, kPaved_m}, {half, -side, kPaved_m}, {half, side, kPaved_m}, {-half, side, kPaved_m}});
       yard_.out.begin_subfaces();
       s.kind = surface::kPaint;
@@ -109,7 +109,7 @@ class Airfield {
     slab("road", surface::kAsphalt, -4, 4, -kFenceY_m, kApronSouth_m - 90);
   }
 
-  static void mark(Sketch& s, double x0, double x1, double y0, double y1) {
+  static void mark(MeshBuilder& s, double x0, double x1, double y0, double y1) {
     s.polygon({{x0, y0, kPaved_m}, {x1, y0, kPaved_m}, {x1, y1, kPaved_m}, {x0, y1, kPaved_m}});
   }
 
@@ -118,7 +118,7 @@ class Airfield {
     const int arches = yard_.sides(8, 32);
     for (int hangar = 0; hangar < 4; ++hangar) {
       const double x = -270 + 180 * hangar, y = kApronSouth_m - 40, half = 32, depth = 50, wall = 9, rise = 9;
-      yard_.object("hangar" + std::to_string(hangar + 1), surface::kMetal, [&](Sketch& s) {
+      yard_.object("hangar" + std::to_string(hangar + 1), surface::kMetal, [&](MeshBuilder& s) {
         std::vector<Vector3> end;
         for (int i = 0; i <= arches; ++i) {
           const double angle = std::numbers::pi * i / arches;
@@ -150,7 +150,7 @@ class Airfield {
 
   void tower() {
     const Vector3 foot{430, kApronSouth_m + 40, 0};
-    yard_.object("tower", surface::kStone, [&](Sketch& s) {
+    yard_.object("tower", surface::kStone, [&](MeshBuilder& s) {
       const int sides = yard_.sides(8, 32);
       s.box(foot, 26, 16, 6);
       s.cylinder(foot, 4.0, 28, sides);
@@ -167,11 +167,11 @@ class Airfield {
     const int sides = yard_.sides(12, 64);
     for (int tank = 0; tank < 4; ++tank) {
       const Vector3 foot{-480 - 40.0 * (tank % 2), kApronSouth_m + 20 - 40.0 * std::floor(tank / 2.0), 0};
-      yard_.object("tank" + std::to_string(tank + 1), surface::kWhite, [&](Sketch& s) {
+      yard_.object("tank" + std::to_string(tank + 1), surface::kWhite, [&](MeshBuilder& s) {
         s.turned(foot, {0, 0, 1}, {{0, 12}, {11, 12}, {12.5, 9}, {13.5, 4.5}, {13.8, 0}}, sides);
       });
     }
-    yard_.object("bund", surface::kEarth, [&](Sketch& s) {
+    yard_.object("bund", surface::kEarth, [&](MeshBuilder& s) {
       const double w = -545, e = -455, n = kApronSouth_m + 45, b = kApronSouth_m - 45;
       const std::array<Vector3, 4> ring{Vector3{w, b, 0}, {e, b, 0}, {e, n, 0}, {w, n, 0}};
       for (std::size_t i = 0; i < 4; ++i) s.bank(ring[i], ring[(i + 1) % 4], 6, 1.5, 2.0);
@@ -181,12 +181,12 @@ class Airfield {
   void revetment(double x, double y, double turn_deg) {
     const Affine before = sketch_.map;
     sketch_.map = standing(x, y, turn_deg) * before;
-    yard_.object("revetment", surface::kEarth, [](Sketch& s) {
+    yard_.object("revetment", surface::kEarth, [](MeshBuilder& s) {
       s.bank({12, 13, 0}, {-14, 13, 0}, 7, 1.5, 4.5);
       s.bank({-14, 15, 0}, {-14, -15, 0}, 7, 1.5, 4.5);
       s.bank({-14, -13, 0}, {12, -13, 0}, 7, 1.5, 4.5);
     });
-    yard_.object("stand", surface::kConcrete, [](Sketch& s) {
+    yard_.object("stand", surface::kConcrete, [](MeshBuilder& s) {
       s.polygon({{-12, -9, kPaved_m}, {20, -9, kPaved_m}, {20, 9, kPaved_m}, {-12, 9, kPaved_m}});
     });
     sketch_.map = before;
@@ -211,7 +211,7 @@ class Airfield {
       const int parts = static_cast<int>(length(way) / kPart_m);
       for (int part = 0; part < parts; ++part) {
         const Vector3 a = ring[i] + (1.0 * part / parts) * way, b = ring[i] + ((part + 1.0) / parts) * way;
-        yard_.object("fence", surface::kPartMetal, [&](Sketch& s) {
+        yard_.object("fence", surface::kPartMetal, [&](MeshBuilder& s) {
           s.polygon({a, b, b + Vector3{0, 0, 2.4}, a + Vector3{0, 0, 2.4}}, true);
           s.bar(a, a + Vector3{0, 0, 2.6}, 0.15);
         });
@@ -222,7 +222,9 @@ class Airfield {
   void embankments() {
     for (int part = 0; part < 8; ++part) {
       const double x = -1200 + 300 * part;
-      yard_.object("embankment", surface::kEarth, [&](Sketch& s) { s.bank({x, 260, 0}, {x + 290, 260, 0}, 16, 3, 5); });
+      yard_.object("embankment", surface::kEarth, [&](MeshBuilder& s) {
+        s.bank({x, 260, 0}, {x + 290, 260, 0}, 16, 3, 5);
+      });
     }
   }
 
@@ -245,14 +247,14 @@ class Airfield {
     }
   }
 
-  Yard& yard_;
-  Sketch& sketch_;
+  SceneBuilder& yard_;
+  MeshBuilder& sketch_;
   std::uint64_t fighter_ = 0, transport_ = 0, truck_ = 0, tanker_ = 0, conifer_ = 0, leafy_ = 0, house_ = 0;
 };
 
 }  // namespace
 
-void generate_airfield(Yard& yard) {
+void generate_airfield(SceneBuilder& yard) {
   Airfield(yard).make();
 }
 

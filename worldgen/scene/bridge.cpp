@@ -12,13 +12,13 @@ enum Definition : std::uint16_t { kTree = 1, kHouse };
 
 class Bridge {
  public:
-  explicit Bridge(Yard& yard) : yard_(yard), sketch_(yard.sketch) {}
+  explicit Bridge(SceneBuilder& yard) : yard_(yard), sketch_(yard.sketch) {}
 
   void make() {
     yard_.reach_m = 3000;
     define();
     // One object: it stays level whatever the ground below its parts.
-    yard_.object("bridge", surface::kConcrete, [&](Sketch& s) {
+    yard_.object("bridge", surface::kConcrete, [&](MeshBuilder& s) {
       deck(s);
       piers(s);
       for (const double y : {-kDeckWidth_m / 2, kDeckWidth_m / 2}) truss(s, y);
@@ -33,12 +33,12 @@ class Bridge {
  private:
   void define() {
     yard_.out.begin_group("definitions");
-    tree_ = yard_.define(kTree, [&](Sketch& s) {
+    tree_ = yard_.define(kTree, [&](MeshBuilder& s) {
       yard_.out.begin_object("tree");
       draw_leafy_tree(s, 10, yard_.sides(6, 14));
       yard_.out.end();
     });
-    house_ = yard_.define(kHouse, [&](Sketch& s) {
+    house_ = yard_.define(kHouse, [&](MeshBuilder& s) {
       yard_.out.begin_object("house");
       draw_house(s, yard_.chance);
       yard_.out.end();
@@ -46,12 +46,12 @@ class Bridge {
     yard_.out.end();
   }
 
-  static void deck(Sketch& s) {
+  static void deck(MeshBuilder& s) {
     const double x = kHalf_m, y = kDeckWidth_m / 2;
     s.plate({{-x, -y, kDeck_m}, {x, -y, kDeck_m}, {x, y, kDeck_m}, {-x, y, kDeck_m}}, 1.2);
   }
 
-  void piers(Sketch& s) const {
+  void piers(MeshBuilder& s) const {
     s.kind = surface::kStone;
     const int sides = yard_.sides(10, 40);
     for (int pier = 0; pier <= kSpans; ++pier) {
@@ -62,7 +62,7 @@ class Bridge {
     }
   }
 
-  void truss(Sketch& s, double y) const {
+  void truss(MeshBuilder& s, double y) const {
     s.kind = surface::kPartMetal;
     const int panels = yard_.sides(8, 40);
     const double low = kDeck_m + 0.6, high = low + kTruss_m;
@@ -82,7 +82,7 @@ class Bridge {
     }
   }
 
-  void portals(Sketch& s) const {
+  void portals(MeshBuilder& s) const {
     const int panels = yard_.sides(8, 40);
     const double high = kDeck_m + 0.6 + kTruss_m, half = kDeckWidth_m / 2;
     for (int span = 0; span < kSpans; ++span)
@@ -93,7 +93,7 @@ class Bridge {
   }
 
   // Stone arches carry the road over both banks.
-  void arches(Sketch& s) const {
+  void arches(MeshBuilder& s) const {
     s.kind = surface::kStone;
     const int parts = yard_.sides(8, 40);
     constexpr double kArch_m = 20, kFoot_m = 3;
@@ -145,7 +145,7 @@ class Bridge {
   void ramps() {
     for (const double side : {-1.0, 1.0}) {
       const double from = kHalf_m + 60, to = from + kRamp_m;
-      yard_.object("ramp", surface::kEarth, [&](Sketch& s) {
+      yard_.object("ramp", surface::kEarth, [&](MeshBuilder& s) {
         const double a = side * from, b = side * to;
         std::vector<Vector3> top{{a, -6, kDeck_m}, {b, -6, 0}, {b, 6, 0}, {a, 6, kDeck_m}};
         std::vector<Vector3> south{{a, -20, 0}, {b, -6, 0}, {a, -6, kDeck_m}};
@@ -157,7 +157,7 @@ class Bridge {
         s.kind = surface::kAsphalt;
         s.polygon(top);
       });
-      yard_.object("road", surface::kAsphalt, [&](Sketch& s) {
+      yard_.object("road", surface::kAsphalt, [&](MeshBuilder& s) {
         const double west = side > 0 ? to : -to - 1200, east = west + 1200;
         s.polygon({{west, -5, 0.05}, {east, -5, 0.05}, {east, 5, 0.05}, {west, 5, 0.05}});
       });
@@ -178,14 +178,14 @@ class Bridge {
     }
   }
 
-  Yard& yard_;
-  Sketch& sketch_;
+  SceneBuilder& yard_;
+  MeshBuilder& sketch_;
   std::uint64_t tree_ = 0, house_ = 0;
 };
 
 }  // namespace
 
-void generate_bridge(Yard& yard) {
+void generate_bridge(SceneBuilder& yard) {
   Bridge(yard).make();
 }
 

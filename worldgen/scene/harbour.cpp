@@ -14,7 +14,7 @@ enum Definition : std::uint16_t { kRedBox = 1, kBlueBox, kGreenBox, kTruck, kCra
 
 class Harbour {
  public:
-  explicit Harbour(Yard& yard) : yard_(yard), sketch_(yard.sketch) {}
+  explicit Harbour(SceneBuilder& yard) : yard_(yard), sketch_(yard.sketch) {}
 
   void make() {
     yard_.reach_m = 3000;
@@ -40,7 +40,7 @@ class Harbour {
  private:
   template <class Draw>
   std::uint64_t define_object(std::uint16_t number, const std::string& name, const Draw& draw) {
-    return yard_.define(number, [&](Sketch& apart) {
+    return yard_.define(number, [&](MeshBuilder& apart) {
       yard_.out.begin_object(name);
       draw(apart);
       yard_.out.end();
@@ -51,18 +51,18 @@ class Harbour {
     yard_.out.begin_group("definitions");
     static constexpr std::array<SurfaceKind, 3> kPaints{surface::kRed, surface::kBlue, surface::kGreen};
     for (std::size_t i = 0; i < kPaints.size(); ++i)
-      box_ = define_object(static_cast<std::uint16_t>(kRedBox + i), "container", [&](Sketch& s) {
+      box_ = define_object(static_cast<std::uint16_t>(kRedBox + i), "container", [&](MeshBuilder& s) {
         s.kind = kPaints[i];
         s.box({0, 0, 0}, 12.2, 2.44, 2.6);
       });
-    truck_ = define_object(kTruck, "truck", [](Sketch& s) { draw_truck(s, surface::kBlue); });
-    crane_ = define_object(kCrane, "crane", [&](Sketch& s) { draw_crane(s); });
-    tree_ = define_object(kTree, "tree", [&](Sketch& s) { draw_leafy_tree(s, 10, yard_.sides(6, 14)); });
+    truck_ = define_object(kTruck, "truck", [](MeshBuilder& s) { draw_truck(s, surface::kBlue); });
+    crane_ = define_object(kCrane, "crane", [&](MeshBuilder& s) { draw_crane(s); });
+    tree_ = define_object(kTree, "tree", [&](MeshBuilder& s) { draw_leafy_tree(s, 10, yard_.sides(6, 14)); });
     yard_.out.end();
   }
 
   // A gantry on four legs, its boom over the water (+y), of lattice.
-  void draw_crane(Sketch& s) {
+  void draw_crane(MeshBuilder& s) {
     s.kind = surface::kPartMetal;
     const int panels = yard_.sides(6, 16);
     for (const double x : {-9.0, 9.0}) {
@@ -92,18 +92,18 @@ class Harbour {
   }
 
   void quays() {
-    yard_.object("quay", surface::kStone, [](Sketch& s) {
+    yard_.object("quay", surface::kStone, [](MeshBuilder& s) {
       s.box({0, -kQuayDepth_m / 2, 0}, kQuay_m, kQuayDepth_m, kQuayTop_m);
     });
     for (const double x : {-700.0, 700.0})
-      yard_.object("pier", surface::kConcrete, [x](Sketch& s) { s.box({x, -60, 0}, 24, 320, kQuayTop_m); });
-    yard_.object("yard", surface::kAsphalt, [](Sketch& s) {
+      yard_.object("pier", surface::kConcrete, [x](MeshBuilder& s) { s.box({x, -60, 0}, 24, 320, kQuayTop_m); });
+    yard_.object("yard", surface::kAsphalt, [](MeshBuilder& s) {
       s.polygon({{-450, kYardSouth_m, kPaved_m},
                  {450, kYardSouth_m, kPaved_m},
                  {450, -kQuayDepth_m, kPaved_m},
                  {-450, -kQuayDepth_m, kPaved_m}});
     });
-    yard_.object("bollards", surface::kDarkMetal, [&](Sketch& s) {
+    yard_.object("bollards", surface::kDarkMetal, [&](MeshBuilder& s) {
       for (int i = 0; i < 30; ++i) s.cylinder({-435 + 30.0 * i, -1.2, kQuayTop_m}, 0.35, 0.8, yard_.sides(6, 12));
     });
   }
@@ -113,8 +113,8 @@ class Harbour {
     const std::array<Vector3, 5> line{
         Vector3{-900, 240, 0}, {-650, 420, 0}, {-250, 520, 0}, {200, 540, 0}, {560, 480, 0}};
     for (std::size_t i = 0; i + 1 < line.size(); ++i)
-      yard_.object("breakwater", kRock, [&](Sketch& s) { s.bank(line[i], line[i + 1], 30, 7, 5); });
-    yard_.object("light", surface::kStone, [&](Sketch& s) {
+      yard_.object("breakwater", kRock, [&](MeshBuilder& s) { s.bank(line[i], line[i + 1], 30, 7, 5); });
+    yard_.object("light", surface::kStone, [&](MeshBuilder& s) {
       const int sides = yard_.sides(8, 24);
       s.turned(line.back(), {0, 0, 1}, {{0, 4}, {14, 2.4}, {14.2, 3.2}, {15, 3.2}, {17.5, 1.8}, {18.5, 0}}, sides);
     });
@@ -125,7 +125,7 @@ class Harbour {
             double freeboard_m) {
     const Affine before = sketch_.map;
     sketch_.map = standing(x, y, turn_deg) * before;
-    yard_.object(name, surface::kRed, [&](Sketch& s) {
+    yard_.object(name, surface::kRed, [&](MeshBuilder& s) {
       const int parts = yard_.sides(3, 10);
       std::vector<Vector3> water, deck;
       const auto add = [&](double along, double share) {
@@ -166,7 +166,7 @@ class Harbour {
 
   void sheds() {
     for (int shed = 0; shed < 4; ++shed)
-      yard_.object("shed" + std::to_string(shed + 1), surface::kPartMetal, [&](Sketch& s) {
+      yard_.object("shed" + std::to_string(shed + 1), surface::kPartMetal, [&](MeshBuilder& s) {
         const Vector3 foot{-330 + 220.0 * shed, kYardSouth_m - 45, 0};
         s.box(foot, 150, 48, 9);
         s.gable(foot + Vector3{0, 0, 9.0}, 150, 48, 6, 1.0);
@@ -175,7 +175,7 @@ class Harbour {
 
   void tanks() {
     for (int tank = 0; tank < 6; ++tank)
-      yard_.object("tank" + std::to_string(tank + 1), surface::kWhite, [&](Sketch& s) {
+      yard_.object("tank" + std::to_string(tank + 1), surface::kWhite, [&](MeshBuilder& s) {
         const Vector3 foot{560 + 60.0 * (tank % 3), -300 - 60.0 * std::floor(tank / 3.0), 0};
         s.turned(foot, {0, 0, 1}, {{0, 22}, {15, 22}, {16.5, 12}, {17, 0}}, yard_.sides(12, 64));
       });
@@ -200,14 +200,14 @@ class Harbour {
                           yard_.chance.between(0.7, 1.4)));
   }
 
-  Yard& yard_;
-  Sketch& sketch_;
+  SceneBuilder& yard_;
+  MeshBuilder& sketch_;
   std::uint64_t box_ = 0, truck_ = 0, crane_ = 0, tree_ = 0;
 };
 
 }  // namespace
 
-void generate_harbour(Yard& yard) {
+void generate_harbour(SceneBuilder& yard) {
   Harbour(yard).make();
 }
 

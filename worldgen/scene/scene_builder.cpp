@@ -26,7 +26,7 @@ std::pair<Vector3, Vector3> across(Vector3 axis) {
 
 }  // namespace
 
-void Sketch::emit(const std::vector<WriterVertex>& corners, bool two_sided) {
+void MeshBuilder::emit(const std::vector<WriterVertex>& corners, bool two_sided) {
   std::vector<WriterVertex> placed;
   placed.reserve(corners.size());
   for (const WriterVertex& corner : corners)
@@ -35,20 +35,20 @@ void Sketch::emit(const std::vector<WriterVertex>& corners, bool two_sided) {
   triangles_ += (corners.size() - 2) * (two_sided ? 2 : 1);
 }
 
-void Sketch::polygon(const std::vector<Vector3>& corners, bool two_sided) {
+void MeshBuilder::polygon(const std::vector<Vector3>& corners, bool two_sided) {
   const Vector3 normal = unit(model::scene::newell_normal(corners));
   std::vector<WriterVertex> vertices;
   for (const Vector3& corner : corners) vertices.push_back({corner, normal});
   emit(vertices, two_sided);
 }
 
-void Sketch::box(Vector3 base, double east_m, double north_m, double height_m) {
+void MeshBuilder::box(Vector3 base, double east_m, double north_m, double height_m) {
   const double x = east_m / 2, y = north_m / 2;
   prism({base + Vector3{-x, -y, 0}, base + Vector3{x, -y, 0}, base + Vector3{x, y, 0}, base + Vector3{-x, y, 0}},
         height_m);
 }
 
-void Sketch::prism(const std::vector<Vector3>& outline, double height_m) {
+void MeshBuilder::prism(const std::vector<Vector3>& outline, double height_m) {
   const Vector3 up{0, 0, height_m};
   std::vector<Vector3> top;
   for (const Vector3& corner : outline) top.push_back(corner + up);
@@ -59,7 +59,7 @@ void Sketch::prism(const std::vector<Vector3>& outline, double height_m) {
   polygon(top);
 }
 
-void Sketch::gable(Vector3 eaves, double east_m, double north_m, double rise_m, double overhang_m) {
+void MeshBuilder::gable(Vector3 eaves, double east_m, double north_m, double rise_m, double overhang_m) {
   const double x = east_m / 2 + overhang_m, y = north_m / 2 + overhang_m, wall = north_m / 2;
   const double drop = rise_m * overhang_m / wall;  // the slope goes on below the eaves
   const Vector3 west_ridge = eaves + Vector3{-x, 0, rise_m}, east_ridge = eaves + Vector3{x, 0, rise_m};
@@ -70,7 +70,7 @@ void Sketch::gable(Vector3 eaves, double east_m, double north_m, double rise_m, 
   polygon({eaves + Vector3{-end, wall, 0}, eaves + Vector3{-end, -wall, 0}, eaves + Vector3{-end, 0, rise_m}});
 }
 
-void Sketch::turned(Vector3 from, Vector3 axis, const std::vector<TurnedPoint>& profile, int sides) {
+void MeshBuilder::turned(Vector3 from, Vector3 axis, const std::vector<TurnedPoint>& profile, int sides) {
   const std::pair<Vector3, Vector3> sideways = across(axis);
   const auto around = [&](int side) {
     const double angle = 2 * std::numbers::pi * (side % sides) / sides;
@@ -101,11 +101,11 @@ void Sketch::turned(Vector3 from, Vector3 axis, const std::vector<TurnedPoint>& 
   if (profile.back().radius_m > 0.0) polygon(back);
 }
 
-void Sketch::cylinder(Vector3 base, double radius_m, double height_m, int sides) {
+void MeshBuilder::cylinder(Vector3 base, double radius_m, double height_m, int sides) {
   turned(base, {0, 0, 1}, {{0, radius_m}, {height_m, radius_m}}, sides);
 }
 
-void Sketch::bar(Vector3 from, Vector3 to, double side_m) {
+void MeshBuilder::bar(Vector3 from, Vector3 to, double side_m) {
   const auto [u, v] = across(unit(to - from));
   const Vector3 a = (side_m / 2) * u, b = (side_m / 2) * v;
   const std::vector<Vector3> ring{-1.0 * a - b, a - b, a + b, b - a};
@@ -115,7 +115,7 @@ void Sketch::bar(Vector3 from, Vector3 to, double side_m) {
   }
 }
 
-void Sketch::plate(const std::vector<Vector3>& outline, double thickness_m) {
+void MeshBuilder::plate(const std::vector<Vector3>& outline, double thickness_m) {
   const Vector3 half = (thickness_m / 2) * unit(model::scene::newell_normal(outline));
   std::vector<Vector3> top, bottom;
   for (const Vector3& corner : outline) top.push_back(corner + half);
@@ -128,7 +128,7 @@ void Sketch::plate(const std::vector<Vector3>& outline, double thickness_m) {
   }
 }
 
-void Sketch::bank(Vector3 from, Vector3 to, double foot_m, double top_m, double height_m) {
+void MeshBuilder::bank(Vector3 from, Vector3 to, double foot_m, double top_m, double height_m) {
   const Vector3 along = unit(to - from);
   const Vector3 left{-along.y, along.x, 0};
   const Vector3 up{0, 0, height_m};
@@ -145,7 +145,7 @@ namespace {
 struct Named {
   std::string_view name;
   GeneratedKind kind;
-  void (*generate)(Yard&);
+  void (*generate)(SceneBuilder&);
 };
 
 constexpr std::array<Named, 4> kKinds{{{"airfield", GeneratedKind::airfield, generate_airfield},
@@ -162,7 +162,7 @@ std::optional<GeneratedKind> generated_kind(std::string_view name) {
 }
 
 GeneratedScene generate_scene(const SceneOrder& order, const GenerationProgress& progress) {
-  Yard yard(order, progress);
+  SceneBuilder yard(order, progress);
   for (const Named& known : kKinds) {
     if (known.kind != order.kind) continue;
     known.generate(yard);

@@ -25,9 +25,9 @@ struct TurnedPoint {
 // Solid shapes as faces of an OpenFlight file, counted in triangles. Lengths in metres, x east, y north, z up before
 // the sketch's own map; every face turns counter-clockwise from outside. Round shapes have the normals of the round
 // surface.
-class Sketch {
+class MeshBuilder {
  public:
-  explicit Sketch(OpenFlightWriter& out) : out_(out) {}
+  explicit MeshBuilder(OpenFlightWriter& out) : out_(out) {}
 
   SurfaceKind kind;  // of the faces to come
   Affine map;        // applied to them
@@ -71,7 +71,7 @@ struct SceneOrder {
   geo::GeoPoint origin;
 };
 
-inline constexpr std::uint64_t kMostGenerated = 8'000'000;
+inline constexpr std::uint64_t kMaxGenerated = 8'000'000;
 
 struct GeneratedScene {
   std::vector<std::byte> file;
@@ -116,14 +116,14 @@ inline constexpr SurfaceKind kWhite{1, 120, 0xE4E6E6}, kOlive{1, 121, 0x5E6144};
 
 // What the generators of all kinds of scenes work with: the file, a sketch, numbers by chance, and how far the order is
 // filled.
-class Yard {
+class SceneBuilder {
  public:
-  Yard(const SceneOrder& wanted, const GenerationProgress& progress)
+  SceneBuilder(const SceneOrder& wanted, const GenerationProgress& progress)
       : order(wanted), out(wanted.origin), sketch(out), chance(wanted.seed), progress_(progress) {}
 
   const SceneOrder& order;
   OpenFlightWriter out;
-  Sketch sketch;
+  MeshBuilder sketch;
   Chance chance;
   double reach_m = 0.0;  // half the side of a square about the origin that holds the scene
 
@@ -139,7 +139,7 @@ class Yard {
   // Draws into a definition, which counts only where it is shown. Returns its triangles.
   template <class Draw>
   std::uint64_t define(std::uint16_t number, const Draw& draw) {
-    Sketch apart(out);
+    MeshBuilder apart(out);
     out.begin_definition(number);
     draw(apart);
     out.end();
@@ -177,9 +177,9 @@ inline Affine standing(double x, double y, double turn_deg, double scale = 1.0) 
          Affine::translation({x, y, 0});
 }
 
-void generate_airfield(Yard& yard);
-void generate_harbour(Yard& yard);
-void generate_bridge(Yard& yard);
-void generate_town(Yard& yard);
+void generate_airfield(SceneBuilder& yard);
+void generate_harbour(SceneBuilder& yard);
+void generate_bridge(SceneBuilder& yard);
+void generate_town(SceneBuilder& yard);
 
 }  // namespace yars::worldgen

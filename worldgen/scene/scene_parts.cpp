@@ -7,7 +7,7 @@ namespace yars::worldgen {
 namespace {
 
 // A window band around a box: shallow boxes standing out of each long wall.
-void windows(Sketch& sketch, double length_m, double depth_m, double sill_m, double height_m, int count) {
+void windows(MeshBuilder& sketch, double length_m, double depth_m, double sill_m, double height_m, int count) {
   const SurfaceKind before = sketch.kind;
   sketch.kind = surface::kGlass;
   const double pitch = length_m / count;
@@ -25,7 +25,7 @@ void windows(Sketch& sketch, double length_m, double depth_m, double sill_m, dou
   sketch.kind = before;
 }
 
-void parapet(Sketch& sketch, double length_m, double depth_m, double z) {
+void parapet(MeshBuilder& sketch, double length_m, double depth_m, double z) {
   constexpr double kThick = 0.4, kHigh = 1.0;
   for (const double side : {-1.0, 1.0}) {
     sketch.box({0, side * (depth_m - kThick) / 2, z}, length_m, kThick, kHigh);
@@ -41,7 +41,7 @@ const SurfaceKind& wall_of(Chance& chance) {
 
 }  // namespace
 
-void draw_conifer(Sketch& sketch, double height_m, int sides) {
+void draw_conifer(MeshBuilder& sketch, double height_m, int sides) {
   sketch.kind = surface::kTrunk;
   sketch.turned({0, 0, 0}, {0, 0, 1}, {{0, 0.25}, {0.15 * height_m, 0.22}}, 5);
   sketch.kind = surface::kNeedles;
@@ -51,7 +51,7 @@ void draw_conifer(Sketch& sketch, double height_m, int sides) {
   }
 }
 
-void draw_leafy_tree(Sketch& sketch, double height_m, int sides) {
+void draw_leafy_tree(MeshBuilder& sketch, double height_m, int sides) {
   sketch.kind = surface::kTrunk;
   sketch.turned({0, 0, 0}, {0, 0, 1}, {{0, 0.3}, {0.3 * height_m, 0.25}}, 5);
   sketch.kind = surface::kLeaves;
@@ -60,7 +60,7 @@ void draw_leafy_tree(Sketch& sketch, double height_m, int sides) {
                 {{0, 0}, {0.3 * r, 0.8 * r}, {r, r}, {1.8 * r, 0.7 * r}, {0.75 * height_m, 0}}, sides);
 }
 
-void draw_house(Sketch& sketch, Chance& chance) {
+void draw_house(MeshBuilder& sketch, Chance& chance) {
   const double length = chance.between(9, 15), depth = chance.between(7, 10);
   const int storeys = 1 + chance.below(2);
   const double wall = 2.8 * storeys, rise = chance.between(2.2, 4.0);
@@ -84,7 +84,7 @@ void draw_house(Sketch& sketch, Chance& chance) {
   }
 }
 
-void draw_block(Sketch& sketch, Chance& chance) {
+void draw_block(MeshBuilder& sketch, Chance& chance) {
   const double length = chance.between(28, 60), depth = chance.between(11, 15);
   const int storeys = 4 + chance.below(6);
   const double height = 3.0 * storeys;
@@ -97,7 +97,7 @@ void draw_block(Sketch& sketch, Chance& chance) {
   for (int head = 0; head < 3; ++head) sketch.box({length * (head - 1) / 3.2, 0, height}, 4.0, 3.5, 2.6);
 }
 
-void draw_tower(Sketch& sketch, Chance& chance) {
+void draw_tower(MeshBuilder& sketch, Chance& chance) {
   double length = chance.between(26, 40), depth = chance.between(24, 34), foot = 0;
   sketch.kind = surface::kStone;
   sketch.box({0, 0, 0}, length + 16, depth + 14, 7.0);
@@ -121,8 +121,8 @@ void draw_tower(Sketch& sketch, Chance& chance) {
 namespace {
 
 // A wing on one side (+1 left, -1 right), its outline turned so that its upper side looks up.
-void wing(Sketch& sketch, double root_x, double root_chord, double tip_x, double tip_chord, double from_y, double to_y,
-          double z, double thickness_m, double side) {
+void wing(MeshBuilder& sketch, double root_x, double root_chord, double tip_x, double tip_chord, double from_y,
+          double to_y, double z, double thickness_m, double side) {
   std::vector<Vector3> outline{{root_x, side * from_y, z},
                                {tip_x, side * to_y, z},
                                {tip_x - tip_chord, side * to_y, z},
@@ -131,13 +131,13 @@ void wing(Sketch& sketch, double root_x, double root_chord, double tip_x, double
   sketch.plate(outline, thickness_m);
 }
 
-void fin(Sketch& sketch, double root_x, double root_chord, double tip_x, double tip_chord, double y, double from_z,
+void fin(MeshBuilder& sketch, double root_x, double root_chord, double tip_x, double tip_chord, double y, double from_z,
          double to_z) {
   sketch.plate({{root_x, y, from_z}, {tip_x, y, to_z}, {tip_x - tip_chord, y, to_z}, {root_x - root_chord, y, from_z}},
                0.25);
 }
 
-void wheels(Sketch& sketch, double first_x, double last_x, int axles, double half_track_m, double radius_m) {
+void wheels(MeshBuilder& sketch, double first_x, double last_x, int axles, double half_track_m, double radius_m) {
   const SurfaceKind before = sketch.kind;
   sketch.kind = surface::kRoofing;
   for (int axle = 0; axle < axles; ++axle) {
@@ -150,7 +150,7 @@ void wheels(Sketch& sketch, double first_x, double last_x, int axles, double hal
 
 }  // namespace
 
-void draw_fighter(Sketch& sketch, int sides) {
+void draw_fighter(MeshBuilder& sketch, int sides) {
   sketch.kind = surface::kMetal;
   sketch.turned({9.7, 0, 2.0}, {-1, 0, 0},
                 {{0, 0}, {1.2, 0.35}, {3.0, 0.7}, {5.0, 0.9}, {8.0, 1.1}, {13.0, 1.1}, {17.0, 0.95}, {18.5, 0.8}},
@@ -167,7 +167,7 @@ void draw_fighter(Sketch& sketch, int sides) {
   sketch.turned({6.4, 0, 2.75}, {-1, 0, 0}, {{0, 0}, {0.8, 0.4}, {2.2, 0.5}, {4.0, 0}}, sides);
 }
 
-void draw_transport(Sketch& sketch, int sides) {
+void draw_transport(MeshBuilder& sketch, int sides) {
   sketch.kind = surface::kWhite;
   sketch.turned({18.0, 0, 3.6}, {-1, 0, 0},
                 {{0, 0}, {1.0, 1.1}, {3.0, 1.9}, {6.0, 2.2}, {24.0, 2.2}, {31.0, 1.2}, {36.0, 0.4}}, 2 * sides);
@@ -183,7 +183,7 @@ void draw_transport(Sketch& sketch, int sides) {
   fin(sketch, -11.0, 6.5, -15.5, 2.5, 0.0, 5.2, 11.8);
 }
 
-void draw_truck(Sketch& sketch, const SurfaceKind& body) {
+void draw_truck(MeshBuilder& sketch, const SurfaceKind& body) {
   sketch.kind = body;
   sketch.box({2.6, 0, 0.7}, 1.8, 2.3, 1.9);
   sketch.box({-1.1, 0, 1.0}, 5.2, 2.4, 2.0);
@@ -192,7 +192,7 @@ void draw_truck(Sketch& sketch, const SurfaceKind& body) {
   wheels(sketch, 2.6, -2.8, 3, 1.05, 0.5);
 }
 
-void draw_tanker(Sketch& sketch, int sides) {
+void draw_tanker(MeshBuilder& sketch, int sides) {
   sketch.kind = surface::kOlive;
   sketch.box({3.4, 0, 0.7}, 1.9, 2.4, 2.0);
   sketch.turned({2.0, 0, 2.1}, {-1, 0, 0}, {{0, 0.6}, {0.3, 1.1}, {6.2, 1.1}, {6.5, 0.6}}, sides);
@@ -201,7 +201,7 @@ void draw_tanker(Sketch& sketch, int sides) {
   wheels(sketch, 3.4, -3.6, 4, 1.05, 0.5);
 }
 
-void draw_car(Sketch& sketch, const SurfaceKind& body) {
+void draw_car(MeshBuilder& sketch, const SurfaceKind& body) {
   sketch.kind = body;
   sketch.box({0, 0, 0.35}, 4.3, 1.75, 0.6);
   const std::vector<Vector3> foot{{-1.6, -0.8, 0.95}, {1.0, -0.8, 0.95}, {1.0, 0.8, 0.95}, {-1.6, 0.8, 0.95}};

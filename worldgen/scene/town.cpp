@@ -14,7 +14,7 @@ constexpr std::uint16_t kFirstHouse = 1, kFirstBlock = 101, kFirstTower = 201, k
 
 class Town {
  public:
-  explicit Town(Yard& yard) : yard_(yard) {}
+  explicit Town(SceneBuilder& yard) : yard_(yard) {}
 
   void make() {
     yard_.sketch.map = Affine::turn_about_up(yard_.chance.between(-0.5, 0.5));
@@ -34,7 +34,7 @@ class Town {
     for (int i = 0; i < count; ++i) {
       const auto number = static_cast<std::uint16_t>(first + i);
       sizes_.resize(std::max<std::size_t>(sizes_.size(), number + std::size_t{1}));
-      sizes_[number] = yard_.define(number, [&](Sketch& apart) {
+      sizes_[number] = yard_.define(number, [&](MeshBuilder& apart) {
         yard_.out.begin_object(name + std::to_string(i));
         draw(apart, i);
         yard_.out.end();
@@ -44,17 +44,17 @@ class Town {
 
   void define() {
     yard_.out.begin_group("definitions");
-    define_each(kFirstHouse, kHouses, "house", [&](Sketch& s, int) { draw_house(s, yard_.chance); });
-    define_each(kFirstBlock, kBlocks, "flats", [&](Sketch& s, int) { draw_block(s, yard_.chance); });
-    define_each(kFirstTower, kTowers, "tower", [&](Sketch& s, int) { draw_tower(s, yard_.chance); });
-    define_each(kFirstTree, kTrees, "tree", [&](Sketch& s, int i) {
+    define_each(kFirstHouse, kHouses, "house", [&](MeshBuilder& s, int) { draw_house(s, yard_.chance); });
+    define_each(kFirstBlock, kBlocks, "flats", [&](MeshBuilder& s, int) { draw_block(s, yard_.chance); });
+    define_each(kFirstTower, kTowers, "tower", [&](MeshBuilder& s, int) { draw_tower(s, yard_.chance); });
+    define_each(kFirstTree, kTrees, "tree", [&](MeshBuilder& s, int i) {
       const int sides = 5 + i;
       if (i % 2 == 0)
         draw_conifer(s, 9.0 + i, sides);
       else
         draw_leafy_tree(s, 8.0 + i, sides);
     });
-    define_each(kFirstCar, kCars, "car", [&](Sketch& s, int i) {
+    define_each(kFirstCar, kCars, "car", [&](MeshBuilder& s, int i) {
       static constexpr std::array<SurfaceKind, kCars> kPaints{surface::kRed, surface::kBlue, surface::kWhite,
                                                               surface::kDarkMetal};
       draw_car(s, kPaints[static_cast<std::size_t>(i)]);
@@ -90,7 +90,7 @@ class Town {
   // The western and the southern street of a quarter.
   void streets(double x, double y) {
     const double w = x - kQuarterX_m / 2, s = y - kQuarterY_m / 2, half = kStreet_m / 2;
-    yard_.object("street", surface::kAsphalt, [&](Sketch& sketch) {
+    yard_.object("street", surface::kAsphalt, [&](MeshBuilder& sketch) {
       const auto strip = [&sketch](double x0, double x1, double y0, double y1) {
         sketch.polygon({{x0, y0, kPaved_m}, {x1, y0, kPaved_m}, {x1, y1, kPaved_m}, {x0, y1, kPaved_m}});
       };
@@ -130,13 +130,13 @@ class Town {
         show_one(kFirstCar, kCars, x - 50 + 8.0 * lot, s + (yard_.chance.below(2) == 0 ? 4.2 : -4.2), 0);
   }
 
-  Yard& yard_;
+  SceneBuilder& yard_;
   std::vector<std::uint64_t> sizes_;  // triangles by definition
 };
 
 }  // namespace
 
-void generate_town(Yard& yard) {
+void generate_town(SceneBuilder& yard) {
   Town(yard).make();
 }
 

@@ -11,12 +11,12 @@ namespace yars::worldgen {
 
 namespace {
 
-constexpr double kSeaM = -10.0;    // [m] deeper is the sea that rivers end in; shoals before it are crossed
-constexpr double kWindingM = 4.0;  // [m] of chance in what a flood meets: plains have winding rivers
+constexpr double kSea_m = -10.0;     // [m] deeper is the sea that rivers end in; shoals before it are crossed
+constexpr double kWinding_m = 4.0;  // [m] of chance in what a flood meets: plains have winding rivers
 // [m] [nodes] Rivers cross a tile's border at gates alone, so they shall not run along it.
-constexpr double kBorderM = 45.0;
+constexpr double kBorder_m = 45.0;
 constexpr double kBorderNodes = 9.0;
-constexpr double kLeastFall = 1e-7;  // [m/m] small enough for every gate, see kLeastFallM in river_basins.cpp
+constexpr double kMinFall = 1e-7;  // [m/m] small enough for every gate, see kMinFall_m in river_basins.cpp
 constexpr int kNodes = kTileNodes * kTileNodes;
 constexpr int kEnd = -1;
 
@@ -71,10 +71,10 @@ Flood::Flood(const ReliefTile& relief, const std::vector<RiverGate>& gates)
 
 // A node of the tile's border that faces deep sea in the next tile.
 bool Flood::beside_sea(int row, int column) const {
-  return (row == 0 && relief_.height_m(-1, column) < kSeaM) ||
-         (row == kTileNodes - 1 && relief_.height_m(kTileNodes, column) < kSeaM) ||
-         (column == 0 && relief_.height_m(row, -1) < kSeaM) ||
-         (column == kTileNodes - 1 && relief_.height_m(row, kTileNodes) < kSeaM);
+  return (row == 0 && relief_.height_m(-1, column) < kSea_m) ||
+         (row == kTileNodes - 1 && relief_.height_m(kTileNodes, column) < kSea_m) ||
+         (column == 0 && relief_.height_m(row, -1) < kSea_m) ||
+         (column == kTileNodes - 1 && relief_.height_m(row, kTileNodes) < kSea_m);
 }
 
 void Flood::seed_outlets(const std::vector<RiverGate>& gates) {
@@ -83,7 +83,7 @@ void Flood::seed_outlets(const std::vector<RiverGate>& gates) {
     const int row = node / kTileNodes;
     const int column = node % kTileNodes;
     const double height_m = relief_.height_m(row, column);
-    if (height_m < kSeaM || beside_sea(row, column)) seed(node, height_m);
+    if (height_m < kSea_m || beside_sea(row, column)) seed(node, height_m);
     if (height_m < relief_.height_m(lowest / kTileNodes, lowest % kTileNodes)) lowest = node;
   }
   for (std::size_t gate = 0; gate < gates.size(); ++gate) {
@@ -105,7 +105,7 @@ double Flood::courted_m(TileNode at) const {
       random::lattice_hash(place.south_deg * kTileNodes + at.row, place.west_deg * kTileNodes + at.column, 1, 5U);
   const int border = std::min({at.row, at.column, kTileNodes - 1 - at.row, kTileNodes - 1 - at.column});
   const double near = std::max(0.0, 1.0 - border / kBorderNodes);
-  return relief_.height_m(at.row, at.column) + kWindingM * random::share_of(hash) + kBorderM * near * near;
+  return relief_.height_m(at.row, at.column) + kWinding_m * random::share_of(hash) + kBorder_m * near * near;
 }
 
 void Flood::spread(const Front& front) {
@@ -155,7 +155,7 @@ void set_water(Drainage& drainage) {
     node.water_m = std::max(0.0, std::min(node.ground_m - depth_m, upstream_m[index]));
     if (node.downstream >= 0) {
       double& below_m = upstream_m[static_cast<std::size_t>(node.downstream)];
-      below_m = std::min(below_m, node.water_m - kLeastFall * kNodeMetres);
+      below_m = std::min(below_m, node.water_m - kMinFall * kNodeMetres);
     }
   }
   for (RiverNode& node : nodes) {

@@ -15,9 +15,9 @@ namespace yars::worldgen {
 
 namespace {
 
-constexpr double kWoodsBelowSnowM = 900.0;  // [m] between the last trees and the snow lies rock and meadow
-constexpr double kSteepRock = 0.55;         // [m/m] soil does not hold
-constexpr double kBuildable = 0.15;         // [m/m] houses stand on gentler ground
+constexpr double kWoodsBelowSnow_m = 900.0;  // [m] between the last trees and the snow lies rock and meadow
+constexpr double kSteepRock = 0.55;          // [m/m] soil does not hold
+constexpr double kBuildable = 0.15;          // [m/m] houses stand on gentler ground
 
 double noise_at(const CoverSite& site, double wavelength_m, int octaves, std::uint32_t seed) {
   const double scale = 6371000.0 / wavelength_m;
@@ -43,7 +43,7 @@ Material natural_cover(const CoverSite& site, std::uint32_t seed) {
   }
   if (site.height_m < 9.0 && site.steepness < 0.012 && ground > 0.25) return Material::marsh;
   if (site.steepness > kSteepRock) return Material::rock;
-  const double above_m = site.height_m - (snow_m - kWoodsBelowSnowM);
+  const double above_m = site.height_m - (snow_m - kWoodsBelowSnow_m);
   if (above_m > 200.0 * ground)
     return above_m > 450.0 * (1.0 + ground) - 400.0 * site.steepness ? Material::rock : Material::soil;
   // Fields on the plain and the valley floors, woods on hills and slopes.
@@ -66,14 +66,16 @@ Material town_cover(const CoverSite& site, double radii, Material natural, std::
   const double along_m = east_m * std::sin(turn) + north_m * std::cos(turn);
   const double across_m = east_m * std::cos(turn) - north_m * std::sin(turn);
   // Avenues cut the town into quarters, quarters into blocks.
-  constexpr double kAvenueM = 880.0, kAvenueWidthM = 44.0, kBlockM = 220.0;
-  const auto in_avenue = [](double way_m) { return way_m - kAvenueM * std::floor(way_m / kAvenueM) < kAvenueWidthM; };
+  constexpr double kAvenue_m = 880.0, kAvenueWidth_m = 44.0, kBlock_m = 220.0;
+  const auto in_avenue = [](double way_m) {
+    return way_m - kAvenue_m * std::floor(way_m / kAvenue_m) < kAvenueWidth_m;
+  };
   if (in_avenue(along_m) || in_avenue(across_m)) return Material::asphalt;
   const auto number = [](double way_m, double step_m) { return static_cast<std::int32_t>(std::floor(way_m / step_m)); };
   const double quarter =
-      random::share_of(random::lattice_hash(number(along_m, kAvenueM), number(across_m, kAvenueM), 11, seed));
+      random::share_of(random::lattice_hash(number(along_m, kAvenue_m), number(across_m, kAvenue_m), 11, seed));
   const double block =
-      random::share_of(random::lattice_hash(number(along_m, kBlockM), number(across_m, kBlockM), 12, seed));
+      random::share_of(random::lattice_hash(number(along_m, kBlock_m), number(across_m, kBlock_m), 12, seed));
   if (edge > 0.35 && quarter < 0.13)
     return block < 0.12 ? Material::metal : (block < 0.7 ? Material::part_metal : Material::asphalt);
   if (quarter > 0.95 || block > 0.94) return Material::trees;
@@ -86,8 +88,8 @@ Material airfield_cover(const Airfield& airfield, geo::GeoPoint place, Material 
   const OnAirfield at = on_airfield(airfield, place);
   const double along_m = std::abs(at.along_m);
   const double half_m = 0.5 * airfield.length_m;
-  if (along_m > half_m + kPadBeyondM || std::abs(at.across_m) > kPadHalfWidthM) return natural;
-  if (along_m <= half_m && std::abs(at.across_m) <= kRunwayHalfWidthM) return Material::asphalt;
+  if (along_m > half_m + kPadBeyond_m || std::abs(at.across_m) > kPadHalfWidth_m) return natural;
+  if (along_m <= half_m && std::abs(at.across_m) <= kRunwayHalfWidth_m) return Material::asphalt;
   // A taxiway beside the runway, links at its ends, the apron with hangars behind it.
   const bool taxiway = along_m <= half_m && std::abs(at.across_m - 250.0) <= 45.0;
   const bool link = std::abs(along_m - half_m + 60.0) <= 60.0 && at.across_m > 0.0 && at.across_m < 250.0;
@@ -99,17 +101,17 @@ Material airfield_cover(const Airfield& airfield, geo::GeoPoint place, Material 
 
 namespace {
 
-constexpr double kDeepSeaM = -100.0;  // [m] ground below does not reach the surface by any gully's spur
+constexpr double kDeepSea_m = -100.0;  // [m] ground below does not reach the surface by any gully's spur
 constexpr GullyOctave kGullies[] = {{2000, 0.17}, {980, 0.12}, {500, 0.08}, {240, 0.06}, {115, 0.05}};
-constexpr double kRoughM = 2.5;  // [m] of stones and ledges on steep ground
-constexpr double kRoughWavelengthM = 75.0;
+constexpr double kRough_m = 2.5;  // [m] of stones and ledges on steep ground
+constexpr double kRoughWavelength_m = 75.0;
 constexpr double kTownReach = 2.2;  // radii: a town's ragged edge ends within
-constexpr double kHighestM = 9000.0;
+constexpr double kHighest_m = 9000.0;
 
 // Sea is exactly 0 m and land at least 1 m: zero means water to the radar.
 std::int16_t post_of(double height_m, bool water) {
   if (height_m <= 0.0) return 0;
-  return static_cast<std::int16_t>(std::clamp(std::round(height_m), water ? 0.0 : 1.0, kHighestM));
+  return static_cast<std::int16_t>(std::clamp(std::round(height_m), water ? 0.0 : 1.0, kHighest_m));
 }
 
 double way_deg(double from_deg, double to_deg) {
@@ -157,12 +159,12 @@ LandscapeRows::LandscapeRows(LandscapeTiles& tiles, std::uint32_t seed, CellPlac
 
 void LandscapeRows::lay_ground(Row& row, const LandscapeLattice::Row& lattice) const {
   GullyRow gullies({seed_ + 3072U, kGullies}, std::clamp(row.latitude_deg, -90.0, 90.0));
-  constexpr double kRoughScale = 6371000.0 / kRoughWavelengthM;
+  constexpr double kRoughScale = 6371000.0 / kRoughWavelength_m;
   for (std::size_t column = 0; column < row.heights_m.size(); ++column) {
     const LandscapeLattice::Ground ground = lattice.at(static_cast<int>(column));
     row.heights_m[column] = ground.height_m;
     // Deep under the sea nothing shows: spare the gullies.
-    if (ground.height_m < kDeepSeaM) continue;
+    if (ground.height_m < kDeepSea_m) continue;
     const GullyRow::Relief relief = gullies.at(longitudes_deg_[column], ground.slope);
     row.heights_m[column] += relief.height_m;
     const double steepness = std::sqrt(relief.slope.east * relief.slope.east + relief.slope.north * relief.slope.north);
@@ -171,7 +173,7 @@ void LandscapeRows::lay_ground(Row& row, const LandscapeLattice::Row& lattice) c
     const double across = row.cosine * kRoughScale;
     const geo::Vector3 at{across * cosines_[column], across * sines_[column], row.sine * kRoughScale};
     row.heights_m[column] +=
-        kRoughM * random::smooth_step(0.12, 0.6, steepness) * random::gradient_noise(at, seed_ + 3090U);
+        kRough_m * random::smooth_step(0.12, 0.6, steepness) * random::gradient_noise(at, seed_ + 3090U);
   }
 }
 
@@ -185,15 +187,15 @@ void LandscapeRows::lay_rivers(Row& row) const {
 
 // The level ground is the airfield's height to the bit; beyond it the land rises or falls to what it was.
 void LandscapeRows::level_airfields(Row& row) const {
-  constexpr double kAcrossM = kPadHalfWidthM + kPadBlendM;
+  constexpr double kAcross_m = kPadHalfWidth_m + kPadBlend_m;
   for (const Airfield* airfield : airfields_) {
-    const double half_m = 0.5 * airfield->length_m + kPadBeyondM;
+    const double half_m = 0.5 * airfield->length_m + kPadBeyond_m;
     const double north_m = std::abs(row.latitude_deg - airfield->centre.latitude_deg) * kTileMetres;
-    if (north_m > half_m + kPadBlendM + kAcrossM) continue;
+    if (north_m > half_m + kPadBlend_m + kAcross_m) continue;
     for (std::size_t column = 0; column < row.heights_m.size(); ++column) {
       const OnAirfield at = on_airfield(*airfield, {row.latitude_deg, longitudes_deg_[column]});
       const double beyond_m =
-          std::max({0.0, std::abs(at.along_m) - half_m, std::abs(at.across_m) - kPadHalfWidthM}) / kPadBlendM;
+          std::max({0.0, std::abs(at.along_m) - half_m, std::abs(at.across_m) - kPadHalfWidth_m}) / kPadBlend_m;
       if (beyond_m >= 1.0 || row.valley[column] < 0.0F) continue;
       const double part = random::smooth_step(0.0, 1.0, beyond_m);
       row.heights_m[column] = airfield->elevation_m + (row.heights_m[column] - airfield->elevation_m) * part;
@@ -219,7 +221,7 @@ Material LandscapeRows::cover(const Row& row, std::size_t column) const {
   if (radii < kTownReach) material = town_cover(site, radii, material, seed_ + 3110U);
   if (material == Material::water) return material;
   for (const Airfield* airfield : airfields_)
-    if (std::abs(row.latitude_deg - airfield->centre.latitude_deg) * kTileMetres < kLargestTownM)
+    if (std::abs(row.latitude_deg - airfield->centre.latitude_deg) * kTileMetres < kLargestTown_m)
       material = airfield_cover(*airfield, site.place, material);
   return material;
 }
@@ -275,10 +277,10 @@ MadeCell Landscape::make(CellPlace place, int rows, int columns, int threads) co
 bool Landscape::may_have_land(CellPlace place) const {
   const auto land = tiles_->relief(place);
   // The ring about the tile holds the nodes of its far edges; a spline and its gullies rise no higher than this.
-  constexpr double kCannotRiseM = -100.0;
+  constexpr double kCannotRise_m = -100.0;
   for (int row = -1; row <= kTileNodes; ++row)
     for (int column = -1; column <= kTileNodes; ++column)
-      if (land->height_m(row, column) > kCannotRiseM) return true;
+      if (land->height_m(row, column) > kCannotRise_m) return true;
   return false;
 }
 

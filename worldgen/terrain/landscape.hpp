@@ -20,7 +20,7 @@ using model::terrain::Material;
 // What covers a post of the made-up earth, as a surface material code: sea and rivers, runways, towns by their
 // streets and quarters, beaches, marsh, woods, bare rock, snow; else soil. A function of place and seed.
 
-// Ground above is snow all the year [m]; falls toward the poles. Woods end kWoodsBelowSnowM below.
+// Ground above is snow all the year [m]; falls toward the poles. Woods end kWoodsBelowSnow_m below.
 double snow_line_m(double latitude_deg);
 
 struct CoverSite {
@@ -71,7 +71,7 @@ class LandscapeRows {
 
 // The region that scripts/start flies in; config/routes/default.route goes along its coast.
 struct DefaultLandscape {
-  static constexpr int kSouthDeg = 36, kWestDeg = -124;
+  static constexpr int kSouth_deg = 36, kWest_deg = -124;
   static constexpr int kCellsNorth = 4, kCellsEast = 4;
   static constexpr std::uint64_t kSeed = 12;
 };

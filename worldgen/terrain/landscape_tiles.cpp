@@ -14,11 +14,11 @@ namespace {
 
 constexpr int kTownRanks = 26;  // towns that a degree by a degree at the equator tries to have
 constexpr int kSites = 24;      // looked at for each
-constexpr double kSmallestTownM = 450.0;
+constexpr double kSmallestTown_m = 450.0;
 constexpr int kAirfields = 3;
 constexpr int kAirfieldSites = 30;
-constexpr double kPadUnevenM = 30.0;  // [m] what levelling may move
-constexpr int kBorder = 6;            // nodes that a site keeps from the tile's border
+constexpr double kPadUneven_m = 30.0;  // [m] what levelling may move
+constexpr int kBorder = 6;             // nodes that a site keeps from the tile's border
 
 class Settler {
  public:
@@ -29,11 +29,11 @@ class Settler {
   }
 
   Places settle() {
-    const double largest_m = std::min(kLargestTownM, 1500.0 / std::sqrt(0.04 + chance()));
+    const double largest_m = std::min(kLargestTown_m, 1500.0 / std::sqrt(0.04 + chance()));
     const int ranks = static_cast<int>(kTownRanks * parallel_);
     for (int rank = 1; rank <= ranks; ++rank) {
       const double radius_m = largest_m / std::sqrt(static_cast<double>(rank));
-      found_town(std::max(radius_m, kSmallestTownM));
+      found_town(std::max(radius_m, kSmallestTown_m));
     }
     for (int airfield = 0; airfield < kAirfields; ++airfield) found_airfield();
     return std::move(places_);
@@ -103,7 +103,7 @@ class Settler {
     for (const TileNode other : airfields_)
       if (way_m(at, other) < 25000.0) return {};
     const double turn = bearing_deg * geo::kRadiansPerDegree;
-    const double reach_m = 0.5 * length_m + kPadBeyondM + kPadBlendM;
+    const double reach_m = 0.5 * length_m + kPadBeyond_m + kPadBlend_m;
     double least_m = 1e9, most_m = -1e9, sum_m = 0.0;
     int count = 0;
     for (int row = at.row - 3; row <= at.row + 3; ++row)
@@ -112,16 +112,16 @@ class Settler {
         const double east_m = (column - at.column) * kNodeMetres * parallel_;
         const double along_m = std::abs(east_m * std::sin(turn) + north_m * std::cos(turn));
         const double across_m = std::abs(east_m * std::cos(turn) - north_m * std::sin(turn));
-        if (along_m > reach_m + kNodeMetres || across_m > kPadHalfWidthM + kPadBlendM + 2.0 * kNodeMetres) continue;
+        if (along_m > reach_m + kNodeMetres || across_m > kPadHalfWidth_m + kPadBlend_m + 2.0 * kNodeMetres) continue;
         if (river(row, column) > 0.0F || relief_.height_m(row, column) < 2.0) return {};
-        if (across_m > kPadHalfWidthM + kNodeMetres) continue;
+        if (across_m > kPadHalfWidth_m + kNodeMetres) continue;
         const double height_m = relief_.height_m(row, column);
         least_m = std::min(least_m, height_m);
         most_m = std::max(most_m, height_m);
         sum_m += height_m;
         ++count;
       }
-    if (count == 0 || most_m - least_m > kPadUnevenM || least_m < 3.0) return {};
+    if (count == 0 || most_m - least_m > kPadUneven_m || least_m < 3.0) return {};
     return std::max(3.0, std::round(sum_m / count));
   }
 

@@ -29,12 +29,12 @@ struct Airfield {
   double elevation_m = 0.0;  // of the level ground, whole metres
 };
 
-inline constexpr double kRunwayHalfWidthM = 70.0;  // [m] with shoulders: two posts of level 1 wide
-inline constexpr double kPadBeyondM = 250.0;       // [m] level ground beyond the runway's ends
-inline constexpr double kPadHalfWidthM = 500.0;    // [m] level ground to either side
-inline constexpr double kPadBlendM = 500.0;        // [m] from the level ground to the land as it was
-inline constexpr double kTownMostSteep = 0.05;     // [m/m] at a town's centre
-inline constexpr double kLargestTownM = 7000.0;    // [m] radius
+inline constexpr double kRunwayHalfWidth_m = 70.0;  // [m] with shoulders: two posts of level 1 wide
+inline constexpr double kPadBeyond_m = 250.0;       // [m] level ground beyond the runway's ends
+inline constexpr double kPadHalfWidth_m = 500.0;    // [m] level ground to either side
+inline constexpr double kPadBlend_m = 500.0;        // [m] from the level ground to the land as it was
+inline constexpr double kTownMostSteep = 0.05;      // [m/m] at a town's centre
+inline constexpr double kLargestTown_m = 7000.0;    // [m] radius
 
 struct Places {
   std::vector<Town> towns;  // larger first

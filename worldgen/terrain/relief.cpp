@@ -42,7 +42,7 @@ constexpr double kEarthRadiusKm = 6371.0;  // [km] sphere: shape only, no naviga
 constexpr double kShelfMPerKm = 14.0;      // [m/km] the sea deepens so much with the way out
 constexpr double kOpenSeaKm = -130.0;      // [km] inland: so far out no coast, island or range reaches
 // [m] No sea is deeper: a bottom that falls off has gullies, whose spurs would rise above the water at a box's edge.
-constexpr double kSeaBottomM = -150.0;
+constexpr double kSeaBottom_m = -150.0;
 
 double bell(double offset, double half_width) {
   const double t = offset / half_width;
@@ -84,7 +84,7 @@ BroadRelief::Shore BroadRelief::beside_edge(double coast_km, geo::GeoPoint place
 }
 
 double BroadRelief::height_m(geo::GeoPoint place) const {
-  if (island_ && island_->inside_km(place) <= 0.0) return kSeaBottomM;
+  if (island_ && island_->inside_km(place) <= 0.0) return kSeaBottom_m;
   const double latitude = place.latitude_deg * geo::kRadiansPerDegree;
   const double longitude = place.longitude_deg * geo::kRadiansPerDegree;
   const geo::Vector3 at{kEarthRadiusKm * std::cos(latitude) * std::cos(longitude),
@@ -94,7 +94,7 @@ double BroadRelief::height_m(geo::GeoPoint place) const {
                           at.z + 9.0 * noise(at, 55, 30, 3)};
   // Way inland from the coast's general line, negative at sea.
   const double inland_km = 260.0 * (noise(bent, 1100, 40) + 0.45 * noise(bent, 430, 41) + 0.16 * noise(bent, 170, 42));
-  if (inland_km < kOpenSeaKm) return kSeaBottomM;
+  if (inland_km < kOpenSeaKm) return kSeaBottom_m;
   // The coast itself wanders about that line, here in beaches, there in capes; inlets reach in.
   const double rugged = random::smooth_step(-0.3, 0.4, noise(at, 130, 43));
   const double inlets = random::smooth_step(0.42, 0.8, ridges(bent, 85, 44, 3));
@@ -104,7 +104,7 @@ double BroadRelief::height_m(geo::GeoPoint place) const {
   // Shelf, coastal plain and the slow rise behind it.
   double height_m = coast_km < 0 ? kShelfMPerKm * coast_km
                                  : 95.0 * (1.0 - std::exp(-coast_km / 14.0)) + 1.6 * std::min(coast_km, 90.0);
-  if (shore.fade <= 0.0) return std::max(height_m, kSeaBottomM);
+  if (shore.fade <= 0.0) return std::max(height_m, kSeaBottom_m);
   // Ranges follow the general line at their own distance and with their own gaps.
   const double wander_km = 26.0 * noise(at, 120, 60, 3);
   for (const Range& range : kRanges) {
@@ -117,7 +117,7 @@ double BroadRelief::height_m(geo::GeoPoint place) const {
   const double hilly =
       random::smooth_step(2.0, 25.0, coast_km) * random::smooth_step(-0.1, 0.5, noise(at, 60, 160, 2)) * shore.fade;
   if (hilly > 0.0) height_m += 190.0 * hilly * ridges(bent, 17, 150, 4);
-  return std::max(height_m, kSeaBottomM);
+  return std::max(height_m, kSeaBottom_m);
 }
 
 geo::GeoPoint lattice_node(int row, int column) {

@@ -14,17 +14,17 @@ namespace yars::worldgen {
 namespace {
 
 // These heights and slopes fit together: bed heights of gates fall on every way, see exits_of().
-constexpr int kFrozenDeg = 72;    // [deg] no river poleward: ice
-constexpr double kDeepM = -10.0;  // [m] sea, not a puddle of a spline
-constexpr int kSamples = 8;       // a side of a tile
-constexpr int kFarthest = 25000;  // cost of a way, about 20 tiles; beyond, water stays
+constexpr int kFrozen_deg = 72;    // [deg] no river poleward: ice
+constexpr double kDeep_m = -10.0;  // [m] sea, not a puddle of a spline
+constexpr int kSamples = 8;        // a side of a tile
+constexpr int kFarthest = 25000;   // cost of a way, about 20 tiles; beyond, water stays
 constexpr int kNoWay = std::numeric_limits<int>::max() / 4;
-constexpr double kLeastFallM = 15.0;  // [m] from gate to gate: leaves a fall for any path between
-constexpr double kMostFallM = 180.0;  // [m] what is higher is cut through, so that basins do not fill
-constexpr double kGateFallM = 5.0;    // [m] the same between tiles on the coast
+constexpr double kMinFall_m = 15.0;   // [m] from gate to gate: leaves a fall for any path between
+constexpr double kMaxFall_m = 180.0;  // [m] what is higher is cut through, so that basins do not fill
+constexpr double kGateFall_m = 5.0;   // [m] the same between tiles on the coast
 constexpr int kGatesAnEdge = 3;       // of tiles on the coast
-constexpr double kDryM = 1.0;         // [m] gates are on land
-constexpr double kNoGateM = 1e9;
+constexpr double kDry_m = 1.0;        // [m] gates are on land
+constexpr double kNoGate_m = 1e9;
 constexpr int kGateMargin = 12;  // nodes that gates keep from the ends of an edge
 
 struct Step {
@@ -44,7 +44,7 @@ double tile_km2(CellPlace place) {
 }  // namespace
 
 bool RiverBasins::frozen(CellPlace place) const {
-  return place.south_deg >= kFrozenDeg || place.south_deg + 1 <= -kFrozenDeg;
+  return place.south_deg >= kFrozen_deg || place.south_deg + 1 <= -kFrozen_deg;
 }
 
 bool RiverBasins::coastal(CellPlace place) {
@@ -81,7 +81,7 @@ const RiverBasins::Outline& RiverBasins::outline(CellPlace place) {
       const double height_m =
           broad_.height_m(lattice_node((place.south_deg + 90) * kTileNodes + row * kStride + kStride / 2,
                                        (place.west_deg + 180) * kTileNodes + column * kStride + kStride / 2));
-      found->second.deep += static_cast<int>(height_m < kDeepM);
+      found->second.deep += static_cast<int>(height_m < kDeep_m);
       sum_m += std::max(0.0, height_m);
     }
   found->second.mean_m = static_cast<int>(sum_m / (kSamples * kSamples));
@@ -150,9 +150,9 @@ std::optional<CellPlace> RiverBasins::next(CellPlace place) {
 }
 
 // The lowest pair of nodes that face each other over an edge, between two places on it; bed_m is the higher's height,
-// kNoGateM where there is no land.
+// kNoGate_m where there is no land.
 RiverGate RiverBasins::gate_between(CellPlace from, int north, int east, int first, int last) const {
-  RiverGate gate{from, neighbour_of(from, north, east), north, east, (first + last) / 2, kNoGateM};
+  RiverGate gate{from, neighbour_of(from, north, east), north, east, (first + last) / 2, kNoGate_m};
   const int row = (from.south_deg + 90) * kTileNodes;
   const int column = (from.west_deg + 180) * kTileNodes;
   for (int along = first; along < last; along += 2) {
@@ -162,7 +162,7 @@ RiverGate RiverBasins::gate_between(CellPlace from, int north, int east, int fir
                                         : lattice_node(row + along, column + line));
     };
     const double level_m = std::max(height_m(0), height_m(1));
-    if (level_m >= gate.bed_m || std::min(height_m(0), height_m(1)) < kDryM) continue;
+    if (level_m >= gate.bed_m || std::min(height_m(0), height_m(1)) < kDry_m) continue;
     gate.bed_m = level_m;
     gate.along = along;
   }
@@ -183,7 +183,7 @@ std::optional<RiverGate> RiverBasins::inland_exit(CellPlace place) {
   for (const Step step : kSteps) {
     if (!(neighbour_of(place, step.north, step.east) == *to)) continue;
     RiverGate gate = gate_between(place, step.north, step.east, kGateMargin, kTileNodes - kGateMargin);
-    gate.bed_m = std::clamp(gate.bed_m, base_m + kLeastFallM, base_m + kMostFallM);
+    gate.bed_m = std::clamp(gate.bed_m, base_m + kMinFall_m, base_m + kMaxFall_m);
     return gate;
   }
   return std::nullopt;
@@ -200,8 +200,8 @@ std::vector<RiverGate> RiverBasins::coastal_exits(CellPlace place) {
     for (int stretch = 0; stretch < kGatesAnEdge; ++stretch) {
       const int first = kGateMargin + stretch * kStretch;
       RiverGate gate = gate_between(place, step.north, step.east, first, first + kStretch);
-      if (gate.bed_m >= kNoGateM) continue;
-      gate.bed_m = std::clamp(gate.bed_m, base_m + kGateFallM, base_m + kMostFallM);
+      if (gate.bed_m >= kNoGate_m) continue;
+      gate.bed_m = std::clamp(gate.bed_m, base_m + kGateFall_m, base_m + kMaxFall_m);
       exits.push_back(gate);
     }
   }

@@ -9,10 +9,10 @@ namespace yars::worldgen {
 
 namespace {
 
-constexpr double kBendM = 1150.0;      // [m] wavelength of meanders
-constexpr double kBendAsideM = 170.0;  // [m] to either side
+constexpr double kBend_m = 1150.0;       // [m] wavelength of meanders
+constexpr double kBendAside_m = 170.0;  // [m] to either side
 constexpr int kPiecesPerNode = 5;
-constexpr double kFloorAboveWaterM = 1.0;
+constexpr double kFloorAboveWater_m = 1.0;
 
 double half_width_m(double area_km2) {
   return 10.0 + 2.2 * std::sqrt(area_km2);
@@ -141,11 +141,11 @@ class CourseMaker {
   Knot bent(Knot knot) const {
     const double latitude = knot.latitude_deg * geo::kRadiansPerDegree;
     const double longitude = geo::wrapped_degrees(knot.longitude_deg) * geo::kRadiansPerDegree;
-    constexpr double kRadius = 6371000.0 / kBendM;
+    constexpr double kRadius = 6371000.0 / kBend_m;
     const geo::Vector3 at{kRadius * std::cos(latitude) * std::cos(longitude),
                           kRadius * std::cos(latitude) * std::sin(longitude), kRadius * std::sin(latitude)};
-    knot.latitude_deg += kBendAsideM * random::gradient_noise(at, seed_ + 1U) / kTileMetres;
-    knot.longitude_deg += kBendAsideM * random::gradient_noise(at, seed_ + 2U) / east_m_per_degree(knot.latitude_deg);
+    knot.latitude_deg += kBendAside_m * random::gradient_noise(at, seed_ + 1U) / kTileMetres;
+    knot.longitude_deg += kBendAside_m * random::gradient_noise(at, seed_ + 2U) / east_m_per_degree(knot.latitude_deg);
     return knot;
   }
   void add_piece(const Knot& from, const Knot& to) {
@@ -214,13 +214,13 @@ void RiverRow::shape(std::span<double> heights_m, std::span<float> valley) {
   std::vector<double> filled_m(heights_m.begin(), heights_m.end());
   for (const Touch& touch : touches_) {
     const double land_m = heights_m[touch.post];
-    const double floor_m = touch.water_m + kFloorAboveWaterM;
+    const double floor_m = touch.water_m + kFloorAboveWater_m;
     if (land_m <= 0.0 || land_m >= floor_m) continue;
     filled_m[touch.post] = std::max(filled_m[touch.post], floor_m + (land_m - floor_m) * std::max(0.0, touch.part));
   }
   for (const Touch& touch : touches_) {
     if (heights_m[touch.post] <= 0.0) continue;
-    const double floor_m = touch.water_m + (touch.part < 0.0 ? 0.0 : kFloorAboveWaterM);
+    const double floor_m = touch.water_m + (touch.part < 0.0 ? 0.0 : kFloorAboveWater_m);
     const double cut_m = floor_m + (filled_m[touch.post] - floor_m) * std::max(0.0, touch.part);
     double& height_m = heights_m[touch.post];
     // The first touch of a post starts from the filled ground.

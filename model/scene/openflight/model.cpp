@@ -98,7 +98,7 @@ Vector3 newell_normal(std::span<const Vector3> corners) {
 void triangulate(std::span<const Vector3> corners, std::vector<std::array<std::uint32_t, 3>>& found) {
   found.clear();
   // Cutting ears takes time with the square of the corners (and more); a longer outline is damage, and a fan does.
-  constexpr std::size_t kMostEars = 512;
+  constexpr std::size_t kMaxEars = 512;
   if (corners.size() < 3) return;
   if (corners.size() == 3) {
     found.push_back({0, 1, 2});
@@ -107,7 +107,7 @@ void triangulate(std::span<const Vector3> corners, std::vector<std::array<std::u
   const Vector3 normal = newell_normal(corners);
   if (dot(normal, normal) == 0.0) return;
   const std::vector<Flat> flat = flattened(corners, normal);
-  if (corners.size() > kMostEars || is_convex(flat)) {
+  if (corners.size() > kMaxEars || is_convex(flat)) {
     for (std::uint32_t i = 2; i < corners.size(); ++i) found.push_back({0, i - 1, i});
     return;
   }
@@ -118,7 +118,7 @@ namespace {
 
 constexpr double kFarthest_m = 1e7;      // a corner farther away is damage
 constexpr double kFarOrigin_m = 50'000;  // beyond it float would lose centimetres
-constexpr double kLeastArea_m2 = 1e-10;  // twice the area of a facet that still has a direction
+constexpr double kMinArea_m2 = 1e-10;    // twice the area of a facet that still has a direction
 
 std::array<float, 3> floats(Vector3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -295,7 +295,7 @@ class Flattening {
     const double size = length(facet);
     triangulate(places_, triangles_);
     flat_ += face.count - 2 - triangles_.size();
-    if (!(size > kLeastArea_m2) || triangles_.empty()) {
+    if (!(size > kMinArea_m2) || triangles_.empty()) {
       flat_ += triangles_.size();
       return {};
     }
@@ -319,7 +319,7 @@ class Flattening {
     }
     for (const auto& t : triangles_) {
       const Vector3 area = cross(places_[t[1]] - places_[t[0]], places_[t[2]] - places_[t[0]]);
-      if (!(length(area) > kLeastArea_m2)) {
+      if (!(length(area) > kMinArea_m2)) {
         flat_ += back ? 0 : 1;
         continue;
       }

@@ -30,7 +30,7 @@ std::uint16_t KindTable::number_of(const SurfaceKind& kind) {
 namespace {
 
 constexpr std::size_t kNamesListed = 6;
-constexpr std::size_t kMostSeen = 100'000;  // names that are remembered for a list of near ones
+constexpr std::size_t kMaxSeen = 100'000;  // names that are remembered for a list of near ones
 
 std::string lower(std::string_view text) {
   std::string made(text);
@@ -106,7 +106,7 @@ NameFilter::NameFilter(std::string_view names) {
 
 bool NameFilter::leaves_out(const std::string& name) {
   if (wanted_.empty() || name.empty()) return false;
-  if (seen_.size() < kMostSeen) seen_.insert(name);
+  if (seen_.size() < kMaxSeen) seen_.insert(name);
   bool out = false;
   const std::string small = lower(name);
   for (Wanted& wanted : wanted_) {

@@ -120,7 +120,7 @@ TreeParser::Done TreeParser::pop() {
 // Groups, objects, switches and what moves them.
 
 TreeParser::Done TreeParser::new_node(NodeKind kind, bool attached) {
-  if (tree_.nodes.size() >= kMostNodes) return too_many(kMostNodes, "nodes");
+  if (tree_.nodes.size() >= kMaxNodes) return too_many(kMaxNodes, "nodes");
   const auto number = static_cast<std::uint32_t>(tree_.nodes.size());
   tree_.nodes.emplace_back().kind = kind;
   if (attached && parent().node != kNone) link_child(parent().node, number);
@@ -284,7 +284,7 @@ TreeParser::Done TreeParser::add_replication(const Record& record) {
 // Faces, their corners, and meshes.
 
 TreeParser::Done TreeParser::append_face(TreeFace face, std::uint32_t node) {
-  if (tree_.faces.size() >= kMostFaces) return too_many(kMostFaces, "faces");
+  if (tree_.faces.size() >= kMaxFaces) return too_many(kMaxFaces, "faces");
   const auto number = static_cast<std::uint32_t>(tree_.faces.size());
   tree_.faces.push_back(face);
   Node& owner = tree_.nodes[node];
@@ -311,7 +311,7 @@ TreeParser::Done TreeParser::add_face(const Record& record) {
 }
 
 TreeParser::Done TreeParser::add_vertex(const Record& record) {
-  if (tree_.vertices.size() >= kMostVertices) return too_many(kMostVertices, "vertices");
+  if (tree_.vertices.size() >= kMaxVertices) return too_many(kMaxVertices, "vertices");
   palette_.add(record, tree_.header.metres_per_unit, tree_.vertices);
   ++tree_.counts.vertices;
   return {};
@@ -322,7 +322,7 @@ TreeParser::Done TreeParser::add_corners(const Record& record) {
   const std::size_t count = (record.size() - 4) / 4;
   tree_.counts.corners += count;
   if (face_number == kNone) return {};
-  if (tree_.corners.size() + count > kMostVertices) return too_many(kMostVertices, "corners of faces");
+  if (tree_.corners.size() + count > kMaxVertices) return too_many(kMaxVertices, "corners of faces");
   TreeFace& face = tree_.faces[face_number];
   if (face.count > 0) return {};
   face.first_corner = static_cast<std::uint32_t>(tree_.corners.size());
@@ -351,7 +351,7 @@ TreeParser::Done TreeParser::add_mesh(const Record& record) {
 TreeParser::Done TreeParser::add_pool(const Record& record) {
   const int mesh = mesh_here();
   if (mesh < 0) return {};
-  if (tree_.vertices.size() + record.size() / 24 > kMostVertices) return too_many(kMostVertices, "vertices");
+  if (tree_.vertices.size() + record.size() / 24 > kMaxVertices) return too_many(kMaxVertices, "vertices");
   MeshState& state = meshes_[static_cast<std::size_t>(mesh)];
   state.first_vertex = tree_.vertices.size();
   const auto count = read_local_pool(record, tree_.header.metres_per_unit, subject_, tree_.vertices);
@@ -370,8 +370,7 @@ TreeParser::Done TreeParser::add_primitive(const Record& record) {
   if (!polygons) return tl::unexpected(polygons.error());
   tree_.counts.corners += polygons->listed;
   if (!state.visible || above.node == kNone) return {};
-  if (tree_.corners.size() + polygons->corners.size() > kMostVertices)
-    return too_many(kMostVertices, "corners of faces");
+  if (tree_.corners.size() + polygons->corners.size() > kMaxVertices) return too_many(kMaxVertices, "corners of faces");
   for (std::size_t first = 0; first < polygons->corners.size(); first += polygons->each) {
     TreeFace face = state.surface;
     face.first_corner = static_cast<std::uint32_t>(tree_.corners.size());

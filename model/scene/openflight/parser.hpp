@@ -18,10 +18,10 @@ namespace yars::model::scene {
 // lights, sounds, extensions, switches' other masks, transforms 76-82 and 94 (record 49 holds their product). Wireframe
 // and light faces are no surfaces; hidden ones are counted and left out. Errors: no header, a foreign revision or unit,
 // torn records, more pops than pushes, corners outside their pool, and the limits below.
-inline constexpr std::size_t kDeepestPush = 512;      // levels of records; deeper ones are damage
-inline constexpr std::size_t kMostNodes = 4'000'000;  // bounds on memory: about 0.5, 0.8 and 2.6 GB
-inline constexpr std::size_t kMostFaces = 32'000'000;
-inline constexpr std::size_t kMostVertices = 64'000'000;
+inline constexpr std::size_t kDeepestPush = 512;     // levels of records; deeper ones are damage
+inline constexpr std::size_t kMaxNodes = 4'000'000;  // bounds on memory: about 0.5, 0.8 and 2.6 GB
+inline constexpr std::size_t kMaxFaces = 32'000'000;
+inline constexpr std::size_t kMaxVertices = 64'000'000;
 
 // `subject` names the file in errors.
 error::Expected<NodeTree> parse_openflight(std::span<const std::byte> bytes, const std::string& subject);

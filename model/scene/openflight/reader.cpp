@@ -63,8 +63,8 @@ class FileSet {
     if (open_.size() > kDeepestReference)
       return error::fail(path.string(), "external references at most " + std::to_string(kDeepestReference) + " deep",
                          "deeper ones", "join some of the files");
-    if (++files_ > kMostFiles)
-      return error::fail(path.string(), "at most " + std::to_string(kMostFiles) + " files in a scene", "more",
+    if (++files_ > kMaxFiles)
+      return error::fail(path.string(), "at most " + std::to_string(kMaxFiles) + " files in a scene", "more",
                          "split the scene");
     open_.push_back(path);
     auto model = read_now(path);

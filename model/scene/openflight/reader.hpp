@@ -2,7 +2,7 @@
 // names them and nowhere outside the folder of the first; a name that leads out of it, one that is missing and one that
 // leads back to a file being read are warnings, and what they would show is left out. A file referred to often is read
 // once. `NAME.flt<node>` shows the whole file. Errors: those of parse_openflight and flatten; files that cannot be
-// read, are larger than kLargestFile, nest deeper than kDeepestReference, or are more than kMostFiles.
+// read, are larger than kLargestFile, nest deeper than kDeepestReference, or are more than kMaxFiles.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace yars::model::scene {
 
 inline constexpr std::size_t kLargestFile = std::size_t{1} << 30;
 inline constexpr int kDeepestReference = 16;
-inline constexpr std::size_t kMostFiles = 4096;
+inline constexpr std::size_t kMaxFiles = 4096;
 
 // `filter`: what is left out, null: nothing. It remembers what names there are; who asks for its complaint is told of
 // names that nothing has.

@@ -5,7 +5,7 @@ namespace yars::model::scene {
 namespace {
 
 constexpr std::size_t kHeadBytes = 4;
-constexpr std::size_t kMostJoinedBytes = 256U << 20;  // a local vertex pool of 7 M vertices; stops runaway memory
+constexpr std::size_t kMaxJoinedBytes = 256U << 20;  // a local vertex pool of 7 M vertices; stops runaway memory
 
 bool is_continuation(std::span<const std::byte> bytes, std::size_t at) {
   return at + kHeadBytes <= bytes.size() && big_endian<std::uint16_t>(bytes.data() + at) == openflight::kContinuation;
@@ -59,8 +59,8 @@ error::Expected<std::optional<Record>> RecordStream::next() {
     record = single();
     if (!record) return record;
     const std::span<const std::byte> more = bytes_.subspan((*record)->start(), (*record)->size()).subspan(kHeadBytes);
-    if (joined_.size() + more.size() > kMostJoinedBytes)
-      return error::fail(subject_, "a record of at most " + std::to_string(kMostJoinedBytes) + " bytes",
+    if (joined_.size() + more.size() > kMaxJoinedBytes)
+      return error::fail(subject_, "a record of at most " + std::to_string(kMaxJoinedBytes) + " bytes",
                          "more with its continuations", "split it into several meshes");
     joined_.insert(joined_.end(), more.begin(), more.end());
   }

@@ -14,9 +14,9 @@ namespace yars::model::scene {
 
 namespace {
 
-constexpr double kMostDraped = 100'000;  // triangles that draping makes of one scene, about; then edges grow
+constexpr double kMaxDraped = 100'000;  // triangles that draping makes of one scene, about; then edges grow
 constexpr double kObjectCell_deg = 1.0 / 64.0;
-constexpr double kMostPieces = 1'000'000;  // that scatterers make of one scene's large faces, about; then edges grow
+constexpr double kMaxPieces = 1'000'000;  // that scatterers make of one scene's large faces, about; then edges grow
 
 Vector3 vector(const std::array<float, 3>& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
@@ -54,9 +54,9 @@ class Placing {
     anchor_m_ = placement_.heights == radar::SceneHeights::sea_level ? 0.0 : height_at(placement_.place, 0.0);
     sort_by_object();
     for (std::uint32_t object = 0; object < model_.objects.size(); ++object) outlines_.push_back(outline_of(object));
-    edge_m_ = bounded_edge(kDrapedEdge_m, kMostDraped, [&](const ModelTriangle& triangle) { return drapes(triangle); });
+    edge_m_ = bounded_edge(kDrapedEdge_m, kMaxDraped, [&](const ModelTriangle& triangle) { return drapes(triangle); });
     if (use_ == SceneUse::scatterers)
-      piece_edge_m_ = bounded_edge(piece_edge_m_, kMostPieces, [](const ModelTriangle&) { return true; });
+      piece_edge_m_ = bounded_edge(piece_edge_m_, kMaxPieces, [](const ModelTriangle&) { return true; });
     PlacedScene placed;
     placed.placement = placement_;
     for (std::uint32_t object = 0; object < model_.objects.size(); ++object) place_object(object, placed);

@@ -34,8 +34,8 @@ namespace {
 constexpr double kAzimuthBin_rad = std::numbers::pi / 45.0;    // 4 degrees: below the width of the cardinal effect
 constexpr double kElevationBin_rad = std::numbers::pi / 12.0;  // 15 degrees
 constexpr std::uint32_t kWall = 1U << 31U;
-constexpr std::size_t kMostSquares = 1U << 18U;  // of a scene that stand or lie, some 100 MB while it is placed
-constexpr double kMostAcross = 64.0;             // squares that one piece lies in, an edge
+constexpr std::size_t kMaxSquares = 1U << 18U;  // of a scene that stand or lie, some 100 MB while it is placed
+constexpr double kMaxAcross = 64.0;             // squares that one piece lies in, an edge
 
 // Faces of one key are summed up.
 std::uint32_t key_of(std::uint8_t material, geo::Vector3 normal) {
@@ -79,9 +79,9 @@ bool ScatterBuilder::coarsen() {
 
 // Null where there is no room for another one.
 ScatterBuilder::Square* ScatterBuilder::square_in(Squares& squares, geo::Vector3 at) {
-  while (squares.size() >= kMostSquares && coarsen()) continue;
+  while (squares.size() >= kMaxSquares && coarsen()) continue;
   const std::uint64_t key = square_key(at.x, at.y, side_m());
-  if (squares.size() >= kMostSquares && !squares.contains(key)) return nullptr;
+  if (squares.size() >= kMaxSquares && !squares.contains(key)) return nullptr;
   return &squares[key];
 }
 
@@ -113,7 +113,7 @@ void ScatterBuilder::lie(const std::array<geo::Vector3, 3>& corners, std::uint8_
   const PlanPolygon whole(corners);
   const auto [west, east] = whole.bounds(&geo::Vector3::x);
   const auto [least, most] = whole.bounds(&geo::Vector3::y);
-  while (std::max(east - west, most - least) > kMostAcross * side_m())
+  while (std::max(east - west, most - least) > kMaxAcross * side_m())
     if (!coarsen()) return;
   const double side = side_m();
   const auto first_of = [side](double from_m) { return static_cast<std::int64_t>(std::floor(from_m / side)); };

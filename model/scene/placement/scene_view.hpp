@@ -24,7 +24,7 @@ struct Bounds {
 // square of very many is several tiles. Arrays of structures are split, so that a row of vertices is one load; what a
 // map reads of a tile is kept small, for it waits for memory.
 struct Tile {
-  static constexpr std::size_t kMostVertices = 65536;
+  static constexpr std::size_t kMaxVertices = 65536;
 
   std::size_t triangles() const { return kind.size(); }
   std::array<std::uint16_t, 3> corners(std::size_t t) const { return {corner[0][t], corner[1][t], corner[2][t]}; }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMetresPerDegree = 110'500.0;  // [m] below the least of a meridian: ranges of cells err outwards
 constexpr double kMeanRadius_m = 6'371'000.0;
-constexpr double kMostCellsAcross = 512;  // queries wider than this look at every disc instead
+constexpr double kMaxCellsAcross = 512;  // queries wider than this look at every disc instead
 
 geo::Vector3 on_earth(geo::GeoPoint place) {
   return geo::ecef_from_geodetic(place, geo::HeightAboveEllipsoid::metres(0.0));
@@ -101,7 +101,7 @@ void GridIndex::find(geo::GeoPoint place, double radius_m, std::vector<Hit>& hit
   if (ordered_.empty()) return;
   const double reach_deg = (radius_m + most_reach_m_) / kMetresPerDegree;
   const double across = 2.0 * reach_deg / cell_deg_;
-  if (across > kMostCellsAcross || across * across > static_cast<double>(ordered_.size()) + 64.0) {
+  if (across > kMaxCellsAcross || across * across > static_cast<double>(ordered_.size()) + 64.0) {
     for (const std::uint32_t disc : ordered_) test(disc, at, radius_m, hits);
     return;
   }

@@ -123,7 +123,7 @@ TileBuilders::TileBuilders(const Plane& plane, std::size_t model_vertices) : pla
 
 // No room for a triangle more: bare and curved vertices may both be there, three of each.
 bool TileBuilders::is_full(const Builder& builder) {
-  return 2 * (builder.vertices.size() + 3) > Tile::kMostVertices;
+  return 2 * (builder.vertices.size() + 3) > Tile::kMaxVertices;
 }
 
 TileBuilders::Builder& TileBuilders::builder_at(PlanePoint point) {

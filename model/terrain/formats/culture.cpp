@@ -58,7 +58,7 @@ std::optional<std::filesystem::path> find_culture(const std::filesystem::path& e
 }
 
 error::Expected<Culture> read_culture(const std::filesystem::path& path, CellPlace place) {
-  const error::Expected<imageio::IndexedImage> image = imageio::read_indexed_png(path, kMostCulturePosts);
+  const error::Expected<imageio::IndexedImage> image = imageio::read_indexed_png(path, kMaxCulturePosts);
   if (!image) return tl::unexpected(image.error());
   if (image->width < 2 || image->height < 2)
     return error::fail(path.string(), "at least 2 x 2 posts",

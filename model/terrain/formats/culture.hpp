@@ -67,7 +67,7 @@ class Culture {
 // N36W122.smc.png beside N36W122.hgt. A pixel's number is the surface material code of a post; rows from north to
 // south as in any picture, all four edges included; 2 to 10801 posts a side, whatever the elevation's. The palette
 // is for eyes only.
-inline constexpr int kMostCulturePosts = 10801;  // a side: a third of an arc second
+inline constexpr int kMaxCulturePosts = 10801;  // a side: a third of an arc second
 
 // Where the culture of a cell lies, given its elevation file (.zip and .gz are left off first).
 std::filesystem::path culture_path(const std::filesystem::path& elevation);
@@ -75,7 +75,7 @@ std::filesystem::path culture_path(const std::filesystem::path& elevation);
 // The same, if there is such a file.
 std::optional<std::filesystem::path> find_culture(const std::filesystem::path& elevation);
 
-// Reads a tile of culture. Errors: no indexed PNG, fewer than 2 or more than kMostCulturePosts
+// Reads a tile of culture. Errors: no indexed PNG, fewer than 2 or more than kMaxCulturePosts
 // posts a side, a code above kLargestMaterial; the message says where.
 error::Expected<Culture> read_culture(const std::filesystem::path& path, CellPlace place);
 

@@ -15,11 +15,11 @@ constexpr std::size_t kHeaderBytes = 128;
 constexpr std::size_t kStatisticsBytes = 32;
 constexpr std::size_t kFrontBytes = kHeaderBytes + kStatisticsBytes;
 constexpr std::size_t kCellHeaderBytes = 40;
-constexpr std::uint32_t kMostCells = kCellRows * kCellColumns;
-constexpr int kMostPosts = 7201;            // a side: 0.5 arc seconds
-constexpr double kTenthsPerDegree = 36000;  // spacings are in tenths of an arc second
-constexpr double kEdgeToleranceDeg = 1e-4;  // [deg] a float holds 180 degrees to 1.5e-5
-constexpr double kSpanTolerance = 1e-3;     // of a degree: spacings that were rounded
+constexpr std::uint32_t kMaxCells = kCellRows * kCellColumns;
+constexpr int kMaxPosts = 7201;              // a side: 0.5 arc seconds
+constexpr double kTenthsPerDegree = 36000;   // spacings are in tenths of an arc second
+constexpr double kEdgeTolerance_deg = 1e-4;  // [deg] a float holds 180 degrees to 1.5e-5
+constexpr double kSpanTolerance = 1e-3;      // of a degree: spacings that were rounded
 
 double real_at(const std::byte* bytes) {
   return static_cast<double>(std::bit_cast<float>(big_endian_32(bytes)));
@@ -45,8 +45,8 @@ error::Expected<std::size_t> cells_announced(std::span<const std::byte> front, s
   if (big_endian_32(front.data()) != kHeaderBytes || text.substr(4, 4) != "SSYS" || (part != "DMA1" && part != "DED1"))
     return error::fail(subject, "a MultiGen DED file (SSYS, DMA1 or DED1)", "other bytes");
   const std::uint32_t cells = big_endian_32(front.data() + kHeaderBytes);
-  if (cells == 0 || cells > kMostCells)
-    return error::fail(subject, "1 to " + std::to_string(kMostCells) + " cells", std::to_string(cells));
+  if (cells == 0 || cells > kMaxCells)
+    return error::fail(subject, "1 to " + std::to_string(kMaxCells) + " cells", std::to_string(cells));
   if (kFrontBytes + cells * kCellHeaderBytes > file_bytes)
     return error::fail(subject, "headers of " + std::to_string(cells) + " cells",
                        std::to_string(file_bytes) + " bytes in all", "the file is truncated; fetch it again");
@@ -60,22 +60,22 @@ error::Expected<DedCell> parse_cell(const std::byte* header, std::size_t number,
   const double north = real_at(header + 4);
   const double west = real_at(header + 8);
   const double east = real_at(header + 12);
-  const auto south_deg = whole(south, kEdgeToleranceDeg, -90, 89);
-  const auto west_deg = whole(west, kEdgeToleranceDeg, -180, 179);
-  if (!south_deg || !west_deg || !(std::abs(north - south - 1.0) < kEdgeToleranceDeg) ||
-      !(std::abs(east - west - 1.0) < kEdgeToleranceDeg))
+  const auto south_deg = whole(south, kEdgeTolerance_deg, -90, 89);
+  const auto west_deg = whole(west, kEdgeTolerance_deg, -180, 179);
+  if (!south_deg || !west_deg || !(std::abs(north - south - 1.0) < kEdgeTolerance_deg) ||
+      !(std::abs(east - west - 1.0) < kEdgeTolerance_deg))
     return error::fail(subject, which + " of one degree on whole degrees",
                        "latitude " + in_degrees(south) + " to " + in_degrees(north) + ", longitude " +
                            in_degrees(west) + " to " + in_degrees(east),
                        "cut it at whole degrees where the file was made");
-  const auto rows = whole(real_at(header + 24), 0.0, 2, kMostPosts);
-  const auto columns = whole(real_at(header + 28), 0.0, 2, kMostPosts);
+  const auto rows = whole(real_at(header + 24), 0.0, 2, kMaxPosts);
+  const auto columns = whole(real_at(header + 28), 0.0, 2, kMaxPosts);
   const auto fits = [](int posts, double spacing) {
     return std::abs((posts - 1) * spacing / kTenthsPerDegree - 1.0) < kSpanTolerance;
   };
   if (!rows || !columns || !fits(*rows, real_at(header + 16)) || !fits(*columns, real_at(header + 20)))
     return error::fail(
-        subject, which + " with posts that span one degree, 2 to " + std::to_string(kMostPosts) + " a side",
+        subject, which + " with posts that span one degree, 2 to " + std::to_string(kMaxPosts) + " a side",
         in_degrees(real_at(header + 24)) + " x " + in_degrees(real_at(header + 28)) + " posts at " +
             in_degrees(real_at(header + 16)) + " x " + in_degrees(real_at(header + 20)) + " tenths of a second");
   return DedCell{{*south_deg, *west_deg}, *rows, *columns, 0};

@@ -16,7 +16,7 @@ namespace yars::model::terrain {
 
 namespace {
 
-constexpr int kMostSide = 1 << 15;  // [posts] far beyond any cell; keeps products within 32 bits
+constexpr int kMaxSide = 1 << 15;  // [posts] far beyond any cell; keeps products within 32 bits
 
 struct DestroyCodec {
   void operator()(opj_codec_t* codec) const { opj_destroy_codec(codec); }
@@ -150,7 +150,7 @@ int reduced_side(int side, int reduction) {
 
 error::Expected<std::vector<std::byte>> encode_jpeg2000(const HeightGrid& grid, int reductions) {
   YARS_REQUIRE(std::min(grid.rows, grid.columns), >=, 2);
-  YARS_REQUIRE(std::max(grid.rows, grid.columns), <=, kMostSide);
+  YARS_REQUIRE(std::max(grid.rows, grid.columns), <=, kMaxSide);
   opj_cparameters_t parameters;
   opj_set_default_encoder_parameters(&parameters);
   parameters.tcp_numlayers = 1;
@@ -224,7 +224,7 @@ GridSize jpeg2000_size(std::span<const std::byte> head) {
   const auto side = [&](std::size_t at) {
     std::uint32_t value = 0;
     for (std::size_t i = 0; i < 4; ++i) value = value << 8U | std::to_integer<std::uint32_t>(head[at + i]);
-    return value >= 2 && value <= kMostSide ? static_cast<int>(value) : 0;
+    return value >= 2 && value <= kMaxSide ? static_cast<int>(value) : 0;
   };
   const GridSize size{side(kImageHeader + 8), side(kImageHeader + 12)};
   return size.rows == 0 || size.columns == 0 ? GridSize{} : size;

@@ -102,7 +102,7 @@ GridSize pack_size(const std::filesystem::path& path) {
 namespace {
 
 // Of a one-arc-second cell the fifth reduction would have posts every kilometre; coarser serves no range.
-constexpr int kMostReductions = 5;
+constexpr int kMaxReductions = 5;
 
 HeightGrid filled_grid(const Cell& cell) {
   HeightGrid grid{cell.rows(), cell.columns(), {}};
@@ -120,8 +120,8 @@ std::string pack_name(CellPlace place) {
 }
 
 error::Expected<PackedCell> pack_cell(const Cell& cell) {
-  const int down = std::min(halvings(cell.rows()), kMostReductions);
-  const int across = std::min(halvings(cell.columns()), kMostReductions);
+  const int down = std::min(halvings(cell.rows()), kMaxReductions);
+  const int across = std::min(halvings(cell.columns()), kMaxReductions);
   // A side that halves less often stops the wavelet, not the side file.
   auto jp2 = encode_jpeg2000(filled_grid(cell), std::min(down, across));
   if (!jp2) return tl::unexpected(jp2.error());

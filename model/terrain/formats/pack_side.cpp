@@ -23,8 +23,8 @@ constexpr std::size_t kHeadBytes = 36;    // up to and with the number of levels
 constexpr std::size_t kChecksumAt = 28;   // of all behind it
 constexpr std::size_t kLevelBytes = 12;   // a row of the table
 constexpr double kUnitsPerMetre = 100.0;  // the unit of posts stands in centimetres
-constexpr std::uint32_t kMostReductions = 16;
-constexpr std::uint32_t kMostPosts = 7201;  // a side: 0.5 arc seconds
+constexpr std::uint32_t kMaxReductions = 16;
+constexpr std::uint32_t kMaxPosts = 7201;  // a side: 0.5 arc seconds
 
 struct Sides {
   int rows = 0;
@@ -228,8 +228,8 @@ error::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std::
     return refuse("the side file of the .jp2 beside it", "that of another, or a damaged .jp2");
   if (words.next() != checksum(side.subspan(kChecksumAt + 4))) return refuse("a whole side file", "a wrong checksum");
   const std::uint32_t levels = words.next();
-  if (rows < 2 || columns < 2 || rows > kMostPosts || columns > kMostPosts || levels == 0 ||
-      levels > kMostReductions + 1 || kHeadBytes + levels * kLevelBytes > side.size())
+  if (rows < 2 || columns < 2 || rows > kMaxPosts || columns > kMaxPosts || levels == 0 ||
+      levels > kMaxReductions + 1 || kHeadBytes + levels * kLevelBytes > side.size())
     return refuse("sizes of a cell", std::to_string(columns) + " x " + std::to_string(rows) + " posts, " +
                                          std::to_string(levels) + " levels");
   const double unit_m = unit_of(side);

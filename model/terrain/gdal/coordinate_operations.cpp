@@ -84,10 +84,10 @@ struct Choice {
 };
 
 Choice choose(PJ_CONTEXT* context, PJ_OBJ_LIST* list, const Net& net) {
-  constexpr int kMostTried = 16;
+  constexpr int kMaxTried = 16;
   Choice best;
   std::size_t most = 0;
-  for (int position = 0; list != nullptr && position < std::min(proj_list_get_count(list), kMostTried); ++position) {
+  for (int position = 0; list != nullptr && position < std::min(proj_list_get_count(list), kMaxTried); ++position) {
     Projection candidate(proj_list_get(context, list, position));
     if (!candidate || proj_coordoperation_is_instantiable(context, candidate.get()) == 0) continue;
     Net reached;

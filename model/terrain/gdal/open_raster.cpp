@@ -221,8 +221,8 @@ error::Expected<HeightWindow> read_window(const Raster& raster, BlockSize size, 
   pixels.first_column = blocks.first_column * size.across;
   pixels.columns = std::min(raster.columns, (blocks.first_column + blocks.columns) * size.across) - pixels.first_column;
   // Strips, so that the pixels of large blocks never stand whole in memory.
-  constexpr int kMostPixels = 1 << 22;
-  const int rows_at_once = std::max(1, kMostPixels / std::max(1, pixels.columns));
+  constexpr int kMaxPixels = 1 << 22;
+  const int rows_at_once = std::max(1, kMaxPixels / std::max(1, pixels.columns));
   const int end_row = std::min(raster.rows, (blocks.first_row + blocks.rows) * size.along);
   for (pixels.first_row = blocks.first_row * size.along; pixels.first_row < end_row; pixels.first_row += rows_at_once) {
     pixels.rows = std::min(rows_at_once, end_row - pixels.first_row);

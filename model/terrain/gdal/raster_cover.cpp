@@ -41,14 +41,14 @@ bool is_whole(double number) {
 
 bool aligned(double first_deg, double pixel_deg) {
   const double posts = 1.0 / pixel_deg;
-  return is_whole(posts) && std::abs(posts) <= kMostPostsPerDegree && is_whole(first_deg / pixel_deg);
+  return is_whole(posts) && std::abs(posts) <= kMaxPostsPerDegree && is_whole(first_deg / pixel_deg);
 }
 
 // The least of 15, 45, 75 and 225 times a power of two that is twice as fine as the raster: so that it halves often,
 // and what lies between its posts is what lies between the raster's (within a quarter of their own error of slope).
 int twice_as_fine(double pixels_a_degree) {
-  const double wanted = std::min(2.0 * pixels_a_degree * (1.0 - 1e-6), static_cast<double>(kMostPostsPerDegree));
-  int best = kMostPostsPerDegree;
+  const double wanted = std::min(2.0 * pixels_a_degree * (1.0 - 1e-6), static_cast<double>(kMaxPostsPerDegree));
+  int best = kMaxPostsPerDegree;
   for (const int odd : {15, 45, 75, 225})
     for (int posts = odd; posts < best; posts *= 2)
       if (posts >= wanted) best = posts;

@@ -5,7 +5,7 @@
 
 namespace yars::model::terrain::gdal {
 
-inline constexpr int kMostPostsPerDegree = 7200;  // 0.5 arc seconds: a cell of finer posts would not fit in memory
+inline constexpr int kMaxPostsPerDegree = 7200;  // 0.5 arc seconds: a cell of finer posts would not fit in memory
 
 struct RasterCell {
   int south_deg = 0;

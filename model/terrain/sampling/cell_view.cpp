@@ -124,7 +124,7 @@ namespace {
 
 constexpr Surface kNothing{std::numeric_limits<double>::quiet_NaN(), 0.0};
 constexpr double kMetresPerDegree = 111'000.0;  // about
-constexpr float kMostTurns = 1.0e6F;            // [deg] of longitude: more is no place, but must not overflow
+constexpr float kMaxTurns = 1.0e6F;             // [deg] of longitude: more is no place, but must not overflow
 
 // Where its meridians are closest.
 double spacing_m(const Cell& cell) {
@@ -228,7 +228,7 @@ CellView::Run CellView::run_at(const PlaceRun& places, std::size_t first) const 
   run.first = first;
   const float cells_north = places.cells_north[first];
   const float cells_east = places.cells_east[first];
-  if (!(std::abs(cells_north) <= kMostTurns) || !(std::abs(cells_east) <= kMostTurns)) return run;
+  if (!(std::abs(cells_north) <= kMaxTurns) || !(std::abs(cells_east) <= kMaxTurns)) return run;
   const int south = places.corner.south_deg + static_cast<int>(cells_north);
   const int west = places.corner.west_deg + 180 + static_cast<int>(cells_east);
   run.beyond_pole = south < -90 || south > 89;

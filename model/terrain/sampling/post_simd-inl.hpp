@@ -1,9 +1,9 @@
 // Posts of a grid in blocks (cell.hpp), gathered by vectors. Included once for each target.
-#if defined(YARS_MODEL_TERRAIN_POST_LANES_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef YARS_MODEL_TERRAIN_POST_LANES_INL
-#undef YARS_MODEL_TERRAIN_POST_LANES_INL
+#if defined(YARS_MODEL_TERRAIN_SAMPLING_POST_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef YARS_MODEL_TERRAIN_SAMPLING_POST_SIMD_INL
+#undef YARS_MODEL_TERRAIN_SAMPLING_POST_SIMD_INL
 #else
-#define YARS_MODEL_TERRAIN_POST_LANES_INL
+#define YARS_MODEL_TERRAIN_SAMPLING_POST_SIMD_INL
 #endif
 
 #include <hwy/highway.h>

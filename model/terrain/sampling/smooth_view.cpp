@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kMetresADegree = 111'000.0;  // of latitude, about
 constexpr double kFarthest_deg = 88.0;        // of latitude: beyond it intervals are no longer rectangles
-constexpr int kMostParts = 64;                // of an interval of posts
-constexpr std::size_t kMostNodes = 1U << 23;  // of a cell; 32 MiB
+constexpr int kMaxParts = 64;                 // of an interval of posts
+constexpr std::size_t kMaxNodes = 1U << 23;   // of a cell; 32 MiB
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 
 // The intervals of a cell that a box has a part in: posts [first_row, last_row], and parts of each interval.
@@ -34,7 +34,7 @@ struct Part {
 
 int parts_of(double posts_m, const SmoothOrder& order) {
   const double parts = std::ceil(posts_m / order.spacing_m);
-  return std::clamp(static_cast<int>(std::min(parts, double{kMostParts})), order.least_parts, kMostParts);
+  return std::clamp(static_cast<int>(std::min(parts, double{kMaxParts})), order.least_parts, kMaxParts);
 }
 
 // Nothing where the box misses the cell, or its posts are close enough.
@@ -56,7 +56,7 @@ std::optional<Part> part_of(const Cell& cell, const SmoothOrder& order) {
   if (std::min(rows_m, columns_m) <= order.posts_m) return std::nullopt;
   part.row_parts = parts_of(rows_m, order);
   part.column_parts = parts_of(columns_m, order);
-  while (part.nodes() > kMostNodes && std::max(part.row_parts, part.column_parts) > 1) {
+  while (part.nodes() > kMaxNodes && std::max(part.row_parts, part.column_parts) > 1) {
     part.row_parts = std::max(1, part.row_parts / 2);
     part.column_parts = std::max(1, part.column_parts / 2);
   }

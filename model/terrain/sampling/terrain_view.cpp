@@ -15,7 +15,7 @@ namespace {
 
 // [m] the smallest radius of curvature of WGS84 (meridian at the equator, 6335.4 km) less a little: an angle
 // derived from it is never too small, so no cell is missed.
-constexpr double kSmallestRadiusM = 6.33e6;
+constexpr double kSmallestRadius_m = 6.33e6;
 
 double angle_between_deg(geo::GeoPoint a, geo::GeoPoint b) {
   const double half_latitude = (b.latitude_deg - a.latitude_deg) * geo::kRadiansPerDegree / 2;
@@ -28,7 +28,7 @@ double angle_between_deg(geo::GeoPoint a, geo::GeoPoint b) {
 }
 
 double angle_of(double radius_m) {
-  return std::clamp(radius_m / kSmallestRadiusM, 0.0, geo::kRadiansPerDegree * 180.0);
+  return std::clamp(radius_m / kSmallestRadius_m, 0.0, geo::kRadiansPerDegree * 180.0);
 }
 
 }  // namespace
@@ -39,8 +39,8 @@ double angle_to_middle_deg(geo::GeoPoint point, CellPlace place) {
 
 // Conservative: the disc against a circle about the cell's middle.
 double touched_within_deg(double radius_m) {
-  constexpr double kHalfDiagonalDeg = 0.7072;  // that of a square degree; a cell is nowhere wider
-  return angle_of(radius_m) / geo::kRadiansPerDegree + kHalfDiagonalDeg;
+  constexpr double kHalfDiagonal_deg = 0.7072;  // that of a square degree; a cell is nowhere wider
+  return angle_of(radius_m) / geo::kRadiansPerDegree + kHalfDiagonal_deg;
 }
 
 std::vector<CellPlace> cells_within(const TerrainRegion& region) {

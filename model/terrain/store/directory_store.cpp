@@ -16,7 +16,7 @@ namespace yars::model::terrain {
 namespace {
 constexpr double kMetresPerMile = 1852.0;
 constexpr double kMetresPerDegree = 111195.0;  // [m] of a meridian, on the mean sphere
-constexpr int kMostReduction = 6;              // beyond it a cell of level 1 would have fewer than 20 posts a side
+constexpr int kMaxReduction = 6;               // beyond it a cell of level 1 would have fewer than 20 posts a side
 constexpr int kServesNothing = -1;             // detail of a view in which something within reach stands in
 
 std::size_t bytes_of(const TerrainCell& cell) {
@@ -28,7 +28,7 @@ int reduction_for(const CellFile& file, int detail) {
   if (file.posts_per_degree <= 0 || detail <= 0) return 0;
   const double spacing_m = kMetresPerDegree / file.posts_per_degree;
   const double halvings = std::log2(std::ldexp(1.0, detail) / spacing_m);
-  return std::clamp(static_cast<int>(std::floor(halvings)), 0, kMostReduction);
+  return std::clamp(static_cast<int>(std::floor(halvings)), 0, kMaxReduction);
 }
 
 error::Expected<std::unique_ptr<DirectoryTerrainStore>> DirectoryTerrainStore::open(

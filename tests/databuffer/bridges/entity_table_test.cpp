@@ -74,10 +74,10 @@ TEST(EntityTable, ItIsBoundedAndMakesRoomOfTheSilent) {
     state.id.entity = static_cast<std::uint16_t>(number % 1'000);
     return table.update(state, seconds(now_s));
   };
-  for (std::size_t number = 0; number < kMostEntities; ++number) ASSERT_FALSE(add(number, 10));
-  EXPECT_TRUE(add(kMostEntities, 11));
-  EXPECT_EQ(table.size(), kMostEntities);
-  EXPECT_FALSE(add(kMostEntities, 30)) << "all others have left";
+  for (std::size_t number = 0; number < kMaxEntities; ++number) ASSERT_FALSE(add(number, 10));
+  EXPECT_TRUE(add(kMaxEntities, 11));
+  EXPECT_EQ(table.size(), kMaxEntities);
+  EXPECT_FALSE(add(kMaxEntities, 30)) << "all others have left";
   EXPECT_EQ(table.size(), 1U);
 }
 
@@ -86,7 +86,7 @@ TEST(SurfaceTraffic, ShipsAndVehiclesAreTargetsAndAircraftAreNone) {
   for (const char* name : {"dis/air.bin", "dis/ship.bin", "dis/truck.bin"})
     ASSERT_FALSE(table.update(state_of(name), seconds(10)));
   const Traffic traffic = surface_traffic(table.at(seconds(10)), {36.6, -121.9});
-  EXPECT_FALSE(why_refused(traffic));
+  EXPECT_FALSE(validate(traffic));
   ASSERT_EQ(traffic.count, 2U);
   EXPECT_NEAR(traffic.entities[0].latitude_deg, 36.7, 1e-9);
   EXPECT_NEAR(traffic.entities[0].velocity_east_mps, -10.0, 1e-3);
@@ -98,13 +98,13 @@ TEST(SurfaceTraffic, ShipsAndVehiclesAreTargetsAndAircraftAreNone) {
 TEST(SurfaceTraffic, TheNearestAreKeptWhenThereAreMoreThanFit) {
   EntityTable table;
   EntityState state = state_of("dis/ship.bin");
-  for (std::size_t number = 0; number < kMostTraffic + 10; ++number) {
+  for (std::size_t number = 0; number < kMaxTraffic + 10; ++number) {
     state.id.entity = static_cast<std::uint16_t>(number);
     state.sample.ownship.latitude_deg = 40.0 - 0.01 * static_cast<double>(number);
     ASSERT_FALSE(table.update(state, seconds(10)));
   }
   const Traffic traffic = surface_traffic(table.at(seconds(10)), {30.0, -122.1});
-  ASSERT_EQ(traffic.count, kMostTraffic);
+  ASSERT_EQ(traffic.count, kMaxTraffic);
   for (const TrafficEntity& entity : traffic.entities) EXPECT_LT(entity.latitude_deg, 39.905);
 }
 

@@ -91,8 +91,8 @@ Outcome fly(const Circle& circle, double rate_hz, double jitter_s, bool with_rat
       has_before = false;
       continue;
     }
-    EXPECT_FALSE(why_refused(sample->ownship));
-    EXPECT_FALSE(why_refused(sample->nav));
+    EXPECT_FALSE(validate(sample->ownship));
+    EXPECT_FALSE(validate(sample->nav));
     const Ownship truth = circle.at(now_s, false).ownship;
     const Ownship& own = sample->ownship;
     if (now_s > 2.0) {

@@ -274,7 +274,7 @@ TEST_F(YarsSweepTest, WhatIsOverwrittenBeforeItIsReadIsCounted) {
 TEST_F(YarsSweepTest, APictureLargerThanItsSlotIsNone) {
   GlassFrame frame{};
   frame.id = 1;
-  frame.width = frame.height = kMostFramePixels + 1;
+  frame.width = frame.height = kMaxFramePixels + 1;
   publish_frame(session_.layout(), frame, std::vector<std::uint8_t>(16));
   yars_glass_frame found{};
   std::vector<std::uint8_t> pixels(YARS_MOST_FRAME_BYTES);

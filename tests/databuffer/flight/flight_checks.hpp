@@ -52,9 +52,9 @@ inline FlightSample expect_consistent(FlightModel& model, double duration_s, dou
   double worst_mps = 0.0;
   for (double time_s = 2.0 * dt_s; time_s < duration_s; time_s += dt_s) {
     const FlightSample after = model.step(dt);
-    const auto refusal = why_refused(after.ownship);
+    const auto refusal = validate(after.ownship);
     EXPECT_EQ(refusal, std::nullopt) << *refusal;
-    const auto nav_refusal = why_refused(after.nav);
+    const auto nav_refusal = validate(after.nav);
     EXPECT_EQ(nav_refusal, std::nullopt) << *nav_refusal;
     worst_mps = std::max(worst_mps, velocity_error_mps(before.ownship, middle.ownship, after.ownship, dt_s));
     before = middle;

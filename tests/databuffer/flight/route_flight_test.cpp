@@ -235,7 +235,7 @@ TEST(RouteFlight, TheShippedRouteStaysOffTheCoastAndComesRound) {
   for (int second = 0; second < 3'600; ++second) {
     const Ownship now = flight.step(geo::Duration::seconds(1.0)).ownship;
     ASSERT_NEAR(now.altitude_msl_m, 4572.0, 1.0);
-    ASSERT_EQ(why_refused(now), std::nullopt);
+    ASSERT_EQ(validate(now), std::nullopt);
     south_deg = std::min(south_deg, now.latitude_deg);
     if (second > 1'800) home_m = std::min(home_m, distance_m(point_of(now), route->waypoints[0].point));
   }

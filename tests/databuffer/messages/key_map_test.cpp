@@ -108,7 +108,7 @@ TEST(KeyboardState, WhateverIsTypedIsValidAndEndsAtRest) {
   int presses = 0;
   const auto follow = [&](const std::vector<InputEvent>& events) {
     for (const InputEvent& event : events) {
-      ASSERT_FALSE(why_refused(event)) << *why_refused(event);
+      ASSERT_FALSE(validate(event)) << *validate(event);
       if (event.kind == static_cast<std::uint16_t>(EventKind::tdc)) deflection = event;
       if (event.kind == static_cast<std::uint16_t>(EventKind::tdc_press)) ++presses;
       if (event.kind == static_cast<std::uint16_t>(EventKind::tdc_release)) --presses;

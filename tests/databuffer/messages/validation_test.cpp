@@ -69,7 +69,7 @@ InputEvent event_of(EventKind kind, int argument, double x = 0.0, double y = 0.0
 template <class Record>
 bool accepts(Record record, double Record::*field, double value) {
   record.*field = value;
-  return !why_refused(record);
+  return !validate(record);
 }
 
 // The ends belong to the range, the next number outside does not, and nothing that is no number does.
@@ -92,11 +92,11 @@ void expect_range_without_nan(const Record& good, double Record::*field, double 
 }
 
 TEST(Validation, GoodRecordsPass) {
-  EXPECT_EQ(why_refused(good_ownship()), std::nullopt);
-  EXPECT_EQ(why_refused(good_nav()), std::nullopt);
-  EXPECT_EQ(why_refused(good_state()), std::nullopt);
-  EXPECT_EQ(why_refused(good_clock()), std::nullopt);
-  EXPECT_EQ(why_refused(event_of(EventKind::freeze, 0)), std::nullopt);
+  EXPECT_EQ(validate(good_ownship()), std::nullopt);
+  EXPECT_EQ(validate(good_nav()), std::nullopt);
+  EXPECT_EQ(validate(good_state()), std::nullopt);
+  EXPECT_EQ(validate(good_clock()), std::nullopt);
+  EXPECT_EQ(validate(event_of(EventKind::freeze, 0)), std::nullopt);
 }
 
 TEST(Validation, OwnshipHoldsItsRanges) {
@@ -125,21 +125,21 @@ TEST(Validation, AMissingRadarAltimeterIsNoFault) {
 TEST(Validation, TheFirstFaultIsNamedWithBothValues) {
   Ownship ownship = good_ownship();
   ownship.latitude_deg = 91.5;
-  EXPECT_EQ(why_refused(ownship), "latitude_deg: expected [-90, 90], found 91.5");
+  EXPECT_EQ(validate(ownship), "latitude_deg: expected [-90, 90], found 91.5");
   ownship.heading_deg = kNan;
-  EXPECT_EQ(why_refused(ownship), "latitude_deg: expected [-90, 90], found 91.5");
+  EXPECT_EQ(validate(ownship), "latitude_deg: expected [-90, 90], found 91.5");
 }
 
 TEST(Validation, ATextWithoutItsZeroIsRefused) {
   Ownship ownship = good_ownship();
   std::memset(ownship.source, 'x', sizeof ownship.source);
-  EXPECT_THAT(why_refused(ownship).value_or(""), HasSubstr("source: expected a zero at its end"));
+  EXPECT_THAT(validate(ownship).value_or(""), HasSubstr("source: expected a zero at its end"));
 }
 
 TEST(Validation, ControlCharactersDoNotReachATerminal) {
   Ownship ownship = good_ownship();
   std::strcpy(ownship.source, "\x1b[2J");
-  EXPECT_THAT(why_refused(ownship).value_or(""), HasSubstr("printable"));
+  EXPECT_THAT(validate(ownship).value_or(""), HasSubstr("printable"));
 }
 
 TEST(Validation, NavHoldsItsRanges) {
@@ -170,9 +170,9 @@ TEST(Validation, RadarStateHoldsItsRanges) {
 TEST(Validation, WithoutACursorItsPlaceMayBeMissing) {
   RadarState state = good_state();
   state.cursor_latitude_deg = kNan;
-  EXPECT_TRUE(why_refused(state));
+  EXPECT_TRUE(validate(state));
   state.flags = 0;
-  EXPECT_EQ(why_refused(state), std::nullopt);
+  EXPECT_EQ(validate(state), std::nullopt);
 }
 
 TEST(Validation, EachSwitchStopsAtItsLastPosition) {
@@ -189,7 +189,7 @@ TEST(Validation, EachSwitchStopsAtItsLastPosition) {
     for (int value = 0; value < 256; ++value) {
       RadarState state = good_state();
       state.*position.field = static_cast<std::uint8_t>(value);
-      EXPECT_EQ(!why_refused(state), value >= position.least && value <= position.most) << value;
+      EXPECT_EQ(!validate(state), value >= position.least && value <= position.most) << value;
     }
   }
 }
@@ -197,25 +197,25 @@ TEST(Validation, EachSwitchStopsAtItsLastPosition) {
 TEST(Validation, DrawnPointsAreInspectedAndTheRestIsNot) {
   RadarState state = good_state();
   state.points[0].latitude_deg = 91.0;
-  EXPECT_EQ(why_refused(state), std::nullopt);
+  EXPECT_EQ(validate(state), std::nullopt);
   state.points_drawn = 1;
-  EXPECT_TRUE(why_refused(state));
+  EXPECT_TRUE(validate(state));
 }
 
 TEST(Validation, LegendsAndMessageEndWithZero) {
   RadarState state = good_state();
   std::memset(state.legends[20], 'A', sizeof state.legends[20]);
-  EXPECT_TRUE(why_refused(state));
+  EXPECT_TRUE(validate(state));
   state = good_state();
   std::memset(state.message, 'A', sizeof state.message);
-  EXPECT_TRUE(why_refused(state));
+  EXPECT_TRUE(validate(state));
 }
 
 TEST(Validation, EventsHoldTheirArguments) {
-  EXPECT_TRUE(why_refused(event_of(EventKind::none, 0)));
-  EXPECT_TRUE(why_refused(event_of(static_cast<EventKind>(19), 0)));
+  EXPECT_TRUE(validate(event_of(EventKind::none, 0)));
+  EXPECT_TRUE(validate(event_of(static_cast<EventKind>(19), 0)));
   for (int argument = -300; argument <= 300; ++argument) {
-    const auto valid = [argument](EventKind kind) { return !why_refused(event_of(kind, argument)); };
+    const auto valid = [argument](EventKind kind) { return !validate(event_of(kind, argument)); };
     EXPECT_EQ(valid(EventKind::push_button), argument >= 1 && argument <= 20);
     EXPECT_EQ(valid(EventKind::acquisition), argument == 1 || argument == -1);
     EXPECT_EQ(valid(EventKind::contrast), argument == 1 || argument == -1);
@@ -239,15 +239,15 @@ TEST(Validation, InjectedErrorsAreFiniteAndOfANavigator) {
   expect_range_without_nan(event_of(EventKind::navigator_error, 1), &InputEvent::y, -600'000.0, 600'000.0);
   expect_range_without_nan(event_of(EventKind::navigator_drift, 0), &InputEvent::x, -1'000.0, 1'000.0);
   expect_range_without_nan(event_of(EventKind::navigator_drift, 0), &InputEvent::y, -1'000.0, 1'000.0);
-  EXPECT_TRUE(why_refused(event_of(EventKind::navigator_error, 2)));
-  EXPECT_TRUE(why_refused(event_of(EventKind::navigator_drift, -1)));
+  EXPECT_TRUE(validate(event_of(EventKind::navigator_error, 2)));
+  EXPECT_TRUE(validate(event_of(EventKind::navigator_drift, -1)));
 }
 
 TEST(Validation, DesignationsAreInspected) {
   const auto refused = [](const auto& spoil) {
     RadarState state = good_state();
     spoil(state);
-    return why_refused(state).has_value();
+    return validate(state).has_value();
   };
   EXPECT_FALSE(refused([](RadarState& state) { state.target_elevation_m = kNan; })) << "unknown is legal";
   EXPECT_TRUE(refused([](RadarState& state) { state.target_latitude_deg = 91.0; }));
@@ -267,45 +267,45 @@ TEST(Validation, DesignationsAreInspected) {
 
 TEST(Validation, ARecorderWritesOrDoesNot) {
   RecorderStatus status{};
-  EXPECT_EQ(why_refused(status), std::nullopt);
+  EXPECT_EQ(validate(status), std::nullopt);
   status.writing = 2;
-  EXPECT_TRUE(why_refused(status));
+  EXPECT_TRUE(validate(status));
   status = {};
   std::memset(status.problem, 'A', sizeof status.problem);
-  EXPECT_TRUE(why_refused(status));
+  EXPECT_TRUE(validate(status));
 }
 
 TEST(Validation, ASequencePointNeedsAName) {
   InputEvent event = event_of(EventKind::sequence_point, 0);
-  EXPECT_TRUE(why_refused(event));
+  EXPECT_TRUE(validate(event));
   std::strcpy(event.text, "100.99");
-  EXPECT_EQ(why_refused(event), std::nullopt);
+  EXPECT_EQ(validate(event), std::nullopt);
   std::memset(event.text, '1', sizeof event.text);
-  EXPECT_TRUE(why_refused(event));
+  EXPECT_TRUE(validate(event));
 }
 
 TEST(Validation, ClockHoldsItsRanges) {
   expect_range_without_nan(good_clock(), &ClockState::rate, 0.0, 10.0);
   ClockState clock = good_clock();
   clock.running = 2;
-  EXPECT_TRUE(why_refused(clock));
+  EXPECT_TRUE(validate(clock));
   clock = good_clock();
   clock.base_sim_ns = -1;
-  EXPECT_TRUE(why_refused(clock));
+  EXPECT_TRUE(validate(clock));
 }
 
 TEST(Validation, ARepositioningIsWholeOrNone) {
   ClockState clock = good_clock();
   clock.reposition_heading_deg = 1e9;
-  EXPECT_EQ(why_refused(clock), std::nullopt);
+  EXPECT_EQ(validate(clock), std::nullopt);
   clock.reposition_latitude_deg = 38.0;
-  EXPECT_TRUE(why_refused(clock));
+  EXPECT_TRUE(validate(clock));
   clock.reposition_longitude_deg = -180.0;
   clock.reposition_altitude_m = 4572.0;
   clock.reposition_heading_deg = 360.0;
-  EXPECT_EQ(why_refused(clock), std::nullopt);
+  EXPECT_EQ(validate(clock), std::nullopt);
   clock.reposition_heading_deg = 361.0;
-  EXPECT_TRUE(why_refused(clock));
+  EXPECT_TRUE(validate(clock));
 }
 
 PatchMap good_map() {
@@ -325,14 +325,14 @@ PatchMap good_map() {
 TEST(Validation, TrafficHoldsItsRangesInEveryUsedEntity) {
   Traffic traffic{};
   traffic.count = 2;
-  EXPECT_EQ(why_refused(traffic), std::nullopt);
+  EXPECT_EQ(validate(traffic), std::nullopt);
   traffic.entities[2].latitude_deg = 100.0;
-  EXPECT_EQ(why_refused(traffic), std::nullopt) << "not used";
+  EXPECT_EQ(validate(traffic), std::nullopt) << "not used";
   traffic.entities[1].velocity_east_mps = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(why_refused(traffic), "entities.velocity_east_mps: expected [-10000, 10000], found nan");
+  EXPECT_EQ(validate(traffic), "entities.velocity_east_mps: expected [-10000, 10000], found nan");
   traffic = Traffic{};
   traffic.count = 65;
-  EXPECT_EQ(why_refused(traffic), "count: expected [0, 64], found 65");
+  EXPECT_EQ(validate(traffic), "count: expected [0, 64], found 65");
 }
 
 TEST(Validation, APatchMapHoldsItsRangesAndItsNumbersAreFinite) {
@@ -347,7 +347,7 @@ TEST(Validation, APatchMapHoldsItsRangesAndItsNumbersAreFinite) {
     for (const double wrong : {kNan, kInfinity}) {
       PatchMap map = good_map();
       map.*field = wrong;
-      EXPECT_TRUE(why_refused(map));
+      EXPECT_TRUE(validate(map));
     }
   }
 }
@@ -356,13 +356,13 @@ TEST(Validation, APatchMapHasBetweenOneAnd1024PixelsToItsEdgeAndAWindow) {
   for (const std::uint32_t size : {0U, 1025U, 4'000'000'000U}) {
     PatchMap map = good_map();
     map.size = size;
-    EXPECT_TRUE(why_refused(map)) << size;
+    EXPECT_TRUE(validate(map)) << size;
   }
   PatchMap map = good_map();
   map.size = 1024;
-  EXPECT_EQ(why_refused(map), std::nullopt);
+  EXPECT_EQ(validate(map), std::nullopt);
   map.window_nm = 0.0;
-  EXPECT_TRUE(why_refused(map));
+  EXPECT_TRUE(validate(map));
 }
 
 }  // namespace

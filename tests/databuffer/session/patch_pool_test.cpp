@@ -85,7 +85,7 @@ TEST_F(PatchPool, ASizeThatNoSlotHoldsIsReadNoFurtherThanTheSlot) {
   wrong.size = 4'000'000'000U;
   publish_patch(*layout, wrong, made_up_pixels(3, 4), {});
   ASSERT_TRUE(read_patch(*layout, 3, map, pixels));
-  EXPECT_EQ(pixels.size(), std::size_t{kMostPatchPixels} * kMostPatchPixels);
+  EXPECT_EQ(pixels.size(), std::size_t{kMaxPatchPixels} * kMaxPatchPixels);
 }
 
 TEST_F(PatchPool, AWriterKilledAfterAnyStoreLeavesNoHalfMap) {

@@ -28,8 +28,8 @@ class GlassPictures : public ::testing::Test {
   }
 
   // The picture of an operating beam map without legends or symbols but the fixed scales.
-  static GlassInput bare_input() {
-    GlassInput input = testing::operating(radar::Mode::rbm, 40.0);
+  static DisplayInput bare_input() {
+    DisplayInput input = testing::operating(radar::Mode::rbm, 40.0);
     for (auto& legend : input.state.legends) legend[0] = '\0';
     input.state.brightness = 15;
     return input;
@@ -79,7 +79,7 @@ Rect inside(int size) {
 
 TEST_F(GlassPictures, ASingleBrightSampleLandsOnThePixelOfItsRangeAndAzimuth) {
   for (const int size : {480, 1024}) {
-    Glass glass({}, size, test_colors());
+    Display glass({}, size, test_colors());
     for (const double right_deg : {-27.0, -8.0, 14.0, 31.0}) {
       for (const int sample : {150, 290, 400}) {
         databuffer::Sweep sweep =
@@ -98,13 +98,13 @@ TEST_F(GlassPictures, ASingleBrightSampleLandsOnThePixelOfItsRangeAndAzimuth) {
         EXPECT_NEAR(spot.y, scale * (440.0 - radius * std::cos(angle)), 1.0)
             << size << ' ' << right_deg << ' ' << sample;
       }
-      glass = Glass({}, size, test_colors());
+      glass = Display({}, size, test_colors());
     }
   }
 }
 
 TEST_F(GlassPictures, NeighbouringWedgesLeaveNoCracks) {
-  Glass glass({}, 480, test_colors());
+  Display glass({}, 480, test_colors());
   for (int i = 0; i < 160; ++i) {
     // The aircraft flies on, a metre and a half a sweep, while it scans.
     const geo::GeoPoint apex = testing::at(kTrack_deg, -0.15 + i * 0.0008);
@@ -129,7 +129,7 @@ TEST_F(GlassPictures, NeighbouringWedgesLeaveNoCracks) {
 TEST_F(GlassPictures, TheNarrowWedgesOfTheHrmPpiLeaveNoCracks) {
   constexpr double kShort_nm = 4.7;
   for (const int size : {480, 1024}) {
-    Glass glass({}, size, test_colors());
+    Display glass({}, size, test_colors());
     for (int i = 0; i < 714; ++i) {
       const geo::GeoPoint apex = testing::at(kTrack_deg, (i - 713) * 18.0 / 714 * 250.0 / geo::kMetresPerNauticalMile);
       const double left_deg = kTrack_deg - 50.0 + i * 0.14;
@@ -138,7 +138,7 @@ TEST_F(GlassPictures, TheNarrowWedgesOfTheHrmPpiLeaveNoCracks) {
       sweep.mode = static_cast<std::uint8_t>(radar::Mode::hrm);
       glass.add(sweep);
     }
-    GlassInput input = bare_input();
+    DisplayInput input = bare_input();
     input.state.mode = static_cast<std::uint8_t>(radar::Mode::hrm);
     input.state.range_nm = kShort_nm;
     glass.draw(input);
@@ -163,7 +163,7 @@ TEST_F(GlassPictures, TheNarrowWedgesOfTheHrmPpiLeaveNoCracks) {
 }
 
 TEST_F(GlassPictures, NothingIsDrawnBeyondTheSweepsRange) {
-  Glass glass({}, 480, test_colors());
+  Display glass({}, 480, test_colors());
   glass.add(testing::toned_sweep(kHome, 10.0, 25.0, kRange_m / 2.0, 480, 255));
   glass.draw(bare_input());
   const imageio::Image image = glass.read();
@@ -177,7 +177,7 @@ TEST_F(GlassPictures, NothingIsDrawnBeyondTheSweepsRange) {
 }
 
 TEST_F(GlassPictures, TheNewerSweepCoversTheOlder) {
-  Glass glass({}, 480, test_colors());
+  Display glass({}, 480, test_colors());
   glass.add(testing::toned_sweep(kHome, 10.0, 20.0, kRange_m, 480, 255));
   glass.add(testing::toned_sweep(kHome, 17.0, 19.0, kRange_m, 480, 0));  // does not cover the older one's middle
   glass.draw(bare_input());
@@ -205,8 +205,8 @@ Sums sums_of(const imageio::Image& image) {
 }
 
 TEST_F(GlassPictures, BrightnessAndContrastChangeTheVideoAlone) {
-  GlassInput input = bare_input();
-  Glass glass({}, 480, test_colors());
+  DisplayInput input = bare_input();
+  Display glass({}, 480, test_colors());
   glass.add(testing::toned_sweep(kHome, 10.0, 50.0, kRange_m, 480, 70));
   input.state.brightness = 10;
   glass.draw(input);
@@ -226,8 +226,8 @@ TEST_F(GlassPictures, BrightnessAndContrastChangeTheVideoAlone) {
 }
 
 TEST_F(GlassPictures, AnUnchangedGlassIsNotDrawnAgain) {
-  GlassInput input = bare_input();
-  Glass glass({}, 480);
+  DisplayInput input = bare_input();
+  Display glass({}, 480);
   glass.add(testing::toned_sweep(kHome, 10.0, 50.0, kRange_m, 480, 100));
   EXPECT_TRUE(glass.draw(input));
   EXPECT_FALSE(glass.draw(input));
@@ -243,9 +243,9 @@ TEST_F(GlassPictures, AnUnchangedGlassIsNotDrawnAgain) {
 }
 
 TEST_F(GlassPictures, AFrozenGlassStandsStillWhileTheAircraftFliesOn) {
-  GlassInput input = bare_input();
+  DisplayInput input = bare_input();
   input.model.flags = databuffer::kModelFrozen;
-  Glass glass({}, 480);
+  Display glass({}, 480);
   glass.add(testing::toned_sweep(kHome, 10.0, 50.0, kRange_m, 480, 100));
   glass.draw(input);
   const auto before = glass.read().pixels;
@@ -259,9 +259,9 @@ TEST_F(GlassPictures, AFrozenGlassStandsStillWhileTheAircraftFliesOn) {
 }
 
 TEST_F(GlassPictures, StandbyOffAndOtherModesShowNoVideo) {
-  Glass glass({}, 480, test_colors());
+  Display glass({}, 480, test_colors());
   glass.add(testing::toned_sweep(kHome, 10.0, 50.0, kRange_m, 480, 255));
-  GlassInput input = bare_input();
+  DisplayInput input = bare_input();
   glass.draw(input);
   EXPECT_GT(red_spot(glass.read(), inside(480)).light, 0.0);
   input.state.mode = static_cast<std::uint8_t>(radar::Mode::hrm);
@@ -278,7 +278,7 @@ TEST_F(GlassPictures, StandbyOffAndOtherModesShowNoVideo) {
 }
 
 TEST_F(GlassPictures, TheGrayScaleShowsEightStepsFromDarkToBright) {
-  Glass glass({}, 480, test_colors());
+  Display glass({}, 480, test_colors());
   glass.draw(bare_input());
   const imageio::Image image = glass.read();
   int last = -1;
@@ -291,7 +291,7 @@ TEST_F(GlassPictures, TheGrayScaleShowsEightStepsFromDarkToBright) {
 }
 
 TEST_F(GlassPictures, AStrokeIsSoftAtItsEdgeAndWholeInItsMiddle) {
-  Glass glass({}, 960, test_colors());
+  Display glass({}, 960, test_colors());
   glass.draw(bare_input());
   const imageio::Image image = glass.read();
   // The azimuth scale's tick at -60 deg: x 120 units, 2.7 pixels wide.
@@ -331,9 +331,9 @@ TEST_F(GlassPictures, AreInTheColorsOfTheirScheme) {
     radar::RadarConfiguration configuration;
     const radar::ColorConfiguration colors = radar::color_preset(preset);
     configuration.view.colors = colors;
-    Glass glass(configuration, 480);
+    Display glass(configuration, 480);
     glass.add(testing::toned_sweep(kHome, kTrack_deg + 10.0, kTrack_deg + 20.0, kRange_m, 480, 255));
-    GlassInput input = bare_input();
+    DisplayInput input = bare_input();
     glass.draw(input);
     const imageio::Image bright = glass.read();
     EXPECT_GT(pixels_of(bright, colors.video), 3000);

@@ -23,17 +23,17 @@ class MapPictures : public ::testing::Test {
   }
 
   // A map without legends or symbols on it but the fixed scales, which leave the middle of the glass free.
-  static GlassInput bare_patch(std::uint32_t size = 480) {
-    GlassInput input = testing::operating(radar::Mode::patch, 40.0);
+  static DisplayInput bare_patch(std::uint32_t size = 480) {
+    DisplayInput input = testing::operating(radar::Mode::patch, 40.0);
     for (auto& legend : input.state.legends) legend[0] = '\0';
     input.state.brightness = 15;
     testing::put_map(input, 60.0, 20.0, 4.7);
     input.map.size = size;
     return input;
   }
-  static Glass glass_of(int size) { return Glass({}, size, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}); }
+  static Display glass_of(int size) { return Display({}, size, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}); }
 
-  static void show(GlassInput& input, std::uint64_t id) { input.map.id = input.state.map_shown = id; }
+  static void show(DisplayInput& input, std::uint64_t id) { input.map.id = input.state.map_shown = id; }
 
   std::unique_ptr<Context> context_;
 };
@@ -43,7 +43,7 @@ int red(const imageio::Image& image, int x, int y) {
       .pixels[(static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x)) * 3];
 }
 
-int red_in_the_middle(const Glass& glass) {
+int red_in_the_middle(const Display& glass) {
   const imageio::Image image = glass.read();
   return red(image, image.width / 2, image.height * 9 / 20);  // clear of the range arcs
 }
@@ -54,12 +54,12 @@ std::vector<std::uint8_t> tone(std::uint8_t level, std::uint32_t size = 480) {
 
 TEST_F(MapPictures, AMapOfTheGlasssSizeLiesPixelOnPixelThroughTheTableOfLight) {
   for (const int size : {480, 1024}) {
-    GlassInput input = bare_patch(static_cast<std::uint32_t>(size));
+    DisplayInput input = bare_patch(static_cast<std::uint32_t>(size));
     input.state.brightness = 11;
     input.state.contrast = 10;
     const auto pixels = testing::made_up_ground(size);
     const auto light = video_light(11, 10);
-    Glass glass = glass_of(size);
+    Display glass = glass_of(size);
     glass.add(input.map, pixels);
     ASSERT_TRUE(glass.draw(input));
     const imageio::Image image = glass.read();
@@ -74,10 +74,10 @@ TEST_F(MapPictures, AMapOfTheGlasssSizeLiesPixelOnPixelThroughTheTableOfLight) {
 }
 
 TEST_F(MapPictures, AFinerMapIsAveragedDown) {
-  GlassInput input = bare_patch(960);
+  DisplayInput input = bare_patch(960);
   std::vector<std::uint8_t> pixels = tone(0, 960);
   for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = (i + i / 960) % 2 == 0 ? 255 : 0;
-  Glass glass = glass_of(480);
+  Display glass = glass_of(480);
   glass.add(input.map, pixels);
   glass.draw(input);
   const imageio::Image image = glass.read();
@@ -86,8 +86,8 @@ TEST_F(MapPictures, AFinerMapIsAveragedDown) {
 }
 
 TEST_F(MapPictures, TheMapFillsTheGlassToItsEdges) {
-  GlassInput input = bare_patch();
-  Glass glass = glass_of(600);
+  DisplayInput input = bare_patch();
+  Display glass = glass_of(600);
   glass.add(input.map, tone(255));
   glass.draw(input);
   const imageio::Image image = glass.read();
@@ -98,8 +98,8 @@ TEST_F(MapPictures, TheMapFillsTheGlassToItsEdges) {
 }
 
 TEST_F(MapPictures, AFlipShowsTheOtherMapWithoutItBeingAddedAgain) {
-  GlassInput input = bare_patch();
-  Glass glass = glass_of(480);
+  DisplayInput input = bare_patch();
+  Display glass = glass_of(480);
   input.state.map_old = 2;
   glass.add(input.map, tone(255));
   show(input, 2);
@@ -116,8 +116,8 @@ TEST_F(MapPictures, AFlipShowsTheOtherMapWithoutItBeingAddedAgain) {
 }
 
 TEST_F(MapPictures, AMapThatNobodyNamesAnyMoreIsLetGo) {
-  GlassInput input = bare_patch();
-  Glass glass = glass_of(480);
+  DisplayInput input = bare_patch();
+  Display glass = glass_of(480);
   glass.add(input.map, tone(255));
   glass.draw(input);
   input.state.map_newest = 2;
@@ -131,8 +131,8 @@ TEST_F(MapPictures, AMapThatNobodyNamesAnyMoreIsLetGo) {
 }
 
 TEST_F(MapPictures, AMapIsShownWhereTheStateShowsOneAndNowhereElse) {
-  GlassInput input = bare_patch();
-  Glass glass = glass_of(480);
+  DisplayInput input = bare_patch();
+  Display glass = glass_of(480);
   glass.add(input.map, tone(255));
   const auto lit_in = [&](radar::Mode mode, bool shown) {
     input.state.mode = static_cast<std::uint8_t>(mode);
@@ -151,8 +151,8 @@ TEST_F(MapPictures, AMapIsShownWhereTheStateShowsOneAndNowhereElse) {
 }
 
 TEST_F(MapPictures, BackOnThePpiItsSweepsAreThereAgain) {
-  GlassInput input = bare_patch();
-  Glass glass = glass_of(480);
+  DisplayInput input = bare_patch();
+  Display glass = glass_of(480);
   databuffer::Sweep sweep =
       testing::toned_sweep(testing::kHome, 20.0, 40.0, 40.0 * geo::kMetresPerNauticalMile, 480, 255);
   sweep.mode = static_cast<std::uint8_t>(radar::Mode::hrm);

@@ -21,7 +21,7 @@ constexpr double kRange_m = 40.0 * geo::kMetresPerNauticalMile;
 constexpr double kTrack_deg = 30.0;
 
 // A scan of a made-up land; HRM leaves the blind zone out.
-void add_scan(Glass& glass, Mode mode, double width_deg) {
+void add_scan(Display& glass, Mode mode, double width_deg) {
   const double from_deg = kTrack_deg - 50.0;
   for (double left_deg = from_deg; left_deg < kTrack_deg + 50.0 - 1e-9; left_deg += width_deg) {
     databuffer::Sweep sweep = testing::blank_sweep(kHome, left_deg, left_deg + width_deg, kRange_m, 480);
@@ -38,7 +38,7 @@ void add_scan(Glass& glass, Mode mode, double width_deg) {
   }
 }
 
-void add_points(GlassInput& input) {
+void add_points(DisplayInput& input) {
   using radar::PointKind;
   testing::add_point(input, "1", PointKind::steer, testing::at(20.0, 15.0));
   testing::add_point(input, "1.1", PointKind::steer_offset, testing::at(38.0, 17.0));
@@ -47,8 +47,8 @@ void add_points(GlassInput& input) {
   testing::add_point(input, "3.01", PointKind::target_offset, testing::at(58.0, 19.0));
 }
 
-GlassInput operating(Mode mode) {
-  GlassInput input = testing::operating(mode, 40.0);
+DisplayInput operating(Mode mode) {
+  DisplayInput input = testing::operating(mode, 40.0);
   testing::put_cursor(input, 60.0, 20.0);
   add_points(input);
   input.model.antenna_azimuth_deg = 22.0;
@@ -59,25 +59,25 @@ GlassInput operating(Mode mode) {
   return input;
 }
 
-GlassInput over_map(Mode mode) {
-  GlassInput input = operating(mode);
+DisplayInput over_map(Mode mode) {
+  DisplayInput input = operating(mode);
   testing::put_map(input, 60.0, 20.0, 4.7);
   return input;
 }
 
-void freeze(GlassInput& input, const char* recall) {
+void freeze(DisplayInput& input, const char* recall) {
   input.state.flags |= databuffer::kFreeze;
   testing::set_text(input.state.legends[10], recall);
 }
 
-void form(GlassInput& input, double bearing_deg, double range_nm, double window_nm) {
+void form(DisplayInput& input, double bearing_deg, double range_nm, double window_nm) {
   testing::put_forming_map(input, bearing_deg, range_nm, window_nm);
   input.model.map_timer_s = 6.4;
   input.model.map_progress = 0.4;
 }
 
 // Four points within a mile and a half about a place, its target designated.
-void add_heap(GlassInput& input, double bearing_deg, double range_nm, databuffer::SteeringLine line) {
+void add_heap(DisplayInput& input, double bearing_deg, double range_nm, databuffer::SteeringLine line) {
   using radar::PointKind;
   input.state.points_drawn = 0;
   testing::add_point(input, "11", PointKind::steer, testing::at(bearing_deg, range_nm + 1.2));
@@ -91,7 +91,7 @@ void add_heap(GlassInput& input, double bearing_deg, double range_nm, databuffer
 
 struct Picture {
   const char* name;
-  std::function<GlassInput()> input;
+  std::function<DisplayInput()> input;
 };
 
 const std::vector<Picture>& pictures() {
@@ -99,50 +99,50 @@ const std::vector<Picture>& pictures() {
       {"rbm", [] { return operating(Mode::rbm); }},
       {"rbm_map_forms",
        [] {
-         GlassInput input = operating(Mode::rbm);
+         DisplayInput input = operating(Mode::rbm);
          form(input, 60.0, 20.0, 4.7);
          return input;
        }},
       {"rbm_rejected",
        [] {
-         GlassInput input = operating(Mode::rbm);
+         DisplayInput input = operating(Mode::rbm);
          testing::set_text(input.state.message, "BLIND ZONE");
          return input;
        }},
       {"hrm_ppi",
        [] {
-         GlassInput input = operating(Mode::hrm);
+         DisplayInput input = operating(Mode::hrm);
          input.model.map_timer_s = 8.0;
          return input;
        }},
       {"hrm_ppi_map_forms",
        [] {
-         GlassInput input = operating(Mode::hrm);
+         DisplayInput input = operating(Mode::hrm);
          form(input, 0.0, 25.0, 10.0);
          return input;
        }},
       {"patch",
        [] {
-         GlassInput input = over_map(Mode::patch);
+         DisplayInput input = over_map(Mode::patch);
          input.model.map_timer_s = 8.0;
          return input;
        }},
       {"patch_next_forms",
        [] {
-         GlassInput input = over_map(Mode::patch);
+         DisplayInput input = over_map(Mode::patch);
          form(input, 61.0, 20.5, 1.3);
          return input;
        }},
       {"patch_frozen_store",
        [] {
-         GlassInput input = over_map(Mode::patch);
+         DisplayInput input = over_map(Mode::patch);
          freeze(input, "STORE");
          input.state.boxed = 1U << 15U;
          return input;
        }},
       {"air_to_air_set",
        [] {
-         GlassInput input = over_map(Mode::air_to_air);
+         DisplayInput input = over_map(Mode::air_to_air);
          input.state.flags |= databuffer::kFreeze;
          input.state.boxed = 1U << 18U;
          return input;
@@ -150,20 +150,20 @@ const std::vector<Picture>& pictures() {
       {"bcn", [] { return operating(Mode::beacon); }},
       {"rbm_update",
        [] {
-         GlassInput input = operating(Mode::rbm);
+         DisplayInput input = operating(Mode::rbm);
          testing::put_update(input, 1240.0, -330.0, -1);
          return input;
        }},
       {"hrm_update_ins_ipvu",
        [] {
-         GlassInput input = operating(Mode::hrm);
+         DisplayInput input = operating(Mode::hrm);
          testing::put_update(input, 12'400.0, -3'300.0, 17);
          testing::put_velocities(input, 1.2, -0.4, 0.1);
          return input;
        }},
       {"rbm_steering_line",
        [] {
-         GlassInput input = operating(Mode::rbm);
+         DisplayInput input = operating(Mode::rbm);
          const geo::GeoPoint place = testing::at(22.0, 22.0);
          testing::add_point(input, "4.", radar::PointKind::target, place);
          testing::put_target(input, place, 85.0, databuffer::SteeringLine::slewing);
@@ -171,21 +171,21 @@ const std::vector<Picture>& pictures() {
        }},
       {"rbm_heap_of_points",
        [] {
-         GlassInput input = operating(Mode::rbm);
+         DisplayInput input = operating(Mode::rbm);
          add_heap(input, 25.0, 24.0, databuffer::SteeringLine::slewing);
          testing::put_cursor(input, 25.8, 23.7);
          return input;
        }},
       {"rbm_heap_at_160",
        [] {
-         GlassInput input = testing::operating(Mode::rbm, 160.0);
+         DisplayInput input = testing::operating(Mode::rbm, 160.0);
          add_heap(input, 38.0, 95.0, databuffer::SteeringLine::fixed);
          testing::put_cursor(input, 38.0, 95.0);
          return input;
        }},
       {"rbm_below_the_apex",
        [] {
-         GlassInput input = operating(Mode::rbm);
+         DisplayInput input = operating(Mode::rbm);
          input.state.points_drawn = 0;
          testing::add_point(input, "1", radar::PointKind::steer, testing::at(220.0, 1.2));
          testing::add_point(input, "2", radar::PointKind::steer, testing::at(160.0, 1.5));
@@ -194,7 +194,7 @@ const std::vector<Picture>& pictures() {
        }},
       {"hrm_corner",
        [] {
-         GlassInput input = operating(Mode::hrm);
+         DisplayInput input = operating(Mode::hrm);
          testing::put_velocities(input, 1.2, -0.4, 0.1);
          add_heap(input, 59.8, 39.0, databuffer::SteeringLine::line_of_sight);
          testing::put_cursor(input, -2.5, 40.0);
@@ -202,21 +202,21 @@ const std::vector<Picture>& pictures() {
        }},
       {"patch_steering_line",
        [] {
-         GlassInput input = over_map(Mode::patch);
+         DisplayInput input = over_map(Mode::patch);
          testing::put_target(input, testing::at(60.5, 19.6), 350.0, databuffer::SteeringLine::fixed);
          testing::add_point(input, "4.", radar::PointKind::target, testing::at(60.5, 19.6));
          return input;
        }},
       {"pvu",
        [] {
-         GlassInput input = operating(Mode::pvu);
+         DisplayInput input = operating(Mode::pvu);
          testing::put_velocities(input, 1.2, -12.4, 0.1);
          input.model.velocity_beam = 2;
          return input;
        }},
       {"pvu_before_the_first", [] { return operating(Mode::pvu); }},
       {"standby", [] {
-         GlassInput input = over_map(Mode::patch);
+         DisplayInput input = over_map(Mode::patch);
          input.state.power = static_cast<std::uint8_t>(radar::Power::standby);
          return input;
        }}};
@@ -230,8 +230,8 @@ TEST(Pictures, EveryFormatIsDrawn) {
   const auto ground = testing::made_up_ground(480);
   for (const int size : {480, 1024}) {
     for (const Picture& picture : pictures()) {
-      const GlassInput input = picture.input();
-      Glass glass({}, size);
+      const DisplayInput input = picture.input();
+      Display glass({}, size);
       const auto mode = static_cast<Mode>(input.state.mode);
       add_scan(glass, mode, mode == Mode::hrm ? 0.14 : 0.5);
       glass.add(input.map, ground);
@@ -255,7 +255,7 @@ TEST(Pictures, EveryColorSchemeIsDrawn) {
     radar::RadarConfiguration configuration;
     configuration.view.colors = radar::color_preset(static_cast<radar::ColorPreset>(drawn.size()));
     configuration.view.arc_spacing_nm = {5.0};
-    Glass glass(configuration, 480);
+    Display glass(configuration, 480);
     add_scan(glass, Mode::rbm, 0.5);
     EXPECT_TRUE(glass.draw(operating(Mode::rbm))) << name;
     drawn.push_back(glass.read());

@@ -34,7 +34,7 @@ imageio::Image flown(const Scan& scan, int passes, double stop_right_deg, double
   const double from_edge_deg =
       passes % 2 == 1 ? stop_right_deg + scan.half_width_deg : scan.half_width_deg - stop_right_deg;
   const int total = (passes - 1) * steps + static_cast<int>(from_edge_deg / scan.step_deg);
-  Glass glass({}, 480);
+  Display glass({}, 480);
   for (int i = 0; i < total; ++i) {
     const double behind_nm = (total - 1 - i) * scan.step_s * speed_mps / geo::kMetresPerNauticalMile;
     const bool clockwise = i / steps % 2 == 0;
@@ -47,7 +47,7 @@ imageio::Image flown(const Scan& scan, int passes, double stop_right_deg, double
     sweep.mode = static_cast<std::uint8_t>(scan.mode);
     glass.add(sweep);
   }
-  GlassInput input = testing::operating(scan.mode, scan.range_nm);
+  DisplayInput input = testing::operating(scan.mode, scan.range_nm);
   input.state.brightness = 15;
   glass.draw(input);
   return glass.read();

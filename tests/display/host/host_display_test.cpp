@@ -36,14 +36,14 @@ void put_scene(Session& session) {
   databuffer::SessionLayout& layout = session.layout();
   layout.lockstep.roles = 1U << static_cast<unsigned>(databuffer::LockstepRole::state_machine) |
                           1U << static_cast<unsigned>(databuffer::LockstepRole::radar_model);
-  const GlassInput input = display::testing::operating(radar::Mode::rbm, 40.0);
+  const DisplayInput input = display::testing::operating(radar::Mode::rbm, 40.0);
   databuffer::RadarState state = input.state;
   state.tick = kTick;
   state.channel = 1;
   databuffer::ModelStatus model = input.model;
   model.ownship = input.ownship;
   model.nav = input.nav;
-  ASSERT_EQ(databuffer::why_refused(state), std::nullopt);
+  ASSERT_EQ(databuffer::validate(state), std::nullopt);
   layout.radar_state.publish(state);
   layout.model_status.publish(model);
   for (int i = 0; i < 60; ++i)
@@ -53,14 +53,14 @@ void put_scene(Session& session) {
 
 // The state machine shows a patch map.
 void put_patch(Session& session) {
-  GlassInput input = display::testing::operating(radar::Mode::patch, 40.0);
+  DisplayInput input = display::testing::operating(radar::Mode::patch, 40.0);
   display::testing::put_map(input, 60.0, 20.0, 4.7);
   databuffer::publish_patch(session.layout(), input.map, display::testing::made_up_ground(480), {});
   input.state.channel = 1;
   session.layout().radar_state.publish(input.state);
 }
 
-class HostGlass : public databuffer::testing::SessionTest {
+class HostDisplay : public databuffer::testing::SessionTest {
  protected:
   void SetUp() override {
     auto context = gl::open_headless();
@@ -70,12 +70,12 @@ class HostGlass : public databuffer::testing::SessionTest {
     ASSERT_NO_FATAL_FAILURE(put_scene(*session_));
   }
 
-  Glass glass() { return {*session_, {}, true}; }
+  Display glass() { return {*session_, {}, true}; }
 
   // What the glass shows when it has the context for itself.
   Bytes alone(int size) {
-    gl::Glass glass({}, size);
-    GlassFeed feed(
+    gl::Display glass({}, size);
+    SessionFeed feed(
         *session_, true, [&](const databuffer::Sweep& sweep) { glass.add(sweep); },
         [&](const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels) { glass.add(map, pixels); });
     feed.refresh(0);
@@ -87,9 +87,9 @@ class HostGlass : public databuffer::testing::SessionTest {
   std::optional<Session> session_;
 };
 
-TEST_F(HostGlass, IsPixelIdenticalToTheGlassAloneAndTouchesNothingOutsideItsViewport) {
+TEST_F(HostDisplay, IsPixelIdenticalToTheGlassAloneAndTouchesNothingOutsideItsViewport) {
   const Canvas canvas(1280, 800);
-  Glass glass = this->glass();
+  Display glass = this->glass();
   for (const Viewport viewport : {Viewport{620, 100, 600, 600}, Viewport{0, 0, 480, 480}, Viewport{31, 57, 700, 501},
                                   Viewport{801, 0, 479, 800}}) {
     SCOPED_TRACE(std::to_string(viewport.left) + " " + std::to_string(viewport.width));
@@ -107,12 +107,12 @@ TEST_F(HostGlass, IsPixelIdenticalToTheGlassAloneAndTouchesNothingOutsideItsView
   }
 }
 
-TEST_F(HostGlass, DrawsTheSameInTheOddestStateAndLeavesItAsItWas) {
+TEST_F(HostDisplay, DrawsTheSameInTheOddestStateAndLeavesItAsItWas) {
   const Bytes expected = alone(600);
   expect_no_error("alone");
   const Canvas canvas(1280, 800);
   expect_no_error("canvas");
-  Glass glass = this->glass();
+  Display glass = this->glass();
   expect_no_error("construction");
   const OddState odd(canvas);
   odd.set();
@@ -138,15 +138,15 @@ TEST_F(HostGlass, DrawsTheSameInTheOddestStateAndLeavesItAsItWas) {
   expect_unchanged("read");
   glass.draw({620, 100, 600, 600});
   expect_unchanged("draw");
-  { const Glass another = this->glass(); }
+  { const Display another = this->glass(); }
   expect_unchanged("another that came and went");
   canvas.bind();
   plain_reading();
   EXPECT_TRUE(canvas.square(canvas.read(), 620, 100, 600) == expected);
 }
 
-TEST_F(HostGlass, APictureIsReadWithoutWaitingInItsOrderWithItsTime) {
-  Glass glass = this->glass();
+TEST_F(HostDisplay, APictureIsReadWithoutWaitingInItsOrderWithItsTime) {
+  Display glass = this->glass();
   glass.update(77'000'000);
   ASSERT_TRUE(glass.paint(480));
   EXPECT_FALSE(glass.paint(480)) << "nothing is new";
@@ -171,14 +171,14 @@ TEST_F(HostGlass, APictureIsReadWithoutWaitingInItsOrderWithItsTime) {
   EXPECT_FALSE(glass.wait_for_read(picture));
 }
 
-TEST_F(HostGlass, SeveralGlassesInOneProgramEachShowTheirOwnSession) {
+TEST_F(HostDisplay, SeveralGlassesInOneProgramEachShowTheirOwnSession) {
   const Bytes scene = alone(480);
   auto dark_session = Session::open(name_ + "-dark", "tester");
   ASSERT_TRUE(dark_session);
-  auto dark = std::make_unique<Glass>(*dark_session, radar::RadarConfiguration{}, true);
-  Glass first = glass();
-  Glass second = glass();
-  for (Glass* each : {dark.get(), &first, &second}) {
+  auto dark = std::make_unique<Display>(*dark_session, radar::RadarConfiguration{}, true);
+  Display first = glass();
+  Display second = glass();
+  for (Display* each : {dark.get(), &first, &second}) {
     each->update(0);
     each->paint(480);
   }
@@ -193,9 +193,9 @@ TEST_F(HostGlass, SeveralGlassesInOneProgramEachShowTheirOwnSession) {
   EXPECT_TRUE(second.read().pixels == scene) << "the one that took its place";
 }
 
-TEST_F(HostGlass, APatchMapComesWithTheUpdate) {
+TEST_F(HostDisplay, APatchMapComesWithTheUpdate) {
   const Bytes sweeps = alone(480);
-  Glass glass = this->glass();
+  Display glass = this->glass();
   put_patch(*session_);
   const Bytes map = alone(480);
   EXPECT_FALSE(map == sweeps);
@@ -207,8 +207,8 @@ TEST_F(HostGlass, APatchMapComesWithTheUpdate) {
   EXPECT_TRUE(glass.read().pixels == map);
 }
 
-TEST_F(HostGlass, ATouchOnALegendPressesItsButton) {
-  auto attached = Glass::attach({name_, "", "cockpit"});
+TEST_F(HostDisplay, ATouchOnALegendPressesItsButton) {
+  auto attached = Display::attach({name_, "", "cockpit"});
   ASSERT_TRUE(attached) << attached.error().message();
   EXPECT_FALSE(session_->input_lane_is_held(0)) << "a glass that nobody touches takes no lane";
   // PB 14 is the fourth of 11-15 up the right side.
@@ -229,9 +229,9 @@ TEST_F(HostGlass, ATouchOnALegendPressesItsButton) {
   EXPECT_TRUE(std::ranges::any_of(processes, [](const auto& process) { return process.name == "cockpit"; }));
 }
 
-TEST_F(HostGlass, WithoutACurrentContextItsErrorSaysSo) {
+TEST_F(HostDisplay, WithoutACurrentContextItsErrorSaysSo) {
   context_.reset();
-  const auto attached = Glass::attach({name_, "", "cockpit"});
+  const auto attached = Display::attach({name_, "", "cockpit"});
   ASSERT_FALSE(attached);
   EXPECT_NE(attached.error().message().find("OpenGL 3.3"), std::string::npos) << attached.error().message();
 }

@@ -25,8 +25,8 @@ TEST(Bezel, AClickOnALegendIsAClickOnItsButton) {
 
 TEST(Bezel, EveryButtonCanBeClickedAndTheMiddleAndTheCornersAreNone) {
   std::set<int> found;
-  for (float x = 0.0F; x <= kGlassUnits; x += 4.0F) {
-    for (float y = 0.0F; y <= kGlassUnits; y += 4.0F) {
+  for (float x = 0.0F; x <= kDisplayUnits; x += 4.0F) {
+    for (float y = 0.0F; y <= kDisplayUnits; y += 4.0F) {
       if (const auto button = button_at({x, y})) found.insert(*button);
     }
   }

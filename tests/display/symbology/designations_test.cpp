@@ -20,14 +20,14 @@ using ::testing::Not;
 using testing::strokes;
 using testing::words;
 
-GlassInput with_steering_line(SteeringLine line, double approach_deg) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
+DisplayInput with_steering_line(SteeringLine line, double approach_deg) {
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
   testing::put_target(input, testing::at(30.0, 20.0), approach_deg, line);
   return input;
 }
 
 TEST(Designations, UpdateErrorsAreInFeetTo3000FeetAndInMilesBeyond) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
   testing::put_update(input, 1240.4, -330.0, -1);
   EXPECT_THAT(words(input), IsSupersetOf({"N 1240FT", "W 330FT"}));
   testing::put_update(input, -3000.0, 0.0, -1);
@@ -39,7 +39,7 @@ TEST(Designations, UpdateErrorsAreInFeetTo3000FeetAndInMilesBeyond) {
 }
 
 TEST(Designations, AnInsUpdateCountsDownToInv) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
   testing::put_update(input, 100.0, 100.0, 17);
   const DrawList list = drawn(input);
   EXPECT_THAT(words(list), IsSupersetOf({"17", "N 100FT"}));
@@ -53,14 +53,14 @@ TEST(Designations, AnInsUpdateCountsDownToInv) {
 }
 
 TEST(Designations, VelocityDifferencesAreInFeetPerSecond) {
-  GlassInput input = testing::operating(Mode::hrm, 40.0);
+  DisplayInput input = testing::operating(Mode::hrm, 40.0);
   EXPECT_THAT(words(input), Not(Contains("FT/S")));
   testing::put_velocities(input, 1.24, -0.04, -12.0);
   EXPECT_THAT(words(input), IsSupersetOf({"FT/S", "AL", "+1.2", "AX", "+0.0", "VT", "-12.0"}));
 }
 
 TEST(Designations, PvuHasItsOwnFormatWithTheBeamUnderWay) {
-  GlassInput input = testing::operating(Mode::pvu, 40.0);
+  DisplayInput input = testing::operating(Mode::pvu, 40.0);
   EXPECT_THAT(words(input), IsSupersetOf({"ALONG", "ACROSS", "VERTICAL", "--- FT/S", "BEAM", "-"}));
   testing::put_velocities(input, 1.24, -2.0, 0.5);
   input.model.velocity_beam = 2;
@@ -77,7 +77,7 @@ TEST(Designations, TheSteeringLineLeavesTheTargetAgainstTheApproach) {
   // Ground track 030 is up, the target stands at 240, 240: an approach on 030 comes from below, one on 120 from the
   // left.
   for (const Case& one : {Case{30.0, 240.0F, 310.0F}, Case{120.0, 170.0F, 240.0F}, Case{300.0, 310.0F, 240.0F}}) {
-    GlassInput input = with_steering_line(SteeringLine::line_of_sight, one.approach_deg);
+    DisplayInput input = with_steering_line(SteeringLine::line_of_sight, one.approach_deg);
     const auto line = testing::more_strokes(drawn(input), without);
     ASSERT_FALSE(line.empty());
     EXPECT_NEAR(line[0].to.x, one.x, 0.3F) << one.approach_deg;
@@ -86,7 +86,7 @@ TEST(Designations, TheSteeringLineLeavesTheTargetAgainstTheApproach) {
 }
 
 Rect heading_on(double approach_deg, const std::string& reads) {
-  GlassInput input = with_steering_line(SteeringLine::line_of_sight, approach_deg);
+  DisplayInput input = with_steering_line(SteeringLine::line_of_sight, approach_deg);
   input.state.magnetic_variation_deg = 13.0;
   const DrawList list = drawn(input);
   const auto heading = std::ranges::find(list.occupied(), reads, &OccupiedBox::name);
@@ -116,7 +116,7 @@ TEST(Designations, TheSteeringLineEndsInAnArrowheadWhileItSlewsAndInACircleOnceF
 }
 
 TEST(Designations, WithoutATargetOnTheGlassThereIsNoSteeringLine) {
-  GlassInput input = with_steering_line(SteeringLine::fixed, 60.0);
+  DisplayInput input = with_steering_line(SteeringLine::fixed, 60.0);
   const DrawList nothing = drawn(testing::operating(Mode::rbm, 40.0));
   input.state.flags &= ~databuffer::kTargetDesignated;
   EXPECT_EQ(drawn(input), nothing);

@@ -56,8 +56,8 @@ inline void put_legends(databuffer::RadarState& state, radar::Mode mode) {
 // Off Point Conception, 15,000 ft, flying 030 at 450 kt with 4 deg of drift to the right.
 inline constexpr geo::GeoPoint kHome{34.2, -120.6};
 
-inline GlassInput operating(radar::Mode mode, double range_nm) {
-  GlassInput input;
+inline DisplayInput operating(radar::Mode mode, double range_nm) {
+  DisplayInput input;
   input.ownship.latitude_deg = kHome.latitude_deg;
   input.ownship.longitude_deg = kHome.longitude_deg;
   input.ownship.altitude_msl_m = 4572.0;
@@ -83,7 +83,7 @@ inline geo::GeoPoint at(double bearing_deg, double range_nm) {
   return geo::geodesic_direct(kHome, geo::Bearing::degrees(bearing_deg), geo::Length::nautical_miles(range_nm));
 }
 
-inline void put_cursor(GlassInput& input, double bearing_deg, double range_nm) {
+inline void put_cursor(DisplayInput& input, double bearing_deg, double range_nm) {
   const geo::GeoPoint place = at(bearing_deg, range_nm);
   input.state.flags |= databuffer::kCursorValid;
   input.state.cursor_latitude_deg = place.latitude_deg;
@@ -93,7 +93,7 @@ inline void put_cursor(GlassInput& input, double bearing_deg, double range_nm) {
 }
 
 // A map of a window about a place, as it was made from where the aircraft is; the glass shows it.
-inline void put_map(GlassInput& input, double bearing_deg, double range_nm, double window_nm) {
+inline void put_map(DisplayInput& input, double bearing_deg, double range_nm, double window_nm) {
   const geo::GeoPoint centre = at(bearing_deg, range_nm);
   databuffer::PatchMap& map = input.map;
   map.id = input.state.map_newest = input.state.map_shown = 1;
@@ -108,7 +108,7 @@ inline void put_map(GlassInput& input, double bearing_deg, double range_nm, doub
 }
 
 // A map that was commanded there and forms.
-inline void put_forming_map(GlassInput& input, double bearing_deg, double range_nm, double window_nm) {
+inline void put_forming_map(DisplayInput& input, double bearing_deg, double range_nm, double window_nm) {
   const geo::GeoPoint centre = at(bearing_deg, range_nm);
   input.state.flags |= databuffer::kMapping;
   input.state.map_request = input.model.map_request = 4;
@@ -119,7 +119,7 @@ inline void put_forming_map(GlassInput& input, double bearing_deg, double range_
 }
 
 // A target designated there, with its pattern steering line.
-inline void put_target(GlassInput& input, geo::GeoPoint place, double approach_deg, databuffer::SteeringLine line) {
+inline void put_target(DisplayInput& input, geo::GeoPoint place, double approach_deg, databuffer::SteeringLine line) {
   databuffer::RadarState& state = input.state;
   state.flags |= databuffer::kTargetDesignated;
   state.target_latitude_deg = place.latitude_deg;
@@ -130,21 +130,21 @@ inline void put_target(GlassInput& input, geo::GeoPoint place, double approach_d
 }
 
 // The errors of UPDT: from the selected point to the cursor.
-inline void put_update(GlassInput& input, double north_ft, double east_ft, int seconds) {
+inline void put_update(DisplayInput& input, double north_ft, double east_ft, int seconds) {
   input.state.flags |= databuffer::kUpdateShown;
   input.state.update_north_m = north_ft * geo::kMetresPerFoot;
   input.state.update_east_m = east_ft * geo::kMetresPerFoot;
   input.state.update_seconds = seconds;
 }
 
-inline void put_velocities(GlassInput& input, double along_fps, double across_fps, double vertical_fps) {
+inline void put_velocities(DisplayInput& input, double along_fps, double across_fps, double vertical_fps) {
   input.state.flags |= databuffer::kVelocityShown;
   input.state.velocity_along_mps = along_fps * geo::kMetresPerFoot;
   input.state.velocity_across_mps = across_fps * geo::kMetresPerFoot;
   input.state.velocity_vertical_mps = vertical_fps * geo::kMetresPerFoot;
 }
 
-inline void add_point(GlassInput& input, const std::string& name, radar::PointKind kind, geo::GeoPoint place) {
+inline void add_point(DisplayInput& input, const std::string& name, radar::PointKind kind, geo::GeoPoint place) {
   databuffer::DrawnPoint& point = input.state.points[input.state.points_drawn++];
   point.latitude_deg = place.latitude_deg;
   point.longitude_deg = place.longitude_deg;

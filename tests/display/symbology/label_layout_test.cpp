@@ -87,7 +87,7 @@ TEST(LabelLayout, ANameFartherOutHasALineToItsSymbol) {
 }
 
 TEST(LabelLayout, ANameWithoutAPlaceIsLeftOut) {
-  EXPECT_FALSE(placed({{0.0F, 0.0F, kGlassUnits, kGlassUnits}}));
+  EXPECT_FALSE(placed({{0.0F, 0.0F, kDisplayUnits, kDisplayUnits}}));
 }
 
 // Room for one name alone, to the right of the symbol.
@@ -121,9 +121,9 @@ TEST(LabelLayout, ANameComesBackToItsSymbolWhereThereIsRoom) {
 
 TEST(LabelLayout, ASecondTimeNothingMoves) {
   testing::RandomGlass states(20261123);
-  const GlassView view{radar::ViewConfiguration{}};
+  const PlanView view{radar::ViewConfiguration{}};
   for (int i = 0; i < 500; ++i) {
-    const GlassInput input = states.next();
+    const DisplayInput input = states.next();
     LabelMemory memory;
     DrawList first, second;
     draw_symbology(input, {}, view, present_frame(input, nullptr), memory, first);
@@ -141,8 +141,8 @@ std::map<std::string, Rect> labels_of(const DrawList& list) {
 }
 
 // How often a label jumps while the picture turns to and fro by a twentieth of a degree.
-int jumps_while_turning(GlassInput input, bool with_memory) {
-  const GlassView view{radar::ViewConfiguration{}};
+int jumps_while_turning(DisplayInput input, bool with_memory) {
+  const PlanView view{radar::ViewConfiguration{}};
   LabelMemory memory;
   std::map<std::string, Rect> before;
   int jumps = 0;
@@ -172,7 +172,7 @@ TEST(LabelLayout, NoLabelDancesWhileThePictureJitters) {
   testing::RandomGlass states(20261124);
   int jumps = 0, without_memory = 0;
   for (int i = 0; i < 400; ++i) {
-    const GlassInput input = states.next();
+    const DisplayInput input = states.next();
     jumps += jumps_while_turning(input, true);
     without_memory += jumps_while_turning(input, false);
   }
@@ -184,7 +184,7 @@ TEST(LabelLayout, TheSelectedPointsNameIsShownWhereverItsSymbolIs) {
   testing::RandomGlass states(20261125);
   int seen = 0;
   for (int i = 0; i < 3000; ++i) {
-    GlassInput input = states.next();
+    DisplayInput input = states.next();
     const std::span points(input.state.points, input.state.points_drawn);
     const auto selected = std::ranges::find(points, 1, &databuffer::DrawnPoint::selected);
     if (selected == points.end()) continue;

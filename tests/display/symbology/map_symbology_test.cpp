@@ -17,24 +17,24 @@ using testing::drawn;
 using testing::middle_of;
 using testing::words;
 
-std::vector<Segment> more_strokes(const GlassInput& with, const GlassInput& without) {
+std::vector<Segment> more_strokes(const DisplayInput& with, const DisplayInput& without) {
   return testing::more_strokes(drawn(with), drawn(without));
 }
 
 // A map of 4.7 NM, 20 NM away on 060.
-GlassInput patch() {
-  GlassInput input = testing::operating(Mode::patch, 40.0);
+DisplayInput patch() {
+  DisplayInput input = testing::operating(Mode::patch, 40.0);
   testing::put_map(input, 60.0, 20.0, 4.7);
   return input;
 }
 
 // Where a place stands that is so far along and to the right of the map's line of sight.
-geo::GeoPoint on_map(const GlassInput& input, double forward_nm, double right_nm) {
+geo::GeoPoint on_map(const DisplayInput& input, double forward_nm, double right_nm) {
   const double bearing_deg = input.map.up_deg + std::atan2(right_nm, forward_nm) / geo::kRadiansPerDegree;
   return testing::at(bearing_deg, std::hypot(forward_nm, right_nm));
 }
 
-void put_cursor(GlassInput& input, geo::GeoPoint place) {
+void put_cursor(DisplayInput& input, geo::GeoPoint place) {
   input.state.flags |= databuffer::kCursorValid;
   input.state.cursor_latitude_deg = place.latitude_deg;
   input.state.cursor_longitude_deg = place.longitude_deg;
@@ -47,8 +47,8 @@ TEST(MapSymbology, TheWindowFillsTheGlassWithTheLineOfSightUp) {
   };
   for (const Case& one : {Case{20.0, 0.0, 240.0F, 240.0F}, Case{20.0 + 4.7 / 4, 0.0, 240.0F, 120.0F},
                           Case{20.0, 4.7 / 4, 360.0F, 240.0F}, Case{20.0 - 4.7 / 4, -4.7 / 4, 120.0F, 360.0F}}) {
-    GlassInput with = patch();
-    GlassInput without = with;
+    DisplayInput with = patch();
+    DisplayInput without = with;
     put_cursor(with, on_map(with, one.forward_nm, one.right_nm));
     put_cursor(without, on_map(with, 60.0, 0.0));
     const Point at = middle_of(bounds_of(more_strokes(with, without)));
@@ -58,14 +58,14 @@ TEST(MapSymbology, TheWindowFillsTheGlassWithTheLineOfSightUp) {
 }
 
 TEST(MapSymbology, TheFrameOfAMapStandsWhileTheAircraftFliesOn) {
-  GlassInput input = patch();
+  DisplayInput input = patch();
   put_cursor(input, on_map(input, 21.0, 0.5));
-  GlassInput later = input;
+  DisplayInput later = input;
   later.ownship.latitude_deg += 0.05;
   later.nav.mission_latitude_deg += 0.05;
   EXPECT_EQ(more_strokes(input, later).size(), more_strokes(later, input).size());
-  const auto plus_at = [](const GlassInput& shown) {
-    GlassInput bare = shown;
+  const auto plus_at = [](const DisplayInput& shown) {
+    DisplayInput bare = shown;
     bare.state.cursor_latitude_deg = -30.0;
     return middle_of(bounds_of(more_strokes(shown, bare)));
   };
@@ -74,7 +74,7 @@ TEST(MapSymbology, TheFrameOfAMapStandsWhileTheAircraftFliesOn) {
 }
 
 TEST(MapSymbology, OnlySequencePointsOnTheMapAreDrawn) {
-  GlassInput input = patch();
+  DisplayInput input = patch();
   testing::add_point(input, "3.", radar::PointKind::target, on_map(input, 20.5, 0.3));
   testing::add_point(input, "4", radar::PointKind::steer, on_map(input, 30.0, 0.0));
   const auto said = words(input);
@@ -84,7 +84,7 @@ TEST(MapSymbology, OnlySequencePointsOnTheMapAreDrawn) {
 
 TEST(MapSymbology, AMapStandsWithItsFormatInAirToAirAndOnAFrozenPpi) {
   for (const Mode mode : {Mode::air_to_air, Mode::ranging, Mode::hrm}) {
-    GlassInput input = testing::operating(mode, 40.0);
+    DisplayInput input = testing::operating(mode, 40.0);
     const auto without = words(input);
     testing::put_map(input, 60.0, 20.0, 4.7);
     EXPECT_TRUE(shows_map(input)) << radar::name_of(mode);
@@ -95,24 +95,24 @@ TEST(MapSymbology, AMapStandsWithItsFormatInAirToAirAndOnAFrozenPpi) {
 }
 
 TEST(MapSymbology, InStandbyNoMapIsShown) {
-  GlassInput input = patch();
+  DisplayInput input = patch();
   EXPECT_TRUE(shows_map(input));
   input.state.power = static_cast<std::uint8_t>(radar::Power::standby);
   EXPECT_FALSE(shows_map(input));
 }
 
 TEST(MapSymbology, OnAMapThatCouldNotBeReadNothingIsPlaced) {
-  GlassInput input = patch();
+  DisplayInput input = patch();
   input.map = {};
   put_cursor(input, testing::at(60.0, 20.0));
-  GlassInput without = input;
+  DisplayInput without = input;
   without.state.flags = 0;
   EXPECT_FALSE(shows_map(input));
   for (const Segment& segment : more_strokes(input, without)) EXPECT_LT(segment.from.y, 40.0F) << "readout alone";
 }
 
 // The middles of the two balls, left and right: the glass without a map's sector has them elsewhere.
-std::array<float, 2> balls(GlassInput input) {
+std::array<float, 2> balls(DisplayInput input) {
   std::vector<float> x;
   const DrawList list = drawn(input);
   for (const Segment& segment : list.content(Layer::symbols).strokes) {
@@ -131,7 +131,7 @@ std::array<float, 2> balls(GlassInput input) {
 }
 
 TEST(LimitBalls, OnThePpiStandWhereTheScanBeginsAndEnds) {
-  GlassInput input = testing::operating(Mode::hrm, 40.0);
+  DisplayInput input = testing::operating(Mode::hrm, 40.0);
   input.model.scan_centre_deg = 30.0 + 37.5;  // the track is 030
   input.model.scan_width_deg = 25.0;
   EXPECT_NEAR(balls(input)[0], 240.0F + 2.0F * 25.0F, 0.2F);
@@ -146,7 +146,7 @@ TEST(LimitBalls, OnAPatchStandAtTheMapsSidesAsTheAircraftSeesThem) {
 }
 
 TEST(LimitBalls, PassSixtyDegreesAndStopAtTheEdge) {
-  GlassInput input = patch();
+  DisplayInput input = patch();
   const auto fly_on = [&input](double distance_nm) {
     const geo::GeoPoint place = testing::at(30.0, distance_nm);
     input.ownship.latitude_deg = place.latitude_deg;
@@ -159,14 +159,14 @@ TEST(LimitBalls, PassSixtyDegreesAndStopAtTheEdge) {
 }
 
 TEST(LimitBalls, FollowTheMapThatForms) {
-  GlassInput input = patch();
+  DisplayInput input = patch();
   testing::put_forming_map(input, 10.0, 20.0, 4.7);
   EXPECT_LT(balls(input)[1], 240.0F);
 }
 
 TEST(LimitBalls, AreInHrmAlone) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
-  GlassInput other = input;
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
+  DisplayInput other = input;
   other.model.scan_centre_deg = 70.0;
   other.model.scan_width_deg = 25.0;
   EXPECT_EQ(drawn(input), drawn(other));
@@ -174,9 +174,9 @@ TEST(LimitBalls, AreInHrmAlone) {
 
 TEST(WindowOutline, IsASquareOfTheWindowAlongTheLineOfSight) {
   for (const Mode mode : {Mode::rbm, Mode::hrm}) {
-    GlassInput without = testing::operating(mode, 40.0);
+    DisplayInput without = testing::operating(mode, 40.0);
     without.model.map_window_nm = 10.0;
-    GlassInput with = without;
+    DisplayInput with = without;
     testing::put_forming_map(with, 60.0, 20.0, 10.0);
     without.model.map_latitude_deg = with.model.map_latitude_deg;
     without.model.map_longitude_deg = with.model.map_longitude_deg;
@@ -196,9 +196,9 @@ TEST(WindowOutline, IsASquareOfTheWindowAlongTheLineOfSight) {
 }
 
 TEST(WindowOutline, OnAPatchLiesInTheMapsFrame) {
-  GlassInput without = patch();
+  DisplayInput without = patch();
   without.model.map_window_nm = 4.7 / 2;
-  GlassInput with = without;
+  DisplayInput with = without;
   testing::put_forming_map(with, 60.0, 20.0, 4.7 / 2);
   without.model.map_latitude_deg = with.model.map_latitude_deg;
   without.model.map_longitude_deg = with.model.map_longitude_deg;
@@ -210,18 +210,18 @@ TEST(WindowOutline, OnAPatchLiesInTheMapsFrame) {
 }
 
 TEST(WindowOutline, IsNotThereForAReMapNorBeforeTheModelHasTakenTheCommandUp) {
-  GlassInput input = patch();
+  DisplayInput input = patch();
   testing::put_forming_map(input, 60.0, 20.0, 2.0);
-  GlassInput re_map = input;
+  DisplayInput re_map = input;
   re_map.state.flags = 0;
   EXPECT_EQ(more_strokes(input, re_map).size(), 4U);
-  GlassInput not_yet = input;
+  DisplayInput not_yet = input;
   not_yet.state.map_request += 1;
   EXPECT_EQ(more_strokes(input, not_yet).size(), 4U);
 }
 
 TEST(MapTimerReadout, FollowsRuleSix) {
-  GlassInput input = testing::operating(Mode::hrm, 40.0);
+  DisplayInput input = testing::operating(Mode::hrm, 40.0);
   input.model.map_timer_s = 11.2;
   EXPECT_THAT(words(input), ::testing::Contains("12 SEC"));
   input.state.cursor_function = static_cast<std::uint8_t>(radar::CursorFunction::update);

@@ -25,7 +25,7 @@ using testing::symbol_strokes;
 using testing::words;
 
 TEST(Markers, TheCursorIsAnOpenPlusOnItsGroundPoint) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
   input.state.flags |= databuffer::kCursorValid;
   const geo::GeoPoint place = testing::at(30.0, 20.0);
   input.state.cursor_latitude_deg = testing::at(30.0, -30.0).latitude_deg;
@@ -45,7 +45,7 @@ TEST(Markers, TheCursorIsAnOpenPlusOnItsGroundPoint) {
 }
 
 TEST(Markers, TheCursorIsDrawnOverEverythingAndANumberBeneathItIsLeftOut) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
   EXPECT_THAT(words(input), Contains("4.7"));
   testing::put_cursor(input, 210.0, 1.2);  // twelve units below the apex, on the window size
   const DrawList list = drawn(input);
@@ -56,11 +56,11 @@ TEST(Markers, TheCursorIsDrawnOverEverythingAndANumberBeneathItIsLeftOut) {
 
 // Where a word or a solid scale stands neither of the two could be read.
 TEST(Markers, APointWhereAWordOrAScaleStandsIsLeftOutWithItsName) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
   const DrawList without = drawn(input);
   testing::add_point(input, "7", radar::PointKind::steer, testing::at(210.0, 1.2));  // behind: on the window size
   EXPECT_EQ(drawn(input), without);
-  GlassInput on_gray = testing::operating(Mode::rbm, 40.0);
+  DisplayInput on_gray = testing::operating(Mode::rbm, 40.0);
   const double right_nm = (427.0 - 240.0) / 10.0, ahead_nm = (440.0 - 380.0) / 10.0;
   testing::add_point(
       on_gray, "7", radar::PointKind::steer,
@@ -69,7 +69,7 @@ TEST(Markers, APointWhereAWordOrAScaleStandsIsLeftOutWithItsName) {
 }
 
 TEST(Markers, TheSelectedPointIsDrawnUnderAWordToo) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
   const DrawList without = drawn(input);
   testing::add_point(input, "7", radar::PointKind::steer, testing::at(210.0, 1.2));  // behind: on the window size
   input.state.points[0].selected = 1;
@@ -82,7 +82,7 @@ TEST(Markers, TheSelectedPointIsDrawnUnderAWordToo) {
 }
 
 TEST(Markers, PointsStandAtTheirPlacesAndOffTheGlassAtNone) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
   const DrawList without = drawn(input);
   testing::add_point(input, "3.", radar::PointKind::target, testing::at(30.0, 30.0));
   const DrawList with = drawn(input);
@@ -98,7 +98,7 @@ TEST(Markers, PointsStandAtTheirPlacesAndOffTheGlassAtNone) {
 }
 
 std::size_t strokes_of_point(radar::PointKind kind, const std::string& name, const radar::RadarConfiguration& with) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
   const std::size_t before = strokes(drawn(input, with));
   testing::add_point(input, name, kind, testing::at(30.0, 30.0));
   const std::size_t named = strokes(drawn(input, with)) - before;
@@ -123,7 +123,7 @@ TEST(Markers, SteerIsACircleInitialASquareTargetATriangleAndOffsetsAreDashed) {
 }
 
 TEST(Markers, NamesKeepClearOfLegendsAndOfEachOther) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
   input.state.flags |= databuffer::kFreeze;
   for (int i = 0; i < 5; ++i) {
     testing::add_point(input, "2.0" + std::to_string(i + 1), radar::PointKind::target_offset,
@@ -133,7 +133,7 @@ TEST(Markers, NamesKeepClearOfLegendsAndOfEachOther) {
 }
 
 TEST(Markers, NamesKeepClearOfTheCursor) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
   testing::put_cursor(input, 30.0, 20.0);
   // About the cursor in the middle of the glass, so that the first place for a name is on one of its arms.
   for (int i = 0; i < 5; ++i) {

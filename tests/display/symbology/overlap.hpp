@@ -19,7 +19,7 @@ namespace yars::display::testing {
 // How far the ink of a stroke reaches beyond its middle on a glass of so many pixels: half its width, and the soft
 // edge.
 inline float ink(int size) {
-  return 0.675F + 0.5F * kGlassUnits / static_cast<float>(size);
+  return 0.675F + 0.5F * kDisplayUnits / static_cast<float>(size);
 }
 
 inline bool is_word(const OccupiedBox& box) {
@@ -68,7 +68,7 @@ inline std::vector<std::string> overlaps(const DrawList& list, int size) {
   for (const OccupiedBox& word : boxes) {
     if (!is_word(word)) continue;
     const Rect& rect = word.rect;
-    if (rect.left < 0.0F || rect.top < 0.0F || rect.right > kGlassUnits || rect.bottom > kGlassUnits)
+    if (rect.left < 0.0F || rect.top < 0.0F || rect.right > kDisplayUnits || rect.bottom > kDisplayUnits)
       found.push_back(word.name + " leaves the glass");
     for (const OccupiedBox& other : boxes) {
       const bool told_before = is_word(other) && &other <= &word;

@@ -30,7 +30,7 @@ TEST(Overlap, ThereIsNoneInAnyModeAtAnyRangeWithEverythingLit) {
 
 TEST(Overlap, ThereIsNoneInStandby) {
   for (const Mode mode : kModes) {
-    GlassInput input = crowded(mode, 160.0);
+    DisplayInput input = crowded(mode, 160.0);
     input.state.power = static_cast<std::uint8_t>(radar::Power::standby);
     expect_no_overlap(drawn(input), "standby");
   }
@@ -40,7 +40,7 @@ TEST(Overlap, ThereIsNoneWithATargetDesignatedAnywhere) {
   for (const Mode mode : {Mode::rbm, Mode::hrm, Mode::beacon}) {
     for (double bearing_deg = -30.0; bearing_deg <= 90.0; bearing_deg += 15.0) {
       for (double range_nm = 2.0; range_nm <= 42.0; range_nm += 4.0) {
-        GlassInput input = crowded(mode, 40.0);
+        DisplayInput input = crowded(mode, 40.0);
         const geo::GeoPoint place = testing::at(bearing_deg, range_nm);
         testing::put_target(input, place, 45.0, databuffer::SteeringLine::slewing);
         testing::add_point(input, "4.", radar::PointKind::target, place);
@@ -55,7 +55,7 @@ TEST(Overlap, APointBehindTheAircraftOnTheGrayScaleOrUnderAMessageStandsClear) {
     for (const char* message : {"", "BLIND ZONE"}) {
       for (double right_deg = 0.0; right_deg < 360.0; right_deg += 5.0) {
         for (const double range_nm : {0.5, 1.0, 2.0, 3.0, 4.0, 12.0, 16.0, 18.0, 20.0, 21.0}) {
-          GlassInput input = testing::operating(mode, 40.0);
+          DisplayInput input = testing::operating(mode, 40.0);
           testing::set_text(input.state.message, message);
           testing::add_point(input, "7.", radar::PointKind::target, testing::at(30.0 + right_deg, range_nm));
           expect_no_overlap(drawn(input), std::to_string(right_deg) + " at " + std::to_string(range_nm));
@@ -73,7 +73,7 @@ TEST(Overlap, ThereIsNoneInAnyOfManyRandomStates) {
   std::string first;
   constexpr int kStates = 4000;
   for (int i = 0; i < kStates; ++i) {
-    const GlassInput input = states.next();
+    const DisplayInput input = states.next();
     const DrawList list = drawn(input);
     for (const int size : {480, 1024}) {
       const auto found = testing::overlaps(list, size);

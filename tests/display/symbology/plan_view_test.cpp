@@ -13,26 +13,26 @@ namespace {
 using testing::at;
 using testing::kHome;
 
-const GlassView kView{radar::ViewConfiguration{}};
+const PlanView kView{radar::ViewConfiguration{}};
 
-GlassFrame frame_of(double up_deg, double range_nm) {
+ViewFrame frame_of(double up_deg, double range_nm) {
   return {kHome, geo::Bearing::degrees(up_deg), range_nm * geo::kMetresPerNauticalMile};
 }
 
-TEST(GlassView, TheApexIsFortyUpInTheMiddleAndTheRangeFourHundred) {
+TEST(PlanView, TheApexIsFortyUpInTheMiddleAndTheRangeFourHundred) {
   EXPECT_FLOAT_EQ(kView.apex().x, 240.0F);
   EXPECT_FLOAT_EQ(kView.apex().y, 440.0F);
   EXPECT_FLOAT_EQ(kView.units_per_range(), 400.0F);
 }
 
-TEST(GlassView, AViewThatIsWiderThanHighIsCenteredAndKeepsCirclesRound) {
-  const GlassView wide(radar::ViewConfiguration{-1.0, 1.0, 0.0, 1.0, 480});
+TEST(PlanView, AViewThatIsWiderThanHighIsCenteredAndKeepsCirclesRound) {
+  const PlanView wide(radar::ViewConfiguration{-1.0, 1.0, 0.0, 1.0, 480});
   EXPECT_FLOAT_EQ(wide.units_per_range(), 240.0F);
   EXPECT_FLOAT_EQ(wide.apex().x, 240.0F);
   EXPECT_FLOAT_EQ(wide.apex().y, 360.0F);
 }
 
-TEST(GlassView, APointAtKnownBearingAndRangeLandsWhereTrigonometrySays) {
+TEST(PlanView, APointAtKnownBearingAndRangeLandsWhereTrigonometrySays) {
   for (const double range_nm : {4.7, 10.0, 20.0, 40.0, 80.0, 160.0}) {
     for (const double right_deg : {-50.0, -13.0, 0.0, 20.0, 60.0}) {
       const double up_deg = 350.0;  // so that some bearings wrap
@@ -45,8 +45,8 @@ TEST(GlassView, APointAtKnownBearingAndRangeLandsWhereTrigonometrySays) {
   }
 }
 
-TEST(GlassView, ItWorksAcrossTheAntimeridian) {
-  const GlassFrame frame{{10.0, 179.9}, geo::Bearing::degrees(90.0), 40.0 * geo::kMetresPerNauticalMile};
+TEST(PlanView, ItWorksAcrossTheAntimeridian) {
+  const ViewFrame frame{{10.0, 179.9}, geo::Bearing::degrees(90.0), 40.0 * geo::kMetresPerNauticalMile};
   const geo::GeoPoint east =
       geo::geodesic_direct(frame.apex, geo::Bearing::degrees(90.0), geo::Length::nautical_miles(20.0));
   ASSERT_LT(east.longitude_deg, 0.0);
@@ -54,9 +54,9 @@ TEST(GlassView, ItWorksAcrossTheAntimeridian) {
   EXPECT_NEAR(kView.at_ground(frame, east).y, 240.0F, 0.01F);
 }
 
-TEST(GlassView, DisplacementIsMeasuredAtTheOuterEdge) {
-  const GlassFrame drawn = frame_of(0.0, 40.0);
-  GlassFrame moved = drawn;
+TEST(PlanView, DisplacementIsMeasuredAtTheOuterEdge) {
+  const ViewFrame drawn = frame_of(0.0, 40.0);
+  ViewFrame moved = drawn;
   moved.apex = at(0.0, 0.4);
   EXPECT_NEAR(displacement_units(kView, drawn, moved), 4.0, 1e-6);
   EXPECT_NEAR(displacement_units(kView, drawn, frame_of(1.0, 40.0)), 400.0 * geo::kRadiansPerDegree, 1e-6);
@@ -109,14 +109,14 @@ TEST(Wedges, TheyAreDrawnOldestFirstWhateverTheirAzimuth) {
 }
 
 TEST(PresentFrame, TheGroundTrackIsUpAndNotTheNose) {
-  const GlassInput input = testing::operating(radar::Mode::rbm, 40.0);
-  const GlassFrame frame = present_frame(input, nullptr);
+  const DisplayInput input = testing::operating(radar::Mode::rbm, 40.0);
+  const ViewFrame frame = present_frame(input, nullptr);
   EXPECT_NEAR(frame.up.degrees(), 30.0, 1e-9);
   EXPECT_DOUBLE_EQ(frame.range_m, 74080.0);
 }
 
 TEST(PresentFrame, FrozenItIsTheLastSweeps) {
-  GlassInput input = testing::operating(radar::Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(radar::Mode::rbm, 40.0);
   PolarStore store;
   const geo::GeoPoint behind = at(30.0, -5.0);
   store.insert(sweep_at(behind, 20.0, 21.0));
@@ -127,12 +127,12 @@ TEST(PresentFrame, FrozenItIsTheLastSweeps) {
 }
 
 TEST(PresentFrame, SymbolsAreOffTheVideoByTheErrorOfTheNavigatorChosen) {
-  GlassInput input = testing::operating(radar::Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(radar::Mode::rbm, 40.0);
   const geo::GeoPoint place = at(30.0, 20.0);
   const geo::GeoPoint believed = at(120.0, 1.0);  // the INS is a mile to the right of the truth
   input.nav.ins_latitude_deg = believed.latitude_deg;
   input.nav.ins_longitude_deg = believed.longitude_deg;
-  const GlassFrame frame = present_frame(input, nullptr);
+  const ViewFrame frame = present_frame(input, nullptr);
   const Point by_mission =
       kView.at_ground(frame, databuffer::belief_in_use(input.ownship, input.nav, input.state).on_video(place));
   input.state.navigator = static_cast<std::uint8_t>(radar::Navigator::ins);

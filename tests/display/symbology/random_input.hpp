@@ -15,11 +15,11 @@ class RandomGlass {
  public:
   explicit RandomGlass(unsigned seed) : random_(seed) {}
 
-  GlassInput next() {
+  DisplayInput next() {
     using radar::Mode;
     const Mode mode = one_of(std::array{Mode::rbm, Mode::hrm, Mode::patch, Mode::beacon, Mode::pvu, Mode::air_to_air,
                                         Mode::ranging, Mode::menu});
-    GlassInput input = operating(mode, one_of(std::array{4.7, 10.0, 20.0, 40.0, 80.0, 160.0}));
+    DisplayInput input = operating(mode, one_of(std::array{4.7, 10.0, 20.0, 40.0, 80.0, 160.0}));
     light_up(input);
     const bool may_stand = mode == Mode::hrm || mode == Mode::air_to_air || mode == Mode::ranging;
     if (mode == Mode::patch || (may_stand && chance(0.3))) {
@@ -57,11 +57,11 @@ class RandomGlass {
       case 0:
         return {x, near};
       case 1:
-        return {x, kGlassUnits - near};
+        return {x, kDisplayUnits - near};
       case 2:
         return {near, y};
       case 3:
-        return {kGlassUnits - near, y};
+        return {kDisplayUnits - near, y};
       case 10:  // behind the aircraft
         return {x, 440.0F + 0.8F * near};
       case 11:  // about the gray scale
@@ -78,7 +78,7 @@ class RandomGlass {
   }
 
   // The ground at a place of the glass, in the default view with the track 030 up or on the map that is shown.
-  static geo::GeoPoint place_of(const GlassInput& input, Point at) {
+  static geo::GeoPoint place_of(const DisplayInput& input, Point at) {
     double up_deg = 30.0, forward_nm = (440.0 - at.y) / 400.0 * input.state.range_nm;
     double right_nm = (at.x - 240.0) / 400.0 * input.state.range_nm;
     if (input.map.id != 0) {
@@ -90,7 +90,7 @@ class RandomGlass {
                        std::hypot(right_nm, forward_nm));
   }
 
-  void light_up(GlassInput& input) {
+  void light_up(DisplayInput& input) {
     databuffer::RadarState& state = input.state;
     if (chance(0.05)) state.power = static_cast<std::uint8_t>(radar::Power::standby);
     state.boxed = static_cast<std::uint32_t>(whole(0, 0x1fffff));
@@ -116,7 +116,7 @@ class RandomGlass {
     input.state_machine_alive = !chance(0.05);
   }
 
-  void heap_points(GlassInput& input) {
+  void heap_points(DisplayInput& input) {
     using radar::PointKind;
     const int count = whole(0, radar::kMaxPointsDrawn);
     const int selected = whole(0, radar::kMaxPointsDrawn);
@@ -142,7 +142,7 @@ class RandomGlass {
     }
   }
 
-  void stand_cursor(GlassInput& input) {
+  void stand_cursor(DisplayInput& input) {
     databuffer::RadarState& state = input.state;
     geo::GeoPoint place = place_of(input, anywhere());
     if (state.points_drawn > 0 && chance(0.4)) place = {state.points[0].latitude_deg, state.points[0].longitude_deg};

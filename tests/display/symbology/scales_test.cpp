@@ -26,7 +26,7 @@ TEST(RangeArcs, StandAtQuartersUnlessTheConfigurationSpacesThem) {
 }
 
 TEST(RangeArcs, EndAtTheRange) {
-  const GlassView view{radar::ViewConfiguration{}};
+  const PlanView view{radar::ViewConfiguration{}};
   const auto strokes_of = [&](double spacing) {
     DrawList list;
     draw_range_arcs(view, spacing, list);
@@ -40,9 +40,9 @@ TEST(RangeArcs, EndAtTheRange) {
 }
 
 TEST(Scales, TheAntennaCaretPointsAtTheAzimuthAgainstTheGroundTrack) {
-  GlassInput straight = testing::operating(Mode::rbm, 40.0);  // 4 deg of drift to the right
+  DisplayInput straight = testing::operating(Mode::rbm, 40.0);  // 4 deg of drift to the right
   straight.model.antenna_azimuth_deg = 4.0;
-  GlassInput right = straight;
+  DisplayInput right = straight;
   right.model.antenna_azimuth_deg = 34.0;
   const Rect middle = bounds_of(more_strokes(drawn(straight), drawn(right)));
   const Rect turned = bounds_of(more_strokes(drawn(right), drawn(straight)));
@@ -51,7 +51,7 @@ TEST(Scales, TheAntennaCaretPointsAtTheAzimuthAgainstTheGroundTrack) {
 }
 
 TEST(Scales, AnAntennaThatTellsNothingHasNoCaretAndTheGlassStandsStill) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
   const std::size_t with_carets = strokes(drawn(input));
   input.model.antenna_azimuth_deg = input.model.antenna_elevation_deg = testing::kNone;
   EXPECT_EQ(strokes(drawn(input)), with_carets - 4);
@@ -60,8 +60,8 @@ TEST(Scales, AnAntennaThatTellsNothingHasNoCaretAndTheGlassStandsStill) {
 
 TEST(Scales, ThePitchBallStandsAgainstTheHorizonAndStopsAtTheEdge) {
   const auto ball_of = [](double pitch_deg) {
-    GlassInput input = testing::operating(Mode::rbm, 40.0);
-    GlassInput other = input;
+    DisplayInput input = testing::operating(Mode::rbm, 40.0);
+    DisplayInput other = input;
     input.ownship.pitch_deg = pitch_deg;
     other.ownship.pitch_deg = -8.0;
     const Rect ball = bounds_of(more_strokes(drawn(input), drawn(other)));
@@ -74,13 +74,13 @@ TEST(Scales, ThePitchBallStandsAgainstTheHorizonAndStopsAtTheEdge) {
 }
 
 TEST(Scales, ThePitchBallIsRoundSquareOrCrossedOut) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
   const std::size_t round = strokes(drawn(input));
   input.nav.flags = databuffer::kNavAttitudeFromAhrs;
   EXPECT_EQ(strokes(drawn(input)), round - 24 + 4);
   input.nav.flags = databuffer::kNavAttitudeInvalid;
   EXPECT_EQ(strokes(drawn(input)), round - 2 + 2) << "a cross of two in the place of two wings";
-  GlassInput valid = input;
+  DisplayInput valid = input;
   valid.nav.flags = 0;
   EXPECT_NE(drawn(input), drawn(valid));
 }

@@ -11,8 +11,8 @@
 
 namespace yars::display::testing {
 
-inline DrawList drawn(const GlassInput& input, const radar::RadarConfiguration& configuration = {}) {
-  const GlassView view(configuration.view);
+inline DrawList drawn(const DisplayInput& input, const radar::RadarConfiguration& configuration = {}) {
+  const PlanView view(configuration.view);
   DrawList list;
   LabelMemory labels;
   draw_symbology(input, configuration, view, present_frame(input, nullptr), labels, list);
@@ -25,7 +25,7 @@ inline std::vector<std::string> words(const DrawList& list) {
   return names;
 }
 
-inline std::vector<std::string> words(const GlassInput& input) {
+inline std::vector<std::string> words(const DisplayInput& input) {
   return words(drawn(input));
 }
 
@@ -70,8 +70,8 @@ inline Point middle_of(const Rect& rect) {
 }
 
 // Everything that can be lit at once is lit, each at its widest.
-inline GlassInput crowded(radar::Mode mode, double range_nm) {
-  GlassInput input = operating(mode, range_nm);
+inline DisplayInput crowded(radar::Mode mode, double range_nm) {
+  DisplayInput input = operating(mode, range_nm);
   input.state.boxed = ~0U;
   input.state.brightness = 15;
   input.state.window_nm = 0.67;

@@ -27,7 +27,7 @@ constexpr std::array kModes{Mode::rbm, Mode::hrm,        Mode::patch,   Mode::be
                             Mode::pvu, Mode::air_to_air, Mode::ranging, Mode::menu};
 
 TEST(Symbology, OffShowsNothing) {
-  GlassInput input = crowded(Mode::rbm, 40.0);
+  DisplayInput input = crowded(Mode::rbm, 40.0);
   input.state_machine_alive = true;
   input.state.power = static_cast<std::uint8_t>(radar::Power::off);
   const DrawList list = drawn(input);
@@ -36,13 +36,13 @@ TEST(Symbology, OffShowsNothing) {
 }
 
 TEST(Symbology, ASetWithoutAStateMachineSaysSoEvenWhenTheRadarIsOff) {
-  GlassInput input;
+  DisplayInput input;
   input.state_machine_alive = false;
   EXPECT_THAT(words(input), ::testing::ElementsAre("NO STATE MACHINE"));
 }
 
 TEST(Symbology, StandbyShowsLegendsAndStbyAndNoScales) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
   input.state.power = static_cast<std::uint8_t>(radar::Power::standby);
   EXPECT_THAT(words(input), IsSupersetOf({"RBM", "DCL", "GAIN 3", "STBY"}));
   EXPECT_THAT(words(input), Not(Contains("azimuth scale")));
@@ -60,7 +60,7 @@ TEST(Symbology, EachModeHasTheRowsOfItsColumn) {
         Column{Mode::patch, false, true, false, false}, Column{Mode::beacon, true, true, false, true},
         Column{Mode::pvu, false, true, false, false}, Column{Mode::air_to_air, false, false, false, false},
         Column{Mode::ranging, false, false, false, false}, Column{Mode::menu, false, false, false, false}}) {
-    const GlassInput input = testing::operating(column.mode, 40.0);
+    const DisplayInput input = testing::operating(column.mode, 40.0);
     const DrawList list = drawn(input);
     const auto said = words(list);
     const auto has = [&](const char* word) { return std::ranges::count(said, word) == 1; };
@@ -83,14 +83,14 @@ TEST(Symbology, EveryLegendStandsInWordsAsTheStateHasIt) {
 }
 
 TEST(Symbology, ABoxedLegendHasFourStrokesMore) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
   const std::size_t plain = strokes(drawn(input));
   input.state.boxed = 1U << 18U;
   EXPECT_EQ(strokes(drawn(input)), plain + 4);
 }
 
 TEST(Symbology, TheCursorReadsMagneticBearingAndTenthsOfMiles) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
   EXPECT_THAT(words(input), Not(Contains("022\u00b0")));
   testing::put_cursor(input, 22.4, 23.44);
   EXPECT_THAT(words(input), IsSupersetOf({"022\u00b0", "23.4NM"}));
@@ -99,7 +99,7 @@ TEST(Symbology, TheCursorReadsMagneticBearingAndTenthsOfMiles) {
 }
 
 TEST(Symbology, RangeWindowBrightnessAndTimerAreRead) {
-  GlassInput input = testing::operating(Mode::rbm, 4.7);
+  DisplayInput input = testing::operating(Mode::rbm, 4.7);
   input.state.window_nm = 0.67;
   input.state.brightness = 11;
   input.model.map_timer_s = 11.2;
@@ -112,14 +112,14 @@ TEST(Symbology, RangeWindowBrightnessAndTimerAreRead) {
 
 TEST(Symbology, TheWindowIsReadWhereverItCanBeStepped) {
   for (const Mode mode : {Mode::rbm, Mode::hrm, Mode::patch, Mode::beacon, Mode::pvu}) {
-    GlassInput input = testing::operating(mode, 40.0);
+    DisplayInput input = testing::operating(mode, 40.0);
     input.state.window_nm = 3.3;
     EXPECT_THAT(words(input), Contains("3.3")) << radar::name_of(mode);
   }
 }
 
 TEST(Symbology, PvuTellsThatAMapFormsHowLongItTakesAndHowMuchIsDone) {
-  GlassInput input = testing::operating(Mode::pvu, 40.0);
+  DisplayInput input = testing::operating(Mode::pvu, 40.0);
   input.state.resume_mode = static_cast<std::uint8_t>(Mode::pvu);
   input.model.map_timer_s = 11.2;
   EXPECT_THAT(words(input), Not(Contains("MAP")));
@@ -131,7 +131,7 @@ TEST(Symbology, PvuTellsThatAMapFormsHowLongItTakesAndHowMuchIsDone) {
 
 TEST(Symbology, AirToAirAndRangingAreNamedWithAndWithoutAMap) {
   for (const auto& [mode, name] : {std::pair{Mode::air_to_air, "A/A"}, std::pair{Mode::ranging, "A/G RANGING"}}) {
-    GlassInput input = testing::operating(mode, 40.0);
+    DisplayInput input = testing::operating(mode, 40.0);
     EXPECT_THAT(words(input), Contains(name));
     testing::put_map(input, 40.0, 20.0, 4.7);
     EXPECT_THAT(words(input), Contains(name));
@@ -142,14 +142,14 @@ TEST(Symbology, AirToAirAndRangingAreNamedWithAndWithoutAMap) {
 }
 
 TEST(Symbology, FreezeIsShownFromTheCommandOn) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
   EXPECT_THAT(words(input), Not(Contains("FREEZE")));
   input.state.flags |= databuffer::kFreeze;
   EXPECT_THAT(words(input), Contains("FREEZE"));
 }
 
 TEST(Symbology, WhatHasGoneSilentIsNamed) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
   input.model_alive = false;
   EXPECT_THAT(words(input), Contains("NO MODEL"));
   EXPECT_THAT(words(input), Not(Contains("NO OWNSHIP")));
@@ -158,14 +158,14 @@ TEST(Symbology, WhatHasGoneSilentIsNamed) {
 }
 
 TEST(Symbology, AnUnterminatedTextEndsWithItsField) {
-  GlassInput input = testing::operating(Mode::rbm, 40.0);
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
   std::ranges::fill(input.state.legends[6], 'X');
   std::ranges::fill(input.state.message, 'Y');
   EXPECT_THAT(words(input), IsSupersetOf({std::string(8, 'X'), std::string(32, 'Y')}));
 }
 
 TEST(Symbology, AMotionThatNobodySeesLeavesTheListEqual) {
-  GlassInput input = testing::operating(Mode::rbm, 160.0);
+  DisplayInput input = testing::operating(Mode::rbm, 160.0);
   testing::put_cursor(input, 30.0, 80.0);
   const DrawList before = drawn(input);
   input.ownship.latitude_deg += 1e-7;

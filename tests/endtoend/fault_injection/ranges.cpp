@@ -30,7 +30,7 @@ void inspect_part(Inspection& inspection, std::string_view name, const Refusal& 
 Refusal why_out_of_range(const databuffer::ModelTick& tick) {
   Inspection inspection;
   inspect_time(inspection, tick.tick, tick.sim_time_ns);
-  inspect_part(inspection, "ownship", databuffer::why_refused(tick.ownship));
+  inspect_part(inspection, "ownship", databuffer::validate(tick.ownship));
   inspection.range("command.range_nm", tick.command.range_nm, 0.0, databuffer::kLargestRange);
   inspection.range("command.scan_width_deg", tick.command.scan_width_deg, 0.0, 360.0);
   inspection.range("command.antenna_elevation_deg", tick.command.antenna_elevation_deg, -60.0, 60.0);
@@ -42,14 +42,14 @@ Refusal why_out_of_range(const databuffer::ModelTick& tick) {
 }
 
 Refusal why_out_of_range(const databuffer::ModelStatus& status) {
-  if (auto refusal = databuffer::why_refused(status)) return refusal;
+  if (auto refusal = databuffer::validate(status)) return refusal;
   Inspection inspection;
   inspect_time(inspection, status.tick, status.sim_time_ns);
   return inspection.result();
 }
 
 Refusal why_out_of_range(const databuffer::Sweep& sweep) {
-  if (auto refusal = databuffer::why_refused(sweep)) return refusal;
+  if (auto refusal = databuffer::validate(sweep)) return refusal;
   Inspection inspection;
   inspect_time(inspection, sweep.tick, sweep.sim_time_ns);
   return inspection.result();

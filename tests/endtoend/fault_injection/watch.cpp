@@ -21,7 +21,7 @@ namespace {
 
 using databuffer::SessionLayout;
 
-constexpr std::size_t kMostFaultsTold = 20;
+constexpr std::size_t kMaxFaultsTold = 20;
 constexpr auto kPause = std::chrono::microseconds(500);
 constexpr std::string_view kMark = "mark";
 
@@ -102,7 +102,7 @@ void Watch::run(const std::string& session) {
 void Watch::note(std::uint64_t Verdict::*counter, const std::string& what) {
   const std::scoped_lock lock(mutex_);
   ++(verdict_.*counter);
-  if (verdict_.first.size() < kMostFaultsTold) verdict_.first.push_back(what);
+  if (verdict_.first.size() < kMaxFaultsTold) verdict_.first.push_back(what);
 }
 
 void Watch::refuse(const databuffer::Refusal& reason, const char* name) {
@@ -150,7 +150,7 @@ void Watch::look_at_clock(Look& look) {
   const databuffer::ClockState before = look.clock.record;
   const bool known = look.clock.version != 0;
   look_at(look.layout().clock, look.clock, "clock", [&](const databuffer::ClockState& clock) {
-    refuse(why_refused(clock), "clock");
+    refuse(validate(clock), "clock");
     if (!known || clock.epoch != before.epoch) return;
     if (clock.base_sim_ns + kRounding_ns < databuffer::sim_time_at(before, clock.base_monotonic_ns))
       note(&Verdict::time_back, "clock: goes back from " +
@@ -162,11 +162,11 @@ void Watch::look_at_clock(Look& look) {
 void Watch::look_at_values(Look& look) {
   const SessionLayout& layout = look.layout();
   look_at(layout.radar_state, look.state, "radar state",
-          [&](const databuffer::RadarState& state) { refuse(why_refused(state), "radar state"); });
+          [&](const databuffer::RadarState& state) { refuse(validate(state), "radar state"); });
   look_at(layout.outputs, look.outputs, "outputs",
           [&](const databuffer::Outputs& outputs) { refuse(why_out_of_range(outputs), "outputs"); });
   look_at(layout.recorder_status, look.recorder, "recorder status",
-          [&](const databuffer::RecorderStatus& status) { refuse(why_refused(status), "recorder status"); });
+          [&](const databuffer::RecorderStatus& status) { refuse(validate(status), "recorder status"); });
   look_at(layout.model_status, look.status, "model status", [&](const databuffer::ModelStatus& status) {
     refuse(why_out_of_range(status), "model status");
     if (text::text_of(status.ownship.source) == STORM_SOURCE) witness(status.ownship, "model status' ownship");
@@ -197,7 +197,7 @@ void Watch::judge_tick(Look& look, const databuffer::ModelTick& tick) {
 
 void Watch::judge_event(const databuffer::AppliedEvent& applied) {
   const databuffer::InputEvent& event = applied.event;
-  refuse(why_refused(event), "applied event");
+  refuse(validate(event), "applied event");
   const auto text = text::text_of(event.text);
   if (const auto mark = number_behind(text, kMark)) newest_mark_ = *mark;
   const auto number = number_behind(text, STORM_SOURCE);
@@ -226,7 +226,7 @@ void Watch::look_at_rings(Look& look) {
       note(&Verdict::torn, "sweep " + std::to_string(look.sweep.number) + ": its hash is another");
   }
   for (databuffer::Traffic traffic{}; layout.traffic_latched.read(look.next_traffic, traffic).delivered; ++read)
-    refuse(why_refused(traffic), "traffic taken over");
+    refuse(validate(traffic), "traffic taken over");
   const std::scoped_lock lock(mutex_);
   verdict_.records += read;
   verdict_.witnessed += hashed;
@@ -239,7 +239,7 @@ void Watch::look_at_pictures(Look& look) {
     databuffer::PatchMap map{};
     if (id == 0 || id == look.maps[slot] || !databuffer::read_patch(layout, id, map, look.pixels)) continue;
     look.maps[slot] = id;
-    refuse(why_refused(map), "patch map");
+    refuse(validate(map), "patch map");
     {
       const std::scoped_lock lock(mutex_);
       ++verdict_.records, ++verdict_.witnessed;
@@ -250,7 +250,7 @@ void Watch::look_at_pictures(Look& look) {
   if (!databuffer::read_newest_frame(layout, look.newest_frame, look.frame, look.pixels)) return;
   look.newest_frame = look.frame.id;
   ++frames_;
-  refuse(why_refused(look.frame), "picture");
+  refuse(validate(look.frame), "picture");
   {
     const std::scoped_lock lock(mutex_);
     ++verdict_.records;

@@ -49,7 +49,7 @@ TEST(RepeatFilter, ManyKindsAreBoundedInMemoryAndInLines) {
   std::uint64_t left_out = 0;
   for (const auto& lines : filter.take_left_out(11 * kSecond_ns)) left_out += lines.count;
   EXPECT_EQ(left_out, 10'000U - 20U) << "none is forgotten";
-  EXPECT_LE(filter.take_left_out(0, true).size(), RepeatFilter::kMostKinds);
+  EXPECT_LE(filter.take_left_out(0, true).size(), RepeatFilter::kMaxKinds);
 }
 
 }  // namespace

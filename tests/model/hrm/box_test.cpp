@@ -15,7 +15,7 @@ struct Case {
 };
 
 // Metres ahead of the centre of the pixel's middle.
-double up_of(const hrm::PatchProcess& process, int row) {
+double up_of(const hrm::PatchFormation& process, int row) {
   const double pixel_m = process.geometry().window_m() / process.image().size;
   return 0.5 * process.geometry().window_m() - (row + 0.5) * pixel_m;
 }

@@ -8,7 +8,7 @@
 namespace yars::test {
 namespace {
 
-hrm::PatchProcess busy_map(std::size_t threads, int size) {
+hrm::PatchFormation busy_map(std::size_t threads, int size) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.map_size = size;
   configuration.fidelity.map_double_bounce = true;

@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kStep_m = 1500.0;  // of the plateau behind the centre
 
-hrm::PatchProcess map_of(radar::RadarConfiguration configuration, bool gases, const hrm::PatchOrder& order,
-                         const model::terrain::TerrainViewPointer& ground,
-                         const model::scene::SceneViewPointer& scene = nullptr) {
+hrm::PatchFormation map_of(radar::RadarConfiguration configuration, bool gases, const hrm::PatchOrder& order,
+                           const model::terrain::TerrainViewPointer& ground,
+                           const model::scene::SceneViewPointer& scene = nullptr) {
   configuration.world.atmosphere.gases = gases;
   return make_patch(configuration, order, ground, scene);
 }

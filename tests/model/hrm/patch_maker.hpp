@@ -55,7 +55,7 @@ inline model::terrain::TerrainViewPointer ground_of(model::terrain::AnalyticTerr
   return std::make_shared<model::terrain::AnalyticTerrain>(std::move(height));
 }
 
-inline parallel::Crew crew_of(std::size_t threads) {
+inline parallel::Executor crew_of(std::size_t threads) {
   return {threads, [threads](const std::function<void(std::size_t)>& job) {
             std::vector<std::thread> others;
             for (std::size_t thread = 1; thread < threads; ++thread) others.emplace_back(job, thread);
@@ -64,10 +64,10 @@ inline parallel::Crew crew_of(std::size_t threads) {
           }};
 }
 
-inline hrm::PatchProcess make_patch(const radar::RadarConfiguration& configuration, const hrm::PatchOrder& order,
-                                    const model::terrain::TerrainViewPointer& ground,
-                                    const model::scene::SceneViewPointer& scene = nullptr, std::size_t threads = 1) {
-  hrm::PatchProcess process(configuration, crew_of(threads));
+inline hrm::PatchFormation make_patch(const radar::RadarConfiguration& configuration, const hrm::PatchOrder& order,
+                                      const model::terrain::TerrainViewPointer& ground,
+                                      const model::scene::SceneViewPointer& scene = nullptr, std::size_t threads = 1) {
+  hrm::PatchFormation process(configuration, crew_of(threads));
   process.begin(order);
   process.give({ground, ground, scene});
   while (process.state() != hrm::PatchState::done) process.advance();
@@ -79,7 +79,7 @@ inline double gamma_of(const radar::RadarConfiguration& configuration, std::size
 }
 
 // Sum over a map [m^2]: what a scene of this cross section returns.
-inline double cross_section_m2(const hrm::PatchProcess& process) {
+inline double cross_section_m2(const hrm::PatchFormation& process) {
   double sum = 0.0;
   for (const float power : process.image().power) sum += static_cast<double>(power);
   return sum * hrm::unit_return_m2(process.geometry(), process.image().size);

@@ -27,7 +27,7 @@ Pixel brightest(const hrm::MapImage& image) {
   return {at % image.size, at / image.size};
 }
 
-hrm::MapPoint point_of(const hrm::PatchProcess& process, double column, double row) {
+hrm::MapPoint point_of(const hrm::PatchFormation& process, double column, double row) {
   const double pixel_m = process.geometry().window_m() / process.image().size;
   const double edge_m = 0.5 * process.geometry().window_m();
   return {(column + 0.5) * pixel_m - edge_m, edge_m - (row + 0.5) * pixel_m};
@@ -87,7 +87,7 @@ TEST(CornerReflector, BehindAHillIsNotSeen) {
 }
 
 // Middle of what returns.
-hrm::MapPoint middle_of(const hrm::PatchProcess& process) {
+hrm::MapPoint middle_of(const hrm::PatchFormation& process) {
   const hrm::MapImage& image = process.image();
   double sum = 0.0;
   double right_m = 0.0;

@@ -59,7 +59,7 @@ hrm::PatchOrder order_of(const Country& country, double window_nm) {
 // What a preset makes of the window: the fan of its ground.
 struct Fan {
   hrm::PatchGeometry geometry;
-  hrm::FanGrid grid;
+  hrm::PolarGrid grid;
   std::vector<hrm::SurfacePoint> surface;
   std::vector<float> horizon, crest_m;
   hrm::CrestsBetweenRows crests{};
@@ -85,7 +85,7 @@ struct Fan {
   }
 };
 
-// The same steps as hrm::PatchProcess takes.
+// The same steps as hrm::PatchFormation takes.
 std::unique_ptr<Fan> fan_of(const radar::RadarConfiguration& configuration, const hrm::PatchOrder& order,
                             const terrain::TerrainViewPointer& window, const terrain::TerrainViewPointer& path) {
   const double elevation_m = window->elevation_m(order.centre);
@@ -93,7 +93,7 @@ std::unique_ptr<Fan> fan_of(const radar::RadarConfiguration& configuration, cons
   const int pixels = configuration.fidelity.map_size;
   const bool exact = configuration.fidelity.algorithm == radar::Algorithm::reference;
   const int cells = exact ? hrm::kReferenceCells : configuration.fidelity.map_oversampling;
-  const hrm::FanGrid grid = hrm::make_fan_grid(geometry, pixels, cells, {});
+  const hrm::PolarGrid grid = hrm::make_polar_grid(geometry, pixels, cells, {});
   auto fan = std::make_unique<Fan>(Fan{geometry, grid, std::vector<hrm::SurfacePoint>(grid.size()),
                                        std::vector<float>(static_cast<std::size_t>(grid.columns)),
                                        std::vector<float>(grid.size())});
@@ -107,7 +107,7 @@ std::unique_ptr<Fan> fan_of(const radar::RadarConfiguration& configuration, cons
     return fan;
   }
   fan->crests = hrm::crests_between_rows(grid, *window, smooth != window);
-  hrm::GroundFan ground(configuration);
+  hrm::PolarGround ground(configuration);
   ground.begin(geometry, grid, *path);
   ground.fill(order, geometry, grid, {smooth.get(), path.get(), fan->crests}, nullptr, 0, grid.columns,
               {fan->surface.data(), fan->horizon.data(), fan->crests.any() ? fan->crest_m.data() : nullptr});

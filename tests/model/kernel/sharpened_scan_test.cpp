@@ -32,7 +32,7 @@ std::int64_t ticks_a_scan(Cockpit& cockpit) {
   return 0;
 }
 
-TEST(SharpenedScan, FullTakesItsTimeAndAQuarterAQuarterOfIt) {
+TEST(DbsScan, FullTakesItsTimeAndAQuarterAQuarterOfIt) {
   const radar::RadarConfiguration configuration;
   const double wanted = configuration.high_resolution.sector_time_s / radar::kTickSeconds;
   HrmCockpit full;
@@ -41,7 +41,7 @@ TEST(SharpenedScan, FullTakesItsTimeAndAQuarterAQuarterOfIt) {
   EXPECT_NEAR(static_cast<double>(ticks_a_scan(quarter)), 0.25 * wanted, 0.05 * wanted);
 }
 
-TEST(SharpenedScan, HasOneBarWhateverTheRealBeamMapHas) {
+TEST(DbsScan, HasOneBarWhateverTheRealBeamMapHas) {
   radar::RadarConfiguration configuration;
   configuration.antenna.scan_bars = 4;
   HrmCockpit four(configuration);
@@ -49,7 +49,7 @@ TEST(SharpenedScan, HasOneBarWhateverTheRealBeamMapHas) {
   EXPECT_EQ(ticks_a_scan(four), ticks_a_scan(one));
 }
 
-TEST(SharpenedScan, FallsSilentAtOnceWithSniffAndEndsItsScanWithFreezeAlone) {
+TEST(DbsScan, FallsSilentAtOnceWithSniffAndEndsItsScanWithFreezeAlone) {
   for (const bool sniff : {true, false}) {
     HrmCockpit cockpit;
     ASSERT_FALSE(cockpit.run(1000).empty());
@@ -64,7 +64,7 @@ TEST(SharpenedScan, FallsSilentAtOnceWithSniffAndEndsItsScanWithFreezeAlone) {
   }
 }
 
-TEST(SharpenedScan, LooksAtTheCursorAndStaysWithinTheWidestScan) {
+TEST(DbsScan, LooksAtTheCursorAndStaysWithinTheWidestScan) {
   radar::RadarConfiguration configuration;
   configuration.scan_widths_deg = {120.0, 60.0, 20.0};
   HrmCockpit cockpit(configuration, 60.0);
@@ -77,14 +77,14 @@ TEST(SharpenedScan, LooksAtTheCursorAndStaysWithinTheWidestScan) {
     command.cursor_latitude_deg = cursor.latitude_deg;
     command.cursor_longitude_deg = cursor.longitude_deg;
     const auto pose = model::kernel::pose_of(cockpit.tick.ownship);
-    return model::kernel::sharpened_sector(command, *pose, configuration).offset_deg;
+    return model::kernel::dbs_sector(command, *pose, configuration).offset_deg;
   };
   EXPECT_NEAR(offset_of(12.0), 12.0, 0.01);
   EXPECT_NEAR(offset_of(-20.0), -20.0, 0.01);
   EXPECT_NEAR(offset_of(80.0), 30.0, 1e-9);
 }
 
-TEST(SharpenedScan, ShowsNothingInTheBlindZone) {
+TEST(DbsScan, ShowsNothingInTheBlindZone) {
   HrmCockpit cockpit;
   int blind = 0;
   int lit = 0;

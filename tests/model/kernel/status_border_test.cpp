@@ -15,7 +15,7 @@ using test::Cockpit;
 void expect_believed(const Cockpit& cockpit) {
   auto status = cockpit.status();
   status.ownship = cockpit.tick.ownship;
-  EXPECT_EQ(databuffer::why_refused(status).value_or(""), "") << "mode " << int{cockpit.tick.command.mode};
+  EXPECT_EQ(databuffer::validate(status).value_or(""), "") << "mode " << int{cockpit.tick.command.mode};
 }
 
 TEST(StatusBorder, BeforeAnybodyHasFlownTheStatusIsBelieved) {
@@ -32,7 +32,7 @@ TEST(StatusBorder, EveryModeTellsWhatIsBelieved) {
     cockpit.tick.command.mode = mode;
     ++cockpit.tick.command.scan_restart;
     for (int look = 0; look < 8; ++look) {
-      for (const auto& sweep : cockpit.run(50)) EXPECT_EQ(databuffer::why_refused(sweep).value_or(""), "");
+      for (const auto& sweep : cockpit.run(50)) EXPECT_EQ(databuffer::validate(sweep).value_or(""), "");
       expect_believed(cockpit);
     }
   }
@@ -81,10 +81,10 @@ TEST(StatusBorder, AnyGoodInputGivesAGoodStatusAndGoodSweeps) {
     command.flags = static_cast<std::uint32_t>(random());
     command.scan_restart += static_cast<std::uint32_t>(number(0.0, 2.0));
     cockpit.tick.epoch += static_cast<std::uint32_t>(number(0.0, 1.2));
-    for (const auto& sweep : cockpit.run(20)) ASSERT_EQ(databuffer::why_refused(sweep).value_or(""), "");
+    for (const auto& sweep : cockpit.run(20)) ASSERT_EQ(databuffer::validate(sweep).value_or(""), "");
     auto status = cockpit.status();
     status.ownship = own;
-    ASSERT_EQ(databuffer::why_refused(status).value_or(""), "") << "round " << round;
+    ASSERT_EQ(databuffer::validate(status).value_or(""), "") << "round " << round;
   }
 }
 

@@ -17,7 +17,7 @@ using radar::Mode;
 
 constexpr double kPeriod_s = 8.0;
 constexpr int kPeriodTicks = static_cast<int>(kPeriod_s / radar::kTickSeconds);
-constexpr int kMostTicksARound = 1000;  // 5 s: four beams of 0.4 s and the ways between them
+constexpr int kMaxTicksARound = 1000;  // 5 s: four beams of 0.4 s and the ways between them
 
 radar::RadarConfiguration quick() {
   radar::RadarConfiguration configuration;
@@ -35,7 +35,7 @@ class VelocityCockpit : public Cockpit {
   }
   void use(Mode mode) { tick.command.mode = static_cast<std::uint8_t>(mode); }
   // Ticks until the next measurement; the limit if none comes.
-  int ticks_until_measured(int limit = 4 * kMostTicksARound) {
+  int ticks_until_measured(int limit = 4 * kMaxTicksARound) {
     const std::uint32_t before = status().velocity_count;
     for (int ticks = 1; ticks < limit; ++ticks) {
       step();
@@ -56,7 +56,7 @@ TEST(Pvu, MeasuresTheVelocityOverGroundAfterEachRound) {
   EXPECT_EQ(cockpit.status().velocity_count, 0U);
   EXPECT_EQ(cockpit.status().velocity_beam, 0);
   for (std::uint32_t round = 1; round <= 5; ++round) {
-    ASSERT_LT(cockpit.ticks_until_measured(), kMostTicksARound);
+    ASSERT_LT(cockpit.ticks_until_measured(), kMaxTicksARound);
     EXPECT_EQ(cockpit.status().velocity_count, round);
     // The vertical component has the largest share of the noise, 1.4 times the configured.
     const double most_mps = 6.0 * radar::NavigationConfiguration{}.velocity_noise_mps;
@@ -74,7 +74,7 @@ TEST(Pvu, NoiseOfAHorizontalComponentIsTheConfiguredOne) {
   double horizontal = 0.0, along = 0.0, vertical = 0.0;
   constexpr int kRounds = 200;
   for (int round = 0; round < kRounds; ++round) {
-    ASSERT_LT(cockpit.ticks_until_measured(), kMostTicksARound);
+    ASSERT_LT(cockpit.ticks_until_measured(), kMaxTicksARound);
     const geo::Vector3 error = cockpit.error();
     horizontal += 0.5 * (error.x * error.x + error.y * error.y) / kRounds;
     along += 0.5 * (error.x + error.y) * (error.x + error.y) / kRounds;  // the track is 45 degrees
@@ -93,7 +93,7 @@ TEST(Pvu, StandsOnEachBeamOfTheRoundInItsOrder) {
   const radar::NavigationConfiguration& navigation = configuration.navigation;
   VelocityCockpit cockpit(Mode::pvu, configuration);
   std::vector<int> order;
-  for (int i = 0; i < kMostTicksARound && cockpit.status().velocity_count == 0; ++i) {
+  for (int i = 0; i < kMaxTicksARound && cockpit.status().velocity_count == 0; ++i) {
     EXPECT_EQ(cockpit.step(), nullptr);
     const ModelStatus status = cockpit.status();
     if (status.velocity_dwell == 0) continue;
@@ -111,13 +111,13 @@ TEST(Pvu, MeasuresInAnyBankAndNotWhereTheGimbalEnds) {
   for (const double roll_deg : {-90.0, -50.0, 30.0, 75.0}) {
     VelocityCockpit banked(Mode::pvu);
     banked.tick.ownship.roll_deg = roll_deg;
-    EXPECT_LT(banked.ticks_until_measured(), kMostTicksARound) << roll_deg;
+    EXPECT_LT(banked.ticks_until_measured(), kMaxTicksARound) << roll_deg;
   }
   VelocityCockpit climbing(Mode::pvu);
   climbing.tick.ownship.pitch_deg = 40.0;
-  EXPECT_EQ(climbing.ticks_until_measured(), 4 * kMostTicksARound);
+  EXPECT_EQ(climbing.ticks_until_measured(), 4 * kMaxTicksARound);
   climbing.tick.ownship.pitch_deg = 5.0;
-  EXPECT_LT(climbing.ticks_until_measured(), kMostTicksARound);
+  EXPECT_LT(climbing.ticks_until_measured(), kMaxTicksARound);
 }
 
 TEST(Pvu, AJumpBeginsTheRoundAnew) {
@@ -135,11 +135,11 @@ TEST(Ipvu, MeasuresRightAfterItIsSelectedAndThenOnceAPeriod) {
   EXPECT_EQ(cockpit.status().velocity_count, 0U);
   cockpit.set_flag(databuffer::kIpvu, true);
   // A scan of a second may be under way.
-  EXPECT_LT(cockpit.ticks_until_measured(), 200 + kMostTicksARound);
+  EXPECT_LT(cockpit.ticks_until_measured(), 200 + kMaxTicksARound);
   for (int i = 0; i < 3; ++i) {
     const int ticks = cockpit.ticks_until_measured();
     EXPECT_GT(ticks, kPeriodTicks);
-    EXPECT_LT(ticks, kPeriodTicks + 200 + kMostTicksARound);
+    EXPECT_LT(ticks, kPeriodTicks + 200 + kMaxTicksARound);
   }
   cockpit.set_flag(databuffer::kIpvu, false);
   cockpit.step();
@@ -174,12 +174,12 @@ TEST(Ipvu, WorksInEachModeOfTheGroundMapAndInNoOther) {
   for (const Mode mode : {Mode::rbm, Mode::hrm, Mode::beacon}) {
     VelocityCockpit cockpit(mode);
     cockpit.set_flag(databuffer::kIpvu, true);
-    EXPECT_LT(cockpit.ticks_until_measured(), 4 * kMostTicksARound) << radar::name_of(mode);
+    EXPECT_LT(cockpit.ticks_until_measured(), 4 * kMaxTicksARound) << radar::name_of(mode);
   }
   for (const Mode mode : {Mode::air_to_air, Mode::ranging}) {
     VelocityCockpit cockpit(mode);
     cockpit.set_flag(databuffer::kIpvu, true);
-    EXPECT_EQ(cockpit.ticks_until_measured(), 4 * kMostTicksARound) << radar::name_of(mode);
+    EXPECT_EQ(cockpit.ticks_until_measured(), 4 * kMaxTicksARound) << radar::name_of(mode);
   }
 }
 
@@ -189,27 +189,27 @@ TEST(Ipvu, MeasuresOverAFrozenPictureWhenItIsDueAndLeavesItFrozen) {
   cockpit.set_flag(databuffer::kFreeze, true);
   cockpit.run(300);
   cockpit.set_flag(databuffer::kIpvu, true);
-  EXPECT_LT(cockpit.ticks_until_measured(), kMostTicksARound);
-  EXPECT_LT(cockpit.ticks_until_measured(), kPeriodTicks + kMostTicksARound);
+  EXPECT_LT(cockpit.ticks_until_measured(), kMaxTicksARound);
+  EXPECT_LT(cockpit.ticks_until_measured(), kPeriodTicks + kMaxTicksARound);
   EXPECT_TRUE(cockpit.run(400).empty());
   EXPECT_NE(cockpit.status().flags & databuffer::kModelFrozen, 0U);
 }
 
-TEST(VelocityRound, IsNotFlownInSniffNorWithoutPower) {
+TEST(DopplerVelocityUpdate, IsNotFlownInSniffNorWithoutPower) {
   for (const Mode mode : {Mode::pvu, Mode::rbm}) {
     VelocityCockpit cockpit(mode);
     cockpit.set_flag(databuffer::kIpvu, true);
     while (cockpit.status().velocity_beam < 2) cockpit.step();
     cockpit.set_flag(databuffer::kSniff, true);
-    EXPECT_EQ(cockpit.ticks_until_measured(), 4 * kMostTicksARound);
+    EXPECT_EQ(cockpit.ticks_until_measured(), 4 * kMaxTicksARound);
     EXPECT_EQ(cockpit.status().velocity_beam, 0);
     for (const auto power : {radar::Power::standby, radar::Power::off}) {
       cockpit.set_flag(databuffer::kSniff, false);
       cockpit.tick.command.power = static_cast<std::uint8_t>(power);
-      EXPECT_EQ(cockpit.ticks_until_measured(), 4 * kMostTicksARound);
+      EXPECT_EQ(cockpit.ticks_until_measured(), 4 * kMaxTicksARound);
     }
     cockpit.tick.command.power = static_cast<std::uint8_t>(radar::Power::operate);
-    EXPECT_LT(cockpit.ticks_until_measured(), 200 + kMostTicksARound);
+    EXPECT_LT(cockpit.ticks_until_measured(), 200 + kMaxTicksARound);
   }
 }
 
@@ -227,7 +227,7 @@ void expect_same(const ModelStatus& one, const ModelStatus& other) {
   ASSERT_EQ(one.scan, other.scan);
 }
 
-TEST(VelocityRound, ARestartedModelGoesOnWithTheVeryTick) {
+TEST(DopplerVelocityUpdate, ARestartedModelGoesOnWithTheVeryTick) {
   for (const Mode mode : {Mode::pvu, Mode::rbm}) {
     VelocityCockpit cockpit(mode);
     VelocityCockpit successor(mode);
@@ -245,7 +245,7 @@ TEST(VelocityRound, ARestartedModelGoesOnWithTheVeryTick) {
   }
 }
 
-TEST(VelocityRound, IsTheSameEveryTimeAndAnotherWithAnotherSeed) {
+TEST(DopplerVelocityUpdate, IsTheSameEveryTimeAndAnotherWithAnotherSeed) {
   const auto measured = [](std::uint64_t seed) {
     radar::RadarConfiguration configuration = quick();
     configuration.seed = seed;

@@ -11,7 +11,7 @@
 namespace yars::model::rbm {
 namespace {
 
-constexpr double kMeanRadiusM = 6371008.8;
+constexpr double kMeanRadius_m = 6371008.8;
 
 TEST(EffectiveEarth, DropsAsTheSpecificationSays) {
   struct Row {
@@ -21,10 +21,10 @@ TEST(EffectiveEarth, DropsAsTheSpecificationSays) {
   constexpr std::array<Row, 4> kRows{{{20, 81, 108}, {40, 323, 431}, {80, 1292, 1723}, {160, 5168, 6891}}};
   for (const Row& row : kRows) {
     const double distance_m = row.range_nm * geo::kMetresPerNauticalMile;
-    EXPECT_NEAR(physics::EffectiveEarth(kMeanRadiusM * 4.0 / 3.0).drop_m(distance_m), row.refracted_m,
+    EXPECT_NEAR(physics::EffectiveEarth(kMeanRadius_m * 4.0 / 3.0).drop_m(distance_m), row.refracted_m,
                 0.5 + 3e-4 * row.refracted_m)
         << row.range_nm;
-    EXPECT_NEAR(physics::EffectiveEarth(kMeanRadiusM).drop_m(distance_m), row.true_m, 0.5 + 3e-4 * row.true_m)
+    EXPECT_NEAR(physics::EffectiveEarth(kMeanRadius_m).drop_m(distance_m), row.true_m, 0.5 + 3e-4 * row.true_m)
         << row.range_nm;
   }
 }
@@ -39,7 +39,7 @@ TEST(EffectiveEarth, TheHorizonLiesAtTheRootOfTwiceKTimesRadiusTimesHeight) {
   for (const auto& sample : samples) {
     if (sample.lit) last_lit_m = sample.distance_m;
   }
-  const double horizon_m = std::sqrt(2.0 * 4.0 / 3.0 * kMeanRadiusM * 1000.0);
+  const double horizon_m = std::sqrt(2.0 * 4.0 / 3.0 * kMeanRadius_m * 1000.0);
   EXPECT_NEAR(last_lit_m, horizon_m, range_m / 4096.0);
 }
 

@@ -133,7 +133,7 @@ TEST(Gases, SwitchedOffTakeNothing) {
 TEST(Gases, DimGroundShipsAndRainAlike) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.pulse_smear = false;
-  const physics::Look look = test::look_north(4572.0, 80.0 * kNauticalMile_m);
+  const physics::SweepGeometry look = test::look_north(4572.0, 80.0 * kNauticalMile_m);
   const geo::GeoPoint ahead = geo::geodesic_direct(look.apex, look.azimuth, geo::Length::nautical_miles(60.0));
   const terrain::AnalyticTerrain plain(terrain::flat(100.0));
   radar::RadarConfiguration ship = configuration, rain = configuration;
@@ -160,7 +160,7 @@ TEST(Gases, DimGroundShipsAndRainAlike) {
 
 TEST(Gases, TakeTheirPartOnceFromJammersAndBeacons) {
   radar::RadarConfiguration configuration;
-  const physics::Look look = test::look_north(4572.0, 80.0 * kNauticalMile_m);
+  const physics::SweepGeometry look = test::look_north(4572.0, 80.0 * kNauticalMile_m);
   const geo::GeoPoint ahead = geo::geodesic_direct(look.apex, look.azimuth, geo::Length::nautical_miles(60.0));
   radar::Jammer jammer;
   jammer.place = ahead;
@@ -187,7 +187,7 @@ TEST(Gases, TakeTheirPartOnceFromJammersAndBeacons) {
 }
 
 // Power with gases over power without, by sample [dB]; NaN where nothing returns.
-std::vector<double> loss_db(const radar::RadarConfiguration& configuration, const physics::Look& look,
+std::vector<double> loss_db(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& look,
                             const terrain::TerrainView& ground, const scene::SceneView* scenes) {
   const std::size_t count = sample_count(configuration);
   std::vector<float> dimmed(count), clear(count);
@@ -204,10 +204,10 @@ std::vector<double> loss_db(const radar::RadarConfiguration& configuration, cons
 TEST(Gases, DimTheHrmPpiByTheirIntegral) {
   for (const double ground_m : {100.0, 2500.0})
     for (const auto algorithm : {radar::Algorithm::standard, radar::Algorithm::reference}) {
-      radar::RadarConfiguration configuration = kernel::sharpened_configuration({});
+      radar::RadarConfiguration configuration = kernel::dbs_configuration({});
       configuration.fidelity.algorithm = algorithm;
       configuration.fidelity.pulse_smear = false;
-      physics::Look look = test::look_north(6000.0, 80.0 * kNauticalMile_m);
+      physics::SweepGeometry look = test::look_north(6000.0, 80.0 * kNauticalMile_m);
       look.share.sharpened = true;
       const terrain::AnalyticTerrain plain(terrain::flat(ground_m));
       const double radius_m = physics::effective_earth(configuration.fidelity, look.apex, look.azimuth).radius_m();
@@ -230,7 +230,7 @@ TEST(Gases, DimObjectsOfScenesByTheirIntegral) {
       configuration.fidelity.algorithm = algorithm;
       configuration.fidelity.pulse_smear = false;
       configuration.receiver.land_gamma_db = -60.0;
-      const physics::Look look = test::look_north(6000.0, 80.0 * kNauticalMile_m);
+      const physics::SweepGeometry look = test::look_north(6000.0, 80.0 * kNauticalMile_m);
       const geo::GeoPoint place = geo::geodesic_direct(look.apex, look.azimuth, geo::Length::nautical_miles(miles));
       const auto ground = terrain::flat(300.0);
       const auto scene = test::scene_of({{0.0, 0.0, 100.0, 100.0, 200.0}}, place, 0.0, ground);

@@ -15,18 +15,18 @@ namespace yars::model::rbm {
 namespace {
 
 constexpr std::size_t kCount = 1000;
-constexpr double kRangeM = 200'000.0;  // over some degrees of latitude and longitude
+constexpr double kRange_m = 200'000.0;  // over some degrees of latitude and longitude
 
-physics::Look look_from(geo::GeoPoint apex, double azimuth_deg) {
+physics::SweepGeometry look_from(geo::GeoPoint apex, double azimuth_deg) {
   return {apex, geo::AltitudeMsl::metres(3000.0), geo::Bearing::degrees(azimuth_deg), geo::Angle(),
-          geo::Length::metres(kRangeM)};
+          geo::Length::metres(kRange_m)};
 }
 
-physics::PlaceArrays places_of(const physics::Look& look) {
+physics::PlaceArrays places_of(const physics::SweepGeometry& look) {
   physics::PlaceArrays places(kCount);
   std::vector<float> distance_m(kCount + terrain::kRunSlack);
   for (std::size_t i = 0; i < distance_m.size(); ++i)
-    distance_m[i] = static_cast<float>((static_cast<double>(i) + 0.5) * kRangeM / kCount);
+    distance_m[i] = static_cast<float>((static_cast<double>(i) + 0.5) * kRange_m / kCount);
   physics::sample_places(look.apex, look.azimuth, look.range, physics::kSeriesKnots, distance_m.data(), places);
   return places;
 }
@@ -44,11 +44,11 @@ struct Returns {
   bool operator==(const Returns&) const = default;
 };
 
-Returns returns_of(const radar::RadarConfiguration& configuration, const physics::Look& look,
+Returns returns_of(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& look,
                    const physics::PlaceArrays& places) {
   constexpr std::size_t kRoom = kCount + terrain::kRunSlack;
   physics::Ground ground(configuration, kCount);
-  ground.use_resolution(300.0, kRangeM / kCount);
+  ground.use_resolution(300.0, kRange_m / kCount);
   std::vector<std::int32_t> code(kRoom);
   std::vector<float> water(kRoom);
   const std::vector<float> sine(kRoom, 0.02F);
@@ -63,11 +63,11 @@ TEST(Ground, ReflectsWhatItsPlainVersionDoes) {
   configuration.world.land.texture = 3.0;
   for (const geo::GeoPoint apex : {geo::GeoPoint{37.6, -122.4}, {-0.3, 179.2}, {-66.0, 10.0}}) {
     for (const double azimuth_deg : {20.0, 65.0, 190.0, 300.0}) {
-      const physics::Look look = look_from(apex, azimuth_deg);
+      const physics::SweepGeometry look = look_from(apex, azimuth_deg);
       const physics::PlaceArrays places = places_of(look);
       const Returns fast = returns_of(configuration, look, places);
       physics::SurfaceReturn exact(configuration);
-      exact.use_resolution(300.0, kRangeM / kCount);
+      exact.use_resolution(300.0, kRange_m / kCount);
       physics::Receiver receiver = physics::make_receiver(configuration, look.range);
       std::vector<std::int32_t> code(kCount + terrain::kRunSlack);
       std::vector<float> water(code.size());
@@ -90,7 +90,7 @@ TEST(Ground, ReflectsWhatItsPlainVersionDoes) {
 }
 
 TEST(Ground, IsTheSameForEveryWidthOfVector) {
-  const physics::Look look = look_from({37.6, -122.4}, 65.0);
+  const physics::SweepGeometry look = look_from({37.6, -122.4}, 65.0);
   const physics::PlaceArrays places = places_of(look);
   Returns first;
   test::for_each_vector_target([&](const char* name) {
@@ -102,7 +102,7 @@ TEST(Ground, IsTheSameForEveryWidthOfVector) {
 
 TEST(Ground, IsPlainAndDryWhereNothingIsGiven) {
   radar::RadarConfiguration configuration;
-  const physics::Look look = look_from({37.6, -122.4}, 65.0);
+  const physics::SweepGeometry look = look_from({37.6, -122.4}, 65.0);
   const physics::PlaceArrays places = places_of(look);
   physics::Ground ground(configuration, kCount);
   const std::vector<float> none(kCount + terrain::kRunSlack, 0.0F);

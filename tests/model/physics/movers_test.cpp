@@ -12,9 +12,9 @@
 namespace yars::model::rbm {
 namespace {
 
-constexpr double kAltitudeM = 2000.0;
-constexpr double kRangeM = 40000.0;
-constexpr double kSpacingM = 40.0;
+constexpr double kAltitude_m = 2000.0;
+constexpr double kRange_m = 40000.0;
+constexpr double kSpacing_m = 40.0;
 
 double decibels(double ratio) {
   return 10.0 * std::log10(ratio);
@@ -34,7 +34,7 @@ radar::RadarConfiguration with(const radar::Mover& mover) {
   return configuration;
 }
 
-std::vector<float> power_of(const radar::RadarConfiguration& configuration, const physics::Look& look,
+std::vector<float> power_of(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& look,
                             const terrain::AnalyticTerrain::Height& height) {
   Reference reference(configuration);
   std::vector<float> power(1000);
@@ -43,7 +43,7 @@ std::vector<float> power_of(const radar::RadarConfiguration& configuration, cons
 }
 
 // What a mover adds, with the ground taken off.
-std::vector<double> added_by(radar::RadarConfiguration configuration, const physics::Look& look,
+std::vector<double> added_by(radar::RadarConfiguration configuration, const physics::SweepGeometry& look,
                              const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0)) {
   const auto with_it = power_of(configuration, look, height);
   configuration.world.movers.clear();
@@ -70,7 +70,7 @@ TEST(Movers, GoTheirGeodesicWithSimTime) {
 }
 
 TEST(Movers, ReturnAPointInTheSampleOfTheirRange) {
-  const auto power = added_by(with(ship_at(20020.0)), test::look_north(kAltitudeM, kRangeM));
+  const auto power = added_by(with(ship_at(20020.0)), test::look_north(kAltitude_m, kRange_m));
   EXPECT_EQ(brightest(power), 500U);
   for (std::size_t i = 0; i < power.size(); ++i) {
     if (i != 500) {
@@ -82,9 +82,9 @@ TEST(Movers, ReturnAPointInTheSampleOfTheirRange) {
 TEST(Movers, ReturnSigmaOverTheFourthPowerOfTheRange) {
   radar::Mover ship = ship_at(20020.0);
   ship.cross_section_m2 = 5000.0;
-  const physics::Look look = test::look_north(kAltitudeM, kRangeM);
+  const physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
   const physics::Receiver receiver = physics::make_receiver(with(ship), look.range);
-  const double slant_m = std::hypot(20020.0, kAltitudeM - ship.height_m);
+  const double slant_m = std::hypot(20020.0, kAltitude_m - ship.height_m);
   const double expected = 5000.0 / std::pow(slant_m, 4.0) / receiver.full_scale;
   EXPECT_NEAR(added_by(with(ship), look)[500] / expected, 1.0, 1e-3);
 }
@@ -93,7 +93,7 @@ TEST(Movers, AreTwelveDecibelsDownAtTwiceTheRange) {
   // Level with the aircraft's keel, so that slant range is ground range.
   radar::Mover near = ship_at(18000.0), far = ship_at(36000.0);
   near.height_m = far.height_m = 300.0;
-  const physics::Look look = test::look_north(300.0, kRangeM);
+  const physics::SweepGeometry look = test::look_north(300.0, kRange_m);
   const auto power_at = [&](const radar::Mover& mover) {
     const auto power = added_by(with(mover), look);
     return power[brightest(power)];
@@ -102,7 +102,7 @@ TEST(Movers, AreTwelveDecibelsDownAtTwiceTheRange) {
 }
 
 TEST(Movers, FadeAcrossTheBeam) {
-  const physics::Look look = test::look_north(kAltitudeM, kRangeM);
+  const physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
   const double centre = added_by(with(ship_at(20020.0)), look)[500];
   EXPECT_NEAR(decibels(added_by(with(ship_at(20020.0, 1.25)), look)[500] / centre), -6.02, 0.05);
   EXPECT_EQ(added_by(with(ship_at(20020.0, 6.0)), look)[500], 0.0);
@@ -110,11 +110,11 @@ TEST(Movers, FadeAcrossTheBeam) {
 
 TEST(Movers, AreAsLongAsThePulseAndNoDimmerForIt) {
   radar::RadarConfiguration configuration = with(ship_at(20020.0));
-  const physics::Look look = test::look_north(kAltitudeM, kRangeM);
+  const physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
   const double sharp = added_by(configuration, look)[500];
   configuration.fidelity.pulse_smear = true;
   const auto smeared = added_by(configuration, look);
-  const double pulse_samples = physics::pulse_length(configuration, look.range).metres() / kSpacingM;
+  const double pulse_samples = physics::pulse_length(configuration, look.range).metres() / kSpacing_m;
   EXPECT_NEAR(smeared[500] / sharp, 1.0, 1e-3);
   double sum = 0.0;
   for (const double power : smeared) sum += power;
@@ -122,7 +122,7 @@ TEST(Movers, AreAsLongAsThePulseAndNoDimmerForIt) {
 }
 
 TEST(Movers, AreHiddenBehindAHill) {
-  const physics::Look look = test::look_north(kAltitudeM, kRangeM);
+  const physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
   const auto hill = terrain::ridge(test::axis_north(), 15000.0, 1000.0, 900.0);
   for (const double power : added_by(with(ship_at(20020.0)), look, hill)) EXPECT_EQ(power, 0.0);
   EXPECT_GT(added_by(with(ship_at(12020.0)), look, hill)[300], 0.0);
@@ -131,7 +131,7 @@ TEST(Movers, AreHiddenBehindAHill) {
 TEST(Movers, FarAwayOrBehindCostNothing) {
   const radar::RadarConfiguration configuration = with(ship_at(60000.0));
   physics::Movers movers(configuration);
-  const physics::Look look = test::look_north(kAltitudeM, kRangeM);
+  const physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
   const physics::Receiver receiver = physics::make_receiver(configuration, look.range);
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
   EXPECT_TRUE(movers.echoes(look, receiver, physics::EffectiveEarth(8.5e6), sea).empty());
@@ -156,7 +156,7 @@ TEST(Movers, OfTheTrafficReturnWhatThoseOfTheConfigurationDo) {
                          0};
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
   const physics::EffectiveEarth earth(8.5e6);
-  physics::Look look = test::look_north(kAltitudeM, kRangeM);
+  physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
   physics::Movers configured(with(ship));
   physics::Movers none(test::bare_configuration(1000));
   const physics::Receiver receiver = physics::make_receiver(with(ship), look.range);

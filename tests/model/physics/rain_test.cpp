@@ -113,7 +113,7 @@ TEST(RainPath, ReturnsWithTheInverseSquareOfTheRange) {
   radar::RadarConfiguration configuration = rainy(40000.0, 39000.0, 10.0, 30000.0);
   configuration.antenna.elevation_beamwidth_deg = 2.0;  // filled by the rain
   physics::RainPath path(configuration);
-  const physics::Look look = test::look_north(2000.0, 80000.0);
+  const physics::SweepGeometry look = test::look_north(2000.0, 80000.0);
   path.enter(look);
   const physics::Receiver receiver = physics::make_receiver(configuration, look.range);
   const physics::EffectiveEarth flat(kInfinity);
@@ -128,7 +128,7 @@ TEST(RainPath, ReturnsWithTheInverseSquareOfTheRange) {
 
 TEST(RainPath, TakesTwiceTheChordFromWhatLiesBehind) {
   const terrain::AnalyticTerrain plain(terrain::flat(100.0));
-  const physics::Look look = test::look_north(2000.0, 40000.0);
+  const physics::SweepGeometry look = test::look_north(2000.0, 40000.0);
   radar::RadarConfiguration configuration = rainy(15000.0, 5000.0);
   const auto wet = test::seen_by_reference(configuration, look, plain);
   const double one_way_db_per_m =
@@ -150,7 +150,7 @@ TEST(RainPath, SpendsNothingOverTheTop) {
 
 TEST(RainPath, IsSeenAboveTheShadowOfARidge) {
   const terrain::AnalyticTerrain ridge(terrain::ridge(test::axis_north(), 10000.0, 1000.0, 1500.0));
-  const physics::Look look = test::look_north(2000.0, 40000.0);
+  const physics::SweepGeometry look = test::look_north(2000.0, 40000.0);
   const auto wet = test::seen_by_reference(rainy(25000.0, 6000.0), look, ridge);
   const std::size_t middle = 25000 / 40;
   EXPECT_FALSE(wet[middle].lit);

@@ -16,7 +16,7 @@ double decibels(double ratio) {
 
 // One sample in the middle of a sweep over level ground of one material.
 Reference::Sample middle(const radar::RadarConfiguration& configuration, std::uint8_t material, double height_m = 100.0,
-                         const physics::Look& look = test::look_north(2000.0, 40000.0)) {
+                         const physics::SweepGeometry& look = test::look_north(2000.0, 40000.0)) {
   const terrain::AnalyticTerrain ground(terrain::flat(height_m), 1, [material](geo::GeoPoint) { return material; });
   return test::seen_by_reference(configuration, look, ground)[500];
 }
@@ -45,7 +45,7 @@ TEST(SurfaceReturn, OfWaterIsTheSeasAtAnyHeight) {
 
 TEST(SurfaceReturn, OfWallsDependsOnTheStreetsBearing) {
   const radar::RadarConfiguration configuration = test::bare_configuration(1000);
-  physics::Look look = test::look_north(2000.0, 40000.0);
+  physics::SweepGeometry look = test::look_north(2000.0, 40000.0);
   double least = 1e9, most = 0.0;
   for (double azimuth_deg = 0.0; azimuth_deg < 360.0; azimuth_deg += 1.0) {
     // Always the same town in the middle of the sweep.
@@ -73,7 +73,7 @@ Moments k_clutter(double shape, int looks) {
   configuration.receiver.gain_step_db = 10.0;  // at gain 0 nothing clips
   configuration.receiver.looks = looks;
   configuration.world.land.texture = shape;
-  physics::Look look = test::look_north(3000.0, 80000.0);
+  physics::SweepGeometry look = test::look_north(3000.0, 80000.0);
   const terrain::AnalyticTerrain plain(terrain::flat(100.0));
   Reference textured(configuration);
   configuration.world.land.texture = 0.0;
@@ -85,7 +85,7 @@ Moments k_clutter(double shape, int looks) {
     look.apex.longitude_deg = 0.36 * sweep - 180.0;  // other ground each time
     textured.measure(look, plain, power);
     even.measure(look, plain, mean);
-    textured.develop({power, power, power}, look.range, 0, {5, 1, sweep}, video);
+    textured.form_video({power, power, power}, look.range, 0, {5, 1, sweep}, video);
     for (std::size_t i = 25; i < 250; ++i) {
       const double relative = std::pow(10.0, 12.0 * (video[i] / 255.0 - 1.0) + 3.0) / static_cast<double>(mean[i]);
       sum += relative;

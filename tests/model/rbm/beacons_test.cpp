@@ -14,9 +14,9 @@
 namespace yars::model::rbm {
 namespace {
 
-constexpr double kAltitudeM = 3000.0;
-constexpr double kRangeM = 74080.0;
-constexpr double kHalfLightM = 149.896229;  // [m] range of a microsecond
+constexpr double kAltitude_m = 3000.0;
+constexpr double kRange_m = 74080.0;
+constexpr double kHalfLight_m = 149.896229;  // [m] range of a microsecond
 
 radar::Beacon beacon_north(double distance_m) {
   radar::Beacon beacon;
@@ -34,13 +34,14 @@ radar::RadarConfiguration with(const radar::Beacon& beacon) {
   return configuration;
 }
 
-physics::Look look_off(double off_deg) {
-  physics::Look look = test::look_north(kAltitudeM, kRangeM);
+physics::SweepGeometry look_off(double off_deg) {
+  physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
   look.azimuth = geo::Bearing::degrees(off_deg);
   return look;
 }
 
-std::vector<Reply> replies(const radar::RadarConfiguration& configuration, const physics::Look& look = look_off(0.0),
+std::vector<Reply> replies(const radar::RadarConfiguration& configuration,
+                           const physics::SweepGeometry& look = look_off(0.0),
                            const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0)) {
   Beacons beacons(configuration);
   const auto found = beacons.replies(look, terrain::AnalyticTerrain(height));
@@ -66,9 +67,9 @@ TEST(Beacons, ReplyBehindTheirPlaceByDelayAndSpacing) {
   beacon.replies = 4;
   const auto found = replies(with(beacon));
   ASSERT_EQ(found.size(), 4U);
-  const double height_m = kAltitudeM - 10.0;
+  const double height_m = kAltitude_m - 10.0;
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const double slant_m = std::hypot(30000.0, height_m) + (5.0 + 12.0 * static_cast<double>(i)) * kHalfLightM;
+    const double slant_m = std::hypot(30000.0, height_m) + (5.0 + 12.0 * static_cast<double>(i)) * kHalfLight_m;
     EXPECT_NEAR(found[i].slant_range_m, slant_m, 0.1);
     EXPECT_NEAR(found[i].distance_m, std::sqrt(slant_m * slant_m - height_m * height_m), 0.1);
   }
@@ -76,9 +77,9 @@ TEST(Beacons, ReplyBehindTheirPlaceByDelayAndSpacing) {
 
 TEST(Beacons, ReplyWithThePowerOfTheOneWayRadarEquation) {
   const radar::RadarConfiguration configuration = with(beacon_north(50000.0));
-  const physics::Receiver receiver = physics::make_receiver(configuration, geo::Length::metres(kRangeM));
-  const double slant_m = std::hypot(50000.0, kAltitudeM - 10.0);
-  const double below = std::atan2(kAltitudeM - 10.0, 50000.0) / receiver.elevation_beamwidth_rad;
+  const physics::Receiver receiver = physics::make_receiver(configuration, geo::Length::metres(kRange_m));
+  const double slant_m = std::hypot(50000.0, kAltitude_m - 10.0);
+  const double below = std::atan2(kAltitude_m - 10.0, 50000.0) / receiver.elevation_beamwidth_rad;
   const double one_way = std::exp(-0.5 * physics::kTwoWayExponent * below * below);
   const double expected =
       4.0 * std::numbers::pi * 100.0 / std::pow(10.0, 7.2) * one_way / (slant_m * slant_m) / receiver.full_scale;
@@ -125,7 +126,7 @@ TEST(Beacons, MakeArcsOfAPulsesLengthAtTheirDistances) {
     Beacons(configuration).measure(look_off(0.0), terrain::AnalyticTerrain(terrain::flat(0.0)), power);
     const auto middles = arcs(power);
     ASSERT_EQ(middles.size(), 3U);
-    const double spacing_m = kRangeM / 480.0;
+    const double spacing_m = kRange_m / 480.0;
     const auto found = replies(configuration);
     for (std::size_t i = 0; i < 3; ++i) {
       const double wanted_m = slant ? found[i].slant_range_m : found[i].distance_m;

@@ -53,7 +53,7 @@ std::optional<bool> visible(const std::vector<Vector>& ground, const std::vector
 
 // Returns how many samples were hidden. Over posts the ground between samples hides, too: there a sample that another
 // one hides has to be dark, no more.
-int expect_equal_to_brute_force(const physics::Look& look, const terrain::TerrainView& terrain) {
+int expect_equal_to_brute_force(const physics::SweepGeometry& look, const terrain::TerrainView& terrain) {
   radar::RadarConfiguration configuration = test::bare_configuration(400);
   configuration.fidelity.earth = radar::EarthModel::ellipsoid;
   const auto samples = test::seen_by_reference(configuration, look, terrain);
@@ -86,7 +86,7 @@ TEST(LineOfSight, BruteForceAgreesOverHills) {
   int hidden = 0;
   for (const double altitude_m : {300.0, 1200.0, 4500.0}) {
     for (const double azimuth_deg : {0.0, 77.0, 201.0}) {
-      physics::Look look = test::look_north(altitude_m, 100000.0);
+      physics::SweepGeometry look = test::look_north(altitude_m, 100000.0);
       look.azimuth = geo::Bearing::degrees(azimuth_deg);
       hidden += expect_equal_to_brute_force(look, hills);
     }
@@ -107,8 +107,8 @@ TEST(LineOfSight, BruteForceAgreesOverRealGround) {
   const auto view = (*store)->prepare({apex, 150000.0});
   int hidden = 0;
   for (int azimuth_deg = 0; azimuth_deg < 360; azimuth_deg += 15) {
-    const physics::Look look{apex, geo::AltitudeMsl::feet(15000.0), geo::Bearing::degrees(azimuth_deg), geo::Angle(),
-                             geo::Length::nautical_miles(80.0)};
+    const physics::SweepGeometry look{apex, geo::AltitudeMsl::feet(15000.0), geo::Bearing::degrees(azimuth_deg),
+                                      geo::Angle(), geo::Length::nautical_miles(80.0)};
     hidden += expect_equal_to_brute_force(look, *view);
   }
   EXPECT_GT(hidden, 500);

@@ -29,7 +29,7 @@ class LoneWall : public ::testing::Test {
     view_.add(std::make_shared<const terrain::Cell>(
         test::cell_of({37, -122}, kPosts, kPosts, [](int row, int) { return row == kWallRow ? 1500 : 10; })));
   }
-  static physics::Look look(double range_nm) {
+  static physics::SweepGeometry look(double range_nm) {
     return {{37.2, -121.5},
             geo::AltitudeMsl::metres(1200.0),
             geo::Bearing::degrees(0.0),
@@ -43,7 +43,7 @@ class LoneWall : public ::testing::Test {
 };
 
 // From 1 NM on light up to a wall, and dark behind it, whatever the number of samples.
-void expect_dark_behind(const terrain::TerrainView& view, physics::Look look, double wall_nm) {
+void expect_dark_behind(const terrain::TerrainView& view, physics::SweepGeometry look, double wall_nm) {
   for (const char* preset : {"draft", "standard", "reference"})
     for (const double range_nm : {20.0, 40.0, 80.0, 160.0}) {
       radar::RadarConfiguration configuration;
@@ -72,18 +72,18 @@ TEST_F(LoneWall, HidesTheGroundBehindItAtEveryRange) {
 // 24' from the pole a ray goes over it, or nearly so, to a wall along a parallel 12' beyond.
 TEST_F(LoneWall, HidesTheGroundBehindItBeyondThePole) {
   constexpr int kRows = 601, kColumns = 101, kRing = 480;
-  constexpr double kSouthDeg = 89.0 + kRing / (kRows - 1.0);
+  constexpr double kSouth_deg = 89.0 + kRing / (kRows - 1.0);
   terrain::CellView view(1, terrain::Absence::sea);
   for (int west_deg = -180; west_deg < -120; ++west_deg)
     view.add(std::make_shared<const terrain::Cell>(
         test::cell_of({89, west_deg}, kRows, kColumns, [](int row, int) { return row == kRing ? 1500 : 10; })));
   for (const double longitude_deg : {30.0, 30.1, 29.7})
     for (const double azimuth_deg : {0.0, 0.2, 359.0}) {
-      physics::Look over = look(160.0);
+      physics::SweepGeometry over = look(160.0);
       over.apex = {89.6, longitude_deg};
       over.azimuth = geo::Bearing::degrees(azimuth_deg);
       SCOPED_TRACE(azimuth_deg);
-      const double offset = 90.0 - over.apex.latitude_deg, ring = 90.0 - kSouthDeg;
+      const double offset = 90.0 - over.apex.latitude_deg, ring = 90.0 - kSouth_deg;
       const double miss = offset * std::sin(over.azimuth.radians());
       const double way_deg = offset * std::cos(over.azimuth.radians()) + std::sqrt(ring * ring - miss * miss);
       expect_dark_behind(view, over, way_deg * kDegree_m / geo::kMetresPerNauticalMile);
@@ -97,7 +97,7 @@ TEST_F(LoneWall, HidesTheGroundBehindItBesideThePole) {
     terrain::CellView view(1, terrain::Absence::sea);
     view.add(
         std::make_shared<const terrain::Cell>(test::cell_of({89, west_deg}, 601, 101, [](int, int) { return 1500; })));
-    physics::Look past = look(160.0);
+    physics::SweepGeometry past = look(160.0);
     past.apex = {89.6, 30.0};
     past.azimuth = geo::Bearing::degrees(3.0);
     SCOPED_TRACE(west_deg);

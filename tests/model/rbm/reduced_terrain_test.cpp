@@ -25,13 +25,13 @@ terrain::Cell mountains() {
   });
 }
 
-physics::Look look_from(double azimuth_deg) {
+physics::SweepGeometry look_from(double azimuth_deg) {
   return {kApex, geo::AltitudeMsl::metres(1500.0), geo::Bearing::degrees(azimuth_deg), geo::Angle::degrees(-3.0),
           geo::Length::nautical_miles(20.0)};
 }
 
-std::vector<std::uint8_t> lit_by(Algorithm& algorithm, const physics::Look& look, const terrain::TerrainView& view,
-                                 std::size_t count) {
+std::vector<std::uint8_t> lit_by(Algorithm& algorithm, const physics::SweepGeometry& look,
+                                 const terrain::TerrainView& view, std::size_t count) {
   std::vector<float> power(count);
   std::vector<std::uint8_t> lit(count);
   algorithm.measure(look, view, power);

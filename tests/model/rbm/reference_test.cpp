@@ -20,18 +20,18 @@ using test::bare_configuration;
 using test::look_north;
 using test::seen_by_reference;
 
-constexpr double kAltitudeM = 2000.0;
-constexpr double kRangeM = 40000.0;
+constexpr double kAltitude_m = 2000.0;
+constexpr double kRange_m = 40000.0;
 constexpr int kSamples = 1000;
-constexpr double kSpacingM = kRangeM / kSamples;
+constexpr double kSpacing_m = kRange_m / kSamples;
 
 // Distance up to which flat ground at 0 m is hidden by a top of this height at this distance.
 double shadow_end_m(double top_m, double height_m) {
-  return top_m * kAltitudeM / (kAltitudeM - height_m);
+  return top_m * kAltitude_m / (kAltitude_m - height_m);
 }
 
 auto seen(const terrain::AnalyticTerrain::Height& height) {
-  return seen_by_reference(bare_configuration(kSamples), look_north(kAltitudeM, kRangeM),
+  return seen_by_reference(bare_configuration(kSamples), look_north(kAltitude_m, kRange_m),
                            terrain::AnalyticTerrain(height));
 }
 
@@ -39,11 +39,11 @@ auto seen(const terrain::AnalyticTerrain::Height& height) {
 template <class Samples>
 void expect_shadow(const Samples& samples, double from_m, double to_m) {
   for (const auto& sample : samples) {
-    if (sample.distance_m > from_m + kSpacingM && sample.distance_m < to_m - kSpacingM) {
+    if (sample.distance_m > from_m + kSpacing_m && sample.distance_m < to_m - kSpacing_m) {
       EXPECT_FALSE(sample.lit) << sample.distance_m;
       EXPECT_EQ(sample.power, 0.0) << sample.distance_m;
     }
-    if (sample.distance_m > to_m + kSpacingM) {
+    if (sample.distance_m > to_m + kSpacing_m) {
       EXPECT_TRUE(sample.lit) << sample.distance_m;
       EXPECT_GT(sample.power, 0.0) << sample.distance_m;
     }
@@ -53,16 +53,16 @@ void expect_shadow(const Samples& samples, double from_m, double to_m) {
 TEST(Reference, AFlatPlaneReturnsTheTangentOfItsGrazingAngle) {
   for (const auto& sample : seen(terrain::flat(100.0))) {
     if (sample.distance_m < 5000.0) continue;  // nearer, the beam limits
-    EXPECT_NEAR(sample.power, (kAltitudeM - 100.0) / sample.distance_m, 1e-4 * sample.power) << sample.distance_m;
+    EXPECT_NEAR(sample.power, (kAltitude_m - 100.0) / sample.distance_m, 1e-4 * sample.power) << sample.distance_m;
   }
 }
 
 TEST(Reference, AWedgeTurnsItsFaceToTheRadar) {
   const double slope = 0.05;
   for (const auto& sample : seen(terrain::wedge(axis_north(), 20000.0, slope))) {
-    if (sample.distance_m < 20000.0 + 2.0 * kSpacingM) continue;
+    if (sample.distance_m < 20000.0 + 2.0 * kSpacing_m) continue;
     const double height_m = slope * (sample.distance_m - 20000.0);
-    const double grazing = std::atan2(kAltitudeM - height_m, sample.distance_m) + std::atan(slope);
+    const double grazing = std::atan2(kAltitude_m - height_m, sample.distance_m) + std::atan(slope);
     EXPECT_NEAR(sample.power, std::tan(grazing), 1e-3 * sample.power) << sample.distance_m;
   }
 }
@@ -71,20 +71,20 @@ TEST(Reference, APlateauThrowsItsShadowBehindItsFarEdge) {
   const auto samples = seen(terrain::plateau(axis_north(), 15000.0, 18000.0, 500.0));
   expect_shadow(samples, 18000.0, shadow_end_m(18000.0, 500.0));
   for (const auto& sample : samples) {
-    if (sample.distance_m < 18000.0 - kSpacingM) {
+    if (sample.distance_m < 18000.0 - kSpacing_m) {
       EXPECT_TRUE(sample.lit) << sample.distance_m;
     }
   }
 }
 
 TEST(Reference, ASinglePostThrowsAShadowAsLongAsItsHeightOverTheTangent) {
-  const double post_m = 250.5 * kSpacingM;  // the middle of sample 250
+  const double post_m = 250.5 * kSpacing_m;  // the middle of sample 250
   const auto samples = seen([post_m](geo::GeoPoint place) {
     const double distance_m = geo::geodesic_inverse(test::kMidLatitude, place).distance.metres();
-    return std::abs(distance_m - post_m) < 0.5 * kSpacingM ? 400.0 : 10.0;
+    return std::abs(distance_m - post_m) < 0.5 * kSpacing_m ? 400.0 : 10.0;
   });
   // Heights count from the ground around, at 10 m.
-  const double end_m = post_m * (kAltitudeM - 10.0) / (kAltitudeM - 400.0);
+  const double end_m = post_m * (kAltitude_m - 10.0) / (kAltitude_m - 400.0);
   expect_shadow(samples, post_m, end_m);
   EXPECT_TRUE(samples[250].lit);
 }
@@ -92,25 +92,25 @@ TEST(Reference, ASinglePostThrowsAShadowAsLongAsItsHeightOverTheTangent) {
 TEST(Reference, AStepUpShinesAndAStepDownHides) {
   const auto up = seen(terrain::step_wall(axis_north(), 20000.0, 50.0, 350.0));
   // From 5 km on: the ground below the aircraft is bright too.
-  const auto brightest = std::max_element(up.begin() + static_cast<std::ptrdiff_t>(5000.0 / kSpacingM), up.end(),
+  const auto brightest = std::max_element(up.begin() + static_cast<std::ptrdiff_t>(5000.0 / kSpacing_m), up.end(),
                                           [](const auto& a, const auto& b) { return a.power < b.power; });
-  EXPECT_NEAR(brightest->distance_m, 20000.0, kSpacingM);
+  EXPECT_NEAR(brightest->distance_m, 20000.0, kSpacing_m);
   for (const auto& sample : up) EXPECT_TRUE(sample.lit) << sample.distance_m;
 
   const auto down = seen(terrain::step_wall(axis_north(), 20000.0, 350.0, 50.0));
-  const double end_m = 20000.0 * (kAltitudeM - 50.0) / (kAltitudeM - 350.0);
+  const double end_m = 20000.0 * (kAltitude_m - 50.0) / (kAltitude_m - 350.0);
   expect_shadow(down, 20000.0, end_m);
 }
 
 TEST(Reference, ARidgeAboveTheBeamStillCastsItsShadow) {
   radar::RadarConfiguration configuration = bare_configuration(kSamples);
   configuration.antenna.elevation_beamwidth_deg = 2.5;
-  physics::Look look = look_north(kAltitudeM, kRangeM);
+  physics::SweepGeometry look = look_north(kAltitude_m, kRange_m);
   // The beam points at the ground 20 km away, 5.7 degrees down; the ridge's crest is 1.1 degrees down, above it.
   look.elevation = geo::Angle::degrees(-5.71);
   const terrain::AnalyticTerrain ridge(terrain::ridge(axis_north(), 10000.0, 1000.0, 1800.0));
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
-  const auto at_20_km = [](const auto& samples) { return samples[static_cast<std::size_t>(20000.0 / kSpacingM)]; };
+  const auto at_20_km = [](const auto& samples) { return samples[static_cast<std::size_t>(20000.0 / kSpacing_m)]; };
   EXPECT_GT(at_20_km(seen_by_reference(configuration, look, sea)).power, 0.0);
   EXPECT_EQ(at_20_km(seen_by_reference(configuration, look, ridge)).power, 0.0);
 }
@@ -131,7 +131,7 @@ TEST(Reference, WaterReturnsAsTheSeaModelSaysAndLandByItsGamma) {
   const auto sea = seen(terrain::flat(0.0));
   const auto land = seen(terrain::flat(0.001));
   const radar::RadarConfiguration configuration = bare_configuration(kSamples);
-  const double sine = kAltitudeM / std::hypot(kAltitudeM, sea[500].distance_m);
+  const double sine = kAltitude_m / std::hypot(kAltitude_m, sea[500].distance_m);
   const double sea_sigma0 =
       physics::sea_sigma0(physics::make_sea_return(configuration), sine, geo::Bearing::degrees(0.0));
   const double land_sigma0 = physics::make_land_return(configuration).gamma[0] * sine;
@@ -142,9 +142,9 @@ TEST(Reference, ASlopeAcrossTheSweepTurnsTheFaceAway) {
   radar::RadarConfiguration configuration = bare_configuration(kSamples);
   const terrain::TerrainAxis east{test::kMidLatitude, geo::Bearing::degrees(90.0)};
   const terrain::AnalyticTerrain hillside(terrain::plane(east, 100.0, 0.3));
-  const double along = seen_by_reference(configuration, look_north(kAltitudeM, kRangeM), hillside)[500].power;
+  const double along = seen_by_reference(configuration, look_north(kAltitude_m, kRange_m), hillside)[500].power;
   configuration.fidelity.cross_track_slope = true;
-  const auto across = seen_by_reference(configuration, look_north(kAltitudeM, kRangeM), hillside);
+  const auto across = seen_by_reference(configuration, look_north(kAltitude_m, kRange_m), hillside);
   EXPECT_NEAR(across[500].cross_slope, 0.3, 1e-3);
   EXPECT_NEAR(across[500].power / along, 1.0 / std::sqrt(1.0 + 0.3 * 0.3), 5e-3);
 }
@@ -152,7 +152,7 @@ TEST(Reference, ASlopeAcrossTheSweepTurnsTheFaceAway) {
 TEST(Reference, SmearsConservePower) {
   radar::RadarConfiguration configuration = bare_configuration(kSamples);
   const terrain::AnalyticTerrain ridge(terrain::ridge(axis_north(), 20000.0, 1500.0, 700.0));
-  const physics::Look look = look_north(kAltitudeM, kRangeM);
+  const physics::SweepGeometry look = look_north(kAltitude_m, kRange_m);
   const auto total = [&](bool smear) {
     configuration.fidelity.pulse_smear = smear;
     Reference reference(configuration);
@@ -184,7 +184,7 @@ TEST(Reference, UniformClutterFluctuatesAsTheMeanOfItsLooks) {
     double sum = 0.0, squares = 0.0, count = 0.0;
     for (std::uint32_t sweep = 0; sweep < 20; ++sweep) {
       // A range so long that every sample is a resolution cell of its own.
-      reference.develop({power, power, power}, geo::Length::metres(4e6), 3, {99, 1, sweep}, video);
+      reference.form_video({power, power, power}, geo::Length::metres(4e6), 3, {99, 1, sweep}, video);
       for (const std::uint8_t level : video) {
         const double db = level / 255.0 * 60.0;
         sum += db;
@@ -201,8 +201,8 @@ TEST(Reference, AGainStepTakesItsDecibelsOff) {
   Reference reference(bare_configuration(16));
   const std::vector<float> power(16, 0.1F);
   std::vector<std::uint8_t> full(16), lower(16);
-  reference.develop({power, power, power}, geo::Length::metres(kRangeM), 3, {}, full);
-  reference.develop({power, power, power}, geo::Length::metres(kRangeM), 2, {}, lower);
+  reference.form_video({power, power, power}, geo::Length::metres(kRange_m), 3, {}, full);
+  reference.form_video({power, power, power}, geo::Length::metres(kRange_m), 2, {}, lower);
   const radar::ReceiverConfiguration receiver;
   EXPECT_NEAR(full[0] - lower[0], 255.0 * receiver.gain_step_db / receiver.dynamic_range_db, 1.0);
 }
@@ -214,7 +214,7 @@ TEST(Reference, AVideoLevelIsALogarithmOfPower) {
   Reference reference(configuration);
   const std::vector<float> power{1.0F, 0.1F, 0.0F};
   std::vector<std::uint8_t> video(3);
-  reference.develop({power, power, power}, geo::Length::metres(kRangeM), 3, {}, video);
+  reference.form_video({power, power, power}, geo::Length::metres(kRange_m), 3, {}, video);
   EXPECT_EQ(video[0], 255);
   EXPECT_NEAR(video[1], 255.0 * (1.0 - 10.0 / 45.0), 1.0);
   EXPECT_NEAR(video[2], 255.0 * (1.0 - 38.0 / 45.0), 1.0);

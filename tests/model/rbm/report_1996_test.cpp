@@ -10,20 +10,20 @@
 namespace yars::model::rbm {
 namespace {
 
-constexpr double kAltitudeM = 2000.0;
-constexpr double kRangeM = 40000.0;
+constexpr double kAltitude_m = 2000.0;
+constexpr double kRange_m = 40000.0;
 constexpr std::size_t kSamples = 1000;
-constexpr double kSpacingM = kRangeM / kSamples;
+constexpr double kSpacing_m = kRange_m / kSamples;
 
 // Level ground at half the range.
-const double kReference = kAltitudeM / std::hypot(kAltitudeM, 0.5 * kRangeM);
+const double kReference = kAltitude_m / std::hypot(kAltitude_m, 0.5 * kRange_m);
 
 std::vector<float> intensity(const terrain::AnalyticTerrain::Height& height, double elevation_deg,
                              double bars_deg = 0.0) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.samples = static_cast<int>(kSamples);
   Report1996 report(configuration);
-  physics::Look look = test::look_north(kAltitudeM, kRangeM);
+  physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
   look.elevation = geo::Angle::degrees(elevation_deg);
   look.bars_above = look.bars_below = geo::Angle::degrees(bars_deg);
   std::vector<float> power(kSamples);
@@ -32,15 +32,15 @@ std::vector<float> intensity(const terrain::AnalyticTerrain::Height& height, dou
 }
 
 std::size_t sample_at(double distance_m) {
-  return static_cast<std::size_t>(distance_m / kSpacingM);
+  return static_cast<std::size_t>(distance_m / kSpacing_m);
 }
 
 TEST(Report1996, AFlatPlaneReturnsTheSineOfItsDepressionWithinTheBeamAlone) {
   const auto power = intensity(terrain::flat(0.0), -5.0);
   for (std::size_t i = 1; i + 1 < kSamples; ++i) {
-    const double distance_m = (static_cast<double>(i) + 0.5) * kSpacingM;
-    const double depression_deg = std::atan(kAltitudeM / distance_m) / geo::kRadiansPerDegree;
-    const double sine = kAltitudeM / std::hypot(kAltitudeM, distance_m);
+    const double distance_m = (static_cast<double>(i) + 0.5) * kSpacing_m;
+    const double depression_deg = std::atan(kAltitude_m / distance_m) / geo::kRadiansPerDegree;
+    const double sine = kAltitude_m / std::hypot(kAltitude_m, distance_m);
     if (std::abs(depression_deg - 5.0) < 1.2) {
       EXPECT_NEAR(static_cast<double>(power[i]), sine / kReference, 1e-3 / kReference) << distance_m;
     }
@@ -65,7 +65,7 @@ TEST(Report1996, WithSeveralBarsEveryBarMakesTheSamePicture) {
     radar::RadarConfiguration configuration;
     configuration.fidelity.samples = static_cast<int>(kSamples);
     Report1996 report(configuration);
-    physics::Look look = test::look_north(kAltitudeM, kRangeM);
+    physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
     look.elevation = geo::Angle::degrees(-5.0 + kBeam_deg * (1.5 - bar));
     look.bars_above = geo::Angle::degrees(kBeam_deg * bar);
     look.bars_below = geo::Angle::degrees(kBeam_deg * (3 - bar));
@@ -85,7 +85,7 @@ TEST(Report1996, GroundBrighterThanFullScaleIsWhiteAtFullGainAndGainGoesOnFromTh
   const std::vector<float> power(4, 3.0F);
   std::vector<std::uint8_t> video(4);
   for (int gain = 0; gain <= 3; ++gain) {
-    report.develop({power, power, power}, geo::Length::metres(kRangeM), gain, {}, video);
+    report.form_video({power, power, power}, geo::Length::metres(kRange_m), gain, {}, video);
     EXPECT_NEAR(video[1], 255.0 * (gain + 1) / 4.0, 0.51);
   }
 }
@@ -95,7 +95,7 @@ TEST(Report1996, AMastAboveTheBeamCastsNoShadow) {
   const auto power = intensity(
       [](geo::GeoPoint place) {
         const double distance_m = geo::geodesic_inverse(test::kMidLatitude, place).distance.metres();
-        return std::abs(distance_m - 10020.0) < 0.5 * kSpacingM ? 1800.0 : 0.0;
+        return std::abs(distance_m - 10020.0) < 0.5 * kSpacing_m ? 1800.0 : 0.0;
       },
       -5.71);
   EXPECT_GT(power[sample_at(20000.0)], 0.0F);
@@ -112,7 +112,7 @@ TEST(Report1996, GainGoesInQuarters) {
   const std::vector<float> power(4, 0.8F);
   std::vector<std::uint8_t> video(4);
   for (int gain = 0; gain <= 3; ++gain) {
-    report.develop({power, power, power}, geo::Length::metres(kRangeM), gain, {}, video);
+    report.form_video({power, power, power}, geo::Length::metres(kRange_m), gain, {}, video);
     EXPECT_NEAR(video[1], 255.0 * 0.8 * (gain + 1) / 4.0, 0.51);
   }
 }
@@ -121,9 +121,9 @@ TEST(Report1996, ThreeSweepsAreJoinedAsQuarterHalfQuarter) {
   Report1996 report{radar::RadarConfiguration{}};
   const std::vector<float> bright(4, 1.0F), dark(4, 0.0F);
   std::vector<std::uint8_t> video(4);
-  report.develop({bright, dark, dark}, geo::Length::metres(kRangeM), 3, {}, video);
+  report.form_video({bright, dark, dark}, geo::Length::metres(kRange_m), 3, {}, video);
   EXPECT_EQ(video[0], 64);
-  report.develop({dark, bright, dark}, geo::Length::metres(kRangeM), 3, {}, video);
+  report.form_video({dark, bright, dark}, geo::Length::metres(kRange_m), 3, {}, video);
   EXPECT_EQ(video[0], 128);
 }
 

@@ -18,8 +18,8 @@ namespace {
 
 using test::Building;
 
-constexpr double kAltitudeM = 2000.0;
-constexpr double kRangeM = 40000.0;
+constexpr double kAltitude_m = 2000.0;
+constexpr double kRange_m = 40000.0;
 constexpr std::size_t kSamples = 1000;  // 40 m each
 
 double decibels(double ratio) {
@@ -36,7 +36,7 @@ geo::GeoPoint north_by(double distance_m, double bearing_deg = 0.0) {
   return geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(bearing_deg), geo::Length::metres(distance_m));
 }
 
-std::vector<float> power_of(const radar::RadarConfiguration& configuration, const physics::Look& look,
+std::vector<float> power_of(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& look,
                             const scene::SceneView* scenes,
                             const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0)) {
   const auto algorithm = make_algorithm(configuration);
@@ -49,7 +49,7 @@ std::vector<float> power_of(const radar::RadarConfiguration& configuration, cons
 // What a scene adds to the ground's power.
 std::vector<double> added_by(const radar::RadarConfiguration& configuration, const scene::SceneView& scenes,
                              const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0),
-                             const physics::Look& look = test::look_north(kAltitudeM, kRangeM)) {
+                             const physics::SweepGeometry& look = test::look_north(kAltitude_m, kRange_m)) {
   const auto with_it = power_of(configuration, look, &scenes, height);
   const auto without = power_of(configuration, look, nullptr, height);
   std::vector<double> difference(kSamples);
@@ -68,8 +68,8 @@ std::size_t brightest(const std::vector<double>& power) {
 
 // Power of a cross section at a distance over flat ground, its middle at a height.
 double expected(const radar::RadarConfiguration& configuration, double sigma_m2, double distance_m, double height_m) {
-  const physics::Receiver receiver = physics::make_receiver(configuration, geo::Length::metres(kRangeM));
-  return sigma_m2 / std::pow(std::hypot(distance_m, kAltitudeM - height_m), 4.0) / receiver.full_scale;
+  const physics::Receiver receiver = physics::make_receiver(configuration, geo::Length::metres(kRange_m));
+  return sigma_m2 / std::pow(std::hypot(distance_m, kAltitude_m - height_m), 4.0) / receiver.full_scale;
 }
 
 double gamma_of(std::size_t material) {
@@ -86,8 +86,8 @@ TEST(SceneReturn, OfABoxIsGammaTimesTheAreaThatFacesTheRadarAtItsRange) {
       EXPECT_EQ(added[i], 0.0) << i;
     }
   }
-  const double slant_m = std::hypot(distance_m, kAltitudeM - 15.0);
-  const double seen_m2 = 20.0 * 30.0 * distance_m / slant_m + 20.0 * 20.0 * (kAltitudeM - 15.0) / slant_m;
+  const double slant_m = std::hypot(distance_m, kAltitude_m - 15.0);
+  const double seen_m2 = 20.0 * 30.0 * distance_m / slant_m + 20.0 * 20.0 * (kAltitude_m - 15.0) / slant_m;
   EXPECT_NEAR(added[500] / expected(bare(), gamma_of(5) * seen_m2, distance_m, 15.0), 1.0, 0.005);
 }
 
@@ -123,7 +123,7 @@ TEST(SceneReturn, IsTheSameWithSeveralRaysAcrossTheBeam) {
 }
 
 TEST(SceneReturn, IsAllInOneCellOfASharpenedBeamAndStrongerByHowMuchSharperItIs) {
-  physics::Look look = test::look_north(kAltitudeM, kRangeM);
+  physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
   look.share.sharpened = true;
   const double half_rad = 0.05 * geo::kRadiansPerDegree;
   look.share.left_rad = -half_rad;
@@ -150,8 +150,8 @@ TEST(SceneReturn, OfWallsThatFaceTheRadarHasTheCardinalEffect) {
   const Building house{0.0, 0.0, 20.0, 20.0, 30.0, kStone};
   const double square = sum_of(added_by(bare(), *test::scene_of({house}, north_by(20020.0), 0.0)));
   const double turned = sum_of(added_by(bare(), *test::scene_of({house}, north_by(20020.0), 45.0)));
-  const double slant_m = std::hypot(20020.0, kAltitudeM - 15.0);
-  const double level = 20020.0 / slant_m, up = (kAltitudeM - 15.0) / slant_m;
+  const double slant_m = std::hypot(20020.0, kAltitude_m - 15.0);
+  const double level = 20020.0 / slant_m, up = (kAltitude_m - 15.0) / slant_m;
   const double wall_m2 = 600.0 * level, roof_m2 = 400.0 * up;
   const double expected_db = decibels((10.0 * wall_m2 + roof_m2) / (std::sqrt(2.0) * wall_m2 + roof_m2));
   EXPECT_NEAR(decibels(square / turned), expected_db, 0.1);
@@ -168,7 +168,7 @@ TEST(SceneReturn, HiddenBehindARidgeIsNone) {
 TEST(SceneReturn, IsLitByTheShareOfItsHeightThatRisesAboveTheHorizon) {
   // The sight line over the crest meets the tower at 21020 m this high.
   const double crest_m = 300.0, crest_at_m = 18020.0, tower_at_m = 21020.0;
-  const double hidden_m = kAltitudeM - (kAltitudeM - crest_m) * tower_at_m / crest_at_m;
+  const double hidden_m = kAltitude_m - (kAltitude_m - crest_m) * tower_at_m / crest_at_m;
   ASSERT_GT(hidden_m, 0.0);
   const double tower_m = 4.0 * hidden_m;
   const auto scenes = test::scene_of({{0.0, 0.0, 20.0, 20.0, tower_m}}, north_by(tower_at_m));
@@ -193,7 +193,7 @@ TEST(SceneReturn, OfManyObjectsIsTheSumOfEach) {
 
 TEST(SceneReturn, OfARunwayTakesThePlaceOfTheGroundsReturn) {
   const auto scenes = test::scene_of({{0.0, 0.0, 600.0, 2000.0, 0.0, 9}}, north_by(20000.0));
-  const physics::Look look = test::look_north(kAltitudeM, kRangeM);
+  const physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
   for (const bool fast : {false, true}) {
     radar::RadarConfiguration configuration = bare();
     if (fast) configuration.fidelity.algorithm = radar::Algorithm::standard;
@@ -207,7 +207,7 @@ TEST(SceneReturn, OfARunwayTakesThePlaceOfTheGroundsReturn) {
 }
 
 TEST(SceneReturn, ElsewhereChangesNoBit) {
-  const physics::Look look = test::look_north(kAltitudeM, kRangeM);
+  const physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
   const auto without = power_of(bare(), look, nullptr);
   for (const auto& place : {north_by(60000.0), north_by(20000.0, 90.0), north_by(20000.0, 180.0)}) {
     const auto scenes = test::scene_of({Building{}, {200, 0, 100, 100, 0.0, 9}}, place);
@@ -222,7 +222,7 @@ TEST(SceneReturn, OfStandardIsThatOfReference) {
   radar::RadarConfiguration configuration;
   configuration.fidelity.noise = false;
   configuration.fidelity.samples = static_cast<int>(kSamples);
-  const physics::Look look = test::look_north(kAltitudeM, kRangeM);
+  const physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
   configuration.fidelity.algorithm = radar::Algorithm::standard;
   const auto fast = power_of(configuration, look, scenes.get(), terrain::flat(20.0));
   configuration.fidelity.algorithm = radar::Algorithm::reference;

@@ -37,7 +37,7 @@ struct Scan {
   double first_deg = 0.0, last_deg = 0.0, step_deg = 1.0;  // azimuths
 };
 
-physics::Look look_along(const Scan& scan, double azimuth_deg, double range_nm) {
+physics::SweepGeometry look_along(const Scan& scan, double azimuth_deg, double range_nm) {
   return {scan.apex, geo::AltitudeMsl::feet(scan.altitude_ft), geo::Bearing::degrees(azimuth_deg),
           geo::Angle::degrees(-3.0), geo::Length::nautical_miles(range_nm)};
 }
@@ -46,7 +46,8 @@ struct Truth {
   std::vector<bool> lit, known;
 };
 
-Truth brute_force(const physics::Look& look, const terrain::TerrainView& finest, double posts_m, std::size_t samples) {
+Truth brute_force(const physics::SweepGeometry& look, const terrain::TerrainView& finest, double posts_m,
+                  std::size_t samples) {
   radar::Fidelity exact;
   const physics::EffectiveEarth earth = physics::effective_earth(exact, look.apex, look.azimuth);
   const geo::GeodesicRay ray(look.apex, look.azimuth);
@@ -92,7 +93,7 @@ Found compare(const char* preset, const Scan& scan, double range_nm, const Groun
   std::vector<std::uint8_t> lit(count);
   Found found;
   for (double azimuth_deg = scan.first_deg; azimuth_deg <= scan.last_deg; azimuth_deg += scan.step_deg) {
-    const physics::Look look = look_along(scan, azimuth_deg, range_nm);
+    const physics::SweepGeometry look = look_along(scan, azimuth_deg, range_nm);
     const Truth truth = brute_force(look, *ground.finest, ground.posts_m, count);
     algorithm->measure(look, *ground.served, power);
     algorithm->lit(lit);

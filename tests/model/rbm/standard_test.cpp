@@ -56,7 +56,7 @@ struct Difference {
 };
 
 // Both algorithms over a fan of sweeps.
-Difference difference(radar::RadarConfiguration configuration, const physics::Look& first,
+Difference difference(radar::RadarConfiguration configuration, const physics::SweepGeometry& first,
                       const terrain::TerrainView& terrain) {
   configuration.fidelity.noise = false;
   Reference reference(configuration);
@@ -66,12 +66,12 @@ Difference difference(radar::RadarConfiguration configuration, const physics::Lo
   std::vector<std::uint8_t> exact_video(count), fast_video(count);
   double squares = 0.0, mismatches = 0.0, dark = 0.0, total = 0.0;
   for (double turn_deg = -50.0; turn_deg <= 50.0; turn_deg += 5.0) {
-    physics::Look look = first;
+    physics::SweepGeometry look = first;
     look.azimuth = first.azimuth + geo::Angle::degrees(turn_deg);
     reference.measure(look, terrain, exact);
     standard.measure(look, terrain, fast);
-    reference.develop({exact, exact, exact}, look.range, 3, {}, exact_video);
-    standard.develop({fast, fast, fast}, look.range, 3, {}, fast_video);
+    reference.form_video({exact, exact, exact}, look.range, 3, {}, exact_video);
+    standard.form_video({fast, fast, fast}, look.range, 3, {}, fast_video);
     for (std::size_t i = 0; i < count; ++i) {
       mismatches += (exact[i] > kNothing) != (fast[i] > kNothing) ? 1.0 : 0.0;
       dark += exact[i] > kNothing ? 0.0 : 1.0;
@@ -94,7 +94,7 @@ radar::RadarConfiguration sharp_configuration() {
   return configuration;
 }
 
-physics::Look look_from(geo::GeoPoint apex, double azimuth_deg, double range_nm) {
+physics::SweepGeometry look_from(geo::GeoPoint apex, double azimuth_deg, double range_nm) {
   return {apex, geo::AltitudeMsl::feet(15000.0), geo::Bearing::degrees(azimuth_deg), geo::Angle::degrees(-3.0),
           geo::Length::nautical_miles(range_nm)};
 }
@@ -103,7 +103,7 @@ TEST(Standard, AgreesWithTheReferenceOverHillsAtMidLatitude) {
   const terrain::AnalyticTerrain hills(terrain::sine_hills(test::axis_north(), 600.0, 12000.0));
   for (const double range_nm : {10.0, 40.0, 160.0}) {
     SCOPED_TRACE(range_nm);
-    physics::Look look = look_from(test::kMidLatitude, 20.0, range_nm);
+    physics::SweepGeometry look = look_from(test::kMidLatitude, 20.0, range_nm);
     look.altitude = geo::AltitudeMsl::metres(1500.0);
     expect_within_bounds(difference(sharp_configuration(), look, hills));
   }
@@ -128,7 +128,7 @@ TEST(Standard, AgreesWithTheReferenceOverRealGround) {
   const geo::GeoPoint apex{37.6, -122.9};
   for (const double range_nm : {10.0, 40.0, 80.0, 160.0}) {
     SCOPED_TRACE(range_nm);
-    const physics::Look look = look_from(apex, 60.0, range_nm);
+    const physics::SweepGeometry look = look_from(apex, 60.0, range_nm);
     const auto view = (*store)->prepare({apex, look.range.metres()});
     const Difference found = difference(sharp_configuration(), look, *view);
     // A sample that one has dark and the other has not may differ by white.
@@ -139,7 +139,7 @@ TEST(Standard, AgreesWithTheReferenceOverRealGround) {
 
 TEST(Standard, AgreesWithTheReferenceWhateverTheKnobs) {
   const terrain::AnalyticTerrain hills(terrain::sine_hills(test::axis_north(), 600.0, 12000.0));
-  const physics::Look look = look_from(test::kMidLatitude, 200.0, 40.0);
+  const physics::SweepGeometry look = look_from(test::kMidLatitude, 200.0, 40.0);
   for (const auto beam :
        {radar::BeamPattern::hard_edge, radar::BeamPattern::gaussian, radar::BeamPattern::cosecant_squared}) {
     for (const auto earth : {radar::EarthModel::flat, radar::EarthModel::sphere}) {
@@ -185,7 +185,7 @@ TEST(Standard, SideRaysDoNotMoveTheStreets) {
   configuration.fidelity.noise = false;
   configuration.world.land.street_width_deg = 30.0;
   for (const double azimuth_deg : {10.0, 100.0, 250.0}) {
-    const physics::Look look = look_from(test::kMidLatitude, azimuth_deg, 40.0);
+    const physics::SweepGeometry look = look_from(test::kMidLatitude, azimuth_deg, 40.0);
     std::vector<float> with_side_rays(480), without(480);
     configuration.fidelity.cross_track_slope = true;
     Standard(configuration).measure(look, town, with_side_rays);
@@ -211,7 +211,7 @@ TEST(Standard, EveryWidthOfVectorGivesTheSamePowerAndVideo) {
       configuration.fidelity.samples = samples;
       configuration.receiver.stc_exponent = 2.5;
       const auto count = static_cast<std::size_t>(samples);
-      const physics::Look look = look_from(test::kMidLatitude, 200.0, 40.0);
+      const physics::SweepGeometry look = look_from(test::kMidLatitude, 200.0, 40.0);
       std::vector<float> first_power;
       std::vector<std::uint8_t> first_video;
       test::for_each_vector_target([&](const char* name) {
@@ -219,7 +219,7 @@ TEST(Standard, EveryWidthOfVectorGivesTheSamePowerAndVideo) {
         std::vector<float> power(count);
         std::vector<std::uint8_t> video(count);
         standard.measure(look, world, power);
-        standard.develop({power, power, power}, look.range, 3, {7, 3, 11}, video);
+        standard.form_video({power, power, power}, look.range, 3, {7, 3, 11}, video);
         if (first_power.empty()) {
           first_power = power;
           first_video = video;
@@ -239,8 +239,8 @@ TEST(Standard, DrawsTheSameNoiseAsTheReference) {
     Standard standard(configuration);
     const std::vector<float> power(480, 0.02F);
     std::vector<std::uint8_t> exact(480), fast(480);
-    reference.develop({power, power, power}, geo::Length::nautical_miles(40.0), 3, {7, 3, 11}, exact);
-    standard.develop({power, power, power}, geo::Length::nautical_miles(40.0), 3, {7, 3, 11}, fast);
+    reference.form_video({power, power, power}, geo::Length::nautical_miles(40.0), 3, {7, 3, 11}, exact);
+    standard.form_video({power, power, power}, geo::Length::nautical_miles(40.0), 3, {7, 3, 11}, fast);
     for (std::size_t i = 0; i < 480; ++i) ASSERT_NEAR(exact[i], fast[i], 1) << i << " of " << looks << " looks";
   }
 }

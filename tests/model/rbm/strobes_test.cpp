@@ -13,14 +13,14 @@
 namespace yars::model::rbm {
 namespace {
 
-constexpr double kAltitudeM = 3000.0;
-constexpr double kRangeM = 74080.0;
+constexpr double kAltitude_m = 3000.0;
+constexpr double kRange_m = 74080.0;
 
 double decibels(double ratio) {
   return 10.0 * std::log10(ratio);
 }
 
-radar::Jammer jammer_north(double distance_m, double altitude_m = kAltitudeM) {
+radar::Jammer jammer_north(double distance_m, double altitude_m = kAltitude_m) {
   radar::Jammer jammer;
   jammer.place = geo::geodesic_direct(test::kMidLatitude, geo::Bearing(), geo::Length::metres(distance_m));
   jammer.altitude_m = altitude_m;
@@ -35,13 +35,13 @@ radar::RadarConfiguration jammed_by(const radar::Jammer& jammer) {
   return configuration;
 }
 
-physics::Look look_off(double off_deg) {
-  physics::Look look = test::look_north(kAltitudeM, kRangeM);
+physics::SweepGeometry look_off(double off_deg) {
+  physics::SweepGeometry look = test::look_north(kAltitude_m, kRange_m);
   look.azimuth = geo::Bearing::degrees(off_deg);
   return look;
 }
 
-double level(const radar::RadarConfiguration& configuration, const physics::Look& look,
+double level(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& look,
              const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0)) {
   return Strobes(configuration).level(look, terrain::AnalyticTerrain(height));
 }
@@ -49,7 +49,7 @@ double level(const radar::RadarConfiguration& configuration, const physics::Look
 TEST(Strobes, HaveThePowerOfTheOneWayRadarEquation) {
   radar::RadarConfiguration configuration = jammed_by(jammer_north(50000.0));
   configuration.fidelity.earth = radar::EarthModel::flat;
-  const physics::Receiver receiver = physics::make_receiver(configuration, geo::Length::metres(kRangeM));
+  const physics::Receiver receiver = physics::make_receiver(configuration, geo::Length::metres(kRange_m));
   const double radar_w = std::pow(10.0, 7.2);
   const double expected = 4.0 * std::numbers::pi * 10.0 / radar_w / (50000.0 * 50000.0) / receiver.full_scale;
   EXPECT_NEAR(level(configuration, look_off(0.0)) / expected, 1.0, 1e-6);
@@ -79,7 +79,7 @@ TEST(Strobes, AreThereOnTheJammedBandAndChannelsAlone) {
   const radar::RadarConfiguration configuration = jammed_by(jammer);
   for (std::uint8_t band = 0; band < 5; ++band) {
     for (std::uint8_t channel = 1; channel <= 8; ++channel) {
-      physics::Look look = look_off(0.0);
+      physics::SweepGeometry look = look_off(0.0);
       look.band = band;
       look.channel = channel;
       const bool jammed = band == 1 && (channel == 3 || channel == 4);
@@ -92,7 +92,7 @@ TEST(Strobes, AreHiddenBehindARidgeAndBelowTheHorizon) {
   const radar::RadarConfiguration low = jammed_by(jammer_north(50000.0, 20.0));
   EXPECT_GT(level(low, look_off(0.0)), 0.0);
   EXPECT_EQ(level(low, look_off(0.0), terrain::ridge(test::axis_north(), 40000.0, 2000.0, 900.0)), 0.0);
-  physics::Look skimming = look_off(0.0);
+  physics::SweepGeometry skimming = look_off(0.0);
   skimming.altitude = geo::AltitudeMsl::metres(30.0);
   // 4/3 earth: 30 m see 22.6 km, 20 m another 18.4 km.
   EXPECT_EQ(level(low, skimming), 0.0);
@@ -111,8 +111,8 @@ TEST(Strobes, AreAsBrightInEverySample) {
   Reference reference(configuration);
   const std::vector<float> nothing(64, 0.0F);
   std::vector<std::uint8_t> quiet(64), jammed(64);
-  reference.develop({nothing, nothing, nothing}, geo::Length::metres(kRangeM), 3, {}, quiet);
-  reference.develop({nothing, nothing, nothing, 0.1}, geo::Length::metres(kRangeM), 3, {}, jammed);
+  reference.form_video({nothing, nothing, nothing}, geo::Length::metres(kRange_m), 3, {}, quiet);
+  reference.form_video({nothing, nothing, nothing, 0.1}, geo::Length::metres(kRange_m), 3, {}, jammed);
   for (std::size_t i = 0; i < jammed.size(); ++i) {
     EXPECT_EQ(jammed[i], jammed[0]);
     EXPECT_NEAR(jammed[i], 255.0 * (1.0 - 10.0 / 45.0), 1.0);

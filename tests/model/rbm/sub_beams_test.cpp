@@ -24,7 +24,7 @@ std::vector<std::uint8_t> lit_by(int rays, double azimuth_deg) {
   radar::RadarConfiguration configuration = test::bare_configuration(240);
   configuration.fidelity.sub_beams = rays;
   const auto algorithm = make_algorithm(configuration);
-  physics::Look look = test::look_north(1000.0, 30000.0);
+  physics::SweepGeometry look = test::look_north(1000.0, 30000.0);
   look.azimuth = geo::Bearing::degrees(azimuth_deg);
   std::vector<float> power(240);
   algorithm->measure(look, wall_to_the_west(), power);

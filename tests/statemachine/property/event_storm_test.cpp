@@ -61,7 +61,7 @@ class Storm {
     return event;
   }
 
-  void disturb(Surroundings& around) {
+  void disturb(Inputs& around) {
     around.tick += pick(1, 40);
     around.recorder_present = pick(0, 1) == 0;
     around.recorder_writing = around.recorder_present && pick(0, 1) == 0;
@@ -360,7 +360,7 @@ TEST_P(EventStorm, KeepsEveryInvariantAndNeverWedges) {
     expect_text_terminated_and_numbers_finite(pilot.state);
     expect_boxes_around_legends(pilot.state);
     // A restarted state machine takes up only what passes the border.
-    EXPECT_EQ(databuffer::why_refused(pilot.state).value_or(""), "");
+    EXPECT_EQ(databuffer::validate(pilot.state).value_or(""), "");
     if (count % 100 == 0) expect_a_way_out(pilot);
   }
   // A storm in which all is dead, or nothing, has tested little.

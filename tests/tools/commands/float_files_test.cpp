@@ -83,7 +83,7 @@ TEST(FloatFiles, APatchWritesThePowerOfTheKernelFromTheFarEdge) {
   order.centre = {37.9, -122.3};
   order.window = geo::Length::nautical_miles(4.7);
   order.map = 1;
-  hrm::PatchProcess process(configuration, {});
+  hrm::PatchFormation process(configuration, {});
   const hrm::PatchNeed need = process.begin(order);
   auto store = model::terrain::open_terrain(configuration.terrain);
   process.give({(*store)->prepare(need.window), (*store)->prepare(need.path), nullptr});

@@ -132,7 +132,7 @@ class Session {
 };
 
 // A glass before the player.
-class Glass {
+class Display {
  public:
   void jump(const Played& played) {
     seen_ = {};
@@ -178,7 +178,7 @@ class RecordingPlayed : public ::testing::TestWithParam<bool> {
       std::make_shared<const model::terrain::AnalyticTerrain>(model::terrain::built_in_hills())};
   std::optional<RecordingReader> reader;
   std::optional<Player> player;
-  Glass glass;
+  Display glass;
 };
 
 INSTANTIATE_TEST_SUITE_P(ByVideoAndByKernel, RecordingPlayed, ::testing::Values(true, false),

@@ -234,7 +234,7 @@ TEST(Recording, TakesAnyTicks) {
 TEST(Recording, WritesWhatFillsMemoryBeforeASecondIsOver) {
   std::mt19937_64 random(3);
   std::vector<RecordingItem> items;
-  for (int i = 0; i < 12; ++i) items.emplace_back(test::patch_at(7, databuffer::kMostPatchPixels, random));
+  for (int i = 0; i < 12; ++i) items.emplace_back(test::patch_at(7, databuffer::kMaxPatchPixels, random));
   for (int i = 0; i < 20'000; ++i) items.emplace_back(Gap{1, 2, 3});
   auto reader = reader_of(recorded(items));
   EXPECT_GE(reader->blocks().size(), 5U);

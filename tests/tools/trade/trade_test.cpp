@@ -59,7 +59,7 @@ TEST(Trade, FewerSamplesAreFurtherFromTheReference) {
   const auto hills = model::terrain::AnalyticTerrain(model::terrain::built_in_hills());
   const auto scan = narrow_scan(40.0);
   const Ruler ruler = make_ruler(with(*radar::fidelity_preset("reference")), scan, hills);
-  const auto sweep = *knob_contenders("samples=60,480", *radar::fidelity_preset("standard"), Subject::scan);
+  const auto sweep = *knob_candidates("samples=60,480", *radar::fidelity_preset("standard"), Subject::scan);
   const Errors coarse = errors_against(ruler, observe(with(sweep[0].fidelity), scan, hills));
   const Errors fine = errors_against(ruler, observe(with(sweep[1].fidelity), scan, hills));
   EXPECT_GT(coarse.gray_levels, fine.gray_levels);
@@ -89,23 +89,23 @@ TEST(Trade, TheReports1996PowerHasNoDecibels) {
 
 TEST(Trade, AKnobSweepNamesEachPointAndSetsThatKnobAlone) {
   const auto base = *radar::fidelity_preset("standard");
-  const auto sweep = knob_contenders("geodesicKnots=2,3,5", base, Subject::scan);
+  const auto sweep = knob_candidates("geodesicKnots=2,3,5", base, Subject::scan);
   ASSERT_TRUE(sweep);
   ASSERT_EQ(sweep->size(), 3U);
   EXPECT_EQ((*sweep)[1].name, "geodesicKnots=3");
   EXPECT_EQ((*sweep)[1].family, "geodesicKnots");
   EXPECT_EQ((*sweep)[1].fidelity.geodesic_knots, 3);
   EXPECT_EQ((*sweep)[1].fidelity.samples, base.samples);
-  EXPECT_EQ((*knob_contenders("interpolation=cubic", base, Subject::scan))[0].fidelity.interpolation,
+  EXPECT_EQ((*knob_candidates("interpolation=cubic", base, Subject::scan))[0].fidelity.interpolation,
             radar::Interpolation::cubic);
-  EXPECT_TRUE((*knob_contenders("crossTrackSlope=true", base, Subject::scan))[0].fidelity.cross_track_slope);
-  EXPECT_EQ((*knob_contenders("beam=hard-edge", base, Subject::scan))[0].fidelity.beam, radar::BeamPattern::hard_edge);
+  EXPECT_TRUE((*knob_candidates("crossTrackSlope=true", base, Subject::scan))[0].fidelity.cross_track_slope);
+  EXPECT_EQ((*knob_candidates("beam=hard-edge", base, Subject::scan))[0].fidelity.beam, radar::BeamPattern::hard_edge);
 }
 
 TEST(Trade, AllPresetsIsAllOfThem) {
-  EXPECT_EQ(preset_contenders("all")->size(), radar::fidelity_names().size());
-  EXPECT_EQ((*preset_contenders("draft,fine"))[1].name, "fine");
-  EXPECT_TRUE(preset_contenders("none")->empty());
+  EXPECT_EQ(preset_candidates("all")->size(), radar::fidelity_names().size());
+  EXPECT_EQ((*preset_candidates("draft,fine"))[1].name, "fine");
+  EXPECT_TRUE(preset_candidates("none")->empty());
 }
 
 void expect_refused(const error::Error& error) {
@@ -120,7 +120,7 @@ TEST(Trade, RefusesBadInputWithOneLine) {
        {"", "samples", "samples=", "samples=0", "samples=4097", "samples=12x", "samples=120,,240", "sample=5",
         "geodesicKnots=1", "geodesicKnots=10", "interpolation=best", "postsPerSample=-1", "postsPerSample=nan",
         "earth=disc", "subBeams=16", "crossTrackSlope=1", "beam=hard", "mapSize=480"}) {
-    const auto found = knob_contenders(sweep, base, Subject::scan);
+    const auto found = knob_candidates(sweep, base, Subject::scan);
     ASSERT_FALSE(found) << sweep;
     expect_refused(found.error());
   }
@@ -131,7 +131,7 @@ TEST(Trade, RefusesBadInputWithOneLine) {
     expect_refused(found.error());
   }
   for (const char* presets : {"", "best", "draft,"}) {
-    const auto found = preset_contenders(presets);
+    const auto found = preset_candidates(presets);
     ASSERT_FALSE(found) << presets;
     expect_refused(found.error());
   }
@@ -140,7 +140,7 @@ TEST(Trade, RefusesBadInputWithOneLine) {
 // Two points over two scenes; the first is worst in the second one.
 TradeTable small_table() {
   TradeTable table;
-  table.contenders = {{"draft", "preset", {}}, {"samples=240", "samples", {}}};
+  table.candidates = {{"draft", "preset", {}}, {"samples=240", "samples", {}}};
   table.columns = kScanColumns;
   table.scene_fields = kScanFields;
   table.scenes = {row_of(Scene{{37.0, -122.0}, 15000.0, 60.0, 10.0}),

@@ -38,7 +38,7 @@ radar::Scene scene_of(const std::filesystem::path& file) {
 // A box of 20 x 10 x 8 m whose middle is 300 m east and 400 m north of the origin, and a flat road of 200 m.
 std::vector<std::byte> box_and_road(std::optional<geo::GeoPoint> origin) {
   worldgen::OpenFlightWriter writer(origin);
-  worldgen::Sketch sketch(writer);
+  worldgen::MeshBuilder sketch(writer);
   writer.begin_object("box");
   sketch.kind = {1, 0, 0xFF0000};
   sketch.box({300, 400, 0}, 20, 10, 8);
@@ -127,7 +127,7 @@ TEST(SceneStore, ALevelFaceWithItsOwnHeightsLiesOnTheGroundThatIsNear) {
 TEST(SceneStore, ASliverAsLongAsTheMoonIsFarMakesABoundedNumberOfPieces) {
   const Folder folder;
   worldgen::OpenFlightWriter writer(kPlace);
-  worldgen::Sketch sketch(writer);
+  worldgen::MeshBuilder sketch(writer);
   writer.begin_object("road");
   sketch.kind = {9, 0, 0x00FF00};
   sketch.polygon({{0, 0, 0.1}, {4e8, 0, 0.1}, {4e8, 0.01, 0.1}});

@@ -62,7 +62,7 @@ void write_bytes(const std::filesystem::path& file, const std::vector<std::byte>
 // A hull 20 m high within a box of 2 km, as some ships come.
 std::filesystem::path boxed_ship(const std::filesystem::path& folder) {
   worldgen::OpenFlightWriter writer(kPlace);
-  worldgen::Sketch sketch(writer);
+  worldgen::MeshBuilder sketch(writer);
   writer.begin_object("hull");
   sketch.box({0, 0, 0}, 20, 100, 20);
   writer.end();
@@ -124,7 +124,7 @@ TEST(NameFilter, OfSeveralScenesEachLeavesOutWhatItHas) {
   std::filesystem::create_directory(folder.path() / "other");
   const std::string other = folder.path() / "other" / "pier.flt";
   worldgen::OpenFlightWriter writer(kPlace);
-  worldgen::Sketch sketch(writer);
+  worldgen::MeshBuilder sketch(writer);
   writer.begin_object("pier");
   sketch.box({0, 0, 0}, 10, 50, 2);
   writer.end();

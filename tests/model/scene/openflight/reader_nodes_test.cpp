@@ -58,7 +58,7 @@ TEST(Matrices, OfInnerNodesComeBeforeThoseOfOuterOnes) {
 
 TEST(Matrices, ThatMirrorKeepOutsideOutside) {
   worldgen::OpenFlightWriter writer(std::nullopt);
-  worldgen::Sketch sketch(writer);
+  worldgen::MeshBuilder sketch(writer);
   const Affine mirror = Affine::scale({-1, 2, 1});
   writer.begin_group("mirrored", &mirror);
   sketch.box({5, 5, 0}, 4, 4, 4);

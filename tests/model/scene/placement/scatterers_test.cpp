@@ -40,7 +40,7 @@ double wall_area(const ScattererLevel& level) {
 
 TEST(Scatterers, OfALargeHallAreManyAndLoseNoneOfItsArea) {
   worldgen::OpenFlightWriter writer(std::nullopt);
-  worldgen::Sketch sketch(writer);
+  worldgen::MeshBuilder sketch(writer);
   writer.begin_object("hall");
   sketch.kind = {1, 0, 0};
   sketch.box({500, -300, 0}, 400, 200, 25);
@@ -103,7 +103,7 @@ TEST(Scatterers, AFlatFaceTheSizeOfAContinentNeitherHangsNorFillsTheMemory) {
 
 TEST(Scatterers, BeyondTheReachAreLeftOut) {
   worldgen::OpenFlightWriter writer(std::nullopt);
-  worldgen::Sketch sketch(writer);
+  worldgen::MeshBuilder sketch(writer);
   writer.begin_object("near and far");
   sketch.box({112, 16, 0}, 10, 10, 10);
   sketch.box({5000, 0, 0}, 10, 10, 10);

@@ -59,7 +59,7 @@ TEST(TileBuilders, ASquareOfTooManyVerticesForTheirNumbersIsSeveralTilesInOrder)
   EXPECT_GT(tiles.size(), 2U);
   std::uint32_t sum = 0;
   for (const Tile& tile : tiles) {
-    EXPECT_LE(tile.east_m.size(), Tile::kMostVertices);
+    EXPECT_LE(tile.east_m.size(), Tile::kMaxVertices);
     EXPECT_EQ(tile.origin.latitude_deg, tiles[0].origin.latitude_deg);
     for (std::size_t t = 0; t < tile.triangles(); ++t) {
       const std::uint32_t number = tile.object[t];

@@ -268,7 +268,7 @@ TEST(RealRasters, AMercatorGridOfSanFranciscoIsFoundAndFiner) {
   ASSERT_EQ(summary->cells.size(), 1U);
   EXPECT_EQ(summary->cells[0].south_deg, 37);
   EXPECT_EQ(summary->cells[0].west_deg, -123);
-  EXPECT_EQ(summary->cells[0].posts_per_degree_north, gdal::kMostPostsPerDegree);
+  EXPECT_EQ(summary->cells[0].posts_per_degree_north, gdal::kMaxPostsPerDegree);
   const Cell cell = read(path, {37, -123}, 1);
   EXPECT_EQ(cell.rows(), 3601);
   // Half of Telegraph Hill to Twin Peaks: the city's heights.
