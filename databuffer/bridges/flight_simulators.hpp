@@ -16,8 +16,9 @@ namespace yars::databuffer::bridges {
 // FlightGear's native FDM packet (also what JSBSim's output of type FLIGHTGEAR sends): one datagram a state, all
 // numbers big-endian, versions 24 (408 bytes) and 25 (552 bytes), the same as far as they are read here. The version
 // says which length is right; any other pair is refused. The packet has no stamp that tells an old one from a new.
-// Source: FlightGear's manual, option --native-fdm; the fields are held to what JSBSim sends (tests/databuffer/bridges).
-// Latitude is geodetic, altitude above mean sea level, angles true, velocity north, east, down.
+// Source: FlightGear's manual, option --native-fdm; the fields are held to what JSBSim sends
+// (tests/databuffer/bridges). Latitude is geodetic, altitude above mean sea level, angles true, velocity north, east,
+// down.
 error::Expected<ExternalSample> decode_flightgear(memory::Bytes packet);
 
 // JSBSim's socket output in text: comma separated lines. A line that begins with <LABELS> names the columns by the last

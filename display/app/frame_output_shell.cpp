@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "lib/error/error.hpp"
 #include "databuffer/session/picture_pool.hpp"
+#include "lib/error/error.hpp"
 #include "lib/file/output_file.hpp"
 #include "lib/log/log.hpp"
 
@@ -102,7 +102,7 @@ void FramePublisher::work(host::Glass& glass, int size) {
   if (size > kMostPixels) {
     if (!std::exchange(told_of_size_, true))
       log::warning("the window is larger than a frame may be (" + std::to_string(kMostPixels) +
-                              " pixels): none is published until it is smaller");
+                   " pixels): none is published until it is smaller");
     return;
   }
   if (unpublished_ && glass.start_reading()) unpublished_ = false;

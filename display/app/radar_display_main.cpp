@@ -1,4 +1,5 @@
 // radar-display: the glass, in a window or as pictures in a folder; with --publish also as frames in the segment.
+
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -7,8 +8,8 @@
 #include <thread>
 #include <utility>
 
-#include "databuffer/runtime/process.hpp"
 #include "config/schema/load.hpp"
+#include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "databuffer/runtime/tick_loop.hpp"
 #include "display/app/frame_output_shell.hpp"
@@ -101,8 +102,7 @@ class HeadlessGlass {
     if (failing == std::exchange(failing_, failing)) return;
     const std::string line = failing ? "frames are not written: " + written.error().found : "frames are written again";
     session_.note(databuffer::NoteKind::loss, line);
-    failing ? log::warning(written.error().message() + "; each frame tries again")
-            : log::info(line);
+    failing ? log::warning(written.error().message() + "; each frame tries again") : log::info(line);
   }
 
   databuffer::Session& session_;
@@ -136,8 +136,8 @@ error::Expected<void> run_headless_lockstep(databuffer::TickLoop& loop, Headless
 }
 
 error::Expected<void> run_headless(databuffer::Session& session, const radar::RadarConfiguration& configuration,
-                                     const databuffer::ProgramOptions& options, const DisplayOptions& display_options,
-                                     int size, std::optional<display::FramePublisher> publisher) {
+                                   const databuffer::ProgramOptions& options, const DisplayOptions& display_options,
+                                   int size, std::optional<display::FramePublisher> publisher) {
   std::optional<display::FrameWriter> frames;
   if (!display_options.frames.empty()) {
     auto created = display::FrameWriter::create(display_options.frames, display_options.keep);
@@ -147,7 +147,7 @@ error::Expected<void> run_headless(databuffer::Session& session, const radar::Ra
   auto context = display::gl::open_headless();
   if (!context) return tl::unexpected(context.error());
   log::info("draws by " + display::gl::renderer_name() + ", frames go to " +
-                       (frames ? display_options.frames : "the segment"));
+            (frames ? display_options.frames : "the segment"));
   Glass glass(session, configuration, !options.lockstep.empty());
   HeadlessGlass headless(session, glass, size, display_options, std::move(frames), std::move(publisher));
   if (options.lockstep.empty()) return run_headless_live(session, headless);
@@ -208,8 +208,8 @@ class WindowGlass {
 };
 
 error::Expected<void> run_window(databuffer::Session& session, const radar::RadarConfiguration& configuration,
-                                   const databuffer::ProgramOptions& options, int size,
-                                   std::optional<display::FramePublisher> publisher) {
+                                 const databuffer::ProgramOptions& options, int size,
+                                 std::optional<display::FramePublisher> publisher) {
   auto window = display::gl::open_window("YARS " + configuration.name + " - " + options.session, size);
   if (!window) return tl::unexpected(window.error());
   log::info("draws by " + display::gl::renderer_name());

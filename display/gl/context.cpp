@@ -54,7 +54,7 @@ error::Expected<std::unique_ptr<Context>> no_context(const char* step) {
   std::array<char, 16> code{};
   std::snprintf(code.data(), code.size(), "0x%04x", static_cast<unsigned>(eglGetError()));
   return error::fail("headless display", "OpenGL 3.3 through EGL", std::string(step) + " failed with " + code.data(),
-                       kInstall);
+                     kInstall);
 }
 
 // epoxy ends the program where it cannot open the library; so it is opened here first, and stays.
@@ -224,7 +224,7 @@ error::Expected<std::unique_ptr<Window>> no_window() {
   const char* description = nullptr;
   glfwGetError(&description);
   return error::fail("window", "OpenGL 3.3 on the display", description == nullptr ? "no reason given" : description,
-                       "use --headless --frames DIR");
+                     "use --headless --frames DIR");
 }
 
 }  // namespace

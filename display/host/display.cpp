@@ -70,8 +70,8 @@ Glass::Glass(databuffer::Session& session, const radar::RadarConfiguration& conf
 error::Expected<Glass> Glass::attach(const Place& place) {
   if (const int version = gl::opengl_version(); version < kNeededOpengl)
     return error::fail("glass", "a current context of OpenGL 3.3 or later",
-                         version == 0 ? "none" : std::to_string(version / 10) + "." + std::to_string(version % 10),
-                         "make one current on this thread first");
+                       version == 0 ? "none" : std::to_string(version / 10) + "." + std::to_string(version % 10),
+                       "make one current on this thread first");
   auto configuration = config::load_configuration(place.configuration);
   if (!configuration) return tl::unexpected(configuration.error());
   for (const std::string& warning : configuration->warnings) log::warning(warning);

@@ -86,8 +86,7 @@ void write_raster(const PatchOutput& output, const hrm::PatchOrder& order, const
 void check_patch_output(const PatchOutput& output) {
   const std::string suffix = ending_of(output.file);
   if (output.pixels != "video" && suffix != ".tif")
-    give_up(
-        error::usage_error("--pixels", "an --out that ends in .tif", output.file.empty() ? "none" : output.file));
+    give_up(error::usage_error("--pixels", "an --out that ends in .tif", output.file.empty() ? "none" : output.file));
   if (suffix == ".tif" && !gdal::available())
     give_up({output.file, "a YARS built with GDAL to write a GeoTIFF", "one built without it",
              "run `scripts/setup --gdal` and build again, or write a .png"});
@@ -192,7 +191,7 @@ void check_order(const hrm::PatchOrder& order, const radar::RadarConfiguration& 
   const double distance_nm = geo::geodesic_inverse(order.apex, order.centre).distance.nautical_miles();
   if (distance_nm < kNearestShare * order.window.nautical_miles())
     give_up(error::usage_error("--target-lat, --target-lon", "a target away by 0.75 of the window's side or more",
-                                    std::to_string(distance_nm) + " NM"));
+                               std::to_string(distance_nm) + " NM"));
 }
 
 void check_heights(const hrm::PatchOrder& order, const hrm::PatchDatabase& database,
