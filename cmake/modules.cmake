@@ -18,6 +18,7 @@ function(yars_module name)
   endif()
   if(sources OR ARG_SOURCES)
     add_library(${name} STATIC ${sources} ${ARG_SOURCES})
+    target_compile_features(${name} PUBLIC cxx_std_20)  # also for a host whose default is older
     target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
     target_link_libraries(${name} PUBLIC ${ARG_DEPENDS})
   else()

@@ -1,4 +1,5 @@
 // yars config check | print | convert: what a configuration file says, what can be said in one, and old ones as GUF.
+
 #include <cstdio>
 #include <filesystem>
 #include <memory>

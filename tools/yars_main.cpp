@@ -1,4 +1,5 @@
 // The `yars` command: one program, many subcommands; each runs while the command line is parsed.
+
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "tools/command/command.hpp"

@@ -1,5 +1,6 @@
 // flight-model: flies a route, a fixed course or a recorded track, or takes the aircraft from a program outside, and
 // publishes ownship and nav.
+
 #include "databuffer/app/flight_shell.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "lib/log/log.hpp"

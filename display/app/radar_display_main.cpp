@@ -1,4 +1,5 @@
 // radar-display: the glass, in a window or as pictures in a folder; with --publish also as frames in the segment.
+
 #include <algorithm>
 #include <chrono>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // The glass for a program of one's own: takes part in a session and draws the radar's picture into the OpenGL context
 // that the program has made current, which has to be 3.3 core or later. Every function but press and click needs that
 // context, destruction too, and leaves its state as it was (the list: display/gl/plain_state.hpp). Nothing waits but
-// attach and read. One thread at a time for each glass; a program may have several. Link the target yars_glass.
+// attach and read. One thread at a time for each glass; a program may have several. Link the target yars_display.
 //
 //   auto glass = yars::display::host::Display::attach({.session = "default"});
 //   each frame of the host:   glass->update();   ...   glass->draw({left, bottom, 600, 600});

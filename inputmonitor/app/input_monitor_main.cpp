@@ -1,4 +1,5 @@
 // input-monitor: a keyboard, a script or cockpit hardware becomes input events.
+
 #include "config/schema/devices.hpp"
 #include "config/schema/load.hpp"
 #include "databuffer/runtime/program.hpp"

@@ -1,4 +1,5 @@
 // radar-model: antenna and real beam map; sweeps out.
+
 #include "config/schema/load.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "lib/log/log.hpp"

@@ -1,4 +1,5 @@
 // state-machine: turns events into the radar state.
+
 #include "config/schema/load.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "lib/log/log.hpp"

@@ -47,7 +47,8 @@ void expect_island(geo::GeoPoint apex, double azimuth_deg, geo::GeoPoint island,
   test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
     expect_lit_between(seen(configuration, look_from(apex, azimuth_deg, kAltitude_m, kRange_m), terrain), kRange_m,
                        distance_m - kRadius_m, distance_m + kRadius_m);
-    EXPECT_TRUE(test::is_dark(seen(configuration, look_from(apex, azimuth_deg + 180.0, kAltitude_m, kRange_m), terrain)));
+    EXPECT_TRUE(
+        test::is_dark(seen(configuration, look_from(apex, azimuth_deg + 180.0, kAltitude_m, kRange_m), terrain)));
   });
 }
 

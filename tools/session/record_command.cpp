@@ -1,4 +1,5 @@
 // `yars record`: the recorder of a session, until Ctrl-C or the end of a lockstep run.
+
 #include <cstdio>
 #include <ctime>
 #include <filesystem>

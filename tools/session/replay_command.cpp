@@ -1,5 +1,6 @@
 // `yars replay`: plays a recording into a session for a glass; --events runs the kernel again over its ticks and
 // compares every sweep; --print says what happened.
+
 #include <algorithm>
 #include <cstdio>
 #include <memory>

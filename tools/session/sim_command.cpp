@@ -1,4 +1,5 @@
 // `yars sim`: the session's clock and the aircraft's place.
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -83,8 +84,7 @@ void pause_for_roles() {
 
 // Frozen time is moved on in portions that no role has to skip; each from the clock as it then is.
 void step(const CommonOptions& common, std::int64_t ticks) {
-  if (ticks < 1)
-    give_up(error::usage_error("step", "a number of ticks of 5 ms, 1 or more", std::to_string(ticks)));
+  if (ticks < 1) give_up(error::usage_error("step", "a number of ticks of 5 ms, 1 or more", std::to_string(ticks)));
   auto session = open_session(common);
   const std::uint32_t epoch = session.clock().epoch;
   while (ticks > 0 && !databuffer::stop_requested()) {
@@ -120,8 +120,8 @@ void settle_when_frozen(Session& session) {
 void reset(const CommonOptions& common, double time_s) {
   if (!(time_s >= 0.0 && time_s <= databuffer::kLatestSimTime_s))
     give_up(error::usage_error("reset",
-                                    "a sim time of 0 to " + text::text_of_number(databuffer::kLatestSimTime_s) + " s",
-                                    text::text_of_number(time_s)));
+                               "a sim time of 0 to " + text::text_of_number(databuffer::kLatestSimTime_s) + " s",
+                               text::text_of_number(time_s)));
   auto session = open_session(common);
   change_clock(session, [time_s](const ClockState& clock) {
     ClockState next = clock;
@@ -145,8 +145,8 @@ void reposition(const CommonOptions& common, const Place& place) {
   const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
   if (!within(place.latitude_deg, -90, 90) || !within(place.longitude_deg, -180, 180) ||
       !within(place.altitude_ft, -3000, 600000) || !within(place.heading_deg, 0, 360))
-    give_up(error::usage_error(
-        "reposition", "LAT [-90, 90], LON [-180, 180], ALT_FT [-3000, 600000], HDG [0, 360]", "a value outside"));
+    give_up(error::usage_error("reposition", "LAT [-90, 90], LON [-180, 180], ALT_FT [-3000, 600000], HDG [0, 360]",
+                               "a value outside"));
   auto session = open_session(common);
   change_clock(session, [&place](const ClockState& clock) {
     ClockState next = rebased(clock);

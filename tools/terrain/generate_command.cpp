@@ -1,4 +1,5 @@
 // `yars terrain generate`: a made-up landscape as a DTED tree, with its culture beside each cell.
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>

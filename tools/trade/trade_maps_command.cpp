@@ -1,5 +1,6 @@
 // `yars trade maps`: speed against accuracy of patch maps: presets and knob sweeps over views of terrain and scenes,
 // against the reference. Table (or --json) on standard output, --csv and --out beside it, progress on standard error.
+
 #include <cstdio>
 #include <map>
 #include <memory>

@@ -11,7 +11,7 @@ namespace yars::worldgen {
 
 namespace {
 
-constexpr double kSea_m = -10.0;     // [m] deeper is the sea that rivers end in; shoals before it are crossed
+constexpr double kSea_m = -10.0;    // [m] deeper is the sea that rivers end in; shoals before it are crossed
 constexpr double kWinding_m = 4.0;  // [m] of chance in what a flood meets: plains have winding rivers
 // [m] [nodes] Rivers cross a tile's border at gates alone, so they shall not run along it.
 constexpr double kBorder_m = 45.0;

@@ -9,7 +9,7 @@ namespace yars::worldgen {
 
 namespace {
 
-constexpr double kBend_m = 1150.0;       // [m] wavelength of meanders
+constexpr double kBend_m = 1150.0;      // [m] wavelength of meanders
 constexpr double kBendAside_m = 170.0;  // [m] to either side
 constexpr int kPiecesPerNode = 5;
 constexpr double kFloorAboveWater_m = 1.0;

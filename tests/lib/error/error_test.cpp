@@ -1,8 +1,8 @@
 // Errors tell a person what to do; a broken requirement names both values.
+#include "lib/error/error.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "lib/error/error.hpp"
 
 namespace yars::error {
 namespace {
