@@ -268,7 +268,7 @@ std::vector<FormSchema> antenna_forms() {
                               .highest = 30,
                               .binding = PairSlot{YARS_FIELD(radar.antenna.azimuth_beamwidth_deg),
                                                   YARS_FIELD(radar.antenna.elevation_beamwidth_deg)},
-                              .purpose = "two-way 3 dB, in azimuth and elevation"},
+                              .purpose = "one-way 3 dB, in azimuth and elevation"},
                              {.name = "position",
                               .unit = "deg",
                               .lowest = -180,

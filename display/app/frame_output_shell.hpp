@@ -40,7 +40,7 @@ class FrameSteps {
   std::int64_t step_ = -1;
 };
 
-// Writes pictures of the glass as frame_NNNNNN.png (numbers: frame_output_shell.hpp). A reader never finds half a
+// Writes pictures of the glass as frame_NNNNNN.png. A reader never finds half a
 // picture, and one that could not be written leaves nothing behind.
 class FrameWriter {
  public:

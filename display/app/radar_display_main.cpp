@@ -33,7 +33,7 @@ struct DisplayOptions {
   int size = 0;  // 0: the configuration's
 };
 
-constexpr std::int64_t kRedrawInterval_ns = 1'000'000'000 / 60;  // [ns] design "The glass": at most 60 a second
+constexpr std::int64_t kRedrawInterval_ns = 1'000'000'000 / 60;  // [ns] at most 60 a second
 // [ns] the ring of sweeps holds 5 s; this decides only how far off its sim time a live frame is.
 constexpr std::chrono::milliseconds kHeadlessLook{10};
 

@@ -1,6 +1,6 @@
 // The glass: keeps the sweeps and the maps, and draws them with the symbols when something that shows has changed.
 // Draws into a picture of its own, which is then read back or drawn where the current framebuffer wants it.
-// Needs a current context (context.hpp, context.hpp) for its lifetime; knows nothing of the session.
+// Needs a current context (context.hpp) for its lifetime; knows nothing of the session.
 #pragma once
 
 #include <cstdint>

@@ -62,7 +62,7 @@ ViewFrame frame_of(const databuffer::PatchMap& map);
 // How far a picture drawn in `drawn` is off at its outer edge when `present` is the truth [units].
 double displacement_units(const PlanView& view, const ViewFrame& drawn, const ViewFrame& present);
 
-// The frame in which everything is drawn: ground track up, own apex; frozen, the last sweep's [design "The glass"].
+// The frame in which everything is drawn: ground track up, own apex; frozen, the last sweep's.
 
 // `newest` is the last sweep of the mode shown, or null.
 ViewFrame present_frame(const DisplayInput& input, const StoredSweep* newest);

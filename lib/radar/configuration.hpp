@@ -46,8 +46,8 @@ struct AntennaConfiguration {
   double elevation_limit_deg = 60.0;     // [deg] gimbal
   double tolerance_deg = 0.1;            // [deg] a commanded position counts as reached within this
   double drift_limit_deg = 10.0;         // [deg] the scan follows the ground track up to this drift
-  double azimuth_beamwidth_deg = 2.5;    // [deg] two-way 3 dB
-  double elevation_beamwidth_deg = 2.5;  // [deg] two-way 3 dB
+  double azimuth_beamwidth_deg = 2.5;    // [deg] one-way 3 dB
+  double elevation_beamwidth_deg = 2.5;  // [deg] one-way 3 dB
   bool circular_scan = false;            // goes round instead of back and forth
   int scan_bars = 1;                     // 1-4 elevation bars of the real beam map
   double start_azimuth_deg = 0.0;        // [deg] against the nose, before the first scan

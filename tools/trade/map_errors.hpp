@@ -47,7 +47,7 @@ struct MapEvidence {
   std::vector<float> power;                                // gamma of level ground; of 1996: brightness
   std::vector<std::uint8_t> dark;                          // 1: returns less than a twentieth of level ground
   std::vector<std::uint8_t> video;                         // as drawn
-  std::vector<std::optional<model::hrm::MapPoint>> marks;  // where those of map_errors.hpp appear; none: hidden
+  std::vector<std::optional<model::hrm::MapPoint>> marks;  // where those marks appear; none: hidden
   bool power_is_radar = true;                              // false: brightness of 1996
   double noise = 0.0;                                      // thermal noise, as gamma of level ground
   double took_ms = 0.0;                                    // [ms] of the thread's processor time, by the clock given

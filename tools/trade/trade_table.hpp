@@ -31,7 +31,7 @@ class RootMeanSquare {
 };
 
 // The results of a trade, candidate by candidate and scene by scene, as a table for people, as CSV, and as mean and
-// worst case over the scenes. What the columns and the scenes are, scenes.hpp and scenes.hpp say.
+// worst case over the scenes. Columns and scenes: scenes.hpp.
 struct Column {
   std::string_view name;   // of CSV and JSON, with its unit
   std::string_view title;  // for people

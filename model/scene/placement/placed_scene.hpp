@@ -1,5 +1,5 @@
 // Puts a model on the earth: x and y are metres on the azimuthal-equidistant plane about its place, turned by the
-// heading; tiles are 512 m squares of that plane, each flattened about its own origin (below 1 mm off within 20 km).
+// heading; tiles are 128 m squares of that plane, each flattened about its own origin (below 1 mm off within 20 km).
 // `ground`: an object whose corners all lie within 1 m of z = 0 (a runway, a road) is draped: cut to edges of 30 m
 // (more where it is very large), every corner on the terrain below it plus its z. Any other object stands level on the
 // terrain under the middle of its box. Faces outside objects: flat triangles are draped, others stand on the terrain at
