@@ -50,7 +50,7 @@ std::size_t lit(const Bytes& rgb) {
 }
 
 struct Frame {
-  ViewFrame about{};
+  GlassFrame about{};
   Bytes pixels;
 };
 
