@@ -157,8 +157,8 @@ error::Expected<int> parse_cpu(std::string_view text) {
   int number = -1;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (code != std::errc{} || end != text.data() + text.size() || number < 0 || number > kHighestCpu)
-    return tl::unexpected(
-        error::usage_error("--cpus", "numbers and ranges from 0, as in 2,3 or 2-3", "'" + std::string(text) + "'"));
+    return tl::unexpected(error::usage_error("--cpus", "numbers and ranges from 0, as in 2,3 or 2-3",
+                                             std::string("'").append(text).append("'")));
   return number;
 }
 
@@ -195,7 +195,7 @@ std::optional<std::string> bind_to_cpus(const std::vector<int>& cpus) {
   for (const int cpu : cpus) {
     CPU_SET(static_cast<std::size_t>(cpu), &wanted);
     if (!CPU_ISSET(static_cast<std::size_t>(cpu), &allowed))
-      absent += (absent.empty() ? "" : ",") + std::to_string(cpu);
+      absent.append(absent.empty() ? "" : ",").append(std::to_string(cpu));
   }
   if (!absent.empty())
     return "--cpus: CPU " + absent + " is not there for this program (taskset -p $$ shows which are); all are used";
