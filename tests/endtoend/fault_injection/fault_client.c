@@ -109,13 +109,17 @@ static int restore(yars_session* s, uint32_t mark) {
   yars_radar_state state;
   memset(&state, 0, sizeof state);
   yars_read_radar_state(s, &state);
-  const uint32_t freeze_flag = 2, pressed_flag = 1U << 11, mapping_flag = 1U << 14;
+  const uint32_t freeze_flag = 2, sniff_flag = 4, set_flag = 1U << 5, pressed_flag = 1U << 11, mapping_flag = 1U << 14;
   const yars_input_event power = {.kind = 12, .argument = 2}, master = {.kind = 10}, mode = {.kind = 11};
   const yars_input_event menu = {.kind = 1, .argument = 6};
+  const yars_input_event sniff_or_set = {.kind = 1, .argument = 18}; /* SET while it is on, else SNIFF */
   const yars_input_event release = {.kind = 4}, freeze = {.kind = 7};
   if (state.power != 2) yars_push_event(s, &power);
   if (state.master != 0) yars_push_event(s, &master);
   if (state.mode == 7) yars_push_event(s, &menu);
+  /* Both hold the mode: a patch map under SNIFF stays frozen. */
+  if ((state.flags & set_flag) != 0) yars_push_event(s, &sniff_or_set);
+  if ((state.flags & sniff_flag) != 0) yars_push_event(s, &sniff_or_set);
   if (state.mode != 0 || (state.flags & mapping_flag) != 0) yars_push_event(s, &mode);
   if ((state.flags & freeze_flag) != 0) yars_push_event(s, &freeze);
   if ((state.flags & pressed_flag) != 0) yars_push_event(s, &release);
