@@ -141,8 +141,9 @@ CLOCK_FOLDERS = ["shm", "shells"]
 OPENING = re.compile(r"\bstd::[io]?fstream\b|\bfopen\b|(?<![\w>])::(open|openat|mmap)\b"
                      r"|\bstd::filesystem::(recursive_)?directory_iterator\b")
 READERS = [re.compile(pattern) for pattern in (
-    r"_(reader|reading|writer)\.cpp$", r"_(main|shell)\.[ch]pp$", r"^config/schema/load\.cpp$", r"^inputmonitor/device_source\.cpp$",
-    r"^(lib/file|lib/imageio|lib/log|shm|databuffer/(session|runtime|client)|model/terrain/(formats|store)|model/scene/index|tools|tests|examples)/",
+    r"_(main|shell)\.[ch]pp$", r"^(config/schema/load|databuffer/session/session_state|inputmonitor/device_source|lib/imageio/png"
+    r"|model/terrain/formats/cell_reading|model/terrain/store/cell_files|shm/segment_file)\.cpp$",
+    r"^(lib/file|tools|tests|examples)/",
 )]
 
 # Only lib/file makes files and folders: what others have planted in a folder is met there once.
@@ -428,15 +429,18 @@ def draw(root):
         sys.exit("check_layers: expected dot of Graphviz for the picture, found none; run scripts/setup --full")
 
 
-def run(checker, purpose, findings, clean):
-    """The program of a checker: its findings over the tree of --root, a line each; 1 when there is one."""
+def run(checker, purpose, findings, clean, draw=None):
+    """The program of a checker: its findings over the tree of --root, a line each; 1 when there is one.
+
+    `draw` is called first where the program is given --draw.
+    """
     parser = argparse.ArgumentParser(description=purpose)
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent)
-    if checker == "check_layers":
+    if draw:
         parser.add_argument("--draw", action="store_true", help=f"write {DIAGRAM} and its picture anew")
     options = parser.parse_args()
     root = options.root
-    if getattr(options, "draw", False):
+    if draw and options.draw:
         draw(root)
     count = 0
     for name, line, rule, message in findings(root):
@@ -447,4 +451,4 @@ def run(checker, purpose, findings, clean):
 
 
 if __name__ == "__main__":
-    sys.exit(run("check_layers", "Checks layers, names and paths of the YARS tree.", findings_of, "the layers hold"))
+    sys.exit(run("check_layers", "Checks layers, names and paths of the YARS tree.", findings_of, "the layers hold", draw))

@@ -49,7 +49,7 @@ struct InputEvent {
 static_assert(sizeof(InputEvent) == 56 && std::is_trivially_copyable_v<InputEvent>);
 static_assert(offsetof(InputEvent, kind) == 32 && offsetof(InputEvent, text) == 40);
 
-// The border for input events; see validation.hpp.
+// The first fault of an input event as text; nothing for a good one. Other records: validation.hpp.
 Refusal validate(const InputEvent& event);
 
 // Events as people write them: in scripts, by `yars inject`, in logs. One table serves both directions.

@@ -36,7 +36,7 @@ struct TerrainOutput {
 
 std::string output_name(const TerrainOutput& output, model::terrain::CellPlace place, const model::terrain::Cell& cell);
 
-// The cell on the output's grid (see resample.hpp), in its file below `tree`.
+// The cell on the output's grid (cell_view.hpp: resample), in its file below `tree`.
 error::Expected<std::filesystem::path> write_output(const TerrainOutput& output, const std::filesystem::path& tree,
                                                     const model::terrain::Cell& cell);
 
