@@ -16,7 +16,9 @@ CLEAN = {
     "display/symbology/symbology.hpp": "#pragma once\n",
     "model/app/radar_model_main.cpp": '#include <chrono>\n#include <spdlog/spdlog.h>\n#include "databuffer/session/session.hpp"\n',
     "model/terrain/formats/dted.hpp": "#pragma once\n",
-    "model/terrain/formats/dted.cpp": '#include "model/terrain/formats/dted.hpp"\nstd::ifstream open(const char* path);\n',
+    "model/terrain/formats/dted.cpp": '#include "model/terrain/formats/dted.hpp"\n',
+    "model/terrain/formats/cell_reading.hpp": "#pragma once\n",
+    "model/terrain/formats/cell_reading.cpp": '#include "model/terrain/formats/cell_reading.hpp"\nstd::ifstream open(const char* path);\n',
     "README.md": "YARS\n",
 }
 # Pieced together, so that this file is not itself a finding.
@@ -78,6 +80,10 @@ class CheckLayers(unittest.TestCase):
 
     def test_only_readers_open_files(self):
         self.finds("statemachine/machine.hpp", "#pragma once\nstd::ifstream stream;\n", "2: reader")
+
+    def test_a_format_reads_through_the_one_reader(self):
+        self.finds("model/terrain/formats/dted.cpp",
+                   '#include "model/terrain/formats/dted.hpp"\nstd::ifstream open(const char* path);\n', "2: reader")
 
     def test_only_lib_file_makes_files(self):
         for text in ("std::ofstream stream;", 'auto* file = fopen(path, "wb");', "std::filesystem::rename(a, b);"):
