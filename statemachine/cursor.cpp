@@ -44,15 +44,12 @@ struct Plane {
   radar::ViewConfiguration view;
 
   DisplayPoint display_from_ground(GeoPoint place) const {
-    const auto inverse = geo::geodesic_inverse(apex, place);
-    const double turn_rad = (inverse.azimuth_at_start - up).radians();
-    return {inverse.distance * std::sin(turn_rad) / unit, (inverse.distance * std::cos(turn_rad) - ahead) / unit};
+    const geo::PlanePoint point = geo::AzimuthalEquidistant(apex, up).plane_from_geodetic(place);
+    return {Length::metres(point.x_m) / unit, (Length::metres(point.y_m) - ahead) / unit};
   }
   GeoPoint ground_from_display(DisplayPoint point) const {
-    const Length right = point.x * unit;
-    const Length forward = point.y * unit + ahead;
-    const Bearing azimuth = up + geo::Angle::radians(std::atan2(right.metres(), forward.metres()));
-    return geo::geodesic_direct(apex, azimuth, Length::metres(std::hypot(right.metres(), forward.metres())));
+    return geo::AzimuthalEquidistant(apex, up).geodetic_from_plane(
+        {(point.x * unit).metres(), (point.y * unit + ahead).metres()});
   }
   bool shows(DisplayPoint point) const {
     return point.x >= view.width_min && point.x <= view.width_max && point.y >= view.height_min &&

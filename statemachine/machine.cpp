@@ -7,6 +7,7 @@
 #include <span>
 
 #include "databuffer/messages/derived_values.hpp"
+#include "lib/geo/frames.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "statemachine/cursor.hpp"
 #include "statemachine/designation.hpp"

@@ -7,6 +7,7 @@
 
 #include "databuffer/bridges/external_flight.hpp"
 #include "databuffer/messages/validation.hpp"
+#include "lib/geo/frames.hpp"
 #include "lib/geo/geodesy.hpp"
 
 namespace yars::databuffer::bridges {
@@ -95,7 +96,7 @@ error::Expected<Motion> motion_of(memory::Bytes packet) {
                       floats_at(packet, kOrientation)};
   if (!is_finite(motion.location) || !is_finite(motion.velocity) || !is_finite(motion.orientation))
     return error::fail("dis", "numbers for location, velocity and orientation", "others");
-  const double from_centre_m = geo::length(motion.location);
+  const double from_centre_m = glm::length(motion.location);
   if (!(from_centre_m >= kNearest && from_centre_m <= kFarthest))
     return error::fail("dis", "a location 6000 to 7000 km from the Earth's centre",
                        std::to_string(from_centre_m / 1000.0) + " km");

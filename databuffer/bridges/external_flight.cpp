@@ -7,6 +7,7 @@
 
 #include "databuffer/flight/motion.hpp"
 #include "databuffer/messages/validation.hpp"
+#include "lib/geo/frames.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/text/plain_text.hpp"
 
@@ -181,7 +182,7 @@ bool same_place(const Ownship& a, const Ownship& b) {
 }
 
 double speed_of(const Ownship& ownship) {
-  return geo::length({ownship.velocity_north_mps, ownship.velocity_east_mps, ownship.velocity_down_mps});
+  return glm::length(geo::Vector3(ownship.velocity_north_mps, ownship.velocity_east_mps, ownship.velocity_down_mps));
 }
 
 void halt(ExternalSample& sample) {
@@ -224,7 +225,7 @@ ExternalFlight::Difference ExternalFlight::difference(const Ownship& before, con
 }
 
 bool ExternalFlight::is_jump(const Difference& difference) {
-  return geo::length({difference.north_m, difference.east_m, difference.up_m}) > kJump.metres();
+  return glm::length(geo::Vector3(difference.north_m, difference.east_m, difference.up_m)) > kJump.metres();
 }
 
 void ExternalFlight::measure_rates(const ExternalSample& sample, geo::Duration received) {

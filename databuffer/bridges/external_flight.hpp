@@ -8,6 +8,7 @@
 #include "databuffer/flight/motion.hpp"
 #include "databuffer/messages/world_state.hpp"
 #include "lib/error/error.hpp"
+#include "lib/geo/frames.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
 

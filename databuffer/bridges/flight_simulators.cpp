@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/geo/geodesy.hpp"
+#include "lib/geo/frames.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/text/plain_text.hpp"
 

@@ -40,9 +40,7 @@ GeoPoint carried(GeoPoint from, GeoPoint to, GeoPoint place) {
 }
 
 GeoPoint moved(GeoPoint place, double north_m, double east_m) {
-  if (north_m == 0.0 && east_m == 0.0) return place;
-  const auto azimuth = geo::Bearing::radians(std::atan2(east_m, north_m));
-  return geo::geodesic_direct(place, azimuth, geo::Length::metres(std::hypot(north_m, east_m)));
+  return geo::AzimuthalEquidistant(place).geodetic_from_plane({east_m, north_m});
 }
 
 }  // namespace

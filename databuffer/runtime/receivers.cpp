@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "databuffer/messages/validation.hpp"
+#include "lib/geo/earth.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/text/plain_text.hpp"
 
@@ -86,11 +87,10 @@ bool JumpGuard::is_jump(const Ownship& next, std::int64_t received_ns) const {
   const double time_s = 1e-9 * static_cast<double>(std::max<std::int64_t>(received_ns - last_received_ns_, 0));
   const double reach_m = kPlaceTolerance_m + kSpeedMargin * std::max(speed_mps(*last_), speed_mps(next)) * time_s;
   if (std::abs(next.altitude_msl_m - last_->altitude_msl_m) > reach_m) return true;
-  // Cheap first: nearly every tick ends here. No degree is longer than 111.7 km.
-  constexpr double kLongestDegree_m = 111'700.0;
+  // Cheap first: nearly every tick ends here. No degree is longer than kMaxMetresPerDegree.
   const double east_deg = std::remainder(next.longitude_deg - last_->longitude_deg, 360.0);
   const double north_deg = next.latitude_deg - last_->latitude_deg;
-  if (kLongestDegree_m * std::hypot(north_deg, east_deg) <= reach_m) return false;
+  if (geo::kMaxMetresPerDegree * std::hypot(north_deg, east_deg) <= reach_m) return false;
   return geo::geodesic_inverse({last_->latitude_deg, last_->longitude_deg}, {next.latitude_deg, next.longitude_deg})
              .distance.metres() > reach_m;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "databuffer/messages/derived_values.hpp"
+#include "lib/geo/frames.hpp"
 #include "lib/geo/geodesy.hpp"
 
 namespace yars::display {
@@ -55,7 +56,8 @@ double displacement_units(const PlanView& view, const ViewFrame& drawn, const Vi
 
 namespace {
 
-constexpr double kMinRange_m = 1852.0;  // [m] stands in for a state that names no range yet: nothing divides by 0
+constexpr double kMinRange_m =
+    geo::kMetresPerNauticalMile;  // [m] stands in for a state that names no range yet: nothing divides by 0
 
 }  // namespace
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "lib/geo/frames.hpp"
+
 namespace yars::display {
 
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "databuffer/messages/model_records.hpp"
-#include "lib/geo/geodesy.hpp"
+#include "lib/geo/frames.hpp"
 #include "lib/geo/quantity.hpp"
 
 namespace yars::display {

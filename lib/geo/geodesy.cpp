@@ -1,7 +1,6 @@
 #include "lib/geo/geodesy.hpp"
 
 #include <GeographicLib/Constants.hpp>
-#include <GeographicLib/Geocentric.hpp>
 #include <GeographicLib/Geodesic.hpp>
 #include <GeographicLib/GeodesicLine.hpp>
 #include <GeographicLib/MagneticModel.hpp>
@@ -11,6 +10,8 @@
 #include <limits>
 #include <new>
 #include <type_traits>
+
+#include "lib/geo/earth.hpp"
 
 namespace yars::geo {
 
@@ -84,8 +85,6 @@ namespace {
 using Coefficients = GeodesicSeries::Coefficients;
 
 constexpr double kAim_m = 5e-4;  // of the first term left out: half of what is promised, for the others
-// [m] between both radii; only to judge how near the pole is.
-constexpr double kMeanRadius_m = 6371008.8;
 
 // 1 / k: a multiplication is several times as fast as a division.
 constexpr std::array<double, GeodesicSeries::kMaxOrder + 1> kInverse{
@@ -177,7 +176,7 @@ Coefficients arcsine(const Coefficients& sine, double first_cosine, std::size_t 
 
 int GeodesicSeries::order_for(double latitude_deg, Length range) {
   // Both series converge up to about the pole's distance: what is left out is near its power.
-  const double to_pole_m = (90.0 - std::abs(latitude_deg)) * kRadiansPerDegree * kMeanRadius_m;
+  const double to_pole_m = (90.0 - std::abs(latitude_deg)) * kRadiansPerDegree * kMeanEarthRadius_m;
   const double share = range.metres() / to_pole_m;
   double left_out_m = to_pole_m * share;
   for (int order = 1; order <= kMaxOrder; ++order) {
@@ -203,46 +202,17 @@ GeodesicSeries::GeodesicSeries(GeoPoint start, Bearing azimuth, int given_order)
   }
 }
 
-Vector3 ecef_from_geodetic(GeoPoint point, HeightAboveEllipsoid height) {
-  Vector3 ecef;
-  GeographicLib::Geocentric::WGS84().Forward(point.latitude_deg, point.longitude_deg, height.metres(), ecef.x, ecef.y,
-                                             ecef.z);
-  return ecef;
+PlanePoint AzimuthalEquidistant::plane_from_geodetic(GeoPoint point) const {
+  const GeodesicInverse line = geodesic_inverse(origin_, point);
+  const double distance_m = line.distance.metres();
+  const double turn_rad = (line.azimuth_at_start - up_).radians();
+  return {distance_m * std::sin(turn_rad), distance_m * std::cos(turn_rad)};
 }
 
-GeodeticPlace geodetic_from_ecef(Vector3 ecef) {
-  GeodeticPlace place;
-  double height_m = 0.0;
-  GeographicLib::Geocentric::WGS84().Reverse(ecef.x, ecef.y, ecef.z, place.point.latitude_deg,
-                                             place.point.longitude_deg, height_m);
-  place.height = HeightAboveEllipsoid::metres(height_m);
-  return place;
-}
-
-LocalTangentFrame::LocalTangentFrame(GeoPoint origin, HeightAboveEllipsoid height)
-    : origin_(ecef_from_geodetic(origin, height)) {
-  const double sin_lat = std::sin(origin.latitude_deg * kRadiansPerDegree);
-  const double cos_lat = std::cos(origin.latitude_deg * kRadiansPerDegree);
-  const double sin_lon = std::sin(origin.longitude_deg * kRadiansPerDegree);
-  const double cos_lon = std::cos(origin.longitude_deg * kRadiansPerDegree);
-  rows_ = {Vector3{-sin_lon, cos_lon, 0.0}, Vector3{-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat},
-           Vector3{cos_lat * cos_lon, cos_lat * sin_lon, sin_lat}};
-}
-
-Vector3 LocalTangentFrame::enu_from_ecef_direction(Vector3 ecef) const {
-  return {dot(rows_[0], ecef), dot(rows_[1], ecef), dot(rows_[2], ecef)};
-}
-
-Vector3 LocalTangentFrame::ecef_from_enu_direction(Vector3 enu) const {
-  return enu.x * rows_[0] + enu.y * rows_[1] + enu.z * rows_[2];
-}
-
-Vector3 LocalTangentFrame::enu_from_ecef(Vector3 ecef) const {
-  return enu_from_ecef_direction(ecef - origin_);
-}
-
-Vector3 LocalTangentFrame::enu_from_geodetic(GeoPoint point, HeightAboveEllipsoid height) const {
-  return enu_from_ecef(ecef_from_geodetic(point, height));
+GeoPoint AzimuthalEquidistant::geodetic_from_plane(PlanePoint point) const {
+  const double distance_m = std::hypot(point.x_m, point.y_m);
+  if (distance_m == 0.0) return origin_;
+  return geodesic_direct(origin_, up_ + Angle::radians(std::atan2(point.x_m, point.y_m)), Length::metres(distance_m));
 }
 
 struct MagneticField::Model {

@@ -1,8 +1,7 @@
-// Geodesy: geodesics and Cartesian frames on WGS84, magnetic variation.
+// Geodesy on WGS84: geodesics, azimuthal equidistant projection, magnetic variation.
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -71,56 +70,27 @@ struct GeodesicSeries {
   Coefficients longitude_deg{};
 };
 
-// Vectors of space and their algebra. What the axes are is said where a vector comes from.
-struct Vector3 {
-  double x = 0.0, y = 0.0, z = 0.0;
+// A point of a plane that a projection lays out: metres right of the origin and upward, along the plane's `up`.
+struct PlanePoint {
+  double x_m = 0.0, y_m = 0.0;
 };
 
-inline Vector3 operator+(Vector3 a, Vector3 b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-inline Vector3 operator-(Vector3 a, Vector3 b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-inline Vector3 operator*(double factor, Vector3 a) {
-  return {factor * a.x, factor * a.y, factor * a.z};
-}
-inline double dot(Vector3 a, Vector3 b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-// Right-handed: of x and y it is z.
-inline Vector3 cross(Vector3 a, Vector3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline double length(Vector3 a) {
-  return std::sqrt(dot(a, a));
-}
-
-// Cartesian frames. Names are target-from-source; axes, zeros and senses are fixed in docs/conventions.md.
-
-// Earth-centred, earth-fixed metres: x through (0, 0), z through the north pole.
-Vector3 ecef_from_geodetic(GeoPoint point, HeightAboveEllipsoid height);
-
-// Where a finite place is over the ellipsoid; the centre of the Earth counts as below a pole.
-struct GeodeticPlace {
-  GeoPoint point;
-  HeightAboveEllipsoid height;
-};
-GeodeticPlace geodetic_from_ecef(Vector3 ecef);
-
-// East, north, up metres at an origin on the ellipsoid.
-class LocalTangentFrame {
+// Azimuthal equidistant projection about an origin: distance and azimuth from the origin are those of the geodesic,
+// drawn flat. Exact for any point of the ellipsoid but the antipode. `up`: the azimuth that y points to; with the
+// default, x is east and y is north.
+class AzimuthalEquidistant {
  public:
-  LocalTangentFrame(GeoPoint origin, HeightAboveEllipsoid height);
-  Vector3 enu_from_ecef(Vector3 ecef) const;
-  Vector3 enu_from_geodetic(GeoPoint point, HeightAboveEllipsoid height) const;
-  // Of directions: nothing of the origin is in them.
-  Vector3 enu_from_ecef_direction(Vector3 ecef) const;
-  Vector3 ecef_from_enu_direction(Vector3 enu) const;
+  explicit AzimuthalEquidistant(GeoPoint origin, Bearing up = {}) : origin_(origin), up_(up) {}
+
+  GeoPoint origin() const { return origin_; }
+  Bearing up() const { return up_; }
+  PlanePoint plane_from_geodetic(GeoPoint point) const;
+  // The origin itself, bit for bit, for the zero of the plane.
+  GeoPoint geodetic_from_plane(PlanePoint point) const;
 
  private:
-  Vector3 origin_;
-  std::array<Vector3, 3> rows_;
+  GeoPoint origin_;
+  Bearing up_;
 };
 
 // Magnetic variation by a model of the earth's field, where its data is installed (GeographicLib's World Magnetic

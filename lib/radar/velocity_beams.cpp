@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 namespace yars::radar {
 
@@ -14,22 +16,13 @@ namespace {
 // the velocity across that plane would be all noise.
 constexpr double kMinDeterminant = 1e-3;
 
-// Rows of the inverse of the normal matrix, the sum of line times line transposed. It is symmetric, so rows are
-// columns.
-using Matrix = std::array<Vector3, 3>;
-
-std::optional<Matrix> inverse_of_normal_matrix(std::span<const Vector3> lines) {
-  Matrix rows;
-  for (const Vector3& line : lines) {
-    rows[0] = rows[0] + line.x * line;
-    rows[1] = rows[1] + line.y * line;
-    rows[2] = rows[2] + line.z * line;
-  }
-  const Matrix cofactors{cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])};
-  const double determinant = dot(rows[0], cofactors[0]);
+// Inverse of the normal matrix, the sum of each line times its transpose.
+std::optional<glm::dmat3> inverse_of_normal_matrix(std::span<const Vector3> lines) {
+  glm::dmat3 normal(0.0);
+  for (const Vector3& line : lines) normal += glm::outerProduct(line, line);
   // Written so that NaN fails.
-  if (!(determinant >= kMinDeterminant)) return std::nullopt;
-  return Matrix{1.0 / determinant * cofactors[0], 1.0 / determinant * cofactors[1], 1.0 / determinant * cofactors[2]};
+  if (!(glm::determinant(normal) >= kMinDeterminant)) return std::nullopt;
+  return glm::inverse(normal);
 }
 
 }  // namespace
@@ -44,14 +37,14 @@ std::optional<Vector3> velocity_of(std::span<const Vector3> lines, std::span<con
   const auto inverse = inverse_of_normal_matrix(lines);
   if (!inverse) return std::nullopt;
   Vector3 sum;
-  for (std::size_t i = 0; i < lines.size(); ++i) sum = sum + speeds_mps[i] * lines[i];
-  return Vector3{dot((*inverse)[0], sum), dot((*inverse)[1], sum), dot((*inverse)[2], sum)};
+  for (std::size_t i = 0; i < lines.size(); ++i) sum += speeds_mps[i] * lines[i];
+  return *inverse * sum;
 }
 
 std::optional<double> horizontal_dilution(std::span<const Vector3> lines) {
   const auto inverse = inverse_of_normal_matrix(lines);
   if (!inverse) return std::nullopt;
-  return std::sqrt(0.5 * ((*inverse)[0].x + (*inverse)[1].y));
+  return std::sqrt(0.5 * ((*inverse)[0][0] + (*inverse)[1][1]));
 }
 
 std::optional<double> horizontal_dilution(const NavigationConfiguration& navigation) {

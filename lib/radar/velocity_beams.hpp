@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "lib/geo/geodesy.hpp"
+#include "lib/geo/frames.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/configuration.hpp"
 

@@ -53,7 +53,7 @@ enum class Polarization : std::uint8_t { horizontal = 0, vertical = 1 };
 // Coefficients c1..c5 of the sea's return: Gregers-Hansen and Mital, NRL 2012 (DTIC ADA559494), table 2.
 struct SeaConfiguration {
   double state = kNotGiven;  // 0..6, WMO code 3700; not given: by the wind
-  double wind_speed_mps = 10.0 * 1852.0 / 3600.0;
+  double wind_speed_mps = geo::Speed::knots(10.0).metres_per_second();
   double wind_from_deg = 270.0;  // [deg] true
   Polarization polarization = Polarization::horizontal;
   std::vector<double> horizontal{-73.0, 20.781, 7.351, 25.65, 0.0054};

@@ -1,4 +1,5 @@
-// Numbers by chance that are the same on every run: from a seed and a count, without a state that somebody must keep.
+// Counter-based random numbers: a number is a function of seed and count alone. No state is shared, so any thread may
+// draw any number in any order, and every build draws the same bits. For pictures and noise, not for cryptography.
 #pragma once
 
 #include <cmath>
@@ -7,20 +8,67 @@
 
 namespace yars::random {
 
-// Of a normal distribution with mean 0 and variance 1. `draw` tells the numbers of one count apart.
+// 2^64 / golden ratio, odd: successive multiples are far apart in all bits.
+inline constexpr std::uint64_t kGoldenGamma = 0x9e3779b97f4a7c15U;
+
+// Both multiplications of SplitMix64's finalizer; the upper 32 bits are well mixed.
+// Source: Steele, Lea, Flood 2014, "Fast splittable pseudorandom number generators", function mix64variant13.
+constexpr std::uint64_t splitmix64_rounds(std::uint64_t bits) {
+  bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9U;
+  return (bits ^ (bits >> 27U)) * 0x94d049bb133111ebU;
+}
+
+// One step of SplitMix64: 64 random bits of a count.
+constexpr std::uint64_t splitmix64(std::uint64_t count) {
+  const std::uint64_t bits = splitmix64_rounds(count + kGoldenGamma);
+  return bits ^ (bits >> 31U);
+}
+
+// Multipliers of the 32-bit finalizer "lowbias32". Source: C. Wellons, "hash prospector".
+inline constexpr std::uint32_t kLowbias32First = 0x7feb352dU;
+inline constexpr std::uint32_t kLowbias32Second = 0x846ca68bU;
+
+// Both multiplications of lowbias32; the upper 16 bits are well mixed.
+constexpr std::uint32_t lowbias32_rounds(std::uint32_t bits) {
+  bits = (bits ^ (bits >> 16U)) * kLowbias32First;
+  return (bits ^ (bits >> 15U)) * kLowbias32Second;
+}
+
+// 32 random bits of a count.
+constexpr std::uint32_t lowbias32(std::uint32_t count) {
+  const std::uint32_t bits = lowbias32_rounds(count);
+  return bits ^ (bits >> 16U);
+}
+
+// Numbers of one seed in order: SplitMix64 of seed + n * kGoldenGamma for n = 0, 1, 2, ...
+class CounterRng {
+ public:
+  explicit CounterRng(std::uint64_t seed) : count_(seed) {}
+
+  // 64 random bits.
+  std::uint64_t word() {
+    const std::uint64_t bits = splitmix64(count_);
+    count_ += kGoldenGamma;
+    return bits;
+  }
+  // Uniform in [0, 1).
+  double uniform() { return static_cast<double>(word() >> 11U) * 0x1.0p-53; }
+  // Uniform in [low, high).
+  double uniform(double low, double high) { return low + (high - low) * uniform(); }
+  // Uniform whole number in [0, count).
+  int below(int count) { return static_cast<int>(uniform() * count); }
+
+ private:
+  std::uint64_t count_;
+};
+
+// Normal distribution, mean 0, variance 1, after Box and Muller. `draw` separates the numbers of one count.
 inline double standard_normal(std::uint64_t seed, std::uint64_t count, std::uint64_t draw) {
-  // The finalizer of SplitMix64 (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number generators").
-  const auto mixed = [](std::uint64_t bits) {
-    bits += 0x9e3779b97f4a7c15U;
-    bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9U;
-    bits = (bits ^ (bits >> 27U)) * 0x94d049bb133111ebU;
-    return bits ^ (bits >> 31U);
-  };
-  // In (0, 1), never its ends: a logarithm follows.
-  const auto share_of = [](std::uint64_t bits) { return (static_cast<double>(bits >> 12U) + 0.5) * 0x1.0p-52; };
-  const std::uint64_t first = mixed(mixed(mixed(seed) ^ count) ^ draw);
-  // Box and Muller; the second number is thrown away.
-  return std::sqrt(-2.0 * std::log(share_of(first))) * std::cos(2.0 * std::numbers::pi * share_of(mixed(first)));
+  // In (0, 1), without its ends: a logarithm follows.
+  const auto open_uniform = [](std::uint64_t bits) { return (static_cast<double>(bits >> 12U) + 0.5) * 0x1.0p-52; };
+  const std::uint64_t first = splitmix64(splitmix64(splitmix64(seed) ^ count) ^ draw);
+  return std::sqrt(-2.0 * std::log(open_uniform(first))) *
+         std::cos(2.0 * std::numbers::pi * open_uniform(splitmix64(first)));
 }
 
 }  // namespace yars::random

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/geo/frames.hpp"
+#include "lib/random/counter_rng.hpp"
+
 namespace yars::random {
 
 namespace {
@@ -18,9 +21,6 @@ std::int32_t floor_of(double value) {
   const auto whole = static_cast<std::int32_t>(value);
   return whole - static_cast<std::int32_t>(value < static_cast<double>(whole));
 }
-geo::Vector3 scaled(geo::Vector3 point, double factor) {
-  return {point.x * factor, point.y * factor, point.z * factor};
-}
 
 // A gradient drawn from the hash: ten bits a component, then the dot product with the way from the corner.
 double corner(std::uint32_t hash, double x, double y, double z) {
@@ -33,13 +33,10 @@ double corner(std::uint32_t hash, double x, double y, double z) {
 }  // namespace
 
 std::uint32_t lattice_hash(std::int32_t x, std::int32_t y, std::int32_t z, std::uint32_t seed) {
-  std::uint64_t bits =
-      (static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32U | static_cast<std::uint32_t>(y)) +
-      0x9E3779B97F4A7C15U * (static_cast<std::uint64_t>(seed) << 32U | static_cast<std::uint32_t>(z));
-  // splitmix64 finisher (Steele, Lea, Flood 2014).
-  bits = (bits ^ (bits >> 30U)) * 0xBF58476D1CE4E5B9U;
-  bits = (bits ^ (bits >> 27U)) * 0x94D049BB133111EBU;
-  return static_cast<std::uint32_t>(bits >> 32U);
+  const std::uint64_t plane =
+      static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32U | static_cast<std::uint32_t>(y);
+  const std::uint64_t layer = static_cast<std::uint64_t>(seed) << 32U | static_cast<std::uint32_t>(z);
+  return static_cast<std::uint32_t>(splitmix64_rounds(plane + kGoldenGamma * layer) >> 32U);
 }
 
 double gradient_noise(geo::Vector3 point, std::uint32_t seed) {
@@ -70,7 +67,7 @@ double fractal_noise(geo::Vector3 point, std::uint32_t seed, int octaves, double
     sum += amplitude * gradient_noise(point, seed + static_cast<std::uint32_t>(octave));
     total += amplitude;
     amplitude *= persistence;
-    point = scaled(point, 2.0);
+    point *= 2.0;
   }
   return sum / total;
 }
@@ -88,7 +85,7 @@ double ridged_noise(geo::Vector3 point, std::uint32_t seed, int octaves) {
     total += amplitude;
     calm = std::min(1.0, 1.5 * crest);
     amplitude *= 0.5;
-    point = scaled(point, 2.0);
+    point *= 2.0;
   }
   return sum / total;
 }

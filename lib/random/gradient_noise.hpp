@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "lib/geo/geodesy.hpp"
+#include "lib/geo/frames.hpp"
 
 namespace yars::random {
 

@@ -7,6 +7,7 @@
 #include "lib/geo/quantity.hpp"
 #include "lib/random/gradient_noise.hpp"
 #include "model/hrm/polar_ground_simd.hpp"
+#include "model/physics/clutter.hpp"
 #include "model/terrain/sampling/height_simd.hpp"
 
 namespace yars::model::hrm {
@@ -15,7 +16,6 @@ namespace {
 constexpr int kFinestEdge = 512;        // texels: 1 MiB, which the second-level cache holds
 constexpr double kFinestTexel_m = 4.0;  // detail below it is speckle's
 constexpr double kCoarsest_m = 256.0;   // [m] longest wave; beyond it the posts say what there is
-constexpr double kMetresPerDegree = 60.0 * geo::kMetresPerNauticalMile;
 constexpr float kMaxByte = 255.0F;
 constexpr std::uint32_t kSeed = 0x59a75u;
 
@@ -99,7 +99,7 @@ void Detail::pack(const std::vector<float>& texels) {
 // cell's middle. A ray runs through few cells: each run in one is one call.
 void Detail::modulate(const terrain::PlaceRun& places, float* gain) const {
   const simd::DetailTable table{table_.data(), edge_, unit_ * unit_};
-  const auto north_scale = static_cast<float>(kMetresPerDegree) * texels_per_metre_;
+  const auto north_scale = static_cast<float>(physics::kGridMetresPerDegree) * texels_per_metre_;
   const std::size_t count = places.north_deg.size();
   std::size_t first = 0;
   while (first < count) {

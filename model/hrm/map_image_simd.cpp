@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 // Behind highway.h, or it would have no target yet.
+#include "model/physics/clutter_simd-inl.hpp"
 #include "model/physics/polynomials-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -140,19 +141,6 @@ void spread_along(const float* from, std::size_t reach, const float* middle, flo
 
 constexpr float kLn2 = 0.693147181F;
 
-// noise_bits() of clutter.hpp for a vector of cells, draw 0.
-HWY_INLINE hn::Vec<BitsTag> random_bits(physics::NoiseState state, hn::Vec<BitsTag> cell) {
-  const BitsTag d;
-  auto x = hn::Xor(hn::Mul(cell, hn::Set(d, physics::kDrawsPerCell)), hn::Set(d, state.first));
-  x = hn::Xor(x, hn::ShiftRight<16>(x));
-  x = hn::Mul(x, hn::Set(d, 0x7feb352dU));
-  x = hn::Xor(x, hn::ShiftRight<15>(x));
-  x = hn::Mul(x, hn::Set(d, 0x846ca68bU));
-  x = hn::Xor(x, hn::Xor(hn::ShiftRight<16>(x), hn::Set(d, state.second)));
-  x = hn::Mul(x, hn::Set(d, 0x9e3779b1U));
-  return hn::Xor(x, hn::ShiftRight<15>(x));
-}
-
 // Sine of a number of half turns in [-1/2, 1/2]: Taylor's series, error 4e-6.
 HWY_INLINE Floats sine(Floats half_turns) {
   const Tag d;
@@ -172,7 +160,8 @@ void draw_gaussian(std::size_t count, physics::NoiseState state, float* real, fl
   constexpr float kStep = 1.0F / 65536.0F;
   const auto lane = hn::Iota(db, 0U);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const auto bits = random_bits(state, hn::Add(lane, hn::Set(db, static_cast<std::uint32_t>(i))));
+    const auto cell = hn::Add(lane, hn::Set(db, static_cast<std::uint32_t>(i)));
+    const auto bits = physics::simd::HWY_NAMESPACE::noise_bits(state, cell, 0);
     const auto high = hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<16>(bits)));
     const auto uniform = hn::Add(hn::Mul(high, hn::Set(d, kStep)), hn::Set(d, 0.5F * kStep));
     const auto radius = hn::Sqrt(hn::Mul(hn::Set(d, -kLn2), polynomials::log2(d, uniform)));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/geo/earth.hpp"
+
 namespace yars::model::hrm {
 
 PatchGeometry::PatchGeometry(const PatchOrder& order, const radar::Fidelity& fidelity, double elevation_m)
@@ -19,16 +21,12 @@ PatchGeometry::PatchGeometry(const PatchOrder& order, const radar::Fidelity& fid
 }
 
 MapPoint PatchGeometry::point_of(geo::GeoPoint place) const {
-  const geo::GeodesicInverse way = geo::geodesic_inverse(apex_, place);
-  const double turn_rad = (way.azimuth_at_start - up_).radians();
-  const double distance_m = way.distance.metres();
-  return {distance_m * std::sin(turn_rad), distance_m * std::cos(turn_rad) - distance_m_};
+  const geo::PlanePoint point = geo::AzimuthalEquidistant(apex_, up_).plane_from_geodetic(place);
+  return {point.x_m, point.y_m - distance_m_};
 }
 
 geo::GeoPoint PatchGeometry::place_of(MapPoint point) const {
-  const double ahead_m = point.up_m + distance_m_;
-  const geo::Bearing azimuth = up_ + geo::Angle::radians(std::atan2(point.right_m, ahead_m));
-  return geo::geodesic_direct(apex_, azimuth, geo::Length::metres(std::hypot(point.right_m, ahead_m)));
+  return geo::AzimuthalEquidistant(apex_, up_).geodetic_from_plane({point.right_m, point.up_m + distance_m_});
 }
 
 double PatchGeometry::height_on_sight_m(double distance_m, double tangent) const {
@@ -97,13 +95,12 @@ constexpr double kOutlineMargin = 0.01;  // of the box about the fan
 
 // What a tile covers, seen from above.
 terrain::GeoBox box_of(const scene::Tile& tile) {
-  constexpr double kMetresADegree = 111'000.0;
   const double level = std::max(std::cos(tile.origin.latitude_deg * geo::kRadiansPerDegree), 0.01);
   const auto north = [&](float metres) {
-    return tile.origin.latitude_deg + static_cast<double>(metres) / kMetresADegree;
+    return tile.origin.latitude_deg + static_cast<double>(metres) / geo::kMinMetresPerDegree;
   };
   const auto east = [&](float metres) {
-    return tile.origin.longitude_deg + static_cast<double>(metres) / (kMetresADegree * level);
+    return tile.origin.longitude_deg + static_cast<double>(metres) / (geo::kMinMetresPerDegree * level);
   };
   return {north(tile.bounds.north_least_m), north(tile.bounds.north_most_m), east(tile.bounds.east_least_m),
           east(tile.bounds.east_most_m)};

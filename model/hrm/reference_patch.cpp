@@ -124,10 +124,9 @@ void ReferencePatch::read_scene(const scene::SceneView& scene, const std::vector
 
 void ReferencePatch::read_tile(const scene::SceneView& scene, const scene::Tile& tile, SurfacePoint* surface) {
   const double lift_m = tile.zero_msl_m - geometry_->plane_msl_m();
+  const geo::AzimuthalEquidistant plane(tile.origin);
   const auto map_point = [&](double east_m, double north_m) {
-    const geo::Bearing bearing = geo::Bearing::degrees(std::atan2(east_m, north_m) / geo::kRadiansPerDegree);
-    return geometry_->point_of(
-        geo::geodesic_direct(tile.origin, bearing, geo::Length::metres(std::hypot(east_m, north_m))));
+    return geometry_->point_of(plane.geodetic_from_plane({east_m, north_m}));
   };
   const auto place = [&](MapPoint point, double up_m) {
     const double ahead_m = point.up_m + geometry_->distance_m();

@@ -5,6 +5,8 @@
 #include <limits>
 #include <span>
 
+#include "lib/geo/earth.hpp"
+
 namespace yars::model::hrm {
 
 namespace {
@@ -17,8 +19,7 @@ PlacedTile placed(const PatchGeometry& geometry, const scene::Tile& tile) {
   const double away_rad = way.azimuth_at_end.radians();
   const double distance_m = way.distance.metres();
   // Across the line of sight the plane is stretched against the earth.
-  constexpr double kEarthRadius_m = 6371008.8;
-  const double angle_rad = distance_m / kEarthRadius_m;
+  const double angle_rad = distance_m / geo::kMeanEarthRadius_m;
   const double stretch = angle_rad > 1e-6 ? angle_rad / std::sin(angle_rad) : 1.0;
   const double sine = std::sin(turn_rad);
   const double cosine = std::cos(turn_rad);

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "lib/error/error.hpp"
+#include "lib/geo/frames.hpp"
 #include "lib/radar/mapping.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/random/counter_rng.hpp"

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "databuffer/messages/model_records.hpp"
+#include "lib/geo/frames.hpp"
 #include "lib/radar/configuration.hpp"
 #include "lib/radar/velocity_beams.hpp"
 #include "model/antenna/antenna.hpp"

@@ -9,7 +9,7 @@
 
 #include "databuffer/messages/model_records.hpp"
 #include "databuffer/messages/world_state.hpp"
-#include "lib/geo/geodesy.hpp"
+#include "lib/geo/frames.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/configuration.hpp"
 #include "lib/radar/mapping.hpp"

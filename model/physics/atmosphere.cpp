@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "lib/geo/earth.hpp"
 #include "model/physics/reflectivity.hpp"
 
 namespace yars::model::physics {
@@ -150,14 +151,13 @@ namespace {
 constexpr std::array<double, 4> kPlaces{0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
 constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                          0.1012285362903763};
-// Mean: within 0.4 % of the bow of a ray for any azimuth, 0.3 % of the distance at which a great circle passes a place.
-constexpr double kEarthRadius_m = 6371008.8;
 constexpr std::array<double, 3> kHeights_km{0.0, 2.0, 5.0};                 // of the parabola in height
 constexpr float kParabolaLowest_m = -500.0F, kParabolaHighest_m = 6000.0F;  // in which it holds
 
 EffectiveEarth round_earth(const radar::Fidelity& fidelity) {
   const bool flat = fidelity.earth == radar::EarthModel::flat;
-  return EffectiveEarth(flat ? std::numeric_limits<double>::infinity() : fidelity.earth_radius_factor * kEarthRadius_m);
+  return EffectiveEarth(flat ? std::numeric_limits<double>::infinity()
+                             : fidelity.earth_radius_factor * geo::kMeanEarthRadius_m);
 }
 }  // namespace
 
@@ -260,12 +260,12 @@ double RainChord::integral_m(double from_m, double to_m) const {
 
 RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint middle, double radius_m) {
   const geo::GeodesicInverse way = geo::geodesic_inverse(apex, middle);
-  const double arc = way.distance.metres() / kEarthRadius_m;
+  const double arc = way.distance.metres() / geo::kMeanEarthRadius_m;
   const double turn = (way.azimuth_at_start - azimuth).radians();
-  const double miss_m = kEarthRadius_m * std::asin(std::sin(arc) * std::sin(turn));
+  const double miss_m = geo::kMeanEarthRadius_m * std::asin(std::sin(arc) * std::sin(turn));
   RainChord chord;
   chord.radius_m = radius_m;
-  chord.middle_m = kEarthRadius_m * std::atan2(std::sin(arc) * std::cos(turn), std::cos(arc));
+  chord.middle_m = geo::kMeanEarthRadius_m * std::atan2(std::sin(arc) * std::cos(turn), std::cos(arc));
   chord.depth = 1.0 - miss_m * miss_m / (radius_m * radius_m);
   chord.half_m = chord.depth > 0.0 ? radius_m * std::sqrt(chord.depth) : 0.0;
   return chord;

@@ -4,41 +4,19 @@
 #include <cmath>
 
 #include "lib/geo/quantity.hpp"
+#include "lib/random/counter_rng.hpp"
 
 namespace yars::model::physics {
 
-namespace {
-// One step of splitmix64 (Steele, Lea, Flood 2014).
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15ULL;
-  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9ULL;
-  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebULL;
-  return x ^ (x >> 31U);
-}
-}  // namespace
-
 NoiseState make_noise_state(const NoiseKey& key) {
   const std::uint64_t place = (static_cast<std::uint64_t>(key.scan) << 32U) | key.sweep;
-  const std::uint64_t bits = mixed(mixed(key.seed) ^ place);
+  const std::uint64_t bits = random::splitmix64(random::splitmix64(key.seed) ^ place);
   return {static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32U)};
 }
 
-namespace {
-constexpr double kMetresPerDegree = 60.0 * geo::kMetresPerNauticalMile;  // [m] of latitude, to half a percent
-
-// The finalizer "lowbias32" (C. Wellons, "hash prospector"): every bit in moves every bit out.
-std::uint32_t mixed(std::uint32_t x) {
-  x ^= x >> 16U;
-  x *= 0x7feb352dU;
-  x ^= x >> 15U;
-  x *= 0x846ca68bU;
-  return x ^ (x >> 16U);
-}
-}  // namespace
-
 GroundGrid make_ground_grid(double edge_m) {
   GroundGrid grid;
-  grid.rows_per_degree = kMetresPerDegree / edge_m;
+  grid.rows_per_degree = kGridMetresPerDegree / edge_m;
   for (std::size_t band = 0; band < grid.columns.size(); ++band) {
     const double latitude_deg = static_cast<double>(band) - 89.5;
     const double around = 360.0 * grid.rows_per_degree * std::cos(latitude_deg * geo::kRadiansPerDegree);
@@ -54,7 +32,7 @@ std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint place) {
   // By way of signed integers: those a loop converts many at a time.
   const auto row = static_cast<std::int32_t>(std::max(0.0, north_deg * grid.rows_per_degree));
   const auto column = static_cast<std::int32_t>((turns - std::floor(turns)) * grid.columns[band]);
-  return mixed(static_cast<std::uint32_t>(row) * kRowFactor + static_cast<std::uint32_t>(column));
+  return random::lowbias32(static_cast<std::uint32_t>(row) * kGoldenSection + static_cast<std::uint32_t>(column));
 }
 
 namespace {

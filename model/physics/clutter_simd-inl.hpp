@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "lib/random/counter_rng-inl.hpp"
 #include "model/physics/clutter_simd.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -45,14 +46,14 @@ HWY_INLINE GroundFloats by_code(const float* table, GroundWholes code) {
 #endif
 }
 
-// The first eight bits of mixed() of clutter.cpp: its last step leaves them as they are.
+// noise_bits() of clutter.hpp for a vector of cells.
 template <class V>
-HWY_INLINE V first_bits(V x) {
+HWY_INLINE V noise_bits(NoiseState state, V cell, std::uint32_t draw) {
   const hn::DFromV<V> d;
-  x = hn::Xor(x, hn::ShiftRight<16>(x));
-  x = hn::Mul(x, hn::Set(d, 0x7feb352dU));
-  x = hn::Xor(x, hn::ShiftRight<15>(x));
-  return hn::ShiftRight<24>(hn::Mul(x, hn::Set(d, 0x846ca68bU)));
+  const auto number = hn::Add(hn::Mul(cell, hn::Set(d, kDrawsPerCell)), hn::Set(d, draw));
+  const auto bits = random::HWY_NAMESPACE::lowbias32(hn::Xor(number, hn::Set(d, state.first)));
+  const auto keyed = hn::Mul(hn::Xor(bits, hn::Set(d, state.second)), hn::Set(d, kGoldenSection));
+  return hn::Xor(keyed, hn::ShiftRight<15>(keyed));
 }
 
 // Texture level [0, 255] of the ground cells that places lie in: ground_bits() counted from the corner of each degree,
@@ -98,8 +99,8 @@ class TextureLanes {
     };
     const auto row = cell(in_.places.north_deg.data(), degree_.rows, degree_.row_share, degree_.row);
     const auto column = cell(in_.places.east_deg.data(), degree_.columns, degree_.column_share, degree_.column);
-    const auto number = hn::Add(hn::Mul(hn::BitCast(du, row), hn::Set(du, kRowFactor)), hn::BitCast(du, column));
-    return hn::BitCast(di, first_bits(number));
+    const auto number = hn::Add(hn::Mul(hn::BitCast(du, row), hn::Set(du, kGoldenSection)), hn::BitCast(du, column));
+    return hn::BitCast(di, hn::ShiftRight<24>(random::HWY_NAMESPACE::lowbias32_rounds(number)));
   }
 
   const GroundInputs& in_;

@@ -74,19 +74,6 @@ using Bits = hn::Vec<BitsTag>;
 constexpr float kDecibelsPerOctave = 3.01029996F;  // 10 log10(2)
 constexpr float kLn2 = 0.693147181F;
 
-// noise_bits() of clutter.hpp for a vector of cells.
-HWY_INLINE Bits random_bits(NoiseState state, Bits cell, std::uint32_t draw) {
-  const BitsTag d;
-  auto x = hn::Xor(hn::Add(hn::Mul(cell, hn::Set(d, kDrawsPerCell)), hn::Set(d, draw)), hn::Set(d, state.first));
-  x = hn::Xor(x, hn::ShiftRight<16>(x));
-  x = hn::Mul(x, hn::Set(d, 0x7feb352dU));
-  x = hn::Xor(x, hn::ShiftRight<15>(x));
-  x = hn::Mul(x, hn::Set(d, 0x846ca68bU));
-  x = hn::Xor(x, hn::Xor(hn::ShiftRight<16>(x), hn::Set(d, state.second)));
-  x = hn::Mul(x, hn::Set(d, 0x9e3779b1U));
-  return hn::Xor(x, hn::ShiftRight<15>(x));
-}
-
 // A uniform variate in (0, 1) from 16 bits; beyond the looks it counts as 1.
 HWY_INLINE Floats uniform(Bits sixteen, bool counts) {
   const Tag d;
@@ -109,8 +96,8 @@ void speckle(std::size_t cells, NoiseState state, int looks, float* variate) {
     for (int first = 0; first < looks; first += kLooksPerGroup) {
       // The logarithm of a product of up to four uniform variates.
       const auto draw = static_cast<std::uint32_t>(first / 2);
-      const auto one = random_bits(state, cell, draw);
-      const auto two = random_bits(state, cell, draw + 1U);
+      const auto one = noise_bits(state, cell, draw);
+      const auto two = noise_bits(state, cell, draw + 1U);
       const auto a = uniform(hn::ShiftRight<16>(one), true);
       const auto b = uniform(hn::And(one, low), looks - first > 1);
       const auto c = uniform(hn::ShiftRight<16>(two), looks - first > 2);

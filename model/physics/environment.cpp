@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/geo/earth.hpp"
 #include "model/physics/sweep_geometry.hpp"
 
 namespace yars::model::physics {
@@ -17,10 +18,6 @@ std::vector<MovingPoint> configured_points(const radar::RadarConfiguration& conf
                       {}});
   return points;
 }
-
-namespace {
-constexpr double kMetresPerDegree = 110'500.0;  // [m] the shortest degree of latitude: no mover in range is missed
-}  // namespace
 
 Movers::Movers(const radar::RadarConfiguration& configuration)
     : beam_(configuration.fidelity.beam), gas_(configuration), points_(configured_points(configuration)) {
@@ -40,7 +37,8 @@ void Movers::add_echoes(std::span<const MovingPoint> points, const SweepGeometry
                         const EffectiveEarth& earth, const terrain::TerrainView& terrain) {
   for (const MovingPoint& point : points) {
     const geo::GeoPoint there = point.place(look.sim_time);
-    if (std::abs(there.latitude_deg - look.apex.latitude_deg) * kMetresPerDegree > look.range.metres()) continue;
+    if (std::abs(there.latitude_deg - look.apex.latitude_deg) * geo::kMinMetresPerDegree > look.range.metres())
+      continue;
     const geo::GeodesicInverse way = geo::geodesic_inverse(look.apex, there);
     const double off_rad = (way.azimuth_at_start - look.azimuth).radians();
     const double distance_m = way.distance.metres();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/geo/earth.hpp"
 #include "model/physics/ray.hpp"
 #include "model/physics/reflectivity.hpp"
 
@@ -69,8 +70,6 @@ double SurfaceReturn::cross_section_m2(const Receiver& receiver, const Facet& fa
 }
 
 namespace {
-constexpr double kEarthRadius_m = 6371008.8;  // [m] mean
-
 void put_texture(simd::MaterialTables& tables, std::size_t code, double shape) {
   const TextureLevels levels = make_texture_levels(shape);
   std::copy(levels.begin(), levels.end(), tables.texture.begin() + static_cast<std::ptrdiff_t>(code * kTextureLevels));
@@ -84,7 +83,7 @@ struct Direction {
 // Of the ray at the middle of the sweep, on the sphere: at most 0.01 degrees off for 160 NM. From Clairaut's relation
 // and Karney 2013, eq. 10.
 Direction middle_direction(const SweepGeometry& look) {
-  const double turn_rad = 0.5 * look.range.metres() / kEarthRadius_m;
+  const double turn_rad = 0.5 * look.range.metres() / geo::kMeanEarthRadius_m;
   const double latitude_rad = look.apex.latitude_deg * geo::kRadiansPerDegree;
   const double azimuth_rad = look.azimuth.radians();
   const double level = std::cos(latitude_rad);

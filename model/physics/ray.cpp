@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "lib/geo/earth.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "model/physics/ray_simd.hpp"
 #include "model/terrain/formats/cell.hpp"
@@ -13,14 +14,13 @@
 namespace yars::model::physics {
 
 namespace {
-constexpr double kPolarMetresPerDegree = 111'694.0;  // WGS84, of a meridian at the pole
 constexpr double kMaxTurn_rad = 0.5 * geo::kRadiansPerDegree;
 constexpr double kShareOfWay = 0.25;  // of the way to the pole, so that what a piece begins with holds to its end
 }  // namespace
 
 PoleWay::PoleWay(geo::GeoPoint apex, geo::Bearing azimuth, double bend_m, double shortest_m)
     : bend_m_(bend_m), shortest_m_(shortest_m) {
-  const double to_pole_m = (90.0 - std::abs(apex.latitude_deg)) * kPolarMetresPerDegree;
+  const double to_pole_m = (90.0 - std::abs(apex.latitude_deg)) * geo::kMaxMetresPerDegree;
   const double towards = apex.latitude_deg >= 0.0 ? 1.0 : -1.0;
   nearest_m_ = to_pole_m * std::cos(azimuth.radians()) * towards;
   offset_m_ = std::abs(to_pole_m * std::sin(azimuth.radians()));
@@ -42,7 +42,6 @@ double PoleWay::least_straight_m(double from_m, double to_m) const {
 }
 
 namespace {
-constexpr double kEarthRadius_m = 6371008.8;  // [m] only to judge how near the pole is
 // Interpolating latitude and longitude holds while the pole is this many half ranges from the apex: the error falls
 // with its power of the knots. Smaller: metres lost at 75 degrees; greater: more sweeps take the slower way.
 constexpr double kPoleHalfRanges = 12.0;
@@ -157,7 +156,7 @@ simd::Curves curves_of(const geo::GeodesicSeries& series, terrain::CellPlace cor
 void place_by_knots(geo::GeoPoint apex, const geo::GeodesicRay& ray, geo::Length range, int knots,
                     const float* distance_m, PlaceArrays& places) {
   static const std::array<Knots, kMaxKnots + 1> points_of = chebyshev_points();
-  const double half_range_rad = 0.5 * range.metres() / kEarthRadius_m;
+  const double half_range_rad = 0.5 * range.metres() / geo::kMeanEarthRadius_m;
   const double to_pole_rad = (90.0 - std::abs(apex.latitude_deg)) * geo::kRadiansPerDegree;
   const bool near_pole = to_pole_rad <= kPoleHalfRanges * half_range_rad;
   const Knots& points = points_of[static_cast<std::size_t>(knots)];
@@ -207,10 +206,9 @@ void sample_places(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, 
 }
 
 namespace {
-constexpr double kPiece_m = 500.0;              // longest
-constexpr double kShortest_m = 1.0;             // beside a pole
-constexpr double kBend_m = 0.2;                 // that a piece may lie off the straight way
-constexpr double kMetresPerDegree = 111'000.0;  // about
+constexpr double kPiece_m = 500.0;   // longest
+constexpr double kShortest_m = 1.0;  // beside a pole
+constexpr double kBend_m = 0.2;      // that a piece may lie off the straight way
 constexpr double kNothing = -std::numeric_limits<double>::infinity();
 
 // Of two spacings; 0 is none.
@@ -268,7 +266,7 @@ double GroundWalk::highest_of_piece(const geo::GeodesicRay& ray, double from_m, 
 // a step apart.
 double GroundWalk::highest_of_columns(const Piece& piece) const {
   const double latitude_rad = (piece.begin.latitude_deg + 0.5 * piece.north_deg) * geo::kRadiansPerDegree;
-  const double column_m = kMetresPerDegree * piece.posts.columns_deg * std::cos(latitude_rad);
+  const double column_m = geo::kMetresPerDegree * piece.posts.columns_deg * std::cos(latitude_rad);
   if (column_m >= piece.posts.walked_m) return kNothing;
   const double first = piece.begin.longitude_deg / piece.posts.columns_deg;
   const double columns = piece.east_deg / piece.posts.columns_deg;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lib/geo/earth.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/random/gradient_noise.hpp"
 
@@ -13,9 +14,8 @@ namespace yars::model::physics {
 
 namespace {
 
-constexpr double kMetresPerDegree = 111195.0;  // [m] of a sphere of 6371 km
-constexpr double kPatch_m = 5000.0;            // [m] a town of middle size
-constexpr double kRow_deg = kPatch_m / kMetresPerDegree;
+constexpr double kPatch_m = 5000.0;  // [m] a town of middle size
+constexpr double kRow_deg = kPatch_m / geo::kMetresPerDegree;
 constexpr std::uint32_t kSeed = 0;  // whatever the landscape's: real culture has streets too
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/geo/earth.hpp"
 #include "model/physics/receiver.hpp"
 
 namespace yars::model::physics {
@@ -34,8 +35,7 @@ double azimuth_share(const RayShare& share, double beamwidth_rad, double off_rad
 }
 
 namespace {
-constexpr double kMeanEarthRadius_m = 6371008.8;  // [m] WGS84 mean (2a + b) / 3; the curvature of EarthModel::sphere
-constexpr double kMinFactor = 0.1;                // k below it would curl the earth up inside the range
+constexpr double kMinFactor = 0.1;  // k below it would curl the earth up inside the range
 }  // namespace
 
 double EffectiveEarth::drop_m(double distance_m) const {
@@ -81,7 +81,7 @@ EffectiveEarth effective_earth(const radar::Fidelity& fidelity, geo::GeoPoint ap
     case radar::EarthModel::flat:
       break;
     case radar::EarthModel::sphere:
-      return EffectiveEarth(factor * kMeanEarthRadius_m);
+      return EffectiveEarth(factor * geo::kMeanEarthRadius_m);
     case radar::EarthModel::ellipsoid:
       return EffectiveEarth(factor * geo::radius_of_curvature(apex.latitude_deg, azimuth).metres());
   }

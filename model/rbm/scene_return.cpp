@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/geo/earth.hpp"
+#include "lib/geo/frames.hpp"
 #include "model/physics/environment.hpp"
 #include "model/physics/sweep_geometry.hpp"
 
 namespace yars::model::rbm {
 
 namespace {
-constexpr double kMeanRadius_m = 6'371'000.0;
 constexpr double kSpare_m = 1000.0;  // by which a geodesic may leave its plane and a plane its geodesics
 
 double along_slope(const SceneReturn::Ground& ground, std::size_t index) {
@@ -39,10 +40,10 @@ class RayOverPlane {
     double east_m, north_m;
   };
   Point at(double distance_m) const {
-    const double sine = std::sin(distance_m / kMeanRadius_m);
-    const double cosine = std::cos(distance_m / kMeanRadius_m);
-    const double across_m = kMeanRadius_m * std::asin(sine * sin_off_);
-    const double along_m = kMeanRadius_m * std::atan2(sine * cos_off_, cosine) - distance_m_;
+    const double sine = std::sin(distance_m / geo::kMeanEarthRadius_m);
+    const double cosine = std::cos(distance_m / geo::kMeanEarthRadius_m);
+    const double across_m = geo::kMeanEarthRadius_m * std::asin(sine * sin_off_);
+    const double along_m = geo::kMeanEarthRadius_m * std::atan2(sine * cos_off_, cosine) - distance_m_;
     return {along_m * sin_end_ + across_m * cos_end_, along_m * cos_end_ - across_m * sin_end_};
   }
 

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "lib/geo/frames.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/physics/atmosphere.hpp"
 #include "model/physics/ray.hpp"

@@ -4,9 +4,10 @@
 #include <memory>
 #include <vector>
 
+#include "lib/geo/frames.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/scene/openflight/reader.hpp"
-#include "model/terrain/sampling/analytic_terrain.hpp"
+#include "tests/model/terrain/shapes.hpp"
 #include "worldgen/scene/openflight_writer.hpp"
 #include "worldgen/scene/scene_builder.hpp"
 

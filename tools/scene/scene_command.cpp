@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "lib/file/output_file.hpp"
+#include "lib/geo/frames.hpp"
 #include "model/scene/index/scene_index.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "tools/command/command.hpp"

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/geo/earth.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/imageio/png.hpp"
 #include "model/terrain/formats/cell.hpp"
@@ -47,8 +48,7 @@ using model::terrain::Culture;
 using model::terrain::Material;
 using Colour = std::array<double, 3>;
 
-constexpr double kMetresPerDegree = 111195.0;  // [m] of a sphere of 6371 km: a picture, no navigation
-constexpr double kExaggeration = 1.6;          // of slopes; more hides plains in the shade of hills
+constexpr double kExaggeration = 1.6;  // of slopes; more hides plains in the shade of hills
 constexpr Colour kSea{38, 66, 112};
 constexpr Colour kVoid{200, 60, 160};
 constexpr Colour kAbsent{24, 34, 56};
@@ -118,7 +118,7 @@ Colour colour_at(const Ground& ground, double north_deg, double east_deg, PixelS
     return std::isnan(difference) ? 0.0 : difference;
   };
   const double shade = light(rise(north_deg, west, north_deg, east) / ((east - west) * east_m_per_deg),
-                             rise(south, east_deg, north, east_deg) / ((north - south) * kMetresPerDegree));
+                             rise(south, east_deg, north, east_deg) / ((north - south) * geo::kMetresPerDegree));
   Colour colour = cover_of(ground, north_deg, east_deg, here.elevation_m);
   for (double& channel : colour) channel *= shade;
   return colour;
@@ -158,7 +158,8 @@ void paint_cell(const Cell& cell, const Culture* culture, const MapFrame& frame,
   for (int y = top; y < frame.height; ++y) {
     const double latitude_deg = frame.north_deg - (y + 0.5) * step.north_deg;
     if (latitude_deg < north_deg - 1.0) break;
-    const double east_m_per_deg = kMetresPerDegree * std::max(0.01, std::cos(latitude_deg * geo::kRadiansPerDegree));
+    const double east_m_per_deg =
+        geo::kMetresPerDegree * std::max(0.01, std::cos(latitude_deg * geo::kRadiansPerDegree));
     for (int x = left; x < frame.width; ++x) {
       const double longitude_deg = frame.west_deg + (x + 0.5) * step.east_deg;
       if (longitude_deg >= west_deg + 1.0) break;

@@ -1,3 +1,4 @@
+#include "lib/geo/frames.hpp"
 #include "worldgen/scene/scene_parts.hpp"
 
 namespace yars::worldgen {
@@ -106,10 +107,10 @@ class Bridge {
             const double angle = std::numbers::pi * (1.0 - 1.0 * i / parts);
             wall.push_back({middle + r * std::cos(angle), y, r * std::sin(angle)});
           }
-          for (const Vector3 corner : {Vector3{middle + r, y, 0},
-                                       {middle + kArch_m / 2, y, 0},
-                                       {middle + kArch_m / 2, y, kDeck_m},
-                                       {middle - kArch_m / 2, y, kDeck_m}})
+          for (const Vector3& corner : {Vector3{middle + r, y, 0},
+                                        {middle + kArch_m / 2, y, 0},
+                                        {middle + kArch_m / 2, y, kDeck_m},
+                                        {middle - kArch_m / 2, y, kDeck_m}})
             wall.push_back(corner);
           if (y > 0) wall = {wall.rbegin(), wall.rend()};
           s.polygon(wall);

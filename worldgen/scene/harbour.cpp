@@ -1,5 +1,6 @@
 #include <array>
 
+#include "lib/geo/frames.hpp"
 #include "worldgen/scene/scene_parts.hpp"
 
 namespace yars::worldgen {

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "lib/geo/frames.hpp"
 #include "model/scene/openflight/records.hpp"
 
 namespace yars::worldgen {

@@ -13,6 +13,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "lib/geo/frames.hpp"
 #include "model/scene/openflight/node_tree.hpp"
 
 namespace yars::worldgen {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "lib/geo/frames.hpp"
 #include "model/scene/openflight/model.hpp"
 #include "model/scene/placement/plan_geometry.hpp"
 
@@ -166,8 +167,9 @@ GeneratedScene generate_scene(const SceneOrder& order, const GenerationProgress&
   for (const Named& known : kKinds) {
     if (known.kind != order.kind) continue;
     known.generate(yard);
-    const model::scene::Plane plane(order.origin);
-    yard.out.set_corners(plane.place_of({-yard.reach_m, -yard.reach_m}), plane.place_of({yard.reach_m, yard.reach_m}));
+    const geo::AzimuthalEquidistant plane(order.origin);
+    yard.out.set_corners(plane.geodetic_from_plane({-yard.reach_m, -yard.reach_m}),
+                         plane.geodetic_from_plane({yard.reach_m, yard.reach_m}));
   }
   return {yard.out.take(), yard.triangles()};
 }

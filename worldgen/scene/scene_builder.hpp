@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/geo/geodesy.hpp"
+#include "lib/geo/frames.hpp"
 #include "worldgen/scene/openflight_writer.hpp"
 
 namespace yars::worldgen {

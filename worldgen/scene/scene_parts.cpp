@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "lib/geo/frames.hpp"
+
 namespace yars::worldgen {
 
 namespace {

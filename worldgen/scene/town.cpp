@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "lib/geo/frames.hpp"
 #include "worldgen/scene/scene_parts.hpp"
 
 namespace yars::worldgen {

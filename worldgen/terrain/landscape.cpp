@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
+#include "lib/geo/frames.hpp"
 #include "lib/random/gradient_noise.hpp"
 #include "model/physics/reflectivity.hpp"
 

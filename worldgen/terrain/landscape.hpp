@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "lib/geo/geodesy.hpp"
+#include "lib/geo/frames.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/culture.hpp"
 #include "worldgen/terrain/landscape_tiles.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/geo/geodesy.hpp"
+#include "lib/geo/frames.hpp"
 #include "lib/random/gradient_noise.hpp"
 
 namespace yars::worldgen {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "lib/geo/geodesy.hpp"
+#include "lib/geo/frames.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "worldgen/terrain/gullies.hpp"
 

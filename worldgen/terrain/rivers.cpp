@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/geo/frames.hpp"
 #include "lib/random/gradient_noise.hpp"
 
 namespace yars::worldgen {

@@ -31,10 +31,10 @@ double beyond(double value, double least, double most) {
 
 bool is_within(const Tile& tile, double reach_m, geo::GeoPoint place, double distance_m, double radius_m) {
   if (distance_m + reach_m <= radius_m) return true;
-  const PlanePoint at = Plane(tile.origin).point_of(place);
+  const geo::PlanePoint at = geo::AzimuthalEquidistant(tile.origin).plane_from_geodetic(place);
   const Bounds& b = tile.bounds;
-  return std::hypot(beyond(at.east_m, static_cast<double>(b.east_least_m), static_cast<double>(b.east_most_m)),
-                    beyond(at.north_m, static_cast<double>(b.north_least_m), static_cast<double>(b.north_most_m))) <=
+  return std::hypot(beyond(at.x_m, static_cast<double>(b.east_least_m), static_cast<double>(b.east_most_m)),
+                    beyond(at.y_m, static_cast<double>(b.north_least_m), static_cast<double>(b.north_most_m))) <=
          radius_m;
 }
 

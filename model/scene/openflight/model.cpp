@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "lib/error/error.hpp"
+#include "lib/geo/frames.hpp"
 #include "model/scene/openflight/node_tree.hpp"
 
 namespace yars::model::scene {
@@ -302,7 +303,7 @@ class Flattening {
     facet = (1.0 / size) * facet;
     if (auto done = make_room(2 * triangles_.size(), 2 * places_.size()); !done) return done;
     if (face.subface_level > 0)
-      for (Vector3& at : places_) at = at + (kSubfaceLift_m * face.subface_level) * facet;
+      for (Vector3& at : places_) at += static_cast<double>(kSubfaceLift_m * face.subface_level) * facet;
     ++model_.polygons;
     emit(face, object, facet, false);
     if (face.two_sided) emit(face, object, -1.0 * facet, true);

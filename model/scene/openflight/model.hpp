@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
+#include "lib/geo/frames.hpp"
 #include "model/scene/openflight/node_tree.hpp"
 
 namespace yars::model::scene {

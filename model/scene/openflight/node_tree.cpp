@@ -147,7 +147,7 @@ std::optional<double> metres_per_unit(int code) {
     case 5:
       return 0.0254;
     case 8:
-      return 1852.0;
+      return geo::kMetresPerNauticalMile;
     default:
       return std::nullopt;
   }

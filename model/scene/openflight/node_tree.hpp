@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
-#include "lib/geo/geodesy.hpp"
+#include "lib/geo/frames.hpp"
 
 namespace yars::model::scene {
 

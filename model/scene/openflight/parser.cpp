@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "lib/geo/frames.hpp"
 #include "model/scene/openflight/node_tree.hpp"
 #include "model/scene/openflight/records.hpp"
 #include "model/scene/openflight/surface_records.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/geo/frames.hpp"
 #include "lib/radar/world.hpp"
 #include "model/scene/openflight/records.hpp"
 

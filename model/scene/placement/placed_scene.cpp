@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "lib/geo/frames.hpp"
 #include "model/scene/placement/plan_geometry.hpp"
 #include "model/scene/placement/scatterers.hpp"
 #include "model/scene/placement/tile_builder.hpp"
@@ -120,7 +121,7 @@ class Placing {
     const Outline& outline = outlines_[number];
     SceneObject& object = placed.objects.emplace_back();
     object.name = model_.objects[number];
-    object.middle = plane_.place_of({outline.box.middle.x_m, outline.box.middle.y_m});
+    object.middle = plane_.geodetic_from_plane({outline.box.middle.x_m, outline.box.middle.y_m});
     object.base_msl_m = anchor_m_;
     if (follows_ground() && number != 0) object.base_msl_m = height_at(object.middle, anchor_m_);
     object.height_m = outline.empty ? 0.0 : std::max(0.0, outline.most_z_m);
@@ -158,7 +159,7 @@ class Placing {
     if (!(area.z > kLevelNormal * length(area))) return false;
     if (placement_.heights != radar::SceneHeights::sea_level) return corners[0].z - base_m < kOnGround_m;
     return std::all_of(corners.begin(), corners.end(), [&](Vector3 corner) {
-      const double ground_m = height_at(plane_.place_of({corner.x, corner.y}), base_m);
+      const double ground_m = height_at(plane_.geodetic_from_plane({corner.x, corner.y}), base_m);
       return std::abs(corner.z - ground_m) < kNearGround_m;
     });
   }
@@ -258,7 +259,7 @@ class Placing {
   const Model& model_;
   Placement placement_;
   const terrain::TerrainView& ground_;
-  Plane plane_;
+  geo::AzimuthalEquidistant plane_;
   std::uint32_t first_object_;
   KindTable& kinds_;
   SceneUse use_;
@@ -272,7 +273,7 @@ class Placing {
   std::vector<std::uint16_t> kind_numbers_;  // of the model's kinds
   std::vector<std::uint32_t> begin_, order_;
   std::vector<Outline> outlines_;
-  std::vector<PlanPoint> points_;
+  std::vector<geo::PlanePoint> points_;
   Cutter cutter_;
 };
 

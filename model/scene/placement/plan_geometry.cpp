@@ -7,53 +7,40 @@
 
 namespace yars::model::scene {
 
-geo::GeoPoint Plane::place_of(PlanePoint point) const {
-  const double distance_m = std::hypot(point.east_m, point.north_m);
-  if (distance_m == 0.0) return origin_;
-  return geo::geodesic_direct(origin_, geo::Bearing::radians(std::atan2(point.east_m, point.north_m)),
-                              geo::Length::metres(distance_m));
-}
-
-PlanePoint Plane::point_of(geo::GeoPoint place) const {
-  const geo::GeodesicInverse way = geo::geodesic_inverse(origin_, place);
-  const double distance_m = way.distance.metres();
-  const double azimuth_rad = way.azimuth_at_start.radians();
-  return {distance_m * std::sin(azimuth_rad), distance_m * std::cos(azimuth_rad)};
-}
-
-LocalMap::LocalMap(const Plane& from, PlanePoint middle) : middle_(middle), to_(from.place_of(middle)) {
+LocalMap::LocalMap(const geo::AzimuthalEquidistant& from, geo::PlanePoint middle)
+    : middle_(middle), to_(from.geodetic_from_plane(middle)) {
   constexpr double kStep_m = 256.0;  // half a tile: exact on its edges' middles
-  const auto slope = [&](double east, double north, PlanePoint& moved, double& latitude, double& longitude) {
-    const geo::GeoPoint ahead = from.place_of({middle.east_m + kStep_m * east, middle.north_m + kStep_m * north});
-    const geo::GeoPoint behind = from.place_of({middle.east_m - kStep_m * east, middle.north_m - kStep_m * north});
-    const PlanePoint a = to_.point_of(ahead), b = to_.point_of(behind);
-    moved = {(a.east_m - b.east_m) / (2 * kStep_m), (a.north_m - b.north_m) / (2 * kStep_m)};
+  const auto slope = [&](double east, double north, geo::PlanePoint& moved, double& latitude, double& longitude) {
+    const geo::GeoPoint ahead = from.geodetic_from_plane({middle.x_m + kStep_m * east, middle.y_m + kStep_m * north});
+    const geo::GeoPoint behind = from.geodetic_from_plane({middle.x_m - kStep_m * east, middle.y_m - kStep_m * north});
+    const geo::PlanePoint a = to_.plane_from_geodetic(ahead), b = to_.plane_from_geodetic(behind);
+    moved = {(a.x_m - b.x_m) / (2 * kStep_m), (a.y_m - b.y_m) / (2 * kStep_m)};
     latitude = (ahead.latitude_deg - behind.latitude_deg) / (2 * kStep_m);
     longitude = geo::wrapped_degrees(ahead.longitude_deg - behind.longitude_deg) / (2 * kStep_m);
   };
-  slope(1.0, 0.0, east_, latitude_.east_m, longitude_.east_m);
-  slope(0.0, 1.0, north_, latitude_.north_m, longitude_.north_m);
+  slope(1.0, 0.0, east_, latitude_.x_m, longitude_.x_m);
+  slope(0.0, 1.0, north_, latitude_.y_m, longitude_.y_m);
 }
 
 namespace {
 
-double turn(PlanPoint a, PlanPoint b, PlanPoint c) {
+double turn(geo::PlanePoint a, geo::PlanePoint b, geo::PlanePoint c) {
   return (b.x_m - a.x_m) * (c.y_m - a.y_m) - (b.y_m - a.y_m) * (c.x_m - a.x_m);
 }
 
 // Counter-clockwise, without the first point again (Andrew's monotone chain).
-std::vector<PlanPoint> hull_of(std::vector<PlanPoint>& points) {
+std::vector<geo::PlanePoint> hull_of(std::vector<geo::PlanePoint>& points) {
   std::sort(points.begin(), points.end(),
-            [](PlanPoint a, PlanPoint b) { return a.x_m != b.x_m ? a.x_m < b.x_m : a.y_m < b.y_m; });
-  const auto same = [](PlanPoint a, PlanPoint b) { return a.x_m == b.x_m && a.y_m == b.y_m; };
+            [](geo::PlanePoint a, geo::PlanePoint b) { return a.x_m != b.x_m ? a.x_m < b.x_m : a.y_m < b.y_m; });
+  const auto same = [](geo::PlanePoint a, geo::PlanePoint b) { return a.x_m == b.x_m && a.y_m == b.y_m; };
   points.erase(std::unique(points.begin(), points.end(), same), points.end());
   if (points.size() < 3) return points;
-  std::vector<PlanPoint> hull;
-  const auto add = [&hull](PlanPoint point, std::size_t least) {
+  std::vector<geo::PlanePoint> hull;
+  const auto add = [&hull](geo::PlanePoint point, std::size_t least) {
     while (hull.size() >= least + 2 && turn(hull[hull.size() - 2], hull.back(), point) <= 0.0) hull.pop_back();
     hull.push_back(point);
   };
-  for (const PlanPoint& point : points) add(point, 0);
+  for (const geo::PlanePoint& point : points) add(point, 0);
   const std::size_t lower = hull.size() - 1;
   for (auto point = points.rbegin() + 1; point != points.rend(); ++point) add(*point, lower);
   hull.pop_back();
@@ -61,11 +48,11 @@ std::vector<PlanPoint> hull_of(std::vector<PlanPoint>& points) {
 }
 
 // The box around the hull with its sides along a direction.
-Footprint box_along(const std::vector<PlanPoint>& hull, double direction_rad) {
+Footprint box_along(const std::vector<geo::PlanePoint>& hull, double direction_rad) {
   const double c = std::cos(direction_rad), s = std::sin(direction_rad);
   double along_least = std::numeric_limits<double>::infinity(), along_most = -along_least;
   double across_least = along_least, across_most = -along_least;
-  for (const PlanPoint& point : hull) {
+  for (const geo::PlanePoint& point : hull) {
     const double along = point.x_m * c + point.y_m * s;
     const double across = point.y_m * c - point.x_m * s;
     along_least = std::min(along_least, along);
@@ -82,12 +69,12 @@ Footprint box_along(const std::vector<PlanPoint>& hull, double direction_rad) {
 
 }  // namespace
 
-Footprint footprint_of(std::vector<PlanPoint>& points) {
+Footprint footprint_of(std::vector<geo::PlanePoint>& points) {
   if (points.empty()) return {};
-  const std::vector<PlanPoint> hull = hull_of(points);
+  const std::vector<geo::PlanePoint> hull = hull_of(points);
   Footprint least = box_along(hull, 0.0);
   for (std::size_t i = 0; i < hull.size() && hull.size() > 1; ++i) {
-    const PlanPoint a = hull[i], b = hull[(i + 1) % hull.size()];
+    const geo::PlanePoint a = hull[i], b = hull[(i + 1) % hull.size()];
     const Footprint box = box_along(hull, std::atan2(b.y_m - a.y_m, b.x_m - a.x_m));
     if (box.length_m * box.width_m < least.length_m * least.width_m * (1.0 - 1e-9)) least = box;
   }

@@ -9,50 +9,34 @@
 #include <utility>
 #include <vector>
 
+#include "lib/geo/frames.hpp"
 #include "lib/geo/geodesy.hpp"
 
 namespace yars::model::scene {
-
-// The azimuthal-equidistant plane about a place: x east, y north in metres; exact by the geodesic, and near a point of
-// it by a linear map.
-struct PlanePoint {
-  double east_m = 0.0, north_m = 0.0;
-};
-
-class Plane {
- public:
-  explicit Plane(geo::GeoPoint origin) : origin_(origin) {}
-  geo::GeoPoint origin() const { return origin_; }
-  geo::GeoPoint place_of(PlanePoint point) const;
-  PlanePoint point_of(geo::GeoPoint place) const;
-
- private:
-  geo::GeoPoint origin_;
-};
 
 // What a point of one plane is in another, linear about `middle`: off by less than 1 mm within 300 m, for planes whose
 // origins lie within 20 km; places off by less than 10 mm (on a plane's own origin, below 80 degrees of latitude).
 class LocalMap {
  public:
-  LocalMap(const Plane& from, PlanePoint middle);
+  LocalMap(const geo::AzimuthalEquidistant& from, geo::PlanePoint middle);
 
-  const Plane& plane() const { return to_; }  // about the middle
-  PlanePoint to_local(PlanePoint point) const {
-    const double e = point.east_m - middle_.east_m, n = point.north_m - middle_.north_m;
-    return {e * east_.east_m + n * north_.east_m, e * east_.north_m + n * north_.north_m};
+  const geo::AzimuthalEquidistant& plane() const { return to_; }  // about the middle
+  geo::PlanePoint to_local(geo::PlanePoint point) const {
+    const double e = point.x_m - middle_.x_m, n = point.y_m - middle_.y_m;
+    return {e * east_.x_m + n * north_.x_m, e * east_.y_m + n * north_.y_m};
   }
-  geo::GeoPoint place_of(PlanePoint point) const {
-    const double e = point.east_m - middle_.east_m, n = point.north_m - middle_.north_m;
+  geo::GeoPoint place_of(geo::PlanePoint point) const {
+    const double e = point.x_m - middle_.x_m, n = point.y_m - middle_.y_m;
     const geo::GeoPoint o = to_.origin();
-    return {o.latitude_deg + e * latitude_.east_m + n * latitude_.north_m,
-            o.longitude_deg + e * longitude_.east_m + n * longitude_.north_m};
+    return {o.latitude_deg + e * latitude_.x_m + n * latitude_.y_m,
+            o.longitude_deg + e * longitude_.x_m + n * longitude_.y_m};
   }
 
  private:
-  PlanePoint middle_;
-  Plane to_;
-  PlanePoint east_, north_;          // where a metre east and north go
-  PlanePoint latitude_, longitude_;  // [deg/m]
+  geo::PlanePoint middle_;
+  geo::AzimuthalEquidistant to_;
+  geo::PlanePoint east_, north_;          // where a metre east and north go
+  geo::PlanePoint latitude_, longitude_;  // [deg/m]
 };
 
 // A convex polygon seen from above, cut by lines along the axes (Sutherland and Hodgman 1974).
@@ -149,18 +133,14 @@ class Cutter {
 
 // What a thing covers seen from above: the rectangle of least area around its corners. The hull's edges are tried in
 // turn (the least rectangle has a side on one of them: Freeman and Shapira, CACM 18, 1975).
-struct PlanPoint {
-  double x_m = 0.0, y_m = 0.0;
-};
-
 struct Footprint {
-  PlanPoint middle;
+  geo::PlanePoint middle;
   double length_m = 0.0;  // the longer side
   double width_m = 0.0;
   double direction_rad = 0.0;  // of the longer side, counter-clockwise from x, [0, pi)
 };
 
 // `points` is reordered; of no points all is zero.
-Footprint footprint_of(std::vector<PlanPoint>& points);
+Footprint footprint_of(std::vector<geo::PlanePoint>& points);
 
 }  // namespace yars::model::scene

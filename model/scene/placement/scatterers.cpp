@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lib/geo/frames.hpp"
 #include "model/scene/placement/plan_geometry.hpp"
 
 namespace yars::model::scene {
@@ -167,7 +168,8 @@ ScatterBuilder::Squares ScatterBuilder::coarser(const Squares& squares) {
   return merged;
 }
 
-void ScatterBuilder::finish(const Plane& plane, double side_m, Scatterers& made, ScattererLevel& level) const {
+void ScatterBuilder::finish(const geo::AzimuthalEquidistant& plane, double side_m, Scatterers& made,
+                            ScattererLevel& level) const {
   const auto put_facings = [&level](const Square& square) {
     for (const FacingSum& sum : square.facings)
       level.facings.push_back({static_cast<float>(sum.area_m2.x), static_cast<float>(sum.area_m2.y),
@@ -182,8 +184,8 @@ void ScatterBuilder::finish(const Plane& plane, double side_m, Scatterers& made,
     const double middle2 = middle.x * middle.x + middle.y * middle.y;
     // An evenly filled square of side s spreads by s^2 / 6 about its middle.
     const double extent_m = std::sqrt(6.0 * std::max(0.0, square.spread / square.area_m2 - middle2));
-    const geo::Vector3 at =
-        made.frame.enu_from_geodetic(plane.place_of({middle.x, middle.y}), geo::HeightAboveEllipsoid::metres(0.0));
+    const geo::Vector3 at = made.frame.enu_from_geodetic(plane.geodetic_from_plane({middle.x, middle.y}),
+                                                         geo::HeightAboveEllipsoid::metres(0.0));
     found.push_back({static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z),
                      static_cast<float>(middle.z), static_cast<float>(square.least_m),
                      static_cast<float>(square.most_m), static_cast<float>(std::min(extent_m, side_m)),
@@ -209,7 +211,7 @@ void ScatterBuilder::finish(const Plane& plane, double side_m, Scatterers& made,
   level.facings.shrink_to_fit();
 }
 
-std::shared_ptr<const Scatterers> ScatterBuilder::take(const Plane& plane) {
+std::shared_ptr<const Scatterers> ScatterBuilder::take(const geo::AzimuthalEquidistant& plane) {
   if (standing_.empty() && lying_.empty()) return nullptr;
   auto made = std::make_shared<Scatterers>(plane.origin());
   made->finest = finest_;

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "lib/geo/frames.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "model/scene/placement/plan_geometry.hpp"
 #include "model/scene/placement/spatial_index.hpp"
@@ -92,7 +93,7 @@ class ScatterBuilder {
   void lie(const std::array<geo::Vector3, 3>& corners, std::uint8_t material);
 
   // Ends the work; null if nothing was added.
-  std::shared_ptr<const Scatterers> take(const Plane& plane);
+  std::shared_ptr<const Scatterers> take(const geo::AzimuthalEquidistant& plane);
 
  private:
   struct FacingSum {
@@ -116,7 +117,7 @@ class ScatterBuilder {
   static void add(Square& square, std::uint32_t key, geo::Vector3 area_m2);
   static Keys sorted_keys(const Squares& squares);
   static Squares coarser(const Squares& squares);
-  void finish(const Plane& plane, double side_m, Scatterers& made, ScattererLevel& level) const;
+  void finish(const geo::AzimuthalEquidistant& plane, double side_m, Scatterers& made, ScattererLevel& level) const;
 
   double most_reach_m_;
   std::size_t finest_ = 0;    // level

@@ -5,12 +5,13 @@
 #include <limits>
 #include <numeric>
 
+#include "lib/geo/earth.hpp"
+#include "lib/geo/frames.hpp"
+
 namespace yars::model::scene {
 
 namespace {
 
-constexpr double kMetresPerDegree = 110'500.0;  // [m] below the least of a meridian: ranges of cells err outwards
-constexpr double kMeanRadius_m = 6'371'000.0;
 constexpr double kMaxCellsAcross = 512;  // queries wider than this look at every disc instead
 
 geo::Vector3 on_earth(geo::GeoPoint place) {
@@ -21,7 +22,7 @@ geo::Vector3 on_earth(geo::GeoPoint place) {
 double arc_m(geo::Vector3 a, geo::Vector3 b) {
   const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
   const double square = x * x + y * y + z * z;
-  return std::sqrt(square) * (1.0 + square / (24.0 * kMeanRadius_m * kMeanRadius_m));
+  return std::sqrt(square) * (1.0 + square / (24.0 * geo::kMeanEarthRadius_m * geo::kMeanEarthRadius_m));
 }
 
 std::uint64_t key_of(std::int64_t row, std::int64_t column) {
@@ -31,7 +32,7 @@ std::uint64_t key_of(std::int64_t row, std::int64_t column) {
 }  // namespace
 
 GridIndex::GridIndex(const std::vector<Disc>& discs, double cell_deg) : cell_deg_(cell_deg) {
-  const double large_m = 2.0 * cell_deg * kMetresPerDegree;
+  const double large_m = 2.0 * cell_deg * geo::kMinMetresPerDegree;
   std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
   for (const Disc& disc : discs) {
     const auto number = static_cast<std::uint32_t>(middles_.size());
@@ -99,7 +100,7 @@ void GridIndex::find(geo::GeoPoint place, double radius_m, std::vector<Hit>& hit
   const geo::Vector3 at = on_earth(place);
   for (const std::uint32_t disc : large_) test(disc, at, radius_m, hits);
   if (ordered_.empty()) return;
-  const double reach_deg = (radius_m + most_reach_m_) / kMetresPerDegree;
+  const double reach_deg = (radius_m + most_reach_m_) / geo::kMinMetresPerDegree;
   const double across = 2.0 * reach_deg / cell_deg_;
   if (across > kMaxCellsAcross || across * across > static_cast<double>(ordered_.size()) + 64.0) {
     for (const std::uint32_t disc : ordered_) test(disc, at, radius_m, hits);

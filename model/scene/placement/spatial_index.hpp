@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/geo/geodesy.hpp"
+#include "lib/geo/frames.hpp"
 
 namespace yars::model::scene {
 

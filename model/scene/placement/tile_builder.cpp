@@ -6,6 +6,9 @@
 #include <cstddef>
 #include <unordered_map>
 
+#include "lib/geo/frames.hpp"
+#include "lib/random/counter_rng.hpp"
+
 namespace yars::model::scene {
 
 namespace {
@@ -23,8 +26,7 @@ struct Place {
 };
 struct PlaceHash {
   std::size_t operator()(const Place& place) const {
-    const std::uint64_t mixed = (place.level ^ (place.altitude * 0x9e3779b97f4a7c15U)) * 0xbf58476d1ce4e5b9U;
-    return static_cast<std::size_t>(mixed ^ (mixed >> 32U));
+    return static_cast<std::size_t>(random::splitmix64(place.level ^ random::splitmix64(place.altitude)));
   }
 };
 
@@ -119,20 +121,21 @@ std::uint64_t bytes_in(const std::vector<Value>& values) {
 
 }  // namespace
 
-TileBuilders::TileBuilders(const Plane& plane, std::size_t model_vertices) : plane_(plane), copies_(model_vertices) {}
+TileBuilders::TileBuilders(const geo::AzimuthalEquidistant& plane, std::size_t model_vertices)
+    : plane_(plane), copies_(model_vertices) {}
 
 // No room for a triangle more: bare and curved vertices may both be there, three of each.
 bool TileBuilders::is_full(const Builder& builder) {
   return 2 * (builder.vertices.size() + 3) > Tile::kMaxVertices;
 }
 
-TileBuilders::Builder& TileBuilders::builder_at(PlanePoint point) {
-  const Square square{static_cast<std::int32_t>(std::floor(point.north_m / kTileSide_m)),
-                      static_cast<std::int32_t>(std::floor(point.east_m / kTileSide_m))};
+TileBuilders::Builder& TileBuilders::builder_at(geo::PlanePoint point) {
+  const Square square{static_cast<std::int32_t>(std::floor(point.y_m / kTileSide_m)),
+                      static_cast<std::int32_t>(std::floor(point.x_m / kTileSide_m))};
   if (last_ != nullptr && square == last_square_ && !is_full(*last_)) return *last_;
   Pieces& pieces = squares_[square];
   if (pieces.empty()) {
-    const PlanePoint middle{(square.second + 0.5) * kTileSide_m, (square.first + 0.5) * kTileSide_m};
+    const geo::PlanePoint middle{(square.second + 0.5) * kTileSide_m, (square.first + 0.5) * kTileSide_m};
     pieces.push_back(std::make_unique<Builder>(LocalMap(plane_, middle), builders_++));
   } else if (is_full(*pieces.back())) {
     pieces.push_back(std::make_unique<Builder>(pieces.back()->map, builders_++));
@@ -142,16 +145,16 @@ TileBuilders::Builder& TileBuilders::builder_at(PlanePoint point) {
   return *last_;
 }
 
-const LocalMap& TileBuilders::map_at(PlanePoint point) {
+const LocalMap& TileBuilders::map_at(geo::PlanePoint point) {
   return builder_at(point).map;
 }
 
 std::uint16_t TileBuilders::vertex_in(Builder& builder, const PlacedCorner& corner) {
   if (corner.vertex != kNone && copies_[corner.vertex].builder == builder.number) return copies_[corner.vertex].vertex;
   const auto number = static_cast<std::uint16_t>(builder.vertices.size());
-  const PlanePoint at = builder.map.to_local({corner.place.x, corner.place.y});
-  builder.vertices.push_back({static_cast<float>(at.east_m),
-                              static_cast<float>(at.north_m),
+  const geo::PlanePoint at = builder.map.to_local({corner.place.x, corner.place.y});
+  builder.vertices.push_back({static_cast<float>(at.x_m),
+                              static_cast<float>(at.y_m),
                               corner.place.z,
                               {static_cast<float>(corner.normal.x), static_cast<float>(corner.normal.y),
                                static_cast<float>(corner.normal.z)}});

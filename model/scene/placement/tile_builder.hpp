@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "lib/geo/frames.hpp"
 #include "model/scene/openflight/node_tree.hpp"
 #include "model/scene/placement/plan_geometry.hpp"
 #include "model/scene/placement/scene_view.hpp"
@@ -50,11 +51,11 @@ struct PlacedCorner {
 // they come from one vertex of the model.
 class TileBuilders {
  public:
-  TileBuilders(const Plane& plane, std::size_t model_vertices);
+  TileBuilders(const geo::AzimuthalEquidistant& plane, std::size_t model_vertices);
 
   void add(const std::array<PlacedCorner, 3>& corners, SurfaceTag tag);
   // The map of the square that a point lies in.
-  const LocalMap& map_at(PlanePoint point);
+  const LocalMap& map_at(geo::PlanePoint point);
   // Ends the work: tiles from south to north and west to east, without spare room.
   std::vector<Tile> take(double zero_msl_m);
 
@@ -69,10 +70,10 @@ class TileBuilders {
   };
   using Pieces = std::vector<std::unique_ptr<Builder>>;  // of a square, in order
   static bool is_full(const Builder& builder);
-  Builder& builder_at(PlanePoint point);
+  Builder& builder_at(geo::PlanePoint point);
   std::uint16_t vertex_in(Builder& builder, const PlacedCorner& corner);
 
-  Plane plane_;
+  geo::AzimuthalEquidistant plane_;
   std::map<Square, Pieces> squares_;
   std::uint32_t builders_ = 0;
   Builder* last_ = nullptr;

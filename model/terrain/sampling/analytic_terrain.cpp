@@ -11,27 +11,6 @@
 
 namespace yars::model::terrain {
 
-namespace {
-
-struct AxisPosition {
-  double along_m = 0.0;
-  double across_m = 0.0;
-};
-
-AxisPosition on_axis(const TerrainAxis& axis, geo::GeoPoint place) {
-  const geo::GeodesicInverse way = geo::geodesic_inverse(axis.origin, place);
-  const double angle = (way.azimuth_at_start - axis.direction).radians();
-  return {way.distance.metres() * std::cos(angle), way.distance.metres() * std::sin(angle)};
-}
-
-// A shape that depends on the way along the axis alone.
-template <class Profile>
-AnalyticTerrain::Height along(TerrainAxis axis, Profile profile) {
-  return [axis, profile](geo::GeoPoint place) { return profile(on_axis(axis, place).along_m); };
-}
-
-}  // namespace
-
 AnalyticTerrain::AnalyticTerrain(Height height_m, std::uint64_t generation, Material material)
     : height_m_(std::move(height_m)), generation_(generation), material_(std::move(material)) {}
 
@@ -59,39 +38,6 @@ std::size_t AnalyticTerrain::surfaces(const PlaceRun& places, Interpolation inte
     if (!found.material.empty()) found.material[i] = surface.material;
   }
   return 0;
-}
-
-AnalyticTerrain::Height flat(double height_m) {
-  return [height_m](geo::GeoPoint) { return height_m; };
-}
-
-AnalyticTerrain::Height plane(TerrainAxis axis, double height_m, double slope) {
-  return along(axis, [=](double along_m) { return height_m + slope * along_m; });
-}
-
-AnalyticTerrain::Height wedge(TerrainAxis axis, double start_m, double slope) {
-  return along(axis, [=](double along_m) { return slope * std::max(0.0, along_m - start_m); });
-}
-
-AnalyticTerrain::Height plateau(TerrainAxis axis, double start_m, double end_m, double height_m) {
-  return along(axis, [=](double along_m) { return along_m >= start_m && along_m < end_m ? height_m : 0.0; });
-}
-
-AnalyticTerrain::Height ridge(TerrainAxis axis, double crest_m, double half_width_m, double height_m) {
-  return along(
-      axis, [=](double along_m) { return height_m * std::max(0.0, 1.0 - std::abs(along_m - crest_m) / half_width_m); });
-}
-
-AnalyticTerrain::Height step_wall(TerrainAxis axis, double wall_m, double near_m, double far_m) {
-  return along(axis, [=](double along_m) { return along_m < wall_m ? near_m : far_m; });
-}
-
-AnalyticTerrain::Height sine_hills(TerrainAxis axis, double amplitude_m, double wavelength_m) {
-  return [=](geo::GeoPoint place) {
-    const AxisPosition at = on_axis(axis, place);
-    const double turn = 2.0 * std::numbers::pi / wavelength_m;
-    return amplitude_m * (1.0 + 0.5 * (std::sin(turn * at.along_m) + std::sin(turn * at.across_m)));
-  };
 }
 
 AnalyticTerrain::Height built_in_hills() {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
+#include "lib/geo/earth.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/sampling/crests_simd.hpp"
 #include "model/terrain/sampling/height_simd.hpp"
@@ -123,21 +124,20 @@ Cell resample(const Cell& cell, int rows, int columns) {
 namespace {
 
 constexpr Surface kNothing{std::numeric_limits<double>::quiet_NaN(), 0.0};
-constexpr double kMetresPerDegree = 111'000.0;  // about
-constexpr float kMaxTurns = 1.0e6F;             // [deg] of longitude: more is no place, but must not overflow
+constexpr float kMaxTurns = 1.0e6F;  // [deg] of longitude: more is no place, but must not overflow
 
 // Where its meridians are closest.
 double spacing_m(const Cell& cell) {
   const int south_deg = cell.place().south_deg;
   const double farthest_deg = std::max(std::abs(south_deg), std::abs(south_deg + 1));
   const double east_deg = std::max(0.0, std::cos(farthest_deg * geo::kRadiansPerDegree)) / (cell.columns() - 1);
-  return kMetresPerDegree * std::min(1.0 / (cell.rows() - 1), east_deg);
+  return geo::kMetresPerDegree * std::min(1.0 / (cell.rows() - 1), east_deg);
 }
 
 // How close a walk has to look. Columns nearer than a third of the rows' spacing count as that far apart: towards a
 // pole they close up to nothing, and the ground that they tell does not.
 double walked_spacing_m(const Cell& cell) {
-  const double rows_m = kMetresPerDegree / (cell.rows() - 1);
+  const double rows_m = geo::kMetresPerDegree / (cell.rows() - 1);
   return std::clamp(spacing_m(cell), rows_m / 3.0, rows_m);
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "lib/geo/earth.hpp"
 #include "lib/memory/line_vector.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/sampling/height_simd.hpp"
@@ -16,10 +17,9 @@ namespace yars::model::terrain {
 
 namespace {
 
-constexpr double kMetresADegree = 111'000.0;  // of latitude, about
-constexpr double kFarthest_deg = 88.0;        // of latitude: beyond it intervals are no longer rectangles
-constexpr int kMaxParts = 64;                 // of an interval of posts
-constexpr std::size_t kMaxNodes = 1U << 23;   // of a cell; 32 MiB
+constexpr double kFarthest_deg = 88.0;       // of latitude: beyond it intervals are no longer rectangles
+constexpr int kMaxParts = 64;                // of an interval of posts
+constexpr std::size_t kMaxNodes = 1U << 23;  // of a cell; 32 MiB
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 
 // The intervals of a cell that a box has a part in: posts [first_row, last_row], and parts of each interval.
@@ -52,7 +52,8 @@ std::optional<Part> part_of(const Cell& cell, const SmoothOrder& order) {
   if (part.first_row >= part.last_row || part.first_column >= part.last_column) return std::nullopt;
   // Neighbours with the same posts shall have the same nodes on their edge.
   const double level = std::cos(0.5 * (order.box.south_deg + order.box.north_deg) * geo::kRadiansPerDegree);
-  const double rows_m = kMetresADegree / row_intervals, columns_m = kMetresADegree * level / column_intervals;
+  const double rows_m = geo::kMetresPerDegree / row_intervals,
+               columns_m = geo::kMetresPerDegree * level / column_intervals;
   if (std::min(rows_m, columns_m) <= order.posts_m) return std::nullopt;
   part.row_parts = parts_of(rows_m, order);
   part.column_parts = parts_of(columns_m, order);

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "lib/geo/earth.hpp"
 #include "model/terrain/formats/culture.hpp"
 #include "model/terrain/sampling/analytic_terrain.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
@@ -14,10 +15,8 @@
 namespace yars::model::terrain {
 
 namespace {
-constexpr double kMetresPerMile = 1852.0;
-constexpr double kMetresPerDegree = 111195.0;  // [m] of a meridian, on the mean sphere
-constexpr int kMaxReduction = 6;               // beyond it a cell of level 1 would have fewer than 20 posts a side
-constexpr int kServesNothing = -1;             // detail of a view in which something within reach stands in
+constexpr int kMaxReduction = 6;    // beyond it a cell of level 1 would have fewer than 20 posts a side
+constexpr int kServesNothing = -1;  // detail of a view in which something within reach stands in
 
 std::size_t bytes_of(const TerrainCell& cell) {
   return cell.heights->bytes() + (cell.peaks ? cell.peaks->bytes() : 0) + (cell.culture ? cell.culture->bytes() : 0);
@@ -26,7 +25,7 @@ std::size_t bytes_of(const TerrainCell& cell) {
 
 int reduction_for(const CellFile& file, int detail) {
   if (file.posts_per_degree <= 0 || detail <= 0) return 0;
-  const double spacing_m = kMetresPerDegree / file.posts_per_degree;
+  const double spacing_m = geo::kMetresPerDegree / file.posts_per_degree;
   const double halvings = std::log2(std::ldexp(1.0, detail) / spacing_m);
   return std::clamp(static_cast<int>(std::floor(halvings)), 0, kMaxReduction);
 }
@@ -73,7 +72,8 @@ void DirectoryTerrainStore::note_bare(const TerrainRegion& region) {
   if (bare && !bare_) {
     std::array<char, 120> where{};
     std::snprintf(where.data(), where.size(), "a cell within %.0f NM of latitude %.4f, longitude %.4f",
-                  region.radius_m / kMetresPerMile, region.centre.latitude_deg, region.centre.longitude_deg);
+                  region.radius_m / geo::kMetresPerNauticalMile, region.centre.latitude_deg,
+                  region.centre.longitude_deg);
     problems_.push_back(error::Error{folder_, where.data(), "none: it covers " + coverage_text(index_),
                                      std::string("what lies there counts as ") +
                                          (options_.missing_cell_is_sea ? "sea" : "void") +

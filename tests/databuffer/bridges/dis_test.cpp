@@ -65,7 +65,7 @@ TEST(Dis, TheAlgorithmSaysWhatMoves) {
   EXPECT_NEAR(turning.rates->heading_dps, 3.0 * 0.965926 / 0.999048, 1e-4);
   EXPECT_NEAR(turning.rates->pitch_dps, 3.0 * 0.258819, 1e-4);
   const ExternalSample straight = state_of("dis/air.bin").sample;
-  EXPECT_EQ(geo::length(*straight.acceleration_mps2), 0.0);
+  EXPECT_EQ(glm::length(*straight.acceleration_mps2), 0.0);
   EXPECT_EQ(straight.rates->heading_dps, 0.0);
 }
 

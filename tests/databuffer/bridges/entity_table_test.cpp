@@ -2,6 +2,7 @@
 
 #include "databuffer/bridges/dis.hpp"
 #include "databuffer/messages/validation.hpp"
+#include "lib/geo/frames.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "tests/databuffer/bridges/packets.hpp"
 

@@ -9,6 +9,7 @@
 
 #include "databuffer/flight/motion.hpp"
 #include "databuffer/messages/validation.hpp"
+#include "lib/geo/frames.hpp"
 #include "lib/geo/geodesy.hpp"
 
 namespace yars::databuffer::flight {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "lib/geo/frames.hpp"
 #include "lib/geo/geodesy.hpp"
 
 namespace yars::geo {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "lib/geo/frames.hpp"
+
 namespace yars::radar {
 namespace {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "model/app/background_shell.hpp"
-#include "model/terrain/sampling/analytic_terrain.hpp"
+#include "tests/model/terrain/shapes.hpp"
 
 namespace yars::model {
 namespace {

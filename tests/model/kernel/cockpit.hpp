@@ -7,7 +7,7 @@
 
 #include "lib/radar/modes.hpp"
 #include "model/kernel/radar_kernel.hpp"
-#include "model/terrain/sampling/analytic_terrain.hpp"
+#include "tests/model/terrain/shapes.hpp"
 
 namespace yars::test {
 

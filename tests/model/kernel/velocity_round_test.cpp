@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "lib/geo/frames.hpp"
 #include "model/kernel/doppler_modes.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 

@@ -7,7 +7,7 @@
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/rbm/reference.hpp"
-#include "model/terrain/sampling/analytic_terrain.hpp"
+#include "tests/model/terrain/shapes.hpp"
 
 namespace yars::test {
 

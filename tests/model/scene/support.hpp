@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/geo/frames.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "worldgen/scene/openflight_writer.hpp"
 #include "worldgen/scene/scene_builder.hpp"

@@ -6,7 +6,7 @@
 #include "lib/radar/configuration.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/scene/openflight/reader.hpp"
-#include "model/terrain/sampling/analytic_terrain.hpp"
+#include "tests/model/terrain/shapes.hpp"
 #include "tools/trade/candidate.hpp"
 #include "tools/trade/map_errors.hpp"
 #include "tools/trade/scenes.hpp"

@@ -15,7 +15,7 @@
 #include <iterator>
 
 #include "databuffer/bridges/flight_simulators.hpp"
-#include "lib/geo/geodesy.hpp"
+#include "lib/geo/frames.hpp"
 #include "tests/databuffer/bridges/live/bridged_set.hpp"
 #include "tests/databuffer/bridges/live/udp_peer.hpp"
 

@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/geo/frames.hpp"
 #include "model/scene/index/scene_index.hpp"
-#include "model/terrain/sampling/analytic_terrain.hpp"
 #include "tests/model/scene/support.hpp"
+#include "tests/model/terrain/shapes.hpp"
 #include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::model::scene {

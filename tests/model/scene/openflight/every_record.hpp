@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "lib/geo/frames.hpp"
 #include "model/scene/openflight/records.hpp"
 #include "tests/model/scene/support.hpp"
 #include "worldgen/scene/openflight_writer.hpp"

@@ -9,9 +9,9 @@
 
 #include "model/scene/placement/placed_scene.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
-#include "model/terrain/sampling/analytic_terrain.hpp"
 #include "tests/model/scene/openflight/every_record.hpp"
 #include "tests/model/scene/support.hpp"
+#include "tests/model/terrain/shapes.hpp"
 #include "tests/model/terrain/shared_data.hpp"
 
 namespace yars::model::scene {

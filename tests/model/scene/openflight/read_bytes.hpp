@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/geo/frames.hpp"
 #include "model/scene/openflight/parser.hpp"
 #include "tests/model/scene/openflight/every_record.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "lib/geo/frames.hpp"
 #include "model/scene/openflight/model.hpp"
 #include "model/scene/openflight/parser.hpp"
 #include "model/scene/openflight/records.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lib/geo/frames.hpp"
 #include "model/scene/openflight/model.hpp"
 #include "model/scene/openflight/parser.hpp"
 #include "model/scene/openflight/records.hpp"

@@ -7,9 +7,10 @@
 #include <random>
 #include <set>
 
+#include "lib/geo/frames.hpp"
 #include "model/scene/placement/placed_scene.hpp"
-#include "model/terrain/sampling/analytic_terrain.hpp"
 #include "tests/model/scene/support.hpp"
+#include "tests/model/terrain/shapes.hpp"
 
 namespace yars::model::scene {
 namespace {
@@ -95,7 +96,7 @@ TEST(Scatterers, AFlatFaceTheSizeOfAContinentNeitherHangsNorFillsTheMemory) {
       builder.lie({geo::Vector3{east_m, north_m, 0}, geo::Vector3{east_m + 2000.0, north_m, 0},
                    geo::Vector3{east_m, north_m + 2000.0, 0}},
                   7);
-  const auto made = builder.take(Plane(kPlace));
+  const auto made = builder.take(geo::AzimuthalEquidistant(kPlace));
   ASSERT_TRUE(made);
   EXPECT_EQ(made->finest, 3U);
   EXPECT_LE(made->levels[3].covers.size(), 1U << 18U);

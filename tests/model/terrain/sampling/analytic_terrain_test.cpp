@@ -1,4 +1,3 @@
-#include "model/terrain/sampling/analytic_terrain.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +5,7 @@
 #include <limits>
 
 #include "tests/model/terrain/sampling/fast_path.hpp"
+#include "tests/model/terrain/shapes.hpp"
 
 namespace yars::model::terrain {
 namespace {

@@ -1,0 +1,37 @@
+// lowbias32 of lib/random/counter_rng.hpp for a vector of counts: the same bits in every lane and for every target.
+// Included once for each Highway target.
+#if defined(YARS_LIB_RANDOM_COUNTER_RNG_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef YARS_LIB_RANDOM_COUNTER_RNG_INL
+#undef YARS_LIB_RANDOM_COUNTER_RNG_INL
+#else
+#define YARS_LIB_RANDOM_COUNTER_RNG_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "lib/random/counter_rng.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace yars::random::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Both multiplications; the upper 16 bits are well mixed. V: vector of std::uint32_t.
+template <class V>
+HWY_INLINE V lowbias32_rounds(V bits) {
+  const hn::DFromV<V> d;
+  bits = hn::Mul(hn::Xor(bits, hn::ShiftRight<16>(bits)), hn::Set(d, kLowbias32First));
+  return hn::Mul(hn::Xor(bits, hn::ShiftRight<15>(bits)), hn::Set(d, kLowbias32Second));
+}
+
+// 32 random bits of each count.
+template <class V>
+HWY_INLINE V lowbias32(V count) {
+  const V bits = lowbias32_rounds(count);
+  return hn::Xor(bits, hn::ShiftRight<16>(bits));
+}
+
+}  // namespace yars::random::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
