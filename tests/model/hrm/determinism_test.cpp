@@ -4,6 +4,7 @@
 #include "tests/lib/simd/vector_targets.hpp"
 #include "tests/model/hrm/made_up_scene.hpp"
 #include "tests/model/hrm/patch_maker.hpp"
+#include "tests/model/terrain/shapes.hpp"
 
 namespace yars::test {
 namespace {

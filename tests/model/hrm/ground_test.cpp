@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "tests/model/hrm/patch_maker.hpp"
+#include "tests/model/terrain/shapes.hpp"
 
 namespace yars::test {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "lib/radar/mapping.hpp"
 #include "tests/model/hrm/patch_maker.hpp"
+#include "tests/model/terrain/shapes.hpp"
 
 namespace yars::test {
 namespace {

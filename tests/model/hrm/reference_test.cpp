@@ -9,6 +9,7 @@
 #include "model/scene/openflight/reader.hpp"
 #include "tests/model/hrm/made_up_scene.hpp"
 #include "tests/model/hrm/patch_maker.hpp"
+#include "tests/model/terrain/shapes.hpp"
 #include "worldgen/scene/scene_builder.hpp"
 
 namespace yars::test {

@@ -7,6 +7,7 @@
 #include "lib/radar/configuration.hpp"
 #include "tests/model/hrm/made_up_scene.hpp"
 #include "tests/model/hrm/patch_maker.hpp"
+#include "tests/model/terrain/shapes.hpp"
 
 namespace yars::test {
 namespace {
