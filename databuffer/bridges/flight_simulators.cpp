@@ -279,8 +279,8 @@ const std::array<std::string_view, kXplaneDatarefs> kXplaneNames{
 Datagram xplane_request(std::size_t number, int times_a_second) {
   Datagram request(kRequestBytes, std::byte{0});
   const auto put = [&request](std::size_t offset, std::uint32_t word) {
-    for (std::size_t byte = 0; byte < sizeof word; ++byte)
-      request[offset + byte] = static_cast<std::byte>(word >> (8 * byte) & 0xffU);
+    std::ranges::copy(memory::bytes_of(word, std::endian::little),
+                      request.begin() + static_cast<std::ptrdiff_t>(offset));
   };
   std::memcpy(request.data(), kMark.data(), kMark.size());
   put(kHeadBytes, static_cast<std::uint32_t>(times_a_second));

@@ -1,5 +1,5 @@
-// Numbers at fixed places of a datagram, in the byte order of its sender. The caller has checked the length: a place
-// beyond the end is a bug of ours and asserts.
+// Numbers in files and datagrams by byte order. T: any integer or floating point type. Errors: none; the caller has
+// checked that the bytes are there.
 #pragma once
 
 #include <algorithm>
@@ -9,29 +9,51 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace yars::memory {
 
 using Bytes = std::span<const std::byte>;
 
-// T: an integer or a floating point number.
+// The number that begins at `bytes`, written in `order`.
 template <class T>
-T read_as(Bytes bytes, std::size_t offset, std::endian order) {
-  assert(offset <= bytes.size() && sizeof(T) <= bytes.size() - offset);
-  std::array<std::byte, sizeof(T)> raw{};
-  std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(offset), sizeof(T), raw.begin());
+T read_as(const std::byte* bytes, std::endian order) {
+  std::array<std::byte, sizeof(T)> raw;
+  std::copy_n(bytes, sizeof(T), raw.begin());
   if (order != std::endian::native) std::reverse(raw.begin(), raw.end());
   return std::bit_cast<T>(raw);
 }
 
 template <class T>
+T big_endian(const std::byte* bytes) {
+  return read_as<T>(bytes, std::endian::big);
+}
+
+// The number at an offset of a datagram. An offset beyond the end is a bug of ours and asserts.
+template <class T>
 T big_endian(Bytes bytes, std::size_t offset) {
-  return read_as<T>(bytes, offset, std::endian::big);
+  assert(offset <= bytes.size() && sizeof(T) <= bytes.size() - offset);
+  return read_as<T>(bytes.data() + offset, std::endian::big);
 }
 
 template <class T>
 T little_endian(Bytes bytes, std::size_t offset) {
-  return read_as<T>(bytes, offset, std::endian::little);
+  assert(offset <= bytes.size() && sizeof(T) <= bytes.size() - offset);
+  return read_as<T>(bytes.data() + offset, std::endian::little);
+}
+
+// The bytes of a number in `order`.
+template <class T>
+std::array<std::byte, sizeof(T)> bytes_of(T value, std::endian order) {
+  auto raw = std::bit_cast<std::array<std::byte, sizeof(T)>>(value);
+  if (order != std::endian::native) std::reverse(raw.begin(), raw.end());
+  return raw;
+}
+
+template <class T>
+void append_big_endian(T value, std::vector<std::byte>& bytes) {
+  const auto raw = bytes_of(value, std::endian::big);
+  bytes.insert(bytes.end(), raw.begin(), raw.end());
 }
 
 }  // namespace yars::memory

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "lib/geo/frames.hpp"
+#include "lib/memory/byte_order.hpp"
 #include "model/scene/openflight/node_tree.hpp"
 
 namespace yars::worldgen {
@@ -35,8 +36,8 @@ class RecordBuilder {
 
   template <class Number>
   void put(std::size_t offset, Number value) {
-    const auto raw = std::bit_cast<std::array<std::byte, sizeof(Number)>>(value);
-    std::reverse_copy(raw.begin(), raw.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(start_ + offset));
+    std::ranges::copy(memory::bytes_of(value, std::endian::big),
+                      bytes_.begin() + static_cast<std::ptrdiff_t>(start_ + offset));
   }
 
   void put_text(std::size_t offset, const std::string& text, std::size_t most) {

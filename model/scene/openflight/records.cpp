@@ -8,7 +8,8 @@ constexpr std::size_t kHeadBytes = 4;
 constexpr std::size_t kMaxJoinedBytes = 256U << 20;  // a local vertex pool of 7 M vertices; stops runaway memory
 
 bool is_continuation(std::span<const std::byte> bytes, std::size_t at) {
-  return at + kHeadBytes <= bytes.size() && big_endian<std::uint16_t>(bytes.data() + at) == openflight::kContinuation;
+  return at + kHeadBytes <= bytes.size() &&
+         memory::big_endian<std::uint16_t>(bytes.data() + at) == openflight::kContinuation;
 }
 
 }  // namespace
@@ -25,8 +26,8 @@ std::string Record::text(std::size_t offset, std::size_t most) const {
 
 std::optional<Record> record_at(std::span<const std::byte> bytes, std::size_t start) {
   if (start > bytes.size() || bytes.size() - start < kHeadBytes) return std::nullopt;
-  const auto opcode = big_endian<std::uint16_t>(bytes.data() + start);
-  const std::size_t length = big_endian<std::uint16_t>(bytes.data() + start + 2);
+  const auto opcode = memory::big_endian<std::uint16_t>(bytes.data() + start);
+  const std::size_t length = memory::big_endian<std::uint16_t>(bytes.data() + start + 2);
   if (length < kHeadBytes || length > bytes.size() - start) return std::nullopt;
   return Record(start, opcode, bytes.subspan(start, length));
 }
@@ -41,7 +42,7 @@ error::Expected<std::optional<Record>> RecordStream::single() {
     if (left < kHeadBytes)
       return error::fail(subject_, at + ", of " + std::to_string(kHeadBytes) + " bytes or more", end,
                          "the file is truncated or damaged; fetch it again");
-    const std::size_t length = big_endian<std::uint16_t>(bytes_.data() + at_ + 2);
+    const std::size_t length = memory::big_endian<std::uint16_t>(bytes_.data() + at_ + 2);
     return error::fail(subject_, at, "one that says it has " + std::to_string(length) + " bytes, and " + end,
                        "the file is truncated or damaged; fetch it again");
   }

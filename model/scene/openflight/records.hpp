@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
+#include "lib/memory/byte_order.hpp"
 
 namespace yars::model::scene::openflight {
 
@@ -109,13 +110,6 @@ inline constexpr int kIntensities = 128;  // an index is 128 times the colour pl
 
 namespace yars::model::scene {
 
-template <class Number>
-Number big_endian(const std::byte* bytes) {
-  std::array<std::byte, sizeof(Number)> reversed;
-  for (std::size_t i = 0; i < sizeof(Number); ++i) reversed[i] = bytes[sizeof(Number) - 1 - i];
-  return std::bit_cast<Number>(reversed);
-}
-
 // One record; offsets count from its opcode, as format descriptions do.
 class Record {
  public:
@@ -134,11 +128,11 @@ class Record {
   std::optional<Number> number(std::size_t offset) const {
     static_assert(std::is_arithmetic_v<Number>);
     if (!has(offset, sizeof(Number))) return std::nullopt;
-    return big_endian<Number>(bytes_.data() + offset);
+    return memory::big_endian<Number>(bytes_.data() + offset);
   }
   template <class Number>
   Number number_or(std::size_t offset, Number absent) const {
-    return has(offset, sizeof(Number)) ? big_endian<Number>(bytes_.data() + offset) : absent;
+    return has(offset, sizeof(Number)) ? memory::big_endian<Number>(bytes_.data() + offset) : absent;
   }
   // Up to a zero or `most` characters, whichever comes first; what is not printable ASCII becomes '?'.
   std::string text(std::size_t offset, std::size_t most) const;

@@ -44,14 +44,6 @@ error::Expected<std::vector<std::byte>> read_file_part(const std::filesystem::pa
 // The length of a plain file.
 error::Expected<std::uintmax_t> file_length(const std::filesystem::path& path);
 
-// Big-endian words of elevation files; the caller has checked that two (four) bytes are there.
-inline std::uint16_t big_endian_16(const std::byte* bytes) {
-  return static_cast<std::uint16_t>(std::to_integer<unsigned>(bytes[0]) << 8U | std::to_integer<unsigned>(bytes[1]));
-}
-inline std::uint32_t big_endian_32(const std::byte* bytes) {
-  return static_cast<std::uint32_t>(big_endian_16(bytes)) << 16U | big_endian_16(bytes + 2);
-}
-
 // What is odd about elevation files, in sentences with the file's name, as their cells are read: of a cell at once, of
 // a raster once for the file however many cells it serves.
 class ReadingNotes {

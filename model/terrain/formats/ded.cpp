@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "lib/memory/byte_order.hpp"
+
 namespace yars::model::terrain {
 
 namespace {
@@ -22,7 +24,7 @@ constexpr double kEdgeTolerance_deg = 1e-4;  // [deg] a float holds 180 degrees 
 constexpr double kSpanTolerance = 1e-3;      // of a degree: spacings that were rounded
 
 double real_at(const std::byte* bytes) {
-  return static_cast<double>(std::bit_cast<float>(big_endian_32(bytes)));
+  return static_cast<double>(memory::big_endian<float>(bytes));
 }
 
 // Written so that a NaN does not pass.
@@ -42,9 +44,10 @@ error::Expected<std::size_t> cells_announced(std::span<const std::byte> front, s
                                              const std::string& subject) {
   const std::string_view text(reinterpret_cast<const char*>(front.data()), kHeaderBytes);
   const std::string_view part = text.substr(8, 4);
-  if (big_endian_32(front.data()) != kHeaderBytes || text.substr(4, 4) != "SSYS" || (part != "DMA1" && part != "DED1"))
+  if (memory::big_endian<std::uint32_t>(front.data()) != kHeaderBytes || text.substr(4, 4) != "SSYS" ||
+      (part != "DMA1" && part != "DED1"))
     return error::fail(subject, "a MultiGen DED file (SSYS, DMA1 or DED1)", "other bytes");
-  const std::uint32_t cells = big_endian_32(front.data() + kHeaderBytes);
+  const std::uint32_t cells = memory::big_endian<std::uint32_t>(front.data() + kHeaderBytes);
   if (cells == 0 || cells > kMaxCells)
     return error::fail(subject, "1 to " + std::to_string(kMaxCells) + " cells", std::to_string(cells));
   if (kFrontBytes + cells * kCellHeaderBytes > file_bytes)
@@ -113,7 +116,7 @@ CellReading decode(const DedCell& cell, std::span<const std::byte> bytes) {
   const auto columns = static_cast<std::size_t>(cell.columns);
   for (std::size_t column = 0; column < columns; ++column)
     for (std::size_t row = 0; row < rows; ++row) {
-      const auto height_m = static_cast<std::int16_t>(big_endian_16(&bytes[2 * (column * rows + row)]));
+      const auto height_m = memory::big_endian<std::int16_t>(&bytes[2 * (column * rows + row)]);
       posts[row * columns + column] = height_m <= -32767 ? kVoidPost : height_m;
     }
   std::vector<std::string> warnings;

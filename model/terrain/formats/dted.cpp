@@ -11,6 +11,7 @@
 
 #include "lib/error/error.hpp"
 #include "lib/file/output_file.hpp"
+#include "lib/memory/byte_order.hpp"
 
 namespace yars::model::terrain {
 
@@ -128,7 +129,7 @@ bool sum_matches(std::span<const std::byte> record) {
   std::uint32_t sum = 0;
   const std::size_t body = record.size() - kRecordSumBytes;
   for (const std::byte byte : record.first(body)) sum += std::to_integer<std::uint32_t>(byte);
-  return sum == big_endian_32(record.data() + body);
+  return sum == memory::big_endian<std::uint32_t>(record.data() + body);
 }
 
 // The record at the front of `rest`. A column that begins north of the south edge is written either in full
@@ -157,8 +158,8 @@ error::Expected<Oddities> gather_words(std::span<const std::byte> data, const He
     if (rest.size() < kRecordHeadBytes)
       return error::fail(subject, "a whole " + at, std::to_string(rest.size()) + " bytes",
                          "the file is truncated; fetch it again");
-    const int column = big_endian_16(rest.data() + 4);
-    const int first_row = big_endian_16(rest.data() + 6);
+    const int column = memory::big_endian<std::uint16_t>(rest.data() + 4);
+    const int first_row = memory::big_endian<std::uint16_t>(rest.data() + 6);
     if (std::to_integer<std::uint8_t>(rest[0]) != dted::kRecordSentinel || column >= header.columns ||
         first_row >= header.rows)
       return error::fail(subject, at + " that begins with AA and lies inside the cell",
@@ -172,7 +173,8 @@ error::Expected<Oddities> gather_words(std::span<const std::byte> data, const He
     for (int row = first_row; row < header.rows; ++row)
       words[static_cast<std::size_t>(row) * static_cast<std::size_t>(header.columns) +
             static_cast<std::size_t>(column)] =
-          big_endian_16(record->data() + kRecordHeadBytes + 2 * static_cast<std::size_t>(row - first_row));
+          memory::big_endian<std::uint16_t>(record->data() + kRecordHeadBytes +
+                                            2 * static_cast<std::size_t>(row - first_row));
     if (!seen[static_cast<std::size_t>(column)]) ++odd.columns_read;
     seen[static_cast<std::size_t>(column)] = true;
     rest = rest.subspan(record->size());
@@ -301,27 +303,24 @@ void append_header(const Cell& cell, int level, std::vector<std::byte>& bytes) {
   accuracy.append_to(bytes);
 }
 
-void append_16(std::uint32_t word, std::vector<std::byte>& bytes) {
-  bytes.push_back(static_cast<std::byte>(word >> 8U & 0xFFU));
-  bytes.push_back(static_cast<std::byte>(word & 0xFFU));
-}
-
-std::uint32_t sign_magnitude_word(std::int16_t post_m) {
+std::uint16_t sign_magnitude_word(std::int16_t post_m) {
   if (post_m == kVoidPost) return dted::kVoidWord;
-  return post_m < 0 ? 0x8000U | static_cast<std::uint32_t>(-post_m) : static_cast<std::uint32_t>(post_m);
+  return static_cast<std::uint16_t>(post_m < 0 ? 0x8000 | -post_m : post_m);
 }
 
 void append_column(const Cell& cell, int column, std::vector<std::byte>& bytes) {
   const std::size_t start = bytes.size();
-  append_16(static_cast<std::uint32_t>(dted::kRecordSentinel) << 8U, bytes);  // sentinel and the count's high byte
-  append_16(static_cast<std::uint32_t>(column), bytes);                       // count
-  append_16(static_cast<std::uint32_t>(column), bytes);                       // longitude index
-  append_16(0, bytes);                                                        // latitude index
-  for (int row = 0; row < cell.rows(); ++row) append_16(sign_magnitude_word(cell.post(row, column)), bytes);
+  const auto number = static_cast<std::uint16_t>(column);
+  memory::append_big_endian(static_cast<std::uint16_t>(dted::kRecordSentinel << 8U),
+                            bytes);                    // and the count's high byte
+  memory::append_big_endian(number, bytes);            // count
+  memory::append_big_endian(number, bytes);            // longitude index
+  memory::append_big_endian(std::uint16_t{0}, bytes);  // latitude index
+  for (int row = 0; row < cell.rows(); ++row)
+    memory::append_big_endian(sign_magnitude_word(cell.post(row, column)), bytes);
   std::uint32_t sum = 0;
   for (std::size_t at = start; at < bytes.size(); ++at) sum += std::to_integer<std::uint32_t>(bytes[at]);
-  append_16(sum >> 16U, bytes);
-  append_16(sum & 0xFFFFU, bytes);
+  memory::append_big_endian(sum, bytes);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 
 #include "lib/error/error.hpp"
 #include "lib/file/output_file.hpp"
+#include "lib/memory/byte_order.hpp"
 
 namespace yars::model::terrain {
 
@@ -42,8 +43,7 @@ error::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const s
   std::vector<std::int16_t> heights(side * side);
   for (std::size_t row = 0; row < side; ++row)
     for (std::size_t column = 0; column < side; ++column)
-      heights[(side - 1 - row) * side + column] =
-          static_cast<std::int16_t>(big_endian_16(&bytes[2 * (row * side + column)]));
+      heights[(side - 1 - row) * side + column] = memory::big_endian<std::int16_t>(&bytes[2 * (row * side + column)]);
   std::vector<std::string> warnings;
   void_impossible_heights(heights, warnings);
   return CellReading{Cell(place, posts, posts, heights), std::nullopt, std::move(warnings)};
@@ -216,9 +216,7 @@ int packed_hgt_posts(const std::filesystem::path& path) {
     if (!length || *length < 18) return 0;
     const auto tail = read_file_part(path, *length - 4, 4);
     if (!tail) return 0;
-    std::uint32_t bytes = 0;
-    for (std::size_t i = 4; i-- > 0;) bytes = bytes << 8U | std::to_integer<std::uint32_t>((*tail)[i]);
-    return hgt_posts_for_size(bytes);
+    return hgt_posts_for_size(memory::little_endian<std::uint32_t>(*tail, 0));
   }
   const auto archive = open_zip(path);
   if (!archive) return 0;

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "lib/error/error.hpp"
+#include "lib/memory/byte_order.hpp"
 #include "model/terrain/formats/cell.hpp"
 
 namespace yars::model::terrain {
@@ -222,8 +223,7 @@ GridSize jpeg2000_size(std::span<const std::byte> head) {
   const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
   if (text.substr(4, 4) != "jP  " || text.substr(kImageHeader + 4, 4) != "ihdr") return {};
   const auto side = [&](std::size_t at) {
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < 4; ++i) value = value << 8U | std::to_integer<std::uint32_t>(head[at + i]);
+    const auto value = memory::big_endian<std::uint32_t>(head, at);
     return value >= 2 && value <= kMaxSide ? static_cast<int>(value) : 0;
   };
   const GridSize size{side(kImageHeader + 8), side(kImageHeader + 12)};

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lib/error/error.hpp"
+#include "lib/memory/byte_order.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
 #include "model/terrain/formats/jpeg2000.hpp"
@@ -40,13 +41,9 @@ std::uint32_t checksum(std::span<const std::byte> bytes) {
   return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-void append_16(std::int16_t value, std::vector<std::byte>& bytes) {
-  const auto word = static_cast<std::uint16_t>(value);
-  bytes.push_back(static_cast<std::byte>(word >> 8U));
-  bytes.push_back(static_cast<std::byte>(word & 0xFFU));
-}
+// Sizes and counts are written as 32 bits.
 void append_32(std::size_t value, std::vector<std::byte>& bytes) {
-  for (const unsigned shift : {24U, 16U, 8U, 0U}) bytes.push_back(static_cast<std::byte>(value >> shift & 0xFFU));
+  memory::append_big_endian(static_cast<std::uint32_t>(value), bytes);
 }
 void append(std::span<const std::byte> more, std::vector<std::byte>& bytes) {
   bytes.insert(bytes.end(), more.begin(), more.end());
@@ -65,9 +62,9 @@ void append_bits(const Cell& cell, std::int16_t value, std::vector<std::byte>& b
 
 void append_edges(const Cell& cell, std::vector<std::byte>& bytes) {
   for (const int row : {0, cell.rows() - 1})
-    for (int column = 0; column < cell.columns(); ++column) append_16(cell.post(row, column), bytes);
+    for (int column = 0; column < cell.columns(); ++column) memory::append_big_endian(cell.post(row, column), bytes);
   for (const int column : {0, cell.columns() - 1})
-    for (int row = 0; row < cell.rows(); ++row) append_16(cell.post(row, column), bytes);
+    for (int row = 0; row < cell.rows(); ++row) memory::append_big_endian(cell.post(row, column), bytes);
 }
 
 std::size_t bit_bytes(Sides sides) {
@@ -118,7 +115,7 @@ error::Expected<PackedLevel> packed_level(const Cell& cell, int reduction) {
 class Words {
  public:
   explicit Words(const std::byte* at) : at_(at) {}
-  std::uint32_t next() { return big_endian_32(std::exchange(at_, at_ + 4)); }
+  std::uint32_t next() { return memory::big_endian<std::uint32_t>(std::exchange(at_, at_ + 4)); }
 
  private:
   const std::byte* at_;
@@ -126,8 +123,8 @@ class Words {
 
 // [m] of a post; 0 where the file states none that can be.
 double unit_of(std::span<const std::byte> side) {
-  if (big_endian_32(side.data() + kMagic.size()) == kVersion) return 1.0;
-  const std::uint32_t centimetres = big_endian_32(side.data() + side.size() - 4);
+  if (memory::big_endian<std::uint32_t>(side.data() + kMagic.size()) == kVersion) return 1.0;
+  const std::uint32_t centimetres = memory::big_endian<std::uint32_t>(side.data() + side.size() - 4);
   return centimetres <= 100 ? centimetres / kUnitsPerMetre : 0.0;
 }
 
@@ -142,7 +139,7 @@ std::vector<bool> take_bits(std::span<const std::byte>& bytes, Sides sides) {
 std::vector<std::int16_t> take_edge(std::span<const std::byte>& bytes, int posts) {
   std::vector<std::int16_t> edge;
   for (std::size_t i = 0; i < static_cast<std::size_t>(posts); ++i)
-    edge.push_back(static_cast<std::int16_t>(big_endian_16(&bytes[2 * i])));
+    edge.push_back(memory::big_endian<std::int16_t>(&bytes[2 * i]));
   bytes = bytes.subspan(2 * static_cast<std::size_t>(posts));
   return edge;
 }
@@ -242,7 +239,7 @@ error::Expected<SideLevel> parse_side_level(std::span<const std::byte> side, Cel
   Words words(side.data() + kMagic.size() + 4);
   const int rows = static_cast<int>(words.next());
   const int columns = static_cast<int>(words.next());
-  const std::size_t levels = big_endian_32(side.data() + kHeadBytes - 4);
+  const std::size_t levels = memory::big_endian<std::uint32_t>(side.data() + kHeadBytes - 4);
   const Sides sides = reduced({rows, columns}, reduction);
   Words table(side.data() + kHeadBytes);
   std::size_t at = kHeadBytes + levels * kLevelBytes;
