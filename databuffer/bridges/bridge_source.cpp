@@ -90,13 +90,13 @@ Text parts_of(std::string_view text) {
   return {text, text.substr(0, colon), after.substr(0, comma), after.substr(std::min(comma + 1, after.size()))};
 }
 
-Expected<BridgeSource> place_of(const Text& text, std::string_view form, bool asks) {
+Expected<BridgeSource> place_of(const Text& text, std::string_view form, bool requests_data) {
   const std::size_t colon = text.place.rfind(':');
   const bool has_host = colon != std::string_view::npos;
   const auto port = short_number(has_host ? text.place.substr(colon + 1) : text.place);
   const std::string_view host = has_host ? text.place.substr(0, colon) : kOwnHost;
-  if (!port || host.empty() || (asks && (!has_host || *port == 0))) return bad_usage(form, text.whole);
-  return BridgeSource{nullptr, std::string(text.kind), std::string(host), *port, asks};
+  if (!port || host.empty() || (requests_data && (!has_host || *port == 0))) return bad_usage(form, text.whole);
+  return BridgeSource{nullptr, std::string(text.kind), std::string(host), *port, requests_data};
 }
 
 class FlightgearBridge final : public Bridge {

@@ -65,7 +65,7 @@ struct BridgeSource {
   std::string name;  // the kind
   std::string host;
   std::uint16_t port = 0;
-  bool asks = false;  // host and port are whom to ask; else where to listen
+  bool requests_data = false;  // host and port are whom to ask; else where to listen
 };
 
 // Whether the text names a bridge at all.
