@@ -142,12 +142,12 @@ BridgeShell::BridgeShell(Session& session, bridges::BridgeSource source, UdpSock
       flight_(source_.bridge->reach()) {
   log::info((source_.requests_data ? "asks " : "listens for ") + source_.name +
             (source_.requests_data ? " at " : " on ") + text_of(socket_.endpoint()));
-  if (source_.bridge->tells_traffic()) claim_traffic();
+  if (source_.bridge->has_traffic()) claim_traffic();
 }
 
 BridgeShell::~BridgeShell() {
   if (traffic_claim_) session_->layout().traffic.clear();
-  for (const auto& datagram : source_.bridge->farewell()) socket_.send(datagram);
+  for (const auto& datagram : source_.bridge->closing_datagrams()) socket_.send(datagram);
   if (refusals_.count() > 0) log::info(std::to_string(refusals_.count()) + " packets were refused");
 }
 
@@ -185,12 +185,12 @@ void BridgeShell::receive() {
 void BridgeShell::take(memory::Bytes datagram, const bridges::Sender& from, std::int64_t received_ns) {
   latest_ns_ = std::max(latest_ns_, received_ns);
   const geo::Duration now = duration_of(latest_ns_);
-  const bool one_sender = !source_.bridge->hears_many();
+  const bool one_sender = !source_.bridge->allows_many_senders();
   if (one_sender && !gate_.admits(from, now))
     return refuse(source_.name + ": expected packets of one sender, found another, " + text_of(from), now);
-  source_.bridge->hears_from(from);
+  source_.bridge->set_sender(from);
   const auto sample = source_.bridge->receive(datagram, now);
-  if (const auto news = source_.bridge->take_news()) log::info(*news);
+  if (const auto news = source_.bridge->take_log_message()) log::info(*news);
   if (!sample) return refuse(sample.error().message(), now);
   if (!*sample) return;
   if (gate_.taken(from, now) && one_sender) log::info("hears " + source_.name + " from " + text_of(from));
@@ -230,9 +230,9 @@ void BridgeShell::report_drops() {
   log::warning(line);
 }
 
-void BridgeShell::report_presence(bool heard) {
-  if (heard == std::exchange(receiving_, heard)) return;
-  if (heard) return log::info("the aircraft is flown by " + source_.name);
+void BridgeShell::report_presence(bool receiving) {
+  if (receiving == std::exchange(receiving_, receiving)) return;
+  if (receiving) return log::info("the aircraft is flown by " + source_.name);
   const std::string line = source_.name + " is silent; the aircraft is left to other sources";
   session_->note(NoteKind::loss, line);
   log::warning(line);

@@ -90,7 +90,7 @@ class BridgeShell {
   void release_silent_responder();
   void refuse(const std::string& reason, geo::Duration now);
   void report_drops();
-  void report_presence(bool heard);
+  void report_presence(bool receiving);
   void publish(const TickLoop::Due& due, const flight::FlightSample& sample);
   void claim_traffic();
   void publish_traffic(const TickLoop::Due& due);

@@ -142,11 +142,11 @@ error::Expected<UdpSocket> UdpSocket::listen(const std::string& host, std::uint1
   auto state = std::make_unique<State>();
   if (auto opened = state->open(); !opened) return tl::unexpected(opened.error());
   if (bind(state->descriptor, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0) {
-    const std::string place = "UDP " + text_of(sender_of(*address));
+    const std::string subject = "UDP " + text_of(sender_of(*address));
     if (errno == EADDRINUSE)
-      return error::fail(place, "a free port", "one that another program listens on",
+      return error::fail(subject, "a free port", "one that another program listens on",
                          "end that program (ss -ulpn names it), or take another port on both sides");
-    return error::fail(place, "an address of this machine", std::strerror(errno));
+    return error::fail(subject, "an address of this machine", std::strerror(errno));
   }
   sockaddr_in bound{};
   socklen_t size = sizeof bound;
