@@ -33,7 +33,8 @@ Leg::Leg(geo::GeoPoint from, const geo::GeodesicInverse& inverse)
 Leg::Fix Leg::fix(geo::GeoPoint place, geo::Length near) const {
   Fix fix{near, {}, {}};
   for (int approximation = 0; approximation < kMaxApproximations; ++approximation) {
-    // Seen from the foot, the place must lie square to the leg: what lies along it moves the foot.
+    // At the foot the direction to the aircraft is perpendicular to the leg. The component along the leg moves the
+    // foot.
     const auto foot = ray_.place(fix.along);
     const auto seen = geo::geodesic_inverse(foot.point, place);
     const geo::Angle angle = seen.azimuth_at_start - foot.azimuth;
@@ -48,7 +49,7 @@ Leg::Fix Leg::fix(geo::GeoPoint place, geo::Length near) const {
 
 namespace {
 
-// R / (R + h): what a metre flown is on the ellipsoid.
+// R / (R + h): ratio of ground distance to distance flown.
 double surface_scale(const Motion& motion) {
   const double radius_m = geo::radius_of_curvature(motion.point.latitude_deg, motion.track).metres();
   return radius_m / (radius_m + motion.altitude.metres());

@@ -14,7 +14,7 @@ namespace {
 using error::Expected;
 using error::fail;
 
-constexpr double kMinLeg = 100.0;  // [m] a shorter leg has no direction worth flying
+constexpr double kMinLeg = 100.0;  // [m] minimum length of a leg; the direction of a shorter one is ill-defined
 
 Expected<Waypoint> parse_waypoint(const text::NumberedLine& line, std::string_view name) {
   const auto numbers = file::parse_numbers(
@@ -29,7 +29,7 @@ bool too_close(const Waypoint& from, const Waypoint& to) {
   return geo::geodesic_inverse(from.point, to.point).distance.metres() < kMinLeg;
 }
 
-// The leg back to the start must be one too.
+// Marks the route as a loop. The closing leg must not be too short.
 Expected<void> close_loop(Route& route, const std::string& place) {
   route.loop = true;
   if (route.waypoints.size() < 2 || !too_close(route.waypoints.back(), route.waypoints.front())) return {};
@@ -67,16 +67,18 @@ Expected<Route> parse_route(std::string_view text, std::string_view name) {
 
 namespace {
 
-constexpr double kGravity = 9.80665;        // [m/s^2] standard; a turn's radius goes with its inverse
-constexpr double kLongestStep = 0.02;       // [s] longer ones would blunt roll-in and roll-out
-constexpr double kClimbGain = 0.1;          // [1/s] levels off within kAcceleration: gain x climb limit = 2 m/s^2
-constexpr double kLongestLead_deg = 120.0;  // [deg] of turn; beyond it the tangent runs away, to infinity at 180
-// Turns are planned with less than the full bank, so that the rest can mend what roll-in and speed changes spoil.
+constexpr double kGravity = 9.80665;   // [m/s^2] standard gravity; turn radius is inversely proportional to it
+constexpr double kLongestStep = 0.02;  // [s] maximum integration step; longer ones distort roll-in and roll-out
+constexpr double kClimbGain =
+    0.1;  // [1/s] gain x climb limit = 2 m/s^2 = kAcceleration_mps2, so that levelling off respects that limit
+constexpr double kLongestLead_deg = 120.0;  // [deg] largest turn for the lead distance, which diverges at 180 deg
+// Bank for planning turns. The margin to kBankLimit corrects errors of roll-in and of speed changes.
 constexpr geo::Angle kPlannedBank = geo::Angle::degrees(27.0);
 constexpr double kCaptureSeconds = 8.0;  // [s] near the leg the distance from it decays with this time constant
-constexpr double kTrackGain = 0.3;       // [1/s] turn rate for each unit of track error; a roll takes a fraction of it
-constexpr double kSteepestIntercept_deg = 90.0;  // [deg] towards the leg
-constexpr double kUncertainTurn_deg = 150.0;     // [deg] beyond it either side is as good: a turn begun goes on
+constexpr double kTrackGain = 0.3;       // [1/s] turn rate per track error; rolling takes a fraction of its inverse
+constexpr double kSteepestIntercept_deg = 90.0;  // [deg] largest angle towards the leg
+constexpr double kUncertainTurn_deg =
+    150.0;  // [deg] beyond it both directions are equal, so that a turn in progress keeps its direction
 
 double turn_radius_m(double speed_mps) {
   return speed_mps * speed_mps / (kGravity * std::tan(kPlannedBank.radians()));
@@ -134,7 +136,7 @@ std::size_t RouteFlight::nearest_leg_end(geo::GeoPoint place) const {
     const Leg leg(route_.waypoints[from].point, route_.waypoints[to].point);
     const auto along = std::clamp(leg.fix(place, {}).along, geo::Length(), leg.length());
     const double distance_m = geo::geodesic_inverse(place, leg.point(along)).distance.metres();
-    // A leg whose end is here already cannot be flown to.
+    // The end of such a leg is already reached.
     const bool at_end = geo::geodesic_inverse(place, route_.waypoints[to].point).distance.metres() < 1.0;
     if (distance_m < best_m && !at_end) {
       best = to;
@@ -169,7 +171,7 @@ void RouteFlight::change_leg_in_time() {
   fix_ = leg_.fix(motion_.point, {});
 }
 
-// How far before the waypoint the turn must begin: the tangent of the circle, and half the time of rolling in.
+// Distance before the waypoint at which the turn begins: tangent length of the circle plus half the roll-in distance.
 geo::Length RouteFlight::lead() const {
   const double speed_mps = motion_.ground_speed.metres_per_second();
   const double turn_deg = std::abs((next_->course_at_start() - leg_.course_at_end()).degrees());
@@ -177,12 +179,12 @@ geo::Length RouteFlight::lead() const {
   const double roll_in_s = std::min(turn_deg, kPlannedBank.degrees()) / kRollRate_dps;
   const double tangent_m = turn_radius_m(speed_mps) * std::tan(half_turn_rad);
   const auto wanted = geo::Length::metres(tangent_m + speed_mps * roll_in_s / 2.0);
-  // Never more than half of either leg, or short legs would be skipped whole.
+  // At most half of either leg; otherwise short legs would be skipped.
   return std::min({wanted, 0.5 * leg_.length(), 0.5 * next_->length()});
 }
 
-// The angle towards the leg, right positive: that of a circle tangent to a line beside the leg, and from where the
-// slopes meet proportional to the distance, so that it ends smoothly.
+// Intercept angle relative to the leg, right positive. Far from the leg it follows a circle tangent to a line beside
+// the leg. Near it, from where the slopes are equal, it is proportional to the distance, so that it ends smoothly.
 geo::Angle RouteFlight::intercept() const {
   const double speed_mps = motion_.ground_speed.metres_per_second();
   const double radius_m = turn_radius_m(speed_mps);
@@ -218,7 +220,7 @@ void RouteFlight::change_speeds(double dt_s) {
 void RouteFlight::move(double dt_s) {
   const double speed_mps = motion_.ground_speed.metres_per_second();
   const auto turn = geo::Angle::radians(kGravity * std::tan(roll_.radians()) / speed_mps * dt_s);
-  // Half the turn before the stretch and half behind it: the chord of the arc, to second order.
+  // Half of the turn is applied before the step and half after it: the chord of the arc, to second order.
   const geo::Length flown = geo::Length::metres(speed_mps * dt_s);
   const geo::GeodesicRay chord(motion_.point, motion_.track + 0.5 * turn);
   const auto place = chord.place(surface_distance(motion_, flown));

@@ -13,13 +13,13 @@ namespace {
 using error::Expected;
 using error::fail;
 
-// In the order in which parse_row uses them. Headings are taken from either convention, -180..180 or 0..360.
+// Columns in the order used by parse_row(). Headings may be -180..180 or 0..360.
 const std::vector<file::NumberField> kColumns{
     {"time", 0.0, 1e9},         {"lat", -90.0, 90.0},   {"lon", -180.0, 180.0},  {"alt_ft", -3'000.0, 600'000.0},
     {"heading", -180.0, 360.0}, {"pitch", -90.0, 90.0}, {"roll", -180.0, 180.0},
 };
 
-using ColumnPlaces = std::vector<std::size_t>;  // for each of kColumns, its place in a row
+using ColumnPlaces = std::vector<std::size_t>;  // index in a row for each of kColumns
 
 Expected<ColumnPlaces> parse_header(std::string_view line, const std::string& place) {
   const auto names = text::fields_of(line, ',');
@@ -75,7 +75,7 @@ Expected<Track> parse_track(std::string_view text, std::string_view name) {
 
 namespace {
 
-// Part of the way from one angle to another, the shorter way round.
+// Interpolates an angle by the shorter way.
 geo::Angle between(geo::Angle from, geo::Angle to, double share) {
   const double turn_deg = geo::wrapped_degrees(to.degrees() - from.degrees());
   return geo::Angle::degrees(geo::wrapped_degrees(from.degrees() + share * turn_deg));
@@ -112,7 +112,7 @@ bool TrackFlight::resume(const Ownship& last, geo::Duration gap) {
   return true;
 }
 
-// Moves on to the stretch in which the time elapsed lies.
+// Advances to the stretch that contains elapsed_.
 void TrackFlight::find_row() {
   const auto start_of = [this](std::size_t row) { return track_.rows[row].time - track_.rows.front().time; };
   const std::size_t before = row_;

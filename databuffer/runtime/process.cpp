@@ -29,7 +29,7 @@ namespace {
 
 struct Outlet {
   int descriptor;
-  std::string unfinished;  // the first bytes of a character whose others are still to come
+  std::string unfinished;  // leading bytes of an incomplete UTF-8 character
 };
 
 bool write_all(int descriptor, std::string_view text) {
@@ -51,7 +51,7 @@ ssize_t write_printable(void* cookie, const char* bytes, std::size_t size) {
   return write_all(outlet.descriptor, text::printable_lines(text)) ? static_cast<ssize_t>(size) : 0;
 }
 
-// nullptr: the system has no room for it; the stream stays as it is.
+// Opens a stream that writes through the outlet. nullptr: out of memory; the standard stream is then unchanged.
 std::FILE* guarded(Outlet& outlet, int buffering) {
   cookie_io_functions_t functions{};
   functions.write = write_printable;
@@ -63,7 +63,7 @@ std::FILE* guarded(Outlet& outlet, int buffering) {
 }  // namespace
 
 void guard_terminal() {
-  // They outlive what is printed while the process ends.
+  // Never deleted, because output may follow while the process ends.
   static auto* const outlets = new Outlet[]{{STDOUT_FILENO, {}}, {STDERR_FILENO, {}}};
   static const bool done = [] {
     std::FILE* out = guarded(outlets[0], ::isatty(STDOUT_FILENO) != 0 ? _IOLBF : _IOFBF);
@@ -97,7 +97,7 @@ void on_signal(int) {
 
 void install_signal_handlers() {
   struct sigaction action {};
-  action.sa_handler = on_signal;  // no SA_RESTART: a sleep or a poll ends at once
+  action.sa_handler = on_signal;  // no SA_RESTART: a sleep or poll returns at once
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
@@ -132,7 +132,7 @@ std::string bytes_or_unlimited(rlim_t limit) {
   return limit == RLIM_INFINITY ? "unlimited" : std::to_string(limit);
 }
 
-// Runs where a signal may: one system call, one write. The process's first thread is the one that ticks.
+// Signal handler: only async-signal-safe calls. The process's first thread is the one that ticks.
 void step_back(int) {
   const sched_param normal{};
   sched_setscheduler(getpid(), SCHED_OTHER, &normal);
@@ -140,7 +140,7 @@ void step_back(int) {
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kText, sizeof kText - 1);
 }
 
-// The kernel sends SIGXCPU when a real-time thread has computed so long without a wait.
+// Limits real-time computation: the kernel sends SIGXCPU to a thread that exceeds kLongestBurst_ms without a wait.
 bool limit_bursts() {
   struct sigaction action {};
   action.sa_handler = step_back;
@@ -203,7 +203,7 @@ std::optional<std::string> bind_to_cpus(const std::vector<int>& cpus) {
   return std::string("--cpus: refused: ") + std::strerror(errno) + "; all CPUs are used";
 }
 
-// With a finite limit a later allocation would fail for the lock's sake: all or nothing.
+// All or nothing: under a finite limit a later allocation would fail.
 std::optional<std::string> lock_memory() {
   rlimit limit{};
   getrlimit(RLIMIT_MEMLOCK, &limit);
@@ -219,7 +219,7 @@ std::optional<std::string> take_realtime_priority() {
   if (!limit_bursts())
     return std::string("--realtime: normal priority: expected to limit bursts by RLIMIT_RTTIME, found ") +
            std::strerror(errno);
-  // Threads made later work at normal priority: only the one that ticks must be on time.
+  // RESET_ON_FORK: later threads run at normal priority; only the ticking thread must be on time.
   sched_param priority{};
   priority.sched_priority = kRealtimePriority;
   if (sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &priority) == 0) return std::nullopt;

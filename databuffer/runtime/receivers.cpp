@@ -19,19 +19,19 @@ bool is_fresh(const Memory& memory, std::int64_t now_ns) {
   return memory.received_ns && now_ns - *memory.received_ns <= kStaleAfter;
 }
 
-// Delivered over a while, not one record that lies there: measured between arrivals.
+// True if the lane has delivered for kTakeoverAfter, measured between arrivals; one stored record is not enough.
 bool is_established(const Memory& memory, std::int64_t now_ns) {
   return is_fresh(memory, now_ns) && *memory.received_ns - memory.delivering_since_ns >= kTakeoverAfter;
 }
 
 Memory remember(const OwnshipLane& lane, std::int64_t now_ns, Memory memory) {
   if (!lane.present) {
-    // Whatever comes after an empty lane is news, whichever number it has.
+    // After an empty lane every version counts as new.
     memory = Memory{};
     memory.seen = true;
     return memory;
   }
-  // A clock that went back: what was received "later" counts as received now, or it would stay fresh for long.
+  // After a clock has gone back, later arrivals count as received now. Otherwise they would stay fresh too long.
   if (memory.received_ns) memory.received_ns = std::min(*memory.received_ns, now_ns);
   memory.delivering_since_ns = std::min(memory.delivering_since_ns, now_ns);
   if (memory.seen && lane.version != memory.version) {
@@ -43,7 +43,7 @@ Memory remember(const OwnshipLane& lane, std::int64_t now_ns, Memory memory) {
   return memory;
 }
 
-// The highest priority among lanes for which `qualifies`; the chosen one wins ties, then the lower index.
+// Lane of the highest priority among those that qualify. At equal priority `chosen` wins, then the lower index.
 template <class Qualifies>
 std::optional<std::size_t> best(std::span<const OwnshipLane> lanes, std::optional<std::size_t> chosen,
                                 Qualifies qualifies) {
@@ -68,7 +68,7 @@ OwnshipSelection select_ownship(std::span<const OwnshipLane> lanes, std::int64_t
     return (lane == previous.lane && fresh(lane)) || established(lane);
   };
   next.lane = best(lanes, previous.lane, chosen_or_established);
-  // Nothing proven is left: better a young source than none.
+  // No established lane is left: a fresh one is better than none.
   if (!next.lane) next.lane = best(lanes, std::nullopt, fresh);
   return next;
 }
@@ -82,11 +82,11 @@ double speed_mps(const Ownship& ownship) {
 }  // namespace
 
 bool JumpGuard::is_jump(const Ownship& next, std::int64_t received_ns) const {
-  constexpr double kSpeedMargin = 2.0;  // a source that runs at another rate, or was heard late
+  constexpr double kSpeedMargin = 2.0;  // covers a source at another rate, and late arrival
   const double time_s = 1e-9 * static_cast<double>(std::max<std::int64_t>(received_ns - last_received_ns_, 0));
   const double reach_m = kPlaceTolerance_m + kSpeedMargin * std::max(speed_mps(*last_), speed_mps(next)) * time_s;
   if (std::abs(next.altitude_msl_m - last_->altitude_msl_m) > reach_m) return true;
-  // Cheap first: nearly every tick ends here. No degree is longer than 111.7 km.
+  // Cheap upper bound first, which decides nearly every tick. No degree of the Earth is longer than 111.7 km.
   constexpr double kLongestDegree_m = 111'700.0;
   const double east_deg = std::remainder(next.longitude_deg - last_->longitude_deg, 360.0);
   const double north_deg = next.latitude_deg - last_->latitude_deg;
@@ -111,7 +111,7 @@ bool JumpGuard::believes(const Ownship& next, std::int64_t received_ns, std::int
     take(next, received_ns);
     return true;
   }
-  // A clock that went back begins the wait anew.
+  // A clock that goes back restarts the hold.
   if (!held_since_ns_ || now_ns < *held_since_ns_) held_since_ns_ = now_ns;
   held_epoch_ = epoch;
   proven_ = now_ns - *held_since_ns_ >= kJumpProof;
@@ -122,7 +122,7 @@ bool JumpGuard::believes(const Ownship& next, std::int64_t received_ns, std::int
 
 namespace {
 
-// A source that gives no nav: the navigators know the truth.
+// Nav for a source without one: the true position.
 Nav nav_from_truth(const Ownship& ownship) {
   Nav nav{};
   nav.source_time_ns = ownship.source_time_ns;
@@ -149,7 +149,7 @@ void OwnshipReceiver::receive(const SessionLayout& layout, std::size_t index) {
     ++refused_;
     refusals_.push_back(std::string(record) + " in lane " + std::to_string(index) + ": " + reason);
   };
-  // A lane taken away holds nothing of its last writer for the next one.
+  // A withdrawn value of the previous writer must not count for the next one.
   if (!layout.ownship[index].has_value()) lane.accepted = 0;
   if (!layout.nav[index].has_value()) lane.has_nav = false;
   if (layout.ownship[index].version() != lane.version) {

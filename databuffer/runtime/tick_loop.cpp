@@ -17,13 +17,13 @@ namespace yars::databuffer {
 
 namespace {
 
-// [ns] a change of the clock is seen within this: at the highest rate, 10, that is 10 ticks, fewer than are skipped.
+// [ns] Longest time until a change of the clock is seen: at the highest rate, 10, that is 10 ticks, fewer than are
+// skipped.
 constexpr std::int64_t kLongestSleep_ns = 5'000'000;
-constexpr std::int64_t kLatestTick = std::int64_t{1} << 40;  // 174 years; its nanoseconds fit
-constexpr double kFarAhead_ns = 1e15;  // [ns] beyond it a deadline is only 'later'; keeps the cast in range
-constexpr std::int64_t kPartnerPatience_ns =
-    60'000'000'000;                                     // [ns] a lockstep partner silent so long is taken for dead
-constexpr std::int64_t kPartnerCheck_ns = 100'000'000;  // [ns] between looks at the stop flag while waiting
+constexpr std::int64_t kLatestTick = std::int64_t{1} << 40;  // 174 years; its nanoseconds fit 64 bits
+constexpr double kFarAhead_ns = 1e15;  // [ns] longer deadlines are cut to this value, which keeps the cast in range
+constexpr std::int64_t kPartnerPatience_ns = 60'000'000'000;  // [ns] lockstep partner: silence that counts as death
+constexpr std::int64_t kPartnerCheck_ns = 100'000'000;        // [ns] interval for reading the stop flag while waiting
 
 void sleep_until(std::int64_t deadline_ns) {
   const timespec deadline{static_cast<time_t>(deadline_ns / 1'000'000'000),
@@ -31,7 +31,7 @@ void sleep_until(std::int64_t deadline_ns) {
   clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr);
 }
 
-// Between processes: std::atomic::wait uses private futexes, which do not cross a mapping.
+// FUTEX_WAIT without PRIVATE works between processes; std::atomic::wait uses private futexes.
 void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t seen, std::int64_t timeout_ns) {
   const timespec timeout{static_cast<time_t>(timeout_ns / 1'000'000'000),
                          static_cast<long>(timeout_ns % 1'000'000'000)};
@@ -93,12 +93,12 @@ error::Expected<TickLoop> TickLoop::create(Session& session, LockstepRole role, 
        shared.end_tick.load(std::memory_order_relaxed) != plan->end_tick))
     return error::fail("--lockstep", "the plan that the session runs by", "another one, " + lockstep,
                        "give every role of a set the same --lockstep, or use another session");
-  // Every role of a set has the same plan, so it does not matter who writes it, or twice.
+  // Every role of a set has the same plan, so that the order of these stores does not matter.
   shared.roles.store(plan->roles, std::memory_order_relaxed);
   shared.end_tick.store(plan->end_tick, std::memory_order_relaxed);
   shared.enabled.store(1, std::memory_order_release);
   loop.lockstep_ = true;
-  // The predecessor is the nearest role before this one in the ring of those taking part.
+  // The predecessor is the nearest participating role before this one in the ring.
   std::size_t before = loop.role_;
   do {
     before = (before + kLockstepRoles - 1) % kLockstepRoles;
@@ -173,7 +173,7 @@ bool TickLoop::wait_for(std::size_t role, std::int64_t tick) {
   return false;
 }
 
-// Who leaves takes its lane along: nobody goes before all have done the last tick.
+// Waits until all roles have done the last tick, because a role that leaves withdraws its lane.
 void TickLoop::wait_for_all(std::int64_t tick) {
   const std::uint32_t roles = session_->layout().lockstep.roles.load(std::memory_order_relaxed);
   for (std::size_t role = 0; role < kLockstepRoles; ++role)

@@ -77,7 +77,7 @@ TEST(Dis, WhatIsNoEntityStateIsRefusedWithTheReason) {
   EXPECT_THAT(refusal_of(with<std::uint8_t>(good, 2, 2)), HasSubstr("type 1"));
   EXPECT_THAT(refusal_of(with<std::uint8_t>(good, 19, 1)), HasSubstr("160 bytes"));
   EXPECT_THAT(refusal_of(with<std::uint8_t>(good, 19, 255)), HasSubstr("4224 bytes"));
-  EXPECT_THAT(refusal_of(with<std::uint16_t>(good, 8, 145)), HasSubstr("145 told"));
+  EXPECT_THAT(refusal_of(with<std::uint16_t>(good, 8, 145)), HasSubstr("145 stated"));
   PacketBytes longer = good;
   longer.resize(145);
   EXPECT_THAT(refusal_of(longer), HasSubstr("145 received"));
