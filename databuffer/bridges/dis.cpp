@@ -25,8 +25,8 @@ constexpr std::size_t kHeaderBytes = 12, kStateBytes = 144, kParameterBytes = 16
 constexpr std::uint8_t kEntityStateType = 1;
 constexpr std::uint8_t kOldestVersion = 5, kNewestVersion = 7;  // 1278.1-1995 to 1278.1-2012
 constexpr std::uint32_t kFrozenBit = 1U << 21U, kDeactivatedBit = 1U << 23U;
-constexpr double kStampUnit_s =
-    3600.0 / 2147483648.0;  // 2^31 units an hour; bit 0 states whether the clock is absolute
+// 2^31 units an hour; bit 0 states whether the clock is absolute
+constexpr double kStampUnit_s = 3600.0 / 2147483648.0;
 
 // [m] Distance from the Earth's centre. Outside these bounds no aircraft flies, and latitude is ill-conditioned.
 constexpr double kMinRadius_m = 6'000'000.0, kMaxRadius_m = 7'000'000.0;

@@ -69,16 +69,16 @@ namespace {
 
 constexpr double kGravity = 9.80665;   // [m/s^2] standard gravity; turn radius is inversely proportional to it
 constexpr double kLongestStep = 0.02;  // [s] maximum integration step; longer ones distort roll-in and roll-out
-constexpr double kClimbGain =
-    0.1;  // [1/s] gain x climb limit = 2 m/s^2 = kAcceleration_mps2, so that levelling off respects that limit
+// [1/s] gain x kClimbLimit = kAcceleration_mps2; more exceeds that when levelling off
+constexpr double kClimbGain = 0.1;
 constexpr double kLongestLead_deg = 120.0;  // [deg] largest turn for the lead distance, which diverges at 180 deg
 // Bank for planning turns. The margin to kBankLimit corrects errors of roll-in and of speed changes.
 constexpr geo::Angle kPlannedBank = geo::Angle::degrees(27.0);
 constexpr double kCaptureSeconds = 8.0;  // [s] near the leg the distance from it decays with this time constant
 constexpr double kTrackGain = 0.3;       // [1/s] turn rate per track error; rolling takes a fraction of its inverse
 constexpr double kSteepestIntercept_deg = 90.0;  // [deg] largest angle towards the leg
-constexpr double kUncertainTurn_deg =
-    150.0;  // [deg] beyond it both directions are equal, so that a turn in progress keeps its direction
+// [deg] beyond it both directions are equal, so that a turn in progress keeps its direction
+constexpr double kUncertainTurn_deg = 150.0;
 
 double turn_radius_m(double speed_mps) {
   return speed_mps * speed_mps / (kGravity * std::tan(kPlannedBank.radians()));

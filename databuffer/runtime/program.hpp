@@ -50,8 +50,8 @@ using ProgramBody = std::function<error::Expected<void>()>;
 int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& options, const ProgramBody& body);
 
 // Parts of run_program(), for a program whose subcommands run during parsing.
-int report_parse_outcome(const CLI::App& app,
-                         const CLI::ParseError& outcome);  // prints help or one line; returns the exit code
+// Prints help or one line, and returns the exit code.
+int report_parse_outcome(const CLI::App& app, const CLI::ParseError& outcome);
 // Starts the log, applies CPUs and priority, installs signal handlers.
 std::optional<error::Error> begin_program(const std::string& name, const ProgramOptions& options);
 void print_failure(const std::string& program, const std::string& message);  // also into the log file
