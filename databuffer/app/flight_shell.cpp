@@ -80,7 +80,7 @@ void FlightShell::stand_by(const TickLoop::Due& due) {
       validate(model))
     return;
   const bool follows = (model.flags & kModelStale) == 0 && model.epoch == due.clock.epoch &&
-                       model.sim_time_ns + kStaleAfter > due.sim_time_ns;
+                       model.sim_time_ns + kStaleAfter_ns > due.sim_time_ns;
   const auto priority = [&layout](std::size_t lane) {
     return layout.ownship_priority[lane].load(std::memory_order_relaxed);
   };

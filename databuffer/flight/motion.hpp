@@ -28,7 +28,7 @@ struct Placement {
 };
 
 // Returns `dt` if it is positive and finite, else zero.
-geo::Duration stretch_ahead(geo::Duration dt);
+geo::Duration forward_step(geo::Duration dt);
 
 class FlightModel {
  public:
@@ -58,7 +58,7 @@ class Leg {
   };
   // Position relative to the leg. `near`: distance along the leg at which the iteration starts, such as the previous
   // result. Converges to 1 mm. A quarter of the Earth away it stops after 8 iterations without converging.
-  Fix fix(geo::GeoPoint place, geo::Length near) const;
+  Fix fix(geo::GeoPoint position, geo::Length near) const;
 
   geo::GeoPoint point(geo::Length along) const { return ray_.position(along); }
   geo::Length length() const { return length_; }

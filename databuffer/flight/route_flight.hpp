@@ -57,7 +57,7 @@ class RouteFlight final : public FlightModel {
 
  private:
   void fly_to(std::size_t waypoint, geo::GeoPoint from);
-  std::size_t nearest_leg_end(geo::GeoPoint place) const;
+  std::size_t nearest_leg_end(geo::GeoPoint position) const;
   void advance(double dt_s);
   void change_leg_in_time();
   geo::Length lead() const;

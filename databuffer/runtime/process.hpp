@@ -31,10 +31,10 @@ bool stop_requested();
 void request_stop();
 
 // Real-time services. The system may refuse each; the program then names the limit to raise and continues.
-// A thread that computes for kLongestBurst_ms without a wait returns to normal priority, before it can block a CPU.
+// A thread that computes for kMaxBurst_ms without a wait returns to normal priority, before it can block a CPU.
 // of 1..99: above normal programs, below the kernel's interrupt threads (50)
 inline constexpr int kRealtimePriority = 20;
-inline constexpr int kLongestBurst_ms = 500;  // [ms] of CPU without a wait; longer would block a CPU
+inline constexpr int kMaxBurst_ms = 500;  // [ms] of CPU without a wait; longer would block a CPU
 
 // Parses a CPU list: "2,3,6-7" gives 2 3 6 7, sorted and without duplicates. Other text is an error.
 error::Expected<std::vector<int>> parse_cpu_list(std::string_view text);

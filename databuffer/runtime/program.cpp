@@ -49,7 +49,7 @@ std::optional<error::Error> arrange_cpus(const ProgramOptions& options) {
   if (warn(lock_memory())) log::info("--realtime: memory is locked");
   if (warn(take_realtime_priority()))
     log::info("--realtime: SCHED_FIFO " + std::to_string(kRealtimePriority) + ", at most " +
-              std::to_string(kLongestBurst_ms) + " ms without a wait");
+              std::to_string(kMaxBurst_ms) + " ms without a wait");
   return std::nullopt;
 }
 

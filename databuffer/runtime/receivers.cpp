@@ -16,29 +16,29 @@ namespace {
 using Memory = OwnshipSelection::Memory;
 
 bool is_fresh(const Memory& memory, std::int64_t now_ns) {
-  return memory.received_ns && now_ns - *memory.received_ns <= kStaleAfter;
+  return memory.received_ns && now_ns - *memory.received_ns <= kStaleAfter_ns;
 }
 
-// True if the lane has delivered for kTakeoverAfter, measured between arrivals; one stored record is not enough.
+// True if the lane has delivered for kTakeoverAfter_ns, measured between arrivals; one stored record is not enough.
 bool is_established(const Memory& memory, std::int64_t now_ns) {
-  return is_fresh(memory, now_ns) && *memory.received_ns - memory.delivering_since_ns >= kTakeoverAfter;
+  return is_fresh(memory, now_ns) && *memory.received_ns - memory.delivering_since_ns >= kTakeoverAfter_ns;
 }
 
 Memory remember(const OwnshipLane& lane, std::int64_t now_ns, Memory memory) {
   if (!lane.present) {
     // After an empty lane every version counts as new.
     memory = Memory{};
-    memory.seen = true;
+    memory.known = true;
     return memory;
   }
   // After a clock has gone back, later arrivals count as received now. Otherwise they would stay fresh too long.
   if (memory.received_ns) memory.received_ns = std::min(*memory.received_ns, now_ns);
   memory.delivering_since_ns = std::min(memory.delivering_since_ns, now_ns);
-  if (memory.seen && lane.version != memory.version) {
+  if (memory.known && lane.version != memory.version) {
     if (!is_fresh(memory, now_ns)) memory.delivering_since_ns = now_ns;
     memory.received_ns = now_ns;
   }
-  memory.seen = true;
+  memory.known = true;
   memory.version = lane.version;
   return memory;
 }
@@ -84,7 +84,7 @@ double speed_mps(const Ownship& ownship) {
 bool JumpGuard::is_jump(const Ownship& next, std::int64_t received_ns) const {
   constexpr double kSpeedMargin = 2.0;  // covers a source at another rate, and late arrival
   const double time_s = 1e-9 * static_cast<double>(std::max<std::int64_t>(received_ns - last_received_ns_, 0));
-  const double reach_m = kPlaceTolerance_m + kSpeedMargin * std::max(speed_mps(*last_), speed_mps(next)) * time_s;
+  const double reach_m = kPositionTolerance_m + kSpeedMargin * std::max(speed_mps(*last_), speed_mps(next)) * time_s;
   if (std::abs(next.altitude_msl_m - last_->altitude_msl_m) > reach_m) return true;
   // Cheap upper bound first, which decides nearly every tick. No degree of the Earth is longer than 111.7 km.
   constexpr double kLongestDegree_m = 111'700.0;
@@ -102,20 +102,20 @@ void JumpGuard::take(const Ownship& next, std::int64_t received_ns) {
   proven_ = false;
 }
 
-bool JumpGuard::believes(const Ownship& next, std::int64_t received_ns, std::int64_t now_ns, std::uint32_t epoch) {
+bool JumpGuard::accepts(const Ownship& next, std::int64_t received_ns, std::int64_t now_ns, std::uint32_t epoch) {
   const bool jump = last_ && is_jump(next, received_ns);
   const bool first_of_epoch = last_ && next.epoch == epoch && last_->epoch != epoch;
-  const bool told = first_of_epoch || (held_since_ns_ && held_epoch_ != epoch);
-  if (!jump || told) {
-    if (held_since_ns_ && !told) ++passed_;
+  const bool epoch_changed = first_of_epoch || (held_since_ns_ && held_epoch_ != epoch);
+  if (!jump || epoch_changed) {
+    if (held_since_ns_ && !epoch_changed) ++abandoned_;
     take(next, received_ns);
     return true;
   }
   // A clock that goes back restarts the hold.
   if (!held_since_ns_ || now_ns < *held_since_ns_) held_since_ns_ = now_ns;
   held_epoch_ = epoch;
-  proven_ = now_ns - *held_since_ns_ >= kJumpProof;
-  if (now_ns - *held_since_ns_ < kLongestHold) return false;
+  proven_ = now_ns - *held_since_ns_ >= kJumpProof_ns;
+  if (now_ns - *held_since_ns_ < kMaxHold_ns) return false;
   take(next, received_ns);
   return true;
 }
@@ -198,7 +198,7 @@ const OwnshipReceiver::Selected& OwnshipReceiver::refresh(const SessionLayout& l
   const Lane& lane = lanes_[*selection_.lane];
   const std::int64_t received_ns = selection_.memory[*selection_.lane].received_ns.value_or(sim_time_ns);
   const bool lockstep = layout.lockstep.enabled.load(std::memory_order_relaxed) != 0;
-  if (!lockstep && !guard_.believes(lane.ownship, received_ns, sim_time_ns, epoch)) {
+  if (!lockstep && !guard_.accepts(lane.ownship, received_ns, sim_time_ns, epoch)) {
     if (guard_.is_proven()) {
       selected_.jump = lane.ownship;
       selected_.jump_lane = static_cast<std::uint32_t>(*selection_.lane);

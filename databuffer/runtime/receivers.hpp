@@ -21,9 +21,9 @@ namespace yars::databuffer {
 
 inline constexpr std::size_t kMaxOwnshipLanes = 4;
 // [ns] 25 records of a 50 Hz source. Shorter: a loaded machine loses its source. Longer: a dead source stays in use.
-inline constexpr std::int64_t kStaleAfter = 500'000'000;
+inline constexpr std::int64_t kStaleAfter_ns = 500'000'000;
 // [ns] Time of gap-free delivery before a lane replaces a fresh one. A source that fails more often never takes over.
-inline constexpr std::int64_t kTakeoverAfter = 250'000'000;
+inline constexpr std::int64_t kTakeoverAfter_ns = 250'000'000;
 
 struct OwnshipLane {
   bool present = false;        // a valid value was published and the lane still holds a value
@@ -34,7 +34,7 @@ struct OwnshipLane {
 // Result of select_ownship() and its memory. Begin with a default one.
 struct OwnshipSelection {
   struct Memory {
-    bool seen = false;
+    bool known = false;
     std::uint64_t version = 0;
     std::optional<std::int64_t> received_ns;  // arrival of the newest version
     std::int64_t delivering_since_ns = 0;     // first arrival after the last gap
@@ -44,9 +44,9 @@ struct OwnshipSelection {
 };
 
 // Selects the ownship lane to use: the fresh lane of the highest priority, with hysteresis. Pure; call once a tick.
-// A lane is fresh while its version has changed within kStaleAfter by the caller's clock; stamps of sources are not
+// A lane is fresh while its version has changed within kStaleAfter_ns by the caller's clock; stamps of sources are not
 // used. A version seen first does not count as a change, because a dead writer may have left it. A higher lane takes
-// over after gap-free delivery for kTakeoverAfter. The selected lane is left only when it is stale or such a lane
+// over after gap-free delivery for kTakeoverAfter_ns. The selected lane is left only when it is stale or such a lane
 // exists. At equal priority the selected lane stays; without one the lower index wins. `lanes`: at most
 // kMaxOwnshipLanes entries, always in the same order. `now_ns`: CLOCK_MONOTONIC, or sim time in lockstep. When it goes
 // back, each lane counts as received at that moment.
@@ -54,24 +54,24 @@ OwnshipSelection select_ownship(std::span<const OwnshipLane> lanes, std::int64_t
                                 const OwnshipSelection& previous);
 
 // [m] Tolerance on the distance that twice the speed explains. It covers the noise of a navigator.
-inline constexpr double kPlaceTolerance_m = 50.0;
+inline constexpr double kPositionTolerance_m = 50.0;
 // [ns] of sim time for which a new position must persist. Shorter lets one bad record move the radar.
-inline constexpr std::int64_t kJumpProof = 100'000'000;
-inline constexpr std::int64_t kLongestHold = 1'000'000'000;
+inline constexpr std::int64_t kJumpProof_ns = 100'000'000;
+inline constexpr std::int64_t kMaxHold_ns = 1'000'000'000;
 
 // Detector of position jumps. An aircraft cannot be further than its speed allows from its last position. A jump
 // (another source, or a simulator set back) is accepted with a new epoch only, which restarts scan and filters. The
 // record must be the first one of the session's epoch, or the epoch must have changed since the jump began. Until then
 // the previous record stays in use. A process that may set the clock raises the epoch when is_proven(). Without such a
-// process the jump is accepted after kLongestHold.
+// process the jump is accepted after kMaxHold_ns.
 class JumpGuard {
  public:
   // True if `next`, received at `received_ns`, is to be used at the tick of `now_ns` [ns of sim time]. Call once a
   // tick.
-  bool believes(const Ownship& next, std::int64_t received_ns, std::int64_t now_ns, std::uint32_t epoch);
-  // True if the held jump has persisted for kJumpProof.
+  bool accepts(const Ownship& next, std::int64_t received_ns, std::int64_t now_ns, std::uint32_t epoch);
+  // True if the held jump has persisted for kJumpProof_ns.
   bool is_proven() const { return proven_; }
-  std::uint64_t passed() const { return passed_; }  // jumps that ended before they were accepted
+  std::uint64_t abandoned() const { return abandoned_; }  // jumps that ended before they were accepted
 
  private:
   bool is_jump(const Ownship& next, std::int64_t received_ns) const;
@@ -82,7 +82,7 @@ class JumpGuard {
   std::optional<std::int64_t> held_since_ns_;
   std::uint32_t held_epoch_ = 0;
   bool proven_ = false;
-  std::uint64_t passed_ = 0;
+  std::uint64_t abandoned_ = 0;
 };
 
 inline constexpr std::uint32_t kNoLane = 0xffffffffU;
@@ -108,7 +108,7 @@ class OwnshipReceiver {
   // `sim_time_ns`: time of the tick. Freshness is judged by it, so that lockstep and live agree.
   const Selected& refresh(const SessionLayout& layout, std::int64_t sim_time_ns, std::uint32_t epoch);
 
-  std::uint64_t refused() const { return refused_ + guard_.passed(); }
+  std::uint64_t refused() const { return refused_ + guard_.abandoned(); }
   // Reasons for the refusals of the last refresh(), one per record.
   const std::vector<std::string>& refusals() const { return refusals_; }
 
