@@ -72,7 +72,7 @@ constexpr const char* kSources =
     "flightgear:[HOST:]PORT  FlightGear's native FDM by UDP\n"
     "jsbsim:[HOST:]PORT[,COLUMN,...]  JSBSim's text output by UDP\n"
     "xplane:HOST:PORT  X-Plane by UDP; its own port is 49000\n"
-    "dis:[HOST:]PORT[,SITE,APP,ENTITY]  a DIS entity, else the first of the air\n"
+    "dis:[HOST:]PORT[,SITE,APP,ENTITY]  a DIS entity, else the first air platform\n"
     "(HOST to listen on is 127.0.0.1 unless given)";
 
 }  // namespace

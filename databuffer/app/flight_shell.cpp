@@ -61,7 +61,7 @@ void FlightShell::begin_epoch(const ClockState& clock) {
   const bool placed = source_.model->reposition(placement);
   // The epoch follows another source that jumped; no user requested it.
   if (clock.followed != 0) {
-    if (placed && !started_) log::info("begins where the session's aircraft was last placed, not at its own place");
+    if (placed && !started_) log::info("begins at the session's last repositioning, not at the start of its flight");
     return;
   }
   if (placed) {

@@ -32,10 +32,10 @@ error::Expected<std::optional<ExternalSample>> DisBridge::receive(memory::Bytes 
     order_ = StampOrder(kDisStampPeriod);
     others_.forget(state->id);
     log_message_ = log_message_.value_or("") + (log_message_ ? "; " : "") + "the aircraft is entity " +
-                   text_of(state->id) + ", the first of the air that was heard";
+                   text_of(state->id) + ", the first air platform received";
   }
   if (state->id != aircraft_) {
-    if (const auto reason = others_.update(*state, now)) return error::fail("dis", "traffic that is news", *reason);
+    if (const auto reason = others_.update(*state, now)) return error::fail("dis", "newer traffic", *reason);
     return std::nullopt;
   }
   if (const auto reason = order_.order_fault(state->stamp)) return error::fail("dis", "a newer report", *reason);
@@ -54,7 +54,7 @@ error::Expected<std::optional<ExternalSample>> DisBridge::receive(memory::Bytes 
 }
 
 void DisBridge::release_aircraft(std::string_view why) {
-  log_message_ = "entity " + text_of(*aircraft_) + " " + std::string(why) + ": the next of the air that is heard flies";
+  log_message_ = "entity " + text_of(*aircraft_) + " " + std::string(why) + ": the next air platform received flies";
   aircraft_.reset();
 }
 

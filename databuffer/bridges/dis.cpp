@@ -95,7 +95,7 @@ error::Expected<Motion> motion_of(memory::Bytes packet) {
                       floats_at(packet, kVelocity),
                       floats_at(packet, kOrientation)};
   if (!is_finite(motion.location) || !is_finite(motion.velocity) || !is_finite(motion.orientation))
-    return error::fail("dis", "numbers for location, velocity and orientation", "others");
+    return error::fail("dis", "numbers for location, velocity and orientation", "a value that is not finite");
   const double from_centre_m = geo::length(motion.location);
   if (!(from_centre_m >= kMinRadius_m && from_centre_m <= kMaxRadius_m))
     return error::fail("dis", "a location 6000 to 7000 km from the Earth's centre",

@@ -101,7 +101,8 @@ error::Expected<ExternalSample> checked_sample(std::string_view source, const Re
   ownship.velocity_down_mps = reading.velocity_down_mps;
   ownship.radar_altitude_m = std::numeric_limits<double>::quiet_NaN();
   source.copy(ownship.source, sizeof ownship.source - 1);
-  if (const auto refusal = validate(ownship)) return error::fail(std::string(source), "a flight that can be", *refusal);
+  if (const auto refusal = validate(ownship))
+    return error::fail(std::string(source), "a flight within range", *refusal);
   sample.rates = rates;
   sample.acceleration_mps2 = acceleration_mps2;
   return sample;

@@ -113,8 +113,8 @@ std::optional<double> map_timer_s(const RadarState& state, const ModelStatus& mo
   if (!std::isfinite(model.map_timer_s)) return std::nullopt;
   const bool forms = model.map_window_nm > 0.0;
   const bool could_form = can_map_in(static_cast<radar::Mode>(state.resume_mode)) &&
-                     state.cursor_function == static_cast<std::uint8_t>(radar::CursorFunction::map) &&
-                     state.window_nm > 0.0 && model.mappable != 0;
+                          state.cursor_function == static_cast<std::uint8_t>(radar::CursorFunction::map) &&
+                          state.window_nm > 0.0 && model.mappable != 0;
   if (!forms && !could_form) return std::nullopt;
   return model.map_timer_s;
 }

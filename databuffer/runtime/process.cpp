@@ -198,7 +198,7 @@ std::optional<std::string> bind_to_cpus(const std::vector<int>& cpus) {
       absent.append(absent.empty() ? "" : ",").append(std::to_string(cpu));
   }
   if (!absent.empty())
-    return "--cpus: CPU " + absent + " is not there for this program (taskset -p $$ shows which are); all are used";
+    return "--cpus: CPU " + absent + " is not available to this program (taskset -p $$ shows which are); all are used";
   if (sched_setaffinity(0, sizeof wanted, &wanted) == 0) return std::nullopt;
   return std::string("--cpus: refused: ") + std::strerror(errno) + "; all CPUs are used";
 }
@@ -226,7 +226,7 @@ std::optional<std::string> take_realtime_priority() {
   const int error = errno;
   rlimit limit{};
   getrlimit(RLIMIT_RTPRIO, &limit);
-  return "--realtime: normal priority: expected leave to use SCHED_FIFO " + std::to_string(kRealtimePriority) +
+  return "--realtime: normal priority: expected permission to use SCHED_FIFO " + std::to_string(kRealtimePriority) +
          ", found " + std::strerror(error) + " with RLIMIT_RTPRIO " + bytes_or_unlimited(limit.rlim_cur) +
          "; raise rtprio in " + std::string(kLimitsFile);
 }

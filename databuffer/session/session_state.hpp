@@ -128,7 +128,7 @@ struct SessionState {
 
   std::shared_ptr<shm::Segment> segment;
   std::string process_name;
-  std::size_t table_byte = 0;     // 0: not in the table
+  std::size_t table_byte = 0;       // 0: not in the table
   std::int64_t next_upkeep_ns = 0;  // CLOCK_MONOTONIC
   bool had_name = true;
   std::mutex notes_mutex;  // of this process's threads only
