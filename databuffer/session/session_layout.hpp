@@ -168,8 +168,8 @@ inline constexpr std::array kRecordIdentities = {
 inline constexpr shm::LayoutIdentity kLayoutIdentity{kLayoutVersion, sizeof(SessionLayout),
                                                      shm::layout_hash(kRecordIdentities)};
 
-inline constexpr std::size_t kMaxSegment_bytes = std::size_t{64}
-                                                 << 20;  // [bytes] a default /dev/shm has this much to spare
+// [bytes] A default /dev/shm has this much to spare.
+inline constexpr std::size_t kMaxSegment_bytes = std::size_t{64} << 20;
 static_assert(sizeof(SessionLayout) <= kMaxSegment_bytes && std::is_standard_layout_v<SessionLayout>);
 
 }  // namespace yars::databuffer
