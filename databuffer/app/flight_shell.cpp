@@ -139,7 +139,7 @@ BridgeShell::BridgeShell(Session& session, bridges::BridgeSource source, UdpSock
       source_(std::move(source)),
       socket_(std::move(socket)),
       lane_(static_cast<std::size_t>(lane)),
-      flight_(source_.bridge->reach()) {
+      flight_(source_.bridge->extrapolation_limit()) {
   log::info((source_.requests_data ? "asks " : "listens for ") + source_.name +
             (source_.requests_data ? " at " : " on ") + text_of(socket_.endpoint()));
   if (source_.bridge->has_traffic()) claim_traffic();

@@ -2,7 +2,7 @@
 // Inputs: datagrams with sender and arrival time.
 // Outputs: validated samples of the aircraft, tracked entities, datagrams to send.
 // Errors: a refused datagram returns an Error with the reason.
-// Threads: none; a Bridge opens no socket and reads no clock.
+// Threads: pure; a Bridge opens no socket and reads no clock.
 #pragma once
 
 #include <cstddef>
@@ -74,7 +74,7 @@ class Bridge {
   virtual std::optional<std::string> take_log_message() { return std::nullopt; }
 
   // Time after a packet during which the aircraft is dead reckoned.
-  virtual geo::Duration reach() const { return geo::Duration::seconds(1.0); }
+  virtual geo::Duration extrapolation_limit() const { return geo::Duration::seconds(1.0); }
   // True if several senders are normal and the protocol itself tells them apart.
   virtual bool allows_many_senders() const { return false; }
 };

@@ -44,7 +44,7 @@ class DisBridge final : public Bridge {
   std::vector<TrackedEntity> traffic(geo::Duration now) const override { return others_.at(now); }
   std::optional<std::string> take_log_message() override;
   // DIS senders report only what receivers cannot extrapolate, and otherwise once per heartbeat.
-  geo::Duration reach() const override { return kEntityTimeout; }
+  geo::Duration extrapolation_limit() const override { return kEntityTimeout; }
   bool allows_many_senders() const override { return true; }
 
  private:

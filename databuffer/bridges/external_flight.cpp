@@ -279,7 +279,7 @@ void ExternalFlight::receive(const ExternalSample& sample, geo::Duration receive
 }
 
 std::optional<Ownship> ExternalFlight::estimate(geo::Duration moment) const {
-  if (!last_ || moment - last_->received > reach_) return std::nullopt;
+  if (!last_ || moment - last_->received > extrapolation_limit_) return std::nullopt;
   const geo::Duration after = std::max(moment - last_->received, -kMaxBackward);
   const double share = std::exp(-std::max(after.seconds(), 0.0) / kBlendTime.seconds());
   Ownship state = dead_reckoned(last_->sample, after);

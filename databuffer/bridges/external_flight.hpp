@@ -96,18 +96,21 @@ inline constexpr geo::Length kJumpDistance = geo::Length::metres(300.0);
 // Each report is dead reckoned with its own rates and acceleration. Without them, those measured over the last 80 ms or
 // more are used. The difference between a new report and the current output decays with kBlendTime, so that the output
 // has no steps. A difference above kJumpDistance is a jump and applies at once. A position that stays constant in spite
-// of a velocity means that the program is paused; the aircraft then stands still. Accuracy: for reports 5 to 400 times
+// of a velocity means that the program is paused; the aircraft then stands still.
+//
+// Accuracy: for reports 5 to 400 times
 // a second that arrive up to J late, with gaps T, in a turn with acceleration a and turn rate w, the output is within
 // |v| J + a w T^3 / 6 + 1 m of the truth. Steps of 20 ms differ from the truth's by at most 8 % of that bound
 // (tests/databuffer/bridges/external_flight_test.cpp).
 class ExternalFlight {
  public:
-  // `reach`: time after a report during which the aircraft is dead reckoned.
-  explicit ExternalFlight(geo::Duration reach) : reach_(reach) {}
+  // `extrapolation_limit`: time after a report during which the aircraft is dead reckoned.
+  explicit ExternalFlight(geo::Duration extrapolation_limit) : extrapolation_limit_(extrapolation_limit) {}
 
   // `received`: arrival time, which does not go back.
   void receive(const ExternalSample& sample, geo::Duration received);
-  // Output at `moment`, which may lie slightly before the last report. nullopt: no report within the reach.
+  // Output at `moment`, which may lie slightly before the last report. nullopt: the last report is older than the
+  // limit.
   std::optional<flight::FlightSample> at(geo::Duration moment) const;
 
   int jumps() const { return jumps_; }
@@ -129,7 +132,7 @@ class ExternalFlight {
     ExternalSample sample;
     geo::Duration received;
   };
-  geo::Duration reach_;
+  geo::Duration extrapolation_limit_;
   std::optional<Report> last_;     // with the rates to extrapolate by
   std::optional<Report> earlier_;  // reference for measuring rates
   std::optional<AttitudeRates> measured_rates_;

@@ -83,7 +83,8 @@ class JsbsimBridge final : public Bridge {
 // when each dataref has arrived since the last complete state. Datarefs of other programs are ignored.
 // Accuracy: positions are f32, so longitude and latitude have steps of up to 0.85 m.
 // Frame: velocity refers to X-Plane's local axes, level at a reference point, and is rotated to the aircraft's
-// position. Source: "Exchanging Data with X-Plane.rtfd" of every X-Plane; names from its DataRefs.txt.
+// position.
+// Source: "Exchanging Data with X-Plane.rtfd" of every X-Plane; names from its DataRefs.txt.
 inline constexpr std::size_t kXplaneDatarefs = 14;
 // Names, indexed by their numbers in requests and replies.
 extern const std::array<std::string_view, kXplaneDatarefs> kXplaneNames;

@@ -3,7 +3,8 @@
 // Outputs: Ownship and Nav without source_time_ns and epoch.
 // Frame: latitude and longitude are WGS84, altitude is above mean sea level, velocity is over ground.
 // Accuracy: lengths are scaled as if altitude were height above the ellipsoid. An undulation of 100 m changes a
-// velocity by 1.6e-5 of it. Threads: pure and deterministic.
+// velocity by 1.6e-5 of it.
+// Threads: pure and deterministic.
 #pragma once
 
 #include <string_view>

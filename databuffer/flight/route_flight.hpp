@@ -41,7 +41,8 @@ error::Expected<Route> parse_route(std::string_view text, std::string_view name)
 // Flies great-circle legs with coordinated turns of at most 30 deg bank and limited roll rate. A turn begins before the
 // waypoint, so that it ends on the next leg. Climb rate, and acceleration of speed and climb, are limited. After a
 // repositioning it flies to the end of the nearest leg. After the last waypoint of a route without loop it flies
-// straight on. Guidance: the leg is approached along a circle tangent to it. The turn rate is proportional to the
+// straight on.
+// Guidance: the leg is approached along a circle tangent to it. The turn rate is proportional to the
 // difference between the track and the direction of that circle.
 inline constexpr geo::Angle kBankLimit = geo::Angle::degrees(30.0);  // usual limit of airliners and ferry flights
 inline constexpr double kRollRate_dps = 15.0;

@@ -2,7 +2,8 @@
 // Inputs: track text; steps of sim time.
 // Outputs: Ownship and Nav.
 // Errors: a missing column, times that do not ascend, a value out of range, or fewer than two rows; errors name the
-// line. Source: docs/spec/formats.md#csv.
+// line.
+// Source: docs/spec/formats.md#csv.
 #pragma once
 
 #include <string_view>

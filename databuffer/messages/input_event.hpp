@@ -61,7 +61,7 @@ Refusal validate(const InputEvent& event);
 //   pb 13 | tdc 0.5 0 | tdc press | tdc release | coolie up | acq fwd|aft | freeze | elevation -5 |
 //   elevation up|down [STEPS] (0.5 deg each, project choice) | mode ag|aa|agr | radar rbm|hrm|bcn|pvu |
 //   power off|stby|opr | nav mn|ins|toggle | sp 2.1 | altimeter ok|fail | contrast up|down
-// Words are separated by blanks; case is ignored. Source: docs/spec/pilots_interface.md#controls.
+// Words are separated by blanks; case is ignored.
 
 // Parses an event; its times and number are zero. An error lists the valid forms.
 error::Expected<InputEvent> event_from_text(std::string_view text);

@@ -1,4 +1,4 @@
-// Frame of every program: installed files, common options, log, exit codes.
+// Start and end of every program: installed files, common options, log, exit codes.
 // Inputs: command line; YARS_SESSION.
 // Outputs: exit code 0, kExitFailure or kExitUsage; errors as one line on standard error.
 // Threads: call from the first thread.

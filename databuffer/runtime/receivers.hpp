@@ -19,10 +19,10 @@
 
 namespace yars::databuffer {
 
-inline constexpr std::size_t kMaxOwnshipLanes = 4;
+inline constexpr std::size_t kMaxOwnshipLanes = 4;  // capacity of OwnshipSelection
 // [ns] 25 records of a 50 Hz source. Shorter: a loaded machine loses its source. Longer: a dead source stays in use.
 inline constexpr std::int64_t kStaleAfter_ns = 500'000'000;
-// [ns] Time of gap-free delivery before a lane replaces a fresh one. A source that fails more often never takes over.
+// [ns] Time of gap-free delivery before a lane replaces a fresh one. A source that fails within it never takes over.
 inline constexpr std::int64_t kTakeoverAfter_ns = 250'000'000;
 
 struct OwnshipLane {
@@ -48,8 +48,8 @@ struct OwnshipSelection {
 // used. A version seen first does not count as a change, because a dead writer may have left it. A higher lane takes
 // over after gap-free delivery for kTakeoverAfter_ns. The selected lane is left only when it is stale or such a lane
 // exists. At equal priority the selected lane stays; without one the lower index wins. `lanes`: at most
-// kMaxOwnshipLanes entries, always in the same order. `now_ns`: CLOCK_MONOTONIC, or sim time in lockstep. When it goes
-// back, each lane counts as received at that moment.
+// kMaxOwnshipLanes entries, always in the same order. `now_ns`: time of any clock; OwnshipReceiver passes sim time.
+// When it goes back, each lane counts as received at that moment.
 OwnshipSelection select_ownship(std::span<const OwnshipLane> lanes, std::int64_t now_ns,
                                 const OwnshipSelection& previous);
 
@@ -57,13 +57,15 @@ OwnshipSelection select_ownship(std::span<const OwnshipLane> lanes, std::int64_t
 inline constexpr double kPositionTolerance_m = 50.0;
 // [ns] of sim time for which a new position must persist. Shorter lets one bad record move the radar.
 inline constexpr std::int64_t kJumpProof_ns = 100'000'000;
+// [ns] of sim time for which a jump without a new epoch is held back. Longer freezes the ownship if no process sets the
+// clock.
 inline constexpr std::int64_t kMaxHold_ns = 1'000'000'000;
 
 // Detector of position jumps. An aircraft cannot be further than its speed allows from its last position. A jump
 // (another source, or a simulator set back) is accepted with a new epoch only, which restarts scan and filters. The
-// record must be the first one of the session's epoch, or the epoch must have changed since the jump began. Until then
-// the previous record stays in use. A process that may set the clock raises the epoch when is_proven(). Without such a
-// process the jump is accepted after kMaxHold_ns.
+// record must be the first one of the session's epoch, or the epoch must have changed while the jump was held. Until
+// then the previous record stays in use. A process that may set the clock raises the epoch when is_proven(). Without
+// such a process the jump is accepted after kMaxHold_ns.
 class JumpGuard {
  public:
   // True if `next`, received at `received_ns`, is to be used at the tick of `now_ns` [ns of sim time]. Call once a

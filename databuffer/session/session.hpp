@@ -3,7 +3,8 @@
 // Outputs: the mapped layout, sim time [ns], claims on roles and lanes.
 // Errors: a segment of another build or user; a role or lane that another process holds; a clock out of range.
 // Threads: clock() and note() may be called from any thread of the process; all else from one.
-// Only shells (*_main.cpp, *_shell.*) use it; kernels do not. Source: docs/shared_memory.md.
+// Only shells (*_main.cpp, *_shell.*) use it; kernels do not.
+// Source: docs/shared_memory.md.
 #pragma once
 
 #include <cstdint>
