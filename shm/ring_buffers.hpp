@@ -15,11 +15,11 @@ struct RingRead {
   bool delivered;      // a record was copied to `out`
   std::uint64_t lost;  // records that this call skipped because the producer overtook the reader
 };
+
 // History of one producer, N records deep. Each reader keeps its own cursor: the number of the record that it reads
 // next, counted from 0 since the session began. The producer keeps no state of its readers.
 // A producer killed after any store leaves every record but the oldest readable. A restarted one continues its count.
 // Of a record with `used_bytes` only those bytes are copied; the rest of `out` is left unchanged.
-
 template <Record T, std::size_t N, class Access = PlainAccess>
 class BroadcastRing {
   static_assert(N >= 2 && (N & (N - 1)) == 0, "a power of two: the slot is found by a mask");

@@ -61,6 +61,7 @@ inline void wide_move(void* to, const void* from) {
 // store and runs the writer before every load.
 // A record of variable length declares `std::size_t used_bytes(const Record&)` in its own namespace. Only that many
 // leading bytes are copied.
+
 inline constexpr std::size_t kCacheLine = 64;  // [bytes] smaller puts the writer's and reader's cursors on one line
 
 using Word = std::uint64_t;

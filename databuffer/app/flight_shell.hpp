@@ -57,13 +57,6 @@ class FlightShell {
   std::int64_t last_published_tick_ = 0;
 };
 
-// Publishes the aircraft that an external program flies, and the surface traffic that it reports.
-// The program keeps its own clock: it continues while the session is frozen, and a clock rate other than 1 does not
-// affect it. A position that changed during a freeze counts as a jump, and takes a new epoch. The bridge refuses a
-// repositioning, which only the external program can do.
-// Without packets for the extrapolation limit of the bridge, nothing is published. The lane becomes stale, another lane
-// takes over, and this one returns with the packets. Traffic is published unless another program has claimed that role.
-
 // Datagrams processed per tick. More wait in the kernel's queue, and the kernel drops those that do not fit.
 // A larger value lets a flood of packets delay a tick.
 inline constexpr std::size_t kMaxDatagramsPerTick = 256;
@@ -71,6 +64,12 @@ inline constexpr std::size_t kMaxDatagramsPerTick = 256;
 // Opens the UDP socket of the source.
 error::Expected<UdpSocket> open_socket(const bridges::BridgeSource& source);
 
+// Publishes the aircraft that an external program flies, and the surface traffic that it reports.
+// The program keeps its own clock: it continues while the session is frozen, and a clock rate other than 1 does not
+// affect it. A position that changed during a freeze counts as a jump, and takes a new epoch. The bridge refuses a
+// repositioning, which only the external program can do.
+// Without packets for the extrapolation limit of the bridge, nothing is published. The lane becomes stale, another lane
+// takes over, and this one returns with the packets. Traffic is published unless another program has claimed that role.
 class BridgeShell {
  public:
   // `lane`: index of the claimed ownship lane.

@@ -210,7 +210,7 @@ constexpr std::size_t kHeadBytes = 5;  // "RREF" and one byte without meaning he
 constexpr std::size_t kPairBytes = 8;
 constexpr std::string_view kMark = "RREF";
 constexpr std::uint32_t kAllReceived = (1U << kXplaneDatarefs) - 1U;
-// minimum time without a reply before requests are repeated
+// Minimum time without a reply before requests are repeated.
 constexpr geo::Duration kRequestInterval = geo::Duration::seconds(1.0);
 
 namespace xplane {

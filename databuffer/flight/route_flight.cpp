@@ -69,7 +69,7 @@ namespace {
 
 constexpr double kGravity_mps2 = 9.80665;  // [m/s^2] standard gravity; turn radius is inversely proportional to it
 constexpr double kMaxStep_s = 0.02;        // [s] maximum integration step; longer ones distort roll-in and roll-out
-// [1/s] gain x kClimbLimit = kAcceleration_mps2; more exceeds that when levelling off
+// [1/s] Gain x kClimbLimit equals kAcceleration_mps2. A larger gain needs more than that when levelling off.
 constexpr double kClimbGain_per_s = 0.1;
 constexpr double kMaxLeadTurn_deg = 120.0;  // [deg] largest turn for the lead distance, which diverges at 180 deg
 // Bank for planning turns. The margin to kBankLimit corrects errors of roll-in and of speed changes.
@@ -77,15 +77,15 @@ constexpr geo::Angle kPlannedBank = geo::Angle::degrees(27.0);
 constexpr double kCaptureTime_s = 8.0;      // [s] near the leg the distance from it decays with this time constant
 constexpr double kTrackGain_per_s = 0.3;    // [1/s] turn rate per track error; rolling takes a fraction of its inverse
 constexpr double kMaxIntercept_deg = 90.0;  // [deg] largest angle towards the leg
-// [deg] beyond it both directions are equal, so that a turn in progress keeps its direction
+// [deg] Track error beyond which either direction is acceptable, so that a turn in progress keeps its direction.
 constexpr double kAmbiguousTurn_deg = 150.0;
 
 double turn_radius_m(double speed_mps) {
   return speed_mps * speed_mps / (kGravity_mps2 * std::tan(kPlannedBank.radians()));
 }
 
-double approach(double value, double target, double most) {
-  return value + std::clamp(target - value, -most, most);
+double approach(double value, double target, double max_change) {
+  return value + std::clamp(target - value, -max_change, max_change);
 }
 
 Motion start_of(const Route& route, const Leg& leg) {
@@ -208,13 +208,13 @@ geo::Angle RouteFlight::commanded_bank() const {
 
 void RouteFlight::change_speeds(double dt_s) {
   const Waypoint& waypoint = route_.waypoints[target_];
-  const double most_mps = kAcceleration_mps2 * dt_s;
+  const double max_change_mps = kAcceleration_mps2 * dt_s;
   const double limit_mps = kClimbLimit.metres_per_second();
   const double rise_m = (waypoint.altitude - motion_.altitude).metres();
   const double climb_mps = std::clamp(kClimbGain_per_s * rise_m, -limit_mps, limit_mps);
-  motion_.climb = geo::Speed::metres_per_second(approach(motion_.climb.metres_per_second(), climb_mps, most_mps));
+  motion_.climb = geo::Speed::metres_per_second(approach(motion_.climb.metres_per_second(), climb_mps, max_change_mps));
   motion_.ground_speed = geo::Speed::metres_per_second(
-      approach(motion_.ground_speed.metres_per_second(), waypoint.ground_speed.metres_per_second(), most_mps));
+      approach(motion_.ground_speed.metres_per_second(), waypoint.ground_speed.metres_per_second(), max_change_mps));
 }
 
 void RouteFlight::move(double dt_s) {

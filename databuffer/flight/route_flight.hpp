@@ -17,8 +17,7 @@
 
 namespace yars::databuffer::flight {
 
-// Waypoint of a route. One a line: `LAT LON ALT_FT KT` (degrees, degrees, feet above mean sea level, knots over
-// ground).
+// Waypoint of a route. One a line: `LAT LON ALT_FT KT` (degrees, degrees, feet above mean sea level, knots).
 // `#` begins a comment. A last line `loop` closes the route to its first waypoint. Altitude and speed apply to the leg
 // that ends at the waypoint.
 struct Waypoint {
@@ -38,17 +37,17 @@ struct Route {
 // `name`: file name for errors.
 error::Expected<Route> parse_route(std::string_view text, std::string_view name);
 
-// Flies great-circle legs with coordinated turns of at most 30 deg bank and limited roll rate. A turn begins before the
-// waypoint, so that it ends on the next leg. Climb rate, and acceleration of speed and climb, are limited. After a
-// repositioning it flies to the end of the nearest leg. After the last waypoint of a route without loop it flies
-// straight on.
-// Guidance: the leg is approached along a circle tangent to it. The turn rate is proportional to the
-// difference between the track and the direction of that circle.
 inline constexpr geo::Angle kBankLimit = geo::Angle::degrees(30.0);  // usual limit of airliners and ferry flights
 inline constexpr double kRollRate_dps = 15.0;
 inline constexpr geo::Speed kClimbLimit = geo::Speed::metres_per_second(20.0);  // 3,900 ft/min
 inline constexpr double kAcceleration_mps2 = 2.0;  // [m/s^2] limit of the change of speed and of climb
 
+// Flies great-circle legs with coordinated turns of at most 30 deg bank and limited roll rate. A turn begins before the
+// waypoint, so that it ends on the next leg. Climb rate, and acceleration of speed and climb, are limited. After a
+// repositioning it flies to the end of the nearest leg. After the last waypoint of a route without loop it flies
+// straight on.
+// Guidance: the leg is approached along a circle tangent to it. The turn rate is proportional to the difference
+// between the track and the direction of that circle.
 class RouteFlight final : public FlightModel {
  public:
   explicit RouteFlight(Route route);
