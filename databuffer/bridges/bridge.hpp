@@ -32,19 +32,19 @@ inline constexpr geo::Duration kSenderSilence = geo::Duration::seconds(0.5);
 class SenderGate {
  public:
   bool admits(const Sender& sender, geo::Duration now) const {
-    return !holder_ || *holder_ == sender || now - heard_ > kSenderSilence;
+    return !holder_ || *holder_ == sender || now - last_report_ > kSenderSilence;
   }
   // Records an accepted report of this sender. True: the sender differs from the previous one.
   bool taken(const Sender& sender, geo::Duration now) {
     const bool is_new = holder_ != sender;
     holder_ = sender;
-    heard_ = now;
+    last_report_ = now;
     return is_new;
   }
 
  private:
   std::optional<Sender> holder_;
-  geo::Duration heard_;
+  geo::Duration last_report_;
 };
 
 using Datagram = std::vector<std::byte>;

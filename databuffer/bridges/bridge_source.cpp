@@ -25,23 +25,23 @@ error::Expected<std::optional<ExternalSample>> DisBridge::receive(memory::Bytes 
   if (is_other_pdu(datagram)) return std::nullopt;
   const auto state = decode_entity_state(datagram);
   if (!state) return tl::unexpected(state.error());
-  if (!named_ && aircraft_ && now - heard_ > kEntityTimeout) release_aircraft("has been silent for 12 s");
+  if (!configured_ && aircraft_ && now - last_report_ > kEntityTimeout) release_aircraft("has been silent for 12 s");
   const bool flies = state->kind == EntityKind::platform && state->domain == EntityDomain::air;
   if (!aircraft_ && flies && !state->deactivated) {
     aircraft_ = state->id;
     order_ = StampOrder(kDisStampPeriod);
-    others_.forget(state->id);
+    traffic_.forget(state->id);
     log_message_ = log_message_.value_or("") + (log_message_ ? "; " : "") + "the aircraft is entity " +
                    text_of(state->id) + ", the first air platform received";
   }
   if (state->id != aircraft_) {
-    if (const auto reason = others_.update(*state, now)) return error::fail("dis", "newer traffic", *reason);
+    if (const auto reason = traffic_.update(*state, now)) return error::fail("dis", "newer traffic", *reason);
     return std::nullopt;
   }
   if (const auto reason = order_.order_fault(state->stamp)) return error::fail("dis", "a newer report", *reason);
-  heard_ = now;
+  last_report_ = now;
   if (state->deactivated) {
-    if (!named_) release_aircraft("was deactivated");
+    if (!configured_) release_aircraft("was deactivated");
     return std::nullopt;
   }
   ExternalSample sample = state->sample;

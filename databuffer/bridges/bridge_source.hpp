@@ -37,11 +37,11 @@ class RefusalNotes {
 // kEntityTimeout. The next air platform received then takes its role.
 class DisBridge final : public Bridge {
  public:
-  explicit DisBridge(const std::optional<EntityId>& aircraft) : aircraft_(aircraft), named_(aircraft) {}
+  explicit DisBridge(const std::optional<EntityId>& aircraft) : aircraft_(aircraft), configured_(aircraft) {}
 
   error::Expected<std::optional<ExternalSample>> receive(memory::Bytes datagram, geo::Duration now) override;
   bool has_traffic() const override { return true; }
-  std::vector<TrackedEntity> traffic(geo::Duration now) const override { return others_.at(now); }
+  std::vector<TrackedEntity> traffic(geo::Duration now) const override { return traffic_.at(now); }
   std::optional<std::string> take_log_message() override;
   // DIS senders report only what receivers cannot extrapolate, and otherwise once per heartbeat.
   geo::Duration extrapolation_limit() const override { return kEntityTimeout; }
@@ -51,10 +51,10 @@ class DisBridge final : public Bridge {
   void release_aircraft(std::string_view why);
 
   std::optional<EntityId> aircraft_;
-  bool named_;           // configured by the user, so no other entity replaces it
-  geo::Duration heard_;  // last report of the aircraft
+  bool configured_;            // configured by the user, so no other entity replaces it
+  geo::Duration last_report_;  // last report of the aircraft
   StampOrder order_{kDisStampPeriod};
-  EntityTable others_;
+  EntityTable traffic_;
   std::optional<std::string> log_message_;
 };
 

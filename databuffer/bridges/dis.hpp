@@ -36,6 +36,7 @@ std::string text_of(EntityId id);  // "SITE,APP,ENTITY"
 enum class EntityKind : std::uint8_t { other = 0, platform = 1 };  // numbers of the PDU; kinds not listed keep theirs
 enum class EntityDomain : std::uint8_t { other = 0, land = 1, air = 2, surface = 3, subsurface = 4, space = 5 };
 
+// Time stamps of DIS wrap each hour.
 inline constexpr geo::Duration kDisStampPeriod = geo::Duration::seconds(3600.0);
 
 struct EntityState {
@@ -56,6 +57,7 @@ bool is_other_pdu(memory::Bytes packet);
 
 // Silence after which an entity has left: the standard's heartbeat of 5 s times its factor 2.4.
 inline constexpr geo::Duration kEntityTimeout = geo::Duration::seconds(12.0);
+// Capacity of EntityTable. Without it a flood of ids takes all memory.
 inline constexpr std::size_t kMaxEntities = 1'000;
 
 // One entity, dead reckoned to the requested time.

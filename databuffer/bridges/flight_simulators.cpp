@@ -302,7 +302,7 @@ error::Expected<std::optional<ExternalSample>> XplaneBridge::receive(memory::Byt
       return error::fail("xplane", std::string(kXplaneNames[number]) + ", a number", text::text_of_number(value));
     values_[number] = value;
     received_mask_ |= 1U << number;
-    heard_ = now;
+    last_reply_ = now;
   }
   if (received_mask_ != kAllReceived) return std::nullopt;
   received_mask_ = 0;
@@ -315,7 +315,7 @@ std::vector<Datagram> XplaneBridge::requests(geo::Duration now) {
   const auto over = [now](const std::optional<geo::Duration>& then) {
     return !then || now - *then >= kRequestInterval;
   };
-  if (!over(last_request_) || !over(heard_)) return {};
+  if (!over(last_request_) || !over(last_reply_)) return {};
   last_request_ = now;
   std::vector<Datagram> all;
   for (std::size_t number = 0; number < kXplaneDatarefs; ++number)

@@ -26,8 +26,8 @@ namespace yars::databuffer::bridges {
 error::Expected<ExternalSample> decode_flightgear(memory::Bytes packet);
 
 // JSBSim's socket output is comma-separated text. A line that begins with <LABELS> names the columns by the last part
-// of their property names. It may be repeated, with columns in any order and with additional ones. Required:
-// position/lat-geod-deg, position/long-gc-deg, position/h-sl-ft, attitude/phi-deg, theta-deg, psi-deg,
+// of their property names. It may be repeated, with columns in any order and with additional ones.
+// Required: position/lat-geod-deg, position/long-gc-deg, position/h-sl-ft, attitude/phi-deg, theta-deg, psi-deg,
 // velocities/v-north-fps, v-east-fps, v-down-fps, and Time, which JSBSim always sends and which orders the lines.
 // JSBSim sends its labels once, at its start. A receiver that starts later needs them in --source. Labels apply to the
 // lines of the same sender only.
@@ -103,7 +103,7 @@ class XplaneBridge final : public Bridge {
 
  private:
   std::optional<geo::Duration> last_request_;
-  std::optional<geo::Duration> heard_;
+  std::optional<geo::Duration> last_reply_;
   std::array<float, kXplaneDatarefs> values_{};
   std::uint32_t received_mask_ = 0;  // bit n: dataref n has arrived since the last complete state
 };

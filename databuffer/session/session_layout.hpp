@@ -112,7 +112,7 @@ struct FrameSlot {
   std::array<std::atomic<std::uint64_t>, kMaxFramePixels * kMaxFramePixels * 4 / 8> pixels;  // RGBA
 };
 
-// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): the order is what the parts are, the padding cache lines
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): the order is the layout, and cache lines need the padding
 struct SessionLayout {
   shm::SegmentHeader header;
   Lockstep lockstep;
