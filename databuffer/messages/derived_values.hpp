@@ -26,9 +26,9 @@ namespace yars::databuffer {
 // The same for an ownship record.
 geo::Bearing ground_track_of(const Ownship& ownship);
 
-// Position that a navigator believes, and the true position. Video is formed from the truth. Sequence points, and all
-// positions reported to other systems, are the navigator's. The belief is the navigator's position in Nav plus the
-// error kept in the radar state.
+// Position that a navigator computes (`believed`), and the true position. Video is formed from the truth. Sequence
+// points, and all positions reported to other systems, are the navigator's. `believed` is the navigator's position in
+// Nav plus the error kept in the radar state.
 struct Belief {
   geo::GeoPoint truth;
   geo::GeoPoint believed;

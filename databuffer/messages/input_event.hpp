@@ -44,8 +44,8 @@ enum class EventKind : std::uint16_t {
 struct InputEvent {
   std::int64_t session_time_ns;  // [ns] sim time at which the source made it
   std::int64_t monotonic_ns;     // [ns] CLOCK_MONOTONIC at which the source made it; the reference of latency
-  double x;                      // TDC deflection right [-1, 1], or elevation [deg]
-  double y;                      // TDC deflection up [-1, 1]
+  double x;                      // TDC deflection right [-1, 1], elevation [deg], or north [ft], [ft/s]
+  double y;                      // TDC deflection up [-1, 1], or east [ft], [ft/s]
   std::uint16_t kind;            // EventKind
   std::int16_t argument;
   std::uint32_t number;  // counts up per source; `yars inject` waits for its own
@@ -60,7 +60,8 @@ Refusal validate(const InputEvent& event);
 // Text form of events, for scripts, `yars inject` and logs. `coolie up` is the castle switch.
 //   pb 13 | tdc 0.5 0 | tdc press | tdc release | coolie up | acq fwd|aft | freeze | elevation -5 |
 //   elevation up|down [STEPS] (0.5 deg each, project choice) | mode ag|aa|agr | radar rbm|hrm|bcn|pvu |
-//   power off|stby|opr | nav mn|ins|toggle | sp 2.1 | altimeter ok|fail | contrast up|down
+//   power off|stby|opr | nav mn|ins|toggle | nav error|drift mn|ins NORTH EAST (ft, ft/s) | sp 2.1 |
+//   altimeter ok|fail | contrast up|down
 // Words are separated by blanks; case is ignored.
 
 // Parses an event; its times and number are zero. An error lists the valid forms.

@@ -32,6 +32,7 @@ void request_stop();
 
 // Real-time services. The system may refuse each; the program then names the limit to raise and continues.
 // A thread that computes for kMaxBurst_ms without a wait returns to normal priority, before it can block a CPU.
+
 // SCHED_FIFO priority, 1..99: above other programs, below the kernel's interrupt threads. A higher one delays those.
 inline constexpr int kRealtimePriority = 20;
 inline constexpr int kMaxBurst_ms = 500;  // [ms] of CPU without a wait; longer would block a CPU

@@ -50,6 +50,7 @@ using ProgramBody = std::function<error::Expected<void>()>;
 int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& options, const ProgramBody& body);
 
 // Parts of run_program(), for a program whose subcommands run during parsing.
+
 // Prints help or one line, and returns the exit code.
 int report_parse_outcome(const CLI::App& app, const CLI::ParseError& outcome);
 // Starts the log, applies CPUs and priority, installs signal handlers.
