@@ -1,8 +1,10 @@
-// Queues from several sources to one consumer: each source has a lane of its own (one producer, one consumer, order
-// kept), so that no source can hold up or tear another's. A full lane drops the newest and counts it. Both cursors
-// lie in the segment: a restarted consumer goes on where the dead one stopped, and a producer killed anywhere leaves
-// whole records only. A lane whose producer is gone may be taken over once it is empty. Zero-filled memory is the
-// empty state. `lane` in [0, Lanes).
+// Queues in shared memory from several sources to one consumer; each source has its own lane.
+// Inputs: records pushed by one producer per lane; `lane` in [0, Lanes).
+// Outputs: records of each lane in order. Records of different lanes have no common order.
+// Errors: a full lane drops the newest record and counts it.
+// Threads: one producer per lane and one consumer; none waits. Zero-filled memory is the empty state.
+// Both cursors lie in the segment, so a restarted consumer continues where its predecessor stopped.
+// A producer killed after any store leaves whole records only. An empty lane without a producer can be claimed again.
 #pragma once
 
 #include <array>
@@ -16,9 +18,9 @@ class InputLanes {
   static_assert(Depth >= 2 && (Depth & (Depth - 1)) == 0, "a power of two: the slot is found by a mask");
 
  public:
-  // The lane's producer. False: the lane was full, the record is dropped and counted.
+  // For the lane's producer. False: the lane was full, and the record was dropped and counted.
   bool push(std::size_t lane, const T& record);
-  // The consumer. False: nothing there. What it has peeked at is still there to be popped.
+  // For the consumer. False: the lane is empty. peek() leaves the record in the lane; pop() removes it.
   bool peek(std::size_t lane, T& out);
   bool pop(std::size_t lane, T& out);
 
@@ -29,7 +31,7 @@ class InputLanes {
     return Access::load(lanes_[lane].dropped, std::memory_order_relaxed);
   }
 
-  // Who feeds the lane, for people: 23 characters are kept.
+  // Name of the lane's producer, for display; 23 characters are kept.
   void set_source(std::size_t lane, std::string_view source) {
     store_text<Access>(lanes_[lane].source.data(), kSourceWords, source);
   }
@@ -49,12 +51,12 @@ class InputLanes {
   using StoredRecord = std::array<AtomicWord, kWordsOf<T>>;
 
   struct Lane {
-    alignas(kCacheLine) AtomicWord pushed;  // the producer's line
+    alignas(kCacheLine) AtomicWord pushed;  // written by the producer
     AtomicWord dropped;
-    AtomicWord popped_seen;  // popped as the producer last looked: it looks again only when the lane seems full
+    AtomicWord popped_seen;  // copy of `popped` at the producer; read again only when the lane seems full
     std::array<AtomicWord, kSourceWords> source;
-    alignas(kCacheLine) AtomicWord popped;  // the consumer's line
-    AtomicWord pushed_seen;                 // pushed as the consumer last looked
+    alignas(kCacheLine) AtomicWord popped;  // written by the consumer
+    AtomicWord pushed_seen;                 // copy of `pushed` at the consumer
     alignas(kCacheLine) std::array<StoredRecord, Depth> records;
   };
 
@@ -88,7 +90,8 @@ bool InputLanes<T, Lanes, Depth, Access>::peek(std::size_t lane, T& out) {
     Access::store(from.pushed_seen, pushed, std::memory_order_relaxed);
     if (number == pushed) return false;
   }
-  // No producer gets further ahead than the lane is deep: the cursors are damaged, and what lies there is in no order.
+  // A distance above Depth means damaged cursors. The consumer then skips to `pushed`, because the records are in no
+  // order.
   if (pushed - number > Depth) {
     pushed = Access::load(from.pushed, std::memory_order_acquire);
     Access::store(from.pushed_seen, pushed, std::memory_order_relaxed);

@@ -1,8 +1,9 @@
-// The last whole value that one writer published, for any readers; nobody waits. A writer that is killed anywhere
-// leaves the last whole value; the next writer (one at a time: a byte lock sees to it) goes on from what lies here.
-// Zero-filled memory is the empty state. Version: counts up with each publish and each clear, 0 = never touched.
-// Reading copies out and checks; overtaken 8 times in a row it gives up and the caller keeps what it had.
-// LatestReader does that keeping and counts the reads given up.
+// Latest value of one writer for any number of readers, in shared memory.
+// Outputs: a whole copy of the newest value and its version; a torn value is never returned.
+// Version: counts up with each publish and each clear; 0 means never written. Zero-filled memory is the empty state.
+// Errors: read() gives up after 9 attempts that the writer overtook. LatestReader then keeps the previous value.
+// Threads: one writer at a time, which a byte lock of the segment ensures; readers and the writer never wait.
+// A writer killed after any store leaves the previous value whole. The next writer continues from the stored version.
 #pragma once
 
 #include <array>
@@ -16,14 +17,15 @@ template <Record T, class Access = PlainAccess>
 class LatestValue {
  public:
   void publish(const T& value);
-  // Takes the value away: readers find nothing until the next publish.
+  // Withdraws the value: readers find nothing until the next publish.
   void clear();
-  // The version copied; nullopt: nothing there, or overtaken too often. `out` is then untouched.
+  // Copies the value to `out` and returns its version. Returns nullopt and leaves `out` untouched if there is no value,
+  // or if the writer overtook every attempt.
   std::optional<std::uint64_t> read(T& out) const;
   std::uint64_t version() const { return Access::load(state_, std::memory_order_acquire) >> 1; }
   bool has_value() const { return (Access::load(state_, std::memory_order_acquire) & kPresent) != 0; }
 
-  // Where things lie, for databuffer/client/yars.h and `yars status --layout`.
+  // Offsets [bytes] for databuffer/client/yars.h and `yars status --layout`.
   static constexpr std::size_t kSlots = 4;
   static constexpr std::size_t state_offset() { return offsetof(LatestValue, state_); }
   static constexpr std::size_t slots_offset() { return offsetof(LatestValue, slots_); }
@@ -39,7 +41,7 @@ class LatestValue {
     std::array<AtomicWord, kWordsOf<T>> words;
   };
 
-  alignas(kCacheLine) AtomicWord state_;  // version * 2 + (1: a value is there); its slot is version % kSlots
+  alignas(kCacheLine) AtomicWord state_;  // version * 2 + (1 if a value is present); its slot is version % kSlots
   std::array<Slot, kSlots> slots_;
 };
 
@@ -70,7 +72,7 @@ std::optional<std::uint64_t> LatestValue<T, Access>::read(T& out) const {
     const Slot& slot = slots_[version % kSlots];
     const Word before = Access::load(slot.sequence, std::memory_order_acquire);
     if (before % 2 != 0) continue;
-    // A later value in the same slot may be one that its writer never lived to announce: only the announced one counts.
+    // A writer may die after filling the slot and before updating state_. Only the version in state_ counts.
     if (Access::load(slot.version, std::memory_order_acquire) != version) continue;
     std::array<Word, kWordsOf<T>> copy;
     load_words<Access>(slot.words.data(), copy.data(), kWordsOf<T>);
@@ -81,13 +83,13 @@ std::optional<std::uint64_t> LatestValue<T, Access>::read(T& out) const {
   return std::nullopt;
 }
 
-// One reader's view: the last value it got whole, its version, and how many reads it had to give up.
+// View of one reader: the last whole value, its version, and the number of reads given up.
 template <Record T, class Access = PlainAccess>
 class LatestReader {
  public:
   explicit LatestReader(const LatestValue<T, Access>& source) : source_(&source) {}
 
-  // True when a value newer than the one held has come.
+  // True when a value newer than the held one was copied.
   bool refresh() {
     if (source_->version() == version_ || !source_->has_value()) return false;
     const auto version = source_->read(value_);
@@ -101,7 +103,7 @@ class LatestReader {
   }
   bool has_value() const { return version_ != 0; }
   const T& value() const { return value_; }  // zero until refresh() has returned true
-  // The source has taken away what it had; the value held is the last one seen.
+  // True when the source has withdrawn its value. value() still returns the last one seen.
   bool withdrawn() const { return has_value() && !source_->has_value(); }
   std::uint64_t version() const { return version_; }
   std::uint64_t lost() const { return lost_; }

@@ -1,4 +1,7 @@
-// Ring buffers in shared memory: one producer of records, or many writers of notes.
+// Ring buffers in shared memory: BroadcastRing (one producer) and NoteRing (many writers).
+// Outputs: whole records, or an indication that a record was overwritten.
+// Errors: a slow reader loses the oldest records. BroadcastRing reports how many.
+// Threads: any number of readers; neither writers nor readers wait. Zero-filled memory is the empty ring.
 #pragma once
 
 #include <array>
@@ -7,29 +10,29 @@
 
 namespace yars::shm {
 
-// One producer, any readers, N records deep; the producer never waits and knows of no reader. Each reader keeps its
-// own cursor: the number of the record it wants next, counted from 0 since the session began. A reader that falls
-// behind is told how many records it lost. A producer killed anywhere leaves every record but the oldest readable; a
-// restarted one goes on from the stored count. Zero-filled memory is the empty ring.
-// Of a record with `used_bytes` only those travel; the rest of `out` keeps what it held.
+// Result of BroadcastRing::read().
 struct RingRead {
-  bool delivered;      // a record was copied out
-  std::uint64_t lost;  // records skipped by this call because the producer overtook the reader
+  bool delivered;      // a record was copied to `out`
+  std::uint64_t lost;  // records that this call skipped because the producer overtook the reader
 };
 
+// History of one producer, N records deep. Each reader keeps its own cursor: the number of the record that it reads
+// next, counted from 0 since the session began. The producer keeps no state of its readers.
+// A producer killed after any store leaves every record but the oldest readable. A restarted one continues its count.
+// Of a record with `used_bytes` only those bytes are copied; the rest of `out` is left unchanged.
 template <Record T, std::size_t N, class Access = PlainAccess>
 class BroadcastRing {
   static_assert(N >= 2 && (N & (N - 1)) == 0, "a power of two: the slot is found by a mask");
 
  public:
-  // The number that the record got.
+  // Returns the number of the record, counted from 0.
   std::uint64_t publish(const T& record);
-  // The number that the next record will get = records published so far.
+  // Number of the next record, which equals the number of records published.
   std::uint64_t next() const { return Access::load(next_, std::memory_order_acquire); }
-  // The oldest record that can be read: the producer may be writing over the slot behind it.
+  // Number of the oldest readable record. The slot before it may be under overwrite.
   std::uint64_t oldest() const { return oldest_before(next()); }
-  // Copies the record at `cursor` out and moves the cursor past it. Not delivered: nothing new (lost 0), or overtaken
-  // again and again (lost > 0); `out` may then hold anything.
+  // Copies the record at `cursor` to `out` and advances the cursor. Not delivered: nothing new (lost 0), or every
+  // attempt was overtaken (lost > 0). `out` is then unspecified.
   RingRead read(std::uint64_t& cursor, T& out) const;
 
   static constexpr std::size_t kDepth = N;
@@ -41,8 +44,8 @@ class BroadcastRing {
   static constexpr int kRetries = 8;
 
   struct alignas(kCacheLine) Slot {
-    AtomicWord sequence;  // 2 n + 1: record n is being written; 2 n + 2: it is whole
-    AtomicWord used;      // words that travel
+    AtomicWord sequence;  // 2 n + 1: record n is being written; 2 n + 2: record n is whole
+    AtomicWord used;      // words in use
     std::array<AtomicWord, kWordsOf<T>> words;
   };
 
@@ -98,17 +101,17 @@ RingRead BroadcastRing<T, N, Access>::read(std::uint64_t& cursor, T& out) const 
   return result;
 }
 
-// The last N lines that any process wrote; many writers, none waits, each line belongs to one writer. A writer that
-// dies loses its own line only. A writer that was stopped while the ring went round gives its line up and counts it:
-// each word is exchanged against the one found while the slot was still its own. Where a newer writer has put the same
-// word meanwhile, the exchange passes and that line is spoilt: a checksum tells. Lines are numbered from 0 since the
-// session began. Zero-filled memory is the empty ring.
+// The last N lines of any number of writers. Each line belongs to one writer, and no writer waits. Lines are numbered
+// from 0 since the session began. A writer that dies loses only its own line.
+// A writer that pauses while the ring laps it abandons its line and counts it: it stores each word by compare-exchange
+// against the value read while it still owned the slot. If a newer writer has stored the same word, the exchange
+// succeeds and corrupts that line. The checksum detects this case.
 template <Record T, std::size_t N, class Access = PlainAccess>
 class NoteRing {
  public:
-  // The number that the line got.
+  // Returns the number of the line.
   std::uint64_t append(const T& line);
-  // Lines that were given up because the ring had gone round meanwhile.
+  // Lines abandoned because the ring lapped their writer.
   std::uint64_t lost() const { return Access::load(lost_, std::memory_order_relaxed); }
   // Lines begun since the session began.
   std::uint64_t total() const { return Access::load(total_, std::memory_order_acquire); }
@@ -116,7 +119,7 @@ class NoteRing {
     const std::uint64_t end = total();
     return end < N ? 0 : end - N;
   }
-  // False: that line is lost, overwritten or not yet there; `out` is then untouched.
+  // False: the line was lost, overwritten or not yet written; `out` is untouched.
   bool read(std::uint64_t number, T& out) const;
 
   static constexpr std::size_t kDepth = N;
@@ -126,16 +129,16 @@ class NoteRing {
 
  private:
   struct Slot {
-    AtomicWord sequence;  // 2 n + 1: line n is being written; 2 n + 2: it is whole
+    AtomicWord sequence;  // 2 n + 1: line n is being written; 2 n + 2: line n is whole
     AtomicWord checksum;
     std::array<AtomicWord, kWordsOf<T>> words;
   };
   using Copy = std::array<Word, kWordsOf<T>>;
-  static constexpr int kAttempts = 8;  // more only with a slot that others damage all the time
+  static constexpr int kAttempts = 8;  // more are needed only on a slot that is damaged continuously
 
-  // True: the slot is this line's until a newer line takes it.
+  // True: this writer owns the slot until a newer line takes it.
   bool take(Slot& slot, std::uint64_t number);
-  // False: a newer line has the slot.
+  // Stores one word. False: a newer line has taken the slot.
   static bool put(Slot& slot, AtomicWord& word, Word value, Word own_sequence);
   bool write(Slot& slot, std::uint64_t number, const Copy& copy);
 
@@ -149,11 +152,11 @@ class NoteRing {
   }
 
   alignas(kCacheLine) AtomicWord total_;
-  AtomicWord lost_;  // in the rest of the line: creators of older builds have zeros there
+  AtomicWord lost_;  // uses padding of the line above; creators of older builds leave zeros there
   alignas(kCacheLine) std::array<Slot, N> slots_;
 };
 
-// A sequence that no line of this slot can have had is damage, and taken over like an older line's.
+// A sequence number that no line of this slot can have is damage. It is overwritten like that of an older line.
 template <Record T, std::size_t N, class Access>
 bool NoteRing<T, N, Access>::take(Slot& slot, std::uint64_t number) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
@@ -165,7 +168,7 @@ bool NoteRing<T, N, Access>::take(Slot& slot, std::uint64_t number) {
   return false;
 }
 
-// The word is looked at first: who has seen a newer line's word also sees its sequence.
+// Load order matters: a writer that reads a newer line's word also reads that line's sequence, and stops.
 template <Record T, std::size_t N, class Access>
 bool NoteRing<T, N, Access>::put(Slot& slot, AtomicWord& word, Word value, Word own_sequence) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {

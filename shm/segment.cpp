@@ -27,16 +27,16 @@ namespace {
 using error::Expected;
 using error::fail;
 
-constexpr std::string_view kFolder = "/dev/shm/";  // where glibc's shm_open and Boost keep their objects
-constexpr int kAttempts = 2000;                    // of 1 ms: others arrive and leave in far less
-constexpr int kFullAttempts = 300;         // of 1 ms and more: others that create have given back what they had taken
-constexpr std::size_t kParticipation = 0;  // the byte that every participant read-locks
+constexpr std::string_view kFolder = "/dev/shm/";  // glibc's shm_open and Boost keep their objects here
+constexpr int kAttempts = 2000;       // attempts 1 ms apart: other processes attach and leave in far less than 2 s
+constexpr int kMemoryAttempts = 300;  // attempts at least 1 ms apart: time for other creators to release their memory
+constexpr std::size_t kParticipation = 0;  // byte that every participant read-locks
 
 void step(const char* what) {
   if (creation_step != nullptr) creation_step(what);
 }
 
-void wait_a_moment() {
+void sleep_1ms() {
   const timespec pause{0, 1'000'000};
   nanosleep(&pause, nullptr);
 }
@@ -48,7 +48,7 @@ std::string path_of(const std::string& file_name) {
   return std::string(kFolder) + file_name;
 }
 
-// Removes what creators that died left behind: a temporary that nobody locks, or a second name of the segment itself.
+// Removes files of dead creators: a temporary that no process locks, or a second name of the segment itself.
 void remove_dead_temporaries(const std::string& file_name) {
   DIR* folder = opendir(std::string(kFolder).c_str());
   if (folder == nullptr) return;
@@ -79,7 +79,7 @@ Expected<void> check_owner(const SegmentFile& file, const std::string& file_name
               "ask that user to remove it, or choose another --session");
 }
 
-// The header must match before anything behind it is touched.
+// Checks the header; nothing after it may be read before this succeeds.
 Expected<void> check_layout(const SegmentFile& file, const std::string& file_name, const LayoutIdentity& wanted) {
   const std::string what_to_do = "end the programs of the other build, or choose another --session";
   if (file.size() < sizeof(SegmentHeader))
@@ -115,8 +115,8 @@ void write_header(void* memory, const LayoutIdentity& layout) {
   step("header magic");
 }
 
-// Ends participation. Several may leave at once: each gives up its read lock first, so that the last one to ask for
-// the write lock gets it and takes the segment away. True: this was the last one.
+// Ends participation. True: this process was the last, and it unlinked the file. Several processes may leave at once.
+// Each releases its read lock first, so that the last one obtains the write lock.
 bool leave(SegmentFile& file, const std::string& file_name) {
   file.lock(kParticipation, LockKind::none);
   step("participation given up");
@@ -127,8 +127,8 @@ bool leave(SegmentFile& file, const std::string& file_name) {
   return last;
 }
 
-// What lies at a name though it cannot be opened as a segment; `error` is what the system said.
-tl::unexpected<error::Error> refusal_to_open(const std::string& file_name, int error) {
+// Describes a file that exists but cannot be opened as a segment; `error` is the errno value.
+tl::unexpected<error::Error> describe_open_error(const std::string& file_name, int error) {
   struct stat there {};
   if (lstat(path_of(file_name).c_str(), &there) != 0 || (S_ISREG(there.st_mode) && there.st_uid == geteuid()))
     return system_failure(file_name, "a segment that can be opened", error);
@@ -141,12 +141,12 @@ tl::unexpected<error::Error> refusal_to_open(const std::string& file_name, int e
 
 using Attempt = Expected<std::optional<SegmentFile>>;  // nullopt: try again
 
-// Attaches to what lies at the name; a leftover, which nobody else locks, is taken away.
+// Attaches to the file with this name. A leftover that no other process locks is unlinked.
 Attempt attach(const std::string& file_name, const LayoutIdentity& layout) {
   auto file = SegmentFile::open(file_name, SegmentFile::Access::read_write);
   if (!file) {
     if (errno == ENOENT) return std::nullopt;
-    return refusal_to_open(file_name, errno);
+    return describe_open_error(file_name, errno);
   }
   if (const auto owned = check_owner(*file, file_name); !owned) return tl::unexpected(owned.error());
   if (file->lock(kParticipation, LockKind::write)) {
@@ -155,9 +155,9 @@ Attempt attach(const std::string& file_name, const LayoutIdentity& layout) {
     step("leftover unlinked");
     return std::nullopt;
   }
-  // Somebody takes part; or, for a moment, somebody else is judging the same leftover.
+  // Another process takes part, or it tests the same leftover at this moment.
   if (!file->lock(kParticipation, LockKind::read) || !file->is_at(path_of(file_name))) {
-    wait_a_moment();
+    sleep_1ms();
     return std::nullopt;
   }
   const auto usable = file->map() ? check_layout(*file, file_name, layout)
@@ -167,18 +167,18 @@ Attempt attach(const std::string& file_name, const LayoutIdentity& layout) {
   return tl::unexpected(usable.error());
 }
 
-// Takes part in a living segment whose name somebody has removed; nullopt: there is none.
+// Attaches to a segment in use whose name was removed. nullopt: there is none.
 Attempt rejoin(const std::string& file_name, const LayoutIdentity& layout) {
   for (const std::string& path : nameless_files(path_of(file_name))) {
     auto file = SegmentFile::reopen(path, SegmentFile::Access::read_write);
-    // Nobody takes part: a reader looks at what has ended. A write lock: the last one is just leaving.
+    // Without a participant only a reader keeps an ended segment open. A write lock means that the last one is leaving.
     if (!file || file->could_write_lock(kParticipation) || !file->lock(kParticipation, LockKind::read)) continue;
     if (file->map() && check_layout(*file, file_name, layout)) return file;
   }
   return std::nullopt;
 }
 
-// Maps the memory, if it could be taken, and fills it.
+// Maps and fills the allocated memory; `error` is the errno value of the allocation.
 Expected<void> build(SegmentFile& file, const std::string& file_name, const LayoutIdentity& layout,
                      Segment::Initialize initialize, int error) {
   if (error != 0) return system_failure(file_name, std::to_string(layout.size) + " bytes of shared memory", error);
@@ -190,10 +190,10 @@ Expected<void> build(SegmentFile& file, const std::string& file_name, const Layo
   return {};
 }
 
-// Builds the segment without a name and links it to the session's; nullopt when somebody else was faster, or
-// when there is no room and `room_may_come`.
+// Builds a segment without a name and links it. nullopt: another process was faster, or /dev/shm is full and
+// `memory_may_free`.
 Attempt create(const std::string& file_name, const LayoutIdentity& layout, Segment::Initialize initialize,
-               bool room_may_come) {
+               bool memory_may_free) {
   auto file = SegmentFile::create(file_name);
   if (!file) return system_failure(file_name, "a new file in /dev/shm", errno);
   step("created");
@@ -205,12 +205,12 @@ Attempt create(const std::string& file_name, const LayoutIdentity& layout, Segme
   const bool linked = locked && built && file->link_as(file_name);
   const int problem = errno;
   step("linked");
-  // Without its name and with a lock it would pass for a living segment that has lost its name.
+  // A nameless file with a lock would look like a segment that has lost its name.
   if (!linked) file->lock(kParticipation, LockKind::none);
   file->remove_temporary();
   step("temporary removed");
-  if (error == ENOSPC && room_may_come) {
-    wait_a_moment();
+  if (error == ENOSPC && memory_may_free) {
+    sleep_1ms();
     return std::nullopt;
   }
   if (!built) return tl::unexpected(built.error());
@@ -226,7 +226,7 @@ struct Segment::Core {
   SegmentFile file;
   bool writable;
   bool created;
-  std::atomic<std::uint64_t> held_bytes{0};  // bit n: this object holds byte n (the kernel lets it lock twice)
+  std::atomic<std::uint64_t> held_bytes{0};  // bit n: this object holds byte n (the kernel would grant it twice)
 
   SegmentHeader& header() { return *static_cast<SegmentHeader*>(file.memory()); }
 };
@@ -250,9 +250,9 @@ Expected<Segment> Segment::open(const std::string& name, const LayoutIdentity& l
     if (there && !*there) there = rejoin(file_name, layout);
     if (!there) return tl::unexpected(there.error());
     if (*there) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**there), true, false}));
-    // The programs of a set begin together and each builds a segment, of which one stays: what is too small for all of
-    // them has room for that one.
-    Attempt made = create(file_name, layout, initialize, attempt < kFullAttempts);
+    // Programs of a set start together; each builds a segment, and one remains. A /dev/shm too small for all of them
+    // may still hold that one, so the first attempts tolerate ENOSPC.
+    Attempt made = create(file_name, layout, initialize, attempt < kMemoryAttempts);
     if (!made) return tl::unexpected(made.error());
     if (*made) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**made), true, true}));
   }
@@ -263,7 +263,7 @@ Expected<Segment> Segment::open(const std::string& name, const LayoutIdentity& l
 Expected<Segment> Segment::open_read_only(const std::string& name, const LayoutIdentity& layout) {
   const std::string file_name = file_name_of(name);
   auto file = SegmentFile::open(file_name, SegmentFile::Access::read_only);
-  if (!file && errno != ENOENT) return refusal_to_open(file_name, errno);
+  if (!file && errno != ENOENT) return describe_open_error(file_name, errno);
   for (const std::string& path : file ? std::vector<std::string>{} : nameless_files(path_of(file_name))) {
     file = SegmentFile::reopen(path, SegmentFile::Access::read_only);
     if (file && !file->could_write_lock(kParticipation)) break;

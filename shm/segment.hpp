@@ -1,4 +1,9 @@
-// Shared memory segment: header, layout identity, participation and claims by byte locks.
+// Named shared memory segment: header, layout identity, participation and claims by byte locks.
+// Inputs: a name ([A-Za-z0-9_-]), the layout identity of this build, a function that fills new memory.
+// Outputs: the mapped memory of /dev/shm/yars.UID.NAME; claims on its lock bytes.
+// Errors: /dev/shm is full, the file belongs to another user, or another build made it. Messages name both values.
+// Threads: locks belong to the Segment object; the kernel releases them when the process ends.
+// Source: docs/shared_memory.md.
 #pragma once
 
 #include <array>
@@ -14,24 +19,24 @@
 
 namespace yars::shm {
 
-// The first bytes of every segment: what it is, so that a program of another build finds out before it touches
-// anything else, and who holds which lock. The first 32 bytes keep their place in every layout version.
+// First bytes of every segment. They identify its layout, so that a program of another build stops before it touches
+// anything else. The first 32 bytes keep their offsets in every layout version.
 inline constexpr std::uint64_t kSegmentMagic = 0x314d485353524159U;  // "YARSSHM1" as bytes
-inline constexpr std::size_t kLockBytes = 64;  // bytes of the file that serve as locks; byte 0: participation
+inline constexpr std::size_t kLockBytes = 64;                        // lock bytes of the file; byte 0: participation
 
 struct SegmentHeader {
-  std::atomic<std::uint64_t> magic;  // kSegmentMagic once the creator is done
+  std::atomic<std::uint64_t> magic;  // kSegmentMagic once creation is complete
   std::atomic<std::uint64_t> size;   // [bytes] of the whole segment
   std::atomic<std::uint64_t> hash;   // over (record, version, sizeof) of all records
   std::atomic<std::uint32_t> layout_version;
   std::atomic<std::uint32_t> reserved;
   std::array<std::atomic<std::int32_t>, kLockBytes>
-      holder_pid;  // who locks byte n, for messages; the lock itself decides
+      holder_pid;  // process that locks byte n, for messages; only the lock decides
   std::array<std::uint64_t, 4> reserved_words;
 };
 static_assert(sizeof(SegmentHeader) == 320 && std::atomic<std::int32_t>::is_always_lock_free);
 
-// What a segment must be for this build to use it.
+// Layout that a segment must have for this build to use it.
 struct LayoutIdentity {
   std::uint32_t version;
   std::uint64_t size;  // [bytes]
@@ -59,44 +64,44 @@ constexpr std::uint64_t layout_hash(std::span<const RecordIdentity> records) {
   return hash;
 }
 
-// The seam of the tests that kill a creator or a leaver after every single step: called, when set, behind each system
-// call and each store by which a segment comes to be or goes. Nothing else uses it.
+// Test hook: called after each system call and each store that creates or removes a segment. Tests use it to kill the
+// process at that step. Product code leaves it null.
 using CreationStep = void (*)(const char* what);
 extern thread_local CreationStep creation_step;
 
-// A named piece of shared memory, /dev/shm/yars.UID.NAME, that lives as long as somebody takes part in it.
-// It is built whole without a name and linked to its own: nobody sees half a segment. Every participant holds
-// a read lock on byte 0 of the file (F_OFD_SETLK), which the kernel frees at death; who gets the write lock is alone:
-// leaving, it unlinks the file; arriving, it replaces a leftover. The other lock bytes are claims (roles, lanes).
-// When somebody else removes the name (systemd-logind's RemoveIPC at a logout), those who take part go on, and who
-// comes finds them by /proc and takes part too; has_name() tells. Errors: a full /dev/shm, a file of another user,
-// another build's layout (both values are printed).
+// Segment of shared memory that exists while at least one process takes part in it.
+// It is built without a name and linked when complete, so no process sees a partial segment.
+// Every participant holds a read lock on byte 0 of the file (F_OFD_SETLK). The kernel releases it at process death. A
+// process that obtains the write lock is alone: on leaving it unlinks the file, on arrival it replaces a leftover file.
+// The other lock bytes are claims on roles and lanes.
+// If another program removes the name (systemd-logind with RemoveIPC at logout), participants continue. New
+// participants find the file through /proc, and has_name() returns false.
 class Segment {
  public:
-  // Fills the creator's zeroed memory behind the header, before anybody else can see it.
+  // Fills the creator's zeroed memory after the header, before any other process can map it.
   using Initialize = void (*)(void* memory);
 
   // Attaches to the segment, or creates it. `name`: letters, digits, '-' and '_'.
   static error::Expected<Segment> open(const std::string& name, const LayoutIdentity& layout, Initialize initialize);
-  // For readers: the mapping cannot be written, no lock is held. A leftover that nobody takes part in is an error.
+  // Maps the segment read-only and holds no lock. A leftover without participants is an error.
   static error::Expected<Segment> open_read_only(const std::string& name, const LayoutIdentity& layout);
 
   Segment(Segment&&) noexcept;
   Segment& operator=(Segment&&) noexcept;
-  ~Segment();  // gives up all locks; who leaves last unlinks
+  ~Segment();  // releases all locks; the last participant unlinks the file
 
-  void* memory();  // only of a writable segment
+  void* memory();  // requires a writable segment
   const void* memory() const;
   bool writable() const;
-  bool created() const;   // this process made it
+  bool created() const;   // this object created the segment
   bool has_name() const;  // the segment's path leads to this segment
 
-  // A claim on `byte` in [1, kLockBytes): held until unlock, the segment's end or the process's death, also while the
-  // process is stopped. Within one Segment a byte can be held once.
+  // Claims `byte` in [1, kLockBytes) until unlock(), the end of the segment or process death. A stopped process keeps
+  // its claim. Within one Segment a byte can be held once.
   bool try_lock(std::size_t byte);
   void unlock(std::size_t byte);
-  bool is_locked(std::size_t byte) const;           // by anybody, this process included
-  std::int32_t holder_pid(std::size_t byte) const;  // who locked it last and did not unlock it; 0 = nobody
+  bool is_locked(std::size_t byte) const;           // by any process, this one included
+  std::int32_t holder_pid(std::size_t byte) const;  // last process that locked it and did not unlock it; 0: none
 
  private:
   struct Core;
@@ -104,7 +109,7 @@ class Segment {
   std::unique_ptr<Core> core_;
 };
 
-// Where the segment of a name lies: /dev/shm/yars.UID.NAME.
+// Path of the segment with this name: /dev/shm/yars.UID.NAME.
 std::string segment_path(const std::string& name);
 
 }  // namespace yars::shm

@@ -22,7 +22,7 @@ bool is_number(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// Entries of a folder whose name is a number; none of a folder that may not be read.
+// Entries of a folder with numeric names; empty if the folder may not be read.
 std::vector<std::string> numbered_entries(const std::string& folder) {
   std::vector<std::string> entries;
   const std::unique_ptr<DIR, int (*)(DIR*)> stream(opendir(folder.c_str()), closedir);
@@ -38,7 +38,7 @@ std::string target_of(const std::string& link) {
   return length > 0 ? std::string(text.data(), static_cast<std::size_t>(length)) : std::string();
 }
 
-// "PATH (deleted)" or "PATH.123.tmp (deleted)": the system shows the name by which the file was opened.
+// True for "PATH (deleted)" and "PATH.123.tmp (deleted)". The kernel shows the name by which the file was opened.
 bool was_opened_as(const std::string& target, const std::string& path) {
   constexpr std::string_view kDeleted = " (deleted)";
   constexpr std::string_view kTemporary = ".tmp";
@@ -50,8 +50,8 @@ bool was_opened_as(const std::string& target, const std::string& path) {
   return is_number(rest.substr(1, rest.size() - 1 - kTemporary.size()));
 }
 
-// A creator's file is shown as deleted, but lives on under the session's name: the count of names tells. What another
-// user has put there under that name, a pipe for instance, is not opened.
+// True for a regular file of this user with link count 0. A creator's file is shown as deleted although it is linked to
+// the session's name. Files of other users, such as a pipe, are not opened.
 bool is_own_and_nameless(const std::string& descriptor) {
   struct stat status {};
   return stat(descriptor.c_str(), &status) == 0 && status.st_nlink == 0 && S_ISREG(status.st_mode) &&
@@ -72,8 +72,8 @@ namespace bi = boost::interprocess;
 
 namespace {
 
-constexpr const char* kFolder = "/dev/shm";  // where glibc's shm_open and Boost keep their objects
-constexpr int kAttempts = 20;                // at a random name
+constexpr const char* kFolder = "/dev/shm";  // glibc's shm_open and Boost keep their objects here
+constexpr int kAttempts = 20;                // random names to try
 
 std::string path_of(const std::string& file_name) {
   return std::string(kFolder) + "/" + file_name;
@@ -88,7 +88,7 @@ struct flock byte_lock(std::size_t byte, LockKind kind) {
   return lock;
 }
 
-// What Boost maps; it wants no more of it than the handle.
+// Adapter for Boost's mapped_region, which only reads the handle.
 struct OpenFile {
   int descriptor;
   bi::mapping_handle_t get_mapping_handle() const { return {descriptor, false}; }
@@ -97,7 +97,7 @@ struct OpenFile {
 }  // namespace
 
 std::optional<SegmentFile> SegmentFile::open(const std::string& file_name, Access access) {
-  // Any user may put a pipe there, and opening that would wait for its other end.
+  // O_NONBLOCK: another user may put a pipe there, and opening it would wait for its other end.
   const int mode = access == Access::read_only ? O_RDONLY : O_RDWR;
   file::Descriptor opened(::open(path_of(file_name).c_str(), mode | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   if (!opened) return std::nullopt;
@@ -125,10 +125,10 @@ bool SegmentFile::link_as(const std::string& file_name) {
                                       : ::link(path_of(temporary_).c_str(), path.c_str());
   if (done != 0) return false;
   remove_temporary();
-  // Opened by its name, the system goes on showing that name when somebody removes it: nameless_files().
+  // The file is opened again by its name, so that nameless_files() finds that name if the file is unlinked later.
   auto named = open(file_name, access_);
   if (named && is_at(path) && named->is_at(path) && named->lock(0, LockKind::read)) {
-    lock(0, LockKind::none);  // the mapping keeps the old description, and its locks, alive
+    lock(0, LockKind::none);  // the mapping keeps the old description and its locks alive
     std::swap(descriptor_, named->descriptor_);
   }
   return true;

@@ -1,4 +1,7 @@
-// Records as atomic 64-bit words in shared memory, moved 16 bytes at a time where that is safe.
+// Records in shared memory as atomic 64-bit words, moved 16 bytes at a time on x86-64.
+// Inputs: trivially copyable records with a size that is a multiple of 8 bytes (concept Record).
+// Threads: one writer and any readers of the same words have no data race.
+// Source: Intel SDM vol. 3, 9.2.2 (order of loads and stores); docs/decisions/0005.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +17,12 @@
 
 namespace yars::shm {
 
-// Moves 16 bytes between a record and shared memory by one instruction, where that is as good as two atomic words.
-// x86-64 keeps loads in order among themselves and stores in order among themselves (Intel SDM vol. 3, 9.2.2), so a
-// block loaded is two acquire loads and a block stored two release stores; the clobber holds the compiler to it. A
-// block torn between its words is caught by the sequence around it like any other torn record. Words alone reach
-// 0.4 to 0.75 of a memcpy ring's speed on a whole sweep, blocks 0.97 and more (docs/decisions/0005). On other
-// processors, and under ThreadSanitizer, which understands the language's atomics only, kWideMoves is false and words
-// travel.
+// Size [bytes] of one wide move between a record and shared memory. One instruction replaces two atomic words.
+// x86-64 keeps loads in order among themselves, and stores in order among themselves (Intel SDM vol. 3, 9.2.2).
+// A wide load therefore orders like two acquire loads, a wide store like two release stores. The asm clobber keeps the
+// compiler from reordering them. The slot's sequence detects a block that is torn between its two words.
+// Speed on a whole sweep: words alone reach 0.4 to 0.75 of a memcpy ring, blocks 0.97 and more.
+// kWideMoves is false on other processors, and under ThreadSanitizer, which models the language's atomics only.
 inline constexpr std::size_t kWideBytes = 16;
 
 #if defined(__x86_64__) && !defined(__SANITIZE_THREAD__)
@@ -52,13 +54,15 @@ inline void wide_move(void* to, const void* from) {
 }
 #endif
 
-// Records travel through shared memory as 64-bit atomic words, so that a reader who meets a writer has no data race.
-// Publishing order: a slot's sequence goes odd, words (release), sequence even (release). A reader loads words with
-// acquire: whoever has seen one new word also sees the odd sequence in front of it. No fences: ThreadSanitizer
-// understands this. `Access` is how a container reaches memory; tests put one in its place that stops the writer
-// after every single store, and lets a writer in before every single load. A record whose length varies declares, in
-// its own namespace, `std::size_t used_bytes(const Record&)`: only these leading bytes travel.
-inline constexpr std::size_t kCacheLine = 64;  // [bytes] cursors of writer and reader lie on lines of their own
+// Publishing order: the slot's sequence becomes odd, then the words are stored (release), then the sequence becomes
+// even (release). A reader loads words with acquire, so a reader that sees one new word also sees the odd sequence.
+// There are no fences, because ThreadSanitizer does not model them.
+// `Access` is the policy by which a container reaches memory. Tests substitute one that stops the writer after every
+// store and runs the writer before every load.
+// A record of variable length declares `std::size_t used_bytes(const Record&)` in its own namespace. Only that many
+// leading bytes are copied.
+
+inline constexpr std::size_t kCacheLine = 64;  // [bytes] smaller puts the writer's and reader's cursors on one line
 
 using Word = std::uint64_t;
 using AtomicWord = std::atomic<Word>;
@@ -87,7 +91,7 @@ concept PartlyUsedRecord = Record<T> && requires(const T& record) {
 template <Record T>
 inline constexpr std::size_t kWordsOf = sizeof(T) / sizeof(Word);
 
-// Words of a record that travel: all of them, unless the record says how much of it is used.
+// Number of words to copy: all of the record, or the leading part that `used_bytes` states.
 template <Record T>
 std::size_t used_words(const T& record) {
   if constexpr (PartlyUsedRecord<T>)
@@ -96,12 +100,12 @@ std::size_t used_words(const T& record) {
     return kWordsOf<T>;
 }
 
-// What a writer that takes over from a dead one puts into a slot: the next higher odd number.
+// Next odd sequence number above `sequence`. It also follows an odd number that a killed writer left.
 constexpr Word next_odd(Word sequence) {
   return (sequence + 1) | 1U;
 }
 
-// Few records are long enough for a loop's overhead not to count, hence the unrolling.
+// Copies `count` words of `record` to shared memory (release). Unrolled, because most records are short.
 template <class Access>
 void store_words(AtomicWord* words, const void* record, std::size_t count) {
   const auto* bytes = static_cast<const std::byte*>(record);
@@ -133,7 +137,7 @@ void load_words(const AtomicWord* words, void* record, std::size_t count) {
   }
 }
 
-// A name for people, in `count` words: what is too long is cut, the last byte is zero.
+// Stores a label in `count` words. Longer text is cut, and the last byte is always zero.
 template <class Access = PlainAccess>
 void store_text(AtomicWord* words, std::size_t count, std::string_view text) {
   for (std::size_t i = 0; i < count; ++i) {

@@ -1,5 +1,5 @@
-// flight-model: flies a route, a fixed course or a recorded track, or takes the aircraft from a program outside, and
-// publishes ownship and nav.
+// Program flight-model: publishes ownship and nav from a route, a fixed course, a recorded track or an external
+// program.
 
 #include "databuffer/app/flight_shell.hpp"
 #include "databuffer/runtime/program.hpp"
@@ -9,8 +9,8 @@ namespace {
 
 using namespace yars;
 
-constexpr std::uint32_t kPriority = 10;  // of our own models; a user's program may go above or below
-// Of a program outside: while it is heard it flies, and else a flight-model of our own beside it.
+constexpr std::uint32_t kPriority = 10;  // lanes of flight models; user programs may choose a higher or lower priority
+// Lanes of bridges: higher than kPriority, so that a flight model beside a bridge takes over when packets stop.
 constexpr std::uint32_t kBridgePriority = 20;
 
 template <class Shell>
@@ -24,7 +24,7 @@ error::Expected<void> fly(databuffer::Session& session, databuffer::TickLoop& lo
   return loop.outcome();
 }
 
-// A route that is installed may be named without its folder.
+// Adds the folder of an installed route to its name.
 std::string with_installed_route(const std::string& source_text) {
   const std::string kind = "route:";
   return source_text.starts_with(kind) ? kind + databuffer::installed_file(source_text.substr(kind.size()))
@@ -51,7 +51,7 @@ error::Expected<void> run_bridge(const databuffer::ProgramOptions& options, cons
   if (!options.lockstep.empty())
     return tl::unexpected(error::usage_error("--lockstep", "a source that flies by sim time: route, fixed or csv",
                                              source->name + ", which flies by its own clock"));
-  // Before the session: a port that is taken leaves no trace there.
+  // The socket opens before the session, so that a port in use leaves no trace there.
   auto socket = databuffer::open_socket(*source);
   if (!socket) return tl::unexpected(socket.error());
   auto session = databuffer::Session::open(options.session, "flight-model");
@@ -71,9 +71,9 @@ constexpr const char* kSources =
     "csv:FILE  a recorded track\n"
     "flightgear:[HOST:]PORT  FlightGear's native FDM by UDP\n"
     "jsbsim:[HOST:]PORT[,COLUMN,...]  JSBSim's text output by UDP\n"
-    "xplane:HOST:PORT  X-Plane, which is asked there (49000)\n"
-    "dis:[HOST:]PORT[,SITE,APP,ENTITY]  a DIS entity, else the first of the air\n"
-    "(HOST to listen on is 127.0.0.1 unless told otherwise)";
+    "xplane:HOST:PORT  X-Plane by UDP; its own port is 49000\n"
+    "dis:[HOST:]PORT[,SITE,APP,ENTITY]  a DIS entity, else the first air platform\n"
+    "(HOST to listen on is 127.0.0.1 unless given)";
 
 }  // namespace
 

@@ -1,4 +1,9 @@
-// Shells of flight-model: a flight model or a program outside publishes ownship and nav into its lane.
+// Shells of flight-model: a flight model or a bridge publishes ownship and nav into its ownship lane.
+// Inputs: ticks of a TickLoop; for a bridge also UDP datagrams.
+// Outputs: Ownship and Nav at 50 Hz live, at each tick in lockstep; Traffic at 1 Hz from a bridge that reports it.
+// Units: sim time [ns] of the session clock; a bridge extrapolates by CLOCK_MONOTONIC [ns].
+// Errors: refused records and repositionings go into the log and the flight recorder.
+// Threads: one; a step never waits.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +23,8 @@
 
 namespace yars::databuffer {
 
-// What a flight model says at a tick goes into its lane: stamped with the tick's time and epoch, nav first, so that
-// whoever sees the new ownship finds the nav that goes with it.
+// Stamps the sample with the tick's time and epoch and publishes it. Nav comes first, so that a reader of the new
+// ownship finds the matching nav.
 inline void publish_flight(SessionLayout& layout, std::size_t lane, const TickLoop::Due& due,
                            flight::FlightSample sample) {
   sample.ownship.source_time_ns = sample.nav.source_time_ns = due.sim_time_ns;
@@ -28,19 +33,19 @@ inline void publish_flight(SessionLayout& layout, std::size_t lane, const TickLo
   layout.ownship[lane].publish(sample.ownship);
 }
 
-// A flight model in a session: steps it by sim time and publishes ownship and nav into its lane.
+// Steps a flight model by sim time and publishes its ownship and nav.
 class FlightShell {
  public:
-  // `lane` is the ownship lane claimed; `every_tick`: publishes each tick (lockstep) instead of at 50 Hz.
+  // `lane`: index of the claimed ownship lane. `every_tick`: publishes at each tick (lockstep) instead of at 50 Hz.
   FlightShell(Session& session, flight::FlightSource source, int lane, bool every_tick);
   void step(const TickLoop::Due& due);
 
  private:
   geo::Duration time_since_last(const TickLoop::Due& due) const;
   void begin_epoch(const ClockState& clock);
-  // While the radar follows another source of a priority no lower, this one waits where that one is.
+  // Moves this model to the ownship that the radar follows, unless this lane has the higher priority.
   void stand_by(const TickLoop::Due& due);
-  // Goes on where a flight model of the same source died a moment ago: the radar's status still shows it there.
+  // Continues a flight model of the same source that died less than 10 s ago, from the ownship in the radar's status.
   bool resume(const TickLoop::Due& due);
 
   Session* session_;
@@ -52,22 +57,22 @@ class FlightShell {
   std::int64_t last_published_tick_ = 0;
 };
 
-// A program outside that flies the aircraft of a session: takes its packets, and publishes ownship and nav at the ticks
-// while it is heard. It flies by its own clock, whatever the session's does: while the session is frozen it flies on,
-// and the radar finds it elsewhere afterwards, which is a new epoch; a rate other than 1 changes nothing for it; a
-// reset or repositioning is for the program itself to do. When nothing has come within the bridge's reach, nothing is
-// published: the lane goes stale, another takes over, and this one comes back with the packets. Traffic that it tells
-// of goes into the session's, unless another program has claimed that.
+// Datagrams processed per tick. More wait in the kernel's queue, and the kernel drops those that do not fit.
+// A larger value lets a flood of packets delay a tick.
+inline constexpr std::size_t kMaxDatagramsPerTick = 256;
 
-// Of a tick; more waits for the next, and what does not fit into the kernel's queue is dropped: a flood stalls no tick.
-inline constexpr std::size_t kMaxDatagramsATick = 256;
-
-// Opens the socket that the source needs.
+// Opens the UDP socket of the source.
 error::Expected<UdpSocket> open_socket(const bridges::BridgeSource& source);
 
+// Publishes the aircraft that an external program flies, and the surface traffic that it reports.
+// The program keeps its own clock: it continues while the session is frozen, and a clock rate other than 1 does not
+// affect it. A position that changed during a freeze counts as a jump, and takes a new epoch. The bridge refuses a
+// repositioning, which only the external program can do.
+// Without packets for the extrapolation limit of the bridge, nothing is published. The lane becomes stale, another lane
+// takes over, and this one returns with the packets. Traffic is published unless another program has claimed that role.
 class BridgeShell {
  public:
-  // `lane` is the ownship lane claimed.
+  // `lane`: index of the claimed ownship lane.
   BridgeShell(Session& session, bridges::BridgeSource source, UdpSocket socket, int lane);
   BridgeShell(const BridgeShell&) = delete;
   BridgeShell& operator=(const BridgeShell&) = delete;
@@ -77,14 +82,14 @@ class BridgeShell {
 
  private:
   void begin_epoch(const ClockState& clock);
-  void ask();
+  void send_requests();
   void receive();
   void take(memory::Bytes datagram, const bridges::Sender& from, std::int64_t received_ns);
-  void hold_to_who_answers(const bridges::Sender& from);
-  void let_go_of_the_silent();
+  void lock_to_responder(const bridges::Sender& from);
+  void release_silent_responder();
   void refuse(const std::string& reason, geo::Duration now);
-  void tell_losses();
-  void tell_presence(bool heard);
+  void report_drops();
+  void report_presence(bool receiving);
   void publish(const TickLoop::Due& due, const flight::FlightSample& sample);
   void claim_traffic();
   void publish_traffic(const TickLoop::Due& due);
@@ -96,17 +101,17 @@ class BridgeShell {
   bridges::ExternalFlight flight_;
   bridges::SenderGate gate_;
   bridges::RefusalNotes refusals_;
-  std::uint64_t dropped_told_ = 0;
-  std::int64_t latest_ns_ = 0;    // CLOCK_MONOTONIC of the newest packet: time does not go back for the flight
-  bool holds_ = false;            // the socket hears the one that answered alone
-  std::int64_t answered_ns_ = 0;  // CLOCK_MONOTONIC of its newest packet
-  int jumps_told_ = 0;
-  bool heard_ = false;
+  std::uint64_t reported_drops_ = 0;
+  std::int64_t latest_ns_ = 0;        // CLOCK_MONOTONIC of the newest packet; keeps the bridge's time from going back
+  bool locked_to_responder_ = false;  // the socket receives only from the responder
+  std::int64_t last_reply_ns_ = 0;    // CLOCK_MONOTONIC of the responder's newest packet
+  int reported_jumps_ = 0;
+  bool receiving_ = false;
   std::int64_t next_publish_tick_ = 0;
   std::optional<Claim> traffic_claim_;
-  geo::GeoPoint place_;  // of the aircraft, as published last
+  geo::GeoPoint position_;  // of the aircraft, as last published
   std::int64_t next_traffic_tick_ = 0;
-  std::uint32_t traffic_told_ = 0;  // entities
+  std::uint32_t published_entities_ = 0;  // entities in the last record
 };
 
 }  // namespace yars::databuffer

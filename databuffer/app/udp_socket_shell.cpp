@@ -21,11 +21,11 @@ namespace {
 
 using bridges::Sender;
 
-constexpr std::size_t kBatch = 16;
-// [bytes] a second of 400 Hz; more would only keep old packets while the session is frozen.
-constexpr int kQueueBytes = 256 * 1024;
-// [ns] older than this no packet can be: the wall clock was set.
-constexpr std::int64_t kOldestPacket_ns = 60'000'000'000;
+constexpr std::size_t kDatagramsPerCall = 16;
+// [bytes] Receive queue: 1 s of packets at 400 Hz. A larger queue only keeps old packets while the session is frozen.
+constexpr int kQueue_bytes = 256 * 1024;
+// [ns] An older kernel stamp means that the wall clock was set; the age then counts as 0.
+constexpr std::int64_t kMaxPacketAge_ns = 60'000'000'000;
 
 error::Expected<sockaddr_in> resolve(const std::string& host, std::uint16_t port) {
   addrinfo hints{};
@@ -62,20 +62,20 @@ std::string text_of(const Sender& sender) {
 
 struct UdpSocket::State {
   int descriptor = -1;
-  Sender place;
+  Sender endpoint;
   bool one_host = false;
   sockaddr_in peer{};
-  std::uint32_t dropped_mark = 0;  // the kernel's count, which wraps
+  std::uint32_t kernel_drops = 0;  // last drop counter of the kernel, which wraps
   std::uint64_t dropped = 0;
 
   struct Slot {
-    std::array<std::byte, kLongestDatagram> bytes;
+    std::array<std::byte, kMaxDatagram_bytes> bytes;
     sockaddr_in from;
     iovec span;
     alignas(cmsghdr) std::array<std::byte, 128> control;
   };
-  std::vector<Slot> slots{kBatch};
-  std::array<mmsghdr, kBatch> headers{};
+  std::vector<Slot> slots{kDatagramsPerCall};
+  std::array<mmsghdr, kDatagramsPerCall> headers{};
 
   State() = default;
   State(const State&) = delete;
@@ -88,15 +88,15 @@ struct UdpSocket::State {
     descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     if (descriptor < 0) return error::fail("UDP", "a socket", std::strerror(errno));
     const int yes = 1;
-    // None of them is vital: without, packets count as received when they are read, and losses are not counted.
+    // All three are optional. Without them arrival times are those of the read, and drops are not counted.
     setsockopt(descriptor, SOL_SOCKET, SO_TIMESTAMPNS, &yes, sizeof yes);
     setsockopt(descriptor, SOL_SOCKET, SO_RXQ_OVFL, &yes, sizeof yes);
-    setsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &kQueueBytes, sizeof kQueueBytes);
+    setsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &kQueue_bytes, sizeof kQueue_bytes);
     return {};
   }
 
-  int read_batch(std::size_t most) {
-    const std::size_t count = std::min(most, kBatch);
+  int read_batch(std::size_t max_count) {
+    const std::size_t count = std::min(max_count, kDatagramsPerCall);
     for (std::size_t i = 0; i < count; ++i) {
       Slot& slot = slots[i];
       slot.span = {slot.bytes.data(), slot.bytes.size()};
@@ -112,7 +112,7 @@ struct UdpSocket::State {
     return recvmmsg(descriptor, headers.data(), static_cast<unsigned>(count), MSG_DONTWAIT, nullptr);
   }
 
-  // Age [ns] of the datagram by the kernel's stamp; also counts what the kernel dropped before it.
+  // Returns the age [ns] of the datagram by the kernel's stamp. Adds the kernel's drops to the count.
   std::int64_t read_control(msghdr& header, std::int64_t now_ns) {
     std::int64_t age_ns = 0;
     for (cmsghdr* part = CMSG_FIRSTHDR(&header); part != nullptr; part = CMSG_NXTHDR(&header, part)) {
@@ -124,11 +124,11 @@ struct UdpSocket::State {
       } else if (part->cmsg_type == SO_RXQ_OVFL) {
         std::uint32_t count = 0;
         std::memcpy(&count, CMSG_DATA(part), sizeof count);
-        dropped += count - dropped_mark;
-        dropped_mark = count;
+        dropped += count - kernel_drops;
+        kernel_drops = count;
       }
     }
-    return age_ns >= 0 && age_ns <= kOldestPacket_ns ? age_ns : 0;
+    return age_ns >= 0 && age_ns <= kMaxPacketAge_ns ? age_ns : 0;
   }
 };
 
@@ -142,34 +142,34 @@ error::Expected<UdpSocket> UdpSocket::listen(const std::string& host, std::uint1
   auto state = std::make_unique<State>();
   if (auto opened = state->open(); !opened) return tl::unexpected(opened.error());
   if (bind(state->descriptor, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0) {
-    const std::string place = "UDP " + text_of(sender_of(*address));
+    const std::string subject = "UDP " + text_of(sender_of(*address));
     if (errno == EADDRINUSE)
-      return error::fail(place, "a free port", "one that another program listens on",
+      return error::fail(subject, "a free port", "one that another program listens on",
                          "end that program (ss -ulpn names it), or take another port on both sides");
-    return error::fail(place, "an address of this machine", std::strerror(errno));
+    return error::fail(subject, "an address of this machine", std::strerror(errno));
   }
   sockaddr_in bound{};
   socklen_t size = sizeof bound;
   getsockname(state->descriptor, reinterpret_cast<sockaddr*>(&bound), &size);
-  state->place = sender_of(bound);
+  state->endpoint = sender_of(bound);
   return UdpSocket(std::move(state));
 }
 
-error::Expected<UdpSocket> UdpSocket::ask(const std::string& host, std::uint16_t port) {
+error::Expected<UdpSocket> UdpSocket::open_to_peer(const std::string& host, std::uint16_t port) {
   auto address = resolve(host, port);
   if (!address) return tl::unexpected(address.error());
   auto state = std::make_unique<State>();
   if (auto opened = state->open(); !opened) return tl::unexpected(opened.error());
   state->peer = *address;
-  state->place = sender_of(*address);
+  state->endpoint = sender_of(*address);
   state->one_host = true;
   return UdpSocket(std::move(state));
 }
 
-void UdpSocket::receive(std::size_t most, const Taker& take) {
-  while (most > 0) {
-    const int count = state_->read_batch(most);
-    // Also what a send before it met (nobody listens there yet) is told here; the next call goes on.
+void UdpSocket::receive(std::size_t max_count, const DatagramHandler& take) {
+  while (max_count > 0) {
+    const int count = state_->read_batch(max_count);
+    // An error of an earlier send (no listener there) is also reported here. The next call continues.
     if (count <= 0) return;
     const std::int64_t wall_ns = realtime_ns();
     const std::int64_t now_ns = monotonic_ns();
@@ -178,16 +178,16 @@ void UdpSocket::receive(std::size_t most, const Taker& take) {
       auto& header = state_->headers[static_cast<std::size_t>(i)];
       const Sender from = sender_of(slot.from);
       const std::int64_t age_ns = state_->read_control(header.msg_hdr, wall_ns);
-      if (state_->one_host && from.address != state_->place.address) continue;
+      if (state_->one_host && from.address != state_->endpoint.address) continue;
       take(std::span(slot.bytes).first(header.msg_len), from, now_ns - age_ns);
     }
-    most -= static_cast<std::size_t>(count);
-    if (static_cast<std::size_t>(count) < kBatch) return;
+    max_count -= static_cast<std::size_t>(count);
+    if (static_cast<std::size_t>(count) < kDatagramsPerCall) return;
   }
 }
 
-// A connected socket still sends to whom it is told.
-void UdpSocket::hear_only(const Sender& sender) {
+// sendto() with an address still works on a connected UDP socket.
+void UdpSocket::receive_only_from(const Sender& sender) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_addr.s_addr = htonl(sender.address);
@@ -195,7 +195,7 @@ void UdpSocket::hear_only(const Sender& sender) {
   connect(state_->descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address);
 }
 
-void UdpSocket::hear_all() {
+void UdpSocket::receive_from_all() {
   sockaddr nobody{};
   nobody.sa_family = AF_UNSPEC;
   connect(state_->descriptor, &nobody, sizeof nobody);
@@ -207,8 +207,8 @@ bool UdpSocket::send(std::span<const std::byte> datagram) {
   return sent == static_cast<ssize_t>(datagram.size());
 }
 
-const Sender& UdpSocket::place() const {
-  return state_->place;
+const Sender& UdpSocket::endpoint() const {
+  return state_->endpoint;
 }
 
 std::uint64_t UdpSocket::dropped() const {

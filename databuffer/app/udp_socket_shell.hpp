@@ -1,6 +1,9 @@
-// A UDP socket (IPv4) that never waits: what has come is taken in one go, up to a bound; what the kernel's queue cannot
-// hold is dropped and counted. Each datagram comes with the moment it reached this machine, so that whoever looks late
-// knows how old it is.
+// Non-blocking UDP socket (IPv4) with arrival times.
+// Inputs: datagrams from any sender (listen), or from one host (open_to_peer).
+// Outputs: datagrams, oldest first, with sender and arrival time.
+// Units: arrival time [ns] of CLOCK_MONOTONIC, from the kernel's receive stamp.
+// Errors: an unknown host, or a port in use, when opening. Datagrams that the kernel's queue cannot hold are counted.
+// Threads: one; no call waits.
 #pragma once
 
 #include <cstdint>
@@ -13,33 +16,35 @@
 
 namespace yars::databuffer {
 
-// One byte more than any protocol here sends: what is longer arrives cut to this, and no decoder takes that length.
-inline constexpr std::size_t kLongestDatagram = 16'385;
+// Buffer [bytes] of one datagram: one byte more than the longest packet of any bridge. A longer datagram is truncated
+// to this length, which no decoder accepts.
+inline constexpr std::size_t kMaxDatagram_bytes = 16'385;
 
 std::string text_of(const bridges::Sender& sender);  // "127.0.0.1:5500"
 
 class UdpSocket {
  public:
-  // Listens at an address of this machine; port 0 is any free one. A port in use is an error that says so.
+  // Listens on an address of this machine; port 0 picks any free port. A port in use is an error that says so.
   static error::Expected<UdpSocket> listen(const std::string& host, std::uint16_t port);
-  // Sends to one place, and hears what comes from that host alone.
-  static error::Expected<UdpSocket> ask(const std::string& host, std::uint16_t port);
+  // Sends to one address, and receives from that host only.
+  static error::Expected<UdpSocket> open_to_peer(const std::string& host, std::uint16_t port);
   UdpSocket(UdpSocket&&) noexcept;
   ~UdpSocket();
 
-  // Hears this sender alone from now on, or again all of the host asked; the rest does not even reach the queue. Where
-  // it sends to stays: X-Plane answers from another port than it is asked at.
-  void hear_only(const bridges::Sender& sender);
-  void hear_all();
+  // Receives from this sender only, or again from the whole host. The kernel discards other datagrams before they reach
+  // the queue. The destination of send() stays, because X-Plane answers from another port than it listens on.
+  void receive_only_from(const bridges::Sender& sender);
+  void receive_from_all();
 
-  // Takes up to `most` datagrams, oldest first; `received_ns` is CLOCK_MONOTONIC.
-  using Taker = std::function<void(memory::Bytes datagram, const bridges::Sender& from, std::int64_t received_ns)>;
-  void receive(std::size_t most, const Taker& take);
-  // To the place asked; false: it did not go (then the next may).
+  // Passes up to `max_count` datagrams to `take`, oldest first; `received_ns` is the arrival time by CLOCK_MONOTONIC.
+  using DatagramHandler =
+      std::function<void(memory::Bytes datagram, const bridges::Sender& from, std::int64_t received_ns)>;
+  void receive(std::size_t max_count, const DatagramHandler& take);
+  // Sends to the address given to open_to_peer(). False: the datagram was not sent; a later one may be.
   bool send(std::span<const std::byte> datagram);
 
-  const bridges::Sender& place() const;  // where it listens, or whom it asks
-  std::uint64_t dropped() const;         // datagrams that came faster than they were taken
+  const bridges::Sender& endpoint() const;  // address that listens, or that send() uses
+  std::uint64_t dropped() const;            // datagrams lost because the queue was full
 
  private:
   struct State;

@@ -1,4 +1,8 @@
-// Bridge to a program outside: its protocol's interface, and which of several senders counts.
+// Interface of a protocol by which an external program flies the aircraft, and the choice among several senders.
+// Inputs: datagrams with sender and arrival time.
+// Outputs: validated samples of the aircraft, tracked entities, datagrams to send.
+// Errors: a refused datagram returns an Error with the reason.
+// Threads: pure; a Bridge opens no socket and reads no clock.
 #pragma once
 
 #include <cstddef>
@@ -15,65 +19,64 @@
 namespace yars::databuffer::bridges {
 
 struct Sender {
-  std::uint32_t address = 0;  // IPv4, the first number highest
+  std::uint32_t address = 0;  // IPv4 in host byte order: the first number is the highest byte
   std::uint16_t port = 0;
   friend bool operator==(const Sender&, const Sender&) = default;
 };
 
-// Silence after which another sender may take over: as long as a lane is taken for fresh.
+// Silence [s] after which another sender may take over. It equals the time for which an ownship lane counts as fresh.
 inline constexpr geo::Duration kSenderSilence = geo::Duration::seconds(0.5);
 
-// Of several senders to one port, one flies the aircraft: whose report was taken last, until it has been silent for a
-// while. Two programs that send to the same port by mistake would else tear the aircraft to and fro.
+// Lets one sender at a time fly the aircraft: the sender of the last accepted report, until it has been silent for
+// kSenderSilence. Without this, two programs that send to one port by mistake would make the aircraft jump.
 class SenderGate {
  public:
   bool admits(const Sender& sender, geo::Duration now) const {
-    return !holder_ || *holder_ == sender || now - heard_ > kSenderSilence;
+    return !holder_ || *holder_ == sender || now - last_report_ > kSenderSilence;
   }
-  // A report of this sender was taken. True: another one than before.
+  // Records an accepted report of this sender. True: the sender differs from the previous one.
   bool taken(const Sender& sender, geo::Duration now) {
     const bool is_new = holder_ != sender;
     holder_ = sender;
-    heard_ = now;
+    last_report_ = now;
     return is_new;
   }
 
  private:
   std::optional<Sender> holder_;
-  geo::Duration heard_;
+  geo::Duration last_report_;
 };
 
 using Datagram = std::vector<std::byte>;
 
-// The protocol of a program outside that flies the aircraft: what its datagrams mean, and what it is to be sent.
-// Pure: no socket, no clock; `now` is any clock that does not go back.
+// Decoder and encoder of one protocol. `now` is any clock that does not go back.
 class Bridge {
  public:
   virtual ~Bridge() = default;
 
-  // One datagram. Nothing: understood, but no news of the aircraft (names of columns, another entity, a part of a
-  // state). An error says why it is refused.
+  // Decodes one datagram. nullopt: valid, but no new sample of the aircraft (column names, another entity, part of a
+  // state). An error holds the reason for the refusal.
   virtual error::Expected<std::optional<ExternalSample>> receive(memory::Bytes datagram, geo::Duration now) = 0;
 
-  // Who sent the datagram that receive() gets next.
-  virtual void hears_from(const Sender&) {}
+  // Sets the sender of the datagram that the next receive() gets.
+  virtual void set_sender(const Sender&) {}
 
-  // To be sent to the program at this moment; called at least once a second.
+  // Datagrams to send to the program now. Call at least once a second.
   virtual std::vector<Datagram> requests(geo::Duration) { return {}; }
-  // To be sent when the bridge ends.
-  virtual std::vector<Datagram> farewell() const { return {}; }
+  // Datagrams to send when the bridge ends.
+  virtual std::vector<Datagram> closing_datagrams() const { return {}; }
 
-  // Whether the program tells of others than the aircraft.
-  virtual bool tells_traffic() const { return false; }
-  // Every entity but the aircraft, at this moment.
+  // True if the protocol reports entities other than the aircraft.
+  virtual bool has_traffic() const { return false; }
+  // All entities except the aircraft, extrapolated to `now`.
   virtual std::vector<TrackedEntity> traffic(geo::Duration) const { return {}; }
-  // Once after each event: something for the log.
-  virtual std::optional<std::string> take_news() { return std::nullopt; }
+  // Returns a log message once after each event.
+  virtual std::optional<std::string> take_log_message() { return std::nullopt; }
 
-  // How long after a packet the aircraft is flown on by dead reckoning.
-  virtual geo::Duration reach() const { return geo::Duration::seconds(1.0); }
-  // Whether several senders are the rule (then the protocol itself tells them apart).
-  virtual bool hears_many() const { return false; }
+  // Time after a packet during which the aircraft is dead reckoned.
+  virtual geo::Duration extrapolation_limit() const { return geo::Duration::seconds(1.0); }
+  // True if several senders are normal and the protocol itself tells them apart.
+  virtual bool allows_many_senders() const { return false; }
 };
 
 }  // namespace yars::databuffer::bridges

@@ -14,34 +14,34 @@ namespace yars::databuffer::bridges {
 
 std::optional<std::string> RefusalNotes::refused(const std::string& reason, geo::Duration now) {
   ++count_;
-  if (written_ && now - *written_ < kQuiet) return std::nullopt;
-  const std::uint64_t unsaid = count_ - told_ - 1;
+  if (written_ && now - *written_ < kRefusalInterval) return std::nullopt;
+  const std::uint64_t unreported = count_ - reported_ - 1;
   written_ = now;
-  told_ = count_;
-  return unsaid == 0 ? reason : reason + " (and " + std::to_string(unsaid) + " more refused before)";
+  reported_ = count_;
+  return unreported == 0 ? reason : reason + " (and " + std::to_string(unreported) + " more refused before)";
 }
 
 error::Expected<std::optional<ExternalSample>> DisBridge::receive(memory::Bytes datagram, geo::Duration now) {
   if (is_other_pdu(datagram)) return std::nullopt;
   const auto state = decode_entity_state(datagram);
   if (!state) return tl::unexpected(state.error());
-  if (!named_ && aircraft_ && now - heard_ > kEntityTimeout) give_way("has been silent for 12 s");
+  if (!configured_ && aircraft_ && now - last_report_ > kEntityTimeout) release_aircraft("has been silent for 12 s");
   const bool flies = state->kind == EntityKind::platform && state->domain == EntityDomain::air;
   if (!aircraft_ && flies && !state->deactivated) {
     aircraft_ = state->id;
     order_ = StampOrder(kDisStampPeriod);
-    others_.forget(state->id);
-    news_ = news_.value_or("") + (news_ ? "; " : "") + "the aircraft is entity " + text_of(state->id) +
-            ", the first of the air that was heard";
+    traffic_.forget(state->id);
+    log_message_ = log_message_.value_or("") + (log_message_ ? "; " : "") + "the aircraft is entity " +
+                   text_of(state->id) + ", the first air platform received";
   }
   if (state->id != aircraft_) {
-    if (const auto reason = others_.update(*state, now)) return error::fail("dis", "traffic that is news", *reason);
+    if (const auto reason = traffic_.update(*state, now)) return error::fail("dis", "newer traffic", *reason);
     return std::nullopt;
   }
-  if (const auto reason = order_.why_not_news(state->stamp)) return error::fail("dis", "a newer report", *reason);
-  heard_ = now;
+  if (const auto reason = order_.order_fault(state->stamp)) return error::fail("dis", "a newer report", *reason);
+  last_report_ = now;
   if (state->deactivated) {
-    if (!named_) give_way("was deactivated");
+    if (!configured_) release_aircraft("was deactivated");
     return std::nullopt;
   }
   ExternalSample sample = state->sample;
@@ -53,20 +53,20 @@ error::Expected<std::optional<ExternalSample>> DisBridge::receive(memory::Bytes 
   return sample;
 }
 
-void DisBridge::give_way(std::string_view why) {
-  news_ = "entity " + text_of(*aircraft_) + " " + std::string(why) + ": the next of the air that is heard flies";
+void DisBridge::release_aircraft(std::string_view why) {
+  log_message_ = "entity " + text_of(*aircraft_) + " " + std::string(why) + ": the next air platform received flies";
   aircraft_.reset();
 }
 
-std::optional<std::string> DisBridge::take_news() {
-  return std::exchange(news_, std::nullopt);
+std::optional<std::string> DisBridge::take_log_message() {
+  return std::exchange(log_message_, std::nullopt);
 }
 
 namespace {
 
 using error::Expected;
 
-constexpr std::string_view kOwnHost = "127.0.0.1";
+constexpr std::string_view kDefaultHost = "127.0.0.1";
 
 tl::unexpected<error::Error> bad_usage(std::string_view expected, std::string_view found) {
   return tl::unexpected(error::usage_error("--source", std::string(expected), '"' + std::string(found) + '"'));
@@ -80,7 +80,7 @@ std::optional<std::uint16_t> short_number(std::string_view text) {
 }
 
 struct Text {
-  std::string_view whole, kind, place, rest;  // KIND:PLACE,REST
+  std::string_view whole, kind, address, rest;  // KIND:ADDRESS,REST
 };
 
 Text parts_of(std::string_view text) {
@@ -90,13 +90,13 @@ Text parts_of(std::string_view text) {
   return {text, text.substr(0, colon), after.substr(0, comma), after.substr(std::min(comma + 1, after.size()))};
 }
 
-Expected<BridgeSource> place_of(const Text& text, std::string_view form, bool asks) {
-  const std::size_t colon = text.place.rfind(':');
+Expected<BridgeSource> parse_address(const Text& text, std::string_view form, bool requests_data) {
+  const std::size_t colon = text.address.rfind(':');
   const bool has_host = colon != std::string_view::npos;
-  const auto port = short_number(has_host ? text.place.substr(colon + 1) : text.place);
-  const std::string_view host = has_host ? text.place.substr(0, colon) : kOwnHost;
-  if (!port || host.empty() || (asks && (!has_host || *port == 0))) return bad_usage(form, text.whole);
-  return BridgeSource{nullptr, std::string(text.kind), std::string(host), *port, asks};
+  const auto port = short_number(has_host ? text.address.substr(colon + 1) : text.address);
+  const std::string_view host = has_host ? text.address.substr(0, colon) : kDefaultHost;
+  if (!port || host.empty() || (requests_data && (!has_host || *port == 0))) return bad_usage(form, text.whole);
+  return BridgeSource{nullptr, std::string(text.kind), std::string(host), *port, requests_data};
 }
 
 class FlightgearBridge final : public Bridge {
@@ -110,7 +110,7 @@ class FlightgearBridge final : public Bridge {
 
 Expected<BridgeSource> open_flightgear(const Text& text) {
   constexpr std::string_view kForm = "flightgear:[HOST:]PORT";
-  auto source = place_of(text, kForm, false);
+  auto source = parse_address(text, kForm, false);
   if (!source) return source;
   if (!text.rest.empty()) return bad_usage(kForm, text.whole);
   source->bridge = std::make_unique<FlightgearBridge>();
@@ -118,7 +118,7 @@ Expected<BridgeSource> open_flightgear(const Text& text) {
 }
 
 Expected<BridgeSource> open_jsbsim(const Text& text) {
-  auto source = place_of(text, "jsbsim:[HOST:]PORT[,COLUMN,COLUMN...]", false);
+  auto source = parse_address(text, "jsbsim:[HOST:]PORT[,COLUMN,COLUMN...]", false);
   if (!source) return source;
   std::optional<JsbsimColumns> columns;
   if (!text.rest.empty()) {
@@ -132,7 +132,7 @@ Expected<BridgeSource> open_jsbsim(const Text& text) {
 
 Expected<BridgeSource> open_xplane(const Text& text) {
   constexpr std::string_view kForm = "xplane:HOST:PORT, X-Plane's own port being 49000";
-  auto source = place_of(text, kForm, true);
+  auto source = parse_address(text, kForm, true);
   if (!source) return source;
   if (!text.rest.empty()) return bad_usage(kForm, text.whole);
   source->bridge = std::make_unique<XplaneBridge>();
@@ -141,7 +141,7 @@ Expected<BridgeSource> open_xplane(const Text& text) {
 
 Expected<BridgeSource> open_dis(const Text& text) {
   constexpr std::string_view kForm = "dis:[HOST:]PORT[,SITE,APP,ENTITY], each 0 to 65535";
-  auto source = place_of(text, kForm, false);
+  auto source = parse_address(text, kForm, false);
   if (!source) return source;
   std::optional<EntityId> aircraft;
   if (!text.rest.empty()) {

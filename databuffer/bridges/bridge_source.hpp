@@ -1,4 +1,8 @@
-// Bridge that an option names, the bridge of a DIS exercise, notes of refused packets.
+// Parser of `--source KIND:...` for bridges, the bridge of a DIS exercise, and the log lines of refused packets.
+// Inputs: the text of --source; Entity State PDUs.
+// Outputs: a Bridge with the address to listen on or to request from.
+// Errors: a text that names no valid bridge is bad usage.
+// Source: docs/spec/formats.md#flight-models, docs/attach.md.
 #pragma once
 
 #include <cstdint>
@@ -12,66 +16,66 @@
 
 namespace yars::databuffer::bridges {
 
-// What is written of refused packets: the first at once, with its reason; then one line in kQuiet that counts the rest.
-// A flood fills neither the log nor the session's flight recorder.
-inline constexpr geo::Duration kQuiet = geo::Duration::seconds(5.0);
+// Interval [s] of the log lines of refused packets. The first refusal is logged at once with its reason. Further ones
+// share one line per interval, so that a flood fills neither the log nor the flight recorder.
+inline constexpr geo::Duration kRefusalInterval = geo::Duration::seconds(5.0);
 
 class RefusalNotes {
  public:
-  // The line to write, if one is due.
+  // Counts a refusal. Returns the line to write, if one is due.
   std::optional<std::string> refused(const std::string& reason, geo::Duration now);
   std::uint64_t count() const { return count_; }
 
  private:
   std::uint64_t count_ = 0;
-  std::uint64_t told_ = 0;
+  std::uint64_t reported_ = 0;
   std::optional<geo::Duration> written_;
 };
 
-// The aircraft and the traffic of a DIS exercise: one entity flies the aircraft, all others are kept as traffic. The
-// aircraft is the one named; else the first platform of the air that is heard, until it is deactivated or silent for
-// kEntityTimeout: then the next one that is heard.
+// Aircraft and traffic of a DIS exercise. One entity flies the aircraft, and all others are traffic. The aircraft is
+// the configured entity. Without one it is the first air platform received, until it is deactivated or silent for
+// kEntityTimeout. The next air platform received then takes its role.
 class DisBridge final : public Bridge {
  public:
-  explicit DisBridge(const std::optional<EntityId>& aircraft) : aircraft_(aircraft), named_(aircraft) {}
+  explicit DisBridge(const std::optional<EntityId>& aircraft) : aircraft_(aircraft), configured_(aircraft) {}
 
   error::Expected<std::optional<ExternalSample>> receive(memory::Bytes datagram, geo::Duration now) override;
-  bool tells_traffic() const override { return true; }
-  std::vector<TrackedEntity> traffic(geo::Duration now) const override { return others_.at(now); }
-  std::optional<std::string> take_news() override;
-  // A sender reports only what its receivers cannot work out, and else at each heartbeat.
-  geo::Duration reach() const override { return kEntityTimeout; }
-  bool hears_many() const override { return true; }
+  bool has_traffic() const override { return true; }
+  std::vector<TrackedEntity> traffic(geo::Duration now) const override { return traffic_.at(now); }
+  std::optional<std::string> take_log_message() override;
+  // DIS senders report only what receivers cannot extrapolate, and otherwise once per heartbeat.
+  geo::Duration extrapolation_limit() const override { return kEntityTimeout; }
+  bool allows_many_senders() const override { return true; }
 
  private:
-  void give_way(std::string_view why);
+  void release_aircraft(std::string_view why);
 
   std::optional<EntityId> aircraft_;
-  bool named_;           // by the user: nobody takes its place
-  geo::Duration heard_;  // of the aircraft, last
+  bool configured_;            // configured by the user, so no other entity replaces it
+  geo::Duration last_report_;  // last report of the aircraft
   StampOrder order_{kDisStampPeriod};
-  EntityTable others_;
-  std::optional<std::string> news_;
+  EntityTable traffic_;
+  std::optional<std::string> log_message_;
 };
 
-// From `--source KIND:...` to the bridge that it names and where its packets come from:
+// Result of parsing `--source`:
 //   flightgear:[HOST:]PORT        jsbsim:[HOST:]PORT[,COLUMN,COLUMN...]
 //   xplane:HOST:PORT              dis:[HOST:]PORT[,SITE,APP,ENTITY]
-// HOST is where to listen (127.0.0.1 unless told: then nothing from other machines is heard; 0.0.0.0 for all), for
-// X-Plane the machine to ask. PORT 1 to 65535; 0, where it listens, is any free one. COLUMNs as JSBSim's labels name
-// them.
+// HOST is the local address to listen on: 127.0.0.1 by default, which excludes other machines; 0.0.0.0 for all. For
+// X-Plane it is the machine that receives the requests. PORT is 1 to 65535, or 0 for any free port when listening.
+// COLUMNs are named as in JSBSim's label line.
 struct BridgeSource {
   std::unique_ptr<Bridge> bridge;
-  std::string name;  // the kind
+  std::string name;  // KIND
   std::string host;
   std::uint16_t port = 0;
-  bool asks = false;  // host and port are whom to ask; else where to listen
+  bool requests_data = false;  // host and port receive requests; else they are the address to listen on
 };
 
-// Whether the text names a bridge at all.
+// True if the text begins with the name of a bridge.
 bool names_bridge(std::string_view text);
 
-// An error counts as bad usage.
+// Parses the text and makes its bridge. An error counts as bad usage.
 error::Expected<BridgeSource> open_bridge(std::string_view text);
 
 }  // namespace yars::databuffer::bridges

@@ -16,7 +16,7 @@ namespace {
 
 using geo::Vector3;
 
-// Where the fields stand [bytes].
+// Offsets of the fields [bytes].
 constexpr std::size_t kVersion = 0, kType = 2, kStamp = 4, kLength = 8;
 constexpr std::size_t kSite = 12, kApplication = 14, kEntity = 16, kParameters = 19, kKind = 20, kDomain = 21;
 constexpr std::size_t kVelocity = 36, kLocation = 48, kOrientation = 72, kAppearance = 84, kAlgorithm = 88;
@@ -26,16 +26,17 @@ constexpr std::size_t kHeaderBytes = 12, kStateBytes = 144, kParameterBytes = 16
 constexpr std::uint8_t kEntityStateType = 1;
 constexpr std::uint8_t kOldestVersion = 5, kNewestVersion = 7;  // 1278.1-1995 to 1278.1-2012
 constexpr std::uint32_t kFrozenBit = 1U << 21U, kDeactivatedBit = 1U << 23U;
-constexpr double kStampUnit_s = 3600.0 / 2147483648.0;  // [s] 2^31 units an hour; bit 0 says whose clock it is
+// [s] 2^31 units an hour. Bit 0 of the stamp, which states whether the clock is absolute, is not part of the number.
+constexpr double kStampUnit_s = 3600.0 / 2147483648.0;
 
-// [m] from the Earth's centre: what is nearer or farther is no aircraft, and has no latitude worth its name.
-constexpr double kNearest = 6'000'000.0, kFarthest = 7'000'000.0;
+// [m] Distance from the Earth's centre. Outside these bounds no aircraft flies, and latitude is ill-conditioned.
+constexpr double kMinRadius_m = 6'000'000.0, kMaxRadius_m = 7'000'000.0;
 
 struct Algorithm {
   bool body_axes, rotates, accelerates;
 };
 
-// Which of the standard's nine algorithms extrapolates what; static ones move nothing.
+// Properties of the standard's dead reckoning algorithms 1 to 9. The accelerations of 8 and 9 are not used.
 Algorithm algorithm_of(std::uint8_t number) {
   return {number >= 6 && number <= 9, number == 3 || number == 4 || number == 7 || number == 8,
           number == 4 || number == 5};
@@ -46,7 +47,7 @@ Vector3 floats_at(memory::Bytes packet, std::size_t offset) {
           memory::big_endian<float>(packet, offset + 8)};
 }
 
-// The body's axes (forward, right, down) in the earth's.
+// Body axes (forward, right, down) in ECEF axes.
 struct BodyAxes {
   Vector3 forward, right, down;
 };
@@ -79,9 +80,9 @@ std::optional<error::Error> fault_of(memory::Bytes packet) {
   if (type != kEntityStateType) return error("PDU type 1, entity state", std::to_string(type));
   const std::size_t bytes = kStateBytes + kParameterBytes * memory::big_endian<std::uint8_t>(packet, kParameters);
   if (packet.size() != bytes || memory::big_endian<std::uint16_t>(packet, kLength) != bytes)
-    return error(std::to_string(bytes) + " bytes, told and sent, for its articulation parameters",
-                 std::to_string(memory::big_endian<std::uint16_t>(packet, kLength)) + " told, " +
-                     std::to_string(packet.size()) + " sent");
+    return error(std::to_string(bytes) + " bytes, stated and received, for its articulation parameters",
+                 std::to_string(memory::big_endian<std::uint16_t>(packet, kLength)) + " stated, " +
+                     std::to_string(packet.size()) + " received");
   return std::nullopt;
 }
 
@@ -95,9 +96,9 @@ error::Expected<Motion> motion_of(memory::Bytes packet) {
                       floats_at(packet, kVelocity),
                       floats_at(packet, kOrientation)};
   if (!is_finite(motion.location) || !is_finite(motion.velocity) || !is_finite(motion.orientation))
-    return error::fail("dis", "numbers for location, velocity and orientation", "others");
+    return error::fail("dis", "numbers for location, velocity and orientation", "a value that is not finite");
   const double from_centre_m = glm::length(motion.location);
-  if (!(from_centre_m >= kNearest && from_centre_m <= kFarthest))
+  if (!(from_centre_m >= kMinRadius_m && from_centre_m <= kMaxRadius_m))
     return error::fail("dis", "a location 6000 to 7000 km from the Earth's centre",
                        std::to_string(from_centre_m / 1000.0) + " km");
   return motion;
@@ -117,24 +118,24 @@ LocalAttitude attitude_in(const geo::LocalTangentFrame& local, const BodyAxes& a
 }
 
 error::Expected<ExternalSample> sample_of(memory::Bytes packet, const Motion& motion) {
-  const auto place = geo::geodetic_from_ecef(motion.location);
-  const geo::LocalTangentFrame local(place.point, place.height);
+  const auto position = geo::geodetic_from_ecef(motion.location);
+  const geo::LocalTangentFrame local(position.point, position.height);
   const BodyAxes axes = axes_of(motion.orientation);
   const LocalAttitude attitude = attitude_in(local, axes);
   const Algorithm algorithm = algorithm_of(memory::big_endian<std::uint8_t>(packet, kAlgorithm));
-  const Vector3& told = motion.velocity;
+  const Vector3& reported = motion.velocity;
   const Vector3 velocity = local.enu_from_ecef_direction(
-      algorithm.body_axes ? told.x * axes.forward + told.y * axes.right + told.z * axes.down : told);
-  const Reading reading{place.point.latitude_deg,
-                        place.point.longitude_deg,
-                        place.height.metres(),
+      algorithm.body_axes ? reported.x * axes.forward + reported.y * axes.right + reported.z * axes.down : reported);
+  const Reading reading{position.point.latitude_deg,
+                        position.point.longitude_deg,
+                        position.height.metres(),
                         attitude.heading_deg,
                         attitude.pitch_deg,
                         attitude.roll_deg,
                         velocity.y,
                         velocity.x,
                         -velocity.z};
-  // What the algorithm does not move stands: nothing is left to be guessed from report to report.
+  // Zero instead of unknown: motion that the algorithm excludes is not estimated from successive reports.
   AttitudeRates rates;
   if (algorithm.rotates) {
     const Vector3 body = (1.0 / geo::kRadiansPerDegree) * floats_at(packet, kBodyRates);
@@ -200,7 +201,7 @@ std::optional<std::string> EntityTable::update(const EntityState& state, geo::Du
     found = entries_.try_emplace(state.id).first;
   }
   Entry& entry = found->second;
-  if (const auto reason = entry.order.why_not_news(state.stamp))
+  if (const auto reason = entry.order.order_fault(state.stamp))
     return "entity " + text_of(state.id) + ": expected a newer report, found " + *reason;
   if (state.deactivated) {
     entries_.erase(found);
@@ -216,18 +217,18 @@ std::vector<TrackedEntity> EntityTable::at(geo::Duration now) const {
   for (const auto& [id, entry] : entries_) {
     const geo::Duration age = std::max(now - entry.received, geo::Duration());
     if (age > kEntityTimeout) continue;
-    Ownship place = dead_reckoned(entry.state.sample, entry.state.frozen ? geo::Duration() : age);
-    if (entry.state.frozen) place.velocity_north_mps = place.velocity_east_mps = place.velocity_down_mps = 0.0;
-    // One that its own acceleration has carried beyond what a record may hold says nothing any more.
-    if (validate(place)) continue;
-    all.push_back({id, entry.state.kind, entry.state.domain, place, age});
+    Ownship state = dead_reckoned(entry.state.sample, entry.state.frozen ? geo::Duration() : age);
+    if (entry.state.frozen) state.velocity_north_mps = state.velocity_east_mps = state.velocity_down_mps = 0.0;
+    // An extrapolation can leave the range of the record. Such an entity is omitted.
+    if (validate(state)) continue;
+    all.push_back({id, entry.state.kind, entry.state.domain, state, age});
   }
   return all;
 }
 
 namespace {
 
-// The record has one number for what DIS says in three; sites that count alike may share one.
+// Packs the three numbers of a DIS id into the record's one. Different ids can share a number.
 std::uint32_t number_of(EntityId id) {
   const std::uint32_t sender = (static_cast<std::uint32_t>(id.site) << 8U) ^ id.application;
   return sender << 16U | id.entity;
@@ -235,13 +236,13 @@ std::uint32_t number_of(EntityId id) {
 
 TrafficEntity target_of(const TrackedEntity& entity) {
   const bool ship = entity.domain == EntityDomain::surface;
-  const Ownship& place = entity.place;
-  return {place.latitude_deg,
-          place.longitude_deg,
-          place.velocity_north_mps,
-          place.velocity_east_mps,
+  const Ownship& state = entity.state;
+  return {state.latitude_deg,
+          state.longitude_deg,
+          state.velocity_north_mps,
+          state.velocity_east_mps,
           ship ? kShipHeight_m : kVehicleHeight_m,
-          ship ? kShipEcho_m2 : kVehicleEcho_m2,
+          ship ? kShipCrossSection_m2 : kVehicleCrossSection_m2,
           number_of(entity.id),
           0};
 }
@@ -257,8 +258,8 @@ Traffic surface_traffic(std::span<const TrackedEntity> entities, geo::GeoPoint n
   for (const TrackedEntity& entity : entities) {
     const bool on_ground = entity.domain == EntityDomain::land || entity.domain == EntityDomain::surface;
     if (entity.kind != EntityKind::platform || !on_ground) continue;
-    const geo::GeoPoint place{entity.place.latitude_deg, entity.place.longitude_deg};
-    targets.push_back({geo::geodesic_inverse(near, place).distance.metres(), &entity});
+    const geo::GeoPoint position{entity.state.latitude_deg, entity.state.longitude_deg};
+    targets.push_back({geo::geodesic_inverse(near, position).distance.metres(), &entity});
   }
   if (targets.size() > kMaxTraffic) {
     std::ranges::stable_sort(targets, {}, &Target::distance_m);

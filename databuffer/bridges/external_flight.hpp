@@ -1,4 +1,11 @@
-// Aircraft flown outside: reports in order and checked, dead reckoning, the flight between reports.
+// Aircraft flown by an external program: checks of its reports, dead reckoning, and blending between reports.
+// Inputs: reports with their arrival times, 5 to 400 per second.
+// Outputs: position, attitude and velocity at any requested time.
+// Units: degrees, metres, seconds, as in Ownship.
+// Frame: WGS84; velocities and accelerations north, east, down.
+// Accuracy: see ExternalFlight.
+// Errors: a report with a value out of range is refused and names the field.
+// Threads: pure; reads no clock.
 #pragma once
 
 #include <optional>
@@ -14,123 +21,125 @@
 
 namespace yars::databuffer::bridges {
 
-// What a network may hold a packet back by; longer and a sender that was started again waits that long to be heard.
-inline constexpr geo::Duration kLongestDelay = geo::Duration::seconds(2.0);
+// Delay [s] that a network may give to one packet. A larger value delays the acceptance of a restarted sender as long.
+inline constexpr geo::Duration kMaxPacketDelay = geo::Duration::seconds(2.0);
 
-// Whether a packet is news, by the stamp of its sender: one that is as old as the last, or a little older, came twice
-// or out of order. A stamp that goes back by more than kLongestDelay is a sender that began again; that is believed
-// once a second packet goes on from it, so that a single stray one moves nothing.
+// Order of packets by the stamps of their sender. A packet with the last stamp or a slightly older one is a duplicate
+// or arrived out of order. A stamp more than kMaxPacketDelay back indicates a restarted sender. It is accepted when a
+// second packet continues from it, so that one stray packet has no effect.
 class StampOrder {
  public:
-  // `period`: a stamp counts to there and begins again at zero; none: it counts on. [s]
+  // `period`: stamps wrap to zero at this value; without it they do not wrap.
   explicit StampOrder(std::optional<geo::Duration> period = std::nullopt) : period_(period) {}
 
-  // Nothing: it is news. Else why not. `stamp` is finite.
-  std::optional<std::string> why_not_news(geo::Duration stamp);
+  // Returns nullopt if the packet is newer, else the reason. `stamp` is finite.
+  std::optional<std::string> order_fault(geo::Duration stamp);
 
  private:
   geo::Duration since(geo::Duration before, geo::Duration stamp) const;
 
   std::optional<geo::Duration> period_;
   std::optional<geo::Duration> last_;
-  std::optional<geo::Duration> restarted_;  // stamp of a packet that may be a sender's first
+  std::optional<geo::Duration> restarted_;  // stamp that may be the first one of a restarted sender
 };
 
-// How fast the three angles of the attitude change: not the rates about the body's axes.
+// Time derivatives of the attitude angles, which differ from the rates about the body axes.
 struct AttitudeRates {
   double heading_dps = 0.0;  // [deg/s] clockwise
   double pitch_dps = 0.0;    // [deg/s] nose up
   double roll_dps = 0.0;     // [deg/s] right wing down
 };
 
-// What a program outside told of the aircraft at one moment, in the units of our records and checked like them.
+// One checked report of an external program, in the units of Ownship.
 struct ExternalSample {
-  // Place, attitude and velocity; all else is as a source without them has it. Valid by validate().
+  // Position, attitude and velocity; other fields have the values of a source without them. Passes validate().
   Ownship ownship{};
   std::optional<AttitudeRates> rates;
-  std::optional<geo::Vector3> acceleration_mps2;  // north, east, down, of the velocity; none: steady
+  std::optional<geo::Vector3> acceleration_mps2;  // derivative of the velocity: north, east, down; none: unknown
 };
 
-// Numbers as they stood in a packet, units changed, nothing checked.
+// Values of a packet, converted to these units but not checked.
 struct Reading {
   double latitude_deg, longitude_deg, altitude_msl_m;
   double heading_deg, pitch_deg, roll_deg;
   double velocity_north_mps, velocity_east_mps, velocity_down_mps;
 };
 
-// [deg/s] of one angle; faster is a broken packet, and would spin the picture.
-inline constexpr double kFastestTurn = 1'000.0;
-// [m/s^2] 100 g; more is a broken packet.
-inline constexpr double kHardestPull = 1'000.0;
+// [deg/s] Limit of each attitude rate. A faster packet is broken, and would spin the picture.
+inline constexpr double kMaxAttitudeRate_dps = 1'000.0;
+// [m/s^2] Limit of acceleration, about 100 g. A higher value is a broken packet.
+inline constexpr double kMaxAcceleration_mps2 = 1'000.0;
 
-// `source`: name in the record, at most 15 characters. Heading may be given from -360 to 720 degrees and is wrapped;
-// longitude from -180 to 360. All else must be in the record's range; the error names the field.
+// Checks a reading and makes a sample of it. `source`: name in the record, at most 15 characters. Heading may be -360
+// to 720 deg and longitude -180 to 360 deg; both are wrapped. All else must be in the range of Ownship. The error names
+// the field.
 error::Expected<ExternalSample> checked_sample(std::string_view source, const Reading& reading,
                                                const std::optional<AttitudeRates>& rates = std::nullopt,
                                                const std::optional<geo::Vector3>& acceleration_mps2 = std::nullopt);
 
-// Rates of the attitude's angles from those about the body's axes [deg/s]; none where the nose points straight up or
-// down, where heading and roll have no rates.
+// Rates of the attitude angles from the rates about the body axes [deg/s]. nullopt within 0.6 deg of vertical pitch,
+// where heading and roll rates are singular.
 std::optional<AttitudeRates> rates_from_body(double roll_rate_dps, double pitch_rate_dps, double yaw_rate_dps,
                                              double pitch_deg, double roll_deg);
 
-// Where an aircraft, ship or vehicle is a while after its last report, or a little before it: along the geodesic of its
-// velocity, which itself changes by the acceleration told; attitude by its rates. Heading and velocity turn with the
-// meridian, so that it holds near the poles.
-//
-// The record at that time after the sample; without rates the attitude stands. Angles are wrapped, pitch is held to the
-// vertical. The altitude may leave the record's range.
+// Ownship at time `after` past the sample; `after` may be slightly negative. Position follows the geodesic of the
+// velocity, with constant acceleration. Attitude follows its rates, and is constant without them. Heading and velocity
+// turn with the meridian, so that the result holds near the poles. Angles are wrapped, and pitch is clamped to
+// +-90 deg. The altitude may leave the range of the record.
 Ownship dead_reckoned(const ExternalSample& sample, geo::Duration after);
 
-// Time constant by which the output goes over to a new report; shorter shows jitter, longer lags behind manoeuvres.
-inline constexpr geo::Duration kBlend = geo::Duration::seconds(0.25);
-// A difference larger than this is a jump; dead reckoning of any flight stays far below.
-inline constexpr geo::Length kJump = geo::Length::metres(300.0);
+// Time constant [s] of blending to a new report. A shorter one shows jitter, a longer one lags in manoeuvres.
+inline constexpr geo::Duration kBlendTime = geo::Duration::seconds(0.25);
+// Position difference [m] that counts as a jump. The error of dead reckoning stays far below it.
+inline constexpr geo::Length kJumpDistance = geo::Length::metres(300.0);
 
-// The aircraft between the reports of a program outside, at any moment asked for. Pure: it is told when a report came.
-// Each report is flown on by dead reckoning: with its own rates and acceleration, else with those of the last 80 ms or
-// more. What a new report says otherwise than the flight so far is taken out over kBlend, so that the output has no
-// steps; what is too far off for that is a jump, and taken over at once. A place that stays though the velocity says
-// otherwise stands: the program is paused.
-// Bound, for reports 5 to 400 times a second that come up to J late, gaps T, a turn of acceleration a whose direction
-// turns at w: the output is within |v| J + a w T^3 / 6 + 1 m of the truth, and steps of 20 ms differ from the truth's
-// by at most 8 % of that (tests/databuffer/bridges/external_flight_test.cpp).
+// Position, attitude and velocity of an external aircraft between its reports.
+// Each report is dead reckoned with its own rates and acceleration. Without them, those measured over the last 80 ms or
+// more are used. The difference between a new report and the current output decays with kBlendTime, so that the output
+// has no steps. A difference above kJumpDistance is a jump and applies at once. A position that stays constant in spite
+// of a velocity means that the program is paused; the aircraft then stands still.
+//
+// Accuracy: for reports 5 to 400 times
+// a second that arrive up to J late, with gaps T, in a turn with acceleration a and turn rate w, the output is within
+// |v| J + a w T^3 / 6 + 1 m of the truth. Steps of 20 ms differ from the truth's by at most 8 % of that bound
+// (tests/databuffer/bridges/external_flight_test.cpp).
 class ExternalFlight {
  public:
-  // `reach`: how long after a report the aircraft is flown on.
-  explicit ExternalFlight(geo::Duration reach) : reach_(reach) {}
+  // `extrapolation_limit`: time after a report during which the aircraft is dead reckoned.
+  explicit ExternalFlight(geo::Duration extrapolation_limit) : extrapolation_limit_(extrapolation_limit) {}
 
-  // `received` does not go back.
+  // `received`: arrival time, which does not go back.
   void receive(const ExternalSample& sample, geo::Duration received);
-  // None: nothing came within reach. The moment may lie a little before the last report.
+  // Output at `moment`, which may lie slightly before the last report. nullopt: the last report is older than the
+  // limit.
   std::optional<flight::FlightSample> at(geo::Duration moment) const;
 
   int jumps() const { return jumps_; }
 
  private:
-  // What the output still has of the flight before the last report: its place and motion minus those told.
+  // Remaining difference between the output and the dead-reckoned last report.
   struct Difference {
     double north_m = 0.0, east_m = 0.0, up_m = 0.0;
     double north_mps = 0.0, east_mps = 0.0, down_mps = 0.0;
     double heading_deg = 0.0, pitch_deg = 0.0, roll_deg = 0.0;
   };
-  static Difference difference(const Ownship& before, const Ownship& told);
+  static Difference difference(const Ownship& before, const Ownship& reported);
   static bool is_jump(const Difference& difference);
   void measure_rates(const ExternalSample& sample, geo::Duration received);
-  bool stands(const ExternalSample& sample, geo::Duration received);
+  bool is_stationary(const ExternalSample& sample, geo::Duration received);
   std::optional<Ownship> estimate(geo::Duration moment) const;
 
   struct Report {
     ExternalSample sample;
     geo::Duration received;
   };
-  geo::Duration reach_;
-  std::optional<Report> last_;     // with the rates to fly on by
-  std::optional<Report> earlier_;  // against which rates are measured
+  geo::Duration extrapolation_limit_;
+  std::optional<Report> last_;     // with the rates to extrapolate by
+  std::optional<Report> earlier_;  // reference for measuring rates
   std::optional<AttitudeRates> measured_rates_;
   std::optional<geo::Vector3> measured_acceleration_;
-  std::optional<Report> unmoved_;  // the first report of the place that was told last
-  Difference left_;                // at last_
+  std::optional<Report> unmoved_since_;  // first report of the present position
+  Difference residual_;                  // at the time of last_
   int jumps_ = 0;
 };
 

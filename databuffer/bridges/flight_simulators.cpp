@@ -21,7 +21,7 @@ struct Form {
 };
 constexpr std::array<Form, 2> kForms{{{24, 408}, {25, 552}}};
 
-// Where the fields of FlightGear's packet stand [bytes].
+// Offsets of the fields of FlightGear's packet [bytes].
 namespace fdm {
 constexpr std::size_t kLongitude = 8, kLatitude = 16, kAltitude = 24;      // f64: rad, rad, m
 constexpr std::size_t kRoll = 36, kPitch = 40, kHeading = 44;              // f32: rad
@@ -86,24 +86,24 @@ constexpr std::array<std::string_view, kJsbsimValues> kNames{"position/lat-geod-
                                                              "velocities/v-north-fps", "velocities/v-east-fps",
                                                              "velocities/v-down-fps",  "Time"};
 
-// Geocentric: 0.19 deg beside the geodetic one at 45 degrees, 11 NM off.
+// Labels of geocentric latitude. It differs from geodetic latitude by 0.19 deg at 45 deg, which is 11 NM.
 constexpr std::array<std::string_view, 4> kGeocentric{"lat-gc-deg", "lat-gc-rad", "Latitude (deg)",
                                                       "Latitude Geocentric (deg)"};
 
-constexpr std::size_t kLongestShown = 24;  // [characters] of a broken field in a message
+constexpr std::size_t kMaxShownCharacters = 24;  // [characters] of a broken field quoted in a message
 
 std::string_view last_part(std::string_view name) {
   return name.substr(name.find_last_of('/') + 1);
 }
 
-// JSBSim prints "lat-geod-deg" of "position/lat-geod-deg"; other versions, and other programs, print the whole.
+// True if the label names the property. JSBSim prints only the last part; other versions print the whole name.
 bool names(std::string_view label, std::string_view property) {
   return label == property || last_part(label) == last_part(property);
 }
 
-// A field from outside as a message may hold it.
+// Printable form of a field, shortened for a message.
 std::string shown(std::string_view field) {
-  std::string text(field.substr(0, kLongestShown));
+  std::string text(field.substr(0, kMaxShownCharacters));
   std::ranges::replace_if(
       text, [](char character) { return character < ' ' || character > '~'; }, '?');
   return text;
@@ -115,7 +115,7 @@ error::Error missing_columns(const std::vector<std::string_view>& labels, const 
   });
   const std::string found = std::to_string(labels.size()) + " columns without " + missing +
                             (geocentric ? " (the latitude that is there is geocentric, up to 11 NM off)" : "");
-  return {"jsbsim", "columns of place, attitude and velocity", found,
+  return {"jsbsim", "columns of position, attitude and velocity", found,
           "put <property>NAME</property> for each of them into the <output> of the aircraft", false};
 }
 
@@ -125,7 +125,7 @@ error::Expected<JsbsimColumns> parse_jsbsim_labels(std::string_view line) {
   if (!line.starts_with(kLabels)) return error::fail("jsbsim", std::string(kLabels), "another line");
   line.remove_prefix(kLabels.size());
   std::vector<std::string_view> labels = text::fields_of(line, ',');
-  // The mark is followed by a comma: what stands between is no column.
+  // A comma follows <LABELS>, which makes an empty first label.
   if (labels.front().empty()) labels.erase(labels.begin());
   JsbsimColumns columns;
   columns.count = labels.size();
@@ -168,8 +168,8 @@ error::Expected<JsbsimState> parse_jsbsim_line(const JsbsimColumns& columns, std
 
 void JsbsimBridge::keep(const JsbsimColumns& columns) {
   std::erase_if(labels_, [this](const Labels& labels) { return labels.sender == sender_; });
-  // Never those of the source that flies: whose line was read last.
-  const auto flies = [this](const Labels& labels) { return labels.sender == flies_; };
+  // The labels of the sender that flies the aircraft are never dropped.
+  const auto flies = [this](const Labels& labels) { return labels.sender == flying_sender_; };
   if (labels_.size() >= kMaxSenders) labels_.erase(std::ranges::find_if_not(labels_, flies));
   labels_.push_back({sender_, columns});
 }
@@ -181,8 +181,8 @@ const JsbsimColumns* JsbsimBridge::columns() const {
 }
 
 error::Expected<std::optional<ExternalSample>> JsbsimBridge::receive(memory::Bytes datagram, geo::Duration) {
-  if (datagram.size() > kLongestJsbsimLine)
-    return error::fail("jsbsim", "a line of at most " + std::to_string(kLongestJsbsimLine) + " characters",
+  if (datagram.size() > kMaxJsbsimLine)
+    return error::fail("jsbsim", "a line of at most " + std::to_string(kMaxJsbsimLine) + " characters",
                        std::to_string(datagram.size()));
   const std::string_view line = text::trimmed({reinterpret_cast<const char*>(datagram.data()), datagram.size()});
   if (line.starts_with(kLabels)) {
@@ -198,19 +198,20 @@ error::Expected<std::optional<ExternalSample>> JsbsimBridge::receive(memory::Byt
                        "jsbsim:PORT,Time,lat-geod-deg,...");
   const auto state = parse_jsbsim_line(*columns, line);
   if (!state) return tl::unexpected(state.error());
-  if (const auto reason = order_.why_not_news(state->time)) return error::fail("jsbsim", "a newer line", *reason);
-  flies_ = sender_;
+  if (const auto reason = order_.order_fault(state->time)) return error::fail("jsbsim", "a newer line", *reason);
+  flying_sender_ = sender_;
   return state->sample;
 }
 
 namespace {
 
 constexpr std::size_t kRequestBytes = 413;
-constexpr std::size_t kHeadBytes = 5;  // "RREF" and a byte that is X-Plane's own
+constexpr std::size_t kHeadBytes = 5;  // "RREF" and one byte without meaning here
 constexpr std::size_t kPairBytes = 8;
 constexpr std::string_view kMark = "RREF";
-constexpr std::uint32_t kAllCame = (1U << kXplaneDatarefs) - 1U;
-constexpr geo::Duration kPatience = geo::Duration::seconds(1.0);  // without replies, before asking again
+constexpr std::uint32_t kAllReceived = (1U << kXplaneDatarefs) - 1U;
+// Minimum time without a reply before requests are repeated.
+constexpr geo::Duration kRequestInterval = geo::Duration::seconds(1.0);
 
 namespace xplane {
 enum Dataref : std::size_t {
@@ -231,7 +232,7 @@ enum Dataref : std::size_t {
 };
 }  // namespace xplane
 
-// X-Plane's frame: x east, y up, z south, level at its reference point.
+// Velocity east, north, up at the aircraft, from X-Plane's axes (x east, y up, z south at the reference point).
 geo::Vector3 enu_velocity(const std::array<float, kXplaneDatarefs>& values) {
   const auto frame_at = [](double latitude_deg, double longitude_deg) {
     return geo::LocalTangentFrame({latitude_deg, longitude_deg}, geo::HeightAboveEllipsoid());
@@ -243,7 +244,7 @@ geo::Vector3 enu_velocity(const std::array<float, kXplaneDatarefs>& values) {
 }
 
 error::Expected<ExternalSample> sample_of(const std::array<float, kXplaneDatarefs>& values) {
-  // Frames are for places on the Earth alone.
+  // Frames need valid coordinates.
   for (const std::size_t latitude : {xplane::kLatitude, xplane::kRefLatitude})
     if (!(std::abs(values[latitude]) <= 90.0F))
       return error::fail("xplane", std::string(kXplaneNames[latitude]) + " in [-90, 90]",
@@ -300,26 +301,29 @@ error::Expected<std::optional<ExternalSample>> XplaneBridge::receive(memory::Byt
     if (!std::isfinite(value))
       return error::fail("xplane", std::string(kXplaneNames[number]) + ", a number", text::text_of_number(value));
     values_[number] = value;
-    come_ |= 1U << number;
-    heard_ = now;
+    received_mask_ |= 1U << number;
+    last_reply_ = now;
   }
-  if (come_ != kAllCame) return std::nullopt;
-  come_ = 0;
+  if (received_mask_ != kAllReceived) return std::nullopt;
+  received_mask_ = 0;
   const auto sample = sample_of(values_);
   if (!sample) return tl::unexpected(sample.error());
   return *sample;
 }
 
 std::vector<Datagram> XplaneBridge::requests(geo::Duration now) {
-  const auto over = [now](const std::optional<geo::Duration>& then) { return !then || now - *then >= kPatience; };
-  if (!over(asked_) || !over(heard_)) return {};
-  asked_ = now;
+  const auto over = [now](const std::optional<geo::Duration>& then) {
+    return !then || now - *then >= kRequestInterval;
+  };
+  if (!over(last_request_) || !over(last_reply_)) return {};
+  last_request_ = now;
   std::vector<Datagram> all;
-  for (std::size_t number = 0; number < kXplaneDatarefs; ++number) all.push_back(xplane_request(number, kXplaneRate));
+  for (std::size_t number = 0; number < kXplaneDatarefs; ++number)
+    all.push_back(xplane_request(number, kXplaneRate_hz));
   return all;
 }
 
-std::vector<Datagram> XplaneBridge::farewell() const {
+std::vector<Datagram> XplaneBridge::closing_datagrams() const {
   std::vector<Datagram> all;
   for (std::size_t number = 0; number < kXplaneDatarefs; ++number) all.push_back(xplane_request(number, 0));
   return all;

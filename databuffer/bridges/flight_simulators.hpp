@@ -1,4 +1,9 @@
-// Packets of flight simulators: FlightGear, JSBSim, X-Plane.
+// Decoders of flight simulator packets: FlightGear, JSBSim and X-Plane.
+// Inputs: one UDP datagram at a time.
+// Outputs: a checked ExternalSample, or none while a state is incomplete; for X-Plane also requests.
+// Frame: geodetic latitude, altitude above mean sea level, true angles, velocity north, east, down.
+// Errors: a datagram of another form, or with values out of range, is refused with a reason.
+// Source: docs/spec/formats.md#flightgear, #jsbsim and #xplane.
 #pragma once
 
 #include <array>
@@ -13,94 +18,94 @@
 
 namespace yars::databuffer::bridges {
 
-// FlightGear's native FDM packet (also what JSBSim's output of type FLIGHTGEAR sends): one datagram a state, all
-// numbers big-endian, versions 24 (408 bytes) and 25 (552 bytes), the same as far as they are read here. The version
-// says which length is right; any other pair is refused. The packet has no stamp that tells an old one from a new.
-// Source: FlightGear's manual, option --native-fdm; the fields are held to what JSBSim sends
-// (tests/databuffer/bridges). Latitude is geodetic, altitude above mean sea level, angles true, velocity north, east,
-// down.
+// Decodes FlightGear's native FDM packet, which JSBSim's output of type FLIGHTGEAR also sends. One datagram holds one
+// state, all numbers big-endian. Version 24 has 408 bytes and version 25 has 552; the fields read here are the same.
+// Other pairs of version and length are refused. The packet has no time stamp, so old packets cannot be recognized.
+// Source: FlightGear's manual, option --native-fdm. Tests compare the fields with what JSBSim sends
+// (tests/databuffer/bridges).
 error::Expected<ExternalSample> decode_flightgear(memory::Bytes packet);
 
-// JSBSim's socket output in text: comma separated lines. A line that begins with <LABELS> names the columns by the last
-// part of their property's name; it may come again, with columns in any order, and with more than are read here.
-// Demanded: position/lat-geod-deg, position/long-gc-deg, position/h-sl-ft, attitude/phi-deg, theta-deg, psi-deg,
-// velocities/v-north-fps, v-east-fps, v-down-fps. The column Time, which JSBSim always sends, orders the lines.
-// JSBSim sends its labels once, at its start: who comes later must know the columns from elsewhere. Labels hold for
-// the lines of their own sender: nobody else's swap the columns of a running source.
-// Accuracy: JSBSim prints seven digits, so a longitude beyond 100 degrees comes in steps of 0.0001 deg, up to 11 m;
-// its output of type FLIGHTGEAR has all digits.
+// JSBSim's socket output is comma-separated text. A line that begins with <LABELS> names the columns by the last part
+// of their property names. It may be repeated, with columns in any order and with additional ones.
+// Required: position/lat-geod-deg, position/long-gc-deg, position/h-sl-ft, attitude/phi-deg, theta-deg, psi-deg,
+// velocities/v-north-fps, v-east-fps, v-down-fps, and Time, which JSBSim always sends and which orders the lines.
+// JSBSim sends its labels once, at its start. A receiver that starts later needs them in --source. Labels apply to the
+// lines of the same sender only.
+// Accuracy: JSBSim prints seven digits. A longitude beyond 100 deg therefore has steps of 0.0001 deg, up to 11 m. Its
+// output of type FLIGHTGEAR has all digits.
 
-// Of a text line; JSBSim's have some hundreds of characters.
-inline constexpr std::size_t kLongestJsbsimLine = 16'384;
+// Maximum length [characters] of a line; JSBSim's have some hundreds.
+inline constexpr std::size_t kMaxJsbsimLine = 16'384;
 
-inline constexpr std::size_t kJsbsimValues = 10;  // what is read of a line: Reading's nine and the time
-// Which column holds what.
+inline constexpr std::size_t kJsbsimValues = 10;  // values read from a line: the nine of Reading and the time
+// Assignment of columns to values.
 struct JsbsimColumns {
   std::array<std::size_t, kJsbsimValues> of_value{};
-  std::size_t count = 0;  // of columns in a line
+  std::size_t count = 0;  // number of columns in a line
 };
 
-// From a line of labels. The error names the properties that are missing.
+// Parses a label line. The error names the missing properties.
 error::Expected<JsbsimColumns> parse_jsbsim_labels(std::string_view line);
 
 struct JsbsimState {
   geo::Duration time;
   ExternalSample sample;
 };
-// From a line of numbers.
+// Parses a line of numbers.
 error::Expected<JsbsimState> parse_jsbsim_line(const JsbsimColumns& columns, std::string_view line);
 
 class JsbsimBridge final : public Bridge {
  public:
-  // `columns`: what the lines hold until labels come; none: nothing is believed before.
+  // `columns`: columns of senders without labels. Without it their lines are refused until labels arrive.
   explicit JsbsimBridge(const std::optional<JsbsimColumns>& columns = std::nullopt) : columns_(columns) {}
   error::Expected<std::optional<ExternalSample>> receive(memory::Bytes datagram, geo::Duration now) override;
-  void hears_from(const Sender& sender) override { sender_ = sender; }
+  void set_sender(const Sender& sender) override { sender_ = sender; }
 
  private:
   struct Labels {
     Sender sender;
     JsbsimColumns columns;
   };
-  static constexpr std::size_t kMaxSenders = 8;  // whose labels are kept: of more, those that came last
+  static constexpr std::size_t kMaxSenders = 8;  // senders whose labels are kept; the oldest labels are dropped first
 
   void keep(const JsbsimColumns& columns);
-  const JsbsimColumns* columns() const;  // of the sender; nullptr: unknown
+  const JsbsimColumns* columns() const;  // of the current sender; nullptr: unknown
 
   std::optional<JsbsimColumns> columns_;  // of senders without labels
   Sender sender_;
-  Sender flies_;  // whose line was read last
+  Sender flying_sender_;  // sender of the last accepted line
   std::vector<Labels> labels_;
   StampOrder order_;
 };
 
-// X-Plane's datarefs by UDP, little-endian. Asked for with RREF (413 bytes: "RREF", a zero, i32 times a second, i32
-// number, 400 characters of name), answered with "RREF", one byte, then pairs of i32 number and f32 value. A state is
-// whole when each dataref has come since the one before; whatever is asked for by others is passed over.
-// Places come as f32: longitude and latitude in steps of up to 0.85 m. Velocity is told in X-Plane's own frame, level
-// at a reference point, and is turned by where that point is. Source: "Exchanging Data with X-Plane.rtfd" of every
-// X-Plane; names by its DataRefs.txt.
+// X-Plane's datarefs by UDP, little-endian. The request is RREF (413 bytes: "RREF", a zero, i32 rate [Hz], i32 number,
+// 400 characters of name). The reply is "RREF", one byte, then pairs of i32 number and f32 value. A state is complete
+// when each dataref has arrived since the last complete state. Datarefs of other programs are ignored.
+// Accuracy: positions are f32, so longitude and latitude have steps of up to 0.85 m.
+// Frame: velocity refers to X-Plane's local axes, level at a reference point, and is rotated to the aircraft's
+// position.
+// Source: "Exchanging Data with X-Plane.rtfd" of every X-Plane; names from its DataRefs.txt.
 inline constexpr std::size_t kXplaneDatarefs = 14;
-// In the order of their numbers in requests and replies.
+// Names, indexed by their numbers in requests and replies.
 extern const std::array<std::string_view, kXplaneDatarefs> kXplaneNames;
 
-inline constexpr int kXplaneRate = 30;  // [Hz] more than the pictures of most X-Planes a second brings nothing
+inline constexpr int kXplaneRate_hz = 30;  // [Hz] most X-Planes draw no faster
 
-// `times_a_second` 0 ends the subscription.
+// Encodes a request; `times_a_second` 0 ends the subscription.
 Datagram xplane_request(std::size_t number, int times_a_second);
 
 class XplaneBridge final : public Bridge {
  public:
   error::Expected<std::optional<ExternalSample>> receive(memory::Bytes datagram, geo::Duration now) override;
-  // All datarefs, at first and each second while nothing comes.
+  // Requests for all datarefs: at the start, and each second without a reply.
   std::vector<Datagram> requests(geo::Duration now) override;
-  std::vector<Datagram> farewell() const override;
+  std::vector<Datagram> closing_datagrams() const override;
 
  private:
-  std::optional<geo::Duration> asked_;
-  std::optional<geo::Duration> heard_;
+  std::optional<geo::Duration> last_request_;
+  std::optional<geo::Duration> last_reply_;
   std::array<float, kXplaneDatarefs> values_{};
-  std::uint32_t come_ = 0;  // bit n: dataref n has come since the last whole state
+  std::uint32_t received_mask_ = 0;  // bit n: dataref n has arrived since the last complete state
 };
 
 }  // namespace yars::databuffer::bridges

@@ -5,7 +5,7 @@
 
 namespace yars::databuffer::flight {
 
-geo::Duration stretch_ahead(geo::Duration dt) {
+geo::Duration forward_step(geo::Duration dt) {
   return std::isfinite(dt.seconds()) && dt.seconds() > 0.0 ? dt : geo::Duration();
 }
 
@@ -18,7 +18,7 @@ bool FlightModel::resume(const Ownship& last, geo::Duration) {
 namespace {
 
 constexpr int kMaxApproximations = 8;
-constexpr double kFootTolerance = 1e-3;  // [m]
+constexpr double kFootTolerance_m = 1e-3;  // [m]
 
 }  // namespace
 
@@ -30,25 +30,26 @@ Leg::Leg(geo::GeoPoint from, const geo::GeodesicInverse& inverse)
       course_at_start_(inverse.azimuth_at_start),
       course_at_end_(inverse.azimuth_at_end) {}
 
-Leg::Fix Leg::fix(geo::GeoPoint place, geo::Length near) const {
+Leg::Fix Leg::fix(geo::GeoPoint position, geo::Length near) const {
   Fix fix{near, {}, {}};
   for (int approximation = 0; approximation < kMaxApproximations; ++approximation) {
-    // Seen from the foot, the place must lie square to the leg: what lies along it moves the foot.
+    // At the foot the direction to the aircraft is perpendicular to the leg. The component along the leg moves the
+    // foot.
     const auto foot = ray_.place(fix.along);
-    const auto seen = geo::geodesic_inverse(foot.point, place);
+    const auto seen = geo::geodesic_inverse(foot.point, position);
     const geo::Angle angle = seen.azimuth_at_start - foot.azimuth;
     const geo::Length missing = seen.distance * std::cos(angle.radians());
     fix.across = seen.distance * std::sin(angle.radians());
     fix.course = seen.azimuth_at_end - angle;
     fix.along = fix.along + missing;
-    if (std::abs(missing.metres()) < kFootTolerance) break;
+    if (std::abs(missing.metres()) < kFootTolerance_m) break;
   }
   return fix;
 }
 
 namespace {
 
-// R / (R + h): what a metre flown is on the ellipsoid.
+// R / (R + h): ratio of ground distance to distance flown.
 double surface_scale(const Motion& motion) {
   const double radius_m = geo::radius_of_curvature(motion.point.latitude_deg, motion.track).metres();
   return radius_m / (radius_m + motion.altitude.metres());

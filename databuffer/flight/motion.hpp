@@ -1,4 +1,10 @@
-// Flight models: the interface, legs along geodesics, the state of a point that flies.
+// Flight models: their interface, route legs along geodesics, and conversion of motion to records.
+// Inputs: steps of sim time; positions and speeds.
+// Outputs: Ownship and Nav without source_time_ns and epoch.
+// Frame: latitude and longitude are WGS84, altitude is above mean sea level, velocity is over ground.
+// Accuracy: lengths are scaled as if altitude were height above the ellipsoid. An undulation of 100 m changes a
+// velocity by 1.6e-5 of it.
+// Threads: pure and deterministic.
 #pragma once
 
 #include <string_view>
@@ -9,11 +15,8 @@
 
 namespace yars::databuffer::flight {
 
-// A flight model: where an aircraft is after another stretch of sim time. Pure and deterministic.
-// It fills all of both records but source_time_ns and epoch, which the caller knows. Latitude and longitude are
-// WGS84; altitudes are above mean sea level and taken for heights above the ellipsoid where lengths are scaled
-// (an undulation of 100 m changes a velocity by 1.6e-5 of it). Velocity is the derivative of the position, without
-// wind; radar altitude is NaN: no model here knows the ground. The navigators know the truth.
+// Records of one step. The caller sets source_time_ns and epoch. Velocity is the derivative of the position; there is
+// no wind. Radar altitude is NaN, because no model has ground data. The navigators have the true position.
 struct FlightSample {
   Ownship ownship{};
   Nav nav{};
@@ -25,39 +28,38 @@ struct Placement {
   geo::Bearing heading;
 };
 
-// `dt` where it is a stretch of time ahead, else none.
-geo::Duration stretch_ahead(geo::Duration dt);
+// Returns `dt` if it is positive and finite, else zero.
+geo::Duration forward_step(geo::Duration dt);
 
 class FlightModel {
  public:
   virtual ~FlightModel() = default;
 
-  // `dt` after the call before; zero gives the present sample again, and so does what is no stretch of time ahead:
-  // less than zero, infinite, not a number.
+  // Advances by `dt` and returns the sample. A `dt` that is zero, negative or not finite returns the present sample.
   virtual FlightSample step(geo::Duration dt) = 0;
-  // Back to the start of the flight.
+  // Returns to the start of the flight.
   virtual void reset() = 0;
-  // Goes on from another place. False: this source cannot, and flies on as it was.
+  // Continues from another position. False: the model does not support it, and its flight is unchanged.
   virtual bool reposition(const Placement& placement) = 0;
-  // Takes up where a predecessor of the same source was `gap` ago; false: this flight is not its. By default it is
-  // placed where the predecessor was.
+  // Continues the flight of a predecessor of the same source that was at `last` `gap` ago. False: not possible. The
+  // default repositions to `last`.
   virtual bool resume(const Ownship& last, geo::Duration gap);
 };
 
-// One leg of a route: a geodesic from a place to a waypoint, and where an aircraft is with respect to it. Exact on
-// the ellipsoid, also across poles and the antimeridian and beyond either end.
+// Leg of a route: a geodesic from one point to another, and the position of an aircraft relative to it. Valid across
+// poles and the antimeridian, and beyond either end.
 class Leg {
  public:
-  Leg(geo::GeoPoint from, geo::GeoPoint to);  // different places
+  Leg(geo::GeoPoint from, geo::GeoPoint to);  // must differ
 
   struct Fix {
-    geo::Length along;    // from the start to the foot of the perpendicular; negative before it
-    geo::Length across;   // right of the leg positive
-    geo::Bearing course;  // of the leg, carried to the place
+    geo::Length along;    // from the start to the foot of the perpendicular; negative before the start
+    geo::Length across;   // distance from the leg, right positive
+    geo::Bearing course;  // of the leg, transported to the aircraft's position
   };
-  // `near` is where the foot is looked for first, for example the one found before. Converges to 1 mm, or takes
-  // the eighth approximation when the place is a quarter of the Earth away.
-  Fix fix(geo::GeoPoint place, geo::Length near) const;
+  // Position relative to the leg. `near`: distance along the leg at which the iteration starts, such as the previous
+  // result. Converges to 1 mm. A quarter of the Earth away it stops after 8 iterations without converging.
+  Fix fix(geo::GeoPoint position, geo::Length near) const;
 
   geo::GeoPoint point(geo::Length along) const { return ray_.position(along); }
   geo::Length length() const { return length_; }
@@ -73,12 +75,12 @@ class Leg {
   geo::Bearing course_at_end_;
 };
 
-// The state of a point that flies, and the records that say so.
+// State of the aircraft as a moving point.
 struct Motion {
   geo::GeoPoint point;
   geo::AltitudeMsl altitude;
   geo::Bearing track;
-  geo::Speed ground_speed;  // horizontal, at the aircraft's altitude
+  geo::Speed ground_speed;  // horizontal, at the altitude of the aircraft
   geo::Speed climb;         // up positive
 };
 
@@ -88,15 +90,15 @@ struct Attitude {
   geo::Angle roll;
 };
 
-// How far the point on the ellipsoid below moves while the aircraft, R + h from the centre, covers a distance.
+// Distance of the ground point on the ellipsoid while the aircraft, at radius R + h, flies `flown`.
 geo::Length surface_distance(const Motion& motion, geo::Length flown);
-// The reverse: the speed at altitude of an aircraft over a point that moves at `surface` on the ellipsoid.
+// Inverse: speed at altitude of an aircraft above a point that moves at `surface` on the ellipsoid.
 geo::Speed speed_at_altitude(const Motion& motion, geo::Speed surface);
 
-// Nose along the flight path, wings as given.
+// Attitude with the nose along the flight path and the given roll.
 Attitude coordinated_attitude(const Motion& motion, geo::Angle roll);
 
-// `source`: at most 15 characters are kept.
+// Records of a motion and an attitude. `source`: at most 15 characters are kept.
 FlightSample sample_of(const Motion& motion, const Attitude& attitude, std::string_view source);
 
 }  // namespace yars::databuffer::flight

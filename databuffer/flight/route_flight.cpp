@@ -14,7 +14,7 @@ namespace {
 using error::Expected;
 using error::fail;
 
-constexpr double kMinLeg = 100.0;  // [m] a shorter leg has no direction worth flying
+constexpr double kMinLeg_m = 100.0;  // [m] minimum length of a leg; the direction of a shorter one is ill-defined
 
 Expected<Waypoint> parse_waypoint(const text::NumberedLine& line, std::string_view name) {
   const auto numbers = file::parse_numbers(
@@ -26,14 +26,14 @@ Expected<Waypoint> parse_waypoint(const text::NumberedLine& line, std::string_vi
 }
 
 bool too_close(const Waypoint& from, const Waypoint& to) {
-  return geo::geodesic_inverse(from.point, to.point).distance.metres() < kMinLeg;
+  return geo::geodesic_inverse(from.point, to.point).distance.metres() < kMinLeg_m;
 }
 
-// The leg back to the start must be one too.
-Expected<void> close_loop(Route& route, const std::string& place) {
+// Marks the route as a loop. The closing leg must not be too short.
+Expected<void> close_loop(Route& route, const std::string& line_name) {
   route.loop = true;
   if (route.waypoints.size() < 2 || !too_close(route.waypoints.back(), route.waypoints.front())) return {};
-  return fail(place, "a last waypoint at least 100 m from the first", "the same place",
+  return fail(line_name, "a last waypoint at least 100 m from the first", "the same place",
               "leave out the last waypoint: loop goes back to the first by itself");
 }
 
@@ -47,16 +47,16 @@ std::size_t Route::after(std::size_t waypoint) const {
 Expected<Route> parse_route(std::string_view text, std::string_view name) {
   Route route;
   for (const text::NumberedLine& line : text::numbered_lines(text)) {
-    const std::string place = file::place_in_file(name, line.number);
-    if (route.loop) return fail(place, "nothing behind loop", '"' + std::string(line.text) + '"');
+    const std::string line_name = file::place_in_file(name, line.number);
+    if (route.loop) return fail(line_name, "nothing behind loop", '"' + std::string(line.text) + '"');
     if (line.text == "loop") {
-      if (auto closed = close_loop(route, place); !closed) return tl::unexpected(closed.error());
+      if (auto closed = close_loop(route, line_name); !closed) return tl::unexpected(closed.error());
       continue;
     }
     const auto waypoint = parse_waypoint(line, name);
     if (!waypoint) return tl::unexpected(waypoint.error());
     if (!route.waypoints.empty() && too_close(route.waypoints.back(), *waypoint))
-      return fail(place, "a waypoint at least 100 m from the one before", "the same place");
+      return fail(line_name, "a waypoint at least 100 m from the one before", "the same place");
     route.waypoints.push_back(*waypoint);
   }
   if (route.waypoints.size() < 2)
@@ -67,23 +67,25 @@ Expected<Route> parse_route(std::string_view text, std::string_view name) {
 
 namespace {
 
-constexpr double kGravity = 9.80665;        // [m/s^2] standard; a turn's radius goes with its inverse
-constexpr double kLongestStep = 0.02;       // [s] longer ones would blunt roll-in and roll-out
-constexpr double kClimbGain = 0.1;          // [1/s] levels off within kAcceleration: gain x climb limit = 2 m/s^2
-constexpr double kLongestLead_deg = 120.0;  // [deg] of turn; beyond it the tangent runs away, to infinity at 180
-// Turns are planned with less than the full bank, so that the rest can mend what roll-in and speed changes spoil.
+constexpr double kGravity_mps2 = 9.80665;  // [m/s^2] standard gravity; turn radius is inversely proportional to it
+constexpr double kMaxStep_s = 0.02;        // [s] maximum integration step; longer ones distort roll-in and roll-out
+// [1/s] Gain x kClimbLimit equals kAcceleration_mps2. A larger gain needs more than that when levelling off.
+constexpr double kClimbGain_per_s = 0.1;
+constexpr double kMaxLeadTurn_deg = 120.0;  // [deg] largest turn for the lead distance, which diverges at 180 deg
+// Bank for planning turns. The margin to kBankLimit corrects errors of roll-in and of speed changes.
 constexpr geo::Angle kPlannedBank = geo::Angle::degrees(27.0);
-constexpr double kCaptureSeconds = 8.0;  // [s] near the leg the distance from it decays with this time constant
-constexpr double kTrackGain = 0.3;       // [1/s] turn rate for each unit of track error; a roll takes a fraction of it
-constexpr double kSteepestIntercept_deg = 90.0;  // [deg] towards the leg
-constexpr double kUncertainTurn_deg = 150.0;     // [deg] beyond it either side is as good: a turn begun goes on
+constexpr double kCaptureTime_s = 8.0;      // [s] near the leg the distance from it decays with this time constant
+constexpr double kTrackGain_per_s = 0.3;    // [1/s] turn rate per track error; rolling takes a fraction of its inverse
+constexpr double kMaxIntercept_deg = 90.0;  // [deg] largest angle towards the leg
+// [deg] Track error beyond which either direction is acceptable, so that a turn in progress keeps its direction.
+constexpr double kAmbiguousTurn_deg = 150.0;
 
 double turn_radius_m(double speed_mps) {
-  return speed_mps * speed_mps / (kGravity * std::tan(kPlannedBank.radians()));
+  return speed_mps * speed_mps / (kGravity_mps2 * std::tan(kPlannedBank.radians()));
 }
 
-double approach(double value, double target, double most) {
-  return value + std::clamp(target - value, -most, most);
+double approach(double value, double target, double max_change) {
+  return value + std::clamp(target - value, -max_change, max_change);
 }
 
 Motion start_of(const Route& route, const Leg& leg) {
@@ -125,17 +127,17 @@ void RouteFlight::fly_to(std::size_t waypoint, geo::GeoPoint from) {
   fix_ = {};
 }
 
-std::size_t RouteFlight::nearest_leg_end(geo::GeoPoint place) const {
+std::size_t RouteFlight::nearest_leg_end(geo::GeoPoint position) const {
   std::size_t best = 1;
   double best_m = std::numeric_limits<double>::infinity();
   for (std::size_t from = 0; from < route_.waypoints.size(); ++from) {
     const std::size_t to = route_.after(from);
     if (to == route_.waypoints.size()) break;
     const Leg leg(route_.waypoints[from].point, route_.waypoints[to].point);
-    const auto along = std::clamp(leg.fix(place, {}).along, geo::Length(), leg.length());
-    const double distance_m = geo::geodesic_inverse(place, leg.point(along)).distance.metres();
-    // A leg whose end is here already cannot be flown to.
-    const bool at_end = geo::geodesic_inverse(place, route_.waypoints[to].point).distance.metres() < 1.0;
+    const auto along = std::clamp(leg.fix(position, {}).along, geo::Length(), leg.length());
+    const double distance_m = geo::geodesic_inverse(position, leg.point(along)).distance.metres();
+    // The end of such a leg is already reached.
+    const bool at_end = geo::geodesic_inverse(position, route_.waypoints[to].point).distance.metres() < 1.0;
     if (distance_m < best_m && !at_end) {
       best = to;
       best_m = distance_m;
@@ -145,9 +147,9 @@ std::size_t RouteFlight::nearest_leg_end(geo::GeoPoint place) const {
 }
 
 FlightSample RouteFlight::step(geo::Duration dt) {
-  double remaining_s = stretch_ahead(dt).seconds();
+  double remaining_s = forward_step(dt).seconds();
   while (remaining_s > 0.0) {
-    const double part_s = std::min(remaining_s, kLongestStep);
+    const double part_s = std::min(remaining_s, kMaxStep_s);
     advance(part_s);
     remaining_s -= part_s;
   }
@@ -169,61 +171,61 @@ void RouteFlight::change_leg_in_time() {
   fix_ = leg_.fix(motion_.point, {});
 }
 
-// How far before the waypoint the turn must begin: the tangent of the circle, and half the time of rolling in.
+// Distance before the waypoint at which the turn begins: tangent length of the circle plus half the roll-in distance.
 geo::Length RouteFlight::lead() const {
   const double speed_mps = motion_.ground_speed.metres_per_second();
   const double turn_deg = std::abs((next_->course_at_start() - leg_.course_at_end()).degrees());
-  const double half_turn_rad = std::min(turn_deg, kLongestLead_deg) / 2.0 * geo::kRadiansPerDegree;
+  const double half_turn_rad = std::min(turn_deg, kMaxLeadTurn_deg) / 2.0 * geo::kRadiansPerDegree;
   const double roll_in_s = std::min(turn_deg, kPlannedBank.degrees()) / kRollRate_dps;
   const double tangent_m = turn_radius_m(speed_mps) * std::tan(half_turn_rad);
   const auto wanted = geo::Length::metres(tangent_m + speed_mps * roll_in_s / 2.0);
-  // Never more than half of either leg, or short legs would be skipped whole.
+  // At most half of either leg; otherwise short legs would be skipped.
   return std::min({wanted, 0.5 * leg_.length(), 0.5 * next_->length()});
 }
 
-// The angle towards the leg, right positive: that of a circle tangent to a line beside the leg, and from where the
-// slopes meet proportional to the distance, so that it ends smoothly.
+// Intercept angle relative to the leg, right positive. Far from the leg it follows a circle tangent to a line beside
+// the leg. Near it, from where the slopes are equal, it is proportional to the distance, so that it ends smoothly.
 geo::Angle RouteFlight::intercept() const {
   const double speed_mps = motion_.ground_speed.metres_per_second();
   const double radius_m = turn_radius_m(speed_mps);
-  const double capture_m = kCaptureSeconds * speed_mps;
+  const double capture_m = kCaptureTime_s * speed_mps;
   const double across_m = std::abs(fix_.across.metres());
   const double beside_m = capture_m * capture_m / (2.0 * radius_m);
   const double angle_rad = across_m < 2.0 * beside_m ? across_m / capture_m
                                                      : std::acos(std::max(0.0, 1.0 - (across_m - beside_m) / radius_m));
-  const auto angle = std::min(geo::Angle::radians(angle_rad), geo::Angle::degrees(kSteepestIntercept_deg));
+  const auto angle = std::min(geo::Angle::radians(angle_rad), geo::Angle::degrees(kMaxIntercept_deg));
   return fix_.across > geo::Length() ? -angle : angle;
 }
 
 geo::Angle RouteFlight::commanded_bank() const {
   geo::Angle error = fix_.course + intercept() - motion_.track;
-  if (std::abs(error.degrees()) > kUncertainTurn_deg && std::abs(roll_.degrees()) > 1.0)
+  if (std::abs(error.degrees()) > kAmbiguousTurn_deg && std::abs(roll_.degrees()) > 1.0)
     error = geo::Angle::degrees(std::copysign(error.degrees(), roll_.degrees()));
   const double speed_mps = motion_.ground_speed.metres_per_second();
-  const auto bank = geo::Angle::radians(std::atan(kTrackGain * error.radians() * speed_mps / kGravity));
+  const auto bank = geo::Angle::radians(std::atan(kTrackGain_per_s * error.radians() * speed_mps / kGravity_mps2));
   return std::clamp(bank, -kBankLimit, kBankLimit);
 }
 
 void RouteFlight::change_speeds(double dt_s) {
   const Waypoint& waypoint = route_.waypoints[target_];
-  const double most_mps = kAcceleration_mps2 * dt_s;
+  const double max_change_mps = kAcceleration_mps2 * dt_s;
   const double limit_mps = kClimbLimit.metres_per_second();
   const double rise_m = (waypoint.altitude - motion_.altitude).metres();
-  const double climb_mps = std::clamp(kClimbGain * rise_m, -limit_mps, limit_mps);
-  motion_.climb = geo::Speed::metres_per_second(approach(motion_.climb.metres_per_second(), climb_mps, most_mps));
+  const double climb_mps = std::clamp(kClimbGain_per_s * rise_m, -limit_mps, limit_mps);
+  motion_.climb = geo::Speed::metres_per_second(approach(motion_.climb.metres_per_second(), climb_mps, max_change_mps));
   motion_.ground_speed = geo::Speed::metres_per_second(
-      approach(motion_.ground_speed.metres_per_second(), waypoint.ground_speed.metres_per_second(), most_mps));
+      approach(motion_.ground_speed.metres_per_second(), waypoint.ground_speed.metres_per_second(), max_change_mps));
 }
 
 void RouteFlight::move(double dt_s) {
   const double speed_mps = motion_.ground_speed.metres_per_second();
-  const auto turn = geo::Angle::radians(kGravity * std::tan(roll_.radians()) / speed_mps * dt_s);
-  // Half the turn before the stretch and half behind it: the chord of the arc, to second order.
+  const auto turn = geo::Angle::radians(kGravity_mps2 * std::tan(roll_.radians()) / speed_mps * dt_s);
+  // Half of the turn is applied before the step and half after it: the chord of the arc, to second order.
   const geo::Length flown = geo::Length::metres(speed_mps * dt_s);
   const geo::GeodesicRay chord(motion_.point, motion_.track + 0.5 * turn);
-  const auto place = chord.place(surface_distance(motion_, flown));
-  motion_.point = place.point;
-  motion_.track = place.azimuth + 0.5 * turn;
+  const auto end = chord.place(surface_distance(motion_, flown));
+  motion_.point = end.point;
+  motion_.track = end.azimuth + 0.5 * turn;
   motion_.altitude = motion_.altitude + geo::Length::metres(motion_.climb.metres_per_second() * dt_s);
 }
 

@@ -39,11 +39,11 @@ bool FixedFlight::reposition(const Placement& placement) {
 
 FlightSample FixedFlight::step(geo::Duration dt) {
   const auto motion_here = [this] {
-    const auto place = ray_.place(flown_);
-    return Motion{place.point, origin_.altitude, place.azimuth, setting_.ground_speed, {}};
+    const auto end = ray_.place(flown_);
+    return Motion{end.point, origin_.altitude, end.azimuth, setting_.ground_speed, {}};
   };
   const Motion before = motion_here();
-  const auto flown = geo::Length::metres(setting_.ground_speed.metres_per_second() * stretch_ahead(dt).seconds());
+  const auto flown = geo::Length::metres(setting_.ground_speed.metres_per_second() * forward_step(dt).seconds());
   flown_ = flown_ + surface_distance(before, flown);
   const Motion motion = motion_here();
   return sample_of(motion, coordinated_attitude(motion, {}), "fixed");

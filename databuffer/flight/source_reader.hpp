@@ -1,4 +1,7 @@
-// Flight model that an option names, and the simplest: straight and level.
+// Flight model named by `--source`, and straight and level flight.
+// Inputs: route:FILE, fixed:LAT,LON,ALT_FT,HDG,KT or csv:FILE. databuffer/bridges has the other sources.
+// Outputs: a FlightModel with a description for the log.
+// Errors: a malformed text is bad usage; errors of a file name its line.
 #pragma once
 
 #include <memory>
@@ -10,14 +13,14 @@
 
 namespace yars::databuffer::flight {
 
-// Straight and level along a geodesic at a fixed speed; at 0 kt parked in the air. Written
-// LAT,LON,ALT_FT,HDG,KT: degrees, degrees, feet above sea level, degrees true, knots over ground.
+// Straight and level flight along a geodesic at constant speed; 0 kt is a fixed point in the air. Text form:
+// LAT,LON,ALT_FT,HDG,KT in degrees, degrees, feet above mean sea level, degrees true, knots over ground.
 struct FixedSetting {
   Placement start;
   geo::Speed ground_speed;
 };
 
-// Latitude [-90, 90], longitude [-180, 180], altitude [-1000, 200000] ft, heading [0, 360], speed [0, 5000] kt.
+// Ranges: latitude [-90, 90], longitude [-180, 180], altitude [-1000, 200000] ft, heading [0, 360], speed [0, 5000] kt.
 error::Expected<FixedSetting> parse_fixed(std::string_view text);
 
 class FixedFlight final : public FlightModel {
@@ -29,19 +32,18 @@ class FixedFlight final : public FlightModel {
 
  private:
   FixedSetting setting_;
-  Placement origin_;  // of the ray: the start, or where it was last placed
+  Placement origin_;  // origin of the ray: the start, or the last repositioning
   geo::GeodesicRay ray_;
-  geo::Length flown_;  // along the ray, on the ellipsoid
+  geo::Length flown_;  // distance along the ray on the ellipsoid
 };
 
-// From `--source KIND:...` to the flight model that it names; reads the file of a route or track.
+// Flight model of a `--source` text.
 struct FlightSource {
   std::unique_ptr<FlightModel> model;
-  std::string description;  // for the log: what flies, from which file
+  std::string description;  // for the log: kind, file, number of waypoints or rows
 };
 
-// route:FILE, fixed:LAT,LON,ALT_FT,HDG,KT, csv:FILE (programs outside: databuffer/bridges). An error about the text
-// itself counts as bad usage.
+// Makes the flight model and reads its file. An error in the text itself is bad usage.
 error::Expected<FlightSource> open_source(std::string_view text);
 
 }  // namespace yars::databuffer::flight

@@ -13,34 +13,34 @@ namespace {
 using error::Expected;
 using error::fail;
 
-// In the order in which parse_row uses them. Headings are taken from either convention, -180..180 or 0..360.
+// Columns in the order used by parse_row(). Headings may be -180..180 or 0..360.
 const std::vector<file::NumberField> kColumns{
     {"time", 0.0, 1e9},         {"lat", -90.0, 90.0},   {"lon", -180.0, 180.0},  {"alt_ft", -3'000.0, 600'000.0},
     {"heading", -180.0, 360.0}, {"pitch", -90.0, 90.0}, {"roll", -180.0, 180.0},
 };
 
-using ColumnPlaces = std::vector<std::size_t>;  // for each of kColumns, its place in a row
+using ColumnIndices = std::vector<std::size_t>;  // index in a row for each of kColumns
 
-Expected<ColumnPlaces> parse_header(std::string_view line, const std::string& place) {
+Expected<ColumnIndices> parse_header(std::string_view line, const std::string& line_name) {
   const auto names = text::fields_of(line, ',');
-  ColumnPlaces places;
+  ColumnIndices indices;
   for (const file::NumberField& column : kColumns) {
     const auto found = std::ranges::find(names, column.name);
     if (found == names.end())
-      return fail(place, "a header row with time,lat,lon,alt_ft,heading,pitch,roll",
+      return fail(line_name, "a header row with time,lat,lon,alt_ft,heading,pitch,roll",
                   "no column " + std::string(column.name));
-    places.push_back(static_cast<std::size_t>(found - names.begin()));
+    indices.push_back(static_cast<std::size_t>(found - names.begin()));
   }
-  return places;
+  return indices;
 }
 
-Expected<TrackRow> parse_row(std::string_view line, const ColumnPlaces& places, const std::string& place) {
+Expected<TrackRow> parse_row(std::string_view line, const ColumnIndices& indices, const std::string& line_name) {
   const auto fields = text::fields_of(line, ',');
-  if (fields.size() <= *std::ranges::max_element(places))
-    return fail(place, "as many fields as the header has", std::to_string(fields.size()));
+  if (fields.size() <= *std::ranges::max_element(indices))
+    return fail(line_name, "as many fields as the header has", std::to_string(fields.size()));
   std::vector<std::string_view> texts;
-  for (const std::size_t column : places) texts.push_back(fields[column]);
-  const auto numbers = file::parse_numbers(place, texts, kColumns, ",");
+  for (const std::size_t column : indices) texts.push_back(fields[column]);
+  const auto numbers = file::parse_numbers(line_name, texts, kColumns, ",");
   if (!numbers) return tl::unexpected(numbers.error());
   const auto& value = *numbers;
   return TrackRow{geo::Duration::seconds(value[0]),
@@ -54,18 +54,18 @@ Expected<TrackRow> parse_row(std::string_view line, const ColumnPlaces& places, 
 Expected<Track> parse_track(std::string_view text, std::string_view name) {
   const auto lines = text::numbered_lines(text);
   if (lines.empty()) return fail(std::string(name), "a header row and at least two rows", "no line");
-  const auto places = parse_header(lines.front().text, file::place_in_file(name, lines.front().number));
-  if (!places) return tl::unexpected(places.error());
+  const auto indices = parse_header(lines.front().text, file::place_in_file(name, lines.front().number));
+  if (!indices) return tl::unexpected(indices.error());
   Track track;
   for (auto line = lines.begin() + 1; line != lines.end(); ++line) {
-    const std::string place = file::place_in_file(name, line->number);
-    if (track.loop) return fail(place, "nothing behind loop", '"' + std::string(line->text) + '"');
+    const std::string line_name = file::place_in_file(name, line->number);
+    if (track.loop) return fail(line_name, "nothing behind loop", '"' + std::string(line->text) + '"');
     track.loop = line->text == "loop";
     if (track.loop) continue;
-    const auto row = parse_row(line->text, *places, place);
+    const auto row = parse_row(line->text, *indices, line_name);
     if (!row) return tl::unexpected(row.error());
     if (!track.rows.empty() && row->time <= track.rows.back().time)
-      return fail(place, "a time after " + text::text_of_number(track.rows.back().time.seconds()) + " s",
+      return fail(line_name, "a time after " + text::text_of_number(track.rows.back().time.seconds()) + " s",
                   text::text_of_number(row->time.seconds()) + " s");
     track.rows.push_back(*row);
   }
@@ -75,7 +75,7 @@ Expected<Track> parse_track(std::string_view text, std::string_view name) {
 
 namespace {
 
-// Part of the way from one angle to another, the shorter way round.
+// Interpolates an angle by the shorter way.
 geo::Angle between(geo::Angle from, geo::Angle to, double share) {
   const double turn_deg = geo::wrapped_degrees(to.degrees() - from.degrees());
   return geo::Angle::degrees(geo::wrapped_degrees(from.degrees() + share * turn_deg));
@@ -112,7 +112,7 @@ bool TrackFlight::resume(const Ownship& last, geo::Duration gap) {
   return true;
 }
 
-// Moves on to the stretch in which the time elapsed lies.
+// Advances to the stretch that contains elapsed_.
 void TrackFlight::find_row() {
   const auto start_of = [this](std::size_t row) { return track_.rows[row].time - track_.rows.front().time; };
   const std::size_t before = row_;
@@ -121,7 +121,7 @@ void TrackFlight::find_row() {
 }
 
 FlightSample TrackFlight::step(geo::Duration dt) {
-  elapsed_ = elapsed_ + stretch_ahead(dt);
+  elapsed_ = elapsed_ + forward_step(dt);
   FlightSample sample = present();
   const geo::Duration whole = track_.rows.back().time - track_.rows.front().time;
   sample.ownship.flight_time_s = std::min(elapsed_, whole).seconds();
@@ -146,12 +146,12 @@ FlightSample TrackFlight::sample_between(double share) const {
   const TrackRow& from = track_.rows[row_];
   const TrackRow& to = track_.rows[row_ + 1];
   const double seconds = (to.time - from.time).seconds();
-  const auto place = stretch_.ray.place(share * stretch_.length);
+  const auto end = stretch_.ray.place(share * stretch_.length);
   const geo::Length rise = to.altitude - from.altitude;
-  Motion motion{place.point, from.altitude + share * rise, place.azimuth, {}, {}};
+  Motion motion{end.point, from.altitude + share * rise, end.azimuth, {}, {}};
   motion.ground_speed = speed_at_altitude(motion, geo::Speed::metres_per_second(stretch_.length.metres() / seconds));
   motion.climb = geo::Speed::metres_per_second(rise.metres() / seconds);
-  const Attitude attitude{place.azimuth + stretch_.nose_at_start + share * stretch_.nose_turn,
+  const Attitude attitude{end.azimuth + stretch_.nose_at_start + share * stretch_.nose_turn,
                           from.attitude.pitch + share * (to.attitude.pitch - from.attitude.pitch),
                           between(from.attitude.roll, to.attitude.roll, share)};
   return sample_of(motion, attitude, "csv");

@@ -1,4 +1,9 @@
-// Flight along a recorded track, and the track's file.
+// Flight along a recorded track, and the parser of the track file.
+// Inputs: track text; steps of sim time.
+// Outputs: Ownship and Nav.
+// Errors: a missing column, times that do not ascend, a value out of range, or fewer than two rows; errors name the
+// line.
+// Source: docs/spec/formats.md#csv.
 #pragma once
 
 #include <string_view>
@@ -9,10 +14,10 @@
 
 namespace yars::databuffer::flight {
 
-// A recorded track: comma separated rows below a header row that names the columns, in any order, of
-//   time [s], lat, lon [deg WGS84], alt_ft [ft above sea level], heading [deg true], pitch, roll [deg].
-// Other columns are passed over. Times ascend. `#` begins a comment; a line `loop` at the end begins anew after
-// the last row, which should then lie where the first one does.
+// Row of a track file. Rows are comma-separated, below a header row with these columns in any order:
+//   time [s], lat, lon [deg WGS84], alt_ft [ft above mean sea level], heading [deg true], pitch, roll [deg].
+// Other columns are ignored. Times ascend. `#` begins a comment. A last line `loop` repeats the track from its first
+// row, which should have the position of the last row.
 struct TrackRow {
   geo::Duration time;
   geo::GeoPoint point;
@@ -25,13 +30,13 @@ struct Track {
   bool loop = false;
 };
 
-// `name` is the file's, for errors: they carry the line.
+// `name`: file name for errors.
 error::Expected<Track> parse_track(std::string_view text, std::string_view name);
 
-// Flies a recorded track: between two rows along the geodesic at a steady speed, attitude turned the shorter way
-// (heading with respect to the geodesic, so that it holds at the poles too); velocity is that of the rows' places.
-// At the end it stands where the last row is, or begins anew. It follows its file alone: it cannot be placed, but
-// goes on from the time into the track that a predecessor told.
+// Flies a recorded track. Between two rows it follows the geodesic at constant speed. Attitude angles change linearly
+// by the shorter way. Heading is interpolated relative to the geodesic, so that it holds near the poles. Velocity is
+// the difference of the rows' positions over their time. After the last row the aircraft stands there, or the track
+// repeats. It cannot be repositioned. A successor resumes at its predecessor's flight_time_s.
 class TrackFlight final : public FlightModel {
  public:
   explicit TrackFlight(Track track);
@@ -41,12 +46,12 @@ class TrackFlight final : public FlightModel {
   bool resume(const Ownship& last, geo::Duration gap) override;
 
  private:
-  // Between a row and the next.
+  // Interpolation data between a row and the next.
   struct Stretch {
     geo::GeodesicRay ray;
     geo::Length length;
-    geo::Angle nose_at_start;  // heading against the geodesic
-    geo::Angle nose_turn;      // by which that changes until the next row
+    geo::Angle nose_at_start;  // heading relative to the geodesic
+    geo::Angle nose_turn;      // change of that angle until the next row
   };
   static Stretch stretch_between(const TrackRow& from, const TrackRow& to);
 
@@ -57,7 +62,7 @@ class TrackFlight final : public FlightModel {
 
   Track track_;
   geo::Duration elapsed_;  // since the first row
-  std::size_t row_ = 0;    // the stretch begins here
+  std::size_t row_ = 0;    // first row of the present stretch
   Stretch stretch_;
 };
 

@@ -9,7 +9,7 @@ namespace yars::radar {
 geo::Bearing ground_track(geo::Speed north, geo::Speed east, geo::Bearing heading) {
   const double north_mps = north.metres_per_second();
   const double east_mps = east.metres_per_second();
-  // Slower than this an aircraft stands or is towed, and its track would swing with every bit of noise.
+  // Below this speed an aircraft is parked or towed, and noise would swing its track.
   constexpr double kStanding_mps = 1.0;
   if (std::hypot(north_mps, east_mps) < kStanding_mps) return heading;
   return geo::Bearing::radians(std::atan2(east_mps, north_mps));
@@ -32,15 +32,15 @@ bool is_set(GeoPoint point) {
          (point.latitude_deg != 0.0 || point.longitude_deg != 0.0);
 }
 
-// A place as seen from one point, laid off from another.
-GeoPoint carried(GeoPoint from, GeoPoint to, GeoPoint place) {
-  if (same(from, to)) return place;
-  const geo::GeodesicInverse line = geo::geodesic_inverse(from, place);
+// Bearing and range of `position` from `from`, laid off from `to`.
+GeoPoint transferred(GeoPoint from, GeoPoint to, GeoPoint position) {
+  if (same(from, to)) return position;
+  const geo::GeodesicInverse line = geo::geodesic_inverse(from, position);
   return geo::geodesic_direct(to, line.azimuth_at_start, line.distance);
 }
 
-GeoPoint moved(GeoPoint place, double north_m, double east_m) {
-  return geo::AzimuthalEquidistant(place).geodetic_from_plane({east_m, north_m});
+GeoPoint displaced(GeoPoint position, double north_m, double east_m) {
+  return geo::AzimuthalEquidistant(position).geodetic_from_plane({east_m, north_m});
 }
 
 }  // namespace
@@ -52,11 +52,11 @@ geo::Bearing ground_track_of(const Ownship& ownship) {
 }
 
 GeoPoint Belief::on_video(GeoPoint known) const {
-  return carried(believed, truth, known);
+  return transferred(believed, truth, known);
 }
 
-GeoPoint Belief::known_from_video(GeoPoint place) const {
-  return carried(truth, believed, place);
+GeoPoint Belief::known_from_video(GeoPoint position) const {
+  return transferred(truth, believed, position);
 }
 
 Belief belief_of(radar::Navigator navigator, const Ownship& ownship, const Nav& nav, const RadarState& state) {
@@ -65,7 +65,7 @@ Belief belief_of(radar::Navigator navigator, const Ownship& ownship, const Nav& 
   const GeoPoint given = ins ? GeoPoint{nav.ins_latitude_deg, nav.ins_longitude_deg}
                              : GeoPoint{nav.mission_latitude_deg, nav.mission_longitude_deg};
   const NavigatorError& error = ins ? state.ins : state.mission;
-  return {truth, moved(is_set(given) ? given : truth, error.north_m, error.east_m)};
+  return {truth, displaced(is_set(given) ? given : truth, error.north_m, error.east_m)};
 }
 
 Belief belief_in_use(const Ownship& ownship, const Nav& nav, const RadarState& state) {
@@ -84,7 +84,7 @@ RadarCommand command_from_state(const RadarState& state) {
   command.flags =
       state.flags & (kFreeze | kSniff | kIpvu | kMultiLook2 | kProgressive | kCursorValid | kMapping | kMapWindowBlank);
   command.power = state.power;
-  // Under the main menu the radar keeps running in the mode below it.
+  // Under the main menu the radar continues in the mode below it.
   const bool menu = state.mode == static_cast<std::uint8_t>(radar::Mode::menu);
   command.mode = menu ? state.resume_mode : state.mode;
   command.scan = state.scan;
@@ -101,7 +101,7 @@ RadarCommand command_from_state(const RadarState& state) {
 
 namespace {
 
-bool maps_from(radar::Mode mode) {
+bool can_map_in(radar::Mode mode) {
   return mode == radar::Mode::rbm || mode == radar::Mode::hrm || mode == radar::Mode::patch;
 }
 
@@ -110,10 +110,10 @@ bool maps_from(radar::Mode mode) {
 std::optional<double> map_timer_s(const RadarState& state, const ModelStatus& model) {
   if (!std::isfinite(model.map_timer_s)) return std::nullopt;
   const bool forms = model.map_window_nm > 0.0;
-  const bool could = maps_from(static_cast<radar::Mode>(state.resume_mode)) &&
-                     state.cursor_function == static_cast<std::uint8_t>(radar::CursorFunction::map) &&
-                     state.window_nm > 0.0 && model.mappable != 0;
-  if (!forms && !could) return std::nullopt;
+  const bool could_form = can_map_in(static_cast<radar::Mode>(state.resume_mode)) &&
+                          state.cursor_function == static_cast<std::uint8_t>(radar::CursorFunction::map) &&
+                          state.window_nm > 0.0 && model.mappable != 0;
+  if (!forms && !could_form) return std::nullopt;
   return model.map_timer_s;
 }
 

@@ -1,4 +1,7 @@
 // Values derived from records: ground track, navigator's belief, radar command, map timer.
+// Inputs: Ownship, Nav, RadarState and ModelStatus, all validated.
+// Frame: WGS84 positions, true bearings.
+// Threads: pure functions.
 #pragma once
 
 #include <optional>
@@ -12,42 +15,43 @@
 
 namespace yars::radar {
 
-// Which way the aircraft goes over ground: the axis of the scan and of the glass. Direction of the velocity; below 1
-// m/s, where a velocity has no direction worth following, the heading.
+// Direction of motion over ground: the axis of the scan and of the display. Below 1 m/s it is the heading, because
+// noise dominates the direction of such a velocity.
 geo::Bearing ground_track(geo::Speed north, geo::Speed east, geo::Bearing heading);
 
 }  // namespace yars::radar
 
 namespace yars::databuffer {
 
-// Which way it goes over ground; below walking speed its heading.
+// The same for an ownship record.
 geo::Bearing ground_track_of(const Ownship& ownship);
 
-// What a navigator believes, against what is true. Video is made from the truth; sequence points, and all that is told
-// to others, are the navigator's. Its belief is what the lane says plus the error that the state machine keeps.
+// Position that a navigator computes (`believed`), and the true position. Video is formed from the truth. Sequence
+// points, and all positions reported to other systems, are the navigator's. `believed` is the navigator's position in
+// Nav plus the error kept in the radar state.
 struct Belief {
   geo::GeoPoint truth;
   geo::GeoPoint believed;
 
-  // Where the video shows a place that the navigator knows by its coordinates: bearing and range from where it believes
-  // to be, laid off from where the aircraft is. Without an error the place itself, to the last bit.
+  // Position on the video of a point with known coordinates: bearing and range from the believed position, laid off
+  // from the true one. Without a navigation error the result is the input, bit for bit.
   geo::GeoPoint on_video(geo::GeoPoint known) const;
-  // The coordinates that the navigator gives to a place on the video: the inverse.
-  geo::GeoPoint known_from_video(geo::GeoPoint place) const;
+  // Inverse: coordinates that the navigator assigns to a position on the video.
+  geo::GeoPoint known_from_video(geo::GeoPoint position) const;
 };
 
-// A lane that gives no navigator (zeros, or no numbers) is taken for one that knows the truth.
+// Belief of one navigator. A navigator that is all zeros or not finite counts as having the true position.
 Belief belief_of(radar::Navigator navigator, const Ownship& ownship, const Nav& nav, const RadarState& state);
 
-// Of the navigator that the pilot has chosen.
+// Belief of the navigator selected by the pilot.
 Belief belief_in_use(const Ownship& ownship, const Nav& nav, const RadarState& state);
 
-// The part of the radar state that the model acts on.
+// Fields of the radar state that control the radar model.
 RadarCommand command_from_state(const RadarState& state);
 
-// When the pilot is told how long a patch map takes. Source: docs/spec/pilots_interface.md#rule-6. Time left [s] of the
-// map that forms; else what one at the cursor would take, in RBM, HRM PPI and on a patch, with cursor MAP, a window
-// selected and the cursor mappable. Nothing when the model tells no number.
+// Map timer [s] as displayed. Source: docs/spec/pilots_interface.md#rule-6. While a map forms: its remaining time.
+// Else: formation time of a map at the cursor, in RBM, HRM PPI and on a patch, with cursor function MAP, a window
+// selected and the cursor mappable. nullopt: no display, or the model reports no number.
 std::optional<double> map_timer_s(const RadarState& state, const ModelStatus& model);
 
 }  // namespace yars::databuffer

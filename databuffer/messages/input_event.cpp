@@ -14,12 +14,12 @@ namespace yars::databuffer {
 
 namespace {
 
-// [ft] and [ft/s] that the instructor may put in: 100 NM, and the speed of sound.
-constexpr double kLargestInjectedError = 600'000.0;
-constexpr double kLargestInjectedDrift = 1'000.0;
+// Limits of the instructor's navigator errors [ft] and drifts [ft/s]: about 100 NM, and about the speed of sound.
+constexpr double kMaxInjectedError_ft = 600'000.0;
+constexpr double kMaxInjectedDrift_fps = 1'000.0;
 
-void inspect_word(Inspection& inspection, const InputEvent& event, int least, int most) {
-  inspection.range("argument", event.argument, least, most);
+void inspect_word(Inspection& inspection, const InputEvent& event, int lower, int upper) {
+  inspection.range("argument", event.argument, lower, upper);
 }
 
 void inspect_sign(Inspection& inspection, const InputEvent& event) {
@@ -34,10 +34,10 @@ void inspect_radar_mode(Inspection& inspection, const InputEvent& event) {
     inspection.fault("argument", "RBM 0, HRM 1, BCN 3 or PVU 4", std::to_string(event.argument));
 }
 
-void inspect_injected(Inspection& inspection, const InputEvent& event, double most) {
+void inspect_injected(Inspection& inspection, const InputEvent& event, double upper) {
   inspect_word(inspection, event, 0, 1);
-  inspection.range("x", event.x, -most, most);
-  inspection.range("y", event.y, -most, most);
+  inspection.range("x", event.x, -upper, upper);
+  inspection.range("y", event.y, -upper, upper);
 }
 
 void inspect_name(Inspection& inspection, const InputEvent& event) {
@@ -63,7 +63,7 @@ Refusal validate(const InputEvent& event) {
       inspection.range("x", event.x, -60.0, 60.0);
       break;
     case EventKind::elevation_step:
-      // Whole travel of the antenna; zero steps are no event.
+      // Steps for the whole travel of the antenna, 120 deg; zero steps are no event.
       inspect_word(inspection, event, -240, 240);
       if (event.argument == 0) inspection.fault("argument", "a step up or down", "0");
       break;
@@ -88,10 +88,10 @@ Refusal validate(const InputEvent& event) {
       inspect_name(inspection, event);
       break;
     case EventKind::navigator_error:
-      inspect_injected(inspection, event, kLargestInjectedError);
+      inspect_injected(inspection, event, kMaxInjectedError_ft);
       break;
     case EventKind::navigator_drift:
-      inspect_injected(inspection, event, kLargestInjectedDrift);
+      inspect_injected(inspection, event, kMaxInjectedDrift_fps);
       break;
     case EventKind::tdc_press:
     case EventKind::tdc_release:
@@ -110,15 +110,15 @@ namespace {
 using error::Expected;
 using Words = std::vector<std::string_view>;
 
-// What stands behind the verb.
+// Operand after the verb.
 enum class Operand { none, word, steps, integer, number, pair, error, name };
 
 struct Form {
   std::string_view verb;
   Operand operand;
-  std::string_view word;  // word, steps and error: the words themselves; else how the operand is shown to people
+  std::string_view word;  // word, steps and error: the words to match; else the operand as shown in messages
   EventKind kind;
-  int argument;  // word, steps and error: what the words mean
+  int argument;  // word, steps and error: value of the event's argument
 };
 
 template <class Enum>
@@ -189,7 +189,7 @@ std::string expected_forms(std::string_view verb) {
   return list;
 }
 
-// A count that does not fit the record is no number of it.
+// Stores the value; false if it was not parsed or does not fit.
 bool put_argument(InputEvent& event, std::optional<std::int16_t> value) {
   if (value) event.argument = *value;
   return value.has_value();
@@ -202,7 +202,7 @@ bool put_steps(InputEvent& event, const Form& form, const Words& words) {
   return put_argument(event, static_cast<std::int16_t>(*count * form.argument));
 }
 
-// One number or two, from words[first] on.
+// Parses one number or two from words[first] on.
 bool put_numbers(InputEvent& event, const Words& words, std::size_t first = 1) {
   const auto x = text::finite_number(words[first]);
   const auto y = words.size() > first + 1 ? text::finite_number(words[first + 1]) : 0.0;
@@ -212,13 +212,13 @@ bool put_numbers(InputEvent& event, const Words& words, std::size_t first = 1) {
   return true;
 }
 
-// "error mn 2500 0": what, whose, north, east.
+// Parses "error mn 2500 0": quantity, navigator, north, east.
 bool put_error(InputEvent& event, const Form& form, const Words& words) {
   return words.size() == 5 && std::string(words[1]) + ' ' + std::string(words[2]) == form.word &&
          put_numbers(event, words, 3);
 }
 
-// Fills the event from the words; false when they do not have this form.
+// Fills the event from the words; false if they do not match the form.
 bool read_form(InputEvent& event, const Form& form, const Words& words) {
   event.kind = static_cast<std::uint16_t>(form.kind);
   event.argument = static_cast<std::int16_t>(form.argument);
@@ -244,7 +244,7 @@ bool read_form(InputEvent& event, const Form& form, const Words& words) {
   return false;
 }
 
-// Whether the form is the one that writes this event.
+// True if this form writes the event.
 bool writes(const Form& form, const InputEvent& event) {
   if (static_cast<std::uint16_t>(form.kind) != event.kind) return false;
   if (form.operand == Operand::word || form.operand == Operand::error) return event.argument == form.argument;
@@ -278,7 +278,7 @@ std::string operand_text(const Form& form, const InputEvent& event) {
 }  // namespace
 
 void set_text(InputEvent& event, std::string_view name) {
-  name = name.substr(0, name.find('\0'));  // a zero inside would leave bytes behind the end that readers see
+  name = name.substr(0, name.find('\0'));  // bytes after an inner zero would be visible to readers of the record
   std::fill_n(event.text, sizeof event.text, '\0');
   std::copy_n(name.data(), std::min(name.size(), sizeof event.text), event.text);
 }
@@ -289,7 +289,7 @@ Expected<InputEvent> event_from_text(std::string_view text) {
   for (const Form& form : kForms) {
     InputEvent event{};
     if (words.empty() || form.verb != words[0] || !read_form(event, form, words)) continue;
-    // The border's own rules hold here too, so that a text never makes an event that is refused later.
+    // Validation here ensures that a text never makes an event that a consumer refuses.
     if (validate(event)) break;
     return event;
   }

@@ -10,25 +10,25 @@ namespace yars::databuffer {
 
 namespace {
 
-struct Stroke {
+struct KeyAction {
   Key key;
   EventKind kind;
   int argument;
 };
 
-// What a key does when it goes down; buttons and arrows follow rules of their own.
-constexpr std::array kStrokes{
-    Stroke{Key::enter, EventKind::tdc_press, 0},
-    Stroke{Key::tab, EventKind::castle_up, 0},
-    Stroke{Key::page_up, EventKind::acquisition, 1},
-    Stroke{Key::page_down, EventKind::acquisition, -1},
-    Stroke{Key::space, EventKind::freeze, 0},
-    Stroke{Key{'['}, EventKind::elevation_step, -1},
-    Stroke{Key{']'}, EventKind::elevation_step, 1},
-    Stroke{Key::f1, EventKind::master_mode, static_cast<int>(radar::Master::air_to_ground)},
-    Stroke{Key::f2, EventKind::master_mode, static_cast<int>(radar::Master::air_to_air)},
-    Stroke{Key::f3, EventKind::master_mode, static_cast<int>(radar::Master::ranging)},
-    Stroke{Key::f4, EventKind::navigator, -1},
+// Events of keys that act when pressed; buttons and arrows are handled separately.
+constexpr std::array kKeyActions{
+    KeyAction{Key::enter, EventKind::tdc_press, 0},
+    KeyAction{Key::tab, EventKind::castle_up, 0},
+    KeyAction{Key::page_up, EventKind::acquisition, 1},
+    KeyAction{Key::page_down, EventKind::acquisition, -1},
+    KeyAction{Key::space, EventKind::freeze, 0},
+    KeyAction{Key{'['}, EventKind::elevation_step, -1},
+    KeyAction{Key{']'}, EventKind::elevation_step, 1},
+    KeyAction{Key::f1, EventKind::master_mode, static_cast<int>(radar::Master::air_to_ground)},
+    KeyAction{Key::f2, EventKind::master_mode, static_cast<int>(radar::Master::air_to_air)},
+    KeyAction{Key::f3, EventKind::master_mode, static_cast<int>(radar::Master::ranging)},
+    KeyAction{Key::f4, EventKind::navigator, -1},
 };
 
 InputEvent event_of(EventKind kind, int argument = 0) {
@@ -38,7 +38,7 @@ InputEvent event_of(EventKind kind, int argument = 0) {
   return event;
 }
 
-// 2..9 are buttons 2..9, a..k are buttons 10..20.
+// Keys 2..9 are buttons 2..9, keys a..k are buttons 10..20.
 std::optional<int> button_of(Key key) {
   const int character = static_cast<int>(key);
   if (character >= '2' && character <= '9') return character - '0';
@@ -50,11 +50,11 @@ bool is_arrow(Key key) {
   return key == Key::up || key == Key::down || key == Key::left || key == Key::right;
 }
 
-std::optional<InputEvent> stroke_of(Key key) {
+std::optional<InputEvent> event_of_key(Key key) {
   if (const auto button = button_of(key)) return event_of(EventKind::push_button, *button);
-  const auto stroke = std::ranges::find(kStrokes, key, &Stroke::key);
-  if (stroke == kStrokes.end()) return std::nullopt;
-  return event_of(stroke->kind, stroke->argument);
+  const auto action = std::ranges::find(kKeyActions, key, &KeyAction::key);
+  if (action == kKeyActions.end()) return std::nullopt;
+  return event_of(action->kind, action->argument);
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ std::vector<InputEvent> KeyboardState::change(Key key, bool pressed) {
     return before.x == after.x && before.y == after.y ? std::vector<InputEvent>{} : std::vector{after};
   }
   if (!pressed) return key == Key::enter ? std::vector{event_of(EventKind::tdc_release)} : std::vector<InputEvent>{};
-  const auto event = stroke_of(key);
+  const auto event = event_of_key(key);
   return event ? std::vector{*event} : std::vector<InputEvent>{};
 }
 

@@ -1,8 +1,11 @@
-// Keys of a keyboard, whatever read them (a window, a terminal, the glass), and what they do.
+// Map from keyboard keys to input events, for windows and terminals.
+// Inputs: key presses and releases.
+// Outputs: input events without times and number.
+// Threads: none; KeyboardState keeps only the set of held keys.
 // Source: docs/spec/pilots_interface.md#buttons, #controls.
 //   2..9 a..k: pb 2..20 | arrows: tdc while held | Enter: tdc press, release | Tab: coolie up |
 //   Page Up, Page Down: acq fwd, aft | Space: freeze | [ ]: elevation down, up | F1 F2 F3: mode ag, aa, agr |
-//   F4: nav toggle | Escape: nothing here; it ends the input monitor.
+//   F4: nav toggle | Escape: no event; input-monitor ends on it.
 #pragma once
 
 #include <bitset>
@@ -13,7 +16,7 @@
 
 namespace yars::databuffer {
 
-// Printable keys have their ASCII number, letters the lower one; named keys lie above ASCII.
+// Printable keys have their ASCII code, letters the lower-case one. Named keys have codes above ASCII.
 enum class Key : std::uint8_t {
   none = 0,
   space = ' ',
@@ -32,16 +35,16 @@ enum class Key : std::uint8_t {
   f4,
 };
 
-// The key of a printable ASCII character, either case; none for any other.
+// Key of a printable ASCII character, either case; Key::none for any other character.
 Key key_of_character(char character);
 
-// Turns edges of keys into events without times and number. Pure: what is held is all it remembers.
+// Converts key edges to events.
 class KeyboardState {
  public:
-  // Nothing for a key without a meaning, or when the edge repeats what is known (auto-repeat).
+  // No events for a key without function, or for a repeated edge (auto-repeat).
   std::vector<InputEvent> change(Key key, bool pressed);
 
-  // What must be sent when the keyboard goes away (focus lost, program ends) with keys held.
+  // Events that release all held keys, for loss of focus or the end of the program.
   std::vector<InputEvent> release_all();
 
  private:

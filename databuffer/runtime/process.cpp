@@ -27,9 +27,9 @@ namespace yars::databuffer {
 
 namespace {
 
-struct Outlet {
+struct PrintableOutput {
   int descriptor;
-  std::string unfinished;  // the first bytes of a character whose others are still to come
+  std::string unfinished;  // leading bytes of an incomplete UTF-8 character
 };
 
 bool write_all(int descriptor, std::string_view text) {
@@ -43,19 +43,19 @@ bool write_all(int descriptor, std::string_view text) {
 }
 
 ssize_t write_printable(void* cookie, const char* bytes, std::size_t size) {
-  auto& outlet = *static_cast<Outlet*>(cookie);
-  std::string text = std::exchange(outlet.unfinished, {}) + std::string(bytes, size);
+  auto& output = *static_cast<PrintableOutput*>(cookie);
+  std::string text = std::exchange(output.unfinished, {}) + std::string(bytes, size);
   const std::size_t held = text::unfinished_bytes(text);
-  outlet.unfinished = text.substr(text.size() - held);
+  output.unfinished = text.substr(text.size() - held);
   text.resize(text.size() - held);
-  return write_all(outlet.descriptor, text::printable_lines(text)) ? static_cast<ssize_t>(size) : 0;
+  return write_all(output.descriptor, text::printable_lines(text)) ? static_cast<ssize_t>(size) : 0;
 }
 
-// nullptr: the system has no room for it; the stream stays as it is.
-std::FILE* guarded(Outlet& outlet, int buffering) {
+// Opens a stream that writes through the output. nullptr: out of memory; the standard stream is then unchanged.
+std::FILE* open_printable(PrintableOutput& output, int buffering) {
   cookie_io_functions_t functions{};
   functions.write = write_printable;
-  std::FILE* stream = ::fopencookie(&outlet, "w", functions);
+  std::FILE* stream = ::fopencookie(&output, "w", functions);
   if (stream != nullptr) std::setvbuf(stream, nullptr, buffering, BUFSIZ);
   return stream;
 }
@@ -63,11 +63,11 @@ std::FILE* guarded(Outlet& outlet, int buffering) {
 }  // namespace
 
 void guard_terminal() {
-  // They outlive what is printed while the process ends.
-  static auto* const outlets = new Outlet[]{{STDOUT_FILENO, {}}, {STDERR_FILENO, {}}};
+  // Never deleted, because output may follow while the process ends.
+  static auto* const outputs = new PrintableOutput[]{{STDOUT_FILENO, {}}, {STDERR_FILENO, {}}};
   static const bool done = [] {
-    std::FILE* out = guarded(outlets[0], ::isatty(STDOUT_FILENO) != 0 ? _IOLBF : _IOFBF);
-    std::FILE* error = guarded(outlets[1], _IONBF);
+    std::FILE* out = open_printable(outputs[0], ::isatty(STDOUT_FILENO) != 0 ? _IOLBF : _IOFBF);
+    std::FILE* error = open_printable(outputs[1], _IONBF);
     if (out == nullptr || error == nullptr) return false;
     stdout = out;
     stderr = error;
@@ -97,7 +97,7 @@ void on_signal(int) {
 
 void install_signal_handlers() {
   struct sigaction action {};
-  action.sa_handler = on_signal;  // no SA_RESTART: a sleep or a poll ends at once
+  action.sa_handler = on_signal;  // no SA_RESTART: a sleep or poll returns at once
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
@@ -119,7 +119,7 @@ void request_stop() {
 namespace {
 
 constexpr std::string_view kLimitsFile = "/etc/security/limits.d or systemd (docs/operation.md)";
-constexpr int kHighestCpu = CPU_SETSIZE - 1;
+constexpr int kMaxCpu = CPU_SETSIZE - 1;
 
 bool has_capability(unsigned capability) {
   __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
@@ -132,31 +132,31 @@ std::string bytes_or_unlimited(rlim_t limit) {
   return limit == RLIM_INFINITY ? "unlimited" : std::to_string(limit);
 }
 
-// Runs where a signal may: one system call, one write. The process's first thread is the one that ticks.
-void step_back(int) {
+// Signal handler: only async-signal-safe calls. The process's first thread is the one that ticks.
+void drop_to_normal_priority(int) {
   const sched_param normal{};
   sched_setscheduler(getpid(), SCHED_OTHER, &normal);
   constexpr char kText[] = "a step took 0.5 s of CPU without a wait: normal priority from here on\n";
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kText, sizeof kText - 1);
 }
 
-// The kernel sends SIGXCPU when a real-time thread has computed so long without a wait.
+// Limits real-time computation: the kernel sends SIGXCPU to a thread that exceeds kMaxBurst_ms without a wait.
 bool limit_bursts() {
   struct sigaction action {};
-  action.sa_handler = step_back;
+  action.sa_handler = drop_to_normal_priority;
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
   if (sigaction(SIGXCPU, &action, nullptr) != 0) return false;
   rlimit limit{};
   if (getrlimit(RLIMIT_RTTIME, &limit) != 0) return false;
-  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, rlim_t{kLongestBurst_ms} * 1000);  // [us]
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, rlim_t{kMaxBurst_ms} * 1000);  // [us]
   return setrlimit(RLIMIT_RTTIME, &limit) == 0;
 }
 
 error::Expected<int> parse_cpu(std::string_view text) {
   int number = -1;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (code != std::errc{} || end != text.data() + text.size() || number < 0 || number > kHighestCpu)
+  if (code != std::errc{} || end != text.data() + text.size() || number < 0 || number > kMaxCpu)
     return tl::unexpected(error::usage_error("--cpus", "numbers and ranges from 0, as in 2,3 or 2-3",
                                              std::string("'").append(text).append("'")));
   return number;
@@ -198,12 +198,12 @@ std::optional<std::string> bind_to_cpus(const std::vector<int>& cpus) {
       absent.append(absent.empty() ? "" : ",").append(std::to_string(cpu));
   }
   if (!absent.empty())
-    return "--cpus: CPU " + absent + " is not there for this program (taskset -p $$ shows which are); all are used";
+    return "--cpus: CPU " + absent + " is not available to this program (taskset -p $$ shows which are); all are used";
   if (sched_setaffinity(0, sizeof wanted, &wanted) == 0) return std::nullopt;
   return std::string("--cpus: refused: ") + std::strerror(errno) + "; all CPUs are used";
 }
 
-// With a finite limit a later allocation would fail for the lock's sake: all or nothing.
+// All or nothing: under a finite limit a later allocation would fail.
 std::optional<std::string> lock_memory() {
   rlimit limit{};
   getrlimit(RLIMIT_MEMLOCK, &limit);
@@ -219,14 +219,14 @@ std::optional<std::string> take_realtime_priority() {
   if (!limit_bursts())
     return std::string("--realtime: normal priority: expected to limit bursts by RLIMIT_RTTIME, found ") +
            std::strerror(errno);
-  // Threads made later work at normal priority: only the one that ticks must be on time.
+  // RESET_ON_FORK: later threads run at normal priority; only the ticking thread must be on time.
   sched_param priority{};
   priority.sched_priority = kRealtimePriority;
   if (sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &priority) == 0) return std::nullopt;
   const int error = errno;
   rlimit limit{};
   getrlimit(RLIMIT_RTPRIO, &limit);
-  return "--realtime: normal priority: expected leave to use SCHED_FIFO " + std::to_string(kRealtimePriority) +
+  return "--realtime: normal priority: expected permission to use SCHED_FIFO " + std::to_string(kRealtimePriority) +
          ", found " + std::strerror(error) + " with RLIMIT_RTPRIO " + bytes_or_unlimited(limit.rlim_cur) +
          "; raise rtprio in " + std::string(kLimitsFile);
 }

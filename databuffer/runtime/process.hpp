@@ -1,4 +1,7 @@
-// Process of a role: terminal made safe, signals, private files, CPUs, real-time priority, locked memory.
+// Process services of a role: terminal output, signals, file permissions, CPUs, real-time priority, locked memory.
+// Inputs: --cpus and --realtime.
+// Errors: a refusal by the system is returned as text with its remedy; the program continues without that service.
+// Threads: call from the first thread, before others start. They inherit the CPUs, not the real-time priority.
 #pragma once
 
 #include <optional>
@@ -10,35 +13,35 @@
 
 namespace yars::databuffer {
 
-// Standard output and standard error without control characters: what a file, a packet or an argument has in it cannot
-// drive the terminal of whoever reads it, nor a log of what was printed. From here on all that this process prints, by
-// stdio or iostream, goes through text::printable_lines. Call it first in main; a second call does nothing.
+// Routes standard output and standard error through text::printable_lines, which removes control characters. Text from
+// a file, packet or argument then cannot control the reader's terminal. Covers stdio and iostream. Call it first in
+// main; a second call does nothing.
 void guard_terminal();
 
-// Logs, frames and recordings are the user's alone, whatever the umask: new files get 0600, new folders 0700.
+// Gives new files mode 0600 and new folders 0700, whatever the umask. Logs, frames and recordings stay private.
 void keep_files_private();
 
-// From here on SIGINT and SIGTERM ask the process to stop.
+// From this call on SIGINT and SIGTERM set the flag of stop_requested().
 void install_signal_handlers();
-// For a command that never looks at stop_requested(): SIGINT and SIGTERM end it at once again.
+// Restores the default action of SIGINT and SIGTERM, for a command that never reads stop_requested().
 void let_signals_end_the_process();
 
 // True after SIGINT, SIGTERM or request_stop().
 bool stop_requested();
 void request_stop();
 
-// What a role may ask of the system to be on time: memory that is not paged out, a real-time priority for the thread
-// that ticks, CPUs of its own. Each may be refused; the program then says what and which limit to raise, and goes on
-// without. A thread that computes kLongestBurst_ms without a pause steps back to normal priority by itself, before it
-// can hold a CPU against the rest of the machine.
-inline constexpr int kRealtimePriority = 20;  // of 1..99: above other programs, below the kernel's interrupt threads
-inline constexpr int kLongestBurst_ms = 500;  // [ms] of CPU without a wait at real-time priority
+// Real-time services. The system may refuse each; the program then names the limit to raise and continues.
+// A thread that computes for kMaxBurst_ms without a wait returns to normal priority, before it can block a CPU.
 
-// "2,3,6-7" -> 2 3 6 7, each once and in order; an error for anything else.
+// SCHED_FIFO priority, 1..99: above other programs, below the kernel's interrupt threads. A higher one delays those.
+inline constexpr int kRealtimePriority = 20;
+inline constexpr int kMaxBurst_ms = 500;  // [ms] of CPU without a wait; longer would block a CPU
+
+// Parses a CPU list: "2,3,6-7" gives 2 3 6 7, sorted and without duplicates. Other text is an error.
 error::Expected<std::vector<int>> parse_cpu_list(std::string_view text);
 
-// From the calling thread, before others are started: those are bound to the same CPUs, at normal priority.
-// Each returns the reason and the remedy when it was refused.
+// Each acts on the calling thread, before other threads start. Later threads inherit the CPUs, and run at normal
+// priority. Each returns reason and remedy if refused, else nullopt.
 std::optional<std::string> bind_to_cpus(const std::vector<int>& cpus);
 std::optional<std::string> lock_memory();
 std::optional<std::string> take_realtime_priority();

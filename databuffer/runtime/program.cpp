@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 std::string installed_file(const std::string& name, const fs::path& programs) {
   std::error_code problem;
-  // A name with a folder says where to look.
+  // A name with a folder is used as it is.
   if (name.empty() || name.find('/') != std::string::npos || fs::exists(name, problem)) return name;
   const fs::path installed = programs.parent_path() / "share/yars/config";
   for (const char* folder : {"", "routes", "scripts"})
@@ -34,7 +34,7 @@ std::string installed_file(const std::string& name) {
 
 namespace {
 
-// What the system refuses is a warning, a list that nobody can read is bad usage.
+// Applies --cpus and --realtime. A refusal by the system is a warning; a malformed CPU list is bad usage.
 std::optional<error::Error> arrange_cpus(const ProgramOptions& options) {
   const auto warn = [](const std::optional<std::string>& refusal) {
     if (refusal) log::warning(*refusal);
@@ -49,7 +49,7 @@ std::optional<error::Error> arrange_cpus(const ProgramOptions& options) {
   if (warn(lock_memory())) log::info("--realtime: memory is locked");
   if (warn(take_realtime_priority()))
     log::info("--realtime: SCHED_FIFO " + std::to_string(kRealtimePriority) + ", at most " +
-              std::to_string(kLongestBurst_ms) + " ms without a wait");
+              std::to_string(kMaxBurst_ms) + " ms without a wait");
   return std::nullopt;
 }
 
@@ -76,11 +76,11 @@ void require_finite_numbers(CLI::App& app) {
       [](std::string& text) {
         char* end = nullptr;
         const double value = std::strtod(text.c_str(), &end);
-        const bool number = end != text.c_str() && *end == '\0';  // what is none is refused in the option's own words
+        const bool number = end != text.c_str() && *end == '\0';  // the option itself refuses text that is no number
         return !number || std::isfinite(value) ? std::string() : "expected a finite number, found " + text;
       },
       "");
-  // The first to look: the range comes after it.
+  // transform() runs before the range check.
   for (CLI::Option* option :
        app.get_options([](const CLI::Option* any) { return any->get_type_name().starts_with("FLOAT"); }))
     option->transform(finite);
@@ -121,7 +121,7 @@ int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& opti
   try {
     keep_files_private();
     auto error = begin_program(app.get_name(), options);
-    // A role outlives whoever reads its log.
+    // A role continues when the reader of its log has closed the pipe.
     std::signal(SIGPIPE, SIG_IGN);
     if (!error) {
       if (auto outcome = body(); !outcome) error = outcome.error();

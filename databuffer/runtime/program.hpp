@@ -1,4 +1,7 @@
-// Programs of the set: installed files, options, exit codes, log.
+// Start and end of every program: installed files, common options, log, exit codes.
+// Inputs: command line; YARS_SESSION.
+// Outputs: exit code 0, kExitFailure or kExitUsage; errors as one line on standard error.
+// Threads: call from the first thread.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,45 +14,47 @@
 
 namespace yars::databuffer {
 
-// Files that are installed beside the programs: configurations, routes, scripts. They are found from where the program
-// lies (PREFIX/bin), so that an installation may be moved. A bare name that is no file here and stands in
-// PREFIX/share/yars/config or its folders is that file; anything else stays as it is.
+// Resolves the name of an installed file (configuration, route, script). A bare name that does not exist in the current
+// folder is searched in PREFIX/share/yars/config, its routes and its scripts. PREFIX/bin is the folder of the program,
+// so that an installation can be moved. Other names are returned unchanged.
 std::string installed_file(const std::string& name, const std::filesystem::path& programs);
 
-// The same for this program.
+// The same, relative to the running program.
 std::string installed_file(const std::string& name);
 
-// What all programs of the set share: options, exit codes.
+// Common options of all programs.
 struct ProgramOptions {
   std::string session = "default";  // --session, else YARS_SESSION, else "default"
-  std::string config;               // --config; empty = built-in defaults
+  std::string config;               // --config; empty: built-in defaults
   std::string log_level = "info";
-  std::string lockstep;  // --lockstep ROLE,ROLE,...[@END_TICK]; empty = live
-  std::string log_dir;   // --log-dir DIR: the log also goes to DIR/PROGRAM.log; empty = no file
+  std::string lockstep;  // --lockstep ROLE,ROLE,...[@END_TICK]; empty: live
+  std::string log_dir;   // --log-dir DIR: the log also goes to DIR/PROGRAM.log; empty: no file
   bool realtime = false;
-  std::string cpus;  // --cpus 2,3: empty = all
+  std::string cpus;  // --cpus 2,3; empty: all
 };
 
 inline constexpr int kExitFailure = 1;
 inline constexpr int kExitUsage = 2;
 
-// Adds --session, --config, --log-level, --version (and for a role --lockstep, --log-dir, --realtime, --cpus). The
-// application's name is the program's.
+// Adds --session, --config, --log-level and --version; for a role also --lockstep, --log-dir, --realtime and --cpus.
+// The application's name is the program's name.
 void add_common_options(CLI::App& app, ProgramOptions& options, bool is_role);
 
-// Every option and argument of the application and its subcommands that takes a number with a fraction refuses NaN and
-// infinity: they pass each comparison of a range. Call it when all options are added and before anything is parsed.
+// Makes all floating-point options and arguments, including those of subcommands, refuse NaN and infinity, which
+// CLI11's range checks accept. Call it after all options are added and before parsing.
 void require_finite_numbers(CLI::App& app);
 
-// Parses, keeps what is written private, starts the log, installs the handlers of SIGINT and SIGTERM and runs the body;
-// the body's error becomes one line on standard error and exit code 1. Bad usage is one line and exit code 2.
+// Parses the command line, makes files private, starts the log, installs signal handlers and runs the body. An error of
+// the body becomes one line on standard error and exit code 1. Bad usage is one line and exit code 2.
 using ProgramBody = std::function<error::Expected<void>()>;
 int run_program(int argc, char** argv, CLI::App& app, const ProgramOptions& options, const ProgramBody& body);
 
-// The parts of run_program, for a program whose subcommands run while it parses.
-int report_parse_outcome(const CLI::App& app, const CLI::ParseError& outcome);  // prints help or one line; exit code
-// Log, CPUs and priority, signals.
+// Parts of run_program(), for a program whose subcommands run during parsing.
+
+// Prints help or one line, and returns the exit code.
+int report_parse_outcome(const CLI::App& app, const CLI::ParseError& outcome);
+// Starts the log, applies CPUs and priority, installs signal handlers.
 std::optional<error::Error> begin_program(const std::string& name, const ProgramOptions& options);
-void print_failure(const std::string& program, const std::string& message);  // into the log file too
+void print_failure(const std::string& program, const std::string& message);  // also into the log file
 
 }  // namespace yars::databuffer

@@ -17,34 +17,34 @@ namespace {
 using Memory = OwnshipSelection::Memory;
 
 bool is_fresh(const Memory& memory, std::int64_t now_ns) {
-  return memory.received_ns && now_ns - *memory.received_ns <= kStaleAfter;
+  return memory.received_ns && now_ns - *memory.received_ns <= kStaleAfter_ns;
 }
 
-// Delivered over a while, not one record that lies there: measured between arrivals.
+// True if the lane has delivered for kTakeoverAfter_ns, measured between arrivals; one stored record is not enough.
 bool is_established(const Memory& memory, std::int64_t now_ns) {
-  return is_fresh(memory, now_ns) && *memory.received_ns - memory.delivering_since_ns >= kTakeoverAfter;
+  return is_fresh(memory, now_ns) && *memory.received_ns - memory.delivering_since_ns >= kTakeoverAfter_ns;
 }
 
 Memory remember(const OwnshipLane& lane, std::int64_t now_ns, Memory memory) {
   if (!lane.present) {
-    // Whatever comes after an empty lane is news, whichever number it has.
+    // After an empty lane every version counts as new.
     memory = Memory{};
-    memory.seen = true;
+    memory.known = true;
     return memory;
   }
-  // A clock that went back: what was received "later" counts as received now, or it would stay fresh for long.
+  // After a clock has gone back, later arrivals count as received now. Otherwise they would stay fresh too long.
   if (memory.received_ns) memory.received_ns = std::min(*memory.received_ns, now_ns);
   memory.delivering_since_ns = std::min(memory.delivering_since_ns, now_ns);
-  if (memory.seen && lane.version != memory.version) {
+  if (memory.known && lane.version != memory.version) {
     if (!is_fresh(memory, now_ns)) memory.delivering_since_ns = now_ns;
     memory.received_ns = now_ns;
   }
-  memory.seen = true;
+  memory.known = true;
   memory.version = lane.version;
   return memory;
 }
 
-// The highest priority among lanes for which `qualifies`; the chosen one wins ties, then the lower index.
+// Lane of the highest priority among those that qualify. At equal priority `chosen` wins, then the lower index.
 template <class Qualifies>
 std::optional<std::size_t> best(std::span<const OwnshipLane> lanes, std::optional<std::size_t> chosen,
                                 Qualifies qualifies) {
@@ -69,7 +69,7 @@ OwnshipSelection select_ownship(std::span<const OwnshipLane> lanes, std::int64_t
     return (lane == previous.lane && fresh(lane)) || established(lane);
   };
   next.lane = best(lanes, previous.lane, chosen_or_established);
-  // Nothing proven is left: better a young source than none.
+  // No established lane is left: a fresh one is better than none.
   if (!next.lane) next.lane = best(lanes, std::nullopt, fresh);
   return next;
 }
@@ -83,11 +83,11 @@ double speed_mps(const Ownship& ownship) {
 }  // namespace
 
 bool JumpGuard::is_jump(const Ownship& next, std::int64_t received_ns) const {
-  constexpr double kSpeedMargin = 2.0;  // a source that runs at another rate, or was heard late
+  constexpr double kSpeedMargin = 2.0;  // covers a source at another rate, and late arrival
   const double time_s = 1e-9 * static_cast<double>(std::max<std::int64_t>(received_ns - last_received_ns_, 0));
-  const double reach_m = kPlaceTolerance_m + kSpeedMargin * std::max(speed_mps(*last_), speed_mps(next)) * time_s;
+  const double reach_m = kPositionTolerance_m + kSpeedMargin * std::max(speed_mps(*last_), speed_mps(next)) * time_s;
   if (std::abs(next.altitude_msl_m - last_->altitude_msl_m) > reach_m) return true;
-  // Cheap first: nearly every tick ends here. No degree is longer than kMaxMetresPerDegree.
+  // Cheap upper bound first, which decides nearly every tick. No degree is longer than kMaxMetresPerDegree.
   const double east_deg = std::remainder(next.longitude_deg - last_->longitude_deg, 360.0);
   const double north_deg = next.latitude_deg - last_->latitude_deg;
   if (geo::kMaxMetresPerDegree * std::hypot(north_deg, east_deg) <= reach_m) return false;
@@ -102,27 +102,27 @@ void JumpGuard::take(const Ownship& next, std::int64_t received_ns) {
   proven_ = false;
 }
 
-bool JumpGuard::believes(const Ownship& next, std::int64_t received_ns, std::int64_t now_ns, std::uint32_t epoch) {
+bool JumpGuard::accepts(const Ownship& next, std::int64_t received_ns, std::int64_t now_ns, std::uint32_t epoch) {
   const bool jump = last_ && is_jump(next, received_ns);
   const bool first_of_epoch = last_ && next.epoch == epoch && last_->epoch != epoch;
-  const bool told = first_of_epoch || (held_since_ns_ && held_epoch_ != epoch);
-  if (!jump || told) {
-    if (held_since_ns_ && !told) ++passed_;
+  const bool epoch_changed = first_of_epoch || (held_since_ns_ && held_epoch_ != epoch);
+  if (!jump || epoch_changed) {
+    if (held_since_ns_ && !epoch_changed) ++abandoned_;
     take(next, received_ns);
     return true;
   }
-  // A clock that went back begins the wait anew.
+  // A clock that goes back restarts the hold.
   if (!held_since_ns_ || now_ns < *held_since_ns_) held_since_ns_ = now_ns;
   held_epoch_ = epoch;
-  proven_ = now_ns - *held_since_ns_ >= kJumpProof;
-  if (now_ns - *held_since_ns_ < kLongestHold) return false;
+  proven_ = now_ns - *held_since_ns_ >= kJumpProof_ns;
+  if (now_ns - *held_since_ns_ < kMaxHold_ns) return false;
   take(next, received_ns);
   return true;
 }
 
 namespace {
 
-// A source that gives no nav: the navigators know the truth.
+// Nav for a source without one: the true position.
 Nav nav_from_truth(const Ownship& ownship) {
   Nav nav{};
   nav.source_time_ns = ownship.source_time_ns;
@@ -149,7 +149,7 @@ void OwnshipReceiver::receive(const SessionLayout& layout, std::size_t index) {
     ++refused_;
     refusals_.push_back(std::string(record) + " in lane " + std::to_string(index) + ": " + reason);
   };
-  // A lane taken away holds nothing of its last writer for the next one.
+  // A withdrawn value of the previous writer must not count for the next one.
   if (!layout.ownship[index].has_value()) lane.accepted = 0;
   if (!layout.nav[index].has_value()) lane.has_nav = false;
   if (layout.ownship[index].version() != lane.version) {
@@ -198,7 +198,7 @@ const OwnshipReceiver::Selected& OwnshipReceiver::refresh(const SessionLayout& l
   const Lane& lane = lanes_[*selection_.lane];
   const std::int64_t received_ns = selection_.memory[*selection_.lane].received_ns.value_or(sim_time_ns);
   const bool lockstep = layout.lockstep.enabled.load(std::memory_order_relaxed) != 0;
-  if (!lockstep && !guard_.believes(lane.ownship, received_ns, sim_time_ns, epoch)) {
+  if (!lockstep && !guard_.accepts(lane.ownship, received_ns, sim_time_ns, epoch)) {
     if (guard_.is_proven()) {
       selected_.jump = lane.ownship;
       selected_.jump_lane = static_cast<std::uint32_t>(*selection_.lane);

@@ -1,4 +1,9 @@
-// Inputs that a consumer latches once a tick: the lane chosen, jumps held back, traffic.
+// Inputs that a consumer latches once a tick: ownship and nav of the selected lane, and surface traffic.
+// Inputs: ownship lanes, nav lanes and traffic of the segment; sim time and epoch of the tick.
+// Outputs: the selected ownship and nav; the latched traffic.
+// Errors: records that fail validate() are refused and counted; the last good value stays in use.
+// Units: times [ns]; live and lockstep judge freshness by sim time of the tick.
+// Threads: one per receiver; select_ownship and JumpGuard are pure.
 #pragma once
 
 #include <array>
@@ -14,105 +19,108 @@
 
 namespace yars::databuffer {
 
-inline constexpr std::size_t kMaxOwnshipLanes = 4;
-// [ns] 25 records of a 50 Hz source; shorter and a loaded machine loses its source, longer and a dead one flies on.
-inline constexpr std::int64_t kStaleAfter = 500'000'000;
-// [ns] a lane must have delivered this long before it displaces a good one; a source that flaps faster never does.
-inline constexpr std::int64_t kTakeoverAfter = 250'000'000;
+inline constexpr std::size_t kMaxOwnshipLanes = 4;  // capacity of OwnshipSelection
+// [ns] 25 records of a 50 Hz source. Shorter: a loaded machine loses its source. Longer: a dead source stays in use.
+inline constexpr std::int64_t kStaleAfter_ns = 500'000'000;
+// [ns] Time of gap-free delivery before a lane replaces a fresh one. A source that fails within it never takes over.
+inline constexpr std::int64_t kTakeoverAfter_ns = 250'000'000;
 
 struct OwnshipLane {
-  bool present = false;        // a value has ever been published and the lane has a priority
+  bool present = false;        // a valid value was published and the lane still holds a value
   std::uint32_t priority = 0;  // higher wins
-  std::uint64_t version = 0;   // of the LatestValue: changes with each record
+  std::uint64_t version = 0;   // changes with each accepted record
 };
 
-// The choice and what the next call needs to know; begin with a default one.
+// Result of select_ownship() and its memory. Begin with a default one.
 struct OwnshipSelection {
   struct Memory {
-    bool seen = false;
+    bool known = false;
     std::uint64_t version = 0;
-    std::optional<std::int64_t> received_ns;  // the newest version's arrival
+    std::optional<std::int64_t> received_ns;  // arrival of the newest version
     std::int64_t delivering_since_ns = 0;     // first arrival after the last gap
   };
   std::optional<std::size_t> lane;
   std::array<Memory, kMaxOwnshipLanes> memory;
 };
 
-// Which of the ownship lanes the radar believes: the highest fresh priority, with hysteresis. Pure; called once a tick.
-// A lane is fresh while its version has changed within kStaleAfter by the caller's clock (stamps from outside are not
-// believed). A version met for the first time is no news: it may be what a dead writer left.
-// A higher lane takes over after delivering without a gap for kTakeoverAfter; the chosen lane is left only when it is
-// stale or such a lane is there. Equal priorities: the chosen one stays; none chosen: the lower index.
-// `lanes` has at most kMaxOwnshipLanes entries, always in the same order. `now_ns` is CLOCK_MONOTONIC, or sim time in
-// lockstep; when it goes back, each lane counts as received at that moment.
+// Selects the ownship lane to use: the fresh lane of the highest priority, with hysteresis. Pure; call once a tick.
+// A lane is fresh while its version has changed within kStaleAfter_ns by the caller's clock; stamps of sources are not
+// used. A version seen first does not count as a change, because a dead writer may have left it. A higher lane takes
+// over after gap-free delivery for kTakeoverAfter_ns. The selected lane is left only when it is stale or such a lane
+// exists. At equal priority the selected lane stays; without one the lower index wins. `lanes`: at most
+// kMaxOwnshipLanes entries, always in the same order. `now_ns`: time of any clock; OwnshipReceiver passes sim time.
+// When it goes back, each lane counts as received at that moment.
 OwnshipSelection select_ownship(std::span<const OwnshipLane> lanes, std::int64_t now_ns,
                                 const OwnshipSelection& previous);
 
-// [m] that a place may be off from where twice its speed could have brought it: noise of a navigator, not a jump.
-inline constexpr double kPlaceTolerance_m = 50.0;
-// [ns] of sim time that a new place must stand; one bad record does not move the radar.
-inline constexpr std::int64_t kJumpProof = 100'000'000;
-inline constexpr std::int64_t kLongestHold = 1'000'000'000;
+// [m] Tolerance on the distance that twice the speed explains. It covers the noise of a navigator.
+inline constexpr double kPositionTolerance_m = 50.0;
+// [ns] of sim time for which a new position must persist. Shorter lets one bad record move the radar.
+inline constexpr std::int64_t kJumpProof_ns = 100'000'000;
+// [ns] of sim time for which a jump without a new epoch is held back. Longer freezes the ownship if no process sets the
+// clock.
+inline constexpr std::int64_t kMaxHold_ns = 1'000'000'000;
 
-// Jumps in place. Where an aircraft is follows from where it was; what does not (another source elsewhere, a simulator
-// set back) is believed with a new epoch only, which restarts scan and filters: the record is the first
-// one of the session's epoch, or the epoch has changed since the place was first seen. Until then the place before
-// stands. Pure. Whoever may set the clock raises the epoch when is_proven(); where nobody does, the jump is taken after
-// kLongestHold all the same.
+// Detector of position jumps. An aircraft cannot be further than its speed allows from its last position. A jump
+// (another source, or a simulator set back) is accepted with a new epoch only, which restarts scan and filters. The
+// record must be the first one of the session's epoch, or the epoch must have changed while the jump was held. Until
+// then the previous record stays in use. A process that may set the clock raises the epoch when is_proven(). Without
+// such a process the jump is accepted after kMaxHold_ns.
 class JumpGuard {
  public:
-  // Whether `next`, met at `received_ns`, is to be believed at the tick of `now_ns` [ns of sim time]. Ask once a tick.
-  bool believes(const Ownship& next, std::int64_t received_ns, std::int64_t now_ns, std::uint32_t epoch);
-  // The place that is not believed has stood for kJumpProof.
+  // True if `next`, received at `received_ns`, is to be used at the tick of `now_ns` [ns of sim time]. Call once a
+  // tick.
+  bool accepts(const Ownship& next, std::int64_t received_ns, std::int64_t now_ns, std::uint32_t epoch);
+  // True if the held jump has persisted for kJumpProof_ns.
   bool is_proven() const { return proven_; }
-  std::uint64_t passed() const { return passed_; }  // jumps that were gone before they were proven
+  std::uint64_t abandoned() const { return abandoned_; }  // jumps that ended before they were accepted
 
  private:
   bool is_jump(const Ownship& next, std::int64_t received_ns) const;
   void take(const Ownship& next, std::int64_t received_ns);
 
-  std::optional<Ownship> last_;  // the last one believed
+  std::optional<Ownship> last_;  // last accepted record
   std::int64_t last_received_ns_ = 0;
   std::optional<std::int64_t> held_since_ns_;
   std::uint32_t held_epoch_ = 0;
   bool proven_ = false;
-  std::uint64_t passed_ = 0;
+  std::uint64_t abandoned_ = 0;
 };
 
 inline constexpr std::uint32_t kNoLane = 0xffffffffU;
 
-// What messages call the source of a lane: by the name that it gives itself, or by its place when it gives none.
+// Name of a lane's source for messages: its own name, or its lane number if it has none.
 std::string name_of_source(const Ownship& ownship, std::uint32_t lane);
 
-// What a consumer latches once a tick: the ownship and nav of the lane that select_ownship picks. Records that do
-// not validate are refused and counted; the last good value of their lane stands. So does it when the place jumps
-// within an epoch (JumpGuard), but in lockstep, where nobody can set the clock.
+// Latches the ownship and nav of the lane that select_ownship() returns. Records that fail validate() are refused and
+// counted; the lane's last good record stays in use. The same applies to a position jump within an epoch (JumpGuard).
+// In lockstep jumps are accepted, because no process can set the clock.
 class OwnshipReceiver {
  public:
   struct Selected {
     bool valid = false;  // a fresh lane was found
     std::uint32_t lane = kNoLane;
-    Ownship ownship{};  // of the lane; the last one used when none is fresh
+    Ownship ownship{};  // of the lane; the last one used if no lane is fresh
     Nav nav{};
-    std::int64_t received_ns = 0;  // [ns] sim time of the tick that met it first
-    // Where the source says that the aircraft is now, far from where it was: it takes a new epoch.
+    std::int64_t received_ns = 0;  // [ns] sim time of the tick that received it first
+    // Record of the new position while a jump is held and proven; the position takes a new epoch.
     std::optional<Ownship> jump;
-    std::uint32_t jump_lane = kNoLane;  // of that source
+    std::uint32_t jump_lane = kNoLane;  // lane of that source
   };
-  // `sim_time_ns` is the time of the tick: receipt is judged by it, so that lockstep and live agree.
+  // `sim_time_ns`: time of the tick. Freshness is judged by it, so that lockstep and live agree.
   const Selected& refresh(const SessionLayout& layout, std::int64_t sim_time_ns, std::uint32_t epoch);
 
-  std::uint64_t refused() const { return refused_ + guard_.passed(); }
-  // Why, a sentence for each record that the last refresh() refused.
+  std::uint64_t refused() const { return refused_ + guard_.abandoned(); }
+  // Reasons for the refusals of the last refresh(), one per record.
   const std::vector<std::string>& refusals() const { return refusals_; }
 
  private:
   void receive(const SessionLayout& layout, std::size_t lane);
 
   struct Lane {
-    std::uint64_t version = 0;  // newest one looked at
+    std::uint64_t version = 0;  // newest version examined
     std::uint64_t nav_version = 0;
-    std::uint64_t accepted = 0;  // counts good ownships: what select_ownship sees as the version
+    std::uint64_t accepted = 0;  // number of valid records; select_ownship() uses it as the version
     Ownship ownship{};
     Nav nav{};
     bool has_nav = false;
@@ -125,11 +133,11 @@ class OwnshipReceiver {
   std::vector<std::string> refusals_;
 };
 
-// The surface traffic as a consumer latches it once a tick. A record that does not validate, or is of another epoch, is
-// refused and counted; what was latched before goes on, for kTrafficStaleAfter.
+// Latches the surface traffic once a tick. A record that fails validate() or has another epoch is refused and counted.
+// The previous record stays in use for kTrafficStaleAfter.
 class TrafficReceiver {
  public:
-  // True when latched() is another than before: a new record, or nothing any more.
+  // True if latched() has changed: a new record, or none any longer.
   bool refresh(const SessionLayout& layout, std::int64_t tick, std::int64_t sim_time_ns, std::uint32_t epoch);
   const Traffic& latched() const { return latched_; }
 
@@ -140,7 +148,7 @@ class TrafficReceiver {
   bool take(const SessionLayout& layout, std::uint32_t epoch);
 
   Traffic latched_{};
-  std::uint64_t version_ = 0;  // the newest looked at
+  std::uint64_t version_ = 0;  // newest version examined
   std::int64_t received_ns_ = 0;
   std::uint64_t refused_ = 0;
   std::optional<std::string> refusal_;

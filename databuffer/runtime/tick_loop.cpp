@@ -17,13 +17,13 @@ namespace yars::databuffer {
 
 namespace {
 
-// [ns] a change of the clock is seen within this: at the highest rate, 10, that is 10 ticks, fewer than are skipped.
-constexpr std::int64_t kLongestSleep_ns = 5'000'000;
-constexpr std::int64_t kLatestTick = std::int64_t{1} << 40;  // 174 years; its nanoseconds fit
-constexpr double kFarAhead_ns = 1e15;  // [ns] beyond it a deadline is only 'later'; keeps the cast in range
-constexpr std::int64_t kPartnerPatience_ns =
-    60'000'000'000;                                     // [ns] a lockstep partner silent so long is taken for dead
-constexpr std::int64_t kPartnerCheck_ns = 100'000'000;  // [ns] between looks at the stop flag while waiting
+// [ns] Longest time until a change of the clock is seen: at the highest rate, 10, that is 10 ticks, fewer than are
+// skipped.
+constexpr std::int64_t kMaxSleep_ns = 5'000'000;
+constexpr std::int64_t kMaxTick = std::int64_t{1} << 40;  // 174 years; its nanoseconds fit 64 bits
+constexpr double kMaxAhead_ns = 1e15;  // [ns] longer deadlines are cut to this value, which keeps the cast in range
+constexpr std::int64_t kPartnerTimeout_ns = 60'000'000'000;  // [ns] lockstep partner: silence that counts as death
+constexpr std::int64_t kStopCheckInterval_ns = 100'000'000;  // [ns] interval for reading the stop flag while waiting
 
 void sleep_until(std::int64_t deadline_ns) {
   const timespec deadline{static_cast<time_t>(deadline_ns / 1'000'000'000),
@@ -31,7 +31,7 @@ void sleep_until(std::int64_t deadline_ns) {
   clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr);
 }
 
-// Between processes: std::atomic::wait uses private futexes, which do not cross a mapping.
+// FUTEX_WAIT without PRIVATE works between processes; std::atomic::wait uses private futexes.
 void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t seen, std::int64_t timeout_ns) {
   const timespec timeout{static_cast<time_t>(timeout_ns / 1'000'000'000),
                          static_cast<long>(timeout_ns % 1'000'000'000)};
@@ -93,12 +93,12 @@ error::Expected<TickLoop> TickLoop::create(Session& session, LockstepRole role, 
        shared.end_tick.load(std::memory_order_relaxed) != plan->end_tick))
     return error::fail("--lockstep", "the plan that the session runs by", "another one, " + lockstep,
                        "give every role of a set the same --lockstep, or use another session");
-  // Every role of a set has the same plan, so it does not matter who writes it, or twice.
+  // Every role of a set has the same plan, so that the order of these stores does not matter.
   shared.roles.store(plan->roles, std::memory_order_relaxed);
   shared.end_tick.store(plan->end_tick, std::memory_order_relaxed);
   shared.enabled.store(1, std::memory_order_release);
   loop.lockstep_ = true;
-  // The predecessor is the nearest role before this one in the ring of those taking part.
+  // The predecessor is the nearest participating role before this one in the ring.
   std::size_t before = loop.role_;
   do {
     before = (before + kLockstepRoles - 1) % kLockstepRoles;
@@ -106,7 +106,7 @@ error::Expected<TickLoop> TickLoop::create(Session& session, LockstepRole role, 
   loop.predecessor_ = before;
   loop.first_in_chain_ = before >= loop.role_;
   const std::int64_t done = shared.done_tick[loop.role_].load(std::memory_order_acquire);
-  if (done < -1 || done > kLatestTick)
+  if (done < -1 || done > kMaxTick)
     return error::fail("--lockstep", "a last tick of -1 or more", std::to_string(done),
                        "the session is damaged: end its programs and start it again");
   loop.next_tick_ = done + 1;
@@ -141,12 +141,12 @@ std::optional<TickLoop::Due> TickLoop::wait_live() {
     const std::int64_t now_ns = monotonic_ns();
     const std::int64_t newest = sim_time_at(clock, now_ns) / radar::kTickNanoseconds;
     if (!started_ || clock.epoch != epoch_ || newest >= next_tick_) return due_at(clock, newest);
-    std::int64_t wake_ns = now_ns + kLongestSleep_ns;
+    std::int64_t wake_ns = now_ns + kMaxSleep_ns;
     if (clock.running != 0 && clock.rate > 0.0) {
       const double ahead_ns =
           static_cast<double>(next_tick_ * radar::kTickNanoseconds - clock.base_sim_ns) / clock.rate;
       wake_ns =
-          std::min(wake_ns, clock.base_monotonic_ns + static_cast<std::int64_t>(std::min(ahead_ns, kFarAhead_ns)) + 1);
+          std::min(wake_ns, clock.base_monotonic_ns + static_cast<std::int64_t>(std::min(ahead_ns, kMaxAhead_ns)) + 1);
     }
     sleep_until(std::max(wake_ns, now_ns + 1));
     session_->heartbeat();
@@ -157,23 +157,23 @@ std::optional<TickLoop::Due> TickLoop::wait_live() {
 bool TickLoop::wait_for(std::size_t role, std::int64_t tick) {
   auto& shared = session_->layout().lockstep;
   auto& word = shared.wake[role];
-  const std::int64_t patience_ns = monotonic_ns() + kPartnerPatience_ns;
+  const std::int64_t deadline_ns = monotonic_ns() + kPartnerTimeout_ns;
   awaited_role_ = role;
   awaited_tick_ = tick;
   while (!stop_requested()) {
     const std::uint32_t seen = word.load(std::memory_order_acquire);
     if (shared.done_tick[role].load(std::memory_order_acquire) >= tick) return true;
-    if (monotonic_ns() > patience_ns) {
+    if (monotonic_ns() > deadline_ns) {
       failed_ = true;
       return false;
     }
-    futex_wait(word, seen, kPartnerCheck_ns);
+    futex_wait(word, seen, kStopCheckInterval_ns);
     session_->heartbeat();
   }
   return false;
 }
 
-// Who leaves takes its lane along: nobody goes before all have done the last tick.
+// Waits until all roles have done the last tick, because a role that leaves withdraws its lane.
 void TickLoop::wait_for_all(std::int64_t tick) {
   const std::uint32_t roles = session_->layout().lockstep.roles.load(std::memory_order_relaxed);
   for (std::size_t role = 0; role < kLockstepRoles; ++role)

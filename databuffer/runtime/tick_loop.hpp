@@ -1,6 +1,10 @@
-// The beat of a role: one call a tick of 5 ms sim time. Live, it sleeps until a tick is due, catches up at most
-// kMaxTicksBehind late ticks and skips the rest. In lockstep it waits until the role before it in the chain
-// (flight-model, input-monitor, state-machine, radar-model, radar-display, recorder, round again) has done its part.
+// Tick loop of a role: one call for each tick of 5 ms sim time.
+// Live: sleeps until a tick is due, catches up at most kMaxTicksBehind late ticks, skips the rest and counts them.
+// Lockstep: waits until the preceding role of the chain has done its part. The chain is flight-model, input-monitor,
+// state-machine, radar-model, radar-display, recorder, and round again.
+// Inputs: the session clock; --lockstep.
+// Errors: a plan that differs from the session's; a lockstep partner silent for 60 s (outcome()).
+// Threads: the ticking thread only.
 #pragma once
 
 #include <cstdint>
@@ -20,28 +24,28 @@ enum class LockstepRole : std::uint8_t {
   recorder = 5
 };
 
-inline constexpr std::int64_t kMaxTicksBehind = 20;  // [ticks] 0.1 s: more would make a hiccup visible as a burst
+inline constexpr std::int64_t kMaxTicksBehind = 20;  // [ticks] 0.1 s: more makes a hiccup visible as a burst
 
 class TickLoop {
  public:
-  // `lockstep` is the program's option; empty = live.
+  // `lockstep`: the program's option; empty: live.
   static error::Expected<TickLoop> create(Session& session, LockstepRole role, const std::string& lockstep);
 
   struct Due {
-    std::int64_t tick = 0;         // index of the tick to do: sim time / 5 ms
+    std::int64_t tick = 0;         // index of the tick: sim time / 5 ms
     std::int64_t sim_time_ns = 0;  // [ns] of that tick
     ClockState clock{};
-    std::uint64_t skipped = 0;  // ticks given up since the call before
-    bool new_epoch = false;     // the clock's epoch differs from the call before
+    std::uint64_t skipped = 0;  // ticks skipped since the previous call
+    bool new_epoch = false;     // the epoch differs from that of the previous call
   };
-  // Waits; nullopt = stop was requested, the last tick of a lockstep run is done, or a lockstep partner is gone
-  // (then outcome() says so). While the clock is frozen it returns only for a new epoch.
+  // Waits for the next tick. nullopt: a stop was requested, the last tick of a lockstep run is done, or a lockstep
+  // partner is silent (see outcome()). While the clock is frozen only the first tick or a new epoch returns.
   std::optional<Due> wait();
-  // Must follow each wait() that gave a tick, once all its outputs are published.
+  // Must follow each wait() that returned a tick, once all outputs are published.
   void done(const Due& due);
 
   bool lockstep() const { return lockstep_; }
-  // What ended a lockstep run before its last tick; nothing after a clean end.
+  // Reason why a lockstep run ended before its last tick; success after a clean end.
   error::Expected<void> outcome() const;
   std::uint64_t late_ticks() const { return late_ticks_; }  // skipped since the start
 
@@ -49,7 +53,7 @@ class TickLoop {
   TickLoop(Session& session, LockstepRole role) : session_(&session), role_(static_cast<std::size_t>(role)) {}
   std::optional<Due> wait_live();
   std::optional<Due> wait_lockstep();
-  // False: stop was requested, or that role was silent for too long.
+  // False: a stop was requested, or that role was silent for too long.
   bool wait_for(std::size_t role, std::int64_t tick);
   void wait_for_all(std::int64_t tick);
   Due due_at(const ClockState& clock, std::int64_t newest);

@@ -1,4 +1,10 @@
-// Pools of pictures in the segment: found by id, patch maps, frames of the display.
+// Pools of pictures in the segment, addressed by id: patch maps, and frames of the display.
+// Inputs: a PatchMap or GlassFrame with its pixels.
+// Outputs: a whole picture by id, or the newest frame.
+// Errors: false if no slot has the id, or if the writer replaced it during the copy. Records are not validated here.
+// Threads: one writer and any readers; none waits. A writer killed after any store leaves an empty slot, never part of
+// a picture.
+// Source: docs/shared_memory.md.
 #pragma once
 
 #include <algorithm>
@@ -15,12 +21,11 @@
 
 namespace yars::databuffer {
 
-// A pool of pictures in the segment, found by id: patch maps, frames of the glass. One writer, any readers. The writer
-// takes a slot's id away, writes, and puts the new id in last; so a writer killed anywhere leaves a slot that is empty,
-// never half a picture. A reader copies between two reads of the id. Ids count up and are never used twice. An id above
-// the writer's own is nobody's: a reader passes over one beyond kLatestPictureId, and the writer fills that slot first.
+// The writer clears a slot's id, writes the picture, and stores the new id last. A reader copies between two loads of
+// the id. Ids count up and are never reused. An id above the writer's own is damage: readers ignore ids above
+// kLatestPictureId, and the writer replaces such a slot first.
 
-// The greatest id in the pool, 0 = empty: a restarted writer goes on above it.
+// Greatest valid id in the pool; 0: empty. A restarted writer continues above it.
 template <class Access, class Slots>
 std::uint64_t greatest_id(const Slots& slots) {
   std::uint64_t greatest = 0;
@@ -30,7 +35,7 @@ std::uint64_t greatest_id(const Slots& slots) {
   return greatest;
 }
 
-// nullptr: no slot has it.
+// Slot with this id; nullptr: none.
 template <class Access, class Slots>
 auto slot_of(Slots& slots, std::uint64_t id) -> decltype(&slots[0]) {
   const auto slot = std::find_if(slots.begin(), slots.end(), [id](const auto& candidate) {
@@ -39,25 +44,25 @@ auto slot_of(Slots& slots, std::uint64_t id) -> decltype(&slots[0]) {
   return id == 0 || slot == slots.end() ? nullptr : &*slot;
 }
 
-// The writer may have taken the slot meanwhile; words are loaded with acquire, so whoever saw a new one sees that too.
+// True if the writer has not taken the slot since. Words are loaded with acquire, so that a reader of a new word also
+// sees the cleared id.
 template <class Access, class Slot>
 bool still_holds(const Slot& slot, std::uint64_t id) {
   return Access::load(slot.id, std::memory_order_relaxed) == id;
 }
 
-// For the picture `next`. Empty ones first, and those with an id that cannot be, then the oldest; nullptr when all are
-// kept.
+// Slot for the picture `next`: an empty one, or one with an invalid id, else the oldest. nullptr: all are in `keep`.
 template <class Access, class Slots>
 auto slot_to_fill(Slots& slots, std::uint64_t next, std::span<const std::uint64_t> keep) -> decltype(&slots[0]) {
   decltype(&slots[0]) chosen = nullptr;
-  std::uint64_t least = 0;
+  std::uint64_t oldest_age = 0;
   for (auto& slot : slots) {
     const std::uint64_t id = Access::load(slot.id, std::memory_order_relaxed);
     if (id != 0 && std::find(keep.begin(), keep.end(), id) != keep.end()) continue;
     const std::uint64_t age = id > next ? 0 : id;
-    if (chosen != nullptr && age >= least) continue;
+    if (chosen != nullptr && age >= oldest_age) continue;
     chosen = &slot;
-    least = age;
+    oldest_age = age;
   }
   return chosen;
 }
@@ -73,7 +78,7 @@ void store_pixels(Slot& slot, std::span<const std::uint8_t> pixels) {
   }
 }
 
-// `bytes` no more than the slot has.
+// `bytes`: at most the capacity of the slot.
 template <class Access, class Slot>
 void load_pixels(const Slot& slot, std::size_t bytes, std::vector<std::uint8_t>& pixels) {
   const std::size_t words = (bytes + sizeof(shm::Word) - 1) / sizeof(shm::Word);
@@ -82,10 +87,9 @@ void load_pixels(const Slot& slot, std::size_t bytes, std::vector<std::uint8_t>&
   pixels.resize(bytes);
 }
 
-// The pool of whole patch maps: radar-model writes, any read. What a slot holds is not judged here: ask
-// validate(PatchMap).
+// Pool of patch maps, written by radar-model. Readers validate the record with validate(PatchMap).
 
-// Bytes of the picture; of a size beyond the slot's as much as there is.
+// Size of the picture [bytes], limited to the capacity of a slot.
 inline std::size_t patch_pixels(const PatchMap& map) {
   const std::size_t edge = std::min(map.size, kMaxPatchPixels);
   return edge * edge;
@@ -96,8 +100,8 @@ std::uint64_t greatest_patch_id(const SessionLayout& layout) {
   return greatest_id<Access>(layout.patches);
 }
 
-// Writes a map with its id and size() pixels, in the place of the oldest map that `keep` does not name: keep what the
-// radar state names and what it may be about to name, the writer's own last map. False: all slots are kept.
+// Writes a map with its id and patch_pixels(map) bytes over the oldest map that is not in `keep`. `keep` holds the ids
+// that the radar state names or may be about to name, and the writer's last map. False: all slots are kept.
 template <class Access = shm::PlainAccess>
 bool publish_patch(SessionLayout& layout, const PatchMap& map, std::span<const std::uint8_t> pixels,
                    std::span<const std::uint64_t> keep) {
@@ -113,7 +117,7 @@ bool publish_patch(SessionLayout& layout, const PatchMap& map, std::span<const s
   return true;
 }
 
-// What the map with this id is; false, and `map` may hold anything, when no slot has it.
+// Reads the record of the map with this id. False: no slot has it; `map` is then unspecified.
 template <class Access = shm::PlainAccess>
 bool read_patch(const SessionLayout& layout, std::uint64_t id, PatchMap& map) {
   const PatchSlot* slot = slot_of<Access>(layout.patches, id);
@@ -122,7 +126,7 @@ bool read_patch(const SessionLayout& layout, std::uint64_t id, PatchMap& map) {
   return still_holds<Access>(*slot, id) && map.id == id;
 }
 
-// The same with its picture: rows without padding, patch_pixels(map) bytes.
+// Reads record and picture: rows without padding, patch_pixels(map) bytes.
 template <class Access = shm::PlainAccess>
 bool read_patch(const SessionLayout& layout, std::uint64_t id, PatchMap& map, std::vector<std::uint8_t>& pixels) {
   const PatchSlot* slot = slot_of<Access>(layout.patches, id);
@@ -132,15 +136,15 @@ bool read_patch(const SessionLayout& layout, std::uint64_t id, PatchMap& map, st
   return still_holds<Access>(*slot, id) && map.id == id;
 }
 
-// The frames of the glass: one radar-display writes (`--publish`), any read the newest.
+// Pool of frames, written by one radar-display with `--publish`.
 
-// Bytes of the picture; of sizes beyond the slot's as much as there is.
+// Size of the picture [bytes], limited to the capacity of a slot.
 inline std::size_t frame_bytes(const GlassFrame& frame) {
   const std::size_t width = std::min(frame.width, kMaxFramePixels);
   return 4 * width * std::min(frame.height, kMaxFramePixels);
 }
 
-// Writes a frame in the place of the oldest one. `frame.id` is greater than all before; `pixels` has frame_bytes().
+// Writes a frame over the oldest one. `frame.id` is greater than all earlier ids; `pixels` has frame_bytes(frame).
 template <class Access = shm::PlainAccess>
 void publish_frame(SessionLayout& layout, const GlassFrame& frame, std::span<const std::uint8_t> pixels) {
   FrameSlot* slot = slot_to_fill<Access>(layout.frames, frame.id, {});
@@ -150,8 +154,8 @@ void publish_frame(SessionLayout& layout, const GlassFrame& frame, std::span<con
   Access::store(slot->id, frame.id, std::memory_order_release);
 }
 
-// The newest frame if it is another one than `after`; false: there is none, or its writer was faster than this reader 8
-// times. Not "greater than": an id that cannot be would hold the reader for ever.
+// Reads the newest frame if its id differs from `after`. False: there is none, or the writer overtook 8 attempts. The
+// test is "differs", not "greater": after a damaged id a greater one might never come.
 template <class Access = shm::PlainAccess>
 bool read_newest_frame(const SessionLayout& layout, std::uint64_t after, GlassFrame& frame,
                        std::vector<std::uint8_t>& pixels) {

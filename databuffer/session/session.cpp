@@ -19,13 +19,13 @@ namespace {
 using error::Expected;
 using error::fail;
 
-constexpr std::size_t kLongestName = 40;
+constexpr std::size_t kMaxNameLength = 40;
 bool name_is_valid(std::string_view name) {
   const auto allowed = [](char letter) {
     return (letter >= 'A' && letter <= 'Z') || (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') ||
            letter == '_' || letter == '-';
   };
-  return !name.empty() && name.size() <= kLongestName && std::all_of(name.begin(), name.end(), allowed);
+  return !name.empty() && name.size() <= kMaxNameLength && std::all_of(name.begin(), name.end(), allowed);
 }
 
 void initialize(void* memory) {
@@ -100,7 +100,7 @@ Expected<Claim> Session::claim(Role role) {
   if (!claim)
     return fail("role " + std::string(name_of(role)), "one process of this role in a session",
                 "held by " + state_->describe_holder(byte), "end that process, or choose another --session");
-  // Whoever lets a role go in order leaves no pid behind.
+  // An orderly release resets the pid, so that a pid left here means a death.
   if (previous != 0)
     note(NoteKind::restart, std::string(name_of(role)) + " pid " + std::to_string(previous) + " died; taken over");
   return std::move(*claim);
@@ -127,7 +127,7 @@ Expected<Claim> Session::claim_input_lane(std::string_view source) {
   std::string found;
   for (std::size_t lane = 0; lane < kInputLanes; ++lane) {
     auto claim = state_->take(kFirstInputByte + lane, static_cast<int>(lane));
-    // Events that a departed source left are still the consumer's: the lane is free when they are gone.
+    // Unread events of a departed source belong to the consumer. The lane is free once they are read.
     if (claim && layout().input.empty(lane)) {
       layout().input.set_source(lane, source);
       claim->hold_->feeds_input = state_->count_input_sources();
@@ -160,7 +160,7 @@ std::vector<ProcessHere> Session::processes() const {
   for (std::size_t i = 0; i < kProcesses; ++i) {
     const ProcessEntry& entry = layout().processes[i];
     if (entry.pid == 0 || !state_->segment->is_locked(kFirstProcessByte + i)) continue;
-    // A beat yet to come would make who has hung seem alive.
+    // A heartbeat in the future would make a hung process look alive.
     const std::int64_t beat_ns = std::clamp<std::int64_t>(entry.heartbeat_ns, 0, monotonic_ns());
     here.push_back({entry.pid, shm::load_text(entry.name.data(), entry.name.size()), beat_ns, entry.progress});
   }
@@ -172,11 +172,11 @@ void Session::heartbeat() {
   const std::int64_t now_ns = monotonic_ns();
   state_->write().processes[state_->table_byte - kFirstProcessByte].heartbeat_ns.store(now_ns,
                                                                                        std::memory_order_relaxed);
-  if (now_ns < state_->next_look_ns) return;
-  state_->next_look_ns = now_ns + kLook_ns;
-  state_->keep_entry();
-  state_->look_for_name();
-  state_->tell_left_out(now_ns, false);
+  if (now_ns < state_->next_upkeep_ns) return;
+  state_->next_upkeep_ns = now_ns + kUpkeepInterval_ns;
+  state_->restore_entry();
+  state_->check_name();
+  state_->report_folded_notes(now_ns, false);
   log::left_out(log::LeftOut::over);
 }
 
@@ -196,10 +196,10 @@ Expected<void> Session::set_clock(const ClockState& state) {
   return change_clock([&state](const ClockState&) { return state; });
 }
 
-Expected<void> Session::change_clock(const std::function<ClockState(const ClockState&)>& change, WaitPolicy patience) {
+Expected<void> Session::change_clock(const std::function<ClockState(const ClockState&)>& change, WaitPolicy policy) {
   constexpr auto kByte = static_cast<std::size_t>(Role::clock);
   if (!state_->segment->writable()) return fail_read_only("clock");
-  const int attempts = patience == WaitPolicy::none ? 1 : kClockAttempts;
+  const int attempts = policy == WaitPolicy::none ? 1 : kClockAttempts;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     if (const auto claim = state_->take(kByte, -1)) {
       const ClockState next = change(state_->clock_now());
@@ -219,10 +219,10 @@ std::optional<std::string> Session::clock_problem() const {
   return state_->clock_problem();
 }
 
-void Session::keep_clock(WaitPolicy patience) {
+void Session::keep_clock(WaitPolicy policy) {
   const auto problem = state_->clock_problem();
   if (!problem) return;
-  if (change_clock([](const ClockState& good) { return good; }, patience))
+  if (change_clock([](const ClockState& good) { return good; }, policy))
     note(NoteKind::refusal, "clock mended: " + *problem);
 }
 

@@ -1,5 +1,10 @@
-// One session: the shared segment yars.UID.SESSION with its layout, and what a process may claim in it.
-// Only shells (*_main.cpp, *_shell.*) use it.
+// Session: the shared segment yars.UID.SESSION with its layout, claims, clock, process table and flight recorder.
+// Inputs: name of the session; records to publish through layout(); notes.
+// Outputs: the mapped layout, sim time [ns], claims on roles and lanes.
+// Errors: a segment of another build or user; a role or lane that another process holds; a clock out of range.
+// Threads: clock() and note() may be called from any thread of the process; all else from one.
+// Only shells (*_main.cpp, *_shell.*) use it; kernels do not.
+// Source: docs/shared_memory.md.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +21,7 @@
 
 namespace yars::databuffer {
 
-// Whether to wait for who changes the clock just now: a tick may not.
+// Whether to wait while another process changes the clock; a tick must not wait.
 enum class WaitPolicy { none, some };
 
 struct ProcessHere {
@@ -28,56 +33,56 @@ struct ProcessHere {
 
 class Session {
  public:
-  // Attaches to the session, or creates it. `process_name` goes into the process table, for people.
+  // Attaches to the session, or creates it. `process_name` is shown in the process table.
   static error::Expected<Session> open(const std::string& name, std::string_view process_name);
-  // For readers that come and go: maps read-only, is not in the process table, holds no lock. Claims and changes of
-  // the clock are refused, heartbeats and notes go nowhere. Where the session has no good clock, time stands at 0.
+  // Attaches read-only: no entry in the process table, no lock. Claims and changes of the clock are refused; heartbeats
+  // and notes have no effect. If the session has no valid clock, time stands at 0.
   static error::Expected<Session> open_read_only(const std::string& name);
 
-  bool created() const;   // this call made the session
-  bool has_name() const;  // false: somebody removed the segment's file; the session goes on (docs/operation.md)
+  bool created() const;   // this call created the segment
+  bool has_name() const;  // false: the segment's file was unlinked; the session continues (docs/operation.md)
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;
-  ~Session();  // who leaves last unlinks the segment
+  ~Session();  // the last participant unlinks the segment
 
-  SessionLayout& layout();  // only of a session opened for writing
+  SessionLayout& layout();  // requires a session opened for writing
   const SessionLayout& layout() const;
 
   error::Expected<Claim> claim(Role role);                            // an error names the holder's pid and program
-  error::Expected<Claim> claim_ownship_lane(std::uint32_t priority);  // higher wins; clears what a dead writer left
+  error::Expected<Claim> claim_ownship_lane(std::uint32_t priority);  // higher wins; clears the lane's old values
   error::Expected<Claim> claim_input_lane(std::string_view source);
 
   bool role_is_held(Role role) const;         // by any process, this one included
-  std::int32_t role_holder(Role role) const;  // its pid; 0 = nobody holds it
+  std::int32_t role_holder(Role role) const;  // pid of the holder; 0: none
   bool ownship_lane_is_held(std::size_t lane) const;
   bool input_lane_is_held(std::size_t lane) const;
-  std::vector<ProcessHere> processes() const;  // who takes part, dead entries left out
-  // How far this process has come; what it means is the role's (see ProcessEntry).
+  std::vector<ProcessHere> processes() const;  // live entries of the process table
+  // Publishes a progress number, with a meaning that depends on the role (see ProcessEntry).
   void show_progress(std::uint32_t progress);
-  // Shows in `yars status`; call about once a second or each tick (it is one store). Twice a second it writes its entry
-  // in the process table anew where that was damaged, and looks whether the segment still has its name; it says so once
-  // in log and flight recorder when it has not.
+  // Updates the heartbeat shown by `yars status`; call at each tick or about once a second (one store). Twice a second
+  // it also restores this process's damaged table entry, and checks that the segment has its name. A lost name is
+  // reported once, in log and flight recorder.
   void heartbeat();
 
-  // Session clock: sim time [ns] of this moment; the state behind it. A state out of range is refused and noted, and
-  // the last good one goes on. Who opens a session without a good one sets it to 0 in a new epoch.
+  // Clock of the session, and sim time [ns] now. A clock out of range is refused and noted, and the last valid one
+  // stays in use. A process that opens a session without a valid clock sets it to 0 in a new epoch.
   ClockState clock() const;
   std::int64_t sim_time_ns() const;
-  // Why what lies in the segment is no clock; nothing when it is one.
+  // Reason why the clock in the segment is invalid; nullopt: it is valid.
   std::optional<std::string> clock_problem() const;
-  // Publishes the last good clock again when what lies there is none; state-machine asks for it at each tick.
-  void keep_clock(WaitPolicy patience = WaitPolicy::none);
-  // Takes the clock's byte for the moment of the change, so that of two changes at once none is lost. A state out of
-  // range is an error and changes nothing.
+  // Publishes the last valid clock again if the one in the segment is invalid. state-machine calls it at each tick.
+  void keep_clock(WaitPolicy policy = WaitPolicy::none);
+  // Changes the clock under its lock byte, so that of two simultaneous changes none is lost. A result out of range is
+  // an error and changes nothing.
   error::Expected<void> change_clock(const std::function<ClockState(const ClockState&)>& change,
-                                     WaitPolicy patience = WaitPolicy::some);
+                                     WaitPolicy policy = WaitPolicy::some);
   error::Expected<void> set_clock(const ClockState& state);
 
-  // A line into the flight recorder (also counted): refusals, restarts, losses, late ticks. Of lines of one kind
-  // (RepeatFilter) three pass within 10 s, the rest are counted and told in one line by heartbeat().
+  // Appends a line to the flight recorder and counts it. At most three lines of one kind (RepeatFilter) pass within 10
+  // s; heartbeat() reports the number of the others in one line.
   void note(NoteKind kind, std::string_view text);
   void note(NoteKind kind, std::string_view text, std::string_view process);  // about another process
-  // For the supervisor: the role was started again; `role` a name as in a lockstep plan, others are not counted.
+  // Counts a restart by the supervisor. `role`: a name as in a lockstep plan; other names are not counted.
   void count_restart(std::string_view role);
 
  private:
@@ -85,9 +90,9 @@ class Session {
   std::unique_ptr<SessionState> state_;
 };
 
-// A session's name is part of a path: 1 to 40 letters, digits, `-` or `_`. An error of bad usage.
+// Checks a session name, which is part of a path: 1 to 40 letters, digits, `-` or `_`. An error is bad usage.
 error::Expected<void> check_session_name(const std::string& name);
-// Index of a role in Counters::restarts, by its name in the process table; nothing for a name that is none.
+// Index of a role in Counters::restarts, by its name in the process table; nullopt for other names.
 std::optional<std::size_t> counted_role(std::string_view name);
 
 }  // namespace yars::databuffer

@@ -1,4 +1,7 @@
-// Layout of a session's segment and its identity.
+// Layout of a session's segment, in order, and the identity by which builds recognize it.
+// Errors: a segment with another identity is refused by every program (shm/segment.hpp).
+// Threads: the container of each field states its writers and readers.
+// Source: docs/shared_memory.md, which lists every offset.
 #pragma once
 
 #include <array>
@@ -18,7 +21,7 @@
 
 namespace yars::databuffer {
 
-// What lies in the segment of a session. The order is the layout; a change raises kLayoutVersion.
+// Sizes of the layout. Changing one, or the order of SessionLayout, requires a higher kLayoutVersion.
 inline constexpr std::uint32_t kLayoutVersion = 3;
 inline constexpr std::size_t kOwnshipLanes = 4;
 inline constexpr std::size_t kInputLanes = 16;
@@ -26,22 +29,21 @@ inline constexpr std::size_t kInputLaneDepth = 128;
 inline constexpr std::size_t kProcesses = 32;
 inline constexpr std::size_t kNotes = 1000;
 inline constexpr std::size_t kPatchSlots = 8;
-// Bytes at the end for what is to come: it can move in without a new layout version, and what was compiled before goes
-// on.
+// [bytes] Reserve at the end. New containers use it without a new layout version, so that older programs still attach.
 inline constexpr std::size_t kSpareBytes = std::size_t{1} << 20;
 
-// Lines of the flight recorder.
+// Kind of a line of the flight recorder.
 enum class NoteKind : std::uint32_t { restart = 0, refusal = 1, loss = 2, late_tick = 3, supervision = 4 };
 inline constexpr std::size_t kNoteKinds = 5;
 
-// How often something has happened since the session began, and when last: CLOCK_MONOTONIC of event n at n mod 8.
+// Count of an event since the session began, with the CLOCK_MONOTONIC times of the last 8: event n at index n mod 8.
 struct RecentCount {
   static constexpr std::size_t kTimes = 8;
   std::atomic<std::uint64_t> count;
   std::array<std::atomic<std::int64_t>, kTimes> times_ns;
 
   void add(std::int64_t now_ns) { times_ns[count.fetch_add(1) % kTimes].store(now_ns); }
-  // Of the last 8, those less than `span_ns` old.
+  // Number of the last 8 events that are less than `span_ns` old.
   int within(std::int64_t span_ns, std::int64_t now_ns) const {
     int found = 0;
     const std::uint64_t known = count.load() < kTimes ? count.load() : kTimes;
@@ -53,21 +55,21 @@ struct RecentCount {
   }
 };
 
-// What a flood of notes may not push out of sight.
-inline constexpr std::size_t kCountedRoles = 8;  // in the order of LockstepRole; two to spare
+// Counters that a flood of notes cannot displace.
+inline constexpr std::size_t kCountedRoles = 8;  // in the order of LockstepRole; two spare
 struct Counters {
   std::array<RecentCount, kCountedRoles> restarts;  // by the supervisor
-  RecentCount refusals;                             // notes of records refused, folded ones too
-  std::atomic<std::uint64_t> notes_folded;          // notes that were only counted: repeats of others
-  std::atomic<std::uint64_t> input_sources;         // programs that send events and have not gone in order
-  std::atomic<std::uint64_t> frames_failing;        // 1: the glass could not write its last frame into the folder
+  RecentCount refusals;                             // notes of refused records, including folded ones
+  std::atomic<std::uint64_t> notes_folded;          // repeats that were counted instead of written
+  std::atomic<std::uint64_t> input_sources;         // programs that send events and have not ended in order
+  std::atomic<std::uint64_t> frames_failing;        // 1: radar-display could not write its last frame to the folder
 };
 
-// For people: who is here. Presence is decided by locks, not by this table.
+// Entry of the process table, for display only. Locks decide which process is present.
 struct ProcessEntry {
-  std::atomic<std::int64_t> heartbeat_ns;          // CLOCK_MONOTONIC
-  std::atomic<std::int32_t> pid;                   // 0 = free
-  std::atomic<std::uint32_t> progress;             // of a glass: the radar state's version (low 32 bits) that is on it
+  std::atomic<std::int64_t> heartbeat_ns;  // CLOCK_MONOTONIC
+  std::atomic<std::int32_t> pid;           // 0: free
+  std::atomic<std::uint32_t> progress;     // of radar-display: version (low 32 bits) of the radar state that it shows
   std::array<std::atomic<std::uint64_t>, 3> name;  // 23 characters and a zero
 };
 
@@ -81,36 +83,36 @@ struct Note {
 };
 static_assert(sizeof(Note) == 128);
 
-// Who steps when the session runs in lockstep: each role waits until its predecessor in the chain has done the tick.
+// Plan and progress of a lockstep run. Each role waits until its predecessor in the chain has done the tick.
 inline constexpr std::size_t kLockstepRoles = 6;
 inline constexpr std::array<std::string_view, kLockstepRoles> kLockstepRoleNames{
     "flight-model", "input-monitor", "state-machine", "radar-model", "radar-display", "recorder"};
 struct Lockstep {
-  std::atomic<std::uint32_t> enabled;                               // set by the first role that steps
+  std::atomic<std::uint32_t> enabled;                               // set by the first role of the run
   std::atomic<std::uint32_t> roles;                                 // bit n: role n takes part
-  std::atomic<std::int64_t> end_tick;                               // all stop cleanly after this tick; -1 = none
-  std::array<std::atomic<std::int64_t>, kLockstepRoles> done_tick;  // last tick done; -1 = none
-  std::array<std::atomic<std::uint32_t>, kLockstepRoles> wake;      // futex words, count up with done_tick
+  std::atomic<std::int64_t> end_tick;                               // all roles stop after this tick; -1: none
+  std::array<std::atomic<std::int64_t>, kLockstepRoles> done_tick;  // last tick done; -1: none
+  std::array<std::atomic<std::uint32_t>, kLockstepRoles> wake;      // futex words, incremented with done_tick
 };
 
-// A whole map. Its writer takes the id away, writes, and puts the new id in last; a reader copies between two reads of
-// the same id.
+// Slot of a patch map. The writer clears the id, writes, and stores the new id last. A reader copies between two loads
+// of the same id.
 struct PatchSlot {
-  std::atomic<std::uint64_t> id;  // 0 = empty, or being written
+  std::atomic<std::uint64_t> id;  // 0: empty, or being written
   std::atomic<std::uint32_t> epoch;
   std::atomic<std::uint32_t> progress_permille;
   std::array<std::atomic<std::uint64_t>, sizeof(PatchMap) / 8> map;                      // words of a PatchMap
   std::array<std::atomic<std::uint64_t>, kMaxPatchPixels * kMaxPatchPixels / 8> pixels;  // rows without padding
 };
 
-// A picture of the glass, for panels and other programs; written and read as a PatchSlot is.
+// Slot of a display frame, for other programs; same protocol as PatchSlot.
 struct FrameSlot {
-  std::atomic<std::uint64_t> id;                                         // 0 = empty, or being written
+  std::atomic<std::uint64_t> id;                                         // 0: empty, or being written
   std::array<std::atomic<std::uint64_t>, sizeof(GlassFrame) / 8> frame;  // words of a GlassFrame
   std::array<std::atomic<std::uint64_t>, kMaxFramePixels * kMaxFramePixels * 4 / 8> pixels;  // RGBA
 };
 
-// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): the order is what the parts are, the padding cache lines
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): the order is the layout, and cache lines need the padding
 struct SessionLayout {
   shm::SegmentHeader header;
   Lockstep lockstep;
@@ -128,19 +130,19 @@ struct SessionLayout {
   shm::InputLanes<InputEvent, kInputLanes, kInputLaneDepth> input;
   std::array<ProcessEntry, kProcesses> processes;
   std::array<std::atomic<std::uint64_t>, kNoteKinds> note_counts;
-  shm::NoteRing<Note, kNotes> notes;  // many writers; a writer that dies loses its own line only
+  shm::NoteRing<Note, kNotes> notes;  // any number of writers
   std::array<PatchSlot, kPatchSlots> patches;
-  shm::LatestValue<Traffic> traffic;                // from outside
-  shm::BroadcastRing<Traffic, 64> traffic_latched;  // by radar-model: what a replay needs
+  shm::LatestValue<Traffic> traffic;                // from outside: an instructor's station or a bridge
+  shm::BroadcastRing<Traffic, 64> traffic_latched;  // as latched by radar-model; a replay needs it
   std::array<FrameSlot, kFrameSlots> frames;
   Counters counters;
   std::array<std::atomic<std::uint64_t>, (kSpareBytes - sizeof(Counters)) / 8> spare;
 };
 
-// What a segment must be for this build to use it: layout version, size, and the hash over (record, version, sizeof).
-// A record that changes its meaning without changing its size gets a higher version here.
-// What moves into SessionLayout::spare, or into a record's reserved words, stays out of this: zeros say that a creator
-// of an older build knows nothing of it.
+// Identity that a segment must have: layout version, size, and the hash over (record, version, sizeof).
+// A record that changes its meaning at the same size needs a higher version here.
+// Fields that use SessionLayout::spare or reserved words of a record are not part of it. Zeros there mean that an older
+// build created the segment.
 inline constexpr std::array kRecordIdentities = {
     shm::RecordIdentity{"SegmentHeader", 1, sizeof(shm::SegmentHeader)},
     shm::RecordIdentity{"Lockstep", 1, sizeof(Lockstep)},
@@ -166,7 +168,8 @@ inline constexpr std::array kRecordIdentities = {
 inline constexpr shm::LayoutIdentity kLayoutIdentity{kLayoutVersion, sizeof(SessionLayout),
                                                      shm::layout_hash(kRecordIdentities)};
 
-inline constexpr std::size_t kLargestSegment = std::size_t{64} << 20;  // [bytes] what a default /dev/shm spares
-static_assert(sizeof(SessionLayout) <= kLargestSegment && std::is_standard_layout_v<SessionLayout>);
+// [bytes] A default /dev/shm has this much to spare.
+inline constexpr std::size_t kMaxSegment_bytes = std::size_t{64} << 20;
+static_assert(sizeof(SessionLayout) <= kMaxSegment_bytes && std::is_standard_layout_v<SessionLayout>);
 
 }  // namespace yars::databuffer

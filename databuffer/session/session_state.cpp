@@ -17,7 +17,7 @@ namespace yars::databuffer {
 
 namespace {
 
-// The system's name of a process; for one that is not in the table.
+// Program name from /proc, for a process that is not in the table.
 std::string program_of(std::int32_t pid) {
   std::ifstream file("/proc/" + std::to_string(pid) + "/comm");
   std::string name;
@@ -58,9 +58,9 @@ std::int64_t monotonic_ns() {
 
 std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns) {
   if (clock.running == 0) return clock.base_sim_ns;
-  // A base yet to come has nothing elapsed: sim time never is before it.
+  // Before the base nothing has elapsed.
   const std::int64_t elapsed = std::max<std::int64_t>(monotonic_ns - clock.base_monotonic_ns, 0);
-  // At rate 1 no rounding: integer nanoseconds outlast the 53 bits of a double.
+  // Rate 1 uses integers, because nanoseconds of long sessions exceed the 53 bits of a double.
   if (clock.rate == 1.0) return clock.base_sim_ns + elapsed;
   return clock.base_sim_ns + static_cast<std::int64_t>(std::llround(clock.rate * static_cast<double>(elapsed)));
 }
@@ -84,8 +84,8 @@ ClockState first_clock() {
   return clock;
 }
 
-// Published before the segment had a name, and changed seldom: as a rule the first look finds it. A bad one is mended
-// by state-machine within a tick.
+// The clock is published before the segment has a name, so the first attempt normally succeeds. state-machine replaces
+// an invalid clock within a tick.
 bool SessionState::find_clock() {
   for (int attempt = 0; attempt < kClockAttempts; ++attempt) {
     if (clock.refresh() && !validate(clock.value())) {
@@ -105,7 +105,7 @@ std::optional<std::string> SessionState::clock_problem() const {
   return validate(there);
 }
 
-// A full table is no failure: it is for people, presence is decided by locks.
+// A full table is no error: the table is for display only, and locks decide presence.
 void SessionState::enter_table() {
   for (std::size_t i = 0; i < kProcesses; ++i) {
     if (!segment->try_lock(kFirstProcessByte + i)) continue;
@@ -113,13 +113,13 @@ void SessionState::enter_table() {
     ProcessEntry& entry = write().processes[i];
     entry.heartbeat_ns = monotonic_ns();
     entry.progress = 0;
-    keep_entry();
+    restore_entry();
     return;
   }
 }
 
-// Others may write there: who has lost name or pid would pass for gone.
-void SessionState::keep_entry() {
+// Other processes can overwrite the table. An entry without name or pid would count as departed.
+void SessionState::restore_entry() {
   ProcessEntry& entry = write().processes[table_byte - kFirstProcessByte];
   shm::store_text(entry.name.data(), entry.name.size(), process_name);
   entry.pid.store(getpid(), std::memory_order_release);
@@ -131,7 +131,7 @@ void SessionState::leave_table() {
   segment->unlock(table_byte);
 }
 
-// "state-machine, pid 1234": by the table, else by the system.
+// "state-machine, pid 1234": name from the table, else from /proc.
 std::string SessionState::describe_holder(std::size_t byte) const {
   const std::int32_t pid = segment->holder_pid(byte);
   if (pid == 0) return "a process that is just starting or ending";
@@ -149,7 +149,7 @@ std::optional<Claim> SessionState::take(std::size_t byte, int lane) {
   return claim;
 }
 
-// One out of range is refused, noted once, and the last good one goes on.
+// Latest valid clock. An invalid one is refused and noted once, and the last valid one stays in use.
 ClockState SessionState::clock_now() {
   std::unique_lock guard(clock_mutex);
   if (!clock.refresh()) return good_clock;
@@ -163,7 +163,7 @@ ClockState SessionState::clock_now() {
 
 std::array<log::RepeatFilter, kNoteKinds> SessionState::filters() {
   constexpr int kMaxOfAKind = 3;
-  constexpr int kMaxOfAll = 20;  // and of each kind of note: a set of six fills 1,000 lines in half a minute at most
+  constexpr int kMaxOfAll = 20;  // and per kind of note: a set of six programs needs half a minute to fill 1,000 lines
   const log::RepeatFilter filter(kMaxOfAKind, kMaxOfAll);
   return {filter, filter, filter, filter, filter};
 }
@@ -194,8 +194,8 @@ void SessionState::write_note(NoteKind kind, std::string_view text, std::string_
   write().notes.append(line);
 }
 
-// The count comes first: the text is cut to its place.
-void SessionState::tell_left_out(std::int64_t now_ns, bool all) {
+// The count precedes the text, because the text is cut to the size of the line.
+void SessionState::report_folded_notes(std::int64_t now_ns, bool all) {
   if (!segment->writable()) return;
   for (std::size_t kind = 0; kind < note_filters.size(); ++kind) {
     std::unique_lock guard(notes_mutex);
@@ -206,8 +206,8 @@ void SessionState::tell_left_out(std::int64_t now_ns, bool all) {
   }
 }
 
-// Called where a lane is claimed and given up in order: a source that dies is missing from then on. The yars commands
-// come and go and do not count.
+// Called when a lane is claimed or released in order, so that only a source that dies is missing. The yars commands
+// come and go, and do not count.
 bool SessionState::count_input_sources() {
   if (process_name.starts_with("yars ")) return false;
   std::uint64_t held = 0;
@@ -217,7 +217,7 @@ bool SessionState::count_input_sources() {
   return true;
 }
 
-void SessionState::look_for_name() {
+void SessionState::check_name() {
   if (!had_name) return;
   had_name = segment->has_name();
   if (had_name) return;

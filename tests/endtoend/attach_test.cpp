@@ -78,7 +78,7 @@ class Witness {
       const geo::GeoPoint place{tick.ownship.latitude_deg, tick.ownship.longitude_deg};
       if (seen_ > 0 && tick.epoch == epoch_) {
         const double time_s = 5e-3 * static_cast<double>(tick.tick - tick_);
-        const double most_m = databuffer::kPlaceTolerance_m + 40.0 + kMetresPerSecond_at_most * time_s;
+        const double most_m = databuffer::kPositionTolerance_m + 40.0 + kMetresPerSecond_at_most * time_s;
         if (const double jump_m = metres_between(place_, place); jump_m > most_m)
           unexplained_.push_back(std::string(source_) + " to " + tick.ownship.source + ": " + std::to_string(jump_m));
       }

@@ -79,7 +79,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::size_t bytes = (data[0] * 256U + data[1]) * std::size_t{1024} + data[2];
   std::vector<std::byte> front((data[2] & 1U) != 0 ? good_front() : std::vector<std::byte>(kFront));
   if ((data[2] & 2U) != 0) bytes = sizeof(databuffer::SessionLayout) + data[1] - std::min<std::size_t>(data[0], 2);
-  bytes = std::min(bytes, databuffer::kLargestSegment);
+  bytes = std::min(bytes, databuffer::kMaxSegment_bytes);
   if ((data[2] & 4U) != 0 && size >= 5) {
     const std::size_t offset = (data[3] * 256U + data[4]) % kFront;
     std::memcpy(front.data() + offset, data + 5, std::min(size - 5, kFront - offset));

@@ -19,7 +19,7 @@ TEST(BridgeSource, ListensToThisMachineAloneUnlessTold) {
     ASSERT_TRUE(source) << source.error().message();
     EXPECT_EQ(source->host, "127.0.0.1");
     EXPECT_EQ(source->port, 5500);
-    EXPECT_FALSE(source->asks);
+    EXPECT_FALSE(source->requests_data);
     const auto told = open_bridge(std::string(kind) + ":0.0.0.0:0");
     ASSERT_TRUE(told) << told.error().message();
     EXPECT_EQ(told->host, "0.0.0.0");
@@ -32,7 +32,7 @@ TEST(BridgeSource, XplaneIsAskedAtItsHost) {
   ASSERT_TRUE(source) << source.error().message();
   EXPECT_EQ(source->host, "simulator");
   EXPECT_EQ(source->port, 49000);
-  EXPECT_TRUE(source->asks);
+  EXPECT_TRUE(source->requests_data);
 }
 
 TEST(BridgeSource, DisNamesItsAircraft) {

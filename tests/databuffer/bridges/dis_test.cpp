@@ -77,10 +77,10 @@ TEST(Dis, WhatIsNoEntityStateIsRefusedWithTheReason) {
   EXPECT_THAT(refusal_of(with<std::uint8_t>(good, 2, 2)), HasSubstr("type 1"));
   EXPECT_THAT(refusal_of(with<std::uint8_t>(good, 19, 1)), HasSubstr("160 bytes"));
   EXPECT_THAT(refusal_of(with<std::uint8_t>(good, 19, 255)), HasSubstr("4224 bytes"));
-  EXPECT_THAT(refusal_of(with<std::uint16_t>(good, 8, 145)), HasSubstr("145 told"));
+  EXPECT_THAT(refusal_of(with<std::uint16_t>(good, 8, 145)), HasSubstr("145 stated"));
   PacketBytes longer = good;
   longer.resize(145);
-  EXPECT_THAT(refusal_of(longer), HasSubstr("145 sent"));
+  EXPECT_THAT(refusal_of(longer), HasSubstr("145 received"));
 }
 
 TEST(Dis, NumbersThatAreNoneAndPlacesThatAreNowhereAreRefused) {
@@ -105,12 +105,12 @@ TEST(Dis, NumbersThatAreNoneAndPlacesThatAreNowhereAreRefused) {
 TEST(DisBridge, TheFirstOfTheAirIsTheAircraftAndIsNamed) {
   DisBridge bridge(std::nullopt);
   EXPECT_FALSE(*bridge.receive(packet_of("dis/ship.bin"), kNow));
-  EXPECT_FALSE(bridge.take_news());
+  EXPECT_FALSE(bridge.take_log_message());
   const auto sample = bridge.receive(packet_of("dis/air.bin"), kNow);
   ASSERT_TRUE(sample && *sample);
   expect_the_flight((*sample)->ownship);
-  EXPECT_THAT(bridge.take_news().value_or(""), HasSubstr("1,2,3"));
-  EXPECT_FALSE(bridge.take_news()) << "told once";
+  EXPECT_THAT(bridge.take_log_message().value_or(""), HasSubstr("1,2,3"));
+  EXPECT_FALSE(bridge.take_log_message()) << "told once";
 }
 
 TEST(DisBridge, AnEntityThatIsNamedIsTheAircraftAlone) {
@@ -129,7 +129,7 @@ TEST(DisBridge, OthersAreTrafficWithKindAndDomain) {
   ASSERT_EQ(traffic.size(), 2U);
   EXPECT_EQ(traffic[0].domain, EntityDomain::surface);
   EXPECT_EQ(traffic[1].domain, EntityDomain::land);
-  EXPECT_NEAR(traffic[0].place.latitude_deg, 36.7, 1e-9);
+  EXPECT_NEAR(traffic[0].state.latitude_deg, 36.7, 1e-9);
 }
 
 TEST(DisBridge, OtherPdusOfTheExerciseAreNoFault) {
@@ -170,11 +170,11 @@ TEST(DisBridge, AnAircraftThatIsDeactivatedGivesWayToTheNextThatIsHeard) {
   DisBridge bridge(std::nullopt);
   EXPECT_TRUE(flies(bridge, report_of(7, 1000), kNow));
   EXPECT_FALSE(flies(bridge, report_of(8, 1000), kNow)) << "traffic while the first flies";
-  bridge.take_news();
+  bridge.take_log_message();
   EXPECT_FALSE(flies(bridge, report_of(7, 2000, true), kNow));
-  EXPECT_THAT(bridge.take_news().value_or(""), HasSubstr("was deactivated"));
+  EXPECT_THAT(bridge.take_log_message().value_or(""), HasSubstr("was deactivated"));
   EXPECT_TRUE(flies(bridge, report_of(8, 2000), kNow));
-  EXPECT_THAT(bridge.take_news().value_or(""), HasSubstr("1,2,8"));
+  EXPECT_THAT(bridge.take_log_message().value_or(""), HasSubstr("1,2,8"));
   EXPECT_TRUE(bridge.traffic(kNow).empty()) << "it is no traffic any more";
 }
 

@@ -25,7 +25,7 @@ TEST(EntityTable, AShipSailsOnByItsVelocity) {
   const auto there = table.at(seconds(18));
   ASSERT_EQ(there.size(), 1U);
   const auto sailed =
-      geo::geodesic_inverse({36.7, -122.1}, {there[0].place.latitude_deg, there[0].place.longitude_deg});
+      geo::geodesic_inverse({36.7, -122.1}, {there[0].state.latitude_deg, there[0].state.longitude_deg});
   EXPECT_NEAR(sailed.distance.metres(), 80.0, 0.01) << "10 m/s for 8 s";
   EXPECT_NEAR(sailed.azimuth_at_start.degrees(), 270.0, 0.01);
   EXPECT_EQ(there[0].age.seconds(), 8.0);
@@ -46,7 +46,7 @@ TEST(EntityTable, WhoIsDeactivatedIsGoneAtOnceAndWhoIsFrozenStands) {
   table.update(state_of("dis/ship_gone.bin"), seconds(11));
   EXPECT_EQ(table.size(), 0U);
   table.update(state_of("dis/ship_frozen.bin"), seconds(12));
-  EXPECT_NEAR(table.at(seconds(20))[0].place.longitude_deg, -122.1, 1e-9);
+  EXPECT_NEAR(table.at(seconds(20))[0].state.longitude_deg, -122.1, 1e-9);
 }
 
 TEST(EntityTable, AnOlderReportDoesNotReplaceANewerOne) {
@@ -91,8 +91,8 @@ TEST(SurfaceTraffic, ShipsAndVehiclesAreTargetsAndAircraftAreNone) {
   ASSERT_EQ(traffic.count, 2U);
   EXPECT_NEAR(traffic.entities[0].latitude_deg, 36.7, 1e-9);
   EXPECT_NEAR(traffic.entities[0].velocity_east_mps, -10.0, 1e-3);
-  EXPECT_EQ(traffic.entities[0].cross_section_m2, kShipEcho_m2);
-  EXPECT_EQ(traffic.entities[1].cross_section_m2, kVehicleEcho_m2);
+  EXPECT_EQ(traffic.entities[0].cross_section_m2, kShipCrossSection_m2);
+  EXPECT_EQ(traffic.entities[1].cross_section_m2, kVehicleCrossSection_m2);
   EXPECT_NE(traffic.entities[0].id, traffic.entities[1].id);
 }
 
@@ -111,18 +111,18 @@ TEST(SurfaceTraffic, TheNearestAreKeptWhenThereAreMoreThanFit) {
 
 TEST(StampOrder, TheHourTurnsWithoutAFault) {
   StampOrder order(kDisStampPeriod);
-  EXPECT_FALSE(order.why_not_news(seconds(3'599.9)));
-  EXPECT_FALSE(order.why_not_news(seconds(0.1)));
-  EXPECT_TRUE(order.why_not_news(seconds(3'599.95)));
+  EXPECT_FALSE(order.order_fault(seconds(3'599.9)));
+  EXPECT_FALSE(order.order_fault(seconds(0.1)));
+  EXPECT_TRUE(order.order_fault(seconds(3'599.95)));
 }
 
 TEST(StampOrder, OneStrayOldStampMovesNothing) {
   StampOrder order;
-  EXPECT_FALSE(order.why_not_news(seconds(100)));
-  EXPECT_TRUE(order.why_not_news(seconds(3)));
-  EXPECT_FALSE(order.why_not_news(seconds(100.1)));
-  EXPECT_TRUE(order.why_not_news(seconds(3))) << "nor does a second one of another time";
-  EXPECT_TRUE(order.why_not_news(seconds(3))) << "nor the same again";
+  EXPECT_FALSE(order.order_fault(seconds(100)));
+  EXPECT_TRUE(order.order_fault(seconds(3)));
+  EXPECT_FALSE(order.order_fault(seconds(100.1)));
+  EXPECT_TRUE(order.order_fault(seconds(3))) << "nor does a second one of another time";
+  EXPECT_TRUE(order.order_fault(seconds(3))) << "nor the same again";
 }
 
 }  // namespace

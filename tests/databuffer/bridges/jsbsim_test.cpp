@@ -144,7 +144,7 @@ TEST(Jsbsim, BrokenLinesAreRefusedWithTheReason) {
   EXPECT_THAT(refusal_from(bridge, "1,36,-1220,10000,0,0,90,700,0,0"), HasSubstr("longitude_deg"));
   EXPECT_THAT(refusal_from(bridge, "1,36,-122,1e9,0,0,90,700,0,0"), HasSubstr("altitude_msl_m"));
   EXPECT_THAT(refusal_from(bridge, "1,36,-122,10000,0,91,90,700,0,0"), HasSubstr("pitch_deg"));
-  EXPECT_THAT(refusal_from(bridge, std::string(kLongestJsbsimLine + 1, '1')), HasSubstr("16384"));
+  EXPECT_THAT(refusal_from(bridge, std::string(kMaxJsbsimLine + 1, '1')), HasSubstr("16384"));
   const std::string shown = refusal_from(bridge, "1,\033[2J\007x,-122,10000,0,0,90,700,0,0");
   EXPECT_THAT(shown, HasSubstr("\"?[2J?x\"")) << "nothing that drives a terminal";
 }
@@ -154,36 +154,36 @@ TEST(Jsbsim, LabelsSwapNoColumnsOfAnotherSender) {
   const Sender jsbsim{0x7f000001, 5000};
   const Sender stranger{0x7f000001, 6000};
   JsbsimBridge bridge;
-  bridge.hears_from(jsbsim);
+  bridge.set_sender(jsbsim);
   sample_from(bridge, kLabels);
   const auto lines = lines_of(text_of_packet("jsbsim/flight.txt"));
   const auto before = sample_from(bridge, lines[1]);
   ASSERT_TRUE(before);
-  bridge.hears_from(stranger);
+  bridge.set_sender(stranger);
   sample_from(bridge,
               "<LABELS> ,Time,phi-deg,long-gc-deg,h-sl-ft,lat-geod-deg,theta-deg,psi-deg,v-north-fps,v-east-fps,"
               "v-down-fps");
-  bridge.hears_from(jsbsim);
+  bridge.set_sender(jsbsim);
   const auto after = sample_from(bridge, lines[2]);
   ASSERT_TRUE(after);
   EXPECT_NEAR(after->ownship.latitude_deg, before->ownship.latitude_deg, 0.01);
   EXPECT_NEAR(after->ownship.roll_deg, before->ownship.roll_deg, 5.0);
-  bridge.hears_from({0x7f000001, 7000});
+  bridge.set_sender({0x7f000001, 7000});
   EXPECT_THAT(refusal_from(bridge, lines[3]), HasSubstr("labels first")) << "nobody's labels are everybody's";
 }
 
 TEST(Jsbsim, AFloodOfSendersWithLabelsPushesOutNobodyWhoFlies) {
   const Sender jsbsim{0x7f000001, 5000};
   JsbsimBridge bridge;
-  bridge.hears_from(jsbsim);
+  bridge.set_sender(jsbsim);
   sample_from(bridge, kLabels);
   const auto lines = lines_of(text_of_packet("jsbsim/flight.txt"));
   ASSERT_TRUE(sample_from(bridge, lines[1]));
   for (std::uint16_t port = 6000; port < 6100; ++port) {
-    bridge.hears_from({0x7f000001, port});
+    bridge.set_sender({0x7f000001, port});
     sample_from(bridge, kLabels);
   }
-  bridge.hears_from(jsbsim);
+  bridge.set_sender(jsbsim);
   EXPECT_TRUE(sample_from(bridge, lines[2]));
 }
 

@@ -84,9 +84,9 @@ TEST(Xplane, ItAsksAtFirstAndWhileNothingComesAndUnsubscribesAtTheEnd) {
   ASSERT_TRUE(bridge.receive(packet_of("xplane/level.bin"), seconds(6.5)));
   EXPECT_EQ(bridge.requests(seconds(7.2)).size(), 0U);
   EXPECT_EQ(bridge.requests(seconds(8)).size(), kXplaneDatarefs);
-  const auto farewell = bridge.farewell();
-  ASSERT_EQ(farewell.size(), kXplaneDatarefs);
-  for (const Datagram& request : farewell) EXPECT_EQ(memory::little_endian<std::int32_t>(request, 5), 0);
+  const auto closing_datagrams = bridge.closing_datagrams();
+  ASSERT_EQ(closing_datagrams.size(), kXplaneDatarefs);
+  for (const Datagram& request : closing_datagrams) EXPECT_EQ(memory::little_endian<std::int32_t>(request, 5), 0);
 }
 
 TEST(Xplane, BrokenRepliesAreRefusedWithTheReason) {

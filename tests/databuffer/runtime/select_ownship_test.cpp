@@ -230,12 +230,12 @@ TEST(SelectOwnship, TheChosenLaneIsAlwaysPresentAndNoFreshProvenLaneIsHigher) {
     if (!selection.lane) continue;
     const auto& memory = selection.memory;
     ASSERT_TRUE(lanes[*selection.lane].present);
-    ASSERT_LE(now - *memory[*selection.lane].received_ns, kStaleAfter);
+    ASSERT_LE(now - *memory[*selection.lane].received_ns, kStaleAfter_ns);
     for (std::size_t other = 0; other < lanes.size(); ++other) {
       if (!lanes[other].present || lanes[other].priority <= lanes[*selection.lane].priority) continue;
       const auto& candidate = memory[other];
-      const bool proven = candidate.received_ns && now - *candidate.received_ns <= kStaleAfter &&
-                          *candidate.received_ns - candidate.delivering_since_ns >= kTakeoverAfter;
+      const bool proven = candidate.received_ns && now - *candidate.received_ns <= kStaleAfter_ns &&
+                          *candidate.received_ns - candidate.delivering_since_ns >= kTakeoverAfter_ns;
       ASSERT_FALSE(proven) << "lane " << other << " should have taken over";
     }
   }
