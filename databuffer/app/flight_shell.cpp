@@ -75,17 +75,15 @@ void FlightShell::begin_epoch(const ClockState& clock) {
 // Standing by lets this lane take over without a jump. A model that cannot be repositioned continues its own flight.
 void FlightShell::stand_by(const TickLoop::Due& due) {
   const SessionLayout& layout = session_->layout();
-  ModelStatus model{};
-  if (!layout.model_status.read(model) || model.ownship_lane == lane_ || model.ownship_lane >= kOwnshipLanes ||
-      validate(model))
-    return;
-  const bool follows = (model.flags & kModelStale) == 0 && model.epoch == due.clock.epoch &&
-                       model.sim_time_ns + kStaleAfter_ns > due.sim_time_ns;
+  const auto model = read_valid(layout.model_status);
+  if (!model || model->ownship_lane == lane_ || model->ownship_lane >= kOwnshipLanes) return;
+  const bool follows = (model->flags & kModelStale) == 0 && model->epoch == due.clock.epoch &&
+                       model->sim_time_ns + kStaleAfter_ns > due.sim_time_ns;
   const auto priority = [&layout](std::size_t lane) {
     return layout.ownship_priority[lane].load(std::memory_order_relaxed);
   };
-  if (!follows || priority(lane_) > priority(model.ownship_lane)) return;
-  const Ownship& there = model.ownship;
+  if (!follows || priority(lane_) > priority(model->ownship_lane)) return;
+  const Ownship& there = model->ownship;
   source_.model->reposition({{there.latitude_deg, there.longitude_deg},
                              geo::AltitudeMsl::metres(there.altitude_msl_m),
                              geo::Bearing::degrees(there.heading_deg)});
@@ -93,9 +91,10 @@ void FlightShell::stand_by(const TickLoop::Due& due) {
 
 // True if the model continues a predecessor of this epoch.
 bool FlightShell::resume(const TickLoop::Due& due) {
-  ModelStatus model{};
-  if (every_tick_ || !session_->layout().model_status.read(model) || validate(model)) return false;
-  const Ownship& last = model.ownship;
+  if (every_tick_) return false;
+  const auto model = read_valid(session_->layout().model_status);
+  if (!model) return false;
+  const Ownship& last = model->ownship;
   const flight::FlightSample own = source_.model->step({});
   // The stamp comes from the segment and may be any number. It is range-checked before the subtraction.
   if (std::string_view(own.ownship.source) != last.source || last.epoch != due.clock.epoch ||

@@ -59,7 +59,7 @@ std::optional<std::size_t> best(std::span<const OwnshipLane> lanes, std::optiona
 
 OwnshipSelection select_ownship(std::span<const OwnshipLane> lanes, std::int64_t now_ns,
                                 const OwnshipSelection& previous) {
-  assert(lanes.size() <= kMaxOwnshipLanes);
+  assert(lanes.size() <= kOwnshipLanes);
   OwnshipSelection next = previous;
   for (std::size_t lane = 0; lane < lanes.size(); ++lane)
     next.memory[lane] = remember(lanes[lane], now_ns, previous.memory[lane]);
@@ -145,37 +145,18 @@ std::string name_of_source(const Ownship& ownship, std::uint32_t lane) {
 
 void OwnshipReceiver::receive(const SessionLayout& layout, std::size_t index) {
   Lane& lane = lanes_[index];
-  const auto refuse = [this, index](const char* record, const std::string& reason) {
+  const auto count = [this, index](const char* record, const Refusal& reason) {
+    if (!reason) return;
     ++refused_;
-    refusals_.push_back(std::string(record) + " in lane " + std::to_string(index) + ": " + reason);
+    refusals_.push_back(std::string(record) + " in lane " + std::to_string(index) + ": " + *reason);
   };
   // A withdrawn value of the previous writer must not count for the next one.
   if (!layout.ownship[index].has_value()) lane.accepted = 0;
-  if (!layout.nav[index].has_value()) lane.has_nav = false;
-  if (layout.ownship[index].version() != lane.version) {
-    Ownship ownship{};
-    if (const auto version = layout.ownship[index].read(ownship)) {
-      lane.version = *version;
-      if (const auto reason = validate(ownship)) {
-        refuse("ownship", *reason);
-      } else {
-        lane.ownship = ownship;
-        ++lane.accepted;
-      }
-    }
-  }
-  if (layout.nav[index].version() != lane.nav_version) {
-    Nav nav{};
-    if (const auto version = layout.nav[index].read(nav)) {
-      lane.nav_version = *version;
-      if (const auto reason = validate(nav)) {
-        refuse("nav", *reason);
-      } else {
-        lane.nav = nav;
-        lane.has_nav = true;
-      }
-    }
-  }
+  if (!layout.nav[index].has_value()) lane.nav = {};
+  if (lane.ownship.refresh(layout.ownship[index])) ++lane.accepted;
+  count("ownship", lane.ownship.refusal());
+  lane.nav.refresh(layout.nav[index]);
+  count("nav", lane.nav.refusal());
 }
 
 const OwnshipReceiver::Selected& OwnshipReceiver::refresh(const SessionLayout& layout, std::int64_t sim_time_ns,
@@ -198,17 +179,17 @@ const OwnshipReceiver::Selected& OwnshipReceiver::refresh(const SessionLayout& l
   const Lane& lane = lanes_[*selection_.lane];
   const std::int64_t received_ns = selection_.memory[*selection_.lane].received_ns.value_or(sim_time_ns);
   const bool lockstep = layout.lockstep.enabled.load(std::memory_order_relaxed) != 0;
-  if (!lockstep && !guard_.accepts(lane.ownship, received_ns, sim_time_ns, epoch)) {
+  if (!lockstep && !guard_.accepts(lane.ownship.value(), received_ns, sim_time_ns, epoch)) {
     if (guard_.is_proven()) {
-      selected_.jump = lane.ownship;
+      selected_.jump = lane.ownship.value();
       selected_.jump_lane = static_cast<std::uint32_t>(*selection_.lane);
     }
     return selected_;
   }
   selected_.lane = static_cast<std::uint32_t>(*selection_.lane);
-  selected_.ownship = lane.ownship;
+  selected_.ownship = lane.ownship.value();
   selected_.received_ns = received_ns;
-  selected_.nav = lane.has_nav ? lane.nav : nav_from_truth(lane.ownship);
+  selected_.nav = lane.nav.has_value() ? lane.nav.value() : nav_from_truth(lane.ownship.value());
   return selected_;
 }
 
@@ -231,21 +212,17 @@ bool TrafficReceiver::refresh(const SessionLayout& layout, std::int64_t tick, st
 }
 
 bool TrafficReceiver::take(const SessionLayout& layout, std::uint32_t epoch) {
-  if (layout.traffic.version() == version_) return false;
-  Traffic traffic{};
-  const auto version = layout.traffic.read(traffic);
-  if (!version) return false;
-  version_ = *version;
-  refusal_ = validate(traffic);
-  if (!refusal_ && traffic.epoch != epoch)
-    refusal_ = "epoch: expected " + std::to_string(epoch) + ", found " + std::to_string(traffic.epoch);
+  const bool is_valid = newest_.refresh(layout.traffic);
+  refusal_ = newest_.refusal();
+  if (is_valid && newest_.value().epoch != epoch)
+    refusal_ = "epoch: expected " + std::to_string(epoch) + ", found " + std::to_string(newest_.value().epoch);
   if (refusal_) {
     refusal_ = "traffic: " + *refusal_;
     ++refused_;
     return false;
   }
-  latched_ = traffic;
-  return true;
+  if (is_valid) latched_ = newest_.value();
+  return is_valid;
 }
 
 }  // namespace yars::databuffer

@@ -16,10 +16,10 @@
 
 #include "databuffer/messages/world_state.hpp"
 #include "databuffer/session/session_layout.hpp"
+#include "databuffer/session/validated.hpp"
 
 namespace yars::databuffer {
 
-inline constexpr std::size_t kMaxOwnshipLanes = 4;  // capacity of OwnshipSelection
 // [ns] 25 records of a 50 Hz source. Shorter: a loaded machine loses its source. Longer: a dead source stays in use.
 inline constexpr std::int64_t kStaleAfter_ns = 500'000'000;
 // [ns] Time of gap-free delivery before a lane replaces a fresh one. A source that fails within it never takes over.
@@ -40,7 +40,7 @@ struct OwnshipSelection {
     std::int64_t delivering_since_ns = 0;     // first arrival after the last gap
   };
   std::optional<std::size_t> lane;
-  std::array<Memory, kMaxOwnshipLanes> memory;
+  std::array<Memory, kOwnshipLanes> memory;
 };
 
 // Selects the ownship lane to use: the fresh lane of the highest priority, with hysteresis. Pure; call once a tick.
@@ -48,7 +48,7 @@ struct OwnshipSelection {
 // used. A version seen first does not count as a change, because a dead writer may have left it. A higher lane takes
 // over after gap-free delivery for kTakeoverAfter_ns. The selected lane is left only when it is stale or such a lane
 // exists. At equal priority the selected lane stays; without one the lower index wins. `lanes`: at most
-// kMaxOwnshipLanes entries, always in the same order. `now_ns`: time of any clock; OwnshipReceiver passes sim time.
+// kOwnshipLanes entries, always in the same order. `now_ns`: time of any clock; OwnshipReceiver passes sim time.
 // When it goes back, each lane counts as received at that moment.
 OwnshipSelection select_ownship(std::span<const OwnshipLane> lanes, std::int64_t now_ns,
                                 const OwnshipSelection& previous);
@@ -118,12 +118,9 @@ class OwnshipReceiver {
   void receive(const SessionLayout& layout, std::size_t lane);
 
   struct Lane {
-    std::uint64_t version = 0;  // newest version examined
-    std::uint64_t nav_version = 0;
     std::uint64_t accepted = 0;  // number of valid records; select_ownship() uses it as the version
-    Ownship ownship{};
-    Nav nav{};
-    bool has_nav = false;
+    Validated<Ownship> ownship;
+    Validated<Nav> nav;
   };
   std::array<Lane, kOwnshipLanes> lanes_;
   OwnshipSelection selection_;
@@ -148,7 +145,7 @@ class TrafficReceiver {
   bool take(const SessionLayout& layout, std::uint32_t epoch);
 
   Traffic latched_{};
-  std::uint64_t version_ = 0;  // newest version examined
+  Validated<Traffic> newest_;
   std::int64_t received_ns_ = 0;
   std::uint64_t refused_ = 0;
   std::optional<std::string> refusal_;
