@@ -14,7 +14,7 @@ namespace yars::model::hrm {
 namespace {
 constexpr int kFinestEdge = 512;        // texels: 1 MiB, which the second-level cache holds
 constexpr double kFinestTexel_m = 4.0;  // detail below it is speckle's
-constexpr double kCoarsest_m = 256.0;   // [m] longest wave; beyond it the posts say what there is
+constexpr double kLongestWave_m = 256.0;   // [m] longest wave; beyond it the posts say what there is
 constexpr double kMetresPerDegree = 60.0 * geo::kMetresPerNauticalMile;
 constexpr float kMaxByte = 255.0F;
 constexpr std::uint32_t kSeed = 0x59a75u;
@@ -22,7 +22,7 @@ constexpr std::uint32_t kSeed = 0x59a75u;
 // Periodic fractal noise: octaves from the longest wave down to two texels, each as strong as the one before.
 std::vector<float> fractal_table(int edge, double texel_m) {
   std::vector<float> table(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge), 0.0F);
-  for (double wave_m = kCoarsest_m; wave_m >= 2.0 * texel_m; wave_m *= 0.5) {
+  for (double wave_m = kLongestWave_m; wave_m >= 2.0 * texel_m; wave_m *= 0.5) {
     const int cells = std::max(1, static_cast<int>(std::lround(edge * texel_m / wave_m)));
     const double cell_texels = static_cast<double>(edge) / cells;
     const auto knot = [&](int x, int y) {
@@ -97,23 +97,23 @@ void Detail::pack(const std::vector<float>& texels) {
 
 // Within its cell of one degree a place counts from the cell's corner, with degrees of longitude as long as in the
 // cell's middle. A ray runs through few cells: each run in one is one call.
-void Detail::modulate(const terrain::PlaceRun& places, float* gain) const {
+void Detail::modulate(const terrain::PlaceRun& positions, float* gain) const {
   const simd::DetailTable table{table_.data(), edge_, unit_ * unit_};
   const auto north_scale = static_cast<float>(kMetresPerDegree) * texels_per_metre_;
-  const std::size_t count = places.north_deg.size();
+  const std::size_t count = positions.north_deg.size();
   std::size_t first = 0;
   while (first < count) {
     const std::size_t last =
-        first + terrain::look_up::places_alike(&places.cells_north[first], &places.cells_east[first], count - first);
-    const double middle_deg = places.corner.south_deg + static_cast<double>(places.cells_north[first]) + 0.5;
+        first + terrain::look_up::places_alike(&positions.cells_north[first], &positions.cells_east[first], count - first);
+    const double middle_deg = positions.corner.south_deg + static_cast<double>(positions.cells_north[first]) + 0.5;
     const auto east_scale = north_scale * static_cast<float>(std::cos(middle_deg * geo::kRadiansPerDegree));
     // Vectors overrun the end of a run: what they touch of the next is put back.
-    std::array<float, terrain::kRunSlack> behind{};
-    const std::size_t kept = std::min(behind.size(), count - last);
-    std::copy_n(gain + last, kept, behind.begin());
-    simd::modulate(last - first, table, &places.east_deg[first], &places.north_deg[first], east_scale, north_scale,
+    std::array<float, terrain::kRunSlack> overrun{};
+    const std::size_t kept = std::min(overrun.size(), count - last);
+    std::copy_n(gain + last, kept, overrun.begin());
+    simd::modulate(last - first, table, &positions.east_deg[first], &positions.north_deg[first], east_scale, north_scale,
                    gain + first);
-    std::copy_n(behind.begin(), kept, gain + last);
+    std::copy_n(overrun.begin(), kept, gain + last);
     first = last;
   }
 }

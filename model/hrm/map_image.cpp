@@ -83,20 +83,20 @@ Speckle::Speckle(int size, int looks, std::uint64_t seed, std::uint32_t map)
   second_.assign(pitch_, 0.0F);
   for (int pixel = 0; pixel < size_; ++pixel) {
     const auto i = static_cast<std::size_t>(pixel);
-    const Between place = between(pixel);
-    cell_[i] = place.cell;
-    first_[i] = place.first;
-    second_[i] = place.second;
+    const CellWeights weights = cell_weights(pixel);
+    cell_[i] = weights.cell;
+    first_[i] = weights.first;
+    second_[i] = weights.second;
   }
   cells_.assign(2 * padded(kCellRows), 0.0F);
   near_.assign(2 * static_cast<std::size_t>(looks_) * pitch_, 0.0F);
   far_ = near_;
 }
 
-Speckle::Between Speckle::between(int pixel) const {
-  const double place = (pixel + 0.5) * radar::kCellsOfMap / size_ - 0.5;
-  const double cell = std::floor(place);
-  const double second = place - cell;
+Speckle::CellWeights Speckle::cell_weights(int pixel) const {
+  const double cell_position = (pixel + 0.5) * radar::kCellsOfMap / size_ - 0.5;
+  const double cell = std::floor(cell_position);
+  const double second = cell_position - cell;
   const double first = 1.0 - second;
   const double scale = 1.0 / std::sqrt(first * first + second * second);
   return {static_cast<std::int32_t>(cell) + 1, static_cast<float>(first * scale), static_cast<float>(second * scale)};
@@ -120,13 +120,13 @@ const float* Speckle::row(int row) {
                            intensity_.data());
     return intensity_.data();
   }
-  const Between place = between(row);
-  while (drawn_ < place.cell + 1) {
+  const CellWeights weights = cell_weights(row);
+  while (drawn_row_ < weights.cell + 1) {
     near_.swap(far_);
-    drawn_ = drawn_ < place.cell ? place.cell : drawn_ + 1;
-    draw_cells(drawn_, far_);
+    drawn_row_ = drawn_row_ < weights.cell ? weights.cell : drawn_row_ + 1;
+    draw_cells(drawn_row_, far_);
   }
-  simd::intensity(pitch_, looks_, {near_.data(), place.first}, {far_.data(), place.second}, intensity_.data());
+  simd::intensity(pitch_, looks_, {near_.data(), weights.first}, {far_.data(), weights.second}, intensity_.data());
   return intensity_.data();
 }
 

@@ -12,16 +12,16 @@ PatchGeometry::PatchGeometry(const PatchOrder& order, const radar::Fidelity& fid
       distance_m_(0.0),
       window_m_(order.window.metres()),
       earth_(0.0) {
-  const geo::GeodesicInverse way = geo::geodesic_inverse(order.apex, order.centre);
-  distance_m_ = way.distance.metres();
-  up_ = way.azimuth_at_start;
+  const geo::GeodesicInverse geodesic = geo::geodesic_inverse(order.apex, order.centre);
+  distance_m_ = geodesic.distance.metres();
+  up_ = geodesic.azimuth_at_start;
   earth_ = physics::effective_earth(fidelity, apex_, up_);
 }
 
-MapPoint PatchGeometry::point_of(geo::GeoPoint place) const {
-  const geo::GeodesicInverse way = geo::geodesic_inverse(apex_, place);
-  const double turn_rad = (way.azimuth_at_start - up_).radians();
-  const double distance_m = way.distance.metres();
+MapPoint PatchGeometry::point_of(geo::GeoPoint position) const {
+  const geo::GeodesicInverse geodesic = geo::geodesic_inverse(apex_, position);
+  const double turn_rad = (geodesic.azimuth_at_start - up_).radians();
+  const double distance_m = geodesic.distance.metres();
   return {distance_m * std::sin(turn_rad), distance_m * std::cos(turn_rad) - distance_m_};
 }
 
@@ -55,7 +55,7 @@ double laid_over_m(double distance_m, double height_m, double above_level_m) {
 
 namespace {
 // A margin taller than the picture by this factor is cut: mountains above the aircraft would ask for any number.
-constexpr double kMaxRowsAPixel = 4.0;
+constexpr double kMaxMarginWindows = 4.0;
 }  // namespace
 
 PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, const PolarMargins& margins) {
@@ -72,9 +72,9 @@ PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, 
   grid.columns = (columns + kStripColumns - 1) / kStripColumns * kStripColumns;
   grid.first_tangent = -0.5 * (grid.columns - 1) * grid.tangent_step;
 
-  const double most_m = kMaxRowsAPixel * geometry.window_m();
-  const double near_m = std::max(nearest_m - 3.0 * grid.spacing_m - std::min(margins.near_m, most_m), grid.spacing_m);
-  const double far_m = std::hypot(centre_m + half_m, half_m) + 2.0 * grid.spacing_m + std::min(margins.far_m, most_m);
+  const double max_margin_m = kMaxMarginWindows * geometry.window_m();
+  const double near_m = std::max(nearest_m - 3.0 * grid.spacing_m - std::min(margins.near_m, max_margin_m), grid.spacing_m);
+  const double far_m = std::hypot(centre_m + half_m, half_m) + 2.0 * grid.spacing_m + std::min(margins.far_m, max_margin_m);
   // Ahead of the centre rows lie on the middles of pixels, as columns do: what lies between rows is less sharp.
   const double middle = std::fmod(0.5 * cells * (pixels % 2 == 0 ? 1.0 : 0.0), 1.0);
   const double before = std::floor((centre_m - near_m) / grid.spacing_m - middle) + middle;
@@ -89,21 +89,21 @@ constexpr int kReliefSteps = 24;        // places along an edge of the window at
 constexpr double kReliefReserve = 1.2;  // what lies between them may stand out so much more
 constexpr double kMinSine = 0.02;       // shadows grow beyond any margin below a degree
 
-constexpr double kPixelsANode = 2.0;  // of smooth ground
-constexpr double kPixelsAPost = 3.0;  // closer posts are not smoothed: no picture shows their facets
+constexpr double kPixelsPerNode = 2.0;  // of smooth ground
+constexpr double kPixelsPerPost = 3.0;  // closer posts are not smoothed: no picture shows their facets
 constexpr int kReferenceParts = 10;   // of an interval of posts, at least
 constexpr int kOutlineSteps = 8;
 constexpr double kOutlineMargin = 0.01;  // of the box about the fan
 
 // What a tile covers, seen from above.
 terrain::GeoBox box_of(const scene::Tile& tile) {
-  constexpr double kMetresADegree = 111'000.0;
+  constexpr double kMetresPerDegree = 111'000.0;
   const double level = std::max(std::cos(tile.origin.latitude_deg * geo::kRadiansPerDegree), 0.01);
   const auto north = [&](float metres) {
-    return tile.origin.latitude_deg + static_cast<double>(metres) / kMetresADegree;
+    return tile.origin.latitude_deg + static_cast<double>(metres) / kMetresPerDegree;
   };
   const auto east = [&](float metres) {
-    return tile.origin.longitude_deg + static_cast<double>(metres) / (kMetresADegree * level);
+    return tile.origin.longitude_deg + static_cast<double>(metres) / (kMetresPerDegree * level);
   };
   return {north(tile.bounds.north_least_m), north(tile.bounds.north_most_m), east(tile.bounds.east_least_m),
           east(tile.bounds.east_most_m)};
@@ -130,9 +130,9 @@ void widen(const PatchGeometry& geometry, const terrain::TerrainView& ground, in
 }
 
 Relief relief_of(const PatchGeometry& geometry, const terrain::TerrainView& ground,
-                 const std::vector<const scene::Tile*>& tiles, const parallel::Executor& crew) {
-  std::vector<Relief> reliefs(crew.threads);
-  parallel::parallel_for(crew, kReliefSteps + 1, 1, [&](int first, int last, std::size_t thread) {
+                 const std::vector<const scene::Tile*>& tiles, const parallel::Executor& executor) {
+  std::vector<Relief> reliefs(executor.threads);
+  parallel::parallel_for(executor, kReliefSteps + 1, 1, [&](int first, int last, std::size_t thread) {
     widen(geometry, ground, first, last, reliefs[thread]);
   });
   Relief relief;
@@ -178,9 +178,9 @@ PatchNeed patch_need(const PatchOrder& order, const radar::Fidelity& fidelity) {
   PatchNeed need;
   // The corners, and what beyond them is laid over into the picture.
   need.window = {order.centre, 1.5 * order.window.metres(), detail(pixel_m)};
-  const geo::GeodesicRay way(order.apex, to_centre.azimuth_at_start);
+  const geo::GeodesicRay geodesic(order.apex, to_centre.azimuth_at_start);
   const double half_way_m = 0.5 * to_centre.distance.metres();
-  need.path = {way.position(geo::Length::metres(half_way_m)), half_way_m + 0.5 * order.window.metres(),
+  need.path = {geodesic.position(geo::Length::metres(half_way_m)), half_way_m + 0.5 * order.window.metres(),
                detail(std::max(pixel_m, kPathDetail_m))};
   return need;
 }
@@ -189,8 +189,8 @@ terrain::SmoothOrder smooth_order(const PatchGeometry& geometry, const PolarGrid
                                   const std::vector<const scene::Tile*>& tiles) {
   const geo::GeoPoint middle = geometry.place_of({});
   terrain::SmoothOrder order{{90.0, -90.0, middle.longitude_deg + 180.0, middle.longitude_deg - 180.0},
-                             kPixelsANode * grid.spacing_m,
-                             kPixelsAPost * geometry.window_m() / std::max(fidelity.map_size, 1)};
+                             kPixelsPerNode * grid.spacing_m,
+                             kPixelsPerPost * geometry.window_m() / std::max(fidelity.map_size, 1)};
   if (fidelity.algorithm == radar::Algorithm::reference) order.least_parts = kReferenceParts;
   terrain::GeoBox& box = order.box;
   // Outlines of the fan curve little: between so many places of them nothing stands out but what the margin holds.
@@ -200,9 +200,9 @@ terrain::SmoothOrder smooth_order(const PatchGeometry& geometry, const PolarGrid
       for (const double row : {0.0, share * (grid.rows - 1), grid.rows - 1.0}) {
         const double tangent = grid.tangent(column);
         const double ahead_m = grid.distance_m(row) / std::sqrt(1.0 + tangent * tangent);
-        const geo::GeoPoint place = geometry.place_of({tangent * ahead_m, ahead_m - geometry.distance_m()});
-        const double east_deg = middle.longitude_deg + geo::wrapped_degrees(place.longitude_deg - middle.longitude_deg);
-        box = {std::min(box.south_deg, place.latitude_deg), std::max(box.north_deg, place.latitude_deg),
+        const geo::GeoPoint position = geometry.place_of({tangent * ahead_m, ahead_m - geometry.distance_m()});
+        const double east_deg = middle.longitude_deg + geo::wrapped_degrees(position.longitude_deg - middle.longitude_deg);
+        box = {std::min(box.south_deg, position.latitude_deg), std::max(box.north_deg, position.latitude_deg),
                std::min(box.west_deg, east_deg), std::max(box.east_deg, east_deg)};
       }
   }
@@ -214,9 +214,9 @@ terrain::SmoothOrder smooth_order(const PatchGeometry& geometry, const PolarGrid
   return order;
 }
 
-PolarMargins fan_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,
-                         const std::vector<const scene::Tile*>& tiles, const parallel::Executor& crew) {
-  const Relief relief = relief_of(geometry, ground, tiles, crew);
+PolarMargins polar_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,
+                         const std::vector<const scene::Tile*>& tiles, const parallel::Executor& executor) {
+  const Relief relief = relief_of(geometry, ground, tiles, executor);
   const double sine = std::max(geometry.sin_grazing(), kMinSine);
   const double tangent = sine / std::sqrt(std::max(1.0 - sine * sine, 1e-6));
   // Low ground is laid over outwards and high ground inwards; a thing before the near edge shades into the window.

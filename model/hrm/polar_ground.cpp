@@ -14,8 +14,8 @@ namespace yars::model::hrm {
 namespace {
 // Spacing [m] of the samples on the way to the window: of ground without posts, and of ground whose lines of posts are
 // looked at between them, where ways are straight in latitude and longitude within 5 mm.
-constexpr double kPathSpacing_m = 60.0;
-constexpr double kWaySpacing_m = 500.0;
+constexpr double kPathSpacingWithoutPosts_m = 60.0;
+constexpr double kPathSpacingWithPosts_m = 500.0;
 constexpr double kMaxPathSamples = 4096.0;
 constexpr float kNoHorizon = -1.0e6F;  // below every ray, and below every ground [m]
 // Where posts are many columns apart, every third or fifth column is read, the first and the last of a strip among
@@ -36,7 +36,7 @@ int step_within(double farthest_m, double width_m) {
   return 1;
 }
 
-void join_horizons(int step, float* horizon) {
+void interpolate_horizons(int step, float* horizon) {
   for (int lane = 0; lane < kStripColumns; ++lane) {
     const int off = lane % step;
     if (off == 0) continue;
@@ -64,7 +64,7 @@ PolarGround::Sight::Sight(const PatchGeometry& geometry, double distance_m) {
 }
 
 PolarGround::Column::Column(std::size_t samples)
-    : places(samples),
+    : positions(samples),
       distance_m(samples + terrain::kRunSlack),
       elevation_m(distance_m.size()),
       water(distance_m.size()),
@@ -77,7 +77,7 @@ PolarGround::PolarGround(const radar::RadarConfiguration& configuration)
 
 void PolarGround::begin(const PatchGeometry& geometry, const PolarGrid& grid, const terrain::TerrainView& path) {
   const auto rows = static_cast<std::size_t>(grid.rows);
-  if (!window_ || window_->places.count != rows) {
+  if (!window_ || window_->positions.count != rows) {
     window_ = std::make_unique<Column>(rows);
     ground_ = std::make_unique<physics::Ground>(configuration_, rows);
     sin_grazing_.assign(rows + terrain::kRunSlack, 0.0F);
@@ -97,9 +97,9 @@ void PolarGround::begin(const PatchGeometry& geometry, const PolarGrid& grid, co
     sin_grazing_[row] = static_cast<float>(std::max(0.0, geometry.earth().sight(above_m, distance_m, 0.0).sin_grazing));
   }
   const double path_m = grid.first_distance_m;
-  const double spacing_m = path.post_spacing_m() > 0.0 ? kWaySpacing_m : kPathSpacing_m;
+  const double spacing_m = path.post_spacing_m() > 0.0 ? kPathSpacingWithPosts_m : kPathSpacingWithoutPosts_m;
   const auto samples = static_cast<std::size_t>(std::clamp(std::ceil(path_m / spacing_m), 1.0, kMaxPathSamples));
-  if (!path_ || path_->places.count != samples) path_ = std::make_unique<Column>(samples);
+  if (!path_ || path_->positions.count != samples) path_ = std::make_unique<Column>(samples);
   // The last one lies below row 0 and is no part of the way.
   path_sight_.clear();
   for (std::size_t i = 0; i < path_->distance_m.size(); ++i) {
@@ -123,15 +123,15 @@ std::size_t PolarGround::fill(const PatchOrder& order, const PatchGeometry& geom
     if (lane % path_columns == 0) pending += read_path(geometry, grid, azimuth, *terrain.path, arrays.horizon[column]);
     if (lane % step == 0) {
       pending += read_window(order, geometry, azimuth, *terrain.window, detail, static_cast<std::size_t>(lane));
-      level(geometry, static_cast<std::size_t>(lane));
+      subtract_plane(geometry, static_cast<std::size_t>(lane));
       if (arrays.crest_m != nullptr) read_crests(geometry, terrain, static_cast<std::size_t>(lane));
     }
-    fetch_strip(grid, column, arrays);
+    prefetch_strip(grid, column, arrays);
     if (lane + 1 < kStripColumns) continue;
-    if (step > 1) fill_between(static_cast<std::size_t>(step));
-    put_strip(grid, column / kStripColumns, arrays);
-    if (arrays.crest_m != nullptr) put_crests(grid, column / kStripColumns, arrays.crest_m);
-    join_horizons(path_columns, arrays.horizon + column + 1 - kStripColumns);
+    if (step > 1) interpolate_columns(static_cast<std::size_t>(step));
+    store_strip(grid, column / kStripColumns, arrays);
+    if (arrays.crest_m != nullptr) store_crests(grid, column / kStripColumns, arrays.crest_m);
+    interpolate_horizons(path_columns, arrays.horizon + column + 1 - kStripColumns);
   }
   return pending;
 }
@@ -158,22 +158,22 @@ int PolarGround::path_step(const PolarGrid& grid, const terrain::TerrainView& vi
 std::size_t PolarGround::read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
                                      const terrain::TerrainView& view, const Detail* detail, std::size_t lane) {
   Column& column = *window_;
-  const std::size_t rows = column.places.count;
+  const std::size_t rows = column.positions.count;
   float* height_m = &strip_height_[lane * pitch_];
   float* gain = &strip_gain_[lane * pitch_];
   const geo::Length range = geo::Length::metres(static_cast<double>(column.distance_m[rows - 1]));
   physics::sample_places(geometry.apex(), azimuth, range, configuration_.fidelity.geodesic_knots,
-                         column.distance_m.data(), column.places);
+                         column.distance_m.data(), column.positions);
   const terrain::SurfaceRun found{
       {height_m, rows},
       {column.water.data(), rows},
       {},
       view.has_materials() ? std::span(ground_->materials()).first(rows) : std::span<std::int32_t>{}};
-  const std::size_t pending = view.surfaces(column.places.run(), configuration_.fidelity.interpolation, found);
-  const physics::SweepGeometry look{geometry.apex(), order.altitude, azimuth,    {},
+  const std::size_t pending = view.surfaces(column.positions.run(), configuration_.fidelity.interpolation, found);
+  const physics::SweepGeometry sweep{geometry.apex(), order.altitude, azimuth,    {},
                                     range,           order.sim_time, order.band, order.channel};
   const physics::Ground::Sample reflects =
-      ground_->reflect(look, column.places.run(), column.water.data(), sin_grazing_.data(), view.has_materials());
+      ground_->reflect(sweep, column.positions.run(), column.water.data(), sin_grazing_.data(), view.has_materials());
   if (reflects.land != nullptr)
     std::copy_n(reflects.land, rows, gain);
   else
@@ -182,32 +182,32 @@ std::size_t PolarGround::read_window(const PatchOrder& order, const PatchGeometr
   if (reflects.sea != nullptr)
     for (std::size_t row = 0; row < rows; ++row)
       if (sin_grazing_[row] > 0.0F) gain[row] += reflects.sea[row] / sin_grazing_[row];
-  if (detail != nullptr) detail->modulate(column.places.run(), gain);
+  if (detail != nullptr) detail->modulate(column.positions.run(), gain);
   return pending;
 }
 
 std::size_t PolarGround::read_path(const PatchGeometry& geometry, const PolarGrid& grid, geo::Bearing azimuth,
                                    const terrain::TerrainView& view, float& horizon) {
   Column& column = *path_;
-  const std::size_t samples = column.places.count;
+  const std::size_t samples = column.positions.count;
   physics::sample_places(geometry.apex(), azimuth, geo::Length::metres(grid.first_distance_m),
-                         configuration_.fidelity.geodesic_knots, column.distance_m.data(), column.places);
+                         configuration_.fidelity.geodesic_knots, column.distance_m.data(), column.positions);
   const bool peaks = view.has_peaks();
   const terrain::SurfaceRun found{{column.elevation_m.data(), samples},
                                   {column.water.data(), samples},
                                   peaks ? std::span(column.peak_m).first(samples) : std::span<float>{},
                                   {}};
-  const std::size_t pending = view.surfaces(column.places.run(), configuration_.fidelity.interpolation, found);
+  const std::size_t pending = view.surfaces(column.positions.run(), configuration_.fidelity.interpolation, found);
   const std::vector<float>& top_m = peaks ? column.peak_m : column.elevation_m;
   float tangent = terrain::kNoTangent;
   for (std::size_t i = 0; i + 1 < samples; ++i) {
     const Sight& sight = path_sight_[i];
-    const float there = (top_m[i] * sight.cosine - sight.above_m) / (sight.chord_m + top_m[i] * sight.sine);
-    if (there > tangent) tangent = there;  // never for a void
+    const float sample_tangent = (top_m[i] * sight.cosine - sight.above_m) / (sight.chord_m + top_m[i] * sight.sine);
+    if (sample_tangent > tangent) tangent = sample_tangent;  // never for a void
   }
   // Lines of posts between the samples.
   const physics::EffectiveEarth& earth = geometry.earth();
-  if (view.crests(column.places.run(),
+  if (view.crests(column.positions.run(),
                   {geometry.altitude_m(), earth.curvature(), std::span(column.distance_m).first(samples)},
                   std::span(column.crest).first(samples)))
     tangent = std::max(
@@ -224,11 +224,11 @@ std::size_t PolarGround::read_path(const PatchGeometry& geometry, const PolarGri
 // Of the column just read: lines of posts between its rows. What lies before row 0 is the path's.
 void PolarGround::read_crests(const PatchGeometry& geometry, const PatchTerrain& terrain, std::size_t lane) {
   Column& column = *window_;
-  const std::size_t rows = column.places.count;
+  const std::size_t rows = column.positions.count;
   float* crest_m = &strip_crest_[lane * pitch_];
   std::fill_n(crest_m, rows, kNoHorizon);
   if (terrain.crests.summits) raise_to_summits(geometry, lane);
-  if (!terrain.crests.lines || !terrain.window->crests(column.places.run(),
+  if (!terrain.crests.lines || !terrain.window->crests(column.positions.run(),
                                                        {geometry.altitude_m(), geometry.earth().curvature(),
                                                         std::span(column.distance_m).first(rows)},
                                                        std::span(column.crest).first(rows)))
@@ -246,7 +246,7 @@ void PolarGround::read_crests(const PatchGeometry& geometry, const PatchTerrain&
 // Where a row stands higher to the eye than both its neighbours, the parabola through the three tells the summit: it
 // hides the row itself if it lies before it, and else the next one.
 void PolarGround::raise_to_summits(const PatchGeometry& geometry, std::size_t lane) {
-  const std::size_t rows = window_->places.count;
+  const std::size_t rows = window_->positions.count;
   const float* const distance_m = window_->distance_m.data();
   const float* const height_m = &strip_height_[lane * pitch_];
   const float* const gain = &strip_gain_[lane * pitch_];
@@ -271,7 +271,7 @@ void PolarGround::raise_to_summits(const PatchGeometry& geometry, std::size_t la
   }
 }
 
-void PolarGround::put_crests(const PolarGrid& grid, int strip, float* crest_m) const {
+void PolarGround::store_crests(const PolarGrid& grid, int strip, float* crest_m) const {
   float* const points = crest_m + grid.at(strip * kStripColumns, 0);
   for (std::size_t row = 0; row < static_cast<std::size_t>(grid.rows); ++row)
     for (std::size_t lane = 0; lane < std::size_t{kStripColumns}; ++lane)
@@ -279,36 +279,36 @@ void PolarGround::put_crests(const PolarGrid& grid, int strip, float* crest_m) c
 }
 
 // Heights of the column just read count from the map plane; a void takes over its nearer neighbour's.
-void PolarGround::level(const PatchGeometry& geometry, std::size_t lane) {
+void PolarGround::subtract_plane(const PatchGeometry& geometry, std::size_t lane) {
   const auto plane_m = static_cast<float>(geometry.plane_msl_m());
-  const std::size_t rows = window_->places.count;
+  const std::size_t rows = window_->positions.count;
   float* height_m = &strip_height_[lane * pitch_];
   float* gain = &strip_gain_[lane * pitch_];
-  int holes = 0;
+  int voids = 0;
   for (std::size_t row = 0; row < rows; ++row) {
     height_m[row] -= plane_m;
-    holes += std::isnan(height_m[row]) ? 1 : 0;
+    voids += std::isnan(height_m[row]) ? 1 : 0;
   }
-  if (holes == 0) return;
+  if (voids == 0) return;
   // Voids before all ground are as high as the first: they hide nothing of it.
   const float* const known = std::find_if(height_m, height_m + rows, [](float height) { return !std::isnan(height); });
   float last_m = known < height_m + rows ? *known : 0.0F;
   for (std::size_t row = 0; row < rows; ++row) {
-    const bool hole = std::isnan(height_m[row]);
-    if (!hole) last_m = height_m[row];
+    const bool is_void = std::isnan(height_m[row]);
+    if (!is_void) last_m = height_m[row];
     height_m[row] = last_m;
-    if (hole) gain[row] = 0.0F;
+    if (is_void) gain[row] = 0.0F;
   }
 }
 
-void PolarGround::fill_between(std::size_t step) {
-  const std::size_t rows = window_->places.count;
-  simd::fill_between(rows, step, strip_height_.data(), pitch_);
-  simd::fill_between(rows, step, strip_gain_.data(), pitch_);
+void PolarGround::interpolate_columns(std::size_t step) {
+  const std::size_t rows = window_->positions.count;
+  simd::interpolate_columns(rows, step, strip_height_.data(), pitch_);
+  simd::interpolate_columns(rows, step, strip_gain_.data(), pitch_);
 }
 
 // Before a strip is put down its place is fetched, a sixteenth with every column that is read for it.
-void PolarGround::fetch_strip(const PolarGrid& grid, int column, const GroundArrays& arrays) const {
+void PolarGround::prefetch_strip(const PolarGrid& grid, int column, const GroundArrays& arrays) const {
   const auto share = static_cast<std::size_t>(grid.rows) / std::size_t{kStripColumns} + 1;
   const std::size_t strip = grid.at(column - column % kStripColumns, 0);
   const std::size_t first = share * static_cast<std::size_t>(column % kStripColumns);
@@ -321,8 +321,8 @@ void PolarGround::fetch_strip(const PolarGrid& grid, int column, const GroundArr
 }
 
 // A column's numbers lie one behind the other when read, and sixteen columns' side by side on the fan.
-void PolarGround::put_strip(const PolarGrid& grid, int strip, const GroundArrays& arrays) const {
-  simd::put_side_by_side(static_cast<std::size_t>(grid.rows), strip_gain_.data(), strip_height_.data(), pitch_,
+void PolarGround::store_strip(const PolarGrid& grid, int strip, const GroundArrays& arrays) const {
+  simd::interleave_columns(static_cast<std::size_t>(grid.rows), strip_gain_.data(), strip_height_.data(), pitch_,
                          arrays.surface + grid.at(strip * kStripColumns, 0));
 }
 

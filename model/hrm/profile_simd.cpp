@@ -45,7 +45,7 @@ HWY_INLINE Point point_at(const Strip& strip, int row, std::size_t lane) {
 
 // What is seen of the way up to a point: the point itself, or ground before it that stands higher to the eye. Such
 // ground is seen on its near side and returns at the point's row.
-HWY_INLINE Point topped(const Strip& strip, int row, std::size_t lane, Point point) {
+HWY_INLINE Point raised_to_crest(const Strip& strip, int row, std::size_t lane, Point point) {
   if (strip.crest_m == nullptr) return point;
   const Tag d;
   const auto crest = hn::Load(d, strip.crest_m + static_cast<std::size_t>(row) * kStripColumns + lane);
@@ -54,7 +54,7 @@ HWY_INLINE Point topped(const Strip& strip, int row, std::size_t lane, Point poi
   return point;
 }
 
-HWY_INLINE Point placed(const Strip& strip, int row, Point point) {
+HWY_INLINE Point with_image_row(const Strip& strip, int row, Point point) {
   const Tag d;
   point.row = hn::Set(d, static_cast<float>(row));
   if (!strip.layover) return point;
@@ -69,31 +69,31 @@ HWY_INLINE Point placed(const Strip& strip, int row, Point point) {
 
 // Power spread evenly from one row to another (row k reaches from k - 1/2 to k + 1/2). What falls off the strip is
 // lost.
-struct Stretch {
+struct RowInterval {
   Floats low, high;
   Floats density;  // power a row; 0 where there is none
 };
 
 // What of it falls onto a row.
-HWY_INLINE Floats share_of(const Stretch& stretch, Floats row) {
+HWY_INLINE Floats share_of(const RowInterval& interval, Floats row) {
   const Tag d;
   const auto half = hn::Set(d, 0.5F);
-  const auto covered = hn::Sub(hn::Min(stretch.high, hn::Add(row, half)), hn::Max(stretch.low, hn::Sub(row, half)));
-  return hn::Mul(stretch.density, hn::Max(covered, hn::Zero(d)));
+  const auto covered = hn::Sub(hn::Min(interval.high, hn::Add(row, half)), hn::Max(interval.low, hn::Sub(row, half)));
+  return hn::Mul(interval.density, hn::Max(covered, hn::Zero(d)));
 }
 
 // Lane by lane: each writes to its own column alone; one at rest adds nothing to row 0, which every strip has.
-HWY_INLINE void add_far(const Strip& strip, std::size_t lane, const Stretch& stretch) {
+HWY_INLINE void add_by_lane(const Strip& strip, std::size_t lane, const RowInterval& interval) {
   const Tag d;
   const SignedTag di;
   const auto half = hn::Set(d, 0.5F);
   const auto most = hn::Set(d, static_cast<float>(strip.rows - 1));
-  auto row = hn::Max(hn::Floor(hn::Add(stretch.low, half)), hn::Zero(d));
-  const auto last = hn::Min(hn::Floor(hn::Add(stretch.high, half)), most);
-  auto active = hn::And(hn::Gt(stretch.density, hn::Zero(d)), hn::Le(row, last));
+  auto row = hn::Max(hn::Floor(hn::Add(interval.low, half)), hn::Zero(d));
+  const auto last = hn::Min(hn::Floor(hn::Add(interval.high, half)), most);
+  auto active = hn::And(hn::Gt(interval.density, hn::Zero(d)), hn::Le(row, last));
   const auto lanes = hn::Add(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(lane)));
   while (!hn::AllFalse(d, active)) {
-    const auto share = hn::IfThenElseZero(active, share_of(stretch, row));
+    const auto share = hn::IfThenElseZero(active, share_of(interval, row));
     const auto index = hn::Add(hn::ShiftLeft<4>(hn::ConvertTo(di, hn::IfThenElseZero(active, row))), lanes);
     hn::ScatterIndex(hn::Add(hn::GatherIndex(d, strip.power, index), share), d, strip.power, index);
     row = hn::Add(row, hn::Set(d, 1.0F));
@@ -102,7 +102,7 @@ HWY_INLINE void add_far(const Strip& strip, std::size_t lane, const Stretch& str
 }
 
 // Both stretches, the first one first. Neighbouring columns look alike, so they fall onto few rows as a rule.
-HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const Stretch& first, const Stretch& second) {
+HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const RowInterval& first, const RowInterval& second) {
   const Tag d;
   const auto half = hn::Set(d, 0.5F);
   const auto most = hn::Set(d, static_cast<float>(strip.rows - 1));
@@ -113,8 +113,8 @@ HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const Str
   const auto end = hn::Min(hn::Floor(hn::Add(hn::MaxOfLanes(d, high), half)), most);
   const float rows = hn::GetLane(hn::Sub(end, begin));
   if (rows >= static_cast<float>(kMaxRows)) {
-    add_far(strip, lane, first);
-    add_far(strip, lane, second);
+    add_by_lane(strip, lane, first);
+    add_by_lane(strip, lane, second);
     return;
   }
   auto row = begin;
@@ -129,7 +129,7 @@ HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const Str
 
 // The faces that stand between two points of the profile.
 struct Walls {
-  Mask there;
+  Mask present;
   Floats share;  // of the climb that they fill
   Floats gain;
 };
@@ -143,15 +143,15 @@ HWY_INLINE Walls walls_at(const Strip& strip, std::size_t at, Floats climb, floa
   hn::Vec<decltype(db)> steps_returned, steps_high;
   hn::LoadInterleaved2(db, &strip.walls[at].returned, steps_returned, steps_high);
   const auto height = hn::ConvertTo(d, hn::BitCast(di, steps_high));
-  const auto there = hn::And(hn::Gt(height, hn::Zero(d)), hn::Gt(climb, hn::Set(d, kMinStep * step)));
-  if (hn::AllFalse(d, there)) return {there, hn::Zero(d), hn::Zero(d)};
+  const auto present = hn::And(hn::Gt(height, hn::Zero(d)), hn::Gt(climb, hn::Set(d, kMinStep * step)));
+  if (hn::AllFalse(d, present)) return {present, hn::Zero(d), hn::Zero(d)};
   const auto sum = hn::ConvertTo(d, hn::BitCast(di, steps_returned));
-  const auto tall = hn::IfThenElse(there, height, one);
-  const auto share = hn::Min(hn::Div(hn::Mul(tall, hn::Set(d, kWallStep_m)), hn::IfThenElse(there, climb, one)), one);
-  return {there, share, hn::Div(sum, tall)};
+  const auto tall = hn::IfThenElse(present, height, one);
+  const auto share = hn::Min(hn::Div(hn::Mul(tall, hn::Set(d, kWallStep_m)), hn::IfThenElse(present, climb, one)), one);
+  return {present, share, hn::Div(sum, tall)};
 }
 
-HWY_INLINE Floats left_by_gases(const GasRow& gas, Floats height_m) {
+HWY_INLINE Floats gas_transmission(const GasRow& gas, Floats height_m) {
   const Tag d;
   const auto within = hn::Min(hn::Max(height_m, hn::Set(d, gas.lowest_m)), hn::Set(d, gas.highest_m));
   const auto slope = hn::Add(hn::Set(d, gas.slope), hn::Mul(within, hn::Set(d, gas.bend)));
@@ -180,11 +180,11 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   const auto across = hn::Sub(hn::Mul(distance, climb), hn::Mul(up, hn::Set(d, step)));
   const auto slant = hn::Sqrt(hn::Add(hn::Mul(distance, distance), hn::Mul(up, up)));
   auto width = hn::Div(hn::Mul(hn::Mul(hn::Load(d, strip.arc + lane), distance), share), slant);
-  if (strip.gas != nullptr) width = hn::Mul(width, left_by_gases(strip.gas[row], far.height));
+  if (strip.gas != nullptr) width = hn::Mul(width, gas_transmission(strip.gas[row], far.height));
   const auto area = hn::Mul(width, hn::Max(across, zero));
 
   const Walls walls = walls_at(strip, static_cast<std::size_t>(row) * kStripColumns + lane, climb, step);
-  const auto halves = hn::AndNot(walls.there, whole);
+  const auto halves = hn::AndNot(walls.present, whole);
   const auto middle = hn::Mul(half, hn::Add(near.row, far.row));
   const auto begin = hn::Sub(far.row, hn::Mul(share, hn::Sub(far.row, near.row)));
   // A wall is its climb alone; what is level of the piece, and what no wall fills, is the ground before it.
@@ -194,25 +194,25 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   const auto half_area = hn::Mul(half, area);
   const auto open = hn::Mul(hn::IfThenElse(halves, half_area, area), far.gain);
   // A wall stands within half a row of the farther one, and so does its foot.
-  const auto foot_row = hn::IfThenElse(hn::And(walls.there, whole), hn::Add(begin, one), begin);
+  const auto foot_row = hn::IfThenElse(hn::And(walls.present, whole), hn::Add(begin, one), begin);
   const auto start = hn::IfThenElse(halves, middle, foot_row);
   const auto extent = hn::Max(hn::Abs(hn::Sub(far.row, start)), hn::Set(d, kMinExtent));
   const auto rows_inverse = hn::Div(one, extent);
-  Stretch first, second;
+  RowInterval first, second;
   first.low = hn::Min(near.row, middle);
   first.high = hn::Add(first.low, extent);
   first.density = hn::IfThenElseZero(halves, hn::Mul(hn::Mul(half_area, near.gain), rows_inverse));
   second.low = hn::Min(start, far.row);
   second.high = hn::Add(second.low, extent);
-  second.density = hn::IfThenElseZero(seen, hn::Mul(hn::IfThenElse(walls.there, built, open), rows_inverse));
+  second.density = hn::IfThenElseZero(seen, hn::Mul(hn::IfThenElse(walls.present, built, open), rows_inverse));
   add(strip, lane, seen, first, second);
 
   if (!(strip.double_bounce > 0.0F)) return;
-  const auto foot = hn::And(walls.there, whole);
+  const auto foot = hn::And(walls.present, whole);
   if (hn::AllFalse(d, foot)) return;
   // From wall to ground and from ground to wall: every such path is as long as to the foot.
   const auto bounce = hn::Mul(hn::Mul(face, walls.gain), hn::Set(d, strip.double_bounce / kMinExtent));
-  add_far(strip, lane, {foot_row, hn::Add(foot_row, hn::Set(d, kMinExtent)), hn::IfThenElseZero(foot, bounce)});
+  add_by_lane(strip, lane, {foot_row, hn::Add(foot_row, hn::Set(d, kMinExtent)), hn::IfThenElseZero(foot, bounce)});
 }
 
 // Leaves no walls to the next map. Most rows have none: what is not written need not go back to memory.
@@ -233,21 +233,21 @@ void cast_profile(const Strip& given) {
   for (std::size_t lane = 0; lane < kStripColumns; lane += hn::Lanes(d)) {
     Point near = point_at(strip, 0, lane);
     auto horizon = hn::Max(hn::Load(d, strip.horizon + lane), near.tangent);
-    bool near_placed = false;
+    bool near_has_row = false;
     clear_walls(strip, 0, lane);
     for (int row = 1; row < strip.rows; ++row) {
       Point far = point_at(strip, row, lane);
-      Point top = topped(strip, row, lane, far);
+      Point top = raised_to_crest(strip, row, lane, far);
       const auto seen = hn::Gt(top.tangent, horizon);
       const bool any = !hn::AllFalse(d, seen);
       if (any) {
-        if (!near_placed) near = placed(strip, row - 1, near);
-        far = placed(strip, row, far);
+        if (!near_has_row) near = with_image_row(strip, row - 1, near);
+        far = with_image_row(strip, row, far);
         top.row = far.row;
         cast_piece(strip, row, lane, near, top, seen, horizon);
       }
       clear_walls(strip, row, lane);
-      near_placed = any;
+      near_has_row = any;
       horizon = hn::Max(horizon, top.tangent);
       near = far;
     }

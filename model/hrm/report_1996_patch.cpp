@@ -20,13 +20,13 @@ float slope_across(const PolarGrid& grid, const SurfacePoint* surface, int colum
 }
 
 // Of a pixel's place between two samples.
-struct Between {
+struct SamplePair {
   int first;
   float second_weight;
 };
 
-Between between(double place, int count) {
-  const double clamped = std::clamp(place, 0.0, static_cast<double>(count - 1));
+SamplePair sample_pair(double position, int count) {
+  const double clamped = std::clamp(position, 0.0, static_cast<double>(count - 1));
   const int first = std::min(static_cast<int>(clamped), count - 2);
   return {first, static_cast<float>(clamped - first)};
 }
@@ -73,9 +73,9 @@ void draw_brightness(const PatchGeometry& geometry, const PolarGrid& grid, const
       float& value = image.power[image.at(pixel, line)];
       value = 0.0F;
       if (!(ahead_m > 0.0)) continue;
-      const Between column = between((right_m / ahead_m - grid.first_tangent) / grid.tangent_step, grid.columns);
+      const SamplePair column = sample_pair((right_m / ahead_m - grid.first_tangent) / grid.tangent_step, grid.columns);
       const double distance_m = std::sqrt(right_m * right_m + ahead_m * ahead_m);
-      const Between row = between((distance_m - grid.first_distance_m) / grid.spacing_m, grid.rows);
+      const SamplePair row = sample_pair((distance_m - grid.first_distance_m) / grid.spacing_m, grid.rows);
       const auto along = [&](int of) {
         const float near = brightness[grid.at(of, row.first)];
         return near + row.second_weight * (brightness[grid.at(of, row.first + 1)] - near);

@@ -16,7 +16,7 @@ namespace yars::model::hrm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr float kWide = 12.0F;  // columns of a triangle that is drawn by itself
+constexpr float kWideColumns = 12.0F;  // columns of a triangle that is drawn by itself
 
 // Column by column, for a column is a profile: a surface reaches half a row beyond its edges, so that on average it is
 // as long as it is, and its height there is that of the edge. One triangle, a lane a column. `put(at, row, near, far,
@@ -167,20 +167,20 @@ void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, co
       cardinal[lane] = tile.cardinal[kind];
     }
     // What stands behind the last is an old corner: in the tile's numbers or before them, and not drawn.
-    const auto there = hn::FirstN(d, count);
+    const auto valid = hn::FirstN(d, count);
     const CornerNumbers corners = numbers_at(triangles, i);
     const Corner a = gather(vertices, corners.first);
     const Corner b = gather(vertices, corners.second);
     const Corner c = gather(vertices, corners.third);
     const Facet facet = facet_of(a, b, c, canvas.limits);
     const Triangle triangle = ordered(a, b, c);
-    const auto wall = hn::And(there, hn::And(facet.steep, hn::Gt(facet.towards, hn::Zero(d))));
+    const auto wall = hn::And(valid, hn::And(facet.steep, hn::Gt(facet.towards, hn::Zero(d))));
     if (!hn::AllFalse(d, wall))
-      small.stand(triangle, wall_gain(canvas.cardinal, facet, hn::Load(d, gamma), hn::Load(d, cardinal)), wall);
-    const auto above = hn::And(there, hn::Gt(facet.area, hn::Zero(d)));
+      small.draw_walls(triangle, wall_gain(canvas.cardinal, facet, hn::Load(d, gamma), hn::Load(d, cardinal)), wall);
+    const auto above = hn::And(valid, hn::Gt(facet.area, hn::Zero(d)));
     if (hn::AllFalse(d, above)) continue;
     const auto gain = shaded(hn::Load(d, gamma), vertices, corners, facet);
-    const auto wide = hn::And(above, hn::Gt(hn::Sub(triangle.right.column, triangle.left.column), set(kWide)));
+    const auto wide = hn::And(above, hn::Gt(hn::Sub(triangle.right.column, triangle.left.column), set(kWideColumns)));
     small.fill(triangle, facet, gain, hn::AndNot(wide, above));
     small.flush(false);
     if (hn::AllFalse(d, wide)) continue;

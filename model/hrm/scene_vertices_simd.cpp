@@ -25,7 +25,7 @@ HWY_INLINE Floats sum_of(float a, Floats x, float b, Floats y) {
 }
 
 // A vector from `at` on; the last one of a tile begins earlier, so that it ends with the tile.
-HWY_INLINE void place_vector(std::size_t at, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
+HWY_INLINE void transform_vector(std::size_t at, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
   const Tag d;
   const auto east = hn::LoadU(d, tile.east_m + at);
   const auto north = hn::LoadU(d, tile.north_m + at);
@@ -39,9 +39,9 @@ HWY_INLINE void place_vector(std::size_t at, const TileVertices& tile, const Ver
   const auto distance = hn::Sqrt(hn::Add(right2, hn::Mul(ahead, ahead)));
   // Distance less the centre's, without its cancellation.
   const auto beyond = hn::Div(hn::Add(hn::Mul(up, hn::Add(centre, ahead)), right2), hn::Add(distance, centre));
-  const auto columns = hn::Mul(hn::Div(right, ahead), hn::Set(d, map.columns_a_tangent));
+  const auto columns = hn::Mul(hn::Div(right, ahead), hn::Set(d, map.columns_per_tangent));
   hn::StoreU(hn::Add(hn::Set(d, map.middle_column), columns), d, grid.column + at);
-  const auto rows = hn::Mul(beyond, hn::Set(d, map.rows_a_metre));
+  const auto rows = hn::Mul(beyond, hn::Set(d, map.rows_per_metre));
   hn::StoreU(hn::Add(hn::Set(d, map.middle_row), rows), d, grid.row + at);
   hn::StoreU(hn::Add(hn::LoadU(d, tile.up_m + at), hn::Set(d, map.lift_m)), d, grid.height_m + at);
 }
@@ -55,13 +55,13 @@ HWY_INLINE void face_vector(std::size_t at, const TileVertices& tile, const Vert
 }
 
 // A few vertices by way of a vector's room.
-void place_few(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
+void transform_few(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
   float in[3][kMaxLanes] = {};
   float out[3][kMaxLanes] = {};
   std::copy_n(tile.east_m, count, in[0]);
   std::copy_n(tile.north_m, count, in[1]);
   std::copy_n(tile.up_m, count, in[2]);
-  place_vector(0, {in[0], in[1], in[2], nullptr, nullptr, nullptr}, map, {out[0], out[1], out[2], nullptr, 0});
+  transform_vector(0, {in[0], in[1], in[2], nullptr, nullptr, nullptr}, map, {out[0], out[1], out[2], nullptr, 0});
   std::copy_n(out[0], count, grid.column);
   std::copy_n(out[1], count, grid.row);
   std::copy_n(out[2], count, grid.height_m);
@@ -76,13 +76,13 @@ void face_few(std::size_t count, const TileVertices& tile, const VertexMap& map,
   std::copy_n(out, count, grid.facing);
 }
 
-void place_vertices(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
+void transform_vertices(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
   const Tag d;
   const std::size_t step = hn::Lanes(d);
   if (count < step)
-    place_few(count, tile, map, grid);
+    transform_few(count, tile, map, grid);
   else
-    for (std::size_t at = 0; at < count; at += step) place_vector(std::min(at, count - step), tile, map, grid);
+    for (std::size_t at = 0; at < count; at += step) transform_vector(std::min(at, count - step), tile, map, grid);
   const std::size_t with_normals = count - grid.bare;
   if (with_normals < step)
     face_few(with_normals, tile, map, grid);
@@ -141,7 +141,7 @@ void select_triangles(std::size_t begin, std::size_t end, const Corners& corners
   const Tag d;
   const SignedTag di;
   const BitsTag db;
-  found.make_room(end - begin);
+  found.reserve(end - begin);
   found.count = 0;
   for (std::size_t t = begin; t < end; t += hn::Lanes(d)) {
     const auto first = corners_at(corners[0] + t, end - t);
@@ -175,11 +175,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace yars::model::hrm::simd {
 
-HWY_EXPORT(place_vertices);
+HWY_EXPORT(transform_vertices);
 HWY_EXPORT(select_triangles);
 
-void place_vertices(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
-  HWY_DYNAMIC_DISPATCH(place_vertices)(count, tile, map, grid);
+void transform_vertices(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
+  HWY_DYNAMIC_DISPATCH(transform_vertices)(count, tile, map, grid);
 }
 void select_triangles(std::size_t begin, std::size_t end, const Corners& corners, const GridVertices& grid,
                       const GridLimits& limits, FoundTriangles& found) {
