@@ -12,7 +12,7 @@
 namespace yars::model::hrm {
 
 namespace {
-// Grazing nearly level would make the unit vanish; the picture is dark there anyway.
+// Floor of the sine of the grazing angle in the unit of power. Without it the unit would vanish near grazing 0.
 constexpr double kMinSine = 1.0e-3;
 }  // namespace
 
@@ -41,7 +41,7 @@ void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
   const double pixel_m = geometry.window_m() / image.size;
   const double edge_m = 0.5 * geometry.window_m();
   const geo::Angle squint = geometry.squint(ground_track);
-  // The whole picture clear of it by its half diagonal: nothing to look at.
+  // The whole picture is outside the blind zone by its half diagonal.
   const double half_view_deg =
       std::atan2(edge_m, std::max(geometry.distance_m() - edge_m, 1.0)) / geo::kRadiansPerDegree;
   const double off_deg = std::abs(squint.degrees());
@@ -60,8 +60,8 @@ void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
 }
 
 namespace {
-constexpr std::size_t kSlack = 16;  // entries that vectors may touch behind a row
-// Rows of cells count from -1: the first pixels lie before the middle of the first cell.
+constexpr std::size_t kSlack = 16;  // entries that vectors may touch beyond a row
+// Rows of cells count from -1, because the first pixels lie before the centre of the first cell.
 constexpr int kCellRows = radar::kCellsOfMap + 2;
 
 std::size_t padded(std::size_t count) {
@@ -131,7 +131,7 @@ const float* Speckle::row(int row) {
 }
 
 namespace {
-// Where the configured figure holds.
+// Slant range and window at which the configured noise gamma holds.
 constexpr double kNoiseRange_m = 20.0 * geo::kMetresPerNauticalMile;
 constexpr double kNoiseWindow_m = 0.67 * geo::kMetresPerNauticalMile;
 }  // namespace

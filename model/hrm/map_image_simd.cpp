@@ -7,7 +7,7 @@
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// Behind highway.h, or it would have no target yet.
+// After highway.h, which defines the target.
 #include "model/physics/polynomials-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -21,9 +21,9 @@ using Tag = hn::CappedTag<float, kMaxLanes>;
 using SignedTag = hn::RebindToSigned<Tag>;
 using BitsTag = hn::RebindToUnsigned<Tag>;
 using Floats = hn::Vec<Tag>;
-constexpr std::ptrdiff_t kPrefetchRows = 4;  // rows
+constexpr std::ptrdiff_t kPrefetchRows = 4;  // rows to prefetch ahead; fewer would arrive late
 
-// Where a column begins in the fan: its strip, and its place in a row of it.
+// Index of row 0 of a column in the polar grid.
 HWY_INLINE hn::Vec<SignedTag> start_of(hn::Vec<SignedTag> column, std::int32_t strip_size) {
   const SignedTag di;
   const auto strip = hn::ShiftRight<4>(column);
@@ -42,7 +42,7 @@ void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow
   const auto last_row = hn::Set(di, grid.rows - 2);
   const auto nothing = hn::Zero(di);
   const auto strip_size = static_cast<std::int32_t>(grid.strip_size());
-  // A column is as wide as distance * step / (1 + tangent^2), which is step * ahead^2 / distance.
+  // Width of a column: distance * step / (1 + tangent^2) = step * ahead^2 / distance.
   const double ahead_m = static_cast<double>(row.ahead_m);
   const auto scale_per_metre = hn::Set(
       d, static_cast<float>(static_cast<double>(row.scale) / (grid.tangent_step * grid.spacing_m * ahead_m * ahead_m)));
@@ -59,7 +59,7 @@ void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow
     const auto along = hn::Sub(y, hn::ConvertTo(d, line));
     const auto offset = hn::ShiftLeft<4>(line);
     const auto left_at = hn::Add(start_of(column, strip_size), offset);
-    // The rows below will look nearer: their streams, one a strip, are too many for the processor to see.
+    // Prefetches for the map rows below, which lie nearer. There are too many streams (one a strip) for the hardware.
     hwy::Prefetch(cross_section_m2 + hn::GetLane(left_at) - kPrefetchRows * kStripColumns);
     const auto right_at = hn::Add(start_of(hn::Add(column, hn::Set(di, 1)), strip_size), offset);
     const auto near_left = hn::GatherIndex(d, cross_section_m2, left_at);
@@ -119,8 +119,7 @@ void spread(const float* from, std::ptrdiff_t stride, std::span<const float> wei
   }
 }
 
-// What a block receives from each of the points in turn, summed before it is stored: neighbours' sums would wait for
-// one another.
+// Sums the contributions of all points to a block before the store. Otherwise each store would wait for the one before.
 void spread_along(const float* from, std::size_t reach, const float* middle, float* to) {
   const Tag d;
   std::size_t points[kBlock];
@@ -140,7 +139,7 @@ void spread_along(const float* from, std::size_t reach, const float* middle, flo
 
 constexpr float kLn2 = 0.693147181F;
 
-// noise_bits() of clutter.hpp for a vector of cells, draw 0.
+// Vector form of noise_bits() in clutter.hpp, draw 0.
 HWY_INLINE hn::Vec<BitsTag> random_bits(physics::NoiseState state, hn::Vec<BitsTag> cell) {
   const BitsTag d;
   auto x = hn::Xor(hn::Mul(cell, hn::Set(d, physics::kDrawsPerCell)), hn::Set(d, state.first));
@@ -153,7 +152,7 @@ HWY_INLINE hn::Vec<BitsTag> random_bits(physics::NoiseState state, hn::Vec<BitsT
   return hn::Xor(x, hn::ShiftRight<15>(x));
 }
 
-// Sine of a number of half turns in [-1/2, 1/2]: Taylor's series, error 4e-6.
+// Sine of half turns in [-1/2, 1/2]: Taylor series, error 4e-6.
 HWY_INLINE Floats sine(Floats half_turns) {
   const Tag d;
   const auto y = hn::Mul(half_turns, half_turns);
@@ -176,7 +175,7 @@ void draw_gaussian(std::size_t count, physics::NoiseState state, float* real, fl
     const auto high = hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<16>(bits)));
     const auto uniform = hn::Add(hn::Mul(high, hn::Set(d, kStep)), hn::Set(d, 0.5F * kStep));
     const auto radius = hn::Sqrt(hn::Mul(hn::Set(d, -kLn2), polynomials::log2(d, uniform)));
-    // Fifteen bits are an angle within half a turn, the last one is the sign of both parts.
+    // Bits 1 to 15 are an angle of half a turn; bit 0 is the sign of both parts.
     const auto low = hn::And(hn::ShiftRight<1>(bits), hn::Set(db, 0x7fffU));
     const auto angle =
         hn::Sub(hn::Mul(hn::ConvertTo(d, hn::BitCast(di, low)), hn::Set(d, 2.0F * kStep)), hn::Set(d, 0.5F));

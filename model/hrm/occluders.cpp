@@ -7,10 +7,10 @@
 namespace yars::model::hrm {
 
 namespace {
-constexpr double kClear_m = 0.02;  // what is nearer than this in front of a point is the point's own surface
-constexpr int kMaxCells = 2048;    // an edge of the grid
+constexpr double kClear_m = 0.02;  // surfaces nearer than this to the point are the point's own
+constexpr int kMaxCells = 2048;    // per side of the grid
 
-// True if the ray from the origin meets the triangle, `share` of the way to the point (Moeller and Trumbore 1997).
+// True if the ray from the origin through the point meets the triangle at `share` of the way (Moeller, Trumbore 1997).
 bool meets(const Occluders::Corners& corners, Point3 point, double& share) {
   const Point3 one = corners[1] - corners[0];
   const Point3 two = corners[2] - corners[0];
@@ -60,7 +60,7 @@ void Occluders::measure() {
       }
     }
   }
-  // About two triangles a cell; a scene is seen flat, so most of the cells go side by side.
+  // About four cells a triangle. A scene appears flat, so it has twice as many columns as rows.
   const double cells = std::sqrt(static_cast<double>(triangles_.size()) * 2.0);
   const auto span = [&](int axis, double share) {
     Span made;

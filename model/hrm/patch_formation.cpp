@@ -17,13 +17,14 @@
 
 namespace yars::model::hrm {
 
-// Numbers on a fan: grows, never shrinks, does not keep what it held; each row of a strip on a cache line of its own.
+// Array on the polar grid. It grows only, and resizing discards its contents. Each row of a strip has its own cache
+// line.
 template <class Number>
 class PolarArray {
  public:
   void resize(std::size_t size) {
     if (size <= numbers_.size()) return;
-    numbers_ = {};  // first, so that both are not there at once
+    numbers_ = {};  // first, so that old and new array do not coexist
     numbers_.resize(size);
   }
   Number* data() { return numbers_.data(); }
@@ -35,7 +36,7 @@ class PolarArray {
 };
 
 namespace {
-constexpr int kRowsPerTask = 32;  // of the map
+constexpr int kRowsPerTask = 32;  // rows of the map
 }  // namespace
 
 struct PatchFormation::Work {
@@ -66,7 +67,7 @@ struct PatchFormation::Work {
   double thermal_noise() const {
     return noise_gamma(configuration.high_resolution, geo::Length::metres(geometry->slant_range_m()), order.window);
   }
-  // job(first strip, behind the last, thread).
+  // job(first strip, end of strips, thread).
   template <class Job>
   void parallel_for_strips(const Job& job) {
     constexpr int kStripsPerTask = 2;
@@ -86,19 +87,19 @@ struct PatchFormation::Work {
   PolarGrid grid;
   std::vector<const scene::Tile*> tiles;
   std::unique_ptr<Detail> detail;
-  std::unique_ptr<ReferencePatch> reference;  // instead of what follows, where the fidelity asks for it
+  std::unique_ptr<ReferencePatch> reference;  // only for the algorithm `reference`
   std::vector<PolarGround> grounds;
   std::vector<SceneRaster> rasters;
   PolarArray<SurfacePoint> surface;
   PolarArray<WallPoint> walls;
   PolarArray<float> cross_section_m2, horizon, arc, crest_m;
-  CrestsBetweenRows crests;  // if any crest_m is filled
-  bool walls_dirty = false;   // of a map whose profiles are still to be cast
+  CrestsBetweenRows crests;  // crest_m is used if any() is true
+  bool walls_dirty = false;  // a scene has been drawn, and profiles have not yet been cast
   std::vector<float> distance_m, inverse_m, above_m, level_m;
-  std::vector<simd::GasRow> gas_rows;  // none: no gas takes anything
+  std::vector<simd::GasRow> gas_rows;  // empty: no attenuation by gases
   std::vector<std::size_t> pending;
-  std::vector<std::uint8_t> ground_begun;  // by thread: it has its room for this map's ground
-  bool report_1996;                 // the map is brightness, see report_1996_patch.hpp
+  std::vector<std::uint8_t> ground_begun;  // by thread: PolarGround::begin() has been called for this map
+  bool report_1996;                        // the image holds brightness, see report_1996_patch.hpp
   MapImage image;
   Response response;
   std::vector<std::uint8_t> picture;
@@ -171,7 +172,7 @@ void PatchFormation::Work::prepare_map() {
   ground_begun.assign(executor.threads, 0);
 }
 
-// Who reads the walls clears them: it is done here for new room only, and after a map that was given up.
+// Casting profiles resets the walls. This clears new arrays, and walls left by an abandoned map.
 void PatchFormation::Work::clear_walls() {
   const std::size_t before = walls.size();
   walls.resize(grid.size());
@@ -185,8 +186,8 @@ void PatchFormation::Work::read_terrain() {
     if (ground_begun[thread] == 0) grounds[thread].begin(*geometry, grid, *environment.path);
     ground_begun[thread] = 1;
     pending[thread] +=
-        grounds[thread].fill(order, *geometry, grid, {environment.window.get(), environment.path.get(), crests}, detail.get(),
-                             first * kStripColumns, last * kStripColumns,
+        grounds[thread].fill(order, *geometry, grid, {environment.window.get(), environment.path.get(), crests},
+                             detail.get(), first * kStripColumns, last * kStripColumns,
                              {surface.data(), horizon.data(), crests.any() ? crest_m.data() : nullptr});
   });
   if (reference) reference->read_terrain({environment.window.get(), environment.path.get()});
@@ -199,7 +200,7 @@ void PatchFormation::Work::draw_scene() {
   }
   if (tiles.empty()) return;
   walls_dirty = true;
-  // Tiles on a border are drawn from both sides of it: few bands, and two a thread, so that one may help the other.
+  // Tiles that cross bands are drawn in each band, so bands are few. Two a thread balance the load.
   const auto bands = static_cast<int>(executor.threads == 1 ? 1 : 2 * executor.threads);
   const std::vector<PlacedTile> placed = place_tiles(*geometry, grid, tiles, executor);
   const std::vector<int> begin = even_bands(grid, placed, bands);
@@ -210,7 +211,7 @@ void PatchFormation::Work::draw_scene() {
   });
 }
 
-// In place of the profiles and of all that follows them.
+// Preset `1996`: replaces the profiles.
 void PatchFormation::Work::shade() {
   parallel_for_strips([&](int first, int last, std::size_t) {
     shade_polar_grid(*geometry, grid, {surface.data(), horizon.data()}, first * kStripColumns, last * kStripColumns,
@@ -265,7 +266,7 @@ void PatchFormation::Work::draw_map() {
       draw_polar_grid(*geometry, grid, cross_section_m2.data(), first, last, image);
     });
   image.blind = false;
-  // What is below thermal noise or black cannot be seen.
+  // Power below thermal noise and black level is invisible.
   const radar::HighResolutionConfiguration& hrm = configuration.high_resolution;
   const double floor = std::max(thermal_noise(), physics::ratio(hrm.brightest_gamma_db - hrm.dynamic_range_db));
   if (configuration.fidelity.map_response) response.apply(static_cast<float>(floor), executor, image);
@@ -274,13 +275,13 @@ void PatchFormation::Work::draw_map() {
   blank_blind_zone(*geometry, order.ground_track, configuration.high_resolution, image);
 }
 
-// Exact at some rows and three heights.
+// Fits the transmission by a parabola in height at nine distances, exact at three heights, and interpolates to rows.
 void PatchFormation::Work::fit_gas_rows() {
   gas_rows.clear();
   if (gas.none()) return;
   constexpr int kKnots = 9;
   constexpr std::array<double, 3> kHeights_m{0.0, 2000.0, 5000.0};
-  constexpr double kLowest_m = -500.0, kHighest_m = 6000.0;  // within 0.1 dB
+  constexpr double kLowest_m = -500.0, kHighest_m = 6000.0;  // [m MSL] the fit is within 0.1 dB between them
   const double plane_m = geometry->plane_msl_m();
   std::array<simd::GasRow, kKnots> knots{};
   for (int knot = 0; knot < kKnots; ++knot) {
@@ -310,7 +311,7 @@ void PatchFormation::Work::draw_video() {
   if (report_1996) return form_brightness_video(configuration, image, order.map, picture);
   const double noise = thermal_noise();
   picture.resize(image.power.size());
-  constexpr int kSpeckleRowsPerTask = 128;  // a piece: each begins with two rows of cells of its own
+  constexpr int kSpeckleRowsPerTask = 128;  // Rows of a task. Fewer cost more: each task draws two rows of cells anew.
   parallel::parallel_for(executor, image.size, kSpeckleRowsPerTask, [&](int first, int last, std::size_t) {
     form_video(configuration, image, {noise, order.looks, order.map}, first, last, picture);
   });

@@ -8,12 +8,12 @@
 namespace yars::model::hrm {
 
 namespace {
-constexpr int kEqualLobes = 5;           // n-bar: so many sidelobes of one height, falling behind
-constexpr double kMainLobeCells = 1.5;   // the first null of -35 dB lies at 1.4 cells
-constexpr int kRowsPerTask = 32;          // of work
-constexpr double kSidelobeCells = 16.0;  // what lies farther out is below any picture's black
+constexpr int kEqualLobes = 5;           // n-bar: number of nearly equal sidelobes (Taylor)
+constexpr double kMainLobeCells = 1.5;   // [cells] half width of the main lobe; the first null of -35 dB is at 1.4
+constexpr int kRowsPerTask = 32;         // rows of the image
+constexpr double kSidelobeCells = 16.0;  // [cells] extent of the response; farther sidelobes are below black
 
-// Taylor's coefficients F_m of w(x) = 1 + 2 sum F_m cos(2 pi m x).
+// Taylor's coefficients F_m of the weighting w(x) = 1 + 2 sum F_m cos(2 pi m x).
 std::vector<double> taylor_coefficients(double sidelobe_db) {
   const double a = std::acosh(std::pow(10.0, std::abs(sidelobe_db) / 20.0)) / std::numbers::pi;
   constexpr double n = kEqualLobes;
@@ -36,6 +36,7 @@ double sinc(double x) {
   return std::abs(y) < 1e-9 ? 1.0 : std::sin(y) / y;
 }
 
+// Amplitude of the response at x / bandwidth, 1 at 0.
 double amplitude(const std::vector<double>& coefficients, double x) {
   double sum = coefficients[0] * sinc(x);
   for (std::size_t m = 1; m < coefficients.size(); ++m) {
@@ -45,7 +46,7 @@ double amplitude(const std::vector<double>& coefficients, double x) {
   return sum / coefficients[0];
 }
 
-// Where the power has fallen to a half, in units of 1 / bandwidth.
+// Distance at which the power is one half, in units of 1 / bandwidth.
 double half_power_point(const std::vector<double>& coefficients) {
   double low = 0.0;
   double high = 1.0;
@@ -107,7 +108,7 @@ std::vector<float> Response::weights(double pixel, int& first) const {
   return weights;
 }
 
-// Rows and columns of black about a copy of the image, so that no sum looks over an edge.
+// Zero margins about a copy of the image, so that sums need no bounds check.
 void Response::resize_buffers(const parallel::Executor& executor, const MapImage& image) {
   const auto size = static_cast<std::size_t>(image.size);
   margin_ = along_reach_ * simd::kBlock;
@@ -137,7 +138,8 @@ void Response::apply(float floor, const parallel::Executor& executor, MapImage& 
     if (!sidelobes_.empty()) find_strong(strong, first, last, buffers_[thread], image);
   });
   if (sidelobes_.empty()) return;
-  if (std::all_of(strong_.begin(), strong_.end(), [](const std::vector<StrongBlock>& run) { return run.empty(); })) return;
+  if (std::all_of(strong_.begin(), strong_.end(), [](const std::vector<StrongBlock>& run) { return run.empty(); }))
+    return;
   parallel::parallel_for(executor, image.size, kRowsPerTask,
                          [&](int first, int last, std::size_t) { add_sidelobes(first, last, image); });
 }
@@ -154,7 +156,7 @@ void Response::smooth_along(int first, int last, WorkerBuffers& buffers, const M
 void Response::smooth_down(int first, int last, WorkerBuffers& buffers, MapImage& image) const {
   const auto size = static_cast<std::size_t>(image.size);
   for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
-    // In place where rows are whole blocks.
+    // In place if rows are whole blocks.
     float* to = columns_ == size ? &image.power[row * size] : buffers.row.data();
     simd::smooth(columns_, &across_[padded(row)], static_cast<std::ptrdiff_t>(pitch_), main_lobe_, to);
     if (columns_ != size) std::copy_n(to, size, &image.power[row * size]);
@@ -178,7 +180,7 @@ void Response::find_strong(float limit, int first, int last, WorkerBuffers& buff
   }
 }
 
-// What of a block's sidelobes falls onto the rows [first, last).
+// Adds the sidelobes of a block to the rows [first, last).
 void Response::spread(const StrongBlock& strong, std::size_t first, std::size_t last) {
   const std::size_t lobe = main_lobe_.size();
   const std::size_t taps = lobe + sidelobes_.size();
@@ -187,7 +189,7 @@ void Response::spread(const StrongBlock& strong, std::size_t first, std::size_t 
   const auto pitch = static_cast<std::ptrdiff_t>(pitch_);
   if (strong.row >= first && strong.row < last)
     simd::spread_along(strong.power.data(), along_reach_, &along_[along_middle_], at);
-  // Rows before: from row - taps + 1 to row - lobe; behind likewise.
+  // Nearer rows: from row - taps + 1 to row - lobe; then the farther rows likewise.
   const std::size_t nearest = strong.row >= last ? std::max(lobe, strong.row - last + 1) : lobe;
   const std::size_t farthest = strong.row >= first ? std::min(taps, strong.row - first + 1) : 0;
   if (nearest < farthest)
@@ -200,8 +202,8 @@ void Response::spread(const StrongBlock& strong, std::size_t first, std::size_t 
                  at + static_cast<std::ptrdiff_t>(next) * pitch);
 }
 
-// Strong points were found first, all of them: what one adds must not make another strong. Few pixels of a picture are,
-// as a rule, so it is these that are spread, not their neighbours that are summed.
+// All strong pixels are found before sidelobes are added, so sidelobes make no pixel strong. Strong pixels are few, so
+// each is spread (scatter) instead of summing neighbours (gather).
 void Response::add_sidelobes(int first, int last, MapImage& image) {
   const auto size = static_cast<std::size_t>(image.size);
   const auto begin = static_cast<std::size_t>(first);
@@ -217,9 +219,9 @@ void Response::add_sidelobes(int first, int last, MapImage& image) {
 }
 
 namespace {
-constexpr double kMinDoppler_mps = 1.0;  // of V sin(squint): nearer the track nothing can be mapped anyway
+constexpr double kMinDoppler_mps = 1.0;  // lower bound of V sin(squint); nearer to the track no map is possible
 
-// A weighted copy of the response, its peak at a place between the pixels [pixels].
+// Adds the response of a point at a fractional position [pixels].
 void splat(const Response& response, double column, double row, double power, MapImage& image) {
   int first_column = 0;
   int first_row = 0;
@@ -248,7 +250,7 @@ MapMovers::Trace MapMovers::trace_of(const physics::MovingPoint& mover, const Pa
   const MapPoint middle{0.5 * (start.right_m + end.right_m), 0.5 * (start.up_m + end.up_m)};
   const double ahead_m = middle.up_m + geometry.distance_m();
   const double distance_m = std::hypot(middle.right_m, ahead_m);
-  // Along and across the line of sight to the target.
+  // Unit vector along the line of sight; radial and cross-range speeds of the target.
   const double out_right = middle.right_m / distance_m;
   const double out_up = ahead_m / distance_m;
   const double speed_right = time_s > 0.0 ? (end.right_m - start.right_m) / time_s : 0.0;
@@ -259,12 +261,12 @@ MapMovers::Trace MapMovers::trace_of(const physics::MovingPoint& mover, const Pa
   const double squint_rad = geometry.squint(order.ground_track).radians() + std::atan2(middle.right_m, ahead_m);
   const double doppler_mps = order.ground_speed.metres_per_second() * std::sin(squint_rad);
   const double clamped_doppler_mps = std::copysign(std::max(std::abs(doppler_mps), kMinDoppler_mps), doppler_mps);
-  // Looking right (positive squint) forwards is left on the map.
+  // Positive squint looks right, and then forwards is left on the map.
   const double shift_m = receding_mps / clamped_doppler_mps * distance_m;
   const double layover_m = laid_over_m(distance_m, height_m, geometry.above_level_m(distance_m)) - distance_m;
   const MapPoint shown{middle.right_m + out_right * layover_m + out_up * shift_m,
                        middle.up_m + out_up * layover_m - out_right * shift_m};
-  // What it goes outwards walks in range; what it goes across defocuses it in azimuth, twice its way.
+  // Radial motion walks in range. Cross-range motion defocuses in azimuth by twice its distance.
   const double walk_m = receding_mps * time_s;
   const double blur_m = 2.0 * std::abs(crossing_mps) * time_s;
   const MapPoint half{0.5 * (out_right * walk_m + out_up * blur_m), 0.5 * (out_up * walk_m - out_right * blur_m)};
@@ -306,7 +308,7 @@ void MapMovers::draw_point(const physics::MovingPoint& mover, const PatchOrder& 
   const double pixel_m = geometry.window_m() / image.size;
   const geo::GeoPoint position = mover.place(order.sim_time);
   const MapPoint point = geometry.point_of(position);
-  // Far outside it costs no more than this; displacement may bring it in from about a window away.
+  // Displacement can bring in points from about a window outside; points beyond two windows are skipped.
   if (std::hypot(point.right_m, point.up_m) > 2.0 * geometry.window_m()) return;
   const double ground_m = terrain.elevation_m(position);
   if (std::isnan(ground_m)) return;

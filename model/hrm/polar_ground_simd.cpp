@@ -18,32 +18,34 @@ using Tag = hn::CappedTag<float, 16>;
 using SignedTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
 
-// The second look at the table: turned by 70 degrees and stretched by the golden ratio, so that the two periods never
-// meet.
+// Second sample of the texture: turned by 70 degrees and stretched by the golden ratio, so that the two periods have no
+// common multiple.
 constexpr float kTurnCosine = 0.3420201F;
 constexpr float kTurnSine = 0.9396926F;
 constexpr float kStretch = 1.618034F;
 
-// One of the four bytes of a word as a number.
+// One of the four bytes of a word, as float.
 template <int kShift>
 HWY_INLINE Floats byte_of(hn::Vec<SignedTag> word) {
   const SignedTag di;
   return hn::ConvertTo(Tag(), hn::And(hn::ShiftRight<kShift>(word), hn::Set(di, 0xff)));
 }
 
-// A place along an axis of the table, apart: the texel, and the way on from it.
+// Coordinate along an axis of the texture: index of the texel and fraction to the next one.
 struct TexelCoordinate {
   hn::Vec<SignedTag> whole;
   Floats fraction;
 };
-// Rounded half a texel before the place: a place on a texel may count as the end of the one before, which is the same.
+// Rounds the coordinate less one half, not down. A coordinate on a texel may be the end of the previous one (fraction
+// 1), which gives the same value.
 HWY_INLINE TexelCoordinate split(Floats coordinate) {
   const Tag d;
-  constexpr float kOnes = 12582912.0F;  // 1.5 * 2^23: in the sum the last bit counts ones
+  constexpr float kOnes = 12582912.0F;  // 1.5 * 2^23: the last bit of the sum is 1
   const auto sum = hn::Add(hn::Sub(coordinate, hn::Set(d, 0.5F)), hn::Set(d, kOnes));
   return {hn::BitCast(SignedTag(), sum), hn::Sub(coordinate, hn::Sub(sum, hn::Set(d, kOnes)))};
 }
 
+// Bilinear sample of the texture.
 HWY_INLINE Floats sample(const DetailTable& table, Floats x, Floats y) {
   const SignedTag di;
   const auto mask = hn::Set(di, table.edge - 1);
@@ -52,7 +54,7 @@ HWY_INLINE Floats sample(const DetailTable& table, Floats x, Floats y) {
   const auto i = hn::And(column.whole, mask);
   const auto j = hn::And(row.whole, mask);
   const auto low_bits = hn::Set(di, kDetailBlock - 1);
-  // Whole lines of blocks, whole blocks of the line, and within the block.
+  // Index: full rows of blocks, blocks before it in its row, position in the block.
   const auto lines = hn::Mul(hn::AndNot(low_bits, j), hn::Set(di, table.edge));
   const auto blocks = hn::ShiftLeft<2>(hn::AndNot(low_bits, i));
   const auto within = hn::Add(hn::ShiftLeft<2>(hn::And(j, low_bits)), hn::And(i, low_bits));
@@ -104,14 +106,14 @@ HWY_INLINE void store_row(const float* gain, const float* height_m, std::size_t 
 
 #if HWY_TARGET == HWY_SCALAR
 void interleave_columns(std::size_t count, const float* gain, const float* height_m, std::size_t pitch,
-                      SurfacePoint* points) {
+                        SurfacePoint* points) {
   for (std::size_t row = 0; row < count; ++row)
     store_row(gain + row, height_m + row, pitch, points + row * kStripColumns);
 }
 #else
 constexpr std::size_t kSquare = 4;
 
-// Two rows of four columns' numbers, of four rows.
+// A 4 x 4 block, transposed: one vector a row.
 struct Rows {
   hn::Vec<hn::FixedTag<float, kSquare> > first, second, third, fourth;
 };
@@ -132,7 +134,7 @@ HWY_INLINE Rows transposed(const float* columns, std::size_t pitch) {
           hn::BitCast(d, hn::InterleaveUpper(pairs, ab_high, ce_high))};
 }
 
-// Four columns by four rows.
+// Interleaves four columns by four rows.
 HWY_INLINE void store_block(const float* gain, const float* height_m, std::size_t pitch, SurfacePoint* points) {
   const hn::FixedTag<float, kSquare> d;
   const Rows gains = transposed(gain, pitch);
@@ -144,7 +146,7 @@ HWY_INLINE void store_block(const float* gain, const float* height_m, std::size_
 }
 
 void interleave_columns(std::size_t count, const float* gain, const float* height_m, std::size_t pitch,
-                      SurfacePoint* points) {
+                        SurfacePoint* points) {
   std::size_t row = 0;
   for (; row + kSquare <= count; row += kSquare)
     for (std::size_t lane = 0; lane < kStripColumns; lane += kSquare)
@@ -173,7 +175,7 @@ void interpolate_columns(std::size_t count, std::size_t step, float* columns, st
   HWY_DYNAMIC_DISPATCH(interpolate_columns)(count, step, columns, pitch);
 }
 void interleave_columns(std::size_t count, const float* gain, const float* height_m, std::size_t pitch,
-                      SurfacePoint* points) {
+                        SurfacePoint* points) {
   HWY_DYNAMIC_DISPATCH(interleave_columns)(count, gain, height_m, pitch, points);
 }
 

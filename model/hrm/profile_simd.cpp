@@ -15,20 +15,20 @@ using SignedTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-// Where a wall stands, a step steeper than this is its face; less is ground that has buried it.
+// A climb below this share of the row spacing is ground that covers the wall; above it, the wall's face.
 constexpr float kMinStep = 0.2F;
-// A piece seen end on still covers this share of a row: nothing is divided by zero.
+// Least extent of a piece, in rows; prevents a division by zero for a piece seen end on.
 constexpr float kMinExtent = 1.0e-3F;
-// So many rows of a strip are added to as rows; what spreads over more is put lane by lane.
+// Pieces of fewer rows are added as whole rows, longer ones by gather and scatter. It affects speed alone.
 constexpr int kMaxRows = 8;
 
 // A point of the profile.
 struct Point {
   Floats height;  // above the map plane
-  Floats up;      // against the aircraft
+  Floats up;      // relative to the aircraft
   Floats tangent;
   Floats gain;
-  Floats row;  // where it appears: placed() fills it in
+  Floats row;  // apparent row, set by with_image_row()
 };
 
 HWY_INLINE Point point_at(const Strip& strip, int row, std::size_t lane) {
@@ -43,8 +43,8 @@ HWY_INLINE Point point_at(const Strip& strip, int row, std::size_t lane) {
   return point;
 }
 
-// What is seen of the way up to a point: the point itself, or ground before it that stands higher to the eye. Such
-// ground is seen on its near side and returns at the point's row.
+// Highest visible point on the way to a point: the point itself, or a crest before it. The near side of a crest is seen
+// and returns at the point's row.
 HWY_INLINE Point raised_to_crest(const Strip& strip, int row, std::size_t lane, Point point) {
   if (strip.crest_m == nullptr) return point;
   const Tag d;
@@ -54,6 +54,7 @@ HWY_INLINE Point raised_to_crest(const Strip& strip, int row, std::size_t lane, 
   return point;
 }
 
+// Sets the apparent row of a point by its slant range.
 HWY_INLINE Point with_image_row(const Strip& strip, int row, Point point) {
   const Tag d;
   point.row = hn::Set(d, static_cast<float>(row));
@@ -67,14 +68,13 @@ HWY_INLINE Point with_image_row(const Strip& strip, int row, Point point) {
   return point;
 }
 
-// Power spread evenly from one row to another (row k reaches from k - 1/2 to k + 1/2). What falls off the strip is
-// lost.
+// Power spread evenly over an interval of rows; row k extends from k - 1/2 to k + 1/2. Power outside the strip is lost.
 struct RowInterval {
   Floats low, high;
-  Floats density;  // power a row; 0 where there is none
+  Floats density;  // power a row; 0: none
 };
 
-// What of it falls onto a row.
+// Power of the interval in one row.
 HWY_INLINE Floats share_of(const RowInterval& interval, Floats row) {
   const Tag d;
   const auto half = hn::Set(d, 0.5F);
@@ -82,7 +82,7 @@ HWY_INLINE Floats share_of(const RowInterval& interval, Floats row) {
   return hn::Mul(interval.density, hn::Max(covered, hn::Zero(d)));
 }
 
-// Lane by lane: each writes to its own column alone; one at rest adds nothing to row 0, which every strip has.
+// Adds an interval by gather and scatter. Each lane writes to its own column. An inactive lane adds 0 to row 0.
 HWY_INLINE void add_by_lane(const Strip& strip, std::size_t lane, const RowInterval& interval) {
   const Tag d;
   const SignedTag di;
@@ -101,8 +101,9 @@ HWY_INLINE void add_by_lane(const Strip& strip, std::size_t lane, const RowInter
   }
 }
 
-// Both stretches, the first one first. Neighbouring columns look alike, so they fall onto few rows as a rule.
-HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const RowInterval& first, const RowInterval& second) {
+// Adds both intervals, the first one first. Neighbouring columns are similar, so they usually cover few rows.
+HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const RowInterval& first,
+                    const RowInterval& second) {
   const Tag d;
   const auto half = hn::Set(d, 0.5F);
   const auto most = hn::Set(d, static_cast<float>(strip.rows - 1));
@@ -127,10 +128,10 @@ HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const Row
   }
 }
 
-// The faces that stand between two points of the profile.
+// Walls between two points of the profile.
 struct Walls {
   Mask present;
-  Floats share;  // of the climb that they fill
+  Floats share;  // of the climb between the points
   Floats gain;
 };
 
@@ -151,6 +152,7 @@ HWY_INLINE Walls walls_at(const Strip& strip, std::size_t at, Floats climb, floa
   return {present, share, hn::Div(sum, tall)};
 }
 
+// Gas transmission of a row, at a height above the map plane.
 HWY_INLINE Floats gas_transmission(const GasRow& gas, Floats height_m) {
   const Tag d;
   const auto within = hn::Min(hn::Max(height_m, hn::Set(d, gas.lowest_m)), hn::Set(d, gas.highest_m));
@@ -158,13 +160,14 @@ HWY_INLINE Floats gas_transmission(const GasRow& gas, Floats height_m) {
   return hn::Add(hn::Set(d, gas.constant), hn::Mul(within, slope));
 }
 
+// Adds the visible part of the piece from `near` to `far`.
 HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const Point& near, const Point& far,
                            Mask seen, Floats horizon) {
   const Tag d;
   const auto zero = hn::Zero(d);
   const auto one = hn::Set(d, 1.0F);
   const auto half = hn::Set(d, 0.5F);
-  // The horizon is never below the nearer end: where it is not above, all of the piece is seen.
+  // The horizon is at least the nearer end. If it equals it, all of the piece is visible.
   const auto whole = hn::And(seen, hn::Ge(near.tangent, horizon));
   auto share = hn::IfThenElseZero(seen, one);
   if (!hn::AllTrue(d, hn::Or(whole, hn::Not(seen)))) {
@@ -187,13 +190,13 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   const auto halves = hn::AndNot(walls.present, whole);
   const auto middle = hn::Mul(half, hn::Add(near.row, far.row));
   const auto begin = hn::Sub(far.row, hn::Mul(share, hn::Sub(far.row, near.row)));
-  // A wall is its climb alone; what is level of the piece, and what no wall fills, is the ground before it.
+  // A wall accounts for its share of the climb. The rest of the piece is the ground before it.
   const auto face = hn::Mul(hn::Mul(width, hn::Mul(distance, climb)), walls.share);
   const auto built = hn::Add(hn::Mul(face, walls.gain), hn::Mul(hn::Max(hn::Sub(area, face), zero), near.gain));
-  // Ground belongs to the nearer of two rows: half of a piece each.
+  // Ground takes the gamma of the nearer row: half of a piece each.
   const auto half_area = hn::Mul(half, area);
   const auto open = hn::Mul(hn::IfThenElse(halves, half_area, area), far.gain);
-  // A wall stands within half a row of the farther one, and so does its foot.
+  // The wall and its foot lie within half a row of the farther point.
   const auto foot_row = hn::IfThenElse(hn::And(walls.present, whole), hn::Add(begin, one), begin);
   const auto start = hn::IfThenElse(halves, middle, foot_row);
   const auto extent = hn::Max(hn::Abs(hn::Sub(far.row, start)), hn::Set(d, kMinExtent));
@@ -210,12 +213,12 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   if (!(strip.double_bounce > 0.0F)) return;
   const auto foot = hn::And(walls.present, whole);
   if (hn::AllFalse(d, foot)) return;
-  // From wall to ground and from ground to wall: every such path is as long as to the foot.
+  // Double bounce: the path over wall and ground is as long as the path to the foot.
   const auto bounce = hn::Mul(hn::Mul(face, walls.gain), hn::Set(d, strip.double_bounce / kMinExtent));
   add_by_lane(strip, lane, {foot_row, hn::Add(foot_row, hn::Set(d, kMinExtent)), hn::IfThenElseZero(foot, bounce)});
 }
 
-// Leaves no walls to the next map. Most rows have none: what is not written need not go back to memory.
+// Resets the walls for the next map. Rows without walls, the majority, are not written, which saves bandwidth.
 HWY_INLINE void clear_walls(const Strip& strip, int row, std::size_t lane) {
   if (strip.walls == nullptr) return;
   const hn::RebindToUnsigned<Tag> db;
@@ -229,7 +232,7 @@ HWY_INLINE void clear_walls(const Strip& strip, int row, std::size_t lane) {
 
 void cast_profile(const Strip& given) {
   const Tag d;
-  const Strip strip = given;  // a copy, so that no store of power could be one to it
+  const Strip strip = given;  // a copy, so that the compiler knows that stores of power do not change it
   for (std::size_t lane = 0; lane < kStripColumns; lane += hn::Lanes(d)) {
     Point near = point_at(strip, 0, lane);
     auto horizon = hn::Max(hn::Load(d, strip.horizon + lane), near.tangent);

@@ -11,20 +11,20 @@
 namespace yars::model::hrm {
 
 namespace {
-// Between samples on the way to the fan: of ground without posts, and of other ground, all of which is walked besides.
+// [m] Spacing of samples on the path: without posts, and with posts, where GroundWalk covers the posts.
 constexpr double kPathSpacing_m = 15.0;
 constexpr double kSeaSpacing_m = 100.0;
-constexpr double kWalkShare = 0.1;   // of the posts' spacing: rows as close walk by themselves
-constexpr double kFineSteps = 40.0;  // a post, on the way to such rows: a crest's foot of shadow is a row
+constexpr double kWalkShare = 0.1;  // [post spacings] rows closer than this need no walk between them
+constexpr double kFineSteps =
+    40.0;  // steps a post on the path to closely spaced rows, because a crest's shadow edge must be exact to a row
 constexpr double kNoTangent = -std::numeric_limits<double>::infinity();
 constexpr double kFacetPixels = 1.0 / 3.0;
-constexpr int kMaxPieces = 512;  // of an edge: a face as large as the window
-constexpr double kBuried_m = 0.05;
-constexpr double kFoot_m = 0.3;  // the ground before a wall: so far from it
+constexpr int kMaxPieces = 512;     // of an edge: limits the work for a face as large as the window
+constexpr double kBuried_m = 0.05;  // [m] points deeper below the ground are not visible
+constexpr double kFoot_m = 0.3;     // [m] distance before a wall of the ground in a double bounce
 }  // namespace
 
-// What is below a point: its distance over ground, its own height and that of the ground above the map plane, and what
-// rises before it.
+// Ground below a point: distance over ground, height of the point and of the ground above the map plane, horizon.
 struct ReferencePatch::Ground {
   double distance_m, point_m;
   double height_m, horizon;
@@ -42,7 +42,7 @@ ReferencePatch::ReferencePatch(const radar::RadarConfiguration& configuration, c
       top_m_(grid.size()),
       horizon_(grid.size()) {}
 
-// About the radar, on the effective earth; heights count from the map plane.
+// In the radar's frame, on the effective earth; `height_m` is above the map plane.
 Point3 ReferencePatch::position(double distance_m, double turn_rad, double height_m) const {
   const physics::Sight sight =
       geometry_->earth().sight(geometry_->altitude_m() - geometry_->plane_msl_m(), distance_m, height_m);
@@ -68,11 +68,11 @@ void ReferencePatch::read_column(const PatchTerrain& terrain, int column) {
         view.surface_at(ray.position(geo::Length::metres(distance_m)), fidelity_.interpolation);
     return found.elevation_m - geometry_->plane_msl_m();
   };
-  // A void is NaN, and raises nothing.
+  // False for NaN, which marks a void.
   const auto raise = [&](double candidate) {
     if (candidate > horizon) horizon = candidate;
   };
-  // Ground without posts is looked at itself: the sea, which hides what lies beyond its horizon.
+  // Ground without posts is sampled directly: the sea hides what is beyond its horizon.
   const auto raise_between = [&](const terrain::TerrainView& view, double from_m, double to_m, double step_m) {
     const auto steps = static_cast<int>(std::ceil((to_m - from_m) / step_m));
     for (int step = 1; step < steps; ++step) {
@@ -103,7 +103,7 @@ void ReferencePatch::read_column(const PatchTerrain& terrain, int column) {
   }
 }
 
-// As GroundWalk has it: of heights above mean sea level.
+// Tangent of elevation as GroundWalk defines it, with heights above mean sea level.
 double ReferencePatch::tangent(double distance_m, double height_m) const {
   return geometry_->earth().sight(geometry_->altitude_m(), distance_m, height_m + geometry_->plane_msl_m()).tangent;
 }
@@ -133,7 +133,7 @@ void ReferencePatch::read_tile(const scene::SceneView& scene, const scene::Tile&
     const double ahead_m = point.up_m + geometry_->distance_m();
     return position(std::hypot(point.right_m, ahead_m), std::atan2(point.right_m, ahead_m), up_m + lift_m);
   };
-  // The tile's axes, as they lie about the radar.
+  // The tile's axes in the radar's frame.
   const Point3 origin = radar_frame(map_point(0.0, 0.0), 0.0);
   const Point3 east = radar_frame(map_point(1.0, 0.0), 0.0) - origin;
   const Point3 north = radar_frame(map_point(0.0, 1.0), 0.0) - origin;
@@ -161,7 +161,7 @@ void ReferencePatch::read_tile(const scene::SceneView& scene, const scene::Tile&
   }
 }
 
-// Every place of the fan whose middle lies within the triangle.
+// Sets the gain of every grid point within the triangle.
 void ReferencePatch::lay_flat(const std::array<MapPoint, 3>& corners, double gamma, SurfacePoint* surface) const {
   std::array<double, 3> column{}, row{};
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -193,7 +193,7 @@ void ReferencePatch::accumulate(const SurfacePoint* surface, MapImage& image) {
   for (std::size_t i = 0; i < power_.size(); ++i) image.power[i] = static_cast<float>(power_[i] / unit_m2);
 }
 
-// The pieces between neighbours of a column, cut where they climb: a cliff is many facets.
+// Adds the pieces between neighbouring rows of a column. Steep pieces are cut to facets of a third of a pixel.
 void ReferencePatch::add_column(int column, const SurfacePoint* surface) {
   const PolarGrid& grid = *grid_;
   const double off = grid.tangent(column);
@@ -216,7 +216,7 @@ void ReferencePatch::add_column(int column, const SurfacePoint* surface) {
       const double out_begin = std::hypot(begin.x, begin.y);
       const double out_end = std::hypot(end.x, end.y);
       const double out_middle = 0.5 * (out_begin + out_end);
-      // Twice the area of the triangle radar, begin, end: the angle that the piece fills.
+      // Twice the area of the triangle radar, begin, end, in proportion to the angle of the piece.
       const double facing = out_begin * end.z - begin.z * out_end;
       const double middle_share = share - 0.5 / pieces;
       const double seen_at =
@@ -233,7 +233,7 @@ void ReferencePatch::add_face(const Face& face) {
   const Point3 one = face.corners[1] - face.corners[0];
   const Point3 two = face.corners[2] - face.corners[0];
   const Point3 three = two - one;
-  if (!(dot(cross(one, two), face.corners[0]) < 0.0)) return;  // seen from inside
+  if (!(dot(cross(one, two), face.corners[0]) < 0.0)) return;  // back face
   const double longest_m = std::sqrt(std::max({dot(one, one), dot(two, two), dot(three, three)}));
   const double facet_m = kFacetPixels * geometry_->window_m() / size_;
   const int pieces = std::clamp(static_cast<int>(std::ceil(longest_m / facet_m)), 1, kMaxPieces);
@@ -242,7 +242,7 @@ void ReferencePatch::add_face(const Face& face) {
   const auto facet = [&](double u, double v) {
     add_facet(face, face.corners[0] + u * one + v * two, {1.0 - u - v, u, v}, area_m2);
   };
-  // Rows of facets, those that lie as the face does and those between them.
+  // Facets in rows: those with the orientation of the face, and the inverted ones between them.
   for (int i = 0; i < pieces; ++i) {
     for (int j = 0; i + j < pieces; ++j) {
       facet((i + 1.0 / 3.0) / pieces, (j + 1.0 / 3.0) / pieces);
@@ -271,13 +271,13 @@ void ReferencePatch::add_facet(const Face& face, Point3 point, Point3 weights, d
   const double power = surface_.wall_gamma(face.code, across, towards) * area_m2 * facing;
   add(point, power);
   if (!(bounce_ > 0.0)) return;
-  // From wall to ground and from ground to wall: every such path is as long as to the foot.
+  // Double bounce: the path over wall and ground is as long as the path to the foot.
   const Ground below = ground_at(point);
   const Point3 foot = position(below.distance_m - kFoot_m, std::atan2(point.x, point.y), below.height_m);
   if (seen(foot)) add(foot, bounce_ * power);
 }
 
-// The distance and the point's own height alone.
+// Distance over ground and height of the point only.
 ReferencePatch::Ground ReferencePatch::below(Point3 point) const {
   const double radius_m = geometry_->earth().radius_m();
   const double altitude_m = geometry_->altitude_m() - geometry_->plane_msl_m();
@@ -313,7 +313,7 @@ bool ReferencePatch::seen(Point3 point) const {
   return tangent(ground.distance_m, ground.point_m) >= ground.horizon && !occluders_.hide(point);
 }
 
-// Bilinear, where the map plane is as far away, less what the gases of the air take.
+// Adds to the four nearest pixels, at the point of the map plane with the same slant range, after gas attenuation.
 void ReferencePatch::add(Point3 point, double cross_section_m2) {
   if (!gas_.none()) {
     const Ground here = below(point);
@@ -326,7 +326,7 @@ void ReferencePatch::add(Point3 point, double cross_section_m2) {
   if (fidelity_.map_layover) {
     distance_m = geometry_->earth().distance_at_slant_range(geometry_->altitude_m() - geometry_->plane_msl_m(), 0.0,
                                                             std::sqrt(dot(point, point)));
-    if (std::isnan(distance_m)) return;  // nearer than any of the plane
+    if (std::isnan(distance_m)) return;  // nearer than the map plane anywhere
   } else {
     distance_m = ground_at(point).distance_m;
   }

@@ -9,20 +9,21 @@ namespace yars::model::hrm {
 
 namespace {
 
-constexpr int kTilesPerTask = 16;  // of work
+constexpr int kTilesPerTask = 16;  // tiles
 
+// Position and axes of a tile on the map plane.
 PlacedTile placed(const PatchGeometry& geometry, const scene::Tile& tile) {
   const geo::GeodesicInverse geodesic = geo::geodesic_inverse(geometry.apex(), tile.origin);
   const double turn_rad = (geodesic.azimuth_at_start - geometry.up()).radians();
   const double away_rad = geodesic.azimuth_at_end.radians();
   const double distance_m = geodesic.distance.metres();
-  // Across the line of sight the plane is stretched against the earth.
+  // The azimuthal equidistant plane is stretched across the line of sight.
   constexpr double kEarthRadius_m = 6371008.8;
   const double angle_rad = distance_m / kEarthRadius_m;
   const double stretch = angle_rad > 1e-6 ? angle_rad / std::sin(angle_rad) : 1.0;
   const double sine = std::sin(turn_rad);
   const double cosine = std::cos(turn_rad);
-  // East and north as parts along and across the line of sight, then turned onto the map.
+  // East and north in components along and across the line of sight, rotated to the map.
   const double along_east = std::sin(away_rad);
   const double along_north = std::cos(away_rad);
   const double across_east = stretch * std::cos(away_rad);
@@ -58,7 +59,7 @@ GridPoint on_grid(const PatchGeometry& geometry, const PolarGrid& grid, const Pl
           static_cast<float>((distance_m - grid.first_distance_m) / grid.spacing_m)};
 }
 
-// Notes the columns; false: off the fan.
+// Sets the range of columns. Returns false if the tile is outside the polar grid.
 bool find_columns(const PatchGeometry& geometry, const PolarGrid& grid, PlacedTile& placement) {
   const scene::Bounds& bounds = placement.tile->bounds;
   placement.min_column = std::numeric_limits<float>::max();
@@ -74,9 +75,9 @@ bool find_columns(const PatchGeometry& geometry, const PolarGrid& grid, PlacedTi
       max_row = std::max(max_row, corner.row);
     }
   }
-  // A row more: distance curves a little within a large tile.
-  return placement.max_column >= 0.0F && placement.min_column < static_cast<float>(grid.columns) &&
-         max_row >= -1.0F && min_row < static_cast<float>(grid.rows) + 1.0F;
+  // A margin of one row, because distance is not linear within a large tile.
+  return placement.max_column >= 0.0F && placement.min_column < static_cast<float>(grid.columns) && max_row >= -1.0F &&
+         min_row < static_cast<float>(grid.rows) + 1.0F;
 }
 
 }  // namespace
@@ -84,12 +85,13 @@ bool find_columns(const PatchGeometry& geometry, const PolarGrid& grid, PlacedTi
 std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const PolarGrid& grid,
                                     const std::vector<const scene::Tile*>& tiles, const parallel::Executor& executor) {
   std::vector<PlacedTile> all(tiles.size());
-  parallel::parallel_for(executor, static_cast<int>(tiles.size()), kTilesPerTask, [&](int first, int last, std::size_t) {
-    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
-      all[i] = placed(geometry, *tiles[i]);
-      if (!find_columns(geometry, grid, all[i])) all[i].tile = nullptr;
-    }
-  });
+  parallel::parallel_for(executor, static_cast<int>(tiles.size()), kTilesPerTask,
+                         [&](int first, int last, std::size_t) {
+                           for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
+                             all[i] = placed(geometry, *tiles[i]);
+                             if (!find_columns(geometry, grid, all[i])) all[i].tile = nullptr;
+                           }
+                         });
   std::erase_if(all, [](const PlacedTile& tile) { return tile.tile == nullptr; });
   return all;
 }
@@ -144,9 +146,9 @@ void SceneRaster::transform(const PatchGeometry& geometry, const PolarGrid& grid
   map.rows_per_metre = static_cast<float>(1.0 / grid.spacing_m);
   map.middle_row = static_cast<float>((geometry.distance_m() - grid.first_distance_m) / grid.spacing_m);
   simd::transform_vertices(count,
-                       {tile.east_m.data(), tile.north_m.data(), tile.up_m.data(), tile.normal_east.data(),
-                        tile.normal_north.data(), tile.normal_up.data()},
-                       map, vertices_of(tile));
+                           {tile.east_m.data(), tile.north_m.data(), tile.up_m.data(), tile.normal_east.data(),
+                            tile.normal_north.data(), tile.normal_up.data()},
+                           map, vertices_of(tile));
 }
 
 void SceneRaster::read_kinds(const scene::SceneView& scene) {

@@ -7,7 +7,7 @@
 #define HWY_TARGET_INCLUDE "model/hrm/scene_raster_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// Behind highway.h, or it would have no target yet.
+// After highway.h, which defines the target.
 #include "model/hrm/facet-inl.hpp"
 #include "model/hrm/small_triangles-inl.hpp"
 
@@ -16,11 +16,10 @@ namespace yars::model::hrm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr float kWideColumns = 12.0F;  // columns of a triangle that is drawn by itself
+constexpr float kWideColumns = 12.0F;  // wider triangles are drawn singly, one column a lane; it affects speed alone
 
-// Column by column, for a column is a profile: a surface reaches half a row beyond its edges, so that on average it is
-// as long as it is, and its height there is that of the edge. One triangle, a lane a column. `put(at, row, near, far,
-// wanted)` draws a vector of grid points.
+// Draws one triangle, one column a lane. A surface extends `reach` rows beyond its edges with the height of the edge,
+// so that its mean length is exact. `put(at, column, row, wanted)` draws a vector of grid points.
 template <class Put>
 HWY_INLINE void fill_wide(const Triangle& triangle, const Canvas& canvas, float reach, const Put& put) {
   const Tag d;
@@ -108,7 +107,7 @@ void paint_ground(const FoundTriangles& triangles, const TileSurfaces& tile, con
   }
 }
 
-// The corners of a vector's triangles.
+// Corners of the triangles of one vector.
 struct CornerNumbers {
   hn::Vec<SignedTag> first, second, third;
 };
@@ -136,7 +135,7 @@ HWY_INLINE Floats shaded(Floats gamma, const GridVertices& vertices, const Corne
   return hn::IfThenElse(hn::RebindMask(d, curved), hn::Mul(gamma, factor), gamma);
 }
 
-// Those of a vector that are large, one by one.
+// Draws the wide triangles of one vector singly.
 void draw_wide(const FoundTriangles& triangles, std::size_t first, const float* gain, Mask wide,
                const GridVertices& vertices, const Canvas& canvas) {
   const Tag d;
@@ -166,7 +165,7 @@ void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, co
       gamma[lane] = tile.gamma[kind];
       cardinal[lane] = tile.cardinal[kind];
     }
-    // What stands behind the last is an old corner: in the tile's numbers or before them, and not drawn.
+    // Lanes beyond the last triangle hold old corners, which are valid indices, and are masked out.
     const auto valid = hn::FirstN(d, count);
     const CornerNumbers corners = numbers_at(triangles, i);
     const Corner a = gather(vertices, corners.first);

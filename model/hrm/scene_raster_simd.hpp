@@ -30,7 +30,7 @@ struct TileSurfaces {
 };
 
 // Cardinal effect by the sine of the angle between a wall's normal and the line of sight. Entries are evenly spaced
-// from sine 0; the last one is 0.
+// from sine 0; the last two are 0.
 struct CardinalShape {
   std::span<const float> share;
   float steps_per_sine = 0.0F;
