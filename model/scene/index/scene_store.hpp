@@ -29,14 +29,14 @@ class PlacedView final : public SceneView {
   std::uint64_t resident_bytes() const override { return bytes_; }
   const std::vector<SurfaceKind>& kinds() const override { return kinds_; }
   const std::vector<SceneObject>& objects() const override { return objects_; }
-  void tiles_near(geo::GeoPoint place, double radius_m, std::vector<const Tile*>& found) const override;
-  void objects_near(geo::GeoPoint place, double radius_m, std::vector<std::uint32_t>& found) const override;
+  void tiles_near(geo::GeoPoint position, double radius_m, std::vector<const Tile*>& found) const override;
+  void objects_near(geo::GeoPoint position, double radius_m, std::vector<std::uint32_t>& found) const override;
   std::span<const Scatterers* const> scatterers() const override { return scatterers_; }
 
  private:
   std::uint64_t generation_;
   std::vector<Part> parts_;
-  GridIndex places_;
+  GridIndex position_index_;
   std::vector<SurfaceKind> kinds_;
   std::vector<SceneObject> objects_;
   std::vector<const Scatterers*> scatterers_;
@@ -93,13 +93,13 @@ class SceneStore {
   std::vector<IndexedScene> index_;
   std::unique_ptr<terrain::TerrainStore> ground_;
   SceneStoreOptions options_;
-  GridIndex places_;
+  GridIndex position_index_;
   std::vector<Resident> scenes_;  // one for each of index_
   KindTable kinds_;
   std::vector<SceneObject> objects_;
   std::uint64_t resident_bytes_ = 0;
   std::uint64_t prepares_ = 0;
-  std::size_t without_place_ = 0;
+  std::size_t without_position_ = 0;
   Wanted wanted_;
   std::uint64_t generation_ = 0;
   SceneViewPointer view_;

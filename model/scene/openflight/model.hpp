@@ -59,7 +59,7 @@ inline constexpr float kSubfaceLift_m = 0.02F;
 // detail chosen, what `filter` (null: none) leaves out left out. External files come through `load`, which answers null
 // where one is to be left out. Errors: what load() fails with; more than the limits allow; nodes nested deeper than
 // kDeepestNode, as instances that contain themselves are.
-inline constexpr int kDeepestNode = 512;
+inline constexpr int kMaxNodeDepth = 512;
 
 // Bounds on what a small file can blow up to by instances and replications: memory at most 1.6 GB, some ten seconds.
 struct FlattenLimits {

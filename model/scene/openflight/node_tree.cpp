@@ -13,10 +13,10 @@ namespace yars::model::scene {
 using namespace openflight;
 
 std::uint16_t KindTable::number_of(const SurfaceKind& kind) {
-  constexpr std::size_t kMost = 65'536;
+  constexpr std::size_t kMaxKinds = 65'536;
   const auto key = std::tuple(kind.material, kind.feature_id, kind.color_rgb);
   if (const auto known = numbers_.find(key); known != numbers_.end()) return known->second;
-  if (kinds_.size() >= kMost) {
+  if (kinds_.size() >= kMaxKinds) {
     const auto alike = std::find_if(kinds_.begin(), kinds_.end(),
                                     [&](const SurfaceKind& other) { return other.material == kind.material; });
     return alike == kinds_.end() ? std::uint16_t{0} : static_cast<std::uint16_t>(alike - kinds_.begin());
@@ -33,10 +33,10 @@ constexpr std::size_t kNamesListed = 6;
 constexpr std::size_t kMaxSeen = 100'000;  // names that are remembered for a list of near ones
 
 std::string lower(std::string_view text) {
-  std::string made(text);
-  std::transform(made.begin(), made.end(), made.begin(),
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return made;
+  return result;
 }
 
 // Both in lower case. Goes back to the last star alone: time is the product of the lengths at most.
@@ -75,10 +75,10 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-std::string near_to(const std::string& wanted, const std::set<std::string>& seen) {
+std::string closest_names(const std::string& wanted, const std::set<std::string>& seen) {
   std::vector<std::pair<std::size_t, std::string>> names;
-  const std::string small = lower(wanted);
-  for (const std::string& name : seen) names.emplace_back(distance(small, lower(name)), name);
+  const std::string lower_case = lower(wanted);
+  for (const std::string& name : seen) names.emplace_back(distance(lower_case, lower(name)), name);
   const std::size_t listed = std::min(kNamesListed, names.size());
   std::partial_sort(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(listed), names.end());
   std::string text;
@@ -108,9 +108,9 @@ bool NameFilter::leaves_out(const std::string& name) {
   if (wanted_.empty() || name.empty()) return false;
   if (seen_.size() < kMaxSeen) seen_.insert(name);
   bool out = false;
-  const std::string small = lower(name);
+  const std::string lower_case = lower(name);
   for (Wanted& wanted : wanted_) {
-    if (!matches(lower(wanted.name), small)) continue;
+    if (!matches(lower(wanted.name), lower_case)) continue;
     wanted.met = true;
     out = true;
   }
@@ -130,7 +130,7 @@ std::optional<error::Error> NameFilter::complaint(const std::string& subject) co
   return error::Error{subject, "something to leave out that is called '" + names.front() + "'", "none",
                       seen_.empty() ? "nothing in it has a name"
                                     : "it has " + std::to_string(seen_.size()) + " names; near to it are " +
-                                          near_to(names.front(), seen_),
+                                          closest_names(names.front(), seen_),
                       false};
 }
 

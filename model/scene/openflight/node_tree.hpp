@@ -93,7 +93,7 @@ struct Node {
 };
 
 struct TreeVertex {
-  Vector3 place;
+  Vector3 position;
   std::array<float, 3> normal{};  // zero: none given
 };
 

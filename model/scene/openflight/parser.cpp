@@ -27,20 +27,20 @@ error::Expected<NodeTree> TreeParser::parse() {
     const auto record = stream_.next();
     if (!record) return tl::unexpected(record.error());
     if (!*record) break;
-    if (const auto done = take(**record); !done) return tl::unexpected(done.error());
+    if (const auto done = dispatch(**record); !done) return tl::unexpected(done.error());
   }
   if (!levels_.empty())
     tree_.warnings.emplace_back("the file ends inside " + std::to_string(levels_.size()) + " open levels");
-  if (surfaces_.foreign_codes() > 0)
+  if (surfaces_.unknown_codes() > 0)
     tree_.warnings.emplace_back("faces with a surface material code beyond 31: " +
-                                std::to_string(surfaces_.foreign_codes()) + "; they count as without one");
+                                std::to_string(surfaces_.unknown_codes()) + "; they count as without one");
   tree_.counts.materials = surfaces_.colors().materials();
   tree_.counts.hidden_faces = surfaces_.hidden_faces();
   tree_.kinds = surfaces_.kinds();
   return std::move(tree_);
 }
 
-TreeParser::Done TreeParser::take(const Record& record) {
+TreeParser::Done TreeParser::dispatch(const Record& record) {
   if (const int step = nesting_of_skipped(record.opcode()); step != 0 || skipped_ > 0) {
     skipped_ = std::max(0, skipped_ + step);
     return {};
@@ -85,7 +85,7 @@ TreeParser::Done TreeParser::take(const Record& record) {
     case kReplicate:
       return add_replication(record);
     case kLongId:
-      name_it(record);
+      set_name(record);
       return {};
     default:
       return add_node(record);
@@ -103,7 +103,7 @@ tl::unexpected<error::Error> TreeParser::too_many(std::size_t most, const std::s
 }
 
 TreeParser::Done TreeParser::push() {
-  if (levels_.size() >= kDeepestPush) return too_many(kDeepestPush, "levels of records");
+  if (levels_.size() >= kMaxPushDepth) return too_many(kMaxPushDepth, "levels of records");
   levels_.push_back(current_);
   return {};
 }
@@ -222,26 +222,26 @@ TreeParser::Done TreeParser::add_definition(const Record& record) {
   });
 }
 
-void TreeParser::name_it(const Record& record) {
-  constexpr std::size_t kLongestName = 128;
+void TreeParser::set_name(const Record& record) {
+  constexpr std::size_t kMaxNameLength = 128;
   if (current_.node == kNone || current_.face != kNone || current_.mesh >= 0) return;
   Node& node = tree_.nodes[current_.node];
-  if (node.kind != NodeKind::external) node.name = record.text(4, kLongestName);
+  if (node.kind != NodeKind::external) node.name = record.text(4, kMaxNameLength);
 }
 
 // A face that is moved becomes the content of a node of its own. Records that follow a face at once can do that;
 // later the list of its siblings has gone on, and it stays where it is.
-TreeParser::Done TreeParser::own_node() {
+TreeParser::Done TreeParser::move_face_to_own_node() {
   const std::uint32_t face = current_.face;
   const std::uint32_t above = parent().node;
   if (tree_.faces.size() != std::size_t{face} + 1 || above == kNone) return {};
   if (auto made = new_node(NodeKind::group); !made) return made;
   Node& before = tree_.nodes[above];
-  before.last_face = face_before_;
-  if (face_before_ == kNone)
+  before.last_face = previous_face_;
+  if (previous_face_ == kNone)
     before.first_face = kNone;
   else
-    tree_.faces[face_before_].next = kNone;
+    tree_.faces[previous_face_].next = kNone;
   tree_.nodes.back().first_face = tree_.nodes.back().last_face = face;
   current_.face = face;
   return {};
@@ -256,7 +256,7 @@ TreeParser::Done TreeParser::add_matrix(const Record& record) {
       return error::fail(subject_, "a matrix of finite numbers", "NaN or infinity", "the file is damaged");
   }
   if (is_loose_face())
-    if (auto done = own_node(); !done) return done;
+    if (auto done = move_face_to_own_node(); !done) return done;
   if (current_.node == kNone || is_loose_face()) return {};
   const Affine matrix{{m[0], m[1], m[2]},
                       {m[4], m[5], m[6]},
@@ -275,7 +275,7 @@ TreeParser::Done TreeParser::add_replication(const Record& record) {
   const int copies = record.number_or<std::int16_t>(4, 0);
   if (copies <= 0) return {};
   if (is_loose_face())
-    if (auto done = own_node(); !done) return done;
+    if (auto done = move_face_to_own_node(); !done) return done;
   if (current_.node != kNone && !is_loose_face())
     tree_.nodes[current_.node].replications = static_cast<std::uint16_t>(copies);
   return {};
@@ -288,7 +288,7 @@ TreeParser::Done TreeParser::append_face(TreeFace face, std::uint32_t node) {
   const auto number = static_cast<std::uint32_t>(tree_.faces.size());
   tree_.faces.push_back(face);
   Node& owner = tree_.nodes[node];
-  face_before_ = owner.last_face;
+  previous_face_ = owner.last_face;
   if (owner.first_face == kNone)
     owner.first_face = number;
   else
@@ -327,10 +327,10 @@ TreeParser::Done TreeParser::add_corners(const Record& record) {
   if (face.count > 0) return {};
   face.first_corner = static_cast<std::uint32_t>(tree_.corners.size());
   face.count = static_cast<std::uint32_t>(count);
-  if (const auto strange = palette_.find_corners(record, tree_.corners))
+  if (const auto unknown_offset = palette_.find_corners(record, tree_.corners))
     return error::fail(
         subject_, "corners that are vertices of the palette",
-        "offset " + std::to_string(*strange) + " in the vertex list at byte " + std::to_string(record.start()),
+        "offset " + std::to_string(*unknown_offset) + " in the vertex list at byte " + std::to_string(record.start()),
         "the file is damaged; fetch it again");
   return {};
 }

@@ -18,7 +18,7 @@ namespace yars::model::scene {
 // lights, sounds, extensions, switches' other masks, transforms 76-82 and 94 (record 49 holds their product). Wireframe
 // and light faces are no surfaces; hidden ones are counted and left out. Errors: no header, a foreign revision or unit,
 // torn records, more pops than pushes, corners outside their pool, and the limits below.
-inline constexpr std::size_t kDeepestPush = 512;     // levels of records; deeper ones are damage
+inline constexpr std::size_t kMaxPushDepth = 512;    // levels of records; deeper ones are damage
 inline constexpr std::size_t kMaxNodes = 4'000'000;  // bounds on memory: about 0.5, 0.8 and 2.6 GB
 inline constexpr std::size_t kMaxFaces = 32'000'000;
 inline constexpr std::size_t kMaxVertices = 64'000'000;
@@ -51,7 +51,7 @@ class TreeParser {
     std::size_t vertices = 0;
   };
 
-  Done take(const Record& record);
+  Done dispatch(const Record& record);
   // +1 and -1 around records that nobody here reads, else 0.
   static int nesting_of_skipped(std::uint16_t opcode);
   tl::unexpected<error::Error> too_many(std::size_t most, const std::string& what);
@@ -66,8 +66,8 @@ class TreeParser {
   Done add_level_of_detail(const Record& record);
   Done add_switch(const Record& record);
   Done add_definition(const Record& record);
-  void name_it(const Record& record);
-  Done own_node();
+  void set_name(const Record& record);
+  Done move_face_to_own_node();
   Done add_matrix(const Record& record);
   Done add_replication(const Record& record);
 
@@ -92,8 +92,8 @@ class TreeParser {
   std::vector<Level> levels_;
   Level root_{.node = 0};
   Level current_;
-  std::uint32_t face_before_ = kNone;  // the newest face's elder sibling
-  int skipped_ = 0;                    // depth of extensions and attributes
+  std::uint32_t previous_face_ = kNone;  // the newest face's elder sibling
+  int skipped_ = 0;                      // depth of extensions and attributes
   int subface_level_ = 0;
   std::vector<MeshState> meshes_;
 };

@@ -15,8 +15,8 @@
 
 namespace yars::model::scene {
 
-inline constexpr std::size_t kLargestFile = std::size_t{1} << 30;
-inline constexpr int kDeepestReference = 16;
+inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
+inline constexpr int kMaxReferenceDepth = 16;
 inline constexpr std::size_t kMaxFiles = 4096;
 
 // `filter`: what is left out, null: nothing. It remembers what names there are; who asks for its complaint is told of

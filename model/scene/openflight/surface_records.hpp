@@ -75,14 +75,14 @@ class SurfaceReader {
 
   const std::vector<SurfaceKind>& kinds() const { return kinds_.kinds(); }
   std::uint64_t hidden_faces() const { return hidden_faces_; }
-  std::uint64_t foreign_codes() const { return foreign_codes_; }
+  std::uint64_t unknown_codes() const { return unknown_codes_; }
 
  private:
   std::int32_t revision_ = 0;
   ColorPalette colors_;
   KindTable kinds_;
   std::uint64_t hidden_faces_ = 0;
-  std::uint64_t foreign_codes_ = 0;
+  std::uint64_t unknown_codes_ = 0;
 };
 
 }  // namespace yars::model::scene

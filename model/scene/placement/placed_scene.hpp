@@ -25,7 +25,7 @@ inline constexpr double kFlat_m = 1.0;         // how far from z = 0 a thing tha
 inline constexpr double kDrapedEdge_m = 30.0;  // below the post spacing of DTED level 2
 
 struct Placement {
-  geo::GeoPoint place;
+  geo::GeoPoint position;
   double heading_deg = 0.0;
   radar::SceneHeights heights = radar::SceneHeights::ground;
 };
@@ -47,6 +47,6 @@ struct PlacedScene {
 // `first_object`: what Tile::object counts from. Scatterers beyond `most_reach_m` of the place are left out.
 PlacedScene place_model(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
                         std::uint32_t first_object, KindTable& kinds, SceneUse use = SceneUse::triangles,
-                        double most_reach_m = std::numeric_limits<double>::infinity());
+                        double max_reach_m = std::numeric_limits<double>::infinity());
 
 }  // namespace yars::model::scene

@@ -23,8 +23,8 @@ class Plane {
  public:
   explicit Plane(geo::GeoPoint origin) : origin_(origin) {}
   geo::GeoPoint origin() const { return origin_; }
-  geo::GeoPoint place_of(PlanePoint point) const;
-  PlanePoint point_of(geo::GeoPoint place) const;
+  geo::GeoPoint position_of(PlanePoint point) const;
+  PlanePoint point_of(geo::GeoPoint position) const;
 
  private:
   geo::GeoPoint origin_;
@@ -41,7 +41,7 @@ class LocalMap {
     const double e = point.east_m - middle_.east_m, n = point.north_m - middle_.north_m;
     return {e * east_.east_m + n * north_.east_m, e * east_.north_m + n * north_.north_m};
   }
-  geo::GeoPoint place_of(PlanePoint point) const {
+  geo::GeoPoint position_of(PlanePoint point) const {
     const double e = point.east_m - middle_.east_m, n = point.north_m - middle_.north_m;
     const geo::GeoPoint o = to_.origin();
     return {o.latitude_deg + e * latitude_.east_m + n * latitude_.north_m,
@@ -122,17 +122,17 @@ inline PlanEdge longest_plan_edge(const Corners3& corners) {
   return longest;
 }
 
-class Cutter {
+class TriangleCutter {
  public:
   // Calls visit(piece) for pieces no edge of which is longer.
   template <class Visit>
-  void cut(const Corners3& corners, double most_m, const Visit& visit) {
+  void cut(const Corners3& corners, double max_edge_m, const Visit& visit) {
     pieces_.assign(1, corners);
     while (!pieces_.empty()) {
       const Corners3 piece = pieces_.back();
       pieces_.pop_back();
       const PlanEdge edge = longest_plan_edge(piece);
-      if (edge.length_m <= most_m) {
+      if (edge.length_m <= max_edge_m) {
         visit(piece);
         continue;
       }

@@ -35,7 +35,7 @@ constexpr double kAzimuthBin_rad = std::numbers::pi / 45.0;    // 4 degrees: bel
 constexpr double kElevationBin_rad = std::numbers::pi / 12.0;  // 15 degrees
 constexpr std::uint32_t kWall = 1U << 31U;
 constexpr std::size_t kMaxSquares = 1U << 18U;  // of a scene that stand or lie, some 100 MB while it is placed
-constexpr double kMaxAcross = 64.0;             // squares that one piece lies in, an edge
+constexpr double kMaxSquaresPerEdge = 64.0;     // squares that one piece lies in, an edge
 
 // Faces of one key are summed up.
 std::uint32_t key_of(std::uint8_t material, geo::Vector3 normal) {
@@ -87,10 +87,10 @@ ScatterBuilder::Square* ScatterBuilder::square_in(Squares& squares, geo::Vector3
 
 bool ScatterBuilder::within_reach(const std::array<geo::Vector3, 3>& corners) const {
   const geo::Vector3 middle = middle_of(corners);
-  return middle.x * middle.x + middle.y * middle.y <= most_reach_m_ * most_reach_m_;
+  return middle.x * middle.x + middle.y * middle.y <= max_reach_m_ * max_reach_m_;
 }
 
-void ScatterBuilder::stand(const std::array<geo::Vector3, 3>& corners, std::uint8_t material) {
+void ScatterBuilder::add_standing(const std::array<geo::Vector3, 3>& corners, std::uint8_t material) {
   const geo::Vector3 area_m2 = area_of(corners);
   const double weight = length(area_m2);
   if (!(weight > 0.0) || !within_reach(corners)) return;
@@ -98,22 +98,22 @@ void ScatterBuilder::stand(const std::array<geo::Vector3, 3>& corners, std::uint
   Square* const found = square_in(standing_, middle);
   if (found == nullptr) return;
   Square& square = *found;
-  const bool fresh = square.facings.empty();
+  const bool is_new = square.facings.empty();
   const auto [least, most] = std::minmax({corners[0].z, corners[1].z, corners[2].z});
-  square.least_m = fresh ? least : std::min(square.least_m, least);
-  square.most_m = fresh ? most : std::max(square.most_m, most);
+  square.least_m = is_new ? least : std::min(square.least_m, least);
+  square.most_m = is_new ? most : std::max(square.most_m, most);
   square.middle = square.middle + weight * middle;
   square.spread += weight * (middle.x * middle.x + middle.y * middle.y);
   square.area_m2 += weight;
   add(square, key_of(material, (1.0 / weight) * area_m2), area_m2);
 }
 
-void ScatterBuilder::lie(const std::array<geo::Vector3, 3>& corners, std::uint8_t material) {
+void ScatterBuilder::add_lying(const std::array<geo::Vector3, 3>& corners, std::uint8_t material) {
   if (!(area_of(corners).z > 0.0) || !within_reach(corners)) return;
   const PlanPolygon whole(corners);
   const auto [west, east] = whole.bounds(&geo::Vector3::x);
   const auto [least, most] = whole.bounds(&geo::Vector3::y);
-  while (std::max(east - west, most - least) > kMaxAcross * side_m())
+  while (std::max(east - west, most - least) > kMaxSquaresPerEdge * side_m())
     if (!coarsen()) return;
   const double side = side_m();
   const auto first_of = [side](double from_m) { return static_cast<std::int64_t>(std::floor(from_m / side)); };
@@ -150,10 +150,10 @@ ScatterBuilder::Squares ScatterBuilder::coarser(const Squares& squares) {
     const auto row = static_cast<std::int32_t>(static_cast<std::uint32_t>(key >> 32U)) >> 1;
     const auto column = static_cast<std::int32_t>(static_cast<std::uint32_t>(key)) >> 1;
     const Square& part = squares.at(key);
-    const auto [found, fresh] = merged.try_emplace(static_cast<std::uint64_t>(static_cast<std::uint32_t>(row)) << 32U |
-                                                   static_cast<std::uint32_t>(column));
+    const auto [found, is_new] = merged.try_emplace(static_cast<std::uint64_t>(static_cast<std::uint32_t>(row)) << 32U |
+                                                    static_cast<std::uint32_t>(column));
     Square& whole = found->second;
-    if (fresh) {
+    if (is_new) {
       whole = part;
       continue;
     }
@@ -167,8 +167,8 @@ ScatterBuilder::Squares ScatterBuilder::coarser(const Squares& squares) {
   return merged;
 }
 
-void ScatterBuilder::finish(const Plane& plane, double side_m, Scatterers& made, ScattererLevel& level) const {
-  const auto put_facings = [&level](const Square& square) {
+void ScatterBuilder::finish(const Plane& plane, double side_m, Scatterers& result, ScattererLevel& level) const {
+  const auto append_facings = [&level](const Square& square) {
     for (const FacingSum& sum : square.facings)
       level.facings.push_back({static_cast<float>(sum.area_m2.x), static_cast<float>(sum.area_m2.y),
                                static_cast<float>(sum.area_m2.z), static_cast<std::uint8_t>(sum.key >> 16U & 0xffU),
@@ -183,15 +183,15 @@ void ScatterBuilder::finish(const Plane& plane, double side_m, Scatterers& made,
     // An evenly filled square of side s spreads by s^2 / 6 about its middle.
     const double extent_m = std::sqrt(6.0 * std::max(0.0, square.spread / square.area_m2 - middle2));
     const geo::Vector3 at =
-        made.frame.enu_from_geodetic(plane.place_of({middle.x, middle.y}), geo::HeightAboveEllipsoid::metres(0.0));
+        result.frame.enu_from_geodetic(plane.position_of({middle.x, middle.y}), geo::HeightAboveEllipsoid::metres(0.0));
     found.push_back({static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z),
                      static_cast<float>(middle.z), static_cast<float>(square.least_m),
                      static_cast<float>(square.most_m), static_cast<float>(std::min(extent_m, side_m)),
                      static_cast<std::uint32_t>(level.facings.size()),
                      static_cast<std::uint32_t>(square.facings.size())});
-    put_facings(square);
+    append_facings(square);
     balls.push_back({at, side_m});
-    made.reach_m = std::max(made.reach_m, std::sqrt(middle2) + side_m);
+    result.reach_m = std::max(result.reach_m, std::sqrt(middle2) + side_m);
   }
   std::vector<std::uint32_t> order;
   level.tree = SphereTree(balls, order);
@@ -202,27 +202,27 @@ void ScatterBuilder::finish(const Plane& plane, double side_m, Scatterers& made,
     level.covers[key] = {static_cast<float>(std::min(1.0, square.area_m2 / (side_m * side_m))),
                          static_cast<std::uint32_t>(level.facings.size()),
                          static_cast<std::uint32_t>(square.facings.size())};
-    put_facings(square);
+    append_facings(square);
     const double middle2 = square.middle.x * square.middle.x + square.middle.y * square.middle.y;
-    made.reach_m = std::max(made.reach_m, std::sqrt(middle2) / square.area_m2 + 2.0 * side_m);
+    result.reach_m = std::max(result.reach_m, std::sqrt(middle2) / square.area_m2 + 2.0 * side_m);
   }
   level.facings.shrink_to_fit();
 }
 
 std::shared_ptr<const Scatterers> ScatterBuilder::take(const Plane& plane) {
   if (standing_.empty() && lying_.empty()) return nullptr;
-  auto made = std::make_shared<Scatterers>(plane.origin());
-  made->finest = finest_;
+  auto result = std::make_shared<Scatterers>(plane.origin());
+  result->finest = finest_;
   for (std::size_t level = finest_; level < kScattererSides_m.size(); ++level) {
     if (level > finest_) {
       standing_ = coarser(standing_);
       lying_ = coarser(lying_);
     }
-    finish(plane, kScattererSides_m[level], *made, made->levels[level]);
+    finish(plane, kScattererSides_m[level], *result, result->levels[level]);
   }
   standing_.clear();
   lying_.clear();
-  return made;
+  return result;
 }
 
 }  // namespace yars::model::scene

@@ -83,13 +83,13 @@ std::uint64_t square_key(double east_m, double north_m, double side_m);
 class ScatterBuilder {
  public:
   // What lies farther from the place than `most_reach_m` is left out.
-  explicit ScatterBuilder(double most_reach_m) : most_reach_m_(most_reach_m) {}
+  explicit ScatterBuilder(double max_reach_m) : max_reach_m_(max_reach_m) {}
 
   // A triangle, counter-clockwise from outside, not much longer than the smallest square: metres east and north on the
   // scene's plane, altitude MSL. It counts where its middle is.
-  void stand(const std::array<geo::Vector3, 3>& corners, std::uint8_t material);
+  void add_standing(const std::array<geo::Vector3, 3>& corners, std::uint8_t material);
   // The same of one that lies on the ground, seen from above: each square gets what lies in it.
-  void lie(const std::array<geo::Vector3, 3>& corners, std::uint8_t material);
+  void add_lying(const std::array<geo::Vector3, 3>& corners, std::uint8_t material);
 
   // Ends the work; null if nothing was added.
   std::shared_ptr<const Scatterers> take(const Plane& plane);
@@ -116,9 +116,9 @@ class ScatterBuilder {
   static void add(Square& square, std::uint32_t key, geo::Vector3 area_m2);
   static Keys sorted_keys(const Squares& squares);
   static Squares coarser(const Squares& squares);
-  void finish(const Plane& plane, double side_m, Scatterers& made, ScattererLevel& level) const;
+  void finish(const Plane& plane, double side_m, Scatterers& result, ScattererLevel& level) const;
 
-  double most_reach_m_;
+  double max_reach_m_;
   std::size_t finest_ = 0;    // level
   Squares standing_, lying_;  // of the level under way
 };

@@ -68,9 +68,9 @@ class SceneView {
 
   // Tiles whose bounds come within the radius, in a fixed order; found by an index, so the cost is that of what is
   // near and not of what there is. `found` is cleared first and keeps its room.
-  virtual void tiles_near(geo::GeoPoint place, double radius_m, std::vector<const Tile*>& found) const = 0;
+  virtual void tiles_near(geo::GeoPoint position, double radius_m, std::vector<const Tile*>& found) const = 0;
   // The same for objects whose middles lie within the radius: indices into objects(), ascending.
-  virtual void objects_near(geo::GeoPoint place, double radius_m, std::vector<std::uint32_t>& found) const = 0;
+  virtual void objects_near(geo::GeoPoint position, double radius_m, std::vector<std::uint32_t>& found) const = 0;
   // Scene by scene in a fixed order, where the view was made for who does not resolve them.
   virtual std::span<const Scatterers* const> scatterers() const { return {}; }
 };

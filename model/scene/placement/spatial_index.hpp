@@ -31,7 +31,7 @@ class GridIndex {
     bool operator<(const Hit& other) const { return disc < other.disc; }
   };
   // Appends the discs of which any part is within the radius, in no order.
-  void find(geo::GeoPoint place, double radius_m, std::vector<Hit>& hits) const;
+  void find(geo::GeoPoint position, double radius_m, std::vector<Hit>& hits) const;
 
   std::uint64_t bytes() const;
 
@@ -42,12 +42,12 @@ class GridIndex {
   };
   Row row_of(double latitude_deg) const;
   std::int64_t column_of(const Row& row, double longitude_deg) const;
-  void test(std::uint32_t disc, geo::Vector3 place, double radius_m, std::vector<Hit>& hits) const;
-  void find_in_row(std::int64_t number, geo::GeoPoint place, double reach_deg, geo::Vector3 at, double radius_m,
+  void test(std::uint32_t disc, geo::Vector3 position, double radius_m, std::vector<Hit>& hits) const;
+  void find_in_row(std::int64_t number, geo::GeoPoint position, double reach_deg, geo::Vector3 at, double radius_m,
                    std::vector<Hit>& hits) const;
 
   double cell_deg_ = 1.0;
-  double most_reach_m_ = 0.0;  // of the discs in cells
+  double max_reach_m_ = 0.0;  // of the discs in cells
   std::vector<geo::Vector3> middles_;
   std::vector<double> reaches_m_;
   std::vector<std::uint32_t> large_;    // too large for cells: looked at every time
@@ -77,9 +77,9 @@ class SphereTree {
       const bool met =
           meets(Ball{{static_cast<double>(node.x_m), static_cast<double>(node.y_m), static_cast<double>(node.z_m)},
                      static_cast<double>(node.radius_m)});
-      const bool leaf = node.behind == at + 1;
+      const bool leaf = node.skip_to == at + 1;
       if (met && leaf) visit(node.first, node.end);
-      at = met ? at + 1 : node.behind;
+      at = met ? at + 1 : node.skip_to;
     }
   }
 
@@ -89,9 +89,9 @@ class SphereTree {
   struct Node {
     float x_m, y_m, z_m, radius_m;
     std::uint32_t first, end;  // in the order
-    std::uint32_t behind;      // the node after all that are below this one
+    std::uint32_t skip_to;     // the node after all that are below this one
   };
-  void grow(const std::vector<Ball>& balls, std::vector<std::uint32_t>& order, std::uint32_t first, std::uint32_t end);
+  void build(const std::vector<Ball>& balls, std::vector<std::uint32_t>& order, std::uint32_t first, std::uint32_t end);
 
   std::vector<Node> nodes_;  // each before those below it
 };

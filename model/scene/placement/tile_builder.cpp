@@ -12,18 +12,18 @@ namespace {
 
 constexpr std::uint32_t kNoNumber = 0xffffffffU;
 
-struct Place {
-  explicit Place(const DraftVertex& vertex)
+struct Position {
+  explicit Position(const DraftVertex& vertex)
       : level(std::uint64_t{std::bit_cast<std::uint32_t>(vertex.east_m)} << 32U |
               std::bit_cast<std::uint32_t>(vertex.north_m)),
         altitude(std::bit_cast<std::uint64_t>(vertex.altitude_m)) {}
-  bool operator==(const Place& other) const = default;
+  bool operator==(const Position& other) const = default;
 
   std::uint64_t level, altitude;
 };
-struct PlaceHash {
-  std::size_t operator()(const Place& place) const {
-    const std::uint64_t mixed = (place.level ^ (place.altitude * 0x9e3779b97f4a7c15U)) * 0xbf58476d1ce4e5b9U;
+struct PositionHash {
+  std::size_t operator()(const Position& position) const {
+    const std::uint64_t mixed = (position.level ^ (position.altitude * 0x9e3779b97f4a7c15U)) * 0xbf58476d1ce4e5b9U;
     return static_cast<std::size_t>(mixed ^ (mixed >> 32U));
   }
 };
@@ -37,8 +37,8 @@ class Numbering {
   std::uint16_t bare(std::uint16_t vertex) {
     std::uint32_t& number = bare_[vertex];
     if (number == kNoNumber) {
-      const auto [found, is_new] = by_place_.try_emplace(Place(vertices_[vertex]), tile_.east_m.size());
-      if (is_new) put(vertices_[vertex]);
+      const auto [found, is_new] = by_position_.try_emplace(Position(vertices_[vertex]), tile_.east_m.size());
+      if (is_new) append(vertices_[vertex]);
       number = found->second;
     }
     return static_cast<std::uint16_t>(number);
@@ -47,7 +47,7 @@ class Numbering {
     std::uint32_t& number = curved_[vertex];
     if (number == kNoNumber) {
       number = static_cast<std::uint32_t>(tile_.east_m.size());
-      put(vertices_[vertex]);
+      append(vertices_[vertex]);
       tile_.normal_east.push_back(vertices_[vertex].normal[0]);
       tile_.normal_north.push_back(vertices_[vertex].normal[1]);
       tile_.normal_up.push_back(vertices_[vertex].normal[2]);
@@ -56,7 +56,7 @@ class Numbering {
   }
 
  private:
-  void put(const DraftVertex& vertex) {
+  void append(const DraftVertex& vertex) {
     tile_.east_m.push_back(vertex.east_m);
     tile_.north_m.push_back(vertex.north_m);
     tile_.up_m.push_back(static_cast<float>(vertex.altitude_m - tile_.zero_msl_m));
@@ -65,7 +65,7 @@ class Numbering {
   const std::vector<DraftVertex>& vertices_;
   Tile& tile_;
   std::vector<std::uint32_t> bare_, curved_;
-  std::unordered_map<Place, std::uint32_t, PlaceHash> by_place_;
+  std::unordered_map<Position, std::uint32_t, PositionHash> by_position_;
 };
 
 }  // namespace
@@ -100,7 +100,7 @@ namespace {
 constexpr double kEqualNormals = 0.9999;  // cosine: less than a degree apart
 
 bool is_curved(const std::array<PlacedCorner, 3>& corners) {
-  const Vector3 area = cross(corners[1].place - corners[0].place, corners[2].place - corners[0].place);
+  const Vector3 area = cross(corners[1].position - corners[0].position, corners[2].position - corners[0].position);
   const double least = kEqualNormals * length(area);
   return std::any_of(corners.begin(), corners.end(),
                      [&](const PlacedCorner& corner) { return dot(corner.normal, area) < least; });
@@ -149,10 +149,10 @@ const LocalMap& TileBuilders::map_at(PlanePoint point) {
 std::uint16_t TileBuilders::vertex_in(Builder& builder, const PlacedCorner& corner) {
   if (corner.vertex != kNone && copies_[corner.vertex].builder == builder.number) return copies_[corner.vertex].vertex;
   const auto number = static_cast<std::uint16_t>(builder.vertices.size());
-  const PlanePoint at = builder.map.to_local({corner.place.x, corner.place.y});
+  const PlanePoint at = builder.map.to_local({corner.position.x, corner.position.y});
   builder.vertices.push_back({static_cast<float>(at.east_m),
                               static_cast<float>(at.north_m),
-                              corner.place.z,
+                              corner.position.z,
                               {static_cast<float>(corner.normal.x), static_cast<float>(corner.normal.y),
                                static_cast<float>(corner.normal.z)}});
   if (corner.vertex != kNone) copies_[corner.vertex] = {builder.number, number};
@@ -160,7 +160,7 @@ std::uint16_t TileBuilders::vertex_in(Builder& builder, const PlacedCorner& corn
 }
 
 void TileBuilders::add(const std::array<PlacedCorner, 3>& corners, SurfaceTag tag) {
-  const Vector3 sum = corners[0].place + corners[1].place + corners[2].place;
+  const Vector3 sum = corners[0].position + corners[1].position + corners[2].position;
   Builder& builder = builder_at({sum.x / 3, sum.y / 3});
   builder.triangles.push_back(
       {{vertex_in(builder, corners[0]), vertex_in(builder, corners[1]), vertex_in(builder, corners[2])},

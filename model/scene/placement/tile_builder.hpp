@@ -40,7 +40,7 @@ struct DraftTriangle {
 void finish_tile(const std::vector<DraftVertex>& vertices, std::vector<DraftTriangle>& triangles, Tile& tile);
 
 struct PlacedCorner {
-  Vector3 place;                 // metres east and north on the scene's plane, altitude MSL
+  Vector3 position;              // metres east and north on the scene's plane, altitude MSL
   Vector3 normal;                // unit, along the same axes
   std::uint32_t vertex = kNone;  // of the model; kNone: shared with no other corner
 };

@@ -204,8 +204,8 @@ TEST(SceneStore, TakesThePlaceFromTheNameBeforeTheHeader) {
   const Folder folder;
   const auto store =
       store_of({scene_of(folder.write("N35_44_51W121_30_2.flt", box_and_road(kPlace)))}, terrain::flat(0));
-  EXPECT_NEAR(store->index()[0].placement.place.latitude_deg, 35.0 + 44.0 / 60 + 51.0 / 3600, 1e-12);
-  EXPECT_NEAR(store->index()[0].placement.place.longitude_deg, -(121.0 + 30.0 / 60 + 2.0 / 3600), 1e-12);
+  EXPECT_NEAR(store->index()[0].placement.position.latitude_deg, 35.0 + 44.0 / 60 + 51.0 / 3600, 1e-12);
+  EXPECT_NEAR(store->index()[0].placement.position.longitude_deg, -(121.0 + 30.0 / 60 + 2.0 / 3600), 1e-12);
 }
 
 TEST(SceneStore, RefusesASceneWithoutAPlace) {
