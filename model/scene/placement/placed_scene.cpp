@@ -121,7 +121,7 @@ class Placing {
     const Outline& outline = outlines_[number];
     SceneObject& object = placed.objects.emplace_back();
     object.name = model_.objects[number];
-    object.middle = plane_.position_of({outline.box.middle.x_m, outline.box.middle.y_m});
+    object.middle = plane_.place_of({outline.box.middle.x_m, outline.box.middle.y_m});
     object.base_msl_m = anchor_msl_m_;
     if (follows_ground() && number != 0) object.base_msl_m = height_at(object.middle, anchor_msl_m_);
     object.height_m = outline.empty ? 0.0 : std::max(0.0, outline.most_z_m);
@@ -159,7 +159,7 @@ class Placing {
     if (!(area.z > kLevelNormal * length(area))) return false;
     if (placement_.heights != radar::SceneHeights::sea_level) return corners[0].z - base_m < kOnGround_m;
     return std::all_of(corners.begin(), corners.end(), [&](Vector3 corner) {
-      const double ground_m = height_at(plane_.position_of({corner.x, corner.y}), base_m);
+      const double ground_m = height_at(plane_.place_of({corner.x, corner.y}), base_m);
       return std::abs(corner.z - ground_m) < kNearGround_m;
     });
   }
@@ -219,7 +219,7 @@ class Placing {
   void add_draped(Corners3 piece, SurfaceTag tag) {
     for (Vector3& corner : piece) {
       const LocalMap& map = builders_.map_at({corner.x, corner.y});
-      corner.z += height_at(map.position_of({corner.x, corner.y}), anchor_msl_m_);
+      corner.z += height_at(map.place_of({corner.x, corner.y}), anchor_msl_m_);
       extend_reach(corner);
     }
     const Vector3 area = cross(piece[1] - piece[0], piece[2] - piece[0]);

@@ -7,7 +7,7 @@
 
 namespace yars::model::scene {
 
-geo::GeoPoint Plane::position_of(PlanePoint point) const {
+geo::GeoPoint Plane::place_of(PlanePoint point) const {
   const double distance_m = std::hypot(point.east_m, point.north_m);
   if (distance_m == 0.0) return origin_;
   return geo::geodesic_direct(origin_, geo::Bearing::radians(std::atan2(point.east_m, point.north_m)),
@@ -21,11 +21,11 @@ PlanePoint Plane::point_of(geo::GeoPoint position) const {
   return {distance_m * std::sin(azimuth_rad), distance_m * std::cos(azimuth_rad)};
 }
 
-LocalMap::LocalMap(const Plane& from, PlanePoint middle) : middle_(middle), to_(from.position_of(middle)) {
+LocalMap::LocalMap(const Plane& from, PlanePoint middle) : middle_(middle), to_(from.place_of(middle)) {
   constexpr double kStep_m = 256.0;  // half a tile: exact on its edges' middles
   const auto slope = [&](double east, double north, PlanePoint& moved, double& latitude, double& longitude) {
-    const geo::GeoPoint ahead = from.position_of({middle.east_m + kStep_m * east, middle.north_m + kStep_m * north});
-    const geo::GeoPoint behind = from.position_of({middle.east_m - kStep_m * east, middle.north_m - kStep_m * north});
+    const geo::GeoPoint ahead = from.place_of({middle.east_m + kStep_m * east, middle.north_m + kStep_m * north});
+    const geo::GeoPoint behind = from.place_of({middle.east_m - kStep_m * east, middle.north_m - kStep_m * north});
     const PlanePoint a = to_.point_of(ahead), b = to_.point_of(behind);
     moved = {(a.east_m - b.east_m) / (2 * kStep_m), (a.north_m - b.north_m) / (2 * kStep_m)};
     latitude = (ahead.latitude_deg - behind.latitude_deg) / (2 * kStep_m);

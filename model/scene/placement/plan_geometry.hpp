@@ -23,7 +23,7 @@ class Plane {
  public:
   explicit Plane(geo::GeoPoint origin) : origin_(origin) {}
   geo::GeoPoint origin() const { return origin_; }
-  geo::GeoPoint position_of(PlanePoint point) const;
+  geo::GeoPoint place_of(PlanePoint point) const;
   PlanePoint point_of(geo::GeoPoint position) const;
 
  private:
@@ -41,7 +41,7 @@ class LocalMap {
     const double e = point.east_m - middle_.east_m, n = point.north_m - middle_.north_m;
     return {e * east_.east_m + n * north_.east_m, e * east_.north_m + n * north_.north_m};
   }
-  geo::GeoPoint position_of(PlanePoint point) const {
+  geo::GeoPoint place_of(PlanePoint point) const {
     const double e = point.east_m - middle_.east_m, n = point.north_m - middle_.north_m;
     const geo::GeoPoint o = to_.origin();
     return {o.latitude_deg + e * latitude_.east_m + n * latitude_.north_m,

@@ -183,7 +183,7 @@ void ScatterBuilder::finish(const Plane& plane, double side_m, Scatterers& resul
     // An evenly filled square of side s spreads by s^2 / 6 about its middle.
     const double extent_m = std::sqrt(6.0 * std::max(0.0, square.spread / square.area_m2 - middle2));
     const geo::Vector3 at =
-        result.frame.enu_from_geodetic(plane.position_of({middle.x, middle.y}), geo::HeightAboveEllipsoid::metres(0.0));
+        result.frame.enu_from_geodetic(plane.place_of({middle.x, middle.y}), geo::HeightAboveEllipsoid::metres(0.0));
     found.push_back({static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z),
                      static_cast<float>(middle.z), static_cast<float>(square.least_m),
                      static_cast<float>(square.most_m), static_cast<float>(std::min(extent_m, side_m)),
