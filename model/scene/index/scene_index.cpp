@@ -35,7 +35,7 @@ std::optional<std::vector<double>> numbers(std::string_view text) {
   }
 }
 
-// Degrees_minutes_seconds behind one of two letters, taken off the front of `text`.
+// Parses degrees_minutes_seconds after one of two letters, and removes them from the front of `text`.
 std::optional<double> take_angle(std::string_view& text, char positive, char negative) {
   if (text.empty()) return std::nullopt;
   const char side = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
@@ -127,7 +127,7 @@ double distance_m(geo::GeoPoint a, geo::GeoPoint b) {
   return geo::geodesic_inverse(a, b).distance.metres();
 }
 
-// From the header's corners; they count from the header's own origin, wherever the scene is put.
+// Greatest distance of the header's corners from its origin, independent of the scene's position.
 double reach_of(const Header& header) {
   if (!header.origin || !header.south_west || !header.north_east) return kUnknownReach_m;
   const geo::GeoPoint south_east{header.south_west->latitude_deg, header.north_east->longitude_deg};
@@ -154,7 +154,7 @@ error::Expected<IndexedScene> index_file(const fs::path& file, const radar::Scen
   return found;
 }
 
-// Of a folder each file leaves out what it has of the names.
+// Checks the names to leave out of a file named by itself. Files in folders may lack some of them.
 error::Expected<void> check_names(const radar::Scene& scene) {
   if (scene.without.empty()) return {};
   NameFilter filter(scene.without);

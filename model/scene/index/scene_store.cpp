@@ -14,11 +14,11 @@ namespace yars::model::scene {
 
 namespace {
 
-constexpr double kSceneCell_deg = 0.25;  // scenes are some kilometres across
+constexpr double kSceneCell_deg = 0.25;  // typical scenes are some kilometres wide
 
 using Hits = std::vector<GridIndex::Hit>;
 
-// Reused by every query of a thread: a patch asks hundreds of times a second.
+// Per-thread buffers for queries; a patch map makes hundreds a second.
 Hits& scratch(int slot) {
   thread_local std::array<Hits, 2> hits;
   hits[static_cast<std::size_t>(slot)].clear();
@@ -46,7 +46,7 @@ PlacedView::PlacedView(std::uint64_t generation, std::vector<Part> parts, std::v
     : generation_(generation), parts_(std::move(parts)), kinds_(std::move(kinds)), objects_(std::move(objects)) {
   std::vector<Disc> discs;
   for (const Part& part : parts_) {
-    // Bounds of tiles are boxes; their corners reach somewhat farther than what is in them.
+    // Corners of tile bounds reach farther than the tile's contents.
     discs.push_back({part.scene->placement.position, 1.5 * part.scene->reach_m + kTileSide_m});
     bytes_ += part.scene->bytes;
     if (part.scene->scatterers) scatterers_.push_back(part.scene->scatterers.get());
@@ -134,7 +134,7 @@ bool SceneStore::load(std::size_t number) {
   }
   for (const std::string& warning : model->warnings) problems_.push_back(scene.file.string() + ": " + warning);
   const auto objects = static_cast<std::uint32_t>(model->objects.size());
-  // A file that was changed meanwhile gets new numbers; its old ones stay empty.
+  // A file changed since its last load gets new numbers; its old ones stay empty.
   if (resident.objects != objects) {
     resident.first_object = static_cast<std::uint32_t>(objects_.size());
     resident.objects = objects;
@@ -150,7 +150,7 @@ bool SceneStore::load(std::size_t number) {
                         std::to_string(static_cast<long>(reach_m)) +
                         " m; it is shown only when its nearer part is looked at");
   const terrain::TerrainViewPointer ground = ground_->prepare({scene.placement.position, reach_m + kTileSide_m, 0});
-  // Scatterers that the index does not know of would come and go with what else was looked at.
+  // Scatterers beyond the indexed reach are left out: they would appear only when another region loads the file.
   auto placed = std::make_shared<PlacedScene>(place_model(*model, scene.placement, *ground, resident.first_object,
                                                           kinds_, options_.use, scene.reach_m + kTileSide_m));
   if (placed->objects.front().name.empty()) placed->objects.front().name = scene.file.stem().string();

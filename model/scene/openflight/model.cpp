@@ -19,7 +19,7 @@ double turn(ProjectedPoint a, ProjectedPoint b, ProjectedPoint c) {
   return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
 }
 
-// Along the axis that the normal is nearest to, with the turning sense kept.
+// Projects corners along the main axis of the normal; orientation is kept.
 std::vector<ProjectedPoint> projected(std::span<const Vector3> corners, Vector3 normal) {
   std::vector<ProjectedPoint> projection;
   projection.reserve(corners.size());
@@ -50,7 +50,7 @@ bool same(ProjectedPoint a, ProjectedPoint b) {
   return a.u == b.u && a.v == b.v;
 }
 
-// The corner in the middle of (a, b, c) can be cut off: it turns left and no other corner lies in the cut.
+// True if b can be cut off (a, b, c): it turns left, and no other corner lies in the triangle.
 bool is_ear(const std::vector<ProjectedPoint>& projection, const std::vector<std::uint32_t>& ring, std::size_t at) {
   const std::size_t n = ring.size();
   const ProjectedPoint a = projection[ring[(at + n - 1) % n]], b = projection[ring[at]],
@@ -68,11 +68,11 @@ void clip_ears(const std::vector<ProjectedPoint>& projection, std::vector<std::a
   std::vector<std::uint32_t> ring(projection.size());
   for (std::size_t i = 0; i < ring.size(); ++i) ring[i] = static_cast<std::uint32_t>(i);
   std::size_t at = 0;
-  std::size_t not_ears = 0;  // corners in a row that are no ears
+  std::size_t not_ears = 0;  // consecutive corners that are not ears
   while (ring.size() > 3) {
     const std::size_t n = ring.size();
     at %= n;
-    // A ring without ears crosses itself; any corner is as good as another then.
+    // A polygon without ears crosses itself; then any corner is cut.
     if (not_ears < n && !is_ear(projection, ring, at)) {
       ++not_ears;
       ++at;
@@ -89,7 +89,7 @@ void clip_ears(const std::vector<ProjectedPoint>& projection, std::vector<std::a
 }  // namespace
 
 Vector3 newell_normal(std::span<const Vector3> corners) {
-  // About the first corner: far from the origin the products would lose what counts.
+  // Relative to the first corner, to avoid cancellation far from the origin.
   Vector3 sum;
   for (std::size_t i = 2; i < corners.size(); ++i)
     sum = sum + cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
@@ -98,7 +98,7 @@ Vector3 newell_normal(std::span<const Vector3> corners) {
 
 void triangulate(std::span<const Vector3> corners, std::vector<std::array<std::uint32_t, 3>>& found) {
   found.clear();
-  // Cutting ears takes time with the square of the corners (and more); a longer outline is damage, and a fan does.
+  // Ear clipping takes at least quadratic time. Longer outlines are damage and become a triangle fan.
   constexpr std::size_t kMaxEars = 512;
   if (corners.size() < 3) return;
   if (corners.size() == 3) {
@@ -117,9 +117,10 @@ void triangulate(std::span<const Vector3> corners, std::vector<std::array<std::u
 
 namespace {
 
-constexpr double kMaxCoordinate_m = 1e7;  // a corner farther away is damage
-constexpr double kFarOrigin_m = 50'000;   // beyond it float would lose centimetres
-constexpr double kMinArea_m2 = 1e-10;     // twice the area of a facet that still has a direction
+constexpr double kMaxCoordinate_m = 1e7;  // farther corners are damage
+constexpr double kFarOrigin_m =
+    50'000;  // distance of the first vertex from which Model::base is used; float would lose centimetres
+constexpr double kMinArea_m2 = 1e-10;  // twice the area of the smallest triangle with a direction
 
 std::array<float, 3> floats(Vector3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -159,7 +160,7 @@ class Flattening {
  private:
   using Done = error::Expected<void>;
 
-  // A node as often as it is replicated: first where it stands, then moved on by its matrix.
+  // Visits a node once for each replication, each moved by one more matrix.
   Done visit(std::uint32_t number, const Affine& above, std::uint32_t object, int depth) {
     const Node& node = tree_.nodes[number];
     if (depth > kMaxNodeDepth)
@@ -251,7 +252,7 @@ class Flattening {
                            "mend its matrix");
       append(at, transform.turn_normal(vector(vertex.normal)));
     }
-    // Objects keep theirs; what lies outside objects belongs to what refers to it.
+    // Objects of the external file are kept. Its faces outside objects belong to the referring object.
     const auto first_object = static_cast<std::uint32_t>(model_.objects.size());
     model_.objects.insert(model_.objects.end(), other.objects.begin() + 1, other.objects.end());
     std::vector<std::uint16_t> kinds;
@@ -268,7 +269,7 @@ class Flattening {
     return {};
   }
 
-  // The outline in model space, turning counter-clockwise from outside.
+  // Corners in model space, counter-clockwise from outside. False for an invalid position.
   bool gather(const TreeFace& face, const Affine& transform) {
     positions_.clear();
     normals_.clear();

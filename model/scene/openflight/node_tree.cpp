@@ -30,7 +30,7 @@ std::uint16_t KindTable::number_of(const SurfaceKind& kind) {
 namespace {
 
 constexpr std::size_t kNamesListed = 6;
-constexpr std::size_t kMaxSeen = 100'000;  // names that are remembered for a list of near ones
+constexpr std::size_t kMaxSeen = 100'000;  // limit of names recorded for suggestions
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -39,7 +39,7 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-// Both in lower case. Goes back to the last star alone: time is the product of the lengths at most.
+// Both in lower case. Backtracks to the last star only, so time is at most the product of the lengths.
 bool matches(std::string_view pattern, std::string_view name) {
   std::size_t p = 0, n = 0, star = std::string_view::npos, from = 0;
   while (n < name.size()) {
@@ -59,7 +59,7 @@ bool matches(std::string_view pattern, std::string_view name) {
   return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
-// Letters to change, add or take away (Levenshtein); none for a name that holds the other.
+// Levenshtein distance; 0 if b contains a.
 std::size_t distance(std::string_view a, std::string_view b) {
   if (!a.empty() && b.find(a) != std::string_view::npos) return 0;
   std::vector<std::size_t> row(b.size() + 1);
@@ -153,7 +153,7 @@ std::optional<double> metres_per_unit(int code) {
   }
 }
 
-// Nothing when it is absent, no place, or exactly 0, 0, which files write that have none.
+// nullopt if absent, out of range, or exactly 0, 0.
 std::optional<geo::GeoPoint> place_at(const Record& record, std::size_t latitude_at, std::size_t longitude_at) {
   const double latitude_deg = record.number_or<double>(latitude_at, 0.0);
   const double longitude_deg = record.number_or<double>(longitude_at, 0.0);
@@ -171,7 +171,7 @@ error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std
                        "give a .flt file of OpenFlight 14 to 16.5");
   Header found;
   found.revision = *record->number<std::int32_t>(header::kRevision);
-  // 14.2 was written as 14, 142 and 1420 by different programs.
+  // Programs write 14.2 as 14, 142 or 1420.
   while (found.revision > 0 && found.revision < 1000) found.revision *= 10;
   if (found.revision < header::kOldestRevision || found.revision > header::kNewestRevision)
     return error::fail(subject, "OpenFlight revision 1400 to 1650", std::to_string(found.revision),

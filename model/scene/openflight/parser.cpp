@@ -92,7 +92,6 @@ TreeParser::Done TreeParser::dispatch(const Record& record) {
   }
 }
 
-// +1 and -1 around records that nobody here reads, else 0.
 int TreeParser::nesting_of_skipped(std::uint16_t opcode) {
   if (opcode == kPushExtension || opcode == kPushAttribute) return 1;
   return opcode == kPopExtension || opcode == kPopAttribute ? -1 : 0;
@@ -117,7 +116,7 @@ TreeParser::Done TreeParser::pop() {
   return {};
 }
 
-// Groups, objects, switches and what moves them.
+// Groups, objects, switches and their transforms.
 
 TreeParser::Done TreeParser::new_node(NodeKind kind, bool attached) {
   if (tree_.nodes.size() >= kMaxNodes) return too_many(kMaxNodes, "nodes");
@@ -186,7 +185,8 @@ TreeParser::Done TreeParser::add_named(const Record& record, NodeKind kind) {
 
 TreeParser::Done TreeParser::add_group(const Record& record) {
   constexpr std::uint32_t kForward = 1U << 30, kSwing = 1U << 29, kBackward = 1U << 26;
-  constexpr std::int32_t kBackwardRevision = 1580;  // the bit meant nothing before; a swing alone was an animation
+  constexpr std::int32_t kBackwardRevision =
+      1580;  // earlier revisions have no such bit; swing alone marks an animation
   const auto flags = record.number_or<std::uint32_t>(16, 0);
   const std::uint32_t animation = kForward | (tree_.header.revision >= kBackwardRevision ? kBackward : kSwing);
   return add_named(record, NodeKind::group).map([&] {
@@ -229,8 +229,7 @@ void TreeParser::set_name(const Record& record) {
   if (node.kind != NodeKind::external) node.name = record.text(4, kMaxNameLength);
 }
 
-// A face that is moved becomes the content of a node of its own. Records that follow a face at once can do that;
-// later the list of its siblings has gone on, and it stays where it is.
+// Only the newest face can be moved. Records that follow it at once do so; an older face stays in its node.
 TreeParser::Done TreeParser::move_face_to_own_node() {
   const std::uint32_t face = current_.face;
   const std::uint32_t above = parent().node;
@@ -303,7 +302,7 @@ TreeParser::Done TreeParser::add_face(const Record& record) {
   if (current_.node == kNone) return {};
   const std::optional<TreeFace> face = surfaces_.of(record, 0, subface_level_);
   if (!face) {
-    current_.node = kNone;  // what is below it belongs to nothing
+    current_.node = kNone;  // records below a skipped face are skipped
     return {};
   }
   current_.face = static_cast<std::uint32_t>(tree_.faces.size());
@@ -341,7 +340,7 @@ TreeParser::Done TreeParser::add_mesh(const Record& record) {
   const std::optional<TreeFace> surface = surfaces_.of(record, face::kMeshShift, subface_level_);
   meshes_.push_back({.surface = surface.value_or(TreeFace{}), .visible = surface && current_.node != kNone});
   const int mesh = static_cast<int>(meshes_.size()) - 1;
-  // A node of its own: its primitives come behind a push, a matrix before it.
+  // A node of its own, because a matrix may follow. Its primitives follow a push.
   if (current_.node != kNone)
     if (auto made = new_node(NodeKind::group); !made) return made;
   current_.mesh = mesh;

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The first `most` bytes of a file.
+// Reads the first `max_bytes` bytes of a file.
 error::Expected<std::vector<std::byte>> read_bytes(const fs::path& path, std::uintmax_t max_bytes) {
   std::error_code code;
   if (!fs::is_regular_file(path, code))
@@ -43,7 +43,7 @@ void add_counts(FileCounts& sum, const FileCounts& more) {
   sum.external_references += more.external_references;
 }
 
-// The files of one scene, each read once.
+// Files of one scene; each is read once.
 class FileSet {
  public:
   FileSet(const fs::path& first, NameFilter* filter) : root_(first.parent_path()), filter_(filter) {}
@@ -89,7 +89,7 @@ class FileSet {
         *tree, subject, [this, &path](const std::string& name) { return load_reference(path, name); }, {}, filter_);
   }
 
-  // Null, with a warning, for what cannot be shown.
+  // Loads an external file. Returns null and adds a warning if it has to be skipped.
   error::Expected<std::shared_ptr<const Model>> load_reference(const fs::path& from, std::string name) {
     name = name.substr(0, name.find('<'));
     std::replace(name.begin(), name.end(), '\\', '/');
@@ -112,7 +112,7 @@ class FileSet {
   fs::path root_;
   NameFilter* filter_;
   std::map<fs::path, std::shared_ptr<const Model>> read_;
-  std::vector<fs::path> open_paths_;  // from the first file to the one being read
+  std::vector<fs::path> open_paths_;  // chain of references from the main file to the current one
   std::size_t files_ = 0;
   FileCounts counts_;
   std::vector<std::string> names_;

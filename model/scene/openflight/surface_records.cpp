@@ -11,7 +11,7 @@ namespace yars::model::scene {
 using namespace openflight;
 
 void VertexPalette::begin(const Record& palette) {
-  // A second palette replaces the first: offsets would be ambiguous.
+  // A second palette replaces the first, because offsets would be ambiguous.
   start_ = palette.start();
   offsets_.clear();
   vertices_.clear();
@@ -44,7 +44,7 @@ namespace {
 constexpr std::size_t kPoolHead = 12, kPrimitiveHead = 12;
 enum Primitive : std::int16_t { kStrip = 1, kFan = 2, kQuadrilateralStrip = 3, kPolygon = 4 };
 
-// Where a vertex's parts lie in a pool.
+// Layout of a vertex in a local pool.
 struct PoolLayout {
   std::size_t stride = 0;
   std::size_t normal = 0;
@@ -77,7 +77,7 @@ std::size_t index_at(const Record& record, std::size_t at, std::size_t bytes) {
   return *record.number<std::uint32_t>(at);
 }
 
-// Every second triangle of a strip turns the other way round.
+// Every second triangle of a strip has the opposite orientation.
 void add_strip(const std::vector<std::uint32_t>& list, MeshPolygons& polygons) {
   for (std::size_t i = 2; i < list.size(); ++i) {
     const bool odd = i % 2 == 1;
@@ -160,9 +160,10 @@ error::Expected<MeshPolygons> read_primitive(const Record& record, std::size_t p
 namespace {
 
 constexpr std::uint32_t kWhite = 0xFFFFFF;
-constexpr std::int32_t kIndexRevision = 1510;  // colours by index; before it the name field held it
+constexpr std::int32_t kIndexRevision =
+    1510;  // colours have an index field from here on; earlier the name field held it
 
-// Alpha, blue, green, red.
+// From alpha, blue, green, red.
 std::uint32_t rgb_of_abgr(std::uint32_t abgr) {
   return (abgr & 0xFFU) << 16U | (abgr & 0xFF00U) | (abgr >> 16U & 0xFFU);
 }
@@ -174,7 +175,7 @@ std::uint32_t byte_of(double share) {
 }  // namespace
 
 void ColorPalette::read_colors(const Record& record, std::int32_t revision) {
-  // A palette longer than its colours has their names behind them.
+  // A palette longer than its colours is followed by their names.
   const std::size_t most = revision >= kIndexRevision ? palette::kColors : palette::kColors / 2;
   colors_.clear();
   for (std::size_t at = palette::kFirstColor; colors_.size() < most; at += 4) {

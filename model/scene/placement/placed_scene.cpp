@@ -14,15 +14,16 @@ namespace yars::model::scene {
 
 namespace {
 
-constexpr double kMaxDraped = 100'000;  // triangles that draping makes of one scene, about; then edges grow
+constexpr double kMaxDraped = 100'000;  // approximate number of draped triangles a scene; more lengthen the edges
 constexpr double kObjectCell_deg = 1.0 / 64.0;
-constexpr double kMaxPieces = 1'000'000;  // that scatterers make of one scene's large faces, about; then edges grow
+constexpr double kMaxPieces =
+    1'000'000;  // approximate number of scatterer pieces from a scene's large faces; more lengthen the edges
 
 Vector3 vector(const std::array<float, 3>& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
-// What is known of an object before it is placed.
+// Summary of an object before it is placed.
 struct Outline {
   Footprint box;
   double least_z_m = 0.0, most_z_m = 0.0;
@@ -78,7 +79,7 @@ class Placing {
   Vector3 model_position(std::uint32_t vertex) const { return vector(model_.vertices[vertex].place_m) + model_.base; }
   Vector3 rotated(Vector3 v) const { return {v.x * cosine_ + v.y * sine_, v.y * cosine_ - v.x * sine_, v.z}; }
 
-  // Triangles in the order of their objects, otherwise as they were.
+  // Orders the triangles by object, and by number within an object.
   void sort_by_object() {
     begin_.assign(model_.objects.size() + 1, 0);
     for (const ModelTriangle& triangle : model_.triangles) ++begin_[triangle.object + 1];
@@ -127,7 +128,7 @@ class Placing {
     object.height_m = outline.empty ? 0.0 : std::max(0.0, outline.most_z_m);
     object.length_m = outline.box.length_m;
     object.width_m = outline.box.width_m;
-    // Counter-clockwise from east to clockwise from north; meridians turn on the way from the place.
+    // Converts from counter-clockwise of east to clockwise of north, and adds the convergence of the meridians.
     const double convergence_deg =
         geo::wrapped_degrees(object.middle.longitude_deg - placement_.position.longitude_deg) *
         std::sin((object.middle.latitude_deg + placement_.position.latitude_deg) / 2 * geo::kRadiansPerDegree);
@@ -152,8 +153,8 @@ class Placing {
     return {kind_numbers_[triangle.kind], first_object_ + object, on_ground};
   }
 
-  // A level face that is meant to lie on the ground, and does so about. Where the scene brings its own heights the
-  // ground is that of the terrain, which knows it less well.
+  // True for a level face on the ground. With heights above sea level the terrain is the ground; its heights are less
+  // exact than the scene's, so the tolerance is larger.
   bool lies_on_ground(const Corners3& corners, double base_m) const {
     const Vector3 area = cross(corners[1] - corners[0], corners[2] - corners[0]);
     if (!(area.z > kLevelNormal * length(area))) return false;
@@ -189,15 +190,15 @@ class Placing {
                 [&](const Corners3& piece) { add_draped(piece, tag_of(triangle, object, true)); });
   }
 
-  // A standing face as a radar sees it that does not resolve it.
+  // Adds a standing face in pieces to the scatterers.
   void scatter(const Corners3& corners, std::uint8_t material, bool on_ground) {
     cutter_.cut(corners, piece_edge_m_, [&](const Corners3& piece) {
       on_ground ? scatter_.add_lying(piece, material) : scatter_.add_standing(piece, material);
     });
   }
 
-  // The edge, or more, at which the triangles that count make a bounded number of pieces: of large ones, and of slivers
-  // that are long.
+  // Doubles the edge until the selected triangles give at most `most` pieces. Large triangles and long slivers give
+  // many.
   template <class Counts>
   double bounded_edge(double edge_m, double most, const Counts& counts) const {
     const auto pieces = [&] {
@@ -211,7 +212,7 @@ class Placing {
       }
       return sum;
     };
-    // What is beyond all numbers is no number, and too many; at an endless edge nothing is cut.
+    // The negated comparison treats NaN as too many. At an infinite edge nothing is cut, so the loop ends.
     while (!(pieces() <= most)) edge_m *= 2.0;
     return edge_m;
   }

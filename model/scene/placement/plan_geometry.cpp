@@ -22,7 +22,7 @@ PlanePoint Plane::point_of(geo::GeoPoint position) const {
 }
 
 LocalMap::LocalMap(const Plane& from, PlanePoint middle) : middle_(middle), to_(from.place_of(middle)) {
-  constexpr double kStep_m = 256.0;  // half a tile: exact on its edges' middles
+  constexpr double kStep_m = 256.0;  // central differences: exact at this distance along the axes
   const auto slope = [&](double east, double north, PlanePoint& moved, double& latitude, double& longitude) {
     const geo::GeoPoint ahead = from.place_of({middle.east_m + kStep_m * east, middle.north_m + kStep_m * north});
     const geo::GeoPoint behind = from.place_of({middle.east_m - kStep_m * east, middle.north_m - kStep_m * north});
@@ -41,7 +41,7 @@ double turn(PlanPoint a, PlanPoint b, PlanPoint c) {
   return (b.x_m - a.x_m) * (c.y_m - a.y_m) - (b.y_m - a.y_m) * (c.x_m - a.x_m);
 }
 
-// Counter-clockwise, without the first point again (Andrew's monotone chain).
+// Convex hull, counter-clockwise, without repeating the first point (Andrew's monotone chain).
 std::vector<PlanPoint> hull_of(std::vector<PlanPoint>& points) {
   std::sort(points.begin(), points.end(),
             [](PlanPoint a, PlanPoint b) { return a.x_m != b.x_m ? a.x_m < b.x_m : a.y_m < b.y_m; });
@@ -60,7 +60,7 @@ std::vector<PlanPoint> hull_of(std::vector<PlanPoint>& points) {
   return hull;
 }
 
-// The box around the hull with its sides along a direction.
+// Bounding box of the hull with sides along a direction.
 Footprint box_along(const std::vector<PlanPoint>& hull, double direction_rad) {
   const double c = std::cos(direction_rad), s = std::sin(direction_rad);
   double along_least = std::numeric_limits<double>::infinity(), along_most = -along_least;

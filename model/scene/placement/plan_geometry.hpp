@@ -1,4 +1,5 @@
-// Geometry of a scene seen from above: plane, polygons, cuts, footprints.
+// Plane geometry of a scene seen from above: map planes, polygon clipping, triangle subdivision, footprints.
+// Units: metres; x east, y north unless stated.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +14,12 @@
 
 namespace yars::model::scene {
 
-// The azimuthal-equidistant plane about a place: x east, y north in metres; exact by the geodesic, and near a point of
-// it by a linear map.
+// Point on a Plane.
 struct PlanePoint {
   double east_m = 0.0, north_m = 0.0;
 };
 
+// Azimuthal equidistant plane about a position on the earth. Both conversions solve the geodesic exactly.
 class Plane {
  public:
   explicit Plane(geo::GeoPoint origin) : origin_(origin) {}
@@ -30,13 +31,13 @@ class Plane {
   geo::GeoPoint origin_;
 };
 
-// What a point of one plane is in another, linear about `middle`: off by less than 1 mm within 300 m, for planes whose
-// origins lie within 20 km; places off by less than 10 mm (on a plane's own origin, below 80 degrees of latitude).
+// Linear map from one plane to the plane about its point `middle`. Accuracy: 1 mm within 300 m of `middle`, for planes
+// with origins within 20 km. place_of() is within 10 mm, on a plane's own origin below 80 degrees of latitude.
 class LocalMap {
  public:
   LocalMap(const Plane& from, PlanePoint middle);
 
-  const Plane& plane() const { return to_; }  // about the middle
+  const Plane& plane() const { return to_; }  // about `middle`
   PlanePoint to_local(PlanePoint point) const {
     const double e = point.east_m - middle_.east_m, n = point.north_m - middle_.north_m;
     return {e * east_.east_m + n * north_.east_m, e * east_.north_m + n * north_.north_m};
@@ -51,11 +52,11 @@ class LocalMap {
  private:
   PlanePoint middle_;
   Plane to_;
-  PlanePoint east_, north_;          // where a metre east and north go
+  PlanePoint east_, north_;          // images of one metre east and north
   PlanePoint latitude_, longitude_;  // [deg/m]
 };
 
-// A convex polygon seen from above, cut by lines along the axes (Sutherland and Hodgman 1974).
+// Convex polygon seen from above, clipped by lines along the axes (Sutherland and Hodgman 1974).
 class PlanPolygon {
  public:
   using Axis = double geo::Vector3::*;
@@ -65,7 +66,7 @@ class PlanPolygon {
     std::copy(corners.begin(), corners.end(), at_.begin());
   }
 
-  // Least and most along an axis; of nothing: zero.
+  // Minimum and maximum along an axis; zeros for an empty polygon.
   std::pair<double, double> bounds(Axis axis) const {
     if (corners_ == 0) return {0.0, 0.0};
     const auto less = [axis](const geo::Vector3& a, const geo::Vector3& b) { return a.*axis < b.*axis; };
@@ -75,7 +76,7 @@ class PlanPolygon {
   PlanPolygon between(Axis axis, double least, double most) const {
     return beyond(axis, least, 1.0).beyond(axis, most, -1.0);
   }
-  // Positive where corners turn counter-clockwise.
+  // [m^2]; positive for counter-clockwise corners.
   double area() const {
     double twice = 0.0;
     for (std::ptrdiff_t i = 1; i + 1 < corners_; ++i)
@@ -85,7 +86,7 @@ class PlanPolygon {
 
  private:
   const geo::Vector3& corner(std::ptrdiff_t i) const { return at_[static_cast<std::size_t>(i)]; }
-  // What is on the side of the line to which `sign` points.
+  // The part on the side of the line to which `sign` points.
   PlanPolygon beyond(Axis axis, double line, double sign) const {
     PlanPolygon cut;
     const auto put = [&cut](const geo::Vector3& at) { cut.at_[static_cast<std::size_t>(cut.corners_++)] = at; };
@@ -98,17 +99,16 @@ class PlanPolygon {
     return cut;
   }
 
-  std::array<geo::Vector3, 16> at_{};  // a triangle cut by four lines has seven corners, and rounding adds few
+  std::array<geo::Vector3, 16> at_{};  // four cuts of a triangle give at most seven corners; rounding adds few
   std::ptrdiff_t corners_ = 0;
 };
 
-// Triangles cut in two across their longest edge, seen from above, until none is too long. Both triangles of an edge
-// cut it in the middle, so that there are no cracks.
+// Edge of a triangle seen from above.
 
 using Corners3 = std::array<geo::Vector3, 3>;
 
 struct PlanEdge {
-  std::size_t from = 0;  // corner, to the next one
+  std::size_t from = 0;  // number of its first corner
   double length_m = 0.0;
 };
 
@@ -122,9 +122,11 @@ inline PlanEdge longest_plan_edge(const Corners3& corners) {
   return longest;
 }
 
+// Bisects triangles at their longest edge, seen from above, until no edge is too long. Neighbours bisect a shared edge
+// at the same point, so there are no cracks.
 class TriangleCutter {
  public:
-  // Calls visit(piece) for pieces no edge of which is longer.
+  // Calls visit(piece) for the pieces; none has an edge longer than `max_edge_m`.
   template <class Visit>
   void cut(const Corners3& corners, double max_edge_m, const Visit& visit) {
     pieces_.assign(1, corners);
@@ -147,20 +149,21 @@ class TriangleCutter {
   std::vector<Corners3> pieces_;
 };
 
-// What a thing covers seen from above: the rectangle of least area around its corners. The hull's edges are tried in
-// turn (the least rectangle has a side on one of them: Freeman and Shapira, CACM 18, 1975).
+// Point for footprint_of().
 struct PlanPoint {
   double x_m = 0.0, y_m = 0.0;
 };
 
+// Rectangle of least area around a set of points. It has a side on an edge of the convex hull, so the edges are tried
+// in turn (Freeman and Shapira, CACM 18, 1975).
 struct Footprint {
   PlanPoint middle;
-  double length_m = 0.0;  // the longer side
+  double length_m = 0.0;  // longer side
   double width_m = 0.0;
   double direction_rad = 0.0;  // of the longer side, counter-clockwise from x, [0, pi)
 };
 
-// `points` is reordered; of no points all is zero.
+// Reorders `points`. All zeros for no points.
 Footprint footprint_of(std::vector<PlanPoint>& points);
 
 }  // namespace yars::model::scene

@@ -21,7 +21,7 @@ std::size_t Scatterers::level_for(double resolved_m) const {
 }
 
 std::uint64_t Scatterers::bytes() const {
-  constexpr std::uint64_t kHashNode = 64;  // of an unordered_map, about
+  constexpr std::uint64_t kHashNode = 64;  // approximate size of an unordered_map node
   std::uint64_t sum = sizeof(Scatterers);
   for (const ScattererLevel& level : levels)
     sum += level.scatterers.capacity() * sizeof(Scatterer) + level.facings.capacity() * sizeof(Facing) +
@@ -31,13 +31,14 @@ std::uint64_t Scatterers::bytes() const {
 
 namespace {
 
-constexpr double kAzimuthBin_rad = std::numbers::pi / 45.0;    // 4 degrees: below the width of the cardinal effect
+constexpr double kAzimuthBin_rad = std::numbers::pi / 45.0;    // 4 degrees, below the width of the cardinal effect
 constexpr double kElevationBin_rad = std::numbers::pi / 12.0;  // 15 degrees
 constexpr std::uint32_t kWall = 1U << 31U;
-constexpr std::size_t kMaxSquares = 1U << 18U;  // of a scene that stand or lie, some 100 MB while it is placed
-constexpr double kMaxSquaresPerEdge = 64.0;     // squares that one piece lies in, an edge
+constexpr std::size_t kMaxSquares = 1U << 18U;  // of a scene, standing or lying; about 100 MB during placement
+constexpr double kMaxSquaresPerEdge =
+    64.0;  // limit of the squares along a lying piece; larger pieces coarsen the level
 
-// Faces of one key are summed up.
+// Faces with equal keys are summed.
 std::uint32_t key_of(std::uint8_t material, geo::Vector3 normal) {
   const double level2 = normal.x * normal.x + normal.y * normal.y;
   const auto elevation = static_cast<std::uint32_t>(
@@ -77,7 +78,7 @@ bool ScatterBuilder::coarsen() {
   return true;
 }
 
-// Null where there is no room for another one.
+// Returns null if the limit of squares is reached at the coarsest level.
 ScatterBuilder::Square* ScatterBuilder::square_in(Squares& squares, geo::Vector3 at) {
   while (squares.size() >= kMaxSquares && coarsen()) continue;
   const std::uint64_t key = square_key(at.x, at.y, side_m());
@@ -143,7 +144,7 @@ ScatterBuilder::Keys ScatterBuilder::sorted_keys(const Squares& squares) {
   return keys;
 }
 
-// Four squares become one.
+// Merges four squares into one of the next level.
 ScatterBuilder::Squares ScatterBuilder::coarser(const Squares& squares) {
   Squares merged;
   for (const std::uint64_t key : sorted_keys(squares)) {
@@ -180,7 +181,7 @@ void ScatterBuilder::finish(const Plane& plane, double side_m, Scatterers& resul
     const Square& square = standing_.at(key);
     const geo::Vector3 middle = (1.0 / square.area_m2) * square.middle;
     const double middle2 = middle.x * middle.x + middle.y * middle.y;
-    // An evenly filled square of side s spreads by s^2 / 6 about its middle.
+    // An evenly filled square of side s has the mean square distance s^2 / 6 from its centre.
     const double extent_m = std::sqrt(6.0 * std::max(0.0, square.spread / square.area_m2 - middle2));
     const geo::Vector3 at =
         result.frame.enu_from_geodetic(plane.place_of({middle.x, middle.y}), geo::HeightAboveEllipsoid::metres(0.0));

@@ -9,15 +9,16 @@ namespace yars::model::scene {
 
 namespace {
 
-constexpr double kMetresPerDegree = 110'500.0;  // [m] below the least of a meridian: ranges of cells err outwards
+constexpr double kMetresPerDegree =
+    110'500.0;  // less than any degree of a meridian, so ranges of cells are never too small
 constexpr double kMeanRadius_m = 6'371'000.0;
-constexpr double kMaxCellsAcross = 512;  // queries wider than this look at every disc instead
+constexpr double kMaxCellsAcross = 512;  // wider queries test every disc
 
 geo::Vector3 on_earth(geo::GeoPoint position) {
   return geo::ecef_from_geodetic(position, geo::HeightAboveEllipsoid::metres(0.0));
 }
 
-// Arc over a chord, to the third order.
+// Arc over a chord, to third order.
 double arc_m(geo::Vector3 a, geo::Vector3 b) {
   const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
   const double square = x * x + y * y + z * z;
@@ -76,7 +77,7 @@ void GridIndex::test(std::uint32_t disc, geo::Vector3 position, double radius_m,
 void GridIndex::find_in_row(std::int64_t number, geo::GeoPoint position, double reach_deg, geo::Vector3 at,
                             double radius_m, std::vector<Hit>& hits) const {
   const Row row = row_of((static_cast<double>(number) + 0.5) * cell_deg_ - 90.0);
-  // The parallel of the row that is nearest to a pole, or the place's own: there a metre is most of longitude.
+  // The highest latitude of the row or the position's own, where a metre is the most degrees of longitude.
   const double south_deg = static_cast<double>(number) * cell_deg_ - 90.0;
   const double widest_deg =
       std::min(90.0, std::max({std::abs(south_deg), std::abs(south_deg + cell_deg_), std::abs(position.latitude_deg)}));
@@ -116,9 +117,9 @@ std::uint64_t GridIndex::bytes() const {
 }
 
 namespace {
-constexpr std::uint32_t kLeaf = 8;        // balls that are looked at one by one
-constexpr double kRounding = 1.0 + 1e-6;  // nodes are in float: their balls may not become smaller by it
-constexpr double kRounding_m = 0.01;      // the same of places, up to 80 km from the origin
+constexpr std::uint32_t kLeaf = 8;        // largest number of balls in a leaf
+constexpr double kRounding = 1.0 + 1e-6;  // nodes are float: enlarges their radius by more than its rounding
+constexpr double kRounding_m = 0.01;      // [m] covers the rounding of centres up to 80 km from the origin
 }  // namespace
 
 SphereTree::SphereTree(const std::vector<Ball>& balls, std::vector<std::uint32_t>& order) {

@@ -28,7 +28,7 @@ struct PositionHash {
   }
 };
 
-// New numbers for the vertices of a tile, and the vertices by them.
+// Numbers the vertices of a tile in the order of use, and stores them.
 class Numbering {
  public:
   Numbering(const std::vector<DraftVertex>& vertices, Tile& tile)
@@ -97,7 +97,8 @@ void finish_tile(const std::vector<DraftVertex>& vertices, std::vector<DraftTria
 
 namespace {
 
-constexpr double kEqualNormals = 0.9999;  // cosine: less than a degree apart
+constexpr double kEqualNormals =
+    0.9999;  // cosine of 0.8 degrees: normals closer than this to the triangle's are equal to it
 
 bool is_curved(const std::array<PlacedCorner, 3>& corners) {
   const Vector3 area = cross(corners[1].position - corners[0].position, corners[2].position - corners[0].position);
@@ -121,7 +122,7 @@ std::uint64_t bytes_in(const std::vector<Value>& values) {
 
 TileBuilders::TileBuilders(const Plane& plane, std::size_t model_vertices) : plane_(plane), copies_(model_vertices) {}
 
-// No room for a triangle more: bare and curved vertices may both be there, three of each.
+// True without space for another triangle. A vertex may be stored twice, bare and curved.
 bool TileBuilders::is_full(const Builder& builder) {
   return 2 * (builder.vertices.size() + 3) > Tile::kMaxVertices;
 }
