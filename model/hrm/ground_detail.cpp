@@ -12,8 +12,7 @@
 namespace yars::model::hrm {
 
 namespace {
-constexpr int kFinestEdge = 512;  // [texels] 512^2 words are 1 MiB, which fits the second-level cache; more would make
-                                  // every sample a cache miss
+constexpr int kFinestEdge = 512;          // [texels] 512^2 words are 1 MiB and fit the second-level cache
 constexpr double kFinestTexel_m = 4.0;    // [m] finer detail would be hidden by speckle
 constexpr double kLongestWave_m = 256.0;  // [m] longest wave; longer features come from the terrain's posts
 constexpr double kMetresPerDegree = 60.0 * geo::kMetresPerNauticalMile;

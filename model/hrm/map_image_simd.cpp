@@ -21,7 +21,7 @@ using Tag = hn::CappedTag<float, kMaxLanes>;
 using SignedTag = hn::RebindToSigned<Tag>;
 using BitsTag = hn::RebindToUnsigned<Tag>;
 using Floats = hn::Vec<Tag>;
-constexpr std::ptrdiff_t kPrefetchRows = 4;  // rows to prefetch ahead; fewer would arrive late
+constexpr std::ptrdiff_t kPrefetchRows = 4;  // rows to prefetch ahead
 
 // Index of row 0 of a column in the polar grid.
 HWY_INLINE hn::Vec<SignedTag> start_of(hn::Vec<SignedTag> column, std::int32_t strip_size) {

@@ -89,8 +89,8 @@ namespace {
 constexpr double kPathDetail_m = 60.0;  // [m] least spacing of samples on the path to the window
 constexpr int kReliefSteps = 24;        // positions along an edge of the window at which the relief is sampled
 constexpr double kReliefReserve = 1.2;  // factor for ground between the sampled positions
-constexpr double kMinSine =
-    0.02;  // lower bound of the sine of the grazing angle (1.1 degrees); below it shadows exceed any margin
+// Lower bound of the sine of the grazing angle (1.1 degrees); below it shadows exceed any margin.
+constexpr double kMinSine = 0.02;
 
 constexpr double kPixelsPerNode = 2.0;  // node spacing of the smoothed ground
 constexpr double kPixelsPerPost = 3.0;  // posts closer than this are not smoothed, because their facets are invisible

@@ -38,9 +38,9 @@ struct PatchTerrain {
 
 // Output arrays, indexed by PolarGrid::at(); `horizon` by column.
 struct GroundArrays {
-  SurfacePoint* surface = nullptr;  // a void has the height of its nearest known neighbour before it, else of the first
-                                    // known one, and gain 0
-  float* horizon = nullptr;         // greatest (height - above) / distance before row 0
+  // A void has gain 0 and the height of its known neighbour towards the aircraft, else of the first known point.
+  SurfacePoint* surface = nullptr;
+  float* horizon = nullptr;  // greatest (height - above) / distance before row 0
   // Crest between the previous row and this one: the height above the map plane [m] at which the line of sight over it
   // passes this row. -1e6 without a crest. Null: not computed.
   float* crest_m = nullptr;

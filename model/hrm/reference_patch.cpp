@@ -15,8 +15,8 @@ namespace {
 constexpr double kPathSpacing_m = 15.0;
 constexpr double kSeaSpacing_m = 100.0;
 constexpr double kWalkShare = 0.1;  // [post spacings] rows closer than this need no walk between them
-constexpr double kFineSteps =
-    40.0;  // steps a post on the path to closely spaced rows, because a crest's shadow edge must be exact to a row
+// Steps a post on the path to closely spaced rows, because a crest's shadow edge must be exact to a row.
+constexpr double kFineSteps = 40.0;
 constexpr double kNoTangent = -std::numeric_limits<double>::infinity();
 constexpr double kFacetPixels = 1.0 / 3.0;
 constexpr int kMaxPieces = 512;     // of an edge: limits the work for a face as large as the window

@@ -27,8 +27,8 @@ using Bits = hn::Vec<BitsTag>;
 constexpr std::size_t kFlushCount = 1024;    // fragments collected before they are stored
 constexpr std::size_t kPrefetchPoints = 24;  // fragments
 constexpr float kUnderRoof_m = 0.02F;        // [m] top of a wall below the edge of its roof, so that the roof wins
-constexpr float kMaxWall =
-    1.0e9F;  // [steps of kWallStep_m] limit of one wall, which keeps the conversion to int32 defined
+// [steps of kWallStep_m] limit of one wall, which keeps the conversion to int32 defined.
+constexpr float kMaxWall = 1.0e9F;
 constexpr std::uint32_t kFullWall = 0x7fffffffU;  // limit of a sum, which keeps the sums from wrapping
 
 // Maps a SurfacePoint, height in the upper and gain in the lower half, to an integer of the same order. Negative gains

@@ -118,8 +118,8 @@ void triangulate(std::span<const Vector3> corners, std::vector<std::array<std::u
 namespace {
 
 constexpr double kMaxCoordinate_m = 1e7;  // farther corners are damage
-constexpr double kFarOrigin_m =
-    50'000;  // distance of the first vertex from which Model::base is used; float would lose centimetres
+// Distance of the first vertex from which Model::base is used; float would lose centimetres.
+constexpr double kFarOrigin_m = 50'000;
 constexpr double kMinArea_m2 = 1e-10;  // twice the area of the smallest triangle with a direction
 
 std::array<float, 3> floats(Vector3 v) {

@@ -185,8 +185,8 @@ TreeParser::Done TreeParser::add_named(const Record& record, NodeKind kind) {
 
 TreeParser::Done TreeParser::add_group(const Record& record) {
   constexpr std::uint32_t kForward = 1U << 30, kSwing = 1U << 29, kBackward = 1U << 26;
-  constexpr std::int32_t kBackwardRevision =
-      1580;  // earlier revisions have no such bit; swing alone marks an animation
+  // Earlier revisions have no such bit; swing alone marks an animation.
+  constexpr std::int32_t kBackwardRevision = 1580;
   const auto flags = record.number_or<std::uint32_t>(16, 0);
   const std::uint32_t animation = kForward | (tree_.header.revision >= kBackwardRevision ? kBackward : kSwing);
   return add_named(record, NodeKind::group).map([&] {

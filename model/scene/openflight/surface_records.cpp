@@ -160,8 +160,8 @@ error::Expected<MeshPolygons> read_primitive(const Record& record, std::size_t p
 namespace {
 
 constexpr std::uint32_t kWhite = 0xFFFFFF;
-constexpr std::int32_t kIndexRevision =
-    1510;  // colours have an index field from here on; earlier the name field held it
+// Colours have an index field from here on; earlier the name field held it.
+constexpr std::int32_t kIndexRevision = 1510;
 
 // From alpha, blue, green, red.
 std::uint32_t rgb_of_abgr(std::uint32_t abgr) {

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kMaxDraped = 100'000;  // approximate number of draped triangles a scene; more lengthen the edges
 constexpr double kObjectCell_deg = 1.0 / 64.0;
-constexpr double kMaxPieces =
-    1'000'000;  // approximate number of scatterer pieces from a scene's large faces; more lengthen the edges
+// Approximate number of scatterer pieces from a scene's large faces; more lengthen the edges.
+constexpr double kMaxPieces = 1'000'000;
 
 Vector3 vector(const std::array<float, 3>& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};

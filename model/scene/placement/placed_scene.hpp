@@ -25,8 +25,8 @@
 namespace yars::model::scene {
 
 inline constexpr double kFlat_m = 1.0;  // largest |z| of draped objects
-inline constexpr double kDrapedEdge_m =
-    30.0;  // longest edge of draped triangles; below the post spacing of DTED level 2
+// Longest edge of draped triangles; below the post spacing of DTED level 2.
+inline constexpr double kDrapedEdge_m = 30.0;
 
 struct Placement {
   geo::GeoPoint position;

@@ -35,8 +35,8 @@ constexpr double kAzimuthBin_rad = std::numbers::pi / 45.0;    // 4 degrees, bel
 constexpr double kElevationBin_rad = std::numbers::pi / 12.0;  // 15 degrees
 constexpr std::uint32_t kWall = 1U << 31U;
 constexpr std::size_t kMaxSquares = 1U << 18U;  // of a scene, standing or lying; about 100 MB during placement
-constexpr double kMaxSquaresPerEdge =
-    64.0;  // limit of the squares along a lying piece; larger pieces coarsen the level
+// Limit of the squares along a lying piece; larger pieces coarsen the level.
+constexpr double kMaxSquaresPerEdge = 64.0;
 
 // Faces with equal keys are summed.
 std::uint32_t key_of(std::uint8_t material, geo::Vector3 normal) {

@@ -9,8 +9,8 @@ namespace yars::model::scene {
 
 namespace {
 
-constexpr double kMetresPerDegree =
-    110'500.0;  // less than any degree of a meridian, so ranges of cells are never too small
+// Less than any degree of a meridian, so ranges of cells are never too small.
+constexpr double kMetresPerDegree = 110'500.0;
 constexpr double kMeanRadius_m = 6'371'000.0;
 constexpr double kMaxCellsAcross = 512;  // wider queries test every disc
 

@@ -24,7 +24,7 @@ struct Disc {
 class GridIndex {
  public:
   GridIndex() = default;
-  // `cell_deg`: side of a grid square [deg]; fastest at about the radius of a typical query.
+  // `cell_deg`: side of a grid square, about the size of a typical query.
   GridIndex(const std::vector<Disc>& discs, double cell_deg);
 
   struct Hit {

@@ -97,8 +97,8 @@ void finish_tile(const std::vector<DraftVertex>& vertices, std::vector<DraftTria
 
 namespace {
 
-constexpr double kEqualNormals =
-    0.9999;  // cosine of 0.8 degrees: normals closer than this to the triangle's are equal to it
+// Cosine of 0.8 degrees: normals closer than this to the triangle's are equal to it.
+constexpr double kEqualNormals = 0.9999;
 
 bool is_curved(const std::array<PlacedCorner, 3>& corners) {
   const Vector3 area = cross(corners[1].position - corners[0].position, corners[2].position - corners[0].position);
