@@ -29,7 +29,7 @@ class Occluders {
 
  private:
   struct Span {
-    double least = 0.0, scale = 0.0;
+    double low = 0.0, scale = 0.0;
     int cells = 1;
     int cell(double value) const;
   };

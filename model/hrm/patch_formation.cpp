@@ -95,7 +95,7 @@ struct PatchFormation::Work {
   PolarArray<float> cross_section_m2, horizon, arc, crest_m;
   CrestsBetweenRows crests;  // crest_m is used if any() is true
   bool walls_dirty = false;  // a scene has been drawn, and profiles have not yet been cast
-  std::vector<float> distance_m, inverse_m, above_m, level_m;
+  std::vector<float> distance_m, inverse_m, above_plane_m, above_level_m;
   std::vector<simd::GasRow> gas_rows;  // empty: no attenuation by gases
   std::vector<std::size_t> pending;
   std::vector<std::uint8_t> ground_begun;  // by thread: PolarGround::begin() has been called for this map
@@ -156,13 +156,13 @@ void PatchFormation::Work::prepare_map() {
   horizon.resize(static_cast<std::size_t>(grid.columns));
   distance_m.clear();
   inverse_m.clear();
-  above_m.clear();
-  level_m.clear();
+  above_plane_m.clear();
+  above_level_m.clear();
   for (int row = 0; row < grid.rows; ++row) {
     distance_m.push_back(static_cast<float>(grid.distance_m(row)));
     inverse_m.push_back(static_cast<float>(1.0 / grid.distance_m(row)));
-    above_m.push_back(static_cast<float>(geometry->above_plane_m(grid.distance_m(row))));
-    level_m.push_back(static_cast<float>(geometry->above_level_m(grid.distance_m(row))));
+    above_plane_m.push_back(static_cast<float>(geometry->above_plane_m(grid.distance_m(row))));
+    above_level_m.push_back(static_cast<float>(geometry->above_level_m(grid.distance_m(row))));
   }
   fit_gas_rows();
   arc.resize(static_cast<std::size_t>(grid.columns));
@@ -238,8 +238,8 @@ void PatchFormation::Work::cast_profiles() {
           configuration.fidelity.map_double_bounce ? static_cast<float>(physics::ratio(bounce_db)) : 0.0F;
       strip.distance_m = distance_m.data();
       strip.inverse_m = inverse_m.data();
-      strip.above_m = above_m.data();
-      strip.level_m = level_m.data();
+      strip.above_plane_m = above_plane_m.data();
+      strip.above_level_m = above_level_m.data();
       if (!gas_rows.empty()) strip.gas = gas_rows.data();
       strip.arc = arc.data() + column;
       strip.horizon = horizon.data() + column;

@@ -108,8 +108,8 @@ terrain::GeoBox box_of(const scene::Tile& tile) {
   const auto east = [&](float metres) {
     return tile.origin.longitude_deg + static_cast<double>(metres) / (kMetresPerDegree * level);
   };
-  return {north(tile.bounds.north_least_m), north(tile.bounds.north_most_m), east(tile.bounds.east_least_m),
-          east(tile.bounds.east_most_m)};
+  return {north(tile.bounds.north_min_m), north(tile.bounds.north_max_m), east(tile.bounds.east_min_m),
+          east(tile.bounds.east_max_m)};
 }
 
 // Range of heights [m] above the map plane in and about the window.
@@ -145,7 +145,7 @@ Relief relief_of(const PatchGeometry& geometry, const terrain::TerrainView& grou
     relief.highest_m = std::max(relief.highest_m, part.highest_m);
   }
   for (const scene::Tile* tile : tiles) {
-    const double top_m = tile->zero_msl_m + static_cast<double>(tile->bounds.up_most_m) - geometry.plane_msl_m();
+    const double top_m = tile->zero_msl_m + static_cast<double>(tile->bounds.up_max_m) - geometry.plane_msl_m();
     relief.highest_m = std::max(relief.highest_m, top_m);
   }
   return relief;
@@ -158,10 +158,10 @@ double shadow_margin_m(const PatchGeometry& geometry, const std::vector<const sc
   double margin_m = 0.0;
   for (const scene::Tile* tile : tiles) {
     const scene::Bounds& bounds = tile->bounds;
-    const double shadow_m = static_cast<double>(bounds.up_most_m - bounds.up_least_m) / tangent;
+    const double shadow_m = static_cast<double>(bounds.up_max_m - bounds.up_min_m) / tangent;
     if (!(shadow_m > margin_m)) continue;
-    const double reach_m = std::hypot(static_cast<double>(std::max(-bounds.east_least_m, bounds.east_most_m)),
-                                      static_cast<double>(std::max(-bounds.north_least_m, bounds.north_most_m)));
+    const double reach_m = std::hypot(static_cast<double>(std::max(-bounds.east_min_m, bounds.east_max_m)),
+                                      static_cast<double>(std::max(-bounds.north_min_m, bounds.north_max_m)));
     const MapPoint origin = geometry.point_of(tile->origin);
     const double before_m =
         geometry.distance_m() - half_m - std::hypot(origin.right_m, origin.up_m + geometry.distance_m());

@@ -142,8 +142,8 @@ struct SurfacePoint {
 // Walls that face the radar in the profile step from the previous grid point to this one: sum of gamma times height,
 // and sum of heights, in steps of kWallStep_m. Integer sums do not depend on the drawing order.
 struct WallPoint {
-  std::uint32_t returned = 0;
-  std::uint32_t height = 0;
+  std::uint32_t returned_steps = 0;
+  std::uint32_t height_steps = 0;
 };
 inline constexpr float kWallStep_m = 1.0F / 4096.0F;
 

@@ -24,8 +24,8 @@ constexpr int kMaxRows = 8;
 
 // A point of the profile.
 struct Point {
-  Floats height;  // above the map plane
-  Floats up;      // relative to the aircraft
+  Floats height_m;  // above the map plane
+  Floats up_m;      // relative to the aircraft
   Floats tangent;
   Floats gain;
   Floats row;  // apparent row, set by with_image_row()
@@ -36,9 +36,9 @@ HWY_INLINE Point point_at(const Strip& strip, int row, std::size_t lane) {
   const auto at = static_cast<std::size_t>(row) * kStripColumns + lane;
   Point point;
   Floats gain;
-  hn::LoadInterleaved2(d, &strip.surface[at].gain, gain, point.height);
-  point.up = hn::Sub(point.height, hn::Set(d, strip.above_m[row]));
-  point.tangent = hn::Mul(point.up, hn::Set(d, strip.inverse_m[row]));
+  hn::LoadInterleaved2(d, &strip.surface[at].gain, gain, point.height_m);
+  point.up_m = hn::Sub(point.height_m, hn::Set(d, strip.above_plane_m[row]));
+  point.tangent = hn::Mul(point.up_m, hn::Set(d, strip.inverse_m[row]));
   point.gain = hn::Abs(gain);
   return point;
 }
@@ -49,8 +49,8 @@ HWY_INLINE Point raised_to_crest(const Strip& strip, int row, std::size_t lane, 
   if (strip.crest_m == nullptr) return point;
   const Tag d;
   const auto crest = hn::Load(d, strip.crest_m + static_cast<std::size_t>(row) * kStripColumns + lane);
-  point.up = hn::Max(point.up, hn::Sub(crest, hn::Set(d, strip.above_m[row])));
-  point.tangent = hn::Mul(point.up, hn::Set(d, strip.inverse_m[row]));
+  point.up_m = hn::Max(point.up_m, hn::Sub(crest, hn::Set(d, strip.above_plane_m[row])));
+  point.tangent = hn::Mul(point.up_m, hn::Set(d, strip.inverse_m[row]));
   return point;
 }
 
@@ -59,10 +59,10 @@ HWY_INLINE Point with_image_row(const Strip& strip, int row, Point point) {
   const Tag d;
   point.row = hn::Set(d, static_cast<float>(row));
   if (!strip.layover) return point;
-  const auto distance = hn::Set(d, strip.distance_m[row]);
-  const auto level = hn::Set(d, strip.level_m[row]);
-  const auto shift = hn::Mul(point.height, hn::Sub(point.height, hn::Add(level, level)));
-  const auto square = hn::Add(hn::Mul(distance, distance), shift);
+  const auto distance_m = hn::Set(d, strip.distance_m[row]);
+  const auto level_m = hn::Set(d, strip.above_level_m[row]);
+  const auto shift = hn::Mul(point.height_m, hn::Sub(point.height_m, hn::Add(level_m, level_m)));
+  const auto square = hn::Add(hn::Mul(distance_m, distance_m), shift);
   const auto seen_at = hn::Sqrt(hn::Max(square, hn::Zero(d)));
   point.row = hn::Mul(hn::Sub(seen_at, hn::Set(d, strip.first_distance_m)), hn::Set(d, 1.0F / strip.spacing_m));
   return point;
@@ -135,20 +135,21 @@ struct Walls {
   Floats gain;
 };
 
-HWY_INLINE Walls walls_at(const Strip& strip, std::size_t at, Floats climb, float step) {
+HWY_INLINE Walls walls_at(const Strip& strip, std::size_t at, Floats climb_m, float step_m) {
   const Tag d;
   const SignedTag di;
   const auto one = hn::Set(d, 1.0F);
   if (strip.walls == nullptr) return {hn::Lt(one, one), hn::Zero(d), hn::Zero(d)};
   const hn::RebindToUnsigned<Tag> db;
   hn::Vec<decltype(db)> steps_returned, steps_high;
-  hn::LoadInterleaved2(db, &strip.walls[at].returned, steps_returned, steps_high);
+  hn::LoadInterleaved2(db, &strip.walls[at].returned_steps, steps_returned, steps_high);
   const auto height = hn::ConvertTo(d, hn::BitCast(di, steps_high));
-  const auto present = hn::And(hn::Gt(height, hn::Zero(d)), hn::Gt(climb, hn::Set(d, kMinStep * step)));
+  const auto present = hn::And(hn::Gt(height, hn::Zero(d)), hn::Gt(climb_m, hn::Set(d, kMinStep * step_m)));
   if (hn::AllFalse(d, present)) return {present, hn::Zero(d), hn::Zero(d)};
   const auto sum = hn::ConvertTo(d, hn::BitCast(di, steps_returned));
   const auto tall = hn::IfThenElse(present, height, one);
-  const auto share = hn::Min(hn::Div(hn::Mul(tall, hn::Set(d, kWallStep_m)), hn::IfThenElse(present, climb, one)), one);
+  const auto share =
+      hn::Min(hn::Div(hn::Mul(tall, hn::Set(d, kWallStep_m)), hn::IfThenElse(present, climb_m, one)), one);
   return {present, share, hn::Div(sum, tall)};
 }
 
@@ -176,26 +177,26 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
     share = hn::IfThenElseZero(seen, hn::IfThenElse(whole, one, part));
   }
 
-  const float step = strip.distance_m[row] - strip.distance_m[row - 1];
-  const auto distance = hn::Set(d, 0.5F * (strip.distance_m[row] + strip.distance_m[row - 1]));
-  const auto up = hn::Mul(half, hn::Add(near.up, far.up));
-  const auto climb = hn::Sub(far.up, near.up);
-  const auto across = hn::Sub(hn::Mul(distance, climb), hn::Mul(up, hn::Set(d, step)));
-  const auto slant = hn::Sqrt(hn::Add(hn::Mul(distance, distance), hn::Mul(up, up)));
-  auto width = hn::Div(hn::Mul(hn::Mul(hn::Load(d, strip.arc + lane), distance), share), slant);
-  if (strip.gas != nullptr) width = hn::Mul(width, gas_transmission(strip.gas[row], far.height));
-  const auto area = hn::Mul(width, hn::Max(across, zero));
+  const float step_m = strip.distance_m[row] - strip.distance_m[row - 1];
+  const auto distance_m = hn::Set(d, 0.5F * (strip.distance_m[row] + strip.distance_m[row - 1]));
+  const auto up_m = hn::Mul(half, hn::Add(near.up_m, far.up_m));
+  const auto climb_m = hn::Sub(far.up_m, near.up_m);
+  const auto across = hn::Sub(hn::Mul(distance_m, climb_m), hn::Mul(up_m, hn::Set(d, step_m)));
+  const auto slant_m = hn::Sqrt(hn::Add(hn::Mul(distance_m, distance_m), hn::Mul(up_m, up_m)));
+  auto width = hn::Div(hn::Mul(hn::Mul(hn::Load(d, strip.arc + lane), distance_m), share), slant_m);
+  if (strip.gas != nullptr) width = hn::Mul(width, gas_transmission(strip.gas[row], far.height_m));
+  const auto area_m2 = hn::Mul(width, hn::Max(across, zero));
 
-  const Walls walls = walls_at(strip, static_cast<std::size_t>(row) * kStripColumns + lane, climb, step);
+  const Walls walls = walls_at(strip, static_cast<std::size_t>(row) * kStripColumns + lane, climb_m, step_m);
   const auto halves = hn::AndNot(walls.present, whole);
   const auto middle = hn::Mul(half, hn::Add(near.row, far.row));
   const auto begin = hn::Sub(far.row, hn::Mul(share, hn::Sub(far.row, near.row)));
   // A wall accounts for its share of the climb. The rest of the piece is the ground before it.
-  const auto face = hn::Mul(hn::Mul(width, hn::Mul(distance, climb)), walls.share);
-  const auto built = hn::Add(hn::Mul(face, walls.gain), hn::Mul(hn::Max(hn::Sub(area, face), zero), near.gain));
+  const auto face = hn::Mul(hn::Mul(width, hn::Mul(distance_m, climb_m)), walls.share);
+  const auto built = hn::Add(hn::Mul(face, walls.gain), hn::Mul(hn::Max(hn::Sub(area_m2, face), zero), near.gain));
   // Ground takes the gamma of the nearer row: half of a piece each.
-  const auto half_area = hn::Mul(half, area);
-  const auto open = hn::Mul(hn::IfThenElse(halves, half_area, area), far.gain);
+  const auto half_area_m2 = hn::Mul(half, area_m2);
+  const auto open = hn::Mul(hn::IfThenElse(halves, half_area_m2, area_m2), far.gain);
   // The wall and its foot lie within half a row of the farther point.
   const auto foot_row = hn::IfThenElse(hn::And(walls.present, whole), hn::Add(begin, one), begin);
   const auto start = hn::IfThenElse(halves, middle, foot_row);
@@ -204,7 +205,7 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   RowInterval first, second;
   first.low = hn::Min(near.row, middle);
   first.high = hn::Add(first.low, extent);
-  first.density = hn::IfThenElseZero(halves, hn::Mul(hn::Mul(half_area, near.gain), rows_inverse));
+  first.density = hn::IfThenElseZero(halves, hn::Mul(hn::Mul(half_area_m2, near.gain), rows_inverse));
   second.low = hn::Min(start, far.row);
   second.high = hn::Add(second.low, extent);
   second.density = hn::IfThenElseZero(seen, hn::Mul(hn::IfThenElse(walls.present, built, open), rows_inverse));
@@ -223,7 +224,7 @@ HWY_INLINE void clear_walls(const Strip& strip, int row, std::size_t lane) {
   if (strip.walls == nullptr) return;
   const hn::RebindToUnsigned<Tag> db;
   const auto at = static_cast<std::size_t>(row) * kStripColumns + lane;
-  std::uint32_t* const first = &strip.walls[at].returned;
+  std::uint32_t* const first = &strip.walls[at].returned_steps;
   std::uint32_t* const second = first + hn::Lanes(db);
   if (hn::AllTrue(db, hn::Eq(hn::Or(hn::Load(db, first), hn::Load(db, second)), hn::Zero(db)))) return;
   hn::Store(hn::Zero(db), db, first);

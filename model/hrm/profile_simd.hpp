@@ -26,15 +26,15 @@ struct Strip {
   int rows = 0;
   float first_distance_m = 0.0F;
   float spacing_m = 0.0F;
-  bool layover = true;                // false: every scatterer returns at its own distance over ground
-  float double_bounce = 0.0F;         // return of a wall's foot relative to the wall's; 0: none
-  const float* distance_m = nullptr;  // by row
-  const float* inverse_m = nullptr;   // 1 / distance, by row
-  const float* above_m = nullptr;     // aircraft above the map plane, by row
-  const float* level_m = nullptr;     // aircraft above the horizontal at the row, by row
-  const GasRow* gas = nullptr;        // by row; null: no attenuation
-  const float* arc = nullptr;         // width of a column over its distance, sixteen
-  const float* horizon = nullptr;     // greatest tangent before row 0, sixteen
+  bool layover = true;                   // false: every scatterer returns at its own distance over ground
+  float double_bounce = 0.0F;            // return of a wall's foot relative to the wall's; 0: none
+  const float* distance_m = nullptr;     // by row
+  const float* inverse_m = nullptr;      // 1 / distance, by row
+  const float* above_plane_m = nullptr;  // aircraft above the map plane, by row
+  const float* above_level_m = nullptr;  // aircraft above the horizontal at the row, by row
+  const GasRow* gas = nullptr;           // by row; null: no attenuation
+  const float* arc = nullptr;            // width of a column over its distance, sixteen
+  const float* horizon = nullptr;        // greatest tangent before row 0, sixteen
   // The following arrays are indexed by row and column.
   const SurfacePoint* surface = nullptr;  // the sign of the gain is ignored
   // Crest between the previous row and this one: the height above the map plane at which the line of sight over it

@@ -66,8 +66,8 @@ bool find_columns(const PatchGeometry& geometry, const PolarGrid& grid, PlacedTi
   placement.max_column = std::numeric_limits<float>::lowest();
   float min_row = placement.min_column;
   float max_row = placement.max_column;
-  for (const float east_m : {bounds.east_least_m, bounds.east_most_m}) {
-    for (const float north_m : {bounds.north_least_m, bounds.north_most_m}) {
+  for (const float east_m : {bounds.east_min_m, bounds.east_max_m}) {
+    for (const float north_m : {bounds.north_min_m, bounds.north_max_m}) {
       const GridPoint corner = on_grid(geometry, grid, placement, east_m, north_m);
       placement.min_column = std::min(placement.min_column, corner.column);
       placement.max_column = std::max(placement.max_column, corner.column);

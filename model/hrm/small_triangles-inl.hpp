@@ -136,12 +136,12 @@ class SmallTriangles {
     for (std::size_t i = 0; i < walls_; ++i) {
       hwy::Prefetch(canvas_.arrays.walls + fragments_.wall_at[std::min(i + kPrefetchPoints, walls_ - 1)]);
       WallPoint& point = canvas_.arrays.walls[fragments_.wall_at[i]];
-      point.height += fragments_.wall_height[i];
-      point.returned += fragments_.wall_return[i];
-      if (((point.height | point.returned) & ~kFullWall) == 0) [[likely]]
+      point.height_steps += fragments_.wall_height[i];
+      point.returned_steps += fragments_.wall_return[i];
+      if (((point.height_steps | point.returned_steps) & ~kFullWall) == 0) [[likely]]
         continue;
-      point.height = std::min(point.height, kFullWall);
-      point.returned = std::min(point.returned, kFullWall);
+      point.height_steps = std::min(point.height_steps, kFullWall);
+      point.returned_steps = std::min(point.returned_steps, kFullWall);
     }
     count_ = walls_ = 0;
   }

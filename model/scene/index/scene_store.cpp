@@ -33,10 +33,9 @@ bool is_within(const Tile& tile, double reach_m, geo::GeoPoint position, double 
   if (distance_m + reach_m <= radius_m) return true;
   const PlanePoint at = Plane(tile.origin).point_of(position);
   const Bounds& b = tile.bounds;
-  return std::hypot(
-             distance_outside(at.east_m, static_cast<double>(b.east_least_m), static_cast<double>(b.east_most_m)),
-             distance_outside(at.north_m, static_cast<double>(b.north_least_m), static_cast<double>(b.north_most_m))) <=
-         radius_m;
+  return std::hypot(distance_outside(at.east_m, static_cast<double>(b.east_min_m), static_cast<double>(b.east_max_m)),
+                    distance_outside(at.north_m, static_cast<double>(b.north_min_m),
+                                     static_cast<double>(b.north_max_m))) <= radius_m;
 }
 
 }  // namespace

@@ -240,8 +240,8 @@ class Placing {
     std::vector<Disc> discs;
     for (const Tile& tile : placed.tiles) {
       const Bounds& b = tile.bounds;
-      const double east_m = std::max(std::abs(b.east_least_m), std::abs(b.east_most_m));
-      const double north_m = std::max(std::abs(b.north_least_m), std::abs(b.north_most_m));
+      const double east_m = std::max(std::abs(b.east_min_m), std::abs(b.east_max_m));
+      const double north_m = std::max(std::abs(b.north_min_m), std::abs(b.north_max_m));
       placed.tile_reach_m.push_back(std::hypot(east_m, north_m));
       discs.push_back({tile.origin, placed.tile_reach_m.back()});
       placed.bytes += bytes_of(tile);

@@ -20,7 +20,7 @@ namespace yars::model::scene {
 
 // Bounding box in the tile's frame: metres east, north, up.
 struct Bounds {
-  float east_least_m = 0, east_most_m = 0, north_least_m = 0, north_most_m = 0, up_least_m = 0, up_most_m = 0;
+  float east_min_m = 0, east_max_m = 0, north_min_m = 0, north_max_m = 0, up_min_m = 0, up_max_m = 0;
 };
 
 // Triangles with their centres in one square of the earth; `bounds` covers them whole, also beyond the square. A square

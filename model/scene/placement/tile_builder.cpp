@@ -181,9 +181,9 @@ std::vector<Tile> TileBuilders::take(double zero_msl_m) {
       tile.zero_msl_m = std::isfinite(zero_msl_m) ? std::floor(zero_msl_m) : 0.0;
       finish_tile(builder->vertices, builder->triangles, tile);
       builder.reset();
-      find_bounds(tile.east_m, tile.bounds.east_least_m, tile.bounds.east_most_m);
-      find_bounds(tile.north_m, tile.bounds.north_least_m, tile.bounds.north_most_m);
-      find_bounds(tile.up_m, tile.bounds.up_least_m, tile.bounds.up_most_m);
+      find_bounds(tile.east_m, tile.bounds.east_min_m, tile.bounds.east_max_m);
+      find_bounds(tile.north_m, tile.bounds.north_min_m, tile.bounds.north_max_m);
+      find_bounds(tile.up_m, tile.bounds.up_min_m, tile.bounds.up_max_m);
       tiles.push_back(std::move(tile));
     }
     pieces.clear();

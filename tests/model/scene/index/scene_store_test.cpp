@@ -296,9 +296,9 @@ TEST(SceneView, FindsExactlyTheTilesWhoseBoundsAreWithinTheRadius) {
           const double north = way.distance.metres() * std::cos(way.azimuth_at_start.radians());
           const Bounds& b = tile->bounds;
           const double de =
-              std::max({0.0, static_cast<double>(b.east_least_m) - east, east - static_cast<double>(b.east_most_m)});
-          const double dn = std::max(
-              {0.0, static_cast<double>(b.north_least_m) - north, north - static_cast<double>(b.north_most_m)});
+              std::max({0.0, static_cast<double>(b.east_min_m) - east, east - static_cast<double>(b.east_max_m)});
+          const double dn =
+              std::max({0.0, static_cast<double>(b.north_min_m) - north, north - static_cast<double>(b.north_max_m)});
           if (std::hypot(de, dn) <= radius_m) expected.push_back(tile);
         }
         EXPECT_EQ(found, expected);
@@ -331,8 +331,8 @@ TEST(SceneView, TrianglesTurnCounterClockwiseAndBoundsHoldThem) {
           EXPECT_NEAR(length(normal), 1.0, 1e-4);
           wrong += dot(area, normal) <= 0.0 ? 1 : 0;
         }
-        EXPECT_LE(tile->east_m[i], tile->bounds.east_most_m);
-        EXPECT_GE(tile->up_m[i], tile->bounds.up_least_m);
+        EXPECT_LE(tile->east_m[i], tile->bounds.east_max_m);
+        EXPECT_GE(tile->up_m[i], tile->bounds.up_min_m);
       }
     }
     for (const auto& corner : tile->corner) EXPECT_EQ(corner.size(), tile->triangles());
