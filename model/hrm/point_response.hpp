@@ -31,7 +31,7 @@ class Response {
   // Power at a distance [cells] from a point; 1 at the point.
   double power(double cells) const;
 
-  // Convolves the image with the main lobe. Pixels whose sidelobes exceed `floor` are convolved with the sidelobes too.
+  // Convolves the image with the main lobe. Pixels with sidelobes above `floor` are convolved with the sidelobes too.
   // The main lobe conserves the sum of the image, but for what leaves it.
   void apply(float floor, const parallel::Executor& executor, MapImage& image);
   // Weights of the pixels from `first` on for a point at position `pixel`; their sum is 1.

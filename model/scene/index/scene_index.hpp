@@ -17,10 +17,8 @@
 
 namespace yars::model::scene {
 
-// Scene names: `FILE`, `FILE@LAT,LON` or `FILE@LAT,LON,HDG` in degrees. A file's name may hold coordinates in
-// degrees_minutes_seconds: N35_44_51W121_30_2.flt.
-
-// Errors: the text after the last '@' is not a position.
+// Parses a scene name: `FILE`, `FILE@LAT,LON` or `FILE@LAT,LON,HDG` in degrees. Errors: the text after the last '@' is
+// not a position.
 error::Expected<radar::Scene> parse_scene(const std::string& text);
 
 // Parses `texts` by parse_scene() and adds the scenes. Then adds `names` to the parts that each scene leaves out.
@@ -29,10 +27,11 @@ error::Expected<radar::Scene> parse_scene(const std::string& text);
 error::Expected<void> add_scenes(std::vector<radar::Scene>& scenes, const std::vector<std::string>& texts,
                                  const std::vector<std::string>& names);
 
-// Coordinates in a file's name, without its folder; nullopt without any.
+// Coordinates in a file's name without its folder, in degrees_minutes_seconds: N35_44_51W121_30_2.flt. Nullopt if the
+// name has none.
 std::optional<geo::GeoPoint> place_in_name(const std::string& name);
 
-// Reach [m] of a file without corners in its header. Too small would hide parts of large scenes.
+// Reach [m] of a file without corners in its header. A smaller value would hide parts of larger scenes.
 inline constexpr double kUnknownReach_m = 20'000.0;
 
 struct IndexedScene {

@@ -53,9 +53,10 @@ struct SceneStoreOptions {
   SceneUse use = SceneUse::triangles;
 };
 
-// prepare() loads files with a reach into the region and keeps them; other files are not opened. Beyond the memory
-// limit the scenes unused for longest are dropped, but none that the region needs. Terrain is sampled at its finest, so
-// heights do not depend on the region. Numbers of kinds and objects stay the same in later views.
+// Store of placed scenes. prepare() loads files with a reach into the region and keeps them; other files are not
+// opened. Beyond the memory limit the scenes unused for longest are dropped, but none that the region needs. Terrain is
+// sampled at its finest, so heights do not depend on the region. Numbers of kinds and objects stay the same in later
+// views.
 class SceneStore {
  public:
   // Errors: a file named by itself is missing, is not OpenFlight or has no position.

@@ -28,10 +28,10 @@ Vector3 newell_normal(std::span<const Vector3> corners);
 // Writes corner numbers of the triangles; clears `found` first.
 void triangulate(std::span<const Vector3> corners, std::vector<std::array<std::uint32_t, 3>>& found);
 
-// Flattening rules. Of sibling levels of detail those with the least switch-out distance are taken. Of a switch its
-// current mask is taken, of an animation the first frame. A two-sided polygon occurs twice, once for each side. A
-// subface lies 0.02 m before its face. Normals are unit vectors on the counter-clockwise side. The facet's normal
-// replaces a missing one, or one of the other side.
+// Vertex of a flattened scene. Of sibling levels of detail those with the least switch-out distance are taken. Of a
+// switch its current mask is taken, of an animation the first frame. A two-sided polygon occurs twice, once for each
+// side. A subface lies 0.02 m before its face. Normals are unit vectors on the counter-clockwise side. The facet's
+// normal replaces a missing one, or one of the other side.
 struct ModelVertex {
   std::array<float, 3> place_m{};  // relative to Model::base
   std::array<float, 3> normal{};
@@ -56,11 +56,9 @@ struct Model {
   std::vector<std::string> warnings;
 };
 
-inline constexpr float kSubfaceLift_m = 0.02F;
+inline constexpr float kSubfaceLift_m = 0.02F;  // of each subface level, along the normal of the face
 
-// Flattens a node tree: applies transforms, expands instances and replications, and omits nodes by `filter` (null:
-// none). `load` returns the model of an external file, or null to omit it. Errors: those of load(), exceeded limits,
-// nesting deeper than kMaxNodeDepth, for example of instances that contain themselves.
+// Nesting of nodes. Instances that contain themselves exceed it.
 inline constexpr int kMaxNodeDepth = 512;
 
 // Limits on the expansion of instances and replications: at most 1.6 GB of memory and about ten seconds.
@@ -72,6 +70,9 @@ struct FlattenLimits {
 
 using LoadExternal = std::function<error::Expected<std::shared_ptr<const Model>>(const std::string& name)>;
 
+// Flattens a node tree: applies transforms, expands instances and replications, and omits nodes by `filter` (null:
+// none). `load` returns the model of an external file, or null to omit it. Errors: those of load(), exceeded limits,
+// nesting deeper than kMaxNodeDepth.
 error::Expected<Model> flatten(const NodeTree& tree, const std::string& subject, const LoadExternal& load,
                                FlattenLimits limits = {}, NameFilter* filter = nullptr);
 

@@ -16,9 +16,9 @@
 
 namespace yars::model::scene {
 
-inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
-inline constexpr int kMaxReferenceDepth = 16;
-inline constexpr std::size_t kMaxFiles = 4096;
+inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;  // of one file; bounds memory
+inline constexpr int kMaxReferenceDepth = 16;                       // of external references
+inline constexpr std::size_t kMaxFiles = 4096;                      // external files of one scene
 
 // `filter`: names to leave out; null: none. Afterwards its complaint() reports names that matched nothing.
 error::Expected<Model> read_openflight(const std::filesystem::path& path, NameFilter* filter = nullptr);

@@ -103,10 +103,9 @@ class PlanPolygon {
   std::ptrdiff_t corners_ = 0;
 };
 
-// Edge of a triangle seen from above.
-
 using Corners3 = std::array<geo::Vector3, 3>;
 
+// Edge of a triangle seen from above.
 struct PlanEdge {
   std::size_t from = 0;  // number of its first corner
   double length_m = 0.0;
