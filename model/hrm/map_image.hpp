@@ -2,7 +2,7 @@
 // Frame: square, row 0 at the far edge, columns from left to right of the line of sight.
 // Units: power as gamma, namely the gamma of level ground at the centre with the same return.
 // Outputs: 8-bit video, 0 black to 255 white.
-// Source: docs/radar_maths.md, "Patch maps"; docs/spec/physics.md#receiver.
+// Source: docs/radar_maths.md, "Patch maps".
 #pragma once
 
 #include <cstdint>

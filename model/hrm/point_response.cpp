@@ -189,7 +189,7 @@ void Response::spread(const StrongBlock& strong, std::size_t first, std::size_t 
   const auto pitch = static_cast<std::ptrdiff_t>(pitch_);
   if (strong.row >= first && strong.row < last)
     simd::spread_along(strong.power.data(), along_reach_, &along_[along_middle_], at);
-  // Nearer rows: from row - taps + 1 to row - lobe; then the farther rows likewise.
+  // Rows above: from row - taps + 1 to row - lobe. Rows below likewise.
   const std::size_t nearest = strong.row >= last ? std::max(lobe, strong.row - last + 1) : lobe;
   const std::size_t farthest = strong.row >= first ? std::min(taps, strong.row - first + 1) : 0;
   if (nearest < farthest)
