@@ -1,8 +1,7 @@
 // Profile of sixteen columns of the polar grid: one pass down range for shadow, power and layover.
 // Inputs: a Strip: heights, gammas, crests and walls by row and column. Outputs: cross section [m^2] by apparent row.
 // The profile of a column is a polyline through its heights. The part of a piece above all nearer pieces is visible.
-// Power of a piece: gamma times its area seen square on, which is the angle that it fills times column width and
-// distance.
+// Power of a piece: gamma times its area seen square on, namely column width * angle * slant range.
 // So the power of a column is that of its visible angle, for any row spacing.
 // Determinism: Highway targets chosen at run time give equal bits.
 // Source: docs/radar_maths.md, "Patch maps".

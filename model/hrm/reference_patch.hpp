@@ -70,9 +70,8 @@ class ReferencePatch {
   const PolarGrid* grid_;
   // By PolarGrid::at().
   std::vector<double> height_m_;  // above the map plane; NaN: void
-  std::vector<double>
-      top_m_;  // likewise, raised to the line of sight over the crest between the previous row and this one
-  std::vector<double> horizon_;  // greatest tangent of all nearer ground
+  std::vector<double> top_m_;     // likewise, raised to the line of sight over the crest before this row
+  std::vector<double> horizon_;   // greatest tangent of all nearer ground
   std::vector<Face> faces_;
   Occluders occluders_;
   int size_ = 0;

@@ -172,9 +172,8 @@ class NameFilter {
 };
 
 // Parses the header record: revision, unit, origin, covered area. A position of exactly 0, 0 counts as absent, because
-// some files write it without one. Errors: not a header record, a revision outside 14 to 16.5, an unknown unit.
-
-// `bytes` may end after the header.
+// some files write it without one. Errors: not a header record, a revision outside 14 to 16.5, an unknown unit. `bytes`
+// may end after the header.
 error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject);
 
 }  // namespace yars::model::scene

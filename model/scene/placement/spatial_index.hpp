@@ -13,14 +13,14 @@
 
 namespace yars::model::scene {
 
-// Disc on the earth, for GridIndex. GridIndex finds the discs within a distance of a position at the cost of those
-// nearby. Longitudes wrap and poles need no special case. Distances come from the chord through WGS84, within 1 m up to
-// 500 km.
+// Disc on the earth, for GridIndex.
 struct Disc {
   geo::GeoPoint middle;
   double reach_m = 0.0;
 };
 
+// Finds the discs within a distance of a position at the cost of those nearby. Longitudes wrap and poles need no
+// special case. Distances come from the chord through WGS84, within 1 m up to 500 km.
 class GridIndex {
  public:
   GridIndex() = default;
@@ -57,13 +57,14 @@ class GridIndex {
   std::unordered_map<std::uint64_t, std::pair<std::uint32_t, std::uint32_t>> cells_;  // first and end in ordered_
 };
 
-// Ball in space, for SphereTree: a tree of bounding balls over balls ordered by position. A search skips the subtrees
-// with a bounding ball that does not meet, and allocates nothing. Equal inputs give equal trees.
+// Ball in space, for SphereTree.
 struct Ball {
   geo::Vector3 middle;
   double radius_m = 0.0;
 };
 
+// Tree of bounding balls over balls ordered by position. A search skips the subtrees with a bounding ball that does not
+// meet, and allocates nothing. Equal inputs give equal trees.
 class SphereTree {
  public:
   SphereTree() = default;
