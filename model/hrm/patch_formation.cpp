@@ -81,7 +81,7 @@ struct PatchFormation::Work {
   PatchOrder order;
   PatchEnvironment environment;
   PatchState state = PatchState::reset;
-  int done = 0;
+  int completed_stages = 0;
   std::optional<PatchGeometry> geometry;
   geo::Duration formation{};
   PolarGrid grid;
@@ -116,7 +116,7 @@ PatchNeed PatchFormation::begin(const PatchOrder& order) {
   work.order = order;
   work.environment = {};
   work.state = PatchState::database;
-  work.done = 0;
+  work.completed_stages = 0;
   return patch_need(order, work.configuration.fidelity);
 }
 
@@ -323,17 +323,17 @@ void PatchFormation::advance() {
   constexpr std::array<Stage, kPatchStages.size()> kStages{&Work::read_terrain, &Work::draw_scene, &Work::cast_profiles,
                                                            &Work::draw_map, &Work::draw_video};
   if (work.state != PatchState::processing && work.state != PatchState::output) return;
-  (work.*kStages[static_cast<std::size_t>(work.done)])();
-  ++work.done;
-  if (work.done == static_cast<int>(kStages.size()) - 1) work.state = PatchState::output;
-  if (work.done == static_cast<int>(kStages.size())) work.state = PatchState::done;
+  (work.*kStages[static_cast<std::size_t>(work.completed_stages)])();
+  ++work.completed_stages;
+  if (work.completed_stages == static_cast<int>(kStages.size()) - 1) work.state = PatchState::output;
+  if (work.completed_stages == static_cast<int>(kStages.size())) work.state = PatchState::done;
 }
 
 PatchState PatchFormation::state() const {
   return work_->state;
 }
 int PatchFormation::stages_done() const {
-  return work_->done;
+  return work_->completed_stages;
 }
 const std::vector<std::uint8_t>& PatchFormation::picture() const {
   return work_->picture;

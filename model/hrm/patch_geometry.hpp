@@ -90,8 +90,8 @@ class PatchGeometry {
 // at 9 km.
 double laid_over_m(double distance_m, double height_m, double above_level_m);
 
-// Columns of one strip. The grid is stored strip by strip, row by row within a strip, so one row of a strip is a cache
-// line of floats and a vector.
+// Columns of one strip. The grid is stored strip by strip, and row by row within a strip. One row of a strip is a cache
+// line of floats and a vector. Do not change: loops and indices rely on 16.
 inline constexpr int kStripColumns = 16;
 
 // Grid on which a patch map is computed: columns are evenly spaced in the tangent of their bearing against the

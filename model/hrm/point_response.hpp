@@ -79,7 +79,7 @@ struct Horizons {
 };
 
 // Point targets on a map, moving or at rest (for example corner reflectors). Radial speed v_r, positive towards the
-// radar, shifts the bearing forwards by v_r / (V sin(squint)), which is R v_r / V across a broadside line of sight.
+// radar, shifts the bearing forwards by v_r / (V sin(squint)). That is R v_r / V across a broadside line of sight.
 // Motion during the formation time smears the point.
 // Source: docs/spec/physics.md#movers; Raney, "Synthetic Aperture Imaging Radar and Moving Targets" (1971).
 class MapMovers {

@@ -147,10 +147,10 @@ HWY_INLINE Walls walls_at(const Strip& strip, std::size_t at, Floats climb_m, fl
   const auto present = hn::And(hn::Gt(height, hn::Zero(d)), hn::Gt(climb_m, hn::Set(d, kMinStep * step_m)));
   if (hn::AllFalse(d, present)) return {present, hn::Zero(d), hn::Zero(d)};
   const auto sum = hn::ConvertTo(d, hn::BitCast(di, steps_returned));
-  const auto tall = hn::IfThenElse(present, height, one);
+  const auto wall_steps = hn::IfThenElse(present, height, one);
   const auto share =
-      hn::Min(hn::Div(hn::Mul(tall, hn::Set(d, kWallStep_m)), hn::IfThenElse(present, climb_m, one)), one);
-  return {present, share, hn::Div(sum, tall)};
+      hn::Min(hn::Div(hn::Mul(wall_steps, hn::Set(d, kWallStep_m)), hn::IfThenElse(present, climb_m, one)), one);
+  return {present, share, hn::Div(sum, wall_steps)};
 }
 
 // Gas transmission of a row, at a height above the map plane.

@@ -12,7 +12,7 @@ namespace {
 constexpr int kTilesPerTask = 16;  // tiles
 
 // Position and axes of a tile on the map plane.
-PlacedTile placed(const PatchGeometry& geometry, const scene::Tile& tile) {
+PlacedTile placed_tile(const PatchGeometry& geometry, const scene::Tile& tile) {
   const geo::GeodesicInverse geodesic = geo::geodesic_inverse(geometry.apex(), tile.origin);
   const double turn_rad = (geodesic.azimuth_at_start - geometry.up()).radians();
   const double away_rad = geodesic.azimuth_at_end.radians();
@@ -88,7 +88,7 @@ std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const PolarGr
   parallel::parallel_for(executor, static_cast<int>(tiles.size()), kTilesPerTask,
                          [&](int first, int last, std::size_t) {
                            for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
-                             all[i] = placed(geometry, *tiles[i]);
+                             all[i] = placed_tile(geometry, *tiles[i]);
                              if (!find_columns(geometry, grid, all[i])) all[i].tile = nullptr;
                            }
                          });

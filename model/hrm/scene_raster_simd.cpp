@@ -50,7 +50,7 @@ HWY_INLINE void fill_wide(const Triangle& triangle, const Canvas& canvas, float 
   }
 }
 
-HWY_INLINE void fill_high(const Triangle& triangle, const Facet& facet, Floats gain, const Canvas& canvas) {
+HWY_INLINE void draw_wide_surface(const Triangle& triangle, const Facet& facet, Floats gain, const Canvas& canvas) {
   const Tag d;
   const auto negative = hn::Neg(gain);
   fill_wide(triangle, canvas, kSurfaceReach, [&](std::size_t at, Floats column, Floats row, Mask wanted) HWY_ATTR {
@@ -147,7 +147,7 @@ void draw_wide(const FoundTriangles& triangles, std::size_t first, const float* 
     const Corner a = corner_of(vertices, corners[0]);
     const Corner b = corner_of(vertices, corners[1]);
     const Corner c = corner_of(vertices, corners[2]);
-    fill_high(ordered(a, b, c), facet_of(a, b, c, canvas.limits), set(gain[lane]), canvas);
+    draw_wide_surface(ordered(a, b, c), facet_of(a, b, c, canvas.limits), set(gain[lane]), canvas);
   }
 }
 
@@ -180,7 +180,7 @@ void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, co
     if (hn::AllFalse(d, above)) continue;
     const auto gain = shaded(hn::Load(d, gamma), vertices, corners, facet);
     const auto wide = hn::And(above, hn::Gt(hn::Sub(triangle.right.column, triangle.left.column), set(kWideColumns)));
-    small.fill(triangle, facet, gain, hn::AndNot(wide, above));
+    small.draw_surfaces(triangle, facet, gain, hn::AndNot(wide, above));
     small.flush(false);
     if (hn::AllFalse(d, wide)) continue;
     HWY_ALIGN float gains[kStripColumns];

@@ -66,7 +66,7 @@ class SmallTriangles {
   SmallTriangles(const Canvas& canvas, Fragments& fragments) : canvas_(canvas), fragments_(fragments) {}
 
   // Draws surfaces. Each extends kSurfaceReach rows beyond its edges, so that its mean length is exact.
-  void fill(const Triangle& triangle, const Facet& facet, Floats gain, Mask active) {
+  void draw_surfaces(const Triangle& triangle, const Facet& facet, Floats gain, Mask active) {
     const Tag d;
     const auto rows = set(static_cast<float>(canvas_.grid->rows));
     const auto end = hn::Min(hn::Ceil(triangle.right.column), set(canvas_.limits.last_column));
@@ -85,7 +85,7 @@ class SmallTriangles {
       const auto base = hn::Add(facet.value, hn::Mul(facet.by_column, column));
       while (!hn::AllFalse(d, wanted)) {
         const auto height = hn::Add(base, hn::Mul(facet.by_row, hn::Min(hn::Max(row, near), far)));
-        keep(at, triangle.within(height), gain, wanted);
+        add_fragment(at, triangle.within(height), gain, wanted);
         at = hn::Add(at, hn::Set(BitsTag(), static_cast<std::uint32_t>(kStripColumns)));
         row = hn::Add(row, set(1.0F));
         wanted = hn::And(wanted, hn::Lt(row, last));
@@ -114,11 +114,11 @@ class SmallTriangles {
       const auto wanted = hn::And(active, hn::And(hn::Ge(row, hn::Zero(d)), hn::Lt(row, rows)));
       if (hn::AllFalse(d, wanted)) continue;
       const auto [along, beside] = heights_at.at(column);
-      const auto tall = hn::Abs(hn::Sub(along, beside));
+      const auto wall_height_m = hn::Abs(hn::Sub(along, beside));
       const auto at = index_on(*canvas_.grid, hn::IfThenElseZero(wanted, column), hn::IfThenElseZero(wanted, row));
-      keep_wall(at, tall, gain, wanted);
+      add_wall_fragment(at, wall_height_m, gain, wanted);
       // The top of the wall as a surface, for walls without a roof. A roof is higher and replaces it.
-      keep(at, hn::Sub(hn::Max(along, beside), set(kUnderRoof_m)), gain, wanted);
+      add_fragment(at, hn::Sub(hn::Max(along, beside), set(kUnderRoof_m)), gain, wanted);
     }
   }
 
@@ -147,7 +147,7 @@ class SmallTriangles {
   }
 
  private:
-  void keep(Bits at, Floats height, Floats gain, Mask wanted) {
+  void add_fragment(Bits at, Floats height, Floats gain, Mask wanted) {
     const BitsTag db;
     if (fragments_.at.size() < count_ + kStripColumns) fragments_.grow();
     const auto mask = hn::RebindMask(db, wanted);
@@ -156,7 +156,7 @@ class SmallTriangles {
     hn::StoreU(hn::Compress(hn::Neg(gain), wanted), Tag(), &fragments_.gain[count_]);
     count_ += hn::CountTrue(Tag(), wanted);
   }
-  void keep_wall(Bits at, Floats tall, Floats gain, Mask wanted) {
+  void add_wall_fragment(Bits at, Floats wall_height_m, Floats gain, Mask wanted) {
     const BitsTag db;
     const SignedTag di;
     if (fragments_.wall_at.size() < walls_ + kStripColumns) fragments_.grow_walls();
@@ -166,8 +166,8 @@ class SmallTriangles {
     };
     const auto mask = hn::RebindMask(db, wanted);
     hn::StoreU(hn::Compress(at, mask), db, &fragments_.wall_at[walls_]);
-    hn::StoreU(hn::Compress(steps(tall), mask), db, &fragments_.wall_height[walls_]);
-    hn::StoreU(hn::Compress(steps(hn::Mul(tall, gain)), mask), db, &fragments_.wall_return[walls_]);
+    hn::StoreU(hn::Compress(steps(wall_height_m), mask), db, &fragments_.wall_height[walls_]);
+    hn::StoreU(hn::Compress(steps(hn::Mul(wall_height_m, gain)), mask), db, &fragments_.wall_return[walls_]);
     walls_ += hn::CountTrue(Tag(), wanted);
   }
 

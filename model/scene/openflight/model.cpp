@@ -134,10 +134,10 @@ bool is_valid_position(Vector3 position) {
          std::abs(position.z) < kMaxCoordinate_m;
 }
 
-class Flattening {
+class Flattener {
  public:
-  Flattening(const NodeTree& tree, std::string subject, const LoadExternal& load, FlattenLimits limits,
-             NameFilter* filter)
+  Flattener(const NodeTree& tree, std::string subject, const LoadExternal& load, FlattenLimits limits,
+            NameFilter* filter)
       : tree_(tree), subject_(std::move(subject)), load_(load), limits_(limits), filter_(filter) {
     model_.header = tree.header;
     model_.counts = tree.counts;
@@ -357,7 +357,7 @@ class Flattening {
 
 error::Expected<Model> flatten(const NodeTree& tree, const std::string& subject, const LoadExternal& load,
                                FlattenLimits limits, NameFilter* filter) {
-  return Flattening(tree, subject, load, limits, filter).run();
+  return Flattener(tree, subject, load, limits, filter).run();
 }
 
 }  // namespace yars::model::scene

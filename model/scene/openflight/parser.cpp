@@ -348,7 +348,7 @@ TreeParser::Done TreeParser::add_mesh(const Record& record) {
 }
 
 TreeParser::Done TreeParser::add_pool(const Record& record) {
-  const int mesh = mesh_here();
+  const int mesh = current_mesh();
   if (mesh < 0) return {};
   if (tree_.vertices.size() + record.size() / 24 > kMaxVertices) return too_many(kMaxVertices, "vertices");
   MeshState& state = meshes_[static_cast<std::size_t>(mesh)];

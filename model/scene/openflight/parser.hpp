@@ -84,7 +84,7 @@ class TreeParser {
 
   const Level& parent() const { return levels_.empty() ? root_ : levels_.back(); }
   bool is_loose_face() const { return current_.face != kNone && current_.node == parent().node; }
-  int mesh_here() const { return current_.mesh >= 0 ? current_.mesh : parent().mesh; }
+  int current_mesh() const { return current_.mesh >= 0 ? current_.mesh : parent().mesh; }
 
   std::span<const std::byte> bytes_;
   std::string subject_;
