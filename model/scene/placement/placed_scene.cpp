@@ -32,10 +32,10 @@ struct Outline {
   bool flat() const { return least_z_m >= -kFlat_m && most_z_m <= kFlat_m; }
 };
 
-class ScenePlacer {
+class Placing {
  public:
-  ScenePlacer(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
-              std::uint32_t first_object, KindTable& kinds, SceneUse use, double max_reach_m)
+  Placing(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
+          std::uint32_t first_object, KindTable& kinds, SceneUse use, double max_reach_m)
       : model_(model),
         placement_(placement),
         ground_(ground),
@@ -282,7 +282,7 @@ class ScenePlacer {
 
 PlacedScene place_model(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
                         std::uint32_t first_object, KindTable& kinds, SceneUse use, double max_reach_m) {
-  return ScenePlacer(model, placement, ground, first_object, kinds, use, max_reach_m).run();
+  return Placing(model, placement, ground, first_object, kinds, use, max_reach_m).run();
 }
 
 }  // namespace yars::model::scene
