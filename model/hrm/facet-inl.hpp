@@ -93,7 +93,7 @@ class Edges {
 
 // Plane and orientation of a triangle.
 struct Facet {
-  Floats area;  // [grid cells]; greater than 0: seen from above
+  Floats area;  // twice the area [grid cells]; greater than 0: seen from above
   Floats across, ahead;
   Floats towards;                   // component of the normal towards the radar
   Floats length;                    // of the normal

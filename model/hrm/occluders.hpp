@@ -1,6 +1,5 @@
 // Set of triangles that can hide a point from the radar, for the algorithm `reference`.
-// Frame: metres from the radar, at the origin: x to the right of the map's line of sight, y ahead, z up. Rays are
-// straight.
+// Frame: the radar is the origin; x to the right of the map's line of sight, y ahead, z up [m]. Rays are straight.
 // Accuracy: double precision; surfaces nearer to the point than 2 cm do not hide it.
 // Acceleration: a grid over the directions lists the triangles that may cover each cell.
 #pragma once

@@ -77,7 +77,7 @@ PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, 
       std::max(nearest_m - 3.0 * grid.spacing_m - std::min(margins.near_m, max_margin_m), grid.spacing_m);
   const double far_m =
       std::hypot(centre_m + half_m, half_m) + 2.0 * grid.spacing_m + std::min(margins.far_m, max_margin_m);
-  // On the line ahead, rows lie on pixel centres, as columns do. Interpolation between rows would blur them.
+  // On the line ahead, rows lie on pixel centres, as columns do. Interpolation between rows would blur the picture.
   const double middle = std::fmod(0.5 * cells * (pixels % 2 == 0 ? 1.0 : 0.0), 1.0);
   const double before = std::floor((centre_m - near_m) / grid.spacing_m - middle) + middle;
   grid.first_distance_m = centre_m - before * grid.spacing_m;
@@ -224,8 +224,8 @@ PolarMargins polar_margins(const PatchGeometry& geometry, const terrain::Terrain
   const Relief relief = relief_of(geometry, ground, tiles, executor);
   const double sine = std::max(geometry.sin_grazing(), kMinSine);
   const double tangent = sine / std::sqrt(std::max(1.0 - sine * sine, 1e-6));
-  // Low ground is laid over away from the radar, high ground towards it. Objects before the near edge cast shadow into
-  // it.
+  // Low ground is laid over away from the radar, high ground towards it. Objects before the near edge cast shadow
+  // into the window.
   return {std::max(-relief.lowest_m * tangent, shadow_margin_m(geometry, tiles, tangent)), relief.highest_m * tangent};
 }
 
