@@ -1,5 +1,5 @@
-// Triangles of a scene seen from above on the grid, a lane each: their corners, their planes, how they face the radar.
-// Included once for each target.
+// Scene triangles on the polar grid, one a lane: corners, planes, orientation towards the radar.
+// Included once for each Highway target.
 #if defined(YARS_MODEL_HRM_FACET_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_HRM_FACET_INL
 #undef YARS_MODEL_HRM_FACET_INL
@@ -26,13 +26,13 @@ using BitsTag = hn::RebindToUnsigned<Tag>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-constexpr float kSmooth = 0.02F;  // vertices that face the radar so differently from the facet are interpolated
+constexpr float kSmooth = 0.02F;  // least difference of facing (cosine) between vertex and facet that is interpolated
 
 HWY_INLINE Floats set(float value) {
   return hn::Set(Tag(), value);
 }
 
-// A corner on the grid.
+// Corner of a triangle on the grid.
 struct Corner {
   Floats column, row, height;
 };
@@ -40,6 +40,7 @@ HWY_INLINE Corner chosen(Mask first, const Corner& a, const Corner& b) {
   return {hn::IfThenElse(first, a.column, b.column), hn::IfThenElse(first, a.row, b.row),
           hn::IfThenElse(first, a.height, b.height)};
 }
+// Swaps the corners if b lies left of a.
 HWY_INLINE void order(Corner& a, Corner& b) {
   const auto turned = hn::Lt(b.column, a.column);
   const Corner left = chosen(turned, b, a);
@@ -47,10 +48,10 @@ HWY_INLINE void order(Corner& a, Corner& b) {
   a = left;
 }
 
-// A triangle seen from above, its corners from left to right.
+// Triangle seen from above, corners from left to right.
 struct Triangle {
   Corner left, middle, right;
-  // No higher and no lower than its corners: the plane of one that is nearly upright is all rounding.
+  // Clamps a height to those of the corners: the plane of a nearly vertical triangle is rounding noise.
   HWY_INLINE Floats within(Floats height) const {
     const auto least = hn::Min(hn::Min(left.height, middle.height), right.height);
     const auto most = hn::Max(hn::Max(left.height, middle.height), right.height);
@@ -58,7 +59,7 @@ struct Triangle {
   }
 };
 
-// One number of the corners along the edges of a triangle, by column.
+// One value of the corners, interpolated along the edges of a triangle by column.
 class Edges {
  public:
   HWY_INLINE Edges(const Triangle& triangle, Floats Corner::*number)
@@ -68,7 +69,7 @@ class Edges {
         before_(slope(triangle.left, triangle.middle)),
         behind_(slope(triangle.middle, triangle.right)) {}
 
-  // On the long edge, and on the other two.
+  // Values on the long edge and on the two short edges.
   HWY_INLINE std::pair<Floats, Floats> at(Floats x) const {
     const auto from_left = hn::Sub(x, triangle_.left.column);
     const auto left = triangle_.left.*number_;
@@ -80,7 +81,7 @@ class Edges {
   }
 
  private:
-  // Of an edge that no column crosses it is no number, and nobody's.
+  // NaN or infinite for an edge that no column crosses; the value is not used then.
   HWY_INLINE Floats slope(const Corner& begin, const Corner& end) const {
     return hn::Div(hn::Sub(end.*number_, begin.*number_), hn::Sub(end.column, begin.column));
   }
@@ -90,13 +91,13 @@ class Edges {
   Floats along_, before_, behind_;
 };
 
-// What a triangle is to the radar.
+// Plane and orientation of a triangle.
 struct Facet {
-  Floats area;  // grid cells; more than 0: seen from above
+  Floats area;  // twice the area [grid cells]; greater than 0: seen from above
   Floats across, ahead;
-  Floats towards;                   // of the normal, to the radar
+  Floats towards;                   // component of the normal towards the radar
   Floats length;                    // of the normal
-  Floats value, by_column, by_row;  // its plane: value + by_column * column + by_row * row
+  Floats value, by_column, by_row;  // plane: value + by_column * column + by_row * row
   Mask steep;
 };
 HWY_INLINE Facet facet_of(const Corner& a, const Corner& b, const Corner& c, const GridLimits& limits) {
@@ -125,7 +126,7 @@ HWY_INLINE Facet facet_of(const Corner& a, const Corner& b, const Corner& c, con
   return facet;
 }
 
-// How much more or less squarely the interpolated normals face the radar than the facet does.
+// Factor on gamma: facing of the interpolated normals over facing of the facet, at most physics::kMaxShading.
 HWY_INLINE Floats shading(Floats a, Floats b, Floats c, const Facet& facet) {
   const Tag d;
   const auto facing = hn::Div(facet.towards, facet.length);
@@ -138,20 +139,21 @@ HWY_INLINE Floats shading(Floats a, Floats b, Floats c, const Facet& facet) {
   return hn::IfThenElse(smooth, ratio, set(1.0F));
 }
 
+// Gamma of walls with the cardinal effect, for the angle between their normals and the line of sight.
 HWY_INLINE Floats wall_gain(const CardinalShape& shape, const Facet& facet, Floats gamma, Floats cardinal) {
   const Tag d;
   const SignedTag di;
   const auto level = hn::Sqrt(hn::Add(hn::Mul(facet.across, facet.across), hn::Mul(facet.ahead, facet.ahead)));
   const auto sine = hn::Div(hn::Abs(facet.across), hn::Max(level, set(1.0e-20F)));
   const auto last = set(static_cast<float>(shape.share.size() - 2));
-  const auto place = hn::Mul(sine, set(shape.steps_a_sine));
-  const auto whole = hn::Floor(hn::Min(place, last));
+  const auto position = hn::Mul(sine, set(shape.steps_per_sine));
+  const auto whole = hn::Floor(hn::Min(position, last));
   const auto i = hn::ConvertTo(di, whole);
   const auto low = hn::GatherIndex(d, shape.share.data(), i);
   const auto high = hn::GatherIndex(d, shape.share.data() + 1, i);
   const auto share =
-      hn::Add(low, hn::Mul(hn::Sub(hn::Min(place, hn::Add(last, set(1.0F))), whole), hn::Sub(high, low)));
-  const auto ahead = hn::Lt(facet.ahead, hn::Zero(d));  // of two sides it is the near one that is square on
+      hn::Add(low, hn::Mul(hn::Sub(hn::Min(position, hn::Add(last, set(1.0F))), whole), hn::Sub(high, low)));
+  const auto ahead = hn::Lt(facet.ahead, hn::Zero(d));  // the radar-facing side of a wall has the effect
   return hn::Mul(gamma, hn::Add(set(1.0F), hn::IfThenElseZero(ahead, hn::Mul(cardinal, share))));
 }
 

@@ -13,16 +13,16 @@
 namespace yars::model::hrm {
 
 namespace {
-constexpr int kFinestEdge = 512;        // texels: 1 MiB, which the second-level cache holds
-constexpr double kFinestTexel_m = 4.0;  // detail below it is speckle's
-constexpr double kCoarsest_m = 256.0;   // [m] longest wave; beyond it the posts say what there is
+constexpr int kFinestEdge = 512;          // [texels] 512^2 words are 1 MiB and fit the second-level cache
+constexpr double kFinestTexel_m = 4.0;    // [m] finer detail would be hidden by speckle
+constexpr double kLongestWave_m = 256.0;  // [m] longest wave; longer features come from the terrain's posts
 constexpr float kMaxByte = 255.0F;
-constexpr std::uint32_t kSeed = 0x59a75u;
+constexpr std::uint32_t kSeed = 0x59a75u;  // fixed, so that the texture is the same in every run
 
-// Periodic fractal noise: octaves from the longest wave down to two texels, each as strong as the one before.
+// Periodic fractal noise: octaves from the longest wave down to two texels, all of the same amplitude.
 std::vector<float> fractal_table(int edge, double texel_m) {
   std::vector<float> table(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge), 0.0F);
-  for (double wave_m = kCoarsest_m; wave_m >= 2.0 * texel_m; wave_m *= 0.5) {
+  for (double wave_m = kLongestWave_m; wave_m >= 2.0 * texel_m; wave_m *= 0.5) {
     const int cells = std::max(1, static_cast<int>(std::lround(edge * texel_m / wave_m)));
     const double cell_texels = static_cast<double>(edge) / cells;
     const auto knot = [&](int x, int y) {
@@ -47,7 +47,7 @@ std::vector<float> fractal_table(int edge, double texel_m) {
   return table;
 }
 
-// Mean 1; half of the variance, for two of them are multiplied; never below a tenth.
+// Makes the noise log-normal with mean 1. Its variance is halved, because two samples are multiplied.
 void shape(std::vector<float>& table, double contrast) {
   double sum = 0.0;
   double squares = 0.0;
@@ -69,7 +69,7 @@ void shape(std::vector<float>& table, double contrast) {
 }  // namespace
 
 Detail::Detail(double contrast, double pixel_m) : pixel_m_(pixel_m), texels_per_metre_(0.0F), edge_(kFinestEdge) {
-  // A texel no smaller than half a pixel: finer waves would only flicker.
+  // A texel of at least half a pixel: finer waves would alias.
   double texel_m = kFinestTexel_m;
   while (texel_m < 0.5 * pixel_m && edge_ > simd::kDetailBlock) {
     texel_m *= 2.0;
@@ -95,25 +95,25 @@ void Detail::pack(const std::vector<float>& texels) {
           byte(x, y) | byte(x + 1, y) << 8 | byte(x, y + 1) << 16 | byte(x + 1, y + 1) << 24;
 }
 
-// Within its cell of one degree a place counts from the cell's corner, with degrees of longitude as long as in the
-// cell's middle. A ray runs through few cells: each run in one is one call.
-void Detail::modulate(const terrain::PlaceRun& places, float* gain) const {
+// Positions in a one-degree cell count from its corner, with degrees of longitude as long as in the middle of the cell.
+// A line of sight crosses few cells, and each run of positions in one cell is one call.
+void Detail::modulate(const terrain::PlaceRun& positions, float* gain) const {
   const simd::DetailTable table{table_.data(), edge_, unit_ * unit_};
   const auto north_scale = static_cast<float>(physics::kGridMetresPerDegree) * texels_per_metre_;
-  const std::size_t count = places.north_deg.size();
+  const std::size_t count = positions.north_deg.size();
   std::size_t first = 0;
   while (first < count) {
-    const std::size_t last =
-        first + terrain::look_up::places_alike(&places.cells_north[first], &places.cells_east[first], count - first);
-    const double middle_deg = places.corner.south_deg + static_cast<double>(places.cells_north[first]) + 0.5;
+    const std::size_t last = first + terrain::look_up::places_alike(&positions.cells_north[first],
+                                                                    &positions.cells_east[first], count - first);
+    const double middle_deg = positions.corner.south_deg + static_cast<double>(positions.cells_north[first]) + 0.5;
     const auto east_scale = north_scale * static_cast<float>(std::cos(middle_deg * geo::kRadiansPerDegree));
-    // Vectors overrun the end of a run: what they touch of the next is put back.
-    std::array<float, terrain::kRunSlack> behind{};
-    const std::size_t kept = std::min(behind.size(), count - last);
-    std::copy_n(gain + last, kept, behind.begin());
-    simd::modulate(last - first, table, &places.east_deg[first], &places.north_deg[first], east_scale, north_scale,
-                   gain + first);
-    std::copy_n(behind.begin(), kept, gain + last);
+    // Vectors write beyond the end of a run, so the gains of the next run are saved and restored.
+    std::array<float, terrain::kRunSlack> overrun{};
+    const std::size_t kept = std::min(overrun.size(), count - last);
+    std::copy_n(gain + last, kept, overrun.begin());
+    simd::modulate(last - first, table, &positions.east_deg[first], &positions.north_deg[first], east_scale,
+                   north_scale, gain + first);
+    std::copy_n(overrun.begin(), kept, gain + last);
     first = last;
   }
 }

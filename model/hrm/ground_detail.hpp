@@ -1,7 +1,9 @@
-// Made-up texture of the ground below the spacing of posts: what fields, tracks and stones make of a patch that would
-// else show the facets of the terrain. A factor on gamma, mean 1, that stays where it is on the earth: the same from
-// every direction and in every look. Two samples of one periodic table, turned and stretched against each other, so
-// that no period shows; coarser pixels read a table whose cells are averaged.
+// Synthetic texture of the ground below the post spacing, for example fields, tracks and stones.
+// Inputs: positions on the earth. Output: a factor on gamma with mean 1.
+// The factor depends on the position alone, so it is the same from every direction and in every look.
+// It is the product of two samples of one periodic texture, turned and stretched against each other to hide the period.
+// Coarser pixels use a texture with larger texels.
+// Source: docs/spec/physics.md#multi-look.
 #pragma once
 
 #include <cstddef>
@@ -14,13 +16,13 @@ namespace yars::model::hrm {
 
 class Detail {
  public:
-  // `contrast`: standard deviation of the factor; `pixel_m`: what the samples stand for.
+  // `contrast`: standard deviation of the natural logarithm of the factor. `pixel_m`: spacing of the samples.
   Detail(double contrast, double pixel_m);
 
   double pixel_m() const { return pixel_m_; }
-  double texel_m() const { return 1.0 / static_cast<double>(texels_per_metre_); }  // half its shortest wave
-  // gain[i] *= factor at the place; terrain::kRunSlack entries behind the last may be overwritten.
-  void modulate(const terrain::PlaceRun& places, float* gain) const;
+  double texel_m() const { return 1.0 / static_cast<double>(texels_per_metre_); }  // half the texture's shortest wave
+  // gain[i] *= factor at position i. Up to terrain::kRunSlack entries beyond the last may be read and written.
+  void modulate(const terrain::PlaceRun& positions, float* gain) const;
 
  private:
   void pack(const std::vector<float>& texels);
@@ -28,9 +30,9 @@ class Detail {
   double pixel_m_;
   float texels_per_metre_;
   int edge_;           // texels, a power of two
-  float unit_ = 1.0F;  // what one step of a byte is worth
-  // As simd::DetailTable has them: a byte each of the texel itself, the one to its right, and the two above them, so
-  // that what lies between the four is one look.
+  float unit_ = 1.0F;  // value of one byte step
+  // Layout of simd::DetailTable: a word holds a texel and its neighbours right, above and above right. One gather gives
+  // a bilinear sample.
   std::vector<std::uint32_t> table_;
 };
 

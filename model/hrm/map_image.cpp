@@ -12,7 +12,7 @@
 namespace yars::model::hrm {
 
 namespace {
-// Grazing nearly level would make the unit vanish; the picture is dark there anyway.
+// Floor of the sine of the grazing angle in the unit of power. Without it the unit would vanish near grazing 0.
 constexpr double kMinSine = 1.0e-3;
 }  // namespace
 
@@ -41,7 +41,7 @@ void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
   const double pixel_m = geometry.window_m() / image.size;
   const double edge_m = 0.5 * geometry.window_m();
   const geo::Angle squint = geometry.squint(ground_track);
-  // The whole picture clear of it by its half diagonal: nothing to look at.
+  // The whole picture is outside the blind zone by its half diagonal.
   const double half_view_deg =
       std::atan2(edge_m, std::max(geometry.distance_m() - edge_m, 1.0)) / geo::kRadiansPerDegree;
   const double off_deg = std::abs(squint.degrees());
@@ -60,8 +60,8 @@ void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
 }
 
 namespace {
-constexpr std::size_t kSlack = 16;  // entries that vectors may touch behind a row
-// Rows of cells count from -1: the first pixels lie before the middle of the first cell.
+constexpr std::size_t kSlack = 16;  // entries that vectors may touch beyond a row
+// Rows of cells count from -1, because the first pixels lie before the centre of the first cell.
 constexpr int kCellRows = radar::kCellsOfMap + 2;
 
 std::size_t padded(std::size_t count) {
@@ -83,20 +83,20 @@ Speckle::Speckle(int size, int looks, std::uint64_t seed, std::uint32_t map)
   second_.assign(pitch_, 0.0F);
   for (int pixel = 0; pixel < size_; ++pixel) {
     const auto i = static_cast<std::size_t>(pixel);
-    const Between place = between(pixel);
-    cell_[i] = place.cell;
-    first_[i] = place.first;
-    second_[i] = place.second;
+    const CellWeights weights = cell_weights(pixel);
+    cell_[i] = weights.cell;
+    first_[i] = weights.first;
+    second_[i] = weights.second;
   }
   cells_.assign(2 * padded(kCellRows), 0.0F);
   near_.assign(2 * static_cast<std::size_t>(looks_) * pitch_, 0.0F);
   far_ = near_;
 }
 
-Speckle::Between Speckle::between(int pixel) const {
-  const double place = (pixel + 0.5) * radar::kCellsOfMap / size_ - 0.5;
-  const double cell = std::floor(place);
-  const double second = place - cell;
+Speckle::CellWeights Speckle::cell_weights(int pixel) const {
+  const double cell_position = (pixel + 0.5) * radar::kCellsOfMap / size_ - 0.5;
+  const double cell = std::floor(cell_position);
+  const double second = cell_position - cell;
   const double first = 1.0 - second;
   const double scale = 1.0 / std::sqrt(first * first + second * second);
   return {static_cast<std::int32_t>(cell) + 1, static_cast<float>(first * scale), static_cast<float>(second * scale)};
@@ -120,18 +120,18 @@ const float* Speckle::row(int row) {
                            intensity_.data());
     return intensity_.data();
   }
-  const Between place = between(row);
-  while (drawn_ < place.cell + 1) {
+  const CellWeights weights = cell_weights(row);
+  while (drawn_row_ < weights.cell + 1) {
     near_.swap(far_);
-    drawn_ = drawn_ < place.cell ? place.cell : drawn_ + 1;
-    draw_cells(drawn_, far_);
+    drawn_row_ = drawn_row_ < weights.cell ? weights.cell : drawn_row_ + 1;
+    draw_cells(drawn_row_, far_);
   }
-  simd::intensity(pitch_, looks_, {near_.data(), place.first}, {far_.data(), place.second}, intensity_.data());
+  simd::intensity(pitch_, looks_, {near_.data(), weights.first}, {far_.data(), weights.second}, intensity_.data());
   return intensity_.data();
 }
 
 namespace {
-// Where the configured figure holds.
+// Slant range and window at which the configured noise gamma holds.
 constexpr double kNoiseRange_m = 20.0 * geo::kMetresPerNauticalMile;
 constexpr double kNoiseWindow_m = 0.67 * geo::kMetresPerNauticalMile;
 }  // namespace

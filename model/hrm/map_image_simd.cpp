@@ -7,7 +7,7 @@
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// Behind highway.h, or it would have no target yet.
+// After highway.h, which defines the target.
 #include "model/physics/clutter_simd-inl.hpp"
 #include "model/physics/polynomials-inl.hpp"
 
@@ -22,62 +22,62 @@ using Tag = hn::CappedTag<float, kMaxLanes>;
 using SignedTag = hn::RebindToSigned<Tag>;
 using BitsTag = hn::RebindToUnsigned<Tag>;
 using Floats = hn::Vec<Tag>;
-constexpr std::ptrdiff_t kFetchAhead = 4;  // rows
+constexpr std::ptrdiff_t kPrefetchRows = 4;  // rows to prefetch ahead
 
-// Where a column begins in the fan: its strip, and its place in a row of it.
+// Index of row 0 of a column in the polar grid.
 HWY_INLINE hn::Vec<SignedTag> start_of(hn::Vec<SignedTag> column, std::int32_t strip_size) {
   const SignedTag di;
   const auto strip = hn::ShiftRight<4>(column);
   return hn::Add(hn::Mul(strip, hn::Set(di, strip_size)), hn::And(column, hn::Set(di, kStripColumns - 1)));
 }
 
-void draw_row(const PolarGrid& grid, const float* fan, const MapRow& row, float* pixel) {
+void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow& row, float* pixel) {
   const Tag d;
   const SignedTag di;
   const auto ahead2 = hn::Set(d, row.ahead_m * row.ahead_m);
   const auto middle_column = hn::Set(d, static_cast<float>(-grid.first_tangent / grid.tangent_step));
-  const auto columns_a_metre = hn::Set(d, static_cast<float>(1.0 / grid.tangent_step) / row.ahead_m);
+  const auto columns_per_metre = hn::Set(d, static_cast<float>(1.0 / grid.tangent_step) / row.ahead_m);
   const auto first_distance = hn::Set(d, static_cast<float>(grid.first_distance_m));
-  const auto rows_a_metre = hn::Set(d, static_cast<float>(1.0 / grid.spacing_m));
+  const auto rows_per_metre = hn::Set(d, static_cast<float>(1.0 / grid.spacing_m));
   const auto last_column = hn::Set(di, grid.columns - 2);
   const auto last_row = hn::Set(di, grid.rows - 2);
   const auto nothing = hn::Zero(di);
   const auto strip_size = static_cast<std::int32_t>(grid.strip_size());
-  // A column is as wide as distance * step / (1 + tangent^2), which is step * ahead^2 / distance.
+  // Width of a column: distance * step / (1 + tangent^2) = step * ahead^2 / distance.
   const double ahead_m = static_cast<double>(row.ahead_m);
-  const auto scale_a_metre = hn::Set(
+  const auto scale_per_metre = hn::Set(
       d, static_cast<float>(static_cast<double>(row.scale) / (grid.tangent_step * grid.spacing_m * ahead_m * ahead_m)));
   const auto lanes = hn::ConvertTo(d, hn::Iota(di, 0));
   for (int i = 0; i < row.columns; i += static_cast<int>(hn::Lanes(d))) {
     const auto number = hn::Add(lanes, hn::Set(d, static_cast<float>(i)));
     const auto right = hn::Add(hn::Set(d, row.first_right_m), hn::Mul(number, hn::Set(d, row.pixel_m)));
     const auto distance = hn::Sqrt(hn::Add(hn::Mul(right, right), ahead2));
-    const auto x = hn::Add(middle_column, hn::Mul(right, columns_a_metre));
-    const auto y = hn::Mul(hn::Sub(distance, first_distance), rows_a_metre);
+    const auto x = hn::Add(middle_column, hn::Mul(right, columns_per_metre));
+    const auto y = hn::Mul(hn::Sub(distance, first_distance), rows_per_metre);
     const auto column = hn::Min(hn::Max(hn::ConvertTo(di, x), nothing), last_column);
     const auto line = hn::Min(hn::Max(hn::ConvertTo(di, y), nothing), last_row);
     const auto across = hn::Sub(x, hn::ConvertTo(d, column));
     const auto along = hn::Sub(y, hn::ConvertTo(d, line));
     const auto offset = hn::ShiftLeft<4>(line);
     const auto left_at = hn::Add(start_of(column, strip_size), offset);
-    // The rows below will look nearer: their streams, one a strip, are too many for the processor to see.
-    hwy::Prefetch(fan + hn::GetLane(left_at) - kFetchAhead * kStripColumns);
+    // Prefetches for the map rows below, which lie nearer. There are too many streams (one a strip) for the hardware.
+    hwy::Prefetch(cross_section_m2 + hn::GetLane(left_at) - kPrefetchRows * kStripColumns);
     const auto right_at = hn::Add(start_of(hn::Add(column, hn::Set(di, 1)), strip_size), offset);
-    const auto near_left = hn::GatherIndex(d, fan, left_at);
-    const auto near_right = hn::GatherIndex(d, fan, right_at);
-    const auto far_left = hn::GatherIndex(d, fan + kStripColumns, left_at);
-    const auto far_right = hn::GatherIndex(d, fan + kStripColumns, right_at);
+    const auto near_left = hn::GatherIndex(d, cross_section_m2, left_at);
+    const auto near_right = hn::GatherIndex(d, cross_section_m2, right_at);
+    const auto far_left = hn::GatherIndex(d, cross_section_m2 + kStripColumns, left_at);
+    const auto far_right = hn::GatherIndex(d, cross_section_m2 + kStripColumns, right_at);
     const auto near = hn::Add(near_left, hn::Mul(across, hn::Sub(near_right, near_left)));
     const auto far = hn::Add(far_left, hn::Mul(across, hn::Sub(far_right, far_left)));
     const auto value = hn::Add(near, hn::Mul(along, hn::Sub(far, near)));
-    const auto drawn = hn::Mul(value, hn::Mul(scale_a_metre, distance));
-    const auto left = static_cast<std::size_t>(row.columns - i);
-    if (left >= hn::Lanes(d)) {
+    const auto drawn = hn::Mul(value, hn::Mul(scale_per_metre, distance));
+    const auto remaining = static_cast<std::size_t>(row.columns - i);
+    if (remaining >= hn::Lanes(d)) {
       hn::StoreU(drawn, d, pixel + i);
     } else {
       HWY_ALIGN float last[kMaxLanes];
       hn::StoreU(drawn, d, last);
-      std::copy_n(last, left, pixel + i);
+      std::copy_n(last, remaining, pixel + i);
     }
   }
 }
@@ -120,8 +120,7 @@ void spread(const float* from, std::ptrdiff_t stride, std::span<const float> wei
   }
 }
 
-// What a block receives from each of the points in turn, summed before it is stored: neighbours' sums would wait for
-// one another.
+// Sums the contributions of all points to a block before the store. Otherwise each store would wait for the one before.
 void spread_along(const float* from, std::size_t reach, const float* middle, float* to) {
   const Tag d;
   std::size_t points[kBlock];
@@ -141,7 +140,7 @@ void spread_along(const float* from, std::size_t reach, const float* middle, flo
 
 constexpr float kLn2 = 0.693147181F;
 
-// Sine of a number of half turns in [-1/2, 1/2]: Taylor's series, error 4e-6.
+// Sine of half turns in [-1/2, 1/2]: Taylor series, error 4e-6.
 HWY_INLINE Floats sine(Floats half_turns) {
   const Tag d;
   const auto y = hn::Mul(half_turns, half_turns);
@@ -165,7 +164,7 @@ void draw_gaussian(std::size_t count, physics::NoiseState state, float* real, fl
     const auto high = hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<16>(bits)));
     const auto uniform = hn::Add(hn::Mul(high, hn::Set(d, kStep)), hn::Set(d, 0.5F * kStep));
     const auto radius = hn::Sqrt(hn::Mul(hn::Set(d, -kLn2), polynomials::log2(d, uniform)));
-    // Fifteen bits are an angle within half a turn, the last one is the sign of both parts.
+    // Bits 1 to 15 are an angle of half a turn; bit 0 is the sign of both parts.
     const auto low = hn::And(hn::ShiftRight<1>(bits), hn::Set(db, 0x7fffU));
     const auto angle =
         hn::Sub(hn::Mul(hn::ConvertTo(d, hn::BitCast(di, low)), hn::Set(d, 2.0F * kStep)), hn::Set(d, 0.5F));
@@ -214,8 +213,8 @@ namespace yars::model::hrm::simd {
 
 HWY_EXPORT(draw_row);
 
-void draw_row(const PolarGrid& grid, const float* fan, const MapRow& row, float* pixel) {
-  HWY_DYNAMIC_DISPATCH(draw_row)(grid, fan, row, pixel);
+void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow& row, float* pixel) {
+  HWY_DYNAMIC_DISPATCH(draw_row)(grid, cross_section_m2, row, pixel);
 }
 
 HWY_EXPORT(smooth);

@@ -1,4 +1,5 @@
-// Loops of the picture: rows drawn from the polar grid, impulse response, speckle.
+// Vector loops of the map image: sampling of the polar grid, impulse response, speckle.
+// Determinism: Highway targets chosen at run time give equal bits.
 #pragma once
 
 #include <cstddef>
@@ -10,55 +11,56 @@
 
 namespace yars::model::hrm::simd {
 
-// The fan drawn onto the rows of the map, by vectors (Highway, chosen at run time; equal bits on every target).
+// One row of the map and its position relative to the aircraft.
 struct MapRow {
   int columns = 0;             // pixels
   float first_right_m = 0.0F;  // of the first pixel
   float pixel_m = 0.0F;
-  float ahead_m = 0.0F;  // of the row: from the aircraft, along the line of sight
-  float scale = 1.0F;    // on what is found, besides 1 / (width of a column * spacing)
+  float ahead_m = 0.0F;  // aircraft to the row, along the line of sight to the centre
+  float scale = 1.0F;    // factor on the value per square metre
 };
 
-// pixel[i] = fan per square metre at the pixel, bilinear, times the scale. Pixels lie within the grid.
-void draw_row(const PolarGrid& grid, const float* fan, const MapRow& row, float* pixel);
+// pixel[i] = cross section per m^2 of the polar grid at the pixel, bilinear, times `scale`. Precondition: pixels lie
+// within the grid.
+void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow& row, float* pixel);
 
-// Sums over neighbours, by vectors (Highway, chosen at run time; equal bits on every target).
+// Entries of a block. The impulse response works on blocks of this size.
 inline constexpr std::size_t kBlock = 16;
 
-// to[i] = weights[0] * from[i] + sum over k > 0 of weights[k] * (from[i - k * stride] + from[i + k * stride]); `count`
-// is a multiple of a block.
+// to[i] = weights[0] * from[i] + sum over k > 0 of weights[k] * (from[i - k * stride] + from[i + k * stride]). `count`
+// is a multiple of kBlock.
 void smooth(std::size_t count, const float* from, std::ptrdiff_t stride, std::span<const float> weights, float* to);
 
-// to[i] = from[i] where it is greater than the limit, else 0, for a block. True if any is.
+// For one block: to[i] = from[i] if it exceeds `limit`, else 0. Returns true if any does.
 bool keep_above(const float* from, float limit, float* to);
 
-// to[i + k * stride] += weights[k] * from[i], for a block.
+// For one block: to[i + k * stride] += weights[k] * from[i].
 void spread(const float* from, std::ptrdiff_t stride, std::span<const float> weights, float* to);
 
-// to[i + k] += kernel[middle + k] * from[i], for a block and every k that is less than `reach` blocks away or as far;
-// the kernel is so long, and a block more on either side.
+// For one block: to[i + k] += middle[k] * from[i] for |k| <= reach * kBlock. `middle` is the centre of the kernel,
+// which has one further block on either side.
 void spread_along(const float* from, std::size_t reach, const float* middle, float* to);
 
-// The loops of speckle, by vectors (Highway, chosen at run time; equal bits on every target). Counts are multiples of
-// sixteen.
+// Speckle loops. Counts are multiples of 16.
 
-// Real and imaginary parts of variance 1/2 each: mean square 1. One draw of 32 bits a cell, after Box and Muller.
+// Complex Gaussian numbers of mean square 1: real and imaginary parts have variance 1/2 each. Box-Muller on one 32-bit
+// draw a cell.
 void draw_gaussian(std::size_t count, physics::NoiseState state, float* real, float* imaginary);
 
-// Two neighbours of a row, and their weights.
+// Interpolation between two neighbouring cells of a row.
 struct Neighbours {
-  const std::int32_t* cell;  // the first
+  const std::int32_t* cell;  // index of the first cell
   const float* first;
   const float* second;
 };
 void interpolate(std::size_t count, const Neighbours& where, const float* cells, float* field);
 
-// A row of the field, by look, real and imaginary, each `count` long; and what it weighs.
+// A row of the field: by look, real and imaginary parts, each `count` long; and its weight.
 struct WeightedField {
   const float* numbers;
   float weight;
 };
-// Mean over the looks of the squares of the weighted sum.
+// mean[i] = mean over the looks of the squared magnitude of the weighted sum of both rows.
 void intensity(std::size_t count, int looks, WeightedField near, WeightedField far, float* mean);
 
 }  // namespace yars::model::hrm::simd

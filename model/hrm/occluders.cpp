@@ -7,10 +7,10 @@
 namespace yars::model::hrm {
 
 namespace {
-constexpr double kClear_m = 0.02;  // what is nearer than this in front of a point is the point's own surface
-constexpr int kMaxCells = 2048;    // an edge of the grid
+constexpr double kClear_m = 0.02;  // surfaces nearer than this to the point are the point's own
+constexpr int kMaxCells = 2048;    // per side of the grid
 
-// True if the ray from the origin meets the triangle, `share` of the way to the point (Moeller and Trumbore 1997).
+// True if the ray from the origin through the point meets the triangle at `share` of the way (Moeller, Trumbore 1997).
 bool meets(const Occluders::Corners& corners, Point3 point, double& share) {
   const Point3 one = corners[1] - corners[0];
   const Point3 two = corners[2] - corners[0];
@@ -29,7 +29,7 @@ bool meets(const Occluders::Corners& corners, Point3 point, double& share) {
 }  // namespace
 
 int Occluders::Span::cell(double value) const {
-  return std::clamp(static_cast<int>((value - least) * scale), 0, cells - 1);
+  return std::clamp(static_cast<int>((value - low) * scale), 0, cells - 1);
 }
 
 Occluders::Occluders(std::vector<Corners> triangles) : triangles_(std::move(triangles)) {
@@ -49,25 +49,25 @@ Occluders::Occluders(std::vector<Corners> triangles) : triangles_(std::move(tria
 }
 
 void Occluders::measure() {
-  double least[2] = {std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
-  double most[2] = {std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
+  double low[2] = {std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+  double high[2] = {std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
   for (const Corners& corners : triangles_) {
-    for (const Point3 corner : corners) {
+    for (const Point3& corner : corners) {
       const double at[2] = {corner.x / corner.y, corner.z / corner.y};
       for (int axis = 0; axis < 2; ++axis) {
-        least[axis] = std::min(least[axis], at[axis]);
-        most[axis] = std::max(most[axis], at[axis]);
+        low[axis] = std::min(low[axis], at[axis]);
+        high[axis] = std::max(high[axis], at[axis]);
       }
     }
   }
-  // About two triangles a cell; a scene is seen flat, so most of the cells go side by side.
+  // About four cells a triangle. A scene appears flat, so it has twice as many columns as rows.
   const double cells = std::sqrt(static_cast<double>(triangles_.size()) * 2.0);
   const auto span = [&](int axis, double share) {
-    Span made;
-    made.least = least[axis];
-    made.cells = std::clamp(static_cast<int>(share * cells), 1, kMaxCells);
-    made.scale = most[axis] > least[axis] ? made.cells / (most[axis] - least[axis]) : 0.0;
-    return made;
+    Span axis_span;
+    axis_span.low = low[axis];
+    axis_span.cells = std::clamp(static_cast<int>(share * cells), 1, kMaxCells);
+    axis_span.scale = high[axis] > low[axis] ? axis_span.cells / (high[axis] - low[axis]) : 0.0;
+    return axis_span;
   };
   across_ = span(0, 2.0);
   upward_ = span(1, 1.0);
@@ -75,17 +75,17 @@ void Occluders::measure() {
 
 template <class Visit>
 void Occluders::visit_cells(const Corners& corners, const Visit& visit) const {
-  int least[2] = {across_.cells, upward_.cells};
-  int most[2] = {-1, -1};
-  for (const Point3 corner : corners) {
+  int low[2] = {across_.cells, upward_.cells};
+  int high[2] = {-1, -1};
+  for (const Point3& corner : corners) {
     const int at[2] = {across_.cell(corner.x / corner.y), upward_.cell(corner.z / corner.y)};
     for (int axis = 0; axis < 2; ++axis) {
-      least[axis] = std::min(least[axis], at[axis]);
-      most[axis] = std::max(most[axis], at[axis]);
+      low[axis] = std::min(low[axis], at[axis]);
+      high[axis] = std::max(high[axis], at[axis]);
     }
   }
-  for (int row = least[1]; row <= most[1]; ++row)
-    for (int column = least[0]; column <= most[0]; ++column)
+  for (int row = low[1]; row <= high[1]; ++row)
+    for (int column = low[0]; column <= high[0]; ++column)
       visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(across_.cells) + static_cast<std::size_t>(column));
 }
 

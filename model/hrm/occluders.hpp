@@ -1,5 +1,7 @@
-// Triangles that stand between the radar and what lies behind them, exact in double: the radar is the origin, rays are
-// straight. A grid over the directions holds, cell by cell, every triangle that may cover one of its directions.
+// Set of triangles that can hide a point from the radar, for the algorithm `reference`.
+// Frame: the radar is the origin; x to the right of the map's line of sight, y ahead, z up [m]. Rays are straight.
+// Accuracy: double precision; surfaces nearer to the point than 2 cm do not hide it.
+// Acceleration: a grid over the directions lists the triangles that may cover each cell.
 #pragma once
 
 #include <array>
@@ -11,33 +13,33 @@
 
 namespace yars::model::hrm {
 
-// Metres from the radar: x to the right of the map's line of sight, y ahead along it, z up.
+// Vector in the radar's frame [m].
 using Point3 = geo::Vector3;
 
 class Occluders {
  public:
   using Corners = std::array<Point3, 3>;
 
-  // Triangles with a corner that is not ahead of the radar are left out.
+  // Ignores triangles with a corner less than 1 m ahead of the radar.
   explicit Occluders(std::vector<Corners> triangles = {});
 
-  // True if a triangle lies between the radar and the point, nearer than it by more than 2 cm.
+  // True if a triangle hides the point, more than 2 cm in front of it.
   bool hide(Point3 point) const;
 
  private:
   struct Span {
-    double least = 0.0, scale = 0.0;
+    double low = 0.0, scale = 0.0;
     int cells = 1;
     int cell(double value) const;
   };
   void measure();
-  // Calls visit(cell) for those that the triangle may cover.
+  // Calls visit(cell) for the cells within the triangle's bounding box.
   template <class Visit>
   void visit_cells(const Corners& corners, const Visit& visit) const;
 
   std::vector<Corners> triangles_;
   Span across_, upward_;
-  std::vector<std::uint32_t> begin_;  // of each cell in entries_, and the end
+  std::vector<std::uint32_t> begin_;  // first index in entries_ of each cell, and the end
   std::vector<std::uint32_t> entries_;
 };
 

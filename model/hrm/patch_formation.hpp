@@ -1,6 +1,10 @@
-// A patch map in the making, as the 1996 report has it: reset, database, processing, output. The caller gives the
-// terrain and the scene that the database state names, and calls advance() until the picture is there; between two
-// calls it may do other things or give up. Equal input gives equal bits, for any number of threads and any slices.
+// Formation of one patch map (high resolution map), stage by stage.
+// Inputs: a PatchOrder, terrain of the window and of the path to it, scene, traffic.
+// Outputs: a square picture of 8-bit video, row 0 at the far edge, and the power before speckle and noise.
+// Use: begin(), give(), then advance() until state() is `done`. A map may be abandoned by calling begin() again.
+// Determinism: equal inputs give equal bits, for any number of threads.
+// Threads: one caller at a time; stages run on the executor's threads.
+// Source: docs/spec/physics.md#hrm; the states are those of the 1996 report.
 #pragma once
 
 #include <array>
@@ -23,7 +27,7 @@ namespace yars::model::hrm {
 
 enum class PatchState : std::uint8_t { reset, database, processing, output, done };
 
-// What the database state is given, see patch_need().
+// Inputs of the state `database`. The terrain views cover the regions that patch_need() returns.
 struct PatchEnvironment {
   terrain::TerrainViewPointer window;
   terrain::TerrainViewPointer path;
@@ -35,24 +39,24 @@ inline constexpr std::array<std::string_view, 5> kPatchStages{"terrain", "scene"
 
 class PatchFormation {
  public:
-  PatchFormation(const radar::RadarConfiguration& configuration, parallel::Executor crew);
+  PatchFormation(const radar::RadarConfiguration& configuration, parallel::Executor executor);
   ~PatchFormation();
   PatchFormation(PatchFormation&&) noexcept;
   PatchFormation& operator=(PatchFormation&&) noexcept;
 
-  PatchNeed begin(const PatchOrder& order);     // any state -> database
-  void give(const PatchEnvironment& database);  // database -> processing
-  void advance();                               // a stage: processing -> ... -> output -> done
+  PatchNeed begin(const PatchOrder& order);        // any state -> database
+  void give(const PatchEnvironment& environment);  // database -> processing
+  void advance();                                  // runs one stage: processing -> ... -> output -> done
   PatchState state() const;
-  int stages_done() const;  // of kPatchStages
+  int stages_done() const;  // number of kPatchStages that are complete
 
-  // When done: rows from the far edge, 0 black to 255 white.
+  // Valid in state `done`: rows from the far edge, 0 black to 255 white.
   const std::vector<std::uint8_t>& picture() const;
-  // When the map stage is done: gamma of level ground, see map_image.hpp; before speckle and noise.
+  // Valid after the stage `map`: power before speckle and noise, in the unit of map_image.hpp.
   const MapImage& image() const;
   const PatchGeometry& geometry() const;
   geo::Duration formation() const;
-  std::size_t triangles() const;      // of the tiles of the scene that come near
+  std::size_t triangles() const;      // in the scene tiles near the window
   std::size_t posts_pending() const;  // samples over terrain that was not loaded
 
  private:

@@ -14,14 +14,14 @@ PatchGeometry::PatchGeometry(const PatchOrder& order, const radar::Fidelity& fid
       distance_m_(0.0),
       window_m_(order.window.metres()),
       earth_(0.0) {
-  const geo::GeodesicInverse way = geo::geodesic_inverse(order.apex, order.centre);
-  distance_m_ = way.distance.metres();
-  up_ = way.azimuth_at_start;
+  const geo::GeodesicInverse geodesic = geo::geodesic_inverse(order.apex, order.centre);
+  distance_m_ = geodesic.distance.metres();
+  up_ = geodesic.azimuth_at_start;
   earth_ = physics::effective_earth(fidelity, apex_, up_);
 }
 
-MapPoint PatchGeometry::point_of(geo::GeoPoint place) const {
-  const geo::PlanePoint point = geo::AzimuthalEquidistant(apex_, up_).plane_from_geodetic(place);
+MapPoint PatchGeometry::point_of(geo::GeoPoint position) const {
+  const geo::PlanePoint point = geo::AzimuthalEquidistant(apex_, up_).plane_from_geodetic(position);
   return {point.x_m, point.y_m - distance_m_};
 }
 
@@ -33,7 +33,7 @@ double PatchGeometry::height_on_sight_m(double distance_m, double tangent) const
   const double angle_rad = distance_m * earth_.curvature();
   const double sine = std::sin(angle_rad);
   const double chord_m = angle_rad > 0.0 ? earth_.radius_m() * sine : distance_m;
-  // tangent = (height cos - drop - altitude) / (chord + height sin)
+  // tangent = (height cos - above) / (chord + height sin), heights above mean sea level
   const double above_m = altitude_m_ + earth_.drop_m(distance_m);
   return (above_m + tangent * chord_m) / (std::cos(angle_rad) - tangent * sine) - plane_msl_m_;
 }
@@ -52,8 +52,8 @@ double laid_over_m(double distance_m, double height_m, double above_level_m) {
 }
 
 namespace {
-// A margin taller than the picture by this factor is cut: mountains above the aircraft would ask for any number.
-constexpr double kMaxRowsAPixel = 4.0;
+// Limit of each margin in windows. Mountains above the aircraft would otherwise make the grid arbitrarily large.
+constexpr double kMaxMarginWindows = 4.0;
 }  // namespace
 
 PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, const PolarMargins& margins) {
@@ -63,17 +63,19 @@ PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, 
   grid.centre_distance_m = centre_m;
   grid.spacing_m = geometry.window_m() / (pixels * cells);
   grid.tangent_step = grid.spacing_m / centre_m;
-  // The near corners are seen under the widest angle; a pixel more, for interpolation looks at both neighbours.
+  // The near corners have the widest angle. A further pixel serves the interpolation.
   const double nearest_m = std::max(centre_m - half_m, grid.spacing_m);
   const double widest = half_m / nearest_m + 2.0 * grid.tangent_step;
   const int columns = static_cast<int>(std::ceil(2.0 * widest / grid.tangent_step));
   grid.columns = (columns + kStripColumns - 1) / kStripColumns * kStripColumns;
   grid.first_tangent = -0.5 * (grid.columns - 1) * grid.tangent_step;
 
-  const double most_m = kMaxRowsAPixel * geometry.window_m();
-  const double near_m = std::max(nearest_m - 3.0 * grid.spacing_m - std::min(margins.near_m, most_m), grid.spacing_m);
-  const double far_m = std::hypot(centre_m + half_m, half_m) + 2.0 * grid.spacing_m + std::min(margins.far_m, most_m);
-  // Ahead of the centre rows lie on the middles of pixels, as columns do: what lies between rows is less sharp.
+  const double max_margin_m = kMaxMarginWindows * geometry.window_m();
+  const double near_m =
+      std::max(nearest_m - 3.0 * grid.spacing_m - std::min(margins.near_m, max_margin_m), grid.spacing_m);
+  const double far_m =
+      std::hypot(centre_m + half_m, half_m) + 2.0 * grid.spacing_m + std::min(margins.far_m, max_margin_m);
+  // On the line ahead, rows lie on pixel centres, as columns do. Interpolation between rows would blur the picture.
   const double middle = std::fmod(0.5 * cells * (pixels % 2 == 0 ? 1.0 : 0.0), 1.0);
   const double before = std::floor((centre_m - near_m) / grid.spacing_m - middle) + middle;
   grid.first_distance_m = centre_m - before * grid.spacing_m;
@@ -82,18 +84,19 @@ PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, 
 }
 
 namespace {
-constexpr double kPathDetail_m = 60.0;  // between samples on the way, at least
-constexpr int kReliefSteps = 24;        // places along an edge of the window at which the relief is looked at
-constexpr double kReliefReserve = 1.2;  // what lies between them may stand out so much more
-constexpr double kMinSine = 0.02;       // shadows grow beyond any margin below a degree
+constexpr double kPathDetail_m = 60.0;  // [m] least spacing of samples on the path to the window
+constexpr int kReliefSteps = 24;        // positions along an edge of the window at which the relief is sampled
+constexpr double kReliefReserve = 1.2;  // factor for ground between the sampled positions
+// Lower bound of the sine of the grazing angle (1.1 degrees); below it shadows exceed any margin.
+constexpr double kMinSine = 0.02;
 
-constexpr double kPixelsANode = 2.0;  // of smooth ground
-constexpr double kPixelsAPost = 3.0;  // closer posts are not smoothed: no picture shows their facets
-constexpr int kReferenceParts = 10;   // of an interval of posts, at least
+constexpr double kPixelsPerNode = 2.0;  // node spacing of the smoothed ground
+constexpr double kPixelsPerPost = 3.0;  // posts closer than this are not smoothed, because their facets are invisible
+constexpr int kReferenceParts = 10;     // least number of parts of a post interval for `reference`
 constexpr int kOutlineSteps = 8;
-constexpr double kOutlineMargin = 0.01;  // of the box about the fan
+constexpr double kOutlineMargin = 0.01;  // of the box about the polar grid
 
-// What a tile covers, seen from above.
+// Box about a tile on the earth.
 terrain::GeoBox box_of(const scene::Tile& tile) {
   const double level = std::max(std::cos(tile.origin.latitude_deg * geo::kRadiansPerDegree), 0.01);
   const auto north = [&](float metres) {
@@ -102,16 +105,17 @@ terrain::GeoBox box_of(const scene::Tile& tile) {
   const auto east = [&](float metres) {
     return tile.origin.longitude_deg + static_cast<double>(metres) / (geo::kMinMetresPerDegree * level);
   };
-  return {north(tile.bounds.north_least_m), north(tile.bounds.north_most_m), east(tile.bounds.east_least_m),
-          east(tile.bounds.east_most_m)};
+  return {north(tile.bounds.north_min_m), north(tile.bounds.north_max_m), east(tile.bounds.east_min_m),
+          east(tile.bounds.east_max_m)};
 }
 
-// The span of heights [m] above the map plane in and about the window.
+// Range of heights [m] above the map plane in and about the window.
 struct Relief {
   double lowest_m = 0.0;
   double highest_m = 0.0;
 };
 
+// Extends `relief` by the ground at the sampled columns [first, last).
 void widen(const PatchGeometry& geometry, const terrain::TerrainView& ground, int first, int last, Relief& relief) {
   const double reach_m = 0.75 * geometry.window_m();
   for (int i = first; i < last; ++i) {
@@ -127,9 +131,9 @@ void widen(const PatchGeometry& geometry, const terrain::TerrainView& ground, in
 }
 
 Relief relief_of(const PatchGeometry& geometry, const terrain::TerrainView& ground,
-                 const std::vector<const scene::Tile*>& tiles, const parallel::Executor& crew) {
-  std::vector<Relief> reliefs(crew.threads);
-  parallel::parallel_for(crew, kReliefSteps + 1, 1, [&](int first, int last, std::size_t thread) {
+                 const std::vector<const scene::Tile*>& tiles, const parallel::Executor& executor) {
+  std::vector<Relief> reliefs(executor.threads);
+  parallel::parallel_for(executor, kReliefSteps + 1, 1, [&](int first, int last, std::size_t thread) {
     widen(geometry, ground, first, last, reliefs[thread]);
   });
   Relief relief;
@@ -138,28 +142,28 @@ Relief relief_of(const PatchGeometry& geometry, const terrain::TerrainView& grou
     relief.highest_m = std::max(relief.highest_m, part.highest_m);
   }
   for (const scene::Tile* tile : tiles) {
-    const double top_m = tile->zero_msl_m + static_cast<double>(tile->bounds.up_most_m) - geometry.plane_msl_m();
+    const double top_m = tile->zero_msl_m + static_cast<double>(tile->bounds.up_max_m) - geometry.plane_msl_m();
     relief.highest_m = std::max(relief.highest_m, top_m);
   }
   return relief;
 }
 
-// How far before the near edge the things of the scene stand whose shadows reach over it, at most [m]. A shadow is as
-// long as its tile is tall, over the tangent; most tiles are too low to be asked where they lie.
-double shading_m(const PatchGeometry& geometry, const std::vector<const scene::Tile*>& tiles, double tangent) {
+// Greatest distance [m] before the near edge from which a tile casts shadow across it. A shadow is as long as the
+// tile's height over the tangent. Tiles too low to extend the margin are skipped before the geodesic is solved.
+double shadow_margin_m(const PatchGeometry& geometry, const std::vector<const scene::Tile*>& tiles, double tangent) {
   const double half_m = 0.5 * geometry.window_m();
   double margin_m = 0.0;
   for (const scene::Tile* tile : tiles) {
     const scene::Bounds& bounds = tile->bounds;
-    const double shadow_m = static_cast<double>(bounds.up_most_m - bounds.up_least_m) / tangent;
+    const double shadow_m = static_cast<double>(bounds.up_max_m - bounds.up_min_m) / tangent;
     if (!(shadow_m > margin_m)) continue;
-    const double reach_m = std::hypot(static_cast<double>(std::max(-bounds.east_least_m, bounds.east_most_m)),
-                                      static_cast<double>(std::max(-bounds.north_least_m, bounds.north_most_m)));
+    const double reach_m = std::hypot(static_cast<double>(std::max(-bounds.east_min_m, bounds.east_max_m)),
+                                      static_cast<double>(std::max(-bounds.north_min_m, bounds.north_max_m)));
     const MapPoint origin = geometry.point_of(tile->origin);
     const double before_m =
         geometry.distance_m() - half_m - std::hypot(origin.right_m, origin.up_m + geometry.distance_m());
     if (before_m - reach_m > shadow_m) continue;
-    // The fan is no wider there than the window.
+    // Before the window, the polar grid is no wider than the window.
     if (std::abs(origin.right_m) - reach_m > half_m) continue;
     margin_m = std::max(margin_m, std::min(shadow_m, before_m + reach_m));
   }
@@ -173,11 +177,11 @@ PatchNeed patch_need(const PatchOrder& order, const radar::Fidelity& fidelity) {
   const double posts = fidelity.posts_per_sample;
   const auto detail = [&](double sample_m) { return posts > 0.0 ? terrain::detail_for(sample_m / posts) : 0; };
   PatchNeed need;
-  // The corners, and what beyond them is laid over into the picture.
+  // The corners, and ground beyond them that is laid over into the picture.
   need.window = {order.centre, 1.5 * order.window.metres(), detail(pixel_m)};
-  const geo::GeodesicRay way(order.apex, to_centre.azimuth_at_start);
+  const geo::GeodesicRay geodesic(order.apex, to_centre.azimuth_at_start);
   const double half_way_m = 0.5 * to_centre.distance.metres();
-  need.path = {way.position(geo::Length::metres(half_way_m)), half_way_m + 0.5 * order.window.metres(),
+  need.path = {geodesic.position(geo::Length::metres(half_way_m)), half_way_m + 0.5 * order.window.metres(),
                detail(std::max(pixel_m, kPathDetail_m))};
   return need;
 }
@@ -186,20 +190,21 @@ terrain::SmoothOrder smooth_order(const PatchGeometry& geometry, const PolarGrid
                                   const std::vector<const scene::Tile*>& tiles) {
   const geo::GeoPoint middle = geometry.place_of({});
   terrain::SmoothOrder order{{90.0, -90.0, middle.longitude_deg + 180.0, middle.longitude_deg - 180.0},
-                             kPixelsANode * grid.spacing_m,
-                             kPixelsAPost * geometry.window_m() / std::max(fidelity.map_size, 1)};
+                             kPixelsPerNode * grid.spacing_m,
+                             kPixelsPerPost * geometry.window_m() / std::max(fidelity.map_size, 1)};
   if (fidelity.algorithm == radar::Algorithm::reference) order.least_parts = kReferenceParts;
   terrain::GeoBox& box = order.box;
-  // Outlines of the fan curve little: between so many places of them nothing stands out but what the margin holds.
+  // The outline of the polar grid curves little between these positions; the margin covers it.
   for (int i = 0; i <= kOutlineSteps; ++i) {
     const double share = static_cast<double>(i) / kOutlineSteps;
     for (const double column : {0.0, share * (grid.columns - 1), grid.columns - 1.0})
       for (const double row : {0.0, share * (grid.rows - 1), grid.rows - 1.0}) {
         const double tangent = grid.tangent(column);
         const double ahead_m = grid.distance_m(row) / std::sqrt(1.0 + tangent * tangent);
-        const geo::GeoPoint place = geometry.place_of({tangent * ahead_m, ahead_m - geometry.distance_m()});
-        const double east_deg = middle.longitude_deg + geo::wrapped_degrees(place.longitude_deg - middle.longitude_deg);
-        box = {std::min(box.south_deg, place.latitude_deg), std::max(box.north_deg, place.latitude_deg),
+        const geo::GeoPoint position = geometry.place_of({tangent * ahead_m, ahead_m - geometry.distance_m()});
+        const double east_deg =
+            middle.longitude_deg + geo::wrapped_degrees(position.longitude_deg - middle.longitude_deg);
+        box = {std::min(box.south_deg, position.latitude_deg), std::max(box.north_deg, position.latitude_deg),
                std::min(box.west_deg, east_deg), std::max(box.east_deg, east_deg)};
       }
   }
@@ -211,13 +216,14 @@ terrain::SmoothOrder smooth_order(const PatchGeometry& geometry, const PolarGrid
   return order;
 }
 
-PolarMargins fan_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,
-                         const std::vector<const scene::Tile*>& tiles, const parallel::Executor& crew) {
-  const Relief relief = relief_of(geometry, ground, tiles, crew);
+PolarMargins polar_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,
+                           const std::vector<const scene::Tile*>& tiles, const parallel::Executor& executor) {
+  const Relief relief = relief_of(geometry, ground, tiles, executor);
   const double sine = std::max(geometry.sin_grazing(), kMinSine);
   const double tangent = sine / std::sqrt(std::max(1.0 - sine * sine, 1e-6));
-  // Low ground is laid over outwards and high ground inwards; a thing before the near edge shades into the window.
-  return {std::max(-relief.lowest_m * tangent, shading_m(geometry, tiles, tangent)), relief.highest_m * tangent};
+  // Low ground is laid over away from the radar, high ground towards it. Objects before the near edge cast shadow
+  // into the window.
+  return {std::max(-relief.lowest_m * tangent, shadow_margin_m(geometry, tiles, tangent)), relief.highest_m * tangent};
 }
 
 }  // namespace yars::model::hrm

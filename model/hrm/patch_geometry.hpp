@@ -1,4 +1,9 @@
-// Geometry of a patch map: its plane, its polar grid (range x azimuth), and the terrain that it needs.
+// Geometry of one patch map: map plane, polar grid and the terrain that the map needs.
+// Polar grid: rows are ground range, columns are azimuth.
+// Units: metres, radians; heights above mean sea level or above the map plane, as named.
+// Frame: azimuthal equidistant about the aircraft, turned so that the bearing of the map's centre points up.
+// Accuracy: point_of() and place_of() are inverse within 1 mm, at the poles and across the antimeridian too.
+// Source: docs/radar_maths.md, "Patch maps"; docs/spec/physics.md#layover.
 #pragma once
 
 #include <cmath>
@@ -17,8 +22,8 @@
 
 namespace yars::model::hrm {
 
-// Every value finite, the window greater than 0, the centre farther from the apex than the window's half diagonal: the
-// kernel sees to it.
+// Command of one patch map. Preconditions, held by the caller: every value is finite, `window` is greater than 0, and
+// the centre is farther from the apex than half the window's diagonal.
 struct PatchOrder {
   geo::GeoPoint apex;
   geo::AltitudeMsl altitude;
@@ -27,8 +32,8 @@ struct PatchOrder {
   geo::GeoPoint centre;
   geo::Length window;
   int looks = 2;
-  geo::Duration sim_time{};  // of the start
-  std::uint32_t map = 0;     // number of the map: names its noise
+  geo::Duration sim_time{};  // at the start of the formation
+  std::uint32_t map = 0;     // number of the map, a part of the key of its noise
   std::uint8_t band = 0;
   std::uint8_t channel = 1;
 };
@@ -38,16 +43,15 @@ struct MapPoint {
   double up_m = 0.0;
 };
 
-// Where a patch map lies, and how a place becomes a point on it. The plane: distance and bearing from the aircraft are
-// kept (azimuthal equidistant), turned so that the bearing of the centre points up; straight lines through the aircraft
-// are its lines of sight. `right` and `up` are metres from the centre; `ahead` = up + the centre's distance.
-// Heights count from the map plane, which is level at the centre's elevation and bends with the effective earth.
+// Position and orientation of a patch map. The map plane is azimuthal equidistant about the aircraft, so lines of sight
+// are straight lines on it. `right` and `up` are metres from the centre; ahead = up + distance_m(). The map plane has
+// the centre's elevation and curves with the effective earth. Heights without "msl" count from it.
 class PatchGeometry {
  public:
-  // `elevation_m` [m] MSL of the map plane: the ground at the centre.
+  // `elevation_m` [m MSL]: ground at the centre, which becomes the height of the map plane.
   PatchGeometry(const PatchOrder& order, const radar::Fidelity& fidelity, double elevation_m);
 
-  MapPoint point_of(geo::GeoPoint place) const;
+  MapPoint point_of(geo::GeoPoint position) const;
   geo::GeoPoint place_of(MapPoint point) const;
 
   geo::GeoPoint apex() const { return apex_; }
@@ -58,12 +62,13 @@ class PatchGeometry {
   double altitude_m() const { return altitude_m_; }  // of the aircraft, MSL
   const physics::EffectiveEarth& earth() const { return earth_; }
 
-  // How far the aircraft is above the map plane where it has bent away, at a distance over ground [m].
+  // Height of the aircraft above the map plane at a distance over ground [m]; the plane has dropped by the curvature.
   double above_plane_m(double distance_m) const { return altitude_m_ - plane_msl_m_ + earth_.drop_m(distance_m); }
-  // The same against the horizontal there: how much nearer a point comes when it is raised (layover).
+  // Height of the aircraft above the horizontal plane through the map plane's point at that distance [m]. A point
+  // raised by h moves nearer in slant range in proportion to it (layover).
   double above_level_m(double distance_m) const { return altitude_m_ - plane_msl_m_ - earth_.drop_m(distance_m); }
-  // Height above the map plane [m] at which a line of sight passes a distance over ground. `tangent`: of its elevation,
-  // as physics::EffectiveEarth has it for heights above mean sea level.
+  // Height above the map plane [m] of a line of sight at a distance over ground [m]. `tangent`: tangent of its
+  // elevation, as physics::EffectiveEarth defines it for heights above mean sea level.
   double height_on_sight_m(double distance_m, double tangent) const;
   double slant_range_m() const;  // aircraft to centre
   double sin_grazing() const;    // on the map plane at the centre
@@ -79,17 +84,18 @@ class PatchGeometry {
   physics::EffectiveEarth earth_;
 };
 
-// Where a scatterer appears: distance over ground [m] of the point on the map plane that is as far from the aircraft
-// (layover, foreshortening). `above_level_m`: as the geometry has it; `height_m`: the scatterer above the plane.
-// d'^2 = d^2 + height (height - 2 above); 0 where nothing on the plane is as near. Height over earth radius of the
-// layover is left out: 0.1 % at 9 km.
+// Distance over ground [m] of the point on the map plane at the slant range of a scatterer (layover, foreshortening).
+// `height_m`: the scatterer above the plane; `above_level_m`: PatchGeometry::above_level_m(distance_m). Formula: d'^2 =
+// d^2 + height (height - 2 above); 0 if no point of the plane is that near. It neglects height over earth radius: 0.1 %
+// at 9 km.
 double laid_over_m(double distance_m, double height_m, double above_level_m);
 
-// The grid on which a patch is computed: columns are lines of sight, even in the tangent of their bearing against the
-// centre's; rows are even in distance over ground. Shadow and layover run along columns alone. Kept in strips of
-// sixteen columns, row by row: a row of a strip is a cache line of floats, and a vector.
+// Columns of one strip. The grid is stored strip by strip, and row by row within a strip. One row of a strip is a cache
+// line of floats and a vector. Do not change: loops and indices rely on 16.
 inline constexpr int kStripColumns = 16;
 
+// Grid on which a patch map is computed: columns are evenly spaced in the tangent of their bearing against the
+// centre's, rows are evenly spaced in distance over ground. Shadow and layover act within one column.
 struct PolarGrid {
   int columns = 0;  // a multiple of kStripColumns
   int rows = 0;
@@ -100,7 +106,7 @@ struct PolarGrid {
   double centre_distance_m = 0.0;
 
   int strips() const { return columns / kStripColumns; }
-  // An odd number of cache lines: a row across many strips does not meet itself in the cache.
+  // The size is an odd number of cache lines, so that one row of many strips spreads over the sets of the cache.
   std::size_t strip_size() const { return static_cast<std::size_t>(rows | 1) * kStripColumns; }
   std::size_t size() const { return strip_size() * static_cast<std::size_t>(strips()); }
   std::size_t at(int column, int row) const {
@@ -109,53 +115,54 @@ struct PolarGrid {
   }
   double tangent(double column) const { return first_tangent + column * tangent_step; }
   double distance_m(double row) const { return first_distance_m + row * spacing_m; }
-  // Width [m] of a column at a distance: what a step of the tangent is worth as an arc.
+  // Width [m] of a column at a distance [m]: the arc of one tangent step.
   double width_m(double column, double distance) const {
     const double t = tangent(column);
     return distance * tangent_step / (1.0 + t * t);
   }
 };
 
-// How far beyond the window's edges something may lie that returns or shades within it [m].
+// Reach beyond the window's near and far edges [m] of objects that return or cast shadow within it.
 struct PolarMargins {
   double near_m = 0.0;
   double far_m = 0.0;
 };
 
-// `cells` a pixel, along and across. Holds the window and the margins, as far as they lie ahead of the aircraft.
+// Polar grid of a map of `pixels` a side with `cells` grid cells a pixel. It covers the window and the margins, as far
+// as they lie ahead of the aircraft.
 PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, const PolarMargins& margins);
 
-// What the fan knows of its points before profiles are cast, by PolarGrid::at(). What is read together lies together:
-// who draws small triangles meets one line of the cache a point.
+// Surface at a grid point before profiles are cast, by PolarGrid::at(). Gain and height share a cache line because the
+// scene raster updates both.
 struct SurfacePoint {
-  float gain = 0.0F;      // gamma: cross section [m^2] a square metre seen square on; negative where a thing stands
-  float height_m = 0.0F;  // above the map plane, of what is highest
+  float gain = 0.0F;      // gamma: cross section [m^2] per m^2 seen square on; negative: a scene surface that stands
+  float height_m = 0.0F;  // highest surface, above the map plane
 };
 
-// Facing walls that stand before this point's ground: the sum of gamma times height, and how tall they are together, in
-// steps of kWallStep_m. Whole numbers, so that the order in which walls are drawn is of no account.
+// Walls that face the radar in the profile step from the previous grid point to this one: sum of gamma times height,
+// and sum of heights, in steps of kWallStep_m. Integer sums do not depend on the drawing order.
 struct WallPoint {
-  std::uint32_t returned = 0;
-  std::uint32_t height = 0;
+  std::uint32_t returned_steps = 0;
+  std::uint32_t height_steps = 0;
 };
 inline constexpr float kWallStep_m = 1.0F / 4096.0F;
 
-// What a patch map needs before it can be made: which terrain, and how far beyond its window it has to look.
-// Terrain about the window, and on the way to it, which may be coarser: by the fidelity's posts a sample, for all posts
-// of what is read raise the horizon (decision 19).
+// Terrain that a patch map needs: about the window, and on the path to it, which may be coarser. The fidelity's
+// `posts_per_sample` selects the detail. All posts of the terrain that is read raise the horizon (decision 19).
 struct PatchNeed {
   terrain::TerrainRegion window;
   terrain::TerrainRegion path;
 };
 PatchNeed patch_need(const PatchOrder& order, const radar::Fidelity& fidelity);
 
-// Where on the earth the fan reads its ground, and how finely; `tiles` stand on ground that is straight between posts.
+// Area on the earth and node spacing of the smoothed ground below the polar grid. The ground below `tiles` stays linear
+// between posts.
 terrain::SmoothOrder smooth_order(const PatchGeometry& geometry, const PolarGrid& grid, const radar::Fidelity& fidelity,
                                   const std::vector<const scene::Tile*>& tiles);
 
-// For what stands or lies outside the window and is laid over or shades into it: by the relief of the ground and the
-// things of the tiles.
-PolarMargins fan_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,
-                         const std::vector<const scene::Tile*>& tiles, const parallel::Executor& crew);
+// Margins for ground and scene objects outside the window that are laid over or cast shadow into it. They follow from
+// the relief of the ground and the heights of the tiles.
+PolarMargins polar_margins(const PatchGeometry& geometry, const terrain::TerrainView& ground,
+                           const std::vector<const scene::Tile*>& tiles, const parallel::Executor& executor);
 
 }  // namespace yars::model::hrm

@@ -8,12 +8,12 @@
 namespace yars::model::hrm {
 
 namespace {
-constexpr int kEqualLobes = 5;           // n-bar: so many sidelobes of one height, falling behind
-constexpr double kMainLobeCells = 1.5;   // the first null of -35 dB lies at 1.4 cells
-constexpr int kRowsAPiece = 32;          // of work
-constexpr double kSidelobeCells = 16.0;  // what lies farther out is below any picture's black
+constexpr int kEqualLobes = 5;           // n-bar: number of nearly equal sidelobes (Taylor)
+constexpr double kMainLobeCells = 1.5;   // [cells] half width of the main lobe; the first null of -35 dB is at 1.4
+constexpr int kRowsPerTask = 32;         // rows of the image
+constexpr double kSidelobeCells = 16.0;  // [cells] extent of the response; farther sidelobes are below black
 
-// Taylor's coefficients F_m of w(x) = 1 + 2 sum F_m cos(2 pi m x).
+// Taylor's coefficients F_m of the weighting w(x) = 1 + 2 sum F_m cos(2 pi m x).
 std::vector<double> taylor_coefficients(double sidelobe_db) {
   const double a = std::acosh(std::pow(10.0, std::abs(sidelobe_db) / 20.0)) / std::numbers::pi;
   constexpr double n = kEqualLobes;
@@ -36,6 +36,7 @@ double sinc(double x) {
   return std::abs(y) < 1e-9 ? 1.0 : std::sin(y) / y;
 }
 
+// Amplitude of the response at x / bandwidth, 1 at 0.
 double amplitude(const std::vector<double>& coefficients, double x) {
   double sum = coefficients[0] * sinc(x);
   for (std::size_t m = 1; m < coefficients.size(); ++m) {
@@ -45,7 +46,7 @@ double amplitude(const std::vector<double>& coefficients, double x) {
   return sum / coefficients[0];
 }
 
-// Where the power has fallen to a half, in units of 1 / bandwidth.
+// Distance at which the power is one half, in units of 1 / bandwidth.
 double half_power_point(const std::vector<double>& coefficients) {
   double low = 0.0;
   double high = 1.0;
@@ -58,14 +59,14 @@ double half_power_point(const std::vector<double>& coefficients) {
 }
 }  // namespace
 
-Response::Response(double sidelobe_db, double cells_a_pixel)
-    : coefficients_(taylor_coefficients(sidelobe_db)), cells_a_pixel_(cells_a_pixel) {
+Response::Response(double sidelobe_db, double cells_per_pixel)
+    : coefficients_(taylor_coefficients(sidelobe_db)), cells_per_pixel_(cells_per_pixel) {
   stretch_ = 2.0 * half_power_point(coefficients_);
   double sum = 0.0;
   std::vector<double> tail;
-  for (int pixel = 0; pixel * cells_a_pixel <= kSidelobeCells; ++pixel) {
-    const double value = power(pixel * cells_a_pixel);
-    if (pixel == 0 || pixel * cells_a_pixel <= kMainLobeCells) {
+  for (int pixel = 0; pixel * cells_per_pixel <= kSidelobeCells; ++pixel) {
+    const double value = power(pixel * cells_per_pixel);
+    if (pixel == 0 || pixel * cells_per_pixel <= kMainLobeCells) {
       main_lobe_.push_back(static_cast<float>(value));
       sum += pixel == 0 ? value : 2.0 * value;
     } else {
@@ -94,12 +95,12 @@ double Response::power(double cells) const {
 }
 
 std::vector<float> Response::weights(double pixel, int& first) const {
-  const int reach = static_cast<int>(std::ceil(kSidelobeCells / cells_a_pixel_));
+  const int reach = static_cast<int>(std::ceil(kSidelobeCells / cells_per_pixel_));
   first = static_cast<int>(std::lround(pixel)) - reach;
   std::vector<double> values;
   double sum = 0.0;
   for (int i = first; i <= first + 2 * reach; ++i) {
-    values.push_back(power((i - pixel) * cells_a_pixel_));
+    values.push_back(power((i - pixel) * cells_per_pixel_));
     sum += values.back();
   }
   std::vector<float> weights;
@@ -107,79 +108,80 @@ std::vector<float> Response::weights(double pixel, int& first) const {
   return weights;
 }
 
-// Rows and columns of black about a copy of the image, so that no sum looks over an edge.
-void Response::make_room(const parallel::Executor& crew, const MapImage& image) {
+// Zero margins about a copy of the image, so that sums need no bounds check.
+void Response::resize_buffers(const parallel::Executor& executor, const MapImage& image) {
   const auto size = static_cast<std::size_t>(image.size);
   margin_ = along_reach_ * simd::kBlock;
   columns_ = (size + simd::kBlock - 1) / simd::kBlock * simd::kBlock;
   pitch_ = columns_ + 2 * margin_;
-  const std::size_t room = pitch_ * (size + 2 * margin_);
-  if (across_.size() == room && hands_.size() == crew.threads) return;
-  across_.assign(room, 0.0F);
-  added_.assign(room, 0.0F);
-  hands_.resize(crew.threads);
-  for (Hand& hand : hands_) {
-    hand.source.assign(pitch_, 0.0F);
-    hand.row.assign(columns_, 0.0F);
+  const std::size_t padded_size = pitch_ * (size + 2 * margin_);
+  if (across_.size() == padded_size && buffers_.size() == executor.threads) return;
+  across_.assign(padded_size, 0.0F);
+  added_.assign(padded_size, 0.0F);
+  buffers_.resize(executor.threads);
+  for (WorkerBuffers& buffers : buffers_) {
+    buffers.source.assign(pitch_, 0.0F);
+    buffers.row.assign(columns_, 0.0F);
   }
 }
 
-void Response::apply(float floor, const parallel::Executor& crew, MapImage& image) {
-  make_room(crew, image);
+void Response::apply(float floor, const parallel::Executor& executor, MapImage& image) {
+  resize_buffers(executor, image);
   if (main_lobe_.size() > 1)
-    parallel::parallel_for(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t thread) {
-      smooth_along(first, last, hands_[thread], image);
+    parallel::parallel_for(executor, image.size, kRowsPerTask, [&](int first, int last, std::size_t thread) {
+      smooth_along(first, last, buffers_[thread], image);
     });
   const float strong = sidelobes_.empty() ? 0.0F : floor / *std::max_element(sidelobes_.begin(), sidelobes_.end());
-  strong_.resize(static_cast<std::size_t>((image.size + kRowsAPiece - 1) / kRowsAPiece));
-  parallel::parallel_for(crew, image.size, kRowsAPiece, [&](int first, int last, std::size_t thread) {
-    if (main_lobe_.size() > 1) smooth_down(first, last, hands_[thread], image);
-    if (!sidelobes_.empty()) find_strong(strong, first, last, hands_[thread], image);
+  strong_.resize(static_cast<std::size_t>((image.size + kRowsPerTask - 1) / kRowsPerTask));
+  parallel::parallel_for(executor, image.size, kRowsPerTask, [&](int first, int last, std::size_t thread) {
+    if (main_lobe_.size() > 1) smooth_down(first, last, buffers_[thread], image);
+    if (!sidelobes_.empty()) find_strong(strong, first, last, buffers_[thread], image);
   });
   if (sidelobes_.empty()) return;
-  if (std::all_of(strong_.begin(), strong_.end(), [](const std::vector<Strong>& run) { return run.empty(); })) return;
-  parallel::parallel_for(crew, image.size, kRowsAPiece,
+  if (std::all_of(strong_.begin(), strong_.end(), [](const std::vector<StrongBlock>& run) { return run.empty(); }))
+    return;
+  parallel::parallel_for(executor, image.size, kRowsPerTask,
                          [&](int first, int last, std::size_t) { add_sidelobes(first, last, image); });
 }
 
-void Response::smooth_along(int first, int last, Hand& hand, const MapImage& image) {
+void Response::smooth_along(int first, int last, WorkerBuffers& buffers, const MapImage& image) {
   const auto size = static_cast<std::size_t>(image.size);
-  float* from = &hand.source[margin_];
+  float* from = &buffers.source[margin_];
   for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
     std::copy_n(&image.power[row * size], size, from);
     simd::smooth(columns_, from, 1, main_lobe_, &across_[padded(row)]);
   }
 }
 
-void Response::smooth_down(int first, int last, Hand& hand, MapImage& image) const {
+void Response::smooth_down(int first, int last, WorkerBuffers& buffers, MapImage& image) const {
   const auto size = static_cast<std::size_t>(image.size);
   for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
-    // In place where rows are whole blocks.
-    float* to = columns_ == size ? &image.power[row * size] : hand.row.data();
+    // In place if rows are whole blocks.
+    float* to = columns_ == size ? &image.power[row * size] : buffers.row.data();
     simd::smooth(columns_, &across_[padded(row)], static_cast<std::ptrdiff_t>(pitch_), main_lobe_, to);
     if (columns_ != size) std::copy_n(to, size, &image.power[row * size]);
   }
 }
 
-void Response::find_strong(float limit, int first, int last, Hand& hand, const MapImage& image) {
+void Response::find_strong(float limit, int first, int last, WorkerBuffers& buffers, const MapImage& image) {
   const auto size = static_cast<std::size_t>(image.size);
-  std::fill(hand.row.begin(), hand.row.end(), 0.0F);
+  std::fill(buffers.row.begin(), buffers.row.end(), 0.0F);
   for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
     const float* from = &image.power[row * size];
     if (columns_ != size) {
-      std::copy_n(from, size, hand.row.data());
-      from = hand.row.data();
+      std::copy_n(from, size, buffers.row.data());
+      from = buffers.row.data();
     }
-    std::vector<Strong>& strong = strong_[row / kRowsAPiece];
-    if (row % kRowsAPiece == 0) strong.clear();
-    Strong found{row, 0, {}};
+    std::vector<StrongBlock>& strong = strong_[row / kRowsPerTask];
+    if (row % kRowsPerTask == 0) strong.clear();
+    StrongBlock found{row, 0, {}};
     for (found.column = 0; found.column < columns_; found.column += simd::kBlock)
       if (simd::keep_above(from + found.column, limit, found.power.data())) strong.push_back(found);
   }
 }
 
-// What of a block's sidelobes falls onto the rows [first, last).
-void Response::spread(const Strong& strong, std::size_t first, std::size_t last) {
+// Adds the sidelobes of a block to the rows [first, last).
+void Response::spread(const StrongBlock& strong, std::size_t first, std::size_t last) {
   const std::size_t lobe = main_lobe_.size();
   const std::size_t taps = lobe + sidelobes_.size();
   const std::span<const float> weights(sidelobes_);
@@ -187,7 +189,7 @@ void Response::spread(const Strong& strong, std::size_t first, std::size_t last)
   const auto pitch = static_cast<std::ptrdiff_t>(pitch_);
   if (strong.row >= first && strong.row < last)
     simd::spread_along(strong.power.data(), along_reach_, &along_[along_middle_], at);
-  // Rows before: from row - taps + 1 to row - lobe; behind likewise.
+  // Rows above: from row - taps + 1 to row - lobe. Rows below likewise.
   const std::size_t nearest = strong.row >= last ? std::max(lobe, strong.row - last + 1) : lobe;
   const std::size_t farthest = strong.row >= first ? std::min(taps, strong.row - first + 1) : 0;
   if (nearest < farthest)
@@ -200,26 +202,26 @@ void Response::spread(const Strong& strong, std::size_t first, std::size_t last)
                  at + static_cast<std::ptrdiff_t>(next) * pitch);
 }
 
-// Strong points were found first, all of them: what one adds must not make another strong. Few pixels of a picture are,
-// as a rule, so it is these that are spread, not their neighbours that are summed.
+// All strong pixels are found before sidelobes are added, so sidelobes make no pixel strong. Strong pixels are few, so
+// each is spread (scatter) instead of summing neighbours (gather).
 void Response::add_sidelobes(int first, int last, MapImage& image) {
   const auto size = static_cast<std::size_t>(image.size);
   const auto begin = static_cast<std::size_t>(first);
   const auto end = static_cast<std::size_t>(last);
   for (std::size_t row = begin; row < end; ++row) std::fill_n(&added_[padded(row)] - margin_, pitch_, 0.0F);
   const std::size_t reach = main_lobe_.size() + sidelobes_.size();
-  const std::size_t first_run = (begin > reach ? begin - reach : 0) / kRowsAPiece;
-  const std::size_t last_run = std::min((end + reach) / kRowsAPiece, strong_.size() - 1);
+  const std::size_t first_run = (begin > reach ? begin - reach : 0) / kRowsPerTask;
+  const std::size_t last_run = std::min((end + reach) / kRowsPerTask, strong_.size() - 1);
   for (std::size_t run = first_run; run <= last_run; ++run)
-    for (const Strong& strong : strong_[run]) spread(strong, begin, end);
+    for (const StrongBlock& strong : strong_[run]) spread(strong, begin, end);
   for (std::size_t row = begin; row < end; ++row)
     for (std::size_t i = 0; i < size; ++i) image.power[row * size + i] += added_[padded(row) + i];
 }
 
 namespace {
-constexpr double kMinDoppler_mps = 1.0;  // of V sin(squint): nearer the track nothing can be mapped anyway
+constexpr double kMinDoppler_mps = 1.0;  // lower bound of V sin(squint); nearer to the track no map is possible
 
-// A weighted copy of the response, its peak at a place between the pixels [pixels].
+// Adds the response of a point at a fractional position [pixels].
 void splat(const Response& response, double column, double row, double power, MapImage& image) {
   int first_column = 0;
   int first_row = 0;
@@ -248,7 +250,7 @@ MapMovers::Trace MapMovers::trace_of(const physics::MovingPoint& mover, const Pa
   const MapPoint middle{0.5 * (start.right_m + end.right_m), 0.5 * (start.up_m + end.up_m)};
   const double ahead_m = middle.up_m + geometry.distance_m();
   const double distance_m = std::hypot(middle.right_m, ahead_m);
-  // Along and across the line of sight to the target.
+  // Unit vector along the line of sight; radial and cross-range speeds of the target.
   const double out_right = middle.right_m / distance_m;
   const double out_up = ahead_m / distance_m;
   const double speed_right = time_s > 0.0 ? (end.right_m - start.right_m) / time_s : 0.0;
@@ -258,13 +260,13 @@ MapMovers::Trace MapMovers::trace_of(const physics::MovingPoint& mover, const Pa
 
   const double squint_rad = geometry.squint(order.ground_track).radians() + std::atan2(middle.right_m, ahead_m);
   const double doppler_mps = order.ground_speed.metres_per_second() * std::sin(squint_rad);
-  const double steady_mps = std::copysign(std::max(std::abs(doppler_mps), kMinDoppler_mps), doppler_mps);
-  // Looking right (positive squint) forwards is left on the map.
-  const double shift_m = receding_mps / steady_mps * distance_m;
-  const double seen_m = laid_over_m(distance_m, height_m, geometry.above_level_m(distance_m)) - distance_m;
-  const MapPoint shown{middle.right_m + out_right * seen_m + out_up * shift_m,
-                       middle.up_m + out_up * seen_m - out_right * shift_m};
-  // What it goes outwards walks in range; what it goes across defocuses it in azimuth, twice its way.
+  const double clamped_doppler_mps = std::copysign(std::max(std::abs(doppler_mps), kMinDoppler_mps), doppler_mps);
+  // Positive squint looks right, and then forwards is left on the map.
+  const double shift_m = receding_mps / clamped_doppler_mps * distance_m;
+  const double layover_m = laid_over_m(distance_m, height_m, geometry.above_level_m(distance_m)) - distance_m;
+  const MapPoint shown{middle.right_m + out_right * layover_m + out_up * shift_m,
+                       middle.up_m + out_up * layover_m - out_right * shift_m};
+  // Radial motion walks in range. Cross-range motion defocuses in azimuth by twice its distance.
   const double walk_m = receding_mps * time_s;
   const double blur_m = 2.0 * std::abs(crossing_mps) * time_s;
   const MapPoint half{0.5 * (out_right * walk_m + out_up * blur_m), 0.5 * (out_up * walk_m - out_right * blur_m)};
@@ -282,33 +284,33 @@ bool MapMovers::hidden(const PatchGeometry& geometry, const Horizons& horizons, 
   const double tangent = (height_m - geometry.above_plane_m(distance_m)) / distance_m;
   double horizon = static_cast<double>(horizons.horizon[column]);
   for (int i = 0; i < std::min(row, grid.rows); ++i) {
-    const double there_m = grid.distance_m(i);
+    const double row_distance_m = grid.distance_m(i);
     const std::size_t at = grid.at(column, i);
     float top_m = horizons.surface[at].height_m;
     if (horizons.crest_m != nullptr) top_m = std::max(top_m, horizons.crest_m[at]);
-    const double raised = (static_cast<double>(top_m) - geometry.above_plane_m(there_m)) / there_m;
+    const double raised = (static_cast<double>(top_m) - geometry.above_plane_m(row_distance_m)) / row_distance_m;
     horizon = std::max(horizon, raised);
   }
   return tangent < horizon;
 }
 
 void MapMovers::draw(const PatchOrder& order, const PatchGeometry& geometry, geo::Duration formation,
-                     const physics::Environment& database, const Horizons& horizons, const Response& response,
+                     const physics::Environment& environment, const Horizons& horizons, const Response& response,
                      MapImage& image) const {
-  for (const std::span<const physics::MovingPoint> points : {std::span(points_), database.traffic})
+  for (const std::span<const physics::MovingPoint> points : {std::span(points_), environment.traffic})
     for (const physics::MovingPoint& mover : points)
-      draw_point(mover, order, geometry, formation, database.terrain, horizons, response, image);
+      draw_point(mover, order, geometry, formation, environment.terrain, horizons, response, image);
 }
 
 void MapMovers::draw_point(const physics::MovingPoint& mover, const PatchOrder& order, const PatchGeometry& geometry,
                            geo::Duration formation, const terrain::TerrainView& terrain, const Horizons& horizons,
                            const Response& response, MapImage& image) const {
   const double pixel_m = geometry.window_m() / image.size;
-  const geo::GeoPoint place = mover.place(order.sim_time);
-  const MapPoint point = geometry.point_of(place);
-  // Far outside it costs no more than this; displacement may bring it in from about a window away.
+  const geo::GeoPoint position = mover.place(order.sim_time);
+  const MapPoint point = geometry.point_of(position);
+  // Displacement can bring in points from about a window outside; points beyond two windows are skipped.
   if (std::hypot(point.right_m, point.up_m) > 2.0 * geometry.window_m()) return;
-  const double ground_m = terrain.elevation_m(place);
+  const double ground_m = terrain.elevation_m(position);
   if (std::isnan(ground_m)) return;
   const double height_m = ground_m + mover.height_m - geometry.plane_msl_m();
   if (hidden(geometry, horizons, point, height_m)) return;

@@ -12,31 +12,34 @@
 namespace yars::model::hrm {
 
 namespace {
-// Spacing [m] of the samples on the way to the window: of ground without posts, and of ground whose lines of posts are
-// looked at between them, where ways are straight in latitude and longitude within 5 mm.
-constexpr double kPathSpacing_m = 60.0;
-constexpr double kWaySpacing_m = 500.0;
+// Spacing [m] of the samples on the path to the window. Without posts the samples alone raise the horizon. With posts
+// the lines of posts between samples do, so samples may be farther apart. At 500 m a path is straight in latitude and
+// longitude within 5 mm; a larger spacing would misplace crests.
+constexpr double kPathSpacingWithoutPosts_m = 60.0;
+constexpr double kPathSpacingWithPosts_m = 500.0;
 constexpr double kMaxPathSamples = 4096.0;
-constexpr float kNoHorizon = -1.0e6F;  // below every ray, and below every ground [m]
-// Where posts are many columns apart, every third or fifth column is read, the first and the last of a strip among
-// them, as far apart as so much of the posts' spacing; what lies between is interpolated. On the way to the window
-// columns are closer still: the horizon alone is asked.
+constexpr float kNoHorizon = -1.0e6F;  // [m] below every line of sight and below all ground
+// Where posts are many columns apart, only every third or fifth column of a strip is sampled, and the others are
+// interpolated. The first and the last column of a strip are always sampled. The shares are the largest column spacing
+// over the post spacing: in the window, and on the path, which gives only the horizon.
 constexpr double kPostShare = 0.25;
 constexpr double kPathShare = 0.5;
-// Rows as close as this share of the posts' spacing meet every crest themselves, straight or smooth; smooth ground has
-// no posts closer than two rows.
+// Rows spaced more closely than these shares of the post spacing sample every crest themselves. The shares apply to
+// lines of posts on linear ground, to summits of smooth ground, and to lines of posts on smooth ground. Smooth ground
+// has no posts closer than two rows.
 constexpr double kLineShare = 0.2;
 constexpr double kSummitShare = 0.1;
 constexpr double kSmoothShare = 0.5;
 
-// Columns read of a strip: as far apart as the width allows.
+// Step between sampled columns: the largest of 5, 3 and 1 within `farthest_m`; `width_m` is the width of a column.
 int step_within(double farthest_m, double width_m) {
   for (const int step : {5, 3})
     if (step * width_m <= farthest_m) return step;
   return 1;
 }
 
-void join_horizons(int step, float* horizon) {
+// Interpolates the horizons of the columns between the sampled ones.
+void interpolate_horizons(int step, float* horizon) {
   for (int lane = 0; lane < kStripColumns; ++lane) {
     const int off = lane % step;
     if (off == 0) continue;
@@ -64,7 +67,7 @@ PolarGround::Sight::Sight(const PatchGeometry& geometry, double distance_m) {
 }
 
 PolarGround::Column::Column(std::size_t samples)
-    : places(samples),
+    : positions(samples),
       distance_m(samples + terrain::kRunSlack),
       elevation_m(distance_m.size()),
       water(distance_m.size()),
@@ -77,11 +80,11 @@ PolarGround::PolarGround(const radar::RadarConfiguration& configuration)
 
 void PolarGround::begin(const PatchGeometry& geometry, const PolarGrid& grid, const terrain::TerrainView& path) {
   const auto rows = static_cast<std::size_t>(grid.rows);
-  if (!window_ || window_->places.count != rows) {
+  if (!window_ || window_->positions.count != rows) {
     window_ = std::make_unique<Column>(rows);
     ground_ = std::make_unique<physics::Ground>(configuration_, rows);
     sin_grazing_.assign(rows + terrain::kRunSlack, 0.0F);
-    // No power of two: rows of sixteen columns shall not meet in one place of the cache.
+    // An odd multiple of kRunSlack, so that rows of sixteen columns do not share a cache set.
     pitch_ = (rows / terrain::kRunSlack + 1) * terrain::kRunSlack;
     if (pitch_ / terrain::kRunSlack % 2 == 0) pitch_ += terrain::kRunSlack;
     strip_height_.assign(kStripColumns * pitch_ + terrain::kRunSlack, 0.0F);
@@ -97,10 +100,10 @@ void PolarGround::begin(const PatchGeometry& geometry, const PolarGrid& grid, co
     sin_grazing_[row] = static_cast<float>(std::max(0.0, geometry.earth().sight(above_m, distance_m, 0.0).sin_grazing));
   }
   const double path_m = grid.first_distance_m;
-  const double spacing_m = path.post_spacing_m() > 0.0 ? kWaySpacing_m : kPathSpacing_m;
+  const double spacing_m = path.post_spacing_m() > 0.0 ? kPathSpacingWithPosts_m : kPathSpacingWithoutPosts_m;
   const auto samples = static_cast<std::size_t>(std::clamp(std::ceil(path_m / spacing_m), 1.0, kMaxPathSamples));
-  if (!path_ || path_->places.count != samples) path_ = std::make_unique<Column>(samples);
-  // The last one lies below row 0 and is no part of the way.
+  if (!path_ || path_->positions.count != samples) path_ = std::make_unique<Column>(samples);
+  // The last sample is at row 0 and does not belong to the path.
   path_sight_.clear();
   for (std::size_t i = 0; i < path_->distance_m.size(); ++i) {
     const double share = (static_cast<double>(std::min(i, samples - 1)) + 1.0) / static_cast<double>(samples);
@@ -123,20 +126,20 @@ std::size_t PolarGround::fill(const PatchOrder& order, const PatchGeometry& geom
     if (lane % path_columns == 0) pending += read_path(geometry, grid, azimuth, *terrain.path, arrays.horizon[column]);
     if (lane % step == 0) {
       pending += read_window(order, geometry, azimuth, *terrain.window, detail, static_cast<std::size_t>(lane));
-      level(geometry, static_cast<std::size_t>(lane));
+      subtract_plane(geometry, static_cast<std::size_t>(lane));
       if (arrays.crest_m != nullptr) read_crests(geometry, terrain, static_cast<std::size_t>(lane));
     }
-    fetch_strip(grid, column, arrays);
+    prefetch_strip(grid, column, arrays);
     if (lane + 1 < kStripColumns) continue;
-    if (step > 1) fill_between(static_cast<std::size_t>(step));
-    put_strip(grid, column / kStripColumns, arrays);
-    if (arrays.crest_m != nullptr) put_crests(grid, column / kStripColumns, arrays.crest_m);
-    join_horizons(path_columns, arrays.horizon + column + 1 - kStripColumns);
+    if (step > 1) interpolate_columns(static_cast<std::size_t>(step));
+    store_strip(grid, column / kStripColumns, arrays);
+    if (arrays.crest_m != nullptr) store_crests(grid, column / kStripColumns, arrays.crest_m);
+    interpolate_horizons(path_columns, arrays.horizon + column + 1 - kStripColumns);
   }
   return pending;
 }
 
-// Not where what covers the ground is a matter of one post or another, and never for who takes each column's word.
+// Every column is sampled where materials or nearest posts decide the cover, and for `reference` and `1996`.
 int PolarGround::column_step(const PolarGrid& grid, const terrain::TerrainView& view, const Detail* detail) const {
   const radar::Fidelity& fidelity = configuration_.fidelity;
   const bool smooth = fidelity.algorithm == radar::Algorithm::standard && !view.has_materials() &&
@@ -147,88 +150,88 @@ int PolarGround::column_step(const PolarGrid& grid, const terrain::TerrainView& 
   return step_within(farthest_m, grid.width_m(0.5 * grid.columns, grid.distance_m(grid.rows - 1)));
 }
 
-// Ground that is not made of posts tells no spacing: every fifth column does.
+// Ground without posts has no post spacing; every fifth column is enough.
 int PolarGround::path_step(const PolarGrid& grid, const terrain::TerrainView& view) const {
   const double spacing_m = view.post_spacing_m();
   const double farthest_m = spacing_m > 0.0 ? kPathShare * spacing_m : std::numeric_limits<double>::infinity();
   return step_within(farthest_m, grid.width_m(0.5 * grid.columns, grid.first_distance_m));
 }
 
-// Into the column's place in the strip; the slack behind it is the next one's, who comes later.
+// Samples into the column's part of the strip. Its slack is overwritten by the next column.
 std::size_t PolarGround::read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
                                      const terrain::TerrainView& view, const Detail* detail, std::size_t lane) {
   Column& column = *window_;
-  const std::size_t rows = column.places.count;
+  const std::size_t rows = column.positions.count;
   float* height_m = &strip_height_[lane * pitch_];
   float* gain = &strip_gain_[lane * pitch_];
   const geo::Length range = geo::Length::metres(static_cast<double>(column.distance_m[rows - 1]));
   physics::sample_places(geometry.apex(), azimuth, range, configuration_.fidelity.geodesic_knots,
-                         column.distance_m.data(), column.places);
+                         column.distance_m.data(), column.positions);
   const terrain::SurfaceRun found{
       {height_m, rows},
       {column.water.data(), rows},
       {},
       view.has_materials() ? std::span(ground_->materials()).first(rows) : std::span<std::int32_t>{}};
-  const std::size_t pending = view.surfaces(column.places.run(), configuration_.fidelity.interpolation, found);
-  const physics::SweepGeometry look{geometry.apex(), order.altitude, azimuth,    {},
-                                    range,           order.sim_time, order.band, order.channel};
+  const std::size_t pending = view.surfaces(column.positions.run(), configuration_.fidelity.interpolation, found);
+  const physics::SweepGeometry sweep{geometry.apex(), order.altitude, azimuth,    {},
+                                     range,           order.sim_time, order.band, order.channel};
   const physics::Ground::Sample reflects =
-      ground_->reflect(look, column.places.run(), column.water.data(), sin_grazing_.data(), view.has_materials());
+      ground_->reflect(sweep, column.positions.run(), column.water.data(), sin_grazing_.data(), view.has_materials());
   if (reflects.land != nullptr)
     std::copy_n(reflects.land, rows, gain);
   else
     std::fill_n(gain, rows, plain_gamma_);
-  // The sea's sigma0 is of level water; what is seen square on is less by the sine.
+  // The sea's sigma0 refers to level water; division by the sine makes it the return seen square on.
   if (reflects.sea != nullptr)
     for (std::size_t row = 0; row < rows; ++row)
       if (sin_grazing_[row] > 0.0F) gain[row] += reflects.sea[row] / sin_grazing_[row];
-  if (detail != nullptr) detail->modulate(column.places.run(), gain);
+  if (detail != nullptr) detail->modulate(column.positions.run(), gain);
   return pending;
 }
 
 std::size_t PolarGround::read_path(const PatchGeometry& geometry, const PolarGrid& grid, geo::Bearing azimuth,
                                    const terrain::TerrainView& view, float& horizon) {
   Column& column = *path_;
-  const std::size_t samples = column.places.count;
+  const std::size_t samples = column.positions.count;
   physics::sample_places(geometry.apex(), azimuth, geo::Length::metres(grid.first_distance_m),
-                         configuration_.fidelity.geodesic_knots, column.distance_m.data(), column.places);
+                         configuration_.fidelity.geodesic_knots, column.distance_m.data(), column.positions);
   const bool peaks = view.has_peaks();
   const terrain::SurfaceRun found{{column.elevation_m.data(), samples},
                                   {column.water.data(), samples},
                                   peaks ? std::span(column.peak_m).first(samples) : std::span<float>{},
                                   {}};
-  const std::size_t pending = view.surfaces(column.places.run(), configuration_.fidelity.interpolation, found);
+  const std::size_t pending = view.surfaces(column.positions.run(), configuration_.fidelity.interpolation, found);
   const std::vector<float>& top_m = peaks ? column.peak_m : column.elevation_m;
   float tangent = terrain::kNoTangent;
   for (std::size_t i = 0; i + 1 < samples; ++i) {
     const Sight& sight = path_sight_[i];
-    const float there = (top_m[i] * sight.cosine - sight.above_m) / (sight.chord_m + top_m[i] * sight.sine);
-    if (there > tangent) tangent = there;  // never for a void
+    const float sample_tangent = (top_m[i] * sight.cosine - sight.above_m) / (sight.chord_m + top_m[i] * sight.sine);
+    if (sample_tangent > tangent) tangent = sample_tangent;  // false for NaN, which marks a void
   }
-  // Lines of posts between the samples.
+  // Crests of lines of posts between the samples.
   const physics::EffectiveEarth& earth = geometry.earth();
-  if (view.crests(column.places.run(),
+  if (view.crests(column.positions.run(),
                   {geometry.altitude_m(), earth.curvature(), std::span(column.distance_m).first(samples)},
                   std::span(column.crest).first(samples)))
     tangent = std::max(
         tangent, *std::max_element(column.crest.begin(), column.crest.begin() + static_cast<std::ptrdiff_t>(samples)));
   horizon = kNoHorizon;
   if (tangent > terrain::kNoTangent) {
-    // Rows count the tangent in their own way: what matters is how high the sight line passes the first one.
+    // Rows use another tangent than the path: convert by the height at which the line of sight passes row 0.
     const double height_m = geometry.height_on_sight_m(grid.first_distance_m, static_cast<double>(tangent));
     horizon = static_cast<float>((height_m - geometry.above_plane_m(grid.first_distance_m)) / grid.first_distance_m);
   }
   return pending;
 }
 
-// Of the column just read: lines of posts between its rows. What lies before row 0 is the path's.
+// Crests of lines of posts between the rows of the current column. Ground before row 0 belongs to the path.
 void PolarGround::read_crests(const PatchGeometry& geometry, const PatchTerrain& terrain, std::size_t lane) {
   Column& column = *window_;
-  const std::size_t rows = column.places.count;
+  const std::size_t rows = column.positions.count;
   float* crest_m = &strip_crest_[lane * pitch_];
   std::fill_n(crest_m, rows, kNoHorizon);
   if (terrain.crests.summits) raise_to_summits(geometry, lane);
-  if (!terrain.crests.lines || !terrain.window->crests(column.places.run(),
+  if (!terrain.crests.lines || !terrain.window->crests(column.positions.run(),
                                                        {geometry.altitude_m(), geometry.earth().curvature(),
                                                         std::span(column.distance_m).first(rows)},
                                                        std::span(column.crest).first(rows)))
@@ -243,10 +246,10 @@ void PolarGround::read_crests(const PatchGeometry& geometry, const PatchTerrain&
   }
 }
 
-// Where a row stands higher to the eye than both its neighbours, the parabola through the three tells the summit: it
-// hides the row itself if it lies before it, and else the next one.
+// A row whose tangent is not below its neighbours' has a summit near it: that of the parabola through the three. The
+// summit hides the row itself if it lies before it, else the next row.
 void PolarGround::raise_to_summits(const PatchGeometry& geometry, std::size_t lane) {
-  const std::size_t rows = window_->places.count;
+  const std::size_t rows = window_->positions.count;
   const float* const distance_m = window_->distance_m.data();
   const float* const height_m = &strip_height_[lane * pitch_];
   const float* const gain = &strip_gain_[lane * pitch_];
@@ -258,7 +261,7 @@ void PolarGround::raise_to_summits(const PatchGeometry& geometry, std::size_t la
   float before = tangent(0), here = tangent(1);
   for (std::size_t row = 1; row + 1 < rows; ++row) {
     const float after = tangent(row + 1);
-    // A void's height is its neighbour's: the step behind it is no summit.
+    // A void repeats its neighbour's height; the step behind it is no summit.
     const bool known = gain[row - 1] > 0.0F && gain[row] > 0.0F && gain[row + 1] > 0.0F;
     if (known && here >= before && here >= after && (here > before || here > after)) {
       const float lean = after - before;
@@ -271,44 +274,45 @@ void PolarGround::raise_to_summits(const PatchGeometry& geometry, std::size_t la
   }
 }
 
-void PolarGround::put_crests(const PolarGrid& grid, int strip, float* crest_m) const {
+void PolarGround::store_crests(const PolarGrid& grid, int strip, float* crest_m) const {
   float* const points = crest_m + grid.at(strip * kStripColumns, 0);
   for (std::size_t row = 0; row < static_cast<std::size_t>(grid.rows); ++row)
     for (std::size_t lane = 0; lane < std::size_t{kStripColumns}; ++lane)
       points[row * kStripColumns + lane] = strip_crest_[lane * pitch_ + row];
 }
 
-// Heights of the column just read count from the map plane; a void takes over its nearer neighbour's.
-void PolarGround::level(const PatchGeometry& geometry, std::size_t lane) {
+// Makes the heights of the current column relative to the map plane. A void takes the height of its known neighbour
+// before it.
+void PolarGround::subtract_plane(const PatchGeometry& geometry, std::size_t lane) {
   const auto plane_m = static_cast<float>(geometry.plane_msl_m());
-  const std::size_t rows = window_->places.count;
+  const std::size_t rows = window_->positions.count;
   float* height_m = &strip_height_[lane * pitch_];
   float* gain = &strip_gain_[lane * pitch_];
-  int holes = 0;
+  int voids = 0;
   for (std::size_t row = 0; row < rows; ++row) {
     height_m[row] -= plane_m;
-    holes += std::isnan(height_m[row]) ? 1 : 0;
+    voids += std::isnan(height_m[row]) ? 1 : 0;
   }
-  if (holes == 0) return;
-  // Voids before all ground are as high as the first: they hide nothing of it.
+  if (voids == 0) return;
+  // Voids before all known ground take its first height and hide nothing of it.
   const float* const known = std::find_if(height_m, height_m + rows, [](float height) { return !std::isnan(height); });
   float last_m = known < height_m + rows ? *known : 0.0F;
   for (std::size_t row = 0; row < rows; ++row) {
-    const bool hole = std::isnan(height_m[row]);
-    if (!hole) last_m = height_m[row];
+    const bool is_void = std::isnan(height_m[row]);
+    if (!is_void) last_m = height_m[row];
     height_m[row] = last_m;
-    if (hole) gain[row] = 0.0F;
+    if (is_void) gain[row] = 0.0F;
   }
 }
 
-void PolarGround::fill_between(std::size_t step) {
-  const std::size_t rows = window_->places.count;
-  simd::fill_between(rows, step, strip_height_.data(), pitch_);
-  simd::fill_between(rows, step, strip_gain_.data(), pitch_);
+void PolarGround::interpolate_columns(std::size_t step) {
+  const std::size_t rows = window_->positions.count;
+  simd::interpolate_columns(rows, step, strip_height_.data(), pitch_);
+  simd::interpolate_columns(rows, step, strip_gain_.data(), pitch_);
 }
 
-// Before a strip is put down its place is fetched, a sixteenth with every column that is read for it.
-void PolarGround::fetch_strip(const PolarGrid& grid, int column, const GroundArrays& arrays) const {
+// Prefetches the output of a strip, a sixteenth with each column.
+void PolarGround::prefetch_strip(const PolarGrid& grid, int column, const GroundArrays& arrays) const {
   const auto share = static_cast<std::size_t>(grid.rows) / std::size_t{kStripColumns} + 1;
   const std::size_t strip = grid.at(column - column % kStripColumns, 0);
   const std::size_t first = share * static_cast<std::size_t>(column % kStripColumns);
@@ -320,10 +324,10 @@ void PolarGround::fetch_strip(const PolarGrid& grid, int column, const GroundArr
   }
 }
 
-// A column's numbers lie one behind the other when read, and sixteen columns' side by side on the fan.
-void PolarGround::put_strip(const PolarGrid& grid, int strip, const GroundArrays& arrays) const {
-  simd::put_side_by_side(static_cast<std::size_t>(grid.rows), strip_gain_.data(), strip_height_.data(), pitch_,
-                         arrays.surface + grid.at(strip * kStripColumns, 0));
+// Stores the strip: columns one after the other become sixteen columns side by side on the polar grid.
+void PolarGround::store_strip(const PolarGrid& grid, int strip, const GroundArrays& arrays) const {
+  simd::interleave_columns(static_cast<std::size_t>(grid.rows), strip_gain_.data(), strip_height_.data(), pitch_,
+                           arrays.surface + grid.at(strip * kStripColumns, 0));
 }
 
 }  // namespace yars::model::hrm

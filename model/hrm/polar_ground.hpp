@@ -1,5 +1,9 @@
-// The terrain under the columns of a fan: height, what it returns, and the horizon that the way from the aircraft to
-// the first row has raised already. One instance a thread: it keeps the room for a column.
+// Terrain sampled on the polar grid of a patch map: height and gamma of each point, horizon before row 0.
+// Inputs: terrain views of the window and of the path, the radar's configuration, optional ground detail.
+// Outputs: GroundArrays, filled strip by strip.
+// Units: metres; gamma is a ratio; the horizon is a tangent.
+// Threads: one instance a thread, because it holds the buffers of a column.
+// Source: docs/radar_maths.md, "Patch maps"; decision 19 (every post raises the horizon).
 #pragma once
 
 #include <memory>
@@ -15,30 +19,30 @@
 
 namespace yars::model::hrm {
 
-// What of the ground between neighbouring rows raises the horizon: lines of posts, where it is straight between posts,
-// and summits of a curve through three rows, where it is smooth. Rows that are close to each other need neither.
+// Which ground between two neighbouring rows raises the horizon. `lines`: the lines of posts that a column crosses.
+// `summits`: the summit of the parabola through three rows, on smooth ground. Closely spaced rows need neither.
 struct CrestsBetweenRows {
   bool lines = false;
   bool summits = false;
   bool any() const { return lines || summits; }
 };
-// `smooth`: the ground of the window is, where posts lie far apart.
+// `smooth`: the ground of the window is smoothed between its posts.
 CrestsBetweenRows crests_between_rows(const PolarGrid& grid, const terrain::TerrainView& window, bool smooth);
 
-// Of the window itself, and of the way to it, which may be coarser.
+// Terrain of the window, and of the path from the aircraft to it, which may be coarser.
 struct PatchTerrain {
   const terrain::TerrainView* window = nullptr;
   const terrain::TerrainView* path = nullptr;
-  CrestsBetweenRows crests{};  // that GroundArrays::crest_m is asked for
+  CrestsBetweenRows crests{};  // computed if GroundArrays::crest_m is not null
 };
 
-// By PolarGrid::at(); the horizon by column.
+// Output arrays, indexed by PolarGrid::at(); `horizon` by column.
 struct GroundArrays {
-  SurfacePoint* surface = nullptr;  // a void takes over its nearer neighbour's height (the first one's, where none is
-                                    // nearer), and returns nothing
-  float* horizon = nullptr;         // greatest (height - above) / distance before row 0
-  // The ground on the way from the row before, raised to where a line of sight over its top passes this row: height
-  // above the map plane; far below it where there is none. Null: not asked.
+  // A void has gain 0 and the height of its known neighbour towards the aircraft, else of the first known point.
+  SurfacePoint* surface = nullptr;
+  float* horizon = nullptr;  // greatest (height - above) / distance before row 0
+  // Crest between the previous row and this one: the height above the map plane [m] at which the line of sight over it
+  // passes this row. -1e6 without a crest. Null: not computed.
   float* crest_m = nullptr;
 };
 
@@ -46,21 +50,21 @@ class PolarGround {
  public:
   explicit PolarGround(const radar::RadarConfiguration& configuration);
 
-  // Before the first columns of a map.
+  // Call before the first columns of a map: sets the distances and resizes the buffers.
   void begin(const PatchGeometry& geometry, const PolarGrid& grid, const terrain::TerrainView& path);
-  // Fills the columns [first, last), whole strips; `detail` null: none. Returns how many samples met terrain that was
-  // not loaded.
+  // Fills the columns [first, last), which are whole strips. `detail` null: no detail. Returns the number of samples
+  // over terrain that was not loaded.
   std::size_t fill(const PatchOrder& order, const PatchGeometry& geometry, const PolarGrid& grid,
                    const PatchTerrain& terrain, const Detail* detail, int first, int last, const GroundArrays& arrays);
 
  private:
-  // Room for a column of so many samples.
+  // Buffers for a column of `samples` samples.
   struct Column {
     explicit Column(std::size_t samples);
-    physics::PlaceArrays places;
+    physics::PlaceArrays positions;
     std::vector<float> distance_m, elevation_m, water, peak_m, crest;
   };
-  // A line of sight at a distance over ground: tangent = (height cosine - above) / (chord + height sine).
+  // Constants of lines of sight at a distance over ground: tangent = (height cosine - above) / (chord + height sine).
   struct Sight {
     Sight(const PatchGeometry& geometry, double distance_m);
     float above_m, chord_m, sine, cosine;
@@ -73,21 +77,21 @@ class PolarGround {
                         const terrain::TerrainView& view, float& horizon);
   void read_crests(const PatchGeometry& geometry, const PatchTerrain& terrain, std::size_t lane);
   void raise_to_summits(const PatchGeometry& geometry, std::size_t lane);
-  void level(const PatchGeometry& geometry, std::size_t lane);
-  void fill_between(std::size_t step);
-  void fetch_strip(const PolarGrid& grid, int column, const GroundArrays& arrays) const;
-  void put_strip(const PolarGrid& grid, int strip, const GroundArrays& arrays) const;
-  void put_crests(const PolarGrid& grid, int strip, float* crest_m) const;
+  void subtract_plane(const PatchGeometry& geometry, std::size_t lane);
+  void interpolate_columns(std::size_t step);
+  void prefetch_strip(const PolarGrid& grid, int column, const GroundArrays& arrays) const;
+  void store_strip(const PolarGrid& grid, int strip, const GroundArrays& arrays) const;
+  void store_crests(const PolarGrid& grid, int strip, float* crest_m) const;
 
   radar::RadarConfiguration configuration_;
   std::unique_ptr<Column> window_, path_;
   std::unique_ptr<physics::Ground> ground_;
-  std::vector<float> sin_grazing_;                       // on the map plane, by row
-  std::vector<Sight> path_sight_, row_sight_;            // by sample of the path and by row
-  std::size_t pitch_ = 0;                                // of the columns of a strip in hand, as they were read
+  std::vector<float> sin_grazing_;             // on the map plane, by row
+  std::vector<Sight> path_sight_, row_sight_;  // by sample of the path, by row
+  std::size_t pitch_ = 0;                      // between the columns of strip_height_, strip_gain_ and strip_crest_
   memory::LineVector<float> strip_height_, strip_gain_;  // sixteen columns, one after the other
-  memory::LineVector<float> strip_crest_;                // the same; only where crests are asked
-  float plain_gamma_;                                    // of land without culture
+  memory::LineVector<float> strip_crest_;                // likewise; empty unless crests are computed
+  float plain_gamma_;                                    // gamma of land without culture
 };
 
 }  // namespace yars::model::hrm

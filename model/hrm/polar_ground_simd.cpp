@@ -18,41 +18,43 @@ using Tag = hn::CappedTag<float, 16>;
 using SignedTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
 
-// The second look at the table: turned by 70 degrees and stretched by the golden ratio, so that the two periods never
-// meet.
+// Second sample of the texture: turned by 70 degrees and stretched by the golden ratio, so that the two periods have no
+// common multiple.
 constexpr float kTurnCosine = 0.3420201F;
 constexpr float kTurnSine = 0.9396926F;
 constexpr float kStretch = 1.618034F;
 
-// One of the four bytes of a word as a number.
+// One of the four bytes of a word, as float.
 template <int kShift>
 HWY_INLINE Floats byte_of(hn::Vec<SignedTag> word) {
   const SignedTag di;
   return hn::ConvertTo(Tag(), hn::And(hn::ShiftRight<kShift>(word), hn::Set(di, 0xff)));
 }
 
-// A place along an axis of the table, apart: the texel, and the way on from it.
-struct Apart {
+// Coordinate along an axis of the texture: index of the texel and fraction to the next one.
+struct TexelCoordinate {
   hn::Vec<SignedTag> whole;
-  Floats share;
+  Floats fraction;
 };
-// Rounded half a texel before the place: a place on a texel may count as the end of the one before, which is the same.
-HWY_INLINE Apart apart(Floats place) {
+// Rounds the coordinate less one half, not down. A coordinate on a texel may be the end of the previous one (fraction
+// 1), which gives the same value.
+HWY_INLINE TexelCoordinate split(Floats coordinate) {
   const Tag d;
-  constexpr float kOnes = 12582912.0F;  // 1.5 * 2^23: in the sum the last bit counts ones
-  const auto sum = hn::Add(hn::Sub(place, hn::Set(d, 0.5F)), hn::Set(d, kOnes));
-  return {hn::BitCast(SignedTag(), sum), hn::Sub(place, hn::Sub(sum, hn::Set(d, kOnes)))};
+  constexpr float kOnes = 12582912.0F;  // 1.5 * 2^23: the last bit of the sum is 1
+  const auto sum = hn::Add(hn::Sub(coordinate, hn::Set(d, 0.5F)), hn::Set(d, kOnes));
+  return {hn::BitCast(SignedTag(), sum), hn::Sub(coordinate, hn::Sub(sum, hn::Set(d, kOnes)))};
 }
 
-HWY_INLINE Floats look_up(const DetailTable& table, Floats x, Floats y) {
+// Bilinear sample of the texture.
+HWY_INLINE Floats sample(const DetailTable& table, Floats x, Floats y) {
   const SignedTag di;
   const auto mask = hn::Set(di, table.edge - 1);
-  const Apart column = apart(x);
-  const Apart row = apart(y);
+  const TexelCoordinate column = split(x);
+  const TexelCoordinate row = split(y);
   const auto i = hn::And(column.whole, mask);
   const auto j = hn::And(row.whole, mask);
   const auto low_bits = hn::Set(di, kDetailBlock - 1);
-  // Whole lines of blocks, whole blocks of the line, and within the block.
+  // Index: full rows of blocks, blocks before it in its row, position in the block.
   const auto lines = hn::Mul(hn::AndNot(low_bits, j), hn::Set(di, table.edge));
   const auto blocks = hn::ShiftLeft<2>(hn::AndNot(low_bits, i));
   const auto within = hn::Add(hn::ShiftLeft<2>(hn::And(j, low_bits)), hn::And(i, low_bits));
@@ -61,9 +63,9 @@ HWY_INLINE Floats look_up(const DetailTable& table, Floats x, Floats y) {
   const auto word = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(table.texels), at);
   const auto near_left = byte_of<0>(word);
   const auto far_left = byte_of<16>(word);
-  const auto low = hn::Add(near_left, hn::Mul(column.share, hn::Sub(byte_of<8>(word), near_left)));
-  const auto high = hn::Add(far_left, hn::Mul(column.share, hn::Sub(byte_of<24>(word), far_left)));
-  return hn::Add(low, hn::Mul(row.share, hn::Sub(high, low)));
+  const auto low = hn::Add(near_left, hn::Mul(column.fraction, hn::Sub(byte_of<8>(word), near_left)));
+  const auto high = hn::Add(far_left, hn::Mul(column.fraction, hn::Sub(byte_of<24>(word), far_left)));
+  return hn::Add(low, hn::Mul(row.fraction, hn::Sub(high, low)));
 }
 
 void modulate(std::size_t count, const DetailTable& table, const float* east_deg, const float* north_deg,
@@ -77,45 +79,45 @@ void modulate(std::size_t count, const DetailTable& table, const float* east_deg
     const auto north = hn::Mul(hn::LoadU(d, north_deg + i), hn::Set(d, north_scale));
     const auto turned_east = hn::Sub(hn::Mul(cosine, east), hn::Mul(sine, north));
     const auto turned_north = hn::Add(hn::Mul(sine, east), hn::Mul(cosine, north));
-    const auto factor = hn::Mul(look_up(table, east, north), look_up(table, turned_east, turned_north));
+    const auto factor = hn::Mul(sample(table, east, north), sample(table, turned_east, turned_north));
     hn::StoreU(hn::Mul(hn::LoadU(d, gain + i), hn::Mul(factor, unit2)), d, gain + i);
   }
 }
 
-void fill_between(std::size_t count, std::size_t step, float* columns, std::size_t pitch) {
+void interpolate_columns(std::size_t count, std::size_t step, float* columns, std::size_t pitch) {
   const hn::CappedTag<float, kStripColumns> d;
   for (std::size_t first = 0; first + step < kStripColumns; first += step) {
     const float* const near = columns + first * pitch;
     const float* const far = near + step * pitch;
     for (std::size_t off = 1; off < step; ++off) {
-      const auto share = hn::Set(d, static_cast<float>(off) / static_cast<float>(step));
+      const auto fraction = hn::Set(d, static_cast<float>(off) / static_cast<float>(step));
       float* const between = columns + (first + off) * pitch;
       for (std::size_t row = 0; row < count; row += hn::Lanes(d)) {
         const auto here = hn::LoadU(d, near + row);
-        hn::StoreU(hn::Add(here, hn::Mul(share, hn::Sub(hn::LoadU(d, far + row), here))), d, between + row);
+        hn::StoreU(hn::Add(here, hn::Mul(fraction, hn::Sub(hn::LoadU(d, far + row), here))), d, between + row);
       }
     }
   }
 }
 
-HWY_INLINE void put_row(const float* gain, const float* height_m, std::size_t pitch, SurfacePoint* points) {
+HWY_INLINE void store_row(const float* gain, const float* height_m, std::size_t pitch, SurfacePoint* points) {
   for (std::size_t lane = 0; lane < kStripColumns; ++lane) points[lane] = {gain[lane * pitch], height_m[lane * pitch]};
 }
 
 #if HWY_TARGET == HWY_SCALAR
-void put_side_by_side(std::size_t count, const float* gain, const float* height_m, std::size_t pitch,
-                      SurfacePoint* points) {
+void interleave_columns(std::size_t count, const float* gain, const float* height_m, std::size_t pitch,
+                        SurfacePoint* points) {
   for (std::size_t row = 0; row < count; ++row)
-    put_row(gain + row, height_m + row, pitch, points + row * kStripColumns);
+    store_row(gain + row, height_m + row, pitch, points + row * kStripColumns);
 }
 #else
 constexpr std::size_t kSquare = 4;
 
-// Two rows of four columns' numbers, of four rows.
+// A 4 x 4 block, transposed: one vector a row.
 struct Rows {
   hn::Vec<hn::FixedTag<float, kSquare> > first, second, third, fourth;
 };
-HWY_INLINE Rows turned(const float* columns, std::size_t pitch) {
+HWY_INLINE Rows transposed(const float* columns, std::size_t pitch) {
   const hn::FixedTag<float, kSquare> d;
   const hn::FixedTag<double, kSquare / 2> pairs;
   const auto a = hn::LoadU(d, columns);
@@ -132,24 +134,24 @@ HWY_INLINE Rows turned(const float* columns, std::size_t pitch) {
           hn::BitCast(d, hn::InterleaveUpper(pairs, ab_high, ce_high))};
 }
 
-// Four columns by four rows.
-HWY_INLINE void put_square(const float* gain, const float* height_m, std::size_t pitch, SurfacePoint* points) {
+// Interleaves four columns by four rows.
+HWY_INLINE void store_block(const float* gain, const float* height_m, std::size_t pitch, SurfacePoint* points) {
   const hn::FixedTag<float, kSquare> d;
-  const Rows gains = turned(gain, pitch);
-  const Rows heights = turned(height_m, pitch);
+  const Rows gains = transposed(gain, pitch);
+  const Rows heights = transposed(height_m, pitch);
   hn::StoreInterleaved2(gains.first, heights.first, d, &points->gain);
   hn::StoreInterleaved2(gains.second, heights.second, d, &points[kStripColumns].gain);
   hn::StoreInterleaved2(gains.third, heights.third, d, &points[2 * kStripColumns].gain);
   hn::StoreInterleaved2(gains.fourth, heights.fourth, d, &points[3 * kStripColumns].gain);
 }
 
-void put_side_by_side(std::size_t count, const float* gain, const float* height_m, std::size_t pitch,
-                      SurfacePoint* points) {
+void interleave_columns(std::size_t count, const float* gain, const float* height_m, std::size_t pitch,
+                        SurfacePoint* points) {
   std::size_t row = 0;
   for (; row + kSquare <= count; row += kSquare)
     for (std::size_t lane = 0; lane < kStripColumns; lane += kSquare)
-      put_square(gain + lane * pitch + row, height_m + lane * pitch + row, pitch, points + row * kStripColumns + lane);
-  for (; row < count; ++row) put_row(gain + row, height_m + row, pitch, points + row * kStripColumns);
+      store_block(gain + lane * pitch + row, height_m + lane * pitch + row, pitch, points + row * kStripColumns + lane);
+  for (; row < count; ++row) store_row(gain + row, height_m + row, pitch, points + row * kStripColumns);
 }
 #endif
 
@@ -166,15 +168,15 @@ void modulate(std::size_t count, const DetailTable& table, const float* east_deg
   HWY_DYNAMIC_DISPATCH(modulate)(count, table, east_deg, north_deg, east_scale, north_scale, gain);
 }
 
-HWY_EXPORT(fill_between);
-HWY_EXPORT(put_side_by_side);
+HWY_EXPORT(interpolate_columns);
+HWY_EXPORT(interleave_columns);
 
-void fill_between(std::size_t count, std::size_t step, float* columns, std::size_t pitch) {
-  HWY_DYNAMIC_DISPATCH(fill_between)(count, step, columns, pitch);
+void interpolate_columns(std::size_t count, std::size_t step, float* columns, std::size_t pitch) {
+  HWY_DYNAMIC_DISPATCH(interpolate_columns)(count, step, columns, pitch);
 }
-void put_side_by_side(std::size_t count, const float* gain, const float* height_m, std::size_t pitch,
-                      SurfacePoint* points) {
-  HWY_DYNAMIC_DISPATCH(put_side_by_side)(count, gain, height_m, pitch, points);
+void interleave_columns(std::size_t count, const float* gain, const float* height_m, std::size_t pitch,
+                        SurfacePoint* points) {
+  HWY_DYNAMIC_DISPATCH(interleave_columns)(count, gain, height_m, pitch, points);
 }
 
 }  // namespace yars::model::hrm::simd

@@ -1,4 +1,5 @@
-// Loops of the ground on the polar grid: made-up texture and strips of columns.
+// Vector loops of the polar grid's ground: texture lookups, interpolation between columns, interleaving of columns.
+// Determinism: Highway targets chosen at run time give equal bits.
 #pragma once
 
 #include <cstddef>
@@ -8,34 +9,30 @@
 
 namespace yars::model::hrm::simd {
 
-// The look-up of the made-up detail, by vectors (Highway, chosen at run time; equal bits on every target).
-
-// Texels lie in square blocks, row by row within them and among each other: a line of the cache is a block, so that a
-// walk in any direction meets few.
+// Edge of a block of texels. Texels are stored in square blocks, row by row in a block and between blocks. One block is
+// one cache line, so a line in any direction crosses few cache lines.
 inline constexpr int kDetailBlock = 4;
 
-// A periodic table of edge * edge words, edge a power of two and a block at least: bytes of the texels (x, y), (x + 1,
-// y), (x, y + 1) and (x + 1, y + 1), the lowest first. `unit2`: the square of what a byte counts by.
+// Periodic texture of edge * edge words; `edge` is a power of two and at least kDetailBlock. The bytes of word (x, y)
+// are the texels (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1), lowest byte first. `unit2`: square of the value of one
+// byte step.
 struct DetailTable {
   const std::uint32_t* texels = nullptr;
   int edge = 0;
   float unit2 = 1.0F;
 };
 
-// gain[i] *= table(east, north) * table(both turned and stretched), bilinear; east = east_deg[i] * east_scale and so
-// on, in texels. Vectors read and write up to 15 entries behind the last.
+// gain[i] *= texture(east, north) * texture(turned and stretched east, north), bilinear. Here east = east_deg[i] *
+// east_scale, in texels; north likewise. Reads and writes up to 15 entries beyond `count`.
 void modulate(std::size_t count, const DetailTable& table, const float* east_deg, const float* north_deg,
               float east_scale, float north_scale, float* gain);
 
-// Sixteen columns of numbers, one after the other: what lies between some of them, and all put side by side, by vectors
-// (Highway, chosen at run time, equal bits on every target).
-
-// Every `step`th column is given, the first and the last among them; the others become what lies between their
-// neighbours on a straight line. `count` rows; up to 15 more of each column are overwritten.
-void fill_between(std::size_t count, std::size_t step, float* columns, std::size_t pitch);
+// Interpolates linearly between every `step`th of sixteen columns; the first and the last are inputs. `columns` holds
+// them one after the other, `pitch` apart, `count` rows each. Up to 15 further entries of each column are overwritten.
+void interpolate_columns(std::size_t count, std::size_t step, float* columns, std::size_t pitch);
 
 // points[16 * row + column] = {gain[column * pitch + row], height_m[column * pitch + row]} for `count` rows.
-void put_side_by_side(std::size_t count, const float* gain, const float* height_m, std::size_t pitch,
-                      SurfacePoint* points);
+void interleave_columns(std::size_t count, const float* gain, const float* height_m, std::size_t pitch,
+                        SurfacePoint* points);
 
 }  // namespace yars::model::hrm::simd

@@ -15,20 +15,20 @@ using SignedTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-// Where a wall stands, a step steeper than this is its face; less is ground that has buried it.
+// A climb below this share of the row spacing is ground that covers the wall; above it, the wall's face.
 constexpr float kMinStep = 0.2F;
-// A piece seen end on still covers this share of a row: nothing is divided by zero.
+// Least extent of a piece, in rows; prevents a division by zero for a piece seen end on.
 constexpr float kMinExtent = 1.0e-3F;
-// So many rows of a strip are added to as rows; what spreads over more is put lane by lane.
+// Pieces of fewer rows are added as whole rows, longer ones by gather and scatter. It affects speed alone.
 constexpr int kMaxRows = 8;
 
 // A point of the profile.
 struct Point {
-  Floats height;  // above the map plane
-  Floats up;      // against the aircraft
+  Floats height_m;  // above the map plane
+  Floats up_m;      // relative to the aircraft
   Floats tangent;
   Floats gain;
-  Floats row;  // where it appears: placed() fills it in
+  Floats row;  // apparent row, set by with_image_row()
 };
 
 HWY_INLINE Point point_at(const Strip& strip, int row, std::size_t lane) {
@@ -36,64 +36,64 @@ HWY_INLINE Point point_at(const Strip& strip, int row, std::size_t lane) {
   const auto at = static_cast<std::size_t>(row) * kStripColumns + lane;
   Point point;
   Floats gain;
-  hn::LoadInterleaved2(d, &strip.surface[at].gain, gain, point.height);
-  point.up = hn::Sub(point.height, hn::Set(d, strip.above_m[row]));
-  point.tangent = hn::Mul(point.up, hn::Set(d, strip.inverse_m[row]));
+  hn::LoadInterleaved2(d, &strip.surface[at].gain, gain, point.height_m);
+  point.up_m = hn::Sub(point.height_m, hn::Set(d, strip.above_plane_m[row]));
+  point.tangent = hn::Mul(point.up_m, hn::Set(d, strip.inverse_m[row]));
   point.gain = hn::Abs(gain);
   return point;
 }
 
-// What is seen of the way up to a point: the point itself, or ground before it that stands higher to the eye. Such
-// ground is seen on its near side and returns at the point's row.
-HWY_INLINE Point topped(const Strip& strip, int row, std::size_t lane, Point point) {
+// Highest visible point on the way to a point: the point itself, or a crest before it. The near side of a crest is seen
+// and returns at the point's row.
+HWY_INLINE Point raised_to_crest(const Strip& strip, int row, std::size_t lane, Point point) {
   if (strip.crest_m == nullptr) return point;
   const Tag d;
   const auto crest = hn::Load(d, strip.crest_m + static_cast<std::size_t>(row) * kStripColumns + lane);
-  point.up = hn::Max(point.up, hn::Sub(crest, hn::Set(d, strip.above_m[row])));
-  point.tangent = hn::Mul(point.up, hn::Set(d, strip.inverse_m[row]));
+  point.up_m = hn::Max(point.up_m, hn::Sub(crest, hn::Set(d, strip.above_plane_m[row])));
+  point.tangent = hn::Mul(point.up_m, hn::Set(d, strip.inverse_m[row]));
   return point;
 }
 
-HWY_INLINE Point placed(const Strip& strip, int row, Point point) {
+// Sets the apparent row of a point by its slant range.
+HWY_INLINE Point with_image_row(const Strip& strip, int row, Point point) {
   const Tag d;
   point.row = hn::Set(d, static_cast<float>(row));
   if (!strip.layover) return point;
-  const auto distance = hn::Set(d, strip.distance_m[row]);
-  const auto level = hn::Set(d, strip.level_m[row]);
-  const auto shift = hn::Mul(point.height, hn::Sub(point.height, hn::Add(level, level)));
-  const auto square = hn::Add(hn::Mul(distance, distance), shift);
+  const auto distance_m = hn::Set(d, strip.distance_m[row]);
+  const auto level_m = hn::Set(d, strip.above_level_m[row]);
+  const auto shift = hn::Mul(point.height_m, hn::Sub(point.height_m, hn::Add(level_m, level_m)));
+  const auto square = hn::Add(hn::Mul(distance_m, distance_m), shift);
   const auto seen_at = hn::Sqrt(hn::Max(square, hn::Zero(d)));
   point.row = hn::Mul(hn::Sub(seen_at, hn::Set(d, strip.first_distance_m)), hn::Set(d, 1.0F / strip.spacing_m));
   return point;
 }
 
-// Power spread evenly from one row to another (row k reaches from k - 1/2 to k + 1/2). What falls off the strip is
-// lost.
-struct Stretch {
+// Power spread evenly over an interval of rows; row k extends from k - 1/2 to k + 1/2. Power outside the strip is lost.
+struct RowInterval {
   Floats low, high;
-  Floats density;  // power a row; 0 where there is none
+  Floats density;  // power a row; 0: none
 };
 
-// What of it falls onto a row.
-HWY_INLINE Floats share_of(const Stretch& stretch, Floats row) {
+// Power of the interval in one row.
+HWY_INLINE Floats share_of(const RowInterval& interval, Floats row) {
   const Tag d;
   const auto half = hn::Set(d, 0.5F);
-  const auto covered = hn::Sub(hn::Min(stretch.high, hn::Add(row, half)), hn::Max(stretch.low, hn::Sub(row, half)));
-  return hn::Mul(stretch.density, hn::Max(covered, hn::Zero(d)));
+  const auto covered = hn::Sub(hn::Min(interval.high, hn::Add(row, half)), hn::Max(interval.low, hn::Sub(row, half)));
+  return hn::Mul(interval.density, hn::Max(covered, hn::Zero(d)));
 }
 
-// Lane by lane: each writes to its own column alone; one at rest adds nothing to row 0, which every strip has.
-HWY_INLINE void add_far(const Strip& strip, std::size_t lane, const Stretch& stretch) {
+// Adds an interval by gather and scatter. Each lane writes to its own column. An inactive lane adds 0 to row 0.
+HWY_INLINE void add_by_lane(const Strip& strip, std::size_t lane, const RowInterval& interval) {
   const Tag d;
   const SignedTag di;
   const auto half = hn::Set(d, 0.5F);
   const auto most = hn::Set(d, static_cast<float>(strip.rows - 1));
-  auto row = hn::Max(hn::Floor(hn::Add(stretch.low, half)), hn::Zero(d));
-  const auto last = hn::Min(hn::Floor(hn::Add(stretch.high, half)), most);
-  auto active = hn::And(hn::Gt(stretch.density, hn::Zero(d)), hn::Le(row, last));
+  auto row = hn::Max(hn::Floor(hn::Add(interval.low, half)), hn::Zero(d));
+  const auto last = hn::Min(hn::Floor(hn::Add(interval.high, half)), most);
+  auto active = hn::And(hn::Gt(interval.density, hn::Zero(d)), hn::Le(row, last));
   const auto lanes = hn::Add(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(lane)));
   while (!hn::AllFalse(d, active)) {
-    const auto share = hn::IfThenElseZero(active, share_of(stretch, row));
+    const auto share = hn::IfThenElseZero(active, share_of(interval, row));
     const auto index = hn::Add(hn::ShiftLeft<4>(hn::ConvertTo(di, hn::IfThenElseZero(active, row))), lanes);
     hn::ScatterIndex(hn::Add(hn::GatherIndex(d, strip.power, index), share), d, strip.power, index);
     row = hn::Add(row, hn::Set(d, 1.0F));
@@ -101,8 +101,9 @@ HWY_INLINE void add_far(const Strip& strip, std::size_t lane, const Stretch& str
   }
 }
 
-// Both stretches, the first one first. Neighbouring columns look alike, so they fall onto few rows as a rule.
-HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const Stretch& first, const Stretch& second) {
+// Adds both intervals, the first one first. Neighbouring columns are similar, so they usually cover few rows.
+HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const RowInterval& first,
+                    const RowInterval& second) {
   const Tag d;
   const auto half = hn::Set(d, 0.5F);
   const auto most = hn::Set(d, static_cast<float>(strip.rows - 1));
@@ -113,8 +114,8 @@ HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const Str
   const auto end = hn::Min(hn::Floor(hn::Add(hn::MaxOfLanes(d, high), half)), most);
   const float rows = hn::GetLane(hn::Sub(end, begin));
   if (rows >= static_cast<float>(kMaxRows)) {
-    add_far(strip, lane, first);
-    add_far(strip, lane, second);
+    add_by_lane(strip, lane, first);
+    add_by_lane(strip, lane, second);
     return;
   }
   auto row = begin;
@@ -127,44 +128,47 @@ HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const Str
   }
 }
 
-// The faces that stand between two points of the profile.
+// Walls between two points of the profile.
 struct Walls {
-  Mask there;
-  Floats share;  // of the climb that they fill
+  Mask present;
+  Floats share;  // of the climb between the points
   Floats gain;
 };
 
-HWY_INLINE Walls walls_at(const Strip& strip, std::size_t at, Floats climb, float step) {
+HWY_INLINE Walls walls_at(const Strip& strip, std::size_t at, Floats climb_m, float step_m) {
   const Tag d;
   const SignedTag di;
   const auto one = hn::Set(d, 1.0F);
   if (strip.walls == nullptr) return {hn::Lt(one, one), hn::Zero(d), hn::Zero(d)};
   const hn::RebindToUnsigned<Tag> db;
   hn::Vec<decltype(db)> steps_returned, steps_high;
-  hn::LoadInterleaved2(db, &strip.walls[at].returned, steps_returned, steps_high);
+  hn::LoadInterleaved2(db, &strip.walls[at].returned_steps, steps_returned, steps_high);
   const auto height = hn::ConvertTo(d, hn::BitCast(di, steps_high));
-  const auto there = hn::And(hn::Gt(height, hn::Zero(d)), hn::Gt(climb, hn::Set(d, kMinStep * step)));
-  if (hn::AllFalse(d, there)) return {there, hn::Zero(d), hn::Zero(d)};
+  const auto present = hn::And(hn::Gt(height, hn::Zero(d)), hn::Gt(climb_m, hn::Set(d, kMinStep * step_m)));
+  if (hn::AllFalse(d, present)) return {present, hn::Zero(d), hn::Zero(d)};
   const auto sum = hn::ConvertTo(d, hn::BitCast(di, steps_returned));
-  const auto tall = hn::IfThenElse(there, height, one);
-  const auto share = hn::Min(hn::Div(hn::Mul(tall, hn::Set(d, kWallStep_m)), hn::IfThenElse(there, climb, one)), one);
-  return {there, share, hn::Div(sum, tall)};
+  const auto wall_steps = hn::IfThenElse(present, height, one);
+  const auto share =
+      hn::Min(hn::Div(hn::Mul(wall_steps, hn::Set(d, kWallStep_m)), hn::IfThenElse(present, climb_m, one)), one);
+  return {present, share, hn::Div(sum, wall_steps)};
 }
 
-HWY_INLINE Floats left_by_gases(const GasRow& gas, Floats height_m) {
+// Gas transmission of a row, at a height above the map plane.
+HWY_INLINE Floats gas_transmission(const GasRow& gas, Floats height_m) {
   const Tag d;
   const auto within = hn::Min(hn::Max(height_m, hn::Set(d, gas.lowest_m)), hn::Set(d, gas.highest_m));
   const auto slope = hn::Add(hn::Set(d, gas.slope), hn::Mul(within, hn::Set(d, gas.bend)));
   return hn::Add(hn::Set(d, gas.constant), hn::Mul(within, slope));
 }
 
+// Adds the visible part of the piece from `near` to `far`.
 HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const Point& near, const Point& far,
                            Mask seen, Floats horizon) {
   const Tag d;
   const auto zero = hn::Zero(d);
   const auto one = hn::Set(d, 1.0F);
   const auto half = hn::Set(d, 0.5F);
-  // The horizon is never below the nearer end: where it is not above, all of the piece is seen.
+  // The horizon is at least the nearer end. If it equals it, all of the piece is visible.
   const auto whole = hn::And(seen, hn::Ge(near.tangent, horizon));
   auto share = hn::IfThenElseZero(seen, one);
   if (!hn::AllTrue(d, hn::Or(whole, hn::Not(seen)))) {
@@ -173,54 +177,54 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
     share = hn::IfThenElseZero(seen, hn::IfThenElse(whole, one, part));
   }
 
-  const float step = strip.distance_m[row] - strip.distance_m[row - 1];
-  const auto distance = hn::Set(d, 0.5F * (strip.distance_m[row] + strip.distance_m[row - 1]));
-  const auto up = hn::Mul(half, hn::Add(near.up, far.up));
-  const auto climb = hn::Sub(far.up, near.up);
-  const auto across = hn::Sub(hn::Mul(distance, climb), hn::Mul(up, hn::Set(d, step)));
-  const auto slant = hn::Sqrt(hn::Add(hn::Mul(distance, distance), hn::Mul(up, up)));
-  auto width = hn::Div(hn::Mul(hn::Mul(hn::Load(d, strip.arc + lane), distance), share), slant);
-  if (strip.gas != nullptr) width = hn::Mul(width, left_by_gases(strip.gas[row], far.height));
-  const auto area = hn::Mul(width, hn::Max(across, zero));
+  const float step_m = strip.distance_m[row] - strip.distance_m[row - 1];
+  const auto distance_m = hn::Set(d, 0.5F * (strip.distance_m[row] + strip.distance_m[row - 1]));
+  const auto up_m = hn::Mul(half, hn::Add(near.up_m, far.up_m));
+  const auto climb_m = hn::Sub(far.up_m, near.up_m);
+  const auto across = hn::Sub(hn::Mul(distance_m, climb_m), hn::Mul(up_m, hn::Set(d, step_m)));
+  const auto slant_m = hn::Sqrt(hn::Add(hn::Mul(distance_m, distance_m), hn::Mul(up_m, up_m)));
+  auto width = hn::Div(hn::Mul(hn::Mul(hn::Load(d, strip.arc + lane), distance_m), share), slant_m);
+  if (strip.gas != nullptr) width = hn::Mul(width, gas_transmission(strip.gas[row], far.height_m));
+  const auto area_m2 = hn::Mul(width, hn::Max(across, zero));
 
-  const Walls walls = walls_at(strip, static_cast<std::size_t>(row) * kStripColumns + lane, climb, step);
-  const auto halves = hn::AndNot(walls.there, whole);
+  const Walls walls = walls_at(strip, static_cast<std::size_t>(row) * kStripColumns + lane, climb_m, step_m);
+  const auto halves = hn::AndNot(walls.present, whole);
   const auto middle = hn::Mul(half, hn::Add(near.row, far.row));
   const auto begin = hn::Sub(far.row, hn::Mul(share, hn::Sub(far.row, near.row)));
-  // A wall is its climb alone; what is level of the piece, and what no wall fills, is the ground before it.
-  const auto face = hn::Mul(hn::Mul(width, hn::Mul(distance, climb)), walls.share);
-  const auto built = hn::Add(hn::Mul(face, walls.gain), hn::Mul(hn::Max(hn::Sub(area, face), zero), near.gain));
-  // Ground belongs to the nearer of two rows: half of a piece each.
-  const auto half_area = hn::Mul(half, area);
-  const auto open = hn::Mul(hn::IfThenElse(halves, half_area, area), far.gain);
-  // A wall stands within half a row of the farther one, and so does its foot.
-  const auto foot_row = hn::IfThenElse(hn::And(walls.there, whole), hn::Add(begin, one), begin);
+  // A wall accounts for its share of the climb. The rest of the piece is the ground before it.
+  const auto face = hn::Mul(hn::Mul(width, hn::Mul(distance_m, climb_m)), walls.share);
+  const auto built = hn::Add(hn::Mul(face, walls.gain), hn::Mul(hn::Max(hn::Sub(area_m2, face), zero), near.gain));
+  // Ground takes the gamma of the nearer row: half of a piece each.
+  const auto half_area_m2 = hn::Mul(half, area_m2);
+  const auto open = hn::Mul(hn::IfThenElse(halves, half_area_m2, area_m2), far.gain);
+  // The wall and its foot lie within half a row of the farther point.
+  const auto foot_row = hn::IfThenElse(hn::And(walls.present, whole), hn::Add(begin, one), begin);
   const auto start = hn::IfThenElse(halves, middle, foot_row);
   const auto extent = hn::Max(hn::Abs(hn::Sub(far.row, start)), hn::Set(d, kMinExtent));
   const auto rows_inverse = hn::Div(one, extent);
-  Stretch first, second;
+  RowInterval first, second;
   first.low = hn::Min(near.row, middle);
   first.high = hn::Add(first.low, extent);
-  first.density = hn::IfThenElseZero(halves, hn::Mul(hn::Mul(half_area, near.gain), rows_inverse));
+  first.density = hn::IfThenElseZero(halves, hn::Mul(hn::Mul(half_area_m2, near.gain), rows_inverse));
   second.low = hn::Min(start, far.row);
   second.high = hn::Add(second.low, extent);
-  second.density = hn::IfThenElseZero(seen, hn::Mul(hn::IfThenElse(walls.there, built, open), rows_inverse));
+  second.density = hn::IfThenElseZero(seen, hn::Mul(hn::IfThenElse(walls.present, built, open), rows_inverse));
   add(strip, lane, seen, first, second);
 
   if (!(strip.double_bounce > 0.0F)) return;
-  const auto foot = hn::And(walls.there, whole);
+  const auto foot = hn::And(walls.present, whole);
   if (hn::AllFalse(d, foot)) return;
-  // From wall to ground and from ground to wall: every such path is as long as to the foot.
+  // Double bounce: the path over wall and ground is as long as the path to the foot.
   const auto bounce = hn::Mul(hn::Mul(face, walls.gain), hn::Set(d, strip.double_bounce / kMinExtent));
-  add_far(strip, lane, {foot_row, hn::Add(foot_row, hn::Set(d, kMinExtent)), hn::IfThenElseZero(foot, bounce)});
+  add_by_lane(strip, lane, {foot_row, hn::Add(foot_row, hn::Set(d, kMinExtent)), hn::IfThenElseZero(foot, bounce)});
 }
 
-// Leaves no walls to the next map. Most rows have none: what is not written need not go back to memory.
+// Resets the walls for the next map. Rows without walls, the majority, are not written, which saves bandwidth.
 HWY_INLINE void clear_walls(const Strip& strip, int row, std::size_t lane) {
   if (strip.walls == nullptr) return;
   const hn::RebindToUnsigned<Tag> db;
   const auto at = static_cast<std::size_t>(row) * kStripColumns + lane;
-  std::uint32_t* const first = &strip.walls[at].returned;
+  std::uint32_t* const first = &strip.walls[at].returned_steps;
   std::uint32_t* const second = first + hn::Lanes(db);
   if (hn::AllTrue(db, hn::Eq(hn::Or(hn::Load(db, first), hn::Load(db, second)), hn::Zero(db)))) return;
   hn::Store(hn::Zero(db), db, first);
@@ -229,25 +233,25 @@ HWY_INLINE void clear_walls(const Strip& strip, int row, std::size_t lane) {
 
 void cast_profile(const Strip& given) {
   const Tag d;
-  const Strip strip = given;  // a copy, so that no store of power could be one to it
+  const Strip strip = given;  // a copy, so that the compiler knows that stores of power do not change it
   for (std::size_t lane = 0; lane < kStripColumns; lane += hn::Lanes(d)) {
     Point near = point_at(strip, 0, lane);
     auto horizon = hn::Max(hn::Load(d, strip.horizon + lane), near.tangent);
-    bool near_placed = false;
+    bool near_has_row = false;
     clear_walls(strip, 0, lane);
     for (int row = 1; row < strip.rows; ++row) {
       Point far = point_at(strip, row, lane);
-      Point top = topped(strip, row, lane, far);
+      Point top = raised_to_crest(strip, row, lane, far);
       const auto seen = hn::Gt(top.tangent, horizon);
       const bool any = !hn::AllFalse(d, seen);
       if (any) {
-        if (!near_placed) near = placed(strip, row - 1, near);
-        far = placed(strip, row, far);
+        if (!near_has_row) near = with_image_row(strip, row - 1, near);
+        far = with_image_row(strip, row, far);
         top.row = far.row;
         cast_piece(strip, row, lane, near, top, seen, horizon);
       }
       clear_walls(strip, row, lane);
-      near_placed = any;
+      near_has_row = any;
       horizon = hn::Max(horizon, top.tangent);
       near = far;
     }

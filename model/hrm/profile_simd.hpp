@@ -1,8 +1,10 @@
-// One pass down range over a strip of sixteen columns: shadow, and every visible piece of the profile put where slant
-// range has it, by vectors (Highway, chosen at run time; equal bits on every target).
-// The profile of a column is a polyline through its heights. What of a piece rises above all before it is seen; its
-// power is gamma times the area seen square on, which is the angle it fills times the distance: walls, roofs, slopes
-// and level ground alike, and the power of a column is that of its whole visible angle, however coarse the rows.
+// Profile of sixteen columns of the polar grid: one pass down range for shadow, power and layover.
+// Inputs: a Strip: heights, gammas, crests and walls by row and column. Outputs: cross section [m^2] by apparent row.
+// The profile of a column is a polyline through its heights. The part of a piece above all nearer pieces is visible.
+// Power of a piece: gamma times its area seen square on, namely column width * angle * slant range.
+// So the power of a column is that of its visible angle, for any row spacing.
+// Determinism: Highway targets chosen at run time give equal bits.
+// Source: docs/radar_maths.md, "Patch maps".
 #pragma once
 
 #include <cstddef>
@@ -12,8 +14,8 @@
 
 namespace yars::model::hrm::simd {
 
-// What the gases of the air leave of the power from a row: a parabola in the height above the map plane, which holds
-// between two of them [m].
+// Two-way gas transmission of a row: constant + slope h + bend h^2, h the height above the map plane [m]. Heights are
+// clamped to [lowest_m, highest_m].
 struct GasRow {
   float constant, slope, bend;
   float lowest_m, highest_m;
@@ -23,22 +25,22 @@ struct Strip {
   int rows = 0;
   float first_distance_m = 0.0F;
   float spacing_m = 0.0F;
-  bool layover = true;                // else everything returns from where it stands
-  float double_bounce = 0.0F;         // of a wall's foot, against the wall; 0 = none
-  const float* distance_m = nullptr;  // by row
-  const float* inverse_m = nullptr;   // 1 / distance, by row
-  const float* above_m = nullptr;     // aircraft above the map plane, by row
-  const float* level_m = nullptr;     // aircraft above the horizontal there, by row
-  const GasRow* gas = nullptr;        // by row; null: no gas takes anything
-  const float* arc = nullptr;         // width of a column over its distance, sixteen
-  const float* horizon = nullptr;     // before row 0, sixteen
-  // By row and column.
-  const SurfacePoint* surface = nullptr;  // the sign of the gain is of no account
-  // The ground on the way from the row before, raised to where a line of sight over its top passes this row: height
-  // above the map plane. Null: rows lie so close that there is none.
+  bool layover = true;                   // false: every scatterer returns at its own distance over ground
+  float double_bounce = 0.0F;            // return of a wall's foot relative to the wall's; 0: none
+  const float* distance_m = nullptr;     // by row
+  const float* inverse_m = nullptr;      // 1 / distance, by row
+  const float* above_plane_m = nullptr;  // aircraft above the map plane, by row
+  const float* above_level_m = nullptr;  // aircraft above the horizontal at the row, by row
+  const GasRow* gas = nullptr;           // by row; null: no attenuation
+  const float* arc = nullptr;            // width of a column over its distance, sixteen
+  const float* horizon = nullptr;        // greatest tangent before row 0, sixteen
+  // The following arrays are indexed by row and column.
+  const SurfacePoint* surface = nullptr;  // the sign of the gain is ignored
+  // Crest between the previous row and this one: the height above the map plane at which the line of sight over it
+  // passes this row. Null: rows are so close that there are no crests.
   const float* crest_m = nullptr;
-  WallPoint* walls = nullptr;  // cleared for the next map; null: there are none
-  float* power = nullptr;      // [m^2] cross section, by row and column as it appears; is added to
+  WallPoint* walls = nullptr;  // set to zero after use; null: no walls
+  float* power = nullptr;      // cross section [m^2] by apparent row and by column; results are added
 };
 
 void cast_profile(const Strip& strip);

@@ -11,20 +11,20 @@
 namespace yars::model::hrm {
 
 namespace {
-// Between samples on the way to the fan: of ground without posts, and of other ground, all of which is walked besides.
+// [m] Spacing of samples on the path: without posts, and with posts, where GroundWalk covers the posts.
 constexpr double kPathSpacing_m = 15.0;
 constexpr double kSeaSpacing_m = 100.0;
-constexpr double kWalkShare = 0.1;   // of the posts' spacing: rows as close walk by themselves
-constexpr double kFineSteps = 40.0;  // a post, on the way to such rows: a crest's foot of shadow is a row
-constexpr double kNothing = -std::numeric_limits<double>::infinity();
+constexpr double kWalkShare = 0.1;  // [post spacings] rows closer than this need no walk between them
+// Steps a post on the path to closely spaced rows, because a crest's shadow edge must be exact to a row.
+constexpr double kFineSteps = 40.0;
+constexpr double kNoTangent = -std::numeric_limits<double>::infinity();
 constexpr double kFacetPixels = 1.0 / 3.0;
-constexpr int kMaxPieces = 512;  // of an edge: a face as large as the window
-constexpr double kBuried_m = 0.05;
-constexpr double kFoot_m = 0.3;  // the ground before a wall: so far from it
+constexpr int kMaxPieces = 512;     // of an edge: limits the work for a face as large as the window
+constexpr double kBuried_m = 0.05;  // [m] points deeper below the ground are not visible
+constexpr double kFoot_m = 0.3;     // [m] distance before a wall of the ground in a double bounce
 }  // namespace
 
-// What is below a point: its distance over ground, its own height and that of the ground above the map plane, and what
-// rises before it.
+// Ground below a point: distance over ground, height of the point and of the ground above the map plane, horizon.
 struct ReferencePatch::Ground {
   double distance_m, point_m;
   double height_m, horizon;
@@ -42,7 +42,7 @@ ReferencePatch::ReferencePatch(const radar::RadarConfiguration& configuration, c
       top_m_(grid.size()),
       horizon_(grid.size()) {}
 
-// About the radar, on the effective earth; heights count from the map plane.
+// In the radar's frame, on the effective earth; `height_m` is above the map plane.
 Point3 ReferencePatch::position(double distance_m, double turn_rad, double height_m) const {
   const physics::Sight sight =
       geometry_->earth().sight(geometry_->altitude_m() - geometry_->plane_msl_m(), distance_m, height_m);
@@ -57,23 +57,23 @@ void ReferencePatch::read_terrain(const PatchTerrain& terrain) {
 void ReferencePatch::read_column(const PatchTerrain& terrain, int column) {
   const PolarGrid& grid = *grid_;
   const physics::EffectiveEarth& earth = geometry_->earth();
-  physics::SweepGeometry look;
-  look.apex = geometry_->apex();
-  look.altitude = geo::AltitudeMsl::metres(geometry_->altitude_m());
-  look.azimuth = geometry_->up() + geo::Angle::radians(std::atan(grid.tangent(column)));
-  const geo::GeodesicRay ray(look.apex, look.azimuth);
-  double horizon = kNothing;
+  physics::SweepGeometry sweep;
+  sweep.apex = geometry_->apex();
+  sweep.altitude = geo::AltitudeMsl::metres(geometry_->altitude_m());
+  sweep.azimuth = geometry_->up() + geo::Angle::radians(std::atan(grid.tangent(column)));
+  const geo::GeodesicRay ray(sweep.apex, sweep.azimuth);
+  double horizon = kNoTangent;
   const auto height_m = [&](const terrain::TerrainView& view, double distance_m) {
     const terrain::Surface found =
         view.surface_at(ray.position(geo::Length::metres(distance_m)), fidelity_.interpolation);
     return found.elevation_m - geometry_->plane_msl_m();
   };
-  // A void is NaN, and raises nothing.
-  const auto raise = [&](double there) {
-    if (there > horizon) horizon = there;
+  // False for NaN, which marks a void.
+  const auto raise = [&](double candidate) {
+    if (candidate > horizon) horizon = candidate;
   };
-  // Ground without posts is looked at itself: the sea, which hides what lies beyond its horizon.
-  const auto look_between = [&](const terrain::TerrainView& view, double from_m, double to_m, double step_m) {
+  // Ground without posts is sampled directly: the sea hides what is beyond its horizon.
+  const auto raise_between = [&](const terrain::TerrainView& view, double from_m, double to_m, double step_m) {
     const auto steps = static_cast<int>(std::ceil((to_m - from_m) / step_m));
     for (int step = 1; step < steps; ++step) {
       const double distance_m = from_m + step * step_m;
@@ -81,21 +81,21 @@ void ReferencePatch::read_column(const PatchTerrain& terrain, int column) {
     }
   };
   const bool posts = terrain.path->post_spacing_m() > 0.0;
-  look_between(*terrain.path, 0.0, grid.first_distance_m, posts ? kSeaSpacing_m : kPathSpacing_m);
+  raise_between(*terrain.path, 0.0, grid.first_distance_m, posts ? kSeaSpacing_m : kPathSpacing_m);
   const double posts_m = terrain.window->post_spacing_m();
   const bool walk = grid.spacing_m > kWalkShare * posts_m;
   const double steps = walk ? physics::GroundWalk::kStepsAPost : kFineSteps;
-  raise(physics::GroundWalk(look, earth, *terrain.path, fidelity_.interpolation, steps)
+  raise(physics::GroundWalk(sweep, earth, *terrain.path, fidelity_.interpolation, steps)
             .highest_tangent(0.0, grid.first_distance_m));
-  const physics::GroundWalk way(look, earth, *terrain.window, fidelity_.interpolation);
+  const physics::GroundWalk ground_walk(sweep, earth, *terrain.window, fidelity_.interpolation);
   for (int row = 0; row < grid.rows; ++row) {
     const std::size_t at = grid.at(column, row);
     const double distance_m = grid.distance_m(row);
     top_m_[at] = height_m_[at] = height_m(*terrain.window, distance_m);
     if (walk && row > 0) {
-      const double crest = way.highest_tangent(grid.distance_m(row - 1.0), distance_m);
+      const double crest = ground_walk.highest_tangent(grid.distance_m(row - 1.0), distance_m);
       raise(crest);
-      if (!(crest > kNothing)) look_between(*terrain.window, grid.distance_m(row - 1.0), distance_m, kSeaSpacing_m);
+      if (!(crest > kNoTangent)) raise_between(*terrain.window, grid.distance_m(row - 1.0), distance_m, kSeaSpacing_m);
       if (crest > tangent(distance_m, height_m_[at])) top_m_[at] = geometry_->height_on_sight_m(distance_m, crest);
     }
     horizon_[at] = horizon;
@@ -103,7 +103,7 @@ void ReferencePatch::read_column(const PatchTerrain& terrain, int column) {
   }
 }
 
-// As GroundWalk has it: of heights above mean sea level.
+// Tangent of elevation as GroundWalk defines it, with heights above mean sea level.
 double ReferencePatch::tangent(double distance_m, double height_m) const {
   return geometry_->earth().sight(geometry_->altitude_m(), distance_m, height_m + geometry_->plane_msl_m()).tangent;
 }
@@ -128,15 +128,15 @@ void ReferencePatch::read_tile(const scene::SceneView& scene, const scene::Tile&
   const auto map_point = [&](double east_m, double north_m) {
     return geometry_->point_of(plane.geodetic_from_plane({east_m, north_m}));
   };
-  const auto place = [&](MapPoint point, double up_m) {
+  const auto radar_frame = [&](MapPoint point, double up_m) {
     const double ahead_m = point.up_m + geometry_->distance_m();
     return position(std::hypot(point.right_m, ahead_m), std::atan2(point.right_m, ahead_m), up_m + lift_m);
   };
-  // The tile's axes, as they lie about the radar.
-  const Point3 origin = place(map_point(0.0, 0.0), 0.0);
-  const Point3 east = place(map_point(1.0, 0.0), 0.0) - origin;
-  const Point3 north = place(map_point(0.0, 1.0), 0.0) - origin;
-  const Point3 up = place(map_point(0.0, 0.0), 1.0) - origin;
+  // The tile's axes in the radar's frame.
+  const Point3 origin = radar_frame(map_point(0.0, 0.0), 0.0);
+  const Point3 east = radar_frame(map_point(1.0, 0.0), 0.0) - origin;
+  const Point3 north = radar_frame(map_point(0.0, 1.0), 0.0) - origin;
+  const Point3 up = radar_frame(map_point(0.0, 0.0), 1.0) - origin;
   std::vector<MapPoint> points;
   for (std::size_t i = 0; i < tile.east_m.size(); ++i)
     points.push_back(map_point(static_cast<double>(tile.east_m[i]), static_cast<double>(tile.north_m[i])));
@@ -145,7 +145,7 @@ void ReferencePatch::read_tile(const scene::SceneView& scene, const scene::Tile&
     face.code = scene.kinds()[tile.kind[t]].material;
     const std::array<std::uint16_t, 3> corners = tile.corners(t);
     for (std::size_t k = 0; k < corners.size(); ++k)
-      face.corners[k] = place(points[corners[k]], static_cast<double>(tile.up_m[corners[k]]));
+      face.corners[k] = radar_frame(points[corners[k]], static_cast<double>(tile.up_m[corners[k]]));
     face.normals.fill(face.normal());
     for (std::size_t k = 0; k < corners.size() && corners[k] >= tile.bare; ++k) {
       const std::size_t i = corners[k] - tile.bare;
@@ -160,7 +160,7 @@ void ReferencePatch::read_tile(const scene::SceneView& scene, const scene::Tile&
   }
 }
 
-// Every place of the fan whose middle lies within the triangle.
+// Sets the gain of every grid point within the triangle.
 void ReferencePatch::lay_flat(const std::array<MapPoint, 3>& corners, double gamma, SurfacePoint* surface) const {
   std::array<double, 3> column{}, row{};
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -192,7 +192,7 @@ void ReferencePatch::accumulate(const SurfacePoint* surface, MapImage& image) {
   for (std::size_t i = 0; i < power_.size(); ++i) image.power[i] = static_cast<float>(power_[i] / unit_m2);
 }
 
-// The pieces between neighbours of a column, cut where they climb: a cliff is many facets.
+// Adds the pieces between neighbouring rows of a column. Steep pieces are cut to facets of a third of a pixel.
 void ReferencePatch::add_column(int column, const SurfacePoint* surface) {
   const PolarGrid& grid = *grid_;
   const double off = grid.tangent(column);
@@ -215,7 +215,7 @@ void ReferencePatch::add_column(int column, const SurfacePoint* surface) {
       const double out_begin = std::hypot(begin.x, begin.y);
       const double out_end = std::hypot(end.x, end.y);
       const double out_middle = 0.5 * (out_begin + out_end);
-      // Twice the area of the triangle radar, begin, end: the angle that the piece fills.
+      // Twice the area of the triangle radar, begin, end, in proportion to the angle of the piece.
       const double facing = out_begin * end.z - begin.z * out_end;
       const double middle_share = share - 0.5 / pieces;
       const double seen_at =
@@ -232,7 +232,7 @@ void ReferencePatch::add_face(const Face& face) {
   const Point3 one = face.corners[1] - face.corners[0];
   const Point3 two = face.corners[2] - face.corners[0];
   const Point3 three = two - one;
-  if (!(dot(cross(one, two), face.corners[0]) < 0.0)) return;  // seen from inside
+  if (!(dot(cross(one, two), face.corners[0]) < 0.0)) return;  // back face
   const double longest_m = std::sqrt(std::max({dot(one, one), dot(two, two), dot(three, three)}));
   const double facet_m = kFacetPixels * geometry_->window_m() / size_;
   const int pieces = std::clamp(static_cast<int>(std::ceil(longest_m / facet_m)), 1, kMaxPieces);
@@ -241,7 +241,7 @@ void ReferencePatch::add_face(const Face& face) {
   const auto facet = [&](double u, double v) {
     add_facet(face, face.corners[0] + u * one + v * two, {1.0 - u - v, u, v}, area_m2);
   };
-  // Rows of facets, those that lie as the face does and those between them.
+  // Facets in rows: those with the orientation of the face, and the inverted ones between them.
   for (int i = 0; i < pieces; ++i) {
     for (int j = 0; i + j < pieces; ++j) {
       facet((i + 1.0 / 3.0) / pieces, (j + 1.0 / 3.0) / pieces);
@@ -250,50 +250,50 @@ void ReferencePatch::add_face(const Face& face) {
   }
 }
 
-void ReferencePatch::add_facet(const Face& face, Point3 place, Point3 weights, double area_m2) {
-  if (!seen(place)) return;
-  const Point3 way = -1.0 / std::sqrt(dot(place, place)) * place;
+void ReferencePatch::add_facet(const Face& face, Point3 point, Point3 weights, double area_m2) {
+  if (!seen(point)) return;
+  const Point3 to_radar = -1.0 / std::sqrt(dot(point, point)) * point;
   const Point3 normal = face.normal();
-  const double facing = dot(normal, way);
+  const double facing = dot(normal, to_radar);
   const Point3 smooth = weights.x * face.normals[0] + weights.y * face.normals[1] + weights.z * face.normals[2];
-  const double shaded = std::clamp(dot(smooth, way), 0.0, physics::kMaxShading * facing);
-  const double out_m = std::hypot(place.x, place.y);
-  const double out_right = place.x / out_m;
-  const double out_ahead = place.y / out_m;
+  const double shaded = std::clamp(dot(smooth, to_radar), 0.0, physics::kMaxShading * facing);
+  const double out_m = std::hypot(point.x, point.y);
+  const double out_right = point.x / out_m;
+  const double out_ahead = point.y / out_m;
   const double towards = -(normal.x * out_right + normal.y * out_ahead);
   const double level2 = normal.x * normal.x + normal.y * normal.y;
   if (normal.z * normal.z >= scene::kWallNormal2 * level2) {
-    add(place, surface_.gamma(face.code) * area_m2 * shaded);
+    add(point, surface_.gamma(face.code) * area_m2 * shaded);
     return;
   }
   const double across = normal.x * out_ahead - normal.y * out_right;
   const double power = surface_.wall_gamma(face.code, across, towards) * area_m2 * facing;
-  add(place, power);
+  add(point, power);
   if (!(bounce_ > 0.0)) return;
-  // From wall to ground and from ground to wall: every such path is as long as to the foot.
-  const Ground below = ground_at(place);
-  const Point3 foot = position(below.distance_m - kFoot_m, std::atan2(place.x, place.y), below.height_m);
+  // Double bounce: the path over wall and ground is as long as the path to the foot.
+  const Ground below = ground_at(point);
+  const Point3 foot = position(below.distance_m - kFoot_m, std::atan2(point.x, point.y), below.height_m);
   if (seen(foot)) add(foot, bounce_ * power);
 }
 
-// The distance and the point's own height alone.
-ReferencePatch::Ground ReferencePatch::below(Point3 place) const {
+// Distance over ground and height of the point only.
+ReferencePatch::Ground ReferencePatch::below(Point3 point) const {
   const double radius_m = geometry_->earth().radius_m();
   const double altitude_m = geometry_->altitude_m() - geometry_->plane_msl_m();
-  const double out_m = std::hypot(place.x, place.y);
-  Ground ground{out_m, place.z + altitude_m, 0.0, std::numeric_limits<double>::lowest()};
+  const double out_m = std::hypot(point.x, point.y);
+  Ground ground{out_m, point.z + altitude_m, 0.0, std::numeric_limits<double>::lowest()};
   if (std::isfinite(radius_m)) {
-    const double down_m = radius_m + altitude_m + place.z;
+    const double down_m = radius_m + altitude_m + point.z;
     ground.distance_m = radius_m * std::atan2(out_m, down_m);
     ground.point_m = std::hypot(out_m, down_m) - radius_m;
   }
   return ground;
 }
 
-ReferencePatch::Ground ReferencePatch::ground_at(Point3 place) const {
+ReferencePatch::Ground ReferencePatch::ground_at(Point3 point) const {
   const PolarGrid& grid = *grid_;
-  Ground ground = below(place);
-  const double column = std::round((place.x / place.y - grid.first_tangent) / grid.tangent_step);
+  Ground ground = below(point);
+  const double column = std::round((point.x / point.y - grid.first_tangent) / grid.tangent_step);
   const double row = std::floor((ground.distance_m - grid.first_distance_m) / grid.spacing_m);
   if (!(column >= 0.0 && column < grid.columns && row >= 0.0 && row + 1.0 < grid.rows)) return ground;
   const std::size_t near = grid.at(static_cast<int>(column), static_cast<int>(row));
@@ -305,29 +305,29 @@ ReferencePatch::Ground ReferencePatch::ground_at(Point3 place) const {
   return ground;
 }
 
-bool ReferencePatch::seen(Point3 place) const {
-  if (!(place.y > 0.0)) return false;
-  const Ground ground = ground_at(place);
+bool ReferencePatch::seen(Point3 point) const {
+  if (!(point.y > 0.0)) return false;
+  const Ground ground = ground_at(point);
   if (ground.point_m < ground.height_m - kBuried_m) return false;
-  return tangent(ground.distance_m, ground.point_m) >= ground.horizon && !occluders_.hide(place);
+  return tangent(ground.distance_m, ground.point_m) >= ground.horizon && !occluders_.hide(point);
 }
 
-// Bilinear, where the map plane is as far away, less what the gases of the air take.
-void ReferencePatch::add(Point3 place, double cross_section_m2) {
+// Adds to the four nearest pixels, at the point of the map plane with the same slant range, after gas attenuation.
+void ReferencePatch::add(Point3 point, double cross_section_m2) {
   if (!gas_.none()) {
-    const Ground here = below(place);
+    const Ground here = below(point);
     cross_section_m2 *= gas_.two_way_loss(geometry_->earth(), geometry_->altitude_m(), here.distance_m,
                                           here.point_m + geometry_->plane_msl_m());
   }
-  double distance_m = std::hypot(place.x, place.y);
-  const double sine = place.x / distance_m;
-  const double cosine = place.y / distance_m;
+  double distance_m = std::hypot(point.x, point.y);
+  const double sine = point.x / distance_m;
+  const double cosine = point.y / distance_m;
   if (fidelity_.map_layover) {
     distance_m = geometry_->earth().distance_at_slant_range(geometry_->altitude_m() - geometry_->plane_msl_m(), 0.0,
-                                                            std::sqrt(dot(place, place)));
-    if (std::isnan(distance_m)) return;  // nearer than any of the plane
+                                                            std::sqrt(dot(point, point)));
+    if (std::isnan(distance_m)) return;  // nearer than the map plane anywhere
   } else {
-    distance_m = ground_at(place).distance_m;
+    distance_m = ground_at(point).distance_m;
   }
   const double pixel_m = geometry_->window_m() / size_;
   const double x = distance_m * sine / pixel_m + 0.5 * size_ - 0.5;

@@ -1,8 +1,11 @@
-// The algorithm `reference` of patches, the oracle of `standard`: plain double precision, facet by facet. Terrain is a
-// fan of pieces finer than a pixel at exact geodesic places; a scene is its triangles, cut until they are smaller than
-// a third of a pixel. What is seen adds gamma times the area seen square on at the place on the map that is as far
-// from the radar on the effective earth. Terrain hides by the running maximum along its column, a tenth of
-// the posts' spacing at a time; the scene hides by rays.
+// Patch map by the algorithm `reference`: plain double precision, facet by facet, the yardstick of `standard`.
+// Inputs: terrain views, scene tiles, polar grid. Outputs: power of a MapImage.
+// Facets: terrain pieces and scene triangles are cut to a third of a pixel, at exact geodesic positions.
+// Power: a visible facet adds gamma times its area seen square on, on the map where the slant range is the same.
+// Shadow of terrain: running maximum along a column, in steps of a tenth of the post spacing. Shadow of the scene:
+// rays.
+// Threads: one.
+// Source: docs/radar_maths.md, "Patch maps".
 #pragma once
 
 #include <vector>
@@ -17,25 +20,26 @@
 
 namespace yars::model::hrm {
 
-inline constexpr int kReferenceCells = 3;  // of its fan a pixel, along and across
+inline constexpr int kReferenceCells = 3;  // grid cells a pixel, along and across
 
 class ReferencePatch {
  public:
   ReferencePatch(const radar::RadarConfiguration& configuration, const PatchGeometry& geometry, const PolarGrid& grid);
 
   void read_terrain(const PatchTerrain& terrain);
-  // Whether no nearer ground on its line of sight stands as high as that of a point of the grid; false for a void.
+  // True if no nearer ground on its line of sight stands as high as the ground of a grid point. False for a void.
   bool lit(int column, int row) const;
-  // `gain`: gamma of the ground by PolarGrid::at(); what lies flat on it gives it its own.
+  // Reads the scene's triangles. Triangles on the ground set the gain of `surface`, which is indexed by
+  // PolarGrid::at().
   void read_scene(const scene::SceneView& scene, const std::vector<const scene::Tile*>& tiles, SurfacePoint* surface);
   // Replaces the power of the image, in the unit of map_image.hpp.
   void accumulate(const SurfacePoint* surface, MapImage& image);
 
  private:
-  // A face of the scene about the radar.
+  // A triangle of the scene in the radar's frame.
   struct Face {
     Occluders::Corners corners;
-    Occluders::Corners normals;  // unit, at the corners
+    Occluders::Corners normals;  // unit vectors, at the corners
     std::size_t code = 0;        // of its material
 
     Point3 normal() const {
@@ -52,22 +56,22 @@ class ReferencePatch {
   void lay_flat(const std::array<MapPoint, 3>& corners, double gamma, SurfacePoint* surface) const;
   void add_column(int column, const SurfacePoint* surface);
   void add_face(const Face& face);
-  void add_facet(const Face& face, Point3 place, Point3 weights, double area_m2);
-  bool seen(Point3 place) const;
-  Ground below(Point3 place) const;
-  Ground ground_at(Point3 place) const;
-  void add(Point3 place, double cross_section_m2);
+  void add_facet(const Face& face, Point3 point, Point3 weights, double area_m2);
+  bool seen(Point3 point) const;
+  Ground below(Point3 point) const;
+  Ground ground_at(Point3 point) const;
+  void add(Point3 point, double cross_section_m2);
 
   radar::Fidelity fidelity_;
   physics::SceneSurface surface_;
   physics::GasPath gas_;
-  double bounce_;  // of a wall's foot against the wall; 0 = none
+  double bounce_;  // return of a wall's foot relative to the wall's; 0: none
   const PatchGeometry* geometry_;
   const PolarGrid* grid_;
   // By PolarGrid::at().
-  std::vector<double> height_m_;  // above the map plane; NaN = void
-  std::vector<double> top_m_;    // the same, raised to the line of sight over the ground on the way from the row before
-  std::vector<double> horizon_;  // greatest tangent of all that is nearer
+  std::vector<double> height_m_;  // above the map plane; NaN: void
+  std::vector<double> top_m_;     // likewise, raised to the line of sight over the crest before this row
+  std::vector<double> horizon_;   // greatest tangent of all nearer ground
   std::vector<Face> faces_;
   Occluders occluders_;
   int size_ = 0;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kWhite = 255.0F;
 
-// Climb across the line of sight [m a m]; at an edge of the fan that to the one neighbour.
+// Slope across the line of sight [m/m]; one-sided at an edge of the grid.
 float slope_across(const PolarGrid& grid, const SurfacePoint* surface, int column, int row) {
   const int left = std::max(column - 1, 0);
   const int right = std::min(column + 1, grid.columns - 1);
@@ -19,14 +19,14 @@ float slope_across(const PolarGrid& grid, const SurfacePoint* surface, int colum
   return (surface[grid.at(right, row)].height_m - surface[grid.at(left, row)].height_m) / width_m;
 }
 
-// Of a pixel's place between two samples.
-struct Between {
+// First of the two samples next to a position, and the weight of the second.
+struct SamplePair {
   int first;
   float second_weight;
 };
 
-Between between(double place, int count) {
-  const double clamped = std::clamp(place, 0.0, static_cast<double>(count - 1));
+SamplePair sample_pair(double position, int count) {
+  const double clamped = std::clamp(position, 0.0, static_cast<double>(count - 1));
   const int first = std::min(static_cast<int>(clamped), count - 2);
   return {first, static_cast<float>(clamped - first)};
 }
@@ -47,7 +47,7 @@ void shade_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, cons
       brightness[at] = 0.0F;
       if (!(tangent > horizon)) continue;
       horizon = tangent;
-      // What the scene drew has its sign bit set, whatever its gain.
+      // Scene surfaces have the sign bit set, also for gain 0.
       if (const float gain = inputs.surface[at].gain; gain == 0.0F && !std::signbit(gain)) continue;
       const int nearer = std::max(row - 1, 0);
       const int farther = row == 0 ? 1 : row;
@@ -73,9 +73,9 @@ void draw_brightness(const PatchGeometry& geometry, const PolarGrid& grid, const
       float& value = image.power[image.at(pixel, line)];
       value = 0.0F;
       if (!(ahead_m > 0.0)) continue;
-      const Between column = between((right_m / ahead_m - grid.first_tangent) / grid.tangent_step, grid.columns);
+      const SamplePair column = sample_pair((right_m / ahead_m - grid.first_tangent) / grid.tangent_step, grid.columns);
       const double distance_m = std::sqrt(right_m * right_m + ahead_m * ahead_m);
-      const Between row = between((distance_m - grid.first_distance_m) / grid.spacing_m, grid.rows);
+      const SamplePair row = sample_pair((distance_m - grid.first_distance_m) / grid.spacing_m, grid.rows);
       const auto along = [&](int of) {
         const float near = brightness[grid.at(of, row.first)];
         return near + row.second_weight * (brightness[grid.at(of, row.first + 1)] - near);
@@ -88,7 +88,7 @@ void draw_brightness(const PatchGeometry& geometry, const PolarGrid& grid, const
 
 void form_brightness_video(const radar::RadarConfiguration& configuration, const MapImage& image, std::uint32_t map,
                            std::vector<std::uint8_t>& picture) {
-  constexpr auto kHalfOfBits = 2147483648.0F;  // 2^31: 32 bits onto [-1, 1)
+  constexpr auto kHalfOfBits = 2147483648.0F;  // 2^31: maps 32 bits to [-1, 1)
   const auto noise = static_cast<float>(configuration.fidelity.map_noise);
   const auto size = static_cast<std::size_t>(image.size);
   picture.resize(image.power.size());

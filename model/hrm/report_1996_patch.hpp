@@ -1,9 +1,9 @@
-// A patch as the 1996 report makes it: orthographic, one pass from above, brightness the dot product of the surface's
-// normal and the direction to the radar. What it leaves open is defined here: facets lie between neighbours of the fan,
-// so that a wall is the facet that climbs to its top; nothing behind a nearer, higher tangent returns; a void is black;
-// the random number multiplies: brightness (1 + noise u), u even in [-1, 1). The report's colours, which stand in for
-// materials, are left out: it gives no rule. Flat earth comes with the preset. Brightness is 0 to 1 and takes the place
-// of power in MapImage; video is proportional to it. Source: report, "HRM patch map" and class RsSarMode.
+// Patch map of the preset `1996`: orthographic brightness instead of power, without layover.
+// Brightness: dot product of the surface normal and the direction to the radar, 0 to 1; it replaces power in MapImage.
+// Points in shadow and voids are black. Video is proportional to brightness * (1 + noise * u), u uniform in [-1, 1).
+// Chosen here, open in the report: a facet spans neighbours of the grid, so a wall is the facet up to its top.
+// Left out: the report's colours for materials, for which it gives no rule. The earth is flat by the preset's fidelity.
+// Source: report, "HRM patch map" and class RsSarMode; docs/spec/physics.md#preset-1996.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@
 
 namespace yars::model::hrm {
 
-// By PolarGrid::at() once ground and scene are drawn; the horizon by column.
+// Inputs after ground and scene are drawn: surface by PolarGrid::at(), horizon by column.
 struct ShadingInputs {
-  const SurfacePoint* surface = nullptr;  // gain 0 where there is no ground
+  const SurfacePoint* surface = nullptr;  // gain +0 marks a point without ground
   const float* horizon = nullptr;         // greatest tangent before row 0
 };
 
-// Brightness of the columns [first, last), by PolarGrid::at(). Their neighbours' heights are read.
+// Computes the brightness of the columns [first, last), by PolarGrid::at(). Reads the heights of neighbouring columns.
 void shade_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, const ShadingInputs& inputs, int first,
                       int last, float* brightness);
 
-// Rows [first, last) of the map, bilinear between the samples of the fan.
+// Interpolates rows [first, last) of the map bilinearly from the polar grid.
 void draw_brightness(const PatchGeometry& geometry, const PolarGrid& grid, const float* brightness, int first, int last,
                      MapImage& image);
 
-// Video with the configured noise; `map` and the seed name it. Blank pixels are black.
+// Forms video with the fidelity's `map_noise`; seed and `map` are the key of the noise. Blind pixels are black.
 void form_brightness_video(const radar::RadarConfiguration& configuration, const MapImage& image, std::uint32_t map,
                            std::vector<std::uint8_t>& picture);
 

@@ -11,19 +11,20 @@ namespace yars::model::hrm {
 
 namespace {
 
-constexpr int kTilesAPiece = 16;  // of work
+constexpr int kTilesPerTask = 16;  // tiles
 
-PlacedTile placed(const PatchGeometry& geometry, const scene::Tile& tile) {
-  const geo::GeodesicInverse way = geo::geodesic_inverse(geometry.apex(), tile.origin);
-  const double turn_rad = (way.azimuth_at_start - geometry.up()).radians();
-  const double away_rad = way.azimuth_at_end.radians();
-  const double distance_m = way.distance.metres();
-  // Across the line of sight the plane is stretched against the earth.
+// Position and axes of a tile on the map plane.
+PlacedTile placed_tile(const PatchGeometry& geometry, const scene::Tile& tile) {
+  const geo::GeodesicInverse geodesic = geo::geodesic_inverse(geometry.apex(), tile.origin);
+  const double turn_rad = (geodesic.azimuth_at_start - geometry.up()).radians();
+  const double away_rad = geodesic.azimuth_at_end.radians();
+  const double distance_m = geodesic.distance.metres();
+  // The azimuthal equidistant plane is stretched across the line of sight.
   const double angle_rad = distance_m / geo::kMeanEarthRadius_m;
   const double stretch = angle_rad > 1e-6 ? angle_rad / std::sin(angle_rad) : 1.0;
   const double sine = std::sin(turn_rad);
   const double cosine = std::cos(turn_rad);
-  // East and north as parts along and across the line of sight, then turned onto the map.
+  // East and north in components along and across the line of sight, rotated to the map.
   const double along_east = std::sin(away_rad);
   const double along_north = std::cos(away_rad);
   const double across_east = stretch * std::cos(away_rad);
@@ -59,38 +60,39 @@ GridPoint on_grid(const PatchGeometry& geometry, const PolarGrid& grid, const Pl
           static_cast<float>((distance_m - grid.first_distance_m) / grid.spacing_m)};
 }
 
-// Notes the columns; false: off the fan.
+// Sets the range of columns. Returns false if the tile is outside the polar grid.
 bool find_columns(const PatchGeometry& geometry, const PolarGrid& grid, PlacedTile& placement) {
   const scene::Bounds& bounds = placement.tile->bounds;
-  placement.least_column = std::numeric_limits<float>::max();
-  placement.most_column = std::numeric_limits<float>::lowest();
-  float least_row = placement.least_column;
-  float most_row = placement.most_column;
-  for (const float east_m : {bounds.east_least_m, bounds.east_most_m}) {
-    for (const float north_m : {bounds.north_least_m, bounds.north_most_m}) {
+  placement.min_column = std::numeric_limits<float>::max();
+  placement.max_column = std::numeric_limits<float>::lowest();
+  float min_row = placement.min_column;
+  float max_row = placement.max_column;
+  for (const float east_m : {bounds.east_min_m, bounds.east_max_m}) {
+    for (const float north_m : {bounds.north_min_m, bounds.north_max_m}) {
       const GridPoint corner = on_grid(geometry, grid, placement, east_m, north_m);
-      placement.least_column = std::min(placement.least_column, corner.column);
-      placement.most_column = std::max(placement.most_column, corner.column);
-      least_row = std::min(least_row, corner.row);
-      most_row = std::max(most_row, corner.row);
+      placement.min_column = std::min(placement.min_column, corner.column);
+      placement.max_column = std::max(placement.max_column, corner.column);
+      min_row = std::min(min_row, corner.row);
+      max_row = std::max(max_row, corner.row);
     }
   }
-  // A row more: distance curves a little within a large tile.
-  return placement.most_column >= 0.0F && placement.least_column < static_cast<float>(grid.columns) &&
-         most_row >= -1.0F && least_row < static_cast<float>(grid.rows) + 1.0F;
+  // A margin of one row, because distance is not linear within a large tile.
+  return placement.max_column >= 0.0F && placement.min_column < static_cast<float>(grid.columns) && max_row >= -1.0F &&
+         min_row < static_cast<float>(grid.rows) + 1.0F;
 }
 
 }  // namespace
 
 std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const PolarGrid& grid,
-                                    const std::vector<const scene::Tile*>& tiles, const parallel::Executor& crew) {
+                                    const std::vector<const scene::Tile*>& tiles, const parallel::Executor& executor) {
   std::vector<PlacedTile> all(tiles.size());
-  parallel::parallel_for(crew, static_cast<int>(tiles.size()), kTilesAPiece, [&](int first, int last, std::size_t) {
-    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
-      all[i] = placed(geometry, *tiles[i]);
-      if (!find_columns(geometry, grid, all[i])) all[i].tile = nullptr;
-    }
-  });
+  parallel::parallel_for(executor, static_cast<int>(tiles.size()), kTilesPerTask,
+                         [&](int first, int last, std::size_t) {
+                           for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
+                             all[i] = placed_tile(geometry, *tiles[i]);
+                             if (!find_columns(geometry, grid, all[i])) all[i].tile = nullptr;
+                           }
+                         });
   std::erase_if(all, [](const PlacedTile& tile) { return tile.tile == nullptr; });
   return all;
 }
@@ -102,8 +104,8 @@ std::vector<int> even_bands(const PolarGrid& grid, std::span<const PlacedTile> t
   };
   double sum = grid.strips();
   for (const PlacedTile& tile : tiles) {
-    const int first = strip_of(std::max(tile.least_column, 0.0F));
-    const int last = strip_of(std::min(tile.most_column, static_cast<float>(grid.columns)));
+    const int first = strip_of(std::max(tile.min_column, 0.0F));
+    const int last = strip_of(std::min(tile.max_column, static_cast<float>(grid.columns)));
     const auto triangles = static_cast<double>(tile.tile->triangles());
     for (int strip = first; strip <= last; ++strip)
       work[static_cast<std::size_t>(strip)] += triangles / (last - first + 1);
@@ -140,14 +142,14 @@ void SceneRaster::transform(const PatchGeometry& geometry, const PolarGrid& grid
   map.toward_north = placement.toward_north;
   map.toward_up = placement.toward_up;
   map.centre_m = static_cast<float>(geometry.distance_m());
-  map.columns_a_tangent = static_cast<float>(1.0 / grid.tangent_step);
+  map.columns_per_tangent = static_cast<float>(1.0 / grid.tangent_step);
   map.middle_column = static_cast<float>(-grid.first_tangent / grid.tangent_step);
-  map.rows_a_metre = static_cast<float>(1.0 / grid.spacing_m);
+  map.rows_per_metre = static_cast<float>(1.0 / grid.spacing_m);
   map.middle_row = static_cast<float>((geometry.distance_m() - grid.first_distance_m) / grid.spacing_m);
-  simd::place_vertices(count,
-                       {tile.east_m.data(), tile.north_m.data(), tile.up_m.data(), tile.normal_east.data(),
-                        tile.normal_north.data(), tile.normal_up.data()},
-                       map, vertices_of(tile));
+  simd::transform_vertices(count,
+                           {tile.east_m.data(), tile.north_m.data(), tile.up_m.data(), tile.normal_east.data(),
+                            tile.normal_north.data(), tile.normal_up.data()},
+                           map, vertices_of(tile));
 }
 
 void SceneRaster::read_kinds(const scene::SceneView& scene) {
@@ -174,7 +176,7 @@ void SceneRaster::draw(const PatchGeometry& geometry, const PolarGrid& grid, con
   limits.row_height_m = static_cast<float>(grid.spacing_m);
   limits.wall_normal2 = static_cast<float>(scene::kWallNormal2);
   for (const PlacedTile& placement : tiles) {
-    if (!(placement.most_column >= limits.first_column && placement.least_column < limits.last_column)) continue;
+    if (!(placement.max_column >= limits.first_column && placement.min_column < limits.last_column)) continue;
     const double distance_m = std::hypot(placement.right_m, placement.up_m + geometry.distance_m());
     const double tangent = placement.right_m / std::max(placement.up_m + geometry.distance_m(), 1.0);
     limits.column_width_m = static_cast<float>(distance_m * grid.tangent_step / (1.0 + tangent * tangent));

@@ -1,4 +1,8 @@
-// Scene tiles on the polar grid: where they lie, and their triangles drawn from above.
+// Raster of scene triangles on the polar grid of a patch map, drawn from above.
+// Inputs: tiles of a SceneView, the surface of the ground. Outputs: highest surface, its gamma, and walls by grid
+// point.
+// Units: metres; columns and rows of the polar grid.
+// Threads: one SceneRaster a thread; threads draw disjoint bands of columns.
 #pragma once
 
 #include <cstdint>
@@ -14,33 +18,31 @@
 
 namespace yars::model::hrm {
 
-// Where the tiles of a scene lie on the map and on the fan, and the columns that each of several hands draws.
-
-// From a tile's east, north, up to the plane of the map: exact at the origin, the tangent plane about it.
+// Position of a tile on the map and on the polar grid. The map plane is exact at the tile's origin and linear about it.
 struct PlacedTile {
   const scene::Tile* tile = nullptr;
-  double right_m = 0.0, up_m = 0.0;  // of the origin
+  double right_m = 0.0, up_m = 0.0;  // of the tile's origin
   double right_east = 0.0, right_north = 0.0, up_east = 0.0, up_north = 0.0;
-  float lift_m = 0.0F;                                              // up = 0 above the map plane
+  float lift_m = 0.0F;                                              // height of up = 0 above the map plane
   float toward_east = 0.0F, toward_north = 0.0F, toward_up = 0.0F;  // unit vector to the radar
-  float least_column = 0.0F, most_column = 0.0F;                    // of the fan, that it may cover
+  float min_column = 0.0F, max_column = 0.0F;                       // range of grid columns of the tile's bounds
 };
 
-// Those that come near the fan, in their order.
+// Tiles that overlap the polar grid, in their order.
 std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const PolarGrid& grid,
-                                    const std::vector<const scene::Tile*>& tiles, const parallel::Executor& crew);
+                                    const std::vector<const scene::Tile*>& tiles, const parallel::Executor& executor);
 
-// Strips at which `bands` runs of them begin that have about as many triangles each; behind them the last one's end.
+// First strips of `bands` bands with about equal numbers of triangles, and the end of the last band.
 std::vector<int> even_bands(const PolarGrid& grid, std::span<const PlacedTile> tiles, int bands);
 
-// Triangles of a scene drawn onto a fan from above: the highest surface over each grid point, its gamma, and where
-// walls stand that face the radar (a wall has no extent from above). What lies on the ground (runways, roads) takes the
-// ground's height and gives it its own gamma.
+// Draws scene triangles onto the polar grid from above. At each grid point the highest surface wins. Walls have no
+// extent from above and are summed as WallPoint. Surfaces on the ground, for example runways, keep its height and set
+// its gamma.
 class SceneRaster {
  public:
   explicit SceneRaster(const radar::RadarConfiguration& configuration);
 
-  // Draws what of the tiles falls into the columns [first, last), in the order of the tiles.
+  // Draws the part of the tiles within the columns [first, last), in the order of the tiles.
   void draw(const PatchGeometry& geometry, const PolarGrid& grid, const scene::SceneView& scene,
             std::span<const PlacedTile> tiles, int first, int last, const simd::SceneArrays& arrays);
 
@@ -54,9 +56,9 @@ class SceneRaster {
 
   physics::SceneSurface surface_;
   std::vector<float> cardinal_shares_;
-  std::vector<float> gamma_, cardinal_;                  // by kind of the scene
-  std::vector<float> column_, row_, height_m_, facing_;  // of the tile in hand, by vertex
-  simd::FoundTriangles found_;                           // of it, those that are drawn
+  std::vector<float> gamma_, cardinal_;                  // by surface kind of the scene
+  std::vector<float> column_, row_, height_m_, facing_;  // of the current tile, by vertex
+  simd::FoundTriangles found_;                           // of the current tile, the triangles to draw
   simd::Fragments fragments_;
 };
 

@@ -7,7 +7,7 @@
 #define HWY_TARGET_INCLUDE "model/hrm/scene_raster_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// Behind highway.h, or it would have no target yet.
+// After highway.h, which defines the target.
 #include "model/hrm/facet-inl.hpp"
 #include "model/hrm/small_triangles-inl.hpp"
 
@@ -16,11 +16,10 @@ namespace yars::model::hrm::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr float kWide = 12.0F;  // columns of a triangle that is drawn by itself
+constexpr float kWideColumns = 12.0F;  // wider triangles are drawn singly, one column a lane; it affects speed alone
 
-// Column by column, for a column is a profile: a surface reaches half a row beyond its edges, so that on average it is
-// as long as it is, and its height there is that of the edge. One triangle, a lane a column. `put(at, row, near, far,
-// wanted)` draws a vector of grid points.
+// Draws one triangle, one column a lane. A surface extends `reach` rows beyond its edges with the height of the edge,
+// so that its mean length is exact. `put(at, column, row, wanted)` draws a vector of grid points.
 template <class Put>
 HWY_INLINE void fill_wide(const Triangle& triangle, const Canvas& canvas, float reach, const Put& put) {
   const Tag d;
@@ -51,7 +50,7 @@ HWY_INLINE void fill_wide(const Triangle& triangle, const Canvas& canvas, float 
   }
 }
 
-HWY_INLINE void fill_high(const Triangle& triangle, const Facet& facet, Floats gain, const Canvas& canvas) {
+HWY_INLINE void draw_wide_surface(const Triangle& triangle, const Facet& facet, Floats gain, const Canvas& canvas) {
   const Tag d;
   const auto negative = hn::Neg(gain);
   fill_wide(triangle, canvas, kSurfaceReach, [&](std::size_t at, Floats column, Floats row, Mask wanted) HWY_ATTR {
@@ -108,7 +107,7 @@ void paint_ground(const FoundTriangles& triangles, const TileSurfaces& tile, con
   }
 }
 
-// The corners of a vector's triangles.
+// Corners of the triangles of one vector.
 struct CornerNumbers {
   hn::Vec<SignedTag> first, second, third;
 };
@@ -136,7 +135,7 @@ HWY_INLINE Floats shaded(Floats gamma, const GridVertices& vertices, const Corne
   return hn::IfThenElse(hn::RebindMask(d, curved), hn::Mul(gamma, factor), gamma);
 }
 
-// Those of a vector that are large, one by one.
+// Draws the wide triangles of one vector singly.
 void draw_wide(const FoundTriangles& triangles, std::size_t first, const float* gain, Mask wide,
                const GridVertices& vertices, const Canvas& canvas) {
   const Tag d;
@@ -148,7 +147,7 @@ void draw_wide(const FoundTriangles& triangles, std::size_t first, const float* 
     const Corner a = corner_of(vertices, corners[0]);
     const Corner b = corner_of(vertices, corners[1]);
     const Corner c = corner_of(vertices, corners[2]);
-    fill_high(ordered(a, b, c), facet_of(a, b, c, canvas.limits), set(gain[lane]), canvas);
+    draw_wide_surface(ordered(a, b, c), facet_of(a, b, c, canvas.limits), set(gain[lane]), canvas);
   }
 }
 
@@ -166,22 +165,22 @@ void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, co
       gamma[lane] = tile.gamma[kind];
       cardinal[lane] = tile.cardinal[kind];
     }
-    // What stands behind the last is an old corner: in the tile's numbers or before them, and not drawn.
-    const auto there = hn::FirstN(d, count);
+    // Lanes beyond the last triangle hold old corners, which are valid indices, and are masked out.
+    const auto valid = hn::FirstN(d, count);
     const CornerNumbers corners = numbers_at(triangles, i);
     const Corner a = gather(vertices, corners.first);
     const Corner b = gather(vertices, corners.second);
     const Corner c = gather(vertices, corners.third);
     const Facet facet = facet_of(a, b, c, canvas.limits);
     const Triangle triangle = ordered(a, b, c);
-    const auto wall = hn::And(there, hn::And(facet.steep, hn::Gt(facet.towards, hn::Zero(d))));
+    const auto wall = hn::And(valid, hn::And(facet.steep, hn::Gt(facet.towards, hn::Zero(d))));
     if (!hn::AllFalse(d, wall))
-      small.stand(triangle, wall_gain(canvas.cardinal, facet, hn::Load(d, gamma), hn::Load(d, cardinal)), wall);
-    const auto above = hn::And(there, hn::Gt(facet.area, hn::Zero(d)));
+      small.draw_walls(triangle, wall_gain(canvas.cardinal, facet, hn::Load(d, gamma), hn::Load(d, cardinal)), wall);
+    const auto above = hn::And(valid, hn::Gt(facet.area, hn::Zero(d)));
     if (hn::AllFalse(d, above)) continue;
     const auto gain = shaded(hn::Load(d, gamma), vertices, corners, facet);
-    const auto wide = hn::And(above, hn::Gt(hn::Sub(triangle.right.column, triangle.left.column), set(kWide)));
-    small.fill(triangle, facet, gain, hn::AndNot(wide, above));
+    const auto wide = hn::And(above, hn::Gt(hn::Sub(triangle.right.column, triangle.left.column), set(kWideColumns)));
+    small.draw_surfaces(triangle, facet, gain, hn::AndNot(wide, above));
     small.flush(false);
     if (hn::AllFalse(d, wide)) continue;
     HWY_ALIGN float gains[kStripColumns];

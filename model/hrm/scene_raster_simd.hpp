@@ -1,6 +1,8 @@
-// Triangles of a scene drawn onto a fan, by vectors (Highway, chosen at run time; equal bits on every target): small
-// ones many at a time, a lane each; those that cross many columns one by one, a lane a column. What stands is drawn in
-// any order with one result: of two surfaces the higher wins, of equal ones the stronger, and never the ground.
+// Vector loops that draw scene triangles onto the polar grid.
+// Triangles of up to 12 columns are drawn many at a time, one a lane. Wider ones are drawn singly, one column a lane.
+// Order: standing surfaces give the same result in any order. The higher surface wins, then the one with the greater
+// gain.
+// Determinism: Highway targets chosen at run time give equal bits.
 #pragma once
 
 #include <array>
@@ -14,24 +16,24 @@
 
 namespace yars::model::hrm::simd {
 
-// By PolarGrid::at().
+// Indexed by PolarGrid::at().
 struct SceneArrays {
-  SurfacePoint* surface = nullptr;  // in: the ground
-  WallPoint* walls = nullptr;       // in: none
+  SurfacePoint* surface = nullptr;  // on entry: the ground
+  WallPoint* walls = nullptr;       // on entry: zeros
 };
 
-// A tile's triangles and what they are made of, by kind.
+// Surface kind of each triangle of a tile; gamma and cardinal effect of each kind.
 struct TileSurfaces {
   const std::uint16_t* kind = nullptr;
   const float* gamma = nullptr;
-  const float* cardinal = nullptr;  // how much more a wall returns square on
+  const float* cardinal = nullptr;  // additional return of a wall seen square on, relative to its gamma
 };
 
-// The cardinal effect over the sine of the angle between a wall's normal and the line of sight: from 0 in even steps,
-// 0 behind the last; an entry more than steps.
+// Cardinal effect by the sine of the angle between a wall's normal and the line of sight. Entries are evenly spaced
+// from sine 0; the last two are 0.
 struct CardinalShape {
   std::span<const float> share;
-  float steps_a_sine = 0.0F;
+  float steps_per_sine = 0.0F;
 };
 
 struct Canvas {
@@ -41,31 +43,31 @@ struct Canvas {
   CardinalShape cardinal;
 };
 
-// Grid points that something reaches. Kept by who draws, so that there is room.
+// Grid points reached by triangles and not yet stored. Reused by the caller, so that its capacity is kept.
 struct Fragments {
   void grow() {
-    at.resize(2 * at.size() + kLeast);
+    at.resize(2 * at.size() + kMinCapacity);
     height.resize(at.size());
     gain.resize(at.size());
   }
   void grow_walls() {
-    wall_at.resize(2 * wall_at.size() + kLeast);
+    wall_at.resize(2 * wall_at.size() + kMinCapacity);
     wall_height.resize(wall_at.size());
     wall_return.resize(wall_at.size());
   }
 
-  static constexpr std::size_t kLeast = 4096;
+  static constexpr std::size_t kMinCapacity = 4096;
   std::vector<std::uint32_t> at, wall_at;
-  std::vector<std::uint32_t> height;  // as scene_raster_simd.cpp compares them
+  std::vector<std::uint32_t> height;  // ordered_bits() of the height
   std::vector<float> gain;
   std::vector<std::uint32_t> wall_height, wall_return;
 };
 
-// Gives the ground between the corners their gamma, in the order of the numbers.
+// Sets the gain of the ground below the triangles, in ascending order of triangles.
 void paint_ground(const FoundTriangles& triangles, const TileSurfaces& tile, const GridVertices& vertices,
                   const Canvas& canvas);
 
-// Draws what stands, as select_triangles() found it.
+// Draws standing triangles that select_triangles() has selected.
 void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, const GridVertices& vertices,
                    const Canvas& canvas, Fragments& fragments);
 

@@ -18,34 +18,36 @@ using SignedTag = hn::RebindToSigned<Tag>;
 using BitsTag = hn::RebindToUnsigned<Tag>;
 using Floats = hn::Vec<Tag>;
 
-// a x + b y, each product rounded.
+// a x + b y, without a fused multiply-add.
 HWY_INLINE Floats sum_of(float a, Floats x, float b, Floats y) {
   const Tag d;
   return hn::Add(hn::Mul(hn::Set(d, a), x), hn::Mul(hn::Set(d, b), y));
 }
 
-// A vector from `at` on; the last one of a tile begins earlier, so that it ends with the tile.
-HWY_INLINE void place_vector(std::size_t at, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
+// Transforms one vector of vertices. The last vector of a tile overlaps the one before, so that it ends with the tile.
+HWY_INLINE void transform_vector(std::size_t at, const TileVertices& tile, const VertexMap& map,
+                                 const GridVertices& grid) {
   const Tag d;
   const auto east = hn::LoadU(d, tile.east_m + at);
   const auto north = hn::LoadU(d, tile.north_m + at);
   const auto centre = hn::Set(d, map.centre_m);
   const auto right = hn::Add(hn::Set(d, map.right_m), sum_of(map.right_east, east, map.right_north, north));
-  // What is behind the aircraft ends up a metre ahead of it, far off the grid.
+  // Vertices behind the aircraft are moved to 1 m ahead of it, far outside the grid.
   const auto up = hn::Max(hn::Add(hn::Set(d, map.up_m), sum_of(map.up_east, east, map.up_north, north)),
                           hn::Sub(hn::Set(d, 1.0F), centre));
   const auto ahead = hn::Add(centre, up);
   const auto right2 = hn::Mul(right, right);
   const auto distance = hn::Sqrt(hn::Add(right2, hn::Mul(ahead, ahead)));
-  // Distance less the centre's, without its cancellation.
+  // Distance minus the centre's distance, in a form without cancellation.
   const auto beyond = hn::Div(hn::Add(hn::Mul(up, hn::Add(centre, ahead)), right2), hn::Add(distance, centre));
-  const auto columns = hn::Mul(hn::Div(right, ahead), hn::Set(d, map.columns_a_tangent));
+  const auto columns = hn::Mul(hn::Div(right, ahead), hn::Set(d, map.columns_per_tangent));
   hn::StoreU(hn::Add(hn::Set(d, map.middle_column), columns), d, grid.column + at);
-  const auto rows = hn::Mul(beyond, hn::Set(d, map.rows_a_metre));
+  const auto rows = hn::Mul(beyond, hn::Set(d, map.rows_per_metre));
   hn::StoreU(hn::Add(hn::Set(d, map.middle_row), rows), d, grid.row + at);
   hn::StoreU(hn::Add(hn::LoadU(d, tile.up_m + at), hn::Set(d, map.lift_m)), d, grid.height_m + at);
 }
 
+// Facing of one vector of vertices: cosine between the normal and the direction to the radar.
 HWY_INLINE void face_vector(std::size_t at, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
   const Tag d;
   const auto level = sum_of(map.toward_east, hn::LoadU(d, tile.normal_east + at), map.toward_north,
@@ -54,14 +56,14 @@ HWY_INLINE void face_vector(std::size_t at, const TileVertices& tile, const Vert
   hn::StoreU(hn::Add(level, raised), d, grid.facing + at);
 }
 
-// A few vertices by way of a vector's room.
-void place_few(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
+// Fewer vertices than a vector holds, by way of padded arrays.
+void transform_few(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
   float in[3][kMaxLanes] = {};
   float out[3][kMaxLanes] = {};
   std::copy_n(tile.east_m, count, in[0]);
   std::copy_n(tile.north_m, count, in[1]);
   std::copy_n(tile.up_m, count, in[2]);
-  place_vector(0, {in[0], in[1], in[2], nullptr, nullptr, nullptr}, map, {out[0], out[1], out[2], nullptr, 0});
+  transform_vector(0, {in[0], in[1], in[2], nullptr, nullptr, nullptr}, map, {out[0], out[1], out[2], nullptr, 0});
   std::copy_n(out[0], count, grid.column);
   std::copy_n(out[1], count, grid.row);
   std::copy_n(out[2], count, grid.height_m);
@@ -76,13 +78,13 @@ void face_few(std::size_t count, const TileVertices& tile, const VertexMap& map,
   std::copy_n(out, count, grid.facing);
 }
 
-void place_vertices(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
+void transform_vertices(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
   const Tag d;
   const std::size_t step = hn::Lanes(d);
   if (count < step)
-    place_few(count, tile, map, grid);
+    transform_few(count, tile, map, grid);
   else
-    for (std::size_t at = 0; at < count; at += step) place_vector(std::min(at, count - step), tile, map, grid);
+    for (std::size_t at = 0; at < count; at += step) transform_vector(std::min(at, count - step), tile, map, grid);
   const std::size_t with_normals = count - grid.bare;
   if (with_normals < step)
     face_few(with_normals, tile, map, grid);
@@ -91,7 +93,7 @@ void place_vertices(std::size_t count, const TileVertices& tile, const VertexMap
       face_vector(std::min(at, with_normals - step), tile, map, grid);
 }
 
-// One number of the three corners.
+// One value at the three corners.
 struct ThreeCorners {
   Floats first, second, third;
   HWY_INLINE Floats least() const { return hn::Min(hn::Min(first, second), third); }
@@ -104,7 +106,7 @@ HWY_INLINE ThreeCorners gather(const float* numbers, Indices first, Indices seco
   return {hn::GatherIndex(d, numbers, first), hn::GatherIndex(d, numbers, second), hn::GatherIndex(d, numbers, third)};
 }
 
-// The facet's normal as the scalar code has it: right, ahead, up.
+// True if a triangle faces up, or is a wall that faces the radar. Same formula as facet_of() in facet-inl.hpp.
 HWY_INLINE hn::Mask<Tag> faces(const ThreeCorners& column, const ThreeCorners& row, const ThreeCorners& height,
                                const GridLimits& limits) {
   const Tag d;
@@ -126,7 +128,7 @@ HWY_INLINE hn::Mask<Tag> faces(const ThreeCorners& column, const ThreeCorners& r
   return hn::Or(hn::Gt(area, hn::Zero(d)), hn::And(steep, hn::Gt(towards, hn::Zero(d))));
 }
 
-// Of the last vector of a tile only what is there.
+// Corners from index 0 of `vertices`, at most `count`; the rest are 0.
 HWY_INLINE hn::Vec<SignedTag> corners_at(const std::uint16_t* vertices, std::size_t count) {
   const SignedTag di;
   const hn::Rebind<std::uint16_t, SignedTag> narrow;
@@ -141,7 +143,7 @@ void select_triangles(std::size_t begin, std::size_t end, const Corners& corners
   const Tag d;
   const SignedTag di;
   const BitsTag db;
-  found.make_room(end - begin);
+  found.reserve(end - begin);
   found.count = 0;
   for (std::size_t t = begin; t < end; t += hn::Lanes(d)) {
     const auto first = corners_at(corners[0] + t, end - t);
@@ -151,7 +153,7 @@ void select_triangles(std::size_t begin, std::size_t end, const Corners& corners
     const auto least = column.least();
     const auto most = column.most();
     auto kept = hn::And(hn::Ge(most, hn::Set(d, limits.first_column)), hn::Lt(least, hn::Set(d, limits.last_column)));
-    // Most of a fine scene ends here: too narrow to cross the line of sight of any column.
+    // Rejects most triangles of a fine scene: they are too narrow to contain the centre of a column.
     kept = hn::And(kept, hn::Lt(hn::Ceil(least), hn::Ceil(most)));
     if (hn::AllFalse(d, kept)) continue;
     const ThreeCorners row = gather(grid.row, first, second, third);
@@ -175,11 +177,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace yars::model::hrm::simd {
 
-HWY_EXPORT(place_vertices);
+HWY_EXPORT(transform_vertices);
 HWY_EXPORT(select_triangles);
 
-void place_vertices(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
-  HWY_DYNAMIC_DISPATCH(place_vertices)(count, tile, map, grid);
+void transform_vertices(std::size_t count, const TileVertices& tile, const VertexMap& map, const GridVertices& grid) {
+  HWY_DYNAMIC_DISPATCH(transform_vertices)(count, tile, map, grid);
 }
 void select_triangles(std::size_t begin, std::size_t end, const Corners& corners, const GridVertices& grid,
                       const GridLimits& limits, FoundTriangles& found) {

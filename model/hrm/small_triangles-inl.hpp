@@ -1,5 +1,5 @@
-// Small triangles of a scene drawn onto a fan, many at a time, a lane each: surfaces seen from above, and walls. What
-// they reach is kept and put down in batches. Included once for each target.
+// Rasteriser of small scene triangles, one a lane: surfaces seen from above, and walls.
+// Results are collected as fragments and stored in batches. Included once for each Highway target.
 #if defined(YARS_MODEL_HRM_SMALL_TRIANGLES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_HRM_SMALL_TRIANGLES_INL
 #undef YARS_MODEL_HRM_SMALL_TRIANGLES_INL
@@ -24,32 +24,34 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Bits = hn::Vec<BitsTag>;
 
-constexpr std::size_t kFlush = 1024;     // grid points kept before they are put down
-constexpr std::size_t kFetchAhead = 24;  // of them
-constexpr float kUnderRoof_m = 0.02F;
+constexpr std::size_t kFlushCount = 1024;    // fragments collected before they are stored
+constexpr std::size_t kPrefetchPoints = 24;  // fragments
+constexpr float kUnderRoof_m = 0.02F;        // [m] top of a wall below the edge of its roof, so that the roof wins
+// [steps of kWallStep_m] limit of one wall, which keeps the conversion to int32 defined.
 constexpr float kMaxWall = 1.0e9F;
-constexpr std::uint32_t kFullWall = 0x7fffffffU;
+constexpr std::uint32_t kFullWall = 0x7fffffffU;  // limit of a sum, which keeps the sums from wrapping
 
-// A point's surface as one number: the height in the upper half, made so that it ascends as an integer too, and the
-// gain in the lower half, where what stands is greater than any ground. Its own inverse.
+// Maps a SurfacePoint, height in the upper and gain in the lower half, to an integer of the same order. Negative gains
+// of scene surfaces order above those of the ground. The map is its own inverse.
 static_assert(std::endian::native == std::endian::little);
-HWY_INLINE std::int64_t in_order(std::int64_t point) {
+HWY_INLINE std::int64_t ordered_bits(std::int64_t point) {
   constexpr std::int64_t kHeight = 0x7fffffff00000000;
   return point ^ ((point >> 63) & kHeight);
 }
-// The upper half of a vector of heights; no negative zero, which would be less than zero.
+// Turns negative zero into zero, which orders higher.
 HWY_INLINE Floats plain(Floats height) {
   return hn::Add(height, hn::Zero(Tag()));
 }
-HWY_INLINE Bits in_order(Floats height) {
+// Upper half of ordered_bits(point), for a vector of heights.
+HWY_INLINE Bits ordered_bits(Floats height) {
   const BitsTag db;
   const auto bits = hn::BitCast(SignedTag(), height);
   const auto turned = hn::And(hn::ShiftRight<31>(bits), hn::Set(SignedTag(), 0x7fffffff));
   return hn::BitCast(db, hn::Xor(bits, turned));
 }
 
-// Where a grid point lies in the arrays.
-HWY_INLINE Bits place_on(const PolarGrid& grid, Floats column, Floats row) {
+// PolarGrid::at() for a vector.
+HWY_INLINE Bits index_on(const PolarGrid& grid, Floats column, Floats row) {
   const SignedTag di;
   const BitsTag db;
   const auto i = hn::BitCast(db, hn::ConvertTo(di, column));
@@ -58,12 +60,13 @@ HWY_INLINE Bits place_on(const PolarGrid& grid, Floats column, Floats row) {
   return hn::Add(hn::Add(strip, line), hn::And(i, hn::Set(db, kStripColumns - 1U)));
 }
 
-// A batch of small triangles, a lane each.
+// Collects fragments of small triangles, one triangle a lane.
 class SmallTriangles {
  public:
   SmallTriangles(const Canvas& canvas, Fragments& fragments) : canvas_(canvas), fragments_(fragments) {}
 
-  void fill(const Triangle& triangle, const Facet& facet, Floats gain, Mask active) {
+  // Draws surfaces. Each extends kSurfaceReach rows beyond its edges, so that its mean length is exact.
+  void draw_surfaces(const Triangle& triangle, const Facet& facet, Floats gain, Mask active) {
     const Tag d;
     const auto rows = set(static_cast<float>(canvas_.grid->rows));
     const auto end = hn::Min(hn::Ceil(triangle.right.column), set(canvas_.limits.last_column));
@@ -78,11 +81,11 @@ class SmallTriangles {
       const auto last = hn::Min(hn::Ceil(hn::Add(far, set(kSurfaceReach))), rows);
       auto row = hn::Max(hn::Ceil(hn::Sub(near, set(kSurfaceReach))), hn::Zero(d));
       auto wanted = hn::And(active, hn::Lt(row, last));
-      auto at = place_on(*canvas_.grid, hn::IfThenElseZero(active, column), hn::IfThenElseZero(wanted, row));
+      auto at = index_on(*canvas_.grid, hn::IfThenElseZero(active, column), hn::IfThenElseZero(wanted, row));
       const auto base = hn::Add(facet.value, hn::Mul(facet.by_column, column));
       while (!hn::AllFalse(d, wanted)) {
         const auto height = hn::Add(base, hn::Mul(facet.by_row, hn::Min(hn::Max(row, near), far)));
-        keep(at, triangle.within(height), gain, wanted);
+        add_fragment(at, triangle.within(height), gain, wanted);
         at = hn::Add(at, hn::Set(BitsTag(), static_cast<std::uint32_t>(kStripColumns)));
         row = hn::Add(row, set(1.0F));
         wanted = hn::And(wanted, hn::Lt(row, last));
@@ -90,10 +93,10 @@ class SmallTriangles {
     }
   }
 
-  // Seen from above a wall is the line between its two corners that lie farthest apart across; the profile steps up at
-  // the first grid point that a surface behind the line reaches. Its columns together return as if they were as wide as
-  // it is; one narrower than a column is met by chance, and counts whole then.
-  void stand(const Triangle& triangle, Floats gain, Mask active) {
+  // Draws walls. Seen from above a wall is the line between its leftmost and rightmost corners. The profile steps up at
+  // the first grid point that a surface behind the line reaches. The gain is scaled by width over crossed columns. A
+  // wall narrower than a column keeps its whole gain, because it crosses a column only by chance.
+  void draw_walls(const Triangle& triangle, Floats gain, Mask active) {
     const Tag d;
     const auto width = hn::Sub(triangle.right.column, triangle.left.column);
     const auto columns = hn::Sub(hn::Ceil(triangle.right.column), hn::Ceil(triangle.left.column));
@@ -111,48 +114,49 @@ class SmallTriangles {
       const auto wanted = hn::And(active, hn::And(hn::Ge(row, hn::Zero(d)), hn::Lt(row, rows)));
       if (hn::AllFalse(d, wanted)) continue;
       const auto [along, beside] = heights_at.at(column);
-      const auto tall = hn::Abs(hn::Sub(along, beside));
-      const auto at = place_on(*canvas_.grid, hn::IfThenElseZero(wanted, column), hn::IfThenElseZero(wanted, row));
-      keep_wall(at, tall, gain, wanted);
-      // A fence has no roof to be seen by: it is its own. Where there is one that one is higher.
-      keep(at, hn::Sub(hn::Max(along, beside), set(kUnderRoof_m)), gain, wanted);
+      const auto wall_height_m = hn::Abs(hn::Sub(along, beside));
+      const auto at = index_on(*canvas_.grid, hn::IfThenElseZero(wanted, column), hn::IfThenElseZero(wanted, row));
+      add_wall_fragment(at, wall_height_m, gain, wanted);
+      // The top of the wall as a surface, for walls without a roof. A roof is higher and replaces it.
+      add_fragment(at, hn::Sub(hn::Max(along, beside), set(kUnderRoof_m)), gain, wanted);
     }
   }
 
-  // Puts down what was kept, when there is much or all is drawn: places are fetched ahead of their turn.
+  // Stores the fragments if there are many, or all of them. Grid points are prefetched ahead.
   void flush(bool all) {
-    if (!all && count_ < kFlush && walls_ < kFlush) return;
+    if (!all && count_ < kFlushCount && walls_ < kFlushCount) return;
     for (std::size_t i = 0; i < count_; ++i) {
-      hwy::Prefetch(canvas_.arrays.surface + fragments_.at[std::min(i + kFetchAhead, count_ - 1)]);
+      hwy::Prefetch(canvas_.arrays.surface + fragments_.at[std::min(i + kPrefetchPoints, count_ - 1)]);
       SurfacePoint& point = canvas_.arrays.surface[fragments_.at[i]];
       const std::uint64_t height = fragments_.height[i];
       const auto fragment = static_cast<std::int64_t>(height << 32 | std::bit_cast<std::uint32_t>(fragments_.gain[i]));
-      point = std::bit_cast<SurfacePoint>(in_order(std::max(in_order(std::bit_cast<std::int64_t>(point)), fragment)));
+      point = std::bit_cast<SurfacePoint>(
+          ordered_bits(std::max(ordered_bits(std::bit_cast<std::int64_t>(point)), fragment)));
     }
     for (std::size_t i = 0; i < walls_; ++i) {
-      hwy::Prefetch(canvas_.arrays.walls + fragments_.wall_at[std::min(i + kFetchAhead, walls_ - 1)]);
+      hwy::Prefetch(canvas_.arrays.walls + fragments_.wall_at[std::min(i + kPrefetchPoints, walls_ - 1)]);
       WallPoint& point = canvas_.arrays.walls[fragments_.wall_at[i]];
-      point.height += fragments_.wall_height[i];
-      point.returned += fragments_.wall_return[i];
-      if (((point.height | point.returned) & ~kFullWall) == 0) [[likely]]
+      point.height_steps += fragments_.wall_height[i];
+      point.returned_steps += fragments_.wall_return[i];
+      if (((point.height_steps | point.returned_steps) & ~kFullWall) == 0) [[likely]]
         continue;
-      point.height = std::min(point.height, kFullWall);
-      point.returned = std::min(point.returned, kFullWall);
+      point.height_steps = std::min(point.height_steps, kFullWall);
+      point.returned_steps = std::min(point.returned_steps, kFullWall);
     }
     count_ = walls_ = 0;
   }
 
  private:
-  void keep(Bits at, Floats height, Floats gain, Mask wanted) {
+  void add_fragment(Bits at, Floats height, Floats gain, Mask wanted) {
     const BitsTag db;
     if (fragments_.at.size() < count_ + kStripColumns) fragments_.grow();
     const auto mask = hn::RebindMask(db, wanted);
     hn::StoreU(hn::Compress(at, mask), db, &fragments_.at[count_]);
-    hn::StoreU(hn::Compress(in_order(plain(height)), mask), db, &fragments_.height[count_]);
+    hn::StoreU(hn::Compress(ordered_bits(plain(height)), mask), db, &fragments_.height[count_]);
     hn::StoreU(hn::Compress(hn::Neg(gain), wanted), Tag(), &fragments_.gain[count_]);
     count_ += hn::CountTrue(Tag(), wanted);
   }
-  void keep_wall(Bits at, Floats tall, Floats gain, Mask wanted) {
+  void add_wall_fragment(Bits at, Floats wall_height_m, Floats gain, Mask wanted) {
     const BitsTag db;
     const SignedTag di;
     if (fragments_.wall_at.size() < walls_ + kStripColumns) fragments_.grow_walls();
@@ -162,8 +166,8 @@ class SmallTriangles {
     };
     const auto mask = hn::RebindMask(db, wanted);
     hn::StoreU(hn::Compress(at, mask), db, &fragments_.wall_at[walls_]);
-    hn::StoreU(hn::Compress(steps(tall), mask), db, &fragments_.wall_height[walls_]);
-    hn::StoreU(hn::Compress(steps(hn::Mul(tall, gain)), mask), db, &fragments_.wall_return[walls_]);
+    hn::StoreU(hn::Compress(steps(wall_height_m), mask), db, &fragments_.wall_height[walls_]);
+    hn::StoreU(hn::Compress(steps(hn::Mul(wall_height_m, gain)), mask), db, &fragments_.wall_return[walls_]);
     walls_ += hn::CountTrue(Tag(), wanted);
   }
 

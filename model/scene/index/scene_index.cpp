@@ -35,7 +35,7 @@ std::optional<std::vector<double>> numbers(std::string_view text) {
   }
 }
 
-// Degrees_minutes_seconds behind one of two letters, taken off the front of `text`.
+// Parses degrees_minutes_seconds after one of two letters, and removes them from the front of `text`.
 std::optional<double> take_angle(std::string_view& text, char positive, char negative) {
   if (text.empty()) return std::nullopt;
   const char side = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
@@ -55,7 +55,7 @@ std::optional<double> take_angle(std::string_view& text, char positive, char neg
   return side == negative ? -degrees : degrees;
 }
 
-error::Expected<void> leave_out(std::vector<radar::Scene>& scenes, const std::string& name) {
+error::Expected<void> exclude(std::vector<radar::Scene>& scenes, const std::string& name) {
   NameFilter all(name);
   if (scenes.empty() || all.unmet().empty())
     return error::fail("--scene-without", "a scene, and the name of what is left out of it",
@@ -84,9 +84,9 @@ error::Expected<radar::Scene> parse_scene(const std::string& text) {
   scene.file = text.substr(0, at);
   if (at == std::string::npos) return scene;
   const auto values = numbers(std::string_view(text).substr(at + 1));
-  const bool right = values && (values->size() == 2 || values->size() == 3) && std::abs((*values)[0]) <= 90.0 &&
+  const bool valid = values && (values->size() == 2 || values->size() == 3) && std::abs((*values)[0]) <= 90.0 &&
                      std::abs((*values)[1]) <= 360.0;
-  if (!right || scene.file.empty())
+  if (!valid || scene.file.empty())
     return error::fail(text, "FILE@LATITUDE,LONGITUDE or FILE@LATITUDE,LONGITUDE,HEADING in degrees",
                        std::string("'").append(text, at) + "'", "write it as airfield.flt@37.5,-122.3,45");
   scene.place = {(*values)[0], geo::wrapped_degrees((*values)[1])};
@@ -102,7 +102,7 @@ error::Expected<void> add_scenes(std::vector<radar::Scene>& scenes, const std::v
     scenes.push_back(std::move(*scene));
   }
   for (const std::string& name : names)
-    if (auto done = leave_out(scenes, name); !done) return done;
+    if (auto done = exclude(scenes, name); !done) return done;
   return {};
 }
 
@@ -127,7 +127,7 @@ double distance_m(geo::GeoPoint a, geo::GeoPoint b) {
   return geo::geodesic_inverse(a, b).distance.metres();
 }
 
-// From the header's corners; they count from the header's own origin, wherever the scene is put.
+// Greatest distance of the header's corners from its origin, independent of the scene's position.
 double reach_of(const Header& header) {
   if (!header.origin || !header.south_west || !header.north_east) return kUnknownReach_m;
   const geo::GeoPoint south_east{header.south_west->latitude_deg, header.north_east->longitude_deg};
@@ -144,9 +144,9 @@ error::Expected<IndexedScene> index_file(const fs::path& file, const radar::Scen
   IndexedScene found{file, {scene.place, scene.heading_deg, scene.heights}, reach_of(*header), scene.without};
   if (std::isfinite(scene.place.latitude_deg) && std::isfinite(scene.place.longitude_deg)) return found;
   if (const auto named = place_in_name(file.filename().string())) {
-    found.placement.place = *named;
+    found.placement.position = *named;
   } else if (header->origin) {
-    found.placement.place = *header->origin;
+    found.placement.position = *header->origin;
   } else {
     return error::fail(file.string(), "a scene with a place: given with it, in its name, or as its header's origin",
                        "none", "give latitude and longitude, or FILE@LAT,LON,HDG");
@@ -154,12 +154,12 @@ error::Expected<IndexedScene> index_file(const fs::path& file, const radar::Scen
   return found;
 }
 
-// Of a folder each file leaves out what it has of the names.
+// Checks the names to leave out of a file named by itself. Files in folders may lack some of them.
 error::Expected<void> check_names(const radar::Scene& scene) {
   if (scene.without.empty()) return {};
   NameFilter filter(scene.without);
   if (const auto model = read_openflight(scene.file, &filter); !model) return tl::unexpected(model.error());
-  if (const auto complaint = filter.complaint(scene.file)) return tl::unexpected(*complaint);
+  if (const auto unmet = filter.complaint(scene.file)) return tl::unexpected(*unmet);
   return {};
 }
 

@@ -1,4 +1,9 @@
-// Scene files by position: names that users give, and what headers say.
+// Index of scene files: file, position, heading and reach, from names and headers.
+// Inputs: scene names of users, folders. Outputs: IndexedScene records; problems as sentences.
+// Reads only names and headers, and whole files only to check names to leave out.
+// Position: given with the name, else coordinates in the file's name, else the header's origin.
+// Reach: from the corners in the header, else kUnknownReach_m.
+// Errors: a file that is named by itself cannot be used. In a folder such a file is a problem.
 #pragma once
 
 #include <filesystem>
@@ -12,35 +17,32 @@
 
 namespace yars::model::scene {
 
-// How people name a scene and where it stands: `FILE`, `FILE@LAT,LON` or `FILE@LAT,LON,HDG` in degrees, and coordinates
-// in a file's name, degrees_minutes_seconds: N35_44_51W121_30_2.flt.
-
-// Errors: what stands behind the last '@' is no place.
+// Parses a scene name: `FILE`, `FILE@LAT,LON` or `FILE@LAT,LON,HDG` in degrees. Errors: the text after the last '@' is
+// not a position.
 error::Expected<radar::Scene> parse_scene(const std::string& text);
 
-// Adds what the texts say as parse_scene() reads it, then leaves out of every scene what has one of the names. Errors:
-// a text that is none; a file that cannot be read; a name that nothing in any of the files has. What stands in a folder
-// is asked for the names when it is read.
+// Parses `texts` by parse_scene() and adds the scenes. Then adds `names` to the parts that each scene leaves out.
+// Errors: a text that is not a scene, an unreadable file, a name that matches nothing in any file. Files in folders are
+// matched when they are read.
 error::Expected<void> add_scenes(std::vector<radar::Scene>& scenes, const std::vector<std::string>& texts,
                                  const std::vector<std::string>& names);
 
-// From a file's name without its folder; nothing when it holds no place.
+// Coordinates in a file's name without its folder, in degrees_minutes_seconds: N35_44_51W121_30_2.flt. Nullopt if the
+// name has none.
 std::optional<geo::GeoPoint> place_in_name(const std::string& name);
 
-// Which scene files stand where, found by names and headers alone: nothing else of a file is read. A folder stands for
-// the .flt files in it, in order of their names. A file's place is what is given with it, else the coordinates in its
-// name, else its header's origin. How far it reaches is what its header says it covers, and 20 km where it says
-// nothing. A file of a folder that cannot be used is a problem, a sentence; a file named by itself is an error, and so
-// is a name to leave out that nothing in it has: to know that, all of the file is read.
+// Reach [m] of a file without corners in its header. A smaller value would hide parts of larger scenes.
 inline constexpr double kUnknownReach_m = 20'000.0;
 
 struct IndexedScene {
   std::filesystem::path file;
   Placement placement;
   double reach_m = kUnknownReach_m;
-  std::string without{};  // as radar::Scene::without
+  std::string without{};  // names of parts to leave out, as radar::Scene::without
 };
 
+// Indexes scenes; a folder stands for its .flt files in the order of their names. Problems of single files in folders
+// are appended to `problems`. Errors: a file named by itself cannot be used, or nothing in it has a name to leave out.
 error::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<radar::Scene>& scenes,
                                                         std::vector<std::string>& problems);
 

@@ -14,27 +14,27 @@ namespace yars::model::scene {
 
 namespace {
 
-constexpr double kSceneCell_deg = 0.25;  // scenes are some kilometres across
+constexpr double kSceneCell_deg = 0.25;  // typical scenes are some kilometres wide
 
 using Hits = std::vector<GridIndex::Hit>;
 
-// Reused by every query of a thread: a patch asks hundreds of times a second.
-Hits& scratch(int which) {
+// Per-thread buffers for queries; a patch map makes hundreds a second.
+Hits& scratch(int slot) {
   thread_local std::array<Hits, 2> hits;
-  hits[static_cast<std::size_t>(which)].clear();
-  return hits[static_cast<std::size_t>(which)];
+  hits[static_cast<std::size_t>(slot)].clear();
+  return hits[static_cast<std::size_t>(slot)];
 }
 
-double beyond(double value, double least, double most) {
+double distance_outside(double value, double least, double most) {
   return std::max({0.0, least - value, value - most});
 }
 
-bool is_within(const Tile& tile, double reach_m, geo::GeoPoint place, double distance_m, double radius_m) {
+bool is_within(const Tile& tile, double reach_m, geo::GeoPoint position, double distance_m, double radius_m) {
   if (distance_m + reach_m <= radius_m) return true;
-  const geo::PlanePoint at = geo::AzimuthalEquidistant(tile.origin).plane_from_geodetic(place);
+  const geo::PlanePoint at = geo::AzimuthalEquidistant(tile.origin).plane_from_geodetic(position);
   const Bounds& b = tile.bounds;
-  return std::hypot(beyond(at.x_m, static_cast<double>(b.east_least_m), static_cast<double>(b.east_most_m)),
-                    beyond(at.y_m, static_cast<double>(b.north_least_m), static_cast<double>(b.north_most_m))) <=
+  return std::hypot(distance_outside(at.x_m, static_cast<double>(b.east_min_m), static_cast<double>(b.east_max_m)),
+                    distance_outside(at.y_m, static_cast<double>(b.north_min_m), static_cast<double>(b.north_max_m))) <=
          radius_m;
 }
 
@@ -45,38 +45,39 @@ PlacedView::PlacedView(std::uint64_t generation, std::vector<Part> parts, std::v
     : generation_(generation), parts_(std::move(parts)), kinds_(std::move(kinds)), objects_(std::move(objects)) {
   std::vector<Disc> discs;
   for (const Part& part : parts_) {
-    // Bounds of tiles are boxes; their corners reach somewhat farther than what is in them.
-    discs.push_back({part.scene->placement.place, 1.5 * part.scene->reach_m + kTileSide_m});
+    // Corners of tile bounds reach farther than the tile's contents.
+    discs.push_back({part.scene->placement.position, 1.5 * part.scene->reach_m + kTileSide_m});
     bytes_ += part.scene->bytes;
     if (part.scene->scatterers) scatterers_.push_back(part.scene->scatterers.get());
   }
-  places_ = GridIndex(discs, kSceneCell_deg);
-  bytes_ += places_.bytes() + objects_.capacity() * sizeof(SceneObject) + kinds_.capacity() * sizeof(SurfaceKind);
+  position_index_ = GridIndex(discs, kSceneCell_deg);
+  bytes_ +=
+      position_index_.bytes() + objects_.capacity() * sizeof(SceneObject) + kinds_.capacity() * sizeof(SurfaceKind);
 }
 
-void PlacedView::tiles_near(geo::GeoPoint place, double radius_m, std::vector<const Tile*>& found) const {
+void PlacedView::tiles_near(geo::GeoPoint position, double radius_m, std::vector<const Tile*>& found) const {
   found.clear();
   Hits& scenes = scratch(0);
-  places_.find(place, radius_m, scenes);
+  position_index_.find(position, radius_m, scenes);
   std::sort(scenes.begin(), scenes.end());
   for (const GridIndex::Hit& scene : scenes) {
     const PlacedScene& placed = *parts_[scene.disc].scene;
     Hits& tiles = scratch(1);
-    placed.tile_index.find(place, radius_m, tiles);
+    placed.tile_index.find(position, radius_m, tiles);
     std::sort(tiles.begin(), tiles.end());
     for (const GridIndex::Hit& tile : tiles)
-      if (is_within(placed.tiles[tile.disc], placed.tile_reach_m[tile.disc], place, tile.distance_m, radius_m))
+      if (is_within(placed.tiles[tile.disc], placed.tile_reach_m[tile.disc], position, tile.distance_m, radius_m))
         found.push_back(&placed.tiles[tile.disc]);
   }
 }
 
-void PlacedView::objects_near(geo::GeoPoint place, double radius_m, std::vector<std::uint32_t>& found) const {
+void PlacedView::objects_near(geo::GeoPoint position, double radius_m, std::vector<std::uint32_t>& found) const {
   found.clear();
   Hits& scenes = scratch(0);
-  places_.find(place, radius_m, scenes);
+  position_index_.find(position, radius_m, scenes);
   for (const GridIndex::Hit& scene : scenes) {
     Hits& objects = scratch(1);
-    parts_[scene.disc].scene->object_index.find(place, radius_m, objects);
+    parts_[scene.disc].scene->object_index.find(position, radius_m, objects);
     for (const GridIndex::Hit& object : objects) found.push_back(parts_[scene.disc].first_object + object.disc);
   }
   std::sort(found.begin(), found.end());
@@ -89,7 +90,7 @@ error::Expected<std::unique_ptr<SceneStore>> SceneStore::open(const std::vector<
   auto index = index_scenes(scenes, problems);
   if (!index) return tl::unexpected(index.error());
   auto store = std::unique_ptr<SceneStore>(new SceneStore(std::move(*index), std::move(ground), options));
-  store->without_place_ = problems.size();
+  store->without_position_ = problems.size();
   store->problems_ = std::move(problems);
   return store;
 }
@@ -98,18 +99,18 @@ SceneStore::SceneStore(std::vector<IndexedScene> index, std::unique_ptr<terrain:
                        SceneStoreOptions options)
     : index_(std::move(index)), ground_(std::move(ground)), options_(options), scenes_(index_.size()) {
   std::vector<Disc> discs;
-  for (const IndexedScene& scene : index_) discs.push_back({scene.placement.place, scene.reach_m});
-  places_ = GridIndex(discs, kSceneCell_deg);
+  for (const IndexedScene& scene : index_) discs.push_back({scene.placement.position, scene.reach_m});
+  position_index_ = GridIndex(discs, kSceneCell_deg);
   make_view();
 }
 
 SceneViewPointer SceneStore::prepare(const terrain::TerrainRegion& region) {
   ++prepares_;
   std::vector<GridIndex::Hit> hits;
-  places_.find(region.centre, region.radius_m, hits);
+  position_index_.find(region.centre, region.radius_m, hits);
   std::sort(hits.begin(), hits.end());
   bool changed = false;
-  wanted_ = {hits.size() + without_place_, without_place_};
+  wanted_ = {hits.size() + without_position_, without_position_};
   for (const GridIndex::Hit& hit : hits) {
     scenes_[hit.disc].last_use = prepares_;
     if (!scenes_[hit.disc].placed && !scenes_[hit.disc].unreadable) changed |= load(hit.disc);
@@ -132,7 +133,7 @@ bool SceneStore::load(std::size_t number) {
   }
   for (const std::string& warning : model->warnings) problems_.push_back(scene.file.string() + ": " + warning);
   const auto objects = static_cast<std::uint32_t>(model->objects.size());
-  // A file that was changed meanwhile gets new numbers; its old ones stay empty.
+  // A file changed since its last load gets new numbers; its old ones stay empty.
   if (resident.objects != objects) {
     resident.first_object = static_cast<std::uint32_t>(objects_.size());
     resident.objects = objects;
@@ -147,8 +148,8 @@ bool SceneStore::load(std::size_t number) {
                         std::to_string(static_cast<long>(scene.reach_m)) + " m of its origin, found one to " +
                         std::to_string(static_cast<long>(reach_m)) +
                         " m; it is shown only when its nearer part is looked at");
-  const terrain::TerrainViewPointer ground = ground_->prepare({scene.placement.place, reach_m + kTileSide_m, 0});
-  // Scatterers that the index does not know of would come and go with what else was looked at.
+  const terrain::TerrainViewPointer ground = ground_->prepare({scene.placement.position, reach_m + kTileSide_m, 0});
+  // Scatterers beyond the indexed reach are left out: they would appear only when another region loads the file.
   auto placed = std::make_shared<PlacedScene>(place_model(*model, scene.placement, *ground, resident.first_object,
                                                           kinds_, options_.use, scene.reach_m + kTileSide_m));
   if (placed->objects.front().name.empty()) placed->objects.front().name = scene.file.stem().string();

@@ -1,4 +1,8 @@
-// Scene store: reads and places the files of a region and hands out views of them.
+// Store of placed scenes: loads the files of a region on demand and returns immutable views.
+// Inputs: scenes of a configuration, a terrain store of its own, a region. Outputs: SceneView; problems as sentences.
+// Errors: an unreadable file is reported once as a problem and is absent from views.
+// Threads: one thread uses a store; any number may read its views.
+// Determinism: equal files and calls give equal views.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +18,7 @@
 
 namespace yars::model::scene {
 
-// The view that a store gives: placed scenes, found by their places, then tiles and objects within each.
+// View of placed scenes: finds scenes by position, then tiles and objects in each.
 class PlacedView final : public SceneView {
  public:
   struct Part {
@@ -29,48 +33,47 @@ class PlacedView final : public SceneView {
   std::uint64_t resident_bytes() const override { return bytes_; }
   const std::vector<SurfaceKind>& kinds() const override { return kinds_; }
   const std::vector<SceneObject>& objects() const override { return objects_; }
-  void tiles_near(geo::GeoPoint place, double radius_m, std::vector<const Tile*>& found) const override;
-  void objects_near(geo::GeoPoint place, double radius_m, std::vector<std::uint32_t>& found) const override;
+  void tiles_near(geo::GeoPoint position, double radius_m, std::vector<const Tile*>& found) const override;
+  void objects_near(geo::GeoPoint position, double radius_m, std::vector<std::uint32_t>& found) const override;
   std::span<const Scatterers* const> scatterers() const override { return scatterers_; }
 
  private:
   std::uint64_t generation_;
   std::vector<Part> parts_;
-  GridIndex places_;
+  GridIndex position_index_;
   std::vector<SurfaceKind> kinds_;
   std::vector<SceneObject> objects_;
   std::vector<const Scatterers*> scatterers_;
   std::uint64_t bytes_ = 0;
 };
 
-// Polygonal scenes of a configuration, read as far as they are wanted: prepare() reads and places the files whose reach
-// comes into the region and keeps them; files elsewhere are not opened. Beyond the limit the longest unused go, never
-// one that the region wants. Terrain comes from a store of its own, at its finest, so that heights never depend on what
-// the radar looks at. Equal files and calls give equal views. A file that cannot be read is a problem once and is
-// absent. Numbers of kinds and objects stay as they are from view to view. One thread at a time; views are read by any
-// number.
+// Options of a SceneStore. Scenes that the current region needs may exceed the memory limit.
 struct SceneStoreOptions {
   std::size_t resident_limit_bytes = std::size_t{2} << 30;
   SceneUse use = SceneUse::triangles;
 };
 
+// Store of placed scenes. prepare() loads files with a reach into the region and keeps them; other files are not
+// opened. Beyond the memory limit the scenes unused for longest are dropped, but none that the region needs. Terrain is
+// sampled at its finest, so heights do not depend on the region. Numbers of kinds and objects stay the same in later
+// views.
 class SceneStore {
  public:
-  // Errors: a file named by itself is missing, is no OpenFlight file or has no place.
+  // Errors: a file named by itself is missing, is not OpenFlight or has no position.
   static error::Expected<std::unique_ptr<SceneStore>> open(const std::vector<radar::Scene>& scenes,
                                                            std::unique_ptr<terrain::TerrainStore> ground,
                                                            SceneStoreOptions options = {});
 
-  // A view that holds every scene that reaches into the region (its detail is not asked). The same view, of the same
-  // generation, while nothing has to change.
+  // Returns a view with every scene that reaches into the region; its `detail` is ignored. Returns the same view with
+  // the same generation while nothing changes.
   SceneViewPointer prepare(const terrain::TerrainRegion& region);
 
-  // What a person should know since the last call: unreadable files, odd ones. A sentence each.
+  // Problems since the last call, one sentence each: unreadable or unusual files.
   std::vector<std::string> take_problems();
 
   const std::vector<IndexedScene>& index() const { return index_; }
-  // Of the files that the region last prepared wanted: how many, and how many of them cannot be read. A file that gave
-  // no place when the folder was looked through may belong to any region.
+  // Files in the last prepared region: number, and number unreadable. A file that could not be indexed counts in every
+  // region.
   struct Wanted {
     std::size_t files = 0, unreadable = 0;
   };
@@ -81,7 +84,7 @@ class SceneStore {
     std::shared_ptr<const PlacedScene> placed;
     std::uint64_t last_use = 0;
     bool unreadable = false;
-    std::uint32_t first_object = 0;  // its range of objects_, kept when it is dropped
+    std::uint32_t first_object = 0;  // first index in objects_; kept when the scene is dropped
     std::uint32_t objects = 0;
   };
 
@@ -93,20 +96,20 @@ class SceneStore {
   std::vector<IndexedScene> index_;
   std::unique_ptr<terrain::TerrainStore> ground_;
   SceneStoreOptions options_;
-  GridIndex places_;
-  std::vector<Resident> scenes_;  // one for each of index_
+  GridIndex position_index_;
+  std::vector<Resident> scenes_;  // parallel to index_
   KindTable kinds_;
   std::vector<SceneObject> objects_;
   std::uint64_t resident_bytes_ = 0;
   std::uint64_t prepares_ = 0;
-  std::size_t without_place_ = 0;
+  std::size_t without_position_ = 0;
   Wanted wanted_;
   std::uint64_t generation_ = 0;
   SceneViewPointer view_;
   std::vector<std::string> problems_;
 };
 
-// The store that a configuration asks for; null when it names no scene.
+// Opens the store for a configuration; null if it names no scene.
 error::Expected<std::unique_ptr<SceneStore>> open_scenes(const radar::RadarConfiguration& configuration,
                                                          SceneUse use = SceneUse::triangles);
 

@@ -12,76 +12,77 @@ namespace yars::model::scene {
 
 namespace {
 
-struct Flat {
+struct ProjectedPoint {
   double u = 0.0, v = 0.0;
 };
 
-double turn(Flat a, Flat b, Flat c) {
+double turn(ProjectedPoint a, ProjectedPoint b, ProjectedPoint c) {
   return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
 }
 
-// Along the axis that the normal is nearest to, with the turning sense kept.
-std::vector<Flat> flattened(std::span<const Vector3> corners, Vector3 normal) {
-  std::vector<Flat> flat;
-  flat.reserve(corners.size());
+// Projects corners along the main axis of the normal; orientation is kept.
+std::vector<ProjectedPoint> projected(std::span<const Vector3> corners, Vector3 normal) {
+  std::vector<ProjectedPoint> projection;
+  projection.reserve(corners.size());
   const double x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
   for (const Vector3& corner : corners) {
     if (z >= x && z >= y)
-      flat.push_back(normal.z > 0 ? Flat{corner.x, corner.y} : Flat{corner.y, corner.x});
+      projection.push_back(normal.z > 0 ? ProjectedPoint{corner.x, corner.y} : ProjectedPoint{corner.y, corner.x});
     else if (x >= y)
-      flat.push_back(normal.x > 0 ? Flat{corner.y, corner.z} : Flat{corner.z, corner.y});
+      projection.push_back(normal.x > 0 ? ProjectedPoint{corner.y, corner.z} : ProjectedPoint{corner.z, corner.y});
     else
-      flat.push_back(normal.y > 0 ? Flat{corner.z, corner.x} : Flat{corner.x, corner.z});
+      projection.push_back(normal.y > 0 ? ProjectedPoint{corner.z, corner.x} : ProjectedPoint{corner.x, corner.z});
   }
-  return flat;
+  return projection;
 }
 
-bool is_convex(const std::vector<Flat>& flat) {
-  const std::size_t n = flat.size();
+bool is_convex(const std::vector<ProjectedPoint>& projection) {
+  const std::size_t n = projection.size();
   for (std::size_t i = 0; i < n; ++i)
-    if (turn(flat[i], flat[(i + 1) % n], flat[(i + 2) % n]) < 0.0) return false;
+    if (turn(projection[i], projection[(i + 1) % n], projection[(i + 2) % n]) < 0.0) return false;
   return true;
 }
 
-bool inside(Flat p, Flat a, Flat b, Flat c) {
+bool inside(ProjectedPoint p, ProjectedPoint a, ProjectedPoint b, ProjectedPoint c) {
   return turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
 }
 
-bool same(Flat a, Flat b) {
+bool same(ProjectedPoint a, ProjectedPoint b) {
   return a.u == b.u && a.v == b.v;
 }
 
-// The corner in the middle of (a, b, c) can be cut off: it turns left and no other corner lies in the cut.
-bool is_ear(const std::vector<Flat>& flat, const std::vector<std::uint32_t>& ring, std::size_t at) {
+// True if b can be cut off (a, b, c): it turns left, and no other corner lies in the triangle.
+bool is_ear(const std::vector<ProjectedPoint>& projection, const std::vector<std::uint32_t>& ring, std::size_t at) {
   const std::size_t n = ring.size();
-  const Flat a = flat[ring[(at + n - 1) % n]], b = flat[ring[at]], c = flat[ring[(at + 1) % n]];
+  const ProjectedPoint a = projection[ring[(at + n - 1) % n]], b = projection[ring[at]],
+                       c = projection[ring[(at + 1) % n]];
   if (turn(a, b, c) <= 0.0) return false;
   for (const std::uint32_t other : ring) {
-    const Flat p = flat[other];
+    const ProjectedPoint p = projection[other];
     if (same(p, a) || same(p, b) || same(p, c)) continue;
     if (inside(p, a, b, c)) return false;
   }
   return true;
 }
 
-void clip_ears(const std::vector<Flat>& flat, std::vector<std::array<std::uint32_t, 3>>& found) {
-  std::vector<std::uint32_t> ring(flat.size());
+void clip_ears(const std::vector<ProjectedPoint>& projection, std::vector<std::array<std::uint32_t, 3>>& found) {
+  std::vector<std::uint32_t> ring(projection.size());
   for (std::size_t i = 0; i < ring.size(); ++i) ring[i] = static_cast<std::uint32_t>(i);
   std::size_t at = 0;
-  std::size_t refused = 0;  // corners in a row that are no ears
+  std::size_t not_ears = 0;  // consecutive corners that are not ears
   while (ring.size() > 3) {
     const std::size_t n = ring.size();
     at %= n;
-    // A ring without ears crosses itself; any corner is as good as another then.
-    if (refused < n && !is_ear(flat, ring, at)) {
-      ++refused;
+    // A polygon without ears crosses itself; then any corner is cut.
+    if (not_ears < n && !is_ear(projection, ring, at)) {
+      ++not_ears;
       ++at;
       continue;
     }
     found.push_back({ring[(at + n - 1) % n], ring[at], ring[(at + 1) % n]});
     ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(at));
     at = at == 0 ? 0 : at - 1;
-    refused = 0;
+    not_ears = 0;
   }
   found.push_back({ring[0], ring[1], ring[2]});
 }
@@ -89,7 +90,7 @@ void clip_ears(const std::vector<Flat>& flat, std::vector<std::array<std::uint32
 }  // namespace
 
 Vector3 newell_normal(std::span<const Vector3> corners) {
-  // About the first corner: far from the origin the products would lose what counts.
+  // Relative to the first corner, to avoid cancellation far from the origin.
   Vector3 sum;
   for (std::size_t i = 2; i < corners.size(); ++i)
     sum = sum + cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
@@ -98,7 +99,7 @@ Vector3 newell_normal(std::span<const Vector3> corners) {
 
 void triangulate(std::span<const Vector3> corners, std::vector<std::array<std::uint32_t, 3>>& found) {
   found.clear();
-  // Cutting ears takes time with the square of the corners (and more); a longer outline is damage, and a fan does.
+  // Ear clipping takes at least quadratic time. Longer outlines are damage and become a triangle fan.
   constexpr std::size_t kMaxEars = 512;
   if (corners.size() < 3) return;
   if (corners.size() == 3) {
@@ -107,19 +108,20 @@ void triangulate(std::span<const Vector3> corners, std::vector<std::array<std::u
   }
   const Vector3 normal = newell_normal(corners);
   if (dot(normal, normal) == 0.0) return;
-  const std::vector<Flat> flat = flattened(corners, normal);
-  if (corners.size() > kMaxEars || is_convex(flat)) {
+  const std::vector<ProjectedPoint> projection = projected(corners, normal);
+  if (corners.size() > kMaxEars || is_convex(projection)) {
     for (std::uint32_t i = 2; i < corners.size(); ++i) found.push_back({0, i - 1, i});
     return;
   }
-  clip_ears(flat, found);
+  clip_ears(projection, found);
 }
 
 namespace {
 
-constexpr double kFarthest_m = 1e7;      // a corner farther away is damage
-constexpr double kFarOrigin_m = 50'000;  // beyond it float would lose centimetres
-constexpr double kMinArea_m2 = 1e-10;    // twice the area of a facet that still has a direction
+constexpr double kMaxCoordinate_m = 1e7;  // farther corners are damage
+// Distance of the first vertex from which Model::base is used; float would lose centimetres.
+constexpr double kFarOrigin_m = 50'000;
+constexpr double kMinArea_m2 = 1e-10;  // twice the area of the smallest triangle with a direction
 
 std::array<float, 3> floats(Vector3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -128,14 +130,15 @@ Vector3 vector(const std::array<float, 3>& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
-bool is_sound(Vector3 place) {
-  return std::abs(place.x) < kFarthest_m && std::abs(place.y) < kFarthest_m && std::abs(place.z) < kFarthest_m;
+bool is_valid_position(Vector3 position) {
+  return std::abs(position.x) < kMaxCoordinate_m && std::abs(position.y) < kMaxCoordinate_m &&
+         std::abs(position.z) < kMaxCoordinate_m;
 }
 
-class Flattening {
+class Flattener {
  public:
-  Flattening(const NodeTree& tree, std::string subject, const LoadExternal& load, FlattenLimits limits,
-             NameFilter* filter)
+  Flattener(const NodeTree& tree, std::string subject, const LoadExternal& load, FlattenLimits limits,
+            NameFilter* filter)
       : tree_(tree), subject_(std::move(subject)), load_(load), limits_(limits), filter_(filter) {
     model_.header = tree.header;
     model_.counts = tree.counts;
@@ -145,12 +148,12 @@ class Flattening {
   }
 
   error::Expected<Model> run() {
-    if (const auto done = show(0, Affine{}, 0, 0); !done) return tl::unexpected(done.error());
-    if (unsound_ > 0)
+    if (const auto done = visit(0, Affine{}, 0, 0); !done) return tl::unexpected(done.error());
+    if (invalid_ > 0)
       model_.warnings.push_back("polygons with corners that are no numbers or beyond 10,000 km: " +
-                                std::to_string(unsound_) + "; they are left out");
-    if (flat_ > 0)
-      model_.warnings.push_back("triangles without area: " + std::to_string(flat_) + "; they are left out");
+                                std::to_string(invalid_) + "; they are left out");
+    if (degenerate_ > 0)
+      model_.warnings.push_back("triangles without area: " + std::to_string(degenerate_) + "; they are left out");
     model_.kinds = kinds_.kinds();
     return std::move(model_);
   }
@@ -158,31 +161,31 @@ class Flattening {
  private:
   using Done = error::Expected<void>;
 
-  // A node as often as it is replicated: first where it stands, then moved on by its matrix.
-  Done show(std::uint32_t number, const Affine& above, std::uint32_t object, int depth) {
+  // Visits a node once for each replication, each moved by one more matrix.
+  Done visit(std::uint32_t number, const Affine& above, std::uint32_t object, int depth) {
     const Node& node = tree_.nodes[number];
-    if (depth > kDeepestNode)
-      return error::fail(subject_, "nodes nested at most " + std::to_string(kDeepestNode) + " deep",
+    if (depth > kMaxNodeDepth)
+      return error::fail(subject_, "nodes nested at most " + std::to_string(kMaxNodeDepth) + " deep",
                          "deeper ones, as when an instance contains itself", "mend the file's instances");
     if (node.kind == NodeKind::ignored) return {};
     if (filter_ != nullptr && filter_->leaves_out(node.name)) return {};
-    if (node.matrix == kNone) return show_once(node, above, object, depth);
+    if (node.matrix == kNone) return visit_once(node, above, object, depth);
     const Affine& matrix = tree_.matrices[node.matrix];
     Affine moved = node.replications > 0 ? Affine{} : matrix;
     for (int copy = 0; copy <= node.replications; ++copy) {
-      if (auto done = show_once(node, moved * above, object, depth); !done) return done;
+      if (auto done = visit_once(node, moved * above, object, depth); !done) return done;
       moved = moved * matrix;
     }
     return {};
   }
 
-  Done show_once(const Node& node, const Affine& place, std::uint32_t object, int depth) {
+  Done visit_once(const Node& node, const Affine& transform, std::uint32_t object, int depth) {
     if (auto done = count_visits(1); !done) return done;
     if (node.kind == NodeKind::object) {
       object = static_cast<std::uint32_t>(model_.objects.size());
       model_.objects.push_back(node.name);
     }
-    if (node.kind == NodeKind::external) return show_external(node, place, object);
+    if (node.kind == NodeKind::external) return add_external(node, transform, object);
     if (node.kind == NodeKind::instance) {
       const auto definition = tree_.definitions.find(node.instance);
       if (definition == tree_.definitions.end()) {
@@ -190,14 +193,14 @@ class Flattening {
                                   ", which the file has not; it is left out");
         return {};
       }
-      if (auto done = show(definition->second, place, object, depth + 1); !done) return done;
+      if (auto done = visit(definition->second, transform, object, depth + 1); !done) return done;
     }
     for (std::uint32_t face = node.first_face; face != kNone; face = tree_.faces[face].next)
-      if (auto done = show_face(tree_.faces[face], place, object); !done) return done;
-    return show_children(node, place, object, depth);
+      if (auto done = add_face(tree_.faces[face], transform, object); !done) return done;
+    return visit_children(node, transform, object, depth);
   }
 
-  Done show_children(const Node& node, const Affine& place, std::uint32_t object, int depth) {
+  Done visit_children(const Node& node, const Affine& transform, std::uint32_t object, int depth) {
     double finest_m = std::numeric_limits<double>::infinity();
     for (std::uint32_t child = node.first_child; child != kNone; child = tree_.nodes[child].next_sibling)
       if (tree_.nodes[child].kind == NodeKind::level_of_detail)
@@ -207,7 +210,7 @@ class Flattening {
       const Node& below = tree_.nodes[child];
       if (below.kind == NodeKind::level_of_detail && below.switch_out_m > finest_m) continue;
       if (node.kind == NodeKind::choice && !is_chosen(node, position)) continue;
-      if (auto done = show(child, place, object, depth + 1); !done) return done;
+      if (auto done = visit(child, transform, object, depth + 1); !done) return done;
       if (node.first_child_only) break;
     }
     return {};
@@ -225,7 +228,7 @@ class Flattening {
                        "more", "split the file, or use fewer instances and replications");
   }
 
-  Done make_room(std::size_t triangles, std::size_t vertices) {
+  Done check_limits(std::size_t triangles, std::size_t vertices) {
     if (model_.triangles.size() + triangles <= limits_.triangles &&
         model_.vertices.size() + vertices <= limits_.vertices)
       return {};
@@ -235,27 +238,27 @@ class Flattening {
                        "more", "split the scene into several files");
   }
 
-  Done show_external(const Node& node, const Affine& place, std::uint32_t object) {
+  Done add_external(const Node& node, const Affine& transform, std::uint32_t object) {
     if (!load_) return {};
     const auto loaded = load_(node.name);
     if (!loaded) return tl::unexpected(loaded.error());
     if (!*loaded) return {};
     const Model& other = **loaded;
-    if (auto done = make_room(other.triangles.size(), other.vertices.size()); !done) return done;
+    if (auto done = check_limits(other.triangles.size(), other.vertices.size()); !done) return done;
     const auto first_vertex = static_cast<std::uint32_t>(model_.vertices.size());
     for (const ModelVertex& vertex : other.vertices) {
-      const Vector3 at = place.apply(vector(vertex.place_m) + other.base);
-      if (!is_sound(at))
+      const Vector3 at = transform.apply(vector(vertex.place_m) + other.base);
+      if (!is_valid_position(at))
         return error::fail(subject_, "an external file placed within 10,000 km", node.name + " farther away",
                            "mend its matrix");
-      append(at, place.turn_normal(vector(vertex.normal)));
+      append(at, transform.turn_normal(vector(vertex.normal)));
     }
-    // Objects keep theirs; what lies outside objects belongs to what refers to it.
+    // Objects of the external file are kept. Its faces outside objects belong to the referring object.
     const auto first_object = static_cast<std::uint32_t>(model_.objects.size());
     model_.objects.insert(model_.objects.end(), other.objects.begin() + 1, other.objects.end());
     std::vector<std::uint16_t> kinds;
     for (const SurfaceKind& kind : other.kinds) kinds.push_back(kinds_.number_of(kind));
-    const bool mirrored = place.determinant() < 0.0;
+    const bool mirrored = transform.determinant() < 0.0;
     for (ModelTriangle triangle : other.triangles) {
       for (std::uint32_t& corner : triangle.corners) corner += first_vertex;
       if (mirrored) std::swap(triangle.corners[1], triangle.corners[2]);
@@ -267,43 +270,43 @@ class Flattening {
     return {};
   }
 
-  // The outline in model space, turning counter-clockwise from outside.
-  bool gather(const TreeFace& face, const Affine& place) {
-    places_.clear();
+  // Corners in model space, counter-clockwise from outside. False for an invalid position.
+  bool gather(const TreeFace& face, const Affine& transform) {
+    positions_.clear();
     normals_.clear();
     for (std::uint32_t i = 0; i < face.count; ++i) {
       const TreeVertex& vertex = tree_.vertices[tree_.corners[face.first_corner + i]];
-      const Vector3 at = place.apply(vertex.place);
-      if (!is_sound(at)) return false;
-      places_.push_back(at);
-      normals_.push_back(place.turn_normal(vector(vertex.normal)));
+      const Vector3 at = transform.apply(vertex.position);
+      if (!is_valid_position(at)) return false;
+      positions_.push_back(at);
+      normals_.push_back(transform.turn_normal(vector(vertex.normal)));
     }
-    if (place.determinant() < 0.0) {
-      std::reverse(places_.begin(), places_.end());
+    if (transform.determinant() < 0.0) {
+      std::reverse(positions_.begin(), positions_.end());
       std::reverse(normals_.begin(), normals_.end());
     }
     return true;
   }
 
-  Done show_face(const TreeFace& face, const Affine& place, std::uint32_t object) {
+  Done add_face(const TreeFace& face, const Affine& transform, std::uint32_t object) {
     if (auto done = count_visits(face.count + std::size_t{1}); !done) return done;
     if (face.count < 3) return {};
-    if (!gather(face, place)) {
-      ++unsound_;
+    if (!gather(face, transform)) {
+      ++invalid_;
       return {};
     }
-    Vector3 facet = newell_normal(places_);
+    Vector3 facet = newell_normal(positions_);
     const double size = length(facet);
-    triangulate(places_, triangles_);
-    flat_ += face.count - 2 - triangles_.size();
+    triangulate(positions_, triangles_);
+    degenerate_ += face.count - 2 - triangles_.size();
     if (!(size > kMinArea_m2) || triangles_.empty()) {
-      flat_ += triangles_.size();
+      degenerate_ += triangles_.size();
       return {};
     }
     facet = (1.0 / size) * facet;
-    if (auto done = make_room(2 * triangles_.size(), 2 * places_.size()); !done) return done;
+    if (auto done = check_limits(2 * triangles_.size(), 2 * positions_.size()); !done) return done;
     if (face.subface_level > 0)
-      for (Vector3& at : places_) at += static_cast<double>(kSubfaceLift_m * face.subface_level) * facet;
+      for (Vector3& at : positions_) at += static_cast<double>(kSubfaceLift_m * face.subface_level) * facet;
     ++model_.polygons;
     emit(face, object, facet, false);
     if (face.two_sided) emit(face, object, -1.0 * facet, true);
@@ -312,16 +315,16 @@ class Flattening {
 
   void emit(const TreeFace& face, std::uint32_t object, Vector3 facet, bool back) {
     const auto first = static_cast<std::uint32_t>(model_.vertices.size());
-    for (std::size_t i = 0; i < places_.size(); ++i) {
+    for (std::size_t i = 0; i < positions_.size(); ++i) {
       Vector3 normal = back ? -1.0 * normals_[i] : normals_[i];
       const double size = length(normal);
       const bool given = size > 1e-6 && std::isfinite(size) && dot(normal, facet) > 0.0;
-      append(places_[i], given ? (1.0 / size) * normal : facet);
+      append(positions_[i], given ? (1.0 / size) * normal : facet);
     }
     for (const auto& t : triangles_) {
-      const Vector3 area = cross(places_[t[1]] - places_[t[0]], places_[t[2]] - places_[t[0]]);
+      const Vector3 area = cross(positions_[t[1]] - positions_[t[0]], positions_[t[2]] - positions_[t[0]]);
       if (!(length(area) > kMinArea_m2)) {
-        flat_ += back ? 0 : 1;
+        degenerate_ += back ? 0 : 1;
         continue;
       }
       const std::array<std::uint32_t, 3> corners{first + t[0], first + t[back ? 2 : 1], first + t[back ? 1 : 2]};
@@ -329,11 +332,11 @@ class Flattening {
     }
   }
 
-  void append(Vector3 place, Vector3 normal) {
-    if (model_.vertices.empty() && std::max(std::abs(place.x), std::abs(place.y)) > kFarOrigin_m)
-      model_.base = {std::round(place.x), std::round(place.y), 0.0};
+  void append(Vector3 position, Vector3 normal) {
+    if (model_.vertices.empty() && std::max(std::abs(position.x), std::abs(position.y)) > kFarOrigin_m)
+      model_.base = {std::round(position.x), std::round(position.y), 0.0};
     const double size = length(normal);
-    model_.vertices.push_back({floats(place - model_.base), floats(size > 0.0 ? (1.0 / size) * normal : normal)});
+    model_.vertices.push_back({floats(position - model_.base), floats(size > 0.0 ? (1.0 / size) * normal : normal)});
   }
 
   const NodeTree& tree_;
@@ -345,9 +348,9 @@ class Flattening {
   KindTable kinds_;
   std::vector<std::uint16_t> kind_numbers_;  // of the tree's kinds
   std::size_t visits_ = 0;
-  std::uint64_t unsound_ = 0;
-  std::uint64_t flat_ = 0;
-  std::vector<Vector3> places_, normals_;
+  std::uint64_t invalid_ = 0;
+  std::uint64_t degenerate_ = 0;
+  std::vector<Vector3> positions_, normals_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
 };
 
@@ -355,7 +358,7 @@ class Flattening {
 
 error::Expected<Model> flatten(const NodeTree& tree, const std::string& subject, const LoadExternal& load,
                                FlattenLimits limits, NameFilter* filter) {
-  return Flattening(tree, subject, load, limits, filter).run();
+  return Flattener(tree, subject, load, limits, filter).run();
 }
 
 }  // namespace yars::model::scene

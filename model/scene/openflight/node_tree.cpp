@@ -13,10 +13,10 @@ namespace yars::model::scene {
 using namespace openflight;
 
 std::uint16_t KindTable::number_of(const SurfaceKind& kind) {
-  constexpr std::size_t kMost = 65'536;
+  constexpr std::size_t kMaxKinds = 65'536;
   const auto key = std::tuple(kind.material, kind.feature_id, kind.color_rgb);
   if (const auto known = numbers_.find(key); known != numbers_.end()) return known->second;
-  if (kinds_.size() >= kMost) {
+  if (kinds_.size() >= kMaxKinds) {
     const auto alike = std::find_if(kinds_.begin(), kinds_.end(),
                                     [&](const SurfaceKind& other) { return other.material == kind.material; });
     return alike == kinds_.end() ? std::uint16_t{0} : static_cast<std::uint16_t>(alike - kinds_.begin());
@@ -30,16 +30,16 @@ std::uint16_t KindTable::number_of(const SurfaceKind& kind) {
 namespace {
 
 constexpr std::size_t kNamesListed = 6;
-constexpr std::size_t kMaxSeen = 100'000;  // names that are remembered for a list of near ones
+constexpr std::size_t kMaxSeen = 100'000;  // limit of names recorded for suggestions
 
 std::string lower(std::string_view text) {
-  std::string made(text);
-  std::transform(made.begin(), made.end(), made.begin(),
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
                  [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return made;
+  return result;
 }
 
-// Both in lower case. Goes back to the last star alone: time is the product of the lengths at most.
+// Both in lower case. Backtracks to the last star only, so time is at most the product of the lengths.
 bool matches(std::string_view pattern, std::string_view name) {
   std::size_t p = 0, n = 0, star = std::string_view::npos, from = 0;
   while (n < name.size()) {
@@ -59,7 +59,7 @@ bool matches(std::string_view pattern, std::string_view name) {
   return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
-// Letters to change, add or take away (Levenshtein); none for a name that holds the other.
+// Levenshtein distance; 0 if b contains a.
 std::size_t distance(std::string_view a, std::string_view b) {
   if (!a.empty() && b.find(a) != std::string_view::npos) return 0;
   std::vector<std::size_t> row(b.size() + 1);
@@ -75,10 +75,10 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-std::string near_to(const std::string& wanted, const std::set<std::string>& seen) {
+std::string closest_names(const std::string& wanted, const std::set<std::string>& seen) {
   std::vector<std::pair<std::size_t, std::string>> names;
-  const std::string small = lower(wanted);
-  for (const std::string& name : seen) names.emplace_back(distance(small, lower(name)), name);
+  const std::string lower_case = lower(wanted);
+  for (const std::string& name : seen) names.emplace_back(distance(lower_case, lower(name)), name);
   const std::size_t listed = std::min(kNamesListed, names.size());
   std::partial_sort(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(listed), names.end());
   std::string text;
@@ -108,9 +108,9 @@ bool NameFilter::leaves_out(const std::string& name) {
   if (wanted_.empty() || name.empty()) return false;
   if (seen_.size() < kMaxSeen) seen_.insert(name);
   bool out = false;
-  const std::string small = lower(name);
+  const std::string lower_case = lower(name);
   for (Wanted& wanted : wanted_) {
-    if (!matches(lower(wanted.name), small)) continue;
+    if (!matches(lower(wanted.name), lower_case)) continue;
     wanted.met = true;
     out = true;
   }
@@ -130,7 +130,7 @@ std::optional<error::Error> NameFilter::complaint(const std::string& subject) co
   return error::Error{subject, "something to leave out that is called '" + names.front() + "'", "none",
                       seen_.empty() ? "nothing in it has a name"
                                     : "it has " + std::to_string(seen_.size()) + " names; near to it are " +
-                                          near_to(names.front(), seen_),
+                                          closest_names(names.front(), seen_),
                       false};
 }
 
@@ -153,7 +153,7 @@ std::optional<double> metres_per_unit(int code) {
   }
 }
 
-// Nothing when it is absent, no place, or exactly 0, 0, which files write that have none.
+// nullopt if absent, out of range, or exactly 0, 0.
 std::optional<geo::GeoPoint> place_at(const Record& record, std::size_t latitude_at, std::size_t longitude_at) {
   const double latitude_deg = record.number_or<double>(latitude_at, 0.0);
   const double longitude_deg = record.number_or<double>(longitude_at, 0.0);
@@ -171,7 +171,7 @@ error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std
                        "give a .flt file of OpenFlight 14 to 16.5");
   Header found;
   found.revision = *record->number<std::int32_t>(header::kRevision);
-  // 14.2 was written as 14, 142 and 1420 by different programs.
+  // Programs write 14.2 as 14, 142 or 1420.
   while (found.revision > 0 && found.revision < 1000) found.revision *= 10;
   if (found.revision < header::kOldestRevision || found.revision > header::kNewestRevision)
     return error::fail(subject, "OpenFlight revision 1400 to 1650", std::to_string(found.revision),

@@ -28,20 +28,20 @@ error::Expected<NodeTree> TreeParser::parse() {
     const auto record = stream_.next();
     if (!record) return tl::unexpected(record.error());
     if (!*record) break;
-    if (const auto done = take(**record); !done) return tl::unexpected(done.error());
+    if (const auto done = dispatch(**record); !done) return tl::unexpected(done.error());
   }
   if (!levels_.empty())
     tree_.warnings.emplace_back("the file ends inside " + std::to_string(levels_.size()) + " open levels");
-  if (surfaces_.foreign_codes() > 0)
+  if (surfaces_.unknown_codes() > 0)
     tree_.warnings.emplace_back("faces with a surface material code beyond 31: " +
-                                std::to_string(surfaces_.foreign_codes()) + "; they count as without one");
+                                std::to_string(surfaces_.unknown_codes()) + "; they count as without one");
   tree_.counts.materials = surfaces_.colors().materials();
   tree_.counts.hidden_faces = surfaces_.hidden_faces();
   tree_.kinds = surfaces_.kinds();
   return std::move(tree_);
 }
 
-TreeParser::Done TreeParser::take(const Record& record) {
+TreeParser::Done TreeParser::dispatch(const Record& record) {
   if (const int step = nesting_of_skipped(record.opcode()); step != 0 || skipped_ > 0) {
     skipped_ = std::max(0, skipped_ + step);
     return {};
@@ -86,14 +86,13 @@ TreeParser::Done TreeParser::take(const Record& record) {
     case kReplicate:
       return add_replication(record);
     case kLongId:
-      name_it(record);
+      set_name(record);
       return {};
     default:
       return add_node(record);
   }
 }
 
-// +1 and -1 around records that nobody here reads, else 0.
 int TreeParser::nesting_of_skipped(std::uint16_t opcode) {
   if (opcode == kPushExtension || opcode == kPushAttribute) return 1;
   return opcode == kPopExtension || opcode == kPopAttribute ? -1 : 0;
@@ -104,7 +103,7 @@ tl::unexpected<error::Error> TreeParser::too_many(std::size_t most, const std::s
 }
 
 TreeParser::Done TreeParser::push() {
-  if (levels_.size() >= kDeepestPush) return too_many(kDeepestPush, "levels of records");
+  if (levels_.size() >= kMaxPushDepth) return too_many(kMaxPushDepth, "levels of records");
   levels_.push_back(current_);
   return {};
 }
@@ -118,7 +117,7 @@ TreeParser::Done TreeParser::pop() {
   return {};
 }
 
-// Groups, objects, switches and what moves them.
+// Groups, objects, switches and their transforms.
 
 TreeParser::Done TreeParser::new_node(NodeKind kind, bool attached) {
   if (tree_.nodes.size() >= kMaxNodes) return too_many(kMaxNodes, "nodes");
@@ -187,7 +186,8 @@ TreeParser::Done TreeParser::add_named(const Record& record, NodeKind kind) {
 
 TreeParser::Done TreeParser::add_group(const Record& record) {
   constexpr std::uint32_t kForward = 1U << 30, kSwing = 1U << 29, kBackward = 1U << 26;
-  constexpr std::int32_t kBackwardRevision = 1580;  // the bit meant nothing before; a swing alone was an animation
+  // Earlier revisions have no such bit; swing alone marks an animation.
+  constexpr std::int32_t kBackwardRevision = 1580;
   const auto flags = record.number_or<std::uint32_t>(16, 0);
   const std::uint32_t animation = kForward | (tree_.header.revision >= kBackwardRevision ? kBackward : kSwing);
   return add_named(record, NodeKind::group).map([&] {
@@ -223,26 +223,25 @@ TreeParser::Done TreeParser::add_definition(const Record& record) {
   });
 }
 
-void TreeParser::name_it(const Record& record) {
-  constexpr std::size_t kLongestName = 128;
+void TreeParser::set_name(const Record& record) {
+  constexpr std::size_t kMaxNameLength = 128;
   if (current_.node == kNone || current_.face != kNone || current_.mesh >= 0) return;
   Node& node = tree_.nodes[current_.node];
-  if (node.kind != NodeKind::external) node.name = record.text(4, kLongestName);
+  if (node.kind != NodeKind::external) node.name = record.text(4, kMaxNameLength);
 }
 
-// A face that is moved becomes the content of a node of its own. Records that follow a face at once can do that;
-// later the list of its siblings has gone on, and it stays where it is.
-TreeParser::Done TreeParser::own_node() {
+// Only the newest face can be moved. Records that follow it at once do so; an older face stays in its node.
+TreeParser::Done TreeParser::move_face_to_own_node() {
   const std::uint32_t face = current_.face;
   const std::uint32_t above = parent().node;
   if (tree_.faces.size() != std::size_t{face} + 1 || above == kNone) return {};
   if (auto made = new_node(NodeKind::group); !made) return made;
   Node& before = tree_.nodes[above];
-  before.last_face = face_before_;
-  if (face_before_ == kNone)
+  before.last_face = previous_face_;
+  if (previous_face_ == kNone)
     before.first_face = kNone;
   else
-    tree_.faces[face_before_].next = kNone;
+    tree_.faces[previous_face_].next = kNone;
   tree_.nodes.back().first_face = tree_.nodes.back().last_face = face;
   current_.face = face;
   return {};
@@ -257,7 +256,7 @@ TreeParser::Done TreeParser::add_matrix(const Record& record) {
       return error::fail(subject_, "a matrix of finite numbers", "NaN or infinity", "the file is damaged");
   }
   if (is_loose_face())
-    if (auto done = own_node(); !done) return done;
+    if (auto done = move_face_to_own_node(); !done) return done;
   if (current_.node == kNone || is_loose_face()) return {};
   const Affine matrix{{m[0], m[1], m[2]},
                       {m[4], m[5], m[6]},
@@ -276,7 +275,7 @@ TreeParser::Done TreeParser::add_replication(const Record& record) {
   const int copies = record.number_or<std::int16_t>(4, 0);
   if (copies <= 0) return {};
   if (is_loose_face())
-    if (auto done = own_node(); !done) return done;
+    if (auto done = move_face_to_own_node(); !done) return done;
   if (current_.node != kNone && !is_loose_face())
     tree_.nodes[current_.node].replications = static_cast<std::uint16_t>(copies);
   return {};
@@ -289,7 +288,7 @@ TreeParser::Done TreeParser::append_face(TreeFace face, std::uint32_t node) {
   const auto number = static_cast<std::uint32_t>(tree_.faces.size());
   tree_.faces.push_back(face);
   Node& owner = tree_.nodes[node];
-  face_before_ = owner.last_face;
+  previous_face_ = owner.last_face;
   if (owner.first_face == kNone)
     owner.first_face = number;
   else
@@ -304,7 +303,7 @@ TreeParser::Done TreeParser::add_face(const Record& record) {
   if (current_.node == kNone) return {};
   const std::optional<TreeFace> face = surfaces_.of(record, 0, subface_level_);
   if (!face) {
-    current_.node = kNone;  // what is below it belongs to nothing
+    current_.node = kNone;  // records below a skipped face are skipped
     return {};
   }
   current_.face = static_cast<std::uint32_t>(tree_.faces.size());
@@ -328,10 +327,10 @@ TreeParser::Done TreeParser::add_corners(const Record& record) {
   if (face.count > 0) return {};
   face.first_corner = static_cast<std::uint32_t>(tree_.corners.size());
   face.count = static_cast<std::uint32_t>(count);
-  if (const auto strange = palette_.find_corners(record, tree_.corners))
+  if (const auto unknown_offset = palette_.find_corners(record, tree_.corners))
     return error::fail(
         subject_, "corners that are vertices of the palette",
-        "offset " + std::to_string(*strange) + " in the vertex list at byte " + std::to_string(record.start()),
+        "offset " + std::to_string(*unknown_offset) + " in the vertex list at byte " + std::to_string(record.start()),
         "the file is damaged; fetch it again");
   return {};
 }
@@ -342,7 +341,7 @@ TreeParser::Done TreeParser::add_mesh(const Record& record) {
   const std::optional<TreeFace> surface = surfaces_.of(record, face::kMeshShift, subface_level_);
   meshes_.push_back({.surface = surface.value_or(TreeFace{}), .visible = surface && current_.node != kNone});
   const int mesh = static_cast<int>(meshes_.size()) - 1;
-  // A node of its own: its primitives come behind a push, a matrix before it.
+  // A node of its own, because a matrix may follow. Its primitives follow a push.
   if (current_.node != kNone)
     if (auto made = new_node(NodeKind::group); !made) return made;
   current_.mesh = mesh;
@@ -350,7 +349,7 @@ TreeParser::Done TreeParser::add_mesh(const Record& record) {
 }
 
 TreeParser::Done TreeParser::add_pool(const Record& record) {
-  const int mesh = mesh_here();
+  const int mesh = current_mesh();
   if (mesh < 0) return {};
   if (tree_.vertices.size() + record.size() / 24 > kMaxVertices) return too_many(kMaxVertices, "vertices");
   MeshState& state = meshes_[static_cast<std::size_t>(mesh)];

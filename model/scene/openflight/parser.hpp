@@ -1,4 +1,10 @@
-// Parser of one OpenFlight file into a node tree.
+// Parser of one OpenFlight file, revisions 14 to 16.5, into a node tree. It opens no other file.
+// Skipped: textures, lights, sounds, extensions, masks of switches but the current one, transforms 76-82 and 94 (record
+// 49 holds their product).
+// Wireframe and light faces are omitted; hidden faces are counted and omitted.
+// Errors: no header, unknown revision or unit, truncated records, more pops than pushes, corners outside their pool,
+// exceeded limits.
+// Source: docs/spec/formats.md#openflight.
 #pragma once
 
 #include <cstddef>
@@ -14,20 +20,16 @@
 
 namespace yars::model::scene {
 
-// Reads the records of one OpenFlight file, revisions 14 to 16.5, into a tree; opens no other file. Skipped: textures,
-// lights, sounds, extensions, switches' other masks, transforms 76-82 and 94 (record 49 holds their product). Wireframe
-// and light faces are no surfaces; hidden ones are counted and left out. Errors: no header, a foreign revision or unit,
-// torn records, more pops than pushes, corners outside their pool, and the limits below.
-inline constexpr std::size_t kDeepestPush = 512;     // levels of records; deeper ones are damage
-inline constexpr std::size_t kMaxNodes = 4'000'000;  // bounds on memory: about 0.5, 0.8 and 2.6 GB
+// Limits. A damaged or malicious file beyond them is an error instead of exhausted memory.
+inline constexpr std::size_t kMaxPushDepth = 512;    // nesting of records
+inline constexpr std::size_t kMaxNodes = 4'000'000;  // the following three bound memory to about 0.5, 0.8 and 2.6 GB
 inline constexpr std::size_t kMaxFaces = 32'000'000;
 inline constexpr std::size_t kMaxVertices = 64'000'000;
 
-// `subject` names the file in errors.
+// `subject`: name of the file for errors.
 error::Expected<NodeTree> parse_openflight(std::span<const std::byte> bytes, const std::string& subject);
 
-// The records of an OpenFlight file turned into a tree of nodes, one after the other: the state that this takes, for
-// the length of one file. Levels, nodes and surfaces have a source each.
+// State of the parser for one file: turns records into nodes one after the other.
 class TreeParser {
  public:
   TreeParser(std::span<const std::byte> bytes, std::string subject)
@@ -38,11 +40,11 @@ class TreeParser {
  private:
   using Done = error::Expected<void>;
 
-  // What the records of one level belong to.
+  // Owner of the records of one level.
   struct Level {
     std::uint32_t node = kNone;
-    std::uint32_t face = kNone;  // the face that a vertex list is of
-    int mesh = -1;               // the mesh that primitives are of
+    std::uint32_t face = kNone;  // face of vertex lists
+    int mesh = -1;               // mesh of primitives
   };
   struct MeshState {
     TreeFace surface;
@@ -51,8 +53,8 @@ class TreeParser {
     std::size_t vertices = 0;
   };
 
-  Done take(const Record& record);
-  // +1 and -1 around records that nobody here reads, else 0.
+  Done dispatch(const Record& record);
+  // +1 and -1 for push and pop of skipped records, else 0.
   static int nesting_of_skipped(std::uint16_t opcode);
   tl::unexpected<error::Error> too_many(std::size_t most, const std::string& what);
   Done push();
@@ -66,8 +68,9 @@ class TreeParser {
   Done add_level_of_detail(const Record& record);
   Done add_switch(const Record& record);
   Done add_definition(const Record& record);
-  void name_it(const Record& record);
-  Done own_node();
+  void set_name(const Record& record);
+  // Moves the newest face into a node of its own, so that a transform applies to it alone.
+  Done move_face_to_own_node();
   Done add_matrix(const Record& record);
   Done add_replication(const Record& record);
 
@@ -81,7 +84,7 @@ class TreeParser {
 
   const Level& parent() const { return levels_.empty() ? root_ : levels_.back(); }
   bool is_loose_face() const { return current_.face != kNone && current_.node == parent().node; }
-  int mesh_here() const { return current_.mesh >= 0 ? current_.mesh : parent().mesh; }
+  int current_mesh() const { return current_.mesh >= 0 ? current_.mesh : parent().mesh; }
 
   std::span<const std::byte> bytes_;
   std::string subject_;
@@ -92,8 +95,8 @@ class TreeParser {
   std::vector<Level> levels_;
   Level root_{.node = 0};
   Level current_;
-  std::uint32_t face_before_ = kNone;  // the newest face's elder sibling
-  int skipped_ = 0;                    // depth of extensions and attributes
+  std::uint32_t previous_face_ = kNone;  // face before the newest one in its node
+  int skipped_ = 0;                      // nesting depth of extensions and attributes
   int subface_level_ = 0;
   std::vector<MeshState> meshes_;
 };

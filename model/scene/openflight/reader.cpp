@@ -16,18 +16,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The first `most` bytes of a file.
-error::Expected<std::vector<std::byte>> read_bytes(const fs::path& path, std::uintmax_t most) {
+// Reads the first `max_bytes` bytes of a file.
+error::Expected<std::vector<std::byte>> read_bytes(const fs::path& path, std::uintmax_t max_bytes) {
   std::error_code code;
   if (!fs::is_regular_file(path, code))
     return error::fail(path.string(), "an OpenFlight file", code ? code.message() : "not a plain file",
                        "give the path of a .flt file");
   const std::uintmax_t size = fs::file_size(path, code);
   if (code) return error::fail(path.string(), "a readable file", code.message());
-  if (size > kLargestFile)
-    return error::fail(path.string(), "at most " + std::to_string(kLargestFile) + " bytes",
+  if (size > kMaxFileBytes)
+    return error::fail(path.string(), "at most " + std::to_string(kMaxFileBytes) + " bytes",
                        std::to_string(size) + " bytes", "split the scene into several files");
-  return terrain::read_file_part(path, 0, std::min(size, most));
+  return terrain::read_file_part(path, 0, std::min(size, max_bytes));
 }
 
 void add_counts(FileCounts& sum, const FileCounts& more) {
@@ -43,14 +43,14 @@ void add_counts(FileCounts& sum, const FileCounts& more) {
   sum.external_references += more.external_references;
 }
 
-// The files of one scene, each read once.
+// Files of one scene; each is read once.
 class FileSet {
  public:
   FileSet(const fs::path& first, NameFilter* filter) : root_(first.parent_path()), filter_(filter) {}
 
   error::Expected<Model> read_first(const fs::path& path) {
-    open_.push_back(path);
-    return read_now(path);
+    open_paths_.push_back(path);
+    return parse_and_flatten(path);
   }
 
   std::vector<std::string> take_warnings() { return std::move(warnings_); }
@@ -60,37 +60,37 @@ class FileSet {
  private:
   error::Expected<std::shared_ptr<const Model>> read(const fs::path& path) {
     if (const auto known = read_.find(path); known != read_.end()) return known->second;
-    if (open_.size() > kDeepestReference)
-      return error::fail(path.string(), "external references at most " + std::to_string(kDeepestReference) + " deep",
+    if (open_paths_.size() > kMaxReferenceDepth)
+      return error::fail(path.string(), "external references at most " + std::to_string(kMaxReferenceDepth) + " deep",
                          "deeper ones", "join some of the files");
     if (++files_ > kMaxFiles)
       return error::fail(path.string(), "at most " + std::to_string(kMaxFiles) + " files in a scene", "more",
                          "split the scene");
-    open_.push_back(path);
-    auto model = read_now(path);
-    open_.pop_back();
+    open_paths_.push_back(path);
+    auto model = parse_and_flatten(path);
+    open_paths_.pop_back();
     if (!model) return tl::unexpected(model.error());
     auto shared = std::make_shared<const Model>(std::move(*model));
     read_.emplace(path, shared);
     return shared;
   }
 
-  error::Expected<Model> read_now(const fs::path& path) {
+  error::Expected<Model> parse_and_flatten(const fs::path& path) {
     const std::string subject = path.string();
     error::Expected<NodeTree> tree = [&]() -> error::Expected<NodeTree> {
-      const auto bytes = read_bytes(path, kLargestFile);
+      const auto bytes = read_bytes(path, kMaxFileBytes);
       if (!bytes) return tl::unexpected(bytes.error());
       return parse_openflight(*bytes, subject);
     }();
     if (!tree) return tl::unexpected(tree.error());
     add_counts(counts_, tree->counts);
-    if (open_.size() > 1) names_.push_back(subject);
+    if (open_paths_.size() > 1) names_.push_back(subject);
     return flatten(
-        *tree, subject, [this, &path](const std::string& name) { return refer(path, name); }, {}, filter_);
+        *tree, subject, [this, &path](const std::string& name) { return load_reference(path, name); }, {}, filter_);
   }
 
-  // Null, with a warning, for what cannot be shown.
-  error::Expected<std::shared_ptr<const Model>> refer(const fs::path& from, std::string name) {
+  // Loads an external file. Returns null and adds a warning if it has to be skipped.
+  error::Expected<std::shared_ptr<const Model>> load_reference(const fs::path& from, std::string name) {
     name = name.substr(0, name.find('<'));
     std::replace(name.begin(), name.end(), '\\', '/');
     std::error_code code;
@@ -99,7 +99,7 @@ class FileSet {
       if (name.empty() || code) return "has no usable name";
       const auto step = std::mismatch(root_.begin(), root_.end(), path.begin(), path.end());
       if (step.first != root_.end()) return "lies outside the folder of the scene";
-      if (std::find(open_.begin(), open_.end(), path) != open_.end()) return "leads back to itself";
+      if (std::find(open_paths_.begin(), open_paths_.end(), path) != open_paths_.end()) return "leads back to itself";
       if (!fs::is_regular_file(path, code)) return "is not there";
       return {};
     }();
@@ -112,7 +112,7 @@ class FileSet {
   fs::path root_;
   NameFilter* filter_;
   std::map<fs::path, std::shared_ptr<const Model>> read_;
-  std::vector<fs::path> open_;  // from the first file to the one being read
+  std::vector<fs::path> open_paths_;  // chain of references from the main file to the current one
   std::size_t files_ = 0;
   FileCounts counts_;
   std::vector<std::string> names_;

@@ -1,8 +1,9 @@
-// Reads an OpenFlight file with all that it refers to into one model. External files are sought beside the file that
-// names them and nowhere outside the folder of the first; a name that leads out of it, one that is missing and one that
-// leads back to a file being read are warnings, and what they would show is left out. A file referred to often is read
-// once. `NAME.flt<node>` shows the whole file. Errors: those of parse_openflight and flatten; files that cannot be
-// read, are larger than kLargestFile, nest deeper than kDeepestReference, or are more than kMaxFiles.
+// Reader of an OpenFlight file and its external files into one Model.
+// Inputs: a path or bytes, a filter of names. Outputs: a Model; skipped external files are among its warnings.
+// External files are searched beside the file that names them, within the folder of the main file.
+// Skipped: a name outside that folder, a missing file, a cycle. Each file is read once. `NAME.flt<node>` gives all of
+// NAME.flt.
+// Errors: those of parse_openflight() and flatten(); unreadable files; limits below exceeded.
 #pragma once
 
 #include <cstddef>
@@ -15,19 +16,18 @@
 
 namespace yars::model::scene {
 
-inline constexpr std::size_t kLargestFile = std::size_t{1} << 30;
-inline constexpr int kDeepestReference = 16;
-inline constexpr std::size_t kMaxFiles = 4096;
+inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;  // of one file; bounds memory
+inline constexpr int kMaxReferenceDepth = 16;                       // of external references
+inline constexpr std::size_t kMaxFiles = 4096;                      // external files of one scene
 
-// `filter`: what is left out, null: nothing. It remembers what names there are; who asks for its complaint is told of
-// names that nothing has.
+// `filter`: names to leave out; null: none. Afterwards its complaint() reports names that matched nothing.
 error::Expected<Model> read_openflight(const std::filesystem::path& path, NameFilter* filter = nullptr);
 
-// From memory; external references are counted and left out.
+// From memory; external references are counted and omitted.
 error::Expected<Model> read_openflight(std::span<const std::byte> bytes, const std::string& subject,
                                        FlattenLimits limits = {});
 
-// The header alone.
+// Reads the header only.
 error::Expected<Header> read_openflight_header(const std::filesystem::path& path);
 
 }  // namespace yars::model::scene

@@ -5,7 +5,8 @@ namespace yars::model::scene {
 namespace {
 
 constexpr std::size_t kHeadBytes = 4;
-constexpr std::size_t kMaxJoinedBytes = 256U << 20;  // a local vertex pool of 7 M vertices; stops runaway memory
+// [bytes] a local vertex pool of 7 M vertices; prevents exhausted memory.
+constexpr std::size_t kMaxJoinedBytes = 256U << 20;
 
 bool is_continuation(std::span<const std::byte> bytes, std::size_t at) {
   return at + kHeadBytes <= bytes.size() &&

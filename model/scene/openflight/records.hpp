@@ -1,4 +1,7 @@
 // Records of an OpenFlight file: opcodes, field offsets, and the stream that reads them.
+// Format: big-endian; u16 opcode, u16 length of the record, fields. Offsets count from the opcode, in bytes.
+// Errors: a length below 4, a record beyond the end, a joined record too long. Nothing is read outside the bytes.
+// Source: docs/spec/formats.md#openflight; OpenFlight Scene Description Database Specification, 14 to 16.5.
 #pragma once
 
 #include <array>
@@ -17,8 +20,6 @@
 
 namespace yars::model::scene::openflight {
 
-// OpenFlight 14 to 16.5 by number: opcodes, and where fields stand in records, counted from the opcode.
-// Source: docs/spec/formats.md#openflight and the OpenFlight Scene Description Database Specification.
 enum Opcode : std::uint16_t {
   kHeader = 1,
   kGroup = 2,
@@ -69,7 +70,7 @@ enum Opcode : std::uint16_t {
   kLightPointSystem = 131,
 };
 
-inline constexpr std::size_t kNameAt = 4, kNameBytes = 8;  // of every node
+inline constexpr std::size_t kNameAt = 4, kNameBytes = 8;  // in node records
 
 namespace header {
 inline constexpr std::size_t kRevision = 12, kUnits = 62, kFlags = 64, kVertexStorage = 126, kDatabaseOrigin = 128;
@@ -78,7 +79,7 @@ inline constexpr std::size_t kOriginLatitude = 220, kOriginLongitude = 228, kByt
 inline constexpr std::int32_t kOldestRevision = 1400, kNewestRevision = 1650;
 }  // namespace header
 
-// Of a face; those of a mesh lie 4 bytes further on.
+// Face record; in a mesh record the fields lie kMeshShift bytes further.
 namespace face {
 inline constexpr std::size_t kDrawType = 18, kColorName = 20, kMaterial = 30, kSurfaceMaterial = 32, kFeatureId = 34;
 inline constexpr std::size_t kFlags = 44, kLightMode = 48, kPackedColor = 56, kColorIndex = 68;
@@ -94,7 +95,7 @@ inline constexpr std::size_t kColorNormalBytes = 56;
 inline constexpr std::uint16_t kNoColor = 1U << 13;
 }  // namespace vertex
 
-// Bits of a local vertex pool: what each of its vertices has, in this order.
+// Bits of a local vertex pool: parts of each vertex, in this order.
 namespace pool {
 inline constexpr std::uint32_t kPosition = 1U << 31, kColorIndex = 1U << 30, kColor = 1U << 29, kNormal = 1U << 28;
 inline constexpr std::uint32_t kFirstTexture = 1U << 27;
@@ -103,14 +104,14 @@ inline constexpr int kTextures = 8;
 
 namespace palette {
 inline constexpr std::size_t kFirstColor = 132, kColors = 1024, kBytes = kFirstColor + 4 * kColors;
-inline constexpr int kIntensities = 128;  // an index is 128 times the colour plus its intensity
+inline constexpr int kIntensities = 128;  // index = 128 * colour + intensity
 }  // namespace palette
 
 }  // namespace yars::model::scene::openflight
 
 namespace yars::model::scene {
 
-// One record; offsets count from its opcode, as format descriptions do.
+// One record; offsets count from its opcode.
 class Record {
  public:
   Record() = default;
@@ -134,7 +135,7 @@ class Record {
   Number number_or(std::size_t offset, Number absent) const {
     return has(offset, sizeof(Number)) ? memory::big_endian<Number>(bytes_.data() + offset) : absent;
   }
-  // Up to a zero or `most` characters, whichever comes first; what is not printable ASCII becomes '?'.
+  // Text up to a zero byte or `most` characters; characters outside printable ASCII become '?'.
   std::string text(std::size_t offset, std::size_t most) const;
 
  private:
@@ -143,15 +144,13 @@ class Record {
   std::span<const std::byte> bytes_;
 };
 
-// Records of an OpenFlight file, one after another: big-endian, u16 opcode, u16 length of the whole record.
-// Continuation records (23) are joined to the one before. A field past the end of a shorter record is absent: older
-// revisions are shorter. Nothing is read outside the bytes. Errors: a length below 4, a record past the end, a joined
-// record too long.
+// Stream of records. Continuation records (23) are joined to their predecessor. A field beyond the end of a record is
+// absent, because older revisions have shorter records.
 class RecordStream {
  public:
   RecordStream(std::span<const std::byte> bytes, std::string subject) : bytes_(bytes), subject_(std::move(subject)) {}
 
-  // The next record, valid until the next call; nothing at the end of the file.
+  // The next record, valid until the next call; nullopt at the end of the file.
   error::Expected<std::optional<Record>> next();
 
  private:
@@ -163,7 +162,7 @@ class RecordStream {
   std::vector<std::byte> joined_;
 };
 
-// The record that begins at `start`, nothing when none fits there.
+// The record at `start`; nullopt if none fits.
 std::optional<Record> record_at(std::span<const std::byte> bytes, std::size_t start);
 
 }  // namespace yars::model::scene

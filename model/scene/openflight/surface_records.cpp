@@ -12,22 +12,22 @@ namespace yars::model::scene {
 using namespace openflight;
 
 void VertexPalette::begin(const Record& palette) {
-  // A second palette replaces the first: offsets would be ambiguous.
+  // A second palette replaces the first, because offsets would be ambiguous.
   start_ = palette.start();
   offsets_.clear();
   vertices_.clear();
 }
 
 void VertexPalette::add(const Record& record, double metres_per_unit, std::vector<TreeVertex>& vertices) {
-  TreeVertex made;
-  made.place =
+  TreeVertex parsed;
+  parsed.position =
       metres_per_unit * Vector3{record.number_or<double>(vertex::kX, 0.0), record.number_or<double>(vertex::kY, 0.0),
                                 record.number_or<double>(vertex::kZ, 0.0)};
   if (record.opcode() == kVertexColorNormal || record.opcode() == kVertexColorNormalTexture)
-    for (std::size_t i = 0; i < 3; ++i) made.normal[i] = record.number_or<float>(vertex::kNormal + 4 * i, 0.0F);
+    for (std::size_t i = 0; i < 3; ++i) parsed.normal[i] = record.number_or<float>(vertex::kNormal + 4 * i, 0.0F);
   offsets_.push_back(record.start() - start_);
   vertices_.push_back(static_cast<std::uint32_t>(vertices.size()));
-  vertices.push_back(made);
+  vertices.push_back(parsed);
 }
 
 std::optional<std::size_t> VertexPalette::find_corners(const Record& list, std::vector<std::uint32_t>& corners) const {
@@ -45,18 +45,18 @@ namespace {
 constexpr std::size_t kPoolHead = 12, kPrimitiveHead = 12;
 enum Primitive : std::int16_t { kStrip = 1, kFan = 2, kQuadrilateralStrip = 3, kPolygon = 4 };
 
-// Where a vertex's parts lie in a pool.
+// Layout of a vertex in a local pool.
 struct PoolLayout {
   std::size_t stride = 0;
   std::size_t normal = 0;
-  bool has_place = false, has_normal = false;
+  bool has_position = false, has_normal = false;
 };
 
 PoolLayout layout_of(std::uint32_t mask) {
   PoolLayout layout;
-  layout.has_place = (mask & pool::kPosition) != 0;
+  layout.has_position = (mask & pool::kPosition) != 0;
   layout.has_normal = (mask & pool::kNormal) != 0;
-  if (layout.has_place) layout.stride += 24;
+  if (layout.has_position) layout.stride += 24;
   if ((mask & pool::kColorIndex) != 0) layout.stride += 4;
   if ((mask & pool::kColor) != 0) layout.stride += 4;
   layout.normal = layout.stride;
@@ -78,7 +78,7 @@ std::size_t index_at(const Record& record, std::size_t at, std::size_t bytes) {
   return *record.number<std::uint32_t>(at);
 }
 
-// Every second triangle of a strip turns the other way round.
+// Every second triangle of a strip has the opposite orientation.
 void add_strip(const std::vector<std::uint32_t>& list, MeshPolygons& polygons) {
   for (std::size_t i = 2; i < list.size(); ++i) {
     const bool odd = i % 2 == 1;
@@ -104,15 +104,15 @@ error::Expected<std::size_t> read_local_pool(const Record& record, double metres
   const std::size_t count = record.number_or<std::uint32_t>(4, 0);
   const PoolLayout layout = layout_of(record.number_or<std::uint32_t>(8, 0));
   if (count == 0) return std::size_t{0};
-  if (!layout.has_place || record.size() < kPoolHead || count > (record.size() - kPoolHead) / layout.stride)
+  if (!layout.has_position || record.size() < kPoolHead || count > (record.size() - kPoolHead) / layout.stride)
     return damaged(subject, record, "a vertex pool of places, as long as its count says",
                    std::to_string(count) + " vertices of " + std::to_string(layout.stride) + " bytes in " +
                        std::to_string(record.size()));
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = kPoolHead + i * layout.stride;
     TreeVertex vertex;
-    vertex.place = metres_per_unit *
-                   Vector3{*record.number<double>(at), *record.number<double>(at + 8), *record.number<double>(at + 16)};
+    vertex.position = metres_per_unit * Vector3{*record.number<double>(at), *record.number<double>(at + 8),
+                                                *record.number<double>(at + 16)};
     for (std::size_t axis = 0; layout.has_normal && axis < 3; ++axis)
       vertex.normal[axis] = *record.number<float>(at + layout.normal + 4 * axis);
     vertices.push_back(vertex);
@@ -161,9 +161,10 @@ error::Expected<MeshPolygons> read_primitive(const Record& record, std::size_t p
 namespace {
 
 constexpr std::uint32_t kWhite = 0xFFFFFF;
-constexpr std::int32_t kIndexRevision = 1510;  // colours by index; before it the name field held it
+// Colours have an index field from here on; earlier the name field held it.
+constexpr std::int32_t kIndexRevision = 1510;
 
-// Alpha, blue, green, red.
+// From alpha, blue, green, red.
 std::uint32_t rgb_of_abgr(std::uint32_t abgr) {
   return (abgr & 0xFFU) << 16U | (abgr & 0xFF00U) | (abgr >> 16U & 0xFFU);
 }
@@ -175,7 +176,7 @@ std::uint32_t byte_of(double share) {
 }  // namespace
 
 void ColorPalette::read_colors(const Record& record, std::int32_t revision) {
-  // A palette longer than its colours has their names behind them.
+  // A palette longer than its colours is followed by their names.
   const std::size_t most = revision >= kIndexRevision ? palette::kColors : palette::kColors / 2;
   colors_.clear();
   for (std::size_t at = palette::kFirstColor; colors_.size() < most; at += 4) {
@@ -231,7 +232,7 @@ std::optional<TreeFace> SurfaceReader::of(const Record& record, std::size_t shif
   SurfaceKind kind;
   const int code = record.number_or<std::int16_t>(face::kSurfaceMaterial + shift, 0);
   if (code > 0 && code < radar::kMaterials) kind.material = static_cast<std::uint8_t>(code);
-  foreign_codes_ += code >= radar::kMaterials ? 1 : 0;
+  unknown_codes_ += code >= radar::kMaterials ? 1 : 0;
   kind.feature_id = record.number_or<std::uint16_t>(face::kFeatureId + shift, 0);
   kind.color_rgb = colors_.color_of(record, shift, revision_);
   TreeFace found;

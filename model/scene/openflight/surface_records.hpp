@@ -1,4 +1,7 @@
-// Records of surfaces: vertex palette, meshes, colours, faces.
+// Readers of surface records: vertex palette, meshes, colours, faces.
+// Units: metres; colours 0xRRGGBB.
+// Errors: counts that exceed a record's length, an index outside its pool.
+// Source: docs/spec/formats.md#openflight-face, #openflight-vertex.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +16,13 @@
 
 namespace yars::model::scene {
 
-// The vertex palette (records 67 to 71): its vertices in metres, found again by their offsets from record 67.
+// Vertex palette (records 67 to 71), indexed by offset from record 67.
 class VertexPalette {
  public:
   void begin(const Record& palette);
-  // Appends one vertex of any kind.
+  // Appends one vertex of records 68 to 71.
   void add(const Record& record, double metres_per_unit, std::vector<TreeVertex>& vertices);
-  // Appends the vertices of a vertex list; what is returned is an offset at which there is none.
+  // Appends the vertices of a vertex list. Returns the first offset without a vertex, nullopt if all exist.
   std::optional<std::size_t> find_corners(const Record& vertex_list, std::vector<std::uint32_t>& corners) const;
 
  private:
@@ -28,31 +31,28 @@ class VertexPalette {
   std::vector<std::uint32_t> vertices_;
 };
 
-// The two records that carry a mesh: its local vertex pool (85) and its primitives (86: strips, fans, quadrilateral
-// strips, indexed polygons). Errors: counts that the record's length does not bear out, an index outside the pool.
-
-// Appends the pool's vertices, in metres; how many they are.
+// Appends the vertices of a local vertex pool (record 85) and returns their number.
 error::Expected<std::size_t> read_local_pool(const Record& record, double metres_per_unit, const std::string& subject,
                                              std::vector<TreeVertex>& vertices);
 
-// Polygons of `each` corners, one behind the other, counter-clockwise from outside; corners index the pool.
+// Polygons of `each` corners, counter-clockwise from outside. Corners are indices into the pool.
 struct MeshPolygons {
   std::size_t each = 3;
   std::vector<std::uint32_t> corners;
-  std::size_t listed = 0;  // indices that the record holds
+  std::size_t listed = 0;  // number of indices in the record
 };
 
+// Reads a mesh primitive (record 86): strip, fan, quadrilateral strip or indexed polygon.
 error::Expected<MeshPolygons> read_primitive(const Record& record, std::size_t pool_vertices,
                                              const std::string& subject);
 
-// Colours of an OpenFlight file: the palette (record 32), whose entries come in 128 intensities, and the diffuse
-// colours of its materials (record 113). Colours are 0xRRGGBB.
+// Colours: the palette (record 32) with 128 intensities, and the diffuse colours of materials (record 113).
 class ColorPalette {
  public:
   void read_colors(const Record& record, std::int32_t revision);
   void read_material(const Record& record);
-  // The colour of a face or of a mesh, whose fields lie `shift` bytes further on. In order: packed, by index and
-  // intensity, the material's diffuse colour, white.
+  // Colour of a face or mesh record; `shift`: offset of its fields from those of a face. In order: packed colour,
+  // palette index, diffuse colour of the material, white.
   std::uint32_t color_of(const Record& face, std::size_t shift, std::int32_t revision) const;
   std::size_t materials() const { return diffuse_.size(); }
 
@@ -63,26 +63,26 @@ class ColorPalette {
   std::map<std::int32_t, std::uint32_t> diffuse_;
 };
 
-// What a face or mesh record says of its surface: kind, sides, level. Hidden ones and those that are no surfaces (wire
-// frames, lights) give nothing. Codes beyond 31 count as none given.
+// Reads the surface of face and mesh records: kind, sides, subface level. Hidden faces, wireframes and lights give
+// nullopt. Material codes beyond 31 count as none.
 class SurfaceReader {
  public:
   void set_revision(std::int32_t revision) { revision_ = revision; }
   ColorPalette& colors() { return colors_; }
 
-  // A face without corners. `shift`: how far its fields lie beyond those of a face record.
+  // Returns a face without corners. `shift`: offset of its fields from those of a face record.
   std::optional<TreeFace> of(const Record& record, std::size_t shift, int subface_level);
 
   const std::vector<SurfaceKind>& kinds() const { return kinds_.kinds(); }
   std::uint64_t hidden_faces() const { return hidden_faces_; }
-  std::uint64_t foreign_codes() const { return foreign_codes_; }
+  std::uint64_t unknown_codes() const { return unknown_codes_; }
 
  private:
   std::int32_t revision_ = 0;
   ColorPalette colors_;
   KindTable kinds_;
   std::uint64_t hidden_faces_ = 0;
-  std::uint64_t foreign_codes_ = 0;
+  std::uint64_t unknown_codes_ = 0;
 };
 
 }  // namespace yars::model::scene

@@ -15,15 +15,16 @@ namespace yars::model::scene {
 
 namespace {
 
-constexpr double kMaxDraped = 100'000;  // triangles that draping makes of one scene, about; then edges grow
+constexpr double kMaxDraped = 100'000;  // approximate number of draped triangles a scene; more lengthen the edges
 constexpr double kObjectCell_deg = 1.0 / 64.0;
-constexpr double kMaxPieces = 1'000'000;  // that scatterers make of one scene's large faces, about; then edges grow
+// Approximate number of scatterer pieces from a scene's large faces; more lengthen the edges.
+constexpr double kMaxPieces = 1'000'000;
 
 Vector3 vector(const std::array<float, 3>& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
-// What is known of an object before it is placed.
+// Summary of an object before it is placed.
 struct Outline {
   Footprint box;
   double least_z_m = 0.0, most_z_m = 0.0;
@@ -35,16 +36,16 @@ struct Outline {
 class Placing {
  public:
   Placing(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
-          std::uint32_t first_object, KindTable& kinds, SceneUse use, double most_reach_m)
+          std::uint32_t first_object, KindTable& kinds, SceneUse use, double max_reach_m)
       : model_(model),
         placement_(placement),
         ground_(ground),
-        plane_(placement.place),
+        plane_(placement.position),
         first_object_(first_object),
         kinds_(kinds),
         use_(use),
         builders_(plane_, use == SceneUse::triangles ? model.vertices.size() : 0),
-        scatter_(most_reach_m) {
+        scatter_(max_reach_m) {
     const double heading_rad = placement.heading_deg * geo::kRadiansPerDegree;
     sine_ = std::sin(heading_rad);
     cosine_ = std::cos(heading_rad);
@@ -52,16 +53,17 @@ class Placing {
   }
 
   PlacedScene run() {
-    anchor_m_ = placement_.heights == radar::SceneHeights::sea_level ? 0.0 : height_at(placement_.place, 0.0);
+    anchor_msl_m_ = placement_.heights == radar::SceneHeights::sea_level ? 0.0 : height_at(placement_.position, 0.0);
     sort_by_object();
     for (std::uint32_t object = 0; object < model_.objects.size(); ++object) outlines_.push_back(outline_of(object));
-    edge_m_ = bounded_edge(kDrapedEdge_m, kMaxDraped, [&](const ModelTriangle& triangle) { return drapes(triangle); });
+    edge_m_ =
+        bounded_edge(kDrapedEdge_m, kMaxDraped, [&](const ModelTriangle& triangle) { return is_draped(triangle); });
     if (use_ == SceneUse::scatterers)
       piece_edge_m_ = bounded_edge(piece_edge_m_, kMaxPieces, [](const ModelTriangle&) { return true; });
     PlacedScene placed;
     placed.placement = placement_;
     for (std::uint32_t object = 0; object < model_.objects.size(); ++object) place_object(object, placed);
-    placed.tiles = builders_.take(anchor_m_);
+    placed.tiles = builders_.take(anchor_msl_m_);
     placed.scatterers = scatter_.take(plane_);
     finish(placed);
     return placed;
@@ -70,15 +72,15 @@ class Placing {
  private:
   bool follows_ground() const { return placement_.heights == radar::SceneHeights::ground; }
 
-  double height_at(geo::GeoPoint place, double otherwise_m) const {
-    const double height_m = ground_.surface_at(place).elevation_m;
+  double height_at(geo::GeoPoint position, double otherwise_m) const {
+    const double height_m = ground_.surface_at(position).elevation_m;
     return std::isfinite(height_m) ? height_m : otherwise_m;
   }
 
-  Vector3 model_place(std::uint32_t vertex) const { return vector(model_.vertices[vertex].place_m) + model_.base; }
-  Vector3 turned(Vector3 v) const { return {v.x * cosine_ + v.y * sine_, v.y * cosine_ - v.x * sine_, v.z}; }
+  Vector3 model_position(std::uint32_t vertex) const { return vector(model_.vertices[vertex].place_m) + model_.base; }
+  Vector3 rotated(Vector3 v) const { return {v.x * cosine_ + v.y * sine_, v.y * cosine_ - v.x * sine_, v.z}; }
 
-  // Triangles in the order of their objects, otherwise as they were.
+  // Orders the triangles by object, and by number within an object.
   void sort_by_object() {
     begin_.assign(model_.objects.size() + 1, 0);
     for (const ModelTriangle& triangle : model_.triangles) ++begin_[triangle.object + 1];
@@ -90,10 +92,10 @@ class Placing {
 
   bool is_flat(const ModelTriangle& triangle) const {
     return std::all_of(triangle.corners.begin(), triangle.corners.end(),
-                       [&](std::uint32_t corner) { return std::abs(model_place(corner).z) <= kFlat_m; });
+                       [&](std::uint32_t corner) { return std::abs(model_position(corner).z) <= kFlat_m; });
   }
 
-  bool drapes(const ModelTriangle& triangle) const {
+  bool is_draped(const ModelTriangle& triangle) const {
     return follows_ground() && (triangle.object == 0 ? is_flat(triangle) : outlines_[triangle.object].flat());
   }
 
@@ -104,7 +106,7 @@ class Placing {
       const ModelTriangle& triangle = model_.triangles[order_[i]];
       std::array<Vector3, 3> at;
       for (std::size_t corner = 0; corner < 3; ++corner) {
-        at[corner] = turned(model_place(triangle.corners[corner]));
+        at[corner] = rotated(model_position(triangle.corners[corner]));
         points_.push_back({at[corner].x, at[corner].y});
         outline.least_z_m = outline.empty ? at[corner].z : std::min(outline.least_z_m, at[corner].z);
         outline.most_z_m = outline.empty ? at[corner].z : std::max(outline.most_z_m, at[corner].z);
@@ -122,15 +124,15 @@ class Placing {
     SceneObject& object = placed.objects.emplace_back();
     object.name = model_.objects[number];
     object.middle = plane_.geodetic_from_plane({outline.box.middle.x_m, outline.box.middle.y_m});
-    object.base_msl_m = anchor_m_;
-    if (follows_ground() && number != 0) object.base_msl_m = height_at(object.middle, anchor_m_);
+    object.base_msl_m = anchor_msl_m_;
+    if (follows_ground() && number != 0) object.base_msl_m = height_at(object.middle, anchor_msl_m_);
     object.height_m = outline.empty ? 0.0 : std::max(0.0, outline.most_z_m);
     object.length_m = outline.box.length_m;
     object.width_m = outline.box.width_m;
-    // Counter-clockwise from east to clockwise from north; meridians turn on the way from the place.
+    // Converts from counter-clockwise of east to clockwise of north, and adds the convergence of the meridians.
     const double convergence_deg =
-        geo::wrapped_degrees(object.middle.longitude_deg - placement_.place.longitude_deg) *
-        std::sin((object.middle.latitude_deg + placement_.place.latitude_deg) / 2 * geo::kRadiansPerDegree);
+        geo::wrapped_degrees(object.middle.longitude_deg - placement_.position.longitude_deg) *
+        std::sin((object.middle.latitude_deg + placement_.position.latitude_deg) / 2 * geo::kRadiansPerDegree);
     const double heading_deg = 90.0 - outline.box.direction_rad * 180.0 / std::numbers::pi + convergence_deg;
     object.heading_deg = std::fmod(heading_deg + 720.0, 180.0);
     double most_m2 = -1.0;
@@ -141,10 +143,10 @@ class Placing {
       }
     for (std::uint32_t i = begin_[number]; i < begin_[number + 1]; ++i) {
       const ModelTriangle& triangle = model_.triangles[order_[i]];
-      if (drapes(triangle))
+      if (is_draped(triangle))
         drape(triangle, number);
       else
-        stand(triangle, number, object.base_msl_m);
+        place_standing(triangle, number, object.base_msl_m);
     }
   }
 
@@ -152,8 +154,8 @@ class Placing {
     return {kind_numbers_[triangle.kind], first_object_ + object, on_ground};
   }
 
-  // A level face that is meant to lie on the ground, and does so about. Where the scene brings its own heights the
-  // ground is that of the terrain, which knows it less well.
+  // True for a level face on the ground. With heights above sea level the terrain is the ground; its heights are less
+  // exact than the scene's, so the tolerance is larger.
   bool lies_on_ground(const Corners3& corners, double base_m) const {
     const Vector3 area = cross(corners[1] - corners[0], corners[2] - corners[0]);
     if (!(area.z > kLevelNormal * length(area))) return false;
@@ -164,46 +166,46 @@ class Placing {
     });
   }
 
-  void stand(const ModelTriangle& triangle, std::uint32_t object, double base_m) {
-    Corners3 places = turned_corners(triangle);
-    for (Vector3& place : places) {
-      place.z += base_m;
-      note(place);
+  void place_standing(const ModelTriangle& triangle, std::uint32_t object, double base_m) {
+    Corners3 corners_m = rotated_corners(triangle);
+    for (Vector3& position : corners_m) {
+      position.z += base_m;
+      extend_reach(position);
     }
-    const bool on_ground = lies_on_ground(places, base_m);
-    if (use_ == SceneUse::scatterers) return scatter(places, model_.kinds[triangle.kind].material, on_ground);
+    const bool on_ground = lies_on_ground(corners_m, base_m);
+    if (use_ == SceneUse::scatterers) return scatter(corners_m, model_.kinds[triangle.kind].material, on_ground);
     std::array<PlacedCorner, 3> corners;
     for (std::size_t i = 0; i < 3; ++i)
-      corners[i] = {places[i], turned(vector(model_.vertices[triangle.corners[i]].normal)), triangle.corners[i]};
+      corners[i] = {corners_m[i], rotated(vector(model_.vertices[triangle.corners[i]].normal)), triangle.corners[i]};
     builders_.add(corners, tag_of(triangle, object, on_ground));
   }
 
-  Corners3 turned_corners(const ModelTriangle& triangle) const {
+  Corners3 rotated_corners(const ModelTriangle& triangle) const {
     Corners3 corners;
-    for (std::size_t i = 0; i < 3; ++i) corners[i] = turned(model_place(triangle.corners[i]));
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = rotated(model_position(triangle.corners[i]));
     return corners;
   }
 
   void drape(const ModelTriangle& triangle, std::uint32_t object) {
-    cutter_.cut(turned_corners(triangle), edge_m_,
-                [&](const Corners3& piece) { lay(piece, tag_of(triangle, object, true)); });
+    cutter_.cut(rotated_corners(triangle), edge_m_,
+                [&](const Corners3& piece) { add_draped(piece, tag_of(triangle, object, true)); });
   }
 
-  // A standing face as a radar sees it that does not resolve it.
+  // Adds a standing face in pieces to the scatterers.
   void scatter(const Corners3& corners, std::uint8_t material, bool on_ground) {
     cutter_.cut(corners, piece_edge_m_, [&](const Corners3& piece) {
-      on_ground ? scatter_.lie(piece, material) : scatter_.stand(piece, material);
+      on_ground ? scatter_.add_lying(piece, material) : scatter_.add_standing(piece, material);
     });
   }
 
-  // The edge, or more, at which the triangles that count make a bounded number of pieces: of large ones, and of slivers
-  // that are long.
+  // Doubles the edge until the selected triangles give at most `most` pieces. Large triangles and long slivers give
+  // many.
   template <class Counts>
   double bounded_edge(double edge_m, double most, const Counts& counts) const {
     const auto pieces = [&] {
       double sum = 0.0;
       for (const ModelTriangle& triangle : model_.triangles) {
-        const Corners3 corners = turned_corners(triangle);
+        const Corners3 corners = rotated_corners(triangle);
         const double longest_m = longest_plan_edge(corners).length_m;
         if (!(longest_m > edge_m) || !counts(triangle)) continue;
         const double width_m = length(cross(corners[1] - corners[0], corners[2] - corners[0])) / longest_m;
@@ -211,36 +213,36 @@ class Placing {
       }
       return sum;
     };
-    // What is beyond all numbers is no number, and too many; at an endless edge nothing is cut.
+    // The negated comparison treats NaN as too many. At an infinite edge nothing is cut, so the loop ends.
     while (!(pieces() <= most)) edge_m *= 2.0;
     return edge_m;
   }
 
-  void lay(Corners3 piece, SurfaceTag tag) {
+  void add_draped(Corners3 piece, SurfaceTag tag) {
     for (Vector3& corner : piece) {
       const LocalMap& map = builders_.map_at({corner.x, corner.y});
-      corner.z += height_at(map.place_of({corner.x, corner.y}), anchor_m_);
-      note(corner);
+      corner.z += height_at(map.place_of({corner.x, corner.y}), anchor_msl_m_);
+      extend_reach(corner);
     }
     const Vector3 area = cross(piece[1] - piece[0], piece[2] - piece[0]);
     const double size = length(area);
     if (!(size > 0.0)) return;
-    if (use_ == SceneUse::scatterers) return scatter_.lie(piece, kinds_.kinds()[tag.kind].material);
+    if (use_ == SceneUse::scatterers) return scatter_.add_lying(piece, kinds_.kinds()[tag.kind].material);
     const Vector3 normal = (1.0 / size) * area;
     builders_.add({PlacedCorner{piece[0], normal, kNone}, PlacedCorner{piece[1], normal, kNone},
                    PlacedCorner{piece[2], normal, kNone}},
                   tag);
   }
 
-  void note(Vector3 at) { reach_m_ = std::max(reach_m_, std::hypot(at.x, at.y)); }
+  void extend_reach(Vector3 at) { reach_m_ = std::max(reach_m_, std::hypot(at.x, at.y)); }
 
   void finish(PlacedScene& placed) const {
     placed.reach_m = reach_m_;
     std::vector<Disc> discs;
     for (const Tile& tile : placed.tiles) {
       const Bounds& b = tile.bounds;
-      const double east_m = std::max(std::abs(b.east_least_m), std::abs(b.east_most_m));
-      const double north_m = std::max(std::abs(b.north_least_m), std::abs(b.north_most_m));
+      const double east_m = std::max(std::abs(b.east_min_m), std::abs(b.east_max_m));
+      const double north_m = std::max(std::abs(b.north_min_m), std::abs(b.north_max_m));
       placed.tile_reach_m.push_back(std::hypot(east_m, north_m));
       discs.push_back({tile.origin, placed.tile_reach_m.back()});
       placed.bytes += bytes_of(tile);
@@ -266,7 +268,7 @@ class Placing {
   TileBuilders builders_;
   ScatterBuilder scatter_;
   double sine_ = 0.0, cosine_ = 1.0;
-  double anchor_m_ = 0.0;
+  double anchor_msl_m_ = 0.0;
   double edge_m_ = kDrapedEdge_m;
   double piece_edge_m_ = kScattererSides_m.front();
   double reach_m_ = 0.0;
@@ -274,14 +276,14 @@ class Placing {
   std::vector<std::uint32_t> begin_, order_;
   std::vector<Outline> outlines_;
   std::vector<geo::PlanePoint> points_;
-  Cutter cutter_;
+  TriangleCutter cutter_;
 };
 
 }  // namespace
 
 PlacedScene place_model(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
-                        std::uint32_t first_object, KindTable& kinds, SceneUse use, double most_reach_m) {
-  return Placing(model, placement, ground, first_object, kinds, use, most_reach_m).run();
+                        std::uint32_t first_object, KindTable& kinds, SceneUse use, double max_reach_m) {
+  return Placing(model, placement, ground, first_object, kinds, use, max_reach_m).run();
 }
 
 }  // namespace yars::model::scene

@@ -1,10 +1,13 @@
-// Puts a model on the earth: x and y are metres on the azimuthal-equidistant plane about its place, turned by the
-// heading; tiles are 128 m squares of that plane, each flattened about its own origin (below 1 mm off within 20 km).
-// `ground`: an object whose corners all lie within 1 m of z = 0 (a runway, a road) is draped: cut to edges of 30 m
-// (more where it is very large), every corner on the terrain below it plus its z. Any other object stands level on the
-// terrain under the middle of its box. Faces outside objects: flat triangles are draped, others stand on the terrain at
-// the scene's place. Void terrain counts as the height at the place, there as 0. A model's object n is
-// PlacedScene::objects[n]; the kinds are entered into `kinds`.
+// Placement of a model on the earth: tiles, objects and scatterers of one scene.
+// Inputs: a Model, its position and heading, terrain. Outputs: a PlacedScene. Units: metres, degrees.
+// Frame: x east, y north on the azimuthal equidistant plane about the position, after rotation by the heading. Tiles
+// are 128 m squares of that plane, each linear about its own origin (error below 1 mm within 20 km).
+// Heights `ground`: objects within 1 m of z = 0 are draped: cut to edges of 30 m, each corner on the terrain plus z.
+// Edges are longer if there would be too many pieces.
+// Other objects stand level on the terrain below the centre of their box. Faces outside objects are draped if flat, and
+// else stand on the terrain at the scene's position.
+// Void terrain takes the height at the scene's position, and 0 if that is void too.
+// Object n of the model is PlacedScene::objects[n]; its kinds are added to `kinds`.
 #pragma once
 
 #include <cstdint>
@@ -21,32 +24,33 @@
 
 namespace yars::model::scene {
 
-inline constexpr double kFlat_m = 1.0;         // how far from z = 0 a thing that is draped may reach
-inline constexpr double kDrapedEdge_m = 30.0;  // below the post spacing of DTED level 2
+inline constexpr double kFlat_m = 1.0;  // largest |z| of draped objects
+// Longest edge of draped triangles; below the post spacing of DTED level 2.
+inline constexpr double kDrapedEdge_m = 30.0;
 
 struct Placement {
-  geo::GeoPoint place;
+  geo::GeoPoint position;
   double heading_deg = 0.0;
   radar::SceneHeights heights = radar::SceneHeights::ground;
 };
 
-// What is kept of a scene: triangles for who resolves them, scatterers for who does not.
+// Contents of a placed scene: triangles for patch maps, or scatterers for radars that do not resolve the scene.
 enum class SceneUse : std::uint8_t { triangles, scatterers };
 
 struct PlacedScene {
   Placement placement;
-  double reach_m = 0.0;  // from the place to the farthest corner
+  double reach_m = 0.0;  // from the position to the farthest corner
   std::vector<Tile> tiles;
   std::vector<SceneObject> objects;
   GridIndex tile_index, object_index;
   std::vector<double> tile_reach_m;              // from a tile's origin to the farthest corner of its bounds
-  std::shared_ptr<const Scatterers> scatterers;  // null where there are none
+  std::shared_ptr<const Scatterers> scatterers;  // null: none
   std::uint64_t bytes = 0;
 };
 
-// `first_object`: what Tile::object counts from. Scatterers beyond `most_reach_m` of the place are left out.
+// `first_object` is added to Tile::object. Scatterers farther than `max_reach_m` from the position are left out.
 PlacedScene place_model(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
                         std::uint32_t first_object, KindTable& kinds, SceneUse use = SceneUse::triangles,
-                        double most_reach_m = std::numeric_limits<double>::infinity());
+                        double max_reach_m = std::numeric_limits<double>::infinity());
 
 }  // namespace yars::model::scene

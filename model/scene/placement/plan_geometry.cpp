@@ -9,7 +9,7 @@ namespace yars::model::scene {
 
 LocalMap::LocalMap(const geo::AzimuthalEquidistant& from, geo::PlanePoint middle)
     : middle_(middle), to_(from.geodetic_from_plane(middle)) {
-  constexpr double kStep_m = 256.0;  // half a tile: exact on its edges' middles
+  constexpr double kStep_m = 256.0;  // central differences: exact at this distance along the axes
   const auto slope = [&](double east, double north, geo::PlanePoint& moved, double& latitude, double& longitude) {
     const geo::GeoPoint ahead = from.geodetic_from_plane({middle.x_m + kStep_m * east, middle.y_m + kStep_m * north});
     const geo::GeoPoint behind = from.geodetic_from_plane({middle.x_m - kStep_m * east, middle.y_m - kStep_m * north});
@@ -28,7 +28,7 @@ double turn(geo::PlanePoint a, geo::PlanePoint b, geo::PlanePoint c) {
   return (b.x_m - a.x_m) * (c.y_m - a.y_m) - (b.y_m - a.y_m) * (c.x_m - a.x_m);
 }
 
-// Counter-clockwise, without the first point again (Andrew's monotone chain).
+// Convex hull, counter-clockwise, without repeating the first point (Andrew's monotone chain).
 std::vector<geo::PlanePoint> hull_of(std::vector<geo::PlanePoint>& points) {
   std::sort(points.begin(), points.end(),
             [](geo::PlanePoint a, geo::PlanePoint b) { return a.x_m != b.x_m ? a.x_m < b.x_m : a.y_m < b.y_m; });
@@ -47,7 +47,7 @@ std::vector<geo::PlanePoint> hull_of(std::vector<geo::PlanePoint>& points) {
   return hull;
 }
 
-// The box around the hull with its sides along a direction.
+// Bounding box of the hull with sides along a direction.
 Footprint box_along(const std::vector<geo::PlanePoint>& hull, double direction_rad) {
   const double c = std::cos(direction_rad), s = std::sin(direction_rad);
   double along_least = std::numeric_limits<double>::infinity(), along_most = -along_least;

@@ -1,4 +1,5 @@
-// Geometry of a scene seen from above: plane, polygons, cuts, footprints.
+// Plane geometry of a scene seen from above: map planes, polygon clipping, triangle subdivision, footprints.
+// Units: metres; x east, y north unless stated.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +15,13 @@
 
 namespace yars::model::scene {
 
-// What a point of one plane is in another, linear about `middle`: off by less than 1 mm within 300 m, for planes whose
-// origins lie within 20 km; places off by less than 10 mm (on a plane's own origin, below 80 degrees of latitude).
+// Linear map from one plane to the plane about its point `middle`. Accuracy: 1 mm within 300 m of `middle`, for planes
+// with origins within 20 km. place_of() is within 10 mm, on a plane's own origin below 80 degrees of latitude.
 class LocalMap {
  public:
   LocalMap(const geo::AzimuthalEquidistant& from, geo::PlanePoint middle);
 
-  const geo::AzimuthalEquidistant& plane() const { return to_; }  // about the middle
+  const geo::AzimuthalEquidistant& plane() const { return to_; }  // about `middle`
   geo::PlanePoint to_local(geo::PlanePoint point) const {
     const double e = point.x_m - middle_.x_m, n = point.y_m - middle_.y_m;
     return {e * east_.x_m + n * north_.x_m, e * east_.y_m + n * north_.y_m};
@@ -35,11 +36,11 @@ class LocalMap {
  private:
   geo::PlanePoint middle_;
   geo::AzimuthalEquidistant to_;
-  geo::PlanePoint east_, north_;          // where a metre east and north go
+  geo::PlanePoint east_, north_;          // images of one metre east and north
   geo::PlanePoint latitude_, longitude_;  // [deg/m]
 };
 
-// A convex polygon seen from above, cut by lines along the axes (Sutherland and Hodgman 1974).
+// Convex polygon seen from above, clipped by lines along the axes (Sutherland and Hodgman 1974).
 class PlanPolygon {
  public:
   using Axis = double geo::Vector3::*;
@@ -49,7 +50,7 @@ class PlanPolygon {
     std::copy(corners.begin(), corners.end(), at_.begin());
   }
 
-  // Least and most along an axis; of nothing: zero.
+  // Minimum and maximum along an axis; zeros for an empty polygon.
   std::pair<double, double> bounds(Axis axis) const {
     if (corners_ == 0) return {0.0, 0.0};
     const auto less = [axis](const geo::Vector3& a, const geo::Vector3& b) { return a.*axis < b.*axis; };
@@ -59,7 +60,7 @@ class PlanPolygon {
   PlanPolygon between(Axis axis, double least, double most) const {
     return beyond(axis, least, 1.0).beyond(axis, most, -1.0);
   }
-  // Positive where corners turn counter-clockwise.
+  // [m^2]; positive for counter-clockwise corners.
   double area() const {
     double twice = 0.0;
     for (std::ptrdiff_t i = 1; i + 1 < corners_; ++i)
@@ -69,7 +70,7 @@ class PlanPolygon {
 
  private:
   const geo::Vector3& corner(std::ptrdiff_t i) const { return at_[static_cast<std::size_t>(i)]; }
-  // What is on the side of the line to which `sign` points.
+  // The part on the side of the line to which `sign` points.
   PlanPolygon beyond(Axis axis, double line, double sign) const {
     PlanPolygon cut;
     const auto put = [&cut](const geo::Vector3& at) { cut.at_[static_cast<std::size_t>(cut.corners_++)] = at; };
@@ -82,17 +83,15 @@ class PlanPolygon {
     return cut;
   }
 
-  std::array<geo::Vector3, 16> at_{};  // a triangle cut by four lines has seven corners, and rounding adds few
+  std::array<geo::Vector3, 16> at_{};  // four cuts of a triangle give at most seven corners; rounding adds few
   std::ptrdiff_t corners_ = 0;
 };
 
-// Triangles cut in two across their longest edge, seen from above, until none is too long. Both triangles of an edge
-// cut it in the middle, so that there are no cracks.
-
 using Corners3 = std::array<geo::Vector3, 3>;
 
+// Edge of a triangle seen from above.
 struct PlanEdge {
-  std::size_t from = 0;  // corner, to the next one
+  std::size_t from = 0;  // number of its first corner
   double length_m = 0.0;
 };
 
@@ -106,17 +105,19 @@ inline PlanEdge longest_plan_edge(const Corners3& corners) {
   return longest;
 }
 
-class Cutter {
+// Bisects triangles at their longest edge, seen from above, until no edge is too long. Neighbours bisect a shared edge
+// at the same point, so there are no cracks.
+class TriangleCutter {
  public:
-  // Calls visit(piece) for pieces no edge of which is longer.
+  // Calls visit(piece) for the pieces; none has an edge longer than `max_edge_m`.
   template <class Visit>
-  void cut(const Corners3& corners, double most_m, const Visit& visit) {
+  void cut(const Corners3& corners, double max_edge_m, const Visit& visit) {
     pieces_.assign(1, corners);
     while (!pieces_.empty()) {
       const Corners3 piece = pieces_.back();
       pieces_.pop_back();
       const PlanEdge edge = longest_plan_edge(piece);
-      if (edge.length_m <= most_m) {
+      if (edge.length_m <= max_edge_m) {
         visit(piece);
         continue;
       }
@@ -131,16 +132,17 @@ class Cutter {
   std::vector<Corners3> pieces_;
 };
 
-// What a thing covers seen from above: the rectangle of least area around its corners. The hull's edges are tried in
-// turn (the least rectangle has a side on one of them: Freeman and Shapira, CACM 18, 1975).
+// Point for footprint_of().
+// Rectangle of least area around a set of points. It has a side on an edge of the convex hull, so the edges are tried
+// in turn (Freeman and Shapira, CACM 18, 1975).
 struct Footprint {
   geo::PlanePoint middle;
-  double length_m = 0.0;  // the longer side
+  double length_m = 0.0;  // longer side
   double width_m = 0.0;
   double direction_rad = 0.0;  // of the longer side, counter-clockwise from x, [0, pi)
 };
 
-// `points` is reordered; of no points all is zero.
+// Reorders `points`. All zeros for no points.
 Footprint footprint_of(std::vector<geo::PlanePoint>& points);
 
 }  // namespace yars::model::scene

@@ -22,7 +22,7 @@ std::size_t Scatterers::level_for(double resolved_m) const {
 }
 
 std::uint64_t Scatterers::bytes() const {
-  constexpr std::uint64_t kHashNode = 64;  // of an unordered_map, about
+  constexpr std::uint64_t kHashNode = 64;  // approximate size of an unordered_map node
   std::uint64_t sum = sizeof(Scatterers);
   for (const ScattererLevel& level : levels)
     sum += level.scatterers.capacity() * sizeof(Scatterer) + level.facings.capacity() * sizeof(Facing) +
@@ -32,13 +32,14 @@ std::uint64_t Scatterers::bytes() const {
 
 namespace {
 
-constexpr double kAzimuthBin_rad = std::numbers::pi / 45.0;    // 4 degrees: below the width of the cardinal effect
+constexpr double kAzimuthBin_rad = std::numbers::pi / 45.0;    // 4 degrees, below the width of the cardinal effect
 constexpr double kElevationBin_rad = std::numbers::pi / 12.0;  // 15 degrees
 constexpr std::uint32_t kWall = 1U << 31U;
-constexpr std::size_t kMaxSquares = 1U << 18U;  // of a scene that stand or lie, some 100 MB while it is placed
-constexpr double kMaxAcross = 64.0;             // squares that one piece lies in, an edge
+constexpr std::size_t kMaxSquares = 1U << 18U;  // of a scene, standing or lying; about 100 MB during placement
+// Limit of the squares along a lying piece; larger pieces coarsen the level.
+constexpr double kMaxSquaresPerEdge = 64.0;
 
-// Faces of one key are summed up.
+// Faces with equal keys are summed.
 std::uint32_t key_of(std::uint8_t material, geo::Vector3 normal) {
   const double level2 = normal.x * normal.x + normal.y * normal.y;
   const auto elevation = static_cast<std::uint32_t>(
@@ -78,7 +79,7 @@ bool ScatterBuilder::coarsen() {
   return true;
 }
 
-// Null where there is no room for another one.
+// Returns null if the limit of squares is reached at the coarsest level.
 ScatterBuilder::Square* ScatterBuilder::square_in(Squares& squares, geo::Vector3 at) {
   while (squares.size() >= kMaxSquares && coarsen()) continue;
   const std::uint64_t key = square_key(at.x, at.y, side_m());
@@ -88,10 +89,10 @@ ScatterBuilder::Square* ScatterBuilder::square_in(Squares& squares, geo::Vector3
 
 bool ScatterBuilder::within_reach(const std::array<geo::Vector3, 3>& corners) const {
   const geo::Vector3 middle = middle_of(corners);
-  return middle.x * middle.x + middle.y * middle.y <= most_reach_m_ * most_reach_m_;
+  return middle.x * middle.x + middle.y * middle.y <= max_reach_m_ * max_reach_m_;
 }
 
-void ScatterBuilder::stand(const std::array<geo::Vector3, 3>& corners, std::uint8_t material) {
+void ScatterBuilder::add_standing(const std::array<geo::Vector3, 3>& corners, std::uint8_t material) {
   const geo::Vector3 area_m2 = area_of(corners);
   const double weight = length(area_m2);
   if (!(weight > 0.0) || !within_reach(corners)) return;
@@ -99,22 +100,22 @@ void ScatterBuilder::stand(const std::array<geo::Vector3, 3>& corners, std::uint
   Square* const found = square_in(standing_, middle);
   if (found == nullptr) return;
   Square& square = *found;
-  const bool fresh = square.facings.empty();
+  const bool is_new = square.facings.empty();
   const auto [least, most] = std::minmax({corners[0].z, corners[1].z, corners[2].z});
-  square.least_m = fresh ? least : std::min(square.least_m, least);
-  square.most_m = fresh ? most : std::max(square.most_m, most);
+  square.least_m = is_new ? least : std::min(square.least_m, least);
+  square.most_m = is_new ? most : std::max(square.most_m, most);
   square.middle = square.middle + weight * middle;
   square.spread += weight * (middle.x * middle.x + middle.y * middle.y);
   square.area_m2 += weight;
   add(square, key_of(material, (1.0 / weight) * area_m2), area_m2);
 }
 
-void ScatterBuilder::lie(const std::array<geo::Vector3, 3>& corners, std::uint8_t material) {
+void ScatterBuilder::add_lying(const std::array<geo::Vector3, 3>& corners, std::uint8_t material) {
   if (!(area_of(corners).z > 0.0) || !within_reach(corners)) return;
   const PlanPolygon whole(corners);
   const auto [west, east] = whole.bounds(&geo::Vector3::x);
   const auto [least, most] = whole.bounds(&geo::Vector3::y);
-  while (std::max(east - west, most - least) > kMaxAcross * side_m())
+  while (std::max(east - west, most - least) > kMaxSquaresPerEdge * side_m())
     if (!coarsen()) return;
   const double side = side_m();
   const auto first_of = [side](double from_m) { return static_cast<std::int64_t>(std::floor(from_m / side)); };
@@ -144,17 +145,17 @@ ScatterBuilder::Keys ScatterBuilder::sorted_keys(const Squares& squares) {
   return keys;
 }
 
-// Four squares become one.
+// Merges four squares into one of the next level.
 ScatterBuilder::Squares ScatterBuilder::coarser(const Squares& squares) {
   Squares merged;
   for (const std::uint64_t key : sorted_keys(squares)) {
     const auto row = static_cast<std::int32_t>(static_cast<std::uint32_t>(key >> 32U)) >> 1;
     const auto column = static_cast<std::int32_t>(static_cast<std::uint32_t>(key)) >> 1;
     const Square& part = squares.at(key);
-    const auto [found, fresh] = merged.try_emplace(static_cast<std::uint64_t>(static_cast<std::uint32_t>(row)) << 32U |
-                                                   static_cast<std::uint32_t>(column));
+    const auto [found, is_new] = merged.try_emplace(static_cast<std::uint64_t>(static_cast<std::uint32_t>(row)) << 32U |
+                                                    static_cast<std::uint32_t>(column));
     Square& whole = found->second;
-    if (fresh) {
+    if (is_new) {
       whole = part;
       continue;
     }
@@ -168,9 +169,9 @@ ScatterBuilder::Squares ScatterBuilder::coarser(const Squares& squares) {
   return merged;
 }
 
-void ScatterBuilder::finish(const geo::AzimuthalEquidistant& plane, double side_m, Scatterers& made,
+void ScatterBuilder::finish(const geo::AzimuthalEquidistant& plane, double side_m, Scatterers& result,
                             ScattererLevel& level) const {
-  const auto put_facings = [&level](const Square& square) {
+  const auto append_facings = [&level](const Square& square) {
     for (const FacingSum& sum : square.facings)
       level.facings.push_back({static_cast<float>(sum.area_m2.x), static_cast<float>(sum.area_m2.y),
                                static_cast<float>(sum.area_m2.z), static_cast<std::uint8_t>(sum.key >> 16U & 0xffU),
@@ -182,18 +183,18 @@ void ScatterBuilder::finish(const geo::AzimuthalEquidistant& plane, double side_
     const Square& square = standing_.at(key);
     const geo::Vector3 middle = (1.0 / square.area_m2) * square.middle;
     const double middle2 = middle.x * middle.x + middle.y * middle.y;
-    // An evenly filled square of side s spreads by s^2 / 6 about its middle.
+    // An evenly filled square of side s has the mean square distance s^2 / 6 from its centre.
     const double extent_m = std::sqrt(6.0 * std::max(0.0, square.spread / square.area_m2 - middle2));
-    const geo::Vector3 at = made.frame.enu_from_geodetic(plane.geodetic_from_plane({middle.x, middle.y}),
-                                                         geo::HeightAboveEllipsoid::metres(0.0));
+    const geo::Vector3 at = result.frame.enu_from_geodetic(plane.geodetic_from_plane({middle.x, middle.y}),
+                                                           geo::HeightAboveEllipsoid::metres(0.0));
     found.push_back({static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z),
                      static_cast<float>(middle.z), static_cast<float>(square.least_m),
                      static_cast<float>(square.most_m), static_cast<float>(std::min(extent_m, side_m)),
                      static_cast<std::uint32_t>(level.facings.size()),
                      static_cast<std::uint32_t>(square.facings.size())});
-    put_facings(square);
+    append_facings(square);
     balls.push_back({at, side_m});
-    made.reach_m = std::max(made.reach_m, std::sqrt(middle2) + side_m);
+    result.reach_m = std::max(result.reach_m, std::sqrt(middle2) + side_m);
   }
   std::vector<std::uint32_t> order;
   level.tree = SphereTree(balls, order);
@@ -204,27 +205,27 @@ void ScatterBuilder::finish(const geo::AzimuthalEquidistant& plane, double side_
     level.covers[key] = {static_cast<float>(std::min(1.0, square.area_m2 / (side_m * side_m))),
                          static_cast<std::uint32_t>(level.facings.size()),
                          static_cast<std::uint32_t>(square.facings.size())};
-    put_facings(square);
+    append_facings(square);
     const double middle2 = square.middle.x * square.middle.x + square.middle.y * square.middle.y;
-    made.reach_m = std::max(made.reach_m, std::sqrt(middle2) / square.area_m2 + 2.0 * side_m);
+    result.reach_m = std::max(result.reach_m, std::sqrt(middle2) / square.area_m2 + 2.0 * side_m);
   }
   level.facings.shrink_to_fit();
 }
 
 std::shared_ptr<const Scatterers> ScatterBuilder::take(const geo::AzimuthalEquidistant& plane) {
   if (standing_.empty() && lying_.empty()) return nullptr;
-  auto made = std::make_shared<Scatterers>(plane.origin());
-  made->finest = finest_;
+  auto result = std::make_shared<Scatterers>(plane.origin());
+  result->finest = finest_;
   for (std::size_t level = finest_; level < kScattererSides_m.size(); ++level) {
     if (level > finest_) {
       standing_ = coarser(standing_);
       lying_ = coarser(lying_);
     }
-    finish(plane, kScattererSides_m[level], *made, made->levels[level]);
+    finish(plane, kScattererSides_m[level], *result, result->levels[level]);
   }
   standing_.clear();
   lying_.clear();
-  return made;
+  return result;
 }
 
 }  // namespace yars::model::scene

@@ -1,4 +1,8 @@
-// Scatterers of a scene for a radar that does not resolve it, and their sums while it is placed.
+// Scatterers of a scene for radars that do not resolve it, and their builder.
+// Standing faces are summed by square of the scene's plane, ground cover likewise, in levels of 32 to 256 m.
+// A scan uses the level that it resolves, which limits its cost.
+// Outputs: areas [m^2] and materials; the radar model derives the return.
+// Threads: immutable once built.
 #pragma once
 
 #include <array>
@@ -15,42 +19,38 @@
 
 namespace yars::model::scene {
 
-// Which faces of a scene are walls and which lie on the ground: one rule for whoever looks at them.
-inline constexpr double kLevelNormal = 0.98;  // upward part of a unit normal that is level
-inline constexpr double kOnGround_m = 0.5;    // above its object's base a level face lies on the ground
-inline constexpr double kNearGround_m = 2.0;  // the same against terrain
-// Steeper than 70 degrees a face is a wall: square of the upward part of its normal against the level part.
+// Classification of faces as walls and ground cover, common to all users of scenes.
+inline constexpr double kLevelNormal = 0.98;  // upward part of a unit normal: greater is level
+inline constexpr double kOnGround_m = 0.5;  // level faces below this height above their object's base lie on the ground
+inline constexpr double kNearGround_m = 2.0;  // likewise against the terrain, for scenes with heights above sea level
+// Faces steeper than 70 degrees are walls: upper bound of (upward / level part of the normal)^2.
 inline constexpr double kWallNormal2 = 0.13;
 
-// A scene to a radar that does not resolve it: what stands is summed up in squares of the scene's plane, and so is what
-// covers the ground; in levels of 32 to 256 m, so that a scan costs what it resolves. Areas and materials only: what
-// they return is the radar's affair. Made when a scene is placed; immutable.
-
-// Faces of one material that look about the same way (within 4 degrees of azimuth, 15 of elevation).
+// Faces of one material with similar normals (within 4 degrees of azimuth and 15 of elevation).
 struct Facing {
   float east_m2 = 0, north_m2 = 0, up_m2 = 0;  // sum of area times normal
   std::uint8_t material = 0;
   bool wall = false;
 };
 
-// What stands in one square.
+// Sum of the standing faces in one square.
 struct Scatterer {
-  float east_m = 0, north_m = 0, up_m = 0;  // in the frame: its middle by area, on the ellipsoid
+  float east_m = 0, north_m = 0, up_m = 0;  // centroid by area, in Scatterers::frame, on the ellipsoid
   float middle_msl_m = 0, least_msl_m = 0, most_msl_m = 0;
-  float extent_m = 0;  // of an evenly filled square that spreads as much
+  float extent_m = 0;  // side of an evenly filled square with the same spread
   std::uint32_t first_facing = 0, facings = 0;
 };
 
-// What lies on the ground of one square: its material is seen instead of the ground's.
+// Sum of the faces on the ground in one square: their materials replace the ground's.
 struct Cover {
-  float share = 0;  // of the square, at most 1
+  float share = 0;  // share of the square's area, at most 1
   std::uint32_t first_facing = 0, facings = 0;
 };
 
 inline constexpr std::array<double, 4> kScattererSides_m{32.0, 64.0, 128.0, 256.0};
 
 struct ScattererLevel {
-  std::vector<Scatterer> scatterers;  // in the order of the tree
+  std::vector<Scatterer> scatterers;  // in the tree's order
   SphereTree tree;
   std::unordered_map<std::uint64_t, Cover> covers;  // by square_key()
   std::vector<Facing> facings;
@@ -65,34 +65,33 @@ struct Scatterers {
   explicit Scatterers(geo::GeoPoint at) : place(at), frame(at, geo::HeightAboveEllipsoid::metres(0.0)) {}
 
   geo::GeoPoint place;
-  geo::LocalTangentFrame frame;  // east, north, up at the place, on the ellipsoid
-  double reach_m = 0.0;          // from the place to the farthest corner of a square
+  geo::LocalTangentFrame frame;  // east, north, up at `place`, on the ellipsoid
+  double reach_m = 0.0;          // from `place` to the farthest corner of a square
   std::array<ScattererLevel, kScattererSides_m.size()> levels;
-  std::size_t finest = 0;  // level; a scene too large for smaller squares has none of those
+  std::size_t finest = 0;  // first level in use; a large scene has no finer levels
 
-  // The level of the largest squares that are not larger than what is resolved, else of the smallest.
+  // Returns the level with the largest squares up to `resolved_m`, else the finest level.
   std::size_t level_for(double resolved_m) const;
   std::uint64_t bytes() const;
 };
 
-// Of the square with this side that holds a point of the scene's plane [m].
+// Key of the square of this side that contains a point of the scene's plane [m].
 std::uint64_t square_key(double east_m, double north_m, double side_m);
 
-// Sums the faces of a scene up to scatterers while it is placed.
-// Squares are made larger as a scene turns out to be larger, so that there is a bound on what it takes; what does not
-// fit even then is left out.
+// Builds Scatterers while a scene is placed. Squares grow with the scene to bound memory; faces beyond the bound are
+// left out.
 class ScatterBuilder {
  public:
-  // What lies farther from the place than `most_reach_m` is left out.
-  explicit ScatterBuilder(double most_reach_m) : most_reach_m_(most_reach_m) {}
+  // Faces farther than `max_reach_m` from the position are left out.
+  explicit ScatterBuilder(double max_reach_m) : max_reach_m_(max_reach_m) {}
 
-  // A triangle, counter-clockwise from outside, not much longer than the smallest square: metres east and north on the
-  // scene's plane, altitude MSL. It counts where its middle is.
-  void stand(const std::array<geo::Vector3, 3>& corners, std::uint8_t material);
-  // The same of one that lies on the ground, seen from above: each square gets what lies in it.
-  void lie(const std::array<geo::Vector3, 3>& corners, std::uint8_t material);
+  // Adds a standing triangle, counter-clockwise from outside, not much larger than the smallest square. Corners: metres
+  // east and north on the scene's plane, altitude MSL. It counts in the square of its centre.
+  void add_standing(const std::array<geo::Vector3, 3>& corners, std::uint8_t material);
+  // Adds a triangle on the ground. Each square takes the area within it, seen from above.
+  void add_lying(const std::array<geo::Vector3, 3>& corners, std::uint8_t material);
 
-  // Ends the work; null if nothing was added.
+  // Returns the scatterers and leaves the builder empty. Null if nothing was added.
   std::shared_ptr<const Scatterers> take(const geo::AzimuthalEquidistant& plane);
 
  private:
@@ -101,8 +100,8 @@ class ScatterBuilder {
     geo::Vector3 area_m2;
   };
   struct Square {
-    geo::Vector3 middle;  // sums, times area
-    double spread = 0.0;  // sum of area times square of the distance from the plane's origin
+    geo::Vector3 middle;  // area-weighted sum
+    double spread = 0.0;  // sum of area times squared distance from the plane's origin
     double area_m2 = 0.0;
     double least_m = 0.0, most_m = 0.0;
     std::vector<FacingSum> facings;
@@ -117,11 +116,11 @@ class ScatterBuilder {
   static void add(Square& square, std::uint32_t key, geo::Vector3 area_m2);
   static Keys sorted_keys(const Squares& squares);
   static Squares coarser(const Squares& squares);
-  void finish(const geo::AzimuthalEquidistant& plane, double side_m, Scatterers& made, ScattererLevel& level) const;
+  void finish(const geo::AzimuthalEquidistant& plane, double side_m, Scatterers& result, ScattererLevel& level) const;
 
-  double most_reach_m_;
+  double max_reach_m_;
   std::size_t finest_ = 0;    // level
-  Squares standing_, lying_;  // of the level under way
+  Squares standing_, lying_;  // at level finest_
 };
 
 }  // namespace yars::model::scene

@@ -12,13 +12,13 @@ namespace yars::model::scene {
 
 namespace {
 
-constexpr double kMaxCellsAcross = 512;  // queries wider than this look at every disc instead
+constexpr double kMaxCellsAcross = 512;  // wider queries test every disc
 
-geo::Vector3 on_earth(geo::GeoPoint place) {
-  return geo::ecef_from_geodetic(place, geo::HeightAboveEllipsoid::metres(0.0));
+geo::Vector3 on_earth(geo::GeoPoint position) {
+  return geo::ecef_from_geodetic(position, geo::HeightAboveEllipsoid::metres(0.0));
 }
 
-// Arc over a chord, to the third order.
+// Arc over a chord, to third order.
 double arc_m(geo::Vector3 a, geo::Vector3 b) {
   const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
   const double square = x * x + y * y + z * z;
@@ -42,7 +42,7 @@ GridIndex::GridIndex(const std::vector<Disc>& discs, double cell_deg) : cell_deg
       large_.push_back(number);
       continue;
     }
-    most_reach_m_ = std::max(most_reach_m_, disc.reach_m);
+    max_reach_m_ = std::max(max_reach_m_, disc.reach_m);
     const Row row = row_of(disc.middle.latitude_deg);
     keyed.emplace_back(key_of(row.number, column_of(row, disc.middle.longitude_deg)), number);
   }
@@ -64,28 +64,28 @@ GridIndex::Row GridIndex::row_of(double latitude_deg) const {
 }
 
 std::int64_t GridIndex::column_of(const Row& row, double longitude_deg) const {
-  const double share = (geo::wrapped_degrees(longitude_deg) + 180.0) / 360.0;
-  return std::clamp<std::int64_t>(static_cast<std::int64_t>(share * static_cast<double>(row.columns)), 0,
+  const double fraction = (geo::wrapped_degrees(longitude_deg) + 180.0) / 360.0;
+  return std::clamp<std::int64_t>(static_cast<std::int64_t>(fraction * static_cast<double>(row.columns)), 0,
                                   row.columns - 1);
 }
 
-void GridIndex::test(std::uint32_t disc, geo::Vector3 place, double radius_m, std::vector<Hit>& hits) const {
-  const double distance_m = arc_m(middles_[disc], place);
+void GridIndex::test(std::uint32_t disc, geo::Vector3 position, double radius_m, std::vector<Hit>& hits) const {
+  const double distance_m = arc_m(middles_[disc], position);
   if (distance_m <= radius_m + reaches_m_[disc]) hits.push_back({disc, distance_m});
 }
 
-void GridIndex::find_in_row(std::int64_t number, geo::GeoPoint place, double reach_deg, geo::Vector3 at,
+void GridIndex::find_in_row(std::int64_t number, geo::GeoPoint position, double reach_deg, geo::Vector3 at,
                             double radius_m, std::vector<Hit>& hits) const {
   const Row row = row_of((static_cast<double>(number) + 0.5) * cell_deg_ - 90.0);
-  // The parallel of the row that is nearest to a pole, or the place's own: there a metre is most of longitude.
+  // The highest latitude of the row or the position's own, where a metre is the most degrees of longitude.
   const double south_deg = static_cast<double>(number) * cell_deg_ - 90.0;
   const double widest_deg =
-      std::min(90.0, std::max({std::abs(south_deg), std::abs(south_deg + cell_deg_), std::abs(place.latitude_deg)}));
+      std::min(90.0, std::max({std::abs(south_deg), std::abs(south_deg + cell_deg_), std::abs(position.latitude_deg)}));
   const double parallel = std::cos(widest_deg * geo::kRadiansPerDegree);
   const double half_deg = parallel > 1e-3 ? 1.02 * reach_deg / parallel : 360.0;
   const double column_deg = 360.0 / static_cast<double>(row.columns);
   const auto half = static_cast<std::int64_t>(std::min(half_deg / column_deg, 1e9)) + 1;
-  const std::int64_t middle = column_of(row, place.longitude_deg);
+  const std::int64_t middle = column_of(row, position.longitude_deg);
   const bool all = 2 * half + 1 >= row.columns;
   const std::int64_t first = all ? 0 : middle - half;
   const std::int64_t last = all ? row.columns - 1 : middle + half;
@@ -96,19 +96,19 @@ void GridIndex::find_in_row(std::int64_t number, geo::GeoPoint place, double rea
   }
 }
 
-void GridIndex::find(geo::GeoPoint place, double radius_m, std::vector<Hit>& hits) const {
-  const geo::Vector3 at = on_earth(place);
+void GridIndex::find(geo::GeoPoint position, double radius_m, std::vector<Hit>& hits) const {
+  const geo::Vector3 at = on_earth(position);
   for (const std::uint32_t disc : large_) test(disc, at, radius_m, hits);
   if (ordered_.empty()) return;
-  const double reach_deg = (radius_m + most_reach_m_) / geo::kMinMetresPerDegree;
+  const double reach_deg = (radius_m + max_reach_m_) / geo::kMinMetresPerDegree;
   const double across = 2.0 * reach_deg / cell_deg_;
   if (across > kMaxCellsAcross || across * across > static_cast<double>(ordered_.size()) + 64.0) {
     for (const std::uint32_t disc : ordered_) test(disc, at, radius_m, hits);
     return;
   }
-  const std::int64_t first = row_of(place.latitude_deg - reach_deg).number;
-  const std::int64_t last = row_of(place.latitude_deg + reach_deg).number;
-  for (std::int64_t row = first; row <= last; ++row) find_in_row(row, place, reach_deg, at, radius_m, hits);
+  const std::int64_t first = row_of(position.latitude_deg - reach_deg).number;
+  const std::int64_t last = row_of(position.latitude_deg + reach_deg).number;
+  for (std::int64_t row = first; row <= last; ++row) find_in_row(row, position, reach_deg, at, radius_m, hits);
 }
 
 std::uint64_t GridIndex::bytes() const {
@@ -117,19 +117,19 @@ std::uint64_t GridIndex::bytes() const {
 }
 
 namespace {
-constexpr std::uint32_t kLeaf = 8;        // balls that are looked at one by one
-constexpr double kRounding = 1.0 + 1e-6;  // nodes are in float: their balls may not become smaller by it
-constexpr double kRounding_m = 0.01;      // the same of places, up to 80 km from the origin
+constexpr std::uint32_t kLeaf = 8;        // largest number of balls in a leaf
+constexpr double kRounding = 1.0 + 1e-6;  // nodes are float: enlarges their radius by more than its rounding
+constexpr double kRounding_m = 0.01;      // [m] covers the rounding of centres up to 80 km from the origin
 }  // namespace
 
 SphereTree::SphereTree(const std::vector<Ball>& balls, std::vector<std::uint32_t>& order) {
   order.resize(balls.size());
   std::iota(order.begin(), order.end(), 0U);
-  if (!balls.empty()) grow(balls, order, 0, static_cast<std::uint32_t>(balls.size()));
+  if (!balls.empty()) build(balls, order, 0, static_cast<std::uint32_t>(balls.size()));
 }
 
-void SphereTree::grow(const std::vector<Ball>& balls, std::vector<std::uint32_t>& order, std::uint32_t first,
-                      std::uint32_t end) {
+void SphereTree::build(const std::vector<Ball>& balls, std::vector<std::uint32_t>& order, std::uint32_t first,
+                       std::uint32_t end) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   geo::Vector3 least{kFar, kFar, kFar}, most{-kFar, -kFar, -kFar};
   for (std::uint32_t i = first; i < end; ++i) {
@@ -153,10 +153,10 @@ void SphereTree::grow(const std::vector<Ball>& balls, std::vector<std::uint32_t>
     };
     const std::uint32_t half = first + (end - first) / 2;
     std::nth_element(order.begin() + first, order.begin() + half, order.begin() + end, nearer);
-    grow(balls, order, first, half);
-    grow(balls, order, half, end);
+    build(balls, order, first, half);
+    build(balls, order, half, end);
   }
-  nodes_[own].behind = static_cast<std::uint32_t>(nodes_.size());
+  nodes_[own].skip_to = static_cast<std::uint32_t>(nodes_.size());
 }
 
 }  // namespace yars::model::scene

@@ -15,22 +15,22 @@ namespace {
 
 constexpr std::uint32_t kNoNumber = 0xffffffffU;
 
-struct Place {
-  explicit Place(const DraftVertex& vertex)
+struct Position {
+  explicit Position(const DraftVertex& vertex)
       : level(std::uint64_t{std::bit_cast<std::uint32_t>(vertex.east_m)} << 32U |
               std::bit_cast<std::uint32_t>(vertex.north_m)),
         altitude(std::bit_cast<std::uint64_t>(vertex.altitude_m)) {}
-  bool operator==(const Place& other) const = default;
+  bool operator==(const Position& other) const = default;
 
   std::uint64_t level, altitude;
 };
-struct PlaceHash {
-  std::size_t operator()(const Place& place) const {
-    return static_cast<std::size_t>(random::splitmix64(place.level ^ random::splitmix64(place.altitude)));
+struct PositionHash {
+  std::size_t operator()(const Position& position) const {
+    return static_cast<std::size_t>(random::splitmix64(position.level ^ random::splitmix64(position.altitude)));
   }
 };
 
-// New numbers for the vertices of a tile, and the vertices by them.
+// Numbers the vertices of a tile in the order of use, and stores them.
 class Numbering {
  public:
   Numbering(const std::vector<DraftVertex>& vertices, Tile& tile)
@@ -39,8 +39,8 @@ class Numbering {
   std::uint16_t bare(std::uint16_t vertex) {
     std::uint32_t& number = bare_[vertex];
     if (number == kNoNumber) {
-      const auto [found, is_new] = by_place_.try_emplace(Place(vertices_[vertex]), tile_.east_m.size());
-      if (is_new) put(vertices_[vertex]);
+      const auto [found, is_new] = by_position_.try_emplace(Position(vertices_[vertex]), tile_.east_m.size());
+      if (is_new) append(vertices_[vertex]);
       number = found->second;
     }
     return static_cast<std::uint16_t>(number);
@@ -49,7 +49,7 @@ class Numbering {
     std::uint32_t& number = curved_[vertex];
     if (number == kNoNumber) {
       number = static_cast<std::uint32_t>(tile_.east_m.size());
-      put(vertices_[vertex]);
+      append(vertices_[vertex]);
       tile_.normal_east.push_back(vertices_[vertex].normal[0]);
       tile_.normal_north.push_back(vertices_[vertex].normal[1]);
       tile_.normal_up.push_back(vertices_[vertex].normal[2]);
@@ -58,7 +58,7 @@ class Numbering {
   }
 
  private:
-  void put(const DraftVertex& vertex) {
+  void append(const DraftVertex& vertex) {
     tile_.east_m.push_back(vertex.east_m);
     tile_.north_m.push_back(vertex.north_m);
     tile_.up_m.push_back(static_cast<float>(vertex.altitude_m - tile_.zero_msl_m));
@@ -67,7 +67,7 @@ class Numbering {
   const std::vector<DraftVertex>& vertices_;
   Tile& tile_;
   std::vector<std::uint32_t> bare_, curved_;
-  std::unordered_map<Place, std::uint32_t, PlaceHash> by_place_;
+  std::unordered_map<Position, std::uint32_t, PositionHash> by_position_;
 };
 
 }  // namespace
@@ -99,10 +99,11 @@ void finish_tile(const std::vector<DraftVertex>& vertices, std::vector<DraftTria
 
 namespace {
 
-constexpr double kEqualNormals = 0.9999;  // cosine: less than a degree apart
+// Cosine of 0.8 degrees: normals closer than this to the triangle's are equal to it.
+constexpr double kEqualNormals = 0.9999;
 
 bool is_curved(const std::array<PlacedCorner, 3>& corners) {
-  const Vector3 area = cross(corners[1].place - corners[0].place, corners[2].place - corners[0].place);
+  const Vector3 area = cross(corners[1].position - corners[0].position, corners[2].position - corners[0].position);
   const double least = kEqualNormals * length(area);
   return std::any_of(corners.begin(), corners.end(),
                      [&](const PlacedCorner& corner) { return dot(corner.normal, area) < least; });
@@ -124,7 +125,7 @@ std::uint64_t bytes_in(const std::vector<Value>& values) {
 TileBuilders::TileBuilders(const geo::AzimuthalEquidistant& plane, std::size_t model_vertices)
     : plane_(plane), copies_(model_vertices) {}
 
-// No room for a triangle more: bare and curved vertices may both be there, three of each.
+// True without space for another triangle. A vertex may be stored twice, bare and curved.
 bool TileBuilders::is_full(const Builder& builder) {
   return 2 * (builder.vertices.size() + 3) > Tile::kMaxVertices;
 }
@@ -152,10 +153,10 @@ const LocalMap& TileBuilders::map_at(geo::PlanePoint point) {
 std::uint16_t TileBuilders::vertex_in(Builder& builder, const PlacedCorner& corner) {
   if (corner.vertex != kNone && copies_[corner.vertex].builder == builder.number) return copies_[corner.vertex].vertex;
   const auto number = static_cast<std::uint16_t>(builder.vertices.size());
-  const geo::PlanePoint at = builder.map.to_local({corner.place.x, corner.place.y});
+  const geo::PlanePoint at = builder.map.to_local({corner.position.x, corner.position.y});
   builder.vertices.push_back({static_cast<float>(at.x_m),
                               static_cast<float>(at.y_m),
-                              corner.place.z,
+                              corner.position.z,
                               {static_cast<float>(corner.normal.x), static_cast<float>(corner.normal.y),
                                static_cast<float>(corner.normal.z)}});
   if (corner.vertex != kNone) copies_[corner.vertex] = {builder.number, number};
@@ -163,7 +164,7 @@ std::uint16_t TileBuilders::vertex_in(Builder& builder, const PlacedCorner& corn
 }
 
 void TileBuilders::add(const std::array<PlacedCorner, 3>& corners, SurfaceTag tag) {
-  const Vector3 sum = corners[0].place + corners[1].place + corners[2].place;
+  const Vector3 sum = corners[0].position + corners[1].position + corners[2].position;
   Builder& builder = builder_at({sum.x / 3, sum.y / 3});
   builder.triangles.push_back(
       {{vertex_in(builder, corners[0]), vertex_in(builder, corners[1]), vertex_in(builder, corners[2])},
@@ -183,9 +184,9 @@ std::vector<Tile> TileBuilders::take(double zero_msl_m) {
       tile.zero_msl_m = std::isfinite(zero_msl_m) ? std::floor(zero_msl_m) : 0.0;
       finish_tile(builder->vertices, builder->triangles, tile);
       builder.reset();
-      find_bounds(tile.east_m, tile.bounds.east_least_m, tile.bounds.east_most_m);
-      find_bounds(tile.north_m, tile.bounds.north_least_m, tile.bounds.north_most_m);
-      find_bounds(tile.up_m, tile.bounds.up_least_m, tile.bounds.up_most_m);
+      find_bounds(tile.east_m, tile.bounds.east_min_m, tile.bounds.east_max_m);
+      find_bounds(tile.north_m, tile.bounds.north_min_m, tile.bounds.north_max_m);
+      find_bounds(tile.up_m, tile.bounds.up_min_m, tile.bounds.up_max_m);
       tiles.push_back(std::move(tile));
     }
     pieces.clear();

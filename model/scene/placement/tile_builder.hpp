@@ -1,4 +1,6 @@
-// Tiles of a scene from its triangles.
+// Builder of the square tiles of one scene from placed triangles.
+// Inputs: triangles on the scene's plane with normals and tags. Outputs: Tiles with joined vertices.
+// Units: metres.
 #pragma once
 
 #include <array>
@@ -16,7 +18,7 @@ namespace yars::model::scene {
 
 inline constexpr double kTileSide_m = 128.0;
 
-// A tile before its vertices are joined: how triangles are collected, and how they become arrays.
+// Attributes of a triangle that is added to a tile.
 struct SurfaceTag {
   std::uint16_t kind = 0;
   std::uint32_t object = 0;
@@ -24,7 +26,7 @@ struct SurfaceTag {
 };
 
 struct DraftVertex {
-  float east_m, north_m;  // of the tile's origin
+  float east_m, north_m;  // from the tile's origin
   double altitude_m;      // MSL
   std::array<float, 3> normal;
 };
@@ -32,31 +34,30 @@ struct DraftVertex {
 struct DraftTriangle {
   std::array<std::uint16_t, 3> corners;
   SurfaceTag tag;
-  bool flat;  // its vertices' normals say nothing that its own does not
+  bool flat;  // vertex normals equal the triangle's normal
 };
 
-// Fills a tile's triangles and vertices, altitudes counted from its zero. Those on the ground come first; among
-// themselves they stay in order, for the later is painted over the earlier. Vertices are numbered as triangles need
-// them, the bare ones first.
+// Fills a tile's triangles and vertices; altitudes become heights above its zero. Triangles on the ground come first
+// and keep their order, because later ones are painted over earlier ones. Vertices are numbered by first use, bare ones
+// first.
 void finish_tile(const std::vector<DraftVertex>& vertices, std::vector<DraftTriangle>& triangles, Tile& tile);
 
 struct PlacedCorner {
-  Vector3 place;                 // metres east and north on the scene's plane, altitude MSL
+  Vector3 position;              // metres east and north on the scene's plane, altitude MSL
   Vector3 normal;                // unit, along the same axes
-  std::uint32_t vertex = kNone;  // of the model; kNone: shared with no other corner
+  std::uint32_t vertex = kNone;  // of the model; kNone: not shared with other corners
 };
 
-// Tiles of one scene while triangles are sorted into them: the square of a scene's plane that holds a triangle's middle
-// is its tile. Of a tile's vertices, those of flat triangles are one where they lie in one place; of others, where
-// they come from one vertex of the model.
+// Sorts the triangles of one scene into tiles, by the square that contains a triangle's centre. In a tile, vertices of
+// flat triangles are joined if their positions are equal. Others are joined if they come from one vertex of the model.
 class TileBuilders {
  public:
   TileBuilders(const geo::AzimuthalEquidistant& plane, std::size_t model_vertices);
 
   void add(const std::array<PlacedCorner, 3>& corners, SurfaceTag tag);
-  // The map of the square that a point lies in.
+  // Map of the square that contains a point.
   const LocalMap& map_at(geo::PlanePoint point);
-  // Ends the work: tiles from south to north and west to east, without spare room.
+  // Returns the tiles from south to north and west to east, and leaves the builder empty.
   std::vector<Tile> take(double zero_msl_m);
 
  private:
@@ -68,7 +69,7 @@ class TileBuilders {
     std::vector<DraftVertex> vertices;
     std::vector<DraftTriangle> triangles;
   };
-  using Pieces = std::vector<std::unique_ptr<Builder>>;  // of a square, in order
+  using Pieces = std::vector<std::unique_ptr<Builder>>;  // tiles of one square, in order
   static bool is_full(const Builder& builder);
   Builder& builder_at(geo::PlanePoint point);
   std::uint16_t vertex_in(Builder& builder, const PlacedCorner& corner);
@@ -82,7 +83,7 @@ class TileBuilders {
     std::uint32_t builder = kNone;
     std::uint16_t vertex = 0;
   };
-  std::vector<Copy> copies_;  // the newest copy of each vertex of the model
+  std::vector<Copy> copies_;  // newest copy of each vertex of the model
 };
 
 std::uint64_t bytes_of(const Tile& tile);

@@ -81,7 +81,7 @@ TEST(ColumnsBetween, LieOnAStraightLineOnEveryVectorTarget) {
       for (std::size_t lane = 0; lane < 16; lane += step)
         for (std::size_t row = 0; row < kRows; ++row)
           columns[lane * kPitch + row] = static_cast<float>(3 * lane + 100 * row);
-      hrm::simd::fill_between(kRows, step, columns.data(), kPitch);
+      hrm::simd::interpolate_columns(kRows, step, columns.data(), kPitch);
       for (std::size_t lane = 0; lane < 16; ++lane)
         for (std::size_t row = 0; row < kRows; ++row)
           EXPECT_NEAR(columns[lane * kPitch + row], static_cast<float>(3 * lane + 100 * row), 1e-3F)

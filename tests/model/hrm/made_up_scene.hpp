@@ -97,9 +97,9 @@ class MadeUpScene final : public model::scene::SceneView {
     const auto north = static_cast<float>(place[1]);
     const auto up = static_cast<float>(place[2]);
     if (tile_.east_m.empty()) bounds = {east, east, north, north, up, up};
-    bounds = {std::min(bounds.east_least_m, east),   std::max(bounds.east_most_m, east),
-              std::min(bounds.north_least_m, north), std::max(bounds.north_most_m, north),
-              std::min(bounds.up_least_m, up),       std::max(bounds.up_most_m, up)};
+    bounds = {std::min(bounds.east_min_m, east),   std::max(bounds.east_max_m, east),
+              std::min(bounds.north_min_m, north), std::max(bounds.north_max_m, north),
+              std::min(bounds.up_min_m, up),       std::max(bounds.up_max_m, up)};
     tile_.east_m.push_back(east);
     tile_.north_m.push_back(north);
     tile_.up_m.push_back(up);

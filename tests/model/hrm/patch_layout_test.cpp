@@ -24,7 +24,7 @@ double near_margin_m(const hrm::PatchGeometry& geometry, hrm::MapPoint place) {
   std::vector<const model::scene::Tile*> tiles;
   const auto scene = tower_at(geometry, place);
   scene->tiles_near(kTarget, 0.0, tiles);
-  return hrm::fan_margins(geometry, *ground_of(model::terrain::flat(kGround_m)), tiles, {}).near_m;
+  return hrm::polar_margins(geometry, *ground_of(model::terrain::flat(kGround_m)), tiles, {}).near_m;
 }
 
 class Margins : public testing::Test {

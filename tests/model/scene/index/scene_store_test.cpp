@@ -205,8 +205,8 @@ TEST(SceneStore, TakesThePlaceFromTheNameBeforeTheHeader) {
   const Folder folder;
   const auto store =
       store_of({scene_of(folder.write("N35_44_51W121_30_2.flt", box_and_road(kPlace)))}, terrain::flat(0));
-  EXPECT_NEAR(store->index()[0].placement.place.latitude_deg, 35.0 + 44.0 / 60 + 51.0 / 3600, 1e-12);
-  EXPECT_NEAR(store->index()[0].placement.place.longitude_deg, -(121.0 + 30.0 / 60 + 2.0 / 3600), 1e-12);
+  EXPECT_NEAR(store->index()[0].placement.position.latitude_deg, 35.0 + 44.0 / 60 + 51.0 / 3600, 1e-12);
+  EXPECT_NEAR(store->index()[0].placement.position.longitude_deg, -(121.0 + 30.0 / 60 + 2.0 / 3600), 1e-12);
 }
 
 TEST(SceneStore, RefusesASceneWithoutAPlace) {
@@ -297,9 +297,9 @@ TEST(SceneView, FindsExactlyTheTilesWhoseBoundsAreWithinTheRadius) {
           const double north = way.distance.metres() * std::cos(way.azimuth_at_start.radians());
           const Bounds& b = tile->bounds;
           const double de =
-              std::max({0.0, static_cast<double>(b.east_least_m) - east, east - static_cast<double>(b.east_most_m)});
-          const double dn = std::max(
-              {0.0, static_cast<double>(b.north_least_m) - north, north - static_cast<double>(b.north_most_m)});
+              std::max({0.0, static_cast<double>(b.east_min_m) - east, east - static_cast<double>(b.east_max_m)});
+          const double dn =
+              std::max({0.0, static_cast<double>(b.north_min_m) - north, north - static_cast<double>(b.north_max_m)});
           if (std::hypot(de, dn) <= radius_m) expected.push_back(tile);
         }
         EXPECT_EQ(found, expected);
@@ -332,8 +332,8 @@ TEST(SceneView, TrianglesTurnCounterClockwiseAndBoundsHoldThem) {
           EXPECT_NEAR(length(normal), 1.0, 1e-4);
           wrong += dot(area, normal) <= 0.0 ? 1 : 0;
         }
-        EXPECT_LE(tile->east_m[i], tile->bounds.east_most_m);
-        EXPECT_GE(tile->up_m[i], tile->bounds.up_least_m);
+        EXPECT_LE(tile->east_m[i], tile->bounds.east_max_m);
+        EXPECT_GE(tile->up_m[i], tile->bounds.up_min_m);
       }
     }
     for (const auto& corner : tile->corner) EXPECT_EQ(corner.size(), tile->triangles());

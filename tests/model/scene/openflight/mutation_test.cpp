@@ -49,7 +49,7 @@ void read_mutations(std::span<const std::byte> sound, std::uint64_t count) {
       for (const std::uint32_t corner : triangle.corners) ASSERT_LT(corner, model->vertices.size());
     if (i % 64 != 0) continue;
     KindTable kinds;
-    const PlacedScene placed = place_model(*model, {.place = {37, -122}}, ground, 0, kinds);
+    const PlacedScene placed = place_model(*model, {.position = {37, -122}}, ground, 0, kinds);
     EXPECT_EQ(placed.objects.size(), model->objects.size());
   }
   rusage usage{};

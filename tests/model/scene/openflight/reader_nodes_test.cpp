@@ -244,7 +244,7 @@ TEST(Levels, MorePopsThanPushesAreRefused) {
 
 TEST(Levels, TooManyAreRefused) {
   ByteFile file;
-  for (std::size_t i = 0; i <= kDeepestPush; ++i) file.push();
+  for (std::size_t i = 0; i <= kMaxPushDepth; ++i) file.push();
   EXPECT_THAT(refusal(file), HasSubstr("levels of records"));
 }
 

@@ -21,7 +21,8 @@ std::shared_ptr<const Scatterers> scatterers_of(worldgen::OpenFlightWriter& writ
                                                 double most_reach_m = std::numeric_limits<double>::infinity()) {
   KindTable kinds;
   const terrain::AnalyticTerrain ground(terrain::flat(100.0));
-  return place_model(read(writer), {.place = kPlace}, ground, 0, kinds, SceneUse::scatterers, most_reach_m).scatterers;
+  return place_model(read(writer), {.position = kPlace}, ground, 0, kinds, SceneUse::scatterers, most_reach_m)
+      .scatterers;
 }
 
 double up_area(const ScattererLevel& level) {
@@ -90,13 +91,13 @@ TEST(Scatterers, AFaceOfTwentyKilometresMakesABoundedNumber) {
 
 TEST(Scatterers, AFlatFaceTheSizeOfAContinentNeitherHangsNorFillsTheMemory) {
   ScatterBuilder builder(std::numeric_limits<double>::infinity());
-  builder.lie({geo::Vector3{-3e6, -3e6, 0}, geo::Vector3{3e6, -3e6, 0}, geo::Vector3{0, 3e6, 0}}, 7);
+  builder.add_lying({geo::Vector3{-3e6, -3e6, 0}, geo::Vector3{3e6, -3e6, 0}, geo::Vector3{0, 3e6, 0}}, 7);
   for (double north_m = -1e6; north_m < 1e6; north_m += 16'000.0)
     for (double east_m = -1e6; east_m < 1e6; east_m += 16'000.0)
-      builder.lie({geo::Vector3{east_m, north_m, 0}, geo::Vector3{east_m + 2000.0, north_m, 0},
-                   geo::Vector3{east_m, north_m + 2000.0, 0}},
-                  7);
-  const auto made = builder.take(geo::AzimuthalEquidistant(kPlace));
+      builder.add_lying({geo::Vector3{east_m, north_m, 0}, geo::Vector3{east_m + 2000.0, north_m, 0},
+                         geo::Vector3{east_m, north_m + 2000.0, 0}},
+                        7);
+  const auto made = builder.take(Plane(kPlace));
   ASSERT_TRUE(made);
   EXPECT_EQ(made->finest, 3U);
   EXPECT_LE(made->levels[3].covers.size(), 1U << 18U);
