@@ -134,7 +134,7 @@ bool Display::take_read(Picture& picture) {
 
 bool Display::wait_for_read(Picture& picture) {
   const gl::PlainState plain;
-  return state_->readback.take(picture, gl::WaitPolicy::until_it_is_there);
+  return state_->readback.take(picture, gl::WaitPolicy::until_ready);
 }
 
 error::Expected<void> Display::press(int button) {
