@@ -134,7 +134,7 @@ TEST(Learning, AHatServesForButtons) {
   EXPECT_THAT(move(learning, {1, 0}, ABS_HAT0Y), HasSubstr("is ACQ aft"));
   const auto device = read_back(learning);
   ASSERT_EQ(device.axes.size(), 1U);
-  DeviceDecoder decoder(*ready_map(device, {}));
+  DeviceDecoder decoder(*resolve_map(device, {}));
   for (const int value : {-1, 0, 1, 0}) decoder.feed(axis(ABS_HAT0Y, value), 0);
   EXPECT_THAT(texts_of(decoder.take(0)), ElementsAre("acq fwd", "acq aft"));
 }
