@@ -67,7 +67,7 @@ error::Expected<std::unique_ptr<DeviceReader>> DeviceReader::open(const std::fil
   if (S_ISCHR(status.st_mode)) reader->facts_ = facts_of(descriptor);
   if (reader->is_file_ || S_ISFIFO(status.st_mode) || reader->facts_.known) return reader;
   return fail(path.string(), "an input device, a FIFO or a file of struct input_event", "something else",
-              "look for the device in /dev/input/by-id");
+              "find the device in /dev/input/by-id");
 }
 
 DeviceReader::~DeviceReader() {
@@ -133,7 +133,7 @@ Expected<const radar::Device*> map_for(const DeviceFacts& facts, const std::stri
                                        const std::vector<radar::Device>& maps) {
   if (!name.empty()) {
     if (const auto* map = named_map(name, maps)) return map;
-    return fail(path, "a map with the name \"" + name + "\"", "none", "look into config/devices.guf, or give --config");
+    return fail(path, "a map with the name \"" + name + "\"", "none", "see config/devices.guf, or give --config");
   }
   if (const auto* map = fitting_map(facts, maps)) return map;
   if (facts.known)

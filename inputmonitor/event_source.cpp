@@ -113,18 +113,18 @@ Expected<Script> parse_script(std::string_view text, std::string_view name) {
   Script script;
   std::int64_t previous_ns = 0;
   for (const auto& line : text::numbered_lines(text)) {
-    const std::string place = file::place_in_file(name, line.number);
+    const std::string location = file::place_in_file(name, line.number);
     const std::string found = '"' + std::string(line.text) + '"';
-    if (script.end_ns) return fail(place, "nothing behind end", found);
+    if (script.end_ns) return fail(location, "nothing behind end", found);
     if (line.text == "end") {
       script.end_ns = previous_ns;
       continue;
     }
     const std::string_view word = text::words_of(line.text).front();
     const auto time_ns = time_of(word, previous_ns);
-    if (!time_ns) return fail(place, "TIME_S EVENT, +DT_S EVENT or end", found);
+    if (!time_ns) return fail(location, "TIME_S EVENT, +DT_S EVENT or end", found);
     if (*time_ns < previous_ns)
-      return fail(place, "a time not before that of the line above", found,
+      return fail(location, "a time not before that of the line above", found,
                   "put the lines in the order of their times");
     if (script.events.empty()) script.from_start = word.starts_with('+');
     previous_ns = *time_ns;
@@ -134,7 +134,7 @@ Expected<Script> parse_script(std::string_view text, std::string_view name) {
       continue;
     }
     const auto event = databuffer::event_from_text(rest);
-    if (!event) return fail(place, event.error().expected, event.error().found);
+    if (!event) return fail(location, event.error().expected, event.error().found);
     script.events.push_back({previous_ns, *event});
   }
   return script;

@@ -192,8 +192,8 @@ bool is_foreground_terminal(int descriptor) {
 
 error::Expected<std::unique_ptr<TerminalMode>> TerminalMode::enter(int descriptor) {
   if (!is_foreground_terminal(descriptor))
-    return error::fail("standard input", "a terminal in whose foreground this program runs",
-                       isatty(descriptor) == 1 ? "one of which another program has the foreground" : "no terminal",
+    return error::fail("standard input", "a terminal with this program in its foreground",
+                       isatty(descriptor) == 1 ? "one with another program in its foreground" : "no terminal",
                        "start it in a terminal of its own, or use --source window or script:FILE");
   if (tcgetattr(descriptor, &saved.settings) != 0)
     return error::fail("standard input", "a terminal whose settings can be read", std::strerror(errno));

@@ -161,13 +161,14 @@ Expected<void> learn_device(const std::string& path, const std::string& file) {
   if (!reader) return tl::unexpected(reader.error());
   const auto state = (*reader)->state();
   Learning learning((*reader)->facts(), state ? state->axes : decltype(DeviceState::axes){});
-  std::cerr << "Move what is asked for. Typed, with Enter: s skips it, b goes back by one, q ends and writes.\n";
+  std::cerr
+      << "Move the control of each prompt. Commands, with Enter: s skips it, b goes back by one, q ends and writes.\n";
   const bool has_gone = LearningDialogue(**reader, learning).run();
   if (learning.learned() == 0)
     return fail(path, "a control that moves", has_gone ? "the device has gone" : "none", "nothing was written");
   if (auto written = write_map(learning, file); !written) return written;
   if (has_gone && !learning.finished())
-    return fail(path, "the controls that were asked for", "the device has gone before " + learning.prompt(),
+    return fail(path, "all controls of the prompts", "the device has gone before " + learning.prompt(),
                 "the map holds what was learned until then");
   return {};
 }

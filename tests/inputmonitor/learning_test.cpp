@@ -123,7 +123,7 @@ TEST(Learning, WithoutARangeAStatedTravelCounts) {
 TEST(Learning, AnAxisIsAskedForAndAButtonIsNone) {
   Learning learning({}, {});
   skip_to(learning, "TDC right");
-  EXPECT_THAT(learning.feed(key(0x121, 1)), HasSubstr("an axis is asked for"));
+  EXPECT_THAT(learning.feed(key(0x121, 1)), HasSubstr("an axis is expected"));
   EXPECT_THAT(learning.prompt(), HasSubstr("TDC right"));
 }
 
