@@ -83,7 +83,7 @@ TEST(Learning, AnAxisTellsItsEndsItsCentreAndItsWay) {
   EXPECT_THAT(move(learning, {125, 135, 130, 128, 180, 131}), IsEmpty()) << "less than 30 % of 255 is trembling";
   EXPECT_THAT(move(learning, {60, 10, 5, 60}), IsEmpty()) << "it has not come back";
   EXPECT_THAT(move(learning, {130}), HasSubstr("ABS_X to its low end is TDC right"));
-  EXPECT_THAT(move(learning, {5, 130}), HasSubstr("move it the other way"));
+  EXPECT_THAT(move(learning, {5, 130}), HasSubstr("move it in the other direction"));
   EXPECT_THAT(move(learning, {250, 130}), HasSubstr("is TDC left"));
   const auto device = read_back(learning);
   ASSERT_EQ(device.axes.size(), 1U);
