@@ -1,7 +1,9 @@
 // Device decoder: bytes of the kernel's input layer to raw events, and raw events to input events by a device map.
 // Inputs: bytes of struct input_event; state of the controls; the time of each call [ns, CLOCK_MONOTONIC].
-// Outputs: input events without time stamps and numbers. TDC deflection in steps of 0.01, elevation in steps of 0.1
-// deg. Threads: pure; one thread for each decoder. Source: docs/spec/formats.md#devices
+// Outputs: input events without time stamps and numbers.
+// Units: TDC deflection in steps of 0.01, elevation in steps of 0.1 deg.
+// Threads: pure; one thread for each decoder.
+// Source: docs/spec/formats.md#devices
 #pragma once
 
 #include <linux/input-event-codes.h>
@@ -42,8 +44,7 @@ class RecordStream {
   std::size_t kept_ = 0;  // bytes of record_ received
 };
 
-// Minimum interval of stick values: 10 ms. It is shorter than a display frame and longer than the reports of fast
-// devices.
+// Minimum interval of stick values: 10 ms, shorter than a display frame. Fast devices report more often.
 inline constexpr std::int64_t kValueInterval_ns = 10'000'000;
 // Rate limit of presses: a burst of 60, and 100 per second. About ten times what a hand can do; more comes from a
 // broken contact and is dropped.

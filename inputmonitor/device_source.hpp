@@ -67,9 +67,8 @@ using DeviceMaps = std::shared_ptr<const std::vector<radar::Device>>;
 // Interval between checks of a device's path: 250 ms, an unnoticeable delay after plugging it in.
 inline constexpr std::int64_t kCheckInterval_ns = 250'000'000;
 
-// Source of one device. When the device disconnects, held controls are released and the path is checked again every
-// kCheckInterval_ns. One take() reads a bounded number of bytes, so that a flooding device does not delay other
-// sources.
+// Source of one device. When the device disconnects, held controls are released, and the path is checked every
+// kCheckInterval_ns. One take() reads at most a fixed number of bytes: a flooding device does not delay other sources.
 class DeviceSource final : public EventSource {
  public:
   // `map_name` empty: the map that fits; for a FIFO or a file, the only map. An absent device is waited for.

@@ -82,9 +82,8 @@ class SourceGroup final : public EventSource {
 
 // Script: one event per line, with its simulation time.
 //   TIME_S EVENT     simulation time [s], not before that of the line above
-//   +DT_S EVENT      time after the line above [s]; in the first event, after the start of the script: then all times
-//   of
-//                    the script count from its start
+//   +DT_S EVENT      time after the line above [s]. In the first event it counts from the start of the script, and so
+//                    do all times of the script.
 //   [TIME_S] end     the input monitor ends at this time, or at the time of the line above; must be the last line
 // `#` begins a comment. EVENT has the syntax of databuffer/messages/input_event.hpp.
 struct ScriptedEvent {

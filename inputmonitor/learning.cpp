@@ -106,8 +106,7 @@ std::size_t Learning::learned() const {
       std::ranges::count_if(results_, [](const Result& result) { return result.found != Found::nothing; }));
 }
 
-// Result of the first direction of the present axis. Null when this is not a second direction, or the first was
-// skipped.
+// Result of the first direction of the present axis. Null at a first direction, or when it was skipped.
 const Learning::Result* Learning::opposite() const {
   const bool has = kPrompts[next_].is_second && results_[next_ - 1].found != Found::nothing;
   return has ? &results_[next_ - 1] : nullptr;

@@ -61,7 +61,7 @@ std::vector<InputEvent> FoundDevicesSource::take(const Moment& moment) {
   for (const auto& device : devices_) {
     append(events, device->take(moment));
     append(notices_, device->notices());
-    // A later device of the same name context a new search for its map.
+    // A later device of the same name needs a new search for its map.
     if (!device->is_open()) seen_.erase(device->path());
   }
   std::erase_if(devices_, [](const auto& device) { return !device->is_open(); });

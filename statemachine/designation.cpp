@@ -121,8 +121,7 @@ geo::GeodesicInverse sight_of_target(const RadarState& state, const Inputs& inpu
   return geo::geodesic_inverse(belief.truth, belief.on_video({state.target_latitude_deg, state.target_longitude_deg}));
 }
 
-// Bank angle [deg], positive right wing down, that intercepts and follows the line through the target along the
-// approach.
+// Bank angle [deg], right wing down positive, onto the line through the target along the approach, and then along it.
 double bank_onto_line(const geo::GeodesicInverse& sight, Bearing approach, const databuffer::Ownship& ownship) {
   const double speed_mps = std::hypot(ownship.velocity_north_mps, ownship.velocity_east_mps);
   if (speed_mps < kMinSpeed_mps) return 0.0;
@@ -224,7 +223,7 @@ bool is_of_route(std::string_view name, const radar::RadarConfiguration& configu
   return std::ranges::find(configuration.route, name, &radar::RoutePoint::name) != configuration.route.end();
 }
 
-// True when the route has a point of this number. "2" and "2." are the same number. Offsets compare among targets.
+// True when the route has this number; for an offset, when it has this offset of a target. "2" and "2." are one number.
 bool is_taken(PointName wanted, const radar::RadarConfiguration& configuration) {
   return std::any_of(configuration.route.begin(), configuration.route.end(), [wanted](const auto& point) {
     const auto name = radar::point_name(point.name);

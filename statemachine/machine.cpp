@@ -76,7 +76,7 @@ namespace {
 // A shorter interval costs a geodesic for each point of the route more often.
 constexpr std::int64_t kTicksBetweenPoints = 20;
 
-// A jump in position or time ends the map in progress, the scan, the cursor and the message.
+// A jump in position or time cancels the map in progress, restarts the scan, and ends cursor and message.
 void enter_epoch(RadarState& state, const Inputs& inputs) {
   state.epoch = inputs.epoch;
   cancel_map(state, inputs);

@@ -14,7 +14,7 @@ void select_master(Step& step);  // A/G resumes its last mode
 void open_menu(Step& step);
 void close_menu(Step& step);
 
-// Enters the patch mode when a commanded map is complete.
+// Enters the patch mode, after a commanded map is complete.
 void enter_patch(databuffer::RadarState& state);
 
 // Settings at power-up, with the power off.

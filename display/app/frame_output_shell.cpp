@@ -67,8 +67,8 @@ error::Expected<void> FrameWriter::write(const imageio::Image& image, std::int64
   return {};
 }
 
-// Removes the oldest frames before the next is written, so that a full disk has space for it. A frame `name` is
-// replaced.
+// Removes the oldest frames before the next is written, so that a full disk has space for it. An existing frame `name`
+// is replaced.
 void FrameWriter::remove_oldest(const std::string& name) {
   std::erase(names_, name);
   while (keep_ > 0 && names_.size() >= keep_) {

@@ -34,8 +34,7 @@ struct DisplayOptions {
 };
 
 constexpr std::int64_t kRedrawInterval_ns = 1'000'000'000 / 60;  // at most 60 redraws per second
-// Update interval without a window. It limits the error of a live frame's simulation time. The ring of sweeps holds 5
-// s.
+// Update interval without a window: limits the error of a live frame's simulation time. The sweep ring holds 5 s.
 constexpr std::chrono::milliseconds kHeadlessInterval{10};
 
 // Display without a window: paints when a picture is due for the folder or the segment.

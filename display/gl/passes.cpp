@@ -207,8 +207,8 @@ void MapPass::draw(std::uint64_t id, const LightTexture& light, const Color& col
 
 namespace {
 
-// Attributes of an instance: from 2, to 2, half width; color 3. A negative half width: a filled rectangle
-// between the two corners.
+// Attributes of an instance: from 2, to 2, half width, color 3. A negative half width gives a filled rectangle between
+// the two corners.
 constexpr int kFloatsPerInstance = 8;
 constexpr float kRectangle = -1.0F;
 

@@ -41,8 +41,8 @@ enum class NameRank : std::uint8_t { selected, target, other };
 void add_names(const databuffer::RadarState& state, const PlacedPoints& placed, NameRank rank, LabelQueue& queue);
 
 // PSL: from the designated target back along the approach heading. Its end has an arrowhead while it slews, and a
-// circle when it is fixed. Returns the label of its magnetic heading. Nothing without a target on the display. Source:
-// docs/spec/pilots_interface.md#rule-15.
+// circle when it is fixed. Returns the label of its magnetic heading. Nothing without a target on the display.
+// Source: docs/spec/pilots_interface.md#rule-15
 std::optional<Label> draw_steering_line(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                                         DrawList& list);
 

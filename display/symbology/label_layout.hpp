@@ -19,7 +19,7 @@
 
 namespace yars::display {
 
-// A heading stands 25 units above or below its symbol, which leaves the nearer positions to the name.
+// A heading stands farther from its symbol than a name.
 enum class LabelRole : std::uint8_t { name, heading };
 
 struct Label {

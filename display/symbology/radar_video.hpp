@@ -48,8 +48,7 @@ enum class Insertion : std::uint8_t { ignored, first, before_first, after_last, 
 // A wedge covers the stored sweeps with their middle in it. Equal azimuth is not equal ground while the aircraft moves:
 // a covered sweep stays below the newer ones until their scan has swept its ground beyond kNearShare of its range, or
 // until the next scan covers it again. While older sweeps remain beside a narrowed scan, covered sweeps stay.
-// Sweeps that two whole scans did not renew are erased. When all rows are used, covered sweeps go first, then the
-// oldest.
+// Sweeps that two whole scans did not renew are erased. A full store drops covered sweeps first, then the oldest.
 class PolarStore {
  public:
   static constexpr int kRows = 2048;          // two scans of as many sweeps as the ring holds

@@ -44,7 +44,7 @@ void draw_map_timer(double seconds, DrawList& list);  // [s]; nothing while NaN
 void draw_mode_name(const databuffer::RadarState& state, DrawList& list);
 void draw_freeze(DrawList& list);
 void draw_message(const databuffer::RadarState& state, DrawList& list);
-void draw_banner(std::string_view words, DrawList& list);     // STBY, NO VIDEO
+void draw_banner(std::string_view words, DrawList& list);     // centered, large: STBY
 void draw_silent(const DisplayInput& input, DrawList& list);  // NO OWNSHIP, NO MODEL, NO STATE MACHINE
 
 // Velocity differences, measured by the radar against the navigator. Source: docs/spec/pilots_interface.md#rule-16.

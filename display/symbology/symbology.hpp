@@ -43,9 +43,9 @@ bool shows_map(const DisplayInput& input);
 
 // Draws everything over the video, by power and mode. OFF draws nothing, unless the state machine is silent. STBY draws
 // legends and STBY. A patch map has the same format in every mode that shows it, and its own view and frame.
-// Silent programs are named. `view` and `frame` are those of the sweeps. `labels`: label positions of the last picture;
-// updated. Pure: the same input and memory give the same list. Repeating the call with the updated memory gives it
-// again.
+// Silent programs are named. `view` and `frame` are those of the sweeps.
+// `labels` has the label positions of the last picture, and is updated.
+// Pure: the same input and labels give the same list. Repeating the call with the updated labels gives it again.
 void draw_symbology(const DisplayInput& input, const radar::RadarConfiguration& configuration, const PlanView& view,
                     const ViewFrame& frame, LabelMemory& labels, DrawList& list);
 

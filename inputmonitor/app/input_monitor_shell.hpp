@@ -16,8 +16,7 @@
 
 namespace yars::inputmonitor {
 
-// Runs an event source in a session: waits for events, or takes them once per tick, and pushes them into the input
-// lane.
+// Runs an event source in a session: takes its events as they come, or once per tick, and pushes them into the lane.
 class InputMonitorShell {
  public:
   InputMonitorShell(databuffer::Session& session, std::unique_ptr<EventSource> source, int lane);
