@@ -25,7 +25,7 @@ bool shows_cursor(const databuffer::RadarState& state);
 
 // One tick: updates the frame, slews the cursor by the TDC, and updates bearing and range. The frame follows the
 // aircraft unless the picture is frozen or is a map. An invalid cursor starts at the selected point if the display
-// shows it, else at half the range ahead, or in the centre of the map. Needs a valid ownship.
+// shows it. Else it starts at half the range ahead, or in the centre of the map. Needs a valid ownship.
 void advance_cursor(databuffer::RadarState& state, const Inputs& inputs,
                     const radar::RadarConfiguration& configuration);
 

@@ -15,8 +15,8 @@ void put_drift(Step& step);           // `nav drift`: [ft/s] north, east
 // Errors at the start of a session, from the configuration.
 void put_initial_errors(databuffer::RadarState& state, const radar::NavigationConfiguration& navigation);
 
-// One tick of drift. Once per second a random walk changes the velocity errors of both navigators by the same amount,
-// because the mission navigator is the INS with corrections.
+// One tick of drift. Once per second a random walk changes the velocity errors of both navigators by the same amount:
+// the mission navigator is the INS with corrections.
 void advance_navigators(databuffer::RadarState& state, std::int64_t tick,
                         const radar::RadarConfiguration& configuration);
 

@@ -1,7 +1,7 @@
 // Transition table: the action of each button and control by mode and condition, and the legends of the buttons.
 // Inputs: radar state, event.
 // Outputs: the action of an event; legends and boxes of the radar state.
-// transition_table.cpp has the rows in the order of docs/spec/pilots_interface.md#buttons, to be checked against it.
+// Source: docs/spec/pilots_interface.md#buttons. The rows in transition_table.cpp have the order of that table.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // Radar display for another program's window: joins a session and draws into the current OpenGL context.
-// Inputs: a session; a current context of OpenGL 3.3 core or later; viewport [pixels].
+// Inputs: a session, a current context of OpenGL 3.3 core or later, a viewport [pixels].
 // Outputs: the picture in the viewport, or read back; button presses as input events of the session.
 // Context: every function but press and click needs it, destruction too, and restores the state listed in
 // display/gl/plain_state.hpp. Waiting: only attach, read and wait_for_read wait.
@@ -64,14 +64,15 @@ class Display {
 
   // The last painted picture as RGB. Waits for the graphics processor.
   imageio::Image read() const;
-  // Asynchronous readback with the time of the picture: display/gl/framebuffer.hpp, Readback. start_reading is false
-  // when two copies are pending. take_read is false when none is ready. wait_for_read waits at most 10 s.
+  // Asynchronous readback of the picture with its time (Readback in display/gl/framebuffer.hpp).
+  // start_reading returns false when two copies are pending, take_read when none is ready. wait_for_read waits at most
+  // 10 s.
   bool start_reading();
   bool take_read(Picture& picture);
   bool wait_for_read(Picture& picture);
 
-  // Pilot inputs, sent to the session: a button 1..20, or a click at fractions of the edge from the upper left corner.
-  // click returns false when no legend is there. Error: all input lanes of the session are taken.
+  // Pilot inputs, sent to the session. press: a button 1..20. click: a position in fractions of the edge from the upper
+  // left corner, false when no legend is there. Error: all input lanes of the session are taken.
   error::Expected<void> press(int button);
   error::Expected<bool> click(double right, double down);
 

@@ -79,8 +79,9 @@ void stroke_text(std::string_view text, StrokeSink& sink);
 float text_width(std::string_view text);
 
 // Layers from bottom to top. Within a layer, plates are drawn first, then halos, then strokes.
-// grid: range arcs and zero azimuth line. lines: lines on the ground. points: points on the ground.
-// symbols: texts and scales. notices: messages. steered: the cursor.
+//   grid     range arcs, zero azimuth line        symbols  texts, scales
+//   lines    lines on the ground                  notices  messages
+//   points   points on the ground                 steered  the cursor
 enum class Layer : std::uint8_t { grid, lines, points, symbols, notices, steered };
 inline constexpr std::size_t kLayers = 6;
 

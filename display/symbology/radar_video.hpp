@@ -45,9 +45,10 @@ enum class Insertion : std::uint8_t { ignored, first, before_first, after_last, 
 
 // Sweeps of the picture, sorted by true azimuth from the direction opposite to the picture's first sweep.
 // A sweep of another mode or epoch starts a new picture. Blank sweeps and wedges not 0-45 deg wide are ignored.
-// A wedge covers the stored sweeps with their middle in it. Equal azimuth is not equal ground while the aircraft moves:
-// a covered sweep stays below the newer ones until their scan has swept its ground beyond kNearShare of its range, or
-// until the next scan covers it again. While older sweeps remain beside a narrowed scan, covered sweeps stay.
+// A new wedge covers the stored sweeps that have their middle in it. Covered sweeps are drawn below newer ones, because
+// equal azimuth is not equal ground while the aircraft moves. A covered sweep is erased
+// (1) when the current scan has swept its ground beyond kNearShare of its range, or
+// (2) when the next scan covers it again. Rule 2 waits while older sweeps remain beside a narrowed scan.
 // Sweeps that two whole scans did not renew are erased. A full store drops covered sweeps first, then the oldest.
 class PolarStore {
  public:

@@ -12,8 +12,8 @@
 
 namespace yars::display {
 
-// Position of a legend beside its button, inside the display. The 20 buttons of the MPD: 1-5 down the left side, 6-10
-// along the bottom from left to right, 11-15 up the right side, 16-20 along the top from right to left.
+// Position of a legend beside its button, inside the display. Buttons of the MPD, counter-clockwise: 1-5 left side,
+// downward. 6-10 bottom, left to right. 11-15 right side, upward. 16-20 top, right to left.
 struct LegendPosition {
   Point at;  // reference point of the text, at the middle of its height
   Align align = Align::center;
