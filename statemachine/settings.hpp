@@ -39,7 +39,7 @@ void toggle_stabilizing(Step& step);  // STAB, PROG
 void toggle_recorder(Step& step);     // rule 22: sends a request to the recorder; refused with NO RECORDER, VTR FULL
 void advance_recorder(databuffer::RadarState& state, const Inputs& inputs);  // one tick: VTR by the recorder's status
 void toggle_ipvu(Step& step);
-void toggle_sniff(Step& step);  // rules 9, 19: freezes HRM and cancels the map in progress
+void toggle_sniff(Step& step);  // rules 9, 19: on, it cancels the map in progress and freezes HRM
 void next_channel(Step& step);  // 1 to 8, then 1
 void next_band(Step& step);     // A to E, then A
 void select_navigator(Step& step);
