@@ -40,7 +40,7 @@ InputEvent event_of(EventKind kind, double x = 0.0, double y = 0.0) {
 }
 
 double in_steps_of(double step, double value) {
-  // Divided by a whole number, so that 0.07 is the double that people write.
+  // Division by an integer gives the nearest double of a decimal: exactly 0.07. Adding 0.0 turns -0.0 into 0.0.
   const double per_one = std::round(1.0 / step);
   return std::round(value * per_one) / per_one + 0.0;
 }
@@ -49,13 +49,13 @@ bool deflects(radar::AxisUse use) {
   return use == radar::AxisUse::tdc_x || use == radar::AxisUse::tdc_y;
 }
 
-// The place of a lever, kept while it trembles about the border to the next.
-int place_of(double value, int steps, std::optional<int> before) {
-  constexpr double kOver = 0.25;  // share of a step beyond the border
+// Detent 0..steps - 1 of a lever value in [-1, 1]. Hysteresis keeps the previous detent near its edges.
+int detent_of(double value, int steps, std::optional<int> before) {
+  constexpr double kHysteresis = 0.25;  // of a step, beyond the edge
   const double position = (value + 1.0) / 2.0 * steps;
-  const int place = std::clamp(static_cast<int>(std::floor(position)), 0, steps - 1);
-  const bool stays = before && position > *before - kOver && position < *before + 1 + kOver;
-  return stays ? *before : place;
+  const int detent = std::clamp(static_cast<int>(std::floor(position)), 0, steps - 1);
+  const bool stays = before && position > *before - kHysteresis && position < *before + 1 + kHysteresis;
+  return stays ? *before : detent;
 }
 
 }  // namespace
@@ -85,21 +85,21 @@ void DeviceDecoder::begin(const DeviceState& state) {
 }
 
 void DeviceDecoder::feed(const RawEvent& raw, std::int64_t now_ns) {
-  if (raw.type == EV_SYN && raw.code == SYN_DROPPED) lost_ = Loss::going_on;
-  if (lost_ != Loss::none) {
-    // What stands before the end of the report that was cut means nothing.
-    if (raw.type == EV_SYN && raw.code == SYN_REPORT) lost_ = Loss::over;
+  if (raw.type == EV_SYN && raw.code == SYN_DROPPED) loss_ = Loss::discarding;
+  if (loss_ != Loss::none) {
+    // Events up to the end of the incomplete report are invalid.
+    if (raw.type == EV_SYN && raw.code == SYN_REPORT) loss_ = Loss::complete;
     return;
   }
-  // A value of 2 is the kernel's own repetition.
+  // A value of 2 is a key repeat of the kernel.
   if (raw.type == EV_KEY && (raw.value == 0 || raw.value == 1)) change_button(raw.code, raw.value == 1, now_ns);
   if (raw.type == EV_ABS) change_axis(raw.code, raw.value, now_ns, false);
 }
 
-void DeviceDecoder::catch_up(const std::optional<DeviceState>& state, std::int64_t now_ns) {
-  lost_ = Loss::none;
+void DeviceDecoder::resync(const std::optional<DeviceState>& state, std::int64_t now_ns) {
+  loss_ = Loss::none;
   if (!state) {
-    let_go();
+    release_all();
     return;
   }
   for (const ButtonAction& button : map_.buttons)
@@ -107,15 +107,15 @@ void DeviceDecoder::catch_up(const std::optional<DeviceState>& state, std::int64
   for (const auto& [code, value] : state->axes) change_axis(code, value, now_ns, false);
 }
 
-void DeviceDecoder::let_go() {
+void DeviceDecoder::release_all() {
   for (Switch& one : switches_) {
-    // Of a switch that stays where it is, coming up would be no news but a command.
+    // Only a TDC press is released. For a latching switch, the release event would be a command.
     if (one.held && is_kind(one.action.press, EventKind::tdc_press)) send(event_of(EventKind::tdc_release));
     one.held = false;
   }
   for (Axis& axis : axes_) {
     axis.deflection = 0.0;
-    axis.place.reset();
+    axis.detent.reset();
   }
   elevation_deg_ = sent_elevation_deg_;
   send_values();
@@ -125,8 +125,8 @@ DeviceDecoder::Events DeviceDecoder::take(std::int64_t now_ns) {
   for (Switch& one : switches_) {
     if (!one.held || one.action.repeat_ns == 0 || now_ns < one.next_ns || !one.action.press) continue;
     if (may_press(now_ns)) send(*one.action.press);
-    const double slower = std::max(one.deflection, 0.1);
-    one.next_ns = now_ns + static_cast<std::int64_t>(static_cast<double>(one.action.repeat_ns) / slower);
+    const double rate = std::max(one.deflection, 0.1);
+    one.next_ns = now_ns + static_cast<std::int64_t>(static_cast<double>(one.action.repeat_ns) / rate);
   }
   if (values_wait() && now_ns >= values_sent_ns_ + kValueInterval_ns) {
     send_values();
@@ -168,26 +168,26 @@ void DeviceDecoder::change_axis(std::uint16_t code, std::int32_t raw, std::int64
 }
 
 void DeviceDecoder::move_lever(Axis& axis, double value, std::int64_t now_ns, bool first) {
-  const int place = place_of(value, axis.action.steps, axis.place);
-  const int moved = first || !axis.place ? 0 : place - *axis.place;
-  axis.place = place;
-  const auto& way = moved > 0 ? axis.action.positive : axis.action.negative;
-  for (int i = 0; i < std::abs(moved) && way.press; ++i)
-    if (may_press(now_ns)) send(*way.press);
+  const int detent = detent_of(value, axis.action.steps, axis.detent);
+  const int moved = first || !axis.detent ? 0 : detent - *axis.detent;
+  axis.detent = detent;
+  const auto& direction = moved > 0 ? axis.action.positive : axis.action.negative;
+  for (int i = 0; i < std::abs(moved) && direction.press; ++i)
+    if (may_press(now_ns)) send(*direction.press);
 }
 
-void DeviceDecoder::push(Switch& way, double deflection, std::int64_t now_ns) {
-  way.deflection = std::max(deflection, 0.0);
-  change(way, deflection >= (way.held ? kLetGo : kPushed), now_ns);
+void DeviceDecoder::push(Switch& direction, double deflection, std::int64_t now_ns) {
+  direction.deflection = std::max(deflection, 0.0);
+  change(direction, deflection >= (direction.held ? kReleaseThreshold : kPressThreshold), now_ns);
 }
 
-// A press beyond what a hand can do counts as none, and so its release does.
+// A press above the rate limit is ignored, and so is its release.
 void DeviceDecoder::change(Switch& one, bool down, std::int64_t now_ns) {
   if (one.held == down || (down && !may_press(now_ns))) return;
   one.held = down;
   one.next_ns = now_ns + one.action.repeat_ns;
   const auto& event = down ? one.action.press : one.action.release;
-  // A deflection that is held joins the sum instead.
+  // A TDC deflection is part of the sum in deflection() instead.
   if (event && !is_kind(event, EventKind::tdc)) send(*event);
 }
 
@@ -204,7 +204,7 @@ bool DeviceDecoder::may_press(std::int64_t now_ns) {
 }
 
 void DeviceDecoder::send(const InputEvent& event) {
-  // The cursor is where the hand had it when the button went down.
+  // Pending values go first, so that the cursor is in its position at the time of the press.
   send_values();
   events_.push_back(event);
 }

@@ -15,10 +15,10 @@ namespace yars::inputmonitor {
 double shaped(std::int32_t raw, const AxisShape& shape) {
   const double offset = static_cast<double>(raw) - shape.centre;
   const double travel = offset >= 0.0 ? shape.high - shape.centre : shape.centre - shape.low;
-  const double plain = std::clamp(offset / travel, -1.0, 1.0) * (shape.inverted ? -1.0 : 1.0);
-  const double beyond = (std::abs(plain) - shape.dead_zone) / (1.0 - shape.dead_zone);
+  const double linear = std::clamp(offset / travel, -1.0, 1.0) * (shape.inverted ? -1.0 : 1.0);
+  const double beyond = (std::abs(linear) - shape.dead_zone) / (1.0 - shape.dead_zone);
   if (beyond <= 0.0) return 0.0;
-  return std::copysign((1.0 - shape.curve) * beyond + shape.curve * beyond * beyond * beyond, plain);
+  return std::copysign((1.0 - shape.curve) * beyond + shape.curve * beyond * beyond * beyond, linear);
 }
 
 namespace {
@@ -38,16 +38,16 @@ bool is_identity(std::string_view word, std::uint16_t wanted) {
 bool has_control(const DeviceFacts& facts, std::string_view text) {
   if (const auto button = config::button_code(text); button && facts.buttons.test(*button)) return true;
   const auto axis = config::axis_code(text);
-  // A plain number names a button.
+  // A code without "ABS_" is a button.
   return axis && text.starts_with("ABS_") && facts.axes[*axis].has_value();
 }
 
 bool fits(const DeviceFacts& facts, const radar::Device& map) {
   if (map.vendor.empty() && map.pattern.empty() && map.has.empty()) return false;
   const auto products = text::words_of(map.products);
-  const auto is_it = [&facts](std::string_view word) { return is_identity(word, facts.product); };
+  const auto is_product = [&facts](std::string_view word) { return is_identity(word, facts.product); };
   return (map.vendor.empty() || is_identity(map.vendor, facts.vendor)) &&
-         (products.empty() || std::ranges::any_of(products, is_it)) &&
+         (products.empty() || std::ranges::any_of(products, is_product)) &&
          (map.pattern.empty() || fnmatch(map.pattern.c_str(), facts.name.c_str(), FNM_CASEFOLD) == 0) &&
          (map.has.empty() || has_control(facts, map.has));
 }
@@ -65,9 +65,9 @@ Expected<SwitchAction> switch_of(const std::string& press, const std::string& re
   const auto released = event_of(release);
   if (!released) return tl::unexpected(released.error());
   SwitchAction action{*pressed, *released, std::llround(repeat_s * kNanosecondsPerSecond)};
-  // A deflection holds, and nothing cannot be done again.
+  // No repetition without an event, and none of a TDC deflection, which is held anyway.
   if (!action.press || is_kind(action.press, EventKind::tdc)) action.repeat_ns = 0;
-  // What is pressed must come up again, or the cursor's command would never be given.
+  // A TDC press needs a release: the cursor command is given at the release.
   if (is_kind(action.press, EventKind::tdc_press) && !action.release) {
     action.release = InputEvent{};
     action.release->kind = static_cast<std::uint16_t>(EventKind::tdc_release);
@@ -94,7 +94,7 @@ Expected<AxisShape> shape_of(const radar::DeviceAxis& axis, std::uint16_t code, 
                      "write :low, :high and :centre into the map");
 }
 
-Expected<ButtonAction> ready_button(const radar::DeviceButton& button) {
+Expected<ButtonAction> resolve_button(const radar::DeviceButton& button) {
   const auto code = config::button_code(button.code);
   if (!code) return error::fail("button", "a code as BTN_TRIGGER", '"' + button.code + '"');
   auto action = switch_of(button.press, button.release, button.repeat_s);
@@ -102,7 +102,7 @@ Expected<ButtonAction> ready_button(const radar::DeviceButton& button) {
   return ButtonAction{*code, *action};
 }
 
-Expected<AxisAction> ready_axis(const radar::DeviceAxis& axis, std::uint16_t code, const DeviceFacts& facts) {
+Expected<AxisAction> resolve_axis(const radar::DeviceAxis& axis, std::uint16_t code, const DeviceFacts& facts) {
   const auto shape = shape_of(axis, code, facts);
   if (!shape) return tl::unexpected(shape.error());
   const auto positive = switch_of(axis.positive, {}, axis.repeat_s);
@@ -127,21 +127,21 @@ const radar::Device* named_map(std::string_view name, std::span<const radar::Dev
   return last == maps.rend() ? nullptr : &*last;
 }
 
-Expected<DeviceMap> ready_map(const radar::Device& device, const DeviceFacts& facts) {
+Expected<DeviceMap> resolve_map(const radar::Device& device, const DeviceFacts& facts) {
   DeviceMap map;
   map.name = device.name;
   for (const radar::DeviceButton& button : device.buttons) {
-    auto ready = ready_button(button);
-    if (!ready) return tl::unexpected(ready.error());
-    map.buttons.push_back(std::move(*ready));
+    auto resolved = resolve_button(button);
+    if (!resolved) return tl::unexpected(resolved.error());
+    map.buttons.push_back(std::move(*resolved));
   }
   for (const radar::DeviceAxis& axis : device.axes) {
     const auto code = config::axis_code(axis.code);
     if (!code) return error::fail("axis", "a code as ABS_X", '"' + axis.code + '"');
     if (facts.known && !facts.axes[*code]) continue;
-    auto ready = ready_axis(axis, *code, facts);
-    if (!ready) return tl::unexpected(ready.error());
-    map.axes.push_back(std::move(*ready));
+    auto resolved = resolve_axis(axis, *code, facts);
+    if (!resolved) return tl::unexpected(resolved.error());
+    map.axes.push_back(std::move(*resolved));
   }
   return map;
 }

@@ -23,7 +23,7 @@ using error::fail;
 
 constexpr std::string_view kDeviceName = "event";
 
-// The kernel's bit sets are bytes here; its words are little endian on all machines that YARS builds on.
+// Reads a bit set of the kernel as bytes. Valid on little-endian machines, the only ones that YARS is built for.
 template <std::size_t Bits>
 std::bitset<Bits> bits_of(int descriptor, unsigned long request) {
   std::array<std::uint8_t, (Bits + 7) / 8 + 8> bytes{};
@@ -67,7 +67,7 @@ error::Expected<std::unique_ptr<DeviceReader>> DeviceReader::open(const std::fil
   if (S_ISCHR(status.st_mode)) reader->facts_ = facts_of(descriptor);
   if (reader->is_file_ || S_ISFIFO(status.st_mode) || reader->facts_.known) return reader;
   return fail(path.string(), "an input device, a FIFO or a file of struct input_event", "something else",
-              "look for the device in /dev/input/by-id");
+              "find the device in /dev/input/by-id");
 }
 
 DeviceReader::~DeviceReader() {
@@ -89,7 +89,7 @@ std::optional<DeviceState> DeviceReader::state() const {
 DeviceReader::Outcome DeviceReader::read(std::span<std::byte> bytes, std::size_t& count) {
   count = 0;
   pollfd wanted{descriptor_, POLLIN, 0};
-  // A FIFO that nobody has opened for writing yet reads as ended; only its hang-up tells that a writer has left.
+  // A FIFO without a writer so far also reads as end of file. Only POLLHUP shows that a writer has closed it.
   if (poll(&wanted, 1, 0) <= 0) return Outcome::nothing;
   if ((wanted.revents & POLLIN) == 0) return Outcome::gone;
   const ssize_t found = ::read(descriptor_, bytes.data(), bytes.size());
@@ -99,10 +99,10 @@ DeviceReader::Outcome DeviceReader::read(std::span<std::byte> bytes, std::size_t
 }
 
 bool DeviceReader::is_at(const std::filesystem::path& path) const {
-  struct stat mine {};
-  struct stat there {};
-  return fstat(descriptor_, &mine) == 0 && stat(path.c_str(), &there) == 0 && mine.st_dev == there.st_dev &&
-         mine.st_ino == there.st_ino;
+  struct stat opened {};
+  struct stat present {};
+  return fstat(descriptor_, &opened) == 0 && stat(path.c_str(), &present) == 0 && opened.st_dev == present.st_dev &&
+         opened.st_ino == present.st_ino;
 }
 
 std::vector<std::filesystem::path> device_paths(const std::filesystem::path& folder) {
@@ -127,13 +127,13 @@ namespace {
 using databuffer::InputEvent;
 using error::Expected;
 
-constexpr std::size_t kMaxBytes = 128 * kRecordBytes;  // of one take: more than a device reports in 10 ms
+constexpr std::size_t kMaxBytes = 128 * kRecordBytes;  // of one take; more than a device reports in 10 ms
 
 Expected<const radar::Device*> map_for(const DeviceFacts& facts, const std::string& path, const std::string& name,
                                        const std::vector<radar::Device>& maps) {
   if (!name.empty()) {
     if (const auto* map = named_map(name, maps)) return map;
-    return fail(path, "a map with the name \"" + name + "\"", "none", "look into config/devices.guf, or give --config");
+    return fail(path, "a map with the name \"" + name + "\"", "none", "see config/devices.guf, or give --config");
   }
   if (const auto* map = fitting_map(facts, maps)) return map;
   if (facts.known)
@@ -155,8 +155,8 @@ Expected<std::unique_ptr<DeviceSource>> DeviceSource::create(std::filesystem::pa
   std::error_code problem;
   if (!std::filesystem::exists(source->path_, problem) && !problem) {
     source->last_problem_ = "absent";
-    source->news_.push_back({true, source->path_.string() + " is not there; waits for it"});
-    // The name can be wrong all the same.
+    source->notices_.push_back({true, source->path_.string() + " is not there; waits for it"});
+    // A wrong map name is reported even while the device is absent.
     if (!source->map_name_.empty() && named_map(source->map_name_, *source->maps_) == nullptr)
       return tl::unexpected(map_for({}, source->path_.string(), source->map_name_, *source->maps_).error());
     return source;
@@ -171,14 +171,14 @@ Expected<void> DeviceSource::connect() {
   const DeviceFacts& facts = (*reader)->facts();
   const auto map = map_for(facts, path_.string(), map_name_, *maps_);
   if (!map) return tl::unexpected(map.error());
-  auto ready = ready_map(**map, facts);
+  auto ready = resolve_map(**map, facts);
   if (!ready) return fail(path_.string() + ", map " + (*map)->name, ready.error().message(), "a map without it");
   decoder_.emplace(std::move(*ready));
   dropped_ = 0;
   reader_ = std::move(*reader);
   stream_.restart();
   if (const auto state = reader_->state()) decoder_->begin(*state);
-  news_.push_back(
+  notices_.push_back(
       {false, path_.string() + (facts.known ? " (" + facts.name + ")" : "") + " plays the map " + (*map)->name});
   last_problem_.clear();
   return {};
@@ -192,18 +192,18 @@ bool DeviceSource::add_descriptors(std::vector<pollfd>& wanted) const {
 std::optional<std::int64_t> DeviceSource::deadline_ns() const {
   if (played_) return std::nullopt;
   const auto due_ns = decoder_ ? decoder_->deadline_ns() : std::nullopt;
-  return std::min(due_ns.value_or(look_again_ns_), look_again_ns_);
+  return std::min(due_ns.value_or(next_check_ns_), next_check_ns_);
 }
 
 std::vector<InputEvent> DeviceSource::take(const Moment& moment) {
-  if (moment.monotonic_ns >= look_again_ns_ && !played_) {
-    look_for_it();
-    look_again_ns_ = moment.monotonic_ns + kLookAgain_ns;
+  if (moment.monotonic_ns >= next_check_ns_ && !played_) {
+    check_path();
+    next_check_ns_ = moment.monotonic_ns + kCheckInterval_ns;
   }
-  std::vector<InputEvent> events = std::exchange(left_behind_, {});
+  std::vector<InputEvent> events = std::exchange(releases_, {});
   if (reader_) read_some(moment.monotonic_ns);
-  events.insert(events.end(), left_behind_.begin(), left_behind_.end());
-  left_behind_.clear();
+  events.insert(events.end(), releases_.begin(), releases_.end());
+  releases_.clear();
   if (!decoder_) return events;
   const auto more = decoder_->take(moment.monotonic_ns);
   events.insert(events.end(), more.begin(), more.end());
@@ -213,23 +213,23 @@ std::vector<InputEvent> DeviceSource::take(const Moment& moment) {
 std::vector<InputEvent> DeviceSource::release() {
   if (!decoder_) return {};
   auto events = decoder_->take(0);
-  decoder_->let_go();
+  decoder_->release_all();
   const auto more = decoder_->take(0);
   events.insert(events.end(), more.begin(), more.end());
   return events;
 }
 
-void DeviceSource::look_for_it() {
-  if (reader_ && !reader_->is_at(path_)) lose("has been taken away");
+void DeviceSource::check_path() {
+  if (reader_ && !reader_->is_at(path_)) disconnect("has been taken away");
   if (decoder_) report_dropped();
   if (reader_) return;
   const auto connected = connect();
   if (connected) return;
   std::error_code problem;
   const bool absent = !std::filesystem::exists(path_, problem);
-  const std::string told = absent ? "absent" : connected.error().message();
-  if (told != last_problem_ && !absent) news_.push_back({true, told});
-  last_problem_ = told;
+  const std::string issue = absent ? "absent" : connected.error().message();
+  if (issue != last_problem_ && !absent) notices_.push_back({true, issue});
+  last_problem_ = issue;
 }
 
 void DeviceSource::read_some(std::int64_t now_ns) {
@@ -238,32 +238,32 @@ void DeviceSource::read_some(std::int64_t now_ns) {
   const auto outcome = reader_->read(bytes, count);
   for (const RawEvent& raw : stream_.feed({bytes.data(), count})) {
     decoder_->feed(raw, now_ns);
-    if (!decoder_->has_lost()) continue;
+    if (!decoder_->needs_resync()) continue;
     ++losses_;
     const auto state = reader_->state();
-    decoder_->catch_up(state, now_ns);
-    // What was read with it is older than the state.
+    decoder_->resync(state, now_ns);
+    // The remaining bytes are older than the state.
     if (state) break;
   }
-  if (outcome == DeviceReader::Outcome::gone) lose(reader_->plays_once() ? "has come to its end" : "has gone");
+  if (outcome == DeviceReader::Outcome::gone) disconnect(reader_->plays_once() ? "has come to its end" : "has gone");
 }
 
-void DeviceSource::lose(const std::string& why) {
+void DeviceSource::disconnect(const std::string& why) {
   report_dropped();
-  left_behind_ = release();
+  releases_ = release();
   played_ = reader_->plays_once();
-  news_.push_back({!played_, path_.string() + ' ' + why + (played_ ? "" : "; waits for it")});
+  notices_.push_back({!played_, path_.string() + ' ' + why + (played_ ? "" : "; waits for it")});
   last_problem_ = "absent";
   reader_.reset();
   decoder_.reset();
 }
 
 void DeviceSource::report_dropped() {
-  if (losses_ > 0) news_.push_back({true, path_.string() + " lost events, " + std::to_string(losses_) + " times"});
+  if (losses_ > 0) notices_.push_back({true, path_.string() + " lost events, " + std::to_string(losses_) + " times"});
   losses_ = 0;
   if (decoder_->dropped() == dropped_) return;
-  news_.push_back({true, path_.string() + ": " + std::to_string(decoder_->dropped() - dropped_) +
-                             " presses dropped, faster than a hand"});
+  notices_.push_back({true, path_.string() + ": " + std::to_string(decoder_->dropped() - dropped_) +
+                                " presses dropped, faster than a hand"});
   dropped_ = decoder_->dropped();
 }
 

@@ -1,4 +1,9 @@
-// Device as a source of events: its descriptor, and what happens when it goes and comes.
+// Device as an event source: its descriptor, disconnection and reconnection.
+// Inputs: path of a device of the kernel's input layer, of a FIFO, or of a recording; maps from GUF.
+// Outputs: input events; notices for the log.
+// Errors: a path that cannot be read or is not a device, a device without a map.
+// Threads: one thread. Reads never wait.
+// Source: docs/spec/formats.md#devices
 #pragma once
 
 #include <sys/types.h>
@@ -18,11 +23,11 @@
 
 namespace yars::inputmonitor {
 
-// A descriptor that yields struct input_event: a device of the kernel's input layer, a FIFO or a recording in a file.
-// Never waits. What only a device can tell is asked by ioctl and left out for the others.
+// Reader of struct input_event from a device, a FIFO or a recording in a file. Never waits. Facts and state come from
+// ioctl calls, which only a device answers.
 class DeviceReader {
  public:
-  // An error when there is nothing at the path, it may not be read, or it is none of the three.
+  // Errors: the path does not exist, cannot be read, or is none of the three.
   static error::Expected<std::unique_ptr<DeviceReader>> open(const std::filesystem::path& path);
   DeviceReader(const DeviceReader&) = delete;
   DeviceReader& operator=(const DeviceReader&) = delete;
@@ -30,15 +35,15 @@ class DeviceReader {
 
   int descriptor() const { return descriptor_; }
   const DeviceFacts& facts() const { return facts_; }
-  // Where its controls are now; nothing for a FIFO or a file.
+  // Present state of the controls. Nothing for a FIFO or a file.
   std::optional<DeviceState> state() const;
 
-  enum class Outcome { nothing, some, gone };  // gone: unplugged, the writer has left, or the file has ended
-  // Fills `bytes` as far as there is something; `count` of them.
+  enum class Outcome { nothing, some, gone };  // gone: unplugged, FIFO closed by its writer, end of file
+  // Reads the available bytes into `bytes`. `count`: number of bytes read.
   Outcome read(std::span<std::byte> bytes, std::size_t& count);
-  // The path still leads to what was opened.
+  // True when the path still is the opened node.
   bool is_at(const std::filesystem::path& path) const;
-  // A recording is played once.
+  // True for a file: a recording is played once.
   bool plays_once() const { return is_file_; }
 
  private:
@@ -49,24 +54,25 @@ class DeviceReader {
   bool is_file_ = false;
 };
 
-// What to do where a device may not be read.
+// Advice in messages about a device without read permission.
 inline constexpr const char* kDevicePermission =
     "add yourself to the group input (sudo usermod -aG input NAME, then log in again) or install the udev rule of "
     "docs/hardware.md";
 
-// The devices that there are, /dev/input/event*, in the order of their numbers.
+// Paths of the devices `folder`/eventN, in the order of N.
 std::vector<std::filesystem::path> device_paths(const std::filesystem::path& folder);
 
 using DeviceMaps = std::shared_ptr<const std::vector<radar::Device>>;
 
-inline constexpr std::int64_t kLookAgain_ns = 250'000'000;  // [ns] sooner than a hand that has plugged it in lets go
+// Interval between checks of a device's path: 250 ms, an unnoticeable delay after plugging it in.
+inline constexpr std::int64_t kCheckInterval_ns = 250'000'000;
 
-// One device: reads it, lets go of everything when it goes, and looks for it again four times a second. What a single
-// take() reads is bounded, so that a device that floods holds up nobody.
+// Source of one device. When the device disconnects, held controls are released, and the path is checked every
+// kCheckInterval_ns. One take() reads at most a fixed number of bytes: a flooding device does not delay other sources.
 class DeviceSource final : public EventSource {
  public:
-  // `map_name` empty: the map that fits; for a descriptor that tells nothing of itself, the only one. A device that is
-  // not there yet is waited for; one that may not be read or has no map is an error.
+  // `map_name` empty: the map that fits; for a FIFO or a file, the only map. An absent device is waited for.
+  // Errors: a device that cannot be read, or one without a map.
   static error::Expected<std::unique_ptr<DeviceSource>> create(std::filesystem::path path, std::string map_name,
                                                                DeviceMaps maps);
 
@@ -76,7 +82,7 @@ class DeviceSource final : public EventSource {
   std::vector<databuffer::InputEvent> release() override;
   bool ended() const override { return false; }
   bool follows_sim_time() const override { return false; }
-  std::vector<News> news() override { return std::exchange(news_, {}); }
+  std::vector<Notice> notices() override { return std::exchange(notices_, {}); }
   std::string description() const override;
 
   const std::filesystem::path& path() const { return path_; }
@@ -85,24 +91,24 @@ class DeviceSource final : public EventSource {
  private:
   DeviceSource(std::filesystem::path path, std::string map_name, DeviceMaps maps);
   error::Expected<void> connect();
-  void look_for_it();
+  void check_path();
   void read_some(std::int64_t now_ns);
-  void lose(const std::string& why);
+  void disconnect(const std::string& why);
   void report_dropped();
 
   std::filesystem::path path_;
   std::string map_name_;
   DeviceMaps maps_;
-  std::unique_ptr<DeviceReader> reader_;  // none: it is away
+  std::unique_ptr<DeviceReader> reader_;  // null: disconnected
   std::optional<DeviceDecoder> decoder_;
   RecordStream stream_;
-  std::vector<databuffer::InputEvent> left_behind_;  // of a device that has gone
-  std::vector<News> news_;
-  std::string last_problem_;  // said once, not at every look
-  std::int64_t look_again_ns_ = 0;
-  std::uint64_t dropped_ = 0;  // presses that the log knows of
-  std::uint64_t losses_ = 0;   // SYN_DROPPED, since the log was told
-  bool played_ = false;        // a recording that has come to its end
+  std::vector<databuffer::InputEvent> releases_;  // of a disconnected device
+  std::vector<Notice> notices_;
+  std::string last_problem_;  // reported once, not at every check
+  std::int64_t next_check_ns_ = 0;
+  std::uint64_t dropped_ = 0;  // presses reported as dropped
+  std::uint64_t losses_ = 0;   // SYN_DROPPED since the last report
+  bool played_ = false;        // a recording at its end
 };
 
 }  // namespace yars::inputmonitor

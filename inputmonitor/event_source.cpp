@@ -20,26 +20,26 @@ constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
 
 }  // namespace
 
-void EventSource::wait(const Moment& moment, int longest_ms) {
+void EventSource::wait(const Moment& moment, int max_wait_ms) {
   if (const auto due_ns = deadline_ns()) {
-    // Rounded up: a deadline met a little early would be asked for again at once.
+    // Rounded up: a wake-up before the deadline would cause another wait of 0 ms.
     const std::int64_t left_ms =
         (*due_ns - moment.monotonic_ns + kNanosecondsPerMillisecond - 1) / kNanosecondsPerMillisecond;
-    longest_ms = static_cast<int>(std::clamp<std::int64_t>(left_ms, 0, longest_ms));
+    max_wait_ms = static_cast<int>(std::clamp<std::int64_t>(left_ms, 0, max_wait_ms));
   }
   std::vector<pollfd> wanted;
   add_descriptors(wanted);
-  poll(wanted.data(), wanted.size(), longest_ms);
+  poll(wanted.data(), wanted.size(), max_wait_ms);
 }
 
-void SourceGroup::wait(const Moment& moment, int longest_ms) {
+void SourceGroup::wait(const Moment& moment, int max_wait_ms) {
   std::vector<pollfd> unused;
-  const auto deaf =
+  const auto unpollable =
       std::ranges::find_if(sources_, [&](const auto& source) { return !source->add_descriptors(unused); });
-  if (deaf == sources_.end())
-    EventSource::wait(moment, longest_ms);
+  if (unpollable == sources_.end())
+    EventSource::wait(moment, max_wait_ms);
   else
-    (*deaf)->wait(moment, std::min(longest_ms, kLongestDeaf_ms));
+    (*unpollable)->wait(moment, std::min(max_wait_ms, kMaxOwnWait_ms));
 }
 
 bool SourceGroup::add_descriptors(std::vector<pollfd>& wanted) const {
@@ -81,10 +81,10 @@ bool SourceGroup::follows_sim_time() const {
   return std::ranges::any_of(sources_, [](const auto& source) { return source->follows_sim_time(); });
 }
 
-std::vector<News> SourceGroup::news() {
-  std::vector<News> all;
+std::vector<Notice> SourceGroup::notices() {
+  std::vector<Notice> all;
   for (const auto& source : sources_)
-    for (News& one : source->news()) all.push_back(std::move(one));
+    for (Notice& one : source->notices()) all.push_back(std::move(one));
   return all;
 }
 
@@ -99,7 +99,7 @@ namespace {
 using error::Expected;
 using error::fail;
 
-// The time that a word means, or nothing when it means none.
+// The time of a word [ns], relative to `previous_ns` when it begins with '+'. Nothing when it is not a valid time.
 std::optional<std::int64_t> time_of(std::string_view word, std::int64_t previous_ns) {
   const auto seconds = text::finite_number(word);
   if (!seconds || *seconds < 0.0 || *seconds > databuffer::kLatestSimTime_s) return std::nullopt;
@@ -113,18 +113,18 @@ Expected<Script> parse_script(std::string_view text, std::string_view name) {
   Script script;
   std::int64_t previous_ns = 0;
   for (const auto& line : text::numbered_lines(text)) {
-    const std::string place = file::place_in_file(name, line.number);
+    const std::string location = file::place_in_file(name, line.number);
     const std::string found = '"' + std::string(line.text) + '"';
-    if (script.end_ns) return fail(place, "nothing behind end", found);
+    if (script.end_ns) return fail(location, "nothing behind end", found);
     if (line.text == "end") {
       script.end_ns = previous_ns;
       continue;
     }
     const std::string_view word = text::words_of(line.text).front();
     const auto time_ns = time_of(word, previous_ns);
-    if (!time_ns) return fail(place, "TIME_S EVENT, +DT_S EVENT or end", found);
+    if (!time_ns) return fail(location, "TIME_S EVENT, +DT_S EVENT or end", found);
     if (*time_ns < previous_ns)
-      return fail(place, "a time not before that of the line above", found,
+      return fail(location, "a time not before that of the line above", found,
                   "put the lines in the order of their times");
     if (script.events.empty()) script.from_start = word.starts_with('+');
     previous_ns = *time_ns;
@@ -134,7 +134,7 @@ Expected<Script> parse_script(std::string_view text, std::string_view name) {
       continue;
     }
     const auto event = databuffer::event_from_text(rest);
-    if (!event) return fail(place, event.error().expected, event.error().found);
+    if (!event) return fail(location, event.error().expected, event.error().found);
     script.events.push_back({previous_ns, *event});
   }
   return script;

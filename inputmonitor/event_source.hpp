@@ -1,4 +1,9 @@
-// Source of input events: the interface, several as one, and the script that is played by sim time.
+// Sources of input events: the interface, a group of sources as one, and scripts played by simulation time.
+// Inputs: the time of each call (Moment); text of a script.
+// Outputs: input events without time stamps and numbers; InputMonitorShell adds them.
+// Units: nanoseconds; waits in milliseconds.
+// Errors: parse_script names file and line.
+// Threads: one thread for each source. No source reads a clock.
 #pragma once
 
 #include <poll.h>
@@ -15,89 +20,89 @@
 
 namespace yars::inputmonitor {
 
-// Where events come from: a window, a terminal, a script, a device. A source knows no clock: it is told the time.
+// Time of a call, in both clocks.
 struct Moment {
-  std::int64_t monotonic_ns = 0;  // [ns] CLOCK_MONOTONIC
-  std::int64_t sim_time_ns = 0;   // [ns]
+  std::int64_t monotonic_ns = 0;  // CLOCK_MONOTONIC
+  std::int64_t sim_time_ns = 0;
 };
 
-// What people should know of a source: a device that came or went.
-struct News {
-  bool is_trouble = false;
+// Message for the log and the flight recorder, such as a device connected or disconnected.
+struct Notice {
+  bool is_warning = false;
   std::string text;
 };
 
+// A source of input events: a window, a terminal, a script, a device.
 class EventSource {
  public:
   virtual ~EventSource() = default;
 
-  // Sleeps until there may be something to take, at most `longest_ms`; also returns early on a signal. A source that
-  // nothing can wake sleeps that long.
-  virtual void wait(const Moment& moment, int longest_ms);
-  // Adds the descriptors that tell of something to take; false: only its own wait() can be told.
+  // Waits for input or the deadline, at most `max_wait_ms`. May return early, also on a signal.
+  virtual void wait(const Moment& moment, int max_wait_ms);
+  // Adds the descriptors that become readable with new input. False: the source can wait only in its own wait().
   virtual bool add_descriptors(std::vector<pollfd>&) const { return true; }
-  // When there is something to take without any descriptor telling; none: not by itself.
+  // Time [ns, CLOCK_MONOTONIC] of the next event that needs no new input. None: no such event is due.
   virtual std::optional<std::int64_t> deadline_ns() const { return std::nullopt; }
-  // What has come until this moment, without times and number; never waits.
+  // All events up to this moment, without time stamps and numbers. Never waits.
   virtual std::vector<databuffer::InputEvent> take(const Moment& moment) = 0;
-  // What must be sent at the end, so that nothing stays held.
+  // Events that release all held controls, for the end of the program.
   virtual std::vector<databuffer::InputEvent> release() = 0;
 
-  // The pilot is done, or the source is gone.
+  // True when the pilot has quit or the source is gone.
   virtual bool ended() const = 0;
-  // Events are due by sim time: it wants to be asked once a tick.
+  // True when events are due by simulation time: take() must be called once per tick.
   virtual bool follows_sim_time() const = 0;
-  // What has happened to it since it was last asked.
-  virtual std::vector<News> news() { return {}; }
-  // For the log and for the pilot: what it reads and how to use it.
+  // Notices since the last call.
+  virtual std::vector<Notice> notices() { return {}; }
+  // Text for the log and the pilot: what the source reads, and how to use it.
   virtual std::string description() const = 0;
 };
 
-// [ms] a source that no descriptor can wake, a window, leaves the others unheard no longer: one tick
-inline constexpr int kLongestDeaf_ms = 5;
+// Longest wait in a source that cannot be polled (a window): 5 ms, one tick. Other sources are not served meanwhile.
+inline constexpr int kMaxOwnWait_ms = 5;
 
-// Several sources as one: none waits for another. It ends when one of them does, as the keyboard by Escape.
+// Several sources as one; none waits for another. It ends when one of them ends, as the keyboard does by Escape.
 class SourceGroup final : public EventSource {
  public:
   explicit SourceGroup(std::vector<std::unique_ptr<EventSource>> sources) : sources_(std::move(sources)) {}
 
-  void wait(const Moment& moment, int longest_ms) override;
+  void wait(const Moment& moment, int max_wait_ms) override;
   bool add_descriptors(std::vector<pollfd>& wanted) const override;
   std::optional<std::int64_t> deadline_ns() const override;
   std::vector<databuffer::InputEvent> take(const Moment& moment) override;
   std::vector<databuffer::InputEvent> release() override;
   bool ended() const override;
   bool follows_sim_time() const override;
-  std::vector<News> news() override;
+  std::vector<Notice> notices() override;
   std::string description() const override;
 
  private:
   std::vector<std::unique_ptr<EventSource>> sources_;
 };
 
-// Events written down with their sim times, one a line:
-//   TIME_S EVENT     sim time in seconds, not before the line above
-//   +DT_S EVENT      so long after the line above; on the first line after the script's start, and then all times of
-//                    the script count from its start
-//   [TIME_S] end     the input monitor ends there, or right after the line above; nothing follows
-// `#` begins a comment. EVENT is written as in databuffer/messages/input_event.hpp.
+// Script: one event per line, with its simulation time.
+//   TIME_S EVENT     simulation time [s], not before that of the line above
+//   +DT_S EVENT      time after the line above [s]. In the first event it counts from the start of the script, and so
+//                    do all times of the script.
+//   [TIME_S] end     the input monitor ends at this time, or at the time of the line above; must be the last line
+// `#` begins a comment. EVENT has the syntax of databuffer/messages/input_event.hpp.
 struct ScriptedEvent {
   std::int64_t time_ns = 0;
   databuffer::InputEvent event{};
 };
 
 struct Script {
-  std::vector<ScriptedEvent> events;   // times never descend
-  std::optional<std::int64_t> end_ns;  // none: it stays when all is sent
-  bool from_start = false;             // times count from the script's start; else they are sim times
+  std::vector<ScriptedEvent> events;   // in ascending order of time
+  std::optional<std::int64_t> end_ns;  // none: the source does not end
+  bool from_start = false;             // times count from the start of the script; else they are simulation times
 };
 
-// `name` is the file's, for errors: they carry the line.
+// `name`: name of the file, for error messages, which add the line.
 error::Expected<Script> parse_script(std::string_view text, std::string_view name);
 
-// Plays a script by sim time: an event is due at the first tick at or after its time. What lies before the session's
-// time when it begins is sent at once, in order. When sim time goes back (a reset), it goes on from there; a script
-// whose times count from its start begins anew.
+// Plays a script by simulation time. An event is due at the first tick at or after its time. At the start, events
+// before the session's time are sent at once, in order. After a step back in time (a reset) the script continues from
+// the new time; a script with times from its start begins again.
 class ScriptSource final : public EventSource {
  public:
   ScriptSource(Script script, std::string name);
@@ -111,8 +116,8 @@ class ScriptSource final : public EventSource {
   Script script_;
   std::string name_;
   std::size_t next_ = 0;
-  std::optional<std::int64_t> last_sim_time_ns_;  // none: not begun
-  std::int64_t origin_ns_ = 0;                    // sim time from which the script's times count
+  std::optional<std::int64_t> last_sim_time_ns_;  // none: not started
+  std::int64_t origin_ns_ = 0;                    // simulation time at time 0 of the script
   bool ended_ = false;
 };
 

@@ -16,8 +16,8 @@ namespace {
 
 using databuffer::Key;
 
-constexpr int kWidth = 640;  // [pixels] the title is what is to be seen
-constexpr int kHeight = 80;
+constexpr int kWidth = 640;  // [pixels] wide enough for the title; the window has no content
+constexpr int kHeight = 80;  // [pixels]
 
 constexpr std::array<std::pair<int, Key>, 14> kNamedKeys{{{GLFW_KEY_UP, Key::up},
                                                           {GLFW_KEY_DOWN, Key::down},
@@ -37,7 +37,7 @@ constexpr std::array<std::pair<int, Key>, 14> kNamedKeys{{{GLFW_KEY_UP, Key::up}
 Key key_of_window_key(int code) {
   const auto* named = std::ranges::find(kNamedKeys, code, &std::pair<int, Key>::first);
   if (named != kNamedKeys.end()) return named->second;
-  // The others that matter have their ASCII number.
+  // Printable keys have their ASCII code.
   return code > 0 && code < 127 ? databuffer::key_of_character(static_cast<char>(code)) : Key::none;
 }
 
@@ -50,7 +50,7 @@ void on_key(GLFWwindow* window, int code, int, int action, int) {
 }
 
 void on_focus(GLFWwindow* window, int focused) {
-  if (focused == GLFW_FALSE) keyboard_of(window).let_go();
+  if (focused == GLFW_FALSE) keyboard_of(window).release_all();
 }
 
 class WindowSource final : public EventSource {
@@ -67,9 +67,9 @@ class WindowSource final : public EventSource {
     glfwTerminate();
   }
 
-  // The display's own descriptor stays with GLFW.
+  // GLFW does not expose the descriptor of the display connection.
   bool add_descriptors(std::vector<pollfd>&) const override { return false; }
-  void wait(const Moment&, int longest_ms) override { glfwWaitEventsTimeout(static_cast<double>(longest_ms) * 1e-3); }
+  void wait(const Moment&, int max_wait_ms) override { glfwWaitEventsTimeout(static_cast<double>(max_wait_ms) * 1e-3); }
 
   std::vector<databuffer::InputEvent> take(const Moment&) override {
     glfwPollEvents();
@@ -78,7 +78,7 @@ class WindowSource final : public EventSource {
   }
 
   std::vector<databuffer::InputEvent> release() override {
-    keyboard_.let_go();
+    keyboard_.release_all();
     return keyboard_.take();
   }
 
@@ -102,7 +102,7 @@ error::Expected<std::unique_ptr<EventSource>> no_window() {
 
 error::Expected<std::unique_ptr<EventSource>> open_window_source(const std::string& session) {
   if (glfwInit() == GLFW_FALSE) return no_window();
-  // It draws nothing, so it needs no graphics.
+  // No OpenGL context: the window draws nothing.
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
   const std::string title = "YARS input (" + session + ")  " + kKeyHelp;
   GLFWwindow* window = glfwCreateWindow(kWidth, kHeight, title.c_str(), nullptr, nullptr);
@@ -114,7 +114,7 @@ error::Expected<std::unique_ptr<EventSource>> open_window_source(const std::stri
 
 namespace {
 
-// True when the descriptor has bytes or has come to its end.
+// True when the descriptor has bytes or is at its end, within `milliseconds`.
 bool readable_within(int descriptor, int milliseconds) {
   pollfd wanted{descriptor, POLLIN, 0};
   return poll(&wanted, 1, milliseconds) > 0;
@@ -135,7 +135,7 @@ class TerminalSource final : public EventSource {
     while (!keyboard_.ended() && readable_within(STDIN_FILENO, 0)) {
       std::array<char, 256> bytes;
       const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
-      // The terminal is gone.
+      // End of file: the terminal is gone.
       if (count <= 0) keyboard_.end();
       if (count > 0) apply(decoder_.feed({bytes.data(), static_cast<std::size_t>(count)}, moment.monotonic_ns));
     }
@@ -143,7 +143,7 @@ class TerminalSource final : public EventSource {
   }
 
   std::vector<databuffer::InputEvent> release() override {
-    keyboard_.let_go();
+    keyboard_.release_all();
     return keyboard_.take();
   }
 

@@ -1,4 +1,7 @@
-// Keyboards as sources of events: keys typed in a window or a terminal.
+// Keyboard sources: keys typed in a window or a terminal, as input events.
+// Inputs: key edges of a GLFW window; bytes of the terminal at standard input.
+// Outputs: input events by databuffer/messages/key_map.hpp. Escape ends the source.
+// Errors: no display, or no terminal in the foreground.
 #pragma once
 
 #include <memory>
@@ -12,14 +15,14 @@
 
 namespace yars::inputmonitor {
 
-// The part that every keyboard source shares: edges of keys become events, Escape ends.
+// Common part of keyboard sources: turns key edges into events, and ends at Escape.
 class Keyboard {
  public:
   void change(databuffer::Key key, bool pressed) {
     ended_ = ended_ || (key == databuffer::Key::escape && pressed);
     append(state_.change(key, pressed));
   }
-  void let_go() { append(state_.release_all()); }
+  void release_all() { append(state_.release_all()); }
   void end() { ended_ = true; }
   bool ended() const { return ended_; }
   std::vector<databuffer::InputEvent> take() { return std::exchange(events_, {}); }
@@ -34,17 +37,16 @@ class Keyboard {
   bool ended_ = false;
 };
 
-// What the keys do, on one line, for a pilot who has no manual at hand.
+// Help line: the functions of the keys.
 inline constexpr const char* kKeyHelp =
     "2-9 a-k: buttons 2-20, arrows: TDC, Enter: TDC switch, Tab: next point, PgUp PgDn: ACQ, Space: freeze, "
     "[ ]: elevation, F1 F2 F3: A/G A/A ranging, F4: navigator, Esc: ends";
 
-// Keys typed in a small window of its own. Keys are told by their place on an American keyboard; repeats of a held
-// key are passed over, and a window that loses the keyboard lets go of everything.
-// `session` goes into the title. An error when there is no display.
+// Keys typed in a small window. Key codes are positions on a US keyboard. Key repeats are ignored. Loss of the keyboard
+// focus releases all keys. `session` is shown in the title. Error: no display.
 error::Expected<std::unique_ptr<EventSource>> open_window_source(const std::string& session);
 
-// Keys typed in the terminal that is standard input.
+// Keys typed in the terminal at standard input. Error: as for TerminalMode::enter.
 error::Expected<std::unique_ptr<EventSource>> open_terminal_source();
 
 }  // namespace yars::inputmonitor

@@ -9,13 +9,13 @@ namespace yars::inputmonitor {
 
 namespace {
 
-// What is asked for, and what it shall do. An axis is asked for in two prompts, one for either way.
+// Prompt for one control, and the event of the control. An axis has two prompts, one for each direction.
 struct Prompt {
   std::string_view text;
   std::string_view event;  // empty: half of an axis
   double repeat_s = 0.0;
   radar::AxisUse use = radar::AxisUse::tdc_x;
-  bool is_second = false;  // the other way of the axis before it
+  bool is_second = false;  // opposite direction of the axis in the previous prompt
 };
 
 constexpr std::size_t kFirstAxis = 20;
@@ -45,7 +45,7 @@ constexpr std::array kPrompts{
     Prompt{"TDC up: push it to the end and let go", "", 0.0, radar::AxisUse::tdc_y},
     Prompt{"TDC down: push it to the end and let go", "", 0.0, radar::AxisUse::tdc_y, true},
     Prompt{"TDC switch", "tdc press"},
-    Prompt{"quick step (coolie up)", "coolie up"},
+    Prompt{"quick step (castle switch up)", "coolie up"},
     Prompt{"ACQ forward", "acq fwd"},
     Prompt{"ACQ aft", "acq aft"},
     Prompt{"freeze", "freeze"},
@@ -88,7 +88,7 @@ std::string Learning::feed(const RawEvent& raw) {
 }
 
 void Learning::begin_prompt() {
-  for (auto& [code, axis] : watched_) axis.least = axis.most = axis.rest;
+  for (auto& [code, axis] : watched_) axis.min = axis.max = axis.rest;
 }
 
 void Learning::skip() {
@@ -106,7 +106,7 @@ std::size_t Learning::learned() const {
       std::ranges::count_if(results_, [](const Result& result) { return result.found != Found::nothing; }));
 }
 
-// The first half of the axis that is asked for now; null when this is no second half, or the first was skipped.
+// Result of the first direction of the present axis. Null at a first direction, or when it was skipped.
 const Learning::Result* Learning::opposite() const {
   const bool has = kPrompts[next_].is_second && results_[next_ - 1].found != Found::nothing;
   return has ? &results_[next_ - 1] : nullptr;
@@ -115,32 +115,36 @@ const Learning::Result* Learning::opposite() const {
 std::string Learning::take_button(std::uint16_t code) {
   const std::string name = config::button_name(code);
   if (!config::button_code(name)) return {};
-  if (kPrompts[next_].event.empty()) return name + " is a button; an axis is asked for";
+  if (kPrompts[next_].event.empty()) return name + " is a button; an axis is expected";
   return take_result({Found::button, code, 1, 0.0, 0.0, 0.0}, name);
 }
 
 std::string Learning::take_axis(std::uint16_t code, std::int32_t value) {
-  // Where nothing is known of its rest, the first value is taken for it; a hat rests at 0.
+  // An unknown rest is taken from the first value; the rest of a hat is 0.
   const double first = is_hat(code) ? 0.0 : double(value);
   Watched& axis = watched_.try_emplace(code, Watched{first, first, first}).first->second;
-  axis.least = std::min(axis.least, double(value));
-  axis.most = std::max(axis.most, double(value));
+  axis.min = std::min(axis.min, double(value));
+  axis.max = std::max(axis.max, double(value));
   const auto& range = facts_.axes[code];
-  const double far = is_hat(code) ? 1.0 : range ? kTravel * (double(range->high) - range->low) : kTravelUnknown;
-  const bool goes_up = axis.most - axis.rest >= axis.rest - axis.least;
-  const double extreme = goes_up ? axis.most : axis.least;
+  const double min_travel = is_hat(code) ? 1.0
+                            : range      ? kMinTravel * (double(range->high) - range->low)
+                                         : kMinTravelUnknown;
+  const bool goes_up = axis.max - axis.rest >= axis.rest - axis.min;
+  const double extreme = goes_up ? axis.max : axis.min;
   const double travel = std::abs(extreme - axis.rest);
   const double away = std::abs(double(value) - axis.rest);
-  if (travel < far || away > kBack * travel) return {};
+  if (travel < min_travel || away > kReturned * travel) return {};
   const bool wants_axis = kPrompts[next_].event.empty();
   const Result result{wants_axis ? Found::axis : Found::hat, code, goes_up ? 1 : -1, extreme, axis.rest, away};
   const std::string name = config::axis_name(code) + (goes_up ? " to its high end" : " to its low end");
-  // The next control is measured from where this one has come back to.
+  // The next movement of this axis is measured from its present value.
   axis.rest = double(value);
   begin_prompt();
   if (const Result* first_half = opposite(); first_half != nullptr) {
-    if (first_half->code != code) return name + " is not the axis of the other way; move that one, or b to go back";
-    if (first_half->way == result.way) return name + " is the way that was shown before; move it the other way";
+    if (first_half->code != code)
+      return name + " is not the axis of the other direction; move that one, or b to go back";
+    if (first_half->direction == result.direction)
+      return name + " is the direction that was shown before; move it in the other direction";
   }
   return take_result(result, name);
 }
@@ -149,13 +153,13 @@ std::string Learning::take_result(const Result& result, const std::string& name)
   for (std::size_t i = 0; i < next_; ++i) {
     const Result& earlier = results_[i];
     const bool same_kind = (earlier.found == Found::button) == (result.found == Found::button);
-    const bool same_way = result.found == Found::button || earlier.way == result.way;
-    if (earlier.found != Found::nothing && same_kind && earlier.code == result.code && same_way)
+    const bool same_direction = result.found == Found::button || earlier.direction == result.direction;
+    if (earlier.found != Found::nothing && same_kind && earlier.code == result.code && same_direction)
       return name + " is " + std::string(kPrompts[i].text) + " already; move another, or b to go back";
   }
-  const std::string told = name + " is " + std::string(kPrompts[next_].text);
+  const std::string answer = name + " is " + std::string(kPrompts[next_].text);
   results_[next_++] = result;
-  return told;
+  return answer;
 }
 
 radar::Device Learning::device(const std::string& name) const {
@@ -174,7 +178,7 @@ radar::Device Learning::device(const std::string& name) const {
   return device;
 }
 
-// Both ways together, or one alone mirrored about its rest.
+// Combines both directions of an axis. A single known direction is mirrored about the rest.
 void Learning::add_axis(radar::Device& device, std::size_t first) const {
   if (kPrompts[first].is_second) return;
   const Result& up = results_[first];
@@ -192,11 +196,11 @@ void Learning::add_axis(radar::Device& device, std::size_t first) const {
   axis.high = std::max(known.extreme, other);
   axis.centre =
       std::clamp(known.rest, axis.low + (axis.high - axis.low) * 0.1, axis.high - (axis.high - axis.low) * 0.1);
-  axis.inverted = (known.way < 0) == (&known == &up);
+  axis.inverted = (known.direction < 0) == (&known == &up);
   const double half = (axis.high - axis.low) / 2.0;
-  // Twice what it missed its rest by, in hundredths.
-  const double missed = 2.0 * std::max(up.trembling, down.trembling) / half;
-  axis.dead_zone = std::clamp(std::round(missed * 100.0) / 100.0, kMinDeadZone, kMaxDeadZone);
+  // Dead zone: twice the larger return error, in hundredths of the half range.
+  const double dead_zone = 2.0 * std::max(up.return_error, down.return_error) / half;
+  axis.dead_zone = std::clamp(std::round(dead_zone * 100.0) / 100.0, kMinDeadZone, kMaxDeadZone);
   device.axes.push_back(axis);
 }
 
@@ -212,18 +216,18 @@ void Learning::add_switch(radar::Device& device, std::size_t index) const {
   const auto is_same = [&](const radar::DeviceAxis& axis) {
     return axis.code == code && axis.use == radar::AxisUse::directions;
   };
-  auto place = std::ranges::find_if(device.axes, is_same);
-  if (place == device.axes.end()) {
+  auto axis_of_code = std::ranges::find_if(device.axes, is_same);
+  if (axis_of_code == device.axes.end()) {
     radar::DeviceAxis axis;
     axis.code = code;
     axis.use = radar::AxisUse::directions;
-    // Mirrored about its rest until the other way is known.
+    // Mirrored about the rest; the other direction, if found later, keeps these ends.
     axis.low = result.rest - std::abs(result.extreme - result.rest);
     axis.high = result.rest + std::abs(result.extreme - result.rest);
     axis.repeat_s = prompt.repeat_s;
-    place = device.axes.insert(place, axis);
+    axis_of_code = device.axes.insert(axis_of_code, axis);
   }
-  (result.way > 0 ? place->positive : place->negative) = std::string(prompt.event);
+  (result.direction > 0 ? axis_of_code->positive : axis_of_code->negative) = std::string(prompt.event);
 }
 
 }  // namespace yars::inputmonitor

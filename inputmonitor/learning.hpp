@@ -1,7 +1,11 @@
-// Makes a map of a device by asking for each control in turn. Pure: fed with what the device says, it tells what it
-// took and what to ask next. A control counts when it has moved far: a button goes down, a hat or an axis goes kTravel
-// of its range away from where it rested and comes back. So the trembling of axes is passed over. The way of the first
-// move gives the sign, the extremes the ends, the place it comes back to the centre.
+// Interactive learning of a device map: prompts for each control in turn and identifies it by its movement.
+// Inputs: raw events; facts of the device; rest values of its axes.
+// Outputs: prompts and answers as text; a radar::Device.
+// A button counts when it goes down. A hat or axis counts when it moves kMinTravel of its range from rest and returns:
+// jitter does not count. The direction of the first move gives the sign, the extremes give the ends, and the rest gives
+// the centre.
+// Threads: pure; one thread.
+// Source: docs/hardware.md, "Learning a map"
 #pragma once
 
 #include <array>
@@ -18,25 +22,25 @@
 
 namespace yars::inputmonitor {
 
-inline constexpr double kTravel = 0.3;        // share of the whole range that is no trembling
-inline constexpr double kTravelUnknown = 64;  // [raw units] the same where the range is unknown; a hat has 1
-inline constexpr double kBack = 0.25;         // share of the travel within which it has come back
+inline constexpr double kMinTravel = 0.3;        // of the full range; less is jitter
+inline constexpr double kMinTravelUnknown = 64;  // [raw units] for an unknown range; 1 for a hat
+inline constexpr double kReturned = 0.25;        // of the travel; within it an axis has returned to rest
 
 class Learning {
  public:
-  // `rest`: where the axes are, as far as it is known.
+  // `rest`: code and rest value of the axes with a known state.
   Learning(const DeviceFacts& facts, const std::vector<std::pair<std::uint16_t, std::int32_t>>& rest);
 
   bool finished() const { return next_ == results_.size(); }
-  // What to ask now: "PB 13 (13 of 33)".
+  // Text of the current prompt: "PB 13 (13 of 33)".
   std::string prompt() const;
-  // What is to be told of it, empty when it is nothing.
+  // Answer to a raw event. Empty when the event has no effect.
   std::string feed(const RawEvent& raw);
   void skip();
   void back();
-  std::size_t learned() const;
+  std::size_t learned() const;  // number of controls found
 
-  // The map so far.
+  // Map of the controls found so far.
   radar::Device device(const std::string& name) const;
 
  private:
@@ -44,15 +48,16 @@ class Learning {
   struct Result {
     Found found = Found::nothing;
     std::uint16_t code = 0;
-    int way = 1;           // of a hat or an axis: towards the high end or the low one
-    double extreme = 0.0;  // of an axis
-    double rest = 0.0;
-    double trembling = 0.0;  // how far from its rest it came back
+    int direction = 1;          // of a hat or an axis: +1 to the high end, -1 to the low end
+    double extreme = 0.0;       // [raw units] of an axis
+    double rest = 0.0;          // [raw units]
+    double return_error = 0.0;  // [raw units] distance from rest after the return
   };
+  // Values of an axis since the prompt [raw units].
   struct Watched {
     double rest = 0.0;
-    double least = 0.0;
-    double most = 0.0;
+    double min = 0.0;
+    double max = 0.0;
   };
 
   std::string take_button(std::uint16_t code);

@@ -25,7 +25,7 @@ void append(std::vector<T>& to, std::vector<T> more) {
   to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-// std::filesystem::equivalent refuses devices.
+// std::filesystem::equivalent fails for device nodes.
 bool is_same_node(const std::filesystem::path& one, const std::filesystem::path& other) {
   struct stat first {};
   struct stat second {};
@@ -38,7 +38,7 @@ bool is_same_node(const std::filesystem::path& one, const std::filesystem::path&
 FoundDevicesSource::FoundDevicesSource(std::filesystem::path folder, DeviceMaps maps,
                                        std::vector<std::filesystem::path> others)
     : folder_(std::move(folder)), maps_(std::move(maps)), others_(std::move(others)) {
-  look_for_new();
+  scan_folder();
 }
 
 bool FoundDevicesSource::add_descriptors(std::vector<pollfd>& wanted) const {
@@ -47,21 +47,21 @@ bool FoundDevicesSource::add_descriptors(std::vector<pollfd>& wanted) const {
 }
 
 std::optional<std::int64_t> FoundDevicesSource::deadline_ns() const {
-  std::int64_t due_ns = look_again_ns_;
+  std::int64_t due_ns = next_scan_ns_;
   for (const auto& device : devices_) due_ns = std::min(due_ns, device->deadline_ns().value_or(due_ns));
   return due_ns;
 }
 
 std::vector<InputEvent> FoundDevicesSource::take(const Moment& moment) {
-  if (moment.monotonic_ns >= look_again_ns_) {
-    look_for_new();
-    look_again_ns_ = moment.monotonic_ns + kLookForNew_ns;
+  if (moment.monotonic_ns >= next_scan_ns_) {
+    scan_folder();
+    next_scan_ns_ = moment.monotonic_ns + kScanInterval_ns;
   }
   std::vector<InputEvent> events;
   for (const auto& device : devices_) {
     append(events, device->take(moment));
-    append(news_, device->news());
-    // Another device may come by the same name: it has to find a map of its own.
+    append(notices_, device->notices());
+    // A later device of the same name needs a new search for its map.
     if (!device->is_open()) seen_.erase(device->path());
   }
   std::erase_if(devices_, [](const auto& device) { return !device->is_open(); });
@@ -74,9 +74,9 @@ std::vector<InputEvent> FoundDevicesSource::release() {
   return events;
 }
 
-std::vector<News> FoundDevicesSource::news() {
-  for (const auto& device : devices_) append(news_, device->news());
-  return std::exchange(news_, {});
+std::vector<Notice> FoundDevicesSource::notices() {
+  for (const auto& device : devices_) append(notices_, device->notices());
+  return std::exchange(notices_, {});
 }
 
 std::string FoundDevicesSource::description() const {
@@ -84,14 +84,14 @@ std::string FoundDevicesSource::description() const {
          " that have a map: " + (devices_.empty() ? "none yet" : std::to_string(devices_.size()));
 }
 
-void FoundDevicesSource::look_for_new() {
+void FoundDevicesSource::scan_folder() {
   for (const auto& path : device_paths(folder_)) {
     struct stat status {};
     if (stat(path.c_str(), &status) != 0) continue;
     const Node node{status.st_ino, status.st_ctim.tv_sec * 1'000'000'000LL + status.st_ctim.tv_nsec};
-    const auto [place, is_new] = seen_.try_emplace(path, node);
-    if (!is_new && place->second == node) continue;
-    place->second = node;
+    const auto [entry, is_new] = seen_.try_emplace(path, node);
+    if (!is_new && entry->second == node) continue;
+    entry->second = node;
     const auto is_this = [&path](const auto& device) { return device->path() == path; };
     if (std::ranges::none_of(devices_, is_this)) try_device(path);
   }
@@ -100,14 +100,14 @@ void FoundDevicesSource::look_for_new() {
 void FoundDevicesSource::try_device(const std::filesystem::path& path) {
   if (std::ranges::any_of(others_, [&path](const auto& other) { return is_same_node(path, other); })) return;
   if (access(path.c_str(), R_OK) != 0) {
-    // Keyboards and mice are among them as a rule, so that this alone is no trouble.
-    if (!told_of_permission_)
-      news_.push_back({false, path.string() + " and perhaps others may not be read; if one is a panel of yours, " +
-                                  kDevicePermission});
-    told_of_permission_ = true;
+    // Not a warning: unreadable nodes are usually keyboards and mice.
+    if (!permission_reported_)
+      notices_.push_back({false, path.string() + " and perhaps others may not be read; if one is a panel of yours, " +
+                                     kDevicePermission});
+    permission_reported_ = true;
     return;
   }
-  // Most of the folder is keyboards and lids, which have no map.
+  // Errors are ignored: most nodes are keyboards and lid switches, which have no map.
   auto device = DeviceSource::create(path, {}, maps_);
   if (device) devices_.push_back(std::move(*device));
 }
@@ -120,7 +120,7 @@ using SourcePointer = std::unique_ptr<EventSource>;
 constexpr std::string_view kScript = "script:";
 constexpr std::string_view kDevice = "evdev:";
 
-// Nothing to read from: a set in a container without display and terminal runs all the same.
+// Source without events, for a container without display and terminal.
 class IdleSource final : public EventSource {
  public:
   std::vector<databuffer::InputEvent> take(const Moment&) override { return {}; }
@@ -148,10 +148,10 @@ Expected<SourcePointer> open_script(const std::string& file) {
   return std::make_unique<ScriptSource>(std::move(*script), file);
 }
 
-// A window where there is a display, else the terminal where there is one, else nothing.
+// A window if there is a display, else the terminal if there is one, else null.
 SourcePointer open_keyboard(const std::string& session) {
   if (display_is_named()) {
-    // A display that is named but not there is no reason to give up.
+    // If the named display cannot be opened, the terminal is next.
     if (auto window = open_window_source(session)) return std::move(*window);
   }
   if (is_foreground_terminal(STDIN_FILENO))
@@ -159,20 +159,20 @@ SourcePointer open_keyboard(const std::string& session) {
   return nullptr;
 }
 
-// The keyboard there is, and every device that has a map.
-SourcePointer open_best(const OpeningNeeds& needs, const std::vector<SourceChoice>& all) {
+// The source of `auto`: a keyboard, and all devices with a map.
+SourcePointer open_automatic(const SourceContext& context, const std::vector<SourceChoice>& all) {
   std::vector<std::filesystem::path> others;
   for (const SourceChoice& choice : all)
     if (choice.kind == SourceKind::device) others.emplace_back(choice.file);
   std::vector<SourcePointer> sources;
-  if (auto keyboard = open_keyboard(needs.session)) sources.push_back(std::move(keyboard));
-  auto devices = std::make_unique<FoundDevicesSource>(needs.device_folder, needs.maps, std::move(others));
+  if (auto keyboard = open_keyboard(context.session)) sources.push_back(std::move(keyboard));
+  auto devices = std::make_unique<FoundDevicesSource>(context.device_folder, context.maps, std::move(others));
   if (sources.empty()) sources.push_back(std::make_unique<IdleSource>());
   sources.push_back(std::move(devices));
   return std::make_unique<SourceGroup>(std::move(sources));
 }
 
-// NAME of PATH,NAME holds no slash, so that a comma in a folder's name does no harm.
+// Splits PATH[,NAME] at the last comma, unless a slash follows it: NAME has none, a folder may contain a comma.
 SourceChoice device_choice(std::string_view text) {
   const std::size_t comma = text.rfind(',');
   if (comma == std::string_view::npos || text.find('/', comma) != std::string_view::npos)
@@ -181,23 +181,23 @@ SourceChoice device_choice(std::string_view text) {
 }
 
 Expected<SourcePointer> open_one(const SourceChoice& choice, const std::vector<SourceChoice>& all,
-                                 const OpeningNeeds& needs) {
+                                 const SourceContext& context) {
   switch (choice.kind) {
     case SourceKind::window:
-      return open_window_source(needs.session);
+      return open_window_source(context.session);
     case SourceKind::terminal:
       return open_terminal_source();
     case SourceKind::script:
       return open_script(choice.file);
     case SourceKind::device: {
-      auto device = DeviceSource::create(choice.file, choice.map_name, needs.maps);
+      auto device = DeviceSource::create(choice.file, choice.map_name, context.maps);
       if (!device) return tl::unexpected(device.error());
       return std::move(*device);
     }
     case SourceKind::automatic:
       break;
   }
-  return open_best(needs, all);
+  return open_automatic(context, all);
 }
 
 }  // namespace
@@ -216,10 +216,10 @@ Expected<SourceChoice> parse_source(std::string_view text) {
                                            '"' + std::string(text) + '"'));
 }
 
-Expected<SourcePointer> open_sources(const std::vector<SourceChoice>& choices, const OpeningNeeds& needs) {
+Expected<SourcePointer> open_sources(const std::vector<SourceChoice>& choices, const SourceContext& context) {
   std::vector<SourcePointer> sources;
   for (const SourceChoice& choice : choices) {
-    auto source = open_one(choice, choices, needs);
+    auto source = open_one(choice, choices, context);
     if (!source) return source;
     sources.push_back(std::move(*source));
   }

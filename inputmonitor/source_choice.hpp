@@ -1,4 +1,7 @@
-// Sources that an option names, opened; every device found that has a map.
+// Selection of event sources by the option --source; automatic detection of devices with a map.
+// Inputs: texts of the option, maps from GUF, folder of devices.
+// Outputs: one EventSource.
+// Errors: an unknown source text is a usage error; else the errors of the source.
 #pragma once
 
 #include <filesystem>
@@ -15,13 +18,14 @@
 
 namespace yars::inputmonitor {
 
-// Every device of a folder that has a map and may be read, now or later: looks once a second for what is new. A device
-// that goes is let go of and forgotten; what may not be read is told once.
-inline constexpr std::int64_t kLookForNew_ns = 1'000'000'000;  // [ns] listing a folder is cheap; opening is done once
+// Interval between scans of the device folder. A scan lists the folder and opens only new nodes.
+inline constexpr std::int64_t kScanInterval_ns = 1'000'000'000;
 
+// All devices of a folder with a map and read permission, also those connected later. A disconnected device is released
+// and removed. Missing permission is reported once.
 class FoundDevicesSource final : public EventSource {
  public:
-  // `others`: devices that another source reads.
+  // `others`: paths of devices that other sources read.
   FoundDevicesSource(std::filesystem::path folder, DeviceMaps maps, std::vector<std::filesystem::path> others);
 
   bool add_descriptors(std::vector<pollfd>& wanted) const override;
@@ -30,13 +34,13 @@ class FoundDevicesSource final : public EventSource {
   std::vector<databuffer::InputEvent> release() override;
   bool ended() const override { return false; }
   bool follows_sim_time() const override { return false; }
-  std::vector<News> news() override;
+  std::vector<Notice> notices() override;
   std::string description() const override;
 
  private:
-  // What tells a node from a later one of the same name, and one whose permissions have changed.
+  // Inode number and change time [ns]: they differ for a new node of the same name, and after a change of permissions.
   using Node = std::pair<std::uint64_t, std::int64_t>;
-  void look_for_new();
+  void scan_folder();
   void try_device(const std::filesystem::path& path);
 
   std::filesystem::path folder_;
@@ -44,33 +48,33 @@ class FoundDevicesSource final : public EventSource {
   std::vector<std::filesystem::path> others_;
   std::map<std::filesystem::path, Node> seen_;
   std::vector<std::unique_ptr<DeviceSource>> devices_;
-  std::vector<News> news_;
-  bool told_of_permission_ = false;
-  std::int64_t look_again_ns_ = 0;
+  std::vector<Notice> notices_;
+  bool permission_reported_ = false;
+  std::int64_t next_scan_ns_ = 0;
 };
 
-// Which source `--source TEXT` names, and opening those that were named.
 enum class SourceKind { window, terminal, script, device, automatic };
 
+// Parsed argument of --source.
 struct SourceChoice {
   SourceKind kind = SourceKind::automatic;
   std::string file;      // of a script or a device
   std::string map_name;  // of a device; empty: the map that fits
 };
 
-// window, terminal, script:FILE, evdev:PATH[,MAP] or auto; anything else is bad usage.
+// Parses window, terminal, script:FILE, evdev:PATH[,MAP] or auto. Error: any other text is a usage error.
 error::Expected<SourceChoice> parse_source(std::string_view text);
 
-// What sources need from outside.
-struct OpeningNeeds {
+// Parameters common to all sources.
+struct SourceContext {
   std::string session;
   DeviceMaps maps = std::make_shared<const std::vector<radar::Device>>();
   std::filesystem::path device_folder = "/dev/input";
 };
 
-// All of them as one. `auto` takes a window where there is a display, else the terminal where there is one, and every
-// device that has a map and may be read.
+// Opens all choices as one source. `auto` opens a window if there is a display, else the terminal if there is one, and
+// all devices with a map and read permission.
 error::Expected<std::unique_ptr<EventSource>> open_sources(const std::vector<SourceChoice>& choices,
-                                                           const OpeningNeeds& needs);
+                                                           const SourceContext& context);
 
 }  // namespace yars::inputmonitor

@@ -18,10 +18,10 @@ namespace {
 using databuffer::Key;
 
 constexpr char kEscape = '\x1b';
-constexpr std::size_t kLongestSequence = 16;  // [bytes] no key has a longer one; bounds what is held
+constexpr std::size_t kMaxSequence = 16;  // [bytes] no key has a longer sequence; bounds the buffer
 
 template <class Code, std::size_t Size>
-Key look_up(const std::array<std::pair<Code, Key>, Size>& table, Code code) {
+Key find_key(const std::array<std::pair<Code, Key>, Size>& table, Code code) {
   const auto* row = std::ranges::find(table, code, &std::pair<Code, Key>::first);
   return row == table.end() ? Key::none : row->second;
 }
@@ -53,25 +53,25 @@ bool is_parameter(char byte) {
   return byte >= ' ' && byte <= '?';
 }
 
-enum class Shape { unfinished, complete, nonsense };
+enum class Shape { unfinished, complete, invalid };
 
-// `sequence` begins with ESC and has at least one byte more.
+// `sequence`: ESC and at least one more byte.
 Shape shape_of(std::string_view sequence) {
   const char introducer = sequence[1];
   const bool linux_function = sequence.starts_with("\x1b[[");
-  if (introducer != '[' && introducer != 'O') return Shape::nonsense;
+  if (introducer != '[' && introducer != 'O') return Shape::invalid;
   if (sequence.size() == 2 || (linux_function && sequence.size() == 3)) return Shape::unfinished;
   if (is_final(sequence.back())) return Shape::complete;
-  return is_parameter(sequence.back()) && sequence.size() < kLongestSequence ? Shape::unfinished : Shape::nonsense;
+  return is_parameter(sequence.back()) && sequence.size() < kMaxSequence ? Shape::unfinished : Shape::invalid;
 }
 
 Key key_of_sequence(std::string_view sequence) {
-  if (sequence.starts_with("\x1b[[")) return look_up(kLinuxFunctions, sequence.back());
-  // What follows a semicolon says which modifiers were held: the key is the same.
+  if (sequence.starts_with("\x1b[[")) return find_key(kLinuxFunctions, sequence.back());
+  // The part after a semicolon gives the modifiers, which are ignored.
   std::string_view parameter = sequence.substr(2, sequence.size() - 3);
   parameter = parameter.substr(0, parameter.find(';'));
-  if (sequence.back() == '~') return look_up(kNumbers, parameter);
-  return parameter.empty() || parameter == "1" ? look_up(kFinals, sequence.back()) : Key::none;
+  if (sequence.back() == '~') return find_key(kNumbers, parameter);
+  return parameter.empty() || parameter == "1" ? find_key(kFinals, sequence.back()) : Key::none;
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ void TerminalDecoder::take_byte(char byte, std::int64_t now_ns, Changes& changes
     sequence_ = kEscape;
     last_byte_ns_ = now_ns;
   } else if (sequence_.empty()) {
-    stroke(key_of_byte(byte), now_ns, changes);
+    press_key(key_of_byte(byte), now_ns, changes);
   } else {
     continue_sequence(byte, now_ns, changes);
   }
@@ -99,10 +99,10 @@ void TerminalDecoder::continue_sequence(char byte, std::int64_t now_ns, Changes&
   const Shape shape = shape_of(sequence_);
   if (shape == Shape::unfinished) return;
   const std::string sequence = std::exchange(sequence_, {});
-  if (shape == Shape::complete) stroke(key_of_sequence(sequence), now_ns, changes);
+  if (shape == Shape::complete) press_key(key_of_sequence(sequence), now_ns, changes);
 }
 
-void TerminalDecoder::stroke(Key key, std::int64_t now_ns, Changes& changes) {
+void TerminalDecoder::press_key(Key key, std::int64_t now_ns, Changes& changes) {
   if (key == Key::none) return;
   const auto pulse = std::ranges::find(pulses_, key, &Pulse::key);
   if (pulse == pulses_.end()) {
@@ -121,17 +121,17 @@ std::vector<KeyChange> TerminalDecoder::advance(std::int64_t now_ns) {
     pulse.end_ns.reset();
     changes.push_back({pulse.key, false});
   }
-  if (!sequence_.empty() && now_ns - last_byte_ns_ >= kEscapeAlone_ns) {
+  if (!sequence_.empty() && now_ns - last_byte_ns_ >= kEscapeTimeout_ns) {
     const bool alone = sequence_.size() == 1;
     sequence_.clear();
-    if (alone) stroke(Key::escape, now_ns, changes);
+    if (alone) press_key(Key::escape, now_ns, changes);
   }
   return changes;
 }
 
 std::optional<std::int64_t> TerminalDecoder::deadline_ns() const {
   std::optional<std::int64_t> deadline;
-  if (!sequence_.empty()) deadline = last_byte_ns_ + kEscapeAlone_ns;
+  if (!sequence_.empty()) deadline = last_byte_ns_ + kEscapeTimeout_ns;
   for (const Pulse& pulse : pulses_)
     if (pulse.end_ns) deadline = std::min(deadline.value_or(*pulse.end_ns), *pulse.end_ns);
   return deadline;
@@ -139,14 +139,14 @@ std::optional<std::int64_t> TerminalDecoder::deadline_ns() const {
 
 namespace {
 
-// What would end the process without unwinding; SIGINT and SIGTERM end it in order.
-constexpr std::array kFelling{SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGQUIT, SIGHUP};
+// Signals that end the process without unwinding. SIGINT and SIGTERM are not among them: they end it in order.
+constexpr std::array kFatalSignals{SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGQUIT, SIGHUP};
 
-// A signal handler has no other way to reach it.
+// Global, because a signal handler has no other access to it.
 struct Saved {
   std::atomic<int> descriptor{-1};
   termios settings{};
-  std::array<struct sigaction, kFelling.size()> actions{};
+  std::array<struct sigaction, kFatalSignals.size()> actions{};
 };
 Saved saved;
 
@@ -155,29 +155,29 @@ void restore() {
   if (descriptor >= 0) tcsetattr(descriptor, TCSANOW, &saved.settings);
 }
 
-// The handler is gone when it is entered (SA_RESETHAND): the signal sent again does what it always did.
-void restore_and_fall(int signal_number) {
+// SA_RESETHAND removes the handler on entry, so the signal raised again has its default effect.
+void restore_and_raise(int signal_number) {
   restore();
   raise(signal_number);
 }
 
-void catch_felling_signals() {
+void install_handlers() {
   struct sigaction action {};
-  action.sa_handler = restore_and_fall;
+  action.sa_handler = restore_and_raise;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigemptyset(&action.sa_mask);
-  for (std::size_t index = 0; index < kFelling.size(); ++index)
-    sigaction(kFelling[index], &action, &saved.actions[index]);
+  for (std::size_t index = 0; index < kFatalSignals.size(); ++index)
+    sigaction(kFatalSignals[index], &action, &saved.actions[index]);
 }
 
-void release_felling_signals() {
-  for (std::size_t index = 0; index < kFelling.size(); ++index)
-    sigaction(kFelling[index], &saved.actions[index], nullptr);
+void remove_handlers() {
+  for (std::size_t index = 0; index < kFatalSignals.size(); ++index)
+    sigaction(kFatalSignals[index], &saved.actions[index], nullptr);
 }
 
 termios byte_by_byte(termios settings) {
   settings.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-  settings.c_iflag &= ~static_cast<tcflag_t>(IXON);  // Ctrl-S must not seem to freeze the keyboard
+  settings.c_iflag &= ~static_cast<tcflag_t>(IXON);  // off: Ctrl-S would block the terminal
   settings.c_cc[VSUSP] = _POSIX_VDISABLE;
   settings.c_cc[VMIN] = 1;
   settings.c_cc[VTIME] = 0;
@@ -192,14 +192,14 @@ bool is_foreground_terminal(int descriptor) {
 
 error::Expected<std::unique_ptr<TerminalMode>> TerminalMode::enter(int descriptor) {
   if (!is_foreground_terminal(descriptor))
-    return error::fail("standard input", "a terminal in whose foreground this program runs",
-                       isatty(descriptor) == 1 ? "one of which another program has the foreground" : "no terminal",
+    return error::fail("standard input", "a terminal with this program in its foreground",
+                       isatty(descriptor) == 1 ? "one with another program in its foreground" : "no terminal",
                        "start it in a terminal of its own, or use --source window or script:FILE");
   if (tcgetattr(descriptor, &saved.settings) != 0)
     return error::fail("standard input", "a terminal whose settings can be read", std::strerror(errno));
   const termios raw = byte_by_byte(saved.settings);
   saved.descriptor = descriptor;
-  catch_felling_signals();
+  install_handlers();
   std::unique_ptr<TerminalMode> mode(new TerminalMode);
   if (tcsetattr(descriptor, TCSANOW, &raw) != 0)
     return error::fail("standard input", "a terminal that can be set", std::strerror(errno));
@@ -207,7 +207,7 @@ error::Expected<std::unique_ptr<TerminalMode>> TerminalMode::enter(int descripto
 }
 
 TerminalMode::~TerminalMode() {
-  // A process that was put into the background meanwhile would be stopped here.
+  // SIGTTOU is blocked: tcsetattr would stop a process that is in the background by now.
   sigset_t blocked;
   sigset_t before;
   sigemptyset(&blocked);
@@ -215,7 +215,7 @@ TerminalMode::~TerminalMode() {
   pthread_sigmask(SIG_BLOCK, &blocked, &before);
   restore();
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  release_felling_signals();
+  remove_handlers();
 }
 
 }  // namespace yars::inputmonitor

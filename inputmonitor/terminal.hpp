@@ -1,4 +1,8 @@
-// Terminal as a keyboard: its bytes as edges of keys, its mode without echo.
+// Terminal as a keyboard: decoder from bytes to key edges, and the terminal mode without echo.
+// Inputs: bytes with the time of their arrival [ns, CLOCK_MONOTONIC].
+// Outputs: key edges.
+// Errors: a descriptor that is not a terminal, or not in its foreground.
+// Source: docs/spec/commands.md#terminal
 #pragma once
 
 #include <array>
@@ -14,27 +18,27 @@
 
 namespace yars::inputmonitor {
 
-// Source: docs/spec/commands.md#terminal.
-inline constexpr std::int64_t kEscapeAlone_ns = 50'000'000;  // [ns] a serial line at 9600 Bd needs 1 ms
-inline constexpr std::int64_t kArrowPulse_ns = 100'000'000;  // [ns] longer than a key's repeat
+// ESC is a key of its own when no byte follows within 50 ms. At 9600 Bd the next byte of a sequence takes 1 ms.
+inline constexpr std::int64_t kEscapeTimeout_ns = 50'000'000;
+// An arrow key is held for 100 ms after each byte sequence: longer than the interval of key repeats.
+inline constexpr std::int64_t kArrowPulse_ns = 100'000'000;
 
 struct KeyChange {
   databuffer::Key key = databuffer::Key::none;
   bool pressed = false;
 };
 
-// From the bytes of a terminal to edges of keys. Pure: it is told the time of each byte.
-// Knows the sequences of xterm and its kin (ESC [ A, ESC O A, ESC [ 5 ~, ESC O P, ESC [ 1 1 ~, with modifiers) and of
-// the Linux console (ESC [ [ A). Terminals report no release: an arrow is a pulse that each further byte sequence
-// lengthens; every other key goes down and up at once. ESC alone is the key when nothing follows it in time; a
-// sequence that stays unfinished that long, or is unknown, is dropped.
+// Decoder from terminal bytes to key edges. Pure: the time of each byte is an argument.
+// Sequences: xterm (ESC [ A, ESC O A, ESC [ 5 ~, ESC O P, ESC [ 1 1 ~, with modifiers) and Linux console (ESC [ [ A).
+// Terminals report no release. An arrow is a pulse, extended by each further sequence. Any other key is pressed and
+// released at once. Unknown sequences, and sequences unfinished after kEscapeTimeout_ns, are dropped.
 class TerminalDecoder {
  public:
-  // Bytes read at `now_ns`; what had to happen before comes first.
+  // Decodes bytes read at `now_ns`. Changes due before come first.
   std::vector<KeyChange> feed(std::string_view bytes, std::int64_t now_ns);
-  // What the time alone brings: pulses that end, ESC that stayed alone.
+  // Changes due by time alone: the end of pulses, ESC without a sequence.
   std::vector<KeyChange> advance(std::int64_t now_ns);
-  // When advance() has something to do; none: not without further bytes.
+  // Time of the next change by advance(). None: no change without further bytes.
   std::optional<std::int64_t> deadline_ns() const;
 
  private:
@@ -46,9 +50,9 @@ class TerminalDecoder {
 
   void take_byte(char byte, std::int64_t now_ns, Changes& changes);
   void continue_sequence(char byte, std::int64_t now_ns, Changes& changes);
-  void stroke(databuffer::Key key, std::int64_t now_ns, Changes& changes);
+  void press_key(databuffer::Key key, std::int64_t now_ns, Changes& changes);
 
-  std::string sequence_;  // begun with ESC and not yet complete
+  std::string sequence_;  // incomplete, beginning with ESC
   std::int64_t last_byte_ns_ = 0;
   std::array<Pulse, 4> pulses_{{{databuffer::Key::up, {}},
                                 {databuffer::Key::down, {}},
@@ -56,12 +60,12 @@ class TerminalDecoder {
                                 {databuffer::Key::right, {}}}};
 };
 
-// A terminal that gives each byte at once, without echo, as long as this object lives; afterwards, and when the
-// process is felled by a signal that can be caught, it is as it was. Ctrl-C goes on to end the program; Ctrl-Z is
-// off, or a stopped program would leave the shell a terminal without echo.
+// Scope guard: terminal without line buffering and echo. The settings are restored at the end, and when a signal that
+// can be caught ends the process. Ctrl-C still ends the program. Ctrl-Z is disabled, because a stopped program would
+// leave the shell without echo. Only one instance at a time.
 class TerminalMode {
  public:
-  // An error when the descriptor is no terminal, or this process is not in its foreground. One at a time.
+  // Errors: the descriptor is not a terminal, or this process is not in its foreground.
   static error::Expected<std::unique_ptr<TerminalMode>> enter(int descriptor);
   TerminalMode(const TerminalMode&) = delete;
   TerminalMode& operator=(const TerminalMode&) = delete;
@@ -71,7 +75,7 @@ class TerminalMode {
   TerminalMode() = default;
 };
 
-// Whether `enter` would find a terminal that is ours to read.
+// True when the descriptor is a terminal with this process in its foreground.
 bool is_foreground_terminal(int descriptor);
 
 }  // namespace yars::inputmonitor

@@ -26,25 +26,25 @@ using geo::GeoPoint;
 using geo::Length;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kCrossingSeconds = 2.0;  // [s] full deflection across the glass: docs/spec/pilots_interface.md#tdc
-constexpr radar::ViewConfiguration kMapView{-0.5, 0.5, -0.5, 0.5};  // the window fills the glass, its centre is 0, 0
+constexpr double kCrossing_s = 2.0;  // across the display at full deflection: docs/spec/pilots_interface.md#tdc
+constexpr radar::ViewConfiguration kMapView{-0.5, 0.5, -0.5, 0.5};  // the window fills the display; centre at 0, 0
 
-// A place on the glass, right and up; its unit and its zero are the plane's.
+// Position on the display, x right, y up; origin and unit are those of the Plane.
 struct DisplayPoint {
   double x = 0.0;
   double y = 0.0;
 };
 
-// What the glass shows: geodesic distance and azimuth from an apex, plotted flat.
+// Projection of the display: geodesic distance and azimuth from an apex, plotted on a plane (azimuthal equidistant).
 struct Plane {
   GeoPoint apex;
   Bearing up;
-  Length unit;   // the selected range, or the map's window
-  Length ahead;  // of the glass's zero, from the apex
+  Length unit;   // selected range, or window of the map
+  Length ahead;  // distance of the origin from the apex
   radar::ViewConfiguration view;
 
-  DisplayPoint display_from_ground(GeoPoint place) const {
-    const geo::PlanePoint point = geo::AzimuthalEquidistant(apex, up).plane_from_geodetic(place);
+  DisplayPoint display_from_ground(GeoPoint position) const {
+    const geo::PlanePoint point = geo::AzimuthalEquidistant(apex, up).plane_from_geodetic(position);
     return {Length::metres(point.x_m) / unit, (Length::metres(point.y_m) - ahead) / unit};
   }
   GeoPoint ground_from_display(DisplayPoint point) const {
@@ -61,16 +61,16 @@ GeoPoint aircraft_of(const Inputs& inputs) {
   return {inputs.ownship.latitude_deg, inputs.ownship.longitude_deg};
 }
 
-void put_cursor(RadarState& state, GeoPoint place, std::int64_t tick) {
-  if (place.latitude_deg != state.cursor_latitude_deg || place.longitude_deg != state.cursor_longitude_deg)
+void put_cursor(RadarState& state, GeoPoint position, std::int64_t tick) {
+  if (position.latitude_deg != state.cursor_latitude_deg || position.longitude_deg != state.cursor_longitude_deg)
     state.cursor_elevation_m = kUnknown;
-  state.cursor_latitude_deg = place.latitude_deg;
-  state.cursor_longitude_deg = place.longitude_deg;
+  state.cursor_latitude_deg = position.latitude_deg;
+  state.cursor_longitude_deg = position.longitude_deg;
   state.cursor_moved_tick = tick;
   set_flag(state, databuffer::kCursorValid, true);
 }
 
-// Nothing while a map is shown of which nobody knows where it lies.
+// Projection of the present picture. Nothing while a map without a record is shown: its position is unknown.
 std::optional<Plane> plane_of(const RadarState& state, const Inputs& inputs, const radar::ViewConfiguration& view) {
   Plane plane{{state.frame_latitude_deg, state.frame_longitude_deg},
               Bearing::degrees(state.frame_track_deg),
@@ -86,8 +86,8 @@ std::optional<Plane> plane_of(const RadarState& state, const Inputs& inputs, con
   return plane;
 }
 
-void follow_aircraft(RadarState& state, const Inputs& inputs) {
-  // The frozen picture stays where its last sweep was; until the scan has ended it is not frozen.
+void update_frame_from_aircraft(RadarState& state, const Inputs& inputs) {
+  // A frozen picture keeps the frame of its last sweep. It is not frozen until the scan ends.
   const bool frozen = has(state, databuffer::kFreeze) && (inputs.model.flags & databuffer::kModelFrozen) != 0;
   if (frozen) return;
   const databuffer::Ownship& ownship = inputs.ownship;
@@ -96,8 +96,8 @@ void follow_aircraft(RadarState& state, const Inputs& inputs) {
   state.frame_track_deg = databuffer::ground_track_of(ownship).degrees();
 }
 
-void follow(RadarState& state, const Inputs& inputs) {
-  if (state.map_shown == 0) return follow_aircraft(state, inputs);
+void update_frame(RadarState& state, const Inputs& inputs) {
+  if (state.map_shown == 0) return update_frame_from_aircraft(state, inputs);
   const PatchMap* map = map_of(inputs, state.map_shown);
   if (map == nullptr) return;
   state.frame_latitude_deg = map->apex_latitude_deg;
@@ -108,28 +108,28 @@ void follow(RadarState& state, const Inputs& inputs) {
 void place_cursor(RadarState& state, const Plane& plane, const Inputs& inputs,
                   const radar::RadarConfiguration& configuration) {
   const DisplayPoint middle{0.0, state.map_shown == 0 ? 0.5 : 0.0};
-  GeoPoint place = plane.ground_from_display(middle);
+  GeoPoint position = plane.ground_from_display(middle);
   if (const auto point = selected_point(state, configuration)) {
     const GeoPoint seen = databuffer::belief_in_use(inputs.ownship, inputs.nav, state).on_video(point->place);
-    if (plane.shows(plane.display_from_ground(seen))) place = seen;
+    if (plane.shows(plane.display_from_ground(seen))) position = seen;
   }
-  put_cursor(state, place, inputs.tick);
+  put_cursor(state, position, inputs.tick);
 }
 
 void slew(RadarState& state, const Plane& plane, std::int64_t tick) {
-  // While the TDC turns the pattern steering line the cursor stands.
+  // The cursor stands still while the TDC turns the pattern steering line.
   if (!shows_cursor(state) || slews_steering_line(state)) return;
   if (state.tdc_x == 0.0 && state.tdc_y == 0.0) return;
-  const double share = radar::kTickSeconds / kCrossingSeconds;
+  const double fraction = radar::kTickSeconds / kCrossing_s;
   const auto& view = plane.view;
   const DisplayPoint from = plane.display_from_ground(cursor_of(state));
-  const double x = from.x + state.tdc_x * share * (view.width_max - view.width_min);
-  const double y = from.y + state.tdc_y * share * (view.height_max - view.height_min);
+  const double x = from.x + state.tdc_x * fraction * (view.width_max - view.width_min);
+  const double y = from.y + state.tdc_y * fraction * (view.height_max - view.height_min);
   const DisplayPoint to{std::clamp(x, view.width_min, view.width_max), std::clamp(y, view.height_min, view.height_max)};
   put_cursor(state, plane.ground_from_display(to), tick);
 }
 
-void read_out(RadarState& state, const Inputs& inputs) {
+void put_readouts(RadarState& state, const Inputs& inputs) {
   const auto inverse = geo::geodesic_inverse(aircraft_of(inputs), cursor_of(state));
   state.cursor_bearing_deg = (inverse.azimuth_at_start - geo::Angle::degrees(state.magnetic_variation_deg)).degrees();
   state.cursor_range_nm = inverse.distance.nautical_miles();
@@ -155,8 +155,8 @@ void next_cursor_function(Step& step) {
   do {
     function = static_cast<std::uint8_t>((function + 1) % kFunctions);
   } while (function == kMap && has(step.state, databuffer::kSet));
-  // The steering line slews in TGT alone: a function left behind must not keep the TDC.
-  if (slews_steering_line(step.state)) lead_along_line_of_sight(step.state, step.inputs);
+  // Leaving TGT ends the slewing of the steering line, so that the TDC moves the cursor again.
+  if (slews_steering_line(step.state)) steer_line_of_sight(step.state, step.inputs);
 }
 
 void jump_cursor(RadarState& state, GeoPoint known, const Inputs& inputs) {
@@ -166,17 +166,17 @@ void jump_cursor(RadarState& state, GeoPoint known, const Inputs& inputs) {
 
 bool shows_cursor(const RadarState& state) {
   const radar::Mode mode = running_mode(state);
-  const bool elsewhere = mode == radar::Mode::air_to_air || mode == radar::Mode::ranging;
-  return mode != radar::Mode::pvu && (!elsewhere || has(state, databuffer::kSet));
+  const bool without_picture = mode == radar::Mode::air_to_air || mode == radar::Mode::ranging;
+  return mode != radar::Mode::pvu && (!without_picture || has(state, databuffer::kSet));
 }
 
 void advance_cursor(RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
-  follow(state, inputs);
+  update_frame(state, inputs);
   if (const auto plane = plane_of(state, inputs, configuration.view)) {
     if (!has(state, databuffer::kCursorValid)) place_cursor(state, *plane, inputs, configuration);
     slew(state, *plane, inputs.tick);
   }
-  if (has(state, databuffer::kCursorValid)) read_out(state, inputs);
+  if (has(state, databuffer::kCursorValid)) put_readouts(state, inputs);
 }
 
 namespace {
@@ -188,7 +188,7 @@ using text::text_of;
 constexpr std::size_t kMaxDrawn = 5;  // docs/spec/pilots_interface.md#rule-11; the record holds more
 static_assert(kMaxDrawn <= radar::kMaxPointsDrawn);
 
-// Among those of the route, and the target designated.
+// Point of the route, or designated target, by name.
 std::optional<RoutePoint> find_point(std::string_view name, const RadarState& state,
                                      const radar::RadarConfiguration& configuration) {
   const auto found = std::find_if(configuration.route.begin(), configuration.route.end(),
@@ -208,17 +208,17 @@ void select(Step& step, const std::optional<RoutePoint>& point) {
   jump_cursor(step.state, point->place, step.inputs);
 }
 
-// The points to draw, kept sorted by distance while the route goes by; those always drawn go in at no distance.
+// The nearest points, sorted by distance. Points that are always drawn are added with distance 0.
 class Nearest {
  public:
   void take(const RoutePoint* point, geo::Length distance) {
     if (!point) return;
     const auto end = entries_.begin() + static_cast<std::ptrdiff_t>(count_);
-    const auto place =
+    const auto slot =
         std::find_if(entries_.begin(), end, [distance](const Entry& entry) { return distance < entry.distance; });
-    if (place == entries_.end()) return;
-    std::move_backward(place, count_ < kMaxDrawn ? end : end - 1, count_ < kMaxDrawn ? end + 1 : end);
-    *place = {point, distance};
+    if (slot == entries_.end()) return;
+    std::move_backward(slot, count_ < kMaxDrawn ? end : end - 1, count_ < kMaxDrawn ? end + 1 : end);
+    *slot = {point, distance};
     count_ = std::min(count_ + 1, kMaxDrawn);
   }
 
@@ -284,7 +284,7 @@ void draw_points(RadarState& state, const Inputs& inputs, const radar::RadarConf
   const GeoPoint aircraft = aircraft_of(inputs);
   const geo::Length range = geo::Length::nautical_miles(state.range_nm);
   for (const RoutePoint& point : configuration.route) {
-    if (is_target(point)) continue;  // a point adopted is drawn once, as the target
+    if (is_target(point)) continue;  // a route point taken as the target is drawn once
     if (point.name == selected) {
       nearest.take(&point, geo::Length());
       continue;

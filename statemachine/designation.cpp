@@ -21,23 +21,23 @@ using databuffer::RadarState;
 using geo::GeoPoint;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr std::int64_t kAnswerTicks = 20;   // 0.1 s: a model that lives has answered by then
-constexpr std::int64_t kGroundTicks = 400;  // 2 s: ground that is still unknown is void, or is not loaded
+constexpr std::int64_t kAnswerTicks = 20;   // 0.1 s; a running model answers within this time
+constexpr std::int64_t kGiveUpTicks = 400;  // 2 s; ground still unknown by then is void or not loaded
 
-bool is_asked(const RadarState& state, GeoPoint ground) {
+bool is_requested(const RadarState& state, GeoPoint ground) {
   return state.asked_latitude_deg == ground.latitude_deg && state.asked_longitude_deg == ground.longitude_deg;
 }
 
-void put_elevation(RadarState& state, std::uint32_t for_whom, double elevation_m) {
+void put_elevation(RadarState& state, std::uint32_t recipients, double elevation_m) {
   for (std::uint32_t mark = 0; mark < databuffer::kMarks; ++mark)
-    if ((for_whom >> mark & 1U) != 0) state.marks[mark].elevation_m = elevation_m;
-  if ((for_whom & databuffer::kAskedForTarget) != 0) state.target_elevation_m = elevation_m;
-  if ((for_whom & databuffer::kAskedForCue) != 0) state.cue_elevation_m = elevation_m;
+    if ((recipients >> mark & 1U) != 0) state.marks[mark].elevation_m = elevation_m;
+  if ((recipients & databuffer::kAskedForTarget) != 0) state.target_elevation_m = elevation_m;
+  if ((recipients & databuffer::kAskedForCue) != 0) state.cue_elevation_m = elevation_m;
 }
 
-// Ticks since the question; time may have been set back since.
-std::int64_t waited(const RadarState& state, std::int64_t tick) {
-  return tick < state.asked_tick ? kGroundTicks : tick - state.asked_tick;
+// Ticks since the request; kGiveUpTicks after a step back in time.
+std::int64_t ticks_waited(const RadarState& state, std::int64_t tick) {
+  return tick < state.asked_tick ? kGiveUpTicks : tick - state.asked_tick;
 }
 
 }  // namespace
@@ -49,23 +49,23 @@ std::optional<double> answered_elevation_m(const Inputs& inputs, GeoPoint ground
   return same ? std::optional(model.answered_elevation_m) : std::nullopt;
 }
 
-void ask_elevation(Step& step, std::uint32_t for_whom) {
+void request_elevation(Step& step, std::uint32_t recipients) {
   RadarState& state = step.state;
   const GeoPoint ground = cursor_of(state);
-  put_elevation(state, for_whom, kUnknown);
-  state.asked_for &= ~for_whom;
+  put_elevation(state, recipients, kUnknown);
+  state.asked_for &= ~recipients;
   const auto known_m = answered_elevation_m(step.inputs, ground);
-  if (known_m && std::isfinite(*known_m)) return put_elevation(state, for_whom, *known_m);
-  // Those who wait for another ground stay without.
-  if (!is_asked(state, ground)) state.asked_for = 0;
+  if (known_m && std::isfinite(*known_m)) return put_elevation(state, recipients, *known_m);
+  // A request for another ground position is dropped: its recipients keep an unknown elevation.
+  if (!is_requested(state, ground)) state.asked_for = 0;
   state.asked_latitude_deg = ground.latitude_deg;
   state.asked_longitude_deg = ground.longitude_deg;
   state.asked_tick = step.inputs.tick;
-  state.asked_for |= for_whom;
+  state.asked_for |= recipients;
 }
 
-void ask_no_more(RadarState& state, std::uint32_t for_whom) {
-  state.asked_for &= ~for_whom;
+void cancel_request(RadarState& state, std::uint32_t recipients) {
+  state.asked_for &= ~recipients;
 }
 
 bool waits_for_elevation(const RadarState& state, const databuffer::InputEvent& event, const Inputs& inputs) {
@@ -74,8 +74,8 @@ bool waits_for_elevation(const RadarState& state, const databuffer::InputEvent& 
   const bool designates =
       event.kind == static_cast<std::uint16_t>(databuffer::EventKind::tdc_release) &&
       (function == CursorFunction::cue || function == CursorFunction::target || function == CursorFunction::mark);
-  return designates && state.asked_for != 0 && !is_asked(state, cursor_of(state)) &&
-         waited(state, inputs.tick) < kAnswerTicks;
+  return designates && state.asked_for != 0 && !is_requested(state, cursor_of(state)) &&
+         ticks_waited(state, inputs.tick) < kAnswerTicks;
 }
 
 void take_elevation(RadarState& state, const Inputs& inputs) {
@@ -84,12 +84,12 @@ void take_elevation(RadarState& state, const Inputs& inputs) {
   if (answer_m && std::isfinite(*answer_m)) {
     put_elevation(state, state.asked_for, *answer_m);
     state.asked_for = 0;
-  } else if (waited(state, inputs.tick) >= kGroundTicks) {
+  } else if (ticks_waited(state, inputs.tick) >= kGiveUpTicks) {
     state.asked_for = 0;
   }
 }
 
-void ask_for_cursor(RadarState& state) {
+void request_cursor_elevation(RadarState& state) {
   if (state.asked_for != 0 || !has(state, databuffer::kCursorValid)) return;
   state.asked_latitude_deg = state.cursor_latitude_deg;
   state.asked_longitude_deg = state.cursor_longitude_deg;
@@ -100,12 +100,12 @@ namespace {
 using databuffer::SteeringLine;
 using geo::Bearing;
 
-constexpr double kTurnRate_dps = 45.0;  // [deg/s] of the line at full deflection: half round in 4 s
+constexpr double kTurnRate_dps = 45.0;  // [deg/s] of the line at full deflection: 180 deg in 4 s
 constexpr double kGravity_mps2 = 9.80665;
-constexpr double kCapture_s = 15.0;  // [s] of flight in which half the distance to the line is to be gone
-constexpr double kTurn_s = 5.0;      // [s] in which an error of track is to be turned away
-constexpr double kMaxBank_deg = 60.0;
-constexpr double kMinSpeed_mps = 1.0;  // below, a track has no direction and a bank no effect
+constexpr double kCapture_s = 15.0;  // time constant of the offset: intercept angle atan(offset / (speed * kCapture_s))
+constexpr double kTurn_s = 5.0;      // time constant of the turn to the wanted track
+constexpr double kMaxBank_deg = 60.0;  // larger commands are clamped
+constexpr double kMinSpeed_mps = 1.0;  // below it the track has no direction: the bank is 0
 
 SteeringLine line_of(const RadarState& state) {
   return static_cast<SteeringLine>(state.steering_line);
@@ -115,17 +115,17 @@ void put_line(RadarState& state, SteeringLine line) {
   state.steering_line = static_cast<std::uint8_t>(line);
 }
 
-// From the aircraft to the target as the glass shows them.
+// Geodesic from the aircraft to the target, both as displayed.
 geo::GeodesicInverse sight_of_target(const RadarState& state, const Inputs& inputs) {
   const auto belief = databuffer::belief_in_use(inputs.ownship, inputs.nav, state);
   return geo::geodesic_inverse(belief.truth, belief.on_video({state.target_latitude_deg, state.target_longitude_deg}));
 }
 
-// [deg] right wing down: toward the line through the target along the approach, then along it.
+// Bank angle [deg], right wing down positive, onto the line through the target along the approach, and then along it.
 double bank_onto_line(const geo::GeodesicInverse& sight, Bearing approach, const databuffer::Ownship& ownship) {
   const double speed_mps = std::hypot(ownship.velocity_north_mps, ownship.velocity_east_mps);
   if (speed_mps < kMinSpeed_mps) return 0.0;
-  // Right of the line, seen along the approach.
+  // Offset to the right of the line, in the direction of the approach.
   const double right_m = sight.distance.metres() * std::sin((approach - sight.azimuth_at_start).radians());
   const Bearing wanted = approach - geo::Angle::radians(std::atan2(right_m, speed_mps * kCapture_s));
   const double turn_rate = (wanted - databuffer::ground_track_of(ownship)).radians() / kTurn_s;
@@ -140,7 +140,7 @@ void steer_slewing(Step& step) {
   if (step.event.argument < 0) {
     put_line(step.state, SteeringLine::slewing);
   } else if (step.event.argument > 0 && line_of(step.state) != SteeringLine::line_of_sight) {
-    lead_along_line_of_sight(step.state, step.inputs);
+    steer_line_of_sight(step.state, step.inputs);
   }
 }
 
@@ -152,7 +152,7 @@ bool slews_steering_line(const RadarState& state) {
   return line_of(state) == SteeringLine::slewing;
 }
 
-void lead_along_line_of_sight(RadarState& state, const Inputs& inputs) {
+void steer_line_of_sight(RadarState& state, const Inputs& inputs) {
   put_line(state, SteeringLine::line_of_sight);
   if (inputs.ownship_valid) advance_steering_line(state, inputs);
 }
@@ -196,8 +196,7 @@ bool has_cursor(const Step& step) {
   return step.inputs.ownship_valid && has(step.state, databuffer::kCursorValid);
 }
 
-// The cursor's point as the navigator has it at this moment: the state's own field is of the tick before, and the
-// cursor may have jumped since.
+// Navigator coordinates of the cursor. The field of the state is from the last tick; the cursor may have jumped since.
 geo::GeoPoint known_cursor(const Step& step) {
   const RadarState& state = step.state;
   const auto belief = databuffer::belief_in_use(step.inputs.ownship, step.inputs.nav, state);
@@ -210,8 +209,8 @@ void cue(RadarState& state, geo::GeoPoint known) {
   ++state.cue_count;
 }
 
-// The route's point on which this place lies; nullptr when there is none. One that is within a metre is the same: a
-// place has gone through the navigator's geodesics.
+// The point of the route within 1 m of a position; nullptr when there is none. The tolerance covers the rounding of the
+// geodesics between video and navigator.
 const radar::RoutePoint* route_point_at(geo::GeoPoint known, const radar::RadarConfiguration& configuration) {
   const geo::Length same = geo::Length::metres(1.0);
   const auto found = std::ranges::find_if(configuration.route, [&](const radar::RoutePoint& point) {
@@ -224,7 +223,7 @@ bool is_of_route(std::string_view name, const radar::RadarConfiguration& configu
   return std::ranges::find(configuration.route, name, &radar::RoutePoint::name) != configuration.route.end();
 }
 
-// A point of the route with this number: an offset matters to offsets alone, and "2" and "2." are one number.
+// True when the route has this number; for an offset, when it has this offset of a target. "2" and "2." are one number.
 bool is_taken(PointName wanted, const radar::RadarConfiguration& configuration) {
   return std::any_of(configuration.route.begin(), configuration.route.end(), [wanted](const auto& point) {
     const auto name = radar::point_name(point.name);
@@ -233,10 +232,11 @@ bool is_taken(PointName wanted, const radar::RadarConfiguration& configuration) 
   });
 }
 
-// With a target selected the next free offset of it, else the next free number; nothing when all are taken.
+// Name of a new target: the next free offset of the selected target of the route, else the next free number. Nothing
+// when all are used.
 std::optional<PointName> next_free(const RadarState& state, const radar::RadarConfiguration& configuration) {
   const auto selected = radar::point_name(text_of(state.sequence_point));
-  // A target that was designated itself makes way for the next one.
+  // A designated target that is not of the route is replaced by the next one.
   const bool of_route = selected && is_taken({selected->number, 0, true}, configuration);
   if (selected && selected->target && of_route) {
     for (int offset = 1; offset <= kMaxOffset; ++offset)
@@ -248,7 +248,7 @@ std::optional<PointName> next_free(const RadarState& state, const radar::RadarCo
   return std::nullopt;
 }
 
-// "4." or "4.01".
+// Text of a name: "4." or "4.01".
 std::string text_of(PointName name) {
   std::array<char, 16> text{};
   const char* const form = name.offset == 0 ? "%d." : "%d.%02d";
@@ -256,19 +256,19 @@ std::string text_of(PointName name) {
   return text.data();
 }
 
-// A point that exists keeps its name, its place and, where it has one, its elevation.
+// Stores target and cue. A point of the route keeps its position and its elevation, if known.
 void put_target(Step& step, geo::GeoPoint known, const radar::RoutePoint* adopted) {
   constexpr std::uint32_t both = databuffer::kAskedForTarget | databuffer::kAskedForCue;
   RadarState& state = step.state;
-  const geo::GeoPoint place = adopted ? adopted->place : known;
-  state.target_latitude_deg = place.latitude_deg;
-  state.target_longitude_deg = place.longitude_deg;
-  cue(state, place);
+  const geo::GeoPoint position = adopted ? adopted->place : known;
+  state.target_latitude_deg = position.latitude_deg;
+  state.target_longitude_deg = position.longitude_deg;
+  cue(state, position);
   if (adopted && !std::isnan(adopted->elevation_m)) {
-    ask_no_more(state, both);
+    cancel_request(state, both);
     state.target_elevation_m = state.cue_elevation_m = adopted->elevation_m;
   } else {
-    ask_elevation(step, both);
+    request_elevation(step, both);
   }
 }
 
@@ -277,7 +277,7 @@ void put_target(Step& step, geo::GeoPoint known, const radar::RoutePoint* adopte
 void cue_sensor(Step& step) {
   if (!has_cursor(step)) return;
   cue(step.state, known_cursor(step));
-  ask_elevation(step, databuffer::kAskedForCue);
+  request_elevation(step, databuffer::kAskedForCue);
 }
 
 void designate_target(Step& step) {
@@ -287,7 +287,7 @@ void designate_target(Step& step) {
   const radar::RoutePoint* const adopted = route_point_at(known, step.configuration);
   const auto free = adopted ? std::nullopt : next_free(state, step.configuration);
   if (!adopted && !free) return refuse(step, "NO FREE NUMBER");
-  // The selection goes with a target whose old name is nobody's from now on.
+  // A selection of the old target moves to the new one, unless the old name is a point of the route.
   const std::string_view old_name = text_of(state.target_name);
   const bool moves_selection = has(state, databuffer::kTargetDesignated) && text_of(state.sequence_point) == old_name &&
                                !is_of_route(old_name, step.configuration);
@@ -296,7 +296,7 @@ void designate_target(Step& step) {
   put_target(step, known, adopted);
   ++state.target_count;
   set_flag(state, databuffer::kTargetDesignated, true);
-  lead_along_line_of_sight(state, step.inputs);
+  steer_line_of_sight(state, step.inputs);
 }
 
 void store_mark(Step& step) {
@@ -311,7 +311,7 @@ void store_mark(Step& step) {
   const geo::GeoPoint known = known_cursor(step);
   const unsigned number = state.mark_count++;
   state.marks[number] = {known.latitude_deg, known.longitude_deg, 0.0, step.inputs.sim_time_ns};
-  ask_elevation(step, 1U << number);
+  request_elevation(step, 1U << number);
   show_message(state, step.inputs, "MARK " + std::to_string(state.mark_count));
 }
 

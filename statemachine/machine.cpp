@@ -26,8 +26,8 @@ using databuffer::RadarState;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// Slant range, bearing and depression as the radar sees the target: from where the aircraft is to where the video has
-// it. An unknown elevation counts as sea level.
+// Slant range, true bearing and depression of the target, from the true position of the aircraft to the position of the
+// target on the video. An unknown elevation counts as sea level.
 void put_ranging(Outputs& outputs, const RadarState& state, const Inputs& inputs) {
   const databuffer::Ownship& ownship = inputs.ownship;
   const auto belief = databuffer::belief_in_use(ownship, inputs.nav, state);
@@ -65,7 +65,7 @@ Outputs outputs_of(const RadarState& state, const Inputs& inputs) {
   std::ranges::copy(state.target_name, outputs.target_name);
   if (!inputs.ownship_valid) return outputs;
   put_steering(outputs, state, inputs);
-  // Without its elevation a range would be that of another point.
+  // A range without the elevation would be wrong.
   if ((state.asked_for & databuffer::kAskedForTarget) != 0) return outputs;
   put_ranging(outputs, state, inputs);
   return outputs;
@@ -73,11 +73,11 @@ Outputs outputs_of(const RadarState& state, const Inputs& inputs) {
 
 namespace {
 
-// 0.1 s: the aircraft flies 50 m meanwhile, which decides nothing about which points are near; each tick would cost
-// a geodesic for every point of the route.
+// Interval of draw_points: 20 ticks, 0.1 s. The aircraft flies about 50 m, which hardly changes the nearest points.
+// A shorter interval costs a geodesic for each point of the route more often.
 constexpr std::int64_t kTicksBetweenPoints = 20;
 
-// A jump in place or time leaves nothing for the cursor, the scan, a map under way and a message's end to stand on.
+// A jump in position or time cancels the map in progress, restarts the scan, and ends cursor and message.
 void enter_epoch(RadarState& state, const Inputs& inputs) {
   state.epoch = inputs.epoch;
   cancel_map(state, inputs);
@@ -86,7 +86,7 @@ void enter_epoch(RadarState& state, const Inputs& inputs) {
   state.message_until_tick = 0;
 }
 
-// Bytes, not values: NaN must equal itself, and whoever publishes compares bytes too.
+// Compares bytes instead of values, because a NaN must equal itself. The shell compares bytes too.
 bool same_bytes(const RadarState& a, const RadarState& b) {
   return std::ranges::equal(std::as_bytes(std::span(&a, 1)), std::as_bytes(std::span(&b, 1)));
 }
@@ -102,7 +102,7 @@ void end_message(RadarState& state, std::int64_t tick) {
 
 RadarState initial_state(const radar::RadarConfiguration& configuration) {
   RadarState state = power_up_settings(configuration);
-  put_first_errors(state, configuration.navigation);
+  put_initial_errors(state, configuration.navigation);
   return state;
 }
 
@@ -144,8 +144,8 @@ void advance(RadarState& state, const Inputs& inputs, const radar::RadarConfigur
   advance_recorder(state, inputs);
   if (points_due) draw_points(state, inputs, configuration);
   end_message(state, inputs.tick);
-  tell_why_map_stopped(state, inputs);
-  ask_for_cursor(state);
+  show_remap_stop(state, inputs);
+  request_cursor_elevation(state);
   write_legends(state);
 }
 

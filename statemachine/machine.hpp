@@ -1,4 +1,7 @@
-// State machine as one pure step: state and inputs in, next state and outputs out.
+// State machine of the pilot's interface as pure functions: apply one event, advance one tick.
+// Inputs: radar state, event, inputs of the tick, configuration.
+// Outputs: the next radar state; outputs to sensors, weapons and the head-up display.
+// Source: docs/spec/pilots_interface.md#rules
 #pragma once
 
 #include <cstdint>
@@ -11,25 +14,25 @@
 
 namespace yars::statemachine {
 
-// What the state machine tells sensors, weapons and the head-up display. Ranging and steering are NaN without a
-// designated target or without a valid ownship.
+// Outputs to sensors, weapons and the head-up display. Ranging and steering are NaN without a designated target or a
+// valid ownship. Ranging is NaN as well while the elevation of the target is awaited.
 databuffer::Outputs outputs_of(const databuffer::RadarState& state, const Inputs& inputs);
 
-// A session's first state: power off.
+// Initial state of a session: power off.
 databuffer::RadarState initial_state(const radar::RadarConfiguration& configuration);
 
-// What an event came to.
+// Result of an event.
 enum class Effect : std::uint32_t {
-  none = databuffer::kEventDead,        // dead here, or everything stands so already
-  done = databuffer::kEventDone,        // it changed something
-  refused = databuffer::kEventRefused,  // it cannot be done, and the display says why
+  none = databuffer::kEventDead,        // dead in this state, or no change
+  done = databuffer::kEventDone,        // the state has changed
+  refused = databuffer::kEventRefused,  // cannot be carried out; the display shows the reason
 };
 
 // Applies one event.
 Effect apply(databuffer::RadarState& state, const databuffer::InputEvent& event, const Inputs& inputs,
              const radar::RadarConfiguration& configuration);
 
-// What passes with time, once a tick after the events: cursor slew, messages that end, the points drawn, legends.
+// Advances the state by one tick, after the events: cursor, steering line, updates, drift, messages, points, legends.
 void advance(databuffer::RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration);
 
 }  // namespace yars::statemachine

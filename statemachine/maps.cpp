@@ -25,14 +25,14 @@ void put_recall(RadarState& state, Recall recall) {
   state.recall = static_cast<std::uint8_t>(recall);
 }
 
-// Also while A/A or ranging has the radar.
+// True in patch mode, also while A/A or ranging uses the radar.
 bool on_patch(const RadarState& state) {
   return state.ground_mode == static_cast<std::uint8_t>(Mode::patch);
 }
 
-void give_up_stored(RadarState& state) {
+void release_stored(RadarState& state) {
   const bool is_newest = state.map_stored == state.map_newest;
-  // It has had the OLD place, and stays there.
+  // The stored map becomes OLD, unless it is the newest.
   if (!is_newest) state.map_old = state.map_stored;
   if (recall_of(state) == Recall::store) put_recall(state, is_newest ? Recall::newest : Recall::old);
   state.map_stored = 0;
@@ -60,8 +60,8 @@ void flip_recall(Step& step) {
 
 void toggle_store(Step& step) {
   RadarState& state = step.state;
-  if (state.map_stored != 0) return give_up_stored(state);
-  // On a frozen HRM PPI, which is no map, the newest one comes up.
+  if (state.map_stored != 0) return release_stored(state);
+  // A frozen HRM PPI is not a map: the newest map is stored and shown instead.
   state.map_stored = state.map_shown != 0 ? state.map_shown : state.map_newest;
   put_recall(state, Recall::store);
 }
@@ -108,7 +108,7 @@ void freeze_on_leaving(RadarState& state) {
 
 void thaw_on_return(RadarState& state) {
   if (has(state, databuffer::kSet)) return;
-  // A PPI that the pilot had frozen stands again.
+  // Shows the PPI again if the pilot had frozen it.
   if (has(state, databuffer::kRecalledByHrmExit)) put_recall(state, Recall::none);
   set_flag(state, databuffer::kRecalledByHrmExit, false);
   if (!has(state, databuffer::kFrozenByHrmExit)) return;
@@ -142,15 +142,16 @@ geo::Length range_to_cursor(const Step& step) {
       .distance;
 }
 
-// [NM] of the map to command; 0 when a blank window stands for none at this range.
+// Window of the map to command [NM]. A blank window is replaced by range; 0 when there is none at this range.
 double window_to_map_nm(const Step& step) {
   if (step.state.window_nm > 0.0) return step.state.window_nm;
   const auto window = radar::window_while_blank(range_to_cursor(step), step.configuration.window_limits);
   return window ? window->nautical_miles() : 0.0;
 }
 
-// Judged here: what the model says of the cursor is of the tick before, and the cursor may have jumped since.
-std::optional<std::string_view> why_not_here(const Step& step) {
+// Reason against a map at the cursor. Computed here, because the status of the model is from the last tick and the
+// cursor may have jumped since.
+std::optional<std::string_view> unmappable_reason(const Step& step) {
   const databuffer::Ownship& ownship = step.inputs.ownship;
   const radar::MapViewpoint from{{ownship.latitude_deg, ownship.longitude_deg},
                                  geo::Bearing::degrees(ownship.heading_deg),
@@ -159,20 +160,20 @@ std::optional<std::string_view> why_not_here(const Step& step) {
                                  {geo::Length::nautical_miles(step.state.window_nm)}, step.configuration);
 }
 
-// The model's word goes onto the display and into a record that must stay readable, whoever wrote it.
-std::string_view why_stopped(const ModelStatus& model) {
+// Reason of the model for stopping re-maps. Trust boundary: a text with non-printable characters is ignored.
+std::string_view stop_reason(const ModelStatus& model) {
   const std::string_view words = text::text_of(model.map_stopped);
   return std::ranges::all_of(words, [](char letter) { return letter >= ' ' && letter <= '~'; }) ? words
                                                                                                 : std::string_view();
 }
 
-// Above every request that either side knows of: a state that began anew must not take an old map for an answer.
+// Next request number, above all that state and model have: after a restart an old map must not match a new request.
 std::uint32_t next_request(const RadarState& state, const ModelStatus& model) {
   return std::max({state.map_request, model.map_request, model.map_done_request}) + 1;
 }
 
 void take_commanded(RadarState& state, std::uint64_t id) {
-  // A stored map keeps the OLD place.
+  // With a stored map, OLD is the stored map.
   state.map_old = state.map_stored != 0 ? state.map_stored : state.map_newest;
   state.map_newest = id;
   set_flag(state, databuffer::kMapping, false);
@@ -184,7 +185,7 @@ void take_commanded(RadarState& state, std::uint64_t id) {
 void command_map(Step& step) {
   RadarState& state = step.state;
   if (!step.inputs.ownship_valid || !has(state, databuffer::kCursorValid)) return;
-  if (const auto reason = why_not_here(step)) return refuse(step, *reason);
+  if (const auto reason = unmappable_reason(step)) return refuse(step, *reason);
   const double window_nm = window_to_map_nm(step);
   if (!(window_nm > 0.0)) return refuse(step, "NO WINDOW");
   state.map_request = next_request(state, step.inputs.model);
@@ -209,16 +210,16 @@ void cancel_map(RadarState& state, const Inputs& inputs) {
 
 bool take_map(RadarState& state, const Inputs& inputs) {
   const ModelStatus& model = inputs.model;
-  // Another, not a greater id: one that cannot be would stand for ever.
+  // A different id, not a greater one: after an invalid large id, no later map would be newer.
   const bool is_new = model.map_newest != 0 && model.map_newest != state.map_newest;
-  // Answered without a map: the aircraft has come too near, or was put elsewhere, since the command.
+  // The model answered without a map: the aircraft came too near, or was repositioned, after the command.
   if (has(state, databuffer::kMapping) && model.map_done_request == state.map_request && !is_new) {
     cancel_map(state, inputs);
     show_message(state, inputs, "NO MAP");
     return false;
   }
   if (!is_new || model.map_done_request != state.map_request) return false;
-  // Without its record nobody knows where it lies: there is nothing to show, and no frame for the cursor.
+  // Without the record the position is unknown: the map cannot be shown, and the cursor has no frame.
   if (map_of(inputs, model.map_newest) == nullptr) return false;
   if (has(state, databuffer::kMapping)) {
     take_commanded(state, model.map_newest);
@@ -229,14 +230,14 @@ bool take_map(RadarState& state, const Inputs& inputs) {
   return false;
 }
 
-void tell_why_map_stopped(RadarState& state, const Inputs& inputs) {
+void show_remap_stop(RadarState& state, const Inputs& inputs) {
   const bool maps_again = power_of(state) == radar::Power::operate && running_mode(state) == radar::Mode::patch &&
                           !has(state, databuffer::kMapping | databuffer::kFreeze | databuffer::kSniff);
-  const std::string_view reason = maps_again ? why_stopped(inputs.model) : std::string_view();
-  const bool stands = state.message_until_tick == databuffer::kUntilCauseEnds;
-  // A word that the pilot has just called forth comes first.
-  if (state.message[0] != '\0' && !stands) return;
-  if (!stands && reason.empty()) return;
+  const std::string_view reason = maps_again ? stop_reason(inputs.model) : std::string_view();
+  const bool is_own_message = state.message_until_tick == databuffer::kUntilCauseEnds;
+  // A message with an end time, caused by an event, has priority.
+  if (state.message[0] != '\0' && !is_own_message) return;
+  if (!is_own_message && reason.empty()) return;
   put_text(state.message, reason);
   state.message_until_tick = reason.empty() ? 0 : databuffer::kUntilCauseEnds;
 }

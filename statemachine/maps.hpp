@@ -1,4 +1,6 @@
-// Patch maps: commanded, taken up, cancelled; the frozen picture and the maps recalled on it.
+// Patch maps in the radar state: command, completion, cancellation, freeze, recall and storage.
+// Inputs: cursor, ownship, model status, records of maps.
+// Outputs: map command, ids of NEW, OLD and STORE, the id of the map shown, messages.
 #pragma once
 
 #include <cstdint>
@@ -7,45 +9,46 @@
 
 namespace yars::statemachine {
 
-// The frozen picture: freeze, the maps recalled on it, and SET, which works on it while the radar does something
-// else. Source: docs/spec/pilots_interface.md#rule-8, #rule-9, #rule-10, #rule-19, #rule-20, #rule-21.
+// Freeze, recall of maps on the frozen picture, and SET.
+// Source: docs/spec/pilots_interface.md#rule-8, #rule-9, #rule-10, #rule-19, #rule-20, #rule-21.
 void toggle_freeze(Step& step);
 void flip_recall(Step& step);   // PB 10: NEW and OLD, or STORE and NEW
-void toggle_store(Step& step);  // PB 15: protects the map shown; the second press gives it up
-void toggle_set(Step& step);    // PB 18 over a map that stands frozen
+void toggle_store(Step& step);  // PB 15: protects the map shown; a second press ends that
+void toggle_set(Step& step);    // PB 18 on a frozen map
 
 void freeze(databuffer::RadarState& state);
-void thaw(databuffer::RadarState& state);  // forgets what was recalled and stored
+void thaw(databuffer::RadarState& state);  // ends recall, and clears the stored map
 
-// Rule 19: HRM that may not transmit keeps the picture it has.
+// Rule 19: freezes HRM while SNIFF is on.
 void freeze_silent_hrm(databuffer::RadarState& state);
 
-// Rule 21: when A/G leaves HRM, the map on the display, or over a PPI the newest, stands frozen; back in A/G that
-// freeze ends, but for SET. Source: report, appendix A, "Set Function": "the last HRM map is automatically frozen".
+// Rule 21: leaving HRM for another master mode freezes the map shown, or on a PPI the newest map. The return to A/G
+// ends that freeze unless SET is on. Source: report, appendix A, "Set Function": "the last HRM map is automatically
+// frozen".
 void freeze_on_leaving(databuffer::RadarState& state);
 void thaw_on_return(databuffer::RadarState& state);
 
-// The map that belongs on the glass; 0 = none.
+// Id of the map that the display must show; 0 = none.
 std::uint64_t map_to_show(const databuffer::RadarState& state);
 
-// Patch maps: commanded by the pilot, taken up when the model has made them, cancelled when the radar leaves for
-// something else. Source: docs/spec/pilots_interface.md#rule-3, #rule-4, #rule-5, #rule-6, #rule-7, #rule-8.
+// Command, completion and cancellation of maps.
+// Source: docs/spec/pilots_interface.md#rule-3, #rule-4, #rule-5, #rule-6, #rule-7, #rule-8.
 
-// TDC release with cursor MAP. What cannot be mapped is rejected with a word why, and nothing else happens.
+// TDC release with cursor MAP: commands a map at the cursor. Refused with the reason when the limits do not allow it.
 void command_map(Step& step);
 
-// The map commanded is not wanted any more: what still comes of it answers nobody. What is mapped again and again
-// on a patch is once more the newest map.
+// Cancels the commanded map: a new request number makes its result obsolete. The command returns to the newest map,
+// which a patch maps repeatedly.
 void cancel_map(databuffer::RadarState& state, const Inputs& inputs);
 
-// A map that the model has completed: the one commanded becomes NEW, moves NEW to OLD and is to bring up the patch
-// (true); a re-map takes the place of NEW; any other is ignored.
+// Takes a completed map of the model. The commanded map becomes NEW, and NEW becomes OLD: returns true, and the patch
+// mode must be entered. A re-map replaces NEW. Any other map is ignored.
 bool take_map(databuffer::RadarState& state, const Inputs& inputs);
 
-// Says why the patch shown is not mapped again, for as long as it is not.
-void tell_why_map_stopped(databuffer::RadarState& state, const Inputs& inputs);
+// Shows the reason while re-mapping of the patch is stopped.
+void show_remap_stop(databuffer::RadarState& state, const Inputs& inputs);
 
-// What is known of a map; nullptr when there is none of this id.
+// Record of a map; nullptr when there is none of this id.
 const databuffer::PatchMap* map_of(const Inputs& inputs, std::uint64_t id);
 
 }  // namespace yars::statemachine

@@ -18,7 +18,7 @@ using radar::Mode;
 
 const geo::Length kUnknownHeight = geo::Length::feet(std::numeric_limits<double>::quiet_NaN());
 
-// The menu stays on the glass while the mode below it changes.
+// Starts a mode. The main menu stays on the display.
 void run(RadarState& state, Mode mode) {
   state.resume_mode = static_cast<std::uint8_t>(mode);
   state.mode = static_cast<std::uint8_t>(has(state, databuffer::kMenu) ? Mode::menu : mode);
@@ -36,7 +36,7 @@ void show_menu(RadarState& state, bool on) {
   state.mode = on ? static_cast<std::uint8_t>(Mode::menu) : state.resume_mode;
 }
 
-// A mode change by the pilot's hand also sets the range (docs/spec/pilots_interface.md#rule-1).
+// Mode change by the pilot: sets the range by height too (docs/spec/pilots_interface.md#rule-1).
 void change_mode(Step& step, Mode mode) {
   if (mode == running_mode(step.state)) return;
   cancel_map(step.state, step.inputs);
@@ -58,7 +58,7 @@ Mode mode_after(Mode mode) {
   }
 }
 
-// The mode that a master mode runs; nothing for what is no switch position.
+// The mode of a master mode. Nothing for an invalid argument.
 std::optional<Mode> mode_of(radar::Master master, const RadarState& state) {
   switch (master) {
     case radar::Master::air_to_ground:
@@ -71,8 +71,8 @@ std::optional<Mode> mode_of(radar::Master master, const RadarState& state) {
   return std::nullopt;
 }
 
-// What no loss of power may take: whose session this is, and the counters that others compare.
-RadarState forgotten(const Step& step) {
+// State after power off: power-up settings, with the fields of the session and the counters kept.
+RadarState state_after_power_off(const Step& step) {
   RadarState fresh = power_up_settings(step.configuration);
   fresh.tick = step.state.tick;
   fresh.epoch = step.state.epoch;
@@ -80,13 +80,13 @@ RadarState forgotten(const Step& step) {
   fresh.scan_restart = step.state.scan_restart;
   fresh.map_request = step.state.map_request;
   fresh.vtr_request = step.state.vtr_request;
-  // What another sensor was given it keeps.
+  // Cues already published stay published.
   fresh.cue_count = step.state.cue_count;
   fresh.cue_latitude_deg = step.state.cue_latitude_deg;
   fresh.cue_longitude_deg = step.state.cue_longitude_deg;
   fresh.cue_elevation_m = step.state.cue_elevation_m;
   fresh.target_count = step.state.target_count;
-  // The navigators are not the radar's, and marks outlive its power (docs/spec/pilots_interface.md#rule-18).
+  // Navigators and marks do not depend on radar power (docs/spec/pilots_interface.md#rule-18).
   fresh.mission = step.state.mission;
   fresh.ins = step.state.ins;
   fresh.asked_latitude_deg = step.state.asked_latitude_deg;
@@ -109,7 +109,7 @@ RadarState power_up_settings(const radar::RadarConfiguration& configuration) {
   state.channel = 1;
   state.update_seconds = -1;
   state.velocity_updated_tick = -1;
-  // Until there is a height: the range of great heights.
+  // Until the height is known: the range for large heights.
   const geo::Length high = radar::range_by_height(kUnknownHeight, configuration.height_ranges);
   set_range_index(state, radar::range_index_for(high, configuration.ranges_nm), configuration);
   set_scan_width(state, radar::ScanWidth::full, configuration);
@@ -126,8 +126,7 @@ void switch_power(Step& step) {
   const auto power = step.event.argument;
   if (power < 0 || power > static_cast<std::int16_t>(radar::Power::operate) || power == state.power) return;
   cancel_map(state, step.inputs);
-  // Losing power forgets: what comes on again is as new.
-  if (power == static_cast<std::int16_t>(radar::Power::off)) state = forgotten(step);
+  if (power == static_cast<std::int16_t>(radar::Power::off)) state = state_after_power_off(step);
   state.power = static_cast<std::uint8_t>(power);
   ++state.scan_restart;
 }
@@ -144,7 +143,7 @@ void select_mode(Step& step) {
     case Mode::pvu:
       return change_mode(step, wanted);
     default:
-      return;  // no switch position
+      return;  // not a position of the switch
   }
 }
 

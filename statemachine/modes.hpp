@@ -1,4 +1,5 @@
-// Power, master mode, radar mode and menu. Source: docs/spec/pilots_interface.md#rule-18, #rule-20, #rule-21, #rule-23.
+// Actions on power, master mode, radar mode and main menu.
+// Source: docs/spec/pilots_interface.md#rule-18, #rule-20, #rule-21, #rule-23.
 #pragma once
 
 #include "statemachine/step.hpp"
@@ -7,16 +8,16 @@ namespace yars::statemachine {
 
 void switch_power(Step& step);
 void next_mode(Step& step);      // PB 6: RBM, HRM, BCN, PVU, RBM
-void select_mode(Step& step);    // HOTAS
-void leave_patch(Step& step);    // back to the HRM PPI; the range stays
-void select_master(Step& step);  // A/G resumes the mode it left
+void select_mode(Step& step);    // hands-on control
+void leave_patch(Step& step);    // back to the HRM PPI; keeps the range
+void select_master(Step& step);  // A/G resumes its last mode
 void open_menu(Step& step);
 void close_menu(Step& step);
 
-// A map has come: whatever ground mode ran, the patch runs now.
+// Enters the patch mode, after a commanded map is complete.
 void enter_patch(databuffer::RadarState& state);
 
-// The settings of power-up, with the power still off.
+// Settings at power-up, with the power off.
 databuffer::RadarState power_up_settings(const radar::RadarConfiguration& configuration);
 
 }  // namespace yars::statemachine

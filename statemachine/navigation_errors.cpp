@@ -20,16 +20,16 @@ using databuffer::NavigatorError;
 using databuffer::RadarState;
 
 constexpr std::int64_t kTicksPerSecond = 1'000'000'000 / radar::kTickNanoseconds;
-// [m] and [m/s] where an error stops growing: a quarter round the Earth, and far above any aircraft's speed. The
-// border, which holds the record to less, would refuse the whole state.
+// Limits of the errors: a quarter of the Earth's circumference, and far above the speed of any aircraft. Without them
+// an error could exceed the limits of validate(), and the whole state would be invalid.
 constexpr double kMaxError_m = 1e7;
 constexpr double kMaxDrift_mps = 5e3;
 
-double bounded(double value, double most) {
-  return std::clamp(value, -most, most);
+double limited(double value, double limit) {
+  return std::clamp(value, -limit, limit);
 }
 
-// Nullptr for what names no navigator, or is no number.
+// Error of the navigator in the event. Nullptr for an unknown navigator or a value that is not finite.
 NavigatorError* error_named(const Step& step) {
   if (!std::isfinite(step.event.x) || !std::isfinite(step.event.y)) return nullptr;
   if (step.event.argument == static_cast<std::int16_t>(radar::Navigator::mission)) return &step.state.mission;
@@ -37,28 +37,28 @@ NavigatorError* error_named(const Step& step) {
   return nullptr;
 }
 
-void drift(NavigatorError& error) {
-  error.north_m = bounded(error.north_m + error.velocity_north_mps * radar::kTickSeconds, kMaxError_m);
-  error.east_m = bounded(error.east_m + error.velocity_east_mps * radar::kTickSeconds, kMaxError_m);
+void integrate_drift(NavigatorError& error) {
+  error.north_m = limited(error.north_m + error.velocity_north_mps * radar::kTickSeconds, kMaxError_m);
+  error.east_m = limited(error.east_m + error.velocity_east_mps * radar::kTickSeconds, kMaxError_m);
 }
 
 }  // namespace
 
 void put_position_error(Step& step) {
   if (NavigatorError* error = error_named(step)) {
-    error->north_m = bounded(geo::Length::feet(step.event.x).metres(), kMaxError_m);
-    error->east_m = bounded(geo::Length::feet(step.event.y).metres(), kMaxError_m);
+    error->north_m = limited(geo::Length::feet(step.event.x).metres(), kMaxError_m);
+    error->east_m = limited(geo::Length::feet(step.event.y).metres(), kMaxError_m);
   }
 }
 
 void put_drift(Step& step) {
   if (NavigatorError* error = error_named(step)) {
-    error->velocity_north_mps = bounded(geo::Length::feet(step.event.x).metres(), kMaxDrift_mps);
-    error->velocity_east_mps = bounded(geo::Length::feet(step.event.y).metres(), kMaxDrift_mps);
+    error->velocity_north_mps = limited(geo::Length::feet(step.event.x).metres(), kMaxDrift_mps);
+    error->velocity_east_mps = limited(geo::Length::feet(step.event.y).metres(), kMaxDrift_mps);
   }
 }
 
-void put_first_errors(RadarState& state, const radar::NavigationConfiguration& navigation) {
+void put_initial_errors(RadarState& state, const radar::NavigationConfiguration& navigation) {
   state.mission = {navigation.error_north_m, navigation.error_east_m, navigation.drift_north_mps,
                    navigation.drift_east_mps, navigation.drift_down_mps};
   state.ins = state.mission;
@@ -68,20 +68,20 @@ void advance_navigators(RadarState& state, std::int64_t tick, const radar::Radar
   if (configuration.navigation.walk_mps > 0.0 && tick % kTicksPerSecond == 0) {
     constexpr double kSecondsPerHour = 3600.0;
     const double step_mps = configuration.navigation.walk_mps / std::sqrt(kSecondsPerHour);
-    // Draws of its own: the model makes its noise from the same seed.
+    // Own stream of draws: the radar model uses the same seed.
     constexpr std::uint64_t kFirstDraw = 100;
     const auto walk = [&](double NavigatorError::*component, std::uint64_t draw) {
       const double by_mps =
           step_mps * random::standard_normal(configuration.seed, static_cast<std::uint64_t>(tick), kFirstDraw + draw);
       for (NavigatorError* error : {&state.mission, &state.ins})
-        error->*component = bounded(error->*component + by_mps, kMaxDrift_mps);
+        error->*component = limited(error->*component + by_mps, kMaxDrift_mps);
     };
     walk(&NavigatorError::velocity_north_mps, 0);
     walk(&NavigatorError::velocity_east_mps, 1);
     walk(&NavigatorError::velocity_down_mps, 2);
   }
-  drift(state.mission);
-  drift(state.ins);
+  integrate_drift(state.mission);
+  integrate_drift(state.ins);
 }
 
 void put_variation(RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
@@ -98,13 +98,13 @@ namespace {
 
 using geo::GeoPoint;
 
-// [m] on the ground.
+// Offset on the ground.
 struct Offset {
   double north_m = 0.0;
   double east_m = 0.0;
 };
 
-// From the selected point as the glass shows it to the cursor; nothing without one of them.
+// Offset from the displayed position of the selected point to the cursor. Nothing without a point or a cursor.
 std::optional<Offset> offset_to_cursor(const RadarState& state, const Inputs& inputs,
                                        const radar::RadarConfiguration& configuration) {
   if (!has(state, databuffer::kCursorValid)) return std::nullopt;
@@ -116,24 +116,24 @@ std::optional<Offset> offset_to_cursor(const RadarState& state, const Inputs& in
   return Offset{line.distance.metres() * std::cos(azimuth_rad), line.distance.metres() * std::sin(azimuth_rad)};
 }
 
-// Where the navigator must believe to be for a place known to it to stand at `seen` on the video: the geodesic from
-// there has the azimuth and the length of the one from the aircraft to `seen`. Followed backward from the place; the
-// azimuth at the place is found by passes, for meridians are not parallel, least of all near a pole.
-GeoPoint belief_that_shows(GeoPoint known, GeoPoint seen, GeoPoint truth) {
+// Navigator position that displays the point `known` at `seen` on the video. The geodesic from it to `known` has
+// azimuth and length of the geodesic from the aircraft (`truth`) to `seen`. It is followed backward from `known`. Its
+// azimuth there is found by iteration, because meridians are not parallel, least of all near a pole.
+GeoPoint belief_for_display_at(GeoPoint known, GeoPoint seen, GeoPoint truth) {
   constexpr int kPasses = 8;
   const auto wanted = geo::geodesic_inverse(truth, seen);
-  geo::Bearing at_place = wanted.azimuth_at_end;
+  geo::Bearing at_known = wanted.azimuth_at_end;
   GeoPoint belief = truth;
   for (int pass = 0; pass < kPasses; ++pass) {
-    belief = geo::geodesic_direct(known, at_place + geo::Angle::degrees(180.0), wanted.distance);
-    at_place = at_place + (wanted.azimuth_at_start - geo::geodesic_inverse(belief, known).azimuth_at_start);
+    belief = geo::geodesic_direct(known, at_known + geo::Angle::degrees(180.0), wanted.distance);
+    at_known = at_known + (wanted.azimuth_at_start - geo::geodesic_inverse(belief, known).azimuth_at_start);
   }
   return belief;
 }
 
 // Whole seconds; 0 = too old.
 std::int32_t seconds_left(const RadarState& state, std::int64_t tick, double validity_s) {
-  // Time may have been set back since.
+  // max: time may have been set back since.
   const double age_s =
       static_cast<double>(std::max<std::int64_t>(0, tick - state.cursor_moved_tick)) * radar::kTickSeconds;
   return static_cast<std::int32_t>(std::max(0.0, std::ceil(validity_s - age_s)));
@@ -144,18 +144,18 @@ std::int32_t seconds_left(const RadarState& state, std::int64_t tick, double val
 void accept_update(Step& step) {
   RadarState& state = step.state;
   if (!step.inputs.ownship_valid) return;
-  // What stands in the state is of the tick before, and the cursor may have jumped since.
+  // The fields of the state are from the last tick; the cursor may have jumped since.
   RadarState present = state;
   advance_update(present, step.inputs, step.configuration);
   if (!has(present, databuffer::kUpdateShown) || has(present, databuffer::kUpdateInvalid)) return;
   const auto offset = offset_to_cursor(state, step.inputs, step.configuration);
-  constexpr double kNothing_m = 1e-3;
-  if (!offset || std::hypot(offset->north_m, offset->east_m) < kNothing_m) return;
+  constexpr double kNegligible_m = 1e-3;
+  if (!offset || std::hypot(offset->north_m, offset->east_m) < kNegligible_m) return;
   const auto point = selected_point(state, step.configuration);
   databuffer::NavigatorError& error = error_in_use(state);
   error.north_m = error.east_m = 0.0;
   const auto given = databuffer::belief_in_use(step.inputs.ownship, step.inputs.nav, state);
-  const GeoPoint wanted = belief_that_shows(point->place, cursor_of(state), given.truth);
+  const GeoPoint wanted = belief_for_display_at(point->place, cursor_of(state), given.truth);
   const auto line = geo::geodesic_inverse(given.believed, wanted);
   error.north_m = line.distance.metres() * std::cos(line.azimuth_at_start.radians());
   error.east_m = line.distance.metres() * std::sin(line.azimuth_at_start.radians());
@@ -177,8 +177,8 @@ namespace {
 
 using databuffer::ModelStatus;
 
-constexpr std::int64_t kShownTicks = 2'000;  // 10 s: three numbers to read, gone before the next update
-// [m/s] A measurement further off than this is none: the border would refuse the state that took it up.
+constexpr std::int64_t kShownTicks = 2'000;  // 10 s: docs/spec/pilots_interface.md#rule-16
+// A larger difference is not a valid measurement. With it the state could exceed the limits of validate().
 constexpr double kMaxDifference_mps = 2'000.0;
 
 struct Difference {
@@ -191,7 +191,7 @@ bool continuous(const RadarState& state) {
   return running_mode(state) == radar::Mode::pvu && power_of(state) == radar::Power::operate;
 }
 
-// Radar less navigator.
+// Radar velocity minus navigator velocity.
 Difference difference(const RadarState& state, const Inputs& inputs) {
   const ModelStatus& model = inputs.model;
   const databuffer::Nav& nav = inputs.nav;
@@ -200,8 +200,8 @@ Difference difference(const RadarState& state, const Inputs& inputs) {
           model.velocity_down_mps - (nav.velocity_down_mps + state.mission.velocity_down_mps)};
 }
 
-// Neither the measurement nor what the navigator's error would be then; written so that NaN fails.
-bool believable(const Difference& difference, const databuffer::NavigatorError& mission) {
+// True when the difference, and the navigator error after its correction, are within their limits. False for NaN.
+bool is_plausible(const Difference& difference, const databuffer::NavigatorError& mission) {
   const auto small = [](double part_mps, double error_mps) {
     return std::abs(part_mps) <= kMaxDifference_mps && std::abs(error_mps + part_mps) <= databuffer::kLargestSpeed;
   };
@@ -209,7 +209,7 @@ bool believable(const Difference& difference, const databuffer::NavigatorError& 
          small(difference.east_mps, mission.velocity_east_mps) && small(difference.down_mps, mission.velocity_down_mps);
 }
 
-void show(RadarState& state, const Difference& difference, const Inputs& inputs) {
+void put_differences(RadarState& state, const Difference& difference, const Inputs& inputs) {
   const double track_rad = databuffer::ground_track_of(inputs.ownship).radians();
   state.velocity_along_mps = difference.north_mps * std::cos(track_rad) + difference.east_mps * std::sin(track_rad);
   state.velocity_across_mps = difference.east_mps * std::cos(track_rad) - difference.north_mps * std::sin(track_rad);
@@ -233,14 +233,14 @@ void correct(databuffer::NavigatorError& mission, const Difference& difference) 
 
 void advance_velocity_update(RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
   const bool measures = continuous(state) || has(state, databuffer::kIpvu);
-  const bool outdated = !continuous(state) && inputs.tick >= state.velocity_shown_until_tick;
-  if (!measures || outdated) set_flag(state, databuffer::kVelocityShown, false);
+  const bool expired = !continuous(state) && inputs.tick >= state.velocity_shown_until_tick;
+  if (!measures || expired) set_flag(state, databuffer::kVelocityShown, false);
   if (inputs.model.velocity_count == state.velocity_taken) return;
   state.velocity_taken = inputs.model.velocity_count;
   const Difference measured = difference(state, inputs);
-  if (!measures || !believable(measured, state.mission)) return;
-  show(state, measured, inputs);
-  // IPVU measures when an update is due, a scan's end earlier or later; PVU all the time.
+  if (!measures || !is_plausible(measured, state.mission)) return;
+  put_differences(state, measured, inputs);
+  // IPVU measures only when an update is due, at the end of a scan. PVU measures continuously.
   if (continuous(state) && !update_is_due(state, inputs.tick, configuration.navigation.velocity_period_s)) return;
   state.velocity_updated_tick = inputs.tick;
   correct(state.mission, measured);

@@ -17,7 +17,7 @@ namespace {
 using databuffer::RadarState;
 using geo::Length;
 
-constexpr std::uint8_t kBlankWindow = 255;  // of window_index
+constexpr std::uint8_t kBlankWindow = 255;  // value of window_index for a blank window
 constexpr double kElevationStep_deg = 0.5;  // docs/spec/pilots_interface.md#elevation: the keys [ and ]
 
 void choose_range(Step& step, std::size_t index) {
@@ -36,27 +36,27 @@ void put_elevation(Step& step, double elevation_deg) {
   step.state.antenna_elevation_deg = std::clamp(elevation_deg, -limit_deg, limit_deg);
 }
 
-// Elevation of the sequence point nearest to the aircraft, for a height without an altimeter.
+// Elevation of the sequence point nearest to the aircraft. Nothing without a point, or when its elevation is unknown.
 std::optional<double> nearest_point_elevation_m(const databuffer::Ownship& ownship,
                                                 const radar::RadarConfiguration& configuration) {
   const geo::GeoPoint aircraft{ownship.latitude_deg, ownship.longitude_deg};
   const radar::RoutePoint* nearest = nullptr;
-  Length least;
+  Length nearest_distance;
   for (const radar::RoutePoint& point : configuration.route) {
     const Length distance = geo::geodesic_inverse(aircraft, point.place).distance;
-    if (nearest && distance >= least) continue;
+    if (nearest && distance >= nearest_distance) continue;
     nearest = &point;
-    least = distance;
+    nearest_distance = distance;
   }
   if (!nearest || std::isnan(nearest->elevation_m)) return std::nullopt;
   return nearest->elevation_m;
 }
 
-// What a radar altimeter would read; beyond its reach NaN.
+// Reading of a radar altimeter, simulated by the radar model; NaN above its limit.
 double terrain_clearance_m(const Inputs& inputs) {
-  constexpr double kReach_m = 1524.0;  // 5,000 ft, as those of the time
-  return inputs.height_above_ground_m <= kReach_m ? inputs.height_above_ground_m
-                                                  : std::numeric_limits<double>::quiet_NaN();
+  constexpr double kAltimeterLimit_m = 1524.0;  // 5,000 ft: docs/spec/pilots_interface.md#rule-1
+  return inputs.height_above_ground_m <= kAltimeterLimit_m ? inputs.height_above_ground_m
+                                                           : std::numeric_limits<double>::quiet_NaN();
 }
 
 Length height_for_range(const RadarState& state, const Inputs& inputs, const radar::RadarConfiguration& configuration) {
@@ -105,7 +105,7 @@ void step_elevation(Step& step) {
 }
 
 void set_range_index(RadarState& state, std::size_t index, const radar::RadarConfiguration& configuration) {
-  // A state taken over from a process with a longer table of ranges may point behind this one's end.
+  // A state from a predecessor with a longer table of ranges may have an index beyond this table.
   index = std::min(index, configuration.ranges_nm.size() - 1);
   const double range_nm = configuration.ranges_nm[index];
   if (range_nm != state.range_nm) ++state.scan_restart;
@@ -137,7 +137,7 @@ void set_range_by_height(RadarState& state, const Inputs& inputs, const radar::R
 
 namespace {
 
-constexpr int kMaxLevel = 15;  // brightness and contrast; the record and the glass scale by it
+constexpr int kMaxLevel = 15;  // of brightness and contrast; the display scales by it
 constexpr std::uint8_t kMaxGain = 3;
 constexpr std::uint8_t kChannels = 8;
 constexpr std::uint8_t kBands = 5;
@@ -191,7 +191,7 @@ void toggle_recorder(Step& step) {
   }
 }
 
-// The box is what the recorder says, not what was asked for.
+// The VTR box shows the status of the recorder, not the request.
 void advance_recorder(databuffer::RadarState& state, const Inputs& inputs) {
   const bool wrote = has(state, databuffer::kVtr);
   set_flag(state, databuffer::kVtr, inputs.recorder_present && inputs.recorder_writing);
@@ -200,7 +200,7 @@ void advance_recorder(databuffer::RadarState& state, const Inputs& inputs) {
 
 void toggle_sniff(Step& step) {
   toggle(step, databuffer::kSniff);
-  // A map is made by transmitting; HRM stops that at once.
+  // A map in progress needs the transmitter, which HRM stops at once.
   if (has(step.state, databuffer::kSniff)) cancel_map(step.state, step.inputs);
   freeze_silent_hrm(step.state);
 }

@@ -1,4 +1,6 @@
-// What an action of the transition table works on: the state, its flags and message, and what surrounds it.
+// Parameters of the actions in the transition table, and helpers for flags, enums and messages of the radar state.
+// Inputs: radar state, one event, inputs of the tick, configuration.
+// Outputs: changes of the radar state; `refused` when the event cannot be carried out.
 #pragma once
 
 #include <array>
@@ -19,35 +21,35 @@
 
 namespace yars::statemachine {
 
-// NEW, OLD and STORE, and the one that the model has just completed.
-inline constexpr std::size_t kMapsKnown = 4;
+// Maps in Inputs: NEW, OLD, STORE, and the newest map of the model.
+inline constexpr std::size_t kMaxMaps = 4;
 
-// What the machine sees in a tick besides the events.
+// Inputs of one tick besides the events.
 struct Inputs {
   std::int64_t tick = 0;
   std::int64_t sim_time_ns = 0;
   std::uint32_t epoch = 0;
   bool ownship_valid = false;
   bool recorder_present = false;
-  bool recorder_writing = false;  // it says so, and is present
-  bool recorder_failed = false;   // it is present and has stopped: the disk takes no more
+  bool recorder_writing = false;  // present, and its status says so
+  bool recorder_failed = false;   // present, and stopped by a problem such as a full disk
   databuffer::Ownship ownship{};
   databuffer::Nav nav{};
-  double field_variation_deg = std::numeric_limits<double>::quiet_NaN();  // by a model of the earth's field; NaN = none
-  // [m] over the terrain below, by the model: the radar altimeter of an aircraft whose source has none. NaN = unknown.
+  double field_variation_deg = std::numeric_limits<double>::quiet_NaN();  // by the geomagnetic model; NaN = none
+  // Over terrain, by the radar model: replaces the radar altimeter when the ownship source has none. NaN = unknown.
   double height_above_ground_m = std::numeric_limits<double>::quiet_NaN();
   databuffer::ModelStatus model{};
-  // Records of the maps that the state names and of the model's newest, in any order; id 0 = an empty place.
-  std::array<databuffer::PatchMap, kMapsKnown> maps{};
+  // Records of the maps named by the state, and of the model's newest map, in any order; id 0 = empty slot.
+  std::array<databuffer::PatchMap, kMaxMaps> maps{};
 };
 
-// One event on its way into the state.
+// Application of one event to the state.
 struct Step {
   databuffer::RadarState& state;
   const databuffer::InputEvent& event;
   const Inputs& inputs;
   const radar::RadarConfiguration& configuration;
-  bool refused = false;  // it cannot be done; the display says why
+  bool refused = false;  // the event cannot be carried out; the display shows the reason
 };
 
 inline bool has(const databuffer::RadarState& state, std::uint32_t flag) {
@@ -64,34 +66,34 @@ inline radar::Power power_of(const databuffer::RadarState& state) {
 inline radar::Master master_of(const databuffer::RadarState& state) {
   return static_cast<radar::Master>(state.master);
 }
-// The mode that runs, also under the main menu.
+// The mode that runs, also while the main menu is shown.
 inline radar::Mode running_mode(const databuffer::RadarState& state) {
   return static_cast<radar::Mode>(state.resume_mode);
 }
 
-// The ground under the cursor.
+// Ground position of the cursor.
 inline geo::GeoPoint cursor_of(const databuffer::RadarState& state) {
   return {state.cursor_latitude_deg, state.cursor_longitude_deg};
 }
 
-// Into a field of a record: what is too long is cut, the last byte is zero.
+// Copies text into a field of a record: truncated to N - 1 bytes and padded with zeros.
 template <std::size_t N>
 void put_text(char (&field)[N], std::string_view text) {
   std::memset(field, 0, N);
   text.copy(field, N - 1);
 }
 
-// 3 s: long enough to read two words, short enough not to hide the next; a shorter one is missed in a scan of the
-// panel.
+// Duration of a message: 600 ticks of 5 ms, 3 s. A shorter one is easily missed, a longer one delays the next.
+// Source: docs/spec/pilots_interface.md#messages
 inline constexpr std::int64_t kMessageTicks = 600;
 
-// A word for the pilot that goes by itself.
+// Shows a message for kMessageTicks.
 inline void show_message(databuffer::RadarState& state, const Inputs& inputs, std::string_view text) {
   put_text(state.message, text);
   state.message_until_tick = inputs.tick + kMessageTicks;
 }
 
-// The event cannot be done, for this reason.
+// Marks the event as refused and shows the reason.
 inline void refuse(Step& step, std::string_view reason) {
   show_message(step.state, step.inputs, reason);
   step.refused = true;

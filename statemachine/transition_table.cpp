@@ -38,7 +38,7 @@ std::string_view looks_legend(const databuffer::RadarState& state) {
 }
 
 std::string_view mode_legend(const databuffer::RadarState& state) {
-  // A patch map is a format of HRM.
+  // A patch map has the legend of HRM.
   const radar::Mode mode = running_mode(state);
   return name_of(mode == radar::Mode::patch ? radar::Mode::hrm : mode);
 }
@@ -58,7 +58,7 @@ std::string_view recall_legend(const databuffer::RadarState& state) {
     case radar::Recall::store:
       return "STORE";
     default:
-      return "NEW";  // also on a frozen HRM PPI: what the next press brings up
+      return "NEW";  // also on a frozen HRM PPI: the map that the next press shows
   }
 }
 
@@ -84,10 +84,10 @@ using databuffer::RadarState;
 constexpr Columns kBothHrm = kHrm | kPatch;
 constexpr Columns kWithCursor = kRbm | kBothHrm | kBcn;
 constexpr Columns kAllGround = kRbm | kHrm | kPatch | kBcn | kPvu;
-constexpr Columns kRadar = kAllGround | kRanging;  // power is on; hands-on controls do not know the menu
+constexpr Columns kRadar = kAllGround | kRanging;  // power on; hands-on controls ignore the menu
 constexpr Conditions kRangeFree = kThawed | kWithMap;
 constexpr Conditions kRecallable = kFrozen | kHasMap;
-// A map is made by transmitting, and SET works on the one that stands.
+// A new map needs the transmitter, and SET off: SET works on the map shown.
 constexpr Conditions kMapFree = kWithMap | kOperating | kSniffOff | kSetOff;
 
 template <std::uint32_t Flag>
@@ -104,8 +104,8 @@ bool stored(const RadarState& state) {
   return state.map_stored != 0;
 }
 
-// docs/spec/pilots_interface.md#buttons; #rule-8, #rule-10, #rule-20, #rule-21 say what frozen, SET and maps make of
-// them.
+// Source: docs/spec/pilots_interface.md#buttons; conditions by freeze, SET and maps: #rule-8, #rule-10, #rule-20,
+// #rule-21.
 constexpr std::array kButtons{
     ButtonRow{2, kAllGround | kRanging, kSetOff, toggle_declutter, "DCL", kAlways, kDeclutterOn},
     ButtonRow{3, kRbm | kBcn, kSetOff, cycle_gain, gain_legend, kAlways},
@@ -130,14 +130,14 @@ constexpr std::array kButtons{
     ButtonRow{17, kAllGround | kRanging, kAlways, next_sequence_point, sequence_point_legend, kAlways},
     ButtonRow{18, kAllGround, kSetOff, toggle_sniff, "SNIFF", kSetOff, kSniffOn},
     ButtonRow{18, kAllGround, kSetOn, toggle_set, "SET", kSetOn, kSetIsOn},
-    ButtonRow{18, kRanging, kMapStands, toggle_set, "SET", kMapStands, kSetIsOn},
+    ButtonRow{18, kRanging, kMapShown, toggle_set, "SET", kMapShown, kSetIsOn},
     ButtonRow{19, kAllGround, kSetOff, next_channel, channel_legend, kAlways},
     ButtonRow{20, kAllGround, kSetOff, next_band, band_legend, kAlways},
 };
 
-// docs/spec/pilots_interface.md#controls. The TDC's release acts by cursor function; over a picture that A/A or ranging
-// leave standing in SET alone. The deflection is taken also where no cursor is slewed, so that letting go is never
-// missed.
+// Source: docs/spec/pilots_interface.md#controls. The action of a TDC release depends on the cursor function. On a map
+// that stays in A/A or ranging it acts only while SET is on. TDC deflection is stored in all modes, so that its return
+// to 0 is never lost.
 constexpr std::array kControls{
     ControlRow{EventKind::tdc, kRadar, kAlways, deflect},
     ControlRow{EventKind::tdc_release, kRbm | kBothHrm | kPvu, kMapFree, command_map},
@@ -213,8 +213,7 @@ Columns button_column(const databuffer::RadarState& state) {
   if (power_of(state) == radar::Power::off) return kOff;
   if (has(state, databuffer::kMenu)) return kMenu;
   const Columns column = column_of(running_mode(state));
-  // docs/spec/pilots_interface.md#rule-18: in standby the buttons are live as in RBM; A/A and ranging have no radar
-  // page to go back to.
+  // docs/spec/pilots_interface.md#rule-18: in standby the buttons are live as in RBM, except in A/A and ranging.
   return power_of(state) == radar::Power::standby && column != kRanging ? kRbm : column;
 }
 
@@ -233,11 +232,11 @@ Conditions present_conditions(const databuffer::RadarState& state) {
   if (power_of(state) == radar::Power::operate) present |= kOperating;
   present |= has(state, databuffer::kSet) ? kSetOn : kSetOff;
   if (state.map_newest != 0) present |= kHasMap;
-  if (state.map_shown != 0) present |= kMapStands;
+  if (state.map_shown != 0) present |= kMapShown;
   return present;
 }
 
-// What a condition that does not hold makes of an event.
+// Text for an event that is dead because of a condition.
 struct MissingCondition {
   Conditions condition;
   const char* words;
@@ -249,20 +248,20 @@ constexpr std::array kMissing{MissingCondition{kOperating, "dead in STBY"},
                               MissingCondition{kSetOff, "dead while SET is on"},
                               MissingCondition{kSetOn, "dead without SET"},
                               MissingCondition{kHasMap, "dead without a map"},
-                              MissingCondition{kMapStands, "dead without a map on the display"},
+                              MissingCondition{kMapShown, "dead without a map on the display"},
                               MissingCondition{kWithMap, "dead but with cursor function MAP"}};
 
-// The row that lacks least of all that name the event in this column; nothing when none does.
+// Missing conditions of the row for this event and column with the fewest of them. Nothing when there is no such row.
 template <typename Rows, typename IsOfEvent>
-std::optional<Conditions> least_missing(const Rows& rows, Columns column, Conditions present,
-                                        const IsOfEvent& is_of_event) {
-  std::optional<Conditions> least;
+std::optional<Conditions> fewest_missing(const Rows& rows, Columns column, Conditions present,
+                                         const IsOfEvent& is_of_event) {
+  std::optional<Conditions> fewest;
   for (const auto& row : rows) {
     if (!is_of_event(row) || (row.columns & column) == 0) continue;
     const auto missing = static_cast<Conditions>(row.live_when & ~present);
-    if (!least || std::popcount(missing) < std::popcount(*least)) least = missing;
+    if (!fewest || std::popcount(missing) < std::popcount(*fewest)) fewest = missing;
   }
-  return least;
+  return fewest;
 }
 
 }  // namespace
@@ -277,9 +276,9 @@ std::string why_without_effect(const databuffer::RadarState& state, const databu
   const Conditions present = present_conditions(state);
   const bool button = event.kind == static_cast<std::uint16_t>(EventKind::push_button);
   const auto missing = button
-                           ? least_missing(kButtons, button_column(state), present,
-                                           [&event](const ButtonRow& row) { return row.button == event.argument; })
-                           : least_missing(kControls, control_column(state), present, [&event](const ControlRow& row) {
+                           ? fewest_missing(kButtons, button_column(state), present,
+                                            [&event](const ButtonRow& row) { return row.button == event.argument; })
+                           : fewest_missing(kControls, control_column(state), present, [&event](const ControlRow& row) {
                                return static_cast<std::uint16_t>(row.kind) == event.kind;
                              });
   const auto mode = button ? static_cast<radar::Mode>(state.mode) : running_mode(state);

@@ -1,4 +1,7 @@
-// Transition table of buttons and controls, and the legends beside the buttons.
+// Transition table: the action of each button and control by mode and condition, and the legends of the buttons.
+// Inputs: radar state, event.
+// Outputs: the action of an event; legends and boxes of the radar state.
+// Source: docs/spec/pilots_interface.md#buttons. The rows in transition_table.cpp have the order of that table.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +13,7 @@
 
 namespace yars::statemachine {
 
-// The words beside the buttons. Source: docs/spec/pilots_interface.md#legends.
+// Legends that depend on the state. Source: docs/spec/pilots_interface.md#legends.
 std::string_view gain_legend(const databuffer::RadarState& state);
 std::string_view looks_legend(const databuffer::RadarState& state);
 std::string_view mode_legend(const databuffer::RadarState& state);
@@ -25,11 +28,7 @@ std::string_view band_legend(const databuffer::RadarState& state);
 // Fills `legends` and `boxed` from the transition table.
 void write_legends(databuffer::RadarState& state);
 
-// The transition table: which button and which control does what in which mode, and which legend a button bears.
-// transition_table.cpp holds it as data, in the order of docs/spec/pilots_interface.md#buttons, to be checked against
-// it row by row.
-//
-// Columns of the table docs/spec/pilots_interface.md#buttons; a row names those in which it holds.
+// Columns (modes) of the table docs/spec/pilots_interface.md#buttons. A row is valid in the columns of its mask.
 using Columns = std::uint16_t;
 inline constexpr Columns kRbm = 1U << 0;
 inline constexpr Columns kHrm = 1U << 1;    // HRM PPI
@@ -40,7 +39,7 @@ inline constexpr Columns kRanging = 1U << 5;  // A/A and A/G ranging
 inline constexpr Columns kMenu = 1U << 6;
 inline constexpr Columns kOff = 1U << 7;
 
-// What must hold besides the column; all bits of a row together.
+// Conditions besides the column. All bits of a row must hold.
 using Conditions = std::uint16_t;
 inline constexpr Conditions kAlways = 0;
 inline constexpr Conditions kThawed = 1U << 0;
@@ -50,8 +49,8 @@ inline constexpr Conditions kSniffOff = 1U << 3;
 inline constexpr Conditions kOperating = 1U << 4;  // power OPR
 inline constexpr Conditions kSetOff = 1U << 5;
 inline constexpr Conditions kSetOn = 1U << 6;
-inline constexpr Conditions kHasMap = 1U << 7;      // one has been made
-inline constexpr Conditions kMapStands = 1U << 8;   // one is on the glass
+inline constexpr Conditions kHasMap = 1U << 7;      // a map has been made
+inline constexpr Conditions kMapShown = 1U << 8;    // the display shows a map
 inline constexpr Conditions kWithUpdate = 1U << 9;  // cursor function UPDT
 inline constexpr Conditions kWithCue = 1U << 10;
 inline constexpr Conditions kWithTarget = 1U << 11;
@@ -60,7 +59,7 @@ inline constexpr Conditions kLineSlews = 1U << 13;  // the TDC turns the pattern
 
 using Action = void (*)(Step&);
 
-// A legend is fixed, or it follows the state.
+// A fixed legend, or one that depends on the state.
 struct Legend {
   constexpr Legend(const char* text) : fixed(text) {}
   constexpr Legend(std::string_view (*text)(const databuffer::RadarState&)) : changing(text) {}
@@ -76,7 +75,7 @@ struct ButtonRow {
   Action action;
   Legend legend;
   Conditions shown_when;                                   // of the legend
-  bool (*boxed)(const databuffer::RadarState&) = nullptr;  // whether a box is round it; none = never
+  bool (*boxed)(const databuffer::RadarState&) = nullptr;  // true: the legend has a box; null = never
 };
 
 struct ControlRow {
@@ -86,16 +85,17 @@ struct ControlRow {
   Action action;
 };
 
-// The column that the bezel follows, and the one that hands-on and other controls follow.
+// Present column of the buttons, and of hands-on and other controls.
 Columns button_column(const databuffer::RadarState& state);
 Columns control_column(const databuffer::RadarState& state);
 
+// True when all conditions hold.
 bool hold(Conditions conditions, const databuffer::RadarState& state);
 
-// What the event does in this state; nullptr when it is dead.
+// Action of the event in this state; nullptr when it is dead.
 Action action_for(const databuffer::RadarState& state, const databuffer::InputEvent& event);
 
-// Why the event changes nothing in this state, for people: "dead in PVU", "dead while frozen".
+// Reason why the event has no effect in this state, as a text: "dead in PVU", "dead while frozen".
 std::string why_without_effect(const databuffer::RadarState& state, const databuffer::InputEvent& event);
 
 }  // namespace yars::statemachine

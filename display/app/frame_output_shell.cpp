@@ -27,7 +27,7 @@ bool is_frame(const std::string& name) {
   return std::ranges::all_of(number, [](char digit) { return digit >= '0' && digit <= '9'; });
 }
 
-// What was there before, by age.
+// Names of the frames in a folder, oldest first.
 std::deque<std::string> frames_in(const std::filesystem::path& folder) {
   std::vector<std::pair<std::filesystem::file_time_type, std::string>> found;
   std::error_code problem;
@@ -59,7 +59,7 @@ error::Expected<FrameWriter> FrameWriter::create(const std::filesystem::path& fo
 error::Expected<void> FrameWriter::write(const imageio::Image& image, std::int64_t number) {
   std::array<char, 40> name{};
   std::snprintf(name.data(), name.size(), "frame_%06" PRId64 ".png", number);
-  make_room_for(name.data());
+  remove_oldest(name.data());
   auto frame = file::NewFile::create(folder_, name.data(), file::Rights::user_alone);
   if (!frame) return tl::unexpected(frame.error());
   if (auto written = imageio::write_png(std::move(*frame), image); !written) return written;
@@ -67,8 +67,9 @@ error::Expected<void> FrameWriter::write(const imageio::Image& image, std::int64
   return {};
 }
 
-// Before it is written: a disk that is full takes it then. A frame of the same number is replaced.
-void FrameWriter::make_room_for(const std::string& name) {
+// Removes the oldest frames before the next is written, so that a full disk has space for it. An existing frame `name`
+// is replaced.
+void FrameWriter::remove_oldest(const std::string& name) {
   std::erase(names_, name);
   while (keep_ > 0 && names_.size() >= keep_) {
     folder_->remove(names_.front());
@@ -85,7 +86,7 @@ constexpr int kMaxPixels = static_cast<int>(databuffer::kMaxFramePixels);
 error::Expected<FramePublisher> FramePublisher::create(databuffer::Session& session, int size) {
   if (size > kMaxPixels)
     return tl::unexpected(error::usage_error(
-        "--publish", "a glass of at most " + std::to_string(kMaxPixels) + " pixels, as a frame in the segment has",
+        "--publish", "a display of at most " + std::to_string(kMaxPixels) + " pixels, as a frame in the segment has",
         std::to_string(size), "give --size " + std::to_string(kMaxPixels) + " or less"));
   auto claim = session.claim(databuffer::Role::glass_frames);
   if (!claim) return tl::unexpected(error::usage_error(claim.error()));
@@ -97,21 +98,21 @@ FramePublisher::FramePublisher(databuffer::Session& session, databuffer::Claim c
       claim_(std::move(claim)),
       last_id_(databuffer::greatest_id<shm::PlainAccess>(session.layout().frames)) {}
 
-void FramePublisher::work(host::Display& glass, int size) {
-  while (glass.take_read(picture_)) publish();
+void FramePublisher::work(host::Display& mpd, int size) {
+  while (mpd.take_read(picture_)) publish();
   if (size > kMaxPixels) {
-    if (!std::exchange(told_of_size_, true))
+    if (!std::exchange(size_warned_, true))
       log::warning("the window is larger than a frame may be (" + std::to_string(kMaxPixels) +
                    " pixels): none is published until it is smaller");
     return;
   }
-  if (unpublished_ && glass.start_reading()) unpublished_ = false;
+  if (unpublished_ && mpd.start_reading()) unpublished_ = false;
 }
 
-void FramePublisher::publish_at_once(host::Display& glass) {
+void FramePublisher::publish_at_once(host::Display& mpd) {
   unpublished_ = false;
-  while (glass.wait_for_read(picture_)) publish();  // what was under way
-  if (glass.start_reading() && glass.wait_for_read(picture_)) publish();
+  while (mpd.wait_for_read(picture_)) publish();  // pending readbacks
+  if (mpd.start_reading() && mpd.wait_for_read(picture_)) publish();
 }
 
 void FramePublisher::publish() {

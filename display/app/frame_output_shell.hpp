@@ -1,4 +1,7 @@
-// Pictures that leave the program: when one is due, into a folder, into the segment.
+// Output of display pictures: PNG files in a folder, frames in the segment.
+// Inputs: pictures of the display; simulation time.
+// Outputs: frame_NNNNNN.png; records of the session's frame pool (databuffer/session/picture_pool.hpp).
+// Errors: an unusable folder, a picture too large for the pool, a session that another process publishes to.
 #pragma once
 
 #include <cmath>
@@ -18,13 +21,13 @@
 
 namespace yars::display {
 
-// When a picture of the glass is due: once for each step of sim time. The number of a step is the sim time in steps,
-// so that a restarted glass goes on where it was.
+// Schedule of frames: one for each step of simulation time. A step is numbered by its simulation time in steps, so that
+// a restarted display continues the numbers.
 class FrameSteps {
  public:
   explicit FrameSteps(double every_s) : every_ns_(std::llround(every_s * 1e9)) {}  // > 0
 
-  // True once for each step that has been reached; a step back in time (a new epoch) is a new one.
+  // True once for each step reached. A step back in time (a new epoch) counts as a new step.
   bool is_due(std::int64_t sim_time_ns) {
     const std::int64_t step = sim_time_ns / every_ns_;
     if (step == step_) return false;
@@ -32,7 +35,7 @@ class FrameSteps {
     return true;
   }
   std::int64_t number() const { return step_; }
-  // Of a last picture at a time between two steps: that of the step to come.
+  // Number of the final picture: that of the next step when the time lies between two steps.
   std::int64_t last_number(std::int64_t sim_time_ns) const { return (sim_time_ns + every_ns_ - 1) / every_ns_; }
 
  private:
@@ -40,40 +43,37 @@ class FrameSteps {
   std::int64_t step_ = -1;
 };
 
-// Writes pictures of the glass as frame_NNNNNN.png. A reader never finds half a
-// picture, and one that could not be written leaves nothing behind.
+// Writes pictures as frame_NNNNNN.png. A reader never finds a partial file. A failed write leaves no file.
 class FrameWriter {
  public:
-  // Makes the folder, mode 0700. Only the `keep` newest frames stay in it, those of earlier runs among them; 0: all
-  // stay. An error: folder.hpp's make_private.
+  // Makes the folder, mode 0700. Only the `keep` newest frames stay in it, frames of earlier runs included; 0 keeps
+  // all. Errors: those of file::Folder::make_private.
   static error::Expected<FrameWriter> create(const std::filesystem::path& folder, std::size_t keep = 0);
 
   error::Expected<void> write(const imageio::Image& image, std::int64_t number);
 
  private:
   FrameWriter(std::shared_ptr<const file::Folder> folder, std::size_t keep);
-  void make_room_for(const std::string& name);
+  void remove_oldest(const std::string& name);
 
   std::shared_ptr<const file::Folder> folder_;
   std::size_t keep_;
-  std::deque<std::string> names_;  // of the frames in the folder, the oldest first; empty where all stay
+  std::deque<std::string> names_;  // of the frames in the folder, oldest first; empty when all are kept
 };
 
-// Puts the pictures of the glass into the session's pool of frames (databuffer/session/picture_pool.hpp), where other
-// programs read the newest. One process of a session does so, the holder of Role::glass_frames. What it has published
-// stays when it stops or dies; a successor's ids go on above it.
+// Publishes pictures in the session's frame pool, where other programs read the newest. One process of a session does
+// so: the holder of Role::glass_frames. Published frames stay when it ends. A successor continues its ids.
 class FramePublisher {
  public:
-  // `size` [pixels] of the glass. Errors, all of the command line: a glass that the pool has no room for, another
-  // process that publishes.
+  // `size`: edge of the display [pixels]. Usage errors: a size beyond kMaxFramePixels, another process that publishes.
   static error::Expected<FramePublisher> create(databuffer::Session& session, int size);
 
-  // The glass has painted another picture.
+  // Marks the current picture of the display as not yet published.
   void note_painted() { unpublished_ = true; }
-  // Orders a copy of what is painted, publishes what has been copied; waits for nothing. Call it at each look.
-  void work(host::Display& glass, int size);
-  // Publishes what is painted, waiting for the graphics processor.
-  void publish_at_once(host::Display& glass);
+  // Publishes completed readbacks and starts the next one, without waiting. Call it after each update.
+  void work(host::Display& mpd, int size);
+  // Publishes the current picture. Waits for the graphics processor.
+  void publish_at_once(host::Display& mpd);
 
  private:
   FramePublisher(databuffer::Session& session, databuffer::Claim claim);
@@ -84,7 +84,7 @@ class FramePublisher {
   Picture picture_;
   std::uint64_t last_id_;
   bool unpublished_ = false;
-  bool told_of_size_ = false;
+  bool size_warned_ = false;
 };
 
 }  // namespace yars::display

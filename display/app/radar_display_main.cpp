@@ -1,4 +1,4 @@
-// radar-display: the glass, in a window or as pictures in a folder; with --publish also as frames in the segment.
+// Program radar-display: the display in a window, as PNG files in a folder, or as frames in the segment.
 
 #include <algorithm>
 #include <chrono>
@@ -28,54 +28,54 @@ struct DisplayOptions {
   bool headless = false;
   bool publish = false;
   std::string frames;
-  std::size_t keep = 0;  // frames; 0: all
+  std::size_t keep = 0;  // frames to keep; 0: all
   double every_s = 1.0;
-  int size = 0;  // 0: the configuration's
+  int size = 0;  // [pixels] 0: as configured
 };
 
-constexpr std::int64_t kRedrawInterval_ns = 1'000'000'000 / 60;  // [ns] at most 60 a second
-// [ns] the ring of sweeps holds 5 s; this decides only how far off its sim time a live frame is.
-constexpr std::chrono::milliseconds kHeadlessLook{10};
+constexpr std::int64_t kRedrawInterval_ns = 1'000'000'000 / 60;  // at most 60 redraws per second
+// Update interval without a window: limits the error of a live frame's simulation time. The sweep ring holds 5 s.
+constexpr std::chrono::milliseconds kHeadlessInterval{10};
 
-// A glass without a window: paints when a picture is due, for the folder, for the segment, or for both.
+// Display without a window: paints when a picture is due for the folder or the segment.
 class HeadlessDisplay {
  public:
-  HeadlessDisplay(databuffer::Session& session, Display& glass, int size, const DisplayOptions& options,
+  HeadlessDisplay(databuffer::Session& session, Display& mpd, int size, const DisplayOptions& options,
                   std::optional<display::FrameWriter> frames, std::optional<display::FramePublisher> publisher)
       : session_(session),
-        glass_(glass),
+        mpd_(mpd),
         size_(size),
         steps_(options.every_s),
         frames_(std::move(frames)),
         publisher_(std::move(publisher)) {}
 
-  // A disk that takes no more costs the frames alone; each frame that falls due tries again.
-  void look(std::int64_t sim_time_ns) {
-    glass_.update(sim_time_ns);
+  // One live update. A failed write loses that frame only; the next due frame tries again.
+  void step(std::int64_t sim_time_ns) {
+    mpd_.update(sim_time_ns);
     const bool due_in_folder = frames_ && steps_.is_due(sim_time_ns);
     if (due_in_folder || is_due_in_segment()) paint();
-    if (publisher_) publisher_->work(glass_, size_);
-    if (due_in_folder) settle(write(steps_.number()));
+    if (publisher_) publisher_->work(mpd_, size_);
+    if (due_in_folder) report(write(steps_.number()));
   }
 
-  // Every picture shows exactly the tick of its step, in the folder and in the segment.
-  error::Expected<void> look_in_lockstep(std::int64_t sim_time_ns) {
-    glass_.update(sim_time_ns);
+  // One update in lockstep. Each picture shows exactly the tick of its step, in the folder and in the segment.
+  error::Expected<void> step_in_lockstep(std::int64_t sim_time_ns) {
+    mpd_.update(sim_time_ns);
     if (!steps_.is_due(sim_time_ns)) return {};
-    if (paint() && publisher_) publisher_->publish_at_once(glass_);
+    if (paint() && publisher_) publisher_->publish_at_once(mpd_);
     return write(steps_.number());
   }
 
-  // An error: the last frame could not be written.
+  // Paints and writes the final picture. Error: the final frame could not be written.
   error::Expected<void> end(std::int64_t sim_time_ns) {
-    glass_.update(sim_time_ns);
-    if (paint() && publisher_) publisher_->publish_at_once(glass_);
+    mpd_.update(sim_time_ns);
+    if (paint() && publisher_) publisher_->publish_at_once(mpd_);
     return write(steps_.last_number(sim_time_ns));
   }
 
  private:
   bool paint() {
-    if (!glass_.paint(size_)) return false;
+    if (!mpd_.paint(size_)) return false;
     if (publisher_) publisher_->note_painted();
     return true;
   }
@@ -89,14 +89,14 @@ class HeadlessDisplay {
 
   error::Expected<void> write(std::int64_t number) {
     if (frames_) {
-      if (auto written = frames_->write(glass_.read(), number); !written) return written;
+      if (auto written = frames_->write(mpd_.read(), number); !written) return written;
     }
-    glass_.note_shown();
+    mpd_.note_shown();
     return {};
   }
 
-  // Told once in log and flight recorder, and in the status while it lasts.
-  void settle(const error::Expected<void>& written) {
+  // Reports a change between failing and working, in the log and the flight recorder. The status has the present state.
+  void report(const error::Expected<void>& written) {
     const bool failing = !written;
     session_.layout().counters.frames_failing.store(failing ? 1 : 0);
     if (failing == std::exchange(failing_, failing)) return;
@@ -106,7 +106,7 @@ class HeadlessDisplay {
   }
 
   databuffer::Session& session_;
-  Display& glass_;
+  Display& mpd_;
   int size_;
   bool failing_ = false;
   display::FrameSteps steps_;
@@ -115,24 +115,23 @@ class HeadlessDisplay {
   std::int64_t next_frame_ns_ = 0;  // CLOCK_MONOTONIC
 };
 
-error::Expected<void> run_headless_live(databuffer::Session& session, HeadlessDisplay& glass) {
+error::Expected<void> run_headless_live(databuffer::Session& session, HeadlessDisplay& headless) {
   while (!databuffer::stop_requested()) {
-    glass.look(session.sim_time_ns());
-    std::this_thread::sleep_for(kHeadlessLook);
+    headless.step(session.sim_time_ns());
+    std::this_thread::sleep_for(kHeadlessInterval);
   }
-  return glass.end(session.sim_time_ns());
+  return headless.end(session.sim_time_ns());
 }
 
-// Steps with the set.
-error::Expected<void> run_headless_lockstep(databuffer::TickLoop& loop, HeadlessDisplay& glass) {
+error::Expected<void> run_headless_lockstep(databuffer::TickLoop& loop, HeadlessDisplay& headless) {
   std::int64_t last_ns = 0;
   while (const auto due = loop.wait()) {
     last_ns = due->sim_time_ns;
-    if (auto looked = glass.look_in_lockstep(last_ns); !looked) return looked;
+    if (auto stepped = headless.step_in_lockstep(last_ns); !stepped) return stepped;
     loop.done(*due);
   }
   if (auto outcome = loop.outcome(); !outcome) return outcome;
-  return glass.end(last_ns);
+  return headless.end(last_ns);
 }
 
 error::Expected<void> run_headless(databuffer::Session& session, const radar::RadarConfiguration& configuration,
@@ -148,24 +147,24 @@ error::Expected<void> run_headless(databuffer::Session& session, const radar::Ra
   if (!context) return tl::unexpected(context.error());
   log::info("draws by " + display::gl::renderer_name() + ", frames go to " +
             (frames ? display_options.frames : "the segment"));
-  Display glass(session, configuration, !options.lockstep.empty());
-  HeadlessDisplay headless(session, glass, size, display_options, std::move(frames), std::move(publisher));
+  Display mpd(session, configuration, !options.lockstep.empty());
+  HeadlessDisplay headless(session, mpd, size, display_options, std::move(frames), std::move(publisher));
   if (options.lockstep.empty()) return run_headless_live(session, headless);
   auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::radar_display, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
   return run_headless_lockstep(*loop, headless);
 }
 
-// Shows the glass when it has changed, at most 60 times a second; a key or a click is sent on at once.
+// Display in a window: redraws on change, at most 60 times per second. Keys and clicks are sent immediately.
 class WindowDisplay {
  public:
-  WindowDisplay(display::gl::Window& window, Display& glass, display::PilotInput& pilot,
+  WindowDisplay(display::gl::Window& window, Display& mpd, display::PilotInput& pilot,
                 std::optional<display::FramePublisher> publisher)
-      : window_(window), glass_(glass), pilot_(pilot), publisher_(std::move(publisher)) {}
+      : window_(window), mpd_(mpd), pilot_(pilot), publisher_(std::move(publisher)) {}
 
-  // Waits for input until the next redraw may come, `longest_wait_ns` at most.
-  void take_input(std::int64_t longest_wait_ns) {
-    const std::int64_t wait_ns = std::min(next_redraw_ns_ - monotonic_ns(), longest_wait_ns);
+  // Waits for input until the next redraw is allowed, at most `max_wait_ns`.
+  void take_input(std::int64_t max_wait_ns) {
+    const std::int64_t wait_ns = std::min(next_redraw_ns_ - monotonic_ns(), max_wait_ns);
     const display::gl::WindowInput input =
         window_.take_input(1e-9 * static_cast<double>(std::max<std::int64_t>(wait_ns, 0)));
     pilot_.send(input);
@@ -173,38 +172,38 @@ class WindowDisplay {
     if (window_.should_close()) databuffer::request_stop();
   }
 
-  // As of this time.
-  void look(std::int64_t sim_time_ns) {
-    glass_.update(sim_time_ns);
+  // Updates the display to this time and redraws the window when that is due.
+  void step(std::int64_t sim_time_ns) {
+    mpd_.update(sim_time_ns);
     const auto pixels = window_.pixels();
     const int size = std::min(pixels.width, pixels.height);
-    if (redraw(pixels, size)) glass_.note_shown();
-    if (publisher_) publisher_->work(glass_, size);
+    if (redraw(pixels, size)) mpd_.note_shown();
+    if (publisher_) publisher_->work(mpd_, size);
   }
 
  private:
-  // True when what the last update brought is on the glass.
+  // True when the window shows the result of the last update.
   bool redraw(const display::gl::Window::Pixels& pixels, int size) {
     const std::int64_t now_ns = monotonic_ns();
     if (now_ns < next_redraw_ns_) return false;
     next_redraw_ns_ = now_ns + kRedrawInterval_ns;
-    if (size <= 0) return false;  // an icon
-    const bool painted = glass_.paint(size);
+    if (size <= 0) return false;  // minimized
+    const bool painted = mpd_.paint(size);
     if (painted && publisher_) publisher_->note_painted();
     if (!painted && !stale_) return true;
     window_.clear();
-    glass_.draw({0, 0, pixels.width, pixels.height});
+    mpd_.draw({0, 0, pixels.width, pixels.height});
     window_.present();
     stale_ = false;
     return true;
   }
 
   display::gl::Window& window_;
-  Display& glass_;
+  Display& mpd_;
   display::PilotInput& pilot_;
   std::optional<display::FramePublisher> publisher_;
   std::int64_t next_redraw_ns_ = 0;  // CLOCK_MONOTONIC
-  bool stale_ = true;                // the window shows something else than the glass
+  bool stale_ = true;                // the window does not show the current picture
 };
 
 error::Expected<void> run_window(databuffer::Session& session, const radar::RadarConfiguration& configuration,
@@ -215,12 +214,12 @@ error::Expected<void> run_window(databuffer::Session& session, const radar::Rada
   log::info("draws by " + display::gl::renderer_name());
   auto pilot = display::PilotInput::create(session, "radar-display");
   if (!pilot) return tl::unexpected(pilot.error());
-  Display glass(session, configuration, !options.lockstep.empty());
-  WindowDisplay shown(**window, glass, *pilot, std::move(publisher));
+  Display mpd(session, configuration, !options.lockstep.empty());
+  WindowDisplay shown(**window, mpd, *pilot, std::move(publisher));
   if (options.lockstep.empty()) {
     while (!databuffer::stop_requested()) {
       shown.take_input(kRedrawInterval_ns);
-      shown.look(session.sim_time_ns());
+      shown.step(session.sim_time_ns());
     }
     pilot->release_all();
     return {};
@@ -229,7 +228,7 @@ error::Expected<void> run_window(databuffer::Session& session, const radar::Rada
   if (!loop) return tl::unexpected(loop.error());
   while (const auto due = loop->wait()) {
     shown.take_input(0);
-    shown.look(due->sim_time_ns);
+    shown.step(due->sim_time_ns);
     loop->done(*due);
   }
   return loop->outcome();
@@ -257,7 +256,7 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Displ
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("YARS radar display: the glass", "radar-display");
+  CLI::App app("YARS radar display", "radar-display");
   databuffer::ProgramOptions options;
   databuffer::add_common_options(app, options, true);
   DisplayOptions display_options;
@@ -272,7 +271,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.005, 1e6));
   app.add_flag("--publish", display_options.publish,
                "pictures into the session as well, at most 1024 pixels large: other programs read the newest");
-  app.add_option("--size", display_options.size, "pixels to the edge of the glass (else the configuration's)")
+  app.add_option("--size", display_options.size, "edge of the display in pixels (else the configuration's)")
       ->check(CLI::Range(120, 4096));
   return databuffer::run_program(argc, argv, app, options, [&] { return run(options, display_options); });
 }

@@ -34,7 +34,7 @@ class HeadlessContext final : public Context {
  public:
   HeadlessContext(EGLDisplay display, EGLContext context, EGLSurface surface)
       : display_(display), context_(context), surface_(surface) {}
-  // Does not end the display: that unloads the driver, and the next context would load it again.
+  // Does not terminate the EGL display: that unloads the driver, and the next context would load it again.
   ~HeadlessContext() override {
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     if (surface_ != EGL_NO_SURFACE) eglDestroySurface(display_, surface_);
@@ -57,7 +57,7 @@ error::Expected<std::unique_ptr<Context>> no_context(const char* step) {
                      kInstall);
 }
 
-// epoxy ends the program where it cannot open the library; so it is opened here first, and stays.
+// epoxy ends the program when it cannot open the library. Opening it first here gives an error instead; it stays open.
 error::Expected<void> open_library() {
   static const void* const library = dlopen(kLibrary, RTLD_LAZY | RTLD_LOCAL);
   if (library != nullptr) return {};
@@ -102,7 +102,7 @@ error::Expected<std::unique_ptr<Context>> open_headless() {
   const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, kContext.data());
   if (context == EGL_NO_CONTEXT) return no_context("eglCreateContext");
 
-  // Drivers that cannot do without a surface get the smallest one; nothing is drawn into it.
+  // A driver that requires a surface gets one of one pixel. Nothing is drawn into it.
   EGLSurface surface = EGL_NO_SURFACE;
   if (!epoxy_has_egl_extension(display, "EGL_KHR_surfaceless_context")) {
     constexpr std::array<EGLint, 5> kSurface{EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
@@ -167,7 +167,7 @@ class GlfwWindow final : public Window {
     glfwSetWindowRefreshCallback(window, [](GLFWwindow* from) { input_of(from).redraw_needed = true; });
     glfwSetFramebufferSizeCallback(window, [](GLFWwindow* from, int, int) { input_of(from).redraw_needed = true; });
   }
-  // Does not end GLFW: that unloads the driver, which leaves memory behind that nobody can then name.
+  // Does not terminate GLFW: that unloads the driver, and leak reports lose the names of the driver's allocations.
   ~GlfwWindow() override { glfwDestroyWindow(window_); }
 
   Pixels pixels() const override {
@@ -176,9 +176,9 @@ class GlfwWindow final : public Window {
     return pixels;
   }
   bool should_close() const override { return glfwWindowShouldClose(window_) != GLFW_FALSE; }
-  WindowInput take_input(double longest_wait_s) override {
-    if (longest_wait_s > 0.0) {
-      glfwWaitEventsTimeout(longest_wait_s);
+  WindowInput take_input(double max_wait_s) override {
+    if (max_wait_s > 0.0) {
+      glfwWaitEventsTimeout(max_wait_s);
     } else {
       glfwPollEvents();
     }
@@ -195,7 +195,7 @@ class GlfwWindow final : public Window {
   static GlfwWindow& self_of(GLFWwindow* window) { return *static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window)); }
   static WindowInput& input_of(GLFWwindow* window) { return self_of(window).input_; }
 
-  // The glass is the largest square in the middle of the window.
+  // Converts window coordinates to display units; the display is the largest square in the middle of the window.
   void add_click() {
     double x = 0.0;
     double y = 0.0;
@@ -205,8 +205,8 @@ class GlfwWindow final : public Window {
     glfwGetWindowSize(window_, &width, &height);
     const double edge = std::min(width, height);
     if (edge <= 0.0) return;
-    const auto unit = [&](double place, int length) {
-      return static_cast<float>((place - (length - edge) / 2.0) / edge) * kDisplayUnits;
+    const auto unit = [&](double coordinate, int length) {
+      return static_cast<float>((coordinate - (length - edge) / 2.0) / edge) * kDisplayUnits;
     };
     input_.clicks.push_back({unit(x, width), unit(y, height)});
   }
@@ -245,7 +245,7 @@ error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, i
     return failed;
   }
   glfwMakeContextCurrent(window);
-  glfwSwapInterval(0);  // the main loop paces itself: under Xvfb the swap does not wait
+  glfwSwapInterval(0);  // the main loop limits the frame rate; under Xvfb a swap does not wait
   return std::make_unique<GlfwWindow>(window);
 }
 

@@ -1,4 +1,6 @@
-// OpenGL 3.3 contexts: what each promises, one without a display (EGL), one in a window (GLFW).
+// OpenGL 3.3 core contexts: headless (EGL), and a window with keyboard and mouse clicks (GLFW).
+// Errors: a missing library, display or OpenGL version is returned as an Expected.
+// Threads: a context is current on the thread that made it, for its lifetime.
 #pragma once
 
 #include <memory>
@@ -12,7 +14,7 @@
 
 namespace yars::display::gl {
 
-// An OpenGL 3.3 core context that is current for its lifetime on the thread that made it.
+// An OpenGL 3.3 core context.
 class Context {
  public:
   virtual ~Context() = default;
@@ -21,23 +23,23 @@ class Context {
   Context& operator=(const Context&) = delete;
 };
 
-// 33 = 3.3, of what is current on this thread; 0: nothing is, or OpenGL ES.
+// Version of the current context of this thread: 33 = 3.3. 0: no context, or OpenGL ES.
 int opengl_version();
 
-// What draws: "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6".
+// Renderer and version of the current context: "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6".
 std::string renderer_name();
 
-// A context without a display: EGL on Mesa's surfaceless platform, else on the default display with a pixel buffer
-// of one pixel. Pictures go to a framebuffer object and are read back.
+// A context without a screen: EGL on Mesa's surfaceless platform, else on the default display. A driver without
+// surfaceless contexts gets a pixel buffer of one pixel. Pictures are drawn to a framebuffer object and read back.
 error::Expected<std::unique_ptr<Context>> open_headless();
 
-// A window with the glass in it: a context, the keyboard, and clicks in glass units.
+// A key pressed or released.
 struct KeyEdge {
   databuffer::Key key = databuffer::Key::none;
   bool pressed = false;
 };
 
-// What happened at the window since the last look.
+// Events of the window since the last call of take_input. Clicks are in display units.
 struct WindowInput {
   std::vector<KeyEdge> keys;
   std::vector<Point> clicks;
@@ -45,6 +47,7 @@ struct WindowInput {
   bool redraw_needed = false;  // uncovered or resized
 };
 
+// A window with the display as the largest square in its middle.
 class Window : public Context {
  public:
   struct Pixels {
@@ -52,13 +55,14 @@ class Window : public Context {
   };
   virtual Pixels pixels() const = 0;  // of the framebuffer
   virtual bool should_close() const = 0;
-  // Waits for events up to so long [s]; returns at once when there are any.
-  virtual WindowInput take_input(double longest_wait_s) = 0;
-  virtual void clear() = 0;    // black, all of it; the window is what is drawn on from here
-  virtual void present() = 0;  // shows what has been drawn; does not wait for the screen
+  // Waits at most `max_wait_s` for events. Returns immediately when there are any.
+  virtual WindowInput take_input(double max_wait_s) = 0;
+  virtual void clear() = 0;    // binds the window's framebuffer and clears it to black
+  virtual void present() = 0;  // swaps buffers, without waiting for the screen
 };
 
-// `size`: edge of the window. Without DISPLAY or WAYLAND_DISPLAY the error says to go headless.
+// `size`: edge of the window [GLFW screen coordinates]. Without DISPLAY and WAYLAND_DISPLAY the error names the
+// headless options.
 error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, int size);
 
 }  // namespace yars::display::gl

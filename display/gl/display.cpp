@@ -18,10 +18,10 @@ namespace yars::display::gl {
 
 namespace {
 
-// [units] a shift of the video below it is not worth a redraw: a fifth of a pixel at 480.
+// [units] a smaller shift of the video does not cause a redraw: a fifth of a pixel at 480 pixels.
 constexpr double kVisibleShift = 0.2;
 
-// Of what the picture in the framebuffer was made; the symbols are compared as drawn.
+// Inputs of the picture in the framebuffer, except the symbols: those are compared as draw lists.
 struct Shown {
   std::uint64_t video_version = 0;
   bool video = false;
@@ -50,7 +50,7 @@ struct Display::State {
     framebuffer.bind();
     const std::array<float, 4> ground{colors.ground.red, colors.ground.green, colors.ground.blue, 1.0F};
     glClearBufferfv(GL_COLOR, 0, ground.data());
-    // Soft edges are blended by their alpha; the picture's own stays 1.
+    // Soft edges are blended by their alpha; the alpha of the picture stays 1.
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
     light_texture.set(light);
     if (wanted.video) {
@@ -104,7 +104,7 @@ int Display::size() const {
 
 bool Display::draw(const DisplayInput& input) {
   State& state = *state_;
-  // Sweeps of another mode are no picture of this one.
+  // Stored sweeps of another mode are not shown.
   const bool video = shows_video(input.state) && state.store.mode() == input.state.mode;
   Shown wanted;
   wanted.video_version = state.store.version();

@@ -1,6 +1,8 @@
-// The glass: keeps the sweeps and the maps, and draws them with the symbols when something that shows has changed.
-// Draws into a picture of its own, which is then read back or drawn where the current framebuffer wants it.
-// Needs a current context (context.hpp) for its lifetime; knows nothing of the session.
+// The radar display in OpenGL: stored sweeps and maps, drawn with the symbology when something visible has changed.
+// Inputs: sweeps, patch maps, DisplayInput.
+// Outputs: a square picture in an own framebuffer, read back as RGB or drawn into the current framebuffer.
+// Units: sizes in pixels.
+// Threads: needs a current context (context.hpp) for its lifetime.
 #pragma once
 
 #include <cstdint>
@@ -18,25 +20,25 @@ namespace yars::display::gl {
 
 class Display {
  public:
-  // `size`: pixels to the edge of the square.
-  Display(const radar::RadarConfiguration& configuration, int size);  // in the colors of the configuration
+  // `size`: edge of the square [pixels]. The colors are those of the configuration unless given.
+  Display(const radar::RadarConfiguration& configuration, int size);
   Display(const radar::RadarConfiguration& configuration, int size, const ColorScheme& colors);
   ~Display();
   Display(Display&&) noexcept;
   Display& operator=(Display&&) noexcept;
 
   void add(const databuffer::Sweep& sweep);
-  // A map that the radar state names; it is kept as long as it is named.
+  // Adds a patch map. It is kept while the radar state names it as newest, old or stored map.
   void add(const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels);
   void resize(int size);
   int size() const;
 
-  // True when it drew; false when the picture already shows this input.
+  // True when the picture was drawn again. False when it already shows this input.
   bool draw(const DisplayInput& input);
 
   imageio::Image read() const;  // RGB
   const Framebuffer& picture() const;
-  // Draws the picture, pixel by pixel, into the current framebuffer with its lower left corner there.
+  // Copies the picture, pixel by pixel, into the current framebuffer. `left`, `bottom`: its lower left corner [pixels].
   void show(int left, int bottom);
 
  private:

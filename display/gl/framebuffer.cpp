@@ -14,7 +14,7 @@ Framebuffer::Framebuffer(int size) {
   glGenFramebuffers(1, &framebuffer_);
   glGenTextures(1, &texture_);
   glBindTexture(GL_TEXTURE_2D, texture_);
-  // Shown pixel by pixel; and a texture whose levels are not all there counts as none.
+  // The picture is shown pixel by pixel. The default filter would need mipmap levels, which this texture does not have.
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   resize(size);
@@ -49,15 +49,15 @@ void Framebuffer::bind_texture() const {
 
 imageio::Image Framebuffer::read() const {
   const std::size_t row = static_cast<std::size_t>(size_) * 3;
-  std::vector<std::uint8_t> from_below(row * static_cast<std::size_t>(size_));
+  std::vector<std::uint8_t> bottom_up(row * static_cast<std::size_t>(size_));
   bind_for_reading();
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, size_, size_, GL_RGB, GL_UNSIGNED_BYTE, from_below.data());
+  glReadPixels(0, 0, size_, size_, GL_RGB, GL_UNSIGNED_BYTE, bottom_up.data());
   // OpenGL's rows run from the bottom up, an image's from the top down.
-  imageio::Image image{size_, size_, 3, std::vector<std::uint8_t>(from_below.size())};
+  imageio::Image image{size_, size_, 3, std::vector<std::uint8_t>(bottom_up.size())};
   for (std::size_t y = 0; y < static_cast<std::size_t>(size_); ++y) {
     const auto source =
-        from_below.begin() + static_cast<std::ptrdiff_t>((static_cast<std::size_t>(size_) - 1 - y) * row);
+        bottom_up.begin() + static_cast<std::ptrdiff_t>((static_cast<std::size_t>(size_) - 1 - y) * row);
     std::copy_n(source, row, image.pixels.begin() + static_cast<std::ptrdiff_t>(y * row));
   }
   return image;
@@ -65,7 +65,7 @@ imageio::Image Framebuffer::read() const {
 
 namespace {
 
-constexpr GLuint64 kLongest_ns = 10'000'000'000;  // [ns] a driver that has not copied by then never will
+constexpr GLuint64 kMaxWait_ns = 10'000'000'000;  // 10 s; a driver that needs longer is treated as failed
 
 std::size_t row_bytes(int size) {
   return static_cast<std::size_t>(size) * 4;
@@ -85,8 +85,8 @@ Readback::~Readback() {
 }
 
 bool Readback::start(const Framebuffer& picture, std::int64_t tick, std::int64_t sim_time_ns) {
-  if (count_ == kUnderWay) return false;
-  Copy& copy = copies_[(first_ + count_) % kUnderWay];
+  if (count_ == kMaxPending) return false;
+  Copy& copy = copies_[(first_ + count_) % kMaxPending];
   ++count_;
   glBindBuffer(GL_PIXEL_PACK_BUFFER, copy.buffer);
   if (copy.size != picture.size()) {
@@ -100,26 +100,26 @@ bool Readback::start(const Framebuffer& picture, std::int64_t tick, std::int64_t
   glReadPixels(0, 0, copy.size, copy.size, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
   copy.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-  // What nobody sends on its way is never there.
+  // Without a flush the driver may never start the copy, and the fence would not be signaled.
   glFlush();
   return true;
 }
 
-bool Readback::take(Picture& picture, WaitPolicy patience) {
+bool Readback::take(Picture& picture, WaitPolicy wait) {
   if (count_ == 0) return false;
   Copy& copy = copies_[first_];
-  const GLuint64 wait_ns = patience == WaitPolicy::none ? 0 : kLongest_ns;
+  const GLuint64 wait_ns = wait == WaitPolicy::none ? 0 : kMaxWait_ns;
   const GLenum outcome = glClientWaitSync(static_cast<GLsync>(copy.fence), 0, wait_ns);
-  if (outcome == GL_TIMEOUT_EXPIRED && patience == WaitPolicy::none) return false;
+  if (outcome == GL_TIMEOUT_EXPIRED && wait == WaitPolicy::none) return false;
   glDeleteSync(static_cast<GLsync>(copy.fence));
   copy.fence = nullptr;
-  first_ = (first_ + 1) % kUnderWay;
+  first_ = (first_ + 1) % kMaxPending;
   --count_;
   if (outcome != GL_ALREADY_SIGNALED && outcome != GL_CONDITION_SATISFIED) return false;
   return copy_out(copy, picture);
 }
 
-// False: the driver has lost its memory.
+// False when the driver cannot map the buffer.
 bool Readback::copy_out(const Copy& copy, Picture& picture) {
   const std::size_t row = row_bytes(copy.size);
   const auto rows = static_cast<std::size_t>(copy.size);
@@ -131,9 +131,9 @@ bool Readback::copy_out(const Copy& copy, Picture& picture) {
   const void* mapped = glMapBufferRange(GL_PIXEL_PACK_BUFFER, 0, static_cast<GLsizeiptr>(row * rows), GL_MAP_READ_BIT);
   if (mapped != nullptr) {
     // OpenGL's rows run from the bottom up, the picture's from the top down.
-    const auto* from_below = static_cast<const std::uint8_t*>(mapped);
+    const auto* bottom_up = static_cast<const std::uint8_t*>(mapped);
     for (std::size_t y = 0; y < rows; ++y)
-      std::memcpy(picture.pixels.data() + y * row, from_below + (rows - 1 - y) * row, row);
+      std::memcpy(picture.pixels.data() + y * row, bottom_up + (rows - 1 - y) * row, row);
     glUnmapBuffer(GL_PIXEL_PACK_BUFFER);
   }
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
@@ -144,12 +144,13 @@ namespace {
 
 constexpr const char* kPictureVertex = R"(#version 330 core
 void main() {
-  vec2 place = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-  gl_Position = vec4(place * 2.0 - 1.0, 0.0, 1.0);
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
 }
 )";
 
-// By texel: a filter or a rounded place could mix two pixels. A blit would do the same, but not into every framebuffer.
+// texelFetch copies exact pixels; a filter or a rounded coordinate could mix two. A blit does not work into every
+// framebuffer.
 constexpr const char* kPictureFragment = R"(#version 330 core
 uniform sampler2D picture;
 uniform ivec2 corner;

@@ -1,4 +1,7 @@
-// A picture in graphics memory: drawn into, read back without waiting, drawn into another framebuffer.
+// Square picture in graphics memory: render target, asynchronous readback, copy into another framebuffer.
+// Outputs: pixels as bytes, rows from the top without padding.
+// Units: sizes in pixels, times in nanoseconds of simulation time.
+// Threads: every class needs a current OpenGL context for its lifetime.
 #pragma once
 
 #include <array>
@@ -11,11 +14,11 @@
 
 namespace yars::display {
 
-// A picture of the glass as bytes, with the moment that it shows.
+// A picture of the display as bytes, with its time.
 struct Picture {
-  std::int64_t tick = 0;             // of the radar state that is on it
-  std::int64_t sim_time_ns = 0;      // [ns] of the glass's last look at the session
-  int size = 0;                      // [pixels] to the edge of the square
+  std::int64_t tick = 0;             // of the radar state shown
+  std::int64_t sim_time_ns = 0;      // of the display's last update from the session
+  int size = 0;                      // [pixels] edge of the square
   std::vector<std::uint8_t> pixels;  // rows from the top without padding, red, green, blue, 255
 };
 
@@ -23,7 +26,7 @@ struct Picture {
 
 namespace yars::display::gl {
 
-// A square picture in the graphics memory that can be drawn into, read back, and drawn from as a texture.
+// A square texture that is a render target, can be read back, and can be sampled.
 class Framebuffer {
  public:
   explicit Framebuffer(int size);
@@ -33,8 +36,8 @@ class Framebuffer {
 
   void resize(int size);
   int size() const { return size_; }
-  void bind() const;              // draws go here, over all of it
-  void bind_for_reading() const;  // what reads pixels reads these
+  void bind() const;              // as render target; the viewport covers all of it
+  void bind_for_reading() const;  // as source of glReadPixels
   void bind_texture() const;      // on the active texture unit
   imageio::Image read() const;    // RGB
 
@@ -43,11 +46,10 @@ class Framebuffer {
   int size_ = 0;
 };
 
-// Gets pictures out of the graphics memory without holding up who draws: the copy into a buffer object is only
-// ordered, and taken when its fence says that it is there. Two may be under way, given out in their order.
-// Needs a current context for its lifetime.
-enum class WaitPolicy : std::uint8_t { none, until_it_is_there };
+enum class WaitPolicy : std::uint8_t { none, until_ready };
 
+// Asynchronous readback: starts a copy into a buffer object, and maps the buffer when its fence is signaled. Drawing
+// does not wait. At most two copies are pending; they are taken in their order.
 class Readback {
  public:
   Readback();
@@ -55,13 +57,14 @@ class Readback {
   Readback(const Readback&) = delete;
   Readback& operator=(const Readback&) = delete;
 
-  // False: two are under way already.
+  // False when two copies are already pending.
   bool start(const Framebuffer& picture, std::int64_t tick, std::int64_t sim_time_ns);
-  // The oldest under way. False: there is none, or it is not there yet. `picture` keeps its memory.
-  bool take(Picture& picture, WaitPolicy patience);
+  // Takes the oldest pending copy. False when there is none, when it is not ready, or when the driver failed.
+  // until_ready waits at most 10 s. `picture` keeps its memory.
+  bool take(Picture& picture, WaitPolicy wait);
 
  private:
-  static constexpr std::size_t kUnderWay = 2;
+  static constexpr std::size_t kMaxPending = 2;
   struct Copy {
     std::uint32_t buffer = 0;
     void* fence = nullptr;  // a GLsync
@@ -70,12 +73,11 @@ class Readback {
   };
   static bool copy_out(const Copy& copy, Picture& picture);
 
-  std::array<Copy, kUnderWay> copies_{};
-  std::size_t first_ = 0, count_ = 0;  // those under way
+  std::array<Copy, kMaxPending> copies_{};
+  std::size_t first_ = 0, count_ = 0;  // of the pending copies
 };
 
-// Draws a finished picture of the glass into the current framebuffer, one pixel of it on one pixel there.
-// Needs a current context for its lifetime.
+// Draws a finished picture into the current framebuffer, one pixel on one pixel.
 class PicturePass {
  public:
   PicturePass();
@@ -83,7 +85,7 @@ class PicturePass {
   PicturePass(const PicturePass&) = delete;
   PicturePass& operator=(const PicturePass&) = delete;
 
-  // `left`, `bottom`: where its lower left pixel goes.
+  // `left`, `bottom`: position of its lower left pixel.
   void draw(const Framebuffer& picture, int left, int bottom);
 
  private:

@@ -15,10 +15,9 @@ namespace {
 // Attributes of an instance: apex 2, left 2, right 2, range, half width, row, samples.
 constexpr int kFloatsPerWedge = 10;
 
-// Neighbours measured from apexes a few metres apart leave cracks: the strip between them is as wide as the aircraft
-// has flown across it, 0.22 units between two sweeps of a Doppler beam sharpened scan at 4.7 NM and 250 m/s. Each wedge
-// is drawn this much wider on either side, and the newer one covers the seam. Larger blurs the azimuth of the oldest
-// edge.
+// kMargin: each wedge is drawn this much wider on either side, so that adjacent wedges leave no gap. Adjacent apexes
+// are apart by the distance flown between two sweeps. The gap is 0.22 units in a Doppler beam sharpened scan at 4.7 NM
+// and 250 m/s. The newer wedge covers the overlap. A larger margin blurs the azimuth of the oldest edge.
 constexpr const char* kVideoVertex = R"(#version 330 core
 layout(location = 0) in vec2 apex;
 layout(location = 1) in vec4 edges;
@@ -57,7 +56,7 @@ void main() {
 void instance_attribute(GLuint location, GLint components, int first_float) {
   glEnableVertexAttribArray(location);
   glVertexAttribPointer(location, components, GL_FLOAT, GL_FALSE, kFloatsPerWedge * sizeof(float),
-                        // OpenGL takes an offset in the shape of a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
+                        // OpenGL takes the offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
                         reinterpret_cast<const void*>(static_cast<std::size_t>(first_float) * sizeof(float)));
   glVertexAttribDivisor(location, 1);
 }
@@ -125,21 +124,21 @@ void VideoPass::draw(const PolarStore& store, std::span<const Wedge> wedges, con
 namespace {
 
 constexpr const char* kMapVertex = R"(#version 330 core
-out vec2 place;  // 0..1 from the upper left
+out vec2 texel;  // 0..1 from the upper left
 void main() {
-  place = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-  gl_Position = vec4(place.x * 2.0 - 1.0, 1.0 - place.y * 2.0, 0.0, 1.0);
+  texel = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  gl_Position = vec4(texel.x * 2.0 - 1.0, 1.0 - texel.y * 2.0, 0.0, 1.0);
 }
 )";
 
 constexpr const char* kMapFragment = R"(#version 330 core
-in vec2 place;
+in vec2 texel;
 uniform sampler2D map;
 uniform sampler2D light;
 uniform vec3 color;
 out vec4 fragment;
 void main() {
-  float level = texture(map, place).r;
+  float level = texture(map, texel).r;
   fragment = vec4(color * texture(light, vec2((level * 255.0 + 0.5) / 256.0, 0.5)).r, 1.0);
 }
 )";
@@ -172,7 +171,7 @@ void MapPass::add(std::uint64_t id, std::uint32_t size, std::span<const std::uin
 }
 
 void MapPass::keep(std::span<const std::uint64_t> ids) {
-  std::erase_if(maps_, [ids](const Kept& map) {
+  std::erase_if(maps_, [ids](const StoredMap& map) {
     if (std::ranges::find(ids, map.id) != ids.end()) return false;
     glDeleteTextures(1, &map.texture);
     return true;
@@ -180,26 +179,26 @@ void MapPass::keep(std::span<const std::uint64_t> ids) {
 }
 
 bool MapPass::has(std::uint64_t id) const {
-  return std::ranges::find(maps_, id, &Kept::id) != maps_.end();
+  return std::ranges::find(maps_, id, &StoredMap::id) != maps_.end();
 }
 
-// A map finer than the glass is averaged down by the mean of its pixels, or speckle would turn into sparkle. A software
-// renderer takes a while to make the levels: only then.
-void MapPass::bind(Kept& map, int glass_size) {
+// A map with more pixels than the display is averaged down; without averaging, speckle flickers. Mipmap levels are made
+// only then, because a software renderer is slow at it.
+void MapPass::bind(StoredMap& map, int display_size) {
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, map.texture);
-  if (map.averaged || map.size <= glass_size) return;
+  if (map.averaged || map.size <= display_size) return;
   glGenerateMipmap(GL_TEXTURE_2D);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   map.averaged = true;
 }
 
-void MapPass::draw(std::uint64_t id, const LightTexture& light, const Color& color, int glass_size) {
-  const auto map = std::ranges::find(maps_, id, &Kept::id);
+void MapPass::draw(std::uint64_t id, const LightTexture& light, const Color& color, int display_size) {
+  const auto map = std::ranges::find(maps_, id, &StoredMap::id);
   if (map == maps_.end()) return;
   glBindVertexArray(vertex_array_);
   light.bind(1);
-  bind(*map, glass_size);
+  bind(*map, display_size);
   program_.use();
   glUniform3f(color_location_, color.red, color.green, color.blue);
   glDisable(GL_BLEND);
@@ -208,8 +207,8 @@ void MapPass::draw(std::uint64_t id, const LightTexture& light, const Color& col
 
 namespace {
 
-// Attributes of an instance: from 2, to 2, half width; color 3. A half width below 0 makes a rectangle of the two
-// corners.
+// Attributes of an instance: from 2, to 2, half width, color 3. A negative half width gives a filled rectangle between
+// the two corners.
 constexpr int kFloatsPerInstance = 8;
 constexpr float kRectangle = -1.0F;
 
@@ -219,10 +218,10 @@ layout(location = 1) in vec4 style;  // half width, color
 uniform float pixels_per_unit;
 out vec2 at;                         // pixels, as all below
 flat out vec4 segment;
-flat out vec4 look;
+flat out vec4 stroke;
 void main() {
   segment = ends * pixels_per_unit;
-  look = vec4(style.x * pixels_per_unit, style.yzw);
+  stroke = vec4(style.x * pixels_per_unit, style.yzw);
   vec2 side = vec2(gl_VertexID & 1, gl_VertexID >> 1);
   if (style.x < 0.0) {
     at = mix(segment.xy, segment.zw, side);
@@ -230,7 +229,7 @@ void main() {
     vec2 along = segment.zw - segment.xy;
     float size = length(along);
     along = size > 0.0 ? along / size : vec2(1.0, 0.0);
-    float margin = look.x + 1.0;
+    float margin = stroke.x + 1.0;
     at = mix(segment.xy - along * margin, segment.zw + along * margin, side.x) +
          vec2(-along.y, along.x) * (side.y * 2.0 - 1.0) * margin;
   }
@@ -242,25 +241,25 @@ void main() {
 constexpr const char* kOverlayFragment = R"(#version 330 core
 in vec2 at;
 flat in vec4 segment;
-flat in vec4 look;
+flat in vec4 stroke;
 out vec4 fragment;
 void main() {
   float cover = 1.0;
-  if (look.x >= 0.0) {
+  if (stroke.x >= 0.0) {
     vec2 along = segment.zw - segment.xy;
     vec2 from = at - segment.xy;
-    float place = clamp(dot(from, along) / max(dot(along, along), 1e-6), 0.0, 1.0);
-    cover = clamp(look.x + 0.5 - length(from - along * place), 0.0, 1.0);
+    float fraction = clamp(dot(from, along) / max(dot(along, along), 1e-6), 0.0, 1.0);
+    cover = clamp(stroke.x + 0.5 - length(from - along * fraction), 0.0, 1.0);
     if (cover <= 0.0) discard;
   }
-  fragment = vec4(look.yzw, cover);
+  fragment = vec4(stroke.yzw, cover);
 }
 )";
 
 void instance_attribute(GLuint location, int first_float) {
   glEnableVertexAttribArray(location);
   glVertexAttribPointer(location, 4, GL_FLOAT, GL_FALSE, kFloatsPerInstance * sizeof(float),
-                        // OpenGL takes an offset in the shape of a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
+                        // OpenGL takes the offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
                         reinterpret_cast<const void*>(static_cast<std::size_t>(first_float) * sizeof(float)));
   glVertexAttribDivisor(location, 1);
 }
@@ -315,7 +314,7 @@ void OverlayPass::flush(float pixels_per_unit) {
 
 void OverlayPass::draw(const DrawList& list, const ColorScheme& colors, const std::array<float, 256>& light,
                        float pixels_per_unit) {
-  // Instances are drawn in their order: the list's layers, from the video up.
+  // Instances are drawn in order: video steps, then the layers from bottom to top.
   instance_data_.clear();
   for (const VideoStep& step : list.video_steps()) add_rectangle(step.rect, scaled(colors.video, light[step.video]));
   for (std::size_t layer = 0; layer < kLayers; ++layer) {

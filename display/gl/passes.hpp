@@ -1,4 +1,8 @@
-// The passes that make a picture: the stored sweeps or a patch map, and the draw list over them.
+// Render passes of a picture: stored sweeps, patch map, draw list.
+// Inputs: PolarStore and wedges, pixels of patch maps, DrawList, light table.
+// Outputs: draws into the current framebuffer.
+// Units: sizes in pixels, positions in display units (draw_list.hpp).
+// Threads: every class needs a current OpenGL context for its lifetime.
 #pragma once
 
 #include <array>
@@ -13,9 +17,8 @@
 
 namespace yars::display::gl {
 
-// Draws the stored sweeps: each wedge a narrow quadrangle, each pixel in it the video at its distance from the wedge's
-// own apex, through the table of light. Video between two samples is interpolated along the range. Needs a current
-// context for its lifetime.
+// Draws the stored sweeps, each wedge as a narrow quadrangle. A pixel shows the light of the video at its distance from
+// the apex of its wedge. Video is interpolated linearly along the range.
 class VideoPass {
  public:
   VideoPass();
@@ -36,9 +39,8 @@ class VideoPass {
   std::vector<float> instance_data_;
 };
 
-// Draws a patch map over the whole glass, through the table of light that the sweeps go through. Maps are kept as
-// textures by their id, so that a flip to another one uploads nothing.
-// Needs a current context for its lifetime.
+// Draws a patch map over the whole display, with the same light table as sweeps. Maps are kept as textures by their id:
+// a change to another stored map needs no upload.
 class MapPass {
  public:
   MapPass();
@@ -46,33 +48,32 @@ class MapPass {
   MapPass(const MapPass&) = delete;
   MapPass& operator=(const MapPass&) = delete;
 
-  // `pixels`: size x size, row 0 at the top of the glass. An id that is here already is left as it is.
+  // `pixels`: size x size, row 0 at the top. Ignored: id 0, size 0, too few pixels, an id that is already stored.
   void add(std::uint64_t id, std::uint32_t size, std::span<const std::uint8_t> pixels);
-  // Lets go of all maps but these.
+  // Deletes all maps but these.
   void keep(std::span<const std::uint64_t> ids);
   bool has(std::uint64_t id) const;
 
-  // `glass_size`: pixels to the edge of what is drawn on.
-  void draw(std::uint64_t id, const LightTexture& light, const Color& color, int glass_size);
+  // `display_size`: edge of the display [pixels].
+  void draw(std::uint64_t id, const LightTexture& light, const Color& color, int display_size);
 
  private:
-  struct Kept {
+  struct StoredMap {
     std::uint64_t id = 0;
     std::uint32_t texture = 0;
     int size = 0;
-    bool averaged = false;  // has its levels for a coarser glass
+    bool averaged = false;  // has mipmap levels for a smaller display
   };
-  static void bind(Kept& map, int glass_size);
+  static void bind(StoredMap& map, int display_size);
 
   ShaderProgram program_;
   std::uint32_t vertex_array_ = 0;
   int color_location_ = 0;
-  std::vector<Kept> maps_;
+  std::vector<StoredMap> maps_;
 };
 
-// Draws a DrawList over the video: video steps, grid, plates, and symbols with their halo. Strokes have round ends
-// and edges a pixel soft, from the distance to the segment; so they are crisp at any size of the glass.
-// Needs a current context for its lifetime.
+// Draws a DrawList over the video: video steps, then the layers with plates, halos and strokes. Strokes have round ends
+// and edges one pixel soft, computed from the distance to the segment, so that they are sharp at any display size.
 class OverlayPass {
  public:
   OverlayPass();
@@ -80,7 +81,7 @@ class OverlayPass {
   OverlayPass(const OverlayPass&) = delete;
   OverlayPass& operator=(const OverlayPass&) = delete;
 
-  // `light`: of the video, for the gray scale. `pixels_per_unit`: size of the glass in pixels / 480.
+  // `light`: light table of the video, for the gray scale. `pixels_per_unit`: display size [pixels] / 480.
   void draw(const DrawList& list, const ColorScheme& colors, const std::array<float, 256>& light,
             float pixels_per_unit);
 

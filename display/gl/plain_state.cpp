@@ -6,7 +6,7 @@ namespace yars::display::gl {
 
 namespace {
 
-// Each of these would hide, cut, or recolor what is drawn; plain is off.
+// Enables that would hide, clip or recolor the picture. All are off while the display draws.
 constexpr std::array<GLenum, 20> kEnable{
     GL_DEPTH_TEST,          GL_STENCIL_TEST,    GL_SCISSOR_TEST,     GL_CULL_FACE,
     GL_RASTERIZER_DISCARD,  GL_COLOR_LOGIC_OP,  GL_FRAMEBUFFER_SRGB, GL_SAMPLE_ALPHA_TO_COVERAGE,
@@ -14,7 +14,7 @@ constexpr std::array<GLenum, 20> kEnable{
     GL_CLIP_DISTANCE0,      GL_CLIP_DISTANCE1,  GL_CLIP_DISTANCE2,   GL_CLIP_DISTANCE3,
     GL_CLIP_DISTANCE4,      GL_CLIP_DISTANCE5,  GL_CLIP_DISTANCE6,   GL_CLIP_DISTANCE7};
 
-// How pixels lie in memory that is read from or written to: plain is rows without padding.
+// Layout of pixels in client memory. The plain values mean rows without padding.
 struct PixelNumber {
   GLenum name;
   GLint plain;
@@ -84,7 +84,7 @@ void PlainState::set_plain() const {
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   glBlendEquation(GL_FUNC_ADD);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  // The glass has one color; what a host's framebuffer keeps beside it is not its own.
+  // The display writes draw buffer 0 only; other draw buffers of the host stay unchanged.
   glColorMaski(0, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   for (std::size_t i = 1; i < kDrawBuffers; ++i)
     glColorMaski(static_cast<GLuint>(i), GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
@@ -120,7 +120,7 @@ PlainState::~PlainState() {
   glBindBuffer(GL_PIXEL_PACK_BUFFER, name_of(pack_buffer_));
   glBindVertexArray(name_of(vertex_array_));
   glBindBuffer(GL_ARRAY_BUFFER, name_of(array_buffer_));
-  // A program that its host has deleted while in use ends with that use.
+  // The program does not exist any more if the host deleted it while it was in use.
   glUseProgram(glIsProgram(name_of(program_)) != GL_FALSE ? name_of(program_) : 0);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, name_of(read_framebuffer_));
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, name_of(draw_framebuffer_));

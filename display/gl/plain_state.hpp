@@ -1,10 +1,11 @@
-// Keeps what a host has set in its OpenGL context, sets what the glass takes for granted, and puts the host's back when
-// it goes out of scope. Covers all that the folder's code changes: the bound draw and read framebuffers, program,
-// vertex array, array buffer, pixel pack and unpack buffers; the active texture unit, 2D textures and samplers of units
-// 0 and 1; viewport (one for all indices); blend enables and color masks of each draw buffer, blend functions and
-// equations; polygon mode; pixel pack and unpack parameters; and the enables listed in the source, which would bend a
-// plain draw. Needs a current context of OpenGL 3.3, whose host has no transform feedback or conditional rendering
-// under way.
+// Scope guard for a host's OpenGL state: saves it, sets the defaults that the display assumes, restores it at the end.
+// Covers all state that this folder changes:
+// - bound draw and read framebuffers, program, vertex array, array buffer, pixel pack and unpack buffers;
+// - active texture unit, 2D textures and samplers of units 0 and 1;
+// - viewport (one for all indices), polygon mode, pixel pack and unpack parameters;
+// - blend enables and color masks of each draw buffer, blend functions and equations;
+// - the enables listed in the source.
+// Needs a current OpenGL 3.3 context without active transform feedback or conditional rendering.
 #pragma once
 
 #include <array>
@@ -21,8 +22,8 @@ class PlainState {
   PlainState& operator=(const PlainState&) = delete;
 
  private:
-  static constexpr std::size_t kUnits = 2;         // the glass's textures
-  static constexpr std::size_t kDrawBuffers = 8;   // OpenGL 3.3 promises as many
+  static constexpr std::size_t kUnits = 2;         // texture units that the display uses
+  static constexpr std::size_t kDrawBuffers = 8;   // minimum of GL_MAX_DRAW_BUFFERS in OpenGL 3.3
   static constexpr std::size_t kEnables = 20;      // see the source
   static constexpr std::size_t kPixelNumbers = 8;  // see the source
   struct Unit {

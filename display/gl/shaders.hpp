@@ -1,4 +1,6 @@
-// Shader programs and the textures that they sample.
+// Shader programs, and textures of video and light.
+// Errors: a shader that does not compile or link ends the process with the driver's log.
+// Threads: everything needs a current OpenGL context, classes for their lifetime.
 #pragma once
 
 #include <array>
@@ -6,13 +8,10 @@
 
 namespace yars::display::gl {
 
-// Textures that hold video or light: one value a texel, smooth between them, no wrap at the edges.
-
-// Bound when it returns; rows of bytes without padding can be uploaded. Needs a current context.
+// A new 2D texture with linear filter and clamped edges. It is bound, and the unpack alignment is 1 byte.
 std::uint32_t new_texture();
 
-// The table from video to light on the graphics processor, one for all that draws video.
-// Needs a current context for its lifetime.
+// Light table of the video as a texture, shared by all passes that draw video.
 class LightTexture {
  public:
   LightTexture();
@@ -20,14 +19,14 @@ class LightTexture {
   LightTexture(const LightTexture&) = delete;
   LightTexture& operator=(const LightTexture&) = delete;
 
-  void set(const std::array<float, 256>& light);  // [video] -> light
+  void set(const std::array<float, 256>& light);  // light by video level
   void bind(int unit) const;                      // as a texture 256 wide, 1 high
 
  private:
   std::uint32_t texture_ = 0;
 };
 
-// A linked pair of shaders. A shader that does not compile is our bug: it ends the process with the driver's words.
+// A linked program of a vertex and a fragment shader.
 class ShaderProgram {
  public:
   ShaderProgram(const char* name, const char* vertex_source, const char* fragment_source);

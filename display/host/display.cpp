@@ -18,8 +18,8 @@ namespace yars::display::host {
 
 namespace {
 
-constexpr int kFirstSize = 480;    // [pixels] until somebody says another
-constexpr int kNeededOpengl = 33;  // 3.3: version 330 of the shaders' language, sampler objects
+constexpr int kInitialSize = 480;  // [pixels] until the first paint()
+constexpr int kMinOpengl = 33;     // 3.3: GLSL 3.30, sampler objects
 constexpr int kButtons = 20;
 
 }  // namespace
@@ -29,12 +29,12 @@ struct Display::State {
         const radar::RadarConfiguration& configuration, bool lockstep)
       : own(std::move(own_session)),
         session(own ? &*own : joined),
-        glass(configuration, kFirstSize),
+        renderer(configuration, kInitialSize),
         feed(
-            *session, lockstep, [this](const databuffer::Sweep& sweep) { glass.add(sweep); },
+            *session, lockstep, [this](const databuffer::Sweep& sweep) { renderer.add(sweep); },
             [this](const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels) {
               const gl::PlainState plain;
-              glass.add(map, pixels);
+              renderer.add(map, pixels);
             }) {}
 
   error::Expected<PilotInput*> pilot_of_session() {
@@ -46,13 +46,13 @@ struct Display::State {
     return &*pilot;
   }
 
-  std::optional<databuffer::Session> own;  // of a glass that attached by itself
+  std::optional<databuffer::Session> own;  // set by attach()
   databuffer::Session* session;
   std::string name = "glass";
-  gl::Display glass;
+  gl::Display renderer;
   gl::Readback readback;
   SessionFeed feed;
-  std::optional<PilotInput> pilot;  // once somebody touches the glass: the session has 16 lanes
+  std::optional<PilotInput> pilot;  // made at the first press or click: the session has 16 lanes
   std::int64_t sim_time_ns = 0;     // of the last update
   std::int64_t painted_tick = 0, painted_sim_time_ns = 0;
 };
@@ -67,19 +67,19 @@ Display::Display(databuffer::Session& session, const radar::RadarConfiguration& 
   state_ = std::make_unique<State>(std::nullopt, &session, configuration, lockstep);
 }
 
-error::Expected<Display> Display::attach(const Place& place) {
-  if (const int version = gl::opengl_version(); version < kNeededOpengl)
-    return error::fail("glass", "a current context of OpenGL 3.3 or later",
+error::Expected<Display> Display::attach(const AttachOptions& options) {
+  if (const int version = gl::opengl_version(); version < kMinOpengl)
+    return error::fail("display", "a current context of OpenGL 3.3 or later",
                        version == 0 ? "none" : std::to_string(version / 10) + "." + std::to_string(version % 10),
                        "make one current on this thread first");
-  auto configuration = config::load_configuration(place.configuration);
+  auto configuration = config::load_configuration(options.configuration);
   if (!configuration) return tl::unexpected(configuration.error());
   for (const std::string& warning : configuration->warnings) log::warning(warning);
-  auto session = databuffer::Session::open(place.session, place.name);
+  auto session = databuffer::Session::open(options.session, options.name);
   if (!session) return tl::unexpected(session.error());
   const gl::PlainState plain;
   auto state = std::make_unique<State>(std::move(*session), nullptr, configuration->radar, false);
-  state->name = place.name;
+  state->name = options.name;
   return Display(std::move(state));
 }
 
@@ -97,8 +97,8 @@ bool Display::paint(int size) {
   State& state = *state_;
   const gl::PlainState plain;
   const int wanted = std::clamp(size, 1, kMaxPixels);
-  if (wanted != state.glass.size()) state.glass.resize(wanted);
-  if (!state.glass.draw(state.feed.input())) return false;
+  if (wanted != state.renderer.size()) state.renderer.resize(wanted);
+  if (!state.renderer.draw(state.feed.input())) return false;
   state.painted_tick = state.feed.input().state.tick;
   state.painted_sim_time_ns = state.sim_time_ns;
   return true;
@@ -107,10 +107,10 @@ bool Display::paint(int size) {
 void Display::draw(const Viewport& viewport) {
   const int size = std::min({viewport.width, viewport.height, kMaxPixels});
   if (size <= 0) return;
-  // Painting leaves the host's framebuffer bound as it was.
+  // paint() restores the framebuffer binding of the host.
   paint(size);
   const gl::PlainState plain;
-  state_->glass.show(viewport.left + (viewport.width - size) / 2, viewport.bottom + (viewport.height - size) / 2);
+  state_->renderer.show(viewport.left + (viewport.width - size) / 2, viewport.bottom + (viewport.height - size) / 2);
 }
 
 void Display::note_shown() {
@@ -119,12 +119,12 @@ void Display::note_shown() {
 
 imageio::Image Display::read() const {
   const gl::PlainState plain;
-  return state_->glass.read();
+  return state_->renderer.read();
 }
 
 bool Display::start_reading() {
   const gl::PlainState plain;
-  return state_->readback.start(state_->glass.picture(), state_->painted_tick, state_->painted_sim_time_ns);
+  return state_->readback.start(state_->renderer.picture(), state_->painted_tick, state_->painted_sim_time_ns);
 }
 
 bool Display::take_read(Picture& picture) {
@@ -134,12 +134,12 @@ bool Display::take_read(Picture& picture) {
 
 bool Display::wait_for_read(Picture& picture) {
   const gl::PlainState plain;
-  return state_->readback.take(picture, gl::WaitPolicy::until_it_is_there);
+  return state_->readback.take(picture, gl::WaitPolicy::until_ready);
 }
 
 error::Expected<void> Display::press(int button) {
   if (button < 1 || button > kButtons)
-    return error::fail("glass", "a button 1 to 20", std::to_string(button), "see display/symbology/readouts.hpp");
+    return error::fail("display", "a button 1 to 20", std::to_string(button), "see display/symbology/readouts.hpp");
   auto pilot = state_->pilot_of_session();
   if (!pilot) return tl::unexpected(pilot.error());
   (*pilot)->press(button);

@@ -1,10 +1,12 @@
-// The glass for a program of one's own: takes part in a session and draws the radar's picture into the OpenGL context
-// that the program has made current, which has to be 3.3 core or later. Every function but press and click needs that
-// context, destruction too, and leaves its state as it was (the list: display/gl/plain_state.hpp). Nothing waits but
-// attach and read. One thread at a time for each glass; a program may have several. Link the target yars_display.
+// Radar display for another program's window: joins a session and draws into the current OpenGL context.
+// Inputs: a session, a current context of OpenGL 3.3 core or later, a viewport [pixels].
+// Outputs: the picture in the viewport, or read back; button presses as input events of the session.
+// Context: every function but press and click needs it, destruction too, and restores the state listed in
+// display/gl/plain_state.hpp. Waiting: only attach, read and wait_for_read wait.
+// Threads: one thread at a time for each Display. A program may have several. Link the target yars_display.
 //
-//   auto glass = yars::display::host::Display::attach({.session = "default"});
-//   each frame of the host:   glass->update();   ...   glass->draw({left, bottom, 600, 600});
+//   auto mpd = yars::display::host::Display::attach({.session = "default"});
+//   each frame of the host:   mpd->update();   ...   mpd->draw({left, bottom, 600, 600});
 #pragma once
 
 #include <cstdint>
@@ -24,52 +26,53 @@ struct RadarConfiguration;
 
 namespace yars::display::host {
 
-inline constexpr int kMaxPixels = 4096;  // to the edge of the glass
+inline constexpr int kMaxPixels = 4096;  // [pixels] edge of the display; larger sizes are clamped
 
-// In pixels of the current framebuffer, from its lower left corner, as for glViewport.
+// Rectangle of the current framebuffer [pixels], from its lower left corner, as in glViewport.
 struct Viewport {
   int left = 0, bottom = 0, width = 0, height = 0;
 };
 
-struct Place {
-  std::string session = "default";  // made when it does not run yet
+struct AttachOptions {
+  std::string session = "default";  // is made when it does not exist
   std::string configuration;        // path of the set's GUF file; empty = the built-in APG-70
-  std::string name = "host glass";  // what `yars status` calls this program
+  std::string name = "host glass";  // of this program in `yars status`
 };
 
 class Display {
  public:
-  // Errors: no such configuration, another user's or another build's session, OpenGL older than 3.3.
-  static error::Expected<Display> attach(const Place& place);
-  // For a program that takes part already; the session outlives the glass. In lockstep, time is that of update().
+  // Errors: no such configuration, a session of another user or another build, OpenGL older than 3.3.
+  static error::Expected<Display> attach(const AttachOptions& options);
+  // For a program with an open session, which must outlive the display. In lockstep, the health of other programs is
+  // taken from their participation instead of their heartbeats.
   Display(databuffer::Session& session, const radar::RadarConfiguration& configuration, bool lockstep);
   Display(Display&&) noexcept;
   Display& operator=(Display&&) noexcept;
   ~Display();
 
-  // Takes over what is new in the session. Call it at least once a second, drawn or not: who is silent longer counts as
-  // hung, and after 5 s sweeps are lost.
+  // Copies new records from the session. Call it at least once per second, whether drawn or not. A program without a
+  // heartbeat for longer counts as hung; after 5 s sweeps are lost.
   void update();
   void update(std::int64_t sim_time_ns);  // as of this time
 
-  // Brings the picture up to date, `size` pixels to its edge; true when it is another one than before. Only for who
-  // wants to know: draw() does it.
+  // Updates the picture, `size` pixels on an edge. True when it has changed. draw() calls it too.
   bool paint(int size);
-  // Draws the glass as the largest square in the middle of the viewport; what is beside it stays untouched.
+  // Draws the display as the largest square in the middle of the viewport. Pixels outside the square are unchanged.
   void draw(const Viewport& viewport);
-  // Tells the session that what has been drawn is visible: others measure how long a button takes.
+  // Reports to the session that the last update is visible, for measurements of button latency.
   void note_shown();
 
-  // The picture as it was painted last: RGB, at once, waiting for the graphics processor.
+  // The last painted picture as RGB. Waits for the graphics processor.
   imageio::Image read() const;
-  // The same with its time, without waiting: a copy is ordered (false: two are under way), and taken when it is there
-  // (false: not yet, or none is under way).
+  // Asynchronous readback of the picture with its time (Readback in display/gl/framebuffer.hpp).
+  // start_reading returns false when two copies are pending, take_read when none is ready. wait_for_read waits at most
+  // 10 s.
   bool start_reading();
   bool take_read(Picture& picture);
   bool wait_for_read(Picture& picture);
 
-  // What the pilot does on the glass goes to the set: a button 1..20; or a touch at fractions of the glass's edge from
-  // its upper left corner, false when no button's legend is there. Error: all input lanes of the session are taken.
+  // Pilot inputs, sent to the session. press: a button 1..20. click: a position in fractions of the edge from the upper
+  // left corner, false when no legend is there. Error: all input lanes of the session are taken.
   error::Expected<void> press(int button);
   error::Expected<bool> click(double right, double down);
 

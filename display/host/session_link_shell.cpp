@@ -15,8 +15,8 @@ namespace yars::display {
 
 namespace {
 
-constexpr std::int64_t kLookEvery_ns = 200'000'000;      // [ns] the table of processes costs a system call an entry
-constexpr std::int64_t kSilentAfter_ns = 1'000'000'000;  // [ns] without a heartbeat: stopped, though it keeps its lock
+constexpr std::int64_t kHealthInterval_ns = 200'000'000;  // reading the process table costs a system call per entry
+constexpr std::int64_t kSilentAfter_ns = 1'000'000'000;   // without a heartbeat: silent, even if it holds its lock
 
 bool takes_part(const databuffer::SessionLayout& layout, databuffer::LockstepRole role) {
   return (layout.lockstep.roles.load(std::memory_order_relaxed) >> static_cast<unsigned>(role) & 1U) != 0;
@@ -32,30 +32,30 @@ SessionFeed::SessionFeed(databuffer::Session& session, bool lockstep, SweepSink 
       sweep_cursor_(std::as_const(session).layout().sweeps.oldest()) {}
 
 void SessionFeed::refresh(std::int64_t sim_time_ns) {
-  look_who_is_alive();
+  take_health();
   take_state();
   take_maps();
   take_model(sim_time_ns);
   take_sweeps();
 }
 
-void SessionFeed::look_who_is_alive() {
+void SessionFeed::take_health() {
   if (lockstep_) {
     input_.state_machine_alive = takes_part(session_->layout(), databuffer::LockstepRole::state_machine);
     input_.model_alive = takes_part(session_->layout(), databuffer::LockstepRole::radar_model);
     return;
   }
   const std::int64_t now_ns = databuffer::monotonic_ns();
-  if (now_ns < next_look_ns_) return;
-  next_look_ns_ = now_ns + kLookEvery_ns;
+  if (now_ns < next_health_ns_) return;
+  next_health_ns_ = now_ns + kHealthInterval_ns;
   const auto processes = session_->processes();
-  const auto beats = [&](databuffer::Role role) {
+  const auto is_alive = [&](databuffer::Role role) {
     return std::ranges::any_of(processes, [&](const databuffer::ProcessHere& process) {
       return process.name == databuffer::name_of(role) && now_ns - process.heartbeat_ns < kSilentAfter_ns;
     });
   };
-  input_.state_machine_alive = beats(databuffer::Role::state_machine);
-  input_.model_alive = beats(databuffer::Role::radar_model);
+  input_.state_machine_alive = is_alive(databuffer::Role::state_machine);
+  input_.model_alive = is_alive(databuffer::Role::radar_model);
 }
 
 void SessionFeed::take_state() {
@@ -66,20 +66,20 @@ void SessionFeed::take_state() {
   if (!version) return;
   state_version_ = *version;
   if (const auto reason = databuffer::validate(state)) {
-    session_->note(databuffer::NoteKind::refusal, "glass: radar state: " + *reason);
+    session_->note(databuffer::NoteKind::refusal, "display: radar state: " + *reason);
     return;
   }
   input_.state = state;
 }
 
-// A map is read once, and kept while it is named.
+// A map is read once, and kept while the radar state names it.
 void SessionFeed::take_maps() {
   const std::array named{input_.state.map_newest, input_.state.map_old, input_.state.map_stored};
   for (databuffer::PatchMap& map : maps_)
     if (std::ranges::find(named, map.id) == named.end()) map = {};
   for (const std::uint64_t id : named) {
-    const bool here = std::ranges::find(maps_, id, &databuffer::PatchMap::id) != maps_.end();
-    if (id != 0 && id != refused_map_ && !here) take_map(id);
+    const bool stored = std::ranges::find(maps_, id, &databuffer::PatchMap::id) != maps_.end();
+    if (id != 0 && id != refused_map_ && !stored) take_map(id);
   }
   const auto shown = std::ranges::find(maps_, input_.state.map_shown, &databuffer::PatchMap::id);
   input_.map = shown == maps_.end() ? databuffer::PatchMap{} : *shown;
@@ -90,7 +90,7 @@ void SessionFeed::take_map(std::uint64_t id) {
   if (!databuffer::read_patch(session_->layout(), id, map, pixels_)) return;
   if (const auto reason = databuffer::validate(map)) {
     refused_map_ = id;
-    session_->note(databuffer::NoteKind::refusal, "glass: patch map: " + *reason);
+    session_->note(databuffer::NoteKind::refusal, "display: patch map: " + *reason);
     return;
   }
   *std::ranges::find(maps_, std::uint64_t{0}, &databuffer::PatchMap::id) = map;
@@ -98,7 +98,7 @@ void SessionFeed::take_map(std::uint64_t id) {
 }
 
 void SessionFeed::take_model(std::int64_t sim_time_ns) {
-  // Kept warm while the model is alive, so that it can go on at once when the model dies.
+  // The receiver runs even while the model is alive, so that it has data immediately when the model dies.
   const auto& selected = receiver_.refresh(session_->layout(), sim_time_ns, session_->clock().epoch);
   take_status();
   if (input_.model_alive && has_status_) {
@@ -120,7 +120,7 @@ void SessionFeed::take_status() {
   if (!version) return;
   status_version_ = *version;
   if (const auto reason = databuffer::validate(status)) {
-    session_->note(databuffer::NoteKind::refusal, "glass: model status: " + *reason);
+    session_->note(databuffer::NoteKind::refusal, "display: model status: " + *reason);
     return;
   }
   input_.model = status;
@@ -135,12 +135,12 @@ void SessionFeed::take_sweeps() {
     lost += read.lost;
     if (!read.delivered) break;
     if (const auto reason = databuffer::validate(sweep_))
-      session_->note(databuffer::NoteKind::refusal, "glass: sweep: " + *reason);
+      session_->note(databuffer::NoteKind::refusal, "display: sweep: " + *reason);
     else
       sweep_sink_(sweep_);
   }
   if (lost == 0) return;
-  const std::string text = "glass lost " + std::to_string(lost) + " sweeps";
+  const std::string text = "display lost " + std::to_string(lost) + " sweeps";
   session_->note(databuffer::NoteKind::loss, text);
   log::warning(text);
 }

@@ -1,4 +1,8 @@
-// What a display takes from its session each look, and what its pilot sends there.
+// Link between a display and its session: copies of records for the display, pilot inputs as events.
+// Inputs: radar state, model status, ownship, sweeps, patch maps of the session; clicks, keys.
+// Outputs: DisplayInput, sweeps and maps for the sinks, input events in an input lane.
+// Errors: invalid records are dropped and noted in the flight recorder; the last valid record stays.
+// Threads: one thread. No call waits for another program.
 #pragma once
 
 #include <array>
@@ -16,19 +20,18 @@
 
 namespace yars::display {
 
-// Keeps a DisplayInput and the glass's sweeps and maps up to date with the session, by copies; waits for nobody.
-// A restarted glass reads the ring from its oldest sweep and the maps named by the radar state: it repaints at once,
-// also when frozen.
+// Reader of the session for a display. A new feed starts at the oldest sweep of the ring and the maps of the radar
+// state: a restarted display repaints immediately, even when frozen.
 class SessionFeed {
  public:
   using SweepSink = std::function<void(const databuffer::Sweep&)>;
   using MapSink = std::function<void(const databuffer::PatchMap&, std::span<const std::uint8_t>)>;
-  // In lockstep a role counts as alive when it takes part: clocks of the wall must not show in a frame.
+  // In lockstep a role counts as alive when it takes part, so that frames do not depend on real time.
   SessionFeed(databuffer::Session& session, bool lockstep, SweepSink sweeps, MapSink maps);
 
-  // Takes over what is new. Times are those of the moment or of the tick.
+  // Copies all new records. `sim_time_ns`: the present time, or the time of the tick in lockstep.
   void refresh(std::int64_t sim_time_ns);
-  // What is in input() is on the glass: others can measure how long a button takes.
+  // Publishes the version of the radar state that is visible, for measurements of button latency.
   void note_shown() { session_->show_progress(static_cast<std::uint32_t>(state_version_)); }
   const DisplayInput& input() const { return input_; }
 
@@ -39,7 +42,7 @@ class SessionFeed {
   void take_map(std::uint64_t id);
   void take_model(std::int64_t sim_time_ns);
   void take_status();
-  void look_who_is_alive();
+  void take_health();
 
   databuffer::Session* session_;
   bool lockstep_;
@@ -49,26 +52,26 @@ class SessionFeed {
   DisplayInput input_;
   databuffer::Sweep sweep_{};
   std::uint64_t sweep_cursor_ = 0;
-  std::array<databuffer::PatchMap, 3> maps_{};  // NEW, OLD and STORE, in any order; id 0 = an empty place
+  std::array<databuffer::PatchMap, 3> maps_{};  // NEW, OLD and STORE, in any order; id 0 = empty slot
   std::vector<std::uint8_t> pixels_;
-  std::uint64_t refused_map_ = 0;  // told once
+  std::uint64_t refused_map_ = 0;  // id; noted once
   std::uint64_t state_version_ = 0;
   std::uint64_t status_version_ = 0;
   bool has_status_ = false;
-  std::int64_t next_look_ns_ = 0;  // CLOCK_MONOTONIC
+  std::int64_t next_health_ns_ = 0;  // CLOCK_MONOTONIC
 };
 
-// Clicks on the legends and keys typed on the glass, as events in an input lane of the session.
+// Writer of pilot inputs: clicks on legends and typed keys become events in an input lane of the session.
 class PilotInput {
  public:
-  // `source`: who sends, as `yars status` shows it.
+  // `source`: name of the sender in `yars status`. Error: all input lanes are taken.
   static error::Expected<PilotInput> create(databuffer::Session& session, std::string_view source);
 
   void press(int button);  // 1..20
-  // The button whose legend lies under the click, if any, is pressed; false: none.
+  // Presses the button with its legend area at `at`. False when there is none.
   bool click(Point at);
   void send(const gl::WindowInput& input);
-  void release_all();  // what is held when the window goes away
+  void release_all();  // releases all held keys, when the window loses focus or closes
 
  private:
   PilotInput(databuffer::Session& session, databuffer::Claim claim) : session_(&session), claim_(std::move(claim)) {}

@@ -10,8 +10,8 @@ namespace yars::display {
 
 namespace {
 
-// Glyphs are drawn on a grid 8 wide and 12 high: a point is a digit 0-8 for x and a letter a-m for y, upwards from
-// the base line; a blank lifts the pen.
+// Strokes of a glyph on a grid 8 wide and 12 high. A point is a digit 0-8 for x and a letter a-m for y, upwards from
+// the base line. A blank lifts the pen.
 struct Glyph {
   char32_t code;
   std::string_view strokes;
@@ -76,9 +76,9 @@ constexpr std::array kGlyphs{
 constexpr Glyph kUnknown{U'\ufffd', "0a0m8m8a0a"};
 
 constexpr int kGap = 3;                  // grid columns between glyphs
-constexpr float kColumn = 0.58F / 8.0F;  // cap heights a grid column: capitals are 0.58 as wide as high
-constexpr float kRow = 1.0F / 12.0F;     // cap heights a grid row
-constexpr std::size_t kMaxPoints = 24;   // of one polyline; the longest above has 16
+constexpr float kColumn = 0.58F / 8.0F;  // [cap heights] per grid column; capitals are 0.58 as wide as high
+constexpr float kRow = 1.0F / 12.0F;     // [cap heights] per grid row
+constexpr std::size_t kMaxPoints = 24;   // of one polyline; the longest glyph has 16; more are dropped
 
 const Glyph& glyph_of(char32_t code) {
   if (code >= U'a' && code <= U'z' && code != U'v') code -= U'a' - U'A';
@@ -88,7 +88,8 @@ const Glyph& glyph_of(char32_t code) {
   return kUnknown;
 }
 
-// Takes one character off the front. Only two-byte UTF-8 is decoded; other high bytes read as unknown.
+// Removes one character from the front and returns its code. Only two-byte UTF-8 is decoded; other high bytes give
+// kUnknown.
 char32_t take(std::string_view& text) {
   const auto first = static_cast<unsigned char>(text.front());
   text.remove_prefix(1);
@@ -139,10 +140,10 @@ float text_width(std::string_view text) {
 
 namespace {
 
-constexpr float kStroke = 1.35F;      // [units] a pixel and a bit at 480: thinner fades, thicker clogs 10-unit text
-constexpr float kThin = 1.0F;         // [units] arcs, which video must not drown in
-constexpr float kHalo = 1.4F;         // [units] enough that bright video does not touch a stroke
-constexpr float kDash = 3.0F;         // [units] dash and gap of an offset's outline
+constexpr float kStroke = 1.35F;      // [units] 1.35 pixels at 480: thinner fades, thicker fills 10-unit text
+constexpr float kThin = 1.0F;         // [units] arcs and leaders; thin, so that they do not hide video
+constexpr float kHalo = 1.4F;         // [units] keeps bright video off a stroke
+constexpr float kDash = 3.0F;         // [units] length of a dash and of a gap
 constexpr float kBoxMargin = 3.0F;    // [units] between a legend and its frame
 constexpr float kPlateMargin = 2.0F;  // [units] of black around a text, as wide as its halo
 constexpr int kCircleSides = 24;
@@ -159,7 +160,7 @@ Point on_circle(Point center, float radius, float degrees) {
   return {center.x + radius * std::sin(angle), center.y - radius * std::cos(angle)};
 }
 
-// Places the font's unit strokes on the glass.
+// Scales and moves the strokes of the font to display units and adds them to a list.
 class PlacedText final : public StrokeSink {
  public:
   PlacedText(DrawList& list, Point base_left, float height) : list_(list), base_left_(base_left), height_(height) {}
@@ -218,7 +219,7 @@ void DrawList::polygon(std::span<const Point> corners, bool dashed) {
       continue;
     }
     const float length = std::hypot(to.x - from.x, to.y - from.y);
-    // Cut at every multiple of the dash length along the outline; ink the even pieces.
+    // Cut the outline at every multiple of the dash length; draw the even pieces.
     for (float done = 0.0F; done < length;) {
       const float phase = std::floor((travelled + 1e-3F) / kDash);
       const float step = std::min(length - done, (phase + 1.0F) * kDash - travelled);
@@ -233,7 +234,7 @@ void DrawList::polygon(std::span<const Point> corners, bool dashed) {
 }
 
 void DrawList::thin_arc(Point center, float radius, float from_deg, float to_deg) {
-  // A side of 8 units leaves the true arc by 8^2 / (8 r): 0.08 units at the smallest radius drawn, 100.
+  // A chord of 8 units deviates from the arc by 8^2 / (8 r): 0.08 units at the smallest radius drawn, 100 units.
   const int sides = std::max(2, static_cast<int>(radius * (to_deg - from_deg) / 57.3F / 8.0F));
   Point last = on_circle(center, radius, from_deg);
   for (int i = 1; i <= sides; ++i) {

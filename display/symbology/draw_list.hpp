@@ -1,4 +1,9 @@
-// What is drawn over the video: points and boxes in display units, the stroke font, the draw list, its colors.
+// Draw list of the display: line segments, filled rectangles and video steps, in layers, without OpenGL.
+// Inputs: drawing calls in display units.
+// Outputs: plain data by layer; boxes occupied by texts, scales and symbols, which label_layout.hpp reads.
+// Units: display units. The edge of the square is 480 units. Origin upper left, x right, y down.
+// Accuracy: coordinates are rounded to 1/8 unit, so that an invisible motion leaves two lists equal.
+// Threads: one thread at a time.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +19,8 @@
 
 namespace yars::display {
 
-// A place on the glass, in glass units: 480 to the edge of the square, x right, y down, origin upper left.
-inline constexpr float kDisplayUnits = 480.0F;  // edge of the glass; the legends' layout is measured in it
+// Edge of the square display [units]. The fixed positions of legends and scales assume this value.
+inline constexpr float kDisplayUnits = 480.0F;
 
 struct Point {
   float x = 0.0F;
@@ -28,14 +33,14 @@ struct Rect {
   friend bool operator==(const Rect&, const Rect&) = default;
 };
 
-// True when they share area; touching edges do not count.
+// True when the rectangles share area. Touching edges do not count.
 inline bool intersect(const Rect& a, const Rect& b) {
   return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 }
 
-// True when a part of the line from one point to the other lies within; touching an edge does not count.
+// True when a part of the line between the points lies inside the rectangle. Touching an edge does not count.
 inline bool crosses(const Rect& rect, Point from, Point to) {
-  float begin = 0.0F, end = 1.0F;  // shares of the line that lie between the edges
+  float begin = 0.0F, end = 1.0F;  // fractions of the line: the part between the edges
   const auto cut = [&](float at, float step, float low, float high) {
     if (step == 0.0F) {
       if (at <= low || at >= high) end = -1.0F;
@@ -50,17 +55,12 @@ inline bool crosses(const Rect& rect, Point from, Point to) {
   return begin < end;
 }
 
+// The rectangle enlarged by `by` on all four sides.
 inline Rect grown(const Rect& rect, float by) {
   return {rect.left - by, rect.top - by, rect.right + by, rect.bottom + by};
 }
 
-// The glass's own vector font: capitals, digits and a few signs as polylines, readable at 10 units of height.
-// In:  text, ASCII or UTF-8 of which only the degree sign is known; small letters read as capitals, but "v" is a
-//      down arrow and "^" an up arrow, as the legends of PB 14 and 13 have them.
-// Out: strokes in units of the cap height, x right, y down, origin at the left end of the base line.
-// A character that the font has not is drawn as an empty box.
-
-// Called once for each polyline of the text; the points are valid during the call.
+// Receives the polylines of stroke_text, one call for each. The points are valid during the call only.
 class StrokeSink {
  public:
   virtual void polyline(std::span<const Point> points) = 0;
@@ -69,32 +69,33 @@ class StrokeSink {
   ~StrokeSink() = default;
 };
 
+// Vector font of the display: capitals, digits and some signs as polylines, readable at a height of 10 units.
+// Input: ASCII, or UTF-8 with the degree sign. Lower case is drawn as upper case, except "v": a down arrow.
+// "^" is an up arrow. A character that the font does not have is drawn as an empty box.
+// Output: strokes in cap heights, x right, y down, origin at the left end of the base line.
 void stroke_text(std::string_view text, StrokeSink& sink);
 
-// Width of the inked part, in cap heights.
+// Width from the first glyph to the last [cap heights].
 float text_width(std::string_view text);
 
-// What is drawn over the video, as plain data: line segments, filled rectangles, steps of video, and the boxes
-// that texts, scales and symbols take up (label_layout.hpp places labels clear of them).
-// Coordinates are glass units, rounded to 1/8, so that a motion nobody sees leaves the list equal.
-// A list keeps its memory from one picture to the next.
-
-// Drawn one over the other, each with its plates, then its halos, below its strokes: range arcs and zero azimuth line;
-// lines on the ground; points on the ground; texts and scales; notices; what the pilot steers, over everything.
+// Layers from bottom to top. Within a layer, plates are drawn first, then halos, then strokes.
+//   grid     range arcs, zero azimuth line        symbols  texts, scales
+//   lines    lines on the ground                  notices  messages
+//   points   points on the ground                 steered  the cursor
 enum class Layer : std::uint8_t { grid, lines, points, symbols, notices, steered };
 inline constexpr std::size_t kLayers = 6;
 
-enum class Ink : std::uint8_t { bright, dim };  // symbols; lines of the grid below them
+enum class Ink : std::uint8_t { bright, dim };  // bright: symbols; dim: lines of the grid, leader lines
 
 struct Segment {
   Point from, to;
-  float width = 0.0F;  // whole width
-  float halo = 0.0F;   // black margin on either side that parts the stroke from the video
+  float width = 0.0F;  // [units] full width
+  float halo = 0.0F;   // [units] black margin on either side; separates the stroke from the video
   Ink ink = Ink::bright;
   friend bool operator==(const Segment&, const Segment&) = default;
 };
 
-// A field of the gray scale: shown as the video level would be.
+// One field of the gray scale. It is drawn with the light of the video level `video`.
 struct VideoStep {
   Rect rect;
   std::uint8_t video = 0;
@@ -102,18 +103,18 @@ struct VideoStep {
 };
 
 struct LayerContent {
-  std::vector<Rect> plates;
+  std::vector<Rect> plates;  // filled black
   std::vector<Segment> strokes;
   friend bool operator==(const LayerContent&, const LayerContent&) = default;
 };
 
-// Texts and scales stand at fixed places, labels where label_layout.hpp puts them, points and the cursor where the
-// ground is. A scale is lines with room between them; a solid one has none.
+// Texts and scales have fixed positions. label_layout.hpp chooses the positions of labels. Points and the cursor lie
+// on their ground position. A `scale` has gaps between its lines; a `solid` scale has none.
 enum class BoxKind : std::uint8_t { text, label, scale, solid, point, cursor };
 
 struct OccupiedBox {
-  std::string name;  // the text itself, or what the scale or symbol is
-  Rect rect;         // of a scale or a symbol with its ink, of a text to the middle of its outer strokes
+  std::string name;  // the text itself, or the kind of scale or symbol
+  Rect rect;         // scale, symbol: includes the ink; text: to the centre lines of the outer strokes
   BoxKind kind = BoxKind::text;
   friend bool operator==(const OccupiedBox&, const OccupiedBox&) = default;
 };
@@ -124,30 +125,31 @@ struct TextStyle {
   float height = 10.0F;
   Align align = Align::center;
   bool boxed = false;
-  bool plate = false;  // black ground behind it, where lines would cross
+  bool plate = false;  // black plate behind the text, where lines would cross it
 };
 
+// Clearing a list keeps its memory for the next picture.
 class DrawList {
  public:
   void clear();
-  void draw_on(Layer layer) { layer_ = layer; }  // what follows; a cleared list draws on symbols
+  void draw_on(Layer layer) { layer_ = layer; }  // for the calls that follow; clear() selects symbols
 
-  // A line to a place that is no number is left out: an antenna that tells nothing has no caret.
+  // A line with a NaN or infinite coordinate is omitted: without an antenna position the caret is missing.
   void line(Point from, Point to, Ink ink = Ink::bright);
-  // From a symbol to its label: thin and dim, for the symbols to stand out, parted from the video all the same.
+  // Leader line from a symbol to its label: thin and dim, with a halo.
   void leader(Point from, Point to);
   void polyline(std::span<const Point> points, Ink ink = Ink::bright);
   void circle(Point center, float radius, bool dashed = false);
-  // Dashed outlines go round the closed polygon.
+  // Outline of the closed polygon. The dash pattern continues around the corners.
   void polygon(std::span<const Point> corners, bool dashed);
-  void thin_arc(Point center, float radius, float from_deg, float to_deg);  // degrees clockwise from up, dim
+  void thin_arc(Point center, float radius, float from_deg, float to_deg);  // [deg] clockwise from up; dim
   void video_step(const Rect& rect, std::uint8_t video);
   void plate(const Rect& rect);
 
-  // Draws text with its middle height at `at.y`; returns the box taken up, frame included, and records it.
+  // Draws text with its middle height at `at.y`. Returns its box, frame included, and records it as occupied.
   Rect text(std::string_view words, Point at, const TextStyle& style = {}, BoxKind kind = BoxKind::text);
   void occupy(std::string_view name, const Rect& rect, BoxKind kind);
-  // A black ground behind each fixed text that a line or a point of the ground would lie behind.
+  // Adds a black plate behind each fixed text that a stroke of the layers `lines` or `points` crosses.
   void blank_behind_texts();
 
   const LayerContent& content(Layer layer) const { return layers_[static_cast<std::size_t>(layer)]; }
@@ -164,23 +166,25 @@ class DrawList {
   std::vector<OccupiedBox> occupied_;
 };
 
-// Where text would go, without drawing it.
+// The box that DrawList::text would occupy.
 Rect text_box(std::string_view words, Point at, const TextStyle& style = {});
 
-// Colors of the glass, each channel 0..1. The default is that of the built-in configuration, a green phosphor.
+// One color, each channel 0..1.
 struct Color {
   float red = 0.0F, green = 0.0F, blue = 0.0F;
 };
 
+// Colors of the display. The defaults are those of the built-in configuration: a green phosphor.
 struct ColorScheme {
   Color ground{0.0F, 0.0F, 0.0F};
-  Color video{0.30F, 0.95F, 0.42F};  // full light; grays are fractions of it
-  Color bright{0.72F, 1.0F, 0.76F};  // symbols stand out from the brightest video
-  Color dim{0.22F, 0.55F, 0.28F};    // arcs and lines below them
+  Color video{0.30F, 0.95F, 0.42F};  // of the highest gray; lower grays are fractions of it
+  Color bright{0.72F, 1.0F, 0.76F};  // symbols; brighter than the brightest video
+  Color dim{0.22F, 0.55F, 0.28F};    // arcs, lines
 
   Color of(Ink ink) const { return ink == Ink::dim ? dim : bright; }
 };
 
+// The configured colors on a black ground.
 ColorScheme color_scheme(const radar::ColorConfiguration& colors);
 
 }  // namespace yars::display

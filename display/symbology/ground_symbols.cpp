@@ -17,32 +17,32 @@ namespace yars::display {
 
 namespace {
 
-constexpr float kRadius = 6.0F;                   // [units] of a point's symbol
-constexpr float kGapInside = 7.0F, kArm = 16.0F;  // [units] of the plus: a point's symbol fits into its middle
-// [units] from a symbol to the next word, with its ink; less to stay than to come, or a jitter would make it blink.
-constexpr float kMarginToStay = 2.5F, kMarginToCome = 4.0F;
-constexpr float kInk = 2.0F;  // [units] that an arm covers, with its halo, beside its middle
+constexpr float kSymbolRadius = 6.0F;             // [units] of a point's symbol
+constexpr float kGapInside = 7.0F, kArm = 16.0F;  // [units] of the plus; a point's symbol fits inside the gap
+// [units] from a symbol to a text. A new symbol needs more than a drawn one; without hysteresis it would blink.
+constexpr float kMarginDrawn = 2.5F, kMarginNew = 4.0F;
+constexpr float kArmHalfWidth = 2.0F;  // [units] of a cursor arm with its halo
 
 bool on_display(Point at) {
   return at.x >= 0.0F && at.y >= 0.0F && at.x <= kDisplayUnits && at.y <= kDisplayUnits;
 }
 
 void draw_square(Point at, bool dashed, DrawList& list) {
-  constexpr float r = kRadius - 0.5F;
+  constexpr float r = kSymbolRadius - 0.5F;
   const std::array<Point, 4> corners{Point{at.x - r, at.y - r}, Point{at.x + r, at.y - r}, Point{at.x + r, at.y + r},
                                      Point{at.x - r, at.y + r}};
   list.polygon(corners, dashed);
 }
 
 void draw_triangle(Point at, bool dashed, DrawList& list) {
-  constexpr float r = kRadius + 1.5F;
+  constexpr float r = kSymbolRadius + 1.5F;
   const float half = r * std::numbers::sqrt3_v<float> / 2.0F;
   const std::array<Point, 3> corners{Point{at.x, at.y - r}, Point{at.x + half, at.y + r / 2.0F},
                                      Point{at.x - half, at.y + r / 2.0F}};
   list.polygon(corners, dashed);
 }
 
-// "3.2" belongs to point "3".
+// Offset "3.2" belongs to point "3".
 bool is_offset_of_initial_point(std::string_view name, std::span<const radar::RoutePoint> route) {
   const std::string_view base = name.substr(0, name.find('.'));
   return std::ranges::any_of(route, [&](const radar::RoutePoint& point) {
@@ -54,7 +54,7 @@ void draw_symbol(const databuffer::DrawnPoint& point, std::span<const radar::Rou
                  DrawList& list) {
   switch (static_cast<radar::PointKind>(point.kind)) {
     case radar::PointKind::steer:
-      list.circle(at, kRadius, false);
+      list.circle(at, kSymbolRadius, false);
       return;
     case radar::PointKind::initial:
       draw_square(at, false, list);
@@ -66,7 +66,7 @@ void draw_symbol(const databuffer::DrawnPoint& point, std::span<const radar::Rou
       if (is_offset_of_initial_point(text::text_of(point.name), route)) {
         draw_square(at, true, list);
       } else {
-        list.circle(at, kRadius, true);
+        list.circle(at, kSymbolRadius, true);
       }
       return;
     case radar::PointKind::target_offset:
@@ -75,11 +75,11 @@ void draw_symbol(const databuffer::DrawnPoint& point, std::span<const radar::Rou
   }
 }
 
-// Where the open plus stands; nothing when it is not on the glass.
+// Display position of the cursor. Nothing when it is invalid or outside the display.
 std::optional<Point> cursor_at(const DisplayInput& input, const PlanView& view, const ViewFrame& frame) {
   if ((input.state.flags & databuffer::kCursorValid) == 0) return std::nullopt;
-  const geo::GeoPoint place{input.state.cursor_latitude_deg, input.state.cursor_longitude_deg};
-  const Point at = view.at_ground(frame, place);
+  const geo::GeoPoint position{input.state.cursor_latitude_deg, input.state.cursor_longitude_deg};
+  const Point at = view.at_ground(frame, position);
   return on_display(at) ? std::optional(at) : std::nullopt;
 }
 
@@ -94,10 +94,10 @@ NameRank rank_of(const databuffer::DrawnPoint& point, const databuffer::RadarSta
   return designated ? NameRank::target : NameRank::other;
 }
 
-// Where the display has a word or a solid scale there is no room for a symbol: neither could be read. Carets, ticks
-// of the elevation scale and the pitch ball are symbols themselves, thin and few: a point may lie on them.
+// True when a symbol at `at` would overlap a text or a solid scale. A symbol may lie on carets, ticks of the elevation
+// scale and the pitch ball: they are thin.
 bool is_covered(Point at, float margin, const DrawList& list) {
-  const Rect symbol = grown({at.x, at.y, at.x, at.y}, kRadius + margin);
+  const Rect symbol = grown({at.x, at.y, at.x, at.y}, kSymbolRadius + margin);
   return std::ranges::any_of(list.occupied(), [&symbol](const OccupiedBox& box) {
     const bool covers = box.kind == BoxKind::text || box.kind == BoxKind::solid;
     return covers && intersect(symbol, box.rect);
@@ -116,14 +116,18 @@ void draw_cursor(const DisplayInput& input, const PlanView& view, const ViewFram
   list.line({at.x, at.y - kArm}, {at.x, at.y - kGapInside});
   list.line({at.x, at.y + kGapInside}, {at.x, at.y + kArm});
   list.draw_on(Layer::symbols);
-  // A name may stand in the corners between the arms.
-  list.occupy("cursor", {at.x - kArm - kInk, at.y - kInk, at.x + kArm + kInk, at.y + kInk}, BoxKind::cursor);
-  list.occupy("cursor", {at.x - kInk, at.y - kArm - kInk, at.x + kInk, at.y + kArm + kInk}, BoxKind::cursor);
+  // Two boxes along the arms leave the corners between them free for a name.
+  list.occupy("cursor",
+              {at.x - kArm - kArmHalfWidth, at.y - kArmHalfWidth, at.x + kArm + kArmHalfWidth, at.y + kArmHalfWidth},
+              BoxKind::cursor);
+  list.occupy("cursor",
+              {at.x - kArmHalfWidth, at.y - kArm - kArmHalfWidth, at.x + kArmHalfWidth, at.y + kArm + kArmHalfWidth},
+              BoxKind::cursor);
 }
 
 void draw_window_outline(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, DrawList& list) {
   const databuffer::ModelStatus& model = input.model;
-  // Until the model has taken the command up it tells of another map, or of none.
+  // Until the model has accepted the command, its status describes another map or none.
   const bool forms = (input.state.flags & databuffer::kMapping) != 0 && model.map_request == input.state.map_request &&
                      model.map_window_nm > 0.0;
   if (!forms) return;
@@ -149,7 +153,7 @@ PlacedPoints place_points(const DisplayInput& input, const PlanView& view, const
   const auto points = points_of(input.state);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point at = view.at_ground(frame, belief.on_video({points[i].latitude_deg, points[i].longitude_deg}));
-    const float margin = labels.names(text::text_of(points[i].name)) ? kMarginToStay : kMarginToCome;
+    const float margin = labels.names(text::text_of(points[i].name)) ? kMarginDrawn : kMarginNew;
     if (on_display(at) && (points[i].selected != 0 || !is_covered(at, margin, list))) placed[i] = at;
   }
   return placed;
@@ -164,7 +168,7 @@ void draw_points(const databuffer::RadarState& state, std::span<const radar::Rou
     const Point at = *placed[i];
     draw_symbol(points[i], route, at, list);
     const char* const name = points[i].selected != 0 ? "selected point" : "point";
-    list.occupy(name, grown({at.x, at.y, at.x, at.y}, kRadius + 1.0F), BoxKind::point);
+    list.occupy(name, grown({at.x, at.y, at.x, at.y}, kSymbolRadius + 1.0F), BoxKind::point);
   }
   list.draw_on(Layer::symbols);
 }
@@ -181,27 +185,27 @@ namespace {
 
 using databuffer::SteeringLine;
 
-constexpr float kBegin = 10.0F, kEnd = 70.0F;  // [units] from the target: clear of its symbol, long enough to aim by
+constexpr float kBegin = 10.0F, kEnd = 70.0F;  // [units] from the target: clear of its symbol, long enough to steer by
 constexpr float kArrow = 8.0F, kRing = 4.0F;   // [units]
 
-// Off along a direction of the glass, degrees clockwise from up.
-Point off(Point from, double direction_deg, float distance) {
+// The point at `distance` [units] from `from`; direction clockwise from up [deg].
+Point offset_point(Point from, double direction_deg, float distance) {
   const double angle_rad = direction_deg * geo::kRadiansPerDegree;
   return {from.x + distance * static_cast<float>(std::sin(angle_rad)),
           from.y - distance * static_cast<float>(std::cos(angle_rad))};
 }
 
-// Points the way the aircraft is to fly.
+// Arrowhead in the direction of the approach.
 void draw_arrowhead(Point end, double approach_deg, DrawList& list) {
   constexpr double kSpread_deg = 150.0;
-  const std::array<Point, 3> head{off(end, approach_deg - kSpread_deg, kArrow), end,
-                                  off(end, approach_deg + kSpread_deg, kArrow)};
+  const std::array<Point, 3> head{offset_point(end, approach_deg - kSpread_deg, kArrow), end,
+                                  offset_point(end, approach_deg + kSpread_deg, kArrow)};
   list.polyline(head);
 }
 
 Label heading_label(double magnetic_deg, Point target) {
   std::array<char, 16> text{};
-  // 359.6 rounds to 360, which reads 000.
+  // 359.6 rounds to 360, which is shown as 000.
   const double shown_deg = std::fmod(std::round(magnetic_deg) + 720.0, 360.0);
   const int length = std::snprintf(text.data(), text.size(), "%03.0f\u00b0", shown_deg);
   return label_of(LabelRole::heading, {text.data(), static_cast<std::size_t>(length)}, target);
@@ -219,10 +223,10 @@ std::optional<Label> draw_steering_line(const DisplayInput& input, const PlanVie
   if (!on_display(target)) return std::nullopt;
   const double approach_deg = (geo::Bearing::degrees(state.steering_line_deg) - frame.up).degrees();
   const double back_deg = approach_deg + 180.0;
-  const Point end = off(target, back_deg, kEnd);
+  const Point end = offset_point(target, back_deg, kEnd);
   list.draw_on(Layer::lines);
   const bool ring = line == SteeringLine::fixed;
-  list.line(off(target, back_deg, kBegin), ring ? off(target, back_deg, kEnd - kRing) : end);
+  list.line(offset_point(target, back_deg, kBegin), ring ? offset_point(target, back_deg, kEnd - kRing) : end);
   if (ring) list.circle(end, kRing);
   if (line == SteeringLine::slewing) draw_arrowhead(end, approach_deg, list);
   list.draw_on(Layer::symbols);

@@ -1,4 +1,8 @@
-// Symbols that lie on the ground: cursor, sequence points, outline of a map, pattern steering line.
+// Ground symbols: cursor, sequence points with their names, window outline of a map, pattern steering line (PSL).
+// Inputs: DisplayInput, view and frame (plan_view.hpp), route, label positions of the last picture.
+// Outputs: strokes and occupied boxes in a draw list; labels for label_layout.hpp.
+// Frame: points and target are drawn at the position where the selected navigator's error puts them on the video.
+// Source: docs/spec/pilots_interface.md#symbology
 #pragma once
 
 #include <array>
@@ -14,36 +18,31 @@
 
 namespace yars::display {
 
-// What lies on the ground: the cursor, the sequence points and their names, the outline of a map that forms.
-
-// An open plus on the cursor's ground point, over everything else: the pilot steers it.
+// An open plus on the cursor's ground position, on the top layer.
 void draw_cursor(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, DrawList& list);
 
-// The window of the map that was commanded, while it forms: a square about its centre, sides along its line of sight.
+// The window of the commanded map while it forms: a square about its centre, with sides along the line of sight.
 void draw_window_outline(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, DrawList& list);
 
-// Where the points of the state are drawn, by their order there. A point off the glass has no place, nor one where a
-// word or a solid scale stands: neither could be read. The selected point is drawn there, too; the word covers it.
-// `labels` are those of the last picture.
+// Display positions of the state's points, in the same order. Nothing for a point outside the display, or on a text or
+// solid scale, where neither would be legible. The selected point is drawn even there, with the text over it.
 using PlacedPoints = std::array<std::optional<Point>, radar::kMaxPointsDrawn>;
 PlacedPoints place_points(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                           const LabelMemory& labels, const DrawList& list);
 
-// Steer point circle, initial point square, target triangle; offsets dashed. The route tells whether an offset belongs
-// to an initial point.
+// Circle: steer point. Square: initial point. Triangle: target. Offset points are dashed. The route gives the kind of
+// the point that a steer offset belongs to.
 void draw_points(const databuffer::RadarState& state, std::span<const radar::RoutePoint> route,
                  const PlacedPoints& placed, DrawList& list);
 
-// Where there is no room for all names, these come first: of the selected point, of the designated target.
+// Rank of a name in label placement: the selected point, then the designated target, then all others.
 enum class NameRank : std::uint8_t { selected, target, other };
-// The names of that rank of points that are drawn, in the order of the state.
+// Adds the names of one rank, for points that are drawn, in the order of the state.
 void add_names(const databuffer::RadarState& state, const PlacedPoints& placed, NameRank rank, LabelQueue& queue);
 
-// The pattern steering line: from the designated target back along the heading on which it is to be approached.
-// Source: docs/spec/pilots_interface.md#rule-15.
-
-// The line, and at its end an arrowhead while it slews, a circle once it is fixed. Returns its magnetic heading, a
-// label of the target. Nothing without a target on the glass.
+// PSL: from the designated target back along the approach heading. Its end has an arrowhead while it slews, and a
+// circle when it is fixed. Returns the label of its magnetic heading. Nothing without a target on the display.
+// Source: docs/spec/pilots_interface.md#rule-15
 std::optional<Label> draw_steering_line(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                                         DrawList& list);
 

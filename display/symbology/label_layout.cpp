@@ -9,75 +9,75 @@ namespace yars::display {
 
 namespace {
 
-constexpr float kText = 9.0F;     // [units] cap height
-constexpr float kSymbol = 8.0F;   // [units] from a symbol's middle to where a line may begin
-constexpr float kLineGap = 2.5F;  // [units] from the end of that line to the text
+constexpr float kTextHeight = 9.0F;    // [units] cap height
+constexpr float kSymbolRadius = 8.0F;  // [units] from a symbol's centre to the start of a leader line
+constexpr float kLineGap = 2.5F;       // [units] from the end of that line to the text
 
-// What a label needs to be clear [units]. A text's ink goes 0.7 beyond its box, and half a pixel; two must not touch.
+// Clearance that a label needs [units]. The ink of a text reaches 0.7 units and half a pixel beyond its box.
 struct Clearance {
-  float around;          // the text
-  float beside_line;     // the line that leads to it
-  float beyond_line;     // its ends, which come to no other line
-  bool crosses_symbols;  // its line may run under points, solid scales, outline and steering line: to stay, or at last
+  float around;          // of the text
+  float beside_line;     // on either side of the leader line
+  float beyond_line;     // beyond the ends of the leader line, against other lines
+  bool crosses_symbols;  // the leader line may cross points, solid scales, outline and steering line
 };
-constexpr Clearance kToStay{2.5F, 1.0F, 0.0F, true};
-// More to come than to stay, or it would leave with the next picture; more still to come nearer.
-constexpr Clearance kToCome{3.5F, 2.0F, 2.0F, false}, kToComeAtLast{3.5F, 2.0F, 2.0F, true};
-constexpr Clearance kToReturn{7.0F, 3.0F, 3.0F, false};
-constexpr float kInsideEdge = 1.5F;  // so much less than from words is enough from the edge
-constexpr float kOffWords = 3.0F;    // more than that beside another text, with which it would read as one word
-constexpr float kOffSymbols = 2.0F;  // more than that off another point's symbol, whose name it would seem
+constexpr Clearance kKeepPosition{2.5F, 1.0F, 0.0F, true};
+// A new position needs more clearance than a kept one; otherwise the label would move again in the next picture.
+constexpr Clearance kNewPosition{3.5F, 2.0F, 2.0F, false}, kLastResort{3.5F, 2.0F, 2.0F, true};
+constexpr Clearance kMoveNearer{7.0F, 3.0F, 3.0F, false};
+constexpr float kEdgeAllowance = 1.5F;  // [units] less clearance is required from the edge of the display
+constexpr float kBesideText = 3.0F;     // [units] more beside another text; closer, the two read as one word
+constexpr float kAroundSymbol = 2.0F;   // [units] more around another point; closer, the label seems to name it
 
-struct Place {
-  Point offset;  // from the anchor to the text's reference point
+struct Position {
+  Point offset;  // [units] from the anchor to the reference point of the text
   Align align = Align::left;
-  Point line_end;  // from the anchor; no line at 0, 0
-  std::size_t ring = 0;
+  Point line_end;        // [units] of the leader line, from the anchor; (0, 0): no line
+  std::size_t ring = 0;  // 0: beside the symbol, without a leader line
 };
 
-// Corners come first: the cursor's arms leave them free when it stands on the point.
-constexpr std::array<Place, 8> kAroundName{{{{10.0F, -11.0F}, Align::left, {}, 0},
-                                            {{10.0F, 11.0F}, Align::left, {}, 0},
-                                            {{-10.0F, -11.0F}, Align::right, {}, 0},
-                                            {{-10.0F, 11.0F}, Align::right, {}, 0},
-                                            {{12.0F, 0.0F}, Align::left, {}, 0},
-                                            {{-12.0F, 0.0F}, Align::right, {}, 0},
-                                            {{0.0F, -15.0F}, Align::center, {}, 0},
-                                            {{0.0F, 15.0F}, Align::center, {}, 0}}};
-constexpr std::array<Place, 8> kAroundHeading{{{{0.0F, 25.0F}, Align::center, {}, 0},
-                                               {{10.0F, 25.0F}, Align::left, {}, 0},
-                                               {{-10.0F, 25.0F}, Align::right, {}, 0},
-                                               {{0.0F, -25.0F}, Align::center, {}, 0},
-                                               {{10.0F, -25.0F}, Align::left, {}, 0},
-                                               {{-10.0F, -25.0F}, Align::right, {}, 0},
-                                               {{14.0F, 0.0F}, Align::left, {}, 0},
-                                               {{-14.0F, 0.0F}, Align::right, {}, 0}}};
-constexpr std::array kRings{26.0F, 38.0F, 52.0F, 68.0F, 86.0F, 106.0F};  // [units] of the lines that lead to labels
-// [deg] from up, corners first as well.
+// Corners come first: the arms of a cursor on the point leave them free.
+constexpr std::array<Position, 8> kAroundName{{{{10.0F, -11.0F}, Align::left, {}, 0},
+                                               {{10.0F, 11.0F}, Align::left, {}, 0},
+                                               {{-10.0F, -11.0F}, Align::right, {}, 0},
+                                               {{-10.0F, 11.0F}, Align::right, {}, 0},
+                                               {{12.0F, 0.0F}, Align::left, {}, 0},
+                                               {{-12.0F, 0.0F}, Align::right, {}, 0},
+                                               {{0.0F, -15.0F}, Align::center, {}, 0},
+                                               {{0.0F, 15.0F}, Align::center, {}, 0}}};
+constexpr std::array<Position, 8> kAroundHeading{{{{0.0F, 25.0F}, Align::center, {}, 0},
+                                                  {{10.0F, 25.0F}, Align::left, {}, 0},
+                                                  {{-10.0F, 25.0F}, Align::right, {}, 0},
+                                                  {{0.0F, -25.0F}, Align::center, {}, 0},
+                                                  {{10.0F, -25.0F}, Align::left, {}, 0},
+                                                  {{-10.0F, -25.0F}, Align::right, {}, 0},
+                                                  {{14.0F, 0.0F}, Align::left, {}, 0},
+                                                  {{-14.0F, 0.0F}, Align::right, {}, 0}}};
+constexpr std::array kRings{26.0F, 38.0F, 52.0F, 68.0F, 86.0F, 106.0F};  // [units] distance of the ends of leader lines
+// [deg] clockwise from up, corners first.
 constexpr std::array kDirections{45.0F,   135.0F,  315.0F,  225.0F,  90.0F,   270.0F,  0.0F,    180.0F,
                                  22.5F,   67.5F,   112.5F,  157.5F,  202.5F,  247.5F,  292.5F,  337.5F,
                                  11.25F,  33.75F,  56.25F,  78.75F,  101.25F, 123.75F, 146.25F, 168.75F,
                                  191.25F, 213.75F, 236.25F, 258.75F, 281.25F, 303.75F, 326.25F, 348.75F};
-constexpr std::size_t kPlaces = kAroundName.size() + kRings.size() * kDirections.size();
+constexpr std::size_t kPositions = kAroundName.size() + kRings.size() * kDirections.size();
 
-Place place_on_ring(std::size_t ring, float direction_deg) {
+Position position_on_ring(std::size_t ring, float direction_deg) {
   const float angle = direction_deg * std::numbers::pi_v<float> / 180.0F;
   const Point out{std::sin(angle), -std::cos(angle)};
   const float length = kRings[ring];
-  Place place;
-  place.ring = ring + 1;
-  place.line_end = {out.x * length, out.y * length};
-  constexpr float slanted = 0.3F;  // steeper lines end below or above the text's middle
-  place.align = out.x > slanted ? Align::left : out.x < -slanted ? Align::right : Align::center;
+  Position position;
+  position.ring = ring + 1;
+  position.line_end = {out.x * length, out.y * length};
+  constexpr float slanted = 0.3F;  // sine; a steeper line ends above or below the middle of the text
+  position.align = out.x > slanted ? Align::left : out.x < -slanted ? Align::right : Align::center;
   const float reach = length + kLineGap;
-  place.offset = {out.x * reach, out.y * (reach + kText / 2.0F)};
-  return place;
+  position.offset = {out.x * reach, out.y * (reach + kTextHeight / 2.0F)};
+  return position;
 }
 
-Place place_of(LabelRole role, std::size_t index) {
+Position position_of(LabelRole role, std::size_t index) {
   if (index < kAroundName.size()) return role == LabelRole::name ? kAroundName[index] : kAroundHeading[index];
   const std::size_t beyond = index - kAroundName.size();
-  return place_on_ring(beyond / kDirections.size(), kDirections[beyond % kDirections.size()]);
+  return position_on_ring(beyond / kDirections.size(), kDirections[beyond % kDirections.size()]);
 }
 
 Point moved(Point from, Point by) {
@@ -89,22 +89,23 @@ std::string_view words_of(const std::array<char, 16>& words) {
   return all.substr(0, all.find('\0'));
 }
 
-bool is_of(const LabelMemory::Kept& kept, const Label& label) {
+bool is_label(const LabelMemory::Kept& kept, const Label& label) {
   return kept.role == label.role && (label.role == LabelRole::heading || kept.words == label.words);
 }
 
-// The search for one label's place among what the list holds.
+// Search for a free position of one label in a draw list.
 class Search {
  public:
   Search(const Label& label, std::span<const Segment> lines, const DrawList& list)
       : label_(label), lines_(lines), list_(list) {}
 
   bool is_free(std::size_t index, const Clearance& clearance) const {
-    const Place place = place_of(label_.role, index);
-    const Rect box = text_box(words_of(label_.words), moved(label_.anchor, place.offset), {kText, place.align});
-    // From the edge as from words: a picture that jitters there must not blink.
-    return on_display(grown(box, clearance.around - kInsideEdge)) && is_clear(grown(box, clearance.around)) &&
-           (place.ring == 0 || line_is_clear(place, clearance));
+    const Position position = position_of(label_.role, index);
+    const Rect box =
+        text_box(words_of(label_.words), moved(label_.anchor, position.offset), {kTextHeight, position.align});
+    // The hysteresis applies at the edge of the display too; otherwise a label there would blink.
+    return on_display(grown(box, clearance.around - kEdgeAllowance)) && is_clear(grown(box, clearance.around)) &&
+           (position.ring == 0 || line_is_clear(position, clearance));
   }
 
   std::optional<std::size_t> first_free(const Clearance& clearance, std::size_t end) const {
@@ -115,20 +116,20 @@ class Search {
   }
 
   std::optional<std::size_t> choose(std::optional<std::size_t> before) const {
-    if (!before || !is_free(*before, kToStay)) {
-      const auto clear = first_free(kToCome, kPlaces);
-      return clear ? clear : first_free(kToComeAtLast, kPlaces);
+    if (!before || !is_free(*before, kKeepPosition)) {
+      const auto clear = first_free(kNewPosition, kPositions);
+      return clear ? clear : first_free(kLastResort, kPositions);
     }
-    const std::size_t ring = place_of(label_.role, *before).ring;
+    const std::size_t ring = position_of(label_.role, *before).ring;
     const std::size_t nearer = ring == 0 ? 0 : kAroundName.size() + (ring - 1) * kDirections.size();
-    return first_free(kToReturn, nearer).value_or(*before);
+    return first_free(kMoveNearer, nearer).value_or(*before);
   }
 
-  // From the symbol to the label; what the place says.
-  Segment line(const Place& place) const {
-    const float share = kSymbol / std::hypot(place.line_end.x, place.line_end.y);
-    return {moved(label_.anchor, {place.line_end.x * share, place.line_end.y * share}),
-            moved(label_.anchor, place.line_end), 0.0F, 0.0F, Ink::bright};
+  // Leader line of a position, from the edge of the symbol to the label.
+  Segment line(const Position& position) const {
+    const float share = kSymbolRadius / std::hypot(position.line_end.x, position.line_end.y);
+    return {moved(label_.anchor, {position.line_end.x * share, position.line_end.y * share}),
+            moved(label_.anchor, position.line_end), 0.0F, 0.0F, Ink::bright};
   }
 
  private:
@@ -143,24 +144,24 @@ class Search {
            std::abs((box.rect.top + box.rect.bottom) / 2.0F - label_.anchor.y) < rounding;
   }
 
-  Rect kept_off(const Rect& room, const OccupiedBox& box) const {
-    if (box.kind == BoxKind::point) return grown(room, kOffSymbols);
+  Rect required_clear(const Rect& area, const OccupiedBox& box) const {
+    if (box.kind == BoxKind::point) return grown(area, kAroundSymbol);
     const bool words = box.kind == BoxKind::text || box.kind == BoxKind::label;
-    return words ? Rect{room.left - kOffWords, room.top, room.right + kOffWords, room.bottom} : room;
+    return words ? Rect{area.left - kBesideText, area.top, area.right + kBesideText, area.bottom} : area;
   }
 
-  bool is_clear(const Rect& room) const {
+  bool is_clear(const Rect& area) const {
     for (const OccupiedBox& box : list_.occupied()) {
-      // All places are clear of the label's own symbol.
-      if (!is_own_symbol(box) && intersect(kept_off(room, box), box.rect)) return false;
+      // All positions are clear of the label's own symbol.
+      if (!is_own_symbol(box) && intersect(required_clear(area, box), box.rect)) return false;
     }
-    return std::ranges::none_of(lines_, [&](const Segment& line) { return crosses(room, line.from, line.to); });
+    return std::ranges::none_of(lines_, [&](const Segment& line) { return crosses(area, line.from, line.to); });
   }
 
-  // A line crosses no text and no line that leads to another label. It may run beneath a scale, and leaves what lies
-  // over its own symbol: a heap of other symbols, or a text.
-  bool line_is_clear(const Place& place, const Clearance& clearance) const {
-    const Segment own = line(place);
+  // True when the leader line crosses no text and no other leader line. It may cross a scale. Symbols and texts that
+  // cover the label's own symbol do not count.
+  bool line_is_clear(const Position& position, const Clearance& clearance) const {
+    const Segment own = line(position);
     for (const OccupiedBox& box : list_.occupied()) {
       const bool symbol = box.kind == BoxKind::point;
       const bool may_give_way = symbol || box.kind == BoxKind::solid;
@@ -225,19 +226,20 @@ void place_labels(std::span<const Label> labels, LabelMemory& memory, DrawList& 
   for (const Label& label : labels) {
     const auto& lines = list.content(Layer::lines).strokes;
     const auto* const kept =
-        std::ranges::find_if(memory.kept(), [&](const LabelMemory::Kept& one) { return is_of(one, label); }).base();
+        std::ranges::find_if(memory.kept(), [&](const LabelMemory::Kept& one) { return is_label(one, label); }).base();
     const bool known = kept != memory.kept().data() + memory.kept().size();
     const Search search(label, lines, list);
-    const auto index = search.choose(known ? std::optional(kept->place) : std::nullopt);
+    const auto index = search.choose(known ? std::optional(kept->position) : std::nullopt);
     if (!index) continue;
-    const Place place = place_of(label.role, *index);
-    if (place.ring > 0) {
-      const Segment line = search.line(place);
+    const Position position = position_of(label.role, *index);
+    if (position.ring > 0) {
+      const Segment line = search.line(position);
       list.draw_on(Layer::lines);
       list.leader(line.from, line.to);
       list.draw_on(Layer::symbols);
     }
-    list.text(words_of(label.words), moved(label.anchor, place.offset), {kText, place.align}, BoxKind::label);
+    list.text(words_of(label.words), moved(label.anchor, position.offset), {kTextHeight, position.align},
+              BoxKind::label);
     placed.keep({label.role, label.words, *index});
   }
   memory = placed;

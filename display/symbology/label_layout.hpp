@@ -1,10 +1,11 @@
-// Finds a place for the labels that move with the ground: the names of points and the heading of the steering line.
-// In:  labels, the one that matters most first; a list that holds all that stays where it is: texts, scales, symbols,
-//      the cursor's arms, and on Layer::lines the lines.
-// Out: the labels as texts of the list, clear of all of that and of each other: in one of eight places around the
-//      symbol, else farther out at the end of a line that leads to it. A label that finds no place is left out.
-// A label keeps its place from picture to picture while that is clear; it comes nearer only where there is room to
-// spare. The same labels, list and memory give the same places; a second time with the memory they left, too.
+// Label placement for ground symbols: names of points and the heading of the steering line.
+// Inputs: labels in descending rank; a draw list with all texts, scales, symbols, cursor arms and lines already in it.
+// Outputs: the labels as texts of the list, clear of its content and of each other.
+// A label stands in one of eight positions around its symbol, or farther out at the end of a leader line. A label
+// without a free position is omitted. A label keeps its position from picture to picture while that stays clear.
+// It moves nearer only where clearance is ample. The same labels, list and memory give the same positions. Repeating
+// the call with the updated memory gives them again.
+// Units: display units.
 #pragma once
 
 #include <array>
@@ -18,19 +19,21 @@
 
 namespace yars::display {
 
-enum class LabelRole : std::uint8_t { name, heading };  // a heading stands beneath, and leaves the name between
+// A heading stands farther from its symbol than a name.
+enum class LabelRole : std::uint8_t { name, heading };
 
 struct Label {
   LabelRole role = LabelRole::name;
   std::array<char, 16> words{};  // zero terminated
-  Point anchor;                  // [units] middle of its symbol
+  Point anchor;                  // [units] centre of its symbol
 };
 
+// A label with the first 15 bytes of `words`.
 Label label_of(LabelRole role, std::string_view words, Point anchor);
 
 inline constexpr std::size_t kMaxLabels = radar::kMaxPointsDrawn + 1;
 
-// The labels of one picture in order of their rank.
+// The labels of one picture in descending rank. Labels beyond kMaxLabels are dropped.
 class LabelQueue {
  public:
   void add(const Label& label);
@@ -41,15 +44,15 @@ class LabelQueue {
   std::size_t count_ = 0;
 };
 
-// Where the labels of the last picture stood.
+// Positions of the labels in the last picture.
 class LabelMemory {
  public:
   struct Kept {
     LabelRole role = LabelRole::name;
-    std::array<char, 16> words{};  // of a name; there is one heading, whatever it reads
-    std::size_t place = 0;
+    std::array<char, 16> words{};  // identifies a name; ignored for the heading, of which there is one
+    std::size_t position = 0;      // index of the candidate position
   };
-  bool names(std::string_view words) const;  // a point of this name had its label
+  bool names(std::string_view words) const;  // true when a point of this name had its label
   std::span<const Kept> kept() const { return {kept_.data(), count_}; }
   void clear() { count_ = 0; }
   void keep(const Kept& kept);
@@ -59,6 +62,7 @@ class LabelMemory {
   std::size_t count_ = 0;
 };
 
+// Adds the labels to `list` and replaces `memory` by their positions.
 void place_labels(std::span<const Label> labels, LabelMemory& memory, DrawList& list);
 
 }  // namespace yars::display

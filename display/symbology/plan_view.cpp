@@ -15,7 +15,7 @@ PlanView::PlanView(const radar::ViewConfiguration& view) {
   const double height = view.height_max - view.height_min;
   const double edge = static_cast<double>(kDisplayUnits);
   const double scale = edge / std::max(width, height);
-  // The shorter side is centered, so that a circle stays a circle.
+  // Equal scales; the shorter side is centered.
   const double left = (edge - width * scale) / 2.0;
   const double bottom = edge - (edge - height * scale) / 2.0;
   apex_ = {static_cast<float>(left - view.width_min * scale), static_cast<float>(bottom + view.height_min * scale)};
@@ -36,8 +36,8 @@ Point PlanView::at_polar(double right_deg, double fraction) const {
           apex_.y - static_cast<float>(length * std::cos(angle))};
 }
 
-Point PlanView::at_ground(const ViewFrame& frame, geo::GeoPoint place) const {
-  const geo::GeodesicInverse line = geo::geodesic_inverse(frame.apex, place);
+Point PlanView::at_ground(const ViewFrame& frame, geo::GeoPoint position) const {
+  const geo::GeodesicInverse line = geo::geodesic_inverse(frame.apex, position);
   return at_polar((line.azimuth_at_start - frame.up).degrees(), line.distance.metres() / frame.range_m);
 }
 
@@ -56,8 +56,7 @@ double displacement_units(const PlanView& view, const ViewFrame& drawn, const Vi
 
 namespace {
 
-constexpr double kMinRange_m =
-    geo::kMetresPerNauticalMile;  // [m] stands in for a state that names no range yet: nothing divides by 0
+constexpr double kMinRange_m = geo::kMetresPerNauticalMile;  // used while the state has no range, to avoid a division by 0
 
 }  // namespace
 
@@ -78,7 +77,7 @@ ViewFrame present_frame(const DisplayInput& input, const StoredSweep* newest) {
 
 namespace {
 
-// Turns east and north metres of the frame's apex into units on the glass.
+// Converts earth-centred positions to display units, by the tangent plane at the apex of the frame.
 class GroundPlan {
  public:
   GroundPlan(const PlanView& view, const ViewFrame& frame)

@@ -1,4 +1,9 @@
-// Plan view of one picture: its inputs, where ground lies on the display, and its sweeps as wedges.
+// Plan view of one picture: projection of ground positions to the display, and the stored sweeps as wedges.
+// Inputs: records of the session (DisplayInput), stored sweeps.
+// Outputs: positions in display units (draw_list.hpp).
+// Frame: geodesic distance and bearing from the apex, ground track up (azimuthal equidistant).
+//        A patch map: the same about the map's apex, its line of sight up.
+// Accuracy: a sweep of another apex is off by distance^3 / (6 R^2), 0.1 m after 30 km of flight.
 #pragma once
 
 #include <vector>
@@ -15,42 +20,40 @@
 
 namespace yars::display {
 
-// All that one picture is made of, besides the stored sweeps: copies of what the session holds, and who is silent.
+// Inputs of one picture besides the stored sweeps: copies of the session's records, and health of the other programs.
 struct DisplayInput {
   databuffer::RadarState state{};
   databuffer::ModelStatus model{};
   databuffer::Ownship ownship{};  // present truth
-  databuffer::Nav nav{};          // goes with it
-  databuffer::PatchMap map{};     // the one that the state shows; another id: it could not be read
+  databuffer::Nav nav{};          // of the same time
+  databuffer::PatchMap map{};     // the map that the state shows; an id unlike state.map_shown: it could not be read
   bool state_machine_alive = true;
   bool model_alive = true;
   bool ownship_fresh = true;
 };
 
-// Where ground lies on the glass. The view is a plan of the radar's surroundings in fractions of the selected
-// range (RadarConfiguration::view), fitted into the square with equal scales; by default the apex is 40 units up
-// in the middle and the range is 400 units.
-// Ground: geodesic distance and bearing from the frame's apex, the ground track upwards (azimuthal equidistant).
-// A patch map fills the square with its window: the same plan about the map's own apex, its line of sight upwards.
-
-// The picture's place on the earth.
+// Position, orientation and scale of a picture on the earth.
 struct ViewFrame {
   geo::GeoPoint apex;
-  geo::Bearing up;       // true bearing that points up: the ground track, or a map's line of sight
-  double range_m = 0.0;  // [m] selected range, or a map's window
+  geo::Bearing up;       // true bearing that points up: ground track, or line of sight of a map
+  double range_m = 0.0;  // selected range, or window of a map
 };
 
+// Projection from polar coordinates about the apex to display units. Source: docs/spec/pilots_interface.md#view.
 class PlanView {
  public:
+  // Fits the configured spans, in fractions of the selected range, into the square with equal scales.
+  // By default the apex is 40 units above the middle of the lower edge, and the range is 400 units long.
   explicit PlanView(const radar::ViewConfiguration& view);
-  explicit PlanView(const databuffer::PatchMap& map);  // far below the glass lies the apex
+  // The window of the map fills the square. The apex lies below the lower edge.
+  explicit PlanView(const databuffer::PatchMap& map);
 
   Point apex() const { return apex_; }
   float units_per_range() const { return units_per_range_; }  // [units] length of the selected range
 
   // `right_deg`: clockwise from up [deg]; `fraction` of the selected range.
   Point at_polar(double right_deg, double fraction) const;
-  Point at_ground(const ViewFrame& frame, geo::GeoPoint place) const;
+  Point at_ground(const ViewFrame& frame, geo::GeoPoint position) const;
 
  private:
   Point apex_;
@@ -59,17 +62,17 @@ class PlanView {
 
 ViewFrame frame_of(const databuffer::PatchMap& map);
 
-// How far a picture drawn in `drawn` is off at its outer edge when `present` is the truth [units].
+// Largest displacement at the outer edge of a picture drawn in `drawn` against `present` [units].
+// Infinity when the ranges differ.
 double displacement_units(const PlanView& view, const ViewFrame& drawn, const ViewFrame& present);
 
-// The frame in which everything is drawn: ground track up, own apex; frozen, the last sweep's.
-
+// Frame of the present picture: own position, ground track up. Frozen: apex and track of the last sweep.
 // `newest` is the last sweep of the mode shown, or null.
 ViewFrame present_frame(const DisplayInput& input, const StoredSweep* newest);
 
-// A stored sweep as it lies in the present frame, on the glass.
+// A stored sweep in the present frame [units].
 struct Wedge {
-  Point apex;               // where the aircraft was
+  Point apex;               // position of the aircraft at the time of the sweep
   Point left, right;        // unit vectors along the edges
   float range = 0.0F;       // [units] of the far end
   float half_width = 0.0F;  // [rad]
@@ -78,8 +81,7 @@ struct Wedge {
   std::uint64_t serial = 0;
 };
 
-// All sweeps of the store, oldest first. A sweep's plan is flat about its own apex: exact in range and azimuth
-// there; the apex itself is off by distance^3 / (6 R^2), 0.1 m after 30 km of flight.
+// Replaces `wedges` by all sweeps of the store, oldest first. Range and azimuth about a sweep's own apex are exact.
 void place_wedges(const PolarStore& store, const PlanView& view, const ViewFrame& frame, std::vector<Wedge>& wedges);
 
 }  // namespace yars::display

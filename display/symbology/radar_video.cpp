@@ -10,19 +10,19 @@ namespace yars::display {
 
 namespace {
 constexpr float kNeutralContrast = 8.0F;
-constexpr float kStepsToDouble = 4.0F;
+constexpr float kStepsToDouble = 4.0F;  // of contrast, for twice the slope
 constexpr float kMaxBrightness = 15.0F;
-constexpr float kBrightnessPower = 0.35F;  // the power-up brightness, 8, leaves 80 % of the light; the knob acts below
+constexpr float kBrightnessPower = 0.35F;  // the power-up brightness 8 gives 80 % of the light
 }  // namespace
 
 std::array<float, 256> video_light(int brightness, int contrast) {
   const float slope = std::exp2((static_cast<float>(contrast) - kNeutralContrast) / kStepsToDouble);
-  const float turned_up = std::clamp(static_cast<float>(brightness), 0.0F, kMaxBrightness) / kMaxBrightness;
-  const float peak = std::pow(turned_up, kBrightnessPower);
+  const float brightness_fraction = std::clamp(static_cast<float>(brightness), 0.0F, kMaxBrightness) / kMaxBrightness;
+  const float peak = std::pow(brightness_fraction, kBrightnessPower);
   std::array<float, 256> light{};
   for (std::size_t video = 0; video < light.size(); ++video) {
-    const float turned = std::clamp(0.5F + (static_cast<float>(video) / 255.0F - 0.5F) * slope, 0.0F, 1.0F);
-    const float gray = std::min(std::floor(turned * kGrays), kGrays - 1.0F);
+    const float contrasted = std::clamp(0.5F + (static_cast<float>(video) / 255.0F - 0.5F) * slope, 0.0F, 1.0F);
+    const float gray = std::min(std::floor(contrasted * kGrays), kGrays - 1.0F);
     light[video] = peak * gray / (kGrays - 1.0F);
   }
   return light;
@@ -30,15 +30,15 @@ std::array<float, 256> video_light(int brightness, int contrast) {
 
 namespace {
 
-constexpr double kEdgeLength_m = 1000.0;  // [m] short enough that the chord along the geodesic is straight to 1e-8
-constexpr double kMaxWidth_deg = 45.0;    // [deg] the far side of a wedge is drawn straight
-constexpr double kRounding_deg = 1e-6;    // [deg] of an azimuth that went through earth-centred coordinates
+constexpr double kEdgeLength_m = 1000.0;  // at this length the chord matches the geodesic to 1e-8
+constexpr double kMaxWidth_deg = 45.0;    // the far side of a wedge is drawn straight
+constexpr double kRounding_deg = 1e-6;    // rounding of an azimuth by way of earth-centred coordinates
 
 geo::Vector3 on_ellipsoid(geo::GeoPoint point) {
   return geo::ecef_from_geodetic(point, geo::HeightAboveEllipsoid::metres(0.0));
 }
 
-StoredSweep placed(const databuffer::Sweep& sweep) {
+StoredSweep stored_sweep_of(const databuffer::Sweep& sweep) {
   StoredSweep stored;
   const geo::Bearing left = geo::Bearing::degrees(sweep.azimuth_left_deg);
   const geo::Bearing right = geo::Bearing::degrees(sweep.azimuth_right_deg);
@@ -70,7 +70,7 @@ PolarStore::PolarStore() : video_(static_cast<std::size_t>(kRows) * kRowSamples)
 
 void PolarStore::clear() {
   sweeps_.clear();
-  pass_ = {};
+  swept_ = {};
   ended_.reset();
   free_rows_.resize(kRows);
   for (int row = 0; row < kRows; ++row) free_rows_[static_cast<std::size_t>(row)] = kRows - 1 - row;
@@ -96,19 +96,19 @@ Insertion PolarStore::insert(const databuffer::Sweep& sweep) {
     mode_ = sweep.mode;
   }
   const bool was_empty = sweeps_.empty();
-  pass_.extend(sweep.scan, left, width_deg);
+  swept_.extend(sweep.scan, left, width_deg);
   const std::size_t covered = cover((left - reference_).degrees(), width_deg);
   erase_swept({sweep.apex_latitude_deg, sweep.apex_longitude_deg});
 
-  StoredSweep stored = placed(sweep);
+  StoredSweep stored = stored_sweep_of(sweep);
   stored.azimuth_key_deg = (middle - reference_).degrees();
   stored.serial = ++serial_;
   stored.row = take_row();
   store_video(sweep, stored);
-  const auto place = std::lower_bound(sweeps_.begin(), sweeps_.end(), stored.azimuth_key_deg, key_less);
-  const bool at_front = place == sweeps_.begin();
-  const bool at_back = place == sweeps_.end();
-  sweeps_.insert(place, stored);
+  const auto position = std::lower_bound(sweeps_.begin(), sweeps_.end(), stored.azimuth_key_deg, key_less);
+  const bool at_front = position == sweeps_.begin();
+  const bool at_back = position == sweeps_.end();
+  sweeps_.insert(position, stored);
   ++version_;
   if ((sweep.flags & databuffer::kSweepScanEnd) != 0) end_scan(sweep.scan);
   if (was_empty) return Insertion::first;
@@ -117,14 +117,14 @@ Insertion PolarStore::insert(const databuffer::Sweep& sweep) {
   return at_back ? Insertion::after_last : Insertion::between;
 }
 
-void PolarStore::Pass::extend(std::uint32_t to_scan, geo::Bearing left, double width_deg) {
+void PolarStore::SweptSector::extend(std::uint32_t to_scan, geo::Bearing left, double width_deg) {
   if (to_scan != scan || left_deg == right_deg) *this = {to_scan, left, 0.0, 0.0};
   const double from_deg = (left - first).degrees();
   left_deg = std::min(left_deg, from_deg);
   right_deg = std::max(right_deg, from_deg + width_deg);
 }
 
-bool PolarStore::Pass::has_swept(geo::Bearing azimuth) const {
+bool PolarStore::SweptSector::has_swept(geo::Bearing azimuth) const {
   const double at_deg = (azimuth - first).degrees();
   return at_deg >= left_deg - kRounding_deg && at_deg <= right_deg + kRounding_deg;
 }
@@ -132,7 +132,7 @@ bool PolarStore::Pass::has_swept(geo::Bearing azimuth) const {
 std::size_t PolarStore::cover(double left_key_deg, double width_deg) {
   const double right_key_deg = left_key_deg + width_deg;
   std::size_t covered = cover_between(left_key_deg, right_key_deg);
-  // A wedge over the seam of the keys goes on at their other end.
+  // A wedge across +180 deg continues at -180 deg.
   if (right_key_deg >= 180.0) covered += cover_between(-180.0, right_key_deg - 360.0);
   return covered;
 }
@@ -143,14 +143,14 @@ std::size_t PolarStore::cover_between(double first_key_deg, double last_key_deg)
   while (end != sweeps_.end() && end->azimuth_key_deg <= last_key_deg) ++end;
   const auto count = static_cast<std::size_t>(end - begin);
   const bool narrowed = std::ranges::any_of(
-      sweeps_, [this](const StoredSweep& sweep) { return !sweep.covered && sweep.scan + 1 < pass_.scan; });
+      sweeps_, [this](const StoredSweep& sweep) { return !sweep.covered && sweep.scan + 1 < swept_.scan; });
   auto kept = begin;
   for (auto at = begin; at != end; ++at) {
-    if (at->covered && *at->covered != pass_.scan && !narrowed) {
+    if (at->covered && *at->covered != swept_.scan && !narrowed) {
       free_rows_.push_back(at->row);
       continue;
     }
-    at->covered = pass_.scan;
+    at->covered = swept_.scan;
     *kept++ = *at;
   }
   sweeps_.erase(kept, end);
@@ -166,18 +166,18 @@ void PolarStore::erase_if(Predicate gone) {
   });
 }
 
-// Seen from `apex`, the aircraft's place: what lies before the near point turns away slower than it does, so the scan
-// has swept all of it.
+// Erases covered sweeps with a near point inside the swept sector, as seen from `apex`, the position of the aircraft.
+// Ground beyond the near point changes its azimuth more slowly, so the scan has swept it too.
 void PolarStore::erase_swept(geo::GeoPoint apex) {
   const geo::LocalTangentFrame here(apex, geo::HeightAboveEllipsoid::metres(0.0));
   erase_if([&](const StoredSweep& sweep) {
     if (!sweep.covered) return false;
     const geo::Vector3 near = here.enu_from_ecef(sweep.near_ecef);
-    return pass_.has_swept(geo::Bearing::degrees(std::atan2(near.x, near.y) / geo::kRadiansPerDegree));
+    return swept_.has_swept(geo::Bearing::degrees(std::atan2(near.x, near.y) / geo::kRadiansPerDegree));
   });
 }
 
-// A scan that is broken off, by another range or width, has renewed nothing: whole ones count.
+// Only completed scans count; a scan cut short by another range or width does not erase anything.
 void PolarStore::end_scan(std::uint32_t scan) {
   if (ended_ && *ended_ < scan) {
     erase_if([this](const StoredSweep& sweep) { return sweep.scan < *ended_; });
@@ -209,7 +209,7 @@ void PolarStore::store_video(const databuffer::Sweep& sweep, StoredSweep& stored
     for (std::size_t j = 0; j < merge; ++j) sum += sweep.video[static_cast<std::size_t>(i) * merge + j];
     row[i] = static_cast<std::uint8_t>((sum + merge / 2) / merge);
   }
-  // Samples that do not fill a whole cell are left out; the wedge ends with the cells that remain.
+  // Samples that do not fill a whole merged sample are dropped; the range is shortened to match.
   stored.range_m = sweep.range_m * static_cast<double>(static_cast<std::size_t>(stored.samples) * merge) /
                    static_cast<double>(samples);
 }

@@ -1,4 +1,7 @@
-// Radar video on the display: its eight grays, and the sweeps that are stored as wedges.
+// Radar video on the display: light of the eight grays, and the polar store of sweeps.
+// Inputs: sweeps of the model; brightness and contrast of the pilot.
+// Outputs: table of light by video level; stored sweeps with their video, sorted by azimuth.
+// Source: docs/spec/pilots_interface.md#sweeps, docs/spec/pilots_interface.md#video
 #pragma once
 
 #include <array>
@@ -13,47 +16,45 @@
 
 namespace yars::display {
 
-// From the receiver's 8-bit video to light on the glass: eight grays, with the pilot's brightness and contrast.
-// Contrast turns the curve about the middle, 8 leaves it as it is; four steps double or halve the slope.
-// Brightness is the light of the highest gray: (b / 15)^0.35, so that 0 is dark and 8 is four fifths.
 inline constexpr int kGrays = 8;
 
-// [video] -> light 0..1; `brightness` and `contrast` 0..15.
+// Light 0..1 for each 8-bit video level, in eight grays. `brightness` and `contrast` are 0..15.
+// Contrast changes the slope about the middle gray: 8 is neutral, four steps double or halve it.
+// Brightness b gives the highest gray the light (b / 15)^0.35: 0 is dark, 8 gives 0.8.
 std::array<float, 256> video_light(int brightness, int contrast);
 
-// The sweeps on the glass, each kept as the wedge in which it was measured until a later one sweeps its place.
-// Ordered by true azimuth; a new sweep enters in one of five ways: into an empty store, before the first, after
-// the last, between two, or in the place of those whose middle its wedge covers. Order runs from the direction
-// opposite to the first sweep of a picture.
-// The aircraft flies on, so an equal azimuth is not yet the same ground: a covered sweep lies beneath the newer ones
-// until their scan has swept its ground from kNearShare of its range on, at the latest until the scan after that; but
-// while older sweeps stand beside a narrowed scan, what lies between the two stays.
-// What two whole scans have not swept again, because they are narrower or look elsewhere, is erased.
-// Holds kRows sweeps; covered ones make way first, then the oldest. A sweep of another mode or epoch begins a new
-// picture. Blank sweeps carry no video and are ignored, as are wedges that are not 0-45 degrees wide.
+// One sweep as the wedge in which it was measured.
 struct StoredSweep {
-  double azimuth_key_deg = 0.0;        // [deg] [-180, 180) of the wedge's middle, against the picture's first
+  double azimuth_key_deg = 0.0;        // [-180, 180) middle of the wedge, relative to the picture's first sweep
   std::uint64_t serial = 0;            // counts insertions: the order of drawing
   int row = 0;                         // of the video
   int samples = 0;                     // used entries of the row
-  geo::GeoPoint apex;                  // where it was measured
+  geo::GeoPoint apex;                  // position of the aircraft
   geo::Vector3 apex_ecef;              // [m]
   geo::Vector3 left_ecef, right_ecef;  // [m] kEdgeLength_m from the apex along either edge
   geo::Vector3 near_ecef;              // [m] on the middle line, kNearShare of the range from the apex
-  geo::Bearing ground_track;           // at the time
+  geo::Bearing ground_track;           // at the time of the sweep
   double half_width_rad = 0.0;
   double range_m = 0.0;  // ground range of the far end
   std::uint32_t scan = 0;
-  std::optional<std::uint32_t> covered;  // the scan whose wedge has covered its azimuth
+  std::optional<std::uint32_t> covered;  // the scan with a wedge over the middle of this one
 };
 
+// Where insert() put a sweep in the order by azimuth. `replaced`: its wedge covers the middle of stored sweeps.
 enum class Insertion : std::uint8_t { ignored, first, before_first, after_last, between, replaced };
 
+// Sweeps of the picture, sorted by true azimuth from the direction opposite to the picture's first sweep.
+// A sweep of another mode or epoch starts a new picture. Blank sweeps and wedges not 0-45 deg wide are ignored.
+// A new wedge covers the stored sweeps that have their middle in it. Covered sweeps are drawn below newer ones, because
+// equal azimuth is not equal ground while the aircraft moves. A covered sweep is erased
+// (1) when the current scan has swept its ground beyond kNearShare of its range, or
+// (2) when the next scan covers it again. Rule 2 waits while older sweeps remain beside a narrowed scan.
+// Sweeps that two whole scans did not renew are erased. A full store drops covered sweeps first, then the oldest.
 class PolarStore {
  public:
-  static constexpr int kRows = 2048;          // a scan of as many sweeps as the ring holds, and the one beneath it
-  static constexpr int kRowSamples = 1024;    // finer sweeps are averaged down: a glass has fewer pixels along a range
-  static constexpr double kNearShare = 0.05;  // nearer ground than this is left open at the edge of a scan
+  static constexpr int kRows = 2048;          // two scans of as many sweeps as the ring holds
+  static constexpr int kRowSamples = 1024;    // longer sweeps are averaged down; a display has fewer pixels per range
+  static constexpr double kNearShare = 0.05;  // of the range; nearer ground may stay uncovered at the edge of a scan
 
   PolarStore();
   Insertion insert(const databuffer::Sweep& sweep);
@@ -66,8 +67,8 @@ class PolarStore {
   std::uint64_t version() const { return version_; }   // changes with the content
 
  private:
-  // The azimuths that the scan under way has swept, against its first sweep.
-  struct Pass {
+  // Sector that the current scan has swept, relative to its first sweep.
+  struct SweptSector {
     std::uint32_t scan = 0;
     geo::Bearing first;
     double left_deg = 0.0, right_deg = 0.0;
@@ -88,8 +89,8 @@ class PolarStore {
   std::vector<std::uint8_t> video_;
   std::vector<int> free_rows_;
   geo::Bearing reference_;
-  Pass pass_;
-  std::optional<std::uint32_t> ended_;  // the last scan that came to its end
+  SweptSector swept_;
+  std::optional<std::uint32_t> ended_;  // the last completed scan
   std::uint64_t serial_ = 0;
   std::uint64_t version_ = 0;
   std::uint32_t epoch_ = 0;

@@ -16,27 +16,27 @@ namespace yars::display {
 
 namespace {
 
-constexpr float kFirst = 80.0F;     // [units] middle of the first button of a side, from the corner
-constexpr float kPitch = 80.0F;     // [units] from button to button
-constexpr float kMargin = 6.0F;     // [units] text to the edge
-constexpr float kTopRow = 12.0F;    // [units] middle of the legends along the top
-constexpr float kReach = 44.0F;     // [units] a click counts this far in from the edge; corners stay free
-constexpr float kHalfZone = 34.0F;  // [units] and this far to either side of the button's middle
+constexpr float kFirstButton = 80.0F;  // [units] middle of the first button of a side, from the corner
+constexpr float kButtonPitch = 80.0F;  // [units] from button to button
+constexpr float kMargin = 6.0F;        // [units] text to the edge
+constexpr float kTopRow = 12.0F;       // [units] middle of the legends along the top
+constexpr float kZoneDepth = 44.0F;    // [units] depth of a click zone from the edge; the corners are free
+constexpr float kHalfZone = 34.0F;     // [units] of a click zone, to either side of the button's middle
 
 float along(int index) {
-  return kFirst + kPitch * static_cast<float>(index);
+  return kFirstButton + kButtonPitch * static_cast<float>(index);
 }
 
-// Index 0-4 of the button zone at a coordinate along a side.
+// Index 0-4 of the click zone at a coordinate along a side.
 std::optional<int> index_along(float coordinate) {
-  const int index = static_cast<int>(std::lround((coordinate - kFirst) / kPitch));
+  const int index = static_cast<int>(std::lround((coordinate - kFirstButton) / kButtonPitch));
   if (index < 0 || index > 4 || std::abs(coordinate - along(index)) > kHalfZone) return std::nullopt;
   return index;
 }
 
 }  // namespace
 
-LegendPlace legend_place(int button) {
+LegendPosition legend_position(int button) {
   YARS_REQUIRE(button, >=, 1);
   YARS_REQUIRE(button, <=, radar::kBezelButtons);
   const int side = (button - 1) / 5;
@@ -57,20 +57,20 @@ std::optional<int> button_at(Point at) {
   if (at.x < 0.0F || at.y < 0.0F || at.x > kDisplayUnits || at.y > kDisplayUnits) return std::nullopt;
   const std::optional<int> row = index_along(at.y);
   const std::optional<int> column = index_along(at.x);
-  if (row && at.x <= kReach) return 1 + *row;
-  if (column && at.y >= kDisplayUnits - kReach) return 6 + *column;
-  if (row && at.x >= kDisplayUnits - kReach) return 15 - *row;
-  if (column && at.y <= kReach) return 20 - *column;
+  if (row && at.x <= kZoneDepth) return 1 + *row;
+  if (column && at.y >= kDisplayUnits - kZoneDepth) return 6 + *column;
+  if (row && at.x >= kDisplayUnits - kZoneDepth) return 15 - *row;
+  if (column && at.y <= kZoneDepth) return 20 - *column;
   return std::nullopt;
 }
 
 namespace {
 
-constexpr float kText = 10.0F;         // [units] cap height of all small text
-constexpr float kArrow = 14.0F;        // [units] of the range buttons' arrows
-constexpr float kAboveLegend = 15.5F;  // [units] from a legend of the bottom row to a number above it
-constexpr float kBannerText = 18.0F;   // [units]
-constexpr float kSilentText = 13.0F;   // [units]
+constexpr float kTextHeight = 10.0F;    // [units] cap height of all small text
+constexpr float kArrowHeight = 14.0F;   // [units] of the range buttons' arrows
+constexpr float kAboveLegend = 15.5F;   // [units] from a legend of the bottom row to a number above it
+constexpr float kBannerHeight = 18.0F;  // [units]
+constexpr float kNoticeHeight = 13.0F;  // [units]
 
 using text::text_of;
 using Buffer = std::array<char, 40>;
@@ -80,7 +80,7 @@ std::string_view formatted(Buffer& buffer, const char* format, double value) {
   return {buffer.data(), static_cast<std::size_t>(std::max(length, 0))};
 }
 
-// "40", "4.7", ".67": no digit that says nothing.
+// A distance without superfluous digits: "40", "4.7", ".67".
 std::string_view miles(Buffer& buffer, double value) {
   std::string_view text = formatted(buffer, "%.4g", value);
   if (text.starts_with("0.")) text.remove_prefix(1);
@@ -88,12 +88,12 @@ std::string_view miles(Buffer& buffer, double value) {
 }
 
 Point between(int button, int other) {
-  const Point a = legend_place(button).at;
-  const Point b = legend_place(other).at;
+  const Point a = legend_position(button).at;
+  const Point b = legend_position(other).at;
   return {(a.x + b.x) / 2.0F, (a.y + b.y) / 2.0F};
 }
 
-// Zero azimuth line and arcs run behind the middle of the glass.
+// Style of centered texts. A plate hides the zero azimuth line and the arcs behind them.
 constexpr TextStyle centered(float height) {
   return {height, Align::center, false, true};
 }
@@ -102,10 +102,10 @@ constexpr TextStyle centered(float height) {
 
 void draw_number(std::string_view words, Point at, const TextStyle& style, DrawList& list) {
   const Rect box = text_box(words, at, style);
-  const auto stands_on = [&](const OccupiedBox& other) {
+  const auto overlaps_cursor = [&](const OccupiedBox& other) {
     return other.kind == BoxKind::cursor && intersect(grown(box, 1.0F), other.rect);
   };
-  if (std::ranges::any_of(list.occupied(), stands_on)) {
+  if (std::ranges::any_of(list.occupied(), overlaps_cursor)) {
     list.occupy("number beneath the cursor", box, BoxKind::solid);
   } else {
     list.text(words, at, style);
@@ -116,60 +116,62 @@ void draw_legends(const databuffer::RadarState& state, DrawList& list) {
   for (int button = 1; button <= radar::kBezelButtons; ++button) {
     const std::string_view legend = text_of(state.legends[button]);
     if (legend.empty()) continue;
-    const LegendPlace place = legend_place(button);
+    const LegendPosition position = legend_position(button);
     const bool boxed = (state.boxed >> static_cast<unsigned>(button) & 1U) != 0;
     const bool arrow = legend == "^" || legend == "v";
-    list.text(legend, place.at, {arrow ? kArrow : kText, place.align, boxed, false});
+    list.text(legend, position.at, {arrow ? kArrowHeight : kTextHeight, position.align, boxed, false});
   }
 }
 
 void draw_brightness(const databuffer::RadarState& state, DrawList& list) {
   Buffer buffer;
-  draw_number(formatted(buffer, "%.0f", state.brightness), between(4, 5), {kText, Align::left}, list);
+  draw_number(formatted(buffer, "%.0f", state.brightness), between(4, 5), {kTextHeight, Align::left}, list);
 }
 
 void draw_range(const databuffer::RadarState& state, DrawList& list) {
   Buffer buffer;
-  draw_number(miles(buffer, state.range_nm), between(13, 14), {kText, Align::right}, list);
+  draw_number(miles(buffer, state.range_nm), between(13, 14), {kTextHeight, Align::right}, list);
 }
 
 void draw_window_size(const databuffer::RadarState& state, DrawList& list) {
   if (!(state.window_nm > 0.0)) return;
   Buffer buffer;
-  const Point legend = legend_place(8).at;
-  draw_number(miles(buffer, state.window_nm), {legend.x, legend.y - kAboveLegend}, {kText}, list);
+  const Point legend = legend_position(8).at;
+  draw_number(miles(buffer, state.window_nm), {legend.x, legend.y - kAboveLegend}, {kTextHeight}, list);
 }
 
 void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list) {
   if ((state.flags & databuffer::kCursorValid) == 0) return;
   Buffer buffer;
-  // 359.6 rounds to 360, which reads 000; -0.0 does not occur in a bearing.
+  // 359.6 rounds to 360, which is shown as 000.
   const double bearing_deg = std::fmod(std::round(state.cursor_bearing_deg) + 360.0, 360.0);
-  draw_number(formatted(buffer, "%03.0f\u00b0", bearing_deg), {6.0F, 12.0F}, {kText, Align::left}, list);
-  draw_number(formatted(buffer, "%.1fNM", state.cursor_range_nm), {6.0F, 27.0F}, {kText, Align::left}, list);
+  draw_number(formatted(buffer, "%03.0f\u00b0", bearing_deg), {6.0F, 12.0F}, {kTextHeight, Align::left}, list);
+  draw_number(formatted(buffer, "%.1fNM", state.cursor_range_nm), {6.0F, 27.0F}, {kTextHeight, Align::left}, list);
 }
 
 void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
   if ((state.flags & databuffer::kUpdateShown) == 0) return;
   Buffer buffer;
   if (state.update_seconds >= 0) {
-    const Point legend = legend_place(7).at;
-    draw_number(formatted(buffer, "%.0f", state.update_seconds), {legend.x, legend.y - kAboveLegend}, {kText}, list);
+    const Point legend = legend_position(7).at;
+    draw_number(formatted(buffer, "%.0f", state.update_seconds), {legend.x, legend.y - kAboveLegend}, {kTextHeight},
+                list);
   }
   // In the upper right, above the legend of PB 15.
   constexpr float right = kDisplayUnits - 6.0F, first = 46.0F, second = 61.0F;
   if ((state.flags & databuffer::kUpdateInvalid) != 0) {
-    list.text("INV", {right, first}, {kText, Align::right});
+    list.text("INV", {right, first}, {kTextHeight, Align::right});
     return;
   }
   const double distance_ft = geo::Length::metres(std::hypot(state.update_north_m, state.update_east_m)).feet();
-  const bool miles_beyond = distance_ft > databuffer::kUpdateErrorInFeet;
+  const bool in_miles = distance_ft > databuffer::kUpdateErrorInFeet;
   const auto draw = [&](double metres, char direction, float y) {
     const auto length = geo::Length::metres(std::abs(metres));
-    const int size = miles_beyond
+    const int size = in_miles
                          ? std::snprintf(buffer.data(), buffer.size(), "%c %.2fNM", direction, length.nautical_miles())
                          : std::snprintf(buffer.data(), buffer.size(), "%c %.0fFT", direction, length.feet());
-    draw_number({buffer.data(), static_cast<std::size_t>(std::max(size, 0))}, {right, y}, {kText, Align::right}, list);
+    draw_number({buffer.data(), static_cast<std::size_t>(std::max(size, 0))}, {right, y}, {kTextHeight, Align::right},
+                list);
   };
   draw(state.update_north_m, state.update_north_m < 0.0 ? 'S' : 'N', first);
   draw(state.update_east_m, state.update_east_m < 0.0 ? 'W' : 'E', second);
@@ -178,50 +180,50 @@ void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
 void draw_map_timer(double seconds, DrawList& list) {
   if (!std::isfinite(seconds)) return;
   Buffer buffer;
-  draw_number(formatted(buffer, "%.0f SEC", std::ceil(seconds)), {kDisplayUnits - 6.0F, 32.0F}, {kText, Align::right},
-              list);
+  draw_number(formatted(buffer, "%.0f SEC", std::ceil(seconds)), {kDisplayUnits - 6.0F, 32.0F},
+              {kTextHeight, Align::right}, list);
 }
 
 void draw_mode_name(const databuffer::RadarState& state, DrawList& list) {
   const auto mode = static_cast<radar::Mode>(state.mode);
   const bool air_to_air = mode == radar::Mode::air_to_air;
   if (!air_to_air && mode != radar::Mode::ranging) return;
-  list.text(air_to_air ? "A/A" : "A/G RANGING", {kDisplayUnits / 2.0F, 52.0F}, centered(kText + 1.0F));
+  list.text(air_to_air ? "A/A" : "A/G RANGING", {kDisplayUnits / 2.0F, 52.0F}, centered(kTextHeight + 1.0F));
 }
 
 void draw_freeze(DrawList& list) {
-  list.text("FREEZE", {kDisplayUnits / 2.0F, 32.0F}, {kText + 1.0F});
+  list.text("FREEZE", {kDisplayUnits / 2.0F, 32.0F}, {kTextHeight + 1.0F});
 }
 
 void draw_message(const databuffer::RadarState& state, DrawList& list) {
   list.draw_on(Layer::notices);
   const std::string_view message = text_of(state.message);
-  if (!message.empty()) list.text(message, {kDisplayUnits / 2.0F, 413.0F}, centered(kText));
+  if (!message.empty()) list.text(message, {kDisplayUnits / 2.0F, 413.0F}, centered(kTextHeight));
   list.draw_on(Layer::symbols);
 }
 
 void draw_banner(std::string_view words, DrawList& list) {
-  list.text(words, {kDisplayUnits / 2.0F, 240.0F}, centered(kBannerText));
+  list.text(words, {kDisplayUnits / 2.0F, 240.0F}, centered(kBannerHeight));
 }
 
 void draw_silent(const DisplayInput& input, DrawList& list) {
   list.draw_on(Layer::notices);
   float y = 290.0F;
-  const auto say = [&](bool well, std::string_view words) {
-    if (well) return;
-    list.text(words, {kDisplayUnits / 2.0F, y}, {kSilentText, Align::center, true, true});
+  const auto notice = [&](bool healthy, std::string_view words) {
+    if (healthy) return;
+    list.text(words, {kDisplayUnits / 2.0F, y}, {kNoticeHeight, Align::center, true, true});
     y += 26.0F;
   };
-  say(input.ownship_fresh, "NO OWNSHIP");
-  say(input.model_alive, "NO MODEL");
-  say(input.state_machine_alive, "NO STATE MACHINE");
+  notice(input.ownship_fresh, "NO OWNSHIP");
+  notice(input.model_alive, "NO MODEL");
+  notice(input.state_machine_alive, "NO STATE MACHINE");
   list.draw_on(Layer::symbols);
 }
 
 namespace {
 
-constexpr float kSmallText = 9.0F;
-constexpr float kLargeText = 14.0F;
+constexpr float kSmallHeight = 9.0F;   // [units] cap height of IPVU
+constexpr float kLargeHeight = 14.0F;  // [units] cap height of PVU
 
 struct Row {
   const char* name;
@@ -238,7 +240,7 @@ bool shown(const databuffer::RadarState& state) {
   return (state.flags & databuffer::kVelocityShown) != 0;
 }
 
-// "+0.0" and "-0.0" are one thing.
+// Formats a velocity in ft/s. Small negative values give "+0.0" instead of "-0.0".
 std::string_view feet_per_second(Buffer& buffer, const char* format, double value_mps) {
   const double value = geo::Length::metres(value_mps).feet();
   const int length = std::snprintf(buffer.data(), buffer.size(), format, value > -0.05 && value < 0.0 ? 0.0 : value);
@@ -252,41 +254,41 @@ void draw_velocity_differences(const databuffer::RadarState& state, DrawList& li
   // In the right column, between the legends of PB 15 and 14.
   constexpr float right = kDisplayUnits - 6.0F, value_left = right - 40.0F;
   float y = 98.0F;
-  list.text("FT/S", {right, y}, {kSmallText, Align::right});
+  list.text("FT/S", {right, y}, {kSmallHeight, Align::right});
   for (const Row& row : rows(state)) {
     y += 13.0F;
     Buffer buffer;
-    list.text(row.abbreviation, {value_left, y}, {kSmallText, Align::right});
-    draw_number(feet_per_second(buffer, "%+.1f", row.value_mps), {right, y}, {kSmallText, Align::right}, list);
+    list.text(row.abbreviation, {value_left, y}, {kSmallHeight, Align::right});
+    draw_number(feet_per_second(buffer, "%+.1f", row.value_mps), {right, y}, {kSmallHeight, Align::right}, list);
   }
 }
 
 void draw_velocity_format(const DisplayInput& input, DrawList& list) {
   constexpr float left = 130.0F, right = 350.0F;
-  float y = 168.0F;  // all rows above the place of what has gone silent
+  float y = 168.0F;  // keeps all rows above the notices of draw_silent
   for (const Row& row : rows(input.state)) {
     Buffer buffer;
-    list.text(row.name, {left, y}, {kLargeText, Align::left});
+    list.text(row.name, {left, y}, {kLargeHeight, Align::left});
     list.text(shown(input.state) ? feet_per_second(buffer, "%+.1f FT/S", row.value_mps) : "--- FT/S", {right, y},
-              {kLargeText, Align::right});
+              {kLargeHeight, Align::right});
     y += 28.0F;
   }
   y += 14.0F;
   Buffer buffer;
-  list.text("BEAM", {left, y}, {kLargeText, Align::left});
+  list.text("BEAM", {left, y}, {kLargeHeight, Align::left});
   const int length = std::snprintf(buffer.data(), buffer.size(), "%d", input.model.velocity_beam);
   const std::string_view beam = input.model.velocity_beam == 0
                                     ? std::string_view("-")
                                     : std::string_view(buffer.data(), static_cast<std::size_t>(length));
-  list.text(beam, {right, y}, {kLargeText, Align::right});
-  // There is no picture to draw a window on: a map that forms is told in words.
+  list.text(beam, {right, y}, {kLargeHeight, Align::right});
+  // PVU has no picture for a window outline: the progress of a map is shown as a text.
   if (!(input.model.map_window_nm > 0.0)) return;
   constexpr float map_row = 140.0F;
   Buffer share;
   const double percent = std::isfinite(input.model.map_progress) ? 100.0 * input.model.map_progress : 0.0;
   const int written = std::snprintf(share.data(), share.size(), "%.0f %%", std::floor(percent));
-  list.text("MAP", {left, map_row}, {kLargeText, Align::left});
-  list.text({share.data(), static_cast<std::size_t>(written)}, {right, map_row}, {kLargeText, Align::right});
+  list.text("MAP", {left, map_row}, {kLargeHeight, Align::left});
+  list.text({share.data(), static_cast<std::size_t>(written)}, {right, map_row}, {kLargeHeight, Align::right});
 }
 
 }  // namespace yars::display

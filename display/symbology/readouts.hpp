@@ -1,4 +1,8 @@
-// Words on the display: the buttons with their legends, readouts, messages, velocity differences.
+// Texts of the display: legends beside the buttons, readouts, messages, velocity differences.
+// Inputs: radar state, DisplayInput.
+// Outputs: texts in a draw list; the button under a click.
+// Units: positions in display units (draw_list.hpp).
+// Source: docs/spec/pilots_interface.md#legends, docs/spec/pilots_interface.md#messages
 #pragma once
 
 #include <optional>
@@ -8,49 +12,47 @@
 
 namespace yars::display {
 
-// The twenty buttons around the glass: 1-5 down the left, 6-10 along the bottom left to right, 11-15 up the right,
-// 16-20 along the top right to left. A legend stands beside its button, inside the glass.
-struct LegendPlace {
-  Point at;  // reference point of the text, middle of its height
+// Position of a legend beside its button, inside the display. Buttons of the MPD, counter-clockwise: 1-5 left side,
+// downward. 6-10 bottom, left to right. 11-15 right side, upward. 16-20 top, right to left.
+struct LegendPosition {
+  Point at;  // reference point of the text, at the middle of its height
   Align align = Align::center;
 };
 
 // `button` is 1..20.
-LegendPlace legend_place(int button);
+LegendPosition legend_position(int button);
 
-// The button whose legend area lies under a click at `at`; nothing in the middle and in the corners.
+// Number of the button with its legend area at `at`. Nothing in the middle, in the corners and outside the display.
 std::optional<int> button_at(Point at);
 
-// The words on the glass: legends beside the buttons, readouts between them, messages, and what has gone silent.
-
-// A number that the cursor stands on is left out, its place kept: cut by the cursor's arms it may read as another one.
-// The cursor comes first.
+// Draws a number, unless the cursor overlaps it: the arms of the cursor could change its reading. An omitted number
+// still occupies its box. Draw the cursor before numbers.
 void draw_number(std::string_view words, Point at, const TextStyle& style, DrawList& list);
 
-// As the radar state names them, boxed where it says so.
+// Legends of all buttons, boxed where the state says so.
 void draw_legends(const databuffer::RadarState& state, DrawList& list);
 
 void draw_brightness(const databuffer::RadarState& state, DrawList& list);      // between PB 4 and 5
 void draw_range(const databuffer::RadarState& state, DrawList& list);           // between PB 13 and 14
 void draw_window_size(const databuffer::RadarState& state, DrawList& list);     // above PB 8; nothing while blank
-void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list);  // magnetic bearing, 0.1 NM
-// UPDT: north and east errors in feet, beyond 3000 ft in NM, or INV; for the INS the seconds left above PB 7.
+void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list);  // magnetic bearing [deg], range [NM]
+// UPDT: north and east errors in feet, in NM when their distance exceeds kUpdateErrorInFeet, or INV. The remaining
+// seconds stand above PB 7 while the state has them.
 void draw_update_errors(const databuffer::RadarState& state, DrawList& list);
-void draw_map_timer(double seconds, DrawList& list);  // nothing while NaN
-// Air to air and A/G ranging, which have no legend that names them.
+void draw_map_timer(double seconds, DrawList& list);  // [s]; nothing while NaN
+// "A/A" or "A/G RANGING". No legend shows these modes.
 void draw_mode_name(const databuffer::RadarState& state, DrawList& list);
 void draw_freeze(DrawList& list);
 void draw_message(const databuffer::RadarState& state, DrawList& list);
-void draw_banner(std::string_view words, DrawList& list);     // STBY, NO VIDEO
+void draw_banner(std::string_view words, DrawList& list);     // centered, large: STBY
 void draw_silent(const DisplayInput& input, DrawList& list);  // NO OWNSHIP, NO MODEL, NO STATE MACHINE
 
-// What the radar measures of the aircraft's velocity against what the navigator has.
-// Source: docs/spec/pilots_interface.md#rule-16.
+// Velocity differences, measured by the radar against the navigator. Source: docs/spec/pilots_interface.md#rule-16.
 
-// IPVU: the differences of the last update, for as long as the state says.
+// IPVU: differences of the last update, while kVelocityShown is set.
 void draw_velocity_differences(const databuffer::RadarState& state, DrawList& list);
 
-// PVU: the same large, all the time, and the beam under way.
+// PVU: the differences in large text, dashes while there are none, the current beam, and the progress of a map.
 void draw_velocity_format(const DisplayInput& input, DrawList& list);
 
 }  // namespace yars::display

@@ -16,30 +16,30 @@ namespace yars::display {
 
 namespace {
 
-// Azimuth scale, along the bottom at the apex. The window size stands below it, the message above.
+// Azimuth scale, along the bottom at the apex, between the window size below and the message above. Positions [units].
 constexpr float kAzimuthZero = 240.0F;  // [units] x of 0 deg
 constexpr float kAzimuthUnitsPerDegree = 2.0F;
 constexpr float kAzimuthTickTop = 438.0F, kAzimuthTickBottom = 445.0F;
 constexpr float kAzimuthTrack = 64.0F;  // [deg] the caret stops here
 constexpr float kLimitBallRadius = 3.0F;
-constexpr float kLimitBallTrack = 115.0F;  // [deg] the limit balls stop here, at the edge of the glass
+constexpr float kLimitBallTrack = 115.0F;  // [deg] the limit balls stop here, at the edge of the display
 
-// Elevation scale, in the column between the legends of the left side and the picture.
+// Elevation scale, in the column between the legends of the left side and the picture. Positions [units].
 constexpr float kElevationZero = 240.0F;  // [units] y of the horizon
 constexpr float kElevationUnitsPerDegree = 8.0F;
 constexpr float kElevationTickLeft = 68.0F;
-constexpr float kTrackTop = 46.0F, kTrackBottom = 434.0F;  // [units] carets and ball stop here
+constexpr float kTrackTop = 46.0F, kTrackBottom = 434.0F;  // [units] caret and ball stop here
 constexpr float kBallColumn = 92.0F;
 constexpr float kBallRadius = 5.5F;
 constexpr float kWing = 5.0F;
 constexpr float kCaretLength = 8.0F, kCaretHalf = 4.0F;
 
-// Gray scale, in the lower right, where no beam of +-60 deg reaches.
+// Gray scale, in the lower right, outside the +-60 deg sector. [units]
 constexpr Rect kGrayScale{420.0F, 344.0F, 434.0F, 424.0F};
 
-constexpr float kSector = 60.0F;      // [deg] arcs reach to the gimbal limit
-constexpr double kUsualArcs = 0.25;   // of the range from arc to arc
-constexpr double kFinestArcs = 0.05;  // closer arcs would hide the video
+constexpr float kArcHalfSector = 60.0F;      // [deg] the arcs end at the gimbal limit
+constexpr double kDefaultArcSpacing = 0.25;  // of the range
+constexpr double kMinArcSpacing = 0.05;      // of the range; closer arcs would hide the video
 
 float on_track(double degrees) {
   const float y = kElevationZero - kElevationUnitsPerDegree * static_cast<float>(degrees);
@@ -116,7 +116,7 @@ void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, D
     list.line({center.x - d, center.y + d}, {center.x + d, center.y - d});
     return;
   }
-  // Wings show the bank: right wing down, right stub down.
+  // Wings show the bank: with the right wing of the aircraft down, the right wing of the symbol is down.
   const auto cosine = static_cast<float>(std::cos(roll_deg * geo::kRadiansPerDegree));
   const auto sine = static_cast<float>(std::sin(roll_deg * geo::kRadiansPerDegree));
   for (const float side : {-1.0F, 1.0F}) {
@@ -128,20 +128,20 @@ void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, D
 }
 
 double arc_spacing(double range_nm, std::size_t range_index, std::span<const double> spacing_nm) {
-  if (spacing_nm.empty()) return kUsualArcs;
+  if (spacing_nm.empty()) return kDefaultArcSpacing;
   double spacing = spacing_nm[std::min(range_index, spacing_nm.size() - 1)] / range_nm;
-  if (!(spacing > 0.0)) return kUsualArcs;
-  while (spacing < kFinestArcs) spacing *= 2.0;
+  if (!(spacing > 0.0)) return kDefaultArcSpacing;
+  while (spacing < kMinArcSpacing) spacing *= 2.0;
   return spacing;
 }
 
 void draw_range_arcs(const PlanView& view, double spacing, DrawList& list) {
-  constexpr double kWhole = 1e-9;  // a spacing that divides the range may miss its end by rounding
+  constexpr double kRounding = 1e-9;  // keeps a spacing that divides the range from drawing the last arc twice
   list.draw_on(Layer::grid);
   const auto arc = [&](double fraction) {
-    list.thin_arc(view.apex(), static_cast<float>(fraction) * view.units_per_range(), -kSector, kSector);
+    list.thin_arc(view.apex(), static_cast<float>(fraction) * view.units_per_range(), -kArcHalfSector, kArcHalfSector);
   };
-  for (int i = 1; i * spacing < 1.0 - kWhole; ++i) arc(i * spacing);
+  for (int i = 1; i * spacing < 1.0 - kRounding; ++i) arc(i * spacing);
   arc(1.0);
   list.draw_on(Layer::symbols);
 }
@@ -155,7 +155,7 @@ void draw_zero_azimuth_line(const PlanView& view, DrawList& list) {
 void draw_gray_scale(DrawList& list) {
   const float height = (kGrayScale.bottom - kGrayScale.top) / kGrays;
   for (int gray = 0; gray < kGrays; ++gray) {
-    // The middle of the gray's eighth of the video's reach, black at the bottom.
+    // Video level in the middle of each gray; black at the bottom.
     const auto video = static_cast<std::uint8_t>((gray * 256 + 128) / kGrays);
     const float bottom = kGrayScale.bottom - height * static_cast<float>(gray);
     list.video_step({kGrayScale.left, bottom - height, kGrayScale.right, bottom}, video);
@@ -169,7 +169,7 @@ void draw_gray_scale(DrawList& list) {
 
 namespace {
 
-// A row of the table: what the format of a mode has.
+// Elements of the format of a mode: one row of the table in docs/spec/pilots_interface.md#symbology.
 struct Format {
   bool video = false;  // sweeps
   bool map = false;    // a patch map
@@ -180,9 +180,9 @@ struct Format {
   bool gray_scale = false;
   bool ground = false;  // cursor with its readout, sequence points
   bool window_size = false;
-  bool mapping = false;   // outline and timer of a map
+  bool mapping = false;   // window outline and timer of a map that forms
   bool readouts = false;  // range, brightness
-  bool velocity = false;  // differences of velocity and the beam under way
+  bool velocity = false;  // velocity differences and current beam of PVU
 };
 
 constexpr Format kRbm{.video = true,
@@ -210,7 +210,7 @@ constexpr Format kPatch{.map = true,
                         .window_size = true,
                         .mapping = true,
                         .readouts = true};
-// Over which A/A or ranging has the radar: no map is made.
+// A map that stays while A/A or A/G ranging uses the radar; no map forms.
 constexpr Format kStandingMap{.map = true, .scales = true, .limit_balls = true, .ground = true, .readouts = true};
 constexpr Format kBeacon{.video = true,
                          .arcs = true,
@@ -259,9 +259,9 @@ void draw_scales(const DisplayInput& input, DrawList& list) {
   draw_pitch_ball(input.ownship.pitch_deg, input.ownship.roll_deg, attitude_source(input.nav), list);
 }
 
-// A sector as it is seen from the aircraft.
+// Sector in azimuth from the aircraft.
 struct Sector {
-  geo::Bearing middle;
+  geo::Bearing middle;  // true
   double half_width_deg = 0.0;
 };
 
@@ -271,7 +271,7 @@ Sector sector_of_window(const databuffer::Ownship& ownship, geo::GeoPoint centre
   return {line.azimuth_at_start, std::atan2(half_m, line.distance.metres()) / geo::kRadiansPerDegree};
 }
 
-// What the antenna covers: the map that forms, else the one on the glass, else the scan.
+// Sector that the antenna covers: of the map that forms, else of the map shown, else of the scan.
 Sector covered_sector(const DisplayInput& input) {
   const databuffer::ModelStatus& model = input.model;
   if (model.map_window_nm > 0.0)
@@ -302,7 +302,7 @@ void draw_readouts(const DisplayInput& input, const Format& format, DrawList& li
   if ((state.flags & databuffer::kFreeze) != 0) draw_freeze(list);
 }
 
-// Symbols before labels, which keep clear of them.
+// Symbols come before labels: labels are placed clear of them.
 void draw_ground(const DisplayInput& input, std::span<const radar::RoutePoint> route, const PlanView& view,
                  const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
   const PlacedPoints placed = place_points(input, view, frame, labels, list);
@@ -318,9 +318,9 @@ void draw_ground(const DisplayInput& input, std::span<const radar::RoutePoint> r
 
 void draw_format(const DisplayInput& input, const Format& format, const radar::RadarConfiguration& configuration,
                  const PlanView& view, const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
-  // On a map that could not be read nobody knows where anything lies.
+  // A map that could not be read has no known position: ground symbols are omitted.
   const bool placed = format.ground && (!format.map || shows_map(input));
-  // Before the readouts, which give way to it.
+  // The cursor comes before the readouts: draw_number omits numbers beneath it.
   if (placed) draw_cursor(input, view, frame, list);
   if (format.arcs) {
     const databuffer::RadarState& state = input.state;
@@ -354,7 +354,7 @@ void draw_symbology(const DisplayInput& input, const radar::RadarConfiguration& 
   const databuffer::RadarState& state = input.state;
   list.clear();
   if (has_power(state, radar::Power::off)) {
-    // A radar that is off is dark; but a set whose state machine is gone would be dark as well.
+    // An OFF display is dark. A silent state machine is still reported, because it would look the same.
     if (!input.state_machine_alive) draw_silent({.state_machine_alive = false}, list);
     return;
   }

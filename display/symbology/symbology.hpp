@@ -1,4 +1,8 @@
-// Everything that is drawn over the video, by power and mode, on the fixed scales of the radar formats.
+// Symbology of the radar formats: scales, carets, readouts, legends and ground symbols over the video.
+// Inputs: DisplayInput, radar configuration, view and frame, label positions of the last picture.
+// Outputs: a draw list.
+// Units: azimuths are relative to the ground track, elevations and pitch to the horizon [deg].
+// Source: docs/spec/pilots_interface.md#symbology
 #pragma once
 
 #include <cstddef>
@@ -11,38 +15,37 @@
 
 namespace yars::display {
 
-// The fixed scales of every radar format and what moves along them: azimuth scale with antenna caret, elevation
-// scale with antenna caret and pitch ball, azimuth limit balls, range arcs, zero azimuth line, gray scale.
-// Azimuths are against the ground track, elevations and pitch against the horizon; what runs off a scale stays at
-// the end of its track.
+// Scales of the radar formats. A caret or ball beyond its scale stays at the end of its track.
+
+// Azimuth scale with the antenna caret.
 void draw_azimuth_scale(double antenna_right_of_track_deg, DrawList& list);
-// Two balls on the azimuth scale where the scan, or the map, begins and ends; with marks at the ends of the blind zone
-// to judge them by. They pass +-60 deg and stop at the edge of the glass.
+// Two balls on the azimuth scale at the limits of the scan or map, and marks at the edges of the blind zone.
+// The balls may pass +-60 deg. They stop at the edge of the display.
 void draw_limit_balls(double left_deg, double right_deg, double blind_zone_deg, DrawList& list);
+// Elevation scale with the antenna caret.
 void draw_elevation_scale(double antenna_deg, DrawList& list);
 
-enum class AttitudeSource : std::uint8_t { ins, ahrs, invalid };  // round, square, crossed out
+enum class AttitudeSource : std::uint8_t { ins, ahrs, invalid };  // the ball is round, square, crossed out
 void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, DrawList& list);
 
-// From arc to arc as a share of the range, at least 0.05: the configuration's [NM] for this range, else a quarter.
+// Spacing of the range arcs as a fraction of the range, at least 0.05. `spacing_nm` has the configured spacing of each
+// range. Without one the spacing is 0.25.
 double arc_spacing(double range_nm, std::size_t range_index, std::span<const double> spacing_nm);
-// At each multiple of the spacing, and at the range itself.
+// Arcs at each multiple of the spacing and at the range itself.
 void draw_range_arcs(const PlanView& view, double spacing, DrawList& list);
 void draw_zero_azimuth_line(const PlanView& view, DrawList& list);
 void draw_gray_scale(DrawList& list);
 
-// Everything that is drawn over the video, by power and mode: the table of docs/spec/pilots_interface.md#symbology.
-// OFF draws nothing; STBY legends and STBY; a mode without video its legends and its symbols. A patch map has
-// the format of the patch, whichever mode shows it, and a view and a frame of its own. What has gone silent is named,
-// whatever the power, but for a radar that is off.
-// Pure: the same input and memory give the same list; with the memory that it leaves, again.
-
-// True when the radar operates and sweeps are what the mode shows.
+// True when the radar operates and its mode shows sweeps.
 bool shows_video(const databuffer::RadarState& state);
-// True when the radar operates and the map of the input is on the glass.
+// True when the radar operates, its mode shows a map, and `input` has that map.
 bool shows_map(const DisplayInput& input);
 
-// `view` and `frame` are those of sweeps; on a map they are not used. `labels` is what the picture before left.
+// Draws everything over the video, by power and mode. OFF draws nothing, unless the state machine is silent. STBY draws
+// legends and STBY. A patch map has the same format in every mode that shows it, and its own view and frame.
+// Silent programs are named. `view` and `frame` are those of the sweeps.
+// `labels` has the label positions of the last picture, and is updated.
+// Pure: the same input and labels give the same list. Repeating the call with the updated labels gives it again.
 void draw_symbology(const DisplayInput& input, const radar::RadarConfiguration& configuration, const PlanView& view,
                     const ViewFrame& frame, LabelMemory& labels, DrawList& list);
 

@@ -1,4 +1,4 @@
-// input-monitor: a keyboard, a script or cockpit hardware becomes input events.
+// Program input-monitor: turns keys, scripts and cockpit hardware into input events.
 
 #include "config/schema/devices.hpp"
 #include "config/schema/load.hpp"
@@ -12,7 +12,7 @@ namespace {
 using namespace yars;
 using error::Expected;
 
-// The maps that are built in, then those of the configuration: the last that fits is taken.
+// Built-in maps followed by those of the configuration. The last map that fits a device applies.
 Expected<inputmonitor::DeviceMaps> device_maps(const databuffer::ProgramOptions& options) {
   auto built_in = config::load_configuration_text(config::shipped_devices_text(), "config/devices.guf");
   if (!built_in) return tl::unexpected(built_in.error());
@@ -33,10 +33,10 @@ Expected<std::unique_ptr<inputmonitor::EventSource>> open_sources(const databuff
   }
   auto maps = device_maps(options);
   if (!maps) return tl::unexpected(maps.error());
-  inputmonitor::OpeningNeeds needs;
-  needs.session = options.session;
-  needs.maps = std::move(*maps);
-  return inputmonitor::open_sources(choices, needs);
+  inputmonitor::SourceContext context;
+  context.session = options.session;
+  context.maps = std::move(*maps);
+  return inputmonitor::open_sources(choices, context);
 }
 
 Expected<void> run(const databuffer::ProgramOptions& options, const std::vector<std::string>& source_texts) {

@@ -21,7 +21,7 @@ namespace yars::inputmonitor {
 
 namespace {
 
-constexpr int kLongestWait_ms = 200;  // [ms] a request to stop and the heartbeat wait no longer
+constexpr int kMaxWait_ms = 200;  // limits the delay of a stop request and of the heartbeat
 
 }  // namespace
 
@@ -40,7 +40,7 @@ void InputMonitorShell::run_by_ticks(databuffer::TickLoop& loop) {
   while (const auto due = loop.wait()) {
     const Moment moment{databuffer::monotonic_ns(), due->sim_time_ns};
     if (!source_->ended()) push(source_->take(moment), moment);
-    tell_news();
+    report_notices();
     loop.done(*due);
     if (source_->ended() && !loop.lockstep()) return;
   }
@@ -50,20 +50,20 @@ void InputMonitorShell::run_by_input() {
   const auto now = [this] { return Moment{databuffer::monotonic_ns(), session_->sim_time_ns()}; };
   while (!databuffer::stop_requested() && !source_->ended()) {
     session_->heartbeat();
-    source_->wait(now(), kLongestWait_ms);
+    source_->wait(now(), kMaxWait_ms);
     const Moment moment = now();
     push(source_->take(moment), moment);
-    tell_news();
+    report_notices();
   }
 }
 
-void InputMonitorShell::tell_news() {
-  for (const News& news : source_->news()) {
-    if (news.is_trouble)
-      log::warning(news.text);
+void InputMonitorShell::report_notices() {
+  for (const Notice& notice : source_->notices()) {
+    if (notice.is_warning)
+      log::warning(notice.text);
     else
-      log::info(news.text);
-    session_->note(news.is_trouble ? databuffer::NoteKind::loss : databuffer::NoteKind::restart, news.text);
+      log::info(notice.text);
+    session_->note(notice.is_warning ? databuffer::NoteKind::loss : databuffer::NoteKind::restart, notice.text);
   }
 }
 
@@ -84,42 +84,42 @@ namespace {
 using error::Expected;
 using error::fail;
 
-// Who moves the controls, and what was typed to it.
-class Teacher {
+// Learning dialogue between the person at the terminal and the device.
+class LearningDialogue {
  public:
-  Teacher(DeviceReader& reader, Learning& learning) : reader_(&reader), learning_(&learning) {}
+  LearningDialogue(DeviceReader& reader, Learning& learning) : reader_(&reader), learning_(&learning) {}
 
-  // Until all is learned, the device goes, or somebody ends it; true when the device has gone.
+  // Runs until all controls are learned, the device disconnects, or the person quits. True when it disconnected.
   bool run() {
-    ask();
+    show_prompt();
     while (!learning_->finished() && !ended_ && !databuffer::stop_requested()) {
       std::array<pollfd, 2> wanted{{{reader_->descriptor(), POLLIN, 0}, {typing_ ? STDIN_FILENO : -1, POLLIN, 0}}};
-      poll(wanted.data(), wanted.size(), kLongestWait_ms);
-      if (wanted[1].revents != 0) obey();
-      if (!listen()) return true;
+      poll(wanted.data(), wanted.size(), kMaxWait_ms);
+      if (wanted[1].revents != 0) read_commands();
+      if (!read_device()) return true;
     }
     return false;
   }
 
  private:
-  void ask() const {
+  void show_prompt() const {
     if (!learning_->finished()) std::cerr << "? " << learning_->prompt() << std::endl;
   }
 
-  bool listen() {
+  bool read_device() {
     std::array<std::byte, 64 * kRecordBytes> bytes;
     std::size_t count = 0;
     const auto outcome = reader_->read(bytes, count);
     for (const RawEvent& raw : stream_.feed({bytes.data(), count})) {
-      const std::string told = learning_->feed(raw);
-      if (told.empty()) continue;
-      std::cerr << "  " << told << '\n';
-      ask();
+      const std::string answer = learning_->feed(raw);
+      if (answer.empty()) continue;
+      std::cerr << "  " << answer << '\n';
+      show_prompt();
     }
     return outcome != DeviceReader::Outcome::gone;
   }
 
-  void obey() {
+  void read_commands() {
     std::array<char, 256> bytes;
     const ssize_t count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
     typing_ = count > 0;
@@ -128,14 +128,14 @@ class Teacher {
       if (command == 's') learning_->skip();
       if (command == 'b') learning_->back();
       if (command == 'q') ended_ = true;
-      if (command == 's' || command == 'b') ask();
+      if (command == 's' || command == 'b') show_prompt();
     }
   }
 
   DeviceReader* reader_;
   Learning* learning_;
   RecordStream stream_;
-  bool typing_ = true;  // standard input has not come to its end
+  bool typing_ = true;  // standard input is not at its end
   bool ended_ = false;
 };
 
@@ -161,13 +161,14 @@ Expected<void> learn_device(const std::string& path, const std::string& file) {
   if (!reader) return tl::unexpected(reader.error());
   const auto state = (*reader)->state();
   Learning learning((*reader)->facts(), state ? state->axes : decltype(DeviceState::axes){});
-  std::cerr << "Move what is asked for. Typed, with Enter: s skips it, b goes back by one, q ends and writes.\n";
-  const bool has_gone = Teacher(**reader, learning).run();
+  std::cerr
+      << "Move the control of each prompt. Commands, with Enter: s skips it, b goes back by one, q ends and writes.\n";
+  const bool has_gone = LearningDialogue(**reader, learning).run();
   if (learning.learned() == 0)
     return fail(path, "a control that moves", has_gone ? "the device has gone" : "none", "nothing was written");
   if (auto written = write_map(learning, file); !written) return written;
   if (has_gone && !learning.finished())
-    return fail(path, "the controls that were asked for", "the device has gone before " + learning.prompt(),
+    return fail(path, "all controls of the prompts", "the device has gone before " + learning.prompt(),
                 "the map holds what was learned until then");
   return {};
 }

@@ -1,4 +1,7 @@
-// Shells of input-monitor: a source in a session, and learning a device on the terminal.
+// Shells of input-monitor: an event source in a session, and the learning of a device at the terminal.
+// Inputs: an EventSource; a device and commands on standard input.
+// Outputs: events in an input lane, stamped with simulation time, CLOCK_MONOTONIC and a number; a map as GUF.
+// Errors: events that do not fit into the lane are dropped and noted in the flight recorder.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +16,19 @@
 
 namespace yars::inputmonitor {
 
-// An event source in a session: waits for it, or asks it once a tick, and pushes what it gives into the input lane.
+// Runs an event source in a session: takes its events as they come, or once per tick, and pushes them into the lane.
 class InputMonitorShell {
  public:
   InputMonitorShell(databuffer::Session& session, std::unique_ptr<EventSource> source, int lane);
 
-  // Until the source has ended or the program is asked to stop. In lockstep it goes on stepping after the source has
-  // ended, for the others would wait.
+  // Runs until the source ends or the program is stopped. In lockstep it continues to step after the source has ended,
+  // because the other programs wait for it.
   void run(databuffer::TickLoop& loop);
 
  private:
   void run_by_ticks(databuffer::TickLoop& loop);
   void run_by_input();
-  void tell_news();
+  void report_notices();
   void push(const std::vector<databuffer::InputEvent>& events, const Moment& moment);
 
   databuffer::Session* session_;
@@ -34,9 +37,9 @@ class InputMonitorShell {
   std::uint32_t number_ = 0;
 };
 
-// `input-monitor --learn PATH [--out FILE]`: asks on the terminal, listens to the device, writes the map as GUF. Needs
-// no session. An error when the device cannot be read, goes before anything is learned, or the file cannot be written.
-// `file` empty: the map goes to standard output and all else to standard error.
+// `input-monitor --learn PATH [--out FILE]`: prompts at the terminal, reads the device, writes the map as GUF. Needs no
+// session. `file` empty: the map goes to standard output. Prompts go to standard error.
+// Errors: the device cannot be read, no control was learned, the device disconnected early, the file cannot be written.
 error::Expected<void> learn_device(const std::string& path, const std::string& file);
 
 }  // namespace yars::inputmonitor

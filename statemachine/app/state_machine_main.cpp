@@ -1,4 +1,4 @@
-// state-machine: turns events into the radar state.
+// Program state-machine: turns input events into the radar state.
 
 #include "config/schema/load.hpp"
 #include "databuffer/runtime/program.hpp"

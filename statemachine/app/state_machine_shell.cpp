@@ -17,8 +17,8 @@ namespace yars::statemachine {
 
 namespace {
 
-// [ns] An event older than this when a restarted consumer finds it is not what the pilot wants any more.
-constexpr std::int64_t kOldestEvent_ns = 1'000'000'000;
+// Events older than 1 s at a restart are dropped: the pilot does not expect them to take effect any more.
+constexpr std::int64_t kMaxEventAge_ns = 1'000'000'000;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ StateMachineShell::StateMachineShell(databuffer::Session& session, const radar::
       field_(configuration.navigation.magnetic_model, configuration.navigation.magnetic_folder),
       state_(initial_state(configuration)),
       published_{} {
-  // Data that nobody asked for need not be there; the configured variation serves.
+  // Missing data is reported only for a configured magnetic model. Without data the configured variation applies.
   if (!field_.has_data() && !configuration.navigation.magnetic_model.empty())
     log::warning("magnetic model: " + field_.problem() + "; the configured variation serves");
   databuffer::RadarState left{};
@@ -72,19 +72,19 @@ void StateMachineShell::latch(const databuffer::TickLoop::Due& due) {
   latch_maps();
 }
 
-// False: no model has told anything. A status out of range is refused and noted, and the last good one goes on.
+// False when no valid status has been received so far. An invalid status is noted, and the last valid one stays.
 bool StateMachineShell::latch_model() {
   databuffer::ModelStatus status{};
   if (!session_->layout().model_status.read(status)) return false;
   if (const auto reason = databuffer::validate(status)) {
     session_->note(databuffer::NoteKind::refusal, "model status: " + *reason);
-    return model_told_;
+    return has_model_status_;
   }
   inputs_.model = status;
-  return model_told_ = true;
+  return has_model_status_ = true;
 }
 
-// What a recorder that has gone left behind does not count.
+// The status of a recorder counts only while its process holds the role.
 void StateMachineShell::latch_recorder() {
   const auto& slot = session_->layout().recorder_status;
   if (slot.version() != recorder_version_) {
@@ -102,7 +102,7 @@ void StateMachineShell::latch_recorder() {
   inputs_.recorder_failed = inputs_.recorder_present && recorder_.problem[0] != '\0';
 }
 
-// Every second: the field changes over miles, and its series costs more than a tick of the machine.
+// Once per second: the field changes over miles, and its evaluation costs more than a tick of the state machine.
 void StateMachineShell::latch_variation() {
   constexpr std::int64_t kTicksBetween = 200;
   const bool due = inputs_.tick % kTicksBetween == 0 || std::isnan(inputs_.field_variation_deg);
@@ -113,10 +113,10 @@ void StateMachineShell::latch_variation() {
                                                      configuration_->navigation.magnetic_year);
 }
 
-// Records that are wanted no more make way for those that are; one that is here already is not read again.
+// Drops the records that are not needed, and reads the missing ones. Each record is read once.
 void StateMachineShell::latch_maps() {
-  const std::array<std::uint64_t, kMapsKnown> wanted{state_.map_newest, state_.map_old, state_.map_stored,
-                                                     inputs_.model.map_newest};
+  const std::array<std::uint64_t, kMaxMaps> wanted{state_.map_newest, state_.map_old, state_.map_stored,
+                                                   inputs_.model.map_newest};
   auto& maps = inputs_.maps;
   const auto is_wanted = [&](std::uint64_t id) { return std::ranges::find(wanted, id) != wanted.end(); };
   for (databuffer::PatchMap& map : maps)
@@ -140,12 +140,12 @@ void StateMachineShell::take_events(std::int64_t tick) {
   std::uint64_t too_old = 0;
   const std::int64_t now_ns = drop_old_events_ ? databuffer::monotonic_ns() : 0;
   for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) {
-    // A source that floods its lane holds up no tick: the rest waits for the next.
+    // A bounded number per tick: a source that floods its lane does not delay the tick.
     for (std::size_t taken = 0; taken < databuffer::kInputLaneDepth && input.peek(lane, event); ++taken) {
-      // A lane is in order: what follows waits, too.
+      // Events of a lane are applied in order: the rest of the lane waits too.
       if (waits_for_elevation(state_, event, inputs_)) break;
       input.pop(lane, event);
-      if (drop_old_events_ && event.monotonic_ns < now_ns - kOldestEvent_ns)
+      if (drop_old_events_ && event.monotonic_ns < now_ns - kMaxEventAge_ns)
         ++too_old;
       else
         take(event, lane, tick);

@@ -1,5 +1,7 @@
-// The state machine as a process: latches events, ownship and model status once a tick, publishes the radar
-// state when it has changed and every event that it applied.
+// Shell of state-machine in a session: latches the inputs once per tick, applies events, publishes the results.
+// Inputs: events of all input lanes, ownship and nav, model status, recorder status, patch map records.
+// Outputs: radar state when it has changed, every applied event, outputs each tick.
+// Errors: invalid records are dropped and noted in the flight recorder; the last valid record stays.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +17,7 @@ namespace yars::statemachine {
 
 class StateMachineShell {
  public:
-  // Goes on from the radar state that a predecessor left in the segment, else starts with power off.
+  // Continues from the radar state of a predecessor in the segment, else starts with power off.
   StateMachineShell(databuffer::Session& session, const radar::RadarConfiguration& configuration, bool lockstep);
   void step(const databuffer::TickLoop::Due& due);
 
@@ -31,12 +33,12 @@ class StateMachineShell {
 
   databuffer::Session* session_;
   const radar::RadarConfiguration* configuration_;
-  bool drop_old_events_;  // what waited for a dead predecessor for over a second is dropped
+  bool drop_old_events_;  // until the first tick is done: drops events older than 1 s
   databuffer::OwnshipReceiver ownship_;
   geo::MagneticField field_;
   Inputs inputs_;
-  bool model_told_ = false;        // inputs_.model holds a status
-  std::uint64_t refused_map_ = 0;  // told once
+  bool has_model_status_ = false;  // inputs_.model is valid
+  std::uint64_t refused_map_ = 0;  // id; noted once
   databuffer::RecorderStatus recorder_{};
   std::uint64_t recorder_version_ = 0;
   databuffer::RadarState state_;

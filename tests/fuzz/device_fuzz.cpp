@@ -23,7 +23,7 @@ constexpr const char* kMap = R"(( Devices `( ( Device "it"
 
 DeviceMap map_of() {
   const auto loaded = config::load_configuration_text(kMap, "fuzz.guf");
-  return *ready_map(loaded->radar.devices.at(0), {});
+  return *resolve_map(loaded->radar.devices.at(0), {});
 }
 
 void check(const std::vector<databuffer::InputEvent>& events) {
@@ -44,13 +44,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (std::size_t at = 0; at < bytes.size(); at += piece) {
     for (const RawEvent& raw : stream.feed(bytes.subspan(at, std::min(piece, bytes.size() - at)))) {
       decoder.feed(raw, now_ns);
-      if (decoder.has_lost()) decoder.catch_up(std::nullopt, now_ns);
+      if (decoder.needs_resync()) decoder.resync(std::nullopt, now_ns);
       learning.feed(raw);
     }
     now_ns += 3'000'000;
     check(decoder.take(now_ns));
   }
-  decoder.let_go();
+  decoder.release_all();
   check(decoder.take(now_ns));
   radar::RadarConfiguration configuration;
   configuration.devices.push_back(learning.device("learned"));

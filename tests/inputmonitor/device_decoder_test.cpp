@@ -124,7 +124,7 @@ TEST_F(Panel, AtTheBeginningAStickCountsAndALeverDoesNot) {
 
 TEST_F(Panel, WhoGoesLetsGo) {
   play({key(BTN_TRIGGER, 1), key(0x124, 1), key(0x122, 1), axis(ABS_X, 100)});
-  decoder_.let_go();
+  decoder_.release_all();
   EXPECT_THAT(take_after(1000), ElementsAre("tdc release", "tdc 0 0")) << "a switch stays as it is";
   EXPECT_THAT(take_after(1000), IsEmpty());
 }
@@ -132,21 +132,21 @@ TEST_F(Panel, WhoGoesLetsGo) {
 TEST_F(Panel, LostEventsAreMadeGoodByTheDevicesState) {
   play({key(BTN_TRIGGER, 1), axis(ABS_X, 50)});
   EXPECT_THAT(play({kDropped, key(0x121, 1), axis(ABS_X, 99)}), IsEmpty()) << "until the report's end nothing counts";
-  EXPECT_FALSE(decoder_.has_lost());
+  EXPECT_FALSE(decoder_.needs_resync());
   play({kReport});
-  ASSERT_TRUE(decoder_.has_lost());
+  ASSERT_TRUE(decoder_.needs_resync());
   DeviceState state;
   state.buttons.set(0x2c0);
   state.axes = {{ABS_X, -50}};
-  decoder_.catch_up(state, now_ns_);
+  decoder_.resync(state, now_ns_);
   EXPECT_THAT(take_after(20), ElementsAre("tdc release", "freeze", "tdc -0.5 0"));
-  EXPECT_FALSE(decoder_.has_lost());
+  EXPECT_FALSE(decoder_.needs_resync());
   EXPECT_THAT(play({key(0x121, 1)}), ElementsAre("pb 13"));
 }
 
 TEST_F(Panel, LostEventsOfWhatHasNoStateLetGo) {
   play({key(BTN_TRIGGER, 1), axis(ABS_X, 50), kDropped, kReport});
-  decoder_.catch_up(std::nullopt, now_ns_);
+  decoder_.resync(std::nullopt, now_ns_);
   EXPECT_THAT(take_after(20), ElementsAre("tdc release", "tdc 0 0"));
 }
 
@@ -170,7 +170,7 @@ TEST(Decoder, HostileValuesGiveEventsThatAreAllowed) {
     const std::uint16_t code = random() % 2 == 0 ? std::uint16_t(random()) : std::uint16_t(random() % 0x30);
     const std::int32_t value = random() % 4 == 0 ? std::int32_t(random()) : std::int32_t(random() % 3) - 1;
     decoder.feed({type, code, value}, now_ns);
-    if (decoder.has_lost()) decoder.catch_up(std::nullopt, now_ns);
+    if (decoder.needs_resync()) decoder.resync(std::nullopt, now_ns);
     now_ns += std::int64_t(random() % 10) * kMillisecond_ns;
     for (const auto& event : decoder.take(now_ns)) {
       ASSERT_FALSE(databuffer::validate(event)) << databuffer::text_of(event);

@@ -48,7 +48,7 @@ TEST(FittingMap, TheLastOneThatFitsIsTaken) {
 
 TEST(ReadyMap, TheCougarsButtonsAreTheBezelsTurnedRound) {
   const auto maps = shipped_maps();
-  DeviceDecoder decoder(*ready_map(*named_map("mfd-cougar", maps), {}));
+  DeviceDecoder decoder(*resolve_map(*named_map("mfd-cougar", maps), {}));
   // Clockwise from the top left, against counter-clockwise from the top of the left side
   // (docs/spec/pilots_interface.md#buttons).
   for (int button = 1; button <= 20; ++button) {
@@ -66,7 +66,7 @@ TEST(ReadyMap, AnAxisHasTheTravelOfTheDeviceUnlessTheMapGivesOne) {
   DeviceFacts facts = facts_of(1, 1, "it", {});
   facts.axes[ABS_X] = AxisRange{-512, 511};
   facts.axes[ABS_Y] = AxisRange{-512, 511};
-  const auto map = ready_map(maps[0], facts);
+  const auto map = resolve_map(maps[0], facts);
   ASSERT_TRUE(map);
   ASSERT_EQ(map->axes.size(), 2U) << "the third is not there";
   EXPECT_EQ(map->axes[0].shape.low, -512.0);
@@ -77,7 +77,7 @@ TEST(ReadyMap, AnAxisHasTheTravelOfTheDeviceUnlessTheMapGivesOne) {
 
 TEST(ReadyMap, ATravelThatNobodyTellsIsAskedFor) {
   const auto maps = maps_of(R"(( Devices `( ( Device "it" :axes `( ( Axis "ABS_X" ) ) ) ) ))");
-  const auto map = ready_map(maps[0], {});
+  const auto map = resolve_map(maps[0], {});
   ASSERT_FALSE(map);
   EXPECT_THAT(map.error().message(), HasSubstr("ABS_X"));
   EXPECT_THAT(map.error().message(), HasSubstr(":low and :high"));
@@ -88,7 +88,7 @@ TEST(ReadyMap, ADeviceThatSaysNonsenseOfItselfIsRefused) {
   DeviceFacts facts = facts_of(1, 1, "it", {});
   for (const AxisRange range : {AxisRange{0, 0}, AxisRange{5, -5}}) {
     facts.axes[ABS_X] = range;
-    EXPECT_FALSE(ready_map(maps[0], facts));
+    EXPECT_FALSE(resolve_map(maps[0], facts));
   }
 }
 

@@ -67,7 +67,7 @@ class Fifo : public ::testing::Test {
   }
   static std::string told(EventSource& source) {
     std::string all;
-    for (const News& news : source.news()) all += (news.is_trouble ? "! " : "") + news.text + "\n";
+    for (const Notice& notice : source.notices()) all += (notice.is_warning ? "! " : "") + notice.text + "\n";
     return all;
   }
 

@@ -60,7 +60,7 @@ inline std::vector<radar::Device> shipped_maps() {
 // One device of buttons and axes, ready for a descriptor that tells nothing.
 inline DeviceMap ready(const std::string& controls) {
   const auto maps = maps_of("( Devices `( ( Device :name \"it\" " + controls + " ) ) )");
-  auto map = ready_map(maps.at(0), {});
+  auto map = resolve_map(maps.at(0), {});
   EXPECT_TRUE(map) << map.error().message();
   return map ? *map : DeviceMap{};
 }

@@ -83,7 +83,7 @@ TEST(Learning, AnAxisTellsItsEndsItsCentreAndItsWay) {
   EXPECT_THAT(move(learning, {125, 135, 130, 128, 180, 131}), IsEmpty()) << "less than 30 % of 255 is trembling";
   EXPECT_THAT(move(learning, {60, 10, 5, 60}), IsEmpty()) << "it has not come back";
   EXPECT_THAT(move(learning, {130}), HasSubstr("ABS_X to its low end is TDC right"));
-  EXPECT_THAT(move(learning, {5, 130}), HasSubstr("move it the other way"));
+  EXPECT_THAT(move(learning, {5, 130}), HasSubstr("move it in the other direction"));
   EXPECT_THAT(move(learning, {250, 130}), HasSubstr("is TDC left"));
   const auto device = read_back(learning);
   ASSERT_EQ(device.axes.size(), 1U);
@@ -123,7 +123,7 @@ TEST(Learning, WithoutARangeAStatedTravelCounts) {
 TEST(Learning, AnAxisIsAskedForAndAButtonIsNone) {
   Learning learning({}, {});
   skip_to(learning, "TDC right");
-  EXPECT_THAT(learning.feed(key(0x121, 1)), HasSubstr("an axis is asked for"));
+  EXPECT_THAT(learning.feed(key(0x121, 1)), HasSubstr("an axis is expected"));
   EXPECT_THAT(learning.prompt(), HasSubstr("TDC right"));
 }
 
@@ -134,7 +134,7 @@ TEST(Learning, AHatServesForButtons) {
   EXPECT_THAT(move(learning, {1, 0}, ABS_HAT0Y), HasSubstr("is ACQ aft"));
   const auto device = read_back(learning);
   ASSERT_EQ(device.axes.size(), 1U);
-  DeviceDecoder decoder(*ready_map(device, {}));
+  DeviceDecoder decoder(*resolve_map(device, {}));
   for (const int value : {-1, 0, 1, 0}) decoder.feed(axis(ABS_HAT0Y, value), 0);
   EXPECT_THAT(texts_of(decoder.take(0)), ElementsAre("acq fwd", "acq aft"));
 }

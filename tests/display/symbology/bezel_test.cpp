@@ -9,18 +9,18 @@ namespace yars::display {
 namespace {
 
 TEST(Bezel, ButtonsRunCounterClockwiseFromTheTopOfTheLeftSide) {
-  EXPECT_LT(legend_place(1).at.y, legend_place(5).at.y);
-  EXPECT_LT(legend_place(6).at.x, legend_place(10).at.x);
-  EXPECT_GT(legend_place(11).at.y, legend_place(15).at.y);
-  EXPECT_GT(legend_place(16).at.x, legend_place(20).at.x);
-  EXPECT_LT(legend_place(3).at.x, 240.0F);
-  EXPECT_GT(legend_place(8).at.y, 240.0F);
-  EXPECT_GT(legend_place(13).at.x, 240.0F);
-  EXPECT_LT(legend_place(18).at.y, 240.0F);
+  EXPECT_LT(legend_position(1).at.y, legend_position(5).at.y);
+  EXPECT_LT(legend_position(6).at.x, legend_position(10).at.x);
+  EXPECT_GT(legend_position(11).at.y, legend_position(15).at.y);
+  EXPECT_GT(legend_position(16).at.x, legend_position(20).at.x);
+  EXPECT_LT(legend_position(3).at.x, 240.0F);
+  EXPECT_GT(legend_position(8).at.y, 240.0F);
+  EXPECT_GT(legend_position(13).at.x, 240.0F);
+  EXPECT_LT(legend_position(18).at.y, 240.0F);
 }
 
 TEST(Bezel, AClickOnALegendIsAClickOnItsButton) {
-  for (int button = 1; button <= radar::kBezelButtons; ++button) EXPECT_EQ(button_at(legend_place(button).at), button);
+  for (int button = 1; button <= radar::kBezelButtons; ++button) EXPECT_EQ(button_at(legend_position(button).at), button);
 }
 
 TEST(Bezel, EveryButtonCanBeClickedAndTheMiddleAndTheCornersAreNone) {

@@ -97,7 +97,7 @@ TEST(Scatterers, AFlatFaceTheSizeOfAContinentNeitherHangsNorFillsTheMemory) {
       builder.add_lying({geo::Vector3{east_m, north_m, 0}, geo::Vector3{east_m + 2000.0, north_m, 0},
                          geo::Vector3{east_m, north_m + 2000.0, 0}},
                         7);
-  const auto made = builder.take(Plane(kPlace));
+  const auto made = builder.take(geo::AzimuthalEquidistant(kPlace));
   ASSERT_TRUE(made);
   EXPECT_EQ(made->finest, 3U);
   EXPECT_LE(made->levels[3].covers.size(), 1U << 18U);
