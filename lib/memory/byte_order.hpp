@@ -1,5 +1,7 @@
-// Numbers at fixed places of a datagram, in the byte order of its sender. The caller has checked the length: a place
-// beyond the end is a bug of ours and asserts.
+// Reader of numbers in a datagram, big-endian or little-endian.
+// Inputs: the bytes, an offset [bytes], the byte order of the sender. T is an integer or a floating point type.
+// Outputs: the number in the byte order of this machine. The offset need not be aligned.
+// Errors: the caller has checked the length; an offset beyond the end is a bug and asserts.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +16,7 @@ namespace yars::memory {
 
 using Bytes = std::span<const std::byte>;
 
-// T: an integer or a floating point number.
+// The number of type T that begins at `offset`.
 template <class T>
 T read_as(Bytes bytes, std::size_t offset, std::endian order) {
   assert(offset <= bytes.size() && sizeof(T) <= bytes.size() - offset);

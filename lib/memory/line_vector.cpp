@@ -8,17 +8,17 @@
 namespace yars::memory {
 
 namespace {
-constexpr std::size_t kLine = 64;
-constexpr std::size_t kLargePage = std::size_t{2} << 20U;
+constexpr std::size_t kLine_bytes = 64;                          // cache line of x86-64 and most 64-bit Arm cores
+constexpr std::size_t kLargePage_bytes = std::size_t{2} << 20U;  // huge page of x86-64
 }  // namespace
 
 void* allocate_lines(std::size_t bytes) {
-  const bool large = bytes >= kLargePage;
-  const std::size_t unit = large ? kLargePage : kLine;
+  const bool large = bytes >= kLargePage_bytes;
+  const std::size_t unit = large ? kLargePage_bytes : kLine_bytes;
   const std::size_t whole = (bytes + unit - 1) / unit * unit;
   void* memory = whole >= bytes ? std::aligned_alloc(unit, whole) : nullptr;
   if (memory == nullptr) throw std::bad_alloc();
-  // A wish: a kernel without them does as it always did.
+  // Advice only: a kernel without large pages ignores it, so that the result is not checked.
   if (large) madvise(memory, whole, MADV_HUGEPAGE);
   return memory;
 }
