@@ -134,22 +134,23 @@ std::string count_text(std::size_t count, std::string_view what) {
 std::optional<ConstraintViolation> check_limits(const ConfigurationBuilder& draft) {
   const radar::WindowLimits& table = draft.radar.window_limits;
   const std::size_t windows = table.windows_nm.size();
-  for (const auto& [slot, limits] : {std::pair{"least", &table.least_nm}, std::pair{"greatest", &table.greatest_nm}}) {
+  for (const auto& [slot, limits] :
+       {std::pair{"least", &table.min_range_nm}, std::pair{"greatest", &table.max_range_nm}}) {
     if (limits->size() != windows)
       return ConstraintViolation{slot, count_text(windows, "numbers, one a window of :windows"),
                                  std::to_string(limits->size())};
   }
   for (std::size_t i = 0; i < windows; ++i) {
-    if (table.least_nm[i] < table.greatest_nm[i]) continue;
+    if (table.min_range_nm[i] < table.max_range_nm[i]) continue;
     return ConstraintViolation{"greatest",
                                "more than the least range of the window " + number_text(table.windows_nm[i]) + ", " +
-                                   number_text(table.least_nm[i]) + " NM",
-                               number_text(table.greatest_nm[i])};
+                                   number_text(table.min_range_nm[i]) + " NM",
+                               number_text(table.max_range_nm[i])};
   }
   const std::size_t blank = table.blank_windows_nm.size();
-  if (table.blank_up_to_nm.size() != blank) {
+  if (table.blank_max_range_nm.size() != blank) {
     return ConstraintViolation{"blankUpTo", count_text(blank, "numbers, one a window of :blankWindows"),
-                               std::to_string(table.blank_up_to_nm.size())};
+                               std::to_string(table.blank_max_range_nm.size())};
   }
   for (const double window_nm : table.blank_windows_nm) {
     if (radar::cursor_limits(geo::Length::nautical_miles(window_nm), table)) continue;
@@ -172,24 +173,25 @@ SlotSchema miles(std::string_view name, double lowest, ListSlot binding, std::st
 }
 
 FormSchema window_limits() {
-  return {.name = "WindowLimits",
-          .purpose = "where the cursor may be for each display window",
-          .slots = {miles("windows", 0.1, {YARS_FIELD(radar.window_limits.windows_nm), 1, 16, Order::ascending},
-                          "display windows; at least those of SarMode"),
-                    miles("least", 0, {YARS_FIELD(radar.window_limits.least_nm), 1, 16},
-                          "least cursor range, a number a window"),
-                    miles("greatest", 0.1, {YARS_FIELD(radar.window_limits.greatest_nm), 1, 16},
-                          "greatest cursor range, a number a window"),
-                    number_slot("blankLeast", "NM", 0, 1000, {YARS_FIELD(radar.window_limits.blank_least_nm)},
-                                "nearer than this a map without a window is rejected"),
-                    miles("blankWindows", 0.1, {YARS_FIELD(radar.window_limits.blank_windows_nm), 1, 16},
-                          "windows that a map without one takes, by cursor range"),
-                    miles("blankUpTo", 0.1, {YARS_FIELD(radar.window_limits.blank_up_to_nm), 1, 16, Order::ascending},
-                          "greatest cursor range of each of them; beyond the last, rejected"),
-                    number_slot("powerUp", "NM", 0.1, 1000, {YARS_FIELD(radar.window_limits.power_up_nm)},
-                                "selected at power-up, or the largest window below")},
-          .check = check_limits,
-          .agree = check_windows_have_limits};
+  return {
+      .name = "WindowLimits",
+      .purpose = "where the cursor may be for each display window",
+      .slots = {miles("windows", 0.1, {YARS_FIELD(radar.window_limits.windows_nm), 1, 16, Order::ascending},
+                      "display windows; at least those of SarMode"),
+                miles("least", 0, {YARS_FIELD(radar.window_limits.min_range_nm), 1, 16},
+                      "least cursor range, a number a window"),
+                miles("greatest", 0.1, {YARS_FIELD(radar.window_limits.max_range_nm), 1, 16},
+                      "greatest cursor range, a number a window"),
+                number_slot("blankLeast", "NM", 0, 1000, {YARS_FIELD(radar.window_limits.blank_min_range_nm)},
+                            "nearer than this a map without a window is rejected"),
+                miles("blankWindows", 0.1, {YARS_FIELD(radar.window_limits.blank_windows_nm), 1, 16},
+                      "windows that a map without one takes, by cursor range"),
+                miles("blankUpTo", 0.1, {YARS_FIELD(radar.window_limits.blank_max_range_nm), 1, 16, Order::ascending},
+                      "greatest cursor range of each of them; beyond the last, rejected"),
+                number_slot("powerUp", "NM", 0.1, 1000, {YARS_FIELD(radar.window_limits.power_up_nm)},
+                            "selected at power-up, or the largest window below")},
+      .check = check_limits,
+      .agree = check_windows_have_limits};
 }
 
 FormSchema height_ranges() {

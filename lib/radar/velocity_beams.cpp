@@ -10,14 +10,14 @@ using geo::Vector3;
 
 namespace {
 
-// Of the normal matrix of unit vectors, a pure number: below it the beams lie in one plane but for a few degrees, and
-// the velocity across that plane would be all noise.
+// [1] minimum determinant of the normal matrix of unit vectors. Below it all beams are within a few degrees of one
+// plane, and the velocity across that plane is mostly noise.
 constexpr double kMinDeterminant = 1e-3;
 
-// Rows of the inverse of the normal matrix, the sum of line times line transposed. It is symmetric, so rows are
-// columns.
+// Symmetric 3 x 3 matrix by rows.
 using Matrix = std::array<Vector3, 3>;
 
+// Inverse of the normal matrix, which is the sum of line times line transposed. nullopt: nearly singular.
 std::optional<Matrix> inverse_of_normal_matrix(std::span<const Vector3> lines) {
   Matrix rows;
   for (const Vector3& line : lines) {
@@ -27,7 +27,7 @@ std::optional<Matrix> inverse_of_normal_matrix(std::span<const Vector3> lines) {
   }
   const Matrix cofactors{cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])};
   const double determinant = dot(rows[0], cofactors[0]);
-  // Written so that NaN fails.
+  // The negated comparison also rejects NaN.
   if (!(determinant >= kMinDeterminant)) return std::nullopt;
   return Matrix{1.0 / determinant * cofactors[0], 1.0 / determinant * cofactors[1], 1.0 / determinant * cofactors[2]};
 }
@@ -35,8 +35,8 @@ std::optional<Matrix> inverse_of_normal_matrix(std::span<const Vector3> lines) {
 }  // namespace
 
 Vector3 line_of_sight(geo::Bearing azimuth, geo::Angle elevation) {
-  const double over_ground = std::cos(elevation.radians());
-  return {over_ground * std::cos(azimuth.radians()), over_ground * std::sin(azimuth.radians()),
+  const double horizontal = std::cos(elevation.radians());
+  return {horizontal * std::cos(azimuth.radians()), horizontal * std::sin(azimuth.radians()),
           -std::sin(elevation.radians())};
 }
 
