@@ -9,8 +9,8 @@ namespace yars::config {
 
 namespace {
 
-std::optional<ConstraintViolation> check_widths_against_gimbal(const ConfigurationBuilder& draft) {
-  const auto& radar = draft.radar;
+std::optional<ConstraintViolation> check_widths_against_gimbal(const ConfigurationBuilder& builder) {
+  const auto& radar = builder.radar;
   const double widest_deg = radar.scan_widths_deg.front();
   const double reach_deg = 2.0 * radar.antenna.azimuth_limit_deg;
   if (radar.antenna.circular_scan || widest_deg <= reach_deg) return std::nullopt;
@@ -154,20 +154,20 @@ constexpr std::array<std::string_view, 3> kBeams{"hard-edge", "gaussian", "cosec
 // The named presets, and the one that picks among them.
 constexpr std::array<std::string_view, 6> kPresets{"1996", "draft", "standard", "fine", "reference", "auto"};
 
-int preset_of(const ConfigurationBuilder& draft) {
-  const auto* const found = std::find(kPresets.begin(), kPresets.end(), draft.radar.fidelity.name);
+int preset_of(const ConfigurationBuilder& builder) {
+  const auto* const found = std::find(kPresets.begin(), kPresets.end(), builder.radar.fidelity.name);
   return found == kPresets.end() ? -1 : static_cast<int>(found - kPresets.begin());
 }
 
-void set_preset(ConfigurationBuilder& draft, int index) {
+void set_preset(ConfigurationBuilder& builder, int index) {
   const std::string_view name = kPresets[static_cast<std::size_t>(index)];
   if (const auto preset = radar::fidelity_preset(name)) {
-    draft.radar.fidelity = *preset;
+    builder.radar.fidelity = *preset;
     return;
   }
   // auto begins where everybody does.
-  draft.radar.fidelity = radar::Fidelity();
-  draft.radar.fidelity.automatic = true;
+  builder.radar.fidelity = radar::Fidelity();
+  builder.radar.fidelity.automatic = true;
 }
 
 SlotSchema flag(std::string_view name, bool& (*of)(ConfigurationBuilder&), std::string_view purpose) {
@@ -181,14 +181,16 @@ std::vector<SlotSchema> fidelity_slots() {
        .purpose = "sets all knobs, each can then be set alone; auto: standard with automatic",
        .before_others = true},
       {.name = "algorithm",
-       .binding = ChoiceSlot{
-           kAlgorithms, [](const ConfigurationBuilder& draft) { return int(draft.radar.fidelity.algorithm); },
-           [](ConfigurationBuilder& draft, int index) { draft.radar.fidelity.algorithm = radar::Algorithm(index); }},
+       .binding = ChoiceSlot{kAlgorithms,
+                             [](const ConfigurationBuilder& builder) { return int(builder.radar.fidelity.algorithm); },
+                             [](ConfigurationBuilder& builder, int index) {
+                               builder.radar.fidelity.algorithm = radar::Algorithm(index);
+                             }},
        .purpose = "reference: plain and exact, the ruler of the tests"},
       {.name = "earth",
        .binding = ChoiceSlot{
-           kEarthModels, [](const ConfigurationBuilder& draft) { return int(draft.radar.fidelity.earth); },
-           [](ConfigurationBuilder& draft, int index) { draft.radar.fidelity.earth = radar::EarthModel(index); }},
+           kEarthModels, [](const ConfigurationBuilder& builder) { return int(builder.radar.fidelity.earth); },
+           [](ConfigurationBuilder& builder, int index) { builder.radar.fidelity.earth = radar::EarthModel(index); }},
        .purpose = "shape of the earth"},
       {.name = "earthRadiusFactor",
        .lowest = 0.5,
@@ -208,11 +210,12 @@ std::vector<SlotSchema> fidelity_slots() {
            "exact points of the geodesic a sweep, at least 2, between which places are interpolated (from 5 on a "
            "series where it is as good); 0 = all exact"},
       {.name = "interpolation",
-       .binding = ChoiceSlot{kInterpolations,
-                             [](const ConfigurationBuilder& draft) { return int(draft.radar.fidelity.interpolation); },
-                             [](ConfigurationBuilder& draft, int index) {
-                               draft.radar.fidelity.interpolation = radar::Interpolation(index);
-                             }},
+       .binding =
+           ChoiceSlot{kInterpolations,
+                      [](const ConfigurationBuilder& builder) { return int(builder.radar.fidelity.interpolation); },
+                      [](ConfigurationBuilder& builder, int index) {
+                        builder.radar.fidelity.interpolation = radar::Interpolation(index);
+                      }},
        .purpose = "between posts of the terrain"},
       {.name = "postsPerSample",
        .lowest = 0,
@@ -238,8 +241,8 @@ std::vector<SlotSchema> fidelity_slots() {
       flag("pulseSmear", YARS_FIELD(radar.fidelity.pulse_smear), "smear over the pulse length"),
       {.name = "beam",
        .binding = ChoiceSlot{
-           kBeams, [](const ConfigurationBuilder& draft) { return int(draft.radar.fidelity.beam); },
-           [](ConfigurationBuilder& draft, int index) { draft.radar.fidelity.beam = radar::BeamPattern(index); }},
+           kBeams, [](const ConfigurationBuilder& builder) { return int(builder.radar.fidelity.beam); },
+           [](ConfigurationBuilder& builder, int index) { builder.radar.fidelity.beam = radar::BeamPattern(index); }},
        .purpose = "beam in elevation"},
       {.name = "mapSize",
        .lowest = 16,

@@ -73,20 +73,21 @@ SlotSchema map_edge(std::string_view name, IntegerSlot binding, std::string_view
           .same_as = "mapSize of Fidelity"};
 }
 
-void begin_sar_mode(ConfigurationBuilder& draft) {
-  draft.map_samples = 0;
-  draft.map_sweeps = 0;
+void begin_sar_mode(ConfigurationBuilder& builder) {
+  builder.map_samples = 0;
+  builder.map_sweeps = 0;
 }
 
-std::optional<ConstraintViolation> check_sar_mode(const ConfigurationBuilder& draft) {
-  if (draft.map_samples == 0 || draft.map_sweeps == 0 || draft.map_samples == draft.map_sweeps) return std::nullopt;
-  return ConstraintViolation{"width", "the samples, " + std::to_string(draft.map_samples) + " (maps are square)",
-                             std::to_string(draft.map_sweeps)};
+std::optional<ConstraintViolation> check_sar_mode(const ConfigurationBuilder& builder) {
+  if (builder.map_samples == 0 || builder.map_sweeps == 0 || builder.map_samples == builder.map_sweeps)
+    return std::nullopt;
+  return ConstraintViolation{"width", "the samples, " + std::to_string(builder.map_samples) + " (maps are square)",
+                             std::to_string(builder.map_sweeps)};
 }
 
-void end_sar_mode(ConfigurationBuilder& draft) {
-  const int given = std::max(draft.map_samples, draft.map_sweeps);
-  if (given > 0) draft.radar.fidelity.map_size = given;
+void end_sar_mode(ConfigurationBuilder& builder) {
+  const int given = std::max(builder.map_samples, builder.map_sweeps);
+  if (given > 0) builder.radar.fidelity.map_size = given;
 }
 
 FormSchema sar_mode() {
@@ -112,7 +113,7 @@ FormSchema sar_mode() {
           .begin = begin_sar_mode,
           .check = check_sar_mode,
           .end = end_sar_mode,
-          .agree = check_windows_have_limits};
+          .check_at_end = check_windows_have_limits};
 }
 
 }  // namespace
@@ -131,8 +132,8 @@ std::string count_text(std::size_t count, std::string_view what) {
   return std::to_string(count) + " " + std::string(what);
 }
 
-std::optional<ConstraintViolation> check_limits(const ConfigurationBuilder& draft) {
-  const radar::WindowLimits& table = draft.radar.window_limits;
+std::optional<ConstraintViolation> check_limits(const ConfigurationBuilder& builder) {
+  const radar::WindowLimits& table = builder.radar.window_limits;
   const std::size_t windows = table.windows_nm.size();
   for (const auto& [slot, limits] :
        {std::pair{"least", &table.min_range_nm}, std::pair{"greatest", &table.max_range_nm}}) {
@@ -159,8 +160,8 @@ std::optional<ConstraintViolation> check_limits(const ConfigurationBuilder& draf
   return std::nullopt;
 }
 
-std::optional<ConstraintViolation> check_heights(const ConfigurationBuilder& draft) {
-  const radar::HeightRanges& table = draft.radar.height_ranges;
+std::optional<ConstraintViolation> check_heights(const ConfigurationBuilder& builder) {
+  const radar::HeightRanges& table = builder.radar.height_ranges;
   const std::size_t wanted = table.heights_ft.size() + 1;
   if (table.ranges_nm.size() == wanted) return std::nullopt;
   return ConstraintViolation{"ranges", count_text(wanted, "numbers, one more than :heights"),
@@ -191,7 +192,7 @@ FormSchema window_limits() {
                 number_slot("powerUp", "NM", 0.1, 1000, {YARS_FIELD(radar.window_limits.power_up_nm)},
                             "selected at power-up, or the largest window below")},
       .check = check_limits,
-      .agree = check_windows_have_limits};
+      .check_at_end = check_windows_have_limits};
 }
 
 FormSchema height_ranges() {
@@ -210,9 +211,9 @@ FormSchema height_ranges() {
 
 }  // namespace
 
-std::optional<ConstraintViolation> check_windows_have_limits(const ConfigurationBuilder& draft) {
-  for (const double window_nm : draft.radar.windows_nm) {
-    if (radar::cursor_limits(geo::Length::nautical_miles(window_nm), draft.radar.window_limits)) continue;
+std::optional<ConstraintViolation> check_windows_have_limits(const ConfigurationBuilder& builder) {
+  for (const double window_nm : builder.radar.windows_nm) {
+    if (radar::cursor_limits(geo::Length::nautical_miles(window_nm), builder.radar.window_limits)) continue;
     return ConstraintViolation{
         "windows", "every window of SarMode among the windows of WindowLimits, with a least and a greatest range",
         "none for " + number_text(window_nm) + " NM"};
@@ -226,8 +227,8 @@ std::vector<FormSchema> limit_forms() {
 
 namespace {
 
-std::optional<ConstraintViolation> check_position(const ConfigurationBuilder& draft) {
-  const radar::AntennaConfiguration& antenna = draft.radar.antenna;
+std::optional<ConstraintViolation> check_start_position(const ConfigurationBuilder& builder) {
+  const radar::AntennaConfiguration& antenna = builder.radar.antenna;
   const double azimuth_deg = antenna.circular_scan ? 180.0 : antenna.azimuth_limit_deg;
   if (std::abs(antenna.start_azimuth_deg) <= azimuth_deg &&
       std::abs(antenna.start_elevation_deg) <= antenna.elevation_limit_deg) {
@@ -290,7 +291,7 @@ std::vector<FormSchema> antenna_forms() {
                               .highest = 60,
                               .binding = NumberSlot{YARS_FIELD(radar.antenna.drift_limit_deg)},
                               .purpose = "the scan follows the ground track up to this drift"}},
-                   .check = check_position};
+                   .check = check_start_position};
   FormSchema scan{
       .name = "RbmAntenna",
       .purpose = "the scan of the real beam map",

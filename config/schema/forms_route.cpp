@@ -25,60 +25,60 @@ bool is_point(const radar::PointName& name) {
 }
 
 // Steer and initial points share a spelling; every other kind is told by the name.
-std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& draft) {
-  const auto name = radar::point_name(draft.point.name);
+std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& builder) {
+  const auto name = radar::point_name(builder.point.name);
   if (!name) {
     return ConstraintViolation{"name", "a name of a sequence point: \"2\", \"2.\", \"2.1\" or \"2.01\", 1 to 100",
-                               quoted_text(draft.point.name)};
+                               quoted_text(builder.point.name)};
   }
-  if (auto wrong = check_place(draft.point.place)) return wrong;
-  for (const auto& other : draft.radar.route) {
-    if (other.name == draft.point.name)
+  if (auto wrong = check_coordinates(builder.point.place)) return wrong;
+  for (const auto& other : builder.radar.route) {
+    if (other.name == builder.point.name)
       return ConstraintViolation{"name", "a name once in a route", quoted_text(other.name)};
     // So a route has at most a hundred points, offsets apart: one a number.
     const auto before = radar::point_name(other.name);
     if (is_point(*name) && before && is_point(*before) && before->number == name->number) {
       return ConstraintViolation{"name", "a number once in a route: steer point or target",
-                                 quoted_text(draft.point.name) + " beside " + quoted_text(other.name)};
+                                 quoted_text(builder.point.name) + " beside " + quoted_text(other.name)};
     }
   }
-  if (draft.point_kind == kKindByName) return std::nullopt;
-  const auto given = static_cast<radar::PointKind>(draft.point_kind);
+  if (builder.point_kind == kKindByName) return std::nullopt;
+  const auto given = static_cast<radar::PointKind>(builder.point_kind);
   const auto by_name = kind_by_name(*name);
   if (given == by_name || (given == radar::PointKind::initial && by_name == radar::PointKind::steer)) {
     return std::nullopt;
   }
-  return ConstraintViolation{
-      "kind",
-      "the kind that the name " + draft.point.name + " has, " + std::string(kKinds[static_cast<std::size_t>(by_name)]),
-      std::string(kKinds[static_cast<std::size_t>(draft.point_kind)])};
+  return ConstraintViolation{"kind",
+                             "the kind that the name " + builder.point.name + " has, " +
+                                 std::string(kKinds[static_cast<std::size_t>(by_name)]),
+                             std::string(kKinds[static_cast<std::size_t>(builder.point_kind)])};
 }
 
-void begin_point(ConfigurationBuilder& draft) {
+void begin_point(ConfigurationBuilder& builder) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  draft.point = {};
-  draft.point.place = {kUnknown, kUnknown};
-  draft.point.elevation_m = kUnknown;
-  draft.point_kind = kKindByName;
+  builder.point = {};
+  builder.point.place = {kUnknown, kUnknown};
+  builder.point.elevation_m = kUnknown;
+  builder.point_kind = kKindByName;
 }
 
-void end_point(ConfigurationBuilder& draft) {
-  draft.point.kind = draft.point_kind == kKindByName ? kind_by_name(*radar::point_name(draft.point.name))
-                                                     : static_cast<radar::PointKind>(draft.point_kind);
-  if (draft.point_kind == kKindByName) draft.kinds_left_open.insert(draft.point.name);
-  draft.radar.route.push_back(draft.point);
+void end_point(ConfigurationBuilder& builder) {
+  builder.point.kind = builder.point_kind == kKindByName ? kind_by_name(*radar::point_name(builder.point.name))
+                                                         : static_cast<radar::PointKind>(builder.point_kind);
+  if (builder.point_kind == kKindByName) builder.points_without_kind.insert(builder.point.name);
+  builder.radar.route.push_back(builder.point);
 }
 
-void begin_route(ConfigurationBuilder& draft) {
-  draft.radar.route.clear();
-  draft.kinds_left_open.clear();
+void begin_route(ConfigurationBuilder& builder) {
+  builder.radar.route.clear();
+  builder.points_without_kind.clear();
 }
 
 // The last steer point before a target, by number, is the initial point: unless the file says what kind it is, or names
 // an initial point on the way from the target before.
-void derive_initial_points(ConfigurationBuilder& draft) {
+void derive_initial_points(ConfigurationBuilder& builder) {
   std::vector<radar::RoutePoint*> points;
-  for (radar::RoutePoint& point : draft.radar.route) {
+  for (radar::RoutePoint& point : builder.radar.route) {
     if (is_point(*radar::point_name(point.name))) points.push_back(&point);
   }
   std::sort(points.begin(), points.end(),
@@ -86,7 +86,7 @@ void derive_initial_points(ConfigurationBuilder& draft) {
   radar::RoutePoint* last_steer = nullptr;
   for (radar::RoutePoint* point : points) {
     if (point->kind == radar::PointKind::target) {
-      if (last_steer != nullptr && draft.kinds_left_open.contains(last_steer->name))
+      if (last_steer != nullptr && builder.points_without_kind.contains(last_steer->name))
         last_steer->kind = radar::PointKind::initial;
       last_steer = nullptr;
     } else {
@@ -97,33 +97,34 @@ void derive_initial_points(ConfigurationBuilder& draft) {
 }
 
 FormSchema point() {
-  return {.name = "Point",
-          .purpose = "a sequence point",
-          .slots = {{.name = "name",
-                     .binding = TextSlot{YARS_FIELD(point.name)},
-                     .purpose = "\"2\", target \"2.\", offset \"2.1\", target offset \"2.01\""},
-                    latitude_slot(YARS_FIELD(point.place.latitude_deg)),
-                    longitude_slot(YARS_FIELD(point.place.longitude_deg)),
-                    {.name = "elevation",
-                     .unit = "ft",
-                     .lowest = -1500,
-                     .highest = 30'000,
-                     .binding = NumberSlot{YARS_FIELD(point.elevation_m), geo::kMetresPerFoot},
-                     .purpose = "above mean sea level; left out: unknown"},
-                    {.name = "kind",
-                     .binding = ChoiceSlot{kKinds, [](const ConfigurationBuilder& draft) { return draft.point_kind; },
-                                           [](ConfigurationBuilder& draft, int index) { draft.point_kind = index; }},
-                     .purpose = "left out: by the name; a steer point is initial when it is the last before a target"}},
-          .part_of_value = true,
-          .begin = begin_point,
-          .check = check_point,
-          .end = end_point,
-          .count = [](const ConfigurationBuilder& draft) { return draft.radar.route.size(); },
-          .select =
-              [](ConfigurationBuilder& draft, std::size_t index) {
-                draft.point = draft.radar.route[index];
-                draft.point_kind = static_cast<int>(draft.point.kind);
-              }};
+  return {
+      .name = "Point",
+      .purpose = "a sequence point",
+      .slots = {{.name = "name",
+                 .binding = TextSlot{YARS_FIELD(point.name)},
+                 .purpose = "\"2\", target \"2.\", offset \"2.1\", target offset \"2.01\""},
+                latitude_slot(YARS_FIELD(point.place.latitude_deg)),
+                longitude_slot(YARS_FIELD(point.place.longitude_deg)),
+                {.name = "elevation",
+                 .unit = "ft",
+                 .lowest = -1500,
+                 .highest = 30'000,
+                 .binding = NumberSlot{YARS_FIELD(point.elevation_m), geo::kMetresPerFoot},
+                 .purpose = "above mean sea level; left out: unknown"},
+                {.name = "kind",
+                 .binding = ChoiceSlot{kKinds, [](const ConfigurationBuilder& builder) { return builder.point_kind; },
+                                       [](ConfigurationBuilder& builder, int index) { builder.point_kind = index; }},
+                 .purpose = "left out: by the name; a steer point is initial when it is the last before a target"}},
+      .part_of_value = true,
+      .begin = begin_point,
+      .check = check_point,
+      .end = end_point,
+      .count = [](const ConfigurationBuilder& builder) { return builder.radar.route.size(); },
+      .select =
+          [](ConfigurationBuilder& builder, std::size_t index) {
+            builder.point = builder.radar.route[index];
+            builder.point_kind = static_cast<int>(builder.point.kind);
+          }};
 }
 
 }  // namespace
@@ -141,8 +142,8 @@ std::vector<FormSchema> route_forms() {
 
 namespace {
 
-std::optional<ConstraintViolation> check_beams(const ConfigurationBuilder& draft) {
-  const radar::NavigationConfiguration& navigation = draft.radar.navigation;
+std::optional<ConstraintViolation> check_beams(const ConfigurationBuilder& builder) {
+  const radar::NavigationConfiguration& navigation = builder.radar.navigation;
   const std::size_t azimuths = navigation.beam_azimuths_deg.size();
   const std::size_t depressions = navigation.beam_depressions_deg.size();
   if (azimuths != depressions)

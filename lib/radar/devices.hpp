@@ -1,6 +1,6 @@
 // Maps of cockpit hardware: the radar events of each button and axis of a Linux input device.
 // Inputs: none; config/schema fills the maps from GUF, inputmonitor/ applies them.
-// Outputs: plain values. A device is matched by vendor and product, by its name, or by a control that it has.
+// Outputs: plain values. A device is matched by vendor and product, by its name, or by one of its controls.
 // Source: codes of linux/input-event-codes.h; events as `yars inject` accepts them.
 #pragma once
 
@@ -45,7 +45,8 @@ struct DeviceAxis {
   int steps = 16;             // lever: number of positions over its travel
 };
 
-// Map of one device, and the conditions that a device must meet for it. An empty condition is always met.
+// Map of one device, and the conditions that a device must meet for it. An empty condition is always met. Without
+// vendor, pattern and `has`, the map is used only when it is requested by name.
 struct Device {
   std::string name;      // of the map
   std::string vendor;    // USB vendor: four hexadecimal digits, as lsusb shows them
