@@ -188,8 +188,8 @@ std::vector<SlotSchema> axis_slots() {
                  builder.device_axis.use = static_cast<radar::AxisUse>(index);
                }},
            .purpose = "TDC right, TDC up, antenna elevation (absolute), two buttons, or steps; left out: tdcX"},
-          raw("low", YARS_FIELD(device_axis.low), "value at the low end; left out: the device tells"),
-          raw("high", YARS_FIELD(device_axis.high), "value at the high end; left out: the device tells"),
+          raw("low", YARS_FIELD(device_axis.low), "value at the low end; left out: as the device reports"),
+          raw("high", YARS_FIELD(device_axis.high), "value at the high end; left out: as the device reports"),
           raw("centre", YARS_FIELD(device_axis.centre), "value at rest; left out: half way"),
           number_slot("deadZone", "", 0, 0.9, {YARS_FIELD(device_axis.dead_zone)},
                       "share of the travel from the centre that counts as none; left out: 0.05"),
@@ -211,7 +211,7 @@ std::vector<SlotSchema> axis_slots() {
            .lowest = 2,
            .highest = 256,
            .binding = IntegerSlot{YARS_FIELD(device_axis.steps)},
-           .purpose = "of a lever: places over its travel; left out: 16"}};
+           .purpose = "of a lever: positions over its travel; left out: 16"}};
 }
 
 FormSchema axis() {

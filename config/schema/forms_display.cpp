@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::array<std::string_view, 8> kDirections{"N", "S", "E", "W", "north", "south", "east", "west"};
 
+// Slot of a number from 0 to 1.
 SlotSchema share(std::string_view name, NumberSlot binding, std::string_view purpose) {
   return {.name = name, .lowest = 0, .highest = 1, .binding = binding, .purpose = purpose};
 }
@@ -24,7 +25,7 @@ std::vector<SlotSchema> hue_saturation_value() {
            .lowest = 0,
            .highest = 360,
            .binding = NumberSlot{YARS_FIELD(hue.hue_deg)},
-           .purpose = "place on the colour wheel"},
+           .purpose = "angle on the colour wheel"},
           share("saturation", {YARS_FIELD(hue.saturation)}, "1 = pure hue, also where it is left out"),
           share("value", {YARS_FIELD(hue.value)}, "1 = full intensity, also where it is left out")};
 }
@@ -102,7 +103,7 @@ constexpr std::array<std::string_view, 4> kBufferModes{"doublebuffer", "singlebu
 
 constexpr std::array<std::string_view, 3> kColorPresets{"green", "gray", "night"};
 
-// A slot that holds a colour: `take` puts the builder's colour in hand into its place, `give` takes it from there.
+// Slot of a colour. `store` copies builder.color to its field, `load` copies the field to builder.color.
 SlotSchema color_slot(std::string_view name, void (*store)(ConfigurationBuilder&), void (*load)(ConfigurationBuilder&),
                       std::string_view purpose) {
   return {.name = name,
@@ -113,7 +114,7 @@ SlotSchema color_slot(std::string_view name, void (*store)(ConfigurationBuilder&
 FormSchema color_scheme() {
   return {
       .name = "ColorScheme",
-      .purpose = "the colours of the glass",
+      .purpose = "the colours of the display",
       .slots = {{.name = "preset",
                  .binding = ChoiceSlot{kColorPresets,
                                        [](const ConfigurationBuilder& builder) {
@@ -145,13 +146,13 @@ std::vector<SlotSchema> view_slots() {
            .lowest = -4,
            .highest = 4,
            .binding = SpanSlot{YARS_FIELD(radar.view.width_min), YARS_FIELD(radar.view.width_max), true},
-           .purpose = "left and right edge of the glass, the aircraft at 0"},
+           .purpose = "left and right edge of the display, the aircraft at 0"},
           {.name = "height",
            .unit = "ranges",
            .lowest = -4,
            .highest = 4,
            .binding = SpanSlot{YARS_FIELD(radar.view.height_min), YARS_FIELD(radar.view.height_max), false},
-           .purpose = "bottom and top edge of the glass, the aircraft at 0"}};
+           .purpose = "bottom and top edge of the display, the aircraft at 0"}};
 }
 
 std::vector<SlotSchema> unused_view_slots() {
@@ -165,28 +166,28 @@ std::vector<SlotSchema> unused_view_slots() {
 
 std::optional<ConstraintViolation> check_square(const ConfigurationBuilder& builder) {
   if (builder.window_height_pixels == builder.radar.view.size_pixels) return std::nullopt;
-  return ConstraintViolation{"height",
-                             "the width, " + std::to_string(builder.radar.view.size_pixels) + " (the glass is square)",
-                             std::to_string(builder.window_height_pixels)};
+  return ConstraintViolation{
+      "height", "the width, " + std::to_string(builder.radar.view.size_pixels) + " (the display is square)",
+      std::to_string(builder.window_height_pixels)};
 }
 
 FormSchema window() {
   return {
       .name = "Window",
-      .purpose = "the window of the glass",
+      .purpose = "the window of the display",
       .slots =
           {{.name = "width",
             .unit = "pixels",
             .lowest = 64,
             .highest = 4096,
             .binding = IntegerSlot{YARS_FIELD(radar.view.size_pixels)},
-            .purpose = "width of the glass"},
+            .purpose = "width of the display"},
            {.name = "height",
             .unit = "pixels",
             .lowest = 64,
             .highest = 4096,
             .binding = IntegerSlot{YARS_FIELD(window_height_pixels)},
-            .purpose = "height of the glass, equal to the width"},
+            .purpose = "height of the display, equal to the width"},
            {.name = "colorIndex",
             .lowest = 0,
             .highest = 4095,
@@ -203,7 +204,7 @@ FormSchema window() {
            {.name = "bmode", .binding = ChoiceSlot{kBufferModes}, .purpose = "buffer mode of 1996", .old_name = "mode"},
            {.name = "scheme",
             .binding = FormSlot{{"ColorScheme"}, {"ColorScheme"}},
-            .purpose = "the colours of the glass"}},
+            .purpose = "the colours of the display"}},
       .check = check_square};
 }
 
@@ -213,7 +214,7 @@ std::vector<FormSchema> display_forms() {
   return {
       window(),
       color_scheme(),
-      {.name = "Display", .purpose = "what part of the ground the glass shows", .slots = view_slots()},
+      {.name = "Display", .purpose = "the part of the ground that the display shows", .slots = view_slots()},
       {.name = "RbmDisplay",
        .base = "Display",
        .purpose = "the picture of the real beam map",

@@ -63,7 +63,7 @@ FormSchema real_beam_mode() {
                                .same_as = "ranges of Apg70"}})};
 }
 
-// A map's samples and sweep lines are its pixels; 1996 gave them apart.
+// Slot of an edge of a map. The 1996 report has separate slots for samples and sweep lines; maps are square.
 SlotSchema map_edge(std::string_view name, IntegerSlot binding, std::string_view purpose) {
   return {.name = name,
           .lowest = 16,
@@ -132,6 +132,7 @@ std::string count_text(std::size_t count, std::string_view what) {
   return std::to_string(count) + " " + std::string(what);
 }
 
+// Rule: limits for every window, minimum below maximum, and blank windows that the table has.
 std::optional<ConstraintViolation> check_limits(const ConfigurationBuilder& builder) {
   const radar::WindowLimits& table = builder.radar.window_limits;
   const std::size_t windows = table.windows_nm.size();
@@ -168,6 +169,7 @@ std::optional<ConstraintViolation> check_heights(const ConfigurationBuilder& bui
                              std::to_string(table.ranges_nm.size())};
 }
 
+// Slot of a list in nautical miles.
 SlotSchema miles(std::string_view name, double lowest, ListSlot binding, std::string_view purpose) {
   return {
       .name = name, .unit = "NM", .lowest = lowest, .highest = 1000, .binding = std::move(binding), .purpose = purpose};
@@ -227,6 +229,7 @@ std::vector<FormSchema> limit_forms() {
 
 namespace {
 
+// Rule: the start position is within the gimbal limits; in azimuth within 180 deg for a circular scan.
 std::optional<ConstraintViolation> check_start_position(const ConfigurationBuilder& builder) {
   const radar::AntennaConfiguration& antenna = builder.radar.antenna;
   const double azimuth_deg = antenna.circular_scan ? 180.0 : antenna.azimuth_limit_deg;

@@ -12,7 +12,7 @@ namespace {
 using radar::kNotGiven;
 
 constexpr std::array<std::string_view, 6> kBands{"A", "B", "C", "D", "E", "all"};
-constexpr int kAllBands = 5;  // index of "all"
+constexpr int kAllBands = 5;  // index of "all" in kBands
 
 std::optional<ConstraintViolation> check_jammer(const ConfigurationBuilder& builder) {
   const auto& channels = builder.jammer.channels;
@@ -127,7 +127,7 @@ FormSchema scene() {
                        builder.scene.heights = static_cast<radar::SceneHeights>(index);
                      }},
                  .purpose = "ground: each object on the ground below it, flat things along it; anchor: all of it on "
-                            "the ground at its place; seaLevel: its heights are above mean sea level"},
+                            "the ground at its origin; seaLevel: its heights are above mean sea level"},
                 {.name = "without",
                  .binding = TextSlot{YARS_FIELD(scene.without)},
                  .purpose = "names of objects and groups that are left out, apart by commas; * and ? as in names of "
@@ -166,14 +166,14 @@ std::vector<FormSchema> traffic_forms() {
        .slots = {{.name = "scenes",
                   .binding = FormSlot{{"Scene"}, {"Scene"}, true},
                   .purpose =
-                      "at most 1024 scenes; without a place: at the place in the file's name, or in its header"}},
+                      "at most 1024 scenes; without a position: at the position in the file's name, or in its header"}},
        .begin = [](ConfigurationBuilder& builder) { builder.radar.world.scenes.clear(); }},
       scene()};
 }
 
 namespace {
 
-constexpr double kMaxCode = 99;
+constexpr double kMaxCode = 99;  // of a beacon
 
 std::optional<ConstraintViolation> check_beacon(const ConfigurationBuilder& builder) {
   if (builder.radar.world.beacons.beacons.size() >= radar::kMaxBeacons)
@@ -218,12 +218,12 @@ FormSchema beacon() {
 
 std::vector<FormSchema> beacon_forms() {
   return {{.name = "Beacons",
-           .purpose = "radar beacons, and the code that the radar asks for; replaces earlier ones",
+           .purpose = "radar beacons, and the code that the radar interrogates; replaces earlier ones",
            .slots = {{.name = "beacons",
                       .binding = FormSlot{{"Beacon"}, {"Beacon"}, true},
                       .purpose = "at most 64 beacons"},
                      whole_number("beaconCode", 1, kMaxCode, YARS_FIELD(radar.world.beacons.code),
-                                  "that the radar asks for: beacons of another stay silent")},
+                                  "that the radar interrogates; beacons with another code do not reply")},
            .begin = [](ConfigurationBuilder& builder) { builder.radar.world.beacons.beacons.clear(); }},
           beacon()};
 }

@@ -24,7 +24,8 @@ bool is_point(const radar::PointName& name) {
   return name.offset == 0;
 }
 
-// Steer and initial points share a spelling; every other kind is told by the name.
+// Rules of a point: a valid name, used once in the route; one steer point or target for each number; coordinates; a
+// kind that the name allows. Steer and initial points have the same names; every other kind follows from the name.
 std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& builder) {
   const auto name = radar::point_name(builder.point.name);
   if (!name) {
@@ -35,7 +36,7 @@ std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& build
   for (const auto& other : builder.radar.route) {
     if (other.name == builder.point.name)
       return ConstraintViolation{"name", "a name once in a route", quoted_text(other.name)};
-    // So a route has at most a hundred points, offsets apart: one a number.
+    // One point for each number: a route has at most 100 points besides offsets.
     const auto before = radar::point_name(other.name);
     if (is_point(*name) && before && is_point(*before) && before->number == name->number) {
       return ConstraintViolation{"name", "a number once in a route: steer point or target",
@@ -74,8 +75,8 @@ void begin_route(ConfigurationBuilder& builder) {
   builder.points_without_kind.clear();
 }
 
-// The last steer point before a target, by number, is the initial point: unless the file says what kind it is, or names
-// an initial point on the way from the target before.
+// Makes the last steer point before a target, by number, the initial point. Exceptions: the file gives its kind, or it
+// has an initial point between the previous target and this one.
 void derive_initial_points(ConfigurationBuilder& builder) {
   std::vector<radar::RoutePoint*> points;
   for (radar::RoutePoint& point : builder.radar.route) {
@@ -142,6 +143,7 @@ std::vector<FormSchema> route_forms() {
 
 namespace {
 
+// Rule: as many depressions as azimuths, and beams that are not all in one plane.
 std::optional<ConstraintViolation> check_beams(const ConfigurationBuilder& builder) {
   const radar::NavigationConfiguration& navigation = builder.radar.navigation;
   const std::size_t azimuths = navigation.beam_azimuths_deg.size();
@@ -161,7 +163,7 @@ std::vector<FormSchema> navigation_forms() {
   const auto feet = [](double& (*of)(ConfigurationBuilder&)) { return NumberSlot{of, geo::kMetresPerFoot}; };
   return {
       {.name = "Navigation",
-       .purpose = "what the navigators have wrong, and how the radar puts it right",
+       .purpose = "errors of the navigators, and their correction by the radar",
        .slots = {number_slot("errorNorth", "ft", -kMaxError_ft, kMaxError_ft,
                              feet(YARS_FIELD(radar.navigation.error_north_m)),
                              "of both navigators' position when the session begins"),
@@ -188,7 +190,7 @@ std::vector<FormSchema> navigation_forms() {
                              "World Magnetic Model, else magneticVariation"},
                  {.name = "magneticFolder",
                   .binding = PathSlot{YARS_FIELD(radar.navigation.magnetic_folder)},
-                  .purpose = "where the data of that model lies; left out: the system's place"},
+                  .purpose = "where the data of that model lies; left out: the system's folder"},
                  number_slot("magneticYear", "a", 1900, 2100, {YARS_FIELD(radar.navigation.magnetic_year)},
                              "date for that model"),
                  {.name = "beamAzimuths",
@@ -206,7 +208,7 @@ std::vector<FormSchema> navigation_forms() {
                                       radar::kMaxVelocityBeams, Order::any},
                   .purpose = "of the same beams, below the horizon"},
                  number_slot("beamDwell", "s", 0.05, 10, {YARS_FIELD(radar.navigation.beam_dwell_s)},
-                             "how long the dish stands on each of them")},
+                             "dwell of the dish on each of them")},
        .check = check_beams}};
 }
 

@@ -11,7 +11,8 @@ namespace yars::config {
 
 namespace {
 
-// Terrain cells carry their place; a scene may have to be told its own.
+// Slots of Database and of forms that extend it. Only MgDbase uses latitude and longitude: terrain cells contain their
+// position.
 std::vector<SlotSchema> database_slots(AngleSlot latitude = {nullptr, true}, AngleSlot longitude = {nullptr, false}) {
   return {{.name = "latitude",
            .unit = "deg",
@@ -66,7 +67,7 @@ std::optional<ConstraintViolation> check_polygons(const ConfigurationBuilder& bu
   return ConstraintViolation{"latitude", "latitude and longitude together, or neither", "one of them"};
 }
 
-// Polygons are a scene. A database that a file names for the radar and again for a mode is one.
+// Adds the database as a scene, unless a scene has the same file: a configuration can name it for the radar and a mode.
 void end_polygons(ConfigurationBuilder& builder) {
   if (builder.scene_folder.empty()) return;
   builder.scene.file = (std::filesystem::path(builder.scene_folder) / builder.scene.file).string();
@@ -139,22 +140,23 @@ std::optional<ConstraintViolation> check_material(const ConfigurationBuilder& bu
   return ConstraintViolation{"code", "any code but water's (Sea says what water returns)", "6"};
 }
 
-// What a material leaves out stays as it was, or is land without walls and texture.
+// Adds a material, or changes the one with the same code. Slots that are left out keep their value; of a new material
+// they are 0.
 void end_material(ConfigurationBuilder& builder) {
   auto& materials = builder.radar.world.land.materials;
   const radar::Material& given = builder.material;
-  const auto place = std::lower_bound(materials.begin(), materials.end(), given.code,
-                                      [](const radar::Material& one, int code) { return one.code < code; });
-  const bool known = place != materials.end() && place->code == given.code;
-  radar::Material made = known ? *place : radar::Material{.code = given.code, .name = {}};
+  const auto row = std::lower_bound(materials.begin(), materials.end(), given.code,
+                                    [](const radar::Material& one, int code) { return one.code < code; });
+  const bool known = row != materials.end() && row->code == given.code;
+  radar::Material made = known ? *row : radar::Material{.code = given.code, .name = {}};
   if (!given.name.empty()) made.name = given.name;
   if (!std::isnan(given.gamma_db)) made.gamma_db = given.gamma_db;
   if (!std::isnan(given.cardinal_db)) made.cardinal_db = given.cardinal_db;
   if (!std::isnan(given.texture)) made.texture = given.texture;
   if (known) {
-    *place = std::move(made);
+    *row = std::move(made);
   } else {
-    materials.insert(place, std::move(made));
+    materials.insert(row, std::move(made));
   }
 }
 
@@ -273,7 +275,7 @@ FormSchema atmosphere() {
           .purpose = "the air at mean sea level, and what its gases take (ITU-R P.676-13, P.835)",
           .slots = {{.name = "gases",
                      .binding = BooleanSlot{YARS_FIELD(radar.world.atmosphere.gases)},
-                     .purpose = "oxygen and water vapour attenuate; the preset 1996 knows none"},
+                     .purpose = "oxygen and water vapour attenuate; not with the preset 1996"},
                     number_slot("temperature", "deg C", -60, 60, {YARS_FIELD(radar.world.atmosphere.temperature_c)},
                                 "6.5 degrees less in each km up to 11 km"),
                     number_slot("pressure", "hPa", 500, 1100, {YARS_FIELD(radar.world.atmosphere.pressure_hpa)},
