@@ -55,7 +55,7 @@ std::string_view without_byte_order_mark(std::string_view text);
 // Counts one token; throws ParseError beyond kMaxTokens.
 void count_token(ScanState& state);
 
-// Value of a token. They throw ParseError with `state.token` as the location.
+// Value of a token. Throws ParseError with `state.token` as the location.
 double number_of(std::string_view text, const ScanState& state);
 int position_of(std::string_view text, const ScanState& state);        // ":12"
 std::string string_of(std::string_view text, const ScanState& state);  // with quotes and escapes

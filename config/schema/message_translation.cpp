@@ -112,7 +112,8 @@ void reject_missing_colon(const Slots& arguments) {
   }
 }
 
-// Throws for an unknown keyword that is a reserved word of GUF. Unknown keywords are kept, and it would change meaning.
+// Throws for an unknown keyword that is a reserved word of GUF. Unknown keywords are kept in the GUF text, where a
+// reserved word has another meaning.
 void reject_word_of_guf(const Slot& message) {
   constexpr std::array<std::string_view, 7> kWords{"include", "guf", "def-form", "true", "false", "TRUE", "FALSE"};
   if (std::find(kWords.begin(), kWords.end(), message.name) == kWords.end()) return;

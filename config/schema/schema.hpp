@@ -49,7 +49,7 @@ struct ConfigurationBuilder {
   int point_kind = kKindByName;                 // a radar::PointKind when the file gives it
   std::set<std::string> points_without_kind{};  // names of the points of the route without a kind in the file
   SexagesimalAngle angle{};
-  radar::Rgb color{};  // the newest colour; FormSlot::store moves it to its field
+  radar::Rgb color{};  // the newest colour; FormSlot::store copies it to its field
   HueSaturationValue hue{};
   radar::Material material{};
   radar::RainCell rain_cell{};
@@ -122,8 +122,8 @@ struct FormSlot {
   std::vector<std::string_view> accepted;
   std::vector<std::string_view> printed;           // accepted forms that are printed, in this order
   bool many = false;                               // a list of forms, or one form
-  void (*store)(ConfigurationBuilder&) = nullptr;  // after each form is read: moves its result to the field of the slot
-  void (*load)(ConfigurationBuilder&) = nullptr;   // before the forms are printed: moves it back
+  void (*store)(ConfigurationBuilder&) = nullptr;  // after each form is read: copies its result to its field
+  void (*load)(ConfigurationBuilder&) = nullptr;   // before the forms are printed: the inverse of store
 };
 
 using Binding = std::variant<NumberSlot, IntegerSlot, CounterSlot, BooleanSlot, TextSlot, PathSlot, AngleSlot,

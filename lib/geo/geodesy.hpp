@@ -62,7 +62,7 @@ Length radius_of_curvature(double latitude_deg, Bearing azimuth);
 // Short geodesic as two Taylor polynomials in the distance, about its start.
 // Accuracy: within 1 mm of GeodesicRay up to the range given to order_for() (tests/lib/geo/geodesic_series_test.cpp).
 // Cost: tens of nanoseconds for a position; GeodesicRay takes hundreds.
-// Limit: the range must be short against the distance to the nearer pole, where longitude changes without bound.
+// Limit: the range must be short compared with the distance to the nearer pole, where longitude changes without bound.
 struct GeodesicSeries {
   static constexpr int kMaxOrder = 8;
 

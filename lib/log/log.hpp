@@ -55,8 +55,7 @@ inline constexpr std::size_t kOldLogFiles = 3;                      // PROGRAM.1
 
 // Starts the log on standard error. Levels: trace, debug, info, warning, error, off. False: `level` is none of them.
 bool start(const std::string& program, const std::string& level);
-// Also writes the log to `folder`/PROGRAM.log, mode 0600. A missing folder is made with mode 0700. Call it after
-// start().
+// After start(): also writes the log to `folder`/PROGRAM.log, mode 0600. A missing folder is made with mode 0700.
 void start_file(const std::string& program, const std::string& folder);
 void debug(std::string_view text);
 void info(std::string_view text);

@@ -9,7 +9,8 @@
 
 namespace yars::memory {
 
-// Memory that begins on a cache line, from 2 MiB on a large page. free_lines() releases it. Throws std::bad_alloc.
+// Memory aligned to 64 bytes, or to 2 MiB when it has at least that size. free_lines() releases it. Throws
+// std::bad_alloc.
 void* allocate_lines(std::size_t bytes);
 void free_lines(void* memory);
 

@@ -3,7 +3,7 @@
 // Outputs: plain values, which every role reads. The named fidelity presets.
 // Units: as the suffix of each name says; a comment [..] repeats the unit where it matters.
 // Threads: values without shared state.
-// Source: docs/spec/physics.md, docs/spec/pilots_interface.md.
+// Source: docs/spec/physics.md#power-and-video, docs/spec/pilots_interface.md#rule-1 and the sections cited below.
 #pragma once
 
 #include <cstdint>
@@ -145,7 +145,7 @@ struct NavigationConfiguration {
   double drift_east_mps = 0.0;      // [m/s] velocity error when the session begins
   double drift_down_mps = 0.0;      // [m/s] velocity error when the session begins
   double walk_mps = 0.0;            // [m/s] random walk of the velocity error: standard deviation after one hour
-  double update_validity_s = 30.0;  // [s] after the cursor is placed, an INS update may use it
+  double update_validity_s = 30.0;  // [s] validity of a cursor designation for an INS update
   double velocity_period_s = 60.0;  // [s] between velocity updates
   double velocity_noise_mps = 0.1;  // [m/s] standard deviation of one measured horizontal component; 1/3 ft/s
   std::string magnetic_model;       // model of the earth's field, as "wmm2020"; empty: default of GeographicLib

@@ -41,7 +41,7 @@ std::optional<std::size_t> largest_window_that_fits(geo::Length range, std::span
 // Window that a blank selection stands for at a cursor range; nullopt: no map is possible.
 std::optional<geo::Length> window_while_blank(geo::Length cursor_range, const WindowLimits& table);
 
-// Resolution cells along one edge of every window. Another value changes resolution, formation time and noise level.
+// Resolution cells along one edge of every window. Another value changes resolution and formation time.
 inline constexpr int kCellsOfMap = 480;
 
 // Edge of a resolution cell: the window divided by kCellsOfMap.

@@ -43,8 +43,7 @@ std::vector<std::string_view> words_of(std::string_view text);
 // The parts of `text` between separators, each trimmed. An empty text has one empty field.
 std::vector<std::string_view> fields_of(std::string_view text, char separator);
 
-// The decimal number that `word` consists of. A sign may precede it. nullopt: not a number, not finite, or text after
-// it.
+// The decimal number that `word` consists of, with or without a sign. nullopt: not a finite number, or text after it.
 std::optional<double> finite_number(std::string_view word);
 // The shortest decimal text from which finite_number() returns the same value.
 std::string text_of_number(double value);
