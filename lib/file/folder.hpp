@@ -1,7 +1,9 @@
-// Folder of the file system, held by a descriptor. Files are made relative to the descriptor: a later change of the
-// path does not redirect them. Inputs: a path. It is opened one component at a time. Outputs: a descriptor (O_PATH) of
-// the last component. Errors: an Error that names the component that failed and what was found there. Security: a
-// symbolic link is followed only when this user or root owns it. Source: docs/security.md.
+// Folder of the file system, held by a descriptor. Files are made relative to the descriptor, so that a later change of
+// the path does not redirect them.
+// Inputs: a path. It is opened one component at a time.
+// Outputs: a descriptor (O_PATH) of the last component.
+// Errors: an Error that names the component that failed and what was found there.
+// Security: a symbolic link is followed only when this user or root owns it. Source: docs/security.md.
 #pragma once
 
 #include <sys/stat.h>

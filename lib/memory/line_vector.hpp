@@ -9,8 +9,7 @@
 
 namespace yars::memory {
 
-// Memory aligned to 64 bytes, or to 2 MiB when it has at least that size. free_lines() releases it. Throws
-// std::bad_alloc.
+// Memory aligned to 64 bytes, or to 2 MiB from that size on. free_lines() releases it. Throws std::bad_alloc.
 void* allocate_lines(std::size_t bytes);
 void free_lines(void* memory);
 
